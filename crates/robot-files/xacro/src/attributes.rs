@@ -21,7 +21,7 @@ impl State<'_> {
         self.text(&attribute.value, frame.seen(attribute.value_origin), frame.scope).map(Some)
     }
 
-    /// Warns of what stands in an element whose content nobody reads.
+    /// Warns about content in an element whose content is ignored.
     #[inline(never)]
     pub(crate) fn check_childless(&self, element: &Element, frame: Frame) {
         let unread = element.children.iter().find_map(|node| match node {
@@ -62,7 +62,8 @@ impl State<'_> {
         ))
     }
 
-    /// Reports attributes that are missing (and fails) or unknown (and goes on).
+    /// Reports missing attributes (an error, and the expansion of the element fails) and unknown ones (a
+    /// warning).
     #[inline(never)]
     pub(crate) fn check_attributes(
         &self,
@@ -95,7 +96,7 @@ impl State<'_> {
     }
 }
 
-/// Where the value of an attribute stands.
+/// Source location of the value of an attribute.
 pub(crate) fn value_origin(element: &Element, name: &str, frame: Frame) -> Origin {
     let origin = element.attribute(name).map(|attribute| attribute.value_origin);
     frame.seen(origin.unwrap_or(element.origin))

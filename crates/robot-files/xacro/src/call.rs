@@ -17,8 +17,8 @@ use crate::scopes::{Block, Macro, Symbol};
 use crate::state::{Failed, State};
 use periplus_python_expr::Value;
 
-/// A call costs more than an element.
-const PARTS_OF_CALL: usize = 4;
+/// Budget cost of a macro call, in elements.
+const NODES_PER_CALL: usize = 4;
 
 impl State<'_> {
     /// Reads `<xacro:macro>`.
@@ -42,7 +42,7 @@ impl State<'_> {
             return Err(self.fail(
                 Diagnostic::error("macro-name", format!("`{name}` cannot be the name of a macro"))
                     .at(origin)
-                    .help("`call` and names with a `.` have a meaning of their own in xacro"),
+                    .help("`call` and names with a `.` have a special meaning in xacro"),
             ));
         }
         let parameters = parse(element.value("params").unwrap_or_default());
@@ -78,7 +78,7 @@ impl State<'_> {
         self.call(&name, element, frame, out)
     }
 
-    /// Expands a macro in the place of its call.
+    /// Expands a macro at its call.
     #[inline(never)]
     pub(crate) fn call(
         &self,
@@ -87,7 +87,7 @@ impl State<'_> {
         frame: Frame,
         out: &mut Output<'_>,
     ) -> Result<(), Failed> {
-        self.count(PARTS_OF_CALL, frame.seen(call.origin))?;
+        self.count(NODES_PER_CALL, frame.seen(call.origin))?;
         let found = self.scopes.borrow().find_macro(frame.scope, name);
         let Some((seen_from, callee)) = found else {
             return Err(self.unknown_macro(name, call, frame));
@@ -109,8 +109,8 @@ impl State<'_> {
         result
     }
 
-    /// The values of a macro's parameters in a call. Defaults are written in the macro, but see the
-    /// caller's names: `defaults` stands there.
+    /// Returns the values of the macro's parameters in a call. Defaults are written in the macro but
+    /// evaluated with the caller's names: `defaults` holds their source locations.
     #[inline(never)]
     fn bind(
         &self,
@@ -282,7 +282,7 @@ impl State<'_> {
         Ok(symbols)
     }
 
-    /// Text between the blocks of a call goes nowhere.
+    /// Warns about text between the blocks of a call, which is ignored.
     #[inline(never)]
     fn check_loose_text(&self, callee: &Macro, call: &Element, frame: Frame) {
         let loose = call.children.iter().find_map(|node| match node {

@@ -13,21 +13,20 @@ use crate::state::{Failed, Resolving, State};
 use crate::text::{Piece, pieces};
 use periplus_python_expr::{Dialect, Expression, ExpressionError, Value, evaluate};
 
-/// Of the properties that define each other in a circle, so many are shown.
-const MOST_SHOWN_IN_CIRCLE: usize = 5;
+/// Maximum number of properties listed in the error about a circular definition.
+const MAX_LISTED_PROPERTIES: usize = 5;
 
-/// How far properties may refer to properties, and texts hold texts.
-const DEEPEST: usize = 100;
+/// Maximum nesting depth of properties that refer to properties, and of texts in texts.
+const MAX_DEPTH: usize = 100;
 
-/// How long a text may become [bytes].
-const LONGEST: usize = 16 << 20;
+/// Maximum length of one text [bytes].
+const MAX_TEXT_BYTES: usize = 16 << 20;
 
-/// How much text an expansion may put together [bytes].
-const MOST_TEXT: usize = 128 << 20;
+/// Maximum length of all texts of an expansion together [bytes].
+const MAX_TOTAL_TEXT_BYTES: usize = 128 << 20;
 
 impl State<'_> {
-    /// The value of a text: that of its one expression or extension, or else all pieces put
-    /// together.
+    /// Value of a text: that of its only expression or extension, or else the concatenation of its pieces.
     #[inline(never)]
     pub(crate) fn text_value(
         &self,
@@ -38,11 +37,11 @@ impl State<'_> {
         if !text.contains('$') {
             return Ok(Value::text(text));
         }
-        if self.depth.get() >= DEEPEST {
+        if self.depth.get() >= MAX_DEPTH {
             return Err(self.give_up(
                 Diagnostic::error(
                     "too-deep",
-                    format!("properties and texts refer to each other more than {DEEPEST} deep"),
+                    format!("properties and texts refer to each other more than {MAX_DEPTH} deep"),
                 )
                 .at(origin)
                 .help("does a property lead back to itself?"),
@@ -71,7 +70,7 @@ impl State<'_> {
         self.characters(&value, origin)
     }
 
-    /// The same of a text that stands in the tree, which most often needs no copy.
+    /// Value as characters of a text of the document. Avoids the copy if the text holds no expression.
     #[inline(never)]
     pub(crate) fn tree_text(
         &self,
@@ -91,7 +90,7 @@ impl State<'_> {
     #[inline(never)]
     fn write(&self, so_far: usize, bytes: usize, origin: Origin) -> Result<(), Failed> {
         self.written.set(self.written.get() + bytes);
-        if so_far + bytes <= LONGEST && self.written.get() <= MOST_TEXT {
+        if so_far + bytes <= MAX_TEXT_BYTES && self.written.get() <= MAX_TOTAL_TEXT_BYTES {
             return Ok(());
         }
         let message = "this text becomes longer than 16 MiB, or all texts than 128 MiB";
@@ -151,7 +150,7 @@ impl State<'_> {
         Ok(Value::text(joined))
     }
 
-    /// The value of what stands in `${` and `}`.
+    /// Value of the content of `${...}`.
     #[inline(never)]
     pub(crate) fn expression_value(
         &self,
@@ -177,11 +176,11 @@ impl State<'_> {
 
     #[inline(never)]
     fn expression_failed(&self, error: ExpressionError, place: Origin, text: &str) -> Failed {
-        // A property that failed inside has said so itself.
+        // A property that failed while it was evaluated has reported the error.
         if error.message == ALREADY_SAID {
             return Failed;
         }
-        // Nothing that costs a step can succeed any more.
+        // No evaluation that costs a step can succeed after this.
         if self.budget.borrow().steps_left() == 0 {
             self.given_up.set(true);
         }
@@ -195,7 +194,7 @@ impl State<'_> {
         self.fail(diagnostic)
     }
 
-    /// The value of a property, evaluated now if nobody asked before.
+    /// Value of a property, evaluated on first use.
     pub(crate) fn property(&self, scope: ScopeId, name: &str) -> Result<Option<Value>, Failed> {
         let found = {
             let scopes = self.scopes.borrow();
@@ -229,9 +228,8 @@ impl State<'_> {
             let mut diagnostic =
                 Diagnostic::error("circular-property", format!("`{name}` is defined by itself"))
                     .at(lazy.origin);
-            for other in resolving[first + 1..].iter().take(MOST_SHOWN_IN_CIRCLE) {
-                diagnostic =
-                    diagnostic.related(other.origin, format!("by way of `{}`", other.name));
+            for other in resolving[first + 1..].iter().take(MAX_LISTED_PROPERTIES) {
+                diagnostic = diagnostic.related(other.origin, format!("through `{}`", other.name));
             }
             return Err(self.fail(diagnostic.help(
                 "give one of them a value, or set lazy_eval=\"false\" to use the value so far",
@@ -258,7 +256,7 @@ fn shorten(text: &str) -> String {
     }
 }
 
-/// The place of a part of a text, if the text stands in its file as it is.
+/// Origin of a part of a text, if the text is in its file unchanged.
 pub(crate) fn part(origin: Origin, text: &str, range: &Range<usize>) -> Origin {
     let narrowed = |span: Span| {
         let plain = (span.end - span.start) as usize == text.len();

@@ -1,4 +1,4 @@
-//! The walk through a document.
+//! Expansion of the elements of a document.
 
 use std::path::PathBuf;
 
@@ -12,7 +12,7 @@ use crate::scopes::{Symbol, TOP};
 use crate::setting::Setting;
 use crate::state::{Failed, State};
 
-/// The elements that xacro itself knows.
+/// Elements defined by xacro itself.
 pub(crate) const DIRECTIVES: [&str; 10] = [
     "arg",
     "attribute",
@@ -26,21 +26,21 @@ pub(crate) const DIRECTIVES: [&str; 10] = [
     "unless",
 ];
 
-/// How deep elements, macros and includes may nest together.
+/// Maximum nesting depth of elements, macros and includes.
 ///
-/// What takes part in the recursion, and what that calls, is `#[inline(never)]`: else the locals of
-/// all of it would stand on the stack once a level. A thread with 1 MiB must do.
-const DEEPEST: usize = 300;
+/// The recursive functions and their callees are `#[inline(never)]`: otherwise the locals of all of them
+/// would take stack space at each level. A stack of 1 MiB is enough.
+const MAX_DEPTH: usize = 300;
 
-/// How many nodes an expansion may look at, those it copies included.
-const MOST_PARTS: usize = 1_000_000;
+/// Maximum number of nodes that an expansion visits, copies included.
+const MAX_NODES: usize = 1_000_000;
 
-/// What an expansion gives.
+/// Result of an expansion.
 #[derive(Clone, Debug)]
 pub struct Expanded {
     /// The document without xacro.
     pub document: Document,
-    /// The files it read besides the first, in order.
+    /// Files that it read besides the first, in order.
     pub includes: Vec<PathBuf>,
     /// The arguments that it used, with the values they had.
     pub arguments: Vec<(String, String)>,
@@ -48,8 +48,8 @@ pub struct Expanded {
     pub known_arguments: Vec<String>,
 }
 
-/// Expands a document. When anything is wrong there is an error in `diagnostics`, and no result:
-/// half a robot is no robot.
+/// Expands a document. Returns `None` if there is any error in `diagnostics`: an incomplete robot is of no
+/// use.
 pub fn expand(
     document: &Document,
     setting: Setting<'_>,
@@ -76,7 +76,7 @@ pub fn expand(
 }
 
 impl State<'_> {
-    /// Namespaces declared by an included file or a macro are declared around its content.
+    /// Declares the namespaces of an included file or a macro around its content.
     #[inline(never)]
     pub(crate) fn adopt_namespaces(&self, element: &Element, frame: Frame, out: &mut Output<'_>) {
         for attribute in &element.attributes {
@@ -165,7 +165,7 @@ impl State<'_> {
         self.count(1, frame.seen(origin))
     }
 
-    /// Counts what a copy of an element costs.
+    /// Adds the cost of copying an element to the budget.
     pub(crate) fn count_copy(&self, element: &Element) -> Result<(), Failed> {
         fn parts(element: &Element) -> usize {
             let attributes = element.attributes.len();
@@ -177,13 +177,13 @@ impl State<'_> {
     #[inline(never)]
     pub(crate) fn count(&self, parts: usize, origin: Origin) -> Result<(), Failed> {
         self.parts.set(self.parts.get() + parts);
-        if self.parts.get() <= MOST_PARTS {
+        if self.parts.get() <= MAX_NODES {
             return Ok(());
         }
         Err(self.give_up(
             Diagnostic::error(
                 "too-large",
-                format!("the file expands to more than {MOST_PARTS} parts"),
+                format!("the file expands to more than {MAX_NODES} parts"),
             )
             .at(origin)
             .help("does a macro call itself more and more often?"),
@@ -196,7 +196,7 @@ impl State<'_> {
         frame: Frame,
         out: &mut Output<'_>,
     ) -> Result<(), Failed> {
-        if self.nesting.get() >= DEEPEST {
+        if self.nesting.get() >= MAX_DEPTH {
             return Err(self.too_deep(frame.seen(element.origin)));
         }
         self.nesting.set(self.nesting.get() + 1);
@@ -214,7 +214,7 @@ impl State<'_> {
         self.give_up(
             Diagnostic::error(
                 "too-deep",
-                format!("elements, macros and includes are nested more than {DEEPEST} deep"),
+                format!("elements, macros and includes are nested more than {MAX_DEPTH} deep"),
             )
             .at(origin)
             .help("does a macro call itself without an end? stop it with <xacro:if>"),
@@ -282,7 +282,7 @@ impl State<'_> {
         Ok(())
     }
 
-    /// An element whose name is a value; it may turn out to be one of xacro's own.
+    /// Expands an element whose name is a value. The result can be one of xacro's own elements.
     #[inline(never)]
     fn named_element(
         &self,
@@ -319,7 +319,8 @@ impl State<'_> {
         result
     }
 
-    /// Attributes of a plain element. One that fails has been reported and keeps its text.
+    /// Expands the attributes of a plain element. An attribute that fails keeps its text; the error is
+    /// reported.
     #[inline(never)]
     fn expand_attributes(&self, element: &Element, frame: Frame, out: &mut Element) {
         for attribute in &element.attributes {

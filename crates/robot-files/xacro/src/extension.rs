@@ -13,7 +13,7 @@ use periplus_python_expr::Dialect;
 const COMMANDS: [&str; 7] = ["find", "arg", "env", "optenv", "dirname", "cwd", "eval"];
 
 impl State<'_> {
-    /// The text that `$(...)` stands for.
+    /// Replacement text of `$(...)`.
     #[inline(never)]
     pub(crate) fn extension(
         &self,
@@ -32,7 +32,7 @@ impl State<'_> {
         self.substitution(&words, origin)
     }
 
-    /// The text that a command and its words stand for.
+    /// Replacement text of a command and its words.
     #[inline(never)]
     pub(crate) fn substitution(&self, words: &[&str], origin: Origin) -> Result<Rc<str>, Failed> {
         let (command, words) = words.split_first().unwrap_or((&"", &[]));

@@ -1,4 +1,4 @@
-//! `<xacro:include>` and other files that a file asks for.
+//! `<xacro:include>` and other files that a file loads.
 
 use std::path::{Path, PathBuf};
 
@@ -13,17 +13,17 @@ use crate::state::{Failed, State};
 use crate::yaml;
 use periplus_python_expr::{EmptyScope, Expression, Value, evaluate};
 
-/// How deep files may include files.
-const DEEPEST: usize = 40;
+/// Maximum depth of nested includes.
+const MAX_INCLUDE_DEPTH: usize = 40;
 
-/// A file costs more than an element.
-const PARTS_OF_FILE: usize = 100;
+/// Budget cost of a file, in elements.
+const NODES_PER_FILE: usize = 100;
 
-/// How many files a pattern may match.
-const MOST_FILES: usize = 2_000;
+/// Maximum number of files that match one pattern.
+const MAX_MATCHED_FILES: usize = 2_000;
 
-/// How much an expansion may read, files that are included twice counted twice [bytes].
-const MOST_READ: usize = 64 << 20;
+/// Maximum number of bytes that an expansion reads; a file included twice counts twice.
+const MAX_READ_BYTES: usize = 64 << 20;
 
 impl State<'_> {
     /// Puts the content of the included files into `out`.
@@ -77,12 +77,12 @@ impl State<'_> {
         let open = self.files.borrow().len();
         let repeated = self.files.borrow().iter().filter(|file| *file == path).count();
         // A file may include itself under a condition, so a few rounds are allowed.
-        if repeated > 3 || open > DEEPEST {
+        if repeated > 3 || open > MAX_INCLUDE_DEPTH {
             let shown = self.setting.shown(path);
             let message = if repeated > 3 {
                 format!("`{shown}` includes itself without end")
             } else {
-                format!("files include each other more than {DEEPEST} deep")
+                format!("files include each other more than {MAX_INCLUDE_DEPTH} deep")
             };
             return Err(self.give_up(
                 Diagnostic::error("include-cycle", message)
@@ -90,7 +90,7 @@ impl State<'_> {
                     .help("move what both files need into a third, or include under <xacro:if>"),
             ));
         }
-        self.count(PARTS_OF_FILE, file_origin)?;
+        self.count(NODES_PER_FILE, file_origin)?;
         let text = self.read(path, file_origin)?;
         let at = frame.seen(element.origin).0;
         let (document, inner) = {
@@ -125,7 +125,8 @@ impl State<'_> {
         let text = self.read(&path, origin)?;
         self.note_file(&path);
         let mut evaluate = |text: &str| {
-            // As in the reference, units see xacro's own names (`!degrees 90/2`, `pi`), no properties.
+            // As in the reference implementation, unit tags see xacro's own names (`!degrees 90/2`, `pi`)
+            // but no properties.
             let mut budget = self.budget.take();
             let value = Expression::parse(text)
                 .and_then(|expression| evaluate(&expression, &EmptyScope, &mut budget));
@@ -152,7 +153,7 @@ impl State<'_> {
         Ok(value)
     }
 
-    /// Remembers a file for [`crate::Expanded::includes`].
+    /// Records a file for [`crate::Expanded::includes`].
     fn note_file(&self, path: &Path) {
         let mut includes = self.includes.borrow_mut();
         if !includes.iter().any(|known| known == path) {
@@ -171,7 +172,7 @@ impl State<'_> {
     }
 
     fn absolute(&self, name: &str) -> PathBuf {
-        // `join` keeps an absolute name as it is.
+        // `join` returns an absolute name unchanged.
         self.folder().join(name)
     }
 
@@ -183,10 +184,11 @@ impl State<'_> {
                 let missing = miss.kind == MissKind::Missing;
                 let mut diagnostic = miss.into_diagnostic(origin);
                 if missing {
-                    // The file wrote a relative name, or one of `$(find ...)`: it is not to blame for
-                    // being absolute.
+                    // The name in the file is relative or starts with `$(find ...)`, so the advice about
+                    // absolute paths does not apply.
                     let shown = self.setting.shown(path);
-                    diagnostic.message = format!("`{shown}` cannot be found: nothing stands there");
+                    diagnostic.message =
+                        format!("`{shown}` cannot be found: there is no such file");
                     diagnostic.help.retain(|help| help.starts_with("did you mean"));
                 }
                 self.fail(diagnostic)
@@ -197,14 +199,14 @@ impl State<'_> {
         };
         let bytes = self.setting.host.read(&found).map_err(|error| cannot(error.to_string()))?;
         self.read.set(self.read.get() + bytes.len());
-        if self.read.get() > MOST_READ {
+        if self.read.get() > MAX_READ_BYTES {
             return Err(self.give_up(
                 Diagnostic::error(
                     "too-large",
-                    format!("included files come to more than {} MiB", MOST_READ >> 20),
+                    format!("included files come to more than {} MiB", MAX_READ_BYTES >> 20),
                 )
                 .at(origin)
-                .help("is one of them included again and again?"),
+                .help("is one of them included repeatedly?"),
             ));
         }
         decode(&bytes).map(std::borrow::Cow::into_owned).map_err(cannot)
@@ -212,7 +214,7 @@ impl State<'_> {
 
     /// Files whose path matches a pattern of `*`, `?` and `[...]`, sorted.
     ///
-    /// Folders outside the resource paths are not even listed.
+    /// Folders outside the resource paths are not listed.
     #[inline(never)]
     fn glob(&self, pattern: &Path, origin: Origin) -> Result<Vec<PathBuf>, Failed> {
         let from = self.files.borrow().first().cloned().unwrap_or_default();
@@ -225,7 +227,7 @@ impl State<'_> {
             let is_pattern = name.contains(['*', '?', '[']);
             if is_pattern && is_certain {
                 is_certain = false;
-                // The user named this folder, so they shall know why nothing in it is found.
+                // The user named this folder, so report the reason that nothing in it is found.
                 if let Some(Err(miss)) = found.first().map(&open)
                     && miss.kind == MissKind::Outside
                 {
@@ -249,7 +251,7 @@ impl State<'_> {
                 } else {
                     next.push(folder.join(component));
                 }
-                if next.len() > MOST_FILES {
+                if next.len() > MAX_MATCHED_FILES {
                     break;
                 }
             }
@@ -261,7 +263,7 @@ impl State<'_> {
     }
 }
 
-/// The byte at a line and a column, both from 1, columns in characters.
+/// Byte offset of a line and a column, both from 1, columns in characters.
 fn byte_at(text: &str, line: usize, column: usize) -> usize {
     let before = text.split_inclusive('\n').take(line.saturating_sub(1)).map(str::len).sum();
     let line: &str = &text[before..];
@@ -269,11 +271,11 @@ fn byte_at(text: &str, line: usize, column: usize) -> usize {
     before + offset.unwrap_or(line.len())
 }
 
-/// Whether a name matches a shell pattern.
+/// Returns true if a name matches a shell pattern.
 fn matches(pattern: &str, name: &str) -> bool {
     let pattern: Vec<char> = pattern.chars().collect();
     let name: Vec<char> = name.chars().collect();
-    // Greedy matching with one place to come back to: linear in practice, quadratic at worst.
+    // Greedy matching with one position to backtrack to: linear in practice, quadratic at worst.
     let (mut p, mut n) = (0, 0);
     let mut star = None;
     while n < name.len() {
@@ -320,7 +322,7 @@ fn matches(pattern: &str, name: &str) -> bool {
     pattern[p..].iter().all(|&rest| rest == '*')
 }
 
-/// The length of `[a-z]` or `[!a-z]` at the start of a pattern, and whether it holds a character.
+/// Length of `[a-z]` or `[!a-z]` at the start of a pattern, and true if the class contains the character.
 fn class(pattern: &[char], character: char) -> Option<(usize, bool)> {
     let negated = matches!(pattern.get(1), Some('!' | '^'));
     let from = if negated { 2 } else { 1 };

@@ -1,12 +1,11 @@
 //! The xacro language: macros, properties and expressions over XML.
 //!
-//! [`expand`] turns a document into plain XML. Every node of the result keeps the place it came
-//! from, seen through the macro calls and includes that brought it there, so that later readers
-//! can point at the right line.
+//! [`expand`] turns a document into plain XML. Every node of the result keeps its source location and the
+//! macro calls and includes that produced it, so that later readers report the right line.
 //!
-//! Written from the behaviour of the reference (`ros/xacro` 2.1), not from its code. Where the
-//! reference stops at a limitation of its regular expressions we go on: braces inside `${...}` and
-//! parentheses inside `$(eval ...)` may nest.
+//! Written from the behaviour of the reference implementation (`ros/xacro` 2.1), not from its code. One
+//! deliberate difference: braces inside `${...}` and parentheses inside `$(eval ...)` may nest, which the
+//! regular expressions of the reference do not support.
 
 mod attributes;
 mod call;
@@ -32,8 +31,8 @@ pub use setting::Setting;
 /// The namespace that marks a file as xacro.
 pub const NAMESPACE: &str = "http://www.ros.org/wiki/xacro";
 
-/// Whether a document uses xacro: its root declares the prefix, or the root or one of its children
-/// uses it. (Not looked for deeper: worlds of megabytes are asked too.)
+/// Returns true if a document uses xacro: its root declares the prefix, or the root or one of its children
+/// uses it. Deeper elements are not searched, because world files can have megabytes.
 #[must_use]
 pub fn is_xacro(document: &periplus_xml::Document) -> bool {
     let root = &document.root;

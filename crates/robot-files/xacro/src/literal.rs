@@ -1,9 +1,9 @@
-//! What a property's text is when it holds no expression, and what counts as true.
+//! Values of texts without expressions, and truth values.
 
 use periplus_python_expr::Value;
 
-/// The value of a text: a number, a truth value, or the text itself. Single quotes keep a text a
-/// text, and are taken off; so does an underscore, which Python would allow in a number.
+/// Value of a text: a number, a truth value, or the text itself. Single quotes mark a string and are
+/// removed. A text with an underscore is a string too, although Python would accept it in a number.
 pub(crate) fn literal(text: &str) -> Value {
     if text.len() >= 2 && text.starts_with('\'') && text.ends_with('\'') {
         return Value::text(&text[1..text.len() - 1]);
@@ -15,7 +15,7 @@ pub(crate) fn literal(text: &str) -> Value {
     if let Ok(int) = trimmed.parse::<i128>() {
         return Value::Int(int);
     }
-    // Rust reads all that Python's `float` reads, and nothing more.
+    // Rust's parser accepts the same texts as Python's `float`.
     if let Ok(float) = trimmed.parse::<f64>() {
         return Value::Float(float);
     }
@@ -26,7 +26,7 @@ pub(crate) fn literal(text: &str) -> Value {
     }
 }
 
-/// The same of a value: text that is a number or a truth value counts as one.
+/// Converts a string that is a number or a truth value; returns other values unchanged.
 pub(crate) fn typed(value: Value) -> Value {
     match value {
         Value::Str(text) => literal(&text),
@@ -34,8 +34,8 @@ pub(crate) fn typed(value: Value) -> Value {
     }
 }
 
-/// The value of an argument in `$(eval ...)`, which has rules of its own: a number with a point is a
-/// float, without one an integer or (`1e3`) a text.
+/// Value of an argument in `$(eval ...)`, which has its own rules: a number with a point is a float, one
+/// without is an integer or (`1e3`) a string.
 pub(crate) fn automatic(text: &str) -> Value {
     let trimmed = text.trim();
     let number = if text.contains('.') {
@@ -54,8 +54,8 @@ pub(crate) fn automatic(text: &str) -> Value {
     })
 }
 
-/// Whether a condition holds: `true`, `True`, `false`, `False`, an integer, or for values other
-/// than text Python's idea of truth. None when it is none of these.
+/// Truth of a condition: `true`, `True`, `false`, `False`, an integer, or for values other than strings
+/// Python's truth value. `None` for anything else.
 pub(crate) fn condition(value: &Value) -> Option<bool> {
     match value {
         Value::Str(text) => match &**text {
@@ -67,7 +67,7 @@ pub(crate) fn condition(value: &Value) -> Option<bool> {
     }
 }
 
-/// Whether a property may have this name: a Python identifier that is no keyword.
+/// Returns true if a property may have this name: a Python identifier that is no keyword.
 pub(crate) fn is_name(name: &str) -> bool {
     const KEYWORDS: &[&str] = &[
         "False", "None", "True", "and", "as", "assert", "async", "await", "break", "class",

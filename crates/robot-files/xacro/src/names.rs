@@ -1,5 +1,4 @@
-//! What expressions see: properties, namespaces, and functions that ask for more than their
-//! arguments.
+//! Names visible to expressions: properties, namespaces, and functions that need more than their arguments.
 
 use std::ops::Range;
 use std::rc::Rc;
@@ -11,18 +10,18 @@ use crate::scopes::{ScopeId, Symbol};
 use crate::state::{Failed, State};
 use periplus_python_expr::{Budget, Dialect, ExpressionError, Scope, Value};
 
-/// The message of an error that a diagnostic has told already.
+/// Message of an error that has been reported as a diagnostic.
 pub(crate) const ALREADY_SAID: &str = "\0";
 
 fn already_said(_: Failed) -> ExpressionError {
     ExpressionError { message: ALREADY_SAID.into(), range: 0..0, help: None }
 }
 
-/// Functions that `$(eval ...)` has besides Python's.
+/// Functions that `$(eval ...)` has in addition to Python's.
 const EVAL_FUNCTIONS: [&str; 5] =
     ["eval.arg", "eval.env", "eval.optenv", "eval.find", "eval.dirname"];
 
-/// The names an expression sees.
+/// Names visible to an expression.
 pub(crate) struct Names<'s, 'a> {
     pub(crate) state: &'s State<'a>,
     pub(crate) scope: ScopeId,
@@ -32,11 +31,12 @@ pub(crate) struct Names<'s, 'a> {
 impl Scope for Names<'_, '_> {
     fn lookup(&self, name: &str, budget: &mut Budget) -> Result<Option<Value>, ExpressionError> {
         if self.dialect == Dialect::SubstitutionArgs {
-            // `$(eval ...)` sees arguments and functions of its own, not properties.
+            // `$(eval ...)` sees arguments and its own functions, no properties.
             if let Some(function) = EVAL_FUNCTIONS.iter().find(|full| full[5..] == *name) {
                 return Ok(Some(Value::host_function(*function)));
             }
-            // In the reference all of its own names win; these would change results silently.
+            // In the reference all of its built-in names win over properties. For these names that would
+            // change results silently.
             if matches!(name, "e" | "pi" | "tau" | "inf" | "nan" | "true" | "false") {
                 return Ok(None);
             }
@@ -105,7 +105,7 @@ impl Scope for Names<'_, '_> {
 }
 
 impl Names<'_, '_> {
-    /// The scope behind `a` or `a.b`.
+    /// Scope named by `a` or `a.b`.
     fn namespace(&self, path: &str) -> Option<ScopeId> {
         let scopes = self.state.scopes.borrow();
         let mut steps = path.split('.');
@@ -121,7 +121,7 @@ impl Names<'_, '_> {
 }
 
 impl State<'_> {
-    /// Functions that ask more than their arguments: files, arguments, messages.
+    /// Calls a function that needs more than its arguments: files, arguments of the file, messages.
     fn host_function(
         &self,
         function: &str,

@@ -1,13 +1,12 @@
-//! Where expanded nodes go.
+//! Output of an expansion.
 
 use periplus_diagnostics::Origin;
 use periplus_xml::{Attribute, Element, Node, SmolStr};
 
-/// Where expanded nodes go: the content of an element, whose attributes `xacro:attribute` and
-/// inherited namespaces may extend.
+/// Element that receives expanded nodes. `xacro:attribute` and inherited namespaces add to its attributes.
 pub(crate) struct Output<'e> {
     pub(crate) parent: &'e mut Element,
-    /// How many children no directive that follows takes comments from.
+    /// Number of children whose comments no following directive removes.
     settled: usize,
 }
 
@@ -34,12 +33,12 @@ impl<'e> Output<'e> {
         }
     }
 
-    /// What was put out so far keeps its comments.
+    /// Keeps the comments written so far.
     pub(crate) fn settle(&mut self) {
         self.settled = self.parent.children.len();
     }
 
-    /// Comments right before something of xacro's speak of it, and go with it.
+    /// Removes the comments directly before a directive: they describe the directive.
     #[inline(never)]
     pub(crate) fn drop_comments(&mut self) {
         let children = &mut self.parent.children;

@@ -7,13 +7,13 @@ use smol_str::SmolStr;
 /// One parameter of a macro.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct Parameter {
-    /// Its name; that of a block starts with `*`, that of a block's content with `**`.
+    /// Name of the parameter; a block starts with `*`, the content of a block with `**`.
     pub(crate) name: SmolStr,
-    /// Whether the caller's property of the same name is taken when the call leaves it out (`^`).
+    /// `^`: uses the caller's property of the same name if the call omits the parameter.
     pub(crate) forward: bool,
-    /// What it is when the call leaves it out (and nothing is forwarded).
+    /// Value if the call omits the parameter and nothing is forwarded.
     pub(crate) default: Option<SmolStr>,
-    /// The byte in `params` where the default starts.
+    /// Byte offset in `params` at which the default starts.
     pub(crate) default_start: usize,
 }
 
@@ -22,7 +22,7 @@ impl Parameter {
         self.name.starts_with('*')
     }
 
-    /// The bytes of the default in `params`.
+    /// Byte range of the default in `params`.
     pub(crate) fn default_range(&self) -> Range<usize> {
         let length = self.default.as_ref().map_or(0, SmolStr::len);
         self.default_start..self.default_start + length
@@ -74,7 +74,7 @@ pub(crate) fn parse(text: &str) -> Vec<Parameter> {
     parameters
 }
 
-/// How long a default is: up to white space that is not inside quotes, `${...}` or `$(...)`.
+/// Length of a default in bytes: up to white space that is not inside quotes, `${...}` or `$(...)`.
 fn default_length(text: &str) -> usize {
     let mut at = 0;
     while let Some(character) = text[at..].chars().next() {

@@ -86,7 +86,7 @@ impl State<'_> {
         Ok(())
     }
 
-    /// The scope that a property is defined in; none, with a warning, when there is none such.
+    /// Scope in which a property is defined; `None`, with a warning, if there is no such scope.
     #[inline(never)]
     fn property_scope(
         &self,
@@ -129,14 +129,14 @@ impl State<'_> {
     ) -> Result<Symbol, Failed> {
         let origin = frame.seen(given.value_origin);
         Ok(match literal(&given.value) {
-            // Text may hold expressions; those are evaluated when someone asks.
+            // Text may hold expressions, which are evaluated on first use.
             Value::Str(text) if is_lazy && text.contains('$') => {
                 Symbol::Lazy(Rc::new(LazyText { text: SmolStr::new(text), origin }))
             }
             Value::Str(_) if given.value.contains('$') => {
                 Symbol::Value(typed(self.text_value(&given.value, origin, frame.scope)?))
             }
-            // The reference reads such a text twice, so that a lazy '007' in quotes is a number after all.
+            // The reference parses such a text twice, so a lazy '007' in quotes becomes a number.
             value if is_lazy => Symbol::Value(typed(value)),
             value => Symbol::Value(value),
         })
@@ -146,7 +146,7 @@ impl State<'_> {
         self.scopes.borrow().find(scope, name).is_some() || is_built_in(name)
     }
 
-    /// A truth value in an attribute.
+    /// Truth value of an attribute.
     #[inline(never)]
     pub(crate) fn flag(
         &self,

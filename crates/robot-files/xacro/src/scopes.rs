@@ -1,7 +1,7 @@
-//! Who is called what, where.
+//! Scopes of names: properties, blocks, macros.
 //!
-//! Scopes form a tree: the file, the namespaces of includes, and one scope for each macro call
-//! whose parent is the *caller's* scope. Names are looked up outwards.
+//! Scopes form a tree: the file, the namespaces of includes, and one scope for each macro call, which is a
+//! child of the *caller's* scope. Names are looked up from the inside out.
 
 use std::collections::BTreeMap;
 use std::rc::Rc;
@@ -13,19 +13,19 @@ use smol_str::SmolStr;
 use crate::parameters::Parameter;
 use periplus_python_expr::Value;
 
-/// Names a scope.
+/// Index of a scope.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) struct ScopeId(usize);
 
-/// The scope of the file itself.
+/// Scope of the file itself.
 pub(crate) const TOP: ScopeId = ScopeId(0);
 
-/// What a name stands for. Blocks go by names that start with `*` or `**`.
+/// Meaning of a name. Names of blocks start with `*` or `**`.
 #[derive(Clone, Debug)]
 pub(crate) enum Symbol {
     /// A value.
     Value(Value),
-    /// A text that becomes a value when someone asks for it.
+    /// Text that is evaluated on first use.
     Lazy(Rc<LazyText>),
     /// Elements for `insert_block`.
     Block(Block),
@@ -33,14 +33,14 @@ pub(crate) enum Symbol {
     Namespace(ScopeId),
 }
 
-/// The text of a property that nobody asked for yet.
+/// Text of a property that has not been evaluated yet.
 #[derive(Debug)]
 pub(crate) struct LazyText {
     pub(crate) text: SmolStr,
     pub(crate) origin: Origin,
 }
 
-/// Elements to insert, and the context their places are seen in when they were not expanded yet.
+/// Elements to insert, and their call context if they were not expanded yet.
 #[derive(Clone, Debug)]
 pub(crate) struct Block {
     pub(crate) nodes: Rc<Vec<Node>>,
@@ -63,7 +63,7 @@ struct Scope {
     macros: BTreeMap<SmolStr, Rc<Macro>>,
 }
 
-/// All scopes that are alive.
+/// All open scopes.
 #[derive(Debug)]
 pub(crate) struct Scopes {
     scopes: Vec<Scope>,
@@ -80,8 +80,8 @@ impl Scopes {
         ScopeId(self.scopes.len() - 1)
     }
 
-    /// Closes the scope of a macro call, and the namespaces of includes within it. Nothing
-    /// outside can hold any of them.
+    /// Closes the scope of a macro call and the namespaces of the includes in it. No reference to them can
+    /// exist outside.
     pub(crate) fn close(&mut self, scope: ScopeId) {
         self.scopes.truncate(scope.0);
     }
@@ -102,7 +102,7 @@ impl Scopes {
         self.scopes[scope.0].macros.insert(definition.name.clone(), Rc::new(definition));
     }
 
-    /// Removes a name from a scope and all around it.
+    /// Removes a name from a scope and all scopes around it.
     pub(crate) fn remove(&mut self, scope: ScopeId, name: &str) {
         let mut next = Some(scope);
         while let Some(at) = next {
@@ -111,25 +111,25 @@ impl Scopes {
         }
     }
 
-    /// The nearest meaning of a name, and the scope that holds it.
+    /// Innermost meaning of a name, and the scope that holds it.
     pub(crate) fn find(&self, scope: ScopeId, name: &str) -> Option<(ScopeId, &Symbol)> {
         self.outwards(scope)
             .find_map(|at| self.scopes[at.0].symbols.get(name).map(|symbol| (at, symbol)))
     }
 
-    /// A member of a namespace itself.
+    /// Member of a namespace, without the scopes around it.
     pub(crate) fn member(&self, namespace: ScopeId, name: &str) -> Option<&Symbol> {
         self.scopes[namespace.0].symbols.get(name)
     }
 
-    /// The names in a namespace itself, blocks left out.
+    /// Names in a namespace, without blocks and without the scopes around it.
     pub(crate) fn member_names(&self, namespace: ScopeId) -> Vec<String> {
         let names = self.scopes[namespace.0].symbols.keys();
         names.filter(|name| !name.starts_with('*')).map(ToString::to_string).collect()
     }
 
-    /// The scope a property of `scope="parent"` goes to: the one outside, for a macro call past
-    /// all namespaces.
+    /// Scope of a property with `scope="parent"`: the next outer scope; from a macro call, the next one
+    /// outside all namespaces.
     pub(crate) fn parent(&self, scope: ScopeId) -> Option<ScopeId> {
         let mut parent = self.scopes[scope.0].parent?;
         if !self.scopes[scope.0].is_namespace {
@@ -140,8 +140,8 @@ impl Scopes {
         Some(parent)
     }
 
-    /// A macro by its name, which may lead through namespaces (`ns.name`), and the scope its call
-    /// is seen from.
+    /// Macro by its name, which may contain namespaces (`ns.name`), and the scope in which its call is
+    /// expanded.
     pub(crate) fn find_macro(&self, scope: ScopeId, name: &str) -> Option<(ScopeId, Rc<Macro>)> {
         if let Some(found) = self.nearest_macro(scope, name) {
             return Some((scope, found));
@@ -162,19 +162,19 @@ impl Scopes {
         self.outwards(scope).find_map(|at| self.scopes[at.0].macros.get(name).cloned())
     }
 
-    /// All names that can be seen, blocks left out.
+    /// All visible names, without blocks.
     pub(crate) fn names(&self, scope: ScopeId) -> Vec<String> {
         let names = self.outwards(scope).flat_map(|at| self.scopes[at.0].symbols.keys());
         names.filter(|name| !name.starts_with('*')).map(ToString::to_string).collect()
     }
 
-    /// All blocks that can be seen, without their stars.
+    /// All visible blocks, without their stars.
     pub(crate) fn block_names(&self, scope: ScopeId) -> Vec<String> {
         let names = self.outwards(scope).flat_map(|at| self.scopes[at.0].symbols.keys());
         names.filter(|name| name.starts_with('*')).map(|name| name.replace('*', "")).collect()
     }
 
-    /// All macros that can be seen.
+    /// All visible macros.
     pub(crate) fn macro_names(&self, scope: ScopeId) -> Vec<String> {
         let names = self.outwards(scope).flat_map(|at| self.scopes[at.0].macros.keys());
         names.map(ToString::to_string).collect()

@@ -1,26 +1,26 @@
-//! What an expansion needs to know.
+//! Inputs of an expansion.
 
 use std::path::{Path, PathBuf};
 
 use periplus_resources::{Host, Resolver};
 
-/// What an expansion needs to know.
+/// Inputs of an expansion.
 #[derive(Clone)]
 pub struct Setting<'a> {
-    /// The file that is expanded.
+    /// File to expand.
     pub path: PathBuf,
-    /// Where the user stands, for `$(cwd)`, and to show paths shorter.
+    /// Working folder of the user, for `$(cwd)` and for short paths in messages.
     pub working_folder: PathBuf,
-    /// `name:=value` of the command line.
+    /// `name:=value` arguments of the command line.
     pub arguments: Vec<(String, String)>,
-    /// Files and environment.
+    /// Access to files and environment.
     pub host: &'a dyn Host,
-    /// Packages and paths.
+    /// Search paths of packages and resources.
     pub resolver: &'a Resolver<'a>,
 }
 
 impl Setting<'_> {
-    /// A path as messages show it.
+    /// Path as shown in messages.
     pub(crate) fn shown(&self, path: &Path) -> String {
         match path.strip_prefix(&self.working_folder) {
             Ok(rest) if rest.as_os_str().is_empty() => ".".into(),

@@ -1,4 +1,4 @@
-//! What is shared by all of an expansion.
+//! State shared by all parts of an expansion.
 
 use std::cell::{Cell, RefCell};
 use std::collections::{BTreeMap, BTreeSet};
@@ -11,24 +11,24 @@ use crate::scopes::{ScopeId, Scopes};
 use crate::setting::Setting;
 use periplus_python_expr::{Budget, Value};
 
-/// Steps that all expressions of a file may take together; the PR2, as large as robots get, takes
+/// Maximum number of steps of all expressions of a file together. The PR2, one of the largest robots, takes
 /// some ten thousand.
-const MOST_STEPS: u64 = 1_000_000;
+const MAX_STEPS: u64 = 1_000_000;
 
-/// Bytes of values that all expressions of a file may make together.
-const MOST_BYTES: u64 = 256 << 20;
+/// Maximum size of the values made by all expressions of a file together [bytes].
+const MAX_VALUE_BYTES: u64 = 256 << 20;
 
-/// Errors after which an expansion gives up: what follows is mostly echo.
-const MOST_ERRORS: usize = 30;
+/// Number of errors after which an expansion ends: later ones are mostly consequences.
+const MAX_ERRORS: usize = 30;
 
-/// What is shared by all of an expansion.
+/// State shared by all parts of an expansion.
 pub(crate) struct State<'a> {
     pub(crate) setting: Setting<'a>,
     pub(crate) sources: RefCell<&'a mut SourceMap>,
     pub(crate) diagnostics: RefCell<&'a mut Diagnostics>,
     pub(crate) scopes: RefCell<Scopes>,
     pub(crate) arguments: RefCell<BTreeMap<String, String>>,
-    /// Names of arguments that the file declares or reads.
+    /// Arguments that the file declares or reads.
     pub(crate) known_arguments: RefCell<BTreeSet<String>>,
     /// The files being read, outermost first.
     pub(crate) files: RefCell<Vec<PathBuf>>,
@@ -37,19 +37,19 @@ pub(crate) struct State<'a> {
     pub(crate) resolving: RefCell<Vec<Resolving>>,
     pub(crate) depth: Cell<usize>,
     pub(crate) budget: RefCell<Budget>,
-    /// Nodes looked at so far.
+    /// Number of nodes visited.
     pub(crate) parts: Cell<usize>,
-    /// Elements, macros and includes that are open.
+    /// Number of open elements, macros and includes.
     pub(crate) nesting: Cell<usize>,
-    /// Bytes of text put together so far.
+    /// Bytes of text written.
     pub(crate) written: Cell<usize>,
-    /// Bytes of files read so far.
+    /// Bytes of files read.
     pub(crate) read: Cell<usize>,
-    /// YAML files read so far.
+    /// YAML files that were loaded.
     pub(crate) yaml: RefCell<BTreeMap<PathBuf, Value>>,
-    /// Whether going on makes no sense: a limit was reached.
+    /// Set when a limit was reached and the expansion must end.
     pub(crate) given_up: Cell<bool>,
-    /// The place of the text being evaluated: where warnings from within expressions belong.
+    /// Origin of the text being evaluated, for warnings from inside expressions.
     pub(crate) place: Cell<Origin>,
 }
 
@@ -60,7 +60,7 @@ pub(crate) struct Resolving {
     pub(crate) origin: Origin,
 }
 
-/// An evaluation failed, and a diagnostic says so.
+/// Error token: an evaluation failed and the diagnostic is recorded.
 #[derive(Debug)]
 pub(crate) struct Failed;
 
@@ -83,7 +83,7 @@ impl<'a> State<'a> {
             includes: RefCell::default(),
             resolving: RefCell::default(),
             depth: Cell::new(0),
-            budget: RefCell::new(Budget::new(MOST_STEPS, MOST_BYTES)),
+            budget: RefCell::new(Budget::new(MAX_STEPS, MAX_VALUE_BYTES)),
             parts: Cell::new(0),
             nesting: Cell::new(0),
             written: Cell::new(0),
@@ -98,33 +98,33 @@ impl<'a> State<'a> {
         self.diagnostics.borrow_mut().push(diagnostic);
     }
 
-    /// Reports an error and gives the token of failure.
+    /// Reports an error and returns the error token.
     #[inline(never)]
     pub(crate) fn fail(&self, diagnostic: Diagnostic) -> Failed {
         self.report(diagnostic);
         Failed
     }
 
-    /// Reports an error after which the whole expansion ends: a limit was reached, and what comes
-    /// next would reach it again.
+    /// Reports an error that ends the whole expansion: a limit was reached, and the next element would
+    /// reach it again.
     #[inline(never)]
     pub(crate) fn give_up(&self, diagnostic: Diagnostic) -> Failed {
         self.given_up.set(true);
         self.fail(diagnostic)
     }
 
-    /// Whether the expansion shall end here.
+    /// Returns true if the expansion must end.
     pub(crate) fn has_given_up(&self) -> bool {
-        self.given_up.get() || self.diagnostics.borrow().errors() >= MOST_ERRORS
+        self.given_up.get() || self.diagnostics.borrow().errors() >= MAX_ERRORS
     }
 
-    /// The folder that relative names in the file being read start from.
+    /// Folder that relative names in the current file refer to.
     pub(crate) fn folder(&self) -> PathBuf {
         let files = self.files.borrow();
         files.last().and_then(|file| file.parent()).map(PathBuf::from).unwrap_or_default()
     }
 
-    /// Runs something that may evaluate texts, on the budget of the expression that asked for it.
+    /// Runs code that may evaluate texts, on the budget of the expression that called it.
     pub(crate) fn with_budget<T>(&self, budget: &mut Budget, run: impl FnOnce() -> T) -> T {
         self.budget.replace(std::mem::take(budget));
         let result = run();

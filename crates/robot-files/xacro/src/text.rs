@@ -1,21 +1,21 @@
-//! Text with `${expressions}` and `$(extensions)` in it, cut into pieces.
+//! Splits text into plain pieces, `${expressions}` and `$(extensions)`.
 
 use std::ops::Range;
 
 /// A piece of a text, by its byte range.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) enum Piece {
-    /// Characters that stand for themselves.
+    /// Literal characters.
     Plain(Range<usize>),
-    /// What stands in `${` and `}`.
+    /// Content of `${...}`.
     Expression(Range<usize>),
-    /// What stands in `$(` and `)`.
+    /// Content of `$(...)`.
     Extension(Range<usize>),
-    /// `${` or `$(` that nothing closes.
+    /// `${` or `$(` without its closing bracket.
     Unclosed(Range<usize>),
 }
 
-/// Cuts a text. `$${` and `$$(` are a dollar sign and a bracket that stand for themselves.
+/// Splits a text. `$${` and `$$(` are escapes of a literal dollar sign with its bracket.
 pub(crate) fn pieces(text: &str) -> Vec<Piece> {
     let bytes = text.as_bytes();
     let mut pieces = Vec::new();
@@ -61,21 +61,21 @@ pub(crate) fn pieces(text: &str) -> Vec<Piece> {
     pieces
 }
 
-/// The brace that closes an expression. The reference ends at the first `}`; braces of dicts and
-/// those in strings are passed over here, so that `${{'a': 1}['a']}` works too.
+/// Position of the brace that closes an expression. The reference stops at the first `}`; here braces of
+/// dicts and in strings are skipped, so `${{'a': 1}['a']}` works.
 fn closing_brace(text: &str, from: usize, paired: &mut Paired) -> Option<usize> {
     paired.end(text, from, b'{', b'}').or_else(|| text[from..].find('}').map(|end| from + end))
 }
 
-/// The parenthesis that closes an extension: for `$(eval ...)` the one that matches, for the
-/// others, whose words may hold anything, the first.
+/// Position of the parenthesis that closes an extension: for `$(eval ...)` the matching one, for other
+/// commands the first.
 fn closing_paren(text: &str, from: usize, paired: &mut Paired) -> Option<usize> {
     if text[from..].starts_with("eval ")
         && let Some(end) = paired.end(text, from, b'(', b')')
     {
         return Some(end);
     }
-    // An expression inside, as in `$(find ${pkg(1)})`, may hold parentheses of its own.
+    // An expression inside, as in `$(find ${pkg(1)})`, may contain parentheses.
     let mut at = from;
     loop {
         let offset = text[at..].find(['$', ')'])?;
@@ -91,8 +91,8 @@ fn closing_paren(text: &str, from: usize, paired: &mut Paired) -> Option<usize> 
     }
 }
 
-/// Looks for closing brackets. A text in which one was sought in vain up to the end is broken, and
-/// is not read to its end again and again: a hostile one has a million opening brackets.
+/// Search for closing brackets. Remembers that a bracket was not found up to the end of the text, so that a
+/// hostile text with a million opening brackets does not take quadratic time.
 struct Paired {
     is_hopeless: bool,
 }

@@ -1,8 +1,7 @@
-//! YAML as the reference loads it: PyYAML's safe loader, which follows YAML 1.1, and the unit
-//! tags of xacro.
+//! YAML loader with the rules of the reference: PyYAML's safe loader (YAML 1.1) and xacro's unit tags.
 //!
-//! What makes a plain scalar a number or a truth value differs between YAML versions (`yes`, `010`,
-//! `1e5`), so the rules of PyYAML's resolver are written out here.
+//! The rules by which a plain scalar is a number or a truth value differ between YAML versions (`yes`,
+//! `010`, `1e5`); this module implements those of PyYAML's resolver.
 
 use std::borrow::Cow;
 use std::collections::BTreeMap;
@@ -11,16 +10,16 @@ use saphyr_parser::{Event, Parser, ScalarStyle, Tag};
 
 use periplus_python_expr::Value;
 
-/// How deep lists and mappings may nest.
-const DEEPEST: usize = 60;
+/// Maximum nesting depth of lists and mappings.
+const MAX_DEPTH: usize = 60;
 
-/// How many values a file may hold, aliases counted each time.
-const MOST_VALUES: usize = 1_000_000;
+/// Maximum number of values in a file; each use of an alias counts.
+const MAX_VALUES: usize = 1_000_000;
 
-/// Why a YAML text gives no value.
+/// Reason that a YAML text has no value.
 #[derive(Debug, PartialEq, Eq)]
 pub(crate) struct YamlError {
-    /// What is wrong.
+    /// Description of the fault.
     pub(crate) message: String,
     /// Line, from 1.
     pub(crate) line: usize,
@@ -28,8 +27,8 @@ pub(crate) struct YamlError {
     pub(crate) column: usize,
 }
 
-/// Reads the first document of a text. `evaluate` gives the value of the expression behind a unit
-/// tag: `!degrees 90/2`.
+/// Loads the first document of a text. `evaluate` computes the expression behind a unit tag: `!degrees
+/// 90/2`.
 pub(crate) fn load(
     text: &str,
     evaluate: &mut dyn FnMut(&str) -> Result<f64, String>,
@@ -77,7 +76,7 @@ impl<'t> Loader<'t, '_> {
     fn value(&mut self, event: Event<'t>, place: Place, depth: usize) -> Result<Value, YamlError> {
         let fail = |message: String| YamlError { message, line: place.0, column: place.1 };
         self.values += 1;
-        if depth > DEEPEST || self.values > MOST_VALUES {
+        if depth > MAX_DEPTH || self.values > MAX_VALUES {
             return Err(fail("the file is nested too deeply or too large".into()));
         }
         let before = self.values;
@@ -178,7 +177,7 @@ impl<'t> Loader<'t, '_> {
     }
 }
 
-/// `<<: *base` or `<<: [*a, *b]`; of several the first wins.
+/// Merges `<<: *base` or `<<: [*a, *b]`; the first of several entries wins.
 fn merge(value: &Value, into: &mut Vec<(Value, Value)>) {
     match value {
         Value::Dict(dict) => {
@@ -189,7 +188,7 @@ fn merge(value: &Value, into: &mut Vec<(Value, Value)>) {
     }
 }
 
-/// A plain scalar after PyYAML's resolver.
+/// Value of a plain scalar by the rules of PyYAML's resolver.
 fn plain(text: &str) -> Value {
     match text {
         "" | "~" | "null" | "Null" | "NULL" => return Value::None,
@@ -217,7 +216,7 @@ fn signed(text: &str) -> (i128, &str) {
 fn digits(text: &str, radix: u32) -> Option<i128> {
     let text: Cow<'_, str> =
         if text.contains('_') { text.replace('_', "").into() } else { text.into() };
-    // `from_str_radix` would take a second sign.
+    // `from_str_radix` would accept a second sign.
     if !text.chars().all(|digit| digit.is_digit(radix)) {
         return None;
     }
@@ -244,7 +243,7 @@ fn integer(text: &str) -> Option<i128> {
     value.map(|value| sign * value)
 }
 
-/// A float needs a point, and its exponent a sign: `1e5` is text.
+/// Parses a float. PyYAML needs a point, and a sign in the exponent: `1e5` is text.
 fn float(text: &str) -> Option<f64> {
     let (sign, rest) = signed(text);
     #[expect(clippy::cast_precision_loss, reason = "the sign is 1 or -1")]

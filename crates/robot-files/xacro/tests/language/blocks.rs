@@ -195,7 +195,7 @@ fn an_escape_in_a_block_is_undone_once_for_each_insertion() {
     );
 }
 
-// The reference takes the name of a block as it stands.
+// The reference uses the name of a block as written.
 #[test]
 fn the_name_of_a_block_may_be_an_expression() {
     check_lenient(

@@ -4,7 +4,7 @@ use expect_test::expect;
 
 use crate::example::{check, check_lenient, check_messages};
 
-/// Whether `<xacro:if value="...">` takes its content.
+/// Returns true if `<xacro:if value="...">` expands its content.
 fn truth(value: &str, expected: expect_test::Expect) {
     check(
         &format!(

@@ -148,7 +148,7 @@ fn a_file_included_in_a_macro_that_is_missing() {
     check_messages(
         "\n<xacro:macro name=\"sensor\" params=\"model\">\n  <xacro:include filename=\"sensors/${model}.xacro\"/>\n</xacro:macro>\n<xacro:sensor model=\"lidar\"/>\n",
         expect![[r#"
-            error[missing-resource]: `sensors/lidar.xacro` cannot be found: nothing stands there
+            error[missing-resource]: `sensors/lidar.xacro` cannot be found: there is no such file
              --> main.xacro:3:28
               |
             3 |   <xacro:include filename="sensors/${model}.xacro"/>

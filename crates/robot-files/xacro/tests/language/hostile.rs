@@ -1,4 +1,4 @@
-//! Files that mean harm: each must be answered soon, with an error at a place, on a small stack.
+//! Hostile files: each must fail within bounded time, with a located error, on a small stack.
 #![allow(clippy::disallowed_methods, reason = "the time it takes is what is tested")]
 
 use std::time::{Duration, Instant};
@@ -13,7 +13,7 @@ const SOON: Duration = Duration::from_secs(60);
 /// Stack of the thread that expands [bytes]; the main thread of a program has eight times as much.
 const STACK: usize = 1 << 20;
 
-/// The codes of all errors, each with the first line of its message. Every error has a place.
+/// Codes of all errors, each with the first line of its message. Every error has a location.
 fn check(build: impl FnOnce() -> Example + Send + 'static, expected: Expect) {
     expected.assert_eq(&answer(build).join("\n"));
 }
@@ -514,7 +514,7 @@ fn files_that_are_no_text() {
     );
 }
 
-/// A file outside of the project is neither read nor told of.
+/// A file outside of the project is neither read nor mentioned.
 fn check_secret(content: &'static str, expected: Expect) {
     let build = move || {
         let mut example = example(content).include("sub/part.xacro", "");

@@ -227,7 +227,7 @@ fn a_file_that_is_missing() {
     check_messages(
         "\n<xacro:include filename=\"wheel.xacro\"/>\n",
         expect![[r#"
-            error[missing-resource]: `wheel.xacro` cannot be found: nothing stands there
+            error[missing-resource]: `wheel.xacro` cannot be found: there is no such file
              --> main.xacro:2:26
               |
             2 | <xacro:include filename="wheel.xacro"/>
@@ -240,7 +240,7 @@ fn a_file_that_is_missing() {
     example("\n<xacro:include filename=\"parts/weel.xacro\"/>\n")
         .include("parts/wheel.xacro", "")
         .check_messages(expect![[r#"
-            error[missing-resource]: `parts/weel.xacro` cannot be found: nothing stands there
+            error[missing-resource]: `parts/weel.xacro` cannot be found: there is no such file
              --> main.xacro:2:26
               |
             2 | <xacro:include filename="parts/weel.xacro"/>

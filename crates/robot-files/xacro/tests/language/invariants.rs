@@ -1,4 +1,4 @@
-//! What holds for every document.
+//! Properties of every document.
 
 use periplus_xml::{Document, Element, canonical, write_document};
 use proptest::prelude::*;
@@ -79,7 +79,7 @@ proptest! {
         prop_assert_eq!(call(&order), call(&[0, 1, 2, 3]));
     }
 
-    /// Whatever stands in the text: an answer or errors, all of them with places.
+    /// For any text the result is a document or errors, all with source locations.
     #[test]
     fn any_text_is_answered(text in "(\\$|\\{|\\}|\\(|\\)|'|eval |arg |find |a|[+.1 ]|é){0,20}") {
         let (result, diagnostics, _) = example(&format!(

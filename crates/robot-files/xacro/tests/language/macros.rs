@@ -198,7 +198,7 @@ fn names_that_xacro_needs_itself() {
         1 | <r xmlns:xacro="http://www.ros.org/wiki/xacro"><xacro:macro name="call"/></r>
           |                                                                   ^^^^
           |
-          = help: `call` and names with a `.` have a meaning of their own in xacro
+          = help: `call` and names with a `.` have a special meaning in xacro
     "#]],
     );
     check_messages(
@@ -210,7 +210,7 @@ fn names_that_xacro_needs_itself() {
         1 | <r xmlns:xacro="http://www.ros.org/wiki/xacro"><xacro:macro name="a.b"/></r>
           |                                                                   ^^^
           |
-          = help: `call` and names with a `.` have a meaning of their own in xacro
+          = help: `call` and names with a `.` have a special meaning in xacro
     "#]],
     );
 }

@@ -54,7 +54,7 @@ fn braces_alone_mean_nothing() {
     check(r#"<a v="{x} (y) }"/>"#, expect![[r#"<a v="{x} (y) }"></a>"#]]);
 }
 
-// The reference ends an expression at the first `}`, wherever it stands.
+// The reference ends an expression at the first `}`, regardless of nesting.
 #[test]
 fn braces_in_strings_and_dicts() {
     check_lenient(r#"<a v="${'}'}" w="${{'a': 1}['a']}"/>"#, expect![[r#"<a v="}" w="1"></a>"#]]);

@@ -210,7 +210,7 @@ fn an_error_is_shown_in_the_yaml_file() {
 #[test]
 fn a_file_that_is_missing() {
     example("<x v=\"${xacro.load_yaml('confg.yaml')}\"/>").file("config.yaml", "").check_messages(expect![[r#"
-        error[missing-resource]: `confg.yaml` cannot be found: nothing stands there
+        error[missing-resource]: `confg.yaml` cannot be found: there is no such file
          --> main.xacro:1:54
           |
         1 | <r xmlns:xacro="http://www.ros.org/wiki/xacro"><x v="${xacro.load_yaml('confg.yaml')}"/></r>
