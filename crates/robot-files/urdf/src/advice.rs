@@ -1,4 +1,4 @@
-//! Findings about robots that are valid, and yet do not do in a simulation what was meant.
+//! Warnings about robots that are valid but do not behave as intended in a simulation.
 
 mod axis;
 mod balance;
@@ -8,15 +8,15 @@ use periplus_diagnostics::{Diagnostic, Diagnostics};
 
 use crate::robot::Robot;
 
-/// Looks for the usual mistakes of a first robot: no collision shapes, a joint without an axis, two
-/// wheels without a caster. None of them is an error in URDF.
+/// Reports common mistakes in a first robot: no collision shapes, a joint without an axis, two wheels
+/// without a caster. None of them is an error in URDF.
 pub fn advise(robot: &Robot, diagnostics: &mut Diagnostics) {
     without_collisions(robot, diagnostics);
     axis::check(robot, diagnostics);
     balance::check(robot, diagnostics);
 }
 
-/// A robot with a mass and something to look at, but nothing to touch.
+/// Robot with mass and visuals but no collision shape.
 fn without_collisions(robot: &Robot, diagnostics: &mut Diagnostics) {
     let has_mass = robot.links.iter().any(|link| link.inertial.is_some());
     let shown = robot.links.iter().find(|link| !link.visuals.is_empty());

@@ -1,4 +1,4 @@
-//! What makes a description a robot: unique names, one tree, sane masses, references that exist.
+//! Validity of a robot: unique names, one tree, possible inertias, references that resolve.
 
 mod inertia;
 mod references;
@@ -9,7 +9,7 @@ use periplus_xml::Element;
 
 use crate::robot::Robot;
 
-/// Checks a robot; `root` is the element it was read from.
+/// Checks a robot. `root` is the element that it was read from.
 pub(crate) fn check(robot: &Robot, root: &Element, diagnostics: &mut Diagnostics) {
     structure::unique_names(robot, diagnostics);
     structure::one_tree(robot, root, diagnostics);

@@ -1,14 +1,14 @@
-//! Robot to scene, as Gazebo means it.
+//! Conversion of a robot to a scene, with Gazebo's rules.
 //!
-//! The way is Gazebo's own: the robot becomes a `<model>` of SDF (libsdformat 14,
-//! parser_urdf.cc), and the reader of SDF makes a scene of it. So settings in `<gazebo>` blocks,
-//! which are SDF, are read, defaulted and checked as in any other file; every element keeps the
-//! place in the URDF that it came from. What SDF cannot say is added afterwards.
+//! The conversion takes Gazebo's own steps: the robot becomes a `<model>` of SDF (libsdformat 14,
+//! parser_urdf.cc), which the SDF reader turns into a scene. Settings in `<gazebo>` blocks, which are SDF,
+//! are therefore read, defaulted and checked as in any other file, and every element keeps its location in
+//! the URDF. Data that SDF cannot express is added afterwards.
 //!
-//! Where this is kinder than libsdformat: merged links keep their own `<gazebo>` settings for
-//! their own shapes whatever their names are (there, names decide); links without mass stay as
-//! frames; `floating` and `planar` joints are kept; textures are kept; plugins are left word for
-//! word, for the links they name are still there, as frames.
+//! Differences from libsdformat: merged links keep their own `<gazebo>` settings for their own shapes,
+//! whatever their names (there, names decide); links without mass stay as frames; `floating` and `planar`
+//! joints are kept; textures are kept; plugins are copied verbatim, as the links that they name still exist
+//! as frames.
 
 mod element;
 mod extension;
@@ -20,7 +20,7 @@ mod names;
 mod parts;
 mod settings;
 mod shape;
-mod situation;
+mod state;
 
 pub(crate) use link::LUMP;
 use periplus_diagnostics::Diagnostics;
@@ -30,20 +30,20 @@ use periplus_xml::{Document, Element};
 
 use crate::robot::Robot;
 pub(crate) use settings::BUILTIN_MATERIALS;
-use situation::Situation;
+use state::ConversionState;
 
-/// How a robot becomes a model.
+/// Options of the conversion from robot to model.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Options {
     /// Merge no link into its parent, as libsdformat's `URDFPreserveFixedJoint`.
     pub preserve_fixed_joints: bool,
 }
 
-/// The model that Gazebo would make of a robot, with every link and joint that is merged kept as
-/// a frame. Its poses are resolved; its mesh URIs stand as written.
+/// Returns the model that Gazebo would make of a robot, with every merged link and joint kept as a frame.
+/// Its poses are resolved; its mesh URIs are as written.
 #[must_use]
 pub fn to_model(robot: &Robot, options: Options, context: &mut Context<'_>) -> Model {
-    let situation = Situation::new(robot, options);
+    let situation = ConversionState::new(robot, options);
     let element = situation.model_element(context.diagnostics);
     let sdf = Element::new("sdf").with_attribute("version", VERSION).with_child(element);
     let document = Document { before: Vec::new(), root: sdf, after: Vec::new() };
@@ -62,15 +62,15 @@ pub fn to_model(robot: &Robot, options: Options, context: &mut Context<'_>) -> M
     model
 }
 
-/// The `<model>` that [`to_model`] reads, for who wants SDF without a scene. Its poses are
-/// relative to the model, quaternions where they turn.
+/// Returns the `<model>` that [`to_model`] reads, for callers that need SDF but no scene. Poses are
+/// relative to the model, with quaternions for rotations.
 #[must_use]
 pub fn to_sdf(robot: &Robot, options: Options, diagnostics: &mut Diagnostics) -> Element {
-    let model = Situation::new(robot, options).model_element(diagnostics);
+    let model = ConversionState::new(robot, options).model_element(diagnostics);
     Element::new("sdf").with_attribute("version", VERSION).with_child(model)
 }
 
-/// What is written here needs nothing newer, and libsdformat 12 reads it.
+/// Nothing written here needs a newer version, and libsdformat 12 reads this one.
 const VERSION: &str = "1.9";
 
 #[cfg(test)]

@@ -1,9 +1,9 @@
-//! Scene to robot, for who needs a URDF of an SDF model.
+//! Export of a scene's model as URDF.
 //!
-//! URDF says less than SDF: its joints make one tree, a link's frame is that of the joint above
-//! it, shapes are few, and Gazebo's settings speak about all shapes of a link at once. What fits
-//! goes into the robot, the rest of SDF into `<gazebo>` blocks, and what fits nowhere into the
-//! diagnostics. Links that were merged get their shapes back.
+//! URDF is less expressive than SDF: its joints form one tree, a link's frame is that of the joint above
+//! it, it has few shapes, and Gazebo's settings apply to all shapes of a link at once. Data that URDF can
+//! express goes into the robot, other SDF into `<gazebo>` blocks, and the rest is reported as lost. Merged
+//! links get their shapes back.
 
 mod joint;
 mod link;
@@ -19,9 +19,9 @@ use periplus_xml::{Element, Node};
 
 use crate::robot::{GazeboBlock, Placement, Robot};
 
-/// A robot that [`crate::to_model`] would turn into this model again, as far as URDF can say it.
-/// None, with errors that say why, if the model is no tree of links on joints that URDF has; an
-/// error also marks what is lost.
+/// Returns a robot that [`crate::to_model`] converts back to this model as far as URDF allows. Returns
+/// `None`, with errors, if the model is no tree of links with joints that URDF has. Errors also mark data
+/// that is lost.
 #[must_use]
 pub fn from_model(model: &Model, diagnostics: &mut Diagnostics) -> Option<Robot> {
     let tree = tf_tree(model);
@@ -30,7 +30,7 @@ pub fn from_model(model: &Model, diagnostics: &mut Diagnostics) -> Option<Robot>
     }
     let model = normal::joints_at_links(model, diagnostics);
     let scene = Scene { models: vec![model.clone()], ..Scene::default() };
-    // What SDF cannot say, URDF can.
+    // URDF can express these, SDF cannot.
     let document = periplus_sdf::write(&scene, &mut Diagnostics::new());
     let mut written =
         document.root.child("model").cloned().unwrap_or_else(|| Element::new("model"));
@@ -41,7 +41,7 @@ pub fn from_model(model: &Model, diagnostics: &mut Diagnostics) -> Option<Robot>
     Some(export.robot(diagnostics))
 }
 
-/// Takes out attributes that only Periplus reads, for their prefix means nothing in a URDF.
+/// Removes attributes that only Periplus reads, as their prefix is undeclared in a URDF.
 fn plain(element: &mut Element) {
     element.attributes.retain(|attribute| !attribute.name.starts_with("periplus:"));
     for child in &mut element.children {
@@ -51,12 +51,12 @@ fn plain(element: &mut Element) {
     }
 }
 
-/// A model that fits, as a scene, as SDF, and as a tree.
+/// Model that can be exported, as a scene, as SDF and as a tree.
 struct Export<'a> {
     model: &'a Model,
     written: &'a Element,
     tree: &'a [TfEdge],
-    /// The name of the joint above each link and frame.
+    /// Name of the joint above each link and frame.
     joint_above: BTreeMap<&'a str, String>,
 }
 
@@ -89,14 +89,14 @@ impl Export<'_> {
         robot
     }
 
-    /// The link that hangs on nothing.
+    /// Link without a parent.
     fn root(&self) -> Option<&str> {
         let hung: BTreeSet<&str> = self.tree.iter().map(|edge| &*edge.child).collect();
         let links = self.model.links.iter().map(|link| &*link.name);
         links.into_iter().find(|link| !hung.contains(link))
     }
 
-    /// What SDF says about the model and its plugins.
+    /// Adds the settings of the model and its plugins.
     fn settings_of_model(&self, robot: &mut Robot) {
         let mut content = Vec::new();
         for part in self.written.elements() {
@@ -104,7 +104,7 @@ impl Export<'_> {
                 "pose" | "link" | "joint" | "frame" => {}
                 "transmission" => robot.transmissions.push(part.clone()),
                 "ros2_control" => robot.ros2_controls.push(part.clone()),
-                // A model of SDF has no sensors, so this is the format's own.
+                // SDF models have no sensors, so this is URDF's own `<sensor>`.
                 "sensor" => robot.sensors.push(part.clone()),
                 "mujoco" | "isaac_sim" => robot.extra.elements.push(part.clone()),
                 _ => content.push(part.clone()),
@@ -122,7 +122,7 @@ fn push_block(robot: &mut Robot, reference: Option<&str>, content: Vec<Element>)
     }
 }
 
-/// What URDF cannot say is lost.
+/// Error about data that URDF cannot express.
 fn lost(what: String) -> Diagnostic {
     Diagnostic::error("not-in-urdf", what).label("lost")
 }

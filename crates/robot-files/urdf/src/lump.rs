@@ -1,8 +1,8 @@
-//! Which links become bodies of a simulation, and which are merged into one above them.
+//! Lumping of fixed joints: links with their own body and links merged into a parent.
 //!
-//! Gazebo merges a link that hangs on a fixed joint into its parent, so that solvers see one body
-//! where the file says "screwed on". It cannot simulate a body without mass, and leaves it out
-//! with everything below it (libsdformat, parser_urdf.cc, `ReduceFixedJoints` and `CreateSDF`).
+//! Gazebo merges a link on a fixed joint into its parent, so that solvers see one body. It cannot simulate
+//! a body without mass, and drops it with everything below it (libsdformat, parser_urdf.cc,
+//! `ReduceFixedJoints` and `CreateSDF`).
 
 mod combine;
 mod matrix;
@@ -15,40 +15,39 @@ use crate::robot::{JointType, Robot};
 use crate::tree::Tree;
 pub(crate) use combine::combine;
 
-/// The name of the link that stands for the world, when it is the root.
+/// Name of the link that represents the world, if it is the root.
 pub(crate) const WORLD: &str = "world";
 
-/// What becomes of a link.
+/// Result of lumping for a link.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) enum Fate {
-    /// It carries a body of its own.
+pub(crate) enum LumpOutcome {
+    /// Carries its own body.
     Body,
-    /// It is part of the body that `head` carries.
+    /// Part of the body that `head` carries.
     Merged {
         /// The link that carries the body.
         head: usize,
-        /// Its frame in the head's.
+        /// Link frame in the head's frame.
         head_from_link: Pose,
     },
-    /// It stands for the world.
+    /// Represents the world.
     World,
-    /// It has no mass, or what holds it has none, and a joint that moves is in between.
+    /// Dropped: it or its parent body has no mass, and a movable joint prevents merging.
     Lost,
 }
 
-/// What becomes of all links of a tree.
+/// Lumping result for all links of a tree.
 #[derive(Clone, Debug)]
-pub(crate) struct Plan {
+pub(crate) struct LumpPlan {
     /// All links below the root, parents first, children by name of their joint.
     pub(crate) order: Vec<usize>,
     /// Per link.
-    pub(crate) fate: Vec<Fate>,
-    /// Per link: its frame in the model's, all joints at zero.
+    pub(crate) outcome: Vec<LumpOutcome>,
+    /// Per link: its frame in the model frame, all joints at zero.
     pub(crate) model_from_link: Vec<Pose>,
-    /// Links without mass on a fixed joint that the file wants kept, and that is merged all the
-    /// same.
-    pub(crate) kept_in_vain: Vec<usize>,
-    /// Links without mass that are the first lost of their branch.
+    /// Links without mass on a fixed joint that the file wants kept, but that must be merged.
+    pub(crate) unpreserved: Vec<usize>,
+    /// Links without mass at the top of a dropped branch.
     pub(crate) massless: Vec<usize>,
 }
 
@@ -57,7 +56,7 @@ pub(crate) struct Plan {
 pub(crate) struct Preserved<'a> {
     /// `preserveFixedJoint`: they stay fixed.
     pub(crate) fixed: BTreeSet<&'a str>,
-    /// `disableFixedJointLumping`: they become hinges that cannot turn.
+    /// `disableFixedJointLumping`: they become revolute joints with zero range.
     pub(crate) hinge: BTreeSet<&'a str>,
     /// None is merged.
     pub(crate) all: bool,
@@ -69,14 +68,14 @@ impl Preserved<'_> {
     }
 }
 
-impl Plan {
-    /// The plan of a robot without links.
+impl LumpPlan {
+    /// LumpPlan of a robot without links.
     pub(crate) fn nothing(robot: &Robot) -> Self {
         Self {
             order: Vec::new(),
-            fate: vec![Fate::Lost; robot.links.len()],
+            outcome: vec![LumpOutcome::Lost; robot.links.len()],
             model_from_link: vec![Pose::IDENTITY; robot.links.len()],
-            kept_in_vain: Vec::new(),
+            unpreserved: Vec::new(),
             massless: Vec::new(),
         }
     }
@@ -91,7 +90,7 @@ impl Plan {
         let order = tree.below(root);
         let count = robot.links.len();
         let mut model_from_link = vec![Pose::IDENTITY; count];
-        // First as if mass did not matter: the head of each link, and the way to it.
+        // First without regard to mass: the head of each link, and its frame in the head.
         let mut head: Vec<usize> = (0..count).collect();
         let mut head_from_link = vec![Pose::IDENTITY; count];
         let mut mass_kg = vec![0.0; count];
@@ -112,16 +111,16 @@ impl Plan {
             }
         }
         let mut plan = Self {
-            fate: vec![Fate::Lost; count],
+            outcome: vec![LumpOutcome::Lost; count],
             model_from_link,
-            kept_in_vain: Vec::new(),
+            unpreserved: Vec::new(),
             massless: Vec::new(),
             order,
         };
         for place in 0..plan.order.len() {
             let link = plan.order[place];
-            plan.fate[link] = if world(link) {
-                Fate::World
+            plan.outcome[link] = if world(link) {
+                LumpOutcome::World
             } else if head[link] != link {
                 plan.on(head[link], head_from_link[link])
             } else {
@@ -132,47 +131,52 @@ impl Plan {
         plan
     }
 
-    /// The fate of a link that is screwed to `link`, which has been decided already.
-    fn on(&self, link: usize, link_from_other: Pose) -> Fate {
-        match self.fate[link] {
-            Fate::Body => Fate::Merged { head: link, head_from_link: link_from_other },
-            Fate::Merged { head, head_from_link } => {
-                Fate::Merged { head, head_from_link: head_from_link * link_from_other }
+    /// Outcome for a link fixed to `link`, whose outcome is known.
+    fn on(&self, link: usize, link_from_other: Pose) -> LumpOutcome {
+        match self.outcome[link] {
+            LumpOutcome::Body => {
+                LumpOutcome::Merged { head: link, head_from_link: link_from_other }
             }
-            Fate::World | Fate::Lost => Fate::Lost,
+            LumpOutcome::Merged { head, head_from_link } => {
+                LumpOutcome::Merged { head, head_from_link: head_from_link * link_from_other }
+            }
+            LumpOutcome::World | LumpOutcome::Lost => LumpOutcome::Lost,
         }
     }
 
-    /// The fate of a link that would carry a body.
-    fn of_head(&mut self, robot: &Robot, tree: &Tree<'_>, link: usize, heavy: bool) -> Fate {
-        let above = tree.parent[link].map(|parent| self.fate[parent]);
-        if above == Some(Fate::Lost) {
-            return Fate::Lost;
+    /// Outcome for a link that would carry a body.
+    fn of_head(&mut self, robot: &Robot, tree: &Tree<'_>, link: usize, heavy: bool) -> LumpOutcome {
+        let above = tree.parent[link].map(|parent| self.outcome[parent]);
+        if above == Some(LumpOutcome::Lost) {
+            return LumpOutcome::Lost;
         }
         if heavy {
-            return Fate::Body;
+            return LumpOutcome::Body;
         }
         let joint = tree.joint_above[link].map(|joint| &robot.joints[joint]);
         if let (Some(parent), Some(joint)) = (tree.parent[link], joint)
             && joint.kind == JointType::Fixed
-            && let merged @ Fate::Merged { .. } = self.on(parent, joint.parent_from_joint.pose())
+            && let merged @ LumpOutcome::Merged { .. } =
+                self.on(parent, joint.parent_from_joint.pose())
         {
-            self.kept_in_vain.push(link);
+            self.unpreserved.push(link);
             return merged;
         }
         self.massless.push(link);
-        Fate::Lost
+        LumpOutcome::Lost
     }
 
-    /// The links of the body that `head` carries, itself first, each with its frame in the head's.
-    /// Bodies are small and there may be many, so all are gathered at once.
+    /// Links of the body that `head` carries, itself first, each with its frame in the head's. Computed for
+    /// all bodies at once, as bodies are small and may be many.
     pub(crate) fn members(&self) -> Vec<Vec<(usize, Pose)>> {
-        let mut members = vec![Vec::new(); self.fate.len()];
+        let mut members = vec![Vec::new(); self.outcome.len()];
         for &link in &self.order {
-            match self.fate[link] {
-                Fate::Body => members[link].push((link, Pose::IDENTITY)),
-                Fate::Merged { head, head_from_link } => members[head].push((link, head_from_link)),
-                Fate::World | Fate::Lost => {}
+            match self.outcome[link] {
+                LumpOutcome::Body => members[link].push((link, Pose::IDENTITY)),
+                LumpOutcome::Merged { head, head_from_link } => {
+                    members[head].push((link, head_from_link))
+                }
+                LumpOutcome::World | LumpOutcome::Lost => {}
             }
         }
         members

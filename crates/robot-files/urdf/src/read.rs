@@ -1,4 +1,4 @@
-//! Document to robot.
+//! Reader: document to robot.
 
 mod fields;
 mod joint;
@@ -14,7 +14,7 @@ use periplus_xml::{Document, Element};
 use crate::robot::{GazeboBlock, Placement, Robot, Rotation};
 use fields::{extra, only_child, required_name, vector};
 
-/// Children of `<robot>` that may come any number of times.
+/// Children of `<robot>` that may be repeated.
 const MANY: [&str; 9] = [
     "link",
     "joint",
@@ -23,13 +23,13 @@ const MANY: [&str; 9] = [
     "transmission",
     "ros2_control",
     "sensor",
-    // Settings of other simulators, for their readers.
+    // Settings of other simulators, for their own readers.
     "mujoco",
     "isaac_sim",
 ];
 
-/// Reads a URDF and checks it as `check_urdf` does, and more: names, the tree, limits, masses.
-/// None when the root is no `<robot>`; after other errors the robot holds what could be read.
+/// Reads a URDF and checks it as `check_urdf` does, and more: names, the tree, limits, masses. Returns
+/// `None` if the root is no `<robot>`; after other errors the robot holds everything that could be read.
 #[must_use]
 pub fn read(document: &Document, diagnostics: &mut Diagnostics) -> Option<Robot> {
     let root = &document.root;
@@ -160,9 +160,9 @@ fn placement(element: &Element, diagnostics: &mut Diagnostics) -> Placement {
     }
 }
 
-/// Angles beyond a whole turn are nearly always degrees.
+/// Angles beyond a full turn are nearly always degrees.
 fn check_radians(element: &Element, rpy: [f64; 3], diagnostics: &mut Diagnostics) {
-    // A little more than 2 pi, for those who round it.
+    // Slightly more than 2 pi, to allow for rounding.
     const MAX_ANGLE_RAD: f64 = 6.3;
     if rpy.iter().all(|angle| angle.abs() <= MAX_ANGLE_RAD) {
         return;
@@ -182,7 +182,7 @@ fn check_radians(element: &Element, rpy: [f64; 3], diagnostics: &mut Diagnostics
     );
 }
 
-/// Reads the `<origin>` of an element, or takes none for no shift.
+/// Reads the `<origin>` of an element; the identity if it has none.
 fn origin_of(element: &Element, diagnostics: &mut Diagnostics) -> Placement {
     only_child(element, "origin", diagnostics)
         .map(|origin| placement(origin, diagnostics))

@@ -20,33 +20,33 @@ pub use placement::{Placement, Rotation};
 
 /// A whole URDF file.
 ///
-/// What the ROS format and Gazebo define is typed; everything else is kept word for word, so that
-/// [`crate::write`] loses only comments and the order of elements of different kinds.
+/// The content defined by ROS and Gazebo is typed; the rest is kept verbatim, so [`crate::write`] loses
+/// only comments and the relative order of elements of different kinds.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Robot {
     /// Its name.
     pub name: String,
-    /// The format's version as written; `1.0` where the file says nothing.
+    /// Format version as written; `None` means `1.0`.
     pub version: Option<String>,
-    /// Where Gazebo places it: the `<origin>` directly in the robot, which ROS does not know.
+    /// Initial pose in Gazebo: the `<origin>` directly in the robot, which ROS does not define.
     pub origin_in_world: Option<Placement>,
-    /// Links, in order of writing.
+    /// Links, in file order.
     pub links: Vec<Link>,
-    /// Joints, in order of writing.
+    /// Joints, in file order.
     pub joints: Vec<Joint>,
     /// Materials that visuals may name.
     pub materials: Vec<Material>,
     /// `<gazebo>` blocks.
     pub gazebo: Vec<GazeboBlock>,
-    /// `<transmission>` blocks, word for word.
+    /// `<transmission>` blocks, verbatim.
     pub transmissions: Vec<Element>,
-    /// `<ros2_control>` blocks, word for word.
+    /// `<ros2_control>` blocks, verbatim.
     pub ros2_controls: Vec<Element>,
-    /// `<sensor>` blocks of the format itself, which no simulator reads, word for word.
+    /// `<sensor>` blocks of URDF itself, which no simulator reads, verbatim.
     pub sensors: Vec<Element>,
-    /// What nobody here interprets.
+    /// Uninterpreted attributes and elements, kept verbatim.
     pub extra: Extra,
-    /// Where it was read.
+    /// Source location.
     pub origin: Origin,
 }
 
@@ -63,8 +63,8 @@ impl Robot {
         self.joints.iter().find(|joint| joint.name == name)
     }
 
-    /// The definition of a material: the one among the robot's materials, or else the first
-    /// visual that defines it in place (as ROS resolves names).
+    /// Definition of a material: the one among the robot's materials, or else the first visual that defines
+    /// it in place (ROS's rule of resolution).
     #[must_use]
     pub fn material(&self, name: &str) -> Option<&Material> {
         let in_place = || {

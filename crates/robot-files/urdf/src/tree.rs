@@ -1,12 +1,12 @@
-//! Who hangs on whom.
+//! Tree of links and joints.
 
 use std::collections::BTreeMap;
 
 use crate::robot::{Joint, Robot};
 
-/// The links of a robot as a tree over indices into [`Robot::links`] and [`Robot::joints`]. Where
-/// the file says something impossible (two parents, a cycle), the tree holds the first thing said
-/// and leaves the rest out; [`crate::read`] has reported it.
+/// Links of a robot as a tree over indices into [`Robot::links`] and [`Robot::joints`]. If the file is
+/// inconsistent (two parents, a cycle), the tree keeps the first definition and drops the others;
+/// [`crate::read`] has reported them.
 #[derive(Clone, Debug)]
 pub(crate) struct Tree<'a> {
     /// The first link of each name.
@@ -15,12 +15,12 @@ pub(crate) struct Tree<'a> {
     pub(crate) joint_above: Vec<Option<usize>>,
     /// The parent of each link.
     pub(crate) parent: Vec<Option<usize>>,
-    /// The joints below each link, sorted by name: liburdfdom keeps them in a map, and so Gazebo
-    /// lumps and numbers in this order.
+    /// Joints below each link, sorted by name: liburdfdom keeps them in a map, and Gazebo lumps and numbers
+    /// in this order.
     pub(crate) joints_below: Vec<Vec<usize>>,
     /// The child link of each joint that is in the tree.
     pub(crate) child: Vec<Option<usize>>,
-    /// Links without parent, in order of writing.
+    /// Links without parent, in file order.
     pub(crate) roots: Vec<usize>,
 }
 

@@ -1,4 +1,4 @@
-//! Robot to document.
+//! Writer: robot to document.
 
 use periplus_geometry::format_number;
 use periplus_xml::{Document, Element, Node};
@@ -52,7 +52,7 @@ fn place(placement: &Placement) -> Element {
     with_extra(element, &placement.extra)
 }
 
-/// Adds an `<origin>` unless it says nothing.
+/// Adds an `<origin>` unless it is the identity.
 fn with_place(element: Element, placement: &Placement) -> Element {
     if *placement == Placement::default() { element } else { element.with_child(place(placement)) }
 }

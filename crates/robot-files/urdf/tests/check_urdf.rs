@@ -11,7 +11,7 @@ use periplus_geometry::Pose;
 use periplus_urdf::{Geometry, Robot};
 use serde_json::Value;
 
-/// Where this reader is stricter than liburdfdom. The file is read all the same.
+/// Cases in which this reader is stricter than liburdfdom. The file is read nevertheless.
 const STRICTER: [&str; 6] = [
     // The library reads `${...}` in names and texts as if it were meant.
     "unexpanded-xacro",
@@ -21,7 +21,7 @@ const STRICTER: [&str; 6] = [
     // It accepts negative masses and sizes.
     "negative-mass",
     "bad-size",
-    // It lets a link hang on two joints, and shows it twice.
+    // It accepts a link with two parent joints and shows it twice.
     "two-parents",
 ];
 
@@ -68,7 +68,7 @@ fn the_trees_of_liburdfdom() {
     assert!(faults.is_empty(), "{}", faults.join("\n"));
 }
 
-/// The robot, the codes of its errors, and whether anything was said of shapes.
+/// Robot, codes of its errors, and true if any finding was about shapes.
 fn load(file: &str, bytes: &[u8]) -> (Option<Robot>, Vec<&'static str>, bool) {
     let mut sources = SourceMap::new();
     let mut diagnostics = Diagnostics::new();

@@ -71,7 +71,7 @@ fn real_files_keep_their_tree() {
                 .collect();
             let extra: Vec<_> = tree.difference(&expected).collect();
             let missing: Vec<_> = expected.difference(&tree).collect();
-            // Blocks of SDF in the file may bring links and joints of their own.
+            // Blocks of SDF in the file may add links and joints.
             let brings = robot.gazebo.iter().flat_map(|block| &block.content);
             if brings.clone().all(|part| part.name != "link" && part.name != "joint") {
                 assert!(extra.is_empty(), "{file}: {extra:?}");
@@ -114,7 +114,7 @@ fn sdf_and_back(file: &str, model: &Model, faults: &mut Vec<String>) {
     }
 }
 
-/// Written as URDF and read again, a model is the same but for rounding, or somebody says why not.
+/// Written as URDF and read again, a model is the same but for rounding, or a diagnostic gives the reason.
 fn urdf_and_back(file: &str, model: &Model, faults: &mut Vec<String>) {
     let mut diagnostics = Diagnostics::new();
     let Some(robot) = from_model(model, &mut diagnostics) else {
@@ -153,7 +153,7 @@ fn json(model: &Model) -> Value {
     serde_json::to_value(model).unwrap()
 }
 
-/// The first place where two values differ by more than rounding.
+/// First position at which two values differ by more than rounding.
 fn difference(a: &Value, b: &Value, tolerance: f64, place: &str) -> Option<String> {
     let differ = || Some(format!("{place}: {a} is {b}"));
     match (a, b) {

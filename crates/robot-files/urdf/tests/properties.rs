@@ -1,4 +1,4 @@
-//! What holds for every robot.
+//! Properties of every robot.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -134,7 +134,7 @@ fn settings() -> impl Strategy<Value = Element> {
 }
 
 prop_compose! {
-    /// A tree: each link hangs on one before it.
+    /// A tree: the parent of each link is one before it.
     fn robots()(
         links in prop::collection::vec((links(), joints(), any::<prop::sample::Index>()), 1..9),
         blocks in prop::collection::vec((settings(), any::<prop::sample::Index>()), 0..6),
@@ -198,7 +198,7 @@ fn model_from_links(robot: &Robot) -> BTreeMap<&str, Pose> {
     for link in &robot.links {
         let above = robot.joints.iter().find(|joint| joint.child == link.name);
         let pose = match above {
-            // Each link hangs on one before it.
+            // The parent of each link is one before it.
             Some(joint) => poses[&*joint.parent] * joint.parent_from_joint.pose(),
             None => Pose::IDENTITY,
         };
@@ -274,7 +274,7 @@ proptest! {
         let mut moment = DVec3::ZERO;
         let mut balls = 0;
         for link in robot.links.iter().filter(carried) {
-            // What hangs on a joint that moves and has no mass is not part of its carrier.
+            // Links on a movable joint and without mass are not part of its carrier.
             balls += link.collisions.len();
             if let Some(inertial) = &link.inertial {
                 let centre = inertial.link_from_inertial.pose().translation;
@@ -308,7 +308,7 @@ proptest! {
         let (model, _) = model_of(&robot);
         let mut diagnostics = Diagnostics::new();
         let Some(again) = from_model(&model, &mut diagnostics) else {
-            // Only what stands without any mass cannot come back.
+            // Only branches without any mass cannot come back.
             prop_assert!(model.links.is_empty(), "{diagnostics:?}");
             return Ok(());
         };

@@ -1,4 +1,4 @@
-//! Joints that move about the default axis because none is written.
+//! Joints without `<axis>`, which turn about the default axis x.
 
 use periplus_diagnostics::{Diagnostic, Diagnostics};
 use periplus_geometry::DVec3;
@@ -26,7 +26,9 @@ pub(super) fn check(robot: &Robot, diagnostics: &mut Diagnostics) {
         }
         let warning = Diagnostic::warning(
             "missing-axis",
-            format!("the joint `{name}` has no `axis`, so it {moved} x of its own frame"),
+            format!(
+                "the joint `{name}` has no `axis`, so it {moved} the x axis of the joint frame"
+            ),
         )
         .at(joint.origin);
         diagnostics.push(match cylinder {

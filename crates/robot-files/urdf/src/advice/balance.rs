@@ -1,5 +1,4 @@
-//! Static stability: a robot that stands on its wheels alone must have its centre of mass above
-//! the area between them.
+//! Static stability: the centre of mass must be above the support area of the wheels and other contacts.
 
 use std::collections::BTreeSet;
 
@@ -10,16 +9,16 @@ use crate::lump::WORLD;
 use crate::robot::{Collision, Geometry, JointType, Robot};
 use crate::tree::Tree;
 
-/// Height above the lowest point up to which a point counts as one that carries the robot [m].
+/// Height above the lowest point up to which a point counts as a contact [m].
 const CONTACT_BAND_M: f64 = 0.02;
 
-/// Distance from the edge of the support area that the centre of mass must keep [m].
+/// Minimum distance of the centre of mass from the edge of the support area [m].
 const MARGIN_M: f64 = 0.001;
 
 /// Points on the rim of an upright cylinder.
 const RIM_POINTS: u8 = 8;
 
-/// A point that may touch the floor, and the link that it is on.
+/// Point that may touch the floor, with its link.
 struct Contact {
     link: usize,
     model_from_point_m: DVec3,
@@ -71,7 +70,7 @@ pub(super) fn check(robot: &Robot, diagnostics: &mut Diagnostics) {
     );
 }
 
-/// Millimetres are enough for a message.
+/// Rounds to millimetres, enough for a message.
 fn rounded(length_m: f64) -> String {
     format_number((length_m * 1000.0).round() / 1000.0 + 0.0)
 }
@@ -87,7 +86,7 @@ fn poses(robot: &Robot, tree: &Tree<'_>, order: &[usize]) -> Vec<Pose> {
     poses
 }
 
-/// The lowest points of the robot; none when a shape is not known here, such as a mesh.
+/// Lowest points of the robot; `None` if the extent of a shape is not known, such as that of a mesh.
 fn contacts(robot: &Robot, order: &[usize], poses: &[Pose]) -> Option<Vec<Contact>> {
     let mut points = Vec::new();
     for &link in order {
@@ -103,7 +102,7 @@ fn contacts(robot: &Robot, order: &[usize], poses: &[Pose]) -> Option<Vec<Contac
     Some(points)
 }
 
-/// Points of a shape among which its lowest ones are.
+/// Points of a shape that include its lowest ones.
 fn low_points(collision: &Collision, model_from_link: Pose) -> Option<Vec<DVec3>> {
     let pose = model_from_link * collision.link_from_collision.pose();
     let axis = pose.rotation * DVec3::Z;
@@ -158,8 +157,8 @@ fn centre_of_mass(robot: &Robot, order: &[usize], poses: &[Pose]) -> Option<DVec
     (mass_kg > 0.0).then(|| moment / mass_kg)
 }
 
-/// The distance of a point from the edge of the convex hull of others; negative outside, and for a
-/// hull without area.
+/// Distance of a point from the edge of the convex hull of others; negative outside, and if the hull has no
+/// area.
 fn distance_inside(points: &[[f64; 2]], point: [f64; 2]) -> f64 {
     let hull = convex_hull(points);
     if hull.len() < 3 {

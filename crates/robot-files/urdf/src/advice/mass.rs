@@ -1,4 +1,4 @@
-//! A mass and an inertia that fit the size of a link.
+//! Estimate of a link's mass and inertia from its size.
 
 use periplus_geometry::format_number;
 
@@ -8,10 +8,10 @@ use crate::robot::{Geometry, Link};
 /// Husky, Jackal) weigh 200 to 500 kg for each cubic metre of their bounding box.
 const DENSITY_KG_PER_M3: f64 = 300.0;
 
-/// Smallest mass that is advised [kg].
+/// Minimum mass that is suggested [kg].
 const MIN_MASS_KG: f64 = 0.01;
 
-/// An `<inertial>` for a link, from its largest simple shape.
+/// Suggested `<inertial>` of a link, from its largest simple shape.
 pub(crate) fn advised(link: &Link) -> String {
     let collisions = link.collisions.iter().map(|one| (&one.geometry, &one.link_from_collision));
     let visuals = link.visuals.iter().map(|one| (&one.geometry, &one.link_from_visual));
@@ -50,7 +50,7 @@ pub(crate) fn advised(link: &Link) -> String {
     )
 }
 
-/// The `<origin>` of the shape, for the centre of mass is its middle.
+/// `<origin>` of the shape, as the centre of mass is its middle.
 fn origin_text(placement: &crate::robot::Placement) -> String {
     let pose = placement.pose();
     if pose == periplus_geometry::Pose::IDENTITY {
@@ -63,7 +63,7 @@ fn origin_text(placement: &crate::robot::Placement) -> String {
     format!("<origin xyz=\"{xyz}\" rpy=\"{}\"/>", text(rpy))
 }
 
-/// Sizes along the shape's own axes; none for meshes and empty shapes.
+/// Extent along the shape's own axes; `None` for meshes and empty shapes.
 fn extent_m(geometry: &Geometry) -> Option<[f64; 3]> {
     let extent = match *geometry {
         Geometry::Box { size_m } => size_m,
@@ -81,7 +81,7 @@ fn volume_m3([x, y, z]: [f64; 3]) -> f64 {
     x * y * z
 }
 
-/// The value in two significant digits: an estimate should not look exact.
+/// Rounds to two significant digits: an estimate should not look exact.
 fn two_digits(value: f64) -> f64 {
     format!("{value:.1e}").parse().unwrap_or(value)
 }

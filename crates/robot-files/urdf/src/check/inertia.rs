@@ -1,11 +1,11 @@
-//! Masses and inertias that a rigid body can have.
+//! Physical validity of masses and inertias.
 
 use periplus_diagnostics::{Diagnostic, Diagnostics};
 
 use crate::robot::{Inertial, Robot};
 
-/// Error of a rounded inertia that is still forgiven, as a share of its trace.
-const TOLERANCE: f64 = 1e-6;
+/// Tolerance for rounded inertias, as a fraction of the trace.
+const TOLERANCE_RATIO: f64 = 1e-6;
 
 pub(super) fn check(robot: &Robot, diagnostics: &mut Diagnostics) {
     for link in &robot.links {
@@ -28,7 +28,7 @@ pub(super) fn check(robot: &Robot, diagnostics: &mut Diagnostics) {
             diagnostics.push(
                 Diagnostic::warning(
                     "impossible-inertia",
-                    format!("no rigid body has the inertia of the link `{name}`: {fault}"),
+                    format!("the inertia of the link `{name}` is impossible: {fault}"),
                 )
                 .at(inertial.origin)
                 .note(
@@ -45,12 +45,12 @@ pub(super) fn check(robot: &Robot, diagnostics: &mut Diagnostics) {
     }
 }
 
-/// What is impossible about an inertia: it must be positive definite, and no principal moment may
-/// exceed the sum of the other two.
+/// Returns the fault of an inertia: it must be positive definite, and no principal moment may exceed the
+/// sum of the other two.
 fn fault(inertial: &Inertial) -> Option<&'static str> {
     let [xx, xy, xz, yy, yz, zz] = inertial.inertia_kg_m2;
     let moments = principal_moments([xx, xy, xz, yy, yz, zz]);
-    let slack = TOLERANCE * (xx.abs() + yy.abs() + zz.abs());
+    let slack = TOLERANCE_RATIO * (xx.abs() + yy.abs() + zz.abs());
     if moments == [0.0; 3] {
         return Some("all moments are zero");
     }

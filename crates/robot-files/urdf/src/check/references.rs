@@ -1,32 +1,32 @@
-//! Names of other things in the file.
+//! References between elements of the file.
 
 use std::collections::{BTreeMap, BTreeSet};
 
 use periplus_diagnostics::{Diagnostic, Diagnostics};
 
-use super::structure::MOST_SUGGESTIONS;
+use super::structure::MAX_COMPARED_NAMES;
 use crate::robot::{Material, Robot};
 
 /// A mimic must name another joint.
 pub(super) fn mimics(robot: &Robot, diagnostics: &mut Diagnostics) {
     let names: BTreeSet<&str> = robot.joints.iter().map(|joint| &*joint.name).collect();
-    let mut suggestions = MOST_SUGGESTIONS;
+    let mut suggestions = MAX_COMPARED_NAMES;
     for joint in &robot.joints {
         let Some(mimic) = &joint.mimic else { continue };
         if mimic.joint == joint.name {
             diagnostics.push(
                 Diagnostic::error("unknown-joint", format!("`{}` mimics itself", joint.name))
                     .at(mimic.origin)
-                    .help("name the joint that it follows"),
+                    .help("write the name of another joint"),
             );
         } else if !names.contains(&*mimic.joint) {
             diagnostics.push(
                 Diagnostic::warning(
                     "unknown-joint",
-                    format!("`{}` mimics `{}`, which is no joint", joint.name, mimic.joint),
+                    format!("`{}` mimics `{}`, which is not a joint", joint.name, mimic.joint),
                 )
                 .at(mimic.origin)
-                .note("ROS and Gazebo accept the robot; the joint moves by itself")
+                .note("ROS and Gazebo accept the robot; the joint moves independently")
                 .did_you_mean(
                     mimic.origin,
                     &mimic.joint,
@@ -64,13 +64,13 @@ pub(super) fn materials(robot: &Robot, diagnostics: &mut Diagnostics) {
                     format!("the material `{}` is defined in two ways", material.name),
                 )
                 .at(material.origin)
-                .label("not used: the first definition of a name holds")
+                .label("not used: the first definition of a name wins")
                 .related(first.origin, "the first definition")
-                .help("give the second one a name of its own"),
+                .help("give the second one a different name"),
             );
         }
     }
-    let mut suggestions = MOST_SUGGESTIONS;
+    let mut suggestions = MAX_COMPARED_NAMES;
     for material in in_place().filter(|material| !material.is_definition()) {
         if material.name.is_empty() || defined.contains_key(&*material.name) {
             continue;
@@ -97,7 +97,7 @@ pub(super) fn gazebo(robot: &Robot, diagnostics: &mut Diagnostics) {
     let links = robot.links.iter().map(|link| &*link.name);
     let names: BTreeSet<&str> =
         links.chain(robot.joints.iter().map(|joint| &*joint.name)).collect();
-    let mut suggestions = MOST_SUGGESTIONS;
+    let mut suggestions = MAX_COMPARED_NAMES;
     for block in &robot.gazebo {
         let Some(reference) = &block.reference else { continue };
         // Gazebo takes an empty reference for none.

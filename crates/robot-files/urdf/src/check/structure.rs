@@ -8,9 +8,9 @@ use periplus_xml::Element;
 use crate::robot::{Joint, Robot};
 use crate::tree::Tree;
 
-/// How many names are compared with misspelt ones, all together: a hostile file must not cost
+/// Maximum number of names compared with misspelt ones, all together: a hostile file must not cost
 /// quadratic time.
-pub(super) const MOST_SUGGESTIONS: usize = 100_000;
+pub(super) const MAX_COMPARED_NAMES: usize = 100_000;
 
 /// No two links and no two joints may share a name; a link and a joint may.
 pub(super) fn unique_names(robot: &Robot, diagnostics: &mut Diagnostics) {
@@ -36,7 +36,7 @@ fn unique<'a>(
                     .at(origin)
                     .label("left out")
                     .related(*first, "the first")
-                    .help(format!("give every {kind} a name of its own")),
+                    .help(format!("give every {kind} a unique name")),
             ),
             None => {
                 known.insert(name, origin);
@@ -48,7 +48,7 @@ fn unique<'a>(
 /// The joints must make one tree of the links.
 pub(super) fn one_tree(robot: &Robot, root: &Element, diagnostics: &mut Diagnostics) {
     if robot.links.is_empty() {
-        // A file whose links could not be read has been told so.
+        // The reader has reported links that could not be read.
         if root.child("link").is_none() {
             diagnostics.push(
                 Diagnostic::error("no-links", "the robot has no links")
@@ -60,7 +60,7 @@ pub(super) fn one_tree(robot: &Robot, root: &Element, diagnostics: &mut Diagnost
     }
     let tree = Tree::new(robot);
     let mut above: BTreeMap<&str, &Joint> = BTreeMap::new();
-    let mut suggestions = MOST_SUGGESTIONS;
+    let mut suggestions = MAX_COMPARED_NAMES;
     let mut complete = true;
     for (place, joint) in robot.joints.iter().enumerate() {
         let known = missing_ends(&tree, joint, &mut suggestions, diagnostics);
@@ -76,14 +76,14 @@ pub(super) fn one_tree(robot: &Robot, root: &Element, diagnostics: &mut Diagnost
     }
     if let [first, others @ ..] = &*tree.roots
         && !others.is_empty()
-        // A joint that holds nothing for a slip in its ends explains the second root.
+        // A joint that is missing because of a wrong `<parent>` or `<child>` explains the second root.
         && complete
     {
         diagnostics.push(two_roots(robot, *first, others));
     }
 }
 
-/// Whether both ends of a joint are links, with an error for each that is none.
+/// Reports an error for each end of a joint that is no link. Returns true if both are links.
 fn missing_ends(
     tree: &Tree<'_>,
     joint: &Joint,
@@ -100,13 +100,13 @@ fn missing_ends(
             continue;
         }
         known = false;
-        // An end that the file does not name has been reported.
+        // A missing name has been reported.
         if !name.is_empty() {
             let names = tree.index.keys().copied().take(*suggestions);
             *suggestions = suggestions.saturating_sub(tree.index.len());
             let error = Diagnostic::error(
                 "unknown-link",
-                format!("the {end} of the joint `{}` is no link: `{name}`", joint.name),
+                format!("the {end} of the joint `{}` is not a link: `{name}`", joint.name),
             )
             .at(origin)
             .did_you_mean(origin, name, names);
@@ -124,36 +124,38 @@ fn two_parents(joint: &Joint, first: &Joint) -> Diagnostic {
     Diagnostic::error(
         "two-parents",
         format!(
-            "the link `{}` hangs on two joints, `{}` and `{}`",
+            "the link `{}` is the child of two joints, `{}` and `{}`",
             joint.child, first.name, joint.name
         ),
     )
     .at(joint.child_origin)
     .label("left out")
-    .related(first.child_origin, "it hangs here already")
+    .related(first.child_origin, "it is a child here already")
     .note("a URDF is a tree; closed loops can be written in SDF")
-    .help("give the second joint a child link of its own, or remove it")
+    .help("give the second joint another child link, or remove it")
 }
 
 fn cycle(robot: &Robot, tree: &Tree<'_>, joint: &Joint) -> Diagnostic {
     let error = Diagnostic::error(
         "cycle",
         if joint.parent == joint.child {
-            format!("the joint `{}` holds the link `{}` to itself", joint.name, joint.child)
+            format!("the joint `{}` attaches the link `{}` to itself", joint.name, joint.child)
         } else {
             format!(
-                "the joint `{}` closes a circle: `{}` hangs on `{}` already",
+                "the joint `{}` closes a loop: `{}` is already below `{}`",
                 joint.name, joint.parent, joint.child
             )
         },
     )
     .at(joint.child_origin)
     .help("a URDF is a tree; remove one of the joints, or turn its parent and child around");
-    // The joint that hangs the parent somewhere below the child.
+    // Joint that attaches the parent somewhere below the child.
     let above = tree.index.get(&*joint.parent).and_then(|&link| tree.joint_above[link]);
     match above {
-        Some(above) => error
-            .related(robot.joints[above].child_origin, format!("`{}` hangs here", joint.parent)),
+        Some(above) => error.related(
+            robot.joints[above].child_origin,
+            format!("`{}` is attached here", joint.parent),
+        ),
         None => error,
     }
 }
@@ -166,13 +168,13 @@ fn two_roots(robot: &Robot, first: usize, others: &[usize]) -> Diagnostic {
     let mut error = Diagnostic::error(
         "two-roots",
         format!(
-            "the robot falls apart: `{}` and {}{more} hang on no joint",
+            "the links are not one tree: `{}` and {}{more} have no parent joint",
             name(first),
             list.join(", ")
         ),
     )
     .at(robot.links[others[0]].origin)
-    .label("nothing holds this link")
+    .label("no joint has this link as its child")
     .related(robot.links[first].origin, "the root");
     for &other in others.iter().skip(1).take(3) {
         error = error.related(robot.links[other].origin, "nor this one");

@@ -1,4 +1,4 @@
-//! Making elements of SDF that remember where they come from.
+//! SDF elements that keep their source location.
 
 use std::borrow::Cow;
 
@@ -24,7 +24,7 @@ pub(super) fn numbers(name: &str, numbers: &[f64], origin: Origin) -> Element {
     leaf(name, &text.join(" "), origin)
 }
 
-/// Adds a `<pose>`, exact to the last bit, unless it says nothing.
+/// Adds a `<pose>`, exact to the last bit, unless it is the identity.
 pub(super) fn push_pose(to: &mut Element, pose: Pose, origin: Origin) {
     if pose == Pose::IDENTITY {
         return;
@@ -39,7 +39,7 @@ pub(super) fn push_pose(to: &mut Element, pose: Pose, origin: Origin) {
     to.push(pose.with_attribute("rotation_format", "quat_xyzw"));
 }
 
-/// The child of a name, made if it is not there.
+/// Child of a name, created if it does not exist.
 pub(super) fn child_mut<'a>(parent: &'a mut Element, name: &str) -> &'a mut Element {
     let is_it = |node: &Node| matches!(node, Node::Element(child) if child.name == name);
     let place = match parent.children.iter().position(is_it) {
@@ -52,12 +52,12 @@ pub(super) fn child_mut<'a>(parent: &'a mut Element, name: &str) -> &'a mut Elem
     };
     match &mut parent.children[place] {
         Node::Element(child) => child,
-        // The place was found by this very test.
+        // The index was found by the same test.
         _ => unreachable!("the node at this place is an element"),
     }
 }
 
-/// Puts a child in the place of those of its name, and gives back the first of them.
+/// Replaces the children of the same name by this one and returns the first of them.
 pub(super) fn set(parent: &mut Element, child: Element) -> Option<Element> {
     let is_it = |node: &Node| matches!(node, Node::Element(other) if other.name == child.name);
     let first = parent.children.iter().position(is_it);
@@ -70,8 +70,8 @@ pub(super) fn set(parent: &mut Element, child: Element) -> Option<Element> {
     }
 }
 
-/// The value of one of Gazebo's settings, and where it stands: the attribute `value`, or else the
-/// text (libsdformat, `GetKeyValueAsString`).
+/// Value and location of one of Gazebo's settings: the attribute `value`, or else the text (libsdformat,
+/// `GetKeyValueAsString`).
 pub(super) fn value(setting: &Element) -> (Cow<'_, str>, Origin) {
     match setting.attribute("value") {
         Some(value) => (Cow::Borrowed(value.value.trim()), value.value_origin),

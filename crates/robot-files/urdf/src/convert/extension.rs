@@ -1,4 +1,4 @@
-//! `<gazebo>` blocks, sorted by what they speak about.
+//! `<gazebo>` blocks by their reference.
 
 use std::collections::BTreeMap;
 
@@ -9,9 +9,9 @@ use super::element::is_true;
 use crate::lump::Preserved;
 use crate::robot::{GazeboBlock, Robot};
 
-/// Whom a setting of Gazebo is for.
+/// Target of one of Gazebo's settings.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum For {
+pub(super) enum SettingTarget {
     /// Each collision or visual of a link.
     Shapes,
     /// A link.
@@ -20,53 +20,53 @@ pub(super) enum For {
     Joint,
     /// The robot.
     Robot,
-    /// Nobody: it once meant something.
-    Nobody,
+    /// No target: an obsolete setting.
+    Obsolete,
 }
 
-/// The settings that Gazebo knows by names of its own (libsdformat, `ParseSDFExtension`); all
-/// other elements are SDF and go where the reference points.
-const SETTINGS: [(&str, For); 30] = [
-    ("material", For::Shapes),
-    ("collision", For::Shapes),
-    ("visual", For::Shapes),
-    ("mu", For::Shapes),
-    ("mu1", For::Shapes),
-    ("mu2", For::Shapes),
-    ("fdir1", For::Shapes),
-    ("kp", For::Shapes),
-    ("kd", For::Shapes),
-    ("maxVel", For::Shapes),
-    ("minDepth", For::Shapes),
-    ("laserRetro", For::Shapes),
-    ("maxContacts", For::Shapes),
-    ("turnGravityOff", For::Link),
-    ("dampingFactor", For::Link),
-    ("selfCollide", For::Link),
-    ("springReference", For::Joint),
-    ("springStiffness", For::Joint),
-    ("stopCfm", For::Joint),
-    ("stopErp", For::Joint),
-    ("fudgeFactor", For::Joint),
-    ("provideFeedback", For::Joint),
-    ("cfmDamping", For::Joint),
-    ("implicitSpringDamper", For::Joint),
-    ("disableFixedJointLumping", For::Joint),
-    ("preserveFixedJoint", For::Joint),
-    ("static", For::Robot),
-    ("canonicalBody", For::Nobody),
-    // Misspellings of the two above that real files hold would go to SDF; these never meant
-    // anything there.
-    ("stopKp", For::Nobody),
-    ("stopKd", For::Nobody),
+/// Settings that Gazebo knows by their own names (libsdformat, `ParseSDFExtension`). All other elements are
+/// SDF and are copied to the referenced element.
+const SETTINGS: [(&str, SettingTarget); 30] = [
+    ("material", SettingTarget::Shapes),
+    ("collision", SettingTarget::Shapes),
+    ("visual", SettingTarget::Shapes),
+    ("mu", SettingTarget::Shapes),
+    ("mu1", SettingTarget::Shapes),
+    ("mu2", SettingTarget::Shapes),
+    ("fdir1", SettingTarget::Shapes),
+    ("kp", SettingTarget::Shapes),
+    ("kd", SettingTarget::Shapes),
+    ("maxVel", SettingTarget::Shapes),
+    ("minDepth", SettingTarget::Shapes),
+    ("laserRetro", SettingTarget::Shapes),
+    ("maxContacts", SettingTarget::Shapes),
+    ("turnGravityOff", SettingTarget::Link),
+    ("dampingFactor", SettingTarget::Link),
+    ("selfCollide", SettingTarget::Link),
+    ("springReference", SettingTarget::Joint),
+    ("springStiffness", SettingTarget::Joint),
+    ("stopCfm", SettingTarget::Joint),
+    ("stopErp", SettingTarget::Joint),
+    ("fudgeFactor", SettingTarget::Joint),
+    ("provideFeedback", SettingTarget::Joint),
+    ("cfmDamping", SettingTarget::Joint),
+    ("implicitSpringDamper", SettingTarget::Joint),
+    ("disableFixedJointLumping", SettingTarget::Joint),
+    ("preserveFixedJoint", SettingTarget::Joint),
+    ("static", SettingTarget::Robot),
+    ("canonicalBody", SettingTarget::Obsolete),
+    // Misspellings of the two above that occur in real files would be copied as SDF; these never had an
+    // effect there.
+    ("stopKp", SettingTarget::Obsolete),
+    ("stopKd", SettingTarget::Obsolete),
 ];
 
-/// Whom a setting is for; none for SDF.
-pub(super) fn purpose(name: &str) -> Option<For> {
-    SETTINGS.iter().find(|(known, _)| *known == name).map(|(_, purpose)| *purpose)
+/// Target of a setting; `None` for SDF.
+pub(super) fn setting_target(name: &str) -> Option<SettingTarget> {
+    SETTINGS.iter().find(|(known, _)| *known == name).map(|(_, setting_target)| *setting_target)
 }
 
-/// The blocks of a robot.
+/// `<gazebo>` blocks of a robot.
 pub(super) struct Extensions<'a> {
     by_reference: BTreeMap<&'a str, Vec<&'a GazeboBlock>>,
 }
@@ -81,23 +81,23 @@ impl<'a> Extensions<'a> {
         Self { by_reference }
     }
 
-    /// The blocks about a link or joint, or without a name about the robot.
+    /// Blocks of a link or joint, or with an empty name of the robot.
     pub(super) fn about(&self, name: &str) -> &[&'a GazeboBlock] {
         self.by_reference.get(name).map_or(&[], Vec::as_slice)
     }
 
-    /// The names of all that blocks speak about, with their blocks.
+    /// All references with their blocks.
     pub(super) fn all(&self) -> impl Iterator<Item = (&'a str, &[&'a GazeboBlock])> {
         self.by_reference.iter().map(|(name, blocks)| (*name, blocks.as_slice()))
     }
 
-    /// Everything said about a link, joint or robot.
+    /// All settings of a link, joint or robot.
     pub(super) fn settings(&self, name: &str) -> impl Iterator<Item = &'a Element> + '_ {
         self.about(name).iter().flat_map(|block| &block.content)
     }
 
-    /// The fixed joints that the robot wants kept. Who asks for both is an old file that also
-    /// knows the new way, which wins.
+    /// Fixed joints that the robot wants to keep. If a file asks for both kinds, the newer one wins: the
+    /// other is there for older versions of Gazebo.
     pub(super) fn preserved(&self) -> Preserved<'a> {
         let mut preserved = Preserved::default();
         for (name, blocks) in &self.by_reference {
@@ -117,11 +117,15 @@ impl<'a> Extensions<'a> {
     }
 }
 
-/// Warns about settings that stand where Gazebo reads none of their kind. `here` is what the
-/// block speaks about.
-pub(super) fn check_place(setting: &Element, here: &[For], diagnostics: &mut Diagnostics) {
-    let Some(purpose) = purpose(&setting.name) else { return };
-    if here.contains(&purpose) {
+/// Warns about settings in a block where Gazebo reads none of their kind. `here` is the kind of the block's
+/// reference.
+pub(super) fn check_place(
+    setting: &Element,
+    here: &[SettingTarget],
+    diagnostics: &mut Diagnostics,
+) {
+    let Some(setting_target) = setting_target(&setting.name) else { return };
+    if here.contains(&setting_target) {
         if setting.name == "mu" {
             diagnostics.push(
                 Diagnostic::warning("misplaced-setting", "here Gazebo reads `mu1`, not `mu`")
@@ -132,19 +136,21 @@ pub(super) fn check_place(setting: &Element, here: &[For], diagnostics: &mut Dia
         }
         return;
     }
-    let warning = match purpose {
-        For::Nobody => Diagnostic::warning(
+    let warning = match setting_target {
+        SettingTarget::Obsolete => Diagnostic::warning(
             "obsolete-setting",
-            format!("`{}` no longer means anything to Gazebo", setting.name),
+            format!("Gazebo no longer reads `{}`", setting.name),
         )
         .help("leave it out"),
         _ => Diagnostic::warning(
             "misplaced-setting",
-            format!("`{}` means nothing here", setting.name),
+            format!("`{}` has no effect here", setting.name),
         )
-        .help(match purpose {
-            For::Joint => "it belongs in <gazebo reference=\"...\"> with the name of a joint",
-            For::Robot => "it belongs in <gazebo> without a reference",
+        .help(match setting_target {
+            SettingTarget::Joint => {
+                "it belongs in <gazebo reference=\"...\"> with the name of a joint"
+            }
+            SettingTarget::Robot => "it belongs in <gazebo> without a reference",
             _ => "it belongs in <gazebo reference=\"...\"> with the name of a link",
         }),
     };

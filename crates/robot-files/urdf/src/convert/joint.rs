@@ -1,17 +1,17 @@
-//! Joints that stay joints.
+//! Joints that are not merged.
 
 use periplus_diagnostics::{Diagnostic, Diagnostics};
 use periplus_scene::{Axis, DVec3, Joint as SceneJoint, JointKind};
 use periplus_xml::Element;
 
 use super::element::{child_mut, element, is_true, leaf, numbers, renamed, set, value};
-use super::extension::{For, check_place, purpose};
-use super::situation::Situation;
-use crate::lump::{Fate, WORLD};
+use super::extension::{SettingTarget, check_place, setting_target};
+use super::state::ConversionState;
+use crate::lump::{LumpOutcome, WORLD};
 use crate::robot::{Joint, JointType};
 
-impl Situation<'_> {
-    /// The `<joint>` above a body; none for kinds that SDF does not have.
+impl ConversionState<'_> {
+    /// `<joint>` above a body; `None` for types that SDF does not have.
     pub(super) fn joint_element(
         &self,
         head: usize,
@@ -38,8 +38,7 @@ impl Situation<'_> {
         Some(to)
     }
 
-    /// What the joint above a body hangs on: the link as the file names it, which may be a frame
-    /// by now.
+    /// Parent of the joint above a body: the link as the file names it, which may have become a frame.
     fn parent_name(&self, head: usize) -> &str {
         if self.on_world(head) {
             WORLD
@@ -60,7 +59,7 @@ impl Situation<'_> {
             axis.push(limit);
             return axis;
         }
-        // A zero axis has been refused by the reader.
+        // The reader has reported a zero axis.
         let xyz = joint.axis_xyz();
         let xyz = if xyz == [0.0; 3] { crate::robot::DEFAULT_AXIS } else { xyz };
         axis.push(numbers("xyz", &xyz, origin));
@@ -81,7 +80,7 @@ impl Situation<'_> {
                 .with_child(numbers("friction", &[dynamics.friction], origin));
             axis.push(to);
         }
-        // One that mimics nothing has been refused by the reader.
+        // The reader has reported a mimic joint without a leader.
         if let Some(mimic) = &joint.mimic
             && self.joint_names.is_joint(&mimic.joint)
         {
@@ -101,12 +100,13 @@ impl Situation<'_> {
         to: &mut Element,
         diagnostics: &mut Diagnostics,
     ) {
-        // A link of the same name takes its own.
-        if self.tree.index.contains_key(&*joint.name) && purpose(&setting.name) != Some(For::Joint)
+        // A link of the same name takes its own settings.
+        if self.tree.index.contains_key(&*joint.name)
+            && setting_target(&setting.name) != Some(SettingTarget::Joint)
         {
             return;
         }
-        check_place(setting, &[For::Joint], diagnostics);
+        check_place(setting, &[SettingTarget::Joint], diagnostics);
         let (text, origin) = value(setting);
         let truth = if is_true(setting) { "true" } else { "false" };
         match &*setting.name {
@@ -136,15 +136,18 @@ impl Situation<'_> {
                 set(ode(to), leaf("implicit_spring_damper", truth, origin));
                 set(ode(to), leaf("cfm_damping", truth, origin));
             }
-            name if purpose(name).is_some() => {}
+            name if setting_target(name).is_some() => {}
             _ => to.push(setting.clone()),
         }
     }
 
     /// Joints that only URDF has, for the scene.
     pub(super) fn joints_beyond_sdf(&self) -> impl Iterator<Item = SceneJoint> + '_ {
-        self.plan.order.iter().filter(|&&link| self.plan.fate[link] == Fate::Body).filter_map(
-            |&head| {
+        self.plan
+            .order
+            .iter()
+            .filter(|&&link| self.plan.outcome[link] == LumpOutcome::Body)
+            .filter_map(|&head| {
                 let joint = self.joint_above(head)?;
                 let kind = match joint.kind {
                     JointType::Floating => JointKind::Floating,
@@ -163,8 +166,7 @@ impl Situation<'_> {
                     });
                 }
                 Some(scene)
-            },
-        )
+            })
     }
 
     /// Warns about joints that Gazebo does not have.
@@ -183,7 +185,7 @@ impl Situation<'_> {
     }
 }
 
-/// The settings of a joint for the engine ODE.
+/// Settings of a joint for the physics engine ODE.
 fn ode(joint: &mut Element) -> &mut Element {
     child_mut(child_mut(joint, "physics"), "ode")
 }

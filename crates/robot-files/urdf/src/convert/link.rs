@@ -6,18 +6,18 @@ use periplus_diagnostics::{Diagnostic, Diagnostics};
 use periplus_xml::{Element, Node};
 
 use super::element::{child_mut, element, is_true, leaf, numbers, push_pose, renamed};
-use super::extension::{For, check_place, purpose};
+use super::extension::{SettingTarget, check_place, setting_target};
 use super::parts::Parts;
 use super::shape;
-use super::situation::Situation;
+use super::state::ConversionState;
 use crate::lump::combine;
 use crate::robot::Link;
 
-/// Parts of a `<link>` that stand once.
+/// Children of a `<link>` that occur at most once.
 const SINGLE: [&str; 6] =
     ["gravity", "enable_wind", "self_collide", "kinematic", "velocity_decay", "must_be_base_link"];
 
-/// Between the name of a body's link and that of a shape that was merged into it.
+/// Separator between the name of a body's link and that of a shape merged into it.
 pub(crate) const LUMP: &str = "_fixed_joint_lump__";
 
 /// The name of the shape at `index` of a body (libsdformat, `CreateCollisions`).
@@ -30,14 +30,14 @@ pub(super) fn shape_name(
 ) -> String {
     let base = own.filter(|own| !own.is_empty()).unwrap_or(link);
     let number = if index > 0 { format!("_{index}") } else { String::new() };
-    // Libsdformat leaves the prefix out where the name starts with that of the body's link, merged
-    // or not. Others rely on these names, so they are the same here.
+    // Libsdformat omits the prefix if the name starts with that of the body's link, merged or not. Other
+    // programs rely on these names.
     let prefix = if base.starts_with(head) { String::new() } else { format!("{head}{LUMP}") };
     format!("{prefix}{base}_{kind}{number}")
 }
 
-impl Situation<'_> {
-    /// The `<link>` of the body that `head` carries, with or without the settings for its shapes.
+impl ConversionState<'_> {
+    /// `<link>` of the body of `head`, with or without the settings for its shapes.
     pub(super) fn link_element(
         &self,
         head: usize,
@@ -102,19 +102,19 @@ impl Situation<'_> {
         }
     }
 
-    /// What the blocks about all links of a body say about the body.
+    /// Merges the settings of the blocks of all links of a body.
     fn link_settings(&self, head: usize, to: &mut Element, diagnostics: &mut Diagnostics) {
-        // Which link set a setting that stands once.
-        let mut said: BTreeMap<String, usize> = BTreeMap::new();
+        // Link that made each setting that occurs at most once.
+        let mut set_by: BTreeMap<String, usize> = BTreeMap::new();
         let mut parts = Parts::default();
         for &(member, _) in &self.members[head] {
             let name = &self.link(member).name;
             let merged = member != head;
             // A joint of the same name takes its own.
-            let here: &[For] = if self.joint_names.is_joint(name) {
-                &[For::Shapes, For::Link, For::Joint]
+            let here: &[SettingTarget] = if self.joint_names.is_joint(name) {
+                &[SettingTarget::Shapes, SettingTarget::Link, SettingTarget::Joint]
             } else {
-                &[For::Shapes, For::Link]
+                &[SettingTarget::Shapes, SettingTarget::Link]
             };
             for setting in self.extensions.settings(name) {
                 check_place(setting, here, diagnostics);
@@ -129,7 +129,7 @@ impl Situation<'_> {
                 let key = part.name.to_string();
                 let new = periplus_xml::canonical(&part);
                 let old = parts.set(part);
-                if let Some(earlier) = said.insert(key, member)
+                if let Some(earlier) = set_by.insert(key, member)
                     && earlier != member
                     && let Some(old) = old
                     && periplus_xml::canonical(&old) != new
@@ -153,7 +153,7 @@ impl Situation<'_> {
         Diagnostic::warning(
             "lumped-setting",
             format!(
-                "`{}` of `{}` overrules that of `{}`, for both are one body, `{}`",
+                "`{}` of `{}` overrides that of `{}`: both belong to the body `{}`",
                 setting.name,
                 name(later),
                 name(earlier),
@@ -162,17 +162,17 @@ impl Situation<'_> {
         )
         .at(setting.origin)
         .related(old.origin, "this has no effect")
-        .note("fixed joints merge links, in Gazebo too, and the setting met last counts")
-        .help("say it once, or keep the joint with <preserveFixedJoint>true</preserveFixedJoint>")
+        .note("fixed joints merge links, in Gazebo too, and the last setting wins")
+        .help("set it once, or keep the joint with <preserveFixedJoint>true</preserveFixedJoint>")
     }
 }
 
-/// A setting about a link as a part of a `<link>`; none for those of shapes, joints and robots.
+/// Setting of a link as a child of `<link>`; `None` for settings of shapes, joints and robots.
 fn link_part(setting: &Element) -> Option<Element> {
     match &*setting.name {
         "turnGravityOff" => {
             let (text, origin) = super::element::value(setting);
-            // Anything but a clear no turns gravity off.
+            // Any value other than a clear no turns gravity off.
             let no = ["false", "no"].iter().any(|no| text.eq_ignore_ascii_case(no)) || text == "0";
             Some(leaf("gravity", if no { "true" } else { "false" }, origin))
         }
@@ -186,13 +186,12 @@ fn link_part(setting: &Element) -> Option<Element> {
             decay.push(renamed(setting, "angular"));
             Some(decay)
         }
-        name if purpose(name).is_some() => None,
+        name if setting_target(name).is_some() => None,
         _ => Some(setting.clone()),
     }
 }
 
-/// Makes the pose of a part that was written for a merged link count from the frame that stands
-/// for the link.
+/// Makes a pose that was written for a merged link relative to that link's frame.
 fn stay_on(part: &mut Element, link: &str) {
     let pose = child_mut(part, "pose");
     if pose.value("relative_to").is_none_or(str::is_empty) {

@@ -1,14 +1,14 @@
-//! What Gazebo would lose, said aloud.
+//! Warnings about elements that Gazebo would drop.
 
 use periplus_diagnostics::{Diagnostic, Diagnostics, Severity};
 
-use super::situation::Situation;
-use crate::lump::{Fate, WORLD};
+use super::state::ConversionState;
+use crate::lump::{LumpOutcome, WORLD};
 
-impl Situation<'_> {
-    /// Warns about links without mass and everything that is lost with them.
+impl ConversionState<'_> {
+    /// Warns about links without mass and everything that is dropped with them.
     pub(super) fn check_losses(&self, diagnostics: &mut Diagnostics) {
-        for &link in &self.plan.kept_in_vain {
+        for &link in &self.plan.unpreserved {
             let link = self.link(link);
             diagnostics.push(
                 Diagnostic::warning(
@@ -28,14 +28,14 @@ impl Situation<'_> {
         self.check_merged_joints(diagnostics);
     }
 
-    /// A link that cannot be simulated; an error if the whole robot goes with it.
+    /// Diagnostic for a link that cannot be simulated; an error if the whole robot is dropped with it.
     fn massless(&self, link: usize) -> Diagnostic {
         let name = &self.link(link).name;
         let branch: Vec<usize> = self
             .tree
             .below(link)
             .into_iter()
-            .filter(|&below| self.plan.fate[below] == Fate::Lost)
+            .filter(|&below| self.plan.outcome[below] == LumpOutcome::Lost)
             .collect();
         let mut lost: Vec<String> = Vec::new();
         let mut count = |number: usize, one: &str, more: &str| {
@@ -49,9 +49,9 @@ impl Situation<'_> {
         count(total(&|link| usize::from(self.link(link).inertial.is_some())), "mass", "masses");
         let settings = |link: usize| self.extensions.settings(&self.link(link).name).count();
         count(total(&settings), "setting of Gazebo", "settings of Gazebo");
-        // A robot without any mass was written to be looked at, and can be.
+        // A robot without any mass was written for visualization only.
         let only_shown = self.plan.massless.len() == 1 && self.is_only_shown();
-        // Below the root Gazebo loads the robot without the branch; without a root it loads nothing.
+        // For a branch below the root, Gazebo loads the rest of the robot; for the root, it loads nothing.
         let has_rest = self.joint_above(link).is_some();
         let severity = if lost.is_empty() || only_shown || has_rest {
             Severity::Warning
@@ -71,34 +71,34 @@ impl Situation<'_> {
             1 => " with the link below it".to_owned(),
             _ => format!(" with the {others} links below it"),
         };
-        let told = Diagnostic::new(severity, "massless-link", what)
+        let warning = Diagnostic::new(severity, "massless-link", what)
             .at(self.link(link).origin)
             .label(if lost.is_empty() {
-                "it stays as a frame".to_owned()
+                "it is kept as a frame".to_owned()
             } else {
                 format!("lost: {}", lost.join(", "))
             })
             .note(format!("Gazebo leaves it out{with}; here frames stay, at joint position zero"));
-        told.help(crate::advice::mass::advised(self.link(link)))
+        warning.help(crate::advice::mass::advised(self.link(link)))
     }
 
-    /// Whether no link of the robot has a mass.
+    /// Returns true if no link of the robot has a mass.
     fn is_only_shown(&self) -> bool {
         let order = &self.plan.order;
         order.iter().all(|&link| self.link(link).inertial.is_none())
     }
 
-    /// The link `world` is no body: what is on it has no place.
+    /// The link `world` is no body, so shapes and masses of it are dropped.
     fn check_world_link(&self, diagnostics: &mut Diagnostics) {
         for &link in &self.plan.order {
             let data = self.link(link);
-            let is_world = self.plan.fate[link] == Fate::World;
+            let is_world = self.plan.outcome[link] == LumpOutcome::World;
             let full = !data.visuals.is_empty() || !data.collisions.is_empty();
             if is_world && full {
                 diagnostics.push(
                     Diagnostic::error(
                         "world-link",
-                        "what is on the root link `world` is lost, for it stands for the world",
+                        "shapes and masses of the root link `world` are lost: this link represents the world",
                     )
                     .at(data.origin)
                     .help("move it to a link of another name, on a fixed joint to `world`"),
@@ -116,9 +116,9 @@ impl Situation<'_> {
     /// Settings of a joint that is merged away have nothing to act on.
     fn check_merged_joints(&self, diagnostics: &mut Diagnostics) {
         for &link in &self.plan.order {
-            let Fate::Merged { .. } = self.plan.fate[link] else { continue };
+            let LumpOutcome::Merged { .. } = self.plan.outcome[link] else { continue };
             let Some(joint) = self.joint_above(link) else { continue };
-            // A link of the same name takes them.
+            // A link of the same name takes the settings.
             if self.tree.index.contains_key(&*joint.name) {
                 continue;
             }

@@ -1,4 +1,4 @@
-//! The model as a whole.
+//! `<model>` element and additions to the resulting model.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -7,13 +7,13 @@ use periplus_scene::{FrameRole, Joint as SceneJoint, Model, Sensor, SensorKind};
 use periplus_xml::Element;
 
 use super::element::{element, push_pose, renamed, set};
-use super::extension::{For, check_place, purpose};
+use super::extension::{SettingTarget, check_place, setting_target};
 use super::link::shape_name;
-use super::situation::Situation;
-use crate::lump::Fate;
+use super::state::ConversionState;
+use crate::lump::LumpOutcome;
 use crate::robot::{Material, Visual};
 
-impl Situation<'_> {
+impl ConversionState<'_> {
     /// The `<model>`.
     pub(super) fn model_element(&self, diagnostics: &mut Diagnostics) -> Element {
         self.joint_names.check(self.robot, diagnostics);
@@ -23,24 +23,26 @@ impl Situation<'_> {
         let brought = self.brought();
         let with_settings = self.are_settings_few(diagnostics);
         for &link in &self.plan.order {
-            match self.plan.fate[link] {
-                Fate::Body => {
+            match self.plan.outcome[link] {
+                LumpOutcome::Body => {
                     if let Some(joint) = self.joint_element(link, diagnostics) {
                         to.push(joint);
                     }
                     to.push(self.link_element(link, with_settings, diagnostics));
                 }
-                Fate::Merged { .. } | Fate::Lost => self.frames(link, &brought, &mut to),
-                Fate::World => {}
+                LumpOutcome::Merged { .. } | LumpOutcome::Lost => {
+                    self.frames(link, &brought, &mut to)
+                }
+                LumpOutcome::World => {}
             }
         }
         for setting in self.extensions.settings("") {
-            check_place(setting, &[For::Robot], diagnostics);
+            check_place(setting, &[SettingTarget::Robot], diagnostics);
             match &*setting.name {
                 "static" => {
                     set(&mut to, renamed(setting, "static"));
                 }
-                name if purpose(name).is_some() => {}
+                name if setting_target(name).is_some() => {}
                 _ => to.push(setting.clone()),
             }
         }
@@ -48,14 +50,14 @@ impl Situation<'_> {
         to
     }
 
-    /// Where Gazebo puts the robot, if it says so itself.
+    /// Adds the pose at which Gazebo places the robot, if the file gives one.
     fn place(&self, to: &mut Element, diagnostics: &mut Diagnostics) {
         let Some(origin) = &self.robot.origin_in_world else { return };
         if let Some(pose) = to.child("pose") {
             diagnostics.push(
                 Diagnostic::warning(
                     "two-poses",
-                    "the robot has an `origin` and a `pose` in a <gazebo> block; the origin counts",
+                    "the robot has an `origin` and a `pose` in a <gazebo> block; the origin is used",
                 )
                 .at(pose.origin)
                 .help("keep one of them"),
@@ -65,8 +67,8 @@ impl Situation<'_> {
         push_pose(to, origin.pose(), self.robot.origin);
     }
 
-    /// The frames that stand for a link that carries no body and for the joint above it: the
-    /// joint's on the parent, the link's on the joint (libsdformat 14, `ReduceFixedJoints`).
+    /// Adds the frames of a link without a body and of the joint above it: the joint's frame attached to
+    /// the parent, the link's to the joint (libsdformat 14, `ReduceFixedJoints`).
     fn frames(&self, link: usize, brought: &BTreeSet<&str>, to: &mut Element) {
         let data = self.link(link);
         let mut on_model = element("frame", data.origin).with_attribute("name", &*data.name);
@@ -90,8 +92,8 @@ impl Situation<'_> {
         }
     }
 
-    /// The names of links, joints and frames of SDF that the robot brings in <gazebo> blocks. The
-    /// PR2 does so for joints that Gazebo leaves out of its URDF.
+    /// Names of the SDF links, joints and frames that the robot defines in <gazebo> blocks. The PR2 does so
+    /// for joints that Gazebo does not convert from its URDF.
     fn brought(&self) -> BTreeSet<&str> {
         self.extensions
             .settings("")
@@ -100,7 +102,7 @@ impl Situation<'_> {
             .collect()
     }
 
-    /// The definition of a visual's material: by name, or else its own.
+    /// Definition of a visual's material: by name, or else its own.
     pub(super) fn look<'v>(&'v self, visual: &'v Visual) -> Option<&'v Material> {
         let own = visual.material.as_ref()?;
         if own.name.is_empty() {
@@ -109,7 +111,7 @@ impl Situation<'_> {
         self.materials.get(&*own.name).copied().or_else(|| own.is_definition().then_some(own))
     }
 
-    /// Leaves out of the findings about the SDF what has been said about the URDF.
+    /// Removes the findings about the SDF that repeat findings about the URDF.
     pub(super) fn without_repetitions(&self, found: Diagnostics) -> Diagnostics {
         let inertials: BTreeSet<_> = self
             .robot
@@ -130,7 +132,7 @@ impl Situation<'_> {
         rest
     }
 
-    /// Adds to a model what SDF cannot say.
+    /// Adds data to a model that SDF cannot express.
     pub(super) fn complete(&self, model: &mut Model) {
         self.mark_frames(model);
         self.name_materials(model);
@@ -147,7 +149,7 @@ impl Situation<'_> {
     fn mark_frames(&self, model: &mut Model) {
         let mut roles: BTreeMap<&str, FrameRole> = BTreeMap::new();
         for &link in &self.plan.order {
-            if matches!(self.plan.fate[link], Fate::Merged { .. } | Fate::Lost) {
+            if matches!(self.plan.outcome[link], LumpOutcome::Merged { .. } | LumpOutcome::Lost) {
                 roles.insert(&self.link(link).name, FrameRole::MergedLink);
                 if let Some(joint) = self.joint_above(link) {
                     roles.insert(self.joint_names.of(&joint.name), FrameRole::MergedJoint);
@@ -186,7 +188,7 @@ impl Situation<'_> {
         }
     }
 
-    /// Contact sensors name collisions as if no link were merged.
+    /// Renames the collisions of contact sensors, which are written as if no link were merged.
     fn rename_contacts(&self, model: &mut Model) {
         for link in &mut model.links {
             let watches = |sensor: &Sensor| matches!(sensor.kind, SensorKind::Contact { .. });
@@ -208,8 +210,7 @@ impl Situation<'_> {
         }
     }
 
-    /// The names on a body of its collisions, by the names they have or would have on their own
-    /// links.
+    /// Names of a body's collisions, indexed by the names that they have or would have on their own links.
     fn merged_names(&self, head: usize) -> BTreeMap<String, String> {
         let head_name = &self.link(head).name;
         let mut names = BTreeMap::new();

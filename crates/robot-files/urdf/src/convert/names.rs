@@ -1,4 +1,4 @@
-//! Names of joints, which in SDF share one space with links.
+//! Names of joints. In SDF they share one namespace with links.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -6,7 +6,7 @@ use periplus_diagnostics::{Diagnostic, Diagnostics};
 
 use crate::robot::{Joint, Robot};
 
-/// The names that joints have in SDF: their own, unless a link has it.
+/// SDF names of joints: the URDF name, unless a link has the same one.
 pub(super) struct JointNames<'a> {
     joints: BTreeSet<&'a str>,
     changed: BTreeMap<&'a str, String>,
@@ -37,7 +37,7 @@ impl<'a> JointNames<'a> {
         self.changed.get(joint).map_or(joint, String::as_str)
     }
 
-    /// Warns about each joint that must change its name.
+    /// Warns about each joint that is renamed.
     pub(super) fn check(&self, robot: &Robot, diagnostics: &mut Diagnostics) {
         for joint in &robot.joints {
             let Some(new) = self.changed.get(&*joint.name) else { continue };
@@ -56,6 +56,6 @@ fn shared(joint: &Joint, new: &str) -> Diagnostic {
     )
     .at(joint.origin)
     .label(format!("here this joint becomes `{new}`"))
-    .note("ROS allows it; Gazebo refuses the robot, for in SDF they share one space of names")
+    .note("ROS allows it; Gazebo refuses the robot, for in SDF they share one namespace")
     .help("rename the joint")
 }

@@ -1,4 +1,4 @@
-//! Settings in `<gazebo>` blocks that go into each shape of a link, merged once per link.
+//! Settings in `<gazebo>` blocks that apply to each shape of a link, merged once per link.
 
 use std::collections::BTreeMap;
 
@@ -9,26 +9,26 @@ use super::element::{child_mut, element, leaf, renamed, set, value};
 use super::parts::Parts;
 use crate::robot::GazeboBlock;
 
-/// Where Classic keeps the materials named `Gazebo/...`.
+/// Location of the materials named `Gazebo/...` in Gazebo Classic.
 pub(crate) const BUILTIN_MATERIALS: &str = "file://media/materials/scripts/gazebo.material";
 
-/// Largest number of elements that settings may bring into the shapes of a robot. Robots with a
-/// hundred shapes have about a thousand.
+/// Maximum number of elements that settings may add to the shapes of a robot. Robots with a hundred shapes
+/// have about a thousand.
 const MAX_COPIED_ELEMENTS: usize = 200_000;
 
-/// Children that each shape of a link gets.
+/// Children added to each shape of a link.
 #[derive(Default)]
 pub(super) struct ShapeSettings {
-    /// For a `<collision>`.
+    /// Children of a `<collision>`.
     pub(super) collision: Vec<Element>,
-    /// For a `<visual>`.
+    /// Children of a `<visual>`.
     pub(super) visual: Vec<Element>,
-    /// Numbers of elements in them, with those inside.
+    /// Numbers of elements in them, descendants included.
     sizes: [usize; 2],
 }
 
 impl ShapeSettings {
-    /// Merges blocks about one link; the setting met last counts.
+    /// Merges the blocks of one link; the last occurrence of a setting wins.
     pub(super) fn new(blocks: &[&GazeboBlock]) -> Self {
         let size = |parts: &[Element]| parts.iter().map(elements).sum::<usize>();
         let (collision, visual) = (collision(blocks), visual(blocks));
@@ -36,14 +36,14 @@ impl ShapeSettings {
         Self { collision, visual, sizes }
     }
 
-    /// Number of elements that shapes of such numbers get.
+    /// Number of elements that these numbers of shapes receive.
     pub(super) fn copied_elements(&self, collisions: usize, visuals: usize) -> usize {
         let [collision, visual] = self.sizes;
         collision.saturating_mul(collisions).saturating_add(visual.saturating_mul(visuals))
     }
 }
 
-/// Checks a number of elements; an error tells that there are too many.
+/// Reports an error and returns false if too many elements would be copied.
 pub(super) fn are_few(copied: usize, robot: Origin, diagnostics: &mut Diagnostics) -> bool {
     if copied <= MAX_COPIED_ELEMENTS {
         return true;
@@ -68,7 +68,7 @@ fn elements(of: &Element) -> usize {
 
 fn collision(blocks: &[&GazeboBlock]) -> Vec<Element> {
     let mut parts = Parts::default();
-    // Settings inside <surface> since it was last replaced, the last of each, and when it was met.
+    // Settings inside <surface> since it was last replaced: the last of each, with its position.
     let mut surface: BTreeMap<(&str, &str), (usize, Element)> = BTreeMap::new();
     let mut met = 0;
     for block in blocks {
@@ -104,8 +104,8 @@ fn collision(blocks: &[&GazeboBlock]) -> Vec<Element> {
     parts.into_elements().collect()
 }
 
-/// Group inside `<surface>` and name of a setting of the time before `<collision>` could stand in
-/// a block; without a group it stands in the `<collision>` itself.
+/// Group inside `<surface>` and name of a setting from before `<collision>` was allowed in a block; without
+/// a group it belongs in the `<collision>` itself.
 fn place_in_collision(setting: &str) -> Option<(&'static str, &'static str)> {
     Some(match setting {
         "mu" | "mu1" => ("friction", "mu"),
@@ -123,7 +123,7 @@ fn place_in_collision(setting: &str) -> Option<(&'static str, &'static str)> {
 
 fn visual(blocks: &[&GazeboBlock]) -> Vec<Element> {
     let mut parts = Parts::default();
-    // The script named last since <material> was last replaced.
+    // Script named last since <material> was last replaced.
     let mut script = None;
     for block in blocks {
         for content in block.content.iter().filter(|setting| setting.name == "visual") {
@@ -137,7 +137,7 @@ fn visual(blocks: &[&GazeboBlock]) -> Vec<Element> {
         for setting in block.content.iter().filter(|setting| setting.name == "material") {
             let (text, origin) = value(setting);
             if text.is_empty() {
-                // SDF in the place of a name, which Gazebo ignores and a warning has been given.
+                // SDF in place of a name is ignored by Gazebo and has been reported.
                 if setting.elements().next().is_some() {
                     script = None;
                     parts.set(setting.clone());
@@ -158,8 +158,8 @@ fn visual(blocks: &[&GazeboBlock]) -> Vec<Element> {
     parts.into_elements().collect()
 }
 
-/// Most of a shape stands once; plugins may stand often, and what is already there by the URDF
-/// (pose, geometry) cannot be overruled, as in Gazebo: the reader of SDF says so.
+/// Most children of a shape occur at most once; plugins may repeat. As in Gazebo, children set by the URDF
+/// (pose, geometry) cannot be overridden; the SDF reader reports it.
 fn set_or_push(parts: &mut Parts, part: &Element) {
     match &*part.name {
         "plugin" | "pose" | "geometry" => parts.push(part.clone()),

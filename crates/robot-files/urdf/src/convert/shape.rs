@@ -7,7 +7,7 @@ use periplus_xml::{Element, Node};
 use super::element::{child_mut, element, leaf, numbers, push_pose};
 use crate::robot::{Collision, Geometry, Material, Visual};
 
-/// A `<collision>` with what the blocks about its link say.
+/// `<collision>` with the settings from the blocks of its link.
 pub(super) fn collision(
     collision: &Collision,
     name: &str,
@@ -21,7 +21,7 @@ pub(super) fn collision(
     to
 }
 
-/// A `<visual>` with what the blocks about its link say. `look` is its material's definition.
+/// `<visual>` with the settings from the blocks of its link. `material` is the definition of its material.
 pub(super) fn visual(
     visual: &Visual,
     look: Option<&Material>,
@@ -39,8 +39,8 @@ pub(super) fn visual(
     to
 }
 
-/// The colour of a URDF, unless a block gave one. Gazebo brightens it, for its renderers darken
-/// (libsdformat, `CreateVisual`).
+/// Adds the colour of a URDF material, unless a block gives one. Gazebo brightens it because its renderers
+/// darken (libsdformat, `CreateVisual`).
 fn colour(look: &Material, to: &mut Element) {
     let material = child_mut(to, "material");
     if let Some(colour) = &look.colour
@@ -53,7 +53,7 @@ fn colour(look: &Material, to: &mut Element) {
         material.push(numbers("diffuse", &rgba, look.origin));
         material.push(numbers("ambient", &rgba, look.origin));
     }
-    // Gazebo drops the texture of a URDF; as a map of the colour it can be drawn.
+    // Gazebo drops the texture of a URDF; as an albedo map it can be rendered.
     if let Some(texture) = &look.texture
         && material.child("pbr").is_none()
     {
@@ -69,7 +69,7 @@ fn geometry(geometry: &Geometry, origin: Origin) -> Element {
         })
     };
     let shape = match geometry {
-        // The reader has said what is wrong; a wrong size must not become SDF's default of 1 m.
+        // The reader has reported the error; a wrong size must not become SDF's default of 1 m.
         shape if !has_extent(shape) => element("empty", origin),
         Geometry::Box { size_m } => {
             element("box", origin).with_child(numbers("size", size_m, origin))
@@ -97,7 +97,7 @@ fn geometry(geometry: &Geometry, origin: Origin) -> Element {
 fn has_extent(geometry: &Geometry) -> bool {
     match geometry {
         Geometry::Box { size_m } => size_m.iter().all(|size| *size > 0.0),
-        // A capsule without cylinder is a sphere.
+        // A capsule without a cylinder part is a sphere.
         Geometry::Capsule { radius_m, length_m } => *radius_m > 0.0 && *length_m >= 0.0,
         Geometry::Cylinder { radius_m, length_m } => *radius_m > 0.0 && *length_m > 0.0,
         Geometry::Sphere { radius_m } => *radius_m > 0.0,

@@ -1,4 +1,4 @@
-//! All that the parts of a conversion look at.
+//! State shared by the parts of a conversion.
 
 use std::collections::BTreeMap;
 
@@ -9,18 +9,18 @@ use super::Options;
 use super::extension::Extensions;
 use super::names::JointNames;
 use super::settings::{ShapeSettings, are_few};
-use crate::lump::{Fate, Plan, Preserved};
+use crate::lump::{LumpOutcome, LumpPlan, Preserved};
 use crate::robot::{GazeboBlock, Joint, Link, Material, Robot};
 use crate::tree::Tree;
 
-/// A robot and what was found out about it.
-pub(super) struct Situation<'a> {
+/// Robot and the results of its analysis.
+pub(super) struct ConversionState<'a> {
     pub(super) robot: &'a Robot,
     pub(super) tree: Tree<'a>,
     pub(super) extensions: Extensions<'a>,
     pub(super) preserved: Preserved<'a>,
-    pub(super) plan: Plan,
-    /// Per link that carries a body: the links of the body, itself first.
+    pub(super) plan: LumpPlan,
+    /// For each link that carries a body: the links of the body, itself first.
     pub(super) members: Vec<Vec<(usize, Pose)>>,
     pub(super) joint_names: JointNames<'a>,
     /// Definitions by name, as ROS resolves them: those of the robot, then those in visuals.
@@ -29,16 +29,16 @@ pub(super) struct Situation<'a> {
     shape_settings: BTreeMap<&'a str, ShapeSettings>,
 }
 
-impl<'a> Situation<'a> {
+impl<'a> ConversionState<'a> {
     pub(super) fn new(robot: &'a Robot, options: Options) -> Self {
         let tree = Tree::new(robot);
         let extensions = Extensions::new(robot);
         let mut preserved = extensions.preserved();
         preserved.all = options.preserve_fixed_joints;
-        // A robot of several trees has been refused by the reader; the first is converted.
+        // The reader has reported a robot with several trees; the first is converted.
         let plan = match tree.roots.first() {
-            Some(&root) => Plan::new(robot, &tree, root, &preserved),
-            None => Plan::nothing(robot),
+            Some(&root) => LumpPlan::new(robot, &tree, root, &preserved),
+            None => LumpPlan::nothing(robot),
         };
         let members = plan.members();
         let joint_names = JointNames::new(robot);
@@ -64,12 +64,12 @@ impl<'a> Situation<'a> {
         }
     }
 
-    /// Settings for the shapes of a link; none where no block speaks about it.
+    /// Settings for the shapes of a link; `None` if no block refers to it.
     pub(super) fn shape_settings(&self, link: &Link) -> Option<&ShapeSettings> {
         self.shape_settings.get(&*link.name)
     }
 
-    /// Whether settings for shapes are few enough to be read; else an error tells.
+    /// Returns true if the settings for shapes are few enough; else reports an error.
     pub(super) fn are_settings_few(&self, diagnostics: &mut Diagnostics) -> bool {
         let copied = self.robot.links.iter().map(|link| {
             let (collisions, visuals) = (link.collisions.len(), link.visuals.len());
@@ -98,8 +98,8 @@ impl<'a> Situation<'a> {
         self.tree.parent[link].map(|parent| self.link(parent))
     }
 
-    /// Whether what is above a link is the world.
+    /// Returns true if the parent of a link is the world.
     pub(super) fn on_world(&self, link: usize) -> bool {
-        self.tree.parent[link].is_some_and(|parent| self.plan.fate[parent] == Fate::World)
+        self.tree.parent[link].is_some_and(|parent| self.plan.outcome[parent] == LumpOutcome::World)
     }
 }

@@ -1,4 +1,4 @@
-//! What Gazebo's settings and merged links become.
+//! Conversion of Gazebo's settings and merged links.
 
 use std::fmt::Write as _;
 
@@ -416,8 +416,8 @@ fn settings_are_merged_once_per_link() {
         let document = periplus_xml::parse(file, &sources, &mut diagnostics).unwrap();
         read(&document, &mut diagnostics).unwrap()
     };
-    // What each shape gets is as short as what one block says: `surface` and `max_contacts`.
-    let situation = super::Situation::new(&robot, Options::default());
+    // The settings of each shape are as short as those of one block: `surface` and `max_contacts`.
+    let situation = super::ConversionState::new(&robot, Options::default());
     let settings = situation.shape_settings(&robot.links[0]).unwrap();
     assert_eq!((settings.collision.len(), settings.visual.len()), (2, 1));
     let red = |look: &periplus_scene::Material| look.script.as_ref().unwrap().name == "Gazebo/Red";

@@ -14,11 +14,10 @@ use crate::robot::{
     SafetyController,
 };
 
-/// What stands for a free limit, which URDF cannot say; libsdformat's own number for it.
-const FREE: f64 = 1e16;
+/// Value for an unlimited joint, which URDF cannot express; the same number as in libsdformat.
+const UNLIMITED: f64 = 1e16;
 
-/// The names of the joints above all links and frames: their own, those of merged joints, or new
-/// ones.
+/// Names of the joints above all links and frames: their own, those of merged joints, or new ones.
 pub(super) fn names<'a>(model: &'a Model, tree: &'a [TfEdge]) -> BTreeMap<&'a str, String> {
     let mut names: BTreeMap<&str, String> =
         model.joints.iter().map(|joint| (&*joint.child, joint.name.clone())).collect();
@@ -81,14 +80,14 @@ impl Export<'_> {
         }
     }
 
-    /// The poses of all nodes in the model; the world is where the model's frame starts.
+    /// Poses of all nodes in the model; the world is at the model's origin.
     fn poses(&self) -> BTreeMap<&str, Pose> {
         let links = self.model.links.iter().map(|link| (&*link.name, link.model_from_link));
         let frames = self.model.frames.iter().map(|frame| (&*frame.name, frame.parent_from_frame));
         links.chain(frames).collect()
     }
 
-    /// What SDF says about a joint beyond URDF.
+    /// Adds the SDF settings of a joint that URDF does not have.
     fn settings_of_joint(&self, joint: &SceneJoint, written: Option<&Element>, robot: &mut Robot) {
         let mut content = Vec::new();
         if joint.kind == JointKind::Fixed && joint.parent != WORLD {
@@ -110,7 +109,7 @@ impl Export<'_> {
     }
 }
 
-/// Parts of a joint of SDF that a joint of URDF has too.
+/// Children of an SDF joint that a URDF joint has too.
 const KNOWN: [&str; 9] = [
     "pose",
     "parent",
@@ -186,7 +185,7 @@ fn of_scene(base: Joint, joint: &SceneJoint, diagnostics: &mut Diagnostics) -> J
         diagnostics.push(
             Diagnostic::warning(
                 "not-in-urdf",
-                format!("a URDF cannot say `{}` of the axis of `{}`", extra.name, joint.name),
+                format!("URDF has no `{}` for the axis of `{}`", extra.name, joint.name),
             )
             .at(extra.origin)
             .label("left out"),
@@ -195,16 +194,15 @@ fn of_scene(base: Joint, joint: &SceneJoint, diagnostics: &mut Diagnostics) -> J
     to
 }
 
-/// Limits as URDF wants them: all of them, and finite; none where nothing is limited and none is
-/// needed.
+/// Limits as URDF requires them: complete and finite; `None` if nothing is limited and the type needs none.
 fn limit(kind: JointType, axis: &Axis) -> Option<Limit> {
     let free = axis.effort == f64::INFINITY && axis.velocity == f64::INFINITY;
     let bounded = matches!(kind, JointType::Revolute | JointType::Prismatic);
     (bounded || !free).then(|| Limit {
-        lower: if bounded { axis.lower.max(-FREE) } else { 0.0 },
-        upper: if bounded { axis.upper.min(FREE) } else { 0.0 },
-        effort: axis.effort.min(FREE),
-        velocity: axis.velocity.min(FREE),
+        lower: if bounded { axis.lower.max(-UNLIMITED) } else { 0.0 },
+        upper: if bounded { axis.upper.min(UNLIMITED) } else { 0.0 },
+        effort: axis.effort.min(UNLIMITED),
+        velocity: axis.velocity.min(UNLIMITED),
         ..Limit::default()
     })
 }

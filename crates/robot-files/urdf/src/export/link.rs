@@ -1,4 +1,4 @@
-//! Links, and the links that were merged into them.
+//! Links, including those that were merged.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -12,21 +12,21 @@ use super::{Export, lost, push_block};
 use crate::lump::WORLD;
 use crate::robot::{Inertial, Link, Material, Placement, Robot};
 
-/// A link of the URDF to be, and what its shapes have beyond URDF.
-struct Made {
+/// Link of the resulting URDF, with the data of its shapes that URDF cannot express.
+struct ExportedLink {
     link: Link,
     model_from_link: Pose,
     collisions: Vec<Rest>,
     visuals: Vec<Rest>,
 }
 
-impl Made {
+impl ExportedLink {
     fn new(name: &str, model_from_link: Pose, origin: Origin) -> Self {
         let link = Link { name: name.to_owned(), origin, ..Link::default() };
         Self { link, model_from_link, collisions: Vec::new(), visuals: Vec::new() }
     }
 
-    /// The body's frame in this link's; for the body's own link exactly the same.
+    /// Body frame in this link's frame; exactly the same for the body's own link.
     fn link_from_body(&self, body: &SceneLink) -> Pose {
         if self.link.name == body.name {
             Pose::IDENTITY
@@ -36,27 +36,27 @@ impl Made {
     }
 }
 
-/// A link that may take shapes of a body.
+/// Link that may receive shapes of a body.
 #[derive(Clone, Copy)]
-struct Home<'a> {
+struct CandidateLink<'a> {
     name: &'a str,
-    /// Where it stands among the links of the URDF.
+    /// Index among the links of the URDF.
     place: usize,
 }
 
 impl Export<'_> {
-    /// One link for the world if something hangs on it, for each link, and for each frame.
+    /// One link for the world if it has children, for each link, and for each frame.
     pub(super) fn links(&self, robot: &mut Robot, diagnostics: &mut Diagnostics) {
-        let mut made: Vec<Made> = Vec::new();
+        let mut made: Vec<ExportedLink> = Vec::new();
         if self.tree.iter().any(|edge| edge.parent == WORLD) {
-            made.push(Made::new(WORLD, Pose::IDENTITY, self.model.origin));
+            made.push(ExportedLink::new(WORLD, Pose::IDENTITY, self.model.origin));
         }
         for link in &self.model.links {
-            made.push(Made::new(&link.name, link.model_from_link, link.origin));
+            made.push(ExportedLink::new(&link.name, link.model_from_link, link.origin));
         }
         for frame in &self.model.frames {
             if frame.role != FrameRole::MergedJoint {
-                made.push(Made::new(&frame.name, frame.parent_from_frame, frame.origin));
+                made.push(ExportedLink::new(&frame.name, frame.parent_from_frame, frame.origin));
             }
         }
         let places: BTreeMap<String, usize> =
@@ -67,7 +67,7 @@ impl Export<'_> {
             .named("link")
             .filter_map(|link| Some((link.value("name")?, link)))
             .collect();
-        let mut looks = shape::Looks::default();
+        let mut looks = shape::ExportedMaterials::default();
         for link in &self.model.links {
             let Some(members) = members.get(&*link.name) else { continue };
             let element = written.get(&*link.name).copied();
@@ -90,13 +90,16 @@ impl Export<'_> {
         }
     }
 
-    /// The links of each body, in the order in which Gazebo comes to them.
-    fn members<'p>(&'p self, places: &BTreeMap<String, usize>) -> BTreeMap<&'p str, Vec<Home<'p>>> {
+    /// Links of each body, in Gazebo's order.
+    fn members<'p>(
+        &'p self,
+        places: &BTreeMap<String, usize>,
+    ) -> BTreeMap<&'p str, Vec<CandidateLink<'p>>> {
         let above: BTreeMap<&str, &str> =
             self.tree.iter().map(|edge| (&*edge.child, &*edge.parent)).collect();
         let links: BTreeSet<&str> = self.model.links.iter().map(|link| &*link.name).collect();
         let mut bodies: BTreeMap<&str, &str> = BTreeMap::new();
-        let mut members: BTreeMap<&str, Vec<Home<'_>>> = BTreeMap::new();
+        let mut members: BTreeMap<&str, Vec<CandidateLink<'_>>> = BTreeMap::new();
         for name in self.order() {
             let body = match above.get(name).and_then(|above| bodies.get(above)) {
                 Some(&body) if !links.contains(name) => body,
@@ -104,13 +107,13 @@ impl Export<'_> {
             };
             bodies.insert(name, body);
             if let Some(&place) = places.get(name) {
-                members.entry(body).or_default().push(Home { name, place });
+                members.entry(body).or_default().push(CandidateLink { name, place });
             }
         }
         members
     }
 
-    /// The order in which Gazebo goes through links: parents first, children by name of joint.
+    /// Order in which Gazebo visits links: parents first, children by the name of their joint.
     fn order(&self) -> Vec<&str> {
         let mut below: BTreeMap<&str, Vec<(&str, &str)>> = BTreeMap::new();
         for edge in self.tree {
@@ -130,12 +133,12 @@ impl Export<'_> {
     }
 }
 
-/// Gives the collisions of a body back to the links they came from.
+/// Assigns the collisions of a body to the links that they came from.
 fn collisions(
     body: &SceneLink,
     written: Option<&Element>,
-    members: &[Home<'_>],
-    made: &mut [Made],
+    members: &[CandidateLink<'_>],
+    made: &mut [ExportedLink],
     diagnostics: &mut Diagnostics,
 ) {
     let parts = written.into_iter().flat_map(|link| link.named("collision"));
@@ -160,7 +163,7 @@ fn collisions(
             .help("correct the names in the sensor"),
         );
     }
-    let places = homes(&sources, &rests, members);
+    let places = links_of_shapes(&sources, &rests, members);
     for (((collision, source), rest), place) in
         body.collisions.iter().zip(sources).zip(rests).zip(places)
     {
@@ -174,13 +177,13 @@ fn collisions(
     }
 }
 
-/// Gives the visuals of a body back to the links they came from.
+/// Assigns the visuals of a body to the links that they came from.
 fn visuals(
     body: &SceneLink,
     written: Option<&Element>,
-    members: &[Home<'_>],
-    made: &mut [Made],
-    looks: &mut shape::Looks,
+    members: &[CandidateLink<'_>],
+    made: &mut [ExportedLink],
+    looks: &mut shape::ExportedMaterials,
     diagnostics: &mut Diagnostics,
 ) {
     let parts = written.into_iter().flat_map(|link| link.named("visual"));
@@ -195,7 +198,7 @@ fn visuals(
     }
     let names = body.visuals.iter().map(|visual| &*visual.name);
     let sources = shape::sources(&body.name, names, "visual");
-    let places = homes(&sources, &rests, members);
+    let places = links_of_shapes(&sources, &rests, members);
     for ((((visual, source), rest), look), place) in
         body.visuals.iter().zip(sources).zip(rests).zip(painted).zip(places)
     {
@@ -209,24 +212,28 @@ fn visuals(
     }
 }
 
-/// The link for each shape of a body. Gazebo numbers shapes in the order of the links, so the
-/// links never go back. A shape whose name does not tell its link goes to the first whose shapes
-/// have the same settings.
-fn homes(sources: &[Source], rests: &[Rest], members: &[Home<'_>]) -> Vec<usize> {
+/// Link of each shape of a body. Gazebo numbers shapes in the order of the links, so indices never
+/// decrease. A shape whose name does not identify its link goes to the first link whose shapes have the
+/// same settings.
+fn links_of_shapes(
+    sources: &[Source],
+    rests: &[Rest],
+    members: &[CandidateLink<'_>],
+) -> Vec<usize> {
     let ranks: BTreeMap<&str, usize> =
         members.iter().enumerate().map(|(rank, home)| (home.name, rank)).collect();
-    let told: Vec<Option<usize>> =
+    let known: Vec<Option<usize>> =
         sources.iter().map(|source| ranks.get(&*source.base).copied()).collect();
-    // The next link that is told, from the back.
-    let mut next = vec![members.len().saturating_sub(1); told.len() + 1];
-    for index in (0..told.len()).rev() {
-        next[index] = told[index].unwrap_or(next[index + 1]);
+    // Next identified link, from the back.
+    let mut next = vec![members.len().saturating_sub(1); known.len() + 1];
+    for index in (0..known.len()).rev() {
+        next[index] = known[index].unwrap_or(next[index + 1]);
     }
     let mut first: BTreeMap<usize, &Rest> = BTreeMap::new();
     let mut here = 0;
     let mut chosen = Vec::new();
     for (index, rest) in rests.iter().enumerate() {
-        here = told[index].filter(|rank| *rank >= here).unwrap_or_else(|| {
+        here = known[index].filter(|rank| *rank >= here).unwrap_or_else(|| {
             let fits = |rank: &usize| first.get(rank).is_none_or(|first| *first == rest);
             (here..=next[index].max(here)).find(fits).unwrap_or(here)
         });
@@ -236,17 +243,17 @@ fn homes(sources: &[Source], rests: &[Rest], members: &[Home<'_>]) -> Vec<usize>
     chosen
 }
 
-/// Parts of a link of SDF that are written otherwise.
+/// Children of an SDF link that are written differently.
 const KNOWN: [&str; 4] = ["pose", "inertial", "collision", "visual"];
 
 fn inertial(link: &SceneLink, diagnostics: &mut Diagnostics) -> Inertial {
     let from = &link.inertial;
     if from.auto {
-        let what = format!("URDF cannot leave the mass of `{}` to its shapes", link.name);
+        let what = format!("URDF cannot compute the mass of `{}` from its shapes", link.name);
         diagnostics.push(lost(what).at(link.origin).help("write mass and inertia out"));
     }
     for extra in &from.extra {
-        let what = format!("URDF cannot say `{}` of `{}`", extra.name, link.name);
+        let what = format!("URDF has no `{}` for `{}`", extra.name, link.name);
         diagnostics.push(lost(what).at(extra.origin));
     }
     Inertial {

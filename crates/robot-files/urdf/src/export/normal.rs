@@ -1,4 +1,4 @@
-//! Every link's frame where the joint above it is.
+//! Link frames moved to the joint above each link.
 
 use std::collections::BTreeMap;
 
@@ -6,7 +6,7 @@ use periplus_diagnostics::{Diagnostic, Diagnostics};
 use periplus_geometry::Pose;
 use periplus_scene::{Model, carrying_link};
 
-/// The same model with the frame of each link moved to the joint above it, as URDF has it.
+/// Returns the same model with the frame of each link at the joint above it, as URDF requires.
 pub(super) fn joints_at_links(model: &Model, diagnostics: &mut Diagnostics) -> Model {
     let mut model = model.clone();
     let places: BTreeMap<String, usize> =

@@ -1,4 +1,4 @@
-//! Shapes and looks.
+//! Shapes and materials.
 
 use std::collections::BTreeMap;
 
@@ -16,11 +16,11 @@ use crate::robot::{
     Collision, ColourAsWritten, Extra, Geometry, Material, Placement, Texture, Visual,
 };
 
-/// Where a shape came from, by the rule by which Gazebo names the shapes of a URDF.
+/// Origin of a shape, by Gazebo's rule for names of shapes converted from URDF.
 pub(super) struct Source {
-    /// The name without what the rule adds: that of a link, or the shape's own.
+    /// Name without the suffix added by the rule: that of a link, or the shape's own.
     pub(super) base: String,
-    /// Whether the name follows the rule.
+    /// True if the name follows the rule.
     pub(super) by_rule: bool,
 }
 
@@ -38,13 +38,13 @@ impl Source {
         }
     }
 
-    /// The name that the shape needs on a link so that the rule gives its old one.
+    /// Name that makes the rule produce the shape's present name on a link.
     pub(super) fn name_on(&self, link: &str) -> Option<String> {
         (self.base != link).then(|| self.base.clone())
     }
 }
 
-/// Where all shapes of a body came from.
+/// Origins of all shapes of a body.
 pub(super) fn sources<'a>(
     head: &str,
     names: impl Iterator<Item = &'a str>,
@@ -53,10 +53,10 @@ pub(super) fn sources<'a>(
     names.enumerate().map(|(index, name)| Source::of(head, name, kind, index)).collect()
 }
 
-/// What SDF says about a shape beyond URDF.
+/// SDF settings of a shape that URDF does not have.
 pub(super) type Rest = Vec<Element>;
 
-/// The parts of a shape beyond pose and geometry.
+/// Children of a shape other than pose and geometry.
 pub(super) fn rest(written: &Element) -> Rest {
     written
         .elements()
@@ -65,7 +65,7 @@ pub(super) fn rest(written: &Element) -> Rest {
         .collect()
 }
 
-/// The block about all shapes of a link: what they all have. What differs is lost.
+/// Block for all shapes of a link with the settings that they share. Differing settings are lost.
 pub(super) fn common(
     kind: &str,
     rests: &[Rest],
@@ -80,17 +80,17 @@ pub(super) fn common(
         let origin = differing.map_or(Origin::default(), |part| part.origin);
         diagnostics.push(
             lost(format!(
-                "the {kind}s of `{link}` differ in `{what}`, and URDF says it once per link"
+                "the {kind}s of `{link}` differ in `{what}`, and URDF has one value per link"
             ))
             .at(origin)
             .label(format!("the first {kind} decides"))
-            .help("put them on links of their own, on fixed joints"),
+            .help("put them on separate links, on fixed joints"),
         );
     }
     if first.is_empty() {
         return None;
     }
-    // The short form that everybody writes.
+    // Common short form.
     if kind == "visual"
         && let [only] = &**first
         && let Some(name) = script_only(only)
@@ -102,7 +102,7 @@ pub(super) fn common(
     Some(block)
 }
 
-/// The name of a material that is nothing but one of Gazebo's own.
+/// Name of a material that only refers to one of Gazebo's materials.
 fn script_only(material: &Element) -> Option<String> {
     let mut parts = material.elements();
     let script = parts.next().filter(|part| part.name == "script")?;
@@ -177,7 +177,7 @@ fn geometry(
         }
         Shape::Mesh(mesh) => {
             if mesh.submesh.is_some() || !mesh.extra.is_empty() {
-                cannot("part of a mesh", "save the part as a mesh of its own", diagnostics);
+                cannot("part of a mesh", "save the part as a separate mesh", diagnostics);
             }
             Geometry::Mesh {
                 filename: mesh.uri.clone(),
@@ -192,7 +192,7 @@ fn geometry(
                 Shape::Ellipsoid { .. } => ("ellipsoid", "use a sphere mesh with a scale"),
                 Shape::Plane { .. } => ("plane", "use a flat box"),
                 Shape::Polylines(_) => ("polyline", "use a mesh"),
-                Shape::Heightmap(_) => ("heightmap", "keep the ground in the world"),
+                Shape::Heightmap(_) => ("heightmap", "keep the terrain in the world"),
                 Shape::Image(_) => ("image", "keep the walls in the world"),
                 _ => ("such shape", "leave it out"),
             };
@@ -202,15 +202,15 @@ fn geometry(
     })
 }
 
-/// The looks met so far: in a URDF a name means one look.
+/// Materials exported so far: in a URDF a name identifies one material.
 #[derive(Default)]
-pub(super) struct Looks {
+pub(super) struct ExportedMaterials {
     known: BTreeMap<String, Material>,
 }
 
-impl Looks {
-    /// What URDF can say of a look: one colour and a texture. `written` is the look as SDF; what
-    /// is said is taken out of it.
+impl ExportedMaterials {
+    /// Part of a material that URDF can express: one colour and a texture. `written` is the material as
+    /// SDF, from which that part is removed.
     pub(super) fn of(
         &mut self,
         look: &SceneMaterial,
@@ -249,7 +249,7 @@ impl Looks {
     }
 }
 
-/// The texture of a look whose maps are this one alone.
+/// Texture of a material that has no other maps.
 fn texture(pbr: &Pbr) -> Option<String> {
     let alone = pbr.element.as_ref().is_none_or(|element| {
         let parts = element.elements().flat_map(Element::elements).count();
@@ -259,15 +259,15 @@ fn texture(pbr: &Pbr) -> Option<String> {
     pbr.albedo_map.clone().filter(|_| alone && !numbers)
 }
 
-/// The colour that Gazebo brightens to this one; see the other direction. Full brightness may
-/// have been anything from 0.8 on; 1 is what people write.
+/// Inverse of the brightening by Gazebo, see `convert`. Full brightness may come from any value from 0.8
+/// on; 1 is the most common.
 fn as_written(Colour([red, green, blue, alpha]): Colour) -> Option<[f64; 4]> {
     let dark = |bright: f64| -> Option<f64> {
         if bright == 1.0 {
             return Some(1.0);
         }
         let guess = bright * 0.8;
-        // Rounding may be one step off.
+        // Rounding may be off by one step.
         [guess, guess.next_up(), guess.next_down()]
             .into_iter()
             .find(|dark| (dark / 0.8).clamp(0.0, 1.0) == bright)

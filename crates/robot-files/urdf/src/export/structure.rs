@@ -1,11 +1,11 @@
-//! Whether a model can be a URDF at all.
+//! Check that a model can be expressed as URDF.
 
 use std::collections::BTreeSet;
 
 use periplus_diagnostics::{Diagnostic, Diagnostics};
 use periplus_scene::{FrameRole, JointKind, Model, TfEdge};
 
-/// Whether a model is one tree of links on joints that URDF has; if not, errors say why.
+/// Returns true if a model is one tree of links with joints that URDF has; otherwise reports errors.
 pub(super) fn check(model: &Model, tree: &[TfEdge], diagnostics: &mut Diagnostics) -> bool {
     let before = diagnostics.errors();
     for nested in &model.models {
@@ -50,7 +50,7 @@ pub(super) fn check(model: &Model, tree: &[TfEdge], diagnostics: &mut Diagnostic
     diagnostics.errors() == before
 }
 
-/// Each joint must hold a link that no other holds.
+/// Each link must be the child of at most one joint.
 fn closed_loops(model: &Model, tree: &[TfEdge], diagnostics: &mut Diagnostics) {
     let mut held: BTreeSet<&str> = BTreeSet::new();
     let children: BTreeSet<&str> = tree.iter().map(|edge| &*edge.child).collect();
@@ -75,7 +75,7 @@ fn closed_loops(model: &Model, tree: &[TfEdge], diagnostics: &mut Diagnostics) {
             diagnostics.push(
                 Diagnostic::error(
                     "not-in-urdf",
-                    format!("the world hangs on the joint `{}`", joint.name),
+                    format!("the world is the child of the joint `{}`", joint.name),
                 )
                 .at(joint.origin)
                 .help("make the world its parent"),
@@ -84,7 +84,7 @@ fn closed_loops(model: &Model, tree: &[TfEdge], diagnostics: &mut Diagnostics) {
     }
 }
 
-/// All links must hang together.
+/// All links must belong to one tree.
 fn roots(model: &Model, tree: &[TfEdge], diagnostics: &mut Diagnostics) {
     let hung: BTreeSet<&str> = tree.iter().map(|edge| &*edge.child).collect();
     let worldly = tree.iter().any(|edge| edge.parent == "world");
@@ -105,10 +105,10 @@ fn roots(model: &Model, tree: &[TfEdge], diagnostics: &mut Diagnostics) {
     for (name, origin) in roots {
         let error = Diagnostic::error(
             "not-in-urdf",
-            format!("a URDF is one tree, and nothing holds the link `{name}`"),
+            format!("a URDF is one tree, and the link `{name}` has no parent joint"),
         )
         .at(origin)
-        .help("hold it by a joint, or convert it as a model of its own");
+        .help("attach it with a joint, or convert it as a separate model");
         diagnostics.push(match first {
             Some((_, root)) => error.related(root, "the root"),
             None => error,

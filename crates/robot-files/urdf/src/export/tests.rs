@@ -1,4 +1,4 @@
-//! What fits into a URDF, and what is said about the rest.
+//! Export to URDF, and the errors about data that URDF cannot express.
 
 use periplus_diagnostics::{Diagnostics, SourceMap};
 use periplus_scene::Model;
@@ -25,15 +25,15 @@ fn export(content: &str) -> (Option<Robot>, Vec<String>) {
     for one in diagnostics.iter() {
         assert!(one.span.is_some(), "{one:?} has no place");
     }
-    let told = diagnostics.iter().map(|one| format!("{}: {}", one.code, one.message));
-    (robot, told.collect())
+    let findings = diagnostics.iter().map(|one| format!("{}: {}", one.code, one.message));
+    (robot, findings.collect())
 }
 
 /// Checks that a model is no URDF, and why.
 fn refused(content: &str, expected: &str) {
-    let (robot, told) = export(content);
+    let (robot, findings) = export(content);
     assert_eq!(robot, None, "{content}");
-    assert_eq!(told, [expected], "{content}");
+    assert_eq!(findings, [expected], "{content}");
 }
 
 const TWO: &str = "<link name='a'/><link name='b'><pose>1 0 0 0 0 0</pose></link>";
@@ -69,12 +69,12 @@ fn models_that_are_no_tree_of_urdf_joints() {
 
 #[test]
 fn a_hinge_becomes_a_continuous_joint_and_a_fixed_one_is_preserved() {
-    let (robot, told) = export(&format!(
+    let (robot, findings) = export(&format!(
         "{TWO}<link name='c'/>{}{}",
         joint("revolute", "a", "b"),
         joint("fixed", "a", "c")
     ));
-    assert_eq!(told, [""; 0]);
+    assert_eq!(findings, [""; 0]);
     let robot = robot.unwrap();
     let turning = robot.joint("a_b").unwrap();
     assert_eq!((turning.kind, &turning.limit), (JointType::Continuous, &None));
@@ -85,8 +85,8 @@ fn a_hinge_becomes_a_continuous_joint_and_a_fixed_one_is_preserved() {
 
 #[test]
 fn the_world_becomes_the_root() {
-    let (robot, told) = export(&format!("<link name='a'/>{}", joint("fixed", "world", "a")));
-    assert_eq!(told, [""; 0]);
+    let (robot, findings) = export(&format!("<link name='a'/>{}", joint("fixed", "world", "a")));
+    assert_eq!(findings, [""; 0]);
     let robot = robot.unwrap();
     assert_eq!(robot.links[0].name, "world");
     assert_eq!(robot.joint("world_a").unwrap().parent, "world");
@@ -94,13 +94,13 @@ fn the_world_becomes_the_root() {
 
 #[test]
 fn a_link_moves_to_its_joint_with_all_that_is_on_it() {
-    let (robot, told) = export(
+    let (robot, findings) = export(
         "<link name='a'/><link name='b'><pose>0 0 1 0 0 0</pose><collision name='c'>\
          <geometry><sphere><radius>1</radius></sphere></geometry></collision></link>\
          <joint name='j' type='revolute'><pose>0 0 -1 0 0 0</pose><parent>a</parent>\
          <child>b</child><axis><xyz>0 1 0</xyz></axis></joint>",
     );
-    assert_eq!(told, ["frame-moved: the frame of the link `b` moves to its joint, `j`"]);
+    assert_eq!(findings, ["frame-moved: the frame of the link `b` moves to its joint, `j`"]);
     let robot = robot.unwrap();
     assert_eq!(robot.joint("j").unwrap().parent_from_joint.xyz_m, [0.0; 3]);
     let link = robot.link("b").unwrap();
@@ -110,13 +110,13 @@ fn a_link_moves_to_its_joint_with_all_that_is_on_it() {
 
 #[test]
 fn frames_become_links_and_sensors_go_into_blocks() {
-    let (robot, told) = export(
+    let (robot, findings) = export(
         "<link name='a'><gravity>false</gravity><sensor name='s' type='imu'>\
          <update_rate>5</update_rate></sensor></link>\
          <frame name='mark' attached_to='a'><pose>0 1 0 0 0 0</pose></frame>\
          <plugin name='p' filename='libp.so'><x>1</x></plugin>",
     );
-    assert_eq!(told, [""; 0]);
+    assert_eq!(findings, [""; 0]);
     let robot = robot.unwrap();
     let mark = robot.joint("mark_joint").unwrap();
     assert_eq!((&*mark.parent, &*mark.child, mark.kind), ("a", "mark", JointType::Fixed));
@@ -134,10 +134,10 @@ fn frames_become_links_and_sensors_go_into_blocks() {
 
 #[test]
 fn shapes_that_urdf_lacks_are_lost_aloud() {
-    let (robot, told) = export(
+    let (robot, findings) = export(
         "<link name='a'><visual name='v'><geometry><plane/></geometry></visual>\
          <visual name='w'><geometry><sphere><radius>1</radius></sphere></geometry></visual></link>",
     );
-    assert_eq!(told, ["not-in-urdf: URDF has no plane, and `v` is one"]);
+    assert_eq!(findings, ["not-in-urdf: URDF has no plane, and `v` is one"]);
     assert_eq!(robot.unwrap().links[0].visuals.len(), 1);
 }

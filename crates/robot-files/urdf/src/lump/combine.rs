@@ -1,4 +1,4 @@
-//! Mass and inertia of bodies that are screwed together.
+//! Combined mass and inertia of links on fixed joints.
 
 use periplus_geometry::{DVec3, Pose};
 
@@ -16,9 +16,9 @@ pub(crate) struct Combined {
     pub(crate) inertia_kg_m2: [f64; 6],
 }
 
-/// Adds up inertials, each with the frame of its link in the carrier's, the carrier's own first.
-/// One alone stays as it is to the last bit. The axes of the sum are those of the carrier's own
-/// inertial, as in libsdformat (`ReduceInertialToParent`).
+/// Adds inertials, each with the frame of its link in the carrier's, the carrier's own first. A single one
+/// is returned exact to the last bit. The axes of the sum are those of the carrier's inertial, as in
+/// libsdformat (`ReduceInertialToParent`).
 pub(crate) fn combine<'a>(
     own: Option<&'a Inertial>,
     others: impl Iterator<Item = (Pose, &'a Inertial)>,

@@ -1,4 +1,4 @@
-//! Attributes and children of one element, with a finding for each that is wrong.
+//! Attributes and children of one element, with a finding for each fault.
 
 use periplus_diagnostics::{Diagnostic, Diagnostics, Origin};
 use periplus_geometry::{parse_number, parse_numbers};
@@ -7,7 +7,7 @@ use periplus_xml::{Attribute, Element};
 
 use crate::robot::Extra;
 
-/// An attribute as a number; none when it is missing or, with an error, unreadable.
+/// Attribute as a number; `None` if it is missing or, with an error, unreadable.
 pub(super) fn number(element: &Element, name: &str, diagnostics: &mut Diagnostics) -> Option<f64> {
     let attribute = element.attribute(name)?;
     if let Some(number) = parse_number(&attribute.value)
@@ -19,7 +19,7 @@ pub(super) fn number(element: &Element, name: &str, diagnostics: &mut Diagnostic
     None
 }
 
-/// The same; 0 and an error when it is missing.
+/// Attribute as a number; 0 and an error if it is missing.
 pub(super) fn required_number(element: &Element, name: &str, diagnostics: &mut Diagnostics) -> f64 {
     if element.attribute(name).is_none() {
         diagnostics.push(missing_attribute(element, name));
@@ -27,8 +27,8 @@ pub(super) fn required_number(element: &Element, name: &str, diagnostics: &mut D
     number(element, name, diagnostics).unwrap_or(0.0)
 }
 
-/// An attribute as exactly `N` numbers separated by spaces; none when it is missing or, with an
-/// error, unreadable.
+/// Attribute as exactly `N` numbers separated by spaces; `None` if it is missing or, with an error,
+/// unreadable.
 pub(super) fn vector<const N: usize>(
     element: &Element,
     name: &str,
@@ -59,7 +59,7 @@ pub(super) fn vector<const N: usize>(
     None
 }
 
-/// An attribute that must be there and say something.
+/// Attribute that must exist and not be empty.
 pub(super) fn required_text<'a>(
     element: &'a Element,
     name: &str,
@@ -85,8 +85,8 @@ pub(super) fn required_text<'a>(
     }
 }
 
-/// A name, or the name of something else, in an attribute that must be there. Blanks around it
-/// are taken off, for SDF, which Gazebo makes of it, has no room for them.
+/// Name in a required attribute. White space around it is removed, because SDF, to which Gazebo converts
+/// the file, does not allow it.
 pub(super) fn required_name(
     element: &Element,
     name: &str,
@@ -96,15 +96,19 @@ pub(super) fn required_name(
     let plain = attribute.value.trim();
     if plain.len() < attribute.value.len() {
         diagnostics.push(
-            Diagnostic::warning("blank-in-name", "blanks around a name do not count")
+            Diagnostic::warning("blank-in-name", "white space around a name is ignored")
                 .at(attribute.value_origin)
-                .replace(attribute.value_origin, plain, "other readers take them for a part of it"),
+                .replace(
+                    attribute.value_origin,
+                    plain,
+                    "other readers treat it as part of the name",
+                ),
         );
     }
     Some(plain.to_owned())
 }
 
-/// The first child of a name. More than one is a warning, for readers of URDF take the first.
+/// First child of a name. Reports a warning for each further one, since URDF readers use the first.
 pub(super) fn only_child<'a>(
     element: &'a Element,
     name: &'a str,
@@ -119,17 +123,16 @@ pub(super) fn only_child<'a>(
                 format!("`{}` has more than one `{name}`; only the first counts", element.name),
             )
             .at(second.origin)
-            .label("nobody reads this")
-            .related(first.origin, "this one counts")
+            .label("this is ignored")
+            .related(first.origin, "this one is used")
             .help("keep one of them"),
         );
     }
     Some(first)
 }
 
-/// Attributes and children beyond the known ones, each with a warning unless its prefix marks it
-/// as somebody else's. Repetitions of `single` children are kept too, as the writer must not lose
-/// them; they are known from [`only_child`].
+/// Attributes and children beyond the known ones, each with a warning unless its prefix marks it as an
+/// extension. Repetitions of `single` children are kept for the writer; [`only_child`] has reported them.
 pub(super) fn extra(
     element: &Element,
     attributes: &[&str],
@@ -150,7 +153,7 @@ pub(super) fn extra(
                     format!("`{}` has no attribute `{}`", element.name, attribute.name),
                 )
                 .at(Origin(start))
-                .label("nobody reads this")
+                .label("this is ignored")
                 .did_you_mean(
                     Origin(start),
                     &attribute.name,
@@ -181,7 +184,7 @@ pub(super) fn extra(
     extra
 }
 
-/// A finding for a child that its parent does not know.
+/// Finding for an unknown child.
 pub(super) fn unknown_element<'a>(
     parent: &Element,
     child: &Element,
@@ -192,7 +195,7 @@ pub(super) fn unknown_element<'a>(
         format!("`{}` has no child `{}`", parent.name, child.name),
     )
     .at(child.name_origin())
-    .label("nobody reads this")
+    .label("this is ignored")
     .did_you_mean(child.name_origin(), &child.name, known)
 }
 
@@ -234,18 +237,18 @@ fn bad_number(element: &Element, attribute: &Attribute, at: Origin, wanted: &str
     } else if value.contains("pi") {
         error.help("write the number out (pi is 3.14159265358979), or use ${pi} in a .xacro file")
     } else if value.ends_with(['f', 'd']) && parse_number(&value[..value.len() - 1]).is_some() {
-        error.help("leave the letter at its end out")
+        error.help("remove the letter at the end")
     } else {
         error.help("write plain decimal numbers: 0.1 -2 1e-3")
     }
 }
 
-/// Whether a text holds a xacro expression or substitution.
+/// Returns true if a text contains a xacro expression or substitution.
 pub(super) fn is_xacro(text: &str) -> bool {
     text.contains("${") || text.contains("$(")
 }
 
-/// A finding for xacro in a file that no xacro has seen.
+/// Finding for xacro syntax in a file that xacro has not expanded.
 pub(super) fn unexpanded(message: String, at: Origin) -> Diagnostic {
     Diagnostic::error("unexpanded-xacro", message)
         .at(at)

@@ -21,7 +21,7 @@ const CHILDREN: [&str; 9] = [
     "safety_controller",
 ];
 
-/// A `<joint>`; none, with an error, without a name.
+/// Reads a `<joint>`; `None`, with an error, if it has no name.
 pub(super) fn joint(element: &Element, diagnostics: &mut Diagnostics) -> Option<Joint> {
     let name = required_name(element, "name", diagnostics)?;
     let kind = kind(element, &name, diagnostics);
@@ -80,7 +80,7 @@ fn kind(element: &Element, name: &str, diagnostics: &mut Diagnostics) -> JointTy
     JointType::Fixed
 }
 
-/// The link named by `<parent link=...>` or `<child link=...>`.
+/// Link named by `<parent link=...>` or `<child link=...>`.
 fn end(joint: &Element, end: &str, name: &str, diagnostics: &mut Diagnostics) -> (String, Origin) {
     let Some(element) = only_child(joint, end, diagnostics) else {
         diagnostics.push(
@@ -143,7 +143,7 @@ fn check_limit(joint: &Joint, diagnostics: &mut Diagnostics) {
             .at(joint.origin)
             .help("write <limit lower=\"-1\" upper=\"1\" effort=\"10\" velocity=\"1\"/>");
             diagnostics.push(if joint.kind == JointType::Revolute {
-                error.help("or write type=\"continuous\" for one that turns without limits")
+                error.help("or write type=\"continuous\" for a joint without limits")
             } else {
                 error
             });
@@ -154,7 +154,7 @@ fn check_limit(joint: &Joint, diagnostics: &mut Diagnostics) {
                 format!("the lower limit of the joint `{}` is above its upper limit", joint.name),
             )
             .at(limit.origin)
-            .label("taken the other way round, as Gazebo does")
+            .label("swapped, as Gazebo does")
             .help("swap them"),
         ),
         Some(limit) if limit.effort < 0.0 || limit.velocity < 0.0 => diagnostics.push(
@@ -173,9 +173,12 @@ fn dynamics_of(element: &Element, diagnostics: &mut Diagnostics) -> Dynamics {
     let names = ["damping", "friction"];
     if names.iter().all(|name| element.attribute(name).is_none()) {
         diagnostics.push(
-            Diagnostic::error("missing-attribute", "this `dynamics` says nothing")
-                .at(element.origin)
-                .help("write <dynamics damping=\"0.1\" friction=\"0\"/>, or leave it out"),
+            Diagnostic::error(
+                "missing-attribute",
+                "this `dynamics` has neither `damping` nor `friction`",
+            )
+            .at(element.origin)
+            .help("write <dynamics damping=\"0.1\" friction=\"0\"/>, or leave it out"),
         );
     }
     Dynamics {

@@ -9,7 +9,7 @@ use super::fields::{
 use super::{material, origin_of};
 use crate::robot::{Collision, Geometry, Inertial, Link, Visual};
 
-/// A `<link>`; none, with an error, without a name.
+/// Reads a `<link>`; `None`, with an error, if it has no name.
 pub(super) fn link(element: &Element, diagnostics: &mut Diagnostics) -> Option<Link> {
     let name = required_name(element, "name", diagnostics)?;
     Some(Link {
@@ -24,7 +24,7 @@ pub(super) fn link(element: &Element, diagnostics: &mut Diagnostics) -> Option<L
             .named("collision")
             .filter_map(|collision| self::collision(collision, diagnostics))
             .collect(),
-        // `type` is what some exporters write, and what everybody ignores.
+        // `type` is written by some exporters and ignored by all readers.
         extra: extra(element, &["name"], &["inertial"], &["visual", "collision"], diagnostics),
         origin: element.origin,
     })
@@ -67,8 +67,7 @@ fn inertial(element: &Element, diagnostics: &mut Diagnostics) -> Inertial {
     Inertial { link_from_inertial, mass_kg, inertia_kg_m2, extra: rest, origin: element.origin }
 }
 
-/// Strange content of `<mass>` or `<inertia>` is kept as a second such element, which readers
-/// ignore.
+/// Unknown content of `<mass>` or `<inertia>` is kept as a second such element, which readers ignore.
 fn keep_nested(element: &Element, found: crate::robot::Extra, rest: &mut crate::robot::Extra) {
     if !found.is_empty() {
         rest.elements.push(periplus_sdf::keep(element));
@@ -81,7 +80,7 @@ fn visual(element: &Element, diagnostics: &mut Diagnostics) -> Option<Visual> {
         link_from_visual: origin_of(element, diagnostics),
         material: only_child(element, "material", diagnostics)
             .map(|material| material::of_visual(material, diagnostics)),
-        // `group` is of the format's first draft.
+        // `group` is from the first draft of the format.
         extra: extra(element, &["name"], &["origin", "geometry", "material"], &[], diagnostics),
         geometry: geometry(element, diagnostics)?,
         origin: element.origin,
@@ -98,7 +97,7 @@ fn collision(element: &Element, diagnostics: &mut Diagnostics) -> Option<Collisi
     })
 }
 
-/// What liburdfdom makes of a shape that it cannot read.
+/// Behaviour of liburdfdom for a shape that it cannot read.
 const REST_OF_LINK: &str = "ROS and Gazebo accept the robot, but leave out all shapes of this link \
                             that follow";
 
@@ -135,7 +134,7 @@ fn geometry(parent: &Element, diagnostics: &mut Diagnostics) -> Option<Geometry>
             Diagnostic::warning("two-shapes", "a `geometry` holds one shape, and here is another")
                 .at(second.origin)
                 .label("not read, in other readers too")
-                .related(shape.origin, "this one counts")
+                .related(shape.origin, "this one is used")
                 .help(format!("write a second `{}` for it", parent.name)),
         );
     }
@@ -182,7 +181,7 @@ fn geometry(parent: &Element, diagnostics: &mut Diagnostics) -> Option<Geometry>
         }
     };
     if !known.is_empty() {
-        // Said here; a shape has no place to keep what nobody reads.
+        // Reported here; a shape has no field for unknown content.
         extra(shape, known, &[], &[], diagnostics);
     }
     Some(read)
@@ -220,7 +219,7 @@ fn check_size(sizes: &[f64], shape: &Element, name: &str, diagnostics: &mut Diag
             Diagnostic::warning("flat-shape", format!("a {} without extent", shape.name))
                 .at(place)
                 .label("left empty")
-                .help("sizes are in metres, and positive"),
+                .help("sizes are positive lengths in metres"),
         );
     }
 }

@@ -6,7 +6,7 @@ use periplus_xml::Element;
 use super::fields::{extra, only_child, required_text, vector};
 use crate::robot::{ColourAsWritten, Material, Texture};
 
-/// A `<material>` of the robot: it must have a name and say what it looks like.
+/// Reads a `<material>` of the robot: it must have a name and a colour or texture.
 pub(super) fn global(element: &Element, diagnostics: &mut Diagnostics) -> Option<Material> {
     let name = required_text(element, "name", diagnostics)?.value.to_string();
     let material = content(name, element, diagnostics);
@@ -23,7 +23,7 @@ pub(super) fn global(element: &Element, diagnostics: &mut Diagnostics) -> Option
     Some(material)
 }
 
-/// A `<material>` of a visual: a definition, or a name.
+/// Reads a `<material>` of a visual: a definition or a reference by name.
 pub(super) fn of_visual(element: &Element, diagnostics: &mut Diagnostics) -> Material {
     // An empty name with a colour in place is common and harmless.
     let name = match element.attribute("name") {

@@ -76,13 +76,13 @@ fn two_parents_names_both_places() {
              --> robot.urdf:4:61
               |
             2 | <joint name='j' type='fixed'><parent link='a'/><child link='b'/></joint>
-              |                                                             - it hangs here already
+              |                                                             - it is a child here already
             3 | <joint name='k' type='fixed'><parent link='a'/><child link='c'/></joint>
             4 | <joint name='l' type='fixed'><parent link='c'/><child link='b'/></joint></robot>
               |                                                             ^ left out
               |
               = note: a URDF is a tree; closed loops can be written in SDF
-              = help: give the second joint a child link of its own, or remove it
+              = help: give the second joint another child link, or remove it
         "#]],
     );
 }
@@ -118,7 +118,7 @@ fn two_roots_suggest_a_joint() {
             2 | <link name='base'/>
               | ------------------- the root
             3 | <link name='lidar'/>
-              | ^^^^^^^^^^^^^^^^^^^^ nothing holds this link
+              | ^^^^^^^^^^^^^^^^^^^^ no joint has this link as its child
               |
               = help: add <joint name="lidar_joint" type="fixed"><parent link="base"/><child link="lidar"/></joint>
         "#]],

@@ -1,19 +1,19 @@
-//! Traces of xacro in a file that should be plain URDF.
+//! Unexpanded xacro in a file that should be plain URDF.
 
 use periplus_diagnostics::{Diagnostic, Diagnostics, Origin};
 use periplus_xml::{Element, Node};
 
 use super::fields::{is_xacro, unexpanded};
 
-/// Elements of xacro from the time when it had no prefix.
+/// Elements of xacro from versions without a prefix.
 const OLD_XACRO: [&str; 7] =
     ["macro", "property", "include", "if", "unless", "insert_block", "arg"];
 
-/// Where xacro has not run, one finding would do; a few more show the extent.
-const MOST_FINDINGS: usize = 20;
+/// Maximum number of findings. One would do; a few more show the extent.
+const MAX_FINDINGS: usize = 20;
 
-/// Says where xacro has not run: `xacro:` elements, and expressions in names and texts. Those in
-/// numbers are found where the numbers are read.
+/// Reports unexpanded xacro: `xacro:` elements, and expressions in names and texts. Those in numbers are
+/// reported by the readers of the numbers.
 pub(super) fn check(root: &Element, diagnostics: &mut Diagnostics) {
     for child in root.elements().filter(|child| OLD_XACRO.contains(&&*child.name)) {
         diagnostics.push(
@@ -22,7 +22,7 @@ pub(super) fn check(root: &Element, diagnostics: &mut Diagnostics) {
                 format!("`{}` is an element of xacro, and xacro has not run", child.name),
             )
             .at(child.name_origin())
-            .label("nobody reads this")
+            .label("this is ignored")
             .help(format!(
                 "write `xacro:{}`, declare xmlns:xacro=\"http://www.ros.org/wiki/xacro\" in \
                  <robot>, and name the file `.xacro`",
@@ -33,7 +33,7 @@ pub(super) fn check(root: &Element, diagnostics: &mut Diagnostics) {
     let mut found = Vec::new();
     walk(root, &mut found);
     for (what, place) in found {
-        // Bad numbers have been refused already, at the same place.
+        // Unreadable numbers have been reported at the same location.
         if diagnostics.iter().any(|known| known.span.is_some() && known.span == place.0) {
             continue;
         }
@@ -52,7 +52,7 @@ fn walk(element: &Element, found: &mut Vec<(String, Origin)>) {
         found.push((what, attribute.value_origin));
     }
     for child in &element.children {
-        if found.len() >= MOST_FINDINGS {
+        if found.len() >= MAX_FINDINGS {
             return;
         }
         match child {

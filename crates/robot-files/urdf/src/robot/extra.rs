@@ -1,8 +1,8 @@
-//! What nobody interprets.
+//! Uninterpreted attributes and elements.
 
 use periplus_xml::{Attribute, Element};
 
-/// Attributes and children of an element that nobody here interprets, word for word.
+/// Uninterpreted attributes and children of an element, kept verbatim.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Extra {
     /// Attributes.
@@ -12,7 +12,7 @@ pub struct Extra {
 }
 
 impl Extra {
-    /// Whether there is nothing.
+    /// Returns true if there are none.
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.attributes.is_empty() && self.elements.is_empty()

@@ -5,15 +5,15 @@ use periplus_xml::Element;
 
 use super::Extra;
 
-/// A `<gazebo>` block, its content word for word.
+/// A `<gazebo>` block; its content is kept verbatim.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct GazeboBlock {
-    /// The link or joint it speaks about; none for the robot.
+    /// Link or joint that it refers to; `None` for the robot.
     pub reference: Option<String>,
     /// Settings, sensors, plugins.
     pub content: Vec<Element>,
     /// Further attributes.
     pub extra: Extra,
-    /// Where the reference stands, or else the block.
+    /// Source location of the reference, or else of the block.
     pub origin: Origin,
 }

@@ -4,21 +4,21 @@ use periplus_diagnostics::Origin;
 
 use super::{Extra, Placement};
 
-/// How a joint moves.
+/// Type of motion of a joint.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
 pub enum JointType {
-    /// Not at all.
+    /// No motion.
     #[default]
     Fixed,
-    /// It turns within limits.
+    /// Rotation within limits.
     Revolute,
-    /// It turns without limits.
+    /// Rotation without limits.
     Continuous,
-    /// It slides within limits.
+    /// Translation within limits.
     Prismatic,
-    /// It moves in a plane across its axis.
+    /// Motion in the plane perpendicular to its axis.
     Planar,
-    /// It moves freely.
+    /// Free motion.
     Floating,
 }
 
@@ -39,49 +39,49 @@ impl JointType {
         Self::ALL.iter().find(|(_, kind)| *kind == self).map_or("fixed", |(name, _)| name)
     }
 
-    /// Whether it moves along or about an axis.
+    /// Returns true if it moves along or about an axis.
     #[must_use]
     pub fn has_axis(self) -> bool {
         !matches!(self, Self::Fixed | Self::Floating)
     }
 }
 
-/// What holds two links together. Positions are metres for a prismatic joint, radians otherwise.
+/// Connection of two links. Positions are in metres for a prismatic joint, in radians otherwise.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Joint {
     /// Its name, unique among the joints.
     pub name: String,
-    /// How it moves.
+    /// Type of motion.
     pub kind: JointType,
-    /// The link above.
+    /// Parent link.
     pub parent: String,
-    /// The link below, whose frame at position zero is the joint's.
+    /// Child link. At position zero its frame is the joint's.
     pub child: String,
-    /// The joint's frame in the parent link's, at position zero.
+    /// Joint frame in the parent link's frame, at position zero.
     pub parent_from_joint: Placement,
-    /// Direction of the axis in the joint's frame, as written; x where the file says nothing.
+    /// Direction of the axis in the joint frame, as written; the default is x.
     pub axis: Option<([f64; 3], Extra)>,
     /// Limits.
     pub limit: Option<Limit>,
     /// Damping and friction.
     pub dynamics: Option<Dynamics>,
-    /// The joint that it follows.
+    /// Joint that it follows.
     pub mimic: Option<Mimic>,
-    /// Where its position is known.
+    /// Positions of a reference switch.
     pub calibration: Option<Calibration>,
     /// Soft limits.
     pub safety_controller: Option<SafetyController>,
-    /// What nobody here interprets.
+    /// Uninterpreted attributes and elements, kept verbatim.
     pub extra: Extra,
-    /// Where it was read.
+    /// Source location.
     pub origin: Origin,
-    /// Where the name of the parent stands.
+    /// Source location of the name of the parent.
     pub parent_origin: Origin,
-    /// Where the name of the child stands.
+    /// Source location of the name of the child.
     pub child_origin: Origin,
 }
 
-/// The x axis, which holds where a joint gives none.
+/// Default axis.
 pub(crate) const DEFAULT_AXIS: [f64; 3] = [1.0, 0.0, 0.0];
 
 impl Joint {
@@ -99,13 +99,13 @@ pub struct Limit {
     pub lower: f64,
     /// Highest position [m or rad].
     pub upper: f64,
-    /// Greatest force [N or N m].
+    /// Maximum force or torque [N or N m].
     pub effort: f64,
-    /// Greatest speed [m/s or rad/s].
+    /// Maximum speed [m/s or rad/s].
     pub velocity: f64,
-    /// What nobody here interprets.
+    /// Uninterpreted attributes and elements, kept verbatim.
     pub extra: Extra,
-    /// Where it was read.
+    /// Source location.
     pub origin: Origin,
 }
 
@@ -116,33 +116,33 @@ pub struct Dynamics {
     pub damping: f64,
     /// Static friction [N or N m].
     pub friction: f64,
-    /// What nobody here interprets.
+    /// Uninterpreted attributes and elements, kept verbatim.
     pub extra: Extra,
 }
 
 /// `position = multiplier * other + offset`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Mimic {
-    /// The joint that leads.
+    /// Joint that it follows.
     pub joint: String,
     /// Ratio.
     pub multiplier: f64,
-    /// Added [m or rad].
+    /// Offset [m or rad].
     pub offset: f64,
-    /// What nobody here interprets.
+    /// Uninterpreted attributes and elements, kept verbatim.
     pub extra: Extra,
-    /// Where the name of the leader stands.
+    /// Source location of the name of the joint that it follows.
     pub origin: Origin,
 }
 
-/// Where a reference switch changes.
+/// Positions at which a reference switch changes.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Calibration {
     /// Position of the rising edge [m or rad].
     pub rising: Option<f64>,
     /// Position of the falling edge [m or rad].
     pub falling: Option<f64>,
-    /// What nobody here interprets.
+    /// Uninterpreted attributes and elements, kept verbatim.
     pub extra: Extra,
 }
 
@@ -157,6 +157,6 @@ pub struct SafetyController {
     pub k_position: f64,
     /// Force per excess speed [N s/m or N m s/rad].
     pub k_velocity: f64,
-    /// What nobody here interprets.
+    /// Uninterpreted attributes and elements, kept verbatim.
     pub extra: Extra,
 }

@@ -1,4 +1,4 @@
-//! Links and what is on them.
+//! Links and their shapes.
 
 use periplus_diagnostics::Origin;
 use periplus_xml::Element;
@@ -10,15 +10,15 @@ use super::{Extra, Material, Placement};
 pub struct Link {
     /// Its name, unique among the links.
     pub name: String,
-    /// Mass and inertia, where the file gives them.
+    /// Mass and inertia, if given.
     pub inertial: Option<Inertial>,
-    /// What is seen.
+    /// Visual shapes.
     pub visuals: Vec<Visual>,
-    /// What touches.
+    /// Collision shapes.
     pub collisions: Vec<Collision>,
-    /// What nobody here interprets.
+    /// Uninterpreted attributes and elements, kept verbatim.
     pub extra: Extra,
-    /// Where it was read.
+    /// Source location.
     pub origin: Origin,
 }
 
@@ -31,41 +31,41 @@ pub struct Inertial {
     pub mass_kg: f64,
     /// `xx, xy, xz, yy, yz, zz` about the centre of mass [kg m²].
     pub inertia_kg_m2: [f64; 6],
-    /// What nobody here interprets.
+    /// Uninterpreted attributes and elements, kept verbatim.
     pub extra: Extra,
-    /// Where it was read.
+    /// Source location.
     pub origin: Origin,
 }
 
-/// A shape that is seen.
+/// Shape for rendering.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Visual {
-    /// Its name, where the file gives one.
+    /// Name, if given.
     pub name: Option<String>,
     /// Its frame in the link's.
     pub link_from_visual: Placement,
     /// Its shape.
     pub geometry: Geometry,
-    /// Its look.
+    /// Material.
     pub material: Option<Material>,
-    /// What nobody here interprets.
+    /// Uninterpreted attributes and elements, kept verbatim.
     pub extra: Extra,
-    /// Where it was read.
+    /// Source location.
     pub origin: Origin,
 }
 
-/// A shape that touches.
+/// Shape for contacts.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Collision {
-    /// Its name, where the file gives one.
+    /// Name, if given.
     pub name: Option<String>,
     /// Its frame in the link's.
     pub link_from_collision: Placement,
     /// Its shape.
     pub geometry: Geometry,
-    /// What nobody here interprets.
+    /// Uninterpreted attributes and elements, kept verbatim.
     pub extra: Extra,
-    /// Where it was read.
+    /// Source location.
     pub origin: Origin,
 }
 
@@ -102,9 +102,9 @@ pub enum Geometry {
         filename: String,
         /// Factors along x, y, z.
         scale: [f64; 3],
-        /// Where the URI stands.
+        /// Source location of the URI.
         origin: Origin,
     },
-    /// A shape that nobody here knows.
+    /// Unknown shape.
     Unknown(Element),
 }

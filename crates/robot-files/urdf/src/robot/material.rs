@@ -1,4 +1,4 @@
-//! Looks.
+//! Materials.
 
 use periplus_diagnostics::Origin;
 
@@ -13,9 +13,9 @@ pub struct Material {
     pub colour: Option<ColourAsWritten>,
     /// Its texture.
     pub texture: Option<Texture>,
-    /// What nobody here interprets.
+    /// Uninterpreted attributes and elements, kept verbatim.
     pub extra: Extra,
-    /// Where it was read.
+    /// Source location.
     pub origin: Origin,
 }
 
@@ -24,7 +24,7 @@ pub struct Material {
 pub struct ColourAsWritten {
     /// Red, green, blue, alpha; 0..1 is expected.
     pub rgba: [f64; 4],
-    /// What nobody here interprets.
+    /// Uninterpreted attributes and elements, kept verbatim.
     pub extra: Extra,
 }
 
@@ -33,12 +33,12 @@ pub struct ColourAsWritten {
 pub struct Texture {
     /// The URI as written.
     pub filename: String,
-    /// What nobody here interprets.
+    /// Uninterpreted attributes and elements, kept verbatim.
     pub extra: Extra,
 }
 
 impl Material {
-    /// Whether it says what the material looks like, and not only what it is called.
+    /// Returns true if it defines a colour or texture, not only a name.
     #[must_use]
     pub fn is_definition(&self) -> bool {
         self.colour.is_some() || self.texture.is_some()

@@ -1,4 +1,4 @@
-//! Where something stands, as the file says it.
+//! Poses as written.
 
 use periplus_geometry::{DQuat, Pose, Rpy};
 
@@ -7,15 +7,15 @@ use super::Extra;
 /// An `<origin>`: a pose as written, so that writing it again changes nothing.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Placement {
-    /// Shift [m].
+    /// Translation [m].
     pub xyz_m: [f64; 3],
-    /// Turn.
+    /// Rotation.
     pub rotation: Rotation,
-    /// What nobody here interprets.
+    /// Uninterpreted attributes and elements, kept verbatim.
     pub extra: Extra,
 }
 
-/// A turn as written.
+/// Rotation as written.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Rotation {
     /// Roll, pitch, yaw about fixed axes [rad].
@@ -44,7 +44,7 @@ impl Placement {
         }
     }
 
-    /// A pose as roll, pitch and yaw, which every reader knows.
+    /// Converts a pose to roll, pitch and yaw, which every reader supports.
     #[must_use]
     pub fn from_pose(pose: Pose) -> Self {
         let Rpy { roll, pitch, yaw } = pose.rpy();
