@@ -1,9 +1,9 @@
-//! Models that every world may include though nobody has their files.
+//! Built-in models that worlds may include without a file.
 
 use periplus_diagnostics::{Diagnostics, SourceMap};
 use periplus_xml::{Document, parse};
 
-/// The light of most worlds: from above, a little aslant.
+/// Light of most worlds: from above, slightly inclined.
 const SUN: &str = r#"<sdf version="1.6">
   <light type="directional" name="sun">
     <cast_shadows>true</cast_shadows>
@@ -21,7 +21,7 @@ const SUN: &str = r#"<sdf version="1.6">
 </sdf>
 "#;
 
-/// The floor of most worlds.
+/// Floor of most worlds.
 const GROUND_PLANE: &str = r#"<sdf version="1.6">
   <model name="ground_plane">
     <static>true</static>
@@ -43,7 +43,7 @@ const GROUND_PLANE: &str = r#"<sdf version="1.6">
 </sdf>
 "#;
 
-/// The built-in model that a URI names: `model://sun`, or `.../models/Ground Plane` of Fuel.
+/// Built-in model named by a URI: `model://sun`, or `.../models/Ground Plane` of Fuel.
 pub(crate) fn find(uri: &str, sources: &mut SourceMap) -> Option<Document> {
     let by_scheme = uri.strip_prefix("model://");
     let by_fuel = || {

@@ -1,18 +1,18 @@
-//! Models and worlds as they are read, before frames are resolved: every pose is as written, and
-//! beside it stands what it is relative to.
+//! Models and worlds before their frames are resolved: every pose is as written, next to the frame that it
+//! is relative to.
 
 use periplus_diagnostics::Origin;
 use periplus_scene::{Actor, Frame, Joint, Light, Link, Model, World};
 
 use crate::pose::Reference;
 
-/// A part of a link or joint whose pose is relative to a frame by name.
+/// Part of a link or joint whose pose is relative to a named frame.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Part {
     Collision(usize),
     Visual(usize),
     Sensor(usize),
-    /// Which sensor, and which of its cameras.
+    /// Index of the sensor, and of its camera.
     Camera(usize, usize),
     Light(usize),
 }
@@ -30,7 +30,7 @@ pub(crate) struct JointDraft {
     pub(crate) relative_to: Option<Reference>,
     pub(crate) parent: Reference,
     pub(crate) child: Reference,
-    /// What the directions of the two axes are expressed in.
+    /// Frames in which the directions of the two axes are expressed.
     pub(crate) expressed_in: [Option<Reference>; 2],
     pub(crate) parts: Vec<(Part, Reference)>,
 }
@@ -42,7 +42,7 @@ pub(crate) struct FrameDraft {
     pub(crate) attached_to: Option<Reference>,
 }
 
-/// A model; the lists of `model` are empty until its frames are resolved.
+/// Model; the lists of `model` are empty until its frames are resolved.
 #[derive(Clone, Debug)]
 pub(crate) struct ModelDraft {
     pub(crate) model: Model,
@@ -71,7 +71,7 @@ pub(crate) struct ActorDraft {
     pub(crate) joints: Vec<JointDraft>,
 }
 
-/// A world; the lists of `world` that stand here too are empty until its frames are resolved.
+/// World; the lists of `world` that are repeated here are empty until its frames are resolved.
 #[derive(Clone, Debug)]
 pub(crate) struct WorldDraft {
     pub(crate) world: World,
@@ -83,7 +83,7 @@ pub(crate) struct WorldDraft {
 }
 
 impl ModelDraft {
-    /// A model that is resolved already, as a draft of the same meaning.
+    /// Converts a resolved model back to an equivalent draft.
     pub(crate) fn from_model(mut model: Model) -> Self {
         let reference = |name: &str, origin: Origin| Reference { name: name.into(), origin };
         let links = std::mem::take(&mut model.links)

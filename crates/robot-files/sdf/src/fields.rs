@@ -1,7 +1,7 @@
-//! The parts of an element, and which of them a reader has used: what is left over in the end is
-//! kept word for word and, if nobody knows its name, told.
+//! Access to the parts of an element. Tracks which of them were read: the rest is kept verbatim and, if its
+//! name is unknown, reported.
 
-use periplus_diagnostics::{Diagnostic, Diagnostics, MOST_KEPT, Origin, Severity};
+use periplus_diagnostics::{Diagnostic, Diagnostics, MAX_FINDINGS, Origin, Severity};
 use periplus_geometry::DVec3;
 use periplus_scene::Colour;
 use periplus_xml::{Attribute, Element, Node};
@@ -9,8 +9,8 @@ use periplus_xml::{Attribute, Element, Node};
 use crate::value::{self, leaf};
 use crate::verbatim::keep;
 
-/// An element that is being read. Each question marks what it found as used; [`Self::finish`]
-/// settles the rest.
+/// Element that is being read. Each access marks what it returns as read; [`Self::finish`] handles the
+/// rest.
 pub(crate) struct Fields<'a, 'd> {
     pub(crate) element: &'a Element,
     pub(crate) diagnostics: &'d mut Diagnostics,
@@ -28,7 +28,7 @@ impl<'a, 'd> Fields<'a, 'd> {
             diagnostics,
             used: vec![false; element.children.len()],
             used_attributes: vec![false; element.attributes.len()],
-            // Most elements have about so many kinds of children.
+            // Typical number of kinds of children.
             known: Vec::with_capacity(16),
             known_attributes: Vec::new(),
             kept: Vec::new(),
@@ -50,8 +50,7 @@ impl<'a, 'd> Fields<'a, 'd> {
         found
     }
 
-    /// The child of a name. More of them are left out with a warning, for readers of SDF have
-    /// always taken the first.
+    /// Child of a name. Further ones are dropped with a warning, because SDF readers use the first.
     pub(crate) fn child(&mut self, name: &'static str) -> Option<&'a Element> {
         self.known.push(name);
         let mut first: Option<&'a Element> = None;
@@ -66,23 +65,23 @@ impl<'a, 'd> Fields<'a, 'd> {
                 Some(first) => self.diagnostics.push(
                     Diagnostic::warning(
                         "repeated-element",
-                        format!("`<{name}>` may stand only once; this one is left out"),
+                        format!("`<{name}>` may occur only once; this one is left out"),
                     )
                     .at(child.origin)
-                    .related(first.origin, "the first one counts"),
+                    .related(first.origin, "the first one is used"),
                 ),
             }
         }
         first
     }
 
-    /// The child of a name, opened for reading; see [`Self::close`].
+    /// Child of a name, opened for reading; see [`Self::close`].
     pub(crate) fn open(&mut self, name: &'static str) -> Option<Fields<'a, '_>> {
         let child = self.child(name)?;
         Some(Fields::new(child, self.diagnostics))
     }
 
-    /// Keeps what was left over in a child that [`Self::open`] gave, under the child's name.
+    /// Keeps the unread rest of a child opened by [`Self::open`], under the child's name.
     pub(crate) fn close(&mut self, name: &'static str, rest: Vec<Element>) {
         if !rest.is_empty() {
             let mut wrapper = Element::new(name);
@@ -98,7 +97,7 @@ impl<'a, 'd> Fields<'a, 'd> {
         Some(&self.element.attributes[index])
     }
 
-    /// An attribute that must be there and not be empty; an error where it is not.
+    /// Attribute that must exist and not be empty; otherwise an error.
     pub(crate) fn required_attribute(&mut self, name: &'static str) -> Option<&'a Attribute> {
         match self.attribute(name) {
             Some(attribute) if !attribute.value.is_empty() => Some(attribute),
@@ -122,19 +121,19 @@ impl<'a, 'd> Fields<'a, 'd> {
         }
     }
 
-    /// Children that are known and kept word for word.
+    /// Children that are known and kept verbatim.
     pub(crate) fn verbatim(&mut self, names: &[&'static str]) {
         self.known.extend(names);
     }
 
-    /// Attributes that mean nothing to a reader.
+    /// Attributes without a meaning for this reader.
     pub(crate) fn ignore_attributes(&mut self, names: &[&'static str]) {
         for &name in names {
             let _ = self.attribute(name);
         }
     }
 
-    /// Settles the rest: gives every child that was not read, and tells those of unknown name.
+    /// Returns every child that was not read, and reports those with unknown names.
     pub(crate) fn finish(mut self) -> Vec<Element> {
         let mut rest = std::mem::take(&mut self.kept);
         let verbatim_from = rest.len();
@@ -144,7 +143,7 @@ impl<'a, 'd> Fields<'a, 'd> {
                 Node::Text(text) if !text.text.trim().is_empty() => self.diagnostics.push(
                     Diagnostic::warning(
                         "stray-text",
-                        format!("text directly in `<{}>` means nothing", self.element.name),
+                        format!("text directly in `<{}>` has no meaning", self.element.name),
                     )
                     .at(text.origin),
                 ),
@@ -156,13 +155,13 @@ impl<'a, 'd> Fields<'a, 'd> {
                 let parent = &self.element.name;
                 let message = format!("`<{}>` is not known inside `<{parent}>`", child.name);
                 let place = child.name_origin();
-                let told = Diagnostic::warning("unknown-element", message)
+                let finding = Diagnostic::warning("unknown-element", message)
                     .at(place)
-                    .note("it is kept, but nothing here reads it");
-                // Looking for near names takes a while, and more findings are only counted.
-                let suggest = self.diagnostics.count(Severity::Warning) < MOST_KEPT;
+                    .note("it is kept, but not used");
+                // The search for similar names takes time, and further findings are only counted.
+                let suggest = self.diagnostics.count(Severity::Warning) < MAX_FINDINGS;
                 let known = self.known.iter().copied().filter(|_| suggest);
-                self.diagnostics.push(told.did_you_mean(place, &child.name, known));
+                self.diagnostics.push(finding.did_you_mean(place, &child.name, known));
             }
         }
         self.settle_attributes();
@@ -183,7 +182,7 @@ impl<'a, 'd> Fields<'a, 'd> {
         }
     }
 
-    /// The value of a leaf child, read by `read`; `default` where there is none.
+    /// Value of a leaf child, read by `read`; `default` if it is missing.
     fn leaf<T>(
         &mut self,
         name: &'static str,
@@ -204,12 +203,12 @@ impl<'a, 'd> Fields<'a, 'd> {
         self.leaf(name, default, value::number)
     }
 
-    /// A finite number that may be missing.
+    /// Finite number, optional.
     pub(crate) fn optional_number(&mut self, name: &'static str) -> Option<f64> {
         self.leaf(name, None, |child, d| Some(value::number(child, d)))
     }
 
-    /// A finite number, not below zero.
+    /// Finite number, at least zero.
     pub(crate) fn magnitude(&mut self, name: &'static str, default: f64) -> f64 {
         self.leaf(name, default, |child, d| {
             let number = value::number(child, d)?;
@@ -217,7 +216,7 @@ impl<'a, 'd> Fields<'a, 'd> {
         })
     }
 
-    /// A finite rate. Gazebo takes one that is not above zero for "without limit", which is 0 here.
+    /// Finite rate. Gazebo treats values up to zero as unlimited, which is 0 here.
     pub(crate) fn rate(&mut self, name: &'static str, default: f64) -> f64 {
         let rate = self.number(name, default);
         if rate < 0.0
@@ -226,7 +225,7 @@ impl<'a, 'd> Fields<'a, 'd> {
             self.diagnostics.push(
                 Diagnostic::hint(
                     "negative-rate",
-                    format!("`<{name}>` is below 0, which counts as 0: without limit"),
+                    format!("`<{name}>` is below 0, which is read as 0: no limit"),
                 )
                 .at(child.text_origin())
                 .help(format!("write `<{name}>0</{name}>`")),
@@ -240,7 +239,7 @@ impl<'a, 'd> Fields<'a, 'd> {
         self.leaf(name, default, value::number_or_infinite)
     }
 
-    /// A length above zero that must be given.
+    /// Required length above zero.
     pub(crate) fn length(&mut self, name: &'static str, default: f64) -> f64 {
         self.require(name, &periplus_geometry::format_number(default));
         self.leaf(name, default, |child, d| {
@@ -253,7 +252,7 @@ impl<'a, 'd> Fields<'a, 'd> {
         self.leaf(name, default, value::boolean)
     }
 
-    /// A whole number, not below zero.
+    /// Integer, at least zero.
     pub(crate) fn count(&mut self, name: &'static str, default: u32) -> u32 {
         self.leaf(name, default, value::count)
     }
@@ -274,16 +273,16 @@ impl<'a, 'd> Fields<'a, 'd> {
         self.leaf(name, None, |child, d| Some(value::colour(child, d)))
     }
 
-    /// Text; none where it is missing or empty.
+    /// Text; `None` if it is missing or empty.
     pub(crate) fn text(&mut self, name: &'static str) -> Option<String> {
         let child = self.child(name)?;
         leaf(child, &[], self.diagnostics);
-        // What libsdformat writes for text that nobody gave.
+        // Placeholder that libsdformat writes for missing text.
         let text = child.text();
         (!text.is_empty() && text != "__default__").then(|| text.into_owned())
     }
 
-    /// Warns where a child is missing that SDF wants; the default is used.
+    /// Warns about a missing child that SDF requires; the default is used.
     pub(crate) fn require(&mut self, name: &'static str, default: &str) {
         if self.element.child(name).is_none() {
             let parent = &self.element.name;

@@ -1,9 +1,9 @@
-//! Frames: from poses relative to frames by name to poses in fixed parents.
+//! Resolution of frames: from poses relative to named frames to poses relative to fixed parents.
 //!
-//! The rules are SDF's ("Pose Frame Semantics", SDF 1.7 and later): a link, a frame or a nested
-//! model without `relative_to` lies relative to its model, a frame with `attached_to` to that, a
-//! joint to its child, a part of a link to the link. Names inside a nested model are `model::name`.
-//! Only names of the same model and of what is nested in it can be used.
+//! The rules are SDF's ("Pose Frame Semantics", SDF 1.7 and later): without `relative_to`, the pose of a
+//! link, a frame or a nested model is relative to its model, that of a frame with `attached_to` to that
+//! frame, that of a joint to its child, that of a part of a link to the link. Names inside a nested model
+//! are `model::name`. Only names of the same model and of models nested in it are visible.
 
 mod body;
 mod graph;
@@ -19,7 +19,7 @@ use crate::pose::Reference;
 use graph::{Base, Vertex};
 pub(crate) use scope::Scope;
 
-/// A model whose inside is resolved; its own pose is as written.
+/// Model with resolved content; its own pose is as written.
 pub(crate) struct ResolvedModel {
     pub(crate) model: Model,
     scope: Scope,
@@ -28,21 +28,21 @@ pub(crate) struct ResolvedModel {
 }
 
 impl ResolvedModel {
-    /// The placement frame as seen from the model.
+    /// Placement frame in the model frame.
     pub(crate) fn model_from_placement(&self, diagnostics: &mut Diagnostics) -> Pose {
         let Some(frame) = &self.placement_frame else { return Pose::IDENTITY };
         self.scope.parent_from(&frame.name).unwrap_or_else(|| {
-            scope::tell_unknown(frame, &self.scope, diagnostics);
+            scope::report_unknown(frame, &self.scope, diagnostics);
             Pose::IDENTITY
         })
     }
 
-    /// The model at the top of a file.
+    /// Resolves a model at the top of a file.
     pub(crate) fn stand_alone(mut self, diagnostics: &mut Diagnostics) -> Model {
         if let Some(frame) = &self.relative_to
             && frame.name != "world"
         {
-            scope::tell_unknown(frame, &Scope::new("world"), diagnostics);
+            scope::report_unknown(frame, &Scope::new("world"), diagnostics);
         }
         let placement = self.model_from_placement(diagnostics);
         self.model.parent_from_model = placed_by(self.model.parent_from_model, placement);
@@ -50,7 +50,7 @@ impl ResolvedModel {
     }
 }
 
-/// Where a model lies whose placement frame lies at `pose`.
+/// Pose of a model whose placement frame is at `pose`.
 fn placed_by(pose: Pose, model_from_placement: Pose) -> Pose {
     if model_from_placement == Pose::IDENTITY {
         return pose;
@@ -58,7 +58,7 @@ fn placed_by(pose: Pose, model_from_placement: Pose) -> Pose {
     pose * model_from_placement.inverse()
 }
 
-/// Resolves all that is in a model.
+/// Resolves the content of a model.
 pub(crate) fn resolve_model(mut draft: ModelDraft, diagnostics: &mut Diagnostics) -> ResolvedModel {
     names::make_unique(&mut draft, diagnostics);
     let mut model = draft.model;
@@ -140,7 +140,7 @@ fn push_frames_and_joints<'a>(
     }
 }
 
-/// Finds frames that are attached in a circle or to nothing though their poses are fine.
+/// Reports frames that are attached in a circle or to nothing although their poses can be resolved.
 fn attachments(
     scope: &Scope,
     frames: &[FrameDraft],
@@ -199,8 +199,8 @@ fn place_joints(
         .collect()
 }
 
-/// The link that the file names, or else the first one: a model's own links before those of the
-/// models in it.
+/// Canonical link: the link that the file names, or else the first one, a model's own links before those of
+/// nested models.
 fn canonical_link(
     model: &Model,
     named: Option<Reference>,
@@ -212,11 +212,11 @@ fn canonical_link(
         if has_link(model, &named.name) {
             return Some(named.name.to_string());
         }
-        let told = Diagnostic::error(
+        let finding = Diagnostic::error(
             "unknown-frame",
             format!("model `{}` has no link `{}` to be canonical", model.name, named.name),
         );
-        diagnostics.push(scope::with_candidates(told.at(named.origin), &named, scope));
+        diagnostics.push(scope::with_candidates(finding.at(named.origin), &named, scope));
     } else if first.is_none() && !model.is_static {
         diagnostics.push(
             Diagnostic::warning("no-links", format!("model `{}` has no link", model.name))
@@ -227,7 +227,7 @@ fn canonical_link(
     first
 }
 
-/// The first link of a model, its own before those of the models in it; scoped.
+/// First link of a model, its own before those of nested models; scoped name.
 pub(crate) fn first_link(model: &Model) -> Option<String> {
     if let Some(link) = model.links.first() {
         return Some(link.name.clone());
@@ -247,7 +247,7 @@ fn has_link(model: &Model, name: &str) -> bool {
         })
 }
 
-/// Resolves all that is in a world.
+/// Resolves the content of a world.
 pub(crate) fn resolve_world(mut draft: WorldDraft, diagnostics: &mut Diagnostics) -> World {
     names::make_unique_in_world(&mut draft, diagnostics);
     let mut world = draft.world;
@@ -295,12 +295,12 @@ pub(crate) fn resolve_world(mut draft: WorldDraft, diagnostics: &mut Diagnostics
     world
 }
 
-/// A light at the top of a file.
+/// Resolves a light at the top of a file.
 pub(crate) fn resolve_light(draft: LightDraft, diagnostics: &mut Diagnostics) -> Light {
     place_light(draft, &Scope::new("world"), diagnostics)
 }
 
-/// An actor at the top of a file.
+/// Resolves an actor at the top of a file.
 pub(crate) fn resolve_actor(draft: ActorDraft, diagnostics: &mut Diagnostics) -> Actor {
     place_actor(draft, &Scope::new("world"), diagnostics)
 }
@@ -316,7 +316,7 @@ fn place_actor(draft: ActorDraft, scope: &Scope, diagnostics: &mut Diagnostics) 
     let mut actor = draft.actor;
     let base = scope.base(&draft.relative_to, diagnostics);
     actor.world_from_actor = base * actor.world_from_actor;
-    // The links of an actor make a model of their own.
+    // The links of an actor form their own model.
     let mut model = ModelDraft::from_model(Model::new(actor.name.clone()));
     model.model.is_static = true;
     model.links = draft.links;

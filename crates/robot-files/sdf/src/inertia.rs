@@ -1,10 +1,10 @@
-//! Whether a mass and an inertia can belong to a body.
+//! Physical validity of masses and inertias.
 
 use periplus_diagnostics::{Diagnostic, Diagnostics};
 use periplus_scene::Inertial;
 use periplus_xml::Element;
 
-/// Warns where no body can have such a mass and inertia. `element` is where they stand.
+/// Warns about a mass or inertia that no rigid body can have. `element` is the element that holds them.
 pub fn check(inertial: &Inertial, link: &str, element: &Element, diagnostics: &mut Diagnostics) {
     if inertial.auto {
         return;
@@ -27,7 +27,7 @@ pub fn check(inertial: &Inertial, link: &str, element: &Element, diagnostics: &m
                 format!("the inertia of link `{link}` is not positive definite"),
             )
             .at(place)
-            .note("no body turns easier than freely: every principal moment must be above 0")
+            .note("every principal moment of inertia must be above 0")
             .help("for a box of mass m: ixx = m/12 (y² + z²), and so on"),
         ),
         Verdict::NotTriangle => diagnostics.push(
@@ -36,7 +36,7 @@ pub fn check(inertial: &Inertial, link: &str, element: &Element, diagnostics: &m
                 format!("the inertia of link `{link}` breaks the triangle inequality"),
             )
             .at(place)
-            .note("of a body's three principal moments no two add up to less than the third")
+            .note("the sum of any two principal moments must be at least the third")
             .help("for a box of mass m: ixx = m/12 (y² + z²), and so on"),
         ),
     }
@@ -49,10 +49,9 @@ enum Verdict {
     NotTriangle,
 }
 
-/// Judges `xx, xy, xz, yy, yz, zz` without finding the principal moments: all are positive where
-/// the leading minors are (Sylvester), and they keep the triangle inequality where the covariance
-/// `tr(I)/2 E - I`, whose eigenvalues are half of what two moments exceed the third by, has no
-/// negative eigenvalue.
+/// Classifies `xx, xy, xz, yy, yz, zz` without computing the principal moments: all are positive if the
+/// leading minors are (Sylvester), and they satisfy the triangle inequality if the covariance `tr(I)/2 E -
+/// I`, whose eigenvalues are half the excess of two moments over the third, has no negative eigenvalue.
 fn judge([xx, xy, xz, yy, yz, zz]: [f64; 6]) -> Verdict {
     let scale = xx.abs().max(yy.abs()).max(zz.abs()).max(xy.abs()).max(xz.abs()).max(yz.abs());
     if scale == 0.0 {
@@ -77,7 +76,7 @@ fn judge([xx, xy, xz, yy, yz, zz]: [f64; 6]) -> Verdict {
     let half = (xx + yy + zz) / 2.0;
     let (xx, yy, zz) = (half - xx, half - yy, half - zz);
     let (cofactors, determinant) = minors(xx, yy, zz, -1.0);
-    // People round to a few digits, and a flat plate lies exactly on the border.
+    // Values are rounded to a few digits, and a flat plate is exactly on the limit.
     let slack = -1e-3;
     let triangle = [xx, yy, zz].iter().all(|value| least(*value, slack))
         && cofactors.iter().all(|value| least(*value, slack))

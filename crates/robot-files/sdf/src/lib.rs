@@ -1,9 +1,9 @@
 //! SDF, the format of Gazebo's robots and worlds: versions 1.0 to 1.12 are read into a
 //! [`periplus_scene::Scene`], and a scene is written as SDF.
 //!
-//! Reading goes in three steps, each in its own module: `upgrade` brings old spellings up to
-//! date, `read` turns elements into drafts whose poses are as written, `frames` resolves them.
-//! Nothing is dropped in silence: what no reader asked for is kept word for word (see `fields`).
+//! Reading has three steps, each in its own module: `upgrade` converts old spellings, `read` turns elements
+//! into drafts whose poses are as written, `frames` resolves them. No content is dropped silently: unread
+//! content is kept verbatim (see `fields`).
 
 mod builtin;
 mod draft;

@@ -1,7 +1,7 @@
 //! Names that SDF 1.8 and later accept.
 //!
-//! There `::` stands between a model and what is in it, and libsdformat refuses names that hold it.
-//! Gazebo Classic wrote such names when it flattened nested models (`arm::link`).
+//! In these versions `::` separates a model from its content, and libsdformat refuses names that contain
+//! it. Gazebo Classic wrote such names when it flattened nested models (`arm::link`).
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -11,7 +11,7 @@ use periplus_xml::{Document, Element, Node, SmolStr};
 /// Separates models in names of SDF 1.8 and later.
 const SEPARATOR: &str = "::";
 
-/// Elements that have names of their own.
+/// Elements that have a name.
 const NAMED: [&str; 11] = [
     "world",
     "model",
@@ -26,23 +26,23 @@ const NAMED: [&str; 11] = [
     "gripper",
 ];
 
-/// Attributes that name something else.
+/// Attributes that refer to names.
 const REFERRING: [&str; 6] =
     ["relative_to", "attached_to", "expressed_in", "canonical_link", "placement_frame", "joint"];
 
-/// Renamed things that a message lists.
+/// Maximum number of renamed elements listed in a message.
 const MAX_LISTED: usize = 3;
 
 /// New names of one model or world.
 #[derive(Debug, Default)]
 struct Scope {
     renamed: BTreeMap<SmolStr, SmolStr>,
-    /// Models inside, by the names that they had.
+    /// Nested models, by their original names.
     models: BTreeMap<SmolStr, Scope>,
 }
 
-/// Writes `a__b` for each name `a::b`, and for whatever refers to it, plugins included. A warning
-/// lists what has another name now.
+/// Replaces each name `a::b` by `a__b`, and all references to it, plugins included. A warning lists the
+/// renamed elements.
 pub fn use_plain_names(document: &mut Document, diagnostics: &mut Diagnostics) {
     let mut listed = Vec::new();
     let scope = Scope::of(&document.root, &mut listed);
@@ -110,7 +110,7 @@ impl Scope {
         }
     }
 
-    /// The new spelling of a name, or of a path into the models inside.
+    /// New spelling of a name, or of a path into nested models.
     fn path(&self, path: &str) -> Option<SmolStr> {
         if let Some(new) = self.renamed.get(path) {
             return Some(new.clone());
@@ -153,7 +153,7 @@ impl Scope {
         }
     }
 
-    /// Attributes of a model's own element that name what is inside it.
+    /// Attributes of a model's element that refer to names inside it.
     fn apply_to_root(&self, model: &mut Element) {
         for attribute in &mut model.attributes {
             if ["canonical_link", "placement_frame"].contains(&&*attribute.name)
@@ -164,7 +164,7 @@ impl Scope {
         }
     }
 
-    /// Texts that name something: ends of joints, links of grippers, and any in a plugin.
+    /// Texts that are names: ends of joints, links of grippers, and any text in a plugin.
     fn apply_to_text(&self, element: &mut Element) {
         if element.elements().next().is_some() {
             return;
@@ -179,7 +179,7 @@ impl Scope {
     }
 }
 
-/// The children whose names are in the scope of their parent.
+/// Children whose names are in the scope of their parent.
 fn parts(element: &Element) -> impl Iterator<Item = &Element> {
     element.elements().filter(|child| child.name != "plugin" && child.prefix().is_none())
 }

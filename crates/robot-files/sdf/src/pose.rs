@@ -1,4 +1,4 @@
-//! `<pose>` and what it is relative to.
+//! `<pose>` and the frame that it is relative to.
 
 use periplus_diagnostics::{Diagnostic, Diagnostics, Origin};
 use periplus_geometry::{DQuat, DVec3, Pose, Rpy};
@@ -7,26 +7,26 @@ use periplus_xml::{Element, SmolStr};
 use crate::fields::Fields;
 use crate::value::{all_numbers, boolean_word, leaf, wrong_number_of_values};
 
-/// The name of a frame, as the file gives it.
+/// Name of a frame as written.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Reference {
     /// The name, scoped: `arm::hand`.
     pub name: SmolStr,
-    /// Where it is written.
+    /// Source location.
     pub origin: Origin,
 }
 
-/// Something with a pose that may be given relative to a frame by name.
+/// Element with a pose that may be relative to a named frame.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Placed<T> {
-    /// The thing; its pose is as written.
+    /// The element; its pose is as written.
     pub value: T,
-    /// What the pose is relative to; none where the file leaves it to the default.
+    /// Frame that the pose is relative to; `None` for the default.
     pub relative_to: Option<Reference>,
 }
 
 impl Fields<'_, '_> {
-    /// The child `<pose>`, and what it is relative to.
+    /// Child `<pose>`, and the frame that it is relative to.
     pub(crate) fn pose(&mut self) -> (Pose, Option<Reference>) {
         match self.child("pose") {
             Some(element) => read_pose(element, self.diagnostics),
@@ -34,7 +34,7 @@ impl Fields<'_, '_> {
         }
     }
 
-    /// The child `<pose>` of something that SDF fixes to its parent.
+    /// Child `<pose>` of an element that SDF fixes to its parent.
     pub(crate) fn fixed_pose(&mut self, parent: &str) -> Pose {
         let (pose, relative_to) = self.pose();
         if let Some(frame) = relative_to {
@@ -99,7 +99,7 @@ fn numbers(element: &Element, diagnostics: &mut Diagnostics) -> Option<Pose> {
             let length = rotation.length();
             if !(1e-6..1e6).contains(&length) {
                 diagnostics.push(
-                    Diagnostic::error("bad-quaternion", "this quaternion has no direction")
+                    Diagnostic::error("bad-quaternion", "this quaternion has length zero")
                         .at(element.text_origin())
                         .note("a rotation is a quaternion x y z w of length 1"),
                 );

@@ -1,8 +1,8 @@
-//! Old versions in the spelling of new ones.
+//! Conversion of old versions to the spelling of new ones.
 //!
-//! The rules are those of the `*.convert` files that libsdformat ships with each version of the
-//! schema; where those lose something (the file of a 1.0 mesh, the script of a 1.0 material), it
-//! is kept here. Every element that is only renamed keeps its place in the text.
+//! The rules are those of the `*.convert` files that libsdformat ships with each version of the schema;
+//! content that these lose (the file of a 1.0 mesh, the script of a 1.0 material) is kept here. Renamed
+//! elements keep their source location.
 
 mod attributes;
 mod imu;
@@ -14,7 +14,7 @@ use periplus_xml::{Attribute, Element, Node};
 
 use crate::version::Version;
 
-/// The root of a document of some version, as SDF 1.9 would spell it.
+/// Root of a document of any version, in the spelling of SDF 1.9.
 pub(crate) fn upgrade(root: &Element, version: Version) -> Cow<'_, Element> {
     if version >= Version::new(8) || version >= Version::new(6) && is_up_to_date(root) {
         return Cow::Borrowed(root);
@@ -57,7 +57,7 @@ pub(crate) fn upgrade(root: &Element, version: Version) -> Cow<'_, Element> {
     Cow::Owned(root)
 }
 
-/// Whether nothing changes from 1.6 on. Large worlds are spared a copy by this.
+/// Returns true if no conversion since 1.6 applies. Avoids the copy of large worlds.
 fn is_up_to_date(element: &Element) -> bool {
     let changes = match &*element.name {
         "pose" => element.value("frame").is_some_and(|frame| !frame.is_empty()),
@@ -68,7 +68,7 @@ fn is_up_to_date(element: &Element) -> bool {
     !changes && element.elements().all(|it| it.name == "plugin" || is_up_to_date(it))
 }
 
-/// Visits every element, outer ones first, but for what is inside plugins: that is not SDF.
+/// Visits every element, outer ones first, except inside plugins: that is not SDF.
 fn each(element: &mut Element, visit: &mut impl FnMut(&mut Element)) {
     visit(element);
     for child in elements_mut(element) {
@@ -89,7 +89,7 @@ fn child_mut<'a>(element: &'a mut Element, name: &str) -> Option<&'a mut Element
     elements_mut(element).find(|child| child.name == name)
 }
 
-/// Takes the first child of a name out.
+/// Removes and returns the first child of a name.
 fn take_child(element: &mut Element, name: &str) -> Option<Element> {
     let at = element
         .children

@@ -7,7 +7,7 @@ use periplus_xml::Element;
 
 use crate::fields::unknown_attribute;
 
-/// Tells children and attributes of an element that should hold only text.
+/// Reports children and attributes of an element that should contain only text.
 pub(crate) fn leaf(element: &Element, known: &[&'static str], diagnostics: &mut Diagnostics) {
     for attribute in &element.attributes {
         let foreign = attribute.name.contains(':') || attribute.name == "xmlns";
@@ -36,7 +36,7 @@ pub(crate) fn empty(element: &Element, diagnostics: &mut Diagnostics) {
     );
 }
 
-/// One number and nothing after it, NaN not among them.
+/// One number and nothing else; infinite but not NaN.
 pub(crate) fn number_or_infinite(element: &Element, diagnostics: &mut Diagnostics) -> Option<f64> {
     let text = element.text();
     let mut words = words(element, &text);
@@ -60,7 +60,7 @@ pub(crate) fn number(element: &Element, diagnostics: &mut Diagnostics) -> Option
     finite(number, element.text_origin(), element, diagnostics).then_some(number)
 }
 
-/// As many finite numbers as the array holds.
+/// As many finite numbers as the array has elements.
 pub(crate) fn numbers<const N: usize>(
     element: &Element,
     diagnostics: &mut Diagnostics,
@@ -127,7 +127,7 @@ pub(crate) fn boolean_word(
     match word.trim().to_ascii_lowercase().as_str() {
         "true" | "1" => Some(true),
         "false" | "0" => Some(false),
-        // Gazebo's URDF reader takes yes; people write it in SDF too.
+        // Gazebo's URDF reader accepts `yes`, which also occurs in SDF.
         "yes" => Some(true),
         "no" => Some(false),
         _ => {
@@ -144,7 +144,7 @@ pub(crate) fn boolean_word(
 pub(crate) fn integer(element: &Element, diagnostics: &mut Diagnostics) -> Option<i64> {
     let value = number(element, diagnostics)?;
     if value.fract() != 0.0 && value.abs() <= 2f64.powi(53) {
-        // What comes after the digits is left unread by libsdformat too (`std::stoul`).
+        // Libsdformat ignores characters after the digits too (`std::stoul`).
         diagnostics.push(
             Diagnostic::warning(
                 "not-a-whole-number",
@@ -176,7 +176,7 @@ pub(crate) fn integer(element: &Element, diagnostics: &mut Diagnostics) -> Optio
 
 pub(crate) fn count(element: &Element, diagnostics: &mut Diagnostics) -> Option<u32> {
     let value = hexadecimal(&element.text()).map_or_else(|| integer(element, diagnostics), Some)?;
-    // All bits of a mask, as C writes it.
+    // Mask with all bits set, in the notation of C.
     let is_mask = ["mask", "flags"].iter().any(|end| element.name.ends_with(end));
     let value = if value == -1 && is_mask { i64::from(u32::MAX) } else { value };
     let count = u32::try_from(value).ok();
@@ -184,7 +184,7 @@ pub(crate) fn count(element: &Element, diagnostics: &mut Diagnostics) -> Option<
         diagnostics.push(
             Diagnostic::error(
                 "out-of-range",
-                format!("`<{}>` must lie within 0 and {}, not at {value}", element.name, u32::MAX),
+                format!("`<{}>` must be between 0 and {}, not {value}", element.name, u32::MAX),
             )
             .at(element.text_origin()),
         );
@@ -192,23 +192,23 @@ pub(crate) fn count(element: &Element, diagnostics: &mut Diagnostics) -> Option<
     count
 }
 
-/// Masks are often written so.
+/// Parses the hexadecimal notation of masks.
 fn hexadecimal(text: &str) -> Option<i64> {
     let digits = text.strip_prefix("0x").or_else(|| text.strip_prefix("0X"))?;
     i64::from_str_radix(digits, 16).ok()
 }
 
-/// Red, green, blue and perhaps alpha.
+/// Red, green, blue and optionally alpha.
 pub(crate) fn colour(element: &Element, diagnostics: &mut Diagnostics) -> Option<Colour> {
     let mut found = all_numbers(element, diagnostics)?;
     if found.iter().any(|part| !(0.0..=1.0).contains(part)) {
         diagnostics.push(
             Diagnostic::warning(
                 "out-of-range",
-                format!("the parts of `<{}>` lie between 0 and 1", element.name),
+                format!("the components of `<{}>` must be between 0 and 1", element.name),
             )
             .at(element.text_origin())
-            .note("what lies outside is cut off; newer Gazebo refuses the whole file"),
+            .note("values outside are clamped; newer Gazebo refuses the whole file"),
         );
         found.iter_mut().for_each(|part| *part = part.clamp(0.0, 1.0));
     }
@@ -253,7 +253,7 @@ pub(crate) fn out_of_range(
     );
 }
 
-/// The words of an element's text, each with its place.
+/// Words of an element's text, each with its source location.
 fn words<'a>(element: &Element, text: &'a str) -> impl Iterator<Item = (&'a str, Origin)> {
     let origin = element.text_origin();
     let plain = origin.0.is_some_and(|span| (span.end - span.start) as usize == text.len());
@@ -275,24 +275,24 @@ fn parse_word(
             diagnostics.push(
                 Diagnostic::error("not-finite", format!("`<{}>` must not be NaN", element.name))
                     .at(origin)
-                    .note("whatever wrote this file divided by zero"),
+                    .note("the program that wrote this file divided by zero"),
             );
             return None;
         }
         Some(number) => return Some(number),
         None => {}
     }
-    let mut told = Diagnostic::error(
+    let mut finding = Diagnostic::error(
         "not-a-number",
         format!("`{}` in `<{}>` is not a number", shortened(word), element.name),
     )
     .at(origin);
     if word.contains("${") || word.contains("$(") {
-        told = told.help("this is a xacro expression: run xacro on the file first");
+        finding = finding.help("this is a xacro expression: run xacro on the file first");
     } else if word.contains(',') {
-        told = told.help("separate numbers by spaces and write a decimal point, not a comma");
+        finding = finding.help("separate numbers by spaces and write a decimal point, not a comma");
     }
-    diagnostics.push(told);
+    diagnostics.push(finding);
     None
 }
 
@@ -309,7 +309,7 @@ fn finite(number: f64, origin: Origin, element: &Element, diagnostics: &mut Diag
     number.is_finite()
 }
 
-/// Text for a message: a hostile word may be a megabyte long.
+/// Shortens a text for a message: a hostile word may have a megabyte.
 pub(crate) fn shortened(word: &str) -> String {
     if word.chars().count() <= 60 {
         return word.to_owned();

@@ -1,16 +1,16 @@
-//! Elements that are kept word for word.
+//! Elements that are kept verbatim.
 
 use periplus_xml::{Element, Node, Text};
 
-/// The element without the white space around its texts, which only lays the file out. So a kept
-/// element is the same after it was written and read again.
+/// Returns the element without the layout white space around its texts, so that a kept element is the same
+/// after writing and reading.
 pub fn keep(element: &Element) -> Element {
     let mut children: Vec<Node> = Vec::with_capacity(element.children.len());
     for node in &element.children {
         match node {
             Node::Element(child) => children.push(Node::Element(keep(child))),
             Node::Text(text) => match children.last_mut() {
-                // Text and CDATA side by side are one text.
+                // Adjacent text and CDATA are one text.
                 Some(Node::Text(before)) => {
                     before.text = format!("{}{}", before.text, text.text).into();
                 }
@@ -38,7 +38,7 @@ fn trim(text: &mut Text) {
     let trimmed = text.text.trim();
     if trimmed.len() != text.text.len() {
         let start = text.text.len() - text.text.trim_start().len();
-        // With entities or CDATA in it the text is shorter than its source.
+        // With entities or CDATA the text is shorter than its source.
         if let Some(span) = text.origin.0
             && (span.end - span.start) as usize == text.text.len()
         {

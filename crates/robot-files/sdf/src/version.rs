@@ -10,7 +10,7 @@ pub struct Version {
 }
 
 impl Version {
-    /// The newest version that is known here.
+    /// Newest supported version.
     pub const NEWEST: Self = Self::new(12);
 
     /// Version `1.minor`.

@@ -1,7 +1,7 @@
-//! A scene as SDF.
+//! Writer: a scene as SDF.
 //!
-//! Poses are written in the frame of their fixed parent, so reading them back resolves nothing.
-//! The version is 1.9, which most of today's Gazebo reads, unless something needs a newer one.
+//! Poses are written in the frame of their fixed parent, so reading them back resolves nothing. The version
+//! is 1.9, which most current versions of Gazebo read, unless the content needs a newer one.
 
 mod light;
 mod link;
@@ -20,10 +20,10 @@ use periplus_xml::{Document, Element};
 use crate::version::Version;
 use out::Out;
 
-/// What is gathered while a scene is written.
+/// State of the writer.
 struct Writer<'a> {
     version: Version,
-    /// Whether anything is written that only Periplus reads.
+    /// True if any extension that only Periplus reads is written.
     own_names: bool,
     diagnostics: &'a mut Diagnostics,
 }
@@ -34,9 +34,9 @@ impl Writer<'_> {
     }
 }
 
-/// Writes a scene as SDF. Reading the document gives an equal scene, but for what SDF cannot say:
-/// joints that float or slide in a plane are left out with a warning, and paths of files that
-/// were found are not written.
+/// Writes a scene as SDF. Reading the document gives an equal scene, except for content that SDF cannot
+/// express: floating and planar joints are left out with a warning, and paths of resolved files are not
+/// written.
 pub fn write(scene: &Scene, diagnostics: &mut Diagnostics) -> Document {
     let mut writer = Writer { version: Version::new(9), own_names: false, diagnostics };
     let mut content = Vec::new();

@@ -152,7 +152,7 @@ fn frames_in_a_circle_are_told() {
 <frame name="f"><pose relative_to="g"/></frame>
 <frame name="g" attached_to="f"/>"#,
         expect![[r#"
-            error[frame-cycle]: these frames are relative to each other
+            error[frame-cycle]: these frames form a cycle
              --> test.sdf:3:30
               |
             2 | <frame name="f"><pose relative_to="g"/></frame>
@@ -171,7 +171,7 @@ fn attachments_in_a_circle_are_told_though_poses_are_fine() {
         r#"<link name="a"/>
 <frame name="f" attached_to="f"><pose relative_to="a"/></frame>"#,
         expect![[r#"
-            error[frame-cycle]: these frames are relative to each other
+            error[frame-cycle]: these frames form a cycle
              --> test.sdf:2:30
               |
             2 | <frame name="f" attached_to="f"><pose relative_to="a"/></frame></model></sdf>

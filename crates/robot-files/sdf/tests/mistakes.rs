@@ -25,7 +25,7 @@ fn unknown_elements_are_told_with_the_nearest_name() {
         2 | <colision name="c"/>
           |  ^^^^^^^^
           |
-          = note: it is kept, but nothing here reads it
+          = note: it is kept, but not used
         help: did you mean `collision`?
           |
         2 | <collision name="c"/>
@@ -135,7 +135,7 @@ fn numbers_that_are_not_finite_are_refused() {
         2 | <inertial><mass>nan</mass></inertial>
           |                 ^^^
           |
-          = note: whatever wrote this file divided by zero
+          = note: the program that wrote this file divided by zero
     "#]],
     );
 }
@@ -148,7 +148,7 @@ fn a_lidar_without_samples_is_refused() {
              </horizontal></scan><range><min>0.1</min><max>10</max></range></lidar></sensor>",
         ),
         expect![[r#"
-            error[out-of-range]: a lidar without samples sees nothing
+            error[out-of-range]: a lidar without samples measures nothing
              --> test.sdf:3:10
               |
             3 | <samples>0</samples>
@@ -173,7 +173,7 @@ fn an_impossible_inertia_is_told() {
             3 | <inertia><ixx>1</ixx><iyy>1</iyy><izz>3</izz></inertia>
               | ^^^^^^^^^
               |
-              = note: of a body's three principal moments no two add up to less than the third
+              = note: the sum of any two principal moments must be at least the third
               = help: for a box of mass m: ixx = m/12 (y² + z²), and so on
         "#]],
     );

@@ -1,10 +1,10 @@
-//! What hangs on links and joints.
+//! Poses of the parts of links and joints.
 
 use periplus_diagnostics::{Diagnostic, Diagnostics};
 use periplus_geometry::Pose;
 use periplus_scene::{Axis, Joint, Link, Sensor};
 
-use super::scope::{Scope, tell_unknown};
+use super::scope::{Scope, report_unknown};
 use crate::draft::{JointDraft, LinkDraft, Part};
 use crate::pose::Reference;
 
@@ -14,7 +14,7 @@ pub(super) fn place_link(draft: LinkDraft, scope: &Scope, diagnostics: &mut Diag
     let link_from_model = link.model_from_link.inverse();
     for (part, frame) in draft.parts {
         let Some(model_from_frame) = find(&frame, scope, diagnostics) else { continue };
-        // In its own link's frame nothing changes, not by rounding either.
+        // In its own link's frame nothing changes, not even by rounding.
         let link_from_frame = if frame.name == link.name {
             Pose::IDENTITY
         } else {
@@ -45,8 +45,8 @@ fn place_part(part: Part, link_from_frame: Pose, link: &mut Link) {
     }
 }
 
-/// Sensors come before their cameras in the list of parts, so a sensor's pose is resolved when
-/// its camera's turn comes.
+/// Sensors precede their cameras in the list of parts, so a sensor's pose is resolved before that of its
+/// camera.
 fn place_sensor(part: Part, parent_from_frame: Pose, sensors: &mut [Sensor]) {
     match part {
         Part::Sensor(index) => {
@@ -79,11 +79,11 @@ pub(super) fn place_joint(
 ) -> Joint {
     let mut joint = draft.joint;
     if draft.relative_to.is_some() {
-        // An unknown child was told when the frames were resolved.
+        // An unknown child was reported when the frames were resolved.
         let model_from_child = scope.parent_from(&draft.child.name).unwrap_or_default();
         joint.child_from_joint = model_from_child.inverse() * model_from_joint;
         if scope.parent_from(&draft.child.name).is_none() {
-            tell_unknown(&draft.child, scope, diagnostics);
+            report_unknown(&draft.child, scope, diagnostics);
         }
     }
     if draft.parent.name != "world" {
@@ -93,7 +93,7 @@ pub(super) fn place_joint(
         diagnostics.push(
             Diagnostic::error(
                 "bad-joint",
-                format!("joint `{}` holds `{}` to itself", joint.name, draft.child.name),
+                format!("joint `{}` attaches `{}` to itself", joint.name, draft.child.name),
             )
             .at(draft.child.origin)
             .related(draft.parent.origin, "the parent"),
@@ -131,7 +131,7 @@ fn turn_axis(
 fn find(frame: &Reference, scope: &Scope, diagnostics: &mut Diagnostics) -> Option<Pose> {
     let pose = scope.parent_from(&frame.name);
     if pose.is_none() {
-        tell_unknown(frame, scope, diagnostics);
+        report_unknown(frame, scope, diagnostics);
     }
     pose
 }

@@ -5,10 +5,10 @@ use std::collections::BTreeMap;
 use periplus_diagnostics::{Diagnostic, Diagnostics};
 use periplus_geometry::Pose;
 
-use super::scope::{Scope, splits, tell_unknown};
+use super::scope::{Scope, report_unknown, splits};
 use crate::pose::Reference;
 
-/// What a pose is relative to.
+/// Frame that a pose is relative to.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Base<'a> {
     /// The model or world itself.
@@ -23,13 +23,13 @@ impl<'a> Base<'a> {
     }
 }
 
-/// A named frame with its pose as written.
+/// Named frame with its pose as written.
 #[derive(Clone, Debug)]
 pub(super) struct Vertex<'a> {
     pub(super) name: &'a str,
     pub(super) local: Pose,
     pub(super) base: Base<'a>,
-    /// The frames in it, if it is a model.
+    /// Nested frames, if it is a model.
     pub(super) inside: Option<&'a Scope>,
 }
 
@@ -42,13 +42,13 @@ impl<'a> Vertex<'a> {
 #[derive(Clone, Copy, PartialEq)]
 enum State {
     New,
-    /// On the way from the frame that is being resolved.
+    /// On the path from the frame that is being resolved.
     Open,
     Done,
 }
 
-/// The pose of every vertex as seen from the model or world. Every vertex hangs on one other at
-/// most, so a chain is followed to its end and back, without recursion: files may be hostile.
+/// Pose of every vertex in the model or world frame. Every vertex has at most one base, so a chain is
+/// followed to its end and back, without recursion: files may be hostile.
 pub(super) fn resolve(
     scope: &Scope,
     vertices: &[Vertex<'_>],
@@ -76,18 +76,18 @@ pub(super) fn resolve(
                         chain.push(base);
                         continue;
                     }
-                    State::Open => tell_cycle(&chain, base, vertices, diagnostics),
+                    State::Open => report_cycle(&chain, base, vertices, diagnostics),
                     State::Done => poses[at] = poses[base] * inside * vertex.local,
                 },
                 Found::Root => {}
                 Found::Nothing(frame) => {
-                    // The names are not in the scope yet; they serve as candidates only.
+                    // The names are not in the scope yet; they are used as suggestions only.
                     let named = named.get_or_insert_with(|| {
                         let mut named = Scope::new(scope.root);
                         named.fill(vertices, &poses);
                         named
                     });
-                    tell_unknown(frame, named, diagnostics);
+                    report_unknown(frame, named, diagnostics);
                 }
             }
             states[at] = State::Done;
@@ -99,7 +99,7 @@ pub(super) fn resolve(
 
 enum Found<'a> {
     Root,
-    /// A vertex, and the frame's pose in it if it is a frame of a nested model.
+    /// Vertex, and the frame's pose in it if it is a frame of a nested model.
     Vertex(usize, Pose),
     Nothing(&'a Reference),
 }
@@ -124,7 +124,7 @@ fn find<'a>(
     nested.unwrap_or(Found::Nothing(frame))
 }
 
-fn tell_cycle(
+fn report_cycle(
     chain: &[usize],
     back_to: usize,
     vertices: &[Vertex<'_>],
@@ -134,16 +134,17 @@ fn tell_cycle(
     let circle = &chain[start..];
     let shown = circle.iter().take(10).chain([&back_to]);
     let names = shown.map(|at| format!("`{}`", vertices[*at].name)).collect::<Vec<_>>();
-    let mut told = Diagnostic::error("frame-cycle", "these frames are relative to each other")
-        .note(format!("{} hangs on itself", names.join(" -> ")));
+    let mut finding = Diagnostic::error("frame-cycle", "these frames form a cycle")
+        .note(format!("{} depends on itself", names.join(" -> ")));
     if let Some(Base::Frame(last)) = chain.last().map(|at| vertices[*at].base) {
-        told = told.at(last.origin);
+        finding = finding.at(last.origin);
     }
-    // The last of the circle is where the finding stands.
+    // The finding is located at the last frame of the circle.
     for at in circle.iter().take(circle.len() - 1).take(10) {
         if let Base::Frame(frame) = vertices[*at].base {
-            told = told.related(frame.origin, format!("`{}` hangs on this", vertices[*at].name));
+            finding =
+                finding.related(frame.origin, format!("`{}` depends on this", vertices[*at].name));
         }
     }
-    diagnostics.push(told);
+    diagnostics.push(finding);
 }

@@ -6,16 +6,16 @@ use periplus_diagnostics::{Diagnostic, Diagnostics, Origin};
 
 use crate::draft::{LinkDraft, ModelDraft, WorldDraft};
 
-/// The names of one place, and what has them.
+/// Names of one scope and their owners.
 #[derive(Default)]
 struct Names {
     taken: BTreeMap<String, (&'static str, Origin)>,
-    /// The last number that was put behind a name that was taken.
+    /// Last number appended to a duplicate name.
     numbers: BTreeMap<String, u32>,
 }
 
 impl Names {
-    /// Takes a name; where it is taken already, tells so and changes it.
+    /// Registers a name; a duplicate is reported and changed.
     fn take(
         &mut self,
         kind: &'static str,
@@ -30,7 +30,7 @@ impl Names {
             return;
         };
         if lenient && *first_kind != kind {
-            // As libsdformat does with old files.
+            // As libsdformat does for old files.
             let fresh = format!("{name}_{kind}");
             if !self.taken.contains_key(&fresh) {
                 diagnostics.push(
@@ -57,7 +57,7 @@ impl Names {
             }
         };
         diagnostics.push(
-            Diagnostic::error("duplicate-name", format!("the name `{name}` is taken"))
+            Diagnostic::error("duplicate-name", format!("the name `{name}` is already used"))
                 .at(origin)
                 .related(*first, format!("by this {first_kind}"))
                 .note(format!("this {kind} is called `{fresh}` instead")),

@@ -1,14 +1,14 @@
-//! The frames of one model or world by name.
+//! Frames of one model or world by name.
 
 use std::collections::BTreeMap;
 
-use periplus_diagnostics::{Diagnostic, Diagnostics, MOST_KEPT};
+use periplus_diagnostics::{Diagnostic, Diagnostics, MAX_FINDINGS};
 use periplus_geometry::Pose;
 
 use super::graph::Vertex;
 use crate::pose::Reference;
 
-/// The frames of one model or world, and of the models in it.
+/// Frames of one model or world and of nested models.
 #[derive(Debug)]
 pub(crate) struct Scope {
     /// `__model__` or `world`.
@@ -24,7 +24,7 @@ impl Scope {
 
     pub(super) fn fill(&mut self, vertices: &[Vertex<'_>], poses: &[Pose]) {
         for (vertex, pose) in vertices.iter().zip(poses) {
-            // Of a link and a joint of the same name the link, which comes first, counts.
+            // If a link and a joint share a name, the link, which comes first, is used.
             self.poses.entry(vertex.name.to_owned()).or_insert(*pose);
         }
     }
@@ -33,7 +33,7 @@ impl Scope {
         self.nested.insert(name.to_owned(), scope);
     }
 
-    /// The pose of a frame by its scoped name, as seen from this model or world.
+    /// Pose of a frame by its scoped name, in this model's or world's frame.
     pub(crate) fn parent_from(&self, name: &str) -> Option<Pose> {
         if name == self.root {
             return Some(Pose::IDENTITY);
@@ -47,8 +47,8 @@ impl Scope {
         })
     }
 
-    /// The pose of what something is relative to; told and this scope's own frame where it is
-    /// not known.
+    /// Pose of the base frame of a pose. An unknown frame is reported and replaced by this scope's own
+    /// frame.
     pub(super) fn base(
         &self,
         relative_to: &Option<Reference>,
@@ -56,7 +56,7 @@ impl Scope {
     ) -> Pose {
         let Some(frame) = relative_to else { return Pose::IDENTITY };
         self.parent_from(&frame.name).unwrap_or_else(|| {
-            tell_unknown(frame, self, diagnostics);
+            report_unknown(frame, self, diagnostics);
             Pose::IDENTITY
         })
     }
@@ -68,31 +68,34 @@ impl Scope {
 
 /// `a::b::c` as `(a, b::c)`, then `(a::b, c)`.
 pub(super) fn splits(name: &str) -> impl Iterator<Item = (&str, &str)> {
-    // Models are never deeper in each other than this.
+    // Models are never nested deeper than this.
     name.match_indices("::").take(64).map(|(at, _)| (&name[..at], &name[at + 2..]))
 }
 
-pub(super) fn tell_unknown(frame: &Reference, scope: &Scope, diagnostics: &mut Diagnostics) {
-    let told =
+pub(super) fn report_unknown(frame: &Reference, scope: &Scope, diagnostics: &mut Diagnostics) {
+    let finding =
         Diagnostic::error("unknown-frame", format!("there is no frame `{}` here", frame.name))
             .at(frame.origin);
-    // Looking for near names takes a while, and more than so many findings are only counted.
-    let told =
-        if diagnostics.errors() < MOST_KEPT { with_candidates(told, frame, scope) } else { told };
-    diagnostics.push(told);
+    // The search for similar names takes time, and further findings are only counted.
+    let finding = if diagnostics.errors() < MAX_FINDINGS {
+        with_candidates(finding, frame, scope)
+    } else {
+        finding
+    };
+    diagnostics.push(finding);
 }
 
-/// Names at most so many frames in a message.
-const MOST_NAMED: usize = 12;
+/// Maximum number of frames listed in a message.
+const MAX_LISTED_FRAMES: usize = 12;
 
-pub(super) fn with_candidates(told: Diagnostic, frame: &Reference, scope: &Scope) -> Diagnostic {
-    let names: Vec<&str> = scope.names().take(MOST_NAMED + 1).collect();
-    let shown = names.iter().take(MOST_NAMED).map(|name| format!("`{name}`"));
+pub(super) fn with_candidates(finding: Diagnostic, frame: &Reference, scope: &Scope) -> Diagnostic {
+    let names: Vec<&str> = scope.names().take(MAX_LISTED_FRAMES + 1).collect();
+    let shown = names.iter().take(MAX_LISTED_FRAMES).map(|name| format!("`{name}`"));
     let mut list = shown.collect::<Vec<_>>().join(", ");
-    if names.len() > MOST_NAMED {
+    if names.len() > MAX_LISTED_FRAMES {
         list.push_str(", ...");
     }
-    told.note(format!("frames here are {list}")).did_you_mean(
+    finding.note(format!("frames here are {list}")).did_you_mean(
         frame.origin,
         &frame.name,
         scope.names().take(1000),

@@ -9,7 +9,7 @@ use super::noise;
 use crate::fields::Fields;
 use crate::pose::Reference;
 
-/// All cameras of a sensor; several in a multi-camera.
+/// Cameras of a sensor; a multi-camera has several.
 pub(crate) fn read_cameras(
     type_name: &str,
     elements: &[&Element],
@@ -32,7 +32,7 @@ pub(crate) fn read_cameras(
                 format!("a sensor of type `{type_name}` has one camera; this one may not be seen"),
             )
             .at(second.origin)
-            .related(first.origin, "the first one counts")
+            .related(first.origin, "the first one is used")
             .help("use `type=\"multicamera\"` for several"),
         );
     }
@@ -104,8 +104,8 @@ fn read_camera(mut fields: Fields<'_, '_>, kind: CameraKind) -> (Camera, Option<
         camera.near_m = clip.magnitude("near", 0.1);
         camera.far_m = clip.limit("far", 100.0);
         if camera.far_m <= camera.near_m {
-            let told = Diagnostic::error("out-of-range", "`<far>` must lie above `<near>`");
-            clip.diagnostics.push(told.at(clip.origin()).note("this camera sees nothing"));
+            let finding = Diagnostic::error("out-of-range", "`<far>` must be above `<near>`");
+            clip.diagnostics.push(finding.at(clip.origin()).note("this camera renders nothing"));
         }
         let rest = clip.finish();
         fields.close("clip", rest);

@@ -20,7 +20,7 @@ pub(crate) fn read_imu(mut fields: Fields<'_, '_>) -> Imu {
         let rest = frame.finish();
         fields.close("orientation_reference_frame", rest);
     }
-    // SDF 1.3 to 1.6 had a topic of its own; the placeholder says nothing.
+    // SDF 1.3 to 1.6 had a `<topic>` in the IMU; the placeholder has no meaning.
     let placeholder = |element: &Element| {
         element.name == "topic" && matches!(&*element.text(), "" | "__default_topic__")
     };

@@ -10,13 +10,13 @@ use super::actor::read_actor;
 use super::light::read_light;
 use super::model::read_model;
 use super::overrides::read_overrides;
-use super::root::{DEEPEST_MODELS, Reader, open_root};
+use super::root::{MAX_NESTED_MODELS, Reader, open_root};
 use crate::builtin;
 use crate::draft::{ActorDraft, LightDraft, ModelDraft};
 
-/// Who opens the files that an `<include>` names. This crate knows no files.
+/// Access to the files that an `<include>` names. This crate reads no files.
 pub trait Includes {
-    /// Opens what `uri`, as written at `from`, names: a model's folder or an SDF or URDF file.
+    /// Opens the target of `uri`, as written at `from`: a model's folder or an SDF or URDF file.
     fn open(
         &mut self,
         uri: &str,
@@ -26,35 +26,35 @@ pub trait Includes {
     ) -> Opened;
 }
 
-/// What an include named.
+/// Target of an include.
 #[derive(Clone, Debug)]
 pub enum Opened {
     /// An SDF document.
     Sdf {
         /// The document.
         document: Arc<Document>,
-        /// The same for the same file, however it was named: its path.
+        /// Path of the file; equal for the same file, however it was named.
         key: String,
     },
-    /// A model of another format, whose frames are resolved.
+    /// Model of another format, with resolved frames.
     Model {
         /// The model.
         model: Box<Model>,
-        /// The same for the same file, however it was named: its path.
+        /// Path of the file; equal for the same file, however it was named.
         key: String,
     },
-    /// Nothing was found.
+    /// No such model or file.
     Missing {
-        /// Every place where it could have been.
+        /// Locations that were searched.
         tried: Vec<String>,
-        /// Advice of those who know where the search paths come from.
+        /// Advice about the search paths.
         advice: Option<String>,
     },
-    /// It was found, but it cannot be read, and the diagnostics say why.
+    /// The file exists but cannot be read; the diagnostics give the reason.
     Broken,
 }
 
-/// Nothing can be included, but for the built-in models.
+/// Resolves no include except the built-in models.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct NoIncludes;
 
@@ -64,13 +64,13 @@ impl Includes for NoIncludes {
     }
 }
 
-/// Includes in all that are followed for one file. Large worlds hold a few thousand.
-pub(crate) const MOST_INCLUDES: usize = 20_000;
+/// Maximum number of includes that are followed for one file. Large worlds have a few thousand.
+pub(crate) const MAX_INCLUDES: usize = 20_000;
 
-/// Elements in all that includes may bring in.
-pub(crate) const MOST_PARTS: usize = 1_000_000;
+/// Maximum number of elements that includes may add.
+pub(crate) const MAX_INCLUDED_ELEMENTS: usize = 1_000_000;
 
-/// What a file held.
+/// Content of a file.
 #[derive(Clone, Debug)]
 pub(crate) enum Entity {
     Model(Box<ModelDraft>),
@@ -82,30 +82,31 @@ pub(crate) enum Entity {
 pub(crate) struct Loaded {
     entity: Entity,
     parts: usize,
-    /// How many models of it are in each other.
+    /// Nesting depth of its models.
     depth: usize,
 }
 
-/// Reads what an `<include>` names, with what the include overrides; and whether it is merged.
+/// Reads the target of an `<include>` with the overrides of the include. The flag is true if it is to be
+/// merged.
 pub(crate) fn read_include(element: &Element, reader: &mut Reader<'_>) -> Option<(Entity, bool)> {
     let overrides = read_overrides(element, reader.diagnostics)?;
     if reader.includes_left == 0 {
-        // It was told when the last one was used up.
+        // It was reported when the last one was used.
         return None;
     }
     reader.includes_left -= 1;
     if reader.includes_left == 0 {
-        too_many("includes", MOST_INCLUDES, element.origin, reader);
+        too_many("includes", MAX_INCLUDES, element.origin, reader);
     }
     let loaded = load(&overrides.uri, overrides.uri_origin, reader)?;
     if loaded.parts > reader.parts_left {
         if reader.parts_left > 0 {
-            too_many("elements in included files", MOST_PARTS, element.origin, reader);
+            too_many("elements in included files", MAX_INCLUDED_ELEMENTS, element.origin, reader);
         }
         reader.parts_left = 0;
         return None;
     }
-    if reader.depth + loaded.depth > DEEPEST_MODELS {
+    if reader.depth + loaded.depth > MAX_NESTED_MODELS {
         too_deep(element.origin, reader);
         return None;
     }
@@ -113,30 +114,30 @@ pub(crate) fn read_include(element: &Element, reader: &mut Reader<'_>) -> Option
     let mut entity = loaded.entity;
     let merge = overrides.merge;
     if merge && !matches!(entity, Entity::Model(_)) {
-        let told = Diagnostic::error("misplaced-include", "only models can be merged");
-        reader.diagnostics.push(told.at(element.origin));
+        let finding = Diagnostic::error("misplaced-include", "only models can be merged");
+        reader.diagnostics.push(finding.at(element.origin));
     }
     overrides.apply(&mut entity);
     Some((entity, merge))
 }
 
 fn too_many(what: &str, most: usize, origin: Origin, reader: &mut Reader<'_>) {
-    let mut told = Diagnostic::error(
+    let mut finding = Diagnostic::error(
         "too-many-includes",
         format!("this file brings in more than {most} {what}; the rest is left out"),
     )
     .at(origin);
     for (_, site) in &reader.chain {
-        told = told.related(*site, "included here");
+        finding = finding.related(*site, "included here");
     }
-    reader.diagnostics.push(told);
+    reader.diagnostics.push(finding);
 }
 
 fn too_deep(origin: Origin, reader: &mut Reader<'_>) {
     reader.diagnostics.push(
         Diagnostic::error(
             "too-deep",
-            format!("more than {DEEPEST_MODELS} models are in each other; this one is left out"),
+            format!("more than {MAX_NESTED_MODELS} models are nested; this one is left out"),
         )
         .at(origin),
     );
@@ -150,14 +151,14 @@ fn load(uri: &str, from: Origin, reader: &mut Reader<'_>) -> Option<Loaded> {
             if let Some(document) = builtin::find(uri, reader.sources) {
                 return load_document(&document.root, format!("built-in {uri}"), from, reader);
             }
-            tell_missing(uri, from, (tried, advice), reader);
+            report_missing(uri, from, (tried, advice), reader);
             None
         }
         Opened::Broken => None,
     }
 }
 
-fn tell_missing(
+fn report_missing(
     uri: &str,
     from: Origin,
     (tried, advice): (Vec<String>, Option<String>),
@@ -166,24 +167,25 @@ fn tell_missing(
     let is_new = !reader.missing.contains_key(uri);
     reader.missing.entry(uri.to_owned()).or_insert(from);
     if is_on_fuel(uri) {
-        // All of them are told together: see `tell_missing_from_fuel`.
+        // All of them are reported together: see `report_missing_from_fuel`.
         return;
     }
-    let mut told = Diagnostic::error("missing-include", format!("`{uri}` is not found")).at(from);
-    // The places need to be listed only once.
+    let mut finding =
+        Diagnostic::error("missing-include", format!("`{uri}` is not found")).at(from);
+    // The locations are listed only once.
     if is_new {
         for place in tried {
-            told = told.note(format!("looked at {place}"));
+            finding = finding.note(format!("looked at {place}"));
         }
-        told = advice.into_iter().fold(told, Diagnostic::help);
+        finding = advice.into_iter().fold(finding, Diagnostic::help);
     }
     for (_, site) in reader.chain.iter().rev() {
-        told = told.related(*site, "included here");
+        finding = finding.related(*site, "included here");
     }
-    reader.diagnostics.push(told);
+    reader.diagnostics.push(finding);
 }
 
-/// Whether an address is one of Gazebo's model server.
+/// Returns true if an address is one of Gazebo's model server.
 fn is_on_fuel(uri: &str) -> bool {
     let Some((_, rest)) = uri.split_once("://") else { return false };
     let host = rest.split('/').next().unwrap_or_default().to_ascii_lowercase();
@@ -196,23 +198,23 @@ fn is_on_fuel(uri: &str) -> bool {
     .contains(&host.as_str())
 }
 
-/// Models of Fuel that a message lists.
+/// Maximum number of Fuel models listed in a message.
 const MAX_LISTED_MODELS: usize = 12;
 
-/// One finding for all models that are not in the cache of Fuel: nothing is downloaded here.
-pub(crate) fn tell_missing_from_fuel(reader: &mut Reader<'_>) {
+/// Reports one finding for all models that are not in the Fuel cache: no download is made.
+pub(crate) fn report_missing_from_fuel(reader: &mut Reader<'_>) {
     let missing: Vec<(&String, &Origin)> =
         reader.missing.iter().filter(|(uri, _)| is_on_fuel(uri)).collect();
     let Some((_, first)) = missing.first() else { return };
     let count = missing.len();
     let (what, are) = if count == 1 { ("model", "is") } else { ("models", "are") };
-    let mut told = Diagnostic::error(
+    let mut finding = Diagnostic::error(
         "missing-from-fuel",
         format!("{count} {what} of Fuel {are} not on this machine and left out"),
     )
     .at(**first);
     for (_, site) in missing.iter().skip(1).take(MAX_LISTED_MODELS - 1) {
-        told = told.related(**site, "and this one");
+        finding = finding.related(**site, "and this one");
     }
     let mut commands = String::from("with Gazebo's tools, once for each:");
     for (uri, _) in missing.iter().take(MAX_LISTED_MODELS) {
@@ -221,14 +223,14 @@ pub(crate) fn tell_missing_from_fuel(reader: &mut Reader<'_>) {
     if count > MAX_LISTED_MODELS {
         commands.push_str(&format!("\n  and {} more", count - MAX_LISTED_MODELS));
     }
-    let told = told
+    let finding = finding
         .note("Gazebo downloads such models; Periplus uses no network and looks into ~/.gz/fuel")
         .help(commands)
         .help(
             "without these tools open each address in a browser, download the model, unpack it to \
              MODELS/NAME, write model://NAME in the world, and give --resource-path MODELS",
         );
-    reader.diagnostics.push(told);
+    reader.diagnostics.push(finding);
 }
 
 fn load_document(
@@ -238,20 +240,20 @@ fn load_document(
     reader: &mut Reader<'_>,
 ) -> Option<Loaded> {
     if reader.chain.iter().any(|(open, _)| *open == key) {
-        tell_cycle(&key, from, reader);
+        report_cycle(&key, from, reader);
         return None;
     }
     if let Some(loaded) = reader.loaded.get(&key) {
         return loaded.clone();
     }
-    if reader.chain.len() + 1 >= DEEPEST_MODELS {
+    if reader.chain.len() + 1 >= MAX_NESTED_MODELS {
         too_deep(from, reader);
         return None;
     }
     reader.chain.push((key.clone(), from));
     let parts_left = reader.parts_left;
     let version = reader.version;
-    // Findings in the file are told once, with the first include that led to it.
+    // Findings in the file are reported once, at the first include of it.
     let mut findings = Diagnostics::new();
     let loaded = {
         let mut inner = Reader {
@@ -264,7 +266,7 @@ fn load_document(
             missing: std::mem::take(&mut reader.missing),
             includes_left: reader.includes_left,
             parts_left: reader.parts_left,
-            // What is loaded may be used at other depths too: that is checked there.
+            // Loaded content may be used at other depths too, where the depth is checked.
             depth: 0,
         };
         let loaded = read_root(root, from, &mut inner);
@@ -277,23 +279,23 @@ fn load_document(
     };
     reader.chain.pop();
     reader.diagnostics.append(findings);
-    // What it includes itself comes along at every use.
+    // Its own includes count at every use.
     let nested = parts_left - reader.parts_left;
     let loaded = loaded.map(|it| Loaded { parts: nested + elements_in(root), ..it });
     reader.loaded.insert(key, loaded.clone());
     loaded
 }
 
-fn tell_cycle(key: &str, from: Origin, reader: &mut Reader<'_>) {
+fn report_cycle(key: &str, from: Origin, reader: &mut Reader<'_>) {
     let start = reader.chain.iter().position(|(open, _)| open == key).unwrap_or(0);
     let names = reader.chain[start..].iter().map(|(open, _)| open.as_str()).chain([key]);
     let chain = names.collect::<Vec<_>>().join(" -> ");
-    let mut told =
+    let mut finding =
         Diagnostic::error("include-cycle", "this file includes itself").at(from).note(chain);
     for (_, site) in reader.chain[start..].iter().rev() {
-        told = told.related(*site, "included here");
+        finding = finding.related(*site, "included here");
     }
-    reader.diagnostics.push(told);
+    reader.diagnostics.push(finding);
 }
 
 fn read_root(root: &Element, from: Origin, reader: &mut Reader<'_>) -> Option<Loaded> {
@@ -302,14 +304,14 @@ fn read_root(root: &Element, from: Origin, reader: &mut Reader<'_>) -> Option<Lo
     let mut candidates =
         root.elements().filter(|it| ["model", "light", "actor"].contains(&&*it.name));
     let Some(first) = candidates.next() else {
-        let mut told =
+        let mut finding =
             Diagnostic::error("empty-file", "the included file holds no model, light or actor")
                 .at(from)
                 .related(root.origin, "here");
         if root.child("world").is_some() {
-            told = told.note("it holds a world, and worlds cannot be included");
+            finding = finding.note("it holds a world, and worlds cannot be included");
         }
-        reader.diagnostics.push(told);
+        reader.diagnostics.push(finding);
         return None;
     };
     if let Some(second) = candidates.next() {
@@ -319,7 +321,7 @@ fn read_root(root: &Element, from: Origin, reader: &mut Reader<'_>) -> Option<Lo
                 "an included file should hold one model; this one is left out",
             )
             .at(second.origin)
-            .related(first.origin, "this one counts"),
+            .related(first.origin, "this one is used"),
         );
     }
     match &*first.name {
@@ -347,7 +349,7 @@ fn elements_in(element: &Element) -> usize {
     1 + element.elements().map(elements_in).sum::<usize>()
 }
 
-/// About how many elements a model was made of, and how many models are in each other.
+/// Approximate number of elements of a model, and nesting depth of its models.
 fn measure(draft: &ModelDraft) -> (usize, usize) {
     let kept = |elements: &[Element]| elements.iter().map(elements_in).sum::<usize>();
     let plugins = |plugins: &[periplus_scene::Plugin]| {

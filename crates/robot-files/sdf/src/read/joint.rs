@@ -26,12 +26,12 @@ const KINDS: [(&str, JointKind); 9] = [
     ("gearbox", JointKind::Gearbox),
 ];
 
-/// The name of a kind in SDF; none for kinds that only URDF has.
+/// SDF name of a joint type; `None` for types that only URDF has.
 pub(crate) fn kind_name(kind: JointKind) -> Option<&'static str> {
     KINDS.iter().find(|(_, known)| *known == kind).map(|(name, _)| *name)
 }
 
-/// Reads a `<joint>`; none where parent, child or kind are missing.
+/// Reads a `<joint>`; `None` if parent, child or type are missing.
 pub(crate) fn read_joint(element: &Element, diagnostics: &mut Diagnostics) -> Option<JointDraft> {
     let mut fields = Fields::new(element, diagnostics);
     let name = fields.required_attribute("name").map(|it| it.value.to_string());
@@ -176,7 +176,7 @@ fn direction(axis: &mut Fields<'_, '_>, expressed_in: &mut Option<Reference>) ->
 }
 
 fn read_limits(limit: &mut Fields<'_, '_>, axis: &mut Axis) {
-    // SDF's way to say infinite: 1e16, and -1 for what cannot be negative.
+    // SDF's values for infinite: 1e16, and -1 for values that cannot be negative.
     let free =
         |value: f64| if value.abs() >= 1e16 { value.signum() * f64::INFINITY } else { value };
     let or_free = |value: f64| if value < 0.0 { f64::INFINITY } else { free(value) };
@@ -187,11 +187,11 @@ fn read_limits(limit: &mut Fields<'_, '_>, axis: &mut Axis) {
     if axis.lower > axis.upper {
         let place =
             |name| limit.element.child(name).map_or(Origin::default(), Element::text_origin);
-        let told = Diagnostic::error("out-of-range", "`<lower>` lies above `<upper>`")
+        let finding = Diagnostic::error("out-of-range", "`<lower>` is above `<upper>`")
             .at(place("lower"))
             .related(place("upper"), "the upper limit")
-            .note("the two are exchanged");
-        limit.diagnostics.push(told);
+            .note("the two are swapped");
+        limit.diagnostics.push(finding);
         std::mem::swap(&mut axis.lower, &mut axis.upper);
     }
 }

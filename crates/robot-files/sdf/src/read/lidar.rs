@@ -48,25 +48,25 @@ fn axis(scan: &mut Fields<'_, '_>, name: &'static str, default: ScanAxis) -> Sca
             .map_or(fields.element.origin, periplus_xml::Element::text_origin)
     };
     if axis.samples == 0 {
-        let told = Diagnostic::error("out-of-range", "a lidar without samples sees nothing")
+        let finding = Diagnostic::error("out-of-range", "a lidar without samples measures nothing")
             .at(place(&fields, "samples"))
             .note("1 is assumed");
-        fields.diagnostics.push(told);
+        fields.diagnostics.push(finding);
         axis.samples = 1;
     }
     if axis.resolution == 0.0 {
-        let told = Diagnostic::error("out-of-range", "a resolution of 0 reports no ranges")
+        let finding = Diagnostic::error("out-of-range", "a resolution of 0 reports no ranges")
             .at(place(&fields, "resolution"))
             .note("1 is assumed");
-        fields.diagnostics.push(told);
+        fields.diagnostics.push(finding);
         axis.resolution = 1.0;
     }
     if axis.max_angle_rad < axis.min_angle_rad {
-        let told = Diagnostic::warning("out-of-range", "`<max_angle>` lies below `<min_angle>`")
+        let finding = Diagnostic::warning("out-of-range", "`<max_angle>` is below `<min_angle>`")
             .at(place(&fields, "max_angle"))
-            .related(place(&fields, "min_angle"), "the least angle")
-            .note("angles are in radians; the two are exchanged");
-        fields.diagnostics.push(told);
+            .related(place(&fields, "min_angle"), "the minimum angle")
+            .note("angles are in radians; the two are swapped");
+        fields.diagnostics.push(finding);
         std::mem::swap(&mut axis.min_angle_rad, &mut axis.max_angle_rad);
     }
     let rest = fields.finish();
@@ -93,18 +93,18 @@ fn read_range(fields: &mut Fields<'_, '_>, lidar: &mut Lidar) {
     lidar.range_max_m = range.limit("max", 0.0);
     lidar.range_resolution_m = range.magnitude("resolution", 0.0);
     if lidar.range_min_m < 0.0 || lidar.range_min_m.is_infinite() {
-        let told = Diagnostic::error("out-of-range", "the nearest range must be at least 0")
+        let finding = Diagnostic::error("out-of-range", "the minimum range must be at least 0")
             .at(place(&range, "min"))
             .note("0 is assumed");
-        range.diagnostics.push(told);
+        range.diagnostics.push(finding);
         lidar.range_min_m = 0.0;
     }
     if lidar.range_max_m <= lidar.range_min_m {
-        let told = Diagnostic::error("out-of-range", "`<max>` must lie above `<min>`")
+        let finding = Diagnostic::error("out-of-range", "`<max>` must be above `<min>`")
             .at(place(&range, "max"))
-            .related(place(&range, "min"), "the nearest range")
-            .note("this lidar sees nothing");
-        range.diagnostics.push(told);
+            .related(place(&range, "min"), "the minimum range")
+            .note("this lidar measures nothing");
+        range.diagnostics.push(finding);
     }
     let rest = range.finish();
     fields.close("range", rest);

@@ -15,7 +15,7 @@ use crate::fields::Fields;
 use crate::inertia;
 use crate::pose::{Placed, Reference};
 
-/// Reads a `<link>`. `moves` is false in static models, where nobody minds the inertia.
+/// Reads a `<link>`. `moves` is false in static models, whose inertia is not checked.
 pub(crate) fn read_link(
     element: &Element,
     moves: bool,
@@ -152,7 +152,7 @@ pub fn read_visual(element: &Element, diagnostics: &mut Diagnostics) -> Placed<V
         && let Some(child) = element.child("transparency")
     {
         diagnostics.push(
-            Diagnostic::warning("out-of-range", "a transparency lies between 0 and 1")
+            Diagnostic::warning("out-of-range", "the transparency must be between 0 and 1")
                 .at(child.text_origin()),
         );
     }
@@ -169,7 +169,7 @@ fn geometry(fields: &mut Fields<'_, '_>) -> Shape {
             format!("`<{}>` lacks its `<geometry>`", fields.element.name),
         )
         .at(fields.origin())
-        .label("nothing is touched or seen here")
+        .label("this has no shape")
         .help("add `<geometry><box><size>1 1 1</size></box></geometry>`"),
     );
     Shape::Empty

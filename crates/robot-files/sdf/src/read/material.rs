@@ -7,7 +7,7 @@ use periplus_xml::Element;
 use crate::fields::Fields;
 use crate::verbatim::keep;
 
-/// Reads a `<material>`. What the file leaves out stays `None`.
+/// Reads a `<material>`. Missing elements stay `None`.
 pub fn read_material(element: &Element, diagnostics: &mut Diagnostics) -> Material {
     let mut fields = Fields::new(element, diagnostics);
     let mut material = Material {
@@ -41,7 +41,7 @@ fn read_script(mut fields: Fields<'_, '_>) -> (Option<Script>, Vec<Element>) {
     for uri in fields.children("uri") {
         let text = uri.text();
         if text.is_empty() || text == "__default__" {
-            // Worlds saved by Gazebo Classic's building editor hold such.
+            // Occurs in worlds saved by Gazebo Classic's building editor.
             fields.diagnostics.push(
                 Diagnostic::warning("empty-value", "the `<uri>` of this script is empty")
                     .at(uri.origin)
@@ -55,11 +55,11 @@ fn read_script(mut fields: Fields<'_, '_>) -> (Option<Script>, Vec<Element>) {
     if let Some(name) = &name {
         check_name(name, &mut fields);
     } else {
-        let told = Diagnostic::warning(
+        let finding = Diagnostic::warning(
             "missing-element",
             "`<script>` lacks the `<name>` of a material; it changes nothing",
         );
-        fields.diagnostics.push(told.at(fields.origin()));
+        fields.diagnostics.push(finding.at(fields.origin()));
     }
     let rest = fields.finish();
     let script = (name.is_some() || !uris.is_empty())
@@ -70,11 +70,11 @@ fn read_script(mut fields: Fields<'_, '_>) -> (Option<Script>, Vec<Element>) {
 fn check_name(name: &str, fields: &mut Fields<'_, '_>) {
     if name.starts_with("Gazebo/") && builtin_material(name).is_none() {
         let origin = fields.element.child("name").map(Element::text_origin).unwrap_or_default();
-        let told = Diagnostic::hint(
+        let finding = Diagnostic::hint(
             "unknown-material",
             format!("`{name}` is none of Gazebo's built-in materials that are known here"),
         );
-        fields.diagnostics.push(told.at(origin).did_you_mean(
+        fields.diagnostics.push(finding.at(origin).did_you_mean(
             origin,
             name,
             builtin_material_names(),
@@ -82,7 +82,7 @@ fn check_name(name: &str, fields: &mut Fields<'_, '_>) {
     }
 }
 
-/// Only a few values are looked at, so the whole element is kept.
+/// Only a few values are read, so the whole element is kept.
 fn read_pbr(element: &Element, diagnostics: &mut Diagnostics) -> Pbr {
     let mut pbr = Pbr { element: Some(keep(element)), ..Pbr::default() };
     let Some(metal) = element.child("metal") else { return pbr };

@@ -7,9 +7,8 @@ use crate::draft::{FrameDraft, ModelDraft, Part, WorldDraft};
 use crate::frames::resolve_model;
 use crate::pose::Reference;
 
-/// Puts the content of an included model into the model around it. A frame
-/// `_merged__NAME__model__` stands for the frame of the model that is gone (SDF 1.9, merge
-/// include).
+/// Merges the content of an included model into the model around it. A frame `_merged__NAME__model__`
+/// replaces the frame of the included model (SDF 1.9, merge include).
 pub(crate) fn merge(included: ModelDraft, into: &mut ModelDraft, reader: &mut Reader<'_>) {
     let included = rebased(included, reader);
     into.frames.extend(included.frames);
@@ -20,7 +19,7 @@ pub(crate) fn merge(included: ModelDraft, into: &mut ModelDraft, reader: &mut Re
     into.model.extra.extend(included.model.extra);
 }
 
-/// The same for a world (SDF 1.10), where there can be no links.
+/// Merges into a world (SDF 1.10), which cannot have links.
 pub(crate) fn merge_into_world(
     included: ModelDraft,
     into: &mut WorldDraft,
@@ -33,7 +32,7 @@ pub(crate) fn merge_into_world(
                 "a model with links cannot be merged into a world",
             )
             .at(included.model.origin)
-            .related(link.link.origin, "a world has no place for this link")
+            .related(link.link.origin, "a world cannot contain this link")
             .help("leave out `merge=\"true\"`"),
         );
         into.models.push(included);
@@ -51,14 +50,14 @@ pub(crate) fn merge_into_world(
     into.world.extra.extend(included.model.extra);
 }
 
-/// The model with everything in it relative to a frame of its own instead of `__model__`.
+/// Model whose content is relative to a new frame instead of `__model__`.
 fn rebased(mut included: ModelDraft, reader: &mut Reader<'_>) -> ModelDraft {
     let origin = included.model.origin;
     let proxy =
         Reference { name: format!("_merged__{}__model__", included.model.name).into(), origin };
     let mut pose = included.model.parent_from_model;
     if included.placement_frame.is_some() {
-        // Where the model's frame must lie for the placement frame to lie at the pose.
+        // Pose of the model's frame that puts the placement frame at the pose.
         let mut found = Diagnostics::new();
         let placed = resolve_model(included.clone(), &mut found);
         pose = pose * placed.model_from_placement(reader.diagnostics).inverse();

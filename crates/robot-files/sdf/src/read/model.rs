@@ -9,21 +9,19 @@ use super::joint::read_joint;
 use super::link::read_link;
 use super::merge::merge;
 use super::plugin::plugins;
-use super::root::{DEEPEST_MODELS, Reader};
+use super::root::{MAX_NESTED_MODELS, Reader};
 use crate::draft::{FrameDraft, ModelDraft};
 use crate::fields::Fields;
 use crate::pose::Reference;
 use crate::version::Version;
 
-/// Reads a `<model>` and everything in it, includes too; none where models nest too deep.
+/// Reads a `<model>` and its content, includes too; `None` if models are nested too deep.
 pub(crate) fn read_model(element: &Element, reader: &mut Reader<'_>) -> Option<ModelDraft> {
-    if reader.depth >= DEEPEST_MODELS {
+    if reader.depth >= MAX_NESTED_MODELS {
         reader.diagnostics.push(
             Diagnostic::error(
                 "too-deep",
-                format!(
-                    "more than {DEEPEST_MODELS} models are in each other; this one is left out"
-                ),
+                format!("more than {MAX_NESTED_MODELS} models are nested; this one is left out"),
             )
             .at(element.origin),
         );
@@ -31,7 +29,7 @@ pub(crate) fn read_model(element: &Element, reader: &mut Reader<'_>) -> Option<M
     }
     let mut draft = read_own(element, reader);
     reader.depth += 1;
-    // Links of merged models count where their include is: the first link of all is canonical.
+    // Links of merged models count at the position of their include: the first link of all is canonical.
     let mut links_before = 0;
     for child in element.elements() {
         match &*child.name {
@@ -59,7 +57,7 @@ pub(crate) fn read_model(element: &Element, reader: &mut Reader<'_>) -> Option<M
     Some(draft)
 }
 
-/// The model without the models in it.
+/// Reads the model without nested models.
 fn read_own(element: &Element, reader: &mut Reader<'_>) -> ModelDraft {
     let lenient_names = reader.version < Version::new(7);
     let mut fields = Fields::new(element, reader.diagnostics);
@@ -68,7 +66,7 @@ fn read_own(element: &Element, reader: &mut Reader<'_>) -> ModelDraft {
     model.origin = element.origin;
     let canonical_link = reference(&mut fields, "canonical_link");
     let placement_frame = reference(&mut fields, "placement_frame");
-    // What the writer here keeps beside SDF.
+    // Extension written by this crate's writer.
     model.included_from = fields.attribute("periplus:included_from").map(|it| it.value.to_string());
     let (pose, relative_to) = fields.pose();
     model.parent_from_model = pose;
@@ -89,7 +87,7 @@ fn read_own(element: &Element, reader: &mut Reader<'_>) -> ModelDraft {
     for child in fields.children("frame") {
         frames.push(read_frame(child, fields.diagnostics));
     }
-    // These are read by the caller, in their order.
+    // The caller reads these in their order.
     fields.children("model");
     fields.children("include");
     fields.verbatim(&["gripper"]);
@@ -128,7 +126,7 @@ pub(crate) fn read_frame(element: &Element, diagnostics: &mut Diagnostics) -> Fr
     FrameDraft { frame, relative_to, attached_to }
 }
 
-/// An attribute that names a frame.
+/// Attribute that refers to a frame.
 pub(crate) fn reference(fields: &mut Fields<'_, '_>, name: &'static str) -> Option<Reference> {
     let attribute = fields.attribute(name)?;
     let trimmed = attribute.value.trim();

@@ -7,7 +7,7 @@ use crate::fields::Fields;
 
 const KINDS: [&str; 3] = ["none", "gaussian", "gaussian_quantized"];
 
-/// The child `<noise>` of an element. The kind is an attribute, or in lidars and cameras a child.
+/// Child `<noise>` of an element. The type is an attribute, or in lidars and cameras a child.
 pub(crate) fn child(fields: &mut Fields<'_, '_>) -> Noise {
     let Some(mut noise) = fields.open("noise") else { return Noise::default() };
     let read = read(&mut noise);
@@ -16,7 +16,7 @@ pub(crate) fn child(fields: &mut Fields<'_, '_>) -> Noise {
     read
 }
 
-/// The noise inside a child: `<x><noise>...</noise></x>`.
+/// Noise inside a child: `<x><noise>...</noise></x>`.
 pub(crate) fn inside(fields: &mut Fields<'_, '_>, name: &'static str) -> Noise {
     let Some(mut inner) = fields.open(name) else { return Noise::default() };
     let noise = child(&mut inner);
@@ -25,7 +25,7 @@ pub(crate) fn inside(fields: &mut Fields<'_, '_>, name: &'static str) -> Noise {
     noise
 }
 
-/// The noises of several children of a child.
+/// Noises of several children of a child.
 pub(crate) fn group<const N: usize>(
     fields: &mut Fields<'_, '_>,
     name: &'static str,

@@ -1,4 +1,4 @@
-//! What an `<include>` says besides its URI.
+//! Overrides in an `<include>`.
 
 use periplus_diagnostics::{Diagnostic, Diagnostics, Origin};
 use periplus_geometry::Pose;
@@ -10,7 +10,7 @@ use super::plugin::plugins;
 use crate::fields::Fields;
 use crate::pose::Reference;
 
-/// What stands in an `<include>`.
+/// Content of an `<include>`.
 pub(crate) struct Overrides {
     pub(crate) uri: String,
     pub(crate) uri_origin: Origin,
@@ -70,7 +70,7 @@ pub(crate) fn read_overrides(
         diagnostics.push(
             Diagnostic::error("missing-element", "a `<placement_frame>` needs a `<pose>`")
                 .at(element.origin)
-                .help("say where the frame is to be: add `<pose>0 0 0 0 0 0</pose>`"),
+                .help("give the pose of the frame: add `<pose>0 0 0 0 0 0</pose>`"),
         );
     }
     let uri_origin = element.child("uri").map(Element::text_origin).unwrap_or_default();

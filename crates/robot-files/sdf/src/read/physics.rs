@@ -28,7 +28,7 @@ pub(crate) fn read_physics(element: &Element, diagnostics: &mut Diagnostics) -> 
     if physics.max_step_size_s == 0.0 {
         let place = element.child("max_step_size").map(Element::text_origin).unwrap_or_default();
         fields.diagnostics.push(
-            Diagnostic::error("out-of-range", "time does not pass in steps of 0 s")
+            Diagnostic::error("out-of-range", "the step size must be above 0 s")
                 .at(place)
                 .note("0.001 s is assumed"),
         );

@@ -7,7 +7,7 @@ use periplus_xml::{Element, Node};
 use crate::fields::Fields;
 use crate::verbatim::keep;
 
-/// Reads a `<plugin>`; its children are kept word for word.
+/// Reads a `<plugin>`; its children are kept verbatim.
 pub fn read_plugin(element: &Element, diagnostics: &mut Diagnostics) -> Plugin {
     let mut fields = Fields::new(element, diagnostics);
     let name = fields.attribute("name").map(|it| it.value.to_string());

@@ -1,4 +1,4 @@
-//! `<population>`: one model many times.
+//! `<population>`: copies of one model.
 
 use periplus_diagnostics::Diagnostic;
 use periplus_geometry::{DVec3, Pose, Stream};
@@ -10,12 +10,12 @@ use super::root::Reader;
 use crate::draft::{ModelDraft, WorldDraft};
 use crate::fields::Fields;
 
-/// Models of one population, at most.
-const MOST: u32 = 10_000;
+/// Maximum number of models in one population.
+const MAX_MODELS: u32 = 10_000;
 
 const KINDS: [&str; 6] = ["random", "uniform", "grid", "linear-x", "linear-y", "linear-z"];
 
-/// Where the models may stand, in the population's frame.
+/// Region of the models, in the population's frame.
 #[derive(Clone, Copy)]
 enum Region {
     Box(DVec3),
@@ -27,13 +27,13 @@ pub(crate) fn read_population(element: &Element, draft: &mut WorldDraft, reader:
     let name = fields.required_attribute("name").map_or("population", |it| &*it.value);
     let world_from_population = fields.fixed_pose("world");
     let mut count = fields.count("model_count", 1);
-    if count > MOST {
-        let told = Diagnostic::error(
+    if count > MAX_MODELS {
+        let finding = Diagnostic::error(
             "out-of-range",
-            format!("a population has at most {MOST} models here, not {count}"),
+            format!("a population has at most {MAX_MODELS} models here, not {count}"),
         );
-        fields.diagnostics.push(told.at(element.origin));
-        count = MOST;
+        fields.diagnostics.push(finding.at(element.origin));
+        count = MAX_MODELS;
     }
     let mut region = Region::Box(DVec3::ONE);
     if let Some(mut child) = fields.open("box") {
@@ -59,8 +59,8 @@ pub(crate) fn read_population(element: &Element, draft: &mut WorldDraft, reader:
             _ => None,
         },
         (None, None) => {
-            let told = Diagnostic::error("missing-element", "a population needs a `<model>`");
-            reader.diagnostics.push(told.at(element.origin));
+            let finding = Diagnostic::error("missing-element", "a population needs a `<model>`");
+            reader.diagnostics.push(finding.at(element.origin));
             None
         }
     };
@@ -70,7 +70,8 @@ pub(crate) fn read_population(element: &Element, draft: &mut WorldDraft, reader:
     }
 }
 
-/// Classic names them so; the model's own pose is added to its place.
+/// Copy of a model, with the name that Gazebo Classic gives it; the model's own pose is added to its
+/// position.
 fn clone_at(single: &ModelDraft, index: usize, frame: Pose, place: DVec3) -> ModelDraft {
     let mut clone = single.clone();
     clone.model.name = format!("{}_clone_{index}", single.model.name);
@@ -89,8 +90,8 @@ fn read_distribution(
         return scattered(name, count, region);
     };
     let kind = child.text("type").unwrap_or_else(|| "random".into());
-    let rows = child.count("rows", 1).min(MOST);
-    let columns = child.count("cols", 1).min(MOST);
+    let rows = child.count("rows", 1).min(MAX_MODELS);
+    let columns = child.count("cols", 1).min(MAX_MODELS);
     let step = child.vector("step", DVec3::new(0.5, 0.5, 0.0));
     let places = match kind.as_str() {
         "random" => scattered(name, count, region),
@@ -123,7 +124,7 @@ fn extent(region: Region) -> DVec3 {
     }
 }
 
-/// A point of the region from three numbers in 0..1, even where they are.
+/// Point of the region from three numbers in 0..1; uniform if they are.
 fn point(region: Region, [u, v, w]: [f64; 3]) -> DVec3 {
     match region {
         Region::Box(size) => (DVec3::new(u, v, w) - 0.5) * size,
@@ -135,13 +136,13 @@ fn point(region: Region, [u, v, w]: [f64; 3]) -> DVec3 {
     }
 }
 
-/// The same places at every reading of the same file.
+/// Pseudorandom positions, the same for each reading of a file.
 fn scattered(name: &str, count: u32, region: Region) -> Vec<DVec3> {
     let mut stream = Stream::keyed(0, name, 0);
     (0..count).map(|_| point(region, std::array::from_fn(|_| stream.unit()))).collect()
 }
 
-/// Evenly spread: Halton's sequence (J. H. Halton, 1960) in the bases 2, 3, 5.
+/// Low-discrepancy positions: Halton's sequence (J. H. Halton, 1960) in the bases 2, 3, 5.
 fn even(count: u32, region: Region) -> Vec<DVec3> {
     (1..=count).map(|index| point(region, [2, 3, 5].map(|base| halton(index, base)))).collect()
 }
@@ -159,7 +160,7 @@ fn halton(mut index: u32, base: u32) -> f64 {
 
 /// Rows along y, columns along x, centred.
 fn grid(rows: u32, columns: u32, step: DVec3) -> Vec<DVec3> {
-    let rows = rows.min(MOST / columns.max(1));
+    let rows = rows.min(MAX_MODELS / columns.max(1));
     let middle = |count: u32| (f64::from(count) - 1.0) / 2.0;
     let mut places = Vec::new();
     for row in 0..rows {
@@ -172,7 +173,7 @@ fn grid(rows: u32, columns: u32, step: DVec3) -> Vec<DVec3> {
     places
 }
 
-/// From end to end of a line through the middle.
+/// Positions from end to end of a line through the centre.
 fn line(count: u32, extent: DVec3) -> Vec<DVec3> {
     let share = |index: u32| match count {
         1 => 0.0,

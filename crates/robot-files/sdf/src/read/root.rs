@@ -7,7 +7,7 @@ use periplus_scene::Scene;
 use periplus_xml::{Document, Element};
 
 use super::actor::read_actor;
-use super::include::{Entity, Includes, Loaded, read_include, tell_missing_from_fuel};
+use super::include::{Entity, Includes, Loaded, read_include, report_missing_from_fuel};
 use super::light::read_light;
 use super::model::read_model;
 use super::world::read_world;
@@ -16,40 +16,40 @@ use crate::frames::{resolve_actor, resolve_light, resolve_model, resolve_world};
 use crate::upgrade::upgrade;
 use crate::version::Version;
 
-/// What a reading needs from outside.
+/// Inputs and outputs of a reader that are shared by all files.
 pub struct Context<'a> {
-    /// Where texts of built-in models are added.
+    /// Receives the texts of built-in models.
     pub sources: &'a mut SourceMap,
-    /// Where findings go.
+    /// Receives the findings.
     pub diagnostics: &'a mut Diagnostics,
-    /// Who opens what an `<include>` names.
+    /// Resolves `<include>` elements.
     pub includes: &'a mut dyn Includes,
 }
 
-/// A reading under way.
+/// State of a reader.
 pub(crate) struct Reader<'a> {
     pub(crate) sources: &'a mut SourceMap,
     pub(crate) diagnostics: &'a mut Diagnostics,
     pub(crate) includes: &'a mut dyn Includes,
-    /// The version of the file at hand.
+    /// Version of the current file.
     pub(crate) version: Version,
-    /// The includes that led here: what each opened, and where it stands.
+    /// Includes that led to the current file: what each opened, and its source location.
     pub(crate) chain: Vec<(String, Origin)>,
-    /// What was read from files that are included, for they are often included many times.
+    /// Content of included files, which are often included many times.
     pub(crate) loaded: BTreeMap<String, Option<Loaded>>,
-    /// What was told to be missing already, and where it is included first.
+    /// Missing targets that were reported, with the source location of their first include.
     pub(crate) missing: BTreeMap<String, Origin>,
     pub(crate) includes_left: usize,
     pub(crate) parts_left: usize,
-    /// How many models are around the place at hand.
+    /// Number of models around the current element.
     pub(crate) depth: usize,
 }
 
-/// Models and includes in each other, at most. The readers recurse.
-pub(crate) const DEEPEST_MODELS: usize = 40;
+/// Maximum nesting depth of models and includes. The readers are recursive.
+pub(crate) const MAX_NESTED_MODELS: usize = 40;
 
-/// Reads a whole SDF document of any version. Everything that could be understood is in the
-/// scene; what could not is told in the diagnostics.
+/// Reads a whole SDF document of any version. The scene holds all content that could be read; the
+/// diagnostics report the rest.
 pub fn read_document(document: &Document, context: &mut Context<'_>) -> Scene {
     let mut reader = Reader {
         sources: context.sources,
@@ -59,8 +59,8 @@ pub fn read_document(document: &Document, context: &mut Context<'_>) -> Scene {
         chain: Vec::new(),
         loaded: BTreeMap::new(),
         missing: BTreeMap::new(),
-        includes_left: super::include::MOST_INCLUDES,
-        parts_left: super::include::MOST_PARTS,
+        includes_left: super::include::MAX_INCLUDES,
+        parts_left: super::include::MAX_INCLUDED_ELEMENTS,
         depth: 0,
     };
     let Some((version, root)) = open_root(&document.root, reader.diagnostics) else {
@@ -105,7 +105,7 @@ pub fn read_document(document: &Document, context: &mut Context<'_>) -> Scene {
             _ => unknown_in_root(child, reader.diagnostics),
         }
     }
-    tell_missing_from_fuel(&mut reader);
+    report_missing_from_fuel(&mut reader);
     if scene == Scene::default() && !reader.diagnostics.has_errors() {
         reader.diagnostics.push(
             Diagnostic::error("empty-file", "this file holds no world, model, light or actor")
@@ -133,23 +133,23 @@ fn unknown_in_root(child: &Element, diagnostics: &mut Diagnostics) {
     );
 }
 
-/// The version of a document and its root, in the spelling of the newest version.
+/// Version of a document and its root, in the spelling of the newest version.
 pub(crate) fn open_root<'a>(
     root: &'a Element,
     diagnostics: &mut Diagnostics,
 ) -> Option<(Version, std::borrow::Cow<'a, Element>)> {
     if root.name != "sdf" && root.name != "gazebo" {
-        let mut told = Diagnostic::error(
+        let mut finding = Diagnostic::error(
             "not-sdf",
             format!("an SDF file starts with `<sdf>`, this one with `<{}>`", root.name),
         )
         .at(root.origin);
         if root.name == "robot" {
-            told = told.help("this is a robot description: read it as URDF, or as xacro");
+            finding = finding.help("this is a robot description: read it as URDF, or as xacro");
         } else if ["world", "model", "light", "actor"].contains(&&*root.name) {
-            told = told.help("wrap it in `<sdf version=\"1.9\">...</sdf>`");
+            finding = finding.help("wrap it in `<sdf version=\"1.9\">...</sdf>`");
         }
-        diagnostics.push(told);
+        diagnostics.push(finding);
         return None;
     }
     let version = read_version(root, diagnostics);

@@ -10,7 +10,7 @@ use crate::fields::Fields;
 use crate::pose::{Placed, Reference};
 use crate::verbatim::keep;
 
-/// Types, and the elements that hold their settings.
+/// Sensor types, and the elements that hold their settings.
 const TYPES: [(&str, &[&str]); 35] = [
     ("air_pressure", &["air_pressure"]),
     ("air_speed", &["air_speed"]),
@@ -49,14 +49,14 @@ const TYPES: [(&str, &[&str]); 35] = [
     ("wireless_transmitter", &["transceiver"]),
 ];
 
-/// A sensor, and where its pose and those of its cameras are given relative to frames by name.
+/// Sensor, with the frames that its pose and those of its cameras are relative to.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PlacedSensor {
     /// The sensor; poses are as written.
     pub value: Sensor,
-    /// What the sensor's pose is relative to; none where the file leaves it to the default.
+    /// Frame that the sensor's pose is relative to; `None` for the default.
     pub relative_to: Option<Reference>,
-    /// What the pose of a camera is relative to: 0 is the camera itself, 1 the first of its
+    /// Frames that the poses of cameras are relative to: 0 is the camera itself, 1 the first of its
     /// [`periplus_scene::Camera::others`], and so on.
     pub cameras_relative_to: Vec<(usize, Reference)>,
 }
@@ -93,7 +93,7 @@ pub fn read_sensor(element: &Element, diagnostics: &mut Diagnostics) -> PlacedSe
                 format!("`{}` is not a type of sensor that is known here", sensor.type_name),
             )
             .at(origin)
-            .note("it is kept, but it will measure nothing")
+            .note("it is kept, but publishes no data")
             .did_you_mean(
                 origin,
                 &sensor.type_name,
@@ -129,7 +129,7 @@ pub fn read_sensor(element: &Element, diagnostics: &mut Diagnostics) -> PlacedSe
     PlacedSensor { value: sensor, relative_to, cameras_relative_to }
 }
 
-/// `gz_frame_id` and what it was called before.
+/// `gz_frame_id` and its earlier names.
 fn frame_id(fields: &mut Fields<'_, '_>) -> Option<String> {
     let newest = fields.text("gz_frame_id");
     let older = fields.text("ignition_frame_id");
@@ -143,7 +143,7 @@ fn read_kind(
     fields: &mut Fields<'_, '_>,
     cameras_relative_to: &mut Vec<(usize, Reference)>,
 ) {
-    // Without settings the defaults count: an empty element stands in for them.
+    // Without settings the defaults apply: an empty element is read instead.
     let placeholder = Element { origin: fields.origin(), ..Element::new("settings") };
     let present = settings.iter().find(|name| fields.element.child(name).is_some());
     if let ["camera"] = settings {
@@ -166,7 +166,7 @@ fn read_kind(
                         .at(sensor.origin)
                         .help("add `<lidar><scan>...</scan><range>...</range></lidar>`"),
                 );
-                // No ray of zero range should be cast.
+                // No rays of zero range are cast.
                 return;
             }
             sensor.kind = SensorKind::Lidar(Box::new(lidar::read_lidar(inner)));
@@ -235,7 +235,7 @@ fn axes(inner: &mut Fields<'_, '_>) -> [Noise; 3] {
 
 fn contact(inner: &mut Fields<'_, '_>) -> SensorKind {
     let elements = inner.children("collision");
-    // SDF 1.0 wrote the name as an attribute.
+    // SDF 1.0 has the name as an attribute.
     let collisions = elements
         .iter()
         .map(|element| {

@@ -29,7 +29,7 @@ pub fn read_geometry(element: &Element, diagnostics: &mut Diagnostics) -> Shape 
     let Some(first) = element.elements().find(|child| SHAPES.contains(&&*child.name)) else {
         return unknown(element, diagnostics);
     };
-    // Several `<polyline>`s are one shape with holes; otherwise the first shape counts.
+    // Several `<polyline>`s are one shape with holes; otherwise the first shape is used.
     let polylines = first.name == "polyline";
     for other in element.elements().filter(|other| !std::ptr::eq(*other, first)) {
         if !(polylines && other.name == "polyline") {
@@ -39,7 +39,7 @@ pub fn read_geometry(element: &Element, diagnostics: &mut Diagnostics) -> Shape 
                     format!("`<geometry>` holds one shape; `<{}>` is left out", other.name),
                 )
                 .at(other.origin)
-                .related(first.origin, "this one counts"),
+                .related(first.origin, "this one is used"),
             );
         }
     }
@@ -56,19 +56,19 @@ fn unknown(element: &Element, diagnostics: &mut Diagnostics) -> Shape {
         diagnostics.push(
             Diagnostic::warning("missing-element", "`<geometry>` holds no shape")
                 .at(element.origin)
-                .help("write `<empty/>` if nothing is meant"),
+                .help("write `<empty/>` if it has no shape"),
         );
         return Shape::Empty;
     };
-    let mut told = Diagnostic::warning(
+    let mut finding = Diagnostic::warning(
         "unknown-element",
         format!("`<{}>` is not a shape that is known here", child.name),
     )
     .at(child.name_origin())
-    .note("it is kept, but nothing touches or sees it");
-    told = told.did_you_mean(child.name_origin(), &child.name, SHAPES);
+    .note("it is kept, but has no effect");
+    finding = finding.did_you_mean(child.name_origin(), &child.name, SHAPES);
     if child.prefix().is_none() {
-        diagnostics.push(told);
+        diagnostics.push(finding);
     }
     Shape::Unknown(keep(child))
 }
@@ -105,12 +105,12 @@ fn read_shape(element: &Element, diagnostics: &mut Diagnostics) -> Shape {
         "image" => return image(fields),
         _ => Shape::Empty,
     };
-    // A shape has nowhere to keep what is left, and it was told.
+    // A shape has no field for unread content, which has been reported.
     fields.finish();
     shape
 }
 
-/// A side of zero is flat and harmless; below zero cannot be.
+/// Extent of a shape. A side of zero is flat and accepted; a negative one is an error.
 fn extent(size: DVec3, name: &'static str, fields: &mut Fields<'_, '_>) -> DVec3 {
     if size.min_element() < 0.0
         && let Some(child) = fields.element.child(name)
@@ -129,8 +129,8 @@ fn extent(size: DVec3, name: &'static str, fields: &mut Fields<'_, '_>) -> DVec3
 fn plane(fields: &mut Fields<'_, '_>) -> Shape {
     let written = fields.vector("normal", DVec3::Z);
     let normal = unit(written).unwrap_or_else(|| {
-        let told = Diagnostic::error("bad-direction", "the normal of a plane must not be zero");
-        fields.diagnostics.push(told.at(
+        let finding = Diagnostic::error("bad-direction", "the normal of a plane must not be zero");
+        fields.diagnostics.push(finding.at(
             fields.element.child("normal").map_or_else(|| fields.origin(), Element::text_origin),
         ));
         DVec3::Z
@@ -150,8 +150,8 @@ fn plane(fields: &mut Fields<'_, '_>) -> Shape {
     Shape::Plane { normal, size_m }
 }
 
-/// The direction of a vector. One that is of unit length to within rounding is kept bit for bit,
-/// so that writing and reading back changes nothing.
+/// Direction of a vector. A vector that is of unit length within rounding is returned unchanged, so that
+/// writing and reading back changes nothing.
 pub(crate) fn unit(vector: DVec3) -> Option<DVec3> {
     let length = vector.length();
     if (length - 1.0).abs() < 1e-14 {
@@ -175,11 +175,11 @@ fn required_uri(fields: &mut Fields<'_, '_>) -> String {
         return name;
     }
     written.unwrap_or_else(|| {
-        let told = Diagnostic::error(
+        let finding = Diagnostic::error(
             "missing-uri",
             format!("`<{}>` lacks the `<uri>` of its file", fields.element.name),
         );
-        fields.diagnostics.push(told.at(fields.origin()));
+        fields.diagnostics.push(finding.at(fields.origin()));
         String::new()
     })
 }
@@ -196,22 +196,22 @@ fn mesh(mut fields: Fields<'_, '_>) -> Shape {
     }
     let scale = fields.vector("scale", DVec3::ONE);
     if scale.to_array().contains(&0.0) {
-        let told = Diagnostic::warning("flat-mesh", "a scale of 0 makes the mesh flat");
-        fields.diagnostics.push(told.at(fields.origin()));
+        let finding = Diagnostic::warning("flat-mesh", "a scale of 0 makes the mesh flat");
+        fields.diagnostics.push(finding.at(fields.origin()));
     }
     fields.verbatim(&["convex_decomposition", "simplification"]);
     let origin = fields.origin();
     let optimization = fields.attribute("optimization");
     let mut extra = Vec::new();
     if let Some(attribute) = optimization {
-        // The one attribute of a shape; it is kept as an element of a private name.
+        // The only attribute of a shape; it is kept as an element with a private name.
         extra.push(Element::new(OPTIMIZATION).with_text(attribute.value.clone()));
     }
     extra.extend(fields.finish());
     Shape::Mesh(Mesh { uri, path: None, submesh, center_submesh, scale, extra, origin })
 }
 
-/// How `<mesh optimization="...">` is kept in [`Mesh::extra`].
+/// Name under which `<mesh optimization="...">` is kept in [`Mesh::extra`].
 pub(crate) const OPTIMIZATION: &str = "periplus:optimization";
 
 fn heightmap(mut fields: Fields<'_, '_>) -> Shape {
@@ -250,11 +250,11 @@ fn polyline(element: &Element, diagnostics: &mut Diagnostics) -> Polyline {
         points_m.extend(value::numbers::<2>(point, fields.diagnostics));
     }
     if points_m.len() < 3 {
-        let told = Diagnostic::warning(
+        let finding = Diagnostic::warning(
             "too-few-points",
             format!("an outline needs 3 points, here are {}", points_m.len()),
         );
-        fields.diagnostics.push(told.at(fields.origin()));
+        fields.diagnostics.push(finding.at(fields.origin()));
     }
     let height_m = fields.length("height", 1.0);
     fields.finish();

@@ -1,6 +1,5 @@
-//! `<state>`: where things were when Gazebo Classic saved the world. Classic puts them there when
-//! it loads the world again, so the state overrides the poses of models and links. All poses in
-//! it are seen from the world.
+//! `<state>`: poses at the time when Gazebo Classic saved the world. Classic restores them when it loads
+//! the world, so the state overrides the poses of models and links. All poses in it are in the world frame.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -30,7 +29,7 @@ pub(crate) fn read_state(element: &Element, draft: &mut WorldDraft, reader: &mut
         );
         return;
     }
-    // Clocks of the past mean nothing to a new run.
+    // Clocks of the saved run are not used.
     for clock in ["sim_time", "real_time", "wall_time", "iterations", "time"] {
         fields.child(clock);
     }
@@ -91,8 +90,8 @@ fn place_models(states: &[&Element], models: &mut [ModelDraft], diagnostics: &mu
     }
 }
 
-/// Poses closer than this to where the file puts a thing anyway are rounding [m], [rad].
-const ROUNDING: f64 = 1e-5;
+/// Tolerance below which a saved pose equals the pose in the file [m, rad].
+const POSE_TOLERANCE: f64 = 1e-5;
 
 fn place_model(state: &Element, draft: &mut ModelDraft, diagnostics: &mut Diagnostics) {
     scale(state, diagnostics);
@@ -133,7 +132,7 @@ fn place_nested(
     draft: &mut ModelDraft,
     diagnostics: &mut Diagnostics,
 ) {
-    // As a model of the world first, then moved into its parent.
+    // Read as a model of the world first, then moved into its parent.
     let world_from_parent = parent_from_world.inverse();
     let before = draft.model.parent_from_model;
     draft.model.parent_from_model = world_from_parent * before;
@@ -146,7 +145,7 @@ fn place_nested(
 
 fn near(a: Pose, b: Pose) -> bool {
     let (metres, radians) = a.distance_to(b);
-    metres < ROUNDING && radians < ROUNDING
+    metres < POSE_TOLERANCE && radians < POSE_TOLERANCE
 }
 
 fn scale(state: &Element, diagnostics: &mut Diagnostics) {
@@ -154,8 +153,11 @@ fn scale(state: &Element, diagnostics: &mut Diagnostics) {
         && crate::value::numbers(scale, diagnostics).is_some_and(|factors| factors != [1.0; 3])
     {
         diagnostics.push(
-            Diagnostic::warning("unsupported", "a model that was scaled by hand keeps its size")
-                .at(scale.origin),
+            Diagnostic::warning(
+                "unsupported",
+                "the scale of a model in the saved state is not applied",
+            )
+            .at(scale.origin),
         );
     }
 }

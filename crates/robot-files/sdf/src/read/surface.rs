@@ -38,7 +38,7 @@ pub fn read_surface(element: &Element, diagnostics: &mut Diagnostics) -> Surface
 }
 
 fn read_friction(ode: &mut Fields<'_, '_>) -> Friction {
-    // SDF 1.0 to 1.3 wrote -1 for a coefficient left to the engine; ODE then took infinity.
+    // SDF 1.0 to 1.3 have -1 for a coefficient left to the engine; ODE then used infinity.
     let mut coefficient = |name| {
         let value = ode.limit(name, 1.0);
         if value < 0.0 { f64::INFINITY } else { value }
@@ -53,7 +53,7 @@ fn read_friction(ode: &mut Fields<'_, '_>) -> Friction {
     }
 }
 
-/// The frame of `<fdir1>`; Gazebo reads it under the name of its own and under the older one.
+/// Frame of `<fdir1>`; Gazebo reads it under its own and under the older name.
 fn expressed_in(ode: &Element) -> Option<String> {
     let fdir1 = ode.child("fdir1")?;
     let named = ["gz:expressed_in", "ignition:expressed_in"];

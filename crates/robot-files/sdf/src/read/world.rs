@@ -20,7 +20,7 @@ use crate::draft::{LightDraft, WorldDraft};
 use crate::fields::Fields;
 use crate::value::boolean_word;
 
-/// Reads a `<world>` and everything in it.
+/// Reads a `<world>` and its content.
 pub(crate) fn read_world(element: &Element, reader: &mut Reader<'_>) -> WorldDraft {
     let mut draft = read_own(element, reader);
     for child in element.elements() {
@@ -43,7 +43,7 @@ pub(crate) fn read_world(element: &Element, reader: &mut Reader<'_>) -> WorldDra
     draft
 }
 
-/// The world without its models.
+/// Reads the world without its models.
 fn read_own(element: &Element, reader: &mut Reader<'_>) -> WorldDraft {
     let mut fields = Fields::new(element, reader.diagnostics);
     let name = fields.required_attribute("name").map(|it| it.value.to_string());
@@ -60,7 +60,7 @@ fn read_own(element: &Element, reader: &mut Reader<'_>) -> WorldDraft {
     for child in fields.children("physics") {
         world.physics.push(read_physics(child, fields.diagnostics));
     }
-    // The one marked as default counts, else the first; it comes first.
+    // The default physics, or else the first, becomes the first of the list.
     if let Some(index) = world.physics.iter().position(|physics| physics.default) {
         world.physics[..=index].rotate_right(1);
     }

@@ -1,11 +1,10 @@
-//! 1.0 to 1.2: what was an attribute becomes a child.
+//! 1.0 to 1.2: attributes become children.
 
 use periplus_xml::{Attribute, Element, Node, Text};
 
 use super::{child_mut, take_attribute};
 
-/// Attributes that become children of the same name. Names of elements mean the same wherever
-/// they stand.
+/// Attributes that become children of the same name. Names of elements have the same meaning everywhere.
 const TO_CHILDREN: &[(&str, &[&str])] = &[
     ("state", &["time"]),
     ("physics", &["update_rate"]),
@@ -82,7 +81,7 @@ const TO_TEXT: &[(&str, &str)] = &[
     ("child", "link"),
 ];
 
-/// Elements, and children of elements, that are called otherwise since.
+/// Elements, and children of elements, that were renamed.
 const RENAMED: &[(&str, &str, &str)] = &[
     ("fog", "rgba", "color"),
     ("heightmap", "origin", "pos"),

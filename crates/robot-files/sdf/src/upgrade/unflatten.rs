@@ -1,5 +1,5 @@
-//! 1.7 to 1.8: models that were flattened into the model around them, their names prefixed with
-//! `name::`, become nested models again. The frame `name::__model__` tells that there was one.
+//! 1.7 to 1.8: models that were flattened into the model around them, with names prefixed by `name::`,
+//! become nested models again. The frame `name::__model__` marks each of them.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -9,13 +9,14 @@ use super::{take_attribute, take_child};
 
 pub(super) const MARK: &str = "::__model__";
 
-/// Makes nested models of what was flattened into a model.
+/// Restores the nested models of a flattened model.
 pub(super) fn unflatten(model: &mut Element) {
     let marks: BTreeSet<SmolStr> = model.elements().filter_map(marked).collect();
     if marks.is_empty() {
         return;
     }
-    // Every child goes to the outermost model that its name names, at the place of the first.
+    // Every child goes to the outermost model in its name, at the position of the first child of that
+    // model.
     let mut inner: BTreeMap<SmolStr, Element> = BTreeMap::new();
     let mut kept = Vec::new();
     for node in std::mem::take(&mut model.children) {
@@ -48,13 +49,13 @@ pub(super) fn unflatten(model: &mut Element) {
     }
 }
 
-/// The name of the flattened model that a frame stands for.
+/// Name of the flattened model that a frame marks.
 fn marked(frame: &Element) -> Option<SmolStr> {
     let name = frame.value("name")?.strip_suffix(MARK)?;
     (frame.name == "frame" && !name.is_empty()).then(|| name.into())
 }
 
-/// The outermost flattened model to which a child belongs.
+/// Outermost flattened model that a child belongs to.
 fn home(child: &Element, marks: &BTreeSet<SmolStr>) -> Option<SmolStr> {
     if !["link", "joint", "frame", "model", "gripper"].contains(&&*child.name) {
         return None;
@@ -66,7 +67,7 @@ fn home(child: &Element, marks: &BTreeSet<SmolStr>) -> Option<SmolStr> {
 
 fn adopt(mut child: Element, prefix: &str, inner: &mut Element) {
     if child.name == "frame" && child.value("name") == Some(&format!("{prefix}__model__")) {
-        // The frame's pose is the model's, and what it is attached to the canonical link.
+        // The frame's pose is the model's pose, and the frame that it is attached to is the canonical link.
         if let Some(mut attached) = take_attribute(&mut child, "attached_to") {
             strip(&mut attached.value, prefix);
             attached.name = "canonical_link".into();
@@ -81,7 +82,7 @@ fn adopt(mut child: Element, prefix: &str, inner: &mut Element) {
     inner.push(child);
 }
 
-/// Takes the prefix off all names that an element and what is in it mentions.
+/// Removes the prefix from all names in an element and its descendants.
 fn strip_names(element: &mut Element, prefix: &str) {
     for attribute in &mut element.attributes {
         let Attribute { name, value, .. } = attribute;

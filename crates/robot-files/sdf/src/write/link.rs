@@ -1,4 +1,4 @@
-//! `<link>` and what hangs on it.
+//! `<link>` and its content.
 
 use periplus_scene::{Collision, Inertial, Link, Visual};
 use periplus_xml::Element;

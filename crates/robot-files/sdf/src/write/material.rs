@@ -46,7 +46,7 @@ pub(super) fn write_material(material: &Material, writer: &mut Writer<'_>) -> El
     out.finish(&material.extra)
 }
 
-/// The whole element where there is one, for it holds more than the numbers.
+/// The whole element if there is one, as it has more content than the numbers.
 fn write_pbr(pbr: &periplus_scene::Pbr) -> Element {
     if let Some(element) = &pbr.element {
         return element.clone();

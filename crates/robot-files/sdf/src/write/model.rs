@@ -50,7 +50,7 @@ pub(super) fn write_model(model: &Model, writer: &mut Writer<'_>) -> Element {
     out.finish(&model.extra)
 }
 
-/// A frame of a model or world, whose own frame is `root`.
+/// Frame of a model or world with the root frame `root`.
 pub(super) fn write_frame(frame: &Frame, root: &str, writer: &mut Writer<'_>) -> Element {
     let mut out = Out::named("frame", &frame.name);
     if frame.attached_to != root {
@@ -69,15 +69,15 @@ pub(super) fn write_frame(frame: &Frame, root: &str, writer: &mut Writer<'_>) ->
     out.finish(&[])
 }
 
-/// None for kinds that SDF does not have.
+/// Writes a `<joint>`; `None` for types that SDF does not have.
 pub(super) fn write_joint(joint: &Joint, writer: &mut Writer<'_>) -> Option<Element> {
     let Some(kind) = kind_name(joint.kind) else {
         let words = if joint.kind == JointKind::Floating { "float" } else { "slide in a plane" };
-        let told = Diagnostic::warning(
+        let finding = Diagnostic::warning(
             "not-in-sdf",
             format!("SDF has no joints that {words}; joint `{}` is left out", joint.name),
         );
-        writer.diagnostics.push(told.at(joint.origin));
+        writer.diagnostics.push(finding.at(joint.origin));
         return None;
     };
     let mut out = Out::named("joint", &joint.name);
@@ -87,7 +87,7 @@ pub(super) fn write_joint(joint: &Joint, writer: &mut Writer<'_>) -> Option<Elem
     out.text("child", &joint.child);
     if let Some(pitch_m) = joint.thread_pitch_m {
         out.always("screw_thread_pitch", pitch_m);
-        // What SDF before 1.10 reads; here the other one counts.
+        // For readers of SDF before 1.10; newer ones use the other element.
         if pitch_m != 0.0 {
             out.always("thread_pitch", -TAU / pitch_m);
         }

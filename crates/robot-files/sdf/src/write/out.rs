@@ -1,10 +1,10 @@
-//! An element under construction.
+//! Element under construction.
 
 use periplus_geometry::{DVec3, Pose, Rpy, format_number, parse_number, quaternion_from_rpy};
 use periplus_scene::Colour;
 use periplus_xml::{Element, Node, SmolStr};
 
-/// An element under construction; values that are the default are left out.
+/// Element under construction; default values are left out.
 pub(super) struct Out {
     element: Element,
 }
@@ -29,7 +29,7 @@ impl Out {
         self.element.push(child);
     }
 
-    /// A child, unless it is empty.
+    /// Adds a child, unless it is empty.
     pub(super) fn push_filled(&mut self, child: Element) {
         if !child.children.is_empty() || !child.attributes.is_empty() {
             self.push(child);
@@ -72,7 +72,7 @@ impl Out {
         self.text(name, numbers(&value.to_array()));
     }
 
-    /// A direction, and the frame it is told in.
+    /// Direction, and the frame in which it is expressed.
     pub(super) fn vector_in(&mut self, name: &str, value: DVec3, frame: Option<&str>) {
         let mut element = Element::new(name).with_text(numbers(&value.to_array()));
         if let Some(frame) = frame {
@@ -85,22 +85,22 @@ impl Out {
         self.text(name, numbers(&colour.0));
     }
 
-    /// A `<pose>` in the frame of the fixed parent.
+    /// `<pose>` in the frame of the fixed parent.
     pub(super) fn pose(&mut self, pose: Pose) {
         if pose != Pose::IDENTITY {
             self.push(write_pose(pose));
         }
     }
 
-    /// The element, with what its reader left over put back where it was.
+    /// Returns the element, with the content that its reader kept put back.
     pub(super) fn finish(mut self, extra: &[Element]) -> Element {
         put_back(&mut self.element, extra);
         self.element
     }
 }
 
-/// Puts back what a reader kept. A child that was written already is one whose rest was kept
-/// under its name: what is in the rest goes into the child.
+/// Puts back the content kept by the reader. If a child of the same name was written, the kept content is
+/// added to that child.
 fn put_back(element: &mut Element, extra: &[Element]) {
     let written = element.children.len();
     for rest in extra {
@@ -122,7 +122,7 @@ pub(super) fn numbers(values: &[f64]) -> String {
     values.iter().map(|value| format_number(*value)).collect::<Vec<_>>().join(" ")
 }
 
-/// `<pose>`: angles where they give the same rotation to the last bit, else the quaternion.
+/// `<pose>`: angles if they give the same rotation to the last bit, else the quaternion.
 pub(super) fn write_pose(pose: Pose) -> Element {
     let translation = numbers(&pose.translation.to_array());
     let element = Element::new("pose");
@@ -134,7 +134,7 @@ pub(super) fn write_pose(pose: Pose) -> Element {
         .with_text(format!("{translation} {}", numbers(&pose.rotation.to_array())))
 }
 
-/// Roll, pitch and yaw that give exactly this rotation, in as few digits as do.
+/// Roll, pitch and yaw that give exactly this rotation, with as few digits as possible.
 fn angles(pose: Pose) -> Option<[String; 3]> {
     let Rpy { roll, pitch, yaw } = pose.rpy();
     let exact = |texts: &[String; 3]| {
@@ -153,8 +153,7 @@ fn angles(pose: Pose) -> Option<[String; 3]> {
     rounded.into_iter().chain([full]).find(|texts| exact(texts).is_some())
 }
 
-/// Degrees that give exactly these radians when they are read, if there are any; else the
-/// nearest.
+/// Degrees that give exactly these radians when they are read, if they exist; else the nearest.
 pub(super) fn degrees(radians: f64) -> String {
     let nearest = radians.to_degrees();
     let rounded = [4, 6, 9, 12].map(|digits| format!("{nearest:.digits$}"));

@@ -114,7 +114,7 @@ fn write_kind(sensor: &Sensor, out: &mut Out) {
     }
 }
 
-/// `<name><noise type="..."/></name>`, where there is noise.
+/// `<name><noise type="..."/></name>`, if there is noise.
 fn inside(name: &str, noise: &Noise, out: &mut Out) {
     if *noise != Noise::default() {
         let mut inner = Out::new(name);
@@ -123,7 +123,7 @@ fn inside(name: &str, noise: &Noise, out: &mut Out) {
     }
 }
 
-/// Cameras and lidars have the kind of noise as a child, all others as an attribute.
+/// Cameras and lidars have the noise type as a child, all others as an attribute.
 fn write_noise(noise: &Noise, kind_as_child: bool) -> Element {
     let mut out = Out::new("noise");
     let kind = match noise.kind {
