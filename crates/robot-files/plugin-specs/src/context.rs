@@ -1,16 +1,16 @@
-//! Where in a scene a plugin stands.
+//! Plugins of a scene with the elements that they are attached to.
 
 use periplus_scene::{Link, Model, Plugin, Scene, Sensor, World};
 
 use crate::Family;
 use crate::recognise::{Sign, ros_sign};
 
-/// What a plugin is attached to.
+/// Type of the element that a plugin is attached to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Place {
     /// A world.
     World,
-    /// The window.
+    /// The GUI.
     Gui,
     /// A model.
     Model,
@@ -22,36 +22,36 @@ pub enum Place {
     Actor,
 }
 
-/// What stands around a plugin.
+/// Elements around a plugin.
 #[derive(Clone, Copy, Debug)]
 pub struct Context<'a> {
-    /// What it is attached to.
+    /// Type of the element that it is attached to.
     pub place: Place,
-    /// The world around it.
+    /// World that contains it.
     pub world: Option<&'a World>,
-    /// The outermost model around it.
+    /// Outermost model that contains it.
     pub root: Option<&'a Model>,
-    /// The innermost model around it.
+    /// Innermost model that contains it.
     pub model: Option<&'a Model>,
-    /// The link around it.
+    /// Link that contains it.
     pub link: Option<&'a Link>,
-    /// The sensor around it.
+    /// Sensor that contains it.
     pub sensor: Option<&'a Sensor>,
-    /// The ROS version that the plugins of the file tell, for those that do not tell by themselves.
+    /// ROS version of the plugins of the file that determine it, for the others.
     pub ros: Option<Family>,
 }
 
-/// A plugin and where it stands.
+/// Plugin with its context.
 #[derive(Clone, Copy, Debug)]
 pub struct Site<'a> {
     /// The plugin.
     pub plugin: &'a Plugin,
-    /// Where it stands.
+    /// Context of the plugin.
     pub context: Context<'a>,
 }
 
 impl Context<'_> {
-    /// Nothing is known of the surroundings.
+    /// Context without any known element.
     pub const NOWHERE: Context<'static> = Context {
         place: Place::Model,
         world: None,
@@ -99,7 +99,7 @@ pub fn sites(scene: &Scene) -> Vec<Site<'_>> {
     sites
 }
 
-/// The plugins of a model that stands in a world, in order.
+/// Plugins of a model in a world, in order.
 #[must_use]
 pub fn model_sites<'a>(world: &'a World, model: &'a Model) -> Vec<Site<'a>> {
     let mut sites = Vec::new();
@@ -109,7 +109,7 @@ pub fn model_sites<'a>(world: &'a World, model: &'a Model) -> Vec<Site<'a>> {
     sites
 }
 
-/// The plugins of a world itself, in order.
+/// Plugins of a world itself, in order.
 #[must_use]
 pub fn world_sites(world: &World) -> Vec<Site<'_>> {
     let mut sites = Vec::new();
@@ -154,7 +154,7 @@ fn add_sensor<'a>(sensor: &'a Sensor, context: Context<'a>, sites: &mut Vec<Site
     add(&sensor.plugins, context, sites);
 }
 
-/// Files hold plugins of one ROS version: those that tell decide for those that do not.
+/// A file has plugins of one ROS version: those that determine it apply to the others.
 fn settle_ros_version(sites: &mut [Site<'_>]) {
     let signs: Vec<Sign> = sites.iter().map(|site| ros_sign(site.plugin)).collect();
     let count = |sign: Sign| signs.iter().filter(|other| **other == sign).count();

@@ -1,5 +1,5 @@
-//! Small scenes for tests, read from text that looks like SDF. The real reader stands on the same
-//! floor as this crate, so tests here cannot use it.
+//! Small scenes for tests, read from text that resembles SDF. The real reader is on the same level as this
+//! crate, so tests here cannot use it.
 
 use expect_test::Expect;
 use periplus_diagnostics::{Diagnostics, SourceMap, Style, render};
@@ -14,7 +14,7 @@ pub(crate) fn plugin(text: &str) -> Plugin {
     read_plugin(&document.root)
 }
 
-/// Lints a scene and compares what is said. The root is `<world>`, `<model>` or `<sdf>`.
+/// Lints a scene and compares the findings. The root is `<world>`, `<model>` or `<sdf>`.
 pub(crate) fn check(text: &str, expected: Expect) {
     let mut sources = SourceMap::new();
     let file = sources.add("test.sdf", text);

@@ -1,4 +1,4 @@
-//! A plugin's parameters as values.
+//! Typed parameters of plugins.
 
 use periplus_diagnostics::Diagnostics;
 use periplus_params::{Given, Values};
@@ -6,20 +6,19 @@ use periplus_scene::{Element, Plugin};
 
 use crate::{Context, Family, Known, RosSettings, recognise};
 
-/// A plugin, understood.
+/// Interpreted plugin.
 #[derive(Clone, Debug)]
 pub struct Interpreted {
-    /// What is known of it.
+    /// Specification of the plugin.
     pub known: &'static Known,
     /// Its parameters, with defaults.
     pub values: Values,
-    /// Its node in ROS.
+    /// Settings of its ROS node.
     pub ros: RosSettings,
 }
 
-/// Reads the parameters of a plugin that we know. Unreadable values are errors, and defaults stand
-/// in for them. Parameters that the plugin does not have are passed over: [`crate::lint`] tells
-/// of them.
+/// Reads the parameters of a known plugin. Unreadable values are errors and replaced by defaults. Unknown
+/// parameters are skipped: [`crate::lint`] reports them.
 #[must_use]
 pub fn interpret(
     plugin: &Plugin,
@@ -67,7 +66,7 @@ mod tests {
         let ros2 = "<plugin name='d' filename='libgazebo_ros_diff_drive.so'>
                       <left_joint>l</left_joint><right_joint>r</right_joint></plugin>";
         assert_eq!(family(ros2), Family::ClassicRos2);
-        // Old parameters carried along into ROS 2.
+        // ROS 1 parameters that are often left in ROS 2 files.
         let carried = "<plugin name='c' filename='libgazebo_ros_camera.so'>
                          <frame_name>f</frame_name><CxPrime>0</CxPrime></plugin>";
         assert_eq!(family(carried), Family::ClassicRos2);

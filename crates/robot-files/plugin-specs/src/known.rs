@@ -1,8 +1,8 @@
-//! What is known of a plugin.
+//! Specification of a plugin.
 
 use periplus_params::Table;
 
-/// Which simulator, and which bridge, reads a plugin.
+/// Simulator, and bridge to ROS, that a plugin is for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Family {
     /// Gazebo Classic with the plugins of `gazebo_ros_pkgs` for ROS 1.
@@ -11,94 +11,94 @@ pub enum Family {
     ClassicRos2,
     /// Gazebo Classic's own plugins.
     Classic,
-    /// Gazebo since Citadel (once Ignition): systems and panels.
+    /// Gazebo since Citadel (formerly Ignition): systems and GUI plugins.
     Gz,
 }
 
-/// What a plugin is for.
+/// Purpose of a plugin.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Role {
-    /// It moves a robot by velocity commands.
+    /// Moves a robot by velocity commands.
     Drive,
-    /// It moves joints.
+    /// Moves joints.
     Control,
-    /// It publishes what a sensor measures.
+    /// Publishes sensor data.
     Sensor,
-    /// It publishes the state of models.
+    /// Publishes the state of models.
     State,
-    /// It acts on bodies: forces, slip, suction, fluids.
+    /// Acts on bodies: forces, slip, suction, fluids.
     Effect,
-    /// It serves the whole world.
+    /// Serves the whole world.
     World,
-    /// It is a part of the window.
+    /// Part of the GUI.
     Gui,
 }
 
-/// What Periplus does with a plugin.
+/// Support of a plugin by Periplus.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Support {
-    /// It is simulated.
+    /// Simulated.
     Simulated,
-    /// What it does is there without it.
+    /// Built in: the function is available without the plugin.
     BuiltIn,
-    /// The viewer offers what it does.
+    /// Available in the viewer.
     Viewer,
-    /// It is kept, not run.
+    /// Kept in the file, not run.
     Kept,
 }
 
-/// Which way a topic flows.
+/// Direction of a topic.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Flow {
-    /// The plugin publishes it.
+    /// Published by the plugin.
     Out,
-    /// The plugin listens to it.
+    /// Subscribed to by the plugin.
     In,
 }
 
-/// A topic of a plugin.
+/// Topic of a plugin.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Topic {
-    /// Which way it flows.
+    /// Direction of the topic.
     pub flow: Flow,
-    /// Its name. `{model}`, `{world}` and `{sensor}` stand for names of the scene, any other
-    /// `{parameter}` for a parameter's value.
+    /// Its name. `{model}`, `{world}` and `{sensor}` are replaced by names of the scene, any other
+    /// `{parameter}` by the value of the parameter.
     pub name: &'static str,
-    /// The parameter that replaces the name.
+    /// Parameter that replaces the name.
     pub set_by: Option<&'static str>,
-    /// The parameter that must be true for the topic to exist.
+    /// Parameter that must be true for the topic to exist.
     pub when: Option<&'static str>,
 }
 
-/// A plugin that we know.
+/// Specification of a known plugin.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Known {
-    /// Who reads it.
+    /// Simulator that it is for.
     pub family: Family,
-    /// The library without `lib` and `.so`, in today's spelling: `gazebo_ros_diff_drive`,
+    /// Library without `lib` and `.so`, with its current name: `gazebo_ros_diff_drive`,
     /// `gz-sim-diff-drive-system`, `MinimalScene`.
     pub id: &'static str,
-    /// Names of the classes in a library of today's Gazebo, the usual one first; a `<plugin>`
-    /// must name one of them.
+    /// Names of the classes in a library of current Gazebo, the usual one first; the `name` of a `<plugin>`
+    /// must be one of them.
     pub classes: &'static [&'static str],
-    /// What it is for.
+    /// Its purpose.
     pub role: Role,
-    /// What Periplus does with it.
+    /// Support by Periplus.
     pub support: Support,
     /// Its topics.
     pub topics: &'static [Topic],
     /// Its parameters.
     pub table: Table,
-    /// Whether it reads parameters that the table does not list.
+    /// True if it reads parameters that are not in the table.
     pub open: bool,
 }
 
-/// A topic that a plugin publishes.
+/// Topic that a plugin publishes.
 pub(crate) const fn publishes(name: &'static str) -> Topic {
     Topic { flow: Flow::Out, name, set_by: None, when: None }
 }
 
-/// A topic that a plugin listens to.
+/// Topic that a plugin subscribes to.
 pub(crate) const fn listens(name: &'static str) -> Topic {
     Topic { flow: Flow::In, name, set_by: None, when: None }
 }
@@ -136,7 +136,7 @@ impl Known {
         Self { open: true, ..self }
     }
 
-    /// The file name as people write it today.
+    /// Usual file name of the library.
     #[must_use]
     pub fn filename(&self) -> String {
         match self.family {

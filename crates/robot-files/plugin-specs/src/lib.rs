@@ -1,8 +1,8 @@
-//! The simulator plugins we know, their parameters, and what people get wrong about them.
+//! Known simulator plugins, their parameters, and checks for common mistakes.
 //!
-//! Three generations of plugins share the world: those of Gazebo Classic with ROS 1, with ROS 2,
-//! and the systems of today's Gazebo. [`recognise`] tells which one a `<plugin>` means,
-//! [`interpret`] reads its parameters, and [`lint`] says what would silently not work.
+//! Plugins come from three generations: Gazebo Classic with ROS 1, Gazebo Classic with ROS 2, and systems
+//! of current Gazebo. [`recognise`] identifies a `<plugin>`, [`interpret`] reads its parameters, and
+//! [`lint`] reports settings that would silently have no effect.
 
 mod context;
 mod interpret;

@@ -1,7 +1,7 @@
-//! One name for all spellings of a library.
+//! Normalized names of libraries.
 
-/// The library that a `filename` names, without folders, `lib`, `.so` and versions, in today's
-/// spelling: `libignition-gazebo6-diff-drive-system.so` is `gz-sim-diff-drive-system`.
+/// Library that a `filename` refers to, without folders, `lib`, `.so` and versions, with its current name:
+/// `libignition-gazebo6-diff-drive-system.so` is `gz-sim-diff-drive-system`.
 #[must_use]
 pub fn library_id(filename: &str) -> String {
     let name = filename.trim().rsplit(['/', '\\']).next().unwrap_or_default();
@@ -16,13 +16,13 @@ pub fn library_id(filename: &str) -> String {
         }
     }
     match bare {
-        // Fortress's name of what Gazebo calls gz_ros2_control today.
+        // Name in Fortress of the current gz_ros2_control.
         "ign_ros2_control-system" => "gz_ros2_control-system".into(),
         _ => bare.to_owned(),
     }
 }
 
-/// The class that a `name` names, without its namespace.
+/// Class that a `name` refers to, without its namespace.
 pub(crate) fn class_id(name: &str) -> &str {
     name.trim().rsplit("::").next().unwrap_or_default()
 }

@@ -1,7 +1,7 @@
-//! What would silently not work, and what contradicts itself.
+//! Checks for settings without effect and for contradictions.
 //!
-//! Loading never stops for any of it. What Gazebo would pass over in silence is a warning; names
-//! and values that cannot be right are errors; what works but is worth knowing is a hint.
+//! No finding stops the loading. Settings that Gazebo would ignore silently are warnings, impossible names
+//! and values are errors, and working but notable settings are hints.
 
 mod geometry;
 mod parameters;
@@ -17,10 +17,10 @@ use periplus_scene::Scene;
 
 use crate::{Interpreted, Role, Site, interpret, sites};
 
-/// Drives whose wheels are measured; each looks for its joints and links by name.
-const MOST_DRIVES: usize = 1_000;
+/// Maximum number of drives whose wheels are checked; each searches its joints and links by name.
+const MAX_DRIVES: usize = 1_000;
 
-/// Adds what there is to say about the plugins of a scene, and about sensors that want a plugin.
+/// Reports findings about the plugins of a scene, and about sensors that need a plugin.
 pub fn lint(scene: &Scene, diagnostics: &mut Diagnostics) {
     let sites = sites(scene);
     unknown::check(&sites, diagnostics);
@@ -32,7 +32,7 @@ pub fn lint(scene: &Scene, diagnostics: &mut Diagnostics) {
             parameters::check(&site, plugin.known, diagnostics);
             ros::check(&site, &plugin, diagnostics);
             references::check(&site, &plugin, &mut names, diagnostics);
-            if plugin.known.role == Role::Drive && drives < MOST_DRIVES {
+            if plugin.known.role == Role::Drive && drives < MAX_DRIVES {
                 drives += 1;
                 geometry::check(&site, &plugin, diagnostics);
             }
@@ -58,7 +58,7 @@ mod tests {
     use crate::fixture::scene;
     use crate::{Context, interpret, known, topics};
 
-    /// Every parameter of a plugin, each with the text that `value` gives.
+    /// All parameters of a plugin, each with the text returned by `value`.
     fn written(
         known: &crate::Known,
         value: impl Fn(&periplus_params::Parameter) -> String,

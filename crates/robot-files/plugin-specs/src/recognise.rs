@@ -1,15 +1,15 @@
-//! Which plugin a `<plugin>` means.
+//! Identification of plugins.
 
 use periplus_scene::Plugin;
 
 use crate::library::library_id;
 use crate::{Context, Family, Known, known};
 
-/// The plugin that a `<plugin>` means, if we know it.
+/// Returns the specification of a `<plugin>`, if known.
 ///
-/// The library decides. ROS 1 and ROS 2 share library names such as `libgazebo_ros_diff_drive.so`;
-/// there a `<ros>` element or a parameter that only ROS 2 reads means ROS 2; otherwise the other
-/// plugins of the file tell; then parameters that only ROS 1 reads; and without any sign ROS 2.
+/// The library decides. ROS 1 and ROS 2 share library names such as `libgazebo_ros_diff_drive.so`. For
+/// these the ROS version is determined by, in this order: a `<ros>` element or a parameter that only ROS 2
+/// reads; the other plugins of the file; parameters that only ROS 1 reads; default ROS 2.
 #[must_use]
 pub fn recognise(plugin: &Plugin, context: &Context<'_>) -> Option<&'static Known> {
     let candidates = candidates(plugin);
@@ -23,16 +23,16 @@ pub fn recognise(plugin: &Plugin, context: &Context<'_>) -> Option<&'static Know
     candidates.iter().copied().find(|known| known.family == family).or(candidates.first().copied())
 }
 
-/// What a plugin tells by itself of the ROS version.
+/// Evidence for the ROS version in a plugin itself.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Sign {
-    /// Nothing, or it is not of ROS.
+    /// None, or not a ROS plugin.
     None,
-    /// Only ROS 1 has this library.
+    /// Library of ROS 1 only.
     Ros1,
-    /// Parameters of ROS 1 in a library of both. They are often carried along into ROS 2.
+    /// Parameters of ROS 1 in a library of both. They are often left in ROS 2 files.
     PerhapsRos1,
-    /// Only ROS 2 has this library or reads this.
+    /// Library or element of ROS 2 only.
     Ros2,
 }
 

@@ -1,16 +1,16 @@
-//! What became of the parameters of ROS 1 in ROS 2.
+//! ROS 2 replacements of ROS 1 parameters.
 //!
-//! Names that only lost their capitals (`frameName`, `frame_name`) are not listed: the nearest name
-//! finds them. Source: the migration guides of `gazebo_ros_pkgs` and both branches' sources.
+//! Names that only changed from camel case (`frameName`, `frame_name`) are not listed: the search for
+//! similar names finds them. Source: the migration guides of `gazebo_ros_pkgs` and both branches' sources.
 
 use crate::{Known, Role};
 
-/// What to write instead of a parameter.
+/// Replacement of a parameter.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Instead {
     /// This parameter, with the same value.
     Parameter(&'static str),
-    /// This parameter, with another value: the words to use.
+    /// This parameter, with translated values.
     Translated(&'static str, &'static [(&'static str, &'static str)]),
     /// This element of the sensor.
     Sensor(&'static str),
@@ -18,14 +18,14 @@ pub(crate) enum Instead {
     Remapping(&'static str),
     /// `<namespace>` in `<ros>`.
     Namespace,
-    /// Nothing, because.
+    /// No replacement, with the reason.
     Nothing(&'static str),
 }
 
 use Instead::{Namespace, Nothing, Parameter, Remapping, Sensor, Translated};
 
-/// What to write in a ROS 2 plugin instead of a parameter of ROS 1 (or one that older ROS 2
-/// documentation names), if the names do not tell.
+/// Replacement of a ROS 1 parameter in a ROS 2 plugin (or of one in old ROS 2 documentation), unless the
+/// names are similar.
 pub(crate) fn renamed(known: &Known, name: &str, value: &str) -> Option<Instead> {
     let has = |parameter: &str| known.table.find(parameter).is_some();
     let sensor = known.role == Role::Sensor;
@@ -37,10 +37,10 @@ pub(crate) fn renamed(known: &Known, name: &str, value: &str) -> Option<Instead>
         | "distortion_k3" | "distortionT1" | "distortion_t1" | "distortionT2" | "distortion_t2"
             if zero =>
         {
-            Nothing("0 is what holds without it; others go into the sensor's `<distortion>`")
+            Nothing("0 is the default; write other values in the sensor's `<distortion>`")
         }
         "xyzOffset" | "xyzOffsets" | "rpyOffset" | "rpyOffsets" if sensor => {
-            Nothing("the sensor's `<pose>` says where it is")
+            Nothing("the sensor's `<pose>` sets its position")
         }
         "updateRate" | "updateRateHZ" if sensor && zero => {
             Nothing("the sensor's `<update_rate>` decides")
@@ -50,7 +50,7 @@ pub(crate) fn renamed(known: &Known, name: &str, value: &str) -> Option<Instead>
         "updateRate" | "updateRateHZ" if sensor => Sensor("update_rate"),
         "topicName" => Remapping(known.topics.first()?.name),
         "bodyName" if sensor && !has("body_name") => {
-            Nothing("the plugin watches the link that its sensor is on")
+            Nothing("the plugin monitors the link of its sensor")
         }
         "gaussianNoise" if sensor && !has("gaussian_noise") => Sensor("noise"),
         "commandTopic" | "command_topic" | "cmd_vel_topic" => Remapping("cmd_vel"),
@@ -72,7 +72,7 @@ pub(crate) fn renamed(known: &Known, name: &str, value: &str) -> Option<Instead>
         "odometryRate" | "odometry_rate" => Parameter("publish_rate"),
         "publishWheelJointState" => Nothing("`libgazebo_ros_joint_state_publisher.so` does it"),
         "rosDebugLevel" => Nothing("the log level is set when the program starts"),
-        "legacyMode" => Nothing("left is left in ROS 2"),
+        "legacyMode" => Nothing("ROS 2 does not swap the sides"),
         "hokuyoMinIntensity" => Parameter("min_intensity"),
         "radiation" => Parameter("radiation_type"),
         "fov" if sensor => Nothing("it follows from the sensor's `<scan>`"),
@@ -80,16 +80,16 @@ pub(crate) fn renamed(known: &Known, name: &str, value: &str) -> Option<Instead>
         "pointCloudCutoffMax" => Parameter("max_depth"),
         "baseline" | "hackBaseline" => Parameter("hack_baseline"),
         "CxPrime" => Nothing("ROS 2 has no such parameter"),
-        // In ROS 1 zero meant "from the image"; in ROS 2 zero would be taken at its word.
+        // In ROS 1 zero meant "from the image"; in ROS 2 zero would be used as is.
         "Cx" | "Cy" | "focalLength" if zero => {
-            Nothing("0 meant that it follows from the image, and without it so it does")
+            Nothing("0 meant to compute it from the image, which is the default")
         }
         "distortionK1" | "distortion_k1" => Sensor("camera><distortion><k1"),
         "distortionK2" | "distortion_k2" => Sensor("camera><distortion><k2"),
         "distortionK3" | "distortion_k3" => Sensor("camera><distortion><k3"),
         "distortionT1" | "distortion_t1" => Sensor("camera><distortion><p1"),
         "distortionT2" | "distortion_t2" => Sensor("camera><distortion><p2"),
-        "autoDistortion" => Nothing("the sensor's `<distortion>` always goes into the camera info"),
+        "autoDistortion" => Nothing("the sensor's `<distortion>` is always in the camera info"),
         "imageTopicName" if camera => Remapping("{camera_name}/image_raw"),
         "cameraInfoTopicName" if camera => Remapping("{camera_name}/camera_info"),
         "depthImageTopicName" if camera => Remapping("{camera_name}/depth/image_raw"),

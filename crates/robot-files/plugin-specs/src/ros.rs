@@ -3,14 +3,14 @@
 use periplus_diagnostics::Origin;
 use periplus_scene::{Element, Plugin};
 
-/// What `<ros>` says of a plugin's node.
+/// Settings of a plugin's node in `<ros>`.
 ///
 /// Source: `gazebo_ros/src/node.cpp` and `qos.cpp` of `gazebo_ros_pkgs`, branch `ros2`.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct RosSettings {
     /// Name of the node: the plugin's `name`.
     pub node: String,
-    /// Namespace, with a leading slash; `/` is none.
+    /// Namespace with a leading slash; `/` is the global namespace.
     pub namespace: String,
     /// `<remapping>` elements, in order.
     pub remappings: Vec<Remapping>,
@@ -18,7 +18,7 @@ pub struct RosSettings {
     pub parameters: Vec<RosParameter>,
     /// `<argument>` elements, in order.
     pub arguments: Vec<String>,
-    /// Quality of service by topic, in order.
+    /// QoS by topic, in order.
     pub qos: Vec<TopicQos>,
 }
 
@@ -27,9 +27,9 @@ pub struct RosSettings {
 pub struct Remapping {
     /// The name in the plugin.
     pub from: String,
-    /// The name on the wire.
+    /// Name on the network.
     pub to: String,
-    /// Where it was written.
+    /// Source location.
     pub origin: Origin,
 }
 
@@ -42,22 +42,22 @@ pub struct RosParameter {
     pub type_name: String,
     /// Its value as written.
     pub value: String,
-    /// Where it was written.
+    /// Source location.
     pub origin: Origin,
 }
 
-/// Quality of service of one topic.
+/// QoS of one topic.
 #[derive(Clone, Debug, PartialEq)]
 pub struct TopicQos {
     /// The topic.
     pub topic: String,
-    /// Of publishers.
+    /// QoS of publishers.
     pub publisher: Option<Qos>,
-    /// Of subscriptions.
+    /// QoS of subscriptions.
     pub subscription: Option<Qos>,
 }
 
-/// Policies as written; none keeps the plugin's own.
+/// QoS policies as written; `None` keeps the plugin's own.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Qos {
     /// `system`, `reliable` or `best_effort`.
@@ -66,20 +66,20 @@ pub struct Qos {
     pub durability: Option<String>,
     /// `system`, `keep_last` or `keep_all`.
     pub history: Option<String>,
-    /// Messages that are kept with `keep_last`.
+    /// History depth for `keep_last`.
     pub depth: Option<u32>,
-    /// Most time between messages, in milliseconds.
+    /// Maximum time between messages, in milliseconds.
     pub deadline_ms: Option<u64>,
-    /// Time after which a message is stale, in milliseconds.
+    /// Time after which a message expires, in milliseconds.
     pub lifespan_ms: Option<u64>,
     /// `system`, `automatic` or `manual_by_topic`.
     pub liveliness: Option<String>,
-    /// Time after which a silent publisher is dead, in milliseconds.
+    /// Time after which a silent publisher is considered lost, in milliseconds.
     pub liveliness_lease_ms: Option<u64>,
 }
 
 impl RosSettings {
-    /// Reads the `<ros>` element of a plugin; without one, an ordinary node.
+    /// Reads the `<ros>` element of a plugin; without one, returns default settings.
     #[must_use]
     pub fn read(plugin: &Plugin) -> Self {
         let mut settings =
@@ -119,15 +119,15 @@ impl RosSettings {
         settings
     }
 
-    /// The settings of a ROS 1 plugin, which knows only a namespace.
+    /// Settings of a ROS 1 plugin, which has only a namespace.
     #[must_use]
     pub(crate) fn ros1(plugin: &Plugin) -> Self {
         let namespace = plugin.value("robotNamespace").unwrap_or_default();
         Self { node: plugin.name.clone(), namespace: absolute(&namespace), ..Self::default() }
     }
 
-    /// The full name on the wire of a name in the plugin, remappings applied: `~/out` of the node
-    /// `scan` in the namespace `demo` is `/demo/scan/out`.
+    /// Full name of a topic with remappings applied: `~/out` of the node `scan` in the namespace `demo` is
+    /// `/demo/scan/out`.
     #[must_use]
     pub fn resolve(&self, name: &str) -> String {
         let full = self.expand(name);

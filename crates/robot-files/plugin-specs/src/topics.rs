@@ -1,19 +1,19 @@
-//! The topics of a plugin on the wire.
+//! Full names of the topics of a plugin.
 
 use crate::{Context, Family, Flow, Interpreted, Topic};
 
-/// A topic with its full name.
+/// Topic with its full name.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Resolved {
-    /// Which way it flows.
+    /// Direction of the topic.
     pub flow: Flow,
-    /// Its name inside the plugin, before remapping.
+    /// Name inside the plugin, before remapping.
     pub inside: String,
-    /// Its full name.
+    /// Full name.
     pub name: String,
 }
 
-/// The topics of a plugin, remappings, namespaces and parameters applied.
+/// Returns the topics of a plugin with remappings, namespaces and parameters applied.
 #[must_use]
 pub fn topics(plugin: &Interpreted, context: &Context<'_>) -> Vec<Resolved> {
     let on = |topic: &&Topic| {
@@ -28,7 +28,7 @@ fn resolve(topic: &Topic, plugin: &Interpreted, context: &Context<'_>) -> Resolv
         .filter(|parameter| plugin.values.is_given(parameter))
         .and_then(|parameter| plugin.values.text(parameter))
         .filter(|name| !name.is_empty());
-    // Camera topics of ROS 1 lie below the camera's name even when they are set.
+    // Camera topics of ROS 1 are below the camera's name even if they are set.
     let inside = match (set, topic.name.split_once("}/")) {
         (Some(set), Some((before, _))) if before.starts_with('{') && !set.starts_with('/') => {
             fill(&format!("{before}}}/{set}"), plugin, context)
@@ -44,7 +44,7 @@ fn resolve(topic: &Topic, plugin: &Interpreted, context: &Context<'_>) -> Resolv
     Resolved { flow: topic.flow, inside, name }
 }
 
-/// Puts names of the scene and values of parameters in the place of `{...}`.
+/// Replaces `{...}` by names of the scene and values of parameters.
 fn fill(template: &str, plugin: &Interpreted, context: &Context<'_>) -> String {
     let mut out = String::new();
     let mut rest = template;

@@ -1,15 +1,15 @@
-//! Wheels that are not where or as large as the plugin says.
+//! Checks of wheel separation and diameter against the model.
 
 use periplus_diagnostics::{Diagnostic, Diagnostics, Origin};
 use periplus_scene::{DVec3, Model, Shape};
 
 use crate::{Family, Interpreted, Site};
 
-/// A plugin's number may differ from the model's by this share.
-const TOLERANCE: f64 = 0.2;
+/// Tolerated relative difference between a plugin's value and the model's.
+const TOLERANCE_RATIO: f64 = 0.2;
 
-/// Pairs of wheels that are measured.
-const MOST_PAIRS: usize = 16;
+/// Maximum number of pairs of wheels that are checked.
+const MAX_WHEEL_PAIRS: usize = 16;
 
 pub(super) fn check(site: &Site<'_>, plugin: &Interpreted, diagnostics: &mut Diagnostics) {
     if plugin.known.id == "gazebo_ros_diff_drive" && plugin.known.family == Family::ClassicRos2 {
@@ -18,14 +18,14 @@ pub(super) fn check(site: &Site<'_>, plugin: &Interpreted, diagnostics: &mut Dia
     let Some(names) = Parameters::of(plugin.known.id, plugin.known.family) else { return };
     let Some(model) = site.context.model else { return };
     let (left, right) = (plugin.values.all(names.left), plugin.values.all(names.right));
-    for index in 0..left.len().min(right.len()).min(MOST_PAIRS) {
+    for index in 0..left.len().min(right.len()).min(MAX_WHEEL_PAIRS) {
         let wheel = |all: &[(periplus_params::Value, Origin)]| match &all[index].0 {
             periplus_params::Value::Text(joint) => Wheel::of(model, joint),
             _ => None,
         };
         let (Some(left), Some(right)) = (wheel(&left), wheel(&right)) else { continue };
-        // Joints of one axle are sometimes placed alike and the wheels shifted, or the other way
-        // round; only when neither fits is it a contradiction.
+        // Some models shift the joints of an axle and some shift the wheels; it is a contradiction only if
+        // neither matches.
         let by_wheels = separation(&names, index, between(&left, &right, |w| w.centre_in_model_m));
         let by_joints = separation(&names, index, between(&left, &right, |w| w.joint_in_model_m));
         if let Some(finding) = contradiction(plugin, site, by_wheels)
@@ -45,14 +45,15 @@ pub(super) fn check(site: &Site<'_>, plugin: &Interpreted, diagnostics: &mut Dia
                 diagnostics.push(finding);
             }
         }
-        // Today's Gazebo drives all wheels of a side alike, and measures by the first.
+        // Current Gazebo drives all wheels of a side with the same speed and uses the first for the
+        // odometry.
         if plugin.known.family == Family::Gz {
             break;
         }
     }
 }
 
-/// How a drive's parameters are called.
+/// Names of a drive's parameters.
 struct Parameters {
     left: &'static str,
     right: &'static str,
@@ -119,7 +120,7 @@ impl Wheel {
     }
 }
 
-/// How far two wheels are apart along the axle of the first [m].
+/// Distance of two wheels along the axle of the first [m].
 fn between(left: &Wheel, right: &Wheel, place: impl Fn(&Wheel) -> DVec3) -> f64 {
     let between_m = place(right) - place(left);
     left.axle_in_model.map_or(between_m.length(), |axle| between_m.dot(axle).abs())
@@ -130,7 +131,7 @@ fn separation(names: &Parameters, index: usize, measured_m: f64) -> Claim {
     Claim { parameter: names.separation, index, measured_m, truth }
 }
 
-/// What a parameter should say.
+/// Expected value of a parameter.
 struct Claim {
     parameter: &'static str,
     index: usize,
@@ -143,8 +144,8 @@ fn contradiction(plugin: &Interpreted, site: &Site<'_>, claim: Claim) -> Option<
     let numbers = plugin.values.numbers(parameter);
     let said_m = *numbers.get(index).or(numbers.first())?;
     let off = (said_m - measured_m).abs();
-    // Wheels at the same place are a model without shape, not a contradiction.
-    if !measured_m.is_finite() || measured_m < 1e-3 || off <= TOLERANCE * measured_m {
+    // Wheels at the same position are a model without geometry, not a contradiction.
+    if !measured_m.is_finite() || measured_m < 1e-3 || off <= TOLERANCE_RATIO * measured_m {
         return None;
     }
     let given = plugin.values.is_given(parameter);
@@ -152,18 +153,16 @@ fn contradiction(plugin: &Interpreted, site: &Site<'_>, claim: Claim) -> Option<
     let place = plugin.values.all(parameter).get(index).map(|(_, origin)| *origin);
     let origin = place.filter(|_| given).unwrap_or(site.plugin.origin);
     let message = format!("`{parameter}` {says} {said_m} m, but in the model {truth}");
-    Some(
-        Diagnostic::hint("wheel-geometry", message)
-            .at(origin)
-            .note("odometry and turns are off by the same share, unless it is tuned against slip"),
-    )
+    Some(Diagnostic::hint("wheel-geometry", message).at(origin).note(
+        "odometry and rotations have the same relative error, unless it is tuned against slip",
+    ))
 }
 
 fn short(metres: f64) -> f64 {
     (metres * 1e4).round() / 1e4
 }
 
-/// With counts that do not match the plugin gives up at its start.
+/// The plugin does not start if the numbers differ.
 fn check_pairs(site: &Site<'_>, plugin: &Interpreted, diagnostics: &mut Diagnostics) {
     let pairs = plugin.values.integer("num_wheel_pairs").unwrap_or(1);
     for side in ["left_joint", "right_joint"] {
@@ -208,14 +207,14 @@ mod tests {
                 7 |   <wheel_separation>0.3</wheel_separation>
                   |                     ^^^
                   |
-                  = note: odometry and turns are off by the same share, unless it is tuned against slip
+                  = note: odometry and rotations have the same relative error, unless it is tuned against slip
                 hint[wheel-geometry]: `wheel_diameter` defaults to 0.15 m, but in the model the diameter of the wheel is 0.2 m
                  --> test.sdf:4:1
                   |
                 4 | <plugin name='p' filename='libgazebo_ros_diff_drive.so'>
                   | ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^
                   |
-                  = note: odometry and turns are off by the same share, unless it is tuned against slip
+                  = note: odometry and rotations have the same relative error, unless it is tuned against slip
             "#]],
         );
     }
@@ -239,7 +238,7 @@ mod tests {
                 8 |   <wheel_radius>0.2</wheel_radius>
                   |                 ^^^
                   |
-                  = note: odometry and turns are off by the same share, unless it is tuned against slip
+                  = note: odometry and rotations have the same relative error, unless it is tuned against slip
             "#]],
         );
     }

@@ -1,4 +1,4 @@
-//! Parameters that the plugin does not have.
+//! Unknown parameters.
 
 use periplus_diagnostics::{Diagnostic, Diagnostics, Span};
 use periplus_params::{Default, Value};
@@ -23,12 +23,12 @@ pub(super) fn check(site: &Site<'_>, known: &'static Known, diagnostics: &mut Di
     }
 }
 
-/// Whether any plugin of a family reads a parameter of this name.
+/// Returns true if any plugin of a family reads a parameter of this name.
 fn is_read_by(family: Family, name: &str) -> bool {
     known().any(|known| known.family == family && known.table.find(name).is_some())
 }
 
-/// An unknown name; where it is known to end, the correction takes in the end tag.
+/// Finding for an unknown name; if the end of the element is known, the correction includes the end tag.
 fn unknown(known: &'static Known, element: &Element) -> Diagnostic {
     let mut diagnostic = known.table.unknown(&given_by(element));
     if let (Some(replacement), Some(span)) = (&mut diagnostic.replacement, whole(element)) {
@@ -62,7 +62,7 @@ fn ros2(site: &Site<'_>, known: &'static Known, element: &Element) -> Diagnostic
     if is_read_by(Family::ClassicRos1, name) {
         diagnostic.code = "ros1-parameter";
         diagnostic.message = format!(
-            "`{name}` is a parameter of ROS 1; {} of ROS 2 never reads it",
+            "`{name}` is a parameter of ROS 1; {} of ROS 2 does not read it",
             known.table.name
         );
     }
@@ -70,11 +70,8 @@ fn ros2(site: &Site<'_>, known: &'static Known, element: &Element) -> Diagnostic
     let Some(instead) = renamed(known, name, &value) else { return diagnostic };
     diagnostic.replacement = None;
     match instead {
-        Instead::Parameter(parameter) if is_default(known, parameter, &value) => {
-            diagnostic.help(format!(
-                "delete it: ROS 2 calls it `{parameter}`, and {value} is what holds without it"
-            ))
-        }
+        Instead::Parameter(parameter) if is_default(known, parameter, &value) => diagnostic
+            .help(format!("delete it: ROS 2 calls it `{parameter}`, and {value} is its default")),
         Instead::Parameter(parameter) => rename(diagnostic, element, parameter, &value),
         Instead::Translated(parameter, words) => {
             let value = words.iter().find(|(old, _)| old.eq_ignore_ascii_case(&value));
@@ -84,7 +81,7 @@ fn ros2(site: &Site<'_>, known: &'static Known, element: &Element) -> Diagnostic
             diagnostic.help("give the sensor a `<noise>`; its standard deviation is `<stddev>`")
         }
         Instead::Sensor("always_on") if site.context.sensor.is_some_and(|it| it.always_on) => {
-            diagnostic.help("delete it: the sensor's `<always_on>` says it already")
+            diagnostic.help("delete it: the sensor's `<always_on>` sets it")
         }
         Instead::Sensor(path) => {
             let open: Vec<&str> = path.split("><").collect();
@@ -97,7 +94,8 @@ fn ros2(site: &Site<'_>, known: &'static Known, element: &Element) -> Diagnostic
             let camera = camera.or_else(|| site.context.sensor.map(|sensor| sensor.name.clone()));
             let topic = topic.replace("{camera_name}", &camera.unwrap_or("camera".into()));
             if name.contains("_topic") {
-                diagnostic = diagnostic.note("old documentation names it, but the code never did");
+                diagnostic = diagnostic
+                    .note("old documentation mentions it, but no version of the plugin reads it");
             }
             if value == topic {
                 return diagnostic.help(format!("delete it: the topic is `{topic}` anyway"));
@@ -128,8 +126,8 @@ fn rename(diagnostic: Diagnostic, element: &Element, parameter: &str, value: &st
     }
 }
 
-/// From the start tag to the end tag of an element that holds only text, written plainly. Only the
-/// start tag's place is known; the end tag follows the text.
+/// Span from the start tag to the end tag of an element with plain text only. Only the position of the
+/// start tag is known; the end tag follows the text.
 fn whole(element: &Element) -> Option<Span> {
     let [periplus_xml::Node::Text(text)] = &element.children[..] else { return None };
     let (start, inside) = (element.origin.0?, text.origin.0?);
@@ -159,7 +157,7 @@ mod tests {
                  --> test.sdf:3:6
                   |
                 3 |     <odom_publisher_frequency>20</odom_publisher_frequency>
-                  |      ^^^^^^^^^^^^^^^^^^^^^^^^ nobody reads this
+                  |      ^^^^^^^^^^^^^^^^^^^^^^^^ this is ignored
                   |
                 help: did you mean `odom_publish_frequency`?
                   |
@@ -186,68 +184,68 @@ mod tests {
   <imageTopicName>rgb</imageTopicName>
 </plugin></sensor></link></model>",
             expect![[r#"
-                warning[ros1-parameter]: `alwaysOn` is a parameter of ROS 1; libgazebo_ros_camera.so of ROS 2 never reads it
+                warning[ros1-parameter]: `alwaysOn` is a parameter of ROS 1; libgazebo_ros_camera.so of ROS 2 does not read it
                  --> test.sdf:4:4
                   |
                 4 |   <alwaysOn>true</alwaysOn>
-                  |    ^^^^^^^^ nobody reads this
+                  |    ^^^^^^^^ this is ignored
                   |
                   = help: set `<always_on>true</always_on>` in the `<sensor>`
-                warning[ros1-parameter]: `updateRate` is a parameter of ROS 1; libgazebo_ros_camera.so of ROS 2 never reads it
+                warning[ros1-parameter]: `updateRate` is a parameter of ROS 1; libgazebo_ros_camera.so of ROS 2 does not read it
                  --> test.sdf:5:4
                   |
                 5 |   <updateRate>30</updateRate>
-                  |    ^^^^^^^^^^ nobody reads this
+                  |    ^^^^^^^^^^ this is ignored
                   |
                   = help: set `<update_rate>30</update_rate>` in the `<sensor>`
-                warning[ros1-parameter]: `pointCloudCutoff` is a parameter of ROS 1; libgazebo_ros_camera.so of ROS 2 never reads it
+                warning[ros1-parameter]: `pointCloudCutoff` is a parameter of ROS 1; libgazebo_ros_camera.so of ROS 2 does not read it
                  --> test.sdf:6:4
                   |
                 6 |   <pointCloudCutoff>0.5</pointCloudCutoff>
-                  |    ^^^^^^^^^^^^^^^^ nobody reads this
+                  |    ^^^^^^^^^^^^^^^^ this is ignored
                   |
                 help: ROS 2 calls it `min_depth`
                   |
                 6 -   <pointCloudCutoff>0.5</pointCloudCutoff>
                 6 +   <min_depth>0.5</min_depth>
                   |
-                warning[ros1-parameter]: `CxPrime` is a parameter of ROS 1; libgazebo_ros_camera.so of ROS 2 never reads it
+                warning[ros1-parameter]: `CxPrime` is a parameter of ROS 1; libgazebo_ros_camera.so of ROS 2 does not read it
                  --> test.sdf:7:4
                   |
                 7 |   <CxPrime>0</CxPrime>
-                  |    ^^^^^^^ nobody reads this
+                  |    ^^^^^^^ this is ignored
                   |
                   = help: delete it: ROS 2 has no such parameter
-                warning[ros1-parameter]: `Cx` is a parameter of ROS 1; libgazebo_ros_camera.so of ROS 2 never reads it
+                warning[ros1-parameter]: `Cx` is a parameter of ROS 1; libgazebo_ros_camera.so of ROS 2 does not read it
                  --> test.sdf:8:4
                   |
                 8 |   <Cx>0</Cx>
-                  |    ^^ nobody reads this
+                  |    ^^ this is ignored
                   |
-                  = help: delete it: 0 meant that it follows from the image, and without it so it does
-                warning[ros1-parameter]: `Cy` is a parameter of ROS 1; libgazebo_ros_camera.so of ROS 2 never reads it
+                  = help: delete it: 0 meant to compute it from the image, which is the default
+                warning[ros1-parameter]: `Cy` is a parameter of ROS 1; libgazebo_ros_camera.so of ROS 2 does not read it
                  --> test.sdf:9:4
                   |
                 9 |   <Cy>240.5</Cy>
-                  |    ^^ nobody reads this
+                  |    ^^ this is ignored
                   |
                 help: did you mean `cy`?
                   |
                 9 -   <Cy>240.5</Cy>
                 9 +   <cy>240.5</cy>
                   |
-                warning[ros1-parameter]: `distortionK1` is a parameter of ROS 1; libgazebo_ros_camera.so of ROS 2 never reads it
+                warning[ros1-parameter]: `distortionK1` is a parameter of ROS 1; libgazebo_ros_camera.so of ROS 2 does not read it
                   --> test.sdf:10:4
                    |
                 10 |   <distortionK1>0.1</distortionK1>
-                   |    ^^^^^^^^^^^^ nobody reads this
+                   |    ^^^^^^^^^^^^ this is ignored
                    |
                    = help: set `<camera><distortion><k1>0.1</k1></distortion></camera>` in the `<sensor>`
-                warning[ros1-parameter]: `imageTopicName` is a parameter of ROS 1; libgazebo_ros_camera.so of ROS 2 never reads it
+                warning[ros1-parameter]: `imageTopicName` is a parameter of ROS 1; libgazebo_ros_camera.so of ROS 2 does not read it
                   --> test.sdf:11:4
                    |
                 11 |   <imageTopicName>rgb</imageTopicName>
-                   |    ^^^^^^^^^^^^^^ nobody reads this
+                   |    ^^^^^^^^^^^^^^ this is ignored
                    |
                    = help: write `<remapping>s/image_raw:=rgb</remapping>` in `<ros>`
             "#]],
@@ -267,15 +265,15 @@ mod tests {
                  --> test.sdf:3:4
                   |
                 3 |   <command_topic>cmd</command_topic>
-                  |    ^^^^^^^^^^^^^ nobody reads this
+                  |    ^^^^^^^^^^^^^ this is ignored
                   |
-                  = note: old documentation names it, but the code never did
+                  = note: old documentation mentions it, but no version of the plugin reads it
                   = help: write `<remapping>cmd_vel:=cmd</remapping>` in `<ros>`
-                warning[ros1-parameter]: `robotNamespace` is a parameter of ROS 1; libgazebo_ros_planar_move.so of ROS 2 never reads it
+                warning[ros1-parameter]: `robotNamespace` is a parameter of ROS 1; libgazebo_ros_planar_move.so of ROS 2 does not read it
                  --> test.sdf:4:4
                   |
                 4 |   <robotNamespace>demo</robotNamespace>
-                  |    ^^^^^^^^^^^^^^ nobody reads this
+                  |    ^^^^^^^^^^^^^^ this is ignored
                   |
                   = help: write `<ros><namespace>demo</namespace></ros>`
             "#]],
@@ -293,7 +291,7 @@ mod tests {
                  --> test.sdf:2:4
                   |
                 2 |   <wheel_base>2</wheel_base>
-                  |    ^^^^^^^^^^ nobody reads this
+                  |    ^^^^^^^^^^ this is ignored
                   |
                   = help: delete it: the plugin measures it in the model
             "#]],
@@ -313,12 +311,12 @@ mod tests {
                  --> test.sdf:2:4
                   |
                 2 |   <ros/>
-                  |    ^^^ nobody reads this
+                  |    ^^^ this is ignored
                 warning[ros2-parameter]: `frame_name` is a parameter of ROS 2; libgazebo_ros_laser.so is of ROS 1
                  --> test.sdf:4:4
                   |
                 4 |   <frame_name>world</frame_name>
-                  |    ^^^^^^^^^^ nobody reads this
+                  |    ^^^^^^^^^^ this is ignored
                   |
                 help: did you mean `frameName`?
                   |

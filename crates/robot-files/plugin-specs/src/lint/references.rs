@@ -1,4 +1,4 @@
-//! Joints, links and frames that plugins name.
+//! References to joints, links and frames.
 
 use std::collections::BTreeSet;
 
@@ -8,14 +8,14 @@ use periplus_scene::{FrameRole, Model};
 
 use crate::{Family, Interpreted, Site};
 
-/// Frames that are no part of a robot.
+/// Frames that do not belong to a robot.
 const GLOBAL: [&str; 5] = ["", "world", "map", "odom", "earth"];
 
-/// Names compared for suggestions in one scene: beyond it findings come without, so that a hostile
-/// file with a slip in every line costs no quadratic time.
-const MOST_COMPARED: usize = 1_000_000;
+/// Maximum number of names compared for suggestions in one scene. Further findings have no suggestion, so
+/// that a hostile file with an error in every line does not take quadratic time.
+const MAX_COMPARED_NAMES: usize = 1_000_000;
 
-/// The names of the model that was looked at last; plugins of one model come one after another.
+/// Names of the last model that was checked; plugins of one model are consecutive.
 #[derive(Default)]
 pub(super) struct Cache<'a> {
     root: Option<(&'a Model, Things)>,
@@ -36,11 +36,11 @@ pub(super) fn check<'a>(
         cache.root = Some((root, Things::of(root)));
     }
     let Some((_, things)) = &mut cache.root else { return };
-    // A file that holds only a robot's plugins, to be included by another, has no links.
+    // A file that contains only a robot's plugins, for another file to include, has no links.
     if things.links.is_empty() {
         return;
     }
-    things.suggest = cache.compared < MOST_COMPARED;
+    things.suggest = cache.compared < MAX_COMPARED_NAMES;
     let before = findings(diagnostics);
     check_names(plugin, things, diagnostics);
     cache.compared += (findings(diagnostics) - before) * things.count();
@@ -77,7 +77,7 @@ fn findings(diagnostics: &Diagnostics) -> usize {
         .sum()
 }
 
-/// The names in a model and the models inside it, plain and scoped.
+/// Names in a model and its nested models, plain and scoped.
 #[derive(Default)]
 struct Things {
     links: BTreeSet<String>,
@@ -99,7 +99,7 @@ impl Things {
         self.links.len() + self.joints.len() + self.frames.len() + self.merged_links.len()
     }
 
-    /// The names to suggest from.
+    /// Candidates for suggestions.
     fn offered<'s>(&'s self, sets: &[&'s BTreeSet<String>]) -> Vec<&'s str> {
         if !self.suggest {
             return Vec::new();
@@ -137,8 +137,8 @@ fn has(names: &BTreeSet<String>, name: &str) -> bool {
     names.contains(name)
 }
 
-/// The name that was meant: a slip of the written one, or one that differs only in a word such as
-/// `_link` or `_frame` at its end.
+/// Most similar name: a typing error of the written one, or one that differs only in a suffix such as
+/// `_link` or `_frame`.
 fn meant<'a>(written: &str, known: &[&'a str]) -> Option<&'a str> {
     let near = periplus_diagnostics::closest(written, known.iter().copied());
     near.or_else(|| known.iter().copied().find(|name| core(name) == core(written)))
@@ -151,7 +151,7 @@ fn suggest(diagnostic: Diagnostic, origin: Origin, written: &str, known: &[&str]
     }
 }
 
-/// A name without the words for what it names.
+/// Name without the suffix for its type.
 fn core(name: &str) -> &str {
     const KINDS: [&str; 6] = ["_link", "_frame", "_joint", "_sensor", "_optical", "_base"];
     let mut core = name;
@@ -162,12 +162,12 @@ fn core(name: &str) -> &str {
 }
 
 fn joint(name: &str, origin: Origin, things: &Things) -> Option<Diagnostic> {
-    // A joint may be named with its model before it.
+    // The name of a joint may be prefixed by that of its model.
     let last = name.rsplit("::").next().unwrap_or(name);
     if has(&things.joints, name) || has(&things.joints, last) {
         return None;
     }
-    // Before SDF 1.7 a joint might bear the name of a link; then it is read as `<name>_joint`.
+    // Before SDF 1.7 a joint could have the name of a link; then it is read as `<name>_joint`.
     if has(&things.links, last) && has(&things.joints, &format!("{last}_joint")) {
         return None;
     }
@@ -175,7 +175,7 @@ fn joint(name: &str, origin: Origin, things: &Things) -> Option<Diagnostic> {
         return Some(
             Diagnostic::warning(
                 "merged-joint",
-                format!("the joint `{name}` is fixed; Gazebo merges its links and forgets it"),
+                format!("the joint `{name}` is fixed; Gazebo merges its links and drops it"),
             )
             .at(origin)
             .help(format!(
@@ -188,17 +188,17 @@ fn joint(name: &str, origin: Origin, things: &Things) -> Option<Diagnostic> {
 }
 
 fn link(name: &str, origin: Origin, things: &Things, plugin: &Interpreted) -> Option<Diagnostic> {
-    // A link may be named with its model before it.
+    // The name of a link may be prefixed by that of its model.
     let last = name.rsplit("::").next().unwrap_or(name);
     if has(&things.links, name) || has(&things.links, last) || GLOBAL.contains(&name) {
         return None;
     }
     if has(&things.merged_links, name) {
-        // For ROS 1 the conversion from URDF to SDF puts the parent's name in the place.
+        // For ROS 1 the conversion from URDF to SDF inserts the parent's name.
         return (plugin.known.family != Family::ClassicRos1).then(|| {
             Diagnostic::warning(
                 "merged-link",
-                format!("the link `{name}` hangs on a fixed joint; Gazebo merges it into its parent and does not find it"),
+                format!("the link `{name}` is on a fixed joint; Gazebo merges it into its parent and does not find it"),
             )
             .at(origin)
             .help("name the parent link, or keep the joint with `<preserveFixedJoint>`")
@@ -210,7 +210,7 @@ fn link(name: &str, origin: Origin, things: &Things, plugin: &Interpreted) -> Op
 }
 
 fn frame(name: &str, origin: Origin, things: &Things) -> Option<Diagnostic> {
-    // A namespace or tf prefix may stand before the name.
+    // The name may be prefixed by a namespace or tf prefix.
     let bare = name.rsplit('/').next().unwrap_or(name);
     let all = [
         &things.links,
@@ -231,7 +231,7 @@ fn frame(name: &str, origin: Origin, things: &Things) -> Option<Diagnostic> {
     Some(
         Diagnostic::hint(
             "foreign-frame",
-            format!("`{name}` is no link or frame of the model; someone else must publish it"),
+            format!("`{name}` is no link or frame of the model; another node must publish it"),
         )
         .at(origin),
     )
@@ -264,7 +264,7 @@ mod tests {
                   |
                 5 |   <joint_name>wheel_left_joint</joint_name>
                   |                      +
-                warning[merged-joint]: the joint `lid_joint` is fixed; Gazebo merges its links and forgets it
+                warning[merged-joint]: the joint `lid_joint` is fixed; Gazebo merges its links and drops it
                  --> test.sdf:6:15
                   |
                 6 |   <joint_name>lid_joint</joint_name>
@@ -298,7 +298,7 @@ mod tests {
   <link_name>tower</link_name>
 </plugin></model>",
             expect![[r#"
-                warning[merged-link]: the link `imu_link` hangs on a fixed joint; Gazebo merges it into its parent and does not find it
+                warning[merged-link]: the link `imu_link` is on a fixed joint; Gazebo merges it into its parent and does not find it
                  --> test.sdf:3:14
                   |
                 3 |   <body_name>imu_link</body_name>
@@ -315,7 +315,7 @@ mod tests {
                    |
                 10 |   <frame_name>imu_link</frame_name>
                    |                    +
-                hint[foreign-frame]: `tower` is no link or frame of the model; someone else must publish it
+                hint[foreign-frame]: `tower` is no link or frame of the model; another node must publish it
                   --> test.sdf:14:15
                    |
                 14 |   <frame_name>tower</frame_name>

@@ -1,4 +1,4 @@
-//! The `<ros>` element, and topics that are not what they seem.
+//! Checks of the `<ros>` element and of topic names.
 
 use periplus_diagnostics::{Diagnostic, Diagnostics};
 use periplus_scene::Element;
@@ -45,7 +45,7 @@ fn check_child(
             diagnostics.push(
                 Diagnostic::warning("unknown-parameter", message)
                     .at(child.name_origin())
-                    .label("nobody reads this")
+                    .label("this is ignored")
                     .did_you_mean(child.name_origin(), name, CHILDREN),
             );
         }
@@ -59,7 +59,7 @@ fn remap(element: &Element, site: &Site<'_>, plugin: &Interpreted) -> Diagnostic
         let stays = plugin.ros.resolve(from);
         let topic = topics(plugin, &site.context).into_iter().find(|topic| topic.name == stays);
         let does = match topic.map(|topic| topic.flow) {
-            Some(Flow::In) => "the plugin listens on",
+            Some(Flow::In) => "the plugin subscribes to",
             Some(Flow::Out) => "the plugin publishes on",
             None => "the topic stays",
         };
@@ -92,7 +92,7 @@ fn check_remapping(
         );
         return;
     };
-    // `image_raw:=...` where the plugin's own name is `camera/image_raw` matches nothing.
+    // `image_raw:=...` matches nothing if the plugin's own name is `camera/image_raw`.
     let own = topics(plugin, &site.context);
     let matches = own.iter().any(|topic| topic.inside == from.trim());
     let meant = own.iter().find(|topic| {
@@ -146,7 +146,7 @@ mod tests {
   </ros>
 </plugin></model>",
             expect![[r#"
-                warning[remap-in-ros]: `<remap>` inside `<ros>` is never read: the plugin listens on `/demo/cmd_vel`
+                warning[remap-in-ros]: `<remap>` inside `<ros>` is never read: the plugin subscribes to `/demo/cmd_vel`
                  --> test.sdf:4:5
                   |
                 4 |     <remap from='cmd_vel' to='/cmd_vel'/>
@@ -187,7 +187,7 @@ mod tests {
                  --> test.sdf:3:6
                   |
                 3 |     <namspace>demo</namspace>
-                  |      ^^^^^^^^ nobody reads this
+                  |      ^^^^^^^^ this is ignored
                   |
                 help: did you mean `namespace`?
                   |

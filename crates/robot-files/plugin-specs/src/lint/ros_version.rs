@@ -38,11 +38,11 @@ mod tests {
 <plugin name='b' filename='libgazebo_ros_camera.so'><hackBaseline>0.2</hackBaseline></plugin>
 </model>",
             expect![[r#"
-                warning[ros1-parameter]: `hackBaseline` is a parameter of ROS 1; libgazebo_ros_camera.so of ROS 2 never reads it
+                warning[ros1-parameter]: `hackBaseline` is a parameter of ROS 1; libgazebo_ros_camera.so of ROS 2 does not read it
                  --> test.sdf:3:54
                   |
                 3 | <plugin name='b' filename='libgazebo_ros_camera.so'><hackBaseline>0.2</hackBaseline></plugin>
-                  |                                                      ^^^^^^^^^^^^ nobody reads this
+                  |                                                      ^^^^^^^^^^^^ this is ignored
                   |
                 help: ROS 2 calls it `hack_baseline`
                   |

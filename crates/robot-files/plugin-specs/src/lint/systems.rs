@@ -1,4 +1,4 @@
-//! Sensors of today's Gazebo that no system runs.
+//! Sensors of current Gazebo without a system that runs them.
 
 use std::collections::BTreeSet;
 
@@ -8,7 +8,7 @@ use periplus_scene::{Model, Sensor, World};
 use crate::library::library_id;
 use crate::{Family, Interpreted, Site};
 
-/// The system that runs a type of sensor, and its class.
+/// System that runs a type of sensor, and its class.
 fn system_for(sensor_type: &str) -> Option<(&'static str, &'static str)> {
     Some(match sensor_type {
         "camera"
@@ -39,8 +39,8 @@ fn system_for(sensor_type: &str) -> Option<(&'static str, &'static str)> {
     })
 }
 
-/// Types that Gazebo Classic does not know: a world with them is for today's Gazebo.
-const TODAY: [&str; 11] = [
+/// Types that Gazebo Classic does not have: a world with them is for current Gazebo.
+const NEW_TYPES: [&str; 11] = [
     "gpu_lidar",
     "rgbd_camera",
     "rgbd",
@@ -85,8 +85,7 @@ pub(super) fn check(
             );
         }
         if matches!(kind, "navsat" | "gps") && world.spherical_coordinates.is_none() {
-            let message =
-                format!("the sensor `{}` does not know where on Earth it is", sensor.name);
+            let message = format!("the sensor `{}` has no geographic position", sensor.name);
             diagnostics.push(
                 Diagnostic::warning("no-place-on-earth", message)
                     .at(sensor.origin)
@@ -118,7 +117,7 @@ fn silent(world: &World, sensor: &Sensor, part: &str, class: &str, others: usize
         "in Gazebo the sensor `{}`{also} stays silent: the world does not load the system `{class}`",
         sensor.name
     );
-    // Fortress knows only the old names, and today's Gazebo still knows them.
+    // Fortress has only the old names, which current Gazebo accepts too.
     let old = world.plugins.iter().any(|plugin| plugin.filename.contains("ignition-gazebo"));
     let (file, namespace) =
         if old { ("ignition-gazebo", "ignition::gazebo") } else { ("gz-sim", "gz::sim") };
@@ -151,7 +150,7 @@ fn is_for_today(world: &World, here: &[&(Site<'_>, Interpreted)], sensors: &[&Se
     }
     let classic = here.iter().any(|(_, plugin)| plugin.known.family != Family::Gz);
     let today = here.iter().any(|(_, plugin)| plugin.known.family == Family::Gz)
-        || sensors.iter().any(|sensor| TODAY.contains(&sensor.type_name.as_str()));
+        || sensors.iter().any(|sensor| NEW_TYPES.contains(&sensor.type_name.as_str()));
     !classic && today
 }
 
@@ -268,7 +267,7 @@ mod tests {
 <plugin filename='gz-sim-navsat-system' name='gz::sim::systems::NavSat'/>
 <model name='m'><link name='l'><sensor name='gps' type='navsat'/></link></model></world>",
             expect![[r#"
-                warning[no-place-on-earth]: the sensor `gps` does not know where on Earth it is
+                warning[no-place-on-earth]: the sensor `gps` has no geographic position
                  --> test.sdf:3:32
                   |
                 1 | <world name='w'>

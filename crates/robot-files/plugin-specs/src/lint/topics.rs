@@ -1,4 +1,4 @@
-//! Two plugins that publish on one topic, and two nodes of one name.
+//! Plugins that publish on the same topic, and nodes with the same name.
 
 use std::collections::BTreeMap;
 
@@ -12,11 +12,11 @@ pub(super) fn check(plugins: &[(Site<'_>, Interpreted)], diagnostics: &mut Diagn
     for (site, plugin) in plugins {
         let ros = plugin.known.family != Family::Gz;
         for topic in topics(plugin, &site.context) {
-            // Every publisher of joint states has joints of its own, and listeners join them.
+            // Every publisher of joint states has its own joints, and subscribers merge them.
             if topic.flow == Flow::In || ros && topic.name.ends_with("/joint_states") {
                 continue;
             }
-            // A camera publishes depths only as a `depth` sensor.
+            // A camera publishes depth images only as a `depth` sensor.
             if topic.inside.contains("depth/") || topic.inside.ends_with("/points") {
                 continue;
             }
@@ -38,7 +38,7 @@ pub(super) fn check(plugins: &[(Site<'_>, Interpreted)], diagnostics: &mut Diagn
             let key = (surroundings(site), node.clone());
             if let Some(first) = nodes.get(&key) {
                 let message =
-                    format!("two plugins make the node `{node}`; the second does not start");
+                    format!("two plugins create the node `{node}`; the second does not start");
                 let finding = twice("same-node", message, site, first);
                 diagnostics.push(finding.help("give one of them another `name` or namespace"));
             } else {
@@ -56,7 +56,7 @@ fn twice(code: &'static str, message: String, site: &Site<'_>, first: &Site<'_>)
     diagnostic.related(first.plugin.origin, "the first")
 }
 
-/// What runs together: a world, or a model that stands alone.
+/// Plugins that run together: those of a world, or of a model outside any world.
 fn surroundings(site: &Site<'_>) -> String {
     match (site.context.world, site.context.root) {
         (Some(world), _) => format!("world {}", world.name),

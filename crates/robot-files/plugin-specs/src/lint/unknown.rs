@@ -1,4 +1,4 @@
-//! Plugins that nobody knows, and classes that are not in their library.
+//! Unknown plugins, and classes that are not in their library.
 
 use std::collections::BTreeSet;
 
@@ -7,8 +7,8 @@ use periplus_diagnostics::{Diagnostic, Diagnostics, closest};
 use crate::library::{class_id, library_id};
 use crate::{Family, Place, Role, Site, known, recognise};
 
-/// Names that people expect, each with the library that does it. The first part is what
-/// [`distinctive`] leaves of a name.
+/// Expected but wrong names, each with the library that provides the function. The first part is the result
+/// of [`distinctive`].
 const EXPECTED: [(u8, &str, &str); 22] = [
     (1, "lidar", "gazebo_ros_ray_sensor"),
     (1, "lidar_sensor", "gazebo_ros_ray_sensor"),
@@ -34,14 +34,14 @@ const EXPECTED: [(u8, &str, &str); 22] = [
     (2, "odometry", "gz-sim-odometry-publisher-system"),
 ];
 
-/// Unknown plugins for which a known name is searched.
-const MOST_SUGGESTED: usize = 200;
+/// Maximum number of unknown plugins for which similar names are searched.
+const MAX_SUGGESTIONS: usize = 200;
 
 pub(super) fn check(sites: &[Site<'_>], diagnostics: &mut Diagnostics) {
     let mut told = BTreeSet::new();
     for site in sites {
         let filename = site.plugin.filename.trim();
-        // `__default__` is what libsdformat writes where a file names no library.
+        // `__default__` is written by libsdformat if a file names no library.
         if filename.is_empty() || filename == "__default__" {
             continue;
         }
@@ -51,7 +51,7 @@ pub(super) fn check(sites: &[Site<'_>], diagnostics: &mut Diagnostics) {
             }
             Some(_) => {}
             None if told.insert(filename) => {
-                diagnostics.push(unknown(site, filename, told.len() <= MOST_SUGGESTED));
+                diagnostics.push(unknown(site, filename, told.len() <= MAX_SUGGESTIONS));
             }
             None => {}
         }
@@ -59,7 +59,7 @@ pub(super) fn check(sites: &[Site<'_>], diagnostics: &mut Diagnostics) {
 }
 
 fn unknown(site: &Site<'_>, filename: &str, suggest: bool) -> Diagnostic {
-    let message = format!("nothing is known of the plugin `{filename}`; it is kept, not run");
+    let message = format!("the plugin `{filename}` is unknown; it is kept, not run");
     let diagnostic = Diagnostic::warning("unknown-plugin", message).at(site.plugin.origin);
     let class = class_id(&site.plugin.name);
     let by_class = known()
@@ -75,7 +75,7 @@ fn unknown(site: &Site<'_>, filename: &str, suggest: bool) -> Diagnostic {
         if let Some((_, _, library)) = expected {
             return Some(*library);
         }
-        // The same core with other trimmings: `gz-sim-imu` for `gz-sim-imu-system`.
+        // The same core with other affixes: `gz-sim-imu` for `gz-sim-imu-system`.
         let same = alike().find(|id| distinctive(id).1 == core);
         same.or_else(|| {
             let near = closest(core, alike().map(|id| distinctive(id).1))?;
@@ -88,7 +88,7 @@ fn unknown(site: &Site<'_>, filename: &str, suggest: bool) -> Diagnostic {
     }
 }
 
-/// What kind of name a library has, and the part that tells it from others of its kind.
+/// Type of a library name, and the part that distinguishes it from others of its type.
 fn distinctive(id: &str) -> (u8, &str) {
     if let Some(core) = id.strip_prefix("gazebo_ros_") {
         return (1, core);
