@@ -1,11 +1,11 @@
-//! What kind of file this is.
+//! Recognition of file formats.
 
 use std::path::Path;
 
 use periplus_xml::Document;
 use serde::Serialize;
 
-/// The languages that are read.
+/// Recognised file formats.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Language {
@@ -19,9 +19,9 @@ pub enum Language {
     Launch,
     /// The description of a model folder.
     ModelConfig,
-    /// Triangles.
+    /// Triangle mesh.
     Mesh,
-    /// A picture: a map, a floor plan, a texture.
+    /// Image: a map, a floor plan, a texture.
     Picture,
     /// The YAML of a map.
     Map,
@@ -35,24 +35,24 @@ pub enum Language {
     LaunchYaml,
     /// A launch file in Python.
     LaunchPython,
-    /// Any other program in Python.
+    /// Other Python program.
     Python,
-    /// Any other YAML.
+    /// Other YAML.
     Yaml,
-    /// A recording.
+    /// Recording (a bag).
     Recording,
-    /// Packed files.
+    /// Archive.
     Archive,
     /// The manifest of a package.
     Package,
-    /// A folder that is no model.
+    /// Folder that is no model.
     Folder,
-    /// None of these.
+    /// Unknown format.
     Unknown,
 }
 
 impl Language {
-    /// The name people use.
+    /// Common name of the format.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
@@ -81,7 +81,7 @@ impl Language {
 }
 
 impl Language {
-    /// What to do with a file that holds neither robot nor world; none for those that do.
+    /// Advice for a file that holds neither robot nor world; `None` for those that do.
     #[must_use]
     pub fn advice(self) -> Option<&'static str> {
         Some(match self {
@@ -91,7 +91,7 @@ impl Language {
             Self::Launch | Self::LaunchYaml | Self::LaunchPython => {
                 "`periplus launch FILE` runs it, `periplus launch FILE --print` shows its plan"
             }
-            Self::Mesh => "name it in the <mesh> of a robot or world",
+            Self::Mesh => "refer to it in the <mesh> of a robot or world",
             Self::Picture => {
                 "a map needs a YAML beside it; `periplus convert FILE --to sdf --resolution 0.05` \
                  makes a world of a floor plan"
@@ -107,16 +107,16 @@ impl Language {
             Self::Bridge => "`periplus bridge --config FILE` connects these topics",
             Self::Rviz => "open it on the page: `periplus view`, then Open beside the displays",
             Self::Python => "run it with python3 beside `periplus sim`",
-            Self::Yaml => "none of Periplus's commands knows what it is for",
+            Self::Yaml => "no Periplus command reads it",
             Self::Recording => "`periplus bag info FILE` shows what it holds, `bag play` plays it",
-            Self::Archive => "unpack it, and give the file in it",
-            Self::Package => "give a robot, world or launch file of the package",
-            Self::Folder => "give a file in it",
+            Self::Archive => "unpack it, and pass the file in it",
+            Self::Package => "pass a robot, world or launch file of the package",
+            Self::Folder => "pass a file in it",
         })
     }
 }
 
-/// The language that the name of a file promises, for when nothing can be read of it.
+/// Format by the file name alone, for files that cannot be read.
 pub(crate) fn promised(path: &Path) -> Language {
     let extension = path.extension().and_then(|extension| extension.to_str()).unwrap_or_default();
     match extension {
@@ -128,7 +128,7 @@ pub(crate) fn promised(path: &Path) -> Language {
     }
 }
 
-/// The language of an XML document, by its root and its name.
+/// Format of an XML document, by its root and its file name.
 pub(crate) fn language(path: &Path, document: &Document) -> Language {
     let extension = path.extension().and_then(|extension| extension.to_str()).unwrap_or_default();
     if extension.eq_ignore_ascii_case("xacro") || periplus_xacro::is_xacro(document) {

@@ -1,4 +1,4 @@
-//! Bytes to documents, robots to models.
+//! Parsing of bytes to documents, and conversion of robots to models.
 
 use std::path::Path;
 
@@ -9,13 +9,13 @@ use periplus_xml::{Document, decode, parse};
 
 use crate::setting::{Setting, shown};
 
-/// The model of a robot.
+/// Converts a robot to a model.
 pub(crate) fn model_of(
     robot: &Robot,
     sources: &mut SourceMap,
     diagnostics: &mut Diagnostics,
 ) -> Model {
-    // A robot includes nothing: it is one file once its xacro is expanded.
+    // A robot has no includes: after xacro it is one document.
     let mut includes = periplus_sdf::NoIncludes;
     let mut context = periplus_sdf::Context { sources, diagnostics, includes: &mut includes };
     periplus_urdf::to_model(robot, periplus_urdf::Options::default(), &mut context)
@@ -33,7 +33,7 @@ pub(crate) fn read_xml(
     let text = match decode(bytes) {
         Ok(text) => text,
         Err(words) => {
-            // Readers of old files never looked at the encoding, so the rest is still of use.
+            // Older readers ignored the encoding, so the content is still used.
             diagnostics.push(Diagnostic::warning("encoding", format!("`{name}`: {words}")));
             String::from_utf8_lossy(bytes)
         }

@@ -1,6 +1,5 @@
-//! Worlds of our own under the names of Gazebo's examples, so that demos and tutorials that start
-//! `gz sim shapes.sdf` or `gz_args: -r sensors_demo.sdf` find a world with the models, sensors,
-//! plugins and topics that they expect.
+//! Built-in worlds with the names of Gazebo's examples. Demos and tutorials that start `gz sim shapes.sdf`
+//! or `gz_args: -r sensors_demo.sdf` get a world with the expected models, sensors, plugins and topics.
 
 mod parts;
 mod robots;
@@ -10,19 +9,18 @@ use std::path::Path;
 
 use periplus_diagnostics::closest;
 
-/// What the name of a world that no file has leads to.
+/// Meaning of the name of a world without a file.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) enum Example {
     /// The text of a built-in world.
     BuiltIn(String),
-    /// A world that Gazebo has and that is not built in.
+    /// World of Gazebo that is not built in.
     OfGazebo,
-    /// No example at all; the name of one that may be meant.
+    /// Not an example; with the most similar name.
     Unknown(Option<&'static str>),
 }
 
-/// Examples of Gazebo that people start by name and that are not built in: they need actors,
-/// water, comms, models of Fuel, or buildings.
+/// Examples of Gazebo that are not built in: they need actors, water, comms, models of Fuel, or buildings.
 const OF_GAZEBO: [&str; 44] = [
     "3k_shapes",
     "actor",
@@ -70,8 +68,8 @@ const OF_GAZEBO: [&str; 44] = [
     "wind",
 ];
 
-/// What a path that leads to no file may mean: a bare name, or one in `worlds/`, as Gazebo looks
-/// for it in its own folder of worlds.
+/// Example named by a path without a file: a bare name, or one in `worlds/`, as Gazebo searches its own
+/// folder of worlds.
 pub(crate) fn find(path: &Path) -> Option<Example> {
     let folder = path.parent().and_then(Path::to_str).unwrap_or_default();
     if !["", "worlds", "."].contains(&folder) {
@@ -89,7 +87,7 @@ pub(crate) fn find(path: &Path) -> Option<Example> {
     })
 }
 
-/// The names of the built-in worlds, without `.sdf`.
+/// Names of the built-in worlds, without `.sdf`.
 pub fn names() -> impl Iterator<Item = &'static str> {
     worlds::WORLDS.iter().map(|(name, _)| *name)
 }

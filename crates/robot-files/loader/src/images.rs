@@ -1,4 +1,4 @@
-//! Images that looks and grounds name.
+//! Images of materials and heightmaps.
 
 use std::path::Path;
 
@@ -8,9 +8,9 @@ use periplus_scene::{Model, Scene, Shape, Visual};
 use crate::setting::{Setting, mentioned_in};
 use crate::shapes::for_each_shape;
 
-/// Puts the paths of the files in the place of the URIs of textures and heightmap images, so that
-/// they can be read without knowing who mentioned them. One that is not found is a warning, and the
-/// surface has its plain colour.
+/// Replaces the URIs of textures and heightmap images by the paths of their files, so that they can be
+/// opened without the file that refers to them. A missing image is a warning, and the surface keeps its
+/// plain colour.
 pub fn settle_images(
     scene: &mut Scene,
     sources: &SourceMap,

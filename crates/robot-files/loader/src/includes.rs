@@ -1,4 +1,4 @@
-//! Files that SDF includes.
+//! Resolution of SDF includes.
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -11,7 +11,7 @@ use periplus_sdf::{Includes, Opened};
 use crate::documents::{model_of, read_xml};
 use crate::setting::{Setting, mentioned_in, shown};
 
-/// Opens files as `<include>` names them, each once.
+/// Opens the targets of `<include>` elements, each file once.
 pub(crate) struct Files<'s, 'a> {
     setting: &'s Setting<'a>,
     opened: BTreeMap<PathBuf, Opened>,
@@ -23,7 +23,7 @@ impl<'s, 'a> Files<'s, 'a> {
         Self { setting, opened: BTreeMap::new(), order: Vec::new() }
     }
 
-    /// The files that were opened, in order.
+    /// Files that were opened, in order.
     pub(crate) fn into_paths(self) -> Vec<PathBuf> {
         self.order
     }
@@ -52,7 +52,7 @@ impl<'s, 'a> Files<'s, 'a> {
         let Some(mut document) = read_xml(path, &bytes, self.setting, sources, diagnostics) else {
             return Opened::Broken;
         };
-        // A file that is included many times is read once; its findings name the first include.
+        // A file that is included several times is read once; its findings refer to the first include.
         if let Some(at) = from.0 {
             document.root.see_through(sources.expand(Expansion::Include { at }));
         }
@@ -70,8 +70,8 @@ impl<'s, 'a> Files<'s, 'a> {
     }
 }
 
-/// What an include names. A path that leads nowhere may be the name of a model: Gazebo looks for
-/// `<uri>NAME</uri>` and `<uri>file://NAME</uri>` in the folders of models too.
+/// Resolves the target of an include. A path that does not exist may be the name of a model: Gazebo
+/// searches the model folders for `<uri>NAME</uri>` and `<uri>file://NAME</uri>` too.
 fn resolve_model(resolver: &Resolver<'_>, uri: &str, from: &Path) -> Result<PathBuf, Miss> {
     resolver.resolve(uri, from).or_else(|miss| {
         let bare = uri.trim().strip_prefix("file://").unwrap_or(uri.trim());

@@ -1,4 +1,4 @@
-//! Types of messages from the packages of a user.
+//! Message types from user packages.
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -8,35 +8,34 @@ use periplus_msgs::TypeRegistry;
 use periplus_resources::{Host, Kind as Standing, package_name};
 use periplus_rosidl::{Dialect, Kind, Registry, TypeName, parse};
 
-/// Packages lie at most so deep below a folder that somebody names: a workspace has them in
-/// `src/repository/group/package`.
-const DEEPEST: usize = 5;
+/// Maximum depth of packages below a given folder: a workspace has them in `src/repository/group/package`.
+const MAX_DEPTH: usize = 5;
 
-/// So many folders are looked into. A whole ROS has about a thousand.
-const MOST_FOLDERS: usize = 20_000;
+/// Maximum number of folders that are searched. A full ROS installation has about a thousand.
+const MAX_FOLDERS: usize = 20_000;
 
-/// Folders below which no package of a user lies.
+/// Folders that contain no user packages.
 const SKIPPED: [&str; 5] = ["build", "log", "node_modules", "target", "__pycache__"];
 
-/// All types that a program knows: those that are built in, and those of the user's packages.
+/// Message types known to a program: built-in ones and those of user packages.
 #[derive(Debug)]
 pub struct Interfaces {
-    /// Ready for use.
+    /// Resolved types.
     pub types: TypeRegistry,
-    /// The texts.
+    /// Interface texts.
     pub sources: SourceMap,
-    /// What is wrong with them.
+    /// Findings about them.
     pub diagnostics: Diagnostics,
     /// Packages that were read, with their folders.
     pub packages: BTreeMap<String, PathBuf>,
 }
 
-/// Reads the interface texts (`msg/*.msg`, `srv/*.srv`, `action/*.action`) of the packages in the
-/// folders and of those that are installed below `AMENT_PREFIX_PATH`. A folder is a package, holds
-/// packages, or is an installed prefix.
+/// Reads the interface texts (`msg/*.msg`, `srv/*.srv`, `action/*.action`) of the packages in the folders
+/// and of those installed below `AMENT_PREFIX_PATH`. A folder is a package, contains packages, or is an
+/// install prefix.
 ///
-/// A package of an earlier folder comes before one of the same name, and before what is built in;
-/// types that it has not stay. What cannot be used is left out, and a finding says why.
+/// A package in an earlier folder overrides one of the same name and the built-in one; types that it does
+/// not define remain. Unusable texts are left out, and a finding gives the reason.
 #[must_use]
 pub fn load_interfaces(host: &dyn Host, folders: &[PathBuf]) -> Interfaces {
     let mut reading = Reading {
@@ -45,7 +44,7 @@ pub fn load_interfaces(host: &dyn Host, folders: &[PathBuf]) -> Interfaces {
         sources: SourceMap::new(),
         diagnostics: Diagnostics::new(),
         packages: BTreeMap::new(),
-        left: MOST_FOLDERS,
+        left: MAX_FOLDERS,
     };
     for folder in folders {
         reading.named(folder);
@@ -69,7 +68,7 @@ struct Reading<'h> {
 }
 
 impl Reading<'_> {
-    /// A folder that somebody named, so that it should hold something.
+    /// Folder given by the user, which should contain packages.
     fn named(&mut self, folder: &Path) {
         let shown = folder.display();
         if self.host.kind(folder) != Some(Standing::Folder) {
@@ -90,7 +89,7 @@ impl Reading<'_> {
         }
     }
 
-    /// The packages that are installed below a prefix.
+    /// Packages installed below a prefix.
     fn prefix(&mut self, prefix: &Path) {
         let share = prefix.join("share");
         for name in self.host.list(&share) {
@@ -108,13 +107,13 @@ impl Reading<'_> {
         self.left -= 1;
         if is_package(self.host, folder) {
             let name = package_name(self.host, folder).or_else(|| {
-                // `.` is named by where it is.
+                // `.` is resolved to its path.
                 let place = self.host.canonical(folder).unwrap_or_else(|| folder.to_owned());
                 Some(place.file_name()?.to_string_lossy().into_owned())
             });
             return self.package(&name.unwrap_or_default(), folder);
         }
-        if depth == DEEPEST {
+        if depth == MAX_DEPTH {
             return;
         }
         for name in self.host.list(folder) {
@@ -144,7 +143,8 @@ impl Reading<'_> {
     fn text(&mut self, package: &str, kind: Kind, stem: &str, path: &Path) {
         let shown = path.display().to_string();
         let Some(name) = TypeName::read(&format!("{package}/{}/{stem}", kind.word())) else {
-            let message = format!("`{shown}` names no type: `{package}/{}/{stem}`", kind.word());
+            let message =
+                format!("`{shown}` is not a valid type name: `{package}/{}/{stem}`", kind.word());
             let wrong = Diagnostic::error("bad-type-name", message);
             return self.diagnostics.push(wrong.help(
                 "packages have small letters, digits and `_`; types begin with a large letter and \
@@ -166,7 +166,7 @@ impl Reading<'_> {
     }
 }
 
-/// Whether a folder has texts. Folders called `msg` alone are not enough: they may hold anything.
+/// Returns true if a folder has interface texts. A folder named `msg` alone is not enough.
 fn is_package(host: &dyn Host, folder: &Path) -> bool {
     [Kind::Message, Kind::Service, Kind::Action].into_iter().any(|kind| {
         let ending = format!(".{}", kind.word());

@@ -1,7 +1,7 @@
-//! One door for every file: recognise, expand, read, check, sum up.
+//! Loader for all robot and world files: recognise, expand, read, check, summarise.
 //!
-//! [`load`] takes a path to whatever a roboticist has and gives a [`Loaded`]: the scene, the
-//! findings, and the texts they point into. It always returns; a broken file gives findings.
+//! [`load`] reads any robot, world or related file and returns a [`Loaded`]: the scene, the findings, and
+//! the texts that they refer to. It always returns; a broken file gives findings.
 
 mod detect;
 mod documents;

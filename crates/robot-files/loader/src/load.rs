@@ -1,4 +1,4 @@
-//! From a path to a scene.
+//! Loading of a path to a scene.
 
 use std::path::{Path, PathBuf};
 
@@ -16,38 +16,38 @@ use crate::mesh_files::{self, MeshSummary};
 use crate::other_files;
 use crate::setting::{Setting, shown};
 
-/// What a file gave.
+/// Result of loading a file.
 #[derive(Clone, Debug)]
 pub struct Loaded {
-    /// The file.
+    /// Path of the file.
     pub path: PathBuf,
-    /// What it is written in.
+    /// Format of the file.
     pub language: Language,
-    /// The texts that took part.
+    /// Source texts.
     pub sources: SourceMap,
-    /// What is wrong with them.
+    /// Findings about them.
     pub diagnostics: Diagnostics,
-    /// The XML, with xacro expanded. None when it is not XML, or does not expand.
+    /// XML document with xacro expanded. `None` if the file is not XML or cannot be expanded.
     pub document: Option<Document>,
-    /// Whether the document is what its macros make of it: no error came before it was interpreted.
+    /// True if the document is completely expanded: no error occurred before it was interpreted.
     pub is_expanded: bool,
-    /// The robot, of a URDF.
+    /// Robot, for a URDF.
     pub robot: Option<Robot>,
-    /// What it means. None for files that describe no scene.
+    /// Scene. `None` for files that describe none.
     pub scene: Option<Scene>,
-    /// What a mesh file holds.
+    /// Content of a mesh file.
     pub mesh: Option<MeshSummary>,
-    /// What other files hold, a line each.
+    /// Content of other files, one line each.
     pub contents: Vec<String>,
-    /// Other files that took part, in order of use.
+    /// Other files that were read, in order.
     pub files: Vec<PathBuf>,
-    /// Names of the arguments that it declares or reads; empty for what is no xacro.
+    /// Arguments that the file declares or reads; empty if it is not xacro.
     pub known_arguments: Vec<String>,
 }
 
 impl Loaded {
-    /// The names among these arguments that the file knows nothing of. None of a file that could not
-    /// be expanded.
+    /// Names among these arguments that are unknown to the file; empty for a file that could not be
+    /// expanded.
     #[must_use]
     pub fn unknown_arguments<'a>(&self, given: &'a [(String, String)]) -> Vec<&'a str> {
         if self.document.is_none() {
@@ -57,12 +57,12 @@ impl Loaded {
         names.filter(|name| !self.known_arguments.iter().any(|known| known == name)).collect()
     }
 
-    /// Warns of an argument that has no effect on the file.
+    /// Warns about an argument that has no effect on the file.
     pub fn warn_of_argument(&mut self, name: &str) {
         let file = self.path.file_name().unwrap_or_default().to_string_lossy().into_owned();
         let warning = Diagnostic::warning(
             "unknown-argument",
-            format!("`{file}` has no argument `{name}`: `{name}:=...` changes nothing"),
+            format!("`{file}` has no argument `{name}`: `{name}:=...` has no effect"),
         );
         let known = self.known_arguments.iter().map(String::as_str);
         let warning = match closest(name, known) {
@@ -79,7 +79,7 @@ impl Loaded {
     }
 }
 
-/// Reads a file of any kind that is known.
+/// Loads a file of any supported format.
 #[must_use]
 pub fn load(path: &Path, setting: &Setting<'_>) -> Loaded {
     let written = path;
@@ -87,7 +87,7 @@ pub fn load(path: &Path, setting: &Setting<'_>) -> Loaded {
     if setting.host.kind(&path) == Some(Kind::Folder) {
         return load_folder(path, setting);
     }
-    // Large files of which only the name counts.
+    // Large files, recognised by name only.
     if let Some(Language::Recording | Language::Archive) = other_files::recognise(&path, &[])
         && setting.host.kind(&path).is_some()
     {
@@ -104,8 +104,13 @@ pub fn load(path: &Path, setting: &Setting<'_>) -> Loaded {
             let mut loaded = load_bytes(&path, text.as_bytes(), setting);
             let name = written.display();
             loaded.diagnostics.push(
-                Diagnostic::hint("example-world", format!("`{name}` is the built-in world of that name"))
-                    .note("it has the models, sensors and topics of Gazebo's example, in shapes of our own"),
+                Diagnostic::hint(
+                    "example-world",
+                    format!("`{name}` is the built-in world of that name"),
+                )
+                .note(
+                    "it has the models, sensors and topics of Gazebo's example, with simple shapes",
+                ),
             );
             loaded
         }
@@ -131,22 +136,22 @@ pub fn load(path: &Path, setting: &Setting<'_>) -> Loaded {
                 }
                 _ => None,
             };
-            let told = Diagnostic::error(
+            let error = Diagnostic::error(
                 "unreadable-file",
                 format!(
                     "`{}` cannot be read: {error}",
                     shown(&loaded.path, &setting.working_folder)
                 ),
             );
-            loaded.diagnostics.push(told.help(helped.unwrap_or_else(|| {
-                "check the path; it is taken from the folder you stand in".to_owned()
+            loaded.diagnostics.push(error.help(helped.unwrap_or_else(|| {
+                "check the path; it is relative to the working folder".to_owned()
             })));
             loaded
         }
     }
 }
 
-/// A file of a relative path in the folders of resources, where Gazebo looks for worlds too.
+/// Resolves a relative path in the resource folders, which Gazebo also searches for worlds.
 fn on_resource_path(written: &Path, setting: &Setting<'_>) -> Option<PathBuf> {
     if written.is_absolute() || written.starts_with("..") {
         return None;
@@ -155,7 +160,7 @@ fn on_resource_path(written: &Path, setting: &Setting<'_>) -> Option<PathBuf> {
     (setting.host.kind(&found) == Some(Kind::File)).then_some(found)
 }
 
-/// Reads the model that a folder holds.
+/// Loads the model in a folder.
 fn load_folder(path: PathBuf, setting: &Setting<'_>) -> Loaded {
     let has = |name: &str| setting.host.kind(&path.join(name)) == Some(Kind::File);
     if has("model.config") || has("model.sdf") {
@@ -177,14 +182,14 @@ fn load_folder(path: PathBuf, setting: &Setting<'_>) -> Loaded {
     };
     let mut loaded = empty(path);
     loaded.language = what.0;
-    let told = format!("`{}` is {}", shown(&loaded.path, &setting.working_folder), what.1);
+    let message = format!("`{}` is {}", shown(&loaded.path, &setting.working_folder), what.1);
     let advice = what.0.advice().unwrap_or_default();
-    loaded.diagnostics.push(Diagnostic::error("folder", told).help(advice));
+    loaded.diagnostics.push(Diagnostic::error("folder", message).help(advice));
     loaded
 }
 
-/// Reads what a file of this name would hold: a text that came over a wire, or is built in. What it
-/// mentions is looked for from that place.
+/// Loads bytes as the content of a file with this path: a text received over a network, or built in.
+/// References are resolved relative to the path.
 #[must_use]
 pub fn load_bytes(path: &Path, bytes: &[u8], setting: &Setting<'_>) -> Loaded {
     let mut loaded = empty(setting.working_folder.join(path));
@@ -208,7 +213,7 @@ pub fn load_bytes(path: &Path, bytes: &[u8], setting: &Setting<'_>) -> Loaded {
     loaded
 }
 
-/// Nothing yet of a file.
+/// Empty result for a file.
 fn empty(path: PathBuf) -> Loaded {
     Loaded {
         language: promised(&path),
@@ -226,7 +231,7 @@ fn empty(path: PathBuf) -> Loaded {
     }
 }
 
-/// Whether an expanded file is one of macros and properties for others to include: a robot
+/// Returns true if an expanded file has only macros and properties for other files to include: a robot
 /// without links, or any other root such as `<root>` or `<xacro>`.
 fn is_for_inclusion(document: &Document) -> bool {
     let root = &document.root;
@@ -263,9 +268,12 @@ fn interpret(document: Document, setting: &Setting<'_>, loaded: &mut Loaded) {
     match document.root.local_name() {
         _ if loaded.language == Language::Xacro && is_for_inclusion(&document) => {
             loaded.diagnostics.push(
-                Diagnostic::hint("macros-only", "this file holds no link, so it is no robot yet")
-                    .at(document.root.origin)
-                    .help("include it in a robot: <xacro:include filename=\"...\"/>"),
+                Diagnostic::hint(
+                    "macros-only",
+                    "this file has no link, so it is not a complete robot",
+                )
+                .at(document.root.origin)
+                .help("include it in a robot: <xacro:include filename=\"...\"/>"),
             );
         }
         "robot" => {

@@ -1,4 +1,4 @@
-//! A world whose walls are those of a map.
+//! Conversion of an occupancy grid to a world.
 
 use std::fmt::Write as _;
 
@@ -6,8 +6,7 @@ use periplus_geometry::format_number;
 use periplus_grid::OccupancyGrid;
 use periplus_maps::wall_boxes;
 
-/// What every world of Gazebo Harmonic needs so that robots with sensors run in it, light, and the
-/// floor.
+/// Systems needed by robots with sensors in Gazebo Harmonic, a light, and the floor.
 const HEAD: &str = r#"    <plugin filename="gz-sim-physics-system" name="gz::sim::systems::Physics"/>
     <plugin filename="gz-sim-user-commands-system" name="gz::sim::systems::UserCommands"/>
     <plugin filename="gz-sim-scene-broadcaster-system" name="gz::sim::systems::SceneBroadcaster"/>
@@ -25,12 +24,12 @@ const HEAD: &str = r#"    <plugin filename="gz-sim-physics-system" name="gz::sim
     </light>
 "#;
 
-/// Distance by which the floor reaches beyond the map [m].
+/// Margin of the floor around the map [m].
 const FLOOR_MARGIN_M: f64 = 5.0;
 
-/// The SDF of a world named `name`: a floor, and a static model `map` with boxes of
-/// `wall_height_m` on the occupied cells. The world's frame is that of the map, so that poses of
-/// one hold in the other; unknown and free cells are empty. With it the number of boxes.
+/// Returns the SDF of a world named `name`: a floor, and a static model `map` with boxes of `wall_height_m`
+/// on the occupied cells. The world frame is the map frame, so poses are valid in both; unknown and free
+/// cells are empty. Also returns the number of boxes.
 #[must_use]
 pub fn map_world(map: &OccupancyGrid, name: &str, wall_height_m: f64) -> (String, usize) {
     let lattice = &map.lattice;
@@ -80,7 +79,7 @@ pub fn map_world(map: &OccupancyGrid, name: &str, wall_height_m: f64) -> (String
     (text, boxes.len())
 }
 
-/// The floor under the whole map and a little beyond.
+/// Floor below the whole map, with a margin.
 fn floor(map: &OccupancyGrid, text: &mut String) {
     let (width_m, height_m) = map.lattice.size_m();
     #[expect(clippy::cast_precision_loss, reason = "cells are below 2^28")]
@@ -103,7 +102,7 @@ fn floor(map: &OccupancyGrid, text: &mut String) {
     );
 }
 
-/// Micrometres are enough, and keep the text short.
+/// Rounds to micrometres to keep the text short.
 fn rounded(length_m: f64) -> f64 {
     (length_m * 1e6).round() / 1e6 + 0.0
 }
@@ -124,7 +123,7 @@ mod tests {
     use super::*;
     use crate::{Setting, load_bytes};
 
-    /// The distance along a ray to the first of the boxes (slab method, Kay and Kajiya 1986).
+    /// Distance along a ray to the first of the boxes (slab method, Kay and Kajiya 1986).
     fn range_to_boxes_m(boxes: &[([f64; 2], [f64; 2])], from: [f64; 2], along: [f64; 2]) -> f64 {
         let hits = boxes.iter().filter_map(|(low, high)| {
             let (mut near, mut far) = (0.0_f64, f64::INFINITY);

@@ -1,4 +1,4 @@
-//! Mesh files: those that a scene names, and those that are asked about themselves.
+//! Mesh files: references in a scene, and files loaded directly.
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -12,28 +12,28 @@ use serde::Serialize;
 use crate::setting::{Setting, mentioned_in, shown};
 use crate::shapes::for_each_shape;
 
-/// What a mesh file holds.
+/// Content of a mesh file.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct MeshSummary {
     /// `Stl`, `Obj`, `Collada` or `Gltf`.
     pub format: String,
     /// Names of its parts, in order.
     pub submeshes: Vec<String>,
-    /// How many triangles.
+    /// Number of triangles.
     pub triangles: usize,
-    /// How many vertices.
+    /// Number of vertices.
     pub vertices: usize,
     /// Extent along x, y, z [m].
     pub size_m: [f64; 3],
 }
 
-/// Whether a path has the extension of a mesh file.
+/// Returns true if a path has the extension of a mesh file.
 pub(crate) fn is_mesh(path: &Path) -> bool {
     let extension = path.extension().and_then(|extension| extension.to_str()).unwrap_or_default();
     ["stl", "obj", "dae", "gltf", "glb"].iter().any(|known| extension.eq_ignore_ascii_case(known))
 }
 
-/// Reads a mesh file that was asked about itself.
+/// Loads a mesh file directly.
 pub(crate) fn summarise(
     path: &Path,
     bytes: &[u8],
@@ -55,8 +55,8 @@ pub(crate) fn summarise(
     }
 }
 
-/// Finds the files that meshes and heightmaps of a scene name, and looks into them. One that is
-/// missing or broken is a warning: the rest of the scene is still of use.
+/// Resolves and checks the files of the meshes and heightmaps of a scene. A missing or broken file is a
+/// warning: the rest of the scene is still usable.
 pub(crate) fn resolve(
     scene: &mut Scene,
     setting: &Setting<'_>,
@@ -73,7 +73,7 @@ struct Look<'l, 'a> {
     setting: &'l Setting<'a>,
     sources: &'l SourceMap,
     diagnostics: &'l mut Diagnostics,
-    /// What each file holds; a broken one has been told about.
+    /// Parts of each file; a broken one has been reported.
     seen: BTreeMap<PathBuf, Parts>,
 }
 
@@ -140,7 +140,7 @@ impl Look<'_, '_> {
             Ok(path) => Some(path),
             Err(miss) => {
                 let mut diagnostic = miss.into_diagnostic(origin);
-                // The model works without it, only less of it is seen or touched.
+                // The model works without it, with fewer visuals or collisions.
                 diagnostic.severity = periplus_diagnostics::Severity::Warning;
                 self.diagnostics.push(diagnostic);
                 None
@@ -167,14 +167,14 @@ fn open(path: &Path, bytes: &[u8], host: &dyn Host) -> OpenedMesh {
     Ok((summary, notes.collect()))
 }
 
-/// The triangles of a mesh file; none of a broken one, of which [`crate::load`] tells.
+/// Triangles of a mesh file; `None` for a broken one, which [`crate::load`] reports.
 #[must_use]
 pub fn read_mesh(path: &Path, bytes: &[u8], host: &dyn Host) -> Option<periplus_meshes::Mesh> {
     parse(path, bytes, host).ok().map(|(_, mesh)| mesh)
 }
 
-/// A file that a mesh names, such as a texture. It may only lie beside the mesh or below: a
-/// downloaded mesh is not to be trusted.
+/// Reads a file that a mesh refers to, such as a texture. It must be in the folder of the mesh or below,
+/// because a downloaded mesh is not trusted.
 #[must_use]
 pub fn read_beside(mesh: &Path, name: &str, host: &dyn Host) -> Option<Vec<u8>> {
     let plain = Path::new(name)

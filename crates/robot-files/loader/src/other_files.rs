@@ -1,5 +1,5 @@
-//! Files that hold no scene, but that people have beside their robots and worlds: recognised by
-//! name and content, so that each can be told what it is and which command takes it.
+//! Files without a scene that are common next to robots and worlds: recognised by name and content, to
+//! report their format and the command that uses them.
 
 use std::path::Path;
 
@@ -12,10 +12,10 @@ use crate::detect::Language;
 use crate::load::Loaded;
 use crate::setting::{Setting, shown};
 
-/// Nodes and displays that are listed, at most.
+/// Maximum number of nodes and displays that are listed.
 const MAX_LISTED: usize = 20;
 
-/// The kind of a file that is not XML; none where XML is to be tried.
+/// Format of a file that is not XML; `None` if it must be parsed as XML.
 pub(crate) fn recognise(path: &Path, bytes: &[u8]) -> Option<Language> {
     let name = path.file_name().unwrap_or_default().to_string_lossy().to_ascii_lowercase();
     let ends = |endings: &[&str]| endings.iter().any(|ending| name.ends_with(ending));
@@ -45,7 +45,7 @@ pub(crate) fn recognise(path: &Path, bytes: &[u8]) -> Option<Language> {
             false => Language::Python,
         },
         () if ends(&[".rviz", ".vcg"]) => Language::Rviz,
-        // What it is is seen once it is read.
+        // The document determines the format.
         () if ends(&[".yaml", ".yml"]) => Language::Yaml,
         () => return None,
     })
@@ -56,16 +56,16 @@ fn is_launch(name: &str, bytes: &[u8]) -> bool {
     name.ends_with("launch.py") || bytes.windows(ENTRY.len()).any(|window| window == ENTRY)
 }
 
-/// Reads the file whose kind has been recognised, and says what it holds.
+/// Reads a file of a recognised format and describes its content.
 pub(crate) fn read(bytes: &[u8], setting: &Setting<'_>, loaded: &mut Loaded) {
     let name = shown(&loaded.path, &setting.working_folder);
     match loaded.language {
         Language::Picture => picture(&name, bytes, loaded),
         Language::Rviz | Language::Yaml => yaml(&name, bytes, setting, loaded),
         Language::Archive => {
-            let told = format!("`{name}` is an archive; what is in it is not looked at");
-            let error = Diagnostic::error("archive", told);
-            loaded.diagnostics.push(error.help("unpack it, and give the file in it"));
+            let message = format!("`{name}` is an archive, which is not opened");
+            let error = Diagnostic::error("archive", message);
+            loaded.diagnostics.push(error.help("unpack it, and pass the file in it"));
         }
         _ => {}
     }
@@ -125,7 +125,7 @@ fn yaml(name: &str, bytes: &[u8], setting: &Setting<'_>, loaded: &mut Loaded) {
     }
 }
 
-/// The kind of a YAML document.
+/// Format of a YAML document.
 fn kind_of(tree: &Node) -> Language {
     let has = |name: &str| tree.get(name).is_some();
     if has("image") && (has("resolution") || has("origin")) {
@@ -147,7 +147,7 @@ fn is_bridged(entry: &Node) -> bool {
     ["ros_topic_name", "gz_topic_name", "ros_type_name"].iter().any(|key| entry.get(key).is_some())
 }
 
-/// Namespaces around a node's parameters, at most.
+/// Maximum depth of namespaces around a node's parameters.
 const MAX_NAMESPACES: usize = 6;
 
 fn holds_parameters(node: &Node, depth: usize) -> bool {
@@ -159,8 +159,8 @@ fn holds_parameters(node: &Node, depth: usize) -> bool {
         })
 }
 
-/// The nodes of a file of parameters, each with how many it has. Nodes beside others that lack
-/// `ros__parameters` get none in ROS 2.
+/// Nodes of a parameter file, each with its number of parameters. An entry without `ros__parameters` next
+/// to others sets none in ROS 2.
 fn parameters(node: &Node, name: &str, nodes: &mut Vec<String>, diagnostics: &mut Diagnostics) {
     for (key, value) in node.entries().unwrap_or_default() {
         let Some(key_text) = key.text() else { continue };
@@ -171,10 +171,7 @@ fn parameters(node: &Node, name: &str, nodes: &mut Vec<String>, diagnostics: &mu
                 diagnostics.push(
                     Diagnostic::error(
                         "bad-parameters",
-                        format!(
-                            "`ros__parameters` of `{name}` is {}, not names with values",
-                            value.kind()
-                        ),
+                        format!("`ros__parameters` of `{name}` is {}, not a mapping", value.kind()),
                     )
                     .at(value.span),
                 );
@@ -188,7 +185,7 @@ fn parameters(node: &Node, name: &str, nodes: &mut Vec<String>, diagnostics: &mu
             diagnostics.push(
                 Diagnostic::warning(
                     "no-ros-parameters",
-                    format!("`{path}` has no `ros__parameters`, so no node gets what is below it"),
+                    format!("`{path}` has no `ros__parameters`, so no node receives the parameters below it"),
                 )
                 .at(key.span)
                 .help(format!(

@@ -1,4 +1,4 @@
-//! Relative URIs, as seen from another folder.
+//! Relative URIs for another folder.
 
 use std::path::{Component, Path, PathBuf};
 
@@ -8,8 +8,8 @@ use periplus_scene::{Scene, Shape};
 use crate::setting::mentioned_in;
 use crate::shapes::for_each_shape;
 
-/// Rewrites the relative URIs of meshes and images for a file that will lie in `folder`. Each is
-/// relative to the file that mentions it, and after a conversion all stand in one file.
+/// Rewrites the relative URIs of meshes and images for a file to be written to `folder`. Each is relative
+/// to the file that contains it, and a conversion puts all of them into one file.
 pub fn rebase(scene: &mut Scene, sources: &SourceMap, working_folder: &Path, folder: &Path) {
     let rebase = Rebase { sources, working_folder, folder };
     for_each_shape(scene, &mut |shape, _| match shape {
@@ -45,7 +45,7 @@ impl Rebase<'_> {
     }
 }
 
-/// The path without `.` and `..`.
+/// Path without `.` and `..`.
 fn plain(path: &Path) -> PathBuf {
     let mut out = PathBuf::new();
     for part in path.components() {
@@ -60,7 +60,7 @@ fn plain(path: &Path) -> PathBuf {
     out
 }
 
-/// The way from a folder to a file.
+/// Relative path from a folder to a file.
 fn relative(file: &Path, folder: &Path) -> PathBuf {
     let shared = file.components().zip(folder.components()).take_while(|(a, b)| a == b).count();
     let up = folder.components().skip(shared).map(|_| Component::ParentDir);

@@ -1,31 +1,31 @@
-//! What a reading needs to know.
+//! Inputs of the loader.
 
 use std::path::{Path, PathBuf};
 
 use periplus_diagnostics::{Origin, SourceMap};
 use periplus_resources::{Host, Resolver};
 
-/// What a reading needs to know.
+/// Inputs of the loader.
 #[derive(Clone)]
 pub struct Setting<'a> {
-    /// Files and environment.
+    /// Access to files and environment.
     pub host: &'a dyn Host,
-    /// Packages, models and paths.
+    /// Search paths of packages and models.
     pub resolver: &'a Resolver<'a>,
-    /// Where the user stands: paths below it are shown without it.
+    /// Working folder of the user; paths below it are shown relative to it.
     pub working_folder: PathBuf,
-    /// `name:=value` for xacro.
+    /// `name:=value` arguments of xacro.
     pub arguments: Vec<(String, String)>,
-    /// Whether mesh files are opened to see if they can be used.
+    /// True if mesh files are opened and checked.
     pub open_meshes: bool,
 }
 
-/// A path as messages show it.
+/// Path as shown in messages.
 pub(crate) fn shown(path: &Path, working_folder: &Path) -> String {
     path.strip_prefix(working_folder).unwrap_or(path).display().to_string()
 }
 
-/// The file in which a place stands; the working folder for a place that no file holds.
+/// File that contains an origin; the working folder if there is none.
 pub(crate) fn mentioned_in(origin: Origin, sources: &SourceMap, working_folder: &Path) -> PathBuf {
     match origin.0 {
         Some(span) => working_folder.join(&sources.file(span.file).name),

@@ -1,10 +1,9 @@
-//! Every shape of a scene, in one order.
+//! Iteration over the shapes of a scene.
 
 use periplus_diagnostics::Origin;
 use periplus_scene::{Link, Model, Scene, Shape};
 
-/// Visits the shapes of all models, then of all actors, each with the place of the collision or
-/// visual that it is the shape of.
+/// Visits the shapes of all models, then of all actors, each with the origin of its collision or visual.
 pub(crate) fn for_each_shape(scene: &mut Scene, visit: &mut dyn FnMut(&mut Shape, Origin)) {
     let models = scene.worlds.iter_mut().flat_map(|world| &mut world.models);
     models.chain(&mut scene.models).for_each(|model| in_model(model, visit));

@@ -1,4 +1,4 @@
-//! What a scene holds, in a few lines.
+//! Short description of a scene.
 
 use std::borrow::Cow;
 use std::collections::BTreeMap;
@@ -7,7 +7,7 @@ use std::fmt::Write as _;
 use periplus_scene::{Model, Scene, Sensor, SensorKind, World};
 use serde::Serialize;
 
-/// What a file holds.
+/// Summary of a file.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct Summary {
     /// Worlds.
@@ -16,7 +16,7 @@ pub struct Summary {
     pub models: Vec<ModelSummary>,
 }
 
-/// What a world holds.
+/// Summary of a world.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct WorldSummary {
     /// Its name.
@@ -29,26 +29,26 @@ pub struct WorldSummary {
     pub actors: Vec<String>,
     /// Libraries of its plugins.
     pub plugins: Vec<String>,
-    /// Step of its physics [s].
+    /// Physics step size [s].
     pub step_s: f64,
 }
 
-/// What a model holds, models inside it included.
+/// Summary of a model, nested models included.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct ModelSummary {
     /// Its name.
     pub name: String,
-    /// Whether it never moves.
+    /// True if it never moves.
     pub is_static: bool,
-    /// How many links.
+    /// Number of links.
     pub links: usize,
-    /// How many joints.
+    /// Number of joints.
     pub joints: usize,
-    /// How many frames, those of merged links included.
+    /// Number of frames, those of merged links included.
     pub frames: usize,
-    /// How many collisions.
+    /// Number of collisions.
     pub collisions: usize,
-    /// How many visuals.
+    /// Number of visuals.
     pub visuals: usize,
     /// Mass of all links [kg].
     pub mass_kg: f64,
@@ -58,23 +58,23 @@ pub struct ModelSummary {
     pub plugins: Vec<String>,
 }
 
-/// What a sensor is.
+/// Summary of a sensor.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct SensorSummary {
     /// Its name.
     pub name: String,
-    /// The link it sits on.
+    /// Link that it is attached to.
     pub link: String,
     /// Its type as written.
     #[serde(rename = "type")]
     pub type_name: String,
-    /// Measurements per second [Hz].
+    /// Update rate [Hz].
     pub update_rate_hz: f64,
-    /// Its main numbers, in words.
+    /// Main settings as text.
     pub detail: String,
 }
 
-/// Sums up a scene.
+/// Summarises a scene.
 #[must_use]
 pub fn summarise(scene: &Scene) -> Summary {
     Summary {
@@ -163,16 +163,16 @@ fn detail(kind: &SensorKind) -> String {
     }
 }
 
-/// A name as it is shown: one of a megabyte is cut.
+/// Name as shown; a very long one is truncated.
 fn shown(name: &str) -> Cow<'_, str> {
-    const LONGEST: usize = 80;
-    match name.char_indices().nth(LONGEST) {
+    const MAX_NAME_BYTES: usize = 80;
+    match name.char_indices().nth(MAX_NAME_BYTES) {
         Some((cut, _)) => format!("{}...", &name[..cut]).into(),
         None => name.into(),
     }
 }
 
-/// Names with commas between them; one that comes again is counted.
+/// Comma-separated names; repeated ones are counted.
 fn list(names: &[String]) -> String {
     let mut counted: Vec<(&str, usize)> = Vec::new();
     for name in names {
@@ -209,7 +209,7 @@ pub fn describe(summary: &Summary) -> String {
         if !world.plugins.is_empty() {
             let _ = writeln!(out, "    plugins {}", list(&world.plugins));
         }
-        // A warehouse holds a hundred pallets: models that are alike share a line.
+        // A warehouse may have a hundred pallets: equal models share a line.
         let mut alike: BTreeMap<String, (usize, Vec<Cow<'_, str>>, String)> = BTreeMap::new();
         for (index, model) in world.models.iter().enumerate() {
             let mut anonymous = model.clone();

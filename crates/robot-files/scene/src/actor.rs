@@ -7,12 +7,12 @@ use serde::Serialize;
 
 use crate::{Joint, Link, Plugin};
 
-/// An animated figure: a skin, animations, and a script of waypoints.
+/// Animated figure: a skin, animations, and a script of waypoints.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Actor {
     /// Its name.
     pub name: String,
-    /// Where it starts.
+    /// Initial pose.
     pub world_from_actor: Pose,
     /// Links for sensors and collisions.
     pub links: Vec<Link>,
@@ -23,7 +23,7 @@ pub struct Actor {
     /// Skin, animations and script.
     #[serde(serialize_with = "crate::json::elements", skip_serializing_if = "Vec::is_empty")]
     pub extra: Vec<Element>,
-    /// Where it was read.
+    /// Source location.
     #[serde(skip)]
     pub origin: Origin,
 }

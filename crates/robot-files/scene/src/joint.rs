@@ -1,4 +1,4 @@
-//! What holds links together.
+//! Joints between links.
 
 use periplus_diagnostics::Origin;
 use periplus_geometry::{DVec3, Pose};
@@ -7,40 +7,40 @@ use serde::Serialize;
 
 use crate::Sensor;
 
-/// How a joint moves.
+/// Type of motion of a joint.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum JointKind {
-    /// Not at all.
+    /// No motion.
     Fixed,
-    /// It turns about an axis, within limits if any.
+    /// Rotation about an axis, optionally with limits.
     Revolute,
-    /// It turns about an axis without limits.
+    /// Rotation about an axis without limits.
     Continuous,
-    /// It slides along an axis.
+    /// Translation along an axis.
     Prismatic,
-    /// It turns in every direction.
+    /// Rotation about all axes.
     Ball,
-    /// It turns about two axes, one after the other.
+    /// Rotation about two axes, one after the other.
     Universal,
-    /// It turns about two axes that do not meet.
+    /// Rotation about two axes that do not intersect.
     Revolute2,
-    /// It turns and slides together.
+    /// Coupled rotation and translation.
     Screw,
-    /// Two turns held in a ratio.
+    /// Two rotations coupled by a ratio.
     Gearbox,
-    /// It moves freely (URDF `floating`).
+    /// Free motion (URDF `floating`).
     Floating,
-    /// It slides in a plane across its axis (URDF `planar`).
+    /// Motion in the plane perpendicular to its axis (URDF `planar`).
     Planar,
 }
 
-/// What holds two links together.
+/// Connection of two links.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Joint {
     /// Its name, unique in its model.
     pub name: String,
-    /// How it moves.
+    /// Type of motion.
     pub kind: JointKind,
     /// The link, frame or nested model on the parent's side, scoped; or `world`.
     pub parent: String,
@@ -52,14 +52,14 @@ pub struct Joint {
     pub axis: Option<Axis>,
     /// The second axis of universal, revolute2 and gearbox joints.
     pub axis2: Option<Axis>,
-    /// Way per turn of a screw [m], positive as in SDF's `screw_thread_pitch`.
+    /// Travel per turn of a screw [m], positive as in SDF's `screw_thread_pitch`.
     pub thread_pitch_m: Option<f64>,
     /// Force-torque sensors; poses are `joint_from_sensor`.
     pub sensors: Vec<Sensor>,
-    /// Engine settings and the rest.
+    /// Engine settings and other elements.
     #[serde(serialize_with = "crate::json::elements", skip_serializing_if = "Vec::is_empty")]
     pub extra: Vec<Element>,
-    /// Where it was read.
+    /// Source location.
     #[serde(skip)]
     pub origin: Origin,
 }
@@ -70,13 +70,13 @@ pub struct Joint {
 pub struct Axis {
     /// Unit direction in the joint's frame.
     pub direction_in_joint: DVec3,
-    /// Lowest position [m or rad]; `-inf` is free.
+    /// Minimum position [m or rad]; `-inf` if unlimited.
     pub lower: f64,
-    /// Highest position [m or rad]; `inf` is free.
+    /// Maximum position [m or rad]; `inf` if unlimited.
     pub upper: f64,
-    /// Greatest force [N or N m]; `inf` is free.
+    /// Maximum force or torque [N or N m]; `inf` if unlimited.
     pub effort: f64,
-    /// Greatest speed [m/s or rad/s]; `inf` is free.
+    /// Maximum speed [m/s or rad/s]; `inf` if unlimited.
     pub velocity: f64,
     /// Viscous damping [N s/m or N m s/rad].
     pub damping: f64,
@@ -84,11 +84,11 @@ pub struct Axis {
     pub friction: f64,
     /// Spring constant [N/m or N m/rad].
     pub spring_stiffness: f64,
-    /// Where the spring rests [m or rad].
+    /// Rest position of the spring [m or rad].
     pub spring_reference: f64,
-    /// The joint it follows.
+    /// Joint that it follows.
     pub mimic: Option<Mimic>,
-    /// What nobody here interprets: limit stiffness and dissipation.
+    /// Uninterpreted elements: limit stiffness and dissipation.
     #[serde(serialize_with = "crate::json::elements", skip_serializing_if = "Vec::is_empty")]
     pub extra: Vec<Element>,
 }
@@ -96,15 +96,15 @@ pub struct Axis {
 /// `position = multiplier * (other - reference) + offset`.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Mimic {
-    /// The joint that leads.
+    /// Joint that it follows.
     pub joint: String,
-    /// Which of its axes: `axis` or `axis2`.
+    /// Axis of that joint: `axis` or `axis2`.
     pub axis: String,
     /// Ratio of the motions.
     pub multiplier: f64,
-    /// Added [m or rad].
+    /// Offset [m or rad].
     pub offset: f64,
-    /// Subtracted from the leader [m or rad].
+    /// Position of that joint that is subtracted [m or rad].
     pub reference: f64,
 }
 
@@ -127,7 +127,7 @@ impl Default for Axis {
 }
 
 impl Joint {
-    /// A joint without axis at the child's origin.
+    /// Returns a joint without axis at the child's origin.
     #[must_use]
     pub fn new(
         name: impl Into<String>,

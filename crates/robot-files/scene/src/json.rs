@@ -1,5 +1,4 @@
-//! How values that JSON does not know are written: XML as text, infinities as `null` (which is
-//! what `serde_json` makes of them).
+//! JSON form of values that JSON does not have: XML as text, infinities as `null` (by `serde_json`).
 
 use periplus_xml::{Element, write_element};
 use serde::Serializer;

@@ -1,11 +1,10 @@
-//! The world as plain data.
+//! Scene description as plain data.
 //!
-//! What a robot or world file means, free of how it was spelled: every pose resolved to one fixed
-//! parent, every default filled in, names scoped with `::`. What nobody here interprets is kept
-//! word for word in the `extra` lists and in [`Plugin::content`], so that writing a scene loses
-//! nothing.
+//! The meaning of a robot or world file, independent of its format: every pose resolved to one fixed
+//! parent, every default filled in, names scoped with `::`. Uninterpreted content is kept verbatim in the
+//! `extra` lists and in [`Plugin::content`], so writing a scene loses nothing.
 //!
-//! Two scenes are equal when they mean the same; [`Origin`]s do not count.
+//! Two scenes are equal if they have the same meaning; [`Origin`]s are not compared.
 
 mod actor;
 mod joint;

@@ -7,15 +7,15 @@ use serde::Serialize;
 
 use crate::Colour;
 
-/// How a light spreads.
+/// Type of a light.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum LightKind {
-    /// In all directions.
+    /// Emits in all directions.
     Point,
-    /// In parallel, from far away.
+    /// Parallel rays from infinity.
     Directional,
-    /// In a cone.
+    /// Emits in a cone.
     Spot(Spot),
 }
 
@@ -24,9 +24,9 @@ pub enum LightKind {
 pub struct Spot {
     /// Full brightness within this angle [rad].
     pub inner_angle_rad: f64,
-    /// Dark outside this angle [rad].
+    /// No light outside this angle [rad].
     pub outer_angle_rad: f64,
-    /// How it fades between them; 1 is linear.
+    /// Exponent of the falloff between them; 1 is linear.
     pub falloff: f64,
 }
 
@@ -35,17 +35,17 @@ pub struct Spot {
 pub struct Light {
     /// Its name.
     pub name: String,
-    /// Its frame in the world's or the link's.
+    /// Light frame in the world's or the link's frame.
     pub parent_from_light: Pose,
-    /// How it spreads.
+    /// Type of the light.
     pub kind: LightKind,
-    /// Where it shines, in its own frame, of any length.
+    /// Direction of the light in its own frame, of any length.
     pub direction_in_light: DVec3,
-    /// Whether it is lit.
+    /// True if it is on.
     pub is_on: bool,
-    /// Whether a viewer should draw it.
+    /// True if a viewer should draw it.
     pub visualize: bool,
-    /// Whether it casts shadows.
+    /// True if it casts shadows.
     pub cast_shadows: bool,
     /// Factor on its colours.
     pub intensity: f64,
@@ -53,12 +53,12 @@ pub struct Light {
     pub diffuse: Colour,
     /// Colour of highlights.
     pub specular: Colour,
-    /// How it fades with distance.
+    /// Attenuation with distance.
     pub attenuation: Attenuation,
-    /// What nobody here interprets.
+    /// Uninterpreted attributes and elements, kept verbatim.
     #[serde(serialize_with = "crate::json::elements", skip_serializing_if = "Vec::is_empty")]
     pub extra: Vec<Element>,
-    /// Where it was read.
+    /// Source location.
     #[serde(skip)]
     pub origin: Origin,
 }
@@ -66,12 +66,12 @@ pub struct Light {
 /// Brightness at distance d [m]: `1 / (constant + linear d + quadratic d²)` within the range.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Attenuation {
-    /// It ends here [m].
+    /// Range of the light [m].
     pub range_m: f64,
-    /// See the formula.
+    /// Constant term of the formula.
     pub constant: f64,
-    /// See the formula [1/m].
+    /// Linear term of the formula [1/m].
     pub linear: f64,
-    /// See the formula [1/m²].
+    /// Quadratic term of the formula [1/m²].
     pub quadratic: f64,
 }

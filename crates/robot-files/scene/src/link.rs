@@ -12,32 +12,32 @@ use crate::{Light, Material, Plugin, Sensor, Shape, Surface};
 pub struct Link {
     /// Its name, unique in its model.
     pub name: String,
-    /// Its frame in the model's.
+    /// Link frame in the model frame.
     pub model_from_link: Pose,
     /// Mass and inertia.
     pub inertial: Inertial,
-    /// Whether gravity pulls it.
+    /// True if gravity acts on it.
     pub gravity: bool,
-    /// Whether wind moves it.
+    /// True if wind acts on it.
     pub enable_wind: bool,
-    /// Whether it collides with other links of its model.
+    /// True if it collides with other links of its model.
     pub self_collide: bool,
-    /// Whether it is moved by its pose alone.
+    /// True if it moves only by its pose.
     pub kinematic: bool,
     /// Damping of its velocity, linear and angular [1/s].
     pub velocity_decay: [f64; 2],
-    /// What touches.
+    /// Collision shapes.
     pub collisions: Vec<Collision>,
-    /// What is seen.
+    /// Visual shapes.
     pub visuals: Vec<Visual>,
-    /// What senses.
+    /// Sensors.
     pub sensors: Vec<Sensor>,
-    /// What shines; poses are `link_from_light`.
+    /// Lights; poses are `link_from_light`.
     pub lights: Vec<Light>,
-    /// What nobody here interprets: batteries, projectors, emitters.
+    /// Uninterpreted elements: batteries, projectors, emitters.
     #[serde(serialize_with = "crate::json::elements", skip_serializing_if = "Vec::is_empty")]
     pub extra: Vec<Element>,
-    /// Where it was read.
+    /// Source location.
     #[serde(skip)]
     pub origin: Origin,
 }
@@ -51,61 +51,61 @@ pub struct Inertial {
     pub link_from_inertial: Pose,
     /// `xx, xy, xz, yy, yz, zz` about the centre of mass [kg m²].
     pub inertia_kg_m2: [f64; 6],
-    /// Whether the file leaves mass and inertia to the shapes and their densities (SDF 1.11).
+    /// True if mass and inertia are computed from the shapes and their densities (SDF 1.11).
     pub auto: bool,
-    /// Added mass of the water around it, densities and more.
+    /// Fluid added mass, densities and other elements.
     #[serde(serialize_with = "crate::json::elements", skip_serializing_if = "Vec::is_empty")]
     pub extra: Vec<Element>,
 }
 
-/// A shape that touches.
+/// Shape for contacts.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Collision {
     /// Its name, unique among the link's collisions.
     pub name: String,
-    /// Its frame in the link's.
+    /// Collision frame in the link frame.
     pub link_from_collision: Pose,
     /// Its shape.
     pub shape: Shape,
     /// Friction and contact.
     pub surface: Surface,
-    /// Brightness to a laser.
+    /// Reflectance for lidars.
     pub laser_retro: f64,
-    /// Most contact points.
+    /// Maximum number of contact points.
     pub max_contacts: u32,
-    /// What nobody here interprets.
+    /// Uninterpreted attributes and elements, kept verbatim.
     #[serde(serialize_with = "crate::json::elements", skip_serializing_if = "Vec::is_empty")]
     pub extra: Vec<Element>,
-    /// Where it was read.
+    /// Source location.
     #[serde(skip)]
     pub origin: Origin,
 }
 
-/// A shape that is seen.
+/// Shape for rendering.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Visual {
     /// Its name, unique among the link's visuals.
     pub name: String,
-    /// Its frame in the link's.
+    /// Visual frame in the link frame.
     pub link_from_visual: Pose,
     /// Its shape.
     pub shape: Shape,
-    /// Its look.
+    /// Material.
     pub material: Option<Material>,
-    /// Whether it casts shadows.
+    /// True if it casts shadows.
     pub cast_shadows: bool,
     /// 0 opaque to 1 invisible.
     pub transparency: f64,
-    /// Brightness to a laser.
+    /// Reflectance for lidars.
     pub laser_retro: f64,
-    /// Which cameras see it: those whose mask shares a bit.
+    /// Visible to cameras whose mask has a bit in common.
     pub visibility_flags: u32,
     /// Plugins: labels for segmentation and the like.
     pub plugins: Vec<Plugin>,
-    /// What nobody here interprets: `<meta>`.
+    /// Uninterpreted elements: `<meta>`.
     #[serde(serialize_with = "crate::json::elements", skip_serializing_if = "Vec::is_empty")]
     pub extra: Vec<Element>,
-    /// Where it was read.
+    /// Source location.
     #[serde(skip)]
     pub origin: Origin,
 }
@@ -124,7 +124,7 @@ impl Default for Inertial {
 }
 
 impl Link {
-    /// A link with SDF's defaults and nothing on it.
+    /// Returns a link with SDF's defaults and without content.
     #[must_use]
     pub fn new(name: impl Into<String>) -> Self {
         Self {
@@ -147,7 +147,7 @@ impl Link {
 }
 
 impl Collision {
-    /// A collision with SDF's defaults.
+    /// Returns a collision with SDF's defaults.
     #[must_use]
     pub fn new(name: impl Into<String>, shape: Shape) -> Self {
         Self {
@@ -164,7 +164,7 @@ impl Collision {
 }
 
 impl Visual {
-    /// A visual with SDF's defaults.
+    /// Returns a visual with SDF's defaults.
     #[must_use]
     pub fn new(name: impl Into<String>, shape: Shape) -> Self {
         Self {

@@ -1,4 +1,4 @@
-//! Looks.
+//! Materials.
 
 mod builtin;
 
@@ -18,7 +18,7 @@ impl Colour {
     pub const WHITE: Self = Self([1.0; 4]);
 }
 
-/// A look. What the file leaves out is `None`, for the defaults depend on what else is given.
+/// Material. Missing values are `None`, because their defaults depend on the other values.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct Material {
     /// The name of a URDF material.
@@ -29,19 +29,19 @@ pub struct Material {
     pub diffuse: Option<Colour>,
     /// Colour of highlights.
     pub specular: Option<Colour>,
-    /// Colour in the dark.
+    /// Emitted colour.
     pub emissive: Option<Colour>,
-    /// How sharp highlights are.
+    /// Sharpness of highlights.
     pub shininess: Option<f64>,
     /// An OGRE material by name; the built-in ones of Classic are known.
     pub script: Option<Script>,
-    /// Physically based maps and numbers.
+    /// Physically based textures and values.
     pub pbr: Option<Pbr>,
-    /// Whether light matters.
+    /// True if the material is lit.
     pub lighting: Option<bool>,
-    /// Whether both sides are drawn.
+    /// True if both sides are rendered.
     pub double_sided: bool,
-    /// Shaders and the rest.
+    /// Shaders and other elements.
     #[serde(serialize_with = "crate::json::elements", skip_serializing_if = "Vec::is_empty")]
     pub extra: Vec<Element>,
 }
@@ -49,13 +49,13 @@ pub struct Material {
 /// An OGRE material script.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Script {
-    /// Files and folders to look in.
+    /// Files and folders to search.
     pub uris: Vec<String>,
     /// The material's name: `Gazebo/Grey`.
     pub name: String,
 }
 
-/// Physically based looks.
+/// Physically based material.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct Pbr {
     /// 0 mirror-like to 1 matt.
@@ -64,7 +64,7 @@ pub struct Pbr {
     pub metalness: Option<f64>,
     /// Texture of the colour.
     pub albedo_map: Option<String>,
-    /// The whole element, for what is not listed here.
+    /// The whole element, for values that are not listed here.
     #[serde(serialize_with = "crate::json::optional_element")]
     pub element: Option<Element>,
 }

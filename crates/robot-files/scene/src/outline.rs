@@ -1,22 +1,22 @@
-//! What outlines enclose, as trapezoids.
+//! Decomposition of outlines into trapezoids.
 
 use crate::shape::Polyline;
 
-/// A straight piece of an outline [m].
+/// Edge of an outline [m].
 pub type Edge = [[f64; 2]; 2];
 
-/// A piece of what outlines enclose, with two sides along x.
+/// Trapezoid inside outlines, with two sides parallel to x.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Trapezoid {
-    /// Where its lower and its upper side lie along y [m].
+    /// Positions of its lower and its upper side along y [m].
     pub y_m: [f64; 2],
-    /// From where to where along x the lower side goes [m].
+    /// Extent of the lower side along x [m].
     pub low_m: [f64; 2],
-    /// The same of the upper side [m].
+    /// Extent of the upper side along x [m].
     pub high_m: [f64; 2],
 }
 
-/// The edges of the outlines of a shape; an outline closes by itself.
+/// Returns the edges of the outlines of a shape. Outlines are closed implicitly.
 ///
 /// # Errors
 /// What is wrong, to be read after the shape's name.
@@ -46,10 +46,10 @@ pub fn edges(outlines: &[Polyline], most_corners: usize) -> Result<Vec<Edge>, St
     Ok(edges)
 }
 
-/// The area inside an odd number of outlines.
+/// Returns the area inside an odd number of outlines.
 ///
-/// It is cut at the y of every corner; between two cuts no edge ends, and every second gap between
-/// edges is inside. Outlines that cross themselves are cut where their corners are only.
+/// The area is cut at the y of every corner. Between two cuts no edge ends, and every second gap between
+/// edges is inside. Outlines that intersect themselves are cut at their corners only.
 #[must_use]
 pub fn trapezoids(edges: &[Edge]) -> Vec<Trapezoid> {
     let mut levels: Vec<f64> = edges.iter().map(|[[_, y], _]| *y).collect();

@@ -1,4 +1,4 @@
-//! How time advances.
+//! Physics settings.
 
 use periplus_xml::Element;
 use serde::Serialize;
@@ -8,19 +8,19 @@ use serde::Serialize;
 pub struct Physics {
     /// Its name.
     pub name: String,
-    /// Whether it is marked as the world's default.
+    /// True if it is marked as the world's default.
     pub default: bool,
-    /// The engine that the file asks for: `ode`, `bullet`, `simbody`, `dart`.
+    /// Physics engine that the file asks for: `ode`, `bullet`, `simbody`, `dart`.
     pub engine: String,
     /// Step of the simulation [s].
     pub max_step_size_s: f64,
-    /// How fast simulated time should follow the wall; 0 is as fast as possible.
+    /// Target ratio of simulated to wall time; 0 is as fast as possible.
     pub real_time_factor: f64,
-    /// Steps per second of wall time that Classic aims at [Hz]; 0 is as fast as possible.
+    /// Target rate of steps in wall time in Gazebo Classic [Hz]; 0 is as fast as possible.
     pub real_time_update_rate_hz: f64,
-    /// Most contact points between two bodies.
+    /// Maximum number of contact points between two bodies.
     pub max_contacts: u32,
-    /// Settings of the engines.
+    /// Engine settings.
     #[serde(serialize_with = "crate::json::elements", skip_serializing_if = "Vec::is_empty")]
     pub extra: Vec<Element>,
 }

@@ -1,26 +1,26 @@
-//! Plugins, word for word.
+//! Plugins, kept verbatim.
 
 use periplus_diagnostics::Origin;
 use periplus_xml::Element;
 use serde::Serialize;
 
-/// A plugin as the file gives it. What its parameters mean is known to the crate `plugin-specs`.
+/// Plugin as written. The crate `plugin-specs` interprets its parameters.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Plugin {
-    /// Its name; in Harmonic the class, in Classic free.
+    /// Its name; in current Gazebo the class, in Gazebo Classic arbitrary.
     pub name: String,
-    /// The library that Gazebo would load.
+    /// Library that Gazebo would load.
     pub filename: String,
     /// Its parameters.
     #[serde(serialize_with = "crate::json::elements", skip_serializing_if = "Vec::is_empty")]
     pub content: Vec<Element>,
-    /// The whole element, for places in messages.
+    /// Source location of the whole element.
     #[serde(skip)]
     pub origin: Origin,
 }
 
 impl Plugin {
-    /// The text of the first parameter of a name.
+    /// Text of the first parameter of a name.
     #[must_use]
     pub fn value(&self, name: &str) -> Option<std::borrow::Cow<'_, str>> {
         self.content.iter().find(|element| element.name == name).map(Element::text)

@@ -1,4 +1,4 @@
-//! Sensors as files describe them.
+//! Sensors as described in files.
 
 mod camera;
 mod imu;
@@ -17,53 +17,52 @@ pub use noise::{Noise, NoiseKind};
 
 use crate::Plugin;
 
-/// A sensor on a link or joint.
+/// Sensor on a link or joint.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Sensor {
     /// Its name, unique on its parent.
     pub name: String,
-    /// Its frame in the link's or joint's.
+    /// Sensor frame in the link's or joint's frame.
     pub parent_from_sensor: Pose,
     /// The `type` as written: `ray`, `gpu_lidar`, `depth`, ...
     pub type_name: String,
-    /// What it measures, and how.
+    /// Measured quantity and settings.
     pub kind: SensorKind,
     /// Measurements per second [Hz]; 0 is one each step.
     pub update_rate_hz: f64,
-    /// Whether it measures though nobody listens.
+    /// True if it measures without subscribers.
     pub always_on: bool,
-    /// Whether a viewer should draw it.
+    /// True if a viewer should draw it.
     pub visualize: bool,
-    /// Whether it reports how it performs.
+    /// True if it publishes performance metrics.
     pub enable_metrics: bool,
-    /// The topic, where the file names one.
+    /// Topic, if given.
     pub topic: Option<String>,
-    /// The frame of its messages, where the file names one (`gz_frame_id` and its older
-    /// spellings).
+    /// Frame of its messages, if given (`gz_frame_id` and its older names).
     pub frame_id: Option<String>,
     /// Plugins.
     pub plugins: Vec<Plugin>,
-    /// What nobody here interprets inside the element of its kind, such as `<navsat>`, for kinds
-    /// without a list of their own.
+    /// Uninterpreted elements inside the settings of its type, such as `<navsat>`, for types without their
+    /// own list.
     #[serde(serialize_with = "crate::json::elements", skip_serializing_if = "Vec::is_empty")]
     pub kind_extra: Vec<Element>,
-    /// What nobody here interprets.
+    /// Uninterpreted attributes and elements, kept verbatim.
     #[serde(serialize_with = "crate::json::elements", skip_serializing_if = "Vec::is_empty")]
     pub extra: Vec<Element>,
-    /// Where it was read.
+    /// Source location.
     #[serde(skip)]
     pub origin: Origin,
 }
 
-/// What a sensor measures.
+/// Measured quantity of a sensor with its settings.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum SensorKind {
-    /// Distances along rays: `ray`, `gpu_ray`, `lidar`, `gpu_lidar`.
+    /// Ranges along rays: `ray`, `gpu_ray`, `lidar`, `gpu_lidar`.
     Lidar(Box<Lidar>),
-    /// Images: every kind of camera.
+    /// Images: every type of camera.
     Camera(Box<Camera>),
-    /// Turn rates and accelerations.
+    /// Angular velocity and linear acceleration.
     Imu(Box<Imu>),
     /// Position on Earth: `gps`, `navsat`. Noise of position (horizontal, vertical) and velocity
     /// (horizontal, vertical).
@@ -79,60 +78,60 @@ pub enum SensorKind {
     },
     /// Magnetic field: noise along x, y, z [T].
     Magnetometer([Noise; 3]),
-    /// Height above the start.
+    /// Height relative to the initial height.
     Altimeter {
         /// Noise of the height [m].
         vertical_position: Noise,
         /// Noise of the speed [m/s].
         vertical_velocity: Noise,
     },
-    /// Pressure of the air.
+    /// Air pressure.
     AirPressure {
-        /// Height of the world's origin above the sea [m].
+        /// Height of the world's origin above sea level [m].
         reference_altitude_m: f64,
         /// Noise [Pa].
         pressure: Noise,
     },
-    /// Touch.
+    /// Contacts.
     Contact {
-        /// The collisions that it watches.
+        /// Collisions that it monitors.
         collisions: Vec<String>,
-        /// The topic, where the file names one.
+        /// Topic, if given.
         topic: Option<String>,
     },
-    /// Forces in a joint.
+    /// Force and torque in a joint.
     ForceTorque {
         /// `child`, `parent` or `sensor`.
         frame: String,
         /// `child_to_parent` or `parent_to_child`.
         measure_direction: String,
-        /// Noise along x, y, z [N].
+        /// Noise of the force along x, y, z [N].
         force: Box<[Noise; 3]>,
-        /// Noise about x, y, z [N m].
+        /// Noise of the torque about x, y, z [N m].
         torque: Box<[Noise; 3]>,
     },
-    /// The nearest distance in a cone.
+    /// Minimum distance in a cone.
     Sonar {
         /// `cone` or `sphere`.
         geometry: String,
-        /// Nearest [m].
+        /// Minimum range [m].
         min_m: f64,
-        /// Farthest [m].
+        /// Maximum range [m].
         max_m: f64,
-        /// Radius of the cone's end [m].
+        /// Radius at the end of the cone [m].
         radius_m: f64,
     },
-    /// The models in a frustum.
+    /// Models in a frustum.
     LogicalCamera {
-        /// Nearest [m].
+        /// Near plane [m].
         near_m: f64,
-        /// Farthest [m].
+        /// Far plane [m].
         far_m: f64,
         /// Width over height.
         aspect_ratio: f64,
-        /// Angle across [rad].
+        /// Horizontal field of view [rad].
         horizontal_fov_rad: f64,
     },
-    /// A kind that nobody here interprets; its elements are in [`Sensor::extra`].
+    /// Uninterpreted type; its elements are in [`Sensor::extra`].
     Other,
 }

@@ -9,7 +9,7 @@ use serde::Serialize;
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Shape {
-    /// Nothing.
+    /// No shape.
     Empty,
     /// A box with full edge lengths.
     Box {
@@ -47,7 +47,7 @@ pub enum Shape {
         /// Half axes [m].
         radii_m: DVec3,
     },
-    /// A plane: endless to touch, of a size to see.
+    /// Plane: infinite for contacts, a rectangle for rendering.
     Plane {
         /// Unit normal.
         normal: DVec3,
@@ -58,11 +58,11 @@ pub enum Shape {
     Mesh(Mesh),
     /// Prisms over outlines; several outlines make holes.
     Polylines(Vec<Polyline>),
-    /// Ground from an image.
+    /// Terrain from an image.
     Heightmap(Box<Heightmap>),
     /// Boxes extruded from an image (Classic).
     Image(Image),
-    /// A shape that nobody here interprets.
+    /// Uninterpreted shape.
     #[serde(serialize_with = "crate::json::element")]
     Unknown(Element),
 }
@@ -70,20 +70,20 @@ pub enum Shape {
 /// Triangles from a file.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Mesh {
-    /// The URI as written; a relative one counts from the file in which [`Self::origin`] lies.
+    /// URI as written; a relative one is relative to the file of [`Self::origin`].
     pub uri: String,
-    /// The file the URI was found to name.
+    /// Resolved file of the URI.
     pub path: Option<std::path::PathBuf>,
-    /// Only this part of the file.
+    /// Name of the only part of the file to use.
     pub submesh: Option<String>,
-    /// Whether the part is moved so that its centre lies at the origin.
+    /// True if the part is moved so that its centre is at the origin.
     pub center_submesh: bool,
     /// Factors along x, y, z.
     pub scale: DVec3,
-    /// What nobody here interprets: simplification, convex decomposition.
+    /// Uninterpreted elements: simplification, convex decomposition.
     #[serde(serialize_with = "crate::json::elements", skip_serializing_if = "Vec::is_empty")]
     pub extra: Vec<Element>,
-    /// Where it was read.
+    /// Source location.
     #[serde(skip)]
     pub origin: Origin,
 }
@@ -97,23 +97,23 @@ pub struct Polyline {
     pub height_m: f64,
 }
 
-/// Ground whose height is the brightness of an image.
+/// Terrain whose height is the brightness of an image.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Heightmap {
-    /// The image as written.
+    /// URI of the image as written.
     pub uri: String,
-    /// The file the URI was found to name.
+    /// Resolved file of the URI.
     pub path: Option<std::path::PathBuf>,
     /// Extent [m].
     pub size_m: DVec3,
-    /// Shift of the centre [m].
+    /// Offset of the centre [m].
     pub position_m: DVec3,
     /// Samples per pixel.
     pub sampling: u32,
     /// Textures and blends.
     #[serde(serialize_with = "crate::json::elements", skip_serializing_if = "Vec::is_empty")]
     pub extra: Vec<Element>,
-    /// Where it was read.
+    /// Source location.
     #[serde(skip)]
     pub origin: Origin,
 }
@@ -121,22 +121,22 @@ pub struct Heightmap {
 /// Boxes extruded from the dark (or bright) pixels of an image.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Image {
-    /// The image as written.
+    /// URI of the image as written.
     pub uri: String,
-    /// The file the URI was found to name.
+    /// Resolved file of the URI.
     pub path: Option<std::path::PathBuf>,
     /// Metres per pixel [m].
     pub scale: f64,
-    /// Brightness that parts wall from floor.
+    /// Threshold of brightness between wall and floor.
     pub threshold: i64,
     /// Height of the boxes [m].
     pub height_m: f64,
     /// Pixels per box.
     pub granularity: i64,
-    /// What nobody here interprets.
+    /// Uninterpreted attributes and elements, kept verbatim.
     #[serde(serialize_with = "crate::json::elements", skip_serializing_if = "Vec::is_empty")]
     pub extra: Vec<Element>,
-    /// Where it was read.
+    /// Source location.
     #[serde(skip)]
     pub origin: Origin,
 }

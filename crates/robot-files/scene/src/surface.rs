@@ -1,4 +1,4 @@
-//! How shapes touch.
+//! Surface properties.
 
 use periplus_geometry::DVec3;
 use periplus_xml::Element;
@@ -23,15 +23,15 @@ pub struct Friction {
     pub mu: f64,
     /// Coefficient along the second.
     pub mu2: f64,
-    /// The first direction in the collision's frame, or in that of [`Self::fdir1_expressed_in`];
-    /// zero lets the engine choose.
+    /// First direction in the collision's frame, or in that of [`Self::fdir1_expressed_in`]; with zero the
+    /// physics engine chooses.
     pub fdir1: DVec3,
-    /// The link or frame of the model that the first direction stands still in
-    /// (`gz:expressed_in`), as wheels with rollers need it.
+    /// Link or frame of the model in which the first direction is fixed (`gz:expressed_in`), for wheels
+    /// with rollers.
     pub fdir1_expressed_in: Option<String>,
     /// Slip along the first direction [m/(N s)].
     pub slip1: f64,
-    /// Slip along the second.
+    /// Slip along the second direction [m/(N s)].
     pub slip2: f64,
 }
 
@@ -42,17 +42,17 @@ pub struct Contact {
     pub kp: f64,
     /// Damping [N s/m].
     pub kd: f64,
-    /// Greatest speed of correction [m/s].
+    /// Maximum speed of the penetration correction [m/s].
     pub max_vel_m_s: f64,
-    /// Depth that is left alone [m].
+    /// Penetration depth without correction [m].
     pub min_depth_m: f64,
-    /// Share of speed that a bounce keeps.
+    /// Coefficient of restitution.
     pub restitution: f64,
-    /// Speed below which nothing bounces [m/s].
+    /// Minimum speed for a bounce [m/s].
     pub bounce_threshold_m_s: f64,
-    /// Whether it only reports contacts.
+    /// True if it reports contacts without contact forces.
     pub collide_without_contact: bool,
-    /// Which others it touches: those whose category shares a bit.
+    /// Collides with shapes whose category has a bit in common.
     pub collide_bitmask: u32,
 }
 

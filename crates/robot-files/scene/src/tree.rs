@@ -6,25 +6,26 @@ use periplus_geometry::Pose;
 
 use crate::{Frame, FrameRole, JointKind, Model};
 
-/// Two frames, one hanging on the other.
+/// Transform between two frames.
 #[derive(Clone, Debug, PartialEq)]
 pub struct TfEdge {
-    /// The frame above: a link, a frame, or `world`.
+    /// Parent frame: a link, a frame, or `world`.
     pub parent: String,
-    /// The frame below: a link or a frame.
+    /// Child frame: a link or a frame.
     pub child: String,
-    /// The frame below in the frame above, all joints at zero.
+    /// Child frame in the parent frame, all joints at zero.
     pub parent_from_child: Pose,
-    /// The joint between them, if it can move.
+    /// Movable joint between them, if any.
     pub joint: Option<String>,
 }
 
-/// The links and frames of a model, nested ones with scoped names, each under what it hangs on;
-/// parents come before their children. For a model that was a URDF these are the links of the
-/// URDF, merged or not, as `robot_state_publisher` knows them.
+/// Returns the links and frames of a model as a tree, nested ones with scoped names; parents come before
+/// their children. For a model from a URDF these are the links of the URDF, merged or not, as published by
+/// `robot_state_publisher`.
 ///
-/// A link on several joints hangs on the first; links on none are roots. Frames hang on what they
-/// are attached to. A joint's frame is that of the link below it and does not show.
+/// A link with several parent joints is the child of the first; links without one are roots. Frames are
+/// children of the frame that they are attached to. Joint frames equal those of their child links and are
+/// not included.
 #[must_use]
 pub fn tf_tree(model: &Model) -> Vec<TfEdge> {
     let flat = Flat::new(model);
@@ -48,7 +49,7 @@ pub fn tf_tree(model: &Model) -> Vec<TfEdge> {
         add(parent, child, joint.moves.then(|| joint.name.clone()));
     }
     for (name, frame) in &flat.frames {
-        // The root of a URDF, when it carries no body.
+        // Root of a URDF, if it has no body.
         let root = frame.role == FrameRole::MergedLink && frame.attached_to_model;
         if frame.role != FrameRole::MergedJoint
             && !root
@@ -68,7 +69,7 @@ pub fn tf_tree(model: &Model) -> Vec<TfEdge> {
     tree
 }
 
-/// Which nodes hang together, so that no edge closes a circle (union-find with path halving).
+/// Connected nodes, so that no edge closes a loop (union-find with path halving).
 #[derive(Default)]
 struct Groups {
     index: BTreeMap<String, usize>,
@@ -76,7 +77,7 @@ struct Groups {
 }
 
 impl Groups {
-    /// Joins the groups of two nodes; false if they are one already.
+    /// Joins the groups of two nodes. Returns false if they are already in one group.
     fn join(&mut self, a: &str, b: &str) -> bool {
         let (a, b) = (self.find(a), self.find(b));
         self.above[b] = a;
@@ -100,14 +101,14 @@ impl Groups {
     }
 }
 
-/// The link of a model that carries a link, joint, frame or nested model, all by scoped names;
-/// none for `world`, an unknown name, or a circle of frames.
+/// Returns the link of a model that carries a link, joint, frame or nested model, all by scoped names;
+/// `None` for `world`, an unknown name, or a circle of frames.
 #[must_use]
 pub fn carrying_link(model: &Model, name: &str) -> Option<String> {
     Flat::new(model).link(name)
 }
 
-/// A model and the models in it, all names scoped, all poses in the frame of the outermost.
+/// Model with its nested models, all names scoped, all poses in the frame of the outermost.
 #[derive(Default)]
 struct Flat {
     links: BTreeMap<String, Pose>,
@@ -115,9 +116,9 @@ struct Flat {
     frame_index: BTreeMap<String, usize>,
     joints: Vec<FlatJoint>,
     joint_index: BTreeMap<String, usize>,
-    /// The canonical link of each model; the outermost has no name.
+    /// Canonical link of each model; the outermost has an empty name.
     canonical: BTreeMap<String, String>,
-    /// The frame around the model.
+    /// Pose of the world in the model frame.
     model_from_world: Pose,
 }
 
@@ -135,8 +136,8 @@ struct FlatJoint {
     moves: bool,
 }
 
-/// More attachments than this are a circle; real files have a handful.
-const MOST_STEPS: usize = 10_000;
+/// Maximum number of attachments that are followed; more are a circle, as real files have a few.
+const MAX_STEPS: usize = 10_000;
 
 const WORLD: &str = "world";
 
@@ -152,7 +153,7 @@ impl Flat {
         let scoped = |name: &str| format!("{scope}{name}");
         let reference = |name: &str| match name {
             WORLD => WORLD.to_owned(),
-            // The outermost model has no name of its own.
+            // The outermost model has an empty name.
             "__model__" | "" => scope.strip_suffix("::").unwrap_or_default().to_owned(),
             name => scoped(name),
         };
@@ -189,14 +190,14 @@ impl Flat {
         }
     }
 
-    /// One step from a name towards a link; the name itself where there is none.
+    /// Follows one attachment towards a link; returns the name itself at the end.
     fn step<'a>(&'a self, name: &'a str, through_frames: bool) -> Option<&'a str> {
         if name == WORLD || self.links.contains_key(name) {
             return Some(name);
         }
         if let Some(frame) = self.frame_index.get(name).map(|&frame| &self.frames[frame].1) {
             if frame.role == FrameRole::MergedJoint && frame.attached_to_model && !through_frames {
-                // The root of a URDF that was its link `world`.
+                // Root of a URDF that was its link `world`.
                 return Some(WORLD);
             }
             let stops = frame.role != FrameRole::MergedJoint && !through_frames;
@@ -208,19 +209,19 @@ impl Flat {
         self.canonical.get(name).map(String::as_str)
     }
 
-    /// The node of the tree that a name stands for.
+    /// Node of the tree for a name.
     fn node(&self, name: &str) -> Option<String> {
         self.walk(name, false)
     }
 
-    /// The link that carries what a name stands for.
+    /// Link that carries the named frame.
     fn link(&self, name: &str) -> Option<String> {
         self.walk(name, true).filter(|link| link != WORLD)
     }
 
     fn walk(&self, name: &str, through_frames: bool) -> Option<String> {
         let mut name = name;
-        for _ in 0..MOST_STEPS {
+        for _ in 0..MAX_STEPS {
             let next = self.step(name, through_frames)?;
             if next == name {
                 return Some(name.to_owned());

@@ -1,4 +1,4 @@
-//! Whole files and worlds.
+//! Scenes and worlds.
 
 use periplus_diagnostics::Origin;
 use periplus_geometry::{DVec3, Pose};
@@ -7,7 +7,7 @@ use serde::Serialize;
 
 use crate::{Actor, Colour, Frame, Joint, Light, Model, Physics, Plugin};
 
-/// All that one file holds: worlds, or models, lights and actors that stand alone.
+/// Content of one file: worlds, or models, lights and actors outside any world.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct Scene {
     /// Worlds, in order.
@@ -20,8 +20,8 @@ pub struct Scene {
     pub actors: Vec<Actor>,
 }
 
-/// A place with models and lights in it. Its frame is named `world`: x east, y north, z up
-/// (REP 103) unless [`SphericalCoordinates::heading_rad`] says otherwise.
+/// World with models and lights. Its frame is named `world`: x east, y north, z up (REP 103) unless
+/// [`SphericalCoordinates::heading_rad`] rotates it.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct World {
     /// Its name.
@@ -32,21 +32,21 @@ pub struct World {
     pub magnetic_field_t: DVec3,
     /// Wind in the world frame [m/s].
     pub wind_m_s: DVec3,
-    /// Step sizes and solver settings. There is always at least one; the default comes first.
+    /// Step sizes and solver settings. Never empty; the default comes first.
     pub physics: Vec<Physics>,
     /// Ambient light of the scene.
     pub ambient: Colour,
     /// Colour of the sky.
     pub background: Colour,
-    /// Whether lights cast shadows.
+    /// True if lights cast shadows.
     pub shadows: bool,
-    /// Whether a viewer should draw a grid.
+    /// True if a viewer should draw a grid.
     pub grid: bool,
-    /// Where on Earth the world is.
+    /// Geographic position.
     pub spherical_coordinates: Option<SphericalCoordinates>,
-    /// The window's settings.
+    /// Settings of the GUI.
     pub gui: Option<Gui>,
-    /// Frames fixed in the world or to something in it; poses are `world_from_frame`.
+    /// Frames attached to the world or to an entity in it; poses are `world_from_frame`.
     pub frames: Vec<Frame>,
     /// Models.
     pub models: Vec<Model>,
@@ -58,17 +58,17 @@ pub struct World {
     pub actors: Vec<Actor>,
     /// World plugins (systems).
     pub plugins: Vec<Plugin>,
-    /// What nobody here interprets.
+    /// Uninterpreted attributes and elements, kept verbatim.
     #[serde(serialize_with = "crate::json::elements", skip_serializing_if = "Vec::is_empty")]
     pub extra: Vec<Element>,
-    /// Where it was read.
+    /// Source location.
     #[serde(skip)]
     pub origin: Origin,
 }
 
 impl World {
-    /// A world with nothing in it, and the defaults of SDF: 9.8 m/s² down, the Earth's magnetic
-    /// field at Gazebo's home, grey light.
+    /// Returns an empty world with the defaults of SDF: gravity 9.8 m/s² down, the Earth's magnetic field
+    /// at Gazebo's default location, grey light.
     #[must_use]
     pub fn empty(name: impl Into<String>) -> Self {
         Self {
@@ -95,7 +95,7 @@ impl World {
     }
 }
 
-/// Where on Earth a world is.
+/// Geographic position and orientation of a world.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct SphericalCoordinates {
     /// `EARTH_WGS84`, `MOON_SCS` or `CUSTOM_SURFACE`.
@@ -108,26 +108,26 @@ pub struct SphericalCoordinates {
     pub longitude_rad: f64,
     /// Height of the world's origin above the surface [m].
     pub elevation_m: f64,
-    /// Turn of the world frame about up, against east [rad].
+    /// Yaw of the world frame relative to east [rad].
     pub heading_rad: f64,
     /// Axes of a custom surface.
     #[serde(serialize_with = "crate::json::elements", skip_serializing_if = "Vec::is_empty")]
     pub extra: Vec<Element>,
 }
 
-/// The window's settings.
+/// Settings of the GUI.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Gui {
-    /// Whether it fills the screen.
+    /// True if it fills the screen.
     pub fullscreen: bool,
-    /// Where the view starts from, `world_from_camera` with x forward.
+    /// Initial pose of the view's camera, with x forward.
     pub world_from_camera: Option<Pose>,
-    /// The rest of the view's camera.
+    /// Other elements of the view's camera.
     #[serde(serialize_with = "crate::json::elements", skip_serializing_if = "Vec::is_empty")]
     pub camera_extra: Vec<Element>,
-    /// Plugins of the window.
+    /// Plugins of the GUI.
     pub plugins: Vec<Plugin>,
-    /// What nobody here interprets.
+    /// Uninterpreted attributes and elements, kept verbatim.
     #[serde(serialize_with = "crate::json::elements", skip_serializing_if = "Vec::is_empty")]
     pub extra: Vec<Element>,
 }

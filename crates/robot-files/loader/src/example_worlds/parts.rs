@@ -1,4 +1,4 @@
-//! Pieces of SDF that the example worlds are made of.
+//! Pieces of SDF for the example worlds.
 
 /// A colour as SDF writes it.
 pub(super) type Rgb = [f64; 3];
@@ -26,7 +26,7 @@ pub(super) const MAGNETOMETER: System = ("magnetometer", "Magnetometer");
 pub(super) const FORCE_TORQUE: System = ("forcetorque", "ForceTorque");
 pub(super) const RENDERING: System = ("sensors", "Sensors");
 
-/// A world with the usual systems and `more`, light, a floor and `content`.
+/// World with the usual systems and `more`, light, a floor and `content`.
 pub(super) fn world(name: &str, more: &[System], content: &str) -> String {
     let systems: String = [PHYSICS, COMMANDS, BROADCASTER]
         .iter()
@@ -61,7 +61,7 @@ pub(super) fn material([r, g, b]: Rgb) -> String {
     format!("<material><ambient>{r} {g} {b} 1</ambient><diffuse>{r} {g} {b} 1</diffuse></material>")
 }
 
-/// A simple shape, its moments of inertia per kilogram about its own axes [m²], and its SDF.
+/// Simple shape: its moments of inertia per kilogram about its own axes [m²], and its SDF.
 pub(super) struct Solid {
     geometry: String,
     moments_per_kg: [f64; 3],
@@ -91,7 +91,7 @@ pub(super) fn cylinder(radius_m: f64, length_m: f64) -> Solid {
     }
 }
 
-/// A capsule; its inertia is that of a cylinder of its whole length.
+/// Capsule; its inertia is that of a cylinder of the whole length.
 pub(super) fn capsule(radius_m: f64, length_m: f64) -> Solid {
     Solid {
         geometry: format!(
@@ -109,7 +109,7 @@ pub(super) fn ellipsoid([x, y, z]: [f64; 3]) -> Solid {
 }
 
 impl Solid {
-    /// Inertial, collision and visual of a link, all at the shape's middle.
+    /// Inertial, collision and visual of a link, all at the centre of the shape.
     pub(super) fn on_link(&self, mass_kg: f64, pose: &str, colour: Rgb, surface: &str) -> String {
         let [ixx, iyy, izz] = self.moments_per_kg.map(|moment| moment * mass_kg);
         let geometry = &self.geometry;
@@ -123,7 +123,7 @@ impl Solid {
         )
     }
 
-    /// A model of this shape alone.
+    /// Model with only this shape.
     pub(super) fn model(&self, name: &str, pose: &str, mass_kg: f64, colour: Rgb) -> String {
         format!(
             "<model name=\"{name}\"><pose>{pose}</pose><link name=\"{name}_link\">{}</link></model>\n",
@@ -131,7 +131,7 @@ impl Solid {
         )
     }
 
-    /// The same, fixed to the world.
+    /// Static model with only this shape.
     pub(super) fn fixed(&self, name: &str, pose: &str, colour: Rgb, sensors: &str) -> String {
         format!(
             "<model name=\"{name}\"><static>true</static><pose>{pose}</pose><link name=\"link\">\
@@ -141,7 +141,7 @@ impl Solid {
     }
 }
 
-/// A camera of some type, with 320 by 240 pixels.
+/// Camera of a type, with 320 by 240 pixels.
 pub(super) fn camera(name: &str, kind: &str, topic: &str, rate_hz: u32, more: &str) -> String {
     let format = if kind == "depth_camera" { "R_FLOAT32" } else { "R8G8B8" };
     let trigger = match more {
@@ -157,7 +157,7 @@ pub(super) fn camera(name: &str, kind: &str, topic: &str, rate_hz: u32, more: &s
     )
 }
 
-/// A lidar all around, in 16 rows.
+/// 360° lidar with 16 rows.
 pub(super) fn lidar(name: &str, topic: &str) -> String {
     format!(
         "<sensor name=\"{name}\" type=\"gpu_lidar\"><topic>{topic}</topic>\
@@ -169,7 +169,7 @@ pub(super) fn lidar(name: &str, topic: &str) -> String {
     )
 }
 
-/// A sensor that needs no settings.
+/// Sensor without settings.
 pub(super) fn plain_sensor(name: &str, kind: &str, rate_hz: u32) -> String {
     format!(
         "<sensor name=\"{name}\" type=\"{kind}\"><topic>{name}</topic>\
@@ -177,7 +177,7 @@ pub(super) fn plain_sensor(name: &str, kind: &str, rate_hz: u32) -> String {
     )
 }
 
-/// A few things in front of a sensor at the origin.
+/// Models in front of a sensor at the origin.
 pub(super) fn scenery() -> String {
     [
         cuboid([1.0, 1.0, 1.0]).model("box", "3 0.8 0.5 0 0 0.4", 1.0, RED),

@@ -13,7 +13,7 @@ const WHEEL_SEPARATION_M: f64 = 0.6;
 /// Distance between front and rear axle of vehicles with four wheels [m].
 const WHEEL_BASE_M: f64 = 0.7;
 
-/// A surface that slides in every direction: a caster is a ball without friction.
+/// Frictionless surface: a caster is a ball without friction.
 const SLIPPERY: &str = "<surface><friction><ode><mu>0</mu><mu2>0</mu2></ode></friction></surface>";
 
 fn wheel(name: &str, x_m: f64, y_m: f64, surface: &str) -> String {
@@ -24,7 +24,7 @@ fn wheel(name: &str, x_m: f64, y_m: f64, surface: &str) -> String {
     )
 }
 
-/// A hinge about the child's z, which is the axle of a wheel and the upright of a steered one.
+/// Revolute joint about the child's z: the axle of a wheel and the kingpin of a steered one.
 fn hinge(name: &str, parent: &str, child: &str, limit_rad: Option<f64>) -> String {
     let limit = limit_rad.map_or(String::new(), |limit| {
         format!("<limit><lower>-{limit}</lower><upper>{limit}</upper></limit>")
@@ -42,7 +42,7 @@ fn chassis(colour: Rgb, sensors: &str) -> String {
     )
 }
 
-/// Two driven wheels and a caster, with the plugins given.
+/// Two driven wheels and a caster, with the given plugins.
 pub(super) fn two_wheels(
     name: &str,
     pose: &str,
@@ -97,7 +97,7 @@ pub(super) fn battery() -> String {
         .to_owned()
 }
 
-/// Places of four wheels: front or rear, left or right, x and y [m].
+/// Positions of four wheels: front or rear, left or right, x and y [m].
 fn four_places() -> [(&'static str, &'static str, f64, f64); 4] {
     let (x, y) = (WHEEL_BASE_M / 2.0, WHEEL_SEPARATION_M / 2.0);
     [
@@ -108,11 +108,11 @@ fn four_places() -> [(&'static str, &'static str, f64, f64); 4] {
     ]
 }
 
-/// Four wheels with rollers, which let it drive in any direction.
+/// Four mecanum wheels.
 pub(super) fn mecanum(name: &str, colour: Rgb) -> String {
     let mut text = format!("<model name=\"{name}\">{}", chassis(colour, ""));
     for (end, side, x_m, y_m) in four_places() {
-        // Rollers lie at 45 degrees: along front left to rear right, and the mirror image.
+        // The rollers are at 45 degrees: along front left to rear right, and the mirror image.
         let along = if (x_m > 0.0) == (y_m > 0.0) { "1 -1 0" } else { "1 1 0" };
         let surface = format!(
             "<surface><friction><ode><mu>1</mu><mu2>0</mu2><fdir1 gz:expressed_in=\"chassis\">\
@@ -136,7 +136,7 @@ pub(super) fn mecanum(name: &str, colour: Rgb) -> String {
     text
 }
 
-/// A car: the front wheels are steered.
+/// Car with steered front wheels.
 pub(super) fn car(name: &str, colour: Rgb) -> String {
     let mut text = format!("<model name=\"{name}\">{}", chassis(colour, ""));
     for (end, side, x_m, y_m) in four_places() {
@@ -176,7 +176,7 @@ pub(super) fn car(name: &str, colour: Rgb) -> String {
     text
 }
 
-/// An arm that turns about an upright, with a plugin that moves its joint `j1`.
+/// Arm that rotates about a vertical axis, with a plugin for its joint `j1`.
 pub(super) fn rotor(name: &str, pose: &str, plugin: &str) -> String {
     format!(
         "<model name=\"{name}\"><pose>{pose}</pose><link name=\"base_link\">{}</link>\
@@ -189,7 +189,7 @@ pub(super) fn rotor(name: &str, pose: &str, plugin: &str) -> String {
     )
 }
 
-/// Two rods that swing below a stand.
+/// Double pendulum on a stand.
 pub(super) fn pendulum(name: &str, plugin: &str) -> String {
     let rod = |name: &str, z_m: f64| {
         format!(

@@ -1,4 +1,4 @@
-//! The worlds themselves.
+//! Texts of the example worlds.
 
 use super::parts::{
     AIR_PRESSURE, ALTIMETER, BLUE, CONTACT, FORCE_TORQUE, GREEN, GREY, IMU, MAGNETOMETER, NAVSAT,
@@ -9,7 +9,7 @@ use super::robots::{
     battery, car, diff_drive, mecanum, pendulum, rotor, two_wheels, velocity_control,
 };
 
-/// Name without `.sdf`, and what makes the text.
+/// Name without `.sdf`, and function that returns the text.
 type Entry = (&'static str, fn() -> String);
 
 /// All worlds.
@@ -64,12 +64,12 @@ pub(super) const WORLDS: [Entry; 30] = [
     }),
 ];
 
-/// The text of a built-in world.
+/// Text of a built-in world.
 pub(super) fn text(name: &str) -> Option<String> {
     WORLDS.iter().find(|(known, _)| *known == name).map(|(_, make)| make())
 }
 
-/// One of each simple shape in a row, `above_m` over the floor.
+/// Row of simple shapes, `above_m` above the floor.
 fn shapes(above_m: f64) -> String {
     let at = |y_m: f64, half_height_m: f64| {
         format!("0 {y_m} {} 0 {} 0", half_height_m + above_m, above_m / 10.0)
@@ -112,13 +112,13 @@ fn nested() -> String {
     world("nested_model_world", &[], &content)
 }
 
-/// A housing with sensors at the height of a robot's, before some scenery.
+/// Sensor housing at the height of a robot, in front of some models.
 fn stand(name: &str, pose: &str, sensors: &str) -> String {
     cuboid([0.1, 0.1, 0.1]).fixed(name, pose, GREY, sensors)
 }
 
 fn seen_by(name: &str, sensor: &str) -> String {
-    // The housing of a lidar must be closer than its least range.
+    // The housing of a lidar must be closer than its minimum range.
     let model = if name.contains("lidar") { "model_with_lidar" } else { "camera" };
     let content = stand(model, "0 0 0.5 0 0 0", sensor) + &scenery();
     world(name, &[RENDERING], &content)
@@ -196,7 +196,7 @@ fn contact_sensor() -> String {
 }
 
 fn spherical_coordinates() -> String {
-    // Where Periplus of Massalia, the first account of a voyage to the north, began.
+    // Massalia (Marseille), where the Massaliote Periplus began.
     let origin = "<spherical_coordinates><surface_model>EARTH_WGS84</surface_model>\
                   <world_frame_orientation>ENU</world_frame_orientation>\
                   <latitude_deg>43.2952</latitude_deg><longitude_deg>5.3745</longitude_deg>\
@@ -209,7 +209,7 @@ fn spherical_coordinates() -> String {
     world("spherical_coordinates", &[NAVSAT], &(origin.to_owned() + &model))
 }
 
-/// A blue and a green vehicle with the same plugins.
+/// Blue and green vehicle with the same plugins.
 fn vehicles(name: &str, plugins: &str) -> String {
     let vehicle =
         |model: &str, pose: &str, colour: Rgb| two_wheels(model, pose, colour, "", plugins);

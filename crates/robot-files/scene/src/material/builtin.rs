@@ -1,8 +1,7 @@
-//! The materials that Gazebo brings along under `Gazebo/...`, as colours.
+//! Gazebo's materials `Gazebo/...`, as colours.
 //!
-//! The numbers are those behind the names in `gazebo.material` (gz-sim, `MaterialParser`, and
-//! before it Gazebo Classic). A material with a picture there is given one colour here, chosen by
-//! eye to resemble the picture from afar.
+//! The values are those of `gazebo.material` (gz-sim, `MaterialParser`, and before it Gazebo Classic). A
+//! material with a texture has one colour here, chosen by eye to resemble the texture from a distance.
 
 use super::{Colour, Material};
 
@@ -10,29 +9,29 @@ use super::{Colour, Material};
 type Row = (&'static str, [f64; 4], [f64; 4], [f64; 4], [f64; 3]);
 
 const DARK: [f64; 3] = [0.0; 3];
-/// How most of them shine.
+/// Default specular colour.
 const SHEEN: [f64; 3] = [0.1; 3];
 
 const fn opaque([r, g, b]: [f64; 3]) -> [f64; 4] {
     [r, g, b, 1.0]
 }
 
-/// The same colour in the shade and in the light.
+/// Same ambient and diffuse colour.
 const fn plain(name: &'static str, rgb: [f64; 3], specular: [f64; 3]) -> Row {
     (name, opaque(rgb), opaque(rgb), opaque(specular), DARK)
 }
 
-/// A colour that shines by itself.
+/// Emissive colour.
 const fn glowing(name: &'static str, rgb: [f64; 3], specular: [f64; 3]) -> Row {
     (name, opaque(rgb), opaque(rgb), opaque(specular), rgb)
 }
 
-/// A colour through which one sees.
+/// Transparent colour.
 const fn clear(name: &'static str, [r, g, b]: [f64; 3], alpha: f64) -> Row {
     (name, [r, g, b, alpha], [r, g, b, alpha], opaque(DARK), DARK)
 }
 
-/// A picture, by the colour that resembles it.
+/// Texture, by the colour that resembles it.
 const fn picture(name: &'static str, rgb: [f64; 3]) -> Row {
     plain(name, rgb, [0.01; 3])
 }
@@ -134,10 +133,10 @@ const TABLE: &[Row] = &[
     ("Gazebo/SkyBlue", opaque([0.13, 0.44, 0.7]), opaque([0.0, 0.0, 1.0]), opaque(SHEEN), DARK),
 ];
 
-/// The colours of one of Gazebo's built-in materials, by its full name, such as `Gazebo/Grey`.
+/// Colours of one of Gazebo's built-in materials, by its full name, such as `Gazebo/Grey`.
 #[must_use]
 pub fn builtin_material(name: &str) -> Option<Material> {
-    // Some files turn the two words around.
+    // Some files swap the two words.
     let turned =
         name.strip_prefix("Gazebo/Transparent").map(|colour| format!("Gazebo/{colour}Transparent"));
     let row = TABLE.iter().find(|row| row.0 == name || Some(row.0) == turned.as_deref())?;
@@ -151,7 +150,7 @@ pub fn builtin_material(name: &str) -> Option<Material> {
     })
 }
 
-/// The full names of all built-in materials.
+/// Full names of all built-in materials.
 pub fn builtin_material_names() -> impl Iterator<Item = &'static str> + Clone {
     TABLE.iter().map(|row| row.0)
 }

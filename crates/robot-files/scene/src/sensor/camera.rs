@@ -1,4 +1,4 @@
-//! Images.
+//! Cameras.
 
 use periplus_geometry::Pose;
 use periplus_xml::Element;
@@ -6,68 +6,68 @@ use serde::Serialize;
 
 use crate::Noise;
 
-/// What the pixels are.
+/// Content of the pixels.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum CameraKind {
-    /// Colours.
+    /// Colour.
     Colour,
-    /// Distances along the optical axis.
+    /// Depth along the optical axis.
     Depth,
-    /// Both.
+    /// Colour and depth.
     Rgbd,
-    /// Temperatures.
+    /// Temperature.
     Thermal,
-    /// Labels.
+    /// Semantic labels.
     Segmentation,
-    /// Boxes around labelled things.
+    /// Bounding boxes of labelled objects.
     BoundingBox,
-    /// Colours through a wide lens.
+    /// Colour with a wide-angle lens.
     WideAngle,
     /// Several cameras in one sensor (Classic).
     Multi,
 }
 
-/// A camera. It looks along x of its own frame, y to the left, z up.
+/// Camera. Its optical axis is x of its own frame, with y to the left and z up.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Camera {
-    /// Its name, where the file gives one.
+    /// Name, if given.
     pub name: Option<String>,
-    /// What the pixels are.
+    /// Content of the pixels.
     pub kind: CameraKind,
-    /// Its frame in the sensor's.
+    /// Camera frame in the sensor frame.
     pub sensor_from_camera: Pose,
-    /// Angle across [rad].
+    /// Horizontal field of view [rad].
     pub horizontal_fov_rad: f64,
-    /// Pixels across.
+    /// Width [px].
     pub width: u32,
-    /// Pixels down.
+    /// Height [px].
     pub height: u32,
     /// Pixel format: `R8G8B8`, `L8`, `R_FLOAT32`, ...
     pub format: String,
-    /// Nearest [m].
+    /// Near clip distance [m].
     pub near_m: f64,
-    /// Farthest [m].
+    /// Far clip distance [m].
     pub far_m: f64,
-    /// Nearest and farthest of the depth part [m], where the file gives them.
+    /// Near and far clip distance of the depth part [m], if given.
     pub depth_clip_m: Option<[f64; 2]>,
     /// Noise of a channel, in 0..1.
     pub noise: Noise,
     /// Distortion of the lens.
     pub distortion: Option<Distortion>,
-    /// The topic of its camera info, where the file names one.
+    /// Topic of its camera info, if given.
     pub camera_info_topic: Option<String>,
-    /// The frame of its images, where the file names one.
+    /// Frame of its images, if given.
     pub optical_frame_id: Option<String>,
-    /// Whether it waits for a trigger.
+    /// True if it captures on a trigger.
     pub triggered: bool,
-    /// Which visuals it sees.
+    /// Mask of the visuals that it renders.
     pub visibility_mask: u32,
-    /// `semantic`, `instance`, `panoptic`; or `2d`, `visible_2d`, `full_2d`, `3d` of boxes.
+    /// Type of labels: `semantic`, `instance`, `panoptic`; or `2d`, `visible_2d`, `full_2d`, `3d` of boxes.
     pub label_type: Option<String>,
     /// More cameras of a multi-camera.
     pub others: Vec<Self>,
-    /// Lens, saving and the rest.
+    /// Lens, saving and other elements.
     #[serde(serialize_with = "crate::json::elements", skip_serializing_if = "Vec::is_empty")]
     pub extra: Vec<Element>,
 }
@@ -75,16 +75,16 @@ pub struct Camera {
 /// Brown's distortion (plumb bob).
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Distortion {
-    /// Radial.
+    /// Radial coefficient.
     pub k1: f64,
-    /// Radial.
+    /// Radial coefficient.
     pub k2: f64,
-    /// Radial.
+    /// Radial coefficient.
     pub k3: f64,
-    /// Tangential.
+    /// Tangential coefficient.
     pub p1: f64,
-    /// Tangential.
+    /// Tangential coefficient.
     pub p2: f64,
-    /// Centre in 0..1 of the image.
+    /// Centre as a fraction of the image size.
     pub center: [f64; 2],
 }

@@ -1,21 +1,21 @@
-//! Turn rates and accelerations.
+//! Inertial measurement units.
 
 use periplus_xml::Element;
 use serde::Serialize;
 
 use crate::Noise;
 
-/// An inertial measurement unit.
+/// Inertial measurement unit.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Imu {
     /// Noise about x, y, z [rad/s].
     pub angular_velocity: [Noise; 3],
     /// Noise along x, y, z [m/s²].
     pub linear_acceleration: [Noise; 3],
-    /// Whether it reports an orientation.
+    /// True if it reports an orientation.
     pub enable_orientation: bool,
-    /// What the orientation is measured against: `CUSTOM`, `ENU`, `NED`, `NWU`, `GRAV_UP`,
-    /// `GRAV_DOWN`; none for the orientation at the start.
+    /// Reference of the orientation: `CUSTOM`, `ENU`, `NED`, `NWU`, `GRAV_UP`, `GRAV_DOWN`; `None` for the
+    /// initial orientation.
     pub localization: Option<String>,
     /// Custom reference frames.
     #[serde(serialize_with = "crate::json::elements", skip_serializing_if = "Vec::is_empty")]

@@ -1,38 +1,38 @@
-//! Distances along rays.
+//! Lidars.
 
 use periplus_xml::Element;
 use serde::Serialize;
 
 use crate::Noise;
 
-/// A lidar: a fan of rays, or a grid of them.
+/// Lidar with one or several rows of rays.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Lidar {
-    /// Rays about z.
+    /// Horizontal rays, about z.
     pub horizontal: ScanAxis,
-    /// Rays up and down.
+    /// Vertical rays.
     pub vertical: ScanAxis,
-    /// Nearest [m].
+    /// Minimum range [m].
     pub range_min_m: f64,
-    /// Farthest [m].
+    /// Maximum range [m].
     pub range_max_m: f64,
-    /// Step of the ranges [m].
+    /// Resolution of the ranges [m].
     pub range_resolution_m: f64,
     /// Noise of a range [m].
     pub noise: Noise,
-    /// Which visuals it sees: those whose flags share a bit.
+    /// Mask of the visuals that it detects: those whose flags have a bit in common.
     pub visibility_mask: u32,
-    /// What nobody here interprets.
+    /// Uninterpreted attributes and elements, kept verbatim.
     #[serde(serialize_with = "crate::json::elements", skip_serializing_if = "Vec::is_empty")]
     pub extra: Vec<Element>,
 }
 
-/// Rays between two angles, both ends included.
+/// Rays between two angles, both included.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct ScanAxis {
-    /// Rays that are cast.
+    /// Number of rays that are cast.
     pub samples: u32,
-    /// Ranges per ray that are reported.
+    /// Number of reported ranges per ray.
     pub resolution: f64,
     /// First angle [rad].
     pub min_angle_rad: f64,
