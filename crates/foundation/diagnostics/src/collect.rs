@@ -1,12 +1,12 @@
-//! Findings as they gather during a reading.
+//! Collection of findings while a file is read.
 
 use crate::{Diagnostic, Severity};
 
-/// A broken file may repeat one slip a million times; more than this many findings are only
-/// counted.
-pub const MOST_KEPT: usize = 1_000;
+/// Maximum number of findings that are kept; further ones are only counted, as a broken file may repeat one
+/// fault a million times.
+pub const MAX_FINDINGS: usize = 1_000;
 
-/// The findings of a reading, in the order in which they were met.
+/// Findings of a reader, in the order of their detection.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Diagnostics {
     kept: Vec<Diagnostic>,
@@ -14,13 +14,13 @@ pub struct Diagnostics {
 }
 
 impl Diagnostics {
-    /// No findings.
+    /// Returns an empty collection.
     #[must_use]
     pub fn new() -> Self {
         Self::default()
     }
 
-    /// Adds a finding. The same finding at the same place counts once.
+    /// Adds a finding. A repetition at the same location is dropped.
     pub fn push(&mut self, mut diagnostic: Diagnostic) {
         shorten(&mut diagnostic);
         let repeated = |earlier: &Diagnostic| {
@@ -28,20 +28,20 @@ impl Diagnostics {
                 && earlier.span == diagnostic.span
                 && earlier.message == diagnostic.message
         };
-        // A repetition comes soon after its first (two readers of one element), so a short look
-        // back is enough and keeps this linear.
+        // A repetition follows soon after the first (two readers of one element), so a short look back is
+        // enough and keeps this linear.
         if self.kept.iter().rev().take(64).any(repeated) {
             return;
         }
         self.counts[diagnostic.severity as usize] += 1;
-        if self.kept.len() < MOST_KEPT
+        if self.kept.len() < MAX_FINDINGS
             || diagnostic.severity == Severity::Error && self.errors() == 1
         {
             self.kept.push(diagnostic);
         }
     }
 
-    /// Adds all findings of another reading.
+    /// Adds all findings of another collection.
     pub fn append(&mut self, other: Self) {
         let mut unkept = other.counts;
         for diagnostic in other.kept {
@@ -53,36 +53,36 @@ impl Diagnostics {
         }
     }
 
-    /// The findings, at most about [`MOST_KEPT`] of them.
+    /// Findings, at most about [`MAX_FINDINGS`] of them.
     pub fn iter(&self) -> impl Iterator<Item = &Diagnostic> {
         self.kept.iter()
     }
 
-    /// How many there were of one severity, kept or not.
+    /// Number of findings of one severity, kept or not.
     #[must_use]
     pub fn count(&self, severity: Severity) -> usize {
         self.counts[severity as usize]
     }
 
-    /// How many errors there were.
+    /// Number of errors.
     #[must_use]
     pub fn errors(&self) -> usize {
         self.count(Severity::Error)
     }
 
-    /// Whether something was lost or cannot work.
+    /// Returns true if there is any error.
     #[must_use]
     pub fn has_errors(&self) -> bool {
         self.errors() > 0
     }
 
-    /// Whether there is nothing to say.
+    /// Returns true if there are no findings.
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.counts == [0; 3]
     }
 
-    /// How many findings were counted but not kept.
+    /// Number of findings that were counted but not kept.
     #[must_use]
     pub fn unkept(&self) -> usize {
         self.counts.iter().sum::<usize>() - self.kept.len()
@@ -95,8 +95,8 @@ impl Extend<Diagnostic> for Diagnostics {
     }
 }
 
-/// A name in a hostile file may be as long as the file; a message that quotes it need not be.
-const LONGEST: usize = 2_000;
+/// Maximum length of a message [bytes]. A name in a hostile file may be as long as the file.
+const MAX_TEXT_BYTES: usize = 2_000;
 
 fn shorten(diagnostic: &mut Diagnostic) {
     let related = diagnostic.related.iter_mut().map(|(_, label)| label);
@@ -106,8 +106,8 @@ fn shorten(diagnostic: &mut Diagnostic) {
         .chain(&mut diagnostic.notes)
         .chain(&mut diagnostic.help)
         .chain(diagnostic.replacement.iter_mut().flat_map(|r| [&mut r.text, &mut r.message]));
-    for text in texts.filter(|text| text.len() > LONGEST) {
-        let cut = (0..=LONGEST).rev().find(|&cut| text.is_char_boundary(cut)).unwrap_or(0);
+    for text in texts.filter(|text| text.len() > MAX_TEXT_BYTES) {
+        let cut = (0..=MAX_TEXT_BYTES).rev().find(|&cut| text.is_char_boundary(cut)).unwrap_or(0);
         text.truncate(cut);
         text.push_str(" ...");
     }
@@ -125,7 +125,7 @@ mod tests {
         }
         diagnostics.push(Diagnostic::error("end", "the end"));
         assert_eq!(diagnostics.count(Severity::Warning), 1_000_000);
-        assert_eq!(diagnostics.iter().count(), MOST_KEPT + 1);
+        assert_eq!(diagnostics.iter().count(), MAX_FINDINGS + 1);
         assert!(diagnostics.iter().any(|d| d.code == "end"));
     }
 

@@ -1,15 +1,15 @@
-//! One finding.
+//! Single finding.
 
 use crate::source::{Origin, Span};
 
-/// How bad a finding is.
+/// Severity of a finding.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Severity {
-    /// It works, and could be better.
+    /// Possible improvement.
     Hint,
-    /// It works, but hardly as meant.
+    /// Works, but probably not as intended.
     Warning,
-    /// Something was lost or cannot work.
+    /// Content was lost or cannot work.
     Error,
 }
 
@@ -25,42 +25,42 @@ impl Severity {
     }
 }
 
-/// A text to put in the place of a span.
+/// Replacement text for a span.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Replacement {
-    /// What to replace.
+    /// Span to replace.
     pub span: Span,
-    /// What to write instead.
+    /// New text.
     pub text: String,
-    /// Why, in words: "did you mean `radius`?".
+    /// Reason, in words: "did you mean `radius`?".
     pub message: String,
 }
 
-/// One finding: what is wrong, where, and what to do.
+/// Finding: the fault, its location, and advice.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Diagnostic {
-    /// How bad it is.
+    /// Severity of the finding.
     pub severity: Severity,
-    /// A short stable name for scripts and searches, such as `unknown-element`.
+    /// Short stable name for scripts and searches, such as `unknown-element`.
     pub code: &'static str,
-    /// What is wrong, in one sentence without a full stop.
+    /// Description of the fault, in one sentence without a full stop.
     pub message: String,
-    /// Where it is wrong.
+    /// Location of the fault.
     pub span: Option<Span>,
-    /// What to say beside the marked text.
+    /// Label of the marked text.
     pub label: Option<String>,
-    /// Other places that belong to the finding.
+    /// Other locations that belong to the finding.
     pub related: Vec<(Span, String)>,
     /// Facts that explain it.
     pub notes: Vec<String>,
-    /// What to do.
+    /// Advice.
     pub help: Vec<String>,
-    /// A correction that a program could make.
+    /// Correction that a program can apply.
     pub replacement: Option<Replacement>,
 }
 
 impl Diagnostic {
-    /// A finding without a place yet.
+    /// Returns a finding without a location.
     #[must_use]
     pub fn new(severity: Severity, code: &'static str, message: impl Into<String>) -> Self {
         Self {
@@ -76,39 +76,39 @@ impl Diagnostic {
         }
     }
 
-    /// Something was lost or cannot work.
+    /// Returns an error: content was lost or cannot work.
     #[must_use]
     pub fn error(code: &'static str, message: impl Into<String>) -> Self {
         Self::new(Severity::Error, code, message)
     }
 
-    /// It works, but hardly as meant.
+    /// Returns a warning: it works, but probably not as intended.
     #[must_use]
     pub fn warning(code: &'static str, message: impl Into<String>) -> Self {
         Self::new(Severity::Warning, code, message)
     }
 
-    /// It works, and could be better.
+    /// Returns a hint: a possible improvement.
     #[must_use]
     pub fn hint(code: &'static str, message: impl Into<String>) -> Self {
         Self::new(Severity::Hint, code, message)
     }
 
-    /// Places the finding.
+    /// Sets the location.
     #[must_use]
     pub fn at(mut self, origin: impl Into<Origin>) -> Self {
         self.span = origin.into().0;
         self
     }
 
-    /// Says something beside the marked text.
+    /// Sets the label of the marked text.
     #[must_use]
     pub fn label(mut self, label: impl Into<String>) -> Self {
         self.label = Some(label.into());
         self
     }
 
-    /// Points to another place that belongs to the finding.
+    /// Adds another location that belongs to the finding.
     #[must_use]
     pub fn related(mut self, origin: impl Into<Origin>, label: impl Into<String>) -> Self {
         if let Some(span) = origin.into().0 {
@@ -117,21 +117,21 @@ impl Diagnostic {
         self
     }
 
-    /// Adds a fact.
+    /// Adds an explanatory fact.
     #[must_use]
     pub fn note(mut self, note: impl Into<String>) -> Self {
         self.notes.push(note.into());
         self
     }
 
-    /// Says what to do.
+    /// Adds advice.
     #[must_use]
     pub fn help(mut self, help: impl Into<String>) -> Self {
         self.help.push(help.into());
         self
     }
 
-    /// Offers a correction of a piece of text.
+    /// Sets a correction of a span.
     #[must_use]
     pub fn replace(
         mut self,
@@ -149,7 +149,8 @@ impl Diagnostic {
         self
     }
 
-    /// Offers the nearest of the `known` names in the place of `written`, if one is near.
+    /// Offers the most similar of the `known` names as a replacement of `written`, if one is similar
+    /// enough.
     #[must_use]
     pub fn did_you_mean<'a>(
         self,

@@ -1,4 +1,4 @@
-//! A finding as a script reads it.
+//! JSON form of findings, for scripts.
 
 use serde_json::{Value, json};
 

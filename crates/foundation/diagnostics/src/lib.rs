@@ -1,8 +1,8 @@
-//! What is wrong, where (`file:line:column`), and what to do about it.
+//! Findings with location (`file:line:column`) and advice.
 //!
-//! A reader never fails on broken input: it returns what it could make of it together with
-//! [`Diagnostics`]. Each [`Diagnostic`] points into a [`SourceMap`] by [`Span`], and a span also
-//! knows through which macro calls and includes its text came to be where it is.
+//! A reader never fails on broken input: it returns the content that it could read together with
+//! [`Diagnostics`]. Each [`Diagnostic`] refers to a [`SourceMap`] by [`Span`], which also records the macro
+//! calls and includes that produced the text.
 
 mod collect;
 mod diagnostic;
@@ -12,7 +12,7 @@ mod render;
 mod source;
 mod spelling;
 
-pub use collect::{Diagnostics, MOST_KEPT};
+pub use collect::{Diagnostics, MAX_FINDINGS};
 pub use diagnostic::{Diagnostic, Replacement, Severity};
 pub use json::to_json;
 pub use machine_words::plain_words;

@@ -1,10 +1,10 @@
-//! Errors of the operating system in plain words.
+//! Plain descriptions of operating system errors.
 
 use std::io::{Error, ErrorKind};
 
-/// An error of the machine in plain words, without the number that the system has for it.
+/// Returns a plain description of an operating system error, without its number.
 ///
-/// Errors that a program made itself keep their words.
+/// Errors created by a program keep their message.
 #[must_use]
 pub fn plain_words(error: &Error) -> String {
     if error.raw_os_error().is_none() {
@@ -35,7 +35,7 @@ pub fn plain_words(error: &Error) -> String {
     words.to_owned()
 }
 
-/// Without ` (os error N)`.
+/// Removes ` (os error N)`.
 fn without_number(words: &str) -> String {
     let cut = words.rfind(" (os error ").filter(|_| words.ends_with(')'));
     cut.map_or(words, |at| &words[..at]).to_owned()

@@ -1,4 +1,4 @@
-//! A finding as a person reads it in a terminal.
+//! Rendering of findings for a terminal.
 
 use std::fmt::Write as _;
 use std::ops::Range;
@@ -9,16 +9,16 @@ use annotate_snippets::{AnnotationKind, Element, Group, Level, Patch, Renderer, 
 use crate::source::{Expansion, SourceMap, Span};
 use crate::{Diagnostic, Severity};
 
-/// Longest piece of a line that is shown; generated files hold lines of megabytes.
-const MOST_SHOWN: usize = 160;
+/// Maximum length of a piece of a line that is shown [bytes]; generated files may have lines of megabytes.
+const MAX_LINE_BYTES: usize = 160;
 
-/// How many lines apart two places may be to be shown together.
+/// Maximum distance of two locations in one snippet [lines].
 const NEAR_LINES: usize = 8;
 
-/// How many steps of a long chain of macro calls are shown.
-const MOST_STEPS: usize = 6;
+/// Maximum number of steps of a chain of macro calls that are shown.
+const MAX_BACKTRACE_STEPS: usize = 6;
 
-/// Colours and letters of a rendering.
+/// Output style.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Style {
     /// ASCII without colours: for files, pipes and tests.
@@ -27,7 +27,7 @@ pub enum Style {
     Colour,
 }
 
-/// Renders one finding with the text it is about.
+/// Renders one finding with the source text that it refers to.
 #[must_use]
 pub fn render(diagnostic: &Diagnostic, sources: &SourceMap, style: Style) -> String {
     let level = match diagnostic.severity {
@@ -64,7 +64,7 @@ pub fn render(diagnostic: &Diagnostic, sources: &SourceMap, style: Style) -> Str
     text
 }
 
-/// The marked text and the related places; those near it in the same snippet.
+/// Marked text and related locations; those near it in the same snippet.
 fn places<'a>(diagnostic: &'a Diagnostic, sources: &'a SourceMap, span: Span) -> Vec<Element<'a>> {
     let is_near = |place: &&(Span, String)| near(sources, span, place.0);
     let first = diagnostic.related.iter().filter(is_near).map(|(place, _)| place.start);
@@ -93,21 +93,21 @@ fn places<'a>(diagnostic: &'a Diagnostic, sources: &'a SourceMap, span: Span) ->
     elements
 }
 
-/// Whether two places are close enough to be shown together.
+/// Returns true if two locations are near enough for one snippet.
 fn near(sources: &SourceMap, span: Span, other: Span) -> bool {
     let file = sources.file(span.file);
     let lines = file.position(span.start).line.abs_diff(file.position(other.start).line);
     span.file == other.file && lines <= NEAR_LINES && span.start.abs_diff(other.end) < 2_000
 }
 
-/// A piece of a text that is shown.
+/// Piece of a text that is shown.
 struct Shown<'a> {
     text: &'a str,
     bytes: Range<usize>,
 }
 
 impl Shown<'_> {
-    /// A span within the piece; of one that covers many lines only the first.
+    /// Range of a span in the piece; of a span over many lines only the first line.
     fn shown(&self, span: Span) -> Range<usize> {
         let start = floor(self.text, (span.start as usize).clamp(self.bytes.start, self.bytes.end));
         let end = floor(self.text, (span.end as usize).clamp(start, self.bytes.end));
@@ -116,7 +116,7 @@ impl Shown<'_> {
     }
 }
 
-/// The lines of the places `around` a span; when they are long, only a piece about the span.
+/// Lines of the `around` spans; of long lines only a piece around the span.
 fn excerpt<'a, T: Clone>(
     sources: &'a SourceMap,
     span: Span,
@@ -127,18 +127,18 @@ fn excerpt<'a, T: Clone>(
     let last = if around == span { span.start } else { around.end };
     let (mut lines, mut first_line) = file.lines_around(around.start, last);
     let longest = text[lines.clone()].lines().map(str::len).max().unwrap_or(0);
-    if longest > MOST_SHOWN {
+    if longest > MAX_LINE_BYTES {
         (lines, first_line) = file.lines_around(span.start, span.start);
         let start = (span.start as usize).clamp(lines.start, lines.end);
-        let from = floor(text, start.saturating_sub(MOST_SHOWN / 2).max(lines.start));
-        lines = from..floor(text, (from + MOST_SHOWN).min(lines.end));
+        let from = floor(text, start.saturating_sub(MAX_LINE_BYTES / 2).max(lines.start));
+        lines = from..floor(text, (from + MAX_LINE_BYTES).min(lines.end));
     }
     let snippet =
         Snippet::source(&text[lines.clone()]).line_start(first_line).path(&file.name).fold(true);
     (Shown { text, bytes: lines }, snippet)
 }
 
-/// The start of the character at a byte.
+/// Start of the character that contains a byte.
 fn floor(text: &str, mut byte: usize) -> usize {
     while !text.is_char_boundary(byte) {
         byte -= 1;
@@ -149,7 +149,7 @@ fn floor(text: &str, mut byte: usize) -> usize {
 fn backtrace(sources: &SourceMap, span: Span) -> Vec<String> {
     let mut steps: Vec<String> = sources
         .backtrace(span)
-        .take(MOST_STEPS + 1)
+        .take(MAX_BACKTRACE_STEPS + 1)
         .map(|expansion| {
             let (file, position) = sources.locate(expansion.site());
             let place = format!("{file}:{}:{}", position.line, position.column);
@@ -161,8 +161,8 @@ fn backtrace(sources: &SourceMap, span: Span) -> Vec<String> {
             }
         })
         .collect();
-    if steps.len() > MOST_STEPS {
-        steps.truncate(MOST_STEPS);
+    if steps.len() > MAX_BACKTRACE_STEPS {
+        steps.truncate(MAX_BACKTRACE_STEPS);
         if let Some(last) = steps.last_mut() {
             let _ = write!(last, " (and further out)");
         }
@@ -191,7 +191,7 @@ mod tests {
                 let span = sources.whole(file).part(18, 24);
                 Diagnostic::warning("unknown-attribute", "`sphere` has no attribute `raduis`")
                     .at(span)
-                    .label("nobody reads this")
+                    .label("this is ignored")
                     .did_you_mean(span, "raduis", ["radius", "length"])
             },
             expect![[r#"
@@ -199,7 +199,7 @@ mod tests {
                  --> robot.urdf:2:11
                   |
                 2 |   <sphere raduis="1"/>
-                  |           ^^^^^^ nobody reads this
+                  |           ^^^^^^ this is ignored
                   |
                 help: did you mean `radius`?
                   |

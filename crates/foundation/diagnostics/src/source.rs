@@ -1,42 +1,42 @@
-//! Texts, places in them, and the chain of macro calls and includes that led to a place.
+//! Source texts, spans in them, and the macro calls and includes that produced a text.
 
 use std::sync::Arc;
 
-/// Names one text of a [`SourceMap`].
+/// Index of a text in a [`SourceMap`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct FileId(u32);
 
-/// Names one [`Expansion`] of a [`SourceMap`]; [`ContextId::ROOT`] is text that stands as written.
+/// Index of an [`Expansion`] in a [`SourceMap`]; [`ContextId::ROOT`] is text that was not expanded.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct ContextId(u32);
 
 impl ContextId {
-    /// Text that no macro produced.
+    /// Text that no macro or include produced.
     pub const ROOT: Self = Self(0);
 }
 
-/// A range of bytes in one text, and how the text came to be used there.
+/// Range of bytes in one text, with the context in which the text was expanded.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Span {
-    /// The text.
+    /// Text that contains the span.
     pub file: FileId,
     /// First byte.
     pub start: u32,
     /// One past the last byte.
     pub end: u32,
-    /// The macro call or include through which the text is seen.
+    /// Macro call or include that produced the text.
     pub context: ContextId,
 }
 
 impl Span {
-    /// The same place, seen through `context`.
+    /// Returns the same span in another context.
     #[must_use]
     pub fn within(self, context: ContextId) -> Self {
         Self { context, ..self }
     }
 
-    /// The part of this span from byte `from` to byte `to`, both counted from its start and held
-    /// inside it.
+    /// Returns the part from byte `from` to byte `to`, both counted from the start of this span and clamped
+    /// to it.
     #[must_use]
     pub fn part(self, from: usize, to: usize) -> Self {
         let at = |offset: usize| {
@@ -47,8 +47,8 @@ impl Span {
     }
 }
 
-/// Where a value came from, if anyone knows. Values that differ only in origin are equal, so that
-/// two scenes read from different texts can be compared with `==`.
+/// Source location of a value, if known. Values that differ only in origin are equal, so two scenes read
+/// from different texts can be compared with `==`.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Origin(pub Option<Span>);
 
@@ -66,7 +66,7 @@ impl From<Span> for Origin {
     }
 }
 
-/// A line and a column, both counted from 1; columns count characters.
+/// Line and column, both counted from 1; columns count characters.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Position {
     /// Line, from 1.
@@ -75,25 +75,25 @@ pub struct Position {
     pub column: usize,
 }
 
-/// A step between the text as written and the place where it is used.
+/// Step between the text as written and its use.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Expansion {
-    /// The body of a macro, used by a call.
+    /// Body of a macro, used by a call.
     Macro {
-        /// The macro's name.
+        /// Name of the macro.
         name: String,
-        /// The call; its context leads further out.
+        /// Location of the call; its context is the next outer step.
         call: Span,
     },
-    /// A file brought in by an include.
+    /// File that was included.
     Include {
-        /// The include element; its context leads further out.
+        /// Location of the include element; its context is the next outer step.
         at: Span,
     },
 }
 
 impl Expansion {
-    /// The place one step further out.
+    /// Location of the next outer step.
     #[must_use]
     pub fn site(&self) -> Span {
         match self {
@@ -103,10 +103,10 @@ impl Expansion {
     }
 }
 
-/// One text and the name under which messages show it.
+/// Text with its display name.
 #[derive(Clone, Debug)]
 pub struct SourceFile {
-    /// A path or another name, as a person should see it.
+    /// Path or other name, as shown to users.
     pub name: String,
     /// The whole text.
     pub text: Arc<str>,
@@ -114,7 +114,7 @@ pub struct SourceFile {
 }
 
 impl SourceFile {
-    /// Line and column of a byte; bytes past the end count as the end.
+    /// Line and column of a byte; bytes after the end are treated as the end.
     #[must_use]
     pub fn position(&self, byte: u32) -> Position {
         let line = self.line_starts.partition_point(|&start| start <= byte).max(1);
@@ -124,7 +124,7 @@ impl SourceFile {
         Position { line, column: before.chars().count() + 1 }
     }
 
-    /// Bytes of the lines that hold `start..end`, without the final line break, and the number of
+    /// Byte range of the lines that contain `start..end`, without the final line break, and the number of
     /// the first of them.
     pub(crate) fn lines_around(&self, start: u32, end: u32) -> (std::ops::Range<usize>, usize) {
         let line_of = |byte: u32| self.line_starts.partition_point(|&s| s <= byte).max(1) - 1;
@@ -137,7 +137,7 @@ impl SourceFile {
     }
 }
 
-/// All texts that took part in a reading.
+/// All source texts of a reader.
 #[derive(Clone, Debug, Default)]
 pub struct SourceMap {
     files: Vec<SourceFile>,
@@ -145,13 +145,13 @@ pub struct SourceMap {
 }
 
 impl SourceMap {
-    /// An empty map.
+    /// Returns an empty map.
     #[must_use]
     pub fn new() -> Self {
         Self::default()
     }
 
-    /// Adds a text. Texts are at most 4 GiB; readers refuse larger ones before they come here.
+    /// Adds a text. Texts are at most 4 GiB; readers refuse larger ones before.
     pub fn add(&mut self, name: impl Into<String>, text: impl Into<Arc<str>>) -> FileId {
         let text = text.into();
         let mut line_starts = vec![0];
@@ -162,7 +162,7 @@ impl SourceMap {
         FileId(u32::try_from(self.files.len() - 1).unwrap_or(u32::MAX))
     }
 
-    /// The text behind an id of this map.
+    /// Text of an id of this map.
     ///
     /// # Panics
     /// With an id of another map.
@@ -171,26 +171,26 @@ impl SourceMap {
         &self.files[file.0 as usize]
     }
 
-    /// The span of a whole text.
+    /// Span of a whole text.
     #[must_use]
     pub fn whole(&self, file: FileId) -> Span {
         let end = u32::try_from(self.file(file).text.len()).unwrap_or(u32::MAX);
         Span { file, start: 0, end, context: ContextId::ROOT }
     }
 
-    /// Records a macro call or include and names it.
+    /// Adds a macro call or include and returns its id.
     pub fn expand(&mut self, expansion: Expansion) -> ContextId {
         self.expansions.push(expansion);
         ContextId(u32::try_from(self.expansions.len()).unwrap_or(u32::MAX))
     }
 
-    /// The expansion behind a context; none for [`ContextId::ROOT`].
+    /// Expansion of a context; `None` for [`ContextId::ROOT`].
     #[must_use]
     pub fn expansion(&self, context: ContextId) -> Option<&Expansion> {
         (context.0 as usize).checked_sub(1).and_then(|index| self.expansions.get(index))
     }
 
-    /// The macro calls and includes around a place, innermost first.
+    /// Macro calls and includes around a span, innermost first.
     pub fn backtrace(&self, span: Span) -> impl Iterator<Item = &Expansion> {
         let mut context = span.context;
         std::iter::from_fn(move || {
@@ -200,20 +200,20 @@ impl SourceMap {
         })
     }
 
-    /// Whether a span is of a text of this map, as far as its number tells.
+    /// Returns true if a span may belong to a text of this map, judged by its index.
     #[must_use]
     pub fn holds(&self, span: Span) -> bool {
         (span.file.0 as usize) < self.files.len()
     }
 
-    /// The name of a span's text and the position of its first byte.
+    /// Name of a span's text and position of its first byte.
     #[must_use]
     pub fn locate(&self, span: Span) -> (&str, Position) {
         let file = self.file(span.file);
         (&file.name, file.position(span.start))
     }
 
-    /// The text of a span.
+    /// Text of a span.
     #[must_use]
     pub fn text(&self, span: Span) -> &str {
         let text = &self.file(span.file).text;

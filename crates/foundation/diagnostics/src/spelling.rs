@@ -1,7 +1,7 @@
-//! The name that was meant.
+//! Search for similar names.
 
-/// The known name nearest to what was written, if it is near enough to be a slip: at most a third
-/// of its letters wrong, letter case and separators aside.
+/// Returns the most similar known name, if at most a third of its letters differ, ignoring case and
+/// separators.
 pub fn closest<'a>(written: &str, known: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
     // Names in files are short; a hostile one must not cost quadratic time.
     if written.len() > 64 {

@@ -2,7 +2,7 @@
 
 const LETTERS: &[u8; 64] = b"ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
 
-/// Bytes as base64 with padding, in the standard alphabet.
+/// Encodes bytes as base64 with padding, in the standard alphabet.
 #[must_use]
 pub fn encode_base64(bytes: &[u8]) -> String {
     let mut text = String::with_capacity(bytes.len().div_ceil(3) * 4);
@@ -17,7 +17,7 @@ pub fn encode_base64(bytes: &[u8]) -> String {
     text
 }
 
-/// The bytes of base64 with or without padding, in either alphabet; none for other text.
+/// Decodes base64 with or without padding, in either alphabet; `None` for other text.
 #[must_use]
 pub fn decode_base64(text: &str) -> Option<Vec<u8>> {
     let mut bytes = Vec::with_capacity(text.len() / 4 * 3 + 3);

@@ -1,7 +1,7 @@
-//! Poses, angles and numbers that print exactly.
+//! Poses, angles and exact conversion of numbers to text.
 //!
-//! Frames are named in variables: `map_from_base` turns coordinates in `base` into coordinates in
-//! `map`, and `map_from_odom * odom_from_base` reads off as `map_from_base`.
+//! Variables are named by frames: `map_from_base` transforms coordinates in `base` to coordinates in `map`,
+//! and `map_from_odom * odom_from_base` is `map_from_base`.
 
 mod base64;
 mod number;

@@ -1,6 +1,7 @@
-//! Numbers as robot files write them.
+//! Numbers in robot files.
 
-/// The shortest text that reads back as the same number; huge and tiny ones with an exponent.
+/// Returns the shortest text that reads back as the same number, with an exponent if it is very large or
+/// small.
 #[must_use]
 pub fn format_number(value: f64) -> String {
     let magnitude = value.abs();
@@ -16,18 +17,18 @@ pub fn format_number(value: f64) -> String {
     if (1e-5..1e16).contains(&magnitude) { format!("{value}") } else { format!("{value:e}") }
 }
 
-/// Reads one decimal number: `1`, `-.5`, `+2.`, `1e-3`, `inf`, `nan` (any case). White space
-/// around it is allowed, anything else after it is not.
+/// Parses one decimal number: `1`, `-.5`, `+2.`, `1e-3`, `inf`, `nan` (any case). White space around it is
+/// allowed.
 #[must_use]
 pub fn parse_number(text: &str) -> Option<f64> {
-    // `str::parse::<f64>` takes all of these, and also "infinity", which `strtod` takes too.
+    // `str::parse::<f64>` accepts all of these, and also "infinity", which `strtod` accepts too.
     text.trim().parse().ok()
 }
 
-/// Reads numbers separated by white space.
+/// Parses numbers separated by white space.
 ///
 /// # Errors
-/// The byte range of the first word that is not a number.
+/// Byte range of the first word that is not a number.
 pub fn parse_numbers(text: &str) -> Result<Vec<f64>, std::ops::Range<usize>> {
     let mut numbers = Vec::new();
     for word in text.split_ascii_whitespace() {

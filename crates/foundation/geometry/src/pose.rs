@@ -3,8 +3,8 @@
 use glam::{DQuat, DVec3};
 use serde::{Deserialize, Serialize};
 
-/// A rigid transform `a_from_b`: it turns coordinates in `b` into coordinates in `a`, and equally
-/// is the pose of `b` as seen from `a`. Metres; the rotation is a unit quaternion.
+/// Rigid transform `a_from_b`: transforms coordinates in `b` to coordinates in `a`, and is the pose of `b`
+/// in `a`. Metres; the rotation is a unit quaternion.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Pose {
     /// Origin of `b` in `a` [m].
@@ -34,24 +34,24 @@ impl Default for Pose {
 }
 
 impl Pose {
-    /// Both frames are the same.
+    /// Identity transform.
     pub const IDENTITY: Self = Self { translation: DVec3::ZERO, rotation: DQuat::IDENTITY };
 
-    /// A shift without a turn [m].
+    /// Translation without rotation [m].
     #[must_use]
     pub fn from_xyz(x: f64, y: f64, z: f64) -> Self {
         Self { translation: DVec3::new(x, y, z), rotation: DQuat::IDENTITY }
     }
 
-    /// From a shift [m] and fixed-axis angles [rad].
+    /// Transform from a translation [m] and fixed-axis angles [rad].
     #[must_use]
     pub fn from_xyz_rpy(xyz: [f64; 3], rpy: Rpy) -> Self {
         Self { translation: DVec3::from_array(xyz), rotation: quaternion_from_rpy(rpy) }
     }
 
-    /// From a shift [m] and a quaternion of any length but zero. A quaternion that is already of
-    /// unit length to within rounding is kept bit for bit, so that writing and reading back
-    /// changes nothing.
+    /// Transform from a translation [m] and a quaternion of any length except zero. A quaternion that is
+    /// already of unit length within rounding is kept bit for bit, so that writing and reading back changes
+    /// nothing.
     #[must_use]
     pub fn from_xyz_quaternion(xyz: [f64; 3], rotation: DQuat) -> Self {
         let rotation = if (rotation.length_squared() - 1.0).abs() < 1e-14 {
@@ -62,26 +62,26 @@ impl Pose {
         Self { translation: DVec3::from_array(xyz), rotation }
     }
 
-    /// `b_from_a` of an `a_from_b`.
+    /// Inverse transform: `b_from_a` of an `a_from_b`.
     #[must_use]
     pub fn inverse(self) -> Self {
         let rotation = self.rotation.conjugate();
         Self { translation: -(rotation * self.translation), rotation }
     }
 
-    /// A point given in `b` [m], as coordinates in `a` [m].
+    /// Transforms a point in `b` [m] to coordinates in `a` [m].
     #[must_use]
     pub fn transform_point(self, point_in_b: DVec3) -> DVec3 {
         self.rotation * point_in_b + self.translation
     }
 
-    /// The angles of the rotation.
+    /// Angles of the rotation.
     #[must_use]
     pub fn rpy(self) -> Rpy {
         rpy_from_quaternion(self.rotation)
     }
 
-    /// Whether all seven numbers are finite.
+    /// Returns true if all seven numbers are finite.
     #[must_use]
     pub fn is_finite(self) -> bool {
         self.translation.is_finite() && self.rotation.is_finite()
@@ -114,7 +114,7 @@ impl std::ops::Mul for Pose {
     }
 }
 
-/// The quaternion of `Rz(yaw) Ry(pitch) Rx(roll)`.
+/// Quaternion of `Rz(yaw) Ry(pitch) Rx(roll)`.
 #[must_use]
 pub fn quaternion_from_rpy(rpy: Rpy) -> DQuat {
     let (sr, cr) = libm::sincos(rpy.roll / 2.0);
@@ -128,8 +128,8 @@ pub fn quaternion_from_rpy(rpy: Rpy) -> DQuat {
     )
 }
 
-/// The angles of a unit quaternion; pitch within ±π/2. Looking straight up or down, where roll
-/// and yaw turn about the same axis, roll is 0.
+/// Angles of a unit quaternion; pitch within ±π/2. At a pitch of ±π/2, where roll and yaw have the same
+/// axis, roll is 0.
 #[must_use]
 pub fn rpy_from_quaternion(q: DQuat) -> Rpy {
     let sine_pitch = 2.0 * (q.w * q.y - q.z * q.x);
@@ -175,7 +175,7 @@ mod tests {
     #[test]
     fn roll_comes_before_yaw() {
         let rpy = Rpy { roll: FRAC_PI_2, pitch: 0.0, yaw: FRAC_PI_2 };
-        // y goes to z by the roll and stays there in the yaw.
+        // Roll moves y to z, where yaw leaves it.
         assert!(near(quaternion_from_rpy(rpy) * DVec3::Y, [0.0, 0.0, 1.0]));
     }
 

@@ -1,33 +1,33 @@
-//! Rigid transforms on the plane.
+//! Rigid transforms in the plane.
 
 use glam::{DQuat, DVec3};
 use serde::{Deserialize, Serialize};
 
 use crate::Pose;
 
-/// A rigid transform `a_from_b` on the plane: it turns coordinates in `b` into coordinates in `a`,
-/// and equally is the pose of `b` as seen from `a`.
+/// Rigid transform `a_from_b` in the plane: transforms coordinates in `b` to coordinates in `a`, and is the
+/// pose of `b` in `a`.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Pose2 {
     /// Origin of `b` in `a`, along x \[m\].
     pub x_m: f64,
     /// Origin of `b` in `a`, along y \[m\].
     pub y_m: f64,
-    /// Direction of the x axis of `b` in `a`, counterclockwise \[rad\]; any turn, not only half ones.
+    /// Direction of the x axis of `b` in `a`, counterclockwise \[rad\]; not limited to ±π.
     pub yaw_rad: f64,
 }
 
 impl Pose2 {
-    /// Both frames are the same.
+    /// Identity transform.
     pub const IDENTITY: Self = Self::new(0.0, 0.0, 0.0);
 
-    /// From a shift \[m\] and a turn \[rad\].
+    /// Transform from a translation \[m\] and a rotation \[rad\].
     #[must_use]
     pub const fn new(x_m: f64, y_m: f64, yaw_rad: f64) -> Self {
         Self { x_m, y_m, yaw_rad }
     }
 
-    /// `b_from_a` of an `a_from_b`.
+    /// Inverse transform: `b_from_a` of an `a_from_b`.
     #[must_use]
     pub fn inverse(self) -> Self {
         let (sine, cosine) = sine_and_cosine(self.yaw_rad);
@@ -38,7 +38,7 @@ impl Pose2 {
         }
     }
 
-    /// A point given in `b` \[m\], as coordinates in `a` \[m\].
+    /// Transforms a point in `b` \[m\] to coordinates in `a` \[m\].
     #[must_use]
     pub fn transform_point(self, x_in_b_m: f64, y_in_b_m: f64) -> (f64, f64) {
         let (sine, cosine) = sine_and_cosine(self.yaw_rad);
@@ -47,13 +47,13 @@ impl Pose2 {
         (self.x_m + x_m, self.y_m + y_m)
     }
 
-    /// The same with the yaw in (-pi, pi].
+    /// Returns the same transform with the yaw in (-π, π].
     #[must_use]
     pub fn normalized(self) -> Self {
         Self { yaw_rad: normalize_angle(self.yaw_rad), ..self }
     }
 
-    /// Whether all three numbers are finite.
+    /// Returns true if all three numbers are finite.
     #[must_use]
     pub fn is_finite(self) -> bool {
         self.x_m.is_finite() && self.y_m.is_finite() && self.yaw_rad.is_finite()
@@ -63,7 +63,7 @@ impl Pose2 {
 impl std::ops::Mul for Pose2 {
     type Output = Self;
 
-    /// `a_from_b * b_from_c = a_from_c`. The yaws are added, and not brought into half a turn.
+    /// `a_from_b * b_from_c = a_from_c`. The yaws are added without normalization.
     #[expect(clippy::suspicious_arithmetic_impl, reason = "turns on the plane add up")]
     fn mul(self, b_from_c: Self) -> Self {
         let (x_m, y_m) = self.transform_point(b_from_c.x_m, b_from_c.y_m);
@@ -71,7 +71,7 @@ impl std::ops::Mul for Pose2 {
     }
 }
 
-/// On the ground of three dimensions.
+/// Embeds the plane as z = 0 in three dimensions.
 impl From<Pose2> for Pose {
     fn from(pose: Pose2) -> Self {
         let (sine, cosine) = libm::sincos(pose.yaw_rad / 2.0);
@@ -82,14 +82,14 @@ impl From<Pose2> for Pose {
     }
 }
 
-/// What is left of it on the ground: x, y and yaw.
+/// Projects onto the plane z = 0: keeps x, y and yaw.
 impl From<Pose> for Pose2 {
     fn from(pose: Pose) -> Self {
         Self::new(pose.translation.x, pose.translation.y, pose.rpy().yaw)
     }
 }
 
-/// The same direction in (-pi, pi] \[rad\]. Angles in it stay bit for bit.
+/// Equivalent angle in (-π, π] \[rad\]. Angles in this range are returned unchanged.
 #[must_use]
 pub fn normalize_angle(angle_rad: f64) -> f64 {
     use std::f64::consts::PI;
@@ -100,7 +100,7 @@ pub fn normalize_angle(angle_rad: f64) -> f64 {
     if rest <= -PI { PI } else { rest }
 }
 
-/// Exact where nothing turns, so that plain coordinates stay plain.
+/// Exact for a zero angle, so that pure translations stay exact.
 fn sine_and_cosine(angle_rad: f64) -> (f64, f64) {
     if angle_rad == 0.0 { (0.0, 1.0) } else { libm::sincos(angle_rad) }
 }

@@ -1,18 +1,17 @@
-//! Random numbers that depend on nothing but their key.
+//! Deterministic random numbers that depend on a key only.
 
 mod normal;
 
-/// A stream of random numbers named by a seed, a name and a number (a tick, an index): the same
-/// key gives the same numbers on every machine, in every order of work. SplitMix64 (Steele, Lea,
-/// Flood 2014, "Fast splittable pseudorandom number generators") started from an FNV-1a hash of
-/// the key.
+/// Stream of random numbers for a seed, a name and a number (a tick, an index). The same key gives the same
+/// numbers on every machine and in every order of work. SplitMix64 (Steele, Lea, Flood 2014, "Fast
+/// splittable pseudorandom number generators"), seeded by an FNV-1a hash of the key.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Stream {
     state: u64,
 }
 
 impl Stream {
-    /// The stream of a key.
+    /// Stream of a key.
     #[must_use]
     pub fn keyed(seed: u64, name: &str, number: u64) -> Self {
         let mut hash = 0xcbf2_9ce4_8422_2325_u64;
@@ -32,7 +31,7 @@ impl Stream {
         z ^ (z >> 31)
     }
 
-    /// A number in `0..1`, evenly spread.
+    /// Uniformly distributed number in `0..1`.
     pub fn unit(&mut self) -> f64 {
         // The upper 53 bits fill a double exactly.
         #[expect(clippy::cast_precision_loss, reason = "53 bits fit")]
@@ -40,7 +39,7 @@ impl Stream {
         value * (1.0 / 9_007_199_254_740_992.0)
     }
 
-    /// A number of the normal distribution with mean 0 and standard deviation 1.
+    /// Number of the normal distribution with mean 0 and standard deviation 1.
     pub fn normal(&mut self) -> f64 {
         normal::draw(self)
     }

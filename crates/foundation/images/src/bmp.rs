@@ -1,22 +1,22 @@
-//! BMP: uncompressed, with palettes of 1, 4 and 8 bits, 16, 24 and 32 bits, upside up and down.
+//! BMP: uncompressed, with palettes of 1, 4 and 8 bits, 16, 24 and 32 bits, bottom-up and top-down.
 //!
 //! Source: Microsoft's description of bitmap storage, "BITMAPINFOHEADER" and "BITMAPV5HEADER".
 
 use crate::raster::{BadImage, Layout, Raster, within_limits};
 
-/// Length of the header in front of the one that describes the bitmap.
-const FILE_HEADER: usize = 14;
+/// Length of the file header in front of the bitmap header [bytes].
+const FILE_HEADER_BYTES: usize = 14;
 
-/// What the headers say.
+/// Content of the headers.
 struct Header {
     width: u32,
     height: u32,
     is_top_down: bool,
     bits: usize,
-    /// Where the pixels begin.
+    /// Offset of the pixels.
     pixels: usize,
     palette: Vec<[u8; 3]>,
-    /// Of red, green, blue and alpha, where a pixel is one number.
+    /// Bit masks of red, green, blue and alpha, for pixels that are one number.
     masks: [u32; 4],
 }
 
@@ -50,7 +50,7 @@ pub(crate) fn decode(bytes: &[u8]) -> Result<Raster, BadImage> {
         }
     }
     let mut raster = Raster { width, height, layout, is_deep: false, bytes: samples };
-    // Many programs leave the fourth byte empty and mean a picture that is seen.
+    // Many programs leave the fourth byte zero for opaque pixels.
     if has_alpha && raster.bytes.chunks_exact(4).all(|pixel| pixel[3] == 0) {
         raster.bytes.chunks_exact_mut(4).for_each(|pixel| pixel[3] = 255);
     }
@@ -68,7 +68,7 @@ impl Header {
             word.map(u16::from_le_bytes).ok_or_else(cut)
         };
         let pixels = long(10)? as usize;
-        let size = long(FILE_HEADER)? as usize;
+        let size = long(FILE_HEADER_BYTES)? as usize;
         let is_core = size == 12;
         if !is_core && size < 40 {
             return Err(BadImage(format!("its header of {size} bytes is of no known kind")));
@@ -100,7 +100,7 @@ impl Header {
             let used = if is_core { 0 } else { long(46)? as usize };
             let most = 1 << bits;
             let count = if used == 0 { most } else { used.min(most) };
-            let (first, step) = (FILE_HEADER + size, if is_core { 3 } else { 4 });
+            let (first, step) = (FILE_HEADER_BYTES + size, if is_core { 3 } else { 4 });
             for colour in 0..count {
                 let at = first + colour * step;
                 let [b, g, r] = bytes
@@ -142,7 +142,7 @@ impl Header {
     }
 }
 
-/// The bits under a mask, spread over eight.
+/// Scales the bits under a mask to eight bits.
 fn part(number: u32, mask: u32) -> u8 {
     if mask == 0 {
         return 0;
@@ -160,7 +160,7 @@ fn cut() -> BadImage {
 mod tests {
     use super::*;
 
-    /// A header of the usual kind, with what follows it.
+    /// Common header, followed by its data.
     fn file(width: u32, height: i32, bits: u16, compression: u32, rest: &[u8]) -> Vec<u8> {
         let palette = if bits <= 8 { 4 << bits } else { 0 } + if compression == 3 { 12 } else { 0 };
         let mut bytes = b"BM".to_vec();

@@ -1,37 +1,37 @@
-//! Pictures as colours and as brightness.
+//! Decoding to colours and to brightness.
 
 use crate::raster::{BadImage, Layout, Raster};
 
-/// More pixels than this are no texture but an attack on memory: 8192 by 8192.
-const MOST_PIXELS: usize = 1 << 26;
+/// Maximum number of pixels: 8192 by 8192. More are no texture but an attack on memory.
+const MAX_PIXELS: usize = 1 << 26;
 
-/// A picture of eight bits a channel, its first row at the top.
+/// Image with eight bits per channel, first row at the top.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Image {
-    /// Pixels across.
+    /// Width [px].
     pub width: u32,
-    /// Pixels down.
+    /// Height [px].
     pub height: u32,
     /// Red, green, blue, alpha, row by row.
     pub rgba: Vec<[u8; 4]>,
 }
 
-/// Brightness alone, as heightmaps have it: the first channel, in up to 16 bits.
+/// Brightness image, as used for heightmaps: the first channel, with up to 16 bits.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Grey {
-    /// Pixels across.
+    /// Width [px].
     pub width: u32,
-    /// Pixels down.
+    /// Height [px].
     pub height: u32,
     /// Brightness, row by row from the top.
     pub values: Vec<u16>,
 }
 
 impl Image {
-    /// Reads a PNG, JPEG, BMP or PNM; 16 bits a channel become 8.
+    /// Decodes a PNG, JPEG, BMP or PNM; 16 bits per channel are reduced to 8.
     ///
     /// # Errors
-    /// When the bytes are none of these, broken, or of more than 2^26 pixels.
+    /// If the bytes are none of these, broken, or have more than 2^26 pixels.
     pub fn decode(bytes: &[u8]) -> Result<Self, BadImage> {
         let raster = decode(bytes)?.into_shallow();
         let pixels = raster.bytes.chunks_exact(raster.layout.channels());
@@ -47,7 +47,7 @@ impl Image {
 }
 
 impl Grey {
-    /// Reads a PNG, JPEG, BMP or PNM.
+    /// Decodes a PNG, JPEG, BMP or PNM.
     ///
     /// # Errors
     /// As [`Image::decode`].
@@ -66,10 +66,10 @@ impl Grey {
 
 fn decode(bytes: &[u8]) -> Result<Raster, BadImage> {
     let raster = Raster::decode(bytes)?;
-    if raster.pixels() > MOST_PIXELS {
+    if raster.pixels() > MAX_PIXELS {
         let (width, height) = (raster.width, raster.height);
         return Err(BadImage(format!(
-            "it has {width} by {height} pixels, more than {MOST_PIXELS} in all; scale it down"
+            "it has {width} by {height} pixels, more than {MAX_PIXELS} in all; scale it down"
         )));
     }
     Ok(raster)

@@ -1,11 +1,11 @@
-//! Pictures to bytes.
+//! Encoding of images.
 
 use std::io::{self, Write};
 
 use crate::raster::Layout;
 
-/// A PNG of eight bits a sample. What does not fit together, which is a mistake of the caller's, is
-/// an empty file.
+/// Encodes a PNG with eight bits per sample. Arguments that do not match, a mistake of the caller, give an
+/// empty file.
 #[must_use]
 pub fn write_png(width: u32, height: u32, layout: Layout, samples: &[u8]) -> Vec<u8> {
     let mut bytes = Vec::new();
@@ -21,11 +21,11 @@ pub fn write_png(width: u32, height: u32, layout: Layout, samples: &[u8]) -> Vec
     bytes
 }
 
-/// A PNG of eight bits a sample from samples that are written bit by bit, row by row from the top: the
-/// picture is never held as a whole, but as what it is packed to.
+/// Encodes a PNG with eight bits per sample from samples that are written piecewise, row by row from the
+/// top. Only the compressed image is held in memory.
 ///
 /// # Errors
-/// What `samples` says, and when rows are missing or there is no pixel at all.
+/// Errors of `samples`, and missing rows or an image without pixels.
 pub fn pack_png(
     width: u32,
     height: u32,
@@ -53,7 +53,7 @@ fn encoder<W: Write>(out: W, width: u32, height: u32, layout: Layout) -> png::En
     encoder
 }
 
-/// A PGM in bytes (`P5`), with a comment behind its kind if there is one.
+/// Encodes a binary PGM (`P5`), with an optional comment after the format.
 #[must_use]
 pub fn write_pgm(width: u32, height: u32, grey: &[u8], comment: Option<&str>) -> Vec<u8> {
     let mut bytes = pgm_head(width, height, comment).into_bytes();
@@ -61,22 +61,22 @@ pub fn write_pgm(width: u32, height: u32, grey: &[u8], comment: Option<&str>) ->
     bytes
 }
 
-/// What a PGM in bytes begins with; brightness follows, a byte for each pixel, row by row from the top.
+/// Header of a binary PGM; brightness follows, one byte per pixel, row by row from the top.
 #[must_use]
 pub fn pgm_head(width: u32, height: u32, comment: Option<&str>) -> String {
     let comment = comment.map_or(String::new(), |words| format!("# {words}\n"));
     format!("P5\n{comment}{width} {height}\n255\n")
 }
 
-/// A BMP as `GraphicsMagick` writes it, byte for byte: 24 bits a pixel, grey or not, and 32 with
+/// Encodes a BMP as `GraphicsMagick` does, byte for byte: 24 bits per pixel, grey or not, and 32 with
 /// alpha.
 #[must_use]
 pub fn write_bmp(width: u32, height: u32, layout: Layout, samples: &[u8]) -> Vec<u8> {
-    /// Dots a metre.
-    const DOTS: u32 = 2925;
+    /// Resolution [px/m].
+    const PIXELS_PER_M: u32 = 2925;
     let has_alpha = layout.has_alpha();
     let bits: u16 = if has_alpha { 32 } else { 24 };
-    // With alpha the header is the one that says where it is.
+    // The header for alpha has the mask of the alpha channel.
     let (header, compression) = if has_alpha { (108_u32, 3) } else { (40, 0) };
     let stride = (width as usize * usize::from(bits)).div_ceil(32) * 4;
     let size = stride * height as usize;
@@ -90,11 +90,11 @@ pub fn write_bmp(width: u32, height: u32, layout: Layout, samples: &[u8]) -> Vec
     }
     bytes.extend(1_u16.to_le_bytes());
     bytes.extend(bits.to_le_bytes());
-    for value in [compression, length(size), DOTS, DOTS, 0, 0] {
+    for value in [compression, length(size), PIXELS_PER_M, PIXELS_PER_M, 0, 0] {
         long(&mut bytes, value);
     }
     if has_alpha {
-        // Masks of red, green, blue and alpha; then a space of colours that is said not to be known.
+        // Masks of red, green, blue and alpha; then an unspecified colour space.
         for value in [0xff_0000, 0xff00, 0xff, 0xff00_0000, 1] {
             long(&mut bytes, value);
         }

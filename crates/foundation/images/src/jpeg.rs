@@ -5,14 +5,14 @@ use zune_jpeg::zune_core::bytestream::ZCursor;
 use zune_jpeg::zune_core::colorspace::ColorSpace;
 use zune_jpeg::zune_core::options::DecoderOptions;
 
-use crate::raster::{BadImage, LONGEST_SIDE, Layout, Raster, within_limits};
+use crate::raster::{BadImage, Layout, MAX_SIDE_PX, Raster, within_limits};
 
 pub(crate) fn decode(bytes: &[u8]) -> Result<Raster, BadImage> {
     let options = DecoderOptions::default()
-        // Without special instructions, so that every machine gives the same bits.
+        // Without SIMD, so that every machine gives the same bits.
         .set_use_unsafe(false)
-        .set_max_width(LONGEST_SIDE as usize)
-        .set_max_height(LONGEST_SIDE as usize)
+        .set_max_width(MAX_SIDE_PX as usize)
+        .set_max_height(MAX_SIDE_PX as usize)
         .jpeg_set_out_colorspace(ColorSpace::RGB);
     let mut decoder = JpegDecoder::new_with_options(ZCursor::new(bytes), options);
     let bad = |error| BadImage(format!("it is a broken JPEG: {error}"));

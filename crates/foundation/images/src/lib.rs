@@ -1,12 +1,12 @@
-//! Pictures from bytes and to bytes.
+//! Decoding and encoding of images.
 //!
-//! [`Raster`] holds what a file holds: PNG, JPEG, BMP or PNM (PGM, PPM, PBM), brought to eight or
-//! sixteen bits a sample. [`Image`] is the same in red, green, blue and alpha, and [`Grey`] its
-//! brightness alone. [`write_png`], [`write_bmp`] and [`write_pgm`] are the ways back; [`pack_png`] is one
-//! that does not need the whole picture at once.
+//! [`Raster`] has the samples of a file: PNG, JPEG, BMP or PNM (PGM, PPM, PBM), converted to eight or
+//! sixteen bits per sample. [`Image`] has red, green, blue and alpha, and [`Grey`] only brightness.
+//! [`write_png`], [`write_bmp`] and [`write_pgm`] encode; [`pack_png`] encodes without the whole image in
+//! memory.
 //!
-//! Sizes are checked before memory is asked for, so no file makes a reader take more than 256 MiB
-//! for its samples.
+//! Sizes are checked before memory is allocated, so no file makes a reader use more than 256 MiB for its
+//! samples.
 //!
 //! ```
 //! use periplus_images::{Layout, Raster, write_pgm};
@@ -28,4 +28,4 @@ mod raster;
 
 pub use decode::{Grey, Image};
 pub use encode::{pack_png, pgm_head, write_bmp, write_pgm, write_png};
-pub use raster::{BadImage, LONGEST_SIDE, Layout, MOST_BYTES, Raster};
+pub use raster::{BadImage, Layout, MAX_SAMPLE_BYTES, MAX_SIDE_PX, Raster};

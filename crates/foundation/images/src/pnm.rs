@@ -1,4 +1,4 @@
-//! PNM: PBM, PGM and PPM, as numbers or as bytes.
+//! PNM: PBM, PGM and PPM, ASCII or binary.
 //!
 //! Source: the manual pages pbm(5), pgm(5) and ppm(5) of Netpbm.
 
@@ -34,13 +34,13 @@ pub(crate) fn decode(bytes: &[u8]) -> Result<Raster, BadImage> {
     Ok(Raster { width, height, layout, is_deep: false, bytes })
 }
 
-/// Brought to 0 to 255, rounded down as `GraphicsMagick` does.
+/// Scales to 0..255, rounded down as `GraphicsMagick` does.
 fn scaled(value: u32, most: u32) -> u8 {
     u8::try_from(value * 255 / most).unwrap_or(u8::MAX)
 }
 
-/// Eight pixels in a byte, the first in the highest bit; a bit that is set is black. Rows begin with
-/// a byte of their own.
+/// Unpacks eight pixels per byte, the first in the highest bit; a set bit is black. Every row starts at a
+/// byte.
 fn bits(bytes: &[u8], width: u32) -> Vec<u8> {
     let width = width as usize;
     let rows = bytes.chunks_exact(width.div_ceil(8).max(1));
@@ -55,7 +55,7 @@ struct Reader<'b> {
     at: usize,
 }
 
-/// Numbers that were read, all of them.
+/// Parsed numbers.
 struct Numbers(Vec<u32>);
 
 impl Numbers {
@@ -93,7 +93,7 @@ impl<'b> Reader<'b> {
     }
 
     fn numbers(&mut self, count: usize) -> Result<Numbers, BadImage> {
-        // A number takes a digit and a blank, so the bytes bound how many there can be.
+        // A number needs a digit and a blank, so the number of bytes limits their count.
         let mut numbers = Vec::with_capacity(count.min(self.bytes.len()));
         for _ in 0..count {
             numbers.push(self.number("more pixels")?);
@@ -101,7 +101,7 @@ impl<'b> Reader<'b> {
         Ok(Numbers(numbers))
     }
 
-    /// Digits 0 and 1, with or without blanks between; 1 is black.
+    /// Parses digits 0 and 1, with or without blanks between; 1 is black.
     fn digits(&mut self, count: usize) -> Result<Vec<u8>, BadImage> {
         let mut pixels = Vec::with_capacity(count.min(self.bytes.len()));
         while pixels.len() < count {
@@ -116,7 +116,7 @@ impl<'b> Reader<'b> {
         Ok(pixels)
     }
 
-    /// What stands behind the one blank that ends the header.
+    /// Bytes after the single blank that ends the header.
     fn raw(&mut self, count: usize) -> Result<&'b [u8], BadImage> {
         let start = self.at + 1;
         start.checked_add(count).and_then(|end| self.bytes.get(start..end)).ok_or_else(short)

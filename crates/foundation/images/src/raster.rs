@@ -1,14 +1,14 @@
-//! Samples as a file holds them.
+//! Images with the samples of the file.
 
 use std::fmt;
 
-/// No side is longer.
-pub const LONGEST_SIDE: u32 = 1 << 16;
+/// Maximum length of a side [px].
+pub const MAX_SIDE_PX: u32 = 1 << 16;
 
-/// Samples take no more bytes: 16,384 by 16,384 in grey, 8,192 by 8,192 in colour with alpha.
-pub const MOST_BYTES: usize = 1 << 28;
+/// Maximum size of the samples [bytes]: 16,384 by 16,384 in grey, 8,192 by 8,192 in colour with alpha.
+pub const MAX_SAMPLE_BYTES: usize = 1 << 28;
 
-/// The samples of a pixel, in order.
+/// Samples of a pixel, in order.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Layout {
     /// Brightness.
@@ -22,7 +22,7 @@ pub enum Layout {
 }
 
 impl Layout {
-    /// How many samples a pixel has.
+    /// Number of samples per pixel.
     #[must_use]
     pub fn channels(self) -> usize {
         match self {
@@ -33,29 +33,29 @@ impl Layout {
         }
     }
 
-    /// Whether the last sample of a pixel is its opacity.
+    /// Returns true if the last sample of a pixel is its opacity.
     #[must_use]
     pub fn has_alpha(self) -> bool {
         matches!(self, Self::GreyAlpha | Self::Rgba)
     }
 }
 
-/// A picture, its first row at the top.
+/// Image, first row at the top.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Raster {
-    /// Pixels across.
+    /// Width [px].
     pub width: u32,
-    /// Pixels down.
+    /// Height [px].
     pub height: u32,
-    /// What a pixel has.
+    /// Samples of a pixel.
     pub layout: Layout,
-    /// Whether a sample has sixteen bits, the upper eight first; else eight.
+    /// True if a sample has sixteen bits, most significant byte first; else eight.
     pub is_deep: bool,
     /// Samples, pixel by pixel, row by row.
     pub bytes: Vec<u8>,
 }
 
-/// Why bytes are no picture.
+/// Error of an image that cannot be decoded.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct BadImage(pub(crate) String);
 
@@ -68,11 +68,11 @@ impl fmt::Display for BadImage {
 impl std::error::Error for BadImage {}
 
 impl Raster {
-    /// Reads a PNG, JPEG, BMP or PNM, whichever it is. Palettes are looked up, fewer bits than eight
-    /// are spread over eight.
+    /// Decodes a PNG, JPEG, BMP or PNM. Palettes are expanded, and fewer than eight bits are scaled to
+    /// eight.
     ///
     /// # Errors
-    /// When the bytes are none of these, broken, or too large.
+    /// If the bytes are none of these, broken, or too large.
     pub fn decode(bytes: &[u8]) -> Result<Self, BadImage> {
         let raster = match bytes {
             [0x89, b'P', b'N', b'G', ..] => crate::png_file::decode(bytes)?,
@@ -92,7 +92,7 @@ impl Raster {
         Ok(raster)
     }
 
-    /// How many pixels there are.
+    /// Number of pixels.
     #[must_use]
     pub fn pixels(&self) -> usize {
         self.width as usize * self.height as usize
@@ -102,14 +102,14 @@ impl Raster {
         self.layout.channels() * if self.is_deep { 2 } else { 1 }
     }
 
-    /// The bytes of a pixel, counted from the first of the top row.
+    /// Samples of a pixel, counted from the first of the top row.
     #[must_use]
     pub fn sample(&self, pixel: usize) -> &[u8] {
         let size = self.bytes_per_pixel();
         &self.bytes[pixel * size..(pixel + 1) * size]
     }
 
-    /// The same with eight bits a sample, rounded down as `GraphicsMagick` does.
+    /// Returns the image with eight bits per sample, rounded down as `GraphicsMagick` does.
     #[must_use]
     pub fn into_shallow(self) -> Self {
         if !self.is_deep {
@@ -122,16 +122,18 @@ impl Raster {
     }
 }
 
-/// Refuses what would not fit before memory is asked for.
+/// Refuses images that are too large, before memory is allocated.
 pub(crate) fn within_limits(width: u32, height: u32, pixel_bytes: usize) -> Result<(), BadImage> {
-    // Sides first: the product of longer ones might not fit.
-    let has_sides = width <= LONGEST_SIDE && height <= LONGEST_SIDE;
-    if has_sides && u64::from(width) * u64::from(height) * pixel_bytes as u64 <= MOST_BYTES as u64 {
+    // Sides first: the product of longer ones could overflow.
+    let has_sides = width <= MAX_SIDE_PX && height <= MAX_SIDE_PX;
+    if has_sides
+        && u64::from(width) * u64::from(height) * pixel_bytes as u64 <= MAX_SAMPLE_BYTES as u64
+    {
         return Ok(());
     }
     Err(BadImage(format!(
         "it has {width} by {height} pixels, which take more than {} MiB; scale it down",
-        MOST_BYTES >> 20
+        MAX_SAMPLE_BYTES >> 20
     )))
 }
 

@@ -1,4 +1,4 @@
-//! Corners with attributes to vertices and indices.
+//! Construction of vertices and indices from triangle corners.
 
 use std::collections::HashMap;
 use std::sync::Arc;
@@ -10,26 +10,26 @@ use crate::limits::Budget;
 use crate::mesh::{Material, Submesh};
 use crate::notes::Notes;
 
-/// One corner of a triangle: what it is made of, and its attributes.
+/// Corner of a triangle: identity and attributes.
 pub(crate) struct Corner {
-    /// Equal keys within one part are one vertex: positions of its position,
-    /// normal and texture coordinate in the file's lists.
+    /// Corners with equal keys in one part are one vertex: indices of position, normal and texture
+    /// coordinate in the file's lists.
     pub(crate) key: [u32; 3],
     pub(crate) position: DVec3,
     pub(crate) normal: Option<[f32; 3]>,
     pub(crate) uv: Option<[f32; 2]>,
 }
 
-/// Bytes of one finished vertex and one triangle, near enough.
+/// Approximate size of one finished vertex and one triangle [bytes].
 const VERTEX_BYTES: usize = 44;
 const TRIANGLE_BYTES: usize = 12;
 
-/// Bytes of one vertex and one triangle while a part is read: the part's own, those of its first
-/// instance, and the entry by which equal corners are found.
+/// Size of one vertex and one triangle while a part is read [bytes]: those of the part, those of its first
+/// instance, and the entry in the index of equal corners.
 const READ_VERTEX_BYTES: usize = 2 * VERTEX_BYTES + 32;
 const READ_TRIANGLE_BYTES: usize = 2 * TRIANGLE_BYTES;
 
-/// A part under construction, in its own frame and unit.
+/// Part under construction, in its own frame and unit.
 #[derive(Default)]
 pub(crate) struct Part {
     pub(crate) positions: Vec<DVec3>,
@@ -47,7 +47,7 @@ impl Part {
     /// Adds one triangle.
     ///
     /// # Errors
-    /// When the budget is spent or a position is not a finite number.
+    /// If the budget is exceeded or a position is not finite.
     pub(crate) fn triangle(
         &mut self,
         corners: [&Corner; 3],
@@ -71,17 +71,17 @@ impl Part {
             return Err(not_finite(corner.position));
         }
         budget.bytes(READ_VERTEX_BYTES)?;
-        // Cannot overflow: 2^32 vertices are beyond any byte budget below 176 GiB.
+        // Cannot overflow: 2^32 vertices exceed any byte budget below 176 GiB.
         let index = u32::try_from(self.positions.len()).unwrap_or(u32::MAX);
         self.positions.push(corner.position);
-        // Attributes only count when every vertex has them: see `complete`.
+        // Attributes are used only if every vertex has them: see `complete`.
         self.normals.extend(corner.normal.and_then(unit));
         self.uvs.extend(corner.uv.filter(|uv| uv.iter().all(|x| x.is_finite())));
         self.vertex_of_key.insert(corner.key, index);
         Ok(index)
     }
 
-    /// This part placed in the mesh's frame: `mesh_from_part` includes the unit.
+    /// Returns this part in the mesh frame: `mesh_from_part` includes the unit.
     pub(crate) fn placed(
         &self,
         name: String,
@@ -112,13 +112,13 @@ impl Part {
             complete(&self.uvs, positions_m.len(), "texture coordinates", notes).map(<[_]>::to_vec);
         let mut triangles = self.triangles.clone();
         if mirrored {
-            // A mirroring transform would turn every face inside out (glTF 2.0, 3.7.4).
+            // A mirroring transform would invert every face (glTF 2.0, 3.7.4).
             triangles.iter_mut().for_each(|t| t.swap(1, 2));
         }
         Ok(Submesh { name, positions_m, normals, uvs, triangles, material })
     }
 
-    /// What a further instance of this part costs.
+    /// Charges the budget for another instance of this part.
     pub(crate) fn charge_copy(&self, budget: &mut Budget) -> Result<(), MeshError> {
         budget.triangles(self.triangles.len())?;
         let vertices = self.positions.len().saturating_mul(VERTEX_BYTES);
@@ -126,8 +126,8 @@ impl Part {
     }
 }
 
-/// Normals go by the inverse transpose; the cofactor matrix is that up to scale
-/// and exists for flattening transforms too.
+/// Normals transform by the inverse transpose; the cofactor matrix equals it up to scale and exists for
+/// singular transforms too.
 fn cofactor(m: DMat3, mirrored: bool) -> DMat3 {
     let (a, b, c) = (m.x_axis, m.y_axis, m.z_axis);
     let cofactor = DMat3::from_cols(b.cross(c), c.cross(a), a.cross(b));

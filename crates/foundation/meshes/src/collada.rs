@@ -1,8 +1,7 @@
 //! COLLADA 1.4 and 1.5 (`.dae`), geometry of the visual scene.
 //!
-//! After "COLLADA - Digital Asset Schema Release 1.4.1" (Khronos, 2008); where
-//! Gazebo reads files otherwise than that document asks, Gazebo wins: see the
-//! crate documentation on the up axis.
+//! Follows "COLLADA - Digital Asset Schema Release 1.4.1" (Khronos, 2008), except where Gazebo reads files
+//! differently: see the crate documentation on the up axis.
 
 mod geometry;
 mod material;
@@ -38,7 +37,7 @@ pub(crate) fn read(bytes: &[u8], budget: &mut Budget) -> Result<Mesh, MeshError>
     if let Some(scene) = visual_scene(root)? {
         walk.scene(scene, mesh_from_scene)?;
     } else {
-        // A file of shapes only: every shape once, where it was modelled.
+        // A file with geometries only: every geometry once, at its own coordinates.
         for library in root.children_named("library_geometries") {
             for geometry in library.children_named("geometry") {
                 walk.lone(geometry, mesh_from_scene)?;
@@ -49,7 +48,7 @@ pub(crate) fn read(bytes: &[u8], budget: &mut Budget) -> Result<Mesh, MeshError>
     Ok(Mesh { submeshes, declared_up, notes: notes.finish() })
 }
 
-/// Length of the file's unit \[m\]; one metre where it says nothing.
+/// Length of the file's unit \[m\]; the default is one metre.
 fn unit_m(root: Node<'_>) -> Result<f64, MeshError> {
     let unit = root.descend(&["asset", "unit"]);
     let Some((unit, text)) = unit.and_then(|unit| Some((unit, unit.attribute("meter")?))) else {
@@ -68,7 +67,7 @@ fn declared_up(root: Node<'_>) -> Option<UpAxis> {
     }
 }
 
-/// The scene that `<scene>` instances, or the first one when it instances none.
+/// Scene that `<scene>` instantiates, or else the first one.
 fn visual_scene(root: Node<'_>) -> Result<Option<Node<'_>>, MeshError> {
     let instance = root.descend(&["scene", "instance_visual_scene"]);
     let Some((instance, url)) = instance.and_then(|i| Some((i, i.attribute("url")?))) else {

@@ -1,8 +1,8 @@
-//! What is wrong with a mesh file, where, and what to do about it.
+//! Errors of mesh files with location and advice.
 
 use std::fmt;
 
-/// Where in a mesh file something was found.
+/// Location in a mesh file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Place {
     /// Line of a text file, counted from 1.
@@ -20,14 +20,14 @@ impl fmt::Display for Place {
     }
 }
 
-/// A mesh file that could not be read.
+/// Error of a mesh file that cannot be read.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct MeshError {
-    /// What is wrong.
+    /// Description of the fault.
     pub message: String,
-    /// Where it is, when one place can be named.
+    /// Location, if known.
     pub place: Option<Place>,
-    /// What to do.
+    /// Advice.
     pub help: String,
 }
 

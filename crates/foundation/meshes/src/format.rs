@@ -1,8 +1,8 @@
-//! Which format a mesh file is in.
+//! Mesh file formats.
 
 use crate::error::MeshError;
 
-/// The mesh formats that can be read.
+/// Supported mesh formats.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum MeshFormat {
     /// STL, ASCII or binary.
@@ -16,11 +16,11 @@ pub enum MeshFormat {
 }
 
 impl MeshFormat {
-    /// The format of a file, by its extension as Gazebo and RViz do, or by its
-    /// first bytes when the extension says nothing.
+    /// Format of a file, by its extension as in Gazebo and RViz, or by its first bytes if the extension is
+    /// unknown.
     ///
     /// # Errors
-    /// For a format that is not read here, naming those that are.
+    /// If the format is not supported; the error lists the supported ones.
     pub fn from_path_and_bytes(path: &str, bytes: &[u8]) -> Result<MeshFormat, MeshError> {
         let file = path.rsplit(['/', '\\']).next().unwrap_or(path);
         let extension = file.rsplit_once('.').map_or("", |(_, extension)| extension);
@@ -33,8 +33,7 @@ impl MeshFormat {
         }
     }
 
-    /// The format that the first bytes of a file speak for; binary STL and OBJ
-    /// have no mark of their own and are never guessed.
+    /// Format by the first bytes of a file. Binary STL and OBJ have no signature and are never returned.
     pub fn from_bytes(bytes: &[u8]) -> Option<MeshFormat> {
         let head = &bytes[..bytes.len().min(4096)];
         let has = |mark: &[u8]| head.windows(mark.len()).any(|window| window == mark);

@@ -1,10 +1,9 @@
 //! glTF 2.0, as JSON or binary container.
 //!
-//! After the "glTF 2.0 Specification" (Khronos, ISO/IEC 12113:2022). The JSON
-//! is parsed by the `gltf` crate; its wrappers and validation are left aside,
-//! because they index by numbers from the file and refuse files that lack
-//! `min`/`max`, which every other reader takes. Skins and morph targets stay in
-//! their base shape.
+//! Follows the "glTF 2.0 Specification" (Khronos, ISO/IEC 12113:2022). The JSON is parsed by the `gltf`
+//! crate; its wrappers and validation are not used, because they index by numbers from the file and refuse
+//! files without `min`/`max`, which all other readers accept. Skins and morph targets keep their base
+//! shape.
 
 mod accessor;
 mod buffers;
@@ -23,7 +22,7 @@ use crate::limits::Budget;
 use crate::mesh::Mesh;
 use crate::notes::Notes;
 
-/// Extensions that change nothing about shape, or that accessors cope with.
+/// Extensions that do not change the shape, or that accessors support.
 const KNOWN_EXTENSIONS: [&str; 16] = [
     "KHR_mesh_quantization",
     "KHR_texture_transform",
@@ -43,7 +42,7 @@ const KNOWN_EXTENSIONS: [&str; 16] = [
     "MSFT_texture_dds",
 ];
 
-/// Memory of one parsed JSON object, at most.
+/// Maximum memory of one parsed JSON object [bytes].
 const OBJECT_BYTES: usize = 512;
 
 pub(crate) fn read(
@@ -52,7 +51,7 @@ pub(crate) fn read(
     side_files: &mut SideFiles<'_>,
 ) -> Result<Mesh, MeshError> {
     let container::Parts { json, binary } = container::split(bytes)?;
-    // An object of two characters, `{}`, can become a node of hundreds of bytes.
+    // An object of two characters, `{}`, may become a node of hundreds of bytes.
     budget.bytes(json.iter().filter(|&&b| b == b'{').count().saturating_mul(OBJECT_BYTES))?;
     let root = Root::from_slice(json).map_err(|error| not_gltf(&error))?;
     if !root.asset.version.starts_with("2.") {

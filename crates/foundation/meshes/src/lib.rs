@@ -1,7 +1,7 @@
-//! STL, OBJ, COLLADA and glTF to triangles.
+//! Readers for STL, OBJ, COLLADA and glTF meshes.
 //!
-//! Bytes in, [`Mesh`] out: no file is opened here. Files beside the mesh file
-//! (`.mtl`, `.bin`) are asked for through a callback.
+//! A reader turns bytes into a [`Mesh`] and opens no files. Files next to the mesh file (`.mtl`, `.bin`)
+//! are requested through a callback.
 //!
 //! ```
 //! use periplus_meshes::{MeshFormat, read};
@@ -13,22 +13,20 @@
 //! # Ok::<(), periplus_meshes::MeshError>(())
 //! ```
 //!
-//! # Which way is up, and how long is a unit
+//! # Up axis and unit
 //!
-//! A mesh lies in the world exactly as Gazebo and RViz place it:
+//! A mesh has the same pose as in Gazebo and RViz:
 //!
-//! - COLLADA: `<unit meter="...">` scales to metres. `<up_axis>` does **not**
-//!   turn the mesh. Gazebo Classic never read the tag (gazebo-classic issue
-//!   1305), gz-common's `ColladaLoader` does not either, its `AssimpLoader`
-//!   drops the turn that assimp puts on the root node
-//!   (`UpdatedRootNodeTransform`), and RViz and MoveIt undo it
-//!   (geometric_shapes pull request 52). Robot files are written against that:
-//!   TurtleBot3's world meshes say `Y_UP` and have their height along z. The
-//!   declared axis is kept in [`Mesh::declared_up`], with a note when it is not z.
-//! - glTF: coordinates as in the file, metres, with all node transforms, as
-//!   current gz-common loads them. The format says +y is up, so an asset that was not
-//!   exported with z up lies on its side in Gazebo, and here.
-//! - STL and OBJ have neither unit nor axis: taken as metres, as they are.
+//! - COLLADA: `<unit meter="...">` scales to metres. `<up_axis>` does **not** rotate the mesh. Gazebo
+//!   Classic never read the tag (gazebo-classic issue 1305), gz-common's `ColladaLoader` does not either,
+//!   its `AssimpLoader` removes the rotation that assimp adds to the root node
+//!   (`UpdatedRootNodeTransform`), and RViz and MoveIt undo it (geometric_shapes pull request 52). Robot
+//!   files rely on this: TurtleBot3's world meshes declare `Y_UP` and have their height along z. The
+//!   declared axis is kept in [`Mesh::declared_up`], with a note if it is not z.
+//! - glTF: coordinates as in the file, in metres, with all node transforms, as in current gz-common. The
+//!   format defines +y as up, so an asset that was not exported with z up is rotated by 90 degrees in
+//!   Gazebo, and here.
+//! - STL and OBJ have neither unit nor axis: coordinates are metres, unchanged.
 
 mod build;
 mod collada;
@@ -48,17 +46,17 @@ pub use crate::limits::Limits;
 pub use crate::mesh::{Bounds, Material, Mesh, Submesh, Texture, UpAxis};
 pub use crate::notes::Note;
 
-/// Gives the bytes of a file named in a mesh file, relative to it, or `None`.
+/// Returns the bytes of a file that a mesh file refers to, relative to it, or `None`.
 ///
-/// The name is what the mesh file says (percent-decoded for glTF): the callee
-/// decides whether `../../secret` or an absolute path may be followed.
+/// The name is as in the mesh file (percent-decoded for glTF). The callback decides whether `../../secret`
+/// or an absolute path may be opened.
 pub type SideFiles<'a> = dyn FnMut(&str) -> Option<Vec<u8>> + 'a;
 
-/// Reads a mesh within the default [`Limits`].
+/// Reads a mesh with the default [`MeshLimits`].
 ///
 /// # Errors
-/// When the bytes are not a mesh of this format, when a vertex position is not
-/// finite, when no triangle is found, or when the file unfolds beyond the limits.
+/// If the bytes are not a mesh of this format, a vertex position is not finite, there is no triangle, or
+/// the file exceeds the limits.
 pub fn read(
     bytes: &[u8],
     format: MeshFormat,
@@ -67,7 +65,7 @@ pub fn read(
     read_within(Limits::default(), bytes, format, side_files)
 }
 
-/// Reads a mesh within the given limits.
+/// Reads a mesh with the given limits.
 ///
 /// # Errors
 /// As [`read`].
@@ -94,7 +92,7 @@ pub fn read_within(
     Ok(mesh)
 }
 
-/// A file whose bytes speak for another format is misnamed rather than damaged.
+/// Explains an error of a file whose bytes are in another format: it is misnamed rather than damaged.
 fn explain_wrong_format(mut error: MeshError, bytes: &[u8], format: MeshFormat) -> MeshError {
     if let Some(found) = MeshFormat::from_bytes(bytes).filter(|&found| found != format) {
         error.message = format!("{} (it looks like {found:?}, not {format:?})", error.message);

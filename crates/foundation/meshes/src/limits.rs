@@ -1,32 +1,32 @@
-//! How much a mesh file may ask for, so that a small hostile file stays small.
+//! Limits of the resources that a mesh file may use, so that a small hostile file stays small.
 
 use crate::error::MeshError;
 
-/// Bounds on what one file may unfold to.
+/// Limits for one file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Limits {
-    /// Triangles over all parts, after instancing.
+    /// Maximum number of triangles over all parts, after instancing.
     pub triangles_max: usize,
-    /// Scene nodes, geometry instances and primitives visited.
+    /// Maximum number of scene nodes, geometry instances and primitives.
     pub visits_max: usize,
-    /// Nesting of scene nodes.
+    /// Maximum nesting depth of scene nodes.
     pub depth_max: usize,
-    /// Memory that reading may take, the finished mesh included \[bytes\]. A small file is
-    /// allowed less: 128 MiB, and 24 bytes for each of its own.
+    /// Maximum memory for reading, the finished mesh included \[bytes\]. The limit of a small file is
+    /// lower: 128 MiB, plus 24 bytes for each of its own.
     pub bytes_max: usize,
 }
 
-/// Memory that reading the smallest file may take \[bytes\]: instances and implied values let
-/// honest files of a few kilobytes unfold to megabytes.
+/// Memory for reading the smallest file \[bytes\]: instances and implied values expand valid files of a few
+/// kilobytes to megabytes.
 const BYTES_OF_ANY_FILE: usize = 128 << 20;
 
-/// Memory that each further byte of a file may take. The most compact honest vertex is three
-/// 16-bit numbers, six bytes, and takes about 110 bytes while it is read.
+/// Memory for each further byte of a file. The most compact valid vertex is three 16-bit numbers, six
+/// bytes, and takes about 110 bytes while it is read.
 const BYTES_PER_BYTE: usize = 24;
 
 impl Default for Limits {
-    /// Ten million triangles, a million visits, 128 levels, 2 GiB:
-    /// far above anything that runs in a simulator, far below harm.
+    /// Ten million triangles, a million visits, 128 levels, 2 GiB: far above the needs of a simulator and
+    /// far below harm.
     fn default() -> Self {
         Limits {
             triangles_max: 10_000_000,
@@ -37,19 +37,19 @@ impl Default for Limits {
     }
 }
 
-/// Corners of one polygon.
-const CORNERS_MAX: usize = 1_000_000;
+/// Maximum number of corners of one polygon.
+const MAX_CORNERS: usize = 1_000_000;
 
-/// What is left of the [`Limits`] while a file is read.
+/// Remaining [`MeshLimits`] while a file is read.
 pub(crate) struct Budget {
     limits: Limits,
     triangles: usize,
     visits: usize,
     bytes: usize,
-    /// Memory that has been allowed so far.
+    /// Memory that has been allowed so far [bytes].
     granted: usize,
-    /// Steps left for cutting ears off concave polygons, which takes quadratic
-    /// to cubic time in the number of corners.
+    /// Remaining steps of ear clipping for concave polygons, which takes quadratic to cubic time in the
+    /// number of corners.
     pub(crate) ear_steps: usize,
 }
 
@@ -68,7 +68,7 @@ impl Budget {
         }
     }
 
-    /// Allows more memory for the bytes of a file that takes part, up to the limit.
+    /// Allows more memory for the bytes of another file of the mesh, up to the limit.
     pub(crate) fn grant(&mut self, file_bytes: usize) {
         let more = file_bytes.saturating_mul(BYTES_PER_BYTE);
         let more = more.min(self.limits.bytes_max - self.granted);
@@ -104,13 +104,13 @@ impl Budget {
         })
     }
 
-    /// Checks the corners of one polygon, which are held all at once.
+    /// Checks the number of corners of one polygon, which are all in memory at once.
     pub(crate) fn corners(&self, count: usize) -> Result<(), MeshError> {
-        if count <= CORNERS_MAX {
+        if count <= MAX_CORNERS {
             return Ok(());
         }
         Err(MeshError::new(
-            format!("a polygon has more than {CORNERS_MAX} corners"),
+            format!("a polygon has more than {MAX_CORNERS} corners"),
             "triangulate the mesh before export",
         ))
     }

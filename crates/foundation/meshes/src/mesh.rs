@@ -1,54 +1,54 @@
-//! A mesh in memory: submeshes of triangles, in metres, with their materials.
+//! Mesh in memory: submeshes of triangles, in metres, with their materials.
 
 use std::sync::Arc;
 
 use crate::notes::Note;
 
-/// A mesh file, read.
+/// Mesh read from a file.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Mesh {
-    /// The parts, in file order; never empty and never without triangles.
+    /// Parts, in file order; never empty and never without triangles.
     pub submeshes: Vec<Submesh>,
-    /// The up axis a COLLADA file declares. Positions are *not* turned by it:
-    /// see the crate documentation, "Which way is up".
+    /// Up axis declared by a COLLADA file. Positions are *not* rotated by it: see the crate documentation,
+    /// "Up axis and unit".
     pub declared_up: Option<UpAxis>,
-    /// What was left out or assumed on the way.
+    /// Content that was left out or assumed.
     pub notes: Vec<Note>,
 }
 
-/// One part of a mesh: one material, one name.
+/// Part of a mesh with one material and one name.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Submesh {
-    /// The name an SDF `<submesh><name>` selects by; several parts may share it.
+    /// Name that an SDF `<submesh><name>` refers to; several parts may share it.
     pub name: String,
-    /// Vertex positions in the mesh's frame \[m\]; all finite.
+    /// Vertex positions in the mesh frame \[m\]; all finite.
     pub positions_m: Vec<[f64; 3]>,
-    /// Unit normals, one per position, where the file has them for every vertex.
+    /// Unit normals, one per position, if the file has them for every vertex.
     pub normals: Option<Vec<[f32; 3]>>,
-    /// Texture coordinates, one per position, origin at the lower left
-    /// (v upwards) whatever the file's own convention.
+    /// Texture coordinates, one per position, with the origin at the lower left (v upwards), whatever the
+    /// convention of the file.
     pub uvs: Option<Vec<[f32; 2]>>,
-    /// Corners of each triangle as indices into `positions_m`, counter-clockwise
-    /// seen from outside. Triangles without area are kept as the file has them.
+    /// Corners of each triangle as indices into `positions_m`, counter-clockwise seen from outside.
+    /// Triangles without area are kept.
     pub triangles: Vec<[u32; 3]>,
-    /// The material, when the file gives one that could be found.
+    /// Material, if the file gives one that exists.
     pub material: Option<Arc<Material>>,
 }
 
-/// The part of a material that every format has.
+/// Material properties that all formats have.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Material {
     /// Name or id in the file; may be empty.
     pub name: String,
     /// Diffuse (glTF: base) colour, red, green, blue, alpha, each 0 to 1.
     pub diffuse_rgba: [f32; 4],
-    /// The diffuse (glTF: base colour) texture.
+    /// Diffuse (glTF: base colour) texture.
     pub texture: Option<Texture>,
 }
 
 impl Material {
-    /// What names and texture take in memory \[bytes\]: several materials of a
-    /// file may refer to one long name or one large image.
+    /// Memory of names and texture \[bytes\]: several materials of a file may refer to one long name or one
+    /// large image.
     pub(crate) fn size_bytes(&self) -> usize {
         let texture = match &self.texture {
             None => 0,
@@ -59,37 +59,37 @@ impl Material {
     }
 }
 
-/// An image a material refers to.
+/// Image of a material.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Texture {
-    /// A file, as the mesh file writes it: usually relative to the mesh file.
+    /// File as written in the mesh file: usually relative to it.
     File(String),
-    /// An image stored inside the mesh file, still encoded.
+    /// Image inside the mesh file, still encoded.
     Embedded {
-        /// Media type such as `image/png`; empty when the file does not say.
+        /// Media type such as `image/png`; empty if the file does not give one.
         media_type: String,
-        /// The image file's bytes.
+        /// Bytes of the image file.
         bytes: Arc<[u8]>,
     },
 }
 
-/// An axis that points up.
+/// Up axis.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum UpAxis {
     /// `X_UP`
     X,
-    /// `Y_UP`, what COLLADA and glTF mean where nothing is said.
+    /// `Y_UP`, the default of COLLADA and glTF.
     Y,
-    /// `Z_UP`, what Gazebo and ROS use.
+    /// `Z_UP`, as in Gazebo and ROS.
     Z,
 }
 
-/// An axis-aligned box in the mesh's frame \[m\].
+/// Axis-aligned bounding box in the mesh frame \[m\].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Bounds {
-    /// Least coordinates \[m\].
+    /// Minimum coordinates \[m\].
     pub min_m: [f64; 3],
-    /// Greatest coordinates \[m\].
+    /// Maximum coordinates \[m\].
     pub max_m: [f64; 3],
 }
 
@@ -111,7 +111,7 @@ impl Bounds {
 }
 
 impl Mesh {
-    /// The box around all vertices \[m\]; `None` only for a mesh without any.
+    /// Bounding box of all vertices \[m\]; `None` only for a mesh without any.
     pub fn bounds(&self) -> Option<Bounds> {
         Bounds::of(self.submeshes.iter().flat_map(|part| part.positions_m.iter().copied()))
     }
@@ -128,12 +128,12 @@ impl Mesh {
 }
 
 impl Submesh {
-    /// The box around this part's vertices \[m\].
+    /// Bounding box of this part's vertices \[m\].
     pub fn bounds(&self) -> Option<Bounds> {
         Bounds::of(self.positions_m.iter().copied())
     }
 
-    /// How many triangles have exactly no area: a ray can never hit them.
+    /// Number of triangles with exactly zero area, which a ray can never hit.
     pub fn degenerate_triangle_count(&self) -> usize {
         let at = |i: u32| glam::DVec3::from_array(self.positions_m[i as usize]);
         let area_is_zero =

@@ -1,19 +1,19 @@
-//! What a reader left out or guessed: nothing is dropped silently.
+//! Notes about content that a reader left out or assumed.
 
-/// One thing the reader did not take over as written, and how often.
+/// Note with the number of its occurrences.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Note {
-    /// What was left out or assumed, and what to do.
+    /// Content that was left out or assumed, and advice.
     pub message: String,
-    /// How many times it happened in this file.
+    /// Number of occurrences in this file.
     pub count: usize,
 }
 
-/// More kinds than this in one file tell a person nothing new, and a hostile
-/// file could otherwise make one per element.
-const KINDS_MAX: usize = 32;
+/// Maximum number of different notes. More are of no use, and a hostile file could otherwise cause one per
+/// element.
+const MAX_NOTES: usize = 32;
 
-/// Collects notes, equal ones counted together, in order of first appearance.
+/// Collects notes in order of first appearance and counts equal ones.
 #[derive(Default)]
 pub(crate) struct Notes {
     notes: Vec<Note>,
@@ -28,7 +28,7 @@ impl Notes {
         }
         if let Some(note) = self.notes.iter_mut().find(|note| note.message == message) {
             note.count += 1;
-        } else if self.notes.len() < KINDS_MAX {
+        } else if self.notes.len() < MAX_NOTES {
             self.notes.push(Note { message, count: 1 });
         } else {
             self.left_out += 1;

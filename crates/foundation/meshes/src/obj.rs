@@ -1,8 +1,7 @@
 //! Wavefront OBJ.
 //!
-//! After Wavefront's "Advanced Visualizer" manual, appendix B1. Faces are read;
-//! free-form curves, points and lines are left out with a note. A part is one
-//! `o`/`g` name with one `usemtl`.
+//! Follows Wavefront's "Advanced Visualizer" manual, appendix B1. Faces are read; free-form curves, points
+//! and lines are left out with a note. A part is one `o`/`g` name with one `usemtl`.
 
 mod lines;
 mod mtl;
@@ -21,7 +20,7 @@ use crate::mesh::{Material, Mesh};
 use crate::notes::Notes;
 use crate::triangulate::triangulate;
 
-/// The lists that faces index into.
+/// Lists that faces refer to.
 #[derive(Default)]
 struct Pool {
     positions: Vec<DVec3>,
@@ -29,7 +28,7 @@ struct Pool {
     normals: Vec<[f32; 3]>,
 }
 
-/// How far each list has grown where a face stands: negative indices count back from there.
+/// Length of each list at a face: negative indices count back from there.
 #[derive(Default)]
 struct Seen {
     positions: usize,
@@ -42,7 +41,7 @@ pub(crate) fn read(
     budget: &mut Budget,
     side_files: &mut SideFiles<'_>,
 ) -> Result<Mesh, MeshError> {
-    // Vertices first: some writers put a face before the vertices it names.
+    // Vertices first: some writers put a face before its vertices.
     let pool = read_pool(bytes)?;
     let mut notes = Notes::default();
     let mut materials: HashMap<String, Arc<Material>> = HashMap::new();
@@ -111,7 +110,7 @@ fn read_pool(bytes: &[u8]) -> Result<Pool, MeshError> {
     let mut pool = Pool::default();
     for line in lines(bytes) {
         match line.keyword() {
-            // A fourth number is a weight or the first of a colour: neither moves the point.
+            // A fourth number is a weight or the first of a colour: neither moves the vertex.
             "v" => pool.positions.push(DVec3::from_array(line.numbers(3)?)),
             "vt" => pool.uvs.push(line.numbers::<2>(1)?.map(|x| x as f32)),
             "vn" => pool.normals.push(line.numbers::<3>(3)?.map(|x| x as f32)),
@@ -121,8 +120,8 @@ fn read_pool(bytes: &[u8]) -> Result<Pool, MeshError> {
     Ok(pool)
 }
 
-/// The material files a `mtllib` line names. Names with spaces are common though
-/// the format has none, so the whole line is tried as one name first.
+/// Material files of a `mtllib` line. Names with spaces are common, although the format has none, so the
+/// whole line is tried as one name first.
 fn material_files(
     names: &str,
     side_files: &mut SideFiles<'_>,

@@ -1,8 +1,7 @@
 //! STL, ASCII and binary.
 //!
-//! Layout after Burns, "Automated Fabrication" (1993), section 6.5. Facet
-//! normals are left aside: they follow from the corners, many writers leave
-//! them zero, and with welded corners there is no vertex to hang them on.
+//! Layout as in Burns, "Automated Fabrication" (1993), section 6.5. Facet normals are ignored: they follow
+//! from the corners, many writers leave them zero, and welded corners have no vertex for them.
 
 use std::collections::HashMap;
 
@@ -18,8 +17,8 @@ const HEADER_BYTES: usize = 84;
 const FACET_BYTES: usize = 50;
 
 pub(crate) fn read(bytes: &[u8], budget: &mut Budget) -> Result<Mesh, MeshError> {
-    // Binary files that begin with "solid" are common (SolidWorks writes them),
-    // so an exact length wins over the word.
+    // Binary files that begin with "solid" are common (SolidWorks writes them), so an exact length takes
+    // precedence over the word.
     let mut notes = Notes::default();
     let is_exactly_binary =
         facet_count(bytes).is_some_and(|count| expected_len(count) == bytes.len());
@@ -31,8 +30,8 @@ pub(crate) fn read(bytes: &[u8], budget: &mut Budget) -> Result<Mesh, MeshError>
     Ok(Mesh { submeshes, declared_up: None, notes: notes.finish() })
 }
 
-/// Whether the bytes look like ASCII STL: the word `solid` and, soon after,
-/// one of the words that only the text form has.
+/// Returns true if the bytes look like ASCII STL: the word `solid`, soon followed by a word that only the
+/// text format has.
 pub(crate) fn is_ascii(bytes: &[u8]) -> bool {
     let head = bytes[..bytes.len().min(4096)].trim_ascii_start().to_ascii_lowercase();
     let has = |mark: &[u8]| head.windows(mark.len()).any(|window| window == mark);
@@ -96,7 +95,7 @@ struct Soup {
 impl Soup {
     fn triangle(&mut self, corners: [DVec3; 3], budget: &mut Budget) -> Result<(), MeshError> {
         let corners = corners.map(|position| {
-            // Adding zero makes -0.0 and 0.0 the same place.
+            // Adding zero makes -0.0 and 0.0 equal.
             let bits = (position + DVec3::ZERO).to_array().map(f64::to_bits);
             let next = u32::try_from(self.vertex_of_position.len()).unwrap_or(u32::MAX);
             let id = *self.vertex_of_position.entry(bits).or_insert(next);
@@ -115,7 +114,7 @@ impl Soup {
 
 type Lines<'a> = std::iter::Enumerate<std::slice::Split<'a, u8, fn(&u8) -> bool>>;
 
-/// Words of the text with the line each stands on.
+/// Words of the text with their line numbers.
 struct Words<'a> {
     lines: Lines<'a>,
     line: usize,
@@ -198,7 +197,7 @@ fn solid(words: &mut Words<'_>, budget: &mut Budget) -> Result<Soup, MeshError> 
             other => return Err(words.unexpected("facet or endsolid", other)),
         }
         words.expect("normal")?;
-        // Not a number is common here ("nan", "-1.#IND") and of no consequence.
+        // Not-a-number is common here ("nan", "-1.#IND") and has no effect.
         for _ in 0..3 {
             words.next();
         }

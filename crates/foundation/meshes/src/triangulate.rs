@@ -1,16 +1,15 @@
-//! Polygons in space to triangles.
+//! Triangulation of polygons in space.
 
 use glam::{DVec2, DVec3};
 
 use crate::limits::Budget;
 use crate::notes::Notes;
 
-/// Splits the polygon with these corners (counter-clockwise from outside) and
-/// gives each triangle as positions in `corners`.
+/// Splits the polygon with these corners (counter-clockwise from outside) and passes each triangle as
+/// indices into `corners`.
 ///
-/// A convex polygon becomes a fan, a concave one loses its ears one by one
-/// (Meisters 1975, "Polygons have ears"). What has no ear left, because it
-/// crosses itself, becomes a fan with a note.
+/// A convex polygon becomes a fan; a concave one is triangulated by ear clipping (Meisters 1975, "Polygons
+/// have ears"). A self-intersecting rest without ears becomes a fan with a note.
 pub(crate) fn triangulate(
     corners: &[DVec3],
     budget: &mut Budget,
@@ -37,10 +36,10 @@ pub(crate) fn triangulate(
     fan(&rest, emit);
 }
 
-/// The polygon seen along its normal (Newell's method), counter-clockwise.
+/// Projects the polygon along its normal (Newell's method), counter-clockwise.
 fn project(corners: &[DVec3]) -> Vec<DVec2> {
     let next = corners.iter().cycle().skip(1);
-    // About the first corner, so that a polygon far from the origin keeps its digits.
+    // Relative to the first corner, so that a polygon far from the origin keeps its precision.
     let normal = corners
         .iter()
         .zip(next)
@@ -58,7 +57,7 @@ fn project(corners: &[DVec3]) -> Vec<DVec2> {
     corners.iter().map(|&p| flatten(p)).collect()
 }
 
-/// Twice the signed area of a triangle: positive when it turns left.
+/// Twice the signed area of a triangle: positive if counter-clockwise.
 fn turn(a: DVec2, b: DVec2, c: DVec2) -> f64 {
     (b - a).perp_dot(c - a)
 }
@@ -68,7 +67,7 @@ fn is_convex(flat: &[DVec2]) -> bool {
     (0..n).all(|i| turn(flat[i], flat[(i + 1) % n], flat[(i + 2) % n]) >= 0.0)
 }
 
-/// Cuts ears until three corners, or none that is an ear, or no budget is left.
+/// Clips ears until three corners, no ear, or no budget is left.
 fn cut_ears(
     flat: &[DVec2],
     mut ring: Vec<usize>,
@@ -84,7 +83,7 @@ fn cut_ears(
         let Some(i) = ear else { break };
         emit([ring[(i + n - 1) % n], ring[i], ring[(i + 1) % n]]);
         ring.remove(i);
-        // Going on beside the cut, not at corner 0, avoids long thin fans.
+        // Continuing next to the ear, not at corner 0, avoids long thin fans.
         start = i % ring.len();
     }
     ring
@@ -100,7 +99,7 @@ fn is_ear(flat: &[DVec2], ring: &[usize], i: usize, steps: &mut usize) -> bool {
     ring.iter().enumerate().all(|(k, &corner)| {
         *steps = steps.saturating_sub(1);
         let p = flat[corner];
-        // A corner that coincides with one of the ear's (a bridge to a hole) does not block it.
+        // A corner at the position of one of the ear's (a bridge to a hole) does not block it.
         let own = [before, i, after].contains(&k) || p == a || p == b || p == c;
         own || turn(a, b, p) < 0.0 || turn(b, c, p) < 0.0 || turn(c, a, p) < 0.0
     })
@@ -150,7 +149,7 @@ mod tests {
                         (b - a).cross(c - a) / 2.0
                     })
                     .collect();
-                // Areas add up only if no triangle covers the notch or is turned over.
+                // The areas add up only if no triangle covers the notch or is inverted.
                 let total: f64 = normals.iter().map(|n| n.length()).sum();
                 assert_eq!((total, (normals[0] + normals[1]).length()), (4.0, 4.0));
             }

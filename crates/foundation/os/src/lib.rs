@@ -1,6 +1,7 @@
-//! The real machine, for readers that ask only through [`periplus_resources::Host`].
+//! Access to the machine: files, environment, clock, memory.
 //!
-//! This is the one place below the programs where files and the environment are touched.
+//! Readers use it through [`periplus_resources::Host`]. No other library crate accesses files or the
+//! environment.
 
 mod machine;
 mod memory;

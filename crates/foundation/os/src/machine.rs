@@ -1,4 +1,4 @@
-//! Files and environment of the machine that this runs on.
+//! Files and environment of the machine.
 #![allow(clippy::disallowed_methods, reason = "this is the edge that all others ask")]
 
 use std::fs;
@@ -8,13 +8,13 @@ use std::path::{Path, PathBuf};
 use periplus_diagnostics::plain_words;
 use periplus_resources::{Host, Kind, LARGEST_FILE, ReadError, Store};
 
-/// The machine that this program runs on.
+/// Machine on which this program runs.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Machine;
 
 impl Host for Machine {
     fn read(&self, path: &Path) -> Result<Vec<u8>, ReadError> {
-        // Asked before opening: opening a pipe would wait for someone to write into it.
+        // Checked before opening: opening a named pipe would block until another process writes to it.
         let metadata = fs::metadata(path).map_err(|error| refusal(&error))?;
         if !metadata.is_file() {
             return Err(ReadError::NotAFile);
@@ -24,7 +24,7 @@ impl Host for Machine {
         }
         let file = fs::File::open(path).map_err(|error| refusal(&error))?;
         let mut bytes = Vec::with_capacity(usize::try_from(metadata.len()).unwrap_or(0));
-        // A file may grow while it is read, and those in /proc do not tell their size.
+        // A file may grow while it is read, and files in /proc do not report their size.
         let read = file.take(LARGEST_FILE + 1).read_to_end(&mut bytes);
         read.map_err(|error| refusal(&error))?;
         let size = bytes.len() as u64;
@@ -42,7 +42,7 @@ impl Host for Machine {
 
     fn list(&self, folder: &Path) -> Vec<String> {
         let Ok(entries) = fs::read_dir(folder) else { return Vec::new() };
-        // A name that is not UTF-8 cannot be written in a robot file either.
+        // A name that is not UTF-8 cannot occur in a robot file either.
         let mut names: Vec<String> =
             entries.filter_map(|entry| entry.ok()?.file_name().into_string().ok()).collect();
         names.sort_unstable();
@@ -59,10 +59,10 @@ impl Host for Machine {
 }
 
 impl Machine {
-    /// Reads a file bit by bit: what is large need not be held as a whole.
+    /// Opens a file for buffered reading, so that large files need not be in memory.
     ///
     /// # Errors
-    /// As [`Host::read`], but for what happens while it is read.
+    /// As [`Host::read`], except for errors during reading.
     pub fn reader(&self, path: &Path) -> Result<impl BufRead + use<>, ReadError> {
         let metadata = fs::metadata(path).map_err(|error| refusal(&error))?;
         if !metadata.is_file() {
@@ -72,14 +72,14 @@ impl Machine {
             return Err(ReadError::TooLarge(metadata.len()));
         }
         let file = fs::File::open(path).map_err(|error| refusal(&error))?;
-        Ok(BufReader::with_capacity(READ_AT_ONCE, file.take(LARGEST_FILE)))
+        Ok(BufReader::with_capacity(READ_BUFFER_BYTES, file.take(LARGEST_FILE)))
     }
 
-    /// Writes a file bit by bit, as a whole in the place of an old one: until all of it is written the old
-    /// one stays.
+    /// Writes a file piecewise and atomically replaces an existing one: the old file remains until all
+    /// content is written.
     ///
     /// # Errors
-    /// In words why it cannot be, also when `write` says so.
+    /// If the file cannot be written, or `write` fails.
     pub fn replace_by(
         &self,
         path: &Path,
@@ -92,7 +92,7 @@ impl Machine {
         remove_stale(path);
         let written = write_new(&beside, write).and_then(|()| fs::rename(&beside, path));
         if written.is_err() {
-            // Nobody can do more about it here.
+            // A failure here has no remedy.
             let _ = fs::remove_file(&beside);
         }
         written.map_err(words)
@@ -105,21 +105,21 @@ impl Store for Machine {
     }
 }
 
-/// So much of a file is read ahead \[bytes\].
-const READ_AT_ONCE: usize = 64 << 10;
+/// Size of the read buffer \[bytes\].
+const READ_BUFFER_BYTES: usize = 64 << 10;
 
-/// Age from which a part of a process that is gone is nobody's \[s\].
+/// Minimum age of a partial file of a terminated process before it is removed \[s\].
 const STALE_S: u64 = 60;
 
-/// Removes what writers of this file left beside it when they were killed: `NAME.PID.part` of processes that
-/// are gone. A young one stays: it may belong to a process that is not visible here, as in a container.
+/// Removes the partial files `NAME.PID.part` of terminated writers of this file. A recent one is kept: its
+/// process may not be visible here, as in a container.
 fn remove_stale(path: &Path) {
     let Some(name) = path.file_name().and_then(|name| name.to_str()) else { return };
     let folder = match path.parent() {
         Some(parent) if !parent.as_os_str().is_empty() => parent,
         _ => Path::new("."),
     };
-    // Without /proc it is not known which processes are there.
+    // Without /proc the running processes are not known.
     if !Path::new("/proc/self").exists() {
         return;
     }
@@ -134,13 +134,13 @@ fn remove_stale(path: &Path) {
         let age = fs::metadata(&part).and_then(|data| data.modified()).ok();
         let age = age.and_then(|changed| changed.elapsed().ok());
         if age.is_some_and(|age| age.as_secs() >= STALE_S) {
-            // Nobody can do more about it here.
+            // A failure here has no remedy.
             let _ = fs::remove_file(part);
         }
     }
 }
 
-/// On the disk before it gets its name, so that a loss of power leaves no empty file under it.
+/// Written to disk before it is renamed, so that a power failure leaves no empty file under the name.
 fn write_new(
     path: &Path,
     write: impl FnOnce(&mut dyn std::io::Write) -> std::io::Result<()>,
@@ -162,7 +162,7 @@ fn refusal(error: &std::io::Error) -> ReadError {
 mod tests {
     use super::*;
 
-    /// A folder that goes when the test ends.
+    /// Folder that is removed at the end of the test.
     struct Folder(PathBuf);
 
     impl Folder {
@@ -215,7 +215,7 @@ mod tests {
             println!("SKIPPED: there is no /proc here");
             return;
         }
-        // No process has a number this large (PID_MAX_LIMIT is 2^22).
+        // No process has an id this large (PID_MAX_LIMIT is 2^22).
         let own = format!("map.yaml.{}.part", std::process::id());
         let folder = Folder::new("stale")
             .with_file("map.yaml.99999999.part", "half")
@@ -256,7 +256,7 @@ mod tests {
     fn a_file_too_large_is_refused_unread() {
         let folder = Folder::new("large").with_file("large", "");
         let path = folder.0.join("large");
-        // Sparse: it takes no room on the disk.
+        // Sparse: it takes no space on the disk.
         fs::File::create(&path).unwrap().set_len(LARGEST_FILE + 1).unwrap();
         assert_eq!(Machine.read(&path), Err(ReadError::TooLarge(LARGEST_FILE + 1)));
     }

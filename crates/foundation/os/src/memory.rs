@@ -1,4 +1,4 @@
-//! What this process took of the machine's memory.
+//! Memory use of this process.
 
 use std::path::Path;
 
@@ -6,11 +6,11 @@ use periplus_resources::Host as _;
 
 use crate::Machine;
 
-/// Most memory that this process ever had in use at once, with everything that was mapped \[bytes\]; none
-/// where the system does not tell.
+/// Returns the peak resident memory of this process, memory-mapped files included \[bytes\]; `None` where
+/// the system does not report it.
 ///
-/// Linux tells it in `/proc/self/status` (proc_pid_status(5), `VmHWM`). There `ru_maxrss` of getrusage(2)
-/// would also count what the process was before it became this program. Other systems have only that.
+/// On Linux it is read from `/proc/self/status` (proc_pid_status(5), `VmHWM`), because `ru_maxrss` of
+/// getrusage(2) includes the time before exec. Other systems have only the latter.
 #[must_use]
 pub fn peak_memory_bytes() -> Option<u64> {
     let status = Machine.read(Path::new("/proc/self/status")).ok();
@@ -26,7 +26,7 @@ fn high_water_mark(status: &str) -> Option<u64> {
 #[cfg(unix)]
 fn largest() -> Option<u64> {
     use nix::sys::resource::{UsageWho, getrusage};
-    // Kilobytes everywhere but on Apple's systems.
+    // Kilobytes, except on Apple systems.
     let unit = if cfg!(target_vendor = "apple") { 1 } else { 1024 };
     let usage = getrusage(UsageWho::RUSAGE_SELF).ok()?;
     u64::try_from(usage.max_rss()).ok().map(|count| unit * count)

@@ -1,4 +1,4 @@
-//! The machine with other variables in its environment.
+//! Machine with a modified environment.
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -7,10 +7,10 @@ use periplus_resources::{Host, Kind, ReadError};
 
 use crate::Machine;
 
-/// The [`Machine`] as a program sees it whose environment was changed.
+/// [`Machine`] as seen by a program with a modified environment.
 #[derive(Clone, Debug, Default)]
 pub struct Overlay {
-    /// Variables that differ from those of the machine; none for a removed one.
+    /// Variables that differ from those of the machine; `None` for a removed one.
     pub variables: BTreeMap<String, Option<String>>,
 }
 

@@ -1,4 +1,4 @@
-//! Wall time, for those who follow or measure it.
+//! Wall time, for pacing and measurements.
 #![allow(clippy::disallowed_methods, reason = "this is the edge that all others ask")]
 
 use std::time::{Duration, Instant, SystemTime, UNIX_EPOCH};
@@ -8,19 +8,19 @@ use std::time::{Duration, Instant, SystemTime, UNIX_EPOCH};
 pub struct Stopwatch(Instant);
 
 impl Stopwatch {
-    /// Starts one.
+    /// Starts a stopwatch.
     #[must_use]
     pub fn start() -> Self {
         Self(Instant::now())
     }
 
-    /// Time since it was started.
+    /// Time since the start.
     #[must_use]
     pub fn elapsed(&self) -> Duration {
         self.0.elapsed()
     }
 
-    /// Time since it was started, and starts it again.
+    /// Returns the time since the start and restarts.
     pub fn lap(&mut self) -> Duration {
         let now = Instant::now();
         let lap = now - self.0;
@@ -29,14 +29,14 @@ impl Stopwatch {
     }
 }
 
-/// What the machine's clock shows \[ns since 1970\].
+/// System time \[ns since 1970\].
 #[must_use]
 pub fn unix_ns() -> i64 {
     let since = SystemTime::now().duration_since(UNIX_EPOCH).unwrap_or_default();
     i64::try_from(since.as_nanos()).unwrap_or(i64::MAX)
 }
 
-/// Waits.
+/// Sleeps for a duration.
 pub fn sleep(time: Duration) {
     std::thread::sleep(time);
 }

@@ -1,4 +1,4 @@
-//! From what was written to values.
+//! Conversion of written parameters to values.
 
 use std::borrow::Cow;
 use std::collections::BTreeMap;
@@ -9,21 +9,21 @@ use crate::value::quote;
 use crate::values::Located;
 use crate::{Default, Kind, Parameter, Table, Value, Values};
 
-/// One parameter as somebody wrote it.
+/// Parameter as written.
 #[derive(Clone, Debug)]
 pub struct Given<'a> {
-    /// The name as written.
+    /// Name as written.
     pub name: &'a str,
-    /// The value as written.
+    /// Value as written.
     pub text: Cow<'a, str>,
-    /// Where the name stands.
+    /// Source location of the name.
     pub name_origin: Origin,
-    /// Where the value stands.
+    /// Source location of the value.
     pub origin: Origin,
 }
 
 impl<'a> Given<'a> {
-    /// Without a place.
+    /// Returns a parameter without a source location.
     #[must_use]
     pub fn new(name: &'a str, text: impl Into<Cow<'a, str>>) -> Self {
         Self { name, text: text.into(), name_origin: Origin::default(), origin: Origin::default() }
@@ -31,9 +31,9 @@ impl<'a> Given<'a> {
 }
 
 impl Table {
-    /// Reads what was written. Each name that the table does not know is a warning with the
-    /// nearest known name; each unreadable or senseless value is an error, and the default stands
-    /// in for it; a required parameter that is missing is an error at `whole`.
+    /// Reads written parameters. Each unknown name is a warning with the most similar known name; each
+    /// unreadable or invalid value is an error and replaced by the default; a missing required parameter is
+    /// an error at `whole`.
     pub fn check<'a>(
         &'static self,
         given: impl IntoIterator<Item = Given<'a>>,
@@ -89,13 +89,13 @@ impl Table {
         Values::new(self, values)
     }
 
-    /// The finding for a name that the table does not know.
+    /// Finding for an unknown name.
     #[must_use]
     pub fn unknown(&self, given: &Given<'_>) -> Diagnostic {
         let message = format!("{} has no parameter `{}`", self.name, given.name);
         Diagnostic::warning("unknown-parameter", message)
             .at(given.name_origin)
-            .label("nobody reads this")
+            .label("this is ignored")
             .did_you_mean(given.name_origin, given.name, self.names())
     }
 
@@ -142,7 +142,7 @@ mod tests {
         ],
     };
 
-    /// The text holds lines `name value`.
+    /// The text has lines `name value`.
     fn check(input: &str, expected: Expect) -> Values {
         let mut sources = SourceMap::new();
         let file = sources.add("wheel.txt", input);
@@ -188,7 +188,7 @@ mod tests {
                  --> wheel.txt:1:1
                   |
                 1 | wheelDiameter 0.2
-                  | ^^^^^^^^^^^^^ nobody reads this
+                  | ^^^^^^^^^^^^^ this is ignored
                   |
                 help: did you mean `wheel_diameter`?
                   |

@@ -1,12 +1,12 @@
-//! Tables as people read them.
+//! Documentation of tables.
 
 use std::fmt::Write as _;
 
 use crate::{Default, Kind, Parameter, Table, Value};
 
 impl Table {
-    /// A YAML file of the defaults, each with its meaning above it. Parameters without a default
-    /// are commented out.
+    /// YAML file of the defaults, each below its description. Parameters without a default are commented
+    /// out.
     #[must_use]
     pub fn to_yaml(&self) -> String {
         let mut out = format!("# {}\n{}:\n", self.doc, yaml_key(self.name));
@@ -32,7 +32,7 @@ impl Table {
         out
     }
 
-    /// A Markdown section with a table of the parameters.
+    /// Markdown section with a table of the parameters.
     #[must_use]
     pub fn to_markdown(&self) -> String {
         let mut out = format!("### {}\n\n{}\n", self.name, self.doc);
@@ -65,7 +65,7 @@ impl Table {
     }
 }
 
-/// Meaning, unit, words, range, and whether it is required, in one line.
+/// Description, unit, choices, range, and whether it is required, in one line.
 fn remark(parameter: &Parameter) -> String {
     let mut remark = parameter.doc.to_owned();
     if let Some(unit) = parameter.unit {

@@ -1,8 +1,8 @@
 //! Parameters declared once: name, type, unit, default, range, doc.
 //!
-//! A [`Table`] is a constant. From it come the reading of what a user wrote ([`Table::check`]),
-//! the file of defaults ([`Table::to_yaml`]) and the manual ([`Table::to_markdown`]), so that they
-//! cannot disagree. The defaults are written as a user would write them and read by the same code.
+//! A [`Table`] is a constant. It generates the reader of user input ([`Table::check`]), the file of
+//! defaults ([`Table::to_yaml`]) and the manual ([`Table::to_markdown`]), so that they always agree.
+//! Defaults are written as a user would write them and read by the same code.
 //!
 //! ```
 //! use periplus_params::{Given, Table, flag, number};

@@ -1,49 +1,49 @@
-//! What is known of a parameter before anyone sets it.
+//! Declaration of a parameter.
 
-/// What a value looks like.
+/// Type of a value.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Kind {
     /// `true` or `false`.
     Bool,
-    /// A whole number.
+    /// Integer.
     Integer,
-    /// A number.
+    /// Floating-point number.
     Number,
     /// Any text.
     Text,
-    /// Numbers side by side.
+    /// List of numbers.
     NumberList,
-    /// Words side by side.
+    /// List of words.
     TextList,
     /// One of these words.
     Choice(&'static [&'static str]),
-    /// Parameters of its own, which the table does not describe.
+    /// Nested parameters, which the table does not describe.
     Group,
 }
 
-/// What holds when nobody sets the parameter.
+/// Value of a parameter that is not set.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Default {
-    /// Somebody must set it.
+    /// None: it must be set.
     Required,
-    /// It stays unset.
+    /// None: it stays unset.
     None,
-    /// This value, written as a user would write it.
+    /// Value written as a user would write it.
     Value(&'static str),
 }
 
-/// The numbers that make sense, both ends included unless `above`.
+/// Valid range, both ends included unless `above`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Range {
-    /// Smallest.
+    /// Minimum.
     pub min: f64,
-    /// Largest.
+    /// Maximum.
     pub max: f64,
-    /// Whether the smallest itself is excluded.
+    /// True if the minimum itself is excluded.
     pub above: bool,
 }
 
-/// What the text of a parameter names, for checks that know the things themselves.
+/// Entity whose name is the value, for checks against the model.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Names {
     /// A joint of the model.
@@ -56,39 +56,39 @@ pub enum Names {
     Topic,
 }
 
-/// One parameter.
+/// Declaration of one parameter.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Parameter {
     /// Its name.
     pub name: &'static str,
-    /// What its values look like.
+    /// Type of its values.
     pub kind: Kind,
-    /// The unit of its numbers.
+    /// Unit of its numbers.
     pub unit: Option<&'static str>,
-    /// What holds when nobody sets it.
+    /// Default value.
     pub default: Default,
-    /// The numbers that make sense.
+    /// Valid range.
     pub range: Option<Range>,
-    /// What it means: one or two sentences.
+    /// Description: one or two sentences.
     pub doc: &'static str,
-    /// Other spellings that are read as well.
+    /// Alternative names.
     pub aliases: &'static [&'static str],
-    /// Whether it may be set several times, each time adding a value.
+    /// True if it may be set several times, each time adding a value.
     pub repeated: bool,
-    /// What its text names.
+    /// Entity whose name is the value.
     pub names: Option<Names>,
-    /// The flag that makes a required parameter optional when it is true.
+    /// Flag that makes a required parameter optional if it is true.
     pub unless: Option<&'static str>,
 }
 
-/// Parameters that belong together.
+/// Declarations of the parameters of one component.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Table {
-    /// What they belong to.
+    /// Name of the component.
     pub name: &'static str,
-    /// What that does: one or two sentences.
+    /// Description of the component: one or two sentences.
     pub doc: &'static str,
-    /// The parameters, in the order of reading.
+    /// Parameters, in the order of reading.
     pub parameters: &'static [Parameter],
 }
 
@@ -107,25 +107,25 @@ const fn plain(name: &'static str, kind: Kind, doc: &'static str) -> Parameter {
     }
 }
 
-/// A yes or no.
+/// Declares a boolean.
 #[must_use]
 pub const fn flag(name: &'static str, doc: &'static str) -> Parameter {
     plain(name, Kind::Bool, doc)
 }
 
-/// A whole number.
+/// Declares an integer.
 #[must_use]
 pub const fn integer(name: &'static str, doc: &'static str) -> Parameter {
     plain(name, Kind::Integer, doc)
 }
 
-/// A number in a unit; an empty unit means a pure number.
+/// Declares a number in a unit; an empty unit is dimensionless.
 #[must_use]
 pub const fn number(name: &'static str, unit: &'static str, doc: &'static str) -> Parameter {
     in_unit(plain(name, Kind::Number, doc), unit)
 }
 
-/// Numbers in a unit; an empty unit means pure numbers.
+/// Declares a list of numbers in a unit; an empty unit is dimensionless.
 #[must_use]
 pub const fn numbers(name: &'static str, unit: &'static str, doc: &'static str) -> Parameter {
     in_unit(plain(name, Kind::NumberList, doc), unit)
@@ -135,19 +135,19 @@ const fn in_unit(parameter: Parameter, unit: &'static str) -> Parameter {
     if unit.is_empty() { parameter } else { Parameter { unit: Some(unit), ..parameter } }
 }
 
-/// A text.
+/// Declares a text.
 #[must_use]
 pub const fn text(name: &'static str, doc: &'static str) -> Parameter {
     plain(name, Kind::Text, doc)
 }
 
-/// Words.
+/// Declares a list of words.
 #[must_use]
 pub const fn texts(name: &'static str, doc: &'static str) -> Parameter {
     plain(name, Kind::TextList, doc)
 }
 
-/// One of some words.
+/// Declares a choice of words.
 #[must_use]
 pub const fn choice(
     name: &'static str,
@@ -157,68 +157,68 @@ pub const fn choice(
     plain(name, Kind::Choice(words), doc)
 }
 
-/// A group with parameters of its own.
+/// Declares a group of nested parameters.
 #[must_use]
 pub const fn group(name: &'static str, doc: &'static str) -> Parameter {
     plain(name, Kind::Group, doc)
 }
 
 impl Parameter {
-    /// With a default, written as a user would write it.
+    /// Sets the default, written as a user would write it.
     #[must_use]
     pub const fn or(self, default: &'static str) -> Self {
         Self { default: Default::Value(default), ..self }
     }
 
-    /// It must be set.
+    /// Makes it required.
     #[must_use]
     pub const fn required(self) -> Self {
         Self { default: Default::Required, ..self }
     }
 
-    /// It need not be set when this flag is true.
+    /// Makes it optional if this flag is true.
     #[must_use]
     pub const fn unless(self, flag: &'static str) -> Self {
         Self { unless: Some(flag), ..self }
     }
 
-    /// It may be set several times.
+    /// Allows several values.
     #[must_use]
     pub const fn repeated(self) -> Self {
         Self { repeated: true, ..self }
     }
 
-    /// With other spellings that are read as well.
+    /// Adds alternative names.
     #[must_use]
     pub const fn also(self, aliases: &'static [&'static str]) -> Self {
         Self { aliases, ..self }
     }
 
-    /// At least this.
+    /// Sets the minimum.
     #[must_use]
     pub const fn min(self, min: f64) -> Self {
         Self { range: Some(Range { min, max: f64::INFINITY, above: false }), ..self }
     }
 
-    /// More than this.
+    /// Sets the minimum, itself excluded.
     #[must_use]
     pub const fn above(self, min: f64) -> Self {
         Self { range: Some(Range { min, max: f64::INFINITY, above: true }), ..self }
     }
 
-    /// Between these, both included.
+    /// Sets minimum and maximum, both included.
     #[must_use]
     pub const fn within(self, min: f64, max: f64) -> Self {
         Self { range: Some(Range { min, max, above: false }), ..self }
     }
 
-    /// Its text names something.
+    /// Sets the entity whose name is the value.
     #[must_use]
     pub const fn naming(self, names: Names) -> Self {
         Self { names: Some(names), ..self }
     }
 
-    /// Whether a spelling means this parameter.
+    /// Returns true if a name is this parameter's name or an alternative.
     #[must_use]
     pub fn is_spelled(&self, written: &str) -> bool {
         self.name == written || self.aliases.contains(&written)
@@ -226,19 +226,19 @@ impl Parameter {
 }
 
 impl Table {
-    /// The parameter of a name or alias.
+    /// Parameter of a name or alternative name.
     #[must_use]
     pub fn find(&self, written: &str) -> Option<&'static Parameter> {
         self.parameters.iter().find(|parameter| parameter.is_spelled(written))
     }
 
-    /// The names, without aliases.
+    /// Names, without alternatives.
     pub fn names(&self) -> impl Iterator<Item = &'static str> {
         self.parameters.iter().map(|parameter| parameter.name)
     }
 
-    /// What is wrong with the table itself: names or aliases twice, defaults that cannot be read
-    /// or lie outside their range. A test of every table asks for this to be empty.
+    /// Returns the faults of the table itself: duplicate names, and defaults that cannot be read or are out
+    /// of range. A test of every table requires this to be empty.
     #[must_use]
     pub fn slips(&self) -> Vec<String> {
         let mut slips = Vec::new();
@@ -263,7 +263,7 @@ impl Table {
 }
 
 impl Range {
-    /// Whether a number makes sense.
+    /// Returns true if a number is in the range.
     #[must_use]
     pub fn contains(&self, number: f64) -> bool {
         let high_enough = if self.above { self.min < number } else { self.min <= number };

@@ -1,8 +1,8 @@
-//! Values and how they are read.
+//! Values and their parsers.
 
 use crate::{Kind, Parameter};
 
-/// The value of a parameter.
+/// Value of a parameter.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Value {
     /// Of [`Kind::Bool`].
@@ -19,12 +19,12 @@ pub enum Value {
     Texts(Vec<String>),
 }
 
-/// Longest piece of a value that a message repeats.
-const MOST_QUOTED: usize = 40;
+/// Maximum length of a value that is quoted in a message [characters].
+const MAX_QUOTED_CHARS: usize = 40;
 
 impl Value {
-    /// Reads a value as written. Lists are separated by white space or commas, with or without
-    /// brackets, so that SDF and YAML read alike.
+    /// Parses a value as written. Lists are separated by white space or commas, with or without brackets,
+    /// so SDF and YAML have the same syntax.
     ///
     /// # Errors
     /// The rest of the sentence "the value ...": "is not a number".
@@ -53,8 +53,8 @@ impl Value {
         Ok(value)
     }
 
-    /// A value that came as one, from a wire: it must be of the kind of the parameter and in its
-    /// range. A whole number is a number, too.
+    /// Converts a typed value, as received over a network, to the type of the parameter and checks its
+    /// range. An integer is accepted as a number.
     ///
     /// # Errors
     /// The rest of the sentence "the value ...", as [`Value::read`].
@@ -113,7 +113,7 @@ fn read_integer(written: &str) -> Result<i64, String> {
         return Ok(integer);
     }
     match written.parse::<f64>() {
-        // Up to 2^53 every whole number is itself.
+        // Up to 2^53 every integer is exact.
         Ok(number) if number.fract() == 0.0 && number.abs() <= 9_007_199_254_740_992.0 =>
         {
             #[expect(clippy::cast_possible_truncation, reason = "it is whole and small")]
@@ -155,18 +155,18 @@ fn quoted_list(words: &[&str]) -> String {
     quoted.join(", ")
 }
 
-/// What was written, short enough for a message.
+/// Shortens a written value for a message.
 pub(crate) fn quote(written: &str) -> String {
     let written = written.trim();
-    if written.chars().count() <= MOST_QUOTED {
+    if written.chars().count() <= MAX_QUOTED_CHARS {
         return format!("`{written}`");
     }
-    let start: String = written.chars().take(MOST_QUOTED).collect();
+    let start: String = written.chars().take(MAX_QUOTED_CHARS).collect();
     format!("`{start}...`")
 }
 
 impl std::fmt::Display for Value {
-    /// As YAML.
+    /// YAML form.
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         match self {
             Self::Bool(value) => write!(f, "{value}"),

@@ -1,4 +1,4 @@
-//! The parameters of a table with their values.
+//! Parameters of a table with their values.
 
 use std::collections::BTreeMap;
 
@@ -6,15 +6,15 @@ use periplus_diagnostics::Origin;
 
 use crate::{Default, Table, Value};
 
-/// A value and where it was written.
+/// Value with its source location.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Located {
     pub(crate) value: Value,
     pub(crate) origin: Origin,
 }
 
-/// The values of a [`Table`]: what was given, and the defaults of the rest. Looking up a name that
-/// the table does not declare is a slip of the program and answers as if nothing were set.
+/// Values of a [`Table`]: those that were given, and the defaults of the rest. A name that the table does
+/// not declare is a programming error and returns the same as an unset value.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Values {
     table: &'static Table,
@@ -26,7 +26,7 @@ impl Values {
         Self { table, given }
     }
 
-    /// Sets a value that fits ([`Value::fit`]), in place of all that were given. False when the
+    /// Sets a value that fits ([`ParameterValue::fit`]) and replaces all given ones. Returns false if the
     /// table does not declare the name.
     pub fn set(&mut self, name: &str, value: Value) -> bool {
         let Some(parameter) = self.table.find(name) else { return false };
@@ -35,26 +35,25 @@ impl Values {
         true
     }
 
-    /// The table.
+    /// Table of the values.
     #[must_use]
     pub fn table(&self) -> &'static Table {
         self.table
     }
 
-    /// Whether somebody set it (readably).
+    /// Returns true if a readable value was given.
     #[must_use]
     pub fn is_given(&self, name: &str) -> bool {
         self.given.contains_key(name)
     }
 
-    /// Where its first value was written.
+    /// Source location of its first value.
     #[must_use]
     pub fn origin(&self, name: &str) -> Origin {
         self.given.get(name).and_then(|values| values.first()).map(|v| v.origin).unwrap_or_default()
     }
 
-    /// All values of a parameter that may be set several times, each with its place; the default
-    /// where nobody set it.
+    /// All values of a repeatable parameter with their source locations; the default if none was given.
     #[must_use]
     pub fn all(&self, name: &str) -> Vec<(Value, Origin)> {
         match self.given.get(name) {
@@ -65,7 +64,7 @@ impl Values {
         }
     }
 
-    /// The value, or the default.
+    /// Value, or the default.
     #[must_use]
     pub fn get(&self, name: &str) -> Option<Value> {
         debug_assert!(self.table.find(name).is_some(), "{} has no `{name}`", self.table.name);
@@ -83,7 +82,7 @@ impl Values {
         }
     }
 
-    /// The value of a yes or no.
+    /// Value of a boolean.
     #[must_use]
     pub fn flag(&self, name: &str) -> Option<bool> {
         match self.get(name)? {
@@ -92,7 +91,7 @@ impl Values {
         }
     }
 
-    /// The value of a whole number.
+    /// Value of an integer.
     #[must_use]
     pub fn integer(&self, name: &str) -> Option<i64> {
         match self.get(name)? {
@@ -101,7 +100,7 @@ impl Values {
         }
     }
 
-    /// The value of a number, in the unit of its table.
+    /// Value of a number, in the unit of its table.
     #[must_use]
     pub fn number(&self, name: &str) -> Option<f64> {
         match self.get(name)? {
@@ -111,7 +110,7 @@ impl Values {
         }
     }
 
-    /// The value of a text or choice.
+    /// Value of a text or choice.
     #[must_use]
     pub fn text(&self, name: &str) -> Option<String> {
         match self.get(name)? {
@@ -120,7 +119,7 @@ impl Values {
         }
     }
 
-    /// Every number of a list or of a repeated number, in the unit of its table.
+    /// All numbers of a list or of a repeated number, in the unit of its table.
     #[must_use]
     pub fn numbers(&self, name: &str) -> Vec<f64> {
         let mut numbers = Vec::new();
@@ -135,7 +134,7 @@ impl Values {
         numbers
     }
 
-    /// Every word of a list or of a repeated text.
+    /// All words of a list or of a repeated text.
     #[must_use]
     pub fn texts(&self, name: &str) -> Vec<String> {
         let mut texts = Vec::new();

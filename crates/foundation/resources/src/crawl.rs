@@ -1,4 +1,4 @@
-//! Looking through a tree of folders for ROS packages.
+//! Search for ROS packages in a tree of folders.
 
 use std::collections::{BTreeMap, VecDeque};
 use std::path::{Path, PathBuf};
@@ -7,29 +7,29 @@ use crate::hooks;
 use crate::host::{Host, Kind};
 use crate::manifest::{self, PackageManifest};
 
-/// A crawl looks into at most this many folders.
-const MOST_FOLDERS: usize = 4_000;
-/// A crawl asks of at most this many names whether they are folders.
-const MOST_NAMES: usize = 50_000;
+/// Maximum number of folders that a crawl visits.
+const MAX_FOLDERS: usize = 4_000;
+/// Maximum number of names that a crawl checks.
+const MAX_NAMES: usize = 50_000;
 
-/// Folders in which no sources lie.
+/// Folders without sources.
 const SKIPPED: [&str; 5] = ["build", "install", "log", "node_modules", "target"];
-/// Files that tell ROS's own tools to look no further.
+/// Files that exclude a folder from ROS's own tools.
 const IGNORE_MARKS: [&str; 3] = ["COLCON_IGNORE", "CATKIN_IGNORE", "AMENT_IGNORE"];
 
-/// The packages below a folder.
+/// Packages below a folder.
 #[derive(Debug, Default)]
 pub(crate) struct Crawl {
-    /// Package name to folders, nearest first, then by name.
+    /// Folders by package name, nearest first, then by name.
     pub(crate) packages: BTreeMap<String, Vec<PathBuf>>,
-    /// Folders and what their packages export.
+    /// Folders and the exports of their packages.
     pub(crate) exports: Vec<(PathBuf, PackageManifest)>,
-    /// Whether it stopped because there was too much to look at.
+    /// True if a limit ended the crawl.
     pub(crate) cut_short: bool,
 }
 
-/// All packages at most `depth` folders below `top`, `top` itself not counted. Broad before deep,
-/// in the order of names.
+/// Finds all packages at most `depth` folders below `top`, `top` itself not counted. Breadth first, in the
+/// order of names.
 pub(crate) fn crawl(host: &dyn Host, top: &Path, depth: usize) -> Crawl {
     let mut found = Crawl::default();
     let mut waiting = VecDeque::from([(top.to_path_buf(), 0)]);
@@ -38,7 +38,7 @@ pub(crate) fn crawl(host: &dyn Host, top: &Path, depth: usize) -> Crawl {
         folders += 1;
         let names = host.list(&folder);
         asked += names.len();
-        if folders > MOST_FOLDERS || asked > MOST_NAMES {
+        if folders > MAX_FOLDERS || asked > MAX_NAMES {
             found.cut_short = true;
             break;
         }
@@ -47,7 +47,7 @@ pub(crate) fn crawl(host: &dyn Host, top: &Path, depth: usize) -> Crawl {
             if IGNORE_MARKS.into_iter().any(holds) {
                 continue;
             }
-            // As colcon and catkin have it, a package holds no other packages.
+            // As in colcon and catkin, a package contains no other packages.
             if holds("package.xml") && note_package(host, &folder, &mut found) {
                 continue;
             }
@@ -65,7 +65,7 @@ pub(crate) fn crawl(host: &dyn Host, top: &Path, depth: usize) -> Crawl {
     found
 }
 
-/// True for a folder whose `package.xml` has a name.
+/// Returns true for a folder whose `package.xml` has a name.
 fn note_package(host: &dyn Host, folder: &Path, found: &mut Crawl) -> bool {
     let Ok(bytes) = host.read(&folder.join("package.xml")) else { return false };
     let mut manifest = manifest::package(&bytes);

@@ -1,21 +1,21 @@
-//! `data_files` of a `setup.py`: the files of a Python package that its build puts into the share folder.
+//! `data_files` of a `setup.py`: files that the build of a Python package installs into the share folder.
 //!
-//! Nothing is run. Texts that are joined by `+`, `os.path.join` or an f-string are read as one path, and a
-//! name that stands among them as the name of the package, which is what it nearly always is.
+//! Nothing is executed. Texts joined by `+`, `os.path.join` or an f-string are read as one path, and a
+//! variable among them is assumed to be the name of the package, which is nearly always right.
 
 use std::path::{Path, PathBuf};
 
-/// The deepest brackets that are read.
-const DEEPEST: usize = 16;
+/// Maximum nesting depth of brackets.
+const MAX_DEPTH: usize = 16;
 
-/// A source of one entry: a file, or a pattern whose files go into the same folder.
+/// Source of one entry: a file, or a pattern whose files are installed into the same folder.
 struct Source {
     folder: PathBuf,
-    /// The name of the only file; none for a pattern.
+    /// Name of the only file; `None` for a pattern.
     name: Option<String>,
 }
 
-/// The paths in the package's sources from which the build may install a file.
+/// Paths in the package's sources from which the build may install a file.
 pub(crate) fn sources(text: &str, installed: &Path) -> Vec<PathBuf> {
     let (Some(name), Some(folder)) = (installed.file_name(), installed.parent()) else {
         return Vec::new();
@@ -31,7 +31,7 @@ pub(crate) fn sources(text: &str, installed: &Path) -> Vec<PathBuf> {
     found
 }
 
-/// Folders in the package's share folder, with what goes there.
+/// Folders in the package's share folder, with the sources installed there.
 fn entries(text: &str) -> Vec<(PathBuf, Vec<Source>)> {
     let without_comments: Vec<&str> =
         text.lines().map(|line| line.split('#').next().unwrap_or_default()).collect();
@@ -51,7 +51,7 @@ fn entries(text: &str) -> Vec<(PathBuf, Vec<Source>)> {
     tuples.collect()
 }
 
-/// The sources of an entry: a list of paths, or patterns in calls of `glob`.
+/// Sources of an entry: a list of paths, or patterns in calls of `glob`.
 fn listed(expression: &str) -> Vec<Source> {
     let mut sources = Vec::new();
     for term in expression.split('+').filter(|term| !term.trim().is_empty()) {
@@ -64,7 +64,7 @@ fn listed(expression: &str) -> Vec<Source> {
             let call = element.trim();
             let is_glob = call.starts_with("glob");
             let path = match bracketed(call, '(', ')').filter(|_| is_glob) {
-                // Further words, such as `recursive=True`, are no part of the pattern.
+                // Further arguments, such as `recursive=True`, are not part of the pattern.
                 Some(inner) => joined(split(inner).first().copied().unwrap_or_default()),
                 None => joined(call),
             };
@@ -85,7 +85,7 @@ fn source(path: &Path, is_glob: bool) -> Option<Source> {
     Some(Source { folder, name: (!is_glob).then_some(name) })
 }
 
-/// The texts of an expression as one path.
+/// Texts of an expression as one path.
 fn joined(expression: &str) -> String {
     let mut parts: Vec<String> = Vec::new();
     let mut rest = expression;
@@ -95,7 +95,7 @@ fn joined(expression: &str) -> String {
             let end = inner.find(letter).unwrap_or(inner.len());
             let mut literal = &inner[..end];
             let mut text = String::new();
-            // Of an f-string.
+            // Placeholder of an f-string.
             while let Some((before, (_, after))) = literal
                 .split_once('{')
                 .and_then(|(before, after)| Some((before, after.split_once('}')?)))
@@ -126,7 +126,7 @@ fn joined(expression: &str) -> String {
     parts.join("/")
 }
 
-/// What stands in the first pair of brackets of a kind.
+/// Content of the first pair of brackets of a type.
 fn bracketed(text: &str, open: char, close: char) -> Option<&str> {
     let start = text.find(open)? + open.len_utf8();
     let mut depth = 1usize;
@@ -139,14 +139,14 @@ fn bracketed(text: &str, open: char, close: char) -> Option<&str> {
         if depth == 0 {
             return Some(&text[start..start + at]);
         }
-        if depth > DEEPEST {
+        if depth > MAX_DEPTH {
             return None;
         }
     }
     None
 }
 
-/// The parts between commas that stand in no brackets.
+/// Parts between commas outside of brackets.
 fn split(text: &str) -> Vec<&str> {
     let mut parts = Vec::new();
     let (mut start, mut depth) = (0, 0usize);
@@ -166,7 +166,7 @@ fn split(text: &str) -> Vec<&str> {
     parts
 }
 
-/// The letters of an expression that are in no quotes, with their places.
+/// Characters of an expression outside of quotes, with their positions.
 fn outside_texts(text: &str) -> impl Iterator<Item = (usize, char)> {
     let mut quote = None;
     text.char_indices().filter(move |(_, letter)| match quote {

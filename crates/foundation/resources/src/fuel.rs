@@ -1,4 +1,4 @@
-//! Models of the Fuel server, as Gazebo's tools left them in their cache.
+//! Models of the Fuel server in the cache of Gazebo's tools.
 //!
 //! The cache keeps `HOST/OWNER/models/NAME/VERSION/` with host, owner and name in lower case
 //! (gz-fuel-tools, `LocalCache`); older tools kept the letters as written.
@@ -8,10 +8,10 @@ use std::path::{Path, PathBuf};
 use crate::host::{Host, Kind};
 use crate::uri::percent_decoded;
 
-/// Hosts that serve the same models, the present name first.
+/// Hosts that serve the same models, the current name first.
 const HOSTS: [&str; 2] = ["fuel.gazebosim.org", "fuel.ignitionrobotics.org"];
 
-/// A model or world on Fuel, or a file in it.
+/// Model or world on Fuel, or a file in it.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct FuelUri {
     host: &'static str,
@@ -19,15 +19,15 @@ pub(crate) struct FuelUri {
     /// `models` or `worlds`.
     sort: &'static str,
     name: String,
-    /// None for the newest.
+    /// `None` for the newest.
     version: Option<u64>,
-    /// A file in the model, perhaps empty.
+    /// File in the model, or empty.
     pub(crate) rest: String,
 }
 
 impl FuelUri {
-    /// Takes `1.0/owner/models/name[/version][/files/...]` apart, or the web page's
-    /// `owner/fuel/models/name`. None for what is not on Fuel.
+    /// Parses `1.0/owner/models/name[/version][/files/...]`, or the web page's `owner/fuel/models/name`.
+    /// `None` for other URIs.
     pub(crate) fn parse(host: &str, path: &str) -> Option<Self> {
         let host = match host.to_ascii_lowercase().as_str() {
             "fuel.gazebosim.org" | "app.gazebosim.org" => HOSTS[0],
@@ -58,7 +58,7 @@ impl FuelUri {
         Some(Self { host, owner, sort, name, version, rest })
     }
 
-    /// The folders of this model's versions under a cache, as the different tools spell them.
+    /// Folders of this model's versions in a cache, with the spellings of the different tools.
     fn shelves(&self, cache: &Path) -> Vec<PathBuf> {
         let other = HOSTS.into_iter().filter(|host| *host != self.host);
         let mut shelves = Vec::new();
@@ -72,7 +72,7 @@ impl FuelUri {
         shelves
     }
 
-    /// The cached folder of the wanted or the newest version; otherwise the places tried.
+    /// Cached folder of the requested or the newest version; otherwise the paths that were searched.
     pub(crate) fn find(
         &self,
         host: &dyn Host,
@@ -97,19 +97,19 @@ impl FuelUri {
         Err(tried)
     }
 
-    /// The address from which Gazebo's tools fetch it.
+    /// Address from which Gazebo's tools download it.
     pub(crate) fn address(&self) -> String {
         let name = self.name.replace(' ', "%20");
         format!("https://{}/1.0/{}/{}/{name}", HOSTS[0], self.owner, self.sort)
     }
 
-    /// What it is called in commands: `model` or `world`.
+    /// True for a world, false for a model.
     pub(crate) fn is_world(&self) -> bool {
         self.sort == "worlds"
     }
 }
 
-/// Where Gazebo's tools keep what they fetched, the present place first.
+/// Caches of Gazebo's tools, the current one first.
 pub(crate) fn caches(host: &dyn Host) -> Vec<PathBuf> {
     let set = |name: &str| host.variable(name).filter(|value| !value.is_empty());
     let mut caches: Vec<PathBuf> = ["GZ_FUEL_CACHE_PATH", "IGN_FUEL_CACHE_PATH"]
@@ -128,7 +128,7 @@ fn number(text: &str) -> bool {
     !text.is_empty() && text.bytes().all(|byte| byte.is_ascii_digit())
 }
 
-/// A decoded name that is one folder's name and nothing more.
+/// Decoded name, if it is a valid folder name.
 fn name_of(part: &str) -> Option<String> {
     let name = percent_decoded(part).unwrap_or_else(|| part.to_owned());
     (!matches!(name.as_str(), "." | "..") && !name.contains('/')).then_some(name)

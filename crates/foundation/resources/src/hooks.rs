@@ -1,4 +1,4 @@
-//! Environment hooks of ROS 2 packages: what sourcing an installed workspace would set.
+//! Environment hooks of ROS 2 packages: variables that sourcing an installed workspace would set.
 //!
 //! Packages install `*.dsv` and `*.sh` files (`ament_environment_hooks`); in a source tree they are
 //! templates, `*.dsv.in` and `*.sh.in`. Format of a line in a `.dsv`: `OPERATION;VARIABLE;VALUE...`
@@ -9,10 +9,10 @@ use std::path::Path;
 use crate::host::Host;
 use crate::places::SEARCH_VARIABLES;
 
-/// Folders of a package in which its hooks are, in source trees and installed.
+/// Folders of a package with its hooks, in source trees and installed.
 const FOLDERS: [&str; 5] = ["hooks", "env-hooks", "env_hooks", "environment", "hook"];
 
-/// Hooks of a package that are read at most.
+/// Maximum number of hooks of a package that are read.
 const MAX_HOOKS: usize = 32;
 
 /// Folders that the hooks of a package add to the search paths of Gazebo, with `${prefix}` for the
@@ -43,7 +43,7 @@ pub(crate) fn paths(host: &dyn Host, package: &Path, name: &str) -> Vec<String> 
     paths
 }
 
-/// The variable and the values of a line of a `.dsv` file.
+/// Variable and values of a line of a `.dsv` file.
 fn of_dsv(line: &str) -> Option<(&str, Vec<&str>)> {
     let mut words = line.trim().split(';');
     let operation = words.next()?;
@@ -52,7 +52,7 @@ fn of_dsv(line: &str) -> Option<(&str, Vec<&str>)> {
     is_path.then(|| (variable, words.collect()))
 }
 
-/// The variable and the value of `ament_prepend_unique_value NAME "VALUE"` and its relatives.
+/// Variable and value of `ament_prepend_unique_value NAME "VALUE"` and similar functions.
 fn of_shell(line: &str) -> Option<(&str, Vec<&str>)> {
     let mut words = line.split_whitespace();
     let is_path = matches!(
@@ -66,7 +66,7 @@ fn of_shell(line: &str) -> Option<(&str, Vec<&str>)> {
     is_path.then(|| (variable, vec![value]))
 }
 
-/// A folder under the install prefix as one of the package: `share/NAME` is its own folder.
+/// Converts a folder below the install prefix to one of the package: `share/NAME` is its own folder.
 fn in_package(value: &str, name: &str) -> Option<String> {
     let value = value.trim().replace("@PROJECT_NAME@", name).replace("${PROJECT_NAME}", name);
     let under = value.trim_end_matches('/').strip_prefix("share")?;

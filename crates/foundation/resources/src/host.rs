@@ -1,11 +1,11 @@
-//! What readers may ask of the machine.
+//! Access to files and environment for readers.
 
 use std::path::{Path, PathBuf};
 
-/// The largest file that is read [bytes].
+/// Maximum size of a file that is read [bytes].
 pub const LARGEST_FILE: u64 = 256 << 20;
 
-/// What stands at a path.
+/// Type of a file system entry.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Kind {
     /// A regular file.
@@ -14,16 +14,16 @@ pub enum Kind {
     Folder,
 }
 
-/// Why a file could not be read.
+/// Error of a file that cannot be read.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum ReadError {
-    /// Nothing is there.
+    /// No such file.
     Missing,
-    /// It is larger than [`LARGEST_FILE`]; its size [bytes].
+    /// Larger than [`MAX_FILE_BYTES`]; size [bytes].
     TooLarge(u64),
-    /// It is not a regular file: a folder, a device, a pipe.
+    /// Not a regular file: a folder, a device, a pipe.
     NotAFile,
-    /// The machine's own words.
+    /// Message of the operating system.
     Other(String),
 }
 
@@ -45,34 +45,34 @@ impl std::fmt::Display for ReadError {
 
 impl std::error::Error for ReadError {}
 
-/// Files and environment, as far as readers need them. Below the edges of the program this is
-/// the only way to either; tests and fuzzers give a [`crate::MemoryHost`].
+/// Files and environment, as far as readers need them. All access in library crates uses this trait; tests
+/// and fuzzers pass a [`crate::MemoryHost`].
 pub trait Host {
-    /// The bytes of a regular file of at most [`LARGEST_FILE`] bytes.
+    /// Reads a regular file of at most [`MAX_FILE_BYTES`] bytes.
     ///
     /// # Errors
-    /// Why it cannot be read.
+    /// If it cannot be read.
     fn read(&self, path: &Path) -> Result<Vec<u8>, ReadError>;
 
-    /// What stands at a path, links followed.
+    /// Type of the entry at a path, links followed.
     fn kind(&self, path: &Path) -> Option<Kind>;
 
-    /// Names in a folder, sorted; none when it cannot be read.
+    /// Names in a folder, sorted; empty if it cannot be read.
     fn list(&self, folder: &Path) -> Vec<String>;
 
-    /// The absolute path without `.`, `..` and links, if something stands there.
+    /// Absolute path without `.`, `..` and links, if the entry exists.
     fn canonical(&self, path: &Path) -> Option<PathBuf>;
 
     /// An environment variable.
     fn variable(&self, name: &str) -> Option<String>;
 }
 
-/// Files that are written, for those who may not touch the machine themselves.
+/// Writing of files, for code without direct access to the machine.
 pub trait Store {
-    /// Puts a file at a path, in the place of what stands there. Whoever reads meanwhile finds the
-    /// old one or the new one, whole; when it cannot be written, the old one stays.
+    /// Writes a file atomically: concurrent readers see the old or the new content, and the old file
+    /// remains if writing fails.
     ///
     /// # Errors
-    /// The machine's own words.
+    /// Message of the operating system.
     fn replace(&self, path: &Path, content: &[u8]) -> Result<(), String>;
 }

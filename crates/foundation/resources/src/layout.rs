@@ -1,5 +1,5 @@
-//! Files of packages that are not installed: a build puts some of them elsewhere in the package's share
-//! folder than they are in its sources, and launch files name them by where they are installed.
+//! Files of packages that are not installed: a build installs some of them at other paths in the package's
+//! share folder than in its sources, and launch files refer to the installed paths.
 
 use std::path::{Component, Path, PathBuf};
 
@@ -7,16 +7,16 @@ use crate::data_files;
 use crate::host::Host;
 use crate::manifest::package_name;
 
-/// A file lies at most this many folders below its package.
-const DEEPEST: usize = 8;
+/// Maximum depth of a file below its package.
+const MAX_DEPTH: usize = 8;
 
-/// Folders with build files in one package: large packages of examples have some tens.
-const MOST_FOLDERS: usize = 256;
+/// Maximum number of folders with build files in one package: large packages of examples have some tens.
+const MAX_FOLDERS: usize = 256;
 
-/// The largest build file that is read [bytes].
-const LARGEST: usize = 1 << 20;
+/// Maximum size of a build file that is read [bytes].
+const MAX_BUILD_FILE_BYTES: usize = 1 << 20;
 
-/// The package around a path, and the path in it.
+/// Package that contains a path, and the path in it.
 #[must_use]
 pub fn package_of(host: &dyn Host, path: &Path) -> Option<(String, String)> {
     let folder = folder_of(host, path)?;
@@ -25,11 +25,11 @@ pub fn package_of(host: &dyn Host, path: &Path) -> Option<(String, String)> {
 }
 
 fn folder_of<'p>(host: &dyn Host, path: &'p Path) -> Option<&'p Path> {
-    let mut above = path.ancestors().skip(1).take(DEEPEST);
+    let mut above = path.ancestors().skip(1).take(MAX_DEPTH);
     above.find(|up| up.parent().is_some() && host.kind(&up.join("package.xml")).is_some())
 }
 
-/// The file in the sources of its package that the build installs at a path where nothing is now.
+/// Source file that the build of a package would install at a missing path.
 #[must_use]
 pub fn in_sources(host: &dyn Host, path: &Path) -> Option<PathBuf> {
     if !path.is_absolute() || host.kind(path).is_some() {
@@ -46,10 +46,10 @@ pub fn in_sources(host: &dyn Host, path: &Path) -> Option<PathBuf> {
 
 fn text_of(host: &dyn Host, path: &Path) -> String {
     let bytes = host.read(path).unwrap_or_default();
-    String::from_utf8_lossy(&bytes[..bytes.len().min(LARGEST)]).into_owned()
+    String::from_utf8_lossy(&bytes[..bytes.len().min(MAX_BUILD_FILE_BYTES)]).into_owned()
 }
 
-/// The rules of a package's `CMakeLists.txt` and of those that it adds with `add_subdirectory`.
+/// Install rules of a package's `CMakeLists.txt` and of those added by `add_subdirectory`.
 fn rules_of(host: &dyn Host, package: &Path) -> Vec<Rule> {
     let mut all = Vec::new();
     let mut folders = vec![PathBuf::new()];
@@ -64,7 +64,7 @@ fn rules_of(host: &dyn Host, package: &Path) -> Vec<Rule> {
         for inner in subfolders(&text) {
             let inner = folder.join(inner);
             let is_inside = inner.components().all(|part| matches!(part, Component::Normal(_)));
-            if is_inside && folders.len() < MOST_FOLDERS && !folders.contains(&inner) {
+            if is_inside && folders.len() < MAX_FOLDERS && !folders.contains(&inner) {
                 folders.push(inner);
             }
         }
@@ -72,7 +72,7 @@ fn rules_of(host: &dyn Host, package: &Path) -> Vec<Rule> {
     all
 }
 
-/// The folders that `add_subdirectory` names.
+/// Folders in `add_subdirectory`.
 fn subfolders(text: &str) -> impl Iterator<Item = &str> {
     text.match_indices(ADD).filter_map(|(at, _)| {
         let inner = text[at + ADD.len()..].split(')').next()?;
@@ -82,16 +82,16 @@ fn subfolders(text: &str) -> impl Iterator<Item = &str> {
 
 const ADD: &str = "add_subdirectory(";
 
-/// A build file with its lines put together, without comments.
+/// Build file with joined lines, without comments.
 fn without_comments(text: &str) -> String {
     let lines = text.lines().map(|line| line.split('#').next().unwrap_or_default());
     lines.collect::<Vec<_>>().join(" ")
 }
 
-/// What one `install(...)` does with one source.
+/// Effect of one `install(...)` on one source.
 struct Rule {
     source: PathBuf,
-    /// The folder in the package's share folder.
+    /// Folder in the package's share folder.
     to: PathBuf,
     is_folder: bool,
     /// True for a folder whose content is installed, without its name.
@@ -99,7 +99,7 @@ struct Rule {
 }
 
 impl Rule {
-    /// The source of an installed path.
+    /// Source of an installed path.
     fn source(&self, installed: &Path) -> Option<PathBuf> {
         let rest = installed.strip_prefix(&self.to).ok()?;
         if self.is_content {
@@ -113,7 +113,7 @@ impl Rule {
     }
 }
 
-/// The rules of a build file, without comments, that install files into the package's share folder.
+/// Install rules into the package's share folder, from a build file without comments.
 fn rules(text: &str) -> Vec<Rule> {
     let mut rules = Vec::new();
     for (at, _) in text.match_indices("install(") {
@@ -140,7 +140,7 @@ fn rules(text: &str) -> Vec<Rule> {
     rules
 }
 
-/// The folder of a destination in the package's share folder; none for one elsewhere.
+/// Destination as a folder in the package's share folder; `None` for others.
 fn share(destination: &str) -> Option<PathBuf> {
     let of_package = ["${CATKIN_PACKAGE_SHARE_DESTINATION}"];
     if let Some(rest) = of_package.iter().find_map(|prefix| destination.strip_prefix(prefix)) {

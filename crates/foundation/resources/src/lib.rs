@@ -1,4 +1,4 @@
-//! Finding what a URI names, on a machine that is only ever asked through [`Host`].
+//! Resolution of URIs to files. All access to the machine uses [`Host`].
 
 mod crawl;
 mod data_files;

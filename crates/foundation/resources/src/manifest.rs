@@ -1,4 +1,4 @@
-//! The two small files that say what a folder is: `package.xml` and `model.config`.
+//! Manifests: `package.xml` and `model.config`.
 
 use std::path::Path;
 
@@ -7,14 +7,14 @@ use quick_xml::events::Event;
 
 use crate::host::Host;
 
-/// Manifests are a few kilobytes; more than this is not read [bytes].
-const LARGEST: usize = 1 << 20;
+/// Maximum size of a manifest that is read [bytes]; they usually have a few kilobytes.
+const MAX_MANIFEST_BYTES: usize = 1 << 20;
 
-/// Elements in `<export>` by which packages name folders for Gazebo (`gazebo_ros` and `ros_gz_sim`
+/// Elements in `<export>` with which packages declare folders for Gazebo (`gazebo_ros` and `ros_gz_sim`
 /// read the first).
 const EXPORT_TAGS: [&str; 3] = ["gazebo_ros", "gz_ros", "ros_gz_sim"];
 
-/// Their attributes that name folders of models, worlds and meshes.
+/// Their attributes for folders of models, worlds and meshes.
 const EXPORT_PATHS: [&str; 5] = [
     "gazebo_model_path",
     "gazebo_media_path",
@@ -23,7 +23,7 @@ const EXPORT_PATHS: [&str; 5] = [
     "resource_path",
 ];
 
-/// What a ROS package says of itself (REP 140, REP 149).
+/// Content of the manifest of a ROS package (REP 140, REP 149).
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub(crate) struct PackageManifest {
     pub(crate) name: String,
@@ -32,7 +32,7 @@ pub(crate) struct PackageManifest {
     pub(crate) gazebo_paths: Vec<String>,
 }
 
-/// The name of the package in a folder, as its `package.xml` has it.
+/// Name of the package in a folder, from its `package.xml`.
 #[must_use]
 pub fn package_name(host: &dyn Host, folder: &Path) -> Option<String> {
     let manifest = host.read(&folder.join("package.xml")).ok()?;
@@ -61,12 +61,12 @@ pub(crate) fn package(bytes: &[u8]) -> PackageManifest {
 /// One `<sdf>` entry of a `model.config`.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct ModelEntry {
-    /// Major and minor of `version`; 0.0 when it is not given.
+    /// Major and minor `version`; 0.0 if missing.
     pub(crate) version: (u32, u32),
     pub(crate) file: String,
 }
 
-/// The `<sdf>` entries of a `model.config`, in the order written.
+/// `<sdf>` entries of a `model.config`, in file order.
 pub(crate) fn model_config(bytes: &[u8]) -> Vec<ModelEntry> {
     let mut entries: Vec<ModelEntry> = Vec::new();
     let mut version = (0, 0);
@@ -88,15 +88,15 @@ fn version_of(text: &str) -> (u32, u32) {
     (parts.next().unwrap_or(0), parts.next().unwrap_or(0))
 }
 
-/// Calls `see` for each element with its path and attributes, and again with each piece of text.
-/// Stops at the first thing that is not XML; entities stay unresolved, so nothing can blow up.
+/// Calls `see` for each element with its path and attributes, and for each piece of text. Stops at the
+/// first XML error; entities are not resolved, so the expansion is bounded.
 fn walk(bytes: &[u8], mut see: impl FnMut(&[&str], &[(String, String)], Option<&str>)) {
-    let text = String::from_utf8_lossy(&bytes[..bytes.len().min(LARGEST)]);
+    let text = String::from_utf8_lossy(&bytes[..bytes.len().min(MAX_MANIFEST_BYTES)]);
     let mut reader = Reader::from_str(&text);
     reader.config_mut().allow_dangling_amp = true;
     let mut path: Vec<String> = Vec::new();
     let mut visit = |path: &[String], attributes: &[(String, String)], text: Option<&str>| {
-        // Nothing of interest lies deeper, and a hostile file may nest a hundred thousand times.
+        // Deeper elements are not needed, and a hostile file may nest a hundred thousand times.
         if path.len() <= 3 {
             let path: Vec<&str> = path.iter().map(String::as_str).collect();
             see(&path, attributes, text);

@@ -1,12 +1,12 @@
-//! A machine that exists only in memory.
+//! In-memory machine for tests.
 
 use std::collections::BTreeMap;
 use std::path::{Component, Path, PathBuf};
 
 use crate::host::{Host, Kind, ReadError};
 
-/// Files and variables for tests and fuzzers. Folders exist where files are in them; relative
-/// paths start at `/`.
+/// Files and variables for tests and fuzzers. Folders exist if files are in them; relative paths start at
+/// `/`.
 #[derive(Clone, Debug, Default)]
 pub struct MemoryHost {
     files: BTreeMap<PathBuf, Vec<u8>>,
@@ -15,7 +15,7 @@ pub struct MemoryHost {
 }
 
 impl MemoryHost {
-    /// A machine without files.
+    /// Returns a machine without files.
     #[must_use]
     pub fn new() -> Self {
         Self::default()
@@ -35,10 +35,10 @@ impl MemoryHost {
         self
     }
 
-    /// The path without `.`, `..` and links.
+    /// Path without `.`, `..` and links.
     fn followed(&self, path: &Path) -> PathBuf {
         let mut path = path.to_path_buf();
-        // As many as Linux follows before it says that links run in a circle.
+        // Linux follows the same number of links before it reports a loop.
         for _ in 0..40 {
             let crossed = path.ancestors().find_map(|up| {
                 let target = self.links.get(&plain(up))?;
@@ -101,7 +101,7 @@ impl Host for MemoryHost {
     }
 }
 
-/// The path from the root, which is the working folder too, without `.` and `..`.
+/// Path from the root, which is also the working folder, without `.` and `..`.
 fn plain(path: &Path) -> PathBuf {
     let mut out = PathBuf::from("/");
     for component in path.components() {

@@ -1,34 +1,34 @@
-//! What to say when a URI leads nowhere.
+//! Errors of URIs that cannot be resolved.
 
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
 use periplus_diagnostics::{Diagnostic, Origin};
 
-/// How a look-up failed.
+/// Reason that a URI cannot be resolved.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum MissKind {
-    /// The URI itself is broken.
+    /// The URI is malformed.
     Malformed,
-    /// Nothing stands at any of the places tried.
+    /// No file or folder exists at any searched path.
     Missing,
-    /// Something stands there, but outside the folders that this file may name.
+    /// The target exists, but is outside the folders that the file may refer to.
     Outside,
 }
 
-/// A URI that leads nowhere, and every place where it was looked for.
+/// URI that cannot be resolved, with the searched paths.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Miss {
     /// The URI as written.
     pub uri: String,
-    /// How the look-up failed.
+    /// Type of the failure.
     pub kind: MissKind,
-    /// Why, as the second half of a sentence.
+    /// Reason, as the second half of a sentence.
     pub reason: String,
-    /// The places tried, in their order. A search through a tree of packages is one entry with
-    /// `**` for the folders between.
+    /// Searched paths, in order. A search through a tree of packages is one entry with `**` for the folders
+    /// between.
     pub tried: Vec<PathBuf>,
-    /// What to do.
+    /// Advice.
     pub help: Vec<String>,
 }
 
@@ -49,8 +49,8 @@ impl Miss {
     }
 
     fn new(uri: &str, kind: MissKind, reason: impl Into<String>) -> Self {
-        // A hostile file may write a megabyte where a name belongs.
-        let shown: String = uri.chars().take(MOST_SHOWN).collect();
+        // A hostile file may have a megabyte in place of a name.
+        let shown: String = uri.chars().take(MAX_SHOWN_CHARS).collect();
         let uri = if shown.len() < uri.len() { format!("{shown}…") } else { shown };
         Self { uri, kind, reason: reason.into(), tried: Vec::new(), help: Vec::new() }
     }
@@ -65,7 +65,7 @@ impl Miss {
         self
     }
 
-    /// The miss as an error at the place that mentions the URI, with every place tried.
+    /// Converts to an error at the location of the URI, with the searched paths.
     #[must_use]
     pub fn into_diagnostic(self, origin: impl Into<Origin>) -> Diagnostic {
         let code = match self.kind {
@@ -86,8 +86,8 @@ impl Miss {
     }
 }
 
-/// Of a URI, at most this many characters are repeated in messages.
-const MOST_SHOWN: usize = 200;
+/// Maximum length of a URI in messages [characters].
+const MAX_SHOWN_CHARS: usize = 200;
 
 impl std::fmt::Display for Miss {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {

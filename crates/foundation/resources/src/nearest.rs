@@ -1,4 +1,4 @@
-//! Suggestions for paths that name nothing.
+//! Suggestions for paths that do not exist.
 
 use std::path::{Path, PathBuf};
 
@@ -6,17 +6,16 @@ use periplus_diagnostics::closest;
 
 use crate::{Host, Kind};
 
-/// Most folders in which a file of the same name is looked for.
-const MOST_FOLDERS: usize = 256;
+/// Maximum number of folders in which a file of the same name is searched.
+const MAX_FOLDERS: usize = 256;
 
-/// Most parts of a path that are corrected one after the other.
-const MOST_PARTS: usize = 32;
+/// Maximum number of parts of a path that are corrected.
+const MAX_PATH_PARTS: usize = 32;
 
-/// The file or folder that was probably meant by a path at which nothing is: one whose name differs by a
-/// slip in the same folder, one of the same name a folder deeper, or the same below a folder whose name
-/// differs by a slip.
+/// Returns the most likely target of a path that does not exist: a similar name in the same folder, the
+/// same name one folder deeper, or the same path below a folder with a similar name.
 pub fn nearest(host: &dyn Host, path: &Path) -> Option<PathBuf> {
-    nearest_within(host, path, MOST_PARTS)
+    nearest_within(host, path, MAX_PATH_PARTS)
 }
 
 fn nearest_within(host: &dyn Host, path: &Path, parts: usize) -> Option<PathBuf> {
@@ -36,7 +35,7 @@ fn in_folder(host: &dyn Host, folder: &Path, name: &str) -> Option<PathBuf> {
     if let Some(near) = closest(name, names.iter().map(String::as_str)) {
         return Some(folder.join(near));
     }
-    let visible = names.iter().filter(|name| !name.starts_with('.')).take(MOST_FOLDERS);
+    let visible = names.iter().filter(|name| !name.starts_with('.')).take(MAX_FOLDERS);
     let deeper = visible.map(|inner| folder.join(inner).join(name));
     let mut found = deeper.filter(|path| host.kind(path) == Some(Kind::File));
     let first = found.next()?;

@@ -1,30 +1,30 @@
-//! The places where packages and models are looked for, in their order.
+//! Search paths of packages and models, in order.
 
 use std::path::{Path, PathBuf};
 
 use crate::host::Host;
 
-/// A folder and how it is searched.
+/// Folder and its type of search.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) struct Place {
     pub(crate) folder: PathBuf,
     pub(crate) how: How,
 }
 
-/// How a folder is searched for a package or model.
+/// Type of search in a folder for a package or model.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) enum How {
-    /// As a path of Gazebo's: `FOLDER/name`.
+    /// As a path of Gazebo: `FOLDER/name`.
     Children,
     /// As an install prefix: `FOLDER/share/name`.
     Prefix,
-    /// As a workspace: itself, and `name`, `models/name`, `src/name` in it.
+    /// As a workspace: the folder itself, and `name`, `models/name`, `src/name` in it.
     Workspace,
-    /// All folders to a depth, for a `package.xml` with the name.
+    /// All folders up to a depth, for a `package.xml` with the name.
     Tree(usize),
 }
 
-/// Variables of the environment whose entries are searched as Gazebo searches them: `ENTRY/name`.
+/// Environment variables whose entries are searched as in Gazebo: `ENTRY/name`.
 pub const SEARCH_VARIABLES: [&str; 7] = [
     "GZ_SIM_RESOURCE_PATH",
     "IGN_GAZEBO_RESOURCE_PATH",
@@ -35,19 +35,19 @@ pub const SEARCH_VARIABLES: [&str; 7] = [
     "IGN_FILE_PATH",
 ];
 
-/// How deep packages lie below an entry of `ROS_PACKAGE_PATH`.
+/// Maximum depth of packages below an entry of `ROS_PACKAGE_PATH`.
 const ROS_DEPTH: usize = 4;
-/// How deep packages lie below a folder above the mentioning file.
+/// Maximum depth of packages below a folder above the referring file.
 const UPWARD_DEPTH: usize = 3;
-/// How deep packages lie below the folder of a workspace: clone, group, stack, package.
+/// Maximum depth of packages below the folder of a workspace: clone, group, stack, package.
 const WORKSPACE_DEPTH: usize = 5;
 
-/// The places that do not depend on who asks: `--resource-path`, then the variables.
+/// Search paths that do not depend on the referring file: `--resource-path`, then the variables.
 pub(crate) fn fixed(host: &dyn Host, extra: &[PathBuf]) -> Vec<Place> {
     let mut places = Vec::new();
     let mut add = |folder: PathBuf, how| {
-        // What does not exist stays in the list: whoever mistyped it shall see it among the
-        // places tried.
+        // Folders that do not exist stay in the list, so that a mistyped one is shown among the searched
+        // paths.
         let folder = host.canonical(&folder).unwrap_or(folder);
         let place = Place { folder, how };
         if !places.contains(&place) {
@@ -74,7 +74,7 @@ pub(crate) fn fixed(host: &dyn Host, extra: &[PathBuf]) -> Vec<Place> {
     for folder in entries("AMENT_PREFIX_PATH") {
         add(folder, How::Prefix);
     }
-    // Where Classic keeps the models it fetched; it always looks there.
+    // Gazebo Classic keeps downloaded models here and always searches it.
     if let Some(home) = host.variable("HOME").filter(|home| !home.is_empty()) {
         let models = Path::new(&home).join(".gazebo/models");
         if host.kind(&models).is_some() {
@@ -84,7 +84,7 @@ pub(crate) fn fixed(host: &dyn Host, extra: &[PathBuf]) -> Vec<Place> {
     places
 }
 
-/// The places upward from a mentioning file, given its folder and those above it.
+/// Search paths above a referring file, given its folder and the folders above it.
 pub(crate) fn upward(folders: &[PathBuf], project: &Path, workspaces: &[PathBuf]) -> Vec<Place> {
     let mut places = Vec::new();
     for folder in folders {
@@ -95,7 +95,7 @@ pub(crate) fn upward(folders: &[PathBuf], project: &Path, workspaces: &[PathBuf]
             continue;
         }
         places.push(place(How::Workspace));
-        // Not through the whole machine, nor through /usr or /home because a file lies there.
+        // Not the whole machine, nor /usr or /home because a file is in it.
         if depth > usize::from(outside) {
             let is_workspace = workspaces.contains(folder);
             let depth = if is_workspace { WORKSPACE_DEPTH } else { UPWARD_DEPTH };

@@ -1,4 +1,4 @@
-//! From a URI to a file.
+//! Resolution of URIs.
 
 mod advice;
 mod fence;
@@ -23,14 +23,14 @@ use crate::surroundings::{Surroundings, surroundings};
 use crate::uri::{self, Scheme, Uri};
 use crate::{crawl, fuel, manifest};
 
-/// After this many different misses of one file, nothing more is looked for in its name: a
-/// hostile file may mention a million.
-const MOST_MISSES: usize = 2_000;
+/// Maximum number of different unresolved URIs of one file; after that no more are searched, as a hostile
+/// file may contain a million.
+const MAX_CACHED_MISSES: usize = 2_000;
 
-/// Finds what the URIs in robot and world files name. Looks at the machine only through a
-/// [`Host`], and at each thing once; make a new one to see changes.
+/// Resolves the URIs in robot and world files. Accesses the machine only through a [`Host`], and each entry
+/// once; create a new resolver to see changes.
 ///
-/// # Where it looks
+/// # Search order
 /// For `package://name/rest` and `model://name/rest` alike, in this order:
 /// 1. each `--resource-path`: as the folder itself, `name`, `models/name`, `src/name` in it, and
 ///    any package of that name a few folders below;
@@ -41,16 +41,16 @@ const MOST_MISSES: usize = 2_000;
 /// 4. the `gazebo_model_path` that the packages met on the way export, and the search paths that
 ///    their environment hooks would set.
 ///
-/// # What it refuses
-/// Files outside the resource paths, the mentioning file's project, and packages or models found:
-/// a downloaded world shall not read the rest of the machine, neither by `..` nor by links.
+/// # Access restrictions
+/// Files outside the resource paths, the referring file's project, and resolved packages or models are
+/// refused: a downloaded world cannot read the rest of the machine, neither by `..` nor by links.
 pub struct Resolver<'h> {
     host: &'h dyn Host,
     fixed: Vec<Place>,
     fuel_caches: Vec<PathBuf>,
-    /// Canonical folders whose content anyone may name.
+    /// Canonical folders whose content any file may refer to.
     roots: Vec<PathBuf>,
-    /// Packages and models that were found outside the roots.
+    /// Resolved packages and models outside the roots.
     granted: RefCell<BTreeSet<PathBuf>>,
     around: RefCell<BTreeMap<PathBuf, Rc<Surroundings>>>,
     answers: RefCell<BTreeMap<(usize, String), Result<PathBuf, Miss>>>,
@@ -60,14 +60,14 @@ pub struct Resolver<'h> {
     model_files: RefCell<BTreeMap<PathBuf, Result<PathBuf, Miss>>>,
     exports: RefCell<BTreeMap<usize, Rc<Vec<Place>>>>,
     known: RefCell<BTreeMap<usize, Rc<BTreeSet<String>>>>,
-    /// How many URIs led nowhere, by mentioning file.
+    /// Number of unresolved URIs by referring file.
     misses: RefCell<BTreeMap<usize, usize>>,
-    /// What to do about a thing that is missing, beside the resolver's own advice.
+    /// Advice of the caller about missing targets, in addition to the resolver's own.
     advice: Option<String>,
 }
 
 impl<'h> Resolver<'h> {
-    /// A resolver over the `--resource-path` folders in `extra` and the machine's variables.
+    /// Returns a resolver for the `--resource-path` folders in `extra` and the environment variables.
     #[must_use]
     pub fn new(host: &'h dyn Host, extra: &[PathBuf]) -> Self {
         let fixed = places::fixed(host, extra);
@@ -95,33 +95,33 @@ impl<'h> Resolver<'h> {
         }
     }
 
-    /// Adds advice to the message about each thing that cannot be found: the caller knows where the
-    /// search paths come from.
+    /// Adds advice to the message about each missing target: the caller knows the source of the search
+    /// paths.
     #[must_use]
     pub fn advising(mut self, advice: Option<String>) -> Self {
         self.advice = advice;
         self
     }
 
-    /// The advice that [`Resolver::advising`] has added.
+    /// Advice added by [`Resolver::advising`].
     #[must_use]
     pub fn advice(&self) -> Option<&str> {
         self.advice.as_deref()
     }
 
-    /// The file or folder that `uri` names when the file `from` mentions it, as a canonical path.
+    /// Canonical path of the file or folder that `uri` refers to in the file `from`.
     ///
     /// # Errors
-    /// A miss: nothing stands there, or it lies outside the resource paths.
+    /// If the target does not exist or is outside the resource paths.
     pub fn resolve(&self, uri: &str, from: &Path) -> Result<PathBuf, Miss> {
         let around = self.surroundings(from);
         let key = (around.id, uri.to_owned());
         if let Some(answer) = self.answers.borrow().get(&key) {
             return answer.clone();
         }
-        if self.misses(&around) >= MOST_MISSES {
+        if self.misses(&around) >= MAX_CACHED_MISSES {
             let reason = format!(
-                "{MOST_MISSES} other URIs of this file led nowhere, so it was not looked for"
+                "{MAX_CACHED_MISSES} other URIs of this file led nowhere, so it was not looked for"
             );
             return Err(Miss::missing(uri, reason));
         }
@@ -136,24 +136,23 @@ impl<'h> Resolver<'h> {
         answer
     }
 
-    /// The folder of a ROS package, as xacro's `$(find name)` and `package://name` mean it.
+    /// Folder of a ROS package, for xacro's `$(find name)` and `package://name`.
     ///
     /// # Errors
-    /// A miss with every place tried.
+    /// If it is not found; lists the searched paths.
     pub fn find_package(&self, name: &str, from: &Path) -> Result<PathBuf, Miss> {
         self.find(Scheme::Package, name, from)
     }
 
-    /// The folder of a model, as `model://name` means it. See [`Resolver::model_file`] for the
-    /// file in it.
+    /// Folder of a model, for `model://name`. See [`Resolver::model_file`] for the file in it.
     ///
     /// # Errors
-    /// A miss with every place tried.
+    /// If it is not found; lists the searched paths.
     pub fn find_model(&self, name: &str, from: &Path) -> Result<PathBuf, Miss> {
         self.find(Scheme::Model, name, from)
     }
 
-    /// The ROS packages that the file `from` can see, by name, with their folders.
+    /// ROS packages that are visible to the file `from`, by name, with their folders.
     #[must_use]
     pub fn packages(&self, from: &Path) -> BTreeMap<String, PathBuf> {
         let around = self.surroundings(from);
@@ -217,7 +216,7 @@ impl<'h> Resolver<'h> {
         made
     }
 
-    /// What a folder's `package.xml` says; nothing when it has none.
+    /// Content of a folder's `package.xml`; empty if it has none.
     fn manifest(&self, folder: &Path) -> Rc<PackageManifest> {
         if let Some(known) = self.manifests.borrow().get(folder) {
             return known.clone();
@@ -228,7 +227,7 @@ impl<'h> Resolver<'h> {
         made
     }
 
-    /// Answers that a newly granted folder may change are forgotten.
+    /// Discards cached results that a newly granted folder may change.
     fn grant(&self, folder: PathBuf) {
         if self.granted.borrow_mut().insert(folder) {
             let refused = |answer: &Result<PathBuf, Miss>| matches!(answer, Err(miss) if miss.kind == MissKind::Outside);

@@ -1,28 +1,28 @@
-//! Where a mentioning file lies: its folders, its project, and what is above.
+//! Location of a referring file: its folders, its project, and the folders above.
 
 use std::path::{Path, PathBuf};
 
 use crate::host::{Host, Kind};
 use crate::places::{self, Place};
 
-/// The search upward stops after this many folders.
-const MOST_LEVELS: usize = 8;
+/// Maximum number of folders in the upward search.
+const MAX_PARENT_FOLDERS: usize = 8;
 
-/// What a file that mentions URIs can see around itself. All paths are canonical where possible.
+/// Folders visible to a file that contains URIs. All paths are canonical where possible.
 #[derive(Debug)]
 pub(crate) struct Surroundings {
-    /// Distinguishes the surroundings of one resolver.
+    /// Index within one resolver.
     pub(crate) id: usize,
-    /// The file's folder as named, then (when the file is a link) that of the file itself.
+    /// Folder of the file as named, then (if the file is a link) that of the file itself.
     pub(crate) folders: Vec<PathBuf>,
-    /// The folder whose content belongs together; relative paths may not leave it.
+    /// Project folder; relative paths may not leave it.
     pub(crate) project: PathBuf,
     /// The file's folder and those above it, nearest first, up to the repository.
     pub(crate) upward: Vec<PathBuf>,
-    /// Those of `upward` that may be named as the package around the file by their folder's name
-    /// alone; not someone's home, or what is above it.
+    /// Those of `upward` whose folder name alone identifies the package around the file; not a home folder
+    /// or one above it.
     pub(crate) eponyms: Vec<PathBuf>,
-    /// Where to look upward for packages and models.
+    /// Search paths for packages and models above the file.
     pub(crate) places: Vec<Place>,
 }
 
@@ -54,11 +54,11 @@ fn home(host: &dyn Host) -> Option<PathBuf> {
     Some(host.canonical(Path::new(&home)).unwrap_or_else(|| home.into()))
 }
 
-/// The project of a folder: the repository around it, else the folder that holds its package or
-/// model, else the folder above it; and the folders to search upward.
+/// Project of a folder: the repository around it, else the folder that contains its package or model, else
+/// the folder above it; and the folders to search upward.
 fn project(host: &dyn Host, folder: &Path) -> (PathBuf, Vec<PathBuf>) {
     let mut upward: Vec<PathBuf> =
-        folder.ancestors().take(MOST_LEVELS).map(Path::to_path_buf).collect();
+        folder.ancestors().take(MAX_PARENT_FOLDERS).map(Path::to_path_buf).collect();
     let holding = |mark: &str| upward.iter().position(|up| host.kind(&up.join(mark)).is_some());
     if let Some(level) = holding(".git") {
         upward.truncate(level + 1);
@@ -66,7 +66,7 @@ fn project(host: &dyn Host, folder: &Path) -> (PathBuf, Vec<PathBuf>) {
     }
     let home = home(host);
     let above = |up: &Path| {
-        // What lies beside someone's home, or anywhere on the machine, is not of one project.
+        // Folders next to a home folder, or anywhere on the machine, are no common project.
         let is_home = home.as_deref() == Some(up);
         up.parent().filter(|above| above.parent().is_some() && !is_home).unwrap_or(up).to_path_buf()
     };
@@ -75,22 +75,21 @@ fn project(host: &dyn Host, folder: &Path) -> (PathBuf, Vec<PathBuf>) {
     (project, upward)
 }
 
-/// Folders that a build tool writes beside `src`.
+/// Folders that a build tool creates next to `src`.
 const BUILT: [&str; 6] = ["install", "devel", "build", "log", ".catkin_workspace", ".catkin_tools"];
 
-/// The folders of sources of the workspaces around a folder, nearest first: each `src` above it, and
-/// each folder in which something was built. Clones that lie beside each other there see each other, as
-/// for colcon and catkin.
+/// Source folders of the workspaces around a folder, nearest first: each `src` above it, and each folder
+/// with build output. Clones next to each other there are visible to each other, as in colcon and catkin.
 fn workspaces(host: &dyn Host, folder: &Path, home: Option<&Path>) -> Vec<PathBuf> {
-    // Nobody's home is a workspace, nor is a folder of the system's.
+    // A home folder is no workspace, nor is a system folder.
     let may_be = |up: &&Path| up.components().count() > 2 && Some(*up) != home;
     let is_workspace = |up: &&Path| {
         let is_src = up.file_name().is_some_and(|name| name == "src");
         let built = BUILT.iter().filter(|name| host.kind(&up.join(name)).is_some()).count();
-        // A repository has a `build` of its own; a workspace has two of them at least.
+        // A repository may have its own `build`; a workspace has at least two of them.
         is_src || built >= 2
     };
-    let above = folder.ancestors().take(MOST_LEVELS);
+    let above = folder.ancestors().take(MAX_PARENT_FOLDERS);
     above.filter(may_be).filter(is_workspace).map(Path::to_path_buf).collect()
 }
 

@@ -1,29 +1,28 @@
-//! What a URI says, before anyone looks for it.
+//! Parser of URIs.
 
 use crate::fuel::FuelUri;
 use crate::miss::Miss;
 
-/// The longest URI that is looked up [bytes]; Linux refuses longer paths.
-const LONGEST: usize = 4096;
-/// The longest name of one file or folder [bytes].
-const LONGEST_NAME: usize = 255;
+/// Maximum length of a URI that is searched [bytes]; Linux refuses longer paths.
+const MAX_URI_BYTES: usize = 4096;
+/// Maximum length of one file or folder name [bytes].
+const MAX_NAME_BYTES: usize = 255;
 
-/// A URI taken apart.
+/// Parsed URI.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) enum Uri {
     /// `package://name/rest` or `model://name/rest`; `rest` may be empty.
     Named { scheme: Scheme, name: String, rest: String },
-    /// A path, absolute or from the mentioning file's folder.
+    /// Path, absolute or relative to the referring file's folder.
     Path(String),
-    /// `file://` with a relative path, as Classic's `file://media/...`: no one says relative to
-    /// what.
+    /// `file://` with a relative path, as `file://media/...` in Gazebo Classic, whose base is unspecified.
     Loose(String),
-    /// A model or world in the Fuel cache.
+    /// Model or world in the Fuel cache.
     Fuel(FuelUri),
 }
 
-/// Which of the two ways to name a folder was used. Both look at the same places; they differ in
-/// which folder is preferred when only the folder itself is asked for.
+/// Scheme of a named folder. Both have the same search paths; they differ in the preferred folder if only
+/// the folder itself is requested.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) enum Scheme {
     Package,
@@ -50,10 +49,10 @@ pub(crate) fn parse(written: &str) -> Result<Uri, Miss> {
     if uri.contains('\0') {
         return Err(bad("it contains a NUL character"));
     }
-    if uri.len() > LONGEST {
+    if uri.len() > MAX_URI_BYTES {
         return Err(bad("it is longer than any path may be"));
     }
-    if uri.split('/').any(|part| part.len() > LONGEST_NAME) {
+    if uri.split('/').any(|part| part.len() > MAX_NAME_BYTES) {
         return Err(bad("one of its names is longer than 255 bytes"));
     }
     if uri.contains("$(") || uri.contains("${") {
@@ -90,7 +89,7 @@ fn without_scheme(uri: &str) -> Result<Uri, Miss> {
         if let Some(rest) = uri.strip_prefix(scheme).and_then(|rest| rest.strip_prefix(':')) {
             let rest = rest.trim_start_matches('/');
             return match scheme {
-                // `file:/absolute` is a valid spelling (RFC 8089, section 2).
+                // `file:/absolute` is valid (RFC 8089, section 2).
                 "file" if uri.starts_with("file:/") => Ok(Uri::Path(format!("/{rest}"))),
                 _ => Err(Miss::malformed(uri, "two slashes must follow the scheme")
                     .help(format!("did you mean `{scheme}://{rest}`?"))),
@@ -102,7 +101,7 @@ fn without_scheme(uri: &str) -> Result<Uri, Miss> {
 
 fn named(uri: &str, scheme: Scheme, rest: &str) -> Result<Uri, Miss> {
     let word = scheme.word();
-    // Gazebo does not mind a third slash, and files with one are about.
+    // Gazebo accepts a third slash, and such files exist.
     let rest = rest.trim_start_matches('/');
     let (name, rest) = rest.split_once('/').unwrap_or((rest, ""));
     match name {
@@ -119,7 +118,7 @@ fn named(uri: &str, scheme: Scheme, rest: &str) -> Result<Uri, Miss> {
 fn remote(uri: &str, rest: &str) -> Result<Uri, Miss> {
     let (host, path) = rest.split_once('/').unwrap_or((rest, ""));
     if host == "models.gazebosim.org" {
-        // Classic's model library; it kept what it fetched in ~/.gazebo/models.
+        // Gazebo Classic's model library; downloaded models are in ~/.gazebo/models.
         return named(uri, Scheme::Model, path);
     }
     match FuelUri::parse(host, path) {
@@ -130,7 +129,7 @@ fn remote(uri: &str, rest: &str) -> Result<Uri, Miss> {
     }
 }
 
-/// The text with `%20` and the like replaced, when that changes it and gives a usable name.
+/// Text with `%20` and similar decoded, if that changes it and gives a usable name.
 pub(crate) fn percent_decoded(text: &str) -> Option<String> {
     if !text.contains('%') {
         return None;

@@ -1,17 +1,17 @@
-//! What a text says, as plain data.
+//! Interface definitions as plain data.
 
 use periplus_diagnostics::Origin;
 
 use crate::{Literal, TypeName};
 
-/// A number, a truth value, or a byte.
+/// Number, boolean, or byte.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Scalar {
-    /// `bool`, one byte that is 0 or 1.
+    /// `bool`, one byte with the value 0 or 1.
     Bool,
-    /// `byte`, eight bits without a meaning as a number.
+    /// `byte`, eight bits without numeric meaning.
     Byte,
-    /// `char`, which ROS 2 holds as an unsigned number of eight bits.
+    /// `char`, in ROS 2 an unsigned 8-bit integer.
     Char,
     /// `int8`.
     I8,
@@ -36,7 +36,7 @@ pub enum Scalar {
 }
 
 impl Scalar {
-    /// All of them with their names in texts.
+    /// All of them with their names in interface texts.
     pub const NAMES: [(Self, &'static str); 13] = [
         (Self::Bool, "bool"),
         (Self::Byte, "byte"),
@@ -53,19 +53,19 @@ impl Scalar {
         (Self::F64, "float64"),
     ];
 
-    /// The scalar with such a name in texts.
+    /// Scalar with this name in interface texts.
     #[must_use]
     pub fn from_name(name: &str) -> Option<Self> {
         Self::NAMES.iter().find(|(_, known)| *known == name).map(|(scalar, _)| *scalar)
     }
 
-    /// Its name in texts.
+    /// Name in interface texts.
     #[must_use]
     pub fn name(self) -> &'static str {
         Self::NAMES.iter().find(|(scalar, _)| *scalar == self).map_or("", |(_, name)| name)
     }
 
-    /// The range of an integer; none for `bool` and floating point.
+    /// Range of an integer; `None` for `bool` and floating point.
     #[must_use]
     pub fn range(self) -> Option<(i128, i128)> {
         let signed = |bits: u32| (-(1_i128 << (bits - 1)), (1_i128 << (bits - 1)) - 1);
@@ -84,87 +84,86 @@ impl Scalar {
     }
 }
 
-/// What one element of a field is.
+/// Type of one element of a field.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Element {
-    /// A number, a truth value or a byte.
+    /// Number, boolean or byte.
     Scalar(Scalar),
-    /// Text of at most so many bytes.
+    /// String of at most N bytes.
     String(Option<u64>),
-    /// Text in UTF-16 of at most so many units.
+    /// UTF-16 string of at most N code units.
     WString(Option<u64>),
     /// Another message.
     Nested(TypeName),
 }
 
-/// How many elements a field has.
+/// Number of elements of a field.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Shape {
-    /// One, and no array.
+    /// Single value, no array.
     One,
-    /// `[n]`: always so many.
+    /// `[n]`: fixed-size array.
     Fixed(u64),
-    /// `[<=n]`: at most so many.
+    /// `[<=n]`: bounded sequence.
     Bounded(u64),
-    /// `[]`: any number.
+    /// `[]`: unbounded sequence.
     Unbounded,
 }
 
-/// The type of a field.
+/// Type of a field.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Type {
-    /// What one element is.
+    /// Type of one element.
     pub element: Element,
-    /// How many there are.
+    /// Number of elements.
     pub shape: Shape,
 }
 
-/// One field.
+/// Field of a message.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Field {
     /// Its name.
     pub name: String,
     /// Its type.
     pub r#type: Type,
-    /// The value that it has when nobody sets it, where the text gives one.
+    /// Default value, if given.
     pub default: Option<Literal>,
-    /// What the comments beside and above it say.
+    /// Text of the comments next to and above it.
     pub doc: String,
-    /// Where its type is written.
+    /// Source location of the type.
     pub origin: Origin,
 }
 
-/// One named value.
+/// Named constant.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Constant {
     /// Its name.
     pub name: String,
-    /// A scalar, or a string without bound.
+    /// Scalar, or an unbounded string.
     pub element: Element,
-    /// Its value, already in range.
+    /// Value, already in range.
     pub value: Literal,
-    /// What the comments beside and above it say.
+    /// Text of the comments next to and above it.
     pub doc: String,
 }
 
-/// One message, or one part of a service or an action.
+/// Message, or one part of a service or an action.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Definition {
     /// Its full name.
     pub name: TypeName,
-    /// Its fields in the order in which they are written and sent.
+    /// Fields in the order of the text and of the serialization.
     pub fields: Vec<Field>,
     /// Its named values.
     pub constants: Vec<Constant>,
-    /// What the comments at the top say.
+    /// Text of the comments at the top.
     pub doc: String,
-    /// The text that defines it, without what belongs to other parts of a service or an action;
-    /// empty for what no text defines.
+    /// Text that defines it, without other parts of a service or an action; empty for implied types.
     pub text: String,
 }
 
 impl Definition {
-    /// The messages that fields refer to, in order, with repetitions.
+    /// Messages that fields refer to, in order, with repetitions.
     pub fn nested(&self) -> impl Iterator<Item = (&Field, &TypeName)> {
         self.fields.iter().filter_map(|field| match &field.r#type.element {
             Element::Nested(name) => Some((field, name)),

@@ -1,4 +1,4 @@
-//! The types that services and actions imply.
+//! Types implied by services and actions.
 //!
 //! Names, fields and their order are those of `rosidl_generator_type_description` (checked in the
 //! tests by the hashes that it publishes).
@@ -7,20 +7,20 @@ use periplus_diagnostics::Origin;
 
 use crate::{Definition, Element, Field, Kind, Scalar, Shape, Type, TypeName};
 
-/// What one text defines.
+/// Content of one interface text.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Interface {
     /// Its full name.
     pub name: TypeName,
-    /// What the comments at its top say.
+    /// Text of the comments at the top.
     pub doc: String,
-    /// The message; or request and response; or goal, result and feedback. Their names are already
-    /// those of the implied types, such as `Trigger_Request`.
+    /// The message; or request and response; or goal, result and feedback. Their names are those of the
+    /// implied types, such as `Trigger_Request`.
     pub parts: Vec<Definition>,
 }
 
-/// All types that an interface defines: of a message the message itself, of a service its request,
-/// response, event and the service as a whole, of an action these for both of its services, the
+/// Returns all types that an interface defines: for a message the message itself; for a service its
+/// request, response, event and the service as a whole; for an action these for both of its services, the
 /// goal, result, feedback, the feedback's message, and the action as a whole.
 #[must_use]
 pub fn expand(interface: &Interface) -> Vec<Definition> {
@@ -63,7 +63,7 @@ pub fn expand(interface: &Interface) -> Vec<Definition> {
     all
 }
 
-/// The event of a service, and the service as a whole.
+/// Event of a service, and the service as a whole.
 fn service(name: &TypeName, doc: &str) -> [Definition; 2] {
     let own = |suffix: &str| Element::Nested(name.implied(suffix));
     let at_most_one = |name: &str, element| Field {

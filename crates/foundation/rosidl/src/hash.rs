@@ -1,8 +1,8 @@
 //! Type hashes: RIHS01.
 //!
-//! Sha-256 of the type's description as JSON (ROS Enhancement Proposal 2016; the layout of the JSON
-//! as `rosidl_generator_type_description` prints it): names, types and order of the fields count;
-//! comments, constants and defaults do not.
+//! SHA-256 of the type's description as JSON (ROS Enhancement Proposal 2016; the layout of the JSON is that
+//! of `rosidl_generator_type_description`). Names, types and order of the fields matter; comments,
+//! constants and defaults do not.
 
 use std::fmt::Write as _;
 
@@ -11,7 +11,7 @@ use sha2::{Digest, Sha256};
 use crate::{Definition, Element, Field, Registry, Scalar, Shape, Type, TypeName};
 
 impl Registry {
-    /// `RIHS01_` and 64 hexadecimal digits; none when the type or one that it needs is unknown.
+    /// `RIHS01_` and 64 hexadecimal digits; `None` if the type or one that it needs is unknown.
     #[must_use]
     pub fn hash(&self, name: &TypeName) -> Option<String> {
         let digest = Sha256::digest(self.description(name)?);
@@ -22,7 +22,7 @@ impl Registry {
         Some(hash)
     }
 
-    /// The text that is hashed.
+    /// Text that is hashed.
     #[must_use]
     pub fn description(&self, name: &TypeName) -> Option<String> {
         let mut json = String::from("{\"type_description\": ");
@@ -48,7 +48,7 @@ fn individual(json: &mut String, definition: &Definition) {
         one(json, field);
     }
     if definition.fields.is_empty() {
-        // The middleware's type language has no empty structures.
+        // IDL has no empty structures.
         json.push_str(
             "{\"name\": \"structure_needs_at_least_one_member\", \"type\": {\"type_id\": 3, \
              \"capacity\": 0, \"string_capacity\": 0, \"nested_type_name\": \"\"}}",
@@ -58,7 +58,7 @@ fn individual(json: &mut String, definition: &Definition) {
 }
 
 impl Type {
-    /// The numbers by which `type_description_interfaces/msg/FieldType` describes it.
+    /// Numbers of `type_description_interfaces/msg/FieldType` that describe it.
     #[must_use]
     pub fn numbers(&self) -> TypeNumbers {
         let (id, string_capacity) = match &self.element {
@@ -78,7 +78,7 @@ impl Type {
         TypeNumbers { type_id: id + added, capacity, string_capacity }
     }
 
-    /// The message that its elements are; empty for scalars and text.
+    /// Name of the message of its elements; empty for scalars and text.
     #[must_use]
     pub fn nested_name(&self) -> String {
         match &self.element {
@@ -88,14 +88,14 @@ impl Type {
     }
 }
 
-/// A field's type as `type_description_interfaces/msg/FieldType` has it.
+/// Type of a field as in `type_description_interfaces/msg/FieldType`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct TypeNumbers {
-    /// Element and shape, in one number.
+    /// Element and array type, in one number.
     pub type_id: u8,
-    /// Bound or size of an array; 0 for none.
+    /// Bound or size of an array; 0 if none.
     pub capacity: u64,
-    /// Bound of a text; 0 for none.
+    /// Bound of a string; 0 if none.
     pub string_capacity: u64,
 }
 
@@ -110,8 +110,7 @@ fn one(json: &mut String, field: &Field) {
     );
 }
 
-/// The numbers of `type_description_interfaces/msg/FieldType`; a `char` is hashed as the `uint8`
-/// that it is.
+/// Numbers of `type_description_interfaces/msg/FieldType`; a `char` is hashed as `uint8`.
 fn scalar_id(scalar: Scalar) -> u8 {
     match scalar {
         Scalar::I8 => 2,

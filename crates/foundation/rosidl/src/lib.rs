@@ -1,9 +1,10 @@
-//! ROS interface texts (`.msg`, `.srv`, `.action`): what they say, the hash and the schema text
-//! that belong to each type, and Rust code for them.
+//! ROS interface texts (`.msg`, `.srv`, `.action`): parser, type hashes, schema texts, and Rust code
+//! generation.
 //!
-//! [`parse()`] reads one text; a [`Registry`] holds many, knows the types that services and actions
-//! imply, and answers for a type: its definition, everything it refers to, its [`Registry::hash`]
-//! and its [`Registry::schema_text`]; [`Registry::ros1_text`] is what ROS 1 knows a type by. [`rust::package`] writes one package as Rust.
+//! [`parse()`] reads one text; a [`Registry`] holds many, adds the types implied by services and actions,
+//! and returns for each type its definition, all types that it refers to, its [`Registry::hash`] and its
+//! [`Registry::schema_text`]; [`Registry::ros1_text`] returns its definition and MD5 sum for ROS 1.
+//! [`rust::package`] generates the Rust code of one package.
 
 mod definition;
 mod expand;

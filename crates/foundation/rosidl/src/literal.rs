@@ -2,14 +2,14 @@
 
 use crate::{Element, Scalar, Shape, Type};
 
-/// A value as a text writes it, already in the range of its type.
+/// Value as written, already in the range of its type.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Literal {
     /// `true` or `false`.
     Bool(bool),
     /// An integer.
     Int(i128),
-    /// A number with a fraction; never `==` itself when it is not a number.
+    /// Floating-point number; NaN is never equal to itself.
     Float(f64),
     /// Text.
     Text(String),
@@ -19,10 +19,10 @@ pub enum Literal {
 
 impl Eq for Literal {}
 
-/// Reads a value of a type.
+/// Parses a value of a type.
 ///
 /// # Errors
-/// What is expected instead, to be put after "expected".
+/// Expected input, to be placed after "expected".
 pub(crate) fn read(text: &str, r#type: &Type) -> Result<Literal, String> {
     if r#type.shape == Shape::One {
         return read_one(text, &r#type.element);
@@ -52,7 +52,7 @@ pub(crate) fn read_one(text: &str, element: &Element) -> Result<Literal, String>
         },
         Element::Scalar(scalar @ (Scalar::F32 | Scalar::F64)) => {
             let value = text.parse::<f64>().map_err(|_| "a number, such as `0.5`".to_owned())?;
-            // More than a float32 can hold would come out as infinite.
+            // A value beyond the range of a float32 would become infinite.
             #[allow(clippy::cast_possible_truncation, reason = "that is the question")]
             let lost = *scalar == Scalar::F32 && value.is_finite() && !(value as f32).is_finite();
             if lost {
@@ -81,7 +81,7 @@ pub(crate) fn read_one(text: &str, element: &Element) -> Result<Literal, String>
     }
 }
 
-/// As Python's `int(text, base=0)` reads it.
+/// Parses like Python's `int(text, base=0)`.
 fn whole_number(text: &str) -> Option<i128> {
     let (negative, digits) = match text.as_bytes().first()? {
         b'-' => (true, &text[1..]),

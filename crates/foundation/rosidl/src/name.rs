@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-/// In which of its package's folders an interface is written.
+/// Folder of the package in which an interface is defined.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Kind {
     /// `action`: goal, result and feedback.
@@ -14,7 +14,7 @@ pub enum Kind {
 }
 
 impl Kind {
-    /// The folder, the file ending and the middle part of a type's name: `msg`, `srv`, `action`.
+    /// Folder, file extension and middle part of a type's name: `msg`, `srv`, `action`.
     #[must_use]
     pub fn word(self) -> &'static str {
         match self {
@@ -24,32 +24,32 @@ impl Kind {
         }
     }
 
-    /// The kind with such a [`Kind::word`].
+    /// Kind with this [`InterfaceKind::word`].
     #[must_use]
     pub fn from_word(word: &str) -> Option<Self> {
         [Self::Action, Self::Message, Self::Service].into_iter().find(|kind| kind.word() == word)
     }
 }
 
-/// The full name of a type, such as `sensor_msgs/msg/LaserScan`.
+/// Full name of a type, such as `sensor_msgs/msg/LaserScan`.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct TypeName {
     /// Such as `sensor_msgs`.
     pub package: String,
     /// Such as [`Kind::Message`].
     pub kind: Kind,
-    /// Such as `LaserScan`, or `Trigger_Request` for a type that a service implies.
+    /// Such as `LaserScan`, or `Trigger_Request` for an implied type of a service.
     pub name: String,
 }
 
 impl TypeName {
-    /// The name of a message.
+    /// Name of a message.
     #[must_use]
     pub fn message(package: &str, name: &str) -> Self {
         Self { package: package.into(), kind: Kind::Message, name: name.into() }
     }
 
-    /// Reads `package/kind/Name`, or `package/Name` for a message; none when it is neither.
+    /// Parses `package/kind/Name`, or `package/Name` for a message; `None` for other text.
     #[must_use]
     pub fn read(text: &str) -> Option<Self> {
         let parts: Vec<&str> = text.split('/').collect();
@@ -66,13 +66,13 @@ impl TypeName {
         })
     }
 
-    /// The name of a type that this one implies: `Trigger` and `Request` give `Trigger_Request`.
+    /// Name of a type implied by this one: `Trigger` and `Request` give `Trigger_Request`.
     #[must_use]
     pub fn implied(&self, suffix: &str) -> Self {
         Self { name: format!("{}_{suffix}", self.name), ..self.clone() }
     }
 
-    /// `package/Name`, as schema texts write it.
+    /// `package/Name`, as in schema texts.
     #[must_use]
     pub fn short(&self) -> String {
         format!("{}/{}", self.package, self.name)
@@ -85,8 +85,8 @@ impl fmt::Display for TypeName {
     }
 }
 
-/// Rules of the ROS 2 design article "Interface definition using .msg/.srv/.action files", as
-/// `rosidl_adapter` applies them.
+/// Rules of the ROS 2 design article "Interface definition using .msg/.srv/.action files", as in
+/// `rosidl_adapter`.
 pub(crate) fn is_package_name(name: &str) -> bool {
     starts_with(name, |c| c.is_ascii_lowercase())
         && name.bytes().all(|b| b.is_ascii_lowercase() || b.is_ascii_digit() || b == b'_')

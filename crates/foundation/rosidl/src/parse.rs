@@ -1,7 +1,7 @@
-//! From a text to what it defines.
+//! Parser of interface texts.
 //!
-//! The rules are those of `rosidl_adapter`; where it is stricter about comments and quotes than a
-//! reader needs to be, a `#` inside of quotes does not begin a comment here.
+//! The rules are those of `rosidl_adapter`, except that a `#` inside of quotes does not begin a comment
+//! here.
 
 mod line;
 
@@ -9,20 +9,20 @@ use periplus_diagnostics::{Diagnostic, Diagnostics, FileId, SourceMap, Span};
 
 use crate::{Definition, Interface, Kind, TypeName};
 
-/// Longer texts are refused; bytes. The longest in common use has 20 kB.
+/// Maximum length of a text [bytes]. The longest in common use has 20 kB.
 pub const LARGEST_TEXT: usize = 1 << 20;
 
-/// Whose rules a text follows.
+/// Dialect of a text.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Dialect {
-    /// ROS 1: `time`, `duration` and `Header` are built in, `byte` is a signed number, no bounds and
-    /// no defaults.
+    /// ROS 1: `time`, `duration` and `Header` are built in, `byte` is a signed integer, without bounds and
+    /// defaults.
     Ros1,
     /// ROS 2.
     Ros2,
 }
 
-/// Reads one text. None when it cannot be used; then the findings hold at least one error.
+/// Parses one text. Returns `None` if it cannot be used; then the findings contain at least one error.
 pub fn parse(
     name: &TypeName,
     file: FileId,
@@ -33,7 +33,7 @@ pub fn parse(
     part(name, sources.whole(file), sources, dialect, diagnostics)
 }
 
-/// Reads the text in a span, which may be one of many in a schema.
+/// Parses the text in a span, which may be one of many in a schema.
 pub(crate) fn part(
     name: &TypeName,
     whole: Span,
@@ -92,16 +92,16 @@ pub(crate) fn part(
     usable.then(|| Interface { name: name.clone(), doc, parts })
 }
 
-/// Reads the lines of one part, one after the other.
+/// Reads the lines of one part.
 struct Reader<'a> {
     definition: Definition,
     dialect: Dialect,
     found: &'a mut Diagnostics,
-    /// Comments that belong to what comes next, unless an empty line comes first.
+    /// Comments that belong to the next line, unless an empty line follows.
     comments: Vec<String>,
-    /// Where each name was first used.
+    /// Location of the first use of each name.
     names: std::collections::BTreeMap<String, Span>,
-    /// Whether the last comment stood beside a field or constant, so that it may go on.
+    /// Set if the last comment was next to a field or constant and may continue.
     beside: Option<Beside>,
 }
 
@@ -170,7 +170,7 @@ impl<'a> Reader<'a> {
         }
     }
 
-    /// An empty line ends a comment; the first comment is about the whole.
+    /// An empty line ends a comment; the first comment describes the whole text.
     fn blank(&mut self) {
         let comments = std::mem::take(&mut self.comments);
         let is_first = self.definition.fields.is_empty() && self.definition.constants.is_empty();
@@ -194,7 +194,7 @@ impl<'a> Reader<'a> {
 
     fn finish(mut self, text: &str) -> Definition {
         self.blank();
-        // The counter of ROS 1 headers belongs to its wire, not to the message.
+        // The counter of ROS 1 headers belongs to its serialization, not to the message.
         let name = &self.definition.name;
         let is_header = name.package == "std_msgs" && name.name == "Header";
         if self.dialect == Dialect::Ros1 && is_header {

@@ -1,4 +1,4 @@
-//! Many types that know each other.
+//! Registry of types that refer to each other.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -6,14 +6,14 @@ use periplus_diagnostics::{Diagnostic, Diagnostics, FileId, SourceMap};
 
 use crate::{Definition, Dialect, Interface, SEPARATOR, Shape, TypeName, expand, parse};
 
-/// A type whose arrays of fixed size hold more elements than this, all together, is refused: every
-/// value of it would take that much memory, whatever a message brings.
-const MOST_FIXED: u64 = 1 << 20;
+/// Maximum number of elements in all fixed-size arrays of a type together: every value of the type needs
+/// that much memory, whatever a message contains.
+const MAX_FIXED_ELEMENTS: u64 = 1 << 20;
 
-/// Deeper nesting is refused; the deepest in common use is 7.
-const DEEPEST: usize = 64;
+/// Maximum nesting depth; the deepest in common use is 7.
+const MAX_DEPTH: usize = 64;
 
-/// The types of many texts, by name.
+/// Types of many texts, by name.
 #[derive(Clone, Debug, Default)]
 pub struct Registry {
     types: BTreeMap<TypeName, Definition>,
@@ -21,13 +21,13 @@ pub struct Registry {
 }
 
 impl Registry {
-    /// No types.
+    /// Returns an empty registry.
     #[must_use]
     pub fn new() -> Self {
         Self::default()
     }
 
-    /// Adds what one text defines. Call [`Registry::check`] when all are there.
+    /// Adds the types of one text. Call [`Registry::check`] after the last one.
     pub fn add(&mut self, interface: Interface) {
         for definition in expand(&interface) {
             self.types.insert(definition.name.clone(), definition);
@@ -35,11 +35,11 @@ impl Registry {
         self.interfaces.insert(interface.name.clone(), interface);
     }
 
-    /// Adds the types of a schema as bags and wires carry them: the text of `name`, then for each
-    /// type that it needs a line of `=`, a line `MSG: package/Name`, and its text. Types that are
-    /// already there are replaced: the schema knows what was sent.
+    /// Adds the types of a schema as in bags and network protocols: the text of `name`, then for each type
+    /// that it needs a line of `=`, a line `MSG: package/Name`, and its text. Existing types are replaced,
+    /// because the schema describes the serialized data.
     ///
-    /// Returns whether all of it could be used; else the findings say why.
+    /// Returns true if all of it was usable; otherwise the findings give the reasons.
     pub fn add_schema(
         &mut self,
         name: &TypeName,
@@ -85,7 +85,7 @@ impl Registry {
         diagnostics.errors() == before
     }
 
-    /// `time` and `duration`, which ROS 1 has built in and no text of it defines.
+    /// `time` and `duration`, which are built into ROS 1 and have no text there.
     fn add_times(&mut self) {
         let mut sources = SourceMap::new();
         for (name, text) in
@@ -101,8 +101,8 @@ impl Registry {
         }
     }
 
-    /// Whether every type that is referred to is known, none contains itself, and none is larger
-    /// than memory. Types for which this is not so are removed, and so are those that need them.
+    /// Checks that every referenced type is known, none contains itself, and none is too large. Removes
+    /// types that fail, and those that need them.
     pub fn check(&mut self, diagnostics: &mut Diagnostics) {
         let mut judged = BTreeMap::new();
         let names: Vec<TypeName> = self.types.keys().cloned().collect();
@@ -120,7 +120,7 @@ impl Registry {
         });
     }
 
-    /// How many fixed elements a type has; none when it cannot be used.
+    /// Number of fixed elements of a type; `None` if it cannot be used.
     fn judge<'a>(
         &'a self,
         name: &'a TypeName,
@@ -145,8 +145,8 @@ impl Registry {
                     diagnostics.push(self.unknown(definition, field, nested));
                     None
                 }
-                crate::Element::Nested(_) if above.len() >= DEEPEST => {
-                    let wrong = format!("types nest deeper than {DEEPEST} here");
+                crate::Element::Nested(_) if above.len() >= MAX_DEPTH => {
+                    let wrong = format!("types nest deeper than {MAX_DEPTH} here");
                     diagnostics.push(Diagnostic::error("deep-type", wrong).at(field.origin));
                     None
                 }
@@ -156,8 +156,9 @@ impl Registry {
             let times = if let Shape::Fixed(size) = field.r#type.shape { size } else { 1 };
             let added = one.and_then(|one| one.checked_mul(times)).zip(total);
             total = added.and_then(|(one, total)| one.checked_add(total));
-            if total.is_some_and(|total| total > MOST_FIXED) {
-                let wrong = format!("`{name}` has more than {MOST_FIXED} elements of fixed number");
+            if total.is_some_and(|total| total > MAX_FIXED_ELEMENTS) {
+                let wrong =
+                    format!("`{name}` has more than {MAX_FIXED_ELEMENTS} elements of fixed number");
                 diagnostics.push(Diagnostic::error("large-type", wrong).at(field.origin));
                 total = None;
             }
@@ -184,13 +185,13 @@ impl Registry {
         }
     }
 
-    /// The definition of a type.
+    /// Definition of a type.
     #[must_use]
     pub fn get(&self, name: &TypeName) -> Option<&Definition> {
         self.types.get(name)
     }
 
-    /// What a text defined as a whole.
+    /// Interface of a text.
     #[must_use]
     pub fn interface(&self, name: &TypeName) -> Option<&Interface> {
         self.interfaces.get(name)
@@ -201,12 +202,12 @@ impl Registry {
         self.types.values()
     }
 
-    /// What the texts defined, by name.
+    /// Interfaces of the texts, by name.
     pub fn interfaces(&self) -> impl Iterator<Item = &Interface> {
         self.interfaces.values()
     }
 
-    /// All types that a type refers to, at any depth, by name; not itself.
+    /// All types that a type refers to, at any depth, by name, without itself.
     #[must_use]
     pub fn referenced(&self, name: &TypeName) -> BTreeSet<TypeName> {
         let mut found = BTreeSet::new();

@@ -1,7 +1,7 @@
-//! Types on their way between ROS 1 and ROS 2.
+//! Conversion of types between ROS 1 and ROS 2.
 //!
-//! The sum of ROS 1 is that of `genmsg`: MD5 over the constants, then the fields, each in a line of
-//! its own, where the type of a nested message is its sum.
+//! The MD5 sum of ROS 1 is that of `genmsg`: over the constants, then the fields, each in its own line,
+//! where the type of a nested message is replaced by its sum.
 
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
@@ -10,18 +10,18 @@ use md5::{Digest, Md5};
 
 use crate::{Constant, Definition, Element, Literal, Registry, SEPARATOR, Shape, TypeName};
 
-/// What ROS 1 knows a type by.
+/// Definition and MD5 sum of a type for ROS 1.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Ros1Text {
-    /// Its text and those of all types that it needs, as bags of ROS 1 carry them.
+    /// Text of the type and of all types that it needs, as in ROS 1 bags.
     pub text: String,
-    /// Its sum, as 32 hexadecimal digits.
+    /// MD5 sum, as 32 hexadecimal digits.
     pub md5: String,
 }
 
 impl Registry {
-    /// A type as ROS 1 writes it, without bounds and defaults. None when the type is unknown or ROS 1
-    /// has nothing like it: wide strings.
+    /// Type in the form of ROS 1, without bounds and defaults. `None` if the type is unknown or ROS 1 has
+    /// no equivalent: wide strings.
     #[must_use]
     pub fn ros1_text(&self, name: &TypeName) -> Option<Ros1Text> {
         let mut sums = BTreeMap::new();
@@ -74,7 +74,7 @@ impl Registry {
         Some(sum)
     }
 
-    /// The same types with names that ROS 2 allows, and texts to match.
+    /// Returns the same types with names valid in ROS 2, and matching texts.
     #[must_use]
     pub fn for_ros2(&self) -> Self {
         let mut all = Self::new();
@@ -92,7 +92,7 @@ impl Registry {
     }
 }
 
-/// The lines of the fields; a sum stands for a nested message with its brackets.
+/// Lines of the fields; a sum replaces a nested message with its brackets.
 fn fields<'a>(
     definition: &'a Definition,
     nested: impl Fn(&TypeName) -> Option<String>,
@@ -154,7 +154,7 @@ fn constant(constant: &Constant, name: &str) -> String {
     format!("{word} {name}={value}")
 }
 
-/// A definition as ROS 2 writes it.
+/// Definition in the form of ROS 2.
 fn ros2_text(definition: &Definition) -> String {
     let mut text = String::new();
     for one in &definition.constants {
@@ -168,7 +168,7 @@ fn ros2_text(definition: &Definition) -> String {
     }
     for field in &definition.fields {
         let word = match &field.r#type.element {
-            // `byte` has no meaning as a number in ROS 2.
+            // `byte` has no numeric meaning in ROS 2.
             Element::Scalar(scalar) => scalar.name().to_owned(),
             Element::String(limit) => bounded("string", *limit),
             Element::WString(limit) => bounded("wstring", *limit),

@@ -1,5 +1,5 @@
 //! Rust code for a package: calls of the macros `message!`, `service!` and `action!` of the crate
-//! `periplus-msgs`, which hold all that is the same for every type.
+//! `periplus-msgs`, which implement the common parts of all types.
 
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
@@ -8,16 +8,16 @@ use crate::{
     Definition, Element, Field, Interface, Kind, Literal, Registry, Scalar, Shape, TypeName,
 };
 
-/// The code of one package. Every type that it refers to is expected in a module named like its
-/// package, beside this one.
+/// Generates the code of one package. The types that it refers to must be in modules named like their
+/// packages, next to this one.
 ///
 /// # Errors
-/// What cannot be said in this form, in words.
+/// If a type cannot be expressed in this form.
 pub fn package(registry: &Registry, package: &str) -> Result<String, String> {
     some(registry, &format!("interfaces/{package}"), |name| name.package == package)
 }
 
-/// The code of some types of one package, whose texts are in `folder`.
+/// Generates the code of some types of one package, whose texts are in `folder`.
 ///
 /// # Errors
 /// As [`package`].
@@ -55,8 +55,8 @@ pub fn some(
     Ok(code)
 }
 
-/// The types of an interface that become structures: not the events of services, which only
-/// introspection sends, nor services and actions as a whole, which are never sent.
+/// Types of an interface that become structs: not the events of services, which only introspection
+/// publishes, nor services and actions as a whole, which are never serialized.
 pub fn structs<'a>(
     registry: &'a Registry,
     interface: &'a Interface,
@@ -76,7 +76,7 @@ pub fn structs<'a>(
     interface.parts.iter().chain(implied)
 }
 
-/// The name of a type as Rust has it: `Trigger_Request` is `TriggerRequest`.
+/// Rust name of a type: `Trigger_Request` is `TriggerRequest`.
 #[must_use]
 pub fn type_name(name: &TypeName) -> String {
     name.name.replace('_', "")
@@ -159,7 +159,7 @@ fn action(code: &mut String, registry: &Registry, interface: &Interface) -> Resu
 
 fn doc(code: &mut String, indent: &str, text: &str) {
     for line in text.lines() {
-        // What looks like a link or a tag to rustdoc is meant as it stands.
+        // Text that looks like a link or a tag to rustdoc is escaped.
         let line = line.replace('[', "\\[").replace('<', "\\<");
         let _ = writeln!(code, "{}", format!("{indent}/// {line}").trim_end());
     }
@@ -191,7 +191,7 @@ fn limit_of_text(element: &Element) -> Option<u64> {
     }
 }
 
-/// How long a field may be, where the text says so.
+/// Maximum length of a field, if the text gives one.
 fn limit(field: &Field) -> Option<u64> {
     match field.r#type.shape {
         Shape::One => limit_of_text(&field.r#type.element),
@@ -251,7 +251,7 @@ fn scalar_value(literal: &Literal, element: &Element) -> Result<String, String> 
     })
 }
 
-/// The words that Rust keeps for itself and that may name a field.
+/// Rust keywords that may be names of fields.
 const KEYWORDS: [&str; 44] = [
     "abstract", "as", "async", "await", "become", "box", "break", "const", "continue", "do", "dyn",
     "else", "enum", "extern", "final", "fn", "for", "gen", "if", "impl", "in", "let", "loop",
@@ -261,7 +261,7 @@ const KEYWORDS: [&str; 44] = [
 
 fn ident(name: &str) -> String {
     match name {
-        // These cannot be written raw either; the macro takes the stroke off again.
+        // These cannot be raw identifiers; the macro removes the underscore.
         "self" | "super" | "crate" => format!("{name}_"),
         name if KEYWORDS.contains(&name)
             || ["yield", "unsized", "true", "false", "static"].contains(&name) =>

@@ -1,17 +1,16 @@
-//! Schema texts as MCAP's `ros2msg` and Foxglove want them.
+//! Schema texts for MCAP's `ros2msg` and Foxglove.
 
 use crate::{Registry, TypeName};
 
-/// The line between the types of a schema: 80 times `=`.
+/// Line between the types of a schema: 80 times `=`.
 pub const SEPARATOR: &str =
     "================================================================================";
 
 impl Registry {
-    /// The text of a type, followed by the texts of all types that it refers to, each after a line
-    /// of `=` and a line with its name, in the order in which they are first met (breadth first).
-    /// None when the type is unknown or when no text defines it.
+    /// Text of a type, followed by the texts of all types that it refers to, each after a line of `=` and a
+    /// line with its name, breadth first. `None` if the type is unknown or implied.
     ///
-    /// The format is that of the MCAP specification's registry, "ros2msg".
+    /// Format: MCAP specification's registry, "ros2msg".
     #[must_use]
     pub fn schema_text(&self, name: &TypeName) -> Option<String> {
         let mut schema = self.get(name)?.text.trim_end().to_owned();

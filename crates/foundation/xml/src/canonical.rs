@@ -1,12 +1,12 @@
-//! A form in which two trees that mean the same are the same text.
+//! Canonical text form: trees of equal meaning have the same text.
 
 use crate::tree::{Element, Node};
 
-/// What XML calls white space.
+/// White space of XML.
 const SPACE: [char; 4] = [' ', '\t', '\r', '\n'];
 
-/// One text without line breaks of its own: attributes sorted by name, comments and instructions
-/// left out, runs of text joined and trimmed, empty text dropped, `<a></a>` for an empty element.
+/// Returns the tree in one line: attributes sorted by name, comments and instructions removed, runs of text
+/// joined and trimmed, empty text removed, `<a></a>` for an empty element.
 #[must_use]
 pub fn canonical(element: &Element) -> String {
     let mut out = String::new();

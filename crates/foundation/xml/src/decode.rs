@@ -1,9 +1,9 @@
-//! Bytes to text.
+//! Decoding of bytes.
 
 use std::borrow::Cow;
 
-/// Turns a file's bytes into text: UTF-8 with or without a byte order mark, UTF-16 with one, and
-/// ISO-8859-1 where the XML declaration says so.
+/// Decodes a file: UTF-8 with or without a byte order mark, UTF-16 with one, and ISO-8859-1 if the XML
+/// declaration says so.
 ///
 /// # Errors
 /// What is wrong with the bytes, and what to do.

@@ -2,31 +2,30 @@
 
 use std::collections::BTreeMap;
 
-/// How deep declared entities may name each other.
-const DEEPEST: usize = 16;
+/// Maximum nesting depth of declared entities.
+const MAX_DEPTH: usize = 16;
 
-/// How many bytes all declared entities of a file may bring in together; an entity bomb stops
-/// here.
-const MOST_BYTES: usize = 1 << 20;
+/// Maximum expansion of all declared entities of a file together [bytes]; stops entity bombs.
+const MAX_BYTES: usize = 1 << 20;
 
-/// The entities of one file.
+/// Entities of one file.
 #[derive(Default)]
 pub(crate) struct Entities {
     declared: BTreeMap<String, String>,
-    /// Names declared with SYSTEM or PUBLIC: files that are never read.
+    /// Names declared with SYSTEM or PUBLIC: external files, which are never read.
     external: Vec<String>,
     spent: usize,
 }
 
-/// Why a reference was not resolved.
+/// Reason that a reference was not resolved.
 pub(crate) enum Unresolved {
-    /// Nobody declared it.
+    /// Not declared.
     Unknown,
-    /// It stands for a file.
+    /// External file.
     External,
     /// Too deep or too long.
     Bomb,
-    /// Its text holds markup.
+    /// Contains markup.
     Markup,
 }
 
@@ -49,7 +48,7 @@ impl Entities {
         }
     }
 
-    /// The text that `&name;` stands for.
+    /// Replacement text of `&name;`.
     pub(crate) fn resolve(&mut self, name: &str) -> Result<String, Unresolved> {
         let mut text = String::new();
         self.resolve_into(name, &mut text, 0)?;
@@ -71,7 +70,7 @@ impl Entities {
         }
         let value = self.declared.get(name).ok_or(Unresolved::Unknown)?.clone();
         self.spent += value.len() + 1;
-        if depth >= DEEPEST || self.spent > MOST_BYTES {
+        if depth >= MAX_DEPTH || self.spent > MAX_BYTES {
             return Err(Unresolved::Bomb);
         }
         if value.contains('<') {

@@ -1,4 +1,4 @@
-//! Text to tree.
+//! Parser: text to tree.
 
 use std::borrow::Cow;
 use std::collections::BTreeMap;
@@ -12,15 +12,15 @@ use smol_str::SmolStr;
 use crate::entities::{Entities, Unresolved};
 use crate::tree::{Attribute, Document, Element, Node, Text};
 
-/// Deepest nesting that is read. Real robot files stay below 30; the readers above recurse.
-pub const DEEPEST: usize = 200;
+/// Maximum nesting depth. Real robot files stay below 30; the readers above are recursive.
+pub const MAX_DEPTH: usize = 200;
 
-/// Attributes of one element that are compared one by one; beyond them an index finds repetitions,
-/// so that a hostile tag costs no quadratic time.
+/// Maximum number of attributes of one element that are compared pairwise; beyond it an index finds
+/// repetitions, so that a hostile tag does not take quadratic time.
 const FEW_ATTRIBUTES: usize = 16;
 
-/// Reads one text of `sources`. What is forgiven becomes a warning; when the text is not XML at
-/// all, an error, and no document.
+/// Parses one text of `sources`. Tolerated faults are warnings; text that is not XML at all gives an error
+/// and no document.
 pub fn parse(file: FileId, sources: &SourceMap, diagnostics: &mut Diagnostics) -> Option<Document> {
     let text = sources.file(file).text.clone();
     let mut builder = Builder {
@@ -55,8 +55,8 @@ struct Builder<'a> {
     diagnostics: &'a mut Diagnostics,
     entities: Entities,
     open: Vec<Element>,
-    /// Text of the innermost open element that is not a node yet: text around entities and CDATA
-    /// sections arrives in pieces, and one run is one node.
+    /// Text of the innermost open element that is not a node yet: text around entities and CDATA sections
+    /// arrives in pieces, and one run is one node.
     run: Option<Run>,
     document: Parts,
 }
@@ -66,7 +66,7 @@ impl Builder<'_> {
         let text = self.text;
         let mut reader = Reader::from_str(text);
         let config = reader.config_mut();
-        // End names are checked here, where both places are known.
+        // End names are checked here, where both locations are known.
         config.check_end_names = false;
         config.allow_unmatched_ends = true;
         config.allow_dangling_amp = true;
@@ -110,11 +110,11 @@ impl Builder<'_> {
     }
 
     fn start(&mut self, tag: &BytesStart<'_>, span: Span) -> Option<()> {
-        if self.open.len() >= DEEPEST {
+        if self.open.len() >= MAX_DEPTH {
             self.error(
                 Diagnostic::error(
                     "too-deep",
-                    format!("elements are nested deeper than {DEEPEST} levels"),
+                    format!("elements are nested deeper than {MAX_DEPTH} levels"),
                 )
                 .at(span)
                 .help("flatten the file; no robot or world needs this"),
@@ -135,7 +135,7 @@ impl Builder<'_> {
                 }
             };
             let name = attribute.key.into_inner();
-            // Both are slices of the text, so their addresses give their places.
+            // Both are slices of the text, so their addresses give their offsets.
             let start = name.as_ptr() as usize - self.text.as_ptr() as usize;
             let (value_start, raw) = match &attribute.value {
                 Cow::Borrowed(raw) => (raw.as_ptr() as usize - self.text.as_ptr() as usize, *raw),
@@ -181,7 +181,7 @@ impl Builder<'_> {
 
     fn attribute_error(&mut self, error: &AttrError, span: Span) {
         let text = &self.text[span.start as usize..span.end as usize];
-        // The end of a tag and the end of a comment, run into one.
+        // The end of a tag joined with the end of a comment.
         if let Some(before) = text.strip_suffix("/-->").or_else(|| text.strip_suffix("-->")) {
             let place = span.part(before.len(), text.len());
             self.error(
@@ -234,7 +234,7 @@ impl Builder<'_> {
         }
     }
 
-    /// Makes a node of the text that has been gathered.
+    /// Creates a node from the collected text.
     fn end_run(&mut self) {
         if let Some(Run { first, rest, span }) = self.run.take()
             && let Some(parent) = self.open.last_mut()
@@ -283,7 +283,7 @@ impl Builder<'_> {
                 return Some(());
             }
             let outside = Diagnostic::new(
-                // TinyXML-2 stops reading before a root, and ignores what comes after one.
+                // TinyXML-2 stops reading before a root, and ignores content after one.
                 if self.document.root.is_some() {
                     periplus_diagnostics::Severity::Warning
                 } else {
@@ -310,7 +310,7 @@ impl Builder<'_> {
         Some(())
     }
 
-    /// Line breaks and tabs count as spaces (XML 1.0, section 3.3.3); entities are resolved.
+    /// Line breaks and tabs become spaces (XML 1.0, section 3.3.3); entities are resolved.
     fn attribute_value(&mut self, raw: &str, span: Span) -> Option<SmolStr> {
         if !raw.contains(['&', '\n', '\t', '\r']) {
             return Some(SmolStr::new(raw));
@@ -402,8 +402,8 @@ impl Builder<'_> {
     }
 
     fn syntax_error(&mut self, error: &Error, at: usize) {
-        // The reader names the end of the text for a construct that never ends; its start, which
-        // it names too, is the better place.
+        // The parser reports the end of the text for an unterminated construct; its start, which is
+        // reported too, is the better location.
         let start = at.min(self.text.len());
         let mut end = (start + 1).min(self.text.len());
         while !self.text.is_char_boundary(end) {

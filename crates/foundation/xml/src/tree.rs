@@ -1,11 +1,11 @@
-//! The tree: elements, attributes, text, comments.
+//! XML tree: elements, attributes, text, comments.
 
 use std::borrow::Cow;
 
 use periplus_diagnostics::{ContextId, Origin, Span};
 use smol_str::SmolStr;
 
-/// A whole file: what stands before the root, the root, what stands after it.
+/// Document: content before the root, the root, content after it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Document {
     /// Comments and processing instructions before the root.
@@ -16,7 +16,7 @@ pub struct Document {
     pub after: Vec<Node>,
 }
 
-/// A part of an element's content.
+/// Part of an element's content.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Node {
     /// A child element.
@@ -29,12 +29,12 @@ pub enum Node {
     Instruction(Text),
 }
 
-/// Characters and where they stand.
+/// Characters with their source location.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Text {
     /// The characters.
     pub text: SmolStr,
-    /// Where they stand.
+    /// Source location.
     pub origin: Origin,
 }
 
@@ -43,11 +43,11 @@ pub struct Text {
 pub struct Attribute {
     /// The name as written, with its prefix.
     pub name: SmolStr,
-    /// The value, entities resolved, line breaks and tabs made spaces.
+    /// Value with entities resolved, line breaks and tabs replaced by spaces.
     pub value: SmolStr,
-    /// Where name and value stand.
+    /// Source location of name and value.
     pub origin: Origin,
-    /// Where the value stands, without its quotes.
+    /// Source location of the value, without its quotes.
     pub value_origin: Origin,
 }
 
@@ -56,16 +56,16 @@ pub struct Attribute {
 pub struct Element {
     /// The name as written, with its prefix.
     pub name: SmolStr,
-    /// The attributes, in order of writing.
+    /// Attributes, in file order.
     pub attributes: Vec<Attribute>,
     /// The content, in order.
     pub children: Vec<Node>,
-    /// Where the start tag stands, from `<` to `>`.
+    /// Source location of the start tag, from `<` to `>`.
     pub origin: Origin,
 }
 
 impl Element {
-    /// An empty element that no file holds.
+    /// Returns an empty element without a source location.
     #[must_use]
     pub fn new(name: impl Into<SmolStr>) -> Self {
         Self {
@@ -112,47 +112,47 @@ impl Element {
         self.children.push(Node::Text(Text { text: text.into(), origin: Origin::default() }));
     }
 
-    /// The name without its prefix.
+    /// Name without its prefix.
     #[must_use]
     pub fn local_name(&self) -> &str {
         self.name.rsplit_once(':').map_or(&*self.name, |(_, local)| local)
     }
 
-    /// The prefix of the name.
+    /// Prefix of the name.
     #[must_use]
     pub fn prefix(&self) -> Option<&str> {
         self.name.rsplit_once(':').map(|(prefix, _)| prefix)
     }
 
-    /// An attribute by name.
+    /// Attribute by name.
     #[must_use]
     pub fn attribute(&self, name: &str) -> Option<&Attribute> {
         self.attributes.iter().find(|attribute| attribute.name == name)
     }
 
-    /// The value of an attribute.
+    /// Value of an attribute.
     #[must_use]
     pub fn value(&self, name: &str) -> Option<&str> {
         self.attribute(name).map(|attribute| &*attribute.value)
     }
 
-    /// The child elements.
+    /// Child elements.
     pub fn elements(&self) -> impl Iterator<Item = &Self> {
         self.children.iter().filter_map(Node::as_element)
     }
 
-    /// The child elements of one name.
+    /// Child elements of one name.
     pub fn named<'a>(&'a self, name: &'a str) -> impl Iterator<Item = &'a Self> {
         self.elements().filter(move |element| element.name == name)
     }
 
-    /// The first child element of one name.
+    /// First child element of one name.
     #[must_use]
     pub fn child<'a>(&'a self, name: &'a str) -> Option<&'a Self> {
         self.named(name).next()
     }
 
-    /// All characters directly in this element, white space around them removed.
+    /// All characters directly in this element, without surrounding white space.
     #[must_use]
     pub fn text(&self) -> Cow<'_, str> {
         let mut parts = self.children.iter().filter_map(|node| match node {
@@ -170,8 +170,8 @@ impl Element {
         }
     }
 
-    /// Where the characters of [`Self::text`] stand: the first run of text that is not white
-    /// space, trimmed; or else the start tag.
+    /// Source location of the characters of [`Self::text`]: the first run of text that is not white space,
+    /// trimmed; or else the start tag.
     #[must_use]
     pub fn text_origin(&self) -> Origin {
         let run = self.children.iter().find_map(|node| match node {
@@ -182,12 +182,12 @@ impl Element {
         let Some(span) = run.origin.0 else { return self.origin };
         let leading = run.text.len() - run.text.trim_start().len();
         let length = run.text.trim().len();
-        // With entities or CDATA in it the text is shorter than its source; then point to it all.
+        // With entities or CDATA the text is shorter than its source; then the whole source is returned.
         let plain = run.text.len() == (span.end - span.start) as usize;
         Origin(Some(if plain { span.part(leading, leading + length) } else { span }))
     }
 
-    /// Makes every place in this element be seen through a macro call or an include.
+    /// Sets the context of all locations in this element to a macro call or an include.
     pub fn see_through(&mut self, context: ContextId) {
         let seen = |origin: &mut Origin| {
             if let Some(span) = &mut origin.0 {
@@ -209,7 +209,7 @@ impl Element {
         }
     }
 
-    /// Where the name in the start tag stands.
+    /// Source location of the name in the start tag.
     #[must_use]
     pub fn name_origin(&self) -> Origin {
         Origin(self.origin.0.map(|span: Span| span.part(1, 1 + self.name.len())))
@@ -217,7 +217,7 @@ impl Element {
 }
 
 impl Node {
-    /// The element, if it is one.
+    /// Returns the element, if it is one.
     #[must_use]
     pub fn as_element(&self) -> Option<&Element> {
         match self {

@@ -1,4 +1,4 @@
-//! Tree to text.
+//! Writer: tree to text.
 
 use crate::tree::{Document, Element, Node};
 
@@ -38,7 +38,7 @@ fn write_node(node: &Node, level: usize, out: &mut String) {
         Node::Comment(comment) => {
             indent(level, out);
             out.push_str("<!--");
-            // A forgiven `--` must not be written again.
+            // A tolerated `--` must not be written again.
             out.push_str(&comment.text.replace("--", "- -"));
             out.push_str(if comment.text.ends_with('-') { " -->\n" } else { "-->\n" });
         }

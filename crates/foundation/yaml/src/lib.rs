@@ -1,48 +1,48 @@
-//! YAML trees in which every node knows its place.
+//! YAML trees with source locations.
 //!
-//! What a scalar means is for the one who asks: `1e5` is a number to [`Node::number`] and a text to
-//! [`Node::text`]. Anchors and aliases work; merge keys (`<<`) do not and are ordinary names.
+//! The caller determines the type of a scalar: `1e5` is a number for [`YamlNode::number`] and a text for
+//! [`YamlNode::text`]. Anchors and aliases are supported; merge keys (`<<`) are not and are ordinary names.
 
 use std::collections::BTreeMap;
 
 use periplus_diagnostics::{Diagnostic, FileId, SourceMap, Span};
 use saphyr_parser::{Event, Marker, Parser, ScalarStyle, StrInput};
 
-/// How deep lists and mappings may nest.
-const DEEPEST: usize = 60;
+/// Maximum nesting depth of lists and mappings.
+const MAX_DEPTH: usize = 60;
 
-/// How many values a file may hold, aliases counted each time.
-const MOST_VALUES: usize = 1_000_000;
+/// Maximum number of values in a file; each use of an alias counts.
+const MAX_VALUES: usize = 1_000_000;
 
-/// A value and where it stands.
+/// Value with its source location.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Node {
-    /// Where.
+    /// Source location.
     pub span: Span,
-    /// What.
+    /// Value.
     pub value: Value,
-    /// True for a scalar with the tag `!!binary`: its text is base64, line ends in it do not count.
+    /// True for a scalar with the tag `!!binary`: its text is base64, in which line breaks are ignored.
     pub is_binary: bool,
 }
 
-/// A value.
+/// YAML value.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Value {
-    /// A text, number, truth value or nothing, as written.
+    /// Text, number, boolean or null, as written.
     Scalar {
-        /// What is written, without quotes.
+        /// Text without quotes.
         text: String,
-        /// Whether it stands there without quotes.
+        /// True if it is written without quotes.
         is_plain: bool,
     },
     /// A list.
     List(Vec<Node>),
-    /// Names and values, in the order in which they are written. A name may come twice.
+    /// Names and values, in file order. A name may occur twice.
     Map(Vec<(Node, Node)>),
 }
 
 impl Node {
-    /// The text of a scalar.
+    /// Text of a scalar.
     #[must_use]
     pub fn text(&self) -> Option<&str> {
         match &self.value {
@@ -58,28 +58,28 @@ impl Node {
         }
     }
 
-    /// Whether nothing is there: an empty value, `~` or `null`.
+    /// Returns true for null: an empty value, `~` or `null`.
     #[must_use]
     pub fn is_null(&self) -> bool {
         self.plain().is_some_and(|text| matches!(text, "" | "~" | "null" | "Null" | "NULL"))
     }
 
-    /// A decimal number without quotes. `.inf` and `.nan` are none.
+    /// Decimal number without quotes. `.inf` and `.nan` are not accepted.
     #[must_use]
     pub fn number(&self) -> Option<f64> {
         let text = self.plain()?;
-        // Rust reads "inf" and "nan" as well, which YAML takes for texts.
+        // Rust accepts "inf" and "nan" too, which are texts in YAML.
         let is_number = text.bytes().all(|b| b.is_ascii_digit() || b"+-.eE".contains(&b));
         text.parse().ok().filter(|number: &f64| is_number && number.is_finite())
     }
 
-    /// A whole decimal number without quotes.
+    /// Decimal integer without quotes.
     #[must_use]
     pub fn integer(&self) -> Option<i64> {
         self.plain()?.parse().ok()
     }
 
-    /// A truth value, by the names of YAML 1.1.
+    /// Boolean, by the names of YAML 1.1.
     #[must_use]
     pub fn truth(&self) -> Option<bool> {
         match self.plain()?.to_ascii_lowercase().as_str() {
@@ -89,7 +89,7 @@ impl Node {
         }
     }
 
-    /// The elements of a list.
+    /// Elements of a list.
     #[must_use]
     pub fn list(&self) -> Option<&[Node]> {
         match &self.value {
@@ -98,7 +98,7 @@ impl Node {
         }
     }
 
-    /// The names and values of a mapping.
+    /// Names and values of a mapping.
     #[must_use]
     pub fn entries(&self) -> Option<&[(Node, Node)]> {
         match &self.value {
@@ -107,13 +107,13 @@ impl Node {
         }
     }
 
-    /// The first value of a name in a mapping.
+    /// First value of a name in a mapping.
     #[must_use]
     pub fn get(&self, name: &str) -> Option<&Node> {
         self.entries()?.iter().find(|(key, _)| key.text() == Some(name)).map(|(_, value)| value)
     }
 
-    /// What it is, in words for messages.
+    /// Type of the value, in words for messages.
     #[must_use]
     pub fn kind(&self) -> &'static str {
         match &self.value {
@@ -127,10 +127,10 @@ impl Node {
     }
 }
 
-/// Reads the first document of a text; none when there is nothing in it.
+/// Parses the first document of a text; `None` if it is empty.
 ///
 /// # Errors
-/// Where it is no YAML, and why.
+/// If the text is not YAML.
 pub fn parse(file: FileId, sources: &SourceMap) -> Result<Option<Node>, Box<Diagnostic>> {
     let whole = sources.whole(file);
     let text = sources.text(whole);
@@ -158,15 +158,15 @@ struct Reader<'t> {
     parser: Parser<'t, StrInput<'t>>,
     text: &'t str,
     whole: Span,
-    /// A place that is known both in characters and in bytes.
+    /// Position in characters and in bytes.
     at: (usize, usize),
     anchors: BTreeMap<usize, (Node, usize)>,
     values: usize,
 }
 
 impl<'t> Reader<'t> {
-    /// The byte of a marker, which counts characters. Markers hardly ever go back, so this is
-    /// linear in the text.
+    /// Byte offset of a marker, which counts characters. Markers hardly ever go back, so this is linear in
+    /// the text.
     fn byte(&mut self, marker: &Marker) -> usize {
         let (mut index, mut byte) = self.at;
         while index < marker.index() {
@@ -205,7 +205,7 @@ impl<'t> Reader<'t> {
     ) -> Result<Node, Box<Diagnostic>> {
         let fail = |message: &str| Err(bad(message, span));
         self.values += 1;
-        if depth > DEEPEST || self.values > MOST_VALUES {
+        if depth > MAX_DEPTH || self.values > MAX_VALUES {
             return fail("the file is nested too deeply or too large");
         }
         let before = self.values;
@@ -245,7 +245,7 @@ impl<'t> Reader<'t> {
                 let Some((node, size)) = self.anchors.get(&anchor).cloned() else {
                     return fail("an alias names an anchor that is still open");
                 };
-                // What it stands for is shown where it is used.
+                // The value is counted at each use.
                 self.values += size;
                 return Ok(Node { span, ..node });
             }

@@ -1,15 +1,14 @@
-//! Normal numbers by the ziggurat method, which needs no logarithm for 98 of 100 numbers.
+//! Normal distribution by the ziggurat method, which needs no logarithm for 98 of 100 numbers.
 //!
-//! Marsaglia & Tsang 2000, "The ziggurat method for generating random variables"; the form without
-//! its flaw of reused bits is from Doornik 2005, "An improved ziggurat method to generate normal
-//! random samples".
+//! Marsaglia & Tsang 2000, "The ziggurat method for generating random variables"; with the correction of
+//! reused bits by Doornik 2005, "An improved ziggurat method to generate normal random samples".
 
 use std::sync::LazyLock;
 
 use super::Stream;
 
 const LAYERS: usize = 128;
-/// Where the tail begins.
+/// Start of the tail.
 const TAIL: f64 = 3.442_619_855_899;
 /// Area of a layer under `exp(-x²/2)`.
 const AREA: f64 = 9.912_563_035_262_17e-3;
@@ -35,7 +34,7 @@ pub(super) fn draw(stream: &mut Stream) -> f64 {
     let ends = &*ENDS;
     loop {
         let bits = stream.bits();
-        // The layer takes the lowest seven bits, the place in it the upper 53.
+        // The layer uses the lowest seven bits, the position in it the upper 53.
         let layer = (bits & 127) as usize;
         #[expect(clippy::cast_precision_loss, reason = "53 bits fit")]
         let place = (bits >> 11) as f64 * (2.0 / 9_007_199_254_740_992.0) - 1.0;
@@ -69,7 +68,7 @@ fn tail(stream: &mut Stream, negative: bool) -> f64 {
 mod tests {
     use crate::Stream;
 
-    /// Shares of a million numbers below some bounds, against the distribution function.
+    /// Fractions of a million numbers below some bounds, compared with the distribution function.
     #[test]
     fn normal_numbers_are_spread_as_they_should() {
         let mut stream = Stream::keyed(1, "normal", 0);

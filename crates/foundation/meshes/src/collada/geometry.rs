@@ -1,4 +1,4 @@
-//! `<geometry>`: primitives to parts.
+//! Primitives of a `<geometry>`.
 
 use glam::DVec3;
 
@@ -10,20 +10,20 @@ use crate::limits::Budget;
 use crate::notes::Notes;
 use crate::triangulate::triangulate;
 
-/// One primitive element, read: the material symbol it names, and its triangles.
+/// Primitive element: the material symbol that it refers to, and its triangles.
 pub(super) struct Primitive {
     pub(super) material_symbol: Option<String>,
     pub(super) part: Part,
 }
 
-/// What the reading of a geometry needs and adds to.
+/// State needed to read a geometry.
 pub(super) struct Context<'c> {
     pub(super) arrays: &'c mut Arrays,
     pub(super) budget: &'c mut Budget,
     pub(super) notes: &'c mut Notes,
 }
 
-/// Reads every primitive of a `<geometry>` that has triangles.
+/// Reads all primitives of a `<geometry>` with triangles.
 pub(super) fn read(
     geometry: Node<'_>,
     context: &mut Context<'_>,
@@ -53,8 +53,8 @@ pub(super) fn read(
     Ok(primitives)
 }
 
-/// Polygons as runs of index tuples: (first tuple, number of tuples), or single
-/// triangles as tuples in any order.
+/// Polygons as ranges of index tuples (first tuple, number of tuples), or single triangles as tuples in any
+/// order.
 enum Face {
     Polygon(usize, usize),
     Triangle([usize; 3]),
@@ -71,7 +71,7 @@ fn whole(indices: &[u32], stride: usize, faces: &mut Polygons) {
 
 fn strip(indices: &[u32], stride: usize, faces: &mut Polygons) {
     let triangles = (indices.len() / stride).saturating_sub(2);
-    // Every second triangle of a strip is wound the other way round.
+    // Every second triangle of a strip has the opposite winding.
     faces.extend(
         (0..triangles).map(|i| {
             Face::Triangle(if i % 2 == 0 { [i, i + 1, i + 2] } else { [i + 1, i, i + 2] })
@@ -79,7 +79,7 @@ fn strip(indices: &[u32], stride: usize, faces: &mut Polygons) {
     );
 }
 
-/// The lists that index tuples point into, with the place of each in a tuple.
+/// Sources that index tuples refer to, with the offset of each in a tuple.
 struct Inputs {
     stride: usize,
     position: (usize, Source<3>),
@@ -131,7 +131,7 @@ fn primitive(
     context: &mut Context<'_>,
 ) -> Result<Part, MeshError> {
     let mut part = Part::default();
-    // A primitive without indices may lack everything else too.
+    // A primitive without indices may lack other elements too.
     let has_indices = |p: &Node<'_>| match p.tag() {
         "p" => !p.text().is_empty(),
         "ph" => true,
@@ -176,7 +176,7 @@ fn primitive(
     Ok(part)
 }
 
-/// The polygons of a `<polylist>`, whose `<vcount>` gives the corners of each.
+/// Polygons of a `<polylist>`, whose `<vcount>` gives the number of corners of each.
 fn runs(vcount: Node<'_>, tuples: usize, faces: &mut Polygons) -> Result<(), MeshError> {
     let mut start = 0usize;
     for corners in vcount.indices()? {
@@ -191,7 +191,7 @@ fn runs(vcount: Node<'_>, tuples: usize, faces: &mut Polygons) -> Result<(), Mes
     Ok(())
 }
 
-/// The index tuples of one `<p>`.
+/// Index tuples of one `<p>`.
 struct Tuples<'a> {
     p: Node<'a>,
     indices: &'a [u32],
@@ -250,7 +250,7 @@ impl Tuples<'_> {
                 position.1.len()
             )));
         };
-        // A wrong normal or texture index costs only the attribute.
+        // A wrong normal or texture index only loses the attribute.
         let normal = normal.as_ref().map(|(offset, source)| (tuple[*offset], source));
         let uv = uv.as_ref().map(|(offset, source)| (tuple[*offset], source));
         let key = |index: Option<u32>| index.map_or(0, |i| i.wrapping_add(1));

@@ -1,12 +1,12 @@
-//! `<material>` by way of `<effect>` to a diffuse colour and an image file.
+//! Diffuse colour and image file of a `<material>`, through its `<effect>`.
 
 use super::tree::Node;
 use crate::mesh::{Material, Texture};
 
-/// The material a `<material>` element stands for.
+/// Reads the material of a `<material>` element.
 ///
-/// `<transparency>` is left aside: exporters disagree on whether 0 or 1 means
-/// opaque, and Gazebo's reader takes only the diffuse alpha into the colour too.
+/// `<transparency>` is ignored: exporters disagree about whether 0 or 1 is opaque, and Gazebo's reader uses
+/// only the diffuse alpha too.
 pub(super) fn read(material: Node<'_>) -> Material {
     let name = material.attribute("name").or(material.attribute("id")).unwrap_or("").to_owned();
     let mut result = Material { name, diffuse_rgba: [1.0; 4], texture: None };
@@ -20,7 +20,7 @@ pub(super) fn read(material: Node<'_>) -> Material {
             |node: &Node<'_>| matches!(node.tag(), "phong" | "blinn" | "lambert" | "constant");
         technique.children().find(is_model)
     });
-    // A `<constant>` surface shines by itself and has no diffuse part.
+    // A `<constant>` surface is emissive and has no diffuse part.
     let diffuse = shading.and_then(|shading| {
         let tag = if shading.tag() == "constant" { "emission" } else { "diffuse" };
         shading.child(tag)
@@ -44,8 +44,8 @@ fn color(node: Node<'_>) -> Option<[f32; 4]> {
     Some([channel(0), channel(1), channel(2), channel(3)])
 }
 
-/// A texture names a sampler, that a surface, that an image; some writers name
-/// the image at once. COLLADA 1.5 has the sampler name the image.
+/// A texture refers to a sampler, the sampler to a surface, the surface to an image; some writers refer to
+/// the image directly. In COLLADA 1.5 the sampler refers to the image.
 fn image_file(profile: Node<'_>, name: &str) -> Option<String> {
     let param = |sid: &str| {
         profile.children_named("newparam").find(|node| node.attribute("sid") == Some(sid))

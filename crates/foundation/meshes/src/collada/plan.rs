@@ -1,7 +1,7 @@
-//! What one `<node>` holds, worked out once however often it is instanced.
+//! Content of a `<node>`, computed once for all of its instances.
 //!
-//! A small file can instance a large node a million times; this keeps the cost
-//! of each further time at what the budget counts.
+//! A small file can instantiate a large node a million times; this limits the cost of each further instance
+//! to its share of the budget.
 
 use std::collections::BTreeMap;
 use std::rc::Rc;
@@ -18,31 +18,31 @@ use crate::limits::Budget;
 use crate::mesh::Material;
 use crate::notes::Notes;
 
-/// A node, ready to be placed.
+/// Node with resolved content.
 pub(super) struct Plan<'t> {
     pub(super) parent_from_node: DMat4,
     pub(super) name: Option<&'t str>,
     pub(super) items: Vec<Item<'t>>,
 }
 
-/// One thing in a node, in document order.
+/// Item of a node, in document order.
 pub(super) enum Item<'t> {
-    /// A child node, or an instance of a node elsewhere.
+    /// Child node, or instance of another node.
     Node(Node<'t>),
-    /// An instance of a geometry, perhaps through a controller.
+    /// Instance of a geometry, possibly through a controller.
     Shape(Shape),
 }
 
-/// A geometry with the materials this instance gives it.
+/// Geometry with the materials of this instance.
 pub(super) struct Shape {
     pub(super) primitives: Rc<Vec<Primitive>>,
     /// One per primitive.
     pub(super) materials: Vec<Option<Arc<Material>>>,
-    /// The bind shape matrix of a skin; else no change.
+    /// Bind shape matrix of a skin; else the identity.
     pub(super) node_from_shape: DMat4,
 }
 
-/// Makes plans, reading each geometry and material once.
+/// Creates plans; reads each geometry and material once.
 pub(super) struct Planner<'t> {
     tree: &'t Tree<'t>,
     pub(super) notes: &'t mut Notes,
@@ -84,7 +84,7 @@ impl<'t> Planner<'t> {
         Ok(Plan { parent_from_node, name, items })
     }
 
-    /// The element an instance refers to; a missing one costs only itself.
+    /// Target of an instance; a missing one only loses the instance.
     fn target(&mut self, tag: &str, instance: Node<'t>) -> Option<Node<'t>> {
         let url = instance.attribute("url").unwrap_or("");
         let target = self.tree.find(tag, url);
@@ -99,8 +99,8 @@ impl<'t> Planner<'t> {
         target
     }
 
-    /// A skinned mesh stands in its bind pose: the geometry moved by the bind
-    /// shape matrix, then by the node. A morphed one keeps its base shape.
+    /// A skinned mesh is in its bind pose: the geometry is transformed by the bind shape matrix, then by
+    /// the node. A morphed one keeps its base shape.
     fn controller(
         &mut self,
         instance: Node<'t>,
@@ -166,7 +166,7 @@ impl<'t> Planner<'t> {
         bound: &BTreeMap<&str, &str>,
         budget: &mut Budget,
     ) -> Result<Option<Arc<Material>>, MeshError> {
-        // Symbols without a binding that are a material's id mean it, as in Gazebo.
+        // Symbols without a binding that are the id of a material refer to it, as in Gazebo.
         let target = bound.get(symbol).copied().unwrap_or(symbol);
         let Some(node) = self.tree.find("material", target) else {
             self.notes.add(format!("material `{}` is bound to nothing", short(symbol)));

@@ -1,4 +1,4 @@
-//! The visual scene: nodes and instances, each placed in the mesh's frame.
+//! Visual scene: nodes and instances in the mesh frame.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::rc::Rc;
@@ -11,18 +11,18 @@ use crate::error::MeshError;
 use crate::limits::Budget;
 use crate::mesh::Submesh;
 
-/// Everything gathered while the scene is walked.
+/// State of the traversal.
 pub(super) struct Walk<'t, 'b> {
     planner: Planner<'t>,
     budget: &'b mut Budget,
     plans: BTreeMap<u32, Rc<Plan<'t>>>,
-    /// Geometries placed before, by address: from the second time on they cost.
+    /// Geometries placed before, by address: further instances are charged.
     placed: BTreeSet<*const Vec<super::geometry::Primitive>>,
     unnamed: usize,
     pub(super) submeshes: Vec<Submesh>,
 }
 
-/// Where on the way down from the scene a node stands.
+/// Position of a node in the tree.
 #[derive(Clone, Copy)]
 struct Branch<'t> {
     mesh_from_node: DMat4,
@@ -37,7 +37,7 @@ impl<'t, 'b> Walk<'t, 'b> {
         Walk { planner, budget, plans, placed, unnamed: 0, submeshes: Vec::new() }
     }
 
-    /// Places everything in a `<visual_scene>`.
+    /// Adds all content of a `<visual_scene>`.
     pub(super) fn scene(
         &mut self,
         scene: Node<'t>,
@@ -47,7 +47,7 @@ impl<'t, 'b> Walk<'t, 'b> {
         scene.children_named("node").try_for_each(|node| self.node(node, branch))
     }
 
-    /// Places a geometry outside any scene, for files that have none.
+    /// Adds a geometry outside any scene, for files without a scene.
     pub(super) fn lone(
         &mut self,
         geometry: Node<'t>,
@@ -97,7 +97,7 @@ impl<'t, 'b> Walk<'t, 'b> {
         Ok(())
     }
 
-    /// The name Gazebo makes up for a part no node names, counted per file.
+    /// Name that Gazebo generates for an unnamed part, counted per file.
     fn next_unnamed(&mut self) -> String {
         self.unnamed += 1;
         format!("unnamed_submesh_{}", self.unnamed - 1)

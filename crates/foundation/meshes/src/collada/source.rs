@@ -1,4 +1,4 @@
-//! `<source>`: numbers and how to walk through them.
+//! `<source>`: arrays of numbers and their accessors.
 
 use std::collections::BTreeMap;
 use std::rc::Rc;
@@ -6,7 +6,7 @@ use std::rc::Rc;
 use super::tree::{Node, short};
 use crate::error::MeshError;
 
-/// Parsed number arrays by element, so that sharing an array costs nothing.
+/// Parsed number arrays by element, so that shared arrays are parsed once.
 #[derive(Default)]
 pub(super) struct Arrays(BTreeMap<u32, Rc<Vec<f64>>>);
 
@@ -16,12 +16,12 @@ pub(super) struct Source<const N: usize> {
     numbers: Rc<Vec<f64>>,
     offset: usize,
     stride: usize,
-    /// Place of each wanted number within one stride.
+    /// Offset of each component within one stride.
     components: [usize; N],
 }
 
 impl<const N: usize> Source<N> {
-    /// Reads the source that `input` refers to.
+    /// Reads the source of an `input`.
     pub(super) fn of(input: Node<'_>, arrays: &mut Arrays) -> Result<Source<N>, MeshError> {
         let url = input.attribute("source").unwrap_or("");
         let Some(source) = input.tree().find("source", url) else {
@@ -48,7 +48,7 @@ impl<const N: usize> Source<N> {
         Ok(Source { numbers, offset: accessor.count("offset", 0)?, stride, components })
     }
 
-    /// The numbers at an index, if the array reaches that far.
+    /// Numbers at an index, if it is in range.
     pub(super) fn get(&self, index: u32) -> Option<[f64; N]> {
         let start = usize::try_from(index).ok()?.checked_mul(self.stride)?;
         let start = start.checked_add(self.offset)?;
@@ -59,20 +59,20 @@ impl<const N: usize> Source<N> {
         Some(values)
     }
 
-    /// How many indices are valid, for a message.
+    /// Number of valid indices, for a message.
     pub(super) fn len(&self) -> usize {
         self.numbers.len().saturating_sub(self.offset) / self.stride.max(1)
     }
 }
 
-/// A `<param>` without a name is there to be skipped (COLLADA 1.4.1, 5-25).
+/// A `<param>` without a name is skipped (COLLADA 1.4.1, 5-25).
 fn components<const N: usize>(accessor: Node<'_>, stride: usize) -> Result<[usize; N], MeshError> {
     let named = accessor.children_named("param").enumerate();
     let mut named =
         named.filter(|(_, param)| param.attribute("name").is_some_and(|n| !n.is_empty()));
     let mut components = std::array::from_fn(|i| i);
     let wanted: Vec<usize> = named.by_ref().take(N).map(|(i, _)| i).collect();
-    // Writers that name no parameter at all mean the first ones.
+    // Without any named parameter the first ones are used.
     if wanted.len() == N {
         components.copy_from_slice(&wanted);
     }

@@ -1,10 +1,10 @@
-//! Bytes of an XML file to text.
+//! Decoding of XML bytes.
 
 use std::borrow::Cow;
 
 use crate::error::{MeshError, Place};
 
-/// UTF-8, UTF-16 with a byte order mark, or Latin-1 where the file declares it.
+/// UTF-8, UTF-16 with a byte order mark, or Latin-1 if declared.
 pub(super) fn decode(bytes: &[u8]) -> Result<Cow<'_, str>, MeshError> {
     if let Some(rest) = bytes.strip_prefix(b"\xFF\xFE") {
         return utf16(rest, u16::from_le_bytes).map(Cow::Owned);

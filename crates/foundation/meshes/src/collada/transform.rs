@@ -18,7 +18,7 @@ pub(super) fn parent_from_node(node: Node<'_>, notes: &mut Notes) -> Result<DMat
             "rotate" => {
                 let [x, y, z, angle_deg] = exactly(element)?;
                 let axis = DVec3::new(x, y, z).try_normalize();
-                // Without an axis there is nothing to turn about.
+                // Without an axis there is no rotation.
                 axis.map_or(DMat4::IDENTITY, |axis| {
                     DMat4::from_axis_angle(axis, f64::to_radians(angle_deg))
                 })
@@ -38,12 +38,12 @@ pub(super) fn parent_from_node(node: Node<'_>, notes: &mut Notes) -> Result<DMat
     Ok(parent_from_node)
 }
 
-/// Sixteen numbers, row by row.
+/// Sixteen numbers, row-major.
 pub(super) fn matrix(element: Node<'_>) -> Result<DMat4, MeshError> {
     Ok(DMat4::from_cols_array(&exactly(element)?).transpose())
 }
 
-/// Eye, point looked at, up: the node stands at the eye and looks along its -z.
+/// Eye, target and up direction: the node is at the eye and looks along its -z.
 fn lookat(element: Node<'_>) -> Result<DMat4, MeshError> {
     let [ex, ey, ez, ix, iy, iz, ux, uy, uz] = exactly(element)?;
     let eye = DVec3::new(ex, ey, ez);

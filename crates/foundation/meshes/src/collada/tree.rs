@@ -1,5 +1,5 @@
-//! The XML tree of a COLLADA file: flat, so that no nesting is too deep, and
-//! without namespaces, which COLLADA files do not need.
+//! XML tree of a COLLADA file: flat, so that any nesting depth is possible, and without namespaces, which
+//! COLLADA files do not need.
 
 use std::borrow::Cow;
 use std::collections::BTreeMap;
@@ -10,8 +10,8 @@ use quick_xml::events::{BytesStart, Event};
 use crate::error::{MeshError, Place};
 use crate::limits::Budget;
 
-/// Memory of an element and an attribute without their text: much more than
-/// the four characters of a small one in the file, so it is counted.
+/// Memory of an element and an attribute without their text [bytes]: much more than the four characters of
+/// a small one in the file, so it is counted.
 const ELEMENT_BYTES: usize = 128;
 const ATTRIBUTE_BYTES: usize = 80;
 
@@ -25,14 +25,14 @@ struct Element<'x> {
     next_sibling: Option<u32>,
 }
 
-/// A parsed file.
+/// Parsed file.
 pub(super) struct Tree<'x> {
     xml: &'x str,
     elements: Vec<Element<'x>>,
     by_id: BTreeMap<(String, String), u32>,
 }
 
-/// An element of a [`Tree`].
+/// Element of a [`Tree`].
 #[derive(Clone, Copy)]
 pub(super) struct Node<'t> {
     tree: &'t Tree<'t>,
@@ -82,7 +82,7 @@ impl<'x> Tree<'x> {
         };
         let tag = start.local_name().as_ref().to_owned();
         let mut attributes = Vec::new();
-        // Duplicate checks take quadratic time; the first one wins instead.
+        // Checks for duplicates would take quadratic time; the first one wins instead.
         for attribute in start.attributes().with_checks(false) {
             let attribute = attribute
                 .map_err(|error| self.error_at(offset, format!("bad attribute: {error}")))?;
@@ -132,7 +132,7 @@ impl<'x> Tree<'x> {
             .at(Place::Line(line))
     }
 
-    /// The `<COLLADA>` element.
+    /// `<COLLADA>` element.
     pub(super) fn root(&self) -> Result<Node<'_>, MeshError> {
         match self.elements.first() {
             Some(element) if element.tag == "COLLADA" => Ok(Node { tree: self, index: 0 }),
@@ -144,7 +144,7 @@ impl<'x> Tree<'x> {
         }
     }
 
-    /// The first element of this kind with the id that a local URL (`#id`) names.
+    /// First element of this tag with the id in a local URL (`#id`).
     pub(super) fn find(&self, tag: &str, url: &str) -> Option<Node<'_>> {
         let id = url.strip_prefix('#').unwrap_or(url);
         let index = *self.by_id.get(&(tag.to_owned(), id.to_owned()))?;
@@ -152,8 +152,8 @@ impl<'x> Tree<'x> {
     }
 }
 
-/// Numbers and references need no more than the predefined entities; an
-/// unknown one stays as it is written and fails where it is used.
+/// Numbers and references need only the predefined entities; an unknown one is kept as written and fails
+/// where it is used.
 fn entity(name: &quick_xml::events::BytesRef<'_>) -> String {
     let resolved = match name.resolve_char_ref() {
         Ok(Some(c)) => Some(c.to_string()),
@@ -167,7 +167,7 @@ impl<'t> Node<'t> {
         &self.tree.elements[self.index as usize]
     }
 
-    /// Equal for the same element only.
+    /// Unique id of the element.
     pub(super) fn id(self) -> u32 {
         self.index
     }
@@ -204,18 +204,18 @@ impl<'t> Node<'t> {
         self.children_named(tag).next()
     }
 
-    /// The element at the end of a path of child tags.
+    /// Element at the end of a path of child tags.
     pub(super) fn descend(self, path: &[&str]) -> Option<Node<'t>> {
         path.iter().try_fold(self, |node, tag| node.child(tag))
     }
 
-    /// An error about this element.
+    /// Error about this element.
     pub(super) fn error(self, message: impl Into<String>) -> MeshError {
         let message = format!("`<{}>`: {}", self.tag(), message.into());
         self.tree.error_at(self.element().offset, message)
     }
 
-    /// An attribute that counts something, or its default when absent.
+    /// Attribute with a count, or its default if absent.
     pub(super) fn count(self, name: &str, default: usize) -> Result<usize, MeshError> {
         self.attribute(name).map_or(Ok(default), |text| {
             text.trim()
@@ -249,7 +249,7 @@ fn number(word: &str) -> Option<f64> {
         .or_else(|| word.contains("#QNAN").then_some(f64::NAN))
 }
 
-/// The beginning of a piece of the file, for a message.
+/// Start of a piece of the file, for a message.
 pub(super) fn short(text: &str) -> String {
     text.chars().take(40).collect()
 }

@@ -1,5 +1,5 @@
-//! Accessors: typed numbers in buffer views, read one index at a time so that
-//! no count in the file ever becomes an allocation.
+//! Accessors: typed numbers in buffer views, read one index at a time, so that no count in the file becomes
+//! an allocation.
 
 use ::gltf::json::accessor::{ComponentType, Type};
 use ::gltf::json::validation::Checked;
@@ -9,13 +9,13 @@ use super::buffers::{Buffers, View, missing};
 use crate::error::MeshError;
 use crate::limits::Budget;
 
-/// A checked accessor.
+/// Validated accessor.
 pub(super) struct Accessor {
     pub(super) count: usize,
     component: ComponentType,
     components: usize,
     normalized: bool,
-    /// `None`: all zeros, except where sparse.
+    /// `None`: all zeros, except for sparse elements.
     view: Option<(View, Layout)>,
     sparse: Option<Sparse>,
 }
@@ -26,8 +26,7 @@ struct Layout {
     stride: usize,
 }
 
-/// Elements that replace those of the view; the specification wants their
-/// indices in strictly increasing order.
+/// Elements that replace those of the view; the specification requires strictly increasing indices.
 struct Sparse {
     count: usize,
     indices: (View, Layout, ComponentType),
@@ -87,13 +86,12 @@ impl Accessor {
         Ok(Accessor { count, component, components, normalized: json.normalized, view, sparse })
     }
 
-    /// Whether no data stand behind the count, so that all elements are zeros or sparse.
+    /// Returns true if there is no data for the count, so all elements are zero or sparse.
     pub(super) fn is_implied(&self) -> bool {
         self.view.is_none()
     }
 
-    /// The first `N` components at an index; `None` beyond the count or when
-    /// there are fewer.
+    /// First `N` components at an index; `None` if the index is out of range or there are fewer components.
     pub(super) fn vector<const N: usize>(&self, index: usize) -> Option<[f64; N]> {
         if index >= self.count || self.components < N {
             return None;
@@ -108,10 +106,10 @@ impl Accessor {
         Some(vector)
     }
 
-    /// The whole number at an index.
+    /// Integer at an index.
     pub(super) fn index(&self, index: usize) -> Option<usize> {
         let [x] = self.vector::<1>(index)?;
-        // Any u32 is exact in an f64.
+        // Every u32 is exact in an f64.
         (x >= 0.0 && x.fract() == 0.0).then_some(x as usize)
     }
 
@@ -125,7 +123,7 @@ impl Accessor {
         Some((view, layout.offset + index * layout.stride))
     }
 
-    /// Section 3.6.2.2: normalized integers stand for -1 to 1 or 0 to 1.
+    /// Section 3.6.2.2: normalized integers represent -1 to 1 or 0 to 1.
     fn number(&self, bytes: &[u8]) -> Option<f64> {
         let raw = raw_number(self.component, bytes)?;
         let full_scale = match self.component {
@@ -161,7 +159,7 @@ impl Sparse {
     }
 }
 
-/// Checks that `count` elements lie within the view.
+/// Checks that `count` elements fit into the view.
 fn layout(
     accessor: usize,
     view: View,

@@ -1,4 +1,4 @@
-//! Buffers: the BIN chunk, `data:` URIs and files beside the glTF file.
+//! Buffers: the BIN chunk, `data:` URIs and separate files.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::rc::Rc;
@@ -9,23 +9,23 @@ use crate::SideFiles;
 use crate::error::MeshError;
 use crate::limits::Budget;
 
-/// The file's buffers, each fetched when first needed.
+/// Buffers of the file, each loaded on first use.
 pub(super) struct Buffers<'a> {
     root: &'a Root,
     binary: Option<Rc<[u8]>>,
     side_files: &'a mut SideFiles<'a>,
     fetched: BTreeMap<usize, Rc<[u8]>>,
-    /// Files beside the glTF file that have been read.
+    /// Separate files that have been read.
     sides: BTreeSet<String>,
 }
 
-/// Bytes of a buffer that a view covers.
+/// Bytes of a buffer in a view.
 #[derive(Clone)]
 pub(super) struct View {
     buffer: Rc<[u8]>,
     start: usize,
     len: usize,
-    /// Distance from element to element when the view sets one.
+    /// Distance between elements, if the view sets one [bytes].
     pub(super) stride: Option<usize>,
 }
 
@@ -45,7 +45,7 @@ impl<'a> Buffers<'a> {
         Buffers { root, binary, side_files, fetched: BTreeMap::new(), sides: BTreeSet::new() }
     }
 
-    /// The bytes of a buffer view.
+    /// Bytes of a buffer view.
     pub(super) fn view(
         &mut self,
         index: Index<buffer::View>,
@@ -89,7 +89,7 @@ impl<'a> Buffers<'a> {
                         "put it beside the glTF file, or export a single .glb",
                     )
                 })?;
-                // Many buffers may name one large file, which counts once.
+                // Several buffers may refer to one large file, which is charged once.
                 if self.sides.insert(path) {
                     budget.grant(bytes.len());
                 }

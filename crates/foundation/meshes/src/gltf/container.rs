@@ -2,14 +2,14 @@
 
 use crate::error::{MeshError, Place};
 
-/// What a glTF file is made of.
+/// Parts of a glTF file.
 pub(super) struct Parts<'a> {
     pub(super) json: &'a [u8],
-    /// The BIN chunk of a `.glb`.
+    /// BIN chunk of a `.glb`.
     pub(super) binary: Option<&'a [u8]>,
 }
 
-/// Splits a `.glb` into its chunks; anything else is taken as JSON.
+/// Splits a `.glb` into its chunks; other bytes are treated as JSON.
 pub(super) fn split(bytes: &[u8]) -> Result<Parts<'_>, MeshError> {
     if !bytes.starts_with(b"glTF") {
         let json = bytes.strip_prefix(b"\xEF\xBB\xBF").unwrap_or(bytes);
@@ -39,7 +39,7 @@ pub(super) fn split(bytes: &[u8]) -> Result<Parts<'_>, MeshError> {
         match chunk.kind {
             b"JSON" if json.is_none() => json = Some(chunk.data),
             b"BIN\0" if binary.is_none() => binary = Some(chunk.data),
-            // The specification asks readers to skip chunks they do not know.
+            // The specification requires readers to skip unknown chunks.
             _ => {}
         }
         at += 8 + chunk.data.len();

@@ -12,14 +12,14 @@ use crate::limits::Budget;
 use crate::mesh::{Material, Texture};
 use crate::notes::Notes;
 
-/// The texture coordinate set that the primitive's base colour texture uses.
+/// Texture coordinate set of the primitive's base colour texture.
 pub(super) fn uv_set(root: &Root, primitive: &Primitive) -> u32 {
     let material = primitive.material.and_then(|index| root.materials.get(index.value()));
     let texture = material.and_then(|m| m.pbr_metallic_roughness.base_color_texture.as_ref());
     texture.map_or(0, |texture| texture.tex_coord)
 }
 
-/// Reads a material; an image that cannot be read costs the texture, with a note.
+/// Reads a material; an unreadable image only loses the texture, with a note.
 pub(super) fn read(
     root: &Root,
     index: Index<material::Material>,

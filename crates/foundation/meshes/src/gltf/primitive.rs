@@ -1,4 +1,4 @@
-//! Mesh primitives to parts.
+//! Mesh primitives.
 
 use ::gltf::json::Root;
 use ::gltf::json::mesh::{Mode, Primitive, Semantic};
@@ -12,9 +12,9 @@ use crate::error::MeshError;
 use crate::limits::Budget;
 use crate::notes::Notes;
 
-/// Corners of a part whose accessor has no data and therefore stands for zeros. Exporters leave
-/// data out for a few vertices at most; a count without bytes behind it must stay cheap.
-const IMPLIED_MAX: usize = 100_000;
+/// Maximum number of corners of a part whose accessor has no data and is therefore all zeros. Exporters
+/// omit data for a few vertices at most; a count without bytes must stay cheap.
+const MAX_IMPLIED_CORNERS: usize = 100_000;
 
 /// Reads one primitive; points and lines give an empty part and a note.
 pub(super) fn read(
@@ -52,7 +52,7 @@ pub(super) fn read(
 
     let places = indices.as_ref().map_or(positions.count, |indices| indices.count);
     let is_implied = indices.as_ref().unwrap_or(&positions).is_implied();
-    if is_implied && places > IMPLIED_MAX {
+    if is_implied && places > MAX_IMPLIED_CORNERS {
         return Err(MeshError::new(
             format!("a part counts {places} corners and has no data for them"),
             "the file is damaged: export it again",
@@ -78,7 +78,7 @@ pub(super) fn read(
             key: [key, 0, 0],
             position: DVec3::from_array(position),
             normal: normals.as_ref().and_then(|a| a.vector(index)).map(|n| n.map(|x| x as f32)),
-            // glTF counts v downwards from the upper left.
+            // In glTF v points down from the upper left corner.
             uv: uvs
                 .as_ref()
                 .and_then(|a| a.vector(index))

@@ -1,4 +1,4 @@
-//! The scene: nodes with their transforms, each mesh placed where it stands.
+//! Scene: nodes with their transforms and meshes.
 
 use std::collections::BTreeMap;
 use std::rc::Rc;
@@ -15,13 +15,13 @@ use crate::limits::Budget;
 use crate::mesh::{Material, Submesh};
 use crate::notes::Notes;
 
-/// Everything gathered while the scene is walked.
+/// State of the traversal.
 pub(super) struct Walk<'a> {
     root: &'a Root,
     buffers: Buffers<'a>,
     budget: &'a mut Budget,
     notes: &'a mut Notes,
-    /// Meshes read so far; from the second placing on they cost.
+    /// Meshes read so far; further instances are charged.
     meshes: BTreeMap<usize, Rc<Vec<Primitive>>>,
     materials: BTreeMap<usize, Option<Arc<Material>>>,
     unnamed: usize,
@@ -44,8 +44,7 @@ impl<'a> Walk<'a> {
         Walk { root, buffers, budget, notes, meshes, materials, unnamed: 0, submeshes: Vec::new() }
     }
 
-    /// Places the default scene, or the first, or in a file without scenes every
-    /// node that is no other node's child.
+    /// Adds the default scene, or the first one, or in a file without scenes every root node.
     pub(super) fn default_scene(&mut self) -> Result<(), MeshError> {
         let root = self.root;
         let scene = match root.scene {
@@ -169,7 +168,7 @@ fn parent_from_node(node: &Node) -> DMat4 {
     let scale = vector(node.scale.unwrap_or([1.0; 3]));
     let translation = vector(node.translation.unwrap_or_default());
     let rotation = node.rotation.map_or(DVec4::W, |q| DVec4::from_array(q.0.map(f64::from)));
-    // A zero quaternion turns nothing.
+    // A zero quaternion is no rotation.
     let rotation = rotation.try_normalize().unwrap_or(DVec4::W);
     DMat4::from_scale_rotation_translation(scale, DQuat::from_vec4(rotation), translation)
 }

@@ -4,7 +4,7 @@ use std::borrow::Cow;
 
 use crate::error::{MeshError, Place};
 
-/// One logical line: a backslash at the end continues it.
+/// Logical line: a backslash at the end continues it.
 pub(super) struct Line<'a> {
     number: usize,
     text: Cow<'a, str>,
@@ -19,12 +19,12 @@ impl Line<'_> {
         self.text.split_whitespace().next().unwrap_or("")
     }
 
-    /// What follows the keyword, without surrounding blanks.
+    /// Text after the keyword, without surrounding blanks.
     pub(super) fn rest(&self) -> &str {
         self.text.trim_start().split_once(char::is_whitespace).map_or("", |(_, rest)| rest.trim())
     }
 
-    /// The first `N` numbers after the keyword, of which `at_least` must be there.
+    /// First `N` numbers after the keyword; `at_least` are required.
     pub(super) fn numbers<const N: usize>(&self, at_least: usize) -> Result<[f64; N], MeshError> {
         let mut numbers = [0.0; N];
         let mut words = self.rest().split_whitespace();
@@ -45,8 +45,8 @@ impl Line<'_> {
     }
 }
 
-/// The lines of a file, without comments. Bytes that are not UTF-8 (names in
-/// old encodings) become replacement characters.
+/// Lines of a file, without comments. Bytes that are not UTF-8 (names in old encodings) become replacement
+/// characters.
 pub(super) fn lines(bytes: &[u8]) -> impl Iterator<Item = Line<'_>> {
     let mut raw = bytes.split(|&b| b == b'\n').enumerate();
     std::iter::from_fn(move || {
@@ -67,12 +67,12 @@ pub(super) fn lines(bytes: &[u8]) -> impl Iterator<Item = Line<'_>> {
     })
 }
 
-/// Where the text proper ends when a backslash continues it on the next line.
+/// End of the text proper if a backslash continues it on the next line.
 fn continued(text: &str) -> Option<usize> {
     text.trim_end_matches(['\r']).strip_suffix('\\').map(str::len)
 }
 
-/// Where a comment begins. A `#` inside a word belongs to a name (`usemtl metal#2`).
+/// Start of a comment. A `#` inside a word belongs to a name (`usemtl metal#2`).
 fn comment(text: &str) -> Option<usize> {
     let begins_word =
         |&(at, _): &(usize, &str)| text[..at].chars().next_back().is_none_or(char::is_whitespace);

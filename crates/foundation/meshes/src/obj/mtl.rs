@@ -7,8 +7,7 @@ use super::lines::lines;
 use crate::mesh::{Material, Texture};
 use crate::notes::Notes;
 
-/// Reads every material of a file into `materials`; a damaged line loses its
-/// property, with a note, not the mesh.
+/// Reads all materials of a file into `materials`; a damaged line only loses its property, with a note.
 pub(super) fn read(
     bytes: &[u8],
     file: &str,
@@ -50,14 +49,14 @@ pub(super) fn read(
     keep(current, materials);
 }
 
-/// The first definition of a name wins, as with tobj and assimp's lookup.
+/// The first definition of a name wins, as in tobj and assimp.
 fn keep(material: Option<Material>, materials: &mut HashMap<String, Arc<Material>>) {
     if let Some(material) = material {
         materials.entry(material.name.clone()).or_insert_with(|| Arc::new(material));
     }
 }
 
-/// The file name after options such as `-s 1 1 1` or `-clamp on`; it may have spaces.
+/// File name after options such as `-s 1 1 1` or `-clamp on`; it may contain spaces.
 fn texture_file(mut text: &str) -> Option<&str> {
     while let Some(option) = text.strip_prefix('-') {
         let (name, mut rest) = option.split_once(char::is_whitespace)?;

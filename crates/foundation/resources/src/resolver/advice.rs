@@ -1,4 +1,4 @@
-//! What to do about a miss.
+//! Advice for URIs that cannot be resolved.
 
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
@@ -13,13 +13,13 @@ use crate::places::How;
 use crate::surroundings::Surroundings;
 use crate::uri::Scheme;
 
-/// The nearest name is sought for this many misses; it costs too much for thousands.
-const MOST_ADVISED: usize = 100;
-/// Of all names known, the nearest is sought among this many.
-const MOST_NAMES: usize = 5_000;
+/// Maximum number of unresolved URIs with a suggestion; suggestions for thousands would take too long.
+const MAX_SUGGESTIONS: usize = 100;
+/// Maximum number of known names that are compared.
+const MAX_NAMES: usize = 5_000;
 
 impl Resolver<'_> {
-    /// The package or model is there, the file in it is not.
+    /// The package or model exists, the file in it does not.
     pub(super) fn without_file(
         &self,
         uri: &str,
@@ -46,22 +46,22 @@ impl Resolver<'_> {
         let word = scheme.word();
         let miss = Miss::missing(uri, format!("there is no {word} `{name}`"));
         let known = self.known(around);
-        let near = closest(name, known.iter().map(String::as_str).take(MOST_NAMES));
-        let miss = match near.filter(|_| self.misses(around) < MOST_ADVISED) {
+        let near = closest(name, known.iter().map(String::as_str).take(MAX_NAMES));
+        let miss = match near.filter(|_| self.misses(around) < MAX_SUGGESTIONS) {
             Some(near) => miss.help(format!("did you mean `{word}://{near}`?")),
             None => miss,
         };
         miss.help(format!("name the folder that holds `{name}`: `--resource-path FOLDER`"))
     }
 
-    /// The path with the first part that is not there replaced by the nearest name that is.
+    /// Path with the first missing part replaced by the most similar existing name.
     pub(super) fn nearest_name(
         &self,
         folder: &Path,
         path: &str,
         around: &Surroundings,
     ) -> Option<String> {
-        if self.misses(around) >= MOST_ADVISED {
+        if self.misses(around) >= MAX_SUGGESTIONS {
             return None;
         }
         let mut reached = PathBuf::from(folder);
@@ -72,13 +72,13 @@ impl Resolver<'_> {
         })?;
         reached.pop();
         let names = self.host.list(&reached);
-        let near = closest(missing, names.iter().map(String::as_str).take(MOST_NAMES))?;
+        let near = closest(missing, names.iter().map(String::as_str).take(MAX_NAMES))?;
         let mut parts: Vec<&str> = path.split('/').collect();
         *parts.get_mut(at)? = near;
         Some(parts.join("/"))
     }
 
-    /// The names of packages and models that can be seen.
+    /// Names of visible packages and models.
     fn known(&self, around: &Surroundings) -> Rc<BTreeSet<String>> {
         if let Some(known) = self.known.borrow().get(&around.id) {
             return known.clone();
@@ -105,7 +105,7 @@ impl Resolver<'_> {
 
     fn folders_in(&self, folder: &Path) -> Vec<String> {
         let mut names = self.host.list(folder);
-        names.truncate(MOST_NAMES);
+        names.truncate(MAX_NAMES);
         names.retain(|name| {
             !name.starts_with('.') && self.host.kind(&folder.join(name)) == Some(Kind::Folder)
         });

@@ -1,4 +1,4 @@
-//! What a file may name: nothing outside the resource paths.
+//! Access restrictions: a file may refer only to files inside the resource paths.
 
 use std::path::{Path, PathBuf};
 
@@ -7,9 +7,9 @@ use crate::host::Kind;
 use crate::surroundings::Surroundings;
 
 impl Resolver<'_> {
-    /// Whether a canonical path lies where the mentioning file may look.
+    /// Returns true if a canonical path is inside the folders that the referring file may access.
     pub(super) fn inside(&self, path: &Path, around: &Surroundings) -> bool {
-        // An empty path, from a host that knows no folders, would be the start of every path.
+        // An empty path, from a host without folders, would be a prefix of every path.
         let project = &around.project;
         (path.starts_with(project) && !project.as_os_str().is_empty())
             || self.roots.iter().any(|root| path.starts_with(root))
@@ -19,9 +19,9 @@ impl Resolver<'_> {
             }
     }
 
-    /// The canonical form of a folder that a package or model name led to, if it may be used:
-    /// it lies inside, it holds the mentioning file, or it says itself that it is what was sought.
-    /// A link named like a model that leads to `/etc` says nothing of the kind.
+    /// Canonical path of a folder found for a package or model name, if access is allowed: it is inside, it
+    /// contains the referring file, or its own manifest has the name. A link with the name of a model that
+    /// points to `/etc` has no such manifest.
     pub(super) fn accepted(
         &self,
         folder: &Path,
@@ -42,8 +42,8 @@ impl Resolver<'_> {
         Some(canonical)
     }
 
-    /// The canonical form of a path to something that stands there, if it may be named. `name` is
-    /// the package in which it was sought.
+    /// Canonical path of an existing target, if access is allowed. `name` is the package in which it was
+    /// searched.
     pub(super) fn fenced(
         &self,
         target: &Path,
@@ -54,8 +54,8 @@ impl Resolver<'_> {
         if self.inside(&canonical, around) {
             return Some(canonical);
         }
-        // `colcon build --symlink-install` fills the install folder with links to the sources:
-        // these lead out, but into the same package.
+        // `colcon build --symlink-install` fills the install folder with links to the sources: these point
+        // outside, but into the same package.
         let sought = match name {
             Some(name) => name.to_owned(),
             None => {
@@ -72,7 +72,7 @@ impl Resolver<'_> {
         Some(canonical)
     }
 
-    /// The nearest folder above (or at) a canonical path that is a package, and its name.
+    /// Nearest package folder at or above a canonical path, with its name.
     pub(super) fn package_around(&self, path: &Path) -> Option<(PathBuf, String)> {
         path.ancestors().take(8).find_map(|up| {
             let name = self.manifest(up).name.clone();

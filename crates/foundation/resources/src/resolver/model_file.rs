@@ -1,4 +1,4 @@
-//! Which file of a model's folder is the model.
+//! Main file of a model folder.
 
 use std::path::{Path, PathBuf};
 
@@ -7,16 +7,15 @@ use crate::host::Kind;
 use crate::manifest;
 use crate::miss::Miss;
 
-/// The newest version of SDF that is read.
+/// Newest supported version of SDF.
 const NEWEST: (u32, u32) = (1, 12);
 
 impl Resolver<'_> {
-    /// The description in a model's folder: the entry of `model.config` with the highest version
-    /// up to 1.12, as libsdformat picks it; without such an entry `model.sdf`, `NAME.sdf`,
-    /// `model.urdf` or `NAME.urdf`.
+    /// Description file in a model folder: the entry of `model.config` with the highest version up to 1.12,
+    /// as in libsdformat; without such an entry `model.sdf`, `NAME.sdf`, `model.urdf` or `NAME.urdf`.
     ///
     /// # Errors
-    /// A miss with every file tried.
+    /// If there is none; lists the files that were tried.
     pub fn model_file(&self, folder: &Path) -> Result<PathBuf, Miss> {
         if let Some(known) = self.model_files.borrow().get(folder) {
             return known.clone();
@@ -43,7 +42,7 @@ impl Resolver<'_> {
             );
             return Err(Miss::missing(&uri, reason).tried(config));
         }
-        // Highest version first; of equal ones the first written.
+        // Highest version first; of equal ones the first in the file.
         entries.sort_by_key(|entry| std::cmp::Reverse(entry.version));
         let name = canonical.file_name().unwrap_or_default().to_string_lossy().into_owned();
         let usual = ["model.sdf".into(), format!("{name}.sdf"), "model.urdf".into()];
@@ -58,8 +57,8 @@ impl Resolver<'_> {
                 }
                 continue;
             }
-            // An entry that leads out of the folder is not followed, except that of a package
-            // installed as links into its sources.
+            // An entry outside the folder is refused, except for that of a package installed as links to
+            // its sources.
             let package = |path: &Path| self.package_around(path).map(|(_, name)| name);
             let belongs = |target: &PathBuf| {
                 target.starts_with(&canonical)

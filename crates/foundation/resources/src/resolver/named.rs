@@ -11,7 +11,7 @@ use crate::places::{How, Place};
 use crate::surroundings::Surroundings;
 use crate::uri::{Scheme, percent_decoded};
 
-/// What one place says to one name.
+/// Result of one search path for one name.
 #[derive(Debug, Default)]
 pub(super) struct Look {
     /// Folders that exist.
@@ -21,13 +21,13 @@ pub(super) struct Look {
     cut_short: bool,
 }
 
-/// How far the search for a name has come.
+/// State of the search for a name.
 #[derive(Debug, Default)]
 struct Search {
-    /// Folders of that name, where the rest of the URI was sought.
+    /// Folders of that name, in which the rest of the URI was searched.
     folders: Vec<PathBuf>,
     tried: Vec<PathBuf>,
-    /// Something that stands there, but outside.
+    /// Existing target that is outside.
     refused: Option<PathBuf>,
     cut_short: Option<PathBuf>,
 }
@@ -66,8 +66,8 @@ impl Resolver<'_> {
         Err(miss)
     }
 
-    /// The best folder of a name: one that says it is such a package or model, else the first. A
-    /// repository that is named like a package in it says nothing of the kind.
+    /// Best folder of a name: one whose manifest has the name, else the first. A repository with the same
+    /// name as a package in it has no such manifest.
     fn folder(
         &self,
         scheme: Scheme,
@@ -96,7 +96,7 @@ impl Resolver<'_> {
         first
     }
 
-    /// The first file of that path in any folder of that name.
+    /// First existing file of that path in any folder of that name.
     fn in_folder(
         &self,
         name: &str,
@@ -140,8 +140,8 @@ impl Resolver<'_> {
         None
     }
 
-    /// What each place says to a name, in their order; each is looked at only when the ones before did
-    /// not do.
+    /// Results of the search paths for a name, in order; each is searched only if the previous ones had no
+    /// result.
     fn looks<'a>(
         &'a self,
         name: &'a str,
@@ -182,8 +182,8 @@ impl Resolver<'_> {
         look
     }
 
-    /// The folders that packages export for Gazebo (`<gazebo_ros gazebo_model_path="..."/>`),
-    /// of all packages that can be seen from here.
+    /// Folders that packages export for Gazebo (`<gazebo_ros gazebo_model_path="..."/>`), of all visible
+    /// packages.
     pub(super) fn exports(&self, around: &Surroundings) -> Rc<Vec<Place>> {
         if let Some(known) = self.exports.borrow().get(&around.id) {
             return known.clone();

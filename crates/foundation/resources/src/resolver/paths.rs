@@ -1,4 +1,4 @@
-//! Paths, absolute and relative, and the Fuel cache.
+//! Absolute and relative paths, and the Fuel cache.
 
 use std::path::{Path, PathBuf};
 
@@ -11,7 +11,7 @@ use crate::surroundings::Surroundings;
 use crate::uri::percent_decoded;
 
 impl Resolver<'_> {
-    /// An absolute path, or one from the mentioning file's folder or, as Gazebo has it, from any
+    /// Resolves an absolute path, or one relative to the referring file's folder or, as in Gazebo, to any
     /// resource path.
     pub(super) fn path(
         &self,
@@ -34,8 +34,8 @@ impl Resolver<'_> {
         self.first(uri, path, folders, around)
     }
 
-    /// A relative path that does not say relative to what: Classic looked for `media/...` in
-    /// `GAZEBO_RESOURCE_PATH`, others mean their package's folder.
+    /// Resolves a relative path without a base: Gazebo Classic searched `GAZEBO_RESOURCE_PATH` for
+    /// `media/...`, other programs the folder of the package.
     pub(super) fn loose(
         &self,
         uri: &str,
@@ -80,7 +80,7 @@ impl Resolver<'_> {
         self.fixed.iter().filter(move |place| is_path(place.how)).map(|place| &place.folder)
     }
 
-    /// The first of `folders` that has something at `path`.
+    /// First of `folders` in which `path` exists.
     fn first(
         &self,
         uri: &str,

@@ -26,7 +26,7 @@ pub(super) struct Context<'a> {
     pub(super) span: Span,
 }
 
-/// Splits off what follows a `#` that does not stand in quotes.
+/// Splits off the text after a `#` outside of quotes.
 pub(super) fn without_comment(line: &str) -> (&str, Option<&str>) {
     let mut quote = None;
     let mut before = ' ';
@@ -39,7 +39,7 @@ pub(super) fn without_comment(line: &str) -> (&str, Option<&str>) {
                 return (&line[..at], Some(comment.strip_prefix(' ').unwrap_or(comment)));
             }
             None if ['"', '\''].contains(&character) && " \t=[,".contains(before) => {
-                // A quote that nothing closes is a mere character.
+                // A quote without a closing one is a plain character.
                 let rest = &line[at + 1..];
                 quote = rest.contains(character).then_some(character);
             }
@@ -50,7 +50,7 @@ pub(super) fn without_comment(line: &str) -> (&str, Option<&str>) {
     (line, None)
 }
 
-/// Reads a line that is neither empty nor only a comment; with the place of the name.
+/// Reads a line that is neither empty nor only a comment, and the location of the name.
 pub(super) fn read(code: &str, context: &Context) -> Result<(Read, Span), Box<Diagnostic>> {
     let Words { r#type: type_word, name, rest, .. } = words(code);
     let place = |word: &str| place(code, word, context.span);
@@ -68,7 +68,7 @@ pub(super) fn read(code: &str, context: &Context) -> Result<(Read, Span), Box<Di
         let constant = constant(code, name, r#type, value, context)?;
         return Ok((Read::Constant(constant), place(name)));
     }
-    // ROS 1 lets names be written in any case.
+    // ROS 1 allows any case in names.
     let lenient = context.dialect == Dialect::Ros1;
     let plain = |c: char| c.is_ascii_alphanumeric() || c == '_';
     if !(is_field_name(name) || lenient && name.chars().all(plain)) {
@@ -105,7 +105,7 @@ fn constant(
     context: &Context,
 ) -> Result<Constant, Box<Diagnostic>> {
     let place = |word: &str| place(code, word, context.span);
-    // ROS 1 lets constants be written in any case.
+    // ROS 1 allows any case in constants.
     let lenient = context.dialect == Dialect::Ros1;
     let plain = |c: char| c.is_ascii_alphanumeric() || c == '_';
     if !(is_constant_name(name) || lenient && name.chars().all(plain)) {
@@ -153,7 +153,7 @@ fn words(code: &str) -> Words<'_> {
     Words { r#type, name, rest: rest.trim() }
 }
 
-/// Where a word of a line stands; the word must be a piece of `code`.
+/// Location of a word of a line; the word must be a slice of `code`.
 fn place(code: &str, word: &str, line: Span) -> Span {
     let from = (word.as_ptr() as usize).saturating_sub(code.as_ptr() as usize);
     line.part(from, from + word.len())
@@ -262,6 +262,6 @@ fn unknown(word: &str) -> Wrong {
 
 fn positive(text: &str) -> Option<u64> {
     let digits = !text.is_empty() && text.bytes().all(|b| b.is_ascii_digit());
-    // The wire counts in 32 bits.
+    // Lengths are serialized with 32 bits.
     text.parse().ok().filter(|&size: &u64| digits && size > 0 && size <= u64::from(u32::MAX))
 }
