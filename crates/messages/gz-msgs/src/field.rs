@@ -1,19 +1,19 @@
-//! Kinds of fields: how each is written, read, printed and parsed. What is not set is not written.
+//! Types of fields: serialization, parsing and printing of each. Unset fields are not serialized.
 
 use crate::message::Message;
 use crate::protobuf::{DecodeError, Reader, Wire, put_inside, put_key, put_sized, put_varint};
 use crate::text::{Parser, Printer, TextError};
 
-/// What a field of a message can be.
+/// Type of a field of a message.
 pub(crate) trait Field {
     fn write(&self, number: u32, out: &mut Vec<u8>);
-    /// A value of another kind than the field has is passed over, as protobuf does.
+    /// Reads a value. A value with the wrong wire type is skipped, as in protobuf.
     fn read(&mut self, wire: Wire, reader: &mut Reader<'_>) -> Result<(), DecodeError>;
     fn print(&self, name: &str, out: &mut Printer);
     fn parse(&mut self, parser: &mut Parser<'_>) -> Result<(), TextError>;
 }
 
-/// Fields that are numbers: one, and a list of it.
+/// Numeric fields: single and repeated.
 macro_rules! numbers {
     ($($ty:ty, $wire:ident, $put:expr, $get:expr, $is_set:expr;)*) => {$(
         impl Field for $ty {
@@ -55,7 +55,7 @@ macro_rules! numbers {
                 }
             }
 
-            /// Packed or one by one: a reader has to take both.
+            /// Reads packed and unpacked values: a reader must accept both.
             fn read(&mut self, wire: Wire, reader: &mut Reader<'_>) -> Result<(), DecodeError> {
                 if wire == Wire::$wire {
                     reader.charge(size_of::<$ty>())?;
@@ -89,7 +89,8 @@ macro_rules! numbers {
     )*};
 }
 
-// Numbers below zero are written as 64 bits; what is too long for its type is cut, as protobuf does.
+// Negative numbers are written as 64 bits; a value that is too long for its type is truncated, as in
+// protobuf.
 #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "protobuf's own rule")]
 mod of_varints {
     use super::*;
@@ -140,7 +141,7 @@ impl Field for bool {
     }
 }
 
-/// What is no UTF-8 is read as well as it goes: it comes from names, and the rest is of use.
+/// Text that is not UTF-8 is read lossily, so that the rest of the message remains usable.
 impl Field for String {
     fn write(&self, number: u32, out: &mut Vec<u8>) {
         if !self.is_empty() {
@@ -200,7 +201,7 @@ impl Field for Vec<String> {
     }
 }
 
-/// Bytes: pictures, clouds.
+/// Bytes: images, point clouds.
 impl Field for Vec<u8> {
     fn write(&self, number: u32, out: &mut Vec<u8>) {
         if !self.is_empty() {
@@ -235,7 +236,7 @@ impl<M: Message> Field for Option<M> {
         }
     }
 
-    /// A message that comes twice is put together from both.
+    /// Merges a message that occurs twice, as in protobuf.
     fn read(&mut self, wire: Wire, reader: &mut Reader<'_>) -> Result<(), DecodeError> {
         if wire != Wire::Sized {
             return reader.skip(wire);

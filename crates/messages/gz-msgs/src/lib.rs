@@ -1,8 +1,8 @@
 //! Messages of Gazebo Transport.
 //!
-//! Each is a plain structure that goes to protobuf and back ([`Message`]), and to protobuf's text,
-//! which `gz topic -e` prints and `gz topic -p` takes. What a message is in ROS is said by
-//! [`AsRos`], by the rules of `ros_gz_bridge`; [`each_pair`] lists all that is.
+//! Each message is a plain struct that converts to and from protobuf ([`Message`]) and to and from protobuf
+//! text, the format of `gz topic -e` and `gz topic -p`. [`AsRos`] converts to and from ROS messages by the
+//! rules of `ros_gz_bridge`; [`each_pair`] lists all pairs of types.
 //!
 //! ```
 //! use periplus_gz_msgs::{AsRos, Message, Twist, Vector3d};
@@ -17,8 +17,8 @@
 //! # Ok::<(), periplus_gz_msgs::DecodeError>(())
 //! ```
 //!
-//! Names and numbers of fields are those of `gz-msgs` 10 (Harmonic). They are the same in all
-//! releases, except in `IMU`: see [`ImuFortress`].
+//! Names and numbers of fields are those of `gz-msgs` 10 (Harmonic). They are the same in all releases,
+//! except in `IMU`: see [`ImuFortress`].
 
 mod field;
 mod message;

@@ -1,15 +1,15 @@
-//! What a message is, and how one is declared.
+//! Message trait, and macros that declare messages.
 
 use std::fmt::Debug;
 
 use crate::protobuf::{DecodeError, Reader, Wire, memory_for};
 use crate::text::{Parser, Printer, TextError};
 
-/// The parts of a message that only this crate walks through.
+/// Parts of the message trait that are private to this crate.
 pub(crate) mod walk {
     use super::{DecodeError, Parser, Printer, Reader, TextError, Wire};
 
-    /// A message, field by field.
+    /// Traversal of the fields of a message.
     pub trait Walk {
         #[doc(hidden)]
         fn write_fields(&self, out: &mut Vec<u8>);
@@ -36,19 +36,19 @@ pub(crate) mod walk {
     }
 }
 
-/// A message of Gazebo.
+/// Message of Gazebo.
 pub trait Message:
     walk::Walk + Clone + Debug + Default + PartialEq + Send + Sync + 'static
 {
-    /// Its name, such as `LaserScan`; the release puts something in front, see [`crate::Dialect`].
+    /// Its name, such as `LaserScan`; the release determines the package, see [`crate::Dialect`].
     const NAME: &'static str;
 
-    /// Appends it to `out` as protobuf.
+    /// Appends its protobuf form to `out`.
     fn encode_into(&self, out: &mut Vec<u8>) {
         self.write_fields(out);
     }
 
-    /// As protobuf.
+    /// Returns its protobuf form.
     #[must_use]
     fn encode(&self) -> Vec<u8> {
         let mut out = Vec::new();
@@ -56,10 +56,10 @@ pub trait Message:
         out
     }
 
-    /// From protobuf. Fields that it does not have are passed over.
+    /// Parses protobuf. Unknown fields are skipped.
     ///
     /// # Errors
-    /// When the bytes are no message.
+    /// If the bytes are not such a message.
     fn decode(bytes: &[u8]) -> Result<Self, DecodeError> {
         let memory = memory_for(bytes);
         let mut message = Self::default();
@@ -67,7 +67,7 @@ pub trait Message:
         Ok(message)
     }
 
-    /// As the text of protobuf, a field a line.
+    /// Returns its protobuf text, one field per line.
     #[must_use]
     fn text(&self) -> String {
         let mut out = Printer::default();
@@ -75,10 +75,10 @@ pub trait Message:
         out.into_text()
     }
 
-    /// From the text of protobuf.
+    /// Parses protobuf text.
     ///
     /// # Errors
-    /// Where it is wrong, and why.
+    /// If the text is not such a message; with line and column.
     fn from_text(text: &str) -> Result<Self, TextError> {
         let mut message = Self::default();
         Parser::new(text).whole(|name, parser| message.parse_field(name, parser))?;
@@ -86,7 +86,7 @@ pub trait Message:
     }
 }
 
-/// Declares messages: the name in Rust, that of Gazebo where it is another, fields with their numbers.
+/// Declares messages: the name in Rust, that of Gazebo if it differs, fields with their numbers.
 macro_rules! messages {
     ($(
         $(#[$doc:meta])*
@@ -148,7 +148,7 @@ macro_rules! messages {
 }
 pub(crate) use messages;
 
-/// The first of what is given.
+/// First of its arguments.
 macro_rules! first {
     ($first:expr $(, $rest:expr)?) => {
         $first
@@ -156,7 +156,7 @@ macro_rules! first {
 }
 pub(crate) use first;
 
-/// Declares kinds of things: numbers with names. A number without a name is kept as it is.
+/// Declares enumerations: numbers with names. A number without a name is kept.
 macro_rules! kinds {
     ($(
         $(#[$doc:meta])*
@@ -170,7 +170,7 @@ macro_rules! kinds {
         impl $name {
             $(pub const $kind: Self = Self($number);)*
 
-            /// Its name, if it has one.
+            /// Name of the value, if it has one.
             #[must_use]
             pub fn name(self) -> Option<&'static str> {
                 match self.0 {

@@ -1,4 +1,4 @@
-//! The messages. Names, numbers and kinds of fields are those of `gz-msgs`.
+//! Messages. Names, numbers and types of fields are those of `gz-msgs`.
 
 mod basic;
 mod geometry;
@@ -16,7 +16,7 @@ pub use world::*;
 
 use crate::Message;
 
-/// Is shown every message that can be on a topic or in a call.
+/// Visitor of all messages that occur in topics or services.
 pub(crate) trait Each {
     fn message<M: Message>(&mut self);
 }

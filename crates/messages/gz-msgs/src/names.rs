@@ -1,6 +1,6 @@
-//! What types of messages are called.
+//! Names of message types.
 
-/// Which names types have: they changed from one release to the next, what is meant did not.
+/// Naming scheme of types: it changed between releases, while the meaning did not.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Dialect {
     /// `gz.msgs.LaserScan`: Garden, Harmonic and later.
@@ -11,7 +11,7 @@ pub enum Dialect {
 }
 
 impl Dialect {
-    /// The full name of a type.
+    /// Full name of a type.
     #[must_use]
     pub fn full_name(self, bare: &str) -> String {
         match self {
@@ -20,7 +20,7 @@ impl Dialect {
         }
     }
 
-    /// Which one a full name is of.
+    /// Naming scheme of a full name.
     #[must_use]
     pub fn of(full: &str) -> Option<Self> {
         match bare_name(full) {
@@ -33,10 +33,10 @@ impl Dialect {
     }
 }
 
-/// The name of a type without what the release puts in front of it; none for types of others.
+/// Name of a type without its package; `None` for other packages.
 ///
-/// A generated Python or C++ name such as `gz_msgs.LaserScan` or `.gz.msgs.LaserScan` is understood
-/// too, as Gazebo's own tools do.
+/// A generated Python or C++ name such as `gz_msgs.LaserScan` or `.gz.msgs.LaserScan` is accepted too, as
+/// in Gazebo's own tools.
 #[must_use]
 pub fn bare_name(full: &str) -> Option<&str> {
     let full = full.strip_prefix('.').unwrap_or(full);

@@ -1,43 +1,43 @@
-//! The bytes of protobuf: numbers, lengths and what bytes may not do.
+//! Protobuf wire format: numbers, lengths and validation.
 //!
 //! Source: Protocol Buffers, "Encoding".
 
 use std::cell::Cell;
 use std::fmt;
 
-/// Messages in messages go so deep at most; those of Gazebo go to 12.
-const MOST_DEEP: u32 = 64;
+/// Maximum nesting depth of messages; those of Gazebo have up to 12.
+const MAX_DEPTH: u32 = 64;
 
-/// A message may take this much memory whatever its size \[B\], and as many times its size beside.
-/// Two bytes can be a whole message in a list, of some hundred bytes of memory.
+/// Memory that any message may use \[bytes\], in addition to a multiple of its size: two bytes can be an
+/// element of a list that takes some hundred bytes of memory.
 const FREE_MEMORY: usize = 16 << 20;
 const MEMORY_PER_BYTE: usize = 16;
 
-/// How a value is written.
+/// Wire type of a value.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Wire {
-    /// Seven bits a byte.
+    /// Seven bits per byte.
     Varint,
     /// Eight bytes.
     Eight,
-    /// A length, and as many bytes.
+    /// Length, and as many bytes.
     Sized,
     /// Four bytes.
     Four,
 }
 
-/// Why bytes are no such message.
+/// Error of bytes that are not such a message.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum DecodeError {
-    /// They end before a value does.
+    /// The bytes end inside a value.
     Short,
-    /// A number has more than 64 bits, or a field has none.
+    /// A number has more than 64 bits, or a field has the number 0.
     Number,
-    /// A kind of value that protobuf has given up or never had.
+    /// Deprecated or unknown wire type.
     Kind,
-    /// Messages in messages too many times.
+    /// Messages are nested too deeply.
     Deep,
-    /// It would take far more memory than it has bytes.
+    /// The message would use far more memory than its size.
     Memory,
 }
 
@@ -55,7 +55,7 @@ impl fmt::Display for DecodeError {
 
 impl std::error::Error for DecodeError {}
 
-/// What is left of a message.
+/// Remaining bytes of a message.
 #[derive(Debug)]
 pub struct Reader<'a> {
     bytes: &'a [u8],
@@ -63,7 +63,7 @@ pub struct Reader<'a> {
     depth: u32,
 }
 
-/// The memory that a message of so many bytes may take.
+/// Memory limit of a message.
 pub(crate) fn memory_for(bytes: &[u8]) -> Cell<usize> {
     Cell::new(bytes.len().saturating_mul(MEMORY_PER_BYTE).saturating_add(FREE_MEMORY))
 }
@@ -77,7 +77,7 @@ impl<'a> Reader<'a> {
         self.bytes.is_empty()
     }
 
-    /// Takes so much memory \[B\].
+    /// Charges memory \[bytes\].
     pub(crate) fn charge(&self, size: usize) -> Result<(), DecodeError> {
         let left = self.memory.get().checked_sub(size).ok_or(DecodeError::Memory)?;
         self.memory.set(left);
@@ -112,16 +112,16 @@ impl<'a> Reader<'a> {
         Ok(value)
     }
 
-    /// What is in a message, or in a packed list.
+    /// Reader of a nested message, or of a packed list.
     pub(crate) fn inside(&mut self) -> Result<Self, DecodeError> {
         let depth = self.depth + 1;
-        if depth > MOST_DEEP {
+        if depth > MAX_DEPTH {
             return Err(DecodeError::Deep);
         }
         Ok(Self { bytes: self.sized()?, memory: self.memory, depth })
     }
 
-    /// The number and the kind of the next field.
+    /// Field number and wire type of the next field.
     pub(crate) fn key(&mut self) -> Result<(u32, Wire), DecodeError> {
         let key = u32::try_from(self.varint()?).map_err(|_| DecodeError::Number)?;
         let wire = match key & 7 {
@@ -134,7 +134,7 @@ impl<'a> Reader<'a> {
         if key >> 3 == 0 { Err(DecodeError::Number) } else { Ok((key >> 3, wire)) }
     }
 
-    /// Passes over a value that nobody knows.
+    /// Skips the value of an unknown field.
     pub(crate) fn skip(&mut self, wire: Wire) -> Result<(), DecodeError> {
         match wire {
             Wire::Varint => self.varint().map(drop),
@@ -171,10 +171,10 @@ pub(crate) fn put_sized(number: u32, bytes: &[u8], out: &mut Vec<u8>) {
     out.extend_from_slice(bytes);
 }
 
-/// What `write` appends, with its length before it.
+/// Appends the output of `write`, preceded by its length.
 pub(crate) fn put_inside(number: u32, out: &mut Vec<u8>, write: impl FnOnce(&mut Vec<u8>)) {
     put_key(number, Wire::Sized, out);
-    // Most are short; the length of others is put in afterwards.
+    // Most are short; the length of others is inserted afterwards.
     let start = out.len();
     out.push(0);
     write(out);

@@ -1,7 +1,7 @@
-//! What messages are in ROS.
+//! Conversion to and from ROS messages.
 //!
-//! Source: the table and the conversions of `ros_gz_bridge` (branch `jazzy`). Frames from Gazebo have
-//! `/` where Gazebo has `::`. What one side has no place for is left out.
+//! Source: the table and the conversions of `ros_gz_bridge` (branch `jazzy`). In frames `::` of Gazebo
+//! becomes `/`. Data without an equivalent is dropped.
 
 mod basic;
 mod entities;
@@ -15,18 +15,18 @@ use periplus_msgs::{
 
 use crate::Message;
 
-/// What a message of Gazebo is in ROS.
+/// Conversion of a Gazebo message to and from a ROS message.
 pub trait AsRos<R>: Message {
-    /// In ROS; none if ROS has no word for it, such as for some kinds of pixels.
+    /// Converts to ROS; `None` if ROS has no equivalent, such as for some pixel formats.
     fn to_ros(&self) -> Option<R>;
 
-    /// From ROS; none if Gazebo has no word for it.
+    /// Converts from ROS; `None` if Gazebo has no equivalent.
     fn from_ros(ros: &R) -> Option<Self>;
 }
 
-/// Is shown all pairs of types that mean the same.
+/// Visitor of all pairs of equivalent types.
 pub trait Pairs {
-    /// A type of ROS and one of Gazebo. Where a type of ROS has several, the first is the usual one.
+    /// Pair of a ROS type and a Gazebo type. If a ROS type has several, the first is the default.
     fn pair<R: periplus_msgs::Message, G: AsRos<R>>(&mut self);
 }
 
@@ -36,7 +36,7 @@ macro_rules! pairs {
     };
 }
 
-/// Shows all pairs.
+/// Visits all pairs.
 pub fn each_pair(pairs: &mut impl Pairs) {
     pairs! { pairs:
         builtin_interfaces::Time = Time;
@@ -102,22 +102,22 @@ pub fn each_pair(pairs: &mut impl Pairs) {
     }
 }
 
-/// A part that is not there is as if it were at its defaults, as in protobuf.
+/// Missing messages have default values, as in protobuf.
 fn part<R: Default, G: AsRos<R>>(part: Option<&G>) -> R {
     part.and_then(AsRos::to_ros).unwrap_or_default()
 }
 
-/// All that ROS has words for.
+/// Converts all elements that have an equivalent in ROS.
 fn to_all<R, G: AsRos<R>>(all: &[G]) -> Vec<R> {
     all.iter().filter_map(AsRos::to_ros).collect()
 }
 
-/// All that Gazebo has words for.
+/// Converts all elements that have an equivalent in Gazebo.
 fn from_all<R, G: AsRos<R>>(all: &[R]) -> Vec<G> {
     all.iter().filter_map(AsRos::from_ros).collect()
 }
 
-/// As many numbers as the array has; what is missing is 0.
+/// Array with missing elements set to 0.
 fn array<const N: usize>(numbers: impl Iterator<Item = f64>) -> [f64; N] {
     let mut array = [0.0; N];
     for (place, number) in array.iter_mut().zip(numbers) {
@@ -126,7 +126,7 @@ fn array<const N: usize>(numbers: impl Iterator<Item = f64>) -> [f64; N] {
     array
 }
 
-/// A frame of Gazebo's: `robot::link` is `robot/link`.
+/// ROS name of a Gazebo frame: `robot::link` is `robot/link`.
 fn frame(name: &str) -> String {
     name.replace("::", "/")
 }
@@ -142,7 +142,7 @@ mod tests {
         fn pair<R: periplus_msgs::Message, G: AsRos<R>>(&mut self) {
             self.0 += 1;
             let Some(gazebo) = G::from_ros(&R::default()) else {
-                // Only pictures, whose kind of pixels has to be said.
+                // Only images, which need a pixel format.
                 assert_eq!(R::TYPE_NAME, "sensor_msgs/msg/Image");
                 return;
             };

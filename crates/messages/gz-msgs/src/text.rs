@@ -1,4 +1,4 @@
-//! The text of protobuf: what `gz topic -e` prints and `gz topic -p` takes.
+//! Protobuf text: the format of `gz topic -e` and `gz topic -p`.
 //!
 //! Source: Protocol Buffers, "Text Format Language Specification".
 
@@ -8,10 +8,10 @@ use std::str::FromStr;
 use crate::message::Message;
 use crate::{DecodeError, bare_name};
 
-/// Messages in messages go so deep at most.
-const MOST_DEEP: u32 = 64;
+/// Maximum nesting depth of messages.
+const MAX_DEPTH: u32 = 64;
 
-/// Writes a message, a field a line.
+/// Printer of a message, one field per line.
 #[derive(Debug, Default)]
 pub struct Printer {
     text: String,
@@ -29,7 +29,7 @@ impl Printer {
 
     pub(crate) fn value(&mut self, name: &str, value: &(impl Display + ?Sized)) {
         self.indent();
-        // Rust says `NaN`, protobuf `nan`; `inf` is the same.
+        // Rust prints `NaN`, protobuf `nan`; `inf` is the same.
         let mut shown = value.to_string();
         if shown == "NaN" {
             shown.make_ascii_lowercase();
@@ -66,14 +66,14 @@ impl Printer {
     }
 }
 
-/// What is wrong with a text, and where.
+/// Error of a text, with its location.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct TextError {
-    /// What is wrong, and what would be right.
+    /// Description of the fault, and the expected text.
     pub message: String,
-    /// The line, from 1.
+    /// Line, from 1.
     pub line: usize,
-    /// The column, from 1.
+    /// Column, from 1.
     pub column: usize,
 }
 
@@ -85,7 +85,7 @@ impl Display for TextError {
 
 impl std::error::Error for TextError {}
 
-/// Reads a text.
+/// Parser of a text.
 #[derive(Debug)]
 pub struct Parser<'a> {
     text: &'a str,
@@ -113,7 +113,7 @@ impl<'a> Parser<'a> {
         self.wrong(format!("there is no field `{name}`; there are: {}", known.join(", ")))
     }
 
-    /// Passes over spaces and comments; what comes next.
+    /// Skips spaces and comments; returns the next character.
     fn peek(&mut self) -> Option<char> {
         loop {
             let rest = &self.text[self.at..];
@@ -136,7 +136,7 @@ impl<'a> Parser<'a> {
         is_there
     }
 
-    /// A name or number.
+    /// Name or number.
     fn word(&mut self) -> Result<&'a str, TextError> {
         self.peek();
         let rest = &self.text[self.at..];
@@ -192,7 +192,7 @@ impl<'a> Parser<'a> {
             return Err(self.wrong("a message should be here, in `{ }`"));
         };
         self.depth += 1;
-        if self.depth > MOST_DEEP {
+        if self.depth > MAX_DEPTH {
             return Err(self.wrong("messages are nested too deeply"));
         }
         self.fields(Some(end), field)?;
@@ -200,7 +200,7 @@ impl<'a> Parser<'a> {
         Ok(())
     }
 
-    /// One value, or some in `[ ]`.
+    /// One value, or several in `[ ]`.
     pub(crate) fn list(
         &mut self,
         mut one: impl FnMut(&mut Self) -> Result<(), TextError>,
@@ -247,7 +247,7 @@ impl<'a> Parser<'a> {
         })
     }
 
-    /// Strings in quotes, one after the other: they are one.
+    /// Quoted strings; adjacent ones are concatenated.
     pub(crate) fn string(&mut self) -> Result<Vec<u8>, TextError> {
         self.take(':');
         let mut bytes = Vec::new();
@@ -304,7 +304,7 @@ impl<'a> Parser<'a> {
     }
 }
 
-/// A message of a type that is known by name only, as text; none if it is not known here.
+/// Text of a message whose type is known by name only; `None` if the type is unknown.
 #[must_use]
 pub fn text_of(type_name: &str, bytes: &[u8]) -> Option<Result<String, DecodeError>> {
     struct Text<'a> {

@@ -1,10 +1,10 @@
-//! CDR as DDS and bags carry it, and the bytes of ROS 1.
+//! CDR, the format of DDS and bags, and the format of ROS 1.
 //!
-//! CDR is XCDR version 1 of the DDS-XTypes specification, 7.4.3: every number stands at a multiple
-//! of its size, counted from behind the four bytes of the encapsulation header. A string is its
-//! length with the final zero, then its bytes and the zero; a `wstring` is the number of its UTF-16
-//! units, then these (as rmw_cyclonedds sends it). ROS 1 packs the same values without padding and
-//! without final zeros, and counts its headers.
+//! CDR is XCDR version 1 of the DDS-XTypes specification, 7.4.3: every number is aligned to its size,
+//! relative to the end of the four bytes of the encapsulation header. A string is its length with the final
+//! zero, then its bytes and the zero; a `wstring` is the number of its UTF-16 units, then these (as in
+//! rmw_cyclonedds). ROS 1 packs the same values without padding and without final zeros, and its headers
+//! have a sequence number.
 
 mod reader;
 mod recode;
@@ -17,46 +17,46 @@ pub use recode::recode;
 pub(crate) use reader::Reader;
 pub(crate) use writer::Writer;
 
-/// The header of ROS 1 has a counter in front that ROS 2 has not.
+/// In ROS 1 the header has an additional sequence number.
 pub(crate) const HEADER: &str = "std_msgs/msg/Header";
 
-/// Which bytes.
+/// Binary format.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Format {
-    /// CDR; read in the order that its header names, written in the order named here.
+    /// CDR; read in the byte order of its header, written in this byte order.
     Cdr(Encapsulation),
     /// ROS 1.
     Ros1,
 }
 
 impl Format {
-    /// What everyone sends: little endian CDR.
+    /// Little endian CDR, the usual format.
     pub const CDR: Self = Self::Cdr(Encapsulation::LittleEndian);
 }
 
-/// The order of bytes in CDR.
+/// Byte order of CDR.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Encapsulation {
-    /// The last byte first.
+    /// Least significant byte first.
     LittleEndian,
-    /// The first byte first.
+    /// Most significant byte first.
     BigEndian,
 }
 
-/// Appends a value to `out`.
+/// Appends the binary form of a value to `out`.
 ///
 /// # Errors
-/// When a string or list is longer than its type allows.
+/// If a string or list is longer than its type allows.
 pub fn encode<T: Codec>(value: &T, format: Format, out: &mut Vec<u8>) -> Result<(), EncodeError> {
     let mut writer = Writer::new(format, out);
     value.write(&mut writer, None);
     writer.finish()
 }
 
-/// Reads a value.
+/// Decodes a value.
 ///
 /// # Errors
-/// When the bytes are no such value.
+/// If the bytes are not such a value.
 pub fn decode<T: Codec>(format: Format, bytes: &[u8]) -> Result<T, DecodeError> {
     let mut reader = Reader::new(format, bytes)?;
     let mut value = T::blank();

@@ -1,33 +1,33 @@
-//! Values that go through a [`Sink`] and come out of a [`Source`].
+//! Conversion of values to a [`Sink`] and from a [`Source`].
 
 use crate::{Count, DecodeError, Sink, Source};
 
-/// A value that a message can hold.
+/// Value of a field of a message.
 pub trait Codec: Sized {
-    /// The fewest bytes that it takes in any binary form; a list of them is never longer than the
-    /// rest of a message allows.
-    const LEAST_BYTES: usize;
+    /// Minimum size in any binary format [bytes]; limits the length of a list by the remaining size of the
+    /// message.
+    const MIN_BYTES: usize;
 
-    /// The value when nobody sets it.
+    /// Default value.
     fn blank() -> Self;
 
-    /// Gives the value away. `limit` is the greatest length by the type of the field.
+    /// Writes the value. `limit` is the maximum length by the type of the field.
     fn write(&self, sink: &mut dyn Sink, limit: Option<u32>);
 
-    /// Takes the value.
+    /// Reads the value.
     ///
     /// # Errors
-    /// When the source has no such value; then it is left half read.
+    /// If the source has no such value; then it is partially read.
     fn read(&mut self, source: &mut dyn Source, limit: Option<u32>) -> Result<(), DecodeError>;
 
-    /// Gives the elements of a list away.
+    /// Writes the elements of a list.
     fn write_all(all: &[Self], sink: &mut dyn Sink) {
         for one in all {
             one.write(sink, None);
         }
     }
 
-    /// Takes the elements of a list.
+    /// Reads the elements of a list.
     ///
     /// # Errors
     /// As [`Codec::read`].
@@ -42,7 +42,7 @@ pub trait Codec: Sized {
 }
 
 impl Codec for String {
-    const LEAST_BYTES: usize = 4;
+    const MIN_BYTES: usize = 4;
 
     fn blank() -> Self {
         Self::new()
@@ -58,10 +58,10 @@ impl Codec for String {
     }
 }
 
-/// A `wstring`: text that is sent as UTF-16.
+/// `wstring`: text that is serialized as UTF-16.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct WideString(
-    /// The text.
+    /// Text.
     pub String,
 );
 
@@ -72,7 +72,7 @@ impl From<&str> for WideString {
 }
 
 impl Codec for WideString {
-    const LEAST_BYTES: usize = 4;
+    const MIN_BYTES: usize = 4;
 
     fn blank() -> Self {
         Self::default()
@@ -89,7 +89,7 @@ impl Codec for WideString {
 }
 
 impl<T: Codec> Codec for Vec<T> {
-    const LEAST_BYTES: usize = 4;
+    const MIN_BYTES: usize = 4;
 
     fn blank() -> Self {
         Self::new()
@@ -102,7 +102,7 @@ impl<T: Codec> Codec for Vec<T> {
     }
 
     fn read(&mut self, source: &mut dyn Source, limit: Option<u32>) -> Result<(), DecodeError> {
-        let length = source.list(at_most(limit), T::LEAST_BYTES)?;
+        let length = source.list(at_most(limit), T::MIN_BYTES)?;
         self.clear();
         self.resize_with(length, T::blank);
         T::read_all(self, source)
@@ -110,7 +110,7 @@ impl<T: Codec> Codec for Vec<T> {
 }
 
 impl<T: Codec, const N: usize> Codec for [T; N] {
-    const LEAST_BYTES: usize = T::LEAST_BYTES * N;
+    const MIN_BYTES: usize = T::MIN_BYTES * N;
 
     fn blank() -> Self {
         std::array::from_fn(|_| T::blank())
@@ -123,7 +123,7 @@ impl<T: Codec, const N: usize> Codec for [T; N] {
     }
 
     fn read(&mut self, source: &mut dyn Source, _: Option<u32>) -> Result<(), DecodeError> {
-        source.list(Count::Fixed(N), T::LEAST_BYTES)?;
+        source.list(Count::Fixed(N), T::MIN_BYTES)?;
         T::read_all(self, source)
     }
 }
@@ -132,7 +132,7 @@ fn at_most(limit: Option<u32>) -> Count {
     limit.map_or(Count::Any, |limit| Count::AtMost(limit as usize))
 }
 
-/// The name of a field as messages have it, from the one that Rust needs.
+/// Name of a field in messages, from its Rust name.
 #[doc(hidden)]
 #[must_use]
 pub const fn plain(name: &'static str) -> &'static str {
@@ -140,7 +140,7 @@ pub const fn plain(name: &'static str) -> &'static str {
     if let [b'r', b'#', ..] = bytes {
         return name.split_at(2).1;
     }
-    // Names of fields never end so, except those that keep out of a keyword's way.
+    // No field name ends like this, except to avoid a keyword.
     if let [.., b'_'] = bytes { name.split_at(bytes.len() - 1).0 } else { name }
 }
 

@@ -1,4 +1,4 @@
-//! Descriptions of types as messages, as `~/get_type_description` of a node gives them.
+//! Type descriptions as messages, the response of `~/get_type_description` of a node.
 //!
 //! Source: the texts of `type_description_interfaces`, and `rosidl_generator_type_description` (order of
 //! the referenced types, encodings of the sources).
@@ -12,11 +12,11 @@ use crate::type_description_interfaces::{
     Field, FieldType, IndividualTypeDescription, TypeDescription, TypeSource,
 };
 
-/// Member of a structure that has none: the middleware's type language knows no empty structures.
+/// Member of an empty structure, as IDL does not support these.
 const EMPTY_MEMBER: &str = "structure_needs_at_least_one_member";
 
 impl TypeRegistry {
-    /// The description of a type, and of all that it refers to; none when one of them is unknown.
+    /// Description of a type and of all types that it refers to; `None` if one of them is unknown.
     #[must_use]
     pub fn type_description(&self, type_name: &str) -> Option<TypeDescription> {
         let name = TypeName::read(type_name)?;
@@ -28,8 +28,8 @@ impl TypeRegistry {
         })
     }
 
-    /// The texts from which a type is made, its own first. Types that services and actions imply have
-    /// the encoding `implicit` and no text.
+    /// Source texts of a type, its own first. Types implied by services and actions have the encoding
+    /// `implicit` and no text.
     #[must_use]
     pub fn type_sources(&self, type_name: &str) -> Vec<TypeSource> {
         let Some(name) = TypeName::read(type_name) else { return Vec::new() };
@@ -89,13 +89,13 @@ fn individual(definition: &Definition) -> IndividualTypeDescription {
     IndividualTypeDescription { type_name: definition.name.to_string(), fields }
 }
 
-/// A default as `rosidl` writes it: as Python prints the value, a list as a tuple.
+/// Default value as in `rosidl`: as printed by Python, a list as a tuple.
 fn default_value(literal: &Literal) -> String {
     match literal {
         Literal::Text(text) => text.clone(),
         Literal::List(items) => {
             let items: Vec<String> = items.iter().map(repr).collect();
-            // A tuple of one keeps its comma.
+            // A tuple of one element keeps its comma.
             let comma = if items.len() == 1 { "," } else { "" };
             format!("({}{comma})", items.join(", "))
         }
@@ -120,7 +120,7 @@ fn repr(literal: &Literal) -> String {
     }
 }
 
-/// A number as Python prints it: exponents have a sign and two digits.
+/// Number as printed by Python: exponents have a sign and two digits.
 fn float(value: f64) -> String {
     let text = format!("{value:?}").to_lowercase();
     let Some((digits, exponent)) = text.split_once('e') else { return text };

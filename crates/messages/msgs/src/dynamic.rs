@@ -1,4 +1,4 @@
-//! Types that are known only when the program runs.
+//! Types known only at run time.
 
 mod adapt;
 mod layout;

@@ -1,61 +1,61 @@
-//! What can be wrong with a message.
+//! Errors of messages.
 
 use std::fmt;
 
-/// Why bytes or JSON are no message of a type.
+/// Error of bytes or JSON that are not a message of a type.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct DecodeError {
-    /// What is wrong.
+    /// Description of the fault.
     pub problem: Problem,
-    /// Where: names of fields and numbers of elements from the outside, such as `fields[2].name`.
+    /// Path of the field: names of fields and indices of elements, such as `fields[2].name`.
     pub path: String,
-    /// How far the reading had come; bytes from the start, 0 for JSON.
+    /// Offset of the reader [bytes]; 0 for JSON.
     pub offset: usize,
 }
 
-/// What is wrong with bytes or JSON.
+/// Fault in bytes or JSON.
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Problem {
     /// The message ends too early.
     Short {
-        /// Bytes that are needed.
+        /// Number of bytes needed.
         needed: usize,
-        /// Bytes that are left.
+        /// Number of bytes left.
         left: usize,
     },
-    /// There are bytes behind the end of the message.
+    /// Bytes follow the end of the message.
     Long {
-        /// How many.
+        /// Number of bytes.
         left: usize,
     },
-    /// The first bytes do not say that this is plain CDR.
+    /// The first bytes are not the header of plain CDR.
     Encapsulation(u8, u8),
-    /// More elements than the rest of the message can hold.
+    /// More elements than the rest of the message can contain.
     Count(usize),
     /// More elements or characters than the type allows.
     Bound {
-        /// How many there are.
+        /// Number of elements or characters.
         count: usize,
-        /// How many there may be.
+        /// Maximum number.
         limit: usize,
     },
-    /// A truth value that is neither 0 nor 1.
+    /// A boolean that is neither 0 nor 1.
     Truth(u8),
-    /// A string that is no UTF-8 or UTF-16.
+    /// A string that is not valid UTF-8 or UTF-16.
     Text,
-    /// JSON of another kind.
+    /// JSON of the wrong type.
     Json {
-        /// What belongs there.
+        /// Expected value.
         expected: String,
-        /// What is there.
+        /// Actual value.
         found: String,
     },
-    /// A name that the type does not have.
+    /// Unknown name.
     Unknown {
-        /// What is there.
+        /// The name.
         name: String,
-        /// Which are known.
+        /// Known names.
         known: Vec<String>,
     },
 }
@@ -65,14 +65,14 @@ impl DecodeError {
         Self { problem, path: String::new(), offset }
     }
 
-    /// The same, seen from the structure around the field.
+    /// Adds the field of the enclosing structure to the path.
     pub(crate) fn within(mut self, field: &str) -> Self {
         let dot = if self.path.is_empty() || self.path.starts_with('[') { "" } else { "." };
         self.path = format!("{field}{dot}{}", self.path);
         self
     }
 
-    /// The same, seen from the list around the element.
+    /// Adds the index in the enclosing list to the path.
     pub(crate) fn within_element(self, index: usize) -> Self {
         self.within(&format!("[{index}]"))
     }
@@ -125,14 +125,14 @@ impl fmt::Display for DecodeError {
 
 impl std::error::Error for DecodeError {}
 
-/// Why a message cannot be sent: it holds more than its type allows.
+/// Error of a message that cannot be serialized: a value is longer than its type allows.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct EncodeError {
-    /// How many elements or characters there are.
+    /// Number of elements or characters.
     pub count: usize,
-    /// How many there may be.
+    /// Maximum number.
     pub limit: usize,
-    /// The field.
+    /// Field.
     pub field: String,
 }
 

@@ -1,7 +1,7 @@
 //! JSON: objects with the names of the fields, arrays, numbers, strings.
 //!
-//! What JSON has no numbers for is written as `"NaN"`, `"Infinity"` and `"-Infinity"`; `null` reads
-//! as not a number too. Bytes are arrays of numbers.
+//! Numbers that JSON does not have are written as `"NaN"`, `"Infinity"` and `"-Infinity"`; `null` is read
+//! as NaN too. Bytes are arrays of numbers.
 
 use serde_json::{Map, Value};
 
@@ -9,17 +9,17 @@ use crate::{
     Codec, Count, DecodeError, Number, NumberKind, Numbers, NumbersMut, Problem, Sink, Source,
 };
 
-/// A value as JSON.
+/// Converts a value to JSON.
 pub fn to_json<T: Codec>(value: &T) -> Value {
     let mut writer = Writer::default();
     value.write(&mut writer, None);
     writer.done
 }
 
-/// A value from JSON. Fields that are not given keep their defaults.
+/// Parses a value from JSON. Missing fields have their default values.
 ///
 /// # Errors
-/// When something else is there than the type has.
+/// If the JSON does not match the type.
 pub fn from_json<T: Codec>(json: &Value) -> Result<T, DecodeError> {
     let mut value = T::blank();
     value.read(&mut Reader::new(json), None)?;
@@ -28,7 +28,7 @@ pub fn from_json<T: Codec>(json: &Value) -> Result<T, DecodeError> {
 
 #[derive(Default)]
 pub(crate) struct Writer {
-    /// What is not closed yet, the innermost last.
+    /// Open structures and lists, innermost last.
     open: Vec<Open>,
     pub(crate) done: Value,
 }
@@ -124,7 +124,7 @@ fn number_to_json(number: Number) -> Value {
 }
 
 pub(crate) struct Reader<'a> {
-    /// The value to be read, after those around it.
+    /// Current value, after the values that contain it.
     path: Vec<&'a Value>,
 }
 

@@ -1,8 +1,8 @@
 //! ROS messages.
 //!
-//! One module for each package holds plain structures made from the texts in `interfaces/`. Each is
-//! a [`Message`]: it knows its name, type hash and schema text, and goes to CDR (what DDS and bags
-//! carry), to the bytes of ROS 1 and to JSON, and back:
+//! One module for each package contains plain structs generated from the texts in `interfaces/`. Each is a
+//! [`Message`] with a type name, type hash and schema text, and converts to and from CDR (the format of DDS
+//! and bags), the format of ROS 1 and JSON:
 //!
 //! ```
 //! use periplus_msgs::{Message, geometry_msgs::Twist};
@@ -16,8 +16,8 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
-//! Types that are known only when the program runs are [`Layout`]s of a [`TypeRegistry`]; a
-//! [`DynamicMessage`] is a value of such a type.
+//! Types known only at run time are [`Layout`]s of a [`TypeRegistry`]; a [`DynamicMessage`] is a value of
+//! such a type.
 
 mod binary;
 mod codec;

@@ -1,6 +1,6 @@
-//! What all generated types have in common.
+//! Common implementation of all generated types.
 
-/// A structure that is a [`crate::Message`].
+/// Struct that is a [`crate::Message`].
 #[doc(hidden)]
 #[macro_export]
 macro_rules! message {
@@ -31,7 +31,7 @@ macro_rules! message {
         }
 
         impl $crate::Codec for $name {
-            const LEAST_BYTES: usize = 0 $(+ <$type as $crate::Codec>::LEAST_BYTES)*;
+            const MIN_BYTES: usize = 0 $(+ <$type as $crate::Codec>::MIN_BYTES)*;
 
             fn blank() -> Self {
                 Self::default()
@@ -207,7 +207,7 @@ macro_rules! action {
     };
 }
 
-/// The texts that the types are made from, with their paths below `interfaces`.
+/// Interface texts of the types, with their paths below `interfaces`.
 #[doc(hidden)]
 #[macro_export]
 macro_rules! sources {
@@ -219,12 +219,12 @@ macro_rules! sources {
     };
 }
 
-/// Makes `every_message!`, which gives all types to another macro.
+/// Defines `every_message!`, which passes all types to another macro.
 #[doc(hidden)]
 #[macro_export]
 macro_rules! list_messages {
     ($($package:ident::$name:ident)*) => {
-        /// Gives all messages of this crate to a macro.
+        /// Passes all messages of this crate to a macro.
         #[macro_export]
         macro_rules! every_message {
             ($do:ident) => { $do! { $($package::$name)* } };
@@ -232,12 +232,12 @@ macro_rules! list_messages {
     };
 }
 
-/// Makes `every_service!`, which gives all services to another macro.
+/// Defines `every_service!`, which passes all services to another macro.
 #[doc(hidden)]
 #[macro_export]
 macro_rules! list_services {
     ($($package:ident::$name:ident)*) => {
-        /// Gives all services of this crate to a macro.
+        /// Passes all services of this crate to a macro.
         #[macro_export]
         macro_rules! every_service {
             ($do:ident) => { $do! { $($package::$name)* } };

@@ -6,17 +6,17 @@ use crate::builtin_interfaces::Time;
 use crate::unique_identifier_msgs::UUID;
 use crate::{Codec, DecodeError, EncodeError, Format, TypeRegistry};
 
-/// A type that is sent as a whole.
+/// Message type.
 pub trait Message: Codec + Clone + Debug + Default + PartialEq + Send + Sync + 'static {
-    /// Its full name, such as `sensor_msgs/msg/LaserScan`.
+    /// Full name of the type, such as `sensor_msgs/msg/LaserScan`.
     const TYPE_NAME: &'static str;
-    /// Its type hash, such as `RIHS01_64c19139...`.
+    /// Type hash, such as `RIHS01_64c19139...`.
     const TYPE_HASH: &'static str;
 
-    /// Appends it to `out` as little endian CDR with the four bytes in front that say so.
+    /// Appends its form in little endian CDR to `out`, with the four bytes of the encapsulation header.
     ///
     /// # Errors
-    /// When a string or list is longer than its type allows.
+    /// If a string or list is longer than its type allows.
     fn encode_cdr(&self, out: &mut Vec<u8>) -> Result<(), EncodeError> {
         crate::encode(self, Format::CDR, out)
     }
@@ -31,105 +31,105 @@ pub trait Message: Codec + Clone + Debug + Default + PartialEq + Send + Sync + '
         Ok(out)
     }
 
-    /// Reads CDR of either endianness.
+    /// Decodes CDR of either byte order.
     ///
     /// # Errors
-    /// When the bytes are no such message.
+    /// If the bytes are not such a message.
     fn decode_cdr(bytes: &[u8]) -> Result<Self, DecodeError> {
         crate::decode(Format::CDR, bytes)
     }
 
-    /// Appends it to `out` as ROS 1 would send it.
+    /// Appends its form in ROS 1 to `out`.
     ///
     /// # Errors
-    /// When a string or list is longer than its type allows.
+    /// If a string or list is longer than its type allows.
     fn encode_ros1(&self, out: &mut Vec<u8>) -> Result<(), EncodeError> {
         crate::encode(self, Format::Ros1, out)
     }
 
-    /// Reads what ROS 1 sent. The counter of its headers is left out.
+    /// Decodes the form of ROS 1. The sequence number of headers is dropped.
     ///
     /// # Errors
-    /// When the bytes are no such message.
+    /// If the bytes are not such a message.
     fn decode_ros1(bytes: &[u8]) -> Result<Self, DecodeError> {
         crate::decode(Format::Ros1, bytes)
     }
 
-    /// As JSON; see [`crate::to_json`].
+    /// JSON form; see [`crate::to_json`].
     fn to_json(&self) -> serde_json::Value {
         crate::to_json(self)
     }
 
-    /// From JSON; fields that are not given keep their defaults.
+    /// Parses JSON; missing fields have their default values.
     ///
     /// # Errors
-    /// When something else is there than the type has.
+    /// If the JSON does not match the type.
     fn from_json(json: &serde_json::Value) -> Result<Self, DecodeError> {
         crate::from_json(json)
     }
 
-    /// The texts that define it, as MCAP's `ros2msg` wants them.
+    /// Texts that define it, for MCAP's `ros2msg`.
     #[must_use]
     fn schema_text() -> &'static str {
         TypeRegistry::builtin().schema_text(Self::TYPE_NAME).unwrap_or_default()
     }
 }
 
-/// A question and its answer.
+/// Service type.
 pub trait Service: Send + Sync + 'static {
-    /// The question.
+    /// Request message.
     type Request: Message;
-    /// The answer.
+    /// Response message.
     type Response: Message;
-    /// Its full name, such as `std_srvs/srv/Trigger`.
+    /// Full name of the type, such as `std_srvs/srv/Trigger`.
     const TYPE_NAME: &'static str;
     /// Its type hash.
     const TYPE_HASH: &'static str;
 }
 
-/// The question of a service.
+/// Request of a service.
 type Request<S> = <S as Service>::Request;
 
-/// The answer of a service.
+/// Response of a service.
 type Response<S> = <S as Service>::Response;
 
-/// A task that takes time, tells how far it is, and can be stopped.
+/// Action type.
 pub trait Action: Send + Sync + 'static {
-    /// What to do.
+    /// Goal message.
     type Goal: Message;
-    /// What came of it.
+    /// Result message.
     type Result: Message;
-    /// How far it is.
+    /// Feedback message.
     type Feedback: Message;
-    /// Begins a task.
+    /// Service that sends a goal.
     type SendGoal: Service;
-    /// Waits for its end.
+    /// Service that waits for the result.
     type GetResult: Service;
-    /// How far it is, with the name of the task.
+    /// Feedback message with the goal id.
     type FeedbackMessage: Message;
-    /// Its full name, such as `nav2_msgs/action/Wait`.
+    /// Full name of the type, such as `nav2_msgs/action/Wait`.
     const TYPE_NAME: &'static str;
     /// Its type hash.
     const TYPE_HASH: &'static str;
 
-    /// Asks to begin a task.
+    /// Creates a request that sends a goal.
     fn send_goal(goal_id: UUID, goal: Self::Goal) -> Request<Self::SendGoal>;
-    /// Which task is to begin, and what is to be done.
+    /// Goal id and goal of a request.
     fn sent_goal(request: &Request<Self::SendGoal>) -> (&UUID, &Self::Goal);
-    /// Whether it begins, and when.
+    /// Creates the response to a goal: accepted or not, and when.
     fn accept_goal(accepted: bool, stamp: Time) -> Response<Self::SendGoal>;
-    /// Whether it began, and when.
+    /// Acceptance and its time, of a response.
     fn accepted_goal(response: &Response<Self::SendGoal>) -> (bool, &Time);
-    /// Asks for the end of a task.
+    /// Creates a request for the result of a goal.
     fn get_result(goal_id: UUID) -> Request<Self::GetResult>;
-    /// Whose end is asked for.
+    /// Goal id of a request for a result.
     fn asked_result(request: &Request<Self::GetResult>) -> &UUID;
-    /// How a task ended, by `action_msgs/msg/GoalStatus`, and what came of it.
+    /// Creates the response with the status (`action_msgs/msg/GoalStatus`) and the result of a goal.
     fn give_result(status: i8, result: Self::Result) -> Response<Self::GetResult>;
-    /// As [`Action::give_result`], read.
+    /// Status and result of a response.
     fn given_result(response: &Response<Self::GetResult>) -> (i8, &Self::Result);
-    /// How far a task is.
+    /// Creates a feedback message.
     fn tell_feedback(goal_id: UUID, feedback: Self::Feedback) -> Self::FeedbackMessage;
-    /// As [`Action::tell_feedback`], read.
+    /// Goal id and feedback of a feedback message.
     fn told_feedback(message: &Self::FeedbackMessage) -> (&UUID, &Self::Feedback);
 }

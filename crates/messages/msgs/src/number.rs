@@ -1,104 +1,104 @@
-//! Numbers of any of the kinds that messages have, one or many.
+//! Numbers of all types in messages, single or many.
 
-/// One name for each kind, and the enums that hold one, many borrowed, and many owned.
+/// Declares the number types, and the enums of one, many borrowed, and many owned numbers.
 macro_rules! kinds {
     ($($name:ident $rust:ident $text:literal $zero:literal,)*) => {
-        /// The kinds of numbers; truth values count as such.
+        /// Number types; booleans are included.
         #[derive(Clone, Copy, Debug, PartialEq, Eq)]
         pub enum NumberKind { $(#[doc = $text] $name,)* }
 
         impl NumberKind {
-            /// How messages' texts name it.
+            /// Name in interface texts.
             #[must_use]
             pub fn name(self) -> &'static str {
                 match self { $(Self::$name => $text,)* }
             }
 
-            /// How many bytes one takes.
+            /// Size of one number [bytes].
             #[must_use]
             pub fn size(self) -> usize {
                 match self { $(Self::$name => size_of::<$rust>(),)* }
             }
 
-            /// None of it.
+            /// Zero.
             #[must_use]
             pub fn zero(self) -> Number {
                 match self { $(Self::$name => Number::$name($zero),)* }
             }
 
-            /// Many zeros.
+            /// Vector of zeros.
             #[must_use]
             pub fn zeros(self, count: usize) -> NumberVec {
                 match self { $(Self::$name => NumberVec::$name(vec![$zero; count]),)* }
             }
         }
 
-        /// A number.
+        /// Single number.
         #[derive(Clone, Copy, Debug, PartialEq)]
         pub enum Number { $(#[doc = $text] $name($rust),)* }
 
         impl Number {
-            /// Its kind.
+            /// Type of the number.
             #[must_use]
             pub fn kind(self) -> NumberKind {
                 match self { $(Self::$name(_) => NumberKind::$name,)* }
             }
         }
 
-        /// Many numbers of one kind, borrowed.
+        /// Borrowed numbers of one type.
         #[derive(Clone, Copy, Debug, PartialEq)]
         pub enum Numbers<'a> { $(#[doc = $text] $name(&'a [$rust]),)* }
 
         impl Numbers<'_> {
-            /// How many.
+            /// Number of elements.
             #[must_use]
             pub fn len(&self) -> usize {
                 match self { $(Self::$name(all) => all.len(),)* }
             }
 
-            /// Whether there are none.
+            /// Returns true if there are none.
             #[must_use]
             pub fn is_empty(&self) -> bool {
                 self.len() == 0
             }
 
-            /// Their kind.
+            /// Type of the numbers.
             #[must_use]
             pub fn kind(&self) -> NumberKind {
                 match self { $(Self::$name(_) => NumberKind::$name,)* }
             }
 
-            /// One of them.
+            /// Element at an index.
             #[must_use]
             pub fn get(&self, index: usize) -> Option<Number> {
                 match self { $(Self::$name(all) => all.get(index).copied().map(Number::$name),)* }
             }
         }
 
-        /// Room for many numbers of one kind.
+        /// Mutable borrowed numbers of one type.
         #[derive(Debug, PartialEq)]
         pub enum NumbersMut<'a> { $(#[doc = $text] $name(&'a mut [$rust]),)* }
 
         impl NumbersMut<'_> {
-            /// How many.
+            /// Number of elements.
             #[must_use]
             pub fn len(&self) -> usize {
                 match self { $(Self::$name(all) => all.len(),)* }
             }
 
-            /// Whether there are none.
+            /// Returns true if there are none.
             #[must_use]
             pub fn is_empty(&self) -> bool {
                 self.len() == 0
             }
 
-            /// Their kind.
+            /// Type of the numbers.
             #[must_use]
             pub fn kind(&self) -> NumberKind {
                 match self { $(Self::$name(_) => NumberKind::$name,)* }
             }
 
-            /// Puts a number of the same kind at a place; others are ignored.
+            /// Sets an element to a number of the same type; other types are ignored.
             pub fn set(&mut self, index: usize, number: Number) {
                 match (self, number) {
                     $((Self::$name(all), Number::$name(number)) => {
@@ -111,18 +111,18 @@ macro_rules! kinds {
             }
         }
 
-        /// Many numbers of one kind.
+        /// Vector of numbers of one type.
         #[derive(Clone, Debug, PartialEq)]
         pub enum NumberVec { $(#[doc = $text] $name(Vec<$rust>),)* }
 
         impl NumberVec {
-            /// To be read.
+            /// Borrows the numbers.
             #[must_use]
             pub fn borrow(&self) -> Numbers<'_> {
                 match self { $(Self::$name(all) => Numbers::$name(all),)* }
             }
 
-            /// To be written.
+            /// Borrows the numbers mutably.
             #[must_use]
             pub fn borrow_mut(&mut self) -> NumbersMut<'_> {
                 match self { $(Self::$name(all) => NumbersMut::$name(all),)* }
@@ -137,7 +137,7 @@ macro_rules! kinds {
             }
 
             impl crate::codec::Codec for $rust {
-                const LEAST_BYTES: usize = size_of::<$rust>();
+                const MIN_BYTES: usize = size_of::<$rust>();
 
                 fn blank() -> Self {
                     $zero
@@ -152,7 +152,7 @@ macro_rules! kinds {
                     source: &mut dyn crate::Source,
                     _: Option<u32>,
                 ) -> Result<(), crate::DecodeError> {
-                    // A source gives what it is asked for.
+                    // A source returns the requested type.
                     if let Number::$name(number) = source.number(NumberKind::$name)? {
                         *self = number;
                     }

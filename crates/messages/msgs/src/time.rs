@@ -1,4 +1,4 @@
-//! Times of messages.
+//! Conversion of times.
 
 use crate::builtin_interfaces::{Duration, Time};
 use crate::std_msgs::Header;
@@ -6,14 +6,14 @@ use crate::std_msgs::Header;
 const NS_PER_S: i64 = 1_000_000_000;
 
 impl Time {
-    /// A time \[ns\] as messages carry it: seconds in 31 bits, so that it ends in 2038.
+    /// Message of a time \[ns\]: seconds have 31 bits, so the range ends in 2038.
     #[must_use]
     pub fn of_ns(time_ns: i64) -> Self {
         let sec = i32::try_from(time_ns.div_euclid(NS_PER_S)).unwrap_or(i32::MAX);
         Self { sec, nanosec: u32::try_from(time_ns.rem_euclid(NS_PER_S)).unwrap_or_default() }
     }
 
-    /// The time \[ns\].
+    /// Time \[ns\].
     #[must_use]
     pub fn ns(&self) -> i64 {
         i64::from(self.sec) * NS_PER_S + i64::from(self.nanosec)
@@ -21,7 +21,7 @@ impl Time {
 }
 
 impl Duration {
-    /// The duration \[ns\].
+    /// Duration \[ns\].
     #[must_use]
     pub fn ns(&self) -> i64 {
         i64::from(self.sec) * NS_PER_S + i64::from(self.nanosec)
@@ -29,7 +29,7 @@ impl Duration {
 }
 
 impl Header {
-    /// A header of a time \[ns\] and a frame.
+    /// Header with a time \[ns\] and a frame.
     #[must_use]
     pub fn at(time_ns: i64, frame_id: &str) -> Self {
         Self { stamp: Time::of_ns(time_ns), frame_id: frame_id.to_owned() }

@@ -1,24 +1,25 @@
-//! YAML, the way `ros2 topic echo` prints it.
+//! YAML in the format of `ros2 topic echo`.
 //!
-//! That is PyYAML's block style after `rosidl_runtime_py.message_to_ordereddict`. One difference is
-//! deliberate: a text of several lines is one line in double quotes here, so that every field stays
-//! on a line of its own.
+//! The format is PyYAML's block style after `rosidl_runtime_py.message_to_ordereddict`. One difference is
+//! deliberate: a text of several lines is one line in double quotes here, so that every field has its own
+//! line.
 
 mod flow;
 
 use crate::dynamic::{Element, Layout, Shape, Value};
 use crate::{Number, Numbers};
 
-/// What to leave out.
+/// Options of the printer.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct YamlStyle {
-    /// Longer lists and texts are cut; elements or characters. 128, as there, unless it is changed.
+    /// Maximum length of lists and texts (elements or characters); longer ones are truncated. Default 128,
+    /// as in `ros2 topic echo`.
     pub longest: Option<usize>,
-    /// Only the type and length of lists (`--no-arr`).
+    /// Prints only the type and length of lists (`--no-arr`).
     pub no_arrays: bool,
-    /// Only the length of texts (`--no-str`).
+    /// Prints only the length of texts (`--no-str`).
     pub no_texts: bool,
-    /// All on one line, in braces and brackets (`--flow-style`).
+    /// Prints all on one line, in braces and brackets (`--flow-style`).
     pub flow: bool,
 }
 
@@ -41,7 +42,7 @@ pub(crate) fn print(layout: &Layout, values: &[Value], style: &YamlStyle) -> Str
     printer.out
 }
 
-/// A part of a message: a message, a list, or one number or text on a line.
+/// Prints a part of a message: a message, a list, or one number or text on a line.
 pub(crate) fn print_part(
     element: &Element,
     shape: Shape,
@@ -63,7 +64,7 @@ pub(crate) fn print_part(
         (Value::List(list), Shape::List(_)) => printer.list(list, element, 0),
         (value, _) => printer.scalar(value, element),
     }
-    // What a list has in front of it where it follows a name.
+    // The separator after a name is not part of the text.
     let text = printer.out;
     text.strip_prefix('\n').or(text.strip_prefix(' ')).map(str::to_owned).unwrap_or(text)
 }
@@ -78,7 +79,7 @@ impl Printer<'_> {
         self.out.extend(std::iter::repeat_n(' ', depth));
     }
 
-    /// The fields of a structure; whether the first stands on a line that is begun already.
+    /// Prints the fields of a structure; `is_begun` if the first is on a line that is not empty.
     fn mapping(&mut self, layout: &Layout, values: &[Value], depth: usize, mut is_begun: bool) {
         for (field, value) in layout.fields.iter().zip(values) {
             if !is_begun {
@@ -107,7 +108,7 @@ impl Printer<'_> {
         }
     }
 
-    /// What stands in the place of a list that is not shown, or how much of it is shown.
+    /// Prints the replacement of a hidden list, or returns the number of elements to print.
     fn shown(&mut self, length: usize, element: &Element) -> Option<usize> {
         match self.stands_for(length, element) {
             Some(text) => {
@@ -123,7 +124,7 @@ impl Printer<'_> {
         }
     }
 
-    /// What stands in the place of a list that is empty or not shown.
+    /// Replacement of an empty or hidden list.
     fn stands_for(&self, length: usize, element: &Element) -> Option<String> {
         if length == 0 {
             return Some("[]".into());
@@ -177,7 +178,7 @@ impl Printer<'_> {
         self.rest(shown < list.len(), depth);
     }
 
-    /// A number or a text, and the end of the line.
+    /// Prints a number or a text, and ends the line.
     fn scalar(&mut self, value: &Value, element: &Element) {
         let text = self.scalar_text(value, element);
         self.out.push_str(&text);
@@ -219,13 +220,13 @@ fn number_text(number: Number) -> String {
         Number::U32(number) => number.to_string(),
         Number::I64(number) => number.to_string(),
         Number::U64(number) => number.to_string(),
-        // Python has only one kind, and prints all digits of it.
+        // Python has only one float type, and prints all of its digits.
         Number::F32(number) => float_text(number.into()),
         Number::F64(number) => float_text(number),
     }
 }
 
-/// As PyYAML's `represent_float` does: Python's `repr`, but always with a point.
+/// Formats like PyYAML's `represent_float`: Python's `repr`, but always with a point.
 fn float_text(number: f64) -> String {
     if number.is_nan() {
         return ".nan".into();
@@ -245,11 +246,11 @@ fn float_text(number: f64) -> String {
     format!("{digits}{point}e{sign}{:02}", exponent.abs())
 }
 
-/// A text, in quotes where YAML 1.1 would take it for something else.
+/// Quotes a text if YAML 1.1 would resolve it to another type.
 fn quoted(text: &str) -> String {
-    // What PyYAML holds for printable (`Emitter.analyze_scalar`).
+    // Printable characters of PyYAML (`Emitter.analyze_scalar`).
     let printable = |c: char| match c {
-        // Breaks of lines, and of pages.
+        // Line and page breaks.
         '\u{85}' | '\u{2028}' | '\u{2029}' => false,
         ' '..='~' | '\u{a0}'..='\u{d7ff}' | '\u{10000}'.. => true,
         '\u{e000}'..='\u{fffd}' => c != '\u{feff}',
@@ -290,7 +291,7 @@ fn double_quoted(text: &str) -> String {
     quoted
 }
 
-/// Whether a text of printable characters can stand without quotes and stays a text.
+/// Returns true if a text of printable characters needs no quotes.
 fn is_plain(text: &str) -> bool {
     let Some(first) = text.chars().next() else { return false };
     let followed = |at: usize| text[at..].chars().nth(1).is_none_or(|next| next == ' ');
@@ -309,7 +310,7 @@ fn is_plain(text: &str) -> bool {
     start && middle && !text.ends_with(' ') && !document && !resolves(text)
 }
 
-/// Whether YAML 1.1, as PyYAML resolves it, would see something else than a text.
+/// Returns true if YAML 1.1, as resolved by PyYAML, would not read a text.
 fn resolves(text: &str) -> bool {
     let lower = text.to_ascii_lowercase();
     let capital = |word: &str| -> String {
@@ -327,8 +328,8 @@ fn resolves(text: &str) -> bool {
             .strip_prefix("0x")
             .is_some_and(|hex| all(hex, |b| b.is_ascii_hexdigit() || b == b'_'))
         || unsigned.strip_prefix("0b").is_some_and(|bits| all(bits, |b| b"01_".contains(&b)));
-    // With a point, or sexagesimal, or a date: a little more than PyYAML takes is quoted, which
-    // changes nothing for a reader.
+    // Numbers with a point, sexagesimal numbers, dates: slightly more than in PyYAML is quoted, which makes
+    // no difference to a reader.
     let looks_numeric = unsigned.starts_with(|c: char| c.is_ascii_digit() || c == '.')
         && unsigned.bytes().any(|b| b.is_ascii_digit())
         && unsigned.bytes().all(|b| b.is_ascii_digit() || b".eE+-_:TtZ ".contains(&b));

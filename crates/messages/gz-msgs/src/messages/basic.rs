@@ -7,31 +7,31 @@ messages! {
     Time { 1 sec: i64, 2 nsec: i32 }
     /// Seconds and nanoseconds.
     Duration { 1 header: Option<Header>, 2 sec: i64, 3 nsec: i32 }
-    /// What stands in front of most messages.
+    /// Header of most messages.
     Header { 1 stamp: Option<Time>, 2 data: Vec<Map> }
-    /// A word in a header, with its values.
+    /// Entry of a header, with its values.
     Map = "Header.Map" { 1 key: String, 2 value: Vec<String> }
-    /// Nothing.
+    /// Empty message.
     Empty { 1 unused: bool }
-    /// Yes or no.
+    /// Boolean.
     Boolean { 1 header: Option<Header>, 2 data: bool }
-    /// A number.
+    /// Number.
     Int32 { 1 header: Option<Header>, 2 data: i32 }
-    /// A number.
+    /// Number.
     Int64 { 1 header: Option<Header>, 2 data: i64 }
-    /// A number.
+    /// Number.
     UInt32 { 1 header: Option<Header>, 2 data: u32 }
     /// Numbers.
     UInt32V = "UInt32_V" { 1 header: Option<Header>, 2 data: Vec<u32> }
-    /// A number.
+    /// Number.
     UInt64 { 1 header: Option<Header>, 2 data: u64 }
-    /// A number.
+    /// Number.
     Float { 1 header: Option<Header>, 2 data: f32 }
     /// Numbers.
     FloatV = "Float_V" { 1 header: Option<Header>, 2 data: Vec<f32> }
-    /// A number.
+    /// Number.
     Double { 1 header: Option<Header>, 2 data: f64 }
-    /// A text.
+    /// Text.
     StringMsg { 1 header: Option<Header>, 2 data: String }
     /// Texts.
     StringMsgV = "StringMsg_V" { 1 header: Option<Header>, 2 data: Vec<String> }
@@ -39,7 +39,7 @@ messages! {
     Bytes { 1 header: Option<Header>, 2 data: Vec<u8> }
     /// Red, green, blue, opacity; 0 to 1.
     Color { 1 header: Option<Header>, 2 r: f32, 3 g: f32, 4 b: f32, 5 a: f32 }
-    /// A value of some kind.
+    /// Value of any type.
     Any {
         1 header: Option<Header>,
         2 r#type: AnyKind,
@@ -53,16 +53,16 @@ messages! {
         10 quaternion_value: Option<super::Quaternion>,
         11 time_value: Option<Time>,
     }
-    /// Values with names.
+    /// Named values.
     Param { 1 header: Option<Header>, 2 params: Vec<NamedAny>, 3 children: Vec<Param> }
-    /// A value with its name.
+    /// Named value.
     NamedAny = "Param.ParamsEntry" { 1 key: String, 2 value: Option<Any> }
-    /// Lists of values with names.
+    /// List of named values.
     ParamV = "Param_V" { 1 header: Option<Header>, 2 param: Vec<Param> }
 }
 
 kinds! {
-    /// Which value an [`Any`] has.
+    /// Type of the value of an [`Any`].
     AnyKind {
         NONE = 0, DOUBLE = 1, INT32 = 2, STRING = 3, BOOLEAN = 4, VECTOR3D = 5, COLOR = 6,
         POSE3D = 7, QUATERNIOND = 8, TIME = 9,
@@ -72,14 +72,14 @@ kinds! {
 const NS_PER_S: i64 = 1_000_000_000;
 
 impl Time {
-    /// A time \[ns\].
+    /// Message of a time \[ns\].
     #[must_use]
     pub fn of_ns(time_ns: i64) -> Self {
         let nsec = i32::try_from(time_ns.rem_euclid(NS_PER_S)).unwrap_or_default();
         Self { sec: time_ns.div_euclid(NS_PER_S), nsec }
     }
 
-    /// The time \[ns\]; as far as there are such.
+    /// Time \[ns\]; saturates at the limits of its range.
     #[must_use]
     pub fn ns(&self) -> i64 {
         self.sec.saturating_mul(NS_PER_S).saturating_add(self.nsec.into())
@@ -87,20 +87,20 @@ impl Time {
 }
 
 impl Header {
-    /// A header of a time \[ns\] and a frame.
+    /// Header with a time \[ns\] and a frame.
     #[must_use]
     pub fn at(time_ns: i64, frame_id: &str) -> Self {
         Self { stamp: Some(Time::of_ns(time_ns)), data: Vec::new() }.with("frame_id", frame_id)
     }
 
-    /// With one more word.
+    /// Adds an entry.
     #[must_use]
     pub fn with(mut self, key: &str, value: &str) -> Self {
         self.data.push(Map { key: key.to_owned(), value: vec![value.to_owned()] });
         self
     }
 
-    /// The first value of a word.
+    /// First value of an entry.
     #[must_use]
     pub fn word(&self, key: &str) -> Option<&str> {
         let found = self.data.iter().find(|map| map.key == key)?;

@@ -1,16 +1,16 @@
-//! Where things are and how they move.
+//! Poses, velocities and forces.
 
 use super::{FloatV, Header};
 use crate::message::messages;
 
 messages! {
-    /// Two numbers.
+    /// Vector with two elements.
     Vector2d { 1 header: Option<Header>, 2 x: f64, 3 y: f64 }
-    /// Three numbers.
+    /// Vector with three elements.
     Vector3d { 1 header: Option<Header>, 2 x: f64, 3 y: f64, 4 z: f64 }
-    /// A rotation.
+    /// Rotation.
     Quaternion { 1 header: Option<Header>, 2 x: f64, 3 y: f64, 4 z: f64, 5 w: f64 }
-    /// A place and a rotation, of something with a name.
+    /// Pose, with the name of the entity.
     Pose {
         1 header: Option<Header>,
         2 name: String,
@@ -29,19 +29,19 @@ messages! {
         3 torque: Option<Vector3d>,
         4 force_offset: Option<Vector3d>,
     }
-    /// A force on something.
+    /// Force on an entity.
     EntityWrench {
         1 header: Option<Header>,
         2 entity: Option<super::Entity>,
         3 wrench: Option<Wrench>,
     }
-    /// Where a robot says it is.
+    /// Odometry of a robot.
     Odometry { 1 header: Option<Header>, 2 pose: Option<Pose>, 3 twist: Option<Twist> }
-    /// A pose, and how sure it is: 36 numbers, row by row.
+    /// Pose with its covariance: 36 numbers, row-major.
     PoseWithCovariance { 1 pose: Option<Pose>, 2 covariance: Option<FloatV> }
-    /// A velocity, and how sure it is: 36 numbers, row by row.
+    /// Velocity with its covariance: 36 numbers, row-major.
     TwistWithCovariance { 1 twist: Option<Twist>, 2 covariance: Option<FloatV> }
-    /// Where a robot says it is, and how sure it is.
+    /// Odometry of a robot with covariance.
     OdometryWithCovariance {
         1 header: Option<Header>,
         2 pose_with_covariance: Option<PoseWithCovariance>,
@@ -53,7 +53,7 @@ messages! {
         2 joint_names: Vec<String>,
         3 points: Vec<JointTrajectoryPoint>,
     }
-    /// Where joints are to be at a time.
+    /// Joint positions at a time.
     JointTrajectoryPoint {
         1 positions: Vec<f64>,
         2 velocities: Vec<f64>,
@@ -71,7 +71,7 @@ messages! {
 }
 
 impl Vector3d {
-    /// Of three numbers.
+    /// Vector of three numbers.
     #[must_use]
     pub fn new(x: f64, y: f64, z: f64) -> Self {
         Self { header: None, x, y, z }
@@ -79,7 +79,7 @@ impl Vector3d {
 }
 
 impl Quaternion {
-    /// Of four numbers.
+    /// Quaternion of four numbers.
     #[must_use]
     pub fn new(x: f64, y: f64, z: f64, w: f64) -> Self {
         Self { header: None, x, y, z, w }

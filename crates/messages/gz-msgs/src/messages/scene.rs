@@ -1,10 +1,10 @@
-//! A world as it looks. Fields that this program has nothing to say in are left out.
+//! Visual description of a world. Fields that this program does not use are left out.
 
 use super::{Color, Header, Pose, Vector2d, Vector3d};
 use crate::message::{kinds, messages};
 
 messages! {
-    /// A world.
+    /// Scene of a world.
     Scene {
         1 header: Option<Header>,
         2 name: String,
@@ -17,7 +17,7 @@ messages! {
         11 joint: Vec<Joint>,
         12 origin_visual: bool,
     }
-    /// A model; also the states of its joints.
+    /// Model, with the states of its joints.
     Model {
         1 header: Option<Header>,
         2 name: String,
@@ -32,7 +32,7 @@ messages! {
         11 self_collide: bool,
         12 model: Vec<Model>,
     }
-    /// A joint.
+    /// Joint.
     Joint {
         1 header: Option<Header>,
         2 name: String,
@@ -46,7 +46,7 @@ messages! {
         10 axis1: Option<Axis>,
         11 axis2: Option<Axis>,
     }
-    /// An axis of a joint, and how it stands.
+    /// Axis of a joint, with its state.
     Axis {
         1 header: Option<Header>,
         2 xyz: Option<Vector3d>,
@@ -62,7 +62,7 @@ messages! {
         13 acceleration: f64,
         14 xyz_expressed_in: String,
     }
-    /// A body.
+    /// Rigid body.
     Link {
         1 header: Option<Header>,
         2 id: u32,
@@ -76,7 +76,7 @@ messages! {
         15 canonical: bool,
         17 light: Vec<Light>,
     }
-    /// A shape that is seen.
+    /// Visual shape.
     Visual {
         1 header: Option<Header>,
         2 name: String,
@@ -94,7 +94,7 @@ messages! {
         14 is_static: bool,
         16 scale: Option<Vector3d>,
     }
-    /// A shape.
+    /// Shape.
     Geometry {
         1 header: Option<Header>,
         2 r#type: GeometryKind,
@@ -107,26 +107,26 @@ messages! {
         13 capsule: Option<CapsuleGeom>,
         14 ellipsoid: Option<EllipsoidGeom>,
     }
-    /// A box \[m\].
+    /// Box \[m\].
     BoxGeom { 1 header: Option<Header>, 2 size: Option<Vector3d> }
-    /// A cylinder \[m\].
+    /// Cylinder \[m\].
     CylinderGeom { 1 header: Option<Header>, 2 radius: f64, 3 length: f64 }
-    /// A cone \[m\].
+    /// Cone \[m\].
     ConeGeom { 1 header: Option<Header>, 2 radius: f64, 3 length: f64 }
-    /// A capsule \[m\].
+    /// Capsule \[m\].
     CapsuleGeom { 1 header: Option<Header>, 2 radius: f64, 3 length: f64 }
-    /// An ellipsoid \[m\].
+    /// Ellipsoid \[m\].
     EllipsoidGeom { 1 header: Option<Header>, 2 radii: Option<Vector3d> }
-    /// A sphere \[m\].
+    /// Sphere \[m\].
     SphereGeom { 1 header: Option<Header>, 2 radius: f64 }
-    /// A plane \[m\].
+    /// Plane \[m\].
     PlaneGeom {
         1 header: Option<Header>,
         2 normal: Option<Vector3d>,
         3 size: Option<Vector2d>,
         4 d: f64,
     }
-    /// A mesh.
+    /// Mesh.
     MeshGeom {
         1 header: Option<Header>,
         2 filename: String,
@@ -134,7 +134,7 @@ messages! {
         4 submesh: String,
         5 center_submesh: bool,
     }
-    /// How a surface looks.
+    /// Material of a surface.
     Material {
         1 header: Option<Header>,
         5 ambient: Option<Color>,
@@ -145,7 +145,7 @@ messages! {
         11 render_order: f64,
         12 double_sided: bool,
     }
-    /// A light.
+    /// Light.
     Light {
         1 header: Option<Header>,
         2 name: String,
@@ -171,17 +171,17 @@ messages! {
 }
 
 kinds! {
-    /// How a joint moves.
+    /// Type of a joint.
     JointKind {
         REVOLUTE = 0, REVOLUTE2 = 1, PRISMATIC = 2, UNIVERSAL = 3, BALL = 4, SCREW = 5,
         GEARBOX = 6, FIXED = 7, CONTINUOUS = 8,
     }
-    /// What a shape is.
+    /// Type of a shape.
     GeometryKind {
         BOX = 0, CYLINDER = 1, SPHERE = 2, PLANE = 3, IMAGE = 4, HEIGHTMAP = 5, MESH = 6,
         TRIANGLE_FAN = 7, LINE_STRIP = 8, POLYLINE = 9, CONE = 10, EMPTY = 11, ARROW = 12,
         AXIS = 13, CAPSULE = 14, ELLIPSOID = 15,
     }
-    /// How a light shines.
+    /// Type of a light.
     LightKind { POINT = 0, SPOT = 1, DIRECTIONAL = 2 }
 }

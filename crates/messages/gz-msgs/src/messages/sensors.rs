@@ -1,17 +1,17 @@
-//! What sensors say.
+//! Sensor messages.
 
 use super::{FloatV, Header, Pose, Quaternion, Time, Vector3d};
 use crate::message::{kinds, messages};
 
 messages! {
-    /// The time: of the machine, since the start, and in the world.
+    /// Clock: system time, real time since the start, and simulation time.
     Clock {
         1 header: Option<Header>,
         2 system: Option<Time>,
         3 real: Option<Time>,
         4 sim: Option<Time>,
     }
-    /// Ranges, the first row lowest \[m, rad\].
+    /// Ranges, lowest row first \[m, rad\].
     LaserScan {
         1 header: Option<Header>,
         2 frame: String,
@@ -29,7 +29,7 @@ messages! {
         14 ranges: Vec<f64>,
         15 intensities: Vec<f64>,
     }
-    /// Points.
+    /// Point cloud.
     PointCloudPacked {
         1 header: Option<Header>,
         2 field: Vec<PointField>,
@@ -41,14 +41,14 @@ messages! {
         8 data: Vec<u8>,
         9 is_dense: bool,
     }
-    /// One number of each point.
+    /// Field of a point.
     PointField = "PointCloudPacked.Field" {
         1 name: String,
         2 offset: u32,
         3 datatype: PointKind,
         4 count: u32,
     }
-    /// A picture.
+    /// Image.
     Image {
         1 header: Option<Header>,
         2 width: u32,
@@ -57,7 +57,7 @@ messages! {
         5 data: Vec<u8>,
         6 pixel_format_type: PixelFormat,
     }
-    /// How a camera maps space to its picture.
+    /// Calibration of a camera.
     CameraInfo {
         1 header: Option<Header>,
         2 width: u32,
@@ -67,13 +67,13 @@ messages! {
         6 projection: Option<Projection>,
         7 rectification_matrix: Vec<f64>,
     }
-    /// How a lens bends.
+    /// Lens distortion.
     Distortion = "CameraInfo.Distortion" { 1 model: DistortionModel, 2 k: Vec<f64> }
-    /// Nine numbers, row by row.
+    /// Nine numbers, row-major.
     Intrinsics = "CameraInfo.Intrinsics" { 1 k: Vec<f64> }
-    /// Twelve numbers, row by row.
+    /// Twelve numbers, row-major.
     Projection = "CameraInfo.Projection" { 1 p: Vec<f64> }
-    /// Turning and acceleration, as Harmonic has it.
+    /// Angular velocity and linear acceleration, in Harmonic.
     Imu = "IMU" {
         1 header: Option<Header>,
         2 entity_name: String,
@@ -84,8 +84,8 @@ messages! {
         7 linear_acceleration: Option<Vector3d>,
         8 linear_acceleration_covariance: Option<FloatV>,
     }
-    /// Turning and acceleration, as releases up to Fortress have it: the one message whose fields got
-    /// other numbers.
+    /// Angular velocity and linear acceleration, in releases up to Fortress: the only message whose field
+    /// numbers changed.
     ImuFortress = "IMU" {
         1 header: Option<Header>,
         2 entity_name: String,
@@ -93,7 +93,7 @@ messages! {
         4 angular_velocity: Option<Vector3d>,
         5 linear_acceleration: Option<Vector3d>,
     }
-    /// A magnetic field \[T\].
+    /// Magnetic field \[T\].
     Magnetometer { 1 header: Option<Header>, 2 field_tesla: Option<Vector3d> }
     /// Pressure \[Pa\].
     FluidPressure { 1 header: Option<Header>, 2 pressure: f64, 3 variance: f64 }
@@ -104,7 +104,7 @@ messages! {
         3 vertical_velocity: f64,
         4 vertical_reference: f64,
     }
-    /// A place on the Earth \[deg, m, m/s\].
+    /// Geographic position \[deg, m, m/s\].
     NavSat {
         1 header: Option<Header>,
         2 latitude_deg: f64,
@@ -115,7 +115,7 @@ messages! {
         7 velocity_up: f64,
         8 frame_id: String,
     }
-    /// A battery.
+    /// Battery state.
     BatteryState {
         1 header: Option<Header>,
         2 voltage: f64,
@@ -125,9 +125,9 @@ messages! {
         6 percentage: f64,
         7 power_supply_status: PowerSupply,
     }
-    /// What touches.
+    /// Contacts.
     Contacts { 1 header: Option<Header>, 2 contact: Vec<Contact> }
-    /// Two things that touch.
+    /// Contact of two collisions.
     Contact {
         1 header: Option<Header>,
         2 collision1: Option<super::Entity>,
@@ -138,7 +138,7 @@ messages! {
         7 wrench: Vec<JointWrench>,
         8 world: Option<super::Entity>,
     }
-    /// Forces between two bodies.
+    /// Forces and torques between two bodies.
     JointWrench {
         1 header: Option<Header>,
         2 body_1_name: String,
@@ -148,15 +148,15 @@ messages! {
         6 body_1_wrench: Option<super::Wrench>,
         7 body_2_wrench: Option<super::Wrench>,
     }
-    /// What a gamepad says.
+    /// State of a gamepad.
     Joy { 1 header: Option<Header>, 2 axes: Vec<f32>, 3 buttons: Vec<i32> }
-    /// Which models a camera sees.
+    /// Models in the view of a logical camera.
     LogicalCameraImage {
         1 header: Option<Header>,
         2 pose: Option<Pose>,
         3 model: Vec<SeenModel>,
     }
-    /// A model as a camera sees it.
+    /// Model in the view of a logical camera.
     SeenModel = "LogicalCameraImage.Model" { 1 name: String, 2 pose: Option<Pose> }
     /// Noise of a sensor.
     SensorNoise {
@@ -173,21 +173,21 @@ messages! {
 }
 
 kinds! {
-    /// What a number of a point is.
+    /// Number type of a point field.
     PointKind {
         INT8 = 0, UINT8 = 1, INT16 = 2, UINT16 = 3, INT32 = 4, UINT32 = 5, FLOAT32 = 6, FLOAT64 = 7,
     }
-    /// What a pixel is.
+    /// Pixel format.
     PixelFormat {
         UNKNOWN_PIXEL_FORMAT = 0, L_INT8 = 1, L_INT16 = 2, RGB_INT8 = 3, RGBA_INT8 = 4,
         BGRA_INT8 = 5, RGB_INT16 = 6, RGB_INT32 = 7, BGR_INT8 = 8, BGR_INT16 = 9, BGR_INT32 = 10,
         R_FLOAT16 = 11, RGB_FLOAT16 = 12, R_FLOAT32 = 13, RGB_FLOAT32 = 14, BAYER_RGGB8 = 15,
         BAYER_BGGR8 = 16, BAYER_GBRG8 = 17, BAYER_GRBG8 = 18,
     }
-    /// By which law a lens bends.
+    /// Model of lens distortion.
     DistortionModel { PLUMB_BOB = 0, RATIONAL_POLYNOMIAL = 1, EQUIDISTANT = 2 }
-    /// What a battery does.
+    /// Status of the power supply.
     PowerSupply { UNKNOWN = 0, CHARGING = 1, DISCHARGING = 2, NOT_CHARGING = 3, FULL = 4 }
-    /// By which law noise comes.
+    /// Distribution of noise.
     NoiseKind { NONE = 0, GAUSSIAN = 2, GAUSSIAN_QUANTIZED = 3 }
 }

@@ -1,10 +1,10 @@
-//! What programs tell each other of themselves.
+//! Discovery messages of Gazebo Transport.
 
 use super::Header;
 use crate::message::{kinds, messages};
 
 messages! {
-    /// A program says what it has, or that it is there.
+    /// Announcement of a process or of its publishers and services.
     Discovery {
         1 header: Option<Header>,
         2 version: u32,
@@ -14,11 +14,11 @@ messages! {
         6 sub: Option<DiscoverySubscriber>,
         7 r#pub: Option<DiscoveryPublisher>,
     }
-    /// Whether it was passed on.
+    /// Relay flags.
     DiscoveryFlags = "Discovery.Flags" { 1 relay: bool, 2 no_relay: bool }
-    /// Which topic is looked for.
+    /// Topic that a subscriber searches.
     DiscoverySubscriber = "Discovery.Subscriber" { 1 topic: String }
-    /// Who publishes a topic or answers a service.
+    /// Publisher of a topic or provider of a service.
     DiscoveryPublisher = "Discovery.Publisher" {
         1 topic: String,
         2 address: String,
@@ -28,14 +28,14 @@ messages! {
         6 msg_pub: Option<MessagePublisher>,
         7 srv_pub: Option<ServicePublisher>,
     }
-    /// What is published.
+    /// Publisher of messages.
     MessagePublisher = "Discovery.Publisher.MessagePublisher" {
         1 ctrl: String,
         2 msg_type: String,
         3 throttled: bool,
         4 msgs_per_sec: u64,
     }
-    /// What is answered.
+    /// Provider of a service.
     ServicePublisher = "Discovery.Publisher.ServicePublisher" {
         1 socket_id: String,
         2 request_type: String,
@@ -44,11 +44,11 @@ messages! {
 }
 
 kinds! {
-    /// What is said.
+    /// Type of a discovery message.
     DiscoveryKind {
         UNINITIALIZED = 0, ADVERTISE = 1, SUBSCRIBE = 2, UNADVERTISE = 3, HEARTBEAT = 4, BYE = 5,
         NEW_CONNECTION = 6, END_CONNECTION = 7, SUBSCRIBERS_REQ = 8, SUBSCRIBERS_REP = 9,
     }
-    /// To whom it is said.
+    /// Scope of an announcement.
     DiscoveryScope { PROCESS = 0, HOST = 1, ALL = 2 }
 }

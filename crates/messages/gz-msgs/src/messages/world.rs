@@ -1,4 +1,4 @@
-//! What is asked of a world, and what it says of itself.
+//! Control and state of a world.
 
 use super::{Boolean, Header, Light, Model, Pose, Time, Vector3d};
 use crate::message::{kinds, messages};
@@ -14,9 +14,9 @@ messages! {
         6 seed: u32,
         7 run_to_sim_time: Option<Time>,
     }
-    /// What is to begin anew.
+    /// Parts of the world to reset.
     WorldReset { 1 header: Option<Header>, 2 all: bool, 3 time_only: bool, 4 model_only: bool }
-    /// How time goes in a world.
+    /// Clock and statistics of a world.
     WorldStatistics {
         1 header: Option<Header>,
         2 sim_time: Option<Time>,
@@ -29,9 +29,9 @@ messages! {
         10 step_size: Option<Time>,
         11 stepping: bool,
     }
-    /// Something in a world.
+    /// Entity of a world.
     Entity { 1 header: Option<Header>, 2 id: u64, 3 name: String, 4 r#type: EntityKind }
-    /// What is to come into a world: one of `sdf`, `sdf_filename`, `model`, `light`, `clone_name`.
+    /// Entity to spawn: one of `sdf`, `sdf_filename`, `model`, `light`, `clone_name`.
     EntityFactory {
         1 header: Option<Header>,
         2 sdf: String,
@@ -45,9 +45,9 @@ messages! {
         10 relative_to: String,
         11 spherical_coordinates: Option<SphericalCoordinates>,
     }
-    /// What is to come into a world, many at once.
+    /// Several entities to spawn.
     EntityFactoryV = "EntityFactory_V" { 1 header: Option<Header>, 2 data: Vec<EntityFactory> }
-    /// A place on the Earth.
+    /// Geographic coordinates.
     SphericalCoordinates {
         1 header: Option<Header>,
         2 surface_model: SurfaceModel,
@@ -57,7 +57,7 @@ messages! {
         6 heading_deg: f64,
         7 entity: Option<Entity>,
     }
-    /// How physics is computed.
+    /// Physics settings.
     Physics {
         1 header: Option<Header>,
         2 r#type: i32,
@@ -78,27 +78,27 @@ messages! {
         17 profile_name: String,
         18 magnetic_field: Option<Vector3d>,
     }
-    /// How a world is to be written as SDF.
+    /// Settings of the SDF generator.
     SdfGeneratorConfig {
         1 header: Option<Header>,
         2 global_entity_gen_config: Option<EntityGeneratorConfig>,
         3 override_entity_gen_configs: Vec<OverrideEntry>,
     }
-    /// How an entity is to be written as SDF.
+    /// Settings of the SDF generator for entities.
     EntityGeneratorConfig = "SdfGeneratorConfig.EntityGeneratorConfig" {
         1 expand_include_tags: Option<Boolean>,
         2 save_fuel_version: Option<Boolean>,
         3 resources_use_absolute_paths: Option<Boolean>,
         4 copy_model_resources: Option<Boolean>,
     }
-    /// The same for one of them.
+    /// Settings of the SDF generator for one entity.
     OverrideEntry = "SdfGeneratorConfig.OverrideEntityGenConfigsEntry" {
         1 key: String,
         2 value: Option<EntityGeneratorConfig>,
     }
-    /// What a window shows.
+    /// Settings of the GUI.
     Gui = "GUI" { 1 header: Option<Header>, 2 fullscreen: bool, 3 camera: Option<GuiCamera> }
-    /// From where a window looks.
+    /// Camera of the GUI.
     GuiCamera = "GUICamera" {
         1 header: Option<Header>,
         2 name: String,
@@ -107,7 +107,7 @@ messages! {
         5 track: Option<TrackVisual>,
         6 projection_type: String,
     }
-    /// What a camera follows.
+    /// Target that a camera follows.
     TrackVisual {
         1 header: Option<Header>,
         2 name: String,
@@ -120,7 +120,7 @@ messages! {
         9 xyz: Option<Vector3d>,
         10 inherit_yaw: bool,
     }
-    /// A film that is to begin or end.
+    /// Start or end of a video recording.
     VideoRecord {
         1 header: Option<Header>,
         2 start: bool,
@@ -131,11 +131,11 @@ messages! {
 }
 
 kinds! {
-    /// What something in a world is.
+    /// Type of an entity.
     EntityKind {
         NONE = 0, LIGHT = 1, MODEL = 2, LINK = 3, VISUAL = 4, COLLISION = 5, SENSOR = 6, JOINT = 7,
         ACTOR = 8, WORLD = 9,
     }
-    /// The shape of the Earth.
+    /// Model of the Earth's surface.
     SurfaceModel { EARTH_WGS84 = 0 }
 }

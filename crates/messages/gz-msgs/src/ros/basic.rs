@@ -40,7 +40,7 @@ impl AsRos<rosgraph_msgs::Clock> for Clock {
     }
 }
 
-/// Messages that hold one value.
+/// Messages with one value.
 macro_rules! values {
     ($($gz:ident = $package:ident::$ros:ident;)*) => {$(
         impl AsRos<$package::$ros> for $gz {

@@ -1,4 +1,4 @@
-//! What is in a world, and what is asked of it.
+//! Control and state of a world.
 
 use periplus_msgs::ros_gz_interfaces as ros;
 use periplus_msgs::std_msgs;
@@ -12,7 +12,7 @@ use crate::{
 
 impl AsRos<ros::Entity> for Entity {
     fn to_ros(&self) -> Option<ros::Entity> {
-        // A kind that ROS has no number for is none.
+        // An entity type without a number in ROS becomes none.
         let kind = u8::try_from(self.r#type.0).unwrap_or_default();
         Some(ros::Entity { id: self.id, name: self.name.clone(), r#type: kind })
     }
@@ -213,7 +213,7 @@ impl AsRos<ros::WorldControl> for WorldControl {
             multi_step: ros.multi_step,
             reset: WorldReset::from_ros(&ros.reset),
             seed: ros.seed,
-            // Being there is what counts for Gazebo: it would run to the time 0.
+            // The presence of the field matters: Gazebo would run to the time 0.
             run_to_sim_time: if run_to.ns() == 0 { None } else { Time::from_ros(run_to) },
         })
     }

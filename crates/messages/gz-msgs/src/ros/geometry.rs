@@ -1,4 +1,4 @@
-//! Where things are and how they move.
+//! Poses, velocities and forces.
 
 use periplus_msgs::builtin_interfaces::Duration as RosDuration;
 use periplus_msgs::{geometry_msgs as ros, nav_msgs, std_msgs, tf2_msgs, trajectory_msgs};
@@ -39,7 +39,7 @@ impl AsRos<ros::Quaternion> for Quaternion {
 impl AsRos<ros::Pose> for Pose {
     fn to_ros(&self) -> Option<ros::Pose> {
         let (position, orientation) = (self.position.as_ref(), self.orientation.as_ref());
-        // ROS has a turn of nothing where protobuf has four zeros.
+        // In ROS an unset quaternion is the identity, in protobuf it is all zeros.
         Some(ros::Pose {
             position: part(position),
             orientation: orientation.map_or_else(ros::Quaternion::default, |it| part(Some(it))),
@@ -80,7 +80,7 @@ impl AsRos<ros::PoseStamped> for Pose {
     }
 }
 
-/// The frame that a message places is a word of its header.
+/// The child frame of a message is an entry of its header.
 fn child_frame(header: Option<&Header>) -> Option<String> {
     header?.word("child_frame_id").map(frame)
 }
@@ -174,7 +174,7 @@ impl AsRos<ros::WrenchStamped> for Wrench {
     }
 }
 
-/// Numbers of a matrix, as far as given.
+/// Elements of a matrix, as far as given.
 pub(super) fn matrix<const N: usize>(numbers: Option<&FloatV>) -> [f64; N] {
     array(numbers.into_iter().flat_map(|numbers| &numbers.data).map(|&number| number.into()))
 }

@@ -1,4 +1,4 @@
-//! What sensors say.
+//! Sensor messages.
 
 use periplus_msgs::sensor_msgs as ros;
 
@@ -13,7 +13,7 @@ use crate::{
 use periplus_msgs::ros_gz_interfaces;
 
 impl AsRos<ros::LaserScan> for LaserScan {
-    /// Of several rows the middle one. Infinite ranges stay infinite.
+    /// Converts the middle row of several. Infinite ranges stay infinite.
     #[expect(clippy::cast_possible_truncation, reason = "ROS has ranges in single precision")]
     fn to_ros(&self) -> Option<ros::LaserScan> {
         let count = self.count as usize;
@@ -56,7 +56,7 @@ impl AsRos<ros::LaserScan> for LaserScan {
     }
 }
 
-/// Kinds of numbers by both names.
+/// Number types with both names.
 const KINDS: [(u8, PointKind); 8] = [
     (ros::PointField::INT8, PointKind::INT8),
     (ros::PointField::UINT8, PointKind::UINT8),
@@ -112,7 +112,7 @@ impl AsRos<ros::PointCloud2> for PointCloudPacked {
     }
 }
 
-/// Kinds of pixels by both names; of those with two names in Gazebo the first is the usual one.
+/// Pixel formats with both names; of those with two names in Gazebo the first is the default.
 const PIXELS: [(&str, PixelFormat); 13] = [
     ("mono8", PixelFormat::L_INT8),
     ("mono16", PixelFormat::L_INT16),
@@ -129,7 +129,7 @@ const PIXELS: [(&str, PixelFormat); 13] = [
     ("bayer_grbg8", PixelFormat::BAYER_GRBG8),
 ];
 
-/// Other names of ROS for the same pixels.
+/// Alternative ROS names of pixel formats.
 const SAME_PIXELS: [(&str, &str); 5] = [
     ("8UC1", "mono8"),
     ("16UC1", "mono16"),
@@ -207,7 +207,7 @@ impl AsRos<ros::CameraInfo> for CameraInfo {
 }
 
 impl AsRos<ros::Imu> for Imu {
-    /// Without an orientation ROS says so by -1 in its covariance.
+    /// A missing orientation is marked by -1 in the covariance, as in ROS.
     fn to_ros(&self) -> Option<ros::Imu> {
         let mut ros = ros::Imu {
             header: part(self.header.as_ref()),
@@ -334,7 +334,7 @@ impl AsRos<ros::FluidPressure> for FluidPressure {
 }
 
 impl AsRos<ros::NavSatFix> for NavSat {
-    /// The frame is a field of its own.
+    /// The frame is a separate field in Gazebo.
     fn to_ros(&self) -> Option<ros::NavSatFix> {
         let header: periplus_msgs::std_msgs::Header = part(self.header.as_ref());
         let frame_id =
@@ -360,7 +360,7 @@ impl AsRos<ros::NavSatFix> for NavSat {
     }
 }
 
-/// What batteries do, by both numbers.
+/// Status of the power supply, with both numbers.
 const SUPPLY: [(u8, PowerSupply); 5] = [
     (ros::BatteryState::POWER_SUPPLY_STATUS_UNKNOWN, PowerSupply::UNKNOWN),
     (ros::BatteryState::POWER_SUPPLY_STATUS_CHARGING, PowerSupply::CHARGING),

@@ -1,18 +1,19 @@
-//! Bytes to values.
+//! Binary reader.
 
 use super::{Format, HEADER};
 use crate::{Count, DecodeError, Number, NumberKind, NumbersMut, Problem, Source};
 
-/// Writers may fill up to a multiple of eight.
-const MOST_PADDING: usize = 7;
+/// Maximum padding at the end: writers may pad to a multiple of eight bytes.
+const MAX_PADDING_BYTES: usize = 7;
 
-/// Empty structures take no bytes in ROS 1, so that nothing else limits how many there are.
-const MOST_FOR_NOTHING: usize = 16;
+/// Maximum number of elements of an empty type: they take no bytes in ROS 1, so the message size does not
+/// limit them.
+const MAX_EMPTY_ELEMENTS: usize = 16;
 
 pub(crate) struct Reader<'a> {
     bytes: &'a [u8],
     at: usize,
-    /// From where alignment counts.
+    /// Offset to which alignment is relative.
     base: usize,
     is_cdr: bool,
     big_endian: bool,
@@ -36,7 +37,7 @@ impl<'a> Reader<'a> {
 
     pub(crate) fn finish(self) -> Result<(), DecodeError> {
         let left = self.bytes.len() - self.at;
-        let allowed = if self.is_cdr { MOST_PADDING } else { 0 };
+        let allowed = if self.is_cdr { MAX_PADDING_BYTES } else { 0 };
         if left > allowed { Err(self.error(Problem::Long { left })) } else { Ok(()) }
     }
 
@@ -57,7 +58,7 @@ impl<'a> Reader<'a> {
         Ok(taken)
     }
 
-    /// Goes to where a number of this size may stand.
+    /// Skips padding before a number of this size.
     fn align(&mut self, size: usize) -> Result<(), DecodeError> {
         if self.is_cdr {
             let padding = (size - (self.at - self.base) % size) % size;
@@ -80,7 +81,7 @@ impl<'a> Reader<'a> {
         self.big_endian != cfg!(target_endian = "big")
     }
 
-    /// Fills numbers of one size, given as the bytes of this machine.
+    /// Fills numbers of one size, in native byte order.
     fn many(&mut self, into: &mut [u8], size: usize) -> Result<(), DecodeError> {
         if into.is_empty() {
             return Ok(());
@@ -93,7 +94,7 @@ impl<'a> Reader<'a> {
         Ok(())
     }
 
-    /// Gives numbers of one size to a writer.
+    /// Copies numbers of one size to a writer.
     pub(super) fn copy(
         &mut self,
         count: usize,
@@ -109,11 +110,11 @@ impl<'a> Reader<'a> {
         Ok(())
     }
 
-    /// The bytes of a text without what ends it.
+    /// Bytes of a text without its terminator.
     pub(super) fn text_bytes(&mut self) -> Result<&'a [u8], DecodeError> {
         let length = self.length()?;
         let bytes = self.take(length)?;
-        // Some writers leave out the final zero.
+        // Some writers omit the final zero.
         Ok(if self.is_cdr { bytes.strip_suffix(&[0]).unwrap_or(bytes) } else { bytes })
     }
 
@@ -204,7 +205,7 @@ impl Source for Reader<'_> {
         String::from_utf16(&units).map_err(|_| self.error(Problem::Text))
     }
 
-    fn list(&mut self, count: Count, least_bytes: usize) -> Result<usize, DecodeError> {
+    fn list(&mut self, count: Count, min_bytes: usize) -> Result<usize, DecodeError> {
         let length = match count {
             Count::Fixed(length) => length,
             Count::AtMost(limit) => {
@@ -214,9 +215,9 @@ impl Source for Reader<'_> {
             }
             Count::Any => self.length()?,
         };
-        let most = match least_bytes {
-            0 => self.left() + MOST_FOR_NOTHING,
-            least_bytes => self.left() / least_bytes,
+        let most = match min_bytes {
+            0 => self.left() + MAX_EMPTY_ELEMENTS,
+            min_bytes => self.left() / min_bytes,
         };
         if length > most {
             return Err(self.error(Problem::Count(length)));

@@ -1,14 +1,14 @@
-//! From one form of bytes to another, without a value in between.
+//! Conversion between binary formats without decoding.
 
 use super::{Format, Reader, Writer};
 use crate::dynamic::{Element, Layout, Shape};
 use crate::{Count, DecodeError, Sink as _, Source as _};
 
-/// Appends a message that is given in one form to `out` in another. What is only copied is not looked
-/// at: texts may be of any bytes, truth values any number.
+/// Appends a message of one format to `out` in another. Values that are only copied are not validated:
+/// texts may have any bytes, booleans any number.
 ///
 /// # Errors
-/// When the bytes are no such message.
+/// If the bytes are not such a message.
 pub fn recode(
     layout: &Layout,
     from: Format,
@@ -20,7 +20,7 @@ pub fn recode(
     let mut writer = Writer::new(to, out);
     structure(layout, &mut reader, &mut writer)?;
     reader.finish()?;
-    // Nothing is longer than it was, and what was read had lengths of 32 bits.
+    // No value grows, and all lengths that were read have 32 bits.
     let _ = writer.finish();
     Ok(())
 }
@@ -50,8 +50,8 @@ fn list(
     reader: &mut Reader<'_>,
     writer: &mut Writer<'_>,
 ) -> Result<(), DecodeError> {
-    let length = reader.list(count, element.least_bytes())?;
-    // Bounds were those of the reader; what it took may be given.
+    let length = reader.list(count, element.min_bytes())?;
+    // The reader has checked the bounds.
     let open = if matches!(count, Count::Fixed(_)) { count } else { Count::Any };
     writer.list(length, open);
     if let Element::Number { kind, .. } = element {

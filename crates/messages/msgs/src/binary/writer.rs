@@ -1,15 +1,15 @@
-//! Values to bytes.
+//! Binary writer.
 
 use super::{Encapsulation, Format, HEADER};
 use crate::{Count, EncodeError, Number, Numbers, Sink};
 
 pub(crate) struct Writer<'a> {
     out: &'a mut Vec<u8>,
-    /// From where alignment counts.
+    /// Offset to which alignment is relative.
     base: usize,
     is_cdr: bool,
     big_endian: bool,
-    /// The field that is being written, for errors.
+    /// Field that is being written, for errors.
     field: String,
     error: Option<EncodeError>,
 }
@@ -36,7 +36,7 @@ impl<'a> Writer<'a> {
         }
     }
 
-    /// Writes numbers of one size, which are given in the order of this machine.
+    /// Writes numbers of one size, given in native byte order.
     fn bytes(&mut self, bytes: &[u8], size: usize) {
         if bytes.is_empty() {
             return;
@@ -49,7 +49,7 @@ impl<'a> Writer<'a> {
         }
     }
 
-    /// Writes numbers of one size, which are given in the named order.
+    /// Writes numbers of one size, given in the specified byte order.
     pub(super) fn copy(&mut self, bytes: &[u8], size: usize, big_endian: bool) {
         self.align(size);
         let start = self.out.len();

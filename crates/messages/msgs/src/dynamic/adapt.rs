@@ -1,4 +1,4 @@
-//! A message of one revision of a type as one of another.
+//! Conversion of a message between revisions of its type.
 
 use std::sync::Arc;
 
@@ -6,8 +6,8 @@ use super::layout::{Element, Field, Layout, Shape};
 use super::{DynamicMessage, Value};
 use crate::Count;
 
-/// How messages of one revision of a type become those of another: fields of the same name and kind
-/// keep their values, whatever the case of their names; others are left out or blank.
+/// Conversion between two revisions of a type: fields of the same name and type keep their values, ignoring
+/// the case of names; others are dropped or get default values.
 #[derive(Debug)]
 pub struct Adaptation {
     to: Arc<Layout>,
@@ -16,19 +16,19 @@ pub struct Adaptation {
     blank: Vec<String>,
 }
 
-/// For each field of the target, where its value comes from.
+/// Source of the value of each field of the target.
 type Plan = Vec<Option<Origin>>;
 
 #[derive(Debug)]
 struct Origin {
-    /// Which of the fields.
+    /// Index of the field.
     at: usize,
-    /// How a structure is made that is not the same.
+    /// Conversion of a structure that differs.
     inner: Option<Plan>,
 }
 
 impl Layout {
-    /// Whether values of both are the same bytes. Names do not count, nor do bounds.
+    /// Returns true if both have the same serialization. Names and bounds are ignored.
     #[must_use]
     pub fn has_bytes_of(&self, other: &Self) -> bool {
         self.fields.len() == other.fields.len()
@@ -38,13 +38,13 @@ impl Layout {
 
 fn same_bytes(a: &Field, b: &Field) -> bool {
     let same_element = match (&a.element, &b.element) {
-        // Truth values, bytes and small numbers are one byte each, but not the same thing.
+        // Booleans, bytes and 8-bit integers are one byte each, but different types.
         (Element::Number { kind: a, .. }, Element::Number { kind: b, .. }) => {
             a == b || a.size() == 1 && b.size() == 1
         }
         (Element::Text(_), Element::Text(_)) | (Element::WideText(_), Element::WideText(_)) => true,
         (Element::Struct(a), Element::Struct(b)) => {
-            // Headers have a counter in front in ROS 1.
+            // In ROS 1, headers have an additional sequence number.
             let is_header = |layout: &Layout| layout.type_name == crate::binary::HEADER;
             is_header(a) == is_header(b) && a.has_bytes_of(b)
         }
@@ -61,7 +61,7 @@ fn same_bytes(a: &Field, b: &Field) -> bool {
 }
 
 impl Adaptation {
-    /// From one revision to another.
+    /// Creates the conversion from one revision to another.
     #[must_use]
     pub fn new(from: &Layout, to: &Arc<Layout>) -> Self {
         let mut adaptation =
@@ -70,13 +70,13 @@ impl Adaptation {
         adaptation
     }
 
-    /// Fields whose values are left out.
+    /// Fields whose values are dropped.
     #[must_use]
     pub fn lost(&self) -> &[String] {
         &self.lost
     }
 
-    /// Fields that get no value.
+    /// Fields that get default values.
     #[must_use]
     pub fn blank(&self) -> &[String] {
         &self.blank
@@ -114,7 +114,7 @@ impl Adaptation {
         plan
     }
 
-    /// A message of the first as one of the second.
+    /// Converts a message.
     #[must_use]
     pub fn apply(&self, message: DynamicMessage) -> DynamicMessage {
         let fields = structure(&self.plan, message.into_fields(), &self.to);

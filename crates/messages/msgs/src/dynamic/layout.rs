@@ -1,4 +1,4 @@
-//! A type with everything that is needed to read and write its values.
+//! Layout of a type.
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -9,13 +9,13 @@ use periplus_rosidl::{Literal, Registry, Scalar, TypeName};
 use super::Value;
 use crate::{Count, Number, NumberKind};
 
-/// A type, ready to read and write values.
+/// Type with all data needed to read and write its values.
 #[derive(Debug, PartialEq)]
 pub struct Layout {
     pub(crate) type_name: String,
     pub(crate) fields: Vec<Field>,
-    /// The fewest bytes that a value takes in any binary form.
-    pub(crate) least_bytes: usize,
+    /// Minimum size of a value in any binary format [bytes].
+    pub(crate) min_bytes: usize,
 }
 
 #[derive(Debug, PartialEq)]
@@ -23,7 +23,7 @@ pub(crate) struct Field {
     pub(crate) name: String,
     pub(crate) element: Element,
     pub(crate) shape: Shape,
-    /// What the text gives; else the value of nothing.
+    /// Default value of the text, if given.
     pub(crate) default: Option<Value>,
 }
 
@@ -31,7 +31,7 @@ pub(crate) struct Field {
 pub(crate) enum Element {
     Number {
         kind: NumberKind,
-        /// Whether the text says `byte`, which people want to see as a character.
+        /// True for `byte`, which is printed as a character.
         is_byte: bool,
     },
     Text(Option<u32>),
@@ -46,18 +46,18 @@ pub(crate) enum Shape {
 }
 
 impl Layout {
-    /// The full name of the type.
+    /// Full name of the type.
     #[must_use]
     pub fn type_name(&self) -> &str {
         &self.type_name
     }
 
-    /// The names of its fields.
+    /// Names of its fields.
     pub fn fields(&self) -> impl Iterator<Item = &str> {
         self.fields.iter().map(|field| field.name.as_str())
     }
 
-    /// The type of a field that is one message or a list of them.
+    /// Type of a field that is a message or a list of messages.
     #[must_use]
     pub fn nested(&self, field: &str) -> Option<&Arc<Self>> {
         match &self.fields.iter().find(|one| one.name == field)?.element {
@@ -66,7 +66,7 @@ impl Layout {
         }
     }
 
-    /// The values of the fields when nobody sets them.
+    /// Default values of the fields.
     pub(crate) fn blank(&self) -> Vec<Value> {
         self.fields.iter().map(Field::blank).collect()
     }
@@ -99,16 +99,16 @@ impl Element {
         }
     }
 
-    pub(crate) fn least_bytes(&self) -> usize {
+    pub(crate) fn min_bytes(&self) -> usize {
         match self {
             Self::Number { kind, .. } => kind.size(),
             Self::Text(_) | Self::WideText(_) => 4,
-            Self::Struct(layout) => layout.least_bytes,
+            Self::Struct(layout) => layout.min_bytes,
         }
     }
 }
 
-/// The layouts of all types of a registry whose types have been checked.
+/// Layouts of all types of a checked registry.
 pub(crate) fn all(registry: &Registry) -> BTreeMap<String, Arc<Layout>> {
     let mut made = BTreeMap::new();
     for definition in registry.types() {
@@ -146,12 +146,12 @@ fn make(
         fields.push(Field { name: field.name.clone(), element, shape, default });
     }
     let least = |field: &Field| match field.shape {
-        Shape::One => field.element.least_bytes(),
-        Shape::List(Count::Fixed(length)) => field.element.least_bytes().saturating_mul(length),
+        Shape::One => field.element.min_bytes(),
+        Shape::List(Count::Fixed(length)) => field.element.min_bytes().saturating_mul(length),
         Shape::List(_) => 4,
     };
-    let least_bytes = fields.iter().map(least).fold(0, usize::saturating_add);
-    let layout = Arc::new(Layout { type_name: type_name.clone(), fields, least_bytes });
+    let min_bytes = fields.iter().map(least).fold(0, usize::saturating_add);
+    let layout = Arc::new(Layout { type_name: type_name.clone(), fields, min_bytes });
     made.insert(type_name, layout.clone());
     Some(layout)
 }

@@ -1,4 +1,4 @@
-//! A part of a message: a field, or an element of a list.
+//! Part of a message: a field, or an element of a list.
 
 use std::borrow::Cow;
 use std::sync::Arc;
@@ -8,7 +8,7 @@ use super::value::{list, write_one, write_struct};
 use super::{DynamicMessage, Value};
 use crate::{Count, DecodeError, NumberKind, Problem, Sink, YamlStyle, yaml};
 
-/// A part of a message.
+/// Part of a message.
 #[derive(Clone, Debug)]
 pub struct Part<'a> {
     element: &'a Element,
@@ -17,19 +17,19 @@ pub struct Part<'a> {
 }
 
 impl<'a> Part<'a> {
-    /// Its value.
+    /// Value.
     #[must_use]
     pub fn value(&self) -> Value {
         self.value.clone().into_owned()
     }
 
-    /// Its value, to look at.
+    /// Reference to the value.
     #[must_use]
     pub fn peek(&self) -> &Value {
         &self.value
     }
 
-    /// The type, when it is one message or a list of them.
+    /// Type, if it is a message or a list of messages.
     #[must_use]
     pub fn layout(&self) -> Option<&'a Arc<Layout>> {
         match self.element {
@@ -38,13 +38,13 @@ impl<'a> Part<'a> {
         }
     }
 
-    /// True for a list without a fixed length.
+    /// Returns true for a list without a fixed length.
     #[must_use]
     pub fn is_sequence(&self) -> bool {
         matches!(self.shape, Shape::List(Count::Any | Count::AtMost(_)))
     }
 
-    /// The kind of its number or numbers; none for `byte`, texts and messages.
+    /// Type of its number or numbers; `None` for `byte`, texts and messages.
     #[must_use]
     pub fn number_kind(&self) -> Option<NumberKind> {
         match self.element {
@@ -53,7 +53,7 @@ impl<'a> Part<'a> {
         }
     }
 
-    /// The message that it is.
+    /// Value as a message, if it is one.
     #[must_use]
     pub fn message(&self) -> Option<DynamicMessage> {
         match (self.element, &*self.value) {
@@ -64,13 +64,13 @@ impl<'a> Part<'a> {
         }
     }
 
-    /// As YAML, the way `ros2 topic echo` prints messages.
+    /// YAML in the format of `ros2 topic echo`.
     #[must_use]
     pub fn to_yaml(&self, style: &YamlStyle) -> String {
         yaml::print_part(self.element, self.shape, &self.value, style)
     }
 
-    /// Hands its value to `sink`.
+    /// Writes its value to `sink`.
     pub fn write(&self, sink: &mut dyn Sink) {
         match (self.element, &*self.value, self.shape) {
             (_, Value::Numbers(numbers), Shape::List(count)) => list(sink, numbers.borrow(), count),
@@ -89,7 +89,7 @@ impl<'a> Part<'a> {
     }
 }
 
-/// Follows names and indices, such as `transforms[2].child_frame_id`.
+/// Follows a path of names and indices, such as `transforms[2].child_frame_id`.
 pub(super) fn find<'a>(message: &'a DynamicMessage, path: &str) -> Result<Part<'a>, DecodeError> {
     let mut here: Option<Part<'a>> = None;
     let mut gone = String::new();
@@ -133,7 +133,7 @@ fn element<'a>(part: &Part<'a>, index: &str) -> Result<Part<'a>, DecodeError> {
         (Value::List(list), Shape::List(_)) => list.len(),
         _ => return Err(unexpected("the end of the path", &format!("[{index}]"))),
     };
-    // As in Python, -1 is the last.
+    // As in Python, -1 is the last element.
     let place = index.parse::<i64>().ok().and_then(|index| {
         let place = if index < 0 { index.checked_add_unsigned(length as u64)? } else { index };
         usize::try_from(place).ok().filter(|place| *place < length)

@@ -1,4 +1,4 @@
-//! All types that a program knows.
+//! Registry of types.
 
 use std::collections::BTreeMap;
 use std::sync::{Arc, LazyLock, OnceLock};
@@ -8,7 +8,7 @@ use periplus_rosidl::{Dialect, Registry, TypeName, parse};
 
 use super::layout::{self, Layout};
 
-/// Types by name, ready for use.
+/// Types by name, with their layouts.
 #[derive(Debug, Default)]
 pub struct TypeRegistry {
     registry: Registry,
@@ -16,8 +16,8 @@ pub struct TypeRegistry {
 }
 
 impl TypeRegistry {
-    /// Makes the types of texts ready. What is not usable (see [`Registry::check`]) is left out, and
-    /// the findings say why.
+    /// Creates the layouts of the types. Unusable types (see [`Registry::check`]) are left out, and the
+    /// findings give the reasons.
     #[must_use]
     pub fn new(mut registry: Registry, diagnostics: &mut Diagnostics) -> Self {
         registry.check(diagnostics);
@@ -26,7 +26,7 @@ impl TypeRegistry {
         Self { registry, types }
     }
 
-    /// The types of this crate.
+    /// Types of this crate.
     #[must_use]
     pub fn builtin() -> &'static Self {
         static BUILTIN: LazyLock<TypeRegistry> = LazyLock::new(|| {
@@ -38,7 +38,7 @@ impl TypeRegistry {
         &BUILTIN
     }
 
-    /// The types of this crate as ROS 1 Noetic has them; what it does not have is as in ROS 2.
+    /// Types of this crate as in ROS 1 Noetic; others as in ROS 2.
     #[must_use]
     pub fn ros1() -> &'static Self {
         static ROS1: LazyLock<TypeRegistry> = LazyLock::new(|| {
@@ -58,19 +58,19 @@ impl TypeRegistry {
         &ROS1
     }
 
-    /// The types of this crate as texts, to add others to them.
+    /// Interface texts of this crate, for adding further ones.
     #[must_use]
     pub fn builtin_texts() -> Registry {
         Self::builtin().registry.clone()
     }
 
-    /// A type by its full name.
+    /// Type by its full name.
     #[must_use]
     pub fn layout(&self, type_name: &str) -> Option<&Arc<Layout>> {
         self.types.get(type_name).map(|(layout, _)| layout)
     }
 
-    /// The texts that define a type, as MCAP's `ros2msg` wants them.
+    /// Schema text of a type, for MCAP's `ros2msg`.
     #[must_use]
     pub fn schema_text(&self, type_name: &str) -> Option<&str> {
         let (_, text) = self.types.get(type_name)?;
@@ -78,25 +78,25 @@ impl TypeRegistry {
         text.get_or_init(make).as_deref()
     }
 
-    /// The type hash of a type.
+    /// Type hash of a type.
     #[must_use]
     pub fn hash(&self, type_name: &str) -> Option<String> {
         self.registry.hash(&TypeName::read(type_name)?)
     }
 
-    /// What the texts say.
+    /// Interface definitions.
     #[must_use]
     pub fn registry(&self) -> &Registry {
         &self.registry
     }
 
-    /// The full names of all types, sorted.
+    /// Full names of all types, sorted.
     pub fn type_names(&self) -> impl Iterator<Item = &str> {
         self.types.keys().map(String::as_str)
     }
 }
 
-/// Where ROS 1 Noetic differs: other fields, names or constants.
+/// Types of ROS 1 Noetic with different fields, names or constants.
 const ROS1_TEXTS: [(&str, &str); 7] = [
     (
         "sensor_msgs/BatteryState",

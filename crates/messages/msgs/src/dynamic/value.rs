@@ -1,4 +1,4 @@
-//! Values of types that are known only when the program runs.
+//! Values of types known only at run time.
 
 use std::sync::Arc;
 
@@ -10,22 +10,22 @@ use crate::{
     TypeRegistry, YamlStyle, json, yaml,
 };
 
-/// The value of a field.
+/// Value of a field.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Value {
-    /// One number.
+    /// Single number.
     Number(Number),
-    /// A text, in either coding.
+    /// Text of `string` or `wstring`.
     Text(String),
-    /// A list of numbers.
+    /// List of numbers.
     Numbers(NumberVec),
-    /// Another list.
+    /// Other list.
     List(Vec<Self>),
-    /// The fields of a message.
+    /// Fields of a message.
     Struct(Vec<Self>),
 }
 
-/// A value of some type.
+/// Message of a type known only at run time.
 #[derive(Clone, Debug, PartialEq)]
 pub struct DynamicMessage {
     layout: Arc<Layout>,
@@ -33,19 +33,19 @@ pub struct DynamicMessage {
 }
 
 impl DynamicMessage {
-    /// With all fields as they are when nobody sets them.
+    /// Returns a message with default values.
     #[must_use]
     pub fn blank(layout: &Arc<Layout>) -> Self {
         Self { layout: layout.clone(), fields: layout.blank() }
     }
 
-    /// A message of a type of this crate.
+    /// Converts a message of a type of this crate.
     ///
     /// # Errors
-    /// When a string or list is longer than its type allows.
+    /// If a string or list is longer than its type allows.
     ///
     /// # Panics
-    /// With a message of a type that another crate made.
+    /// For a message type of another crate.
     pub fn of<T: Message>(message: &T) -> Result<Self, EncodeError> {
         let layout = TypeRegistry::builtin().layout(T::TYPE_NAME);
         let layout = layout.expect("the types of this crate are in its registry");
@@ -53,10 +53,10 @@ impl DynamicMessage {
         Ok(Self::decode(layout, Format::CDR, &bytes).expect("both forms of a type are the same"))
     }
 
-    /// Reads bytes.
+    /// Decodes bytes.
     ///
     /// # Errors
-    /// When they are no such message.
+    /// If the bytes are not such a message.
     pub fn decode(layout: &Arc<Layout>, format: Format, bytes: &[u8]) -> Result<Self, DecodeError> {
         let mut reader = Reader::new(format, bytes)?;
         let fields = read_struct(layout, &mut reader)?;
@@ -64,17 +64,17 @@ impl DynamicMessage {
         Ok(Self { layout: layout.clone(), fields })
     }
 
-    /// Appends its bytes to `out`.
+    /// Appends its binary form to `out`.
     ///
     /// # Errors
-    /// When a string or list is longer than its type allows.
+    /// If a string or list is longer than its type allows.
     pub fn encode(&self, format: Format, out: &mut Vec<u8>) -> Result<(), EncodeError> {
         let mut writer = Writer::new(format, out);
         write_struct(&self.layout, &self.fields, &mut writer);
         writer.finish()
     }
 
-    /// As JSON; see [`crate::to_json`].
+    /// JSON form; see [`crate::to_json`].
     #[must_use]
     pub fn to_json(&self) -> serde_json::Value {
         let mut writer = json::Writer::default();
@@ -82,38 +82,38 @@ impl DynamicMessage {
         writer.done
     }
 
-    /// From JSON; fields that are not given keep their defaults.
+    /// Parses JSON; missing fields have their default values.
     ///
     /// # Errors
-    /// When something else is there than the type has.
+    /// If the JSON does not match the type.
     pub fn from_json(layout: &Arc<Layout>, json: &serde_json::Value) -> Result<Self, DecodeError> {
         let fields = read_struct(layout, &mut json::Reader::new(json))?;
         Ok(Self { layout: layout.clone(), fields })
     }
 
-    /// As YAML, the way `ros2 topic echo` prints it, without the line `---`.
+    /// YAML in the format of `ros2 topic echo`, without the line `---`.
     #[must_use]
     pub fn to_yaml(&self, style: &YamlStyle) -> String {
         yaml::print(&self.layout, &self.fields, style)
     }
 
-    /// Its type.
+    /// Type of the message.
     #[must_use]
     pub fn layout(&self) -> &Arc<Layout> {
         &self.layout
     }
 
-    /// The same without its type.
+    /// Values without the type.
     pub(super) fn into_fields(self) -> Vec<Value> {
         self.fields
     }
 
-    /// Of values that the type made.
+    /// Message with values that match the type.
     pub(super) fn from_fields(layout: &Arc<Layout>, fields: Vec<Value>) -> Self {
         Self { layout: layout.clone(), fields }
     }
 
-    /// The values of its fields, in the order of the type.
+    /// Values of its fields, in the order of the type.
     #[must_use]
     pub fn fields(&self) -> &[Value] {
         &self.fields
@@ -123,22 +123,21 @@ impl DynamicMessage {
         Self { layout: layout.clone(), fields }
     }
 
-    /// Hands its values to `sink`, in their order.
+    /// Writes its values to `sink`, in order.
     pub fn write(&self, sink: &mut dyn Sink) {
         write_struct(&self.layout, &self.fields, sink);
     }
 
-    /// The value of a field by its way from the outside, such as `header.frame_id` or
-    /// `transforms[2].child_frame_id`.
+    /// Value at a path, such as `header.frame_id` or `transforms[2].child_frame_id`.
     #[must_use]
     pub fn get(&self, path: &str) -> Option<Value> {
         self.part(path).ok().map(|part| part.value())
     }
 
-    /// A field by its way from the outside, as for [`DynamicMessage::get`].
+    /// Part at a path, as for [`DynamicMessage::get`].
     ///
     /// # Errors
-    /// When there is none: which step is wrong, and which fields there are.
+    /// If the path does not exist; with the wrong step and the existing fields.
     pub fn part(&self, path: &str) -> Result<Part<'_>, DecodeError> {
         part::find(self, path)
     }
@@ -177,7 +176,7 @@ pub(super) fn write_one(element: &Element, value: &Value, sink: &mut dyn Sink) {
         (Element::WideText(limit), Value::Text(text)) => sink.wide_text(text, *limit),
         (Element::Text(limit), Value::Text(text)) => sink.text(text, *limit),
         (Element::Struct(layout), Value::Struct(fields)) => write_struct(layout, fields, sink),
-        // Values are made from layouts only.
+        // Values are created from layouts only.
         _ => {}
     }
 }
@@ -200,7 +199,7 @@ fn read_struct(layout: &Layout, source: &mut dyn Source) -> Result<Vec<Value>, D
 
 fn read_field(field: &Field, source: &mut dyn Source) -> Result<Value, DecodeError> {
     let Shape::List(count) = field.shape else { return read_one(&field.element, source) };
-    let length = source.list(count, field.element.least_bytes())?;
+    let length = source.list(count, field.element.min_bytes())?;
     if let Element::Number { kind, .. } = field.element {
         let mut numbers = kind.zeros(length);
         source.numbers(numbers.borrow_mut())?;

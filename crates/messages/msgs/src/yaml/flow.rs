@@ -1,4 +1,4 @@
-//! YAML on one line: braces and brackets.
+//! YAML in flow style: braces and brackets on one line.
 
 use super::{Printer, quoted};
 use crate::Number;
@@ -69,7 +69,7 @@ fn separate(printer: &mut Printer<'_>, index: usize) {
 
 fn scalar(printer: &mut Printer<'_>, element: &Element, value: &Value) {
     let text = printer.scalar_text(value, element);
-    // Between brackets these end a text that has no quotes.
+    // Inside brackets these characters end an unquoted text.
     let is_bare = !text.starts_with(['\'', '"']);
     if is_bare && text.contains([',', '[', ']', '{', '}', '?']) {
         printer.out.push_str(&format!("'{}'", text.replace('\'', "''")));
