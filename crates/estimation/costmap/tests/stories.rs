@@ -152,7 +152,7 @@ local_costmap:
               --> params.yaml:15:9
                |
             15 |         inflaton_radius: 0.3
-               |         ^^^^^^^^^^^^^^^ nobody reads this
+               |         ^^^^^^^^^^^^^^^ this is ignored
                |
             help: did you mean `inflation_radius`?
                |
