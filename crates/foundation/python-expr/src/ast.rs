@@ -5,7 +5,7 @@ use std::rc::Rc;
 
 use super::value::Value;
 
-/// A part of the expression and its byte range in the text.
+/// Part of the expression with its byte range in the text.
 #[derive(Debug)]
 pub(super) struct Node {
     pub(super) kind: Kind,
@@ -27,7 +27,7 @@ pub(super) enum Kind {
     And(Vec<Node>),
     Or(Vec<Node>),
     Not(Box<Node>),
-    /// Keeps `(a < b) < c` apart from `a < b < c`.
+    /// Distinguishes `(a < b) < c` from `a < b < c`.
     Parenthesized(Box<Node>),
     /// `a < b <= c`.
     Comparison(Box<Node>, Vec<(Comparison, Node)>),
@@ -40,14 +40,14 @@ pub(super) enum Kind {
     Call(Box<Node>, Vec<Argument>),
 }
 
-/// A part of an f-string.
+/// Part of an f-string.
 #[derive(Debug)]
 pub(super) enum Piece {
     Text(Rc<str>),
     Field { value: Node, conversion: Option<char>, format: Vec<Piece> },
 }
 
-/// An element of a display or a positional argument, `*` spreads it.
+/// Element of a display or a positional argument; `*` unpacks it.
 #[derive(Debug)]
 pub(super) struct Item {
     pub(super) node: Node,
@@ -91,9 +91,9 @@ pub(super) enum Shape {
 #[derive(Debug)]
 pub(super) struct Comprehension {
     pub(super) shape: Shape,
-    /// The element, or the key of a dict.
+    /// Element, or key of a dict entry.
     pub(super) element: Node,
-    /// The value, of a dict only.
+    /// Value of a dict entry.
     pub(super) value: Option<Node>,
     pub(super) clauses: Vec<Clause>,
 }
@@ -157,7 +157,7 @@ pub(super) enum Binary {
 }
 
 impl Binary {
-    /// As it is written.
+    /// Operator as written.
     pub(super) fn sign(self) -> &'static str {
         match self {
             Self::Add => "+",

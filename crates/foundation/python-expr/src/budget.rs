@@ -1,13 +1,13 @@
-//! Bounds on what evaluating may cost, so that no file can hang or exhaust the program.
+//! Limits on the cost of an evaluation, so that no file can hang or exhaust the program.
 
 use super::error::{ExpressionError, Outcome};
 
-/// How deep evaluation may nest: operators in operands, lambdas in calls, properties in properties.
-/// Each level costs a few hundred bytes of stack; threads of 2 MiB must hold them all.
+/// Maximum nesting depth of an evaluation: operators in operands, lambdas in calls, properties in
+/// properties. Each level takes a few hundred bytes of stack; a thread with 2 MiB must be enough.
 const MAX_DEPTH: u32 = 220;
 
-/// What is left to spend on evaluating. Nothing is given back, so one budget bounds the total work of all
-/// expressions it is handed to, including properties that are evaluated while looking up a name.
+/// Remaining cost of an evaluation. Nothing is refunded, so one budget limits the total work of all
+/// expressions that use it, including properties that are evaluated while a name is looked up.
 #[derive(Debug, Clone)]
 pub struct Budget {
     steps_left: u64,
@@ -23,27 +23,27 @@ impl Default for Budget {
 }
 
 impl Budget {
-    /// A budget of so many evaluation steps and so many bytes of created values.
+    /// Budget with a number of evaluation steps and a size of created values [bytes].
     pub fn new(steps: u64, bytes: u64) -> Self {
         Self { steps_left: steps, bytes_left: bytes, depth: 0 }
     }
 
-    /// Steps not yet spent.
+    /// Remaining steps.
     pub fn steps_left(&self) -> u64 {
         self.steps_left
     }
 
-    /// Bytes not yet spent.
+    /// Remaining size of created values [bytes].
     pub fn bytes_left(&self) -> u64 {
         self.bytes_left
     }
 
-    /// Spends one step.
+    /// Charges one step.
     pub(super) fn step(&mut self) -> Outcome<()> {
         self.steps(1)
     }
 
-    /// Spends several steps.
+    /// Charges several steps.
     pub(super) fn steps(&mut self, count: u64) -> Outcome<()> {
         if count > self.steps_left {
             self.steps_left = 0;
@@ -54,12 +54,12 @@ impl Budget {
         Ok(())
     }
 
-    /// Spends the steps of looking through so many bytes of text.
+    /// Charges the steps of a search in a text of this length.
     pub(super) fn scan(&mut self, bytes: usize) -> Outcome<()> {
         self.steps(1 + bytes as u64 / 64)
     }
 
-    /// Spends the memory of a new value; to be called before allocating it.
+    /// Charges the memory of a new value; called before the allocation.
     pub(super) fn allocate(&mut self, bytes: u128) -> Outcome<()> {
         match u64::try_from(bytes).ok().and_then(|bytes| self.bytes_left.checked_sub(bytes)) {
             Some(left) => {
@@ -71,12 +71,12 @@ impl Budget {
         }
     }
 
-    /// Spends the memory of a list of so many values.
+    /// Charges the memory of a list of this length.
     pub(super) fn allocate_values(&mut self, count: usize) -> Outcome<()> {
         self.allocate(count as u128 * size_of::<super::Value>() as u128 + 32)
     }
 
-    /// Goes one level deeper; every success needs a [`Budget::leave`].
+    /// Enters a nesting level; every success needs a [`Budget::leave`].
     pub(super) fn enter(&mut self) -> Outcome<()> {
         if self.depth >= MAX_DEPTH {
             return Err(ExpressionError::new(format!(
@@ -88,7 +88,7 @@ impl Budget {
         Ok(())
     }
 
-    /// Comes back from a level.
+    /// Leaves a nesting level.
     pub(super) fn leave(&mut self) {
         self.depth -= 1;
     }

@@ -14,7 +14,7 @@ use super::operators::binary;
 use super::subscript::length;
 use super::value::{Range, Value};
 
-/// Python functions that take or give collections.
+/// Python functions with collections as arguments or results.
 pub(super) static COLLECTIONS: &[Builtin] = &[
     Builtin { name: "len", is_type: false, call: len },
     Builtin { name: "map", is_type: true, call: map },
@@ -47,7 +47,7 @@ pub(super) static COLLECTIONS: &[Builtin] = &[
     },
 ];
 
-/// Functions of `xacro` that need nothing from the caller.
+/// Functions of `xacro` that do not need the caller.
 pub(super) static XACRO: &[Builtin] = &[
     Builtin { name: "dotify", is_type: false, call: dotify },
     Builtin { name: "tokenize", is_type: false, call: tokenize },
@@ -138,7 +138,7 @@ fn reversed(interpreter: &mut Interpreter<'_>, arguments: Arguments) -> Outcome<
     IteratorHandle::new(state).map(Value::Iterator)
 }
 
-/// The keys by which `sorted`, `min` and `max` order.
+/// Sort keys of `sorted`, `min` and `max`.
 fn with_keys(
     interpreter: &mut Interpreter<'_>,
     values: Vec<Value>,
@@ -162,7 +162,7 @@ fn sorted(interpreter: &mut Interpreter<'_>, mut arguments: Arguments) -> Outcom
     let [values] = arguments.exactly("sorted")?;
     let values = interpreter.collect(&values)?;
     let mut keyed = with_keys(interpreter, values, &key)?;
-    // Sorting backwards keeps equal elements in order: reverse, sort, reverse.
+    // Keeps the order of equal elements in a reverse sort: reverse, sort, reverse.
     if is_reversed {
         keyed.reverse();
     }
@@ -173,7 +173,7 @@ fn sorted(interpreter: &mut Interpreter<'_>, mut arguments: Arguments) -> Outcom
     Value::list(sorted.into_iter().map(|(_, value)| value).collect())
 }
 
-/// Stable, and at peace with comparisons that fail or contradict each other (NaN), as Rust's own sort is not.
+/// Stable merge sort that, unlike Rust's sort, allows comparisons that fail or are inconsistent (NaN).
 fn merge_sort(
     interpreter: &mut Interpreter<'_>,
     values: Vec<(Value, Value)>,
@@ -247,7 +247,7 @@ fn sum(interpreter: &mut Interpreter<'_>, arguments: Arguments) -> Outcome<Value
     Ok(total)
 }
 
-/// Whether any element's truth is `wanted`.
+/// Returns true if the truth value of any element is `wanted`.
 fn has(
     interpreter: &mut Interpreter<'_>,
     name: &str,
@@ -268,7 +268,7 @@ fn dotify(interpreter: &mut Interpreter<'_>, arguments: Arguments) -> Outcome<Va
     super::conversion::dict(interpreter, arguments).map(Value::dotted)
 }
 
-/// Splits at any of the letters of `sep`, which xacro takes for a regular expression's set of characters.
+/// Splits at any of the characters of `sep`, which xacro uses as a regular expression's character set.
 fn tokenize(interpreter: &mut Interpreter<'_>, arguments: Arguments) -> Outcome<Value> {
     let [text, separators, skip_empty] =
         arguments.bind("xacro.tokenize", ["s", "sep", "skip_empty"], 1)?;

@@ -1,4 +1,4 @@
-//! Things that can be called, and the arguments they are called with.
+//! Callable values, and the arguments of calls.
 
 use std::fmt;
 use std::rc::Rc;
@@ -8,7 +8,7 @@ use super::error::{ExpressionError, Outcome, fail};
 use super::interpreter::{Frame, Interpreter};
 use super::value::Value;
 
-/// Something that can be called.
+/// Callable value.
 #[derive(Clone)]
 pub enum Callable {
     #[doc(hidden)]
@@ -17,36 +17,36 @@ pub enum Callable {
     Method(Rc<Bound>),
     #[doc(hidden)]
     Lambda(Rc<Closure>),
-    /// A function of the caller's, by its name.
+    /// Function of the caller, by its name.
     Host(Rc<str>),
 }
 
-/// A function written in Rust.
+/// Function implemented in Rust.
 pub struct Builtin {
     pub(super) name: &'static str,
-    /// Whether it is a type, such as `int`.
+    /// True for a type, such as `int`.
     pub(super) is_type: bool,
     pub(super) call: fn(&mut Interpreter<'_>, Arguments) -> Outcome<Value>,
 }
 
-/// A method together with the value it belongs to.
+/// Method with its object.
 pub struct Bound {
     pub(super) object: Value,
     pub(super) name: Rc<str>,
 }
 
-/// A lambda together with the values it saw where it was made.
+/// Lambda with the values that it captured.
 pub struct Closure {
     pub(super) lambda: Rc<Lambda>,
     pub(super) defaults: Vec<Option<Value>>,
     pub(super) frame: Option<Rc<Frame>>,
-    /// The text it stands in: errors inside a lambda of another expression are placed at the call.
+    /// Text that contains it: errors inside a lambda of another expression are located at the call.
     pub(super) source: Rc<str>,
     pub(super) depth: u32,
 }
 
 impl Callable {
-    /// The name, where there is one.
+    /// Name, if it has one.
     pub(super) fn name(&self) -> Option<Rc<str>> {
         match self {
             Self::Builtin(builtin) => Some(builtin.name.into()),
@@ -105,13 +105,13 @@ impl Arguments {
         Self { positional, keywords: Vec::new() }
     }
 
-    /// Takes out an argument that can only be given by name.
+    /// Removes and returns a keyword-only argument.
     pub(super) fn keyword(&mut self, name: &str) -> Option<Value> {
         let index = self.keywords.iter().position(|(keyword, _)| &**keyword == name)?;
         Some(self.keywords.remove(index).1)
     }
 
-    /// The arguments in the order of these parameters, of which the first `required` must be given.
+    /// Arguments in the order of these parameters, of which the first `required` are required.
     pub(super) fn bind<const N: usize>(
         self,
         function: &str,
@@ -139,7 +139,7 @@ impl Arguments {
         Ok(bound)
     }
 
-    /// As [`Arguments::bind`] where all parameters are required and have no names.
+    /// As [`Arguments::bind`], with required positional-only parameters.
     pub(super) fn exactly<const N: usize>(self, function: &str) -> Outcome<[Value; N]> {
         if let Some((name, _)) = self.keywords.first() {
             return fail(format!("`{function}` has no argument `{name}`"));
@@ -148,7 +148,7 @@ impl Arguments {
         self.positional.try_into().map_err(|_| arity(function, N, N, given))
     }
 
-    /// Any number of arguments, none of them by name.
+    /// Any number of positional arguments.
     pub(super) fn all(self, function: &str) -> Outcome<Vec<Value>> {
         match self.keywords.first() {
             Some((name, _)) => fail(format!("`{function}` has no argument `{name}`")),

@@ -42,7 +42,7 @@ pub(super) fn equal(a: &Value, b: &Value, budget: &mut Budget) -> Outcome<bool> 
     })
 }
 
-/// Equal, or the very same: how Python compares elements, so that `nan in [nan]` can be true.
+/// Equal or identical: the comparison of elements in Python, so that `nan in [nan]` can be true.
 fn same_or_equal(a: &Value, b: &Value, budget: &mut Budget) -> Outcome<bool> {
     equal(a, b, budget)
 }
@@ -72,7 +72,7 @@ fn equal_dicts(a: &Dict, b: &Dict, budget: &mut Budget) -> Outcome<bool> {
     Ok(true)
 }
 
-/// Whether every key of `a` is one of `b`.
+/// Returns true if every key of `a` is in `b`.
 pub(super) fn is_subset(a: &Dict, b: &Dict, budget: &mut Budget) -> Outcome<bool> {
     for (key, _) in a.entries() {
         budget.step()?;
@@ -83,7 +83,7 @@ pub(super) fn is_subset(a: &Dict, b: &Dict, budget: &mut Budget) -> Outcome<bool
     Ok(true)
 }
 
-/// `a is b`. Values have no identity here beyond shared memory; equal scalars of one type count as the same.
+/// `a is b`. Values have no identity here except shared memory; equal scalars of one type are identical.
 pub(super) fn is(a: &Value, b: &Value) -> bool {
     match (a, b) {
         (Value::None, Value::None) => true,
@@ -103,7 +103,7 @@ pub(super) fn is(a: &Value, b: &Value) -> bool {
     }
 }
 
-/// The order of two values, nothing where a NaN makes every comparison false; `sign` is for the error.
+/// Order of two values; `None` if a NaN makes every comparison false. `sign` is for the error.
 pub(super) fn order(
     a: &Value,
     b: &Value,
@@ -117,7 +117,7 @@ pub(super) fn order(
     match (a, b) {
         (Value::Str(a), Value::Str(b)) => {
             budget.scan(a.len().min(b.len()))?;
-            // Bytes of UTF-8 order as the code points do.
+            // The byte order of UTF-8 is that of the code points.
             Ok(Some(a.cmp(b)))
         }
         (Value::List(a), Value::List(b)) => order_items(a, b, sign, budget),
@@ -162,7 +162,7 @@ fn order_sets(a: &Dict, b: &Dict, budget: &mut Budget) -> Outcome<Option<Orderin
     })
 }
 
-/// `element in container`, for containers that need no walking through an iterator.
+/// `element in container`, for containers that need no iterator.
 pub(super) fn contains(container: &Value, element: &Value, budget: &mut Budget) -> Outcome<bool> {
     let any_equal =
         |items: &mut dyn Iterator<Item = &Value>, budget: &mut Budget| -> Outcome<bool> {

@@ -1,4 +1,4 @@
-//! Types, and the functions between values and text.
+//! Types, and conversions between values and text.
 
 use std::rc::Rc;
 
@@ -246,7 +246,7 @@ fn is_one_of(value: &Value, types: &Value) -> Outcome<bool> {
     }
 }
 
-/// A list of texts.
+/// List of texts.
 pub(super) fn sequence_of(
     interpreter: &mut Interpreter<'_>,
     texts: impl Iterator<Item = String>,

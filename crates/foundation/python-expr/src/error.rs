@@ -1,35 +1,35 @@
-//! What goes wrong in an expression, and where.
+//! Errors of expressions with location.
 
 use std::fmt;
 use std::ops::Range;
 
-/// Why an expression could not be parsed or evaluated.
+/// Error of an expression that cannot be parsed or evaluated.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct ExpressionError {
-    /// What is wrong, one sentence without a full stop.
+    /// Description of the fault, one sentence without a full stop.
     pub message: String,
-    /// The faulty part: byte offsets into the expression's text.
+    /// Location of the fault: byte range in the expression's text.
     pub range: Range<usize>,
-    /// What to do about it, where that is known.
+    /// Advice, if known.
     pub help: Option<String>,
 }
 
-/// Stands for "whoever knows the place will fill it in", see [`ExpressionError::at`].
+/// Placeholder for a location that is set later, see [`ExpressionError::at`].
 const UNPLACED: Range<usize> = usize::MAX..usize::MAX;
 
 impl ExpressionError {
-    /// An error whose place the evaluator fills in.
+    /// Error whose location the evaluator sets.
     pub fn new(message: impl Into<String>) -> Self {
         Self { message: message.into(), range: UNPLACED, help: None }
     }
 
-    /// Adds what to do about it.
+    /// Adds advice.
     pub fn with_help(mut self, help: impl Into<String>) -> Self {
         self.help = Some(help.into());
         self
     }
 
-    /// Says where, unless a closer place is known already.
+    /// Sets the location, unless a more precise one is known.
     pub(super) fn at(mut self, range: &Range<usize>) -> Self {
         if self.range == UNPLACED {
             self.range = range.clone();
@@ -37,7 +37,7 @@ impl ExpressionError {
         self
     }
 
-    /// Forgets the place, where it is one of another text.
+    /// Removes a location in another text.
     pub(super) fn unplaced(mut self) -> Self {
         self.range = UNPLACED;
         self
@@ -56,10 +56,10 @@ impl fmt::Display for ExpressionError {
 
 impl std::error::Error for ExpressionError {}
 
-/// Shorthand of this module's functions.
+/// Result type of this module's functions.
 pub(super) type Outcome<T> = Result<T, ExpressionError>;
 
-/// An `Err` of this message, still without a place.
+/// Returns an `Err` with this message and no location.
 pub(super) fn fail<T>(message: impl Into<String>) -> Outcome<T> {
     Err(ExpressionError::new(message))
 }

@@ -1,6 +1,6 @@
-//! How Python writes floats.
+//! Python's formats of floats.
 
-/// `repr(float)`: the fewest digits that read back as the same float, with an exponent where the point would
+/// `repr(float)`: the shortest digits that read back as the same float, with an exponent if the point would
 /// be more than 16 digits to the right or 4 zeros to the left.
 pub(super) fn repr(float: f64) -> String {
     if let Some(special) = special(float) {
@@ -33,16 +33,16 @@ fn split(scientific: &str) -> (&str, i32) {
     (mantissa, exponent.parse().unwrap_or(0))
 }
 
-/// C's exponent: signed, two digits at least.
+/// Exponent as in C: signed, at least two digits.
 fn exponent_text(exponent: i32) -> String {
     format!("e{}{:02}", if exponent < 0 { '-' } else { '+' }, exponent.abs())
 }
 
-/// More digits than any float has behind the point; zeros beyond them are added by hand, since Rust's own
+/// Maximum number of digits after the point that a float has; further zeros are appended, since Rust's
 /// formatting refuses very large precisions.
 const ALL_DIGITS: usize = 1100;
 
-/// `%.{precision}f`; `alternate` keeps the point of a whole number.
+/// `%.{precision}f`; `alternate` keeps the point of an integral value.
 pub(super) fn fixed(float: f64, precision: usize, alternate: bool) -> String {
     if let Some(special) = special(float) {
         return special.to_owned();
@@ -74,7 +74,7 @@ pub(super) fn general(float: f64, precision: usize, alternate: bool) -> String {
     general_between(float, precision, alternate, false)
 }
 
-/// As [`general`], but for `format(float, '.3')`, which keeps one digit behind the point and turns to an
+/// As [`general`], but for `format(float, '.3')`, which keeps one digit after the point and uses an
 /// exponent one digit earlier.
 pub(super) fn general_like_repr(float: f64, precision: usize, alternate: bool) -> String {
     general_between(float, precision, alternate, true)
@@ -90,7 +90,7 @@ fn general_between(float: f64, precision: usize, alternate: bool, like_repr: boo
     let exponent = split(&rounded).1;
     let limit = i32::try_from(precision).unwrap_or(i32::MAX) - i32::from(like_repr);
     if (-4..limit.max(if like_repr { i32::MIN } else { 1 })).contains(&exponent) {
-        // Digits behind the point, so that `precision` digits are shown in all.
+        // Digits after the point, for `precision` digits in total.
         let behind = (precision as i64 - 1 - i64::from(exponent)).max(0) as usize;
         let text = fixed(float, behind, alternate);
         let text = if alternate { text } else { without_trailing_zeros(&text).to_owned() };

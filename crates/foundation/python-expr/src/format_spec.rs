@@ -65,7 +65,7 @@ fn parse(text: &str) -> Outcome<Spec> {
     if spec.fill.is_none() && letters.next_if_eq(&'0').is_some() {
         spec.fill = Some('0');
         if spec.align.is_none() {
-            // Marks the default of numbers; text turns it back, see `format_text`.
+            // Marks the default alignment of numbers; strings reset it, see `format_text`.
             spec.align = Some('0');
         }
     }
@@ -115,7 +115,7 @@ fn format_text(text: &str, spec: &Spec, budget: &mut Budget) -> Outcome<String> 
     pad(&shown, &spec, '<', budget)
 }
 
-/// Fills up to the width.
+/// Pads to the width.
 pub(super) fn pad(
     text: &str,
     spec: &Spec,
@@ -207,7 +207,7 @@ fn format_float_value(float: f64, spec: &Spec, budget: &mut Budget) -> Outcome<S
         float.is_sign_negative() && !float.is_nan() && !(spec.no_negative_zero && is_zero);
     let whole = text.bytes().take_while(u8::is_ascii_digit).count();
     if whole == 0 {
-        // inf and nan: no digits to group.
+        // inf and nan have no digits to group.
         return number_text(
             is_negative,
             "",
@@ -221,7 +221,7 @@ fn format_float_value(float: f64, spec: &Spec, budget: &mut Budget) -> Outcome<S
     number_text(is_negative, "", &text[..whole], &text[whole..], 3, spec, budget)
 }
 
-/// `%e`, `%f` or `%g` of a float; capital letters write a capital exponent.
+/// `%e`, `%f` or `%g` of a float; an upper case letter gives an upper case exponent.
 pub(super) fn float_text(float: f64, kind: char, precision: usize, alternate: bool) -> String {
     let text = match kind.to_ascii_lowercase() {
         'e' => format_float::scientific(float, precision, alternate),
@@ -231,7 +231,7 @@ pub(super) fn float_text(float: f64, kind: char, precision: usize, alternate: bo
     if kind.is_ascii_uppercase() { text.to_ascii_uppercase() } else { text }
 }
 
-/// Sign, prefix, grouped digits and what follows them, filled up to the width.
+/// Sign, prefix, grouped digits and suffix, padded to the width.
 fn number_text(
     is_negative: bool,
     prefix: &str,
@@ -252,8 +252,8 @@ fn number_text(
     if let Some(separator) = spec.grouping {
         let others = sign.len() + prefix.len() + rest.len();
         if fills_inside && spec.fill == Some('0') {
-            // Zeros are grouped like the other digits; the text may pass the width by one, never start with a
-            // separator.
+            // Zeros are grouped like other digits. The text may exceed the width by one, so that it never
+            // starts with a separator.
             budget.allocate(spec.width as u128 * 2)?;
             let wanted = spec.width.saturating_sub(others);
             let fewest = wanted - wanted / (group + 1);
@@ -287,7 +287,7 @@ fn grouped(digits: &str, separator: char, group: usize) -> String {
     result
 }
 
-/// The number `%d` writes.
+/// Number formatted by `%d`.
 pub(super) fn whole(value: &Value) -> Outcome<i128> {
     match value.number() {
         Some(Number::Int(int)) => Ok(int),

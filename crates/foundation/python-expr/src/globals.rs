@@ -1,4 +1,4 @@
-//! The names that are always there.
+//! Built-in names.
 
 use super::arithmetic_functions::ARITHMETIC;
 use super::builtins::{COLLECTIONS, XACRO};
@@ -9,16 +9,17 @@ use super::maths;
 use super::suggest::closest;
 use super::value::Value;
 
-/// Which names are always there.
+/// Set of built-in names.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Dialect {
-    /// Those of `${...}`.
+    /// Names of `${...}`.
     Xacro,
-    /// Those of `$(eval ...)`: Python's own built-in functions, `true` and `false`, and `math` without its name.
+    /// Names of `$(eval ...)`: Python's own built-in functions, `true` and `false`, and the members of
+    /// `math` without prefix.
     SubstitutionArgs,
 }
 
-/// A namespace of built-in functions.
+/// Namespace of built-in functions.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Module {
     /// `math`.
@@ -39,10 +40,10 @@ impl Module {
     }
 }
 
-/// What `${...}` finds without a namespace, `math` aside.
+/// Built-in names of `${...}` without a namespace, except those of `math`.
 const BARE: &[&str] =
     &["list", "dict", "map", "len", "str", "float", "int", "bool", "min", "max", "round"];
-/// The same with a warning, and the name to use instead.
+/// Deprecated names with their replacements.
 const DEPRECATED: &[(&str, &str)] = &[
     ("sorted", "python.sorted"),
     ("range", "python.range"),
@@ -50,7 +51,7 @@ const DEPRECATED: &[(&str, &str)] = &[
     ("abs_filename", "xacro.abs_filename"),
     ("dotify", "xacro.dotify"),
 ];
-/// What `python.` has; the rest of our functions are for `$(eval ...)` only.
+/// Members of `python`; the other functions are for `$(eval ...)` only.
 const PYTHON: &[&str] = &[
     "list",
     "dict",
@@ -82,9 +83,9 @@ const PYTHON: &[&str] = &[
     "type",
     "zip",
 ];
-/// What `python.` has in xacro but not here.
+/// Members of `python` in xacro that are not supported here.
 const UNSUPPORTED: &[&str] = &["complex", "hash", "issubclass", "slice", "vars"];
-/// Functions of `xacro.` that the caller provides.
+/// Functions of `xacro` that the caller provides.
 const HOST: &[(&str, &str)] = &[
     ("load_yaml", "xacro.load_yaml"),
     ("abs_filename", "xacro.abs_filename"),
@@ -97,11 +98,11 @@ const HOST: &[(&str, &str)] = &[
 
 pub(super) struct Global {
     pub(super) value: Outcome<Value>,
-    /// The name to use instead, where xacro warns.
+    /// Replacement, for names that xacro deprecates.
     pub(super) deprecated_for: Option<&'static str>,
 }
 
-/// The Python function or type of this name.
+/// Python function or type with this name.
 pub(super) fn python_builtin(name: &str) -> Option<&'static Builtin> {
     [COLLECTIONS, CONVERSIONS, ARITHMETIC]
         .into_iter()
@@ -124,7 +125,7 @@ fn xacro_value(name: &str) -> Option<Value> {
     })
 }
 
-/// The value of a bare name.
+/// Value of a bare name.
 pub(super) fn lookup(dialect: Dialect, name: &str) -> Option<Global> {
     let plain = |value| Global { value: Ok(value), deprecated_for: None };
     match dialect {
@@ -185,7 +186,7 @@ fn member_names(module: Module) -> Vec<&'static str> {
     }
 }
 
-/// All bare names, for "did you mean".
+/// All bare names, for suggestions.
 pub(super) fn names(dialect: Dialect) -> Vec<&'static str> {
     let mut names = maths::names();
     match dialect {
@@ -205,7 +206,7 @@ pub(super) fn names(dialect: Dialect) -> Vec<&'static str> {
     names
 }
 
-/// What to write instead of a bare name that other languages or Python itself know.
+/// Replacement for a bare name of other languages or of Python itself.
 pub(super) fn hint(dialect: Dialect, name: &str) -> Option<String> {
     match (dialect, name) {
         (Dialect::Xacro, "true") => Some("write `True`".to_owned()),

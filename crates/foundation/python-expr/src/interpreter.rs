@@ -1,4 +1,4 @@
-//! Walking the syntax tree.
+//! Evaluation of the syntax tree.
 
 mod calls;
 
@@ -23,7 +23,7 @@ use super::suggest::closest;
 use super::text::to_ascii;
 use super::value::{Dict, DictHandle, Value, depth_around};
 
-/// Names bound by a lambda or a comprehension; never changed, so they cannot form cycles.
+/// Names bound by a lambda or a comprehension; immutable, so they cannot form cycles.
 #[derive(Debug)]
 pub(super) struct Frame {
     bindings: Vec<(Rc<str>, Value)>,
@@ -31,7 +31,7 @@ pub(super) struct Frame {
     depth: u32,
 }
 
-/// The frames around an expression, innermost first.
+/// Frames around an expression, innermost first.
 pub(super) type Frames = Option<Rc<Frame>>;
 
 impl Frame {
@@ -52,7 +52,7 @@ impl Frame {
 pub(super) struct Interpreter<'a> {
     scope: &'a dyn Scope,
     pub(super) budget: &'a mut Budget,
-    /// The text whose byte ranges the errors speak of.
+    /// Text of the byte ranges in errors.
     pub(super) source: Rc<str>,
 }
 
@@ -61,7 +61,7 @@ impl<'a> Interpreter<'a> {
         Self { scope, budget, source }
     }
 
-    /// The value of a node.
+    /// Value of a node.
     pub(super) fn evaluate(&mut self, node: &Node, frames: &Frames) -> Outcome<Value> {
         if let Kind::Constant(value) = &node.kind {
             return Ok(value.clone());
@@ -71,7 +71,7 @@ impl<'a> Interpreter<'a> {
             .map_err(|error| error.at(&node.range))
     }
 
-    /// Does something one level deeper.
+    /// Runs an action one nesting level deeper.
     pub(super) fn deeper<T>(&mut self, action: impl FnOnce(&mut Self) -> Outcome<T>) -> Outcome<T> {
         self.budget.enter()?;
         let result = action(self);
@@ -79,7 +79,7 @@ impl<'a> Interpreter<'a> {
         result
     }
 
-    // One short arm each: every level of nesting pays for the largest frame of this function.
+    // One short arm each: every nesting level takes the largest stack frame of this function.
     fn evaluate_kind(&mut self, node: &Node, frames: &Frames) -> Outcome<Value> {
         match &node.kind {
             Kind::Constant(value) => Ok(value.clone()),
@@ -150,7 +150,7 @@ impl<'a> Interpreter<'a> {
             known.extend(inner.bindings.iter().map(|(name, _)| name.to_string()));
             frame = &inner.parent;
         }
-        // The caller's own names first: a built-in one is as close only by chance.
+        // The caller's own names first: similarity to a built-in name is usually accidental.
         let found = closest(name, known.iter().map(String::as_str))
             .or_else(|| closest(name, globals::names(dialect).into_iter()));
         match found {
@@ -262,7 +262,7 @@ impl<'a> Interpreter<'a> {
         comprehension: &Rc<Comprehension>,
         frames: &Frames,
     ) -> Outcome<Value> {
-        // The first iterable belongs to the frames outside, as in Python.
+        // The first iterable is evaluated in the outer frames, as in Python.
         let first = &comprehension.clauses[0].iterable;
         let iterable = self.evaluate(first, frames)?;
         let iterator = self.iterate(&iterable).map_err(|error| error.at(&first.range))?;
@@ -330,7 +330,7 @@ impl<'a> Interpreter<'a> {
         }
     }
 
-    /// The first operand whose truth is `wanted`, or the last.
+    /// First operand whose truth value is `wanted`, or the last.
     fn until(&mut self, operands: &[Node], wanted: bool, frames: &Frames) -> Outcome<Value> {
         let mut value = Value::None;
         for operand in operands {

@@ -1,4 +1,4 @@
-//! Walking through values, lazily as Python does: `any(...)` stops at the first hit.
+//! Lazy iteration, as in Python: `any(...)` stops at the first hit.
 
 use std::cell::RefCell;
 use std::fmt;
@@ -9,7 +9,7 @@ use super::error::{ExpressionError, Outcome, fail};
 use super::interpreter::{Frames, Interpreter};
 use super::value::{List, Range, Sequence, Value, ViewKind};
 
-/// An iterator; its clones share the position.
+/// Iterator; its clones share the position.
 #[derive(Clone)]
 pub struct IteratorHandle(Rc<Cell>);
 
@@ -19,7 +19,7 @@ struct Cell {
 }
 
 pub(super) enum State {
-    /// Is being advanced, or has failed or ended.
+    /// Being advanced, failed, or at the end.
     Done,
     List {
         list: List,
@@ -42,7 +42,7 @@ pub(super) enum State {
         function: Value,
         sources: Vec<IteratorHandle>,
     },
-    /// Of values whose truth counts if there is no function.
+    /// `filter`; without a function it uses the truth value of the elements.
     Filter {
         function: Option<Value>,
         source: IteratorHandle,
@@ -55,10 +55,10 @@ pub(super) enum State {
     Generator(Generator),
 }
 
-/// A comprehension under way.
+/// Running comprehension.
 pub(super) struct Generator {
     comprehension: Rc<Comprehension>,
-    /// Per `for` clause under way: its iterator, and the frames it stands in.
+    /// Per active `for` clause: its iterator and frames.
     levels: Vec<(IteratorHandle, Frames)>,
     source: Rc<str>,
 }
@@ -122,7 +122,7 @@ impl fmt::Debug for IteratorHandle {
 }
 
 impl Interpreter<'_> {
-    /// An iterator over a value; over an iterator it is that iterator itself.
+    /// Iterator over a value; an iterator returns itself.
     pub(super) fn iterate(&mut self, value: &Value) -> Outcome<IteratorHandle> {
         let state = match value {
             Value::Iterator(iterator) => return Ok(iterator.clone()),
@@ -173,21 +173,21 @@ impl Interpreter<'_> {
         self.drain(&iterator)
     }
 
-    /// All elements that are left.
+    /// All remaining elements.
     pub(super) fn drain(&mut self, iterator: &IteratorHandle) -> Outcome<Vec<Value>> {
         let mut values = Vec::new();
         while let Some(value) = self.next(iterator)? {
-            // Twice, for the growing vector.
+            // Twice, for the growth of the vector.
             self.budget.allocate(2 * size_of::<Value>() as u128)?;
             values.push(value);
         }
         Ok(values)
     }
 
-    /// The next element.
+    /// Next element.
     pub(super) fn next(&mut self, iterator: &IteratorHandle) -> Outcome<Option<Value>> {
         self.budget.step()?;
-        // Taken out while it advances, so that an element that asks for the next finds the end, not a panic.
+        // Removed while it advances, so that a recursive request finds the end instead of a panic.
         let mut state = iterator.0.state.replace(State::Done);
         let next = self.deeper(|interpreter| interpreter.advance(&mut state))?;
         if next.is_some() {

@@ -1,16 +1,16 @@
 //! A safe evaluator of Python expressions: the part of the language that robot descriptions, launch files
 //! and filters of messages use, with Python 3's results.
 //!
-//! What differs from Python on purpose:
+//! Deliberate differences from Python:
 //! - Integers have 128 bits; larger ones are an error.
-//! - Values never change: `list.append` and the like are refused.
+//! - Values are immutable: `list.append` and similar methods are refused.
 //! - Work, memory and nesting are bounded by a [`Budget`].
 //! - Only listed attributes exist, none with a double underscore.
-//! - A lambda keeps the values of comprehension variables from when it was made, Python the last ones.
+//! - A lambda captures the values of comprehension variables at its creation; Python uses the last ones.
 //! - No complex numbers, bytes, `:=`, `await` and `yield`.
 //!
-//! The names that exist without the caller's doing follow xacro 2.1.1 (`create_global_symbols` in its
-//! `__init__.py`) and, for `$(eval ...)`, its `substitution_args.py`.
+//! Built-in names follow xacro 2.1.1 (`create_global_symbols` in its `__init__.py`) and, for `$(eval ...)`,
+//! its `substitution_args.py`.
 
 mod arithmetic_functions;
 mod ast;
@@ -49,7 +49,7 @@ pub use globals::{Dialect, Module};
 pub use iterator::IteratorHandle;
 pub use value::{Dict, DictHandle, List, Range as RangeValue, Sequence, Value, View};
 
-/// A parsed expression.
+/// Parsed expression.
 #[derive(Debug, Clone)]
 pub struct Expression {
     node: Rc<ast::Node>,
@@ -57,38 +57,39 @@ pub struct Expression {
 }
 
 impl Expression {
-    /// Parses the text between `${` and `}`, or behind `$(eval`. Blanks around it do not matter.
+    /// Parses the text inside `${...}`, or after `$(eval`. Surrounding blanks are ignored.
     ///
     /// # Errors
-    /// Where the text is no Python expression, or one that is not supported; with the place in `text`.
+    /// If the text is not a Python expression or not a supported one; with the range in `text`.
     pub fn parse(text: &str) -> Result<Self, ExpressionError> {
         let whole = 0..text.len();
         let node = parser::parse(text).map_err(|error| error.at(&whole))?;
         Ok(Self { node: Rc::new(node), text: text.into() })
     }
 
-    /// The text it was parsed from.
+    /// Source text.
     pub fn text(&self) -> &str {
         &self.text
     }
 }
 
-/// What the names in an expression mean: the caller's properties and functions.
+/// Names visible to an expression: the caller's properties and functions.
 pub trait Scope {
-    /// The value of a name, before the built-in names are asked; `None` if it is none of the caller's. May
-    /// evaluate other expressions with the same budget. The place in an error is replaced by the name's.
+    /// Returns the value of a name, before the built-in names are searched; `None` if the caller does not
+    /// define it. May evaluate other expressions with the same budget. The range of an error is replaced by
+    /// that of the name.
     ///
     /// # Errors
-    /// Whatever prevents the value from being known.
+    /// If the value cannot be computed.
     fn lookup(&self, name: &str, budget: &mut Budget) -> Result<Option<Value>, ExpressionError>;
 
-    /// All names `lookup` knows, for "did you mean".
+    /// All names that `lookup` resolves, for suggestions.
     fn names(&self) -> Vec<String>;
 
-    /// A member of a namespace that `lookup` gave as [`Value::Namespace`].
+    /// Returns a member of a namespace that `lookup` returned as [`Value::Namespace`].
     ///
     /// # Errors
-    /// Whatever prevents the value from being known.
+    /// If the value cannot be computed.
     fn member(
         &self,
         _namespace: &str,
@@ -98,14 +99,14 @@ pub trait Scope {
         Ok(None)
     }
 
-    /// All names `member` knows in the namespace, for "did you mean".
+    /// All names that `member` resolves in the namespace, for suggestions.
     fn member_names(&self, _namespace: &str) -> Vec<String> {
         Vec::new()
     }
 
-    /// Calls a function of the caller's: one that `lookup` gave as [`Value::host_function`], or one of
-    /// `xacro.load_yaml`, `xacro.abs_filename`, `xacro.arg`, `xacro.message`, `xacro.warning`, `xacro.error` and
-    /// `xacro.print_location` by that full name. `None` if there is no such function.
+    /// Calls a function of the caller: one that `lookup` returned as [`Value::host_function`], or one of
+    /// `xacro.load_yaml`, `xacro.abs_filename`, `xacro.arg`, `xacro.message`, `xacro.warning`,
+    /// `xacro.error` and `xacro.print_location` by that full name. `None` if there is no such function.
     fn call_host(
         &self,
         _function: &str,
@@ -116,21 +117,21 @@ pub trait Scope {
         None
     }
 
-    /// Which built-in names there are.
+    /// Set of built-in names.
     fn dialect(&self) -> Dialect {
         Dialect::Xacro
     }
 
-    /// Is told that an expression uses a built-in name xacro deprecates, with the name to use instead.
+    /// Called for each built-in name that xacro deprecates, with its replacement.
     fn deprecated(&self, _name: &str, _replacement: &str, _range: Range<usize>) {}
 }
 
-/// Whether a name has a meaning in `${...}` that nobody gave it: `pi`, `sin`, `len`.
+/// Returns true if a name is built into `${...}`: `pi`, `sin`, `len`.
 pub fn is_built_in(name: &str) -> bool {
     matches!(name, "True" | "False" | "None") || globals::lookup(Dialect::Xacro, name).is_some()
 }
 
-/// A scope without names.
+/// Scope without names.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct EmptyScope;
 
@@ -144,10 +145,10 @@ impl Scope for EmptyScope {
     }
 }
 
-/// The value of an expression.
+/// Evaluates an expression.
 ///
 /// # Errors
-/// As Python would raise an exception, or where the budget does not last; with the place in the expression.
+/// If Python would raise an exception, or the budget is exceeded; with the range in the expression.
 pub fn evaluate(
     expression: &Expression,
     scope: &dyn Scope,

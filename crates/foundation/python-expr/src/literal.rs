@@ -6,16 +6,16 @@ use super::error::{ExpressionError, Outcome, fail};
 use super::number::too_large;
 use super::token::Token;
 
-/// A string literal as it stands in the text.
+/// String literal as written.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(super) struct StringSource {
-    /// Between the quotes.
+    /// Range between the quotes.
     pub(super) body: Range<usize>,
     pub(super) is_raw: bool,
     pub(super) is_format: bool,
 }
 
-/// Reads the number at `at` and moves behind it.
+/// Parses the number at `at` and advances.
 pub(super) fn number(text: &str, at: &mut usize) -> Outcome<Token> {
     let start = *at;
     let rest = &text[start..];
@@ -92,7 +92,7 @@ fn followed_by_keyword(rest: &str) -> bool {
     })
 }
 
-/// Single underscores may stand between digits, nowhere else.
+/// Single underscores are allowed between digits only.
 fn digits_without_underscores(digits: &str) -> Option<String> {
     let bytes = digits.as_bytes();
     let well_placed = (0..bytes.len()).filter(|&index| bytes[index] == b'_').all(|index| {
@@ -103,7 +103,7 @@ fn digits_without_underscores(digits: &str) -> Option<String> {
     well_placed.then(|| digits.replace('_', ""))
 }
 
-/// `int(text, base)`; base 0 reads the prefix.
+/// `int(text, base)`; base 0 uses the prefix.
 pub(super) fn integer(text: &str, base: u32) -> Outcome<i128> {
     let not_an_integer = || {
         ExpressionError::new(format!(
@@ -158,14 +158,14 @@ pub(super) fn float(text: &str) -> Outcome<f64> {
     }
 }
 
-/// The length of the letters before the quote, if a string literal starts here.
+/// Length of the prefix letters before the quote, if a string literal starts here.
 pub(super) fn string_prefix(rest: &str) -> Option<usize> {
     let length = rest.bytes().take_while(|byte| b"rRbBuUfF".contains(byte)).count();
     let quote = rest.as_bytes().get(length)?;
     (length <= 2 && matches!(quote, b'\'' | b'"')).then_some(length)
 }
 
-/// Finds the end of the string literal at `at` and moves behind it.
+/// Finds the end of the string literal at `at` and advances.
 pub(super) fn string(text: &str, at: &mut usize) -> Outcome<StringSource> {
     let start = *at;
     let rest = &text[start..];
@@ -215,7 +215,7 @@ pub(super) fn string(text: &str, at: &mut usize) -> Outcome<StringSource> {
     })
 }
 
-/// Replaces the escapes of `text[range]`.
+/// Decodes the escapes of `text[range]`.
 pub(super) fn unescape(text: &str, range: Range<usize>, is_raw: bool) -> Outcome<String> {
     let body = &text[range.clone()];
     if is_raw || !body.contains('\\') {
@@ -272,7 +272,7 @@ pub(super) fn unescape(text: &str, range: Range<usize>, is_raw: bool) -> Outcome
                     .with_help("write the character itself")
                     .at(&(start..start + 2)));
             }
-            // Python keeps a backslash that starts no escape.
+            // Python keeps a backslash without a valid escape.
             _ => {
                 result.push('\\');
                 result.push(letter);

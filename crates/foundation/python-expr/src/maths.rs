@@ -1,9 +1,9 @@
-//! The functions of Python 3.11's `math`.
+//! Functions of Python 3.11's `math`.
 //!
-//! Python calls the platform's C library, and so does Rust's standard library for most of them, which makes the
-//! last digits agree. Where Rust has its own formula or nothing at all, the `libm` crate comes in: it descends
-//! from the same Sun sources as the C libraries. `cbrt`, `gamma` and `lgamma` may still differ from Python's in the
-//! last digit (glibc's `cbrt` is the less exact one; Python has its own `gamma`).
+//! Python calls the platform's C library, and Rust's standard library does the same for most functions, so
+//! the last digits agree. If Rust has its own implementation or none, the `libm` crate is used, which
+//! descends from the same Sun sources as the C libraries. `cbrt`, `gamma` and `lgamma` may still differ
+//! from Python's in the last digit (glibc's `cbrt` is the less exact one; Python has its own `gamma`).
 
 mod whole;
 
@@ -23,7 +23,7 @@ const CONSTANTS: &[(&str, f64)] = &[
     ("nan", f64::NAN),
 ];
 
-/// A function of one real number.
+/// Function of one real number.
 macro_rules! real {
     ($name:literal, $function:expr) => {
         Builtin {
@@ -34,7 +34,7 @@ macro_rules! real {
     };
 }
 
-/// A yes-or-no question about one real number.
+/// Predicate of one real number.
 macro_rules! test {
     ($name:literal, $function:expr) => {
         Builtin {
@@ -49,7 +49,7 @@ macro_rules! test {
     };
 }
 
-/// A function of two real numbers.
+/// Function of two real numbers.
 macro_rules! two_reals {
     ($name:literal, $function:expr) => {
         Builtin {
@@ -127,7 +127,7 @@ static REALS: &[Builtin] = &[
     },
 ];
 
-/// A member of `math`.
+/// Member of `math`.
 pub(super) fn member(name: &str) -> Option<Value> {
     let constant = CONSTANTS
         .iter()
@@ -160,7 +160,7 @@ fn two_reals(name: &str, arguments: Arguments, function: fn(f64, f64) -> f64) ->
     )
 }
 
-/// What C answers with NaN or infinity, Python refuses.
+/// Python raises an error where C returns NaN or infinity.
 fn checked(name: &str, result: f64, were_numbers: bool, were_finite: bool) -> Outcome<Value> {
     if result.is_nan() && were_numbers {
         Err(outside(name))
@@ -250,8 +250,8 @@ fn dist(interpreter: &mut Interpreter<'_>, arguments: Arguments) -> Outcome<Valu
     Ok(Value::Float(norm(&differences)))
 }
 
-/// The Euclidean norm, rounded as well as Python does since 3.10: squares summed in twice the precision, then one
-/// step of Newton's method on the root.
+/// Euclidean norm with the precision of Python since 3.10: squares summed in double-double precision, then
+/// one step of Newton's method on the root.
 fn norm(values: &[f64]) -> f64 {
     let largest = values.iter().fold(0.0_f64, |largest, value| largest.max(value.abs()));
     if values.iter().any(|value| value.is_infinite()) {
@@ -263,7 +263,7 @@ fn norm(values: &[f64]) -> f64 {
     if largest == 0.0 {
         return 0.0;
     }
-    // A power of two, so that scaling is exact and no square over- or underflows.
+    // A power of two, so that scaling is exact and no square overflows or underflows.
     let (_, exponent) = libm::frexp(largest);
     let mut high = 0.0_f64;
     let mut low = 0.0_f64;
@@ -281,8 +281,8 @@ fn norm(values: &[f64]) -> f64 {
     libm::ldexp(root + rest / (2.0 * root), exponent)
 }
 
-/// The exactly rounded sum (J. R. Shewchuk, "Adaptive Precision Floating-Point Arithmetic", 1997): partial sums
-/// that do not overlap, smallest first.
+/// Exactly rounded sum (J. R. Shewchuk, "Adaptive Precision Floating-Point Arithmetic", 1997):
+/// non-overlapping partial sums, smallest first.
 fn fsum(interpreter: &mut Interpreter<'_>, arguments: Arguments) -> Outcome<Value> {
     let [values] = arguments.exactly("fsum")?;
     let values = interpreter.collect(&values)?;
@@ -328,7 +328,7 @@ fn fsum(interpreter: &mut Interpreter<'_>, arguments: Arguments) -> Outcome<Valu
         high = before + next;
         let low = next - (high - before);
         if low != 0.0 {
-            // Halfway between two floats: what is left below decides.
+            // Halfway between two floats: the remaining part decides.
             if partials.last().is_some_and(|below| (*below < 0.0) == (low < 0.0) && *below != 0.0) {
                 let doubled = low * 2.0;
                 let rounded = high + doubled;
@@ -352,7 +352,7 @@ fn frexp(_: &mut Interpreter<'_>, arguments: Arguments) -> Outcome<Value> {
 fn ldexp(_: &mut Interpreter<'_>, arguments: Arguments) -> Outcome<Value> {
     let [mantissa, exponent] = arguments.exactly("ldexp")?;
     let mantissa = mantissa.real()?;
-    // Beyond this every finite float has over- or underflown.
+    // Beyond this every finite float overflows or underflows.
     let exponent = exponent.integer()?.clamp(-10_000, 10_000) as i32;
     checked("ldexp", libm::ldexp(mantissa, exponent), true, mantissa.is_finite())
         .or_else(|error| if mantissa.is_nan() { Ok(Value::Float(mantissa)) } else { Err(error) })

@@ -1,4 +1,4 @@
-//! Methods of values. Only those listed here exist; none changes its value.
+//! Methods of values. Only listed methods exist; none changes its object.
 
 use std::rc::Rc;
 
@@ -26,7 +26,7 @@ const SET: &[&str] = &[
     "isdisjoint",
     "copy",
 ];
-/// Methods that change the value in Python.
+/// Methods that change their object in Python.
 const CHANGING: &[&str] = &[
     "append",
     "extend",
@@ -43,7 +43,7 @@ const CHANGING: &[&str] = &[
     "discard",
 ];
 
-/// The methods a value has.
+/// Methods of a value.
 pub(super) fn names(value: &Value) -> &'static [&'static str] {
     match value {
         Value::Str(_) => text_methods::NAMES,
@@ -57,7 +57,7 @@ pub(super) fn names(value: &Value) -> &'static [&'static str] {
     }
 }
 
-/// The error of asking for an attribute that is not there.
+/// Error of an unknown attribute.
 pub(super) fn unknown(value: &Value, name: &str) -> ExpressionError {
     let kind = value.type_name();
     if CHANGING.contains(&name) && matches!(value, Value::List(_) | Value::Dict(_) | Value::Set(_))
@@ -121,7 +121,7 @@ fn sequence_method(
     }
     let [element] = arguments.exactly(name)?;
     if let Value::Range(range) = object {
-        // By arithmetic: a range may be very long.
+        // By arithmetic, as a range may be very long.
         let found = compare::contains(object, &element, interpreter.budget)?;
         return match (name, found) {
             ("count", found) => Ok(Value::Int(i128::from(found))),

@@ -1,13 +1,13 @@
-//! Python's arithmetic on integers and floats.
+//! Python's arithmetic of integers and floats.
 //!
-//! Integers are 128 bits wide here. Python's have no bound; a result that does not fit is an error, never a
+//! Integers have 128 bits here; Python's are unbounded. A result that does not fit is an error, never a
 //! wrong number.
 
 use std::cmp::Ordering;
 
 use super::error::{ExpressionError, Outcome, fail};
 
-/// An operand of arithmetic; booleans count as 0 and 1.
+/// Operand of arithmetic; booleans are 0 and 1.
 #[derive(Debug, Clone, Copy)]
 pub(super) enum Number {
     Int(i128),
@@ -32,7 +32,7 @@ fn by_zero() -> ExpressionError {
     ExpressionError::new("division by zero")
 }
 
-/// `//` of integers: towards minus infinity.
+/// `//` of integers: rounds towards minus infinity.
 pub(super) fn floor_divide_ints(a: i128, b: i128) -> Outcome<i128> {
     if b == 0 {
         return Err(by_zero());
@@ -42,7 +42,7 @@ pub(super) fn floor_divide_ints(a: i128, b: i128) -> Outcome<i128> {
     Ok(if inexact && (a < 0) != (b < 0) { quotient - 1 } else { quotient })
 }
 
-/// `%` of integers: the sign is the divisor's.
+/// `%` of integers: the sign is that of the divisor.
 pub(super) fn modulo_ints(a: i128, b: i128) -> Outcome<i128> {
     if b == 0 {
         return Err(by_zero());
@@ -51,7 +51,7 @@ pub(super) fn modulo_ints(a: i128, b: i128) -> Outcome<i128> {
     Ok(if remainder != 0 && (remainder < 0) != (b < 0) { remainder + b } else { remainder })
 }
 
-/// `(a // b, a % b)` of floats, with CPython's care for rounding and signed zeros.
+/// `(a // b, a % b)` of floats, with CPython's rounding and signed zeros.
 pub(super) fn divmod_floats(a: f64, b: f64) -> Outcome<(f64, f64)> {
     if b == 0.0 {
         return Err(by_zero());
@@ -67,7 +67,7 @@ pub(super) fn divmod_floats(a: f64, b: f64) -> Outcome<(f64, f64)> {
     let floored = if quotient == 0.0 {
         0.0_f64.copysign(a / b)
     } else {
-        // (a - remainder) / b is a whole number but for rounding, so the nearest one is meant.
+        // (a - remainder) / b is an integer except for rounding, so the nearest one is correct.
         let floor = quotient.floor();
         if quotient - floor > 0.5 { floor + 1.0 } else { floor }
     };
@@ -83,7 +83,7 @@ pub(super) fn divide(a: Number, b: Number) -> Outcome<f64> {
     }
 }
 
-/// `/` of integers, correctly rounded even where they do not fit a float.
+/// `/` of integers, correctly rounded even if they do not fit a float.
 fn divide_ints(a: i128, b: i128) -> Outcome<f64> {
     const EXACT: u128 = 1 << 53;
     if b == 0 {
@@ -93,8 +93,8 @@ fn divide_ints(a: i128, b: i128) -> Outcome<f64> {
     if numerator <= EXACT && denominator <= EXACT {
         return Ok(a as f64 / b as f64);
     }
-    // Long division in binary until the quotient holds more bits than a float; its last bit then remembers
-    // whether anything is left over, so that the conversion rounds as the exact quotient would.
+    // Binary long division until the quotient has more bits than a float; the last bit records whether
+    // there is a remainder, so that the conversion rounds as the exact quotient would.
     let mut quotient = numerator / denominator;
     let mut remainder = numerator % denominator;
     let mut scale = 0;
@@ -166,7 +166,7 @@ pub(super) fn shift_right(a: i128, by: i128) -> Outcome<i128> {
     }
 }
 
-/// The whole part of a float, as `int()` and `math.trunc` take it.
+/// Integral part of a float, for `int()` and `math.trunc`.
 pub(super) fn truncate(float: f64) -> Outcome<i128> {
     const LIMIT: f64 = 170141183460469231731687303715884105728.0;
     if float.is_nan() {
@@ -180,7 +180,7 @@ pub(super) fn truncate(float: f64) -> Outcome<i128> {
     }
 }
 
-/// Orders exactly, without rounding an integer to a float; nothing where a NaN takes part.
+/// Exact order, without rounding an integer to a float; `None` for a NaN.
 pub(super) fn compare(a: Number, b: Number) -> Option<Ordering> {
     match (a, b) {
         (Number::Int(a), Number::Int(b)) => Some(a.cmp(&b)),
@@ -201,7 +201,7 @@ fn compare_int_float(int: i128, float: f64) -> Option<Ordering> {
     })
 }
 
-/// `round(int, digits)` for negative digits: to the nearest multiple of a power of ten, ties to the even one.
+/// `round(int, digits)` for negative digits: to the nearest multiple of a power of ten, ties to even.
 pub(super) fn round_int(int: i128, digits: i128) -> Outcome<i128> {
     if digits >= 0 {
         return Ok(int);
@@ -209,7 +209,8 @@ pub(super) fn round_int(int: i128, digits: i128) -> Outcome<i128> {
     let Some(unit) =
         u32::try_from(digits.unsigned_abs()).ok().and_then(|places| 10_i128.checked_pow(places))
     else {
-        // The unit passes 10^38 and so is more than twice any value but the largest: half of 10^39 is 5 * 10^38.
+        // The unit exceeds 10^38 and is more than twice any value but the largest: half of 10^39 is 5 *
+        // 10^38.
         return Ok(0);
     };
     let low = modulo_ints(int, unit)?;

@@ -1,4 +1,4 @@
-//! Operators on two values.
+//! Binary and unary operators.
 
 use std::rc::Rc;
 

@@ -1,4 +1,4 @@
-//! From tokens to the syntax tree: Python's grammar of expressions, by recursive descent.
+//! Recursive descent parser for Python's grammar of expressions.
 
 mod collection;
 mod format_string;
@@ -15,7 +15,7 @@ use super::literal::unescape;
 use super::token::{Placed, Token, tokenize};
 use super::value::Value;
 
-/// How deep brackets, lambdas and prefix operators may nest, so that the stack holds them.
+/// Maximum nesting depth of brackets, lambdas and prefix operators, limited by the stack.
 const MAX_NESTING: u32 = 80;
 
 const KEYWORDS: &[&str] = &[
@@ -46,7 +46,7 @@ impl<'a> Parser<'a> {
     }
 
     fn peek(&self) -> &Placed {
-        // The last token is `End`, and nothing moves beyond it.
+        // The last token is `End`, and the position never exceeds it.
         &self.tokens[self.next]
     }
 
@@ -86,7 +86,7 @@ impl<'a> Parser<'a> {
         self.next.checked_sub(1).map_or(0, |last| self.tokens[last].range.end)
     }
 
-    /// The error of meeting something else than `wanted` here.
+    /// Error of an unexpected token.
     fn expected(&self, wanted: &str) -> ExpressionError {
         let found = self.peek();
         let written = &self.text[found.range.clone()];
@@ -137,7 +137,7 @@ impl<'a> Parser<'a> {
         Ok(name)
     }
 
-    /// Parses one level deeper, if that is not too deep.
+    /// Parses one level deeper, up to the limit.
     fn nested<T>(&mut self, parse: impl FnOnce(&mut Self) -> Outcome<T>) -> Outcome<T> {
         if self.nesting >= MAX_NESTING {
             return Err(ExpressionError::new(format!(
@@ -151,7 +151,7 @@ impl<'a> Parser<'a> {
         result
     }
 
-    /// A conditional, a lambda or anything tighter.
+    /// Conditional, lambda or expression of higher precedence.
     fn expression(&mut self) -> Outcome<Node> {
         if self.is_word("lambda") {
             return self.nested(Self::lambda);
@@ -226,7 +226,7 @@ impl<'a> Parser<'a> {
         Ok(Node { kind: Kind::Lambda(Rc::new(Lambda { parameters, body })), range })
     }
 
-    /// Operators that bind at least as tightly as `level`, by precedence climbing.
+    /// Operators of at least this precedence, by precedence climbing.
     fn operators(&mut self, level: Level) -> Outcome<Node> {
         let mut left = if level <= Level::Not && self.is_word("not") {
             self.nested(Self::not)?
@@ -251,7 +251,7 @@ impl<'a> Parser<'a> {
         Ok(Node { kind: Kind::Not(Box::new(operand)), range })
     }
 
-    /// The infix operator that stands next, its level and how many tokens it has.
+    /// Next infix operator with its precedence and number of tokens.
     fn operator(&self) -> Option<(Infix, Level, usize)> {
         let (infix, level) = match &self.peek().token {
             Token::Sign(sign) => match *sign {
@@ -321,7 +321,7 @@ impl<'a> Parser<'a> {
         Ok(Node { kind: Kind::Power(Box::new((base, exponent))), range })
     }
 
-    /// Attributes, subscripts and calls behind an atom.
+    /// Attributes, subscripts and calls after an atom.
     fn postfix(&mut self) -> Outcome<Node> {
         let mut node = self.atom()?;
         let mut links = 0;
@@ -361,7 +361,7 @@ impl<'a> Parser<'a> {
         Ok(Index::Slice { start, stop, step })
     }
 
-    /// Behind `(` up to and with `)`.
+    /// Arguments after `(` up to and including `)`.
     fn arguments(&mut self) -> Outcome<Vec<Argument>> {
         let mut arguments = Vec::new();
         while !self.take_sign(")") {
@@ -459,7 +459,7 @@ impl<'a> Parser<'a> {
         }
     }
 
-    /// String literals side by side make one string.
+    /// Adjacent string literals are concatenated.
     fn strings(&mut self) -> Outcome<Node> {
         let start = self.peek().range.start;
         let mut plain = String::new();
@@ -488,7 +488,7 @@ impl<'a> Parser<'a> {
     }
 }
 
-/// How tightly an infix operator binds.
+/// Precedence of an infix operator.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 enum Level {
     Or,
@@ -528,7 +528,7 @@ enum Infix {
     Binary(Binary),
 }
 
-/// Whether both operators may share one flat chain.
+/// Returns true if both operators may share one flat chain.
 fn same_level(a: Binary, b: Binary) -> bool {
     let level = |operator| match operator {
         Binary::Add | Binary::Subtract => 0,
@@ -542,8 +542,8 @@ fn same_level(a: Binary, b: Binary) -> bool {
     level(a) == level(b)
 }
 
-/// Appends to the chain on the left where there is one, so that long chains stay flat. A chain in parentheses
-/// cannot be mistaken for one: it comes wrapped, see `parenthesized`.
+/// Appends to the chain on the left if there is one, so that long chains stay flat. A chain in parentheses
+/// is wrapped, see `parenthesized`.
 fn join(left: Node, infix: Infix, right: Node) -> Node {
     let range = left.range.start..right.range.end;
     let kind = match (left.kind, infix) {
@@ -580,7 +580,7 @@ fn join(left: Node, infix: Infix, right: Node) -> Node {
     Node { kind, range }
 }
 
-/// What to write instead of things that other languages or Python statements have.
+/// Replacement for syntax of other languages or Python statements.
 fn hint(written: &str) -> Option<&'static str> {
     Some(match written {
         "=" => "use `==` to compare; an expression cannot assign",

@@ -198,7 +198,7 @@ fn field(
         }
     };
     let is_int = !matches!(kind, 'e' | 'E' | 'f' | 'F' | 'g' | 'G');
-    // Of an integer the precision is the least count of digits.
+    // For an integer the precision is the minimum number of digits.
     let missing_digits =
         if is_int { precision.unwrap_or(0).saturating_sub(digits.len()) } else { 0 };
     budget.allocate(missing_digits as u128)?;

@@ -69,7 +69,7 @@ pub(super) fn missing_key(dict: &DictHandle, key: &str) -> ExpressionError {
     }
 }
 
-/// The number of characters.
+/// Number of characters.
 pub(super) fn length(text: &str) -> usize {
     if text.is_ascii() { text.len() } else { text.chars().count() }
 }
@@ -122,7 +122,7 @@ pub(super) fn slice(
         Value::Range(range) => {
             let places = indices(bounds, range.length)?;
             let step = range.step.checked_mul(places.step).ok_or_else(super::number::too_large)?;
-            // Bounds as Python gives them: the values that the bounding indices would have.
+            // Bounds as in Python: the values at the bounding indices.
             let at = |index: i128| {
                 index
                     .checked_mul(range.step)
@@ -143,7 +143,7 @@ fn pick(items: &[Value], bounds: &[Option<Value>; 3], budget: &mut Budget) -> Ou
     Ok((0..places.length).map(|nth| items[places.nth(nth) as usize].clone()).collect())
 }
 
-/// The indices a slice names in a sequence of this length.
+/// Indices of a slice in a sequence of this length.
 fn indices(bounds: &[Option<Value>; 3], length: i128) -> Outcome<Range> {
     let bound = |value: &Option<Value>| -> Outcome<Option<i128>> {
         match value {
@@ -157,7 +157,7 @@ fn indices(bounds: &[Option<Value>; 3], length: i128) -> Outcome<Range> {
             },
         }
     };
-    // Steps beyond the length all pick one element; bounding them keeps the arithmetic from overflowing.
+    // Steps beyond the length all select one element; limiting them avoids overflow.
     let step = match bound(&bounds[2])?.unwrap_or(1) {
         0 => return fail("the step of a slice must not be zero"),
         step => step.clamp(-(1 << 62), 1 << 62),
@@ -173,7 +173,7 @@ fn indices(bounds: &[Option<Value>; 3], length: i128) -> Outcome<Range> {
     Range::new(clamped(bound(&bounds[0])?, first), clamped(bound(&bounds[1])?, last), step)
 }
 
-/// The part of a text between two optional character indices, as `text[start:stop]`, and where it starts.
+/// Part of a text between two optional character indices, as `text[start:stop]`, and its start.
 pub(super) fn window<'a>(
     text: &'a str,
     start: &Option<Value>,

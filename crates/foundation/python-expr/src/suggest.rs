@@ -1,11 +1,11 @@
-//! "Did you mean ...?"
+//! Suggestions of similar names.
 
-/// The candidate that is closest to the name, if one is close enough to be a slip.
+/// Most similar candidate, if it is similar enough.
 pub(super) fn closest<'a>(
     name: &str,
     candidates: impl Iterator<Item = &'a str>,
 ) -> Option<&'a str> {
-    // Nobody means a name this long, and comparing would take its square of time.
+    // Longer names are not compared, because the comparison takes quadratic time.
     if name.len() > 100 {
         return None;
     }
@@ -17,7 +17,7 @@ pub(super) fn closest<'a>(
     (distance <= limit && candidate.chars().count() > 1).then_some(candidate)
 }
 
-/// How many letters to change, add, drop or swap with the next; changing the case counts nothing.
+/// Number of letters to change, insert, delete or swap; case is ignored.
 fn edits(a: &str, b: &str) -> usize {
     let a: Vec<char> = a.to_lowercase().chars().collect();
     let b: Vec<char> = b.to_lowercase().chars().collect();

@@ -6,7 +6,7 @@ use super::format_float;
 use super::value::{Value, ViewKind};
 
 impl Value {
-    /// `str(value)`; an error where the text would pass the budget.
+    /// `str(value)`; an error if the text would exceed the budget.
     pub fn to_text(&self, budget: &mut Budget) -> Outcome<String> {
         let mut text = String::new();
         match self {
@@ -19,7 +19,7 @@ impl Value {
         Ok(text)
     }
 
-    /// `repr(value)`; an error where the text would pass the budget.
+    /// `repr(value)`; an error if the text would exceed the budget.
     pub fn to_repr(&self, budget: &mut Budget) -> Outcome<String> {
         let mut text = String::new();
         write_repr(self, &mut text, budget)?;
@@ -37,7 +37,7 @@ fn write_repr(value: &Value, out: &mut String, budget: &mut Budget) -> Outcome<(
         Value::Int(int) => out.push_str(&int.to_string()),
         Value::Float(float) => out.push_str(&format_float::repr(*float)),
         Value::Str(text) => {
-            // An escape is at most ten characters for one.
+            // An escape has at most ten characters for one.
             budget.allocate(text.len() as u128 * 2)?;
             write_quoted(text, out);
         }
@@ -95,7 +95,7 @@ fn write_repr(value: &Value, out: &mut String, budget: &mut Budget) -> Outcome<(
                 out.push_str("])");
             }
         },
-        // Python adds an address, which says nothing to anyone.
+        // Python adds an address, which is not reproducible.
         Value::Iterator(_) => out.push_str("<generator object>"),
         Value::Function(function) => out.push_str(&function.describe()),
         Value::Module(module) => out.push_str(&format!("<namespace '{}'>", module.name())),
@@ -153,7 +153,7 @@ fn write_quoted(text: &str, out: &mut String) {
     out.push(quote);
 }
 
-/// The shortest of `\xNN`, `\uNNNN` and `\UNNNNNNNN`.
+/// Shortest of `\xNN`, `\uNNNN` and `\UNNNNNNNN`.
 fn escape(letter: char) -> String {
     match u32::from(letter) {
         code @ ..=0xff => format!("\\x{code:02x}"),
@@ -162,7 +162,7 @@ fn escape(letter: char) -> String {
     }
 }
 
-/// `ascii()` of a text that is `repr` already.
+/// `ascii()` of a text that is already in `repr` form.
 pub(super) fn to_ascii(repr: &str) -> String {
     repr.chars()
         .map(|letter| if letter.is_ascii() { letter.to_string() } else { escape(letter) })
@@ -173,8 +173,8 @@ fn is_printable(letter: char) -> bool {
     if letter.is_ascii() {
         return !letter.is_ascii_control();
     }
-    // Rust escapes what it cannot print by the same Unicode categories as Python; behind a letter, so that
-    // combining marks count as printable, as they do in Python.
+    // Rust escapes unprintable characters by the same Unicode categories as Python; after a letter, so that
+    // combining marks count as printable, as in Python.
     let mut buffer = String::from("a");
     buffer.push(letter);
     buffer.escape_debug().eq(buffer.chars())

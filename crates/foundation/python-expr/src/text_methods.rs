@@ -58,7 +58,7 @@ pub(super) fn call(
     name: &str,
     arguments: Arguments,
 ) -> Outcome<Value> {
-    // Every method looks through the text a few times and gives something about as long, if not charged below.
+    // Every method scans the text a few times and returns about the same length, unless charged below.
     interpreter.budget.scan(text.len() * 4)?;
     interpreter.budget.allocate(text.len() as u128 * 3)?;
     let boolean = |arguments: Arguments, answer: bool| -> Outcome<Value> {
@@ -139,13 +139,13 @@ pub(super) fn call(
     }
 }
 
-/// Digits of other scripts come in runs of ten; Rust has no table of them, and numbers that are no digits, such
-/// as fractions, are far from letters too. Robot files have neither.
+/// Digits of other scripts are in runs of ten; Rust has no table of them, and other numeric characters,
+/// such as fractions, are far from letters. Robot files have neither.
 fn is_decimal(letter: char) -> bool {
     letter.is_numeric()
 }
 
-/// Python counts the separators of ASCII as blanks, Unicode and Rust do not.
+/// Python treats the separators of ASCII as blanks, Unicode and Rust do not.
 fn is_space(letter: char) -> bool {
     letter.is_whitespace() || ('\u{1c}'..='\u{1f}').contains(&letter)
 }
@@ -248,7 +248,8 @@ fn split_at_blanks(
             rest.find(is_space).map(|place| (place, place))
         };
         let Some((first_end, second_end)) = cut else {
-            // The last part keeps blanks inside, and at its own end too, but not those on the side it starts from.
+            // The last part keeps blanks inside and at its own end, but not at the side where the split
+            // starts.
             parts
                 .push((if from_right { rest.trim_end_matches(is_space) } else { rest }).to_owned());
             break;
@@ -322,7 +323,7 @@ fn strip(text: &str, name: &str, arguments: Arguments) -> Outcome<Value> {
         None | Some(Value::None) => None,
         Some(letters) => Some(text_of(letters, name)?),
     };
-    // Bounds the time of searching the letters for every letter.
+    // Limits the time of searching all letters for each letter.
     if letters.as_ref().is_some_and(|letters| letters.len() > 1000) {
         return fail(format!("`{name}` takes at most 1000 bytes of letters"));
     }
@@ -345,7 +346,7 @@ fn replace(interpreter: &mut Interpreter<'_>, text: &str, arguments: Arguments) 
     };
     let (old, new) = (text_of(old, "replace")?, text_of(new, "replace")?);
     let most = usize::try_from(most).unwrap_or(usize::MAX);
-    // Python does not replace in an empty text when a count is given.
+    // Python does not replace in an empty text if a count is given.
     let occurrences = text.matches(&*old).count().min(most);
     interpreter.budget.allocate(occurrences as u128 * new.len() as u128 + text.len() as u128)?;
     Ok(Value::text(text.replacen(&*old, &new, most)))
@@ -412,7 +413,7 @@ fn justify(
     let left = match name {
         "ljust" => 0,
         "rjust" => missing,
-        // Python gives the odd blank to the left where the width is odd.
+        // Python adds the odd blank on the left if the width is odd.
         _ => missing / 2 + (missing & width & 1),
     };
     let fill = |count: usize| fill.to_string().repeat(count);
@@ -431,7 +432,7 @@ fn zfill(interpreter: &mut Interpreter<'_>, text: &str, arguments: Arguments) ->
 fn title_letter(letter: char) -> String {
     let mut upper = letter.to_uppercase();
     let first: String = upper.next().into_iter().collect();
-    // A letter that becomes several, like the German sharp s, is capital only at the front.
+    // A letter that becomes several, such as the German sharp s, is upper case only in front.
     first + &upper.collect::<String>().to_lowercase()
 }
 

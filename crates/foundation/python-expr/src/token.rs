@@ -1,4 +1,4 @@
-//! Splitting an expression into tokens.
+//! Tokenizer.
 
 use std::ops::Range;
 
@@ -10,7 +10,7 @@ pub(super) enum Token {
     Name,
     Int(i128),
     Float(f64),
-    /// A string literal; its text is still to be decoded, see [`literal::StringSource`].
+    /// String literal, still encoded, see [`literal::StringSource`].
     String(literal::StringSource),
     Sign(&'static str),
     End,
@@ -22,7 +22,7 @@ pub(super) struct Placed {
     pub(super) range: Range<usize>,
 }
 
-/// Longest first. Signs that only other languages have are here to be named in the error.
+/// Longest first. Signs of other languages are included, so that the error can name them.
 const SIGNS: &[&str] = &[
     "**=", "//=", "<<=", ">>=", "...", "**", "//", "<<", ">>", "<=", ">=", "==", "!=", "<>", "->",
     ":=", "+=", "-=", "*=", "/=", "%=", "&=", "|=", "^=", "@=", "&&", "||", "+", "-", "*", "/",
@@ -30,7 +30,7 @@ const SIGNS: &[&str] = &[
     ";",
 ];
 
-/// The tokens of `text[within]`, the last of them [`Token::End`].
+/// Tokens of `text[within]`; the last is [`Token::End`].
 pub(super) fn tokenize(text: &str, within: Range<usize>) -> Outcome<Vec<Placed>> {
     let mut tokens = Vec::new();
     let mut brackets = 0_usize;
@@ -94,7 +94,7 @@ pub(super) fn tokenize(text: &str, within: Range<usize>) -> Outcome<Vec<Placed>>
     Ok(tokens)
 }
 
-/// Whether nothing but blanks, line breaks and comments follows.
+/// Returns true if only blanks, line breaks and comments follow.
 fn is_blank(rest: &str) -> bool {
     rest.lines().all(|line| line.trim_start().is_empty() || line.trim_start().starts_with('#'))
 }

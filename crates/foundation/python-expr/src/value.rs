@@ -1,4 +1,4 @@
-//! The values expressions work on. They never change once made: what Python would change in place is refused.
+//! Values of expressions. They are immutable: operations that change a value in Python are refused.
 
 mod dict;
 
@@ -12,10 +12,10 @@ use super::globals::Module;
 use super::iterator::IteratorHandle;
 use super::number::Number;
 
-/// How deep lists may lie in lists. Comparing, printing and dropping a value recurse that far.
+/// Maximum nesting depth of lists. Comparison, printing and drop are recursive.
 const MAX_DEPTH: u32 = 100;
 
-/// A Python value.
+/// Python value.
 #[derive(Debug, Clone)]
 pub enum Value {
     /// `None`.
@@ -32,25 +32,25 @@ pub enum Value {
     List(List),
     /// `tuple`.
     Tuple(Rc<Sequence>),
-    /// `dict`; also what `load_yaml` and `dotify` give.
+    /// `dict`, also the result of `load_yaml` and `dotify`.
     Dict(DictHandle),
-    /// `set` and `frozenset`; iterates in order of insertion, where Python's order is arbitrary.
+    /// `set` and `frozenset`; iterates in insertion order, while Python's order is arbitrary.
     Set(Rc<Dict>),
     /// `range`.
     Range(Range),
-    /// What `dict.keys()`, `.values()` and `.items()` give.
+    /// Result of `dict.keys()`, `.values()` and `.items()`.
     View(View),
-    /// A generator, or what `map`, `zip` and the like give: can be walked through once.
+    /// Generator, or the result of `map`, `zip` and similar functions: can be iterated once.
     Iterator(IteratorHandle),
-    /// A lambda, a built-in or host function, or a type.
+    /// Lambda, built-in or host function, or type.
     Function(Callable),
     /// `math`, `python` or `xacro`.
     Module(Module),
-    /// A namespace of the caller's, whose members [`Scope::member`](super::Scope::member) knows.
+    /// Namespace of the caller, whose members are resolved by [`Scope::member`](super::Scope::member).
     Namespace(Rc<str>),
 }
 
-/// The elements of a list or tuple.
+/// Elements of a list or tuple.
 #[derive(Debug)]
 pub struct Sequence {
     items: Vec<Value>,
@@ -61,7 +61,7 @@ pub struct Sequence {
 #[derive(Debug, Clone)]
 pub struct List {
     pub(super) items: Rc<Sequence>,
-    /// Whether the list came out of a dotted dict, so that its elements are dotted too.
+    /// True if the list is from a dotted dict, so that its elements are dotted too.
     pub(super) is_dotted: bool,
 }
 
@@ -69,11 +69,11 @@ pub struct List {
 #[derive(Debug, Clone)]
 pub struct DictHandle {
     pub(super) dict: Rc<Dict>,
-    /// Whether `d.key` works as `d['key']` does.
+    /// True if `d.key` is equivalent to `d['key']`.
     pub(super) is_dotted: bool,
 }
 
-/// The integers `start`, `start + step`, ... before `stop`.
+/// Integers `start`, `start + step`, ... before `stop`.
 #[derive(Debug, Clone, Copy)]
 pub struct Range {
     pub(super) start: i128,
@@ -82,7 +82,7 @@ pub struct Range {
     pub(super) length: i128,
 }
 
-/// A view of a dict.
+/// View of a dict.
 #[derive(Debug, Clone)]
 pub struct View {
     pub(super) kind: ViewKind,
@@ -102,7 +102,7 @@ impl Sequence {
         Ok(Rc::new(Self { items, depth }))
     }
 
-    /// The elements.
+    /// Elements.
     pub fn items(&self) -> &[Value] {
         &self.items
     }
@@ -124,7 +124,7 @@ impl std::ops::Deref for DictHandle {
     }
 }
 
-/// The depth of a value that holds these, unless that is too deep.
+/// Depth of a value with these elements; an error if it is too deep.
 pub(super) fn depth_around<'a>(items: impl Iterator<Item = &'a Value>) -> Outcome<u32> {
     let depth = 1 + items.map(Value::depth).max().unwrap_or(0);
     if depth > MAX_DEPTH {
@@ -162,17 +162,18 @@ impl Value {
         Self::Str(text.into())
     }
 
-    /// A list; an error if it nests too deeply.
+    /// Returns a list; an error if it is nested too deeply.
     pub fn list(items: Vec<Value>) -> Outcome<Self> {
         Ok(Self::List(List { items: Sequence::new(items)?, is_dotted: false }))
     }
 
-    /// A tuple; an error if it nests too deeply.
+    /// Returns a tuple; an error if it is nested too deeply.
     pub fn tuple(items: Vec<Value>) -> Outcome<Self> {
         Ok(Self::Tuple(Sequence::new(items)?))
     }
 
-    /// A dict; an error if it nests too deeply or a key cannot be one. The last of equal keys wins.
+    /// Returns a dict; an error if it is nested too deeply or a key is not hashable. The last of equal keys
+    /// wins.
     pub fn dict(entries: Vec<(Value, Value)>) -> Outcome<Self> {
         let mut dict = Dict::default();
         for (key, value) in entries {
@@ -181,8 +182,8 @@ impl Value {
         Ok(Self::Dict(DictHandle { dict: Rc::new(dict), is_dotted: false }))
     }
 
-    /// The same dict or list with `d.key` working as `d['key']`, in dicts inside too; other values unchanged.
-    /// What `xacro.load_yaml` gives needs this.
+    /// Returns the same dict or list with `d.key` equivalent to `d['key']`, in nested dicts too; other
+    /// values are unchanged. Used for the results of `xacro.load_yaml`.
     pub fn dotted(self) -> Self {
         match self {
             Self::List(list) => Self::List(List { is_dotted: true, ..list }),
@@ -191,12 +192,13 @@ impl Value {
         }
     }
 
-    /// A function of the caller's: calling it asks [`Scope::call_host`](super::Scope::call_host) by this name.
+    /// Returns a function of the caller: a call of it invokes [`Scope::call_host`](super::Scope::call_host)
+    /// with this name.
     pub fn host_function(name: impl Into<Rc<str>>) -> Self {
         Self::Function(Callable::Host(name.into()))
     }
 
-    /// Whether `if` takes the value as true.
+    /// Truth value.
     pub fn is_true(&self) -> bool {
         match self {
             Self::None => false,
@@ -238,7 +240,7 @@ impl Value {
         }
     }
 
-    /// The number arithmetic takes the value for.
+    /// Number of the value in arithmetic.
     pub(super) fn number(&self) -> Option<Number> {
         match self {
             Self::Bool(value) => Some(Number::Int(i128::from(*value))),
@@ -248,7 +250,7 @@ impl Value {
         }
     }
 
-    /// The integer the value is where one is needed, as an index or a count.
+    /// Integer of the value, for an index or a count.
     pub(super) fn integer(&self) -> Outcome<i128> {
         match self.number() {
             Some(Number::Int(int)) => Ok(int),
@@ -256,7 +258,7 @@ impl Value {
         }
     }
 
-    /// The float the value is where a real number is needed.
+    /// Float of the value, for a real number.
     pub(super) fn real(&self) -> Outcome<f64> {
         match self.number() {
             Some(number) => Ok(number.to_float()),
@@ -264,7 +266,7 @@ impl Value {
         }
     }
 
-    /// How deep values lie in this one.
+    /// Nesting depth of the value.
     pub(super) fn depth(&self) -> u32 {
         match self {
             Self::List(list) => list.items.depth,
@@ -278,7 +280,7 @@ impl Value {
         }
     }
 
-    /// An element taken out of a dotted container.
+    /// Element of a dotted container.
     pub(super) fn dotted_if(self, is_dotted: bool) -> Self {
         if is_dotted { self.dotted() } else { self }
     }

@@ -1,4 +1,4 @@
-//! Calling things.
+//! Calls.
 
 use std::rc::Rc;
 
@@ -77,7 +77,7 @@ impl Interpreter<'_> {
         Ok(arguments)
     }
 
-    /// Calls something with positional arguments only.
+    /// Calls a value with positional arguments only.
     pub(in super::super) fn apply(
         &mut self,
         function: &Value,
@@ -141,7 +141,7 @@ impl Interpreter<'_> {
         self.in_source(&closure.source, |interpreter| interpreter.evaluate(body, &frames))
     }
 
-    /// Does something with another text in charge of the places in errors.
+    /// Runs an action with another text for the locations in errors.
     pub(in super::super) fn in_source<T>(
         &mut self,
         source: &Rc<str>,

@@ -1,4 +1,4 @@
-//! The functions of `math` on integers.
+//! Functions of `math` on integers.
 
 use super::super::ast::Binary;
 use super::super::callable::{Arguments, Builtin};
@@ -27,8 +27,8 @@ fn not_negative(value: &Value, function: &str) -> Outcome<i128> {
     }
 }
 
-/// `from * (from - 1) * ...`, `count` factors. Ends early: the products soon pass 128 bits, and `count` never
-/// passes `from`.
+/// `from * (from - 1) * ...`, `count` factors. Ends early: the products soon exceed 128 bits, and `count`
+/// is at most `from`.
 fn falling(from: i128, count: i128) -> Outcome<i128> {
     let mut product: i128 = 1;
     for index in 0..count {
@@ -60,7 +60,7 @@ fn comb(_: &mut Interpreter<'_>, arguments: Arguments) -> Outcome<Value> {
         return Ok(Value::Int(0));
     }
     let mut result: i128 = 1;
-    // Each step at least doubles the result while index <= n / 2, so 128 steps end it one way or the other.
+    // Each step at least doubles the result while index <= n / 2, so at most 128 steps are needed.
     for index in 0..k.min(n - k) {
         let (numerator, denominator) = (n - index, index + 1);
         let shared = greatest_divisor(result, denominator);

@@ -8,7 +8,7 @@ use super::super::token::Token;
 use super::{Level, Parser};
 
 impl Parser<'_> {
-    /// An expression, or a tuple without parentheses.
+    /// Expression, or tuple without parentheses.
     pub(super) fn tuple_or_expression(&mut self) -> Outcome<Node> {
         let first = self.item()?;
         if !first.spread && !self.is_sign(",") {
@@ -47,7 +47,7 @@ impl Parser<'_> {
         Ok(Item { node: self.expression()?, spread: false })
     }
 
-    /// Items up to and with the closing bracket, the first of them read already.
+    /// Items up to and including the closing bracket; the first is already parsed.
     fn items(&mut self, first: Item, closing: &str) -> Outcome<Vec<Item>> {
         let mut items = vec![first];
         while self.take_sign(",") {
@@ -70,7 +70,7 @@ impl Parser<'_> {
         self.expect_sign(")")?;
         let range = start..self.end_of_last();
         let kind = match inner.kind {
-            // These would swallow the operators that follow, see `join`.
+            // These would take the operators that follow, see `join`.
             Kind::Or(_) | Kind::And(_) | Kind::Comparison(..) | Kind::Chain(..) => {
                 Kind::Parenthesized(Box::new(inner))
             }
@@ -95,7 +95,7 @@ impl Parser<'_> {
         Ok(Node { kind, range: start..self.end_of_last() })
     }
 
-    /// A set or a dict.
+    /// Set or dict.
     pub(super) fn braces(&mut self) -> Outcome<Node> {
         let start = self.advance().start;
         if self.take_sign("}") {
@@ -131,7 +131,7 @@ impl Parser<'_> {
         Ok(Node { kind, range: start..self.end_of_last() })
     }
 
-    /// More entries of a dict, up to and with the closing brace.
+    /// Further entries of a dict, up to and including the closing brace.
     fn entries(&mut self, mut entries: Vec<Entry>) -> Outcome<Vec<Entry>> {
         while !self.take_sign("}") {
             if self.take_sign("**") {
@@ -149,7 +149,7 @@ impl Parser<'_> {
         Ok(entries)
     }
 
-    /// The clauses behind an element, as a generator.
+    /// Clauses after an element, as a generator.
     pub(super) fn generator(&mut self, element: Node) -> Outcome<Node> {
         let start = element.range.start;
         let kind =
@@ -184,7 +184,7 @@ impl Parser<'_> {
         })))
     }
 
-    /// The names behind `for`.
+    /// Names after `for`.
     fn target(&mut self) -> Outcome<Target> {
         let first = self.one_target()?;
         if !self.is_sign(",") {
@@ -211,7 +211,7 @@ impl Parser<'_> {
         let target = self.nested(Self::target)?;
         self.expect_sign(closing)?;
         Ok(match target {
-            // Brackets alone make a target of one element, parentheses do not.
+            // Square brackets alone make a target of one element, parentheses do not.
             Target::Name(_) if closing == "]" => Target::Tuple(vec![target]),
             target => target,
         })

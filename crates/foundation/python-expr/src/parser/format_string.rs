@@ -14,7 +14,7 @@ impl Parser<'_> {
         Ok(pieces)
     }
 
-    /// Pieces from `at` up to `end`, or in a format specification up to the closing brace of its field.
+    /// Pieces from `at` to `end`, or in a format specification to the closing brace of its field.
     fn pieces(
         &self,
         at: &mut usize,
@@ -29,7 +29,7 @@ impl Parser<'_> {
             let rest = &self.text[*at..end];
             let brace = match rest.as_bytes()[0] {
                 b'\\' if !is_raw => {
-                    // An escape; `\N{...}` is refused when the piece is decoded.
+                    // Escape; `\N{...}` is refused when the piece is decoded.
                     *at += 1 + rest[1..].chars().next().map_or(0, char::len_utf8);
                     continue;
                 }
@@ -66,7 +66,7 @@ impl Parser<'_> {
         Ok(pieces)
     }
 
-    /// Behind `{` up to and with `}`.
+    /// Field after `{` up to and including `}`.
     fn field(
         &self,
         at: &mut usize,
@@ -128,7 +128,7 @@ impl Parser<'_> {
         Ok(())
     }
 
-    /// The expression of a field: up to `}`, `:`, `=` or `!` outside brackets and strings.
+    /// Expression of a field: up to `}`, `:`, `=` or `!` outside brackets and strings.
     fn field_expression(&self, start: usize, end: usize) -> Option<Range<usize>> {
         let text = &self.text[..end];
         let mut at = start;

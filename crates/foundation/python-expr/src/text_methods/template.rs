@@ -9,7 +9,7 @@ use super::super::interpreter::Interpreter;
 use super::super::subscript::item;
 use super::super::value::Value;
 
-/// How the fields without a name count.
+/// Numbering of fields without a name.
 #[derive(Clone, Copy, PartialEq)]
 enum Numbering {
     Unknown,
@@ -62,7 +62,7 @@ fn fill(
     Ok(result)
 }
 
-/// Where the `}` of a field is, over the fields in its specification.
+/// Position of the `}` of a field, after the fields in its specification.
 fn field_end(text: &str) -> Option<usize> {
     let mut open = 0_usize;
     for (place, letter) in text.char_indices() {

@@ -1,4 +1,4 @@
-//! Dicts and sets: entries in order of insertion, found by key.
+//! Dicts and sets: entries in insertion order, indexed by key.
 
 use std::collections::BTreeMap;
 use std::rc::Rc;
@@ -7,23 +7,24 @@ use super::super::error::{ExpressionError, Outcome, fail};
 use super::super::number::truncate;
 use super::{Value, depth_around};
 
-/// A key in a form that Rust can order: equal exactly where Python's `==` and `hash` agree, so 1, 1.0 and True
+/// Key in a form that Rust can order: equal exactly if Python's `==` and `hash` agree, so 1, 1.0 and True
 /// are one key.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
 enum Key {
     None,
     Int(i128),
-    /// By its bits; floats that are whole numbers are `Int`.
+    /// Bits of the float; integral floats are `Int`.
     Float(u64),
     Str(Rc<str>),
     Tuple(Vec<Key>),
     Function(Rc<str>),
 }
 
-/// How many parts a tuple may have to be a key: tuples that share their parts could else grow without bound.
+/// Maximum number of elements of a tuple used as a key: tuples with shared elements could otherwise grow
+/// without bound.
 const MAX_PARTS: usize = 1000;
 
-/// The key this value is.
+/// Key of a value.
 fn key_of(value: &Value) -> Outcome<Key> {
     key_within(value, &mut MAX_PARTS.clone())
 }
@@ -63,7 +64,7 @@ fn key_within(value: &Value, parts_left: &mut usize) -> Outcome<Key> {
     })
 }
 
-/// The entries of a dict, or of a set (whose values are `None`), in order of insertion.
+/// Entries of a dict, or of a set (with `None` as values), in insertion order.
 #[derive(Debug, Clone, Default)]
 pub struct Dict {
     entries: Vec<(Value, Value)>,
@@ -72,17 +73,17 @@ pub struct Dict {
 }
 
 impl Dict {
-    /// Keys and values in order of insertion.
+    /// Keys and values in insertion order.
     pub fn entries(&self) -> &[(Value, Value)] {
         &self.entries
     }
 
-    /// The value of a key; an error if the value cannot be a key.
+    /// Value of a key; an error if it is not hashable.
     pub fn get(&self, key: &Value) -> Outcome<Option<&Value>> {
         Ok(self.get_key(&key_of(key)?))
     }
 
-    /// The value of a text key.
+    /// Value of a text key.
     pub fn get_text(&self, key: &str) -> Option<&Value> {
         self.get_key(&Key::Str(key.into()))
     }
@@ -91,7 +92,7 @@ impl Dict {
         self.places.get(key).map(|&place| &self.entries[place].1)
     }
 
-    /// Sets a value; a key that is there keeps its place, as in Python.
+    /// Sets a value; an existing key keeps its position, as in Python.
     pub(in super::super) fn insert(&mut self, key: Value, value: Value) -> Outcome<()> {
         let place = key_of(&key)?;
         self.depth = self.depth.max(depth_around([&key, &value].into_iter())?);
