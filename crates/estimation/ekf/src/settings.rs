@@ -166,7 +166,7 @@ impl Default for Settings {
 
 impl Settings {
     /// Reads what a user wrote: the filter's own parameters, and those of its inputs. Of one that is
-    /// given more than once the last counts. What is wrong is told, and the default stands in for it.
+    /// given more than once the last counts. What is wrong is told, and the default is used.
     pub fn read<'a>(
         given: impl IntoIterator<Item = Given<'a>>,
         diagnostics: &mut Diagnostics,
@@ -332,7 +332,7 @@ fn numbers_of(
         format!("`{name}` has {} numbers; it takes {}", numbers.len(), counts.join(" or ")),
     )
     .at(values.origin(name))
-    .help("the default stands in for it");
+    .help("the default is used");
     diagnostics.push(bad);
     None
 }

@@ -22,14 +22,14 @@ pub fn plain_words(error: &Error) -> String {
         ErrorKind::NotADirectory => "a part of the path is a file, not a folder",
         ErrorKind::DirectoryNotEmpty => "the folder is not empty",
         ErrorKind::InvalidFilename => "the name is too long or not valid here",
-        ErrorKind::AddrInUse => "another program has this port",
+        ErrorKind::AddrInUse => "another program uses this port",
         ErrorKind::AddrNotAvailable => "this machine has no such address",
         ErrorKind::ConnectionRefused => "the connection was refused",
         ErrorKind::ConnectionReset => "the connection was reset",
         ErrorKind::TimedOut => "no answer came in time",
         ErrorKind::ExecutableFileBusy => "the program is being written by another",
         ErrorKind::OutOfMemory => "there is not enough memory",
-        ErrorKind::BrokenPipe => "the reader has gone",
+        ErrorKind::BrokenPipe => "the reader has closed the pipe",
         _ => return without_number(&error.to_string()),
     };
     words.to_owned()

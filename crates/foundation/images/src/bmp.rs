@@ -34,7 +34,7 @@ pub(crate) fn decode(bytes: &[u8]) -> Result<Raster, BadImage> {
     let stride = (width as usize * header.bits).div_ceil(32) * 4;
     let rows = bytes.get(header.pixels..).unwrap_or_default();
     if (stride as u64) * u64::from(height) > rows.len() as u64 {
-        return Err(BadImage("it holds fewer pixels than its header says".into()));
+        return Err(BadImage("it has fewer pixels than its header declares".into()));
     }
     let mut samples = Vec::with_capacity(width as usize * height as usize * layout.channels());
     for y in 0..height as usize {

@@ -124,7 +124,7 @@ impl<'b> Reader<'b> {
 }
 
 fn short() -> BadImage {
-    BadImage("it holds fewer pixels than its header says".into())
+    BadImage("it has fewer pixels than its header declares".into())
 }
 
 #[cfg(test)]

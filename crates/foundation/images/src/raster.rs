@@ -87,7 +87,7 @@ impl Raster {
         };
         let expected = raster.pixels() * raster.bytes_per_pixel();
         if expected == 0 || raster.bytes.len() != expected {
-            return Err(BadImage("it holds fewer pixels than its header says".into()));
+            return Err(BadImage("it has fewer pixels than its header declares".into()));
         }
         Ok(raster)
     }

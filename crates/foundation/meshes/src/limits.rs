@@ -12,7 +12,7 @@ pub struct Limits {
     /// Maximum nesting depth of scene nodes.
     pub depth_max: usize,
     /// Maximum memory for reading, the finished mesh included \[bytes\]. The limit of a small file is
-    /// lower: 128 MiB, plus 24 bytes for each of its own.
+    /// lower: 128 MiB, plus 24 bytes per byte of the file.
     pub bytes_max: usize,
 }
 

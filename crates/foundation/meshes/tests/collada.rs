@@ -277,7 +277,7 @@ fn hostile_numbers_are_refused_with_their_line() {
             "<p>0 1 2</p>",
             "<p>0 1 -2</p>",
             expect![[r#"
-                error: line 8: `<p>`: `-2` is not a number that can stand here; export the COLLADA file again, or repair it by hand
+                error: line 8: `<p>`: `-2` is not a valid number here; export the COLLADA file again, or repair it by hand
             "#]],
         ),
         (

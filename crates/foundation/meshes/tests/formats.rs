@@ -1,4 +1,4 @@
-//! What each reader makes of small files whose answers can be seen at a glance.
+//! Readers on small files with obvious results.
 
 mod support;
 

@@ -265,7 +265,7 @@ fn a_count_without_data_is_refused_before_memory_is_taken() {
     }
 }
 
-/// What may be taken grows with the file, so that a small one stays small.
+/// The memory limit grows with the size of the file, so a small file stays small.
 #[test]
 fn overlapping_elements_unfold_no_further_than_their_file_allows() {
     // One element a byte: elements that overlap because of the stride, all of them different.

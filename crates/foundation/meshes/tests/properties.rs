@@ -1,4 +1,4 @@
-//! What is written comes back, and no damage to a file makes a reader panic.
+//! Written meshes are read back unchanged, and no damage to a file makes a reader panic.
 
 use std::fmt::Write;
 

@@ -115,7 +115,7 @@ impl Table {
         match parameter.default {
             Default::Value(default) => {
                 let unit = parameter.unit.map(|unit| format!(" {unit}")).unwrap_or_default();
-                diagnostic.note(format!("the default stands in for it: {default}{unit}"))
+                diagnostic.note(format!("the default is used: {default}{unit}"))
             }
             Default::Required | Default::None => diagnostic,
         }
@@ -212,7 +212,7 @@ mod tests {
                 3 | count 9
                   |       ^
                   |
-                  = note: the default stands in for it: 1
+                  = note: the default is used: 1
                 warning[repeated-parameter]: `powered` is set twice; only the first counts
                  --> wheel.txt:5:1
                   |
@@ -264,7 +264,7 @@ mod tests {
             2 | wheel_diameter ${2*r}
               |                ^^^^^^
               |
-              = note: the default stands in for it: 0.15 m
+              = note: the default is used: 0.15 m
               = help: this is a xacro expression: name the file `.xacro` so that it is evaluated
         "#]],
         );

@@ -5,17 +5,17 @@ use crate::{Kind, Parameter};
 /// Value of a parameter.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Value {
-    /// Of [`Kind::Bool`].
+    /// Value of [`ParameterType::Bool`].
     Bool(bool),
-    /// Of [`Kind::Integer`].
+    /// Value of [`ParameterType::Integer`].
     Integer(i64),
-    /// Of [`Kind::Number`].
+    /// Value of [`ParameterType::Number`].
     Number(f64),
-    /// Of [`Kind::Text`] and [`Kind::Choice`]; empty for [`Kind::Group`].
+    /// Value of [`ParameterType::Text`] and [`ParameterType::Choice`]; empty for [`ParameterType::Group`].
     Text(String),
-    /// Of [`Kind::NumberList`].
+    /// Value of [`ParameterType::NumberList`].
     Numbers(Vec<f64>),
-    /// Of [`Kind::TextList`].
+    /// Value of [`ParameterType::TextList`].
     Texts(Vec<String>),
 }
 

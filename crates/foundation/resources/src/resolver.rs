@@ -38,7 +38,7 @@ const MAX_CACHED_MISSES: usize = 2_000;
 ///    (in `share`), and `~/.gazebo/models`;
 /// 3. upward from the mentioning file, to the repository around it or 8 folders, each folder as
 ///    under 1;
-/// 4. the `gazebo_model_path` that the packages met on the way export, and the search paths that
+/// 4. the `gazebo_model_path` that the packages found in this search export, and the search paths that
 ///    their environment hooks would set.
 ///
 /// # Access restrictions
@@ -121,7 +121,7 @@ impl<'h> Resolver<'h> {
         }
         if self.misses(&around) >= MAX_CACHED_MISSES {
             let reason = format!(
-                "{MAX_CACHED_MISSES} other URIs of this file led nowhere, so it was not looked for"
+                "{MAX_CACHED_MISSES} other URIs of this file could not be resolved, so it was not searched"
             );
             return Err(Miss::missing(uri, reason));
         }

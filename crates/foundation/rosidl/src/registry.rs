@@ -137,7 +137,7 @@ impl Registry {
         for field in &definition.fields {
             let one = match &field.r#type.element {
                 crate::Element::Nested(nested) if above.contains(&nested) => {
-                    let wrong = format!("`{name}` contains itself, by way of `{nested}`");
+                    let wrong = format!("`{name}` contains itself through `{nested}`");
                     diagnostics.push(Diagnostic::error("endless-type", wrong).at(field.origin));
                     None
                 }
@@ -146,7 +146,7 @@ impl Registry {
                     None
                 }
                 crate::Element::Nested(_) if above.len() >= MAX_DEPTH => {
-                    let wrong = format!("types nest deeper than {MAX_DEPTH} here");
+                    let wrong = format!("types are nested deeper than {MAX_DEPTH} here");
                     diagnostics.push(Diagnostic::error("deep-type", wrong).at(field.origin));
                     None
                 }

@@ -35,7 +35,7 @@ fn what_is_hashed() {
     expect![[r#"{"type_description": {"type_name": "my_msgs/msg/Nothing", "fields": [{"name": "structure_needs_at_least_one_member", "type": {"type_id": 3, "capacity": 0, "string_capacity": 0, "nested_type_name": ""}}]}, "referenced_type_descriptions": []}"#]].assert_eq(&of("my_msgs/Nothing"));
 }
 
-/// As the build of `std_msgs` for ROS 2 Jazzy says.
+/// As in the build of `std_msgs` for ROS 2 Jazzy.
 #[test]
 fn a_published_hash() {
     let registry = registry(&[("std_msgs/String", "string data\n")]);

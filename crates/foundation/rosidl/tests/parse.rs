@@ -1,4 +1,4 @@
-//! What texts mean, and what is said about wrong ones.
+//! Parser of interface texts, and the findings about faulty ones.
 #![allow(clippy::unwrap_used, reason = "helpers of tests may unwrap as tests do")]
 
 use expect_test::{Expect, expect};

@@ -2,8 +2,7 @@
 
 use std::borrow::Cow;
 
-/// Decodes a file: UTF-8 with or without a byte order mark, UTF-16 with one, and ISO-8859-1 if the XML
-/// declaration says so.
+/// Decodes a file: UTF-8 with or without a byte order mark, UTF-16 with one, and ISO-8859-1 if declared.
 ///
 /// # Errors
 /// What is wrong with the bytes, and what to do.
@@ -37,7 +36,10 @@ fn utf16(bytes: &[u8], read: fn([u8; 2]) -> u16) -> Result<Cow<'static, str>, St
     let text: Result<String, _> = char::decode_utf16(units).collect();
     match text {
         Ok(text) if odd.is_empty() => Ok(text.into()),
-        _ => Err("the byte order mark says UTF-16, but the bytes are not; save it as UTF-8".into()),
+        _ => {
+            Err("the byte order mark is that of UTF-16, but the bytes are not; save it as UTF-8"
+                .into())
+        }
     }
 }
 

@@ -260,15 +260,12 @@ impl Builder<'_> {
                 Some(root) => {
                     let diagnostic = Diagnostic::warning(
                         "second-root",
-                        format!(
-                            "`{}` stands after the end of the file's root element",
-                            element.name
-                        ),
+                        format!("`{}` is after the end of the file's root element", element.name),
                     )
                     .at(element.origin)
                     .label("not read")
                     .related(root.origin, "the root element")
-                    .help("a file has one root element; move it inside, or to a file of its own");
+                    .help("a file has one root element; move it inside, or to a separate file");
                     self.error(diagnostic);
                 }
             },
@@ -290,7 +287,7 @@ impl Builder<'_> {
                     periplus_diagnostics::Severity::Error
                 },
                 "text-outside",
-                "text stands outside the root element",
+                "text is outside the root element",
             )
             .at(span)
             .label("not read");
@@ -345,14 +342,14 @@ impl Builder<'_> {
         let (diagnostic, go_on) = match unresolved {
             Unresolved::Unknown => (
                 Diagnostic::warning("unknown-entity", format!("`&{name};` is not an entity"))
-                    .label("kept as it stands")
+                    .label("kept as written")
                     .help("write `&amp;` for an ampersand"),
                 true,
             ),
             Unresolved::External => (
                 Diagnostic::error(
                     "external-entity",
-                    format!("`&{name};` stands for another file, which is not read"),
+                    format!("`&{name};` refers to another file, which is not read"),
                 )
                 .help("use <include> or <xacro:include>"),
                 false,
@@ -394,7 +391,7 @@ impl Builder<'_> {
             self.error(
                 Diagnostic::error("no-element", "the file holds no XML element")
                     .at(self.whole.part(0, 1))
-                    .help("is this the right file?"),
+                    .help("check that this is the right file"),
             );
             return None;
         };
@@ -414,7 +411,7 @@ impl Builder<'_> {
             Error::Syntax(quick_xml::errors::SyntaxError::UnclosedComment) => {
                 "close the comment with `-->`"
             }
-            _ => "look for a missing `>` or quote before this place",
+            _ => "look for a missing `>` or quote before this position",
         };
         self.error(
             Diagnostic::error("malformed-xml", format!("this is not well-formed XML: {error}"))

@@ -166,7 +166,7 @@ macro_rules! kinds {
         #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
         pub struct $name(pub i32);
 
-        #[allow(missing_docs, reason = "names say it")]
+        #[allow(missing_docs, reason = "the names are those of Gazebo")]
         impl $name {
             $(pub const $kind: Self = Self($number);)*
 

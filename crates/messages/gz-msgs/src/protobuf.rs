@@ -45,8 +45,8 @@ impl fmt::Display for DecodeError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(match self {
             Self::Short => "the message ends too early",
-            Self::Number => "a number in the message is none",
-            Self::Kind => "a field of the message is of no known kind",
+            Self::Number => "a number in the message is invalid",
+            Self::Kind => "a field of the message has an unknown wire type",
             Self::Deep => "messages are nested too deeply",
             Self::Memory => "the message would take far more memory than it has bytes",
         })

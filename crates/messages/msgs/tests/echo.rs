@@ -1,4 +1,4 @@
-//! What people see of messages, and types that come at run time.
+//! Printed messages, and types known only at run time.
 #![allow(clippy::unwrap_used, reason = "helpers of tests may unwrap as tests do")]
 
 use expect_test::{Expect, expect};
@@ -284,7 +284,7 @@ fn any_text_can_be_shown() {
     });
 }
 
-/// What PyYAML makes of the same.
+/// Result of PyYAML for the same values.
 #[test]
 fn texts_and_numbers_as_pyyaml_writes_them() {
     for (data, expected) in [

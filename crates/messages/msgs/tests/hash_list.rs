@@ -1,4 +1,4 @@
-//! `docs/type-hashes.md`: which type hashes are checked, and against whom. With UPDATE_EXPECT=1 it is
+//! `docs/type-hashes.md`: the type hashes that are verified, with their sources. With UPDATE_EXPECT=1 it is
 //! rewritten.
 
 use std::collections::{BTreeMap, BTreeSet};
@@ -7,7 +7,7 @@ use std::fmt::Write as _;
 use expect_test::expect_file;
 use periplus_msgs::TypeRegistry;
 
-/// Who says what a hash is, the strongest first, and what the table calls it.
+/// Source of a hash, the most reliable first, and its name in the table.
 const SOURCES: [(&str, &str); 5] = [
     ("running", "a running system"),
     ("jazzy", "build of Jazzy"),

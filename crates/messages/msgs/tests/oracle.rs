@@ -16,14 +16,14 @@ const FORMATS: [(&str, Format); 3] = [
     ("ros1", Format::Ros1),
 ];
 
-/// What rosbags made of each type.
+/// Results of rosbags for each type.
 fn oracle() -> BTreeMap<String, Value> {
     let lines = include_str!("data/oracle.jsonl").lines();
     let parse = |line| serde_json::from_str::<Value>(line).unwrap();
     lines.map(parse).map(|one| (one["type"].as_str().unwrap().to_owned(), one)).collect()
 }
 
-/// Each type with its hash and who says so.
+/// Type with its hash and the source of the hash.
 fn hashes() -> BTreeMap<&'static str, (&'static str, &'static str)> {
     let read = |line: &'static str| {
         let [name, hash, source] = line.split('\t').collect::<Vec<_>>()[..] else {
@@ -139,7 +139,7 @@ fn type_hashes_are_the_published_ones() {
 }
 
 /// Read off a running ROS 2 Jazzy (`ros2 topic info -v`), and off code that rosidl made for Iron and
-/// later, as it stands in public workspaces (`*__description.c`).
+/// later, as found in public workspaces (`*__description.c`).
 #[test]
 fn type_hashes_are_those_of_running_and_built_systems() {
     let types = TypeRegistry::builtin();

@@ -1,4 +1,4 @@
-//! Types and bytes on their way between ROS 1 and ROS 2.
+//! Conversion of types and bytes between ROS 1 and ROS 2.
 #![allow(clippy::unwrap_used, reason = "a test may stop")]
 
 use periplus_msgs::visualization_msgs::Marker;

@@ -1,4 +1,4 @@
-//! Every plugin we know.
+//! Tables of all known plugins.
 //!
 //! Names, defaults and meanings are those of the plugins' own sources: `gazebo_ros_pkgs` (branches
 //! `ros2` and `noetic-devel`), `gazebo-classic` 11, `gz-sim` 8 and `gz-gui` 8, and their
@@ -20,7 +20,7 @@ mod ros2_drive;
 
 use crate::Known;
 
-/// Every plugin we know, ROS 2 before ROS 1.
+/// Returns all known plugins, ROS 2 before ROS 1.
 pub fn known() -> impl Iterator<Item = &'static Known> {
     [
         ros2::PLUGINS,
@@ -40,7 +40,7 @@ pub fn known() -> impl Iterator<Item = &'static Known> {
     .flatten()
 }
 
-/// A plugin of Classic and ROS 2: all read `<ros>`.
+/// Plugin of Gazebo Classic and ROS 2: all read `<ros>`.
 macro_rules! of_ros2 {
     ($id:literal, $role:ident, $support:ident, $doc:literal, [$($parameter:expr),* $(,)?]) => {
         crate::Known::new(
@@ -63,7 +63,7 @@ macro_rules! of_ros2 {
     };
 }
 
-/// A plugin of Classic and ROS 1: all are given a namespace and two parameters of old.
+/// Plugin of Gazebo Classic and ROS 1: all have a namespace and two obsolete parameters.
 macro_rules! of_ros1 {
     ($id:literal, $role:ident, $support:ident, $doc:literal, [$($parameter:expr),* $(,)?]) => {
         crate::Known::new(
@@ -84,7 +84,7 @@ macro_rules! of_ros1 {
     };
 }
 
-/// A system of today's Gazebo.
+/// System of current Gazebo.
 macro_rules! system {
     ($id:literal, [$($class:literal),*], $role:ident, $support:ident, $doc:literal,
      [$($parameter:expr),* $(,)?]) => {
@@ -99,7 +99,7 @@ macro_rules! system {
     };
 }
 
-/// A panel of today's Gazebo's window.
+/// GUI plugin of current Gazebo.
 macro_rules! panel {
     ($id:literal, $support:ident, $doc:literal, [$($parameter:expr),* $(,)?]) => {
         crate::Known::new(

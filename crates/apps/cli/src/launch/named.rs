@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use periplus_diagnostics::{Diagnostic, closest};
 use periplus_launch::bringup::{STOOD_FOR, stands_for};
 use periplus_os::Machine;
-use periplus_resources::{Host as _, Kind, Resolver};
+use periplus_resources::{Host as _, EntryKind, Resolver};
 
 /// Launch file that the command line names.
 pub(super) enum Found {
@@ -31,7 +31,7 @@ pub(super) fn file(
     match words {
         [file] => {
             let path = here.join(file);
-            if Machine.kind(&path) == Some(Kind::File) {
+            if Machine.kind(&path) == Some(EntryKind::File) {
                 return Ok(Found::File(path));
             }
             Err(no_file(file, resolver, here).into())
@@ -82,8 +82,8 @@ fn walk(folder: &Path, depth: usize, visit: &mut dyn FnMut(&Path)) {
     for entry in Machine.list(folder).iter().filter(|entry| !entry.starts_with('.')) {
         let inner = folder.join(entry);
         match Machine.kind(&inner) {
-            Some(Kind::File) => visit(&inner),
-            Some(Kind::Folder) if depth < DEEPEST => walk(&inner, depth + 1, visit),
+            Some(EntryKind::File) => visit(&inner),
+            Some(EntryKind::Folder) if depth < DEEPEST => walk(&inner, depth + 1, visit),
             _ => {}
         }
     }
@@ -120,7 +120,7 @@ fn is_launch_file(name: &str, is_in_launch: bool) -> bool {
 fn no_file(file: &Path, resolver: &Resolver<'_>, here: &Path) -> Diagnostic {
     let name = file.display().to_string();
     let path = here.join(file);
-    let is_folder = Machine.kind(&path) == Some(Kind::Folder);
+    let is_folder = Machine.kind(&path) == Some(EntryKind::Folder);
     let package = resolver.find_package(&name, &here.join("launch")).ok();
     if let Some(folder) = package {
         let files = launch_files(&folder);

@@ -90,7 +90,7 @@ impl<'t> Planner<'t> {
         let target = self.tree.find(tag, url);
         if target.is_none() {
             let why = if url.contains('#') && !url.starts_with('#') {
-                "lies in another file, which is not followed: merge the files"
+                "is in another file, which is not read: merge the files"
             } else {
                 "is not in the file"
             };

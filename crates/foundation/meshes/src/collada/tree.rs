@@ -237,7 +237,7 @@ impl<'t> Node<'t> {
     }
 
     fn not_a_number(self, word: &str) -> MeshError {
-        self.error(format!("`{}` is not a number that can stand here", short(word)))
+        self.error(format!("`{}` is not a valid number here", short(word)))
     }
 }
 

@@ -1,4 +1,4 @@
-//! What the tests of the readers share.
+//! Helpers shared by the tests of the readers.
 
 use periplus_meshes::{Mesh, Texture};
 

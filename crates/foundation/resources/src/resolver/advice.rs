@@ -51,7 +51,7 @@ impl Resolver<'_> {
             Some(near) => miss.help(format!("did you mean `{word}://{near}`?")),
             None => miss,
         };
-        miss.help(format!("name the folder that holds `{name}`: `--resource-path FOLDER`"))
+        miss.help(format!("name the folder that contains `{name}`: `--resource-path FOLDER`"))
     }
 
     /// Path with the first missing part replaced by the most similar existing name.

@@ -61,7 +61,8 @@ impl Resolver<'_> {
         miss.tried = search.tried;
         if let Some(folder) = search.cut_short {
             let folder = folder.display();
-            miss = miss.help(format!("there is too much below {folder} to look at all of it"));
+            miss = miss
+                .help(format!("there are too many folders below {folder} to search all of them"));
         }
         Err(miss)
     }

@@ -114,7 +114,7 @@ impl Resolver<'_> {
         if let Some(refused) = refused {
             return Err(Miss::outside(uri, &refused));
         }
-        let mut miss = Miss::missing(uri, "nothing stands there");
+        let mut miss = Miss::missing(uri, "there is no such file");
         if let Some(name) =
             folders.first().and_then(|folder| self.nearest_name(folder, path, around))
         {

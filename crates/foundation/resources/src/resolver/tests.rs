@@ -418,7 +418,10 @@ fn a_million_wrong_names_end() {
     let asked = counting.1.get();
     let miss = resolver.resolve("package://one_more/a", Path::new(FROM)).expect_err("a miss");
     assert_eq!(counting.1.get(), asked);
-    assert_eq!(miss.reason, "2000 other URIs of this file led nowhere, so it was not looked for");
+    assert_eq!(
+        miss.reason,
+        "2000 other URIs of this file could not be resolved, so it was not searched"
+    );
 }
 
 #[test]

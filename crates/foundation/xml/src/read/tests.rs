@@ -37,7 +37,7 @@ fn what_tinyxml_forgives_is_forgiven() {
              --> file.xml:1:38
               |
             1 | <a><!-- -- --><gz:b c:d='R&D'/>x & y &nbsp;</a>
-              |                                      ^^^^^^ kept as it stands
+              |                                      ^^^^^^ kept as written
               |
               = help: write `&amp;` for an ampersand
         "#]],
@@ -149,7 +149,7 @@ fn files_are_not_read_by_entities() {
     check(
         "<!DOCTYPE a [<!ENTITY x SYSTEM 'file:///etc/passwd'>]><a>&x;</a>",
         expect![[r#"
-        error[external-entity]: `&x;` stands for another file, which is not read
+        error[external-entity]: `&x;` refers to another file, which is not read
          --> file.xml:1:58
           |
         1 | <!DOCTYPE a [<!ENTITY x SYSTEM 'file:///etc/passwd'>]><a>&x;</a>

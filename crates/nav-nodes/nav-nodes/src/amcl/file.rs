@@ -10,7 +10,7 @@ const DEEPEST: usize = 4;
 
 /// Reads the parameters of a node from a file, and then from words `name`, `value`: `amcl` finds `amcl: ros__parameters:`, `/**:` and, in
 /// files of ROS 1, `amcl:`, or everything when there is no such section. What is wrong is told, and
-/// the default stands in for it.
+/// the default is used.
 #[must_use]
 pub fn read(
     file: Option<&Node>,

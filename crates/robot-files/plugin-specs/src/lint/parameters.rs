@@ -341,7 +341,7 @@ mod tests {
                 2 |   <output_type>sensor_msgs/LaserScn</output_type>
                   |                ^^^^^^^^^^^^^^^^^^^^
                   |
-                  = note: the default stands in for it: sensor_msgs/PointCloud2
+                  = note: the default is used: sensor_msgs/PointCloud2
                 help: did you mean `sensor_msgs/LaserScan`?
                   |
                 2 |   <output_type>sensor_msgs/LaserScan</output_type>
@@ -352,7 +352,7 @@ mod tests {
                 3 |   <min_intensity>low</min_intensity>
                   |                  ^^^
                   |
-                  = note: the default stands in for it: 0
+                  = note: the default is used: 0
             "#]],
         );
     }

@@ -1,4 +1,4 @@
-//! Panels of today's Gazebo's window.
+//! GUI plugins of current Gazebo.
 
 use periplus_params::{Names, Parameter, choice, flag, group, number, numbers, text};
 
@@ -11,7 +11,7 @@ const TOPIC: Parameter = text("topic", "The topic.").naming(Names::Topic);
 const TOPIC_PICKER: Parameter =
     flag("topic_picker", "If true, the topic can be chosen.").or("true");
 
-/// What both kinds of 3D view read.
+/// Parameters of both 3D views.
 macro_rules! view {
     ($id:literal, $doc:literal) => {
         panel!(

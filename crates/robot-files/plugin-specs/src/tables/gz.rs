@@ -1,4 +1,4 @@
-//! Sensor systems and publishers of today's Gazebo.
+//! Sensor systems and publishers of current Gazebo.
 
 use periplus_params::{Names, Parameter, choice, flag, group, integer, number, numbers, text};
 

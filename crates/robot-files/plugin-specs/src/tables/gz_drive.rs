@@ -1,4 +1,4 @@
-//! Drives and joint controllers of today's Gazebo.
+//! Drives and joint controllers of current Gazebo.
 
 use periplus_params::{Names, Parameter, choice, flag, group, integer, number, numbers, text};
 
@@ -43,7 +43,7 @@ const fn limit(name: &'static str, unit: &'static str) -> Parameter {
     number(name, unit, "Limit of commands (default: none).")
 }
 
-/// Gains of a controller of one joint, with the defaults of Gazebo.
+/// Gains of a joint controller, with the defaults of Gazebo.
 const fn gain(name: &'static str, default: &'static str) -> Parameter {
     number(name, "", "Gain of the controller.").or(default)
 }

@@ -1,4 +1,4 @@
-//! Systems of today's Gazebo that act on bodies.
+//! Systems of current Gazebo that act on bodies.
 
 use periplus_params::{Names, Parameter, flag, group, integer, number, numbers, text};
 

@@ -1,4 +1,4 @@
-//! World systems of today's Gazebo.
+//! World systems of current Gazebo.
 
 use periplus_params::{Names, flag, group, integer, number, text};
 

@@ -1,4 +1,4 @@
-//! Plugins of `gazebo_ros_pkgs`, branch `noetic-devel`, that neither drive nor sense.
+//! Plugins of `gazebo_ros_pkgs`, branch `noetic-devel`, other than drives and sensors.
 
 use periplus_params::{Names, Parameter, flag, group, integer, number, numbers, text};
 

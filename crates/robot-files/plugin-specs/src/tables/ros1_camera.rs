@@ -14,7 +14,7 @@ const fn distortion(name: &'static str, alias: &'static [&'static str]) -> Param
     number(name, "", "Distortion in the camera info.").or("0").also(alias)
 }
 
-/// What every camera reads.
+/// Parameters of all cameras.
 macro_rules! camera {
     ($id:literal, $doc:literal, [$($parameter:expr),* $(,)?]) => {
         of_ros1!($id, Sensor, Simulated, $doc, [

@@ -1,4 +1,4 @@
-//! Plugins of `gazebo_ros_pkgs`, branch `ros2`, that do not drive.
+//! Plugins of `gazebo_ros_pkgs`, branch `ros2`, other than drives.
 
 use periplus_params::{Names, Parameter, choice, flag, integer, number, numbers, text};
 
