@@ -40,7 +40,7 @@ impl Default for Limits {
 /// Maximum number of corners of one polygon.
 const MAX_CORNERS: usize = 1_000_000;
 
-/// Remaining [`MeshLimits`] while a file is read.
+/// Remaining [`Limits`] while a file is read.
 pub(crate) struct Budget {
     limits: Limits,
     triangles: usize,

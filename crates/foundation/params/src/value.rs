@@ -5,17 +5,17 @@ use crate::{Kind, Parameter};
 /// Value of a parameter.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Value {
-    /// Value of [`ParameterType::Bool`].
+    /// Value of [`Kind::Bool`].
     Bool(bool),
-    /// Value of [`ParameterType::Integer`].
+    /// Value of [`Kind::Integer`].
     Integer(i64),
-    /// Value of [`ParameterType::Number`].
+    /// Value of [`Kind::Number`].
     Number(f64),
-    /// Value of [`ParameterType::Text`] and [`ParameterType::Choice`]; empty for [`ParameterType::Group`].
+    /// Value of [`Kind::Text`] and [`Kind::Choice`]; empty for [`Kind::Group`].
     Text(String),
-    /// Value of [`ParameterType::NumberList`].
+    /// Value of [`Kind::NumberList`].
     Numbers(Vec<f64>),
-    /// Value of [`ParameterType::TextList`].
+    /// Value of [`Kind::TextList`].
     Texts(Vec<String>),
 }
 

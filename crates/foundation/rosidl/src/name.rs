@@ -24,7 +24,7 @@ impl Kind {
         }
     }
 
-    /// Kind with this [`InterfaceKind::word`].
+    /// Kind with this [`Kind::word`].
     #[must_use]
     pub fn from_word(word: &str) -> Option<Self> {
         [Self::Action, Self::Message, Self::Service].into_iter().find(|kind| kind.word() == word)

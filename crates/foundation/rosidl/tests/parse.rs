@@ -268,7 +268,7 @@ fn unknown_and_endless_types_are_found() {
         ],
     );
     expect![[r#"
-        error[endless-type]: `my_msgs/msg/B` contains itself, by way of `my_msgs/msg/A`
+        error[endless-type]: `my_msgs/msg/B` contains itself through `my_msgs/msg/A`
          --> B.msg:1:1
           |
         1 | A[] more

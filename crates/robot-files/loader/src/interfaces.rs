@@ -273,7 +273,7 @@ mod tests {
               | ^^^^
               |
               = help: a line is `type name`, `type name default` or `type NAME=value`
-            error[bad-type-name]: `/a_msgs/msg/thing.msg` names no type: `a_msgs/msg/thing`
+            error[bad-type-name]: `/a_msgs/msg/thing.msg` is not a valid type name: `a_msgs/msg/thing`
              |
              = help: packages have small letters, digits and `_`; types begin with a large letter and have no `_`
             warning[no-interfaces]: there are no interfaces in `/empty`

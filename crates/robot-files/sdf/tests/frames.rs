@@ -156,11 +156,11 @@ fn frames_in_a_circle_are_told() {
              --> test.sdf:3:30
               |
             2 | <frame name="f"><pose relative_to="g"/></frame>
-              |                                    - `f` hangs on this
+              |                                    - `f` depends on this
             3 | <frame name="g" attached_to="f"/></model></sdf>
               |                              ^
               |
-              = note: `f` -> `g` -> `f` hangs on itself
+              = note: `f` -> `g` -> `f` depends on itself
         "#]],
     );
 }
@@ -177,7 +177,7 @@ fn attachments_in_a_circle_are_told_though_poses_are_fine() {
             2 | <frame name="f" attached_to="f"><pose relative_to="a"/></frame></model></sdf>
               |                              ^
               |
-              = note: `f` -> `f` hangs on itself
+              = note: `f` -> `f` depends on itself
         "#]],
     );
 }

@@ -184,7 +184,7 @@ fn a_name_that_is_taken_is_told_with_both_places() {
     check(
         "<link name=\"a\"/>\n<joint name=\"j\" type=\"fixed\"><parent>world</parent><child>a</child></joint>\n<link name=\"a\"/>",
         expect![[r#"
-            error[duplicate-name]: the name `a` is taken
+            error[duplicate-name]: the name `a` is already used
              --> test.sdf:3:1
               |
             1 | <sdf version="1.9"><model name="m"><link name="a"/>

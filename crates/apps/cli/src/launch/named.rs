@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use periplus_diagnostics::{Diagnostic, closest};
 use periplus_launch::bringup::{STOOD_FOR, stands_for};
 use periplus_os::Machine;
-use periplus_resources::{Host as _, EntryKind, Resolver};
+use periplus_resources::{EntryKind, Host as _, Resolver};
 
 /// Launch file that the command line names.
 pub(super) enum Found {

@@ -203,7 +203,7 @@ fn a_package_that_is_not_there() {
                         /w/amr/a.stl
                         /w/models/amr/a.stl
               = help: did you mean `package://arm`?
-              = help: name the folder that holds `amr`: `--resource-path FOLDER`
+              = help: name the folder that contains `amr`: `--resource-path FOLDER`
         "#]],
     );
 }

@@ -104,7 +104,7 @@ mod tests {
 <plugin name='a' filename='libgazebo_ros_ray_sensor.so'><ros><namespace>n</namespace></ros></plugin>
 </model>",
             expect![[r#"
-                warning[same-node]: two plugins make the node `/a`; the second does not start
+                warning[same-node]: two plugins create the node `/a`; the second does not start
                  --> test.sdf:4:1
                   |
                 2 | <plugin name='a' filename='libgazebo_ros_imu_sensor.so'>

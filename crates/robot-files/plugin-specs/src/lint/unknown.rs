@@ -135,7 +135,7 @@ mod tests {
   <plugin name='b' filename='libmy_robot.so'/>
 </model>",
             expect![[r#"
-                warning[unknown-plugin]: nothing is known of the plugin `libmy_robot.so`; it is kept, not run
+                warning[unknown-plugin]: the plugin `libmy_robot.so` is unknown; it is kept, not run
                  --> test.sdf:2:3
                   |
                 2 |   <plugin name='a' filename='libmy_robot.so'/>
@@ -153,21 +153,21 @@ mod tests {
   <plugin name='gz::sim::systems::Mine' filename='gz-sim-mine-system'/>
 </model>",
             expect![[r#"
-                warning[unknown-plugin]: nothing is known of the plugin `libgazebo_ros_planer_move.so`; it is kept, not run
+                warning[unknown-plugin]: the plugin `libgazebo_ros_planer_move.so` is unknown; it is kept, not run
                  --> test.sdf:2:3
                   |
                 2 |   <plugin name='a' filename='libgazebo_ros_planer_move.so'/>
                   |   ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^
                   |
                   = help: did you mean `libgazebo_ros_planar_move.so`?
-                warning[unknown-plugin]: nothing is known of the plugin `gz-sim-imu`; it is kept, not run
+                warning[unknown-plugin]: the plugin `gz-sim-imu` is unknown; it is kept, not run
                  --> test.sdf:3:3
                   |
                 3 |   <plugin name='gz::sim::systems::Imu' filename='gz-sim-imu'/>
                   |   ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^
                   |
                   = help: did you mean `gz-sim-imu-system`?
-                warning[unknown-plugin]: nothing is known of the plugin `gz-sim-mine-system`; it is kept, not run
+                warning[unknown-plugin]: the plugin `gz-sim-mine-system` is unknown; it is kept, not run
                  --> test.sdf:4:3
                   |
                 4 |   <plugin name='gz::sim::systems::Mine' filename='gz-sim-mine-system'/>
@@ -184,14 +184,14 @@ mod tests {
   <plugin name='b' filename='libgazebo_ros_gps.so'/>
 </model>",
             expect![[r#"
-                warning[unknown-plugin]: nothing is known of the plugin `libgazebo_ros_lidar.so`; it is kept, not run
+                warning[unknown-plugin]: the plugin `libgazebo_ros_lidar.so` is unknown; it is kept, not run
                  --> test.sdf:2:3
                   |
                 2 |   <plugin name='a' filename='libgazebo_ros_lidar.so'/>
                   |   ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^
                   |
                   = help: did you mean `libgazebo_ros_ray_sensor.so`?
-                warning[unknown-plugin]: nothing is known of the plugin `libgazebo_ros_gps.so`; it is kept, not run
+                warning[unknown-plugin]: the plugin `libgazebo_ros_gps.so` is unknown; it is kept, not run
                  --> test.sdf:3:3
                   |
                 3 |   <plugin name='b' filename='libgazebo_ros_gps.so'/>

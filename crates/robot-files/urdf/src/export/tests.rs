@@ -51,7 +51,7 @@ fn models_that_are_no_tree_of_urdf_joints() {
         &format!("{TWO}{}", joint("ball", "a", "b")),
         "not-in-urdf: a URDF has no ball joints, and `a_b` is one",
     );
-    refused(TWO, "not-in-urdf: a URDF is one tree, and nothing holds the link `b`");
+    refused(TWO, "not-in-urdf: a URDF is one tree, and the link `b` has no parent joint");
     refused(
         &format!(
             "{TWO}<link name='c'/>{}{}{}",

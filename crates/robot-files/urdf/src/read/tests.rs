@@ -72,7 +72,7 @@ fn two_parents_names_both_places() {
          <joint name='k' type='fixed'><parent link='a'/><child link='c'/></joint>\n\
          <joint name='l' type='fixed'><parent link='c'/><child link='b'/></joint></robot>",
         expect![[r#"
-            error[two-parents]: the link `b` hangs on two joints, `j` and `l`
+            error[two-parents]: the link `b` is the child of two joints, `j` and `l`
              --> robot.urdf:4:61
               |
             2 | <joint name='j' type='fixed'><parent link='a'/><child link='b'/></joint>
@@ -94,11 +94,11 @@ fn a_cycle_and_the_rest_of_it() {
          <joint name='j' type='fixed'><parent link='a'/><child link='b'/></joint>\n\
          <joint name='k' type='fixed'><parent link='b'/><child link='a'/></joint></robot>",
         expect![[r#"
-            error[cycle]: the joint `k` closes a circle: `b` hangs on `a` already
+            error[cycle]: the joint `k` closes a loop: `b` is already below `a`
              --> robot.urdf:3:61
               |
             2 | <joint name='j' type='fixed'><parent link='a'/><child link='b'/></joint>
-              |                                                             - `b` hangs here
+              |                                                             - `b` is attached here
             3 | <joint name='k' type='fixed'><parent link='b'/><child link='a'/></joint></robot>
               |                                                             ^
               |
@@ -112,7 +112,7 @@ fn two_roots_suggest_a_joint() {
     check(
         "<robot name='r'>\n<link name='base'/>\n<link name='lidar'/>\n</robot>",
         expect![[r#"
-            error[two-roots]: the robot falls apart: `base` and `lidar` hang on no joint
+            error[two-roots]: the links are not one tree: `base` and `lidar` have no parent joint
              --> robot.urdf:3:1
               |
             2 | <link name='base'/>
@@ -132,7 +132,7 @@ fn a_misspelt_link_is_corrected() {
          <joint name='j' type='continuous'><parent link='baselink'/><child link='wheel'/></joint>\
          </robot>",
         expect![[r#"
-            error[unknown-link]: the parent of the joint `j` is no link: `baselink`
+            error[unknown-link]: the parent of the joint `j` is not a link: `baselink`
              --> robot.urdf:2:49
               |
             2 | <joint name='j' type='continuous'><parent link='baselink'/><child link='wheel'/></joint></robot>

@@ -197,7 +197,7 @@ fn a_package_that_is_nowhere() {
                     /robot/models/arm_description
                     /robot/src/arm_description
                     /robot/**/arm_description
-          = help: name the folder that holds `arm_description`: `--resource-path FOLDER`
+          = help: name the folder that contains `arm_description`: `--resource-path FOLDER`
     "#]],
     );
 }

@@ -311,7 +311,7 @@ fn a_property_of_a_circle() {
             2 | <xacro:property name="a" value="${b}"/>
               |                                 ^^^^
             3 | <xacro:property name="b" value="${a}"/>
-              |                                 ---- by way of `b`
+              |                                 ---- through `b`
               |
               = help: give one of them a value, or set lazy_eval="false" to use the value so far
         "#]],
