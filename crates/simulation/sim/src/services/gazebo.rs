@@ -195,7 +195,7 @@ impl GazeboRequestQueue {
 
 impl std::fmt::Debug for GazeboRequestQueue {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.debug_struct("GazeboDesk").field("services", &self.0.services.len()).finish()
+        f.debug_struct("GazeboRequestQueue").field("services", &self.0.services.len()).finish()
     }
 }
 
