@@ -11,7 +11,7 @@ use crate::{Failure, Outcome, SeenService, Session};
 
 pub use goal::send_goal;
 
-/// Which actions there are.
+/// Lists all actions.
 ///
 /// # Errors
 /// When the output cannot be written.
@@ -25,7 +25,7 @@ pub fn list(session: &mut Session<'_>, show_types: bool, count: bool) -> Outcome
     session.put_list("action", &titles.collect::<Vec<_>>(), count)
 }
 
-/// The action of this name, when it is there.
+/// Looks up an action by name.
 fn look_up(session: &mut Session<'_>, name: &str) -> Outcome<SeenService> {
     let name = full_name(name);
     let service = format!("{name}/_action/send_goal");
@@ -38,7 +38,7 @@ fn look_up(session: &mut Session<'_>, name: &str) -> Outcome<SeenService> {
     found.ok_or_else(|| Failure::failed(format!("Unknown action '{name}'{near}")))
 }
 
-/// The types of an action.
+/// Prints the types of an action.
 ///
 /// # Errors
 /// When there is no such action, or the output cannot be written.
@@ -47,7 +47,7 @@ pub fn type_of(session: &mut Session<'_>, name: &str) -> Outcome {
     session.put_types(&action.name, &action.types)
 }
 
-/// The actions of a type.
+/// Lists the actions of a type.
 ///
 /// # Errors
 /// When the output cannot be written.
@@ -59,7 +59,7 @@ pub fn find(session: &mut Session<'_>, type_name: &str, count: bool) -> Outcome 
     session.put_found(&type_name, "actions", &names, count)
 }
 
-/// Who works on an action, and who asks for it.
+/// Prints the servers and clients of an action.
 ///
 /// # Errors
 /// When there is no such action, or the output cannot be written.

@@ -1,4 +1,4 @@
-//! Calling services.
+//! Service calls.
 
 use std::sync::mpsc::{Receiver, TryRecvError, channel};
 use std::time::Duration;
@@ -10,26 +10,26 @@ use periplus_os::{Stopwatch, sleep};
 use crate::session::BREATH;
 use crate::{Failure, Outcome, Session};
 
-/// How often it looks for the answer.
+/// Polling period for the response.
 const PAUSE: Duration = Duration::from_millis(1);
 
-/// How long who is there has to answer: a node that is busy starting may take its time.
+/// Timeout of a response: a node that is busy starting may need some time.
 pub(crate) const PATIENCE: Duration = Duration::from_secs(10);
 
-/// A service that is called.
+/// Service client.
 pub(crate) struct Asker {
     name: String,
     client: RawClient,
 }
 
-/// A question that waits for its answer.
+/// Pending request.
 pub(crate) struct Question {
     name: String,
     answer: Receiver<Result<RawMessage, CallError>>,
 }
 
 impl Asker {
-    /// Gets ready to call.
+    /// Creates the client.
     pub(crate) fn new(
         node: &Node,
         name: &str,
@@ -40,7 +40,7 @@ impl Asker {
         Ok(Self { name: name.to_owned(), client })
     }
 
-    /// Waits until somebody answers there, at most so long; whether somebody does.
+    /// Waits for a server, up to a timeout; returns true if there is one.
     pub(crate) fn wait(&self, session: &Session<'_>, timeout: Option<Duration>) -> Outcome<bool> {
         let clock = Stopwatch::start();
         while !self.client.is_ready() {
@@ -57,7 +57,7 @@ impl Asker {
         Ok(true)
     }
 
-    /// Asks.
+    /// Sends a request.
     pub(crate) fn ask(&self, cdr: Vec<u8>) -> Question {
         let (send, answer) = channel();
         self.client.call(cdr, move |result| {
@@ -68,12 +68,12 @@ impl Asker {
 }
 
 impl Question {
-    /// The answer, when it is there.
+    /// Returns the response if it has arrived.
     pub(crate) fn take(&self) -> Outcome<Option<Vec<u8>>> {
         match self.answer.try_recv() {
             Err(TryRecvError::Empty) => Ok(None),
             Err(TryRecvError::Disconnected) => {
-                Err(Failure::failed(format!("{} will not answer any more", self.name)))
+                Err(Failure::failed(format!("the server of {} is gone", self.name)))
             }
             Ok(Err(error)) => Err(Failure::failed(error.to_string())),
             Ok(Ok(message)) => match message.cdr() {
@@ -83,7 +83,7 @@ impl Question {
         }
     }
 
-    /// Waits for the answer, at most so long.
+    /// Waits for the response, up to a timeout.
     pub(crate) fn wait(
         &self,
         session: &Session<'_>,
@@ -107,7 +107,7 @@ impl Question {
     }
 }
 
-/// Asks a service that nodes have of themselves, and waits for the answer.
+/// Calls a standard service of a node and waits for the response.
 pub(crate) fn ask<S: Service>(
     session: &Session<'_>,
     node: &Node,
@@ -117,11 +117,11 @@ pub(crate) fn ask<S: Service>(
     let asker = Asker::new(node, name, S::TYPE_NAME, Some(S::TYPE_HASH))?;
     let time = session.found_within();
     if !asker.wait(session, Some(time))? {
-        return Err(Failure::failed(format!("nobody answers {name}")));
+        return Err(Failure::failed(format!("no server of {name} was found")));
     }
     let cdr = request.to_cdr().map_err(|error| Failure::failed(error.to_string()))?;
     let answer = asker.ask(cdr).wait(session, Some(PATIENCE))?;
     S::Response::decode_cdr(&answer).map_err(|error| {
-        Failure::failed(format!("the answer of {name} is no {}: {error}", S::TYPE_NAME))
+        Failure::failed(format!("the response of {name} is not a {}: {error}", S::TYPE_NAME))
     })
 }

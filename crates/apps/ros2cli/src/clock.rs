@@ -1,5 +1,5 @@
-//! The time of day, for stamps.
-#![allow(clippy::disallowed_methods, reason = "a stamp that says `now` means the wall's time")]
+//! Wall clock, for stamps.
+#![allow(clippy::disallowed_methods, reason = "the stamp `now` is wall time")]
 
 use std::time::{SystemTime, UNIX_EPOCH};
 

@@ -1,7 +1,8 @@
-//! `doctor`: what is wrong with a running system, and which parameter to change.
+//! `doctor`: diagnosis of a running system, with the parameter to change.
 //!
-//! [`Ears`] listen and make a [`Picture`]; [`examine`] says what is wrong with it. Neither needs a
-//! network, so that a simulation in the same program can be examined before anything runs for real.
+//! [`Ears`] collect messages into a [`Picture`]; [`examine`] finds its problems. Neither needs a
+//! network, so that a simulation in the same program can be diagnosed before anything runs for
+//! real.
 
 mod clocks;
 mod ears;
@@ -23,10 +24,10 @@ pub use ears::Ears;
 pub use network::{Surroundings, domains_in};
 pub use picture::{Heard, Picture, ScanFacts};
 
-/// How often it looks for messages.
+/// Polling period for messages.
 const LOOK: Duration = Duration::from_millis(5);
 
-/// All that is wrong, the causes first.
+/// Returns all findings, causes first.
 #[must_use]
 pub fn examine(picture: &Picture) -> Diagnostics {
     let mut found = Diagnostics::new();
@@ -38,10 +39,10 @@ pub fn examine(picture: &Picture) -> Diagnostics {
     found
 }
 
-/// Listens so long to all that is there.
+/// Collects all messages for a time.
 ///
 /// # Errors
-/// When it was told to stop, or the graph refuses its node.
+/// When it was interrupted, or the graph refuses its node.
 pub fn listen(session: &mut Session<'_>, time: Duration) -> Outcome<Picture> {
     let seen = session.look();
     let node = session.node(None)?;

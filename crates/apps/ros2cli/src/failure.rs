@@ -1,35 +1,35 @@
-//! How a verb can end.
+//! Errors of verbs.
 
 use std::io;
 
-/// Why a verb did not do what it was asked to.
+/// Reason why a verb failed.
 #[derive(Debug)]
 pub enum Failure {
-    /// It could not: what is wrong, and what to do about it.
+    /// Failure: the problem, and what to do about it.
     Failed(String),
-    /// What was typed has no meaning.
+    /// Usage error.
     Usage(String),
-    /// A node answered that it does not do it. `ros2` exits with 0 there.
+    /// Refusal by a node. `ros2` exits with 0 in this case.
     Refused(Refusal),
-    /// It was told to stop.
+    /// Interrupted.
     Interrupted,
-    /// Its output cannot be written.
+    /// The output cannot be written.
     Output(io::Error),
 }
 
-/// A refusal, in words of Periplus and in those of `ros2`.
+/// Refusal by a node, in words of Periplus and in those of `ros2`.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Refusal {
-    /// What was refused and why.
+    /// Refused request and reason.
     pub message: String,
-    /// What `ros2` prints at this place.
+    /// Line that `ros2` prints in this case.
     pub ros2: Ros2Line,
 }
 
-/// A line that `ros2` prints about a refusal.
+/// Line that `ros2` prints about a refusal.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Ros2Line {
-    /// It has said all already.
+    /// Nothing, because it is printed already.
     Nothing,
     /// On standard output.
     Stdout(String),
@@ -37,12 +37,11 @@ pub enum Ros2Line {
     Stderr(String),
 }
 
-/// How a verb ends.
+/// Result of a verb.
 pub type Outcome<T = ()> = Result<T, Failure>;
 
 impl Failure {
-    /// The exit code of a program that ends so: 2 where what was typed has no meaning, 130 where it was
-    /// interrupted, else 1.
+    /// Exit code: 2 for usage errors, 130 for interrupts, otherwise 1.
     #[must_use]
     pub fn exit_code(&self) -> u8 {
         match self {
@@ -52,13 +51,13 @@ impl Failure {
         }
     }
 
-    /// What went wrong, said.
+    /// Failure with a message.
     pub fn failed(what: impl Into<String>) -> Self {
         Self::Failed(what.into())
     }
 }
 
-/// What has no end of its own ends well when it is told to stop.
+/// Treats an interrupt as success, for verbs that run until interrupted.
 pub(crate) fn endless(outcome: Outcome) -> Outcome {
     match outcome {
         Err(Failure::Interrupted) => Ok(()),

@@ -1,4 +1,4 @@
-//! `--filter`: Python expressions over a message `m`, by the evaluator of xacro.
+//! `--filter`: Python expressions over a message `m`, evaluated by the evaluator of xacro.
 
 use std::rc::Rc;
 
@@ -9,28 +9,28 @@ use periplus_python_expr::{Budget, Dialect, Expression, ExpressionError, Scope, 
 use crate::show::whole_number;
 use crate::{Failure, Outcome};
 
-/// Work and memory that one message may take: lists of a whole picture can be summed up.
+/// Limits of work and memory for a message, sufficient to sum up a whole image.
 const STEPS: u64 = 50_000_000;
 const BYTES: u64 = 1 << 30;
 
-/// Which messages are wanted.
+/// Filter expression.
 pub(crate) struct Filter(Expression);
 
 impl Filter {
-    /// Reads an expression.
+    /// Parses an expression.
     ///
     /// # Errors
-    /// When it is none.
+    /// When it is not a valid expression.
     pub(crate) fn read(text: &str) -> Outcome<Self> {
         Expression::parse(text).map(Self).map_err(|error| {
-            Failure::Usage(format!("the filter `{text}` is no expression: {error}"))
+            Failure::Usage(format!("the filter `{text}` is not a valid expression: {error}"))
         })
     }
 
-    /// Whether a message is wanted.
+    /// Returns true if a message passes.
     ///
     /// # Errors
-    /// When the expression has no value for it.
+    /// When the expression cannot be evaluated for it.
     pub(crate) fn wants(&self, message: &DynamicMessage) -> Outcome<bool> {
         let scope = Fields { message };
         let mut budget = Budget::new(STEPS, BYTES);
@@ -44,8 +44,8 @@ impl Filter {
     }
 }
 
-/// Fields are looked up when they are asked for, so that `m.header.stamp.sec` costs nothing in a
-/// picture. A message is a namespace that is called by its way from the outside.
+/// Scope that looks fields up lazily, so that `m.header.stamp.sec` costs nothing for an image. A
+/// message is a namespace named by its path.
 struct Fields<'m> {
     message: &'m DynamicMessage,
 }
@@ -161,7 +161,7 @@ mod tests {
             &scan,
             "m.ranges[",
             expect![
-                "the filter `m.ranges[` is no expression: the expression ends where a value is needed"
+                "the filter `m.ranges[` is not a valid expression: the expression ends where a value is needed"
             ],
         );
         let transform =

@@ -1,5 +1,5 @@
-//! The tree of frames, as `view_frames` of `tf2_tools` shows it: text for Graphviz, and pictures
-//! (SVG, PDF) that need no Graphviz; and what is wrong with the tree.
+//! The transform tree, as `view_frames` of `tf2_tools` draws it: Graphviz text, SVG and PDF
+//! (without Graphviz); and the faults of the tree.
 //!
 //! ```
 //! use periplus_geometry::Pose;

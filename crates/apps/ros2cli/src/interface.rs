@@ -1,4 +1,4 @@
-//! `interface`: what types there are and what they say. No network is needed.
+//! `interface`: types and their definitions. Needs no network.
 
 use std::collections::BTreeSet;
 
@@ -9,23 +9,23 @@ use serde_json::json;
 
 use crate::{Failure, Outcome, Session};
 
-/// How comments are shown.
+/// Comments to print.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Comments {
-    /// Those of the type itself.
+    /// Comments of the type itself.
     #[default]
     Own,
-    /// Those of the types in it, too.
+    /// Comments of nested types, too.
     All,
     /// None.
     None,
 }
 
-/// The kinds, in the order of the output, with the words above them.
+/// Kinds in the order of the output, with their headings.
 const KINDS: [(Kind, &str); 3] =
     [(Kind::Message, "Messages"), (Kind::Service, "Services"), (Kind::Action, "Actions")];
 
-/// All types of some kinds; of all kinds when none is named.
+/// Lists all types of some kinds; of all kinds if none is given.
 ///
 /// # Errors
 /// When the output cannot be written.
@@ -50,7 +50,7 @@ pub fn list(session: &mut Session<'_>, kinds: &[Kind]) -> Outcome {
     Ok(())
 }
 
-/// The packages that have types of some kinds; of any kind when none is named.
+/// Lists the packages that have types of some kinds; of any kind if none is given.
 ///
 /// # Errors
 /// When the output cannot be written.
@@ -68,7 +68,7 @@ pub fn packages(session: &mut Session<'_>, kinds: &[Kind]) -> Outcome {
     Ok(())
 }
 
-/// The types of a package.
+/// Lists the types of a package.
 ///
 /// # Errors
 /// When there is no such package, or the output cannot be written.
@@ -92,7 +92,7 @@ pub fn package(session: &mut Session<'_>, package: &str) -> Outcome {
     Ok(())
 }
 
-/// A type by its name, of whatever kind it is when that is not said.
+/// Looks up a type by name, of any kind if the name does not specify it.
 fn look_up<'t>(session: &Session<'t>, name: &str) -> Outcome<&'t Interface> {
     let registry = session.types.registry().registry();
     let parts: Vec<&str> = name.split('/').collect();
@@ -114,7 +114,7 @@ fn look_up<'t>(session: &Session<'t>, name: &str) -> Outcome<&'t Interface> {
     })
 }
 
-/// The text of a type, with the types in it indented below the fields.
+/// Prints the definition of a type, with nested types indented below the fields.
 ///
 /// # Errors
 /// When there is no such type, or the output cannot be written.
@@ -152,7 +152,7 @@ fn write_part(
     for line in part.text.lines() {
         let line = line.trim_end();
         let (code, _) = line.split_once('#').unwrap_or((line, ""));
-        // A `#` in a constant's text begins no comment.
+        // A `#` in a string constant does not start a comment.
         let code = if code.contains(['"', '\'']) { line } else { code.trim_end() };
         let line = if is_commented { line } else { code };
         if line.is_empty() && !is_commented {
@@ -167,14 +167,14 @@ fn write_part(
     }
 }
 
-/// The message type of the field that a line is about.
+/// Message type of the field in a line.
 fn nested<'p>(part: &'p Definition, line: &str) -> Option<&'p TypeName> {
     let mut words = line.split_whitespace();
     let (_, name) = (words.next()?, words.next()?);
     part.nested().find(|(field, _)| field.name == name).map(|(_, nested)| nested)
 }
 
-/// What can be typed behind `topic pub`, `service call` or `action send_goal`.
+/// Prints a message to edit and use with `topic pub`, `service call` or `action send_goal`.
 ///
 /// # Errors
 /// When there is no such type, or the output cannot be written.

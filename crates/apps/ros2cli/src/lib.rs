@@ -1,13 +1,13 @@
-//! What the `ros2` command does with topics, nodes, services, parameters, actions, lifecycle nodes
-//! and interfaces: the same words, the same output. [`map`] does what the programs of
-//! map servers do, [`tf`] what those of tf2 do, with pictures of the tree by [`frames`], and
-//! [`teleop`] drives by keys.
+//! Verbs of the `ros2` command for topics, nodes, services, parameters, actions, lifecycle nodes and
+//! interfaces, with the same arguments and output. [`map`] implements the programs of map servers,
+//! [`tf`] those of tf2, [`frames`] the drawings of `view_frames`, and [`teleop`] the keys of
+//! `teleop_twist_keyboard`.
 //!
-//! A [`Network`] says who is there and lets a graph take part; a [`Session`] is one use of the
-//! command: its network, the types it knows, and where it writes. Each verb is a function over a
-//! session. Nothing here knows DDS, so all of it is tested in one process.
+//! A [`Network`] provides discovery and a graph; a [`Session`] is one use of the command: its
+//! network, its types, and its output. Each verb is a function over a session. Nothing here depends
+//! on DDS, so that all of it is tested in one process.
 //!
-//! Source of words and of the shape of the output: `ros2/ros2cli` and `ros2/rosidl_runtime_py`.
+//! Source of the arguments and of the output format: `ros2/ros2cli` and `ros2/rosidl_runtime_py`.
 
 pub mod action;
 mod ask;

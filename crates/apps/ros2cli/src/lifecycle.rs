@@ -1,4 +1,4 @@
-//! `lifecycle`: nodes that are configured, activated and cleaned up by others.
+//! `lifecycle`: state machines of lifecycle nodes.
 
 use periplus_graph::Node;
 use periplus_msgs::lifecycle_msgs::{
@@ -11,7 +11,7 @@ use crate::ask::ask;
 use crate::session::{advice, full_name};
 use crate::{Failure, Outcome, Seen, Session, is_hidden};
 
-/// Nodes that can be led through their lives.
+/// Names of the lifecycle nodes.
 fn managed(seen: &Seen, include_hidden: bool) -> Vec<String> {
     let states = seen.services.iter().filter(|service| {
         !service.servers.is_empty()
@@ -21,7 +21,7 @@ fn managed(seen: &Seen, include_hidden: bool) -> Vec<String> {
     names.filter(|name| include_hidden || !is_hidden(name)).map(str::to_owned).collect()
 }
 
-/// The managed nodes.
+/// Lists the lifecycle nodes.
 ///
 /// # Errors
 /// When the output cannot be written.
@@ -33,7 +33,7 @@ pub fn nodes(session: &mut Session<'_>, all: bool, count: bool) -> Outcome {
     session.put_list("managed node", &names, count)
 }
 
-/// A managed node by its name.
+/// Looks up a lifecycle node by name.
 fn look_up(session: &Session<'_>, name: &str) -> Outcome<String> {
     let name = full_name(name);
     let is_managed = |seen: &Seen| managed(seen, true).contains(&name);
@@ -45,16 +45,16 @@ fn look_up(session: &Session<'_>, name: &str) -> Outcome<String> {
     let known = managed(&seen, true);
     let near = advice(&name, known.iter().map(String::as_str));
     Err(Failure::failed(if seen.count_nodes(&name) > 0 {
-        format!("the node '{name}' has no lifecycle: it runs as long as it is there")
+        format!("the node '{name}' is not a lifecycle node")
     } else {
         format!("Node not found: '{name}'{near}")
     }))
 }
 
-/// The state of a node, or of all managed nodes.
+/// Prints the state of a node, or of all lifecycle nodes.
 ///
 /// # Errors
-/// When there is no such node, it does not answer, or the output cannot be written.
+/// When there is no such node, it does not respond, or the output cannot be written.
 pub fn get(session: &mut Session<'_>, name: Option<&str>) -> Outcome {
     let names = match name {
         Some(name) => vec![look_up(session, name)?],
@@ -90,10 +90,10 @@ fn transitions(
     Ok(answer.available_transitions)
 }
 
-/// The transitions that a node can make now, or `all` of its life.
+/// Prints the transitions that a node can make now, or all of its state machine.
 ///
 /// # Errors
-/// When there is no such node, it does not answer, or the output cannot be written.
+/// When there is no such node, it does not respond, or the output cannot be written.
 pub fn list(session: &mut Session<'_>, name: &str, all: bool) -> Outcome {
     let name = look_up(session, name)?;
     let node = session.node(None)?;
@@ -118,7 +118,7 @@ pub fn list(session: &mut Session<'_>, name: &str, all: bool) -> Outcome {
     Ok(())
 }
 
-/// Lets a node make a transition, by its name or number.
+/// Triggers a transition of a node, by name or number.
 ///
 /// # Errors
 /// When there is no such node or transition, it fails, or the output cannot be written.

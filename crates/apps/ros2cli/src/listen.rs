@@ -1,4 +1,4 @@
-//! Listening to topics.
+//! Subscriptions of verbs.
 
 use std::time::Duration;
 
@@ -10,22 +10,22 @@ use crate::session::{advice, full_name};
 use crate::types::full_type;
 use crate::{Failure, Outcome, QosWish, Seen, SeenTopic, Session};
 
-/// How long until it is said that nobody publishes yet.
+/// Time without a publisher after which a warning is printed.
 const PATIENCE: Duration = Duration::from_millis(1_000);
 
-/// A topic that is listened to.
+/// Subscription to a topic.
 pub(crate) struct Listener {
-    /// Its full name.
+    /// Full name.
     pub(crate) topic: String,
-    /// Its type.
+    /// Message type.
     pub(crate) type_name: String,
     mailbox: RawMailbox,
     lost: u64,
 }
 
 impl Listener {
-    /// Listens to a topic when somebody publishes it. Without a type, it is that of the topic, and
-    /// waiting has an end if `is_impatient`.
+    /// Subscribes to a topic once it is published. Without a type, the type of the topic is used,
+    /// and waiting times out if `is_impatient`.
     pub(crate) fn open(
         session: &mut Session<'_>,
         node: &Node,
@@ -43,7 +43,7 @@ impl Listener {
         };
         if !found.types.is_empty() && !found.types.contains(&type_name) {
             session.say(&format!(
-                "WARNING: {topic} is published as {}, not as {type_name}: nothing will be heard",
+                "WARNING: {topic} is published as {}, not as {type_name}: no message will be received",
                 found.types.join(", ")
             ));
         }
@@ -57,12 +57,12 @@ impl Listener {
         Ok(Self { topic, type_name, mailbox, lost: 0 })
     }
 
-    /// What has come since the last call.
+    /// Returns the messages received since the last call.
     pub(crate) fn drain(&self) -> Vec<Sample> {
         self.mailbox.drain()
     }
 
-    /// How many messages could not wait, since the last call and in all.
+    /// Number of dropped messages, since the last call and in total.
     pub(crate) fn losses(&mut self) -> (u64, u64) {
         let all = self.mailbox.counts().dropped;
         let new = all - self.lost;
@@ -71,8 +71,8 @@ impl Listener {
     }
 }
 
-/// Waits until at least one of the topics is published; gives those that are not yet, and says so.
-/// All are waited for as long as one is at first.
+/// Waits until at least one of the topics is published; returns those that are not yet, after a
+/// warning. The wait is bounded if at least one is published.
 pub(crate) fn await_any(session: &mut Session<'_>, topics: &[String]) -> Outcome<Vec<String>> {
     let is_there = |seen: &Seen, name: &String| is_published(seen, &full_name(name));
     if !session.wait(Some(PATIENCE), |seen| topics.iter().all(|name| is_there(seen, name)))? {
@@ -87,12 +87,12 @@ pub(crate) fn await_any(session: &mut Session<'_>, topics: &[String]) -> Outcome
     Ok(topics.iter().filter(|name| !is_there(&seen, name)).cloned().collect())
 }
 
-/// Whether somebody publishes the topic of this full name.
+/// Returns true if the topic of this full name has a publisher.
 pub(crate) fn is_published(seen: &Seen, topic: &str) -> bool {
     seen.topic(topic).is_some_and(|topic| !topic.publishers.is_empty())
 }
 
-/// Waits until somebody publishes the topic.
+/// Waits for a publisher of the topic.
 fn await_topic(
     session: &mut Session<'_>,
     topic: &str,
@@ -108,8 +108,8 @@ fn await_topic(
             let seen = session.network.seen();
             let near = advice(topic, seen.topics.iter().map(|topic| topic.name.as_str()));
             return Err(Failure::failed(format!(
-                "could not determine the type of {topic}: nobody publishes or subscribes to \
-                 it{near} Give the type behind the name to wait for it"
+                "could not determine the type of {topic}: it has no publisher and no \
+                 subscriber{near} Give the type after the name to wait for it"
             )));
         }
         session.wait(None, is_published)?;
@@ -117,25 +117,25 @@ fn await_topic(
     Ok(session.network.seen().topic(topic).cloned().unwrap_or_default())
 }
 
-/// The one type of a topic.
+/// Type of a topic with a single type.
 pub(crate) fn only_type(topic: &SeenTopic) -> Outcome<String> {
     match topic.types.as_slice() {
         [one] => Ok(one.clone()),
         types => Err(Failure::failed(format!(
-            "{} has more than one type, {}: give the one that is meant behind the name",
+            "{} has more than one type, {}: give one of them after the name",
             topic.name,
             types.join(", ")
         ))),
     }
 }
 
-/// Says which publishers are not heard because of QoS that was asked for.
+/// Warns about publishers whose QoS is incompatible with the requested one.
 fn warn_of_misfits(session: &mut Session<'_>, topic: &SeenTopic, qos: &Qos) {
     for publisher in &topic.publishers {
         for policy in publisher.qos.incompatible_policies(qos) {
             let node = publisher.node.as_deref().unwrap_or("a program");
             session.say(&format!(
-                "WARNING: {node} offers {} with {policy} {}, and {} is asked for: it is not heard",
+                "WARNING: {node} offers {} with {policy} {}, and {} is requested: its messages are not received",
                 topic.name,
                 publisher.qos.policy_value(policy),
                 qos.policy_value(policy)
@@ -144,14 +144,14 @@ fn warn_of_misfits(session: &mut Session<'_>, topic: &SeenTopic, qos: &Qos) {
     }
 }
 
-/// The hash of the type as the publishers know it; said when we know it otherwise.
+/// Type hash of the publishers; warns if it differs from ours.
 fn hash_of(session: &mut Session<'_>, topic: &SeenTopic, type_name: &str) -> Option<String> {
     let ours = session.types.registry().hash(type_name);
     let theirs = topic.publishers.iter().find_map(|end| end.type_hash.clone());
     match (ours, theirs) {
         (Some(ours), Some(theirs)) if ours != theirs => {
             session.say(&format!(
-                "WARNING: {type_name} is defined otherwise where {} is published ({theirs}, here \
+                "WARNING: {type_name} is defined differently by the publishers of {} ({theirs}, here \
                  {ours}): what is shown may be wrong; give its package with `--interfaces DIR`",
                 topic.name
             ));
@@ -161,16 +161,16 @@ fn hash_of(session: &mut Session<'_>, topic: &SeenTopic, type_name: &str) -> Opt
     }
 }
 
-/// What a loop over messages does next.
+/// Result of handling a message.
 pub(crate) enum Next {
-    /// Hear on.
+    /// Continue.
     Go,
-    /// It has enough.
+    /// Stop.
     Done,
 }
 
-/// Hears topics until `hear` has enough or it is told to stop. `hear` gets the place of the listener
-/// and the time since the start; `tick` is called between, and may add listeners.
+/// Receives messages until `hear` stops or an interrupt. `hear` gets the index of the listener and
+/// the time since the start; `tick` is called periodically, and may add listeners.
 pub(crate) fn hear(
     session: &mut Session<'_>,
     listeners: &mut Vec<Listener>,

@@ -1,4 +1,4 @@
-//! `map`: maps to files and back, as `map_saver_cli` and `map_saver` do, and what is in them.
+//! `map`: saving, loading and comparing maps, as `map_saver_cli` and `map_saver` do.
 
 mod diff;
 mod files;

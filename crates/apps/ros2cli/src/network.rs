@@ -1,4 +1,4 @@
-//! Where the others are.
+//! Discovery of nodes, topics and services.
 
 use std::time::Duration;
 
@@ -7,43 +7,43 @@ use periplus_os::{Stopwatch, sleep};
 
 use crate::Seen;
 
-/// How often a graph in the same program is looked at.
+/// Polling period of a graph in the same program.
 const LOOK_AGAIN: Duration = Duration::from_millis(2);
 
-/// Where a verb finds nodes, topics and services.
+/// Source of nodes, topics and services for verbs.
 pub trait Network {
-    /// The graph in which the verb's own node takes part.
+    /// Graph of the verb's own node.
     fn graph(&self) -> &Graph;
 
-    /// Who is there now, the verb's own node left out.
+    /// Returns a snapshot of the network, without the verb's own node.
     fn seen(&self) -> Seen;
 
-    /// How far discovery has come. Costs less than [`Network::seen`].
+    /// Returns the progress of discovery. Costs less than [`Network::seen`].
     fn progress(&self) -> Progress;
 
-    /// Waits until the others are as wanted, at most so long; whether they are. Who is asked is
-    /// asked only when something has changed.
+    /// Waits until a condition holds, up to a timeout; returns true if it holds. The condition is
+    /// evaluated only after changes.
     fn wait(&self, timeout: Duration, wanted: &mut dyn FnMut(&Seen) -> bool) -> bool;
 
-    /// Waits until what was published has arrived at all who listen, at most so long.
+    /// Waits until published messages have been delivered to all subscribers, up to a timeout.
     fn flush(&self, timeout: Duration) -> bool;
 }
 
-/// How far discovery has come.
+/// Progress of discovery.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Progress {
     /// Number of changes seen so far.
     pub changes: u64,
-    /// Number of programs found whose nodes, topics or services are not all known yet.
+    /// Number of discovered participants whose nodes, topics or services are not all known yet.
     pub incomplete: usize,
-    /// Number of programs on this machine that were not found yet, as far as the system tells.
+    /// Number of participants on this machine that were not discovered yet, as far as known.
     pub unanswered: usize,
 }
 
-/// The nodes of this same program.
+/// Network of the nodes in this program.
 pub struct InGraph(pub Graph);
 
-/// Names of verbs' own nodes begin so; the first `_` hides them.
+/// Prefix of names of verbs' own nodes; the leading `_` hides them.
 pub(crate) const OWN_NODE: &str = "_periplus_cli";
 
 impl Network for InGraph {

@@ -5,7 +5,7 @@ use serde_json::json;
 use crate::session::{advice, full_name};
 use crate::{Failure, Outcome, Seen, SeenEnd, SeenService, Session, is_hidden};
 
-/// Which nodes there are.
+/// Lists all nodes.
 ///
 /// # Errors
 /// When the output cannot be written.
@@ -18,14 +18,14 @@ pub fn list(session: &mut Session<'_>, all: bool, count: bool) -> Outcome {
     session.put_list("node", &names, count)?;
     if !count && names.windows(2).any(|pair| pair[0] == pair[1]) {
         session.say(
-            "WARNING: there are nodes of exactly the same name; services and parameters of such \
-             nodes answer as they like",
+            "WARNING: there are nodes of exactly the same name; calls to their services and \
+             parameters reach an arbitrary one",
         );
     }
     Ok(())
 }
 
-/// What a node publishes, hears, answers and calls.
+/// Prints the publishers, subscribers, services and actions of a node.
 ///
 /// # Errors
 /// When there is no such node, or the output cannot be written.
@@ -57,7 +57,7 @@ pub fn info(session: &mut Session<'_>, name: &str, include_hidden: bool) -> Outc
     for (title, _, uses) in parts {
         writeln!(session.out, "  {title}:")?;
         if uses.is_empty() {
-            // As `ros2 node info` prints it.
+            // The format of `ros2 node info`.
             writeln!(session.out)?;
         }
         for (name, types) in uses {

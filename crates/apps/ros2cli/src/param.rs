@@ -22,17 +22,17 @@ use crate::{Failure, Outcome, Refusal, Ros2Line, Seen, Session, is_hidden};
 /// Options of `param list`.
 #[derive(Clone, Debug, Default)]
 pub struct List {
-    /// Only this node.
+    /// Node to list; all if `None`.
     pub node: Option<String>,
-    /// Hidden nodes as well.
+    /// Include hidden nodes.
     pub include_hidden: bool,
-    /// Only names that begin with one of these.
+    /// Prefixes of names; all names if empty.
     pub prefixes: Vec<String>,
     /// `--param-type`.
     pub show_types: bool,
 }
 
-/// Nodes that have parameters.
+/// Names of nodes that have parameter services.
 fn parametric(seen: &Seen) -> Vec<String> {
     let services = seen.services.iter().filter(|service| {
         !service.servers.is_empty()
@@ -42,7 +42,7 @@ fn parametric(seen: &Seen) -> Vec<String> {
     names.map(str::to_owned).collect()
 }
 
-/// What each node says of `use_sim_time`; those that do not answer are left out.
+/// `use_sim_time` of each node; nodes that do not respond are left out.
 pub(crate) fn simulated_time(
     session: &Session<'_>,
     node: &Node,
@@ -60,7 +60,7 @@ pub(crate) fn simulated_time(
         .collect()
 }
 
-/// A node by its name.
+/// Looks up a node by name.
 fn look_up(session: &Session<'_>, name: &str) -> Outcome<String> {
     let name = full_name(name);
     let (seen, is_there) = session.look_for(|seen| parametric(seen).contains(&name));
@@ -71,7 +71,7 @@ fn look_up(session: &Session<'_>, name: &str) -> Outcome<String> {
     let near = advice(&name, seen.nodes.iter().map(|node| node.name.as_str()));
     Err(Failure::failed(match seen.count_nodes(&name) {
         0 => format!("Node not found: '{name}'{near}"),
-        _ => format!("the node '{name}' has no services for parameters"),
+        _ => format!("the node '{name}' has no parameter services"),
     }))
 }
 
@@ -100,7 +100,7 @@ fn values_of(
     Ok(ask::<GetParameters>(session, node, &service, &request)?.values)
 }
 
-/// The parameters of a node, or of all.
+/// Lists the parameters of a node, or of all nodes.
 ///
 /// # Errors
 /// When there is no such node, or the output cannot be written.
@@ -155,7 +155,7 @@ pub fn list(session: &mut Session<'_>, options: &List) -> Outcome {
     Ok(())
 }
 
-/// The value of a parameter.
+/// Prints the value of a parameter.
 ///
 /// # Errors
 /// When there is no such node, or the output cannot be written.
@@ -198,7 +198,7 @@ fn set_one(
         SetParametersRequest { parameters: vec![Parameter { name: name.to_owned(), value }] };
     let service = format!("{node}/set_parameters");
     let answer = ask::<SetParameters>(session, own, &service, &request)?;
-    let none = || Failure::failed(format!("{service} answered nothing about `{name}`"));
+    let none = || Failure::failed(format!("the response of {service} has no result for `{name}`"));
     answer.results.into_iter().next().ok_or_else(none)
 }
 
@@ -207,7 +207,7 @@ fn refused(message: String) -> Failure {
     Failure::Refused(Refusal { ros2: Ros2Line::Stderr(message.clone()), message })
 }
 
-/// Says how setting ended; whether well.
+/// Prints the result of setting a parameter; returns true on success.
 fn tell(
     session: &mut Session<'_>,
     node: &str,
@@ -228,7 +228,7 @@ fn tell(
     Ok(*successful)
 }
 
-/// Sets a parameter; the value is YAML. A list of lists, as footprints are, is set as a text.
+/// Sets a parameter; the value is YAML. A list of lists, such as a footprint, is set as a string.
 ///
 /// # Errors
 /// When there is no such node, it refuses the value, or the output cannot be written.
@@ -243,7 +243,7 @@ pub fn set(session: &mut Session<'_>, node: &str, name: &str, value: &str) -> Ou
     }
 }
 
-/// The value that a word stands for, as `ros2 param set` takes it.
+/// Parses a value as `ros2 param set` does.
 fn typed_value(text: &str) -> Outcome<ParameterValue> {
     let wrong = match parameter_from_yaml(text) {
         Ok(value) => return Ok(value),
@@ -265,10 +265,10 @@ fn typed_value(text: &str) -> Outcome<ParameterValue> {
     }
 }
 
-/// Takes a parameter from a node.
+/// Deletes a parameter of a node.
 ///
 /// # Errors
-/// When there is no such node, it keeps the parameter, or the output cannot be written.
+/// When there is no such node, it refuses, or the output cannot be written.
 pub fn delete(session: &mut Session<'_>, node: &str, name: &str) -> Outcome {
     let node = look_up(session, node)?;
     let own = session.node(None)?;
@@ -279,7 +279,7 @@ pub fn delete(session: &mut Session<'_>, node: &str, name: &str) -> Outcome {
     }
 }
 
-/// What parameters are for, and which values they may have.
+/// Describes parameters: purpose, type and range.
 ///
 /// # Errors
 /// When there is no such node, or the output cannot be written.
@@ -290,13 +290,13 @@ pub fn describe(session: &mut Session<'_>, node: &str, names: &[String]) -> Outc
     let service = format!("{node}/describe_parameters");
     let answer = ask::<DescribeParameters>(session, &own, &service, &request)?;
     if answer.descriptors.len() != names.len() {
-        // Nodes answer nothing at all when they do not have one of them.
+        // Nodes return an empty list if one of the parameters does not exist.
         let known = names_of(session, &own, &node, &[])?;
         if let Some(name) = names.iter().find(|name| !known.contains(name)) {
             let near = advice(name, known.iter().map(String::as_str));
             return Err(Failure::failed(format!("{node} has no parameter `{name}`{near}")));
         }
-        return Err(Failure::failed(format!("{service} did not answer for all names")));
+        return Err(Failure::failed(format!("the response of {service} does not cover all names")));
     }
     for one in &answer.descriptors {
         if session.json {
@@ -309,7 +309,7 @@ pub fn describe(session: &mut Session<'_>, node: &str, names: &[String]) -> Outc
     Ok(())
 }
 
-/// All parameters of a node, as a file for `--params-file`.
+/// Prints all parameters of a node, as a file for `--params-file`.
 ///
 /// # Errors
 /// When there is no such node, or the output cannot be written.
@@ -331,11 +331,11 @@ pub fn dump(session: &mut Session<'_>, node: &str) -> Outcome {
     Ok(())
 }
 
-/// Sets the parameters that a file has for a node. The file's text is given.
+/// Sets the parameters that a file has for a node, given the text of the file.
 ///
 /// # Errors
-/// When there is no such node, the file has nothing for it or is none, the node refuses a value, or
-/// the output cannot be written.
+/// When there is no such node, the file is invalid or has nothing for it, the node refuses a value,
+/// or the output cannot be written.
 pub fn load(
     session: &mut Session<'_>,
     node: &str,
@@ -352,12 +352,12 @@ pub fn load(
         session.say(&render(finding, &sources, Style::Plain));
     }
     if findings.has_errors() {
-        return Err(Failure::failed(format!("{} is no file of parameters", file.display())));
+        return Err(Failure::failed(format!("{} is not a parameter file", file.display())));
     }
     let node = look_up(session, node)?;
     let mut values: BTreeMap<String, ParameterValue> = arguments.parameters_of(&node);
     if !use_wildcard {
-        // What stands under `/**` is there for a node that nobody can have.
+        // Parameters under `/**` apply to any node.
         for name in arguments.parameters_of("/_no/_such/_node").into_keys() {
             values.remove(&name);
         }

@@ -1,10 +1,10 @@
-//! Quality of service as it is asked for on the command line, and as publishers make it necessary.
+//! QoS of command-line options, adapted to the publishers of a topic.
 
 use periplus_graph::{Durability, History, Liveliness, Qos, Reliability};
 
 use crate::{Failure, Outcome, SeenTopic};
 
-/// What is asked for; what is not given is chosen.
+/// QoS options; `None` selects a matching policy.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct QosWish {
     /// `--qos-profile`.
@@ -23,7 +23,7 @@ pub struct QosWish {
     pub lease_s: Option<f64>,
 }
 
-/// The names of `--qos-profile`, with what they mean (`rmw/qos_profiles.h`).
+/// Values of `--qos-profile` (`rmw/qos_profiles.h`).
 const PROFILES: [(&str, Qos); 6] = [
     ("default", Qos::reliable(10)),
     ("sensor_data", Qos::sensor_data()),
@@ -33,24 +33,24 @@ const PROFILES: [(&str, Qos); 6] = [
     ("system_default", Qos::reliable(1)),
 ];
 
-/// How many latched messages a listener takes at most from each publisher; robots have a few static
-/// publishers, each of which may hold many transforms.
+/// Maximum number of latched messages from each publisher; robots have a few static publishers,
+/// each of which may hold many transforms.
 const LATCHED_DEPTH: usize = 100;
 
 impl QosWish {
-    /// What a publisher offers.
+    /// QoS offered by a publisher.
     ///
     /// # Errors
-    /// When a word is not known.
+    /// When a value is unknown.
     pub fn offer(&self) -> Outcome<Qos> {
         self.over(Qos::reliable(10))
     }
 
-    /// What a listener asks for so that all of a topic's publishers fit; and what to say when they
-    /// differ. What is asked for explicitly stays.
+    /// QoS requested by a subscription so that all publishers of a topic match, and a note if they
+    /// differ. Explicit options take precedence.
     ///
     /// # Errors
-    /// When a word is not known.
+    /// When a value is unknown.
     pub fn ask(&self, topic: Option<&SeenTopic>) -> Outcome<(Qos, Option<String>)> {
         let publishers = topic.map_or(&[][..], |topic| &topic.publishers);
         let is_bare =
@@ -61,7 +61,7 @@ impl QosWish {
         let reliable = count(publishers, |qos| qos.reliability == Reliability::Reliable);
         let latched = count(publishers, |qos| qos.durability == Durability::TransientLocal);
         let all = publishers.len();
-        // Most that fits: what each offers at least.
+        // Strongest QoS that all publishers offer.
         let mut qos = Qos::reliable(64);
         if reliable < all {
             qos.reliability = Reliability::BestEffort;
@@ -75,12 +75,12 @@ impl QosWish {
         if differ(reliable) {
             words.push(format!(
                 "{reliable} of {all} publishers are reliable and the others best effort; all are \
-                 heard as best effort"
+                 received as best effort"
             ));
         }
         if differ(latched) {
             words.push(format!(
-                "{latched} of {all} publishers keep messages for latecomers and the others do \
+                "{latched} of {all} publishers are transient local and the others are \
                  not; what was published before is not asked for"
             ));
         }
@@ -147,10 +147,10 @@ fn one_of<T: Copy>(option: &str, word: &str, known: &[(&str, T)], by_itself: T) 
 }
 
 fn unknown(option: &str, word: &str, known: &[&str]) -> Failure {
-    Failure::Usage(format!("{option} is `{word}`; it has to be one of {}", known.join(", ")))
+    Failure::Usage(format!("{option} is `{word}`; expected one of {}", known.join(", ")))
 }
 
-/// As `ros2 topic info -v` prints it, without the first line.
+/// QoS in the format of `ros2 topic info -v`, without the first line.
 pub(crate) fn describe(qos: &Qos) -> String {
     let upper = |word: String| word.to_uppercase();
     let span = |ns: Option<i64>| match ns {
@@ -159,7 +159,7 @@ pub(crate) fn describe(qos: &Qos) -> String {
     };
     let history = match qos.history {
         History::KeepAll => "KEEP_ALL".to_owned(),
-        // Fast DDS and older Cyclone DDS do not tell it.
+        // Fast DDS and older Cyclone DDS do not report it.
         History::KeepLast if qos.depth == 0 => "UNKNOWN".to_owned(),
         History::KeepLast => format!("KEEP_LAST ({})", qos.depth),
     };
@@ -175,7 +175,7 @@ pub(crate) fn describe(qos: &Qos) -> String {
     )
 }
 
-/// The same for programs.
+/// QoS as JSON.
 pub(crate) fn to_json(qos: &Qos) -> serde_json::Value {
     let history = match qos.history {
         History::KeepAll => "keep_all",

@@ -1,14 +1,13 @@
-//! Who is there, as plain data.
+//! Snapshot of the ROS graph.
 
 use std::collections::BTreeMap;
 
 use periplus_graph::{EndpointInfo, Graph, Qos, TopicInfo};
 
-/// The nodes, topics and services on the network, those of the command itself left out. Everything
-/// is sorted by name.
+/// Nodes, topics and services on the network, without those of the command itself, sorted by name.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Seen {
-    /// Nodes; two can have one name.
+    /// Nodes; names may be duplicated.
     pub nodes: Vec<SeenNode>,
     /// Topics.
     pub topics: Vec<SeenTopic>,
@@ -16,56 +15,56 @@ pub struct Seen {
     pub services: Vec<SeenService>,
 }
 
-/// A node.
+/// Node.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct SeenNode {
     /// Namespace and name.
     pub name: String,
 }
 
-/// A topic.
+/// Topic.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct SeenTopic {
-    /// Its full name.
+    /// Full name.
     pub name: String,
-    /// Its types; two or more when its ends do not agree.
+    /// Types; two or more if its endpoints disagree.
     pub types: Vec<String>,
-    /// Who publishes.
+    /// Publishers.
     pub publishers: Vec<SeenEnd>,
-    /// Who subscribes.
+    /// Subscriptions.
     pub subscriptions: Vec<SeenEnd>,
 }
 
-/// One end of a topic.
+/// Endpoint of a topic.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SeenEnd {
-    /// Full name of its node, as far as known.
+    /// Full name of its node, if known.
     pub node: Option<String>,
-    /// Its type.
+    /// Message type.
     pub type_name: String,
-    /// The hash of its type, as far as told.
+    /// Type hash, if reported.
     pub type_hash: Option<String>,
-    /// Its name on the network, as `ros2 topic info -v` prints it.
+    /// GID, in the format of `ros2 topic info -v`.
     pub gid: String,
-    /// What it offers or asks for. A depth of 0 is one that nobody told.
+    /// Offered or requested QoS. A depth of 0 is unknown.
     pub qos: Qos,
 }
 
-/// A service.
+/// Service.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct SeenService {
-    /// Its full name.
+    /// Full name.
     pub name: String,
-    /// Its types.
+    /// Types.
     pub types: Vec<String>,
-    /// Full names of the nodes that answer it.
+    /// Full names of the nodes with a server.
     pub servers: Vec<String>,
-    /// Full names of the nodes that call it.
+    /// Full names of the nodes with a client.
     pub clients: Vec<String>,
 }
 
 impl SeenService {
-    /// As one JSON object.
+    /// JSON object of the service.
     pub(crate) fn to_json(&self) -> serde_json::Value {
         serde_json::json!({
             "name": self.name,
@@ -76,14 +75,14 @@ impl SeenService {
     }
 }
 
-/// Whether ROS hides a name unless it is asked for: a part of it begins with `_`.
+/// Returns true for hidden names: a part of the name begins with `_`.
 #[must_use]
 pub fn is_hidden(name: &str) -> bool {
     name.split('/').any(|part| part.starts_with('_'))
 }
 
 impl Seen {
-    /// What a graph has, without the nodes whose names `is_own` accepts.
+    /// Snapshot of a graph, without the nodes whose names `is_own` accepts.
     #[must_use]
     pub fn of_graph(graph: &Graph, is_own: impl Fn(&str) -> bool) -> Self {
         let end = |topic: &TopicInfo, end: &EndpointInfo| SeenEnd {
@@ -122,25 +121,25 @@ impl Seen {
         }
     }
 
-    /// The topic of this full name.
+    /// Topic of this full name.
     #[must_use]
     pub fn topic(&self, name: &str) -> Option<&SeenTopic> {
         self.topics.iter().find(|topic| topic.name == name)
     }
 
-    /// The service of this full name.
+    /// Service of this full name.
     #[must_use]
     pub fn service(&self, name: &str) -> Option<&SeenService> {
         self.services.iter().find(|service| service.name == name)
     }
 
-    /// How many nodes have this full name.
+    /// Number of nodes of this full name.
     #[must_use]
     pub fn count_nodes(&self, name: &str) -> usize {
         self.nodes.iter().filter(|node| node.name == name).count()
     }
 
-    /// Full names of the nodes, sorted, each as often as it is there.
+    /// Full names of the nodes, sorted, with duplicates.
     #[must_use]
     pub fn node_names(&self, with_hidden: bool) -> Vec<&str> {
         let names = self.nodes.iter().map(|node| node.name.as_str());
@@ -149,8 +148,8 @@ impl Seen {
         names
     }
 
-    /// Actions that some node has a server for, or a client: name, types, servers, clients. They
-    /// are known by the service that begins a task and by the topic that tells how tasks go.
+    /// Actions with a server or client: name, types, servers, clients. They are recognized by their
+    /// `send_goal` service and status topic.
     #[must_use]
     pub fn actions(&self) -> Vec<SeenService> {
         let mut actions: BTreeMap<&str, SeenService> = BTreeMap::new();

@@ -13,10 +13,10 @@ use crate::session::{BREATH, advice, full_name, titled};
 use crate::types::full_type;
 use crate::{Failure, Outcome, SeenService, Session, Values, clock, is_hidden, show};
 
-/// How long until it is said that nobody answers yet.
+/// Time without a server after which a warning is printed.
 const TELL: Duration = Duration::from_millis(1_000);
 
-/// Which services there are.
+/// Lists all services.
 ///
 /// # Errors
 /// When the output cannot be written.
@@ -27,7 +27,7 @@ pub fn list(
     include_hidden: bool,
 ) -> Outcome {
     let seen = session.look();
-    // Services that nobody answers are called by somebody, and count as well.
+    // Services without a server have a client, and are listed as well.
     let services = seen.services.iter().filter(|one| include_hidden || !is_hidden(&one.name));
     let services: Vec<&SeenService> = services.collect();
     if session.json {
@@ -38,7 +38,7 @@ pub fn list(
     session.put_list("service", &titles.collect::<Vec<_>>(), count)
 }
 
-/// The service of this name, when it is there.
+/// Looks up a service by name.
 fn look_up(session: &mut Session<'_>, name: &str) -> Outcome<SeenService> {
     let name = full_name(name);
     let (seen, is_there) = session.look_for(|seen| seen.service(&name).is_some());
@@ -50,7 +50,7 @@ fn look_up(session: &mut Session<'_>, name: &str) -> Outcome<SeenService> {
     })
 }
 
-/// The types of a service.
+/// Prints the types of a service.
 ///
 /// # Errors
 /// When there is no such service, or the output cannot be written.
@@ -59,7 +59,7 @@ pub fn type_of(session: &mut Session<'_>, name: &str) -> Outcome {
     session.put_types(&service.name, &service.types)
 }
 
-/// How many answer a service, and how many call it.
+/// Prints the numbers of servers and clients of a service.
 ///
 /// # Errors
 /// When there is no such service, or the output cannot be written.
@@ -81,7 +81,7 @@ pub fn info(session: &mut Session<'_>, name: &str, verbose: bool) -> Outcome {
     Ok(())
 }
 
-/// The services of a type.
+/// Lists the services of a type.
 ///
 /// # Errors
 /// When the output cannot be written.
@@ -99,10 +99,10 @@ pub fn find(
     session.put_found(&type_name, "services", &names, count)
 }
 
-/// Calls a service, once or again and again. Without a type it is that of the service.
+/// Calls a service once or periodically. Without a type, that of the service is used.
 ///
 /// # Errors
-/// When the type or a value is not usable, nobody answers, or the output cannot be written.
+/// When the type or a value is unusable, there is no server, or the output cannot be written.
 pub fn call(
     session: &mut Session<'_>,
     name: &str,
@@ -135,8 +135,10 @@ pub fn call(
                 .encode(Format::CDR, &mut cdr)
                 .map_err(|error| Failure::failed(format!("the request cannot be sent: {error}")))?;
             let answer = asker.ask(cdr).wait(session, None)?;
-            let answer = DynamicMessage::decode(&response, Format::CDR, &answer)
-                .map_err(|error| Failure::failed(format!("the answer cannot be read: {error}")))?;
+            let answer =
+                DynamicMessage::decode(&response, Format::CDR, &answer).map_err(|error| {
+                    Failure::failed(format!("the response cannot be decoded: {error}"))
+                })?;
             if session.json {
                 session.put(&answer.to_json())?;
             } else {

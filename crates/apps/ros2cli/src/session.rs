@@ -1,4 +1,4 @@
-//! One use of the command.
+//! Session: one use of the command.
 
 use std::io::Write;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -12,50 +12,50 @@ use serde_json::json;
 use crate::network::{OWN_NODE, Progress};
 use crate::{Failure, Network, Outcome, Seen, Types};
 
-/// Minimum time that discovery gets without `--spin-time`.
+/// Minimum duration of discovery without `--spin-time`.
 const MIN_DISCOVERY: Duration = Duration::from_millis(600);
 
-/// Discovery goes on until nothing has changed for this time.
+/// Discovery continues until nothing has changed for this time.
 const QUIET: Duration = Duration::from_millis(200);
 
-/// Discovery waits at most this long for programs on this machine that do not answer: they may be on
-/// another network.
+/// Maximum wait for participants on this machine that do not respond: they may be on another
+/// network.
 const MAX_UNANSWERED: Duration = Duration::from_millis(2_500);
 
-/// Discovery waits at most this long for programs that were found but are not completely known.
+/// Maximum wait for participants that were discovered incompletely.
 const MAX_INCOMPLETE: Duration = Duration::from_secs(10);
 
-/// How long a node, topic or service may take to be found, without `--spin-time`.
+/// Maximum time to find a node, topic or service, without `--spin-time`.
 const MIN_SEARCH: Duration = Duration::from_millis(2_000);
 
-/// How often discovery is looked at.
+/// Polling period of discovery.
 const LOOK_AGAIN: Duration = Duration::from_millis(20);
 
-/// How often a loop looks whether it is to stop.
+/// Polling period of the interrupt flag.
 pub(crate) const BREATH: Duration = Duration::from_millis(100);
 
-/// One use of the command: its network, the types it knows, and where it writes.
+/// One use of the command: its network, its types, and its output.
 pub struct Session<'a> {
-    /// Who else is there.
+    /// Network of the session.
     pub network: &'a dyn Network,
     /// Message types.
     pub types: &'a Types,
-    /// Results.
+    /// Output of results.
     pub out: &'a mut dyn Write,
-    /// What is said beside them.
+    /// Output of notes and warnings.
     pub talk: &'a mut dyn Write,
-    /// Set when it is to stop.
+    /// Interrupt flag.
     pub stop: &'a AtomicBool,
-    /// Whether results are JSON: one object, or one on each line of a stream.
+    /// True to print JSON: one object, or one per line of a stream.
     pub json: bool,
-    /// How long others have to be found. Without it at least 0.6 s, and until every program found has
-    /// told all its nodes, topics and services.
+    /// Duration of discovery. If `None`, at least 0.6 s, and until every participant found has
+    /// announced all its nodes, topics and services.
     pub spin_time: Option<Duration>,
 }
 
 impl Session<'_> {
-    /// Nodes, topics and services after discovery. Programs that could not be found completely are
-    /// named on the side.
+    /// Returns nodes, topics and services after discovery, with a warning about participants that
+    /// were discovered incompletely.
     pub fn look(&mut self) -> Seen {
         let progress = self.discover(MIN_DISCOVERY, |_| false);
         if progress.incomplete > 0 && !self.is_stopped() {
@@ -64,15 +64,15 @@ impl Session<'_> {
                 count => (count.to_string(), "programs"),
             };
             self.say(&format!(
-                "WARNING: {count} {programs} on the network did not tell all nodes, topics and services \
+                "WARNING: {count} {programs} on the network did not announce all nodes, topics and services \
                  in time; the list is incomplete. Wait longer with `--spin-time SECONDS`"
             ));
         }
         self.network.seen()
     }
 
-    /// Waits for discovery: as long as `--spin-time` says, or at least `min` and until all programs
-    /// found are completely known. Ends early when `is_found`.
+    /// Waits for discovery: for `--spin-time`, or at least `min` and until all participants found
+    /// are completely known. Ends early if `is_found`.
     fn discover(&self, min: Duration, is_found: impl Fn(&Seen) -> bool) -> Progress {
         let clock = Stopwatch::start();
         let mut last = self.network.progress();
@@ -105,12 +105,13 @@ impl Session<'_> {
         }
     }
 
-    /// How long a node or service may take to be found.
+    /// Maximum time to find a node or service.
     pub(crate) fn found_within(&self) -> Duration {
         self.spin_time.unwrap_or(MIN_SEARCH)
     }
 
-    /// Waits until something is found or discovery ends; what is there then, and whether it was found.
+    /// Waits until something is found or discovery ends; returns the snapshot, and true if it was
+    /// found.
     pub fn look_for(&self, wanted: impl Fn(&Seen) -> bool) -> (Seen, bool) {
         self.discover(self.found_within(), &wanted);
         let seen = self.network.seen();
@@ -118,10 +119,10 @@ impl Session<'_> {
         (seen, is_there)
     }
 
-    /// Waits for something, at most so long or until it is told to stop; whether it is so.
+    /// Waits for a condition, up to a timeout; returns true if it holds.
     ///
     /// # Errors
-    /// When it was told to stop.
+    /// When interrupted.
     pub fn wait(
         &self,
         timeout: Option<Duration>,
@@ -141,19 +142,19 @@ impl Session<'_> {
         }
     }
 
-    /// Whether it was told to stop.
+    /// Returns true when interrupted.
     #[must_use]
     pub fn is_stopped(&self) -> bool {
         self.stop.load(Ordering::Relaxed)
     }
 
     /// # Errors
-    /// When it was told to stop.
+    /// When interrupted.
     pub fn go_on(&self) -> Outcome {
         if self.is_stopped() { Err(Failure::Interrupted) } else { Ok(()) }
     }
 
-    /// The verb's own node, under a name that no other has.
+    /// Creates the verb's own node, with a unique name.
     ///
     /// # Errors
     /// When the graph refuses the name.
@@ -165,12 +166,12 @@ impl Session<'_> {
         Ok(self.network.graph().node(NodeSettings::new(name).bare())?)
     }
 
-    /// Says something that is no result.
+    /// Prints a note.
     pub fn say(&mut self, words: &str) {
         let _ = writeln!(self.talk, "{words}");
     }
 
-    /// Writes names, one on a line, or how many there are.
+    /// Prints names, one per line, or their number.
     ///
     /// # Errors
     /// When the output cannot be written.
@@ -186,7 +187,7 @@ impl Session<'_> {
         Ok(())
     }
 
-    /// Writes names as [`Session::put_names`], and says so where there are none.
+    /// Prints names as [`Session::put_names`], with a note if there are none.
     ///
     /// # Errors
     /// When the output cannot be written.
@@ -198,14 +199,14 @@ impl Session<'_> {
     ) -> Outcome {
         if names.is_empty() && !count {
             self.say(&format!(
-                "no {what} was found: nothing that runs on this network has one \
+                "no {what} was found: no program on this network has one \
                  (`periplus doctor` examines the network)"
             ));
         }
         self.put_names(names, count)
     }
 
-    /// Writes the types of what has this name.
+    /// Prints the types of the entity of this name.
     ///
     /// # Errors
     /// When the output cannot be written.
@@ -216,7 +217,7 @@ impl Session<'_> {
         self.put_names(types, false)
     }
 
-    /// Writes the names of what has this type, or how many have it.
+    /// Prints the names of the entities of this type, or their number.
     ///
     /// # Errors
     /// When the output cannot be written.
@@ -233,7 +234,7 @@ impl Session<'_> {
         self.put_list(&format!("{} of this type", what.trim_end_matches('s')), names, count)
     }
 
-    /// Writes one JSON object on a line.
+    /// Prints one JSON object on a line.
     ///
     /// # Errors
     /// When the output cannot be written.
@@ -244,17 +245,17 @@ impl Session<'_> {
     }
 }
 
-/// A name, with its types if they are to be shown.
+/// Name, with its types if requested.
 pub(crate) fn titled(name: &str, types: &[String], show_types: bool) -> String {
     if show_types { format!("{name} [{}]", types.join(", ")) } else { name.to_owned() }
 }
 
-/// A name as nodes in the root namespace understand it.
+/// Full name, as resolved by nodes in the root namespace.
 pub(crate) fn full_name(name: &str) -> String {
     if name.starts_with('/') { name.to_owned() } else { format!("/{name}") }
 }
 
-/// ` Did you mean ...?`, or which there are.
+/// Suggestion ` Did you mean ...?`, or the known names.
 pub(crate) fn advice<'n>(name: &str, known: impl Iterator<Item = &'n str>) -> String {
     let known: Vec<&str> = known.collect();
     match closest(name, known.iter().copied()) {

@@ -1,5 +1,5 @@
-//! How messages are shown: YAML comes from `msgs`, the other forms from here. Each is one walk over
-//! the values; what is cut is cut before it is made into text.
+//! Text formats of messages: YAML is in `msgs`, the other formats are here. Each is one pass over
+//! the values; truncation happens before formatting.
 
 mod csv;
 mod json;
@@ -12,41 +12,41 @@ use crate::{Failure, Outcome};
 pub use python::repr;
 pub(crate) use python::{float as python_float, text as python_text};
 
-/// The form in which messages are shown.
+/// Output format of messages.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Form {
-    /// As people read them.
+    /// YAML.
     #[default]
     Yaml,
-    /// All values of a message on one line, with commas between.
+    /// All values of a message on one line, separated by commas.
     Csv,
-    /// A JSON object on one line.
+    /// JSON object on one line.
     Json,
 }
 
-/// How messages are shown.
+/// Format settings.
 #[derive(Clone, Debug, Default)]
 pub struct Show {
-    /// The form.
+    /// Format.
     pub form: Form,
-    /// What is cut or left out.
+    /// Truncation.
     pub style: YamlStyle,
-    /// Only this part, such as `pose.pose.position` or `ranges[0]`.
+    /// Only this field, such as `pose.pose.position` or `ranges[0]`.
     pub field: Option<String>,
 }
 
 impl Show {
-    /// A message, with the end of its last line, without anything between messages.
+    /// Formats a message with the end of its last line, without a separator between messages.
     ///
     /// # Errors
-    /// When it has no such part.
+    /// When it has no such field.
     pub fn text(&self, message: &DynamicMessage) -> Outcome<String> {
         match &self.field {
             None => Ok(self.whole(message)),
             Some(path) => {
                 let part = message.part(path).map_err(|error| {
                     let name = message.layout().type_name();
-                    Failure::failed(format!("{name} has nothing called `{path}`: {error}"))
+                    Failure::failed(format!("{name} has no field `{path}`: {error}"))
                 })?;
                 Ok(self.part(&part))
             }
@@ -62,8 +62,9 @@ impl Show {
 
     fn part(&self, part: &Part<'_>) -> String {
         match (self.form, part.peek()) {
-            // As Python prints it, not as YAML: the answer to `--field` is for scripts. Arrays of a
-            // fixed length are NumPy's, which prints them rounded and in columns; they stay YAML.
+            // In Python syntax, not as YAML: the output of `--field` is for scripts. Arrays of
+            // fixed length are NumPy arrays, which Python prints rounded and in columns; they stay
+            // YAML.
             (Form::Yaml | Form::Csv, Value::Numbers(_) | Value::List(_)) if part.is_sequence() => {
                 python::sequence(part) + "\n"
             }
@@ -94,12 +95,12 @@ impl Show {
     }
 }
 
-/// What a list is cut to.
+/// Number of elements to print.
 fn shown(length: usize, longest: Option<usize>) -> usize {
     longest.map_or(length, |longest| longest.min(length))
 }
 
-/// The first characters of a text, and whether there are more.
+/// First characters of a string; the flag is true if it was truncated.
 fn cut(text: &str, longest: Option<usize>) -> (&str, bool) {
     match longest.and_then(|longest| text.char_indices().nth(longest)) {
         Some((end, _)) => (&text[..end], true),
@@ -107,7 +108,7 @@ fn cut(text: &str, longest: Option<usize>) -> (&str, bool) {
     }
 }
 
-/// Whether a number is a whole one, and which.
+/// Integer value of a number, if it is one.
 fn whole(number: Number) -> Option<i128> {
     Some(match number {
         Number::I8(number) => number.into(),
@@ -122,7 +123,7 @@ fn whole(number: Number) -> Option<i128> {
     })
 }
 
-/// A whole number as it is.
+/// Integer value of an integer number.
 pub(crate) fn whole_number(number: Number) -> i128 {
     whole(number).unwrap_or(0)
 }
@@ -152,7 +153,7 @@ mod tests {
         assert_eq!(scan(&[1.5, 2.0], &[]), format!("{before},1.5,2.0,\n"));
         assert_eq!(scan(&[], &[7.0]), format!("{before},,7.0\n"));
         assert_eq!(scan(&[], &[]), format!("{before},,\n"));
-        // Nothing stands before the first column, so there is no comma.
+        // Nothing precedes the first column, so there is no comma.
         let blank = message("std_msgs/msg/Float32MultiArray", &json!({}));
         assert_eq!(csv.text(&blank).unwrap(), "0,\n");
     }
@@ -180,7 +181,7 @@ mod tests {
             assert_eq!(joint("name"), "['a', \"it's\"]\n");
             assert_eq!(joint("position"), "array('d', [1.0])\n");
         }
-        // A fixed length makes no `array`.
+        // An array of fixed length is not printed as `array`.
         let camera = json!({});
         let text = field("sensor_msgs/msg/CameraInfo", camera, "k", Form::Yaml);
         assert!(text.starts_with("- 0.0\n"), "{text}");

@@ -1,7 +1,7 @@
-//! Driving by keys, as `teleop_twist_keyboard` does: the same keys, speeds and steps.
+//! Keyboard teleoperation, as `teleop_twist_keyboard` does it: the same keys, speeds and steps.
 //!
-//! A [`Keyboard`] knows the speeds and the way that is driven; [`Keyboard::press`] says what a key
-//! does. Nobody here reads a terminal or publishes.
+//! A [`Keyboard`] holds the speeds and the direction; [`Keyboard::press`] handles a key. Terminal
+//! input and publishing are left to the caller.
 //!
 //! ```
 //! use periplus_ros2cli::teleop::{Keyboard, Pressed};

@@ -1,5 +1,5 @@
-//! `tf`: where frames are, as `view_frames`, `tf2_echo`, `tf2_monitor` and
-//! `static_transform_publisher` tell it.
+//! `tf`: transforms, as with `view_frames`, `tf2_echo`, `tf2_monitor` and
+//! `static_transform_publisher`.
 
 mod broadcast;
 mod echo;

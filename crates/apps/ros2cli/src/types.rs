@@ -1,4 +1,4 @@
-//! The types that a verb knows, and what to do about one that it does not know.
+//! Types available to a verb, and help for unknown ones.
 
 use std::sync::Arc;
 
@@ -8,16 +8,16 @@ use periplus_rosidl::{Kind, TypeName};
 
 use crate::{Failure, Outcome};
 
-/// Types by name: ours, and those of packages of the user's.
+/// Types by name: built-in ones, and those of the user's packages.
 pub enum Types {
-    /// Ours only.
+    /// Built-in types only.
     Builtin,
-    /// With others.
+    /// Built-in and user types.
     With(Box<TypeRegistry>),
 }
 
 impl Types {
-    /// All of them.
+    /// All types.
     #[must_use]
     pub fn registry(&self) -> &TypeRegistry {
         match self {
@@ -26,19 +26,20 @@ impl Types {
         }
     }
 
-    /// A message type, as people write it: `std_msgs/msg/String` or `std_msgs/String`.
+    /// Looks up a message type, written as `std_msgs/msg/String` or `std_msgs/String`.
     ///
     /// # Errors
-    /// When it is not known.
+    /// When it is unknown.
     pub fn message(&self, name: &str) -> Outcome<&Arc<Layout>> {
         let full = full_type(name, Kind::Message)?;
         self.registry().layout(&full).ok_or_else(|| self.unknown("message", &full))
     }
 
-    /// Question and answer of a service type: `std_srvs/srv/Trigger` or `std_srvs/Trigger`.
+    /// Looks up request and response of a service type: `std_srvs/srv/Trigger` or
+    /// `std_srvs/Trigger`.
     ///
     /// # Errors
-    /// When it is not known.
+    /// When it is unknown.
     pub fn service(&self, name: &str) -> Outcome<(String, &Arc<Layout>, &Arc<Layout>)> {
         let full = full_type(name, Kind::Service)?;
         let part = |part: &str| self.registry().layout(&format!("{full}_{part}"));
@@ -48,10 +49,10 @@ impl Types {
         }
     }
 
-    /// A type that is part of an action, such as `nav2_msgs/action/Wait_Goal`.
+    /// Looks up a type that is part of an action, such as `nav2_msgs/action/Wait_Goal`.
     ///
     /// # Errors
-    /// When it is not known.
+    /// When it is unknown.
     pub fn action(&self, name: &str, part: &str) -> Outcome<(String, &Arc<Layout>)> {
         let full = full_type(name, Kind::Action)?;
         match self.registry().layout(&format!("{full}_{part}")) {
@@ -61,7 +62,7 @@ impl Types {
     }
 
     fn unknown(&self, what: &str, name: &str) -> Failure {
-        // Those of the same package, or of the same name in another.
+        // Types of the same package, or of the same name in another package.
         let parts = |name: &str| {
             let mut parts = name.split('/').map(str::to_owned);
             (parts.next(), parts.next_back())
@@ -77,14 +78,14 @@ impl Types {
         let near = near.map_or(String::new(), |near| format!("Did you mean `{near}`? "));
         let package = package.unwrap_or_default();
         Failure::failed(format!(
-            "the {what} type `{name}` is not known. {near}If it is a package of yours, give its \
-             folder with `--interfaces DIR`, or have the prefix that `{package}` is installed in \
+            "the {what} type `{name}` is unknown. {near}If it is in a package of yours, give its \
+             folder with `--interfaces DIR`, or add the install prefix of `{package}` \
              on AMENT_PREFIX_PATH"
         ))
     }
 }
 
-/// The full name of a type that may be written without its kind.
+/// Full name of a type that may be written without its kind.
 pub(crate) fn full_type(name: &str, kind: Kind) -> Outcome<String> {
     let parts: Vec<&str> = name.split('/').collect();
     let full = match parts[..] {
@@ -94,7 +95,7 @@ pub(crate) fn full_type(name: &str, kind: Kind) -> Outcome<String> {
     match TypeName::read(&full) {
         Some(known) if known.kind == kind => Ok(full),
         _ => Err(Failure::Usage(format!(
-            "`{name}` is no {} type; one is written like `package/{}/Name`",
+            "`{name}` is not a valid {} type; write `package/{}/Name`",
             match kind {
                 Kind::Message => "message",
                 Kind::Service => "service",

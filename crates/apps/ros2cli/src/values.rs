@@ -1,4 +1,4 @@
-//! Messages as people write them: YAML, as for `ros2 topic pub`.
+//! Messages as YAML, as for `ros2 topic pub`.
 
 use std::sync::Arc;
 
@@ -10,35 +10,34 @@ use serde_json::{Map, json};
 
 use crate::{Failure, Outcome};
 
-/// Values of a message, to be filled in.
+/// Values of a message.
 pub struct Values {
     tree: Option<Node>,
 }
 
 impl Values {
-    /// Reads them.
+    /// Parses values.
     ///
     /// # Errors
-    /// When they are no YAML, or no mapping.
+    /// When the text is not YAML, or not a mapping.
     pub fn read(text: &str) -> Outcome<Self> {
         let mut sources = SourceMap::new();
         let file = sources.add("values", text);
         let tree = periplus_yaml::parse(file, &sources).map_err(|wrong| {
-            Failure::Usage(format!("the values are no YAML: {}", wrong.message))
+            Failure::Usage(format!("the values are not valid YAML: {}", wrong.message))
         })?;
         let tree = tree.filter(|tree| !tree.is_null());
         match &tree {
             Some(tree) if tree.entries().is_none() => Err(Failure::Usage(format!(
-                "the values are {}, and have to be names and values, such as `{{linear: {{x: 0.5}}}}`; \
-                 a colon needs a blank behind it",
+                "the values are {}; expected names and values, such as `{{linear: {{x: 0.5}}}}`; \
+                 a colon needs a space after it",
                 tree.kind()
             ))),
             _ => Ok(Self { tree }),
         }
     }
 
-    /// The message at a time: where `auto` stands for a header and `now` for a stamp, it is that
-    /// time \[ns\].
+    /// Builds the message; `auto` as a header and `now` as a stamp become this time \[ns\].
     ///
     /// # Errors
     /// When the type has no such fields.
@@ -49,19 +48,19 @@ impl Values {
         };
         DynamicMessage::from_json(layout, &json).map_err(|error| {
             let quotes = if error.to_string().contains("expected a text") {
-                "; a text that looks like something else needs quotes"
+                "; a string that looks like another type needs quotes"
             } else {
                 ""
             };
             Failure::failed(format!(
-                "the values do not fit {}: {error}{quotes}",
+                "the values do not match {}: {error}{quotes}",
                 layout.type_name()
             ))
         })
     }
 }
 
-/// What YAML 1.1 makes of it.
+/// Conversion by the rules of YAML 1.1.
 fn to_json(node: &Node, layout: Option<&Arc<Layout>>, now_ns: i64) -> serde_json::Value {
     match &node.value {
         Value::Scalar { text, is_plain: true } => match (stamped(text, layout), node) {
@@ -87,7 +86,7 @@ fn to_json(node: &Node, layout: Option<&Arc<Layout>>, now_ns: i64) -> serde_json
     }
 }
 
-/// The field that takes the time, where a word stands for it.
+/// Field that takes the time, if a word requests it.
 fn stamped(word: &str, layout: Option<&Arc<Layout>>) -> Option<&'static str> {
     match (word, layout?.type_name()) {
         ("auto", "std_msgs/msg/Header") => Some("stamp"),
@@ -183,7 +182,7 @@ mod tests {
                 "{transforms: [{header: {stamp: {sec: 1, nanosec: 500000000}, frame_id: odom}, child_frame_id: '', transform: {translation: {x: 0.0, y: 0.0, z: 0.0}, rotation: {x: 0.0, y: 0.0, z: 0.0, w: 1.0}}}]}\n"
             ],
         );
-        // Elsewhere they are only words.
+        // In other fields they are ordinary strings.
         check("std_msgs/msg/String", "data: auto", expect!["{data: auto}\n"]);
     }
 
@@ -193,35 +192,35 @@ mod tests {
             "std_msgs/msg/String",
             "data: 12",
             expect![
-                "the values do not fit std_msgs/msg/String: expected a text, found 12 (at `data`); a text that looks like something else needs quotes"
+                "the values do not match std_msgs/msg/String: expected a text, found 12 (at `data`); a string that looks like another type needs quotes"
             ],
         );
         check(
             "std_msgs/msg/String",
             "date: a",
             expect![
-                "the values do not fit std_msgs/msg/String: there is no field `date`, did you mean `data`?"
+                "the values do not match std_msgs/msg/String: there is no field `date`, did you mean `data`?"
             ],
         );
         check(
             "std_msgs/msg/UInt8",
             "data: -1",
             expect![
-                "the values do not fit std_msgs/msg/UInt8: expected a value of type uint8, found -1 (at `data`)"
+                "the values do not match std_msgs/msg/UInt8: expected a value of type uint8, found -1 (at `data`)"
             ],
         );
         check(
             "std_msgs/msg/String",
             "data:hello",
             expect![
-                "the values are a text, and have to be names and values, such as `{linear: {x: 0.5}}`; a colon needs a blank behind it"
+                "the values are a text; expected names and values, such as `{linear: {x: 0.5}}`; a colon needs a space after it"
             ],
         );
         check(
             "std_msgs/msg/String",
             "{data: [",
             expect![
-                "the values are no YAML: this is not YAML: while parsing a node, did not find expected node content"
+                "the values are not valid YAML: this is not YAML: while parsing a node, did not find expected node content"
             ],
         );
     }

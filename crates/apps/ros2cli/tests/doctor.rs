@@ -1,5 +1,5 @@
-//! Set-ups that are broken on purpose, one cause each: what the doctor says of it. All of it runs in
-//! lockstep in this program, so that it always says the same.
+//! Findings of the doctor on systems with one deliberate fault each, in lockstep in this program,
+//! so that the output is deterministic.
 #![allow(clippy::unwrap_used, reason = "helpers of tests may unwrap as tests do")]
 
 use std::collections::BTreeMap;
@@ -19,22 +19,22 @@ use periplus_ros2cli::{Seen, SeenEnd, SeenTopic};
 
 const SECOND_NS: i64 = 1_000_000_000;
 
-/// A sound robot: a clock, `map -> odom -> base_link` moving, the lidar's frame fixed, a scan ten times a
-/// second. Each test breaks one thing.
+/// A faultless robot: a clock, dynamic `map -> odom -> base_link`, a static lidar frame, a scan at
+/// 10 Hz. Each test breaks one thing.
 struct Robot {
     graph: Graph,
     tf: Publisher<TFMessage>,
     fixed: Publisher<TFMessage>,
     clock: Option<Publisher<Clock>>,
     scan: Publisher<LaserScan>,
-    /// Moving frames: parent, child, until when they are told \[ns\].
+    /// Dynamic frames: parent, child, time of the last transform \[ns\].
     moving: Vec<(&'static str, &'static str, i64)>,
     says_fixed: bool,
     scan_frame: &'static str,
     ranges: Vec<f32>,
-    /// One scan in so many steps of 0.1 s; 0 for none.
+    /// One scan per this number of steps of 0.1 s; 0 for none.
     every: i64,
-    /// What is added to the stamps of scans \[ns\].
+    /// Offset of the stamps of scans \[ns\].
     stamp_shift_ns: i64,
     simulated: BTreeMap<String, bool>,
     surroundings: Option<Surroundings>,
@@ -81,7 +81,7 @@ impl Robot {
         }
     }
 
-    /// Three seconds of it.
+    /// Collects three seconds.
     fn picture(&self) -> Picture {
         let own = node(&self.graph, "_doctor");
         let look = || Seen::of_graph(&self.graph, |name| name.ends_with("_doctor"));
@@ -173,7 +173,7 @@ fn odometry_that_nobody_tells() {
     robot.moving.remove(1);
     robot.check(expect![[r#"
         error frame-missing: nobody tells where `base_link` is in `odom`: 2 trees that are not connected, below `base_link`, `map`
-          let the drive tell it: `publish_odom_tf` true (Classic), `<tf_topic>/tf</tf_topic>` (Harmonic), or `publish_tf` true of robot_localization; its `odom_frame` and `base_link_frame` must be these names
+          let the drive publish it: `publish_odom_tf` true (Classic), `<tf_topic>/tf</tf_topic>` (Harmonic), or `publish_tf` true of robot_localization; its `odom_frame` and `base_link_frame` must be these names
     "#]]);
 }
 
@@ -183,7 +183,7 @@ fn two_nodes_that_place_the_robot() {
     robot.moving.push(("map", "base_link", i64::MAX));
     robot.check(expect![[r#"
         error frame-two-parents: `base_link` has more than one parent: `map`, `odom`
-          let one node tell it: `publish_tf` of robot_localization, `publish_odom_tf` (Classic) or `<tf_topic>` (Harmonic) of the drive, `tf_broadcast` of AMCL; or the joint to `map` is in the URDF besides
+          let only one node publish it: `publish_tf` of robot_localization, `publish_odom_tf` (Classic) or `<tf_topic>` (Harmonic) of the drive, `tf_broadcast` of AMCL; or the joint to `map` is in the URDF besides
     "#]]);
 }
 
@@ -193,7 +193,7 @@ fn a_localization_that_has_stopped() {
     robot.moving[0].2 = SECOND_NS / 2;
     robot.check(expect![[r#"
         warning frame-stale: `odom` in `map` was told last 2.5 s before the newest transform
-          its broadcaster has stopped, hears nothing (its own topics), or lives by another clock (`use_sim_time`)
+          its broadcaster has stopped, receives no input, or uses another clock (`use_sim_time`)
     "#]]);
 }
 
@@ -236,7 +236,7 @@ fn a_lidar_in_a_frame_of_gazebo() {
     robot.scan_frame = "pong-bot/lidar_link/gpu_lidar";
     robot.check(expect![[r#"
         error frame-unknown: messages on `/scan` are in the frame `pong-bot/lidar_link/gpu_lidar`, which no transform places
-          set the sensor's frame to `lidar_link`: `<frame_name>` (Classic), `<gz_frame_id>` (Harmonic); or tell where it is: `periplus tf static 0 0 0 0 0 0 lidar_link pong-bot/lidar_link/gpu_lidar`
+          set the sensor's frame to `lidar_link`: `<frame_name>` (Classic), `<gz_frame_id>` (Harmonic); or publish its pose: `periplus tf static 0 0 0 0 0 0 lidar_link pong-bot/lidar_link/gpu_lidar`
     "#]]);
 }
 
@@ -246,7 +246,7 @@ fn a_robot_whose_frames_nobody_tells() {
     robot.moving.clear();
     robot.says_fixed = false;
     robot.check(expect![[r#"
-        hint no-frames: nobody tells transforms on `/tf` or `/tf_static`
+        hint no-frames: no transforms are published on `/tf` or `/tf_static`
           start robot_state_publisher with the robot's `robot_description`; of Harmonic's plugins `gz::sim::systems::PosePublisher` tells them
     "#]]);
 }
@@ -276,7 +276,7 @@ fn a_lidar_without_a_gpu() {
     let mut robot = Robot::new();
     robot.ranges = vec![0.0, f32::NAN, 0.0, 0.0];
     robot.check(expect![[r#"
-        warning scan-useless: `/scan` says NaN or 0 in every reading (all of 120 readings)
+        warning scan-useless: `/scan` has NaN or 0 in every reading (all of 120 readings)
           it measures nothing: a GPU lidar without a GPU, or a driver without its device; in a world file `type="ray"` instead of `gpu_ray`
     "#]]);
 }
@@ -286,8 +286,8 @@ fn a_lidar_that_looks_at_its_own_robot() {
     let mut robot = Robot::new();
     robot.ranges = vec![0.12; 36];
     robot.check(expect![[r#"
-        warning scan-useless: `/scan` sees only what is nearer than its `range_min` (all of 1080 readings)
-          it looks at the robot itself, or inside of a shape: move the sensor's link out of the collision shape, or set `range/min` above it
+        warning scan-useless: `/scan` has only readings below its `range_min` (all of 1080 readings)
+          it detects the robot itself, or is inside a shape: move the sensor's link out of the collision shape, or set `range/min` above it
     "#]]);
 }
 
@@ -297,7 +297,7 @@ fn a_lidar_that_is_too_slow() {
     robot.every = 3;
     robot.check(expect![[r#"
         warning sensor-slow: `/scan` comes 3.3 times in a second, and should 10.0 times
-          the machine is too slow for `<update_rate>` (a lower one, fewer samples), the simulation runs below real time, or messages are lost on the way (reliability, `net.core.rmem_max`)
+          the machine is too slow for `<update_rate>` (a lower one, fewer samples), the simulation runs below real time, or messages are lost (reliability, `net.core.rmem_max`)
     "#]]);
 }
 
@@ -324,8 +324,8 @@ fn multicast_that_is_blocked() {
     check(
         &Picture { surroundings: Some(around), ..Robot::new().picture() },
         expect![[r#"
-        warning multicast: packets to 239.255.0.1 do not come back: multicast is blocked
-          let UDP to 239.255.0.1 through the firewall, or name the others: ROS_STATIC_PEERS
+        warning multicast: packets to 239.255.0.1 are not received: multicast is blocked
+          allow UDP to 239.255.0.1 in the firewall, or list the other machines in ROS_STATIC_PEERS
     "#]],
     );
 }
@@ -356,20 +356,21 @@ fn one_name_for_two_types() {
     );
 }
 
-/// A robot's own file stands on an empty plane, where a lidar sees nothing; in a world that is a finding.
+/// A robot file alone is on an empty plane, where a lidar has no returns; in a world that is a
+/// finding.
 #[test]
 fn a_lidar_on_an_empty_plane() {
     let mut robot = Robot::new();
     robot.ranges = vec![f32::INFINITY; 36];
     robot.check(expect![[r#"
-        warning scan-useless: `/scan` sees nothing within its `range_max` (all of 1080 readings)
-          nothing is that near at its height: look at the pose of the sensor, set `range/max` higher, or put something into the world
+        warning scan-useless: `/scan` has no reading within its `range_max` (all of 1080 readings)
+          no surface is that near at its height: check the pose of the sensor, raise `range/max`, or add obstacles to the world
     "#]]);
     robot.is_alone = true;
     robot.check(expect![[""]]);
 }
 
-/// A mapper shows scans when it has some to show; a sensor that is silent is named all the same.
+/// A mapper publishes scans when it has input; a silent sensor is reported nevertheless.
 #[test]
 fn a_mapper_that_shows_nothing_yet() {
     let robot = Robot::new();
@@ -385,7 +386,7 @@ fn a_mapper_that_shows_nothing_yet() {
     "#]]);
 }
 
-/// A node in the process of the simulation has its time, whatever its parameter says; one in another
+/// A node in the process of the simulation has its time, whatever its parameter is; one in another
 /// process does not.
 #[test]
 fn nodes_in_the_process_of_the_simulation() {

@@ -1,6 +1,6 @@
-//! Keys and the velocities that `teleop_twist_keyboard` makes of them, as far as cases are at hand.
+//! Keys and the resulting velocities of `teleop_twist_keyboard`, if case files are available.
 #![allow(clippy::disallowed_methods, reason = "tests read their cases")]
-#![allow(clippy::unwrap_used, reason = "a test says what must be there")]
+#![allow(clippy::unwrap_used, reason = "a test fails on missing data")]
 
 use std::fs;
 use std::path::Path;

@@ -16,14 +16,14 @@ use crate::session::full_name;
 use crate::types::full_type;
 use crate::{Failure, Outcome, Refusal, Ros2Line, Session, Values, clock};
 
-/// How often it looks for feedback and the result.
+/// Polling period for feedback and the result.
 const PAUSE: Duration = Duration::from_millis(2);
 
-/// Sends a goal, waits for its end and says what came of it; `feedback` says on the way how far it
-/// is. When it is told to stop, the goal is cancelled.
+/// Sends a goal, waits for its result and prints it; with `feedback` also prints the feedback. An
+/// interrupt cancels the goal.
 ///
 /// # Errors
-/// When the type or a value is not usable, the goal is refused, or the output cannot be written.
+/// When the type or a value is unusable, the goal is rejected, or the output cannot be written.
 pub fn send_goal(
     session: &mut Session<'_>,
     name: &str,
@@ -53,7 +53,7 @@ impl Action<'_, '_> {
         let sending = self.asker("send_goal", "SendGoal")?;
         self.print("Waiting for an action server to become available...\n", "", "")?;
         sending.wait(self.session, None)?;
-        // Before the goal is sent, so that nothing is missed.
+        // Subscribed before the goal is sent, so that no feedback is missed.
         let results = self.asker("get_result", "GetResult")?;
         let mailbox = if feedback { Some(self.feedback()?) } else { None };
         self.print("Sending goal:\n     ", &goal.to_yaml(&YamlStyle::default()), "\n")?;
@@ -81,7 +81,7 @@ impl Action<'_, '_> {
         }
     }
 
-    /// Says how far it is until the result is there, and that.
+    /// Prints feedback until the result arrives, and then the result.
     fn follow(
         &mut self,
         result: &Question,
@@ -108,7 +108,7 @@ impl Action<'_, '_> {
 
     fn show_feedback(&mut self, message: &DynamicMessage, id: [u8; 16]) -> Outcome {
         let json = message.to_json();
-        // Others may have goals there as well.
+        // Other clients may have goals on the same server.
         if json["goal_id"]["uuid"] != json!(id) {
             return Ok(());
         }
@@ -150,13 +150,13 @@ impl Action<'_, '_> {
         }
     }
 
-    /// Nobody will wait for the end of the goal.
+    /// Cancels the goal, because its result will not be awaited.
     fn cancel(&mut self, id: [u8; 16]) -> Outcome {
         self.session.say("Canceling goal...");
         let mut request = CancelGoalRequest::default();
         request.goal_info.goal_id.uuid = id;
         let service = format!("{}/_action/cancel_goal", self.name);
-        // It was told to stop, and this is how it stops.
+        // The interrupt flag is set already; the cancellation must still run.
         let go_on = std::sync::atomic::AtomicBool::new(false);
         let (mut out, mut talk) = (std::io::sink(), std::io::sink());
         let session = Session {
@@ -193,8 +193,9 @@ impl Action<'_, '_> {
 
     fn ask(&self, asker: &Asker, part: &str, json: &serde_json::Value) -> Outcome<Question> {
         let (_, layout) = self.session.types.action(self.type_name, part)?;
-        let message = DynamicMessage::from_json(layout, json)
-            .map_err(|error| Failure::failed(format!("the goal does not fit: {error}")))?;
+        let message = DynamicMessage::from_json(layout, json).map_err(|error| {
+            Failure::failed(format!("the goal does not match its type: {error}"))
+        })?;
         let mut cdr = Vec::new();
         message
             .encode(Format::CDR, &mut cdr)
@@ -205,10 +206,10 @@ impl Action<'_, '_> {
     fn decode(&self, part: &str, cdr: &[u8]) -> Outcome<DynamicMessage> {
         let (_, layout) = self.session.types.action(self.type_name, part)?;
         DynamicMessage::decode(layout, Format::CDR, cdr)
-            .map_err(|error| Failure::failed(format!("the answer cannot be read: {error}")))
+            .map_err(|error| Failure::failed(format!("the response cannot be decoded: {error}")))
     }
 
-    /// For people only.
+    /// Prints text, except in JSON mode.
     fn print(&mut self, before: &str, text: &str, after: &str) -> Outcome {
         if !self.session.json {
             write!(self.session.out, "{before}{text}{after}")?;
@@ -218,7 +219,7 @@ impl Action<'_, '_> {
     }
 }
 
-/// A name that no other goal has (RFC 4122, version 4). The hasher takes its keys from the system.
+/// Random UUID (RFC 4122, version 4). The keys of the hasher come from the system.
 fn uuid() -> [u8; 16] {
     let clock = Stopwatch::start();
     let half = || {

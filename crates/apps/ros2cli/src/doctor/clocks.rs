@@ -1,4 +1,4 @@
-//! Whose time it is.
+//! Checks of clocks and stamps.
 
 use std::collections::BTreeSet;
 
@@ -6,14 +6,15 @@ use periplus_diagnostics::{Diagnostic, Diagnostics};
 
 use super::Picture;
 
-/// So far apart, stamps are from different clocks \[ns\].
+/// Difference above which stamps come from different clocks \[ns\].
 const OTHER_CLOCK_NS: i64 = 60_000_000_000;
 
 pub(super) fn examine(picture: &Picture, found: &mut Diagnostics) {
     let publishers = picture.seen.topic("/clock").map_or(&[][..], |topic| &topic.publishers);
     let tellers: Vec<&str> =
         publishers.iter().map(|end| end.node.as_deref().unwrap_or("somebody")).collect();
-    // Nodes in the process that publishes the time have it without `/clock`, as plugins of Gazebo do.
+    // Nodes in the process that publishes the time have it without `/clock`, as plugins of Gazebo
+    // do.
     let with_clock: BTreeSet<&str> =
         publishers.iter().filter_map(|end| participant(&end.gid)).collect();
     let has_clock = |node: &str| {
@@ -36,7 +37,7 @@ pub(super) fn examine(picture: &Picture, found: &mut Diagnostics) {
             Diagnostic::error(
                 "no-clock",
                 format!(
-                    "nobody tells the time on `/clock`, and {} wait for it: their time stands still at 0",
+                    "`/clock` has no publisher, and {} wait for it: their time stays at 0",
                     list(&simulated)
                 ),
             )
@@ -50,12 +51,9 @@ pub(super) fn examine(picture: &Picture, found: &mut Diagnostics) {
         found.push(
             Diagnostic::error(
                 "two-clocks",
-                format!(
-                    "{} tell the time on `/clock`, and time jumps between them",
-                    list(&tellers)
-                ),
+                format!("{} publish `/clock`, and time jumps between them", list(&tellers)),
             )
-            .help("end all but one of them, or give them domains of their own (ROS_DOMAIN_ID)"),
+            .help("stop all but one of them, or give them separate domains (ROS_DOMAIN_ID)"),
         );
     } else if picture.clock_jumps > 0 {
         found.push(
@@ -63,7 +61,7 @@ pub(super) fn examine(picture: &Picture, found: &mut Diagnostics) {
                 "clock-jumps",
                 format!("the time on `/clock` went back {} times", picture.clock_jumps),
             )
-            .help("a simulation was reset or a bag begins again: nodes forget what they know then"),
+            .help("a simulation was reset or a bag restarted: nodes clear their buffers then"),
         );
     }
     if !tellers.is_empty() && !real.is_empty() {
@@ -71,12 +69,12 @@ pub(super) fn examine(picture: &Picture, found: &mut Diagnostics) {
             Diagnostic::warning(
                 "wall-time",
                 format!(
-                    "{} tells simulated time on `/clock`, and {} live by the wall's clock",
+                    "{} publishes simulated time on `/clock`, and {} use the wall clock",
                     list(&tellers),
                     list(&real)
                 ),
             )
-            .note("their stamps are decades away from those of the simulation: transforms are not found")
+            .note("their stamps are decades away from those of the simulation, so transforms cannot be looked up")
             .help("set `use_sim_time` of these nodes to true: `-p use_sim_time:=true`"),
         );
     }
@@ -99,7 +97,7 @@ pub(super) fn examine(picture: &Picture, found: &mut Diagnostics) {
     }
 }
 
-/// The part of an endpoint's identity that is its participant's: 12 of 16 bytes, written with dots.
+/// Participant part of the GID of an endpoint: 12 of 16 bytes, written with dots.
 fn participant(gid: &str) -> Option<&str> {
     const LENGTH: usize = 12 * 3 - 1;
     gid.get(..LENGTH)

@@ -1,4 +1,4 @@
-//! Listening to everything that has a header, to frames, and to the clock.
+//! Collection of messages with a header, transforms, and the clock.
 
 use std::collections::BTreeMap;
 use std::time::Duration;
@@ -13,7 +13,7 @@ use super::picture::{Heard, Picture, ScanFacts};
 use crate::tf::stamped;
 use crate::{Outcome, Seen};
 
-/// Types that begin with a header and tell of sensors.
+/// Sensor message types that begin with a header.
 const TYPES: [&str; 8] = [
     "sensor_msgs/msg/LaserScan",
     "sensor_msgs/msg/PointCloud2",
@@ -27,10 +27,10 @@ const TYPES: [&str; 8] = [
 
 const SCAN: &str = TYPES[0];
 
-/// Who says who broadcasts is not known.
+/// The broadcaster of a transform is unknown.
 const AUTHORITY: &str = "";
 
-/// Mailboxes on all that matters.
+/// Subscriptions to all relevant topics.
 pub struct Ears {
     moving: Mailbox<TFMessage>,
     fixed: Mailbox<TFMessage>,
@@ -43,7 +43,7 @@ pub struct Ears {
 }
 
 impl Ears {
-    /// Opens them on what is there.
+    /// Subscribes to the topics of a snapshot.
     ///
     /// # Errors
     /// When the graph refuses.
@@ -73,13 +73,13 @@ impl Ears {
         })
     }
 
-    /// Takes in what has come since the last call.
+    /// Processes messages received since the last call.
     pub fn hear(&mut self) {
         let fixed = self.fixed.drain().into_iter().map(|message| (message, Kind::Fixed));
         let moving = self.moving.drain().into_iter().map(|message| (message, Kind::Moving));
         for (message, kind) in fixed.chain(moving) {
             for transform in &message.transforms {
-                // What is refused is counted by the survey.
+                // Refused transforms are counted by the survey.
                 let _ = self.survey.hear(&stamped(transform), AUTHORITY, kind);
             }
         }
@@ -97,7 +97,7 @@ impl Ears {
         }
     }
 
-    /// All that was heard, with who is there.
+    /// Returns all collected data, with a snapshot of the graph.
     #[must_use]
     pub fn picture(self, seen: Seen, simulated: BTreeMap<String, bool>, time: Duration) -> Picture {
         Picture {
@@ -151,8 +151,8 @@ fn count(facts: &mut ScanFacts, scan: &LaserScan) {
     }
 }
 
-/// Stamp \[ns\] and frame of a message that begins with a `std_msgs/msg/Header`: four bytes that say how
-/// it is encoded, seconds, nanoseconds, length and text with a zero.
+/// Stamp \[ns\] and frame of a message that begins with a `std_msgs/msg/Header`: four bytes of
+/// encapsulation, seconds, nanoseconds, length and text with a terminating zero.
 fn header(cdr: &[u8]) -> Option<(i64, String)> {
     let is_little = cdr.get(1)? & 1 == 1;
     let word = |at: usize| -> Option<u32> {

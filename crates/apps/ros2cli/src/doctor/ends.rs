@@ -1,4 +1,4 @@
-//! Ends of topics that do not fit.
+//! Checks of incompatible endpoints.
 
 use periplus_diagnostics::{Diagnostic, Diagnostics};
 use periplus_graph::Policy;
@@ -12,10 +12,13 @@ pub(super) fn examine(picture: &Picture, found: &mut Diagnostics) {
             found.push(
                 Diagnostic::error(
                     "topic-types",
-                    format!("`{name}` has ends of different types: {}", topic.types.join(", ")),
+                    format!(
+                        "`{name}` has endpoints of different types: {}",
+                        topic.types.join(", ")
+                    ),
                 )
-                .note("ends of one type do not hear those of another")
-                .help(format!("rename one of them: `-r {name}:={name}_other`")),
+                .note("endpoints of different types do not match")
+                .help(format!("remap one of them: `-r {name}:={name}_other`")),
             );
         }
         for publisher in &topic.publishers {
@@ -58,7 +61,7 @@ fn misfit(
     Diagnostic::error(
         "qos-mismatch",
         format!(
-            "`{to}` hears nothing of `{topic}`: it asks for {word} {asked}, and `{by}` offers {offered}"
+            "`{to}` receives nothing on `{topic}`: it requests {word} {asked}, and `{by}` offers {offered}"
         ),
     )
     .help(format!(

@@ -1,4 +1,4 @@
-//! The tree of frames, and frames that messages name.
+//! Checks of the transform tree, and of frames in messages.
 
 use crate::frames::{Fault, Forest};
 use periplus_diagnostics::{Diagnostic, Diagnostics, closest};
@@ -6,10 +6,10 @@ use periplus_tf::Kind;
 
 use super::Picture;
 
-/// Usual frames from the top down (REP 105).
+/// Standard frames from root to leaf (REP 105).
 const USUAL: [&str; 5] = ["earth", "map", "odom", "base_footprint", "base_link"];
 
-/// A moving frame that is so far behind the others is told no more \[ns\].
+/// Delay behind the newest transform after which a dynamic frame is stale \[ns\].
 const STALE_NS: i64 = 2_000_000_000;
 
 pub(super) fn examine(picture: &Picture, found: &mut Diagnostics) {
@@ -19,18 +19,18 @@ pub(super) fn examine(picture: &Picture, found: &mut Diagnostics) {
     }
     for name in picture.survey.with_slash() {
         found.push(
-            Diagnostic::warning("frame-slash", format!("the frame `{name}` has a slash in front"))
-                .note("tf2 drops it where transforms are told, and refuses it where they are asked for")
-                .help(format!("write `{}` where the frame is named", name.trim_start_matches('/'))),
+            Diagnostic::warning("frame-slash", format!("the frame `{name}` has a leading slash"))
+                .note("tf2 strips it when transforms are published, and refuses it in lookups")
+                .help(format!("write `{}`", name.trim_start_matches('/'))),
         );
     }
     for (child, why, count) in picture.survey.refused() {
         found.push(
             Diagnostic::error(
                 "frame-refused",
-                format!("{count} transforms of `{child}` were not taken: {why}"),
+                format!("{count} transforms of `{child}` were refused: {why}"),
             )
-            .help("who broadcasts it computes with numbers that are none, or names no frame"),
+            .help("its broadcaster publishes NaN, or an empty frame name"),
         );
     }
     stale(&forest, found);
@@ -47,7 +47,7 @@ fn told(fault: &Fault, forest: &Forest) -> Diagnostic {
         match fault {
             Fault::SeveralTrees(roots) => match missing(forest, roots) {
                 Some((parent, child)) => {
-                    format!("nobody tells where `{child}` is in `{parent}`: {fault}")
+                    format!("no transform from `{parent}` to `{child}` is published: {fault}")
                 }
                 None => fault.to_string(),
             },
@@ -57,9 +57,9 @@ fn told(fault: &Fault, forest: &Forest) -> Diagnostic {
     match fault {
         Fault::Circle(_) => finding.help("one of these transforms has parent and child exchanged"),
         Fault::SeveralParents { parents, .. } => finding.note(
-            "the last one counts, so the frame jumps between them",
+            "the latest one applies, so the frame jumps between them",
         ).help(format!(
-            "let one node tell it: `publish_tf` of robot_localization, `publish_odom_tf` (Classic) or \
+            "let only one node publish it: `publish_tf` of robot_localization, `publish_odom_tf` (Classic) or \
              `<tf_topic>` (Harmonic) of the drive, `tf_broadcast` of AMCL; or the joint to `{}` is in \
              the URDF besides",
             parents.first().map_or("", String::as_str)
@@ -71,13 +71,13 @@ fn told(fault: &Fault, forest: &Forest) -> Diagnostic {
                      (`set_initial_pose`, or a pose on `/initialpose`)"
                 }
                 Some(("odom", _)) => {
-                    "let the drive tell it: `publish_odom_tf` true (Classic), `<tf_topic>/tf</tf_topic>` \
+                    "let the drive publish it: `publish_odom_tf` true (Classic), `<tf_topic>/tf</tf_topic>` \
                      (Harmonic), or `publish_tf` true of robot_localization; its `odom_frame` and \
                      `base_link_frame` must be these names"
                 }
                 _ => {
-                    "let robot_state_publisher have a joint between them in its `robot_description`, \
-                     or tell it with `periplus tf static`"
+                    "add a joint between them to robot_state_publisher's `robot_description`, \
+                     or publish it with `periplus tf static`"
                 }
             };
             finding.help(advice)
@@ -85,10 +85,10 @@ fn told(fault: &Fault, forest: &Forest) -> Diagnostic {
     }
 }
 
-/// The transform that would connect trees: from the usual frame above to the root that stands alone.
+/// Transform that would connect the trees: from the standard parent frame to the disconnected root.
 fn missing<'f>(forest: &'f Forest, roots: &'f [String]) -> Option<(&'f str, &'f str)> {
     let rank = |name: &str| USUAL.iter().position(|usual| *usual == name);
-    // The lowest root that is a usual frame, and of the rest whatever is highest.
+    // The lowest root that is a standard frame; otherwise the first root.
     let child = roots
         .iter()
         .filter(|root| rank(root).is_some())
@@ -105,10 +105,10 @@ fn missing<'f>(forest: &'f Forest, roots: &'f [String]) -> Option<(&'f str, &'f 
     Some((parent, child))
 }
 
-/// The root above a frame.
+/// Root of a frame.
 fn top<'f>(forest: &'f Forest, frame: &'f str) -> &'f str {
     let mut at = frame;
-    // No chain is longer than there are frames.
+    // No chain is longer than the number of frames.
     for _ in forest.frames() {
         let up = forest.frames().find(|frame| frame.name == at).and_then(|it| it.edge.as_ref());
         match up {
@@ -134,14 +134,14 @@ fn stale(forest: &Forest, found: &mut Diagnostics) {
                 Diagnostic::warning(
                     "frame-stale",
                     format!(
-                        "`{}` in `{}` was told last {:.1} s before the newest transform",
+                        "`{}` in `{}` was last published {:.1} s before the newest transform",
                         frame.name,
                         edge.parent,
                         behind_ns as f64 * 1e-9
                     ),
                 )
                 .help(
-                    "its broadcaster has stopped, hears nothing (its own topics), or lives by another \
+                    "its broadcaster has stopped, receives no input, or uses another \
                      clock (`use_sim_time`)",
                 ),
             );
@@ -151,13 +151,13 @@ fn stale(forest: &Forest, found: &mut Diagnostics) {
 
 fn named(picture: &Picture, forest: &Forest, found: &mut Diagnostics) {
     if forest.frames().next().is_none() && picture.heard.values().any(|heard| heard.count > 0) {
-        // One word for all: without transforms no frame has a place.
+        // One finding for all: without transforms no frame has a pose.
         found.push(
-            Diagnostic::hint("no-frames", "nobody tells transforms on `/tf` or `/tf_static`")
-                .note("sensors can be read as they are, but not put together, mapped or shown in a frame")
+            Diagnostic::hint("no-frames", "no transforms are published on `/tf` or `/tf_static`")
+                .note("sensor data cannot be fused, mapped or displayed in a common frame")
                 .help(
-                    "start robot_state_publisher with the robot's `robot_description`; of Harmonic's \
-                     plugins `gz::sim::systems::PosePublisher` tells them",
+                    "start robot_state_publisher with the robot's `robot_description`; in Gazebo Harmonic \
+                     `gz::sim::systems::PosePublisher` publishes them",
                 ),
         );
     }
@@ -166,7 +166,7 @@ fn named(picture: &Picture, forest: &Forest, found: &mut Diagnostics) {
             let plain = frame.trim_start_matches('/');
             if frame.is_empty() {
                 found.push(
-                    Diagnostic::error("frame-empty", format!("messages on `{topic}` name no frame"))
+                    Diagnostic::error("frame-empty", format!("messages on `{topic}` have an empty frame_id"))
                         .help("set the sensor's frame: `frame_name` (Classic), `<gz_frame_id>` (Harmonic)"),
                 );
                 continue;
@@ -176,7 +176,7 @@ fn named(picture: &Picture, forest: &Forest, found: &mut Diagnostics) {
                     Diagnostic::error(
                         "frame-slash",
                         format!(
-                            "messages on `{topic}` name the frame `{frame}`, with a slash in front"
+                            "messages on `{topic}` have the frame_id `{frame}` with a leading slash"
                         ),
                     )
                     .note("tf2 refuses such names")
@@ -193,11 +193,11 @@ fn named(picture: &Picture, forest: &Forest, found: &mut Diagnostics) {
                 found.push(
                     Diagnostic::warning(
                         "frame-unknown",
-                        format!("`{topic}` tells odometry in `{frame}`, which no transform places"),
+                        format!("`{topic}` has odometry in `{frame}`, which no transform connects to the robot"),
                     )
                     .help(
                         "start robot_localization's `ekf_node` with this topic as `odom0`, or let the \
-                         drive tell the transform itself: `publish_odom_tf` true (Classic), \
+                         drive publish the transform itself: `publish_odom_tf` true (Classic), \
                          `<tf_topic>/tf</tf_topic>` (Harmonic)",
                     ),
                 );
@@ -205,9 +205,7 @@ fn named(picture: &Picture, forest: &Forest, found: &mut Diagnostics) {
             }
             let finding = Diagnostic::error(
                 "frame-unknown",
-                format!(
-                    "messages on `{topic}` are in the frame `{frame}`, which no transform places"
-                ),
+                format!("messages on `{topic}` are in the frame `{frame}`, which has no transform"),
             );
             let near = closest(plain, forest.frames().map(|frame| frame.name.as_str()));
             let tail = plain.rsplit('/').next().unwrap_or(plain);
@@ -216,11 +214,11 @@ fn named(picture: &Picture, forest: &Forest, found: &mut Diagnostics) {
             found.push(match near {
                 Some(near) => finding.help(format!(
                     "set the sensor's frame to `{near}`: `<frame_name>` (Classic), `<gz_frame_id>` \
-                     (Harmonic); or tell where it is: `periplus tf static 0 0 0 0 0 0 {near} {plain}`"
+                     (Harmonic); or publish its pose: `periplus tf static 0 0 0 0 0 0 {near} {plain}`"
                 )),
                 None => finding.help(
-                    "start robot_state_publisher with the robot's `robot_description`, or tell where \
-                     the frame is with `periplus tf static`",
+                    "start robot_state_publisher with the robot's `robot_description`, or publish \
+                     its pose with `periplus tf static`",
                 ),
             });
         }

@@ -1,4 +1,4 @@
-//! The machine's network, and who can be there at all.
+//! Checks of the network of this machine.
 
 use std::collections::BTreeSet;
 
@@ -6,22 +6,22 @@ use periplus_diagnostics::{Diagnostic, Diagnostics};
 
 use super::Picture;
 
-/// What the machine and its settings say.
+/// Network settings of the machine.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Surroundings {
-    /// The domain.
+    /// ROS domain.
     pub domain_id: u32,
-    /// Whether only this machine is looked at.
+    /// True if discovery is limited to this machine.
     pub is_loopback: bool,
-    /// Whether packets to all arrive; none when it was not tried.
+    /// True if multicast packets are received; `None` if not tested.
     pub has_multicast: Option<bool>,
-    /// Domains in which programs on this machine take part.
+    /// Domains of participants on this machine.
     pub domains: BTreeSet<u32>,
-    /// The most that a socket may hold \[bytes\].
+    /// Maximum receive buffer of a socket \[bytes\].
     pub most_held: Option<u64>,
 }
 
-/// What clouds and maps need \[bytes\].
+/// Receive buffer that point clouds and maps need \[bytes\].
 const HELD: u64 = 2_000_000;
 
 pub(super) fn examine(picture: &Picture, found: &mut Diagnostics) {
@@ -35,29 +35,30 @@ pub(super) fn examine(picture: &Picture, found: &mut Diagnostics) {
             .map(u32::to_string)
             .collect();
         let domain = around.domain_id;
-        let finding = Diagnostic::error("nobody", format!("nobody is in domain {domain}"));
+        let finding =
+            Diagnostic::error("nobody", format!("no participant found in domain {domain}"));
         found.push(if !others.is_empty() {
             finding
                 .note(format!("programs on this machine are in domain {}", others.join(", ")))
                 .help(format!("set ROS_DOMAIN_ID={}", others.join(" or ")))
         } else if around.is_loopback {
             finding.help(
-                "start something; programs on other machines are seen with \
+                "start a node; programs on other machines are discovered with \
                  ROS_AUTOMATIC_DISCOVERY_RANGE=SUBNET and without ROS_LOCALHOST_ONLY",
             )
         } else {
-            finding.help("start something, or set ROS_DOMAIN_ID to the domain of the others")
+            finding.help("start a node, or set ROS_DOMAIN_ID to the domain of the others")
         });
     }
     if around.has_multicast == Some(false) && !around.is_loopback {
         found.push(
             Diagnostic::warning(
                 "multicast",
-                "packets to 239.255.0.1 do not come back: multicast is blocked",
+                "packets to 239.255.0.1 are not received: multicast is blocked",
             )
-            .note("programs on other machines are found by it")
+            .note("discovery of other machines needs it")
             .help(
-                "let UDP to 239.255.0.1 through the firewall, or name the others: ROS_STATIC_PEERS",
+                "allow UDP to 239.255.0.1 in the firewall, or list the other machines in ROS_STATIC_PEERS",
             ),
         );
     }
@@ -70,15 +71,15 @@ pub(super) fn examine(picture: &Picture, found: &mut Diagnostics) {
         found.push(
             Diagnostic::hint(
                 "socket-buffers",
-                format!("sockets hold {held} bytes at most: pictures and clouds lose packets"),
+                format!("the maximum receive buffer is {held} bytes: images and point clouds lose packets"),
             )
             .help("sudo sysctl -w net.core.rmem_max=4194304"),
         );
     }
 }
 
-/// Domains whose ports are open, from a table as `/proc/net/udp` has it. Discovery by multicast listens at
-/// 7400 + 250 x domain (DDSI-RTPS 2.5, section 9.6.2).
+/// Domains whose ports are open, from a table in the format of `/proc/net/udp`. Multicast discovery
+/// listens at 7400 + 250 x domain (DDSI-RTPS 2.5, section 9.6.2).
 #[must_use]
 pub fn domains_in(table: &str) -> BTreeSet<u32> {
     let port = |line: &str| {

@@ -1,4 +1,4 @@
-//! What was seen and heard.
+//! Data of a diagnosis.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::time::Duration;
@@ -8,50 +8,50 @@ use periplus_tf::Survey;
 use super::network::Surroundings;
 use crate::Seen;
 
-/// All that the rules look at.
+/// Input of all rules.
 #[derive(Clone, Debug, Default)]
 pub struct Picture {
-    /// Who is there.
+    /// Nodes, topics and services.
     pub seen: Seen,
-    /// How long was listened.
+    /// Duration of the observation.
     pub time: Duration,
-    /// Frames.
+    /// Transforms.
     pub survey: Survey,
     /// Messages with a header, by topic.
     pub heard: BTreeMap<String, Heard>,
     /// Times on `/clock` \[ns\], the first and the last.
     pub clock: Option<(i64, i64)>,
-    /// How often the time on `/clock` went back.
+    /// Number of backward jumps of `/clock`.
     pub clock_jumps: usize,
-    /// What each node says of `use_sim_time`.
+    /// `use_sim_time` of each node.
     pub simulated: BTreeMap<String, bool>,
-    /// True for a robot alone on a plane: its sensors see nothing, and that is no fault.
+    /// True for a robot alone on a plane: its sensors detect nothing, which is not a problem.
     pub is_alone: bool,
-    /// The machine, where it matters.
+    /// Network of this machine, if relevant.
     pub surroundings: Option<Surroundings>,
 }
 
-/// What came on a topic.
+/// Statistics of a topic.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Heard {
-    /// Its type.
+    /// Message type.
     pub type_name: String,
-    /// How many messages.
+    /// Number of messages.
     pub count: usize,
-    /// When the first and the last came \[ns\].
+    /// Arrival of the first and the last \[ns\].
     pub arrived_ns: (i64, i64),
-    /// The newest stamp \[ns\].
+    /// Newest stamp \[ns\].
     pub stamp_ns: i64,
-    /// The frames they name.
+    /// Frames of the messages.
     pub frames: BTreeSet<String>,
-    /// What is in scans.
+    /// Statistics of scans.
     pub scans: Option<ScanFacts>,
-    /// How often it should come, where that is known \[Hz\].
+    /// Expected rate, if known \[Hz\].
     pub wanted_hz: Option<f64>,
 }
 
 impl Heard {
-    /// How often it came \[Hz\].
+    /// Measured rate \[Hz\].
     #[must_use]
     pub fn rate_hz(&self) -> Option<f64> {
         let span_ns = self.arrived_ns.1 - self.arrived_ns.0;
@@ -59,19 +59,19 @@ impl Heard {
     }
 }
 
-/// Readings of all scans, counted by what they say (REP 117).
+/// Counts of the readings of all scans (REP 117).
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct ScanFacts {
-    /// All.
+    /// All readings.
     pub readings: usize,
-    /// Between both limits.
+    /// Within `range_min` and `range_max`.
     pub good: usize,
-    /// Not a number.
+    /// NaN.
     pub nan: usize,
     /// Exactly zero.
     pub zero: usize,
-    /// Farther than the sensor can see.
+    /// Beyond `range_max`.
     pub far: usize,
-    /// At the lower limit or nearer.
+    /// At `range_min` or nearer.
     pub near: usize,
 }

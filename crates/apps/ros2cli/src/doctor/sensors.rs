@@ -1,14 +1,14 @@
-//! Sensors that say nothing, or nothing of use.
+//! Checks of silent and useless sensors.
 
 use periplus_diagnostics::{Diagnostic, Diagnostics};
 
 use super::Picture;
 use super::picture::{Heard, ScanFacts};
 
-/// A rate that is lower than this part of what it should be is told.
+/// Fraction of the expected rate below which a sensor is slow.
 const SLOW: f64 = 0.7;
 
-/// So many readings without an exception are no accident.
+/// Minimum number of readings before a scanner is judged.
 const ENOUGH: usize = 20;
 
 pub(super) fn examine(picture: &Picture, found: &mut Diagnostics) {
@@ -30,8 +30,8 @@ pub(super) fn examine(picture: &Picture, found: &mut Diagnostics) {
     }
 }
 
-/// True for a topic of a node that itself subscribes to sensor data: a filter or a mapper, which publishes
-/// when it has something to show. Where it is silent by mistake, the sensor before it is silent too.
+/// Returns true for a topic of a node that itself subscribes to sensor data, such as a filter or a
+/// mapper, which publishes only with input. If it is silent by mistake, its sensor is silent too.
 fn is_derived(picture: &Picture, topic: &str) -> bool {
     let publishers = picture.seen.topic(topic).map_or(&[][..], |topic| &topic.publishers);
     let mut nodes = publishers.iter().filter_map(|end| end.node.as_deref());
@@ -52,12 +52,12 @@ fn silent(picture: &Picture, topic: &str) -> Diagnostic {
     let finding = Diagnostic::warning(
         "sensor-silent",
         format!(
-            "`{node}` publishes `{topic}`, and nothing came in {:.1} s",
+            "`{node}` has a publisher on `{topic}`, and no message was received in {:.1} s",
             picture.time.as_secs_f64()
         ),
     );
     if picture.clock.is_none() && picture.simulated.values().any(|simulated| *simulated) {
-        return finding.help("simulated time stands still: see what is said of `/clock`");
+        return finding.help("simulated time does not advance: see the finding on `/clock`");
     }
     finding.help(
         "the sensor is off (`<always_on>`, `<update_rate>`), the simulation is paused, a driver waits \
@@ -72,23 +72,23 @@ fn useless(topic: &str, scans: &ScanFacts, is_alone: bool) -> Option<Diagnostic>
     let all = scans.readings;
     let (what, help) = if scans.nan + scans.zero == all {
         (
-            "says NaN or 0 in every reading",
+            "has NaN or 0 in every reading",
             "it measures nothing: a GPU lidar without a GPU, or a driver without its device; in a world \
              file `type=\"ray\"` instead of `gpu_ray`",
         )
     } else if scans.near + scans.nan + scans.zero == all {
         (
-            "sees only what is nearer than its `range_min`",
-            "it looks at the robot itself, or inside of a shape: move the sensor's link out of the \
+            "has only readings below its `range_min`",
+            "it detects the robot itself, or is inside a shape: move the sensor's link out of the \
              collision shape, or set `range/min` above it",
         )
     } else if is_alone {
         return None;
     } else {
         (
-            "sees nothing within its `range_max`",
-            "nothing is that near at its height: look at the pose of the sensor, set `range/max` higher, \
-             or put something into the world",
+            "has no reading within its `range_max`",
+            "no surface is that near at its height: check the pose of the sensor, raise `range/max`, \
+             or add obstacles to the world",
         )
     };
     let message = format!("`{topic}` {what} (all of {all} readings)");
@@ -100,11 +100,11 @@ fn slow(topic: &str, heard: &Heard) -> Option<Diagnostic> {
     (rate_hz < SLOW * wanted_hz).then(|| {
         Diagnostic::warning(
             "sensor-slow",
-            format!("`{topic}` comes {rate_hz:.1} times in a second, and should {wanted_hz:.1} times"),
+            format!("`{topic}` has a rate of {rate_hz:.1} Hz instead of {wanted_hz:.1} Hz"),
         )
         .help(
             "the machine is too slow for `<update_rate>` (a lower one, fewer samples), the simulation runs \
-             below real time, or messages are lost on the way (reliability, `net.core.rmem_max`)",
+             below real time, or messages are lost (reliability, `net.core.rmem_max`)",
         )
     })
 }

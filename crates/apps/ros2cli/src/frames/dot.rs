@@ -1,7 +1,7 @@
-//! The text that Graphviz reads, with the labels of `view_frames`.
+//! Graphviz text with the labels of `view_frames`.
 //!
-//! Shape of the text: `tf2_tools/view_frames.py`. What is added: fixed frames are dashed, frames
-//! without an edge stand alone, other parents are red.
+//! Format: `tf2_tools/view_frames.py`. Additions: static frames are dashed, isolated frames are
+//! included, additional parents are red.
 
 use std::fmt::Write as _;
 
@@ -10,7 +10,7 @@ use periplus_tf::Kind;
 use crate::frames::forest::Forest;
 
 impl Forest {
-    /// The tree for `dot`; with the time at which it was recorded \[s\].
+    /// Graphviz text of the tree, with the time of recording \[s\].
     #[must_use]
     pub fn dot(&self, recorded_at: &str) -> String {
         if self.frames.is_empty() {

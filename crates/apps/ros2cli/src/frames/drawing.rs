@@ -1,4 +1,5 @@
-//! The picture of a forest, as shapes that every form of it draws. Lengths are points, y goes down.
+//! Drawing of a tree as shapes, independent of the file format. Lengths are in points, y points
+//! down.
 
 use periplus_tf::Kind;
 
@@ -20,28 +21,28 @@ const ROOT: Colour = [0x15, 0x80, 0x3d];
 const WRONG: Colour = [0xdc, 0x26, 0x26];
 const PAPER: Colour = [0xff, 0xff, 0xff];
 
-/// Around everything.
+/// Margin of the page.
 const MARGIN: f64 = 28.0;
 const NAME: f64 = 12.0;
 const NAME_HEIGHT: f64 = 28.0;
 const LABEL: f64 = 8.5;
 const LABEL_LINE: f64 = 11.5;
 const LABEL_PAD: f64 = 7.0;
-/// From a frame down to the label of its child, room for a curve.
+/// Vertical distance from a frame to the label of its child, for a curve.
 const CURVE: f64 = 40.0;
-/// From the label to the frame, room for the arrow.
+/// Vertical distance from the label to the frame, for the arrow.
 const ARROW: f64 = 18.0;
 
-/// Something to draw.
+/// Shape.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum Shape {
-    /// A box with round corners.
+    /// Rectangle with round corners.
     Card { at: [f64; 2], size: [f64; 2], round: f64, fill: Colour, stroke: Colour, is_dashed: bool },
     /// A Bézier curve.
     Curve { points: [[f64; 2]; 4], stroke: Colour, is_dashed: bool },
-    /// The head of an arrow that points down to here.
+    /// Arrow head that points down to this point.
     Head { tip: [f64; 2], fill: Colour },
-    /// A line of text on this base line; from here, or around here.
+    /// Line of text on this base line, starting or centred at this point.
     Text { at: [f64; 2], text: String, size: f64, is_bold: bool, is_centred: bool, fill: Colour },
 }
 
@@ -53,7 +54,7 @@ pub(crate) struct Drawing {
 }
 
 impl Drawing {
-    /// The picture of a forest that was recorded at this time \[s\].
+    /// Drawing of a tree that was recorded at this time \[s\].
     pub(crate) fn of(forest: &Forest, recorded_at: &str) -> Self {
         let widths: Vec<f64> = forest.frames.iter().map(breadth).collect();
         let layout = layout(forest, &widths);
@@ -67,7 +68,7 @@ impl Drawing {
             label_height: 5.0 * LABEL_LINE + 2.0 * LABEL_PAD,
             layout,
         };
-        // Lines first, so that cards lie upon them.
+        // Lines first, so that cards cover them.
         for &frame in &forest.downward() {
             drawing.lines(&place, frame);
         }
@@ -82,7 +83,7 @@ impl Drawing {
         drawing
     }
 
-    /// Title, key and faults; how much room they take.
+    /// Adds title, legend and faults; returns their size.
     fn head(&mut self, forest: &Forest, recorded_at: &str) -> (f64, f64) {
         let (mut y, mut widest) = (MARGIN + 16.0, 0.0_f64);
         let mut line = |shapes: &mut Vec<Shape>, text: String, size: f64, is_bold, fill| {
@@ -129,7 +130,7 @@ impl Drawing {
                 is_dashed,
             });
         }
-        // Whatever leads elsewhere: other parents, and the edge that closes a circle.
+        // Other edges: additional parents, and the edge that closes a loop.
         let it = &place.forest.frames[frame];
         let closing = it.edge.as_ref().filter(|_| place.forest.tops.contains(&frame));
         let elsewhere = it.other_parents.iter().chain(closing.map(|edge| &edge.parent));
@@ -209,7 +210,7 @@ impl Drawing {
     }
 }
 
-/// Where frames are on the page.
+/// Positions of frames on the page.
 struct Place<'a> {
     forest: &'a Forest,
     layout: Layout,
@@ -223,9 +224,9 @@ impl Place<'_> {
         self.left + self.layout.middle[frame]
     }
 
-    /// Upper edge of the names on a layer.
+    /// Upper edge of the names of a layer.
     fn frame_top(&self, layer: usize) -> f64 {
-        // A first frame that has an edge, in a circle, has its label above.
+        // A top frame with an edge (in a loop) has its label above.
         let is_closed = self.forest.tops.iter().any(|&top| self.forest.frames[top].edge.is_some());
         let first = if is_closed { self.label_height + ARROW } else { 0.0 };
         let step = NAME_HEIGHT + CURVE + self.label_height + ARROW;
@@ -260,7 +261,7 @@ fn label_width(lines: &[String]) -> f64 {
     widest + 2.0 * LABEL_PAD
 }
 
-/// How much room a frame takes with its label.
+/// Width of a frame with its label.
 fn breadth(frame: &Frame) -> f64 {
     let label = frame.edge.as_ref().map_or(0.0, |edge| label_width(&edge.label()));
     name_width(frame).max(label)

@@ -1,19 +1,19 @@
-//! What is wrong with a tree of frames.
+//! Faults of a transform tree.
 
 use std::fmt;
 
-/// What keeps frames from being one tree.
+/// Fault of a transform tree.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Fault {
-    /// Each of these frames is said to be in the next one, and the last in the first.
+    /// Loop: each frame is a child of the next, and the last of the first.
     Circle(Vec<String>),
-    /// Frames without a parent, more than one: what is below one cannot be placed in another.
+    /// More than one root: frames of different trees cannot be transformed into each other.
     SeveralTrees(Vec<String>),
-    /// A frame is said to be in one frame and in others too.
+    /// Frame with several parents.
     SeveralParents {
-        /// The frame.
+        /// Child frame.
         child: String,
-        /// The frames it is said to be in, the last one first.
+        /// Parents, the latest first.
         parents: Vec<String>,
     },
 }
@@ -28,11 +28,11 @@ impl fmt::Display for Fault {
         match self {
             Self::Circle(frames) => {
                 let back = frames.first().map_or("", String::as_str);
-                write!(f, "frames run in a circle: {} -> `{back}`", quoted(frames, " -> "))
+                write!(f, "frames form a loop: {} -> `{back}`", quoted(frames, " -> "))
             }
             Self::SeveralTrees(roots) => {
                 let count = roots.len();
-                write!(f, "{count} trees that are not connected, below {}", quoted(roots, ", "))
+                write!(f, "{count} disconnected trees with the roots {}", quoted(roots, ", "))
             }
             Self::SeveralParents { child, parents } => {
                 write!(f, "`{child}` has more than one parent: {}", quoted(parents, ", "))

@@ -1,4 +1,4 @@
-//! Frames as trees.
+//! Transform trees.
 
 use std::collections::BTreeMap;
 
@@ -6,25 +6,25 @@ use periplus_tf::{Kind, Survey, display_time};
 
 use crate::frames::faults::Fault;
 
-/// What leads to a frame from its parent.
+/// Transform from a parent frame.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Edge {
     /// The parent.
     pub parent: String,
-    /// Who broadcasts it, as far as known.
+    /// Broadcaster, if known.
     pub broadcaster: String,
-    /// Whether it moves.
+    /// Static or dynamic.
     pub kind: Kind,
-    /// How often it comes \[Hz\]; 10000 for one sample alone, as tf2 has it.
+    /// Rate \[Hz\]; 10000 for a single sample, as in tf2.
     pub rate_hz: f64,
-    /// Stamp of the newest \[ns\].
+    /// Stamp of the newest sample \[ns\].
     pub newest_ns: i64,
-    /// Stamp of the oldest \[ns\].
+    /// Stamp of the oldest sample \[ns\].
     pub oldest_ns: i64,
 }
 
 impl Edge {
-    /// The lines with which `view_frames` labels it.
+    /// Lines of the label, as in `view_frames`.
     pub(crate) fn label(&self) -> [String; 5] {
         let length_s = (self.newest_ns - self.oldest_ns) as f64 * 1e-9;
         [
@@ -37,16 +37,16 @@ impl Edge {
     }
 }
 
-/// A frame.
+/// Frame.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Frame {
-    /// Its name.
+    /// Name.
     pub name: String,
-    /// What leads to it; none for a root.
+    /// Transform from its parent; `None` for a root.
     pub edge: Option<Edge>,
-    /// Parents that were said of it besides.
+    /// Additional parents.
     pub other_parents: Vec<String>,
-    /// Numbers of its children.
+    /// Indices of its children.
     pub(crate) children: Vec<usize>,
 }
 
@@ -54,13 +54,13 @@ pub struct Frame {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Forest {
     pub(crate) frames: Vec<Frame>,
-    /// Where drawing begins: the roots, and one frame of each circle.
+    /// Start frames of the drawing: the roots, and one frame of each loop.
     pub(crate) tops: Vec<usize>,
     circles: Vec<Vec<usize>>,
 }
 
 impl Forest {
-    /// What was heard, as trees.
+    /// Builds the trees from received transforms.
     #[must_use]
     pub fn new(survey: &Survey) -> Self {
         let edges: BTreeMap<&str, Edge> = survey
@@ -123,7 +123,7 @@ impl Forest {
         roots.map(|frame| frame.name.as_str())
     }
 
-    /// Says who broadcasts all frames of a kind.
+    /// Sets the broadcaster of all frames of a kind.
     pub fn set_broadcaster(&mut self, kind: Kind, name: &str) {
         let edges = self.frames.iter_mut().filter_map(|frame| frame.edge.as_mut());
         for edge in edges.filter(|edge| edge.kind == kind) {
@@ -131,8 +131,8 @@ impl Forest {
         }
     }
 
-    /// The frames line by line, each behind its parent: how deep it is, and whether it and each of its
-    /// ancestors below the top is the last one there.
+    /// Frames in lines, children after parents: the depth, the frame, and for it and each of its
+    /// ancestors below the top true if it is the last child.
     #[must_use]
     pub fn lines(&self) -> Vec<(usize, &Frame, Vec<bool>)> {
         let mut lines = Vec::new();
@@ -149,7 +149,7 @@ impl Forest {
         lines
     }
 
-    /// What keeps it from being one tree.
+    /// Faults of the tree.
     #[must_use]
     pub fn faults(&self) -> Vec<Fault> {
         let name = |frame: &usize| self.frames[*frame].name.clone();
@@ -172,8 +172,8 @@ impl Forest {
         faults
     }
 
-    /// The numbers of all frames from the tops down, each behind its parent. In a circle the edge to
-    /// its first frame is left out.
+    /// Indices of all frames from the tops down, children after parents. In a loop the edge to its
+    /// first frame is omitted.
     pub(crate) fn downward(&self) -> Vec<usize> {
         let mut order = self.tops.clone();
         let mut next = 0;
@@ -184,16 +184,17 @@ impl Forest {
         order
     }
 
-    /// The children of a frame, as they are drawn below it.
+    /// Children of a frame, in drawing order.
     pub(crate) fn below(&self, frame: usize) -> impl Iterator<Item = usize> {
         self.frames[frame].children.iter().copied().filter(|child| !self.tops.contains(child))
     }
 }
 
-/// The circles among frames with these parents, each from its least frame against the way of its edges.
+/// Loops among frames with these parents, each from its smallest index against the direction of its
+/// edges.
 fn circles(parents: &[Option<usize>]) -> Vec<Vec<usize>> {
     let mut found: Vec<Vec<usize>> = Vec::new();
-    // The walk on which a frame was met first.
+    // Index of the walk that visited a frame first.
     let mut met = vec![usize::MAX; parents.len()];
     for start in 0..parents.len() {
         let mut frame = Some(start);

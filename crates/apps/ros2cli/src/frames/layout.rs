@@ -1,36 +1,36 @@
-//! Where each frame goes: layers from the top down, siblings side by side, a parent over the middle of
-//! its children, subtrees as close as their outlines allow.
+//! Layout of a tree: layers from the top down, siblings side by side, a parent centred above its
+//! children, subtrees as close as their outlines allow.
 //!
-//! Source: E. M. Reingold and J. S. Tilford, "Tidier Drawings of Trees", 1981; each subtree keeps how far it
-//! reaches to both sides on every layer below it.
+//! Source: E. M. Reingold and J. S. Tilford, "Tidier Drawings of Trees", 1981; each subtree stores
+//! its extent to both sides on every layer.
 
 use crate::frames::forest::Forest;
 
-/// Between neighbours on a layer \[pt\].
+/// Distance between neighbours on a layer \[pt\].
 const GAP: f64 = 18.0;
-/// Between trees \[pt\].
+/// Distance between trees \[pt\].
 const TREE_GAP: f64 = 48.0;
 
-/// The middle of each frame across, and its layer.
+/// Horizontal centre and layer of each frame.
 pub(crate) struct Layout {
-    /// By the number of the frame \[pt\].
+    /// Horizontal centre by frame index \[pt\].
     pub(crate) middle: Vec<f64>,
-    /// By the number of the frame, 0 at the top.
+    /// Layer by frame index, 0 at the top.
     pub(crate) layer: Vec<usize>,
-    /// From left to right \[pt\].
+    /// Total width \[pt\].
     pub(crate) width: f64,
-    /// How many layers there are.
+    /// Number of layers.
     pub(crate) layers: usize,
 }
 
-/// How far a subtree reaches to the left and right of its top, from its layer down.
+/// Extent of a subtree to the left and right of its top, by layer.
 type Outline = Vec<(f64, f64)>;
 
-/// Places frames of these widths \[pt\].
+/// Lays out frames of these widths \[pt\].
 pub(crate) fn layout(forest: &Forest, widths: &[f64]) -> Layout {
     let order = forest.downward();
     let count = widths.len();
-    // Right of the parent's middle.
+    // Offset to the right of the centre of the parent.
     let mut offset = vec![0.0; count];
     let mut outlines: Vec<Outline> = vec![Vec::new(); count];
     for &frame in order.iter().rev() {
@@ -72,7 +72,7 @@ pub(crate) fn layout(forest: &Forest, widths: &[f64]) -> Layout {
     layout
 }
 
-/// Puts subtrees beside each other, with the first at 0: the outline of all, and where each is.
+/// Arranges subtrees side by side, the first at 0: the outline of all, and the offset of each.
 fn side_by_side(tops: &[usize], outlines: &mut [Outline], gap: f64) -> (Outline, Vec<f64>) {
     let mut all = Outline::new();
     let mut places = Vec::new();

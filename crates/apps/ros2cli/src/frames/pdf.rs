@@ -1,5 +1,5 @@
-//! A drawing as PDF, of one page. Letters outside of Latin 1 become `?`: the fonts are those that every
-//! reader has, and nothing is embedded.
+//! PDF output, one page. Characters outside Latin 1 become `?`, because only standard fonts are
+//! used, without embedding.
 
 use pdf_writer::types::LineCapStyle;
 use pdf_writer::{Content, Finish as _, Name, Pdf, Rect, Ref, Str, TextStr};
@@ -8,14 +8,14 @@ use crate::frames::drawing::{Colour, Drawing, Shape};
 use crate::frames::forest::Forest;
 use crate::frames::widths::width;
 
-/// No page may be longer (PDF 1.7, annex C).
+/// Maximum size of a page (PDF 1.7, annex C).
 const LONGEST_PT: f64 = 14_400.0;
 
-/// Where control points of a quarter of a circle are, in parts of its radius.
+/// Position of the control points of a quarter circle, as a fraction of its radius.
 const ROUND: f64 = 0.552_284_75;
 
 impl Forest {
-    /// A picture of the trees; with the time at which they were recorded \[s\].
+    /// PDF of the trees, with the time of recording \[s\].
     #[must_use]
     pub fn pdf(&self, recorded_at: &str) -> Vec<u8> {
         write(&Drawing::of(self, recorded_at))
@@ -40,7 +40,7 @@ fn write(drawing: &Drawing) -> Vec<u8> {
         pdf.type1_font(font).base_font(name).encoding_predefined(Name(b"WinAnsiEncoding"));
     }
     let mut ink = Content::new();
-    // From points below the upper edge to points above the lower one.
+    // From points below the upper edge to points above the lower edge.
     ink.transform([short(scale), 0.0, 0.0, short(scale), 0.0, 0.0]);
     ink.set_line_width(1.0).set_line_cap(LineCapStyle::ButtCap);
     for shape in &drawing.shapes {

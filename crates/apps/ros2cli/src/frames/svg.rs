@@ -1,4 +1,4 @@
-//! A drawing as SVG.
+//! SVG output.
 
 use std::fmt::Write as _;
 
@@ -6,7 +6,7 @@ use crate::frames::drawing::{Colour, Drawing, Shape};
 use crate::frames::forest::Forest;
 
 impl Forest {
-    /// A picture of the trees; with the time at which they were recorded \[s\].
+    /// SVG of the trees, with the time of recording \[s\].
     #[must_use]
     pub fn svg(&self, recorded_at: &str) -> String {
         write(&Drawing::of(self, recorded_at))

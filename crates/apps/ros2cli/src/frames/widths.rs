@@ -1,4 +1,4 @@
-//! How wide words are in Helvetica, which every reader of PDF has.
+//! Text widths in Helvetica, a standard font of PDF.
 
 /// Widths of the characters from `' '` to `'~'`, in thousandths of the size (the metrics that Adobe
 /// published with the standard fonts).
@@ -14,10 +14,10 @@ const HELVETICA: [u16; 95] = [
 /// The widest character, for those that are not listed.
 const WIDEST: u16 = 1015;
 
-/// Bold letters are wider by up to so much.
+/// Maximum factor by which bold characters are wider.
 const BOLD: f64 = 1.1;
 
-/// How wide a line is \[pt\]; of bold ones at least so wide.
+/// Width of a line \[pt\]; an upper bound for bold text.
 pub(crate) fn width(text: &str, size: f64, is_bold: bool) -> f64 {
     let of = |letter: char| {
         let place = (letter as usize).checked_sub(' ' as usize);

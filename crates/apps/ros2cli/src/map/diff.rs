@@ -1,4 +1,4 @@
-//! How two maps differ.
+//! Comparison of two maps.
 
 use std::path::{Path, PathBuf};
 
@@ -11,31 +11,31 @@ use serde_json::{Value, json};
 use super::files::read;
 use crate::{Failure, Outcome, Session};
 
-/// What to compare, and how.
+/// Options of a comparison.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Diff {
-    /// The YAML of the map to compare with.
+    /// YAML file of the reference map.
     pub first: String,
-    /// The YAML of the other map.
+    /// YAML file of the other map.
     pub other: String,
-    /// Whose rules apply to both.
+    /// Distribution whose rules apply to both.
     pub distro: Distro,
-    /// How to lay the other over the first.
+    /// Alignment options.
     pub options: Options,
-    /// Where to put a picture of both.
+    /// Path of an image of both maps.
     pub picture: Option<PathBuf>,
 }
 
-/// Tells how two maps differ: where the other lies over the first, what both have in common, and how
-/// far walls are from walls.
+/// Compares two maps: their alignment, the overlap of their cells, and the distances between their
+/// walls.
 ///
 /// # Errors
-/// When a map does not load, they are too far apart, or the output cannot be written.
+/// When a map cannot be loaded, they are too far apart, or the output cannot be written.
 pub fn diff(session: &mut Session<'_>, diff: &Diff) -> Outcome {
     let first = read(session, &diff.first, diff.distro)?;
     let other = read(session, &diff.other, diff.distro)?;
     let comparison = compare(&first.grid, &other.grid, diff.options)
-        .map_err(|error| Failure::failed(format!("the maps do not fit together: {error}")))?;
+        .map_err(|error| Failure::failed(format!("the maps cannot be aligned: {error}")))?;
     if let Some(path) = &diff.picture {
         draw(&comparison, path)?;
     }
@@ -45,7 +45,7 @@ pub fn diff(session: &mut Session<'_>, diff: &Diff) -> Outcome {
     tell(session, &comparison, diff.options.align)?;
     if let Some(path) = &diff.picture {
         session.say(&format!(
-            "{} shows walls of both in black, of the first only in blue, of the other only in red",
+            "{} shows walls of both maps in black, of the first only in blue, of the other only in red",
             path.display()
         ));
     }
@@ -66,7 +66,7 @@ fn tell(session: &mut Session<'_>, comparison: &Comparison, is_aligned: bool) ->
         let place = comparison.alignment.reference_from_other;
         writeln!(
             out,
-            "alignment     x {:+.3} m, y {:+.3} m, yaw {:+.3} deg: {:.1} % of the walls meet",
+            "alignment     x {:+.3} m, y {:+.3} m, yaw {:+.3} deg: {:.1} % of the walls match",
             place.x_m,
             place.y_m,
             place.yaw_rad.to_degrees(),
@@ -118,7 +118,7 @@ fn to_json(comparison: &Comparison) -> Value {
             "other_only": it.other_only,
         })
     };
-    // What is no number is null.
+    // NaN becomes null.
     let walls = |it: Walls| {
         json!({
             "count": it.count, "mean_m": it.mean_m, "median_m": it.median_m, "p95_m": it.p95_m,

@@ -1,4 +1,4 @@
-//! What is in a map's files, and other files of it.
+//! Inspection and conversion of map files.
 
 use periplus_diagnostics::{Style, render as render_finding};
 use periplus_grid::OccupancyGrid;
@@ -9,17 +9,17 @@ use serde_json::json;
 use super::save::write;
 use crate::{Failure, Outcome, Session};
 
-/// Loads a map; what there is to say about it is said.
+/// Loads a map and prints its findings.
 pub(super) fn read(session: &mut Session<'_>, path: &str, distro: Distro) -> Outcome<Map> {
     let loaded = load(path, distro, &Machine);
     for finding in loaded.diagnostics.iter() {
         session.say(&render_finding(finding, &loaded.sources, Style::Colour));
     }
     let name = loaded.status.name();
-    loaded.map.ok_or_else(|| Failure::failed(format!("`{path}` is no map that loads ({name})")))
+    loaded.map.ok_or_else(|| Failure::failed(format!("cannot load the map `{path}` ({name})")))
 }
 
-/// How many cells are what.
+/// Counts of free, occupied and unknown cells.
 struct Shares {
     free: usize,
     occupied: usize,
@@ -42,10 +42,10 @@ impl Shares {
     }
 }
 
-/// Tells what a map is.
+/// Prints a summary of a map.
 ///
 /// # Errors
-/// When it does not load, or the output cannot be written.
+/// When it cannot be loaded, or the output cannot be written.
 pub fn info(session: &mut Session<'_>, path: &str, distro: Distro) -> Outcome {
     let map = read(session, path, distro)?;
     let lattice = map.grid.lattice;
@@ -114,23 +114,23 @@ pub fn info(session: &mut Session<'_>, path: &str, distro: Distro) -> Outcome {
     Ok(())
 }
 
-/// What to convert, and how.
+/// Options of a conversion.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Convert {
-    /// The YAML of the map.
+    /// YAML file of the map.
     pub path: String,
-    /// Whose rules apply to it.
+    /// Distribution whose rules apply to it.
     pub from: Distro,
-    /// How to save it; its name must not be empty.
+    /// Output settings; the name must not be empty.
     pub wish: Wish,
-    /// As whose saver.
+    /// Distribution of the map saver to follow.
     pub to: Distro,
 }
 
-/// Loads a map and saves it otherwise.
+/// Loads a map and saves it in another format or mode.
 ///
 /// # Errors
-/// When it does not load, the thresholds make no sense, or the files cannot be written.
+/// When it cannot be loaded, the thresholds are invalid, or the files cannot be written.
 pub fn convert(session: &mut Session<'_>, convert: &Convert) -> Outcome {
     let map = read(session, &convert.path, convert.from)?;
     let settled = convert.wish.settle(convert.to, 0);

@@ -1,4 +1,4 @@
-//! A map from a topic to files.
+//! Saving a map from a topic.
 
 use std::path::Path;
 use std::sync::Arc;
@@ -14,40 +14,40 @@ use periplus_resources::Store;
 use crate::session::full_name;
 use crate::{Failure, Outcome, Session};
 
-/// How often it is looked for the map.
+/// Polling period for the map.
 const LOOK: Duration = Duration::from_millis(10);
 
-/// What to save, and how.
+/// Options of saving a map.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Save {
-    /// The topic of the map.
+    /// Topic of the map.
     pub topic: String,
-    /// How to save it.
+    /// Output settings.
     pub wish: Wish,
-    /// As whose saver.
+    /// Distribution of the map saver to follow.
     pub distro: Distro,
-    /// How long the map is waited for; without it until one comes.
+    /// Timeout for the map; unlimited if `None`.
     pub timeout: Option<Duration>,
 }
 
-/// Saves the next map of a topic. One that was published before counts, whether its publisher keeps
-/// it reliably, for latecomers, or not.
+/// Saves the next map of a topic, including a latched one. Works with any durability of the
+/// publisher.
 ///
 /// # Errors
-/// When the thresholds make no sense, no map comes in time, it is malformed, or the files cannot be
+/// When the thresholds are invalid, no map arrives in time, it is malformed, or the files cannot be
 /// written.
 pub fn save(session: &mut Session<'_>, save: &Save) -> Outcome {
     save_to(session, save, &Machine)
 }
 
-/// The same with another store for the files than the machine's.
+/// Saves a map to another file store than that of the machine.
 ///
 /// # Errors
 /// As [`save`].
 pub fn save_to(session: &mut Session<'_>, save: &Save, store: &dyn Store) -> Outcome {
     let unix_s = unix_ns().div_euclid(1_000_000_000);
     let settled = save.wish.settle(save.distro, unix_s);
-    // As the savers of ROS do: the words make sense, and the map is not saved.
+    // As the map savers of ROS do: arguments are checked before the map is received.
     let (saving, said) = settled.map_err(|error| Failure::failed(error.to_string()))?;
     for words in said {
         session.say(&format!("WARNING: {words}"));
@@ -62,7 +62,8 @@ pub fn save_to(session: &mut Session<'_>, save: &Save, store: &dyn Store) -> Out
     write(session, &render(&map, &saving), store)
 }
 
-/// Writes both files of a map, the picture first: a YAML that is there names a picture that is there.
+/// Writes both files of a map, the image first, so that a YAML file never refers to a missing
+/// image.
 pub(super) fn write(session: &mut Session<'_>, files: &MapFiles, store: &dyn Store) -> Outcome {
     for (path, content) in
         [(&files.image_path, files.image.as_slice()), (&files.yaml_path, files.yaml.as_bytes())]
@@ -85,8 +86,8 @@ fn wait(
     timeout: Option<Duration>,
 ) -> Outcome<Arc<OccupancyGrid>> {
     let node = session.node(None)?;
-    // Whoever asks for kept messages does not hear a publisher that keeps none, and the other way
-    // round gets only what comes later. So both are asked for.
+    // A transient-local subscription does not match volatile publishers, and a volatile one
+    // receives only later messages. So both are created.
     let kept = Qos::latched(1);
     let passing = Qos {
         reliability: Reliability::BestEffort,
@@ -110,18 +111,18 @@ fn wait(
     }
 }
 
-/// Why there is no map, as far as can be seen.
+/// Reason why no map arrived, as far as known.
 fn missing(session: &Session<'_>, topic: &str, timeout: Duration) -> String {
     let seen = session.network.seen();
-    let waited = format!("no map came on `{topic}` in {} s", timeout.as_secs_f64());
+    let waited = format!("no map received on `{topic}` within {} s", timeout.as_secs_f64());
     let found = seen.topic(topic).filter(|found| !found.publishers.is_empty());
     if let Some(found) = found {
         let other = found.types.iter().find(|name| *name != OccupancyGrid::TYPE_NAME);
         return match other {
-            Some(other) => format!("{waited}: it carries {other}, which is no map"),
+            Some(other) => format!("{waited}: its type is {other}, which is not a map"),
             None => format!(
-                "{waited}, though it is published: its publisher keeps nothing for latecomers, and \
-                 nothing new came; wait longer with `--timeout`"
+                "{waited}, though it is published: its publisher is volatile and \
+                 published nothing new; wait longer with `--timeout`"
             ),
         };
     }
@@ -135,8 +136,8 @@ fn missing(session: &Session<'_>, topic: &str, timeout: Duration) -> String {
         .map(|topic| topic.name.as_str())
         .collect();
     if maps.is_empty() {
-        format!("{waited}: nobody publishes a map; is the map server or SLAM running?")
+        format!("{waited}: no map is published; is the map server or SLAM running?")
     } else {
-        format!("{waited}: nobody publishes there; maps are on {}", maps.join(", "))
+        format!("{waited}: the topic has no publisher; maps are published on {}", maps.join(", "))
     }
 }

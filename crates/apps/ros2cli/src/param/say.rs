@@ -1,4 +1,4 @@
-//! Parameters in words.
+//! Text and JSON of parameters.
 
 use std::fmt::Write as _;
 
@@ -7,7 +7,7 @@ use serde_json::json;
 
 use crate::show::{python_float, python_text};
 
-/// As `ros2 param` names types.
+/// Type name as in `ros2 param`.
 pub(super) fn type_name(number: u8) -> &'static str {
     match number {
         Type::PARAMETER_NOT_SET => "not set",
@@ -24,7 +24,7 @@ pub(super) fn type_name(number: u8) -> &'static str {
     }
 }
 
-/// What stands in front of a value.
+/// Label before a value.
 pub(super) fn label(number: u8) -> &'static str {
     match number {
         Type::PARAMETER_BOOL => "Boolean value is:",
@@ -48,7 +48,7 @@ fn list<T>(values: &[T], one: impl Fn(&T) -> String) -> String {
     format!("[{}]", values.iter().map(one).collect::<Vec<_>>().join(", "))
 }
 
-/// A value as Python prints it.
+/// Value in Python syntax.
 pub(super) fn python(value: &ParameterValue) -> String {
     match value.r#type {
         Type::PARAMETER_BOOL => truth(value.bool_value),
@@ -83,7 +83,7 @@ pub(super) fn to_json(value: &ParameterValue) -> serde_json::Value {
     whole[field].clone()
 }
 
-/// What a parameter is for, in lines.
+/// Description of a parameter, in lines.
 pub(super) fn description(one: &ParameterDescriptor) -> String {
     let mut text = format!("Parameter name: {}\n  Type: {}\n", one.name, type_name(one.r#type));
     if !one.description.is_empty() {
@@ -113,7 +113,7 @@ pub(super) fn description(one: &ParameterDescriptor) -> String {
     if !one.additional_constraints.is_empty() {
         let _ = writeln!(limits, "    Additional constraints: {}", one.additional_constraints);
     }
-    // Always there, also above nothing, as `ros2 param describe` prints it.
+    // Always printed, even if empty, as `ros2 param describe` does.
     text.push_str("  Constraints:\n");
     text.push_str(&limits);
     text

@@ -1,4 +1,4 @@
-//! All values on one line, with commas between.
+//! All values on one line, separated by commas.
 
 use periplus_msgs::{Count, Number, Numbers, Sink, YamlStyle};
 
@@ -8,9 +8,9 @@ pub(super) struct Csv<'a> {
     /// The whole, and the columns of each open message and list.
     open: Vec<String>,
     style: &'a YamlStyle,
-    /// Of each open list, how many elements are still shown and whether the list goes on behind.
+    /// For each open list: the number of elements left to print, and true if it is truncated.
     lists: Vec<(usize, bool)>,
-    /// Depth inside of elements that are not shown.
+    /// Depth inside elements that are not printed.
     hidden: usize,
     /// Depth of messages in elements of the innermost list.
     depth: Vec<usize>,
@@ -27,7 +27,7 @@ impl<'a> Csv<'a> {
         self.open.concat()
     }
 
-    /// Adds a column. As in `rosidl_runtime_py`, a comma follows what is not empty, so an empty list
+    /// Adds a column. As in `rosidl_runtime_py`, a comma follows non-empty text, so an empty list
     /// is an empty column.
     fn put(&mut self, text: &str) {
         if let Some(columns) = self.open.last_mut() {
@@ -44,7 +44,7 @@ impl<'a> Csv<'a> {
         }
     }
 
-    /// Whether an element that begins now is shown.
+    /// Returns true if an element that begins now is printed.
     fn element(&mut self) -> bool {
         if self.hidden > 0 || self.depth.last() != Some(&0) {
             return self.hidden == 0;

@@ -1,4 +1,4 @@
-//! JSON on one line, written as the values come: a cloud of ten megabytes makes no tree.
+//! JSON on one line, streamed without a tree, for point clouds of many megabytes.
 
 use std::fmt::Write as _;
 
@@ -9,9 +9,9 @@ use super::{cut, shown, whole};
 pub(super) struct Json {
     pub(super) out: String,
     longest: Option<usize>,
-    /// Elements of each open list that are still shown; none for messages.
+    /// Elements left to print of each open list; `None` for messages.
     open: Vec<Option<usize>>,
-    /// How many levels are open inside of an element that is not shown.
+    /// Number of open levels inside an element that is not printed.
     hidden: usize,
 }
 
@@ -20,7 +20,7 @@ impl Json {
         Self { out: String::new(), longest, open: Vec::new(), hidden: 0 }
     }
 
-    /// Whether a value that begins now is shown, and a comma in front of it.
+    /// Returns true if a value that begins now is printed; writes a comma before it.
     fn is_shown(&mut self) -> bool {
         if self.hidden > 0 {
             return false;

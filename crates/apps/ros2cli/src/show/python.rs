@@ -1,10 +1,10 @@
-//! Messages the way Python's `repr` shows them, which `ros2 topic pub` and `ros2 service call` print.
+//! Messages in the format of Python's `repr`, which `ros2 topic pub` and `ros2 service call` print.
 
 use periplus_msgs::{Count, DynamicMessage, Number, NumberKind, Numbers, Part, Sink};
 
 use super::whole;
 
-/// Such as `geometry_msgs.msg.Vector3(x=1.0, y=0.0, z=0.0)`.
+/// Text such as `geometry_msgs.msg.Vector3(x=1.0, y=0.0, z=0.0)`.
 #[must_use]
 pub fn repr(message: &DynamicMessage) -> String {
     let mut sink = Repr { out: String::new() };
@@ -12,12 +12,12 @@ pub fn repr(message: &DynamicMessage) -> String {
     sink.out
 }
 
-/// A number as Python prints it.
+/// Number in Python syntax.
 pub(crate) fn number(number: Number) -> String {
     match number {
         Number::Bool(true) => "True".into(),
         Number::Bool(false) => "False".into(),
-        // Python has only one kind of them, and prints all digits.
+        // Python has only one float type, and prints all digits.
         Number::F32(number) => float(number.into()),
         Number::F64(number) => float(number),
         number => whole(number).unwrap_or(0).to_string(),
@@ -43,7 +43,7 @@ pub(crate) fn float(number: f64) -> String {
     format!("{digits}e{sign}{:02}", exponent.abs())
 }
 
-/// Python's `repr` of a text.
+/// Python's `repr` of a string.
 pub(crate) fn text(text: &str) -> String {
     let quote = if text.contains('\'') && !text.contains('"') { '"' } else { '\'' };
     let mut out = String::from(quote);
@@ -67,7 +67,7 @@ pub(crate) fn text(text: &str) -> String {
     out
 }
 
-/// Python's `str` of a field that is a list without a fixed length: numbers are in an `array`.
+/// Python's `str` of a sequence field: numbers are in an `array`.
 pub(super) fn sequence(part: &Part<'_>) -> String {
     let mut sink = Repr { out: String::new() };
     part.write(&mut sink);
@@ -82,7 +82,7 @@ pub(super) fn sequence(part: &Part<'_>) -> String {
         Some(NumberKind::U64) => 'Q',
         Some(NumberKind::F32) => 'f',
         Some(NumberKind::F64) => 'd',
-        // Truth values, `byte`, texts and messages.
+        // Booleans, `byte`, strings and messages.
         Some(NumberKind::Bool) | None => return sink.out,
     };
     match sink.out.as_str() {

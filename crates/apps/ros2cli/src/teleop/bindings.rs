@@ -1,6 +1,7 @@
-//! What the keys mean. Source: the tables of `teleop_twist_keyboard`, the same in ROS 1 and ROS 2.
+//! Key bindings. Source: the tables of `teleop_twist_keyboard`, the same in ROS 1 and ROS 2.
 
-/// A way to go: parts of the speed along x, y, z, and of the turn to the left.
+/// Direction of motion: fractions of the linear speed along x, y, z, and of the angular speed about
+/// z.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Direction {
     /// Along x, y, z.
@@ -9,20 +10,20 @@ pub struct Direction {
     pub angular_z: f64,
 }
 
-/// By how much a key changes the speeds.
+/// Factors by which a key changes the speeds.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Factors {
-    /// Of the speed.
+    /// Factor of the linear speed.
     pub speed: f64,
-    /// Of the turn.
+    /// Factor of the angular speed.
     pub turn: f64,
 }
 
-/// The way that a key goes; none for keys that go nowhere.
+/// Direction of a key; `None` for keys without one.
 #[must_use]
 pub fn direction(key: char) -> Option<Direction> {
     let (x, y, z, angular_z) = match key {
-        // Curves and turns.
+        // Curves and rotations.
         'i' => (1, 0, 0, 0),
         'o' => (1, 0, 0, -1),
         'j' => (0, 0, 0, 1),
@@ -51,7 +52,7 @@ pub fn direction(key: char) -> Option<Direction> {
     })
 }
 
-/// How a key changes the speeds; none for keys that do not.
+/// Factors of a key; `None` for keys without them.
 #[must_use]
 pub fn factors(key: char) -> Option<Factors> {
     let (speed, turn) = match key {

@@ -1,25 +1,25 @@
-//! What is driven now, and what a key makes of it.
+//! Current velocity, and its change by keys.
 
 use periplus_msgs::geometry_msgs::{Twist, Vector3};
 
 use crate::teleop::bindings::{Direction, direction, factors};
 
-/// Speeds, and the way that is driven.
+/// Speeds and current direction.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Keyboard {
-    /// Speed of straight motion \[m/s\].
+    /// Linear speed \[m/s\].
     pub speed_m_s: f64,
-    /// Speed of turns \[rad/s\].
+    /// Angular speed \[rad/s\].
     pub turn_rad_s: f64,
-    /// The speed goes no higher \[m/s\].
+    /// Maximum linear speed \[m/s\].
     pub speed_limit_m_s: f64,
-    /// The turn goes no higher \[rad/s\].
+    /// Maximum angular speed \[rad/s\].
     pub turn_limit_rad_s: f64,
-    /// The way that is driven.
+    /// Current direction.
     pub direction: Direction,
 }
 
-/// As `teleop_twist_keyboard` begins.
+/// Initial state of `teleop_twist_keyboard`.
 impl Default for Keyboard {
     fn default() -> Self {
         Self {
@@ -32,23 +32,23 @@ impl Default for Keyboard {
     }
 }
 
-/// What a key did. After each but [`Pressed::Quit`] the velocity is published.
+/// Effect of a key. After each but [`Pressed::Quit`] the velocity is published.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Pressed {
-    /// It drives some way.
+    /// Changed the direction.
     Drive,
-    /// It changed the speeds, and what is driven goes on with them.
+    /// Changed the speeds; the direction stays.
     Speed {
-        /// Whether a speed is as high as it may be.
+        /// True if a speed is at its maximum.
         at_limit: bool,
     },
-    /// It stops, as every other key.
+    /// Stopped, as any unbound key does.
     Stop,
-    /// It ends.
+    /// Quit.
     Quit,
 }
 
-/// What is driven.
+/// Current velocity.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Velocity {
     /// Along x, y, z \[m/s\].
@@ -57,11 +57,11 @@ pub struct Velocity {
     pub angular_z_rad_s: f64,
 }
 
-/// What Ctrl-C is to a terminal that passes it on.
+/// Ctrl-C in a raw terminal.
 const END_OF_TEXT: char = '\u{3}';
 
 impl Keyboard {
-    /// Somebody pressed a key.
+    /// Handles a key.
     pub fn press(&mut self, key: char) -> Pressed {
         if key == END_OF_TEXT {
             self.stop();
@@ -83,15 +83,15 @@ impl Keyboard {
         Pressed::Stop
     }
 
-    /// Stands still: nobody has pressed a key for long, or it ends. Whether it moved before.
+    /// Stops, on a key timeout or at the end; returns true if it was moving.
     pub fn stop(&mut self) -> bool {
         std::mem::take(&mut self.direction) != Direction::default()
     }
 
-    /// What is driven.
+    /// Returns the current velocity.
     #[must_use]
     pub fn velocity(&self) -> Velocity {
-        // 0 times -1 is another zero, which readers of messages need not see.
+        // Avoids negative zero in messages.
         let times = |part: f64, speed: f64| if part == 0.0 { 0.0 } else { part * speed };
         Velocity {
             linear_m_s: self.direction.linear.map(|part| times(part, self.speed_m_s)),

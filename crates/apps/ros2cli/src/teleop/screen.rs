@@ -1,8 +1,8 @@
-//! What stands on the screen.
+//! Text of the screen.
 
 use crate::teleop::Keyboard;
 
-/// The keys, in their places.
+/// Table of the keys.
 pub const SCREEN: &str = "\
 Keys drive the robot; each press sends one velocity.
 ---------------------------
@@ -20,7 +20,7 @@ Sideways, with shift (for robots that can):
 t : up (+z)
 b : down (-z)
 
-any other key : stand still
+any other key : stop
 
 q/z : both speeds 10 % up/down
 w/x : only the straight speed 10 % up/down
@@ -29,7 +29,7 @@ e/c : only the turning speed 10 % up/down
 Ctrl-C ends
 ";
 
-/// The speeds, in a line.
+/// Speeds, in one line.
 #[must_use]
 pub fn status(keyboard: &Keyboard) -> String {
     format!("speed {:.3} m/s\tturn {:.3} rad/s", keyboard.speed_m_s, keyboard.turn_rad_s)

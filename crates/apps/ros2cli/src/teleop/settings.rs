@@ -1,50 +1,46 @@
-//! What a user may set.
+//! Parameters of teleoperation.
 
 use periplus_params::{Table, Values, flag, number, text};
 
 use crate::teleop::Keyboard;
 
-/// The parameters of the node, by the names that `teleop_twist_keyboard` has for them.
+/// Parameters of the node, with the names of `teleop_twist_keyboard`.
 pub static TELEOP: Table = Table {
     name: "teleop_twist_keyboard",
-    doc: "Drives by keys.",
+    doc: "Keyboard teleoperation.",
     parameters: &[
-        number("speed", "m/s", "Speed of straight motion at the start.").or("0.5").above(0.0),
-        number("turn", "rad/s", "Speed of turns at the start.").or("1").above(0.0),
-        number("speed_limit", "m/s", "The speed goes no higher.").or("1000").above(0.0),
-        number("turn_limit", "rad/s", "The turn goes no higher.").or("1000").above(0.0),
-        flag("stamped", "Whether velocities have a time and a frame (TwistStamped).").or("false"),
-        text("frame_id", "The frame of velocities with a time.").or(""),
-        number("repeat_rate", "Hz", "How often a velocity is sent again; 0 for never.")
+        number("speed", "m/s", "Initial linear speed.").or("0.5").above(0.0),
+        number("turn", "rad/s", "Initial angular speed.").or("1").above(0.0),
+        number("speed_limit", "m/s", "Maximum linear speed.").or("1000").above(0.0),
+        number("turn_limit", "rad/s", "Maximum angular speed.").or("1000").above(0.0),
+        flag("stamped", "Publish TwistStamped.").or("false"),
+        text("frame_id", "Frame of TwistStamped.").or(""),
+        number("repeat_rate", "Hz", "Rate at which the velocity is repeated; 0 for never.")
             .or("0")
             .within(0.0, 1000.0),
-        number(
-            "key_timeout",
-            "s",
-            "Without a key for so long the robot stands still; 0 for never.",
-        )
-        .or("0")
-        .min(0.0),
+        number("key_timeout", "s", "Time without a key after which the robot stops; 0 for never.")
+            .or("0")
+            .min(0.0),
     ],
 };
 
-/// How to drive.
+/// Settings of teleoperation.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Settings {
-    /// Speeds at the start, and their limits.
+    /// Initial speeds and their limits.
     pub keyboard: Keyboard,
-    /// Whether velocities have a time and a frame.
+    /// True to publish TwistStamped.
     pub is_stamped: bool,
-    /// The frame of velocities with a time.
+    /// Frame of TwistStamped.
     pub frame_id: String,
-    /// How often a velocity is sent again \[Hz\]; 0 for never.
+    /// Rate at which the velocity is repeated \[Hz\]; 0 for never.
     pub repeat_rate_hz: f64,
-    /// Without a key for so long the robot stands still \[s\]; 0 for never.
+    /// Time without a key after which the robot stops \[s\]; 0 for never.
     pub key_timeout_s: f64,
 }
 
 impl Settings {
-    /// From parameters of [`TELEOP`]. Speeds above their limits begin at these.
+    /// Reads parameters of [`TELEOP`]. Initial speeds are clamped to their limits.
     #[must_use]
     pub fn read(values: &Values) -> Self {
         let number = |name: &str| values.number(name).unwrap_or_default();

@@ -13,15 +13,15 @@ use periplus_os::{sleep, unix_ns};
 use crate::failure::endless;
 use crate::{Failure, Outcome, Session};
 
-/// How often it looks whether it is over.
+/// Polling period of the interrupt flag.
 const LOOK: Duration = Duration::from_millis(20);
 
-/// A transform that always holds.
+/// Static transform.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Broadcast {
-    /// The frame that it is given in.
+    /// Parent frame.
     pub parent: String,
-    /// The frame that it places.
+    /// Child frame.
     pub child: String,
     /// Origin of the child in the parent \[m\].
     pub translation: [f64; 3],
@@ -29,11 +29,12 @@ pub struct Broadcast {
     pub rotation: [f64; 4],
 }
 
-/// Reads the words behind `static_transform_publisher`: `--x 1 --yaw 0.5 --frame-id a
-/// --child-frame-id b`, or as it was before `x y z yaw pitch roll a b` and `x y z qx qy qz qw a b`.
+/// Parses the arguments of `static_transform_publisher`: `--x 1 --yaw 0.5 --frame-id a
+/// --child-frame-id b`, or the deprecated forms `x y z yaw pitch roll a b` and `x y z qx qy qz qw a
+/// b`.
 ///
 /// # Errors
-/// Which word is wrong.
+/// A usage error that names the argument.
 pub fn read_broadcast(words: &[String]) -> Outcome<Broadcast> {
     let usage = |wrong: String| Failure::Usage(wrong);
     let mut given: Vec<(&str, f64)> = Vec::new();
@@ -45,15 +46,14 @@ pub fn read_broadcast(words: &[String]) -> Outcome<Broadcast> {
             plain.push(word);
             continue;
         };
-        let mut value =
-            || rest.next().ok_or_else(|| usage(format!("`{word}` should be followed by a value")));
+        let mut value = || rest.next().ok_or_else(|| usage(format!("`{word}` needs a value")));
         match name {
             "x" | "y" | "z" | "qx" | "qy" | "qz" | "qw" | "roll" | "pitch" | "yaw" => {
                 given.push((name, number(word, value()?)?));
             }
             "frame-id" => parent = Some(value()?),
             "child-frame-id" => child = Some(value()?),
-            _ => return Err(usage(format!("`{word}` is no word of static transforms"))),
+            _ => return Err(usage(format!("unknown option `{word}`"))),
         }
     }
     let names: &[&str] = match plain.len() {
@@ -62,14 +62,14 @@ pub fn read_broadcast(words: &[String]) -> Outcome<Broadcast> {
         9 => &["x", "y", "z", "qx", "qy", "qz", "qw"],
         count => {
             return Err(usage(format!(
-                "there are {count} words without names; give `--frame-id PARENT --child-frame-id \
+                "got {count} positional arguments; give `--frame-id PARENT --child-frame-id \
                  CHILD --x X --y Y --z Z --yaw YAW`, or `X Y Z YAW PITCH ROLL PARENT CHILD`"
             )));
         }
     };
     if !names.is_empty() {
         if !given.is_empty() || parent.is_some() || child.is_some() {
-            return Err(usage("give either names for all numbers, or for none".into()));
+            return Err(usage("use either options or positional arguments, not both".into()));
         }
         for (name, word) in names.iter().zip(&plain) {
             given.push((name, number(name, word)?));
@@ -77,10 +77,10 @@ pub fn read_broadcast(words: &[String]) -> Outcome<Broadcast> {
         (parent, child) = (plain.get(names.len()).copied(), plain.last().copied());
     }
     let (Some(parent), Some(child)) = (parent, child) else {
-        return Err(usage("name both frames: `--frame-id PARENT --child-frame-id CHILD`".into()));
+        return Err(usage("give both frames: `--frame-id PARENT --child-frame-id CHILD`".into()));
     };
     if parent.is_empty() || child.is_empty() || parent == child {
-        return Err(usage("the frames must have names, and not the same one".into()));
+        return Err(usage("the frames must have different, non-empty names".into()));
     }
     let has = |names: &[&str]| given.iter().any(|(name, _)| names.contains(name));
     if has(&["qx", "qy", "qz", "qw"]) && has(&["roll", "pitch", "yaw"]) {
@@ -114,10 +114,10 @@ fn number(name: &str, word: &str) -> Outcome<f64> {
     number.ok_or_else(|| Failure::Usage(format!("`{name}` takes a number, not `{word}`")))
 }
 
-/// Says until it is stopped where a frame is, to latecomers too.
+/// Publishes a static transform until interrupted, also to late subscribers.
 ///
 /// # Errors
-/// When the name of the node is not valid.
+/// When the name of the node is invalid.
 pub fn broadcast(session: &mut Session<'_>, broadcast: &Broadcast) -> Outcome {
     let graph = session.network.graph();
     let node = graph.node(NodeSettings::new("static_transform_publisher"))?;

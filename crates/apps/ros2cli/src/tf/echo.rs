@@ -11,28 +11,28 @@ use super::listen::Frames;
 use crate::failure::endless;
 use crate::{Outcome, Session};
 
-/// How often it looks for transforms.
+/// Polling period for transforms.
 const LOOK: Duration = Duration::from_millis(5);
 
-/// How often it says what it waits for.
+/// Period of messages while waiting.
 const PATIENCE: Duration = Duration::from_secs(1);
 
-/// What is shown, and how often.
+/// Options of `tf echo`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Echo {
-    /// The frame in which the pose is.
+    /// Reference frame.
     pub source: String,
-    /// The frame whose pose it is.
+    /// Frame whose pose is printed.
     pub target: String,
-    /// How often.
+    /// Period of the output.
     pub period: Duration,
-    /// Ends after the first.
+    /// Exit after the first.
     pub once: bool,
 }
 
-/// Shows the pose of a frame in another, again and again, as soon as there is one.
+/// Prints the pose of a frame in another periodically, as soon as it is available.
 ///
-/// As with `tf2_echo` the first frame is that in which the pose of the second is told.
+/// As with `tf2_echo`, the first frame is the reference frame of the second.
 ///
 /// Source: `tf2_ros/src/tf2_echo.cpp`.
 ///

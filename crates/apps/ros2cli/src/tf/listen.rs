@@ -1,4 +1,4 @@
-//! Listening to frames.
+//! TF listener.
 
 use std::sync::Arc;
 
@@ -10,10 +10,10 @@ use periplus_tf::{Kind, Refused, Stamped, Survey};
 
 use crate::{Outcome, Session};
 
-/// Nobody says over DDS who broadcast a transform.
+/// DDS does not identify the broadcaster of a transform.
 pub(super) const AUTHORITY: &str = "Authority undetectable";
 
-/// Frames as they are heard.
+/// TF buffer with its subscriptions.
 pub(super) struct Frames {
     pub(super) survey: Survey,
     moving: Mailbox<TFMessage>,
@@ -21,7 +21,7 @@ pub(super) struct Frames {
     _node: Node,
 }
 
-/// A message that came.
+/// Received transform message.
 pub(super) struct Heard {
     pub(super) message: Arc<TFMessage>,
     pub(super) kind: Kind,
@@ -32,7 +32,7 @@ impl Frames {
         Self::of(session, ["/tf", "/tf_static"])
     }
 
-    /// Frames as they are heard on topics of these names.
+    /// Subscribes to topics of these names.
     pub(super) fn of(session: &Session<'_>, [moving, fixed]: [&str; 2]) -> Outcome<Self> {
         let node = session.node(None)?;
         Ok(Self {
@@ -43,8 +43,7 @@ impl Frames {
         })
     }
 
-    /// Takes in what has come since the last call. After a jump back in time all that was before is
-    /// forgotten.
+    /// Processes messages received since the last call. A jump back in time clears the buffer.
     pub(super) fn hear(&mut self, session: &mut Session<'_>) -> Vec<Heard> {
         let fixed = self.fixed.drain().into_iter().map(|message| (message, Kind::Fixed));
         let moving = self.moving.drain().into_iter().map(|message| (message, Kind::Moving));
@@ -69,7 +68,7 @@ pub(super) fn stamp_ns(transform: &TransformStamped) -> i64 {
     transform.header.stamp.ns()
 }
 
-/// A message's transform, as buffers take it.
+/// Converts the transform of a message.
 #[must_use]
 pub fn stamped(transform: &TransformStamped) -> Stamped {
     let (shift, turn) = (&transform.transform.translation, &transform.transform.rotation);

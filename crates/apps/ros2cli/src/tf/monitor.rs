@@ -11,21 +11,21 @@ use super::listen::{AUTHORITY, Frames, stamp_ns};
 use crate::failure::endless;
 use crate::{Failure, Outcome, Session};
 
-/// How often it looks for transforms.
+/// Polling period for transforms.
 const LOOK: Duration = Duration::from_millis(5);
 
-/// What is watched, and for how long.
+/// Options of `tf monitor`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Monitor {
-    /// Two frames, between which the chain is watched; without them all frames.
+    /// Two frames to monitor the chain between; all frames if `None`.
     pub between: Option<(String, String)>,
-    /// How long is gathered before each report.
+    /// Duration of a report.
     pub gather: Duration,
-    /// Ends after the first report.
+    /// Exit after the first report.
     pub once: bool,
 }
 
-/// How old transforms are when they come, and how often they do.
+/// Delay and rate statistics of a frame.
 #[derive(Default)]
 struct Delays {
     count: usize,
@@ -45,7 +45,7 @@ impl Delays {
     }
 }
 
-/// Reports, again and again, how late each frame comes and how often.
+/// Reports delays and rates of each frame periodically.
 ///
 /// Source: `tf2_ros/src/tf2_monitor.cpp`.
 ///
@@ -65,7 +65,7 @@ fn run(session: &mut Session<'_>, monitor: &Monitor) -> Outcome {
             for heard in frames.hear(session) {
                 let now_ns = unix_ns();
                 for transform in &heard.message.transforms {
-                    // What always holds is never late.
+                    // Static transforms have no delay.
                     let late_ns = match heard.kind {
                         Kind::Moving => now_ns - stamp_ns(transform),
                         Kind::Fixed => 0,
@@ -100,7 +100,7 @@ fn run(session: &mut Session<'_>, monitor: &Monitor) -> Outcome {
 }
 
 fn chain(frames: &Frames, a: &str, b: &str) -> Outcome<Vec<String>> {
-    // Says why there is none, in the words of tf2.
+    // Reports why there is none, in the words of tf2.
     if let Err(error) = frames.survey.buffer.lookup(a, b, 0) {
         return Err(Failure::failed(error.to_string()));
     }

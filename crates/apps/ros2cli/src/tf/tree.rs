@@ -13,38 +13,38 @@ use serde_json::json;
 use super::listen::Frames;
 use crate::{Failure, Outcome, Session};
 
-/// How often it looks for transforms.
+/// Polling period for transforms.
 const LOOK: Duration = Duration::from_millis(5);
 
-/// What is listened to, and what is written.
+/// Options of `tf tree`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Tree {
-    /// How long.
+    /// Duration of listening.
     pub wait: Duration,
-    /// The topic of frames that move.
+    /// Topic of dynamic transforms.
     pub moving: String,
-    /// The topic of frames that do not.
+    /// Topic of static transforms.
     pub fixed: String,
-    /// What is written.
+    /// Output files.
     pub pictures: Pictures,
 }
 
-/// What is written of a tree.
+/// Output files of a tree.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Pictures {
-    /// Path of the files, without ending.
+    /// Path of the files, without extension.
     pub stem: PathBuf,
-    /// Whether SVG is written besides.
+    /// True to write SVG, too.
     pub svg: bool,
 }
 
-/// Listens to frames and writes their tree as text for Graphviz (`.gv`) and as a picture (`.pdf`), as
-/// `view_frames` does; the tree in words goes to the output.
+/// Listens to transforms and writes their tree for Graphviz (`.gv`) and as a drawing (`.pdf`), as
+/// `view_frames` does; the tree as text goes to the output.
 ///
 /// Source: `tf2_tools/view_frames.py`.
 ///
 /// # Errors
-/// When no frame was heard or files cannot be written.
+/// When no transform was received or files cannot be written.
 pub fn tree(session: &mut Session<'_>, tree: &Tree) -> Outcome {
     let mut frames = Frames::of(session, [&tree.moving, &tree.fixed])?;
     session.say(&format!("Listening to tf data for {:?} seconds...", tree.wait.as_secs_f64()));
@@ -55,7 +55,7 @@ pub fn tree(session: &mut Session<'_>, tree: &Tree) -> Outcome {
         sleep(LOOK);
     }
     let mut forest = Forest::new(&frames.survey);
-    // Messages do not say who sent them. Where only one node publishes it was that one.
+    // Messages do not identify their sender. If only one node publishes the topic, it is that node.
     let seen = session.network.seen();
     for (topic, kind) in [(&tree.moving, Kind::Moving), (&tree.fixed, Kind::Fixed)] {
         let ends = seen.topic(&crate::session::full_name(topic)).map(|topic| &topic.publishers);
@@ -70,7 +70,7 @@ pub fn tree(session: &mut Session<'_>, tree: &Tree) -> Outcome {
         let moving = seen.topic("/tf").map_or(0, |topic| topic.publishers.len());
         let fixed = seen.topic("/tf_static").map_or(0, |topic| topic.publishers.len());
         return Err(Failure::failed(format!(
-            "no transform was heard in {:?} s: {moving} publish {}, {fixed} publish {}; start what \
+            "no transform was received in {:?} s: publishers of {moving}: {}, of {fixed}: {}; start what \
              publishes them (robot_state_publisher, odometry), or see `periplus doctor`",
             tree.wait.as_secs_f64(),
             tree.moving,
@@ -80,7 +80,7 @@ pub fn tree(session: &mut Session<'_>, tree: &Tree) -> Outcome {
     Ok(())
 }
 
-/// Writes files and the tree in words, and says what is wrong with the tree.
+/// Writes the files and the tree as text, and the problems of the tree.
 ///
 /// # Errors
 /// When files or the output cannot be written.
@@ -109,7 +109,7 @@ pub fn put_tree(
         session.say(&format!("WARNING: {fault}"));
     }
     for name in survey.with_slash() {
-        session.say(&format!("WARNING: `{name}` has a slash in front; tf2 drops it"));
+        session.say(&format!("WARNING: `{name}` has a leading slash, which tf2 strips"));
     }
     if session.json {
         return session.put(&as_json(forest, recorded_ns, &written));
@@ -121,13 +121,13 @@ pub fn put_tree(
 }
 
 fn with_ending(stem: &Path, ending: &str) -> PathBuf {
-    // Not `with_extension`: a dated name has dots in it.
+    // `with_extension` would replace parts of a dated name, which has dots in it.
     let mut path = stem.as_os_str().to_owned();
     path.push(format!(".{ending}"));
     path.into()
 }
 
-/// The tree with a frame on each line.
+/// Tree with one frame per line.
 fn in_words(forest: &Forest) -> String {
     let mut text = String::new();
     for (depth, frame, is_last) in forest.lines() {

@@ -13,23 +13,23 @@ use crate::listen::{Listener, Next, hear};
 use crate::show::{Form, Show};
 use crate::{Failure, Outcome, QosWish, Session};
 
-/// How often it looks for messages.
+/// Polling period for messages.
 const PAUSE: Duration = Duration::from_millis(2);
 
 /// Options of `topic echo`.
 #[derive(Clone, Debug, Default)]
 pub struct Echo {
-    /// The type, where that of the topic is not meant.
+    /// Message type, overriding that of the topic.
     pub type_name: Option<String>,
-    /// How messages are shown.
+    /// Format settings.
     pub show: Show,
-    /// `--raw`: the bytes, unread.
+    /// `--raw`: print the serialized bytes.
     pub raw: bool,
     /// `--once`.
     pub once: bool,
     /// `--filter`.
     pub filter: Option<String>,
-    /// `--timeout`: it ends when no message comes for so long.
+    /// `--timeout`: exit after this long without a message.
     pub timeout: Option<Duration>,
     /// `--no-lost-messages`.
     pub no_lost_messages: bool,
@@ -37,10 +37,11 @@ pub struct Echo {
     pub qos: QosWish,
 }
 
-/// Shows the messages of a topic.
+/// Prints the messages of a topic.
 ///
 /// # Errors
-/// When there is no such topic or type, no message comes in time, or the output cannot be written.
+/// When there is no such topic or type, no message arrives in time, or the output cannot be
+/// written.
 pub fn echo(session: &mut Session<'_>, topic: &str, options: &Echo) -> Outcome {
     let filter = options.filter.as_deref().map(Filter::read).transpose()?;
     let type_name = options.type_name.as_deref();
@@ -70,7 +71,7 @@ pub fn echo(session: &mut Session<'_>, topic: &str, options: &Echo) -> Outcome {
                 Err(Unshown::Unread(words)) => {
                     rejected += 1;
                     if rejected == 1 {
-                        session.say(&format!("WARNING: a message cannot be read: {words}"));
+                        session.say(&format!("WARNING: a message cannot be decoded: {words}"));
                     }
                     return Ok(Next::Go);
                 }
@@ -93,7 +94,7 @@ pub fn echo(session: &mut Session<'_>, topic: &str, options: &Echo) -> Outcome {
     match (outcome, heard) {
         (outcome @ Err(Failure::Interrupted), _) if !options.once => endless(outcome),
         (Ok(()), None) => {
-            Err(Failure::failed(format!("no message of {} came in time", listeners[0].topic)))
+            Err(Failure::failed(format!("no message received on {} in time", listeners[0].topic)))
         }
         (outcome, _) => outcome,
     }
@@ -110,7 +111,7 @@ impl<E: Into<Failure>> From<E> for Unshown {
     }
 }
 
-/// Shows one message; whether it was wanted.
+/// Prints one message; returns true if it passed the filter.
 fn show(
     session: &mut Session<'_>,
     sample: &Sample,
@@ -140,7 +141,7 @@ fn show(
     Ok(true)
 }
 
-/// Bytes as Python prints them.
+/// Bytes in Python syntax.
 fn python_bytes(bytes: &[u8]) -> String {
     let quote = if bytes.contains(&b'\'') && !bytes.contains(&b'"') { b'"' } else { b'\'' };
     let mut out = format!("b{}", char::from(quote));

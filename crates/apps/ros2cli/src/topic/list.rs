@@ -20,7 +20,7 @@ pub struct List {
     pub verbose: bool,
 }
 
-/// Which topics there are.
+/// Lists all topics.
 ///
 /// # Errors
 /// When the output cannot be written.
@@ -60,12 +60,12 @@ pub fn list(session: &mut Session<'_>, options: List) -> Outcome {
     session.put_list("topic", &titles.collect::<Vec<_>>(), options.count)
 }
 
-/// The topic of this name, when it is there.
+/// Looks up a topic by name.
 fn look_up(session: &mut Session<'_>, name: &str) -> Outcome<SeenTopic> {
     let name = full_name(name);
     let (mut seen, is_there) = session.look_for(|seen| seen.topic(&name).is_some());
     if is_there {
-        // Others that use it may be a little later.
+        // Other endpoints may be discovered a little later.
         seen = session.look();
     }
     session.go_on()?;
@@ -75,7 +75,7 @@ fn look_up(session: &mut Session<'_>, name: &str) -> Outcome<SeenTopic> {
     })
 }
 
-/// Who publishes a topic, and who subscribes to it.
+/// Prints the publishers and subscribers of a topic.
 ///
 /// # Errors
 /// When there is no such topic, or the output cannot be written.
@@ -117,7 +117,7 @@ pub fn info(session: &mut Session<'_>, name: &str, verbose: bool) -> Outcome {
 
 fn describe(end: &SeenEnd, kind: &str) -> String {
     let (namespace, name) = split_name(end.node.as_deref());
-    // Only what is on a wire has an identity there.
+    // Only endpoints on a network have a GID.
     let gid = if end.gid.is_empty() { String::new() } else { format!("GID: {}\n", end.gid) };
     format!(
         "Node name: {name}\nNode namespace: {namespace}\nTopic type: {}\nTopic type hash: {}\n\
@@ -147,7 +147,7 @@ fn end_to_json(end: &SeenEnd) -> serde_json::Value {
     })
 }
 
-/// The types of a topic.
+/// Prints the types of a topic.
 ///
 /// # Errors
 /// When there is no such topic, or the output cannot be written.
@@ -161,7 +161,7 @@ pub fn type_of(session: &mut Session<'_>, name: &str) -> Outcome {
     session.put_types(&name, &topic.types)
 }
 
-/// The topics of a type.
+/// Lists the topics of a type.
 ///
 /// # Errors
 /// When the output cannot be written.

@@ -9,10 +9,10 @@ use serde_json::json;
 use crate::session::{BREATH, full_name};
 use crate::{Failure, Outcome, QosWish, Seen, Session, Values, clock, show};
 
-/// How often it says that it waits.
+/// Period of messages while waiting for subscribers.
 const TELL: Duration = Duration::from_secs(1);
 
-/// How long the last message has to arrive.
+/// Timeout for delivering the last message.
 const FLUSH: Duration = Duration::from_secs(2);
 
 /// Options of `topic pub`.
@@ -20,15 +20,15 @@ const FLUSH: Duration = Duration::from_secs(2);
 pub struct Publish {
     /// `-r` \[Hz\].
     pub rate_hz: f64,
-    /// `-t`, or 1 for `--once`; none for ever.
+    /// `-t`, or 1 for `--once`; unlimited if `None`.
     pub times: Option<u64>,
-    /// `-p`: only every so many are shown; 0 for none.
+    /// `-p`: print every Nth message; 0 for none.
     pub print: u64,
-    /// `-w`: so many have to listen before it begins; by itself one if it has an end.
+    /// `-w`: number of subscribers to wait for; defaults to one if `times` is set.
     pub wait_matching: Option<usize>,
     /// `--max-wait-time-secs`.
     pub most_wait: Option<Duration>,
-    /// `--keep-alive`: how long it stays after the last.
+    /// `--keep-alive`: time to stay alive after the last message.
     pub keep_alive: Duration,
     /// `-n`.
     pub node_name: Option<String>,
@@ -51,10 +51,11 @@ impl Default for Publish {
     }
 }
 
-/// Publishes a message, once or again and again.
+/// Publishes a message once or periodically.
 ///
 /// # Errors
-/// When a name, type or value is not usable, nobody listens in time, or the output cannot be written.
+/// When a name, type or value is unusable, no subscriber appears in time, or the output cannot be
+/// written.
 pub fn publish(
     session: &mut Session<'_>,
     topic: &str,
@@ -64,7 +65,7 @@ pub fn publish(
 ) -> Outcome {
     let layout = session.types.message(type_name)?.clone();
     let values = Values::read(values)?;
-    // What is wrong with the values is said before anybody hears of the topic.
+    // Errors of the values are reported before the publisher is created.
     let mut message = values.message(&layout, clock::unix_ns())?;
     let topic = full_name(topic);
     let qos = options.qos.offer()?;
@@ -79,7 +80,7 @@ pub fn publish(
     };
     let is_met = |seen: &Seen| wanted == 0 || listeners(seen) >= wanted && publisher.is_heard();
     let waiting = Stopwatch::start();
-    // The first moment passes silently.
+    // No message during the first period.
     while !session.wait(Some(if wanted == 0 { Duration::ZERO } else { TELL }), is_met)? {
         if options.most_wait.is_some_and(|most| waiting.elapsed() >= most) {
             return Err(Failure::failed(format!(
@@ -128,7 +129,7 @@ pub fn publish(
     Ok(())
 }
 
-/// Waits; it ends when it is told to stop.
+/// Waits for a time or an interrupt.
 fn pause(session: &Session<'_>, time: Duration) -> Outcome {
     let clock = Stopwatch::start();
     loop {

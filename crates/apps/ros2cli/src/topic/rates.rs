@@ -1,4 +1,4 @@
-//! `topic hz`, `bw` and `delay`: all by the wall's clock, told once a second.
+//! `topic hz`, `bw` and `delay`: measured with the wall clock, printed once per second.
 
 mod window;
 
@@ -17,16 +17,16 @@ use crate::{Failure, Outcome, QosWish, Seen, Session, clock};
 
 use window::{Sizes, Spread, Window};
 
-/// How often it looks for messages: what `hz` says of a single message is as good as this.
+/// Polling period for messages, which limits the resolution of `hz`.
 const PAUSE: Duration = Duration::from_millis(1);
 
-/// How often it tells.
+/// Output period.
 const TELL: Duration = Duration::from_secs(1);
 
 /// Options of `hz`, `bw` and `delay`.
 #[derive(Clone, Debug, Default)]
 pub struct Rate {
-    /// `-w`: so many messages at most.
+    /// `-w`: maximum window size in messages.
     pub window: Option<usize>,
     /// `--filter`, of `hz`.
     pub filter: Option<String>,
@@ -34,12 +34,12 @@ pub struct Rate {
     pub qos: QosWish,
 }
 
-/// Windows that are not said: those of `ros2 topic hz`, and of `bw`.
+/// Default windows of `ros2 topic hz` and `bw`.
 const WINDOW: usize = 10_000;
 const BANDWIDTH_WINDOW: usize = 100;
 
-/// How often messages come, of one topic or several. Of several it begins with those that are there;
-/// the others are heard from when they come.
+/// Prints the rate of messages of one or several topics. Of several, it starts with those that are
+/// published; the others are added when they appear.
 ///
 /// # Errors
 /// When a name or filter is not usable, or the output cannot be written.
@@ -99,9 +99,9 @@ pub fn hz(session: &mut Session<'_>, topics: &[String], options: &Rate) -> Outco
     ))
 }
 
-/// A topic of `hz`.
+/// Topic of `hz`.
 struct Measured {
-    /// Where messages are looked into.
+    /// Message layout, for the filter.
     layout: Option<Arc<Layout>>,
     window: Window,
 }
@@ -160,7 +160,7 @@ fn tell_hz(
     Ok(())
 }
 
-/// Several topics as a table.
+/// Formats several topics as a table.
 fn table(listeners: &[Listener], spreads: &[Option<Spread>]) -> String {
     let widest = listeners.iter().map(|listener| listener.topic.len()).max().unwrap_or(0).max(5);
     let head = format!(
@@ -184,7 +184,7 @@ fn table(listeners: &[Listener], spreads: &[Option<Spread>]) -> String {
     text
 }
 
-/// How many bytes come in a second.
+/// Prints the bandwidth in bytes per second.
 ///
 /// # Errors
 /// When a name is not usable, or the output cannot be written.
@@ -231,7 +231,7 @@ pub fn bandwidth(session: &mut Session<'_>, topic: &str, options: &Rate) -> Outc
     ))
 }
 
-/// How old messages are when they come, by the stamps in their headers.
+/// Prints the age of messages on arrival, by the stamps in their headers.
 ///
 /// # Errors
 /// When a name is not usable, messages have no header, or the output cannot be written.

@@ -14,7 +14,7 @@ use periplus_ros2cli::action;
 
 use crate::bench::Bench;
 
-/// Looks transforms up, unless there is no frame to look for. Every goal ends at once.
+/// Action server that looks up transforms, unless the frame is empty. Every goal ends at once.
 fn looker(bench: &Bench) -> Actor<Publisher<LookupTransformFeedbackMessage>> {
     let node = bench.node("tf");
     let feedback = node.publisher("/look/_action/feedback", Qos::reliable(10)).unwrap();
@@ -38,7 +38,7 @@ fn looker(bench: &Bench) -> Actor<Publisher<LookupTransformFeedbackMessage>> {
     looker
 }
 
-/// Names of goals are never the same.
+/// Goal IDs are random.
 fn send(bench: &Bench, values: &str, feedback: bool) -> String {
     let text = bench.run(|session| {
         action::send_goal(session, "/look", "tf2_msgs/action/LookupTransform", values, feedback)
@@ -165,7 +165,7 @@ fn goals_are_sent() {
     "#]]
     .assert_eq(&send(&bench, "{source_frame: map}", false));
     expect![[r#"
-        ! the values do not fit tf2_msgs/action/LookupTransform_Goal: there is no field `target_fram`, did you mean `target_frame`?
+        ! the values do not match tf2_msgs/action/LookupTransform_Goal: there is no field `target_fram`, did you mean `target_frame`?
     "#]].assert_eq(&send(&bench, "{target_fram: map}", false));
     let json = Bench { json: true, ..bench };
     expect![[r#"

@@ -1,4 +1,4 @@
-//! Where verbs are tried.
+//! Test bench of verbs.
 
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
@@ -10,10 +10,10 @@ use periplus_ros2cli::{InGraph, Network, Outcome, Progress, Seen, Session, Types
 pub(crate) struct Bench {
     pub(crate) graph: Graph,
     pub(crate) json: bool,
-    /// With what every node has.
+    /// Include the topics and services that every node has.
     pub(crate) all: bool,
     pub(crate) types: Types,
-    /// When the verb is told to stop.
+    /// Time after which the verb is interrupted.
     pub(crate) stop_after: Option<Duration>,
 }
 
@@ -36,8 +36,8 @@ impl Bench {
         self.graph.node(NodeSettings::new(name).bare()).unwrap()
     }
 
-    /// What a verb writes: results, then what it says (lines with `| ` in front), then how it ends
-    /// if that is not well.
+    /// Output of a verb: results, then notes (lines with a leading `| `), then the error if it
+    /// fails.
     pub(crate) fn run(&self, verb: impl FnOnce(&mut Session<'_>) -> Outcome) -> String {
         let (own, all) = (InGraph(self.graph.clone()), InGraph(self.graph.clone()));
         let quiet = Quiet(own);
@@ -78,7 +78,7 @@ impl Bench {
     }
 }
 
-/// Without what every node has: it would be in every snapshot.
+/// Network without the topics and services that every node has, which would be in every snapshot.
 struct Quiet(InGraph);
 
 fn quiet(mut seen: Seen) -> Seen {

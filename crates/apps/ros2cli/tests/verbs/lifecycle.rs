@@ -84,7 +84,7 @@ fn a_node_is_led_through_its_life() {
         /planner: active [3]
     "#]],
     );
-    // A second time it refuses.
+    // The second transition is refused.
     bench.check(
         |session| lifecycle::set(session, "/planner", "3"),
         expect![[r#"
@@ -102,7 +102,7 @@ fn a_node_is_led_through_its_life() {
     bench.check(
         |session| lifecycle::get(session, Some("/lidar")),
         expect![[r#"
-        ! the node '/lidar' has no lifecycle: it runs as long as it is there
+        ! the node '/lidar' is not a lifecycle node
     "#]],
     );
     bench.check(

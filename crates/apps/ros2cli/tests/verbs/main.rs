@@ -1,4 +1,4 @@
-//! Verbs against nodes of this same program: what they print.
+//! Output of verbs against nodes of this same program.
 #![allow(clippy::unwrap_used, reason = "helpers of tests may unwrap as tests do")]
 
 mod action;

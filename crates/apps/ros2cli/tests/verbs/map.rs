@@ -13,7 +13,7 @@ use periplus_ros2cli::map::{Convert, Diff, Save, convert, diff, info, save};
 
 use crate::bench::Bench;
 
-/// A folder that goes when the test ends.
+/// A folder that is removed when the test ends.
 struct Folder(PathBuf);
 
 impl Folder {
@@ -52,7 +52,7 @@ fn wanted(topic: &str, name: String) -> Save {
     }
 }
 
-/// What is written, with the folder left out.
+/// Output without the folder.
 fn run(bench: &Bench, folder: &Folder, what: &Save) -> String {
     bench.run(|session| save(session, what)).replace(folder.0.to_str().unwrap(), "FOLDER")
 }
@@ -65,7 +65,7 @@ fn a_map_is_saved_however_it_is_published() {
         let publisher = node.publisher("/map", qos).unwrap();
         publisher.publish(map());
         let feeder = std::thread::spawn(move || {
-            // Nothing is kept of what best effort sends before somebody listens.
+            // Best-effort messages without a subscriber are lost.
             for _ in 0..20 {
                 std::thread::sleep(Duration::from_millis(10));
                 publisher.publish(map());
@@ -89,7 +89,7 @@ fn without_a_map_it_says_why() {
     let (bench, folder) = (Bench::new(), Folder::new("why"));
     let what = wanted("map", folder.path("room"));
     expect![[r#"
-        ! no map came on `/map` in 0.3 s: nobody publishes a map; is the map server or SLAM running?
+        ! no map came on `/map` in 0.3 s: no map is published; is the map server or SLAM running?
     "#]]
     .assert_eq(&run(&bench, &folder, &what));
     let node: Node = bench.node("slam");

@@ -8,7 +8,7 @@ use periplus_ros2cli::param::{self, List};
 
 use crate::bench::Bench;
 
-/// A node that takes any parameters, with some.
+/// A node that accepts any parameters, with some set.
 fn lidar(bench: &Bench) -> Node {
     let value = |text| parameter_from_yaml(text).unwrap();
     let settings = NodeSettings::new("lidar")

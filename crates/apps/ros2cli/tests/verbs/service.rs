@@ -7,7 +7,7 @@ use periplus_ros2cli::service;
 
 use crate::bench::Bench;
 
-/// A lamp that can be switched, and says so.
+/// A light that can be switched and reports its state.
 fn lamp(bench: &Bench) -> Actor<bool> {
     let mut lamp = bench.node("lamp").actor(false);
     lamp.serve::<std_srvs::SetBool>("/switch", |is_on, request, _| {
@@ -93,7 +93,7 @@ fn services_are_called() {
     "#]]
     .assert_eq(&call(&bench, "std_srvs/srv/SetBool", "{data: true}"));
     expect![[r#"
-        ! the values do not fit std_srvs/srv/SetBool_Request: there is no field `dta`, did you mean `data`?
+        ! the values do not match std_srvs/srv/SetBool_Request: there is no field `dta`, did you mean `data`?
     "#]].assert_eq(&call(&bench, "std_srvs/SetBool", "{dta: true}"));
     expect![[r#"
         ! the service type `std_srvs/srv/SetBol` is not known. Did you mean `std_srvs/srv/SetBool`? If it is a package of yours, give its folder with `--interfaces DIR`, or have the prefix that `std_srvs` is installed in on AMENT_PREFIX_PATH

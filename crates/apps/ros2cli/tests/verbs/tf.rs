@@ -1,5 +1,5 @@
 //! `tf`.
-#![allow(clippy::disallowed_methods, reason = "what was written is read")]
+#![allow(clippy::disallowed_methods, reason = "reads written files")]
 
 use std::time::Duration;
 
@@ -86,7 +86,7 @@ fn a_chain_is_watched() {
     );
 }
 
-/// A folder that goes with the test.
+/// A folder that is removed when the test ends.
 struct Folder(std::path::PathBuf);
 
 impl Folder {

@@ -11,7 +11,7 @@ use periplus_ros2cli::topic::{self, Echo, List, Publish, Rate};
 
 use crate::bench::Bench;
 
-/// A robot that scans and listens to commands.
+/// A robot that publishes scans and subscribes to velocity commands.
 struct Robot {
     bench: Bench,
     scan: Publisher<sensor_msgs::LaserScan>,
@@ -187,7 +187,7 @@ fn types_and_topics_are_found() {
     );
 }
 
-/// Echoes what `publish` publishes again and again until it is over.
+/// Echoes the messages that `publish` publishes periodically until the end.
 fn echo(bench: &Bench, topic: &str, options: &Echo, mut publish: impl FnMut() + Send) -> String {
     let done = std::sync::atomic::AtomicBool::new(false);
     std::thread::scope(|scope| {
@@ -429,7 +429,7 @@ fn who_comes_late_hears_latched_topics() {
         ---
     "#]],
     );
-    // What is asked for comes first.
+    // Explicit options take precedence.
     let volatile = QosWish { durability: Some("volatile".into()), ..QosWish::default() };
     let options = Echo { qos: volatile, timeout: Some(Duration::from_millis(50)), ..once() };
     bench.check(
@@ -527,7 +527,7 @@ fn rates_are_measured() {
     assert_eq!(flow["min_bytes"], flow["max_bytes"], "{flow}");
     assert!(flow["mean_bytes"].as_f64().unwrap() > 400.0, "{flow}");
     let age = measure(&|session| topic::delay(session, "/scan", &Rate::default()));
-    // The stamps say 1970.
+    // The stamps are in 1970.
     assert!(age["delay_s"].as_f64().unwrap() > 1.6e9, "{age}");
 }
 
@@ -561,13 +561,13 @@ fn messages_are_published() {
             topic::publish(session, "/cmd_vel", "geometry_msgs/msg/Twist", "{x: 1}", &options)
         },
         expect![[r#"
-            ! the values do not fit geometry_msgs/msg/Twist: there is no field `x`
+            ! the values do not match geometry_msgs/msg/Twist: there is no field `x`
         "#]],
     );
     bench.check(
         |session| topic::publish(session, "/cmd_vel", "geometry_msgs/msg/Twist", "0.5", &options),
         expect![[r#"
-            ! the values are a number, and have to be names and values, such as `{linear: {x: 0.5}}`; a colon needs a blank behind it
+            ! the values are a number, and have to be names and values, such as `{linear: {x: 0.5}}`; a colon needs a space after it
         "#]],
     );
     let json = bench.json();

@@ -1,17 +1,17 @@
-//! Numbers over the last messages.
+//! Statistics over the last messages.
 
 use std::collections::VecDeque;
 
-/// The last values of something, such as the times between messages.
+/// Sliding window of values, such as the periods between messages.
 pub(super) struct Window {
     most: usize,
     values: VecDeque<f64>,
-    /// When the last message came \[s\].
+    /// Arrival of the last message \[s\].
     last: Option<f64>,
     is_new: bool,
 }
 
-/// What a window holds.
+/// Statistics of a window.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Spread {
     pub(super) mean: f64,
@@ -22,7 +22,7 @@ pub(super) struct Spread {
 }
 
 impl Spread {
-    /// How many of such times there are in a second.
+    /// Rate \[Hz\], if the values are periods \[s\].
     pub(super) fn rate(&self) -> f64 {
         if self.mean > 0.0 { 1.0 / self.mean } else { 0.0 }
     }
@@ -33,7 +33,7 @@ impl Window {
         Self { most: most.max(1), values: VecDeque::new(), last: None, is_new: false }
     }
 
-    /// A message comes; the time since the one before counts.
+    /// Adds the period since the last message.
     pub(super) fn arrive(&mut self, at: f64) {
         if let Some(last) = self.last.replace(at) {
             self.take(at - last);
@@ -48,7 +48,7 @@ impl Window {
         self.is_new = true;
     }
 
-    /// What it holds, if something has come since the last call.
+    /// Statistics, if a value was added since the last call.
     pub(super) fn spread_if_new(&mut self) -> Option<Spread> {
         if !std::mem::take(&mut self.is_new) {
             return None;
@@ -63,13 +63,13 @@ impl Window {
     }
 }
 
-/// When the last messages came and how large they were.
+/// Arrivals and sizes of the last messages.
 pub(super) struct Sizes {
     most: usize,
     messages: VecDeque<(f64, usize)>,
 }
 
-/// How much flows.
+/// Bandwidth.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Flow {
     /// \[bytes/s\].
@@ -92,7 +92,7 @@ impl Sizes {
         self.messages.push_back((at, size));
     }
 
-    /// What flowed from the first of them until now; none for fewer than two.
+    /// Bandwidth from the first message until now; `None` for fewer than two.
     pub(super) fn flow(&self, now: f64) -> Option<Flow> {
         let (first, _) = *self.messages.front()?;
         let count = self.messages.len();
@@ -112,7 +112,7 @@ impl Sizes {
 }
 
 impl Flow {
-    /// In the unit that fits the rate.
+    /// Text with a unit that fits the rate.
     pub(super) fn describe(&self) -> String {
         let unit = |bytes: f64| match self.rate {
             rate if rate < 1e3 => format!("{bytes:.0} B"),
@@ -143,7 +143,7 @@ mod tests {
         for at in [4.0, 5.0, 8.0] {
             window.arrive(at);
         }
-        // The first step, of 4, is forgotten.
+        // The first period of 4 has left the window.
         let spread = Spread { mean: 2.0, min: 1.0, max: 3.0, deviation: 1.0, count: 2 };
         assert_eq!(spread.rate(), 0.5);
         assert_eq!(window.spread_if_new(), Some(spread));
