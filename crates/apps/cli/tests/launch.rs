@@ -128,7 +128,12 @@ fn names_that_lead_nowhere_lead_to_near_ones() {
     };
     proposes(
         &["launch_bt"],
-        &["there is no file launch_bt", "package `launch_bot`", "it has ", "display.launch.py"],
+        &[
+            "file launch_bt does not exist",
+            "package `launch_bot`",
+            "its launch files are ",
+            "display.launch.py",
+        ],
     );
     proposes(
         &["launch_bot"],
@@ -137,7 +142,7 @@ fn names_that_lead_nowhere_lead_to_near_ones() {
     let file = "display.launch.py";
     let whole = "did you mean `periplus launch launch_bot display.launch.py`?";
     proposes(&["launch_bt", file], &["there is no package `launch_bt`", whole]);
-    proposes(&["launch_bot_description", file], &["there is no package", whole]);
+    proposes(&["launch_bot_description", file], &["was not found", whole]);
     proposes(&["launch_bot_bringup", "dispaly.launch.py"], &[whole]);
     // Packages of this repository, around the working folder, without a path.
     proposes(

@@ -108,7 +108,7 @@ fn variables_that_a_file_in_python_sets() {
     machine.misses("other.launch.py", &with(other), "other.launch.py:9");
     // A group has its own environment.
     let scoped = format!("GroupAction([{set} LogInfo(msg='in')], scoped=True),");
-    machine.misses("scoped.launch.py", &with(&scoped), "does not hold where the world is started");
+    machine.misses("scoped.launch.py", &with(&scoped), "has no effect where the world is started");
     let late = python(&format!(
         "return LaunchDescription([\n    {GAZEBO},\n    {set}\n    LogInfo(msg='late'),\n])"
     ));
@@ -170,7 +170,7 @@ fn the_working_directory_of_a_process() {
              {cwd})])"
         ))
     };
-    machine.misses("none.launch.py", &gazebo(""), "there is no world plain.sdf");
+    machine.misses("none.launch.py", &gazebo(""), "world plain.sdf does not exist");
     machine.finds("cwd.launch.py", &gazebo(", cwd='TOP/ws/pkg/worlds'"));
     // The world waits for the process: a run as short as this one would interrupt it.
     let process = |cwd: &str| {
@@ -226,5 +226,5 @@ fn processes_that_make_the_world() {
     assert!(half.contains("\"theirs\""), "{half}");
     // A maker that fails is the error, not the world that is not there.
     let failing = side_by_side.replace("w.sdf.xacro", "gone.xacro").replace("made", "never");
-    machine.misses("failing.launch.py", &python(&failing), "`xacro ...` has failed");
+    machine.misses("failing.launch.py", &python(&failing), "`xacro ...` failed");
 }

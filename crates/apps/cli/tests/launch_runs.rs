@@ -229,7 +229,7 @@ fn the_robot_maps_and_has_costmaps() {
         - nav2_velocity_smoother velocity_smoother: nothing: Periplus has Nav2's map server, AMCL and costmaps, no planners and controllers
         - nav2_bt_navigator bt_navigator: nothing: Periplus has Nav2's map server, AMCL and costmaps, no planners and controllers
         - nav2_waypoint_follower waypoint_follower: nothing: Periplus has Nav2's map server, AMCL and costmaps, no planners and controllers
-        + nav2_lifecycle_manager lifecycle_manager: /lifecycle_manager_navigation: brings up controller_server, planner_server
+        + nav2_lifecycle_manager lifecycle_manager: /lifecycle_manager_navigation: manages controller_server, planner_server
         + nav2_costmap_2d nav2_costmap_2d_markers: /costmap_2d_marker: voxels as cubes on `visualization_marker`
         + tf2_ros static_transform_publisher: /static_transform_publisher: `table` in `map`
     "#]].assert_eq(&ran.became());
@@ -283,9 +283,9 @@ fn programs_of_the_machine_and_what_is_missing() {
     assert!(ran.topics().contains("/tf_static tf2_msgs/msg/TFMessage 1"), "{}", ran.told);
     for words in [
         "no program `periplus_has_no_such_program` on the PATH",
-        "a program of ROS 2, and this run is on no network",
+        "a ROS 2 program, and this run is not on a network",
         "a quarter is over",
-        "all ends: half is over",
+        "shutdown: half is over",
         "0.500 s simulated",
     ] {
         assert!(ran.told.contains(words), "no `{words}` in\n{}", ran.told);

@@ -167,7 +167,7 @@ fn what_is_wrong_with_the_initial_pose_is_said() {
         &folder,
         &with(&["--initial-pose", "nan,0,0"]),
         2,
-        &["`nan,0,0` is no pose; write X,Y,YAW"],
+        &["`nan,0,0` is not a pose; write X,Y,YAW"],
     );
     refused(
         &folder,

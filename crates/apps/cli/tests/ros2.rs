@@ -505,7 +505,7 @@ fn a_lifecycle_manager_starts_again_when_its_nodes_come_back() {
     let domain = Domain(125);
     let (manager, _folder) = start(domain, &[]);
     let node = domain.bond(&python, "node", "alpha");
-    manager.tells("all nodes answer again after a bond broke");
+    manager.tells("all nodes respond again after a bond broke");
     node.says("formed");
     manager.tells("managed nodes are active");
 
@@ -518,7 +518,7 @@ fn a_lifecycle_manager_starts_again_when_its_nodes_come_back() {
     node.says("ready");
     std::thread::sleep(Duration::from_secs(3));
     assert!(!node.lines.try_iter().any(|line| line.starts_with("asked")));
-    assert!(!manager.lines.try_iter().any(|line| line.contains("started again")));
+    assert!(!manager.lines.try_iter().any(|line| line.contains("restarting the system")));
 }
 
 /// Tools ask a node for the definitions of the types that it uses, as every node of ROS 2 has had
@@ -641,6 +641,6 @@ fn a_manager_that_runs_alone_knows_its_nodes() {
     for given in [["-p", "node_names:=[alpha, beta]"], ["--params-file", &file]] {
         let words = [&run[..], &given].concat();
         let manager = Running::start(&mut Domain(122).periplus(None, &words));
-        manager.tells("brings up alpha, beta");
+        manager.tells("manages alpha, beta");
     }
 }

@@ -216,7 +216,7 @@ fn a_log_with_reversed_wheels_is_mapped_again() {
     let command = command.arg("slam").arg(&log).arg("--out").arg(&out).arg("--g2o").arg(&g2o);
     let output = command.output().unwrap();
     let said = String::from_utf8_lossy(&output.stdout);
-    assert!(output.status.success() && said.contains("the map was made again"), "{said}");
+    assert!(output.status.success() && said.contains("the map was rebuilt"), "{said}");
     let mapped = slam(&log, &out);
     assert_eq!(mapped.code, Some(0));
     check(&mapped, &moments);
@@ -230,7 +230,7 @@ fn a_log_with_reversed_wheels_is_mapped_again() {
     let output = command.args(["-p", "correct_mounting:=false"]).output().unwrap();
     let said = String::from_utf8_lossy(&output.stdout);
     assert!(said.contains("both wheels have the wrong sign"), "{said}");
-    assert!(!said.contains("the map was made again"), "{said}");
+    assert!(!said.contains("the map was rebuilt"), "{said}");
 }
 
 /// Two shelves are gone when the robot passes the second time: the report has the place and the times of both

@@ -68,7 +68,7 @@ fn a_script_and_a_map_with_both_robots() {
             has_filter,
             "{robot}: {told}"
         );
-        assert!(!told.contains("the map is made of"), "{robot}: {told}");
+        assert!(!told.contains("the map contains"), "{robot}: {told}");
         // The first scan arrives before the first message of the filter.
         let lost =
             told.lines().find_map(|line| line.trim().strip_suffix(" scans had no transforms"));
@@ -128,7 +128,7 @@ fn a_map_of_a_robot_that_stands_still_is_warned_of() {
     let output = periplus(&words);
     assert!(!told(&output).contains("error"), "{}", told(&output));
     let words = &words[..words.len() - 1];
-    assert!(told(&periplus(words)).contains("the map is made of one scan"));
+    assert!(told(&periplus(words)).contains("the map contains one scan"));
 }
 
 #[test]
@@ -202,7 +202,7 @@ fn words_that_are_not_what_they_seem() {
     for (text, code, part) in [
         ("talker:\n  ros__parameters:\n    rate: 3\n", 1, "has no parameters for slam_toolbox"),
         ("a: [1, 2\n", 1, "this is not YAML"),
-        ("just some words\n", 1, "holds no parameters"),
+        ("just some words\n", 1, "has no parameters"),
         ("slam_toolbox: {ros__parameters: {resolutoin: 0.1}}\n", 0, "did you mean `resolution`?"),
     ] {
         fs::write(&file, text).unwrap();
@@ -221,7 +221,7 @@ fn a_page_takes_another_port_where_the_usual_one_is_taken() {
     let output = periplus(&[&["sim", "worlds/closed_room.world"][..], &page].concat());
     assert!(output.status.success(), "{}", told(&output));
     assert!(
-        told(&output).contains("port 8765 is taken, the page gets another"),
+        told(&output).contains("port 8765 is in use; the page uses another port"),
         "{}",
         told(&output)
     );

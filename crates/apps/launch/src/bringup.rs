@@ -1,9 +1,9 @@
 //! Execution of plans.
 //!
-//! [`Bringup`] takes a [`crate::Plan`] and does step by step what it says. Programs of ROS
-//! that are known here become nodes of ours on one graph ([`table`] lists them); Gazebo becomes a
-//! [`periplus_sim::Simulation`] that whoever runs the plan has made from [`Bringup::world`]. Other
-//! programs run if the machine has them. What is left is told, and the rest runs.
+//! [`Bringup`] executes a [`crate::Plan`] step by step. Known ROS programs become built-in nodes on
+//! one graph ([`table`] lists them); Gazebo becomes a [`periplus_sim::Simulation`] that the caller
+//! creates from [`Bringup::world`]. Other programs run if the machine has them. Missing ones are
+//! reported, and the rest runs.
 
 mod bridge;
 mod catalogue;

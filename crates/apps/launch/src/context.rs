@@ -1,4 +1,4 @@
-//! What holds at a place in a launch file: configurations, environment, and what all nodes get.
+//! Scope of a position in a launch file: configurations, environment, and settings of all nodes.
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -10,28 +10,28 @@ use crate::dialect::Dialect;
 use crate::plan::{Parameters, Variable};
 use crate::tree::Names;
 
-/// Everything that a scoped group restores at its end.
+/// State that a scoped group restores at its end.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Context {
     pub(crate) configurations: Names,
-    /// Variables that differ from the machine's; none for one that is taken away.
+    /// Variables changed by the launch; `None` for an unset one.
     pub(crate) environment: BTreeMap<String, Option<String>>,
-    /// Places of the changes of the environment, as `file:line`, by variable.
+    /// Position of the change of each variable, as `file:line`.
     pub(crate) changed_at: BTreeMap<String, String>,
-    /// Variables that a machine with ROS has, for machines without them.
+    /// Variables that a ROS installation sets, for machines without one.
     pub(crate) usual: Names,
     /// `name:=value` of the command line.
     pub(crate) command_line: Vec<String>,
-    /// The namespace of nodes, absolute; empty when none was pushed.
+    /// Absolute namespace of nodes; empty if none was pushed.
     pub(crate) namespace: String,
     pub(crate) parameters: Vec<Parameters>,
     pub(crate) remaps: Vec<(String, String)>,
-    /// The file that is being launched.
+    /// Current launch file.
     pub(crate) file: PathBuf,
 }
 
 impl Context {
-    /// A variable of the environment as programs will see it.
+    /// Environment variable as programs will see it.
     pub(crate) fn variable(&self, name: &str, host: &dyn Host) -> Option<String> {
         match self.environment.get(name) {
             Some(changed) => changed.clone(),
@@ -39,7 +39,7 @@ impl Context {
         }
     }
 
-    /// The changes of the environment, for a step.
+    /// Changes of the environment, for a step.
     pub(crate) fn changes(&self) -> BTreeMap<String, Variable> {
         let change = |(name, value): (&String, &Option<String>)| {
             let written = self.changed_at.get(name).cloned();
@@ -48,12 +48,12 @@ impl Context {
         self.environment.iter().map(change).collect()
     }
 
-    /// A namespace or name within the pushed namespace, absolute.
+    /// Absolute name or namespace, resolved in the pushed namespace.
     pub(crate) fn within(&self, name: &str) -> String {
         within(&self.namespace, name)
     }
 
-    /// As an interpreter is told.
+    /// State that is passed to an interpreter.
     pub(crate) fn snapshot(&self) -> Snapshot {
         Snapshot {
             configurations: self.configurations.clone(),
@@ -66,8 +66,8 @@ impl Context {
     }
 }
 
-/// Variables that a machine with ROS has. `AMENT_PREFIX_PATH` names the folder where the workspace of the
-/// file would be installed.
+/// Variables that a ROS installation sets. `AMENT_PREFIX_PATH` contains the install folder of the
+/// file's workspace.
 pub(crate) fn usual(dialect: Dialect, file: &Path) -> Names {
     let (version, distribution) = match dialect {
         Dialect::Ros1 => ("1", "noetic"),
@@ -84,7 +84,7 @@ pub(crate) fn usual(dialect: Dialect, file: &Path) -> Names {
         let install = above.unwrap_or_else(|| Path::new("/")).join("install");
         usual.insert("AMENT_PREFIX_PATH".into(), install.display().to_string());
     }
-    // Gazebo's setup files set these, and launch files add to them.
+    // Gazebo's setup files set these, and launch files append to them.
     for name in [
         "GZ_SIM_RESOURCE_PATH",
         "IGN_GAZEBO_RESOURCE_PATH",
@@ -97,7 +97,7 @@ pub(crate) fn usual(dialect: Dialect, file: &Path) -> Names {
     usual
 }
 
-/// A name in a namespace, absolute. One that is absolute already stays as it is.
+/// Resolves a name in a namespace; absolute names stay as they are.
 pub(crate) fn within(namespace: &str, name: &str) -> String {
     if name.starts_with('/') {
         return name.into();
@@ -110,7 +110,7 @@ pub(crate) fn within(namespace: &str, name: &str) -> String {
     }
 }
 
-/// The part of a context that the functions of a launch file see.
+/// Part of a context that functions of a launch file can read.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub(crate) struct Snapshot {
     pub(crate) configurations: Names,

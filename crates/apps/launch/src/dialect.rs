@@ -1,10 +1,10 @@
-//! Whether a launch file is one of ROS 1 or of ROS 2.
+//! Distinction between launch files of ROS 1 and ROS 2.
 
 use std::path::Path;
 
 use periplus_resources::Host;
 
-/// Whose launch file it is.
+/// ROS version of a launch file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Dialect {
     /// `roslaunch`.
@@ -13,8 +13,8 @@ pub enum Dialect {
     Ros2,
 }
 
-/// Whose launch file it is. Both have `<launch>` in XML; what only one of them knows decides, and where
-/// nothing does, the name: `*.launch` alone is ROS 1's.
+/// Detects the ROS version of a launch file. Both have `<launch>` in XML; elements of only one
+/// version decide, and otherwise the file name: `*.launch` is ROS 1.
 #[must_use]
 pub fn dialect(host: &dyn Host, file: &Path) -> Dialect {
     let name = file.file_name().and_then(|name| name.to_str()).unwrap_or_default();
@@ -34,7 +34,7 @@ pub fn dialect(host: &dyn Host, file: &Path) -> Dialect {
     ]) {
         Dialect::Ros2
     } else if has(&[" type=", "$(arg ", "$(find ", "<rosparam", " ns="])
-        // Only there a parameter may be outside of nodes.
+        // ROS 1 alone allows parameters outside nodes.
         || (has(&["<param"]) && !has(&["<node", "<composable"]))
         || name.ends_with(".launch")
     {

@@ -1,11 +1,11 @@
-//! What a launch file in Python does when everything ends.
+//! Shutdown functions of a launch file in Python.
 
 use serde_json::Value;
 
 use crate::outside::{Complaint, Interpreter};
 
-/// Functions that a launch file wants to be called at its end (`OnShutdown`), and the interpreter that
-/// knows them. Without a call of [`Ending::run`] they are not called.
+/// Functions to call at shutdown (`OnShutdown`), and the interpreter that has them. They are called
+/// by [`Ending::run`] only.
 #[derive(Default)]
 pub struct Ending {
     pub(crate) interpreter: Option<Box<dyn Interpreter>>,
@@ -13,10 +13,10 @@ pub struct Ending {
 }
 
 impl Ending {
-    /// Calls the functions in their order; what they complain about.
+    /// Calls the functions in order; returns their errors.
     pub fn run(self) -> Vec<Complaint> {
         let Some(mut interpreter) = self.interpreter else { return Vec::new() };
-        let refuse = |_| Err("this is not known any more when everything ends".to_owned());
+        let refuse = |_| Err("this is not available at shutdown".to_owned());
         let call = |call| interpreter.ask(call, &mut { refuse }).err();
         self.calls.into_iter().filter_map(call).collect()
     }

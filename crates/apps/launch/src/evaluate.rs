@@ -1,5 +1,5 @@
-//! From what a launch file says to what is to run: conditions are decided, texts resolved, files
-//! included, in the order in which they are written.
+//! Evaluation of a launch file into a plan: conditions, substitutions and includes, in the order of
+//! the file.
 
 mod node;
 mod parameters;
@@ -21,19 +21,19 @@ use crate::python;
 use crate::tree::{Action, Condition, Deed, Event, Given, Names, Place, Text};
 use crate::truth::value_of;
 
-/// How deep files may include each other.
+/// Maximum depth of includes.
 const DEEPEST: usize = 50;
 
-/// How many actions a launch may have: real ones have hundreds.
+/// Maximum number of actions of a launch: real ones have hundreds.
 const MOST_ACTIONS: usize = 100_000;
 
-/// How deep actions may contain each other: real ones do so ten deep. A function that returns itself, and
-/// a group in a group, end here and not with the stack.
+/// Maximum nesting of actions: real ones have about ten levels. Stops functions that return
+/// themselves and groups in groups before the stack overflows.
 const MOST_NESTED: usize = 150;
 
 pub(crate) type Outcome<T> = Result<T, Box<Diagnostic>>;
 
-/// The work on one launch.
+/// State of evaluating one launch.
 pub(crate) struct Evaluation<'a> {
     pub(crate) host: &'a dyn Host,
     pub(crate) resolver: &'a Resolver<'a>,
@@ -44,17 +44,17 @@ pub(crate) struct Evaluation<'a> {
     pub(crate) context: Context,
     pub(crate) missing_packages: BTreeSet<String>,
     python: Option<Box<dyn Interpreter>>,
-    /// True while the interpreter works on a request.
+    /// True while the interpreter handles a request.
     is_asking: bool,
-    /// Actions that wait for events, in the order in which they were met.
+    /// Event handlers, in order of registration.
     later: VecDeque<Later>,
-    /// Functions of the launch file that are called when everything ends.
+    /// Functions of the launch file to call at shutdown.
     at_end: Vec<Value>,
-    /// Where the action that is looked at is written.
+    /// Position of the current action.
     place: Place,
-    /// What must have happened before what is looked at.
+    /// Triggers of the current actions.
     after: Vec<Trigger>,
-    /// The steps that actions have become or will become, by the actions' numbers.
+    /// Step indices of actions, by action number.
     steps: BTreeMap<u64, usize>,
     next_step: usize,
     next_name: usize,
@@ -64,13 +64,13 @@ pub(crate) struct Evaluation<'a> {
     is_over: bool,
 }
 
-/// Actions that wait for events.
+/// Actions that wait for an event.
 struct Later {
     after: Vec<Trigger>,
     actions: Vec<Action>,
-    /// The file that they are written in.
+    /// Launch file that contains them.
     file: PathBuf,
-    /// Configurations of the place where they are written, for those that are gone at the event.
+    /// Configurations at registration, for those that are gone at the event.
     configurations: Names,
 }
 
@@ -106,15 +106,15 @@ impl<'a> Evaluation<'a> {
         }
     }
 
-    /// Reads a launch file of ROS 2 and does what it says.
+    /// Evaluates a launch file of ROS 2.
     pub(crate) fn launch(&mut self, file: &Path, given: &[(String, String)]) -> Outcome<()> {
         if self.depth == DEEPEST {
             return Err(self
                 .error(
                     "launch-include",
-                    format!("launch files include each other more than {DEEPEST} deep"),
+                    format!("includes are nested more than {DEEPEST} levels deep"),
                 )
-                .help("a file that includes itself needs a condition that ends this")
+                .help("a file that includes itself needs a condition that ends the recursion")
                 .into());
         }
         let before = std::mem::replace(&mut self.context.file, file.to_path_buf());
@@ -128,8 +128,8 @@ impl<'a> Evaluation<'a> {
         outcome
     }
 
-    /// Decides what happens at events: as in `launch`, after everything that happens at once, with the
-    /// configurations, environment and scopes of then.
+    /// Evaluates event handlers: as in `launch`, after all other actions, with the configurations,
+    /// environment and scopes of that time.
     pub(crate) fn events(&mut self) -> Outcome<()> {
         while let Some(Later { after, actions, file, configurations }) = self.later.pop_front() {
             let is_at_end = after.contains(&Trigger::Shutdown);
@@ -147,13 +147,13 @@ impl<'a> Evaluation<'a> {
         Ok(())
     }
 
-    /// The interpreter with the functions that it is to call when everything ends.
+    /// Interpreter with the functions to call at shutdown.
     pub(crate) fn ending(&mut self) -> Ending {
         let calls = std::mem::take(&mut self.at_end);
         Ending { interpreter: self.python.take().filter(|_| !calls.is_empty()), calls }
     }
 
-    /// What a file says.
+    /// Actions of a file.
     pub(crate) fn actions_of(&mut self, file: &Path) -> Outcome<Vec<Action>> {
         if file.extension().is_some_and(|extension| extension == "py") {
             let file = file.display().to_string();
@@ -164,7 +164,7 @@ impl<'a> Evaluation<'a> {
         front::read(file, &text, self.sources, &mut self.found)
     }
 
-    /// Arguments without a default that were not given; said before anything runs.
+    /// Reports required arguments that were not given, before anything runs.
     fn missing_arguments(
         &mut self,
         actions: &[Action],
@@ -183,13 +183,13 @@ impl<'a> Evaluation<'a> {
             let names: Vec<&str> = given.iter().map(|(name, _)| name.as_str()).collect();
             let mut wrong = self.error(
                 "launch-argument",
-                format!("{} needs the argument `{name}`, and it was not given", file.display()),
+                format!("{} requires the argument `{name}`", file.display()),
             );
             if let Some(description) = description.filter(|text| !text.is_empty()) {
-                wrong = wrong.note(format!("what it is for: {description}"));
+                wrong = wrong.note(format!("description: {description}"));
             }
             if !names.is_empty() {
-                wrong = wrong.note(format!("given are: {}", names.join(", ")));
+                wrong = wrong.note(format!("given: {}", names.join(", ")));
             }
             return Err(wrong.help(format!("add `{name}:=VALUE`")).into());
         }
@@ -201,10 +201,10 @@ impl<'a> Evaluation<'a> {
             return Err(self
                 .error(
                     "launch-size",
-                    format!("actions contain each other more than {MOST_NESTED} deep"),
+                    format!("actions are nested more than {MOST_NESTED} levels deep"),
                 )
                 .help(
-                    "a function or group that gives itself again needs a condition that ends this",
+                    "a function or group that returns itself needs a condition that ends the recursion",
                 )
                 .into());
         }
@@ -240,7 +240,7 @@ impl<'a> Evaluation<'a> {
         Ok(())
     }
 
-    /// Whether a condition holds.
+    /// Evaluates a condition.
     pub(crate) fn holds(&mut self, condition: &Condition) -> Outcome<bool> {
         match condition {
             Condition::If { text } => self.truth_of(text),
@@ -312,7 +312,7 @@ impl<'a> Evaluation<'a> {
                 self.run_all(&actions)?;
             }
             Deed::Include { file, arguments } => self.include(file, arguments)?,
-            // Its work is for the end, when what the launch has made is no longer needed.
+            // Runs at shutdown, when the results of the launch are no longer needed.
             Deed::Call { function } if self.after.contains(&Trigger::Shutdown) => {
                 let context = json!(self.context.snapshot());
                 self.at_end.push(json!({"ask": "call", "id": function, "context": context}));
@@ -366,7 +366,7 @@ impl<'a> Evaluation<'a> {
                 let reason = self.perform_some(reason.as_ref())?.unwrap_or_default();
                 let id = self.step_of(action.id);
                 self.push(id, What::Shutdown { reason });
-                // Nothing behind it comes about; what waits for something may never.
+                // Actions after it are not reached; event handlers may never run.
                 self.is_over = self.after.is_empty();
             }
             Deed::Transition { target, transition } => {
@@ -378,7 +378,7 @@ impl<'a> Evaluation<'a> {
                 let seconds = self.perform(seconds)?;
                 let Some(seconds) = seconds.trim().parse().ok().filter(|s: &f64| *s >= 0.0) else {
                     return Err(self
-                        .error("launch-timer", format!("`{seconds}` is no number of seconds"))
+                        .error("launch-timer", format!("`{seconds}` is not a number of seconds"))
                         .into());
                 };
                 self.run_after(Trigger::Seconds(seconds), actions);
@@ -400,7 +400,7 @@ impl<'a> Evaluation<'a> {
             Deed::Left { what } => {
                 let left = self
                     .warning("launch-left", format!("{what} is not part of the plan"))
-                    .note("everything else of the file is");
+                    .note("the rest of the file is");
                 self.found.push(left);
             }
         }
@@ -427,7 +427,10 @@ impl<'a> Evaluation<'a> {
             return Err(self
                 .error(
                     "launch-argument",
-                    format!("the argument `{name}` may be {}, not `{value}`", choices.join(", ")),
+                    format!(
+                        "the argument `{name}` must be one of {}, not `{value}`",
+                        choices.join(", ")
+                    ),
                 )
                 .guess(&value, choices.iter().map(String::as_str))
                 .into());
@@ -467,7 +470,7 @@ impl<'a> Evaluation<'a> {
         outcome
     }
 
-    /// Includes a file. What it declares and sets stays set, as `launch` has it.
+    /// Includes a file. Its declarations and settings stay in effect, as in `launch`.
     fn include(&mut self, file: &Text, arguments: &[(Text, Text)]) -> Outcome<()> {
         let file = self.perform(file)?;
         let arguments = self.perform_pairs(arguments)?;
@@ -500,8 +503,8 @@ impl<'a> Evaluation<'a> {
         Ok(())
     }
 
-    /// For a file that only a build makes, from `FILE.in` beside it: its name in its package, for which
-    /// something may stand.
+    /// Package and name of a file that only a build creates, from `FILE.in` beside it, so that a
+    /// built-in replacement can be found.
     pub(crate) fn unbuilt(&self, path: &Path) -> Option<String> {
         if self.host.kind(path).is_some() {
             return None;
@@ -513,8 +516,8 @@ impl<'a> Evaluation<'a> {
         Some(format!("package://{package}/{inner}"))
     }
 
-    /// Notes an input that is not on this machine. Planning goes on without it; a launch that is to run
-    /// refuses to start.
+    /// Records an input that is missing on this machine. Planning continues without it; a launch
+    /// that is to run refuses to start.
     pub(crate) fn note_missing(
         &mut self,
         input: MissingInput,
@@ -531,18 +534,18 @@ impl<'a> Evaluation<'a> {
         }
         let finding = finding.help(match input {
             MissingInput::Package => {
-                "name the folder that the package is in, `--resource-path FOLDER`, or add it to the \
+                "give the folder that contains the package with `--resource-path FOLDER`, or add it to the \
                  workspace"
             }
-            MissingInput::File => "check the path; a file that a build or a tool makes must exist",
+            MissingInput::File => "check the path; a generated file must exist before the launch",
         });
-        // A file that several actions need is reported once for each of them.
+        // A file needed by several actions is reported for each of them.
         if self.found.iter().all(|known| *known != finding) {
             self.found.push(finding);
         }
     }
 
-    /// Notes that a file is not on this machine.
+    /// Records that a file is missing on this machine.
     pub(crate) fn note_missing_file(&mut self, file: &str, instead: &str, origin: Option<Origin>) {
         let rest = file.strip_prefix("package:/").map(|rest| rest.trim_start_matches('/'));
         let package = rest.and_then(|rest| rest.split('/').next());
@@ -555,8 +558,8 @@ impl<'a> Evaluation<'a> {
         self.note_missing(input, format!("{file} cannot be read: {why}; {instead}"), origin, "");
     }
 
-    /// The text of a file; none, with a warning, for one that is not on this machine. `instead` tells
-    /// how the plan goes on.
+    /// Text of a file; `None`, with a warning, if it is missing. `instead` describes the
+    /// consequence for the plan.
     pub(crate) fn read_or_miss(
         &mut self,
         file: &Path,
@@ -572,8 +575,8 @@ impl<'a> Evaluation<'a> {
         Ok(None)
     }
 
-    /// The path of a file in the sources of its package, where the package's build would install it at
-    /// this path.
+    /// Path of a file in the sources of its package, if the build of the package would install it
+    /// at this path.
     pub(crate) fn in_sources(&self, path: &str) -> String {
         let found = in_sources(self.host, Path::new(path));
         found.map_or_else(|| path.to_owned(), |found| found.display().to_string())
@@ -590,7 +593,7 @@ impl<'a> Evaluation<'a> {
         });
     }
 
-    /// Sets a variable of the environment, and notes where.
+    /// Sets an environment variable, and records the position.
     fn set_variable(&mut self, name: String, value: Option<String>) {
         if let Some(written) = self.written() {
             self.context.changed_at.insert(name.clone(), written);
@@ -598,12 +601,12 @@ impl<'a> Evaluation<'a> {
         self.context.environment.insert(name, value);
     }
 
-    /// Sets the place that findings name, and returns the one before.
+    /// Sets the position of findings, and returns the previous one.
     pub(crate) fn set_place(&mut self, place: Place) -> Place {
         std::mem::replace(&mut self.place, place)
     }
 
-    /// The place of the action that is looked at: `file:line`.
+    /// Position of the current action: `file:line`.
     fn written(&self) -> Option<String> {
         match &self.place {
             Place { line: Some(line), .. } => Some(line.clone()),
@@ -621,7 +624,7 @@ impl<'a> Evaluation<'a> {
         }
     }
 
-    /// The number of the step that an action is or will be.
+    /// Step index of an action, also of a later one.
     fn step_of(&mut self, action: Option<u64>) -> usize {
         let next = self.next_step;
         let id = match action {
@@ -643,7 +646,7 @@ impl<'a> Evaluation<'a> {
         self.plan.steps.push(step);
     }
 
-    /// A name that nobody else has in this launch; the same in every launch.
+    /// Unique name in this launch; the same in every launch.
     pub(crate) fn anonymous(&mut self, name: &str) -> String {
         self.next_name += 1;
         format!("{name}_{}", self.next_name)
@@ -658,8 +661,8 @@ impl<'a> Evaluation<'a> {
             Some(Value::String(text)) => Ok(text.clone()),
             Some(value) => Ok(value.to_string()),
             None => Err(self
-                .error("launch-parameter", format!("no parameter `{name}` was set for all nodes"))
-                .help("`SetParameter` sets one; it must stand before")
+                .error("launch-parameter", format!("no global parameter `{name}` was set"))
+                .help("set it with `SetParameter` before this line")
                 .into()),
         }
     }
@@ -672,14 +675,14 @@ impl<'a> Evaluation<'a> {
             let wrong = self.error("launch-file", format!("{shown} cannot be read: {why}"));
             match shown.strip_prefix("package://").and_then(|rest| rest.split('/').next()) {
                 Some(package) => wrong.help(format!(
-                    "the package `{package}` is not on this machine: name its folder, \
+                    "the package `{package}` is not on this machine: give its folder, \
                      `--resource-path FOLDER`"
                 )),
                 None => wrong,
             }
         })?;
         String::from_utf8(bytes).map_err(|_| {
-            self.error("launch-file", format!("{} is no text in UTF-8", file.display())).into()
+            self.error("launch-file", format!("{} is not UTF-8 text", file.display())).into()
         })
     }
 
@@ -688,13 +691,13 @@ impl<'a> Evaluation<'a> {
         Ok(periplus_yaml::parse(file, self.sources)?.map_or(Value::Null, |node| value_of(&node)))
     }
 
-    /// Asks the interpreter of Python, with what holds here; takes over what it has changed.
+    /// Sends a request to the Python interpreter with the current scope; applies its changes.
     pub(crate) fn ask_python(&mut self, mut request: Value) -> Outcome<Value> {
         if self.is_asking {
-            // It waits for our answer, and cannot give one.
+            // It is waiting for our answer, and cannot handle a request.
             return Err(self
-                .error("launch-python", "an object of the launch file's own needs itself")
-                .help("a substitution or condition may not be evaluated while it is evaluated")
+                .error("launch-python", "an object defined in the launch file depends on itself")
+                .help("a substitution or condition must not evaluate itself")
                 .into());
         }
         let mut python = match self.python.take() {
@@ -713,7 +716,7 @@ impl<'a> Evaluation<'a> {
         if let Some(environment) = answer.get("environment") {
             let changed: BTreeMap<String, Option<String>> = self.decode(environment.clone())?;
             let before = std::mem::take(&mut self.context.environment);
-            // A file sets variables while it is read, and its functions at the place that calls them.
+            // A file sets variables while it is loaded, and its functions where they are called.
             let written = self.written().unwrap_or_else(|| self.context.file.display().to_string());
             for (name, value) in &changed {
                 if before.get(name) != Some(value) {
@@ -725,7 +728,7 @@ impl<'a> Evaluation<'a> {
         Ok(answer.get("answer").cloned().unwrap_or(Value::Null))
     }
 
-    /// True while the interpreter of Python works on a request, and takes no other.
+    /// True while the Python interpreter handles a request, and accepts no other.
     pub(crate) const fn is_asking(&self) -> bool {
         self.is_asking
     }
@@ -734,7 +737,7 @@ impl<'a> Evaluation<'a> {
         serde_json::from_value(value).map_err(|why| {
             self.error(
                 "launch-python",
-                format!("this launch file makes what no plan can hold: {why}"),
+                format!("this launch file creates an unsupported object: {why}"),
             )
             .into()
         })

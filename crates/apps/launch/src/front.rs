@@ -14,7 +14,7 @@ use entity::Entity;
 
 pub(crate) use text::text;
 
-/// What a file in XML or YAML says.
+/// Actions of a file in XML or YAML.
 pub(crate) fn read(
     path: &Path,
     content: &str,
@@ -32,7 +32,7 @@ pub(crate) fn read(
         let Some(launch) = root.get("launch") else {
             return Err(Diagnostic::error(
                 "launch-root",
-                "a launch file in YAML is a mapping `launch: [...]`",
+                "a YAML launch file must be a mapping `launch: [...]`",
             )
             .at(root.span)
             .into());
@@ -43,17 +43,14 @@ pub(crate) fn read(
     let document = periplus_xml::parse(file, sources, &mut findings);
     found.append(findings);
     let Some(document) = document else {
-        return Err(Diagnostic::error("launch-xml", format!("{name} is no XML that can be read"))
+        return Err(Diagnostic::error("launch-xml", format!("{name} is not valid XML"))
             .at(sources.whole(file).part(0, 0))
             .into());
     };
     if document.root.local_name() != "launch" {
         return Err(Diagnostic::error(
             "launch-root",
-            format!(
-                "a launch file begins with `<launch>`, this one with `<{}>`",
-                document.root.name
-            ),
+            format!("the root element must be `<launch>`, not `<{}>`", document.root.name),
         )
         .at(document.root.name_origin())
         .into());

@@ -1,9 +1,9 @@
-//! "Did you mean".
+//! "Did you mean" suggestions.
 
 use periplus_diagnostics::{Diagnostic, closest};
 
 pub(crate) trait Guess {
-    /// Names what was probably meant, if there is something like it.
+    /// Adds the most similar known name, if there is one.
     fn guess<'a>(self, written: &str, known: impl IntoIterator<Item = &'a str>) -> Self;
 }
 

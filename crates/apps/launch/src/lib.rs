@@ -1,9 +1,9 @@
-//! Launch files of ROS 1 and ROS 2 as a plan: what runs, with which parameters, names and environment,
-//! after conditions are decided and included files read.
+//! Launch files of ROS 1 and ROS 2 as plans: nodes and programs with their parameters, names and
+//! environment, after conditions and includes are evaluated.
 //!
-//! A plan is data. Files in Python are evaluated by an [`Interpreter`] of the caller's, which knows the
-//! modules of [`MODULES`]. The module `bringup` runs a plan; without the feature of that name the crate
-//! only makes plans, and needs neither a simulation nor a graph.
+//! A plan is data. Files in Python are evaluated by an [`Interpreter`] of the caller, which has the
+//! modules of [`MODULES`]. The module `bringup` executes a plan; without the feature of that name
+//! the crate only makes plans, and needs neither a simulation nor a graph.
 
 #[cfg(feature = "bringup")]
 pub mod bringup;
@@ -40,9 +40,9 @@ pub use plan::{
 };
 pub use stand_in::{BOOT, MODULES, MOST_MEMORY};
 
-/// What is launched, and with what.
+/// Launch file with its arguments and environment.
 pub struct Request<'a> {
-    /// The file, absolute.
+    /// Absolute path of the file.
     pub file: PathBuf,
     /// `name:=value` of the command line.
     pub arguments: Vec<(String, String)>,
@@ -54,13 +54,13 @@ pub struct Request<'a> {
     pub outside: &'a mut dyn Outside,
 }
 
-/// Makes a plan of a launch file. When a finding is an error, the plan goes up to there.
+/// Evaluates a launch file into a plan. On an error the plan is complete up to that point.
 pub fn plan(request: Request<'_>, sources: &mut SourceMap) -> (Plan, Diagnostics) {
     let (plan, found, _) = plan_with_ending(request, sources);
     (plan, found)
 }
 
-/// Makes a plan of a launch file that is to run, with what the file's own functions do at its end.
+/// Evaluates a launch file that is to run, with the functions to call at shutdown.
 pub fn plan_with_ending(
     request: Request<'_>,
     sources: &mut SourceMap,
@@ -86,7 +86,7 @@ pub fn plan_with_ending(
     (evaluation.plan, evaluation.found, ending)
 }
 
-/// Arguments of the command line that no file has asked for: a slip in a name would else be silent.
+/// Reports command-line arguments that no file declares, which could be typing errors.
 fn unused(evaluation: &mut evaluate::Evaluation<'_>, given: &[(String, String)], file: &Path) {
     if evaluation.found.has_errors() {
         return;
@@ -100,7 +100,7 @@ fn unused(evaluation: &mut evaluate::Evaluation<'_>, given: &[(String, String)],
                 format!("{} has no argument `{name}`", file.display()),
             )
             .guess(name, known)
-            .help("`--show-args` lists those it has");
+            .help("`--show-args` lists its arguments");
             evaluation.found.push(finding);
         }
     }

@@ -6,13 +6,12 @@ use periplus_resources::{Host, Kind};
 
 use crate::evaluate::Evaluation;
 
-/// Folders of a package in which its modules are kept, beside the package's own.
+/// Folders of a package that may contain modules, beside the package's own.
 const USUAL: [&str; 4] = ["src", "python", "scripts", "lib"];
 
-/// The folder in which a package around the launch file has a Python module of a name; none when no
-/// package has one.
+/// Folder of a package around the launch file that contains a Python module of this name.
 pub(crate) fn folder(evaluation: &Evaluation<'_>, module: &str) -> Option<String> {
-    // Whatever else stands in a file, a module has the name of one.
+    // A module has a name that is valid as a file name.
     if module.is_empty() || !module.chars().all(|letter| letter == '_' || letter.is_alphanumeric())
     {
         return None;
@@ -27,8 +26,8 @@ pub(crate) fn folder(evaluation: &Evaluation<'_>, module: &str) -> Option<String
         .map(|folder| folder.display().to_string())
 }
 
-/// The folders of a package that may hold modules: its own, the usual ones, and what its build files
-/// name.
+/// Folders of a package that may contain modules: its own, the common ones, and those in its build
+/// files.
 fn candidates(host: &dyn Host, package: &Path) -> Vec<PathBuf> {
     let mut folders = vec![package.to_path_buf()];
     folders.extend(USUAL.iter().map(|name| package.join(name)));
@@ -42,7 +41,7 @@ fn candidates(host: &dyn Host, package: &Path) -> Vec<PathBuf> {
             });
             for name in named.filter(|name| !name.is_empty() && !name.contains("..")).take(4) {
                 let folder = package.join(name.trim_start_matches('/'));
-                // `PACKAGE_DIR` is the module itself, `package_dir` the folder that holds it.
+                // `PACKAGE_DIR` is the module itself, `package_dir` the folder that contains it.
                 folders.extend(folder.parent().map(Path::to_path_buf));
                 folders.push(folder);
             }

@@ -1,33 +1,33 @@
-//! What launching asks of the machine beyond files and environment.
+//! Interfaces to programs and interpreters.
 
 use std::path::PathBuf;
 
 use serde_json::Value;
 
-/// What a program left behind.
+/// Result of a program.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Printed {
-    /// On its standard output.
+    /// Standard output.
     pub output: String,
-    /// On its standard error.
+    /// Standard error.
     pub errors: String,
-    /// Whether it ended well.
+    /// True if it succeeded.
     pub is_success: bool,
-    /// The cause of a failure that only an absent file or package has.
+    /// Missing input that caused the failure, if that is the only cause.
     pub missing: Option<MissingInput>,
 }
 
-/// An input of a launch that is not on this machine.
+/// Input of a launch that is missing on this machine.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum MissingInput {
-    /// A file, although its package is on the machine.
+    /// File of a package that is on the machine.
     File,
-    /// A package, with everything in it.
+    /// Package, with all its files.
     Package,
 }
 
 impl MissingInput {
-    /// The code of findings about one of this kind.
+    /// Code of findings on this kind.
     #[must_use]
     pub const fn code(self) -> &'static str {
         match self {
@@ -36,21 +36,21 @@ impl MissingInput {
         }
     }
 
-    /// The kind of input that findings of a code are about; none for other findings.
+    /// Kind of input of a finding's code; `None` for other findings.
     #[must_use]
     pub fn of(code: &str) -> Option<Self> {
         [Self::File, Self::Package].into_iter().find(|input| input.code() == code)
     }
 }
 
-/// What an interpreter has to say against a launch file.
+/// Error of an interpreter or a launch file.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Complaint {
-    /// What is wrong.
+    /// Error message.
     pub message: String,
-    /// `file:line` of the launch file, where that is known.
+    /// `file:line` of the launch file, if known.
     pub line: Option<String>,
-    /// What to do.
+    /// Suggested correction.
     pub help: Option<String>,
 }
 
@@ -60,47 +60,46 @@ impl From<String> for Complaint {
     }
 }
 
-/// Programs and places for files, for those who may not touch the machine themselves.
+/// Programs and temporary files, for code without access to the machine.
 pub trait Outside {
-    /// Runs a program to its end; `xacro` is one that is always there.
+    /// Runs a program to its end; `xacro` is always available.
     ///
     /// # Errors
-    /// Why it cannot be started.
+    /// A message when it cannot be started.
     fn run(&mut self, words: &[String]) -> Result<Printed, String>;
 
-    /// Puts a text into a file of its own that lasts as long as the launch. `name` is a wish.
+    /// Writes a text to a temporary file that exists as long as the launch. `name` is a suggestion.
     ///
     /// # Errors
-    /// Why it cannot be written.
+    /// A message when it cannot be written.
     fn scratch(&mut self, name: &str, text: &str) -> Result<PathBuf, String>;
 
-    /// An interpreter for launch files in Python.
+    /// Starts an interpreter for launch files in Python.
     ///
     /// # Errors
-    /// Why there is none.
+    /// A message when there is none.
     fn python(&mut self) -> Result<Box<dyn Interpreter>, String>;
 }
 
-/// What an interpreter asks while it answers.
+/// Callback for questions of an interpreter.
 pub type Answer<'a> = dyn FnMut(Value) -> Result<Value, String> + 'a;
 
-/// An interpreter of launch files in another process. What is said is for this crate to know.
+/// Interpreter of launch files in another process. The protocol is internal to this crate.
 pub trait Interpreter {
-    /// Sends a request and gives what comes back; questions that come before it are passed to
-    /// `answer`.
+    /// Sends a request and returns its result; questions that arrive before are passed to `answer`.
     ///
     /// # Errors
-    /// What the interpreter or the launch file has to complain about.
+    /// An error of the interpreter or the launch file.
     fn ask(&mut self, request: Value, answer: &mut Answer<'_>) -> Result<Value, Complaint>;
 }
 
-/// A machine without programs, for tests.
+/// Machine without programs, for tests.
 #[derive(Debug, Default)]
 pub struct Nothing;
 
 impl Outside for Nothing {
     fn run(&mut self, words: &[String]) -> Result<Printed, String> {
-        Err(format!("there is no `{}` here", words.first().map_or("", String::as_str)))
+        Err(format!("program `{}` does not exist", words.first().map_or("", String::as_str)))
     }
 
     fn scratch(&mut self, name: &str, _text: &str) -> Result<PathBuf, String> {
@@ -108,6 +107,6 @@ impl Outside for Nothing {
     }
 
     fn python(&mut self) -> Result<Box<dyn Interpreter>, String> {
-        Err("there is no Python here".into())
+        Err("Python is not available".into())
     }
 }

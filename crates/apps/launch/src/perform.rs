@@ -1,4 +1,4 @@
-//! Texts of launch files, resolved.
+//! Resolution of substitutions.
 
 use std::path::{Path, PathBuf};
 
@@ -15,21 +15,21 @@ use crate::tree::{Part, Substitution, Text};
 use crate::truth::truth;
 use crate::words;
 
-/// Work and memory for one expression: launch files compare words.
+/// Limits of work and memory for one expression: launch files compare strings.
 const STEPS: u64 = 100_000;
 const BYTES: u64 = 1 << 20;
 
-/// The longest text: descriptions of robots have some hundred thousand bytes.
+/// Maximum length of a text: robot descriptions have some hundred thousand bytes.
 pub(crate) const LONGEST: usize = 16 << 20;
 
-/// The use of a file that a launch would rewrite and that is not on this machine.
+/// Consequence of a missing file that a launch would rewrite.
 pub(crate) const UNCHANGED: &str = "the plan names the file itself";
 
-/// No path is longer [bytes].
+/// Maximum length of a path [bytes].
 const LONGEST_PATH: usize = 4096;
 
 impl Evaluation<'_> {
-    /// The text in full.
+    /// Resolves a text.
     pub(crate) fn perform(&mut self, text: &Text) -> Outcome<String> {
         let mut whole = String::new();
         for part in text {
@@ -40,17 +40,17 @@ impl Evaluation<'_> {
             if whole.len() > LONGEST {
                 return Err(self
                     .error("launch-size", format!("a text has more than {LONGEST} bytes"))
-                    .help("does something contain itself again and again?")
+                    .help("check for a text that contains itself")
                     .into());
             }
         }
         Ok(self.in_sources_if_path(whole))
     }
 
-    /// A text; one that is the path of a file that a package's build would install becomes the path of
-    /// the file itself.
+    /// Resolves a text; the path of a file that a package's build would install becomes the path in
+    /// its sources.
     fn in_sources_if_path(&self, text: String) -> String {
-        // A path of Python's has one slash where a URI has two.
+        // Python joins paths with one slash where a URI has two.
         if let Some(rest) = text.strip_prefix("package:/").filter(|rest| !rest.starts_with('/')) {
             return format!("package://{rest}");
         }
@@ -58,17 +58,17 @@ impl Evaluation<'_> {
         if is_path { self.in_sources(&text) } else { text }
     }
 
-    /// The text in full, if there is one.
+    /// Resolves an optional text.
     pub(crate) fn perform_some(&mut self, text: Option<&Text>) -> Outcome<Option<String>> {
         text.map(|text| self.perform(text)).transpose()
     }
 
-    /// Texts in full.
+    /// Resolves texts.
     pub(crate) fn perform_all(&mut self, texts: &[Text]) -> Outcome<Vec<String>> {
         texts.iter().map(|text| self.perform(text)).collect()
     }
 
-    /// Pairs of texts in full.
+    /// Resolves pairs of texts.
     pub(crate) fn perform_pairs(
         &mut self,
         pairs: &[(Text, Text)],
@@ -76,13 +76,13 @@ impl Evaluation<'_> {
         pairs.iter().map(|(a, b)| Ok((self.perform(a)?, self.perform(b)?))).collect()
     }
 
-    /// Whether a text is true.
+    /// Resolves a text as a Boolean.
     pub(crate) fn truth_of(&mut self, text: &Text) -> Outcome<bool> {
         let said = self.perform(text)?;
         truth(&said).ok_or_else(|| {
             self.error(
                 "launch-condition",
-                format!("a condition must be `true`, `1`, `false` or `0`, and this says `{said}`"),
+                format!("a condition must be `true`, `1`, `false` or `0`, not `{said}`"),
             )
             .into()
         })
@@ -107,7 +107,7 @@ impl Evaluation<'_> {
                         return Err(self
                             .error(
                                 "launch-environment",
-                                format!("the environment has no variable `{name}`"),
+                                format!("the environment variable `{name}` is not set"),
                             )
                             .help(format!(
                                 "set it for the launch, `{name}=VALUE periplus launch ...`, or give \
@@ -155,7 +155,7 @@ impl Evaluation<'_> {
             Substitution::Equals { a, b } => word(self.same(a, b)?),
             Substitution::NotEquals { a, b } => word(!self.same(a, b)?),
             Substitution::All { of } => {
-                // Each is looked at: one that is no truth is an error wherever it stands.
+                // All are evaluated: a value that is not a Boolean is an error in any position.
                 let truths: Vec<bool> =
                     of.iter().map(|text| self.truth_of(text)).collect::<Outcome<_>>()?;
                 word(truths.into_iter().all(|is| is))
@@ -248,7 +248,7 @@ impl Evaluation<'_> {
 
     fn same(&mut self, a: &Text, b: &Text) -> Outcome<bool> {
         let (a, b) = (self.perform(a)?, self.perform(b)?);
-        // Truths and numbers are equal however they are spelt.
+        // Booleans and numbers are equal in any notation.
         if let (Some(a), Some(b)) = (truth(&a), truth(&b)) {
             return Ok(a == b);
         }
@@ -260,18 +260,13 @@ impl Evaluation<'_> {
 
     fn no_configuration(&self, name: &str) -> Box<Diagnostic> {
         let known = self.context.configurations.keys().map(String::as_str);
-        self.error(
-            "launch-configuration",
-            format!("nothing has set the launch configuration `{name}`"),
-        )
-        .guess(name, known)
-        .help(format!(
-            "declare the argument `{name}` before it is used, or give it: `{name}:=VALUE`"
-        ))
-        .into()
+        self.error("launch-configuration", format!("the launch configuration `{name}` is not set"))
+            .guess(name, known)
+            .help(format!("declare the argument `{name}` before its use, or pass `{name}:=VALUE`"))
+            .into()
     }
 
-    /// The folder of a package, or what stands for one that is not here.
+    /// Folder of a package, or a placeholder for a missing one.
     pub(crate) fn package(&mut self, name: &str, is_prefix: bool) -> String {
         match self.resolver.find_package(name, &self.context.file) {
             Ok(folder) if is_prefix => crate::python::prefix(&folder),
@@ -283,8 +278,12 @@ impl Evaluation<'_> {
                             "launch-package",
                             format!("the package `{name}` is not on this machine"),
                         )
-                        .note(format!("files in it are called `package://{name}/...` in the plan"))
-                        .help("if it is somewhere here, name its folder: `--resource-path FOLDER`");
+                        .note(format!(
+                            "its files are written as `package://{name}/...` in the plan"
+                        ))
+                        .help(
+                            "if it is on this machine, give its folder: `--resource-path FOLDER`",
+                        );
                     self.found.push(missing);
                 }
                 format!("package://{name}")
@@ -292,8 +291,8 @@ impl Evaluation<'_> {
         }
     }
 
-    /// What a program prints; nothing, with a warning, when it or a file that it is given lies in a
-    /// package that is not here.
+    /// Output of a program; empty, with a warning, when it or a file that it is given is in a
+    /// missing package.
     pub(crate) fn command(&mut self, line: &str, on_stderr: &str) -> Outcome<String> {
         let printed = match self.ran(line)? {
             Ok(printed) => printed,
@@ -303,15 +302,14 @@ impl Evaluation<'_> {
             }
         };
         let heard = self
-            .warning(
-                "launch-command",
-                format!("`{}` has written to its standard error", short(line)),
-            )
+            .warning("launch-command", format!("`{}` wrote to its standard error", short(line)))
             .note(printed.errors.trim().to_owned());
         match on_stderr {
             "fail" if !printed.errors.is_empty() => {
                 let wrong = Diagnostic { severity: Severity::Error, ..heard };
-                Err(wrong.help("give `Command` `on_stderr='warn'` to go on nevertheless").into())
+                Err(wrong
+                    .help("pass `on_stderr='warn'` to `Command` to continue nevertheless")
+                    .into())
             }
             "warn" if !printed.errors.is_empty() => {
                 self.found.push(heard);
@@ -322,7 +320,7 @@ impl Evaluation<'_> {
         }
     }
 
-    /// Warns of a command that was not run. `instead` tells how the plan goes on.
+    /// Warns of a command that was not run. `instead` describes the consequence for the plan.
     pub(crate) fn note_not_run(
         &mut self,
         line: &str,
@@ -347,18 +345,18 @@ impl Evaluation<'_> {
         }
     }
 
-    /// The output of a command; the reason when it cannot be run here.
+    /// Output of a command; the reason when it cannot be run here.
     ///
     /// # Errors
-    /// It is no command, or it fails.
+    /// When it is not a command, or it fails.
     pub(crate) fn ran(&mut self, line: &str) -> Outcome<Result<Printed, NotRun>> {
         let Some(mut words) = words::split(line).filter(|words| !words.is_empty()) else {
             return Err(self
-                .error("launch-command", format!("no command can be read from `{line}`"))
+                .error("launch-command", format!("cannot parse the command `{line}`"))
                 .help("close every quote")
                 .into());
         };
-        // The program may be one that is built in.
+        // The program may be built in.
         if let Some(word) = words[1..].iter().find(|word| word.starts_with("package://")) {
             let package = word["package://".len()..].split('/').next().unwrap_or_default();
             let why = format!("the package `{package}` is not on this machine");
@@ -374,7 +372,7 @@ impl Evaluation<'_> {
         if let Some(missing) = printed.missing {
             let why = match missing {
                 MissingInput::Package => "a package that it needs is not on this machine",
-                MissingInput::File => "a file that it needs is not there",
+                MissingInput::File => "a file that it needs does not exist",
             };
             let errors = printed.errors.trim().to_owned();
             return Ok(Err(NotRun::Missing(missing, why.to_owned(), errors)));
@@ -393,11 +391,11 @@ impl Evaluation<'_> {
         path.split(':')
             .map(|folder| Path::new(folder).join(name))
             .find(|program| self.host.kind(program) == Some(Kind::File))
-            // Whoever starts it knows programs of ours, and says what is missing.
+            // The runner knows built-in programs, and reports missing ones.
             .map_or_else(|| name.to_owned(), |program| program.display().to_string())
     }
 
-    /// The value of an expression of Python, as text.
+    /// Value of a Python expression, as text.
     pub(crate) fn expression(&mut self, expression: &str) -> Outcome<String> {
         let mut budget = Budget::new(STEPS, BYTES);
         let value = Expression::parse(expression)
@@ -415,8 +413,10 @@ impl Evaluation<'_> {
         {
             return Ok(text.to_owned());
         }
-        let mut wrong = self
-            .error("launch-expression", format!("`{expression}` has no value: {}", error.message));
+        let mut wrong = self.error(
+            "launch-expression",
+            format!("cannot evaluate `{expression}`: {}", error.message),
+        );
         if let Some(help) = error.help {
             wrong = wrong.help(help);
         }
@@ -432,31 +432,31 @@ impl Evaluation<'_> {
         match self.outside.scratch(name, text) {
             Ok(path) => Ok(path.display().to_string()),
             Err(why) => Err(self
-                .error("launch-file", format!("a file made from {like} cannot be written: {why}"))
+                .error("launch-file", format!("cannot write a copy of {like}: {why}"))
                 .into()),
         }
     }
 }
 
-/// The reason for a command without output.
+/// Reason of a command without output.
 pub(crate) enum NotRun {
-    /// The program is not on this machine, or may not run.
+    /// The program is not on this machine, or must not run.
     Refused(String),
-    /// Something that it is given is not on this machine: the reason, and its own errors.
+    /// An input is missing on this machine: the reason, and its own errors.
     Missing(MissingInput, String, String),
 }
 
-/// A command with its blanks put together, for messages.
+/// Command with collapsed white space, for messages.
 pub(crate) fn short(line: &str) -> String {
     line.split_whitespace().collect::<Vec<_>>().join(" ")
 }
 
-/// A truth as Python writes it, which is how launch files hand it on.
+/// Boolean in Python syntax, as launch files pass it on.
 fn word(truth: bool) -> String {
     if truth { "True".into() } else { "False".into() }
 }
 
-/// Parts of a path, joined as Python does: one that is absolute begins anew.
+/// Joins parts of a path as Python does: an absolute part restarts the path.
 fn join_path(parts: &[String]) -> String {
     let mut whole = String::new();
     for part in parts {

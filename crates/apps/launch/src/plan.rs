@@ -1,251 +1,250 @@
-//! What is to run: plain data, with every condition decided and every text resolved.
+//! Launch plan: plain data, with all conditions and substitutions evaluated.
 
 use std::collections::BTreeMap;
 
 use serde::Serialize;
 use serde_json::Value;
 
-/// Everything that a launch file asks for.
+/// Evaluated launch file.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct Plan {
-    /// The arguments that the file and those included by it take, in order of appearance.
+    /// Arguments of the file and of included files, in order of appearance.
     pub arguments: Vec<Argument>,
-    /// Parameters of no node's own, by full name: those of ROS 1's parameter server.
+    /// Parameters of the ROS 1 parameter server by full name, without those of nodes.
     #[serde(skip_serializing_if = "BTreeMap::is_empty")]
     pub parameters: BTreeMap<String, Value>,
-    /// What happens, in the order in which the files say it.
+    /// Steps, in the order of the files.
     pub steps: Vec<Step>,
 }
 
-/// An argument of a launch file.
+/// Argument of a launch file.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Argument {
-    /// Its name, as in `name:=value`.
+    /// Name, as in `name:=value`.
     pub name: String,
-    /// What it is for.
+    /// Description.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub description: Option<String>,
-    /// Its value when none is given; without one it must be given.
+    /// Default value; the argument is required if there is none.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub default: Option<String>,
-    /// The values it may have; any when empty.
+    /// Allowed values; any if empty.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub choices: Vec<String>,
-    /// The value that this plan was made with, if the file was evaluated so far.
+    /// Value used for this plan, if evaluated.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub value: Option<String>,
 }
 
-/// One thing that happens.
+/// One step of a plan.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Step {
-    /// Its number in the plan, by which others refer to it.
+    /// Index in the plan, by which others refer to it.
     pub id: usize,
-    /// What must have happened before, one after the other; nothing for what happens at once.
+    /// Triggers that must have occurred before, one after another; empty for immediate steps.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub after: Vec<Trigger>,
-    /// What happens.
+    /// Action of the step.
     #[serde(flatten)]
     pub what: What,
-    /// Where it is written: `file:line`.
+    /// Position in the launch file: `file:line`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub written: Option<String>,
-    /// Variables of the environment that the launch file has changed before this step, with the place of
-    /// each change. Scoped groups undo theirs at their end.
+    /// Environment variables that the launch file changed before this step, with the position of
+    /// each change. Scoped groups restore theirs at their end.
     #[serde(rename = "launch_environment", skip_serializing_if = "BTreeMap::is_empty")]
     pub environment: BTreeMap<String, Variable>,
 }
 
-/// A variable of the environment as a launch file has changed it.
+/// Environment variable changed by a launch file.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct Variable {
-    /// Its value; none for one that was unset.
+    /// Value; `None` if unset.
     pub value: Option<String>,
-    /// Place of the change: `file:line`.
+    /// Position of the change: `file:line`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub written: Option<String>,
 }
 
-/// What a step waits for.
+/// Trigger of a step.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Trigger {
-    /// Time goes by.
+    /// Time elapsed.
     Seconds(f64),
-    /// A step has been started; any when it names none.
+    /// A step was started; any if `None`.
     Started(Option<usize>),
-    /// A step has ended; any when it names none.
+    /// A step has ended; any if `None`.
     Ended(Option<usize>),
-    /// A step has printed something.
+    /// A step has printed output.
     Printed(Option<usize>),
-    /// A managed node has gone from a state to another.
+    /// A lifecycle node made a transition.
     Reached {
-        /// Which; any when it names none.
+        /// Step of the node; any if `None`.
         step: Option<usize>,
-        /// From where, if that matters.
+        /// Start state, if specified.
         from: Option<String>,
-        /// To where.
+        /// Goal state.
         to: Option<String>,
     },
-    /// Everything is about to end.
+    /// Shutdown begins.
     Shutdown,
 }
 
-/// What happens in a step.
+/// Action of a step.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[serde(tag = "kind", rename_all = "snake_case")]
 pub enum What {
-    /// A node is started.
+    /// Start a node.
     Node(Box<Node>),
-    /// Components are loaded into a container.
+    /// Load components into a container.
     Load {
-        /// The full name of the container.
+        /// Full name of the container.
         container: String,
-        /// The components.
+        /// Components.
         components: Vec<Component>,
     },
-    /// A program that is no node is started.
+    /// Start a process that is not a node.
     Process(Process),
-    /// A managed node is asked for a transition.
+    /// Request a transition of a lifecycle node.
     Transition {
-        /// Which one; all when it names none.
+        /// Node; all if `None`.
         step: Option<usize>,
         /// `configure`, `activate`, ...
         transition: String,
     },
-    /// Something is said.
+    /// Log a message.
     Log {
         /// `info`, `warning`, ...
         level: String,
-        /// What.
+        /// Text.
         text: String,
     },
-    /// A launch file that is in no package that can be found. What runs instead of it is for those to
-    /// say who know the package.
+    /// Launch file of a package that cannot be found. The runner may have a replacement.
     Include {
-        /// The file; one of a package that is not here is `package://NAME/...`.
+        /// File; of a missing package `package://NAME/...`.
         file: String,
-        /// What it is given.
+        /// Arguments.
         arguments: BTreeMap<String, String>,
     },
-    /// Everything ends.
+    /// Shut down.
     Shutdown {
-        /// Why.
+        /// Reason.
         reason: String,
     },
 }
 
-/// A node to start.
+/// Node to start.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct Node {
-    /// The package of the program; none for a program that is named by its path.
+    /// Package of the program; `None` for a program given by its path.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub package: Option<String>,
-    /// The program.
+    /// Program.
     pub executable: String,
-    /// What it is called, and what it is given.
+    /// Name, namespace, parameters and remappings.
     #[serde(flatten)]
     pub identity: Identity,
-    /// The program's arguments.
+    /// Arguments of the program.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub arguments: Vec<String>,
-    /// What stands behind `--ros-args` beside names and parameters.
+    /// Arguments after `--ros-args` other than names and parameters.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub ros_arguments: Vec<String>,
-    /// Whether its life is managed (`lifecycle_msgs`).
+    /// True for a lifecycle node.
     #[serde(skip_serializing_if = "is_false")]
     pub is_lifecycle: bool,
-    /// For a container, what is loaded into it at once.
+    /// Components of a container, loaded at start.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub components: Vec<Component>,
-    /// How the program runs.
+    /// Process settings.
     #[serde(flatten)]
     pub running: Running,
 }
 
-/// What a node is called, and what it is given.
+/// Name, namespace, parameters and remappings of a node.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct Identity {
-    /// The name it is given; its own when none.
+    /// Node name; the default of the program if `None`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub name: Option<String>,
-    /// The namespace, absolute; none when its own holds.
+    /// Absolute namespace; the default of the program if `None`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub namespace: Option<String>,
-    /// Parameters, later ones over earlier ones.
+    /// Parameters; later ones override earlier ones.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub parameters: Vec<Parameters>,
-    /// Names that are replaced: from, to.
+    /// Remappings: from, to.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub remaps: Vec<(String, String)>,
 }
 
-/// A component that is loaded into a container.
+/// Component of a container.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct Component {
-    /// The package.
+    /// Package.
     pub package: String,
-    /// The class: `nav2_amcl::AmclNode`.
+    /// Class, such as `nav2_amcl::AmclNode`.
     pub plugin: String,
-    /// What it is called, and what it is given.
+    /// Name, namespace, parameters and remappings.
     #[serde(flatten)]
     pub identity: Identity,
 }
 
-/// A program that is no node.
+/// Process that is not a node.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct Process {
-    /// Its words; through a shell it is one text.
+    /// Words of the command; a single text if run through a shell.
     pub command: Vec<String>,
-    /// Whether a shell reads the command.
+    /// True to run the command through a shell.
     #[serde(skip_serializing_if = "is_false")]
     pub is_shell: bool,
-    /// A name for messages.
+    /// Name for messages.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub name: Option<String>,
-    /// How it runs.
+    /// Process settings.
     #[serde(flatten)]
     pub running: Running,
 }
 
-/// How a program runs.
+/// Settings of a process.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct Running {
-    /// Words before the program: `gdb -ex run --args`.
+    /// Prefix of the command: `gdb -ex run --args`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub prefix: Option<String>,
-    /// The folder it runs in.
+    /// Working folder.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub folder: Option<String>,
-    /// Variables of the environment that differ from the launch's own; null for one that is taken away.
+    /// Environment variables that differ from those of the launch; null for an unset one.
     #[serde(skip_serializing_if = "BTreeMap::is_empty")]
     pub environment: BTreeMap<String, Option<String>>,
-    /// True if the program gets the variables of `environment` alone, and none of the launch's own: `env=`
-    /// of `ExecuteProcess`.
+    /// True if the process gets the variables of `environment` only, without those of the launch:
+    /// `env=` of `ExecuteProcess`.
     #[serde(skip_serializing_if = "is_false")]
     pub replaces_environment: bool,
-    /// Where its output goes: `screen`, `log`, `both`, ...
+    /// Output destination: `screen`, `log`, `both`, ...
     #[serde(skip_serializing_if = "Option::is_none")]
     pub output: Option<String>,
-    /// Whether it is started again when it ends, and after how many seconds.
+    /// Delay before a respawn [s]; `None` for no respawn.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub respawn_after_s: Option<f64>,
-    /// Whether everything ends with it.
+    /// True if its end shuts the launch down.
     #[serde(skip_serializing_if = "is_false")]
     pub is_required: bool,
 }
 
-/// Parameters as they are given to a node.
+/// Parameters of a node.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Parameters {
     /// Values by name; members of groups are joined with dots.
     Values(BTreeMap<String, Value>),
-    /// A file of `ros2 param dump`'s form.
+    /// File in the format of `ros2 param dump`.
     File(String),
 }
 
-#[expect(clippy::trivially_copy_pass_by_ref, reason = "as serde asks it")]
+#[expect(clippy::trivially_copy_pass_by_ref, reason = "required by serde")]
 fn is_false(value: &bool) -> bool {
     !value
 }

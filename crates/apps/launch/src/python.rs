@@ -1,7 +1,7 @@
-//! What is said to the interpreter of launch files in Python, and what it asks. One line of JSON each way:
-//! `{"ask": "load" | "call" | "for_each" | "perform" | "holds" | "expression", ..., "context": {...}}` is answered by
-//! `{"answer": ..., "configurations": {...}, "environment": {...}}`; the latter two are what a function of
-//! the launch file has changed.
+//! Protocol of the interpreter of Python launch files. One line of JSON in each direction: `{"ask":
+//! "load" | "call" | "for_each" | "perform" | "holds" | "expression", ..., "context": {...}}` is
+//! answered by `{"answer": ..., "configurations": {...}, "environment": {...}}`; the latter two
+//! contain the changes made by a function of the launch file.
 
 use std::path::Path;
 
@@ -14,7 +14,7 @@ use crate::modules;
 use crate::outside::Complaint;
 use crate::tree::{Condition, Place, Text};
 
-/// Answers what a launch file asks while it is evaluated.
+/// Answers a question that a launch file asks during its evaluation.
 pub(crate) fn answer(evaluation: &mut Evaluation<'_>, question: &Value) -> Result<Value, String> {
     let text = |name: &str| question[name].as_str().unwrap_or_default().to_owned();
     let before = evaluation.context.clone();
@@ -59,20 +59,20 @@ pub(crate) fn answer(evaluation: &mut Evaluation<'_>, question: &Value) -> Resul
             .map(Value::from)
             .map_err(|wrong| in_words(&wrong)),
         "yaml" => evaluation.yaml("text", &text("text")).map_err(|wrong| in_words(&wrong)),
-        other => Err(format!("`{other}` is no question")),
+        other => Err(format!("unknown question `{other}`")),
     };
     evaluation.context = before;
     evaluation.set_place(place);
     answer
 }
 
-/// A finding in one text, for the way through Python.
+/// Finding as one text, to be passed through Python.
 fn in_words(wrong: &Diagnostic) -> String {
     let further = wrong.notes.iter().chain(&wrong.help);
     std::iter::once(&wrong.message).chain(further).cloned().collect::<Vec<_>>().join("; ")
 }
 
-/// The text of an expanded file; null, with a warning, for one that needs files which are not on this
+/// Text of an expanded file; null, with a warning, if files that it needs are missing on this
 /// machine.
 fn xacro(evaluation: &mut Evaluation<'_>, question: &Value) -> Result<Value, String> {
     let file = question["file"].as_str().unwrap_or_default();
@@ -97,14 +97,14 @@ fn xacro(evaluation: &mut Evaluation<'_>, question: &Value) -> Result<Value, Str
     Ok(printed.output.into())
 }
 
-/// The prefix of a package's folder: that of an installed one is PREFIX/share/NAME, one that is not
-/// installed is its own.
+/// Prefix of a package's folder: PREFIX/share/NAME of an installed one; otherwise the folder
+/// itself.
 pub(crate) fn prefix(folder: &Path) -> String {
     let share = folder.parent().filter(|above| above.ends_with("share"));
     share.and_then(Path::parent).unwrap_or(folder).display().to_string()
 }
 
-/// What went wrong in a launch file, as a finding.
+/// Converts an error of a launch file to a finding.
 pub(crate) fn complaint(evaluation: &Evaluation<'_>, why: &Complaint) -> Box<Diagnostic> {
     let message = match &why.line {
         Some(line) => format!("{line}: {}", why.message.trim()),

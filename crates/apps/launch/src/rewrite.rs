@@ -1,10 +1,10 @@
-//! Files of parameters with some of them replaced, as `nav2_common` does it.
+//! Parameter files with replaced values, as `RewrittenYaml` of `nav2_common`.
 
 use serde_json::{Map, Value};
 
 use crate::truth::truth;
 
-/// What is replaced.
+/// Replacements.
 pub(crate) struct Rewriting {
     /// Values by a key, or by a path of keys with dots.
     pub(crate) values_by_key: Vec<(String, String)>,
@@ -12,18 +12,18 @@ pub(crate) struct Rewriting {
     pub(crate) keys: Vec<(String, String)>,
     /// Values by values.
     pub(crate) values: Vec<(String, String)>,
-    /// The key that all is put under.
+    /// Root key to wrap the file in.
     pub(crate) root: Option<String>,
-    /// Whether texts become the numbers and truths that they say.
+    /// True to convert texts to numbers and Booleans.
     pub(crate) convert: bool,
 }
 
 impl Rewriting {
-    /// The tree with everything replaced.
+    /// Applies the replacements to a tree.
     pub(crate) fn apply(&self, tree: &Value) -> Value {
         let mut tree = self.replaced(tree, "");
         for (path, value) in &self.values_by_key {
-            // A path down to a node's parameters is set even where the file does not have it.
+            // A path to a parameter of a node is set even if the file does not have it.
             if path.contains(".ros__parameters.") {
                 set(&mut tree, path.split('.'), self.value(value));
             }
@@ -95,7 +95,7 @@ fn set<'a>(tree: &mut Value, mut path: impl Iterator<Item = &'a str>, value: Val
     }
 }
 
-/// Whether a file of parameters has some for a node of this name.
+/// Returns true if a parameter file has an entry for a node of this name.
 pub(crate) fn has_node(tree: &Value, node: &str) -> bool {
     tree.as_object().is_some_and(|entries| entries.contains_key(node))
 }

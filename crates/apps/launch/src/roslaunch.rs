@@ -1,5 +1,5 @@
-//! Launch files of ROS 1. The rules are those of `roslaunch`: arguments belong to one file, a group has a
-//! scope, parameters live on a server and have full names.
+//! ROS 1 launch files, with the rules of `roslaunch`: arguments belong to one file, a group has a
+//! scope, parameters are on a server under full names.
 
 mod arguments;
 mod node;
@@ -19,13 +19,13 @@ use crate::guess::Guess as _;
 use crate::plan::{Variable, What};
 use crate::truth::truth;
 
-/// How deep files may include each other.
+/// Maximum depth of includes.
 const DEEPEST: usize = 50;
 
-/// How many elements a launch may have, includes counted each time.
+/// Maximum number of elements of a launch, with repeated includes.
 const MOST_ELEMENTS: usize = 100_000;
 
-/// Makes the plan of a file.
+/// Evaluates a file into a plan.
 pub(crate) fn launch(
     evaluation: &mut Evaluation<'_>,
     file: &Path,
@@ -41,32 +41,32 @@ pub(crate) fn launch(
     loader.file(file, scope, 0)
 }
 
-/// What holds at a place in a file.
+/// Scope of a position in a file.
 #[derive(Clone, Default)]
 struct Scope {
     file: PathBuf,
-    /// Absolute.
+    /// Absolute namespace.
     namespace: String,
-    /// Arguments that have a value.
+    /// Arguments with a value.
     arguments: BTreeMap<String, String>,
-    /// Arguments that whoever includes the file has given.
+    /// Arguments given by the including file or the command line.
     given: BTreeMap<String, String>,
-    /// How many files include this one.
+    /// Depth of includes.
     depth: usize,
-    /// Whether given arguments that the file does not have are passed on in silence.
+    /// True to pass undeclared arguments on silently.
     is_passing_all: bool,
     environment: BTreeMap<String, Option<String>>,
-    /// Places of the changes of the environment, as `file:line`.
+    /// Positions of environment changes, as `file:line`.
     changed_at: BTreeMap<String, String>,
     remaps: Vec<(String, String)>,
-    /// Parameters `~name` for all nodes that follow.
+    /// Parameters `~name` for all later nodes.
     private: Vec<(String, Value)>,
 }
 
 struct Loader<'l, 'e> {
     evaluation: &'l mut Evaluation<'e>,
     elements: usize,
-    /// Names of `$(anon ...)`: the same name gives the same in all files.
+    /// Names of `$(anon ...)`: the same name gives the same result in all files.
     anonymous: BTreeMap<String, String>,
     next_step: usize,
 }
@@ -76,9 +76,9 @@ impl Loader<'_, '_> {
         if depth == DEEPEST {
             return Err(Diagnostic::error(
                 "launch-include",
-                format!("launch files include each other more than {DEEPEST} deep"),
+                format!("includes are nested more than {DEEPEST} levels deep"),
             )
-            .help("a file that includes itself needs an `if` that ends this")
+            .help("a file that includes itself needs an `if` that ends the recursion")
             .into());
         }
         let document = self.read(path)?;
@@ -107,7 +107,7 @@ impl Loader<'_, '_> {
         let name = path.display().to_string();
         let file = self.evaluation.sources.add(name.as_str(), text);
         for at in slips {
-            let slip = Diagnostic::warning("launch-xml", "`/-->` closes no comment")
+            let slip = Diagnostic::warning("launch-xml", "`/-->` is not the end of a comment")
                 .at(self.evaluation.sources.whole(file).part(at + 2, at + 4))
                 .help("it is read as `/>`");
             self.evaluation.found.push(slip);
@@ -119,18 +119,13 @@ impl Loader<'_, '_> {
             Some(document) if document.root.local_name() == "launch" => Ok(document),
             Some(document) => Err(Diagnostic::error(
                 "launch-root",
-                format!(
-                    "a launch file begins with `<launch>`, this one with `<{}>`",
-                    document.root.name
-                ),
+                format!("the root element must be `<launch>`, not `<{}>`", document.root.name),
             )
             .at(document.root.name_origin())
             .into()),
-            None => {
-                Err(Diagnostic::error("launch-xml", format!("{name} is no XML that can be read"))
-                    .help("mend the XML error that is shown before this one")
-                    .into())
-            }
+            None => Err(Diagnostic::error("launch-xml", format!("{name} is not valid XML"))
+                .help("correct the XML error that is shown before this one")
+                .into()),
         }
     }
 
@@ -157,15 +152,11 @@ impl Loader<'_, '_> {
         Ok(())
     }
 
-    /// Whether `if` and `unless` let an element be.
+    /// Evaluates `if` and `unless` of an element.
     fn is_wanted(&mut self, element: &Element, scope: &Scope) -> Outcome<bool> {
         let (only_if, unless) = (element.attribute("if"), element.attribute("unless"));
         if only_if.is_some() && unless.is_some() {
-            return Err(wrong(
-                "launch-condition",
-                "an element has `if` or `unless`, not both",
-                element,
-            ));
+            return Err(wrong("launch-condition", "use `if` or `unless`, not both", element));
         }
         for (attribute, wanted) in [(only_if, true), (unless, false)] {
             if let Some(attribute) = attribute {
@@ -180,10 +171,7 @@ impl Loader<'_, '_> {
         truth(&said).ok_or_else(|| {
             Diagnostic::error(
                 "launch-condition",
-                format!(
-                    "`{}` must be `true`, `1`, `false` or `0`, and this says `{said}`",
-                    attribute.name
-                ),
+                format!("`{}` must be `true`, `1`, `false` or `0`, not `{said}`", attribute.name),
             )
             .at(attribute.value_origin)
             .into()
@@ -211,14 +199,14 @@ impl Loader<'_, '_> {
                 let mut inner = scope.clone();
                 self.enter(element, &mut inner)?;
                 self.children(element, &mut inner, depth)?;
-                // Arguments know no scope but the file.
+                // The scope of an argument is the whole file.
                 scope.arguments = inner.arguments;
                 Ok(())
             }
             "include" => self.include(element, scope, depth),
             "node" => self.node(element, scope),
             "machine" => {
-                self.left(element, "everything runs on this machine, whatever `<machine>` says");
+                self.left(element, "`<machine>` is ignored: everything runs on this machine");
                 Ok(())
             }
             "test" => {
@@ -231,7 +219,7 @@ impl Loader<'_, '_> {
                     "rosparam", "test",
                 ];
                 let unknown =
-                    Diagnostic::warning("launch-element", format!("nothing is called `<{other}>`"))
+                    Diagnostic::warning("launch-element", format!("unknown element `<{other}>`"))
                         .at(element.name_origin())
                         .guess(other, KNOWN);
                 self.evaluation.found.push(unknown);
@@ -240,7 +228,7 @@ impl Loader<'_, '_> {
         }
     }
 
-    /// The namespace and cleared parameters of a group or an included file.
+    /// Namespace and cleared parameters of a group or an included file.
     fn enter(&mut self, element: &Element, scope: &mut Scope) -> Outcome<()> {
         if let Some(namespace) = self.optional(element, "ns", scope)? {
             scope.namespace = within(&scope.namespace, &namespace);
@@ -286,7 +274,7 @@ impl Loader<'_, '_> {
                     self.set_variable(child, &mut inner, name, value);
                 }
                 other => {
-                    let message = format!("`<{other}>` means nothing in `<include>`");
+                    let message = format!("unknown element `<{other}>` in `<include>`");
                     let finding =
                         Diagnostic::warning("launch-element", message).at(child.name_origin());
                     self.evaluation.found.push(finding);
@@ -344,7 +332,7 @@ impl Loader<'_, '_> {
         scope.environment.insert(name, Some(value));
     }
 
-    /// The place of an element: `file:line`.
+    /// Position of an element: `file:line`.
     fn written(&self, element: &Element) -> Option<String> {
         element.name_origin().0.map(|span| {
             let (file, position) = self.evaluation.sources.locate(span);
@@ -374,7 +362,7 @@ fn wrong_at(code: &'static str, message: String, origin: &Origin) -> Box<Diagnos
     Diagnostic::error(code, message).at(*origin).into()
 }
 
-/// The text with `/-->` that closes no comment read as `/>`, as a tutorial has it, and where it stood.
+/// Replaces `/-->` outside a comment by `/>`, a typing error of a tutorial; returns the positions.
 fn mended(text: &str) -> (String, Vec<usize>) {
     let mut out = text.to_owned();
     let mut slips = Vec::new();

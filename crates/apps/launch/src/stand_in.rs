@@ -1,13 +1,14 @@
-//! The modules in Python that stand in for those of ROS while a launch file is evaluated, in
-//! `crates/apps/launch/python`. Modules that only repeat names of others are in the tables of
+//! Python modules that replace those of ROS during the evaluation of a launch file, from
+//! `crates/apps/launch/python`. Modules that only re-export names are in the tables of
 //! `crates/apps/launch/python/submodules.py`.
 
-/// What the interpreter runs: `python3 -c BOOT`. Its first line is a JSON object with [`MODULES`] as
-/// `modules` and [`MOST_MEMORY`] as `most_memory`; then it answers requests, line by line.
+/// Program of the interpreter: `python3 -c BOOT`. Its first input line is a JSON object with
+/// [`MODULES`] as `modules` and [`MOST_MEMORY`] as `most_memory`; then it answers requests, line by
+/// line.
 pub const BOOT: &str = include_str!("../python/boot.py");
 
-/// The most memory that an interpreter may take [bytes]: launch files take some ten megabytes, and those
-/// that load numerical libraries some hundred.
+/// Memory limit of an interpreter \[bytes\]: launch files need about ten megabytes, and those that
+/// load numerical libraries some hundred.
 pub const MOST_MEMORY: u64 = 4 << 30;
 
 /// Modules by name.

@@ -1,4 +1,4 @@
-//! What a launch file of ROS 2 says, before anything is decided. XML, YAML and Python all become this.
+//! Syntax tree of ROS 2 launch files. XML, YAML and Python are converted to it.
 
 use std::collections::BTreeMap;
 
@@ -6,15 +6,15 @@ use periplus_diagnostics::Span;
 use serde::Deserialize;
 use serde_json::Value;
 
-/// A text in parts that are resolved one by one and joined.
+/// Text in parts that are resolved one by one and joined.
 pub(crate) type Text = Vec<Part>;
 
-/// Where something is written.
+/// Position in a source.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct Place {
-    /// In a file that was read here.
+    /// Span in a file that was parsed here.
     pub(crate) span: Option<Span>,
-    /// In one that Python read: `file:line`.
+    /// `file:line` of a file that Python evaluated.
     pub(crate) line: Option<String>,
 }
 
@@ -30,36 +30,36 @@ impl From<Span> for Place {
     }
 }
 
-/// A part of a text.
+/// Part of a text.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(untagged)]
 pub(crate) enum Part {
-    /// As it stands.
+    /// Literal text.
     Plain(String),
-    /// What is put in its place.
+    /// Substitution.
     Substitution(Box<Substitution>),
 }
 
-/// What is put in the place of something, when it is needed.
+/// Substitution, resolved when needed.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(tag = "sub", rename_all = "snake_case")]
 pub(crate) enum Substitution {
-    /// The value of an argument or configuration.
+    /// Value of an argument or configuration.
     Configuration {
         name: Text,
         default: Option<Text>,
     },
-    /// A variable of the environment.
+    /// Environment variable.
     Environment {
         name: Text,
         default: Option<Text>,
     },
-    /// Texts after another.
+    /// Concatenated texts.
     Join {
         parts: Vec<Text>,
         separator: Option<Text>,
     },
-    /// A path from parts.
+    /// Path joined from parts.
     Path {
         parts: Vec<Text>,
     },
@@ -69,51 +69,51 @@ pub(crate) enum Substitution {
         #[serde(default)]
         is_prefix: bool,
     },
-    /// What a program prints.
+    /// Output of a program.
     Command {
         command: Text,
         on_stderr: Option<Text>,
     },
-    /// A program on the path.
+    /// Program on the PATH.
     Executable {
         name: Text,
     },
-    /// A program of a package.
+    /// Program of a package.
     ExecutableInPackage {
         package: Text,
         executable: Text,
     },
-    /// The value of an expression of Python.
+    /// Value of a Python expression.
     Expression {
         expression: Text,
     },
-    /// The content of a file.
+    /// Content of a file.
     Content {
         file: Text,
     },
-    /// A name that nobody else has.
+    /// Unique name.
     Anonymous {
         name: Text,
     },
-    /// Whether two texts are the same.
+    /// Equality of two texts.
     Equals {
         a: Text,
         b: Text,
     },
-    /// Whether they are not.
+    /// Inequality of two texts.
     NotEquals {
         a: Text,
         b: Text,
     },
-    /// Whether all are true.
+    /// True if all are true.
     All {
         of: Vec<Text>,
     },
-    /// Whether any is.
+    /// True if any is true.
     Any {
         of: Vec<Text>,
     },
-    /// Whether it is not true.
+    /// Negation.
     Not {
         of: Text,
     },
@@ -123,16 +123,16 @@ pub(crate) enum Substitution {
         yes: Text,
         no: Text,
     },
-    /// A parameter that was set for all nodes.
+    /// Global parameter.
     Parameter {
         name: Text,
     },
-    /// The file that is being launched, or its folder.
+    /// Current launch file, or its folder.
     ThisFile,
     ThisFolder,
-    /// Where logs go.
+    /// Log folder.
     LogFolder,
-    /// A file of parameters with some of them replaced.
+    /// Parameter file with replaced values.
     RewrittenYaml {
         file: Text,
         rewrites: Vec<(Text, Text)>,
@@ -141,63 +141,63 @@ pub(crate) enum Substitution {
         root: Option<Text>,
         convert: bool,
     },
-    /// A file with texts in it replaced.
+    /// File with replaced texts.
     ReplacedText {
         file: Text,
         replacements: Vec<(Text, Text)>,
         condition: Option<Condition>,
     },
-    /// Whether a file of parameters has some for a node.
+    /// True if a parameter file has an entry for a node.
     HasNodeParameters {
         file: Text,
         node: Text,
     },
-    /// A configuration as `True` or `False`.
+    /// Configuration as `True` or `False`.
     Truth {
         name: Text,
     },
-    /// An object of the launch file's own, by the number that its interpreter knows it by.
+    /// Object defined in the launch file, by its number in the interpreter.
     Python {
         id: u64,
     },
 }
 
-/// Whether something holds.
+/// Condition.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(tag = "condition", rename_all = "snake_case")]
 pub(crate) enum Condition {
-    /// If a text is true.
+    /// True if a text is true.
     If { text: Text },
-    /// If it is not.
+    /// True if a text is false.
     Unless { text: Text },
-    /// If a configuration has a value; if it is set at all, without one.
+    /// True if a configuration has a value; without one, if it is set.
     Configuration { name: String, equals: Option<Text>, is_negated: bool },
-    /// An object of the launch file's own.
+    /// Object defined in the launch file.
     Python { id: u64 },
 }
 
-/// Something that a launch file does.
+/// Action of a launch file.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 pub(crate) struct Action {
-    /// The number by which others of the same file refer to it.
+    /// Number by which others of the same file refer to it.
     #[serde(default)]
     pub(crate) id: Option<u64>,
-    /// Where it is written.
+    /// Position in the file.
     #[serde(default)]
     pub(crate) place: Place,
-    /// Only if.
+    /// Condition.
     #[serde(default)]
     pub(crate) condition: Option<Condition>,
-    /// What it does.
+    /// Kind of the action, with its data.
     #[serde(flatten)]
     pub(crate) deed: Deed,
 }
 
-/// What an action does.
+/// Kind of an action, with its data.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(tag = "do", rename_all = "snake_case")]
 pub(crate) enum Deed {
-    /// Names an argument.
+    /// Declares an argument.
     Declare {
         name: String,
         default: Option<Text>,
@@ -207,19 +207,19 @@ pub(crate) enum Deed {
     },
     /// Sets a configuration.
     Configure { name: Text, value: Text },
-    /// Takes one away.
+    /// Unsets a configuration.
     Forget { name: Text },
-    /// Takes all away, but for some that are given.
+    /// Unsets all configurations but some.
     ForgetAll { keep: Vec<(Text, Text)> },
-    /// Sets a variable of the environment.
+    /// Sets an environment variable.
     Environment { name: Text, value: Text },
-    /// Adds to a list in one.
+    /// Appends to an environment variable.
     Append { name: Text, value: Text, separator: Option<Text>, prepend: bool },
-    /// Takes one away.
+    /// Unsets an environment variable.
     Unset { name: Text },
-    /// Makes the environment what it was at the start.
+    /// Restores the initial environment.
     ResetEnvironment,
-    /// Does others, in order.
+    /// Runs actions in order.
     Group {
         actions: Vec<Action>,
         is_scoped: bool,
@@ -228,37 +228,37 @@ pub(crate) enum Deed {
         #[serde(default)]
         configurations: Vec<(Text, Text)>,
     },
-    /// Does others for each of some values.
+    /// Runs actions for each of some values.
     ForEach { function: u64 },
-    /// Reads another file.
+    /// Includes a file.
     Include { file: Text, arguments: Vec<(Text, Text)> },
     /// Calls a function of the launch file.
     Call { function: u64 },
-    /// Namespaces of the nodes behind it.
+    /// Pushes a namespace for later nodes.
     PushNamespace { namespace: Text },
-    /// A parameter for all nodes behind it.
+    /// Sets a parameter of all later nodes.
     SetParameter { name: Text, value: Given },
-    /// A file of them.
+    /// Loads a parameter file for all later nodes.
     SetParametersFromFile { file: Text, node: Option<Text> },
-    /// A name that is replaced in all nodes behind it.
+    /// Sets a remapping for all later nodes.
     SetRemap { from: Text, to: Text },
     /// Starts a node.
     Node(Box<NodeOf>),
     /// Loads components into a container.
     Load { container: Target, components: Vec<ComponentOf> },
-    /// Starts a program.
+    /// Starts a process.
     Process(Box<ProcessOf>),
-    /// Says something.
+    /// Logs a message.
     Log { text: Text, level: Option<Text> },
-    /// Ends everything.
+    /// Shuts down.
     Shutdown { reason: Option<Text> },
-    /// Asks a managed node for a transition.
+    /// Requests a transition of a lifecycle node.
     Transition { target: Option<u64>, transition: String },
-    /// Does others after a while.
+    /// Runs actions after a delay.
     Timer { seconds: Text, actions: Vec<Action> },
-    /// Does others when something happens.
+    /// Registers an event handler.
     When { event: Event, actions: Vec<Action> },
-    /// Nothing that a plan can hold; why.
+    /// Unsupported action, with the reason.
     Left { what: String },
 }
 
@@ -266,7 +266,7 @@ fn yes() -> bool {
     true
 }
 
-/// What actions wait for.
+/// Event that actions wait for.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(tag = "event", rename_all = "snake_case")]
 pub(crate) enum Event {
@@ -277,7 +277,7 @@ pub(crate) enum Event {
     Shutdown,
 }
 
-/// A container, by name or by the action that starts it.
+/// Container, by name or by the action that starts it.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(untagged)]
 pub(crate) enum Target {
@@ -285,29 +285,29 @@ pub(crate) enum Target {
     Name { name: Text },
 }
 
-/// A parameter's value as it is given.
+/// Value of a parameter as given.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(tag = "given", rename_all = "snake_case")]
 pub(crate) enum Given {
-    /// A value of its own type.
+    /// Typed value.
     Value { value: Value },
-    /// A text whose type is that of what it says, unless one is named.
+    /// Text, converted to the given type or the detected one.
     Text { text: Text, of_type: Option<String> },
-    /// A list of texts.
+    /// List of texts.
     Texts { texts: Vec<Text> },
 }
 
-/// Parameters as they are given.
+/// Parameters as given.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(tag = "parameters", rename_all = "snake_case")]
 pub(crate) enum ParametersOf {
-    /// By name; members of groups have the group's name and a dot before theirs.
+    /// By name; members of groups are prefixed with the name of the group and a dot.
     Values { values: Vec<(Text, Given)> },
-    /// A file, in which `$(...)` is resolved or not.
+    /// Parameter file, with or without substitutions.
     File { file: Text, with_substitutions: Given },
 }
 
-/// A node.
+/// Node.
 #[derive(Clone, Debug, Default, PartialEq, Deserialize)]
 #[serde(default)]
 pub(crate) struct NodeOf {
@@ -316,17 +316,17 @@ pub(crate) struct NodeOf {
     #[serde(flatten)]
     pub(crate) identity: IdentityOf,
     pub(crate) arguments: Vec<Text>,
-    /// Whether `arguments` are one line, to be split as a shell does.
+    /// True if `arguments` are one line, to be split as a shell does.
     pub(crate) is_line: bool,
     pub(crate) ros_arguments: Vec<Text>,
     pub(crate) is_lifecycle: bool,
-    /// Whether it configures and activates itself.
+    /// True if it configures and activates itself.
     pub(crate) autostart: Option<Text>,
     pub(crate) components: Vec<ComponentOf>,
     pub(crate) running: RunningOf,
 }
 
-/// What a node is called, and what it is given.
+/// Name, namespace, parameters and remappings of a node.
 #[derive(Clone, Debug, Default, PartialEq, Deserialize)]
 #[serde(default)]
 pub(crate) struct IdentityOf {
@@ -336,7 +336,7 @@ pub(crate) struct IdentityOf {
     pub(crate) remaps: Vec<(Text, Text)>,
 }
 
-/// A component.
+/// Component.
 #[derive(Clone, Debug, Default, PartialEq, Deserialize)]
 #[serde(default)]
 pub(crate) struct ComponentOf {
@@ -347,39 +347,39 @@ pub(crate) struct ComponentOf {
     pub(crate) condition: Option<Condition>,
 }
 
-/// A program.
+/// Process.
 #[derive(Clone, Debug, Default, PartialEq, Deserialize)]
 #[serde(default)]
 pub(crate) struct ProcessOf {
     pub(crate) command: Vec<Text>,
-    /// Whether `command` is one line, to be split as a shell does.
+    /// True if `command` is one line, to be split as a shell does.
     pub(crate) is_line: bool,
     pub(crate) shell: Option<Text>,
     pub(crate) name: Option<Text>,
     pub(crate) running: RunningOf,
 }
 
-/// How a program runs.
+/// Settings of a process.
 #[derive(Clone, Debug, Default, PartialEq, Deserialize)]
 #[serde(default)]
 pub(crate) struct RunningOf {
     pub(crate) prefix: Option<Text>,
     pub(crate) folder: Option<Text>,
-    /// In the place of the launch's own environment.
+    /// Replaces the environment of the launch.
     pub(crate) only_environment: Option<Vec<(Text, Text)>>,
     pub(crate) environment: Vec<(Text, Text)>,
     pub(crate) output: Option<Text>,
     pub(crate) respawn: Option<Text>,
     pub(crate) respawn_delay: Option<Text>,
-    /// What happens at its end.
+    /// Exit handlers.
     pub(crate) on_exit: Vec<Action>,
 }
 
-/// A text of one plain part.
+/// Text of a single literal part.
 #[must_use]
 pub(crate) fn plain(text: impl Into<String>) -> Text {
     vec![Part::Plain(text.into())]
 }
 
-/// Names that a file was given, or that stand in one.
+/// Values by name.
 pub(crate) type Names = BTreeMap<String, String>;

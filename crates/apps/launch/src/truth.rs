@@ -1,10 +1,10 @@
-//! Words for true and false, and the types of values that are written as text.
+//! Booleans and types of values that are written as text.
 
 use periplus_diagnostics::SourceMap;
 use periplus_yaml::Node;
 use serde_json::{Map, Value};
 
-/// Whether a condition's text is true; none when it is neither. `launch` knows no other words.
+/// Boolean value of a condition; `None` if it is not one of the words of `launch`.
 pub(crate) fn truth(text: &str) -> Option<bool> {
     match text.trim().to_lowercase().as_str() {
         "true" | "1" => Some(true),
@@ -13,11 +13,11 @@ pub(crate) fn truth(text: &str) -> Option<bool> {
     }
 }
 
-/// The value that a text is when YAML reads it: `1` is a whole number, `[1, 2]` a list. What is no YAML,
-/// and mappings, are texts.
+/// Value of a text in YAML: `1` is an integer, `[1, 2]` a list. Invalid YAML and mappings remain
+/// texts.
 pub(crate) fn typed(text: &str) -> Value {
     let plain = || Value::String(text.to_owned());
-    // A robot's description is neither number nor list, and long.
+    // A robot description is neither a number nor a list, and long.
     if text.trim_start().starts_with('<') {
         return plain();
     }
@@ -29,7 +29,7 @@ pub(crate) fn typed(text: &str) -> Value {
     }
 }
 
-/// A YAML tree as plain values.
+/// Converts a YAML tree to plain values.
 pub(crate) fn value_of(node: &Node) -> Value {
     if let Some(list) = node.list() {
         return Value::Array(list.iter().map(value_of).collect());

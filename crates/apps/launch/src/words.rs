@@ -1,7 +1,7 @@
-//! Lines split into words as a shell of POSIX splits them.
+//! Splitting of lines into words as a POSIX shell does.
 
-/// The words of a line; quotes and backslashes as in Python's `shlex.split`. None when a quote is open
-/// at the end.
+/// Splits a line; quotes and backslashes as in Python's `shlex.split`. `None` if a quote is
+/// unclosed.
 pub(crate) fn split(line: &str) -> Option<Vec<String>> {
     let mut words = Vec::new();
     let mut word: Option<String> = None;

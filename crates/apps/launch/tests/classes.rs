@@ -1,11 +1,11 @@
-//! Classes of launch files that once failed.
+//! Kinds of launch files that once failed.
 #![allow(clippy::unwrap_used, reason = "a test that fails may panic")]
 
 use periplus_diagnostics::{SourceMap, Style, render};
 use periplus_launch::{Nothing, Plan, Request, Trigger, What, plan};
 use periplus_resources::{MemoryHost, Resolver};
 
-/// The plan of the first file, and its findings in words.
+/// Plan of the first file, and its findings as text.
 fn planned(files: &[(&str, &str)], arguments: &[(&str, &str)]) -> (Plan, String) {
     let host = files.iter().fold(
         MemoryHost::new()
@@ -119,7 +119,7 @@ fn arguments_of_the_command_line_hold_without_being_declared() {
     assert!(words.contains("`bag:=VALUE`"), "{words}");
 }
 
-/// A file that is not there leaves a gap in the plan that is reported with its place; it does not end it.
+/// A missing file leaves a gap in the plan that is reported with its position; planning continues.
 #[test]
 fn absent_files_are_gaps_of_a_plan() {
     let ros1 = "<launch>

@@ -1,4 +1,4 @@
-//! Launch files and the plans that they are.
+//! Launch files and their plans.
 #![allow(clippy::unwrap_used, reason = "a test that fails may panic")]
 
 use std::path::{Path, PathBuf};
@@ -8,7 +8,7 @@ use periplus_diagnostics::{SourceMap, Style, render};
 use periplus_launch::{Interpreter, Outside, Printed, Request, plan};
 use periplus_resources::{MemoryHost, Resolver};
 
-/// A machine whose programs repeat what they are told.
+/// A machine whose programs echo their arguments.
 struct Echo;
 
 impl Outside for Echo {
@@ -21,11 +21,11 @@ impl Outside for Echo {
     }
 
     fn python(&mut self) -> Result<Box<dyn Interpreter>, String> {
-        Err("there is no Python here".into())
+        Err("Python is not available".into())
     }
 }
 
-/// The plan of the first file, or what is wrong with it.
+/// Plan of the first file, or its findings.
 fn check(files: &[(&str, &str)], arguments: &[(&str, &str)], expected: Expect) {
     let mut host = MemoryHost::new()
         .with_variable("HOME", "/home/me")
@@ -317,12 +317,12 @@ fn xml_of_ros_1() {
             hint[launch-package]: the package `xacro` is not on this machine
              |
              = note: files in it are called `package://xacro/...` in the plan
-             = help: if it is somewhere here, name its folder: `--resource-path FOLDER`
+             = help: if it is on this machine, give its folder: `--resource-path FOLDER`
 
             hint[launch-package]: the package `gazebo_ros` is not on this machine
              |
              = note: files in it are called `package://gazebo_ros/...` in the plan
-             = help: if it is somewhere here, name its folder: `--resource-path FOLDER`
+             = help: if it is on this machine, give its folder: `--resource-path FOLDER`
 
         "#]],
     );
@@ -368,7 +368,7 @@ fn errors_teach() {
         2 |   <node pkg="a" type="b" name="c" exec="d"/>
           |                 ^^^^^^^^
           |
-          = help: `type` is ROS 1's; in ROS 2 it is `exec`
+          = help: `type` is ROS 1; in ROS 2 use `exec`
 
         error[launch-attribute]: `node` has no `nmae`
          --> /a.launch.xml:2:26
@@ -378,7 +378,7 @@ fn errors_teach() {
           |
           = help: did you mean `name`?
 
-        error[launch-argument]: /a.launch.xml needs the argument `map`, and it was not given
+        error[launch-argument]: /a.launch.xml requires the argument `map`
          --> /a.launch.xml:2:4
           |
         2 |   <arg name="map"/>
@@ -386,7 +386,7 @@ fn errors_teach() {
           |
           = help: add `map:=VALUE`
 
-        error[launch-configuration]: nothing has set the launch configuration `maap`
+        error[launch-configuration]: the launch configuration `maap` is not set
          --> /a.launch.xml:2:4
           |
         2 |   <log message="$(var maap)"/>
@@ -394,27 +394,27 @@ fn errors_teach() {
           |
           = help: declare the argument `maap` before it is used, or give it: `maap:=VALUE`
 
-        error[launch-condition]: a condition must be `true`, `1`, `false` or `0`, and this says `perhaps`
+        error[launch-condition]: a condition must be `true`, `1`, `false` or `0`, not `perhaps`
          --> /a.launch.xml:2:4
           |
         2 |   <group if="perhaps"><let name="a" value="b"/></group>
           |    ^^^^^
 
-        error[launch-include]: launch files include each other more than 50 deep
+        error[launch-include]: includes are nested more than 50 levels deep
          --> //a.launch.xml:2:4
           |
         2 |   <include file="$(dirname)/a.launch.xml"/>
           |    ^^^^^^^
           |
-          = help: a file that includes itself needs a condition that ends this
+          = help: a file that includes itself needs a condition that ends the recursion
 
-        error[launch-expression]: `1 +` has no value: the expression ends where a value is needed
+        error[launch-expression]: cannot evaluate `1 +`: the expression ends where a value is needed
          --> /a.launch.xml:2:4
           |
         2 |   <executable cmd="$(eval '1 +')"/>
           |    ^^^^^^^^^^
 
-        error[launch-action]: nothing is called `param`
+        error[launch-action]: unknown action `param`
          --> /a.launch.xml:2:4
           |
         2 |   <param name="a" value="$(var b)"/>
@@ -460,7 +460,7 @@ fn the_slip_of_the_tutorial_is_mended_and_told() {
                 }
               ]
             }
-            warning[launch-xml]: `/-->` closes no comment
+            warning[launch-xml]: `/-->` is not the end of a comment
              --> /ws/src/bot/launch/teleop.launch:5:47
               |
             5 |     <remap from="/cmd_vel" to="/bot/cmd_vel"  />
@@ -470,7 +470,7 @@ fn the_slip_of_the_tutorial_is_mended_and_told() {
 
             warning[launch-argument]: /ws/src/bot/launch/teleop.launch has no argument `speed`
              |
-             = help: `--show-args` lists those it has
+             = help: `--show-args` lists its arguments
 
         "#]],
     );

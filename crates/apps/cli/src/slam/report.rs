@@ -25,7 +25,7 @@ pub(super) struct Report<'a> {
     pub(super) wall_s: f64,
     /// Time per scan.
     pub(super) spent_s: &'a [f64],
-    /// The map was made again with this fault of the data undone.
+    /// Error of the data that was corrected before the map was rebuilt.
     pub(super) remedy: Option<MountingCorrection>,
 }
 

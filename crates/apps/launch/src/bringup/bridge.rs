@@ -1,4 +1,4 @@
-//! What `parameter_bridge` is told: which topics of Gazebo are which of ROS.
+//! Configuration of `parameter_bridge`: pairs of Gazebo and ROS topics.
 //!
 //! Source of the grammar: `ros_gz_bridge/src/parameter_bridge.cpp` and `bridge_config.cpp` (jazzy).
 
@@ -9,22 +9,22 @@ use periplus_os::Machine;
 use periplus_resources::Host as _;
 use periplus_yaml::{Node, Value};
 
-/// A topic on both sides.
+/// Bridged topic.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct Pair {
-    /// As Gazebo calls it.
+    /// Gazebo name.
     pub(crate) gz: String,
-    /// As ROS does, before its names are replaced.
+    /// ROS name, before remapping.
     pub(crate) ros: String,
     pub(crate) direction: Direction,
-    /// Whether it is `TwistStamped` in ROS, which Gazebo has as a plain `Twist`.
+    /// True if the ROS type is `TwistStamped`, which Gazebo has as a plain `Twist`.
     pub(crate) is_stamped_velocity: bool,
 }
 
-/// The type of ROS that has no time and frame in Gazebo.
+/// ROS type whose stamp and frame Gazebo lacks.
 const STAMPED_VELOCITY: &str = "geometry_msgs/msg/TwistStamped";
 
-/// Which way messages go.
+/// Direction of messages.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Direction {
     Both,
@@ -32,10 +32,10 @@ pub(crate) enum Direction {
     RosToGz,
 }
 
-/// The pairs of the words, `topic@ros_type[gz_type`; services, `name@package/srv/Type`, are left out.
+/// Parses arguments `topic@ros_type[gz_type`; services, `name@package/srv/Type`, are ignored.
 ///
 /// # Errors
-/// The word that cannot be read.
+/// The invalid argument.
 pub(crate) fn of_words(words: &[String]) -> Result<Vec<Pair>, String> {
     let mut pairs = Vec::new();
     for word in words {
@@ -64,20 +64,21 @@ pub(crate) fn of_words(words: &[String]) -> Result<Vec<Pair>, String> {
     Ok(pairs)
 }
 
-/// The pairs of a file.
+/// Reads the pairs of a file.
 ///
 /// # Errors
-/// Why it cannot be read.
+/// A message when it cannot be read.
 pub(crate) fn of_file(path: &Path) -> Result<Vec<Pair>, String> {
     let bytes = Machine.read(path);
     let bytes = bytes.map_err(|error| format!("{} cannot be read: {error}", path.display()))?;
-    let text = String::from_utf8(bytes).map_err(|_| format!("{} is no text", path.display()))?;
+    let text =
+        String::from_utf8(bytes).map_err(|_| format!("{} is not a text file", path.display()))?;
     let mut sources = SourceMap::new();
     let file = sources.add(path.display().to_string(), text);
     let tree = periplus_yaml::parse(file, &sources).map_err(|error| error.message)?;
     let items: &[Node] = match tree.as_ref().map(|tree| &tree.value) {
         Some(Value::List(items)) => items,
-        _ => return Err(format!("{} is no list of topics", path.display())),
+        _ => return Err(format!("{} is not a list of topics", path.display())),
     };
     let text = |item: &Node, name: &str| item.get(name).and_then(Node::text).map(str::to_owned);
     let pair = |item: &Node| {

@@ -1,75 +1,75 @@
-//! What the programs of ROS become here: one table, which the documentation is made from.
+//! Built-in replacements of ROS programs: a table that is also part of the documentation.
 
 use std::fmt::Write as _;
 
 use periplus_maps::Distro;
 use periplus_nav_nodes::slam_toolbox::Program;
 
-/// What a program becomes.
+/// Role of a built-in replacement.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Role {
-    /// Tells where the links of a robot are.
+    /// Robot state publisher.
     RobotStatePublisher,
-    /// Tells where joints are that nobody else tells of.
+    /// Joint state publisher.
     JointStatePublisher,
-    /// A frame that does not move.
+    /// Static transform publisher.
     StaticTransform,
-    /// The simulation.
+    /// Simulation.
     Gazebo,
-    /// Puts a robot into it.
+    /// Spawner of robots.
     Spawn,
-    /// Topics of Gazebo as topics of ROS.
+    /// Bridge between Gazebo and ROS topics.
     Bridge,
-    /// The page.
+    /// Web page.
     Viewer,
-    /// A mapper.
+    /// SLAM node.
     Slam(Program),
-    /// Serves a map; whether it waits for a lifecycle manager.
+    /// Map server; true if it waits for a lifecycle manager.
     MapServer { is_managed: bool },
-    /// Saves maps when asked.
+    /// Map saver service.
     MapSaverServer,
-    /// Saves one map.
+    /// Map saver that saves one map.
     MapSaver(Distro),
-    /// Finds the robot on a map; whether it waits for a lifecycle manager.
+    /// AMCL; true if it waits for a lifecycle manager.
     Amcl { is_managed: bool },
-    /// A server of Nav2 whose costmap is here and whose algorithms are not.
+    /// Nav2 server with a built-in costmap but without its algorithms.
     CostmapHost { costmap: &'static str, lacks: &'static str },
-    /// A costmap by itself.
+    /// Stand-alone costmap.
     Costmap,
     /// Voxels as cubes.
     VoxelMarkers,
     /// Voxels as points.
     VoxelCloud,
-    /// Brings managed nodes up.
+    /// Lifecycle manager.
     LifecycleManager,
-    /// Odometry and other sources made one.
+    /// EKF.
     Ekf,
-    /// A topic under another name.
+    /// Topic relay.
     Relay,
-    /// A process for components; each of them is looked at by itself.
+    /// Component container; each component has a separate entry.
     Container,
-    /// Nothing: what it does is done already.
+    /// Nothing: its task is already done.
     Needless,
-    /// Nothing: Periplus has none.
+    /// Nothing: not supported.
     Lacking,
 }
 
-/// A row of the table.
+/// Row of the table.
 #[derive(Debug)]
 pub(crate) struct Entry {
     pub(crate) packages: &'static [&'static str],
-    /// Names of programs; `*` is all of the package.
+    /// Names of programs; `*` stands for all of the package.
     pub(crate) executables: &'static [&'static str],
     /// Classes of components.
     pub(crate) plugins: &'static [&'static str],
-    /// The name of its node, where nobody gives another.
+    /// Default node name.
     pub(crate) node: &'static str,
     pub(crate) role: Role,
-    /// In words, for the summary and the documentation.
+    /// Description for the summary and the documentation.
     pub(crate) becomes: &'static str,
 }
 
-/// Shortens the rows below.
+/// Constructor of a row.
 const fn entry(
     packages: &'static [&'static str],
     executables: &'static [&'static str],
@@ -84,7 +84,7 @@ const fn entry(
 /// No classes.
 const NONE: &[&str] = &[];
 
-/// The table. Earlier rows win.
+/// The table. Earlier rows take precedence.
 pub(crate) static CATALOGUE: &[Entry] = &[
     entry(
         &["robot_state_publisher"],
@@ -398,7 +398,7 @@ pub(crate) static CATALOGUE: &[Entry] = &[
         NONE,
         "controller_manager",
         Role::Lacking,
-        "nothing: the simulation drives robots by Gazebo's own plugins, not by ros2_control",
+        "nothing: the simulation drives robots with Gazebo's drive plugins, not with ros2_control",
     ),
     entry(
         &[
@@ -436,19 +436,19 @@ pub(crate) static CATALOGUE: &[Entry] = &[
     ),
 ];
 
-/// What a program of a package becomes; none when it is not known.
+/// Entry of a program; `None` if it is unknown.
 pub(crate) fn of_program(package: Option<&str>, executable: &str) -> Option<&'static Entry> {
     let name = executable.rsplit('/').next().unwrap_or(executable);
     CATALOGUE.iter().find(|entry| {
         let is_package = package.is_none_or(|package| entry.packages.contains(&package));
-        // Without a package a name that stands for all of one says nothing.
+        // Without a package a `*` row does not match.
         let is_program =
             entry.executables.contains(&name) || package.is_some() && entry.executables == ["*"];
         is_package && is_program
     })
 }
 
-/// What a component becomes.
+/// Entry of a component class.
 pub(crate) fn of_plugin(package: &str, plugin: &str) -> Option<&'static Entry> {
     let by_class = CATALOGUE.iter().find(|entry| entry.plugins.contains(&plugin));
     by_class.or_else(|| {
@@ -458,7 +458,7 @@ pub(crate) fn of_plugin(package: &str, plugin: &str) -> Option<&'static Entry> {
     })
 }
 
-/// The table as a page of the documentation has it.
+/// Table in Markdown for the documentation.
 #[must_use]
 pub fn table() -> String {
     let mut text =

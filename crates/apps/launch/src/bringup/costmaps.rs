@@ -1,4 +1,4 @@
-//! The servers of Nav2 whose costmaps are here and whose algorithms are not.
+//! Nav2 servers with built-in costmaps but without their algorithms.
 
 use periplus_costmap::Config;
 use periplus_diagnostics::Diagnostics;
@@ -11,17 +11,17 @@ use periplus_nav_nodes::costmap_2d::CostmapNode;
 use crate::bringup::make::{self, Written};
 use crate::bringup::parts::Ask;
 
-/// A managed node in the place of a server, and the costmap that lives as it does.
+/// Lifecycle node that replaces a server, and its costmap in the same state.
 pub(crate) struct Host {
     _actor: Actor<CostmapNode>,
     life: Lifecycle,
 }
 
 impl Host {
-    /// As this node; the costmap gets its own node, in the server's namespace.
+    /// Creates the node; the costmap gets a separate node in the namespace of the server.
     ///
     /// # Errors
-    /// In words.
+    /// A message when it cannot be created.
     pub(crate) fn new(
         ask: &Ask,
         node: &Node,
@@ -62,7 +62,7 @@ impl Host {
     }
 }
 
-/// The costmap goes where its server goes.
+/// The costmap follows the transitions of its server.
 fn follow(costmap: &CostmapNode, step: Step) -> StepOutcome {
     let life = costmap.life();
     let transition = match step {
@@ -79,10 +79,10 @@ fn follow(costmap: &CostmapNode, step: Step) -> StepOutcome {
     StepOutcome::Success
 }
 
-/// A costmap by itself.
+/// Creates a stand-alone costmap.
 ///
 /// # Errors
-/// In words.
+/// A message when it cannot be created.
 pub(crate) fn alone(ask: &Ask, node: Node, notes: &mut Vec<String>) -> Result<CostmapNode, String> {
     let name = node.names().name().to_owned();
     let named = make::parameters_as(ask, node.full_name(), notes);

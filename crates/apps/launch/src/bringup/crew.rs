@@ -1,4 +1,4 @@
-//! A plan that runs.
+//! Execution of a plan.
 
 use std::any::Any;
 use std::path::PathBuf;
@@ -20,25 +20,25 @@ use crate::bringup::told::{Became, Kind, Line, Said};
 use crate::bringup::world::WorldWish;
 use crate::bringup::xacro::xacro;
 
-/// How a plan is run.
+/// Settings of an execution.
 #[derive(Clone, Debug)]
 pub struct Settings {
-    /// Where packages, models and files are looked for.
+    /// Search paths of packages, models and files.
     pub search: Search,
-    /// Of which ROS the launch file is.
+    /// ROS version of the launch file.
     pub dialect: Dialect,
-    /// Whether programs of ROS can reach the graph.
+    /// True if ROS programs can reach the graph.
     pub is_wired: bool,
-    /// Whether the run keeps pace with the wall.
+    /// True if the run keeps pace with real time.
     pub is_paced: bool,
-    /// The program that ends what is left when this one is killed: its own file, which runs
-    /// [`crate::bringup::guard`] when it is given [`crate::bringup::GUARD_VERB`].
+    /// Program that ends remaining processes when this one is killed: this program itself, which
+    /// runs [`crate::bringup::guard`] when started with [`crate::bringup::GUARD_VERB`].
     pub guarding_program: Option<PathBuf>,
-    /// A folder of programs that its processes find behind all others on the PATH.
+    /// Folder of built-in programs that its processes find at the end of the PATH.
     pub tools: Option<PathBuf>,
 }
 
-/// Something that happened.
+/// Event.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum Event {
     Started(usize),
@@ -48,19 +48,19 @@ pub(crate) enum Event {
     Shutdown,
 }
 
-/// A part that waits, runs, or is done.
+/// State of a part.
 struct Waiting {
     part: Part,
-    /// Triggers that have come.
+    /// Number of triggers that have occurred.
     come: usize,
-    /// From which event on the next is looked for.
+    /// Index of the first event to check for the next trigger.
     cursor: usize,
-    /// When the last one came \[ns\].
+    /// Time of the last trigger \[ns\].
     since_ns: i64,
     is_begun: bool,
 }
 
-/// A plan that runs on a graph. Whoever runs it calls [`Bringup::work`] from time to time.
+/// Execution of a plan on a graph. The caller calls [`Bringup::work`] periodically.
 pub struct Bringup {
     waiting: Vec<Waiting>,
     events: Vec<Event>,
@@ -70,18 +70,18 @@ pub struct Bringup {
     lines: Vec<Line>,
     said: Vec<Said>,
     settings: Settings,
-    /// Names of nodes that nothing here stands for.
+    /// Names of nodes without a built-in replacement.
     lacking: Vec<String>,
-    /// Where things are looked for that the world and what is spawned into it mention.
+    /// Search paths of files that the world and spawned models refer to.
     world_search: Search,
     guard: Guard,
     is_over: bool,
-    /// The time of the last call \[ns\].
+    /// Time of the last call \[ns\].
     last_ns: i64,
 }
 
 impl Bringup {
-    /// Reads a plan.
+    /// Prepares a plan.
     #[must_use]
     pub fn new(plan: &Plan, settings: Settings) -> Self {
         let waiting = parts::of_plan(plan).into_iter().map(|part| Waiting {
@@ -115,13 +115,12 @@ impl Bringup {
         bringup
     }
 
-    /// Says whether programs of ROS can reach the graph, once that is known.
+    /// Sets whether ROS programs can reach the graph, once that is known.
     pub fn set_wired(&mut self, is_wired: bool) {
         self.settings.is_wired = is_wired;
     }
 
-    /// The world that is to be simulated, if any. All plans of the tutorials have one at most; of
-    /// several the first that names a file counts.
+    /// World to simulate, if any; of several the first with a file.
     #[must_use]
     pub fn world(&self) -> Option<&WorldWish> {
         match &self.waiting[self.world_part()?].part.work {
@@ -130,7 +129,7 @@ impl Bringup {
         }
     }
 
-    /// The part that starts the world.
+    /// Part that starts the world.
     fn world_part(&self) -> Option<usize> {
         let worlds = || {
             self.waiting.iter().enumerate().filter_map(|(index, waiting)| {
@@ -144,8 +143,8 @@ impl Bringup {
         named.or_else(|| worlds().next()).map(|(index, _)| index)
     }
 
-    /// Where things are looked for that the world and what is spawned into it mention: the
-    /// environment and the folder in which the launch files start it.
+    /// Search paths of files that the world and spawned models refer to: the environment and the
+    /// working folder of the step that starts it.
     #[must_use]
     pub fn search(&self) -> &Search {
         &self.world_search
@@ -162,9 +161,8 @@ impl Bringup {
         search
     }
 
-    /// Runs the processes that must have ended before the world can be loaded: those that it waits
-    /// for, and those that write its file. Call it again until it returns true; time is that of the
-    /// wall \[ns\].
+    /// Runs the processes that must end before the world can be loaded: those that it waits for,
+    /// and those that write its file. Call it until it returns true; the time is wall time \[ns\].
     pub fn prepare(&mut self, graph: &Graph, wall_ns: i64) -> bool {
         let Some(world) = self.world_part() else { return true };
         let wanted = preparation::of_world(&self.waiting_parts(), world);
@@ -184,7 +182,7 @@ impl Bringup {
         let has_file = self.world_file().is_some_and(|file| Machine.kind(&file).is_some());
         let is_ready = !(runs || may_come) || (has_file && wall_ns > LONGEST_WAIT_NS);
         if is_ready {
-            // From here on time is that of the world.
+            // From here on the time is simulated.
             self.waiting.iter_mut().for_each(|waiting| waiting.since_ns = 0);
         }
         is_ready
@@ -194,26 +192,27 @@ impl Bringup {
         self.waiting.iter().map(|waiting| &waiting.part).collect()
     }
 
-    /// The file of the world as a path.
+    /// Path of the world file.
     fn world_file(&self) -> Option<PathBuf> {
         let file = self.world()?.file.as_deref()?;
         Some(self.world_search.working_folder.join(file))
     }
 
-    /// Whether a node of the plan tells where joints are, so that nobody else has to.
+    /// Returns true if a node of the plan publishes joint states, so that no default publisher is
+    /// needed.
     #[must_use]
     pub fn publishes_joint_states(&self) -> bool {
         self.has(crate::bringup::catalogue::Role::JointStatePublisher)
     }
 
-    /// Whether the plan wants to be looked at: RViz, or a window of Gazebo.
+    /// Returns true if the plan starts RViz or a Gazebo window.
     #[must_use]
     pub fn wants_page(&self) -> bool {
         self.has(crate::bringup::catalogue::Role::Viewer)
             || self.world().is_some_and(|wish| wish.has_window)
     }
 
-    /// Files of RViz that the plan opens.
+    /// RViz files of the plan.
     #[must_use]
     pub fn views(&self) -> Vec<PathBuf> {
         let path = |ask: &Ask| {
@@ -232,7 +231,7 @@ impl Bringup {
         frame.map(str::to_owned)
     }
 
-    /// Whether a node of the plan lives by `/clock`.
+    /// Returns true if a node of the plan uses `/clock`.
     #[must_use]
     pub fn follows_clock(&self) -> bool {
         let mut notes = Vec::new();
@@ -254,24 +253,24 @@ impl Bringup {
         })
     }
 
-    /// What became of the parts that have begun, in their order.
+    /// Outcomes of the parts that were started, in their order.
     #[must_use]
     pub fn lines(&self) -> &[Line] {
         &self.lines
     }
 
-    /// What was said since the last time.
+    /// Returns the log messages since the last call.
     pub fn take_said(&mut self) -> Vec<Said> {
         std::mem::take(&mut self.said)
     }
 
-    /// Whether the plan says that everything ends.
+    /// Returns true after a shutdown action.
     #[must_use]
     pub fn is_over(&self) -> bool {
         self.is_over
     }
 
-    /// Whether nothing of it runs, or ever will.
+    /// Returns true if nothing runs, and nothing will start.
     #[must_use]
     pub fn is_idle(&self) -> bool {
         let waits = |waiting: &Waiting| {
@@ -281,17 +280,17 @@ impl Bringup {
         self.hands.is_empty() && self.kept.is_empty() && !self.waiting.iter().any(waits)
     }
 
-    /// Does what is due at this time \[ns\].
+    /// Processes everything due at this time \[ns\].
     pub fn work(&mut self, graph: &Graph, now_ns: i64, simulation: Option<&mut Simulation>) {
         if now_ns < self.last_ns {
-            // A reset of the world: timers of the launch go on from where they are.
+            // After a reset of the world, timers of the launch continue.
             let back_ns = self.last_ns - now_ns;
             self.waiting.iter_mut().for_each(|waiting| waiting.since_ns -= back_ns);
             self.hands.iter_mut().for_each(|(_, hand)| hand.time_went_back(back_ns));
         }
         self.last_ns = now_ns;
         self.hear();
-        // What begins may let others begin; a plan has an end, so this has one.
+        // Starting a part may trigger others; a plan is finite, so this loop ends.
         while self.begin(graph, now_ns) {}
         self.work_hands(graph, now_ns, simulation);
         while self.begin(graph, now_ns) {}
@@ -323,11 +322,11 @@ impl Bringup {
         }
     }
 
-    /// Ends all programs; what the plan wants to be said at the end is said.
+    /// Ends all programs; shutdown messages of the plan are logged.
     pub fn end_all(&mut self, graph: &Graph, now_ns: i64) {
         self.events.push(Event::Shutdown);
         while self.begin(graph, now_ns) {}
-        // All at once, so that they end side by side.
+        // All are asked first, so that they end in parallel.
         self.hands.iter_mut().for_each(|(_, hand)| hand.ask_to_stop());
         self.hands.iter_mut().for_each(|(_, hand)| hand.stop());
         self.hands.clear();
@@ -337,13 +336,13 @@ impl Bringup {
         let part = &self.waiting[part].part;
         self.events.push(Event::Ended(part.step));
         if part.is_required {
-            let text = format!("`{}` has ended, and the launch needs it: all ends", part.asked);
+            let text = format!("`{}` has ended and is required: shutting down", part.asked);
             self.said.push(Said::warning(text));
             self.is_over = true;
         }
     }
 
-    /// Takes what managed nodes tell of themselves.
+    /// Processes state changes of lifecycle nodes.
     fn hear(&mut self) {
         for (step, mailbox) in &self.watched {
             for event in mailbox.drain() {
@@ -353,7 +352,7 @@ impl Bringup {
         }
     }
 
-    /// Begins all parts whose time has come; whether there was one.
+    /// Starts all parts that are due; returns true if there was one.
     fn begin(&mut self, graph: &Graph, now_ns: i64) -> bool {
         if self.watched.is_empty() {
             self.watch(graph);
@@ -375,7 +374,7 @@ impl Bringup {
         has_begun
     }
 
-    /// Listens to the managed nodes that somebody waits for.
+    /// Subscribes to the lifecycle nodes that triggers refer to.
     fn watch(&mut self, graph: &Graph) {
         let waits_for = |step: usize| {
             self.waiting.iter().flat_map(|waiting| &waiting.part.after).any(|trigger| {
@@ -405,7 +404,7 @@ impl Bringup {
         self.events.push(Event::Started(part.step));
         match &part.work {
             Work::World(wish) => {
-                let file = wish.file.as_deref().unwrap_or("a plane in the sun");
+                let file = wish.file.as_deref().unwrap_or("an empty plane");
                 self.became(&part, Kind::World, None, format!("the simulation of {file}"));
                 self.kept.push(Box::new(()));
             }
@@ -444,8 +443,9 @@ impl Bringup {
                 self.said.push(Said { level, text: text.clone() });
             }
             Work::Shutdown { reason } => {
-                let reason = if reason.is_empty() { "the launch file says so" } else { reason };
-                self.said.push(Said::info(format!("all ends: {reason}")));
+                let reason =
+                    if reason.is_empty() { "requested by the launch file" } else { reason };
+                self.said.push(Said::info(format!("shutdown: {reason}")));
                 self.is_over = true;
             }
             Work::Nothing(why) => {
@@ -455,7 +455,7 @@ impl Bringup {
         }
     }
 
-    /// Runs the built-in `xacro`; it ends at once.
+    /// Runs the built-in `xacro`; it ends immediately.
     fn xacro(&mut self, index: usize, part: &Part, program: &Program) {
         let mut search = self.settings.search.clone();
         search.variables.extend(environment::of_running(&program.running));
@@ -476,11 +476,11 @@ impl Bringup {
             }
             Ok(ran) => {
                 let why = ran.errors.trim_end();
-                self.said.push(Said::error(format!("`{}` has failed: {why}", part.asked)));
+                self.said.push(Said::error(format!("`{}` failed: {why}", part.asked)));
                 (Kind::Missing, "xacro could not expand its file".to_owned())
             }
             Err(why) => {
-                self.said.push(Said::error(format!("`{}` has failed: {why}", part.asked)));
+                self.said.push(Said::error(format!("`{}` failed: {why}", part.asked)));
                 (Kind::Missing, why)
             }
         };
@@ -515,13 +515,13 @@ impl Bringup {
     }
 }
 
-/// A node that hears for the plan.
+/// Node for the subscriptions of the plan.
 fn listener(graph: &Graph) -> Result<Node, periplus_graph::GraphError> {
     graph.node(NodeSettings::new("launch_ros").bare().keep_names())
 }
 
 impl Waiting {
-    /// Whether all that it waits for has come.
+    /// Returns true if all its triggers have occurred.
     fn is_due(&mut self, events: &[Event], now_ns: i64) -> bool {
         while let Some(trigger) = self.part.after.get(self.come) {
             let has_come = match trigger {
@@ -569,7 +569,7 @@ fn nanoseconds(seconds: f64) -> i64 {
     (seconds * 1e9).round() as i64
 }
 
-/// Value of an option of RViz, by its short or its long name.
+/// Value of an RViz option, by its short or long name.
 fn option_of_viewer<'a>(ask: &'a Ask, short: &str, long: &str) -> Option<&'a str> {
     let words = &ask.told.own;
     let value = || {

@@ -1,5 +1,4 @@
-//! The environment of a world: the search paths that hold where it is started, and which line of the
-//! launch files sets them.
+//! Environment of a world: its search paths, and the launch file lines that set them.
 
 use std::collections::BTreeMap;
 
@@ -8,13 +7,13 @@ use periplus_resources::SEARCH_VARIABLES;
 
 use crate::bringup::world::WorldWish;
 
-/// Of a value of a variable, at most this many characters are repeated in messages.
+/// Maximum length of a variable's value in messages.
 const MAX_SHOWN_CHARS: usize = 200;
 
-/// Environment variables that differ from those of the launch itself; none for a removed one.
+/// Environment variables that differ from those of the launch; `None` for an unset one.
 pub type Environment = BTreeMap<String, Option<String>>;
 
-/// A place at which a launch file changes a variable of the environment.
+/// Position at which a launch file changes an environment variable.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct VariableSetting {
     name: String,
@@ -22,7 +21,7 @@ pub(crate) struct VariableSetting {
     written: Option<String>,
 }
 
-/// The places that are known from the steps of a plan, each once.
+/// Positions in the steps of a plan, without duplicates.
 pub(crate) fn settings(steps: &[Step]) -> Vec<VariableSetting> {
     let mut settings = Vec::new();
     for (name, variable) in steps.iter().flat_map(|step| &step.environment) {
@@ -35,19 +34,19 @@ pub(crate) fn settings(steps: &[Step]) -> Vec<VariableSetting> {
     settings
 }
 
-/// The changes to the environment under which a program runs.
+/// Environment changes of a program.
 pub(crate) fn of_running(running: &Running) -> Environment {
     running.environment.clone()
 }
 
-/// The changes to the environment under which a step begins.
+/// Environment changes of a step.
 pub(crate) fn of_step(step: &Step) -> Environment {
     let changes = step.environment.iter();
     changes.map(|(name, variable)| (name.clone(), variable.value.clone())).collect()
 }
 
-/// Advice about a model, mesh or world that cannot be found: the lines of the launch files that set
-/// search paths, or the line before which one could.
+/// Advice about a model, mesh or world that was not found: the launch file lines that set search
+/// paths, or the line before which one should.
 pub(crate) fn advice(settings: &[VariableSetting], wish: &WorldWish) -> String {
     let started = wish.written.as_deref();
     let mut lines = Vec::new();
@@ -63,7 +62,7 @@ pub(crate) fn advice(settings: &[VariableSetting], wish: &WorldWish) -> String {
             let at = setting.written.as_deref().unwrap_or("a line of the launch file");
             let there = started.map(|at| format!(" ({at})")).unwrap_or_default();
             lines.push(format!(
-                "`{name}` is set at {at}, which does not hold where the world is started{there}: \
+                "`{name}` is set at {at}, which has no effect where the world is started{there}: \
                  set it before, in the same scope"
             ));
         }
@@ -72,7 +71,7 @@ pub(crate) fn advice(settings: &[VariableSetting], wish: &WorldWish) -> String {
         let before = started.map_or_else(|| "the world is started".to_owned(), str::to_owned);
         return format!(
             "no line of the launch files sets a search path for models in this scope: before \
-             {before}, `SetEnvironmentVariable('GZ_SIM_RESOURCE_PATH', FOLDER)` does, in XML \
+             {before}, add `SetEnvironmentVariable('GZ_SIM_RESOURCE_PATH', FOLDER)`, in XML \
              `<set_env name=\"GZ_SIM_RESOURCE_PATH\" value=\"FOLDER\"/>`, for Gazebo Classic \
              `GAZEBO_MODEL_PATH`, in ROS 1 `<env name=\"GAZEBO_MODEL_PATH\" value=\"FOLDER\"/>`"
         );
@@ -122,7 +121,7 @@ mod tests {
         check(
             &[("GAZEBO_MODEL_PATH", "/a", "a.launch.py:31")],
             &[],
-            "`GAZEBO_MODEL_PATH` is set at a.launch.py:31, which does not hold where the world is \
+            "`GAZEBO_MODEL_PATH` is set at a.launch.py:31, which has no effect where the world is \
              started (a.launch.py:20)",
         );
         check(&[("PATH", "/a", "a.launch.py:1")], &[], "no line of the launch files sets");

@@ -1,8 +1,8 @@
-//! A process that outlives a launch, to end what it has started.
+//! Guard process that outlives a launch, to end the processes it started.
 //!
-//! A launch that is killed (`kill -9`, out of memory) can end nothing itself. So it keeps a second
-//! process that only waits for the end of a pipe: it comes with the launch, however that ends. What
-//! was reported to it until then, and not withdrawn, is ended.
+//! A launch that is killed (`kill -9`, out of memory) cannot end its processes. So it keeps a
+//! second process that waits for the end of a pipe, which closes with the launch in every case.
+//! Process groups that were reported and not withdrawn are then ended.
 
 use std::collections::BTreeSet;
 use std::io::{BufRead, Write as _};
@@ -13,13 +13,13 @@ use std::time::Duration;
 
 use periplus_os::{Stopwatch, sleep};
 
-/// How long processes may take to end after each signal.
+/// Time between signals.
 const GRACE: Duration = Duration::from_secs(3);
 
-/// How often it is checked whether they have.
+/// Polling period.
 const CHECK: Duration = Duration::from_millis(20);
 
-/// The guard of the processes of a launch; clones share it.
+/// Guard of the processes of a launch; clones share it.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Guard(Arc<Mutex<State>>);
 
@@ -30,7 +30,7 @@ struct State {
 }
 
 impl Guard {
-    /// Reports a process group. The guarding process, `program __guard`, starts with the first one.
+    /// Reports a process group. The guard process, `program __guard`, starts with the first one.
     pub(crate) fn watch(&self, program: Option<&Path>, group: u32) {
         let mut state = self.0.lock().unwrap_or_else(PoisonError::into_inner);
         if state.process.is_none() && !state.has_failed {
@@ -40,7 +40,7 @@ impl Guard {
         state.send('+', group);
     }
 
-    /// Withdraws a process group: it has ended.
+    /// Withdraws a process group that has ended.
     pub(crate) fn forget(&self, group: u32) {
         self.0.lock().unwrap_or_else(PoisonError::into_inner).send('-', group);
     }
@@ -73,11 +73,11 @@ fn start(program: &Path) -> Option<(Child, ChildStdin)> {
     Some((process, pipe))
 }
 
-/// The word behind the program that makes it a guard. It is no command for people.
+/// Argument that makes the program a guard. Not a command for users.
 pub const GUARD_VERB: &str = "__guard";
 
-/// The work of the guarding process: reads what is reported until the launch ends, then ends what is
-/// left.
+/// Main function of the guard process: reads reports until the launch ends, then ends the remaining
+/// groups.
 pub fn guard(reports: impl BufRead) {
     let mut groups = BTreeSet::new();
     for line in reports.lines().map_while(Result::ok) {
@@ -100,19 +100,19 @@ pub fn guard(reports: impl BufRead) {
     }
 }
 
-/// The signals by which processes are ended, in the order in which `launch` sends them.
+/// Signals to end processes, in the order in which `launch` sends them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Ending {
-    /// As Ctrl-C does.
+    /// SIGINT, as Ctrl-C.
     Interrupt,
-    /// As `kill` does.
+    /// SIGTERM, as `kill`.
     Terminate,
-    /// At once.
+    /// SIGKILL.
     Kill,
 }
 
-/// Makes a program the first of a process group of its own: what it starts belongs to it, and a
-/// Ctrl-C in the terminal reaches it through the launch alone.
+/// Makes a program the leader of a new process group, which contains its child processes; Ctrl-C in
+/// the terminal reaches it through the launch only.
 pub(crate) fn own_group(command: &mut Command) {
     #[cfg(unix)]
     std::os::unix::process::CommandExt::process_group(command, 0);
@@ -134,7 +134,7 @@ pub(crate) fn send(group: u32, ending: Ending) {
     }
 }
 
-/// Whether any process of a group is left.
+/// Returns true if a process of a group is left.
 #[cfg(unix)]
 pub(crate) fn has_members(group: u32) -> bool {
     group_id(group).is_some_and(|group| rustix::process::test_kill_process_group(group).is_ok())
@@ -142,16 +142,15 @@ pub(crate) fn has_members(group: u32) -> bool {
 
 #[cfg(unix)]
 fn group_id(group: u32) -> Option<rustix::process::Pid> {
-    // 0 and 1 would be this process's own group, and everybody's.
+    // 0 and 1 would address this process's own group, and all processes.
     i32::try_from(group).ok().filter(|group| *group > 1).and_then(rustix::process::Pid::from_raw)
 }
 
-/// Sends a signal to all processes of a group: elsewhere the first alone is known, and ends with its
-/// handle.
+/// Other systems have no process groups: only the leader is known, and ends with its handle.
 #[cfg(not(unix))]
 pub(crate) fn send(_group: u32, _ending: Ending) {}
 
-/// Whether any process of a group is left.
+/// Returns true if a process of a group is left.
 #[cfg(not(unix))]
 pub(crate) fn has_members(_group: u32) -> bool {
     false

@@ -1,4 +1,4 @@
-//! Those who have something to do from time to time while a plan runs.
+//! Periodic tasks of a running plan.
 
 mod bonds;
 mod changer;
@@ -26,38 +26,38 @@ pub(crate) use unstamp::Unstamp;
 
 use crate::bringup::told::Said;
 
-/// What there is to work with.
+/// Context of a task.
 pub(crate) struct Stage<'a> {
     pub(crate) graph: &'a Graph,
     pub(crate) now_ns: i64,
-    /// The world, if one is simulated here.
+    /// World, if one is simulated here.
     pub(crate) simulation: Option<&'a mut Simulation>,
     pub(crate) search: &'a Search,
     pub(crate) said: &'a mut Vec<Said>,
-    /// Whether it has written something to its output.
+    /// True if the task has printed output.
     pub(crate) has_printed: bool,
 }
 
-/// Whether somebody is done.
+/// Result of a call.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Done {
-    /// There is more to do, or to wait for.
+    /// The task continues.
     No,
-    /// It is.
+    /// The task is finished.
     Yes,
 }
 
-/// One who has something to do.
+/// Periodic task.
 pub(crate) trait Hand: Send {
-    /// Does what can be done now.
+    /// Processes what is due now.
     fn work(&mut self, stage: &mut Stage<'_>) -> Done;
 
-    /// Time went back by this \[ns\]; times that are waited for come as much earlier.
+    /// Adapts deadlines after a jump back in time by this amount \[ns\].
     fn time_went_back(&mut self, _by_ns: i64) {}
 
-    /// Everything ends: asks for it, and waits for nothing.
+    /// Asks the task to end, without waiting.
     fn ask_to_stop(&mut self) {}
 
-    /// Everything ends: waits for it.
+    /// Waits for the end.
     fn stop(&mut self) {}
 }

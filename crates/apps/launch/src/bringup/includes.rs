@@ -1,4 +1,4 @@
-//! Launch files of packages that are not here, by what they start.
+//! Built-in replacements for launch files of missing packages.
 //!
 //! Sources of names and defaults: `gazebo_ros/launch` (noetic, ros2), `ros_gz_sim/launch` (jazzy),
 //! `slam_toolbox/launch`, `nav2_bringup/launch` (humble to main).
@@ -11,15 +11,15 @@ use serde_json::json;
 use crate::bringup::parts::{truth, values};
 use crate::bringup::world::{self, WorldWish};
 
-/// What stands for a launch file.
+/// Replacement of a launch file.
 pub(crate) enum StandIn {
-    /// A simulation.
+    /// Simulation.
     World(WorldWish),
-    /// These steps.
+    /// Steps.
     Steps(Vec<What>),
 }
 
-/// Packages with the launch files for which something stands, by package.
+/// Launch files with a replacement, by package.
 pub const STOOD_FOR: [(&str, &[&str]); 5] = [
     (
         "gazebo_ros",
@@ -49,13 +49,13 @@ pub const STOOD_FOR: [(&str, &[&str]); 5] = [
     ),
 ];
 
-/// Whether something stands for a launch file of a package that is not here.
+/// Returns true if a launch file of a missing package has a replacement.
 #[must_use]
 pub fn stands_for(package: &str, file: &str) -> bool {
     stand_in(&format!("package://{package}/launch/{file}"), &BTreeMap::new()).is_some()
 }
 
-/// What stands for a file; none when it is not known.
+/// Replacement of a file; `None` if it is unknown.
 pub(crate) fn stand_in(file: &str, given: &BTreeMap<String, String>) -> Option<StandIn> {
     let (package, path) = file.strip_prefix("package://")?.split_once('/')?;
     let name = path.rsplit('/').next().unwrap_or(path);
@@ -70,7 +70,7 @@ pub(crate) fn stand_in(file: &str, given: &BTreeMap<String, String>) -> Option<S
         ("gazebo_ros", "empty_world.launch") => {
             StandIn::World(gazebo(&arguments, "world_name", "paused"))
         }
-        // `rubble_world.launch` and its like show the world of that name.
+        // `rubble_world.launch` and similar files show the world of that name.
         ("gazebo_ros", name) if name.ends_with("_world.launch") => {
             let world = name.trim_end_matches("_world.launch");
             let wish = gazebo(&arguments, "world_name", "paused");
@@ -106,7 +106,7 @@ pub(crate) fn stand_in(file: &str, given: &BTreeMap<String, String>) -> Option<S
     })
 }
 
-/// Arguments that were given.
+/// Given arguments.
 struct Arguments<'a>(&'a BTreeMap<String, String>);
 
 impl Arguments<'_> {
@@ -146,7 +146,7 @@ fn node(package: &str, executable: &str) -> What {
     }))
 }
 
-/// A node by name with parameters.
+/// Named node with parameters.
 fn named(package: &str, executable: &str, name: &str, around: &Around) -> What {
     let identity = Identity {
         name: Some(name.to_owned()),
@@ -162,7 +162,7 @@ fn named(package: &str, executable: &str, name: &str, around: &Around) -> What {
     }))
 }
 
-/// What all nodes of a file get.
+/// Settings of all nodes of a file.
 #[derive(Clone, Debug, Default)]
 struct Around {
     namespace: Option<String>,
@@ -183,7 +183,7 @@ impl Around {
         Self {
             namespace: namespace.map(|name| format!("/{}", name.trim_matches('/'))),
             parameters,
-            // Robots with namespaces have transforms of their own.
+            // Robots with namespaces have separate transforms.
             remaps: if namespace.is_some() { remaps.to_vec() } else { Vec::new() },
         }
     }
@@ -195,7 +195,7 @@ impl Around {
     }
 }
 
-/// The manager of these nodes.
+/// Lifecycle manager of these nodes.
 fn manager(name: &str, nodes: &[&str], arguments: &Arguments<'_>, around: &Around) -> What {
     let autostart = arguments.is("autostart", true);
     let around = around.with(&json!({ "autostart": autostart, "node_names": nodes }));
@@ -264,7 +264,7 @@ fn slam(program: &str, arguments: &Arguments<'_>) -> What {
     named("slam_toolbox", program, "slam_toolbox", &around)
 }
 
-/// `create`, with the arguments of the file as its words.
+/// `create`, with the arguments of the file.
 fn spawn(arguments: &Arguments<'_>) -> What {
     let names = [
         ("world", "world"),

@@ -1,4 +1,4 @@
-//! From what a program is asked for to what does it here.
+//! Creation of built-in replacements.
 
 use std::any::Any;
 use std::path::Path;
@@ -34,7 +34,7 @@ use crate::bringup::parts::{Ask, searched};
 use crate::bringup::told::Kind;
 use crate::bringup::transform::FixedFrame;
 
-/// What was made.
+/// Created replacement.
 #[derive(Default)]
 pub(crate) struct Made {
     pub(crate) kept: Vec<Box<dyn Any + Send>>,
@@ -42,7 +42,7 @@ pub(crate) struct Made {
     pub(crate) kind: Kind,
     pub(crate) node: Option<String>,
     pub(crate) told: String,
-    /// What is to be said of it.
+    /// Notes for the user.
     pub(crate) notes: Vec<String>,
 }
 
@@ -56,10 +56,10 @@ impl Made {
     }
 }
 
-/// Makes what stands for a program.
+/// Creates the replacement of a program.
 ///
 /// # Errors
-/// Why it cannot be, in words.
+/// A message when it cannot be created.
 pub(crate) fn make(
     ask: &Ask,
     graph: &Graph,
@@ -80,7 +80,7 @@ pub(crate) fn make(
         _ => {}
     }
     let mut named = parameters(ask, &mut made.notes);
-    // As for programs that are run by themselves, what this command was given goes before.
+    // Arguments of this command take precedence, as for programs started directly.
     named.extend(graph.parameters_given_to(&ask.full_name()));
     let node = node(ask, graph, &named, &mut made.notes)?;
     made.node = Some(node.full_name().to_owned());
@@ -90,7 +90,7 @@ pub(crate) fn make(
         Role::RobotStatePublisher => {
             let text =
                 description(ask, &named, &settings.search.working_folder)?.ok_or_else(|| {
-                    "the parameter `robot_description` is missing: it is to hold a URDF".to_owned()
+                    "the parameter `robot_description` is missing: set it to a URDF".to_owned()
                 })?;
             let options = RobotStateOptions::default();
             if is_urdf(&text) {
@@ -136,7 +136,7 @@ pub(crate) fn make(
             let spawner = Spawner::new(&node, given, &parameter, &path, now_ns)?
                 .written_at(ask.written.as_deref());
             made.told = spawner.told();
-            // It hears as long as it waits.
+            // It needs its subscription until then.
             made.hand(spawner);
             drop(node);
         }
@@ -195,11 +195,11 @@ pub(crate) fn make(
             let is_lacking = |name: &String| lacking.contains(&format!("{namespace}/{name}"));
             let (out, names): (Vec<_>, Vec<_>) = names.into_iter().partition(is_lacking);
             if !out.is_empty() {
-                made.notes.push(format!("leaves out what is not there: {}", out.join(", ")));
+                made.notes.push(format!("skips missing nodes: {}", out.join(", ")));
             }
             let is_autostart = truth_of(&named, "autostart").unwrap_or(false);
-            made.told = format!("brings up {}", names.join(", "));
-            // Defaults are Nav2's.
+            made.told = format!("manages {}", names.join(", "));
+            // Defaults of Nav2.
             let number = |name, default| parameters::number_of(&named, name).unwrap_or(default);
             let settings = ManagerSettings {
                 node_names: names,
@@ -215,11 +215,12 @@ pub(crate) fn make(
             let topic = |index: usize, name: &str| {
                 words.get(index).cloned().or_else(|| text_of(&named, name))
             };
-            let from = topic(0, "input_topic").ok_or("it is not told from which topic")?;
+            let from = topic(0, "input_topic")
+                .ok_or("the parameter `input_topic` or an argument is missing")?;
             let to = topic(1, "output_topic").unwrap_or_else(|| format!("{from}_relay"));
             let resolve = |name: &str| node.names().topic(name).map_err(failed);
             let ways = vec![(resolve(&from)?, resolve(&to)?)];
-            made.told = format!("{from} goes out on {to}");
+            made.told = format!("relays {from} to {to}");
             made.hand(Relay::new(graph, node, ways)?);
         }
         Role::Gazebo | Role::Viewer | Role::Container | Role::Needless | Role::Lacking => {}
@@ -227,15 +228,15 @@ pub(crate) fn make(
     Ok(made)
 }
 
-/// The parameters of the node of a program.
+/// Parameters of the node of a program.
 pub(crate) fn parameters(ask: &Ask, notes: &mut Vec<String>) -> Named {
     parameters_as(ask, &ask.full_name(), notes)
 }
 
-/// The parameters that a node by this name gets from what a program is given.
+/// Parameters for a node name, from all that a program is given.
 pub(crate) fn parameters_as(ask: &Ask, full_name: &str, notes: &mut Vec<String>) -> Named {
     let mut named = Named::new();
-    // ROS 1: private ones of the server first.
+    // ROS 1: private parameters of the server first.
     let prefix = format!("{full_name}/");
     for (name, value) in &ask.server {
         let value = parameters::parameter(value);
@@ -267,7 +268,7 @@ pub(crate) fn remapped(mut settings: NodeSettings, ask: &Ask) -> NodeSettings {
     settings
 }
 
-/// True if the root of a description is `<robot>`: other formats become models first.
+/// Returns true if the root of a description is `<robot>`: other formats are converted first.
 fn is_urdf(text: &str) -> bool {
     let mut sources = SourceMap::new();
     let file = sources.add("robot_description", text);
@@ -275,7 +276,7 @@ fn is_urdf(text: &str) -> bool {
     document.is_some_and(|document| document.root.local_name() == "robot")
 }
 
-/// The node of a program; with a number behind its name when that is taken, as programs that are
+/// Creates the node of a program; a number is appended to a name in use, as for programs that are
 /// started twice.
 fn node(ask: &Ask, graph: &Graph, named: &Named, notes: &mut Vec<String>) -> Result<Node, String> {
     let full_name = ask.full_name();
@@ -292,7 +293,7 @@ fn node(ask: &Ask, graph: &Graph, named: &Named, notes: &mut Vec<String>) -> Res
         match graph.node(settings) {
             Err(GraphError::NodeExists { node }) if number < 1000 => {
                 if number == 1 && has_name {
-                    notes.push(format!("there is a node {node} already; this one gets a number"));
+                    notes.push(format!("the node name {node} is in use; a number is appended"));
                 }
                 number += 1;
             }
@@ -301,7 +302,7 @@ fn node(ask: &Ask, graph: &Graph, named: &Named, notes: &mut Vec<String>) -> Res
     }
 }
 
-/// The description of a robot: a parameter, one of ROS 1's server, or a file that the words name.
+/// Robot description: a parameter, one of the ROS 1 server, or a file in the arguments.
 fn description(ask: &Ask, named: &Named, launch_folder: &Path) -> Result<Option<String>, String> {
     const NAME: &str = "robot_description";
     if let Some(text) = text_of(named, NAME) {
@@ -309,7 +310,7 @@ fn description(ask: &Ask, named: &Named, launch_folder: &Path) -> Result<Option<
     }
     let full_name = ask.full_name();
     let namespace = full_name.rsplit_once('/').map_or("", |(namespace, _)| namespace);
-    // A remapping means parameters too, in ROS 1.
+    // A remapping applies to parameters too, in ROS 1.
     let bare = |name: &str| name.trim_start_matches('/') == NAME;
     let remap = ask.identity.remaps.iter().find(|(from, _)| bare(from));
     let name = remap.map_or(NAME, |(_, to)| to.as_str());
@@ -322,7 +323,7 @@ fn description(ask: &Ask, named: &Named, launch_folder: &Path) -> Result<Option<
     let file = &ask.path(launch_folder, file);
     let bytes = Machine.read(Path::new(file));
     let bytes = bytes.map_err(|error| format!("{file} cannot be read: {error}"))?;
-    String::from_utf8(bytes).map(Some).map_err(|_| format!("{file} is no text"))
+    String::from_utf8(bytes).map(Some).map_err(|_| format!("{file} is not a text file"))
 }
 
 fn slam(
@@ -365,7 +366,7 @@ fn maps(
         return Ok(());
     }
     if !is_managed && words.iter().any(|word| word == "-f") {
-        made.notes.push("`-f` is for saving a map: this runs `map_saver`".into());
+        made.notes.push("`-f` saves a map: running `map_saver`".into());
         made.told = "saves one map and ends".into();
         made.hand(Saver::new(&node, words, Distro::Noetic)?);
         return Ok(());
@@ -384,7 +385,7 @@ fn maps(
     let server = MapServer::new(node, settings, Arc::new(Machine));
     let server = server.map_err(|error| error.to_string())?;
     if !ask.is_managed {
-        // The server logs what is wrong with its map; a launch needs it in words of its own.
+        // The server logs errors of its map; a launch needs a separate message.
         if let Some(why) = unusable_map(&file_of_map, distro) {
             return Err(why);
         }
@@ -394,21 +395,21 @@ fn maps(
     Ok(())
 }
 
-/// The reason for which a file is no map that can be served.
+/// Reason why a map cannot be served.
 fn unusable_map(file: &str, distro: Distro) -> Option<String> {
     if file.is_empty() {
-        return Some("it is given no map: name its YAML, `args=\"MAP.yaml\"`".into());
+        return Some("no map given: pass its YAML, `args=\"MAP.yaml\"`".into());
     }
     if let Err(why) = Machine.read(Path::new(file)) {
         return Some(format!("the map {file} cannot be read: {why}"));
     }
     let is_map = periplus_maps::load(file, distro, &Machine).map.is_some();
     let words =
-        || format!("{file} is no map that can be used; `periplus map info {file}` says why");
+        || format!("{file} is not a usable map; `periplus map info {file}` prints the reason");
     (!is_map).then(words)
 }
 
-/// The words of a program that reads or writes a map, with paths as the program means them.
+/// Arguments of a program that reads or writes a map, with resolved paths.
 fn with_paths(ask: &Ask, launch_folder: &Path) -> Vec<String> {
     let words = &ask.told.own;
     let is_saved = |index: usize| index > 0 && words[index - 1] == "-f";
@@ -421,8 +422,7 @@ fn with_paths(ask: &Ask, launch_folder: &Path) -> Vec<String> {
     words.iter().enumerate().map(path).collect()
 }
 
-/// Topics of Gazebo have their names in the simulation already; those that get another one are passed
-/// on.
+/// Gazebo topics have their names in the simulation already; remapped ones are relayed.
 fn bridged(
     ask: &Ask,
     graph: &Graph,
@@ -450,12 +450,12 @@ fn bridged(
     for pair in &pairs {
         let gz = gz_topic(&pair.gz);
         let ros = node.names().topic(&pair.ros).map_err(|error| error.to_string())?;
-        // The simulation tells the time itself.
+        // The simulation publishes the time itself.
         if gz == ros || ros == "/clock" {
             continue;
         }
         if pair.is_stamped_velocity && pair.direction != Direction::GzToRos {
-            passed_on.push(format!("{ros} is {gz} without its time and frame"));
+            passed_on.push(format!("{ros} to {gz} without stamp and frame"));
             made.hand(Unstamp::new(&node, &pair.ros, graph, &gz)?);
             continue;
         }
@@ -465,7 +465,7 @@ fn bridged(
             Direction::RosToGz => vec![back],
             Direction::Both => vec![there, back],
         };
-        passed_on.push(format!("{gz} is {ros}"));
+        passed_on.push(format!("{gz} to {ros}"));
         made.hand(Relay::new(graph, node.clone(), ways)?);
     }
     if !passed_on.is_empty() {
@@ -475,17 +475,17 @@ fn bridged(
     Ok(())
 }
 
-/// Parameters as a file, for those who read files.
+/// Parameters as a YAML file, for code that reads files.
 pub(crate) struct Written {
     pub(crate) sources: SourceMap,
     tree: Option<periplus_yaml::Node>,
 }
 
 impl Written {
-    /// Of a node by its full name.
+    /// Writes the parameters of a node by its full name.
     ///
     /// # Errors
-    /// In words; it was written here, so there is none.
+    /// A message; unexpected, because the text is generated here.
     pub(crate) fn new(named: &Named, full_name: &str) -> Result<Self, String> {
         let all: Vec<_> = named.iter().map(|(name, value)| (name.clone(), value.clone())).collect();
         let text = if all.is_empty() { String::new() } else { parameters_to_yaml("/**", &all) };
@@ -495,7 +495,7 @@ impl Written {
         Ok(Self { sources, tree })
     }
 
-    /// Reads it; warnings and errors are told.
+    /// Parses the file; returns warnings and errors as notes.
     pub(crate) fn read<T>(
         &self,
         notes: &mut Vec<String>,
@@ -508,7 +508,7 @@ impl Written {
     }
 }
 
-/// Warnings and errors, to be told.
+/// Warnings and errors as texts.
 fn grave(found: &Diagnostics, sources: &SourceMap) -> Vec<String> {
     let grave = found.iter().filter(|one| one.severity != Severity::Hint);
     grave.map(|one| render(one, sources, Style::Plain).trim_end().to_owned()).collect()

@@ -1,4 +1,4 @@
-//! The parameters of one node, from everything that a plan gives it.
+//! Parameters of a node in a plan.
 
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -14,8 +14,8 @@ use serde_json::Value;
 /// Parameters by name.
 pub(crate) type Named = BTreeMap<String, ParameterValue>;
 
-/// What a node gets: values and files in their order, then what stands behind `--ros-args`. What is
-/// wrong with them is added to `notes`.
+/// Parameters of a node: values and files in their order, then `--ros-args`. Errors are added to
+/// `notes`.
 pub(crate) fn of_node(
     full_name: &str,
     given: &[Parameters],
@@ -31,7 +31,7 @@ pub(crate) fn of_node(
                 }
             }
             Parameters::File(file) if file.starts_with("package://") => notes.push(format!(
-                "{file} is in a package that is not on this machine; the defaults stand in for it"
+                "{file} is in a package that is not on this machine; using defaults"
             )),
             Parameters::File(file) => {
                 let words = ["--params-file".to_owned(), file.clone()];
@@ -43,7 +43,7 @@ pub(crate) fn of_node(
     all
 }
 
-/// Reads what stands behind `--ros-args`.
+/// Parses `--ros-args`.
 pub(crate) fn arguments(words: &[String], notes: &mut Vec<String>) -> Arguments {
     let (mut sources, mut found) = (SourceMap::new(), Diagnostics::new());
     let arguments = Arguments::read(words, &mut sources, &mut found, &mut text);
@@ -54,10 +54,10 @@ pub(crate) fn arguments(words: &[String], notes: &mut Vec<String>) -> Arguments 
 
 fn text(path: &Path) -> Result<String, String> {
     let bytes = Machine.read(path).map_err(|error| format!("cannot be read: {error}"))?;
-    String::from_utf8(bytes).map_err(|_| "is no text".into())
+    String::from_utf8(bytes).map_err(|_| "is not a text file".into())
 }
 
-/// A value, or those inside of it with dots between their names.
+/// Adds a value, or its members with dotted names.
 fn collect(name: &str, value: &Value, all: &mut Named, notes: &mut Vec<String>) {
     if let Value::Object(inner) = value {
         for (inner_name, value) in inner {
@@ -69,11 +69,11 @@ fn collect(name: &str, value: &Value, all: &mut Named, notes: &mut Vec<String>) 
         Some(value) => {
             all.insert(name.to_owned(), value);
         }
-        None => notes.push(format!("`{name}` is left out: {value} is no value of a parameter")),
+        None => notes.push(format!("`{name}` is ignored: {value} is not a parameter value")),
     }
 }
 
-/// A value of JSON as a parameter; none where ROS knows none such.
+/// JSON value as a parameter; `None` if ROS has no such type.
 pub(crate) fn parameter(value: &Value) -> Option<ParameterValue> {
     let of = |r#type: u8| ParameterValue { r#type, ..ParameterValue::default() };
     Some(match value {
@@ -90,7 +90,7 @@ pub(crate) fn parameter(value: &Value) -> Option<ParameterValue> {
     })
 }
 
-/// A text as a parameter.
+/// Text as a parameter.
 pub(crate) fn text_parameter(text: &str) -> ParameterValue {
     ParameterValue {
         r#type: Type::PARAMETER_STRING,
@@ -118,13 +118,13 @@ fn list(items: &[Value]) -> Option<ParameterValue> {
     Some(ParameterValue { string_array_value: texts?, ..of(Type::PARAMETER_STRING_ARRAY) })
 }
 
-/// The text of a parameter.
+/// Text value of a parameter.
 pub(crate) fn text_of(all: &Named, name: &str) -> Option<String> {
     let value = all.get(name)?;
     (value.r#type == Type::PARAMETER_STRING).then(|| value.string_value.clone())
 }
 
-/// The number of a parameter.
+/// Numeric value of a parameter.
 pub(crate) fn number_of(all: &Named, name: &str) -> Option<f64> {
     let value = all.get(name)?;
     match value.r#type {
@@ -136,7 +136,7 @@ pub(crate) fn number_of(all: &Named, name: &str) -> Option<f64> {
     }
 }
 
-/// The truth of a parameter.
+/// Boolean value of a parameter.
 pub(crate) fn truth_of(all: &Named, name: &str) -> Option<bool> {
     let value = all.get(name)?;
     match value.r#type {
@@ -150,12 +150,12 @@ pub(crate) fn truth_of(all: &Named, name: &str) -> Option<bool> {
     }
 }
 
-/// The texts of a parameter.
+/// Texts of a parameter.
 pub(crate) fn texts_of(all: &Named, name: &str) -> Vec<String> {
     all.get(name).map(|value| value.string_array_value.clone()).unwrap_or_default()
 }
 
-/// A value as words, those of a list side by side.
+/// Value as words, lists joined.
 pub(crate) fn words(value: &ParameterValue) -> String {
     fn join<T: ToString>(items: &[T]) -> String {
         items.iter().map(T::to_string).collect::<Vec<_>>().join(" ")

@@ -1,4 +1,4 @@
-//! A plan, part by part: each step with what stands for it here.
+//! Parts of a plan: each step with its built-in replacement.
 
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -12,60 +12,60 @@ use crate::bringup::includes;
 use crate::bringup::words::{self, Told};
 use crate::bringup::world::{self, WorldWish};
 
-/// What is to be done, and when.
+/// Part of a plan.
 #[derive(Clone, Debug)]
 pub(crate) struct Part {
-    /// The step of the plan that it belongs to.
+    /// Step of the plan.
     pub(crate) step: usize,
-    /// What must have happened before, one after the other.
+    /// Triggers that must have occurred before, one after another.
     pub(crate) after: Vec<Trigger>,
-    /// What it is.
+    /// Task.
     pub(crate) work: Work,
-    /// As the launch file calls it: `gazebo_ros spawn_entity.py`.
+    /// Name in the launch file: `gazebo_ros spawn_entity.py`.
     pub(crate) asked: String,
-    /// Whether everything ends with it.
+    /// True if its end shuts the launch down.
     pub(crate) is_required: bool,
 }
 
-/// What is to be done.
+/// Task of a part.
 #[derive(Clone, Debug)]
 pub(crate) enum Work {
-    /// There is a simulation.
+    /// Simulation.
     World(WorldWish),
-    /// A node or a deed of ours takes the place of a program.
+    /// Built-in replacement of a program.
     Ours(Box<Ask>),
-    /// A program of the machine's.
+    /// External program.
     Program(Box<Program>),
-    /// The built-in `xacro`.
+    /// Built-in `xacro`.
     Xacro(Box<Program>),
-    /// A managed node is asked for a transition.
+    /// Transition of a lifecycle node.
     Transition { step: Option<usize>, transition: String },
-    /// Something is said.
+    /// Log message.
     Log { level: String, text: String },
-    /// Everything ends.
+    /// Shutdown.
     Shutdown { reason: String },
-    /// Nothing; why.
+    /// Nothing, with the reason.
     Nothing(String),
 }
 
-/// What one of ours is asked for.
+/// Request for a built-in replacement.
 #[derive(Clone, Debug)]
 pub(crate) struct Ask {
     pub(crate) entry: &'static Entry,
     pub(crate) identity: Identity,
     pub(crate) told: Told,
-    /// Whether it waits for somebody who configures and activates it.
+    /// True if it waits for a lifecycle manager.
     pub(crate) is_managed: bool,
-    /// ROS 1's parameter server.
+    /// ROS 1 parameter server.
     pub(crate) server: BTreeMap<String, Value>,
-    /// How the program would run.
+    /// Process settings of the program.
     pub(crate) running: Running,
-    /// The line of the launch file that asks: `FILE:LINE`.
+    /// Launch file line: `FILE:LINE`.
     pub(crate) written: Option<String>,
 }
 
 impl Ask {
-    /// A path as the program means it: from the folder in which it runs.
+    /// Resolves a path relative to the working folder of the program.
     pub(crate) fn path(&self, launch_folder: &Path, path: &str) -> String {
         match own_folder(&self.running) {
             Some(folder) if !path.contains("://") => {
@@ -75,26 +75,26 @@ impl Ask {
         }
     }
 
-    /// The name that its node has.
+    /// Full name of its node.
     pub(crate) fn full_name(&self) -> String {
         words::full_name(&self.identity, &self.told, self.entry.node)
     }
 }
 
-/// A program of the machine's.
+/// External program.
 #[derive(Clone, Debug)]
 pub(crate) struct Program {
-    /// The package; none for a command.
+    /// Package; `None` for a command.
     pub(crate) package: Option<String>,
-    /// Its words, the program first.
+    /// Command line, starting with the program.
     pub(crate) words: Vec<String>,
     pub(crate) is_shell: bool,
-    /// What it is given, if it is a node.
+    /// Name, parameters and remappings, if it is a node.
     pub(crate) identity: Identity,
     pub(crate) running: Running,
 }
 
-/// The parts of a plan, in its order.
+/// Parts of a plan, in its order.
 pub(crate) fn of_plan(plan: &Plan) -> Vec<Part> {
     let mut parts = Vec::new();
     for step in &plan.steps {
@@ -103,15 +103,14 @@ pub(crate) fn of_plan(plan: &Plan) -> Vec<Part> {
     parts
 }
 
-/// The folder that a launch file names for a program. `node`, `ROS_HOME` and `ros-root` of ROS 1 are
-/// no folders here.
+/// Working folder in the launch file. `node`, `ROS_HOME` and `ros-root` of ROS 1 are ignored.
 pub(crate) fn own_folder(running: &Running) -> Option<&str> {
     let folder = running.folder.as_deref()?;
     let is_named = !matches!(folder, "" | "node" | "ROS_HOME" | "ros-root");
     is_named.then_some(folder)
 }
 
-/// A world as the program that simulates it is run.
+/// World with the environment and folder of its program.
 fn placed(work: Work, running: &Running) -> Work {
     match work {
         Work::World(wish) => Work::World(WorldWish {
@@ -183,7 +182,7 @@ fn of_step(step: &Step, what: &What, server: &BTreeMap<String, Value>, parts: &m
                 file.clone(),
                 false,
                 Work::Nothing(format!(
-                    "{file} is in a package that is not on this machine, and nothing here stands for \
+                    "{file} is in a package that is not on this machine, and there is no built-in replacement for \
                      it; `--resource-path FOLDER` names where the package is"
                 )),
             ),
@@ -230,7 +229,7 @@ fn of_component(
         Some(entry) if entry.role == Role::Gazebo => Work::World(server_wish(&component.identity)),
         Some(entry) => ours(entry, &component.identity, Told::default(), false, server, running),
         None => Work::Nothing(format!(
-            "the component {} of the package {} is compiled code for ROS; nothing here stands for it",
+            "the component {} of the package {} is compiled code for ROS without a built-in replacement",
             component.plugin, component.package
         )),
     }
@@ -264,7 +263,7 @@ fn ours(
     }))
 }
 
-/// What `gzserver` of `ros_gz_sim` is asked for by its parameters.
+/// World of `gzserver` of `ros_gz_sim`, from its parameters.
 fn server_wish(identity: &Identity) -> WorldWish {
     let mut wish = WorldWish::default();
     for values in &identity.parameters {
@@ -311,7 +310,7 @@ fn of_process(process: &Process) -> Work {
     }
     let window =
         if world::is_window(words) { of_program(Some("gazebo_ros"), "gzclient") } else { None };
-    // A program that a path or a command line names, such as `rviz2 -d a.rviz`.
+    // A program by its path or command line, such as `rviz2 -d a.rviz`.
     let named = window.or_else(|| {
         let program = words.first()?;
         let entry = of_program(None, program)?;
@@ -325,7 +324,7 @@ fn of_process(process: &Process) -> Work {
     let is_xacro = words
         .first()
         .is_some_and(|program| is_program(program, "xacro") || is_program(program, "xacro.py"));
-    // What a shell does with a line (pipes, redirections) is for the shell.
+    // Shell syntax (pipes, redirections) is left to the shell.
     let is_plain = |word: &String| !word.contains(['|', '>', '<', '&', ';', '$', '`']);
     let is_ours = is_xacro && (!process.is_shell || words.iter().all(is_plain));
     let program = Box::new(Program {
@@ -338,7 +337,7 @@ fn of_process(process: &Process) -> Work {
     if is_ours { Work::Xacro(program) } else { Work::Program(program) }
 }
 
-/// The beginning of a command: its program, and what that is to do.
+/// Abbreviated command: its program and first argument.
 fn shortly(command: &[String]) -> String {
     let mut words = command.iter().flat_map(|word| word.split_whitespace());
     let program = words.next().unwrap_or_default();
@@ -352,13 +351,13 @@ fn shortly(command: &[String]) -> String {
     }
 }
 
-/// Whether a word names a program, with or without its path.
+/// Returns true if a word is a program name, with or without its path.
 fn is_program(word: &str, name: &str) -> bool {
     word.rsplit('/').next() == Some(name)
 }
 
-/// A value of ROS 1's parameter server by a name as a node writes it: in its namespace, or in one
-/// around it.
+/// Value of the ROS 1 parameter server by relative name: in the namespace of the node, or an
+/// enclosing one.
 pub(crate) fn searched<'a>(
     server: &'a BTreeMap<String, Value>,
     namespace: &str,
@@ -376,13 +375,13 @@ pub(crate) fn searched<'a>(
     }
 }
 
-/// Parameters of one node by itself, for stand-ins.
+/// Parameters of one node, for replacements.
 pub(crate) fn values(value: &Value) -> crate::Parameters {
     let values = value.as_object().into_iter().flatten();
     crate::Parameters::Values(values.map(|(name, value)| (name.clone(), value.clone())).collect())
 }
 
-/// A truth as launch files write it.
+/// Boolean in launch file syntax.
 pub(crate) fn truth(text: &str) -> Value {
     json!(matches!(text.trim().to_lowercase().as_str(), "true" | "1"))
 }

@@ -6,12 +6,12 @@ use crate::Trigger;
 
 use crate::bringup::parts::{Part, Work};
 
-/// A process that names the file of the world may go on for longer once the file is there \[ns\].
+/// Additional time for a process that writes the world file, once the file exists \[ns\].
 pub(crate) const LONGEST_WAIT_NS: i64 = 2_000_000_000;
 
-/// The parts of a plan, by their numbers, that run before its world is loaded: those whose end or
-/// output the world waits for, those that name its file among their words, and those that these wait
-/// for. Only commands are among them; nodes need the world.
+/// Indices of the parts that run before the world is loaded: those whose end or output the world
+/// waits for, those that have its file among their arguments, and those that these wait for. Only
+/// commands; nodes need the world.
 pub(crate) fn of_world(parts: &[&Part], world: usize) -> BTreeSet<usize> {
     let mut wanted = BTreeSet::new();
     let mut open = waited_for(parts, parts[world]);
@@ -26,7 +26,7 @@ pub(crate) fn of_world(parts: &[&Part], world: usize) -> BTreeSet<usize> {
             open.extend(waited_for(parts, parts[index]));
         }
     }
-    // What waits for a node, or for the world itself, comes later.
+    // Parts that wait for a node, or for the world itself, come later.
     loop {
         let is_possible = |index: &usize| {
             parts[*index].after.iter().all(|trigger| match step_of(trigger) {
@@ -43,7 +43,7 @@ pub(crate) fn of_world(parts: &[&Part], world: usize) -> BTreeSet<usize> {
     }
 }
 
-/// A thing that is waited for.
+/// Dependency of a trigger.
 enum Wait {
     Time,
     Step(usize),

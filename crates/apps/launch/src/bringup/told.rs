@@ -1,55 +1,55 @@
-//! What is told to whoever launched.
+//! Outcomes and log messages of a launch.
 
 use periplus_graph::Level;
 use serde::Serialize;
 
-/// What became of a part of a plan.
+/// Outcome of a part of a plan.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Line {
-    /// The step of the plan.
+    /// Step of the plan.
     pub step: usize,
-    /// As the launch file calls it.
+    /// Name in the launch file.
     pub asked: String,
-    /// What it is here.
+    /// Replacement of the part.
     #[serde(flatten)]
     pub became: Became,
 }
 
-/// What stands for a part of a plan.
+/// Replacement of a part of a plan.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Became {
-    /// Which kind of thing.
+    /// Kind of replacement.
     pub kind: Kind,
-    /// The full name of its node, if it has one.
+    /// Full name of its node, if it has one.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub node: Option<String>,
-    /// In words.
+    /// Description.
     pub told: String,
 }
 
-/// Which kind of thing stands for a part.
+/// Kind of replacement of a part.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Kind {
-    /// The simulation.
+    /// Simulation.
     World,
-    /// A node or a deed of ours.
+    /// Built-in node or task.
     #[default]
     BuiltIn,
-    /// A program of the machine's.
+    /// External program.
     Program,
-    /// Nothing, for nothing is missing.
+    /// Nothing needed.
     Needless,
-    /// Nothing, and it is missing.
+    /// Missing.
     Missing,
 }
 
-/// Something that is said while a plan runs.
+/// Log message of a running plan.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Said {
-    /// How grave it is.
+    /// Severity.
     pub level: Level,
-    /// What.
+    /// Text.
     pub text: String,
 }
 

@@ -12,21 +12,21 @@ use periplus_msgs::tf2_msgs::TFMessage;
 use crate::bringup::parameters::{Named, number_of, text_of};
 use crate::bringup::words;
 
-/// A frame in another, as words or parameters give it.
+/// Static transform from arguments or parameters.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct FixedFrame {
     pub(crate) parent: String,
     pub(crate) child: String,
     pub(crate) parent_from_child: Pose,
-    /// Of ROS 1's `tf`: time between two messages \[ns\].
+    /// Period of the messages, for ROS 1's `tf` \[ns\].
     pub(crate) period_ns: Option<i64>,
 }
 
 impl FixedFrame {
-    /// From the words of the program.
+    /// Parses the arguments of the program.
     ///
     /// # Errors
-    /// How they are written.
+    /// A message with the syntax.
     pub(crate) fn read(words: &[String], named: &Named) -> Result<Self, String> {
         let positions: Vec<&String> = words.iter().take_while(|word| !is_flag(word)).collect();
         match positions.len() {
@@ -34,7 +34,7 @@ impl FixedFrame {
             0 => Self::of_flags(words),
             8..=10 => Self::of_positions(&positions),
             _ => Err(format!(
-                "`{}` is no transform; write `--x X --y Y --z Z --roll R --pitch P --yaw Y --frame-id \
+                "`{}` is not a transform; write `--x X --y Y --z Z --roll R --pitch P --yaw Y --frame-id \
                  PARENT --child-frame-id CHILD`, or `X Y Z YAW PITCH ROLL PARENT CHILD`",
                 words.join(" ")
             )),
@@ -66,10 +66,10 @@ impl FixedFrame {
         Self::checked(parent, child, parent_from_child, None)
     }
 
-    /// `x y z yaw pitch roll parent child`, or with a quaternion; in ROS 1's `tf` a period in
-    /// milliseconds stands behind them.
+    /// `x y z yaw pitch roll parent child`, or with a quaternion; ROS 1's `tf` adds a period in
+    /// milliseconds.
     fn of_positions(words: &[&String]) -> Result<Self, String> {
-        // With a quaternion the eighth word is a frame, and of a period the last is a number.
+        // With a quaternion the eighth word is a frame, and with a period the last one is a number.
         let has_quaternion =
             words.len() == 10 || words.len() == 9 && words[6].parse::<f64>().is_ok();
         let angles = if has_quaternion { 7 } else { 6 };
@@ -111,15 +111,15 @@ impl FixedFrame {
         let bare = |name: &str| name.trim_start_matches('/').to_owned();
         let (parent, child) = (bare(&parent), bare(&child));
         if parent == child {
-            return Err(format!("the frame `{child}` cannot be in itself"));
+            return Err(format!("the frame `{child}` cannot be its own parent"));
         }
         Ok(Self { parent, child, parent_from_child, period_ns })
     }
 
-    /// Tells it, as long as what is given back is kept.
+    /// Publishes the transform as long as the result is kept.
     ///
     /// # Errors
-    /// In words.
+    /// A message when it cannot be published.
     pub(crate) fn tell(self, node: &Node) -> Result<Actor<Publisher<TFMessage>>, String> {
         let failed = |error: periplus_graph::GraphError| error.to_string();
         let Some(period_ns) = self.period_ns else {
@@ -129,7 +129,7 @@ impl FixedFrame {
         };
         let frames = node.publisher("/tf", Qos::reliable(100)).map_err(failed)?;
         let mut actor = node.actor(frames);
-        // Told for the time until the next is.
+        // Stamped with the time of the next message.
         let tell = move |frames: &mut Publisher<TFMessage>, now_ns: i64| {
             frames.publish(self.message(now_ns + period_ns));
         };
@@ -149,21 +149,21 @@ impl FixedFrame {
     }
 }
 
-/// Whether a word is an option; a negative number is none.
+/// Returns true for an option; a negative number is none.
 fn is_flag(word: &str) -> bool {
     word.starts_with('-') && word.parse::<f64>().is_err()
 }
 
 fn number(word: &str) -> Result<f64, String> {
     let number: Option<f64> = word.trim().parse().ok();
-    number.filter(|number| number.is_finite()).ok_or_else(|| format!("`{word}` is no number"))
+    number.filter(|number| number.is_finite()).ok_or_else(|| format!("`{word}` is not a number"))
 }
 
 fn turned(xyz: [f64; 3], [x, y, z, w]: [f64; 4]) -> Result<Pose, String> {
     let turn = DQuat::from_xyzw(x, y, z, w);
     let length = turn.length();
     if !(length.is_finite() && length > 1e-9) {
-        return Err(format!("({x}, {y}, {z}, {w}) is no rotation"));
+        return Err(format!("({x}, {y}, {z}, {w}) is not a rotation"));
     }
     Ok(Pose::from_xyz_quaternion(xyz, turn))
 }
@@ -202,9 +202,9 @@ mod tests {
 
     #[test]
     fn slips_are_told() {
-        assert!(read("1 2 3 a b").unwrap_err().contains("no transform"));
-        assert!(read("0 0 0 0 0 0 a a").unwrap_err().contains("in itself"));
+        assert!(read("1 2 3 a b").unwrap_err().contains("not a transform"));
+        assert!(read("0 0 0 0 0 0 a a").unwrap_err().contains("its own parent"));
         assert!(read("--x 1 --frame-id a").unwrap_err().contains("child-frame-id"));
-        assert!(read("0 0 0 0 0 0 0 a b").unwrap_err().contains("no rotation"));
+        assert!(read("0 0 0 0 0 0 0 a b").unwrap_err().contains("not a rotation"));
     }
 }

@@ -1,25 +1,25 @@
-//! The words behind a program: its own, and those that rename it and give it parameters.
+//! Arguments of a program: its own, remappings and parameters.
 
 use crate::Identity;
 use periplus_graph::split_arguments;
 
-/// What a program is told.
+/// Parsed arguments of a program.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct Told {
-    /// Its own words.
+    /// Own arguments.
     pub(crate) own: Vec<String>,
-    /// What stands behind `--ros-args`, with `a:=b` of ROS 1 and of old ROS 2 as rules.
+    /// Arguments after `--ros-args`, with `a:=b` of ROS 1 and old ROS 2 as rules.
     pub(crate) ros: Vec<String>,
-    /// The name that a rule gives it.
+    /// Node name set by a rule.
     pub(crate) name: Option<String>,
-    /// The namespace that a rule gives it.
+    /// Namespace set by a rule.
     pub(crate) namespace: Option<String>,
 }
 
-/// Reads the words of a program.
+/// Parses the arguments of a program.
 ///
-/// `_name:=value` is a parameter of ROS 1, `__name:=` and `__ns:=` rename the node, `from:=to` a topic.
-/// `__log:=` and the like, which `roslaunch` puts there, mean nothing here.
+/// `_name:=value` is a ROS 1 parameter, `__name:=` and `__ns:=` rename the node, `from:=to` remaps
+/// a topic. `__log:=` and similar arguments of `roslaunch` are ignored.
 pub(crate) fn read(words: &[String], ros_words: &[String]) -> Told {
     let (mixed, mut ros) = split_arguments(words.iter().cloned());
     ros.extend(ros_words.iter().filter(|word| *word != "--ros-args").cloned());
@@ -51,13 +51,13 @@ pub(crate) fn read(words: &[String], ros_words: &[String]) -> Told {
     told
 }
 
-/// Whether it can be the left side of a rule: an expression or a path with `:=` in it is none.
+/// Returns true if it can be the left side of a rule; expressions and paths with `:=` cannot.
 fn is_name(word: &str) -> bool {
     let is_letter = |letter: char| letter.is_ascii_alphanumeric() || "_~/.".contains(letter);
     !word.is_empty() && word.chars().all(is_letter)
 }
 
-/// The full name of a node by what it is given.
+/// Full name of a node.
 pub(crate) fn full_name(identity: &Identity, told: &Told, usual: &str) -> String {
     let name = told.name.as_deref().or(identity.name.as_deref()).unwrap_or(usual);
     let namespace = told.namespace.as_deref().or(identity.namespace.as_deref()).unwrap_or("/");
@@ -65,7 +65,7 @@ pub(crate) fn full_name(identity: &Identity, told: &Told, usual: &str) -> String
     if namespace.is_empty() { format!("/{name}") } else { format!("/{namespace}/{name}") }
 }
 
-/// An option `-name value`, `--name value`, `-name=value` or `--name=value`.
+/// Value of an option `-name value`, `--name value`, `-name=value` or `--name=value`.
 pub(crate) fn option<'a>(words: &'a [String], name: &str) -> Option<&'a str> {
     let mut words = words.iter();
     while let Some(word) = words.next() {

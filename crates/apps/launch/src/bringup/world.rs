@@ -1,31 +1,31 @@
-//! Which world a plan simulates, from all the ways in which Gazebo is started.
+//! World of a plan, for all methods of starting Gazebo.
 
 use serde::Serialize;
 
 use crate::bringup::environment::Environment;
 
-/// A world that a plan asks for.
+/// World requested by a plan.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct WorldWish {
-    /// The step that asks for it.
+    /// Step that requests it.
     pub step: usize,
-    /// The file as it is written; none is a plane in the sun.
+    /// File as written; `None` for an empty plane.
     pub file: Option<String>,
-    /// Whether it begins standing still.
+    /// True to start paused.
     pub is_paused: bool,
-    /// The seed of all noise, if one is given.
+    /// Seed of all noise, if given.
     pub seed: Option<u64>,
-    /// Whether it is shown.
+    /// True to show a window.
     pub has_window: bool,
-    /// The environment in which it is started.
+    /// Environment in which it is started.
     pub environment: Environment,
-    /// The folder in which it is started, if another than that of the launch.
+    /// Working folder, if not that of the launch.
     pub folder: Option<String>,
-    /// The line of the launch file that starts it, `file:line`.
+    /// Launch file line that starts it, `file:line`.
     pub written: Option<String>,
 }
 
-/// Options of Classic that have a value behind them, as `gazebo --help` lists them.
+/// Options of Gazebo Classic with a value, from `gazebo --help`.
 const CLASSIC_VALUES: [&str; 17] = [
     "-s",
     "--server-plugin",
@@ -46,7 +46,7 @@ const CLASSIC_VALUES: [&str; 17] = [
     "--initial_sim_time",
 ];
 
-/// Options of `gz sim` that have a value behind them, as `gz sim --help` lists them.
+/// Options of `gz sim` with a value, from `gz sim --help`.
 const GZ_VALUES: [&str; 20] = [
     "-v",
     "--verbose",
@@ -70,7 +70,7 @@ const GZ_VALUES: [&str; 20] = [
     "--force-version",
 ];
 
-/// What Gazebo Classic is asked for by its words: `gazebo`, `gzserver` and the programs of `gazebo_ros`.
+/// World of a Gazebo Classic command line: `gazebo`, `gzserver` and the programs of `gazebo_ros`.
 pub(crate) fn classic(words: &[String]) -> WorldWish {
     let mut wish = WorldWish { has_window: true, ..WorldWish::default() };
     let mut words = words.iter();
@@ -89,21 +89,21 @@ pub(crate) fn classic(words: &[String]) -> WorldWish {
     wish
 }
 
-/// What today's Gazebo is asked for by the words behind `gz sim`.
+/// World of a `gz sim` command line.
 pub(crate) fn gz(words: &[String]) -> WorldWish {
-    // It begins standing still unless it is told to run.
+    // It starts paused without `-r`.
     let mut wish = WorldWish { has_window: true, is_paused: true, ..WorldWish::default() };
     let mut words = words.iter().peekable();
     while let Some(word) = words.next() {
         if GZ_VALUES.contains(&word.as_str()) {
-            // `-v` alone is a flag too.
+            // `-v` without a value is a flag too.
             let is_value = |next: &&String| word != "-v" || next.parse::<u8>().is_ok();
             let value = words.next_if(|next| is_value(next));
             if word == "--seed" {
                 wish.seed = value.and_then(|value| value.parse().ok());
             }
         } else if let Some(letters) = word.strip_prefix('-').filter(|rest| !rest.starts_with('-')) {
-            // Several letters may stand together: `-rs`, `-v4`.
+            // Short options may be combined: `-rs`, `-v4`.
             wish.is_paused &= !letters.contains('r');
             wish.has_window &= !letters.contains('s');
         } else if !word.starts_with('-') && !word.is_empty() {
@@ -113,13 +113,13 @@ pub(crate) fn gz(words: &[String]) -> WorldWish {
     wish
 }
 
-/// The world of a command line; none when it starts no Gazebo.
+/// World of a command line; `None` if it starts no Gazebo.
 pub(crate) fn of_command(words: &[String]) -> Option<WorldWish> {
     let (program, rest) = words.split_first()?;
     let name = program.rsplit('/').next().unwrap_or(program);
     match (name, rest.first().map(String::as_str)) {
         ("gz", Some("sim")) | ("ign", Some("gazebo")) => Some(gz(&rest[1..])),
-        // Through ruby, as the launch files of ros_gz_sim start it.
+        // Started through ruby, as in the launch files of ros_gz_sim.
         (name, _) if name.starts_with("ruby") => of_command(rest),
         ("gazebo", _) => Some(classic(rest)),
         ("gzserver", _) => Some(WorldWish { has_window: false, ..classic(rest) }),
@@ -127,7 +127,7 @@ pub(crate) fn of_command(words: &[String]) -> Option<WorldWish> {
     }
 }
 
-/// Whether a command only shows what another one simulates.
+/// Returns true if a command only opens a window on another simulation.
 pub(crate) fn is_window(words: &[String]) -> bool {
     let name = words.first().map(|program| program.rsplit('/').next().unwrap_or(program));
     let is_gui = |word: &String| word == "-g";

@@ -1,4 +1,4 @@
-//! The program `xacro`, built in.
+//! Built-in program `xacro`.
 
 use std::path::{Path, PathBuf};
 
@@ -9,18 +9,18 @@ use periplus_os::Machine;
 use periplus_resources::Store as _;
 use periplus_xml::write_document;
 
-/// What `xacro` printed.
+/// Result of `xacro`.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Xacro {
-    /// The expanded document; empty where it was written to a file (`-o`).
+    /// Expanded document; empty if written to a file (`-o`).
     pub output: String,
     /// Errors, with their positions.
     pub errors: String,
-    /// False where nothing could be expanded or written.
+    /// False if expansion or writing failed.
     pub is_success: bool,
-    /// The cause of a failure that only an absent file or package has.
+    /// Missing input that caused the failure, if that is the only cause.
     pub missing: Option<MissingInput>,
-    /// The file that was written.
+    /// Written file.
     pub file: Option<PathBuf>,
 }
 
@@ -30,7 +30,7 @@ impl From<Xacro> for Printed {
     }
 }
 
-/// The words of a command line, read.
+/// Parsed command line.
 #[derive(Debug, Default, PartialEq)]
 struct Asked<'a> {
     file: Option<&'a str>,
@@ -38,17 +38,17 @@ struct Asked<'a> {
     arguments: Vec<(String, String)>,
 }
 
-/// Runs `xacro FILE [-o OUTPUT] name:=value ...`, with relative paths from the working folder of the
+/// Runs `xacro FILE [-o OUTPUT] name:=value ...`, with paths relative to the working folder of the
 /// setting.
 ///
 /// # Errors
-/// Words that cannot be understood.
+/// A message with the invalid argument.
 pub fn xacro(words: &[String], setting: &Setting<'_>) -> Result<Xacro, String> {
     let asked = read(words)?;
-    let Some(file) = asked.file else { return Err("xacro is given no file".into()) };
+    let Some(file) = asked.file else { return Err("no xacro file given".into()) };
     let setting = Setting { arguments: asked.arguments, open_meshes: false, ..setting.clone() };
     let loaded = load(Path::new(file), &setting);
-    // Only what keeps it from being expanded: the rest is reported when the robot is loaded.
+    // Only errors that prevent expansion: the rest is reported when the robot is loaded.
     let Some(document) = &loaded.document else {
         let mut errors: Vec<&Diagnostic> =
             loaded.diagnostics.iter().filter(|one| one.severity == Severity::Error).collect();
@@ -67,7 +67,7 @@ pub fn xacro(words: &[String], setting: &Setting<'_>) -> Result<Xacro, String> {
     };
     let target = setting.working_folder.join(target);
     if let Some(folder) = target.parent() {
-        // As xacro does: the folder of the output is made.
+        // As xacro does: creates the folder of the output.
         let _ = std::fs::create_dir_all(folder);
     }
     Ok(match Machine.replace(&target, output.as_bytes()) {
@@ -79,7 +79,7 @@ pub fn xacro(words: &[String], setting: &Setting<'_>) -> Result<Xacro, String> {
     })
 }
 
-/// The kind of absent input that an error reports; none for any other error.
+/// Kind of missing input of an error; `None` for any other error.
 fn missing_input(error: &Diagnostic) -> Option<MissingInput> {
     match error.code {
         "missing-resource" if error.message.contains("there is no package") => {
@@ -93,7 +93,8 @@ fn missing_input(error: &Diagnostic) -> Option<MissingInput> {
     }
 }
 
-/// Whether an absent include file can cause an error: macros, properties and arguments come from there.
+/// Returns true if a missing include file can cause an error: macros, properties and arguments come
+/// from there.
 fn may_follow(error: &Diagnostic) -> bool {
     match error.code {
         "unknown-macro" | "undefined-argument" => true,
@@ -102,18 +103,18 @@ fn may_follow(error: &Diagnostic) -> bool {
     }
 }
 
-/// The cause of errors that all come from absent files; none where something else is wrong too.
+/// Cause of errors that all come from missing files; `None` if there are other errors.
 fn missing(errors: &[&Diagnostic]) -> Option<MissingInput> {
     let cause = errors.iter().filter_map(|error| missing_input(error)).max()?;
     errors.iter().all(|error| is_explained(error)).then_some(cause)
 }
 
-/// Whether an error reports an absent file, or may come of one.
+/// Returns true if an error reports a missing file, or may be caused by one.
 fn is_explained(error: &Diagnostic) -> bool {
     missing_input(error).is_some() || may_follow(error)
 }
 
-/// The absent files and packages, each with the first place that names it.
+/// Missing files and packages, each with the first position that refers to it.
 fn summary(errors: &[&Diagnostic], sources: &SourceMap) -> String {
     let mut lines: Vec<String> = Vec::new();
     let mut known: Vec<&str> = Vec::new();
@@ -142,7 +143,7 @@ fn summary(errors: &[&Diagnostic], sources: &SourceMap) -> String {
     lines.iter().map(|line| format!("{line}\n")).collect()
 }
 
-/// The most absent files that one message lists.
+/// Maximum number of missing files in a message.
 const MOST_SHOWN: usize = 8;
 
 fn read(words: &[String]) -> Result<Asked<'_>, String> {
@@ -159,7 +160,7 @@ fn read(words: &[String]) -> Result<Asked<'_>, String> {
             "--deps" => return Err("`--deps` is not built in".into()),
             word if word.starts_with("--output=") => asked.output = word.split('=').nth(1),
             word if word.starts_with("-o") => asked.output = Some(&word[2..]),
-            // Options of old: `--inorder` is what everybody has today.
+            // Obsolete options: `--inorder` is the default today.
             word if word.starts_with('-') => {}
             word => match word.split_once(":=") {
                 Some((name, value)) => asked.arguments.push((name.to_owned(), value.to_owned())),

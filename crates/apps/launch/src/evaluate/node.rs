@@ -1,4 +1,4 @@
-//! Nodes, components and other programs.
+//! Nodes, components and processes.
 
 use std::collections::BTreeMap;
 
@@ -31,8 +31,8 @@ impl Evaluation<'_> {
         }
         if let Some(name) = made.identity.name.as_deref().filter(|name| name.contains('/')) {
             return Err(self
-                .error("launch-node", format!("`{name}` is no name of a node: it has a `/` in it"))
-                .help("what stands before the last `/` belongs into `namespace`")
+                .error("launch-node", format!("`{name}` is not a valid node name: it contains `/`"))
+                .help("move the part before the last `/` to `namespace`")
                 .into());
         }
         if node.is_lifecycle
@@ -65,7 +65,7 @@ impl Evaluation<'_> {
                         return Err(self
                             .error(
                                 "launch-container",
-                                "components are loaded into a container that is not started before",
+                                "components are loaded into a container that was not started before",
                             )
                             .into());
                     }
@@ -133,7 +133,7 @@ impl Evaluation<'_> {
         let respawn_after_s = match respawn.as_deref().map(truth) {
             Some(Some(true)) => Some(match delay {
                 Some(delay) => delay.trim().parse().map_err(|_| {
-                    self.error("launch-respawn", format!("`{delay}` is no number of seconds"))
+                    self.error("launch-respawn", format!("`{delay}` is not a number of seconds"))
                 })?,
                 None => 0.0,
             }),
@@ -142,7 +142,7 @@ impl Evaluation<'_> {
                 return Err(self
                     .error(
                         "launch-respawn",
-                        format!("`respawn` is true or false, and this says `{said}`"),
+                        format!("`respawn` must be true or false, not `{said}`"),
                     )
                     .into());
             }
@@ -155,7 +155,7 @@ impl Evaluation<'_> {
             replaces_environment: running.only_environment.is_some(),
             output: self.perform_some(running.output.as_ref())?,
             respawn_after_s,
-            // What happens at its end is said in steps of their own.
+            // Exit handlers become separate steps.
             is_required: false,
         })
     }
@@ -169,7 +169,7 @@ impl Evaluation<'_> {
         })
     }
 
-    /// The namespace of a node; none when neither it nor anything around it has one.
+    /// Namespace of a node; `None` if neither it nor its scope has one.
     fn namespace(&mut self, own: Option<&Text>) -> Outcome<Option<String>> {
         let own = self.perform_some(own)?.filter(|own| !own.is_empty());
         Ok(match own {
@@ -187,8 +187,7 @@ impl Evaluation<'_> {
 
     pub(crate) fn split(&mut self, line: &str) -> Outcome<Vec<String>> {
         words::split(line).ok_or_else(|| {
-            self.error("launch-words", format!("`{}` has a quote that nothing closes", line.trim()))
-                .into()
+            self.error("launch-words", format!("`{}` has an unclosed quote", line.trim())).into()
         })
     }
 }

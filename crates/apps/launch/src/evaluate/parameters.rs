@@ -1,4 +1,4 @@
-//! Parameters as nodes are given them.
+//! Parameters of nodes.
 
 use std::collections::BTreeMap;
 
@@ -11,7 +11,7 @@ use crate::plan::Parameters;
 use crate::tree::{Given, ParametersOf};
 use crate::truth::{truth, typed};
 
-/// The value of a parameter, with its type.
+/// Value of a parameter, with its type.
 pub(super) fn value(evaluation: &mut Evaluation<'_>, given: &Given) -> Outcome<Value> {
     Ok(match given {
         Given::Value { value } => value.clone(),
@@ -23,7 +23,7 @@ pub(super) fn value(evaluation: &mut Evaluation<'_>, given: &Given) -> Outcome<V
         Given::Texts { texts } => {
             let texts = evaluation.perform_all(texts)?;
             let values: Vec<Value> = texts.iter().map(|text| typed(text)).collect();
-            // Values of one list are of one type: texts, unless all are something else.
+            // Values of a list have one type: string, unless all have another.
             let is_uniform = values.iter().all(|value| kind(value) == kind(&values[0]));
             if is_uniform { Value::Array(values) } else { texts.into() }
         }
@@ -40,7 +40,7 @@ fn kind(value: &Value) -> u8 {
     }
 }
 
-/// A text as a value of a type that is named: `str`, `int`, `float`, `bool`, or a list of one.
+/// Converts a text to an explicit type: `str`, `int`, `float`, `bool`, or a list of one.
 fn of(evaluation: &Evaluation<'_>, text: &str, of_type: &str) -> Outcome<Value> {
     let value = typed(text);
     let fits = match of_type {
@@ -70,12 +70,12 @@ fn of(evaluation: &Evaluation<'_>, text: &str, of_type: &str) -> Outcome<Value> 
         return Ok(value);
     }
     Err(evaluation
-        .error("launch-parameter", format!("`{text}` is no value of the type `{of_type}`"))
+        .error("launch-parameter", format!("`{text}` is not a value of type `{of_type}`"))
         .into())
 }
 
 impl Evaluation<'_> {
-    /// Parameters of a node: those of all nodes first, its own over them.
+    /// Parameters of a node: global ones first, overridden by its own.
     pub(super) fn parameters(&mut self, own: &[ParametersOf]) -> Outcome<Vec<Parameters>> {
         let mut all = self.context.parameters.clone();
         for parameters in own {
@@ -102,7 +102,7 @@ impl Evaluation<'_> {
         Ok(all)
     }
 
-    /// A copy of a file in which `$(...)` is resolved.
+    /// Copy of a file with resolved `$(...)`.
     fn resolved_file(&mut self, file: &str) -> Outcome<String> {
         let text = self.read_or_miss(std::path::Path::new(file), UNCHANGED, None)?;
         let Some(text) = text else { return Ok(file.to_owned()) };
@@ -114,7 +114,7 @@ impl Evaluation<'_> {
         match self.outside.scratch(name.unwrap_or("parameters.yaml"), &text) {
             Ok(path) => Ok(path.display().to_string()),
             Err(why) => Err(self
-                .error("launch-file", format!("a file made from {file} cannot be written: {why}"))
+                .error("launch-file", format!("cannot write the resolved copy of {file}: {why}"))
                 .into()),
         }
     }

@@ -1,4 +1,4 @@
-//! What the entities of a launch file mean.
+//! Actions of launch files in XML and YAML.
 
 use periplus_diagnostics::Diagnostic;
 
@@ -10,7 +10,7 @@ use crate::tree::{
     ProcessOf, RunningOf, Substitution, Target, Text, plain,
 };
 
-/// The names of actions.
+/// Names of actions.
 const KNOWN: [&str; 28] = [
     "append_env",
     "arg",
@@ -42,7 +42,7 @@ const KNOWN: [&str; 28] = [
     "unset_let",
 ];
 
-/// How a program runs, and what every action may have.
+/// Attributes of processes and of all actions.
 const RUNNING: [&str; 10] = [
     "if",
     "unless",
@@ -56,7 +56,7 @@ const RUNNING: [&str; 10] = [
     "shell",
 ];
 
-/// The actions in an entity, in order.
+/// Actions in an entity, in order.
 pub(super) fn all(parent: &Entity<'_>) -> Outcome<Vec<Action>> {
     parent.children()?.iter().map(action).collect()
 }
@@ -64,11 +64,7 @@ pub(super) fn all(parent: &Entity<'_>) -> Outcome<Vec<Action>> {
 fn action(entity: &Entity<'_>) -> Outcome<Action> {
     let condition = match (entity.text("if")?, entity.text("unless")?) {
         (Some(_), Some(_)) => {
-            return Err(wrong(
-                entity,
-                "launch-condition",
-                "an action has `if` or `unless`, not both",
-            ));
+            return Err(wrong(entity, "launch-condition", "use `if` or `unless`, not both"));
         }
         (Some(text), None) => Some(Condition::If { text }),
         (None, Some(text)) => Some(Condition::Unless { text }),
@@ -181,7 +177,7 @@ fn deed(entity: &Entity<'_>) -> Outcome<Deed> {
             }))
         }
         "log" => {
-            // `message` is the newer, `text` the older name.
+            // `message` is the newer name, `text` the older one.
             let text = match entity.text("message")? {
                 Some(text) => text,
                 None => entity.needed("text")?,
@@ -197,11 +193,11 @@ fn deed(entity: &Entity<'_>) -> Outcome<Deed> {
         }
         _ => {
             let mut unknown =
-                Diagnostic::error("launch-action", format!("nothing is called `{name}`"))
+                Diagnostic::error("launch-action", format!("unknown action `{name}`"))
                     .guess(&name, KNOWN);
             if matches!(name.as_str(), "param" | "rosparam" | "remap" | "machine" | "test") {
                 unknown = unknown.help(format!(
-                    "a `{name}` of its own is ROS 1's: here it belongs into a node, or is `set_{}`",
+                    "`{name}` outside a node is ROS 1: in ROS 2 put it into a node, or use `set_{}`",
                     if name == "remap" { "remap" } else { "parameter" }
                 ));
             }
@@ -213,7 +209,7 @@ fn deed(entity: &Entity<'_>) -> Outcome<Deed> {
     })
 }
 
-/// Attributes of the actions of `ros_gz_sim` and `ros_gz_bridge`, which are the arguments of the launch
+/// Attributes of the actions of `ros_gz_sim` and `ros_gz_bridge`, which are arguments of the launch
 /// files that they include.
 const GZ_SERVER: [&str; 7] = [
     "world_sdf_file",
@@ -252,7 +248,7 @@ const ROS_GZ_BRIDGE: [&str; 10] = [
     "extra_bridge_params",
 ];
 
-/// An action that includes the launch file of its name with its attributes as arguments.
+/// Includes the launch file of an action, with its attributes as arguments.
 fn include_of(entity: &Entity<'_>, package: &str, file: &str, names: &[&str]) -> Outcome<Deed> {
     known(entity, names)?;
     let mut arguments = Vec::new();
@@ -356,7 +352,7 @@ fn parameters(entity: &Entity<'_>) -> Outcome<Vec<ParametersOf>> {
     Ok(all)
 }
 
-/// A parameter, or the members of a group of them.
+/// Parameter, or the members of a parameter group.
 fn flatten(
     parameter: &Entity<'_>,
     group: Option<&Text>,
@@ -400,7 +396,7 @@ fn pairs<'f>(
     entity.of_kind(kind).iter().map(|pair| Ok((pair.needed(from)?, pair.needed(to)?))).collect()
 }
 
-/// Refuses attributes that mean nothing: a slip in one would else be silent.
+/// Rejects unknown attributes, which could be typing errors.
 fn known(entity: &Entity<'_>, names: &[&str]) -> Outcome<()> {
     let mut names = names.to_vec();
     names.extend(["if", "unless"]);
@@ -418,7 +414,7 @@ fn known(entity: &Entity<'_>, names: &[&str]) -> Outcome<()> {
                 _ => None,
             };
             if let Some(instead) = ros1 {
-                wrong = wrong.help(format!("`{other}` is ROS 1's; in ROS 2 it is `{instead}`"));
+                wrong = wrong.help(format!("`{other}` is ROS 1; in ROS 2 use `{instead}`"));
             }
             if let Some(span) = span {
                 wrong = wrong.at(span);

@@ -1,4 +1,4 @@
-//! XML elements and YAML mappings, seen as the same: something with a name, attributes and children.
+//! Common view of XML elements and YAML mappings: a name, attributes and children.
 
 use periplus_diagnostics::{Diagnostic, Span};
 use periplus_xml::Element;
@@ -8,7 +8,7 @@ use super::text::text;
 use crate::evaluate::Outcome;
 use crate::tree::Text;
 
-/// A piece of a launch file.
+/// Element of a launch file.
 #[derive(Clone, Copy)]
 pub(super) enum Entity<'f> {
     Xml(&'f Element),
@@ -24,7 +24,7 @@ impl<'f> Entity<'f> {
         Self::Yaml { name, node }
     }
 
-    /// Its name, with `_` for `-`, as both are in use.
+    /// Name, with `_` for `-`, as both are in use.
     pub(super) fn name(&self) -> String {
         match self {
             Self::Xml(element) => element.name.replace('-', "_"),
@@ -39,7 +39,7 @@ impl<'f> Entity<'f> {
         }
     }
 
-    /// An attribute as it is written.
+    /// Attribute as written.
     pub(super) fn written(&self, name: &str) -> Option<(&'f str, Option<Span>)> {
         match self {
             Self::Xml(element) => {
@@ -53,7 +53,7 @@ impl<'f> Entity<'f> {
         }
     }
 
-    /// An attribute with what is to be put into it.
+    /// Attribute with parsed substitutions.
     pub(super) fn text(&self, name: &str) -> Outcome<Option<Text>> {
         self.written(name).map(|(written, span)| Self::resolved(written, span)).transpose()
     }
@@ -61,11 +61,11 @@ impl<'f> Entity<'f> {
     fn resolved(written: &str, span: Option<Span>) -> Outcome<Text> {
         match span {
             Some(span) => text(written, span),
-            None => Err(Diagnostic::error("launch-place", "a text without a place").into()),
+            None => Err(Diagnostic::error("launch-place", "a text without a position").into()),
         }
     }
 
-    /// An attribute that must be there.
+    /// Required attribute.
     pub(super) fn needed(&self, name: &str) -> Outcome<Text> {
         self.text(name)?.ok_or_else(|| {
             let mut wrong = Diagnostic::error(
@@ -79,7 +79,7 @@ impl<'f> Entity<'f> {
         })
     }
 
-    /// A list of texts in YAML; none for what is no list.
+    /// List of texts in YAML; `None` if it is not a list.
     pub(super) fn list(&self, name: &str) -> Outcome<Option<Vec<Text>>> {
         let Self::Yaml { node, .. } = self else { return Ok(None) };
         let Some(list) = node.get(name).and_then(Node::list) else { return Ok(None) };
@@ -89,7 +89,7 @@ impl<'f> Entity<'f> {
             .map(Some)
     }
 
-    /// Children that are not of one kind, in order.
+    /// Children of all kinds but the attributes, in order.
     pub(super) fn children(&self) -> Outcome<Vec<Self>> {
         match self {
             Self::Xml(element) => Ok(element.elements().map(Self::Xml).collect()),
@@ -103,7 +103,7 @@ impl<'f> Entity<'f> {
                         _ => {
                             return Err(Diagnostic::error(
                                 "launch-entry",
-                                "each entry of this list is a mapping with one name, as `- node: {...}`",
+                                "each entry of this list must be a mapping with one key, as `- node: {...}`",
                             )
                             .at(item.span)
                             .into());
@@ -115,7 +115,7 @@ impl<'f> Entity<'f> {
         }
     }
 
-    /// Children of a kind: elements in XML, a list under the kind's name in YAML.
+    /// Children of a kind: elements in XML, a list under its name in YAML.
     pub(super) fn of_kind(&self, kind: &'f str) -> Vec<Self> {
         match self {
             Self::Xml(element) => element.named(kind).map(Self::Xml).collect(),
@@ -126,7 +126,7 @@ impl<'f> Entity<'f> {
         }
     }
 
-    /// The names of attributes and children that are none of these.
+    /// Names of attributes and children that are not among these.
     pub(super) fn others(&self, known: &[&str]) -> Vec<(String, Option<Span>)> {
         let is_other = |name: &str| !known.contains(&name);
         match self {

@@ -1,4 +1,4 @@
-//! `$(...)` in the texts of XML and YAML.
+//! `$(...)` in XML and YAML.
 
 use periplus_diagnostics::{Diagnostic, Span};
 
@@ -6,7 +6,7 @@ use crate::evaluate::Outcome;
 use crate::guess::Guess as _;
 use crate::tree::{Part, Substitution, Text, plain};
 
-/// The words behind `$(`, and what they take.
+/// Names of substitutions.
 const KNOWN: [&str; 25] = [
     "all",
     "and",
@@ -35,10 +35,10 @@ const KNOWN: [&str; 25] = [
     "var",
 ];
 
-/// How deep `$(...)` may nest.
+/// Maximum nesting of `$(...)`.
 const DEEPEST: usize = 40;
 
-/// A text with what is in it to be put in.
+/// Parses a text with substitutions.
 pub(crate) fn text(written: &str, span: Span) -> Outcome<Text> {
     let mut reader = Reader { rest: written, whole: written, span, depth: 0 };
     reader.text(|_| false)
@@ -63,7 +63,7 @@ impl Reader<'_> {
         self.rest.chars().next()
     }
 
-    /// Up to the end, or a letter that ends it.
+    /// Reads up to the end, or to a terminating character.
     fn text(&mut self, ends: impl Fn(char) -> bool) -> Outcome<Text> {
         let mut parts = Text::new();
         let mut so_far = String::new();
@@ -96,7 +96,7 @@ impl Reader<'_> {
         self.depth += 1;
         if self.depth > DEEPEST {
             return Err(self
-                .wrong(from, format!("`$(...)` nests more than {DEEPEST} deep"))
+                .wrong(from, format!("`$(...)` is nested more than {DEEPEST} levels deep"))
                 .into());
         }
         self.rest = self.rest[2..].trim_start();
@@ -110,10 +110,7 @@ impl Reader<'_> {
             self.rest = self.rest.trim_start();
             match self.peek() {
                 None => {
-                    return Err(self
-                        .wrong(from, "nothing closes this `$(`")
-                        .help("add `)`")
-                        .into());
+                    return Err(self.wrong(from, "unclosed `$(`").help("add `)`").into());
                 }
                 Some(')') => {
                     self.next();
@@ -127,7 +124,7 @@ impl Reader<'_> {
         meaning(&name, words).map_err(|wrong| wrong.at(self.span_of(from, to)).into())
     }
 
-    /// A word behind the name: in quotes, or up to a blank.
+    /// Argument of a substitution: quoted, or up to a space.
     fn word(&mut self) -> Outcome<Text> {
         let mut parts = Text::new();
         loop {
@@ -137,7 +134,7 @@ impl Reader<'_> {
                     self.next();
                     parts.extend(self.text(|letter| letter == quote)?);
                     if self.next().is_none() {
-                        return Err(self.wrong(from, "nothing closes this quote").into());
+                        return Err(self.wrong(from, "unclosed quote").into());
                     }
                 }
                 Some(letter) if letter.is_whitespace() || letter == ')' => return Ok(parts),
@@ -152,7 +149,7 @@ impl Reader<'_> {
     }
 
     fn span_of(&self, from: usize, to: usize) -> Span {
-        // A value whose text differs from the file's, by entities, has no places of its own within.
+        // A value that differs from the file's text, because of entities, has no inner positions.
         let is_same = (self.span.end - self.span.start) as usize == self.whole.len();
         if is_same { self.span.part(from, to) } else { self.span }
     }
@@ -172,7 +169,7 @@ fn meaning(name: &str, mut words: Vec<Text>) -> Result<Substitution, Box<Diagnos
         ("var", 1 | 2) => {
             Substitution::Configuration { name: next().unwrap_or_default(), default: next() }
         }
-        ("var", _) => return Err(wrong("a name and, if you like, a default")),
+        ("var", _) => return Err(wrong("a name and an optional default")),
         ("env", 1 | 2) => {
             Substitution::Environment { name: next().unwrap_or_default(), default: next() }
         }
@@ -180,7 +177,7 @@ fn meaning(name: &str, mut words: Vec<Text>) -> Result<Substitution, Box<Diagnos
             name: next().unwrap_or_default(),
             default: Some(next().unwrap_or_else(|| plain(""))),
         },
-        ("env" | "optenv", _) => return Err(wrong("a variable and, if you like, a default")),
+        ("env" | "optenv", _) => return Err(wrong("a variable and an optional default")),
         ("find-pkg-share", 1) => {
             Substitution::Package { name: next().unwrap_or_default(), is_prefix: false }
         }
@@ -199,7 +196,7 @@ fn meaning(name: &str, mut words: Vec<Text>) -> Result<Substitution, Box<Diagnos
             Substitution::Command { command: next().unwrap_or_default(), on_stderr: next() }
         }
         ("command", _) => {
-            return Err(wrong("a command in quotes and, if you like, what errors do"));
+            return Err(wrong("a command in quotes and an optional `on_stderr`"));
         }
         ("eval", 1..) => {
             let parts = std::iter::from_fn(next).collect();
@@ -245,7 +242,7 @@ fn meaning(name: &str, mut words: Vec<Text>) -> Result<Substitution, Box<Diagnos
             let instead = if name == "find" { "find-pkg-share" } else { "var" };
             return Err(Diagnostic::error(
                 "launch-substitution",
-                format!("`$({name} ...)` is ROS 1's, and this file is one of ROS 2"),
+                format!("`$({name} ...)` is ROS 1, and this is a ROS 2 launch file"),
             )
             .help(format!("write `$({instead} ...)`"))
             .into());
@@ -253,7 +250,7 @@ fn meaning(name: &str, mut words: Vec<Text>) -> Result<Substitution, Box<Diagnos
         _ => {
             return Err(Diagnostic::error(
                 "launch-substitution",
-                format!("nothing is called `$({name})`"),
+                format!("unknown substitution `$({name})`"),
             )
             .guess(name, KNOWN)
             .into());
@@ -293,11 +290,11 @@ mod tests {
         );
         assert_eq!(read(r"\$(no)").unwrap(), plain("$(no)"));
         assert_eq!(read("").unwrap(), plain(""));
-        assert_eq!(read("$(var a").unwrap_err(), "nothing closes this `$(`");
-        assert_eq!(read("$(vra a)").unwrap_err(), "nothing is called `$(vra)`");
+        assert_eq!(read("$(var a").unwrap_err(), "unclosed `$(`");
+        assert_eq!(read("$(vra a)").unwrap_err(), "unknown substitution `$(vra)`");
         assert_eq!(
             read("$(find p)").unwrap_err(),
-            "`$(find ...)` is ROS 1's, and this file is one of ROS 2"
+            "`$(find ...)` is ROS 1, and this is a ROS 2 launch file"
         );
     }
 }

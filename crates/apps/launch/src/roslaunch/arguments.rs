@@ -14,19 +14,19 @@ impl Loader<'_, '_> {
         if value.is_some() && default.is_some() {
             return Err(wrong(
                 "launch-argument",
-                "`<arg>` has `value` or `default`, not both",
+                "use `value` or `default` in `<arg>`, not both",
                 element,
             ));
         }
         if scope.arguments.contains_key(&name) {
-            let message = format!("the argument `{name}` has a value already in this file");
+            let message = format!("the argument `{name}` is already defined in this file");
             return Err(wrong("launch-argument", &message, element));
         }
         let given = scope.given.get(&name).cloned();
         let is_constant = value.is_some();
         if is_constant && given.is_some() && !scope.is_passing_all {
             let message = format!(
-                "the argument `{name}` cannot be given: this file gives it a value, not a default"
+                "the argument `{name}` cannot be set: this file defines it with `value`, not `default`"
             );
             return Err(wrong("launch-argument", &message, element));
         }
@@ -34,11 +34,11 @@ impl Loader<'_, '_> {
             let message = format!("the argument `{name}` was not given");
             let mut missing = *wrong("launch-argument", &message, element);
             if let Some(doc) = element.value("doc") {
-                missing = missing.note(format!("what it is for: {doc}"));
+                missing = missing.note(format!("description: {doc}"));
             }
             return Err(missing.help(format!("add `{name}:=VALUE`")).into());
         };
-        // What included files take, they are given by those that include them.
+        // Arguments of included files are set by the including files.
         let is_own = scope.depth == 0;
         if is_own && !is_constant && self.evaluation.plan.arguments.iter().all(|a| a.name != name) {
             self.evaluation.plan.arguments.push(Argument {

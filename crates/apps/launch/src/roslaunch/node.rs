@@ -18,7 +18,7 @@ impl Loader<'_, '_> {
         let executable = self.needed(element, "type", scope)?;
         let name = self.needed(element, "name", scope)?;
         if name.contains('/') {
-            let message = format!("`{name}` is no name of a node: it has a `/` in it; use `ns`");
+            let message = format!("`{name}` is not a valid node name: it contains `/`; use `ns`");
             return Err(wrong("launch-node", &message, element));
         }
         if let Some(namespace) = self.optional(element, "ns", scope)? {
@@ -75,7 +75,7 @@ impl Loader<'_, '_> {
                     self.set_variable(child, &mut inner, name, value);
                 }
                 other => {
-                    let message = format!("`<{other}>` means nothing in `<node>`");
+                    let message = format!("unknown element `<{other}>` in `<node>`");
                     let finding =
                         Diagnostic::warning("launch-element", message).at(child.name_origin());
                     self.evaluation.found.push(finding);
@@ -84,9 +84,8 @@ impl Loader<'_, '_> {
         }
 
         let line = self.optional(element, "args", &inner)?.unwrap_or_default();
-        let arguments = crate::words::split(&line).ok_or_else(|| {
-            wrong("launch-words", "`args` has a quote that nothing closes", element)
-        })?;
+        let arguments = crate::words::split(&line)
+            .ok_or_else(|| wrong("launch-words", "`args` has an unclosed quote", element))?;
         let running = self.running(element, &inner)?;
         let what = What::Node(Box::new(Node {
             package: Some(package),
@@ -118,16 +117,16 @@ impl Loader<'_, '_> {
         if respawn && is_required {
             return Err(wrong(
                 "launch-node",
-                "a node cannot be both `required` and started again (`respawn`)",
+                "a node cannot have both `required` and `respawn`",
                 element,
             ));
         }
         let delay = self.optional(element, "respawn_delay", scope)?.unwrap_or_else(|| "0".into());
         let delay_s: f64 = delay.trim().parse().map_err(|_| {
-            wrong("launch-node", &format!("`{delay}` is no number of seconds"), element)
+            wrong("launch-node", &format!("`{delay}` is not a number of seconds"), element)
         })?;
         Ok(Running {
-            // Variables of `<env>` are added to the launch's own.
+            // Variables of `<env>` are added to those of the launch.
             replaces_environment: false,
             prefix: self.optional(element, "launch-prefix", scope)?.filter(|text| !text.is_empty()),
             folder: self.optional(element, "cwd", scope)?,

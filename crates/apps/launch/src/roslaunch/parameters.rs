@@ -12,7 +12,7 @@ use crate::evaluate::Outcome;
 use crate::truth::{truth, value_of};
 
 impl Loader<'_, '_> {
-    /// A parameter beside nodes.
+    /// Parameter outside nodes.
     pub(super) fn parameter(&mut self, element: &Element, scope: &mut Scope) -> Outcome<()> {
         let (name, value) = self.parameter_of(element, scope)?;
         if value.is_null() {
@@ -70,7 +70,8 @@ impl Loader<'_, '_> {
         Ok((name, value))
     }
 
-    /// What a command prints, as the value of a parameter; none, with a warning, when it cannot be run.
+    /// Output of a command as the value of a parameter; `None`, with a warning, when it cannot be
+    /// run.
     fn printed(&mut self, line: &str, of_type: &str, element: &Element) -> Outcome<Option<Value>> {
         let ran = self.evaluation.ran(line).map_err(|wrong| wrong.at(element.name_origin()))?;
         match ran {
@@ -86,7 +87,7 @@ impl Loader<'_, '_> {
         }
     }
 
-    /// `<rosparam>` beside nodes.
+    /// `<rosparam>` outside nodes.
     pub(super) fn rosparam(&mut self, element: &Element, scope: &Scope) -> Outcome<()> {
         let mut namespace = scope.namespace.clone();
         if let Some(own) = self.optional(element, "ns", scope)? {
@@ -116,17 +117,17 @@ impl Loader<'_, '_> {
                 Ok(())
             }
             "dump" => {
-                self.left(element, "`rosparam dump` writes no file here");
+                self.left(element, "`rosparam dump` is not supported");
                 Ok(())
             }
             other => {
-                let message = format!("`command` is load, delete or dump, not `{other}`");
+                let message = format!("`command` must be load, delete or dump, not `{other}`");
                 Err(wrong("launch-parameter", &message, element))
             }
         }
     }
 
-    /// The tree that a `<rosparam>` loads.
+    /// Tree of parameters of a `<rosparam>`.
     pub(super) fn rosparam_value(&mut self, element: &Element, scope: &Scope) -> Outcome<Value> {
         let file = self.optional(element, "file", scope)?;
         if let Some(file) = file.as_deref().filter(|file| file.starts_with("package://")) {
@@ -171,12 +172,12 @@ impl Loader<'_, '_> {
         Ok(tree.map_or(Value::Null, |node| value_of(&node)))
     }
 
-    /// The YAML between the tags of an element, with its places in the launch file.
+    /// YAML between the tags of an element, with its positions in the launch file.
     fn inline(&mut self, element: &Element) -> Outcome<Option<periplus_yaml::Node>> {
         let text = content(element);
         let runs: Vec<_> = runs(element).collect();
         let span = match runs.as_slice() {
-            // Without entities and CDATA it is as long as its source.
+            // Without entities and CDATA it has the length of its source.
             [only] => only.origin.0.filter(|span| (span.end - span.start) as usize == text.len()),
             _ => None,
         };
@@ -186,7 +187,7 @@ impl Loader<'_, '_> {
             return periplus_yaml::parse(id, self.evaluation.sources)
                 .map_err(|wrong| moved(*wrong, &element.text_origin()).into());
         };
-        // Everything before it as blank lines, so that each line keeps its number.
+        // Preceding text becomes blank lines, so that line numbers are kept.
         let launch = self.evaluation.sources.file(span.file);
         let name = launch.name.clone();
         let before = &launch.text[..span.start as usize];
@@ -197,7 +198,7 @@ impl Loader<'_, '_> {
     }
 }
 
-/// The characters of an element with all white space: in YAML it has a meaning.
+/// Text of an element with all white space, which is significant in YAML.
 fn content(element: &Element) -> String {
     runs(element).map(|text| text.text.as_str()).collect()
 }
@@ -209,12 +210,12 @@ fn runs(element: &Element) -> impl Iterator<Item = &Text> {
     })
 }
 
-/// A finding at another place.
+/// Finding with another position.
 fn moved(wrong: Diagnostic, origin: &Origin) -> Diagnostic {
     wrong.at(*origin)
 }
 
-/// The leaves of a tree by full name.
+/// Leaves of a tree by full name.
 pub(super) fn spread(root: &str, value: &Value, take: &mut dyn FnMut(&str, &Value)) {
     match value {
         Value::Object(entries) => {
@@ -227,9 +228,9 @@ pub(super) fn spread(root: &str, value: &Value, take: &mut dyn FnMut(&str, &Valu
     }
 }
 
-/// A text as a value of a type; without one it is what it looks like.
+/// Converts a text to a type; without one the type is detected.
 fn typed(text: &str, of_type: &str) -> Result<Value, String> {
-    let wrong = |what: &str| format!("`{text}` is no {what}");
+    let wrong = |what: &str| format!("`{text}` is not a {what}");
     let integer = || text.trim().parse::<i64>().ok();
     let number = || text.trim().parse::<f64>().ok().filter(|number| number.is_finite());
     Ok(match of_type {
@@ -247,12 +248,14 @@ fn typed(text: &str, of_type: &str) -> Result<Value, String> {
             }
         }
         "str" | "string" => text.into(),
-        "int" => integer().ok_or_else(|| wrong("whole number"))?.into(),
+        "int" => integer().ok_or_else(|| wrong("integer"))?.into(),
         "double" => number().ok_or_else(|| wrong("number"))?.into(),
-        "bool" | "boolean" => truth(text).ok_or_else(|| wrong("truth value"))?.into(),
+        "bool" | "boolean" => truth(text).ok_or_else(|| wrong("Boolean"))?.into(),
         "yaml" => crate::truth::typed(text),
         other => {
-            return Err(format!("`{other}` is no type: str, int, double, bool, yaml or auto is"));
+            return Err(format!(
+                "unknown type `{other}`; expected str, int, double, bool, yaml or auto"
+            ));
         }
     })
 }

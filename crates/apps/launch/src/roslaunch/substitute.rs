@@ -13,24 +13,24 @@ use crate::evaluate::Outcome;
 use crate::guess::Guess as _;
 use crate::perform::LONGEST;
 
-/// Work and memory for one expression.
+/// Limits of work and memory for one expression.
 const STEPS: u64 = 100_000;
 const BYTES: u64 = 1 << 20;
 
 impl Loader<'_, '_> {
-    /// An attribute's value with everything put in.
+    /// Resolves an attribute.
     pub(super) fn resolved(&mut self, attribute: &Attribute, scope: &Scope) -> Outcome<String> {
         self.resolved_text(&attribute.value, &attribute.value_origin, scope)
     }
 
-    /// A text with everything put in.
+    /// Resolves a text.
     pub(super) fn resolved_text(
         &mut self,
         text: &str,
         origin: &Origin,
         scope: &Scope,
     ) -> Outcome<String> {
-        // An expression is the whole value, and may have brackets in it.
+        // An expression is the whole value, and may contain brackets.
         if let Some(expression) =
             text.trim().strip_prefix("$(eval ").and_then(|rest| rest.strip_suffix(')'))
         {
@@ -41,11 +41,7 @@ impl Loader<'_, '_> {
         while let Some(from) = rest.find("$(") {
             whole.push_str(&rest[..from]);
             let Some(to) = rest[from..].find(')') else {
-                return Err(wrong_at(
-                    "launch-substitution",
-                    "nothing closes this `$(`".into(),
-                    origin,
-                ));
+                return Err(wrong_at("launch-substitution", "unclosed `$(`".into(), origin));
             };
             let words: Vec<&str> = rest[from + 2..from + to].split_whitespace().collect();
             whole.push_str(&self.substitution(&words, origin, scope)?);
@@ -65,12 +61,12 @@ impl Loader<'_, '_> {
                 let known = scope.arguments.keys().map(String::as_str);
                 Diagnostic::error(
                     "launch-argument",
-                    format!("this file has no argument `{name}` so far"),
+                    format!("the argument `{name}` is not declared before this line"),
                 )
                 .at(*origin)
                 .guess(name, known)
                 .help(format!(
-                    "give it, `{name}:=VALUE`, or declare it before: \
+                    "pass `{name}:=VALUE`, or declare it before: \
                      `<arg name=\"{name}\" default=\"...\"/>`"
                 ))
                 .into()
@@ -79,7 +75,7 @@ impl Loader<'_, '_> {
             ["env", name] => self.variable(name, scope).ok_or_else(|| {
                 Diagnostic::error(
                     "launch-environment",
-                    format!("the environment has no variable `{name}`"),
+                    format!("the environment variable `{name}` is not set"),
                 )
                 .at(*origin)
                 .help(format!(
@@ -102,7 +98,7 @@ impl Loader<'_, '_> {
                 let instead = if *name == "var" { "arg" } else { "find" };
                 Err(Diagnostic::error(
                     "launch-substitution",
-                    format!("`$({name} ...)` is ROS 2's, and this file is one of ROS 1"),
+                    format!("`$({name} ...)` is ROS 2, and this is a ROS 1 launch file"),
                 )
                 .at(*origin)
                 .help(format!("write `$({instead} ...)`"))
@@ -112,7 +108,7 @@ impl Loader<'_, '_> {
                 let name = words.first().copied().unwrap_or_default();
                 Err(Diagnostic::error(
                     "launch-substitution",
-                    format!("`$({})` means nothing", words.join(" ")),
+                    format!("unknown substitution `$({})`", words.join(" ")),
                 )
                 .at(*origin)
                 .guess(name, ["anon", "arg", "dirname", "env", "eval", "find", "optenv"])
@@ -130,7 +126,7 @@ impl Loader<'_, '_> {
             .map_err(|error| {
                 let mut wrong = Diagnostic::error(
                     "launch-expression",
-                    format!("`{expression}` has no value: {}", error.message),
+                    format!("cannot evaluate `{expression}`: {}", error.message),
                 )
                 .at(*origin);
                 if let Some(help) = error.help {
@@ -141,7 +137,8 @@ impl Loader<'_, '_> {
     }
 
     fn argument_value(&self, name: &str, scope: &Scope) -> Option<String> {
-        // What the command line or the including file gives holds even where the file does not name it.
+        // Values of the command line or the including file are available even without a
+        // declaration.
         scope.arguments.get(name).or_else(|| scope.given.get(name)).cloned()
     }
 
@@ -166,7 +163,7 @@ fn folder(scope: &Scope) -> String {
     scope.file.parent().map(|folder| folder.display().to_string()).unwrap_or_default()
 }
 
-/// What names mean in `$(eval ...)`: arguments, and functions named as the other substitutions.
+/// Names in `$(eval ...)`: arguments, and functions for the other substitutions.
 struct Arguments<'s, 'l, 'o, 'e> {
     loader: std::cell::RefCell<&'s mut Loader<'o, 'e>>,
     scope: &'l Scope,
@@ -217,7 +214,8 @@ impl Names for Arguments<'_, '_, '_, '_> {
     }
 }
 
-/// An argument in an expression: a number or truth if it looks like one, as roslaunch has it.
+/// Argument in an expression: converted to a number or Boolean if it looks like one, as in
+/// roslaunch.
 fn converted(text: &str) -> Value {
     if let Ok(integer) = text.parse::<i128>() {
         return Value::Int(integer);

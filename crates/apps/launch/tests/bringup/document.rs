@@ -1,4 +1,4 @@
-//! The documentation has the table that the program has.
+//! The table in the documentation equals that of the program.
 
 use std::path::Path;
 

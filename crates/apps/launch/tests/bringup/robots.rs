@@ -1,4 +1,4 @@
-//! Robots of `robot_state_publisher`, from what a launch or a command gives it.
+//! Robots of `robot_state_publisher`, from a launch file or a command.
 
 use periplus_diagnostics::{Diagnostics, SourceMap};
 use periplus_graph::{Arguments, Graph, Level, Mailbox, NodeSettings, Qos};

@@ -1,4 +1,4 @@
-//! Launch files that run: what their nodes publish, also after the world was set back.
+//! Running launch files: the output of their nodes, also after a reset of the world.
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -16,10 +16,10 @@ use periplus_os::Machine;
 use periplus_resources::Resolver;
 use periplus_sim::{AssetFiles, Options, Search, Services, Simulation, compose};
 
-/// Simulated time of a part of the test \[ns\].
+/// Simulated duration of a part of the test \[ns\].
 const PART_NS: i64 = 6_000_000_000;
 
-/// Programs of the machine: `xacro` alone, which is built in.
+/// Programs of the machine: only the built-in `xacro`.
 struct Programs(Search);
 
 impl Outside for Programs {
@@ -78,7 +78,7 @@ struct Stack {
 }
 
 impl Stack {
-    /// `sam_bot` with a filter, mapping and a costmap, as launch files start them.
+    /// `sam_bot` with EKF, SLAM and a costmap, as started by launch files.
     fn launched() -> Self {
         let folder = top().canonicalize().unwrap();
         let resolver = Resolver::new(&Machine, &[folder.join("robots"), folder.join("worlds")]);
@@ -127,7 +127,7 @@ impl Stack {
         assert!(said.iter().all(|text| !text.contains("not spawned")), "{said:?}");
     }
 
-    /// Checks what all programs have published since the last time, in simulated time from zero.
+    /// Checks the messages since the last call, in simulated time from zero.
     fn has_run_from_zero(&self, what: &str) {
         let near_start_ns = PART_NS / 2;
         let filtered = self.filtered.drain();
@@ -162,7 +162,7 @@ impl Stack {
     }
 }
 
-/// `ros_gz_bridge` takes time and frame from a velocity for Gazebo, which has none.
+/// `ros_gz_bridge` strips stamp and frame from a velocity for Gazebo.
 #[test]
 fn a_stamped_velocity_drives_a_robot_of_gazebo() {
     let folder = top().canonicalize().unwrap();
@@ -192,7 +192,7 @@ fn rviz_names_its_file_and_fixed_frame() {
     assert!(bringup.wants_page());
 }
 
-/// ROS 1's server ends when its map cannot be read.
+/// The ROS 1 server exits when its map cannot be read.
 #[test]
 fn a_map_that_is_not_there_is_an_error() {
     let folder = top().canonicalize().unwrap();

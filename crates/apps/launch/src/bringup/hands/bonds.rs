@@ -1,4 +1,4 @@
-//! The bonds of a lifecycle manager with its nodes.
+//! Bonds of a lifecycle manager with its nodes.
 //!
 //! Source: `LifecycleManager::createBondConnection` and `checkBondConnections` of Nav2.
 
@@ -13,14 +13,14 @@ use periplus_msgs::bond::Status;
 /// Topic of all bonds of a namespace.
 const TOPIC: &str = "bond";
 
-/// Messages that wait on it.
+/// Queue depth.
 const DEPTH: usize = 100;
 
-/// Period of the manager's heartbeats, as Nav2's manager has it \[s\].
+/// Period of heartbeats, the default of Nav2 \[s\].
 const PERIOD_S: f64 = 0.1;
 
-/// Bonds with nodes, by the nodes' names. All times are steady ones: heartbeats go on while the
-/// simulation is paused, or the manager waits for its turn.
+/// Bonds by node name. All times are steady: heartbeats continue while the simulation is paused or
+/// the manager waits.
 pub(super) struct Bonds {
     heartbeats: Arc<Mutex<Heartbeats>>,
     _steady: SteadyCallback,
@@ -40,19 +40,19 @@ struct Held {
     was_formed: bool,
 }
 
-/// A bond that broke, or never formed.
+/// Bond that broke, or never formed.
 pub(super) struct Broken {
     pub(super) name: String,
     pub(super) reason: String,
-    /// False when the node never answered: it keeps no bond, and a restart would not change that.
+    /// False if the node never responded: it has no bond, and a restart would not change that.
     pub(super) was_formed: bool,
 }
 
 impl Bonds {
-    /// None when the timeout is not positive.
+    /// Creates the bonds; `None` when the timeout is not positive.
     ///
     /// # Errors
-    /// When the topic has another type.
+    /// An error when the topic has another type.
     pub(super) fn new(node: &Node, timeout_s: f64) -> Result<Option<Self>, GraphError> {
         if timeout_s.is_nan() || timeout_s <= 0.0 {
             return Ok(None);
@@ -70,12 +70,12 @@ impl Bonds {
         Ok(Some(Self { heartbeats, _steady: steady }))
     }
 
-    /// Begins a bond with a node that became active.
+    /// Starts a bond with a node that became active.
     pub(super) fn begin(&mut self, name: &str, now_ns: i64) {
         lock(&self.heartbeats).begin(name, now_ns);
     }
 
-    /// True while a node has not answered yet.
+    /// Returns true while a node has not responded yet.
     pub(super) fn is_forming(&self) -> bool {
         lock(&self.heartbeats).bonds.values().any(|held| !held.was_formed)
     }
@@ -85,7 +85,7 @@ impl Bonds {
         lock(&self.heartbeats).end(name, now_ns);
     }
 
-    /// Sends and receives heartbeats. Gives a bond that broke or did not form.
+    /// Exchanges heartbeats. Returns a bond that broke or did not form.
     pub(super) fn keep(&mut self, now_ns: i64) -> Option<Broken> {
         let mut heartbeats = lock(&self.heartbeats);
         heartbeats.exchange(now_ns);
@@ -93,7 +93,7 @@ impl Bonds {
     }
 }
 
-/// Locks; a panic elsewhere must not spread.
+/// Locks a mutex, also after a panic of another thread.
 fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
     mutex.lock().unwrap_or_else(PoisonError::into_inner)
 }
@@ -137,7 +137,7 @@ impl Heartbeats {
         let broken = self.bonds.iter().find_map(|(name, held)| {
             let reason = if held.bond.is_broken() {
                 format!(
-                    "`{name}` is down: no heartbeat of its bond for {timeout_s:.2} s, or it ended it"
+                    "`{name}` is down: no heartbeat of its bond for {timeout_s:.2} s, or it ended the bond"
                 )
             } else if !held.was_formed && now_ns - held.since_ns > forming_ns {
                 format!(

@@ -1,4 +1,4 @@
-//! Asks a managed node for a transition, once it is there.
+//! Transition request of a lifecycle node.
 
 use periplus_graph::{Client, Graph, NodeSettings, Pending};
 use periplus_msgs::lifecycle_msgs::{ChangeState, ChangeStateRequest, Transition};
@@ -6,7 +6,7 @@ use periplus_msgs::lifecycle_msgs::{ChangeState, ChangeStateRequest, Transition}
 use super::{Done, Hand, Stage};
 use crate::bringup::told::Said;
 
-/// Asks for one transition.
+/// Task that requests one transition once the node exists.
 pub(crate) struct Changer {
     name: String,
     transition: Transition,
@@ -14,7 +14,7 @@ pub(crate) struct Changer {
     pending: Option<Pending<ChangeState>>,
 }
 
-/// The number and label of a transition, as `lifecycle_msgs/Transition` has them.
+/// Number and label of a transition, as in `lifecycle_msgs/Transition`.
 pub(crate) fn transition(label: &str) -> Option<Transition> {
     let id = match label {
         "configure" => Transition::TRANSITION_CONFIGURE,
@@ -30,14 +30,14 @@ pub(crate) fn transition(label: &str) -> Option<Transition> {
 }
 
 impl Changer {
-    /// Of a node by its full name.
+    /// Creates the task for a node by its full name.
     ///
     /// # Errors
-    /// In words, when there is no such transition.
+    /// A message when there is no such transition.
     pub(crate) fn new(graph: &Graph, name: &str, label: &str) -> Result<Self, String> {
         let transition = transition(label).ok_or_else(|| {
             format!(
-                "managed nodes know no transition `{label}`; they know `configure`, `activate`, ..."
+                "unknown transition `{label}`; lifecycle nodes have `configure`, `activate`, ..."
             )
         })?;
         let client = graph
@@ -69,7 +69,7 @@ impl Hand for Changer {
         match answer {
             Ok(answer) if answer.success => {}
             Ok(_) => {
-                stage.said.push(Said::error(format!("{}: `{label}` has failed", self.name)));
+                stage.said.push(Said::error(format!("{}: `{label}` failed", self.name)));
             }
             Err(error) => {
                 stage.said.push(Said::error(format!("{}: `{label}`: {error}", self.name)));

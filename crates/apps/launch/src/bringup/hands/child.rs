@@ -1,4 +1,4 @@
-//! Programs of the machine's.
+//! Child processes.
 
 use std::io::{BufRead as _, BufReader, Read};
 use std::path::{Path, PathBuf};
@@ -18,13 +18,13 @@ use crate::bringup::parameters::parameter;
 use crate::bringup::parts::{Program, own_folder};
 use crate::bringup::told::Said;
 
-/// How long a program may take to end when it is asked to.
+/// Time that a program has to end after SIGINT.
 const LAST_WORDS: Duration = Duration::from_secs(5);
 
-/// Folders of a package's sources in which programs lie.
+/// Folders of a package's sources that may contain programs.
 const FOLDERS: [&str; 5] = ["scripts", "nodes", "bin", "src", ""];
 
-/// A program that runs.
+/// Running program.
 pub(crate) struct Child {
     name: String,
     words: Vec<String>,
@@ -32,7 +32,7 @@ pub(crate) struct Child {
     process: Option<Running_>,
     printed: Option<Receiver<String>>,
     respawn_ns: Option<i64>,
-    /// The folder from which relative ones are meant.
+    /// Base folder of relative paths.
     launch_folder: PathBuf,
     guard: Guard,
     guarding_program: Option<PathBuf>,
@@ -43,7 +43,7 @@ impl Child {
     /// Starts a program.
     ///
     /// # Errors
-    /// Why it cannot be, and what to do.
+    /// A message with the reason and the correction.
     pub(crate) fn start(
         program: &Program,
         settings: &Settings,
@@ -58,15 +58,13 @@ impl Child {
         };
         if is_node {
             if settings.dialect == Dialect::Ros1 {
-                return Err(
-                    "it is a program of ROS 1, which speaks to a master that is not here; \
-                            nothing built in stands for it"
-                        .into(),
-                );
+                return Err("it is a ROS 1 program, which needs a master; \
+                            there is no built-in replacement"
+                    .into());
             }
             if !settings.is_wired {
-                return Err("it is a program of ROS 2, and this run is on no network; \
-                            `--ros2 loopback` puts it on one"
+                return Err("it is a ROS 2 program, and this run is not on a network; \
+                            use `--ros2 loopback`"
                     .into());
             }
             let package = program.package.as_deref().unwrap_or_default();
@@ -99,12 +97,12 @@ impl Child {
         Ok(child)
     }
 
-    /// In words.
+    /// Description.
     pub(crate) fn told(&self) -> String {
         format!("the program {}", self.words[0])
     }
 
-    /// The PATH of the program, with the built-in tools at its end.
+    /// PATH of the program, with the built-in tools at its end.
     fn path(&self) -> Option<String> {
         let tools = self.tools.as_ref()?.display().to_string();
         let set = match self.running.environment.get("PATH") {
@@ -129,7 +127,7 @@ impl Child {
             if Machine.kind(&folder) != Some(Kind::Folder) {
                 let program = &self.words[0];
                 return Err(format!(
-                    "the folder in which `{program}` is to run (`cwd`) is not there: {}",
+                    "the working folder (`cwd`) of `{program}` does not exist: {}",
                     folder.display()
                 ));
             }
@@ -151,7 +149,7 @@ impl Child {
             let missing = error.kind() == std::io::ErrorKind::NotFound;
             let program = &self.words[0];
             if missing {
-                format!("there is no program `{program}` on the PATH, and nothing built in stands for it")
+                format!("program `{program}` is not on the PATH and has no built-in replacement")
             } else {
                 format!(
                     "`{program}` cannot be started: {}",
@@ -167,7 +165,7 @@ impl Child {
         ];
         for pipe in pipes.into_iter().flatten() {
             let send = send.clone();
-            // Ends with the pipe.
+            // The thread ends with the pipe.
             std::thread::spawn(move || {
                 for line in BufReader::new(pipe).lines().map_while(Result::ok) {
                     if send.send(line).is_err() {
@@ -181,7 +179,7 @@ impl Child {
         Ok(())
     }
 
-    /// What it has written since the last time.
+    /// Forwards new output.
     fn pass_on(&self, stage: &mut Stage<'_>) {
         let Some(printed) = &self.printed else { return };
         for line in printed.try_iter() {
@@ -212,7 +210,7 @@ impl Hand for Child {
                 return Done::Yes;
             }
         };
-        // Its last words are in the pipe still.
+        // Its last output is still in the pipe.
         self.guard.forget(process.id());
         sleep(Duration::from_millis(5));
         self.pass_on(stage);
@@ -243,7 +241,7 @@ impl Hand for Child {
     fn stop(&mut self) {
         let Some(process) = &mut self.process else { return };
         let group = process.id();
-        // It was interrupted already; then harder, together with what it has started itself.
+        // SIGINT was sent already; now stronger signals to the whole process group.
         for ending in [None, Some(Ending::Terminate), Some(Ending::Kill)] {
             if let Some(ending) = ending {
                 guard::send(group, ending);
@@ -252,7 +250,7 @@ impl Hand for Child {
             while since.elapsed() < LAST_WORDS {
                 let has_ended = !matches!(process.try_wait(), Ok(None));
                 if has_ended && ending.is_none() && guard::has_members(group) {
-                    // A shell goes with Ctrl-C, what it runs in the background does not.
+                    // A shell ends on SIGINT, its background processes do not.
                     break;
                 }
                 if has_ended && !guard::has_members(group) {
@@ -280,14 +278,14 @@ impl Drop for Child {
     }
 }
 
-/// What is to be typed for a program: Python needs its interpreter where nobody made it executable.
+/// Command of a file: Python files that are not executable need the interpreter.
 fn by_path(path: &Path) -> Vec<String> {
     let is_python = path.extension().is_some_and(|extension| extension == "py");
     let word = path.display().to_string();
     if is_python { vec!["python3".into(), word] } else { vec![word] }
 }
 
-/// A program of a package: installed, or in its sources.
+/// Program of a package: installed, or in its sources.
 fn find(
     package: &str,
     name: &str,
@@ -315,13 +313,13 @@ fn find(
     let found = tried.into_iter().find(|path| Machine.kind(path) == Some(Kind::File));
     found.ok_or_else(|| {
         format!(
-            "nothing built in stands for `{name}` of the package `{package}`, and the package has no \
+            "`{name}` of the package `{package}` has no built-in replacement, and the package has no \
              such program on this machine"
         )
     })
 }
 
-/// What a node of ROS 2 is given, as words.
+/// Arguments of a ROS 2 node.
 fn ros_words(program: &Program) -> Vec<String> {
     let identity = &program.identity;
     let mut words = vec!["--ros-args".to_owned()];
@@ -340,7 +338,7 @@ fn ros_words(program: &Program) -> Vec<String> {
             Parameters::File(file) => add("--params-file", file.clone()),
             Parameters::Values(values) => {
                 for (name, value) in values.iter().filter(|(_, value)| parameter(value).is_some()) {
-                    // JSON is YAML.
+                    // JSON is valid YAML.
                     add("-p", format!("{name}:={value}"));
                 }
             }

@@ -1,4 +1,4 @@
-//! Nodes that need the description of a robot, which comes on a topic.
+//! Nodes that need a robot description from a topic.
 
 use periplus_graph::{Mailbox, Node, Qos};
 use periplus_loader::load_bytes;
@@ -10,7 +10,7 @@ use periplus_sim_nodes::states::{JointStateOptions, JointStateSource};
 use super::{Done, Hand, Stage};
 use crate::bringup::told::Said;
 
-/// A `joint_state_publisher` that waits for `robot_description`.
+/// `joint_state_publisher` that waits for `robot_description`.
 pub(crate) struct Described {
     node: Node,
     options: JointStateOptions,
@@ -22,7 +22,7 @@ impl Described {
     /// Waits for the first description.
     ///
     /// # Errors
-    /// In words.
+    /// A message when it cannot start.
     pub(crate) fn new(node: Node, options: JointStateOptions) -> Result<Self, String> {
         let descriptions = node.mailbox("robot_description", Qos::latched(1));
         let descriptions = descriptions.map_err(|error| error.to_string())?;
@@ -51,10 +51,10 @@ impl Hand for Described {
     }
 }
 
-/// The robot of a description.
+/// Robot of a description.
 ///
 /// # Errors
-/// What is wrong with it.
+/// A message with the error of the description.
 pub(crate) fn robot(text: &str, search: &Search) -> Result<Model, String> {
     if text.trim().is_empty() {
         return Err("`robot_description` is empty".into());
@@ -67,6 +67,6 @@ pub(crate) fn robot(text: &str, search: &Search) -> Result<Model, String> {
     let models = scene.worlds.into_iter().flat_map(|world| world.models).chain(scene.models);
     models.into_iter().next().ok_or_else(|| {
         let finding = loaded.diagnostics.iter().next();
-        finding.map_or_else(|| "it holds no robot".into(), |finding| finding.message.clone())
+        finding.map_or_else(|| "it has no robot".into(), |finding| finding.message.clone())
     })
 }

@@ -1,9 +1,9 @@
 //! `nav2_lifecycle_manager`.
 //!
-//! Source: `nav2_lifecycle_manager/src/lifecycle_manager.cpp`: nodes are configured one after the
-//! other in the order of `node_names`, then activated in that order; down it goes in reverse. With each
-//! active node a bond is kept, unless `bond_timeout` is 0. After a bond broke, the other nodes are reset;
-//! once all answer again, the system is started again (`attempt_respawn_reconnection`).
+//! Source: `nav2_lifecycle_manager/src/lifecycle_manager.cpp`: nodes are configured in the order of
+//! `node_names`, then activated in that order; shutdown is in reverse. Each active node has a bond,
+//! unless `bond_timeout` is 0. After a bond broke, the other nodes are reset; once all respond
+//! again, the system is restarted (`attempt_respawn_reconnection`).
 
 use std::collections::{BTreeMap, VecDeque};
 
@@ -21,12 +21,12 @@ use super::respawn::{Respawn, RespawnStatus, SERVICE_TIMEOUT_NS};
 use super::{Done, Hand, Stage};
 use crate::bringup::told::Said;
 
-/// After so long it is said for whom it waits \[ns\].
+/// Time after which a missing node is logged \[ns\].
 const PATIENCE_NS: i64 = 5_000_000_000;
 
-/// Parameters of a lifecycle manager, as Nav2 names them; times in seconds.
+/// Parameters of a lifecycle manager, as named by Nav2; times in seconds.
 pub(crate) struct ManagerSettings {
-    /// The nodes, by their names in the manager's namespace.
+    /// Names of the nodes, relative to the manager's namespace.
     pub(crate) node_names: Vec<String>,
     pub(crate) autostart: bool,
     pub(crate) bond_timeout_s: f64,
@@ -34,7 +34,7 @@ pub(crate) struct ManagerSettings {
     pub(crate) bond_respawn_max_duration_s: f64,
 }
 
-/// A manager of nodes.
+/// Lifecycle manager.
 pub(crate) struct Manager {
     node: Node,
     names: Vec<String>,
@@ -48,7 +48,7 @@ pub(crate) struct Manager {
     pending_since_ns: i64,
     bonds: Option<Bonds>,
     respawn: Option<Respawn>,
-    /// After a bond broke all nodes are reset, whether single ones fail or not.
+    /// After a bond broke all nodes are reset, even if single ones fail.
     is_hard_reset: bool,
     waits_since_ns: i64,
     has_complained: bool,
@@ -59,10 +59,10 @@ pub(crate) struct Manager {
 }
 
 impl Manager {
-    /// A manager as the settings have it.
+    /// Creates a manager.
     ///
     /// # Errors
-    /// In words.
+    /// A message when it cannot start.
     pub(crate) fn new(node: Node, settings: ManagerSettings, now_ns: i64) -> Result<Self, String> {
         let names = settings.node_names;
         let made = || {
@@ -109,7 +109,7 @@ impl Manager {
         Ok(manager)
     }
 
-    /// What a command asks for, in its order. False for one that is not known.
+    /// Queues the transitions of a command. False for an unknown command.
     fn order(&mut self, command: u8) -> bool {
         let labels: &[&'static str] = match command {
             Command::STARTUP => &["configure", "activate"],
@@ -141,7 +141,7 @@ impl Manager {
         stage.said.push(Said { level, text: format!("{}: {text}", self.node.full_name()) });
     }
 
-    /// Goes on with what is to be done; whether something was.
+    /// Processes the queue; returns true on progress.
     fn go_on(&mut self, stage: &mut Stage<'_>) -> bool {
         let Some((name, label)) = self.to_do.front().cloned() else {
             self.is_hard_reset = false;
@@ -151,7 +151,7 @@ impl Manager {
         if let Some(pending) = &self.pending {
             let succeeded = match pending.take() {
                 Some(answer) => answer.is_ok_and(|answer| answer.success),
-                // It may have died with the one whose bond broke.
+                // It may have ended together with the node whose bond broke.
                 None if self.is_hard_reset
                     && steady_ns - self.pending_since_ns > SERVICE_TIMEOUT_NS =>
                 {
@@ -178,15 +178,14 @@ impl Manager {
                     }
                 }
             } else {
-                let text =
-                    format!("failed to {label} `{name}`; the nodes behind it stay as they are");
+                let text = format!("failed to {label} `{name}`; later nodes are left unchanged");
                 self.say(stage, Level::Error, &text);
                 self.has_failed = true;
                 self.to_do.clear();
             }
             return true;
         }
-        // The next node waits until the bond with the one before it is formed.
+        // The next node waits until the bond with the previous one is formed.
         if self.bonds.as_ref().is_some_and(Bonds::is_forming) {
             return false;
         }
@@ -203,7 +202,7 @@ impl Manager {
             }
             if stage.now_ns - self.waits_since_ns > PATIENCE_NS && !self.has_complained {
                 self.has_complained = true;
-                let text = format!("waits for `{name}`, whose services nobody has");
+                let text = format!("waiting for the services of `{name}`");
                 self.say(stage, Level::Warn, &text);
             }
             return false;
@@ -218,12 +217,12 @@ impl Manager {
 }
 
 impl Manager {
-    /// Takes all nodes down when one of them is gone.
+    /// Resets all nodes when one of them is gone.
     fn keep_bonds(&mut self, stage: &mut Stage<'_>) {
         let Some(bonds) = &mut self.bonds else { return };
         let steady_ns = stage.graph.steady_now_ns();
         let Some(Broken { name, reason, was_formed }) = bonds.keep(steady_ns) else { return };
-        self.say(stage, Level::Error, &format!("{reason}; the other nodes are reset"));
+        self.say(stage, Level::Error, &format!("{reason}; resetting the other nodes"));
         self.is_hard_reset = true;
         if let Some(respawn) = self.respawn.as_mut().filter(|_| was_formed) {
             respawn.begin(steady_ns);
@@ -242,7 +241,7 @@ impl Manager {
 }
 
 impl Manager {
-    /// Starts the system again once all nodes have come back.
+    /// Restarts the system once all nodes are back.
     fn await_respawn(&mut self, stage: &mut Stage<'_>) {
         let Some(respawn) = &mut self.respawn else { return };
         if !self.to_do.is_empty() || self.pending.is_some() {
@@ -252,9 +251,9 @@ impl Manager {
             RespawnStatus::Idle => {}
             RespawnStatus::Waiting => stage.graph.settle(),
             RespawnStatus::Back(states) => {
-                let text = "all nodes answer again after a bond broke; the system is started again";
+                let text = "all nodes respond again after a bond broke; restarting the system";
                 self.say(stage, Level::Info, text);
-                // A node that ended its bond by itself may be anywhere in its life.
+                // A node that ended its bond by itself may be in any state.
                 let mut resets = VecDeque::new();
                 for name in self.names.iter().rev() {
                     match states.get(name) {

@@ -1,24 +1,24 @@
-//! Passes on what comes on one topic under another name.
+//! Relay between topics.
 
 use periplus_graph::{Graph, Node, NodeSettings, RawMailbox, RawPublisher};
 
 use super::{Done, Hand, Stage};
 
-/// Two names of which one is to say what the other says.
+/// Relay between two names of a topic.
 pub(crate) struct Relay {
     node: Node,
-    /// For names that the node's own rules would replace.
+    /// For names that remappings of the node would change.
     plain: Node,
-    /// Full names that may be the source, the likelier first, each with the other end.
+    /// Possible source topics by full name, in order of preference, each with its destination.
     ways: Vec<(String, String)>,
     open: Option<(RawMailbox, RawPublisher)>,
 }
 
 impl Relay {
-    /// From one full name to another; the first of these ways on which somebody publishes is taken.
-    ///
+    /// Relays from one full name to another; the first direction whose source has a publisher is
+    /// used.
     /// # Errors
-    /// In words.
+    /// A message when it cannot be created.
     pub(crate) fn new(
         graph: &Graph,
         node: Node,
@@ -28,7 +28,7 @@ impl Relay {
         let namespace = node.names().namespace().to_owned();
         let mut number = 1;
         let plain = loop {
-            // A bridge has many of these.
+            // A bridge has many relays.
             let name = format!("{beside}_{number}");
             let settings = NodeSettings::new(name).namespace(&namespace).bare().keep_names();
             match graph.node(settings) {
@@ -40,13 +40,13 @@ impl Relay {
         Ok(Self { node, plain, ways, open: None })
     }
 
-    /// The node that means this name by it.
+    /// Node that resolves this name unchanged.
     fn meaning(&self, name: &str) -> &Node {
         let is_kept = self.node.names().topic(name).is_ok_and(|meant| meant == name);
         if is_kept { &self.node } else { &self.plain }
     }
 
-    /// Finds out what there is to pass on: who publishes says of which type it is and how it is kept.
+    /// Detects the source; its publisher determines type and QoS.
     fn look(&mut self, stage: &Stage<'_>) {
         let topics = stage.graph.topics();
         for (from, to) in &self.ways {

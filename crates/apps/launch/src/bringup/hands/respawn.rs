@@ -1,28 +1,28 @@
-//! Nodes that come back after a bond broke.
+//! Recovery of nodes after a bond broke.
 //!
 //! Source: `LifecycleManager::checkBondRespawnConnection` of Nav2 (parameters
-//! `attempt_respawn_reconnection` and `bond_respawn_max_duration`): every second all nodes are asked
-//! for their states; once all have answered, the system is started again.
+//! `attempt_respawn_reconnection` and `bond_respawn_max_duration`): the states of all nodes are
+//! requested every second; once all have responded, the system is restarted.
 
 use std::collections::BTreeMap;
 
 use periplus_graph::{Client, GraphError, Node, Pending};
 use periplus_msgs::lifecycle_msgs::{GetState, GetStateRequest};
 
-/// Period at which all nodes are asked \[ns\]; Nav2's.
+/// Period of state requests \[ns\]; the value of Nav2.
 const PERIOD_NS: i64 = 1_000_000_000;
 
-/// Time that an answer may take \[ns\]; Nav2's `service_timeout`.
+/// Timeout of a response \[ns\]; Nav2's `service_timeout`.
 pub(super) const SERVICE_TIMEOUT_NS: i64 = 5_000_000_000;
 
-/// Asks the nodes for their states.
+/// Requests the states of nodes.
 pub(super) struct Respawn {
     clients: BTreeMap<String, Client<GetState>>,
     max_duration_ns: i64,
     attempt: Option<Attempt>,
 }
 
-/// One failure that nodes may recover from.
+/// Failure that nodes may recover from.
 struct Attempt {
     since_ns: i64,
     asked_ns: Option<i64>,
@@ -30,24 +30,24 @@ struct Attempt {
     states: BTreeMap<String, u8>,
 }
 
-/// Result of one look.
+/// Result of a poll.
 #[derive(Debug, PartialEq, Eq)]
 pub(super) enum RespawnStatus {
-    /// No node is waited for.
+    /// Idle.
     Idle,
-    /// Some node has not answered yet.
+    /// A node has not responded yet.
     Waiting,
-    /// All nodes have answered; their states by name.
+    /// All nodes have responded; their states by name.
     Back(BTreeMap<String, u8>),
-    /// Some node did not come back in time.
+    /// A node did not come back in time.
     GivenUp,
 }
 
 impl Respawn {
-    /// For these nodes; each attempt ends after `max_duration_s`.
+    /// Recovery of these nodes; each attempt ends after `max_duration_s`.
     ///
     /// # Errors
-    /// When a service has another type.
+    /// An error when a service has another type.
     pub(super) fn new(
         node: &Node,
         names: &[String],
@@ -62,18 +62,18 @@ impl Respawn {
         Ok(Self { clients, max_duration_ns, attempt: None })
     }
 
-    /// Begins to wait for the nodes.
+    /// Starts an attempt.
     pub(super) fn begin(&mut self, now_ns: i64) {
         let (pending, states) = Default::default();
         self.attempt = Some(Attempt { since_ns: now_ns, asked_ns: None, pending, states });
     }
 
-    /// Ends it: something else decides about the nodes.
+    /// Cancels an attempt.
     pub(super) fn cancel(&mut self) {
         self.attempt = None;
     }
 
-    /// Asks, and looks at the answers.
+    /// Sends requests, and collects responses.
     pub(super) fn look(&mut self, now_ns: i64) -> RespawnStatus {
         let Some(attempt) = &mut self.attempt else { return RespawnStatus::Idle };
         attempt.since_ns = attempt.since_ns.min(now_ns);
@@ -100,7 +100,7 @@ impl Respawn {
         let is_over = pending.is_empty() || age_ns.is_some_and(|age| age >= SERVICE_TIMEOUT_NS);
         if age_ns.is_none_or(|age_ns| !(0..PERIOD_NS).contains(&age_ns)) && is_over {
             attempt.asked_ns = Some(now_ns);
-            // All in one round: who answered before may be gone by now.
+            // All in the same round: a node that responded before may be gone by now.
             states.clear();
             let ready = self.clients.iter().filter(|(_, client)| client.is_ready());
             *pending = ready

@@ -1,4 +1,4 @@
-//! `map_saver`: waits for a map, writes it, and ends.
+//! `map_saver`: waits for a map, saves it, and ends.
 
 use std::path::Path;
 
@@ -11,7 +11,7 @@ use periplus_resources::Store as _;
 use super::{Done, Hand, Stage};
 use crate::bringup::told::Said;
 
-/// Saves one map.
+/// Task that saves one map.
 pub(crate) struct Saver {
     wish: Wish,
     distro: Distro,
@@ -19,15 +19,15 @@ pub(crate) struct Saver {
 }
 
 impl Saver {
-    /// With the words of the program.
+    /// Parses the arguments of the program.
     ///
     /// # Errors
-    /// What is wrong with them.
+    /// A message with the invalid argument.
     pub(crate) fn new(node: &Node, words: &[String], distro: Distro) -> Result<Self, String> {
         let (topic, wish) = match read_words(words, distro) {
             Ok(Words::Save { topic, wish }) => (topic, wish),
             Ok(Words::Help) => {
-                return Err("it is asked for help, which `periplus map save -h` gives".into());
+                return Err("use `periplus map save -h` for help".into());
             }
             Err(error) => return Err(error.to_string()),
         };
@@ -37,7 +37,7 @@ impl Saver {
 
     fn save(&self, map: &OccupancyGrid) -> Result<String, String> {
         let grid = from_message(map).map_err(|error| error.to_string())?;
-        // Where no name is given, the time is one.
+        // The default name is the time.
         let unix_s = unix_ns().div_euclid(1_000_000_000);
         let (saving, _) =
             self.wish.settle(self.distro, unix_s).map_err(|error| error.to_string())?;
@@ -52,8 +52,8 @@ impl Hand for Saver {
     fn work(&mut self, stage: &mut Stage<'_>) -> Done {
         let Some(map) = self.maps.latest() else { return Done::No };
         stage.said.push(match self.save(&map) {
-            Ok(path) => Said::info(format!("the map is in {path}")),
-            Err(why) => Said::error(format!("the map is not saved: {why}")),
+            Ok(path) => Said::info(format!("map saved to {path}")),
+            Err(why) => Said::error(format!("the map was not saved: {why}")),
         });
         Done::Yes
     }

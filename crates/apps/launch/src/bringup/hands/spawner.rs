@@ -1,4 +1,4 @@
-//! Puts a robot or model into the simulation, as `spawn_entity.py`, `spawn_model` and `create` do.
+//! Spawner of robots and models, as `spawn_entity.py`, `spawn_model` and `create`.
 
 use periplus_geometry::{Pose, Rpy};
 use periplus_graph::{Mailbox, Node, Qos};
@@ -10,10 +10,10 @@ use crate::bringup::parameters::{Named, number_of, text_of};
 use crate::bringup::told::Said;
 use crate::bringup::words;
 
-/// After so long it is said what it waits for \[ns\].
+/// Time after which a missing input is logged \[ns\].
 const PATIENCE_NS: i64 = 5_000_000_000;
 
-/// What is to come, and where.
+/// Model to spawn, and its pose.
 pub(crate) struct Spawner {
     from: From,
     name: String,
@@ -22,19 +22,19 @@ pub(crate) struct Spawner {
     world_from_here: Pose,
     since_ns: i64,
     has_complained: bool,
-    /// ` (FILE:LINE)` of the launch file; empty where that is not known.
+    /// ` (FILE:LINE)` of the launch file; empty if unknown.
     place: String,
 }
 
-/// Where the text of the model is.
+/// Source of the model.
 enum From {
-    /// A text, and the parameter that it is the value of.
+    /// Text, and the parameter that contains it.
     Text(String, String),
     File(String),
     Topic(Mailbox<std_msgs::String>),
 }
 
-/// The value of an option, or of the parameter of that name: `create` takes both.
+/// Value of an option, or of the parameter of that name: `create` accepts both.
 struct Given<'a> {
     words: &'a [String],
     named: &'a Named,
@@ -54,17 +54,17 @@ impl Given<'_> {
                 .parse()
                 .ok()
                 .filter(|number: &f64| number.is_finite())
-                .ok_or_else(|| format!("`-{name} {word}` is no number")),
+                .ok_or_else(|| format!("`-{name} {word}` is not a number")),
         }
     }
 }
 
 impl Spawner {
-    /// From the words and parameters of the program. `parameter` gives values of ROS 1's parameter
-    /// server, `path` a path as the program means it.
+    /// Parses the arguments and parameters of the program. `parameter` returns values of the ROS 1
+    /// parameter server, `path` resolves a path for the program.
     ///
     /// # Errors
-    /// In words.
+    /// A message with the error.
     pub(crate) fn new(
         node: &Node,
         (words, named): (&[String], &Named),
@@ -82,14 +82,14 @@ impl Spawner {
         } else if let Some(name) = given.text("param") {
             let text = parameter(&name).or_else(|| text_of(named, &name));
             let text = text.ok_or_else(|| {
-                format!("nothing has set the parameter `{name}` that the robot is to come from")
+                format!("the parameter `{name}` with the robot description is not set")
             })?;
             From::Text(text, name)
         } else if let Some(topic) = given.text("topic") {
             let mailbox = node.mailbox(&topic, Qos::latched(1));
             From::Topic(mailbox.map_err(|error| error.to_string())?)
         } else {
-            return Err("it is not told what to spawn; give `-file FILE`, `-topic TOPIC` or \
+            return Err("no model given; use `-file FILE`, `-topic TOPIC` or \
                         `-param NAME`"
                 .into());
         };
@@ -109,17 +109,16 @@ impl Spawner {
         })
     }
 
-    /// Names the line of the launch file in what is said of the robot: the text of its description has
-    /// no file of its own.
+    /// Sets the launch file line for messages: a description that is a text has no file.
     pub(crate) fn written_at(mut self, line: Option<&str>) -> Self {
         self.place = line.map(|line| format!(" ({line})")).unwrap_or_default();
         self
     }
 
-    /// In words.
+    /// Description.
     pub(crate) fn told(&self) -> String {
         let place = self.world_from_here.translation;
-        let name = if self.name.is_empty() { "what it names" } else { &self.name };
+        let name = if self.name.is_empty() { "its model" } else { &self.name };
         let from = match &self.from {
             From::Text(..) => "its parameter".to_owned(),
             From::File(file) => file.clone(),
@@ -131,7 +130,7 @@ impl Spawner {
     fn wait(&mut self, stage: &mut Stage<'_>, why: &str) -> Done {
         if stage.now_ns - self.since_ns > PATIENCE_NS && !self.has_complained {
             self.has_complained = true;
-            stage.said.push(Said::warning(format!("`{}` is not spawned yet: {why}", self.name)));
+            stage.said.push(Said::warning(format!("`{}` not spawned yet: {why}", self.name)));
         }
         Done::No
     }
@@ -144,16 +143,14 @@ impl Hand for Spawner {
 
     fn work(&mut self, stage: &mut Stage<'_>) -> Done {
         if stage.simulation.is_none() {
-            return self.wait(
-                stage,
-                "this launch simulates no world; put it into the same launch as the world",
-            );
+            return self
+                .wait(stage, "this launch has no world; start the world in the same launch");
         }
         let heard = match &self.from {
             From::Topic(mailbox) => match mailbox.latest() {
                 Some(message) => Some(message),
                 None => {
-                    let why = format!("nothing has come on {}", mailbox.topic());
+                    let why = format!("no message received on {}", mailbox.topic());
                     return self.wait(stage, &why);
                 }
             },
@@ -172,7 +169,7 @@ impl Hand for Spawner {
             may_rename: self.may_rename,
             namespace: &self.namespace,
             world_from_here: self.world_from_here,
-            // Only those tell of frames whom the plan starts.
+            // Only nodes that the plan starts publish transforms.
             with_frames: false,
         };
         let Some(simulation) = stage.simulation.as_deref_mut() else { return Done::No };
@@ -187,7 +184,7 @@ impl Hand for Spawner {
             }
             Err(why) => {
                 let Self { name, place, .. } = self;
-                stage.said.push(Said::error(format!("`{name}`{place} is not spawned: {why}")));
+                stage.said.push(Said::error(format!("`{name}`{place} was not spawned: {why}")));
             }
         }
         Done::Yes
