@@ -316,12 +316,12 @@ fn xml_of_ros_1() {
             }
             hint[launch-package]: the package `xacro` is not on this machine
              |
-             = note: files in it are called `package://xacro/...` in the plan
+             = note: its files are written as `package://xacro/...` in the plan
              = help: if it is on this machine, give its folder: `--resource-path FOLDER`
 
             hint[launch-package]: the package `gazebo_ros` is not on this machine
              |
-             = note: files in it are called `package://gazebo_ros/...` in the plan
+             = note: its files are written as `package://gazebo_ros/...` in the plan
              = help: if it is on this machine, give its folder: `--resource-path FOLDER`
 
         "#]],
@@ -392,7 +392,7 @@ fn errors_teach() {
         2 |   <log message="$(var maap)"/>
           |    ^^^
           |
-          = help: declare the argument `maap` before it is used, or give it: `maap:=VALUE`
+          = help: declare the argument `maap` before its use, or pass `maap:=VALUE`
 
         error[launch-condition]: a condition must be `true`, `1`, `false` or `0`, not `perhaps`
          --> /a.launch.xml:2:4
@@ -420,7 +420,7 @@ fn errors_teach() {
         2 |   <param name="a" value="$(var b)"/>
           |    ^^^^^
           |
-          = help: a `param` of its own is ROS 1's: here it belongs into a node, or is `set_parameter`
+          = help: `param` outside a node is ROS 1: in ROS 2 put it into a node, or use `set_parameter`
 
     "#]].assert_eq(&told);
 }

@@ -81,7 +81,7 @@ impl QosWish {
         if differ(latched) {
             words.push(format!(
                 "{latched} of {all} publishers are transient local and the others are \
-                 not; what was published before is not asked for"
+                 not; earlier messages are not requested"
             ));
         }
         Ok((self.over(qos)?, (!words.is_empty()).then(|| words.join("; "))))

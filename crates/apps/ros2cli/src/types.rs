@@ -80,7 +80,7 @@ impl Types {
         Failure::failed(format!(
             "the {what} type `{name}` is unknown. {near}If it is in a package of yours, give its \
              folder with `--interfaces DIR`, or add the install prefix of `{package}` \
-             on AMENT_PREFIX_PATH"
+             to AMENT_PREFIX_PATH"
         ))
     }
 }

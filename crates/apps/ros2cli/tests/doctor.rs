@@ -149,7 +149,7 @@ fn reliability_that_nobody_offers() {
     let rviz = node(&robot.graph, "rviz");
     let _scans = rviz.mailbox::<LaserScan>("/scan", Qos::reliable(5)).unwrap();
     robot.check(expect![[r#"
-        error qos-mismatch: `/rviz` hears nothing of `/scan`: it asks for reliability reliable, and `/lidar` offers best_effort
+        error qos-mismatch: `/rviz` receives nothing on `/scan`: it requests reliability reliable, and `/lidar` offers best_effort
           set reliability of the subscription to best_effort: parameter `qos_overrides./scan.subscription.reliability` of `/rviz`, in RViz the display's Reliability Policy; or `qos_overrides./scan.publisher.reliability` of `/lidar` to reliable
     "#]]);
 }
@@ -162,7 +162,7 @@ fn a_map_that_is_not_kept_for_latecomers() {
     let costmap = node(&robot.graph, "global_costmap");
     let _maps = costmap.mailbox::<OccupancyGrid>("/map", Qos::latched(1)).unwrap();
     robot.check(expect![[r#"
-        error qos-mismatch: `/global_costmap` hears nothing of `/map`: it asks for durability transient_local, and `/mapper` offers volatile
+        error qos-mismatch: `/global_costmap` receives nothing on `/map`: it requests durability transient_local, and `/mapper` offers volatile
           set durability of the subscription to volatile: parameter `qos_overrides./map.subscription.durability` of `/global_costmap`, in RViz the display's Durability Policy; or `qos_overrides./map.publisher.durability` of `/mapper` to transient_local
     "#]]);
 }
@@ -172,7 +172,7 @@ fn odometry_that_nobody_tells() {
     let mut robot = Robot::new();
     robot.moving.remove(1);
     robot.check(expect![[r#"
-        error frame-missing: nobody tells where `base_link` is in `odom`: 2 trees that are not connected, below `base_link`, `map`
+        error frame-missing: no transform from `odom` to `base_link` is published: 2 disconnected trees with the roots `base_link`, `map`
           let the drive publish it: `publish_odom_tf` true (Classic), `<tf_topic>/tf</tf_topic>` (Harmonic), or `publish_tf` true of robot_localization; its `odom_frame` and `base_link_frame` must be these names
     "#]]);
 }
@@ -192,7 +192,7 @@ fn a_localization_that_has_stopped() {
     let mut robot = Robot::new();
     robot.moving[0].2 = SECOND_NS / 2;
     robot.check(expect![[r#"
-        warning frame-stale: `odom` in `map` was told last 2.5 s before the newest transform
+        warning frame-stale: `odom` in `map` was last published 2.5 s before the newest transform
           its broadcaster has stopped, receives no input, or uses another clock (`use_sim_time`)
     "#]]);
 }
@@ -202,7 +202,7 @@ fn a_circle_of_frames() {
     let mut robot = Robot::new();
     robot.moving.push(("base_link", "map", i64::MAX));
     robot.check(expect![[r#"
-        error frame-circle: frames run in a circle: `base_link` -> `odom` -> `map` -> `base_link`
+        error frame-circle: frames form a loop: `base_link` -> `odom` -> `map` -> `base_link`
           one of these transforms has parent and child exchanged
     "#]]);
 }
@@ -212,7 +212,7 @@ fn simulated_time_that_nobody_tells() {
     let mut robot = Robot::new();
     robot.clock = None;
     robot.check(expect![[r#"
-        error no-clock: nobody tells the time on `/clock`, and `/amcl`, `/lidar` wait for it: their time stands still at 0
+        error no-clock: `/clock` has no publisher, and `/amcl`, `/lidar` wait for it: their time stays at 0
           start the simulation (or `periplus bag play BAG --clock`), or set `use_sim_time` of these nodes to false
     "#]]);
 }
@@ -223,7 +223,7 @@ fn a_driver_that_lives_by_the_wall_clock() {
     robot.simulated.insert("/lidar".into(), false);
     robot.stamp_shift_ns = 1_700_000_000 * SECOND_NS;
     robot.check(expect![[r#"
-        warning wall-time: `/gazebo` tells simulated time on `/clock`, and `/lidar` live by the wall's clock
+        warning wall-time: `/gazebo` publishes simulated time on `/clock`, and `/lidar` use the wall clock
           set `use_sim_time` of these nodes to true: `-p use_sim_time:=true`
         error other-clock: stamps on `/scan` are 1700000000 s away from the time on `/clock`
           set `use_sim_time` of `/lidar` to true
@@ -235,7 +235,7 @@ fn a_lidar_in_a_frame_of_gazebo() {
     let mut robot = Robot::new();
     robot.scan_frame = "pong-bot/lidar_link/gpu_lidar";
     robot.check(expect![[r#"
-        error frame-unknown: messages on `/scan` are in the frame `pong-bot/lidar_link/gpu_lidar`, which no transform places
+        error frame-unknown: messages on `/scan` are in the frame `pong-bot/lidar_link/gpu_lidar`, which has no transform
           set the sensor's frame to `lidar_link`: `<frame_name>` (Classic), `<gz_frame_id>` (Harmonic); or publish its pose: `periplus tf static 0 0 0 0 0 0 lidar_link pong-bot/lidar_link/gpu_lidar`
     "#]]);
 }
@@ -256,7 +256,7 @@ fn a_frame_with_a_slash() {
     let mut robot = Robot::new();
     robot.scan_frame = "/lidar_link";
     robot.check(expect![[r#"
-        error frame-slash: messages on `/scan` name the frame `/lidar_link`, with a slash in front
+        error frame-slash: messages on `/scan` have the frame_id `/lidar_link` with a leading slash
           set the sensor's frame to `lidar_link` (`frame_name`, `frame_id`)
     "#]]);
 }
@@ -266,7 +266,7 @@ fn a_lidar_that_says_nothing() {
     let mut robot = Robot::new();
     robot.every = 0;
     robot.check(expect![[r#"
-        warning sensor-silent: `/lidar` publishes `/scan`, and nothing came in 3.0 s
+        warning sensor-silent: `/lidar` has a publisher on `/scan`, and no message was received in 3.0 s
           the sensor is off (`<always_on>`, `<update_rate>`), the simulation is paused, a driver waits for its device, or packets are lost: large messages need `net.core.rmem_max`
     "#]]);
 }
@@ -296,7 +296,7 @@ fn a_lidar_that_is_too_slow() {
     let mut robot = Robot::new();
     robot.every = 3;
     robot.check(expect![[r#"
-        warning sensor-slow: `/scan` comes 3.3 times in a second, and should 10.0 times
+        warning sensor-slow: `/scan` has a rate of 3.3 Hz instead of 10.0 Hz
           the machine is too slow for `<update_rate>` (a lower one, fewer samples), the simulation runs below real time, or messages are lost (reliability, `net.core.rmem_max`)
     "#]]);
 }
@@ -312,7 +312,7 @@ fn another_domain() {
     check(
         &Picture { surroundings: Some(around), ..Picture::default() },
         expect![[r#"
-        error nobody: nobody is in domain 7
+        error nobody: no participant found in domain 7
           set ROS_DOMAIN_ID=0
     "#]],
     );
@@ -350,7 +350,7 @@ fn one_name_for_two_types() {
     check(
         &Picture { seen, ..Picture::default() },
         expect![[r#"
-        error topic-types: `/cmd_vel` has ends of different types: geometry_msgs/msg/Twist, geometry_msgs/msg/TwistStamped
+        error topic-types: `/cmd_vel` has endpoints of different types: geometry_msgs/msg/Twist, geometry_msgs/msg/TwistStamped
           rename one of them: `-r /cmd_vel:=/cmd_vel_other`
     "#]],
     );
@@ -381,7 +381,7 @@ fn a_mapper_that_shows_nothing_yet() {
     let driver = node(&robot.graph, "driver");
     let _silent = driver.publisher::<LaserScan>("/rear_scan", Qos::sensor_data()).unwrap();
     robot.check(expect![[r#"
-        warning sensor-silent: `/driver` publishes `/rear_scan`, and nothing came in 3.0 s
+        warning sensor-silent: `/driver` has a publisher on `/rear_scan`, and no message was received in 3.0 s
           the sensor is off (`<always_on>`, `<update_rate>`), the simulation is paused, a driver waits for its device, or packets are lost: large messages need `net.core.rmem_max`
     "#]]);
 }

@@ -70,7 +70,7 @@ pub fn tree(session: &mut Session<'_>, tree: &Tree) -> Outcome {
         let moving = seen.topic("/tf").map_or(0, |topic| topic.publishers.len());
         let fixed = seen.topic("/tf_static").map_or(0, |topic| topic.publishers.len());
         return Err(Failure::failed(format!(
-            "no transform was received in {:?} s: publishers of {moving}: {}, of {fixed}: {}; start what \
+            "no transform was received in {:?} s: publishers of {}: {moving}, of {}: {fixed}; start what \
              publishes them (robot_state_publisher, odometry), or see `periplus doctor`",
             tree.wait.as_secs_f64(),
             tree.moving,

@@ -89,14 +89,14 @@ fn without_a_map_it_says_why() {
     let (bench, folder) = (Bench::new(), Folder::new("why"));
     let what = wanted("map", folder.path("room"));
     expect![[r#"
-        ! no map came on `/map` in 0.3 s: no map is published; is the map server or SLAM running?
+        ! no map received on `/map` within 0.3 s: no map is published; is the map server or SLAM running?
     "#]]
     .assert_eq(&run(&bench, &folder, &what));
     let node: Node = bench.node("slam");
     let _odometry = node.publisher::<Odometry>("/odom", Qos::reliable(1)).unwrap();
     let _map = node.publisher::<OccupancyGrid>("/slam/map", Qos::latched(1)).unwrap();
     expect![[r#"
-        ! no map came on `/map` in 0.3 s: nobody publishes there; maps are on /slam/map
+        ! no map received on `/map` within 0.3 s: the topic has no publisher; maps are published on /slam/map
     "#]]
     .assert_eq(&run(&bench, &folder, &what));
     let silent = Save { topic: "/slam/map".into(), ..what };

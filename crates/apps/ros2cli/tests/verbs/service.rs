@@ -96,7 +96,7 @@ fn services_are_called() {
         ! the values do not match std_srvs/srv/SetBool_Request: there is no field `dta`, did you mean `data`?
     "#]].assert_eq(&call(&bench, "std_srvs/SetBool", "{dta: true}"));
     expect![[r#"
-        ! the service type `std_srvs/srv/SetBol` is not known. Did you mean `std_srvs/srv/SetBool`? If it is a package of yours, give its folder with `--interfaces DIR`, or have the prefix that `std_srvs` is installed in on AMENT_PREFIX_PATH
+        ! the service type `std_srvs/srv/SetBol` is unknown. Did you mean `std_srvs/srv/SetBool`? If it is in a package of yours, give its folder with `--interfaces DIR`, or add the install prefix of `std_srvs` to AMENT_PREFIX_PATH
     "#]].assert_eq(&call(&bench, "std_srvs/SetBol", ""));
     let json = Bench { json: true, ..bench };
     expect![[r#"

@@ -153,7 +153,7 @@ fn what_is_wrong_with_a_tree_is_told() {
         └─ base_link  (21.8 Hz, Authority undetectable)
            └─ laser  (static, Authority undetectable)
         odom
-        | WARNING: 2 trees that are not connected, below `map`, `odom`
+        | WARNING: 2 disconnected trees with the roots `map`, `odom`
         | WARNING: `base_link` has more than one parent: `map`, `odom`
         | written: DIR/frames_12.30.gv, DIR/frames_12.30.pdf, DIR/frames_12.30.svg
     "#]]
@@ -183,7 +183,7 @@ fn silence_is_no_tree() {
     let folder = Folder::new("no_tree");
     let said = Bench::new().run(|session| tree(session, &viewed(&folder)));
     assert!(
-        said.contains("! no transform was heard in 0.05 s: 0 publish /tf, 0 publish"),
+        said.contains("! no transform was received in 0.05 s: publishers of /tf: 0, of"),
         "{said}"
     );
     let dot = std::fs::read_to_string(folder.0.join("frames_12.30.gv")).unwrap();

@@ -182,7 +182,7 @@ fn types_and_topics_are_found() {
     bench.check(
         |session| topic::find(session, "Twist", true, false),
         expect![[r#"
-        ! `Twist` is no message type; one is written like `package/msg/Name`
+        ! `Twist` is not a valid message type; write `package/msg/Name`
     "#]],
     );
 }
@@ -355,13 +355,13 @@ fn messages_are_shown_in_every_form() {
     check(
         &field("transforms[0].header.stam"),
         expect![[r#"
-        ! tf2_msgs/msg/TFMessage has nothing called `transforms[0].header.stam`: there is no field `stam`, did you mean `stamp`? (at `transforms[0].header`)
+        ! tf2_msgs/msg/TFMessage has no field `transforms[0].header.stam`: there is no field `stam`, did you mean `stamp`? (at `transforms[0].header`)
     "#]],
     );
     check(
         &field("transforms[2]"),
         expect![[r#"
-        ! tf2_msgs/msg/TFMessage has nothing called `transforms[2]`: expected an index below 2, found `2` (at `transforms`)
+        ! tf2_msgs/msg/TFMessage has no field `transforms[2]`: expected an index below 2, found `2` (at `transforms`)
     "#]],
     );
     check(
@@ -435,7 +435,7 @@ fn who_comes_late_hears_latched_topics() {
     bench.check(
         |session| topic::echo(session, "/map_name", &options),
         expect![[r#"
-        ! no message of /map_name came in time
+        ! no message received on /map_name in time
     "#]],
     );
     let wrong = QosWish { reliability: Some("relaible".into()), ..QosWish::default() };
@@ -443,7 +443,7 @@ fn who_comes_late_hears_latched_topics() {
     bench.check(
         |session| topic::echo(session, "/map_name", &options),
         expect![[r#"
-        ! --qos-reliability is `relaible`; it has to be one of reliable, best_effort
+        ! --qos-reliability is `relaible`; expected one of reliable, best_effort
     "#]],
     );
 }
@@ -454,8 +454,8 @@ fn publishers_that_do_not_fit_are_named() {
     let reliable = QosWish { reliability: Some("reliable".into()), ..QosWish::default() };
     let options = Echo { qos: reliable, timeout: Some(Duration::from_millis(30)), ..once() };
     robot.bench.check(|session| topic::echo(session, "/scan", &options), expect![[r#"
-        | WARNING: /bot/lidar offers /scan with reliability best_effort, and reliable is asked for: it is not heard
-        ! no message of /scan came in time
+        | WARNING: /bot/lidar offers /scan with reliability best_effort, and reliable is requested: its messages are not received
+        ! no message received on /scan in time
     "#]]);
 }
 
@@ -464,15 +464,15 @@ fn what_cannot_be_heard_is_told() {
     let robot = robot();
     robot.bench.check(|session| topic::echo(session, "/scn", &once()), expect![[r#"
         | WARNING: topic [/scn] does not appear to be published yet
-        ! could not determine the type of /scn: nobody publishes or subscribes to it; did you mean `/scan`? Give the type behind the name to wait for it
+        ! could not determine the type of /scn: it has no publisher and no subscriber; did you mean `/scan`? Give the type after the name to wait for it
     "#]]);
     let options = Echo { type_name: Some("my_msgs/Thing".into()), ..once() };
     robot.bench.check(|session| topic::echo(session, "/scan", &options), expect![[r#"
-        ! the message type `my_msgs/msg/Thing` is not known. If it is a package of yours, give its folder with `--interfaces DIR`, or have the prefix that `my_msgs` is installed in on AMENT_PREFIX_PATH
+        ! the message type `my_msgs/msg/Thing` is unknown. If it is in a package of yours, give its folder with `--interfaces DIR`, or add the install prefix of `my_msgs` to AMENT_PREFIX_PATH
     "#]]);
     let options = Echo { type_name: Some("sensor_msgs/msg/LaserScn".into()), ..once() };
     robot.bench.check(|session| topic::echo(session, "/scan", &options), expect![[r#"
-        ! the message type `sensor_msgs/msg/LaserScn` is not known. Did you mean `sensor_msgs/msg/LaserScan`? If it is a package of yours, give its folder with `--interfaces DIR`, or have the prefix that `sensor_msgs` is installed in on AMENT_PREFIX_PATH
+        ! the message type `sensor_msgs/msg/LaserScn` is unknown. Did you mean `sensor_msgs/msg/LaserScan`? If it is in a package of yours, give its folder with `--interfaces DIR`, or add the install prefix of `sensor_msgs` to AMENT_PREFIX_PATH
     "#]]);
 }
 
@@ -567,7 +567,7 @@ fn messages_are_published() {
     bench.check(
         |session| topic::publish(session, "/cmd_vel", "geometry_msgs/msg/Twist", "0.5", &options),
         expect![[r#"
-            ! the values are a number, and have to be names and values, such as `{linear: {x: 0.5}}`; a colon needs a space after it
+            ! the values are a number; expected names and values, such as `{linear: {x: 0.5}}`; a colon needs a space after it
         "#]],
     );
     let json = bench.json();

@@ -22,7 +22,7 @@ pub(super) fn join(simulation: &Simulation, quiet: bool) -> io::Result<Option<Ro
     match opened {
         Ok(wire) => {
             if !quiet {
-                let (domain, way) = (settings.domain_id, settings.way());
+                let (domain, route) = (settings.domain_id, settings.way());
                 terminal::say(&format!("ROS 2 on Zenoh: domain {domain}, through {route}"));
             }
             let wire = Some(Joined::Zenoh(wire));
