@@ -6,7 +6,7 @@ use std::process::Command;
 use std::time::Instant;
 
 use periplus_diagnostics::{Diagnostics, SourceMap};
-use periplus_loader::{Setting, load};
+use periplus_loader::{LoadContext, load};
 use periplus_os::Machine;
 use periplus_resources::{Host as _, Resolver};
 use serde_json::json;
@@ -101,7 +101,7 @@ fn expand_all(jobs: &[Job]) {
             let Some(document) = periplus_xml::parse(file, &sources, &mut diagnostics) else {
                 continue;
             };
-            let setting = periplus_xacro::Setting {
+            let setting = periplus_xacro::XacroContext {
                 path: job.file.clone(),
                 working_folder: PathBuf::from("/"),
                 arguments: Vec::new(),
@@ -122,7 +122,7 @@ fn load_all(jobs: &[Job]) {
     for (repository, jobs) in repositories(jobs) {
         let folders: Vec<PathBuf> = search().into_iter().chain([repository]).collect();
         let resolver = Resolver::new(&host, &folders);
-        let setting = Setting {
+        let setting = LoadContext {
             host: &host,
             resolver: &resolver,
             working_folder: PathBuf::from("/"),

@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
-use periplus_loader::{Setting, load};
+use periplus_loader::{LoadContext, load};
 use periplus_resources::{MemoryHost, Resolver};
 
 pub(crate) struct Large {
@@ -22,7 +22,7 @@ pub(crate) fn large(turns: usize) -> Large {
     let mut models = 0;
     for _ in 0..turns {
         let resolver = Resolver::new(&host, &[]);
-        let setting = Setting {
+        let setting = LoadContext {
             host: &host,
             resolver: &resolver,
             working_folder: PathBuf::from("/w"),

@@ -3,7 +3,7 @@
 
 use std::path::{Path, PathBuf};
 
-use periplus_resources::{Host, Kind};
+use periplus_resources::{EntryKind, Host};
 
 use crate::{Case, Differences, Unreadable};
 
@@ -41,7 +41,7 @@ impl Setting<'_> {
         let in_maps = name.split_once('/').map(|(_, rest)| beside.join("maps").join(rest));
         let places = [Some(self.folder.join(name)), Some(beside.join(name)), in_maps];
         let mut places = places.into_iter().flatten();
-        places.find(|place| self.host.kind(place) == Some(Kind::File))
+        places.find(|place| self.host.kind(place) == Some(EntryKind::File))
     }
 }
 

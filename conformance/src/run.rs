@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 use std::fmt;
 use std::path::{Path, PathBuf};
 
-use periplus_resources::{Host, Kind};
+use periplus_resources::{EntryKind, Host};
 
 use crate::case::Case;
 use crate::differences::Differences;
@@ -58,7 +58,7 @@ impl std::error::Error for NoCases {}
 /// # Errors
 /// When there is none.
 pub fn run(path: &Path, host: &dyn Host) -> Result<Report, NoCases> {
-    let is_file = host.kind(path) == Some(Kind::File);
+    let is_file = host.kind(path) == Some(EntryKind::File);
     let folder = if is_file { path.parent().unwrap_or(Path::new("")) } else { path };
     let names = match path.file_name().filter(|_| is_file) {
         Some(name) => vec![name.to_string_lossy().into_owned()],

@@ -5,8 +5,8 @@ use std::fmt::Write as _;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use periplus_diagnostics::{Diagnostics, SourceMap, Style, render};
-use periplus_rosidl::{Dialect, Kind, Registry, TypeName, parse, rust};
+use periplus_diagnostics::{Diagnostics, RenderStyle, SourceMap, render};
+use periplus_rosidl::{InterfaceDialect, InterfaceKind, Registry, TypeName, parse, rust};
 
 use crate::step::{Failed, root};
 
@@ -97,7 +97,7 @@ fn index(registry: &Registry, modules: &BTreeSet<&str>, paths: &[String]) -> Str
         }
     }
     code.push_str("}\n\ncrate::list_services! {\n");
-    for interface in registry.interfaces().filter(|one| one.name.kind == Kind::Service) {
+    for interface in registry.interfaces().filter(|one| one.name.kind == InterfaceKind::Service) {
         let name = &interface.name;
         let _ = writeln!(code, "    {}::{}", name.package, rust::type_name(name));
     }
@@ -112,7 +112,7 @@ fn read(folder: &str, registry: &mut Registry) -> Result<Vec<String>, Failed> {
     let mut sources = SourceMap::new();
     let mut diagnostics = Diagnostics::new();
     let mut paths = Vec::new();
-    for kind in [Kind::Message, Kind::Service, Kind::Action] {
+    for kind in [InterfaceKind::Message, InterfaceKind::Service, InterfaceKind::Action] {
         paths.extend(files(folder, kind.word())?);
     }
     paths.sort();
@@ -125,7 +125,8 @@ fn read(folder: &str, registry: &mut Registry) -> Result<Vec<String>, Failed> {
         };
         let text = fs::read_to_string(&path).map_err(|error| failed(&path, &error))?;
         let file = sources.add(format!("{place}/{name}"), text);
-        if let Some(one) = parse(&r#type, file, &sources, Dialect::Ros2, &mut diagnostics) {
+        if let Some(one) = parse(&r#type, file, &sources, InterfaceDialect::Ros2, &mut diagnostics)
+        {
             registry.add(one);
         }
         names.push(name);
@@ -134,7 +135,7 @@ fn read(folder: &str, registry: &mut Registry) -> Result<Vec<String>, Failed> {
     if diagnostics.is_empty() {
         return Ok(names);
     }
-    let findings = diagnostics.iter().map(|one| render(one, &sources, Style::Plain));
+    let findings = diagnostics.iter().map(|one| render(one, &sources, RenderStyle::Plain));
     Err(Failed(findings.collect::<Vec<_>>().join("\n")))
 }
 

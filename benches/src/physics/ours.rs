@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 use std::path::Path;
 use std::time::Instant;
 
-use periplus_loader::{Setting, load};
+use periplus_loader::{LoadContext, load};
 use periplus_os::Machine;
 use periplus_physics::{
     JointCommand, JointId, LinkId, ModelId, NoMeshes, PhysicsMode, PhysicsWorld, Twist,
@@ -55,7 +55,7 @@ fn sam_bot() -> Result<Model, String> {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
     let host = Machine;
     let resolver = Resolver::new(&host, &[]);
-    let setting = Setting {
+    let setting = LoadContext {
         host: &host,
         resolver: &resolver,
         working_folder: root.clone(),

@@ -7,7 +7,7 @@ use periplus_localization::{
     SampleSize, SavedPose, Settings, TurnWayTurn, has_moved, weight_of_cubes, weight_of_product,
 };
 
-use periplus_params::Value as Parameter;
+use periplus_params::ParamValue as Parameter;
 use serde_json::{Value, json};
 
 use super::Setting;

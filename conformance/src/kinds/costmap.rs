@@ -22,7 +22,7 @@ use periplus_costmap::{Compat, Costmap, Window};
 use periplus_diagnostics::Diagnostics;
 use periplus_geometry::Pose2;
 use periplus_grid::{Lattice, OccupancyGrid};
-use periplus_params::{Given, Table, Values};
+use periplus_params::{Given, ParamValues, Table};
 use serde_json::Value;
 
 use crate::{Reader, Unreadable};
@@ -40,7 +40,7 @@ fn values_of(
     table: &'static Table,
     others: &[&'static Table],
     params: Option<&Reader<'_>>,
-) -> Result<Values, Unreadable> {
+) -> Result<ParamValues, Unreadable> {
     let mut given: Vec<(&str, String)> = Vec::new();
     if let Some(params) = params {
         for (name, value) in params.members()? {
@@ -65,7 +65,7 @@ fn values_of(
 }
 
 /// The parameters of a table among the members of an object that holds other things as well.
-fn values_among(table: &'static Table, given: &Reader<'_>) -> Result<Values, Unreadable> {
+fn values_among(table: &'static Table, given: &Reader<'_>) -> Result<ParamValues, Unreadable> {
     let mut diagnostics = Diagnostics::new();
     let mut found: Vec<(&str, String)> = Vec::new();
     for parameter in table.parameters {

@@ -15,7 +15,7 @@ use periplus_maps::{Distro, Format, Mode, Saving, render, to_message};
 use periplus_msgs::nav_msgs;
 use periplus_msgs::nav2_msgs::{SaveMap, SaveMapRequest};
 use periplus_nav_nodes::map_server::MapSaver;
-use periplus_resources::{Host, Kind, ReadError, Store};
+use periplus_resources::{EntryKind, FileReadError, Host, Store};
 use periplus_ros2cli::map::{SaverCommand, save_to, saver_command};
 use periplus_ros2cli::{InGraph, Outcome, Session, Types};
 use serde_json::{Value, json};
@@ -337,11 +337,11 @@ impl Store for Written {
 }
 
 impl Host for Written {
-    fn read(&self, _: &Path) -> Result<Vec<u8>, ReadError> {
-        Err(ReadError::Missing)
+    fn read(&self, _: &Path) -> Result<Vec<u8>, FileReadError> {
+        Err(FileReadError::Missing)
     }
 
-    fn kind(&self, _: &Path) -> Option<Kind> {
+    fn kind(&self, _: &Path) -> Option<EntryKind> {
         None
     }
 

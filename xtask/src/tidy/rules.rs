@@ -3,7 +3,7 @@
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 
 use periplus_diagnostics::SourceMap;
-use periplus_yaml::Node;
+use periplus_yaml::YamlNode;
 
 use super::pattern::{Pattern, WordId, Words};
 use crate::step::Failed;
@@ -135,13 +135,13 @@ struct Reader<'a> {
 }
 
 impl Reader<'_> {
-    fn fault(&self, node: &Node, what: &str) -> Failed {
+    fn fault(&self, node: &YamlNode, what: &str) -> Failed {
         let (line, column) = super::source::line_and_column(self.text, node.span.start as usize);
         Failed(format!("{}:{line}:{column}: {what}", self.path))
     }
 
     /// Refuses names that are not known.
-    fn names(&self, node: &Node, known: &[&str]) -> Result<(), Failed> {
+    fn names(&self, node: &YamlNode, known: &[&str]) -> Result<(), Failed> {
         for (name, _) in node.entries().unwrap_or_default() {
             if !name.text().is_some_and(|name| known.contains(&name)) {
                 let what = format!("unknown name; known are: {}", known.join(", "));
@@ -151,13 +151,13 @@ impl Reader<'_> {
         Ok(())
     }
 
-    fn get<'n>(&self, node: &'n Node, name: &str) -> Result<&'n Node, Failed> {
+    fn get<'n>(&self, node: &'n YamlNode, name: &str) -> Result<&'n YamlNode, Failed> {
         node.get(name).ok_or_else(|| self.fault(node, &format!("`{name}` is missing; add it")))
     }
 
     /// Texts of a list, or names of a mapping to reasons.
-    fn texts(&self, node: &Node) -> Result<Vec<String>, Failed> {
-        let text = |node: &Node| {
+    fn texts(&self, node: &YamlNode) -> Result<Vec<String>, Failed> {
+        let text = |node: &YamlNode| {
             let text = node.text().filter(|text| !text.is_empty());
             text.map(str::to_owned).ok_or_else(|| self.fault(node, "a text is expected here"))
         };
@@ -170,12 +170,12 @@ impl Reader<'_> {
         }
     }
 
-    fn set(&self, node: &Node, name: &str) -> Result<BTreeSet<String>, Failed> {
+    fn set(&self, node: &YamlNode, name: &str) -> Result<BTreeSet<String>, Failed> {
         let texts = self.texts(self.get(node, name)?)?;
         Ok(texts.iter().flat_map(|text| text.split_whitespace()).map(str::to_owned).collect())
     }
 
-    fn patterns(&mut self, node: &Node) -> Result<Vec<Pattern>, Failed> {
+    fn patterns(&mut self, node: &YamlNode) -> Result<Vec<Pattern>, Failed> {
         let texts = self.texts(node)?;
         let patterns =
             texts.iter().map(|text| Pattern::parse(text, &self.classes, &mut self.words));
@@ -183,7 +183,7 @@ impl Reader<'_> {
         patterns.map_err(|what| self.fault(node, &what))
     }
 
-    fn entry(&mut self, node: &Node) -> Result<Entry, Failed> {
+    fn entry(&mut self, node: &YamlNode) -> Result<Entry, Failed> {
         self.names(node, &["words", "write", "why", "allow", "name"])?;
         let patterns = self.patterns(self.get(node, "words")?)?;
         let allowed = match node.get("allow") {
@@ -195,7 +195,7 @@ impl Reader<'_> {
             Ok(node.text().unwrap_or_default().to_owned())
         };
         let (replacement, reason) = (text("write")?, text("why")?);
-        let name = match node.get("name").and_then(Node::text) {
+        let name = match node.get("name").and_then(YamlNode::text) {
             Some(name) => name.to_owned(),
             None => patterns.first().map(|pattern| pattern.text.clone()).unwrap_or_default(),
         };

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use periplus_geometry::{DVec3, Pose2, Stream};
-use periplus_loader::Setting;
+use periplus_loader::LoadContext;
 use periplus_os::Machine;
 use periplus_raycast::{Filter, Ray};
 use periplus_rendering::{RenderScene, SensedGeometry};
@@ -119,7 +119,7 @@ impl Stage {
             ..RobotPlacement::default()
         };
         let resolver = Resolver::new(&Machine, &[]);
-        let setting = Setting {
+        let setting = LoadContext {
             host: &Machine,
             resolver: &resolver,
             working_folder: std::env::current_dir().map_err(|why| why.to_string())?,

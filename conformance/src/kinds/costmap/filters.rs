@@ -8,7 +8,7 @@ use periplus_costmap::{
 };
 use periplus_geometry::{Pose, Pose2};
 use periplus_grid::{Lattice, OccupancyGrid};
-use periplus_params::{Table, Values};
+use periplus_params::{ParamValues, Table};
 use serde_json::{Value, json};
 
 use super::super::Setting;
@@ -166,7 +166,7 @@ fn run(filter: &mut dyn Layer, distro: &str, robot: Pose2) -> Result<(), Unreada
 }
 
 /// Parameters of a filter, in `params` or among what is given.
-fn filter_values(table: &'static Table, given: &Reader<'_>) -> Result<Values, Unreadable> {
+fn filter_values(table: &'static Table, given: &Reader<'_>) -> Result<ParamValues, Unreadable> {
     match given.find("params") {
         Some(params) => values_of(table, &[], Some(&params)),
         None => values_among(table, given),

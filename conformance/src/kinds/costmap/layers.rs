@@ -12,7 +12,7 @@ use periplus_costmap::{
 use periplus_diagnostics::Diagnostics;
 use periplus_geometry::{Pose, Pose2};
 use periplus_grid::Lattice;
-use periplus_params::{Value as Parameter, Values};
+use periplus_params::{ParamValue as Parameter, ParamValues};
 use serde_json::{Value, json};
 
 use super::super::Setting;
@@ -356,7 +356,7 @@ fn change(
 
 /// Puts a value among others; what is in the way, if it does not fit.
 fn put(
-    values: &mut Values,
+    values: &mut ParamValues,
     name: &str,
     parameter: Parameter,
     value: &Reader<'_>,

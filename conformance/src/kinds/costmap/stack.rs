@@ -13,7 +13,7 @@ use periplus_costmap::{
 };
 use periplus_geometry::{Pose, Pose2};
 use periplus_grid::Lattice;
-use periplus_params::{Table, Value as Parameter, flag};
+use periplus_params::{ParamValue as Parameter, Table, flag};
 use serde_json::{Value, json};
 
 use super::super::Setting;

@@ -6,7 +6,7 @@ use std::path::Path;
 use periplus_diagnostics::{Diagnostics, SourceMap};
 use periplus_graph::Arguments;
 use periplus_os::Machine;
-use periplus_resources::{Host as _, ReadError};
+use periplus_resources::{FileReadError, Host as _};
 
 use crate::terminal;
 
@@ -20,7 +20,7 @@ pub(crate) fn read(words: Vec<String>) -> io::Result<Option<Arguments>> {
 
 fn text(path: &Path) -> Result<String, String> {
     let bytes = Machine.read(path).map_err(|error| match error {
-        ReadError::Missing => "does not exist".to_owned(),
+        FileReadError::Missing => "does not exist".to_owned(),
         error => format!("cannot be read: {error}"),
     })?;
     String::from_utf8(bytes).map_err(|_| "is not UTF-8 text".into())

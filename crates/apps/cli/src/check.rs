@@ -5,7 +5,7 @@ use std::path::Path;
 use std::process::ExitCode;
 
 use periplus_diagnostics::{Diagnostic, Diagnostics, Severity, SourceMap, to_json};
-use periplus_loader::{Language, Loaded, describe, load, summarise};
+use periplus_loader::{FileFormat, LoadedFile, describe, load, summarise};
 use serde_json::{Value, json};
 
 use crate::options::{CheckOptions, split};
@@ -63,7 +63,7 @@ pub(crate) fn run(options: &CheckOptions) -> io::Result<ExitCode> {
     })
 }
 
-fn show(out: &mut dyn Write, name: &str, loaded: &Loaded, quiet: bool) -> io::Result<()> {
+fn show(out: &mut dyn Write, name: &str, loaded: &LoadedFile, quiet: bool) -> io::Result<()> {
     terminal::findings(out, loaded)?;
     if quiet {
         return Ok(());
@@ -88,15 +88,15 @@ fn show(out: &mut dyn Write, name: &str, loaded: &Loaded, quiet: bool) -> io::Re
     if let Some(advice) = loaded.language.advice() {
         writeln!(out, "  {advice}")?;
     }
-    if loaded.language == Language::Xacro && loaded.scene.is_none() && loaded.document.is_some() {
+    if loaded.language == FileFormat::Xacro && loaded.scene.is_none() && loaded.document.is_some() {
         writeln!(out, "  macros and properties only, to be included by other files")?;
     }
     Ok(())
 }
 
 /// Findings of parameter files, from the nodes that read them.
-fn beyond(file: &Path, loaded: &mut Loaded) -> Vec<(Diagnostics, SourceMap)> {
-    if loaded.language != Language::Parameters || loaded.diagnostics.has_errors() {
+fn beyond(file: &Path, loaded: &mut LoadedFile) -> Vec<(Diagnostics, SourceMap)> {
+    if loaded.language != FileFormat::Parameters || loaded.diagnostics.has_errors() {
         return Vec::new();
     }
     match crate::doctor::examine_parameters(file) {
@@ -108,7 +108,7 @@ fn beyond(file: &Path, loaded: &mut Loaded) -> Vec<(Diagnostics, SourceMap)> {
     }
 }
 
-fn report(name: &str, loaded: &Loaded, more: &[(Diagnostics, SourceMap)]) -> Value {
+fn report(name: &str, loaded: &LoadedFile, more: &[(Diagnostics, SourceMap)]) -> Value {
     let own = std::iter::once((&loaded.diagnostics, &loaded.sources));
     let all = own.chain(more.iter().map(|(found, sources)| (found, sources)));
     let findings: Vec<Value> = all

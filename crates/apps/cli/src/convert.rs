@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use periplus_diagnostics::{Diagnostic, Diagnostics, closest};
-use periplus_loader::{Language, Loaded, Setting, load, load_bytes, map_world, rebase};
+use periplus_loader::{FileFormat, LoadContext, LoadedFile, load, load_bytes, map_world, rebase};
 use periplus_maps::Distro;
 use periplus_scene::Scene;
 use periplus_xml::write_document;
@@ -22,7 +22,7 @@ pub(crate) fn run(options: &ConvertOptions) -> io::Result<ExitCode> {
     };
     let mut loaded =
         with_setting(&options.search.resource_path, arguments, |setting| load(file, setting));
-    if matches!(loaded.language, Language::Map | Language::Picture) {
+    if matches!(loaded.language, FileFormat::Map | FileFormat::Picture) {
         loaded = match with_setting(&options.search.resource_path, Vec::new(), |setting| {
             walls(&loaded, options, setting)
         }) {
@@ -44,9 +44,9 @@ pub(crate) fn run(options: &ConvertOptions) -> io::Result<ExitCode> {
     // it describes, as with the program `xacro`.
     let is_expansion = options.to == Format::Urdf
         && options.model.is_none()
-        && matches!(loaded.language, Language::Xacro | Language::Urdf)
+        && matches!(loaded.language, FileFormat::Xacro | FileFormat::Urdf)
         && loaded.is_expanded;
-    let may_write = |loaded: &Loaded| is_expansion || !loaded.diagnostics.has_errors();
+    let may_write = |loaded: &LoadedFile| is_expansion || !loaded.diagnostics.has_errors();
     let text = if may_write(&loaded) { convert(&mut loaded, options.to) } else { None };
     terminal::findings(&mut anstream::stderr().lock(), &loaded)?;
     let Some(text) = text.filter(|_| may_write(&loaded)) else {
@@ -77,14 +77,14 @@ const MANY_BOXES: usize = 20_000;
 
 /// World of a map or floor plan. `Err` for wrong usage.
 fn walls(
-    loaded: &Loaded,
+    loaded: &LoadedFile,
     options: &ConvertOptions,
-    setting: &Setting<'_>,
-) -> Result<Loaded, String> {
+    setting: &LoadContext<'_>,
+) -> Result<LoadedFile, String> {
     let path = loaded.path.to_string_lossy();
     let read = match (loaded.language, options.resolution) {
-        (Language::Map, None) => periplus_maps::load(&path, Distro::Jazzy, setting.host),
-        (Language::Map, Some(_)) => {
+        (FileFormat::Map, None) => periplus_maps::load(&path, Distro::Jazzy, setting.host),
+        (FileFormat::Map, Some(_)) => {
             return Err("`--resolution` is for images only; the YAML of a map sets its own".into());
         }
         (_, Some(metres)) => periplus_maps::load_image(&path, metres, Distro::Jazzy, setting.host),
@@ -95,7 +95,7 @@ fn walls(
         }
     };
     let Some(map) = read.map else {
-        return Ok(Loaded {
+        return Ok(LoadedFile {
             diagnostics: read.diagnostics,
             sources: read.sources,
             ..loaded.clone()
@@ -131,7 +131,7 @@ fn folder_of(file: &Path) -> PathBuf {
 }
 
 /// Removes all models of the scene but one.
-fn keep_model(loaded: &mut Loaded, name: &str) {
+fn keep_model(loaded: &mut LoadedFile, name: &str) {
     let Some(scene) = loaded.scene.take() else { return };
     let models = scene.worlds.into_iter().flat_map(|world| world.models).chain(scene.models);
     let (kept, others): (Vec<_>, Vec<_>) = models.partition(|model| model.name == name);
@@ -151,11 +151,11 @@ fn keep_model(loaded: &mut Loaded, name: &str) {
     loaded.scene = Some(Scene { models: kept, ..Scene::default() });
 }
 
-fn convert(loaded: &mut Loaded, to: Format) -> Option<String> {
+fn convert(loaded: &mut LoadedFile, to: Format) -> Option<String> {
     let mut diagnostics = Diagnostics::new();
     let text = match (to, &loaded.scene) {
         // The expansion itself, as other readers of the robot receive it.
-        (Format::Urdf, _) if matches!(loaded.language, Language::Xacro | Language::Urdf) => {
+        (Format::Urdf, _) if matches!(loaded.language, FileFormat::Xacro | FileFormat::Urdf) => {
             loaded.document.as_ref().map(write_document)
         }
         (_, None) => {
@@ -205,8 +205,8 @@ fn convert(loaded: &mut Loaded, to: Format) -> Option<String> {
 }
 
 /// Returns true if a robot has no links left after conversion to a scene.
-fn is_only_shown(loaded: &Loaded, scene: &Scene) -> bool {
-    let has_links = |robot: &periplus_urdf::Robot| !robot.links.is_empty();
+fn is_only_shown(loaded: &LoadedFile, scene: &Scene) -> bool {
+    let has_links = |robot: &periplus_urdf::UrdfRobot| !robot.links.is_empty();
     loaded.robot.as_ref().is_some_and(has_links)
         && scene.models.iter().all(|model| model.links.is_empty())
 }

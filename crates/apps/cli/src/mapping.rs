@@ -13,7 +13,7 @@ use periplus_msgs::Message as _;
 use periplus_msgs::sensor_msgs::LaserScan;
 use periplus_nav_nodes::slam_toolbox::{Pace, Program, SlamNode};
 use periplus_os::Machine;
-use periplus_params::{Value, Values};
+use periplus_params::{ParamValue, ParamValues};
 use periplus_slam::{MapContradiction, Slam};
 
 use crate::sim::stack::RobotProfile;
@@ -70,7 +70,7 @@ pub(crate) struct Mapping {
 pub(crate) fn parameters(
     path: Option<&Path>,
     wanted: Option<Program>,
-) -> io::Result<Option<(Program, Values)>> {
+) -> io::Result<Option<(Program, ParamValues)>> {
     let mut diagnostics = Diagnostics::new();
     let Some(path) = path else {
         let program = wanted.unwrap_or(Program::Async);
@@ -118,7 +118,7 @@ pub(crate) fn parameters(
 }
 
 /// The only topic with scans, if `scan_topic` is not set and the default topic has none.
-fn scan_topic(graph: &Graph, values: &Values) -> Option<String> {
+fn scan_topic(graph: &Graph, values: &ParamValues) -> Option<String> {
     const NAME: &str = "scan_topic";
     if values.table().find(NAME).is_some() && values.is_given(NAME) {
         return None;
@@ -163,7 +163,7 @@ impl Mapping {
                 terminal::say(&format!(
                     "mapping: using scans of {topic}; set `scan_topic` for another topic"
                 ));
-                values.set("scan_topic", Value::Text(topic));
+                values.set("scan_topic", ParamValue::Text(topic));
             } else {
                 terminal::say(&format!(
                     "mapping: using scans of {topic}; use `-r scan:=` for another topic"
@@ -180,7 +180,7 @@ impl Mapping {
     pub(crate) fn new(
         node: Result<Node, GraphError>,
         program: Program,
-        values: Values,
+        values: ParamValues,
         pace: Pace,
         out: Option<&Path>,
     ) -> Result<Self, ()> {

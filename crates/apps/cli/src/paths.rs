@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use periplus_bags::files::{Bag, BagError};
 use periplus_diagnostics::plain_words;
 use periplus_os::Machine;
-use periplus_resources::{Host as _, ReadError, Store as _, nearest};
+use periplus_resources::{FileReadError, Host as _, Store as _, nearest};
 
 use crate::terminal::working_folder;
 
@@ -38,8 +38,8 @@ pub(crate) fn reader(path: &Path) -> Result<impl BufRead + use<>, String> {
     Machine.reader(path).map_err(|error| unreadable(path, &error))
 }
 
-fn unreadable(path: &Path, error: &ReadError) -> String {
-    let advice = if *error == ReadError::Missing { advice(path) } else { String::new() };
+fn unreadable(path: &Path, error: &FileReadError) -> String {
+    let advice = if *error == FileReadError::Missing { advice(path) } else { String::new() };
     format!("cannot read {}: {error}{advice}", path.display())
 }
 

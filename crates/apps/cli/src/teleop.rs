@@ -133,7 +133,7 @@ impl Driving {
         })
     }
 
-    fn on(graph: &Graph, values: periplus_params::Values) -> Result<Self, GraphError> {
+    fn on(graph: &Graph, values: periplus_params::ParamValues) -> Result<Self, GraphError> {
         let node = graph.node(NodeSettings::new("teleop_twist_keyboard"))?;
         let settings = Settings::read(&node.parameters(values)?.values());
         let qos = Qos::reliable(10);

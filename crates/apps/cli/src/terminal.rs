@@ -4,8 +4,8 @@ use std::io::{self, Write};
 use std::path::PathBuf;
 
 use indicatif::{ProgressBar, ProgressStyle};
-use periplus_diagnostics::{Diagnostic, Diagnostics, Severity, SourceMap, Style, render};
-use periplus_loader::{Loaded, Setting};
+use periplus_diagnostics::{Diagnostic, Diagnostics, RenderStyle, Severity, SourceMap, render};
+use periplus_loader::{LoadContext, LoadedFile};
 use periplus_os::Machine;
 use periplus_resources::Resolver;
 use periplus_sim::Search;
@@ -29,7 +29,7 @@ pub(crate) fn say(words: &str) {
 }
 
 /// Writes the findings of a file; colours are stripped where the output does not show them.
-pub(crate) fn findings(out: &mut dyn Write, loaded: &Loaded) -> io::Result<()> {
+pub(crate) fn findings(out: &mut dyn Write, loaded: &LoadedFile) -> io::Result<()> {
     diagnostics(out, &loaded.diagnostics, &loaded.sources)
 }
 
@@ -40,18 +40,18 @@ pub(crate) fn diagnostics(
     sources: &SourceMap,
 ) -> io::Result<()> {
     for diagnostic in diagnostics.iter() {
-        writeln!(out, "{}", render(diagnostic, sources, Style::Colour))?;
+        writeln!(out, "{}", render(diagnostic, sources, RenderStyle::Colour))?;
     }
     let unkept = diagnostics.unkept();
     if unkept > 0 {
         let more = Diagnostic::hint("more", format!("{unkept} more findings are not shown"));
-        writeln!(out, "{}", render(&more, sources, Style::Colour))?;
+        writeln!(out, "{}", render(&more, sources, RenderStyle::Colour))?;
     }
     Ok(())
 }
 
 /// Returns a count such as `2 errors, 1 warning`, or `no findings`.
-pub(crate) fn counts(loaded: &Loaded) -> String {
+pub(crate) fn counts(loaded: &LoadedFile) -> String {
     let kinds = [Severity::Error, Severity::Warning, Severity::Hint];
     let parts: Vec<String> = kinds
         .into_iter()
@@ -94,12 +94,18 @@ pub(crate) fn processors() -> usize {
 pub(crate) fn with_setting<T>(
     resource_path: &[PathBuf],
     arguments: Vec<(String, String)>,
-    run: impl FnOnce(&Setting<'_>) -> T,
+    run: impl FnOnce(&LoadContext<'_>) -> T,
 ) -> T {
     let host = Machine;
     let working_folder = working_folder();
     let folders: Vec<PathBuf> =
         resource_path.iter().map(|folder| working_folder.join(folder)).collect();
     let resolver = Resolver::new(&host, &folders);
-    run(&Setting { host: &host, resolver: &resolver, working_folder, arguments, open_meshes: true })
+    run(&LoadContext {
+        host: &host,
+        resolver: &resolver,
+        working_folder,
+        arguments,
+        open_meshes: true,
+    })
 }

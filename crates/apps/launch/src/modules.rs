@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use periplus_resources::{Host, Kind};
+use periplus_resources::{EntryKind, Host};
 
 use crate::evaluate::Evaluation;
 
@@ -53,11 +53,11 @@ fn candidates(host: &dyn Host, package: &Path) -> Vec<PathBuf> {
 
 fn holds(host: &dyn Host, folder: &Path, module: &str) -> bool {
     let own = folder.join(module);
-    let is_file = |path: PathBuf| host.kind(&path) == Some(Kind::File);
+    let is_file = |path: PathBuf| host.kind(&path) == Some(EntryKind::File);
     if is_file(own.join("__init__.py")) || is_file(folder.join(format!("{module}.py"))) {
         return true;
     }
     // A namespace package: a folder of modules without `__init__.py`.
-    host.kind(&own) == Some(Kind::Folder)
+    host.kind(&own) == Some(EntryKind::Folder)
         && host.list(&own).iter().any(|name| name.ends_with(".py") && name != "setup.py")
 }

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use periplus_diagnostics::{Diagnostic, Origin, Severity};
 use periplus_python_expr::{Budget, EmptyScope, Expression, evaluate};
-use periplus_resources::Kind;
+use periplus_resources::EntryKind;
 use serde_json::json;
 
 use crate::evaluate::{Evaluation, Outcome};
@@ -390,7 +390,7 @@ impl Evaluation<'_> {
         let path = self.context.variable("PATH", self.host).unwrap_or_default();
         path.split(':')
             .map(|folder| Path::new(folder).join(name))
-            .find(|program| self.host.kind(program) == Some(Kind::File))
+            .find(|program| self.host.kind(program) == Some(EntryKind::File))
             // The runner knows built-in programs, and reports missing ones.
             .map_or_else(|| name.to_owned(), |program| program.display().to_string())
     }

@@ -1,7 +1,7 @@
 //! Booleans and types of values that are written as text.
 
 use periplus_diagnostics::SourceMap;
-use periplus_yaml::Node;
+use periplus_yaml::YamlNode;
 use serde_json::{Map, Value};
 
 /// Boolean value of a condition; `None` if it is not one of the words of `launch`.
@@ -30,12 +30,13 @@ pub(crate) fn typed(text: &str) -> Value {
 }
 
 /// Converts a YAML tree to plain values.
-pub(crate) fn value_of(node: &Node) -> Value {
+pub(crate) fn value_of(node: &YamlNode) -> Value {
     if let Some(list) = node.list() {
         return Value::Array(list.iter().map(value_of).collect());
     }
     if let Some(entries) = node.entries() {
-        let entry = |(key, value): &(Node, Node)| Some((key.text()?.to_owned(), value_of(value)));
+        let entry =
+            |(key, value): &(YamlNode, YamlNode)| Some((key.text()?.to_owned(), value_of(value)));
         return Value::Object(entries.iter().filter_map(entry).collect::<Map<_, _>>());
     }
     if node.is_null() {

@@ -1,7 +1,7 @@
 //! Kinds of launch files that once failed.
 #![allow(clippy::unwrap_used, reason = "a test that fails may panic")]
 
-use periplus_diagnostics::{SourceMap, Style, render};
+use periplus_diagnostics::{RenderStyle, SourceMap, render};
 use periplus_launch::{Nothing, Plan, Request, Trigger, What, plan};
 use periplus_resources::{MemoryHost, Resolver};
 
@@ -19,7 +19,7 @@ fn planned(files: &[(&str, &str)], arguments: &[(&str, &str)]) -> (Plan, String)
     let request =
         Request { file, arguments, host: &host, resolver: &resolver, outside: &mut Nothing };
     let (plan, found) = plan(request, &mut sources);
-    let words = found.iter().map(|one| render(one, &sources, Style::Plain)).collect();
+    let words = found.iter().map(|one| render(one, &sources, RenderStyle::Plain)).collect();
     (plan, words)
 }
 

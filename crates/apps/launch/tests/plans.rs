@@ -4,7 +4,7 @@
 use std::path::{Path, PathBuf};
 
 use expect_test::{Expect, expect};
-use periplus_diagnostics::{SourceMap, Style, render};
+use periplus_diagnostics::{RenderStyle, SourceMap, render};
 use periplus_launch::{Interpreter, Outside, Printed, Request, plan};
 use periplus_resources::{MemoryHost, Resolver};
 
@@ -49,7 +49,7 @@ fn check(files: &[(&str, &str)], arguments: &[(&str, &str)], expected: Expect) {
         told = serde_json::to_string_pretty(&plan).unwrap() + "\n";
     }
     for finding in found.iter() {
-        told += &render(finding, &sources, Style::Plain);
+        told += &render(finding, &sources, RenderStyle::Plain);
         told.push('\n');
     }
     expected.assert_eq(&told);
@@ -357,7 +357,7 @@ fn errors_teach() {
         let (_, found) = plan(request, &mut sources);
         assert!(found.has_errors(), "{inside}");
         for finding in found.iter() {
-            told += &render(finding, &sources, Style::Plain);
+            told += &render(finding, &sources, RenderStyle::Plain);
             told.push('\n');
         }
     }

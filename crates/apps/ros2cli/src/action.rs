@@ -2,7 +2,7 @@
 
 mod goal;
 
-use periplus_rosidl::Kind;
+use periplus_rosidl::InterfaceKind;
 use serde_json::json;
 
 use crate::session::{advice, full_name, titled};
@@ -52,7 +52,7 @@ pub fn type_of(session: &mut Session<'_>, name: &str) -> Outcome {
 /// # Errors
 /// When the output cannot be written.
 pub fn find(session: &mut Session<'_>, type_name: &str, count: bool) -> Outcome {
-    let type_name = full_type(type_name, Kind::Action)?;
+    let type_name = full_type(type_name, InterfaceKind::Action)?;
     let actions = session.look().actions();
     let names = actions.iter().filter(|action| action.types.contains(&type_name));
     let names: Vec<&str> = names.map(|action| action.name.as_str()).collect();

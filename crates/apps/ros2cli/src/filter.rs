@@ -4,7 +4,7 @@ use std::rc::Rc;
 
 use periplus_msgs as msgs;
 use periplus_msgs::{DynamicMessage, Number, Part};
-use periplus_python_expr::{Budget, Dialect, Expression, ExpressionError, Scope, Value, evaluate};
+use periplus_python_expr::{Budget, ExpressionDialect, Expression, ExpressionError, Scope, Value, evaluate};
 
 use crate::show::whole_number;
 use crate::{Failure, Outcome};
@@ -93,8 +93,8 @@ impl Scope for Fields<'_> {
         self.names_in(namespace)
     }
 
-    fn dialect(&self) -> Dialect {
-        Dialect::SubstitutionArgs
+    fn dialect(&self) -> ExpressionDialect {
+        ExpressionDialect::SubstitutionArgs
     }
 }
 

@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 
 use periplus_diagnostics::closest;
 use periplus_msgs::{DynamicMessage, YamlStyle};
-use periplus_rosidl::{Definition, Interface, Kind, Registry, TypeName};
+use periplus_rosidl::{Definition, Interface, InterfaceKind, Registry, TypeName};
 use serde_json::json;
 
 use crate::{Failure, Outcome, Session};
@@ -22,16 +22,19 @@ pub enum Comments {
 }
 
 /// Kinds in the order of the output, with their headings.
-const KINDS: [(Kind, &str); 3] =
-    [(Kind::Message, "Messages"), (Kind::Service, "Services"), (Kind::Action, "Actions")];
+const KINDS: [(InterfaceKind, &str); 3] = [
+    (InterfaceKind::Message, "Messages"),
+    (InterfaceKind::Service, "Services"),
+    (InterfaceKind::Action, "Actions"),
+];
 
 /// Lists all types of some kinds; of all kinds if none is given.
 ///
 /// # Errors
 /// When the output cannot be written.
-pub fn list(session: &mut Session<'_>, kinds: &[Kind]) -> Outcome {
+pub fn list(session: &mut Session<'_>, kinds: &[InterfaceKind]) -> Outcome {
     let registry = session.types.registry().registry();
-    let of = |kind: Kind| -> Vec<String> {
+    let of = |kind: InterfaceKind| -> Vec<String> {
         let all = registry.interfaces().map(|one| &one.name);
         all.filter(|name| name.kind == kind).map(TypeName::to_string).collect()
     };
@@ -54,7 +57,7 @@ pub fn list(session: &mut Session<'_>, kinds: &[Kind]) -> Outcome {
 ///
 /// # Errors
 /// When the output cannot be written.
-pub fn packages(session: &mut Session<'_>, kinds: &[Kind]) -> Outcome {
+pub fn packages(session: &mut Session<'_>, kinds: &[InterfaceKind]) -> Outcome {
     let all = session.types.registry().registry().interfaces().map(|one| &one.name);
     let all = all.filter(|name| kinds.is_empty() || kinds.contains(&name.kind));
     let names: BTreeSet<&str> = all.map(|name| name.package.as_str()).collect();

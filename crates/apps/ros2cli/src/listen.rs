@@ -4,7 +4,7 @@ use std::time::Duration;
 
 use periplus_graph::{Node, Qos, RawMailbox, Sample};
 use periplus_os::{Stopwatch, sleep};
-use periplus_rosidl::Kind;
+use periplus_rosidl::InterfaceKind;
 
 use crate::session::{advice, full_name};
 use crate::types::full_type;
@@ -35,7 +35,7 @@ impl Listener {
         is_impatient: bool,
     ) -> Outcome<Self> {
         let topic = full_name(name);
-        let given = type_name.map(|name| full_type(name, Kind::Message)).transpose()?;
+        let given = type_name.map(|name| full_type(name, InterfaceKind::Message)).transpose()?;
         let found = await_topic(session, &topic, given.is_some(), is_impatient)?;
         let type_name = match given {
             Some(given) => given,

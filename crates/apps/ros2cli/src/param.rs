@@ -5,14 +5,14 @@ mod say;
 use std::collections::BTreeMap;
 use std::path::Path;
 
-use periplus_diagnostics::{Diagnostics, SourceMap, Style, render};
+use periplus_diagnostics::{Diagnostics, RenderStyle, SourceMap, render};
 use periplus_graph::{Arguments, Node, parameter_from_yaml, parameters_to_yaml};
 use periplus_msgs::rcl_interfaces::{
     DescribeParameters, DescribeParametersRequest, GetParameterTypes, GetParameterTypesRequest,
     GetParameters, GetParametersRequest, ListParameters, ListParametersRequest, Parameter,
     ParameterType, ParameterValue, SetParameters, SetParametersRequest, SetParametersResult,
 };
-use periplus_yaml::{Node as Yaml, Value as YamlValue};
+use periplus_yaml::{YamlNode as Yaml, YamlValue};
 use serde_json::json;
 
 use crate::ask::ask;
@@ -349,7 +349,7 @@ pub fn load(
     let mut read = |_: &Path| Ok(text.to_owned());
     let arguments = Arguments::read(&words, &mut sources, &mut findings, &mut read);
     for finding in findings.iter() {
-        session.say(&render(finding, &sources, Style::Plain));
+        session.say(&render(finding, &sources, RenderStyle::Plain));
     }
     if findings.has_errors() {
         return Err(Failure::failed(format!("{} is not a parameter file", file.display())));

@@ -4,7 +4,7 @@ use std::time::Duration;
 
 use periplus_msgs::{DynamicMessage, Format};
 use periplus_os::{Stopwatch, sleep};
-use periplus_rosidl::Kind;
+use periplus_rosidl::InterfaceKind;
 use serde_json::json;
 
 use crate::ask::Asker;
@@ -91,7 +91,7 @@ pub fn find(
     count: bool,
     include_hidden: bool,
 ) -> Outcome {
-    let type_name = full_type(type_name, Kind::Service)?;
+    let type_name = full_type(type_name, InterfaceKind::Service)?;
     let seen = session.look();
     let services = seen.services.iter().filter(|one| one.types.contains(&type_name));
     let names = services.map(|one| one.name.as_str());

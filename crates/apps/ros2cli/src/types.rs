@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use periplus_diagnostics::closest;
 use periplus_msgs::{Layout, TypeRegistry};
-use periplus_rosidl::{Kind, TypeName};
+use periplus_rosidl::{InterfaceKind, TypeName};
 
 use crate::{Failure, Outcome};
 
@@ -31,7 +31,7 @@ impl Types {
     /// # Errors
     /// When it is unknown.
     pub fn message(&self, name: &str) -> Outcome<&Arc<Layout>> {
-        let full = full_type(name, Kind::Message)?;
+        let full = full_type(name, InterfaceKind::Message)?;
         self.registry().layout(&full).ok_or_else(|| self.unknown("message", &full))
     }
 
@@ -41,7 +41,7 @@ impl Types {
     /// # Errors
     /// When it is unknown.
     pub fn service(&self, name: &str) -> Outcome<(String, &Arc<Layout>, &Arc<Layout>)> {
-        let full = full_type(name, Kind::Service)?;
+        let full = full_type(name, InterfaceKind::Service)?;
         let part = |part: &str| self.registry().layout(&format!("{full}_{part}"));
         match (part("Request"), part("Response")) {
             (Some(request), Some(response)) => Ok((full, request, response)),
@@ -54,7 +54,7 @@ impl Types {
     /// # Errors
     /// When it is unknown.
     pub fn action(&self, name: &str, part: &str) -> Outcome<(String, &Arc<Layout>)> {
-        let full = full_type(name, Kind::Action)?;
+        let full = full_type(name, InterfaceKind::Action)?;
         match self.registry().layout(&format!("{full}_{part}")) {
             Some(layout) => Ok((full, layout)),
             None => Err(self.unknown("action", &full)),
@@ -86,7 +86,7 @@ impl Types {
 }
 
 /// Full name of a type that may be written without its kind.
-pub(crate) fn full_type(name: &str, kind: Kind) -> Outcome<String> {
+pub(crate) fn full_type(name: &str, kind: InterfaceKind) -> Outcome<String> {
     let parts: Vec<&str> = name.split('/').collect();
     let full = match parts[..] {
         [package, name] => format!("{package}/{}/{name}", kind.word()),
@@ -97,9 +97,9 @@ pub(crate) fn full_type(name: &str, kind: Kind) -> Outcome<String> {
         _ => Err(Failure::Usage(format!(
             "`{name}` is not a valid {} type; write `package/{}/Name`",
             match kind {
-                Kind::Message => "message",
-                Kind::Service => "service",
-                Kind::Action => "action",
+                InterfaceKind::Message => "message",
+                InterfaceKind::Service => "service",
+                InterfaceKind::Action => "action",
             },
             kind.word()
         ))),

@@ -5,14 +5,14 @@ use std::sync::Arc;
 use periplus_diagnostics::SourceMap;
 use periplus_msgs::builtin_interfaces::Time;
 use periplus_msgs::{DynamicMessage, Layout};
-use periplus_yaml::{Node, Value};
+use periplus_yaml::{YamlNode, YamlValue};
 use serde_json::{Map, json};
 
 use crate::{Failure, Outcome};
 
 /// Values of a message.
 pub struct Values {
-    tree: Option<Node>,
+    tree: Option<YamlNode>,
 }
 
 impl Values {
@@ -61,9 +61,9 @@ impl Values {
 }
 
 /// Conversion by the rules of YAML 1.1.
-fn to_json(node: &Node, layout: Option<&Arc<Layout>>, now_ns: i64) -> serde_json::Value {
+fn to_json(node: &YamlNode, layout: Option<&Arc<Layout>>, now_ns: i64) -> serde_json::Value {
     match &node.value {
-        Value::Scalar { text, is_plain: true } => match (stamped(text, layout), node) {
+        YamlValue::Scalar { text, is_plain: true } => match (stamped(text, layout), node) {
             (Some(path), _) => {
                 let stamp = Time::of_ns(now_ns);
                 let stamp = json!({ "sec": stamp.sec, "nanosec": stamp.nanosec });
@@ -71,11 +71,11 @@ fn to_json(node: &Node, layout: Option<&Arc<Layout>>, now_ns: i64) -> serde_json
             }
             (None, node) => scalar(node, text),
         },
-        Value::Scalar { text, is_plain: false } => text.as_str().into(),
-        Value::List(items) => {
+        YamlValue::Scalar { text, is_plain: false } => text.as_str().into(),
+        YamlValue::List(items) => {
             items.iter().map(|item| to_json(item, layout, now_ns)).collect::<Vec<_>>().into()
         }
-        Value::Map(entries) => {
+        YamlValue::Map(entries) => {
             let entries = entries.iter().map(|(name, value)| {
                 let name = name.text().unwrap_or_default();
                 let nested = layout.and_then(|layout| layout.nested(name));
@@ -95,7 +95,7 @@ fn stamped(word: &str, layout: Option<&Arc<Layout>>) -> Option<&'static str> {
     }
 }
 
-fn scalar(node: &Node, text: &str) -> serde_json::Value {
+fn scalar(node: &YamlNode, text: &str) -> serde_json::Value {
     if node.is_null() {
         return serde_json::Value::Null;
     }

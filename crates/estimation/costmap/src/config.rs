@@ -10,7 +10,7 @@ use std::collections::BTreeMap;
 
 use periplus_diagnostics::{Diagnostic, Diagnostics, Origin, Span};
 use periplus_grid::Lattice;
-use periplus_params::{Given, Kind, Table, Values};
+use periplus_params::{Given, ParamType, ParamValues, Table};
 
 use crate::{Compat, Footprint, Frame, SourceSettings, tables};
 
@@ -18,7 +18,7 @@ use crate::{Compat, Footprint, Frame, SourceSettings, tables};
 #[derive(Clone, Debug, PartialEq)]
 pub struct Config {
     /// Parameters of the node, by [`tables::COSTMAP`].
-    pub node: Values,
+    pub node: ParamValues,
     /// Whose habits to keep.
     pub compat: Compat,
     /// Whose messages the services have, where distributions differ: those of `compat` if it was told,
@@ -40,7 +40,7 @@ pub struct LayerConfig {
     /// What it is.
     pub kind: LayerKind,
     /// Its parameters.
-    pub values: Values,
+    pub values: ParamValues,
     /// What sees for it.
     pub sources: Vec<SourceConfig>,
     /// Layers within it.
@@ -53,7 +53,7 @@ pub struct SourceConfig {
     /// Its name.
     pub name: String,
     /// Its parameters.
-    pub values: Values,
+    pub values: ParamValues,
 }
 
 impl SourceConfig {
@@ -125,7 +125,7 @@ impl Config {
 
 /// The cells that parameters of [`tables::COSTMAP`] ask for. Too many become none.
 #[must_use]
-pub(crate) fn lattice_of(node: &Values) -> Lattice {
+pub(crate) fn lattice_of(node: &ParamValues) -> Lattice {
     let number = |name: &str| node.number(name).unwrap_or_default();
     let resolution_m = number("resolution");
     let count = |name: &str| (number(name) / resolution_m) as usize;
@@ -185,7 +185,7 @@ impl<'a> Reading<'a, '_> {
     }
 
     /// Reads a group by a table; `at` is the place to show when something is missing in it.
-    fn values(&mut self, table: &'static Table, group: &str, at: Origin) -> Values {
+    fn values(&mut self, table: &'static Table, group: &str, at: Origin) -> ParamValues {
         let mut entries = self.tree.groups.remove(group).unwrap_or_default();
         let prefix = if group.is_empty() { String::new() } else { format!("{group}.") };
         if group.is_empty() {
@@ -220,7 +220,7 @@ impl<'a> Reading<'a, '_> {
         }
         let text = entry.text.trim();
         let has_fraction = text.contains(['.', 'e', 'E']);
-        if parameter.kind == Kind::Integer
+        if parameter.kind == ParamType::Integer
             && has_fraction
             && let Ok(number) = text.parse::<f64>()
         {
@@ -240,7 +240,7 @@ impl<'a> Reading<'a, '_> {
         }
     }
 
-    fn names(&mut self, values: &Values, parameter: &str) -> Vec<String> {
+    fn names(&mut self, values: &ParamValues, parameter: &str) -> Vec<String> {
         let mut names = Vec::new();
         for name in values.texts(parameter) {
             if names.contains(&name) {
@@ -439,7 +439,7 @@ impl<'a> Reading<'a, '_> {
     }
 
     /// A costmap that would be too large has no cells.
-    fn check_size(&mut self, node: &Values) {
+    fn check_size(&mut self, node: &ParamValues) {
         if !lattice_of(node).is_empty() {
             return;
         }
@@ -459,7 +459,7 @@ impl<'a> Reading<'a, '_> {
         );
     }
 
-    fn footprint(&mut self, node: &Values) -> Footprint {
+    fn footprint(&mut self, node: &ParamValues) -> Footprint {
         let padding_m = node.number("footprint_padding").unwrap_or_default();
         let (footprint, complaint) = footprint_of(node);
         if complaint.is_none() && footprint.points().iter().all(|point| *point == [0.0, 0.0]) {
@@ -517,7 +517,7 @@ fn is_common(name: &str) -> bool {
 }
 
 /// The outline without padding, and what is wrong with it.
-pub(crate) fn footprint_of(node: &Values) -> (Footprint, Option<Diagnostic>) {
+pub(crate) fn footprint_of(node: &ParamValues) -> (Footprint, Option<Diagnostic>) {
     let circle = Footprint::circle(node.number("robot_radius").unwrap_or_default());
     let text = node.text("footprint").unwrap_or_default();
     if text.trim().is_empty() || text.trim() == "[]" {

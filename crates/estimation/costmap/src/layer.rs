@@ -5,7 +5,7 @@ use std::any::Any;
 use periplus_diagnostics::Diagnostic;
 use periplus_geometry::{Pose, Pose2};
 use periplus_grid::{Cell, Lattice};
-use periplus_params::Values;
+use periplus_params::ParamValues;
 
 use crate::filters::Masked;
 use crate::{Bounds, Compat, Costmap, Explanation, Footprint, Source, Window};
@@ -109,7 +109,7 @@ pub trait Layer: Any + Send {
     }
 
     /// Its parameters as they are.
-    fn values(&self) -> Option<&Values> {
+    fn values(&self) -> Option<&ParamValues> {
         None
     }
 
@@ -117,7 +117,7 @@ pub trait Layer: Any + Send {
     ///
     /// # Errors
     /// Why they cannot be, in words; nothing has changed then.
-    fn configure(&mut self, _values: Values) -> Result<(), String> {
+    fn configure(&mut self, _values: ParamValues) -> Result<(), String> {
         Ok(())
     }
 

@@ -6,7 +6,7 @@ use std::collections::VecDeque;
 
 use periplus_diagnostics::Diagnostics;
 use periplus_geometry::{DVec3, Pose};
-use periplus_params::Values;
+use periplus_params::ParamValues;
 
 use crate::Compat;
 
@@ -78,7 +78,7 @@ fn nanoseconds(seconds: f64) -> i64 {
 impl SourceSettings {
     /// From parameters of [`crate::tables::SOURCE`].
     #[must_use]
-    pub fn read(name: &str, values: &Values) -> Self {
+    pub fn read(name: &str, values: &ParamValues) -> Self {
         let number = |name: &str| values.number(name).unwrap_or_default();
         let flag = |name: &str| values.flag(name).unwrap_or_default();
         let text = |name: &str| values.text(name).unwrap_or_default();
@@ -184,7 +184,7 @@ pub struct Source {
     /// How it is to be used.
     pub settings: SourceSettings,
     /// The same as parameters, with the places where they were written.
-    pub values: Values,
+    pub values: ParamValues,
     /// Where its points went.
     pub counters: Counters,
     /// Newest first.
@@ -205,7 +205,7 @@ const MOST_KEPT: usize = 1000;
 impl Source {
     /// From parameters of [`crate::tables::SOURCE`].
     #[must_use]
-    pub fn new(name: impl Into<String>, values: Values) -> Self {
+    pub fn new(name: impl Into<String>, values: ParamValues) -> Self {
         let name = name.into();
         Self {
             settings: SourceSettings::read(&name, &values),
@@ -229,7 +229,7 @@ impl Source {
     }
 
     /// Takes other values for its parameters. The topic and what comes from it stay.
-    pub fn configure(&mut self, values: Values) {
+    pub fn configure(&mut self, values: ParamValues) {
         let settings = SourceSettings::read(&self.name, &values);
         self.settings = SourceSettings {
             topic: self.settings.topic.clone(),

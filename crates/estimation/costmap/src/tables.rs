@@ -3,7 +3,7 @@
 //!
 //! Sources: `nav2_costmap_2d/src/costmap_2d_ros.cpp` and `plugins/*.cpp` (main, 2026-08).
 
-use periplus_params::{Names, Parameter, Table, choice, flag, integer, number, text, texts};
+use periplus_params::{NamedEntity, Parameter, Table, choice, flag, integer, number, text, texts};
 
 // What several layers or filters have.
 const LAYER_ENABLED: Parameter = flag("enabled", "Whether the layer takes part.").or("true");
@@ -11,7 +11,7 @@ const FILTER_ENABLED: Parameter = flag("enabled", "Whether the filter takes part
 const FILTER_INFO_TOPIC: Parameter =
     text("filter_info_topic", "Topic that tells where the mask is.")
         .required()
-        .naming(Names::Topic);
+        .naming(NamedEntity::Topic);
 const MASK_TOLERANCE: Parameter =
     number("transform_tolerance", "s", "How old the transform of the mask may be.")
         .or("0.1")
@@ -42,8 +42,8 @@ pub static COSTMAP: Table = Table {
         text("footprint", "Corners of the robot, `[[x, y], ...]`; goes before `robot_radius`.")
             .or("[]"),
         number("robot_radius", "m", "Radius of a round robot.").or("0.1").min(0.0),
-        text("global_frame", "The frame of the costmap.").or("map").naming(Names::Frame),
-        text("robot_base_frame", "The frame of the robot.").or("base_link").naming(Names::Frame),
+        text("global_frame", "The frame of the costmap.").or("map").naming(NamedEntity::Frame),
+        text("robot_base_frame", "The frame of the robot.").or("base_link").naming(NamedEntity::Frame),
         integer("width", "Length along x, in whole metres.").or("5").within(1.0, 1_000_000.0),
         integer("height", "Length along y, in whole metres.").or("5").within(1.0, 1_000_000.0),
         number("resolution", "m", "Length of a side of a cell.").or("0.1").above(0.0),
@@ -104,7 +104,7 @@ pub static STATIC: Table = Table {
         LAYER_ENABLED,
         flag("subscribe_to_updates", "Whether to listen to `<map_topic>_updates`.").or("false"),
         flag("map_subscribe_transient_local", "Whether to get a map published earlier.").or("true"),
-        text("map_topic", "Topic of the map.").or("").naming(Names::Topic),
+        text("map_topic", "Topic of the map.").or("").naming(NamedEntity::Topic),
         flag("footprint_clearing_enabled", "Whether cells under the robot are free.").or("false"),
         flag("restore_cleared_footprint", "Whether they get their cost back when it has left.")
             .or("true"),
@@ -161,10 +161,10 @@ pub static SOURCE: Table = Table {
     parameters: &[
         text("topic", "Its topic; the name of the source if it is not set.")
             .or("")
-            .naming(Names::Topic),
+            .naming(NamedEntity::Topic),
         text("sensor_frame", "Where rays begin; the frame of the message if it is not set.")
             .or("")
-            .naming(Names::Frame),
+            .naming(NamedEntity::Frame),
         number("observation_persistence", "s", "How long readings count; 0 for the newest only.")
             .or("0")
             .min(0.0),
@@ -274,8 +274,8 @@ pub static SPEED: Table = Table {
         number("max_decel", "m/s2", "How hard the robot brakes; negative.").or("-0.5"),
         number("min_lookahead", "m", "How far to look at least.").or("0.3"),
         number("max_lookahead", "m", "How far to look at most.").or("5"),
-        text("path_topic", "The path.").or("plan").naming(Names::Topic),
-        text("odom_topic", "The robot's speed.").or("odom").naming(Names::Topic),
+        text("path_topic", "The path.").or("plan").naming(NamedEntity::Topic),
+        text("odom_topic", "The robot's speed.").or("odom").naming(NamedEntity::Topic),
     ],
 };
 
@@ -303,7 +303,7 @@ mod tests {
             &COSTMAP, &STATIC, &OBSTACLE, &VOXEL, &SOURCE, &RANGE, &INFLATION, &DENOISE,
             &CONTAINER, &KEEPOUT, &SPEED, &BINARY,
         ] {
-            assert_eq!(table.slips(), [""; 0]);
+            assert_eq!(table.faults(), [""; 0]);
         }
     }
 }

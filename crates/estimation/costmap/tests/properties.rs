@@ -8,12 +8,12 @@ use periplus_costmap::{
 use periplus_diagnostics::Diagnostics;
 use periplus_geometry::Pose2;
 use periplus_grid::Lattice;
-use periplus_params::{Given, Table, Values};
+use periplus_params::{Given, ParamValues, Table};
 use proptest::prelude::*;
 
 const SIDE: usize = 40;
 
-fn values(table: &'static Table, given: &[(&'static str, &'static str)]) -> Values {
+fn values(table: &'static Table, given: &[(&'static str, &'static str)]) -> ParamValues {
     let given = given.iter().map(|(name, text)| Given::new(name, *text));
     table.check(given, None, &mut Diagnostics::new())
 }

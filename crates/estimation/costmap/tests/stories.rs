@@ -5,7 +5,7 @@ use periplus_costmap::clear::{Region, clear};
 use periplus_costmap::filters::{KeepoutFilter, Mask, Masked};
 use periplus_costmap::layers::{RangeLayer, RangeReading, StaticLayer};
 use periplus_costmap::{Compat, Config, LayeredCostmap, NoFrames};
-use periplus_diagnostics::{Diagnostics, SourceMap, Style, render};
+use periplus_diagnostics::{Diagnostics, RenderStyle, SourceMap, render};
 use periplus_geometry::{DVec3, Pose, Pose2};
 use periplus_grid::{Grid, Lattice, OccupancyGrid};
 
@@ -16,7 +16,7 @@ fn read(text: &str, node: &str) -> (Config, String) {
     let mut diagnostics = Diagnostics::new();
     let tree = periplus_yaml::parse(file, &sources).expect("YAML").expect("something");
     let config = Config::read_yaml(&tree, node, None, &mut diagnostics);
-    let said = diagnostics.iter().map(|one| render(one, &sources, Style::Plain)).collect();
+    let said = diagnostics.iter().map(|one| render(one, &sources, RenderStyle::Plain)).collect();
     (config, said)
 }
 
@@ -426,11 +426,11 @@ fn parameters_change_while_it_runs() {
     let mut costmap = config.build();
     look(&mut costmap, 0, &[[0.5, 0.0, 0.0]]);
     let mut values = config.node.clone();
-    values.set("robot_radius", periplus_params::Value::Number(0.35));
+    values.set("robot_radius", periplus_params::ParamValue::Number(0.35));
     config.change(&mut costmap, values.clone(), &NoFrames).unwrap();
     look(&mut costmap, 1, &[[0.5, 0.0, 0.0]]);
     assert_eq!(costmap.cost_at(Pose2::new(1.75, 1.55, 0.0), false), 253, "now within the robot");
-    values.set("rolling_window", periplus_params::Value::Bool(true));
+    values.set("rolling_window", periplus_params::ParamValue::Bool(true));
     let refused = config.change(&mut costmap, values, &NoFrames).unwrap_err();
     assert_eq!(refused, "`rolling_window` cannot be changed while the costmap runs");
     assert_eq!(config.compat, Compat::Main);

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use periplus_diagnostics::{Diagnostic, Diagnostics};
-use periplus_params::{Given, Table, Values, flag, integer, number, numbers, text, texts};
+use periplus_params::{Given, ParamValues, Table, flag, integer, number, numbers, text, texts};
 
 use crate::state::{Covariance, SIZE, State};
 
@@ -170,7 +170,7 @@ impl Settings {
     pub fn read<'a>(
         given: impl IntoIterator<Item = Given<'a>>,
         diagnostics: &mut Diagnostics,
-    ) -> (Self, Values) {
+    ) -> (Self, ParamValues) {
         let mut own = Vec::new();
         let mut inputs: BTreeMap<(Kind, u32), Vec<Given<'a>>> = BTreeMap::new();
         let given: Vec<Given<'a>> = given.into_iter().collect();
@@ -199,7 +199,7 @@ impl Settings {
     }
 
     /// With the parameters of [`EKF`] and these inputs.
-    pub fn of(values: &Values, sources: Vec<Source>, diagnostics: &mut Diagnostics) -> Self {
+    pub fn of(values: &ParamValues, sources: Vec<Source>, diagnostics: &mut Diagnostics) -> Self {
         let number = |name: &str| values.number(name).unwrap_or_default();
         let flag = |name: &str| values.flag(name).unwrap_or_default();
         let frequency_hz = number("frequency");
@@ -317,7 +317,7 @@ fn truth(word: &str) -> Option<bool> {
 }
 
 fn numbers_of(
-    values: &Values,
+    values: &ParamValues,
     name: &str,
     counts: &[usize],
     diagnostics: &mut Diagnostics,
@@ -338,7 +338,7 @@ fn numbers_of(
 }
 
 fn matrix(
-    values: &Values,
+    values: &ParamValues,
     name: &str,
     usual: [f64; SIZE],
     diagnostics: &mut Diagnostics,

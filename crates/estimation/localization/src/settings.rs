@@ -2,7 +2,7 @@
 
 use periplus_diagnostics::{Diagnostic, Diagnostics};
 use periplus_geometry::Pose2;
-use periplus_params::{Given, Values};
+use periplus_params::{Given, ParamValues};
 
 use crate::bins::SampleSize;
 use crate::known_map::{CellPlace, MapSettings};
@@ -81,7 +81,7 @@ impl Settings {
     pub fn read<'a>(
         given: impl IntoIterator<Item = Given<'a>>,
         diagnostics: &mut Diagnostics,
-    ) -> (Values, Self) {
+    ) -> (ParamValues, Self) {
         let given: Vec<Given<'a>> = given.into_iter().collect();
         for one in &given {
             if let Some(hint) = old_name(one) {
@@ -99,7 +99,7 @@ impl Settings {
     /// What values that are each fine say together and cannot mean. [`Settings::of`] makes the best of
     /// it.
     #[must_use]
-    pub fn conflicts(values: &Values) -> Vec<Diagnostic> {
+    pub fn conflicts(values: &ParamValues) -> Vec<Diagnostic> {
         let mut findings = Vec::new();
         let integer = |name: &str| values.integer(name).unwrap_or_default();
         let (least, most) = (integer("min_particles"), integer("max_particles"));
@@ -141,7 +141,7 @@ impl Settings {
 
     /// What values of [`AMCL`] say.
     #[must_use]
-    pub fn of(values: &Values) -> Self {
+    pub fn of(values: &ParamValues) -> Self {
         let number = |name: &str| values.number(name).unwrap_or_default();
         let flag = |name: &str| values.flag(name).unwrap_or_default();
         let count =

@@ -4,7 +4,7 @@
 //! Sources: `nav2_amcl/src/amcl_node.cpp` (main, 2026); `amcl/cfg/AMCL.cfg` and the wiki of ROS 1 for
 //! its names.
 
-use periplus_params::{Names, Table, choice, flag, integer, number, text};
+use periplus_params::{NamedEntity, Table, choice, flag, integer, number, text};
 
 /// Of the node.
 pub static AMCL: Table = Table {
@@ -19,7 +19,9 @@ pub static AMCL: Table = Table {
             .or("0.2")
             .min(0.0)
             .also(&["odom_alpha5"]),
-        text("base_frame_id", "The frame of the robot.").or("base_footprint").naming(Names::Frame),
+        text("base_frame_id", "The frame of the robot.")
+            .or("base_footprint")
+            .naming(NamedEntity::Frame),
         number("beam_skip_distance", "m", "A beam agrees with a particle when it ends nearer.")
             .or("0.5")
             .min(0.0),
@@ -30,7 +32,7 @@ pub static AMCL: Table = Table {
             .or("0.3")
             .within(0.0, 1.0),
         flag("do_beamskip", "Whether `likelihood_field_prob` skips beams.").or("false"),
-        text("global_frame_id", "The frame of the map.").or("map").naming(Names::Frame),
+        text("global_frame_id", "The frame of the map.").or("map").naming(NamedEntity::Frame),
         number("lambda_short", "1/m", "How quickly early ends of beams become rare.")
             .or("0.1")
             .min(0.0)
@@ -65,7 +67,7 @@ pub static AMCL: Table = Table {
             .also(&["laser_max_beams"]),
         integer("max_particles", "Never more particles.").or("2000").within(1.0, 10_000_000.0),
         integer("min_particles", "Never fewer particles.").or("500").within(1.0, 10_000_000.0),
-        text("odom_frame_id", "The frame of odometry.").or("odom").naming(Names::Frame),
+        text("odom_frame_id", "The frame of odometry.").or("odom").naming(NamedEntity::Frame),
         number("pf_err", "", "By how much particles may be wrong about the distribution.")
             .or("0.05")
             .above(0.0)
@@ -131,8 +133,8 @@ pub static AMCL: Table = Table {
             .within(0.0, 1.0)
             .also(&["laser_z_short"]),
         flag("first_map_only", "Whether maps after the first are ignored.").or("false"),
-        text("scan_topic", "Topic of scans.").or("scan").naming(Names::Topic),
-        text("map_topic", "Topic of the map.").or("map").naming(Names::Topic),
+        text("scan_topic", "Topic of scans.").or("scan").naming(NamedEntity::Topic),
+        text("map_topic", "Topic of the map.").or("map").naming(NamedEntity::Topic),
         flag("freespace_downsampling", "Whether only every other free cell is kept each way.")
             .or("false"),
         integer("random_seed", "Seed of all randomness; -1 leaves the choice to the node.")
@@ -162,6 +164,6 @@ pub static AMCL: Table = Table {
 mod tests {
     #[test]
     fn the_table_has_no_slips() {
-        assert_eq!(super::AMCL.slips(), [""; 0]);
+        assert_eq!(super::AMCL.faults(), [""; 0]);
     }
 }

@@ -3,7 +3,7 @@
 use periplus_diagnostics::{Diagnostic, Diagnostics, FileId, SourceMap, Span};
 use periplus_geometry::Pose2;
 use periplus_grid::{MAX_ORIGIN_M, RESOLUTION_RANGE_M, is_origin, is_resolution};
-use periplus_yaml::Node;
+use periplus_yaml::YamlNode;
 
 use crate::distro::{Distro, Mode};
 use crate::rule::Rule;
@@ -81,8 +81,8 @@ pub fn read_description(
             return None;
         }
     };
-    let Some(entries) = node.as_ref().and_then(Node::entries) else {
-        let what = node.as_ref().map_or("nothing", Node::kind);
+    let Some(entries) = node.as_ref().and_then(YamlNode::entries) else {
+        let what = node.as_ref().map_or("nothing", YamlNode::kind);
         let wrong = format!("a map is described by a mapping, not by {what}");
         let span = node.as_ref().map_or(whole, |node| node.span);
         diagnostics.push(Diagnostic::error("bad-map", wrong).at(span).help(EXAMPLE));
@@ -123,7 +123,7 @@ pub fn read_description(
 }
 
 struct Reader<'a> {
-    map: &'a Node,
+    map: &'a YamlNode,
     whole: Span,
     diagnostics: &'a mut Diagnostics,
 }
@@ -133,7 +133,7 @@ impl<'a> Reader<'a> {
         self.diagnostics.push(Diagnostic::error("bad-map", message).at(span).help(help));
     }
 
-    fn required(&mut self, key: &str, example: &str) -> Option<&'a Node> {
+    fn required(&mut self, key: &str, example: &str) -> Option<&'a YamlNode> {
         let node = self.map.get(key);
         let given = node.filter(|node| !node.is_null());
         if given.is_none() {
@@ -271,7 +271,7 @@ impl<'a> Reader<'a> {
 }
 
 /// With or without quotes, as the readers of ROS have it.
-fn number_of(node: &Node) -> Option<f64> {
+fn number_of(node: &YamlNode) -> Option<f64> {
     let text = node.text()?.trim();
     let is_number = text.bytes().all(|b| b.is_ascii_digit() || b"+-.eE".contains(&b));
     text.parse().ok().filter(|number: &f64| is_number && number.is_finite())
@@ -279,7 +279,7 @@ fn number_of(node: &Node) -> Option<f64> {
 
 #[cfg(test)]
 mod tests {
-    use periplus_diagnostics::{Style, render};
+    use periplus_diagnostics::{RenderStyle, render};
 
     use super::*;
 
@@ -287,7 +287,7 @@ mod tests {
         let (mut sources, mut diagnostics) = (SourceMap::new(), Diagnostics::new());
         let file = sources.add("room.yaml", text);
         let description = read_description(file, &sources, distro, &mut diagnostics);
-        let shown = diagnostics.iter().map(|it| render(it, &sources, Style::Plain)).collect();
+        let shown = diagnostics.iter().map(|it| render(it, &sources, RenderStyle::Plain)).collect();
         (description, shown)
     }
 

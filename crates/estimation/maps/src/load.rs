@@ -6,7 +6,7 @@ use periplus_diagnostics::{Diagnostic, Diagnostics, SourceMap, Span, closest};
 use periplus_grid::occupancy::FREE;
 use periplus_grid::{Grid, Lattice, LatticeError, OccupancyGrid};
 use periplus_images::{Layout, Raster};
-use periplus_resources::{Host, ReadError};
+use periplus_resources::{FileReadError, Host};
 
 use crate::description::{Description, read_description};
 use crate::distro::{Distro, Mode};
@@ -190,7 +190,7 @@ fn picture(
         let wrong = format!("cannot read the picture `{shown}` of the map: {error}");
         let wrong = failed(Status::InvalidMapData, wrong, span);
         match error {
-            ReadError::Missing => with_neighbour(wrong, &image_path, &PICTURES, host),
+            FileReadError::Missing => with_neighbour(wrong, &image_path, &PICTURES, host),
             _ => wrong,
         }
     })?;
@@ -289,7 +289,7 @@ fn with_neighbour(wrong: Failed, path: &Path, endings: &[&str], host: &dyn Host)
 
 #[cfg(test)]
 mod tests {
-    use periplus_diagnostics::{Style, render};
+    use periplus_diagnostics::{RenderStyle, render};
     use periplus_images::{write_bmp, write_png};
     use periplus_resources::MemoryHost;
     use proptest::prelude::*;
@@ -306,7 +306,11 @@ mod tests {
     }
 
     fn said(loaded: &Loaded) -> String {
-        loaded.diagnostics.iter().map(|it| render(it, &loaded.sources, Style::Plain)).collect()
+        loaded
+            .diagnostics
+            .iter()
+            .map(|it| render(it, &loaded.sources, RenderStyle::Plain))
+            .collect()
     }
 
     #[test]

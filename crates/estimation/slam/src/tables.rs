@@ -8,7 +8,7 @@ mod gmapping;
 mod toolbox;
 
 use periplus_diagnostics::Diagnostic;
-use periplus_params::{Default, Given, Value, Values};
+use periplus_params::{Default, Given, ParamValue, ParamValues};
 
 use crate::settings::Settings;
 
@@ -55,7 +55,7 @@ fn lists(method: Method) -> &'static [Idle] {
 
 /// A warning for each parameter that was set to something else than its default and changes nothing.
 #[must_use]
-pub fn idle(values: &Values) -> Vec<Diagnostic> {
+pub fn idle(values: &ParamValues) -> Vec<Diagnostic> {
     let of_table = Method::ALL.into_iter().find(|it| it.table().name == values.table().name);
     let lists = of_table.map(lists).unwrap_or_default();
     let mut findings = Vec::new();
@@ -77,15 +77,15 @@ pub fn idle(values: &Values) -> Vec<Diagnostic> {
 
 /// Returns contradictions between values.
 #[must_use]
-pub fn conflicts(values: &Values) -> Vec<Diagnostic> {
+pub fn conflicts(values: &ParamValues) -> Vec<Diagnostic> {
     let table = values.table();
     if table.name == GMAPPING.name { gmapping::conflicts(values) } else { Vec::new() }
 }
 
 /// True if a parameter differs from its default.
-fn is_changed(values: &Values, name: &str) -> bool {
+fn is_changed(values: &ParamValues, name: &str) -> bool {
     let default = values.table().find(name).and_then(|parameter| match parameter.default {
-        Default::Value(default) => Value::read(parameter, default).ok(),
+        Default::Value(default) => ParamValue::read(parameter, default).ok(),
         Default::Required | Default::None => None,
     });
     values.is_given(name) && values.get(name) != default
@@ -95,7 +95,7 @@ impl Settings {
     /// Applies values of [`SLAM_TOOLBOX`] to the settings. Only given values count: the defaults here are
     /// the mapper's own.
     #[must_use]
-    pub fn of(values: &Values) -> Self {
+    pub fn of(values: &ParamValues) -> Self {
         toolbox::settings(values)
     }
 }
@@ -127,7 +127,7 @@ mod tests {
 
     use super::*;
 
-    fn values(method: Method, given: &[(&'static str, &'static str)]) -> Values {
+    fn values(method: Method, given: &[(&'static str, &'static str)]) -> ParamValues {
         let mut diagnostics = Diagnostics::new();
         let given = given.iter().map(|(name, text)| Given::new(name, *text));
         let values = method.table().check(given, None, &mut diagnostics);
@@ -138,7 +138,7 @@ mod tests {
     #[test]
     fn the_tables_have_no_slips() {
         for method in Method::ALL {
-            assert_eq!(method.table().slips(), [""; 0]);
+            assert_eq!(method.table().faults(), [""; 0]);
         }
     }
 

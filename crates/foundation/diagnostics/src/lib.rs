@@ -16,6 +16,6 @@ pub use collect::{Diagnostics, MAX_FINDINGS};
 pub use diagnostic::{Diagnostic, Replacement, Severity};
 pub use json::to_json;
 pub use machine_words::plain_words;
-pub use render::{Style, render};
+pub use render::{RenderStyle, render};
 pub use source::{ContextId, Expansion, FileId, Origin, Position, SourceFile, SourceMap, Span};
 pub use spelling::closest;

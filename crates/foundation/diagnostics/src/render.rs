@@ -20,7 +20,7 @@ const MAX_BACKTRACE_STEPS: usize = 6;
 
 /// Output style.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Style {
+pub enum RenderStyle {
     /// ASCII without colours: for files, pipes and tests.
     Plain,
     /// ANSI colours and box-drawing characters: for a terminal.
@@ -29,7 +29,7 @@ pub enum Style {
 
 /// Renders one finding with the source text that it refers to.
 #[must_use]
-pub fn render(diagnostic: &Diagnostic, sources: &SourceMap, style: Style) -> String {
+pub fn render(diagnostic: &Diagnostic, sources: &SourceMap, style: RenderStyle) -> String {
     let level = match diagnostic.severity {
         Severity::Error => Level::ERROR,
         Severity::Warning => Level::WARNING,
@@ -56,8 +56,8 @@ pub fn render(diagnostic: &Diagnostic, sources: &SourceMap, style: Style) -> Str
             .push(Level::HELP.secondary_title(&replacement.message).element(snippet.patch(patch)));
     }
     let renderer = match style {
-        Style::Plain => Renderer::plain().decor_style(DecorStyle::Ascii),
-        Style::Colour => Renderer::styled().decor_style(DecorStyle::Unicode),
+        RenderStyle::Plain => Renderer::plain().decor_style(DecorStyle::Ascii),
+        RenderStyle::Colour => Renderer::styled().decor_style(DecorStyle::Unicode),
     };
     let mut text = renderer.render(&report);
     text.push('\n');
@@ -179,7 +179,7 @@ mod tests {
     fn check(build: impl FnOnce(&mut SourceMap) -> Diagnostic, expected: Expect) {
         let mut sources = SourceMap::new();
         let diagnostic = build(&mut sources);
-        expected.assert_eq(&render(&diagnostic, &sources, Style::Plain));
+        expected.assert_eq(&render(&diagnostic, &sources, RenderStyle::Plain));
     }
 
     #[test]
@@ -240,6 +240,6 @@ mod tests {
         let file = sources.add("long.xml", "x".repeat(1_000_000));
         let diagnostic =
             Diagnostic::error("long", "long").at(sources.whole(file).part(500_000, 500_003));
-        assert!(render(&diagnostic, &sources, Style::Plain).len() < 1_000);
+        assert!(render(&diagnostic, &sources, RenderStyle::Plain).len() < 1_000);
     }
 }

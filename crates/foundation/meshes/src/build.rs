@@ -7,7 +7,7 @@ use glam::{DMat3, DMat4, DVec3};
 
 use crate::error::MeshError;
 use crate::limits::Budget;
-use crate::mesh::{Material, Submesh};
+use crate::mesh::{MeshMaterial, Submesh};
 use crate::notes::Notes;
 
 /// Corner of a triangle: identity and attributes.
@@ -85,7 +85,7 @@ impl Part {
     pub(crate) fn placed(
         &self,
         name: String,
-        material: Option<Arc<Material>>,
+        material: Option<Arc<MeshMaterial>>,
         mesh_from_part: DMat4,
         notes: &mut Notes,
     ) -> Result<Submesh, MeshError> {

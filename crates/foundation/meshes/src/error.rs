@@ -4,18 +4,18 @@ use std::fmt;
 
 /// Location in a mesh file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Place {
+pub enum MeshLocation {
     /// Line of a text file, counted from 1.
     Line(usize),
     /// Offset in a binary file, in bytes from its start.
     Byte(usize),
 }
 
-impl fmt::Display for Place {
+impl fmt::Display for MeshLocation {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Place::Line(line) => write!(f, "line {line}"),
-            Place::Byte(byte) => write!(f, "byte {byte}"),
+            MeshLocation::Line(line) => write!(f, "line {line}"),
+            MeshLocation::Byte(byte) => write!(f, "byte {byte}"),
         }
     }
 }
@@ -26,7 +26,7 @@ pub struct MeshError {
     /// Description of the fault.
     pub message: String,
     /// Location, if known.
-    pub place: Option<Place>,
+    pub place: Option<MeshLocation>,
     /// Advice.
     pub help: String,
 }
@@ -36,7 +36,7 @@ impl MeshError {
         MeshError { message: message.into(), place: None, help: help.into() }
     }
 
-    pub(crate) fn at(mut self, place: Place) -> Self {
+    pub(crate) fn at(mut self, place: MeshLocation) -> Self {
         self.place = Some(place);
         self
     }

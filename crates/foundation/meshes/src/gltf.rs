@@ -17,7 +17,7 @@ use ::gltf::json::Root;
 use self::buffers::Buffers;
 use self::scene::Walk;
 use crate::SideFiles;
-use crate::error::{MeshError, Place};
+use crate::error::{MeshError, MeshLocation};
 use crate::limits::Budget;
 use crate::mesh::Mesh;
 use crate::notes::Notes;
@@ -79,5 +79,5 @@ pub(crate) fn read(
 
 fn not_gltf(error: &::gltf::json::Error) -> MeshError {
     MeshError::new(format!("not glTF: {error}"), "export the file again as glTF 2.0")
-        .at(Place::Line(error.line()))
+        .at(MeshLocation::Line(error.line()))
 }

@@ -40,10 +40,10 @@ mod obj;
 mod stl;
 mod triangulate;
 
-pub use crate::error::{MeshError, Place};
+pub use crate::error::{MeshError, MeshLocation};
 pub use crate::format::MeshFormat;
-pub use crate::limits::Limits;
-pub use crate::mesh::{Bounds, Material, Mesh, Submesh, Texture, UpAxis};
+pub use crate::limits::MeshLimits;
+pub use crate::mesh::{Mesh, MeshBounds, MeshMaterial, MeshTexture, Submesh, UpAxis};
 pub use crate::notes::Note;
 
 /// Returns the bytes of a file that a mesh file refers to, relative to it, or `None`.
@@ -62,7 +62,7 @@ pub fn read(
     format: MeshFormat,
     side_files: &mut SideFiles<'_>,
 ) -> Result<Mesh, MeshError> {
-    read_within(Limits::default(), bytes, format, side_files)
+    read_within(MeshLimits::default(), bytes, format, side_files)
 }
 
 /// Reads a mesh with the given limits.
@@ -70,7 +70,7 @@ pub fn read(
 /// # Errors
 /// As [`read`].
 pub fn read_within(
-    limits: Limits,
+    limits: MeshLimits,
     bytes: &[u8],
     format: MeshFormat,
     side_files: &mut SideFiles<'_>,

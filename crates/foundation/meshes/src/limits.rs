@@ -4,7 +4,7 @@ use crate::error::MeshError;
 
 /// Limits for one file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Limits {
+pub struct MeshLimits {
     /// Maximum number of triangles over all parts, after instancing.
     pub triangles_max: usize,
     /// Maximum number of scene nodes, geometry instances and primitives.
@@ -24,11 +24,11 @@ const BYTES_OF_ANY_FILE: usize = 128 << 20;
 /// bytes, and takes about 110 bytes while it is read.
 const BYTES_PER_BYTE: usize = 24;
 
-impl Default for Limits {
+impl Default for MeshLimits {
     /// Ten million triangles, a million visits, 128 levels, 2 GiB: far above the needs of a simulator and
     /// far below harm.
     fn default() -> Self {
-        Limits {
+        MeshLimits {
             triangles_max: 10_000_000,
             visits_max: 1_000_000,
             depth_max: 128,
@@ -42,7 +42,7 @@ const MAX_CORNERS: usize = 1_000_000;
 
 /// Remaining [`Limits`] while a file is read.
 pub(crate) struct Budget {
-    limits: Limits,
+    limits: MeshLimits,
     triangles: usize,
     visits: usize,
     bytes: usize,
@@ -54,8 +54,8 @@ pub(crate) struct Budget {
 }
 
 impl Budget {
-    pub(crate) fn new(limits: Limits) -> Self {
-        let Limits { triangles_max, visits_max, bytes_max, .. } = limits;
+    pub(crate) fn new(limits: MeshLimits) -> Self {
+        let MeshLimits { triangles_max, visits_max, bytes_max, .. } = limits;
         let ear_steps = 40usize.saturating_mul(triangles_max);
         let bytes = bytes_max.min(BYTES_OF_ANY_FILE);
         Budget {

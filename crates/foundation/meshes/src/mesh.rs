@@ -32,28 +32,28 @@ pub struct Submesh {
     /// Triangles without area are kept.
     pub triangles: Vec<[u32; 3]>,
     /// Material, if the file gives one that exists.
-    pub material: Option<Arc<Material>>,
+    pub material: Option<Arc<MeshMaterial>>,
 }
 
 /// Material properties that all formats have.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Material {
+pub struct MeshMaterial {
     /// Name or id in the file; may be empty.
     pub name: String,
     /// Diffuse (glTF: base) colour, red, green, blue, alpha, each 0 to 1.
     pub diffuse_rgba: [f32; 4],
     /// Diffuse (glTF: base colour) texture.
-    pub texture: Option<Texture>,
+    pub texture: Option<MeshTexture>,
 }
 
-impl Material {
+impl MeshMaterial {
     /// Memory of names and texture \[bytes\]: several materials of a file may refer to one long name or one
     /// large image.
     pub(crate) fn size_bytes(&self) -> usize {
         let texture = match &self.texture {
             None => 0,
-            Some(Texture::File(file)) => file.len(),
-            Some(Texture::Embedded { bytes, .. }) => bytes.len(),
+            Some(MeshTexture::File(file)) => file.len(),
+            Some(MeshTexture::Embedded { bytes, .. }) => bytes.len(),
         };
         self.name.len().saturating_add(texture)
     }
@@ -61,7 +61,7 @@ impl Material {
 
 /// Image of a material.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Texture {
+pub enum MeshTexture {
     /// File as written in the mesh file: usually relative to it.
     File(String),
     /// Image inside the mesh file, still encoded.
@@ -86,18 +86,19 @@ pub enum UpAxis {
 
 /// Axis-aligned bounding box in the mesh frame \[m\].
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Bounds {
+pub struct MeshBounds {
     /// Minimum coordinates \[m\].
     pub min_m: [f64; 3],
     /// Maximum coordinates \[m\].
     pub max_m: [f64; 3],
 }
 
-impl Bounds {
-    fn of(positions_m: impl Iterator<Item = [f64; 3]>) -> Option<Bounds> {
+impl MeshBounds {
+    fn of(positions_m: impl Iterator<Item = [f64; 3]>) -> Option<MeshBounds> {
         positions_m.fold(None, |bounds, p| {
-            let Bounds { min_m: a, max_m: b } = bounds.unwrap_or(Bounds { min_m: p, max_m: p });
-            Some(Bounds {
+            let MeshBounds { min_m: a, max_m: b } =
+                bounds.unwrap_or(MeshBounds { min_m: p, max_m: p });
+            Some(MeshBounds {
                 min_m: [a[0].min(p[0]), a[1].min(p[1]), a[2].min(p[2])],
                 max_m: [b[0].max(p[0]), b[1].max(p[1]), b[2].max(p[2])],
             })
@@ -112,8 +113,8 @@ impl Bounds {
 
 impl Mesh {
     /// Bounding box of all vertices \[m\]; `None` only for a mesh without any.
-    pub fn bounds(&self) -> Option<Bounds> {
-        Bounds::of(self.submeshes.iter().flat_map(|part| part.positions_m.iter().copied()))
+    pub fn bounds(&self) -> Option<MeshBounds> {
+        MeshBounds::of(self.submeshes.iter().flat_map(|part| part.positions_m.iter().copied()))
     }
 
     /// Number of triangles in all parts.
@@ -129,8 +130,8 @@ impl Mesh {
 
 impl Submesh {
     /// Bounding box of this part's vertices \[m\].
-    pub fn bounds(&self) -> Option<Bounds> {
-        Bounds::of(self.positions_m.iter().copied())
+    pub fn bounds(&self) -> Option<MeshBounds> {
+        MeshBounds::of(self.positions_m.iter().copied())
     }
 
     /// Number of triangles with exactly zero area, which a ray can never hit.

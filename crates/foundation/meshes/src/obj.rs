@@ -16,7 +16,7 @@ use crate::SideFiles;
 use crate::build::{Corner, Part};
 use crate::error::MeshError;
 use crate::limits::Budget;
-use crate::mesh::{Material, Mesh};
+use crate::mesh::{Mesh, MeshMaterial};
 use crate::notes::Notes;
 use crate::triangulate::triangulate;
 
@@ -44,7 +44,7 @@ pub(crate) fn read(
     // Vertices first: some writers put a face before its vertices.
     let pool = read_pool(bytes)?;
     let mut notes = Notes::default();
-    let mut materials: HashMap<String, Arc<Material>> = HashMap::new();
+    let mut materials: HashMap<String, Arc<MeshMaterial>> = HashMap::new();
     let mut parts: Vec<(String, String, Part)> = Vec::new();
     let mut part_of_names: HashMap<(String, String), usize> = HashMap::new();
     let (mut name, mut material) = (String::new(), String::new());

@@ -8,7 +8,7 @@ use std::collections::HashMap;
 use glam::{DMat4, DVec3};
 
 use crate::build::{Corner, Part};
-use crate::error::{MeshError, Place};
+use crate::error::{MeshError, MeshLocation};
 use crate::limits::Budget;
 use crate::mesh::{Mesh, Submesh};
 use crate::notes::Notes;
@@ -53,7 +53,7 @@ fn binary(bytes: &[u8], budget: &mut Budget, notes: &mut Notes) -> Result<Vec<Su
             format!("not an STL file: {} bytes are too few", bytes.len()),
             "the file may be empty or a failed download: export or fetch it again",
         )
-        .at(Place::Byte(bytes.len())));
+        .at(MeshLocation::Byte(bytes.len())));
     };
     let expected = expected_len(count);
     if expected > bytes.len() {
@@ -64,7 +64,7 @@ fn binary(bytes: &[u8], budget: &mut Budget, notes: &mut Notes) -> Result<Vec<Su
             ),
             "the file is cut short or not an STL: export or fetch it again",
         )
-        .at(Place::Byte(80)));
+        .at(MeshLocation::Byte(80)));
     }
     if expected < bytes.len() {
         notes.add(format!("{} bytes after the last triangle left out", bytes.len() - expected));
@@ -79,7 +79,7 @@ fn binary(bytes: &[u8], budget: &mut Budget, notes: &mut Notes) -> Result<Vec<Su
             DVec3::new(next(), next(), next())
         };
         let corners = [corner(), corner(), corner()];
-        let place = Place::Byte(HEADER_BYTES + i * FACET_BYTES + 12);
+        let place = MeshLocation::Byte(HEADER_BYTES + i * FACET_BYTES + 12);
         soup.triangle(corners, budget).map_err(|error| error.at(place))?;
     }
     soup.finish(String::new(), notes).map(|part| part.into_iter().collect())
@@ -167,7 +167,7 @@ impl<'a> Words<'a> {
             format!("ASCII STL: expected {wanted}, found {found}"),
             "the file is cut short or damaged: export it again, best as binary STL",
         )
-        .at(Place::Line(self.line))
+        .at(MeshLocation::Line(self.line))
     }
 }
 
@@ -208,7 +208,7 @@ fn solid(words: &mut Words<'_>, budget: &mut Budget) -> Result<Soup, MeshError> 
             words.expect("vertex")?;
             *corner = DVec3::new(words.number()?, words.number()?, words.number()?);
         }
-        let place = Place::Line(words.line);
+        let place = MeshLocation::Line(words.line);
         soup.triangle(corners, budget).map_err(|error| error.at(place))?;
         words.expect("endloop")?;
         words.expect("endfacet")?;

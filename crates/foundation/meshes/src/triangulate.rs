@@ -108,11 +108,11 @@ fn is_ear(flat: &[DVec2], ring: &[usize], i: usize, steps: &mut usize) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::limits::Limits;
+    use crate::limits::MeshLimits;
 
     fn split(corners: &[[f64; 3]]) -> Vec<[usize; 3]> {
         let corners: Vec<DVec3> = corners.iter().map(|&p| p.into()).collect();
-        let (mut budget, mut out) = (Budget::new(Limits::default()), Vec::new());
+        let (mut budget, mut out) = (Budget::new(MeshLimits::default()), Vec::new());
         triangulate(&corners, &mut budget, &mut Notes::default(), &mut |t| out.push(t));
         out
     }

@@ -4,7 +4,7 @@
 mod support;
 
 use expect_test::{Expect, expect};
-use periplus_meshes::{Limits, MeshFormat, UpAxis, read, read_within};
+use periplus_meshes::{MeshFormat, MeshLimits, UpAxis, read, read_within};
 use support::show;
 
 /// A unit square in the xy plane, wound anticlockwise, as a source `#at` with
@@ -336,11 +336,11 @@ fn forty_levels_of_doubling_end_at_the_budget() {
     }
     let text =
         document(&(library + "</library_nodes>"), "<node><instance_node url='#n40'/></node>");
-    let limits = Limits { visits_max: 1000, ..Limits::default() };
+    let limits = MeshLimits { visits_max: 1000, ..MeshLimits::default() };
     let error =
         read_within(limits, text.as_bytes(), MeshFormat::Collada, &mut |_| None).unwrap_err();
     assert_eq!(error.message, "the scene unfolds to more than 1000 nodes");
-    let limits = Limits { triangles_max: 100, ..Limits::default() };
+    let limits = MeshLimits { triangles_max: 100, ..MeshLimits::default() };
     let error =
         read_within(limits, text.as_bytes(), MeshFormat::Collada, &mut |_| None).unwrap_err();
     assert_eq!(error.message, "the mesh has more than 100 triangles");
@@ -367,7 +367,7 @@ fn deep_nesting_and_many_attributes_do_not_hurt() {
 #[test]
 fn a_flood_of_elements_is_stopped() {
     let text = format!("<COLLADA>{}</COLLADA>", "<a/>".repeat(10_000));
-    let limits = Limits { bytes_max: 1 << 20, ..Limits::default() };
+    let limits = MeshLimits { bytes_max: 1 << 20, ..MeshLimits::default() };
     let error =
         read_within(limits, text.as_bytes(), MeshFormat::Collada, &mut |_| None).unwrap_err();
     assert_eq!(error.message, "the mesh unfolds to more than 1 MiB");

@@ -3,7 +3,7 @@
 mod support;
 
 use expect_test::{Expect, expect};
-use periplus_meshes::{Limits, MeshFormat, read, read_within};
+use periplus_meshes::{MeshFormat, MeshLimits, read, read_within};
 use support::show;
 
 /// Positions of a unit square (48 bytes), then indices 0 1 2, 0 2 3 as u16 (12 bytes).
@@ -234,7 +234,7 @@ fn four_billion_vertices_without_data_cost_nothing() {
 #[test]
 fn a_flood_of_empty_objects_is_stopped_before_it_unfolds() {
     let json = format!(r#"{{"asset":{{"version":"2.0"}},"nodes":[{}{{}}]}}"#, "{},".repeat(10_000));
-    let limits = Limits { bytes_max: 1 << 20, ..Limits::default() };
+    let limits = MeshLimits { bytes_max: 1 << 20, ..MeshLimits::default() };
     let error = read_within(limits, json.as_bytes(), MeshFormat::Gltf, &mut |_| None).unwrap_err();
     assert_eq!(error.message, "the mesh unfolds to more than 1 MiB");
 }
@@ -277,7 +277,7 @@ fn overlapping_elements_unfold_no_further_than_their_file_allows() {
         "bufferViews":[{"buffer":0,"byteLength":3000000,"byteStride":1}],
         "buffers":[{"byteLength":3000000,"uri":"a.bin"}]}"#;
     let mut side = |_: &str| Some(bytes.clone());
-    let error =
-        read_within(Limits::default(), json.as_bytes(), MeshFormat::Gltf, &mut side).unwrap_err();
+    let error = read_within(MeshLimits::default(), json.as_bytes(), MeshFormat::Gltf, &mut side)
+        .unwrap_err();
     assert!(error.message.starts_with("the mesh unfolds to more than"), "{}", error.message);
 }

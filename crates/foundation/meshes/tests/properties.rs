@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use periplus_meshes::{Limits, MeshFormat, read, read_within};
+use periplus_meshes::{MeshFormat, MeshLimits, read, read_within};
 use proptest::prelude::*;
 
 type Soup = Vec<[[f32; 3]; 3]>;
@@ -113,8 +113,8 @@ fn seeds() -> Vec<(MeshFormat, &'static [u8])> {
     ]
 }
 
-const SMALL: Limits =
-    Limits { triangles_max: 1000, visits_max: 1000, depth_max: 32, bytes_max: 1 << 20 };
+const SMALL: MeshLimits =
+    MeshLimits { triangles_max: 1000, visits_max: 1000, depth_max: 32, bytes_max: 1 << 20 };
 
 #[test]
 fn every_seed_loads() {

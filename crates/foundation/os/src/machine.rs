@@ -6,37 +6,37 @@ use std::io::{BufRead, BufReader, BufWriter, ErrorKind, Read as _, Write as _};
 use std::path::{Path, PathBuf};
 
 use periplus_diagnostics::plain_words;
-use periplus_resources::{Host, Kind, LARGEST_FILE, ReadError, Store};
+use periplus_resources::{EntryKind, FileReadError, Host, MAX_FILE_BYTES, Store};
 
 /// Machine on which this program runs.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Machine;
 
 impl Host for Machine {
-    fn read(&self, path: &Path) -> Result<Vec<u8>, ReadError> {
+    fn read(&self, path: &Path) -> Result<Vec<u8>, FileReadError> {
         // Checked before opening: opening a named pipe would block until another process writes to it.
         let metadata = fs::metadata(path).map_err(|error| refusal(&error))?;
         if !metadata.is_file() {
-            return Err(ReadError::NotAFile);
+            return Err(FileReadError::NotAFile);
         }
-        if metadata.len() > LARGEST_FILE {
-            return Err(ReadError::TooLarge(metadata.len()));
+        if metadata.len() > MAX_FILE_BYTES {
+            return Err(FileReadError::TooLarge(metadata.len()));
         }
         let file = fs::File::open(path).map_err(|error| refusal(&error))?;
         let mut bytes = Vec::with_capacity(usize::try_from(metadata.len()).unwrap_or(0));
         // A file may grow while it is read, and files in /proc do not report their size.
-        let read = file.take(LARGEST_FILE + 1).read_to_end(&mut bytes);
+        let read = file.take(MAX_FILE_BYTES + 1).read_to_end(&mut bytes);
         read.map_err(|error| refusal(&error))?;
         let size = bytes.len() as u64;
-        if size > LARGEST_FILE { Err(ReadError::TooLarge(size)) } else { Ok(bytes) }
+        if size > MAX_FILE_BYTES { Err(FileReadError::TooLarge(size)) } else { Ok(bytes) }
     }
 
-    fn kind(&self, path: &Path) -> Option<Kind> {
+    fn kind(&self, path: &Path) -> Option<EntryKind> {
         let metadata = fs::metadata(path).ok()?;
         if metadata.is_file() {
-            Some(Kind::File)
+            Some(EntryKind::File)
         } else {
-            metadata.is_dir().then_some(Kind::Folder)
+            metadata.is_dir().then_some(EntryKind::Folder)
         }
     }
 
@@ -63,16 +63,16 @@ impl Machine {
     ///
     /// # Errors
     /// As [`Host::read`], except for errors during reading.
-    pub fn reader(&self, path: &Path) -> Result<impl BufRead + use<>, ReadError> {
+    pub fn reader(&self, path: &Path) -> Result<impl BufRead + use<>, FileReadError> {
         let metadata = fs::metadata(path).map_err(|error| refusal(&error))?;
         if !metadata.is_file() {
-            return Err(ReadError::NotAFile);
+            return Err(FileReadError::NotAFile);
         }
-        if metadata.len() > LARGEST_FILE {
-            return Err(ReadError::TooLarge(metadata.len()));
+        if metadata.len() > MAX_FILE_BYTES {
+            return Err(FileReadError::TooLarge(metadata.len()));
         }
         let file = fs::File::open(path).map_err(|error| refusal(&error))?;
-        Ok(BufReader::with_capacity(READ_BUFFER_BYTES, file.take(LARGEST_FILE)))
+        Ok(BufReader::with_capacity(READ_BUFFER_BYTES, file.take(MAX_FILE_BYTES)))
     }
 
     /// Writes a file piecewise and atomically replaces an existing one: the old file remains until all
@@ -151,10 +151,10 @@ fn write_new(
     file.get_ref().sync_all()
 }
 
-fn refusal(error: &std::io::Error) -> ReadError {
+fn refusal(error: &std::io::Error) -> FileReadError {
     match error.kind() {
-        ErrorKind::NotFound | ErrorKind::NotADirectory => ReadError::Missing,
-        _ => ReadError::Other(plain_words(error)),
+        ErrorKind::NotFound | ErrorKind::NotADirectory => FileReadError::Missing,
+        _ => FileReadError::Other(plain_words(error)),
     }
 }
 
@@ -192,9 +192,9 @@ mod tests {
         let folder = Folder::new("read").with_file("a/b.txt", "hello");
         let read = |name: &str| Machine.read(&folder.0.join(name));
         assert_eq!(read("a/b.txt"), Ok(b"hello".to_vec()));
-        assert_eq!(read("a/c.txt"), Err(ReadError::Missing));
-        assert_eq!(read("a/b.txt/c"), Err(ReadError::Missing));
-        assert_eq!(read("a"), Err(ReadError::NotAFile));
+        assert_eq!(read("a/c.txt"), Err(FileReadError::Missing));
+        assert_eq!(read("a/b.txt/c"), Err(FileReadError::Missing));
+        assert_eq!(read("a"), Err(FileReadError::NotAFile));
         assert!(Machine.read(Path::new("a\0b")).is_err());
     }
 
@@ -244,7 +244,7 @@ mod tests {
     fn what_stands_there() {
         let folder = Folder::new("kind").with_file("b", "").with_file("a/x", "").with_file("c", "");
         let kind = |name: &str| Machine.kind(&folder.0.join(name));
-        assert_eq!([kind("a"), kind("b")], [Some(Kind::Folder), Some(Kind::File)]);
+        assert_eq!([kind("a"), kind("b")], [Some(EntryKind::Folder), Some(EntryKind::File)]);
         assert_eq!(kind("d"), None);
         assert_eq!(Machine.list(&folder.0), ["a", "b", "c"]);
         assert!(Machine.list(&folder.0.join("b")).is_empty());
@@ -257,22 +257,22 @@ mod tests {
         let folder = Folder::new("large").with_file("large", "");
         let path = folder.0.join("large");
         // Sparse: it takes no space on the disk.
-        fs::File::create(&path).unwrap().set_len(LARGEST_FILE + 1).unwrap();
-        assert_eq!(Machine.read(&path), Err(ReadError::TooLarge(LARGEST_FILE + 1)));
+        fs::File::create(&path).unwrap().set_len(MAX_FILE_BYTES + 1).unwrap();
+        assert_eq!(Machine.read(&path), Err(FileReadError::TooLarge(MAX_FILE_BYTES + 1)));
     }
 
     #[cfg(unix)]
     #[test]
     fn devices_and_pipes_are_refused_without_waiting() {
         for device in ["/dev/zero", "/dev/random", "/dev/null"] {
-            assert_eq!(Machine.read(Path::new(device)), Err(ReadError::NotAFile), "{device}");
+            assert_eq!(Machine.read(Path::new(device)), Err(FileReadError::NotAFile), "{device}");
             assert_eq!(Machine.kind(Path::new(device)), None, "{device}");
         }
         let folder = Folder::new("pipe");
         let pipe = folder.0.join("pipe");
         match std::process::Command::new("mkfifo").arg(&pipe).status() {
             Ok(status) if status.success() => {
-                assert_eq!(Machine.read(&pipe), Err(ReadError::NotAFile));
+                assert_eq!(Machine.read(&pipe), Err(FileReadError::NotAFile));
             }
             _ => println!("SKIPPED: there is no mkfifo to make a pipe with"),
         }

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-use periplus_resources::{Host, Kind, ReadError};
+use periplus_resources::{EntryKind, FileReadError, Host};
 
 use crate::Machine;
 
@@ -15,11 +15,11 @@ pub struct Overlay {
 }
 
 impl Host for Overlay {
-    fn read(&self, path: &Path) -> Result<Vec<u8>, ReadError> {
+    fn read(&self, path: &Path) -> Result<Vec<u8>, FileReadError> {
         Machine.read(path)
     }
 
-    fn kind(&self, path: &Path) -> Option<Kind> {
+    fn kind(&self, path: &Path) -> Option<EntryKind> {
         Machine.kind(path)
     }
 

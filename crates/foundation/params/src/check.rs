@@ -7,7 +7,7 @@ use periplus_diagnostics::{Diagnostic, Diagnostics, Origin, Span};
 
 use crate::value::quote;
 use crate::values::Located;
-use crate::{Default, Kind, Parameter, Table, Value, Values};
+use crate::{Default, ParamType, ParamValue, ParamValues, Parameter, Table};
 
 /// Parameter as written.
 #[derive(Clone, Debug)]
@@ -39,7 +39,7 @@ impl Table {
         given: impl IntoIterator<Item = Given<'a>>,
         whole: Option<Span>,
         diagnostics: &mut Diagnostics,
-    ) -> Values {
+    ) -> ParamValues {
         let mut values: BTreeMap<&'static str, Vec<Located>> = BTreeMap::new();
         let mut written: BTreeMap<&'static str, Origin> = BTreeMap::new();
         for given in given {
@@ -61,7 +61,7 @@ impl Table {
                 continue;
             }
             written.entry(parameter.name).or_insert(given.name_origin);
-            match Value::read(parameter, &given.text) {
+            match ParamValue::read(parameter, &given.text) {
                 Ok(value) => values
                     .entry(parameter.name)
                     .or_default()
@@ -71,7 +71,7 @@ impl Table {
         }
         let is_waived = |parameter: &Parameter| {
             let flag = parameter.unless.and_then(|flag| values.get(flag)?.first());
-            flag.is_some_and(|flag| flag.value == Value::Bool(true))
+            flag.is_some_and(|flag| flag.value == ParamValue::Bool(true))
         };
         for parameter in self.parameters {
             if parameter.default == Default::Required
@@ -86,7 +86,7 @@ impl Table {
                 diagnostics.push(diagnostic.note(format!("{}: {}", parameter.name, parameter.doc)));
             }
         }
-        Values::new(self, values)
+        ParamValues::new(self, values)
     }
 
     /// Finding for an unknown name.
@@ -108,7 +108,7 @@ impl Table {
                 .help("this is a xacro expression: name the file `.xacro` so that it is evaluated");
         }
         let Some(parameter) = self.find(given.name) else { return diagnostic };
-        if let Kind::Choice(words) = parameter.kind {
+        if let ParamType::Choice(words) = parameter.kind {
             diagnostic =
                 diagnostic.did_you_mean(given.origin, given.text.trim(), words.iter().copied());
         }
@@ -125,7 +125,7 @@ impl Table {
 #[cfg(test)]
 mod tests {
     use expect_test::{Expect, expect};
-    use periplus_diagnostics::{SourceMap, Style, render};
+    use periplus_diagnostics::{RenderStyle, SourceMap, render};
 
     use super::*;
     use crate::{choice, flag, integer, number, text};
@@ -143,7 +143,7 @@ mod tests {
     };
 
     /// The text has lines `name value`.
-    fn check(input: &str, expected: Expect) -> Values {
+    fn check(input: &str, expected: Expect) -> ParamValues {
         let mut sources = SourceMap::new();
         let file = sources.add("wheel.txt", input);
         let mut diagnostics = Diagnostics::new();
@@ -163,7 +163,8 @@ mod tests {
             start += line.len() + 1;
         }
         let values = WHEEL.check(given, Some(sources.whole(file)), &mut diagnostics);
-        let text: String = diagnostics.iter().map(|d| render(d, &sources, Style::Plain)).collect();
+        let text: String =
+            diagnostics.iter().map(|d| render(d, &sources, RenderStyle::Plain)).collect();
         expected.assert_eq(&text);
         values
     }

@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 
-use crate::{Default, Kind, Parameter, Table, Value};
+use crate::{Default, ParamType, ParamValue, Parameter, Table};
 
 impl Table {
     /// YAML file of the defaults, each below its description. Parameters without a default are commented
@@ -13,7 +13,7 @@ impl Table {
         for parameter in self.parameters {
             let _ = writeln!(out, "  # {}", remark(parameter));
             match parameter.default {
-                Default::Value(default) => match Value::read(parameter, default) {
+                Default::Value(default) => match ParamValue::read(parameter, default) {
                     Ok(value) if parameter.repeated && !is_list(parameter.kind) => {
                         let _ = writeln!(out, "  {}: [{value}]", parameter.name);
                     }
@@ -71,7 +71,7 @@ fn remark(parameter: &Parameter) -> String {
     if let Some(unit) = parameter.unit {
         let _ = write!(remark, " [{unit}]");
     }
-    if let Kind::Choice(words) = parameter.kind {
+    if let ParamType::Choice(words) = parameter.kind {
         let _ = write!(remark, " One of {}.", words.join(", "));
     }
     if let Some(range) = parameter.range {
@@ -83,12 +83,12 @@ fn remark(parameter: &Parameter) -> String {
     remark
 }
 
-fn is_list(kind: Kind) -> bool {
-    matches!(kind, Kind::NumberList | Kind::TextList)
+fn is_list(kind: ParamType) -> bool {
+    matches!(kind, ParamType::NumberList | ParamType::TextList)
 }
 
 fn yaml_key(name: &str) -> String {
-    Value::Text(name.to_owned()).to_string()
+    ParamValue::Text(name.to_owned()).to_string()
 }
 
 #[cfg(test)]
@@ -112,7 +112,7 @@ mod tests {
 
     #[test]
     fn the_table_has_no_slips() {
-        assert_eq!(LAMP.slips(), [""; 0]);
+        assert_eq!(LAMP.faults(), [""; 0]);
     }
 
     #[test]
@@ -126,7 +126,7 @@ mod tests {
             ],
         };
         assert_eq!(
-            BROKEN.slips(),
+            BROKEN.faults(),
             [
                 "broken: the default `x` of `a` is not a number",
                 "broken: `b` is declared twice",

@@ -32,8 +32,8 @@ mod values;
 
 pub use check::Given;
 pub use parameter::{
-    Default, Kind, Names, Parameter, Range, Table, choice, flag, group, integer, number, numbers,
-    text, texts,
+    Default, NamedEntity, ParamRange, ParamType, Parameter, Table, choice, flag, group, integer,
+    number, numbers, text, texts,
 };
-pub use value::Value;
-pub use values::Values;
+pub use value::ParamValue;
+pub use values::ParamValues;

@@ -2,7 +2,7 @@
 
 /// Type of a value.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Kind {
+pub enum ParamType {
     /// `true` or `false`.
     Bool,
     /// Integer.
@@ -34,7 +34,7 @@ pub enum Default {
 
 /// Valid range, both ends included unless `above`.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Range {
+pub struct ParamRange {
     /// Minimum.
     pub min: f64,
     /// Maximum.
@@ -45,7 +45,7 @@ pub struct Range {
 
 /// Entity whose name is the value, for checks against the model.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Names {
+pub enum NamedEntity {
     /// A joint of the model.
     Joint,
     /// A link of the model.
@@ -62,13 +62,13 @@ pub struct Parameter {
     /// Its name.
     pub name: &'static str,
     /// Type of its values.
-    pub kind: Kind,
+    pub kind: ParamType,
     /// Unit of its numbers.
     pub unit: Option<&'static str>,
     /// Default value.
     pub default: Default,
     /// Valid range.
-    pub range: Option<Range>,
+    pub range: Option<ParamRange>,
     /// Description: one or two sentences.
     pub doc: &'static str,
     /// Alternative names.
@@ -76,7 +76,7 @@ pub struct Parameter {
     /// True if it may be set several times, each time adding a value.
     pub repeated: bool,
     /// Entity whose name is the value.
-    pub names: Option<Names>,
+    pub names: Option<NamedEntity>,
     /// Flag that makes a required parameter optional if it is true.
     pub unless: Option<&'static str>,
 }
@@ -92,7 +92,7 @@ pub struct Table {
     pub parameters: &'static [Parameter],
 }
 
-const fn plain(name: &'static str, kind: Kind, doc: &'static str) -> Parameter {
+const fn plain(name: &'static str, kind: ParamType, doc: &'static str) -> Parameter {
     Parameter {
         name,
         kind,
@@ -110,25 +110,25 @@ const fn plain(name: &'static str, kind: Kind, doc: &'static str) -> Parameter {
 /// Declares a boolean.
 #[must_use]
 pub const fn flag(name: &'static str, doc: &'static str) -> Parameter {
-    plain(name, Kind::Bool, doc)
+    plain(name, ParamType::Bool, doc)
 }
 
 /// Declares an integer.
 #[must_use]
 pub const fn integer(name: &'static str, doc: &'static str) -> Parameter {
-    plain(name, Kind::Integer, doc)
+    plain(name, ParamType::Integer, doc)
 }
 
 /// Declares a number in a unit; an empty unit is dimensionless.
 #[must_use]
 pub const fn number(name: &'static str, unit: &'static str, doc: &'static str) -> Parameter {
-    in_unit(plain(name, Kind::Number, doc), unit)
+    in_unit(plain(name, ParamType::Number, doc), unit)
 }
 
 /// Declares a list of numbers in a unit; an empty unit is dimensionless.
 #[must_use]
 pub const fn numbers(name: &'static str, unit: &'static str, doc: &'static str) -> Parameter {
-    in_unit(plain(name, Kind::NumberList, doc), unit)
+    in_unit(plain(name, ParamType::NumberList, doc), unit)
 }
 
 const fn in_unit(parameter: Parameter, unit: &'static str) -> Parameter {
@@ -138,13 +138,13 @@ const fn in_unit(parameter: Parameter, unit: &'static str) -> Parameter {
 /// Declares a text.
 #[must_use]
 pub const fn text(name: &'static str, doc: &'static str) -> Parameter {
-    plain(name, Kind::Text, doc)
+    plain(name, ParamType::Text, doc)
 }
 
 /// Declares a list of words.
 #[must_use]
 pub const fn texts(name: &'static str, doc: &'static str) -> Parameter {
-    plain(name, Kind::TextList, doc)
+    plain(name, ParamType::TextList, doc)
 }
 
 /// Declares a choice of words.
@@ -154,13 +154,13 @@ pub const fn choice(
     words: &'static [&'static str],
     doc: &'static str,
 ) -> Parameter {
-    plain(name, Kind::Choice(words), doc)
+    plain(name, ParamType::Choice(words), doc)
 }
 
 /// Declares a group of nested parameters.
 #[must_use]
 pub const fn group(name: &'static str, doc: &'static str) -> Parameter {
-    plain(name, Kind::Group, doc)
+    plain(name, ParamType::Group, doc)
 }
 
 impl Parameter {
@@ -197,24 +197,24 @@ impl Parameter {
     /// Sets the minimum.
     #[must_use]
     pub const fn min(self, min: f64) -> Self {
-        Self { range: Some(Range { min, max: f64::INFINITY, above: false }), ..self }
+        Self { range: Some(ParamRange { min, max: f64::INFINITY, above: false }), ..self }
     }
 
     /// Sets the minimum, itself excluded.
     #[must_use]
     pub const fn above(self, min: f64) -> Self {
-        Self { range: Some(Range { min, max: f64::INFINITY, above: true }), ..self }
+        Self { range: Some(ParamRange { min, max: f64::INFINITY, above: true }), ..self }
     }
 
     /// Sets minimum and maximum, both included.
     #[must_use]
     pub const fn within(self, min: f64, max: f64) -> Self {
-        Self { range: Some(Range { min, max, above: false }), ..self }
+        Self { range: Some(ParamRange { min, max, above: false }), ..self }
     }
 
     /// Sets the entity whose name is the value.
     #[must_use]
-    pub const fn naming(self, names: Names) -> Self {
+    pub const fn naming(self, names: NamedEntity) -> Self {
         Self { names: Some(names), ..self }
     }
 
@@ -240,7 +240,7 @@ impl Table {
     /// Returns the faults of the table itself: duplicate names, and defaults that cannot be read or are out
     /// of range. A test of every table requires this to be empty.
     #[must_use]
-    pub fn slips(&self) -> Vec<String> {
+    pub fn faults(&self) -> Vec<String> {
         let mut slips = Vec::new();
         let mut seen = std::collections::BTreeSet::new();
         for parameter in self.parameters {
@@ -250,7 +250,7 @@ impl Table {
                 }
             }
             if let Default::Value(default) = parameter.default
-                && let Err(reason) = crate::Value::read(parameter, default)
+                && let Err(reason) = crate::ParamValue::read(parameter, default)
             {
                 slips.push(format!(
                     "{}: the default `{default}` of `{}` {reason}",
@@ -262,7 +262,7 @@ impl Table {
     }
 }
 
-impl Range {
+impl ParamRange {
     /// Returns true if a number is in the range.
     #[must_use]
     pub fn contains(&self, number: f64) -> bool {
@@ -271,7 +271,7 @@ impl Range {
     }
 }
 
-impl std::fmt::Display for Range {
+impl std::fmt::Display for ParamRange {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         let bounded_below = self.min > f64::NEG_INFINITY;
         let bounded_above = self.max < f64::INFINITY;
@@ -286,7 +286,7 @@ impl std::fmt::Display for Range {
     }
 }
 
-impl std::fmt::Display for Kind {
+impl std::fmt::Display for ParamType {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         match self {
             Self::Bool => write!(f, "bool"),

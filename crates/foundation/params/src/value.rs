@@ -1,10 +1,10 @@
 //! Values and their parsers.
 
-use crate::{Kind, Parameter};
+use crate::{ParamType, Parameter};
 
 /// Value of a parameter.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Value {
+pub enum ParamValue {
     /// Value of [`Kind::Bool`].
     Bool(bool),
     /// Value of [`Kind::Integer`].
@@ -22,7 +22,7 @@ pub enum Value {
 /// Maximum length of a value that is quoted in a message [characters].
 const MAX_QUOTED_CHARS: usize = 40;
 
-impl Value {
+impl ParamValue {
     /// Parses a value as written. Lists are separated by white space or commas, with or without brackets,
     /// so SDF and YAML have the same syntax.
     ///
@@ -31,18 +31,18 @@ impl Value {
     pub fn read(parameter: &Parameter, written: &str) -> Result<Self, String> {
         let written = written.trim();
         let value = match parameter.kind {
-            Kind::Bool => Self::Bool(read_bool(written)?),
-            Kind::Integer => Self::Integer(read_integer(written)?),
-            Kind::Number => Self::Number(read_number(parameter, written)?),
-            Kind::Text => Self::Text(written.to_owned()),
-            Kind::Group => Self::Text(String::new()),
-            Kind::NumberList => Self::Numbers(
+            ParamType::Bool => Self::Bool(read_bool(written)?),
+            ParamType::Integer => Self::Integer(read_integer(written)?),
+            ParamType::Number => Self::Number(read_number(parameter, written)?),
+            ParamType::Text => Self::Text(written.to_owned()),
+            ParamType::Group => Self::Text(String::new()),
+            ParamType::NumberList => Self::Numbers(
                 items(written)
                     .map(|item| read_number(parameter, item))
                     .collect::<Result<_, _>>()?,
             ),
-            Kind::TextList => Self::Texts(items(written).map(str::to_owned).collect()),
-            Kind::Choice(words) => {
+            ParamType::TextList => Self::Texts(items(written).map(str::to_owned).collect()),
+            ParamType::Choice(words) => {
                 match words.iter().find(|word| word.eq_ignore_ascii_case(written)) {
                     Some(word) => Self::Text((*word).to_owned()),
                     None => return Err(format!("is none of {}", quoted_list(words))),
@@ -60,20 +60,22 @@ impl Value {
     /// The rest of the sentence "the value ...", as [`Value::read`].
     pub fn fit(self, parameter: &Parameter) -> Result<Self, String> {
         let value = match (parameter.kind, self) {
-            (Kind::Number, Self::Integer(integer)) => Self::Number(integer as f64),
-            (Kind::Choice(_), Self::Text(text)) => Self::read(parameter, &text)?,
-            (Kind::Number | Kind::NumberList, Self::Number(number)) if number.is_nan() => {
+            (ParamType::Number, Self::Integer(integer)) => Self::Number(integer as f64),
+            (ParamType::Choice(_), Self::Text(text)) => Self::read(parameter, &text)?,
+            (ParamType::Number | ParamType::NumberList, Self::Number(number))
+                if number.is_nan() =>
+            {
                 return Err("is not a number".into());
             }
-            (Kind::NumberList, Self::Numbers(list)) if list.iter().any(|n| n.is_nan()) => {
+            (ParamType::NumberList, Self::Numbers(list)) if list.iter().any(|n| n.is_nan()) => {
                 return Err("is not a list of numbers: one of them is none".into());
             }
-            (Kind::Bool, value @ Self::Bool(_))
-            | (Kind::Integer, value @ Self::Integer(_))
-            | (Kind::Number, value @ Self::Number(_))
-            | (Kind::Text, value @ Self::Text(_))
-            | (Kind::NumberList, value @ Self::Numbers(_))
-            | (Kind::TextList, value @ Self::Texts(_)) => value,
+            (ParamType::Bool, value @ Self::Bool(_))
+            | (ParamType::Integer, value @ Self::Integer(_))
+            | (ParamType::Number, value @ Self::Number(_))
+            | (ParamType::Text, value @ Self::Text(_))
+            | (ParamType::NumberList, value @ Self::Numbers(_))
+            | (ParamType::TextList, value @ Self::Texts(_)) => value,
             (kind, value) => {
                 return Err(format!("is of another kind: {value} where {kind} belongs"));
             }
@@ -165,7 +167,7 @@ pub(crate) fn quote(written: &str) -> String {
     format!("`{start}...`")
 }
 
-impl std::fmt::Display for Value {
+impl std::fmt::Display for ParamValue {
     /// YAML form.
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         match self {
@@ -224,7 +226,7 @@ mod tests {
                 texts("p", ""),
                 choice("p", &["a", "b"], ""),
             ] {
-                if let Err(reason) = Value::read(&parameter, &written) {
+                if let Err(reason) = ParamValue::read(&parameter, &written) {
                     prop_assert!(reason.starts_with("is "), "{reason}");
                 }
             }
@@ -232,24 +234,24 @@ mod tests {
 
         #[test]
         fn numbers_come_back_bit_for_bit(number in prop::num::f64::NORMAL) {
-            let written = Value::Number(number).to_string();
+            let written = ParamValue::Number(number).to_string();
             let parameter = crate::number("p", "m", "");
-            prop_assert_eq!(Value::read(&parameter, &written), Ok(Value::Number(number)));
+            prop_assert_eq!(ParamValue::read(&parameter, &written), Ok(ParamValue::Number(number)));
         }
 
         #[test]
         fn lists_come_back(list in prop::collection::vec(-1e9..1e9f64, 0..5)) {
-            let written = Value::Numbers(list.clone()).to_string();
+            let written = ParamValue::Numbers(list.clone()).to_string();
             let parameter = numbers("p", "m", "");
-            prop_assert_eq!(Value::read(&parameter, &written), Ok(Value::Numbers(list)));
+            prop_assert_eq!(ParamValue::read(&parameter, &written), Ok(ParamValue::Numbers(list)));
         }
     }
 
     #[test]
     fn numbers_are_read_or_the_reason_is_said() {
         let length = number("length", "m", "").above(0.0);
-        assert_eq!(Value::read(&length, " 1e-1 "), Ok(Value::Number(0.1)));
-        let reason = |written| Value::read(&length, written).unwrap_err();
+        assert_eq!(ParamValue::read(&length, " 1e-1 "), Ok(ParamValue::Number(0.1)));
+        let reason = |written| ParamValue::read(&length, written).unwrap_err();
         assert_eq!(reason("0.3m"), "is not a number; write it in m, without the unit");
         assert_eq!(reason("wide"), "is not a number");
         assert_eq!(reason("nan"), "is not a number");
@@ -260,31 +262,31 @@ mod tests {
     #[test]
     fn values_from_a_wire_must_fit() {
         let length = number("length", "m", "").above(0.0);
-        assert_eq!(Value::Integer(2).fit(&length), Ok(Value::Number(2.0)));
-        let reason = |value: Value| value.fit(&length).unwrap_err();
-        assert_eq!(reason(Value::Number(0.0)), "is out of range: 0 m must be above 0");
-        assert_eq!(reason(Value::Number(f64::NAN)), "is not a number");
-        assert_eq!(reason(Value::Bool(true)), "is of another kind: true where number belongs");
+        assert_eq!(ParamValue::Integer(2).fit(&length), Ok(ParamValue::Number(2.0)));
+        let reason = |value: ParamValue| value.fit(&length).unwrap_err();
+        assert_eq!(reason(ParamValue::Number(0.0)), "is out of range: 0 m must be above 0");
+        assert_eq!(reason(ParamValue::Number(f64::NAN)), "is not a number");
+        assert_eq!(reason(ParamValue::Bool(true)), "is of another kind: true where number belongs");
         let side = choice("side", &["left", "right"], "");
-        assert_eq!(Value::Text("Left".into()).fit(&side), Ok(Value::Text("left".into())));
-        assert!(Value::Text("up".into()).fit(&side).is_err());
+        assert_eq!(ParamValue::Text("Left".into()).fit(&side), Ok(ParamValue::Text("left".into())));
+        assert!(ParamValue::Text("up".into()).fit(&side).is_err());
     }
 
     #[test]
     fn other_kinds() {
-        assert_eq!(Value::read(&flag("f", ""), "True"), Ok(Value::Bool(true)));
-        assert_eq!(Value::read(&flag("f", ""), "0"), Ok(Value::Bool(false)));
-        assert!(Value::read(&flag("f", ""), "yes").is_err());
-        assert_eq!(Value::read(&integer("i", ""), "2.0"), Ok(Value::Integer(2)));
-        assert!(Value::read(&integer("i", ""), "2.5").is_err());
-        assert!(Value::read(&integer("i", ""), "1e300").is_err());
-        let list = Value::Numbers(vec![1.0, 2.0]);
-        assert_eq!(Value::read(&numbers("n", "", ""), "1 2"), Ok(list.clone()));
-        assert_eq!(Value::read(&numbers("n", "", ""), "[1, 2]"), Ok(list));
-        let words = Value::Texts(vec!["a".into(), "b".into()]);
-        assert_eq!(Value::read(&texts("t", ""), "[\"a\", b]"), Ok(words));
+        assert_eq!(ParamValue::read(&flag("f", ""), "True"), Ok(ParamValue::Bool(true)));
+        assert_eq!(ParamValue::read(&flag("f", ""), "0"), Ok(ParamValue::Bool(false)));
+        assert!(ParamValue::read(&flag("f", ""), "yes").is_err());
+        assert_eq!(ParamValue::read(&integer("i", ""), "2.0"), Ok(ParamValue::Integer(2)));
+        assert!(ParamValue::read(&integer("i", ""), "2.5").is_err());
+        assert!(ParamValue::read(&integer("i", ""), "1e300").is_err());
+        let list = ParamValue::Numbers(vec![1.0, 2.0]);
+        assert_eq!(ParamValue::read(&numbers("n", "", ""), "1 2"), Ok(list.clone()));
+        assert_eq!(ParamValue::read(&numbers("n", "", ""), "[1, 2]"), Ok(list));
+        let words = ParamValue::Texts(vec!["a".into(), "b".into()]);
+        assert_eq!(ParamValue::read(&texts("t", ""), "[\"a\", b]"), Ok(words));
         let side = choice("side", &["left", "right"], "");
-        assert_eq!(Value::read(&side, "Left"), Ok(Value::Text("left".into())));
-        assert_eq!(Value::read(&side, "up").unwrap_err(), "is none of `left`, `right`");
+        assert_eq!(ParamValue::read(&side, "Left"), Ok(ParamValue::Text("left".into())));
+        assert_eq!(ParamValue::read(&side, "up").unwrap_err(), "is none of `left`, `right`");
     }
 }

@@ -4,31 +4,31 @@ use std::collections::BTreeMap;
 
 use periplus_diagnostics::Origin;
 
-use crate::{Default, Table, Value};
+use crate::{Default, ParamValue, Table};
 
 /// Value with its source location.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Located {
-    pub(crate) value: Value,
+    pub(crate) value: ParamValue,
     pub(crate) origin: Origin,
 }
 
 /// Values of a [`Table`]: those that were given, and the defaults of the rest. A name that the table does
 /// not declare is a programming error and returns the same as an unset value.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Values {
+pub struct ParamValues {
     table: &'static Table,
     given: BTreeMap<&'static str, Vec<Located>>,
 }
 
-impl Values {
+impl ParamValues {
     pub(crate) fn new(table: &'static Table, given: BTreeMap<&'static str, Vec<Located>>) -> Self {
         Self { table, given }
     }
 
     /// Sets a value that fits ([`Value::fit`]) and replaces all given ones. Returns false if the
     /// table does not declare the name.
-    pub fn set(&mut self, name: &str, value: Value) -> bool {
+    pub fn set(&mut self, name: &str, value: ParamValue) -> bool {
         let Some(parameter) = self.table.find(name) else { return false };
         let located = Located { value, origin: Origin::default() };
         self.given.insert(parameter.name, vec![located]);
@@ -55,7 +55,7 @@ impl Values {
 
     /// All values of a repeatable parameter with their source locations; the default if none was given.
     #[must_use]
-    pub fn all(&self, name: &str) -> Vec<(Value, Origin)> {
+    pub fn all(&self, name: &str) -> Vec<(ParamValue, Origin)> {
         match self.given.get(name) {
             Some(values) => values.iter().map(|v| (v.value.clone(), v.origin)).collect(),
             None => {
@@ -66,7 +66,7 @@ impl Values {
 
     /// Value, or the default.
     #[must_use]
-    pub fn get(&self, name: &str) -> Option<Value> {
+    pub fn get(&self, name: &str) -> Option<ParamValue> {
         debug_assert!(self.table.find(name).is_some(), "{} has no `{name}`", self.table.name);
         match self.given.get(name).and_then(|values| values.first()) {
             Some(located) => Some(located.value.clone()),
@@ -74,10 +74,10 @@ impl Values {
         }
     }
 
-    fn default(&self, name: &str) -> Option<Value> {
+    fn default(&self, name: &str) -> Option<ParamValue> {
         let parameter = self.table.find(name)?;
         match parameter.default {
-            Default::Value(default) => Value::read(parameter, default).ok(),
+            Default::Value(default) => ParamValue::read(parameter, default).ok(),
             Default::Required | Default::None => None,
         }
     }
@@ -86,7 +86,7 @@ impl Values {
     #[must_use]
     pub fn flag(&self, name: &str) -> Option<bool> {
         match self.get(name)? {
-            Value::Bool(value) => Some(value),
+            ParamValue::Bool(value) => Some(value),
             _ => None,
         }
     }
@@ -95,7 +95,7 @@ impl Values {
     #[must_use]
     pub fn integer(&self, name: &str) -> Option<i64> {
         match self.get(name)? {
-            Value::Integer(value) => Some(value),
+            ParamValue::Integer(value) => Some(value),
             _ => None,
         }
     }
@@ -104,8 +104,8 @@ impl Values {
     #[must_use]
     pub fn number(&self, name: &str) -> Option<f64> {
         match self.get(name)? {
-            Value::Number(value) => Some(value),
-            Value::Integer(value) => Some(value as f64),
+            ParamValue::Number(value) => Some(value),
+            ParamValue::Integer(value) => Some(value as f64),
             _ => None,
         }
     }
@@ -114,7 +114,7 @@ impl Values {
     #[must_use]
     pub fn text(&self, name: &str) -> Option<String> {
         match self.get(name)? {
-            Value::Text(value) => Some(value),
+            ParamValue::Text(value) => Some(value),
             _ => None,
         }
     }
@@ -125,9 +125,9 @@ impl Values {
         let mut numbers = Vec::new();
         for (value, _) in self.all(name) {
             match value {
-                Value::Number(value) => numbers.push(value),
-                Value::Integer(value) => numbers.push(value as f64),
-                Value::Numbers(values) => numbers.extend(values),
+                ParamValue::Number(value) => numbers.push(value),
+                ParamValue::Integer(value) => numbers.push(value as f64),
+                ParamValue::Numbers(values) => numbers.extend(values),
                 _ => {}
             }
         }
@@ -140,8 +140,8 @@ impl Values {
         let mut texts = Vec::new();
         for (value, _) in self.all(name) {
             match value {
-                Value::Text(value) => texts.push(value),
-                Value::Texts(values) => texts.extend(values),
+                ParamValue::Text(value) => texts.push(value),
+                ParamValue::Texts(values) => texts.extend(values),
                 _ => {}
             }
         }

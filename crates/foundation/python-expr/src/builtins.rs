@@ -12,7 +12,7 @@ use super::interpreter::Interpreter;
 use super::iterator::{IteratorHandle, State};
 use super::operators::binary;
 use super::subscript::length;
-use super::value::{Range, Value};
+use super::value::{PythonRange, Value};
 
 /// Python functions with collections as arguments or results.
 pub(super) static COLLECTIONS: &[Builtin] = &[
@@ -105,9 +105,9 @@ fn enumerate(interpreter: &mut Interpreter<'_>, arguments: Arguments) -> Outcome
 fn range(_: &mut Interpreter<'_>, arguments: Arguments) -> Outcome<Value> {
     let bounds: Outcome<Vec<i128>> = arguments.all("range")?.iter().map(Value::integer).collect();
     match bounds?.as_slice() {
-        [stop] => Range::new(0, *stop, 1),
-        [start, stop] => Range::new(*start, *stop, 1),
-        [start, stop, step] => Range::new(*start, *stop, *step),
+        [stop] => PythonRange::new(0, *stop, 1),
+        [start, stop] => PythonRange::new(*start, *stop, 1),
+        [start, stop, step] => PythonRange::new(*start, *stop, *step),
         other => fail(format!("`range` takes 1 to 3 arguments, not {}", other.len())),
     }
     .map(Value::Range)
@@ -118,7 +118,7 @@ fn reversed(interpreter: &mut Interpreter<'_>, arguments: Arguments) -> Outcome<
     let state = match &values {
         Value::Range(range) if range.length > 0 => {
             let last = range.nth(range.length - 1);
-            let range = Range {
+            let range = PythonRange {
                 start: last,
                 stop: range.start,
                 step: range.step.checked_neg().ok_or_else(super::number::too_large)?,

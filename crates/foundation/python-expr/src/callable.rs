@@ -16,7 +16,7 @@ pub enum Callable {
     #[doc(hidden)]
     Method(Rc<Bound>),
     #[doc(hidden)]
-    Lambda(Rc<Closure>),
+    Lambda(Rc<LambdaFunction>),
     /// Function of the caller, by its name.
     Host(Rc<str>),
 }
@@ -36,7 +36,7 @@ pub struct Bound {
 }
 
 /// Lambda with the values that it captured.
-pub struct Closure {
+pub struct LambdaFunction {
     pub(super) lambda: Rc<Lambda>,
     pub(super) defaults: Vec<Option<Value>>,
     pub(super) frame: Option<Rc<Frame>>,

@@ -11,7 +11,7 @@ use super::value::Value;
 
 /// Set of built-in names.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Dialect {
+pub enum ExpressionDialect {
     /// Names of `${...}`.
     Xacro,
     /// Names of `$(eval ...)`: Python's own built-in functions, `true` and `false`, and the members of
@@ -126,10 +126,10 @@ fn xacro_value(name: &str) -> Option<Value> {
 }
 
 /// Value of a bare name.
-pub(super) fn lookup(dialect: Dialect, name: &str) -> Option<Global> {
+pub(super) fn lookup(dialect: ExpressionDialect, name: &str) -> Option<Global> {
     let plain = |value| Global { value: Ok(value), deprecated_for: None };
     match dialect {
-        Dialect::Xacro => {
+        ExpressionDialect::Xacro => {
             if let Some((_, replacement)) = DEPRECATED.iter().find(|(short, _)| *short == name) {
                 let value = if replacement.starts_with("python") {
                     python_value(name)
@@ -146,7 +146,7 @@ pub(super) fn lookup(dialect: Dialect, name: &str) -> Option<Global> {
             let bare = || if BARE.contains(&name) { python_value(name) } else { None };
             module.or_else(bare).or_else(|| maths::member(name)).map(plain)
         }
-        Dialect::SubstitutionArgs => match name {
+        ExpressionDialect::SubstitutionArgs => match name {
             "true" => Some(plain(Value::Bool(true))),
             "false" => Some(plain(Value::Bool(false))),
             _ => maths::member(name).or_else(|| python_value(name)).map(plain),
@@ -187,13 +187,13 @@ fn member_names(module: Module) -> Vec<&'static str> {
 }
 
 /// All bare names, for suggestions.
-pub(super) fn names(dialect: Dialect) -> Vec<&'static str> {
+pub(super) fn names(dialect: ExpressionDialect) -> Vec<&'static str> {
     let mut names = maths::names();
     match dialect {
-        Dialect::Xacro => {
+        ExpressionDialect::Xacro => {
             names.extend(BARE.iter().chain(&["math", "python", "xacro", "True", "False", "None"]));
         }
-        Dialect::SubstitutionArgs => {
+        ExpressionDialect::SubstitutionArgs => {
             names.extend(
                 [COLLECTIONS, CONVERSIONS, ARITHMETIC]
                     .into_iter()
@@ -207,21 +207,21 @@ pub(super) fn names(dialect: Dialect) -> Vec<&'static str> {
 }
 
 /// Replacement for a bare name of other languages or of Python itself.
-pub(super) fn hint(dialect: Dialect, name: &str) -> Option<String> {
+pub(super) fn hint(dialect: ExpressionDialect, name: &str) -> Option<String> {
     match (dialect, name) {
-        (Dialect::Xacro, "true") => Some("write `True`".to_owned()),
-        (Dialect::Xacro, "false") => Some("write `False`".to_owned()),
+        (ExpressionDialect::Xacro, "true") => Some("write `True`".to_owned()),
+        (ExpressionDialect::Xacro, "false") => Some("write `False`".to_owned()),
         (_, "none" | "null") => Some("write `None`".to_owned()),
-        (Dialect::Xacro, _) if PYTHON.contains(&name) => {
+        (ExpressionDialect::Xacro, _) if PYTHON.contains(&name) => {
             Some(format!("xacro has it as `python.{name}`"))
         }
-        (Dialect::Xacro, _)
+        (ExpressionDialect::Xacro, _)
             if XACRO.iter().any(|builtin| builtin.name == name)
                 || HOST.iter().any(|(short, _)| *short == name) =>
         {
             Some(format!("xacro has it as `xacro.{name}`"))
         }
-        (Dialect::SubstitutionArgs, "math") => {
+        (ExpressionDialect::SubstitutionArgs, "math") => {
             Some("here the functions of `math` stand without it: `sin(...)`".to_owned())
         }
         _ => None,

@@ -140,7 +140,12 @@ impl<'a> Interpreter<'a> {
         }
     }
 
-    fn undefined(&self, name: &str, dialect: globals::Dialect, frames: &Frames) -> ExpressionError {
+    fn undefined(
+        &self,
+        name: &str,
+        dialect: globals::ExpressionDialect,
+        frames: &Frames,
+    ) -> ExpressionError {
         if let Some(help) = globals::hint(dialect, name) {
             return ExpressionError::new(format!("`{name}` is not defined")).with_help(help);
         }
@@ -159,12 +164,12 @@ impl<'a> Interpreter<'a> {
             }
             None => {
                 let help = match dialect {
-                    globals::Dialect::Xacro => {
+                    globals::ExpressionDialect::Xacro => {
                         format!(
                             "define it with a property, or write '{name}' if it is meant as text"
                         )
                     }
-                    globals::Dialect::SubstitutionArgs => format!(
+                    globals::ExpressionDialect::SubstitutionArgs => format!(
                         "`$(eval ...)` sees arguments only: declare it with <xacro:arg>, or put a property in as ${{{name}}}"
                     ),
                 };

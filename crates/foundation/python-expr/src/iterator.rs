@@ -7,7 +7,7 @@ use std::rc::Rc;
 use super::ast::Comprehension;
 use super::error::{ExpressionError, Outcome, fail};
 use super::interpreter::{Frames, Interpreter};
-use super::value::{List, Range, Sequence, Value, ViewKind};
+use super::value::{PythonList, PythonRange, Sequence, Value, ViewKind};
 
 /// Iterator; its clones share the position.
 #[derive(Clone)]
@@ -22,7 +22,7 @@ pub(super) enum State {
     /// Being advanced, failed, or at the end.
     Done,
     List {
-        list: List,
+        list: PythonList,
         next: usize,
     },
     Tuple {
@@ -34,7 +34,7 @@ pub(super) enum State {
         next: usize,
     },
     Range {
-        range: Range,
+        range: PythonRange,
         next: i128,
     },
     Values(std::vec::IntoIter<Value>),

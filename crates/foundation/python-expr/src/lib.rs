@@ -45,9 +45,11 @@ use std::rc::Rc;
 pub use budget::Budget;
 pub use callable::Callable;
 pub use error::ExpressionError;
-pub use globals::{Dialect, Module};
+pub use globals::{ExpressionDialect, Module};
 pub use iterator::IteratorHandle;
-pub use value::{Dict, DictHandle, List, Range as RangeValue, Sequence, Value, View};
+pub use value::{
+    Dict, DictHandle, DictView, PythonList, PythonRange as RangeValue, Sequence, Value,
+};
 
 /// Parsed expression.
 #[derive(Debug, Clone)]
@@ -118,8 +120,8 @@ pub trait Scope {
     }
 
     /// Set of built-in names.
-    fn dialect(&self) -> Dialect {
-        Dialect::Xacro
+    fn dialect(&self) -> ExpressionDialect {
+        ExpressionDialect::Xacro
     }
 
     /// Called for each built-in name that xacro deprecates, with its replacement.
@@ -128,7 +130,8 @@ pub trait Scope {
 
 /// Returns true if a name is built into `${...}`: `pi`, `sin`, `len`.
 pub fn is_built_in(name: &str) -> bool {
-    matches!(name, "True" | "False" | "None") || globals::lookup(Dialect::Xacro, name).is_some()
+    matches!(name, "True" | "False" | "None")
+        || globals::lookup(ExpressionDialect::Xacro, name).is_some()
 }
 
 /// Scope without names.

@@ -11,7 +11,7 @@ use super::number::truncate;
 use super::operators::set_operation;
 use super::suggest::closest;
 use super::text_methods;
-use super::value::{Dict, DictHandle, Value, View, ViewKind};
+use super::value::{Dict, DictHandle, DictView, Value, ViewKind};
 
 const SEQUENCE: &[&str] = &["index", "count"];
 const LIST: &[&str] = &["index", "count", "copy"];
@@ -157,7 +157,7 @@ fn sequence_method(
 }
 
 fn dict_method(dict: &DictHandle, name: &str, arguments: Arguments) -> Outcome<Value> {
-    let view = |kind| Ok(Value::View(View { kind, dict: dict.dict.clone() }));
+    let view = |kind| Ok(Value::View(DictView { kind, dict: dict.dict.clone() }));
     if name == "get" {
         let [key, default] = arguments.bind("get", ["key", "default"], 1)?;
         let value = dict.get(&key.unwrap_or(Value::None))?.cloned();

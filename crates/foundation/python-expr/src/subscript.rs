@@ -3,7 +3,7 @@
 use super::budget::Budget;
 use super::error::{ExpressionError, Outcome, fail};
 use super::suggest::closest;
-use super::value::{DictHandle, List, Range, Sequence, Value};
+use super::value::{DictHandle, PythonList, PythonRange, Sequence, Value};
 
 /// `object[index]`.
 pub(super) fn item(object: &Value, index: &Value, budget: &mut Budget) -> Outcome<Value> {
@@ -107,7 +107,7 @@ pub(super) fn slice(
     match object {
         Value::List(list) => {
             let items = pick(list, bounds, budget)?;
-            Ok(Value::List(List { items: Sequence::new(items)?, is_dotted: list.is_dotted }))
+            Ok(Value::List(PythonList { items: Sequence::new(items)?, is_dotted: list.is_dotted }))
         }
         Value::Tuple(items) => Value::tuple(pick(items.items(), bounds, budget)?),
         Value::Str(text) => {
@@ -129,7 +129,7 @@ pub(super) fn slice(
                     .and_then(|offset| offset.checked_add(range.start))
                     .ok_or_else(super::number::too_large)
             };
-            Range::new(at(places.start)?, at(places.stop)?, step).map(Value::Range)
+            PythonRange::new(at(places.start)?, at(places.stop)?, step).map(Value::Range)
         }
         Value::Dict(_) => fail("a dict has no slices"),
         other => Err(not_indexable(other)),
@@ -144,7 +144,7 @@ fn pick(items: &[Value], bounds: &[Option<Value>; 3], budget: &mut Budget) -> Ou
 }
 
 /// Indices of a slice in a sequence of this length.
-fn indices(bounds: &[Option<Value>; 3], length: i128) -> Outcome<Range> {
+fn indices(bounds: &[Option<Value>; 3], length: i128) -> Outcome<PythonRange> {
     let bound = |value: &Option<Value>| -> Outcome<Option<i128>> {
         match value {
             None | Some(Value::None) => Ok(None),
@@ -170,7 +170,7 @@ fn indices(bounds: &[Option<Value>; 3], length: i128) -> Outcome<Range> {
         }
     };
     let (first, last) = if step > 0 { (lowest, highest) } else { (highest, lowest) };
-    Range::new(clamped(bound(&bounds[0])?, first), clamped(bound(&bounds[1])?, last), step)
+    PythonRange::new(clamped(bound(&bounds[0])?, first), clamped(bound(&bounds[1])?, last), step)
 }
 
 /// Part of a text between two optional character indices, as `text[start:stop]`, and its start.

@@ -29,7 +29,7 @@ pub enum Value {
     /// `str`.
     Str(Rc<str>),
     /// `list`.
-    List(List),
+    List(PythonList),
     /// `tuple`.
     Tuple(Rc<Sequence>),
     /// `dict`, also the result of `load_yaml` and `dotify`.
@@ -37,9 +37,9 @@ pub enum Value {
     /// `set` and `frozenset`; iterates in insertion order, while Python's order is arbitrary.
     Set(Rc<Dict>),
     /// `range`.
-    Range(Range),
+    Range(PythonRange),
     /// Result of `dict.keys()`, `.values()` and `.items()`.
-    View(View),
+    View(DictView),
     /// Generator, or the result of `map`, `zip` and similar functions: can be iterated once.
     Iterator(IteratorHandle),
     /// Lambda, built-in or host function, or type.
@@ -59,7 +59,7 @@ pub struct Sequence {
 
 /// A list.
 #[derive(Debug, Clone)]
-pub struct List {
+pub struct PythonList {
     pub(super) items: Rc<Sequence>,
     /// True if the list is from a dotted dict, so that its elements are dotted too.
     pub(super) is_dotted: bool,
@@ -75,7 +75,7 @@ pub struct DictHandle {
 
 /// Integers `start`, `start + step`, ... before `stop`.
 #[derive(Debug, Clone, Copy)]
-pub struct Range {
+pub struct PythonRange {
     pub(super) start: i128,
     pub(super) stop: i128,
     pub(super) step: i128,
@@ -84,7 +84,7 @@ pub struct Range {
 
 /// View of a dict.
 #[derive(Debug, Clone)]
-pub struct View {
+pub struct DictView {
     pub(super) kind: ViewKind,
     pub(super) dict: Rc<Dict>,
 }
@@ -108,7 +108,7 @@ impl Sequence {
     }
 }
 
-impl std::ops::Deref for List {
+impl std::ops::Deref for PythonList {
     type Target = [Value];
 
     fn deref(&self) -> &[Value] {
@@ -135,7 +135,7 @@ pub(super) fn depth_around<'a>(items: impl Iterator<Item = &'a Value>) -> Outcom
     Ok(depth)
 }
 
-impl Range {
+impl PythonRange {
     pub(super) fn new(start: i128, stop: i128, step: i128) -> Outcome<Self> {
         if step == 0 {
             return fail("the step of a range must not be zero");
@@ -164,7 +164,7 @@ impl Value {
 
     /// Returns a list; an error if it is nested too deeply.
     pub fn list(items: Vec<Value>) -> Outcome<Self> {
-        Ok(Self::List(List { items: Sequence::new(items)?, is_dotted: false }))
+        Ok(Self::List(PythonList { items: Sequence::new(items)?, is_dotted: false }))
     }
 
     /// Returns a tuple; an error if it is nested too deeply.
@@ -186,7 +186,7 @@ impl Value {
     /// values are unchanged. Used for the results of `xacro.load_yaml`.
     pub fn dotted(self) -> Self {
         match self {
-            Self::List(list) => Self::List(List { is_dotted: true, ..list }),
+            Self::List(list) => Self::List(PythonList { is_dotted: true, ..list }),
             Self::Dict(dict) => Self::Dict(DictHandle { is_dotted: true, ..dict }),
             other => other,
         }

@@ -6,7 +6,7 @@ use std::rc::Rc;
 
 use expect_test::{Expect, expect};
 use periplus_python_expr::{
-    Budget, Dialect, EmptyScope, Expression, ExpressionError, Scope, Value, evaluate,
+    Budget, ExpressionDialect, EmptyScope, Expression, ExpressionError, Scope, Value, evaluate,
 };
 
 #[derive(Default)]
@@ -353,8 +353,8 @@ fn eval_has_pythons_own_names() {
         ) -> Option<Result<Value, ExpressionError>> {
             (function == "optenv").then(|| Ok(arguments[1].clone()))
         }
-        fn dialect(&self) -> Dialect {
-            Dialect::SubstitutionArgs
+        fn dialect(&self) -> ExpressionDialect {
+            ExpressionDialect::SubstitutionArgs
         }
     }
     let text =

@@ -1,7 +1,7 @@
 //! The evaluator against Python itself, by the table that python_expressions.py writes.
 
 use periplus_python_expr::{
-    Budget, Dialect, EmptyScope, Expression, ExpressionError, Scope, Value, evaluate,
+    Budget, ExpressionDialect, EmptyScope, Expression, ExpressionError, Scope, Value, evaluate,
 };
 
 /// The names of `$(eval ...)`, which has all of Python's functions.
@@ -16,8 +16,8 @@ impl Scope for AllNames {
         Vec::new()
     }
 
-    fn dialect(&self) -> Dialect {
-        Dialect::SubstitutionArgs
+    fn dialect(&self) -> ExpressionDialect {
+        ExpressionDialect::SubstitutionArgs
     }
 }
 

@@ -4,7 +4,7 @@ use std::collections::{BTreeMap, VecDeque};
 use std::path::{Path, PathBuf};
 
 use crate::hooks;
-use crate::host::{Host, Kind};
+use crate::host::{EntryKind, Host};
 use crate::manifest::{self, PackageManifest};
 
 /// Maximum number of folders that a crawl visits.
@@ -59,7 +59,7 @@ pub(crate) fn crawl(host: &dyn Host, top: &Path, depth: usize) -> Crawl {
             .iter()
             .filter(|name| !name.starts_with('.') && !SKIPPED.contains(&name.as_str()))
             .map(|name| folder.join(name))
-            .filter(|path| host.kind(path) == Some(Kind::Folder));
+            .filter(|path| host.kind(path) == Some(EntryKind::Folder));
         waiting.extend(inner.map(|path| (path, level + 1)));
     }
     found

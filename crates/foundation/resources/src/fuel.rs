@@ -5,7 +5,7 @@
 
 use std::path::{Path, PathBuf};
 
-use crate::host::{Host, Kind};
+use crate::host::{EntryKind, Host};
 use crate::uri::percent_decoded;
 
 /// Hosts that serve the same models, the current name first.
@@ -86,7 +86,7 @@ impl FuelUri {
             });
             if let Some(version) = version {
                 let folder = shelf.join(version.to_string());
-                if host.kind(&folder) == Some(Kind::Folder) {
+                if host.kind(&folder) == Some(EntryKind::Folder) {
                     return Ok(folder);
                 }
                 tried.push(folder);

@@ -3,11 +3,11 @@
 use std::path::{Path, PathBuf};
 
 /// Maximum size of a file that is read [bytes].
-pub const LARGEST_FILE: u64 = 256 << 20;
+pub const MAX_FILE_BYTES: u64 = 256 << 20;
 
 /// Type of a file system entry.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Kind {
+pub enum EntryKind {
     /// A regular file.
     File,
     /// A folder.
@@ -16,7 +16,7 @@ pub enum Kind {
 
 /// Error of a file that cannot be read.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub enum ReadError {
+pub enum FileReadError {
     /// No such file.
     Missing,
     /// Larger than [`LARGEST_FILE`]; size [bytes].
@@ -27,7 +27,7 @@ pub enum ReadError {
     Other(String),
 }
 
-impl std::fmt::Display for ReadError {
+impl std::fmt::Display for FileReadError {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         match self {
             Self::Missing => write!(f, "there is no such file"),
@@ -35,7 +35,7 @@ impl std::fmt::Display for ReadError {
                 f,
                 "the file is {} MiB large; at most {} MiB are read",
                 size >> 20,
-                LARGEST_FILE >> 20
+                MAX_FILE_BYTES >> 20
             ),
             Self::NotAFile => write!(f, "this is not a regular file"),
             Self::Other(words) => f.write_str(words),
@@ -43,7 +43,7 @@ impl std::fmt::Display for ReadError {
     }
 }
 
-impl std::error::Error for ReadError {}
+impl std::error::Error for FileReadError {}
 
 /// Files and environment, as far as readers need them. All access in library crates uses this trait; tests
 /// and fuzzers pass a [`crate::MemoryHost`].
@@ -52,10 +52,10 @@ pub trait Host {
     ///
     /// # Errors
     /// If it cannot be read.
-    fn read(&self, path: &Path) -> Result<Vec<u8>, ReadError>;
+    fn read(&self, path: &Path) -> Result<Vec<u8>, FileReadError>;
 
     /// Type of the entry at a path, links followed.
-    fn kind(&self, path: &Path) -> Option<Kind>;
+    fn kind(&self, path: &Path) -> Option<EntryKind>;
 
     /// Names in a folder, sorted; empty if it cannot be read.
     fn list(&self, folder: &Path) -> Vec<String>;

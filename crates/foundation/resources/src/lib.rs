@@ -15,11 +15,11 @@ mod resolver;
 mod surroundings;
 mod uri;
 
-pub use host::{Host, Kind, LARGEST_FILE, ReadError, Store};
+pub use host::{EntryKind, FileReadError, Host, MAX_FILE_BYTES, Store};
 pub use layout::{in_sources, package_of};
 pub use manifest::package_name;
 pub use memory::MemoryHost;
-pub use miss::{Miss, MissKind};
+pub use miss::{ResolveError, ResolveErrorKind};
 pub use nearest::nearest;
 pub use places::SEARCH_VARIABLES;
 pub use resolver::Resolver;

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::path::{Component, Path, PathBuf};
 
-use crate::host::{Host, Kind, ReadError};
+use crate::host::{EntryKind, FileReadError, Host};
 
 /// Files and variables for tests and fuzzers. Folders exist if files are in them; relative paths start at
 /// `/`.
@@ -61,20 +61,20 @@ impl MemoryHost {
 }
 
 impl Host for MemoryHost {
-    fn read(&self, path: &Path) -> Result<Vec<u8>, ReadError> {
+    fn read(&self, path: &Path) -> Result<Vec<u8>, FileReadError> {
         match (self.files.get(&self.followed(path)), self.kind(path)) {
             (Some(content), _) => Ok(content.clone()),
-            (None, Some(_)) => Err(ReadError::NotAFile),
-            (None, None) => Err(ReadError::Missing),
+            (None, Some(_)) => Err(FileReadError::NotAFile),
+            (None, None) => Err(FileReadError::Missing),
         }
     }
 
-    fn kind(&self, path: &Path) -> Option<Kind> {
+    fn kind(&self, path: &Path) -> Option<EntryKind> {
         let path = self.followed(path);
         if self.files.contains_key(&path) {
-            return Some(Kind::File);
+            return Some(EntryKind::File);
         }
-        self.files.keys().any(|file| file.starts_with(&path)).then_some(Kind::Folder)
+        self.files.keys().any(|file| file.starts_with(&path)).then_some(EntryKind::Folder)
     }
 
     fn list(&self, folder: &Path) -> Vec<String> {

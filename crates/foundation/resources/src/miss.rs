@@ -7,7 +7,7 @@ use periplus_diagnostics::{Diagnostic, Origin};
 
 /// Reason that a URI cannot be resolved.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum MissKind {
+pub enum ResolveErrorKind {
     /// The URI is malformed.
     Malformed,
     /// No file or folder exists at any searched path.
@@ -18,11 +18,11 @@ pub enum MissKind {
 
 /// URI that cannot be resolved, with the searched paths.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Miss {
+pub struct ResolveError {
     /// The URI as written.
     pub uri: String,
     /// Type of the failure.
-    pub kind: MissKind,
+    pub kind: ResolveErrorKind,
     /// Reason, as the second half of a sentence.
     pub reason: String,
     /// Searched paths, in order. A search through a tree of packages is one entry with `**` for the folders
@@ -32,23 +32,23 @@ pub struct Miss {
     pub help: Vec<String>,
 }
 
-impl Miss {
+impl ResolveError {
     pub(crate) fn malformed(uri: &str, reason: impl Into<String>) -> Self {
-        Self::new(uri, MissKind::Malformed, reason)
+        Self::new(uri, ResolveErrorKind::Malformed, reason)
     }
 
     pub(crate) fn missing(uri: &str, reason: impl Into<String>) -> Self {
-        Self::new(uri, MissKind::Missing, reason)
+        Self::new(uri, ResolveErrorKind::Missing, reason)
     }
 
     pub(crate) fn outside(uri: &str, target: &Path) -> Self {
         let folder = target.parent().unwrap_or(target).display();
-        Self::new(uri, MissKind::Outside, "it leaves the resource paths")
+        Self::new(uri, ResolveErrorKind::Outside, "it leaves the resource paths")
             .tried(target)
             .help(format!("if you trust this file, allow the folder: `--resource-path {folder}`"))
     }
 
-    fn new(uri: &str, kind: MissKind, reason: impl Into<String>) -> Self {
+    fn new(uri: &str, kind: ResolveErrorKind, reason: impl Into<String>) -> Self {
         // A hostile file may have a megabyte in place of a name.
         let shown: String = uri.chars().take(MAX_SHOWN_CHARS).collect();
         let uri = if shown.len() < uri.len() { format!("{shown}…") } else { shown };
@@ -69,9 +69,9 @@ impl Miss {
     #[must_use]
     pub fn into_diagnostic(self, origin: impl Into<Origin>) -> Diagnostic {
         let code = match self.kind {
-            MissKind::Malformed => "bad-uri",
-            MissKind::Missing => "missing-resource",
-            MissKind::Outside => "resource-outside",
+            ResolveErrorKind::Malformed => "bad-uri",
+            ResolveErrorKind::Missing => "missing-resource",
+            ResolveErrorKind::Outside => "resource-outside",
         };
         let message = self.to_string();
         let mut diagnostic = Diagnostic::error(code, message).at(origin);
@@ -89,15 +89,15 @@ impl Miss {
 /// Maximum length of a URI in messages [characters].
 const MAX_SHOWN_CHARS: usize = 200;
 
-impl std::fmt::Display for Miss {
+impl std::fmt::Display for ResolveError {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         let verdict = match self.kind {
-            MissKind::Malformed => "names nothing",
-            MissKind::Missing => "cannot be found",
-            MissKind::Outside => "may not be used",
+            ResolveErrorKind::Malformed => "names nothing",
+            ResolveErrorKind::Missing => "cannot be found",
+            ResolveErrorKind::Outside => "may not be used",
         };
         write!(f, "`{}` {verdict}: {}", self.uri, self.reason)
     }
 }
 
-impl std::error::Error for Miss {}
+impl std::error::Error for ResolveError {}

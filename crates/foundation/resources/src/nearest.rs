@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use periplus_diagnostics::closest;
 
-use crate::{Host, Kind};
+use crate::{EntryKind, Host};
 
 /// Maximum number of folders in which a file of the same name is searched.
 const MAX_FOLDERS: usize = 256;
@@ -22,7 +22,7 @@ fn nearest_within(host: &dyn Host, path: &Path, parts: usize) -> Option<PathBuf>
     let name = path.file_name()?.to_str()?;
     let parent = path.parent()?;
     let folder = if parent.as_os_str().is_empty() { Path::new(".") } else { parent };
-    if host.kind(folder) == Some(Kind::Folder) {
+    if host.kind(folder) == Some(EntryKind::Folder) {
         return in_folder(host, folder, name);
     }
     let parent = nearest_within(host, parent, parts.checked_sub(1)?)?;
@@ -37,7 +37,7 @@ fn in_folder(host: &dyn Host, folder: &Path, name: &str) -> Option<PathBuf> {
     }
     let visible = names.iter().filter(|name| !name.starts_with('.')).take(MAX_FOLDERS);
     let deeper = visible.map(|inner| folder.join(inner).join(name));
-    let mut found = deeper.filter(|path| host.kind(path) == Some(Kind::File));
+    let mut found = deeper.filter(|path| host.kind(path) == Some(EntryKind::File));
     let first = found.next()?;
     found.next().is_none().then_some(first)
 }

@@ -17,7 +17,7 @@ use std::rc::Rc;
 use crate::crawl::Crawl;
 use crate::host::Host;
 use crate::manifest::PackageManifest;
-use crate::miss::{Miss, MissKind};
+use crate::miss::{ResolveError, ResolveErrorKind};
 use crate::places::{self, How, Place};
 use crate::surroundings::{Surroundings, surroundings};
 use crate::uri::{self, Scheme, Uri};
@@ -53,11 +53,11 @@ pub struct Resolver<'h> {
     /// Resolved packages and models outside the roots.
     granted: RefCell<BTreeSet<PathBuf>>,
     around: RefCell<BTreeMap<PathBuf, Rc<Surroundings>>>,
-    answers: RefCell<BTreeMap<(usize, String), Result<PathBuf, Miss>>>,
+    answers: RefCell<BTreeMap<(usize, String), Result<PathBuf, ResolveError>>>,
     looks: RefCell<BTreeMap<(Place, String), Rc<named::Look>>>,
     crawls: RefCell<BTreeMap<(PathBuf, usize), Rc<Crawl>>>,
     manifests: RefCell<BTreeMap<PathBuf, Rc<PackageManifest>>>,
-    model_files: RefCell<BTreeMap<PathBuf, Result<PathBuf, Miss>>>,
+    model_files: RefCell<BTreeMap<PathBuf, Result<PathBuf, ResolveError>>>,
     exports: RefCell<BTreeMap<usize, Rc<Vec<Place>>>>,
     known: RefCell<BTreeMap<usize, Rc<BTreeSet<String>>>>,
     /// Number of unresolved URIs by referring file.
@@ -113,7 +113,7 @@ impl<'h> Resolver<'h> {
     ///
     /// # Errors
     /// If the target does not exist or is outside the resource paths.
-    pub fn resolve(&self, uri: &str, from: &Path) -> Result<PathBuf, Miss> {
+    pub fn resolve(&self, uri: &str, from: &Path) -> Result<PathBuf, ResolveError> {
         let around = self.surroundings(from);
         let key = (around.id, uri.to_owned());
         if let Some(answer) = self.answers.borrow().get(&key) {
@@ -123,10 +123,10 @@ impl<'h> Resolver<'h> {
             let reason = format!(
                 "{MAX_CACHED_MISSES} other URIs of this file could not be resolved, so it was not searched"
             );
-            return Err(Miss::missing(uri, reason));
+            return Err(ResolveError::missing(uri, reason));
         }
         let answer = self.look_up(uri, &around).map_err(|miss| match &self.advice {
-            Some(advice) if miss.kind == MissKind::Missing => miss.help(advice.clone()),
+            Some(advice) if miss.kind == ResolveErrorKind::Missing => miss.help(advice.clone()),
             _ => miss,
         });
         if answer.is_err() {
@@ -140,7 +140,7 @@ impl<'h> Resolver<'h> {
     ///
     /// # Errors
     /// If it is not found; lists the searched paths.
-    pub fn find_package(&self, name: &str, from: &Path) -> Result<PathBuf, Miss> {
+    pub fn find_package(&self, name: &str, from: &Path) -> Result<PathBuf, ResolveError> {
         self.find(Scheme::Package, name, from)
     }
 
@@ -148,7 +148,7 @@ impl<'h> Resolver<'h> {
     ///
     /// # Errors
     /// If it is not found; lists the searched paths.
-    pub fn find_model(&self, name: &str, from: &Path) -> Result<PathBuf, Miss> {
+    pub fn find_model(&self, name: &str, from: &Path) -> Result<PathBuf, ResolveError> {
         self.find(Scheme::Model, name, from)
     }
 
@@ -179,11 +179,11 @@ impl<'h> Resolver<'h> {
         packages
     }
 
-    fn find(&self, scheme: Scheme, name: &str, from: &Path) -> Result<PathBuf, Miss> {
+    fn find(&self, scheme: Scheme, name: &str, from: &Path) -> Result<PathBuf, ResolveError> {
         self.resolve(&format!("{}://{}", scheme.word(), name.trim()), from)
     }
 
-    fn look_up(&self, uri: &str, around: &Surroundings) -> Result<PathBuf, Miss> {
+    fn look_up(&self, uri: &str, around: &Surroundings) -> Result<PathBuf, ResolveError> {
         match uri::parse(uri)? {
             Uri::Named { scheme, name, rest } => self.named(uri, scheme, &name, &rest, around),
             Uri::Path(path) => self.path(uri, &path, around),
@@ -230,7 +230,7 @@ impl<'h> Resolver<'h> {
     /// Discards cached results that a newly granted folder may change.
     fn grant(&self, folder: PathBuf) {
         if self.granted.borrow_mut().insert(folder) {
-            let refused = |answer: &Result<PathBuf, Miss>| matches!(answer, Err(miss) if miss.kind == MissKind::Outside);
+            let refused = |answer: &Result<PathBuf, ResolveError>| matches!(answer, Err(miss) if miss.kind == ResolveErrorKind::Outside);
             self.answers.borrow_mut().retain(|_, answer| !refused(answer));
         }
     }

@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use crate::host::{Host, Kind};
+use crate::host::{EntryKind, Host};
 use crate::places::{self, Place};
 
 /// Maximum number of folders in the upward search.
@@ -34,7 +34,7 @@ pub(crate) fn surroundings(host: &dyn Host, from: &Path, id: usize) -> Surroundi
         Some(parent) => parent.to_path_buf(),
     };
     let (named, real) = match host.kind(from) {
-        Some(Kind::Folder) => (canonical(from), canonical(from)),
+        Some(EntryKind::Folder) => (canonical(from), canonical(from)),
         _ => (canonical(&parent(from)), parent(&canonical(from))),
     };
     let real = canonical(&real);

@@ -1,7 +1,7 @@
 //! Parser of URIs.
 
 use crate::fuel::FuelUri;
-use crate::miss::Miss;
+use crate::miss::ResolveError;
 
 /// Maximum length of a URI that is searched [bytes]; Linux refuses longer paths.
 const MAX_URI_BYTES: usize = 4096;
@@ -40,9 +40,9 @@ impl Scheme {
 
 const SCHEMES: [&str; 5] = ["package", "model", "file", "https", "http"];
 
-pub(crate) fn parse(written: &str) -> Result<Uri, Miss> {
+pub(crate) fn parse(written: &str) -> Result<Uri, ResolveError> {
     let uri = written.trim();
-    let bad = |reason: &str| Miss::malformed(uri, reason);
+    let bad = |reason: &str| ResolveError::malformed(uri, reason);
     if uri.is_empty() {
         return Err(bad("it is empty"));
     }
@@ -84,14 +84,14 @@ pub(crate) fn parse(written: &str) -> Result<Uri, Miss> {
     }
 }
 
-fn without_scheme(uri: &str) -> Result<Uri, Miss> {
+fn without_scheme(uri: &str) -> Result<Uri, ResolveError> {
     for scheme in ["package", "model", "file"] {
         if let Some(rest) = uri.strip_prefix(scheme).and_then(|rest| rest.strip_prefix(':')) {
             let rest = rest.trim_start_matches('/');
             return match scheme {
                 // `file:/absolute` is valid (RFC 8089, section 2).
                 "file" if uri.starts_with("file:/") => Ok(Uri::Path(format!("/{rest}"))),
-                _ => Err(Miss::malformed(uri, "two slashes must follow the scheme")
+                _ => Err(ResolveError::malformed(uri, "two slashes must follow the scheme")
                     .help(format!("did you mean `{scheme}://{rest}`?"))),
             };
         }
@@ -99,15 +99,15 @@ fn without_scheme(uri: &str) -> Result<Uri, Miss> {
     Ok(Uri::Path(uri.into()))
 }
 
-fn named(uri: &str, scheme: Scheme, rest: &str) -> Result<Uri, Miss> {
+fn named(uri: &str, scheme: Scheme, rest: &str) -> Result<Uri, ResolveError> {
     let word = scheme.word();
     // Gazebo accepts a third slash, and such files exist.
     let rest = rest.trim_start_matches('/');
     let (name, rest) = rest.split_once('/').unwrap_or((rest, ""));
     match name {
-        "" => Err(Miss::malformed(uri, format!("it names no {word}"))
+        "" => Err(ResolveError::malformed(uri, format!("it names no {word}"))
             .help(format!("write `{word}://NAME/path/in/it`"))),
-        "." | ".." => Err(Miss::malformed(uri, format!("`{name}` is no {word}'s name"))),
+        "." | ".." => Err(ResolveError::malformed(uri, format!("`{name}` is no {word}'s name"))),
         _ => {
             let rest = rest.trim_matches('/');
             Ok(Uri::Named { scheme, name: name.into(), rest: rest.into() })
@@ -115,7 +115,7 @@ fn named(uri: &str, scheme: Scheme, rest: &str) -> Result<Uri, Miss> {
     }
 }
 
-fn remote(uri: &str, rest: &str) -> Result<Uri, Miss> {
+fn remote(uri: &str, rest: &str) -> Result<Uri, ResolveError> {
     let (host, path) = rest.split_once('/').unwrap_or((rest, ""));
     if host == "models.gazebosim.org" {
         // Gazebo Classic's model library; downloaded models are in ~/.gazebo/models.
@@ -123,7 +123,7 @@ fn remote(uri: &str, rest: &str) -> Result<Uri, Miss> {
     }
     match FuelUri::parse(host, path) {
         Some(fuel) => Ok(Uri::Fuel(fuel)),
-        None => Err(Miss::malformed(uri, "nothing is fetched from the network").help(
+        None => Err(ResolveError::malformed(uri, "nothing is fetched from the network").help(
             "download it beside the file that mentions it, and write its relative path here",
         )),
     }

@@ -86,7 +86,7 @@ impl Scalar {
 
 /// Type of one element of a field.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub enum Element {
+pub enum ElementType {
     /// Number, boolean or byte.
     Scalar(Scalar),
     /// String of at most N bytes.
@@ -99,7 +99,7 @@ pub enum Element {
 
 /// Number of elements of a field.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Shape {
+pub enum ArrayShape {
     /// Single value, no array.
     One,
     /// `[n]`: fixed-size array.
@@ -114,9 +114,9 @@ pub enum Shape {
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Type {
     /// Type of one element.
-    pub element: Element,
+    pub element: ElementType,
     /// Number of elements.
-    pub shape: Shape,
+    pub shape: ArrayShape,
 }
 
 /// Field of a message.
@@ -140,7 +140,7 @@ pub struct Constant {
     /// Its name.
     pub name: String,
     /// Scalar, or an unbounded string.
-    pub element: Element,
+    pub element: ElementType,
     /// Value, already in range.
     pub value: Literal,
     /// Text of the comments next to and above it.
@@ -166,7 +166,7 @@ impl Definition {
     /// Messages that fields refer to, in order, with repetitions.
     pub fn nested(&self) -> impl Iterator<Item = (&Field, &TypeName)> {
         self.fields.iter().filter_map(|field| match &field.r#type.element {
-            Element::Nested(name) => Some((field, name)),
+            ElementType::Nested(name) => Some((field, name)),
             _ => None,
         })
     }

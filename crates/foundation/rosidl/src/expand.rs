@@ -5,7 +5,7 @@
 
 use periplus_diagnostics::Origin;
 
-use crate::{Definition, Element, Field, Kind, Scalar, Shape, Type, TypeName};
+use crate::{ArrayShape, Definition, ElementType, Field, InterfaceKind, Scalar, Type, TypeName};
 
 /// Content of one interface text.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -27,20 +27,20 @@ pub fn expand(interface: &Interface) -> Vec<Definition> {
     let mut all = interface.parts.clone();
     let name = &interface.name;
     match name.kind {
-        Kind::Message => {}
-        Kind::Service => all.extend(service(name, &interface.doc)),
-        Kind::Action => {
+        InterfaceKind::Message => {}
+        InterfaceKind::Service => all.extend(service(name, &interface.doc)),
+        InterfaceKind::Action => {
             let uuid = || field("goal_id", message("unique_identifier_msgs", "UUID"));
-            let own = |suffix: &str| Element::Nested(name.implied(suffix));
+            let own = |suffix: &str| ElementType::Nested(name.implied(suffix));
             let send = name.implied("SendGoal");
             all.push(implied(send.implied("Request"), vec![uuid(), field("goal", own("Goal"))]));
-            let accepted = field("accepted", Element::Scalar(Scalar::Bool));
+            let accepted = field("accepted", ElementType::Scalar(Scalar::Bool));
             let stamp = field("stamp", message("builtin_interfaces", "Time"));
             all.push(implied(send.implied("Response"), vec![accepted, stamp]));
             all.extend(service(&send, ""));
             let get = name.implied("GetResult");
             all.push(implied(get.implied("Request"), vec![uuid()]));
-            let status = field("status", Element::Scalar(Scalar::I8));
+            let status = field("status", ElementType::Scalar(Scalar::I8));
             all.push(implied(
                 get.implied("Response"),
                 vec![status, field("result", own("Result"))],
@@ -65,10 +65,10 @@ pub fn expand(interface: &Interface) -> Vec<Definition> {
 
 /// Event of a service, and the service as a whole.
 fn service(name: &TypeName, doc: &str) -> [Definition; 2] {
-    let own = |suffix: &str| Element::Nested(name.implied(suffix));
+    let own = |suffix: &str| ElementType::Nested(name.implied(suffix));
     let at_most_one = |name: &str, element| Field {
-        r#type: Type { element, shape: Shape::Bounded(1) },
-        ..field(name, Element::Scalar(Scalar::Bool))
+        r#type: Type { element, shape: ArrayShape::Bounded(1) },
+        ..field(name, ElementType::Scalar(Scalar::Bool))
     };
     let event = vec![
         field("info", message("service_msgs", "ServiceEventInfo")),
@@ -90,14 +90,14 @@ fn implied(name: TypeName, fields: Vec<Field>) -> Definition {
     Definition { name, fields, constants: Vec::new(), doc: String::new(), text: String::new() }
 }
 
-fn message(package: &str, name: &str) -> Element {
-    Element::Nested(TypeName::message(package, name))
+fn message(package: &str, name: &str) -> ElementType {
+    ElementType::Nested(TypeName::message(package, name))
 }
 
-fn field(name: &str, element: Element) -> Field {
+fn field(name: &str, element: ElementType) -> Field {
     Field {
         name: name.into(),
-        r#type: Type { element, shape: Shape::One },
+        r#type: Type { element, shape: ArrayShape::One },
         default: None,
         doc: String::new(),
         origin: Origin::default(),

@@ -8,7 +8,7 @@ use std::fmt::Write as _;
 
 use sha2::{Digest, Sha256};
 
-use crate::{Definition, Element, Field, Registry, Scalar, Shape, Type, TypeName};
+use crate::{ArrayShape, Definition, ElementType, Field, Registry, Scalar, Type, TypeName};
 
 impl Registry {
     /// `RIHS01_` and 64 hexadecimal digits; `None` if the type or one that it needs is unknown.
@@ -62,18 +62,18 @@ impl Type {
     #[must_use]
     pub fn numbers(&self) -> TypeNumbers {
         let (id, string_capacity) = match &self.element {
-            Element::Scalar(scalar) => (scalar_id(*scalar), 0),
-            Element::String(None) => (17, 0),
-            Element::WString(None) => (18, 0),
-            Element::String(Some(bound)) => (21, *bound),
-            Element::WString(Some(bound)) => (22, *bound),
-            Element::Nested(_) => (1, 0),
+            ElementType::Scalar(scalar) => (scalar_id(*scalar), 0),
+            ElementType::String(None) => (17, 0),
+            ElementType::WString(None) => (18, 0),
+            ElementType::String(Some(bound)) => (21, *bound),
+            ElementType::WString(Some(bound)) => (22, *bound),
+            ElementType::Nested(_) => (1, 0),
         };
         let (added, capacity) = match self.shape {
-            Shape::One => (0, 0),
-            Shape::Fixed(size) => (48, size),
-            Shape::Bounded(bound) => (96, bound),
-            Shape::Unbounded => (144, 0),
+            ArrayShape::One => (0, 0),
+            ArrayShape::Fixed(size) => (48, size),
+            ArrayShape::Bounded(bound) => (96, bound),
+            ArrayShape::Unbounded => (144, 0),
         };
         TypeNumbers { type_id: id + added, capacity, string_capacity }
     }
@@ -82,7 +82,7 @@ impl Type {
     #[must_use]
     pub fn nested_name(&self) -> String {
         match &self.element {
-            Element::Nested(name) => name.to_string(),
+            ElementType::Nested(name) => name.to_string(),
             _ => String::new(),
         }
     }

@@ -17,12 +17,12 @@ mod ros1;
 pub mod rust;
 mod schema;
 
-pub use definition::{Constant, Definition, Element, Field, Scalar, Shape, Type};
+pub use definition::{ArrayShape, Constant, Definition, ElementType, Field, Scalar, Type};
 pub use expand::{Interface, expand};
 pub use hash::TypeNumbers;
 pub use literal::Literal;
-pub use name::{Kind, TypeName};
-pub use parse::{Dialect, LARGEST_TEXT, parse};
+pub use name::{InterfaceKind, TypeName};
+pub use parse::{InterfaceDialect, MAX_TEXT_BYTES, parse};
 pub use registry::Registry;
 pub use ros1::Ros1Text;
 pub use schema::SEPARATOR;

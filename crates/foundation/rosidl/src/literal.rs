@@ -1,6 +1,6 @@
 //! Values of constants and defaults.
 
-use crate::{Element, Scalar, Shape, Type};
+use crate::{ArrayShape, ElementType, Scalar, Type};
 
 /// Value as written, already in the range of its type.
 #[derive(Clone, Debug, PartialEq)]
@@ -24,7 +24,7 @@ impl Eq for Literal {}
 /// # Errors
 /// Expected input, to be placed after "expected".
 pub(crate) fn read(text: &str, r#type: &Type) -> Result<Literal, String> {
-    if r#type.shape == Shape::One {
+    if r#type.shape == ArrayShape::One {
         return read_one(text, &r#type.element);
     }
     let inner = text.strip_prefix('[').and_then(|text| text.strip_suffix(']'));
@@ -35,22 +35,22 @@ pub(crate) fn read(text: &str, r#type: &Type) -> Result<Literal, String> {
     let list = list?;
     let count = list.len() as u64;
     match r#type.shape {
-        Shape::Fixed(size) if count != size => Err(format!("{size} values, not {count}")),
-        Shape::Bounded(bound) if count > bound => {
+        ArrayShape::Fixed(size) if count != size => Err(format!("{size} values, not {count}")),
+        ArrayShape::Bounded(bound) if count > bound => {
             Err(format!("at most {bound} values, not {count}"))
         }
         _ => Ok(Literal::List(list)),
     }
 }
 
-pub(crate) fn read_one(text: &str, element: &Element) -> Result<Literal, String> {
+pub(crate) fn read_one(text: &str, element: &ElementType) -> Result<Literal, String> {
     match element {
-        Element::Scalar(Scalar::Bool) => match text.to_ascii_lowercase().as_str() {
+        ElementType::Scalar(Scalar::Bool) => match text.to_ascii_lowercase().as_str() {
             "true" | "1" => Ok(Literal::Bool(true)),
             "false" | "0" => Ok(Literal::Bool(false)),
             _ => Err("`true` or `false`".into()),
         },
-        Element::Scalar(scalar @ (Scalar::F32 | Scalar::F64)) => {
+        ElementType::Scalar(scalar @ (Scalar::F32 | Scalar::F64)) => {
             let value = text.parse::<f64>().map_err(|_| "a number, such as `0.5`".to_owned())?;
             // A value beyond the range of a float32 would become infinite.
             #[allow(clippy::cast_possible_truncation, reason = "that is the question")]
@@ -61,13 +61,13 @@ pub(crate) fn read_one(text: &str, element: &Element) -> Result<Literal, String>
                 Ok(Literal::Float(value))
             }
         }
-        Element::Scalar(scalar) => {
+        ElementType::Scalar(scalar) => {
             let (least, most) = scalar.range().unwrap_or((0, 0));
             let expected = || format!("a whole number from {least} to {most}");
             let value = whole_number(text).ok_or_else(expected)?;
             if value < least || value > most { Err(expected()) } else { Ok(Literal::Int(value)) }
         }
-        Element::String(bound) | Element::WString(bound) => {
+        ElementType::String(bound) | ElementType::WString(bound) => {
             let value = unquote(text)?;
             let length = value.len() as u64;
             match bound {
@@ -77,7 +77,7 @@ pub(crate) fn read_one(text: &str, element: &Element) -> Result<Literal, String>
                 _ => Ok(Literal::Text(value)),
             }
         }
-        Element::Nested(_) => Err("no value: only simple types have defaults".into()),
+        ElementType::Nested(_) => Err("no value: only simple types have defaults".into()),
     }
 }
 
@@ -165,51 +165,66 @@ fn split(text: &str) -> Result<Vec<&str>, String> {
 mod tests {
     use super::*;
 
-    fn check(text: &str, element: Element, shape: Shape, expected: Result<Literal, &str>) {
+    fn check(text: &str, element: ElementType, shape: ArrayShape, expected: Result<Literal, &str>) {
         let read = read(text, &Type { element, shape });
         assert_eq!(read, expected.map_err(String::from), "{text}");
     }
 
     #[test]
     fn numbers_keep_to_their_range() {
-        let u8 = || Element::Scalar(Scalar::U8);
-        check("255", u8(), Shape::One, Ok(Literal::Int(255)));
-        check("0x1F", u8(), Shape::One, Ok(Literal::Int(31)));
-        check("256", u8(), Shape::One, Err("a whole number from 0 to 255"));
-        check("-1", u8(), Shape::One, Err("a whole number from 0 to 255"));
+        let u8 = || ElementType::Scalar(Scalar::U8);
+        check("255", u8(), ArrayShape::One, Ok(Literal::Int(255)));
+        check("0x1F", u8(), ArrayShape::One, Ok(Literal::Int(31)));
+        check("256", u8(), ArrayShape::One, Err("a whole number from 0 to 255"));
+        check("-1", u8(), ArrayShape::One, Err("a whole number from 0 to 255"));
         check(
             "--1",
-            Element::Scalar(Scalar::I8),
-            Shape::One,
+            ElementType::Scalar(Scalar::I8),
+            ArrayShape::One,
             Err("a whole number from -128 to 127"),
         );
-        check("-2", Element::Scalar(Scalar::I8), Shape::One, Ok(Literal::Int(-2)));
+        check("-2", ElementType::Scalar(Scalar::I8), ArrayShape::One, Ok(Literal::Int(-2)));
         check(
             "1e39",
-            Element::Scalar(Scalar::F32),
-            Shape::One,
+            ElementType::Scalar(Scalar::F32),
+            ArrayShape::One,
             Err("a number that a float32 can hold"),
         );
-        check("1e39", Element::Scalar(Scalar::F64), Shape::One, Ok(Literal::Float(1e39)));
-        check("True", Element::Scalar(Scalar::Bool), Shape::One, Ok(Literal::Bool(true)));
+        check("1e39", ElementType::Scalar(Scalar::F64), ArrayShape::One, Ok(Literal::Float(1e39)));
+        check("True", ElementType::Scalar(Scalar::Bool), ArrayShape::One, Ok(Literal::Bool(true)));
     }
 
     #[test]
     fn lists_and_quotes() {
         let text = |text: &str| Literal::Text(text.into());
-        let strings = Element::String(None);
+        let strings = ElementType::String(None);
         let both = vec![text("a,b"), text("it's")];
-        check(r#"["a,b", "it's"]"#, strings.clone(), Shape::Unbounded, Ok(Literal::List(both)));
-        check("[]", strings.clone(), Shape::Unbounded, Ok(Literal::List(Vec::new())));
-        check("[1, 2]", Element::Scalar(Scalar::U8), Shape::Fixed(3), Err("3 values, not 2"));
+        check(
+            r#"["a,b", "it's"]"#,
+            strings.clone(),
+            ArrayShape::Unbounded,
+            Ok(Literal::List(both)),
+        );
+        check("[]", strings.clone(), ArrayShape::Unbounded, Ok(Literal::List(Vec::new())));
+        check(
+            "[1, 2]",
+            ElementType::Scalar(Scalar::U8),
+            ArrayShape::Fixed(3),
+            Err("3 values, not 2"),
+        );
         check(
             "[1, ]",
-            Element::Scalar(Scalar::U8),
-            Shape::Unbounded,
+            ElementType::Scalar(Scalar::U8),
+            ArrayShape::Unbounded,
             Err("a value after the last comma"),
         );
-        check("'a", strings.clone(), Shape::One, Err("a closing quote"));
-        check(r#""say \"é\"""#, strings, Shape::One, Ok(text("say \"é\"")));
-        check("abcd", Element::String(Some(3)), Shape::One, Err("at most 3 characters, not 4"));
+        check("'a", strings.clone(), ArrayShape::One, Err("a closing quote"));
+        check(r#""say \"é\"""#, strings, ArrayShape::One, Ok(text("say \"é\"")));
+        check(
+            "abcd",
+            ElementType::String(Some(3)),
+            ArrayShape::One,
+            Err("at most 3 characters, not 4"),
+        );
     }
 }

@@ -4,7 +4,7 @@ use std::fmt;
 
 /// Folder of the package in which an interface is defined.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub enum Kind {
+pub enum InterfaceKind {
     /// `action`: goal, result and feedback.
     Action,
     /// `msg`: one message.
@@ -13,7 +13,7 @@ pub enum Kind {
     Service,
 }
 
-impl Kind {
+impl InterfaceKind {
     /// Folder, file extension and middle part of a type's name: `msg`, `srv`, `action`.
     #[must_use]
     pub fn word(self) -> &'static str {
@@ -37,7 +37,7 @@ pub struct TypeName {
     /// Such as `sensor_msgs`.
     pub package: String,
     /// Such as [`Kind::Message`].
-    pub kind: Kind,
+    pub kind: InterfaceKind,
     /// Such as `LaserScan`, or `Trigger_Request` for an implied type of a service.
     pub name: String,
 }
@@ -46,7 +46,7 @@ impl TypeName {
     /// Name of a message.
     #[must_use]
     pub fn message(package: &str, name: &str) -> Self {
-        Self { package: package.into(), kind: Kind::Message, name: name.into() }
+        Self { package: package.into(), kind: InterfaceKind::Message, name: name.into() }
     }
 
     /// Parses `package/kind/Name`, or `package/Name` for a message; `None` for other text.
@@ -54,8 +54,8 @@ impl TypeName {
     pub fn read(text: &str) -> Option<Self> {
         let parts: Vec<&str> = text.split('/').collect();
         let (package, kind, name) = match parts[..] {
-            [package, name] => (package, Kind::Message, name),
-            [package, kind, name] => (package, Kind::from_word(kind)?, name),
+            [package, name] => (package, InterfaceKind::Message, name),
+            [package, kind, name] => (package, InterfaceKind::from_word(kind)?, name),
             _ => return None,
         };
         let stem = name.split('_').all(is_type_name);

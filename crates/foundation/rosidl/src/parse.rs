@@ -7,14 +7,14 @@ mod line;
 
 use periplus_diagnostics::{Diagnostic, Diagnostics, FileId, SourceMap, Span};
 
-use crate::{Definition, Interface, Kind, TypeName};
+use crate::{Definition, Interface, InterfaceKind, TypeName};
 
 /// Maximum length of a text [bytes]. The longest in common use has 20 kB.
-pub const LARGEST_TEXT: usize = 1 << 20;
+pub const MAX_TEXT_BYTES: usize = 1 << 20;
 
 /// Dialect of a text.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Dialect {
+pub enum InterfaceDialect {
     /// ROS 1: `time`, `duration` and `Header` are built in, `byte` is a signed integer, without bounds and
     /// defaults.
     Ros1,
@@ -27,7 +27,7 @@ pub fn parse(
     name: &TypeName,
     file: FileId,
     sources: &SourceMap,
-    dialect: Dialect,
+    dialect: InterfaceDialect,
     diagnostics: &mut Diagnostics,
 ) -> Option<Interface> {
     part(name, sources.whole(file), sources, dialect, diagnostics)
@@ -38,20 +38,20 @@ pub(crate) fn part(
     name: &TypeName,
     whole: Span,
     sources: &SourceMap,
-    dialect: Dialect,
+    dialect: InterfaceDialect,
     diagnostics: &mut Diagnostics,
 ) -> Option<Interface> {
     let text = sources.text(whole);
-    if text.len() > LARGEST_TEXT {
-        let message = format!("the definition of `{name}` is longer than {LARGEST_TEXT} bytes");
+    if text.len() > MAX_TEXT_BYTES {
+        let message = format!("the definition of `{name}` is longer than {MAX_TEXT_BYTES} bytes");
         diagnostics.push(Diagnostic::error("text-too-long", message).at(whole.part(0, 0)));
         return None;
     }
     let mut found = Diagnostics::new();
     let suffixes: &[&str] = match name.kind {
-        Kind::Message => &[],
-        Kind::Service => &["Request", "Response"],
-        Kind::Action => &["Goal", "Result", "Feedback"],
+        InterfaceKind::Message => &[],
+        InterfaceKind::Service => &["Request", "Response"],
+        InterfaceKind::Action => &["Goal", "Result", "Feedback"],
     };
     let mut names = suffixes.iter().map(|suffix| name.implied(suffix));
     let first = names.next().unwrap_or_else(|| name.clone());
@@ -95,7 +95,7 @@ pub(crate) fn part(
 /// Reads the lines of one part.
 struct Reader<'a> {
     definition: Definition,
-    dialect: Dialect,
+    dialect: InterfaceDialect,
     found: &'a mut Diagnostics,
     /// Comments that belong to the next line, unless an empty line follows.
     comments: Vec<String>,
@@ -112,7 +112,7 @@ enum Beside {
 }
 
 impl<'a> Reader<'a> {
-    fn new(name: TypeName, dialect: Dialect, found: &'a mut Diagnostics) -> Self {
+    fn new(name: TypeName, dialect: InterfaceDialect, found: &'a mut Diagnostics) -> Self {
         let definition = Definition {
             name,
             fields: Vec::new(),
@@ -197,7 +197,7 @@ impl<'a> Reader<'a> {
         // The counter of ROS 1 headers belongs to its serialization, not to the message.
         let name = &self.definition.name;
         let is_header = name.package == "std_msgs" && name.name == "Header";
-        if self.dialect == Dialect::Ros1 && is_header {
+        if self.dialect == InterfaceDialect::Ros1 && is_header {
             self.definition.fields.retain(|field| field.name != "seq");
         }
         self.definition.text = text.into();

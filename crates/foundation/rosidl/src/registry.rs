@@ -4,7 +4,9 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use periplus_diagnostics::{Diagnostic, Diagnostics, FileId, SourceMap};
 
-use crate::{Definition, Dialect, Interface, SEPARATOR, Shape, TypeName, expand, parse};
+use crate::{
+    ArrayShape, Definition, Interface, InterfaceDialect, SEPARATOR, TypeName, expand, parse,
+};
 
 /// Maximum number of elements in all fixed-size arrays of a type together: every value of the type needs
 /// that much memory, whatever a message contains.
@@ -45,7 +47,7 @@ impl Registry {
         name: &TypeName,
         file: FileId,
         sources: &SourceMap,
-        dialect: Dialect,
+        dialect: InterfaceDialect,
         diagnostics: &mut Diagnostics,
     ) -> bool {
         let whole = sources.whole(file);
@@ -73,7 +75,7 @@ impl Registry {
             at = next;
         }
         pieces.extend(name.take().map(|name| (name, start, text.len())));
-        if dialect == Dialect::Ros1 {
+        if dialect == InterfaceDialect::Ros1 {
             self.add_times();
         }
         for (name, start, end) in pieces {
@@ -96,7 +98,8 @@ impl Registry {
                 continue;
             }
             let file = sources.add(name.to_string(), text);
-            let read = parse(&name, file, &sources, Dialect::Ros2, &mut Diagnostics::new());
+            let read =
+                parse(&name, file, &sources, InterfaceDialect::Ros2, &mut Diagnostics::new());
             read.into_iter().for_each(|interface| self.add(interface));
         }
     }
@@ -136,24 +139,26 @@ impl Registry {
         let mut total = Some(0_u64);
         for field in &definition.fields {
             let one = match &field.r#type.element {
-                crate::Element::Nested(nested) if above.contains(&nested) => {
+                crate::ElementType::Nested(nested) if above.contains(&nested) => {
                     let wrong = format!("`{name}` contains itself through `{nested}`");
                     diagnostics.push(Diagnostic::error("endless-type", wrong).at(field.origin));
                     None
                 }
-                crate::Element::Nested(nested) if !self.types.contains_key(nested) => {
+                crate::ElementType::Nested(nested) if !self.types.contains_key(nested) => {
                     diagnostics.push(self.unknown(definition, field, nested));
                     None
                 }
-                crate::Element::Nested(_) if above.len() >= MAX_DEPTH => {
+                crate::ElementType::Nested(_) if above.len() >= MAX_DEPTH => {
                     let wrong = format!("types are nested deeper than {MAX_DEPTH} here");
                     diagnostics.push(Diagnostic::error("deep-type", wrong).at(field.origin));
                     None
                 }
-                crate::Element::Nested(nested) => self.judge(nested, above, judged, diagnostics),
+                crate::ElementType::Nested(nested) => {
+                    self.judge(nested, above, judged, diagnostics)
+                }
                 _ => Some(1),
             };
-            let times = if let Shape::Fixed(size) = field.r#type.shape { size } else { 1 };
+            let times = if let ArrayShape::Fixed(size) = field.r#type.shape { size } else { 1 };
             let added = one.and_then(|one| one.checked_mul(times)).zip(total);
             total = added.and_then(|(one, total)| one.checked_add(total));
             if total.is_some_and(|total| total > MAX_FIXED_ELEMENTS) {

@@ -8,7 +8,9 @@ use std::fmt::Write as _;
 
 use md5::{Digest, Md5};
 
-use crate::{Constant, Definition, Element, Literal, Registry, SEPARATOR, Shape, TypeName};
+use crate::{
+    ArrayShape, Constant, Definition, ElementType, Literal, Registry, SEPARATOR, TypeName,
+};
 
 /// Definition and MD5 sum of a type for ROS 1.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -106,10 +108,10 @@ fn fields<'a>(
     for field in &definition.fields {
         let mut is_sum = false;
         let word = match &field.r#type.element {
-            Element::Scalar(scalar) => scalar.name().to_owned(),
-            Element::String(_) => "string".to_owned(),
-            Element::WString(_) => return None,
-            Element::Nested(name) => match time_word(name) {
+            ElementType::Scalar(scalar) => scalar.name().to_owned(),
+            ElementType::String(_) => "string".to_owned(),
+            ElementType::WString(_) => return None,
+            ElementType::Nested(name) => match time_word(name) {
                 Some(word) => word.to_owned(),
                 None => {
                     needs(name);
@@ -120,10 +122,10 @@ fn fields<'a>(
             },
         };
         let brackets = match field.r#type.shape {
-            Shape::One => String::new(),
+            ArrayShape::One => String::new(),
             _ if is_sum => String::new(),
-            Shape::Fixed(size) => format!("[{size}]"),
-            Shape::Bounded(_) | Shape::Unbounded => "[]".to_owned(),
+            ArrayShape::Fixed(size) => format!("[{size}]"),
+            ArrayShape::Bounded(_) | ArrayShape::Unbounded => "[]".to_owned(),
         };
         lines.push(format!("{word}{brackets} {}", field.name));
     }
@@ -140,7 +142,7 @@ fn time_word(name: &TypeName) -> Option<&'static str> {
 
 fn constant(constant: &Constant, name: &str) -> String {
     let word = match &constant.element {
-        Element::Scalar(scalar) => scalar.name(),
+        ElementType::Scalar(scalar) => scalar.name(),
         _ => "string",
     };
     let value = match &constant.value {
@@ -169,16 +171,16 @@ fn ros2_text(definition: &Definition) -> String {
     for field in &definition.fields {
         let word = match &field.r#type.element {
             // `byte` has no numeric meaning in ROS 2.
-            Element::Scalar(scalar) => scalar.name().to_owned(),
-            Element::String(limit) => bounded("string", *limit),
-            Element::WString(limit) => bounded("wstring", *limit),
-            Element::Nested(name) => name.short(),
+            ElementType::Scalar(scalar) => scalar.name().to_owned(),
+            ElementType::String(limit) => bounded("string", *limit),
+            ElementType::WString(limit) => bounded("wstring", *limit),
+            ElementType::Nested(name) => name.short(),
         };
         let brackets = match field.r#type.shape {
-            Shape::One => String::new(),
-            Shape::Fixed(size) => format!("[{size}]"),
-            Shape::Bounded(most) => format!("[<={most}]"),
-            Shape::Unbounded => "[]".to_owned(),
+            ArrayShape::One => String::new(),
+            ArrayShape::Fixed(size) => format!("[{size}]"),
+            ArrayShape::Bounded(most) => format!("[<={most}]"),
+            ArrayShape::Unbounded => "[]".to_owned(),
         };
         let _ = writeln!(text, "{word}{brackets} {}", field.name.to_ascii_lowercase());
     }

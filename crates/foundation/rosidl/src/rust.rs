@@ -5,7 +5,8 @@ use std::collections::BTreeMap;
 use std::fmt::Write as _;
 
 use crate::{
-    Definition, Element, Field, Interface, Kind, Literal, Registry, Scalar, Shape, TypeName,
+    ArrayShape, Definition, ElementType, Field, Interface, InterfaceKind, Literal, Registry,
+    Scalar, TypeName,
 };
 
 /// Generates the code of one package. The types that it refers to must be in modules named like their
@@ -38,12 +39,12 @@ pub fn some(
             message(&mut code, registry, definition)?;
         }
         match interface.name.kind {
-            Kind::Message => {}
-            Kind::Service => {
+            InterfaceKind::Message => {}
+            InterfaceKind::Service => {
                 claim(&mut taken, &interface.name)?;
                 service(&mut code, registry, &interface.name, &interface.doc)?;
             }
-            Kind::Action => {
+            InterfaceKind::Action => {
                 claim(&mut taken, &interface.name)?;
                 for suffix in ["SendGoal", "GetResult"] {
                     service(&mut code, registry, &interface.name.implied(suffix), "")?;
@@ -62,7 +63,7 @@ pub fn structs<'a>(
     interface: &'a Interface,
 ) -> impl Iterator<Item = &'a Definition> {
     let suffixes: &[&str] = match interface.name.kind {
-        Kind::Action => &[
+        InterfaceKind::Action => &[
             "SendGoal_Request",
             "SendGoal_Response",
             "GetResult_Request",
@@ -115,7 +116,7 @@ fn message(code: &mut String, registry: &Registry, definition: &Definition) -> R
     for constant in &definition.constants {
         doc(code, "    ", if constant.doc.is_empty() { &constant.name } else { &constant.doc });
         let rust = match constant.element {
-            Element::Scalar(scalar) => scalar_type(scalar),
+            ElementType::Scalar(scalar) => scalar_type(scalar),
             _ => "&str",
         };
         let value = scalar_value(&constant.value, &constant.element)?;
@@ -167,26 +168,26 @@ fn doc(code: &mut String, indent: &str, text: &str) {
 
 fn field_type(field: &Field, owner: &TypeName) -> Result<String, String> {
     let one = match &field.r#type.element {
-        Element::Scalar(scalar) => scalar_type(*scalar).to_owned(),
-        Element::String(_) => "std::string::String".into(),
-        Element::WString(_) => "crate::WideString".into(),
-        Element::Nested(name) if name.package == owner.package => type_name(name),
-        Element::Nested(name) => format!("crate::{}::{}", name.package, type_name(name)),
+        ElementType::Scalar(scalar) => scalar_type(*scalar).to_owned(),
+        ElementType::String(_) => "std::string::String".into(),
+        ElementType::WString(_) => "crate::WideString".into(),
+        ElementType::Nested(name) if name.package == owner.package => type_name(name),
+        ElementType::Nested(name) => format!("crate::{}::{}", name.package, type_name(name)),
     };
     let bound_twice = limit_of_text(&field.r#type.element).is_some();
     Ok(match field.r#type.shape {
-        Shape::One => one,
+        ArrayShape::One => one,
         _ if bound_twice => {
             return Err(format!("`{owner}`: an array of bounded strings: `{}`", field.name));
         }
-        Shape::Fixed(size) => format!("[{one}; {size}]"),
-        Shape::Bounded(_) | Shape::Unbounded => format!("Vec<{one}>"),
+        ArrayShape::Fixed(size) => format!("[{one}; {size}]"),
+        ArrayShape::Bounded(_) | ArrayShape::Unbounded => format!("Vec<{one}>"),
     })
 }
 
-fn limit_of_text(element: &Element) -> Option<u64> {
+fn limit_of_text(element: &ElementType) -> Option<u64> {
     match element {
-        Element::String(limit) | Element::WString(limit) => *limit,
+        ElementType::String(limit) | ElementType::WString(limit) => *limit,
         _ => None,
     }
 }
@@ -194,8 +195,8 @@ fn limit_of_text(element: &Element) -> Option<u64> {
 /// Maximum length of a field, if the text gives one.
 fn limit(field: &Field) -> Option<u64> {
     match field.r#type.shape {
-        Shape::One => limit_of_text(&field.r#type.element),
-        Shape::Bounded(limit) => Some(limit),
+        ArrayShape::One => limit_of_text(&field.r#type.element),
+        ArrayShape::Bounded(limit) => Some(limit),
         _ => None,
     }
 }
@@ -225,20 +226,21 @@ fn value(literal: &Literal, field: &Field) -> Result<String, String> {
     match literal {
         Literal::List(list) => {
             let items: Result<Vec<String>, String> = list.iter().map(one).collect();
-            let opening = if matches!(field.r#type.shape, Shape::Fixed(_)) { "[" } else { "vec![" };
+            let opening =
+                if matches!(field.r#type.shape, ArrayShape::Fixed(_)) { "[" } else { "vec![" };
             Ok(format!("{opening}{}]", items?.join(", ")))
         }
         literal => one(literal),
     }
 }
 
-fn scalar_value(literal: &Literal, element: &Element) -> Result<String, String> {
+fn scalar_value(literal: &Literal, element: &ElementType) -> Result<String, String> {
     Ok(match literal {
         Literal::Bool(value) => value.to_string(),
         Literal::Int(value) => value.to_string(),
         Literal::Float(value) if value.is_finite() => format!("{value:?}"),
         Literal::Float(value) => {
-            let rust = if *element == Element::Scalar(Scalar::F32) { "f32" } else { "f64" };
+            let rust = if *element == ElementType::Scalar(Scalar::F32) { "f32" } else { "f64" };
             let name = match (value.is_nan(), *value > 0.0) {
                 (true, _) => "NAN",
                 (false, true) => "INFINITY",

@@ -3,7 +3,7 @@
 
 use expect_test::expect;
 use periplus_diagnostics::{Diagnostics, SourceMap};
-use periplus_rosidl::{Dialect, Registry, TypeName, parse};
+use periplus_rosidl::{InterfaceDialect, Registry, TypeName, parse};
 
 fn registry(texts: &[(&str, &str)]) -> Registry {
     let mut sources = SourceMap::new();
@@ -12,7 +12,7 @@ fn registry(texts: &[(&str, &str)]) -> Registry {
     for (name, text) in texts {
         let name = TypeName::read(name).unwrap();
         let file = sources.add("text", *text);
-        let one = parse(&name, file, &sources, Dialect::Ros2, &mut diagnostics);
+        let one = parse(&name, file, &sources, InterfaceDialect::Ros2, &mut diagnostics);
         registry.add(one.unwrap());
     }
     registry
@@ -69,7 +69,10 @@ fn a_schema_reads_back() {
     let file = sources.add("schema", text);
     let mut second = Registry::new();
     let mut found = Diagnostics::new();
-    assert!(second.add_schema(&name, file, &sources, Dialect::Ros2, &mut found), "{found:?}");
+    assert!(
+        second.add_schema(&name, file, &sources, InterfaceDialect::Ros2, &mut found),
+        "{found:?}"
+    );
     assert_eq!(second.hash(&name), first.hash(&name));
 }
 

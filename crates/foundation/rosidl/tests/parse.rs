@@ -2,20 +2,22 @@
 #![allow(clippy::unwrap_used, reason = "helpers of tests may unwrap as tests do")]
 
 use expect_test::{Expect, expect};
-use periplus_diagnostics::{Diagnostics, SourceMap, Style, render};
-use periplus_rosidl::{Dialect, Element, Registry, Scalar, Shape, TypeName, parse};
+use periplus_diagnostics::{Diagnostics, RenderStyle, SourceMap, render};
+use periplus_rosidl::{
+    ArrayShape, ElementType, InterfaceDialect, Registry, Scalar, TypeName, parse,
+};
 
 /// The findings on a text of such a name.
 fn check(name: &str, text: &str, expected: Expect) {
-    check_as(Dialect::Ros2, name, text, expected);
+    check_as(InterfaceDialect::Ros2, name, text, expected);
 }
 
-fn check_as(dialect: Dialect, name: &str, text: &str, expected: Expect) {
+fn check_as(dialect: InterfaceDialect, name: &str, text: &str, expected: Expect) {
     let (_, found) = registry(dialect, &[(name, text)]);
     expected.assert_eq(&found);
 }
 
-fn registry(dialect: Dialect, texts: &[(&str, &str)]) -> (Registry, String) {
+fn registry(dialect: InterfaceDialect, texts: &[(&str, &str)]) -> (Registry, String) {
     let mut sources = SourceMap::new();
     let mut diagnostics = Diagnostics::new();
     let mut registry = Registry::new();
@@ -27,7 +29,7 @@ fn registry(dialect: Dialect, texts: &[(&str, &str)]) -> (Registry, String) {
         }
     }
     registry.check(&mut diagnostics);
-    let found = diagnostics.iter().map(|one| render(one, &sources, Style::Plain));
+    let found = diagnostics.iter().map(|one| render(one, &sources, RenderStyle::Plain));
     let found: Vec<String> = found.collect();
     (registry, found.join("\n"))
 }
@@ -257,7 +259,7 @@ fn parts_are_counted() {
 #[test]
 fn unknown_and_endless_types_are_found() {
     let (registry, found) = registry(
-        Dialect::Ros2,
+        InterfaceDialect::Ros2,
         &[
             ("my_msgs/A", "B b\n"),
             ("my_msgs/B", "A[] more\n"),
@@ -315,7 +317,7 @@ float64 radius # Beside; m.
 string name 'a # b' # c
 uint8 ROUND=1 # Best.
 ";
-    let (registry, found) = registry(Dialect::Ros2, &[("my_msgs/Wheel", text)]);
+    let (registry, found) = registry(InterfaceDialect::Ros2, &[("my_msgs/Wheel", text)]);
     assert_eq!(found, "");
     let wheel = registry.get(&TypeName::message("my_msgs", "Wheel")).unwrap();
     assert_eq!(wheel.doc, "A wheel.\nIt turns.");
@@ -332,15 +334,15 @@ fn texts_of_ros_1_are_read_by_its_rules() {
         ("builtin_interfaces/Time", "int32 sec\nuint32 nanosec\n"),
         ("my_msgs/Old", "Header header\nbyte level\nstring Name=a # b\ntime[2] when\n"),
     ];
-    let (registry, found) = registry(Dialect::Ros1, &texts);
+    let (registry, found) = registry(InterfaceDialect::Ros1, &texts);
     assert_eq!(found, "");
     let old = registry.get(&TypeName::message("my_msgs", "Old")).unwrap();
-    assert_eq!(old.fields[1].r#type.element, Element::Scalar(Scalar::I8));
-    assert_eq!(old.fields[2].r#type.shape, Shape::Fixed(2));
+    assert_eq!(old.fields[1].r#type.element, ElementType::Scalar(Scalar::I8));
+    assert_eq!(old.fields[2].r#type.shape, ArrayShape::Fixed(2));
     let time = TypeName::message("builtin_interfaces", "Time");
-    assert_eq!(old.fields[2].r#type.element, Element::Nested(time));
+    assert_eq!(old.fields[2].r#type.element, ElementType::Nested(time));
     check_as(
-        Dialect::Ros1,
+        InterfaceDialect::Ros1,
         "my_msgs/Old",
         "int32 a 5\n",
         expect![[r#"
@@ -361,8 +363,8 @@ fn any_text_is_read_or_refused() {
     proptest!(|(words in prop::collection::vec(word, 0..60), spaced in any::<bool>())| {
         let text = words.join(if spaced { " " } else { "" });
         for name in ["my_msgs/Wheel", "my_msgs/srv/Do", "my_msgs/action/Do"] {
-            registry(Dialect::Ros2, &[(name, &text)]);
-            registry(Dialect::Ros1, &[(name, &text)]);
+            registry(InterfaceDialect::Ros2, &[(name, &text)]);
+            registry(InterfaceDialect::Ros1, &[(name, &text)]);
         }
     });
 }

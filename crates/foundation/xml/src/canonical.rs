@@ -1,6 +1,6 @@
 //! Canonical text form: trees of equal meaning have the same text.
 
-use crate::tree::{Element, Node};
+use crate::tree::{Element, XmlNode};
 
 /// White space of XML.
 const SPACE: [char; 4] = [' ', '\t', '\r', '\n'];
@@ -38,12 +38,12 @@ fn write(element: &Element, out: &mut String) {
     let mut run = String::new();
     for node in &element.children {
         match node {
-            Node::Element(child) => {
+            XmlNode::Element(child) => {
                 flush(&mut run, out);
                 write(child, out);
             }
-            Node::Text(text) => run.push_str(&text.text),
-            Node::Comment(_) | Node::Instruction(_) => {}
+            XmlNode::Text(text) => run.push_str(&text.text),
+            XmlNode::Comment(_) | XmlNode::Instruction(_) => {}
         }
     }
     flush(&mut run, out);

@@ -15,5 +15,5 @@ pub use canonical::canonical;
 pub use decode::decode;
 pub use read::{MAX_DEPTH, parse};
 pub use smol_str::SmolStr;
-pub use tree::{Attribute, Document, Element, Node, Text};
+pub use tree::{Attribute, Document, Element, Text, XmlNode};
 pub use write::{write_document, write_element};

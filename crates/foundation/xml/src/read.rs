@@ -10,7 +10,7 @@ use quick_xml::{Reader, errors::Error};
 use smol_str::SmolStr;
 
 use crate::entities::{Entities, Unresolved};
-use crate::tree::{Attribute, Document, Element, Node, Text};
+use crate::tree::{Attribute, Document, Element, Text, XmlNode};
 
 /// Maximum nesting depth. Real robot files stay below 30; the readers above are recursive.
 pub const MAX_DEPTH: usize = 200;
@@ -37,9 +37,9 @@ pub fn parse(file: FileId, sources: &SourceMap, diagnostics: &mut Diagnostics) -
 
 #[derive(Default)]
 struct Parts {
-    before: Vec<Node>,
+    before: Vec<XmlNode>,
     root: Option<Element>,
-    after: Vec<Node>,
+    after: Vec<XmlNode>,
 }
 
 /// Pieces of one run of text: the first, and all further ones.
@@ -95,11 +95,11 @@ impl Builder<'_> {
                     self.characters(&resolved, span)?;
                 }
                 Event::Comment(content) => {
-                    let node = Node::Comment(plain(&content.xml10_content(), span));
+                    let node = XmlNode::Comment(plain(&content.xml10_content(), span));
                     self.node(node);
                 }
                 Event::PI(content) => {
-                    let node = Node::Instruction(plain(&content.into_inner(), span));
+                    let node = XmlNode::Instruction(plain(&content.into_inner(), span));
                     self.node(node);
                 }
                 Event::DocType(content) => self.entities.declare(&content.into_inner()),
@@ -240,22 +240,22 @@ impl Builder<'_> {
             && let Some(parent) = self.open.last_mut()
         {
             let text = if rest.is_empty() { first } else { format!("{first}{rest}").into() };
-            parent.children.push(Node::Text(Text { text, origin: span.into() }));
+            parent.children.push(XmlNode::Text(Text { text, origin: span.into() }));
         }
     }
 
     fn close(&mut self) {
         self.end_run();
         if let Some(element) = self.open.pop() {
-            self.node(Node::Element(element));
+            self.node(XmlNode::Element(element));
         }
     }
 
-    fn node(&mut self, node: Node) {
+    fn node(&mut self, node: XmlNode) {
         self.end_run();
         match (self.open.last_mut(), node) {
             (Some(parent), node) => parent.children.push(node),
-            (None, Node::Element(element)) => match &self.document.root {
+            (None, XmlNode::Element(element)) => match &self.document.root {
                 None => self.document.root = Some(element),
                 Some(root) => {
                     let diagnostic = Diagnostic::warning(

@@ -9,16 +9,16 @@ use smol_str::SmolStr;
 #[derive(Clone, Debug, PartialEq)]
 pub struct Document {
     /// Comments and processing instructions before the root.
-    pub before: Vec<Node>,
+    pub before: Vec<XmlNode>,
     /// The root element.
     pub root: Element,
     /// Comments and processing instructions after the root.
-    pub after: Vec<Node>,
+    pub after: Vec<XmlNode>,
 }
 
 /// Part of an element's content.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Node {
+pub enum XmlNode {
     /// A child element.
     Element(Element),
     /// Characters, entities resolved; CDATA too.
@@ -59,7 +59,7 @@ pub struct Element {
     /// Attributes, in file order.
     pub attributes: Vec<Attribute>,
     /// The content, in order.
-    pub children: Vec<Node>,
+    pub children: Vec<XmlNode>,
     /// Source location of the start tag, from `<` to `>`.
     pub origin: Origin,
 }
@@ -91,7 +91,7 @@ impl Element {
     /// Adds a child element.
     #[must_use]
     pub fn with_child(mut self, child: Self) -> Self {
-        self.children.push(Node::Element(child));
+        self.children.push(XmlNode::Element(child));
         self
     }
 
@@ -104,12 +104,12 @@ impl Element {
 
     /// Adds a child element.
     pub fn push(&mut self, child: Self) {
-        self.children.push(Node::Element(child));
+        self.children.push(XmlNode::Element(child));
     }
 
     /// Adds text.
     pub fn push_text(&mut self, text: impl Into<SmolStr>) {
-        self.children.push(Node::Text(Text { text: text.into(), origin: Origin::default() }));
+        self.children.push(XmlNode::Text(Text { text: text.into(), origin: Origin::default() }));
     }
 
     /// Name without its prefix.
@@ -138,7 +138,7 @@ impl Element {
 
     /// Child elements.
     pub fn elements(&self) -> impl Iterator<Item = &Self> {
-        self.children.iter().filter_map(Node::as_element)
+        self.children.iter().filter_map(XmlNode::as_element)
     }
 
     /// Child elements of one name.
@@ -156,7 +156,7 @@ impl Element {
     #[must_use]
     pub fn text(&self) -> Cow<'_, str> {
         let mut parts = self.children.iter().filter_map(|node| match node {
-            Node::Text(text) => Some(&text.text),
+            XmlNode::Text(text) => Some(&text.text),
             _ => None,
         });
         match (parts.next(), parts.next()) {
@@ -175,7 +175,7 @@ impl Element {
     #[must_use]
     pub fn text_origin(&self) -> Origin {
         let run = self.children.iter().find_map(|node| match node {
-            Node::Text(text) if !text.text.trim().is_empty() => Some(text),
+            XmlNode::Text(text) if !text.text.trim().is_empty() => Some(text),
             _ => None,
         });
         let Some(run) = run else { return self.origin };
@@ -201,8 +201,8 @@ impl Element {
         }
         for child in &mut self.children {
             match child {
-                Node::Element(element) => element.see_through(context),
-                Node::Text(text) | Node::Comment(text) | Node::Instruction(text) => {
+                XmlNode::Element(element) => element.see_through(context),
+                XmlNode::Text(text) | XmlNode::Comment(text) | XmlNode::Instruction(text) => {
                     seen(&mut text.origin);
                 }
             }
@@ -216,7 +216,7 @@ impl Element {
     }
 }
 
-impl Node {
+impl XmlNode {
     /// Returns the element, if it is one.
     #[must_use]
     pub fn as_element(&self) -> Option<&Element> {

@@ -1,6 +1,6 @@
 //! Writer: tree to text.
 
-use crate::tree::{Document, Element, Node};
+use crate::tree::{Document, Element, XmlNode};
 
 /// Writes a document with an XML declaration, two spaces per level.
 #[must_use]
@@ -24,10 +24,10 @@ pub fn write_element(element: &Element) -> String {
     out
 }
 
-fn write_node(node: &Node, level: usize, out: &mut String) {
+fn write_node(node: &XmlNode, level: usize, out: &mut String) {
     match node {
-        Node::Element(element) => write_into(element, level, out),
-        Node::Text(text) => {
+        XmlNode::Element(element) => write_into(element, level, out),
+        XmlNode::Text(text) => {
             let text = text.text.trim();
             if !text.is_empty() {
                 indent(level, out);
@@ -35,14 +35,14 @@ fn write_node(node: &Node, level: usize, out: &mut String) {
                 out.push('\n');
             }
         }
-        Node::Comment(comment) => {
+        XmlNode::Comment(comment) => {
             indent(level, out);
             out.push_str("<!--");
             // A tolerated `--` must not be written again.
             out.push_str(&comment.text.replace("--", "- -"));
             out.push_str(if comment.text.ends_with('-') { " -->\n" } else { "-->\n" });
         }
-        Node::Instruction(instruction) => {
+        XmlNode::Instruction(instruction) => {
             indent(level, out);
             out.push_str("<?");
             out.push_str(&instruction.text);
@@ -62,11 +62,12 @@ fn write_into(element: &Element, level: usize, out: &mut String) {
         escape(&attribute.value, true, out);
         out.push('"');
     }
-    let shown = |node: &&Node| !matches!(node, Node::Text(text) if text.text.trim().is_empty());
+    let shown =
+        |node: &&XmlNode| !matches!(node, XmlNode::Text(text) if text.text.trim().is_empty());
     let mut content = element.children.iter().filter(shown).peekable();
     match content.peek() {
         None => out.push_str("/>\n"),
-        Some(Node::Text(text)) if element.children.iter().filter(shown).count() == 1 => {
+        Some(XmlNode::Text(text)) if element.children.iter().filter(shown).count() == 1 => {
             out.push('>');
             escape(text.text.trim(), false, out);
             close(element, out);

@@ -16,18 +16,18 @@ const MAX_VALUES: usize = 1_000_000;
 
 /// Value with its source location.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Node {
+pub struct YamlNode {
     /// Source location.
     pub span: Span,
     /// Value.
-    pub value: Value,
+    pub value: YamlValue,
     /// True for a scalar with the tag `!!binary`: its text is base64, in which line breaks are ignored.
     pub is_binary: bool,
 }
 
 /// YAML value.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Value {
+pub enum YamlValue {
     /// Text, number, boolean or null, as written.
     Scalar {
         /// Text without quotes.
@@ -36,24 +36,24 @@ pub enum Value {
         is_plain: bool,
     },
     /// A list.
-    List(Vec<Node>),
+    List(Vec<YamlNode>),
     /// Names and values, in file order. A name may occur twice.
-    Map(Vec<(Node, Node)>),
+    Map(Vec<(YamlNode, YamlNode)>),
 }
 
-impl Node {
+impl YamlNode {
     /// Text of a scalar.
     #[must_use]
     pub fn text(&self) -> Option<&str> {
         match &self.value {
-            Value::Scalar { text, .. } => Some(text),
+            YamlValue::Scalar { text, .. } => Some(text),
             _ => None,
         }
     }
 
     fn plain(&self) -> Option<&str> {
         match &self.value {
-            Value::Scalar { text, is_plain: true } => Some(text),
+            YamlValue::Scalar { text, is_plain: true } => Some(text),
             _ => None,
         }
     }
@@ -91,25 +91,25 @@ impl Node {
 
     /// Elements of a list.
     #[must_use]
-    pub fn list(&self) -> Option<&[Node]> {
+    pub fn list(&self) -> Option<&[YamlNode]> {
         match &self.value {
-            Value::List(list) => Some(list),
+            YamlValue::List(list) => Some(list),
             _ => None,
         }
     }
 
     /// Names and values of a mapping.
     #[must_use]
-    pub fn entries(&self) -> Option<&[(Node, Node)]> {
+    pub fn entries(&self) -> Option<&[(YamlNode, YamlNode)]> {
         match &self.value {
-            Value::Map(entries) => Some(entries),
+            YamlValue::Map(entries) => Some(entries),
             _ => None,
         }
     }
 
     /// First value of a name in a mapping.
     #[must_use]
-    pub fn get(&self, name: &str) -> Option<&Node> {
+    pub fn get(&self, name: &str) -> Option<&YamlNode> {
         self.entries()?.iter().find(|(key, _)| key.text() == Some(name)).map(|(_, value)| value)
     }
 
@@ -117,12 +117,12 @@ impl Node {
     #[must_use]
     pub fn kind(&self) -> &'static str {
         match &self.value {
-            Value::Scalar { .. } if self.is_null() => "nothing",
-            Value::Scalar { .. } if self.number().is_some() => "a number",
-            Value::Scalar { .. } if self.truth().is_some() => "a truth value",
-            Value::Scalar { .. } => "a text",
-            Value::List(_) => "a list",
-            Value::Map(_) => "a mapping",
+            YamlValue::Scalar { .. } if self.is_null() => "nothing",
+            YamlValue::Scalar { .. } if self.number().is_some() => "a number",
+            YamlValue::Scalar { .. } if self.truth().is_some() => "a truth value",
+            YamlValue::Scalar { .. } => "a text",
+            YamlValue::List(_) => "a list",
+            YamlValue::Map(_) => "a mapping",
         }
     }
 }
@@ -131,7 +131,7 @@ impl Node {
 ///
 /// # Errors
 /// If the text is not YAML.
-pub fn parse(file: FileId, sources: &SourceMap) -> Result<Option<Node>, Box<Diagnostic>> {
+pub fn parse(file: FileId, sources: &SourceMap) -> Result<Option<YamlNode>, Box<Diagnostic>> {
     let whole = sources.whole(file);
     let text = sources.text(whole);
     let mut reader = Reader {
@@ -160,7 +160,7 @@ struct Reader<'t> {
     whole: Span,
     /// Position in characters and in bytes.
     at: (usize, usize),
-    anchors: BTreeMap<usize, (Node, usize)>,
+    anchors: BTreeMap<usize, (YamlNode, usize)>,
     values: usize,
 }
 
@@ -202,7 +202,7 @@ impl<'t> Reader<'t> {
         event: Event<'t>,
         span: Span,
         depth: usize,
-    ) -> Result<Node, Box<Diagnostic>> {
+    ) -> Result<YamlNode, Box<Diagnostic>> {
         let fail = |message: &str| Err(bad(message, span));
         self.values += 1;
         if depth > MAX_DEPTH || self.values > MAX_VALUES {
@@ -215,7 +215,7 @@ impl<'t> Reader<'t> {
                 is_binary =
                     tag.is_some_and(|tag| tag.is_yaml_core_schema() && tag.suffix == "binary");
                 let is_plain = style == ScalarStyle::Plain;
-                (Value::Scalar { text: text.into_owned(), is_plain }, anchor, span)
+                (YamlValue::Scalar { text: text.into_owned(), is_plain }, anchor, span)
             }
             Event::SequenceStart(anchor, _) => {
                 let mut items = Vec::new();
@@ -225,7 +225,7 @@ impl<'t> Reader<'t> {
                         (event, span) => items.push(self.node(event, span, depth + 1)?),
                     }
                 };
-                (Value::List(items), anchor, around(span, end))
+                (YamlValue::List(items), anchor, around(span, end))
             }
             Event::MappingStart(anchor, _) => {
                 let mut entries = Vec::new();
@@ -239,7 +239,7 @@ impl<'t> Reader<'t> {
                         }
                     }
                 };
-                (Value::Map(entries), anchor, around(span, end))
+                (YamlValue::Map(entries), anchor, around(span, end))
             }
             Event::Alias(anchor) => {
                 let Some((node, size)) = self.anchors.get(&anchor).cloned() else {
@@ -247,11 +247,11 @@ impl<'t> Reader<'t> {
                 };
                 // The value is counted at each use.
                 self.values += size;
-                return Ok(Node { span, ..node });
+                return Ok(YamlNode { span, ..node });
             }
             _ => return fail("a value is missing here"),
         };
-        let node = Node { span, value, is_binary };
+        let node = YamlNode { span, value, is_binary };
         if anchor != 0 {
             self.anchors.insert(anchor, (node.clone(), 1 + self.values - before));
         }
@@ -273,7 +273,7 @@ mod tests {
 
     use super::*;
 
-    fn read(text: &str) -> (SourceMap, Result<Option<Node>, Box<Diagnostic>>) {
+    fn read(text: &str) -> (SourceMap, Result<Option<YamlNode>, Box<Diagnostic>>) {
         let mut sources = SourceMap::new();
         let file = sources.add("a.yaml", text);
         let node = parse(file, &sources);
@@ -285,7 +285,7 @@ mod tests {
         let (sources, node) = read("- {at: 0.5, ü: [1, two]}\n- 'é': \"x\"\n");
         let node = node.unwrap().unwrap();
         let list = node.list().unwrap();
-        let shown = |node: &Node| sources.text(node.span).to_owned();
+        let shown = |node: &YamlNode| sources.text(node.span).to_owned();
         assert_eq!(shown(list[0].get("at").unwrap()), "0.5");
         assert_eq!(shown(list[0].get("ü").unwrap()), "[1, two]");
         assert_eq!(shown(&list[0]), "{at: 0.5, ü: [1, two]}");
@@ -299,9 +299,9 @@ mod tests {
         let (_, node) = read("[1e5, .inf, '1', yes, ~, nan, -3]");
         let node = node.unwrap().unwrap();
         let list = node.list().unwrap();
-        let numbers: Vec<_> = list.iter().map(Node::number).collect();
+        let numbers: Vec<_> = list.iter().map(YamlNode::number).collect();
         assert_eq!(numbers, [Some(1e5), None, None, None, None, None, Some(-3.0)]);
-        let kinds: Vec<_> = list.iter().map(Node::kind).collect();
+        let kinds: Vec<_> = list.iter().map(YamlNode::kind).collect();
         let text = "a text";
         assert_eq!(kinds, ["a number", text, text, "a truth value", "nothing", text, "a number"]);
         assert_eq!(list[3].truth(), Some(true));

@@ -5,7 +5,7 @@
 
 use std::collections::BTreeMap;
 
-use periplus_rosidl::{Definition, Kind, Literal, TypeName};
+use periplus_rosidl::{Definition, InterfaceKind, Literal, TypeName};
 
 use crate::TypeRegistry;
 use crate::type_description_interfaces::{
@@ -46,9 +46,9 @@ impl TypeRegistry {
         let (encoding, text) = match self.registry().interface(name) {
             Some(interface) => {
                 let encoding = match name.kind {
-                    Kind::Message => "msg",
-                    Kind::Service => "srv",
-                    Kind::Action => "action",
+                    InterfaceKind::Message => "msg",
+                    InterfaceKind::Service => "srv",
+                    InterfaceKind::Action => "action",
                 };
                 let texts: Vec<&str> =
                     interface.parts.iter().map(|part| part.text.trim_end()).collect();

@@ -129,7 +129,7 @@ macro_rules! action {
             const TYPE_NAME: &'static str = $type_name;
             const TYPE_HASH: &'static str = $type_hash;
 
-            fn send_goal(
+            fn send_goal_request(
                 goal_id: $crate::unique_identifier_msgs::UUID,
                 goal: $goal,
             ) -> <$send_goal as $crate::Service>::Request {
@@ -139,13 +139,13 @@ macro_rules! action {
                 request
             }
 
-            fn sent_goal(
+            fn goal_of_request(
                 request: &<$send_goal as $crate::Service>::Request,
             ) -> (&$crate::unique_identifier_msgs::UUID, &$goal) {
                 (&request.goal_id, &request.goal)
             }
 
-            fn accept_goal(
+            fn send_goal_response(
                 accepted: bool,
                 stamp: $crate::builtin_interfaces::Time,
             ) -> <$send_goal as $crate::Service>::Response {
@@ -155,13 +155,13 @@ macro_rules! action {
                 response
             }
 
-            fn accepted_goal(
+            fn acceptance_of_response(
                 response: &<$send_goal as $crate::Service>::Response,
             ) -> (bool, &$crate::builtin_interfaces::Time) {
                 (response.accepted, &response.stamp)
             }
 
-            fn get_result(
+            fn get_result_request(
                 goal_id: $crate::unique_identifier_msgs::UUID,
             ) -> <$get_result as $crate::Service>::Request {
                 let mut request = <$get_result as $crate::Service>::Request::default();
@@ -169,13 +169,13 @@ macro_rules! action {
                 request
             }
 
-            fn asked_result(
+            fn goal_id_of_request(
                 request: &<$get_result as $crate::Service>::Request,
             ) -> &$crate::unique_identifier_msgs::UUID {
                 &request.goal_id
             }
 
-            fn give_result(
+            fn get_result_response(
                 status: i8,
                 result: $result,
             ) -> <$get_result as $crate::Service>::Response {
@@ -185,20 +185,20 @@ macro_rules! action {
                 response
             }
 
-            fn given_result(
+            fn result_of_response(
                 response: &<$get_result as $crate::Service>::Response,
             ) -> (i8, &$result) {
                 (response.status, &response.result)
             }
 
-            fn tell_feedback(
+            fn feedback_message(
                 goal_id: $crate::unique_identifier_msgs::UUID,
                 feedback: $feedback,
             ) -> $feedback_message {
                 $feedback_message { goal_id, feedback }
             }
 
-            fn told_feedback(
+            fn feedback_of_message(
                 message: &$feedback_message,
             ) -> (&$crate::unique_identifier_msgs::UUID, &$feedback) {
                 (&message.goal_id, &message.feedback)

@@ -113,23 +113,23 @@ pub trait Action: Send + Sync + 'static {
     const TYPE_HASH: &'static str;
 
     /// Creates a request that sends a goal.
-    fn send_goal(goal_id: UUID, goal: Self::Goal) -> Request<Self::SendGoal>;
+    fn send_goal_request(goal_id: UUID, goal: Self::Goal) -> Request<Self::SendGoal>;
     /// Goal id and goal of a request.
-    fn sent_goal(request: &Request<Self::SendGoal>) -> (&UUID, &Self::Goal);
+    fn goal_of_request(request: &Request<Self::SendGoal>) -> (&UUID, &Self::Goal);
     /// Creates the response to a goal: accepted or not, and when.
-    fn accept_goal(accepted: bool, stamp: Time) -> Response<Self::SendGoal>;
+    fn send_goal_response(accepted: bool, stamp: Time) -> Response<Self::SendGoal>;
     /// Acceptance and its time, of a response.
-    fn accepted_goal(response: &Response<Self::SendGoal>) -> (bool, &Time);
+    fn acceptance_of_response(response: &Response<Self::SendGoal>) -> (bool, &Time);
     /// Creates a request for the result of a goal.
-    fn get_result(goal_id: UUID) -> Request<Self::GetResult>;
+    fn get_result_request(goal_id: UUID) -> Request<Self::GetResult>;
     /// Goal id of a request for a result.
-    fn asked_result(request: &Request<Self::GetResult>) -> &UUID;
+    fn goal_id_of_request(request: &Request<Self::GetResult>) -> &UUID;
     /// Creates the response with the status (`action_msgs/msg/GoalStatus`) and the result of a goal.
-    fn give_result(status: i8, result: Self::Result) -> Response<Self::GetResult>;
+    fn get_result_response(status: i8, result: Self::Result) -> Response<Self::GetResult>;
     /// Status and result of a response.
-    fn given_result(response: &Response<Self::GetResult>) -> (i8, &Self::Result);
+    fn result_of_response(response: &Response<Self::GetResult>) -> (i8, &Self::Result);
     /// Creates a feedback message.
-    fn tell_feedback(goal_id: UUID, feedback: Self::Feedback) -> Self::FeedbackMessage;
+    fn feedback_message(goal_id: UUID, feedback: Self::Feedback) -> Self::FeedbackMessage;
     /// Goal id and feedback of a feedback message.
-    fn told_feedback(message: &Self::FeedbackMessage) -> (&UUID, &Self::Feedback);
+    fn feedback_of_message(message: &Self::FeedbackMessage) -> (&UUID, &Self::Feedback);
 }

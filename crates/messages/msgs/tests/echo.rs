@@ -2,12 +2,12 @@
 #![allow(clippy::unwrap_used, reason = "helpers of tests may unwrap as tests do")]
 
 use expect_test::{Expect, expect};
-use periplus_diagnostics::{Diagnostics, SourceMap, Style, render};
+use periplus_diagnostics::{Diagnostics, RenderStyle, SourceMap, render};
 use periplus_msgs::{
     DynamicMessage, Format, Message, TypeRegistry, YamlStyle, diagnostic_msgs, geometry_msgs,
     sensor_msgs, std_msgs, tf2_msgs,
 };
-use periplus_rosidl::{Dialect, Registry, TypeName};
+use periplus_rosidl::{InterfaceDialect, Registry, TypeName};
 use serde_json::json;
 
 fn check<T: Message>(message: &T, style: &YamlStyle, expected: Expect) {
@@ -212,10 +212,10 @@ fn zoo() -> TypeRegistry {
     let mut registry = Registry::new();
     let name = TypeName::message("zoo_msgs", "Zoo");
     let file = sources.add("zoo", ZOO);
-    registry.add_schema(&name, file, &sources, Dialect::Ros2, &mut diagnostics);
+    registry.add_schema(&name, file, &sources, InterfaceDialect::Ros2, &mut diagnostics);
     let types = TypeRegistry::new(registry, &mut diagnostics);
     let findings: Vec<_> =
-        diagnostics.iter().map(|one| render(one, &sources, Style::Plain)).collect();
+        diagnostics.iter().map(|one| render(one, &sources, RenderStyle::Plain)).collect();
     assert!(findings.is_empty(), "{}", findings.join("\n"));
     types
 }

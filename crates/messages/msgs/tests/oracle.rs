@@ -7,7 +7,7 @@ use periplus_diagnostics::{Diagnostics, SourceMap};
 use periplus_msgs::{
     DynamicMessage, Encapsulation, Format, Message, Service as _, TypeRegistry, decode, encode,
 };
-use periplus_rosidl::{Dialect, TypeName, parse};
+use periplus_rosidl::{InterfaceDialect, TypeName, parse};
 use serde_json::Value;
 
 const FORMATS: [(&str, Format); 3] = [
@@ -161,7 +161,7 @@ fn type_hashes_of_an_action_are_the_published_ones() {
     let text = "int32 order\n---\nint32[] sequence\n---\nint32[] sequence\n";
     let file = sources.add("Fibonacci.action", text);
     let name = TypeName::read("test_msgs/action/Fibonacci").unwrap();
-    let action = parse(&name, file, &sources, Dialect::Ros2, &mut diagnostics).unwrap();
+    let action = parse(&name, file, &sources, InterfaceDialect::Ros2, &mut diagnostics).unwrap();
     let mut registry = TypeRegistry::builtin_texts();
     registry.add(action);
     let types = TypeRegistry::new(registry, &mut diagnostics);

@@ -6,7 +6,7 @@
 use std::fmt::Write as _;
 
 use periplus_diagnostics::SourceMap;
-use periplus_yaml::Node;
+use periplus_yaml::YamlNode;
 
 use crate::Style;
 
@@ -188,17 +188,17 @@ pub(crate) fn to_yaml(profiles: &[QosProfile], style: Style, indent: usize) -> S
 }
 
 /// Reads the profiles of a list, by names or numbers. Missing or invalid values are unknown.
-pub(crate) fn from_yaml(list: &Node) -> Vec<QosProfile> {
+pub(crate) fn from_yaml(list: &YamlNode) -> Vec<QosProfile> {
     let profiles = list.list().unwrap_or_default().iter();
     profiles
         .map(|node| {
-            let text = |name| node.get(name).and_then(Node::text).unwrap_or_default();
+            let text = |name| node.get(name).and_then(YamlNode::text).unwrap_or_default();
             let duration_ns = |name| {
                 let part = |unit| node.get(name)?.get(unit)?.integer()?.try_into().ok();
                 let all_ns = u64::saturating_mul(part("sec")?, 1_000_000_000);
                 Some(all_ns.saturating_add(part("nsec")?)).filter(|&all_ns| all_ns < ENDLESS_NS)
             };
-            let depth = node.get("depth").and_then(Node::integer).unwrap_or(0);
+            let depth = node.get("depth").and_then(YamlNode::integer).unwrap_or(0);
             QosProfile {
                 history: History::read(text("history")).unwrap_or(History::Unknown),
                 depth: u64::try_from(depth).unwrap_or(0),

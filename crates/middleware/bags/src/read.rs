@@ -16,7 +16,7 @@ use std::io::{self, Read, Seek};
 
 use periplus_diagnostics::{Diagnostics, SourceMap};
 use periplus_msgs::TypeRegistry;
-use periplus_rosidl::{Dialect, TypeName};
+use periplus_rosidl::{InterfaceDialect, TypeName};
 
 pub(crate) use block::{Block, Kind};
 pub(crate) use source::Source;
@@ -242,8 +242,8 @@ impl<R: Read + Seek> Reader<R> {
         let mut registry = periplus_rosidl::Registry::new();
         for topic in &self.topics {
             let dialect = match topic.schema_encoding.as_str() {
-                "ros2msg" => Dialect::Ros2,
-                "ros1msg" => Dialect::Ros1,
+                "ros2msg" => InterfaceDialect::Ros2,
+                "ros1msg" => InterfaceDialect::Ros1,
                 _ => continue,
             };
             let Some(name) = TypeName::read(&topic.type_name) else { continue };

@@ -7,7 +7,7 @@ use periplus_diagnostics::{Diagnostic, Diagnostics, SourceMap};
 use periplus_msgs::{
     Adaptation, DecodeError, DynamicMessage, EncodeError, Format, Layout, TypeRegistry, recode,
 };
-use periplus_rosidl::{Dialect, Kind, Registry, TypeName};
+use periplus_rosidl::{InterfaceDialect, InterfaceKind, Registry, TypeName};
 
 use crate::{BagTopic, QosProfile, Style, qos};
 
@@ -210,8 +210,8 @@ fn adapted(topic: &BagTopic, type_name: &str, adaptation: &Adaptation) -> Diagno
 fn own_types(topic: &BagTopic, type_name: &str) -> TypeRegistry {
     let mut registry = Registry::new();
     let dialect = match topic.schema_encoding.as_str() {
-        "ros2msg" => Some(Dialect::Ros2),
-        "ros1msg" => Some(Dialect::Ros1),
+        "ros2msg" => Some(InterfaceDialect::Ros2),
+        "ros1msg" => Some(InterfaceDialect::Ros1),
         _ => None,
     };
     // Errors in the schema show as an unknown type.
@@ -256,7 +256,7 @@ fn describe(
         }
         Target::Ros1 => {
             // ROS 1 has no names for parts of services.
-            if name.kind != Kind::Message {
+            if name.kind != InterfaceKind::Message {
                 return None;
             }
             described.type_name = name.short();

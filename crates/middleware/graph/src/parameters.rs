@@ -12,7 +12,7 @@ use std::sync::Arc;
 use periplus_diagnostics::Diagnostic;
 use periplus_msgs::builtin_interfaces::Time;
 use periplus_msgs::rcl_interfaces::{Parameter as Named, ParameterEvent, ParameterValue};
-use periplus_params::{Value, Values};
+use periplus_params::{ParamValue, ParamValues};
 
 use crate::actor::Io;
 use crate::common::lock;
@@ -34,7 +34,7 @@ impl Parameters {
     /// # Panics
     /// Never: the table is declared before this is created.
     #[must_use]
-    pub fn values(&self) -> Values {
+    pub fn values(&self) -> ParamValues {
         lock(&self.node.0.standard().store)
             .values()
             .expect("declared before this is created")
@@ -52,7 +52,7 @@ impl Parameters {
     ///
     /// # Errors
     /// When there is no such parameter or the value is not valid, as text.
-    pub fn set(&self, name: &str, value: Value) -> Result<(), String> {
+    pub fn set(&self, name: &str, value: ParamValue) -> Result<(), String> {
         let named = Named { name: name.to_owned(), value: convert::to_message(value) };
         self.node.0.set_parameters(std::slice::from_ref(&named), None)
     }
@@ -65,7 +65,7 @@ impl Node {
     ///
     /// # Errors
     /// When the node has declared parameters already.
-    pub fn parameters(&self, values: Values) -> Result<Parameters, GraphError> {
+    pub fn parameters(&self, values: ParamValues) -> Result<Parameters, GraphError> {
         self.0.declare(values)?;
         Ok(Parameters { node: self.clone() })
     }
@@ -86,8 +86,8 @@ impl<S: Send + 'static> Actor<S> {
     /// When the node has declared parameters already.
     pub fn parameters(
         &mut self,
-        values: Values,
-        change: impl FnMut(&mut S, &Values, &mut Io<'_, S>) -> Result<(), String> + Send + 'static,
+        values: ParamValues,
+        change: impl FnMut(&mut S, &ParamValues, &mut Io<'_, S>) -> Result<(), String> + Send + 'static,
     ) -> Result<Parameters, GraphError> {
         let node = self.node().clone();
         node.0.declare(values)?;
@@ -120,7 +120,7 @@ impl Drop for OwnChange {
 }
 
 impl NodeCore {
-    fn declare(&self, values: Values) -> Result<(), GraphError> {
+    fn declare(&self, values: ParamValues) -> Result<(), GraphError> {
         let mut store = lock(&self.standard().store);
         if store.values().is_some() {
             let reason = format!(

@@ -40,7 +40,7 @@ pub(crate) struct Change {
     pub(crate) apply: Arc<Apply>,
 }
 
-pub(crate) type Apply = dyn Fn(&periplus_params::Values) -> Result<(), String> + Send + Sync;
+pub(crate) type Apply = dyn Fn(&periplus_params::ParamValues) -> Result<(), String> + Send + Sync;
 
 impl Standard {
     /// Creates the endpoints of a node; none for a bare one.

@@ -14,7 +14,7 @@ use periplus_msgs::rcl_interfaces::{
     ParameterValue, SetParameters, SetParametersAtomically, SetParametersAtomicallyRequest,
     SetParametersRequest,
 };
-use periplus_params::{Given, Table, Values, choice, number};
+use periplus_params::{Given, ParamValues, Table, choice, number};
 
 static LAMP: Table = Table {
     name: "lamp",
@@ -26,7 +26,7 @@ static LAMP: Table = Table {
     ],
 };
 
-fn values() -> Values {
+fn values() -> ParamValues {
     let mut diagnostics = Diagnostics::new();
     let values = LAMP.check([Given::new("blink.period", "0.5")], None, &mut diagnostics);
     assert!(diagnostics.is_empty());
@@ -256,8 +256,8 @@ fn arguments_come_before_what_a_node_declares() {
     let own = NodeSettings::new("own").parameter("blink.period", parameter_from_yaml("1").unwrap());
     let own = graph.node(own).unwrap().parameters(values()).unwrap();
     assert_eq!(own.values().number("blink.period"), Some(1.0));
-    assert!(own.set("blink.period", periplus_params::Value::Number(-1.0)).is_err());
-    own.set("blink.period", periplus_params::Value::Number(7.0)).unwrap();
+    assert!(own.set("blink.period", periplus_params::ParamValue::Number(-1.0)).is_err());
+    own.set("blink.period", periplus_params::ParamValue::Number(7.0)).unwrap();
     assert_eq!((own.values().number("blink.period"), own.generation()), (Some(7.0), 1));
 }
 

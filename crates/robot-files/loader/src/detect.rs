@@ -8,7 +8,7 @@ use serde::Serialize;
 /// Recognised file formats.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "lowercase")]
-pub enum Language {
+pub enum FileFormat {
     /// URDF with macros.
     Xacro,
     /// A robot description.
@@ -51,7 +51,7 @@ pub enum Language {
     Unknown,
 }
 
-impl Language {
+impl FileFormat {
     /// Common name of the format.
     #[must_use]
     pub fn name(self) -> &'static str {
@@ -80,7 +80,7 @@ impl Language {
     }
 }
 
-impl Language {
+impl FileFormat {
     /// Advice for a file that holds neither robot nor world; `None` for those that do.
     #[must_use]
     pub fn advice(self) -> Option<&'static str> {
@@ -117,31 +117,31 @@ impl Language {
 }
 
 /// Format by the file name alone, for files that cannot be read.
-pub(crate) fn promised(path: &Path) -> Language {
+pub(crate) fn promised(path: &Path) -> FileFormat {
     let extension = path.extension().and_then(|extension| extension.to_str()).unwrap_or_default();
     match extension {
-        "xacro" => Language::Xacro,
-        "urdf" => Language::Urdf,
-        "sdf" | "world" => Language::Sdf,
-        "launch" => Language::Launch,
-        _ => Language::Unknown,
+        "xacro" => FileFormat::Xacro,
+        "urdf" => FileFormat::Urdf,
+        "sdf" | "world" => FileFormat::Sdf,
+        "launch" => FileFormat::Launch,
+        _ => FileFormat::Unknown,
     }
 }
 
 /// Format of an XML document, by its root and its file name.
-pub(crate) fn language(path: &Path, document: &Document) -> Language {
+pub(crate) fn language(path: &Path, document: &Document) -> FileFormat {
     let extension = path.extension().and_then(|extension| extension.to_str()).unwrap_or_default();
     if extension.eq_ignore_ascii_case("xacro") || periplus_xacro::is_xacro(document) {
-        return Language::Xacro;
+        return FileFormat::Xacro;
     }
     match document.root.local_name() {
-        "robot" => Language::Urdf,
-        "sdf" | "gazebo" => Language::Sdf,
-        "launch" => Language::Launch,
-        "package" => Language::Package,
+        "robot" => FileFormat::Urdf,
+        "sdf" | "gazebo" => FileFormat::Sdf,
+        "launch" => FileFormat::Launch,
+        "package" => FileFormat::Package,
         "model" if path.file_name().is_some_and(|name| name == "model.config") => {
-            Language::ModelConfig
+            FileFormat::ModelConfig
         }
-        _ => Language::Unknown,
+        _ => FileFormat::Unknown,
     }
 }

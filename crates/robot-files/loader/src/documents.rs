@@ -4,28 +4,28 @@ use std::path::Path;
 
 use periplus_diagnostics::{Diagnostic, Diagnostics, FileId, SourceMap};
 use periplus_scene::Model;
-use periplus_urdf::Robot;
+use periplus_urdf::UrdfRobot;
 use periplus_xml::{Document, decode, parse};
 
-use crate::setting::{Setting, shown};
+use crate::setting::{LoadContext, shown};
 
 /// Converts a robot to a model.
 pub(crate) fn model_of(
-    robot: &Robot,
+    robot: &UrdfRobot,
     sources: &mut SourceMap,
     diagnostics: &mut Diagnostics,
 ) -> Model {
     // A robot has no includes: after xacro it is one document.
     let mut includes = periplus_sdf::NoIncludes;
-    let mut context = periplus_sdf::Context { sources, diagnostics, includes: &mut includes };
-    periplus_urdf::to_model(robot, periplus_urdf::Options::default(), &mut context)
+    let mut context = periplus_sdf::SdfContext { sources, diagnostics, includes: &mut includes };
+    periplus_urdf::to_model(robot, periplus_urdf::ConversionOptions::default(), &mut context)
 }
 
 /// Decodes and parses a file.
 pub(crate) fn read_xml(
     path: &Path,
     bytes: &[u8],
-    setting: &Setting<'_>,
+    setting: &LoadContext<'_>,
     sources: &mut SourceMap,
     diagnostics: &mut Diagnostics,
 ) -> Option<Document> {

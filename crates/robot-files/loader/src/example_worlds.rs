@@ -97,12 +97,12 @@ mod tests {
     use periplus_resources::{MemoryHost, Resolver};
 
     use super::*;
-    use crate::{Setting, load};
+    use crate::{LoadContext, load};
 
     #[test]
     fn every_world_is_found_by_its_bare_name_and_has_no_finding_but_its_origin() {
         let host = MemoryHost::new();
-        let setting = Setting {
+        let setting = LoadContext {
             host: &host,
             resolver: &Resolver::new(&host, &[]),
             working_folder: "/home".into(),
@@ -124,7 +124,7 @@ mod tests {
         let own = "<sdf version='1.9'><world name='mine'><model name='m'><static>1</static>\
                    <link name='l'/></model></world></sdf>";
         let host = MemoryHost::new().with_file("/home/shapes.sdf", own);
-        let setting = Setting {
+        let setting = LoadContext {
             host: &host,
             resolver: &Resolver::new(&host, &[]),
             working_folder: "/home".into(),

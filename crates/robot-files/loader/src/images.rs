@@ -5,7 +5,7 @@ use std::path::Path;
 use periplus_diagnostics::{Diagnostic, Diagnostics, Origin, Severity, SourceMap};
 use periplus_scene::{Model, Scene, Shape, Visual};
 
-use crate::setting::{Setting, mentioned_in};
+use crate::setting::{LoadContext, mentioned_in};
 use crate::shapes::for_each_shape;
 
 /// Replaces the URIs of textures and heightmap images by the paths of their files, so that they can be
@@ -14,7 +14,7 @@ use crate::shapes::for_each_shape;
 pub fn settle_images(
     scene: &mut Scene,
     sources: &SourceMap,
-    setting: &Setting<'_>,
+    setting: &LoadContext<'_>,
     diagnostics: &mut Diagnostics,
 ) {
     let models = scene.worlds.iter_mut().flat_map(|world| &mut world.models);
@@ -44,7 +44,7 @@ fn find(
     uri: &str,
     origin: Origin,
     sources: &SourceMap,
-    setting: &Setting<'_>,
+    setting: &LoadContext<'_>,
     diagnostics: &mut Diagnostics,
 ) -> Option<String> {
     let from = mentioned_in(origin, sources, &setting.working_folder);

@@ -5,21 +5,21 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use periplus_diagnostics::{Diagnostic, Diagnostics, Expansion, Origin, SourceMap};
-use periplus_resources::{Kind, Miss, MissKind, Resolver};
-use periplus_sdf::{Includes, Opened};
+use periplus_resources::{EntryKind, ResolveError, ResolveErrorKind, Resolver};
+use periplus_sdf::{IncludeResolver, IncludeTarget};
 
 use crate::documents::{model_of, read_xml};
-use crate::setting::{Setting, mentioned_in, shown};
+use crate::setting::{LoadContext, mentioned_in, shown};
 
 /// Opens the targets of `<include>` elements, each file once.
 pub(crate) struct Files<'s, 'a> {
-    setting: &'s Setting<'a>,
-    opened: BTreeMap<PathBuf, Opened>,
+    setting: &'s LoadContext<'a>,
+    opened: BTreeMap<PathBuf, IncludeTarget>,
     order: Vec<PathBuf>,
 }
 
 impl<'s, 'a> Files<'s, 'a> {
-    pub(crate) fn new(setting: &'s Setting<'a>) -> Self {
+    pub(crate) fn new(setting: &'s LoadContext<'a>) -> Self {
         Self { setting, opened: BTreeMap::new(), order: Vec::new() }
     }
 
@@ -34,7 +34,7 @@ impl<'s, 'a> Files<'s, 'a> {
         from: Origin,
         sources: &mut SourceMap,
         diagnostics: &mut Diagnostics,
-    ) -> Opened {
+    ) -> IncludeTarget {
         let bytes = match self.setting.host.read(path) {
             Ok(bytes) => bytes,
             Err(error) => {
@@ -46,11 +46,11 @@ impl<'s, 'a> Files<'s, 'a> {
                     )
                     .at(from),
                 );
-                return Opened::Broken;
+                return IncludeTarget::Broken;
             }
         };
         let Some(mut document) = read_xml(path, &bytes, self.setting, sources, diagnostics) else {
-            return Opened::Broken;
+            return IncludeTarget::Broken;
         };
         // A file that is included several times is read once; its findings refer to the first include.
         if let Some(at) = from.0 {
@@ -58,25 +58,25 @@ impl<'s, 'a> Files<'s, 'a> {
         }
         let key = path.to_string_lossy().into_owned();
         if document.root.local_name() != "robot" {
-            return Opened::Sdf { document: Arc::new(document), key };
+            return IncludeTarget::Sdf { document: Arc::new(document), key };
         }
         match periplus_urdf::read(&document, diagnostics) {
             Some(robot) => {
                 let model = Box::new(model_of(&robot, sources, diagnostics));
-                Opened::Model { model, key }
+                IncludeTarget::Model { model, key }
             }
-            None => Opened::Broken,
+            None => IncludeTarget::Broken,
         }
     }
 }
 
 /// Resolves the target of an include. A path that does not exist may be the name of a model: Gazebo
 /// searches the model folders for `<uri>NAME</uri>` and `<uri>file://NAME</uri>` too.
-fn resolve_model(resolver: &Resolver<'_>, uri: &str, from: &Path) -> Result<PathBuf, Miss> {
+fn resolve_model(resolver: &Resolver<'_>, uri: &str, from: &Path) -> Result<PathBuf, ResolveError> {
     resolver.resolve(uri, from).or_else(|miss| {
         let bare = uri.trim().strip_prefix("file://").unwrap_or(uri.trim());
         let is_name = !bare.contains("://") && !bare.starts_with(['/', '.']);
-        if miss.kind != MissKind::Missing || !is_name {
+        if miss.kind != ResolveErrorKind::Missing || !is_name {
             return Err(miss);
         }
         resolver.resolve(&format!("model://{bare}"), from).map_err(|mut by_name| {
@@ -87,19 +87,19 @@ fn resolve_model(resolver: &Resolver<'_>, uri: &str, from: &Path) -> Result<Path
     })
 }
 
-impl Includes for Files<'_, '_> {
+impl IncludeResolver for Files<'_, '_> {
     fn open(
         &mut self,
         uri: &str,
         from: Origin,
         sources: &mut SourceMap,
         diagnostics: &mut Diagnostics,
-    ) -> Opened {
+    ) -> IncludeTarget {
         let mentioned_in = mentioned_in(from, sources, &self.setting.working_folder);
         let resolver = self.setting.resolver;
         let found = resolve_model(resolver, uri, &mentioned_in).and_then(|path| {
             match self.setting.host.kind(&path) {
-                Some(Kind::Folder) => resolver.model_file(&path),
+                Some(EntryKind::Folder) => resolver.model_file(&path),
                 _ => Ok(path),
             }
         });
@@ -109,7 +109,7 @@ impl Includes for Files<'_, '_> {
                 let tried = miss.tried.iter();
                 let tried = tried.map(|place| shown(place, &self.setting.working_folder)).collect();
                 let advice = self.setting.resolver.advice().map(str::to_owned);
-                return Opened::Missing { tried, advice };
+                return IncludeTarget::Missing { tried, advice };
             }
         };
         if let Some(opened) = self.opened.get(&path) {

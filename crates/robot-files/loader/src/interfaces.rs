@@ -5,8 +5,8 @@ use std::path::{Path, PathBuf};
 
 use periplus_diagnostics::{Diagnostic, Diagnostics, SourceMap};
 use periplus_msgs::TypeRegistry;
-use periplus_resources::{Host, Kind as Standing, package_name};
-use periplus_rosidl::{Dialect, Kind, Registry, TypeName, parse};
+use periplus_resources::{EntryKind as Standing, Host, package_name};
+use periplus_rosidl::{InterfaceDialect, InterfaceKind, Registry, TypeName, parse};
 
 /// Maximum depth of packages below a given folder: a workspace has them in `src/repository/group/package`.
 const MAX_DEPTH: usize = 5;
@@ -130,7 +130,7 @@ impl Reading<'_> {
             return;
         }
         self.packages.insert(package.to_owned(), folder.to_owned());
-        for kind in [Kind::Message, Kind::Service, Kind::Action] {
+        for kind in [InterfaceKind::Message, InterfaceKind::Service, InterfaceKind::Action] {
             let texts = folder.join(kind.word());
             for name in self.host.list(&texts) {
                 if let Some(stem) = name.strip_suffix(&format!(".{}", kind.word())) {
@@ -140,7 +140,7 @@ impl Reading<'_> {
         }
     }
 
-    fn text(&mut self, package: &str, kind: Kind, stem: &str, path: &Path) {
+    fn text(&mut self, package: &str, kind: InterfaceKind, stem: &str, path: &Path) {
         let shown = path.display().to_string();
         let Some(name) = TypeName::read(&format!("{package}/{}/{stem}", kind.word())) else {
             let message =
@@ -159,7 +159,7 @@ impl Reading<'_> {
             }
         };
         let file = self.sources.add(shown, text);
-        let read = parse(&name, file, &self.sources, Dialect::Ros2, &mut self.diagnostics);
+        let read = parse(&name, file, &self.sources, InterfaceDialect::Ros2, &mut self.diagnostics);
         if let Some(interface) = read {
             self.registry.add(interface);
         }
@@ -168,16 +168,18 @@ impl Reading<'_> {
 
 /// Returns true if a folder has interface texts. A folder named `msg` alone is not enough.
 fn is_package(host: &dyn Host, folder: &Path) -> bool {
-    [Kind::Message, Kind::Service, Kind::Action].into_iter().any(|kind| {
-        let ending = format!(".{}", kind.word());
-        host.list(&folder.join(kind.word())).iter().any(|name| name.ends_with(&ending))
-    })
+    [InterfaceKind::Message, InterfaceKind::Service, InterfaceKind::Action].into_iter().any(
+        |kind| {
+            let ending = format!(".{}", kind.word());
+            host.list(&folder.join(kind.word())).iter().any(|name| name.ends_with(&ending))
+        },
+    )
 }
 
 #[cfg(test)]
 mod tests {
     use expect_test::expect;
-    use periplus_diagnostics::{Style, render};
+    use periplus_diagnostics::{RenderStyle, render};
     use periplus_msgs::{DynamicMessage, Format};
     use periplus_resources::MemoryHost;
 
@@ -187,7 +189,7 @@ mod tests {
         let folders: Vec<PathBuf> = folders.iter().map(PathBuf::from).collect();
         let loaded = load_interfaces(host, &folders);
         let each = loaded.diagnostics.iter();
-        let said = each.map(|one| render(one, &loaded.sources, Style::Plain)).collect();
+        let said = each.map(|one| render(one, &loaded.sources, RenderStyle::Plain)).collect();
         (loaded, said)
     }
 

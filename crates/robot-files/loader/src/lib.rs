@@ -18,13 +18,13 @@ mod setting;
 mod shapes;
 mod summary;
 
-pub use detect::Language;
+pub use detect::FileFormat;
 pub use example_worlds::names as example_worlds;
 pub use images::settle_images;
 pub use interfaces::{Interfaces, load_interfaces};
-pub use load::{Loaded, load, load_bytes};
+pub use load::{LoadedFile, load, load_bytes};
 pub use map_world::map_world;
 pub use mesh_files::{MeshSummary, read_beside, read_mesh};
 pub use rebase::rebase;
-pub use setting::Setting;
+pub use setting::LoadContext;
 pub use summary::{ModelSummary, SensorSummary, Summary, WorldSummary, describe, summarise};

@@ -3,26 +3,26 @@
 use std::path::{Path, PathBuf};
 
 use periplus_diagnostics::{Diagnostic, Diagnostics, Origin, SourceMap, closest};
-use periplus_resources::{Kind, ReadError, nearest};
+use periplus_resources::{EntryKind, FileReadError, nearest};
 use periplus_scene::Scene;
-use periplus_urdf::Robot;
+use periplus_urdf::UrdfRobot;
 use periplus_xml::Document;
 
-use crate::detect::{Language, language, promised};
+use crate::detect::{FileFormat, language, promised};
 use crate::documents::{model_of, read_xml};
 use crate::example_worlds::{self, Example};
 use crate::includes::Files;
 use crate::mesh_files::{self, MeshSummary};
 use crate::other_files;
-use crate::setting::{Setting, shown};
+use crate::setting::{LoadContext, shown};
 
 /// Result of loading a file.
 #[derive(Clone, Debug)]
-pub struct Loaded {
+pub struct LoadedFile {
     /// Path of the file.
     pub path: PathBuf,
     /// Format of the file.
-    pub language: Language,
+    pub language: FileFormat,
     /// Source texts.
     pub sources: SourceMap,
     /// Findings about them.
@@ -32,7 +32,7 @@ pub struct Loaded {
     /// True if the document is completely expanded: no error occurred before it was interpreted.
     pub is_expanded: bool,
     /// Robot, for a URDF.
-    pub robot: Option<Robot>,
+    pub robot: Option<UrdfRobot>,
     /// Scene. `None` for files that describe none.
     pub scene: Option<Scene>,
     /// Content of a mesh file.
@@ -45,7 +45,7 @@ pub struct Loaded {
     pub known_arguments: Vec<String>,
 }
 
-impl Loaded {
+impl LoadedFile {
     /// Names among these arguments that are unknown to the file; empty for a file that could not be
     /// expanded.
     #[must_use]
@@ -67,7 +67,7 @@ impl Loaded {
         let known = self.known_arguments.iter().map(String::as_str);
         let warning = match closest(name, known) {
             Some(near) => warning.help(format!("did you mean `{near}`?")),
-            None if self.language != Language::Xacro => {
+            None if self.language != FileFormat::Xacro => {
                 warning.help("only xacro files take arguments")
             }
             None if self.known_arguments.is_empty() => {
@@ -81,24 +81,24 @@ impl Loaded {
 
 /// Loads a file of any supported format.
 #[must_use]
-pub fn load(path: &Path, setting: &Setting<'_>) -> Loaded {
+pub fn load(path: &Path, setting: &LoadContext<'_>) -> LoadedFile {
     let written = path;
     let path = setting.working_folder.join(path);
-    if setting.host.kind(&path) == Some(Kind::Folder) {
+    if setting.host.kind(&path) == Some(EntryKind::Folder) {
         return load_folder(path, setting);
     }
     // Large files, recognised by name only.
-    if let Some(Language::Recording | Language::Archive) = other_files::recognise(&path, &[])
+    if let Some(FileFormat::Recording | FileFormat::Archive) = other_files::recognise(&path, &[])
         && setting.host.kind(&path).is_some()
     {
         return load_bytes(&path, &[], setting);
     }
     match setting.host.read(&path) {
         Ok(bytes) => load_bytes(&path, &bytes, setting),
-        Err(ReadError::Missing) if let Some(found) = on_resource_path(written, setting) => {
+        Err(FileReadError::Missing) if let Some(found) = on_resource_path(written, setting) => {
             load(&found, setting)
         }
-        Err(ReadError::Missing)
+        Err(FileReadError::Missing)
             if let Some(Example::BuiltIn(text)) = example_worlds::find(written) =>
         {
             let mut loaded = load_bytes(&path, text.as_bytes(), setting);
@@ -115,10 +115,10 @@ pub fn load(path: &Path, setting: &Setting<'_>) -> Loaded {
             loaded
         }
         Err(error) => {
-            let found = example_worlds::find(written).filter(|_| error == ReadError::Missing);
+            let found = example_worlds::find(written).filter(|_| error == FileReadError::Missing);
             let mut loaded = empty(path);
             let near = match error {
-                ReadError::Missing => nearest(setting.host, &loaded.path),
+                FileReadError::Missing => nearest(setting.host, &loaded.path),
                 _ => None,
             };
             let helped = match found {
@@ -152,17 +152,17 @@ pub fn load(path: &Path, setting: &Setting<'_>) -> Loaded {
 }
 
 /// Resolves a relative path in the resource folders, which Gazebo also searches for worlds.
-fn on_resource_path(written: &Path, setting: &Setting<'_>) -> Option<PathBuf> {
+fn on_resource_path(written: &Path, setting: &LoadContext<'_>) -> Option<PathBuf> {
     if written.is_absolute() || written.starts_with("..") {
         return None;
     }
     let found = setting.resolver.resolve(written.to_str()?, &setting.working_folder).ok()?;
-    (setting.host.kind(&found) == Some(Kind::File)).then_some(found)
+    (setting.host.kind(&found) == Some(EntryKind::File)).then_some(found)
 }
 
 /// Loads the model in a folder.
-fn load_folder(path: PathBuf, setting: &Setting<'_>) -> Loaded {
-    let has = |name: &str| setting.host.kind(&path.join(name)) == Some(Kind::File);
+fn load_folder(path: PathBuf, setting: &LoadContext<'_>) -> LoadedFile {
+    let has = |name: &str| setting.host.kind(&path.join(name)) == Some(EntryKind::File);
     if has("model.config") || has("model.sdf") {
         match setting.resolver.model_file(&path) {
             Ok(file) => return load(&file, setting),
@@ -174,11 +174,11 @@ fn load_folder(path: PathBuf, setting: &Setting<'_>) -> Loaded {
         }
     }
     let what = if has("metadata.yaml") {
-        (Language::Recording, "a recording")
+        (FileFormat::Recording, "a recording")
     } else if has("package.xml") {
-        (Language::Folder, "a package")
+        (FileFormat::Folder, "a package")
     } else {
-        (Language::Folder, "a folder without a model.config")
+        (FileFormat::Folder, "a folder without a model.config")
     };
     let mut loaded = empty(path);
     loaded.language = what.0;
@@ -191,11 +191,11 @@ fn load_folder(path: PathBuf, setting: &Setting<'_>) -> Loaded {
 /// Loads bytes as the content of a file with this path: a text received over a network, or built in.
 /// References are resolved relative to the path.
 #[must_use]
-pub fn load_bytes(path: &Path, bytes: &[u8], setting: &Setting<'_>) -> Loaded {
+pub fn load_bytes(path: &Path, bytes: &[u8], setting: &LoadContext<'_>) -> LoadedFile {
     let mut loaded = empty(setting.working_folder.join(path));
     let path = loaded.path.clone();
     if mesh_files::is_mesh(&path) {
-        loaded.language = Language::Mesh;
+        loaded.language = FileFormat::Mesh;
         loaded.mesh = mesh_files::summarise(&path, bytes, setting, &mut loaded.diagnostics);
         return loaded;
     }
@@ -214,8 +214,8 @@ pub fn load_bytes(path: &Path, bytes: &[u8], setting: &Setting<'_>) -> Loaded {
 }
 
 /// Empty result for a file.
-fn empty(path: PathBuf) -> Loaded {
-    Loaded {
+fn empty(path: PathBuf) -> LoadedFile {
+    LoadedFile {
         language: promised(&path),
         path,
         sources: SourceMap::new(),
@@ -242,9 +242,9 @@ fn is_for_inclusion(document: &Document) -> bool {
     }
 }
 
-fn interpret(document: Document, setting: &Setting<'_>, loaded: &mut Loaded) {
-    let document = if loaded.language == Language::Xacro {
-        let expansion = periplus_xacro::Setting {
+fn interpret(document: Document, setting: &LoadContext<'_>, loaded: &mut LoadedFile) {
+    let document = if loaded.language == FileFormat::Xacro {
+        let expansion = periplus_xacro::XacroContext {
             path: loaded.path.clone(),
             working_folder: setting.working_folder.clone(),
             arguments: setting.arguments.clone(),
@@ -266,7 +266,7 @@ fn interpret(document: Document, setting: &Setting<'_>, loaded: &mut Loaded) {
     };
     loaded.is_expanded = !loaded.diagnostics.has_errors();
     match document.root.local_name() {
-        _ if loaded.language == Language::Xacro && is_for_inclusion(&document) => {
+        _ if loaded.language == FileFormat::Xacro && is_for_inclusion(&document) => {
             loaded.diagnostics.push(
                 Diagnostic::hint(
                     "macros-only",
@@ -286,7 +286,7 @@ fn interpret(document: Document, setting: &Setting<'_>, loaded: &mut Loaded) {
         }
         "sdf" | "gazebo" => {
             let mut files = Files::new(setting);
-            let mut context = periplus_sdf::Context {
+            let mut context = periplus_sdf::SdfContext {
                 sources: &mut loaded.sources,
                 diagnostics: &mut loaded.diagnostics,
                 includes: &mut files,
@@ -294,8 +294,8 @@ fn interpret(document: Document, setting: &Setting<'_>, loaded: &mut Loaded) {
             loaded.scene = Some(periplus_sdf::read_document(&document, &mut context));
             loaded.files.extend(files.into_paths());
         }
-        _ if matches!(loaded.language, Language::Launch | Language::ModelConfig) => {}
-        _ if loaded.language == Language::Package => {
+        _ if matches!(loaded.language, FileFormat::Launch | FileFormat::ModelConfig) => {}
+        _ if loaded.language == FileFormat::Package => {
             let name = document.root.child("name").map(|name| name.text().into_owned());
             loaded.contents.extend(name.map(|name| format!("package {name}")));
         }

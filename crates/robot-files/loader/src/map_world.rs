@@ -121,7 +121,7 @@ mod tests {
     use periplus_scene::Shape;
 
     use super::*;
-    use crate::{Setting, load_bytes};
+    use crate::{LoadContext, load_bytes};
 
     /// Distance along a ray to the first of the boxes (slab method, Kay and Kajiya 1986).
     fn range_to_boxes_m(boxes: &[([f64; 2], [f64; 2])], from: [f64; 2], along: [f64; 2]) -> f64 {
@@ -154,7 +154,7 @@ mod tests {
         let map: OccupancyGrid = Grid::from_cells(lattice, cells).expect("as many cells");
         let (text, _) = map_world(&map, "room", 2.0);
         let host = MemoryHost::new();
-        let setting = Setting {
+        let setting = LoadContext {
             host: &host,
             resolver: &Resolver::new(&host, &[]),
             working_folder: "/".into(),
@@ -197,7 +197,7 @@ mod tests {
         let map: OccupancyGrid = Grid::from_cells(lattice, cells).expect("as many cells");
         let (text, count) = map_world(&map, "a \"plan\" & b::c", 2.5);
         let host = MemoryHost::new();
-        let setting = Setting {
+        let setting = LoadContext {
             host: &host,
             resolver: &Resolver::new(&host, &[]),
             working_folder: "/".into(),

@@ -6,10 +6,10 @@ use std::path::{Path, PathBuf};
 use periplus_diagnostics::{Diagnostic, Diagnostics, Origin, SourceMap, closest};
 use periplus_meshes::{MeshFormat, read};
 use periplus_resources::Host;
-use periplus_scene::{Mesh, Scene, Shape};
+use periplus_scene::{MeshShape, Scene, Shape};
 use serde::Serialize;
 
-use crate::setting::{Setting, mentioned_in, shown};
+use crate::setting::{LoadContext, mentioned_in, shown};
 use crate::shapes::for_each_shape;
 
 /// Content of a mesh file.
@@ -37,7 +37,7 @@ pub(crate) fn is_mesh(path: &Path) -> bool {
 pub(crate) fn summarise(
     path: &Path,
     bytes: &[u8],
-    setting: &Setting<'_>,
+    setting: &LoadContext<'_>,
     diagnostics: &mut Diagnostics,
 ) -> Option<MeshSummary> {
     let name = shown(path, &setting.working_folder);
@@ -59,7 +59,7 @@ pub(crate) fn summarise(
 /// warning: the rest of the scene is still usable.
 pub(crate) fn resolve(
     scene: &mut Scene,
-    setting: &Setting<'_>,
+    setting: &LoadContext<'_>,
     sources: &SourceMap,
     diagnostics: &mut Diagnostics,
 ) {
@@ -70,7 +70,7 @@ pub(crate) fn resolve(
 type Parts = Result<Vec<String>, ()>;
 
 struct Look<'l, 'a> {
-    setting: &'l Setting<'a>,
+    setting: &'l LoadContext<'a>,
     sources: &'l SourceMap,
     diagnostics: &'l mut Diagnostics,
     /// Parts of each file; a broken one has been reported.
@@ -87,7 +87,7 @@ impl Look<'_, '_> {
         }
     }
 
-    fn mesh(&mut self, mesh: &mut Mesh) {
+    fn mesh(&mut self, mesh: &mut MeshShape) {
         mesh.path = self.find(&mesh.uri, mesh.origin);
         let Some(path) = mesh.path.clone().filter(|_| self.setting.open_meshes) else { return };
         if !self.seen.contains_key(&path) {

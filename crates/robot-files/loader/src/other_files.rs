@@ -6,17 +6,17 @@ use std::path::Path;
 use periplus_diagnostics::{Diagnostic, Diagnostics};
 use periplus_images::Raster;
 use periplus_maps::Distro;
-use periplus_yaml::Node;
+use periplus_yaml::YamlNode;
 
-use crate::detect::Language;
-use crate::load::Loaded;
-use crate::setting::{Setting, shown};
+use crate::detect::FileFormat;
+use crate::load::LoadedFile;
+use crate::setting::{LoadContext, shown};
 
 /// Maximum number of nodes and displays that are listed.
 const MAX_LISTED: usize = 20;
 
 /// Format of a file that is not XML; `None` if it must be parsed as XML.
-pub(crate) fn recognise(path: &Path, bytes: &[u8]) -> Option<Language> {
+pub(crate) fn recognise(path: &Path, bytes: &[u8]) -> Option<FileFormat> {
     let name = path.file_name().unwrap_or_default().to_string_lossy().to_ascii_lowercase();
     let ends = |endings: &[&str]| endings.iter().any(|ending| name.ends_with(ending));
     let starts = |magic: &[u8]| bytes.starts_with(magic);
@@ -25,28 +25,28 @@ pub(crate) fn recognise(path: &Path, bytes: &[u8]) -> Option<Language> {
             || starts(b"\x89PNG\r\n")
             || starts(b"\xff\xd8\xff") =>
         {
-            Language::Picture
+            FileFormat::Picture
         }
         () if ends(&[".zip", ".tar", ".tar.gz", ".tgz", ".tar.xz", ".7z", ".gz"])
             || starts(b"PK\x03\x04")
             || starts(b"\x1f\x8b") =>
         {
-            Language::Archive
+            FileFormat::Archive
         }
         () if ends(&[".mcap", ".bag", ".db3", ".db3.zstd", ".mcap.zstd"])
             || starts(b"\x89MCAP")
             || starts(b"#ROSBAG")
             || starts(b"SQLite format 3") =>
         {
-            Language::Recording
+            FileFormat::Recording
         }
         () if ends(&[".py"]) => match is_launch(&name, bytes) {
-            true => Language::LaunchPython,
-            false => Language::Python,
+            true => FileFormat::LaunchPython,
+            false => FileFormat::Python,
         },
-        () if ends(&[".rviz", ".vcg"]) => Language::Rviz,
+        () if ends(&[".rviz", ".vcg"]) => FileFormat::Rviz,
         // The document determines the format.
-        () if ends(&[".yaml", ".yml"]) => Language::Yaml,
+        () if ends(&[".yaml", ".yml"]) => FileFormat::Yaml,
         () => return None,
     })
 }
@@ -57,12 +57,12 @@ fn is_launch(name: &str, bytes: &[u8]) -> bool {
 }
 
 /// Reads a file of a recognised format and describes its content.
-pub(crate) fn read(bytes: &[u8], setting: &Setting<'_>, loaded: &mut Loaded) {
+pub(crate) fn read(bytes: &[u8], setting: &LoadContext<'_>, loaded: &mut LoadedFile) {
     let name = shown(&loaded.path, &setting.working_folder);
     match loaded.language {
-        Language::Picture => picture(&name, bytes, loaded),
-        Language::Rviz | Language::Yaml => yaml(&name, bytes, setting, loaded),
-        Language::Archive => {
+        FileFormat::Picture => picture(&name, bytes, loaded),
+        FileFormat::Rviz | FileFormat::Yaml => yaml(&name, bytes, setting, loaded),
+        FileFormat::Archive => {
             let message = format!("`{name}` is an archive, which is not opened");
             let error = Diagnostic::error("archive", message);
             loaded.diagnostics.push(error.help("unpack it, and pass the file in it"));
@@ -71,7 +71,7 @@ pub(crate) fn read(bytes: &[u8], setting: &Setting<'_>, loaded: &mut Loaded) {
     }
 }
 
-fn picture(name: &str, bytes: &[u8], loaded: &mut Loaded) {
+fn picture(name: &str, bytes: &[u8], loaded: &mut LoadedFile) {
     match Raster::decode(bytes) {
         Ok(raster) => {
             let channels = raster.layout.channels();
@@ -85,7 +85,7 @@ fn picture(name: &str, bytes: &[u8], loaded: &mut Loaded) {
     }
 }
 
-fn yaml(name: &str, bytes: &[u8], setting: &Setting<'_>, loaded: &mut Loaded) {
+fn yaml(name: &str, bytes: &[u8], setting: &LoadContext<'_>, loaded: &mut LoadedFile) {
     let Ok(text) = String::from_utf8(bytes.to_vec()) else {
         loaded.diagnostics.push(Diagnostic::error("encoding", format!("`{name}` is no UTF-8")));
         return;
@@ -102,13 +102,13 @@ fn yaml(name: &str, bytes: &[u8], setting: &Setting<'_>, loaded: &mut Loaded) {
             return;
         }
     };
-    if loaded.language == Language::Yaml {
+    if loaded.language == FileFormat::Yaml {
         loaded.language = kind_of(&tree);
     }
     match loaded.language {
-        Language::Map => map(setting, loaded),
-        Language::Rviz => displays(&tree, loaded),
-        Language::Parameters => {
+        FileFormat::Map => map(setting, loaded),
+        FileFormat::Rviz => displays(&tree, loaded),
+        FileFormat::Parameters => {
             let mut nodes = Vec::new();
             parameters(&tree, "", &mut nodes, &mut loaded.diagnostics);
             let more = nodes.len().saturating_sub(MAX_LISTED);
@@ -117,8 +117,8 @@ fn yaml(name: &str, bytes: &[u8], setting: &Setting<'_>, loaded: &mut Loaded) {
                 loaded.contents.push(format!("and {more} more nodes"));
             }
         }
-        Language::Bridge => {
-            let topics = tree.list().map_or(0, <[Node]>::len);
+        FileFormat::Bridge => {
+            let topics = tree.list().map_or(0, <[YamlNode]>::len);
             loaded.contents.push(format!("{topics} topics"));
         }
         _ => {}
@@ -126,31 +126,31 @@ fn yaml(name: &str, bytes: &[u8], setting: &Setting<'_>, loaded: &mut Loaded) {
 }
 
 /// Format of a YAML document.
-fn kind_of(tree: &Node) -> Language {
+fn kind_of(tree: &YamlNode) -> FileFormat {
     let has = |name: &str| tree.get(name).is_some();
     if has("image") && (has("resolution") || has("origin")) {
-        Language::Map
+        FileFormat::Map
     } else if has("Visualization Manager") {
-        Language::Rviz
+        FileFormat::Rviz
     } else if has("launch") {
-        Language::LaunchYaml
+        FileFormat::LaunchYaml
     } else if holds_parameters(tree, 0) {
-        Language::Parameters
+        FileFormat::Parameters
     } else if tree.list().is_some_and(|entries| entries.iter().any(is_bridged)) {
-        Language::Bridge
+        FileFormat::Bridge
     } else {
-        Language::Yaml
+        FileFormat::Yaml
     }
 }
 
-fn is_bridged(entry: &Node) -> bool {
+fn is_bridged(entry: &YamlNode) -> bool {
     ["ros_topic_name", "gz_topic_name", "ros_type_name"].iter().any(|key| entry.get(key).is_some())
 }
 
 /// Maximum depth of namespaces around a node's parameters.
 const MAX_NAMESPACES: usize = 6;
 
-fn holds_parameters(node: &Node, depth: usize) -> bool {
+fn holds_parameters(node: &YamlNode, depth: usize) -> bool {
     depth <= MAX_NAMESPACES
         && node.entries().is_some_and(|entries| {
             entries.iter().any(|(key, value)| {
@@ -161,7 +161,7 @@ fn holds_parameters(node: &Node, depth: usize) -> bool {
 
 /// Nodes of a parameter file, each with its number of parameters. An entry without `ros__parameters` next
 /// to others sets none in ROS 2.
-fn parameters(node: &Node, name: &str, nodes: &mut Vec<String>, diagnostics: &mut Diagnostics) {
+fn parameters(node: &YamlNode, name: &str, nodes: &mut Vec<String>, diagnostics: &mut Diagnostics) {
     for (key, value) in node.entries().unwrap_or_default() {
         let Some(key_text) = key.text() else { continue };
         if key_text == "ros__parameters" {
@@ -196,7 +196,7 @@ fn parameters(node: &Node, name: &str, nodes: &mut Vec<String>, diagnostics: &mu
     }
 }
 
-fn map(setting: &Setting<'_>, loaded: &mut Loaded) {
+fn map(setting: &LoadContext<'_>, loaded: &mut LoadedFile) {
     let path = loaded.path.to_string_lossy().into_owned();
     let read = periplus_maps::load(&path, Distro::Jazzy, setting.host);
     loaded.sources = read.sources;
@@ -220,7 +220,7 @@ fn map(setting: &Setting<'_>, loaded: &mut Loaded) {
     loaded.files.push(map.image_path);
 }
 
-fn displays(tree: &Node, loaded: &mut Loaded) {
+fn displays(tree: &YamlNode, loaded: &mut LoadedFile) {
     let Some(manager) = tree.get("Visualization Manager") else {
         loaded.diagnostics.push(
             Diagnostic::error("bad-rviz", "this configuration has no `Visualization Manager`")
@@ -230,11 +230,13 @@ fn displays(tree: &Node, loaded: &mut Loaded) {
         return;
     };
     let fixed_frame = manager.get("Global Options").and_then(|options| options.get("Fixed Frame"));
-    if let Some(frame) = fixed_frame.and_then(Node::text) {
+    if let Some(frame) = fixed_frame.and_then(YamlNode::text) {
         loaded.contents.push(format!("fixed frame {frame}"));
     }
-    let displays = manager.get("Displays").and_then(Node::list).unwrap_or_default();
-    let text = |display: &Node, key: &str| display.get(key).and_then(Node::text).map(str::to_owned);
+    let displays = manager.get("Displays").and_then(YamlNode::list).unwrap_or_default();
+    let text = |display: &YamlNode, key: &str| {
+        display.get(key).and_then(YamlNode::text).map(str::to_owned)
+    };
     for display in displays.iter().take(MAX_LISTED) {
         let class = text(display, "Class").unwrap_or_default();
         let name = text(display, "Name").unwrap_or_default();

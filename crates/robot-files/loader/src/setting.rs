@@ -7,7 +7,7 @@ use periplus_resources::{Host, Resolver};
 
 /// Inputs of the loader.
 #[derive(Clone)]
-pub struct Setting<'a> {
+pub struct LoadContext<'a> {
     /// Access to files and environment.
     pub host: &'a dyn Host,
     /// Search paths of packages and models.

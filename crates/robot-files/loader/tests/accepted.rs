@@ -5,21 +5,21 @@ mod common;
 use std::path::Path;
 
 use periplus_diagnostics::Severity;
-use periplus_loader::{Language, Loaded};
+use periplus_loader::{FileFormat, LoadedFile};
 use periplus_resources::MemoryHost;
 
 /// Reads `a.EXT` of the given text.
-fn read(name: &str, text: &str) -> Loaded {
+fn read(name: &str, text: &str) -> LoadedFile {
     let host = MemoryHost::new().with_file(Path::new("/r").join(name), text);
     common::read(&host, Path::new("/r"), Path::new(name), &[])
 }
 
 /// The codes of the errors, warnings and hints, in order.
-fn codes(loaded: &Loaded) -> Vec<(Severity, &'static str)> {
+fn codes(loaded: &LoadedFile) -> Vec<(Severity, &'static str)> {
     loaded.diagnostics.iter().map(|one| (one.severity, one.code)).collect()
 }
 
-fn check(name: &str, text: &str, expected: &[(Severity, &'static str)]) -> Loaded {
+fn check(name: &str, text: &str, expected: &[(Severity, &'static str)]) -> LoadedFile {
     let loaded = read(name, text);
     assert_eq!(codes(&loaded), expected, "{}", common::shown(&loaded));
     loaded
@@ -184,7 +184,7 @@ fn a_bare_name_includes_a_model_one_folder_up() {
         assert_eq!(codes(&loaded), [], "{uri}: {}", common::shown(&loaded));
         // The folder of a model stands for its file.
         let loaded = common::read(&host, Path::new("/r"), Path::new("models/outer"), &[]);
-        assert_eq!((codes(&loaded), loaded.language), (Vec::new(), Language::Sdf));
+        assert_eq!((codes(&loaded), loaded.language), (Vec::new(), FileFormat::Sdf));
     }
 }
 

@@ -4,17 +4,17 @@ mod common;
 
 use std::path::Path;
 
-use periplus_loader::{Language, Loaded};
+use periplus_loader::{FileFormat, LoadedFile};
 use periplus_resources::MemoryHost;
 
-fn read(name: &str, bytes: &[u8]) -> Loaded {
+fn read(name: &str, bytes: &[u8]) -> LoadedFile {
     let host = MemoryHost::new()
         .with_file(Path::new("/r").join(name), bytes)
         .with_file("/r/room.pgm", b"P5 2 2 255\n\x00\xfe\xfe\xcd");
     common::read(&host, Path::new("/r"), Path::new(name), &[])
 }
 
-fn check(name: &str, text: &str, language: Language, codes: &[&str], contents: &[&str]) {
+fn check(name: &str, text: &str, language: FileFormat, codes: &[&str], contents: &[&str]) {
     let loaded = read(name, text.as_bytes());
     assert_eq!(loaded.language, language, "{name}");
     let found: Vec<_> = loaded.diagnostics.iter().map(|one| one.code).collect();
@@ -31,39 +31,39 @@ fn yaml_files_are_told_apart_by_what_they_hold() {
     check(
         "room.yaml",
         MAP,
-        Language::Map,
+        FileFormat::Map,
         &[],
         &[
             "2 x 2 cells of 0.05 m: 0.10 x 0.10 m",
             "1 occupied, 1 unknown, the rest free; origin -1 2 0",
         ],
     );
-    check("bad.yaml", &MAP.replace("0.05", "-1"), Language::Map, &["bad-map"], &[]);
+    check("bad.yaml", &MAP.replace("0.05", "-1"), FileFormat::Map, &["bad-map"], &[]);
     check(
         "nav2_params.yaml",
         "amcl:\n  ros__parameters:\n    a: 1\n    b: 2\nns:\n  costmap:\n    ros__parameters: {c: 1}\n",
-        Language::Parameters,
+        FileFormat::Parameters,
         &[],
         &["/amcl: 2 parameters", "/ns/costmap: 1 parameters"],
     );
     check(
         "params.yaml",
         "amcl:\n  ros__parameters:\n    a: 1\nmap_server:\n  yaml_filename: m.yaml\n",
-        Language::Parameters,
+        FileFormat::Parameters,
         &["no-ros-parameters"],
         &["/amcl: 1 parameters"],
     );
     check(
         "bridge.yaml",
         "- ros_topic_name: scan\n  gz_topic_name: lidar\n- topic_name: clock\n",
-        Language::Bridge,
+        FileFormat::Bridge,
         &[],
         &["2 topics"],
     );
-    check("a.launch.yaml", "launch:\n- node: {pkg: a}\n", Language::LaunchYaml, &[], &[]);
-    check("b.yaml", "1: 2\n", Language::Yaml, &[], &[]);
-    check("c.yaml", "a: [\n", Language::Yaml, &["bad-yaml"], &[]);
-    check("d.yaml", "", Language::Yaml, &["empty-file"], &[]);
+    check("a.launch.yaml", "launch:\n- node: {pkg: a}\n", FileFormat::LaunchYaml, &[], &[]);
+    check("b.yaml", "1: 2\n", FileFormat::Yaml, &[], &[]);
+    check("c.yaml", "a: [\n", FileFormat::Yaml, &["bad-yaml"], &[]);
+    check("d.yaml", "", FileFormat::Yaml, &["empty-file"], &[]);
 }
 
 #[test]
@@ -83,22 +83,22 @@ fn configurations_pictures_programs_and_packed_files() {
         "view.rviz",
         "Visualization Manager:\n  Global Options: {Fixed Frame: map}\n  Displays:\n    \
          - {Class: rviz_default_plugins/LaserScan, Name: Scan}\n",
-        Language::Rviz,
+        FileFormat::Rviz,
         &[],
         &["fixed frame map", "display Scan (rviz_default_plugins/LaserScan)"],
     );
-    check("view.rviz", "Panels: []\n", Language::Rviz, &["bad-rviz"], &[]);
-    check("plan.pgm", "P5 2 1 255\nab", Language::Picture, &[], &["2 x 1 pixels, 1 channels"]);
-    check("room.png", "<html/>", Language::Picture, &["picture"], &[]);
-    check("a.launch.py", "", Language::LaunchPython, &[], &[]);
-    check("a.py", "def generate_launch_description(): pass\n", Language::LaunchPython, &[], &[]);
-    check("b.py", "print(1)\n", Language::Python, &[], &[]);
-    check("a.zip", "PK\u{3}\u{4}", Language::Archive, &["archive"], &[]);
-    check("a.mcap", "", Language::Recording, &[], &[]);
+    check("view.rviz", "Panels: []\n", FileFormat::Rviz, &["bad-rviz"], &[]);
+    check("plan.pgm", "P5 2 1 255\nab", FileFormat::Picture, &[], &["2 x 1 pixels, 1 channels"]);
+    check("room.png", "<html/>", FileFormat::Picture, &["picture"], &[]);
+    check("a.launch.py", "", FileFormat::LaunchPython, &[], &[]);
+    check("a.py", "def generate_launch_description(): pass\n", FileFormat::LaunchPython, &[], &[]);
+    check("b.py", "print(1)\n", FileFormat::Python, &[], &[]);
+    check("a.zip", "PK\u{3}\u{4}", FileFormat::Archive, &["archive"], &[]);
+    check("a.mcap", "", FileFormat::Recording, &[], &[]);
     check(
         "package.xml",
         "<package format='3'><name>my_robot</name></package>",
-        Language::Package,
+        FileFormat::Package,
         &[],
         &["package my_robot"],
     );
@@ -111,7 +111,7 @@ fn folders_are_told_apart() {
         .with_file("/r/pkg/package.xml", "<package/>")
         .with_file("/r/empty/x", "");
     for (name, language) in
-        [("bag", Language::Recording), ("pkg", Language::Folder), ("empty", Language::Folder)]
+        [("bag", FileFormat::Recording), ("pkg", FileFormat::Folder), ("empty", FileFormat::Folder)]
     {
         let loaded = common::read(&host, Path::new("/r"), Path::new(name), &[]);
         assert_eq!(loaded.language, language, "{name}");

@@ -7,7 +7,7 @@ use crate::recognise::{Sign, ros_sign};
 
 /// Type of the element that a plugin is attached to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Place {
+pub enum PluginParent {
     /// A world.
     World,
     /// The GUI.
@@ -24,9 +24,9 @@ pub enum Place {
 
 /// Elements around a plugin.
 #[derive(Clone, Copy, Debug)]
-pub struct Context<'a> {
+pub struct PluginContext<'a> {
     /// Type of the element that it is attached to.
-    pub place: Place,
+    pub place: PluginParent,
     /// World that contains it.
     pub world: Option<&'a World>,
     /// Outermost model that contains it.
@@ -43,17 +43,17 @@ pub struct Context<'a> {
 
 /// Plugin with its context.
 #[derive(Clone, Copy, Debug)]
-pub struct Site<'a> {
+pub struct PluginSite<'a> {
     /// The plugin.
     pub plugin: &'a Plugin,
     /// Context of the plugin.
-    pub context: Context<'a>,
+    pub context: PluginContext<'a>,
 }
 
-impl Context<'_> {
+impl PluginContext<'_> {
     /// Context without any known element.
-    pub const NOWHERE: Context<'static> = Context {
-        place: Place::Model,
+    pub const NOWHERE: PluginContext<'static> = PluginContext {
+        place: PluginParent::Model,
         world: None,
         root: None,
         model: None,
@@ -65,19 +65,23 @@ impl Context<'_> {
 
 /// All plugins of a scene, in order.
 #[must_use]
-pub fn sites(scene: &Scene) -> Vec<Site<'_>> {
+pub fn sites(scene: &Scene) -> Vec<PluginSite<'_>> {
     let mut sites = Vec::new();
     for world in &scene.worlds {
-        let context = Context { place: Place::World, world: Some(world), ..Context::NOWHERE };
+        let context = PluginContext {
+            place: PluginParent::World,
+            world: Some(world),
+            ..PluginContext::NOWHERE
+        };
         add(&world.plugins, context, &mut sites);
         if let Some(gui) = &world.gui {
-            add(&gui.plugins, Context { place: Place::Gui, ..context }, &mut sites);
+            add(&gui.plugins, PluginContext { place: PluginParent::Gui, ..context }, &mut sites);
         }
         for model in &world.models {
-            add_model(model, Context { root: Some(model), ..context }, &mut sites);
+            add_model(model, PluginContext { root: Some(model), ..context }, &mut sites);
         }
         for actor in &world.actors {
-            let context = Context { place: Place::Actor, ..context };
+            let context = PluginContext { place: PluginParent::Actor, ..context };
             add(&actor.plugins, context, &mut sites);
             for link in &actor.links {
                 add_link(link, context, &mut sites);
@@ -90,10 +94,14 @@ pub fn sites(scene: &Scene) -> Vec<Site<'_>> {
         }
     }
     for model in &scene.models {
-        add_model(model, Context { root: Some(model), ..Context::NOWHERE }, &mut sites);
+        add_model(model, PluginContext { root: Some(model), ..PluginContext::NOWHERE }, &mut sites);
     }
     for actor in &scene.actors {
-        add(&actor.plugins, Context { place: Place::Actor, ..Context::NOWHERE }, &mut sites);
+        add(
+            &actor.plugins,
+            PluginContext { place: PluginParent::Actor, ..PluginContext::NOWHERE },
+            &mut sites,
+        );
     }
     settle_ros_version(&mut sites);
     sites
@@ -101,9 +109,9 @@ pub fn sites(scene: &Scene) -> Vec<Site<'_>> {
 
 /// Plugins of a model in a world, in order.
 #[must_use]
-pub fn model_sites<'a>(world: &'a World, model: &'a Model) -> Vec<Site<'a>> {
+pub fn model_sites<'a>(world: &'a World, model: &'a Model) -> Vec<PluginSite<'a>> {
     let mut sites = Vec::new();
-    let context = Context { world: Some(world), root: Some(model), ..Context::NOWHERE };
+    let context = PluginContext { world: Some(world), root: Some(model), ..PluginContext::NOWHERE };
     add_model(model, context, &mut sites);
     settle_ros_version(&mut sites);
     sites
@@ -111,20 +119,21 @@ pub fn model_sites<'a>(world: &'a World, model: &'a Model) -> Vec<Site<'a>> {
 
 /// Plugins of a world itself, in order.
 #[must_use]
-pub fn world_sites(world: &World) -> Vec<Site<'_>> {
+pub fn world_sites(world: &World) -> Vec<PluginSite<'_>> {
     let mut sites = Vec::new();
-    let context = Context { place: Place::World, world: Some(world), ..Context::NOWHERE };
+    let context =
+        PluginContext { place: PluginParent::World, world: Some(world), ..PluginContext::NOWHERE };
     add(&world.plugins, context, &mut sites);
     settle_ros_version(&mut sites);
     sites
 }
 
-fn add<'a>(plugins: &'a [Plugin], context: Context<'a>, sites: &mut Vec<Site<'a>>) {
-    sites.extend(plugins.iter().map(|plugin| Site { plugin, context }));
+fn add<'a>(plugins: &'a [Plugin], context: PluginContext<'a>, sites: &mut Vec<PluginSite<'a>>) {
+    sites.extend(plugins.iter().map(|plugin| PluginSite { plugin, context }));
 }
 
-fn add_model<'a>(model: &'a Model, context: Context<'a>, sites: &mut Vec<Site<'a>>) {
-    let context = Context { place: Place::Model, model: Some(model), ..context };
+fn add_model<'a>(model: &'a Model, context: PluginContext<'a>, sites: &mut Vec<PluginSite<'a>>) {
+    let context = PluginContext { place: PluginParent::Model, model: Some(model), ..context };
     add(&model.plugins, context, sites);
     for link in &model.links {
         add_link(link, context, sites);
@@ -139,23 +148,23 @@ fn add_model<'a>(model: &'a Model, context: Context<'a>, sites: &mut Vec<Site<'a
     }
 }
 
-fn add_link<'a>(link: &'a Link, context: Context<'a>, sites: &mut Vec<Site<'a>>) {
-    let context = Context { link: Some(link), ..context };
+fn add_link<'a>(link: &'a Link, context: PluginContext<'a>, sites: &mut Vec<PluginSite<'a>>) {
+    let context = PluginContext { link: Some(link), ..context };
     for sensor in &link.sensors {
         add_sensor(sensor, context, sites);
     }
     for visual in &link.visuals {
-        add(&visual.plugins, Context { place: Place::Visual, ..context }, sites);
+        add(&visual.plugins, PluginContext { place: PluginParent::Visual, ..context }, sites);
     }
 }
 
-fn add_sensor<'a>(sensor: &'a Sensor, context: Context<'a>, sites: &mut Vec<Site<'a>>) {
-    let context = Context { place: Place::Sensor, sensor: Some(sensor), ..context };
+fn add_sensor<'a>(sensor: &'a Sensor, context: PluginContext<'a>, sites: &mut Vec<PluginSite<'a>>) {
+    let context = PluginContext { place: PluginParent::Sensor, sensor: Some(sensor), ..context };
     add(&sensor.plugins, context, sites);
 }
 
 /// A file has plugins of one ROS version: those that determine it apply to the others.
-fn settle_ros_version(sites: &mut [Site<'_>]) {
+fn settle_ros_version(sites: &mut [PluginSite<'_>]) {
     let signs: Vec<Sign> = sites.iter().map(|site| ros_sign(site.plugin)).collect();
     let count = |sign: Sign| signs.iter().filter(|other| **other == sign).count();
     let (ros1, ros2) = (count(Sign::Ros1), count(Sign::Ros2));

@@ -2,7 +2,7 @@
 //! crate, so tests here cannot use it.
 
 use expect_test::Expect;
-use periplus_diagnostics::{Diagnostics, SourceMap, Style, render};
+use periplus_diagnostics::{Diagnostics, RenderStyle, SourceMap, render};
 use periplus_scene::*;
 use periplus_xml::parse;
 
@@ -22,7 +22,8 @@ pub(crate) fn check(text: &str, expected: Expect) {
     let document = parse(file, &sources, &mut diagnostics).unwrap();
     let scene = read(&document.root);
     crate::lint(&scene, &mut diagnostics);
-    let said: String = diagnostics.iter().map(|d| render(d, &sources, Style::Plain)).collect();
+    let said: String =
+        diagnostics.iter().map(|d| render(d, &sources, RenderStyle::Plain)).collect();
     expected.assert_eq(&said);
 }
 
@@ -100,7 +101,7 @@ fn read_model(element: &Element) -> Model {
         ("merged_joint", FrameRole::MergedJoint),
     ] {
         for frame in element.named(kind) {
-            model.frames.push(Frame {
+            model.frames.push(NamedFrame {
                 name: name(frame),
                 parent_from_frame: Pose::IDENTITY,
                 attached_to: "__model__".into(),

@@ -1,18 +1,18 @@
 //! Typed parameters of plugins.
 
 use periplus_diagnostics::Diagnostics;
-use periplus_params::{Given, Values};
+use periplus_params::{Given, ParamValues};
 use periplus_scene::{Element, Plugin};
 
-use crate::{Context, Family, Known, RosSettings, recognise};
+use crate::{Family, PluginContext, PluginSpec, RosSettings, recognise};
 
 /// Interpreted plugin.
 #[derive(Clone, Debug)]
-pub struct Interpreted {
+pub struct InterpretedPlugin {
     /// Specification of the plugin.
-    pub known: &'static Known,
+    pub known: &'static PluginSpec,
     /// Its parameters, with defaults.
-    pub values: Values,
+    pub values: ParamValues,
     /// Settings of its ROS node.
     pub ros: RosSettings,
 }
@@ -22,9 +22,9 @@ pub struct Interpreted {
 #[must_use]
 pub fn interpret(
     plugin: &Plugin,
-    context: &Context<'_>,
+    context: &PluginContext<'_>,
     diagnostics: &mut Diagnostics,
-) -> Option<Interpreted> {
+) -> Option<InterpretedPlugin> {
     let known = recognise(plugin, context)?;
     let table = &known.table;
     let given = plugin.content.iter().filter(|element| table.find(&element.name).is_some());
@@ -33,7 +33,7 @@ pub fn interpret(
         Family::ClassicRos1 => RosSettings::ros1(plugin),
         Family::ClassicRos2 | Family::Classic | Family::Gz => RosSettings::read(plugin),
     };
-    Some(Interpreted { known, values, ros })
+    Some(InterpretedPlugin { known, values, ros })
 }
 
 pub(crate) fn given_by(element: &Element) -> Given<'_> {
@@ -50,9 +50,9 @@ mod tests {
     use super::*;
     use crate::fixture::plugin;
 
-    fn interpret_alone(text: &str) -> Interpreted {
+    fn interpret_alone(text: &str) -> InterpretedPlugin {
         let mut diagnostics = Diagnostics::new();
-        let read = interpret(&plugin(text), &Context::NOWHERE, &mut diagnostics).unwrap();
+        let read = interpret(&plugin(text), &PluginContext::NOWHERE, &mut diagnostics).unwrap();
         assert!(diagnostics.is_empty(), "{diagnostics:?}");
         read
     }
@@ -95,6 +95,6 @@ mod tests {
     #[test]
     fn an_unknown_plugin_is_not_interpreted() {
         let strange = plugin("<plugin name='x' filename='libmine.so'/>");
-        assert!(interpret(&strange, &Context::NOWHERE, &mut Diagnostics::new()).is_none());
+        assert!(interpret(&strange, &PluginContext::NOWHERE, &mut Diagnostics::new()).is_none());
     }
 }

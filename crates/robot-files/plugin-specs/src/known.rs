@@ -49,7 +49,7 @@ pub enum Support {
 
 /// Direction of a topic.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Flow {
+pub enum TopicDirection {
     /// Published by the plugin.
     Out,
     /// Subscribed to by the plugin.
@@ -58,9 +58,9 @@ pub enum Flow {
 
 /// Topic of a plugin.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Topic {
+pub struct PluginTopic {
     /// Direction of the topic.
-    pub flow: Flow,
+    pub flow: TopicDirection,
     /// Its name. `{model}`, `{world}` and `{sensor}` are replaced by names of the scene, any other
     /// `{parameter}` by the value of the parameter.
     pub name: &'static str,
@@ -72,7 +72,7 @@ pub struct Topic {
 
 /// Specification of a known plugin.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Known {
+pub struct PluginSpec {
     /// Simulator that it is for.
     pub family: Family,
     /// Library without `lib` and `.so`, with its current name: `gazebo_ros_diff_drive`,
@@ -86,7 +86,7 @@ pub struct Known {
     /// Support by Periplus.
     pub support: Support,
     /// Its topics.
-    pub topics: &'static [Topic],
+    pub topics: &'static [PluginTopic],
     /// Its parameters.
     pub table: Table,
     /// True if it reads parameters that are not in the table.
@@ -94,16 +94,16 @@ pub struct Known {
 }
 
 /// Topic that a plugin publishes.
-pub(crate) const fn publishes(name: &'static str) -> Topic {
-    Topic { flow: Flow::Out, name, set_by: None, when: None }
+pub(crate) const fn publishes(name: &'static str) -> PluginTopic {
+    PluginTopic { flow: TopicDirection::Out, name, set_by: None, when: None }
 }
 
 /// Topic that a plugin subscribes to.
-pub(crate) const fn listens(name: &'static str) -> Topic {
-    Topic { flow: Flow::In, name, set_by: None, when: None }
+pub(crate) const fn listens(name: &'static str) -> PluginTopic {
+    PluginTopic { flow: TopicDirection::In, name, set_by: None, when: None }
 }
 
-impl Topic {
+impl PluginTopic {
     pub(crate) const fn set_by(self, parameter: &'static str) -> Self {
         Self { set_by: Some(parameter), ..self }
     }
@@ -113,7 +113,7 @@ impl Topic {
     }
 }
 
-impl Known {
+impl PluginSpec {
     pub(crate) const fn new(
         family: Family,
         id: &'static str,
@@ -124,7 +124,7 @@ impl Known {
         Self { family, id, classes: &[], role, support, topics: &[], table, open: false }
     }
 
-    pub(crate) const fn topics(self, topics: &'static [Topic]) -> Self {
+    pub(crate) const fn topics(self, topics: &'static [PluginTopic]) -> Self {
         Self { topics, ..self }
     }
 

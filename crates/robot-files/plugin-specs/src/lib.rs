@@ -15,15 +15,15 @@ mod ros;
 mod tables;
 mod topics;
 
-pub use context::{Context, Place, Site, model_sites, sites, world_sites};
-pub use interpret::{Interpreted, interpret};
-pub use known::{Family, Flow, Known, Role, Support, Topic};
+pub use context::{PluginContext, PluginParent, PluginSite, model_sites, sites, world_sites};
+pub use interpret::{InterpretedPlugin, interpret};
+pub use known::{Family, PluginSpec, PluginTopic, Role, Support, TopicDirection};
 pub use library::library_id;
 pub use lint::lint;
 pub use recognise::recognise;
-pub use ros::{Qos, Remapping, RosParameter, RosSettings, TopicQos};
+pub use ros::{QosPolicies, Remapping, RosParameter, RosSettings, TopicQos};
 pub use tables::known;
-pub use topics::{Resolved, topics};
+pub use topics::{ResolvedTopic, topics};
 
 #[cfg(test)]
 mod fixture;

@@ -15,7 +15,7 @@ mod unknown;
 use periplus_diagnostics::Diagnostics;
 use periplus_scene::Scene;
 
-use crate::{Interpreted, Role, Site, interpret, sites};
+use crate::{InterpretedPlugin, PluginSite, Role, interpret, sites};
 
 /// Maximum number of drives whose wheels are checked; each searches its joints and links by name.
 const MAX_DRIVES: usize = 1_000;
@@ -24,7 +24,7 @@ const MAX_DRIVES: usize = 1_000;
 pub fn lint(scene: &Scene, diagnostics: &mut Diagnostics) {
     let sites = sites(scene);
     unknown::check(&sites, diagnostics);
-    let mut understood: Vec<(Site<'_>, Interpreted)> = Vec::new();
+    let mut understood: Vec<(PluginSite<'_>, InterpretedPlugin)> = Vec::new();
     let mut names = references::Cache::default();
     let mut drives = 0;
     for site in sites {
@@ -56,11 +56,11 @@ mod tests {
 
     use super::lint;
     use crate::fixture::scene;
-    use crate::{Context, interpret, known, topics};
+    use crate::{PluginContext, interpret, known, topics};
 
     /// All parameters of a plugin, each with the text returned by `value`.
     fn written(
-        known: &crate::Known,
+        known: &crate::PluginSpec,
         value: impl Fn(&periplus_params::Parameter) -> String,
     ) -> String {
         let mut text = format!("<plugin name='p' filename='{}'>", known.filename());
@@ -77,14 +77,14 @@ mod tests {
             let text = written(known, |parameter| match parameter.default {
                 Default::Value(default) => default.to_owned(),
                 Default::Required | Default::None => match parameter.kind {
-                    periplus_params::Kind::Bool => "true".into(),
-                    periplus_params::Kind::Choice(words) => words[0].into(),
+                    periplus_params::ParamType::Bool => "true".into(),
+                    periplus_params::ParamType::Choice(words) => words[0].into(),
                     _ => "1".into(),
                 },
             });
             let plugin = crate::fixture::plugin(&text);
             let mut diagnostics = Diagnostics::new();
-            let context = Context { ros: Some(known.family), ..Context::NOWHERE };
+            let context = PluginContext { ros: Some(known.family), ..PluginContext::NOWHERE };
             let Some(read) = interpret(&plugin, &context, &mut diagnostics) else {
                 panic!("{} is not recognised", known.id);
             };

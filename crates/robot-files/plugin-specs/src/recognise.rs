@@ -3,7 +3,7 @@
 use periplus_scene::Plugin;
 
 use crate::library::library_id;
-use crate::{Context, Family, Known, known};
+use crate::{Family, PluginContext, PluginSpec, known};
 
 /// Returns the specification of a `<plugin>`, if known.
 ///
@@ -11,7 +11,7 @@ use crate::{Context, Family, Known, known};
 /// these the ROS version is determined by, in this order: a `<ros>` element or a parameter that only ROS 2
 /// reads; the other plugins of the file; parameters that only ROS 1 reads; default ROS 2.
 #[must_use]
-pub fn recognise(plugin: &Plugin, context: &Context<'_>) -> Option<&'static Known> {
+pub fn recognise(plugin: &Plugin, context: &PluginContext<'_>) -> Option<&'static PluginSpec> {
     let candidates = candidates(plugin);
     let [_, _, ..] = candidates[..] else { return candidates.first().copied() };
     let family = match (ros_sign(plugin), context.ros) {
@@ -60,7 +60,7 @@ pub(crate) fn ros_sign(plugin: &Plugin) -> Sign {
     sign
 }
 
-fn candidates(plugin: &Plugin) -> Vec<&'static Known> {
+fn candidates(plugin: &Plugin) -> Vec<&'static PluginSpec> {
     let id = library_id(&plugin.filename);
     known().filter(|known| known.id == id).collect()
 }

@@ -3,7 +3,7 @@
 //! Names that only changed from camel case (`frameName`, `frame_name`) are not listed: the search for
 //! similar names finds them. Source: the migration guides of `gazebo_ros_pkgs` and both branches' sources.
 
-use crate::{Known, Role};
+use crate::{PluginSpec, Role};
 
 /// Replacement of a parameter.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -26,7 +26,7 @@ use Instead::{Namespace, Nothing, Parameter, Remapping, Sensor, Translated};
 
 /// Replacement of a ROS 1 parameter in a ROS 2 plugin (or of one in old ROS 2 documentation), unless the
 /// names are similar.
-pub(crate) fn renamed(known: &Known, name: &str, value: &str) -> Option<Instead> {
+pub(crate) fn renamed(known: &PluginSpec, name: &str, value: &str) -> Option<Instead> {
     let has = |parameter: &str| known.table.find(parameter).is_some();
     let sensor = known.role == Role::Sensor;
     let zero = value.parse() == Ok(0.0);

@@ -52,14 +52,14 @@ pub struct TopicQos {
     /// The topic.
     pub topic: String,
     /// QoS of publishers.
-    pub publisher: Option<Qos>,
+    pub publisher: Option<QosPolicies>,
     /// QoS of subscriptions.
-    pub subscription: Option<Qos>,
+    pub subscription: Option<QosPolicies>,
 }
 
 /// QoS policies as written; `None` keeps the plugin's own.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Qos {
+pub struct QosPolicies {
     /// `system`, `reliable` or `best_effort`.
     pub reliability: Option<String>,
     /// `system`, `volatile` or `transient_local`.
@@ -155,10 +155,10 @@ fn absolute(namespace: &str) -> String {
     format!("/{}", namespace.trim().trim_matches('/'))
 }
 
-fn read_qos(element: &Element) -> Qos {
+fn read_qos(element: &Element) -> QosPolicies {
     let word = |name: &str| element.child(name).map(|child| child.text().into_owned());
     let milliseconds = |name: &str| word(name).and_then(|text| text.parse().ok());
-    Qos {
+    QosPolicies {
         reliability: word("reliability"),
         durability: word("durability"),
         history: word("history"),

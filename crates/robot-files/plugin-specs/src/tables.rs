@@ -18,10 +18,10 @@ mod ros1_sensor;
 mod ros2;
 mod ros2_drive;
 
-use crate::Known;
+use crate::PluginSpec;
 
 /// Returns all known plugins, ROS 2 before ROS 1.
-pub fn known() -> impl Iterator<Item = &'static Known> {
+pub fn known() -> impl Iterator<Item = &'static PluginSpec> {
     [
         ros2::PLUGINS,
         ros2_drive::PLUGINS,
@@ -133,7 +133,7 @@ mod tests {
 
     #[test]
     fn no_table_has_slips() {
-        let slips: Vec<String> = known().flat_map(|known| known.table.slips()).collect();
+        let slips: Vec<String> = known().flat_map(|known| known.table.faults()).collect();
         assert_eq!(slips, [""; 0]);
     }
 

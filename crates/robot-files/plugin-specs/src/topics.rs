@@ -1,12 +1,12 @@
 //! Full names of the topics of a plugin.
 
-use crate::{Context, Family, Flow, Interpreted, Topic};
+use crate::{Family, InterpretedPlugin, PluginContext, PluginTopic, TopicDirection};
 
 /// Topic with its full name.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Resolved {
+pub struct ResolvedTopic {
     /// Direction of the topic.
-    pub flow: Flow,
+    pub flow: TopicDirection,
     /// Name inside the plugin, before remapping.
     pub inside: String,
     /// Full name.
@@ -15,14 +15,18 @@ pub struct Resolved {
 
 /// Returns the topics of a plugin with remappings, namespaces and parameters applied.
 #[must_use]
-pub fn topics(plugin: &Interpreted, context: &Context<'_>) -> Vec<Resolved> {
-    let on = |topic: &&Topic| {
+pub fn topics(plugin: &InterpretedPlugin, context: &PluginContext<'_>) -> Vec<ResolvedTopic> {
+    let on = |topic: &&PluginTopic| {
         topic.when.is_none_or(|parameter| plugin.values.flag(parameter) == Some(true))
     };
     plugin.known.topics.iter().filter(on).map(|topic| resolve(topic, plugin, context)).collect()
 }
 
-fn resolve(topic: &Topic, plugin: &Interpreted, context: &Context<'_>) -> Resolved {
+fn resolve(
+    topic: &PluginTopic,
+    plugin: &InterpretedPlugin,
+    context: &PluginContext<'_>,
+) -> ResolvedTopic {
     let set = topic
         .set_by
         .filter(|parameter| plugin.values.is_given(parameter))
@@ -41,11 +45,11 @@ fn resolve(topic: &Topic, plugin: &Interpreted, context: &Context<'_>) -> Resolv
         Family::Gz => format!("/{inside}"),
         _ => plugin.ros.resolve(&inside),
     };
-    Resolved { flow: topic.flow, inside, name }
+    ResolvedTopic { flow: topic.flow, inside, name }
 }
 
 /// Replaces `{...}` by names of the scene and values of parameters.
-fn fill(template: &str, plugin: &Interpreted, context: &Context<'_>) -> String {
+fn fill(template: &str, plugin: &InterpretedPlugin, context: &PluginContext<'_>) -> String {
     let mut out = String::new();
     let mut rest = template;
     while let Some((before, after)) = rest.split_once('{') {

@@ -3,7 +3,7 @@
 use std::fmt::Write as _;
 
 use expect_test::expect_file;
-use periplus_plugin_specs::{Family, Flow, Support, known};
+use periplus_plugin_specs::{Family, Support, TopicDirection, known};
 
 #[test]
 fn the_reference_says_what_the_tables_say() {
@@ -29,7 +29,8 @@ fn the_reference_says_what_the_tables_say() {
             }
             out.push_str(".\n");
             for topic in plugin.topics {
-                let way = if topic.flow == Flow::Out { "publishes" } else { "subscribes to" };
+                let way =
+                    if topic.flow == TopicDirection::Out { "publishes" } else { "subscribes to" };
                 let _ = write!(out, "\n- {way} `{}`", topic.name);
                 if let Some(parameter) = topic.set_by {
                     let _ = write!(out, ", or the value of `{parameter}`");

@@ -26,18 +26,21 @@ pub use actor::Actor;
 pub use joint::{Axis, Joint, JointKind, Mimic};
 pub use light::{Attenuation, Light, LightKind, Spot};
 pub use link::{Collision, Inertial, Link, Visual};
-pub use material::{Colour, Material, Pbr, Script, builtin_material, builtin_material_names};
-pub use model::{Frame, FrameRole, Model};
-pub use outline::{Edge, Trapezoid, edges, trapezoids};
+pub use material::{
+    Colour, Material, MaterialScript, Pbr, builtin_material, builtin_material_names,
+};
+pub use model::{FrameRole, Model, NamedFrame};
+pub use outline::{OutlineEdge, Trapezoid, edges, trapezoids};
 pub use periplus_diagnostics::Origin;
 pub use periplus_geometry::{DVec3, Pose};
 pub use periplus_xml::Element;
 pub use physics::Physics;
 pub use plugin::Plugin;
 pub use sensor::{
-    Camera, CameraKind, Distortion, Imu, Lidar, Noise, NoiseKind, ScanAxis, Sensor, SensorKind,
+    Camera, CameraKind, Distortion, ImuSpec, LidarSpec, NoiseKind, NoiseSpec, ScanAxis, Sensor,
+    SensorKind,
 };
-pub use shape::{Heightmap, Image, Mesh, Polyline, Shape};
-pub use surface::{Contact, Friction, Surface};
+pub use shape::{Heightmap, ImageShape, MeshShape, Polyline, Shape};
+pub use surface::{ContactProperties, Friction, SurfaceProperties};
 pub use tree::{TfEdge, carrying_link, tf_tree};
 pub use world::{Gui, Scene, SphericalCoordinates, World};

@@ -5,7 +5,7 @@ use periplus_geometry::Pose;
 use periplus_xml::Element;
 use serde::Serialize;
 
-use crate::{Light, Material, Plugin, Sensor, Shape, Surface};
+use crate::{Light, Material, Plugin, Sensor, Shape, SurfaceProperties};
 
 /// A rigid body.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -68,7 +68,7 @@ pub struct Collision {
     /// Its shape.
     pub shape: Shape,
     /// Friction and contact.
-    pub surface: Surface,
+    pub surface: SurfaceProperties,
     /// Reflectance for lidars.
     pub laser_retro: f64,
     /// Maximum number of contact points.
@@ -154,7 +154,7 @@ impl Collision {
             name: name.into(),
             link_from_collision: Pose::IDENTITY,
             shape,
-            surface: Surface::default(),
+            surface: SurfaceProperties::default(),
             laser_retro: 0.0,
             max_contacts: 10,
             extra: Vec::new(),

@@ -34,7 +34,7 @@ pub struct Material {
     /// Sharpness of highlights.
     pub shininess: Option<f64>,
     /// An OGRE material by name; the built-in ones of Classic are known.
-    pub script: Option<Script>,
+    pub script: Option<MaterialScript>,
     /// Physically based textures and values.
     pub pbr: Option<Pbr>,
     /// True if the material is lit.
@@ -48,7 +48,7 @@ pub struct Material {
 
 /// An OGRE material script.
 #[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Script {
+pub struct MaterialScript {
     /// Files and folders to search.
     pub uris: Vec<String>,
     /// The material's name: `Gazebo/Grey`.

@@ -30,7 +30,7 @@ pub struct Model {
     /// Joints.
     pub joints: Vec<Joint>,
     /// Named frames; poses are `model_from_frame`.
-    pub frames: Vec<Frame>,
+    pub frames: Vec<NamedFrame>,
     /// Nested models.
     pub models: Vec<Self>,
     /// Plugins.
@@ -60,7 +60,7 @@ pub enum FrameRole {
 
 /// Named frame.
 #[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Frame {
+pub struct NamedFrame {
     /// Its name, unique among the links, joints, frames and models of its parent.
     pub name: String,
     /// Pose at time zero in the frame of the model (or world) that declares it.

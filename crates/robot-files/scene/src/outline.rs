@@ -3,7 +3,7 @@
 use crate::shape::Polyline;
 
 /// Edge of an outline [m].
-pub type Edge = [[f64; 2]; 2];
+pub type OutlineEdge = [[f64; 2]; 2];
 
 /// Trapezoid inside outlines, with two sides parallel to x.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -20,7 +20,7 @@ pub struct Trapezoid {
 ///
 /// # Errors
 /// What is wrong, to be read after the shape's name.
-pub fn edges(outlines: &[Polyline], most_corners: usize) -> Result<Vec<Edge>, String> {
+pub fn edges(outlines: &[Polyline], most_corners: usize) -> Result<Vec<OutlineEdge>, String> {
     let corners: usize = outlines.iter().map(|outline| outline.points_m.len()).sum();
     if corners > most_corners {
         return Err(format!("has {corners} corners, more than {most_corners}"));
@@ -51,7 +51,7 @@ pub fn edges(outlines: &[Polyline], most_corners: usize) -> Result<Vec<Edge>, St
 /// The area is cut at the y of every corner. Between two cuts no edge ends, and every second gap between
 /// edges is inside. Outlines that intersect themselves are cut at their corners only.
 #[must_use]
-pub fn trapezoids(edges: &[Edge]) -> Vec<Trapezoid> {
+pub fn trapezoids(edges: &[OutlineEdge]) -> Vec<Trapezoid> {
     let mut levels: Vec<f64> = edges.iter().map(|[[_, y], _]| *y).collect();
     levels.sort_by(f64::total_cmp);
     levels.dedup();
@@ -72,7 +72,7 @@ pub fn trapezoids(edges: &[Edge]) -> Vec<Trapezoid> {
     pieces
 }
 
-fn x_at([[ax, ay], [bx, by]]: &Edge, y: f64) -> f64 {
+fn x_at([[ax, ay], [bx, by]]: &OutlineEdge, y: f64) -> f64 {
     if y == *ay {
         *ax
     } else if y == *by {

@@ -11,9 +11,9 @@ use periplus_xml::Element;
 use serde::Serialize;
 
 pub use camera::{Camera, CameraKind, Distortion};
-pub use imu::Imu;
-pub use lidar::{Lidar, ScanAxis};
-pub use noise::{Noise, NoiseKind};
+pub use imu::ImuSpec;
+pub use lidar::{LidarSpec, ScanAxis};
+pub use noise::{NoiseKind, NoiseSpec};
 
 use crate::Plugin;
 
@@ -59,38 +59,38 @@ pub struct Sensor {
 #[serde(rename_all = "snake_case")]
 pub enum SensorKind {
     /// Ranges along rays: `ray`, `gpu_ray`, `lidar`, `gpu_lidar`.
-    Lidar(Box<Lidar>),
+    Lidar(Box<LidarSpec>),
     /// Images: every type of camera.
     Camera(Box<Camera>),
     /// Angular velocity and linear acceleration.
-    Imu(Box<Imu>),
+    Imu(Box<ImuSpec>),
     /// Position on Earth: `gps`, `navsat`. Noise of position (horizontal, vertical) and velocity
     /// (horizontal, vertical).
     NavSat {
         /// Horizontal position [m].
-        position_horizontal: Noise,
+        position_horizontal: NoiseSpec,
         /// Vertical position [m].
-        position_vertical: Noise,
+        position_vertical: NoiseSpec,
         /// Horizontal velocity [m/s].
-        velocity_horizontal: Noise,
+        velocity_horizontal: NoiseSpec,
         /// Vertical velocity [m/s].
-        velocity_vertical: Noise,
+        velocity_vertical: NoiseSpec,
     },
     /// Magnetic field: noise along x, y, z [T].
-    Magnetometer([Noise; 3]),
+    Magnetometer([NoiseSpec; 3]),
     /// Height relative to the initial height.
     Altimeter {
         /// Noise of the height [m].
-        vertical_position: Noise,
+        vertical_position: NoiseSpec,
         /// Noise of the speed [m/s].
-        vertical_velocity: Noise,
+        vertical_velocity: NoiseSpec,
     },
     /// Air pressure.
     AirPressure {
         /// Height of the world's origin above sea level [m].
         reference_altitude_m: f64,
         /// Noise [Pa].
-        pressure: Noise,
+        pressure: NoiseSpec,
     },
     /// Contacts.
     Contact {
@@ -106,9 +106,9 @@ pub enum SensorKind {
         /// `child_to_parent` or `parent_to_child`.
         measure_direction: String,
         /// Noise of the force along x, y, z [N].
-        force: Box<[Noise; 3]>,
+        force: Box<[NoiseSpec; 3]>,
         /// Noise of the torque about x, y, z [N m].
-        torque: Box<[Noise; 3]>,
+        torque: Box<[NoiseSpec; 3]>,
     },
     /// Minimum distance in a cone.
     Sonar {

@@ -55,13 +55,13 @@ pub enum Shape {
         size_m: [f64; 2],
     },
     /// Triangles from a file.
-    Mesh(Mesh),
+    Mesh(MeshShape),
     /// Prisms over outlines; several outlines make holes.
     Polylines(Vec<Polyline>),
     /// Terrain from an image.
     Heightmap(Box<Heightmap>),
     /// Boxes extruded from an image (Classic).
-    Image(Image),
+    Image(ImageShape),
     /// Uninterpreted shape.
     #[serde(serialize_with = "crate::json::element")]
     Unknown(Element),
@@ -69,7 +69,7 @@ pub enum Shape {
 
 /// Triangles from a file.
 #[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Mesh {
+pub struct MeshShape {
     /// URI as written; a relative one is relative to the file of [`Self::origin`].
     pub uri: String,
     /// Resolved file of the URI.
@@ -120,7 +120,7 @@ pub struct Heightmap {
 
 /// Boxes extruded from the dark (or bright) pixels of an image.
 #[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Image {
+pub struct ImageShape {
     /// URI of the image as written.
     pub uri: String,
     /// Resolved file of the URI.

@@ -6,11 +6,11 @@ use serde::Serialize;
 
 /// Friction, contact and bounce.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
-pub struct Surface {
+pub struct SurfaceProperties {
     /// Friction.
     pub friction: Friction,
     /// Stiffness and bounce.
-    pub contact: Contact,
+    pub contact: ContactProperties,
     /// Torsional friction, soft contacts, other engines.
     #[serde(serialize_with = "crate::json::elements", skip_serializing_if = "Vec::is_empty")]
     pub extra: Vec<Element>,
@@ -37,7 +37,7 @@ pub struct Friction {
 
 /// Stiffness and bounce.
 #[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Contact {
+pub struct ContactProperties {
     /// Stiffness [N/m].
     pub kp: f64,
     /// Damping [N s/m].
@@ -69,7 +69,7 @@ impl Default for Friction {
     }
 }
 
-impl Default for Contact {
+impl Default for ContactProperties {
     fn default() -> Self {
         Self {
             kp: 1e12,

@@ -4,7 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use periplus_geometry::Pose;
 
-use crate::{Frame, FrameRole, JointKind, Model};
+use crate::{FrameRole, JointKind, Model, NamedFrame};
 
 /// Transform between two frames.
 #[derive(Clone, Debug, PartialEq)]
@@ -161,7 +161,7 @@ impl Flat {
             self.links.insert(scoped(&link.name), outer_from_model * link.model_from_link);
         }
         for frame in &model.frames {
-            let Frame { name, parent_from_frame, attached_to, role, .. } = frame;
+            let NamedFrame { name, parent_from_frame, attached_to, role, .. } = frame;
             self.frame_index.insert(scoped(name), self.frames.len());
             let flat = FlatFrame {
                 pose: outer_from_model * *parent_from_frame,
@@ -245,8 +245,8 @@ mod tests {
     use super::*;
     use crate::{Joint, Link};
 
-    fn frame(name: &str, attached_to: &str, x: f64, role: FrameRole) -> Frame {
-        Frame {
+    fn frame(name: &str, attached_to: &str, x: f64, role: FrameRole) -> NamedFrame {
+        NamedFrame {
             name: name.into(),
             parent_from_frame: Pose::from_xyz(x, 0.0, 0.0),
             attached_to: attached_to.into(),

@@ -5,7 +5,7 @@ use periplus_geometry::{DVec3, Pose};
 use periplus_xml::Element;
 use serde::Serialize;
 
-use crate::{Actor, Colour, Frame, Joint, Light, Model, Physics, Plugin};
+use crate::{Actor, Colour, Joint, Light, Model, NamedFrame, Physics, Plugin};
 
 /// Content of one file: worlds, or models, lights and actors outside any world.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
@@ -47,7 +47,7 @@ pub struct World {
     /// Settings of the GUI.
     pub gui: Option<Gui>,
     /// Frames attached to the world or to an entity in it; poses are `world_from_frame`.
-    pub frames: Vec<Frame>,
+    pub frames: Vec<NamedFrame>,
     /// Models.
     pub models: Vec<Model>,
     /// Joints between models (SDF 1.11); links are named `model::link`.

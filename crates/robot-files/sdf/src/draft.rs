@@ -2,7 +2,7 @@
 //! is relative to.
 
 use periplus_diagnostics::Origin;
-use periplus_scene::{Actor, Frame, Joint, Light, Link, Model, World};
+use periplus_scene::{Actor, Joint, Light, Link, Model, NamedFrame, World};
 
 use crate::pose::Reference;
 
@@ -37,7 +37,7 @@ pub(crate) struct JointDraft {
 
 #[derive(Clone, Debug)]
 pub(crate) struct FrameDraft {
-    pub(crate) frame: Frame,
+    pub(crate) frame: NamedFrame,
     pub(crate) relative_to: Option<Reference>,
     pub(crate) attached_to: Option<Reference>,
 }

@@ -4,7 +4,7 @@
 use periplus_diagnostics::{Diagnostic, Diagnostics, MAX_FINDINGS, Origin, Severity};
 use periplus_geometry::DVec3;
 use periplus_scene::Colour;
-use periplus_xml::{Attribute, Element, Node};
+use periplus_xml::{Attribute, Element, XmlNode};
 
 use crate::value::{self, leaf};
 use crate::verbatim::keep;
@@ -40,7 +40,7 @@ impl<'a, 'd> Fields<'a, 'd> {
         self.known.push(name);
         let mut found = Vec::new();
         for (node, used) in self.element.children.iter().zip(&mut self.used) {
-            if let Node::Element(child) = node
+            if let XmlNode::Element(child) = node
                 && child.name == name
             {
                 *used = true;
@@ -55,7 +55,7 @@ impl<'a, 'd> Fields<'a, 'd> {
         self.known.push(name);
         let mut first: Option<&'a Element> = None;
         for (node, used) in self.element.children.iter().zip(&mut self.used) {
-            let Node::Element(child) = node else { continue };
+            let XmlNode::Element(child) = node else { continue };
             if child.name != name {
                 continue;
             }
@@ -85,7 +85,7 @@ impl<'a, 'd> Fields<'a, 'd> {
     pub(crate) fn close(&mut self, name: &'static str, rest: Vec<Element>) {
         if !rest.is_empty() {
             let mut wrapper = Element::new(name);
-            wrapper.children.extend(rest.into_iter().map(Node::Element));
+            wrapper.children.extend(rest.into_iter().map(XmlNode::Element));
             self.kept.push(wrapper);
         }
     }
@@ -139,8 +139,8 @@ impl<'a, 'd> Fields<'a, 'd> {
         let verbatim_from = rest.len();
         for (node, used) in self.element.children.iter().zip(&self.used) {
             match node {
-                Node::Element(child) if !used => rest.push(keep(child)),
-                Node::Text(text) if !text.text.trim().is_empty() => self.diagnostics.push(
+                XmlNode::Element(child) if !used => rest.push(keep(child)),
+                XmlNode::Text(text) if !text.text.trim().is_empty() => self.diagnostics.push(
                     Diagnostic::warning(
                         "stray-text",
                         format!("text directly in `<{}>` has no meaning", self.element.name),

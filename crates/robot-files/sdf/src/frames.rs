@@ -171,7 +171,7 @@ fn place_frames(
     drafts: Vec<FrameDraft>,
     root: &str,
     pose: &mut impl FnMut() -> Pose,
-) -> Vec<periplus_scene::Frame> {
+) -> Vec<periplus_scene::NamedFrame> {
     drafts
         .into_iter()
         .map(|draft| {

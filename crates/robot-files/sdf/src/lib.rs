@@ -21,11 +21,11 @@ mod write;
 
 pub use inertia::check as check_inertia;
 pub use plain_names::use_plain_names;
-pub use pose::{Placed, Reference, read_pose};
+pub use pose::{PosedElement, Reference, read_pose};
 pub use read::{
-    Context, Includes, NoIncludes, Opened, PlacedSensor, read_collision, read_document,
-    read_geometry, read_inertial, read_light, read_material, read_plugin, read_sensor,
-    read_surface, read_visual,
+    IncludeResolver, IncludeTarget, NoIncludes, PosedSensor, SdfContext, read_collision,
+    read_document, read_geometry, read_inertial, read_light, read_material, read_plugin,
+    read_sensor, read_surface, read_visual,
 };
 pub use verbatim::keep;
 pub use version::Version;

@@ -6,7 +6,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use periplus_diagnostics::{Diagnostic, Diagnostics};
-use periplus_xml::{Document, Element, Node, SmolStr};
+use periplus_xml::{Document, Element, SmolStr, XmlNode};
 
 /// Separates models in names of SDF 1.8 and later.
 const SEPARATOR: &str = "::";
@@ -131,7 +131,7 @@ impl Scope {
 
     fn apply(&self, element: &mut Element) {
         for node in &mut element.children {
-            let Node::Element(child) = node else { continue };
+            let XmlNode::Element(child) = node else { continue };
             let own = SmolStr::new(child.value("name").unwrap_or_default());
             for attribute in &mut child.attributes {
                 let is_name = attribute.name == "name" && NAMED.contains(&&*child.name);
@@ -170,7 +170,7 @@ impl Scope {
             return;
         }
         for node in &mut element.children {
-            if let Node::Text(text) = node
+            if let XmlNode::Text(text) = node
                 && let Some(new) = self.path(text.text.trim())
             {
                 text.text = new;

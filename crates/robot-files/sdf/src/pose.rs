@@ -18,7 +18,7 @@ pub struct Reference {
 
 /// Element with a pose that may be relative to a named frame.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Placed<T> {
+pub struct PosedElement<T> {
     /// The element; its pose is as written.
     pub value: T,
     /// Frame that the pose is relative to; `None` for the default.

@@ -23,12 +23,12 @@ mod state;
 mod surface;
 mod world;
 
-pub use include::{Includes, NoIncludes, Opened};
+pub use include::{IncludeResolver, IncludeTarget, NoIncludes};
 pub use light::read_light;
 pub use link::{read_collision, read_inertial, read_visual};
 pub use material::read_material;
 pub use plugin::read_plugin;
-pub use root::{Context, read_document};
-pub use sensor::{PlacedSensor, read_sensor};
+pub use root::{SdfContext, read_document};
+pub use sensor::{PosedSensor, read_sensor};
 pub use shape::read_geometry;
 pub use surface::read_surface;

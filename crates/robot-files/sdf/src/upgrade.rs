@@ -10,7 +10,7 @@ mod unflatten;
 
 use std::borrow::Cow;
 
-use periplus_xml::{Attribute, Element, Node};
+use periplus_xml::{Attribute, Element, XmlNode};
 
 use crate::version::Version;
 
@@ -48,7 +48,7 @@ pub(crate) fn upgrade(root: &Element, version: Version) -> Cow<'_, Element> {
         });
     }
     for child in &mut root.children {
-        if let Node::Element(world) = child
+        if let XmlNode::Element(world) = child
             && world.name == "world"
         {
             elements_mut(world).filter(|it| it.name == "model").for_each(unflatten::unflatten);
@@ -80,7 +80,7 @@ fn each(element: &mut Element, visit: &mut impl FnMut(&mut Element)) {
 
 fn elements_mut(element: &mut Element) -> impl Iterator<Item = &mut Element> {
     element.children.iter_mut().filter_map(|node| match node {
-        Node::Element(child) => Some(child),
+        XmlNode::Element(child) => Some(child),
         _ => None,
     })
 }
@@ -96,7 +96,7 @@ fn take_child(element: &mut Element, name: &str) -> Option<Element> {
         .iter()
         .position(|node| node.as_element().is_some_and(|child| child.name == name))?;
     match element.children.remove(at) {
-        Node::Element(child) => Some(child),
+        XmlNode::Element(child) => Some(child),
         _ => None,
     }
 }

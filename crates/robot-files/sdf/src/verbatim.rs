@@ -1,26 +1,26 @@
 //! Elements that are kept verbatim.
 
-use periplus_xml::{Element, Node, Text};
+use periplus_xml::{Element, Text, XmlNode};
 
 /// Returns the element without the layout white space around its texts, so that a kept element is the same
 /// after writing and reading.
 pub fn keep(element: &Element) -> Element {
-    let mut children: Vec<Node> = Vec::with_capacity(element.children.len());
+    let mut children: Vec<XmlNode> = Vec::with_capacity(element.children.len());
     for node in &element.children {
         match node {
-            Node::Element(child) => children.push(Node::Element(keep(child))),
-            Node::Text(text) => match children.last_mut() {
+            XmlNode::Element(child) => children.push(XmlNode::Element(keep(child))),
+            XmlNode::Text(text) => match children.last_mut() {
                 // Adjacent text and CDATA are one text.
-                Some(Node::Text(before)) => {
+                Some(XmlNode::Text(before)) => {
                     before.text = format!("{}{}", before.text, text.text).into();
                 }
-                _ => children.push(Node::Text(text.clone())),
+                _ => children.push(XmlNode::Text(text.clone())),
             },
             other => children.push(other.clone()),
         }
     }
     children.retain_mut(|node| match node {
-        Node::Text(text) => {
+        XmlNode::Text(text) => {
             trim(text);
             !text.text.is_empty()
         }

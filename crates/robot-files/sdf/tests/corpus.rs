@@ -10,7 +10,7 @@ mod files;
 
 use std::collections::BTreeMap;
 
-use periplus_diagnostics::{Diagnostics, Severity, SourceMap, Style, render};
+use periplus_diagnostics::{Diagnostics, RenderStyle, Severity, SourceMap, render};
 use periplus_scene::Scene;
 use serde_json::Value;
 
@@ -56,7 +56,7 @@ fn read(answer: &Value) -> (Scene, Diagnostics, SourceMap, files::Recorded) {
     let mut diagnostics = Diagnostics::new();
     let path = answer["file"].as_str().expect("a file");
     let scene = files::parse(path, &mut sources, &mut diagnostics).map(|document| {
-        let mut context = periplus_sdf::Context {
+        let mut context = periplus_sdf::SdfContext {
             sources: &mut sources,
             diagnostics: &mut diagnostics,
             includes: &mut includes,
@@ -73,7 +73,7 @@ fn rewritten(scene: &Scene) -> (Scene, String) {
     let mut sources = SourceMap::new();
     let file = sources.add("again.sdf", text.as_str());
     let document = periplus_xml::parse(file, &sources, &mut diagnostics).expect("XML");
-    let mut context = periplus_sdf::Context {
+    let mut context = periplus_sdf::SdfContext {
         sources: &mut sources,
         diagnostics: &mut diagnostics,
         includes: &mut periplus_sdf::NoIncludes,
@@ -124,7 +124,7 @@ fn real_files_mean_what_libsdformat_says() {
         for diagnostic in diagnostics.iter() {
             *codes.entry((diagnostic.severity, diagnostic.code)).or_default() += 1;
             if verbose {
-                println!("{}", render(diagnostic, &sources, Style::Plain));
+                println!("{}", render(diagnostic, &sources, RenderStyle::Plain));
             }
         }
         let mut differences = compare::Differences::default();

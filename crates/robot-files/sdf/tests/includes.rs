@@ -177,14 +177,14 @@ fn findings_in_an_included_file_are_told_once() {
 /// A host that turns other formats into models.
 struct Robots;
 
-impl periplus_sdf::Includes for Robots {
+impl periplus_sdf::IncludeResolver for Robots {
     fn open(
         &mut self,
         uri: &str,
         _: periplus_diagnostics::Origin,
         _: &mut periplus_diagnostics::SourceMap,
         _: &mut periplus_diagnostics::Diagnostics,
-    ) -> periplus_sdf::Opened {
+    ) -> periplus_sdf::IncludeTarget {
         let mut model = periplus_scene::Model::new("robot");
         model.links = vec![periplus_scene::Link::new("base"), periplus_scene::Link::new("hand")];
         model.links[1].model_from_link = periplus_geometry::Pose::from_xyz(1.0, 0.0, 0.0);
@@ -192,14 +192,14 @@ impl periplus_sdf::Includes for Robots {
             periplus_scene::Joint::new("wrist", periplus_scene::JointKind::Fixed, "base", "hand");
         joint.child_from_joint = periplus_geometry::Pose::from_xyz(0.0, 0.0, 2.0);
         model.joints = vec![joint];
-        model.frames = vec![periplus_scene::Frame {
+        model.frames = vec![periplus_scene::NamedFrame {
             name: "tool".into(),
             parent_from_frame: periplus_geometry::Pose::from_xyz(1.0, 0.0, 3.0),
             attached_to: "hand".into(),
             role: periplus_scene::FrameRole::MergedLink,
             origin: periplus_diagnostics::Origin::default(),
         }];
-        periplus_sdf::Opened::Model { model: Box::new(model), key: uri.into() }
+        periplus_sdf::IncludeTarget::Model { model: Box::new(model), key: uri.into() }
     }
 }
 
@@ -213,7 +213,7 @@ fn a_model_of_another_format_keeps_its_frames() {
     );
     let file = sources.add("test.sdf", text);
     let document = periplus_xml::parse(file, &sources, &mut diagnostics).unwrap();
-    let mut context = periplus_sdf::Context {
+    let mut context = periplus_sdf::SdfContext {
         sources: &mut sources,
         diagnostics: &mut diagnostics,
         includes: &mut Robots,

@@ -6,10 +6,10 @@ use common::{Files, read_with, told};
 use periplus_diagnostics::Diagnostics;
 use periplus_geometry::{DQuat, DVec3, Pose, Rpy};
 use periplus_scene::{
-    Axis, Camera, CameraKind, Collision, Colour, Distortion, Element, Frame, FrameRole, Imu, Joint,
-    JointKind, Lidar, Light, LightKind, Link, Material, Mesh, Mimic, Model, Noise, NoiseKind,
-    Origin, Plugin, Polyline, ScanAxis, Scene, Script, Sensor, SensorKind, Shape, Spot, Surface,
-    Visual,
+    Axis, Camera, CameraKind, Collision, Colour, Distortion, Element, FrameRole, ImuSpec, Joint,
+    JointKind, LidarSpec, Light, LightKind, Link, Material, MaterialScript, MeshShape, Mimic,
+    Model, NamedFrame, NoiseKind, NoiseSpec, Origin, Plugin, Polyline, ScanAxis, Scene, Sensor,
+    SensorKind, Shape, Spot, SurfaceProperties, Visual,
 };
 use proptest::prelude::*;
 
@@ -64,7 +64,7 @@ fn shapes() -> impl Strategy<Value = Shape> {
     let sizes = || [positive(), positive(), positive()].prop_map(DVec3::from_array);
     let mesh = (words(), prop::option::of(words()), any::<bool>(), sizes()).prop_map(
         |(uri, submesh, center_submesh, scale)| {
-            Shape::Mesh(Mesh {
+            Shape::Mesh(MeshShape {
                 uri,
                 path: None,
                 submesh,
@@ -103,7 +103,7 @@ fn colours() -> impl Strategy<Value = Colour> {
 
 fn materials() -> impl Strategy<Value = Material> {
     let script = (prop::collection::vec(words(), 0..3), words())
-        .prop_map(|(uris, name)| Script { uris, name });
+        .prop_map(|(uris, name)| MaterialScript { uris, name });
     (
         prop::option::of(words()),
         prop::array::uniform4(prop::option::of(colours())),
@@ -129,11 +129,11 @@ fn materials() -> impl Strategy<Value = Material> {
         })
 }
 
-fn surfaces() -> impl Strategy<Value = Surface> {
+fn surfaces() -> impl Strategy<Value = SurfaceProperties> {
     let mu = || prop_oneof![Just(1.0), positive(), Just(f64::INFINITY)];
     (mu(), mu(), vectors(), positive(), any::<bool>(), any::<u32>()).prop_map(
         |(mu, mu2, fdir1, kp, flag, mask)| {
-            let mut surface = Surface::default();
+            let mut surface = SurfaceProperties::default();
             surface.friction.mu = mu;
             surface.friction.mu2 = mu2;
             surface.friction.fdir1 = fdir1;
@@ -153,19 +153,19 @@ fn surfaces() -> impl Strategy<Value = Surface> {
     )
 }
 
-fn noises() -> impl Strategy<Value = Noise> {
+fn noises() -> impl Strategy<Value = NoiseSpec> {
     let kind = prop_oneof![Just(NoiseKind::Gaussian), Just(NoiseKind::GaussianQuantized)];
     let some = (kind, numbers(), positive(), numbers(), positive()).prop_map(
-        |(kind, mean, stddev, bias_mean, precision)| Noise {
+        |(kind, mean, stddev, bias_mean, precision)| NoiseSpec {
             kind,
             mean,
             stddev,
             bias_mean,
             precision,
-            ..Noise::default()
+            ..NoiseSpec::default()
         },
     );
-    prop_oneof![Just(Noise::default()), some]
+    prop_oneof![Just(NoiseSpec::default()), some]
 }
 
 fn cameras(kind: CameraKind) -> impl Strategy<Value = Camera> {
@@ -221,7 +221,7 @@ fn kinds() -> impl Strategy<Value = (&'static str, SensorKind)> {
     let lidar = (1..1000u32, positive(), noises().boxed(), any::<bool>(), extras().boxed())
         .prop_map(|(samples, resolution, noise, old, extra)| {
             let axis = ScanAxis { samples, resolution, min_angle_rad: -1.25, max_angle_rad: 2.5 };
-            let lidar = Lidar {
+            let lidar = LidarSpec {
                 horizontal: axis,
                 vertical: ScanAxis { samples: 3, ..axis },
                 range_min_m: 0.1,
@@ -236,7 +236,7 @@ fn kinds() -> impl Strategy<Value = (&'static str, SensorKind)> {
     let imu = (three(), three(), any::<bool>(), prop::option::of(words())).prop_map(
         |(angular_velocity, linear_acceleration, enable_orientation, localization)| {
             let extra = Vec::new();
-            let imu = Imu {
+            let imu = ImuSpec {
                 angular_velocity,
                 linear_acceleration,
                 enable_orientation,
@@ -433,14 +433,14 @@ fn joints() -> impl Strategy<Value = Joint> {
     )
 }
 
-fn frames() -> impl Strategy<Value = Frame> {
+fn frames() -> impl Strategy<Value = NamedFrame> {
     let attached_to = prop_oneof![Just("__model__"), Just("base"), Just("j")];
     let role = prop_oneof![
         Just(FrameRole::Declared),
         Just(FrameRole::MergedLink),
         Just(FrameRole::MergedJoint)
     ];
-    (poses(), attached_to, role).prop_map(|(parent_from_frame, attached_to, role)| Frame {
+    (poses(), attached_to, role).prop_map(|(parent_from_frame, attached_to, role)| NamedFrame {
         name: "f".into(),
         parent_from_frame,
         attached_to: attached_to.into(),
@@ -511,7 +511,7 @@ proptest! {
         let world = &mut scene.worlds[0];
         world.gravity_m_s2 = gravity;
         world.models.push(model);
-        world.frames.push(Frame { attached_to: "m::base".into(), ..frame });
+        world.frames.push(NamedFrame { attached_to: "m::base".into(), ..frame });
         world.spherical_coordinates = Some(periplus_scene::SphericalCoordinates {
             surface_model: "EARTH_WGS84".into(),
             frame_orientation: "ENU".into(),

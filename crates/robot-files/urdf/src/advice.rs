@@ -6,18 +6,18 @@ pub(crate) mod mass;
 
 use periplus_diagnostics::{Diagnostic, Diagnostics};
 
-use crate::robot::Robot;
+use crate::robot::UrdfRobot;
 
 /// Reports common mistakes in a first robot: no collision shapes, a joint without an axis, two wheels
 /// without a caster. None of them is an error in URDF.
-pub fn advise(robot: &Robot, diagnostics: &mut Diagnostics) {
+pub fn advise(robot: &UrdfRobot, diagnostics: &mut Diagnostics) {
     without_collisions(robot, diagnostics);
     axis::check(robot, diagnostics);
     balance::check(robot, diagnostics);
 }
 
 /// Robot with mass and visuals but no collision shape.
-fn without_collisions(robot: &Robot, diagnostics: &mut Diagnostics) {
+fn without_collisions(robot: &UrdfRobot, diagnostics: &mut Diagnostics) {
     let has_mass = robot.links.iter().any(|link| link.inertial.is_some());
     let shown = robot.links.iter().find(|link| !link.visuals.is_empty());
     let (true, Some(shown)) = (has_mass, shown) else { return };

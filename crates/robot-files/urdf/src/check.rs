@@ -7,10 +7,10 @@ mod structure;
 use periplus_diagnostics::Diagnostics;
 use periplus_xml::Element;
 
-use crate::robot::Robot;
+use crate::robot::UrdfRobot;
 
 /// Checks a robot. `root` is the element that it was read from.
-pub(crate) fn check(robot: &Robot, root: &Element, diagnostics: &mut Diagnostics) {
+pub(crate) fn check(robot: &UrdfRobot, root: &Element, diagnostics: &mut Diagnostics) {
     structure::unique_names(robot, diagnostics);
     structure::one_tree(robot, root, diagnostics);
     inertia::check(robot, diagnostics);

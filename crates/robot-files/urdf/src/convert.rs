@@ -25,16 +25,16 @@ mod state;
 pub(crate) use link::LUMP;
 use periplus_diagnostics::Diagnostics;
 use periplus_scene::Model;
-use periplus_sdf::{Context, read_document};
+use periplus_sdf::{SdfContext, read_document};
 use periplus_xml::{Document, Element};
 
-use crate::robot::Robot;
+use crate::robot::UrdfRobot;
 pub(crate) use settings::BUILTIN_MATERIALS;
 use state::ConversionState;
 
 /// Options of the conversion from robot to model.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Options {
+pub struct ConversionOptions {
     /// Merge no link into its parent, as libsdformat's `URDFPreserveFixedJoint`.
     pub preserve_fixed_joints: bool,
 }
@@ -42,14 +42,18 @@ pub struct Options {
 /// Returns the model that Gazebo would make of a robot, with every merged link and joint kept as a frame.
 /// Its poses are resolved; its mesh URIs are as written.
 #[must_use]
-pub fn to_model(robot: &Robot, options: Options, context: &mut Context<'_>) -> Model {
+pub fn to_model(
+    robot: &UrdfRobot,
+    options: ConversionOptions,
+    context: &mut SdfContext<'_>,
+) -> Model {
     let situation = ConversionState::new(robot, options);
     let element = situation.model_element(context.diagnostics);
     let sdf = Element::new("sdf").with_attribute("version", VERSION).with_child(element);
     let document = Document { before: Vec::new(), root: sdf, after: Vec::new() };
     let mut found = Diagnostics::new();
     let scene = {
-        let mut inner = Context {
+        let mut inner = SdfContext {
             sources: &mut *context.sources,
             diagnostics: &mut found,
             includes: &mut *context.includes,
@@ -65,7 +69,11 @@ pub fn to_model(robot: &Robot, options: Options, context: &mut Context<'_>) -> M
 /// Returns the `<model>` that [`to_model`] reads, for callers that need SDF but no scene. Poses are
 /// relative to the model, with quaternions for rotations.
 #[must_use]
-pub fn to_sdf(robot: &Robot, options: Options, diagnostics: &mut Diagnostics) -> Element {
+pub fn to_sdf(
+    robot: &UrdfRobot,
+    options: ConversionOptions,
+    diagnostics: &mut Diagnostics,
+) -> Element {
     let model = ConversionState::new(robot, options).model_element(diagnostics);
     Element::new("sdf").with_attribute("version", VERSION).with_child(model)
 }

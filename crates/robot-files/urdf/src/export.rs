@@ -15,15 +15,15 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use periplus_diagnostics::{Diagnostic, Diagnostics};
 use periplus_scene::{Model, Scene, TfEdge, tf_tree};
-use periplus_xml::{Element, Node};
+use periplus_xml::{Element, XmlNode};
 
-use crate::robot::{GazeboBlock, Placement, Robot};
+use crate::robot::{GazeboBlock, UrdfOrigin, UrdfRobot};
 
 /// Returns a robot that [`crate::to_model`] converts back to this model as far as URDF allows. Returns
 /// `None`, with errors, if the model is no tree of links with joints that URDF has. Errors also mark data
 /// that is lost.
 #[must_use]
-pub fn from_model(model: &Model, diagnostics: &mut Diagnostics) -> Option<Robot> {
+pub fn from_model(model: &Model, diagnostics: &mut Diagnostics) -> Option<UrdfRobot> {
     let tree = tf_tree(model);
     if !structure::check(model, &tree, diagnostics) {
         return None;
@@ -45,7 +45,7 @@ pub fn from_model(model: &Model, diagnostics: &mut Diagnostics) -> Option<Robot>
 fn plain(element: &mut Element) {
     element.attributes.retain(|attribute| !attribute.name.starts_with("periplus:"));
     for child in &mut element.children {
-        if let Node::Element(child) = child {
+        if let XmlNode::Element(child) = child {
             plain(child);
         }
     }
@@ -61,14 +61,14 @@ struct Export<'a> {
 }
 
 impl Export<'_> {
-    fn robot(&self, diagnostics: &mut Diagnostics) -> Robot {
+    fn robot(&self, diagnostics: &mut Diagnostics) -> UrdfRobot {
         let model = self.model;
-        let mut robot = Robot {
+        let mut robot = UrdfRobot {
             name: model.name.clone(),
             origin_in_world: (model.parent_from_model != periplus_geometry::Pose::IDENTITY)
-                .then(|| Placement::from_pose(model.parent_from_model)),
+                .then(|| UrdfOrigin::from_pose(model.parent_from_model)),
             origin: model.origin,
-            ..Robot::default()
+            ..UrdfRobot::default()
         };
         self.links(&mut robot, diagnostics);
         self.joints(&mut robot, diagnostics);
@@ -97,7 +97,7 @@ impl Export<'_> {
     }
 
     /// Adds the settings of the model and its plugins.
-    fn settings_of_model(&self, robot: &mut Robot) {
+    fn settings_of_model(&self, robot: &mut UrdfRobot) {
         let mut content = Vec::new();
         for part in self.written.elements() {
             match &*part.name {
@@ -115,7 +115,7 @@ impl Export<'_> {
 }
 
 /// Adds a `<gazebo>` block, unless it is empty.
-fn push_block(robot: &mut Robot, reference: Option<&str>, content: Vec<Element>) {
+fn push_block(robot: &mut UrdfRobot, reference: Option<&str>, content: Vec<Element>) {
     if !content.is_empty() {
         let reference = reference.map(str::to_owned);
         robot.gazebo.push(GazeboBlock { reference, content, ..GazeboBlock::default() });

@@ -14,12 +14,12 @@ mod tree;
 mod write;
 
 pub use advice::advise;
-pub use convert::{Options, to_model, to_sdf};
+pub use convert::{ConversionOptions, to_model, to_sdf};
 pub use export::from_model;
 pub use read::read;
 pub use robot::{
-    Calibration, Collision, ColourAsWritten, Dynamics, Extra, GazeboBlock, Geometry, Inertial,
-    Joint, JointType, Limit, Link, Material, Mimic, Placement, Robot, Rotation, SafetyController,
-    Texture, Visual,
+    ColourAsWritten, Dynamics, Extra, GazeboBlock, JointCalibration, JointType, Limit, Rotation,
+    SafetyController, UrdfCollision, UrdfGeometry, UrdfInertial, UrdfJoint, UrdfLink, UrdfMaterial,
+    UrdfMimic, UrdfOrigin, UrdfRobot, UrdfTexture, UrdfVisual,
 };
 pub use write::write;

@@ -11,7 +11,7 @@ use std::collections::BTreeSet;
 
 use periplus_geometry::Pose;
 
-use crate::robot::{JointType, Robot};
+use crate::robot::{JointType, UrdfRobot};
 use crate::tree::Tree;
 pub(crate) use combine::combine;
 
@@ -70,7 +70,7 @@ impl Preserved<'_> {
 
 impl LumpPlan {
     /// LumpPlan of a robot without links.
-    pub(crate) fn nothing(robot: &Robot) -> Self {
+    pub(crate) fn nothing(robot: &UrdfRobot) -> Self {
         Self {
             order: Vec::new(),
             outcome: vec![LumpOutcome::Lost; robot.links.len()],
@@ -82,7 +82,7 @@ impl LumpPlan {
 
     /// Plans for the tree under `root`.
     pub(crate) fn new(
-        robot: &Robot,
+        robot: &UrdfRobot,
         tree: &Tree<'_>,
         root: usize,
         preserved: &Preserved<'_>,
@@ -145,7 +145,13 @@ impl LumpPlan {
     }
 
     /// Outcome for a link that would carry a body.
-    fn of_head(&mut self, robot: &Robot, tree: &Tree<'_>, link: usize, heavy: bool) -> LumpOutcome {
+    fn of_head(
+        &mut self,
+        robot: &UrdfRobot,
+        tree: &Tree<'_>,
+        link: usize,
+        heavy: bool,
+    ) -> LumpOutcome {
         let above = tree.parent[link].map(|parent| self.outcome[parent]);
         if above == Some(LumpOutcome::Lost) {
             return LumpOutcome::Lost;

@@ -11,7 +11,7 @@ use periplus_geometry::format_number;
 use periplus_sdf::keep;
 use periplus_xml::{Document, Element};
 
-use crate::robot::{GazeboBlock, Placement, Robot, Rotation};
+use crate::robot::{GazeboBlock, Rotation, UrdfOrigin, UrdfRobot};
 use fields::{extra, only_child, required_name, vector};
 
 /// Children of `<robot>` that may be repeated.
@@ -31,7 +31,7 @@ const MANY: [&str; 9] = [
 /// Reads a URDF and checks it as `check_urdf` does, and more: names, the tree, limits, masses. Returns
 /// `None` if the root is no `<robot>`; after other errors the robot holds everything that could be read.
 #[must_use]
-pub fn read(document: &Document, diagnostics: &mut Diagnostics) -> Option<Robot> {
+pub fn read(document: &Document, diagnostics: &mut Diagnostics) -> Option<UrdfRobot> {
     let root = &document.root;
     if root.name != "robot" {
         diagnostics.push(not_a_robot(root));
@@ -43,14 +43,14 @@ pub fn read(document: &Document, diagnostics: &mut Diagnostics) -> Option<Robot>
     Some(robot)
 }
 
-fn robot(root: &Element, diagnostics: &mut Diagnostics) -> Robot {
+fn robot(root: &Element, diagnostics: &mut Diagnostics) -> UrdfRobot {
     let name = required_name(root, "name", diagnostics);
     let mut extra = extra(root, &["name", "version"], &["origin"], &MANY, diagnostics);
     for name in ["mujoco", "isaac_sim"] {
         extra.elements.extend(root.named(name).map(keep));
     }
     let verbatim = |name| root.named(name).map(keep).collect();
-    Robot {
+    UrdfRobot {
         name: name.unwrap_or_default(),
         version: version(root, diagnostics),
         origin_in_world: only_child(root, "origin", diagnostics)
@@ -124,7 +124,7 @@ fn gazebo(element: &Element, diagnostics: &mut Diagnostics) -> GazeboBlock {
 }
 
 /// Reads an `<origin>`.
-fn placement(element: &Element, diagnostics: &mut Diagnostics) -> Placement {
+fn placement(element: &Element, diagnostics: &mut Diagnostics) -> UrdfOrigin {
     let rotation = match vector::<4>(element, "quat_xyzw", diagnostics) {
         Some(xyzw) if xyzw.iter().map(|part| part * part).sum::<f64>() > 1e-12 => {
             if let Some(rpy) = element.attribute("rpy") {
@@ -153,7 +153,7 @@ fn placement(element: &Element, diagnostics: &mut Diagnostics) -> Placement {
             Rotation::Rpy(rpy)
         }
     };
-    Placement {
+    UrdfOrigin {
         xyz_m: vector(element, "xyz", diagnostics).unwrap_or_default(),
         rotation,
         extra: extra(element, &["xyz", "rpy", "quat_xyzw"], &[], &[], diagnostics),
@@ -183,7 +183,7 @@ fn check_radians(element: &Element, rpy: [f64; 3], diagnostics: &mut Diagnostics
 }
 
 /// Reads the `<origin>` of an element; the identity if it has none.
-fn origin_of(element: &Element, diagnostics: &mut Diagnostics) -> Placement {
+fn origin_of(element: &Element, diagnostics: &mut Diagnostics) -> UrdfOrigin {
     only_child(element, "origin", diagnostics)
         .map(|origin| placement(origin, diagnostics))
         .unwrap_or_default()

@@ -13,29 +13,31 @@ use periplus_xml::Element;
 pub use extra::Extra;
 pub use gazebo::GazeboBlock;
 pub(crate) use joint::DEFAULT_AXIS;
-pub use joint::{Calibration, Dynamics, Joint, JointType, Limit, Mimic, SafetyController};
-pub use link::{Collision, Geometry, Inertial, Link, Visual};
-pub use material::{ColourAsWritten, Material, Texture};
-pub use placement::{Placement, Rotation};
+pub use joint::{
+    Dynamics, JointCalibration, JointType, Limit, SafetyController, UrdfJoint, UrdfMimic,
+};
+pub use link::{UrdfCollision, UrdfGeometry, UrdfInertial, UrdfLink, UrdfVisual};
+pub use material::{ColourAsWritten, UrdfMaterial, UrdfTexture};
+pub use placement::{Rotation, UrdfOrigin};
 
 /// A whole URDF file.
 ///
 /// The content defined by ROS and Gazebo is typed; the rest is kept verbatim, so [`crate::write`] loses
 /// only comments and the relative order of elements of different kinds.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Robot {
+pub struct UrdfRobot {
     /// Its name.
     pub name: String,
     /// Format version as written; `None` means `1.0`.
     pub version: Option<String>,
     /// Initial pose in Gazebo: the `<origin>` directly in the robot, which ROS does not define.
-    pub origin_in_world: Option<Placement>,
+    pub origin_in_world: Option<UrdfOrigin>,
     /// Links, in file order.
-    pub links: Vec<Link>,
+    pub links: Vec<UrdfLink>,
     /// Joints, in file order.
-    pub joints: Vec<Joint>,
+    pub joints: Vec<UrdfJoint>,
     /// Materials that visuals may name.
-    pub materials: Vec<Material>,
+    pub materials: Vec<UrdfMaterial>,
     /// `<gazebo>` blocks.
     pub gazebo: Vec<GazeboBlock>,
     /// `<transmission>` blocks, verbatim.
@@ -50,23 +52,23 @@ pub struct Robot {
     pub origin: Origin,
 }
 
-impl Robot {
+impl UrdfRobot {
     /// A link by name.
     #[must_use]
-    pub fn link(&self, name: &str) -> Option<&Link> {
+    pub fn link(&self, name: &str) -> Option<&UrdfLink> {
         self.links.iter().find(|link| link.name == name)
     }
 
     /// A joint by name.
     #[must_use]
-    pub fn joint(&self, name: &str) -> Option<&Joint> {
+    pub fn joint(&self, name: &str) -> Option<&UrdfJoint> {
         self.joints.iter().find(|joint| joint.name == name)
     }
 
     /// Definition of a material: the one among the robot's materials, or else the first visual that defines
     /// it in place (ROS's rule of resolution).
     #[must_use]
-    pub fn material(&self, name: &str) -> Option<&Material> {
+    pub fn material(&self, name: &str) -> Option<&UrdfMaterial> {
         let in_place = || {
             let visuals = self.links.iter().flat_map(|link| &link.visuals);
             visuals.filter_map(|visual| visual.material.as_ref())

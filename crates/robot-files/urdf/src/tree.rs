@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use crate::robot::{Joint, Robot};
+use crate::robot::{UrdfJoint, UrdfRobot};
 
 /// Links of a robot as a tree over indices into [`Robot::links`] and [`Robot::joints`]. If the file is
 /// inconsistent (two parents, a cycle), the tree keeps the first definition and drops the others;
@@ -25,7 +25,7 @@ pub(crate) struct Tree<'a> {
 }
 
 impl<'a> Tree<'a> {
-    pub(crate) fn new(robot: &'a Robot) -> Self {
+    pub(crate) fn new(robot: &'a UrdfRobot) -> Self {
         let mut index: BTreeMap<&'a str, usize> = BTreeMap::new();
         for (place, link) in robot.links.iter().enumerate() {
             index.entry(&link.name).or_insert(place);
@@ -84,8 +84,8 @@ impl<'a> Tree<'a> {
     }
 }
 
-fn name(robot: &Robot, joint: usize) -> &str {
-    let joint: &Joint = &robot.joints[joint];
+fn name(robot: &UrdfRobot, joint: usize) -> &str {
+    let joint: &UrdfJoint = &robot.joints[joint];
     &joint.name
 }
 

@@ -1,22 +1,23 @@
 //! Writer: robot to document.
 
 use periplus_geometry::format_number;
-use periplus_xml::{Document, Element, Node};
+use periplus_xml::{Document, Element, XmlNode};
 
 use crate::robot::{
-    Collision, Extra, GazeboBlock, Geometry, Inertial, Joint, Link, Material, Placement, Robot,
-    Rotation, Visual,
+    Extra, GazeboBlock, Rotation, UrdfCollision, UrdfGeometry, UrdfInertial, UrdfJoint, UrdfLink,
+    UrdfMaterial, UrdfOrigin, UrdfRobot, UrdfVisual,
 };
 
 /// Writes a robot. Reading it again gives an equal robot.
 #[must_use]
-pub fn write(robot: &Robot) -> Document {
+pub fn write(robot: &UrdfRobot) -> Document {
     let mut root = Element::new("robot").with_attribute("name", &*robot.name);
     if let Some(version) = &robot.version {
         root = root.with_attribute("version", &**version);
     }
     root.attributes.extend(robot.extra.attributes.iter().cloned());
-    root.children.extend(robot.origin_in_world.iter().map(|origin| Node::Element(place(origin))));
+    root.children
+        .extend(robot.origin_in_world.iter().map(|origin| XmlNode::Element(place(origin))));
     let children = (robot.materials.iter().map(material))
         .chain(robot.links.iter().map(link))
         .chain(robot.joints.iter().map(joint))
@@ -25,7 +26,7 @@ pub fn write(robot: &Robot) -> Document {
         .chain(robot.sensors.iter().cloned())
         .chain(robot.gazebo.iter().map(gazebo))
         .chain(robot.extra.elements.iter().cloned());
-    root.children.extend(children.map(Node::Element));
+    root.children.extend(children.map(XmlNode::Element));
     Document { before: Vec::new(), root, after: Vec::new() }
 }
 
@@ -39,11 +40,11 @@ fn with_number(element: Element, name: &str, number: f64) -> Element {
 
 fn with_extra(mut element: Element, extra: &Extra) -> Element {
     element.attributes.extend(extra.attributes.iter().cloned());
-    element.children.extend(extra.elements.iter().cloned().map(Node::Element));
+    element.children.extend(extra.elements.iter().cloned().map(XmlNode::Element));
     element
 }
 
-fn place(placement: &Placement) -> Element {
+fn place(placement: &UrdfOrigin) -> Element {
     let element = Element::new("origin").with_attribute("xyz", numbers(&placement.xyz_m));
     let element = match placement.rotation {
         Rotation::Rpy(rpy) => element.with_attribute("rpy", numbers(&rpy)),
@@ -53,11 +54,11 @@ fn place(placement: &Placement) -> Element {
 }
 
 /// Adds an `<origin>` unless it is the identity.
-fn with_place(element: Element, placement: &Placement) -> Element {
-    if *placement == Placement::default() { element } else { element.with_child(place(placement)) }
+fn with_place(element: Element, placement: &UrdfOrigin) -> Element {
+    if *placement == UrdfOrigin::default() { element } else { element.with_child(place(placement)) }
 }
 
-fn material(material: &Material) -> Element {
+fn material(material: &UrdfMaterial) -> Element {
     let mut element = Element::new("material").with_attribute("name", &*material.name);
     if let Some(colour) = &material.colour {
         let written = Element::new("color").with_attribute("rgba", numbers(&colour.rgba));
@@ -70,16 +71,16 @@ fn material(material: &Material) -> Element {
     with_extra(element, &material.extra)
 }
 
-fn link(link: &Link) -> Element {
+fn link(link: &UrdfLink) -> Element {
     let mut element = Element::new("link").with_attribute("name", &*link.name);
     let children = (link.inertial.iter().map(inertial))
         .chain(link.visuals.iter().map(visual))
         .chain(link.collisions.iter().map(collision));
-    element.children.extend(children.map(Node::Element));
+    element.children.extend(children.map(XmlNode::Element));
     with_extra(element, &link.extra)
 }
 
-fn inertial(inertial: &Inertial) -> Element {
+fn inertial(inertial: &UrdfInertial) -> Element {
     let names = ["ixx", "ixy", "ixz", "iyy", "iyz", "izz"];
     let mass = with_number(Element::new("mass"), "value", inertial.mass_kg);
     let inertia = names
@@ -99,40 +100,42 @@ fn named(kind: &str, name: Option<&String>) -> Element {
     }
 }
 
-fn visual(visual: &Visual) -> Element {
+fn visual(visual: &UrdfVisual) -> Element {
     let mut element = named("visual", visual.name.as_ref());
     element = with_place(element, &visual.link_from_visual).with_child(geometry(&visual.geometry));
-    element.children.extend(visual.material.iter().map(|look| Node::Element(material(look))));
+    element.children.extend(visual.material.iter().map(|look| XmlNode::Element(material(look))));
     with_extra(element, &visual.extra)
 }
 
-fn collision(collision: &Collision) -> Element {
+fn collision(collision: &UrdfCollision) -> Element {
     let element = named("collision", collision.name.as_ref());
     let element = with_place(element, &collision.link_from_collision)
         .with_child(geometry(&collision.geometry));
     with_extra(element, &collision.extra)
 }
 
-fn geometry(geometry: &Geometry) -> Element {
+fn geometry(geometry: &UrdfGeometry) -> Element {
     let round = |name: &str, radius_m: f64, length_m: f64| {
         let element = with_number(Element::new(name), "radius", radius_m);
         with_number(element, "length", length_m)
     };
     let shape = match geometry {
-        Geometry::Box { size_m } => Element::new("box").with_attribute("size", numbers(size_m)),
-        Geometry::Cylinder { radius_m, length_m } => round("cylinder", *radius_m, *length_m),
-        Geometry::Capsule { radius_m, length_m } => round("capsule", *radius_m, *length_m),
-        Geometry::Sphere { radius_m } => with_number(Element::new("sphere"), "radius", *radius_m),
-        Geometry::Mesh { filename, scale, .. } => {
+        UrdfGeometry::Box { size_m } => Element::new("box").with_attribute("size", numbers(size_m)),
+        UrdfGeometry::Cylinder { radius_m, length_m } => round("cylinder", *radius_m, *length_m),
+        UrdfGeometry::Capsule { radius_m, length_m } => round("capsule", *radius_m, *length_m),
+        UrdfGeometry::Sphere { radius_m } => {
+            with_number(Element::new("sphere"), "radius", *radius_m)
+        }
+        UrdfGeometry::Mesh { filename, scale, .. } => {
             let mesh = Element::new("mesh").with_attribute("filename", &**filename);
             if *scale == [1.0; 3] { mesh } else { mesh.with_attribute("scale", numbers(scale)) }
         }
-        Geometry::Unknown(shape) => shape.clone(),
+        UrdfGeometry::Unknown(shape) => shape.clone(),
     };
     Element::new("geometry").with_child(shape)
 }
 
-fn joint(joint: &Joint) -> Element {
+fn joint(joint: &UrdfJoint) -> Element {
     let mut element = Element::new("joint")
         .with_attribute("name", &*joint.name)
         .with_attribute("type", joint.kind.name());
@@ -144,7 +147,7 @@ fn joint(joint: &Joint) -> Element {
         element.push(with_extra(axis, extra));
     }
     let group = |name, values: &[(&str, Option<f64>)], extra| {
-        Node::Element(with_extra(with_numbers(name, values), extra))
+        XmlNode::Element(with_extra(with_numbers(name, values), extra))
     };
     if let Some(limit) = &joint.limit {
         let values = [
@@ -159,7 +162,7 @@ fn joint(joint: &Joint) -> Element {
         let values = [("damping", Some(dynamics.damping)), ("friction", Some(dynamics.friction))];
         element.children.push(group("dynamics", &values, &dynamics.extra));
     }
-    element.children.extend(controller_parts(joint).into_iter().map(Node::Element));
+    element.children.extend(controller_parts(joint).into_iter().map(XmlNode::Element));
     if let Some(mimic) = &joint.mimic {
         let child = Element::new("mimic").with_attribute("joint", &*mimic.joint);
         let child = with_number(child, "multiplier", mimic.multiplier);
@@ -169,7 +172,7 @@ fn joint(joint: &Joint) -> Element {
 }
 
 /// `<calibration>` and `<safety_controller>` of a joint.
-pub(crate) fn controller_parts(joint: &Joint) -> Vec<Element> {
+pub(crate) fn controller_parts(joint: &UrdfJoint) -> Vec<Element> {
     let mut parts = Vec::new();
     if let Some(calibration) = &joint.calibration {
         let values = [("rising", calibration.rising), ("falling", calibration.falling)];
@@ -200,6 +203,6 @@ fn gazebo(block: &GazeboBlock) -> Element {
         None => Element::new("gazebo"),
     };
     let mut element = with_extra(element, &block.extra);
-    element.children.extend(block.content.iter().cloned().map(Node::Element));
+    element.children.extend(block.content.iter().cloned().map(XmlNode::Element));
     element
 }

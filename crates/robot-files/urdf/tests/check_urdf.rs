@@ -8,7 +8,7 @@ use std::collections::BTreeMap;
 
 use periplus_diagnostics::{Diagnostics, Severity, SourceMap};
 use periplus_geometry::Pose;
-use periplus_urdf::{Geometry, Robot};
+use periplus_urdf::{UrdfGeometry, UrdfRobot};
 use serde_json::Value;
 
 /// Cases in which this reader is stricter than liburdfdom. The file is read nevertheless.
@@ -69,7 +69,7 @@ fn the_trees_of_liburdfdom() {
 }
 
 /// Robot, codes of its errors, and true if any finding was about shapes.
-fn load(file: &str, bytes: &[u8]) -> (Option<Robot>, Vec<&'static str>, bool) {
+fn load(file: &str, bytes: &[u8]) -> (Option<UrdfRobot>, Vec<&'static str>, bool) {
     let mut sources = SourceMap::new();
     let mut diagnostics = Diagnostics::new();
     let Ok(text) = periplus_xml::decode(bytes) else { return (None, vec!["decode"], false) };
@@ -81,7 +81,13 @@ fn load(file: &str, bytes: &[u8]) -> (Option<Robot>, Vec<&'static str>, bool) {
     (robot, errors.map(|one| one.code).collect(), is_warned)
 }
 
-fn compare(file: &str, robot: &Robot, answer: &Value, tree_only: bool, faults: &mut Vec<String>) {
+fn compare(
+    file: &str,
+    robot: &UrdfRobot,
+    answer: &Value,
+    tree_only: bool,
+    faults: &mut Vec<String>,
+) {
     let mut fault = |what: String| faults.push(format!("{file}: {what}"));
     if answer["name"] != *robot.name {
         fault(format!("name {} is {}", robot.name, answer["name"]));
@@ -179,7 +185,7 @@ fn by_name(list: &Value) -> BTreeMap<&str, &Value> {
 }
 
 fn shapes<'a>(
-    shapes: impl Iterator<Item = (&'a Option<String>, Pose, &'a Geometry)>,
+    shapes: impl Iterator<Item = (&'a Option<String>, Pose, &'a UrdfGeometry)>,
     expected: &Value,
 ) -> bool {
     let shapes: Vec<_> = shapes.collect();
@@ -192,17 +198,18 @@ fn shapes<'a>(
         })
 }
 
-fn same_shape(geometry: &Geometry, expected: &Value) -> bool {
+fn same_shape(geometry: &UrdfGeometry, expected: &Value) -> bool {
     match geometry {
-        Geometry::Box { size_m } => near(size_m, &expected["size"]),
-        Geometry::Cylinder { radius_m, length_m } | Geometry::Capsule { radius_m, length_m } => {
+        UrdfGeometry::Box { size_m } => near(size_m, &expected["size"]),
+        UrdfGeometry::Cylinder { radius_m, length_m }
+        | UrdfGeometry::Capsule { radius_m, length_m } => {
             near(&[*radius_m], &expected["radius"]) && near(&[*length_m], &expected["length"])
         }
-        Geometry::Sphere { radius_m } => near(&[*radius_m], &expected["radius"]),
-        Geometry::Mesh { filename, scale, .. } => {
+        UrdfGeometry::Sphere { radius_m } => near(&[*radius_m], &expected["radius"]),
+        UrdfGeometry::Mesh { filename, scale, .. } => {
             expected["uri"] == **filename && near(scale, &expected["scale"])
         }
-        Geometry::Unknown(_) => false,
+        UrdfGeometry::Unknown(_) => false,
     }
 }
 

@@ -7,10 +7,10 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use periplus_diagnostics::{Diagnostics, Severity, SourceMap, Style, render};
+use periplus_diagnostics::{Diagnostics, RenderStyle, Severity, SourceMap, render};
 use periplus_scene::{JointKind, Model, Scene, tf_tree};
-use periplus_sdf::{Context, NoIncludes};
-use periplus_urdf::{JointType, Options, from_model, read, to_model, write};
+use periplus_sdf::{NoIncludes, SdfContext};
+use periplus_urdf::{ConversionOptions, JointType, from_model, read, to_model, write};
 use periplus_xml::Document;
 use serde_json::Value;
 
@@ -39,12 +39,12 @@ fn real_files_keep_their_tree() {
         let written = periplus_xml::parse(id, &sources, &mut Diagnostics::new()).unwrap();
         assert_eq!(read(&written, &mut Diagnostics::new()).as_ref(), Some(&robot), "{file}");
         let accepted = !diagnostics.has_errors();
-        let mut context = Context {
+        let mut context = SdfContext {
             sources: &mut sources,
             diagnostics: &mut diagnostics,
             includes: &mut NoIncludes,
         };
-        let model = to_model(&robot, Options::default(), &mut context);
+        let model = to_model(&robot, ConversionOptions::default(), &mut context);
         sdf_and_back(file, &model, &mut faults);
         if accepted {
             urdf_and_back(file, &model, &mut faults);
@@ -83,7 +83,7 @@ fn real_files_keep_their_tree() {
             *count += 1;
             files.insert(file.to_owned());
             if shown.as_deref() == Some(one.code) {
-                println!("{}", render(one, &sources, Style::Plain));
+                println!("{}", render(one, &sources, RenderStyle::Plain));
             }
         }
     }
@@ -97,8 +97,11 @@ fn real_files_keep_their_tree() {
 
 fn read_model(document: &Document) -> Option<Model> {
     let (mut sources, mut diagnostics) = (SourceMap::new(), Diagnostics::new());
-    let mut context =
-        Context { sources: &mut sources, diagnostics: &mut diagnostics, includes: &mut NoIncludes };
+    let mut context = SdfContext {
+        sources: &mut sources,
+        diagnostics: &mut diagnostics,
+        includes: &mut NoIncludes,
+    };
     periplus_sdf::read_document(document, &mut context).models.into_iter().next()
 }
 
@@ -132,9 +135,12 @@ fn urdf_and_back(file: &str, model: &Model, faults: &mut Vec<String>) {
     let id = sources.add("again.urdf", text);
     let document = periplus_xml::parse(id, &sources, &mut diagnostics).unwrap();
     let again = read(&document, &mut diagnostics).unwrap();
-    let mut context =
-        Context { sources: &mut sources, diagnostics: &mut diagnostics, includes: &mut NoIncludes };
-    let again = to_model(&again, Options::default(), &mut context);
+    let mut context = SdfContext {
+        sources: &mut sources,
+        diagnostics: &mut diagnostics,
+        includes: &mut NoIncludes,
+    };
+    let again = to_model(&again, ConversionOptions::default(), &mut context);
     let (mut own, mut theirs) = (json(model), json(&again));
     for one in [&mut own, &mut theirs] {
         // The order of joints by name decides that of links.

@@ -5,8 +5,8 @@ use std::fmt::Write as _;
 
 use periplus_diagnostics::{Diagnostics, SourceMap};
 use periplus_scene::{Scene, tf_tree};
-use periplus_sdf::{Context, NoIncludes};
-use periplus_urdf::{Options, from_model, read, to_model, write};
+use periplus_sdf::{NoIncludes, SdfContext};
+use periplus_urdf::{ConversionOptions, from_model, read, to_model, write};
 
 const BODY: &str = "<inertial><mass value='1'/><inertia ixx='1' ixy='0' ixz='0' iyy='1' iyz='0' \
                     izz='1'/></inertial>";
@@ -19,9 +19,12 @@ fn all(text: &str) -> (usize, usize) {
     let document = periplus_xml::parse(file, &sources, &mut diagnostics).unwrap();
     let robot = read(&document, &mut diagnostics).unwrap();
     let written = write(&robot);
-    let mut context =
-        Context { sources: &mut sources, diagnostics: &mut diagnostics, includes: &mut NoIncludes };
-    let model = to_model(&robot, Options::default(), &mut context);
+    let mut context = SdfContext {
+        sources: &mut sources,
+        diagnostics: &mut diagnostics,
+        includes: &mut NoIncludes,
+    };
+    let model = to_model(&robot, ConversionOptions::default(), &mut context);
     let tree = tf_tree(&model).len();
     let links = model.links.len();
     let again = from_model(&model, &mut diagnostics);

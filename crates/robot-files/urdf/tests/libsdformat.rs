@@ -10,8 +10,8 @@ use std::collections::BTreeMap;
 use periplus_diagnostics::{Diagnostics, SourceMap};
 use periplus_geometry::{DQuat, DVec3, Pose};
 use periplus_scene::{Inertial, JointKind, Link, Model};
-use periplus_sdf::{Context, NoIncludes};
-use periplus_urdf::Options;
+use periplus_sdf::{NoIncludes, SdfContext};
+use periplus_urdf::ConversionOptions;
 use serde_json::Value;
 
 /// A link of this file has `<box>0.1 0.1 0.1</box>`, without its attribute. Libsdformat takes the
@@ -62,9 +62,12 @@ fn load(file: &str, bytes: &[u8]) -> Option<Model> {
     let id = sources.add(file, periplus_xml::decode(bytes).ok()?.into_owned());
     let document = periplus_xml::parse(id, &sources, &mut diagnostics)?;
     let robot = periplus_urdf::read(&document, &mut diagnostics)?;
-    let mut context =
-        Context { sources: &mut sources, diagnostics: &mut diagnostics, includes: &mut NoIncludes };
-    Some(periplus_urdf::to_model(&robot, Options::default(), &mut context))
+    let mut context = SdfContext {
+        sources: &mut sources,
+        diagnostics: &mut diagnostics,
+        includes: &mut NoIncludes,
+    };
+    Some(periplus_urdf::to_model(&robot, ConversionOptions::default(), &mut context))
 }
 
 fn compare(model: &Model, expected: &Value, fault: &mut dyn FnMut(String)) {

@@ -5,19 +5,20 @@ use std::collections::{BTreeMap, BTreeSet};
 use periplus_diagnostics::{Diagnostics, SourceMap};
 use periplus_geometry::Pose;
 use periplus_scene::{DVec3, Model, Scene, carrying_link, tf_tree};
-use periplus_sdf::{Context, NoIncludes};
+use periplus_sdf::{NoIncludes, SdfContext};
 use periplus_urdf::{
-    Collision, Dynamics, Extra, GazeboBlock, Geometry, Inertial, Joint, JointType, Limit, Link,
-    Material, Options, Placement, Robot, Rotation, Visual, from_model, read, to_model, write,
+    ConversionOptions, Dynamics, Extra, GazeboBlock, JointType, Limit, Rotation, UrdfCollision,
+    UrdfGeometry, UrdfInertial, UrdfJoint, UrdfLink, UrdfMaterial, UrdfOrigin, UrdfRobot,
+    UrdfVisual, from_model, read, to_model, write,
 };
 use periplus_xml::Element;
 use proptest::prelude::*;
 use proptest::sample::select;
 
-fn placements() -> impl Strategy<Value = Placement> {
+fn placements() -> impl Strategy<Value = UrdfOrigin> {
     let xyz = prop::array::uniform3(-3.0..3.0f64);
     let rpy = (-3.0..3.0f64, -1.5..1.5f64, -3.0..3.0f64);
-    (xyz, rpy, 0..3u8).prop_map(|(xyz_m, (roll, pitch, yaw), kind)| Placement {
+    (xyz, rpy, 0..3u8).prop_map(|(xyz_m, (roll, pitch, yaw), kind)| UrdfOrigin {
         xyz_m: if kind == 0 { [0.0; 3] } else { xyz_m },
         rotation: Rotation::Rpy(if kind == 2 { [roll, pitch, yaw] } else { [0.0; 3] }),
         extra: Extra::default(),
@@ -25,27 +26,27 @@ fn placements() -> impl Strategy<Value = Placement> {
 }
 
 /// A solid box, so the inertia is one that a body can have.
-fn inertials() -> impl Strategy<Value = Inertial> {
+fn inertials() -> impl Strategy<Value = UrdfInertial> {
     let sizes = prop::array::uniform3(0.1..2.0f64);
     (placements(), 0.1..9.0f64, sizes).prop_map(|(link_from_inertial, mass_kg, [x, y, z])| {
         let moment = |a: f64, b: f64| mass_kg / 12.0 * (a * a + b * b);
-        Inertial {
+        UrdfInertial {
             link_from_inertial,
             mass_kg,
             inertia_kg_m2: [moment(y, z), 0.0, 0.0, moment(x, z), 0.0, moment(x, y)],
-            ..Inertial::default()
+            ..UrdfInertial::default()
         }
     })
 }
 
-fn geometries() -> impl Strategy<Value = Geometry> {
+fn geometries() -> impl Strategy<Value = UrdfGeometry> {
     let size = 0.1..2.0f64;
     prop_oneof![
-        prop::array::uniform3(size.clone()).prop_map(|size_m| Geometry::Box { size_m }),
-        size.clone().prop_map(|radius_m| Geometry::Sphere { radius_m }),
+        prop::array::uniform3(size.clone()).prop_map(|size_m| UrdfGeometry::Box { size_m }),
+        size.clone().prop_map(|radius_m| UrdfGeometry::Sphere { radius_m }),
         (size.clone(), size)
-            .prop_map(|(radius_m, length_m)| Geometry::Cylinder { radius_m, length_m }),
-        Just(Geometry::Mesh {
+            .prop_map(|(radius_m, length_m)| UrdfGeometry::Cylinder { radius_m, length_m }),
+        Just(UrdfGeometry::Mesh {
             filename: "package://robot/mesh.stl".into(),
             scale: [1.0, 2.0, 0.5],
             origin: periplus_diagnostics::Origin::default(),
@@ -53,22 +54,22 @@ fn geometries() -> impl Strategy<Value = Geometry> {
     ]
 }
 
-fn links() -> impl Strategy<Value = Link> {
+fn links() -> impl Strategy<Value = UrdfLink> {
     let shapes = prop::collection::vec((geometries(), placements(), any::<bool>()), 0..3);
     (prop::option::weighted(0.7, inertials()), shapes, any::<bool>()).prop_map(
         |(inertial, shapes, painted)| {
             let name = |named: bool, index: usize| named.then(|| format!("shape{index}"));
-            let material = Material { name: "paint".into(), ..Material::default() };
-            let mut link = Link { inertial, ..Link::default() };
+            let material = UrdfMaterial { name: "paint".into(), ..UrdfMaterial::default() };
+            let mut link = UrdfLink { inertial, ..UrdfLink::default() };
             for (index, (geometry, placement, named)) in shapes.into_iter().enumerate() {
-                link.collisions.push(Collision {
+                link.collisions.push(UrdfCollision {
                     name: name(named, index),
                     link_from_collision: placement.clone(),
                     geometry: geometry.clone(),
                     extra: Extra::default(),
                     origin: periplus_diagnostics::Origin::default(),
                 });
-                link.visuals.push(Visual {
+                link.visuals.push(UrdfVisual {
                     name: name(!named, index),
                     link_from_visual: placement,
                     geometry,
@@ -82,7 +83,7 @@ fn links() -> impl Strategy<Value = Link> {
     )
 }
 
-fn joints() -> impl Strategy<Value = Joint> {
+fn joints() -> impl Strategy<Value = UrdfJoint> {
     let kinds = vec![
         JointType::Fixed,
         JointType::Fixed,
@@ -93,7 +94,7 @@ fn joints() -> impl Strategy<Value = Joint> {
     let axis = prop::option::of(select(vec![[0.0, 0.0, 1.0], [0.0, 3.0, 0.0], [1.0, 0.0, -1.0]]));
     let numbers = prop::array::uniform4(0.1..5.0f64);
     (select(kinds), placements(), axis, any::<bool>(), numbers).prop_map(
-        |(kind, parent_from_joint, axis, damped, [lower, upper, effort, velocity])| Joint {
+        |(kind, parent_from_joint, axis, damped, [lower, upper, effort, velocity])| UrdfJoint {
             kind,
             parent_from_joint,
             axis: axis.map(|xyz| (xyz, Extra::default())),
@@ -109,7 +110,7 @@ fn joints() -> impl Strategy<Value = Joint> {
                 friction: upper,
                 extra: Extra::default(),
             }),
-            ..Joint::default()
+            ..UrdfJoint::default()
         },
     )
 }
@@ -139,27 +140,27 @@ prop_compose! {
         links in prop::collection::vec((links(), joints(), any::<prop::sample::Index>()), 1..9),
         blocks in prop::collection::vec((settings(), any::<prop::sample::Index>()), 0..6),
         on_world in prop::bool::weighted(0.2),
-    ) -> Robot {
-        let paint = Material {
+    ) -> UrdfRobot {
+        let paint = UrdfMaterial {
             name: "paint".into(),
             colour: Some(periplus_urdf::ColourAsWritten {
                 rgba: [0.4, 1.0, 0.0, 0.5],
                 extra: Extra::default(),
             }),
-            ..Material::default()
+            ..UrdfMaterial::default()
         };
         let mut robot =
-            Robot { name: "robot".into(), materials: vec![paint], ..Robot::default() };
+            UrdfRobot { name: "robot".into(), materials: vec![paint], ..UrdfRobot::default() };
         let name = |index: usize| match index {
             0 if on_world => "world".to_owned(),
             index => format!("link{index}"),
         };
         for (index, (link, joint, parent)) in links.into_iter().enumerate() {
-            let own = Link { name: name(index), ..link };
+            let own = UrdfLink { name: name(index), ..link };
             let world = own.name == "world";
-            robot.links.push(if world { Link { name: own.name, ..Link::default() } } else { own });
+            robot.links.push(if world { UrdfLink { name: own.name, ..UrdfLink::default() } } else { own });
             if index > 0 {
-                robot.joints.push(Joint {
+                robot.joints.push(UrdfJoint {
                     name: format!("joint{}", (index * 7) % 11),
                     parent: name(parent.index(index)),
                     child: name(index),
@@ -184,16 +185,19 @@ prop_compose! {
     }
 }
 
-fn model_of(robot: &Robot) -> (Model, Diagnostics) {
+fn model_of(robot: &UrdfRobot) -> (Model, Diagnostics) {
     let (mut sources, mut diagnostics) = (SourceMap::new(), Diagnostics::new());
-    let mut context =
-        Context { sources: &mut sources, diagnostics: &mut diagnostics, includes: &mut NoIncludes };
-    let model = to_model(robot, Options::default(), &mut context);
+    let mut context = SdfContext {
+        sources: &mut sources,
+        diagnostics: &mut diagnostics,
+        includes: &mut NoIncludes,
+    };
+    let model = to_model(robot, ConversionOptions::default(), &mut context);
     (model, diagnostics)
 }
 
 /// Frames of all links by the joints alone.
-fn model_from_links(robot: &Robot) -> BTreeMap<&str, Pose> {
+fn model_from_links(robot: &UrdfRobot) -> BTreeMap<&str, Pose> {
     let mut poses = BTreeMap::new();
     for link in &robot.links {
         let above = robot.joints.iter().find(|joint| joint.child == link.name);
@@ -230,7 +234,7 @@ proptest! {
         let scene = Scene { models: vec![model], ..Scene::default() };
         let document = periplus_sdf::write(&scene, &mut Diagnostics::new());
         let (mut sources, mut diagnostics) = (SourceMap::new(), Diagnostics::new());
-        let mut context = Context {
+        let mut context = SdfContext {
             sources: &mut sources,
             diagnostics: &mut diagnostics,
             includes: &mut NoIncludes,
@@ -243,7 +247,7 @@ proptest! {
         let (model, _) = model_of(&robot);
         let expected = model_from_links(&robot);
         let world_stands_alone =
-            |joint: &&Joint| joint.parent != "world" || model.link(&joint.child).is_some();
+            |joint: &&UrdfJoint| joint.parent != "world" || model.link(&joint.child).is_some();
         let wanted: BTreeSet<(&str, &str)> = robot
             .joints
             .iter()
@@ -265,7 +269,7 @@ proptest! {
     fn merging_moves_no_mass_and_no_shape(robot in robots()) {
         let (model, _) = model_of(&robot);
         let poses = model_from_links(&robot);
-        let carried = |link: &&Link| carrying_link(&model, &link.name).is_some();
+        let carried = |link: &&UrdfLink| carrying_link(&model, &link.name).is_some();
         let lost = robot.links.iter().filter(|link| !carried(link)).count();
         if lost > usize::from(robot.links[0].name == "world") {
             return Ok(());

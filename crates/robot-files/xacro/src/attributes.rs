@@ -3,7 +3,7 @@
 use std::rc::Rc;
 
 use periplus_diagnostics::{Diagnostic, Origin};
-use periplus_xml::{Element, Node};
+use periplus_xml::{Element, XmlNode};
 
 use crate::frame::Frame;
 use crate::state::{Failed, State};
@@ -25,8 +25,8 @@ impl State<'_> {
     #[inline(never)]
     pub(crate) fn check_childless(&self, element: &Element, frame: Frame) {
         let unread = element.children.iter().find_map(|node| match node {
-            Node::Element(child) => Some(child.origin),
-            Node::Text(text) if !text.text.trim().is_empty() => Some(text.origin),
+            XmlNode::Element(child) => Some(child.origin),
+            XmlNode::Text(text) if !text.text.trim().is_empty() => Some(text.origin),
             _ => None,
         });
         if let Some(origin) = unread {

@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 use std::rc::Rc;
 
 use periplus_diagnostics::{Diagnostic, Expansion, Origin};
-use periplus_xml::{Attribute, Element, Node};
+use periplus_xml::{Attribute, Element, XmlNode};
 use smol_str::SmolStr;
 
 use crate::attributes::value_origin;
@@ -239,7 +239,7 @@ impl State<'_> {
         self.expand_nodes(&call.children, frame, &mut Output::new(&mut expanded))?;
         self.check_loose_text(callee, &expanded, frame);
         let mut blocks = expanded.children.into_iter().filter_map(|node| match node {
-            Node::Element(element) => Some(element),
+            XmlNode::Element(element) => Some(element),
             _ => None,
         });
         let mut symbols = Vec::new();
@@ -262,7 +262,7 @@ impl State<'_> {
             let nodes = if parameter.name.starts_with("**") {
                 block.children
             } else {
-                vec![Node::Element(block)]
+                vec![XmlNode::Element(block)]
             };
             let block = Block { nodes: Rc::new(nodes), context: None };
             symbols.push((parameter.name.clone(), Symbol::Block(block)));
@@ -286,7 +286,7 @@ impl State<'_> {
     #[inline(never)]
     fn check_loose_text(&self, callee: &Macro, call: &Element, frame: Frame) {
         let loose = call.children.iter().find_map(|node| match node {
-            Node::Text(text) if !text.text.trim().is_empty() => Some(text.origin),
+            XmlNode::Text(text) if !text.text.trim().is_empty() => Some(text.origin),
             _ => None,
         });
         if let Some(origin) = loose {

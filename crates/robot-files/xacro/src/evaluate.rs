@@ -11,7 +11,7 @@ use crate::names::{ALREADY_SAID, Names};
 use crate::scopes::{LazyText, ScopeId, Symbol};
 use crate::state::{Failed, Resolving, State};
 use crate::text::{Piece, pieces};
-use periplus_python_expr::{Dialect, Expression, ExpressionError, Value, evaluate};
+use periplus_python_expr::{ExpressionDialect, Expression, ExpressionError, Value, evaluate};
 
 /// Maximum number of properties listed in the error about a circular definition.
 const MAX_LISTED_PROPERTIES: usize = 5;
@@ -120,7 +120,7 @@ impl State<'_> {
                 Piece::Plain(range) => Value::text(&text[range]),
                 Piece::Expression(range) => {
                     let place = part(origin, text, &range);
-                    self.expression_value(&text[range], place, scope, Dialect::Xacro)?
+                    self.expression_value(&text[range], place, scope, ExpressionDialect::Xacro)?
                 }
                 Piece::Extension(range) => {
                     let place = part(origin, text, &range);
@@ -157,7 +157,7 @@ impl State<'_> {
         text: &str,
         origin: Origin,
         scope: ScopeId,
-        dialect: Dialect,
+        dialect: ExpressionDialect,
     ) -> Result<Value, Failed> {
         // Extensions inside an expression are put in as text before it is parsed.
         let replaced = self.text(text, origin, scope)?;

@@ -3,13 +3,13 @@
 use std::path::PathBuf;
 
 use periplus_diagnostics::{Diagnostic, Diagnostics, Origin, SourceMap};
-use periplus_xml::{Attribute, Document, Element, Node, SmolStr, Text};
+use periplus_xml::{Attribute, Document, Element, SmolStr, Text, XmlNode};
 
 use crate::attributes::value_origin;
 use crate::frame::Frame;
 use crate::output::Output;
 use crate::scopes::{Symbol, TOP};
-use crate::setting::Setting;
+use crate::setting::XacroContext;
 use crate::state::{Failed, State};
 
 /// Elements defined by xacro itself.
@@ -52,7 +52,7 @@ pub struct Expanded {
 /// use.
 pub fn expand(
     document: &Document,
-    setting: Setting<'_>,
+    setting: XacroContext<'_>,
     sources: &mut SourceMap,
     diagnostics: &mut Diagnostics,
 ) -> Option<Expanded> {
@@ -115,7 +115,7 @@ impl State<'_> {
     #[inline(never)]
     pub(crate) fn expand_nodes(
         &self,
-        nodes: &[Node],
+        nodes: &[XmlNode],
         frame: Frame,
         out: &mut Output<'_>,
     ) -> Result<(), Failed> {
@@ -124,31 +124,31 @@ impl State<'_> {
         for node in nodes {
             self.count_node(node, frame)?;
             match node {
-                Node::Element(element) => {
+                XmlNode::Element(element) => {
                     comments_live = false;
                     failed |= self.expand_element(element, frame, out).is_err();
                 }
-                Node::Text(text) => {
+                XmlNode::Text(text) => {
                     let origin = frame.seen(text.origin);
                     match self.tree_text(&text.text, origin, frame.scope) {
                         Ok(text) => {
                             comments_live &= text.trim().is_empty();
-                            out.push(Node::Text(Text { text, origin }));
+                            out.push(XmlNode::Text(Text { text, origin }));
                         }
                         Err(Failed) => failed = true,
                     }
                 }
-                Node::Comment(comment) if comment.text.contains("xacro:eval-comments") => {
+                XmlNode::Comment(comment) if comment.text.contains("xacro:eval-comments") => {
                     comments_live = !comment.text.contains("xacro:eval-comments:off");
                 }
-                Node::Comment(comment) if comments_live => {
+                XmlNode::Comment(comment) if comments_live => {
                     let origin = frame.seen(comment.origin);
                     match self.tree_text(&comment.text, origin, frame.scope) {
-                        Ok(text) => out.push(Node::Comment(Text { text, origin })),
+                        Ok(text) => out.push(XmlNode::Comment(Text { text, origin })),
                         Err(Failed) => failed = true,
                     }
                 }
-                Node::Comment(_) | Node::Instruction(_) => out.push(node.clone()),
+                XmlNode::Comment(_) | XmlNode::Instruction(_) => out.push(node.clone()),
             }
             if self.has_given_up() {
                 return Err(Failed);
@@ -157,10 +157,12 @@ impl State<'_> {
         if failed { Err(Failed) } else { Ok(()) }
     }
 
-    fn count_node(&self, node: &Node, frame: Frame) -> Result<(), Failed> {
+    fn count_node(&self, node: &XmlNode, frame: Frame) -> Result<(), Failed> {
         let origin = match node {
-            Node::Element(element) => element.origin,
-            Node::Text(text) | Node::Comment(text) | Node::Instruction(text) => text.origin,
+            XmlNode::Element(element) => element.origin,
+            XmlNode::Text(text) | XmlNode::Comment(text) | XmlNode::Instruction(text) => {
+                text.origin
+            }
         };
         self.count(1, frame.seen(origin))
     }
@@ -315,7 +317,7 @@ impl State<'_> {
         expanded.origin = frame.seen(element.origin);
         self.expand_attributes(element, frame, &mut expanded);
         let result = self.expand_nodes(&element.children, frame, &mut Output::new(&mut expanded));
-        out.push(Node::Element(expanded));
+        out.push(XmlNode::Element(expanded));
         result
     }
 

@@ -8,7 +8,7 @@ use periplus_diagnostics::{Diagnostic, Origin, closest};
 use crate::evaluate::part;
 use crate::scopes::ScopeId;
 use crate::state::{Failed, State};
-use periplus_python_expr::Dialect;
+use periplus_python_expr::ExpressionDialect;
 
 const COMMANDS: [&str; 7] = ["find", "arg", "env", "optenv", "dirname", "cwd", "eval"];
 
@@ -23,8 +23,12 @@ impl State<'_> {
     ) -> Result<Rc<str>, Failed> {
         if let Some(expression) = text.strip_prefix("eval ") {
             let place = part(origin, text, &(5..text.len()));
-            let value =
-                self.expression_value(expression, place, scope, Dialect::SubstitutionArgs)?;
+            let value = self.expression_value(
+                expression,
+                place,
+                scope,
+                ExpressionDialect::SubstitutionArgs,
+            )?;
             return self.characters(&value, origin);
         }
         let text = self.text(text, origin, scope)?;

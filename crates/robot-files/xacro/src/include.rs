@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use periplus_diagnostics::{Diagnostic, Diagnostics, Expansion, Origin};
-use periplus_resources::{Kind, MissKind};
+use periplus_resources::{EntryKind, ResolveErrorKind};
 use periplus_xml::{Element, decode, parse};
 
 use crate::attributes::value_origin;
@@ -181,7 +181,7 @@ impl State<'_> {
         let from = self.files.borrow().first().cloned().unwrap_or_default();
         let found =
             self.setting.resolver.resolve(&path.to_string_lossy(), &from).map_err(|miss| {
-                let missing = miss.kind == MissKind::Missing;
+                let missing = miss.kind == ResolveErrorKind::Missing;
                 let mut diagnostic = miss.into_diagnostic(origin);
                 if missing {
                     // The name in the file is relative or starts with `$(find ...)`, so the advice about
@@ -229,7 +229,7 @@ impl State<'_> {
                 is_certain = false;
                 // The user named this folder, so report the reason that nothing in it is found.
                 if let Some(Err(miss)) = found.first().map(&open)
-                    && miss.kind == MissKind::Outside
+                    && miss.kind == ResolveErrorKind::Outside
                 {
                     return Err(self.fail(miss.into_diagnostic(origin)));
                 }
@@ -257,7 +257,7 @@ impl State<'_> {
             }
             found = next;
         }
-        found.retain(|path| self.setting.host.kind(path) == Some(Kind::File));
+        found.retain(|path| self.setting.host.kind(path) == Some(EntryKind::File));
         found.sort();
         Ok(found)
     }

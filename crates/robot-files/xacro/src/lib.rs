@@ -26,7 +26,7 @@ mod text;
 mod yaml;
 
 pub use expand::{Expanded, expand};
-pub use setting::Setting;
+pub use setting::XacroContext;
 
 /// The namespace that marks a file as xacro.
 pub const NAMESPACE: &str = "http://www.ros.org/wiki/xacro";

@@ -8,7 +8,7 @@ use periplus_diagnostics::Diagnostic;
 use crate::literal::automatic;
 use crate::scopes::{ScopeId, Symbol};
 use crate::state::{Failed, State};
-use periplus_python_expr::{Budget, Dialect, ExpressionError, Scope, Value};
+use periplus_python_expr::{Budget, ExpressionDialect, ExpressionError, Scope, Value};
 
 /// Message of an error that has been reported as a diagnostic.
 pub(crate) const ALREADY_SAID: &str = "\0";
@@ -25,12 +25,12 @@ const EVAL_FUNCTIONS: [&str; 5] =
 pub(crate) struct Names<'s, 'a> {
     pub(crate) state: &'s State<'a>,
     pub(crate) scope: ScopeId,
-    pub(crate) dialect: Dialect,
+    pub(crate) dialect: ExpressionDialect,
 }
 
 impl Scope for Names<'_, '_> {
     fn lookup(&self, name: &str, budget: &mut Budget) -> Result<Option<Value>, ExpressionError> {
-        if self.dialect == Dialect::SubstitutionArgs {
+        if self.dialect == ExpressionDialect::SubstitutionArgs {
             // `$(eval ...)` sees arguments and its own functions, no properties.
             if let Some(function) = EVAL_FUNCTIONS.iter().find(|full| full[5..] == *name) {
                 return Ok(Some(Value::host_function(*function)));
@@ -69,7 +69,7 @@ impl Scope for Names<'_, '_> {
     }
 
     fn names(&self) -> Vec<String> {
-        if self.dialect == Dialect::SubstitutionArgs {
+        if self.dialect == ExpressionDialect::SubstitutionArgs {
             return self.state.arguments.borrow().keys().cloned().collect();
         }
         self.state.scopes.borrow().names(self.scope)
@@ -91,7 +91,7 @@ impl Scope for Names<'_, '_> {
         self.state.with_budget(budget, call)
     }
 
-    fn dialect(&self) -> Dialect {
+    fn dialect(&self) -> ExpressionDialect {
         self.dialect
     }
 

@@ -1,7 +1,7 @@
 //! Output of an expansion.
 
 use periplus_diagnostics::Origin;
-use periplus_xml::{Attribute, Element, Node, SmolStr};
+use periplus_xml::{Attribute, Element, SmolStr, XmlNode};
 
 /// Element that receives expanded nodes. `xacro:attribute` and inherited namespaces add to its attributes.
 pub(crate) struct Output<'e> {
@@ -15,7 +15,7 @@ impl<'e> Output<'e> {
         Self { parent, settled: 0 }
     }
 
-    pub(crate) fn push(&mut self, node: Node) {
+    pub(crate) fn push(&mut self, node: XmlNode) {
         self.parent.children.push(node);
     }
 
@@ -42,8 +42,8 @@ impl<'e> Output<'e> {
     #[inline(never)]
     pub(crate) fn drop_comments(&mut self) {
         let children = &mut self.parent.children;
-        let blank = |node: &Node| {
-            matches!(node, Node::Text(text)
+        let blank = |node: &XmlNode| {
+            matches!(node, XmlNode::Text(text)
                 if text.text.trim().is_empty() && text.text.matches('\n').count() <= 1)
         };
         let mut before = children.len();
@@ -51,7 +51,7 @@ impl<'e> Output<'e> {
             if before > self.settled && blank(&children[before - 1]) {
                 before -= 1;
             }
-            if before <= self.settled || !matches!(children[before - 1], Node::Comment(_)) {
+            if before <= self.settled || !matches!(children[before - 1], XmlNode::Comment(_)) {
                 return;
             }
             before -= 1;

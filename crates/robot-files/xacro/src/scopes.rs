@@ -7,7 +7,7 @@ use std::collections::BTreeMap;
 use std::rc::Rc;
 
 use periplus_diagnostics::{ContextId, Origin};
-use periplus_xml::{Element, Node};
+use periplus_xml::{Element, XmlNode};
 use smol_str::SmolStr;
 
 use crate::parameters::Parameter;
@@ -43,7 +43,7 @@ pub(crate) struct LazyText {
 /// Elements to insert, and their call context if they were not expanded yet.
 #[derive(Clone, Debug)]
 pub(crate) struct Block {
-    pub(crate) nodes: Rc<Vec<Node>>,
+    pub(crate) nodes: Rc<Vec<XmlNode>>,
     pub(crate) context: Option<ContextId>,
 }
 

@@ -6,7 +6,7 @@ use periplus_resources::{Host, Resolver};
 
 /// Inputs of an expansion.
 #[derive(Clone)]
-pub struct Setting<'a> {
+pub struct XacroContext<'a> {
     /// File to expand.
     pub path: PathBuf,
     /// Working folder of the user, for `$(cwd)` and for short paths in messages.
@@ -19,7 +19,7 @@ pub struct Setting<'a> {
     pub resolver: &'a Resolver<'a>,
 }
 
-impl Setting<'_> {
+impl XacroContext<'_> {
     /// Path as shown in messages.
     pub(crate) fn shown(&self, path: &Path) -> String {
         match path.strip_prefix(&self.working_folder) {

@@ -8,7 +8,7 @@ use periplus_diagnostics::{Diagnostic, Diagnostics, Origin, SourceMap};
 use smol_str::SmolStr;
 
 use crate::scopes::{ScopeId, Scopes};
-use crate::setting::Setting;
+use crate::setting::XacroContext;
 use periplus_python_expr::{Budget, Value};
 
 /// Maximum number of steps of all expressions of a file together. The PR2, one of the largest robots, takes
@@ -23,7 +23,7 @@ const MAX_ERRORS: usize = 30;
 
 /// State shared by all parts of an expansion.
 pub(crate) struct State<'a> {
-    pub(crate) setting: Setting<'a>,
+    pub(crate) setting: XacroContext<'a>,
     pub(crate) sources: RefCell<&'a mut SourceMap>,
     pub(crate) diagnostics: RefCell<&'a mut Diagnostics>,
     pub(crate) scopes: RefCell<Scopes>,
@@ -66,7 +66,7 @@ pub(crate) struct Failed;
 
 impl<'a> State<'a> {
     pub(crate) fn new(
-        setting: Setting<'a>,
+        setting: XacroContext<'a>,
         sources: &'a mut SourceMap,
         diagnostics: &'a mut Diagnostics,
     ) -> Self {

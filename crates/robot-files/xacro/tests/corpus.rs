@@ -11,10 +11,10 @@
 
 use std::path::{Path, PathBuf};
 
-use periplus_diagnostics::{Diagnostics, SourceMap, Style, render};
+use periplus_diagnostics::{Diagnostics, RenderStyle, SourceMap, render};
 use periplus_os::Machine;
 use periplus_resources::{Host as _, Resolver};
-use periplus_xacro::{Setting, expand};
+use periplus_xacro::{XacroContext, expand};
 use periplus_xml::{canonical, decode, parse};
 use serde_json::Value;
 
@@ -83,7 +83,7 @@ fn run(path: &Path, host: &Machine, resolver: &Resolver<'_>) -> (Option<String>,
     let expanded = decode(&bytes).ok().and_then(|text| {
         let file = sources.add(path.display().to_string(), text);
         let document = parse(file, &sources, &mut diagnostics)?;
-        let setting = Setting {
+        let setting = XacroContext {
             path: path.to_owned(),
             working_folder: PathBuf::from("/"),
             arguments: Vec::new(),
@@ -92,7 +92,7 @@ fn run(path: &Path, host: &Machine, resolver: &Resolver<'_>) -> (Option<String>,
         };
         expand(&document, setting, &mut sources, &mut diagnostics)
     });
-    let said = diagnostics.iter().map(|d| render(d, &sources, Style::Plain)).collect();
+    let said = diagnostics.iter().map(|d| render(d, &sources, RenderStyle::Plain)).collect();
     (expanded.map(|expanded| canonical(&expanded.document.root)), said)
 }
 

@@ -2,7 +2,7 @@
 
 use periplus_diagnostics::{Diagnostic, Diagnostics};
 use periplus_geometry::{DQuat, DVec3, Pose};
-use periplus_scene::{Collision, Heightmap, Mesh, Polyline, Shape};
+use periplus_scene::{Collision, Heightmap, MeshShape, Polyline, Shape};
 use rapier3d_f64::geometry::SharedShape;
 use rapier3d_f64::math::Vector;
 use rapier3d_f64::parry::utils::Array2;
@@ -37,7 +37,7 @@ pub struct Heights {
 /// Provides meshes and heightmaps of files to code that must not read files.
 pub trait Meshes {
     /// Returns the triangles of a mesh, submesh and scale applied; `None` if it could not be read.
-    fn triangles(&self, mesh: &Mesh) -> Option<Triangles>;
+    fn triangles(&self, mesh: &MeshShape) -> Option<Triangles>;
     /// Returns the heights of a heightmap; `None` if it could not be read.
     fn heights(&self, heightmap: &Heightmap) -> Option<Heights>;
 }
@@ -47,7 +47,7 @@ pub trait Meshes {
 pub struct NoMeshes;
 
 impl Meshes for NoMeshes {
-    fn triangles(&self, _: &Mesh) -> Option<Triangles> {
+    fn triangles(&self, _: &MeshShape) -> Option<Triangles> {
         None
     }
 

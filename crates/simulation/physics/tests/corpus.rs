@@ -9,11 +9,11 @@ use std::sync::Mutex;
 use std::time::Instant;
 
 use periplus_diagnostics::Severity;
-use periplus_loader::{Setting, load, read_mesh};
+use periplus_loader::{LoadContext, load, read_mesh};
 use periplus_os::Machine;
 use periplus_physics::{Heights, Meshes, PhysicsMode, PhysicsWorld, Triangles};
 use periplus_resources::{Host as _, Resolver};
-use periplus_scene::{DVec3, Heightmap, Link, Mesh, Model, Pose, Scene, Shape};
+use periplus_scene::{DVec3, Heightmap, Link, MeshShape, Model, Pose, Scene, Shape};
 
 const STEP_NS: i64 = 1_000_000;
 const STEPS: usize = 200;
@@ -25,7 +25,7 @@ struct Files {
 }
 
 impl Meshes for Files {
-    fn triangles(&self, mesh: &Mesh) -> Option<Triangles> {
+    fn triangles(&self, mesh: &MeshShape) -> Option<Triangles> {
         let path = mesh.path.clone()?;
         let mut read = self.read.lock().unwrap();
         let file = read.entry(path.clone()).or_insert_with(|| {
@@ -92,7 +92,7 @@ fn every_robot_and_world_stands_and_moves() {
     let host = Machine;
     let search = [corpus.join("gazebo_models")];
     let resolver = Resolver::new(&host, &search);
-    let setting = Setting {
+    let setting = LoadContext {
         host: &host,
         resolver: &resolver,
         working_folder: corpus.clone(),

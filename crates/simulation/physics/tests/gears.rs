@@ -7,7 +7,7 @@ use std::f64::consts::TAU;
 use std::path::Path;
 
 use common::*;
-use periplus_loader::{Setting, load_bytes};
+use periplus_loader::{LoadContext, load_bytes};
 use periplus_physics::{JointCommand, NoMeshes, PhysicsMode, PhysicsWorld};
 use periplus_resources::{MemoryHost, Resolver};
 use periplus_scene::{Axis, DVec3, Element, Joint, JointKind, Model, Pose};
@@ -102,7 +102,7 @@ fn two_boxes(joints: Vec<Joint>) -> periplus_scene::World {
     };
     let host = MemoryHost::new();
     let resolver = Resolver::new(&host, &[]);
-    let setting = Setting {
+    let setting = LoadContext {
         host: &host,
         resolver: &resolver,
         working_folder: "/w".into(),

@@ -7,7 +7,7 @@ use std::f64::consts::TAU;
 use std::path::Path;
 
 use common::*;
-use periplus_loader::{Setting, load};
+use periplus_loader::{LoadContext, load};
 use periplus_os::Machine;
 use periplus_physics::drives::{ClassicDiffDrive, ClassicDrive, Odometry, WheelPair, true_twist};
 use periplus_physics::{JointCommand, Kinematic, PhysicsWorld, Twist};
@@ -18,7 +18,7 @@ fn sam_bot() -> Model {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../..");
     let host = Machine;
     let resolver = Resolver::new(&host, &[]);
-    let setting = Setting {
+    let setting = LoadContext {
         host: &host,
         resolver: &resolver,
         working_folder: root.clone(),

@@ -8,14 +8,14 @@ use periplus_physics::{
     AddOutcome, Heights, Meshes, NoMeshes, PhysicsMode, PhysicsWorld, Triangles,
 };
 use periplus_scene::{
-    Axis, Collision, DVec3, Heightmap, JointKind, Link, Mesh, Model, Polyline, Pose, Shape,
+    Axis, Collision, DVec3, Heightmap, JointKind, Link, MeshShape, Model, Polyline, Pose, Shape,
 };
 
 /// A pyramid of 2 m by 2 m, 1 m high, on its base; and a slope that rises with x.
 struct Files;
 
 impl Meshes for Files {
-    fn triangles(&self, _: &Mesh) -> Option<Triangles> {
+    fn triangles(&self, _: &MeshShape) -> Option<Triangles> {
         let corner = |x: f64, y: f64| DVec3::new(x, y, 0.0);
         let points_m = vec![
             corner(-1.0, -1.0),
@@ -37,7 +37,7 @@ impl Meshes for Files {
 }
 
 fn mesh() -> Shape {
-    Shape::Mesh(Mesh {
+    Shape::Mesh(MeshShape {
         uri: "pyramid.stl".into(),
         path: None,
         submesh: None,

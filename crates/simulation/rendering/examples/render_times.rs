@@ -26,19 +26,19 @@ use periplus_rendering::{
     SensedGeometry,
 };
 use periplus_scene::{
-    Attenuation, Colour, Light, LightKind, Link, Material, Mesh, Model, Shape, Visual,
+    Attenuation, Colour, Light, LightKind, Link, Material, MeshShape, Model, Shape, Visual,
 };
 
 struct One(Arc<periplus_meshes::Mesh>);
 
 impl AssetLoader for One {
-    fn mesh(&self, _: &Mesh) -> Option<Arc<periplus_meshes::Mesh>> {
+    fn mesh(&self, _: &MeshShape) -> Option<Arc<periplus_meshes::Mesh>> {
         Some(Arc::clone(&self.0))
     }
     fn image(&self, _: &str, _: Origin) -> Option<Arc<[u8]>> {
         None
     }
-    fn texture(&self, _: &Mesh, _: &str) -> Option<Arc<[u8]>> {
+    fn texture(&self, _: &MeshShape, _: &str) -> Option<Arc<[u8]>> {
         None
     }
 }
@@ -148,7 +148,7 @@ fn cpu_s() -> f64 {
 
 fn model() -> Model {
     let mut link = Link::new("link");
-    let shape = Shape::Mesh(Mesh {
+    let shape = Shape::Mesh(MeshShape {
         uri: "scene".into(),
         path: None,
         submesh: None,

@@ -15,19 +15,19 @@ use std::sync::Arc;
 
 use periplus_diagnostics::Origin;
 use periplus_geometry::{Pose, Rpy};
-use periplus_loader::{Setting, load};
+use periplus_loader::{LoadContext, load};
 use periplus_meshes::MeshFormat;
 use periplus_os::Machine;
 use periplus_rendering::{
     AssetLoader, ImageOutputs, Lens, RenderRequest, RenderScene, RenderedImages, SensedGeometry,
 };
 use periplus_resources::Resolver;
-use periplus_scene::Mesh;
+use periplus_scene::MeshShape;
 
 struct Files;
 
 impl AssetLoader for Files {
-    fn mesh(&self, mesh: &Mesh) -> Option<Arc<periplus_meshes::Mesh>> {
+    fn mesh(&self, mesh: &MeshShape) -> Option<Arc<periplus_meshes::Mesh>> {
         let path = mesh.path.as_ref()?;
         let bytes = std::fs::read(path).ok()?;
         let format = MeshFormat::from_path_and_bytes(&path.to_string_lossy(), &bytes).ok()?;
@@ -40,7 +40,7 @@ impl AssetLoader for Files {
         None
     }
 
-    fn texture(&self, mesh: &Mesh, name: &str) -> Option<Arc<[u8]>> {
+    fn texture(&self, mesh: &MeshShape, name: &str) -> Option<Arc<[u8]>> {
         let folder = mesh.path.as_ref()?.parent()?;
         std::fs::read(folder.join(name)).ok().map(Into::into)
     }
@@ -63,7 +63,7 @@ fn main() {
     let here = std::env::current_dir().unwrap();
     let models: PathBuf = here.join(world).parent().unwrap().join("models");
     let resolver = Resolver::new(&Machine, &[models]);
-    let setting = Setting {
+    let setting = LoadContext {
         host: &Machine,
         resolver: &resolver,
         working_folder: here,

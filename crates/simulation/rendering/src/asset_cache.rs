@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use periplus_images::{BadImage, Image};
-use periplus_scene::Mesh;
+use periplus_scene::MeshShape;
 
 use crate::assets::AssetLoader;
 use crate::mesh::{SharedMesh, select_submesh};
@@ -28,7 +28,7 @@ impl AssetCache {
     /// The problem, as a clause that follows the shape's name.
     pub(crate) fn mesh(
         &mut self,
-        mesh: &Mesh,
+        mesh: &MeshShape,
         shapes: &dyn AssetLoader,
     ) -> Result<Arc<SharedMesh>, String> {
         if !mesh.scale.is_finite() {

@@ -89,20 +89,20 @@ impl HeightmapSamples {
 mod tests {
     use periplus_diagnostics::Origin;
     use periplus_geometry::DVec3;
-    use periplus_scene::Mesh;
+    use periplus_scene::MeshShape;
 
     use super::*;
 
     struct OneImage(Arc<[u8]>);
 
     impl AssetLoader for OneImage {
-        fn mesh(&self, _: &Mesh) -> Option<Arc<periplus_meshes::Mesh>> {
+        fn mesh(&self, _: &MeshShape) -> Option<Arc<periplus_meshes::Mesh>> {
             None
         }
         fn image(&self, _: &str, _: Origin) -> Option<Arc<[u8]>> {
             Some(Arc::clone(&self.0))
         }
-        fn texture(&self, _: &Mesh, _: &str) -> Option<Arc<[u8]>> {
+        fn texture(&self, _: &MeshShape, _: &str) -> Option<Arc<[u8]>> {
             None
         }
     }

@@ -3,9 +3,9 @@
 use std::sync::Arc;
 
 use periplus_geometry::DVec3;
-use periplus_meshes::{Material, Submesh};
+use periplus_meshes::{MeshMaterial, Submesh};
 use periplus_raycast::{TriangleMesh, TriangleMeshError};
-use periplus_scene::Mesh;
+use periplus_scene::MeshShape;
 
 /// The submeshes of a file that a scene selects, as one list of triangles.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -19,12 +19,12 @@ pub struct SelectedMesh {
     /// Texture coordinates, one per corner (zero where a submesh has none).
     pub(crate) uvs: Vec<[f32; 2]>,
     /// Submeshes in order: first triangle, material.
-    pub(crate) parts: Vec<(u32, Option<Arc<Material>>)>,
+    pub(crate) parts: Vec<(u32, Option<Arc<MeshMaterial>>)>,
 }
 
 /// Selects the submesh of a scene's mesh, centres and scales it. An unknown name selects nothing.
 #[must_use]
-pub fn select_submesh(mesh: &Mesh, file: &periplus_meshes::Mesh) -> SelectedMesh {
+pub fn select_submesh(mesh: &MeshShape, file: &periplus_meshes::Mesh) -> SelectedMesh {
     let chosen: Vec<&Submesh> = file
         .submeshes
         .iter()
@@ -106,7 +106,7 @@ mod tests {
     }
 
     fn check(submesh: Option<&str>, center_submesh: bool) -> Vec<[f64; 3]> {
-        let mesh = Mesh {
+        let mesh = MeshShape {
             uri: "two.dae".into(),
             path: None,
             submesh: submesh.map(str::to_owned),

@@ -80,7 +80,7 @@ impl PhongMaterial {
 
     /// Converts a material of a mesh file.
     pub(crate) fn of_mesh(
-        material: &periplus_meshes::Material,
+        material: &periplus_meshes::MeshMaterial,
         texture: Option<Arc<Image>>,
     ) -> Self {
         let [r, g, b, alpha] = material.diffuse_rgba.map(|x| if x.is_finite() { x } else { 1.0 });

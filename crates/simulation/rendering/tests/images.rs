@@ -6,7 +6,7 @@ use periplus_rendering::{
 };
 use periplus_scene::{
     Attenuation, Camera, CameraKind, Colour, DVec3, Distortion, Element, Light, LightKind, Link,
-    Material, Model, Noise, Origin, Pose, Shape, Visual,
+    Material, Model, NoiseSpec, Origin, Pose, Shape, Visual,
 };
 
 const ALL: ImageOutputs = ImageOutputs { colour: true, depth: true, labels: true };
@@ -204,7 +204,7 @@ fn camera(kind: CameraKind, distortion: Option<Distortion>) -> Camera {
         near_m: 0.1,
         far_m: 100.0,
         depth_clip_m: None,
-        noise: Noise::default(),
+        noise: NoiseSpec::default(),
         distortion,
         camera_info_topic: None,
         optical_frame_id: None,

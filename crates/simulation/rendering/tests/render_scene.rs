@@ -10,14 +10,15 @@ use periplus_rendering::{
     AddedModel, AssetLoader, NoAssets, PartId, RenderModelId, RenderScene, SensedGeometry, filter,
 };
 use periplus_scene::{
-    Collision, Colour, DVec3, Element, Link, Material, Mesh, Model, Plugin, Pose, Shape, Visual,
+    Collision, Colour, DVec3, Element, Link, Material, MeshShape, Model, Plugin, Pose, Shape,
+    Visual,
 };
 
 /// A triangle in the plane x = 0, from the files that there are.
 struct OneTriangle;
 
 impl AssetLoader for OneTriangle {
-    fn mesh(&self, mesh: &Mesh) -> Option<Arc<periplus_meshes::Mesh>> {
+    fn mesh(&self, mesh: &MeshShape) -> Option<Arc<periplus_meshes::Mesh>> {
         let triangle = Submesh {
             name: "sail".into(),
             positions_m: vec![[0.0, -1.0, -1.0], [0.0, 1.0, -1.0], [0.0, 0.0, 1.0]],
@@ -30,13 +31,13 @@ impl AssetLoader for OneTriangle {
     fn image(&self, _: &str, _: Origin) -> Option<Arc<[u8]>> {
         None
     }
-    fn texture(&self, _: &Mesh, _: &str) -> Option<Arc<[u8]>> {
+    fn texture(&self, _: &MeshShape, _: &str) -> Option<Arc<[u8]>> {
         None
     }
 }
 
 fn mesh(uri: &str) -> Shape {
-    Shape::Mesh(Mesh {
+    Shape::Mesh(MeshShape {
         uri: uri.into(),
         path: Some(uri.into()),
         submesh: None,

@@ -1,7 +1,7 @@
 //! Magnetometer, altimeter and barometer.
 
 use periplus_geometry::{DVec3, Stream};
-use periplus_scene::Noise;
+use periplus_scene::NoiseSpec;
 
 use crate::navsat::apply_bias_and_noise;
 use crate::{Motion, NoiseModel, Streams};
@@ -15,7 +15,7 @@ pub struct Magnetometer {
 impl Magnetometer {
     /// Creates a magnetometer with noise along x, y, z [T].
     #[must_use]
-    pub fn new(noise: &[Noise; 3], streams: &Streams) -> Self {
+    pub fn new(noise: &[NoiseSpec; 3], streams: &Streams) -> Self {
         let noise = [(0, "x"), (1, "y"), (2, "z")]
             .map(|(axis, name)| NoiseModel::new(&noise[axis], streams, name));
         Self { noise }
@@ -66,7 +66,7 @@ pub struct Altimeter {
 impl Altimeter {
     /// Creates an altimeter with noise of height [m] and velocity [m/s].
     #[must_use]
-    pub fn new(position: &Noise, velocity: &Noise, streams: &Streams) -> Self {
+    pub fn new(position: &NoiseSpec, velocity: &NoiseSpec, streams: &Streams) -> Self {
         Self {
             position: NoiseModel::new(position, streams, "vertical_position"),
             velocity: NoiseModel::new(velocity, streams, "vertical_velocity"),
@@ -103,7 +103,7 @@ pub struct Barometer {
 impl Barometer {
     /// Creates a barometer for a world whose origin is at an altitude [m], with noise [Pa].
     #[must_use]
-    pub fn new(reference_altitude_m: f64, noise: &Noise, streams: &Streams) -> Self {
+    pub fn new(reference_altitude_m: f64, noise: &NoiseSpec, streams: &Streams) -> Self {
         Self { reference_altitude_m, noise: NoiseModel::new(noise, streams, "pressure") }
     }
 
@@ -178,7 +178,7 @@ mod tests {
 
     use super::*;
 
-    const NONE: Noise = Noise {
+    const NONE: NoiseSpec = NoiseSpec {
         kind: periplus_scene::NoiseKind::None,
         mean: 0.0,
         stddev: 0.0,

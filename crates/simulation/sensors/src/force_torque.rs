@@ -2,7 +2,7 @@
 
 use periplus_diagnostics::Diagnostic;
 use periplus_geometry::{DQuat, DVec3, Stream};
-use periplus_scene::Noise;
+use periplus_scene::NoiseSpec;
 
 use crate::navsat::apply_bias_and_noise;
 use crate::{NoiseModel, Streams};
@@ -52,8 +52,8 @@ impl ForceTorque {
     pub fn new(
         frame: &str,
         measure_direction: &str,
-        force: &[Noise; 3],
-        torque: &[Noise; 3],
+        force: &[NoiseSpec; 3],
+        torque: &[NoiseSpec; 3],
         streams: &Streams,
     ) -> Result<Self, Box<Diagnostic>> {
         let unknown = |what: &str, written: &str, known: &[&str]| {
@@ -77,7 +77,7 @@ impl ForceTorque {
                 return Err(unknown("direction", other, &known));
             }
         };
-        let three = |noises: &[Noise; 3], group: &str| {
+        let three = |noises: &[NoiseSpec; 3], group: &str| {
             [(0, "x"), (1, "y"), (2, "z")].map(|(axis, name)| {
                 NoiseModel::new(&noises[axis], streams, &format!("{group}/{name}"))
             })
@@ -119,7 +119,7 @@ impl ForceTorque {
 mod tests {
     use super::*;
 
-    const NONE: [Noise; 3] = [Noise {
+    const NONE: [NoiseSpec; 3] = [NoiseSpec {
         kind: periplus_scene::NoiseKind::None,
         mean: 0.0,
         stddev: 0.0,

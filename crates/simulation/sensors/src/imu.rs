@@ -41,11 +41,11 @@ impl ImuSensor {
     /// Creates an IMU with an orientation reference; without one it reports no orientation.
     #[must_use]
     pub fn new(
-        spec: &periplus_scene::Imu,
+        spec: &periplus_scene::ImuSpec,
         reference: Option<OrientationReference>,
         streams: &Streams,
     ) -> Self {
-        let noises = |noises: &[periplus_scene::Noise; 3], group: &str| {
+        let noises = |noises: &[periplus_scene::NoiseSpec; 3], group: &str| {
             [0, 1, 2].map(|axis| {
                 NoiseModel::new(&noises[axis], streams, &format!("{group}/{}", AXES[axis]))
             })
@@ -152,16 +152,16 @@ mod tests {
     use std::f64::consts::FRAC_PI_2;
 
     use periplus_geometry::{Pose, Rpy};
-    use periplus_scene::{Noise, NoiseKind};
+    use periplus_scene::{NoiseKind, NoiseSpec};
 
     use super::*;
 
     const GRAVITY: DVec3 = DVec3::new(0.0, 0.0, -9.8);
 
-    fn silent() -> periplus_scene::Imu {
-        periplus_scene::Imu {
-            angular_velocity: [Noise::default(); 3],
-            linear_acceleration: [Noise::default(); 3],
+    fn silent() -> periplus_scene::ImuSpec {
+        periplus_scene::ImuSpec {
+            angular_velocity: [NoiseSpec::default(); 3],
+            linear_acceleration: [NoiseSpec::default(); 3],
             enable_orientation: true,
             localization: None,
             extra: Vec::new(),
@@ -241,8 +241,9 @@ mod tests {
 
     #[test]
     fn noise_comes_on_top_of_every_axis() {
-        let noise = Noise { kind: NoiseKind::Gaussian, mean: 1.0, stddev: 0.5, ..Noise::default() };
-        let spec = periplus_scene::Imu { angular_velocity: [noise; 3], ..silent() };
+        let noise =
+            NoiseSpec { kind: NoiseKind::Gaussian, mean: 1.0, stddev: 0.5, ..NoiseSpec::default() };
+        let spec = periplus_scene::ImuSpec { angular_velocity: [noise; 3], ..silent() };
         let streams = Streams::new(1, "imu");
         let mut imu = ImuSensor::new(&spec, None, &streams);
         let mut sum = DVec3::ZERO;

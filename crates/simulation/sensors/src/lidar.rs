@@ -54,7 +54,10 @@ impl LidarSensor {
     /// # Errors
     /// When it cannot measure: no beams or too many, angles or ranges that are not finite, or an
     /// empty range interval.
-    pub fn new(spec: &periplus_scene::Lidar, streams: &Streams) -> Result<Self, Box<Diagnostic>> {
+    pub fn new(
+        spec: &periplus_scene::LidarSpec,
+        streams: &Streams,
+    ) -> Result<Self, Box<Diagnostic>> {
         let beams = LidarBeams::new(spec)?;
         let (min_m, max_m) = (spec.range_min_m, spec.range_max_m);
         if !(min_m >= 0.0 && min_m.is_finite() && max_m > min_m) {

@@ -1,7 +1,7 @@
 //! Satellite navigation.
 
 use periplus_geometry::{DVec3, Stream};
-use periplus_scene::Noise;
+use periplus_scene::NoiseSpec;
 
 use crate::geodesy::{GeodeticPosition, LocalTangentFrame};
 use crate::{Motion, NoiseModel, Streams};
@@ -19,13 +19,13 @@ pub struct NavSatReading {
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct NavSatNoise {
     /// Horizontal position [m].
-    pub position_horizontal: Noise,
+    pub position_horizontal: NoiseSpec,
     /// Vertical position [m].
-    pub position_vertical: Noise,
+    pub position_vertical: NoiseSpec,
     /// Horizontal velocity [m/s].
-    pub velocity_horizontal: Noise,
+    pub velocity_horizontal: NoiseSpec,
     /// Vertical velocity [m/s].
-    pub velocity_vertical: Noise,
+    pub velocity_vertical: NoiseSpec,
 }
 
 /// A satellite receiver. Noise of the position is in metres east, north and up, as SDF defines and
@@ -41,7 +41,7 @@ impl NavSat {
     /// Creates a receiver in a georeferenced world.
     #[must_use]
     pub fn new(frame: LocalTangentFrame, noise: &NavSatNoise, streams: &Streams) -> Self {
-        let three = |horizontal: &Noise, vertical: &Noise, group: &str| {
+        let three = |horizontal: &NoiseSpec, vertical: &NoiseSpec, group: &str| {
             [(horizontal, "east"), (horizontal, "north"), (vertical, "up")]
                 .map(|(noise, axis)| NoiseModel::new(noise, streams, &format!("{group}/{axis}")))
         };
@@ -128,7 +128,7 @@ mod tests {
 
     #[test]
     fn noise_is_in_metres() {
-        let metre = Noise { kind: NoiseKind::Gaussian, stddev: 2.0, ..Noise::default() };
+        let metre = NoiseSpec { kind: NoiseKind::Gaussian, stddev: 2.0, ..NoiseSpec::default() };
         let noise = NavSatNoise { position_horizontal: metre, ..NavSatNoise::default() };
         let streams = Streams::new(0, "gps");
         let mut sensor = NavSat::new(frame(), &noise, &streams);

@@ -1,7 +1,7 @@
 //! Sensor noise.
 
 use periplus_geometry::Stream;
-use periplus_scene::{Noise, NoiseKind};
+use periplus_scene::{NoiseKind, NoiseSpec};
 
 /// Random streams of a sensor, keyed by the run's seed and the sensor's full name, so that adding a
 /// sensor does not change the others.
@@ -38,7 +38,7 @@ impl Streams {
 /// process; white noise is added; quantized output is rounded last.
 #[derive(Clone, Debug, PartialEq)]
 pub struct NoiseModel {
-    spec: Noise,
+    spec: NoiseSpec,
     first_bias: f64,
     bias: f64,
 }
@@ -46,7 +46,7 @@ pub struct NoiseModel {
 impl NoiseModel {
     /// Draws the bias. `quantity` distinguishes noises of the same sensor.
     #[must_use]
-    pub fn new(spec: &Noise, streams: &Streams, quantity: &str) -> Self {
+    pub fn new(spec: &NoiseSpec, streams: &Streams, quantity: &str) -> Self {
         let mut bias = 0.0;
         if spec.kind != NoiseKind::None && (spec.bias_mean != 0.0 || spec.bias_stddev != 0.0) {
             let mut stream = streams.once(quantity);
@@ -60,14 +60,14 @@ impl NoiseModel {
 
     /// Returns the specification.
     #[must_use]
-    pub fn spec(&self) -> &Noise {
+    pub fn spec(&self) -> &NoiseSpec {
         &self.spec
     }
 
     /// Returns true if values are not changed.
     #[must_use]
     pub fn is_none(&self) -> bool {
-        let Noise { kind, mean, stddev, dynamic_bias_stddev, precision, .. } = self.spec;
+        let NoiseSpec { kind, mean, stddev, dynamic_bias_stddev, precision, .. } = self.spec;
         kind == NoiseKind::None
             || mean == 0.0
                 && stddev == 0.0
@@ -123,7 +123,7 @@ impl NoiseModel {
 mod tests {
     use super::*;
 
-    const GAUSSIAN: Noise = Noise {
+    const GAUSSIAN: NoiseSpec = NoiseSpec {
         kind: NoiseKind::Gaussian,
         mean: 0.5,
         stddev: 0.1,
@@ -142,13 +142,13 @@ mod tests {
         (mean, variance.sqrt())
     }
 
-    fn model(spec: Noise, sensor: u64) -> NoiseModel {
+    fn model(spec: NoiseSpec, sensor: u64) -> NoiseModel {
         NoiseModel::new(&spec, &Streams::new(7, format!("s{sensor}")), "x")
     }
 
     #[test]
     fn no_noise_changes_nothing() {
-        let model = model(Noise { kind: NoiseKind::None, ..GAUSSIAN }, 0);
+        let model = model(NoiseSpec { kind: NoiseKind::None, ..GAUSSIAN }, 0);
         assert!(model.is_none());
         assert_eq!(model.apply_bias_and_noise(1.25, &mut Stream::keyed(0, "", 0)), 1.25);
     }
@@ -166,7 +166,8 @@ mod tests {
     /// Half of the biases are about 3, half about -3.
     #[test]
     fn a_bias_is_drawn_once_and_flipped_every_other_time() {
-        let spec = Noise { mean: 0.0, stddev: 0.0, bias_mean: 3.0, bias_stddev: 0.25, ..GAUSSIAN };
+        let spec =
+            NoiseSpec { mean: 0.0, stddev: 0.0, bias_mean: 3.0, bias_stddev: 0.25, ..GAUSSIAN };
         let mut biases: Vec<f64> = Vec::new();
         for sensor in 0..10_000 {
             let model = model(spec, sensor);
@@ -186,7 +187,7 @@ mod tests {
     /// In the long run the drifting bias has variance σ² τ/2 and decorrelates within τ.
     #[test]
     fn a_drifting_bias_wanders_as_far_as_it_may() {
-        let spec = Noise {
+        let spec = NoiseSpec {
             mean: 0.0,
             stddev: 0.0,
             dynamic_bias_stddev: 0.2,
@@ -206,7 +207,7 @@ mod tests {
 
     #[test]
     fn quantized_output_lies_on_steps() {
-        let spec = Noise { kind: NoiseKind::GaussianQuantized, precision: 0.25, ..GAUSSIAN };
+        let spec = NoiseSpec { kind: NoiseKind::GaussianQuantized, precision: 0.25, ..GAUSSIAN };
         let model = model(spec, 0);
         let mut stream = Stream::keyed(1, "q", 0);
         for _ in 0..100 {

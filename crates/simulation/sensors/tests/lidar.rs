@@ -2,7 +2,7 @@
 
 use periplus_geometry::{DVec3, Pose, Rpy, Stream};
 use periplus_raycast::{InstanceId, RaycastShape, RaycastWorld, Tags};
-use periplus_scene::{Noise, NoiseKind, ScanAxis};
+use periplus_scene::{NoiseKind, NoiseSpec, ScanAxis};
 use periplus_sensors::{LidarSensor, RayView, Streams, Sweep};
 use proptest::prelude::*;
 
@@ -13,25 +13,25 @@ fn axis(samples: u32, min_angle_rad: f64, max_angle_rad: f64) -> ScanAxis {
     ScanAxis { samples, resolution: 1.0, min_angle_rad, max_angle_rad }
 }
 
-fn spec(horizontal: ScanAxis, vertical: ScanAxis) -> periplus_scene::Lidar {
-    periplus_scene::Lidar {
+fn spec(horizontal: ScanAxis, vertical: ScanAxis) -> periplus_scene::LidarSpec {
+    periplus_scene::LidarSpec {
         horizontal,
         vertical,
         range_min_m: 0.1,
         range_max_m: 30.0,
         range_resolution_m: 0.01,
-        noise: Noise::default(),
+        noise: NoiseSpec::default(),
         visibility_mask: u32::MAX,
         extra: Vec::new(),
     }
 }
 
-fn flat(samples: u32) -> periplus_scene::Lidar {
+fn flat(samples: u32) -> periplus_scene::LidarSpec {
     let pi = std::f64::consts::PI;
     spec(axis(samples, -pi, pi), axis(1, 0.0, 0.0))
 }
 
-fn lidar(spec: &periplus_scene::Lidar) -> LidarSensor {
+fn lidar(spec: &periplus_scene::LidarSpec) -> LidarSensor {
     LidarSensor::new(spec, &Streams::new(3, "robot::base::lidar")).expect("a sound lidar")
 }
 
@@ -54,7 +54,7 @@ fn ranges(lidar: &mut LidarSensor, world: &RaycastWorld, pose: Pose) -> Vec<f32>
 
 /// Every range of a scan from the origin against a closed form: azimuth and elevation to metres.
 fn check(
-    spec: &periplus_scene::Lidar,
+    spec: &periplus_scene::LidarSpec,
     world: &RaycastWorld,
     form: impl Fn(f64, f64) -> Option<f64>,
 ) {
@@ -212,8 +212,9 @@ fn intensities_are_those_of_what_was_met() {
 
 #[test]
 fn noise_stays_within_the_range_and_leaves_infinities() {
-    let noise = Noise { kind: NoiseKind::Gaussian, mean: 0.05, stddev: 0.1, ..Noise::default() };
-    let spec = periplus_scene::Lidar { noise, ..flat(20_000) };
+    let noise =
+        NoiseSpec { kind: NoiseKind::Gaussian, mean: 0.05, stddev: 0.1, ..NoiseSpec::default() };
+    let spec = periplus_scene::LidarSpec { noise, ..flat(20_000) };
     let wall = RaycastShape::Plane { size_m: None };
     let ahead = turned([2.0, 0.0, 0.0], 0.0, std::f64::consts::FRAC_PI_2, 0.0);
     let world = world(&[(wall, ahead)]);
@@ -267,7 +268,7 @@ fn a_rolling_scan_is_distorted_by_motion() {
 
 #[test]
 fn impossible_lidars_are_told() {
-    let bad = |change: fn(&mut periplus_scene::Lidar)| {
+    let bad = |change: fn(&mut periplus_scene::LidarSpec)| {
         let mut spec = flat(360);
         change(&mut spec);
         LidarSensor::new(&spec, &Streams::new(0, "x")).err().unwrap().code
@@ -289,10 +290,10 @@ fn threads_change_nothing() {
         (RaycastShape::Plane { size_m: None }, Pose::from_xyz(0.0, 0.0, -0.5)),
     ];
     let world = world(&shapes);
-    let noise = Noise { kind: NoiseKind::Gaussian, stddev: 0.01, ..Noise::default() };
+    let noise = NoiseSpec { kind: NoiseKind::Gaussian, stddev: 0.01, ..NoiseSpec::default() };
     let tall = spec(axis(512, -3.0, 3.0), axis(64, -0.4, 0.4));
     let scan = |threads| {
-        let mut lidar = lidar(&periplus_scene::Lidar { noise, ..tall.clone() });
+        let mut lidar = lidar(&periplus_scene::LidarSpec { noise, ..tall.clone() });
         let view = RayView { threads, ..RayView::of(&world) };
         let mut stream = Stream::keyed(9, "lidar", 4);
         lidar.scan(&view, Sweep::AtOnce(Pose::IDENTITY), &mut stream).clone()

@@ -2,7 +2,7 @@
 
 use periplus_graph::Graph;
 use periplus_physics::{LinkId, ModelId, PhysicsWorld};
-use periplus_plugin_specs::Site;
+use periplus_plugin_specs::PluginSite;
 use periplus_scene as scene;
 use periplus_sensors::Quirks;
 
@@ -41,14 +41,14 @@ impl DeviceContext<'_> {
     /// Returns the name of a link scoped in the outermost model: `arm::hand` for the link `hand` of
     /// a nested model `arm`.
     #[must_use]
-    pub fn scoped(&self, site: &Site<'_>, name: &str) -> String {
+    pub fn scoped(&self, site: &PluginSite<'_>, name: &str) -> String {
         let inner = site.context.model.map(|model| scope_of(self.root, model)).unwrap_or_default();
         format!("{inner}{name}")
     }
 
     /// Returns a link by its name relative to a plugin's model.
     #[must_use]
-    pub fn link(&self, site: &Site<'_>, name: &str) -> Option<LinkId> {
+    pub fn link(&self, site: &PluginSite<'_>, name: &str) -> Option<LinkId> {
         self.world.find_link(self.model, &self.scoped(site, name))
     }
 }

@@ -28,7 +28,7 @@ pub(crate) use rate_timer::{RateTimer, earlier};
 pub(crate) use rolling_mean::RollingMean;
 
 use periplus_diagnostics::{Diagnostic, Diagnostics};
-use periplus_plugin_specs::{Interpreted, Role, Site, Support};
+use periplus_plugin_specs::{InterpretedPlugin, PluginSite, Role, Support};
 
 use crate::{Device, DeviceContext, states};
 
@@ -38,8 +38,8 @@ use crate::{Device, DeviceContext, states};
 #[must_use]
 pub fn build(
     setting: &DeviceContext<'_>,
-    site: &Site<'_>,
-    plugin: &Interpreted,
+    site: &PluginSite<'_>,
+    plugin: &InterpretedPlugin,
     diagnostics: &mut Diagnostics,
 ) -> Option<Box<dyn Device>> {
     fn boxed<D: Device + 'static>(device: Option<D>) -> Option<Box<dyn Device>> {

@@ -4,7 +4,7 @@ use periplus_graph::{
     Durability, GraphError, History, Liveliness, Node, NodeSettings, Qos, Reliability,
     valid_node_name, valid_topic_name,
 };
-use periplus_plugin_specs::{Family, Interpreted, RosSettings};
+use periplus_plugin_specs::{Family, InterpretedPlugin, RosSettings};
 
 use crate::DeviceContext;
 
@@ -15,7 +15,7 @@ use crate::DeviceContext;
 /// When a name is invalid.
 pub fn plugin_node(
     setting: &DeviceContext<'_>,
-    interpreted: &Interpreted,
+    interpreted: &InterpretedPlugin,
 ) -> Result<Node, GraphError> {
     let ros = &interpreted.ros;
     if interpreted.known.family != Family::ClassicRos2 {
@@ -101,7 +101,7 @@ pub fn subscription_qos(ros: &RosSettings, inside: &str, fallback: Qos) -> Qos {
 }
 
 /// `system` uses the middleware's default: reliable, volatile, keep last.
-fn changed(overrides: &periplus_plugin_specs::Qos, fallback: Qos) -> Qos {
+fn changed(overrides: &periplus_plugin_specs::QosPolicies, fallback: Qos) -> Qos {
     let ns = |ms: u64| i64::try_from(ms).unwrap_or(i64::MAX / 1_000_000).saturating_mul(1_000_000);
     Qos {
         reliability: match overrides.reliability.as_deref() {

@@ -19,7 +19,7 @@ mod sonar;
 mod timer;
 
 use periplus_diagnostics::Diagnostics;
-use periplus_plugin_specs::{Site, interpret};
+use periplus_plugin_specs::{PluginSite, interpret};
 use periplus_scene::{Model, SensorKind};
 
 use crate::{Device, DeviceContext};
@@ -31,7 +31,7 @@ use timer::Timer;
 /// Builds the sensors of a model. `sites` are all its plugins.
 pub(crate) fn build(
     setting: &DeviceContext<'_>,
-    sites: &[Site<'_>],
+    sites: &[PluginSite<'_>],
     diagnostics: &mut Diagnostics,
 ) -> Vec<Box<dyn Device>> {
     let mut devices = Vec::new();
@@ -46,17 +46,17 @@ fn for_each_sensor(
     setting: &DeviceContext<'_>,
     model: &Model,
     scope: &str,
-    sites: &[Site<'_>],
+    sites: &[PluginSite<'_>],
     visit: &mut dyn FnMut(SensorContext<'_>),
 ) {
     for link in &model.links {
         let scoped = format!("{scope}{}", link.name);
         let Some(id) = setting.world.find_link(setting.model, &scoped) else { continue };
         for sensor in &link.sensors {
-            let own = |site: &&Site<'_>| {
+            let own = |site: &&PluginSite<'_>| {
                 site.context.sensor.is_some_and(|other| std::ptr::eq(other, sensor))
             };
-            let own: Vec<Site<'_>> = sites.iter().filter(own).copied().collect();
+            let own: Vec<PluginSite<'_>> = sites.iter().filter(own).copied().collect();
             visit(SensorContext { setting, model, scoped: &scoped, link, id, sensor, sites: &own });
         }
     }

@@ -9,7 +9,7 @@ use std::sync::Arc;
 
 use periplus_diagnostics::{Diagnostics, Severity};
 use periplus_graph::{Graph, Mailbox, NodeSettings, Qos};
-use periplus_loader::{Loaded, load};
+use periplus_loader::{LoadedFile, load};
 use periplus_msgs::geometry_msgs::{Twist, Vector3};
 use periplus_msgs::{Message, nav_msgs};
 use periplus_os::Machine;
@@ -35,7 +35,7 @@ fn every_drive_of_the_corpus_drives() {
     paths.sort();
     let search = [corpus.join("gazebo_models")];
     let resolver = Resolver::new(&Machine, &search);
-    let setting = periplus_loader::Setting {
+    let setting = periplus_loader::LoadContext {
         host: &Machine,
         resolver: &resolver,
         working_folder: corpus.clone(),
@@ -67,7 +67,7 @@ fn every_drive_of_the_corpus_drives() {
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
 }
 
-fn models(loaded: &Loaded) -> Vec<&scene::Model> {
+fn models(loaded: &LoadedFile) -> Vec<&scene::Model> {
     let Some(scene) = &loaded.scene else { return Vec::new() };
     let worlds = scene.worlds.iter().flat_map(|world| &world.models);
     worlds.chain(&scene.models).filter(|model| !model.is_static).collect()

@@ -16,7 +16,7 @@ fn devices(graph: &Graph, inside: &str) -> (Vec<Box<dyn Device>>, Vec<String>) {
     let mut sources = SourceMap::new();
     let file = sources.add("plugin.sdf", text);
     let root = periplus_xml::parse(file, &sources, &mut Diagnostics::new()).unwrap().root;
-    let elements = root.children.iter().filter_map(periplus_xml::Node::as_element);
+    let elements = root.children.iter().filter_map(periplus_xml::XmlNode::as_element);
     let mut world = scene::World::empty("pong");
     world.plugins.push(scene::Plugin {
         name: "gz::sim::systems::TriggeredPublisher".into(),

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use periplus_geometry::{Pose, Rpy};
-use periplus_loader::Setting;
+use periplus_loader::LoadContext;
 use periplus_os::Machine;
 use periplus_rendering::{ImageOutputs, Lens, RenderRequest, RenderedImages, SensedGeometry};
 use periplus_resources::Resolver;
@@ -51,7 +51,7 @@ fn smaller(rgb: &[u8]) -> Vec<u8> {
 
 fn take(world: &Path, world_from_camera: Pose) -> RenderedImages {
     let resolver = Resolver::new(&Machine, &[]);
-    let setting = Setting {
+    let setting = LoadContext {
         host: &Machine,
         resolver: &resolver,
         working_folder: std::env::current_dir().unwrap_or_else(|_| PathBuf::new()),

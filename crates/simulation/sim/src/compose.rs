@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use periplus_diagnostics::Diagnostic;
 use periplus_geometry::Pose;
-use periplus_loader::{Loaded, Setting, load, load_bytes, settle_images};
+use periplus_loader::{LoadContext, LoadedFile, load, load_bytes, settle_images};
 use periplus_scene::{Model, Scene, World};
 use periplus_xml::write_document;
 
@@ -62,7 +62,7 @@ pub struct Composition {
     /// Models, those of the world first.
     pub members: Vec<ModelInstance>,
     /// Files with their findings; the world file comes first.
-    pub files: Vec<Loaded>,
+    pub files: Vec<LoadedFile>,
 }
 
 impl Composition {
@@ -77,7 +77,7 @@ impl Composition {
     pub fn missing(&self) -> Option<&Path> {
         let from = |file: usize| self.members.iter().any(|member| member.file == file);
         let empty =
-            |(file, loaded): &(usize, &Loaded)| loaded.diagnostics.has_errors() && !from(*file);
+            |(file, loaded): &(usize, &LoadedFile)| loaded.diagnostics.has_errors() && !from(*file);
         self.files.iter().enumerate().find(empty).map(|(_, loaded)| loaded.path.as_path())
     }
 
@@ -92,7 +92,7 @@ impl Composition {
 /// Reads a world and robots. A world file that is a robot or a model is placed on a plane with a
 /// sun. Findings are in [`Composition::files`]; files that cannot be read are omitted.
 #[must_use]
-pub fn compose(world: &Path, robots: &[RobotPlacement], setting: &Setting<'_>) -> Composition {
+pub fn compose(world: &Path, robots: &[RobotPlacement], setting: &LoadContext<'_>) -> Composition {
     let mut first = load(world, setting);
     for name in first.unknown_arguments(&setting.arguments) {
         first.warn_of_argument(name);
@@ -102,14 +102,14 @@ pub fn compose(world: &Path, robots: &[RobotPlacement], setting: &Setting<'_>) -
 
 /// Returns an empty plane with a sun.
 #[must_use]
-pub fn compose_plain(setting: &Setting<'_>) -> Composition {
+pub fn compose_plain(setting: &LoadContext<'_>) -> Composition {
     compose_loaded(plain_world(setting), &[], setting)
 }
 
 fn compose_loaded(
-    mut first: Loaded,
+    mut first: LoadedFile,
     robots: &[RobotPlacement],
-    setting: &Setting<'_>,
+    setting: &LoadContext<'_>,
 ) -> Composition {
     settle(&mut first, setting);
     if first.scene.is_none() && !first.diagnostics.has_errors() {
@@ -176,7 +176,7 @@ fn compose_loaded(
         add(model, Placed { is_robot, description, ..Placed::default() }, 0, &mut members);
     }
     for robot in robots {
-        let own = Setting { arguments: robot.arguments.clone(), ..setting.clone() };
+        let own = LoadContext { arguments: robot.arguments.clone(), ..setting.clone() };
         let mut loaded = load(&robot.file, &own);
         settle(&mut loaded, &own);
         for name in loaded.unknown_arguments(&robot.arguments) {
@@ -211,7 +211,7 @@ fn compose_loaded(
 }
 
 /// Returns the plane with a sun.
-fn plain_world(setting: &Setting<'_>) -> Loaded {
+fn plain_world(setting: &LoadContext<'_>) -> LoadedFile {
     load_bytes("plain.world".as_ref(), default_world::DEFAULT_WORLD_SDF.as_bytes(), setting)
 }
 
@@ -225,7 +225,7 @@ struct Placed<'a> {
     description: Option<String>,
 }
 
-fn settle(loaded: &mut Loaded, setting: &Setting<'_>) {
+fn settle(loaded: &mut LoadedFile, setting: &LoadContext<'_>) {
     if let Some(scene) = &mut loaded.scene {
         settle_images(scene, &loaded.sources, setting, &mut loaded.diagnostics);
     }
@@ -241,7 +241,7 @@ pub(crate) fn models_of(scene: Scene) -> Vec<Model> {
 }
 
 /// Returns the URDF of a file, with macros expanded.
-pub(crate) fn description_of(loaded: &Loaded) -> Option<String> {
+pub(crate) fn description_of(loaded: &LoadedFile) -> Option<String> {
     loaded.robot.as_ref()?;
     loaded.document.as_ref().map(write_document)
 }

@@ -11,7 +11,7 @@ use periplus_os::Machine;
 use periplus_physics::{Heights, Meshes, Triangles};
 use periplus_rendering::{AssetLoader, sample_heightmap, select_submesh};
 use periplus_resources::Host;
-use periplus_scene::{Heightmap, Mesh};
+use periplus_scene::{Heightmap, MeshShape};
 
 /// Reads the files of a scene, for physics and rendering.
 #[derive(Debug, Default)]
@@ -20,7 +20,7 @@ pub struct AssetFiles {
 }
 
 impl AssetLoader for AssetFiles {
-    fn mesh(&self, mesh: &Mesh) -> Option<Arc<periplus_meshes::Mesh>> {
+    fn mesh(&self, mesh: &MeshShape) -> Option<Arc<periplus_meshes::Mesh>> {
         let path = mesh.path.as_ref()?;
         let mut meshes = self.meshes.lock().unwrap_or_else(PoisonError::into_inner);
         if let Some(known) = meshes.get(path) {
@@ -37,14 +37,14 @@ impl AssetLoader for AssetFiles {
         Machine.read(Path::new(uri)).ok().map(Arc::from)
     }
 
-    fn texture(&self, mesh: &Mesh, name: &str) -> Option<Arc<[u8]>> {
+    fn texture(&self, mesh: &MeshShape, name: &str) -> Option<Arc<[u8]>> {
         let path = mesh.path.as_ref()?;
         periplus_loader::read_beside(path, name, &Machine).map(Arc::from)
     }
 }
 
 impl Meshes for AssetFiles {
-    fn triangles(&self, mesh: &Mesh) -> Option<Triangles> {
+    fn triangles(&self, mesh: &MeshShape) -> Option<Triangles> {
         let selected = select_submesh(mesh, &*AssetLoader::mesh(self, mesh)?);
         let points_m = selected.positions_m.into_iter().map(DVec3::from_array).collect();
         Some(Triangles { points_m, triangles: selected.triangles })

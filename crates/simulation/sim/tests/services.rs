@@ -5,7 +5,7 @@ use std::path::Path;
 use std::sync::Arc;
 
 use periplus_graph::{Mailbox, Node, NodeSettings, Qos};
-use periplus_loader::Setting;
+use periplus_loader::LoadContext;
 use periplus_msgs::builtin_interfaces::{Duration, Time};
 use periplus_msgs::gazebo_msgs::*;
 use periplus_msgs::geometry_msgs::{Point, Pose, Quaternion, Twist, Vector3, Wrench};
@@ -72,7 +72,7 @@ impl Lab {
     fn with(noise: &str) -> Self {
         let host = MemoryHost::new().with_file("/lab.sdf", LAB.replace("NOISE", noise));
         let resolver = Resolver::new(&host, &[]);
-        let setting = Setting {
+        let setting = LoadContext {
             host: &host,
             resolver: &resolver,
             working_folder: "/".into(),
@@ -607,7 +607,7 @@ fn a_world_that_is_saved_can_be_loaded_again() {
     assert!(saved.success, "{}", saved.message);
     let host = MemoryHost::new().with_file("/saved.sdf", saved.message.clone());
     let resolver = Resolver::new(&host, &[]);
-    let setting = Setting {
+    let setting = LoadContext {
         host: &host,
         resolver: &resolver,
         working_folder: "/".into(),

@@ -7,7 +7,7 @@ use std::sync::Arc;
 use periplus_geometry::Pose2;
 use periplus_graph::{NodeSettings, Publisher, Qos};
 use periplus_grid::{Grid, Lattice, OccupancyGrid};
-use periplus_loader::Setting;
+use periplus_loader::LoadContext;
 use periplus_maps::to_message;
 use periplus_msgs::builtin_interfaces::Time;
 use periplus_msgs::diagnostic_msgs::{DiagnosticArray, DiagnosticStatus};
@@ -45,7 +45,7 @@ const ROOM: &str = r#"<sdf version="1.9"><world name="room">
 fn room() -> Simulation {
     let host = MemoryHost::new().with_file("/room.sdf", ROOM);
     let resolver = Resolver::new(&host, &[]);
-    let setting = Setting {
+    let setting = LoadContext {
         host: &host,
         resolver: &resolver,
         working_folder: "/".into(),

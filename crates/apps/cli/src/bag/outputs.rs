@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 
 use clap::ValueEnum;
 use periplus_diagnostics::{Diagnostic, Diagnostics, SourceMap, closest};
-use periplus_yaml::Node;
+use periplus_yaml::YamlNode;
 
 use super::options::{Chunks, Format, Mode, SelectOptions, StorageId, WriteOptions};
 
@@ -88,13 +88,13 @@ pub(super) fn read(path: &Path) -> Result<(Vec<Wanted>, Diagnostics, SourceMap),
     Ok((wanted, findings, sources))
 }
 
-fn outputs(node: &Node, findings: &mut Diagnostics) -> Vec<Wanted> {
-    let list = node.get("output_bags").and_then(Node::list).unwrap_or_default();
+fn outputs(node: &YamlNode, findings: &mut Diagnostics) -> Vec<Wanted> {
+    let list = node.get("output_bags").and_then(YamlNode::list).unwrap_or_default();
     list.iter().filter_map(|one| output(one, findings)).collect()
 }
 
-fn output(node: &Node, findings: &mut Diagnostics) -> Option<Wanted> {
-    let Some(uri) = node.get("uri").and_then(Node::text) else {
+fn output(node: &YamlNode, findings: &mut Diagnostics) -> Option<Wanted> {
+    let Some(uri) = node.get("uri").and_then(YamlNode::text) else {
         findings.push(
             Diagnostic::error(
                 "no-uri",
@@ -132,7 +132,7 @@ fn output(node: &Node, findings: &mut Diagnostics) -> Option<Wanted> {
     Some(wanted)
 }
 
-fn set(wanted: &mut Wanted, key: &str, value: &Node) -> Result<(), String> {
+fn set(wanted: &mut Wanted, key: &str, value: &YamlNode) -> Result<(), String> {
     let (select, write) = (&mut wanted.select, &mut wanted.write);
     let text = || value.text().ok_or_else(|| "expected a string".to_owned());
     let number = || value.integer().ok_or_else(|| "expected an integer".to_owned());
@@ -176,7 +176,7 @@ fn one_of<T: ValueEnum>(word: &str) -> Result<T, String> {
     })
 }
 
-fn texts(value: &Node) -> Result<Vec<String>, String> {
+fn texts(value: &YamlNode) -> Result<Vec<String>, String> {
     let all = value.list().map(|list| list.iter().map(|one| one.text().map(str::to_owned)));
     all.and_then(Iterator::collect).ok_or_else(|| "expected a list of names".to_owned())
 }

@@ -6,7 +6,7 @@ use std::path::Path;
 
 use periplus_diagnostics::{Diagnostic, Diagnostics, SourceMap};
 use periplus_gz_transport::{Direction, Pair};
-use periplus_yaml::Node;
+use periplus_yaml::YamlNode;
 
 use super::spec::QUEUE;
 
@@ -54,7 +54,7 @@ fn read_text(name: &str, text: String, is_lazy: bool) -> (Vec<Pair>, Diagnostics
     (pairs, findings, sources)
 }
 
-fn entry(node: &Node, is_lazy: bool, findings: &mut Diagnostics) -> Option<Pair> {
+fn entry(node: &YamlNode, is_lazy: bool, findings: &mut Diagnostics) -> Option<Pair> {
     let wrong = |message: &str, findings: &mut Diagnostics| {
         let finding = Diagnostic::error("bridge-config", message).at(node.span);
         findings.push(finding.help("the topic is left out"));
@@ -70,7 +70,7 @@ fn entry(node: &Node, is_lazy: bool, findings: &mut Diagnostics) -> Option<Pair>
             findings.push(finding.help(format!("known keys: {}", KEYS.join(", "))));
         }
     }
-    let text = |name: &str| node.get(name).and_then(Node::text).map(str::to_owned);
+    let text = |name: &str| node.get(name).and_then(YamlNode::text).map(str::to_owned);
     let both = text("topic_name");
     let (ros, gazebo) = (text("ros_topic_name"), text("gz_topic_name"));
     if both.is_some() && (ros.is_some() || gazebo.is_some()) {
@@ -97,7 +97,7 @@ fn entry(node: &Node, is_lazy: bool, findings: &mut Diagnostics) -> Option<Pair>
         }
     };
     let queue = |name: &str| {
-        let count = node.get(name).and_then(Node::integer);
+        let count = node.get(name).and_then(YamlNode::integer);
         count.and_then(|count| usize::try_from(count).ok()).unwrap_or(QUEUE)
     };
     Some(Pair {
@@ -106,7 +106,7 @@ fn entry(node: &Node, is_lazy: bool, findings: &mut Diagnostics) -> Option<Pair>
         ros_type,
         gz_type,
         direction,
-        is_lazy: node.get("lazy").and_then(Node::truth).unwrap_or(is_lazy),
+        is_lazy: node.get("lazy").and_then(YamlNode::truth).unwrap_or(is_lazy),
         publisher_queue: queue("publisher_queue"),
         subscriber_queue: queue("subscriber_queue"),
     })

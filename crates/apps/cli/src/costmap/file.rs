@@ -38,7 +38,7 @@ const OF_ONE: [&str; 9] = [
 ];
 
 /// Returns true if any part of a tree has a costmap parameter.
-fn looks_like_costmap(tree: &periplus_yaml::Node) -> bool {
+fn looks_like_costmap(tree: &periplus_yaml::YamlNode) -> bool {
     let Some(entries) = tree.entries() else { return false };
     entries.iter().any(|(key, value)| {
         key.text().is_some_and(|name| OF_ONE.contains(&name)) || looks_like_costmap(value)

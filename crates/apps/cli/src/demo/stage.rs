@@ -3,9 +3,9 @@
 use std::path::{Path, PathBuf};
 
 use periplus_diagnostics::Diagnostics;
-use periplus_loader::Setting;
+use periplus_loader::LoadContext;
 use periplus_nav_nodes::slam_toolbox::Program;
-use periplus_params::{Value, Values};
+use periplus_params::{ParamValue, ParamValues};
 use periplus_resources::{MemoryHost, Resolver};
 use periplus_sim::{Composition, PlacementPose, RobotPlacement, compose};
 
@@ -41,7 +41,7 @@ pub(super) fn composition() -> Composition {
     let host =
         FILES.iter().fold(MemoryHost::new(), |host, (path, text)| host.with_file(path, *text));
     let resolver = Resolver::new(&host, &[]);
-    let setting = Setting {
+    let setting = LoadContext {
         host: &host,
         resolver: &resolver,
         working_folder: PathBuf::from("/periplus"),
@@ -60,7 +60,7 @@ pub(super) fn composition() -> Composition {
 }
 
 /// Mapping with the parameters of `slam_toolbox`, publishing a map each second.
-pub(super) fn mapping() -> (Program, Values) {
+pub(super) fn mapping() -> (Program, ParamValues) {
     let program = Program::Async;
     let mut values = program.table().check([], None, &mut Diagnostics::new());
     for (name, value) in [
@@ -69,7 +69,7 @@ pub(super) fn mapping() -> (Program, Values) {
         ("minimum_travel_distance", 0.2),
         ("minimum_travel_heading", 0.3),
     ] {
-        values.set(name, Value::Number(value));
+        values.set(name, ParamValue::Number(value));
     }
     (program, values)
 }

@@ -9,7 +9,7 @@ use std::time::Duration;
 
 use periplus_diagnostics::{Diagnostics, SourceMap};
 use periplus_graph::NodeSettings;
-use periplus_loader::Language;
+use periplus_loader::FileFormat;
 use periplus_ros2cli::doctor::{Ears, examine};
 use periplus_ros2cli::{Failure, Seen};
 use periplus_sim::{AssetFiles, Options, Simulation, compose};
@@ -109,7 +109,7 @@ fn simulated(
         ears.hear();
     }
     let mut picture = ears.picture(look(), BTreeMap::new(), Duration::from_secs(SPAN_S));
-    let is_robot = |language: Language| matches!(language, Language::Urdf | Language::Xacro);
+    let is_robot = |language: FileFormat| matches!(language, FileFormat::Urdf | FileFormat::Xacro);
     picture.is_alone = composition.files.first().is_some_and(|file| is_robot(file.language));
     let mut found: Vec<_> =
         composition.files.into_iter().map(|file| (file.diagnostics, file.sources)).collect();

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use periplus_diagnostics::{Diagnostic, Diagnostics, SourceMap};
-use periplus_yaml::Node;
+use periplus_yaml::YamlNode;
 
 /// Findings on a file; a message if it cannot be read.
 pub(crate) fn examine(path: &Path) -> Result<Vec<(Diagnostics, SourceMap)>, String> {
@@ -31,7 +31,7 @@ pub(crate) fn examine(path: &Path) -> Result<Vec<(Diagnostics, SourceMap)>, Stri
 }
 
 /// Reports nodes of one file that use different clocks.
-fn times(tree: &Node, found: &mut Diagnostics) {
+fn times(tree: &YamlNode, found: &mut Diagnostics) {
     let mut said = Vec::new();
     collect(tree, "", &mut said);
     let (yes, no): (Vec<_>, Vec<_>) = said.into_iter().partition(|(_, value, _)| *value);
@@ -49,7 +49,7 @@ fn times(tree: &Node, found: &mut Diagnostics) {
     }
 }
 
-fn collect<'t>(node: &'t Node, name: &str, said: &mut Vec<(String, bool, &'t Node)>) {
+fn collect<'t>(node: &'t YamlNode, name: &str, said: &mut Vec<(String, bool, &'t YamlNode)>) {
     let Some(entries) = node.entries() else { return };
     for (key, value) in entries {
         let Some(key) = key.text() else { continue };

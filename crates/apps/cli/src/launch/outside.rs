@@ -8,7 +8,7 @@ use std::time::Duration;
 
 use periplus_launch::bringup::xacro;
 use periplus_launch::{Interpreter, Outside, Printed};
-use periplus_loader::Setting;
+use periplus_loader::LoadContext;
 use periplus_os::{Machine, Stopwatch};
 use periplus_resources::{Resolver, Store as _};
 
@@ -67,7 +67,7 @@ impl<'a> Programs<'a> {
 
     /// Runs the built-in `xacro FILE name:=value`.
     fn xacro(&self, words: &[String]) -> Result<Printed, String> {
-        let setting = Setting {
+        let setting = LoadContext {
             host: &Machine,
             resolver: self.resolver,
             working_folder: self.working_folder.clone(),

@@ -9,8 +9,8 @@ use periplus_graph::{Graph, NodeSettings};
 use periplus_nav_nodes::amcl::AmclNode;
 use periplus_nav_nodes::map_server::{MapServer, MapServerSettings};
 use periplus_os::Machine;
-use periplus_params::Values;
-use periplus_yaml::Node;
+use periplus_params::ParamValues;
+use periplus_yaml::YamlNode;
 
 use super::options::{self, Yaml};
 use crate::sim::stack::RobotProfile;
@@ -69,7 +69,11 @@ impl Localization {
     }
 
     /// Starts both nodes, `map_server` only if there is a map; a message if they cannot start.
-    pub(crate) fn new(graph: &Graph, map: Option<&Path>, values: Values) -> Result<Self, String> {
+    pub(crate) fn new(
+        graph: &Graph,
+        map: Option<&Path>,
+        values: ParamValues,
+    ) -> Result<Self, String> {
         let server = map.map(|path| {
             let settings = MapServerSettings {
                 yaml_filename: path.display().to_string(),
@@ -126,6 +130,7 @@ fn is_map(yaml: &Yaml) -> bool {
 /// Map that a parameter file sets for `map_server`, relative to the file.
 fn map_of(yaml: &Yaml, path: &Path) -> Option<PathBuf> {
     let parameters = yaml.tree.as_ref()?.get("map_server")?.get("ros__parameters")?;
-    let name = parameters.get("yaml_filename").and_then(Node::text).filter(|it| !it.is_empty())?;
+    let name =
+        parameters.get("yaml_filename").and_then(YamlNode::text).filter(|it| !it.is_empty())?;
     Some(path.parent().unwrap_or(Path::new("")).join(name))
 }

@@ -9,8 +9,8 @@ use periplus_geometry::Pose2;
 use periplus_grid::OccupancyGrid;
 use periplus_maps::{Distro, load};
 use periplus_nav_nodes::amcl::read;
-use periplus_params::Values;
-use periplus_yaml::Node;
+use periplus_params::ParamValues;
+use periplus_yaml::YamlNode;
 
 use crate::log::LogOptions;
 use crate::terminal;
@@ -75,7 +75,7 @@ fn pose(word: &str) -> Result<Pose2, String> {
 
 impl LocalizeOptions {
     /// All parameters of `amcl`; prints findings and returns `None` on errors.
-    pub(crate) fn values(&self) -> io::Result<Option<Values>> {
+    pub(crate) fn values(&self) -> io::Result<Option<ParamValues>> {
         let mut words = self.parameters.clone();
         let mut word = |name: &str, value: String| words.push((name.to_owned(), value));
         if let Some(Pose2 { x_m, y_m, yaw_rad }) = self.initial_pose {
@@ -100,7 +100,7 @@ impl LocalizeOptions {
 
 /// YAML file with its findings.
 pub(super) struct Yaml {
-    pub(super) tree: Option<Node>,
+    pub(super) tree: Option<YamlNode>,
     pub(super) diagnostics: Diagnostics,
     pub(super) sources: SourceMap,
 }
@@ -122,7 +122,10 @@ pub(super) fn yaml(path: &Path) -> Result<Yaml, String> {
 
 /// Parameters of `amcl` from a file and the command line; prints findings and returns `None` on
 /// errors.
-pub(super) fn tell(file: Option<Yaml>, words: &[(String, String)]) -> io::Result<Option<Values>> {
+pub(super) fn tell(
+    file: Option<Yaml>,
+    words: &[(String, String)],
+) -> io::Result<Option<ParamValues>> {
     let none = || Yaml { tree: None, diagnostics: Diagnostics::new(), sources: SourceMap::new() };
     let Yaml { tree, mut diagnostics, sources } = file.unwrap_or_else(none);
     let values = read(tree.as_ref(), "amcl", words, &mut diagnostics);

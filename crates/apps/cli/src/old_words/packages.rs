@@ -4,7 +4,7 @@ use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
 use periplus_os::Machine;
-use periplus_resources::{Host as _, Kind};
+use periplus_resources::{EntryKind, Host as _};
 
 use crate::terminal::working_folder;
 
@@ -40,7 +40,7 @@ pub(super) fn list(out: &mut dyn Write) -> io::Result<()> {
 
 fn collect(folder: &Path, depth: usize, found: &mut Vec<(String, PathBuf)>) {
     let manifest = folder.join("package.xml");
-    if Machine.kind(&manifest) == Some(Kind::File) {
+    if Machine.kind(&manifest) == Some(EntryKind::File) {
         let text = Machine.read(&manifest).unwrap_or_default();
         let text = String::from_utf8_lossy(&text);
         if let Some(name) = name_in(&text) {
@@ -57,7 +57,7 @@ fn collect(folder: &Path, depth: usize, found: &mut Vec<(String, PathBuf)>) {
             continue;
         }
         let inner = folder.join(&entry);
-        if Machine.kind(&inner) == Some(Kind::Folder) {
+        if Machine.kind(&inner) == Some(EntryKind::Folder) {
             collect(&inner, depth + 1, found);
         }
     }

@@ -14,7 +14,7 @@ use periplus_msgs::nav_msgs::Odometry;
 use periplus_msgs::sensor_msgs::{Imu, LaserScan};
 use periplus_msgs::tf2_msgs::TFMessage;
 use periplus_nav_nodes::ekf_node::EkfNode;
-use periplus_params::{Given, Value, Values};
+use periplus_params::{Given, ParamValue, ParamValues};
 use periplus_sim::{Diverged, Simulation};
 
 /// Longest detection phase \[ns\]: odometry and scans are published several times per second.
@@ -114,14 +114,14 @@ impl RobotProfile {
 
     /// Sets unset parameters of a node: the frames of odometry and robot, and the topic of scans,
     /// by these names.
-    pub(crate) fn fill(&self, values: &mut Values, names: [&'static str; 3]) {
+    pub(crate) fn fill(&self, values: &mut ParamValues, names: [&'static str; 3]) {
         let known = [&self.odom_frame, &self.base_frame, &self.scan];
         for (name, known) in names.into_iter().zip(known) {
             if let Some(text) = known
                 && values.table().find(name).is_some()
                 && !values.is_given(name)
             {
-                values.set(name, Value::Text(text.clone()));
+                values.set(name, ParamValue::Text(text.clone()));
             }
         }
     }

@@ -3,7 +3,7 @@
 
 use periplus_diagnostics::{Diagnostic, Diagnostics, Origin, SourceMap};
 use periplus_nav_nodes::slam_toolbox::{Written, in_file};
-use periplus_params::{Given, Values};
+use periplus_params::{Given, ParamValues};
 use periplus_slam::{Method, tables};
 
 use super::options::SlamOptions;
@@ -12,7 +12,7 @@ use crate::log::LogOptions;
 /// Parameters with their findings.
 pub(super) struct Parameters {
     pub(super) method: Method,
-    pub(super) values: Values,
+    pub(super) values: ParamValues,
     pub(super) diagnostics: Diagnostics,
     pub(super) sources: SourceMap,
 }

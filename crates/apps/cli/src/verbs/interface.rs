@@ -5,7 +5,7 @@ use std::process::ExitCode;
 
 use clap::{Args, Subcommand};
 use periplus_ros2cli::interface::{self, Comments};
-use periplus_rosidl::Kind;
+use periplus_rosidl::InterfaceKind;
 
 use super::common::Common;
 use super::without_network;
@@ -32,11 +32,11 @@ struct Kinds {
 }
 
 impl Kinds {
-    fn kinds(&self) -> Vec<Kind> {
+    fn kinds(&self) -> Vec<InterfaceKind> {
         let wanted = [
-            (self.only_msgs, Kind::Message),
-            (self.only_srvs, Kind::Service),
-            (self.only_actions, Kind::Action),
+            (self.only_msgs, InterfaceKind::Message),
+            (self.only_srvs, InterfaceKind::Service),
+            (self.only_actions, InterfaceKind::Action),
         ];
         wanted.into_iter().filter(|(is_wanted, _)| *is_wanted).map(|(_, kind)| kind).collect()
     }

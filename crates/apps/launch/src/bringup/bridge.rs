@@ -7,7 +7,7 @@ use std::path::Path;
 use periplus_diagnostics::SourceMap;
 use periplus_os::Machine;
 use periplus_resources::Host as _;
-use periplus_yaml::{Node, Value};
+use periplus_yaml::{YamlNode, YamlValue};
 
 /// Bridged topic.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -76,12 +76,13 @@ pub(crate) fn of_file(path: &Path) -> Result<Vec<Pair>, String> {
     let mut sources = SourceMap::new();
     let file = sources.add(path.display().to_string(), text);
     let tree = periplus_yaml::parse(file, &sources).map_err(|error| error.message)?;
-    let items: &[Node] = match tree.as_ref().map(|tree| &tree.value) {
-        Some(Value::List(items)) => items,
+    let items: &[YamlNode] = match tree.as_ref().map(|tree| &tree.value) {
+        Some(YamlValue::List(items)) => items,
         _ => return Err(format!("{} is not a list of topics", path.display())),
     };
-    let text = |item: &Node, name: &str| item.get(name).and_then(Node::text).map(str::to_owned);
-    let pair = |item: &Node| {
+    let text =
+        |item: &YamlNode, name: &str| item.get(name).and_then(YamlNode::text).map(str::to_owned);
+    let pair = |item: &YamlNode| {
         let both = text(item, "topic_name");
         let ros = text(item, "ros_topic_name").or(both.clone());
         let gz = text(item, "gz_topic_name").or(both);

@@ -4,7 +4,7 @@ use std::any::Any;
 use std::path::Path;
 use std::sync::Arc;
 
-use periplus_diagnostics::{Diagnostics, Severity, SourceMap, Style, render};
+use periplus_diagnostics::{Diagnostics, RenderStyle, Severity, SourceMap, render};
 use periplus_graph::{Graph, GraphError, Node, NodeSettings, parameters_to_yaml};
 use periplus_maps::Distro;
 use periplus_nav_nodes::amcl::AmclNode;
@@ -478,7 +478,7 @@ fn bridged(
 /// Parameters as a YAML file, for code that reads files.
 pub(crate) struct Written {
     pub(crate) sources: SourceMap,
-    tree: Option<periplus_yaml::Node>,
+    tree: Option<periplus_yaml::YamlNode>,
 }
 
 impl Written {
@@ -499,7 +499,7 @@ impl Written {
     pub(crate) fn read<T>(
         &self,
         notes: &mut Vec<String>,
-        read: impl FnOnce(Option<&periplus_yaml::Node>, &mut Diagnostics) -> T,
+        read: impl FnOnce(Option<&periplus_yaml::YamlNode>, &mut Diagnostics) -> T,
     ) -> T {
         let mut found = Diagnostics::new();
         let value = read(self.tree.as_ref(), &mut found);
@@ -511,5 +511,5 @@ impl Written {
 /// Warnings and errors as texts.
 fn grave(found: &Diagnostics, sources: &SourceMap) -> Vec<String> {
     let grave = found.iter().filter(|one| one.severity != Severity::Hint);
-    grave.map(|one| render(one, sources, Style::Plain).trim_end().to_owned()).collect()
+    grave.map(|one| render(one, sources, RenderStyle::Plain).trim_end().to_owned()).collect()
 }

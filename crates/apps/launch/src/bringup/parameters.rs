@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::path::Path;
 
 use crate::Parameters;
-use periplus_diagnostics::{Diagnostics, SourceMap, Style, render};
+use periplus_diagnostics::{Diagnostics, RenderStyle, SourceMap, render};
 use periplus_graph::Arguments;
 use periplus_msgs::rcl_interfaces::{ParameterType as Type, ParameterValue};
 use periplus_os::Machine;
@@ -47,7 +47,8 @@ pub(crate) fn of_node(
 pub(crate) fn arguments(words: &[String], notes: &mut Vec<String>) -> Arguments {
     let (mut sources, mut found) = (SourceMap::new(), Diagnostics::new());
     let arguments = Arguments::read(words, &mut sources, &mut found, &mut text);
-    let told = found.iter().map(|one| render(one, &sources, Style::Plain).trim_end().to_owned());
+    let told =
+        found.iter().map(|one| render(one, &sources, RenderStyle::Plain).trim_end().to_owned());
     notes.extend(told);
     arguments
 }

@@ -3,8 +3,8 @@
 use std::path::{Path, PathBuf};
 
 use crate::{MissingInput, Printed};
-use periplus_diagnostics::{Diagnostic, Severity, SourceMap, Style, render};
-use periplus_loader::{Setting, load};
+use periplus_diagnostics::{Diagnostic, RenderStyle, Severity, SourceMap, render};
+use periplus_loader::{LoadContext, load};
 use periplus_os::Machine;
 use periplus_resources::Store as _;
 use periplus_xml::write_document;
@@ -43,10 +43,10 @@ struct Asked<'a> {
 ///
 /// # Errors
 /// A message with the invalid argument.
-pub fn xacro(words: &[String], setting: &Setting<'_>) -> Result<Xacro, String> {
+pub fn xacro(words: &[String], setting: &LoadContext<'_>) -> Result<Xacro, String> {
     let asked = read(words)?;
     let Some(file) = asked.file else { return Err("no xacro file given".into()) };
-    let setting = Setting { arguments: asked.arguments, open_meshes: false, ..setting.clone() };
+    let setting = LoadContext { arguments: asked.arguments, open_meshes: false, ..setting.clone() };
     let loaded = load(Path::new(file), &setting);
     // Only errors that prevent expansion: the rest is reported when the robot is loaded.
     let Some(document) = &loaded.document else {
@@ -57,7 +57,9 @@ pub fn xacro(words: &[String], setting: &Setting<'_>) -> Result<Xacro, String> {
         let missing = missing(&errors);
         let errors = match missing {
             Some(_) => summary(&errors, &loaded.sources),
-            None => errors.iter().map(|one| render(one, &loaded.sources, Style::Plain)).collect(),
+            None => {
+                errors.iter().map(|one| render(one, &loaded.sources, RenderStyle::Plain)).collect()
+            }
         };
         return Ok(Xacro { errors, missing, ..Xacro::default() });
     };

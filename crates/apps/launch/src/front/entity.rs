@@ -2,7 +2,7 @@
 
 use periplus_diagnostics::{Diagnostic, Span};
 use periplus_xml::Element;
-use periplus_yaml::Node;
+use periplus_yaml::YamlNode;
 
 use super::text::text;
 use crate::evaluate::Outcome;
@@ -12,7 +12,7 @@ use crate::tree::Text;
 #[derive(Clone, Copy)]
 pub(super) enum Entity<'f> {
     Xml(&'f Element),
-    Yaml { name: &'f str, node: &'f Node },
+    Yaml { name: &'f str, node: &'f YamlNode },
 }
 
 impl<'f> Entity<'f> {
@@ -20,7 +20,7 @@ impl<'f> Entity<'f> {
         Self::Xml(element)
     }
 
-    pub(super) fn yaml(name: &'f str, node: &'f Node) -> Self {
+    pub(super) fn yaml(name: &'f str, node: &'f YamlNode) -> Self {
         Self::Yaml { name, node }
     }
 
@@ -82,7 +82,7 @@ impl<'f> Entity<'f> {
     /// List of texts in YAML; `None` if it is not a list.
     pub(super) fn list(&self, name: &str) -> Outcome<Option<Vec<Text>>> {
         let Self::Yaml { node, .. } = self else { return Ok(None) };
-        let Some(list) = node.get(name).and_then(Node::list) else { return Ok(None) };
+        let Some(list) = node.get(name).and_then(YamlNode::list) else { return Ok(None) };
         list.iter()
             .map(|item| text(item.text().unwrap_or_default(), item.span))
             .collect::<Outcome<_>>()
@@ -94,7 +94,7 @@ impl<'f> Entity<'f> {
         match self {
             Self::Xml(element) => Ok(element.elements().map(Self::Xml).collect()),
             Self::Yaml { node, .. } => {
-                let list = node.list().or_else(|| node.get("children").and_then(Node::list));
+                let list = node.list().or_else(|| node.get("children").and_then(YamlNode::list));
                 let mut children = Vec::new();
                 for item in list.unwrap_or_default() {
                     match item.entries() {
@@ -120,7 +120,7 @@ impl<'f> Entity<'f> {
         match self {
             Self::Xml(element) => element.named(kind).map(Self::Xml).collect(),
             Self::Yaml { node, .. } => {
-                let list = node.get(kind).and_then(Node::list).unwrap_or_default();
+                let list = node.get(kind).and_then(YamlNode::list).unwrap_or_default();
                 list.iter().map(|node| Self::Yaml { name: kind, node }).collect()
             }
         }

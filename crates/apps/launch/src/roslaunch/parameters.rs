@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use periplus_diagnostics::{Diagnostic, Origin};
-use periplus_xml::{Element, Node, Text};
+use periplus_xml::{Element, Text, XmlNode};
 use serde_json::Value;
 
 use super::{Loader, Scope, wrong};
@@ -173,7 +173,7 @@ impl Loader<'_, '_> {
     }
 
     /// YAML between the tags of an element, with its positions in the launch file.
-    fn inline(&mut self, element: &Element) -> Outcome<Option<periplus_yaml::Node>> {
+    fn inline(&mut self, element: &Element) -> Outcome<Option<periplus_yaml::YamlNode>> {
         let text = content(element);
         let runs: Vec<_> = runs(element).collect();
         let span = match runs.as_slice() {
@@ -205,7 +205,7 @@ fn content(element: &Element) -> String {
 
 fn runs(element: &Element) -> impl Iterator<Item = &Text> {
     element.children.iter().filter_map(|node| match node {
-        Node::Text(text) => Some(text),
+        XmlNode::Text(text) => Some(text),
         _ => None,
     })
 }

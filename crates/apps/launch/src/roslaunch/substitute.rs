@@ -4,7 +4,7 @@ use std::rc::Rc;
 
 use periplus_diagnostics::{Diagnostic, Origin};
 use periplus_python_expr::{
-    Budget, Dialect, Expression, ExpressionError, Scope as Names, Value, evaluate,
+    Budget, ExpressionDialect, Expression, ExpressionError, Scope as Names, Value, evaluate,
 };
 use periplus_xml::Attribute;
 
@@ -183,8 +183,8 @@ impl Names for Arguments<'_, '_, '_, '_> {
         self.scope.arguments.keys().cloned().collect()
     }
 
-    fn dialect(&self) -> Dialect {
-        Dialect::SubstitutionArgs
+    fn dialect(&self) -> ExpressionDialect {
+        ExpressionDialect::SubstitutionArgs
     }
 
     fn call_host(

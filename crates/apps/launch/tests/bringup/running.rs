@@ -7,7 +7,7 @@ use periplus_diagnostics::SourceMap;
 use periplus_graph::{Graph, Mailbox, NodeSettings, Publisher, Qos};
 use periplus_launch::bringup::{Bringup, Settings, xacro};
 use periplus_launch::{Dialect, Interpreter, Outside, Printed, Request, plan};
-use periplus_loader::Setting;
+use periplus_loader::LoadContext;
 use periplus_msgs::geometry_msgs::{Twist, TwistStamped};
 use periplus_msgs::nav_msgs::{OccupancyGrid, Odometry};
 use periplus_msgs::std_srvs::{Empty, EmptyRequest};
@@ -83,7 +83,7 @@ impl Stack {
         let folder = top().canonicalize().unwrap();
         let resolver = Resolver::new(&Machine, &[folder.join("robots"), folder.join("worlds")]);
         let bringup = bringup("stack.launch.xml", &folder);
-        let setting = Setting {
+        let setting = LoadContext {
             host: &Machine,
             resolver: &resolver,
             working_folder: folder,

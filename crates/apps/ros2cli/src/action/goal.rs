@@ -8,7 +8,7 @@ use periplus_graph::{Node, Qos, RawMailbox};
 use periplus_msgs::action_msgs::{CancelGoal, CancelGoalRequest, GoalStatus};
 use periplus_msgs::{DynamicMessage, Format, Layout, Number, Value, YamlStyle};
 use periplus_os::{Stopwatch, sleep};
-use periplus_rosidl::Kind;
+use periplus_rosidl::InterfaceKind;
 use serde_json::json;
 
 use crate::ask::{Asker, PATIENCE, Question, ask};
@@ -31,7 +31,7 @@ pub fn send_goal(
     values: &str,
     feedback: bool,
 ) -> Outcome {
-    let type_name = full_type(type_name, Kind::Action)?;
+    let type_name = full_type(type_name, InterfaceKind::Action)?;
     let (_, goal_layout) = session.types.action(&type_name, "Goal")?;
     let values = Values::read(values)?;
     let goal = values.message(goal_layout, clock::unix_ns())?;

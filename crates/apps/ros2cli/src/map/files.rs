@@ -1,6 +1,6 @@
 //! Inspection and conversion of map files.
 
-use periplus_diagnostics::{Style, render as render_finding};
+use periplus_diagnostics::{RenderStyle, render as render_finding};
 use periplus_grid::OccupancyGrid;
 use periplus_maps::{Distro, Map, Wish, load, render};
 use periplus_os::Machine;
@@ -13,7 +13,7 @@ use crate::{Failure, Outcome, Session};
 pub(super) fn read(session: &mut Session<'_>, path: &str, distro: Distro) -> Outcome<Map> {
     let loaded = load(path, distro, &Machine);
     for finding in loaded.diagnostics.iter() {
-        session.say(&render_finding(finding, &loaded.sources, Style::Colour));
+        session.say(&render_finding(finding, &loaded.sources, RenderStyle::Colour));
     }
     let name = loaded.status.name();
     loaded.map.ok_or_else(|| Failure::failed(format!("cannot load the map `{path}` ({name})")))

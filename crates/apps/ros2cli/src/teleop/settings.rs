@@ -1,6 +1,6 @@
 //! Parameters of teleoperation.
 
-use periplus_params::{Table, Values, flag, number, text};
+use periplus_params::{ParamValues, Table, flag, number, text};
 
 use crate::teleop::Keyboard;
 
@@ -42,7 +42,7 @@ pub struct Settings {
 impl Settings {
     /// Reads parameters of [`TELEOP`]. Initial speeds are clamped to their limits.
     #[must_use]
-    pub fn read(values: &Values) -> Self {
+    pub fn read(values: &ParamValues) -> Self {
         let number = |name: &str| values.number(name).unwrap_or_default();
         let (speed_limit_m_s, turn_limit_rad_s) = (number("speed_limit"), number("turn_limit"));
         Self {
@@ -70,7 +70,7 @@ mod tests {
 
     #[test]
     fn the_table_has_no_slips_and_begins_as_the_keyboard_does() {
-        assert_eq!(TELEOP.slips(), [""; 0]);
+        assert_eq!(TELEOP.faults(), [""; 0]);
         let mut diagnostics = Diagnostics::new();
         let usual = Settings::read(&TELEOP.check([], None, &mut diagnostics));
         assert_eq!(usual.keyboard, Keyboard::default());

@@ -1,6 +1,6 @@
 //! `topic list`, `info`, `type` and `find`.
 
-use periplus_rosidl::Kind;
+use periplus_rosidl::InterfaceKind;
 use serde_json::json;
 
 use crate::session::{advice, full_name, titled};
@@ -171,7 +171,7 @@ pub fn find(
     count: bool,
     include_hidden: bool,
 ) -> Outcome {
-    let type_name = full_type(type_name, Kind::Message)?;
+    let type_name = full_type(type_name, InterfaceKind::Message)?;
     let seen = session.look();
     let topics = seen.topics.iter().filter(|topic| topic.types.contains(&type_name));
     let topics = topics.map(|topic| topic.name.as_str());

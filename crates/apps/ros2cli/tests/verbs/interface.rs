@@ -2,7 +2,7 @@
 
 use expect_test::expect;
 use periplus_ros2cli::interface::{self, Comments};
-use periplus_rosidl::Kind;
+use periplus_rosidl::InterfaceKind;
 
 use crate::bench::Bench;
 
@@ -13,7 +13,7 @@ fn types_are_listed() {
     let titles = all.lines().filter(|line| !line.starts_with("    "));
     assert_eq!(titles.collect::<Vec<_>>(), ["Messages:", "Services:", "Actions:"]);
     assert!(all.contains("\n    sensor_msgs/msg/LaserScan\n"), "{all}");
-    let actions = bench.run(|session| interface::list(session, &[Kind::Action]));
+    let actions = bench.run(|session| interface::list(session, &[InterfaceKind::Action]));
     assert!(actions.starts_with("Actions:\n    "), "{actions}");
     assert!(actions.contains("    tf2_msgs/action/LookupTransform\n"), "{actions}");
     bench.check(
@@ -30,7 +30,7 @@ fn types_are_listed() {
         ! Unknown package 'std_srv'; did you mean `std_srvs`?
     "#]],
     );
-    let packages = bench.run(|session| interface::packages(session, &[Kind::Action]));
+    let packages = bench.run(|session| interface::packages(session, &[InterfaceKind::Action]));
     assert!(packages.lines().any(|name| name == "tf2_msgs"), "{packages}");
 }
 

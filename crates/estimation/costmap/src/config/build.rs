@@ -1,6 +1,6 @@
 //! From a configuration to layers.
 
-use periplus_params::Values;
+use periplus_params::ParamValues;
 
 use super::{Config, LayerConfig, LayerKind, SourceConfig, footprint_of, lattice_of};
 use crate::filters::{BinaryFilter, KeepoutFilter, SpeedFilter};
@@ -65,7 +65,7 @@ impl Config {
     pub fn change(
         &mut self,
         costmap: &mut LayeredCostmap,
-        values: Values,
+        values: ParamValues,
         frames: &dyn Frames,
     ) -> Result<(), String> {
         refuse(&self.node, &values, self.compat)?;
@@ -92,7 +92,11 @@ impl Config {
 }
 
 /// A frame of the robot without a transform would end all updates.
-fn refuse_lost_robot(before: &Values, after: &Values, frames: &dyn Frames) -> Result<(), String> {
+fn refuse_lost_robot(
+    before: &ParamValues,
+    after: &ParamValues,
+    frames: &dyn Frames,
+) -> Result<(), String> {
     let (base, global) = (after.text("robot_base_frame"), after.text("global_frame"));
     let (base, global) = (base.unwrap_or_default(), global.unwrap_or_default());
     if before.text("robot_base_frame").as_ref() == Some(&base)
@@ -119,7 +123,7 @@ const FIXED: [&str; 8] = [
 ];
 
 /// Which changes are refused while a costmap runs.
-fn refuse(before: &Values, after: &Values, compat: Compat) -> Result<(), String> {
+fn refuse(before: &ParamValues, after: &ParamValues, compat: Compat) -> Result<(), String> {
     for name in FIXED {
         if before.get(name) != after.get(name) {
             return Err(format!("`{name}` cannot be changed while the costmap runs"));

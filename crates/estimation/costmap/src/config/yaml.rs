@@ -2,7 +2,7 @@
 
 use periplus_diagnostics::{Diagnostic, Diagnostics, Origin};
 use periplus_params::Given;
-use periplus_yaml::{Node, Value};
+use periplus_yaml::{YamlNode, YamlValue};
 
 use super::Config;
 use crate::Compat;
@@ -13,8 +13,8 @@ const DEEPEST: usize = 4;
 impl Config {
     /// Whether a file names a node.
     #[must_use]
-    pub fn is_in(file: &Node, node: &str) -> bool {
-        let names = |at: &Node| {
+    pub fn is_in(file: &YamlNode, node: &str) -> bool {
+        let names = |at: &YamlNode| {
             let keys = at.entries().unwrap_or_default().iter();
             keys.filter_map(|(key, _)| key.text())
                 .any(|key| key.trim_start_matches('/').rsplit('/').next() == Some(node))
@@ -26,7 +26,7 @@ impl Config {
     /// ros__parameters:` and `/**`, and in files of ROS 1 `local_costmap:` or, when there is no such
     /// section, everything.
     pub fn read_yaml(
-        file: &Node,
+        file: &YamlNode,
         node: &str,
         compat: Option<Compat>,
         diagnostics: &mut Diagnostics,
@@ -46,7 +46,7 @@ impl Config {
 }
 
 /// The mappings with parameters for a node.
-fn sections<'a>(file: &'a Node, node: &str) -> Vec<&'a Node> {
+fn sections<'a>(file: &'a YamlNode, node: &str) -> Vec<&'a YamlNode> {
     let mut found = Vec::new();
     let last = node.rsplit('/').next().unwrap_or(node);
     collect(file, last, &mut found, 0);
@@ -57,7 +57,7 @@ fn sections<'a>(file: &'a Node, node: &str) -> Vec<&'a Node> {
     found
 }
 
-fn collect<'a>(at: &'a Node, node: &str, found: &mut Vec<&'a Node>, depth: usize) {
+fn collect<'a>(at: &'a YamlNode, node: &str, found: &mut Vec<&'a YamlNode>, depth: usize) {
     let Some(entries) = at.entries().filter(|_| depth < DEEPEST) else { return };
     for (key, value) in entries {
         let Some(key) = key.text() else { continue };
@@ -81,18 +81,18 @@ struct Flat {
 }
 
 /// Names with dots.
-fn flatten(at: &Node, prefix: &str, flat: &mut Vec<Flat>, diagnostics: &mut Diagnostics) {
+fn flatten(at: &YamlNode, prefix: &str, flat: &mut Vec<Flat>, diagnostics: &mut Diagnostics) {
     for (key, value) in at.entries().unwrap_or_default() {
         let Some(key_text) = key.text() else { continue };
         let name =
             if prefix.is_empty() { key_text.to_owned() } else { format!("{prefix}.{key_text}") };
         let text = match &value.value {
-            Value::Map(_) => {
+            YamlValue::Map(_) => {
                 flatten(value, &name, flat, diagnostics);
                 continue;
             }
-            Value::Scalar { text, .. } => text.clone(),
-            Value::List(list) => {
+            YamlValue::Scalar { text, .. } => text.clone(),
+            YamlValue::List(list) => {
                 match named_types(list) {
                     None => written(list),
                     Some(layers) => {
@@ -123,7 +123,7 @@ fn flatten(at: &Node, prefix: &str, flat: &mut Vec<Flat>, diagnostics: &mut Diag
 }
 
 /// ROS 1: `plugins: [{name: static_layer, type: "costmap_2d::StaticLayer"}]`.
-fn named_types(list: &[Node]) -> Option<Vec<(&str, &str, Origin)>> {
+fn named_types(list: &[YamlNode]) -> Option<Vec<(&str, &str, Origin)>> {
     if list.is_empty() {
         return None;
     }
@@ -136,13 +136,13 @@ fn named_types(list: &[Node]) -> Option<Vec<(&str, &str, Origin)>> {
 }
 
 /// A list as a text that reads back, with nested lists in brackets.
-fn written(list: &[Node]) -> String {
+fn written(list: &[YamlNode]) -> String {
     let items: Vec<String> = list
         .iter()
         .map(|item| match &item.value {
-            Value::Scalar { text, .. } => text.clone(),
-            Value::List(inner) => written(inner),
-            Value::Map(_) => String::new(),
+            YamlValue::Scalar { text, .. } => text.clone(),
+            YamlValue::List(inner) => written(inner),
+            YamlValue::Map(_) => String::new(),
         })
         .collect();
     format!("[{}]", items.join(", "))

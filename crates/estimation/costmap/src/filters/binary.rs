@@ -3,7 +3,7 @@
 //! Source of the rules: `nav2_costmap_2d/plugins/costmap_filters/binary_filter.cpp`.
 
 use periplus_diagnostics::Diagnostic;
-use periplus_params::Values;
+use periplus_params::ParamValues;
 
 use super::{FilterInfo, FilterKind, Mask, Masked};
 use crate::{Bounds, Costmap, Layer, Moment, Window};
@@ -11,7 +11,7 @@ use crate::{Bounds, Costmap, Layer, Moment, Window};
 /// Switches a state where the mask says so.
 pub struct BinaryFilter {
     name: String,
-    values: Values,
+    values: ParamValues,
     is_enabled: bool,
     default_state: bool,
     info: Option<FilterInfo>,
@@ -24,7 +24,7 @@ pub struct BinaryFilter {
 impl BinaryFilter {
     /// From parameters of [`crate::tables::BINARY`]. The default is published at the start.
     #[must_use]
-    pub fn new(name: impl Into<String>, values: Values) -> Self {
+    pub fn new(name: impl Into<String>, values: ParamValues) -> Self {
         let default_state = values.flag("default_state").unwrap_or_default();
         Self {
             name: name.into(),
@@ -115,11 +115,11 @@ impl Layer for BinaryFilter {
         self.is_enabled
     }
 
-    fn values(&self) -> Option<&Values> {
+    fn values(&self) -> Option<&ParamValues> {
         Some(&self.values)
     }
 
-    fn configure(&mut self, values: Values) -> Result<(), String> {
+    fn configure(&mut self, values: ParamValues) -> Result<(), String> {
         self.is_enabled = values.flag("enabled").unwrap_or_default();
         self.default_state = values.flag("default_state").unwrap_or_default();
         self.values = values;

@@ -5,7 +5,7 @@
 use periplus_diagnostics::Diagnostic;
 use periplus_geometry::{DVec3, Pose};
 use periplus_grid::{Cell, Lattice};
-use periplus_params::Values;
+use periplus_params::ParamValues;
 
 use super::{FilterInfo, FilterKind, Mask, Masked};
 use crate::cost::{INSCRIBED, LETHAL, UNKNOWN, cost_of};
@@ -14,7 +14,7 @@ use crate::{Bounds, Costmap, Explanation, Layer, Moment, Window};
 /// Raises costs to those of a mask.
 pub struct KeepoutFilter {
     name: String,
-    values: Values,
+    values: ParamValues,
     is_enabled: bool,
     /// The cost of zones for a robot that stands in one, if it may leave.
     leaving_cost: Option<u8>,
@@ -29,7 +29,7 @@ pub struct KeepoutFilter {
 impl KeepoutFilter {
     /// From parameters of [`crate::tables::KEEPOUT`].
     #[must_use]
-    pub fn new(name: impl Into<String>, values: Values) -> Self {
+    pub fn new(name: impl Into<String>, values: ParamValues) -> Self {
         let mut filter = Self {
             name: name.into(),
             values: values.clone(),
@@ -45,7 +45,7 @@ impl KeepoutFilter {
         filter
     }
 
-    fn take(&mut self, values: Values) {
+    fn take(&mut self, values: ParamValues) {
         let flag = |name: &str| values.flag(name).unwrap_or_default();
         self.is_enabled = flag("enabled");
         let cost = values.integer("lethal_override_cost").unwrap_or(252);
@@ -186,11 +186,11 @@ impl Layer for KeepoutFilter {
         self.is_enabled
     }
 
-    fn values(&self) -> Option<&Values> {
+    fn values(&self) -> Option<&ParamValues> {
         Some(&self.values)
     }
 
-    fn configure(&mut self, values: Values) -> Result<(), String> {
+    fn configure(&mut self, values: ParamValues) -> Result<(), String> {
         self.take(values);
         Ok(())
     }

@@ -4,7 +4,7 @@
 
 use periplus_diagnostics::Diagnostic;
 use periplus_geometry::Pose2;
-use periplus_params::Values;
+use periplus_params::ParamValues;
 
 use super::{FilterInfo, FilterKind, Mask, Masked};
 use crate::{Bounds, Costmap, Layer, Moment, Window};
@@ -21,7 +21,7 @@ pub struct SpeedLimit {
 /// Tells how fast a robot may go where it is.
 pub struct SpeedFilter {
     name: String,
-    values: Values,
+    values: ParamValues,
     is_enabled: bool,
     info: Option<FilterInfo>,
     mask: Option<Mask>,
@@ -41,7 +41,7 @@ pub struct SpeedFilter {
 impl SpeedFilter {
     /// From parameters of [`crate::tables::SPEED`].
     #[must_use]
-    pub fn new(name: impl Into<String>, values: Values) -> Self {
+    pub fn new(name: impl Into<String>, values: ParamValues) -> Self {
         Self {
             name: name.into(),
             is_enabled: values.flag("enabled").unwrap_or_default(),
@@ -227,11 +227,11 @@ impl Layer for SpeedFilter {
         self.is_enabled
     }
 
-    fn values(&self) -> Option<&Values> {
+    fn values(&self) -> Option<&ParamValues> {
         Some(&self.values)
     }
 
-    fn configure(&mut self, values: Values) -> Result<(), String> {
+    fn configure(&mut self, values: ParamValues) -> Result<(), String> {
         self.is_enabled = values.flag("enabled").unwrap_or_default();
         self.values = values;
         Ok(())

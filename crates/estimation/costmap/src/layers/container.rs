@@ -6,7 +6,7 @@
 
 use periplus_diagnostics::Diagnostic;
 use periplus_grid::{Cell, Lattice};
-use periplus_params::Values;
+use periplus_params::ParamValues;
 
 use crate::clear::clear_cells;
 use crate::cost::UNKNOWN;
@@ -16,7 +16,7 @@ use crate::{Bounds, Combination, Compat, Costmap, Explanation, Footprint, Layer,
 /// Layers with a grid of their own, put into the costmap together.
 pub struct ContainerLayer {
     name: String,
-    values: Values,
+    values: ParamValues,
     is_enabled: bool,
     combination: Combination,
     grid: Costmap,
@@ -28,7 +28,11 @@ impl ContainerLayer {
     /// From parameters of [`crate::tables::CONTAINER`]. The names of layers within begin with the
     /// container's and a dot.
     #[must_use]
-    pub fn new(name: impl Into<String>, values: Values, children: Vec<Box<dyn Layer>>) -> Self {
+    pub fn new(
+        name: impl Into<String>,
+        values: ParamValues,
+        children: Vec<Box<dyn Layer>>,
+    ) -> Self {
         let mut layer = Self {
             name: name.into(),
             values: values.clone(),
@@ -42,7 +46,7 @@ impl ContainerLayer {
         layer
     }
 
-    fn take(&mut self, values: Values) {
+    fn take(&mut self, values: ParamValues) {
         self.is_enabled = values.flag("enabled").unwrap_or_default();
         self.combination =
             Combination::from_number(values.integer("combination_method").unwrap_or(1));
@@ -124,11 +128,11 @@ impl Layer for ContainerLayer {
         Some(&self.grid)
     }
 
-    fn values(&self) -> Option<&Values> {
+    fn values(&self) -> Option<&ParamValues> {
         Some(&self.values)
     }
 
-    fn configure(&mut self, values: Values) -> Result<(), String> {
+    fn configure(&mut self, values: ParamValues) -> Result<(), String> {
         if values.get("plugins") != self.values.get("plugins") {
             return Err("`plugins` cannot be changed while the costmap runs".into());
         }

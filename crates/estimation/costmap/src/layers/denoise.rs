@@ -4,7 +4,7 @@
 
 use periplus_diagnostics::Diagnostic;
 use periplus_grid::Cell;
-use periplus_params::Values;
+use periplus_params::ParamValues;
 
 use crate::cost::{FREE, INSCRIBED, LETHAL, UNKNOWN};
 use crate::{Bounds, Costmap, Explanation, Layer, Moment, Window};
@@ -78,7 +78,7 @@ fn neighbours(
 /// Takes out obstacles that are too small.
 pub struct DenoiseLayer {
     name: String,
-    values: Values,
+    values: ParamValues,
     is_enabled: bool,
     smallest: usize,
     diagonally: bool,
@@ -89,7 +89,7 @@ pub struct DenoiseLayer {
 impl DenoiseLayer {
     /// From parameters of [`crate::tables::DENOISE`].
     #[must_use]
-    pub fn new(name: impl Into<String>, values: Values) -> Self {
+    pub fn new(name: impl Into<String>, values: ParamValues) -> Self {
         let mut layer = Self {
             name: name.into(),
             values: values.clone(),
@@ -103,7 +103,7 @@ impl DenoiseLayer {
         layer
     }
 
-    fn take(&mut self, values: Values) {
+    fn take(&mut self, values: ParamValues) {
         self.is_enabled = values.flag("enabled").unwrap_or_default();
         let asked = values.integer("minimal_group_size").unwrap_or(2);
         self.smallest = usize::try_from(asked).unwrap_or(1).max(1);
@@ -122,7 +122,7 @@ impl DenoiseLayer {
         self.values = values;
     }
 
-    fn complain(&mut self, values: &Values, parameter: &str, what: &str) {
+    fn complain(&mut self, values: &ParamValues, parameter: &str, what: &str) {
         let value = values.integer(parameter).unwrap_or_default();
         self.complaints.push(
             Diagnostic::warning(
@@ -174,11 +174,11 @@ impl Layer for DenoiseLayer {
         !self.is_waiting
     }
 
-    fn values(&self) -> Option<&Values> {
+    fn values(&self) -> Option<&ParamValues> {
         Some(&self.values)
     }
 
-    fn configure(&mut self, values: Values) -> Result<(), String> {
+    fn configure(&mut self, values: ParamValues) -> Result<(), String> {
         self.take(values);
         Ok(())
     }

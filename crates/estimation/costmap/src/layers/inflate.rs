@@ -4,7 +4,7 @@
 
 use periplus_diagnostics::Diagnostic;
 use periplus_grid::{Cell, Lattice};
-use periplus_params::Values;
+use periplus_params::ParamValues;
 
 use crate::cost::{LETHAL, UNKNOWN};
 use crate::inflation::{CostTable, Inflation, Scratch, inflate};
@@ -13,7 +13,7 @@ use crate::{Bounds, Compat, Costmap, Explanation, Footprint, Layer, Moment, Wind
 /// Gives cells near obstacles a cost.
 pub struct InflationLayer {
     name: String,
-    values: Values,
+    values: ParamValues,
     is_enabled: bool,
     radius_m: f64,
     how: Inflation,
@@ -33,7 +33,7 @@ pub struct InflationLayer {
 impl InflationLayer {
     /// From parameters of [`crate::tables::INFLATION`].
     #[must_use]
-    pub fn new(name: impl Into<String>, values: Values, compat: Compat) -> Self {
+    pub fn new(name: impl Into<String>, values: ParamValues, compat: Compat) -> Self {
         let mut layer = Self {
             name: name.into(),
             values: values.clone(),
@@ -55,7 +55,7 @@ impl InflationLayer {
         layer
     }
 
-    fn take(&mut self, values: Values) {
+    fn take(&mut self, values: ParamValues) {
         let flag = |name: &str| values.flag(name).unwrap_or_default();
         self.is_enabled = flag("enabled");
         self.radius_m = values.number("inflation_radius").unwrap_or_default();
@@ -157,11 +157,11 @@ impl Layer for InflationLayer {
         self.must_redo = must_redo;
     }
 
-    fn values(&self) -> Option<&Values> {
+    fn values(&self) -> Option<&ParamValues> {
         Some(&self.values)
     }
 
-    fn configure(&mut self, values: Values) -> Result<(), String> {
+    fn configure(&mut self, values: ParamValues) -> Result<(), String> {
         self.take(values);
         Ok(())
     }

@@ -4,7 +4,7 @@
 
 use periplus_diagnostics::Diagnostic;
 use periplus_grid::{Cell, Lattice, Line};
-use periplus_params::Values;
+use periplus_params::ParamValues;
 
 use super::repeats::Repeats;
 use super::sight::{Sight, complain_of_sensor, delegate_to_sight};
@@ -29,7 +29,7 @@ impl ObstacleLayer {
     #[must_use]
     pub fn new(
         name: impl Into<String>,
-        values: Values,
+        values: ParamValues,
         tracks_unknown: bool,
         sources: Vec<Source>,
     ) -> Self {
@@ -92,7 +92,7 @@ impl Layer for ObstacleLayer {
         self.sight.resized(lattice);
     }
 
-    fn configure(&mut self, values: Values) -> Result<(), String> {
+    fn configure(&mut self, values: ParamValues) -> Result<(), String> {
         self.sight.configure(values);
         Ok(())
     }

@@ -8,7 +8,7 @@ use std::collections::VecDeque;
 use periplus_diagnostics::Diagnostic;
 use periplus_geometry::{DVec3, Pose};
 use periplus_grid::{Cell, Lattice};
-use periplus_params::Values;
+use periplus_params::ParamValues;
 
 use crate::clear::clear_cells;
 use crate::cost::{FREE, LETHAL, UNKNOWN};
@@ -96,7 +96,7 @@ fn as_cost(probability: f64) -> u8 {
 /// Obstacles by their probability.
 pub struct RangeLayer {
     name: String,
-    values: Values,
+    values: ParamValues,
     is_enabled: bool,
     kind: Kind,
     phi_m: f64,
@@ -119,7 +119,7 @@ pub struct RangeLayer {
 impl RangeLayer {
     /// From parameters of [`crate::tables::RANGE`].
     #[must_use]
-    pub fn new(name: impl Into<String>, values: Values) -> Self {
+    pub fn new(name: impl Into<String>, values: ParamValues) -> Self {
         let mut layer = Self {
             name: name.into(),
             values: values.clone(),
@@ -143,7 +143,7 @@ impl RangeLayer {
         layer
     }
 
-    fn take(&mut self, values: Values) {
+    fn take(&mut self, values: ParamValues) {
         let number = |name: &str| values.number(name).unwrap_or_default();
         self.is_enabled = values.flag("enabled").unwrap_or_default();
         self.phi_m = number("phi");
@@ -424,11 +424,11 @@ impl Layer for RangeLayer {
         Some(&self.grid)
     }
 
-    fn values(&self) -> Option<&Values> {
+    fn values(&self) -> Option<&ParamValues> {
         Some(&self.values)
     }
 
-    fn configure(&mut self, values: Values) -> Result<(), String> {
+    fn configure(&mut self, values: ParamValues) -> Result<(), String> {
         if values.get("topics") != self.values.get("topics") {
             return Err("`topics` cannot be changed while the costmap runs".into());
         }

@@ -4,7 +4,7 @@
 
 use periplus_diagnostics::Diagnostic;
 use periplus_grid::{Cell, Lattice};
-use periplus_params::Values;
+use periplus_params::ParamValues;
 
 use crate::clear::clear_cells;
 use crate::cost::{FREE, LETHAL, UNKNOWN};
@@ -16,7 +16,7 @@ use crate::{Bounds, Combination, Compat, Costmap, Explanation, Moment, Source, W
 /// Cells, sources, and when to forget.
 pub(crate) struct Sight {
     pub(crate) name: String,
-    pub(crate) values: Values,
+    pub(crate) values: ParamValues,
     pub(crate) is_enabled: bool,
     clears_footprint: bool,
     pub(crate) heights: Span,
@@ -36,7 +36,7 @@ pub(crate) struct Sight {
 impl Sight {
     pub(crate) fn new(
         name: String,
-        values: Values,
+        values: ParamValues,
         tracks_unknown: bool,
         sources: Vec<Source>,
     ) -> Self {
@@ -60,7 +60,7 @@ impl Sight {
         sight
     }
 
-    pub(crate) fn configure(&mut self, values: Values) {
+    pub(crate) fn configure(&mut self, values: ParamValues) {
         let number = |name: &str| values.number(name).unwrap_or_default();
         let flag = |name: &str| values.flag(name).unwrap_or_default();
         self.is_enabled = flag("enabled");

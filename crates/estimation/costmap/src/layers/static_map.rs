@@ -6,7 +6,7 @@
 use periplus_diagnostics::Diagnostic;
 use periplus_geometry::{DVec3, Pose, Pose2};
 use periplus_grid::{Cell, Lattice, OccupancyGrid};
-use periplus_params::Values;
+use periplus_params::ParamValues;
 
 use crate::cost::{FREE, INSCRIBED, LETHAL, UNKNOWN};
 use crate::costmap::half_size_m;
@@ -39,7 +39,7 @@ pub struct MapMeaning {
 impl MapMeaning {
     /// From parameters of [`crate::tables::COSTMAP`].
     #[must_use]
-    pub fn read(values: &Values, compat: Compat) -> Self {
+    pub fn read(values: &ParamValues, compat: Compat) -> Self {
         let flag = |name: &str| values.flag(name).unwrap_or_default();
         let integer = |name: &str| values.integer(name).unwrap_or_default();
         Self {
@@ -76,7 +76,7 @@ impl MapMeaning {
 /// A map.
 pub struct StaticLayer {
     name: String,
-    values: Values,
+    values: ParamValues,
     meaning: MapMeaning,
     compat: Compat,
     is_enabled: bool,
@@ -102,7 +102,7 @@ impl StaticLayer {
     #[must_use]
     pub fn new(
         name: impl Into<String>,
-        values: Values,
+        values: ParamValues,
         meaning: MapMeaning,
         compat: Compat,
     ) -> Self {
@@ -129,7 +129,7 @@ impl StaticLayer {
         layer
     }
 
-    fn take(&mut self, values: Values) {
+    fn take(&mut self, values: ParamValues) {
         let flag = |name: &str| values.flag(name).unwrap_or_default();
         self.is_enabled = flag("enabled");
         self.restores_footprint =
@@ -396,11 +396,11 @@ impl Layer for StaticLayer {
         Some(&self.grid)
     }
 
-    fn values(&self) -> Option<&Values> {
+    fn values(&self) -> Option<&ParamValues> {
         Some(&self.values)
     }
 
-    fn configure(&mut self, values: Values) -> Result<(), String> {
+    fn configure(&mut self, values: ParamValues) -> Result<(), String> {
         for fixed in ["map_topic", "subscribe_to_updates", "map_subscribe_transient_local"] {
             if values.get(fixed) != self.values.get(fixed) {
                 return Err(format!("`{fixed}` cannot be changed while the costmap runs"));

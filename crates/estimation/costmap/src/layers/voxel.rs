@@ -4,7 +4,7 @@
 
 use periplus_diagnostics::Diagnostic;
 use periplus_grid::{Cell, CellFinder, Lattice};
-use periplus_params::Values;
+use periplus_params::ParamValues;
 
 use super::obstacle::touch_ray;
 use super::repeats::Repeats;
@@ -32,7 +32,7 @@ struct Columns {
 }
 
 impl Columns {
-    fn read(values: &Values) -> Self {
+    fn read(values: &ParamValues) -> Self {
         let number = |name: &str| values.number(name).unwrap_or_default();
         let count = |name: &str| {
             u32::try_from(values.integer(name).unwrap_or_default()).unwrap_or_default()
@@ -87,7 +87,7 @@ impl VoxelLayer {
     #[must_use]
     pub fn new(
         name: impl Into<String>,
-        values: Values,
+        values: ParamValues,
         tracks_unknown: bool,
         sources: Vec<Source>,
     ) -> Self {
@@ -240,7 +240,7 @@ impl Layer for VoxelLayer {
         self.voxels = VoxelGrid::new(*self.sight.grid.lattice(), self.columns.height);
     }
 
-    fn configure(&mut self, values: Values) -> Result<(), String> {
+    fn configure(&mut self, values: ParamValues) -> Result<(), String> {
         if values.flag("publish_voxel_map") != self.sight.values.flag("publish_voxel_map") {
             return Err("`publish_voxel_map` cannot be changed while the costmap runs".into());
         }

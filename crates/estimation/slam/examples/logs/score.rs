@@ -6,7 +6,7 @@ use std::path::Path;
 use periplus_bags::CarmenLog;
 use periplus_diagnostics::Diagnostics;
 use periplus_geometry::Pose2;
-use periplus_params::{Given, Values};
+use periplus_params::{Given, ParamValues};
 use periplus_slam::{
     CorrectedInput, Counts, Gmapping, GmappingSettings, Mapper, Method, MountingCorrection,
     Relation, Score, Settings, Slam, Stamped, misses, score,
@@ -120,7 +120,7 @@ fn cpu_ns() -> u64 {
 }
 
 /// The values that `name=value,name=value` sets.
-pub(crate) fn values(method: Method, words: &str, seed: Option<u64>) -> Values {
+pub(crate) fn values(method: Method, words: &str, seed: Option<u64>) -> ParamValues {
     let mut diagnostics = Diagnostics::new();
     let seed = seed.map(|it| it.to_string());
     let given = words.split(',').filter_map(|word| word.split_once('='));
@@ -131,7 +131,7 @@ pub(crate) fn values(method: Method, words: &str, seed: Option<u64>) -> Values {
     values
 }
 
-fn mapper(method: Method, values: &Values) -> Box<dyn Mapper> {
+fn mapper(method: Method, values: &ParamValues) -> Box<dyn Mapper> {
     match method {
         Method::Gmapping => Box::new(Gmapping::new(GmappingSettings::of(values))),
         Method::Graph => Box::new(Slam::new(Settings::of(values))),
@@ -150,7 +150,7 @@ struct Drive {
 
 fn drive(
     method: Method,
-    values: &Values,
+    values: &ParamValues,
     copy: &Copy,
     remedy: Option<MountingCorrection>,
 ) -> Drive {
@@ -181,7 +181,7 @@ fn drive(
 pub(crate) fn race(
     log: &Log,
     (run, copy): (&'static str, &Copy),
-    (method, values, seed): (Method, &Values, Option<u64>),
+    (method, values, seed): (Method, &ParamValues, Option<u64>),
     show: &Show<'_>,
 ) -> Outcome {
     let mut driven = drive(method, values, copy, None);

@@ -4,7 +4,7 @@
 //! The wiki has `srt` and `str` the other way round than the program: what it does counts.
 
 use periplus_diagnostics::Diagnostic;
-use periplus_params::{Names, Table, Values, flag, integer, number, text};
+use periplus_params::{NamedEntity, ParamValues, Table, flag, integer, number, text};
 
 use super::{CORRECT_MOUNTING, Idle};
 use crate::gmapping::{GmappingSettings, Noise};
@@ -15,9 +15,9 @@ pub static GMAPPING: Table = Table {
     doc: "Particle filter SLAM from laser scans and odometry, with one map per particle.",
     parameters: &[
         // Frames, topics, time.
-        text("base_frame", "Frame of the robot base.").or("base_link").naming(Names::Frame),
-        text("map_frame", "Frame of the map.").or("map").naming(Names::Frame),
-        text("odom_frame", "Frame of odometry.").or("odom").naming(Names::Frame),
+        text("base_frame", "Frame of the robot base.").or("base_link").naming(NamedEntity::Frame),
+        text("map_frame", "Frame of the map.").or("map").naming(NamedEntity::Frame),
+        text("odom_frame", "Frame of odometry.").or("odom").naming(NamedEntity::Frame),
         integer("throttle_scans", "Use every Nth scan.").or("1").min(1.0),
         number("map_update_interval", "s", "Period of the published map.").or("5").min(0.0),
         number("transform_publish_period", "s", "Period of the transform `map -> odom`; 0: never published.")
@@ -135,7 +135,7 @@ pub(super) const IDLE: &[Idle] = &[
     },
 ];
 
-pub(super) fn conflicts(values: &Values) -> Vec<Diagnostic> {
+pub(super) fn conflicts(values: &ParamValues) -> Vec<Diagnostic> {
     let mut findings = Vec::new();
     let number = |name: &str| values.number(name);
     if let (Some(used), Some(most)) = (number("maxUrange"), number("maxRange"))
@@ -172,7 +172,7 @@ impl GmappingSettings {
     /// Applies values of [`GMAPPING`]. The bounds of the map count only if given: by default it covers
     /// everything observed.
     #[must_use]
-    pub fn of(values: &Values) -> Self {
+    pub fn of(values: &ParamValues) -> Self {
         let number = |name: &str| values.number(name).unwrap_or_default();
         let count = |name: &str| usize::try_from(values.integer(name).unwrap_or(1)).unwrap_or(1);
         let range_max_m = values.number("maxRange");

@@ -3,7 +3,9 @@
 //! Sources of names and defaults: its README and the files in its `config` folder (humble to
 //! rolling, 2026).
 
-use periplus_params::{Names, Table, Values, choice, flag, integer, number, numbers, text};
+use periplus_params::{
+    NamedEntity, ParamValues, Table, choice, flag, integer, number, numbers, text,
+};
 
 use super::{CORRECT_MOUNTING, Idle};
 use crate::settings::Settings;
@@ -14,11 +16,13 @@ pub static SLAM_TOOLBOX: Table = Table {
     doc: "Pose graph SLAM from laser scans and odometry.",
     parameters: &[
         // Frames, topics, time.
-        text("odom_frame", "Frame of odometry.").or("odom").naming(Names::Frame),
-        text("map_frame", "Frame of the map.").or("map").naming(Names::Frame),
-        text("base_frame", "Frame of the robot base.").or("base_footprint").naming(Names::Frame),
-        text("scan_topic", "Topic of the laser scans.").or("/scan").naming(Names::Topic),
-        text("map_name", "Topic of the map.").or("/map").naming(Names::Topic),
+        text("odom_frame", "Frame of odometry.").or("odom").naming(NamedEntity::Frame),
+        text("map_frame", "Frame of the map.").or("map").naming(NamedEntity::Frame),
+        text("base_frame", "Frame of the robot base.")
+            .or("base_footprint")
+            .naming(NamedEntity::Frame),
+        text("scan_topic", "Topic of the laser scans.").or("/scan").naming(NamedEntity::Topic),
+        text("map_name", "Topic of the map.").or("/map").naming(NamedEntity::Topic),
         choice(
             "mode",
             &["mapping", "localization"],
@@ -281,7 +285,7 @@ pub(super) const IDLE: &[Idle] = &[
     Idle { names: &["stack_size_to_use"], because: "storing a map needs no large stack" },
 ];
 
-pub(super) fn settings(values: &Values) -> Settings {
+pub(super) fn settings(values: &ParamValues) -> Settings {
     let mut settings = Settings::default();
     let number = |name: &str| values.number(name).filter(|_| values.is_given(name));
     if let Some(resolution_m) = number("resolution") {

@@ -1,15 +1,15 @@
 //! Diffuse colour and image file of a `<material>`, through its `<effect>`.
 
 use super::tree::Node;
-use crate::mesh::{Material, Texture};
+use crate::mesh::{MeshMaterial, MeshTexture};
 
 /// Reads the material of a `<material>` element.
 ///
 /// `<transparency>` is ignored: exporters disagree about whether 0 or 1 is opaque, and Gazebo's reader uses
 /// only the diffuse alpha too.
-pub(super) fn read(material: Node<'_>) -> Material {
+pub(super) fn read(material: Node<'_>) -> MeshMaterial {
     let name = material.attribute("name").or(material.attribute("id")).unwrap_or("").to_owned();
-    let mut result = Material { name, diffuse_rgba: [1.0; 4], texture: None };
+    let mut result = MeshMaterial { name, diffuse_rgba: [1.0; 4], texture: None };
     let effect = material
         .child("instance_effect")
         .and_then(|instance| material.tree().find("effect", instance.attribute("url")?));
@@ -30,7 +30,7 @@ pub(super) fn read(material: Node<'_>) -> Material {
             result.diffuse_rgba = color;
         }
         let texture = diffuse.child("texture").and_then(|node| node.attribute("texture"));
-        result.texture = texture.and_then(|name| image_file(profile, name)).map(Texture::File);
+        result.texture = texture.and_then(|name| image_file(profile, name)).map(MeshTexture::File);
     }
     result
 }

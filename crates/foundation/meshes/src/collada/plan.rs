@@ -15,7 +15,7 @@ use super::tree::{Node, Tree, short};
 use super::{material, transform};
 use crate::error::MeshError;
 use crate::limits::Budget;
-use crate::mesh::Material;
+use crate::mesh::MeshMaterial;
 use crate::notes::Notes;
 
 /// Node with resolved content.
@@ -37,7 +37,7 @@ pub(super) enum Item<'t> {
 pub(super) struct Shape {
     pub(super) primitives: Rc<Vec<Primitive>>,
     /// One per primitive.
-    pub(super) materials: Vec<Option<Arc<Material>>>,
+    pub(super) materials: Vec<Option<Arc<MeshMaterial>>>,
     /// Bind shape matrix of a skin; else the identity.
     pub(super) node_from_shape: DMat4,
 }
@@ -48,7 +48,7 @@ pub(super) struct Planner<'t> {
     pub(super) notes: &'t mut Notes,
     arrays: Arrays,
     geometries: BTreeMap<u32, Rc<Vec<Primitive>>>,
-    materials: BTreeMap<u32, Arc<Material>>,
+    materials: BTreeMap<u32, Arc<MeshMaterial>>,
 }
 
 impl<'t> Planner<'t> {
@@ -165,7 +165,7 @@ impl<'t> Planner<'t> {
         symbol: &str,
         bound: &BTreeMap<&str, &str>,
         budget: &mut Budget,
-    ) -> Result<Option<Arc<Material>>, MeshError> {
+    ) -> Result<Option<Arc<MeshMaterial>>, MeshError> {
         // Symbols without a binding that are the id of a material refer to it, as in Gazebo.
         let target = bound.get(symbol).copied().unwrap_or(symbol);
         let Some(node) = self.tree.find("material", target) else {

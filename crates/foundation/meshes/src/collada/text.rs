@@ -2,7 +2,7 @@
 
 use std::borrow::Cow;
 
-use crate::error::{MeshError, Place};
+use crate::error::{MeshError, MeshLocation};
 
 /// UTF-8, UTF-16 with a byte order mark, or Latin-1 if declared.
 pub(super) fn decode(bytes: &[u8]) -> Result<Cow<'_, str>, MeshError> {
@@ -19,7 +19,7 @@ pub(super) fn decode(bytes: &[u8]) -> Result<Cow<'_, str>, MeshError> {
         if declares(b"iso-8859-1") || declares(b"windows-1252") || declares(b"latin1") {
             return Ok(Cow::Owned(bytes.iter().map(|&b| char::from(b)).collect()));
         }
-        Err(not_text().at(Place::Byte(error.valid_up_to())))
+        Err(not_text().at(MeshLocation::Byte(error.valid_up_to())))
     })
 }
 

@@ -7,7 +7,7 @@ use std::collections::BTreeMap;
 use quick_xml::Reader;
 use quick_xml::events::{BytesStart, Event};
 
-use crate::error::{MeshError, Place};
+use crate::error::{MeshError, MeshLocation};
 use crate::limits::Budget;
 
 /// Memory of an element and an attribute without their text [bytes]: much more than the four characters of
@@ -129,7 +129,7 @@ impl<'x> Tree<'x> {
         let before = &self.xml.as_bytes()[..offset.min(self.xml.len())];
         let line = before.iter().filter(|&&b| b == b'\n').count() + 1;
         MeshError::new(message, "export the COLLADA file again, or repair it by hand")
-            .at(Place::Line(line))
+            .at(MeshLocation::Line(line))
     }
 
     /// `<COLLADA>` element.

@@ -1,6 +1,6 @@
 //! The binary container (GLB), section 4.4 of the specification.
 
-use crate::error::{MeshError, Place};
+use crate::error::{MeshError, MeshLocation};
 
 /// Parts of a glTF file.
 pub(super) struct Parts<'a> {
@@ -23,7 +23,7 @@ pub(super) fn split(bytes: &[u8]) -> Result<Parts<'_>, MeshError> {
                 format!("GLB version {version} is not supported"),
                 "convert the file to glTF 2.0",
             )
-            .at(Place::Byte(4)));
+            .at(MeshLocation::Byte(4)));
         }
     }
     let (mut json, mut binary) = (None, None);
@@ -34,7 +34,7 @@ pub(super) fn split(bytes: &[u8]) -> Result<Parts<'_>, MeshError> {
                 "a GLB chunk reaches beyond the end of the file",
                 "the file is cut short: export or fetch it again",
             )
-            .at(Place::Byte(at))
+            .at(MeshLocation::Byte(at))
         })?;
         match chunk.kind {
             b"JSON" if json.is_none() => json = Some(chunk.data),
@@ -46,7 +46,7 @@ pub(super) fn split(bytes: &[u8]) -> Result<Parts<'_>, MeshError> {
     }
     let json = json.ok_or_else(|| {
         MeshError::new("the GLB file has no JSON chunk", "export the file again")
-            .at(Place::Byte(12))
+            .at(MeshLocation::Byte(12))
     })?;
     Ok(Parts { json, binary })
 }

@@ -9,7 +9,7 @@ use ::gltf::json::{Index, Root, image, material};
 use super::buffers::{Buffers, data_uri, percent_decode};
 use crate::error::MeshError;
 use crate::limits::Budget;
-use crate::mesh::{Material, Texture};
+use crate::mesh::{MeshMaterial, MeshTexture};
 use crate::notes::Notes;
 
 /// Texture coordinate set of the primitive's base colour texture.
@@ -26,7 +26,7 @@ pub(super) fn read(
     buffers: &mut Buffers<'_>,
     budget: &mut Budget,
     notes: &mut Notes,
-) -> Result<Option<Arc<Material>>, MeshError> {
+) -> Result<Option<Arc<MeshMaterial>>, MeshError> {
     let Some(json) = root.materials.get(index.value()) else {
         notes.add(format!("material {} does not exist", index.value()));
         return Ok(None);
@@ -43,7 +43,7 @@ pub(super) fn read(
     }
     let texture = image.and_then(|image| read_image(image, buffers, budget, notes));
     let name = json.name.clone().unwrap_or_default();
-    let material = Material { name, diffuse_rgba, texture };
+    let material = MeshMaterial { name, diffuse_rgba, texture };
     budget.bytes(material.size_bytes())?;
     Ok(Some(Arc::new(material)))
 }
@@ -53,17 +53,16 @@ fn read_image(
     buffers: &mut Buffers<'_>,
     budget: &mut Budget,
     notes: &mut Notes,
-) -> Option<Texture> {
+) -> Option<MeshTexture> {
     let media_type = image.mime_type.as_ref().map_or(String::new(), |MimeType(mime)| mime.clone());
     let embedded = match (&image.uri, image.buffer_view) {
-        (Some(uri), _) if uri.starts_with("data:") => data_uri(uri).map(|data| Texture::Embedded {
-            media_type: data.media_type,
-            bytes: data.bytes.into(),
+        (Some(uri), _) if uri.starts_with("data:") => data_uri(uri).map(|data| {
+            MeshTexture::Embedded { media_type: data.media_type, bytes: data.bytes.into() }
         }),
-        (Some(uri), _) => Ok(Texture::File(percent_decode(uri))),
+        (Some(uri), _) => Ok(MeshTexture::File(percent_decode(uri))),
         (None, Some(view)) => buffers
             .view(view, budget)
-            .map(|view| Texture::Embedded { media_type, bytes: view.bytes().into() }),
+            .map(|view| MeshTexture::Embedded { media_type, bytes: view.bytes().into() }),
         (None, None) => return None,
     };
     embedded.map_err(|error| notes.add(format!("texture left out: {error}"))).ok()

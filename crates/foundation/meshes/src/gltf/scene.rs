@@ -12,7 +12,7 @@ use super::{material, primitive};
 use crate::build::Part;
 use crate::error::MeshError;
 use crate::limits::Budget;
-use crate::mesh::{Material, Submesh};
+use crate::mesh::{MeshMaterial, Submesh};
 use crate::notes::Notes;
 
 /// State of the traversal.
@@ -23,14 +23,14 @@ pub(super) struct Walk<'a> {
     notes: &'a mut Notes,
     /// Meshes read so far; further instances are charged.
     meshes: BTreeMap<usize, Rc<Vec<Primitive>>>,
-    materials: BTreeMap<usize, Option<Arc<Material>>>,
+    materials: BTreeMap<usize, Option<Arc<MeshMaterial>>>,
     unnamed: usize,
     pub(super) submeshes: Vec<Submesh>,
 }
 
 struct Primitive {
     part: Part,
-    material: Option<Arc<Material>>,
+    material: Option<Arc<MeshMaterial>>,
 }
 
 impl<'a> Walk<'a> {

@@ -2,7 +2,7 @@
 
 use std::borrow::Cow;
 
-use crate::error::{MeshError, Place};
+use crate::error::{MeshError, MeshLocation};
 
 /// Logical line: a backslash at the end continues it.
 pub(super) struct Line<'a> {
@@ -11,8 +11,8 @@ pub(super) struct Line<'a> {
 }
 
 impl Line<'_> {
-    pub(super) fn place(&self) -> Place {
-        Place::Line(self.number)
+    pub(super) fn place(&self) -> MeshLocation {
+        MeshLocation::Line(self.number)
     }
 
     pub(super) fn keyword(&self) -> &str {

@@ -4,22 +4,22 @@ use std::collections::HashMap;
 use std::sync::Arc;
 
 use super::lines::lines;
-use crate::mesh::{Material, Texture};
+use crate::mesh::{MeshMaterial, MeshTexture};
 use crate::notes::Notes;
 
 /// Reads all materials of a file into `materials`; a damaged line only loses its property, with a note.
 pub(super) fn read(
     bytes: &[u8],
     file: &str,
-    materials: &mut HashMap<String, Arc<Material>>,
+    materials: &mut HashMap<String, Arc<MeshMaterial>>,
     notes: &mut Notes,
 ) {
-    let mut current: Option<Material> = None;
+    let mut current: Option<MeshMaterial> = None;
     for line in lines(bytes) {
         let keyword = line.keyword().to_ascii_lowercase();
         if keyword == "newmtl" {
             keep(current.take(), materials);
-            current = Some(Material {
+            current = Some(MeshMaterial {
                 name: line.rest().to_owned(),
                 diffuse_rgba: [1.0; 4],
                 texture: None,
@@ -41,7 +41,7 @@ pub(super) fn read(
             "tr" => material.diffuse_rgba[3] = 1.0 - number().unwrap_or(0.0).clamp(0.0, 1.0),
             "map_kd" => {
                 material.texture =
-                    texture_file(line.rest()).map(|file| Texture::File(file.to_owned()));
+                    texture_file(line.rest()).map(|file| MeshTexture::File(file.to_owned()));
             }
             _ => {}
         }
@@ -50,7 +50,7 @@ pub(super) fn read(
 }
 
 /// The first definition of a name wins, as in tobj and assimp.
-fn keep(material: Option<Material>, materials: &mut HashMap<String, Arc<Material>>) {
+fn keep(material: Option<MeshMaterial>, materials: &mut HashMap<String, Arc<MeshMaterial>>) {
     if let Some(material) = material {
         materials.entry(material.name.clone()).or_insert_with(|| Arc::new(material));
     }

@@ -1,6 +1,6 @@
 //! Helpers shared by the tests of the readers.
 
-use periplus_meshes::{Mesh, Texture};
+use periplus_meshes::{Mesh, MeshTexture};
 
 /// Triangles as their corner positions, one line per submesh and triangle.
 pub(crate) fn show(mesh: &Mesh) -> String {
@@ -9,8 +9,8 @@ pub(crate) fn show(mesh: &Mesh) -> String {
         let material = part.material.as_ref().map_or(String::new(), |material| {
             let texture = match &material.texture {
                 None => String::new(),
-                Some(Texture::File(file)) => format!(" {file}"),
-                Some(Texture::Embedded { media_type, bytes }) => {
+                Some(MeshTexture::File(file)) => format!(" {file}"),
+                Some(MeshTexture::Embedded { media_type, bytes }) => {
                     format!(" {media_type} of {} bytes", bytes.len())
                 }
             };

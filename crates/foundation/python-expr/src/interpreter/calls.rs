@@ -3,7 +3,7 @@
 use std::rc::Rc;
 
 use super::super::ast::{Argument, Lambda, Node, ParameterKind};
-use super::super::callable::{Arguments, Callable, Closure};
+use super::super::callable::{Arguments, Callable, LambdaFunction};
 use super::super::error::{ExpressionError, Outcome, fail};
 use super::super::methods;
 use super::super::value::{Value, depth_around};
@@ -124,7 +124,7 @@ impl Interpreter<'_> {
         }
         let depth = depth_around(defaults.iter().flatten())?
             .max(frames.as_ref().map_or(0, |frame| frame.depth() + 1));
-        let closure = Closure {
+        let closure = LambdaFunction {
             lambda: lambda.clone(),
             defaults,
             frame: frames.clone(),
@@ -134,7 +134,7 @@ impl Interpreter<'_> {
         Ok(Value::Function(Callable::Lambda(Rc::new(closure))))
     }
 
-    fn call_lambda(&mut self, closure: &Closure, arguments: Arguments) -> Outcome<Value> {
+    fn call_lambda(&mut self, closure: &LambdaFunction, arguments: Arguments) -> Outcome<Value> {
         let bindings = self.bind_parameters(closure, arguments)?;
         let frames = Some(Frame::new(bindings, &closure.frame)?);
         let body = &closure.lambda.body;
@@ -158,7 +158,7 @@ impl Interpreter<'_> {
 
     fn bind_parameters(
         &mut self,
-        closure: &Closure,
+        closure: &LambdaFunction,
         arguments: Arguments,
     ) -> Outcome<Vec<(Rc<str>, Value)>> {
         let Arguments { positional, mut keywords } = arguments;

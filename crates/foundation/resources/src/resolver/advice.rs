@@ -7,8 +7,8 @@ use std::rc::Rc;
 use periplus_diagnostics::closest;
 
 use super::Resolver;
-use crate::host::Kind;
-use crate::miss::Miss;
+use crate::host::EntryKind;
+use crate::miss::ResolveError;
 use crate::places::How;
 use crate::surroundings::Surroundings;
 use crate::uri::Scheme;
@@ -27,9 +27,9 @@ impl Resolver<'_> {
         rest: &str,
         folder: &Path,
         around: &Surroundings,
-    ) -> Miss {
+    ) -> ResolveError {
         let reason = format!("`{name}` is {}, but has no `{rest}`", folder.display());
-        let miss = Miss::missing(uri, reason);
+        let miss = ResolveError::missing(uri, reason);
         match self.nearest_name(folder, rest, around) {
             Some(near) => miss.help(format!("did you mean `{near}`?")),
             None => miss,
@@ -42,9 +42,9 @@ impl Resolver<'_> {
         scheme: Scheme,
         name: &str,
         around: &Surroundings,
-    ) -> Miss {
+    ) -> ResolveError {
         let word = scheme.word();
-        let miss = Miss::missing(uri, format!("there is no {word} `{name}`"));
+        let miss = ResolveError::missing(uri, format!("there is no {word} `{name}`"));
         let known = self.known(around);
         let near = closest(name, known.iter().map(String::as_str).take(MAX_NAMES));
         let miss = match near.filter(|_| self.misses(around) < MAX_SUGGESTIONS) {
@@ -107,7 +107,7 @@ impl Resolver<'_> {
         let mut names = self.host.list(folder);
         names.truncate(MAX_NAMES);
         names.retain(|name| {
-            !name.starts_with('.') && self.host.kind(&folder.join(name)) == Some(Kind::Folder)
+            !name.starts_with('.') && self.host.kind(&folder.join(name)) == Some(EntryKind::Folder)
         });
         names
     }

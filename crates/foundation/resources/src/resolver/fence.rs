@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use super::Resolver;
-use crate::host::Kind;
+use crate::host::EntryKind;
 use crate::surroundings::Surroundings;
 
 impl Resolver<'_> {
@@ -34,7 +34,7 @@ impl Resolver<'_> {
         }
         let is_around = canonical.file_name().is_some_and(|own| own == name)
             && around.eponyms.contains(&canonical);
-        let is_model = || self.host.kind(&canonical.join("model.config")) == Some(Kind::File);
+        let is_model = || self.host.kind(&canonical.join("model.config")) == Some(EntryKind::File);
         if !is_around && self.manifest(&canonical).name != name && !is_model() {
             return None;
         }

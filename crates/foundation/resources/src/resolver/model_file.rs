@@ -3,9 +3,9 @@
 use std::path::{Path, PathBuf};
 
 use super::Resolver;
-use crate::host::Kind;
+use crate::host::EntryKind;
 use crate::manifest;
-use crate::miss::Miss;
+use crate::miss::ResolveError;
 
 /// Newest supported version of SDF.
 const NEWEST: (u32, u32) = (1, 12);
@@ -16,7 +16,7 @@ impl Resolver<'_> {
     ///
     /// # Errors
     /// If there is none; lists the files that were tried.
-    pub fn model_file(&self, folder: &Path) -> Result<PathBuf, Miss> {
+    pub fn model_file(&self, folder: &Path) -> Result<PathBuf, ResolveError> {
         if let Some(known) = self.model_files.borrow().get(folder) {
             return known.clone();
         }
@@ -25,7 +25,7 @@ impl Resolver<'_> {
         found
     }
 
-    fn seek_model_file(&self, folder: &Path) -> Result<PathBuf, Miss> {
+    fn seek_model_file(&self, folder: &Path) -> Result<PathBuf, ResolveError> {
         let uri = folder.display().to_string();
         let canonical = self.host.canonical(folder).unwrap_or_else(|| folder.to_path_buf());
         let config = folder.join("model.config");
@@ -40,18 +40,18 @@ impl Resolver<'_> {
                  up to {}.{} is read",
                 NEWEST.0, NEWEST.1
             );
-            return Err(Miss::missing(&uri, reason).tried(config));
+            return Err(ResolveError::missing(&uri, reason).tried(config));
         }
         // Highest version first; of equal ones the first in the file.
         entries.sort_by_key(|entry| std::cmp::Reverse(entry.version));
         let name = canonical.file_name().unwrap_or_default().to_string_lossy().into_owned();
         let usual = ["model.sdf".into(), format!("{name}.sdf"), "model.urdf".into()];
         let usual = usual.into_iter().chain([format!("{name}.urdf")]);
-        let mut miss = Miss::missing(&uri, "no file in it is a model");
+        let mut miss = ResolveError::missing(&uri, "no file in it is a model");
         miss.tried.push(config);
         for file in entries.into_iter().take(1).map(|entry| entry.file).chain(usual) {
             let target = folder.join(&file);
-            if self.host.kind(&target) != Some(Kind::File) {
+            if self.host.kind(&target) != Some(EntryKind::File) {
                 if !miss.tried.contains(&target) {
                     miss.tried.push(target);
                 }
@@ -66,7 +66,7 @@ impl Resolver<'_> {
             };
             return match self.host.canonical(&target).filter(belongs) {
                 Some(target) => Ok(target),
-                None => Err(Miss::outside(&uri, &target)),
+                None => Err(ResolveError::outside(&uri, &target)),
             };
         }
         let help = if has_config {

@@ -4,9 +4,9 @@ use std::path::{Path, PathBuf};
 use std::rc::Rc;
 
 use super::Resolver;
-use crate::host::Kind;
+use crate::host::EntryKind;
 use crate::layout::in_sources;
-use crate::miss::Miss;
+use crate::miss::ResolveError;
 use crate::places::{How, Place};
 use crate::surroundings::Surroundings;
 use crate::uri::{Scheme, percent_decoded};
@@ -40,7 +40,7 @@ impl Resolver<'_> {
         name: &str,
         rest: &str,
         around: &Surroundings,
-    ) -> Result<PathBuf, Miss> {
+    ) -> Result<PathBuf, ResolveError> {
         let mut search = Search::default();
         let decoded = percent_decoded(name);
         let is_name = |name: &str| !matches!(name, "" | "." | "..") && !name.contains('/');
@@ -54,7 +54,7 @@ impl Resolver<'_> {
             }
         }
         let mut miss = match (&search.refused, search.folders.first()) {
-            (Some(refused), _) => return Err(Miss::outside(uri, refused)),
+            (Some(refused), _) => return Err(ResolveError::outside(uri, refused)),
             (None, Some(folder)) => self.without_file(uri, name, rest, folder, around),
             (None, None) => self.without_folder(uri, scheme, name, around),
         };
@@ -176,7 +176,7 @@ impl Resolver<'_> {
                 packages.unwrap_or_else(|| vec![folder.join("**").join(name)])
             }
         };
-        let exists = |path: &PathBuf| self.host.kind(path) == Some(Kind::Folder);
+        let exists = |path: &PathBuf| self.host.kind(path) == Some(EntryKind::Folder);
         (look.found, look.tried) = wanted.into_iter().partition(exists);
         let look = Rc::new(look);
         self.looks.borrow_mut().insert(key, look.clone());

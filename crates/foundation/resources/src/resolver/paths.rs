@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use super::Resolver;
 use crate::fuel::FuelUri;
 use crate::layout::in_sources;
-use crate::miss::Miss;
+use crate::miss::ResolveError;
 use crate::places::How;
 use crate::surroundings::Surroundings;
 use crate::uri::percent_decoded;
@@ -18,11 +18,11 @@ impl Resolver<'_> {
         uri: &str,
         path: &str,
         around: &Surroundings,
-    ) -> Result<PathBuf, Miss> {
+    ) -> Result<PathBuf, ResolveError> {
         if Path::new(path).is_absolute() {
             return self.first(uri, path, vec![PathBuf::from("/")], around).map_err(
                 |miss| match miss.kind {
-                    crate::MissKind::Missing => miss.help(
+                    crate::ResolveErrorKind::Missing => miss.help(
                         "absolute paths hold on one machine only; \
                          `package://NAME/path/in/it` holds on all",
                     ),
@@ -41,7 +41,7 @@ impl Resolver<'_> {
         uri: &str,
         path: &str,
         around: &Surroundings,
-    ) -> Result<PathBuf, Miss> {
+    ) -> Result<PathBuf, ResolveError> {
         let exports = self.exports(around);
         let own = around.upward.iter().filter(|up| up.starts_with(&around.project));
         let mut folders: Vec<PathBuf> = Vec::new();
@@ -59,16 +59,17 @@ impl Resolver<'_> {
         uri: &str,
         wanted: &FuelUri,
         around: &Surroundings,
-    ) -> Result<PathBuf, Miss> {
+    ) -> Result<PathBuf, ResolveError> {
         match wanted.find(self.host, &self.fuel_caches) {
-            Ok(folder) if wanted.rest.is_empty() => {
-                self.fenced(&folder, None, around).ok_or_else(|| Miss::outside(uri, &folder))
-            }
+            Ok(folder) if wanted.rest.is_empty() => self
+                .fenced(&folder, None, around)
+                .ok_or_else(|| ResolveError::outside(uri, &folder)),
             Ok(folder) => self.first(uri, &wanted.rest, vec![folder], around),
             Err(tried) => {
                 let sort = if wanted.is_world() { "world" } else { "model" };
-                let mut miss = Miss::missing(uri, format!("the {sort} is not in the Fuel cache"))
-                    .help(format!("fetch it once: `gz fuel download -u {}`", wanted.address()));
+                let mut miss =
+                    ResolveError::missing(uri, format!("the {sort} is not in the Fuel cache"))
+                        .help(format!("fetch it once: `gz fuel download -u {}`", wanted.address()));
                 miss.tried = tried;
                 Err(miss)
             }
@@ -87,7 +88,7 @@ impl Resolver<'_> {
         path: &str,
         folders: Vec<PathBuf>,
         around: &Surroundings,
-    ) -> Result<PathBuf, Miss> {
+    ) -> Result<PathBuf, ResolveError> {
         let decoded = percent_decoded(path);
         let mut tried = Vec::new();
         let mut refused = None;
@@ -112,9 +113,9 @@ impl Resolver<'_> {
             }
         }
         if let Some(refused) = refused {
-            return Err(Miss::outside(uri, &refused));
+            return Err(ResolveError::outside(uri, &refused));
         }
-        let mut miss = Miss::missing(uri, "there is no such file");
+        let mut miss = ResolveError::missing(uri, "there is no such file");
         if let Some(name) =
             folders.first().and_then(|folder| self.nearest_name(folder, path, around))
         {

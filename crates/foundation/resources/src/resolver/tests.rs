@@ -1,10 +1,10 @@
 use std::path::{Path, PathBuf};
 
 use expect_test::{Expect, expect};
-use periplus_diagnostics::{SourceMap, Style, render};
+use periplus_diagnostics::{RenderStyle, SourceMap, render};
 use proptest::prelude::*;
 
-use crate::{Host, Kind, MemoryHost, MissKind, ReadError, Resolver};
+use crate::{EntryKind, FileReadError, Host, MemoryHost, ResolveErrorKind, Resolver};
 
 /// A machine with empty files at the paths, and `package.xml`s that name their folder.
 fn machine(paths: &[&str]) -> MemoryHost {
@@ -20,7 +20,7 @@ fn machine(paths: &[&str]) -> MemoryHost {
 
 const FROM: &str = "/w/src/bot/urdf/bot.urdf";
 
-fn resolve(host: &MemoryHost, uri: &str) -> Result<PathBuf, MissKind> {
+fn resolve(host: &MemoryHost, uri: &str) -> Result<PathBuf, ResolveErrorKind> {
     Resolver::new(host, &[]).resolve(uri, Path::new(FROM)).map_err(|miss| miss.kind)
 }
 
@@ -34,7 +34,7 @@ fn check_miss(host: &MemoryHost, uri: &str, expected: Expect) {
     let mut sources = SourceMap::new();
     let file = sources.add("bot.urdf", format!("<mesh filename=\"{uri}\"/>"));
     let span = sources.whole(file).part(16, 16 + uri.len());
-    expected.assert_eq(&render(&miss.into_diagnostic(span), &sources, Style::Plain));
+    expected.assert_eq(&render(&miss.into_diagnostic(span), &sources, RenderStyle::Plain));
 }
 
 #[test]
@@ -115,7 +115,7 @@ fn exported_model_paths_are_searched() {
     let hostile = manifest.replace("${prefix}/things", "/");
     let host = machine(&[FROM, "/w/src/bot/package.xml", "/etc/passwd"])
         .with_file("/w/src/props/package.xml", hostile);
-    assert_eq!(resolve(&host, "model://etc/passwd"), Err(MissKind::Outside));
+    assert_eq!(resolve(&host, "model://etc/passwd"), Err(ResolveErrorKind::Outside));
 }
 
 #[test]
@@ -266,7 +266,7 @@ fn nothing_outside_the_project_is_named() {
         "../../../../etc/passwd",
         "file://../../../../etc/passwd",
     ] {
-        assert_eq!(resolve(&host, uri), Err(MissKind::Outside), "{uri}");
+        assert_eq!(resolve(&host, uri), Err(ResolveErrorKind::Outside), "{uri}");
     }
     check_miss(
         &host,
@@ -319,8 +319,8 @@ fn a_package_without_a_manifest_is_known_by_its_folder() {
     let resolve = |uri| resolver.resolve(uri, from).map_err(|miss| miss.kind);
     let mesh = PathBuf::from("/home/ada/x/bot/meshes/a.stl");
     assert_eq!(resolve("package://bot/meshes/a.stl"), Ok(mesh));
-    assert_eq!(resolve("package://ada/.ssh/id"), Err(MissKind::Outside));
-    assert_eq!(resolve("package://home/ada/.ssh/id"), Err(MissKind::Outside));
+    assert_eq!(resolve("package://ada/.ssh/id"), Err(ResolveErrorKind::Outside));
+    assert_eq!(resolve("package://home/ada/.ssh/id"), Err(ResolveErrorKind::Outside));
 }
 
 #[test]
@@ -329,7 +329,7 @@ fn a_package_found_by_name_may_be_named_by_path_afterwards() {
         .with_link("/w/src/arm", "/opt/x/arm");
     let resolver = Resolver::new(&host, &[]);
     let mesh = || resolver.resolve("/opt/x/arm/a.stl", Path::new(FROM)).map_err(|miss| miss.kind);
-    assert_eq!(mesh(), Err(MissKind::Outside));
+    assert_eq!(mesh(), Err(ResolveErrorKind::Outside));
     assert_eq!(resolver.find_package("arm", Path::new(FROM)), Ok("/opt/x/arm".into()));
     assert_eq!(mesh(), Ok("/opt/x/arm/a.stl".into()));
 }
@@ -361,7 +361,7 @@ fn the_newest_description_that_is_read() {
     let host =
         MemoryHost::new().with_file("/etc/passwd", "").with_file("/m/c/model.config", climbing);
     let found = Resolver::new(&host, &[]).model_file(Path::new("/m/c"));
-    assert_eq!(found.map_err(|miss| miss.kind), Err(MissKind::Outside));
+    assert_eq!(found.map_err(|miss| miss.kind), Err(ResolveErrorKind::Outside));
 }
 
 /// Counts the questions.
@@ -375,10 +375,10 @@ impl Counting<'_> {
 }
 
 impl Host for Counting<'_> {
-    fn read(&self, path: &Path) -> Result<Vec<u8>, ReadError> {
+    fn read(&self, path: &Path) -> Result<Vec<u8>, FileReadError> {
         self.count().read(path)
     }
-    fn kind(&self, path: &Path) -> Option<Kind> {
+    fn kind(&self, path: &Path) -> Option<EntryKind> {
         self.count().kind(path)
     }
     fn list(&self, folder: &Path) -> Vec<String> {

@@ -2,9 +2,9 @@
 
 use periplus_diagnostics::{Diagnostic, Span};
 
-use super::Dialect;
+use super::InterfaceDialect;
 use crate::name::{is_constant_name, is_field_name, is_package_name, is_type_name};
-use crate::{Constant, Element, Field, Scalar, Shape, Type, TypeName, literal};
+use crate::{ArrayShape, Constant, ElementType, Field, Scalar, Type, TypeName, literal};
 
 pub(super) enum Read {
     Field(Field),
@@ -22,7 +22,7 @@ impl Read {
 
 pub(super) struct Context<'a> {
     pub(super) package: &'a str,
-    pub(super) dialect: Dialect,
+    pub(super) dialect: InterfaceDialect,
     pub(super) span: Span,
 }
 
@@ -69,7 +69,7 @@ pub(super) fn read(code: &str, context: &Context) -> Result<(Read, Span), Box<Di
         return Ok((Read::Constant(constant), place(name)));
     }
     // ROS 1 allows any case in names.
-    let lenient = context.dialect == Dialect::Ros1;
+    let lenient = context.dialect == InterfaceDialect::Ros1;
     let plain = |c: char| c.is_ascii_alphanumeric() || c == '_';
     if !(is_field_name(name) || lenient && name.chars().all(plain)) {
         let wrong = format!("`{name}` cannot be the name of a field");
@@ -81,7 +81,7 @@ pub(super) fn read(code: &str, context: &Context) -> Result<(Read, Span), Box<Di
     }
     let default = match rest {
         "" => None,
-        rest if context.dialect == Dialect::Ros1 => {
+        rest if context.dialect == InterfaceDialect::Ros1 => {
             let wrong = format!("`{rest}` follows the field, and ROS 1 has no defaults");
             return Err(Box::new(Diagnostic::error("bad-value", wrong).at(place(rest))));
         }
@@ -106,7 +106,7 @@ fn constant(
 ) -> Result<Constant, Box<Diagnostic>> {
     let place = |word: &str| place(code, word, context.span);
     // ROS 1 allows any case in constants.
-    let lenient = context.dialect == Dialect::Ros1;
+    let lenient = context.dialect == InterfaceDialect::Ros1;
     let plain = |c: char| c.is_ascii_alphanumeric() || c == '_';
     if !(is_constant_name(name) || lenient && name.chars().all(plain)) {
         let wrong = format!("`{name}` cannot be the name of a constant");
@@ -116,13 +116,13 @@ fn constant(
                 .help("upper case letters, digits and single underscores, a letter first"),
         ));
     }
-    let simple = matches!(r#type.element, Element::Scalar(_) | Element::String(None));
-    if !simple || r#type.shape != Shape::One {
+    let simple = matches!(r#type.element, ElementType::Scalar(_) | ElementType::String(None));
+    if !simple || r#type.shape != ArrayShape::One {
         let wrong = format!("the constant `{name}` is neither a number nor a plain string");
         return Err(Box::new(Diagnostic::error("bad-constant", wrong).at(place(name))));
     }
     let written = written.trim();
-    if written.is_empty() && r#type.element != Element::String(None) {
+    if written.is_empty() && r#type.element != ElementType::String(None) {
         let wrong = format!("the constant `{name}` has no value");
         return Err(Box::new(Diagnostic::error("bad-value", wrong).at(place(name))));
     }
@@ -167,7 +167,7 @@ fn wrong(code: &'static str, message: String, help: &'static str) -> Wrong {
 
 fn read_type(word: &str, context: &Context) -> Result<Type, Wrong> {
     let (element, shape) = match word.find('[') {
-        None => (word, Shape::One),
+        None => (word, ArrayShape::One),
         Some(open) => {
             let bad = || {
                 let message = format!("`{}` is not the size of an array", &word[open..]);
@@ -175,11 +175,11 @@ fn read_type(word: &str, context: &Context) -> Result<Type, Wrong> {
             };
             let size = word[open + 1..].strip_suffix(']').ok_or_else(bad)?;
             let shape = if size.is_empty() {
-                Shape::Unbounded
+                ArrayShape::Unbounded
             } else if let Some(bound) = size.strip_prefix("<=") {
-                Shape::Bounded(positive(bound).ok_or_else(bad)?)
+                ArrayShape::Bounded(positive(bound).ok_or_else(bad)?)
             } else {
-                Shape::Fixed(positive(size).ok_or_else(bad)?)
+                ArrayShape::Fixed(positive(size).ok_or_else(bad)?)
             };
             (&word[..open], shape)
         }
@@ -187,17 +187,17 @@ fn read_type(word: &str, context: &Context) -> Result<Type, Wrong> {
     Ok(Type { element: read_element(element, context)?, shape })
 }
 
-fn read_element(word: &str, context: &Context) -> Result<Element, Wrong> {
-    let ros1 = context.dialect == Dialect::Ros1;
+fn read_element(word: &str, context: &Context) -> Result<ElementType, Wrong> {
+    let ros1 = context.dialect == InterfaceDialect::Ros1;
     match word {
         "time" if ros1 => return Ok(nested("builtin_interfaces", "Time")),
         "duration" if ros1 => return Ok(nested("builtin_interfaces", "Duration")),
         "Header" => return Ok(nested("std_msgs", "Header")),
-        "byte" if ros1 => return Ok(Element::Scalar(Scalar::I8)),
+        "byte" if ros1 => return Ok(ElementType::Scalar(Scalar::I8)),
         _ => {}
     }
     if let Some(scalar) = Scalar::from_name(word) {
-        return Ok(Element::Scalar(scalar));
+        return Ok(ElementType::Scalar(scalar));
     }
     let (stem, bound) = match word.split_once("<=") {
         None => (word, None),
@@ -210,8 +210,8 @@ fn read_element(word: &str, context: &Context) -> Result<Element, Wrong> {
         }
     };
     match (stem, bound) {
-        ("string", bound) => return Ok(Element::String(bound)),
-        ("wstring", bound) => return Ok(Element::WString(bound)),
+        ("string", bound) => return Ok(ElementType::String(bound)),
+        ("wstring", bound) => return Ok(ElementType::WString(bound)),
         (stem, Some(_)) if Scalar::from_name(stem).is_none() && !stem.contains('/') => {
             return Err(unknown(stem));
         }
@@ -233,8 +233,8 @@ fn read_element(word: &str, context: &Context) -> Result<Element, Wrong> {
     }
 }
 
-fn nested(package: &str, name: &str) -> Element {
-    Element::Nested(TypeName::message(package, name))
+fn nested(package: &str, name: &str) -> ElementType {
+    ElementType::Nested(TypeName::message(package, name))
 }
 
 fn unknown(word: &str) -> Wrong {

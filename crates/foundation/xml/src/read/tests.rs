@@ -1,5 +1,5 @@
 use expect_test::{Expect, expect};
-use periplus_diagnostics::{Severity, Style, render};
+use periplus_diagnostics::{RenderStyle, Severity, render};
 use proptest::prelude::*;
 
 use super::*;
@@ -10,7 +10,7 @@ fn read(text: &str) -> (Option<Document>, String) {
     let file = sources.add("file.xml", text);
     let mut diagnostics = Diagnostics::new();
     let document = parse(file, &sources, &mut diagnostics);
-    let said = diagnostics.iter().map(|d| render(d, &sources, Style::Plain)).collect();
+    let said = diagnostics.iter().map(|d| render(d, &sources, RenderStyle::Plain)).collect();
     (document, said)
 }
 

@@ -129,18 +129,22 @@ fn make(
     let mut fields = Vec::new();
     for field in &registry.get(name)?.fields {
         let element = match &field.r#type.element {
-            interfaces::Element::Scalar(scalar) => {
+            interfaces::ElementType::Scalar(scalar) => {
                 Element::Number { kind: kind(*scalar), is_byte: *scalar == Scalar::Byte }
             }
-            interfaces::Element::String(limit) => Element::Text(limit.map(narrow)),
-            interfaces::Element::WString(limit) => Element::WideText(limit.map(narrow)),
-            interfaces::Element::Nested(nested) => Element::Struct(make(registry, nested, made)?),
+            interfaces::ElementType::String(limit) => Element::Text(limit.map(narrow)),
+            interfaces::ElementType::WString(limit) => Element::WideText(limit.map(narrow)),
+            interfaces::ElementType::Nested(nested) => {
+                Element::Struct(make(registry, nested, made)?)
+            }
         };
         let shape = match field.r#type.shape {
-            interfaces::Shape::One => Shape::One,
-            interfaces::Shape::Fixed(size) => Shape::List(Count::Fixed(narrow(size) as usize)),
-            interfaces::Shape::Bounded(most) => Shape::List(Count::AtMost(narrow(most) as usize)),
-            interfaces::Shape::Unbounded => Shape::List(Count::Any),
+            interfaces::ArrayShape::One => Shape::One,
+            interfaces::ArrayShape::Fixed(size) => Shape::List(Count::Fixed(narrow(size) as usize)),
+            interfaces::ArrayShape::Bounded(most) => {
+                Shape::List(Count::AtMost(narrow(most) as usize))
+            }
+            interfaces::ArrayShape::Unbounded => Shape::List(Count::Any),
         };
         let default = field.default.as_ref().map(|default| value(default, &element));
         fields.push(Field { name: field.name.clone(), element, shape, default });

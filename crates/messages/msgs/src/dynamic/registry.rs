@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::sync::{Arc, LazyLock, OnceLock};
 
 use periplus_diagnostics::{Diagnostics, SourceMap};
-use periplus_rosidl::{Dialect, Registry, TypeName, parse};
+use periplus_rosidl::{InterfaceDialect, Registry, TypeName, parse};
 
 use super::layout::{self, Layout};
 
@@ -48,7 +48,7 @@ impl TypeRegistry {
                 let Some(name) = TypeName::read(name) else { continue };
                 let mut sources = SourceMap::new();
                 let file = sources.add(name.to_string(), text);
-                let text = parse(&name, file, &sources, Dialect::Ros1, &mut diagnostics);
+                let text = parse(&name, file, &sources, InterfaceDialect::Ros1, &mut diagnostics);
                 text.into_iter().for_each(|interface| registry.add(interface));
             }
             let types = TypeRegistry::new(registry, &mut diagnostics);
@@ -129,7 +129,7 @@ fn builtin_texts(diagnostics: &mut Diagnostics) -> Registry {
         let stem = path.rsplit_once('.').map_or(*path, |(stem, _)| stem);
         let Some(name) = TypeName::read(stem) else { continue };
         let file = sources.add(*path, *text);
-        if let Some(interface) = parse(&name, file, &sources, Dialect::Ros2, diagnostics) {
+        if let Some(interface) = parse(&name, file, &sources, InterfaceDialect::Ros2, diagnostics) {
             registry.add(interface);
         }
     }

@@ -1,7 +1,7 @@
 //! Parser for `metadata.yaml` of any version.
 
 use periplus_diagnostics::{Diagnostic, Diagnostics, FileId, SourceMap};
-use periplus_yaml::Node;
+use periplus_yaml::YamlNode;
 
 use super::{BagInfo, FileInfo, TopicInfo};
 use crate::qos;
@@ -35,7 +35,7 @@ pub fn read_metadata(
         }
     };
     let bag = node.as_ref().and_then(|node| node.get("rosbag2_bagfile_information"));
-    let paths = bag.and_then(|bag| bag.get("relative_file_paths")).and_then(Node::list);
+    let paths = bag.and_then(|bag| bag.get("relative_file_paths")).and_then(YamlNode::list);
     let (Some(bag), Some(paths)) = (bag, paths) else {
         let wrong = "this is not the metadata of a bag: it lists no files";
         let at = bag.map_or_else(|| sources.whole(file), |bag| bag.span);
@@ -43,19 +43,19 @@ pub fn read_metadata(
         diagnostics.push(Diagnostic::error("bad-metadata", wrong).at(at).help(help));
         return None;
     };
-    let texts = |list: &[Node]| -> Vec<String> {
-        list.iter().filter_map(Node::text).map(str::to_owned).collect()
+    let texts = |list: &[YamlNode]| -> Vec<String> {
+        list.iter().filter_map(YamlNode::text).map(str::to_owned).collect()
     };
-    let about = bag.get("files").and_then(Node::list).unwrap_or_default();
+    let about = bag.get("files").and_then(YamlNode::list).unwrap_or_default();
     let files = texts(paths).into_iter().map(|path| file_info(path, about)).collect();
-    let topics = bag.get("topics_with_message_count").and_then(Node::list).unwrap_or_default();
+    let topics = bag.get("topics_with_message_count").and_then(YamlNode::list).unwrap_or_default();
     let info = BagInfo {
         topics: topics.iter().map(topic_info).collect(),
         files,
         ros_distro: text(bag, "ros_distro"),
     };
     Some(Metadata {
-        version: bag.get("version").and_then(Node::integer).unwrap_or(0),
+        version: bag.get("version").and_then(YamlNode::integer).unwrap_or(0),
         storage: text(bag, "storage_identifier"),
         compression: text(bag, "compression_format"),
         compression_mode: text(bag, "compression_mode"),
@@ -63,16 +63,16 @@ pub fn read_metadata(
     })
 }
 
-fn text(node: &Node, name: &str) -> String {
-    node.get(name).and_then(Node::text).unwrap_or_default().to_owned()
+fn text(node: &YamlNode, name: &str) -> String {
+    node.get(name).and_then(YamlNode::text).unwrap_or_default().to_owned()
 }
 
-fn count(node: &Node) -> u64 {
-    let count = node.get("message_count").and_then(Node::integer).unwrap_or(0);
+fn count(node: &YamlNode) -> u64 {
+    let count = node.get("message_count").and_then(YamlNode::integer).unwrap_or(0);
     u64::try_from(count).unwrap_or(0)
 }
 
-fn file_info(path: String, about: &[Node]) -> FileInfo {
+fn file_info(path: String, about: &[YamlNode]) -> FileInfo {
     let node = about.iter().find(|node| text(node, "path") == path);
     let span_ns = node.filter(|node| count(node) > 0).and_then(|node| {
         let start_ns = node.get("starting_time")?.get("nanoseconds_since_epoch")?.integer()?;
@@ -82,11 +82,11 @@ fn file_info(path: String, about: &[Node]) -> FileInfo {
     FileInfo { path, span_ns, messages: node.map_or(0, count) }
 }
 
-fn topic_info(node: &Node) -> TopicInfo {
+fn topic_info(node: &YamlNode) -> TopicInfo {
     let about = node.get("topic_metadata").unwrap_or(node);
     // A list since version 9, a string with YAML inside before.
     let profiles = about.get("offered_qos_profiles");
-    let qos = match profiles.and_then(Node::text) {
+    let qos = match profiles.and_then(YamlNode::text) {
         Some(text) => qos::from_text(text),
         None => profiles.map(qos::from_yaml).unwrap_or_default(),
     };

@@ -89,7 +89,7 @@ impl<A: Action> ActionClient<A> {
     #[must_use]
     pub fn send(&self, goal: A::Goal) -> SentGoal<A> {
         let id = self.ids.next();
-        let stage = Stage::Sent(self.send.call(A::send_goal(id.into(), goal)));
+        let stage = Stage::Sent(self.send.call(A::send_goal_request(id.into(), goal)));
         SentGoal { id, result: self.result.clone(), stage: Mutex::new(stage) }
     }
 
@@ -100,7 +100,7 @@ impl<A: Action> ActionClient<A> {
         feedback_messages
             .iter()
             .map(|message| {
-                let (id, feedback) = A::told_feedback(message);
+                let (id, feedback) = A::feedback_of_message(message);
                 (GoalId::from(id), feedback.clone())
             })
             .collect()
@@ -182,8 +182,8 @@ impl<A: Action> SentGoal<A> {
         let mut stage = lock(&self.stage);
         let next = match &*stage {
             Stage::Sent(pending) => pending.take().map(|answer| match answer {
-                Ok(answer) if A::accepted_goal(&answer).0 => {
-                    Stage::Accepted(self.result.call(A::get_result(self.id.into())))
+                Ok(answer) if A::acceptance_of_response(&answer).0 => {
+                    Stage::Accepted(self.result.call(A::get_result_request(self.id.into())))
                 }
                 Ok(_) => Stage::Done(GoalProgress::Rejected),
                 Err(error) => Stage::Done(GoalProgress::Failed(error)),
@@ -191,7 +191,7 @@ impl<A: Action> SentGoal<A> {
             Stage::Accepted(pending) => pending.take().map(|answer| {
                 Stage::Done(match answer {
                     Ok(answer) => {
-                        let (status, result) = A::given_result(&answer);
+                        let (status, result) = A::result_of_response(&answer);
                         let state = GoalState::of_number(status);
                         GoalProgress::Over(state, Arc::new(result.clone()))
                     }

@@ -153,7 +153,8 @@ fn ends<A: Action>(
             answer(reply, cancel.cancel(&question));
         })?,
         end::<A::GetResult>(node, &names.end("get_result"), move |question, reply| {
-            let ended = lock(&result.table).ask(GoalId::from(A::asked_result(&question)), reply);
+            let ended =
+                lock(&result.table).ask(GoalId::from(A::goal_id_of_request(&question)), reply);
             send_result::<A>(ended);
         })?,
     ];
@@ -184,7 +185,7 @@ fn answer<T: Message>(reply: Reply, response: T) {
 fn send_result<A: Action>(ended: Option<Ended<A>>) {
     let Some((state, result, waiting)) = ended else { return };
     for reply in waiting {
-        answer(reply, A::give_result(state.number(), (*result).clone()));
+        answer(reply, A::get_result_response(state.number(), (*result).clone()));
     }
 }
 
@@ -194,7 +195,7 @@ impl<A: Action> Core<A> {
     }
 
     fn asked(self: &Arc<Self>, question: &Arc<<A::SendGoal as Service>::Request>, reply: Reply) {
-        let (id, goal) = A::sent_goal(question);
+        let (id, goal) = A::goal_of_request(question);
         let id = GoalId::from(id);
         let goal = Arc::new(goal.clone());
         let new = NewGoal { core: self.clone(), id, goal, reply: Some(reply) };
@@ -306,7 +307,7 @@ impl<A: Action> NewGoal<A> {
         table.accept(self.id, accepted_ns);
         drop(table);
         if let Some(reply) = self.reply.take() {
-            answer(reply, A::accept_goal(true, Time::of_ns(accepted_ns)));
+            answer(reply, A::send_goal_response(true, Time::of_ns(accepted_ns)));
         }
         self.core.publish_states();
         Some(GoalHandle { core: self.core.clone(), id: self.id, goal: self.goal.clone() })
@@ -316,7 +317,7 @@ impl<A: Action> NewGoal<A> {
 impl<A: Action> Drop for NewGoal<A> {
     fn drop(&mut self) {
         if let Some(reply) = self.reply.take() {
-            answer(reply, A::accept_goal(false, Time::of_ns(self.core.now_ns())));
+            answer(reply, A::send_goal_response(false, Time::of_ns(self.core.now_ns())));
         }
     }
 }
@@ -365,7 +366,7 @@ impl<A: Action> GoalHandle<A> {
     /// Publishes feedback.
     pub fn feedback(&self, feedback: A::Feedback) {
         if self.core.feedback.is_heard() {
-            self.core.feedback.publish(A::tell_feedback(self.id.into(), feedback));
+            self.core.feedback.publish(A::feedback_message(self.id.into(), feedback));
         }
     }
 

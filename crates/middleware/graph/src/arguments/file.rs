@@ -8,7 +8,7 @@ use std::fmt::Write as _;
 
 use periplus_diagnostics::{Diagnostic, Diagnostics, FileId, SourceMap};
 use periplus_msgs::rcl_interfaces::ParameterValue;
-use periplus_yaml::Node;
+use periplus_yaml::YamlNode;
 
 use super::scalar::{self, parameter_to_yaml};
 use super::{Arguments, Pattern};
@@ -32,7 +32,7 @@ pub(super) fn read(
     }
 }
 
-fn nodes(arguments: &mut Arguments, path: &str, at: &Node, diagnostics: &mut Diagnostics) {
+fn nodes(arguments: &mut Arguments, path: &str, at: &YamlNode, diagnostics: &mut Diagnostics) {
     let Some(entries) = at.entries() else {
         let message = format!("{} where a node name is expected", at.kind());
         let wrong = Diagnostic::error("bad-parameter-file", message).at(at.span);
@@ -72,7 +72,7 @@ fn group(
     arguments: &mut Arguments,
     pattern: &Pattern,
     path: &str,
-    at: &Node,
+    at: &YamlNode,
     diagnostics: &mut Diagnostics,
 ) {
     let Some(entries) = at.entries() else {

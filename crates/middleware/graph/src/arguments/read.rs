@@ -234,7 +234,7 @@ fn unknown(word: &str) -> Diagnostic {
 #[cfg(test)]
 mod tests {
     use expect_test::{Expect, expect};
-    use periplus_diagnostics::{Style, render};
+    use periplus_diagnostics::{RenderStyle, render};
 
     use super::*;
     use crate::arguments::parameter_to_yaml;
@@ -266,7 +266,8 @@ demo:
                     _ => Err("does not exist".into()),
                 },
             );
-        let text = diagnostics.iter().map(|one| render(one, &sources, Style::Plain)).collect();
+        let text =
+            diagnostics.iter().map(|one| render(one, &sources, RenderStyle::Plain)).collect();
         (arguments, text)
     }
 

@@ -7,7 +7,7 @@ use std::fmt::Write as _;
 use periplus_diagnostics::{Diagnostic, SourceMap};
 use periplus_geometry::{decode_base64, encode_base64};
 use periplus_msgs::rcl_interfaces::{ParameterType as Type, ParameterValue};
-use periplus_yaml::{Node, Value};
+use periplus_yaml::{YamlNode, YamlValue};
 
 /// Parses a parameter value as written after `-p name:=` or for `ros2 param set`.
 ///
@@ -26,20 +26,20 @@ pub fn parameter_from_yaml(text: &str) -> Result<ParameterValue, String> {
 
 /// Converts the value of a YAML node. The message of the finding is the rest of the sentence "the
 /// value ...".
-pub(super) fn value(node: &Node) -> Result<ParameterValue, Box<Diagnostic>> {
+pub(super) fn value(node: &YamlNode) -> Result<ParameterValue, Box<Diagnostic>> {
     let fail = |message: &str| Box::new(Diagnostic::error("bad-parameter", message).at(node.span));
     match &node.value {
-        Value::Scalar { .. } if node.is_null() => {
+        YamlValue::Scalar { .. } if node.is_null() => {
             Err(fail("is null; write `\"\"` for an empty string"))
         }
-        Value::Scalar { .. } if node.is_binary => {
+        YamlValue::Scalar { .. } if node.is_binary => {
             bytes(node).map(of_bytes).ok_or_else(|| fail(NO_BASE64))
         }
-        Value::Scalar { text, is_plain } => Ok(scalar(text, *is_plain)),
-        Value::List(items) => list(items).map_err(|(at, wrong)| {
+        YamlValue::Scalar { text, is_plain } => Ok(scalar(text, *is_plain)),
+        YamlValue::List(items) => list(items).map_err(|(at, wrong)| {
             Box::new(Diagnostic::error("bad-parameter", wrong).at(at.map_or(node.span, |n| n.span)))
         }),
-        Value::Map(_) => Err(fail("is a mapping; a parameter is one value or a list")),
+        YamlValue::Map(_) => Err(fail("is a mapping; a parameter is one value or a list")),
     }
 }
 
@@ -62,7 +62,7 @@ fn scalar(text: &str, is_plain: bool) -> ParameterValue {
 }
 
 /// Decodes a scalar with the tag `!!binary`, which may span several lines.
-fn bytes(node: &Node) -> Option<Vec<u8>> {
+fn bytes(node: &YamlNode) -> Option<Vec<u8>> {
     let letters: String = node.text()?.split_ascii_whitespace().collect();
     decode_base64(&letters)
 }
@@ -123,7 +123,7 @@ fn number(text: &str) -> Option<f64> {
     text.parse().ok().filter(|_| is_number)
 }
 
-fn list(items: &[Node]) -> Result<ParameterValue, (Option<&Node>, String)> {
+fn list(items: &[YamlNode]) -> Result<ParameterValue, (Option<&YamlNode>, String)> {
     if !items.is_empty() && items.iter().all(|item| item.is_binary) {
         let mut all = Vec::new();
         for item in items {
@@ -133,7 +133,7 @@ fn list(items: &[Node]) -> Result<ParameterValue, (Option<&Node>, String)> {
     }
     let mut all = ParameterValue::default();
     for (index, item) in items.iter().enumerate() {
-        let Value::Scalar { text, is_plain } = &item.value else {
+        let YamlValue::Scalar { text, is_plain } = &item.value else {
             return Err((
                 Some(item),
                 "is a list of lists or mappings; the items must be values".into(),

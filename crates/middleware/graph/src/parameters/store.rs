@@ -6,7 +6,7 @@ use std::sync::Arc;
 use periplus_msgs::rcl_interfaces::{
     Parameter as Named, ParameterDescriptor, ParameterEvent, ParameterType, ParameterValue,
 };
-use periplus_params::{Kind, Value, Values};
+use periplus_params::{ParamType, ParamValue, ParamValues};
 
 use super::convert;
 use crate::common::Common;
@@ -26,7 +26,7 @@ pub(crate) struct Store {
     common: Arc<Common>,
     /// Overrides from arguments, for parameters that may be declared later.
     given: BTreeMap<String, ParameterValue>,
-    values: Option<Values>,
+    values: Option<ParamValues>,
     /// Undeclared parameters, for nodes that allow them.
     free: Option<BTreeMap<String, ParameterValue>>,
     generation: u64,
@@ -49,7 +49,7 @@ impl Store {
         Self { node, common, given, values: None, free, generation: 0, is_managed: false }
     }
 
-    pub(crate) fn values(&self) -> Option<&Values> {
+    pub(crate) fn values(&self) -> Option<&ParamValues> {
         self.values.as_ref()
     }
 
@@ -59,11 +59,12 @@ impl Store {
 
     /// Declares a table and applies the overrides. Returns the reasons for the overrides that are
     /// not valid.
-    pub(crate) fn declare(&mut self, mut values: Values) -> Vec<String> {
+    pub(crate) fn declare(&mut self, mut values: ParamValues) -> Vec<String> {
         let mut unfit = Vec::new();
         for (name, value) in &self.given {
             let table = values.table();
-            let Some(parameter) = table.find(name).filter(|one| one.kind != Kind::Group) else {
+            let Some(parameter) = table.find(name).filter(|one| one.kind != ParamType::Group)
+            else {
                 continue;
             };
             match convert::from_message(value).and_then(|value| value.fit(parameter)) {
@@ -105,18 +106,18 @@ impl Store {
                 Some(given) => given.integer_value as f64,
                 None => BOND_PERIOD_S,
             };
-            convert::to_message(Value::Number(period_s))
+            convert::to_message(ParamValue::Number(period_s))
         })
     }
 
     fn table(&self) -> impl Iterator<Item = &'static str> + use<> {
         let parameters = self.values.as_ref().map_or(&[][..], |values| values.table().parameters);
-        parameters.iter().filter(|one| one.kind != Kind::Group).map(|one| one.name)
+        parameters.iter().filter(|one| one.kind != ParamType::Group).map(|one| one.name)
     }
 
     pub(crate) fn has(&self, name: &str) -> bool {
-        let is_declared = |values: &Values| {
-            values.table().find(name).is_some_and(|parameter| parameter.kind != Kind::Group)
+        let is_declared = |values: &ParamValues| {
+            values.table().find(name).is_some_and(|parameter| parameter.kind != ParamType::Group)
         };
         name == USE_SIM_TIME
             || self.is_managed && name == BOND_PERIOD
@@ -140,7 +141,7 @@ impl Store {
 
     pub(crate) fn get(&self, name: &str) -> Option<ParameterValue> {
         if name == USE_SIM_TIME {
-            return Some(convert::to_message(Value::Bool(self.common.clock.is_simulated())));
+            return Some(convert::to_message(ParamValue::Bool(self.common.clock.is_simulated())));
         }
         let declared = self.values.as_ref().and_then(|values| {
             let parameter = values.table().find(name)?;
@@ -167,7 +168,7 @@ impl Store {
 
     /// Returns the values of the table with all of these set. The error is for the caller of the
     /// service.
-    pub(super) fn propose(&self, set: &[Named]) -> Result<Option<Values>, String> {
+    pub(super) fn propose(&self, set: &[Named]) -> Result<Option<ParamValues>, String> {
         let mut values = self.values.clone();
         for Named { name, value } in set {
             if name == USE_SIM_TIME {
@@ -176,7 +177,7 @@ impl Store {
             }
             let table = self.values.as_ref().map(|values| values.table());
             let parameter = table.and_then(|table| table.find(name));
-            match (parameter.filter(|one| one.kind != Kind::Group), &mut values) {
+            match (parameter.filter(|one| one.kind != ParamType::Group), &mut values) {
                 (Some(parameter), Some(values)) => {
                     let value = convert::from_message(value).and_then(|value| value.fit(parameter));
                     let value = value.map_err(|reason| format!("`{name}`: the value {reason}"))?;
@@ -215,8 +216,8 @@ impl Store {
     fn check_sim_time(&self, value: &ParameterValue) -> Result<(), String> {
         let is_simulated = self.common.clock.is_simulated();
         match convert::from_message(value) {
-            Ok(Value::Bool(set)) if set == is_simulated => return Ok(()),
-            Ok(Value::Bool(_)) => {}
+            Ok(ParamValue::Bool(set)) if set == is_simulated => return Ok(()),
+            Ok(ParamValue::Bool(_)) => {}
             _ => return Err(format!("`{USE_SIM_TIME}`: the value is neither true nor false")),
         }
         let time = if is_simulated { "simulated time" } else { "system time" };
@@ -224,7 +225,7 @@ impl Store {
     }
 
     /// Stores these values. Returns the parameter event to publish.
-    pub(super) fn accept(&mut self, values: Option<Values>, set: &[Named]) -> ParameterEvent {
+    pub(super) fn accept(&mut self, values: Option<ParamValues>, set: &[Named]) -> ParameterEvent {
         let mut event = ParameterEvent::default();
         let had: Vec<bool> = set.iter().map(|one| self.has(&one.name)).collect();
         self.values = values;

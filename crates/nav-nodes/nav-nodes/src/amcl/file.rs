@@ -2,8 +2,8 @@
 
 use periplus_diagnostics::{Diagnostics, Origin};
 use periplus_localization::{AMCL, Settings};
-use periplus_params::{Given, Values};
-use periplus_yaml::{Node, Value};
+use periplus_params::{Given, ParamValues};
+use periplus_yaml::{YamlNode, YamlValue};
 
 /// Namespaces around a node nest no deeper.
 const DEEPEST: usize = 4;
@@ -13,11 +13,11 @@ const DEEPEST: usize = 4;
 /// the default is used.
 #[must_use]
 pub fn read(
-    file: Option<&Node>,
+    file: Option<&YamlNode>,
     node: &str,
     words: &[(String, String)],
     diagnostics: &mut Diagnostics,
-) -> Values {
+) -> ParamValues {
     let mut sections = Vec::new();
     if let Some(file) = file {
         collect(file, node, 0, &mut sections);
@@ -25,7 +25,7 @@ pub fn read(
     if let Some(file) = file
         && sections.is_empty()
     {
-        let is_of_others = |(_, value): &(Node, Node)| value.entries().is_some();
+        let is_of_others = |(_, value): &(YamlNode, YamlNode)| value.entries().is_some();
         let is_plain = !file.entries().unwrap_or_default().iter().all(is_of_others);
         sections.extend(file.get(node).or(is_plain.then_some(file)));
     }
@@ -60,7 +60,7 @@ pub fn read(
     Settings::read(given, diagnostics).0
 }
 
-fn collect<'a>(at: &'a Node, node: &str, depth: usize, found: &mut Vec<&'a Node>) {
+fn collect<'a>(at: &'a YamlNode, node: &str, depth: usize, found: &mut Vec<&'a YamlNode>) {
     for (key, value) in at.entries().filter(|_| depth < DEEPEST).unwrap_or_default() {
         let Some(key) = key.text() else { continue };
         let name = key.trim_start_matches('/').rsplit('/').next().unwrap_or(key);
@@ -80,17 +80,19 @@ struct Flat {
 }
 
 /// Names with dots. A list is no value of any parameter here; it is told as its first one would be.
-fn flatten(at: &Node, prefix: &str, flat: &mut Vec<Flat>) {
+fn flatten(at: &YamlNode, prefix: &str, flat: &mut Vec<Flat>) {
     for (key, value) in at.entries().unwrap_or_default() {
         let Some(last) = key.text() else { continue };
         let name = if prefix.is_empty() { last.to_owned() } else { format!("{prefix}.{last}") };
         let text = match &value.value {
-            Value::Map(_) => {
+            YamlValue::Map(_) => {
                 flatten(value, &name, flat);
                 continue;
             }
-            Value::Scalar { text, .. } => text.clone(),
-            Value::List(list) => list.first().and_then(Node::text).unwrap_or_default().to_owned(),
+            YamlValue::Scalar { text, .. } => text.clone(),
+            YamlValue::List(list) => {
+                list.first().and_then(YamlNode::text).unwrap_or_default().to_owned()
+            }
         };
         flat.push(Flat { name, text, name_origin: key.span.into(), origin: value.span.into() });
     }
@@ -102,7 +104,7 @@ mod tests {
 
     use super::*;
 
-    fn values(text: &str) -> (Values, Vec<&'static str>) {
+    fn values(text: &str) -> (ParamValues, Vec<&'static str>) {
         let mut sources = SourceMap::new();
         let file = sources.add("params.yaml", text);
         let tree = periplus_yaml::parse(file, &sources).ok().flatten();

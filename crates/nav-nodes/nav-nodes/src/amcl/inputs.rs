@@ -7,7 +7,7 @@ use periplus_diagnostics::Diagnostic;
 use periplus_graph::{Client, GraphError, Mailbox, Node, Pending, Qos};
 use periplus_msgs::nav_msgs::{GetMap, GetMapRequest, OccupancyGrid};
 use periplus_msgs::sensor_msgs::LaserScan;
-use periplus_params::Values;
+use periplus_params::ParamValues;
 use periplus_tf_ros::{Frames, Places, Robot, places};
 
 /// A scan whose transforms do not come is dropped after so long \[ns\].
@@ -64,7 +64,7 @@ pub(crate) struct Placed {
 }
 
 impl Inputs {
-    pub(crate) fn new(node: &Node, values: &Values) -> Result<Self, GraphError> {
+    pub(crate) fn new(node: &Node, values: &ParamValues) -> Result<Self, GraphError> {
         let text = |name: &str| values.text(name).unwrap_or_default();
         let uses_topic = values.flag("use_map_topic").unwrap_or(true);
         let client = (!uses_topic).then(|| node.client::<GetMap>("static_map")).transpose()?;

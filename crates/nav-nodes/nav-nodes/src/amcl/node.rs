@@ -13,7 +13,7 @@ use periplus_maps::from_message;
 use periplus_msgs::geometry_msgs::PoseWithCovarianceStamped;
 use periplus_msgs::nav_msgs::OccupancyGrid;
 use periplus_msgs::tf2_msgs::TFMessage;
-use periplus_params::Values;
+use periplus_params::ParamValues;
 use periplus_tf::Kind;
 use periplus_tf_ros::{Frames, Told, plain};
 
@@ -40,7 +40,7 @@ pub struct AmclNode {
 }
 
 pub(crate) struct State {
-    values: Values,
+    values: ParamValues,
     settings: Settings,
     files: Arc<dyn Files>,
     pub(crate) amcl: Option<Amcl>,
@@ -65,7 +65,11 @@ impl AmclNode {
     ///
     /// # Errors
     /// When a topic or service of that name has another type.
-    pub fn new(graph: &Graph, values: Values, files: Arc<dyn Files>) -> Result<Self, GraphError> {
+    pub fn new(
+        graph: &Graph,
+        values: ParamValues,
+        files: Arc<dyn Files>,
+    ) -> Result<Self, GraphError> {
         Self::at(graph.node(NodeSettings::new("amcl"))?, values, files)
     }
 
@@ -73,7 +77,7 @@ impl AmclNode {
     ///
     /// # Errors
     /// When a topic or service of that name has another type.
-    pub fn at(node: Node, values: Values, files: Arc<dyn Files>) -> Result<Self, GraphError> {
+    pub fn at(node: Node, values: ParamValues, files: Arc<dyn Files>) -> Result<Self, GraphError> {
         let settings = Settings::of(&values);
         let state = State {
             values: values.clone(),
@@ -467,7 +471,7 @@ impl State {
     }
 
     /// Takes other parameters while it runs.
-    fn change(&mut self, values: &Values, node: &Node) -> Result<(), String> {
+    fn change(&mut self, values: &ParamValues, node: &Node) -> Result<(), String> {
         let findings = Settings::conflicts(values);
         if let Some(impossible) = findings.iter().find(|it| it.code == "more-least-than-most") {
             return Err(impossible.message.clone());

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use periplus_geometry::Pose2;
 use periplus_localization::{Covariance2, SavedPose};
-use periplus_params::Values;
+use periplus_params::ParamValues;
 
 use crate::Files;
 
@@ -13,7 +13,7 @@ const SAVED: (f64, f64) = (0.5, 0.26);
 
 /// Where the pose is saved: what the parameter says, otherwise `amcl_saved_pose` in the folder for
 /// temporary files, where Nav2 has it. None when nothing asks for it.
-pub(crate) fn path(values: &Values, files: &dyn Files) -> Option<PathBuf> {
+pub(crate) fn path(values: &ParamValues, files: &dyn Files) -> Option<PathBuf> {
     let given = values.text("saved_pose_filepath").unwrap_or_default();
     if !given.is_empty() {
         return Some(PathBuf::from(given));
@@ -26,7 +26,7 @@ pub(crate) fn path(values: &Values, files: &dyn Files) -> Option<PathBuf> {
 
 /// The saved pose, if there is one; in words why it cannot be used.
 pub(crate) fn read(
-    values: &Values,
+    values: &ParamValues,
     files: &dyn Files,
     global_frame: &str,
 ) -> Result<Option<(Pose2, Covariance2)>, String> {
@@ -49,7 +49,7 @@ pub(crate) fn read(
 
 /// Saves a pose; in words why it cannot be.
 pub(crate) fn write(
-    values: &Values,
+    values: &ParamValues,
     files: &dyn Files,
     frame: &str,
     pose: Pose2,

@@ -7,7 +7,7 @@ use periplus_graph::{
     Actor, Graph, GraphError, Level, Lifecycle, Mailbox, Node, NodeSettings, Qos, Step, StepOutcome,
 };
 use periplus_msgs::geometry_msgs;
-use periplus_params::Values;
+use periplus_params::ParamValues;
 
 use crate::costmap_2d::frames::Listener;
 use crate::costmap_2d::health::{EVERY_NS, Health, Patient};
@@ -340,7 +340,7 @@ impl State {
     }
 
     /// Takes other parameters while it runs.
-    fn change(&mut self, all: &Values) -> Result<(), String> {
+    fn change(&mut self, all: &ParamValues) -> Result<(), String> {
         let node = split(all, "", &self.config.node);
         let tf = &self.tf;
         let frames = |target: &str, source: &str| Some(tf.at(target, source, 0).ok()?.0);
@@ -358,8 +358,8 @@ impl State {
     }
 
     /// Puts parameters into the configuration.
-    fn adopt(&mut self, all: &Values) {
-        fn layers(list: &mut [LayerConfig], all: &Values) {
+    fn adopt(&mut self, all: &ParamValues) {
+        fn layers(list: &mut [LayerConfig], all: &ParamValues) {
             for layer in list {
                 layer.values = split(all, &format!("{}.", layer.name), &layer.values);
                 for source in &mut layer.sources {
@@ -410,7 +410,7 @@ impl State {
 fn change_layer(
     costmap: &mut LayeredCostmap,
     layer: &LayerConfig,
-    all: &Values,
+    all: &ParamValues,
 ) -> Result<(), String> {
     if let Some(running) = costmap.find_mut(&layer.name)
         && let Some(usual) = running.values().cloned()
@@ -434,7 +434,7 @@ fn change_layer(
 }
 
 /// `global_from_base` now.
-fn robot(tf: &Listener, node: &Values, now_ns: i64) -> Result<Pose2, Box<Diagnostic>> {
+fn robot(tf: &Listener, node: &ParamValues, now_ns: i64) -> Result<Pose2, Box<Diagnostic>> {
     let text = |name: &str| node.text(name).unwrap_or_default();
     let (global, base) = (text("global_frame"), text("robot_base_frame"));
     let (pose, time_ns) = tf.at(&global, &base, 0).map_err(|why| {

@@ -4,14 +4,14 @@ use std::sync::Mutex;
 
 use periplus_costmap::{Config, LayerConfig, tables};
 use periplus_diagnostics::Diagnostics;
-use periplus_params::{Parameter, Table, Values};
+use periplus_params::{ParamValues, Parameter, Table};
 
 /// Tables that have been made. A table lives as long as the program, so equal ones are made once.
 static MADE: Mutex<Vec<&'static Table>> = Mutex::new(Vec::new());
 
 /// Parts of the table: what goes before their names, and their values.
-fn parts(config: &Config) -> Vec<(String, &Values)> {
-    fn layers<'a>(list: &'a [LayerConfig], parts: &mut Vec<(String, &'a Values)>) {
+fn parts(config: &Config) -> Vec<(String, &ParamValues)> {
+    fn layers<'a>(list: &'a [LayerConfig], parts: &mut Vec<(String, &'a ParamValues)>) {
         for layer in list {
             parts.push((format!("{}.", layer.name), &layer.values));
             for source in &layer.sources {
@@ -28,7 +28,7 @@ fn parts(config: &Config) -> Vec<(String, &Values)> {
 
 /// All parameters of a costmap under one table, with names such as `obstacle_layer.scan.topic`.
 #[must_use]
-pub fn node_values(config: &Config) -> Values {
+pub fn node_values(config: &Config) -> ParamValues {
     let parts = parts(config);
     let mut parameters: Vec<(String, Parameter)> = Vec::new();
     for (prefix, values) in &parts {
@@ -80,7 +80,7 @@ fn bare(parameter: &Parameter) -> Parameter {
 /// The part of all parameters that belongs to a table; what goes before its names, such as
 /// `inflation_layer.`.
 #[must_use]
-pub fn split(all: &Values, prefix: &str, usual: &Values) -> Values {
+pub fn split(all: &ParamValues, prefix: &str, usual: &ParamValues) -> ParamValues {
     let mut values = usual.clone();
     for parameter in usual.table().parameters {
         let name = format!("{prefix}{}", parameter.name);

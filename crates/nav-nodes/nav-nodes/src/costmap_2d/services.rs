@@ -10,7 +10,7 @@ use periplus_msgs::nav2_msgs::{
     GetCost, GetCostResponse, GetCostmap, GetCostmapResponse, GetCosts, GetCostsResponse,
 };
 use periplus_msgs::std_srvs::{SetBool, SetBoolResponse};
-use periplus_params::Value;
+use periplus_params::ParamValue;
 
 use crate::costmap_2d::messages::{pose2, raw};
 use crate::costmap_2d::node::State;
@@ -83,7 +83,7 @@ impl State {
             let message = "the costmap is not configured".to_owned();
             return SetBoolResponse { success: false, message };
         };
-        values.set("enabled", Value::Bool(is_on));
+        values.set("enabled", ParamValue::Bool(is_on));
         match layer.configure(values) {
             Ok(()) => {
                 let message = if is_on { "Enabled" } else { "Disabled" };

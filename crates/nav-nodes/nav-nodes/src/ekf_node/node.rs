@@ -8,7 +8,7 @@ use periplus_graph::{Actor, GraphError, Level, Node, Qos};
 use periplus_msgs::geometry_msgs::PoseWithCovarianceStamped;
 use periplus_msgs::std_srvs::{Empty, EmptyResponse};
 use periplus_msgs::tf2_msgs::TFMessage;
-use periplus_params::Values;
+use periplus_params::ParamValues;
 use periplus_tf::Kind;
 use periplus_tf_ros::{Frames, Told, plain, transform};
 
@@ -25,7 +25,7 @@ pub struct EkfNode {
 }
 
 pub(crate) struct State {
-    values: Values,
+    values: ParamValues,
     ekf: Ekf,
     intakes: Vec<Intake>,
     /// What keeps each input out.
@@ -44,7 +44,7 @@ impl EkfNode {
     ///
     /// # Errors
     /// When a topic or service of that name has another type.
-    pub fn at(node: Node, settings: Settings, values: Values) -> Result<Self, GraphError> {
+    pub fn at(node: Node, settings: Settings, values: ParamValues) -> Result<Self, GraphError> {
         let flag = |name: &str| values.flag(name).unwrap_or_default();
         if settings.sources.is_empty() {
             let deaf =
@@ -278,7 +278,7 @@ impl State {
         self.refused.clear();
     }
 
-    fn change(&mut self, values: &Values) -> Result<(), String> {
+    fn change(&mut self, values: &ParamValues) -> Result<(), String> {
         let differs = |name: &str| self.values.text(name) != values.text(name);
         if let Some(name) = ["frequency", "publish_acceleration"].into_iter().find(|it| differs(it))
         {

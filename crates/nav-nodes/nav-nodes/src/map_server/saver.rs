@@ -10,7 +10,7 @@ use periplus_graph::{
 use periplus_maps::{Distro, Wish, from_message, render};
 use periplus_msgs::nav_msgs::OccupancyGrid;
 use periplus_msgs::nav2_msgs::{SaveMap, SaveMapRequest, SaveMapResponse};
-use periplus_params::{Table, Values, flag, number};
+use periplus_params::{ParamValues, Table, flag, number};
 
 use crate::Files;
 
@@ -45,7 +45,7 @@ pub struct MapSaver {
 struct State {
     files: Arc<dyn Files>,
     distro: Distro,
-    values: Values,
+    values: ParamValues,
     calls: Option<Calls<SaveMap>>,
     waiting: Vec<Waiting>,
     is_active: bool,

@@ -10,7 +10,7 @@ use periplus_maps::{Distro, Loaded, load, to_message};
 use periplus_msgs::builtin_interfaces::Time;
 use periplus_msgs::nav_msgs::{GetMap, GetMapResponse, MapMetaData, OccupancyGrid};
 use periplus_msgs::nav2_msgs::{LoadMap, LoadMapResponse};
-use periplus_params::{Table, Value, Values, text};
+use periplus_params::{ParamValue, ParamValues, Table, text};
 
 use crate::Files;
 
@@ -52,7 +52,7 @@ impl Default for MapServerSettings {
 
 impl MapServerSettings {
     /// As parameters of [`MAP_SERVER`].
-    fn values(&self) -> Values {
+    fn values(&self) -> ParamValues {
         let mut values = MAP_SERVER.check([], None, &mut Diagnostics::new());
         let texts = [
             ("yaml_filename", &self.yaml_filename),
@@ -60,12 +60,12 @@ impl MapServerSettings {
             ("frame_id", &self.frame_id),
         ];
         for (name, text) in texts {
-            values.set(name, Value::Text(text.clone()));
+            values.set(name, ParamValue::Text(text.clone()));
         }
         values
     }
 
-    fn read(&mut self, values: &Values) {
+    fn read(&mut self, values: &ParamValues) {
         let text = |name: &str, usual: &str| values.text(name).unwrap_or_else(|| usual.to_owned());
         self.yaml_filename = text("yaml_filename", "");
         self.topic_name = text("topic_name", "map");

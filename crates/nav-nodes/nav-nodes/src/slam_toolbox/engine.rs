@@ -2,7 +2,7 @@
 
 use periplus_geometry::Pose2;
 use periplus_grid::OccupancyGrid;
-use periplus_params::Values;
+use periplus_params::ParamValues;
 use periplus_scan_matching::Symmetric3;
 use periplus_slam::{
     Gmapping, GmappingSettings, Localizer, MapSnapshot, Mapper, SessionError, Settings, Slam,
@@ -43,7 +43,7 @@ pub(crate) enum Drawing {
 pub(crate) const SURE: Symmetric3 = Symmetric3::diagonal(0.25, 0.25, 0.07);
 
 /// The settings of the graph for a program of `slam_toolbox`.
-pub(crate) fn settings(program: Program, values: &Values, slices_per_scan: usize) -> Settings {
+pub(crate) fn settings(program: Program, values: &ParamValues, slices_per_scan: usize) -> Settings {
     Settings {
         is_lifelong: program == Program::Lifelong,
         slices_per_scan,
@@ -58,7 +58,7 @@ pub(crate) fn settings(program: Program, values: &Values, slices_per_scan: usize
 const LEAST_SLICES: usize = 4;
 
 /// The settings of the particles for a node, which may run for weeks.
-fn gmapping_settings(values: &Values, slices_per_scan: usize) -> GmappingSettings {
+fn gmapping_settings(values: &ParamValues, slices_per_scan: usize) -> GmappingSettings {
     GmappingSettings {
         slices_per_scan: slices_per_scan.max(LEAST_SLICES),
         keeps_each_pose: false,
@@ -68,7 +68,7 @@ fn gmapping_settings(values: &Values, slices_per_scan: usize) -> GmappingSetting
 
 impl Engine {
     /// An empty map; none for a program that needs a stored one.
-    pub(crate) fn empty(program: Program, values: &Values, slices: usize) -> Option<Self> {
+    pub(crate) fn empty(program: Program, values: &ParamValues, slices: usize) -> Option<Self> {
         match program {
             Program::Localization => None,
             Program::Gmapping => {
@@ -101,7 +101,7 @@ impl Engine {
     }
 
     /// Number of own scans kept in localization mode.
-    pub(crate) fn own_scans(values: &Values) -> usize {
+    pub(crate) fn own_scans(values: &ParamValues) -> usize {
         let asked =
             integer(values, "scan_buffer_size").filter(|_| is_given(values, "scan_buffer_size"));
         asked.and_then(|size| usize::try_from(size).ok()).unwrap_or(OWN_SCANS)

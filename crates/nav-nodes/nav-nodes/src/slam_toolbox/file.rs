@@ -1,9 +1,9 @@
 //! Parameters from files: those of ROS 2 (`slam_toolbox: ros__parameters:`), and those of ROS 1.
 
 use periplus_diagnostics::{Diagnostic, Diagnostics, Origin};
-use periplus_params::{Given, Values};
+use periplus_params::{Given, ParamValues};
 use periplus_slam::{Method, tables};
-use periplus_yaml::{Node, Value};
+use periplus_yaml::{YamlNode, YamlValue};
 
 use crate::slam_toolbox::Program;
 
@@ -58,7 +58,7 @@ pub struct InFile {
 /// `slam_toolbox: ros__parameters:`, below `/**:`, in files of ROS 1 below `slam_gmapping:`, or are the
 /// whole file if there is no such section. Reports if all are for other nodes.
 #[must_use]
-pub fn in_file(file: &Node, wanted: Option<Method>, diagnostics: &mut Diagnostics) -> InFile {
+pub fn in_file(file: &YamlNode, wanted: Option<Method>, diagnostics: &mut Diagnostics) -> InFile {
     let fits = |method: Option<Method>| wanted.is_none() || method.is_none() || method == wanted;
     let names = NODES.into_iter().filter(|(_, method)| fits(*method));
     let mut sections = Sections::default();
@@ -100,10 +100,10 @@ pub fn in_file(file: &Node, wanted: Option<Method>, diagnostics: &mut Diagnostic
 /// parameters, see [`in_file`]. Reports faults, and uses the defaults in their place.
 #[must_use]
 pub fn read(
-    file: &Node,
+    file: &YamlNode,
     wanted: Option<Program>,
     diagnostics: &mut Diagnostics,
-) -> (Program, Values) {
+) -> (Program, ParamValues) {
     let InFile { method, written } = in_file(file, wanted.map(Program::method), diagnostics);
     let given: Vec<Given<'_>> = written.iter().map(Written::given).collect();
     let program = wanted.unwrap_or_else(|| match method.or_else(|| tables::method_of(&given)) {
@@ -124,7 +124,7 @@ pub fn read(
 #[derive(Default)]
 struct Sections<'a> {
     /// For the node, and for all.
-    found: Vec<&'a Node>,
+    found: Vec<&'a YamlNode>,
     /// True if a section is for the node by its name.
     is_named: bool,
     /// Names of other nodes.
@@ -132,7 +132,7 @@ struct Sections<'a> {
 }
 
 impl<'a> Sections<'a> {
-    fn collect(&mut self, at: &'a Node, node: &str, depth: usize) {
+    fn collect(&mut self, at: &'a YamlNode, node: &str, depth: usize) {
         for (key, value) in at.entries().filter(|_| depth < DEEPEST).unwrap_or_default() {
             let Some(key) = key.text() else { continue };
             let name = key.trim_start_matches('/').rsplit('/').next().unwrap_or(key);
@@ -149,17 +149,19 @@ impl<'a> Sections<'a> {
 }
 
 /// Names with dots; a list is its values side by side.
-fn flatten(at: &Node, prefix: &str, flat: &mut Vec<Written>) {
+fn flatten(at: &YamlNode, prefix: &str, flat: &mut Vec<Written>) {
     for (key, value) in at.entries().unwrap_or_default() {
         let Some(last) = key.text() else { continue };
         let name = if prefix.is_empty() { last.to_owned() } else { format!("{prefix}.{last}") };
         let text = match &value.value {
-            Value::Map(_) => {
+            YamlValue::Map(_) => {
                 flatten(value, &name, flat);
                 continue;
             }
-            Value::Scalar { text, .. } => text.clone(),
-            Value::List(list) => list.iter().filter_map(Node::text).collect::<Vec<_>>().join(" "),
+            YamlValue::Scalar { text, .. } => text.clone(),
+            YamlValue::List(list) => {
+                list.iter().filter_map(YamlNode::text).collect::<Vec<_>>().join(" ")
+            }
         };
         flat.push(Written { name, text, name_origin: key.span.into(), origin: value.span.into() });
     }
@@ -171,7 +173,7 @@ mod tests {
 
     use super::*;
 
-    fn check(text: &str, program: Program, named: &[&str]) -> Values {
+    fn check(text: &str, program: Program, named: &[&str]) -> ParamValues {
         let mut sources = SourceMap::new();
         let file = sources.add("params.yaml", text);
         let tree = periplus_yaml::parse(file, &sources).ok().flatten();

@@ -7,7 +7,7 @@ use periplus_diagnostics::Diagnostic;
 use periplus_graph::{GraphError, Mailbox, Node, Qos, TopicInfo};
 use periplus_msgs::Message as _;
 use periplus_msgs::sensor_msgs::LaserScan;
-use periplus_params::Values;
+use periplus_params::ParamValues;
 use periplus_tf_ros::{Frames, Places, Robot, places};
 
 use crate::slam_toolbox::values::integer;
@@ -65,7 +65,7 @@ impl Inputs {
     pub(crate) fn new(
         node: &Node,
         topic: &str,
-        values: &Values,
+        values: &ParamValues,
         is_newest_first: bool,
     ) -> Result<Self, GraphError> {
         let asked = integer(values, "scan_queue_size").and_then(|size| usize::try_from(size).ok());

@@ -13,7 +13,7 @@ use periplus_grid::OccupancyGrid;
 use periplus_msgs::geometry_msgs::PoseWithCovarianceStamped;
 use periplus_msgs::tf2_msgs::TFMessage;
 use periplus_msgs::visualization_msgs::{InteractiveMarker, InteractiveMarkerFeedback};
-use periplus_params::{Value, Values};
+use periplus_params::{ParamValue, ParamValues};
 use periplus_scan_matching::Symmetric3;
 use periplus_slam::{
     Closure, CorrectedInput, Counts, MountingCorrection, Scan, ScanOutcome, Slam, Update, tables,
@@ -95,7 +95,7 @@ pub struct SlamStatus {
 
 pub(crate) struct State {
     pub(crate) program: Program,
-    pub(crate) values: Values,
+    pub(crate) values: ParamValues,
     /// For states that others read as parameters.
     parameters: Option<Parameters>,
     pub(crate) files: Arc<dyn Files>,
@@ -163,7 +163,7 @@ impl SlamNode {
     pub fn new(
         graph: &Graph,
         program: Program,
-        values: Values,
+        values: ParamValues,
         files: Arc<dyn Files>,
         pace: Pace,
     ) -> Result<Self, GraphError> {
@@ -178,7 +178,7 @@ impl SlamNode {
     pub fn at(
         node: Node,
         program: Program,
-        values: Values,
+        values: ParamValues,
         files: Arc<dyn Files>,
         pace: Pace,
     ) -> Result<Self, GraphError> {
@@ -226,7 +226,7 @@ impl SlamNode {
         for name in ["interactive_mode", "paused_processing"] {
             // States: they begin as false, whatever a file has.
             if flag(&parameters.values(), name) == Some(true) {
-                let _ = parameters.set(name, Value::Bool(false));
+                let _ = parameters.set(name, ParamValue::Bool(false));
             }
         }
         let values = parameters.values();
@@ -412,7 +412,7 @@ impl State {
     /// Lets others read a state as a parameter.
     pub(crate) fn show_state(&mut self, name: &'static str, is_so: bool) {
         if let Some(parameters) = self.parameters.as_ref().filter(|_| self.program.is_toolbox())
-            && parameters.set(name, Value::Bool(is_so)).is_ok()
+            && parameters.set(name, ParamValue::Bool(is_so)).is_ok()
         {
             self.values = parameters.values();
         }
@@ -818,7 +818,7 @@ impl State {
     }
 
     /// Takes other parameters while it runs.
-    fn change(&mut self, values: &Values) -> Result<(), String> {
+    fn change(&mut self, values: &ParamValues) -> Result<(), String> {
         const STATES: [&str; 2] = ["interactive_mode", "paused_processing"];
         const AT_ANY_TIME: [&str; 11] = [
             "paused_new_measurements",

@@ -13,7 +13,7 @@ use periplus_msgs::sensor_msgs::LaserScan;
 use periplus_msgs::std_msgs::Float64;
 use periplus_msgs::tf2_msgs::TFMessage;
 use periplus_msgs::visualization_msgs::{InteractiveMarker, InteractiveMarkerUpdate, MarkerArray};
-use periplus_params::Values;
+use periplus_params::ParamValues;
 use periplus_scan_matching::Symmetric3;
 use periplus_tf_ros::transform;
 
@@ -41,7 +41,11 @@ struct Toolbox {
 }
 
 impl Outputs {
-    pub(crate) fn new(node: &Node, program: Program, values: &Values) -> Result<Self, GraphError> {
+    pub(crate) fn new(
+        node: &Node,
+        program: Program,
+        values: &ParamValues,
+    ) -> Result<Self, GraphError> {
         let map = text(values, "map_name").unwrap_or_else(|| "map".to_owned());
         let toolbox = || -> Result<Toolbox, GraphError> {
             Ok(Toolbox {

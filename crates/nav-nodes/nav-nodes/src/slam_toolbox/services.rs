@@ -16,7 +16,7 @@ use periplus_msgs::slam_toolbox::{
 };
 use periplus_msgs::std_srvs::{Empty, EmptyResponse};
 use periplus_msgs::visualization_msgs::{GetInteractiveMarkers, GetInteractiveMarkersResponse};
-use periplus_params::Values;
+use periplus_params::ParamValues;
 
 use crate::slam_toolbox::Program;
 use crate::slam_toolbox::engine::{Engine, Start, settings};
@@ -30,7 +30,7 @@ const ENDING: &str = "session";
 pub(crate) fn serve(
     actor: &mut Actor<State>,
     program: Program,
-    values: &Values,
+    values: &ParamValues,
 ) -> Result<(), GraphError> {
     if !program.is_toolbox() {
         return actor.serve::<GetMap>("dynamic_map", |state, _, io| state.map_now(io.node()));

@@ -28,7 +28,7 @@ use periplus_msgs::tf2_msgs::TFMessage;
 use periplus_msgs::{Message, Service};
 use periplus_nav_nodes::amcl::AmclNode;
 use periplus_params::Given;
-use periplus_resources::{Host, Kind, MemoryHost, ReadError, Store};
+use periplus_resources::{EntryKind, FileReadError, Host, MemoryHost, Store};
 
 /// A room of 6 by 4 metres with a pillar and a corner cut off: no place is like another.
 fn room() -> Map {
@@ -76,15 +76,15 @@ struct Files {
 }
 
 impl Host for Files {
-    fn read(&self, path: &Path) -> Result<Vec<u8>, ReadError> {
+    fn read(&self, path: &Path) -> Result<Vec<u8>, FileReadError> {
         match self.written.lock().unwrap().get(path) {
             Some(bytes) => Ok(bytes.clone()),
             None => self.host.read(path),
         }
     }
-    fn kind(&self, path: &Path) -> Option<Kind> {
+    fn kind(&self, path: &Path) -> Option<EntryKind> {
         if self.written.lock().unwrap().contains_key(path) {
-            return Some(Kind::File);
+            return Some(EntryKind::File);
         }
         self.host.kind(path)
     }

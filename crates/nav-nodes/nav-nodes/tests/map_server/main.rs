@@ -13,7 +13,7 @@ use periplus_msgs::Service;
 use periplus_msgs::nav_msgs::{GetMap, GetMapRequest, MapMetaData, OccupancyGrid};
 use periplus_msgs::nav2_msgs::{LoadMap, LoadMapRequest, SaveMap, SaveMapRequest};
 use periplus_nav_nodes::map_server::{MapSaver, MapServer, MapServerSettings};
-use periplus_resources::{Host, Kind, MemoryHost, ReadError, Store};
+use periplus_resources::{EntryKind, FileReadError, Host, MemoryHost, Store};
 
 /// Files that are there, and files that are written.
 struct Files {
@@ -40,10 +40,10 @@ impl Files {
 }
 
 impl Host for Files {
-    fn read(&self, path: &Path) -> Result<Vec<u8>, ReadError> {
+    fn read(&self, path: &Path) -> Result<Vec<u8>, FileReadError> {
         self.host.read(path)
     }
-    fn kind(&self, path: &Path) -> Option<Kind> {
+    fn kind(&self, path: &Path) -> Option<EntryKind> {
         self.host.kind(path)
     }
     fn list(&self, folder: &Path) -> Vec<String> {

@@ -18,7 +18,7 @@ use periplus_msgs::tf2_msgs::TFMessage;
 use periplus_msgs::{Message, Service};
 use periplus_nav_nodes::slam_toolbox::{Pace, Program, SlamNode};
 use periplus_params::Given;
-use periplus_resources::{Host, Kind, MemoryHost, ReadError, Store};
+use periplus_resources::{EntryKind, FileReadError, Host, MemoryHost, Store};
 
 /// Walls of a room of 6 by 4 metres, with a pillar and a corner cut off.
 pub(crate) const WALLS: [[f64; 4]; 10] = [
@@ -85,13 +85,13 @@ pub(crate) struct Files {
 }
 
 impl Host for Files {
-    fn read(&self, path: &Path) -> Result<Vec<u8>, ReadError> {
+    fn read(&self, path: &Path) -> Result<Vec<u8>, FileReadError> {
         match self.written.lock().unwrap().get(path) {
             Some(bytes) => Ok(bytes.clone()),
             None => self.host.read(path),
         }
     }
-    fn kind(&self, path: &Path) -> Option<Kind> {
+    fn kind(&self, path: &Path) -> Option<EntryKind> {
         self.host.kind(path)
     }
     fn list(&self, folder: &Path) -> Vec<String> {

@@ -3,8 +3,8 @@
 
 use std::path::{Path, PathBuf};
 
-use periplus_diagnostics::{Style, render};
-use periplus_loader::{Loaded, Setting, describe, load, summarise};
+use periplus_diagnostics::{RenderStyle, render};
+use periplus_loader::{LoadContext, LoadedFile, describe, load, summarise};
 use periplus_os::Machine;
 use periplus_resources::{Host, MemoryHost, Resolver};
 
@@ -14,9 +14,9 @@ pub(crate) fn folder() -> PathBuf {
 }
 
 /// Reads a file as a person standing in `folder` would.
-pub(crate) fn read(host: &dyn Host, folder: &Path, path: &Path, search: &[PathBuf]) -> Loaded {
+pub(crate) fn read(host: &dyn Host, folder: &Path, path: &Path, search: &[PathBuf]) -> LoadedFile {
     let resolver = Resolver::new(host, search);
-    let setting = Setting {
+    let setting = LoadContext {
         host,
         resolver: &resolver,
         working_folder: folder.to_owned(),
@@ -27,9 +27,9 @@ pub(crate) fn read(host: &dyn Host, folder: &Path, path: &Path, search: &[PathBu
 }
 
 /// Findings and contents of a file, as `periplus check` shows them.
-pub(crate) fn shown(loaded: &Loaded) -> String {
+pub(crate) fn shown(loaded: &LoadedFile) -> String {
     let findings =
-        loaded.diagnostics.iter().map(|d| render(d, &loaded.sources, Style::Plain) + "\n");
+        loaded.diagnostics.iter().map(|d| render(d, &loaded.sources, RenderStyle::Plain) + "\n");
     let mut out: String = findings.collect();
     if let Some(scene) = &loaded.scene {
         out.push_str(&describe(&summarise(scene)));

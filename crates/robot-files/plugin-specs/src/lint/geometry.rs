@@ -3,7 +3,7 @@
 use periplus_diagnostics::{Diagnostic, Diagnostics, Origin};
 use periplus_scene::{DVec3, Model, Shape};
 
-use crate::{Family, Interpreted, Site};
+use crate::{Family, InterpretedPlugin, PluginSite};
 
 /// Tolerated relative difference between a plugin's value and the model's.
 const TOLERANCE_RATIO: f64 = 0.2;
@@ -11,7 +11,11 @@ const TOLERANCE_RATIO: f64 = 0.2;
 /// Maximum number of pairs of wheels that are checked.
 const MAX_WHEEL_PAIRS: usize = 16;
 
-pub(super) fn check(site: &Site<'_>, plugin: &Interpreted, diagnostics: &mut Diagnostics) {
+pub(super) fn check(
+    site: &PluginSite<'_>,
+    plugin: &InterpretedPlugin,
+    diagnostics: &mut Diagnostics,
+) {
     if plugin.known.id == "gazebo_ros_diff_drive" && plugin.known.family == Family::ClassicRos2 {
         check_pairs(site, plugin, diagnostics);
     }
@@ -19,8 +23,8 @@ pub(super) fn check(site: &Site<'_>, plugin: &Interpreted, diagnostics: &mut Dia
     let Some(model) = site.context.model else { return };
     let (left, right) = (plugin.values.all(names.left), plugin.values.all(names.right));
     for index in 0..left.len().min(right.len()).min(MAX_WHEEL_PAIRS) {
-        let wheel = |all: &[(periplus_params::Value, Origin)]| match &all[index].0 {
-            periplus_params::Value::Text(joint) => Wheel::of(model, joint),
+        let wheel = |all: &[(periplus_params::ParamValue, Origin)]| match &all[index].0 {
+            periplus_params::ParamValue::Text(joint) => Wheel::of(model, joint),
             _ => None,
         };
         let (Some(left), Some(right)) = (wheel(&left), wheel(&right)) else { continue };
@@ -139,7 +143,11 @@ struct Claim {
     truth: String,
 }
 
-fn contradiction(plugin: &Interpreted, site: &Site<'_>, claim: Claim) -> Option<Diagnostic> {
+fn contradiction(
+    plugin: &InterpretedPlugin,
+    site: &PluginSite<'_>,
+    claim: Claim,
+) -> Option<Diagnostic> {
     let Claim { parameter, index, measured_m, truth } = claim;
     let numbers = plugin.values.numbers(parameter);
     let said_m = *numbers.get(index).or(numbers.first())?;
@@ -163,7 +171,7 @@ fn short(metres: f64) -> f64 {
 }
 
 /// The plugin does not start if the numbers differ.
-fn check_pairs(site: &Site<'_>, plugin: &Interpreted, diagnostics: &mut Diagnostics) {
+fn check_pairs(site: &PluginSite<'_>, plugin: &InterpretedPlugin, diagnostics: &mut Diagnostics) {
     let pairs = plugin.values.integer("num_wheel_pairs").unwrap_or(1);
     for side in ["left_joint", "right_joint"] {
         let count = plugin.values.texts(side).len();

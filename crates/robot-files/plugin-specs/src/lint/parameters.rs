@@ -1,14 +1,18 @@
 //! Unknown parameters.
 
 use periplus_diagnostics::{Diagnostic, Diagnostics, Span};
-use periplus_params::{Default, Value};
+use periplus_params::{Default, ParamValue};
 use periplus_scene::Element;
 
 use crate::interpret::given_by;
 use crate::renamed::{Instead, renamed};
-use crate::{Family, Known, Site, known};
+use crate::{Family, PluginSite, PluginSpec, known};
 
-pub(super) fn check(site: &Site<'_>, known: &'static Known, diagnostics: &mut Diagnostics) {
+pub(super) fn check(
+    site: &PluginSite<'_>,
+    known: &'static PluginSpec,
+    diagnostics: &mut Diagnostics,
+) {
     for element in &site.plugin.content {
         let name = element.name.as_str();
         if known.open || known.table.find(name).is_some() || name.contains(':') {
@@ -29,7 +33,7 @@ fn is_read_by(family: Family, name: &str) -> bool {
 }
 
 /// Finding for an unknown name; if the end of the element is known, the correction includes the end tag.
-fn unknown(known: &'static Known, element: &Element) -> Diagnostic {
+fn unknown(known: &'static PluginSpec, element: &Element) -> Diagnostic {
     let mut diagnostic = known.table.unknown(&given_by(element));
     if let (Some(replacement), Some(span)) = (&mut diagnostic.replacement, whole(element)) {
         let name = replacement.text.clone();
@@ -41,12 +45,12 @@ fn unknown(known: &'static Known, element: &Element) -> Diagnostic {
 
 fn inner(element: &Element) -> &str {
     match &element.children[..] {
-        [periplus_xml::Node::Text(text)] => &text.text,
+        [periplus_xml::XmlNode::Text(text)] => &text.text,
         _ => "",
     }
 }
 
-fn ros1(known: &'static Known, element: &Element) -> Diagnostic {
+fn ros1(known: &'static PluginSpec, element: &Element) -> Diagnostic {
     let mut diagnostic = unknown(known, element);
     if element.name == "ros" || is_read_by(Family::ClassicRos2, &element.name) {
         diagnostic.code = "ros2-parameter";
@@ -56,7 +60,7 @@ fn ros1(known: &'static Known, element: &Element) -> Diagnostic {
     diagnostic
 }
 
-fn ros2(site: &Site<'_>, known: &'static Known, element: &Element) -> Diagnostic {
+fn ros2(site: &PluginSite<'_>, known: &'static PluginSpec, element: &Element) -> Diagnostic {
     let name = element.name.as_str();
     let mut diagnostic = unknown(known, element);
     if is_read_by(Family::ClassicRos1, name) {
@@ -109,9 +113,9 @@ fn ros2(site: &Site<'_>, known: &'static Known, element: &Element) -> Diagnostic
     }
 }
 
-fn is_default(known: &Known, parameter: &str, value: &str) -> bool {
+fn is_default(known: &PluginSpec, parameter: &str, value: &str) -> bool {
     let Some(parameter) = known.table.find(parameter) else { return false };
-    let read = |text: &str| Value::read(parameter, text).ok();
+    let read = |text: &str| ParamValue::read(parameter, text).ok();
     match parameter.default {
         Default::Value(default) => read(value).is_some_and(|value| read(default) == Some(value)),
         Default::Required | Default::None => false,
@@ -129,7 +133,7 @@ fn rename(diagnostic: Diagnostic, element: &Element, parameter: &str, value: &st
 /// Span from the start tag to the end tag of an element with plain text only. Only the position of the
 /// start tag is known; the end tag follows the text.
 fn whole(element: &Element) -> Option<Span> {
-    let [periplus_xml::Node::Text(text)] = &element.children[..] else { return None };
+    let [periplus_xml::XmlNode::Text(text)] = &element.children[..] else { return None };
     let (start, inside) = (element.origin.0?, text.origin.0?);
     let written_as_is = inside.start == start.end
         && (inside.end - inside.start) as usize == text.text.len()

@@ -3,10 +3,10 @@
 use std::collections::BTreeSet;
 
 use periplus_diagnostics::{Diagnostic, Diagnostics, Origin, Severity};
-use periplus_params::{Names, Value};
+use periplus_params::{NamedEntity, ParamValue};
 use periplus_scene::{FrameRole, Model};
 
-use crate::{Family, Interpreted, Site};
+use crate::{Family, InterpretedPlugin, PluginSite};
 
 /// Frames that do not belong to a robot.
 const GLOBAL: [&str; 5] = ["", "world", "map", "odom", "earth"];
@@ -23,8 +23,8 @@ pub(super) struct Cache<'a> {
 }
 
 pub(super) fn check<'a>(
-    site: &Site<'a>,
-    plugin: &Interpreted,
+    site: &PluginSite<'a>,
+    plugin: &InterpretedPlugin,
     cache: &mut Cache<'a>,
     diagnostics: &mut Diagnostics,
 ) {
@@ -46,22 +46,22 @@ pub(super) fn check<'a>(
     cache.compared += (findings(diagnostics) - before) * things.count();
 }
 
-fn check_names(plugin: &Interpreted, things: &Things, diagnostics: &mut Diagnostics) {
+fn check_names(plugin: &InterpretedPlugin, things: &Things, diagnostics: &mut Diagnostics) {
     for parameter in plugin.known.table.parameters {
         let Some(names) = parameter.names else { continue };
         if !plugin.values.is_given(parameter.name) {
             continue;
         }
         for (value, origin) in plugin.values.all(parameter.name) {
-            let Value::Text(name) = value else { continue };
+            let ParamValue::Text(name) = value else { continue };
             if name.contains('$') {
                 continue;
             }
             let finding = match names {
-                Names::Joint => joint(&name, origin, things),
-                Names::Link => link(&name, origin, things, plugin),
-                Names::Frame => frame(&name, origin, things),
-                Names::Topic => None,
+                NamedEntity::Joint => joint(&name, origin, things),
+                NamedEntity::Link => link(&name, origin, things, plugin),
+                NamedEntity::Frame => frame(&name, origin, things),
+                NamedEntity::Topic => None,
             };
             if let Some(finding) = finding {
                 diagnostics.push(finding);
@@ -187,7 +187,12 @@ fn joint(name: &str, origin: Origin, things: &Things) -> Option<Diagnostic> {
     Some(suggest(error.at(origin), origin, name, &things.offered(&[&things.joints])))
 }
 
-fn link(name: &str, origin: Origin, things: &Things, plugin: &Interpreted) -> Option<Diagnostic> {
+fn link(
+    name: &str,
+    origin: Origin,
+    things: &Things,
+    plugin: &InterpretedPlugin,
+) -> Option<Diagnostic> {
     // The name of a link may be prefixed by that of its model.
     let last = name.rsplit("::").next().unwrap_or(name);
     if has(&things.links, name) || has(&things.links, last) || GLOBAL.contains(&name) {

@@ -3,11 +3,15 @@
 use periplus_diagnostics::{Diagnostic, Diagnostics};
 use periplus_scene::Element;
 
-use crate::{Flow, Interpreted, Site, topics};
+use crate::{InterpretedPlugin, PluginSite, TopicDirection, topics};
 
 const CHILDREN: [&str; 5] = ["namespace", "remapping", "argument", "parameter", "qos"];
 
-pub(super) fn check(site: &Site<'_>, plugin: &Interpreted, diagnostics: &mut Diagnostics) {
+pub(super) fn check(
+    site: &PluginSite<'_>,
+    plugin: &InterpretedPlugin,
+    diagnostics: &mut Diagnostics,
+) {
     let has_node = plugin.known.table.find("ros").is_some();
     if has_node {
         for ros in site.plugin.content.iter().filter(|element| element.name == "ros") {
@@ -21,8 +25,8 @@ pub(super) fn check(site: &Site<'_>, plugin: &Interpreted, diagnostics: &mut Dia
 
 fn check_child(
     child: &Element,
-    site: &Site<'_>,
-    plugin: &Interpreted,
+    site: &PluginSite<'_>,
+    plugin: &InterpretedPlugin,
     diagnostics: &mut Diagnostics,
 ) {
     match &*child.name {
@@ -52,15 +56,15 @@ fn check_child(
     }
 }
 
-fn remap(element: &Element, site: &Site<'_>, plugin: &Interpreted) -> Diagnostic {
+fn remap(element: &Element, site: &PluginSite<'_>, plugin: &InterpretedPlugin) -> Diagnostic {
     let (from, to) = (element.value("from"), element.value("to"));
     let mut message = "`<remap>` inside `<ros>` is never read".to_owned();
     if let Some(from) = from {
         let stays = plugin.ros.resolve(from);
         let topic = topics(plugin, &site.context).into_iter().find(|topic| topic.name == stays);
         let does = match topic.map(|topic| topic.flow) {
-            Some(Flow::In) => "the plugin subscribes to",
-            Some(Flow::Out) => "the plugin publishes on",
+            Some(TopicDirection::In) => "the plugin subscribes to",
+            Some(TopicDirection::Out) => "the plugin publishes on",
             None => "the topic stays",
         };
         message = format!("{message}: {does} `{stays}`");
@@ -78,8 +82,8 @@ fn remap(element: &Element, site: &Site<'_>, plugin: &Interpreted) -> Diagnostic
 
 fn check_remapping(
     element: &Element,
-    site: &Site<'_>,
-    plugin: &Interpreted,
+    site: &PluginSite<'_>,
+    plugin: &InterpretedPlugin,
     diagnostics: &mut Diagnostics,
 ) {
     let text = element.text();
@@ -115,7 +119,7 @@ fn check_remapping(
     }
 }
 
-fn check_laser(site: &Site<'_>, plugin: &Interpreted, diagnostics: &mut Diagnostics) {
+fn check_laser(site: &PluginSite<'_>, plugin: &InterpretedPlugin, diagnostics: &mut Diagnostics) {
     let by_default = plugin.known.topics.iter().any(|topic| topic.name == "/world");
     if by_default && !plugin.values.is_given("topicName") {
         diagnostics.push(

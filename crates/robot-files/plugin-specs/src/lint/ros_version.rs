@@ -3,10 +3,13 @@
 use periplus_diagnostics::{Diagnostic, Diagnostics};
 
 use crate::recognise::{Sign, ros_sign};
-use crate::{Interpreted, Site};
+use crate::{InterpretedPlugin, PluginSite};
 
-pub(super) fn check(plugins: &[(Site<'_>, Interpreted)], diagnostics: &mut Diagnostics) {
-    let with = |sign: Sign| -> Vec<&Site<'_>> {
+pub(super) fn check(
+    plugins: &[(PluginSite<'_>, InterpretedPlugin)],
+    diagnostics: &mut Diagnostics,
+) {
+    let with = |sign: Sign| -> Vec<&PluginSite<'_>> {
         plugins.iter().map(|(site, _)| site).filter(|site| ros_sign(site.plugin) == sign).collect()
     };
     let (ros1, ros2) = (with(Sign::Ros1), with(Sign::Ros2));

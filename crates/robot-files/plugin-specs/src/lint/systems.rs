@@ -6,7 +6,7 @@ use periplus_diagnostics::{Diagnostic, Diagnostics};
 use periplus_scene::{Model, Sensor, World};
 
 use crate::library::library_id;
-use crate::{Family, Interpreted, Site};
+use crate::{Family, InterpretedPlugin, PluginSite};
 
 /// System that runs a type of sensor, and its class.
 fn system_for(sensor_type: &str) -> Option<(&'static str, &'static str)> {
@@ -56,10 +56,10 @@ const NEW_TYPES: [&str; 11] = [
 
 pub(super) fn check(
     world: &World,
-    plugins: &[(Site<'_>, Interpreted)],
+    plugins: &[(PluginSite<'_>, InterpretedPlugin)],
     diagnostics: &mut Diagnostics,
 ) {
-    let here: Vec<&(Site<'_>, Interpreted)> = plugins
+    let here: Vec<&(PluginSite<'_>, InterpretedPlugin)> = plugins
         .iter()
         .filter(|(site, _)| site.context.world.is_some_and(|other| std::ptr::eq(other, world)))
         .collect();
@@ -142,7 +142,11 @@ fn silent(world: &World, sensor: &Sensor, part: &str, class: &str, others: usize
     }
 }
 
-fn is_for_today(world: &World, here: &[&(Site<'_>, Interpreted)], sensors: &[&Sensor]) -> bool {
+fn is_for_today(
+    world: &World,
+    here: &[&(PluginSite<'_>, InterpretedPlugin)],
+    sensors: &[&Sensor],
+) -> bool {
     let system =
         |plugin: &periplus_scene::Plugin| library_id(&plugin.filename).starts_with("gz-sim-");
     if world.plugins.iter().any(system) {

@@ -4,16 +4,19 @@ use std::collections::BTreeMap;
 
 use periplus_diagnostics::{Diagnostic, Diagnostics};
 
-use crate::{Family, Flow, Interpreted, Site, topics};
+use crate::{Family, InterpretedPlugin, PluginSite, TopicDirection, topics};
 
-pub(super) fn check(plugins: &[(Site<'_>, Interpreted)], diagnostics: &mut Diagnostics) {
-    let mut publishers: BTreeMap<(String, bool, String), &Site<'_>> = BTreeMap::new();
-    let mut nodes: BTreeMap<(String, String), &Site<'_>> = BTreeMap::new();
+pub(super) fn check(
+    plugins: &[(PluginSite<'_>, InterpretedPlugin)],
+    diagnostics: &mut Diagnostics,
+) {
+    let mut publishers: BTreeMap<(String, bool, String), &PluginSite<'_>> = BTreeMap::new();
+    let mut nodes: BTreeMap<(String, String), &PluginSite<'_>> = BTreeMap::new();
     for (site, plugin) in plugins {
         let ros = plugin.known.family != Family::Gz;
         for topic in topics(plugin, &site.context) {
             // Every publisher of joint states has its own joints, and subscribers merge them.
-            if topic.flow == Flow::In || ros && topic.name.ends_with("/joint_states") {
+            if topic.flow == TopicDirection::In || ros && topic.name.ends_with("/joint_states") {
                 continue;
             }
             // A camera publishes depth images only as a `depth` sensor.
@@ -48,7 +51,12 @@ pub(super) fn check(plugins: &[(Site<'_>, Interpreted)], diagnostics: &mut Diagn
     }
 }
 
-fn twice(code: &'static str, message: String, site: &Site<'_>, first: &Site<'_>) -> Diagnostic {
+fn twice(
+    code: &'static str,
+    message: String,
+    site: &PluginSite<'_>,
+    first: &PluginSite<'_>,
+) -> Diagnostic {
     let diagnostic = Diagnostic::warning(code, message).at(site.plugin.origin);
     if site.plugin.origin.0 == first.plugin.origin.0 {
         return diagnostic.note("it is the same plugin in two copies of a model");
@@ -57,7 +65,7 @@ fn twice(code: &'static str, message: String, site: &Site<'_>, first: &Site<'_>)
 }
 
 /// Plugins that run together: those of a world, or of a model outside any world.
-fn surroundings(site: &Site<'_>) -> String {
+fn surroundings(site: &PluginSite<'_>) -> String {
     match (site.context.world, site.context.root) {
         (Some(world), _) => format!("world {}", world.name),
         (None, root) => format!("model {}", root.map_or("", |model| &model.name)),

@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 use periplus_diagnostics::{Diagnostic, Diagnostics, closest};
 
 use crate::library::{class_id, library_id};
-use crate::{Family, Place, Role, Site, known, recognise};
+use crate::{Family, PluginParent, PluginSite, Role, known, recognise};
 
 /// Expected but wrong names, each with the library that provides the function. The first part is the result
 /// of [`distinctive`].
@@ -37,7 +37,7 @@ const EXPECTED: [(u8, &str, &str); 22] = [
 /// Maximum number of unknown plugins for which similar names are searched.
 const MAX_SUGGESTIONS: usize = 200;
 
-pub(super) fn check(sites: &[Site<'_>], diagnostics: &mut Diagnostics) {
+pub(super) fn check(sites: &[PluginSite<'_>], diagnostics: &mut Diagnostics) {
     let mut told = BTreeSet::new();
     for site in sites {
         let filename = site.plugin.filename.trim();
@@ -58,7 +58,7 @@ pub(super) fn check(sites: &[Site<'_>], diagnostics: &mut Diagnostics) {
     }
 }
 
-fn unknown(site: &Site<'_>, filename: &str, suggest: bool) -> Diagnostic {
+fn unknown(site: &PluginSite<'_>, filename: &str, suggest: bool) -> Diagnostic {
     let message = format!("the plugin `{filename}` is unknown; it is kept, not run");
     let diagnostic = Diagnostic::warning("unknown-plugin", message).at(site.plugin.origin);
     let class = class_id(&site.plugin.name);
@@ -100,11 +100,11 @@ fn distinctive(id: &str) -> (u8, &str) {
     (3, id.strip_suffix("Plugin").unwrap_or(id))
 }
 
-fn check_class(site: &Site<'_>, known: &crate::Known, diagnostics: &mut Diagnostics) {
+fn check_class(site: &PluginSite<'_>, known: &crate::PluginSpec, diagnostics: &mut Diagnostics) {
     let name = site.plugin.name.trim();
     let Some(usual) = known.classes.first() else { return };
     if name.is_empty()
-        || site.context.place == Place::Gui
+        || site.context.place == PluginParent::Gui
         || known.classes.contains(&class_id(name))
     {
         return;

@@ -1,24 +1,24 @@
 //! Plugins that come with Gazebo Classic 11 itself.
 
-use periplus_params::{Names, Parameter, Table, group, number, text};
+use periplus_params::{NamedEntity, Parameter, Table, group, number, text};
 
-use crate::{Family, Known, Role, Support};
+use crate::{Family, PluginSpec, Role, Support};
 
 const fn classic(
     id: &'static str,
     role: Role,
     doc: &'static str,
     parameters: &'static [Parameter],
-) -> Known {
+) -> PluginSpec {
     let table = Table { name: id, doc, parameters };
-    Known::new(Family::Classic, id, role, Support::Kept, table)
+    PluginSpec::new(Family::Classic, id, role, Support::Kept, table)
 }
 
 const fn joint(name: &'static str) -> Parameter {
-    text(name, "The joint of a wheel.").required().naming(Names::Joint)
+    text(name, "The joint of a wheel.").required().naming(NamedEntity::Joint)
 }
 
-pub(super) static PLUGINS: &[Known] = &[
+pub(super) static PLUGINS: &[PluginSpec] = &[
     classic(
         "DiffDrivePlugin",
         Role::Drive,

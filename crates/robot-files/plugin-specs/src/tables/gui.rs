@@ -1,12 +1,12 @@
 //! GUI plugins of current Gazebo.
 
-use periplus_params::{Names, Parameter, choice, flag, group, number, numbers, text};
+use periplus_params::{NamedEntity, Parameter, choice, flag, group, number, numbers, text};
 
 use super::panel;
-use crate::Known;
+use crate::PluginSpec;
 use crate::known::{listens, publishes};
 
-const TOPIC: Parameter = text("topic", "The topic.").naming(Names::Topic);
+const TOPIC: Parameter = text("topic", "The topic.").naming(NamedEntity::Topic);
 
 const TOPIC_PICKER: Parameter =
     flag("topic_picker", "If true, the topic can be chosen.").or("true");
@@ -38,7 +38,7 @@ macro_rules! view {
     };
 }
 
-pub(super) static PLUGINS: &[Known] = &[
+pub(super) static PLUGINS: &[PluginSpec] = &[
     view!("MinimalScene", "The 3D view."),
     view!("GzScene3D", "The 3D view of Fortress and before."),
     view!("Scene3D", "The 3D view of the first releases."),
@@ -123,7 +123,7 @@ pub(super) static PLUGINS: &[Known] = &[
         "KeyPublisher",
         Viewer,
         "Publishes keys.",
-        [text("topic", "Topic of the keys.").or("keyboard/keypress").naming(Names::Topic)]
+        [text("topic", "Topic of the keys.").or("keyboard/keypress").naming(NamedEntity::Topic)]
     )
     .topics(&[publishes("/keyboard/keypress").set_by("topic")]),
     panel!(
@@ -131,8 +131,8 @@ pub(super) static PLUGINS: &[Known] = &[
         Kept,
         "Drives by keys.",
         [
-            text("twist_arrows", "Topic that the arrows drive.").naming(Names::Topic),
-            text("twist_wasd", "Topic that letters drive.").naming(Names::Topic),
+            text("twist_arrows", "Topic that the arrows drive.").naming(NamedEntity::Topic),
+            text("twist_wasd", "Topic that letters drive.").naming(NamedEntity::Topic),
             group("scale_linear", "Scale of the speed."),
             group("scale_angular", "Turn rates."),
         ]
@@ -174,8 +174,8 @@ pub(super) static PLUGINS: &[Known] = &[
             flag("reset", "If true, a button is shown."),
             flag("start_paused", "If true, it starts paused.").or("false"),
             flag("use_event", "If true, it informs the server in the same process.").or("false"),
-            text("service", "Service of the world.").naming(Names::Topic),
-            text("stats_topic", "Topic of statistics.").naming(Names::Topic),
+            text("service", "Service of the world.").naming(NamedEntity::Topic),
+            text("stats_topic", "Topic of statistics.").naming(NamedEntity::Topic),
         ]
     ),
     panel!(

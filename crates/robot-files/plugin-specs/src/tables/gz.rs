@@ -1,16 +1,18 @@
 //! Sensor systems and publishers of current Gazebo.
 
-use periplus_params::{Names, Parameter, choice, flag, group, integer, number, numbers, text};
+use periplus_params::{
+    NamedEntity, Parameter, choice, flag, group, integer, number, numbers, text,
+};
 
 use super::system;
-use crate::Known;
+use crate::PluginSpec;
 use crate::known::{listens, publishes};
 
 const fn topic(name: &'static str, doc: &'static str) -> Parameter {
-    text(name, doc).naming(Names::Topic)
+    text(name, doc).naming(NamedEntity::Topic)
 }
 
-pub(super) static PLUGINS: &[Known] = &[
+pub(super) static PLUGINS: &[PluginSpec] = &[
     system!(
         "gz-sim-sensors-system",
         ["Sensors"],
@@ -163,7 +165,7 @@ pub(super) static PLUGINS: &[Known] = &[
         "Publishes positions and velocities of joints.",
         [
             topic("topic", "Topic of the states."),
-            text("joint_name", "A joint (default: all).").repeated().naming(Names::Joint),
+            text("joint_name", "A joint (default: all).").repeated().naming(NamedEntity::Joint),
             number("update_rate", "Hz", "Messages per second; 0: one per step.").or("0").min(0.0),
         ]
     )
@@ -275,7 +277,7 @@ pub(super) static PLUGINS: &[Known] = &[
         Kept,
         "Reports a sudden loss of energy of a link.",
         [
-            text("link_name", "The link.").required().naming(Names::Link),
+            text("link_name", "The link.").required().naming(NamedEntity::Link),
             number("kinetic_energy_threshold", "J", "Loss of energy that is reported.").or("7"),
             topic("topic", "Topic of the events."),
         ]

@@ -1,27 +1,30 @@
 //! Drives and joint controllers of current Gazebo.
 
-use periplus_params::{Names, Parameter, choice, flag, group, integer, number, numbers, text};
+use periplus_params::{
+    NamedEntity, Parameter, choice, flag, group, integer, number, numbers, text,
+};
 
 use super::system;
-use crate::Known;
+use crate::PluginSpec;
 use crate::known::{listens, publishes};
 
 const fn joint(name: &'static str, doc: &'static str) -> Parameter {
-    text(name, doc).naming(Names::Joint)
+    text(name, doc).naming(NamedEntity::Joint)
 }
 
 const fn wheels(name: &'static str, doc: &'static str) -> Parameter {
     joint(name, doc).required().repeated()
 }
 
-const TOPIC: Parameter = text("topic", "Topic of commands.").naming(Names::Topic);
+const TOPIC: Parameter = text("topic", "Topic of commands.").naming(NamedEntity::Topic);
 
 const SUB_TOPIC: Parameter = text("sub_topic", "Topic of commands below `/model/<name>/`.");
 
-const ODOM_TOPIC: Parameter = text("odom_topic", "Topic of the odometry.").naming(Names::Topic);
+const ODOM_TOPIC: Parameter =
+    text("odom_topic", "Topic of the odometry.").naming(NamedEntity::Topic);
 
 const TF_TOPIC: Parameter =
-    text("tf_topic", "Topic of the transform from odometry to base.").naming(Names::Topic);
+    text("tf_topic", "Topic of the transform from odometry to base.").naming(NamedEntity::Topic);
 
 const FRAME_ID: Parameter = text("frame_id", "Frame of the odometry (default: `<model>/odom`).");
 
@@ -56,13 +59,13 @@ const USE_ACTUATOR_MSG: Parameter =
 const ACTUATOR_NUMBER: Parameter =
     integer("actuator_number", "Index in an `Actuators` message.").min(0.0);
 
-const DRIVE_TOPICS: &[crate::Topic] = &[
+const DRIVE_TOPICS: &[crate::PluginTopic] = &[
     listens("/model/{model}/cmd_vel").set_by("topic"),
     publishes("/model/{model}/odometry").set_by("odom_topic"),
     publishes("/model/{model}/tf").set_by("tf_topic"),
 ];
 
-pub(super) static PLUGINS: &[Known] = &[
+pub(super) static PLUGINS: &[PluginSpec] = &[
     system!(
         "gz-sim-diff-drive-system",
         ["DiffDrive"],
@@ -193,7 +196,7 @@ pub(super) static PLUGINS: &[Known] = &[
             TOPIC,
             numbers("initial_linear", "m/s", "Velocity at the start.").or("0 0 0"),
             numbers("initial_angular", "rad/s", "Velocity at the start.").or("0 0 0"),
-            text("link_name", "A link with its own topic.").repeated().naming(Names::Link),
+            text("link_name", "A link with its own topic.").repeated().naming(NamedEntity::Link),
         ]
     )
     .topics(&[listens("/model/{model}/cmd_vel").set_by("topic")]),
@@ -216,7 +219,8 @@ pub(super) static PLUGINS: &[Known] = &[
             group("angular_velocity", "Limits."),
             ODOM_FREQUENCY,
             TOPIC,
-            text("steering_efficiency_topic", "Topic of the efficiency.").naming(Names::Topic),
+            text("steering_efficiency_topic", "Topic of the efficiency.")
+                .naming(NamedEntity::Topic),
             ODOM_TOPIC,
             TF_TOPIC,
             FRAME_ID,
@@ -231,13 +235,13 @@ pub(super) static PLUGINS: &[Known] = &[
         Kept,
         "Moves the surface of a track or conveyor.",
         [
-            text("link", "The link.").required().naming(Names::Link),
+            text("link", "The link.").required().naming(NamedEntity::Link),
             flag("debug", "If true, it draws its activity.").or("false"),
             numbers("track_orientation", "rad", "Orientation of the track on the link.")
                 .or("0 0 0"),
-            text("velocity_topic", "Topic of speeds.").naming(Names::Topic),
-            text("center_of_rotation_topic", "Topic of turning points.").naming(Names::Topic),
-            text("odometry_topic", "Topic of the distance run.").naming(Names::Topic),
+            text("velocity_topic", "Topic of speeds.").naming(NamedEntity::Topic),
+            text("center_of_rotation_topic", "Topic of turning points.").naming(NamedEntity::Topic),
+            text("odometry_topic", "Topic of the distance run.").naming(NamedEntity::Topic),
             number("odometry_publish_frequency", "Hz", "Odometry messages per second.")
                 .or("50")
                 .min(0.0),
@@ -376,9 +380,15 @@ pub(super) static PLUGINS: &[Known] = &[
         "Flies a multicopter at a velocity.",
         [
             text("robotNamespace", "Prefix of every topic."),
-            text("commandSubTopic", "Topic of velocities.").or("cmd_vel").naming(Names::Topic),
-            text("enableSubTopic", "Topic that switches it.").or("enable").naming(Names::Topic),
-            text("comLinkName", "The link at the centre of mass.").required().naming(Names::Link),
+            text("commandSubTopic", "Topic of velocities.")
+                .or("cmd_vel")
+                .naming(NamedEntity::Topic),
+            text("enableSubTopic", "Topic that switches it.")
+                .or("enable")
+                .naming(NamedEntity::Topic),
+            text("comLinkName", "The link at the centre of mass.")
+                .required()
+                .naming(NamedEntity::Link),
             numbers("velocityGain", "", "Gains along x, y, z.").required(),
             numbers("attitudeGain", "", "Gains about x, y, z.").required(),
             numbers("angularRateGain", "", "Gains about x, y, z.").required(),
@@ -401,12 +411,12 @@ pub(super) static PLUGINS: &[Known] = &[
         [
             text("robotNamespace", "Prefix of every topic."),
             joint("jointName", "The rotor's joint.").required(),
-            text("linkName", "The rotor's link.").required().naming(Names::Link),
+            text("linkName", "The rotor's link.").required().naming(NamedEntity::Link),
             choice("turningDirection", &["cw", "ccw"], "Seen from above."),
             choice("motorType", &["velocity", "position", "force"], "What commands mean.")
                 .or("velocity"),
-            text("commandSubTopic", "Topic of commands.").naming(Names::Topic),
-            text("motorSpeedPubTopic", "Topic of speeds.").naming(Names::Topic),
+            text("commandSubTopic", "Topic of commands.").naming(NamedEntity::Topic),
+            text("motorSpeedPubTopic", "Topic of speeds.").naming(NamedEntity::Topic),
             integer("actuator_number", "Index in an `Actuators` message.")
                 .also(&["motorNumber"])
                 .min(0.0),
@@ -447,7 +457,7 @@ pub(super) static PLUGINS: &[Known] = &[
         Kept,
         "Drives a model along waypoints.",
         [
-            text("link_name", "Link on which the force acts.").naming(Names::Link),
+            text("link_name", "Link on which the force acts.").naming(NamedEntity::Link),
             group("waypoints", "Waypoints."),
             flag("loop", "If true, it repeats.").or("false"),
             number("force", "N", "Force.").or("60"),
@@ -459,7 +469,7 @@ pub(super) static PLUGINS: &[Known] = &[
                 .or("false"),
             group("circle", "A circle instead of waypoints."),
             group("line", "A line instead of waypoints."),
-            text("topic", "Topic that switches it.").naming(Names::Topic),
+            text("topic", "Topic that switches it.").naming(NamedEntity::Topic),
         ]
     ),
 ];

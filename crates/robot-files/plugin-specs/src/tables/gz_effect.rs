@@ -1,23 +1,23 @@
 //! Systems of current Gazebo that act on bodies.
 
-use periplus_params::{Names, Parameter, flag, group, integer, number, numbers, text};
+use periplus_params::{NamedEntity, Parameter, flag, group, integer, number, numbers, text};
 
 use super::system;
-use crate::Known;
+use crate::PluginSpec;
 
 const fn link(name: &'static str, doc: &'static str) -> Parameter {
-    text(name, doc).naming(Names::Link)
+    text(name, doc).naming(NamedEntity::Link)
 }
 
 const fn topic(name: &'static str, doc: &'static str) -> Parameter {
-    text(name, doc).naming(Names::Topic)
+    text(name, doc).naming(NamedEntity::Topic)
 }
 
 const fn damping(name: &'static str) -> Parameter {
     number(name, "", "Coefficient of added mass or damping, named after the axes.").or("0")
 }
 
-pub(super) static PLUGINS: &[Known] = &[
+pub(super) static PLUGINS: &[PluginSpec] = &[
     system!(
         "gz-sim-detachable-joint-system",
         ["DetachableJoint"],
@@ -52,7 +52,7 @@ pub(super) static PLUGINS: &[Known] = &[
         [
             text("namespace", "Prefix of the topics."),
             topic("topic", "Topic of commands."),
-            text("joint_name", "The propeller's joint.").required().naming(Names::Joint),
+            text("joint_name", "The propeller's joint.").required().naming(NamedEntity::Joint),
             flag("use_angvel_cmd", "If true, commands are speeds instead of thrusts.").or("false"),
             number("fluid_density", "kg/m^3", "Density of the water.").or("1000").above(0.0),
             number("propeller_diameter", "m", "Diameter.").or("0.02").above(0.0),
@@ -166,7 +166,7 @@ pub(super) static PLUGINS: &[Known] = &[
             numbers("forward", "", "Direction of flight.").or("1 0 0"),
             numbers("upward", "", "Direction of lift.").or("0 0 1"),
             flag("radial_symmetry", "If true, the upward direction follows the flow.").or("false"),
-            text("control_joint_name", "The joint of the flap.").naming(Names::Joint),
+            text("control_joint_name", "The joint of the flap.").naming(NamedEntity::Joint),
             number("control_joint_rad_to_cl", "1/rad", "Lift of the flap.").or("1"),
             number("cm_delta", "", "Moment of the flap.").or("0"),
         ]
@@ -275,7 +275,7 @@ pub(super) static PLUGINS: &[Known] = &[
             number("update_rate", "Hz", "Gain of the controller.").or("10"),
             text("floor_link_prefix", "Prefix of the names of floors.").or("floor_"),
             text("door_joint_prefix", "Prefix of the names of doors.").or("door_"),
-            text("cabin_joint", "Joint of the lift.").or("lift").naming(Names::Joint),
+            text("cabin_joint", "Joint of the lift.").or("lift").naming(NamedEntity::Joint),
             topic("cmd_topic", "Topic of commands."),
             topic("state_topic", "Topic of the state."),
             number("state_publish_rate", "Hz", "Rate of the published state.").or("5"),

@@ -1,11 +1,11 @@
 //! World systems of current Gazebo.
 
-use periplus_params::{Names, flag, group, integer, number, text};
+use periplus_params::{NamedEntity, flag, group, integer, number, text};
 
 use super::system;
-use crate::Known;
+use crate::PluginSpec;
 
-pub(super) static PLUGINS: &[Known] = &[
+pub(super) static PLUGINS: &[PluginSpec] = &[
     system!(
         "gz-sim-physics-system",
         ["Physics"],
@@ -48,7 +48,9 @@ pub(super) static PLUGINS: &[Known] = &[
             number("record_period", "s", "Time between states; 0: each step.").or("0"),
             flag("compress", "If true, the folder is packed.").or("false"),
             text("compress_path", "The packed file."),
-            text("record_topic", "A topic that is recorded too.").repeated().naming(Names::Topic),
+            text("record_topic", "A topic that is recorded too.")
+                .repeated()
+                .naming(NamedEntity::Topic),
             text("playback_path", "Folder that is played back."),
         ]
     ),
@@ -59,7 +61,7 @@ pub(super) static PLUGINS: &[Known] = &[
         Kept,
         "Records the video of a camera.",
         [
-            text("service", "Service that starts and stops it.").naming(Names::Topic),
+            text("service", "Service that starts and stops it.").naming(NamedEntity::Topic),
             flag("use_sim_time", "If true, it follows simulated time.").or("false"),
             integer("fps", "Images per second.").or("25"),
             integer("bitrate", "Bits per second.").or("2070000"),

@@ -1,23 +1,23 @@
 //! Plugins of `gazebo_ros_pkgs`, branch `noetic-devel`, other than drives and sensors.
 
-use periplus_params::{Names, Parameter, flag, group, integer, number, numbers, text};
+use periplus_params::{NamedEntity, Parameter, flag, group, integer, number, numbers, text};
 
 use super::of_ros1;
-use crate::Known;
+use crate::PluginSpec;
 use crate::known::{listens, publishes};
 
 const UPDATE_RATE: Parameter =
     number("updateRate", "Hz", "Messages per second; 0: one per step.").or("0").min(0.0);
 
 const fn link(name: &'static str, doc: &'static str) -> Parameter {
-    text(name, doc).naming(Names::Link)
+    text(name, doc).naming(NamedEntity::Link)
 }
 
 const fn topic(name: &'static str, doc: &'static str) -> Parameter {
-    text(name, doc).naming(Names::Topic)
+    text(name, doc).naming(NamedEntity::Topic)
 }
 
-pub(super) static PLUGINS: &[Known] = &[
+pub(super) static PLUGINS: &[PluginSpec] = &[
     of_ros1!(
         "gazebo_ros_p3d",
         State,
@@ -28,7 +28,7 @@ pub(super) static PLUGINS: &[Known] = &[
             topic("topicName", "Topic of the odometry.").required(),
             text("frameName", "Reference link of the measurement, or `world` or `map`.")
                 .or("world")
-                .naming(Names::Frame),
+                .naming(NamedEntity::Frame),
             UPDATE_RATE,
             numbers("xyzOffset", "m", "Added to the position.").or("0 0 0").also(&["xyzOffsets"]),
             numbers("rpyOffset", "rad", "Added to the orientation.")

@@ -1,13 +1,13 @@
 //! Cameras of `gazebo_ros_pkgs`, branch `noetic-devel`.
 
-use periplus_params::{Names, Parameter, flag, number, text};
+use periplus_params::{NamedEntity, Parameter, flag, number, text};
 
 use super::of_ros1;
-use crate::Known;
+use crate::PluginSpec;
 use crate::known::publishes;
 
 const fn topic(name: &'static str, doc: &'static str, default: &'static str) -> Parameter {
-    text(name, doc).or(default).naming(Names::Topic)
+    text(name, doc).or(default).naming(NamedEntity::Topic)
 }
 
 const fn distortion(name: &'static str, alias: &'static [&'static str]) -> Parameter {
@@ -64,7 +64,7 @@ const fn cutoff_max(default: &'static str) -> Parameter {
 const BASELINE: Parameter =
     number("baseline", "m", "Distance of the infrared projector from the camera.");
 
-pub(super) static PLUGINS: &[Known] = &[
+pub(super) static PLUGINS: &[PluginSpec] = &[
     camera!("gazebo_ros_camera", "Publishes the images of a `camera` sensor.", []),
     camera!(
         "gazebo_ros_depth_camera",

@@ -1,9 +1,9 @@
 //! Drives of `gazebo_ros_pkgs`, branch `noetic-devel`.
 
-use periplus_params::{Names, Parameter, choice, flag, number, text};
+use periplus_params::{NamedEntity, Parameter, choice, flag, number, text};
 
 use super::of_ros1;
-use crate::Known;
+use crate::PluginSpec;
 use crate::known::{listens, publishes};
 
 const UPDATE_RATE: Parameter =
@@ -12,10 +12,10 @@ const UPDATE_RATE: Parameter =
         .min(0.0);
 
 const COMMAND_TOPIC: Parameter =
-    text("commandTopic", "Topic of velocity commands.").or("cmd_vel").naming(Names::Topic);
+    text("commandTopic", "Topic of velocity commands.").or("cmd_vel").naming(NamedEntity::Topic);
 
 const ODOMETRY_TOPIC: Parameter =
-    text("odometryTopic", "Topic of the odometry.").or("odom").naming(Names::Topic);
+    text("odometryTopic", "Topic of the odometry.").or("odom").naming(NamedEntity::Topic);
 
 const ODOMETRY_FRAME: Parameter = text("odometryFrame", "Frame of the odometry.").or("odom");
 
@@ -24,7 +24,7 @@ const ODOMETRY_SOURCE: Parameter =
 
 const ROBOT_BASE_FRAME: Parameter = text("robotBaseFrame", "Frame that the odometry moves.")
     .or("base_footprint")
-    .naming(Names::Frame);
+    .naming(NamedEntity::Frame);
 
 const ROS_DEBUG_LEVEL: Parameter = text("rosDebugLevel", "Verbosity of the log.").or("na");
 
@@ -35,14 +35,14 @@ const PUBLISH_WHEEL_JOINT_STATE: Parameter =
     flag("publishWheelJointState", "If true, the wheels' joint states are published.").or("false");
 
 const fn joint(name: &'static str, doc: &'static str) -> Parameter {
-    text(name, doc).naming(Names::Joint)
+    text(name, doc).naming(NamedEntity::Joint)
 }
 
 const fn covariance(name: &'static str, unit: &'static str, default: &'static str) -> Parameter {
     number(name, unit, "Entry of the covariance of pose and velocity.").or(default).min(0.0)
 }
 
-pub(super) static PLUGINS: &[Known] = &[
+pub(super) static PLUGINS: &[PluginSpec] = &[
     of_ros1!(
         "gazebo_ros_diff_drive",
         Drive,

@@ -1,10 +1,10 @@
 //! Sensors of `gazebo_ros_pkgs`, branch `noetic-devel`, other than cameras; and those of
 //! `hector_gazebo_plugins`.
 
-use periplus_params::{Names, Parameter, choice, flag, number, numbers, text};
+use periplus_params::{NamedEntity, Parameter, choice, flag, number, numbers, text};
 
 use super::of_ros1;
-use crate::Known;
+use crate::PluginSpec;
 use crate::known::publishes;
 
 const UPDATE_RATE: Parameter =
@@ -19,20 +19,21 @@ const XYZ_OFFSET: Parameter =
 const RPY_OFFSET: Parameter =
     numbers("rpyOffset", "rad", "Added to the orientation.").or("0 0 0").also(&["rpyOffsets"]);
 
-const BODY_NAME: Parameter = text("bodyName", "Link whose pose is published.").naming(Names::Link);
+const BODY_NAME: Parameter =
+    text("bodyName", "Link whose pose is published.").naming(NamedEntity::Link);
 
 const fn frame(default: &'static str) -> Parameter {
-    text("frameName", "Frame of the messages.").or(default).naming(Names::Frame)
+    text("frameName", "Frame of the messages.").or(default).naming(NamedEntity::Frame)
 }
 
 const fn topic(default: &'static str) -> Parameter {
-    text("topicName", "Topic of the messages.").or(default).naming(Names::Topic)
+    text("topicName", "Topic of the messages.").or(default).naming(NamedEntity::Topic)
 }
 
 const REQUIRED_TOPIC: Parameter =
-    text("topicName", "Topic of the messages.").required().naming(Names::Topic);
+    text("topicName", "Topic of the messages.").required().naming(NamedEntity::Topic);
 
-pub(super) static PLUGINS: &[Known] = &[
+pub(super) static PLUGINS: &[PluginSpec] = &[
     of_ros1!(
         "gazebo_ros_laser",
         Sensor,
@@ -93,7 +94,7 @@ pub(super) static PLUGINS: &[Known] = &[
         [
             BODY_NAME.required(),
             topic("/default_imu"),
-            text("serviceName", "Service that calibrates.").naming(Names::Topic),
+            text("serviceName", "Service that calibrates.").naming(NamedEntity::Topic),
             UPDATE_RATE,
             NOISE,
             XYZ_OFFSET,
@@ -109,7 +110,7 @@ pub(super) static PLUGINS: &[Known] = &[
         [
             topic("/default_imu"),
             BODY_NAME,
-            text("frameName", "Frame of the messages (default: the link).").naming(Names::Frame),
+            text("frameName", "Frame of the messages (default: the link).").naming(NamedEntity::Frame),
             number("updateRateHZ", "Hz", "Messages per second.").or("1").min(0.0),
             NOISE,
             XYZ_OFFSET,
@@ -129,7 +130,7 @@ pub(super) static PLUGINS: &[Known] = &[
         [
             text("bumperTopicName", "Topic of the contacts.")
                 .or("bumper_states")
-                .naming(Names::Topic),
+                .naming(NamedEntity::Topic),
             frame("world"),
             UPDATE_RATE,
         ]
@@ -149,7 +150,7 @@ pub(super) static PLUGINS: &[Known] = &[
         Simulated,
         "Publishes forces and torques in a joint.",
         [
-            text("jointName", "The joint.").required().naming(Names::Joint),
+            text("jointName", "The joint.").required().naming(NamedEntity::Joint),
             REQUIRED_TOPIC,
             NOISE,
             UPDATE_RATE,

@@ -1,17 +1,19 @@
 //! Plugins of `gazebo_ros_pkgs`, branch `ros2`, other than drives.
 
-use periplus_params::{Names, Parameter, choice, flag, integer, number, numbers, text};
+use periplus_params::{NamedEntity, Parameter, choice, flag, integer, number, numbers, text};
 
 use super::of_ros2;
-use crate::Known;
+use crate::PluginSpec;
 use crate::known::{listens, publishes};
 
 const FRAME_NAME: Parameter =
-    text("frame_name", "Frame of the messages (default: the sensor's link).").naming(Names::Frame);
+    text("frame_name", "Frame of the messages (default: the sensor's link).")
+        .naming(NamedEntity::Frame);
 
-const BODY_NAME: Parameter = text("body_name", "Link whose pose is published.").naming(Names::Link);
+const BODY_NAME: Parameter =
+    text("body_name", "Link whose pose is published.").naming(NamedEntity::Link);
 
-pub(super) static PLUGINS: &[Known] = &[
+pub(super) static PLUGINS: &[PluginSpec] = &[
     of_ros2!(
         "gazebo_ros_ray_sensor",
         Sensor,
@@ -100,7 +102,7 @@ pub(super) static PLUGINS: &[Known] = &[
         Sensor,
         Simulated,
         "Publishes the contacts of a `contact` sensor.",
-        [text("frame_name", "Frame in which contacts are given.").or("world").naming(Names::Frame)]
+        [text("frame_name", "Frame in which contacts are given.").or("world").naming(NamedEntity::Frame)]
     )
     .topics(&[publishes("bumper_states")]),
     of_ros2!(
@@ -109,7 +111,7 @@ pub(super) static PLUGINS: &[Known] = &[
         Simulated,
         "Publishes positions and velocities of joints.",
         [
-            text("joint_name", "A joint to publish.").required().repeated().naming(Names::Joint),
+            text("joint_name", "A joint to publish.").required().repeated().naming(NamedEntity::Joint),
             number("update_rate", "Hz", "Messages per second.").or("100").min(0.0),
         ]
     )
@@ -123,7 +125,7 @@ pub(super) static PLUGINS: &[Known] = &[
             BODY_NAME.required(),
             text("frame_name", "Reference link of the measurement, or `world` or `map`.")
                 .or("world")
-                .naming(Names::Frame),
+                .naming(NamedEntity::Frame),
             number("update_rate", "Hz", "Messages per second; 0: one per step.")
                 .or("0")
                 .min(0.0),
@@ -145,8 +147,8 @@ pub(super) static PLUGINS: &[Known] = &[
         [
             BODY_NAME,
             text("joint_name", "The joint to measure in, when no link is named.")
-                .naming(Names::Joint),
-            text("frame_name", "Frame of the messages of a link.").or("world").naming(Names::Frame),
+                .naming(NamedEntity::Joint),
+            text("frame_name", "Frame of the messages of a link.").or("world").naming(NamedEntity::Frame),
             number("update_rate", "Hz", "Messages per second; 0: one per step.")
                 .or("0")
                 .min(0.0),
@@ -160,7 +162,7 @@ pub(super) static PLUGINS: &[Known] = &[
         Kept,
         "Applies the force of a message to a link.",
         [
-            text("link_name", "The link.").required().naming(Names::Link),
+            text("link_name", "The link.").required().naming(NamedEntity::Link),
             choice("force_frame", &["world", "link"], "Axes in which forces are given.")
                 .or("world"),
         ]
@@ -181,7 +183,7 @@ pub(super) static PLUGINS: &[Known] = &[
         [
             text("projector_link", "The projector's link.")
                 .or("projector_link")
-                .naming(Names::Link),
+                .naming(NamedEntity::Link),
             text("projector_name", "The projector's name.").or("projector"),
         ]
     )
@@ -204,15 +206,15 @@ pub(super) static PLUGINS: &[Known] = &[
         Kept,
         "Drives an elevator to a floor.",
         [
-            text("lift_joint", "Joint of the lift.").naming(Names::Joint),
-            text("door_joint", "The joint of the door.").naming(Names::Joint),
+            text("lift_joint", "Joint of the lift.").naming(NamedEntity::Joint),
+            text("door_joint", "The joint of the door.").naming(NamedEntity::Joint),
             number("floor_height", "m", "Height of a storey.").or("3").above(0.0),
             number("door_wait_time", "s", "Time for which the door stays open.").or("5").min(0.0),
             number("speed", "m/s", "Lifting speed."),
             numbers("force_pid", "", "Gains of the force."),
             integer("bottom_floor", "Number of the lowest floor."),
             integer("top_floor", "Number of the highest floor."),
-            text("topic", "Gazebo topic of commands.").naming(Names::Topic),
+            text("topic", "Gazebo topic of commands.").naming(NamedEntity::Topic),
         ]
     )
     .topics(&[listens("elevator")]),
@@ -222,7 +224,7 @@ pub(super) static PLUGINS: &[Known] = &[
         Kept,
         "Pulls a link to a frame.",
         [
-            text("link_name", "The link.").required().naming(Names::Link),
+            text("link_name", "The link.").required().naming(NamedEntity::Link),
             text("frame_id", "The frame's parent.").or("world"),
             number("kl", "N/m", "Spring constant of the pull.").or("200"),
             number("ka", "N m/rad", "Spring constant of the turn.").or("200"),
@@ -244,7 +246,7 @@ pub(super) static PLUGINS: &[Known] = &[
         Kept,
         "Pulls nearby objects to a link.",
         [
-            text("link_name", "Link that pulls.").required().naming(Names::Link),
+            text("link_name", "Link that pulls.").required().naming(NamedEntity::Link),
             text("fixed", "Object that is not pulled.").repeated(),
             number("max_distance", "m", "Maximum distance of the effect.").or("0.05").min(0.0),
         ]
@@ -294,7 +296,7 @@ pub(super) static PLUGINS: &[Known] = &[
             flag("hold_joints", "If true, joints hold their position without a command.").or("true"),
             text("robot_sim_type", "Class that connects the joints, before ros2_control."),
             number("control_period", "s", "Step of the controllers.").above(0.0),
-            text("e_stop_topic", "Topic of an emergency stop.").naming(Names::Topic),
+            text("e_stop_topic", "Topic of an emergency stop.").naming(NamedEntity::Topic),
         ]
     ),
 ];

@@ -1,9 +1,9 @@
 //! Drives of `gazebo_ros_pkgs`, branch `ros2`.
 
-use periplus_params::{Names, Parameter, flag, integer, number, numbers, text};
+use periplus_params::{NamedEntity, Parameter, flag, integer, number, numbers, text};
 
 use super::of_ros2;
-use crate::Known;
+use crate::PluginSpec;
 use crate::known::{listens, publishes};
 
 const UPDATE_RATE: Parameter =
@@ -15,7 +15,7 @@ const ODOMETRY_FRAME: Parameter = text("odometry_frame", "Frame of the odometry.
 
 const ROBOT_BASE_FRAME: Parameter = text("robot_base_frame", "Frame that the odometry moves.")
     .or("base_footprint")
-    .naming(Names::Frame);
+    .naming(NamedEntity::Frame);
 
 const PUBLISH_ODOM: Parameter = flag("publish_odom", "If true, odometry is published.").or("false");
 
@@ -31,10 +31,10 @@ const fn covariance(name: &'static str, unit: &'static str, default: &'static st
 }
 
 const fn joint(name: &'static str, doc: &'static str) -> Parameter {
-    text(name, doc).naming(Names::Joint)
+    text(name, doc).naming(NamedEntity::Joint)
 }
 
-pub(super) static PLUGINS: &[Known] = &[
+pub(super) static PLUGINS: &[PluginSpec] = &[
     of_ros2!(
         "gazebo_ros_diff_drive",
         Drive,
@@ -139,7 +139,7 @@ pub(super) static PLUGINS: &[Known] = &[
             ODOMETRY_FRAME,
             text("robot_base_frame", "Frame that the odometry moves.")
                 .or("base_link")
-                .naming(Names::Frame),
+                .naming(NamedEntity::Frame),
             covariance("covariance_x", "m^2", "0.00001"),
             covariance("covariance_y", "m^2", "0.00001"),
             covariance("covariance_yaw", "rad^2", "0.001"),
@@ -194,7 +194,7 @@ pub(super) static PLUGINS: &[Known] = &[
             ODOMETRY_FRAME,
             text("robot_base_frame", "Frame that the odometry moves.")
                 .or("base_link")
-                .naming(Names::Frame),
+                .naming(NamedEntity::Frame),
         ]
     )
     .topics(&[

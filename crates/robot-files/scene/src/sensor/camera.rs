@@ -4,7 +4,7 @@ use periplus_geometry::Pose;
 use periplus_xml::Element;
 use serde::Serialize;
 
-use crate::Noise;
+use crate::NoiseSpec;
 
 /// Content of the pixels.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
@@ -52,7 +52,7 @@ pub struct Camera {
     /// Near and far clip distance of the depth part [m], if given.
     pub depth_clip_m: Option<[f64; 2]>,
     /// Noise of a channel, in 0..1.
-    pub noise: Noise,
+    pub noise: NoiseSpec,
     /// Distortion of the lens.
     pub distortion: Option<Distortion>,
     /// Topic of its camera info, if given.

@@ -3,15 +3,15 @@
 use periplus_xml::Element;
 use serde::Serialize;
 
-use crate::Noise;
+use crate::NoiseSpec;
 
 /// Inertial measurement unit.
 #[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Imu {
+pub struct ImuSpec {
     /// Noise about x, y, z [rad/s].
-    pub angular_velocity: [Noise; 3],
+    pub angular_velocity: [NoiseSpec; 3],
     /// Noise along x, y, z [m/s²].
-    pub linear_acceleration: [Noise; 3],
+    pub linear_acceleration: [NoiseSpec; 3],
     /// True if it reports an orientation.
     pub enable_orientation: bool,
     /// Reference of the orientation: `CUSTOM`, `ENU`, `NED`, `NWU`, `GRAV_UP`, `GRAV_DOWN`; `None` for the

@@ -3,11 +3,11 @@
 use periplus_xml::Element;
 use serde::Serialize;
 
-use crate::Noise;
+use crate::NoiseSpec;
 
 /// Lidar with one or several rows of rays.
 #[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Lidar {
+pub struct LidarSpec {
     /// Horizontal rays, about z.
     pub horizontal: ScanAxis,
     /// Vertical rays.
@@ -19,7 +19,7 @@ pub struct Lidar {
     /// Resolution of the ranges [m].
     pub range_resolution_m: f64,
     /// Noise of a range [m].
-    pub noise: Noise,
+    pub noise: NoiseSpec,
     /// Mask of the visuals that it detects: those whose flags have a bit in common.
     pub visibility_mask: u32,
     /// Uninterpreted attributes and elements, kept verbatim.

@@ -17,7 +17,7 @@ pub enum NoiseKind {
 
 /// Noise of one quantity, in its unit.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
-pub struct Noise {
+pub struct NoiseSpec {
     /// Distribution.
     pub kind: NoiseKind,
     /// Mean of the noise.

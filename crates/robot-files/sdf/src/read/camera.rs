@@ -2,7 +2,7 @@
 
 use periplus_diagnostics::Diagnostic;
 use periplus_geometry::Pose;
-use periplus_scene::{Camera, CameraKind, Distortion, Noise, SensorKind};
+use periplus_scene::{Camera, CameraKind, Distortion, NoiseSpec, SensorKind};
 use periplus_xml::Element;
 
 use super::noise;
@@ -74,7 +74,7 @@ fn default_camera(kind: CameraKind) -> Camera {
         near_m: 0.1,
         far_m: 100.0,
         depth_clip_m: None,
-        noise: Noise::default(),
+        noise: NoiseSpec::default(),
         distortion: None,
         camera_info_topic: None,
         optical_frame_id: None,

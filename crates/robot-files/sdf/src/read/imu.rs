@@ -1,13 +1,13 @@
 //! `<imu>`.
 
-use periplus_scene::Imu;
+use periplus_scene::ImuSpec;
 use periplus_xml::Element;
 
 use super::noise;
 use crate::fields::Fields;
 
-pub(crate) fn read_imu(mut fields: Fields<'_, '_>) -> Imu {
-    let mut imu = Imu {
+pub(crate) fn read_imu(mut fields: Fields<'_, '_>) -> ImuSpec {
+    let mut imu = ImuSpec {
         angular_velocity: noise::group(&mut fields, "angular_velocity", ["x", "y", "z"]),
         linear_acceleration: noise::group(&mut fields, "linear_acceleration", ["x", "y", "z"]),
         enable_orientation: fields.boolean("enable_orientation", true),

@@ -15,7 +15,7 @@ use crate::builtin;
 use crate::draft::{ActorDraft, LightDraft, ModelDraft};
 
 /// Access to the files that an `<include>` names. This crate reads no files.
-pub trait Includes {
+pub trait IncludeResolver {
     /// Opens the target of `uri`, as written at `from`: a model's folder or an SDF or URDF file.
     fn open(
         &mut self,
@@ -23,12 +23,12 @@ pub trait Includes {
         from: Origin,
         sources: &mut SourceMap,
         diagnostics: &mut Diagnostics,
-    ) -> Opened;
+    ) -> IncludeTarget;
 }
 
 /// Target of an include.
 #[derive(Clone, Debug)]
-pub enum Opened {
+pub enum IncludeTarget {
     /// An SDF document.
     Sdf {
         /// The document.
@@ -58,9 +58,15 @@ pub enum Opened {
 #[derive(Clone, Copy, Debug, Default)]
 pub struct NoIncludes;
 
-impl Includes for NoIncludes {
-    fn open(&mut self, _: &str, _: Origin, _: &mut SourceMap, _: &mut Diagnostics) -> Opened {
-        Opened::Missing { tried: Vec::new(), advice: None }
+impl IncludeResolver for NoIncludes {
+    fn open(
+        &mut self,
+        _: &str,
+        _: Origin,
+        _: &mut SourceMap,
+        _: &mut Diagnostics,
+    ) -> IncludeTarget {
+        IncludeTarget::Missing { tried: Vec::new(), advice: None }
     }
 }
 
@@ -145,16 +151,18 @@ fn too_deep(origin: Origin, reader: &mut Reader<'_>) {
 
 fn load(uri: &str, from: Origin, reader: &mut Reader<'_>) -> Option<Loaded> {
     match reader.includes.open(uri, from, reader.sources, reader.diagnostics) {
-        Opened::Sdf { document, key } => load_document(&document.root, key, from, reader),
-        Opened::Model { model, .. } => Some(Loaded::of_model(ModelDraft::from_model(*model))),
-        Opened::Missing { tried, advice } => {
+        IncludeTarget::Sdf { document, key } => load_document(&document.root, key, from, reader),
+        IncludeTarget::Model { model, .. } => {
+            Some(Loaded::of_model(ModelDraft::from_model(*model)))
+        }
+        IncludeTarget::Missing { tried, advice } => {
             if let Some(document) = builtin::find(uri, reader.sources) {
                 return load_document(&document.root, format!("built-in {uri}"), from, reader);
             }
             report_missing(uri, from, (tried, advice), reader);
             None
         }
-        Opened::Broken => None,
+        IncludeTarget::Broken => None,
     }
 }
 

@@ -1,14 +1,14 @@
 //! `<lidar>`, once `<ray>`.
 
 use periplus_diagnostics::Diagnostic;
-use periplus_scene::{Lidar, ScanAxis};
+use periplus_scene::{LidarSpec, ScanAxis};
 
 use super::noise;
 use crate::fields::Fields;
 
-pub(crate) fn read_lidar(mut fields: Fields<'_, '_>) -> Lidar {
+pub(crate) fn read_lidar(mut fields: Fields<'_, '_>) -> LidarSpec {
     let horizontal = ScanAxis { samples: 640, ..SINGLE };
-    let mut lidar = Lidar {
+    let mut lidar = LidarSpec {
         horizontal,
         vertical: SINGLE,
         range_min_m: 0.0,
@@ -74,7 +74,7 @@ fn axis(scan: &mut Fields<'_, '_>, name: &'static str, default: ScanAxis) -> Sca
     axis
 }
 
-fn read_range(fields: &mut Fields<'_, '_>, lidar: &mut Lidar) {
+fn read_range(fields: &mut Fields<'_, '_>, lidar: &mut LidarSpec) {
     let Some(mut range) = fields.open("range") else {
         fields.diagnostics.push(
             Diagnostic::error("missing-element", "a lidar needs its `<range>`")

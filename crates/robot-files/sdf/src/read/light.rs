@@ -6,12 +6,12 @@ use periplus_scene::{Attenuation, Colour, Light, LightKind, Spot};
 use periplus_xml::Element;
 
 use crate::fields::Fields;
-use crate::pose::Placed;
+use crate::pose::PosedElement;
 
 const KINDS: [&str; 3] = ["point", "directional", "spot"];
 
 /// Reads a `<light>`; SDF's defaults.
-pub fn read_light(element: &Element, diagnostics: &mut Diagnostics) -> Placed<Light> {
+pub fn read_light(element: &Element, diagnostics: &mut Diagnostics) -> PosedElement<Light> {
     let mut fields = Fields::new(element, diagnostics);
     let name = fields.required_attribute("name").map(|it| it.value.to_string());
     let (parent_from_light, relative_to) = fields.pose();
@@ -78,5 +78,5 @@ pub fn read_light(element: &Element, diagnostics: &mut Diagnostics) -> Placed<Li
             fields.finish()
         },
     };
-    Placed { value: light, relative_to }
+    PosedElement { value: light, relative_to }
 }

@@ -13,7 +13,7 @@ use super::surface::read_surface;
 use crate::draft::{LinkDraft, Part};
 use crate::fields::Fields;
 use crate::inertia;
-use crate::pose::{Placed, Reference};
+use crate::pose::{PosedElement, Reference};
 
 /// Reads a `<link>`. `moves` is false in static models, whose inertia is not checked.
 pub(crate) fn read_link(
@@ -111,7 +111,7 @@ pub fn read_inertial(element: &Element, diagnostics: &mut Diagnostics) -> Inerti
 }
 
 /// Reads a `<collision>`; SDF's defaults.
-pub fn read_collision(element: &Element, diagnostics: &mut Diagnostics) -> Placed<Collision> {
+pub fn read_collision(element: &Element, diagnostics: &mut Diagnostics) -> PosedElement<Collision> {
     let mut fields = Fields::new(element, diagnostics);
     let name = fields.required_attribute("name").map(|it| it.value.to_string());
     let (pose, relative_to) = fields.pose();
@@ -126,11 +126,11 @@ pub fn read_collision(element: &Element, diagnostics: &mut Diagnostics) -> Place
     }
     fields.verbatim(&["density", "auto_inertia_params", "frame"]);
     collision.extra = fields.finish();
-    Placed { value: collision, relative_to }
+    PosedElement { value: collision, relative_to }
 }
 
 /// Reads a `<visual>`; SDF's defaults.
-pub fn read_visual(element: &Element, diagnostics: &mut Diagnostics) -> Placed<Visual> {
+pub fn read_visual(element: &Element, diagnostics: &mut Diagnostics) -> PosedElement<Visual> {
     let mut fields = Fields::new(element, diagnostics);
     let name = fields.required_attribute("name").map(|it| it.value.to_string());
     let (pose, relative_to) = fields.pose();
@@ -156,7 +156,7 @@ pub fn read_visual(element: &Element, diagnostics: &mut Diagnostics) -> Placed<V
                 .at(child.text_origin()),
         );
     }
-    Placed { value: visual, relative_to }
+    PosedElement { value: visual, relative_to }
 }
 
 fn geometry(fields: &mut Fields<'_, '_>) -> Shape {

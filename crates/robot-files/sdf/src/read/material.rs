@@ -1,7 +1,7 @@
 //! `<material>`.
 
 use periplus_diagnostics::{Diagnostic, Diagnostics};
-use periplus_scene::{Material, Pbr, Script, builtin_material, builtin_material_names};
+use periplus_scene::{Material, MaterialScript, Pbr, builtin_material, builtin_material_names};
 use periplus_xml::Element;
 
 use crate::fields::Fields;
@@ -36,7 +36,7 @@ pub fn read_material(element: &Element, diagnostics: &mut Diagnostics) -> Materi
     material
 }
 
-fn read_script(mut fields: Fields<'_, '_>) -> (Option<Script>, Vec<Element>) {
+fn read_script(mut fields: Fields<'_, '_>) -> (Option<MaterialScript>, Vec<Element>) {
     let mut uris = Vec::new();
     for uri in fields.children("uri") {
         let text = uri.text();
@@ -63,7 +63,7 @@ fn read_script(mut fields: Fields<'_, '_>) -> (Option<Script>, Vec<Element>) {
     }
     let rest = fields.finish();
     let script = (name.is_some() || !uris.is_empty())
-        .then(|| Script { uris, name: name.unwrap_or_default() });
+        .then(|| MaterialScript { uris, name: name.unwrap_or_default() });
     (script, rest)
 }
 

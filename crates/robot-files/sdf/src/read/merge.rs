@@ -97,7 +97,7 @@ fn rebased(mut included: ModelDraft, reader: &mut Reader<'_>) -> ModelDraft {
         to_proxy(&mut model.relative_to);
     }
     let frame = FrameDraft {
-        frame: periplus_scene::Frame {
+        frame: periplus_scene::NamedFrame {
             name: proxy.name.to_string(),
             parent_from_frame: pose,
             attached_to: String::new(),

@@ -1,7 +1,7 @@
 //! `<model>` and `<frame>`.
 
 use periplus_diagnostics::{Diagnostic, Diagnostics};
-use periplus_scene::{Frame, FrameRole, Model};
+use periplus_scene::{FrameRole, Model, NamedFrame};
 use periplus_xml::Element;
 
 use super::include::{Entity, read_include};
@@ -116,7 +116,7 @@ pub(crate) fn read_frame(element: &Element, diagnostics: &mut Diagnostics) -> Fr
     };
     let (pose, relative_to) = fields.pose();
     fields.finish();
-    let frame = Frame {
+    let frame = NamedFrame {
         name: name.unwrap_or_else(|| "frame".into()),
         parent_from_frame: pose,
         attached_to: String::new(),

@@ -1,15 +1,15 @@
 //! `<noise>`.
 
 use periplus_diagnostics::Diagnostic;
-use periplus_scene::{Noise, NoiseKind};
+use periplus_scene::{NoiseKind, NoiseSpec};
 
 use crate::fields::Fields;
 
 const KINDS: [&str; 3] = ["none", "gaussian", "gaussian_quantized"];
 
 /// Child `<noise>` of an element. The type is an attribute, or in lidars and cameras a child.
-pub(crate) fn child(fields: &mut Fields<'_, '_>) -> Noise {
-    let Some(mut noise) = fields.open("noise") else { return Noise::default() };
+pub(crate) fn child(fields: &mut Fields<'_, '_>) -> NoiseSpec {
+    let Some(mut noise) = fields.open("noise") else { return NoiseSpec::default() };
     let read = read(&mut noise);
     let rest = noise.finish();
     fields.close("noise", rest);
@@ -17,8 +17,8 @@ pub(crate) fn child(fields: &mut Fields<'_, '_>) -> Noise {
 }
 
 /// Noise inside a child: `<x><noise>...</noise></x>`.
-pub(crate) fn inside(fields: &mut Fields<'_, '_>, name: &'static str) -> Noise {
-    let Some(mut inner) = fields.open(name) else { return Noise::default() };
+pub(crate) fn inside(fields: &mut Fields<'_, '_>, name: &'static str) -> NoiseSpec {
+    let Some(mut inner) = fields.open(name) else { return NoiseSpec::default() };
     let noise = child(&mut inner);
     let rest = inner.finish();
     fields.close(name, rest);
@@ -30,15 +30,15 @@ pub(crate) fn group<const N: usize>(
     fields: &mut Fields<'_, '_>,
     name: &'static str,
     parts: [&'static str; N],
-) -> [Noise; N] {
-    let Some(mut inner) = fields.open(name) else { return [Noise::default(); N] };
+) -> [NoiseSpec; N] {
+    let Some(mut inner) = fields.open(name) else { return [NoiseSpec::default(); N] };
     let noises = parts.map(|part| inside(&mut inner, part));
     let rest = inner.finish();
     fields.close(name, rest);
     noises
 }
 
-fn read(fields: &mut Fields<'_, '_>) -> Noise {
+fn read(fields: &mut Fields<'_, '_>) -> NoiseSpec {
     let attribute = fields.attribute("type");
     let child = fields.element.child("type");
     let written = fields.text("type").or_else(|| attribute.map(|it| it.value.to_string()));
@@ -62,7 +62,7 @@ fn read(fields: &mut Fields<'_, '_>) -> Noise {
             NoiseKind::None
         }
     };
-    Noise {
+    NoiseSpec {
         kind,
         mean: fields.number("mean", 0.0),
         stddev: fields.magnitude("stddev", 0.0),

@@ -2,7 +2,7 @@
 
 use periplus_diagnostics::{Diagnostic, Diagnostics};
 use periplus_scene::Plugin;
-use periplus_xml::{Element, Node};
+use periplus_xml::{Element, XmlNode};
 
 use crate::fields::Fields;
 use crate::verbatim::keep;
@@ -21,7 +21,7 @@ pub fn read_plugin(element: &Element, diagnostics: &mut Diagnostics) -> Plugin {
     Plugin {
         name: name.unwrap_or_default(),
         filename: filename.unwrap_or_default(),
-        content: element.children.iter().filter_map(Node::as_element).map(keep).collect(),
+        content: element.children.iter().filter_map(XmlNode::as_element).map(keep).collect(),
         origin: element.origin,
     }
 }

@@ -7,7 +7,7 @@ use periplus_scene::Scene;
 use periplus_xml::{Document, Element};
 
 use super::actor::read_actor;
-use super::include::{Entity, Includes, Loaded, read_include, report_missing_from_fuel};
+use super::include::{Entity, IncludeResolver, Loaded, read_include, report_missing_from_fuel};
 use super::light::read_light;
 use super::model::read_model;
 use super::world::read_world;
@@ -17,20 +17,20 @@ use crate::upgrade::upgrade;
 use crate::version::Version;
 
 /// Inputs and outputs of a reader that are shared by all files.
-pub struct Context<'a> {
+pub struct SdfContext<'a> {
     /// Receives the texts of built-in models.
     pub sources: &'a mut SourceMap,
     /// Receives the findings.
     pub diagnostics: &'a mut Diagnostics,
     /// Resolves `<include>` elements.
-    pub includes: &'a mut dyn Includes,
+    pub includes: &'a mut dyn IncludeResolver,
 }
 
 /// State of a reader.
 pub(crate) struct Reader<'a> {
     pub(crate) sources: &'a mut SourceMap,
     pub(crate) diagnostics: &'a mut Diagnostics,
-    pub(crate) includes: &'a mut dyn Includes,
+    pub(crate) includes: &'a mut dyn IncludeResolver,
     /// Version of the current file.
     pub(crate) version: Version,
     /// Includes that led to the current file: what each opened, and its source location.
@@ -50,7 +50,7 @@ pub(crate) const MAX_NESTED_MODELS: usize = 40;
 
 /// Reads a whole SDF document of any version. The scene holds all content that could be read; the
 /// diagnostics report the rest.
-pub fn read_document(document: &Document, context: &mut Context<'_>) -> Scene {
+pub fn read_document(document: &Document, context: &mut SdfContext<'_>) -> Scene {
     let mut reader = Reader {
         sources: context.sources,
         diagnostics: context.diagnostics,

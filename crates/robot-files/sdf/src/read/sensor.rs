@@ -1,13 +1,13 @@
 //! `<sensor>`.
 
 use periplus_diagnostics::{Diagnostic, Diagnostics};
-use periplus_scene::{Noise, Sensor, SensorKind};
+use periplus_scene::{NoiseSpec, Sensor, SensorKind};
 use periplus_xml::Element;
 
 use super::plugin::plugins;
 use super::{camera, lidar, noise};
 use crate::fields::Fields;
-use crate::pose::{Placed, Reference};
+use crate::pose::{PosedElement, Reference};
 use crate::verbatim::keep;
 
 /// Sensor types, and the elements that hold their settings.
@@ -51,7 +51,7 @@ const TYPES: [(&str, &[&str]); 35] = [
 
 /// Sensor, with the frames that its pose and those of its cameras are relative to.
 #[derive(Clone, Debug, PartialEq)]
-pub struct PlacedSensor {
+pub struct PosedSensor {
     /// The sensor; poses are as written.
     pub value: Sensor,
     /// Frame that the sensor's pose is relative to; `None` for the default.
@@ -62,7 +62,7 @@ pub struct PlacedSensor {
 }
 
 /// Reads a `<sensor>` of any type and version; SDF's defaults.
-pub fn read_sensor(element: &Element, diagnostics: &mut Diagnostics) -> PlacedSensor {
+pub fn read_sensor(element: &Element, diagnostics: &mut Diagnostics) -> PosedSensor {
     let mut fields = Fields::new(element, diagnostics);
     let name = fields.required_attribute("name").map(|it| it.value.to_string());
     let type_name = fields.required_attribute("type").map(|it| it.value.to_string());
@@ -126,7 +126,7 @@ pub fn read_sensor(element: &Element, diagnostics: &mut Diagnostics) -> PlacedSe
         "transceiver",
     ]);
     sensor.extra.extend(fields.finish());
-    PlacedSensor { value: sensor, relative_to, cameras_relative_to }
+    PosedSensor { value: sensor, relative_to, cameras_relative_to }
 }
 
 /// `gz_frame_id` and its earlier names.
@@ -229,7 +229,7 @@ fn read_kind(
     sensor.kind = kind;
 }
 
-fn axes(inner: &mut Fields<'_, '_>) -> [Noise; 3] {
+fn axes(inner: &mut Fields<'_, '_>) -> [NoiseSpec; 3] {
     ["x", "y", "z"].map(|axis| noise::inside(inner, axis))
 }
 
@@ -247,8 +247,8 @@ fn contact(inner: &mut Fields<'_, '_>) -> SensorKind {
     SensorKind::Contact { collisions, topic }
 }
 
-impl From<PlacedSensor> for Placed<Sensor> {
-    fn from(sensor: PlacedSensor) -> Self {
+impl From<PosedSensor> for PosedElement<Sensor> {
+    fn from(sensor: PosedSensor) -> Self {
         Self { value: sensor.value, relative_to: sensor.relative_to }
     }
 }

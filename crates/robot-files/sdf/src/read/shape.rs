@@ -2,7 +2,7 @@
 
 use periplus_diagnostics::{Diagnostic, Diagnostics};
 use periplus_geometry::DVec3;
-use periplus_scene::{Heightmap, Image, Mesh, Polyline, Shape};
+use periplus_scene::{Heightmap, ImageShape, MeshShape, Polyline, Shape};
 use periplus_xml::Element;
 
 use crate::fields::Fields;
@@ -208,7 +208,7 @@ fn mesh(mut fields: Fields<'_, '_>) -> Shape {
         extra.push(Element::new(OPTIMIZATION).with_text(attribute.value.clone()));
     }
     extra.extend(fields.finish());
-    Shape::Mesh(Mesh { uri, path: None, submesh, center_submesh, scale, extra, origin })
+    Shape::Mesh(MeshShape { uri, path: None, submesh, center_submesh, scale, extra, origin })
 }
 
 /// Name under which `<mesh optimization="...">` is kept in [`Mesh::extra`].
@@ -231,7 +231,7 @@ fn heightmap(mut fields: Fields<'_, '_>) -> Shape {
 }
 
 fn image(mut fields: Fields<'_, '_>) -> Shape {
-    Shape::Image(Image {
+    Shape::Image(ImageShape {
         uri: required_uri(&mut fields),
         path: None,
         scale: fields.length("scale", 1.0),

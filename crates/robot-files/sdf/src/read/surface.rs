@@ -2,15 +2,15 @@
 
 use periplus_diagnostics::Diagnostics;
 use periplus_geometry::DVec3;
-use periplus_scene::{Contact, Friction, Surface};
+use periplus_scene::{ContactProperties, Friction, SurfaceProperties};
 use periplus_xml::Element;
 
 use crate::fields::Fields;
 
 /// Reads a `<surface>`; SDF's defaults.
-pub fn read_surface(element: &Element, diagnostics: &mut Diagnostics) -> Surface {
+pub fn read_surface(element: &Element, diagnostics: &mut Diagnostics) -> SurfaceProperties {
     let mut fields = Fields::new(element, diagnostics);
-    let mut surface = Surface::default();
+    let mut surface = SurfaceProperties::default();
     if let Some(mut bounce) = fields.open("bounce") {
         surface.contact.restitution = bounce.number("restitution_coefficient", 0.0);
         surface.contact.bounce_threshold_m_s = bounce.limit("threshold", 100_000.0);
@@ -61,7 +61,7 @@ fn expressed_in(ode: &Element) -> Option<String> {
     Some(frame.value.to_string()).filter(|frame| !frame.is_empty())
 }
 
-fn read_contact(fields: &mut Fields<'_, '_>, contact: &mut Contact) {
+fn read_contact(fields: &mut Fields<'_, '_>, contact: &mut ContactProperties) {
     contact.collide_without_contact = fields.boolean("collide_without_contact", false);
     contact.collide_bitmask = fields.count("collide_bitmask", 0xffff);
     if let Some(mut ode) = fields.open("ode") {

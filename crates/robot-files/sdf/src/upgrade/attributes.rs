@@ -1,6 +1,6 @@
 //! 1.0 to 1.2: attributes become children.
 
-use periplus_xml::{Attribute, Element, Node, Text};
+use periplus_xml::{Attribute, Element, Text, XmlNode};
 
 use super::{child_mut, take_attribute};
 
@@ -125,7 +125,7 @@ pub(super) fn to_children(element: &mut Element) {
     {
         let mut name = Element { name: "name".into(), ..script.clone() };
         name.attributes.clear();
-        script.children = vec![Node::Element(name)];
+        script.children = vec![XmlNode::Element(name)];
     }
 }
 
@@ -134,5 +134,5 @@ fn set_text(element: &mut Element, attribute: Attribute) {
         element.origin = attribute.origin;
     }
     let text = Text { text: attribute.value, origin: attribute.value_origin };
-    element.children.insert(0, Node::Text(text));
+    element.children.insert(0, XmlNode::Text(text));
 }

@@ -3,7 +3,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use periplus_xml::{Attribute, Element, Node, SmolStr};
+use periplus_xml::{Attribute, Element, SmolStr, XmlNode};
 
 use super::{take_attribute, take_child};
 
@@ -22,7 +22,7 @@ pub(super) fn unflatten(model: &mut Element) {
     for node in std::mem::take(&mut model.children) {
         let home = node.as_element().and_then(|child| home(child, &marks));
         match (node, home) {
-            (Node::Element(child), Some(name)) => {
+            (XmlNode::Element(child), Some(name)) => {
                 if !inner.contains_key(&name) {
                     kept.push(Err(name.clone()));
                 }
@@ -93,8 +93,8 @@ fn strip_names(element: &mut Element, prefix: &str) {
     let names_a_link = matches!(&*element.name, "parent" | "child" | "gripper_link" | "palm_link");
     for node in &mut element.children {
         match node {
-            Node::Element(child) if child.name != "plugin" => strip_names(child, prefix),
-            Node::Text(text) if names_a_link => {
+            XmlNode::Element(child) if child.name != "plugin" => strip_names(child, prefix),
+            XmlNode::Text(text) if names_a_link => {
                 let trimmed = SmolStr::new(text.text.trim());
                 if trimmed.starts_with(prefix) {
                     text.text = trimmed;

@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 
 use periplus_diagnostics::Diagnostic;
-use periplus_scene::{Axis, Frame, FrameRole, Joint, JointKind, Model};
+use periplus_scene::{Axis, FrameRole, Joint, JointKind, Model, NamedFrame};
 use periplus_xml::Element;
 
 use super::link::write_link;
@@ -51,7 +51,7 @@ pub(super) fn write_model(model: &Model, writer: &mut Writer<'_>) -> Element {
 }
 
 /// Frame of a model or world with the root frame `root`.
-pub(super) fn write_frame(frame: &Frame, root: &str, writer: &mut Writer<'_>) -> Element {
+pub(super) fn write_frame(frame: &NamedFrame, root: &str, writer: &mut Writer<'_>) -> Element {
     let mut out = Out::named("frame", &frame.name);
     if frame.attached_to != root {
         out.attribute("attached_to", &frame.attached_to);

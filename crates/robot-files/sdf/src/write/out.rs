@@ -2,7 +2,7 @@
 
 use periplus_geometry::{DVec3, Pose, Rpy, format_number, parse_number, quaternion_from_rpy};
 use periplus_scene::Colour;
-use periplus_xml::{Element, Node, SmolStr};
+use periplus_xml::{Element, SmolStr, XmlNode};
 
 /// Element under construction; default values are left out.
 pub(super) struct Out {
@@ -105,7 +105,7 @@ fn put_back(element: &mut Element, extra: &[Element]) {
     let written = element.children.len();
     for rest in extra {
         let same = element.children[..written].iter_mut().find_map(|node| match node {
-            Node::Element(child) if child.name == rest.name => Some(child),
+            XmlNode::Element(child) if child.name == rest.name => Some(child),
             _ => None,
         });
         match same {

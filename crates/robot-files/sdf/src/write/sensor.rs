@@ -2,7 +2,7 @@
 
 use periplus_geometry::Pose;
 use periplus_scene::{
-    Camera, CameraKind, Imu, Lidar, Noise, NoiseKind, ScanAxis, Sensor, SensorKind,
+    Camera, CameraKind, ImuSpec, LidarSpec, NoiseKind, NoiseSpec, ScanAxis, Sensor, SensorKind,
 };
 use periplus_xml::Element;
 
@@ -29,7 +29,7 @@ pub(super) fn write_sensor(sensor: &Sensor) -> Element {
 fn write_kind(sensor: &Sensor, out: &mut Out) {
     let old = matches!(&*sensor.type_name, "ray" | "gpu_ray" | "gps");
     let rest = &sensor.kind_extra;
-    let three = |inner: &mut Out, noises: &[Noise; 3]| {
+    let three = |inner: &mut Out, noises: &[NoiseSpec; 3]| {
         for (axis, noise) in ["x", "y", "z"].iter().zip(noises) {
             inside(axis, noise, inner);
         }
@@ -50,7 +50,7 @@ fn write_kind(sensor: &Sensor, out: &mut Out) {
             velocity_vertical,
         } => {
             let mut inner = Out::new(if old { "gps" } else { "navsat" });
-            let mut pair = |name: &str, horizontal: &Noise, vertical: &Noise| {
+            let mut pair = |name: &str, horizontal: &NoiseSpec, vertical: &NoiseSpec| {
                 let mut group = Out::new(name);
                 inside("horizontal", horizontal, &mut group);
                 inside("vertical", vertical, &mut group);
@@ -115,8 +115,8 @@ fn write_kind(sensor: &Sensor, out: &mut Out) {
 }
 
 /// `<name><noise type="..."/></name>`, if there is noise.
-fn inside(name: &str, noise: &Noise, out: &mut Out) {
-    if *noise != Noise::default() {
+fn inside(name: &str, noise: &NoiseSpec, out: &mut Out) {
+    if *noise != NoiseSpec::default() {
         let mut inner = Out::new(name);
         inner.push(write_noise(noise, false));
         out.push(inner.finish(&[]));
@@ -124,7 +124,7 @@ fn inside(name: &str, noise: &Noise, out: &mut Out) {
 }
 
 /// Cameras and lidars have the noise type as a child, all others as an attribute.
-fn write_noise(noise: &Noise, kind_as_child: bool) -> Element {
+fn write_noise(noise: &NoiseSpec, kind_as_child: bool) -> Element {
     let mut out = Out::new("noise");
     let kind = match noise.kind {
         NoiseKind::None => "none",
@@ -146,7 +146,7 @@ fn write_noise(noise: &Noise, kind_as_child: bool) -> Element {
     out.finish(&[])
 }
 
-fn write_lidar(lidar: &Lidar, name: &str) -> Element {
+fn write_lidar(lidar: &LidarSpec, name: &str) -> Element {
     let mut out = Out::new(name);
     let mut scan = Out::new("scan");
     scan.push(write_axis("horizontal", &lidar.horizontal));
@@ -157,7 +157,7 @@ fn write_lidar(lidar: &Lidar, name: &str) -> Element {
     range.always("max", lidar.range_max_m);
     range.number("resolution", lidar.range_resolution_m, 0.0);
     out.push(range.finish(&[]));
-    if lidar.noise != Noise::default() {
+    if lidar.noise != NoiseSpec::default() {
         out.push(write_noise(&lidar.noise, true));
     }
     out.count("visibility_mask", lidar.visibility_mask, u32::MAX);
@@ -173,7 +173,7 @@ fn write_axis(name: &str, axis: &ScanAxis) -> Element {
     out.finish(&[])
 }
 
-fn write_imu(imu: &Imu) -> Element {
+fn write_imu(imu: &ImuSpec) -> Element {
     let mut out = Out::new("imu");
     let groups = [
         ("angular_velocity", &imu.angular_velocity),
@@ -219,7 +219,7 @@ fn write_camera(camera: &Camera) -> Element {
         clip.always("far", far_m);
         out.push(Element::new("depth_camera").with_child(clip.finish(&[])));
     }
-    if camera.noise != Noise::default() {
+    if camera.noise != NoiseSpec::default() {
         out.push(write_noise(&camera.noise, true));
     }
     if let Some(lens) = &camera.distortion {

@@ -1,7 +1,7 @@
 //! `<geometry>`.
 
 use periplus_geometry::DVec3;
-use periplus_scene::{Heightmap, Image, Mesh, Polyline, Shape};
+use periplus_scene::{Heightmap, ImageShape, MeshShape, Polyline, Shape};
 use periplus_xml::Element;
 
 use super::Writer;
@@ -63,7 +63,7 @@ fn single(shape: &Shape, writer: &mut Writer<'_>) -> Element {
     }
 }
 
-fn write_mesh(mesh: &Mesh, writer: &mut Writer<'_>) -> Element {
+fn write_mesh(mesh: &MeshShape, writer: &mut Writer<'_>) -> Element {
     let mut out = Out::new("mesh");
     let (private, extra): (Vec<_>, Vec<_>) =
         mesh.extra.iter().cloned().partition(|element| element.name == OPTIMIZATION);
@@ -93,7 +93,7 @@ fn heightmap(map: &Heightmap) -> Element {
     out.finish(&map.extra)
 }
 
-fn image(picture: &Image) -> Element {
+fn image(picture: &ImageShape) -> Element {
     let mut out = Out::new("image");
     out.text("uri", &picture.uri);
     out.always("scale", picture.scale);

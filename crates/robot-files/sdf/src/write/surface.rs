@@ -1,15 +1,15 @@
 //! `<surface>`.
 
 use periplus_geometry::DVec3;
-use periplus_scene::{Contact, Friction, Surface};
+use periplus_scene::{ContactProperties, Friction, SurfaceProperties};
 use periplus_xml::Element;
 
 use super::out::Out;
 
-pub(super) fn write_surface(surface: &Surface) -> Element {
+pub(super) fn write_surface(surface: &SurfaceProperties) -> Element {
     let mut out = Out::new("surface");
     let contact = &surface.contact;
-    let defaults = Contact::default();
+    let defaults = ContactProperties::default();
     let mut bounce = Out::new("bounce");
     bounce.number("restitution_coefficient", contact.restitution, defaults.restitution);
     bounce.number("threshold", contact.bounce_threshold_m_s, defaults.bounce_threshold_m_s);
@@ -33,7 +33,7 @@ fn write_friction(friction: &Friction) -> Element {
     out.finish(&[])
 }
 
-fn write_contact(contact: &Contact, defaults: &Contact) -> Element {
+fn write_contact(contact: &ContactProperties, defaults: &ContactProperties) -> Element {
     let mut out = Out::new("contact");
     out.flag("collide_without_contact", contact.collide_without_contact, false);
     out.count("collide_bitmask", contact.collide_bitmask, defaults.collide_bitmask);

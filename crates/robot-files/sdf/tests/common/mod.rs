@@ -5,10 +5,10 @@ use std::collections::BTreeMap;
 use std::fmt::Write as _;
 use std::sync::Arc;
 
-use periplus_diagnostics::{Diagnostics, Origin, SourceMap, Style, render};
+use periplus_diagnostics::{Diagnostics, Origin, RenderStyle, SourceMap, render};
 use periplus_geometry::Pose;
 use periplus_scene::{Model, Scene};
-use periplus_sdf::{Context, Includes, Opened};
+use periplus_sdf::{IncludeResolver, IncludeTarget, SdfContext};
 
 /// Files by URI.
 #[derive(Clone, Default)]
@@ -21,21 +21,21 @@ impl Files {
     }
 }
 
-impl Includes for Files {
+impl IncludeResolver for Files {
     fn open(
         &mut self,
         uri: &str,
         _: Origin,
         sources: &mut SourceMap,
         diagnostics: &mut Diagnostics,
-    ) -> Opened {
+    ) -> IncludeTarget {
         let Some(text) = self.0.get(uri) else {
-            return Opened::Missing { tried: vec![format!("/models/{uri}")], advice: None };
+            return IncludeTarget::Missing { tried: vec![format!("/models/{uri}")], advice: None };
         };
         let file = sources.add(uri, text.as_str());
         match periplus_xml::parse(file, sources, diagnostics) {
-            Some(document) => Opened::Sdf { document: Arc::new(document), key: uri.into() },
-            None => Opened::Broken,
+            Some(document) => IncludeTarget::Sdf { document: Arc::new(document), key: uri.into() },
+            None => IncludeTarget::Broken,
         }
     }
 }
@@ -46,8 +46,11 @@ pub(crate) fn read_with(text: &str, files: &mut Files) -> (Scene, Diagnostics, S
     let file = sources.add("test.sdf", text);
     let scene = match periplus_xml::parse(file, &sources, &mut diagnostics) {
         Some(document) => {
-            let mut context =
-                Context { sources: &mut sources, diagnostics: &mut diagnostics, includes: files };
+            let mut context = SdfContext {
+                sources: &mut sources,
+                diagnostics: &mut diagnostics,
+                includes: files,
+            };
             periplus_sdf::read_document(&document, &mut context)
         }
         None => Scene::default(),
@@ -65,7 +68,7 @@ pub(crate) fn read(text: &str) -> Scene {
 pub(crate) fn told(diagnostics: &Diagnostics, sources: &SourceMap) -> String {
     let mut out = String::new();
     for diagnostic in diagnostics.iter() {
-        let _ = writeln!(out, "{}", render(diagnostic, sources, Style::Plain).trim_end());
+        let _ = writeln!(out, "{}", render(diagnostic, sources, RenderStyle::Plain).trim_end());
     }
     out
 }

@@ -125,7 +125,7 @@ fn world(ours: &World, theirs: &Value, d: &mut Differences) {
     d.named("frames", &ours.frames, &theirs["frames"], |it| &it.name, frame);
 }
 
-fn frame(ours: &periplus_scene::Frame, theirs: &Value, d: &mut Differences) {
+fn frame(ours: &periplus_scene::NamedFrame, theirs: &Value, d: &mut Differences) {
     d.pose("pose", ours.parent_from_frame, &theirs["pose"]);
 }
 

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use periplus_diagnostics::{Diagnostics, Origin, SourceMap};
-use periplus_sdf::{Includes, Opened, Version};
+use periplus_sdf::{IncludeResolver, IncludeTarget, Version};
 use periplus_xml::Document;
 use serde_json::Value;
 
@@ -25,29 +25,31 @@ impl Recorded {
     }
 }
 
-impl Includes for Recorded {
+impl IncludeResolver for Recorded {
     fn open(
         &mut self,
         uri: &str,
         _: Origin,
         sources: &mut SourceMap,
         diagnostics: &mut Diagnostics,
-    ) -> Opened {
+    ) -> IncludeTarget {
         let path = match self.paths.get(uri) {
             Some(path) if !path.is_empty() => PathBuf::from(path),
             // Built-in models are found under these too, but not by the oracle.
-            _ if uri.starts_with("http") => return Opened::Broken,
-            _ => return Opened::Missing { tried: Vec::new(), advice: None },
+            _ if uri.starts_with("http") => return IncludeTarget::Broken,
+            _ => return IncludeTarget::Missing { tried: Vec::new(), advice: None },
         };
         let path = if path.is_dir() { best_file(&path) } else { Some(path) };
-        let Some(path) = path else { return Opened::Broken };
+        let Some(path) = path else { return IncludeTarget::Broken };
         let key = path.to_string_lossy().into_owned();
-        let Some(document) = parse(&key, sources, diagnostics) else { return Opened::Broken };
+        let Some(document) = parse(&key, sources, diagnostics) else {
+            return IncludeTarget::Broken;
+        };
         if document.root.name == "robot" {
             self.other_format = true;
-            return Opened::Broken;
+            return IncludeTarget::Broken;
         }
-        Opened::Sdf { document: Arc::new(document), key }
+        IncludeTarget::Sdf { document: Arc::new(document), key }
     }
 }
 

@@ -3,10 +3,10 @@
 use periplus_diagnostics::{Diagnostic, Diagnostics};
 use periplus_geometry::DVec3;
 
-use crate::robot::{Geometry, JointType, Link, Robot};
+use crate::robot::{JointType, UrdfGeometry, UrdfLink, UrdfRobot};
 use crate::tree::Tree;
 
-pub(super) fn check(robot: &Robot, diagnostics: &mut Diagnostics) {
+pub(super) fn check(robot: &UrdfRobot, diagnostics: &mut Diagnostics) {
     let tree = Tree::new(robot);
     for joint in &robot.joints {
         let moved = match joint.kind {
@@ -45,12 +45,12 @@ pub(super) fn check(robot: &Robot, diagnostics: &mut Diagnostics) {
 }
 
 /// The axis of a link's only cylinder in the link's frame, when it lies along x, y or z.
-fn cylinder_axis(link: &Link) -> Option<&'static str> {
+fn cylinder_axis(link: &UrdfLink) -> Option<&'static str> {
     let collisions = link.collisions.iter().map(|one| (&one.geometry, &one.link_from_collision));
     let visuals = link.visuals.iter().map(|one| (&one.geometry, &one.link_from_visual));
     let mut cylinders = collisions
         .chain(visuals)
-        .filter(|(geometry, _)| matches!(geometry, Geometry::Cylinder { .. }))
+        .filter(|(geometry, _)| matches!(geometry, UrdfGeometry::Cylinder { .. }))
         .map(|(_, placement)| nearest(placement.pose().rotation * DVec3::Z));
     let first = cylinders.next()??;
     cylinders.all(|other| other == Some(first)).then_some(first)

@@ -6,7 +6,7 @@ use periplus_diagnostics::{Diagnostic, Diagnostics};
 use periplus_geometry::{DVec3, Pose, format_number};
 
 use crate::lump::WORLD;
-use crate::robot::{Collision, Geometry, JointType, Robot};
+use crate::robot::{JointType, UrdfCollision, UrdfGeometry, UrdfRobot};
 use crate::tree::Tree;
 
 /// Height above the lowest point up to which a point counts as a contact [m].
@@ -24,7 +24,7 @@ struct Contact {
     model_from_point_m: DVec3,
 }
 
-pub(super) fn check(robot: &Robot, diagnostics: &mut Diagnostics) {
+pub(super) fn check(robot: &UrdfRobot, diagnostics: &mut Diagnostics) {
     let tree = Tree::new(robot);
     let [root] = *tree.roots else { return };
     if robot.links[root].name == WORLD {
@@ -76,7 +76,7 @@ fn rounded(length_m: f64) -> String {
 }
 
 /// The pose of each link in the root's frame, all joints at zero.
-fn poses(robot: &Robot, tree: &Tree<'_>, order: &[usize]) -> Vec<Pose> {
+fn poses(robot: &UrdfRobot, tree: &Tree<'_>, order: &[usize]) -> Vec<Pose> {
     let mut poses = vec![Pose::IDENTITY; robot.links.len()];
     for &link in order {
         if let (Some(parent), Some(joint)) = (tree.parent[link], tree.joint_above[link]) {
@@ -87,7 +87,7 @@ fn poses(robot: &Robot, tree: &Tree<'_>, order: &[usize]) -> Vec<Pose> {
 }
 
 /// Lowest points of the robot; `None` if the extent of a shape is not known, such as that of a mesh.
-fn contacts(robot: &Robot, order: &[usize], poses: &[Pose]) -> Option<Vec<Contact>> {
+fn contacts(robot: &UrdfRobot, order: &[usize], poses: &[Pose]) -> Option<Vec<Contact>> {
     let mut points = Vec::new();
     for &link in order {
         for collision in &robot.links[link].collisions {
@@ -103,11 +103,11 @@ fn contacts(robot: &Robot, order: &[usize], poses: &[Pose]) -> Option<Vec<Contac
 }
 
 /// Points of a shape that include its lowest ones.
-fn low_points(collision: &Collision, model_from_link: Pose) -> Option<Vec<DVec3>> {
+fn low_points(collision: &UrdfCollision, model_from_link: Pose) -> Option<Vec<DVec3>> {
     let pose = model_from_link * collision.link_from_collision.pose();
     let axis = pose.rotation * DVec3::Z;
     match collision.geometry {
-        Geometry::Box { size_m } => {
+        UrdfGeometry::Box { size_m } => {
             let half = DVec3::from_array(size_m) * 0.5;
             let corner = |index: u8| {
                 let sign = |bit: u8| if index & bit == 0 { -1.0 } else { 1.0 };
@@ -115,12 +115,12 @@ fn low_points(collision: &Collision, model_from_link: Pose) -> Option<Vec<DVec3>
             };
             Some((0..8).map(corner).collect())
         }
-        Geometry::Sphere { radius_m } => Some(vec![pose.translation - radius_m * DVec3::Z]),
-        Geometry::Capsule { radius_m, length_m } => {
+        UrdfGeometry::Sphere { radius_m } => Some(vec![pose.translation - radius_m * DVec3::Z]),
+        UrdfGeometry::Capsule { radius_m, length_m } => {
             let end = |sign: f64| pose.translation + sign * 0.5 * length_m * axis;
             Some([1.0, -1.0].map(|sign| end(sign) - radius_m * DVec3::Z).to_vec())
         }
-        Geometry::Cylinder { radius_m, length_m } => {
+        UrdfGeometry::Cylinder { radius_m, length_m } => {
             let ends = [1.0, -1.0].map(|sign| pose.translation + sign * 0.5 * length_m * axis);
             let down = DVec3::Z - axis.z * axis;
             Some(match down.try_normalize() {
@@ -141,11 +141,11 @@ fn low_points(collision: &Collision, model_from_link: Pose) -> Option<Vec<DVec3>
                 }
             })
         }
-        Geometry::Mesh { .. } | Geometry::Unknown(_) => None,
+        UrdfGeometry::Mesh { .. } | UrdfGeometry::Unknown(_) => None,
     }
 }
 
-fn centre_of_mass(robot: &Robot, order: &[usize], poses: &[Pose]) -> Option<DVec3> {
+fn centre_of_mass(robot: &UrdfRobot, order: &[usize], poses: &[Pose]) -> Option<DVec3> {
     let mut mass_kg = 0.0;
     let mut moment = DVec3::ZERO;
     for &link in order {

@@ -2,7 +2,7 @@
 
 use periplus_geometry::format_number;
 
-use crate::robot::{Geometry, Link};
+use crate::robot::{UrdfGeometry, UrdfLink};
 
 /// Mean density of a robot's body, hollow parts included [kg/m³]: small mobile robots (TurtleBot3,
 /// Husky, Jackal) weigh 200 to 500 kg for each cubic metre of their bounding box.
@@ -12,7 +12,7 @@ const DENSITY_KG_PER_M3: f64 = 300.0;
 const MIN_MASS_KG: f64 = 0.01;
 
 /// Suggested `<inertial>` of a link, from its largest simple shape.
-pub(crate) fn advised(link: &Link) -> String {
+pub(crate) fn advised(link: &UrdfLink) -> String {
     let collisions = link.collisions.iter().map(|one| (&one.geometry, &one.link_from_collision));
     let visuals = link.visuals.iter().map(|one| (&one.geometry, &one.link_from_visual));
     let largest = collisions
@@ -33,11 +33,12 @@ pub(crate) fn advised(link: &Link) -> String {
     let [x, y, z] = extent;
     let mass_kg = two_digits((DENSITY_KG_PER_M3 * volume_m3(extent)).max(MIN_MASS_KG));
     let moments = match geometry {
-        Geometry::Cylinder { radius_m, length_m } | Geometry::Capsule { radius_m, length_m } => {
+        UrdfGeometry::Cylinder { radius_m, length_m }
+        | UrdfGeometry::Capsule { radius_m, length_m } => {
             let across = (3.0 * radius_m * radius_m + length_m * length_m) / 12.0;
             [across, across, radius_m * radius_m / 2.0]
         }
-        Geometry::Sphere { radius_m } => [0.4 * radius_m * radius_m; 3],
+        UrdfGeometry::Sphere { radius_m } => [0.4 * radius_m * radius_m; 3],
         _ => [y * y + z * z, x * x + z * z, x * x + y * y].map(|squares| squares / 12.0),
     };
     let [ixx, iyy, izz] = moments.map(|moment| format_number(two_digits(mass_kg * moment)));
@@ -51,7 +52,7 @@ pub(crate) fn advised(link: &Link) -> String {
 }
 
 /// `<origin>` of the shape, as the centre of mass is its middle.
-fn origin_text(placement: &crate::robot::Placement) -> String {
+fn origin_text(placement: &crate::robot::UrdfOrigin) -> String {
     let pose = placement.pose();
     if pose == periplus_geometry::Pose::IDENTITY {
         return String::new();
@@ -64,15 +65,15 @@ fn origin_text(placement: &crate::robot::Placement) -> String {
 }
 
 /// Extent along the shape's own axes; `None` for meshes and empty shapes.
-fn extent_m(geometry: &Geometry) -> Option<[f64; 3]> {
+fn extent_m(geometry: &UrdfGeometry) -> Option<[f64; 3]> {
     let extent = match *geometry {
-        Geometry::Box { size_m } => size_m,
-        Geometry::Cylinder { radius_m, length_m } => [2.0 * radius_m, 2.0 * radius_m, length_m],
-        Geometry::Capsule { radius_m, length_m } => {
+        UrdfGeometry::Box { size_m } => size_m,
+        UrdfGeometry::Cylinder { radius_m, length_m } => [2.0 * radius_m, 2.0 * radius_m, length_m],
+        UrdfGeometry::Capsule { radius_m, length_m } => {
             [2.0 * radius_m, 2.0 * radius_m, length_m + 2.0 * radius_m]
         }
-        Geometry::Sphere { radius_m } => [2.0 * radius_m; 3],
-        Geometry::Mesh { .. } | Geometry::Unknown(_) => return None,
+        UrdfGeometry::Sphere { radius_m } => [2.0 * radius_m; 3],
+        UrdfGeometry::Mesh { .. } | UrdfGeometry::Unknown(_) => return None,
     };
     extent.iter().all(|size| *size > 0.0).then_some(extent)
 }

@@ -2,12 +2,12 @@
 
 use periplus_diagnostics::{Diagnostic, Diagnostics};
 
-use crate::robot::{Inertial, Robot};
+use crate::robot::{UrdfInertial, UrdfRobot};
 
 /// Tolerance for rounded inertias, as a fraction of the trace.
 const TOLERANCE_RATIO: f64 = 1e-6;
 
-pub(super) fn check(robot: &Robot, diagnostics: &mut Diagnostics) {
+pub(super) fn check(robot: &UrdfRobot, diagnostics: &mut Diagnostics) {
     for link in &robot.links {
         let Some(inertial) = &link.inertial else { continue };
         let name = &link.name;
@@ -47,7 +47,7 @@ pub(super) fn check(robot: &Robot, diagnostics: &mut Diagnostics) {
 
 /// Returns the fault of an inertia: it must be positive definite, and no principal moment may exceed the
 /// sum of the other two.
-fn fault(inertial: &Inertial) -> Option<&'static str> {
+fn fault(inertial: &UrdfInertial) -> Option<&'static str> {
     let [xx, xy, xz, yy, yz, zz] = inertial.inertia_kg_m2;
     let moments = principal_moments([xx, xy, xz, yy, yz, zz]);
     let slack = TOLERANCE_RATIO * (xx.abs() + yy.abs() + zz.abs());
@@ -118,8 +118,9 @@ mod tests {
 
     #[test]
     fn a_rod_and_a_disk_are_possible_and_a_needle_of_one_axis_is_not() {
-        let fault =
-            |inertia_kg_m2| fault(&Inertial { mass_kg: 1.0, inertia_kg_m2, ..Inertial::default() });
+        let fault = |inertia_kg_m2| {
+            fault(&UrdfInertial { mass_kg: 1.0, inertia_kg_m2, ..UrdfInertial::default() })
+        };
         assert_eq!(fault([0.0, 0.0, 0.0, 1.0, 0.0, 1.0]), None);
         assert_eq!(fault([1.0, 0.0, 0.0, 1.0, 0.0, 2.0]), None);
         assert!(fault([1.0, 0.0, 0.0, 1.0, 0.0, 2.1]).is_some());

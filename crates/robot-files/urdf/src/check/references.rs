@@ -5,10 +5,10 @@ use std::collections::{BTreeMap, BTreeSet};
 use periplus_diagnostics::{Diagnostic, Diagnostics};
 
 use super::structure::MAX_COMPARED_NAMES;
-use crate::robot::{Material, Robot};
+use crate::robot::{UrdfMaterial, UrdfRobot};
 
 /// A mimic must name another joint.
-pub(super) fn mimics(robot: &Robot, diagnostics: &mut Diagnostics) {
+pub(super) fn mimics(robot: &UrdfRobot, diagnostics: &mut Diagnostics) {
     let names: BTreeSet<&str> = robot.joints.iter().map(|joint| &*joint.name).collect();
     let mut suggestions = MAX_COMPARED_NAMES;
     for joint in &robot.joints {
@@ -39,8 +39,8 @@ pub(super) fn mimics(robot: &Robot, diagnostics: &mut Diagnostics) {
 }
 
 /// A visual's material must be defined somewhere, and not in two ways.
-pub(super) fn materials(robot: &Robot, diagnostics: &mut Diagnostics) {
-    let mut defined: BTreeMap<&str, &Material> = BTreeMap::new();
+pub(super) fn materials(robot: &UrdfRobot, diagnostics: &mut Diagnostics) {
+    let mut defined: BTreeMap<&str, &UrdfMaterial> = BTreeMap::new();
     let in_place = || {
         let visuals = robot.links.iter().flat_map(|link| &link.visuals);
         visuals.filter_map(|visual| visual.material.as_ref())
@@ -54,9 +54,10 @@ pub(super) fn materials(robot: &Robot, diagnostics: &mut Diagnostics) {
             continue;
         }
         let first = *defined.entry(&material.name).or_insert(material);
-        let colour = |material: &Material| material.colour.as_ref().map(|colour| colour.rgba);
-        let texture =
-            |material: &Material| material.texture.as_ref().map(|texture| texture.filename.clone());
+        let colour = |material: &UrdfMaterial| material.colour.as_ref().map(|colour| colour.rgba);
+        let texture = |material: &UrdfMaterial| {
+            material.texture.as_ref().map(|texture| texture.filename.clone())
+        };
         if colour(first) != colour(material) || texture(first) != texture(material) {
             diagnostics.push(
                 Diagnostic::warning(
@@ -93,7 +94,7 @@ pub(super) fn materials(robot: &Robot, diagnostics: &mut Diagnostics) {
 }
 
 /// A `<gazebo reference>` must name a link or joint.
-pub(super) fn gazebo(robot: &Robot, diagnostics: &mut Diagnostics) {
+pub(super) fn gazebo(robot: &UrdfRobot, diagnostics: &mut Diagnostics) {
     let links = robot.links.iter().map(|link| &*link.name);
     let names: BTreeSet<&str> =
         links.chain(robot.joints.iter().map(|joint| &*joint.name)).collect();

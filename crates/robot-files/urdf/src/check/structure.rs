@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use periplus_diagnostics::{Diagnostic, Diagnostics, Origin};
 use periplus_xml::Element;
 
-use crate::robot::{Joint, Robot};
+use crate::robot::{UrdfJoint, UrdfRobot};
 use crate::tree::Tree;
 
 /// Maximum number of names compared with misspelt ones, all together: a hostile file must not cost
@@ -13,7 +13,7 @@ use crate::tree::Tree;
 pub(super) const MAX_COMPARED_NAMES: usize = 100_000;
 
 /// No two links and no two joints may share a name; a link and a joint may.
-pub(super) fn unique_names(robot: &Robot, diagnostics: &mut Diagnostics) {
+pub(super) fn unique_names(robot: &UrdfRobot, diagnostics: &mut Diagnostics) {
     let links = robot.links.iter().map(|link| (&*link.name, link.origin));
     unique("link", "duplicate-link", links, diagnostics);
     let joints = robot.joints.iter().map(|joint| (&*joint.name, joint.origin));
@@ -46,7 +46,7 @@ fn unique<'a>(
 }
 
 /// The joints must make one tree of the links.
-pub(super) fn one_tree(robot: &Robot, root: &Element, diagnostics: &mut Diagnostics) {
+pub(super) fn one_tree(robot: &UrdfRobot, root: &Element, diagnostics: &mut Diagnostics) {
     if robot.links.is_empty() {
         // The reader has reported links that could not be read.
         if root.child("link").is_none() {
@@ -59,7 +59,7 @@ pub(super) fn one_tree(robot: &Robot, root: &Element, diagnostics: &mut Diagnost
         return;
     }
     let tree = Tree::new(robot);
-    let mut above: BTreeMap<&str, &Joint> = BTreeMap::new();
+    let mut above: BTreeMap<&str, &UrdfJoint> = BTreeMap::new();
     let mut suggestions = MAX_COMPARED_NAMES;
     let mut complete = true;
     for (place, joint) in robot.joints.iter().enumerate() {
@@ -86,7 +86,7 @@ pub(super) fn one_tree(robot: &Robot, root: &Element, diagnostics: &mut Diagnost
 /// Reports an error for each end of a joint that is no link. Returns true if both are links.
 fn missing_ends(
     tree: &Tree<'_>,
-    joint: &Joint,
+    joint: &UrdfJoint,
     suggestions: &mut usize,
     diagnostics: &mut Diagnostics,
 ) -> bool {
@@ -120,7 +120,7 @@ fn missing_ends(
     known
 }
 
-fn two_parents(joint: &Joint, first: &Joint) -> Diagnostic {
+fn two_parents(joint: &UrdfJoint, first: &UrdfJoint) -> Diagnostic {
     Diagnostic::error(
         "two-parents",
         format!(
@@ -135,7 +135,7 @@ fn two_parents(joint: &Joint, first: &Joint) -> Diagnostic {
     .help("give the second joint another child link, or remove it")
 }
 
-fn cycle(robot: &Robot, tree: &Tree<'_>, joint: &Joint) -> Diagnostic {
+fn cycle(robot: &UrdfRobot, tree: &Tree<'_>, joint: &UrdfJoint) -> Diagnostic {
     let error = Diagnostic::error(
         "cycle",
         if joint.parent == joint.child {
@@ -160,7 +160,7 @@ fn cycle(robot: &Robot, tree: &Tree<'_>, joint: &Joint) -> Diagnostic {
     }
 }
 
-fn two_roots(robot: &Robot, first: usize, others: &[usize]) -> Diagnostic {
+fn two_roots(robot: &UrdfRobot, first: usize, others: &[usize]) -> Diagnostic {
     let name = |link: usize| &*robot.links[link].name;
     let list: Vec<String> =
         others.iter().take(4).map(|&other| format!("`{}`", name(other))).collect();

@@ -4,7 +4,7 @@ use std::borrow::Cow;
 
 use periplus_diagnostics::Origin;
 use periplus_geometry::{DQuat, Pose, format_number};
-use periplus_xml::{Element, Node, Text};
+use periplus_xml::{Element, Text, XmlNode};
 
 /// An element without content.
 pub(super) fn element(name: &str, origin: Origin) -> Element {
@@ -14,7 +14,7 @@ pub(super) fn element(name: &str, origin: Origin) -> Element {
 /// `<name>text</name>`.
 pub(super) fn leaf(name: &str, text: &str, origin: Origin) -> Element {
     let mut leaf = element(name, origin);
-    leaf.children.push(Node::Text(Text { text: text.into(), origin }));
+    leaf.children.push(XmlNode::Text(Text { text: text.into(), origin }));
     leaf
 }
 
@@ -41,7 +41,7 @@ pub(super) fn push_pose(to: &mut Element, pose: Pose, origin: Origin) {
 
 /// Child of a name, created if it does not exist.
 pub(super) fn child_mut<'a>(parent: &'a mut Element, name: &str) -> &'a mut Element {
-    let is_it = |node: &Node| matches!(node, Node::Element(child) if child.name == name);
+    let is_it = |node: &XmlNode| matches!(node, XmlNode::Element(child) if child.name == name);
     let place = match parent.children.iter().position(is_it) {
         Some(place) => place,
         None => {
@@ -51,7 +51,7 @@ pub(super) fn child_mut<'a>(parent: &'a mut Element, name: &str) -> &'a mut Elem
         }
     };
     match &mut parent.children[place] {
-        Node::Element(child) => child,
+        XmlNode::Element(child) => child,
         // The index was found by the same test.
         _ => unreachable!("the node at this place is an element"),
     }
@@ -59,13 +59,14 @@ pub(super) fn child_mut<'a>(parent: &'a mut Element, name: &str) -> &'a mut Elem
 
 /// Replaces the children of the same name by this one and returns the first of them.
 pub(super) fn set(parent: &mut Element, child: Element) -> Option<Element> {
-    let is_it = |node: &Node| matches!(node, Node::Element(other) if other.name == child.name);
+    let is_it =
+        |node: &XmlNode| matches!(node, XmlNode::Element(other) if other.name == child.name);
     let first = parent.children.iter().position(is_it);
     let old = first.map(|place| parent.children.remove(place));
     parent.children.retain(|node| !is_it(node));
     parent.push(child);
     match old {
-        Some(Node::Element(old)) => Some(old),
+        Some(XmlNode::Element(old)) => Some(old),
         _ => None,
     }
 }

@@ -7,7 +7,7 @@ use periplus_xml::Element;
 
 use super::element::is_true;
 use crate::lump::Preserved;
-use crate::robot::{GazeboBlock, Robot};
+use crate::robot::{GazeboBlock, UrdfRobot};
 
 /// Target of one of Gazebo's settings.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -72,7 +72,7 @@ pub(super) struct Extensions<'a> {
 }
 
 impl<'a> Extensions<'a> {
-    pub(super) fn new(robot: &'a Robot) -> Self {
+    pub(super) fn new(robot: &'a UrdfRobot) -> Self {
         let mut by_reference: BTreeMap<&str, Vec<&GazeboBlock>> = BTreeMap::new();
         for block in &robot.gazebo {
             let reference = block.reference.as_deref().unwrap_or_default();

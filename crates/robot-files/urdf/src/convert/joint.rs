@@ -8,7 +8,7 @@ use super::element::{child_mut, element, is_true, leaf, numbers, renamed, set, v
 use super::extension::{SettingTarget, check_place, setting_target};
 use super::state::ConversionState;
 use crate::lump::{LumpOutcome, WORLD};
-use crate::robot::{Joint, JointType};
+use crate::robot::{JointType, UrdfJoint};
 
 impl ConversionState<'_> {
     /// `<joint>` above a body; `None` for types that SDF does not have.
@@ -47,7 +47,7 @@ impl ConversionState<'_> {
         }
     }
 
-    fn axis(&self, joint: &Joint) -> Element {
+    fn axis(&self, joint: &UrdfJoint) -> Element {
         let origin = joint.origin;
         let mut axis = element("axis", origin);
         if joint.kind == JointType::Fixed {
@@ -95,7 +95,7 @@ impl ConversionState<'_> {
 
     fn joint_setting(
         &self,
-        joint: &Joint,
+        joint: &UrdfJoint,
         setting: &Element,
         to: &mut Element,
         diagnostics: &mut Diagnostics,

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use periplus_diagnostics::{Diagnostic, Diagnostics};
-use periplus_xml::{Element, Node};
+use periplus_xml::{Element, XmlNode};
 
 use super::element::{child_mut, element, is_true, leaf, numbers, push_pose, renamed};
 use super::extension::{SettingTarget, check_place, setting_target};
@@ -11,7 +11,7 @@ use super::parts::Parts;
 use super::shape;
 use super::state::ConversionState;
 use crate::lump::combine;
-use crate::robot::Link;
+use crate::robot::UrdfLink;
 
 /// Children of a `<link>` that occur at most once.
 const SINGLE: [&str; 6] =
@@ -47,7 +47,7 @@ impl ConversionState<'_> {
         let link = self.link(head);
         let mut to = element("link", link.origin).with_attribute("name", &*link.name);
         push_pose(&mut to, self.plan.model_from_link[head], link.origin);
-        to.children.extend(self.inertial_element(head).map(Node::Element));
+        to.children.extend(self.inertial_element(head).map(XmlNode::Element));
         self.shapes(head, with_settings, &mut to);
         self.link_settings(head, &mut to, diagnostics);
         to
@@ -73,7 +73,7 @@ impl ConversionState<'_> {
     }
 
     fn shapes(&self, head: usize, with_settings: bool, to: &mut Element) {
-        let settings = |link: &Link| self.shape_settings(link).filter(|_| with_settings);
+        let settings = |link: &UrdfLink| self.shape_settings(link).filter(|_| with_settings);
         let head_name = &self.link(head).name;
         let mut index = 0;
         for &(member, head_from_link) in &self.members[head] {
@@ -138,7 +138,7 @@ impl ConversionState<'_> {
                 }
             }
         }
-        to.children.extend(parts.into_elements().map(Node::Element));
+        to.children.extend(parts.into_elements().map(XmlNode::Element));
     }
 
     fn overruled(

@@ -11,7 +11,7 @@ use super::extension::{SettingTarget, check_place, setting_target};
 use super::link::shape_name;
 use super::state::ConversionState;
 use crate::lump::LumpOutcome;
-use crate::robot::{Material, Visual};
+use crate::robot::{UrdfMaterial, UrdfVisual};
 
 impl ConversionState<'_> {
     /// The `<model>`.
@@ -103,7 +103,7 @@ impl ConversionState<'_> {
     }
 
     /// Definition of a visual's material: by name, or else its own.
-    pub(super) fn look<'v>(&'v self, visual: &'v Visual) -> Option<&'v Material> {
+    pub(super) fn look<'v>(&'v self, visual: &'v UrdfVisual) -> Option<&'v UrdfMaterial> {
         let own = visual.material.as_ref()?;
         if own.name.is_empty() {
             return Some(own);

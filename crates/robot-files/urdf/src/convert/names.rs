@@ -4,7 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use periplus_diagnostics::{Diagnostic, Diagnostics};
 
-use crate::robot::{Joint, Robot};
+use crate::robot::{UrdfJoint, UrdfRobot};
 
 /// SDF names of joints: the URDF name, unless a link has the same one.
 pub(super) struct JointNames<'a> {
@@ -13,7 +13,7 @@ pub(super) struct JointNames<'a> {
 }
 
 impl<'a> JointNames<'a> {
-    pub(super) fn new(robot: &'a Robot) -> Self {
+    pub(super) fn new(robot: &'a UrdfRobot) -> Self {
         let links: BTreeSet<&str> = robot.links.iter().map(|link| &*link.name).collect();
         let joints: BTreeSet<&'a str> = robot.joints.iter().map(|joint| &*joint.name).collect();
         let mut changed = BTreeMap::new();
@@ -38,7 +38,7 @@ impl<'a> JointNames<'a> {
     }
 
     /// Warns about each joint that is renamed.
-    pub(super) fn check(&self, robot: &Robot, diagnostics: &mut Diagnostics) {
+    pub(super) fn check(&self, robot: &UrdfRobot, diagnostics: &mut Diagnostics) {
         for joint in &robot.joints {
             let Some(new) = self.changed.get(&*joint.name) else { continue };
             diagnostics.push(shared(joint, new).related(
@@ -49,7 +49,7 @@ impl<'a> JointNames<'a> {
     }
 }
 
-fn shared(joint: &Joint, new: &str) -> Diagnostic {
+fn shared(joint: &UrdfJoint, new: &str) -> Diagnostic {
     Diagnostic::warning(
         "shared-name",
         format!("a link and a joint are both named `{}`", joint.name),

@@ -2,14 +2,14 @@
 
 use periplus_diagnostics::Origin;
 use periplus_geometry::Pose;
-use periplus_xml::{Element, Node};
+use periplus_xml::{Element, XmlNode};
 
 use super::element::{child_mut, element, leaf, numbers, push_pose};
-use crate::robot::{Collision, Geometry, Material, Visual};
+use crate::robot::{UrdfCollision, UrdfGeometry, UrdfMaterial, UrdfVisual};
 
 /// `<collision>` with the settings from the blocks of its link.
 pub(super) fn collision(
-    collision: &Collision,
+    collision: &UrdfCollision,
     name: &str,
     head_from_collision: Pose,
     settings: &[Element],
@@ -17,14 +17,14 @@ pub(super) fn collision(
     let mut to = element("collision", collision.origin).with_attribute("name", name);
     push_pose(&mut to, head_from_collision, collision.origin);
     to.push(geometry(&collision.geometry, collision.origin));
-    to.children.extend(settings.iter().cloned().map(Node::Element));
+    to.children.extend(settings.iter().cloned().map(XmlNode::Element));
     to
 }
 
 /// `<visual>` with the settings from the blocks of its link. `material` is the definition of its material.
 pub(super) fn visual(
-    visual: &Visual,
-    look: Option<&Material>,
+    visual: &UrdfVisual,
+    look: Option<&UrdfMaterial>,
     name: &str,
     head_from_visual: Pose,
     settings: &[Element],
@@ -32,7 +32,7 @@ pub(super) fn visual(
     let mut to = element("visual", visual.origin).with_attribute("name", name);
     push_pose(&mut to, head_from_visual, visual.origin);
     to.push(geometry(&visual.geometry, visual.origin));
-    to.children.extend(settings.iter().cloned().map(Node::Element));
+    to.children.extend(settings.iter().cloned().map(XmlNode::Element));
     if let Some(look) = look {
         colour(look, &mut to);
     }
@@ -41,7 +41,7 @@ pub(super) fn visual(
 
 /// Adds the colour of a URDF material, unless a block gives one. Gazebo brightens it because its renderers
 /// darken (libsdformat, `CreateVisual`).
-fn colour(look: &Material, to: &mut Element) {
+fn colour(look: &UrdfMaterial, to: &mut Element) {
     let material = child_mut(to, "material");
     if let Some(colour) = &look.colour
         && material.child("diffuse").is_none()
@@ -62,7 +62,7 @@ fn colour(look: &Material, to: &mut Element) {
     }
 }
 
-fn geometry(geometry: &Geometry, origin: Origin) -> Element {
+fn geometry(geometry: &UrdfGeometry, origin: Origin) -> Element {
     let one = |name: &str, parts: &[(&str, f64)]| {
         parts.iter().fold(element(name, origin), |shape, (part, value)| {
             shape.with_child(numbers(part, &[*value], origin))
@@ -71,17 +71,17 @@ fn geometry(geometry: &Geometry, origin: Origin) -> Element {
     let shape = match geometry {
         // The reader has reported the error; a wrong size must not become SDF's default of 1 m.
         shape if !has_extent(shape) => element("empty", origin),
-        Geometry::Box { size_m } => {
+        UrdfGeometry::Box { size_m } => {
             element("box", origin).with_child(numbers("size", size_m, origin))
         }
-        Geometry::Cylinder { radius_m, length_m } => {
+        UrdfGeometry::Cylinder { radius_m, length_m } => {
             one("cylinder", &[("radius", *radius_m), ("length", *length_m)])
         }
-        Geometry::Capsule { radius_m, length_m } => {
+        UrdfGeometry::Capsule { radius_m, length_m } => {
             one("capsule", &[("radius", *radius_m), ("length", *length_m)])
         }
-        Geometry::Sphere { radius_m } => one("sphere", &[("radius", *radius_m)]),
-        Geometry::Mesh { filename, scale, origin } => {
+        UrdfGeometry::Sphere { radius_m } => one("sphere", &[("radius", *radius_m)]),
+        UrdfGeometry::Mesh { filename, scale, origin } => {
             let mesh = element("mesh", *origin).with_child(leaf("uri", filename, *origin));
             if *scale == [1.0; 3] {
                 mesh
@@ -89,18 +89,18 @@ fn geometry(geometry: &Geometry, origin: Origin) -> Element {
                 mesh.with_child(numbers("scale", scale, *origin))
             }
         }
-        Geometry::Unknown(shape) => shape.clone(),
+        UrdfGeometry::Unknown(shape) => shape.clone(),
     };
     element("geometry", origin).with_child(shape)
 }
 
-fn has_extent(geometry: &Geometry) -> bool {
+fn has_extent(geometry: &UrdfGeometry) -> bool {
     match geometry {
-        Geometry::Box { size_m } => size_m.iter().all(|size| *size > 0.0),
+        UrdfGeometry::Box { size_m } => size_m.iter().all(|size| *size > 0.0),
         // A capsule without a cylinder part is a sphere.
-        Geometry::Capsule { radius_m, length_m } => *radius_m > 0.0 && *length_m >= 0.0,
-        Geometry::Cylinder { radius_m, length_m } => *radius_m > 0.0 && *length_m > 0.0,
-        Geometry::Sphere { radius_m } => *radius_m > 0.0,
-        Geometry::Mesh { .. } | Geometry::Unknown(_) => true,
+        UrdfGeometry::Capsule { radius_m, length_m } => *radius_m > 0.0 && *length_m >= 0.0,
+        UrdfGeometry::Cylinder { radius_m, length_m } => *radius_m > 0.0 && *length_m > 0.0,
+        UrdfGeometry::Sphere { radius_m } => *radius_m > 0.0,
+        UrdfGeometry::Mesh { .. } | UrdfGeometry::Unknown(_) => true,
     }
 }

@@ -5,17 +5,17 @@ use std::collections::BTreeMap;
 use periplus_diagnostics::Diagnostics;
 use periplus_geometry::Pose;
 
-use super::Options;
+use super::ConversionOptions;
 use super::extension::Extensions;
 use super::names::JointNames;
 use super::settings::{ShapeSettings, are_few};
 use crate::lump::{LumpOutcome, LumpPlan, Preserved};
-use crate::robot::{GazeboBlock, Joint, Link, Material, Robot};
+use crate::robot::{GazeboBlock, UrdfJoint, UrdfLink, UrdfMaterial, UrdfRobot};
 use crate::tree::Tree;
 
 /// Robot and the results of its analysis.
 pub(super) struct ConversionState<'a> {
-    pub(super) robot: &'a Robot,
+    pub(super) robot: &'a UrdfRobot,
     pub(super) tree: Tree<'a>,
     pub(super) extensions: Extensions<'a>,
     pub(super) preserved: Preserved<'a>,
@@ -24,13 +24,13 @@ pub(super) struct ConversionState<'a> {
     pub(super) members: Vec<Vec<(usize, Pose)>>,
     pub(super) joint_names: JointNames<'a>,
     /// Definitions by name, as ROS resolves them: those of the robot, then those in visuals.
-    pub(super) materials: BTreeMap<&'a str, &'a Material>,
+    pub(super) materials: BTreeMap<&'a str, &'a UrdfMaterial>,
     /// Settings for shapes, by the name of the link.
     shape_settings: BTreeMap<&'a str, ShapeSettings>,
 }
 
 impl<'a> ConversionState<'a> {
-    pub(super) fn new(robot: &'a Robot, options: Options) -> Self {
+    pub(super) fn new(robot: &'a UrdfRobot, options: ConversionOptions) -> Self {
         let tree = Tree::new(robot);
         let extensions = Extensions::new(robot);
         let mut preserved = extensions.preserved();
@@ -65,7 +65,7 @@ impl<'a> ConversionState<'a> {
     }
 
     /// Settings for the shapes of a link; `None` if no block refers to it.
-    pub(super) fn shape_settings(&self, link: &Link) -> Option<&ShapeSettings> {
+    pub(super) fn shape_settings(&self, link: &UrdfLink) -> Option<&ShapeSettings> {
         self.shape_settings.get(&*link.name)
     }
 
@@ -84,17 +84,17 @@ impl<'a> ConversionState<'a> {
         if self.robot.name.is_empty() { "robot" } else { &self.robot.name }
     }
 
-    pub(super) fn link(&self, link: usize) -> &'a Link {
+    pub(super) fn link(&self, link: usize) -> &'a UrdfLink {
         &self.robot.links[link]
     }
 
     /// The joint above a link.
-    pub(super) fn joint_above(&self, link: usize) -> Option<&'a Joint> {
+    pub(super) fn joint_above(&self, link: usize) -> Option<&'a UrdfJoint> {
         self.tree.joint_above[link].map(|joint| &self.robot.joints[joint])
     }
 
     /// The link above a link.
-    pub(super) fn parent(&self, link: usize) -> Option<&'a Link> {
+    pub(super) fn parent(&self, link: usize) -> Option<&'a UrdfLink> {
         self.tree.parent[link].map(|parent| self.link(parent))
     }
 

@@ -3,12 +3,12 @@
 use std::fmt::Write as _;
 
 use expect_test::{Expect, expect};
-use periplus_diagnostics::{Diagnostics, SourceMap, Style, render};
+use periplus_diagnostics::{Diagnostics, RenderStyle, SourceMap, render};
 use periplus_geometry::format_number;
 use periplus_scene::{Model, Pose, SensorKind};
-use periplus_sdf::{Context, NoIncludes};
+use periplus_sdf::{NoIncludes, SdfContext};
 
-use crate::{Options, read, to_model};
+use crate::{ConversionOptions, read, to_model};
 
 /// A body of 1 kg.
 const BODY: &str = "<inertial><mass value='1'/><inertia ixx='1' ixy='0' ixz='0' iyy='1' iyz='0' \
@@ -22,9 +22,12 @@ fn convert(content: &str) -> (Model, Diagnostics, SourceMap) {
     let mut diagnostics = Diagnostics::new();
     let document = periplus_xml::parse(file, &sources, &mut diagnostics).unwrap();
     let robot = read(&document, &mut diagnostics).unwrap();
-    let mut context =
-        Context { sources: &mut sources, diagnostics: &mut diagnostics, includes: &mut NoIncludes };
-    let model = to_model(&robot, Options::default(), &mut context);
+    let mut context = SdfContext {
+        sources: &mut sources,
+        diagnostics: &mut diagnostics,
+        includes: &mut NoIncludes,
+    };
+    let model = to_model(&robot, ConversionOptions::default(), &mut context);
     (model, diagnostics, sources)
 }
 
@@ -84,7 +87,7 @@ fn check(content: &str, expected: Expect) {
     let (model, diagnostics, sources) = convert(content);
     let mut out = outline(&model);
     for one in diagnostics.iter() {
-        let shown = render(one, &sources, Style::Plain);
+        let shown = render(one, &sources, RenderStyle::Plain);
         out.push_str(shown.lines().next().unwrap_or_default());
         out.push('\n');
     }
@@ -417,7 +420,7 @@ fn settings_are_merged_once_per_link() {
         read(&document, &mut diagnostics).unwrap()
     };
     // The settings of each shape are as short as those of one block: `surface` and `max_contacts`.
-    let situation = super::ConversionState::new(&robot, Options::default());
+    let situation = super::ConversionState::new(&robot, ConversionOptions::default());
     let settings = situation.shape_settings(&robot.links[0]).unwrap();
     assert_eq!((settings.collision.len(), settings.visual.len()), (2, 1));
     let red = |look: &periplus_scene::Material| look.script.as_ref().unwrap().name == "Gazebo/Red";

@@ -4,14 +4,14 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use periplus_diagnostics::{Diagnostic, Diagnostics};
 use periplus_geometry::Pose;
-use periplus_scene::{Axis, Frame, FrameRole, Joint as SceneJoint, JointKind, Model, TfEdge};
+use periplus_scene::{Axis, FrameRole, Joint as SceneJoint, JointKind, Model, NamedFrame, TfEdge};
 use periplus_xml::Element;
 
 use super::{Export, lost, push_block};
 use crate::lump::WORLD;
 use crate::robot::{
-    Calibration, Dynamics, Extra, Joint, JointType, Limit, Mimic, Placement, Robot,
-    SafetyController,
+    Dynamics, Extra, JointCalibration, JointType, Limit, SafetyController, UrdfJoint, UrdfMimic,
+    UrdfOrigin, UrdfRobot,
 };
 
 /// Value for an unlimited joint, which URDF cannot express; the same number as in libsdformat.
@@ -22,7 +22,7 @@ pub(super) fn names<'a>(model: &'a Model, tree: &'a [TfEdge]) -> BTreeMap<&'a st
     let mut names: BTreeMap<&str, String> =
         model.joints.iter().map(|joint| (&*joint.child, joint.name.clone())).collect();
     let mut taken: BTreeSet<String> = names.values().cloned().collect();
-    let frames: BTreeMap<&str, &Frame> =
+    let frames: BTreeMap<&str, &NamedFrame> =
         model.frames.iter().map(|frame| (&*frame.name, frame)).collect();
     for edge in tree {
         if names.contains_key(&*edge.child) {
@@ -46,7 +46,7 @@ pub(super) fn names<'a>(model: &'a Model, tree: &'a [TfEdge]) -> BTreeMap<&'a st
 
 impl Export<'_> {
     /// One joint for each edge of the tree.
-    pub(super) fn joints(&self, robot: &mut Robot, diagnostics: &mut Diagnostics) {
+    pub(super) fn joints(&self, robot: &mut UrdfRobot, diagnostics: &mut Diagnostics) {
         let by_child: BTreeMap<&str, &SceneJoint> =
             self.model.joints.iter().map(|joint| (&*joint.child, joint)).collect();
         let written: BTreeMap<&str, &Element> = self
@@ -58,12 +58,12 @@ impl Export<'_> {
         let pose = |name: &str| poses.get(name).copied().unwrap_or_default();
         for edge in self.tree {
             let parent_from_joint =
-                Placement::from_pose(pose(&edge.parent).inverse() * pose(&edge.child));
-            let base = Joint {
+                UrdfOrigin::from_pose(pose(&edge.parent).inverse() * pose(&edge.child));
+            let base = UrdfJoint {
                 parent: edge.parent.clone(),
                 child: edge.child.clone(),
                 parent_from_joint,
-                ..Joint::default()
+                ..UrdfJoint::default()
             };
             let joint = match by_child.get(&*edge.child) {
                 Some(joint) => {
@@ -73,7 +73,7 @@ impl Export<'_> {
                 }
                 None => {
                     let name = self.joint_above.get(&*edge.child).cloned().unwrap_or_default();
-                    Joint { name, ..base }
+                    UrdfJoint { name, ..base }
                 }
             };
             robot.joints.push(joint);
@@ -88,7 +88,12 @@ impl Export<'_> {
     }
 
     /// Adds the SDF settings of a joint that URDF does not have.
-    fn settings_of_joint(&self, joint: &SceneJoint, written: Option<&Element>, robot: &mut Robot) {
+    fn settings_of_joint(
+        &self,
+        joint: &SceneJoint,
+        written: Option<&Element>,
+        robot: &mut UrdfRobot,
+    ) {
         let mut content = Vec::new();
         if joint.kind == JointKind::Fixed && joint.parent != WORLD {
             content.push(Element::new("preserveFixedJoint").with_text("true"));
@@ -122,7 +127,7 @@ const KNOWN: [&str; 9] = [
     "thread_pitch",
 ];
 
-fn of_scene(base: Joint, joint: &SceneJoint, diagnostics: &mut Diagnostics) -> Joint {
+fn of_scene(base: UrdfJoint, joint: &SceneJoint, diagnostics: &mut Diagnostics) -> UrdfJoint {
     let axis = joint.axis.as_ref();
     let free = |axis: &Axis| axis.lower == f64::NEG_INFINITY && axis.upper == f64::INFINITY;
     let kind = match joint.kind {
@@ -138,10 +143,10 @@ fn of_scene(base: Joint, joint: &SceneJoint, diagnostics: &mut Diagnostics) -> J
     let number = |element: &Element, name: &str| {
         element.value(name).and_then(periplus_geometry::parse_number)
     };
-    let mut to = Joint {
+    let mut to = UrdfJoint {
         name: joint.name.clone(),
         kind,
-        calibration: part("calibration").map(|element| Calibration {
+        calibration: part("calibration").map(|element| JointCalibration {
             rising: number(element, "rising"),
             falling: number(element, "falling"),
             extra: Extra::default(),
@@ -171,7 +176,7 @@ fn of_scene(base: Joint, joint: &SceneJoint, diagnostics: &mut Diagnostics) -> J
             let what = format!("`{}` mimics a second axis, which URDF does not have", joint.name);
             diagnostics.push(lost(what).at(joint.origin));
         } else {
-            to.mimic = Some(Mimic {
+            to.mimic = Some(UrdfMimic {
                 joint: mimic.joint.clone(),
                 multiplier: mimic.multiplier,
                 // m (x - r) + o = m x + (o - m r)

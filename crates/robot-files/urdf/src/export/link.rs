@@ -10,11 +10,11 @@ use periplus_xml::Element;
 use super::shape::{self, Rest, Source};
 use super::{Export, lost, push_block};
 use crate::lump::WORLD;
-use crate::robot::{Inertial, Link, Material, Placement, Robot};
+use crate::robot::{UrdfInertial, UrdfLink, UrdfMaterial, UrdfOrigin, UrdfRobot};
 
 /// Link of the resulting URDF, with the data of its shapes that URDF cannot express.
 struct ExportedLink {
-    link: Link,
+    link: UrdfLink,
     model_from_link: Pose,
     collisions: Vec<Rest>,
     visuals: Vec<Rest>,
@@ -22,7 +22,7 @@ struct ExportedLink {
 
 impl ExportedLink {
     fn new(name: &str, model_from_link: Pose, origin: Origin) -> Self {
-        let link = Link { name: name.to_owned(), origin, ..Link::default() };
+        let link = UrdfLink { name: name.to_owned(), origin, ..UrdfLink::default() };
         Self { link, model_from_link, collisions: Vec::new(), visuals: Vec::new() }
     }
 
@@ -46,7 +46,7 @@ struct CandidateLink<'a> {
 
 impl Export<'_> {
     /// One link for the world if it has children, for each link, and for each frame.
-    pub(super) fn links(&self, robot: &mut Robot, diagnostics: &mut Diagnostics) {
+    pub(super) fn links(&self, robot: &mut UrdfRobot, diagnostics: &mut Diagnostics) {
         let mut made: Vec<ExportedLink> = Vec::new();
         if self.tree.iter().any(|edge| edge.parent == WORLD) {
             made.push(ExportedLink::new(WORLD, Pose::IDENTITY, self.model.origin));
@@ -188,7 +188,7 @@ fn visuals(
 ) {
     let parts = written.into_iter().flat_map(|link| link.named("visual"));
     let mut rests: Vec<Rest> = parts.map(shape::rest).collect();
-    let mut painted: Vec<Option<Material>> = Vec::new();
+    let mut painted: Vec<Option<UrdfMaterial>> = Vec::new();
     for (visual, rest) in body.visuals.iter().zip(&mut rests) {
         painted.push(visual.material.as_ref().and_then(|look| {
             let written = rest.iter_mut().find(|part| part.name == "material");
@@ -246,7 +246,7 @@ fn links_of_shapes(
 /// Children of an SDF link that are written differently.
 const KNOWN: [&str; 4] = ["pose", "inertial", "collision", "visual"];
 
-fn inertial(link: &SceneLink, diagnostics: &mut Diagnostics) -> Inertial {
+fn inertial(link: &SceneLink, diagnostics: &mut Diagnostics) -> UrdfInertial {
     let from = &link.inertial;
     if from.auto {
         let what = format!("URDF cannot compute the mass of `{}` from its shapes", link.name);
@@ -256,11 +256,11 @@ fn inertial(link: &SceneLink, diagnostics: &mut Diagnostics) -> Inertial {
         let what = format!("URDF has no `{}` for `{}`", extra.name, link.name);
         diagnostics.push(lost(what).at(extra.origin));
     }
-    Inertial {
-        link_from_inertial: Placement::from_pose(from.link_from_inertial),
+    UrdfInertial {
+        link_from_inertial: UrdfOrigin::from_pose(from.link_from_inertial),
         mass_kg: from.mass_kg,
         inertia_kg_m2: from.inertia_kg_m2,
         origin: link.origin,
-        ..Inertial::default()
+        ..UrdfInertial::default()
     }
 }

@@ -8,12 +8,13 @@ use periplus_scene::{
     Collision as SceneCollision, Colour, Material as SceneMaterial, Pbr, Shape,
     Visual as SceneVisual,
 };
-use periplus_xml::{Element, Node};
+use periplus_xml::{Element, XmlNode};
 
 use super::lost;
 use crate::convert::LUMP;
 use crate::robot::{
-    Collision, ColourAsWritten, Extra, Geometry, Material, Placement, Texture, Visual,
+    ColourAsWritten, Extra, UrdfCollision, UrdfGeometry, UrdfMaterial, UrdfOrigin, UrdfTexture,
+    UrdfVisual,
 };
 
 /// Origin of a shape, by Gazebo's rule for names of shapes converted from URDF.
@@ -98,7 +99,7 @@ pub(super) fn common(
         return Some(Element::new("material").with_text(name));
     }
     let mut block = Element::new(kind);
-    block.children.extend(first.iter().cloned().map(Node::Element));
+    block.children.extend(first.iter().cloned().map(XmlNode::Element));
     Some(block)
 }
 
@@ -116,11 +117,11 @@ pub(super) fn collision(
     name: Option<String>,
     link_from_collision: Pose,
     diagnostics: &mut Diagnostics,
-) -> Option<Collision> {
-    Some(Collision {
+) -> Option<UrdfCollision> {
+    Some(UrdfCollision {
         geometry: geometry(&from.shape, &from.name, from.origin, diagnostics)?,
         name,
-        link_from_collision: Placement::from_pose(link_from_collision),
+        link_from_collision: UrdfOrigin::from_pose(link_from_collision),
         extra: Extra::default(),
         origin: from.origin,
     })
@@ -128,15 +129,15 @@ pub(super) fn collision(
 
 pub(super) fn visual(
     from: &SceneVisual,
-    look: Option<Material>,
+    look: Option<UrdfMaterial>,
     name: Option<String>,
     link_from_visual: Pose,
     diagnostics: &mut Diagnostics,
-) -> Option<Visual> {
-    Some(Visual {
+) -> Option<UrdfVisual> {
+    Some(UrdfVisual {
         geometry: geometry(&from.shape, &from.name, from.origin, diagnostics)?,
         name,
-        link_from_visual: Placement::from_pose(link_from_visual),
+        link_from_visual: UrdfOrigin::from_pose(link_from_visual),
         material: look,
         extra: Extra::default(),
         origin: from.origin,
@@ -148,7 +149,7 @@ fn geometry(
     name: &str,
     origin: Origin,
     diagnostics: &mut Diagnostics,
-) -> Option<Geometry> {
+) -> Option<UrdfGeometry> {
     let cannot = |what: &str, help: &str, diagnostics: &mut Diagnostics| {
         diagnostics
             .push(lost(format!("URDF has no {what}, and `{name}` is one")).at(origin).help(help));
@@ -162,30 +163,30 @@ fn geometry(
             );
             return None;
         }
-        Shape::Box { size_m } => Geometry::Box { size_m: size_m.to_array() },
+        Shape::Box { size_m } => UrdfGeometry::Box { size_m: size_m.to_array() },
         Shape::Cylinder { radius_m, length_m } => {
-            Geometry::Cylinder { radius_m: *radius_m, length_m: *length_m }
+            UrdfGeometry::Cylinder { radius_m: *radius_m, length_m: *length_m }
         }
-        Shape::Sphere { radius_m } => Geometry::Sphere { radius_m: *radius_m },
+        Shape::Sphere { radius_m } => UrdfGeometry::Sphere { radius_m: *radius_m },
         Shape::Capsule { radius_m, length_m } => {
             diagnostics.push(
                 Diagnostic::warning("newer-urdf", format!("`{name}` is a capsule"))
                     .at(origin)
                     .note("capsules are of URDF 1.2; older readers refuse the file"),
             );
-            Geometry::Capsule { radius_m: *radius_m, length_m: *length_m }
+            UrdfGeometry::Capsule { radius_m: *radius_m, length_m: *length_m }
         }
         Shape::Mesh(mesh) => {
             if mesh.submesh.is_some() || !mesh.extra.is_empty() {
                 cannot("part of a mesh", "save the part as a separate mesh", diagnostics);
             }
-            Geometry::Mesh {
+            UrdfGeometry::Mesh {
                 filename: mesh.uri.clone(),
                 scale: mesh.scale.to_array(),
                 origin: mesh.origin,
             }
         }
-        Shape::Unknown(element) => Geometry::Unknown(element.clone()),
+        Shape::Unknown(element) => UrdfGeometry::Unknown(element.clone()),
         other => {
             let (what, help) = match other {
                 Shape::Cone { .. } => ("cone", "use a mesh"),
@@ -205,7 +206,7 @@ fn geometry(
 /// Materials exported so far: in a URDF a name identifies one material.
 #[derive(Default)]
 pub(super) struct ExportedMaterials {
-    known: BTreeMap<String, Material>,
+    known: BTreeMap<String, UrdfMaterial>,
 }
 
 impl ExportedMaterials {
@@ -215,7 +216,7 @@ impl ExportedMaterials {
         &mut self,
         look: &SceneMaterial,
         written: Option<&mut Element>,
-    ) -> Option<Material> {
+    ) -> Option<UrdfMaterial> {
         let texture = look.pbr.as_ref().and_then(texture);
         let colour = match (look.ambient == look.diffuse, look.diffuse) {
             (true, Some(diffuse)) => as_written(diffuse),
@@ -232,10 +233,10 @@ impl ExportedMaterials {
             };
             written.children.retain(|node| node.as_element().is_none_or(|part| !said(part)));
         }
-        let mut material = Material {
+        let mut material = UrdfMaterial {
             name: look.name.clone().unwrap_or_default(),
             colour: colour.map(|rgba| ColourAsWritten { rgba, extra: Extra::default() }),
-            texture: texture.map(|filename| Texture { filename, extra: Extra::default() }),
+            texture: texture.map(|filename| UrdfTexture { filename, extra: Extra::default() }),
             extra: Extra::default(),
             origin: Origin::default(),
         };

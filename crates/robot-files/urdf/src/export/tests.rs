@@ -2,9 +2,9 @@
 
 use periplus_diagnostics::{Diagnostics, SourceMap};
 use periplus_scene::Model;
-use periplus_sdf::{Context, NoIncludes};
+use periplus_sdf::{NoIncludes, SdfContext};
 
-use crate::{JointType, Robot, from_model};
+use crate::{JointType, UrdfRobot, from_model};
 
 fn model(content: &str) -> Model {
     let mut sources = SourceMap::new();
@@ -12,14 +12,17 @@ fn model(content: &str) -> Model {
     let text = format!("<sdf version='1.9'><model name='m'>{content}</model></sdf>");
     let file = sources.add("m.sdf", text);
     let document = periplus_xml::parse(file, &sources, &mut diagnostics).unwrap();
-    let mut context =
-        Context { sources: &mut sources, diagnostics: &mut diagnostics, includes: &mut NoIncludes };
+    let mut context = SdfContext {
+        sources: &mut sources,
+        diagnostics: &mut diagnostics,
+        includes: &mut NoIncludes,
+    };
     let scene = periplus_sdf::read_document(&document, &mut context);
     assert!(!diagnostics.has_errors(), "{diagnostics:?}");
     scene.models.into_iter().next().unwrap()
 }
 
-fn export(content: &str) -> (Option<Robot>, Vec<String>) {
+fn export(content: &str) -> (Option<UrdfRobot>, Vec<String>) {
     let mut diagnostics = Diagnostics::new();
     let robot = from_model(&model(content), &mut diagnostics);
     for one in diagnostics.iter() {

@@ -3,7 +3,7 @@
 use periplus_geometry::{DVec3, Pose};
 
 use super::matrix::Matrix;
-use crate::robot::Inertial;
+use crate::robot::UrdfInertial;
 
 /// Mass and inertia of a body in the frame of the link that carries it.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -20,8 +20,8 @@ pub(crate) struct Combined {
 /// is returned exact to the last bit. The axes of the sum are those of the carrier's inertial, as in
 /// libsdformat (`ReduceInertialToParent`).
 pub(crate) fn combine<'a>(
-    own: Option<&'a Inertial>,
-    others: impl Iterator<Item = (Pose, &'a Inertial)>,
+    own: Option<&'a UrdfInertial>,
+    others: impl Iterator<Item = (Pose, &'a UrdfInertial)>,
 ) -> Option<Combined> {
     let own = own.map(|inertial| (Pose::IDENTITY, inertial));
     let axes = own.map_or(Pose::IDENTITY, |(_, inertial)| Pose {
@@ -67,13 +67,13 @@ pub(crate) fn combine<'a>(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::robot::{Placement, Rotation};
+    use crate::robot::{Rotation, UrdfOrigin};
 
-    fn point(mass_kg: f64, xyz_m: [f64; 3]) -> Inertial {
-        Inertial {
+    fn point(mass_kg: f64, xyz_m: [f64; 3]) -> UrdfInertial {
+        UrdfInertial {
             mass_kg,
-            link_from_inertial: Placement { xyz_m, ..Placement::default() },
-            ..Inertial::default()
+            link_from_inertial: UrdfOrigin { xyz_m, ..UrdfOrigin::default() },
+            ..UrdfInertial::default()
         }
     }
 
@@ -90,14 +90,14 @@ mod tests {
 
     #[test]
     fn a_turned_rod_lies_along_y() {
-        let rod = Inertial {
+        let rod = UrdfInertial {
             mass_kg: 1.0,
             inertia_kg_m2: [0.0, 0.0, 0.0, 1.0, 0.0, 1.0],
-            ..Inertial::default()
+            ..UrdfInertial::default()
         };
-        let quarter = Placement {
+        let quarter = UrdfOrigin {
             rotation: Rotation::Rpy([0.0, 0.0, std::f64::consts::FRAC_PI_2]),
-            ..Placement::default()
+            ..UrdfOrigin::default()
         };
         let sum = combine(Some(&point(1.0, [0.0; 3])), [(quarter.pose(), &rod)].into_iter());
         for (found, expected) in

@@ -7,7 +7,9 @@ use super::fields::{
     extra, number, only_child, required_name, required_number, required_text, vector,
 };
 use super::origin_of;
-use crate::robot::{Calibration, Dynamics, Joint, JointType, Limit, Mimic, SafetyController};
+use crate::robot::{
+    Dynamics, JointCalibration, JointType, Limit, SafetyController, UrdfJoint, UrdfMimic,
+};
 
 const CHILDREN: [&str; 9] = [
     "origin",
@@ -22,12 +24,12 @@ const CHILDREN: [&str; 9] = [
 ];
 
 /// Reads a `<joint>`; `None`, with an error, if it has no name.
-pub(super) fn joint(element: &Element, diagnostics: &mut Diagnostics) -> Option<Joint> {
+pub(super) fn joint(element: &Element, diagnostics: &mut Diagnostics) -> Option<UrdfJoint> {
     let name = required_name(element, "name", diagnostics)?;
     let kind = kind(element, &name, diagnostics);
     let (parent, parent_origin) = end(element, "parent", &name, diagnostics);
     let (child, child_origin) = end(element, "child", &name, diagnostics);
-    let joint = Joint {
+    let joint = UrdfJoint {
         kind,
         parent,
         child,
@@ -39,7 +41,7 @@ pub(super) fn joint(element: &Element, diagnostics: &mut Diagnostics) -> Option<
         mimic: only_child(element, "mimic", diagnostics)
             .and_then(|mimic| mimic_of(mimic, diagnostics)),
         calibration: only_child(element, "calibration", diagnostics).map(|calibration| {
-            Calibration {
+            JointCalibration {
                 rising: number(calibration, "rising", diagnostics),
                 falling: number(calibration, "falling", diagnostics),
                 extra: extra(calibration, &["rising", "falling"], &[], &[], diagnostics),
@@ -106,7 +108,7 @@ fn axis_of(element: &Element, diagnostics: &mut Diagnostics) -> ([f64; 3], crate
     (xyz, extra(element, &["xyz"], &[], &[], diagnostics))
 }
 
-fn check_axis(joint: &Joint, element: &Element, diagnostics: &mut Diagnostics) {
+fn check_axis(joint: &UrdfJoint, element: &Element, diagnostics: &mut Diagnostics) {
     if joint.kind.has_axis() && joint.axis_xyz() == [0.0; 3] {
         let axis = element.child("axis").unwrap_or(element);
         let place = axis.attribute("xyz").map_or(axis.origin, |xyz| xyz.value_origin);
@@ -132,7 +134,7 @@ fn limit_of(element: &Element, diagnostics: &mut Diagnostics) -> Limit {
     }
 }
 
-fn check_limit(joint: &Joint, diagnostics: &mut Diagnostics) {
+fn check_limit(joint: &UrdfJoint, diagnostics: &mut Diagnostics) {
     let needs_one = matches!(joint.kind, JointType::Revolute | JointType::Prismatic);
     match &joint.limit {
         None if needs_one => {
@@ -188,10 +190,10 @@ fn dynamics_of(element: &Element, diagnostics: &mut Diagnostics) -> Dynamics {
     }
 }
 
-fn mimic_of(element: &Element, diagnostics: &mut Diagnostics) -> Option<Mimic> {
+fn mimic_of(element: &Element, diagnostics: &mut Diagnostics) -> Option<UrdfMimic> {
     let joint = required_name(element, "joint", diagnostics)?;
     let origin = element.attribute("joint").map_or(element.origin, |joint| joint.value_origin);
-    Some(Mimic {
+    Some(UrdfMimic {
         joint,
         multiplier: number(element, "multiplier", diagnostics).unwrap_or(1.0),
         offset: number(element, "offset", diagnostics).unwrap_or(0.0),

@@ -7,12 +7,12 @@ use super::fields::{
     extra, only_child, required_name, required_number, required_text, unknown_element, vector,
 };
 use super::{material, origin_of};
-use crate::robot::{Collision, Geometry, Inertial, Link, Visual};
+use crate::robot::{UrdfCollision, UrdfGeometry, UrdfInertial, UrdfLink, UrdfVisual};
 
 /// Reads a `<link>`; `None`, with an error, if it has no name.
-pub(super) fn link(element: &Element, diagnostics: &mut Diagnostics) -> Option<Link> {
+pub(super) fn link(element: &Element, diagnostics: &mut Diagnostics) -> Option<UrdfLink> {
     let name = required_name(element, "name", diagnostics)?;
-    Some(Link {
+    Some(UrdfLink {
         name,
         inertial: only_child(element, "inertial", diagnostics)
             .map(|inertial| self::inertial(inertial, diagnostics)),
@@ -30,7 +30,7 @@ pub(super) fn link(element: &Element, diagnostics: &mut Diagnostics) -> Option<L
     })
 }
 
-fn inertial(element: &Element, diagnostics: &mut Diagnostics) -> Inertial {
+fn inertial(element: &Element, diagnostics: &mut Diagnostics) -> UrdfInertial {
     let link_from_inertial = origin_of(element, diagnostics);
     let mut rest = extra(element, &[], &["origin", "mass", "inertia"], &[], diagnostics);
     let missing = |name: &str, example: &str| {
@@ -64,7 +64,7 @@ fn inertial(element: &Element, diagnostics: &mut Diagnostics) -> Inertial {
             [0.0; 6]
         }
     };
-    Inertial { link_from_inertial, mass_kg, inertia_kg_m2, extra: rest, origin: element.origin }
+    UrdfInertial { link_from_inertial, mass_kg, inertia_kg_m2, extra: rest, origin: element.origin }
 }
 
 /// Unknown content of `<mass>` or `<inertia>` is kept as a second such element, which readers ignore.
@@ -74,8 +74,8 @@ fn keep_nested(element: &Element, found: crate::robot::Extra, rest: &mut crate::
     }
 }
 
-fn visual(element: &Element, diagnostics: &mut Diagnostics) -> Option<Visual> {
-    Some(Visual {
+fn visual(element: &Element, diagnostics: &mut Diagnostics) -> Option<UrdfVisual> {
+    Some(UrdfVisual {
         name: element.value("name").map(str::to_owned),
         link_from_visual: origin_of(element, diagnostics),
         material: only_child(element, "material", diagnostics)
@@ -87,8 +87,8 @@ fn visual(element: &Element, diagnostics: &mut Diagnostics) -> Option<Visual> {
     })
 }
 
-fn collision(element: &Element, diagnostics: &mut Diagnostics) -> Option<Collision> {
-    Some(Collision {
+fn collision(element: &Element, diagnostics: &mut Diagnostics) -> Option<UrdfCollision> {
+    Some(UrdfCollision {
         name: element.value("name").map(str::to_owned),
         link_from_collision: origin_of(element, diagnostics),
         extra: extra(element, &["name"], &["origin", "geometry"], &[], diagnostics),
@@ -103,7 +103,7 @@ const REST_OF_LINK: &str = "ROS and Gazebo accept the robot, but leave out all s
 
 const SHAPES: [&str; 5] = ["box", "cylinder", "sphere", "mesh", "capsule"];
 
-fn geometry(parent: &Element, diagnostics: &mut Diagnostics) -> Option<Geometry> {
+fn geometry(parent: &Element, diagnostics: &mut Diagnostics) -> Option<UrdfGeometry> {
     let example = "write <geometry><box size=\"1 1 1\"/></geometry>";
     let Some(geometry) = only_child(parent, "geometry", diagnostics) else {
         diagnostics.push(
@@ -142,30 +142,30 @@ fn geometry(parent: &Element, diagnostics: &mut Diagnostics) -> Option<Geometry>
     let read = match &*shape.name {
         "box" => {
             known = &["size"];
-            Geometry::Box { size_m: sizes(shape, "size", diagnostics) }
+            UrdfGeometry::Box { size_m: sizes(shape, "size", diagnostics) }
         }
         "cylinder" => {
             known = &["radius", "length"];
-            Geometry::Cylinder {
+            UrdfGeometry::Cylinder {
                 radius_m: size(shape, "radius", diagnostics),
                 length_m: size(shape, "length", diagnostics),
             }
         }
         "capsule" => {
             known = &["radius", "length"];
-            Geometry::Capsule {
+            UrdfGeometry::Capsule {
                 radius_m: size(shape, "radius", diagnostics),
                 length_m: size(shape, "length", diagnostics),
             }
         }
         "sphere" => {
             known = &["radius"];
-            Geometry::Sphere { radius_m: size(shape, "radius", diagnostics) }
+            UrdfGeometry::Sphere { radius_m: size(shape, "radius", diagnostics) }
         }
         "mesh" => {
             known = &["filename", "scale"];
             let filename = required_text(shape, "filename", diagnostics);
-            Geometry::Mesh {
+            UrdfGeometry::Mesh {
                 filename: filename.map(|name| name.value.to_string()).unwrap_or_default(),
                 scale: vector(shape, "scale", diagnostics).unwrap_or([1.0; 3]),
                 origin: filename.map_or(shape.origin, |name| name.value_origin),
@@ -177,7 +177,7 @@ fn geometry(parent: &Element, diagnostics: &mut Diagnostics) -> Option<Geometry>
                 error.severity = periplus_diagnostics::Severity::Error;
                 diagnostics.push(error.note(format!("the shapes are {}", SHAPES.join(", "))));
             }
-            Geometry::Unknown(periplus_sdf::keep(shape))
+            UrdfGeometry::Unknown(periplus_sdf::keep(shape))
         }
     };
     if !known.is_empty() {

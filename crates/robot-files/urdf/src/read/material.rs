@@ -4,10 +4,10 @@ use periplus_diagnostics::{Diagnostic, Diagnostics};
 use periplus_xml::Element;
 
 use super::fields::{extra, only_child, required_text, vector};
-use crate::robot::{ColourAsWritten, Material, Texture};
+use crate::robot::{ColourAsWritten, UrdfMaterial, UrdfTexture};
 
 /// Reads a `<material>` of the robot: it must have a name and a colour or texture.
-pub(super) fn global(element: &Element, diagnostics: &mut Diagnostics) -> Option<Material> {
+pub(super) fn global(element: &Element, diagnostics: &mut Diagnostics) -> Option<UrdfMaterial> {
     let name = required_text(element, "name", diagnostics)?.value.to_string();
     let material = content(name, element, diagnostics);
     if !material.is_definition() {
@@ -24,7 +24,7 @@ pub(super) fn global(element: &Element, diagnostics: &mut Diagnostics) -> Option
 }
 
 /// Reads a `<material>` of a visual: a definition or a reference by name.
-pub(super) fn of_visual(element: &Element, diagnostics: &mut Diagnostics) -> Material {
+pub(super) fn of_visual(element: &Element, diagnostics: &mut Diagnostics) -> UrdfMaterial {
     // An empty name with a colour in place is common and harmless.
     let name = match element.attribute("name") {
         Some(name) => name.value.to_string(),
@@ -40,7 +40,7 @@ pub(super) fn of_visual(element: &Element, diagnostics: &mut Diagnostics) -> Mat
     content(name, element, diagnostics)
 }
 
-fn content(name: String, element: &Element, diagnostics: &mut Diagnostics) -> Material {
+fn content(name: String, element: &Element, diagnostics: &mut Diagnostics) -> UrdfMaterial {
     let colour = only_child(element, "color", diagnostics).and_then(|colour| {
         if colour.attribute("rgba").is_none() {
             required_text(colour, "rgba", diagnostics);
@@ -58,12 +58,12 @@ fn content(name: String, element: &Element, diagnostics: &mut Diagnostics) -> Ma
     let texture = only_child(element, "texture", diagnostics).and_then(|texture| {
         // `<texture/>` without a name is what liburdfdom itself writes for "none".
         let filename = texture.value("filename").filter(|name| !name.is_empty())?;
-        Some(Texture {
+        Some(UrdfTexture {
             filename: filename.to_owned(),
             extra: extra(texture, &["filename"], &[], &[], diagnostics),
         })
     });
-    Material {
+    UrdfMaterial {
         name,
         colour,
         texture,

@@ -1,12 +1,12 @@
 //! One check per finding, then the round trip.
 
 use expect_test::{Expect, expect};
-use periplus_diagnostics::{Diagnostics, SourceMap, Style, render};
+use periplus_diagnostics::{Diagnostics, RenderStyle, SourceMap, render};
 
-use crate::{Robot, read, write};
+use crate::{UrdfRobot, read, write};
 
 /// Reads a text; gives the robot and what was found.
-pub(crate) fn load(text: &str) -> (Option<Robot>, Diagnostics, SourceMap) {
+pub(crate) fn load(text: &str) -> (Option<UrdfRobot>, Diagnostics, SourceMap) {
     let mut sources = SourceMap::new();
     let file = sources.add("robot.urdf", text);
     let mut diagnostics = Diagnostics::new();
@@ -19,7 +19,7 @@ pub(crate) fn load(text: &str) -> (Option<Robot>, Diagnostics, SourceMap) {
 fn check(text: &str, expected: Expect) {
     let (_, diagnostics, sources) = load(text);
     let shown: Vec<String> =
-        diagnostics.iter().map(|one| render(one, &sources, Style::Plain)).collect();
+        diagnostics.iter().map(|one| render(one, &sources, RenderStyle::Plain)).collect();
     expected.assert_eq(&shown.join("\n"));
 }
 

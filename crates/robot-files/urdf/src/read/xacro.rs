@@ -1,7 +1,7 @@
 //! Unexpanded xacro in a file that should be plain URDF.
 
 use periplus_diagnostics::{Diagnostic, Diagnostics, Origin};
-use periplus_xml::{Element, Node};
+use periplus_xml::{Element, XmlNode};
 
 use super::fields::{is_xacro, unexpanded};
 
@@ -56,8 +56,8 @@ fn walk(element: &Element, found: &mut Vec<(String, Origin)>) {
             return;
         }
         match child {
-            Node::Element(child) => walk(child, found),
-            Node::Text(text) if is_xacro(&text.text) => {
+            XmlNode::Element(child) => walk(child, found),
+            XmlNode::Text(text) if is_xacro(&text.text) => {
                 let what =
                     format!("`{}` holds a xacro expression, and xacro has not run", element.name);
                 found.push((what, element.text_origin()));

@@ -2,7 +2,7 @@
 
 use periplus_diagnostics::Origin;
 
-use super::{Extra, Placement};
+use super::{Extra, UrdfOrigin};
 
 /// Type of motion of a joint.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
@@ -48,7 +48,7 @@ impl JointType {
 
 /// Connection of two links. Positions are in metres for a prismatic joint, in radians otherwise.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Joint {
+pub struct UrdfJoint {
     /// Its name, unique among the joints.
     pub name: String,
     /// Type of motion.
@@ -58,7 +58,7 @@ pub struct Joint {
     /// Child link. At position zero its frame is the joint's.
     pub child: String,
     /// Joint frame in the parent link's frame, at position zero.
-    pub parent_from_joint: Placement,
+    pub parent_from_joint: UrdfOrigin,
     /// Direction of the axis in the joint frame, as written; the default is x.
     pub axis: Option<([f64; 3], Extra)>,
     /// Limits.
@@ -66,9 +66,9 @@ pub struct Joint {
     /// Damping and friction.
     pub dynamics: Option<Dynamics>,
     /// Joint that it follows.
-    pub mimic: Option<Mimic>,
+    pub mimic: Option<UrdfMimic>,
     /// Positions of a reference switch.
-    pub calibration: Option<Calibration>,
+    pub calibration: Option<JointCalibration>,
     /// Soft limits.
     pub safety_controller: Option<SafetyController>,
     /// Uninterpreted attributes and elements, kept verbatim.
@@ -84,7 +84,7 @@ pub struct Joint {
 /// Default axis.
 pub(crate) const DEFAULT_AXIS: [f64; 3] = [1.0, 0.0, 0.0];
 
-impl Joint {
+impl UrdfJoint {
     /// The axis as written, or x.
     #[must_use]
     pub fn axis_xyz(&self) -> [f64; 3] {
@@ -122,7 +122,7 @@ pub struct Dynamics {
 
 /// `position = multiplier * other + offset`.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Mimic {
+pub struct UrdfMimic {
     /// Joint that it follows.
     pub joint: String,
     /// Ratio.
@@ -137,7 +137,7 @@ pub struct Mimic {
 
 /// Positions at which a reference switch changes.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Calibration {
+pub struct JointCalibration {
     /// Position of the rising edge [m or rad].
     pub rising: Option<f64>,
     /// Position of the falling edge [m or rad].

@@ -3,19 +3,19 @@
 use periplus_diagnostics::Origin;
 use periplus_xml::Element;
 
-use super::{Extra, Material, Placement};
+use super::{Extra, UrdfMaterial, UrdfOrigin};
 
 /// A link. Its frame is that of the joint above it.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Link {
+pub struct UrdfLink {
     /// Its name, unique among the links.
     pub name: String,
     /// Mass and inertia, if given.
-    pub inertial: Option<Inertial>,
+    pub inertial: Option<UrdfInertial>,
     /// Visual shapes.
-    pub visuals: Vec<Visual>,
+    pub visuals: Vec<UrdfVisual>,
     /// Collision shapes.
-    pub collisions: Vec<Collision>,
+    pub collisions: Vec<UrdfCollision>,
     /// Uninterpreted attributes and elements, kept verbatim.
     pub extra: Extra,
     /// Source location.
@@ -24,9 +24,9 @@ pub struct Link {
 
 /// Mass and inertia.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Inertial {
+pub struct UrdfInertial {
     /// Centre of mass and axes of the inertia in the link.
-    pub link_from_inertial: Placement,
+    pub link_from_inertial: UrdfOrigin,
     /// Mass [kg].
     pub mass_kg: f64,
     /// `xx, xy, xz, yy, yz, zz` about the centre of mass [kg m²].
@@ -39,15 +39,15 @@ pub struct Inertial {
 
 /// Shape for rendering.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Visual {
+pub struct UrdfVisual {
     /// Name, if given.
     pub name: Option<String>,
     /// Its frame in the link's.
-    pub link_from_visual: Placement,
+    pub link_from_visual: UrdfOrigin,
     /// Its shape.
-    pub geometry: Geometry,
+    pub geometry: UrdfGeometry,
     /// Material.
-    pub material: Option<Material>,
+    pub material: Option<UrdfMaterial>,
     /// Uninterpreted attributes and elements, kept verbatim.
     pub extra: Extra,
     /// Source location.
@@ -56,13 +56,13 @@ pub struct Visual {
 
 /// Shape for contacts.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Collision {
+pub struct UrdfCollision {
     /// Name, if given.
     pub name: Option<String>,
     /// Its frame in the link's.
-    pub link_from_collision: Placement,
+    pub link_from_collision: UrdfOrigin,
     /// Its shape.
-    pub geometry: Geometry,
+    pub geometry: UrdfGeometry,
     /// Uninterpreted attributes and elements, kept verbatim.
     pub extra: Extra,
     /// Source location.
@@ -71,7 +71,7 @@ pub struct Collision {
 
 /// A shape, centred on its frame.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Geometry {
+pub enum UrdfGeometry {
     /// A box with full edge lengths [m].
     Box {
         /// Edge lengths [m].

@@ -6,13 +6,13 @@ use super::Extra;
 
 /// A material: a definition, or only the name of one.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Material {
+pub struct UrdfMaterial {
     /// Its name; may be empty in a visual.
     pub name: String,
     /// Its colour.
     pub colour: Option<ColourAsWritten>,
     /// Its texture.
-    pub texture: Option<Texture>,
+    pub texture: Option<UrdfTexture>,
     /// Uninterpreted attributes and elements, kept verbatim.
     pub extra: Extra,
     /// Source location.
@@ -30,14 +30,14 @@ pub struct ColourAsWritten {
 
 /// `<texture filename="...">`.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Texture {
+pub struct UrdfTexture {
     /// The URI as written.
     pub filename: String,
     /// Uninterpreted attributes and elements, kept verbatim.
     pub extra: Extra,
 }
 
-impl Material {
+impl UrdfMaterial {
     /// Returns true if it defines a colour or texture, not only a name.
     #[must_use]
     pub fn is_definition(&self) -> bool {

@@ -6,7 +6,7 @@ use super::Extra;
 
 /// An `<origin>`: a pose as written, so that writing it again changes nothing.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Placement {
+pub struct UrdfOrigin {
     /// Translation [m].
     pub xyz_m: [f64; 3],
     /// Rotation.
@@ -30,7 +30,7 @@ impl Default for Rotation {
     }
 }
 
-impl Placement {
+impl UrdfOrigin {
     /// The same as a pose.
     #[must_use]
     pub fn pose(&self) -> Pose {

@@ -3,10 +3,10 @@
 use std::path::PathBuf;
 
 use expect_test::Expect;
-use periplus_diagnostics::{Diagnostics, SourceMap, Style, render};
+use periplus_diagnostics::{Diagnostics, RenderStyle, SourceMap, render};
 use periplus_resources::{MemoryHost, Resolver};
-use periplus_xacro::{Expanded, Setting, expand};
-use periplus_xml::{Node, canonical, decode, parse};
+use periplus_xacro::{Expanded, XacroContext, expand};
+use periplus_xml::{XmlNode, canonical, decode, parse};
 
 /// A file `/robot/main.xacro` whose root is `r`, with files around it.
 pub(crate) struct Example {
@@ -82,7 +82,7 @@ impl Example {
         let document = parse(file, &sources, &mut diagnostics);
         let resolver = Resolver::new(&self.host, &[]);
         let expanded = document.and_then(|document| {
-            let setting = Setting {
+            let setting = XacroContext {
                 path,
                 working_folder: PathBuf::from("/robot"),
                 arguments: self.arguments.clone(),
@@ -97,7 +97,7 @@ impl Example {
     /// All messages.
     pub(crate) fn messages(&self) -> String {
         let (_, diagnostics, sources) = self.run();
-        diagnostics.iter().map(|found| render(found, &sources, Style::Plain)).collect()
+        diagnostics.iter().map(|found| render(found, &sources, RenderStyle::Plain)).collect()
     }
 
     pub(crate) fn check(self, expected: Expect) {
@@ -132,13 +132,13 @@ impl Example {
 }
 
 /// Comments as elements, so that they can be seen in the canonical form.
-fn show_comments(nodes: &mut [Node]) {
+fn show_comments(nodes: &mut [XmlNode]) {
     for node in nodes {
-        if let Node::Comment(comment) = node {
+        if let XmlNode::Comment(comment) = node {
             let text = comment.text.clone();
-            *node = Node::Element(periplus_xml::Element::new("comment").with_text(text));
+            *node = XmlNode::Element(periplus_xml::Element::new("comment").with_text(text));
         }
-        if let Node::Element(element) = node {
+        if let XmlNode::Element(element) = node {
             show_comments(&mut element.children);
         }
     }

@@ -5,9 +5,9 @@ use std::sync::Arc;
 use periplus_diagnostics::{Diagnostic, Diagnostics, Origin};
 use periplus_geometry::Pose;
 use periplus_images::Image;
-use periplus_meshes::Texture;
+use periplus_meshes::MeshTexture;
 use periplus_raycast::{RaycastWorld, Tags};
-use periplus_scene::{Material, Mesh, Model, Plugin, Shape, Visual, builtin_material};
+use periplus_scene::{Material, MeshShape, Model, Plugin, Shape, Visual, builtin_material};
 
 use super::rebuild::put;
 use super::{
@@ -256,16 +256,16 @@ impl RenderScene {
 
     fn mesh_texture(
         &mut self,
-        mesh: &Mesh,
-        texture: &Texture,
+        mesh: &MeshShape,
+        texture: &MeshTexture,
         shapes: &dyn AssetLoader,
         diagnostics: &mut Diagnostics,
     ) -> Option<Arc<Image>> {
         match texture {
-            Texture::File(name) => {
+            MeshTexture::File(name) => {
                 self.texture(name, shapes.texture(mesh, name), mesh.origin, diagnostics)
             }
-            Texture::Embedded { bytes, .. } => {
+            MeshTexture::Embedded { bytes, .. } => {
                 self.texture("embedded", Some(bytes.clone()), mesh.origin, diagnostics)
             }
         }

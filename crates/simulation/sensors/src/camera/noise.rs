@@ -1,7 +1,7 @@
 //! Noise of images.
 
 use periplus_geometry::Stream;
-use periplus_scene::{Noise, NoiseKind};
+use periplus_scene::{NoiseKind, NoiseSpec};
 
 /// Pixel noise. As in Gazebo only mean and standard deviation apply.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -13,8 +13,8 @@ pub struct ImageNoise {
 impl ImageNoise {
     /// Returns `None` for a specification without noise.
     #[must_use]
-    pub fn new(noise: &Noise) -> Option<Self> {
-        let Noise { kind, mean, stddev, .. } = *noise;
+    pub fn new(noise: &NoiseSpec) -> Option<Self> {
+        let NoiseSpec { kind, mean, stddev, .. } = *noise;
         (kind != NoiseKind::None && (mean != 0.0 || stddev != 0.0)).then_some(Self { mean, stddev })
     }
 
@@ -54,7 +54,12 @@ mod tests {
 
     #[test]
     fn pixels_get_the_noise_that_is_asked_for() {
-        let spec = Noise { kind: NoiseKind::Gaussian, mean: 0.1, stddev: 0.02, ..Noise::default() };
+        let spec = NoiseSpec {
+            kind: NoiseKind::Gaussian,
+            mean: 0.1,
+            stddev: 0.02,
+            ..NoiseSpec::default()
+        };
         let noise = ImageNoise::new(&spec).unwrap();
         let mut pixels = vec![100_u8; 100_000];
         noise.colours(&mut pixels, &mut Stream::keyed(0, "camera", 0));
@@ -64,12 +69,13 @@ mod tests {
         let mut white = [255_u8];
         noise.colours(&mut white, &mut Stream::keyed(0, "camera", 0));
         assert_eq!(white, [255]);
-        assert_eq!(ImageNoise::new(&Noise::default()), None);
+        assert_eq!(ImageNoise::new(&NoiseSpec::default()), None);
     }
 
     #[test]
     fn infinite_depths_stay() {
-        let spec = Noise { kind: NoiseKind::Gaussian, mean: 9.0, stddev: 0.0, ..Noise::default() };
+        let spec =
+            NoiseSpec { kind: NoiseKind::Gaussian, mean: 9.0, stddev: 0.0, ..NoiseSpec::default() };
         let mut depths_m = [f32::NEG_INFINITY, 2.0, f32::INFINITY];
         let mut stream = Stream::keyed(0, "", 0);
         ImageNoise::new(&spec).unwrap().depths(&mut depths_m, [0.1, 10.0], &mut stream);

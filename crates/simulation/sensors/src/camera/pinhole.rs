@@ -127,7 +127,7 @@ impl CameraCalibration {
 
 #[cfg(test)]
 mod tests {
-    use periplus_scene::{CameraKind, Noise};
+    use periplus_scene::{CameraKind, NoiseSpec};
 
     use super::*;
 
@@ -143,7 +143,7 @@ mod tests {
             near_m: 0.1,
             far_m: 10.0,
             depth_clip_m: None,
-            noise: Noise::default(),
+            noise: NoiseSpec::default(),
             distortion: None,
             camera_info_topic: None,
             optical_frame_id: None,

@@ -34,7 +34,7 @@ impl OrientationReference {
     /// # Errors
     /// When the elements do not define a frame.
     pub fn read(
-        imu: &periplus_scene::Imu,
+        imu: &periplus_scene::ImuSpec,
         heading_rad: f64,
         gravity_m_s2: DVec3,
     ) -> Result<Option<Self>, Box<Diagnostic>> {
@@ -133,10 +133,10 @@ fn three(element: &Element) -> Result<DVec3, Box<Diagnostic>> {
 mod tests {
     use super::*;
 
-    fn imu(localization: &str, child: Option<Element>) -> periplus_scene::Imu {
-        let none = [periplus_scene::Noise::default(); 3];
+    fn imu(localization: &str, child: Option<Element>) -> periplus_scene::ImuSpec {
+        let none = [periplus_scene::NoiseSpec::default(); 3];
         let frame = child.map(|child| Element::new(ELEMENT).with_child(child));
-        periplus_scene::Imu {
+        periplus_scene::ImuSpec {
             angular_velocity: none,
             linear_acceleration: none,
             enable_orientation: true,

@@ -21,7 +21,7 @@ pub struct LidarBeams {
 }
 
 impl LidarBeams {
-    pub(super) fn new(spec: &periplus_scene::Lidar) -> Result<Self, Box<Diagnostic>> {
+    pub(super) fn new(spec: &periplus_scene::LidarSpec) -> Result<Self, Box<Diagnostic>> {
         let axes = [&spec.horizontal, &spec.vertical];
         for (axis, name) in axes.into_iter().zip(["horizontal", "vertical"]) {
             check(axis, name)?;

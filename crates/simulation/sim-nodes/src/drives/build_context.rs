@@ -3,9 +3,9 @@
 use periplus_diagnostics::{Diagnostic, Diagnostics, Origin};
 use periplus_geometry::{DVec3, Pose};
 use periplus_graph::Node;
-use periplus_params::Value;
+use periplus_params::ParamValue;
 use periplus_physics::{JointId, LinkId};
-use periplus_plugin_specs::{Interpreted, Site};
+use periplus_plugin_specs::{InterpretedPlugin, PluginSite};
 use periplus_scene::{Model, carrying_link};
 
 use super::body::{Body, canonical, link_pose};
@@ -15,8 +15,8 @@ use crate::{DeviceContext, gz_topic, plugin_node};
 #[derive(Clone, Copy)]
 pub(crate) struct BuildContext<'a> {
     pub(crate) setting: &'a DeviceContext<'a>,
-    pub(crate) site: &'a Site<'a>,
-    pub(crate) plugin: &'a Interpreted,
+    pub(crate) site: &'a PluginSite<'a>,
+    pub(crate) plugin: &'a InterpretedPlugin,
 }
 
 impl<'a> BuildContext<'a> {
@@ -104,7 +104,7 @@ impl<'a> BuildContext<'a> {
         let found: Vec<Option<JointId>> = named
             .iter()
             .filter_map(|(value, origin)| match value {
-                Value::Text(name) => Some(self.joint_named(name.trim(), *origin, diagnostics)),
+                ParamValue::Text(name) => Some(self.joint_named(name.trim(), *origin, diagnostics)),
                 _ => None,
             })
             .collect();

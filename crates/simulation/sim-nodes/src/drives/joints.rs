@@ -3,7 +3,7 @@
 use periplus_diagnostics::{Diagnostic, Diagnostics};
 use periplus_graph::{Mailbox, Qos};
 use periplus_msgs::std_msgs;
-use periplus_params::Value;
+use periplus_params::ParamValue;
 use periplus_physics::{JointCommand, JointId, PhysicsWorld};
 
 use super::build_context::BuildContext;
@@ -95,7 +95,7 @@ fn build(
     let node = context.node(diagnostics)?;
     let names = context.plugin.values.all("joint_name");
     let joint = names.iter().find_map(|(value, _)| match value {
-        Value::Text(name) => Some(name.trim().to_owned()),
+        ParamValue::Text(name) => Some(name.trim().to_owned()),
         _ => None,
     })?;
     let fallback = match context.given_text("sub_topic") {

@@ -3,7 +3,7 @@
 use periplus_diagnostics::Diagnostics;
 use periplus_graph::{Node, Publisher};
 use periplus_msgs::tf2_msgs;
-use periplus_params::Value;
+use periplus_params::ParamValue;
 use periplus_physics::{LinkId, PhysicsWorld};
 use periplus_scene::carrying_link;
 
@@ -39,7 +39,7 @@ impl WheelFrames {
         let mut wheels = Vec::new();
         for parameter in parameters {
             for (value, _) in context.plugin.values.all(parameter) {
-                if let Value::Text(joint) = value {
+                if let ParamValue::Text(joint) = value {
                     wheels.extend(frame_of(context, joint.trim()));
                 }
             }

@@ -5,7 +5,7 @@ use periplus_graph::Publisher;
 use periplus_msgs::geometry_msgs::{Quaternion, Vector3};
 use periplus_msgs::sensor_msgs;
 use periplus_msgs::std_msgs::Header;
-use periplus_scene::{Noise, NoiseKind};
+use periplus_scene::{NoiseKind, NoiseSpec};
 use periplus_sensors::{ImuSensor, Motion, OrientationReference};
 
 use super::port::{Convention, SensorPort};
@@ -23,7 +23,7 @@ struct ImuDevice {
 
 pub(super) fn device(
     context: SensorBuildContext<'_, '_>,
-    spec: &periplus_scene::Imu,
+    spec: &periplus_scene::ImuSpec,
 ) -> DeviceResult {
     let mut spec = spec.clone();
     // ROS 1 plugins have a single noise parameter.
@@ -31,7 +31,7 @@ pub(super) fn device(
         context.ports.iter().filter_map(|port| port.given("gaussianNoise")).fold(0.0, f64::max);
     for own in spec.angular_velocity.iter_mut().chain(&mut spec.linear_acceleration) {
         if noise > 0.0 && own.kind == NoiseKind::None {
-            *own = Noise { kind: NoiseKind::Gaussian, stddev: noise, ..Noise::default() };
+            *own = NoiseSpec { kind: NoiseKind::Gaussian, stddev: noise, ..NoiseSpec::default() };
         }
     }
     let reference = reference(&context, &spec)?;
@@ -60,7 +60,7 @@ pub(super) fn device(
 /// 145); gz-sensors relative to the initial orientation unless the file names a frame.
 fn reference(
     context: &SensorBuildContext<'_, '_>,
-    spec: &periplus_scene::Imu,
+    spec: &periplus_scene::ImuSpec,
 ) -> Result<OrientationReference, super::SensorBuildError> {
     let from_start = |port: &SensorPort| match port.convention {
         Convention::Ros2 => port.flag("initial_orientation_as_reference"),

@@ -7,7 +7,7 @@ use periplus_geometry::Pose;
 use periplus_graph::{GraphError, Publisher, Qos};
 use periplus_msgs::{Message, sensor_msgs};
 use periplus_physics::LinkId;
-use periplus_plugin_specs::Interpreted;
+use periplus_plugin_specs::InterpretedPlugin;
 use periplus_rendering::{SensedGeometry, filter};
 use periplus_sensors::{LidarSensor, RayView, Schedule, Streams, Sweep};
 
@@ -77,8 +77,8 @@ struct LidarDevice {
 /// Builds the device of a lidar; reports an error and returns `None` for one that cannot measure.
 pub(super) fn build(
     sensor_context: &SensorContext<'_>,
-    spec: &periplus_scene::Lidar,
-    plugins: &[Interpreted],
+    spec: &periplus_scene::LidarSpec,
+    plugins: &[InterpretedPlugin],
     diagnostics: &mut Diagnostics,
 ) -> Option<Box<dyn Device>> {
     let streams = sensor_context.streams();
@@ -146,7 +146,7 @@ pub(super) fn build(
 /// Returns the output of a plugin; `None` for plugins that do not publish.
 fn output(
     sensor_context: &SensorContext<'_>,
-    plugin: &Interpreted,
+    plugin: &InterpretedPlugin,
     diagnostics: &mut Diagnostics,
 ) -> Result<Option<Output>, GraphError> {
     let values = &plugin.values;
@@ -194,7 +194,7 @@ fn output(
 
 fn ros1_frame(
     sensor_context: &SensorContext<'_>,
-    plugin: &Interpreted,
+    plugin: &InterpretedPlugin,
     diagnostics: &mut Diagnostics,
 ) -> String {
     // The default of these plugins, `world`, would place every scan at the origin.
@@ -203,7 +203,7 @@ fn ros1_frame(
 }
 
 /// Returns a numeric parameter; `None` where the plugin does not have it.
-fn number(plugin: &Interpreted, name: &str) -> Option<f64> {
+fn number(plugin: &InterpretedPlugin, name: &str) -> Option<f64> {
     plugin.values.table().find(name)?;
     plugin.values.number(name)
 }
@@ -211,7 +211,7 @@ fn number(plugin: &Interpreted, name: &str) -> Option<f64> {
 /// ROS 1 topics are named by a parameter and have no QoS: reliable, like TCP.
 fn ros1_publisher<T: Message>(
     sensor_context: &SensorContext<'_>,
-    plugin: &Interpreted,
+    plugin: &InterpretedPlugin,
     fallback: &str,
 ) -> Result<Publisher<T>, GraphError> {
     let topic = plugin.values.text("topicName").unwrap_or_else(|| fallback.to_owned());

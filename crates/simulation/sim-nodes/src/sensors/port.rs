@@ -3,7 +3,7 @@
 use periplus_diagnostics::Diagnostics;
 use periplus_graph::{GraphError, Node, Publisher, Qos};
 use periplus_msgs::Message;
-use periplus_plugin_specs::{Family, Interpreted, Role, Support, interpret, topics};
+use periplus_plugin_specs::{Family, InterpretedPlugin, Role, Support, interpret, topics};
 
 use super::SensorContext;
 use crate::{device_node, plugin_node, publisher_qos};
@@ -23,7 +23,7 @@ pub(super) enum Convention {
 pub(super) struct SensorPort {
     pub(super) convention: Convention,
     pub(super) node: Node,
-    plugin: Option<Interpreted>,
+    plugin: Option<InterpretedPlugin>,
     /// Topics that the plugin publishes, by their names inside it, in the order of its table.
     outs: Vec<String>,
     /// Frame of the messages.

@@ -3,7 +3,7 @@
 use periplus_diagnostics::{Diagnostic, Diagnostics};
 use periplus_geometry::Pose;
 use periplus_physics::LinkId;
-use periplus_plugin_specs::Site;
+use periplus_plugin_specs::PluginSite;
 use periplus_scene::{FrameRole, Link, Model, Sensor};
 use periplus_sensors::{Schedule, Streams};
 
@@ -23,7 +23,7 @@ pub(crate) struct SensorContext<'a> {
     pub(crate) link: &'a Link,
     pub(crate) id: LinkId,
     pub(crate) sensor: &'a Sensor,
-    pub(crate) sites: &'a [Site<'a>],
+    pub(crate) sites: &'a [PluginSite<'a>],
 }
 
 impl SensorContext<'_> {

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use periplus_geometry::{DQuat, DVec3, Pose};
 use periplus_scene::{Joint, JointKind, Mimic, Model, tf_tree};
-use periplus_urdf::{JointType, Robot};
+use periplus_urdf::{JointType, UrdfRobot};
 
 /// A frame with its parent.
 #[derive(Clone, Debug, PartialEq)]
@@ -67,7 +67,7 @@ impl FrameTree {
 
     /// Returns the frames of a URDF as `kdl_parser` does: every joint counts regardless of inertia,
     /// floating joints have no transform, and planar ones are fixed.
-    pub(crate) fn of_robot(robot: &Robot) -> Self {
+    pub(crate) fn of_robot(robot: &UrdfRobot) -> Self {
         let mut tree = Self::default();
         for joint in &robot.joints {
             let edge = Edge {

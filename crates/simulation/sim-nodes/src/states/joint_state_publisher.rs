@@ -6,7 +6,7 @@ use std::sync::Arc;
 use periplus_graph::{Actor, GraphError, Node, Publisher, Qos};
 use periplus_msgs::sensor_msgs;
 use periplus_msgs::std_msgs::Header;
-use periplus_params::{Table, Values, flag, number, texts};
+use periplus_params::{ParamValues, Table, flag, number, texts};
 use periplus_scene::{JointKind, Mimic, Model};
 
 /// Parameters of [`JointStateSource`].
@@ -59,7 +59,7 @@ impl Default for JointStateOptions {
 impl JointStateOptions {
     /// Reads parameters of [`JOINT_STATE_PUBLISHER`].
     #[must_use]
-    pub fn read(values: &Values) -> Self {
+    pub fn read(values: &ParamValues) -> Self {
         let flag = |name: &str| values.flag(name).unwrap_or_default();
         Self {
             rate_hz: values.number("rate").unwrap_or(10.0),

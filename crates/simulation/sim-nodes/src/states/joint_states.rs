@@ -4,7 +4,7 @@ use periplus_diagnostics::Diagnostics;
 use periplus_graph::{GraphError, Node, Publisher, Qos};
 use periplus_msgs::sensor_msgs;
 use periplus_msgs::std_msgs::Header;
-use periplus_params::Value;
+use periplus_params::ParamValue;
 use periplus_physics::{JointId, PhysicsWorld};
 use periplus_plugin_specs::Family;
 
@@ -129,7 +129,7 @@ fn named(
 ) -> Vec<(String, periplus_diagnostics::Origin)> {
     let values = context.plugin.values.all(parameter).into_iter();
     let names = values.filter_map(|(value, origin)| match value {
-        Value::Text(name) if !name.trim().is_empty() => Some((name.trim().to_owned(), origin)),
+        ParamValue::Text(name) if !name.trim().is_empty() => Some((name.trim().to_owned(), origin)),
         _ => None,
     });
     names.collect()

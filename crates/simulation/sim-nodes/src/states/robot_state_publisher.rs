@@ -6,7 +6,7 @@ use std::sync::Arc;
 use periplus_diagnostics::{Diagnostics, Severity, SourceMap};
 use periplus_graph::{Actor, GraphError, Node, Publisher, Qos};
 use periplus_msgs::{sensor_msgs, std_msgs, tf2_msgs};
-use periplus_params::{Table, Value, Values, flag, number, text};
+use periplus_params::{ParamValue, ParamValues, Table, flag, number, text};
 use periplus_scene::Model;
 
 use super::frame_tree::FrameTree;
@@ -52,18 +52,18 @@ impl Default for RobotStateOptions {
 
 impl RobotStateOptions {
     /// Converts to parameters of [`ROBOT_STATE_PUBLISHER`].
-    fn values(&self, description: &str) -> Values {
+    fn values(&self, description: &str) -> ParamValues {
         let mut values = ROBOT_STATE_PUBLISHER.check([], None, &mut Diagnostics::new());
-        values.set("robot_description", Value::Text(description.to_owned()));
-        values.set("publish_frequency", Value::Number(self.publish_frequency_hz));
-        values.set("frame_prefix", Value::Text(self.frame_prefix.clone()));
-        values.set("ignore_timestamp", Value::Bool(self.ignore_timestamp));
+        values.set("robot_description", ParamValue::Text(description.to_owned()));
+        values.set("publish_frequency", ParamValue::Number(self.publish_frequency_hz));
+        values.set("frame_prefix", ParamValue::Text(self.frame_prefix.clone()));
+        values.set("ignore_timestamp", ParamValue::Bool(self.ignore_timestamp));
         values
     }
 
     /// Reads parameters of [`ROBOT_STATE_PUBLISHER`].
     #[must_use]
-    pub fn read(values: &Values) -> Self {
+    pub fn read(values: &ParamValues) -> Self {
         let fallback = Self::default();
         Self {
             publish_frequency_hz: values
@@ -202,7 +202,7 @@ fn fixed_transforms(tree: &FrameTree, prefix: &str, now_ns: i64) -> tf2_msgs::TF
 
 impl PublisherState {
     /// Applies other parameters. A changed description is published again, with its fixed frames.
-    fn change(&mut self, values: &Values, now_ns: i64) -> Result<(), String> {
+    fn change(&mut self, values: &ParamValues, now_ns: i64) -> Result<(), String> {
         let description = values.text("robot_description");
         let tree = match &description {
             Some(text) if description != self.described => Some(tree_of(text)?),

@@ -211,7 +211,7 @@ impl Pairs for InputVisitor<'_> {
         let heard = || {
             let mailbox = self.node.mailbox::<R>(self.topic, Qos::reliable(10));
             let mailbox = mailbox.map_err(|error| error.to_string())?;
-            let of_name = self.input.children.iter().filter_map(periplus_xml::Node::as_element);
+            let of_name = self.input.children.iter().filter_map(periplus_xml::XmlNode::as_element);
             let matches = of_name.filter(|element| element.name == "match").map(read_match::<R, G>);
             let matches = matches.collect::<Result<Vec<_>, _>>()?;
             Ok(Box::new(MatchedSubscription { mailbox, matches }) as Box<dyn Input>)

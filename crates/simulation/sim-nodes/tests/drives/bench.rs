@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use periplus_diagnostics::{Diagnostics, SourceMap, Style, render};
+use periplus_diagnostics::{Diagnostics, RenderStyle, SourceMap, render};
 use periplus_graph::{Graph, Mailbox, Node, NodeSettings, Publisher, Qos};
 use periplus_msgs::geometry_msgs::{Twist, Vector3};
 use periplus_msgs::{Message, nav_msgs};
@@ -10,7 +10,7 @@ use periplus_physics::{ModelId, NoMeshes, PhysicsMode, PhysicsWorld};
 use periplus_plugin_specs::{interpret, model_sites};
 use periplus_rendering::NoAssets;
 use periplus_scene as scene;
-use periplus_sdf::{Context, NoIncludes, read_document};
+use periplus_sdf::{NoIncludes, SdfContext, read_document};
 use periplus_sensors::Quirks;
 use periplus_sim_nodes::{Device, DeviceContext, SenseContext, StepInterval, Views, drives};
 
@@ -95,8 +95,11 @@ impl Bench {
         let (mut sources, mut found) = (SourceMap::new(), Diagnostics::new());
         let file = sources.add("robot.sdf", text);
         let document = periplus_xml::parse(file, &sources, &mut found).unwrap();
-        let mut context =
-            Context { sources: &mut sources, diagnostics: &mut found, includes: &mut NoIncludes };
+        let mut context = SdfContext {
+            sources: &mut sources,
+            diagnostics: &mut found,
+            includes: &mut NoIncludes,
+        };
         let scene = read_document(&document, &mut context).worlds.remove(0);
         assert!(!found.has_errors(), "{}", said(&sources, &found));
         let (world, found) = PhysicsWorld::new(&scene, mode, &NoMeshes);
@@ -230,7 +233,7 @@ fn devices(
 
 /// Findings as a person sees them.
 fn said(sources: &SourceMap, found: &Diagnostics) -> String {
-    found.iter().map(|finding| render(finding, sources, Style::Plain) + "\n").collect()
+    found.iter().map(|finding| render(finding, sources, RenderStyle::Plain) + "\n").collect()
 }
 
 pub(crate) fn twist(x: f64, y: f64, yaw: f64) -> Twist {

@@ -2,12 +2,12 @@
 
 use std::sync::Arc;
 
-use periplus_diagnostics::{Diagnostics, SourceMap, Style, render};
+use periplus_diagnostics::{Diagnostics, RenderStyle, SourceMap, render};
 use periplus_graph::{Graph, Mailbox, Node, NodeSettings, Qos};
 use periplus_msgs::Message;
 use periplus_physics::{NoMeshes, PhysicsMode, PhysicsWorld};
 use periplus_rendering::NoAssets;
-use periplus_sdf::{Context, NoIncludes, read_document};
+use periplus_sdf::{NoIncludes, SdfContext, read_document};
 use periplus_sensors::Quirks;
 use periplus_sim_nodes::{Device, DeviceContext, SenseContext, StepInterval, Views, devices};
 
@@ -62,8 +62,11 @@ impl Bench {
         let (mut sources, mut found) = (SourceMap::new(), Diagnostics::new());
         let file = sources.add("hall.sdf", text.as_str());
         let document = periplus_xml::parse(file, &sources, &mut found).unwrap();
-        let mut context =
-            Context { sources: &mut sources, diagnostics: &mut found, includes: &mut NoIncludes };
+        let mut context = SdfContext {
+            sources: &mut sources,
+            diagnostics: &mut found,
+            includes: &mut NoIncludes,
+        };
         let scene = read_document(&document, &mut context).worlds.remove(0);
         let (world, _) = PhysicsWorld::new(&scene, mode, &NoMeshes);
         let graph = Graph::new();
@@ -89,7 +92,7 @@ impl Bench {
         };
         let mut diagnostics = Diagnostics::new();
         let devices = devices(&setting, None, &mut diagnostics);
-        let said = diagnostics.iter().map(|it| render(it, &sources, Style::Plain)).collect();
+        let said = diagnostics.iter().map(|it| render(it, &sources, RenderStyle::Plain)).collect();
         let ear = graph.node(NodeSettings::new("ear")).unwrap();
         Self { graph, world, said, devices, views, ear, now_ns: 0 }
     }

@@ -4,7 +4,7 @@ use periplus_diagnostics::{Diagnostic, Diagnostics, FileId, SourceMap, Span, clo
 use periplus_msgs::Message;
 use periplus_msgs::builtin_interfaces::Time;
 use periplus_msgs::geometry_msgs::{Twist, TwistStamped, Vector3};
-use periplus_yaml::Node;
+use periplus_yaml::YamlNode;
 
 use crate::script::command::{self, CommandMessage, VelocityCommand};
 use crate::script::goal_controller::Goal;
@@ -89,7 +89,7 @@ fn wrong(span: Span, message: impl Into<String>, help: &str) -> Box<Diagnostic> 
     Box::new(Diagnostic::error("bad-command", message).at(span).help(help))
 }
 
-fn velocity(entry: &Node, script: &mut DriveScript) -> Outcome<()> {
+fn velocity(entry: &YamlNode, script: &mut DriveScript) -> Outcome<()> {
     names(entry, &OF_VELOCITY)?;
     let Some(at) = entry.get("at") else {
         let help = "add `at: 0.0`, in seconds of simulated time";
@@ -134,12 +134,12 @@ fn velocity(entry: &Node, script: &mut DriveScript) -> Outcome<()> {
     Ok(())
 }
 
-fn goal(entry: &Node, script: &mut DriveScript) -> Outcome<()> {
+fn goal(entry: &YamlNode, script: &mut DriveScript) -> Outcome<()> {
     names(entry, &OF_GOAL)?;
     let Some(to) = entry.get("goto") else { return Ok(()) };
     let help = "write `goto: [2.0, 1.0]`, x and y in metres";
     let coordinates: Option<Vec<f64>> =
-        to.list().and_then(|list| list.iter().map(Node::number).collect());
+        to.list().and_then(|list| list.iter().map(YamlNode::number).collect());
     let Some([x_m, y_m]) = coordinates.as_deref() else {
         return Err(wrong(to.span, "a goal is two numbers", help));
     };
@@ -193,7 +193,7 @@ fn message(twist: &Twist, is_stamped: bool, frame: &str, time_ns: i64) -> Comman
 }
 
 /// Returns topic, whether messages are stamped, and their frame.
-fn addressee(entry: &Node) -> Outcome<(Option<String>, bool, String)> {
+fn addressee(entry: &YamlNode) -> Outcome<(Option<String>, bool, String)> {
     let text = |name: &str| match entry.get(name) {
         None => Ok(None),
         Some(node) => match node.text().filter(|text| !text.is_empty()) {
@@ -225,7 +225,7 @@ fn addressee(entry: &Node) -> Outcome<(Option<String>, bool, String)> {
     Ok((topic, is_stamped, frame.map(|(frame, _)| frame).unwrap_or_default()))
 }
 
-fn names(entry: &Node, known: &[&str]) -> Outcome<()> {
+fn names(entry: &YamlNode, known: &[&str]) -> Outcome<()> {
     let Some(entries) = entry.entries() else {
         let message = format!("a command is a mapping, not {}", entry.kind());
         return Err(wrong(entry.span, message, "write `- {at: 0.0, linear: [0.5, 0, 0]}`"));
@@ -245,7 +245,7 @@ fn names(entry: &Node, known: &[&str]) -> Outcome<()> {
     Ok(())
 }
 
-fn time(node: &Node) -> Outcome<i64> {
+fn time(node: &YamlNode) -> Outcome<i64> {
     let time_s = node.number().filter(|time_s| (0.0..=MAX_TIME_S).contains(time_s));
     let Some(time_s) = time_s else {
         let help = "write seconds of simulated time, such as 2.5";
@@ -256,7 +256,7 @@ fn time(node: &Node) -> Outcome<i64> {
     Ok(time_ns)
 }
 
-fn positive(node: &Node, name: &str) -> Outcome<f64> {
+fn positive(node: &YamlNode, name: &str) -> Outcome<f64> {
     node.number().filter(|&number| number > 0.0).ok_or_else(|| {
         let message = format!("`{name}` is not a number above zero");
         wrong(node.span, message, "write a number such as 0.5")
@@ -264,7 +264,7 @@ fn positive(node: &Node, name: &str) -> Outcome<f64> {
 }
 
 /// Reads a list x, y, z; a mapping of these names; or a number, which is the component `main`.
-fn vector(node: Option<&Node>, name: &str, main: usize, into: &mut Vector3) -> Outcome<()> {
+fn vector(node: Option<&YamlNode>, name: &str, main: usize, into: &mut Vector3) -> Outcome<()> {
     let Some(node) = node else { return Ok(()) };
     let mut values = [0.0; 3];
     let axes = ["x", "y", "z"];
@@ -272,7 +272,7 @@ fn vector(node: Option<&Node>, name: &str, main: usize, into: &mut Vector3) -> O
         values[main] = number;
         true
     } else if let Some(list) = node.list() {
-        let numbers: Option<Vec<f64>> = list.iter().map(Node::number).collect();
+        let numbers: Option<Vec<f64>> = list.iter().map(YamlNode::number).collect();
         let numbers = numbers.filter(|numbers| numbers.len() == 3);
         numbers.is_some_and(|numbers| {
             values.copy_from_slice(&numbers);

@@ -3,8 +3,8 @@
 use std::collections::BTreeMap;
 use std::path::PathBuf;
 
-use periplus_diagnostics::{Diagnostics, Origin, Severity, SourceMap, Style, render};
-use periplus_loader::{Loaded, Setting, load, load_bytes, settle_images};
+use periplus_diagnostics::{Diagnostics, Origin, RenderStyle, Severity, SourceMap, render};
+use periplus_loader::{LoadContext, LoadedFile, load, load_bytes, settle_images};
 use periplus_os::Overlay;
 use periplus_resources::Resolver;
 use periplus_scene::{Light, Model, Plugin};
@@ -68,9 +68,9 @@ impl Search {
         host: &'a Overlay,
         resolver: &'a Resolver<'a>,
         open_meshes: bool,
-    ) -> Setting<'a> {
+    ) -> LoadContext<'a> {
         let working_folder = self.working_folder.clone();
-        Setting { host, resolver, working_folder, arguments: Vec::new(), open_meshes }
+        LoadContext { host, resolver, working_folder, arguments: Vec::new(), open_meshes }
     }
 
     /// Reads a model or light.
@@ -80,7 +80,7 @@ impl Search {
     pub(super) fn read(&self, source: &Source<'_>) -> Result<Reading, String> {
         let host = self.host();
         let resolver = self.resolver(&host);
-        let setting = Setting {
+        let setting = LoadContext {
             host: &host,
             resolver: &resolver,
             working_folder: self.working_folder.clone(),
@@ -96,7 +96,7 @@ impl Search {
                 let from = self.working_folder.join(SPAWNED);
                 let path = resolver.resolve(uri, &from).map_err(|miss| {
                     let finding = miss.into_diagnostic(Origin::default());
-                    render(&finding, &SourceMap::new(), Style::Plain)
+                    render(&finding, &SourceMap::new(), RenderStyle::Plain)
                 })?;
                 load(&path, &setting)
             }
@@ -106,7 +106,7 @@ impl Search {
         }
         let scene = loaded.scene.take().unwrap_or_default();
         let description = description_of(&loaded);
-        let Loaded { diagnostics: findings, sources, .. } = loaded;
+        let LoadedFile { diagnostics: findings, sources, .. } = loaded;
         let mut lights = scene.worlds.iter().flat_map(|world| &world.lights).chain(&scene.lights);
         let light = lights.next().cloned();
         let found = match (models_of(scene).into_iter().next(), light) {
@@ -139,7 +139,7 @@ fn file_of(called: &str) -> PathBuf {
 pub(super) fn told(findings: &Diagnostics, sources: &SourceMap) -> String {
     let mut text = String::new();
     for finding in findings.iter().filter(|one| one.severity != Severity::Hint) {
-        text.push_str(render(finding, sources, Style::Plain).trim_end());
+        text.push_str(render(finding, sources, RenderStyle::Plain).trim_end());
         text.push('\n');
     }
     text
@@ -163,7 +163,7 @@ pub(super) fn drop_namespaces(model: &mut Model) {
 fn drop_namespace(plugin: &mut Plugin) {
     plugin.content.retain(|element| element.name != "robotNamespace");
     for ros in plugin.content.iter_mut().filter(|element| element.name == "ros") {
-        let is_namespace = |node: &periplus_xml::Node| {
+        let is_namespace = |node: &periplus_xml::XmlNode| {
             node.as_element().is_some_and(|element| element.name == "namespace")
         };
         ros.children.retain(|node| !is_namespace(node));

@@ -1,18 +1,24 @@
 //! World plugins that define names of services.
 
 use periplus_diagnostics::Diagnostics;
-use periplus_plugin_specs::{Context, Interpreted, Place, interpret, library_id};
+use periplus_plugin_specs::{
+    InterpretedPlugin, PluginContext, PluginParent, interpret, library_id,
+};
 use periplus_scene::World;
 
 /// A plugin such as `gazebo_ros_state` or `gazebo_ros_properties`: a node with a namespace and
 /// remappings.
 #[derive(Clone, Debug)]
-pub(super) struct StatePlugin(Interpreted);
+pub(super) struct StatePlugin(InterpretedPlugin);
 
 impl StatePlugin {
     /// Returns the plugins of a library, such as `gazebo_ros_state`.
     pub(super) fn of(scene: &World, library: &str) -> Vec<Self> {
-        let context = Context { place: Place::World, world: Some(scene), ..Context::NOWHERE };
+        let context = PluginContext {
+            place: PluginParent::World,
+            world: Some(scene),
+            ..PluginContext::NOWHERE
+        };
         // Problems of plugins were reported when the world was read.
         let mut told = Diagnostics::new();
         let ours = scene.plugins.iter().filter(|plugin| library_id(&plugin.filename) == library);

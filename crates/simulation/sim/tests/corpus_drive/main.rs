@@ -15,7 +15,7 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
-use periplus_loader::Setting;
+use periplus_loader::LoadContext;
 use periplus_os::Machine;
 use periplus_resources::Resolver;
 use periplus_sim::{PhysicsMode, RobotPlacement};
@@ -29,7 +29,7 @@ fn tried(
     name: &str,
     seconds: i64,
     mode: PhysicsMode,
-    setting: &Setting<'_>,
+    setting: &LoadContext<'_>,
 ) -> Report {
     let run = || drive(path, robots, name, seconds, mode, setting);
     catch_unwind(AssertUnwindSafe(run)).unwrap_or_else(|panic| {
@@ -40,12 +40,16 @@ fn tried(
     })
 }
 
-fn with_setting<T>(folder: &Path, search: &[PathBuf], run: impl FnOnce(&Setting<'_>) -> T) -> T {
+fn with_setting<T>(
+    folder: &Path,
+    search: &[PathBuf],
+    run: impl FnOnce(&LoadContext<'_>) -> T,
+) -> T {
     let host = Machine;
     let resolver = Resolver::new(&host, search);
     let working_folder = folder.to_owned();
     let arguments = Vec::new();
-    run(&Setting {
+    run(&LoadContext {
         host: &host,
         resolver: &resolver,
         working_folder,

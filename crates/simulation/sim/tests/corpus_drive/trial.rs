@@ -3,10 +3,10 @@
 use std::path::Path;
 use std::sync::Arc;
 
-use periplus_diagnostics::{Diagnostics, Severity, Style, render};
+use periplus_diagnostics::{Diagnostics, RenderStyle, Severity, render};
 use periplus_geometry::{DVec3, Pose};
 use periplus_graph::{Node, NodeSettings, Publisher, Qos};
-use periplus_loader::Setting;
+use periplus_loader::LoadContext;
 use periplus_msgs::Message as _;
 use periplus_msgs::geometry_msgs::{Twist, TwistStamped};
 use periplus_plugin_specs::{Role, interpret, model_sites};
@@ -77,7 +77,7 @@ pub(crate) fn drive(
     name: &str,
     seconds: i64,
     mode: PhysicsMode,
-    setting: &Setting<'_>,
+    setting: &LoadContext<'_>,
 ) -> Report {
     let mut composition = compose(path, robots, setting);
     let has_drive = |member: &ModelInstance| !drives(&composition.world, &member.model).is_empty();
@@ -195,7 +195,7 @@ fn findings(composition: &Composition) -> Vec<(Severity, &'static str, String)> 
     let mut found = Vec::new();
     for file in &composition.files {
         for finding in file.diagnostics.iter() {
-            let told = render(finding, &file.sources, Style::Plain);
+            let told = render(finding, &file.sources, RenderStyle::Plain);
             assert!(told.contains(&finding.message), "{told}");
             found.push((finding.severity, finding.code, finding.message.clone()));
         }

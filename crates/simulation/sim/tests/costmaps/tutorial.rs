@@ -9,7 +9,7 @@ use periplus_diagnostics::{Diagnostics, SourceMap};
 use periplus_nav_nodes::costmap_2d::CostmapNode;
 
 use periplus_graph::{Mailbox, Node, NodeSettings, Publisher, Qos};
-use periplus_loader::Setting;
+use periplus_loader::LoadContext;
 use periplus_msgs::Service;
 use periplus_msgs::geometry_msgs::{Pose, Quaternion, Transform, TransformStamped, Vector3};
 use periplus_msgs::nav_msgs::{MapMetaData, OccupancyGrid, Odometry};
@@ -69,7 +69,7 @@ impl Run {
     /// sam_bot between the cube and the sphere; `map` is where `odom` is, and holds nothing.
     pub(crate) fn new(mode: PhysicsMode) -> Self {
         let resolver = Resolver::new(&Machine, &[own("robots").into(), own("worlds").into()]);
-        let setting = Setting {
+        let setting = LoadContext {
             host: &Machine,
             resolver: &resolver,
             working_folder: own("").into(),

@@ -2,10 +2,10 @@
 
 use std::path::{Path, PathBuf};
 
-use periplus_diagnostics::{Origin, SourceMap, Style, render};
+use periplus_diagnostics::{Origin, RenderStyle, SourceMap, render};
 use periplus_launch::bringup::WorldWish;
-use periplus_loader::Setting;
-use periplus_resources::Kind;
+use periplus_loader::LoadContext;
+use periplus_resources::EntryKind;
 use periplus_sim::{Composition, Search, compose as compose_file, compose_plain};
 
 /// Worlds that Gazebo installs and that are a plane under a sun.
@@ -32,17 +32,17 @@ pub(super) fn compose(wish: &WorldWish, search: &Search) -> Result<Composition, 
     }
 }
 
-fn find(file: &str, setting: &Setting<'_>) -> Result<PathBuf, String> {
+fn find(file: &str, setting: &LoadContext<'_>) -> Result<PathBuf, String> {
     let from = setting.working_folder.join("launch");
     let plain = setting.working_folder.join(Path::new(file));
-    if !file.contains("://") && setting.host.kind(&plain) == Some(Kind::File) {
+    if !file.contains("://") && setting.host.kind(&plain) == Some(EntryKind::File) {
         return Ok(plain);
     }
     setting.resolver.resolve(file, &from).map_err(|miss| {
         let finding = miss.into_diagnostic(Origin::default());
         format!(
             "world {file} does not exist\n{}",
-            render(&finding, &SourceMap::new(), Style::Plain)
+            render(&finding, &SourceMap::new(), RenderStyle::Plain)
         )
     })
 }

@@ -8,7 +8,7 @@ use std::time::Duration;
 
 use crate::{Dialect, Parameters, Running};
 use periplus_os::{Machine, Overlay, Stopwatch, sleep};
-use periplus_resources::{Host as _, Kind, Resolver};
+use periplus_resources::{EntryKind, Host as _, Resolver};
 
 use super::{Done, Hand, Stage};
 use crate::bringup::crew::Settings;
@@ -124,7 +124,7 @@ impl Child {
         own_group(&mut command);
         if let Some(folder) = own_folder(&self.running) {
             let folder = self.launch_folder.join(folder);
-            if Machine.kind(&folder) != Some(Kind::Folder) {
+            if Machine.kind(&folder) != Some(EntryKind::Folder) {
                 let program = &self.words[0];
                 return Err(format!(
                     "the working folder (`cwd`) of `{program}` does not exist: {}",
@@ -310,7 +310,7 @@ fn find(
     for prefix in host.variable("AMENT_PREFIX_PATH").unwrap_or_default().split(':') {
         tried.push(Path::new(prefix).join("lib").join(package).join(name));
     }
-    let found = tried.into_iter().find(|path| Machine.kind(path) == Some(Kind::File));
+    let found = tried.into_iter().find(|path| Machine.kind(path) == Some(EntryKind::File));
     found.ok_or_else(|| {
         format!(
             "`{name}` of the package `{package}` has no built-in replacement, and the package has no \

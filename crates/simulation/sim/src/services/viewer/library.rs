@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 use periplus_os::Machine;
-use periplus_resources::{Host, Kind};
+use periplus_resources::{EntryKind, Host};
 use serde_json::json;
 
 /// Maximum number of searched folders; a resource path may contain a whole disk.
@@ -38,7 +38,7 @@ fn look(folder: &Path, found: &mut BTreeMap<String, PathBuf>, looks: &mut usize,
     if *looks > MAX_FOLDER_COUNT {
         return;
     }
-    if Machine.kind(&folder.join("model.config")) == Some(Kind::File) {
+    if Machine.kind(&folder.join("model.config")) == Some(EntryKind::File) {
         if let Some(name) = folder.file_name() {
             let name = name.to_string_lossy().into_owned();
             found.entry(name).or_insert_with(|| folder.to_path_buf());
@@ -50,7 +50,7 @@ fn look(folder: &Path, found: &mut BTreeMap<String, PathBuf>, looks: &mut usize,
     }
     for name in Machine.list(folder) {
         let inner = folder.join(&name);
-        if !name.starts_with('.') && Machine.kind(&inner) == Some(Kind::Folder) {
+        if !name.starts_with('.') && Machine.kind(&inner) == Some(EntryKind::Folder) {
             look(&inner, found, looks, depth - 1);
         }
     }

@@ -6,7 +6,7 @@ use periplus_msgs::std_msgs::{ColorRGBA, Header};
 use periplus_msgs::visualization_msgs::{Marker, MarkerArray};
 use periplus_rendering::sample_heightmap;
 use periplus_scene::{
-    Colour, Material, Mesh, Model, Polyline, Shape, Trapezoid, Visual, edges, trapezoids,
+    Colour, Material, MeshShape, Model, Polyline, Shape, Trapezoid, Visual, edges, trapezoids,
 };
 
 use super::super::convert::{colour_message, pose_message, vector_message};
@@ -120,7 +120,7 @@ impl MarkerBuilder<'_> {
         self.push(Marker { r#type, pose, scale, ..blank.clone() });
     }
 
-    fn mesh(&mut self, blank: &Marker, at: Pose, mesh: &Mesh, own_look: bool) {
+    fn mesh(&mut self, blank: &Marker, at: Pose, mesh: &MeshShape, own_look: bool) {
         let path = mesh.path.as_ref();
         let mut uri =
             path.map_or_else(|| mesh.uri.clone(), |path| file_uri(&path.to_string_lossy()));
