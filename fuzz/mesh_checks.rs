@@ -1,10 +1,10 @@
 //! What must hold of every mesh that any reader gives back.
 
-use periplus_meshes::{Limits, MeshFormat, read_within};
+use periplus_meshes::{MeshFormat, MeshLimits, read_within};
 
 /// Small, so that a step of the fuzzer stays short.
-const LIMITS: Limits =
-    Limits { triangles_max: 20_000, visits_max: 5_000, depth_max: 64, bytes_max: 16 << 20 };
+const LIMITS: MeshLimits =
+    MeshLimits { triangles_max: 20_000, visits_max: 5_000, depth_max: 64, bytes_max: 16 << 20 };
 
 /// Reads the bytes and checks the result. Side files are the input itself, so
 /// that the fuzzer reaches their readers too.

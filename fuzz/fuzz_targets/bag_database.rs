@@ -4,8 +4,8 @@
 use std::fs;
 
 use libfuzzer_sys::fuzz_target;
-use periplus_bags::files::Bag;
 use periplus_bags::Selection;
+use periplus_bags::files::Bag;
 
 fuzz_target!(|bytes: &[u8]| {
     // What does not begin like a database is another target's.

@@ -15,9 +15,9 @@ fuzz_target!(|bytes: &[u8]| {
     let own = Door { is_loopback: true, token: None };
     if own.admit(&head).is_ok() {
         let origin = head.header("origin").unwrap_or_default();
-        let is_own = ["localhost", "127.", "[", "file://"].iter().any(|own| {
-            origin.to_ascii_lowercase().contains(own)
-        });
+        let is_own = ["localhost", "127.", "[", "file://"]
+            .iter()
+            .any(|own| origin.to_ascii_lowercase().contains(own));
         assert!(origin.is_empty() && head.header("origin").is_none() || is_own, "{origin}");
     }
 });

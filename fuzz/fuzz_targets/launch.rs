@@ -3,7 +3,7 @@
 #![no_main]
 
 use libfuzzer_sys::fuzz_target;
-use periplus_diagnostics::{SourceMap, Style, render};
+use periplus_diagnostics::{RenderStyle, SourceMap, render};
 use periplus_launch::{Nothing, Request, plan};
 use periplus_resources::{MemoryHost, Resolver};
 
@@ -33,7 +33,7 @@ fuzz_target!(|text: &str| {
     };
     let (plan, found) = plan(request, &mut sources);
     for finding in found.iter().take(20) {
-        let _ = render(finding, &sources, Style::Plain);
+        let _ = render(finding, &sources, RenderStyle::Plain);
     }
     let _ = serde_json::to_string(&plan);
 });

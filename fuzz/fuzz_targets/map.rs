@@ -18,7 +18,8 @@ fuzz_target!(|bytes: &[u8]| {
             continue;
         };
         assert_eq!(map.grid.cells.len(), map.grid.lattice.len());
-        let saving = Saving { mode: Mode::Raw, format: Format::Bmp, ..Saving::new("/again", distro) };
+        let saving =
+            Saving { mode: Mode::Raw, format: Format::Bmp, ..Saving::new("/again", distro) };
         let files = render(&map.grid, &saving);
         let host = MemoryHost::new()
             .with_file(&files.image_path, files.image)

@@ -5,9 +5,9 @@
 use std::sync::LazyLock;
 
 use libfuzzer_sys::fuzz_target;
-use periplus_diagnostics::{Diagnostics, SourceMap, Style, render};
-use periplus_rosidl::{Dialect, Registry, TypeName, rust};
+use periplus_diagnostics::{Diagnostics, RenderStyle, SourceMap, render};
 use periplus_msgs::{DynamicMessage, Format, TypeRegistry, YamlStyle};
+use periplus_rosidl::{InterfaceDialect, Registry, TypeName, rust};
 
 /// What services, actions and ROS 1 need; all packages would only make it slow.
 static BASE: LazyLock<Registry> = LazyLock::new(|| {
@@ -28,10 +28,10 @@ static BASE: LazyLock<Registry> = LazyLock::new(|| {
 
 fuzz_target!(|text: &str| {
     for (name, dialect) in [
-        ("fuzz_msgs/msg/Fuzz", Dialect::Ros2),
-        ("fuzz_msgs/srv/Fuzz", Dialect::Ros2),
-        ("fuzz_msgs/action/Fuzz", Dialect::Ros2),
-        ("fuzz_msgs/msg/Fuzz", Dialect::Ros1),
+        ("fuzz_msgs/msg/Fuzz", InterfaceDialect::Ros2),
+        ("fuzz_msgs/srv/Fuzz", InterfaceDialect::Ros2),
+        ("fuzz_msgs/action/Fuzz", InterfaceDialect::Ros2),
+        ("fuzz_msgs/msg/Fuzz", InterfaceDialect::Ros1),
     ] {
         let name = TypeName::read(name).expect("a name");
         let mut sources = SourceMap::new();
@@ -41,7 +41,7 @@ fuzz_target!(|text: &str| {
         registry.add_schema(&name, file, &sources, dialect, &mut diagnostics);
         let types = TypeRegistry::new(registry, &mut diagnostics);
         for one in diagnostics.iter().take(20) {
-            assert!(!render(one, &sources, Style::Plain).is_empty());
+            assert!(!render(one, &sources, RenderStyle::Plain).is_empty());
         }
         let Some(interface) = types.registry().interface(&name) else {
             assert!(diagnostics.has_errors());

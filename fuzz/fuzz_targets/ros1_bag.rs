@@ -25,7 +25,8 @@ fuzz_target!(|rest: &[u8]| {
     while let Ok(Some(message)) = messages.next() {
         assert!(message.data.len() <= limits.chunk as usize);
         let stamp = Stamp::at(message.log_ns);
-        bag.write(topics[message.topic], stamp, message.data).expect("what was read can be written");
+        bag.write(topics[message.topic], stamp, message.data)
+            .expect("what was read can be written");
         written.push((message.log_ns.max(1), message.data.to_vec()));
     }
     // Only an index that is wrong, and said to be, leads astray.

@@ -6,19 +6,25 @@ use std::sync::Arc;
 
 use libfuzzer_sys::fuzz_target;
 use periplus_diagnostics::{Diagnostics, Origin, SourceMap};
-use periplus_sdf::{Context, Includes, NoIncludes, Opened, read_document, write};
+use periplus_sdf::{IncludeResolver, IncludeTarget, NoIncludes, SdfContext, read_document, write};
 use periplus_xml::{Document, parse, write_document};
 
 /// `model://self` is the file itself, `model://again/...` too, under names of its own.
 struct Itself(Arc<Document>);
 
-impl Includes for Itself {
-    fn open(&mut self, uri: &str, _: Origin, _: &mut SourceMap, _: &mut Diagnostics) -> Opened {
+impl IncludeResolver for Itself {
+    fn open(
+        &mut self,
+        uri: &str,
+        _: Origin,
+        _: &mut SourceMap,
+        _: &mut Diagnostics,
+    ) -> IncludeTarget {
         if uri.starts_with("model://self") || uri.starts_with("model://again") {
             let document = Arc::clone(&self.0);
-            return Opened::Sdf { document, key: uri.to_owned() };
+            return IncludeTarget::Sdf { document, key: uri.to_owned() };
         }
-        Opened::Missing { tried: Vec::new() }
+        IncludeTarget::Missing { tried: Vec::new() }
     }
 }
 
@@ -28,7 +34,7 @@ fuzz_target!(|text: &str| {
     let file = sources.add("fuzz.sdf", text);
     let Some(document) = parse(file, &sources, &mut diagnostics) else { return };
     let mut includes = Itself(Arc::new(document.clone()));
-    let mut context = Context {
+    let mut context = SdfContext {
         sources: &mut sources,
         diagnostics: &mut diagnostics,
         includes: &mut includes,
@@ -40,7 +46,7 @@ fuzz_target!(|text: &str| {
     let mut sources = SourceMap::new();
     let file = sources.add("again.sdf", written.as_str());
     let Some(document) = parse(file, &sources, &mut Diagnostics::new()) else { return };
-    let mut context = Context {
+    let mut context = SdfContext {
         sources: &mut sources,
         diagnostics: &mut diagnostics,
         includes: &mut NoIncludes,
@@ -50,7 +56,7 @@ fuzz_target!(|text: &str| {
     let mut sources = SourceMap::new();
     let file = sources.add("twice.sdf", twice.as_str());
     let document = parse(file, &sources, &mut Diagnostics::new()).expect("what was written");
-    let mut context = Context {
+    let mut context = SdfContext {
         sources: &mut sources,
         diagnostics: &mut diagnostics,
         includes: &mut NoIncludes,

@@ -3,10 +3,10 @@
 #![no_main]
 
 use libfuzzer_sys::fuzz_target;
-use periplus_diagnostics::{Diagnostics, SourceMap, Style, render};
+use periplus_diagnostics::{Diagnostics, RenderStyle, SourceMap, render};
 use periplus_scene::{Scene, tf_tree};
-use periplus_sdf::{Context, NoIncludes};
-use periplus_urdf::{Options, from_model, read, to_model, write};
+use periplus_sdf::{NoIncludes, SdfContext};
+use periplus_urdf::{ConversionOptions, from_model, read, to_model, write};
 
 fuzz_target!(|text: &str| {
     let mut sources = SourceMap::new();
@@ -21,15 +21,15 @@ fuzz_target!(|text: &str| {
             .and_then(|document| read(&document, &mut Diagnostics::new()));
         assert_eq!(again.as_ref(), Some(&robot));
     }
-    let mut context = Context {
+    let mut context = SdfContext {
         sources: &mut sources,
         diagnostics: &mut diagnostics,
         includes: &mut NoIncludes,
     };
-    let model = to_model(&robot, Options::default(), &mut context);
+    let model = to_model(&robot, ConversionOptions::default(), &mut context);
     for one in diagnostics.iter().take(20) {
         assert!(one.span.is_some(), "{one:?} has no place");
-        render(one, &sources, Style::Plain);
+        render(one, &sources, RenderStyle::Plain);
     }
     let tree = tf_tree(&model);
     assert!(tree.iter().all(|edge| edge.parent != edge.child));

@@ -7,7 +7,7 @@ use std::path::PathBuf;
 use libfuzzer_sys::fuzz_target;
 use periplus_diagnostics::{Diagnostics, SourceMap, Style, render};
 use periplus_resources::{MemoryHost, Resolver};
-use periplus_xacro::{Setting, expand};
+use periplus_xacro::{XacroContext, expand};
 use periplus_xml::{parse, write_document};
 
 fuzz_target!(|text: &str| {
@@ -25,7 +25,7 @@ fuzz_target!(|text: &str| {
     let mut diagnostics = Diagnostics::new();
     let file = sources.add("main.xacro", main);
     let Some(document) = parse(file, &sources, &mut diagnostics) else { return };
-    let setting = Setting {
+    let setting = XacroContext {
         path: PathBuf::from("/w/main.xacro"),
         working_folder: PathBuf::from("/w"),
         arguments: vec![("given".into(), "1".into())],
