@@ -43,7 +43,7 @@ pub fn known() -> impl Iterator<Item = &'static PluginSpec> {
 /// Plugin of Gazebo Classic and ROS 2: all read `<ros>`.
 macro_rules! of_ros2 {
     ($id:literal, $role:ident, $support:ident, $doc:literal, [$($parameter:expr),* $(,)?]) => {
-        crate::Known::new(
+        crate::PluginSpec::new(
             crate::Family::ClassicRos2,
             $id,
             crate::Role::$role,
@@ -66,7 +66,7 @@ macro_rules! of_ros2 {
 /// Plugin of Gazebo Classic and ROS 1: all have a namespace and two obsolete parameters.
 macro_rules! of_ros1 {
     ($id:literal, $role:ident, $support:ident, $doc:literal, [$($parameter:expr),* $(,)?]) => {
-        crate::Known::new(
+        crate::PluginSpec::new(
             crate::Family::ClassicRos1,
             $id,
             crate::Role::$role,
@@ -88,7 +88,7 @@ macro_rules! of_ros1 {
 macro_rules! system {
     ($id:literal, [$($class:literal),*], $role:ident, $support:ident, $doc:literal,
      [$($parameter:expr),* $(,)?]) => {
-        crate::Known::new(
+        crate::PluginSpec::new(
             crate::Family::Gz,
             $id,
             crate::Role::$role,
@@ -102,7 +102,7 @@ macro_rules! system {
 /// GUI plugin of current Gazebo.
 macro_rules! panel {
     ($id:literal, $support:ident, $doc:literal, [$($parameter:expr),* $(,)?]) => {
-        crate::Known::new(
+        crate::PluginSpec::new(
             crate::Family::Gz,
             $id,
             crate::Role::Gui,

@@ -246,7 +246,7 @@ macro_rules! delegate_to_sight {
         fn grid(&self) -> Option<&Costmap> {
             Some(&self.sight.grid)
         }
-        fn values(&self) -> Option<&Values> {
+        fn values(&self) -> Option<&ParamValues> {
             Some(&self.sight.values)
         }
         fn sources(&self) -> &[Source] {

@@ -21,7 +21,7 @@ macro_rules! camera {
             text("cameraName", "Prefix of every topic."),
             topic("imageTopicName", "Topic of images.", "image_raw"),
             topic("cameraInfoTopicName", "Topic of the camera info.", "camera_info"),
-            text("frameName", "Frame of the messages.").or("world").naming(Names::Frame),
+            text("frameName", "Frame of the messages.").or("world").naming(NamedEntity::Frame),
             number("updateRate", "Hz", "Images per second; 0: the sensor's rate.").or("0").min(0.0),
             number("CxPrime", "px", "Column of the rectified principal point; 0: the middle.")
                 .or("0"),
