@@ -64,7 +64,7 @@ fn generate() -> Result<BTreeMap<PathBuf, String>, Failed> {
         registry.interfaces().map(|interface| interface.name.package.as_str()).collect();
     let mut wanted = BTreeMap::new();
     for package in &packages {
-        let code = rust::package(&registry, package).map_err(Failed)?;
+        let code = rust::package(&registry, package).map_err(|error| Failed(error.to_string()))?;
         wanted.insert(PathBuf::from(format!("generated/{package}.rs")), code);
     }
     let modules: BTreeSet<&str> = packages.iter().copied().chain([NAV2_MAIN.1]).collect();
@@ -74,7 +74,8 @@ fn generate() -> Result<BTreeMap<PathBuf, String>, Failed> {
     let others = read(folder, &mut registry)?;
     let is_other =
         |name: &TypeName| others.iter().any(|path| path.starts_with(&format!("{name}.")));
-    let code = rust::some(&registry, &format!("{folder}/nav2_msgs"), is_other).map_err(Failed)?;
+    let code = rust::some(&registry, &format!("{folder}/nav2_msgs"), is_other)
+        .map_err(|error| Failed(error.to_string()))?;
     wanted.insert(PathBuf::from(format!("generated/{module}.rs")), code);
     Ok(wanted)
 }

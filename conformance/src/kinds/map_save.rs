@@ -15,7 +15,7 @@ use periplus_maps::{Distro, Format, Mode, Saving, render, to_message};
 use periplus_msgs::nav_msgs;
 use periplus_msgs::nav2_msgs::{SaveMap, SaveMapRequest};
 use periplus_nav_nodes::map_server::MapSaver;
-use periplus_resources::{EntryKind, FileReadError, Host, Store};
+use periplus_resources::{EntryKind, FileReadError, Host, Store, WriteError};
 use periplus_ros2cli::map::{SaverCommand, save_to, saver_command};
 use periplus_ros2cli::{InGraph, Outcome, Session, Types};
 use serde_json::{Value, json};
@@ -329,7 +329,7 @@ fn square() -> Lattice {
 struct Written(Mutex<BTreeMap<PathBuf, Vec<u8>>>);
 
 impl Store for Written {
-    fn replace(&self, path: &Path, content: &[u8]) -> Result<(), String> {
+    fn replace(&self, path: &Path, content: &[u8]) -> Result<(), WriteError> {
         let mut files = self.0.lock().unwrap_or_else(PoisonError::into_inner);
         files.insert(path.to_owned(), content.to_vec());
         Ok(())

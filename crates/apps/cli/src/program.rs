@@ -29,7 +29,9 @@ pub(crate) fn run(options: &RunOptions, ros: Vec<String>) -> io::Result<ExitCode
     let folder = std::env::temp_dir().join(format!("periplus_run_{}", std::process::id()));
     let file = folder.join("run.launch.xml");
     let written = std::fs::create_dir_all(&folder).map_err(|error| plain_words(&error));
-    let written = written.and_then(|()| Machine.replace(&file, text(options, &ros).as_bytes()));
+    let written = written.and_then(|()| {
+        Machine.replace(&file, text(options, &ros).as_bytes()).map_err(String::from)
+    });
     if let Err(why) = written {
         terminal::complain(&format!("cannot write {}: {why}", file.display()));
         return Ok(ExitCode::FAILURE);

@@ -6,7 +6,7 @@ use std::io::{BufRead, BufReader, BufWriter, ErrorKind, Read as _, Write as _};
 use std::path::{Path, PathBuf};
 
 use periplus_diagnostics::plain_words;
-use periplus_resources::{EntryKind, FileReadError, Host, MAX_FILE_BYTES, Store};
+use periplus_resources::{EntryKind, FileReadError, Host, MAX_FILE_BYTES, Store, WriteError};
 
 /// Machine on which this program runs.
 #[derive(Clone, Copy, Debug, Default)]
@@ -84,9 +84,9 @@ impl Machine {
         &self,
         path: &Path,
         write: impl FnOnce(&mut dyn std::io::Write) -> std::io::Result<()>,
-    ) -> Result<(), String> {
-        let words = |error: std::io::Error| plain_words(&error);
-        let mut name = path.file_name().ok_or("this names no file")?.to_owned();
+    ) -> Result<(), WriteError> {
+        let words = |error: std::io::Error| WriteError::Other(plain_words(&error));
+        let mut name = path.file_name().ok_or(WriteError::NoFileName)?.to_owned();
         name.push(format!(".{}.part", std::process::id()));
         let beside = path.with_file_name(name);
         remove_stale(path);
@@ -100,7 +100,7 @@ impl Machine {
 }
 
 impl Store for Machine {
-    fn replace(&self, path: &Path, content: &[u8]) -> Result<(), String> {
+    fn replace(&self, path: &Path, content: &[u8]) -> Result<(), WriteError> {
         self.replace_by(path, |file| file.write_all(content))
     }
 }

@@ -7,7 +7,7 @@ use periplus_diagnostics::{Diagnostic, Diagnostics, Origin, Span};
 
 use crate::value::quote;
 use crate::values::Located;
-use crate::{Default, ParamType, ParamValue, ParamValues, Parameter, Table};
+use crate::{Default, ParamError, ParamType, ParamValue, ParamValues, Parameter, Table};
 
 /// Parameter as written.
 #[derive(Clone, Debug)]
@@ -66,7 +66,7 @@ impl Table {
                     .entry(parameter.name)
                     .or_default()
                     .push(Located { value, origin: given.origin }),
-                Err(reason) => diagnostics.push(self.unreadable(&given, &reason)),
+                Err(error) => diagnostics.push(self.unreadable(&given, &error)),
             }
         }
         let is_waived = |parameter: &Parameter| {
@@ -99,9 +99,12 @@ impl Table {
             .did_you_mean(given.name_origin, given.name, self.names())
     }
 
-    fn unreadable(&self, given: &Given<'_>, reason: &str) -> Diagnostic {
-        let code = if reason.starts_with("is out of range") { "out-of-range" } else { "bad-value" };
-        let message = format!("`{}`: the value {} {reason}", given.name, quote(&given.text));
+    fn unreadable(&self, given: &Given<'_>, error: &ParamError) -> Diagnostic {
+        let code = match error {
+            ParamError::OutOfRange { .. } => "out-of-range",
+            _ => "bad-value",
+        };
+        let message = format!("`{}`: the value {} {error}", given.name, quote(&given.text));
         let mut diagnostic = Diagnostic::error(code, message).at(given.origin);
         if given.text.contains("${") || given.text.contains("$(") {
             diagnostic = diagnostic

@@ -26,11 +26,13 @@
 
 mod check;
 mod document;
+mod error;
 mod parameter;
 mod value;
 mod values;
 
 pub use check::Given;
+pub use error::ParamError;
 pub use parameter::{
     Default, NamedEntity, ParamRange, ParamType, Parameter, Table, choice, flag, group, integer,
     number, numbers, text, texts,

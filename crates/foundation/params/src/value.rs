@@ -1,21 +1,21 @@
 //! Values and their parsers.
 
-use crate::{ParamType, Parameter};
+use crate::{ParamError, ParamType, Parameter};
 
 /// Value of a parameter.
 #[derive(Clone, Debug, PartialEq)]
 pub enum ParamValue {
-    /// Value of [`Kind::Bool`].
+    /// Value of [`ParamType::Bool`].
     Bool(bool),
-    /// Value of [`Kind::Integer`].
+    /// Value of [`ParamType::Integer`].
     Integer(i64),
-    /// Value of [`Kind::Number`].
+    /// Value of [`ParamType::Number`].
     Number(f64),
-    /// Value of [`Kind::Text`] and [`Kind::Choice`]; empty for [`Kind::Group`].
+    /// Value of [`ParamType::Text`] and [`ParamType::Choice`]; empty for [`ParamType::Group`].
     Text(String),
-    /// Value of [`Kind::NumberList`].
+    /// Value of [`ParamType::NumberList`].
     Numbers(Vec<f64>),
-    /// Value of [`Kind::TextList`].
+    /// Value of [`ParamType::TextList`].
     Texts(Vec<String>),
 }
 
@@ -27,8 +27,8 @@ impl ParamValue {
     /// so SDF and YAML have the same syntax.
     ///
     /// # Errors
-    /// The rest of the sentence "the value ...": "is not a number".
-    pub fn read(parameter: &Parameter, written: &str) -> Result<Self, String> {
+    /// If the text is no value of the parameter's type, or out of range.
+    pub fn read(parameter: &Parameter, written: &str) -> Result<Self, ParamError> {
         let written = written.trim();
         let value = match parameter.kind {
             ParamType::Bool => Self::Bool(read_bool(written)?),
@@ -45,7 +45,7 @@ impl ParamValue {
             ParamType::Choice(words) => {
                 match words.iter().find(|word| word.eq_ignore_ascii_case(written)) {
                     Some(word) => Self::Text((*word).to_owned()),
-                    None => return Err(format!("is none of {}", quoted_list(words))),
+                    None => return Err(ParamError::NotAChoice(words)),
                 }
             }
         };
@@ -58,17 +58,17 @@ impl ParamValue {
     ///
     /// # Errors
     /// The rest of the sentence "the value ...", as [`Value::read`].
-    pub fn fit(self, parameter: &Parameter) -> Result<Self, String> {
+    pub fn fit(self, parameter: &Parameter) -> Result<Self, ParamError> {
         let value = match (parameter.kind, self) {
             (ParamType::Number, Self::Integer(integer)) => Self::Number(integer as f64),
             (ParamType::Choice(_), Self::Text(text)) => Self::read(parameter, &text)?,
             (ParamType::Number | ParamType::NumberList, Self::Number(number))
                 if number.is_nan() =>
             {
-                return Err("is not a number".into());
+                return Err(ParamError::NotNumber(None));
             }
             (ParamType::NumberList, Self::Numbers(list)) if list.iter().any(|n| n.is_nan()) => {
-                return Err("is not a list of numbers: one of them is none".into());
+                return Err(ParamError::NanInList);
             }
             (ParamType::Bool, value @ Self::Bool(_))
             | (ParamType::Integer, value @ Self::Integer(_))
@@ -77,14 +77,14 @@ impl ParamValue {
             | (ParamType::NumberList, value @ Self::Numbers(_))
             | (ParamType::TextList, value @ Self::Texts(_)) => value,
             (kind, value) => {
-                return Err(format!("is of another kind: {value} where {kind} belongs"));
+                return Err(ParamError::WrongType { value, expected: kind });
             }
         };
         value.check_range(parameter)?;
         Ok(value)
     }
 
-    fn check_range(&self, parameter: &Parameter) -> Result<(), String> {
+    fn check_range(&self, parameter: &Parameter) -> Result<(), ParamError> {
         let numbers = match self {
             Self::Integer(integer) => vec![*integer as f64],
             Self::Number(number) => vec![*number],
@@ -94,23 +94,22 @@ impl ParamValue {
         if let Some(range) = parameter.range
             && let Some(number) = numbers.iter().find(|number| !range.contains(**number))
         {
-            let unit = parameter.unit.map(|unit| format!(" {unit}")).unwrap_or_default();
-            return Err(format!("is out of range: {number}{unit} must be {range}"));
+            return Err(ParamError::OutOfRange { number: *number, unit: parameter.unit, range });
         }
         Ok(())
     }
 }
 
-fn read_bool(written: &str) -> Result<bool, String> {
+fn read_bool(written: &str) -> Result<bool, ParamError> {
     match written.to_ascii_lowercase().as_str() {
         "true" | "1" => Ok(true),
         "false" | "0" => Ok(false),
-        "" => Err("is empty; write `true` or `false`".into()),
-        _ => Err("is neither `true` nor `false`".into()),
+        "" => Err(ParamError::Empty("`true` or `false`")),
+        _ => Err(ParamError::NotBool),
     }
 }
 
-fn read_integer(written: &str) -> Result<i64, String> {
+fn read_integer(written: &str) -> Result<i64, ParamError> {
     if let Ok(integer) = written.parse() {
         return Ok(integer);
     }
@@ -121,26 +120,26 @@ fn read_integer(written: &str) -> Result<i64, String> {
             #[expect(clippy::cast_possible_truncation, reason = "it is whole and small")]
             Ok(number as i64)
         }
-        _ if written.is_empty() => Err("is empty; write a whole number".into()),
-        _ => Err("is not a whole number".into()),
+        _ if written.is_empty() => Err(ParamError::Empty("a whole number")),
+        _ => Err(ParamError::NotInteger),
     }
 }
 
-fn read_number(parameter: &Parameter, written: &str) -> Result<f64, String> {
+fn read_number(parameter: &Parameter, written: &str) -> Result<f64, ParamError> {
     if let Ok(number) = written.parse::<f64>()
         && !number.is_nan()
     {
         return Ok(number);
     }
     if written.is_empty() {
-        return Err("is empty; write a number".into());
+        return Err(ParamError::Empty("a number"));
     }
     let digits = written.trim_end_matches(|c: char| c.is_alphabetic() || "/°%².³".contains(c));
     match (digits.trim().parse::<f64>(), parameter.unit) {
         (Ok(_), Some(unit)) if digits.len() < written.len() => {
-            Err(format!("is not a number; write it in {unit}, without the unit"))
+            Err(ParamError::NotNumber(Some(unit)))
         }
-        _ => Err("is not a number".into()),
+        _ => Err(ParamError::NotNumber(None)),
     }
 }
 
@@ -152,7 +151,7 @@ fn items(written: &str) -> impl Iterator<Item = &str> {
         .map(|item| item.trim_matches(['"', '\'']))
 }
 
-fn quoted_list(words: &[&str]) -> String {
+pub(crate) fn quoted_list(words: &[&str]) -> String {
     let quoted: Vec<String> = words.iter().map(|word| format!("`{word}`")).collect();
     quoted.join(", ")
 }
@@ -227,7 +226,7 @@ mod tests {
                 choice("p", &["a", "b"], ""),
             ] {
                 if let Err(reason) = ParamValue::read(&parameter, &written) {
-                    prop_assert!(reason.starts_with("is "), "{reason}");
+                    prop_assert!(reason.to_string().starts_with("is "), "{reason}");
                 }
             }
         }
@@ -251,7 +250,7 @@ mod tests {
     fn numbers_are_read_or_the_reason_is_said() {
         let length = number("length", "m", "").above(0.0);
         assert_eq!(ParamValue::read(&length, " 1e-1 "), Ok(ParamValue::Number(0.1)));
-        let reason = |written| ParamValue::read(&length, written).unwrap_err();
+        let reason = |written| ParamValue::read(&length, written).unwrap_err().to_string();
         assert_eq!(reason("0.3m"), "is not a number; write it in m, without the unit");
         assert_eq!(reason("wide"), "is not a number");
         assert_eq!(reason("nan"), "is not a number");
@@ -263,7 +262,7 @@ mod tests {
     fn values_from_a_wire_must_fit() {
         let length = number("length", "m", "").above(0.0);
         assert_eq!(ParamValue::Integer(2).fit(&length), Ok(ParamValue::Number(2.0)));
-        let reason = |value: ParamValue| value.fit(&length).unwrap_err();
+        let reason = |value: ParamValue| value.fit(&length).unwrap_err().to_string();
         assert_eq!(reason(ParamValue::Number(0.0)), "is out of range: 0 m must be above 0");
         assert_eq!(reason(ParamValue::Number(f64::NAN)), "is not a number");
         assert_eq!(reason(ParamValue::Bool(true)), "is of another kind: true where number belongs");

@@ -26,7 +26,7 @@ impl ParamValues {
         Self { table, given }
     }
 
-    /// Sets a value that fits ([`Value::fit`]) and replaces all given ones. Returns false if the
+    /// Sets a value that fits ([`ParamValue::fit`]) and replaces all given ones. Returns false if the
     /// table does not declare the name.
     pub fn set(&mut self, name: &str, value: ParamValue) -> bool {
         let Some(parameter) = self.table.find(name) else { return false };

@@ -67,12 +67,38 @@ pub trait Host {
     fn variable(&self, name: &str) -> Option<String>;
 }
 
+/// Error of a file that cannot be written.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum WriteError {
+    /// The path has no file name.
+    NoFileName,
+    /// Message of the operating system.
+    Other(String),
+}
+
+impl std::fmt::Display for WriteError {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Self::NoFileName => write!(f, "this names no file"),
+            Self::Other(words) => f.write_str(words),
+        }
+    }
+}
+
+impl std::error::Error for WriteError {}
+
+impl From<WriteError> for String {
+    fn from(error: WriteError) -> Self {
+        error.to_string()
+    }
+}
+
 /// Writing of files, for code without direct access to the machine.
 pub trait Store {
     /// Writes a file atomically: concurrent readers see the old or the new content, and the old file
     /// remains if writing fails.
     ///
     /// # Errors
-    /// Message of the operating system.
-    fn replace(&self, path: &Path, content: &[u8]) -> Result<(), String>;
+    /// If the file cannot be written.
+    fn replace(&self, path: &Path, content: &[u8]) -> Result<(), WriteError>;
 }

@@ -2,23 +2,58 @@
 //! `periplus-msgs`, which implement the common parts of all types.
 
 use std::collections::BTreeMap;
-use std::fmt::Write as _;
+use std::fmt::{self, Write as _};
 
 use crate::{
     ArrayShape, Definition, ElementType, Field, Interface, InterfaceKind, Literal, Registry,
     Scalar, TypeName,
 };
 
+/// Error of a type that has no Rust code.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum CodegenError {
+    /// Two types with the same name in Rust.
+    NameClash(TypeName, TypeName),
+    /// A type that refers to an unknown type.
+    UnknownType(TypeName),
+    /// An array of bounded strings, which the macros do not support.
+    ArrayOfBoundedStrings {
+        /// Type with the field.
+        owner: TypeName,
+        /// Name of the field.
+        field: String,
+    },
+    /// A list of values for a field that is no array.
+    ListForOneValue,
+}
+
+impl fmt::Display for CodegenError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::NameClash(name, other) => {
+                write!(f, "`{name}` and `{other}` would have the same name in Rust")
+            }
+            Self::UnknownType(name) => write!(f, "`{name}` needs a type that is not there"),
+            Self::ArrayOfBoundedStrings { owner, field } => {
+                write!(f, "`{owner}`: an array of bounded strings: `{field}`")
+            }
+            Self::ListForOneValue => write!(f, "a list where one value belongs"),
+        }
+    }
+}
+
+impl std::error::Error for CodegenError {}
+
 /// Generates the code of one package. The types that it refers to must be in modules named like their
 /// packages, next to this one.
 ///
 /// # Errors
 /// If a type cannot be expressed in this form.
-pub fn package(registry: &Registry, package: &str) -> Result<String, String> {
+pub fn package(registry: &Registry, package: &str) -> Result<String, CodegenError> {
     some(registry, &format!("interfaces/{package}"), |name| name.package == package)
 }
 
-/// Generates the code of some types of one package, whose texts are in `folder`.
+/// Generates the code of the wanted types of one package, whose texts are in `folder`.
 ///
 /// # Errors
 /// As [`package`].
@@ -26,7 +61,7 @@ pub fn some(
     registry: &Registry,
     folder: &str,
     is_wanted: impl Fn(&TypeName) -> bool,
-) -> Result<String, String> {
+) -> Result<String, CodegenError> {
     let package = folder.rsplit('/').next().unwrap_or_default();
     let mut code = format!(
         "//! `{package}`. Made by `cargo xtask codegen`; edit the texts in `{folder}`\n\
@@ -83,18 +118,22 @@ pub fn type_name(name: &TypeName) -> String {
     name.name.replace('_', "")
 }
 
-fn claim(taken: &mut BTreeMap<String, TypeName>, name: &TypeName) -> Result<(), String> {
+fn claim(taken: &mut BTreeMap<String, TypeName>, name: &TypeName) -> Result<(), CodegenError> {
     match taken.insert(type_name(name), name.clone()) {
-        Some(other) => Err(format!("`{name}` and `{other}` would have the same name in Rust")),
+        Some(other) => Err(CodegenError::NameClash(name.clone(), other)),
         None => Ok(()),
     }
 }
 
-fn hash(registry: &Registry, name: &TypeName) -> Result<String, String> {
-    registry.hash(name).ok_or_else(|| format!("`{name}` needs a type that is not there"))
+fn hash(registry: &Registry, name: &TypeName) -> Result<String, CodegenError> {
+    registry.hash(name).ok_or_else(|| CodegenError::UnknownType(name.clone()))
 }
 
-fn message(code: &mut String, registry: &Registry, definition: &Definition) -> Result<(), String> {
+fn message(
+    code: &mut String,
+    registry: &Registry,
+    definition: &Definition,
+) -> Result<(), CodegenError> {
     let name = &definition.name;
     let _ = writeln!(code, "\ncrate::message! {{");
     let fallback = format!("`{name}`.");
@@ -131,7 +170,7 @@ fn service(
     registry: &Registry,
     name: &TypeName,
     words: &str,
-) -> Result<(), String> {
+) -> Result<(), CodegenError> {
     let _ = writeln!(code, "\ncrate::service! {{");
     let fallback = format!("`{name}`.");
     doc(code, "    ", if words.is_empty() { &fallback } else { words });
@@ -142,7 +181,11 @@ fn service(
     Ok(())
 }
 
-fn action(code: &mut String, registry: &Registry, interface: &Interface) -> Result<(), String> {
+fn action(
+    code: &mut String,
+    registry: &Registry,
+    interface: &Interface,
+) -> Result<(), CodegenError> {
     let _ = writeln!(code, "\ncrate::action! {{");
     let fallback = format!("`{}`.", interface.name);
     doc(code, "    ", if interface.doc.is_empty() { &fallback } else { &interface.doc });
@@ -166,7 +209,7 @@ fn doc(code: &mut String, indent: &str, text: &str) {
     }
 }
 
-fn field_type(field: &Field, owner: &TypeName) -> Result<String, String> {
+fn field_type(field: &Field, owner: &TypeName) -> Result<String, CodegenError> {
     let one = match &field.r#type.element {
         ElementType::Scalar(scalar) => scalar_type(*scalar).to_owned(),
         ElementType::String(_) => "std::string::String".into(),
@@ -178,7 +221,10 @@ fn field_type(field: &Field, owner: &TypeName) -> Result<String, String> {
     Ok(match field.r#type.shape {
         ArrayShape::One => one,
         _ if bound_twice => {
-            return Err(format!("`{owner}`: an array of bounded strings: `{}`", field.name));
+            return Err(CodegenError::ArrayOfBoundedStrings {
+                owner: owner.clone(),
+                field: field.name.clone(),
+            });
         }
         ArrayShape::Fixed(size) => format!("[{one}; {size}]"),
         ArrayShape::Bounded(_) | ArrayShape::Unbounded => format!("Vec<{one}>"),
@@ -217,7 +263,7 @@ fn scalar_type(scalar: Scalar) -> &'static str {
     }
 }
 
-fn value(literal: &Literal, field: &Field) -> Result<String, String> {
+fn value(literal: &Literal, field: &Field) -> Result<String, CodegenError> {
     let one = |literal: &Literal| {
         let value = scalar_value(literal, &field.r#type.element)?;
         let is_text = matches!(literal, Literal::Text(_));
@@ -225,7 +271,7 @@ fn value(literal: &Literal, field: &Field) -> Result<String, String> {
     };
     match literal {
         Literal::List(list) => {
-            let items: Result<Vec<String>, String> = list.iter().map(one).collect();
+            let items: Result<Vec<String>, CodegenError> = list.iter().map(one).collect();
             let opening =
                 if matches!(field.r#type.shape, ArrayShape::Fixed(_)) { "[" } else { "vec![" };
             Ok(format!("{opening}{}]", items?.join(", ")))
@@ -234,7 +280,7 @@ fn value(literal: &Literal, field: &Field) -> Result<String, String> {
     }
 }
 
-fn scalar_value(literal: &Literal, element: &ElementType) -> Result<String, String> {
+fn scalar_value(literal: &Literal, element: &ElementType) -> Result<String, CodegenError> {
     Ok(match literal {
         Literal::Bool(value) => value.to_string(),
         Literal::Int(value) => value.to_string(),
@@ -249,7 +295,7 @@ fn scalar_value(literal: &Literal, element: &ElementType) -> Result<String, Stri
             format!("{rust}::{name}")
         }
         Literal::Text(text) => format!("{text:?}"),
-        Literal::List(_) => return Err("a list where one value belongs".into()),
+        Literal::List(_) => return Err(CodegenError::ListForOneValue),
     })
 }
 

@@ -12,7 +12,7 @@ mod tree;
 mod write;
 
 pub use canonical::canonical;
-pub use decode::decode;
+pub use decode::{EncodingError, decode};
 pub use read::{MAX_DEPTH, parse};
 pub use smol_str::SmolStr;
 pub use tree::{Attribute, Document, Element, Text, XmlNode};

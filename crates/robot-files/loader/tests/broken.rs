@@ -1,4 +1,4 @@
-//! What `check` says of the slips that the tutorials teach.
+//! Findings of `check` for the mistakes that the tutorials teach.
 
 mod common;
 

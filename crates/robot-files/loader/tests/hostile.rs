@@ -1,4 +1,4 @@
-//! Files made to hurt: each ends soon, in little memory, and says what is wrong.
+//! Hostile files: each fails within bounded time and memory, with an error.
 
 mod common;
 

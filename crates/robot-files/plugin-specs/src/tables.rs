@@ -3,7 +3,7 @@
 //! Names, defaults and meanings are those of the plugins' own sources: `gazebo_ros_pkgs` (branches
 //! `ros2` and `noetic-devel`), `gazebo-classic` 11, `gz-sim` 8 and `gz-gui` 8, and their
 //! documentation. A parameter without default either has none or takes it from elsewhere, as its
-//! meaning says.
+//! description states.
 
 mod classic;
 mod gui;

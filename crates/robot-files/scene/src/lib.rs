@@ -30,7 +30,7 @@ pub use material::{
     Colour, Material, MaterialScript, Pbr, builtin_material, builtin_material_names,
 };
 pub use model::{FrameRole, Model, NamedFrame};
-pub use outline::{OutlineEdge, Trapezoid, edges, trapezoids};
+pub use outline::{OutlineEdge, OutlineError, Trapezoid, edges, trapezoids};
 pub use periplus_diagnostics::Origin;
 pub use periplus_geometry::{DVec3, Pose};
 pub use periplus_xml::Element;

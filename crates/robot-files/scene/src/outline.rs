@@ -1,5 +1,7 @@
 //! Decomposition of outlines into trapezoids.
 
+use std::fmt;
+
 use crate::shape::Polyline;
 
 /// Edge of an outline [m].
@@ -16,19 +18,51 @@ pub struct Trapezoid {
     pub high_m: [f64; 2],
 }
 
+/// Fault of an outline. Its text completes a sentence that starts with the name of the shape.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum OutlineError {
+    /// More corners than allowed.
+    TooManyCorners {
+        /// Number of corners.
+        count: usize,
+        /// Maximum number of corners.
+        max: usize,
+    },
+    /// A corner that is not finite, or a height that is not finite and positive.
+    NotFinite,
+    /// Fewer than three corners.
+    TooFewCorners,
+}
+
+impl fmt::Display for OutlineError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::TooManyCorners { count, max } => {
+                write!(f, "has {count} corners, more than {max}")
+            }
+            Self::NotFinite => {
+                write!(f, "has a corner or a height that is not finite and positive")
+            }
+            Self::TooFewCorners => write!(f, "has fewer than three corners"),
+        }
+    }
+}
+
+impl std::error::Error for OutlineError {}
+
 /// Returns the edges of the outlines of a shape. Outlines are closed implicitly.
 ///
 /// # Errors
-/// What is wrong, to be read after the shape's name.
-pub fn edges(outlines: &[Polyline], most_corners: usize) -> Result<Vec<OutlineEdge>, String> {
+/// If the outlines enclose no area, or have too many corners.
+pub fn edges(outlines: &[Polyline], max_corners: usize) -> Result<Vec<OutlineEdge>, OutlineError> {
     let corners: usize = outlines.iter().map(|outline| outline.points_m.len()).sum();
-    if corners > most_corners {
-        return Err(format!("has {corners} corners, more than {most_corners}"));
+    if corners > max_corners {
+        return Err(OutlineError::TooManyCorners { count: corners, max: max_corners });
     }
     let height_m = outlines.first().map_or(0.0, |first| first.height_m);
     let mut numbers = outlines.iter().flat_map(|outline| &outline.points_m).flatten();
     if !(numbers.all(|number| number.is_finite()) && height_m.is_finite() && height_m > 0.0) {
-        return Err("has a corner or a height that is not finite and positive".into());
+        return Err(OutlineError::NotFinite);
     }
     let mut edges = Vec::with_capacity(corners);
     for outline in outlines {
@@ -41,7 +75,7 @@ pub fn edges(outlines: &[Polyline], most_corners: usize) -> Result<Vec<OutlineEd
         }
     }
     if edges.len() < 3 {
-        return Err("has fewer than three corners".into());
+        return Err(OutlineError::TooFewCorners);
     }
     Ok(edges)
 }

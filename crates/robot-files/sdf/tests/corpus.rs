@@ -14,7 +14,7 @@ use periplus_diagnostics::{Diagnostics, RenderStyle, Severity, SourceMap, render
 use periplus_scene::Scene;
 use serde_json::Value;
 
-/// Why the answer of libsdformat is not ours, by the end of the file's name.
+/// Reason for a difference from libsdformat, by the end of the file's name.
 const EXCEPTIONS: &[(&str, &str)] = &[
     ("sam_bot_description/world/my_world.sdf", STATE),
     ("worlds/turtlebot3_autorace_2020.world", STATE),

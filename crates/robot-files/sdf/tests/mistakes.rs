@@ -1,4 +1,4 @@
-//! Mistakes, and what is said about them.
+//! Common mistakes, and the findings about them.
 #![allow(clippy::disallowed_methods, reason = "one test measures time")]
 
 mod common;

@@ -1,4 +1,4 @@
-//! What is written reads back as the same scene.
+//! Written scenes read back as the same scene.
 
 mod common;
 

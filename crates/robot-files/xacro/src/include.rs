@@ -209,7 +209,7 @@ impl State<'_> {
                 .help("is one of them included repeatedly?"),
             ));
         }
-        decode(&bytes).map(std::borrow::Cow::into_owned).map_err(cannot)
+        decode(&bytes).map(std::borrow::Cow::into_owned).map_err(|error| cannot(error.to_string()))
     }
 
     /// Files whose path matches a pattern of `*`, `?` and `[...]`, sorted.

@@ -13,10 +13,11 @@ const MAX_CORNERS: usize = 256;
 /// The problem, as a clause that follows the shape's name.
 pub(crate) fn pieces(outlines: &[Polyline]) -> Result<Vec<[DVec3; 8]>, String> {
     let height_m = outlines.first().map_or(0.0, |first| first.height_m);
-    let pieces: Vec<[DVec3; 8]> = trapezoids(&edges(outlines, MAX_CORNERS)?)
-        .iter()
-        .map(|piece| piece_over(piece, height_m))
-        .collect();
+    let pieces: Vec<[DVec3; 8]> =
+        trapezoids(&edges(outlines, MAX_CORNERS).map_err(|error| error.to_string())?)
+            .iter()
+            .map(|piece| piece_over(piece, height_m))
+            .collect();
     if pieces.is_empty() { Err("encloses nothing".into()) } else { Ok(pieces) }
 }
 

@@ -13,7 +13,7 @@ const MAX_CORNERS: usize = 1024;
 /// # Errors
 /// The problem, as a clause that follows the shape's name.
 pub(crate) fn extrude(outlines: &[Polyline]) -> Result<SelectedMesh, String> {
-    let edges = edges(outlines, MAX_CORNERS)?;
+    let edges = edges(outlines, MAX_CORNERS).map_err(|error| error.to_string())?;
     let height_m = outlines.first().map_or(0.0, |first| first.height_m);
     let mut prism = Prism::default();
     for [[ax, ay], [bx, by]] in &edges {

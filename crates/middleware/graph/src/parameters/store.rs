@@ -67,7 +67,9 @@ impl Store {
             else {
                 continue;
             };
-            match convert::from_message(value).and_then(|value| value.fit(parameter)) {
+            match convert::from_message(value)
+                .and_then(|value| value.fit(parameter).map_err(|error| error.to_string()))
+            {
                 Ok(value) => {
                     values.set(parameter.name, value);
                 }
@@ -179,7 +181,8 @@ impl Store {
             let parameter = table.and_then(|table| table.find(name));
             match (parameter.filter(|one| one.kind != ParamType::Group), &mut values) {
                 (Some(parameter), Some(values)) => {
-                    let value = convert::from_message(value).and_then(|value| value.fit(parameter));
+                    let value = convert::from_message(value)
+                        .and_then(|value| value.fit(parameter).map_err(|error| error.to_string()));
                     let value = value.map_err(|reason| format!("`{name}`: the value {reason}"))?;
                     values.set(parameter.name, value);
                 }

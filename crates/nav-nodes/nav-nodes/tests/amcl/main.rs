@@ -28,7 +28,7 @@ use periplus_msgs::tf2_msgs::TFMessage;
 use periplus_msgs::{Message, Service};
 use periplus_nav_nodes::amcl::AmclNode;
 use periplus_params::Given;
-use periplus_resources::{EntryKind, FileReadError, Host, MemoryHost, Store};
+use periplus_resources::{EntryKind, FileReadError, Host, MemoryHost, Store, WriteError};
 
 /// A room of 6 by 4 metres with a pillar and a corner cut off: no place is like another.
 fn room() -> Map {
@@ -100,9 +100,9 @@ impl Host for Files {
 }
 
 impl Store for Files {
-    fn replace(&self, path: &Path, content: &[u8]) -> Result<(), String> {
+    fn replace(&self, path: &Path, content: &[u8]) -> Result<(), WriteError> {
         if path.starts_with("/full") {
-            return Err("the disk is full".into());
+            return Err(WriteError::Other("the disk is full".into()));
         }
         self.written.lock().unwrap().insert(path.to_owned(), content.to_vec());
         Ok(())

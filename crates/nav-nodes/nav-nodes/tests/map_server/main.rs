@@ -13,7 +13,7 @@ use periplus_msgs::Service;
 use periplus_msgs::nav_msgs::{GetMap, GetMapRequest, MapMetaData, OccupancyGrid};
 use periplus_msgs::nav2_msgs::{LoadMap, LoadMapRequest, SaveMap, SaveMapRequest};
 use periplus_nav_nodes::map_server::{MapSaver, MapServer, MapServerSettings};
-use periplus_resources::{EntryKind, FileReadError, Host, MemoryHost, Store};
+use periplus_resources::{EntryKind, FileReadError, Host, MemoryHost, Store, WriteError};
 
 /// Files that are there, and files that are written.
 struct Files {
@@ -58,9 +58,9 @@ impl Host for Files {
 }
 
 impl Store for Files {
-    fn replace(&self, path: &Path, content: &[u8]) -> Result<(), String> {
+    fn replace(&self, path: &Path, content: &[u8]) -> Result<(), WriteError> {
         if path.starts_with("/full") {
-            return Err("the disk is full".into());
+            return Err(WriteError::Other("the disk is full".into()));
         }
         self.written.lock().unwrap().insert(path.to_owned(), content.to_vec());
         Ok(())

@@ -1,4 +1,4 @@
-//! What tests of whole files share.
+//! Helpers shared by tests of whole files.
 #![allow(dead_code, reason = "each test program uses a part")]
 
 use std::path::{Path, PathBuf};
@@ -37,12 +37,12 @@ pub(crate) fn shown(loaded: &LoadedFile) -> String {
     out
 }
 
-/// What is said of a file of this crate.
+/// Findings about a file of this crate.
 pub(crate) fn said_of(path: &str) -> String {
     shown(&read(&Machine, &folder(), Path::new(path), &[]))
 }
 
-/// What is said of a text under a made-up name.
+/// Findings about a text with an invented name.
 pub(crate) fn said_of_text(name: &str, text: &str) -> String {
     let host = MemoryHost::new().with_file(Path::new("/r").join(name), text);
     shown(&read(&host, Path::new("/r"), Path::new(name), &[]))

@@ -150,17 +150,17 @@ fn contradiction(
 ) -> Option<Diagnostic> {
     let Claim { parameter, index, measured_m, truth } = claim;
     let numbers = plugin.values.numbers(parameter);
-    let said_m = *numbers.get(index).or(numbers.first())?;
-    let off = (said_m - measured_m).abs();
+    let written_m = *numbers.get(index).or(numbers.first())?;
+    let off = (written_m - measured_m).abs();
     // Wheels at the same position are a model without geometry, not a contradiction.
     if !measured_m.is_finite() || measured_m < 1e-3 || off <= TOLERANCE_RATIO * measured_m {
         return None;
     }
     let given = plugin.values.is_given(parameter);
-    let says = if given { "says" } else { "defaults to" };
+    let verb = if given { "is" } else { "defaults to" };
     let place = plugin.values.all(parameter).get(index).map(|(_, origin)| *origin);
     let origin = place.filter(|_| given).unwrap_or(site.plugin.origin);
-    let message = format!("`{parameter}` {says} {said_m} m, but in the model {truth}");
+    let message = format!("`{parameter}` {verb} {written_m} m, but in the model {truth}");
     Some(Diagnostic::hint("wheel-geometry", message).at(origin).note(
         "odometry and rotations have the same relative error, unless it is tuned against slip",
     ))
@@ -209,7 +209,7 @@ mod tests {
 </plugin></model>"
             ),
             expect![[r#"
-                hint[wheel-geometry]: `wheel_separation` says 0.3 m, but in the model the wheels are 0.4 m apart
+                hint[wheel-geometry]: `wheel_separation` is 0.3 m, but in the model the wheels are 0.4 m apart
                  --> test.sdf:7:21
                   |
                 7 |   <wheel_separation>0.3</wheel_separation>
@@ -240,7 +240,7 @@ mod tests {
 </plugin></model>"
             ),
             expect![[r#"
-                hint[wheel-geometry]: `wheel_radius` says 0.2 m, but in the model the radius of the wheel is 0.1 m
+                hint[wheel-geometry]: `wheel_radius` is 0.2 m, but in the model the radius of the wheel is 0.1 m
                  --> test.sdf:8:17
                   |
                 8 |   <wheel_radius>0.2</wheel_radius>

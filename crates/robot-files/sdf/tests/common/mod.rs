@@ -73,7 +73,7 @@ pub(crate) fn told(diagnostics: &Diagnostics, sources: &SourceMap) -> String {
     out
 }
 
-/// What is said about a text.
+/// Findings about a text.
 pub(crate) fn findings(text: &str) -> String {
     let (_, diagnostics, sources) = read_with(text, &mut Files::default());
     told(&diagnostics, &sources)

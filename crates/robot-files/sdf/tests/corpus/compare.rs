@@ -5,7 +5,7 @@ use serde_json::Value;
 
 const NEAR: f64 = 1e-6;
 
-/// What is not the same.
+/// Difference between two scenes.
 #[derive(Default)]
 pub(crate) struct Differences {
     pub(crate) found: Vec<String>,
@@ -216,7 +216,7 @@ fn compare_joint(ours: &Joint, model: &Model, theirs: &Value, d: &mut Difference
 
 /// A frame of a model by its scoped name.
 fn pose_in(model: &Model, name: &str, steps: usize) -> Option<Pose> {
-    // Joints in broken files hang on each other.
+    // Joints in broken files may depend on each other.
     let steps = steps.checked_sub(1)?;
     if name == "__model__" {
         return Some(Pose::IDENTITY);

@@ -12,7 +12,7 @@ use serde_json::Value;
 /// Answers includes as the oracle did.
 pub(crate) struct Recorded {
     paths: BTreeMap<String, String>,
-    /// Whether something else than SDF was included.
+    /// True if an included file is not SDF.
     pub(crate) other_format: bool,
 }
 
