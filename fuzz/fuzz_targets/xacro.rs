@@ -5,7 +5,7 @@
 use std::path::PathBuf;
 
 use libfuzzer_sys::fuzz_target;
-use periplus_diagnostics::{Diagnostics, SourceMap, Style, render};
+use periplus_diagnostics::{Diagnostics, SourceMap, RenderStyle, render};
 use periplus_resources::{MemoryHost, Resolver};
 use periplus_xacro::{XacroContext, expand};
 use periplus_xml::{parse, write_document};
@@ -38,7 +38,7 @@ fuzz_target!(|text: &str| {
     assert_eq!(expanded.is_none(), diagnostics.errors() > errors_before);
     for diagnostic in diagnostics.iter().take(20) {
         assert!(diagnostic.span.is_some(), "{} has no place", diagnostic.message);
-        let _ = render(diagnostic, &sources, Style::Plain);
+        let _ = render(diagnostic, &sources, RenderStyle::Plain);
     }
     if let Some(expanded) = expanded {
         let _ = write_document(&expanded.document);

@@ -4,7 +4,9 @@ use std::rc::Rc;
 
 use periplus_msgs as msgs;
 use periplus_msgs::{DynamicMessage, Number, Part};
-use periplus_python_expr::{Budget, ExpressionDialect, Expression, ExpressionError, Scope, Value, evaluate};
+use periplus_python_expr::{
+    Budget, Expression, ExpressionDialect, ExpressionError, Scope, Value, evaluate,
+};
 
 use crate::show::whole_number;
 use crate::{Failure, Outcome};

@@ -6,7 +6,7 @@ use std::rc::Rc;
 
 use expect_test::{Expect, expect};
 use periplus_python_expr::{
-    Budget, ExpressionDialect, EmptyScope, Expression, ExpressionError, Scope, Value, evaluate,
+    Budget, EmptyScope, Expression, ExpressionDialect, ExpressionError, Scope, Value, evaluate,
 };
 
 #[derive(Default)]

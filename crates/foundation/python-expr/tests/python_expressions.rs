@@ -1,7 +1,7 @@
 //! The evaluator against Python itself, by the table that python_expressions.py writes.
 
 use periplus_python_expr::{
-    Budget, ExpressionDialect, EmptyScope, Expression, ExpressionError, Scope, Value, evaluate,
+    Budget, EmptyScope, Expression, ExpressionDialect, ExpressionError, Scope, Value, evaluate,
 };
 
 /// The names of `$(eval ...)`, which has all of Python's functions.

@@ -11,7 +11,7 @@ use crate::names::{ALREADY_SAID, Names};
 use crate::scopes::{LazyText, ScopeId, Symbol};
 use crate::state::{Failed, Resolving, State};
 use crate::text::{Piece, pieces};
-use periplus_python_expr::{ExpressionDialect, Expression, ExpressionError, Value, evaluate};
+use periplus_python_expr::{Expression, ExpressionDialect, ExpressionError, Value, evaluate};
 
 /// Maximum number of properties listed in the error about a circular definition.
 const MAX_LISTED_PROPERTIES: usize = 5;

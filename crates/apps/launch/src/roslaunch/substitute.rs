@@ -4,7 +4,7 @@ use std::rc::Rc;
 
 use periplus_diagnostics::{Diagnostic, Origin};
 use periplus_python_expr::{
-    Budget, ExpressionDialect, Expression, ExpressionError, Scope as Names, Value, evaluate,
+    Budget, Expression, ExpressionDialect, ExpressionError, Scope as Names, Value, evaluate,
 };
 use periplus_xml::Attribute;
 
