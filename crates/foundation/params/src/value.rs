@@ -286,6 +286,7 @@ mod tests {
         assert_eq!(ParamValue::read(&texts("t", ""), "[\"a\", b]"), Ok(words));
         let side = choice("side", &["left", "right"], "");
         assert_eq!(ParamValue::read(&side, "Left"), Ok(ParamValue::Text("left".into())));
-        assert_eq!(ParamValue::read(&side, "up").unwrap_err(), "is none of `left`, `right`");
+        let refused = ParamValue::read(&side, "up").unwrap_err();
+        assert_eq!(refused.to_string(), "is none of `left`, `right`");
     }
 }
