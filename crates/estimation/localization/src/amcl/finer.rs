@@ -202,6 +202,8 @@ impl Amcl {
         estimate.pose = best.pose;
         estimate.clusters = rivals.clusters(self.particles.len());
         self.fine = None;
+        self.ahead = None;
+        self.stride = None;
         // With nothing known before there is nothing to lose.
         let is_decided = rivals.is_decided() || self.home.is_none() && rivals.is_only();
         if is_decided
@@ -263,6 +265,8 @@ impl Amcl {
             (&self.map, is_wanted && !seen.ends.is_empty(), estimate.clusters.first())
         else {
             self.fine = None;
+            self.ahead = None;
+            self.stride = None;
             return;
         };
         let mean = estimate.pose;
@@ -312,6 +316,7 @@ impl Amcl {
             return;
         }
         if !is_near(pose) {
+            self.stride = None;
             return;
         }
         let spread = spread_of(&best.known);
