@@ -1,34 +1,37 @@
-//! Whether two scans can be of the same place.
+//! Consistency of two scans.
 
 use periplus_geometry::Pose2;
 
 use crate::cloud::{Cloud, Sight};
 
-/// Points of one scan held against what another saw.
+/// Tolerance of the heading between the scans \\[rad\\].
+const HEADING_TOLERANCE_RAD: f32 = 0.02;
+
+/// Comparison of the points of one scan with the visibility of another.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Agreement {
-    /// Points at which the other saw a surface too.
+    /// Points at which the other scan has a surface, too.
     pub agreeing: u32,
-    /// Points where the other saw through: either it is not the same place, or something moved.
+    /// Points in space that the other scan saw as free: another scene, or something moved.
     pub contradicting: u32,
-    /// Points hidden from the other, or where it did not look.
+    /// Points that are occluded in the other scan, or outside of its view.
     pub unseen: u32,
 }
 
 impl Agreement {
-    /// Agreeing points among those that the other could judge; 0 when there are none.
+    /// Fraction of agreeing points among the judged ones; 0 without any.
     #[must_use]
     pub fn share(&self) -> f64 {
         f64::from(self.agreeing) / f64::from((self.agreeing + self.contradicting).max(1))
     }
 
-    /// Points that the other could judge.
+    /// Number of points that the other scan can judge.
     #[must_use]
     pub fn judged(&self) -> u32 {
         self.agreeing + self.contradicting
     }
 
-    /// Judged points among all.
+    /// Fraction of judged points among all.
     #[must_use]
     pub fn overlap(&self) -> f64 {
         f64::from(self.judged()) / f64::from((self.judged() + self.unseen).max(1))
@@ -43,13 +46,13 @@ impl std::ops::AddAssign for Agreement {
     }
 }
 
-/// Holds the points of one cloud against what another saw: a point is agreed with when the other has
-/// one within `tolerance_m`, and contradicted when it lies in front of the surface that the other saw
-/// in that direction by more than twice that. Readings that came back from nowhere judge nothing:
-/// glass and black walls give none.
+/// Compares the points of one cloud with what another one saw. A point agrees if the other cloud
+/// has a point within `tolerance_m`, and contradicts if it is in front of the surface seen in
+/// that direction by more than twice that. Beams without a return judge nothing, since glass and
+/// black surfaces give none.
 ///
-/// This is one way; a wall that one scan saw and the other saw through is found from that side only,
-/// so ask both ways.
+/// The comparison is one-sided: a wall that one scan saw and the other saw through is found from
+/// that side only. Call it in both directions.
 #[must_use]
 pub fn agreement(
     points: &Cloud,
@@ -69,9 +72,9 @@ pub fn agreement(
             continue;
         }
         match seen.sight(x, y) {
-            // Far away a small error of heading moves a point by more.
+            // A small heading error moves distant points by more.
             (Sight::Surface { near, .. }, distance)
-                if distance + 2.0 * tolerance_m + 0.02 * distance < near =>
+                if distance + 2.0 * tolerance_m + HEADING_TOLERANCE_RAD * distance < near =>
             {
                 counts.contradicting += 1;
             }
@@ -86,7 +89,7 @@ mod tests {
     use super::*;
     use crate::CloudSettings;
 
-    /// A square room of 4 m seen from its middle.
+    /// Scan from the center of a square room.
     fn room(half_m: f32) -> Cloud {
         let beams = (0..360).map(|i| {
             let angle = (i as f32).to_radians();
@@ -109,7 +112,7 @@ mod tests {
     fn a_small_room_is_not_a_large_one() {
         let (small, large) = (room(2.0), room(4.0));
         assert!(agreement(&small, &large, Pose2::IDENTITY, 0.1).share() < 0.01);
-        // Its walls are hidden behind those of the small one, so that way nothing is known.
+        // The walls of the large room are occluded by those of the small one, so nothing is judged.
         assert_eq!(agreement(&large, &small, Pose2::IDENTITY, 0.1).judged(), 0);
     }
 }

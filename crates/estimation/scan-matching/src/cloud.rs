@@ -1,34 +1,34 @@
-//! The points of one scan.
+//! Points of one scan.
 
 use crate::surface::{Beam, normal};
 
-/// A point of a scan and the surface it lies on.
+/// Point of a scan with its surface normal.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Point {
-    /// In the frame of the cloud \[m\].
+    /// x in the cloud frame \[m\].
     pub x: f32,
-    /// In the frame of the cloud \[m\].
+    /// y in the cloud frame \[m\].
     pub y: f32,
-    /// Unit normal of the surface towards the scanner; (0, 0) where there is no clear one.
+    /// Unit normal of the surface, towards the scanner; (0, 0) where it is unknown.
     pub nx: f32,
     /// See `nx`.
     pub ny: f32,
 }
 
 impl Point {
-    /// Whether the surface at the point is known.
+    /// True if the surface normal is known.
     #[must_use]
     pub fn is_on_line(&self) -> bool {
         self.nx != 0.0 || self.ny != 0.0
     }
 }
 
-/// How a cloud is made of beams.
+/// Settings of a cloud.
 #[derive(Clone, Copy, Debug)]
 pub struct CloudSettings {
-    /// Points nearer to the last one kept are left out \[m\].
+    /// Minimum distance between consecutive points \[m\].
     pub spacing_m: f32,
-    /// With more points than this the spacing grows.
+    /// Maximum number of points; with more, the spacing grows.
     pub most_points: usize,
 }
 
@@ -38,40 +38,42 @@ impl Default for CloudSettings {
     }
 }
 
-/// What was seen along a bearing.
+/// Visibility along a bearing.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Sight {
-    /// Nobody looked there, or nothing came back.
+    /// Outside of the view, or no return.
     Unknown,
-    /// Free up to `near`; behind `far` nothing can be seen \[m\].
+    /// Free up to `near`, occluded behind `far` \[m\].
     Surface { near: f32, far: f32 },
 }
 
-/// The points of one scan, in order of their bearing from the scanner.
+/// Points of one scan in order of their bearing from the scanner.
 #[derive(Clone, Debug)]
 pub struct Cloud {
     points: Vec<Point>,
-    /// Distance of each from the scanner \[m\].
+    /// Range of each point \[m\].
     ranges: Vec<f32>,
-    /// Direction of each, as [`turn_of`].
+    /// Bearing of each point, as [`pseudo_angle`].
     turns: Vec<f32>,
-    /// Whether everything between a point and the next was seen.
+    /// True if the space between a point and the next was seen.
     is_followed: Vec<bool>,
     origin: [f32; 2],
-    /// For each bin of the full turn the first point in it or behind it; one more at the end.
+    /// Per bin of the full circle, the index of the first point in or after it, and the end.
     starts: Vec<u16>,
 }
 
+/// Number of bearing bins.
 const BINS: usize = 256;
-const BINS_PER_TURN: f32 = BINS as f32 / 4.0;
+/// Bins per unit of the pseudo-angle.
+const BINS_PER_UNIT_RATIO: f32 = BINS as f32 / 4.0;
 
-/// A cloud never holds more points: they are counted in 16 bits.
-const MOST_POINTS: usize = 60_000;
+/// Maximum number of points, which are counted in 16 bits.
+const MAX_POINTS: usize = 60_000;
 
 impl Cloud {
-    /// A cloud of the beams of one scan in their order: where each ended in the cloud's frame, none
-    /// for those that saw nothing. `origin` is the scanner in that frame \[m\], `step_rad` the angle
-    /// from beam to beam.
+    /// Creates a cloud from the beams of one scan in order: end points in the cloud frame, none for
+    /// beams without a return. `origin` is the scanner in that frame \[m\], `step_rad` the angle
+    /// between beams.
     #[must_use]
     pub fn new(
         beams: impl IntoIterator<Item = Option<[f32; 2]>>,
@@ -85,22 +87,22 @@ impl Cloud {
             .filter_map(|(index, end)| end.map(|[x, y]| Beam { x, y, index }))
             .filter(|beam| beam.x.is_finite() && beam.y.is_finite())
             .collect();
-        let kept = thin(&beams, settings);
+        let kept = decimate(&beams, settings);
         let mut all: Vec<(f32, f32, Point, bool)> = Vec::with_capacity(kept.len());
         for (place, &at) in kept.iter().enumerate() {
             let beam = beams[at];
             let [nx, ny] = normal(&beams, at, origin, step_rad.abs());
             let (x, y) = (beam.x - origin[0], beam.y - origin[1]);
-            // A single lost beam between two that were not leaves no gap to see through.
+            // A single lost beam between two others leaves no gap.
             let next = kept.get(place + 1).map(|&next| (next, beams[next].index));
             let is_followed = next.is_some_and(|(next, index)| {
                 index - beam.index <= next - at + 1
                     && (index - beam.index) as f32 * step_rad.abs() < 0.2
             });
             let point = Point { x: beam.x, y: beam.y, nx, ny };
-            all.push((turn_of(x, y), (x * x + y * y).sqrt(), point, is_followed));
+            all.push((pseudo_angle(x, y), (x * x + y * y).sqrt(), point, is_followed));
         }
-        // Clockwise scans: what follows a point is then the one before.
+        // In clockwise scans, the next point is the one before.
         if step_rad < 0.0 {
             for place in (1..all.len()).rev() {
                 all[place].3 = all[place - 1].3;
@@ -109,47 +111,47 @@ impl Cloud {
                 first.3 = false;
             }
         }
-        Self::gathered(all, origin)
+        Self::from_entries(all, origin)
     }
 
-    /// From points in any order, each with whether everything between it and the next was seen.
+    /// Creates a cloud from points in any order with their visibility flags.
     pub(crate) fn sorted(points: impl Iterator<Item = (Point, bool)>, origin: [f32; 2]) -> Self {
         let all = points.map(|(point, is_followed)| {
             let (x, y) = (point.x - origin[0], point.y - origin[1]);
-            (turn_of(x, y), (x * x + y * y).sqrt(), point, is_followed)
+            (pseudo_angle(x, y), (x * x + y * y).sqrt(), point, is_followed)
         });
-        Self::gathered(all.collect(), origin)
+        Self::from_entries(all.collect(), origin)
     }
 
-    /// From turn, range, point and whether it is followed.
-    fn gathered(mut all: Vec<(f32, f32, Point, bool)>, origin: [f32; 2]) -> Self {
+    /// Creates a cloud from bearing, range, point and visibility flag.
+    fn from_entries(mut all: Vec<(f32, f32, Point, bool)>, origin: [f32; 2]) -> Self {
         all.sort_by(|a, b| a.0.total_cmp(&b.0));
         let turns: Vec<f32> = all.iter().map(|it| it.0).collect();
         Self {
             points: all.iter().map(|it| it.2).collect(),
             ranges: all.iter().map(|it| it.1).collect(),
-            starts: starts(&turns),
+            starts: bin_starts(&turns),
             turns,
             is_followed: all.iter().map(|it| it.3).collect(),
             origin,
         }
     }
 
-    /// The cloud whose [`Cloud::points`], [`Cloud::followed`] and [`Cloud::origin`] these are, to the
-    /// bit. None when they are those of no cloud: too many, not in order, or not finite.
+    /// Restores a cloud from its [`Cloud::points`], [`Cloud::followed`] and [`Cloud::origin`], to
+    /// the bit. None if they are invalid: too many, not in order, or not finite.
     #[must_use]
     pub fn restored(points: Vec<Point>, is_followed: Vec<bool>, origin: [f32; 2]) -> Option<Self> {
         let is_finite = points
             .iter()
             .all(|p| p.x.is_finite() && p.y.is_finite() && p.nx.is_finite() && p.ny.is_finite())
             && origin.iter().all(|it| it.is_finite());
-        if !is_finite || points.len() != is_followed.len() || points.len() > MOST_POINTS {
+        if !is_finite || points.len() != is_followed.len() || points.len() > MAX_POINTS {
             return None;
         }
         let offset = |p: &Point| (p.x - origin[0], p.y - origin[1]);
         let turn = |p: &Point| {
             let (x, y) = offset(p);
-            turn_of(x, y)
+            pseudo_angle(x, y)
         };
         let range = |p: &Point| {
             let (x, y) = offset(p);
@@ -161,51 +163,52 @@ impl Cloud {
         if !is_sorted || !ranges.iter().all(|it| it.is_finite()) {
             return None;
         }
-        Some(Self { starts: starts(&turns), points, ranges, turns, is_followed, origin })
+        Some(Self { starts: bin_starts(&turns), points, ranges, turns, is_followed, origin })
     }
 
-    /// For each point whether everything up to the next was seen.
+    /// Visibility flags: true if the space up to the next point was seen.
     #[must_use]
     pub fn followed(&self) -> &[bool] {
         &self.is_followed
     }
 
-    /// The points, by bearing from the scanner.
+    /// Points in order of bearing.
     #[must_use]
     pub fn points(&self) -> &[Point] {
         &self.points
     }
 
-    /// Where the scanner was, in the frame of the cloud \[m\].
+    /// Scanner position in the cloud frame \[m\].
     #[must_use]
     pub fn origin(&self) -> [f32; 2] {
         self.origin
     }
 
-    /// Bytes held, about.
+    /// Approximate size in memory \[bytes\].
     #[must_use]
     pub fn size(&self) -> usize {
         self.points.len() * (size_of::<Point>() + 9) + self.starts.len() * 2
     }
 
-    /// The point nearest to a place, if one is within `reach_m`, and the square of its distance.
+    /// Nearest point within `reach_m` of a position: its index and squared distance.
     #[must_use]
     #[inline]
     pub fn nearest(&self, x: f32, y: f32, reach_m: f32) -> Option<(usize, f32)> {
         let (dx, dy) = (x - self.origin[0], y - self.origin[1]);
         let distance = (dx * dx + dy * dy).sqrt();
-        // A unit of turn is at most a radian; the arc is a little longer than its sine.
+        // One unit of the pseudo-angle is at most a radian; the arc is a little longer than its
+        // sine.
         let half = reach_m / distance.max(1e-3) * 1.15;
         let mut best = (usize::MAX, reach_m * reach_m);
         if half > 1.2 {
             self.nearest_in(0, self.points.len(), x, y, &mut best);
         } else {
-            let middle = turn_of(dx, dy) * BINS_PER_TURN;
+            let middle = pseudo_angle(dx, dy) * BINS_PER_UNIT_RATIO;
             let bins = BINS as i32;
-            // Rounds down, also below zero, without a call.
+            // Rounds down, including negative values, without a function call.
             let bin = |turn: f32| (turn + BINS as f32) as i32 - bins;
-            let first = bin(middle - half * BINS_PER_TURN);
-            let last = bin(middle + half * BINS_PER_TURN);
+            let first = bin(middle - half * BINS_PER_UNIT_RATIO);
+            let last = bin(middle + half * BINS_PER_UNIT_RATIO);
             let start = |bin: i32| usize::from(self.starts[bin as usize]);
             let (low, high) = (first.max(0), last.min(bins - 1));
             self.nearest_in(start(low), start(high + 1), x, y, &mut best);
@@ -230,15 +233,15 @@ impl Cloud {
         }
     }
 
-    /// What was seen in the direction of a place, and how far the place is \[m\].
+    /// Visibility in the direction of a position, and its distance \[m\].
     pub(crate) fn sight(&self, x: f32, y: f32) -> (Sight, f32) {
         let (dx, dy) = (x - self.origin[0], y - self.origin[1]);
         let distance = (dx * dx + dy * dy).sqrt();
         if self.points.len() < 2 {
             return (Sight::Unknown, distance);
         }
-        let turn = turn_of(dx, dy);
-        let bin = ((turn * BINS_PER_TURN) as usize).min(BINS - 1);
+        let turn = pseudo_angle(dx, dy);
+        let bin = ((turn * BINS_PER_UNIT_RATIO) as usize).min(BINS - 1);
         let mut after = usize::from(self.starts[bin]);
         while after < self.turns.len() && self.turns[after] <= turn {
             after += 1;
@@ -253,12 +256,12 @@ impl Cloud {
     }
 }
 
-/// For each bin of the full turn the first point in it or behind it; one more at the end.
-fn starts(turns: &[f32]) -> Vec<u16> {
+/// Per bin of the full circle, the index of the first point in or after it, and the end.
+fn bin_starts(turns: &[f32]) -> Vec<u16> {
     let mut starts = Vec::with_capacity(BINS + 1);
     let mut at = 0;
     for bin in 0..=BINS {
-        while at < turns.len() && ((turns[at] * BINS_PER_TURN) as usize) < bin {
+        while at < turns.len() && ((turns[at] * BINS_PER_UNIT_RATIO) as usize) < bin {
             at += 1;
         }
         starts.push(at as u16);
@@ -269,10 +272,10 @@ fn starts(turns: &[f32]) -> Vec<u16> {
     starts
 }
 
-/// Where a direction lies in the turn, from 0 to below 4, growing with the angle; a unit is between
-/// one radian and two, without a trigonometric function.
+/// Pseudo-angle of a direction: 0 to 4 (exclusive), increasing with the angle, without
+/// trigonometric functions. One unit is between one and two radians.
 #[inline]
-fn turn_of(x: f32, y: f32) -> f32 {
+fn pseudo_angle(x: f32, y: f32) -> f32 {
     let sum = x.abs() + y.abs();
     if sum == 0.0 {
         return 0.0;
@@ -285,13 +288,13 @@ fn turn_of(x: f32, y: f32) -> f32 {
     } else {
         part
     };
-    // Rounding may reach the full turn.
+    // Rounding may reach 4.
     if turn >= 4.0 { 0.0 } else { turn }
 }
 
-/// Places of the beams that are kept.
-fn thin(beams: &[Beam], settings: &CloudSettings) -> Vec<usize> {
-    let most = settings.most_points.clamp(8, MOST_POINTS);
+/// Indices of the beams that are kept.
+fn decimate(beams: &[Beam], settings: &CloudSettings) -> Vec<usize> {
+    let most = settings.most_points.clamp(8, MAX_POINTS);
     let mut spacing = settings.spacing_m.max(1e-3);
     loop {
         let mut kept: Vec<usize> = Vec::with_capacity(most.min(beams.len()));

@@ -1,15 +1,15 @@
-//! How likely points are over a window.
+//! Likelihood field over a window.
 
-/// How a field is made.
+/// Settings of a field.
 #[derive(Clone, Copy, Debug)]
 pub struct FieldSettings {
-    /// Side of a cell \[m\].
+    /// Cell size \[m\].
     pub resolution_m: f32,
-    /// How far from a known point others may lie: one standard deviation \[m\].
+    /// Standard deviation of the distance between corresponding points \[m\].
     pub sigma_m: f32,
-    /// A field reaches no farther than this from its middle on either axis \[m\].
+    /// Maximum half width along each axis \[m\].
     pub most_half_m: f32,
-    /// The coarsest level joins 2 to the power of this cells on a side.
+    /// Number of coarser levels; level k has the maximum over 2^k by 2^k cells.
     pub levels: usize,
 }
 
@@ -19,9 +19,9 @@ impl Default for FieldSettings {
     }
 }
 
-/// How likely points are over a window, from 0 to 255, with the largest values over ever larger
-/// squares: they bound what any place in a square can reach (Olson 2009, "Real-time correlative scan
-/// matching"; Hess et al. 2016).
+/// Likelihood of points over a window, 0 to 255, with maxima over squares of growing size, which
+/// bound the score of every pose in a square (Olson 2009, "Real-time correlative scan matching";
+/// Hess et al. 2016).
 #[derive(Clone, Debug)]
 pub struct Field {
     pub(crate) resolution_m: f32,
@@ -29,12 +29,12 @@ pub struct Field {
     pub(crate) corner: [f32; 2],
     pub(crate) width: usize,
     pub(crate) height: usize,
-    /// `levels[k]` at a cell is the largest over the square of 2^k cells that begins there.
+    /// `levels[k]` at a cell is the maximum over the square of 2^k cells that begins there.
     pub(crate) levels: Vec<Vec<u8>>,
 }
 
 impl Field {
-    /// The field of some points around a middle \[m\].
+    /// Creates the field of points around a center \[m\].
     #[must_use]
     pub fn new(points: &[[f32; 2]], middle: [f32; 2], settings: &FieldSettings) -> Self {
         let resolution_m = settings.resolution_m.max(1e-3);
@@ -49,7 +49,7 @@ impl Field {
             }
         }
         let stamp = Stamp::new(settings.sigma_m / resolution_m);
-        // On the low side there is room for squares that begin outside and reach in.
+        // Padding on the low side for squares that begin outside of the field.
         let before = (1 << settings.levels) + stamp.reach + 1;
         let after = stamp.reach + 2;
         let cells =
@@ -69,7 +69,7 @@ impl Field {
         Self { resolution_m, corner, width, height, levels }
     }
 
-    /// The likelihood at a place, 0 to 1 \[m\].
+    /// Likelihood at a position \[m\], 0 to 1.
     #[must_use]
     pub fn at(&self, x: f32, y: f32) -> f32 {
         let (u, v) =
@@ -80,14 +80,14 @@ impl Field {
         f32::from(self.levels[0][v as usize * self.width + u as usize]) / 255.0
     }
 
-    /// Bytes held.
+    /// Size in memory \[bytes\].
     #[must_use]
     pub fn size(&self) -> usize {
         self.levels.len() * self.width * self.height
     }
 }
 
-/// The largest of each value and those `step` further, along both axes.
+/// Maximum of each value and the one `step` further, along both axes.
 fn widened(from: &[u8], width: usize, height: usize, step: usize) -> Vec<u8> {
     let mut wide = from.to_vec();
     for row in wide.chunks_exact_mut(width) {
@@ -105,7 +105,7 @@ fn widened(from: &[u8], width: usize, height: usize, step: usize) -> Vec<u8> {
     wide
 }
 
-/// The likelihood around a point.
+/// Likelihood around a point.
 struct Stamp {
     reach: usize,
     values: Vec<u8>,

@@ -1,13 +1,16 @@
-//! Where scans fit.
+//! Scan matching: registration of scans with each other and with likelihood fields.
 //!
-//! A [`Cloud`] holds the points of one scan with the surfaces they lie on, and answers what is near
-//! and what was seen along a bearing. [`register`] moves a cloud onto others from a good start, and
-//! tells how sure it is, in which directions. A [`Field`] is the likelihood of points over a window,
-//! and [`Field::search`] finds the best place in all of a window, with certainty: no start is needed.
-//! [`agreement`] tells whether two scans can be of the same place at all: points must not lie where
-//! the other saw through. A [`PackedCloud`] waits in few bytes.
+//! - [`Cloud`]: the points of one scan with their surface normals, with lookups of nearest points
+//!   and of the surface seen along a bearing.
+//! - [`register`]: local registration of clouds from a good initial pose, with the information
+//!   matrix of the result.
+//! - [`Field`]: the likelihood of points over a window; [`Field::search`] finds the best pose in a
+//!   window with certainty, without an initial pose.
+//! - [`agreement`]: whether two scans can be of the same scene, since points of one must not be in
+//!   space that the other saw as free.
+//! - [`PackedCloud`]: a cloud in compressed form.
 //!
-//! All is plain computation on one thread: the same input gives the same bits.
+//! Computation on one thread: the same input gives the same bits.
 
 mod agreement;
 mod cloud;

@@ -1,58 +1,60 @@
-//! Clouds in few bytes, for those that wait.
+//! Compressed clouds.
 
 use crate::cloud::{Cloud, Point};
 
-/// Places in steps of a millimetre or less, around a middle.
+/// Positions quantized to a millimetre or less, relative to a center.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PackedPlaces {
     middle: [f32; 2],
-    /// A step is 2 to the power of minus this \[m\].
+    /// Quantization step: 2 to the power of minus this \[m\].
     power: u8,
     steps: Box<[[i16; 2]]>,
 }
 
-/// Steps of half a millimetre up to 16 m from the middle, coarser ones beyond: a power of two.
-const FINEST: u8 = 11;
-/// The largest number of steps.
-const MOST_STEPS: f32 = 32_767.0;
+/// Exponent of the finest step: half a millimetre up to 16 m from the center, coarser powers of two
+/// beyond.
+const MAX_STEP_BITS: u8 = 11;
+/// Maximum number of steps.
+const MAX_STEPS: f32 = 32_767.0;
 
 impl PackedPlaces {
-    /// Packs places; those beyond 32 km from the middle end there.
+    /// Packs positions; those beyond 32 km from the center are clamped.
     #[must_use]
     pub fn new(places: &[[f32; 2]], middle: [f32; 2]) -> Self {
         let offsets = || places.iter().map(|[x, y]| [x - middle[0], y - middle[1]]);
         let farthest = offsets().flatten().fold(0.0_f32, |most, it| most.max(it.abs()));
-        let power = (0..=FINEST).rev().find(|&it| farthest / step_m(it) <= MOST_STEPS).unwrap_or(0);
+        let power =
+            (0..=MAX_STEP_BITS).rev().find(|&it| farthest / step_m(it) <= MAX_STEPS).unwrap_or(0);
         let per_metre = 1.0 / step_m(power);
         let steps = offsets().map(|it| it.map(|metres| (metres * per_metre).round() as i16));
         Self { middle, power, steps: steps.collect() }
     }
 
-    /// The places \[m\].
+    /// Positions \[m\].
     pub fn iter(&self) -> impl ExactSizeIterator<Item = [f32; 2]> {
         let (step, [x, y]) = (step_m(self.power), self.middle);
         self.steps.iter().map(move |it| [x + step * f32::from(it[0]), y + step * f32::from(it[1])])
     }
 
-    /// What they are counted from \[m\].
+    /// Center \[m\].
     #[must_use]
     pub fn middle(&self) -> [f32; 2] {
         self.middle
     }
 
-    /// How many there are.
+    /// Number of positions.
     #[must_use]
     pub fn len(&self) -> usize {
         self.steps.len()
     }
 
-    /// Whether there are none.
+    /// True if there are no positions.
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.steps.is_empty()
     }
 
-    /// Bytes held, about.
+    /// Approximate size in memory \[bytes\].
     #[must_use]
     pub fn size(&self) -> usize {
         self.steps.len() * 4
@@ -63,15 +65,15 @@ fn step_m(power: u8) -> f32 {
     1.0 / f32::from(1_u16 << power)
 }
 
-/// A cloud in a quarter of the bytes, for those that wait until somebody looks: places in steps of a
-/// millimetre or less, normals in steps of less than half a degree. What is unpacked packs to the
-/// same bytes again.
+/// Cloud in a quarter of the memory, for clouds that are rarely used: positions quantized to a
+/// millimetre or less, normals to less than half a degree. An unpacked cloud packs to the same
+/// bytes again.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PackedCloud {
     places: PackedPlaces,
-    /// Normals in parts of 127.
+    /// Normals, scaled by 127.
     normals: Box<[[i8; 2]]>,
-    /// Whether everything between a point and the next was seen, eight to a byte.
+    /// Visibility flags, eight per byte.
     followed: Box<[u8]>,
 }
 
@@ -93,7 +95,7 @@ impl PackedCloud {
         }
     }
 
-    /// The cloud.
+    /// Unpacks the cloud.
     #[must_use]
     pub fn cloud(&self) -> Cloud {
         let points = self.places.iter().zip(&self.normals).enumerate();
@@ -104,13 +106,13 @@ impl PackedCloud {
         Cloud::sorted(points, self.places.middle())
     }
 
-    /// Where its points are, from the scanner.
+    /// Positions of the points, relative to the scanner.
     #[must_use]
     pub fn places(&self) -> &PackedPlaces {
         &self.places
     }
 
-    /// Bytes held, about.
+    /// Approximate size in memory \[bytes\].
     #[must_use]
     pub fn size(&self) -> usize {
         self.places.size() + self.normals.len() * 2 + self.followed.len()

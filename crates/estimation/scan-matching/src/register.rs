@@ -1,51 +1,53 @@
-//! Registration of a cloud onto others, from a good start.
+//! Local registration of clouds from a good initial pose.
 
 use periplus_geometry::{Pose2, normalize_angle};
 
 use crate::cloud::Cloud;
 use crate::symmetric::Symmetric3;
 
-/// A cloud in a group that is rigid.
+/// Cloud with its pose in a rigid group.
 #[derive(Clone, Copy)]
 pub struct Placed<'a> {
-    /// Its points.
+    /// Cloud.
     pub cloud: &'a Cloud,
-    /// Where they are in the frame of the group.
+    /// Pose of the cloud in the group frame.
     pub group_from_cloud: Pose2,
 }
 
 impl<'a> Placed<'a> {
-    /// A cloud that is a group of its own.
+    /// Creates a group of one cloud.
     #[must_use]
     pub fn alone(cloud: &'a Cloud) -> Self {
         Self { cloud, group_from_cloud: Pose2::IDENTITY }
     }
 }
 
-/// What is known of the pose from elsewhere.
+/// Prior of the pose.
 #[derive(Clone, Copy, Debug)]
 pub struct Prior {
-    /// The pose that is expected.
+    /// Expected pose.
     pub target_from_moving: Pose2,
-    /// How surely.
+    /// Information matrix of the prior.
     pub information: Symmetric3,
 }
 
-/// How a registration runs.
+/// Settings of a registration.
 #[derive(Clone, Copy, Debug)]
 pub struct RegisterSettings {
-    /// Points farther from their nearest than this have no partner \[m\]: at the start, at the end.
+    /// Maximum distance of correspondences \[m\]: at the start, at the end.
     pub reach_m: [f32; 2],
-    /// Where the pull of a residual is greatest is at 0.58 of this \[m\]: at the start, at the end.
+    /// Scale of the robust kernel \[m\]: at the start, at the end. The influence of a residual is
+    /// greatest at 0.58 of it.
     pub scale_m: [f32; 2],
-    /// Steps of Gauss and Newton.
+    /// Number of Gauss-Newton iterations.
     pub steps: usize,
-    /// Standard deviation of a point from the line \[m\], for the information.
+    /// Standard deviation of the distance of a point from its line \[m\], for the information.
     pub sigma_m: f64,
-    /// Neighbouring beams err alike: this part of the points counts as independent.
+    /// Fraction of the points that count as independent, since the errors of adjacent beams are
+    /// correlated.
     pub independent: f64,
-    /// Where the information along the weakest direction is less than this part of that along the
-    /// strongest, it is taken for the roughness of walls, and nothing is known along it.
+    /// Ratio of the information along the weakest direction to that along the strongest below which
+    /// the weakest one is attributed to the roughness of walls and dropped.
     pub degenerate: f64,
 }
 
@@ -62,29 +64,29 @@ impl Default for RegisterSettings {
     }
 }
 
-/// What came of a registration.
+/// Result of a registration.
 #[derive(Clone, Copy, Debug)]
 pub struct Fit {
-    /// Where the cloud fits best.
+    /// Registered pose.
     pub target_from_moving: Pose2,
-    /// What the points say, without the prior; errors are a shift along the target's axes and a turn
-    /// about the origin of the moving cloud.
+    /// Information from the points, without the prior. Errors are a translation along the axes of
+    /// the target and a rotation about the origin of the moving cloud.
     pub information: Symmetric3,
-    /// The part of the points that found a partner.
+    /// Fraction of the points with a correspondence.
     pub matched: f64,
-    /// How far matched points are from their lines, root mean square, weighted \[m\].
+    /// Weighted root mean square distance of matched points from their lines \[m\].
     pub rms_m: f64,
-    /// Robust sum over all points, and the prior, in squared standard deviations: to compare fits of
-    /// the same clouds from different starts.
+    /// Robust cost over all points and the prior, in squared standard deviations: comparable
+    /// between initial poses of the same clouds.
     pub cost: f64,
-    /// 0 where the points tell nothing along some direction, 1 where they tell enough along all.
+    /// Observability: 0 if the points leave some direction undetermined, 1 if they determine all.
     pub firmness: f64,
 }
 
-/// Moves a group of clouds onto another group: each point towards the line through the nearest point of each
-/// reference (or the point itself, where no line is clear), least squares with the weights of Geman
-/// and McClure, whose width shrinks from step to step. Surfaces that face away from each other are
-/// the two sides of a wall, and no partners.
+/// Registers a group of clouds with another group: robust point-to-line ICP. The residual of a
+/// point is its distance from the line through the nearest point of each reference, or from that
+/// point where no line is known. The kernel (Geman-McClure) narrows from iteration to iteration.
+/// Surfaces with opposite normals are two sides of a wall, and no correspondences.
 #[must_use]
 pub fn register(
     moving: &[Placed<'_>],
@@ -99,7 +101,7 @@ pub fn register(
     let steps = settings.steps.max(1);
     for step in 0..steps {
         let (reach_m, scale_m) = schedule(settings, step, steps);
-        // The first steps need not be exact.
+        // The first iterations need less accuracy.
         let every = if 2 * step < steps { 2 } else { 1 };
         pairs.begin(pose, reach_m, every);
         let mut sums = Sums::collect(moving, &frames, pose, reach_m, scale_m, every, &mut pairs);
@@ -114,7 +116,7 @@ pub fn register(
                 *sum += part;
             }
         }
-        // So that a step is finite where nothing at all is known.
+        // Keeps the step finite where nothing is determined.
         information += Symmetric3::diagonal(1e-3, 1e-3, 1e-3);
         let Some(change) = information.solve(gradient) else { break };
         pose = Pose2::new(
@@ -122,9 +124,9 @@ pub fn register(
             pose.y_m - change[1].clamp(-0.5, 0.5),
             normalize_angle(pose.yaw_rad - change[2].clamp(-0.3, 0.3)),
         );
-        let is_settled =
-            change[0].abs() + change[1].abs() < SETTLED_M && change[2].abs() < SETTLED_RAD;
-        if is_settled && every == 1 {
+        let has_converged =
+            change[0].abs() + change[1].abs() < MIN_STEP_M && change[2].abs() < MIN_STEP_RAD;
+        if has_converged && every == 1 {
             break;
         }
     }
@@ -148,18 +150,18 @@ pub fn register(
 }
 
 fn schedule(settings: &RegisterSettings, step: usize, steps: usize) -> (f32, f32) {
-    // The second half of the steps is at the final width.
+    // The second half of the iterations uses the final values.
     let part = (2.0 * step as f32 / steps as f32).min(1.0);
     let between = |[from, to]: [f32; 2]| from + (to - from) * part;
     (between(settings.reach_m), between(settings.scale_m))
 }
 
-/// Shift along the parent's axes and turn from `from` to `to`.
+/// Translation along the parent's axes and rotation from `from` to `to`.
 fn difference(to: Pose2, from: Pose2) -> [f64; 3] {
     [to.x_m - from.x_m, to.y_m - from.y_m, normalize_angle(to.yaw_rad - from.yaw_rad)]
 }
 
-/// A reference with its sine and cosine.
+/// Reference cloud with its rotation.
 struct Frame<'a> {
     cloud: &'a Cloud,
     cloud_from_target: Pose2,
@@ -175,28 +177,29 @@ impl<'a> Frame<'a> {
     }
 }
 
-/// Nearest points of the references, kept while the pose hardly changes: the search for them is most of the
-/// work of a step.
+/// Correspondences, kept while the pose hardly changes: their search dominates the cost of an
+/// iteration.
 #[derive(Default)]
 struct Pairs {
-    /// Of each moving point in turn, the index of the nearest point of each reference, if one is within reach.
+    /// Per moving point, the index of the nearest point of each reference within reach.
     nearest: Vec<Option<u32>>,
-    /// Pose, reach and step between points that they were searched with.
+    /// Pose, reach and point step of the search.
     of: Option<(Pose2, f32, usize)>,
-    /// Pair to be used next; none where they are to be searched.
+    /// Next correspondence to use; none while searching.
     next: Option<usize>,
 }
 
-/// Nearest points are searched again when the pose has changed by more \[m, rad\].
-const PAIRED_M: f64 = 2e-3;
-const PAIRED_RAD: f64 = 1e-3;
+/// Pose change above which correspondences are searched again.
+const MAX_REUSE_M: f64 = 2e-3;
+const MAX_REUSE_RAD: f64 = 1e-3;
 
 impl Pairs {
-    /// Prepares a pass over all points.
+    /// Starts an iteration over all points.
     fn begin(&mut self, pose: Pose2, reach_m: f32, every: usize) {
         let serve = |&(from, reach, step): &(Pose2, f32, usize)| {
             let [x_m, y_m, rad] = difference(pose, from);
-            let is_near = x_m.abs() < PAIRED_M && y_m.abs() < PAIRED_M && rad.abs() < PAIRED_RAD;
+            let is_near =
+                x_m.abs() < MAX_REUSE_M && y_m.abs() < MAX_REUSE_M && rad.abs() < MAX_REUSE_RAD;
             is_near && reach == reach_m && step == every
         };
         if self.of.as_ref().is_some_and(serve) {
@@ -218,12 +221,12 @@ impl Pairs {
     }
 }
 
-/// What pulls at a point.
-struct Partner {
-    /// Normal of its line in the target; or where the point is from it.
+/// Correspondence of a point.
+struct Correspondence {
+    /// Normal of the line in the target frame; for a point, the offset from it.
     x: f64,
     y: f64,
-    /// Distance from its line \[m\].
+    /// Distance from the line \[m\].
     error: f64,
     is_line: bool,
 }
@@ -240,17 +243,17 @@ struct Sums {
     firmness: f64,
 }
 
-/// How far a fit is shifted to see what resists \[m\], and at which ratio of the information along
-/// the weakest direction to that along the strongest this is asked.
+/// Shift of a result to measure its resistance \[m\], and the ratio of the weakest to the strongest
+/// information below which this is done.
 const PROBE_M: f64 = 0.1;
-const WEAK: f64 = 0.3;
-/// A step that moves less is the last \[m, rad\].
-const SETTLED_M: f64 = 3e-4;
-const SETTLED_RAD: f64 = 1e-4;
-/// Lines whose normals are farther apart than 60 degrees are not the same.
-const ALIKE: f32 = 0.5;
-/// A point without a line pulls as a point, but less: it may be anywhere along what it lies on.
-const LOOSE: f64 = 0.3;
+const MAX_PROBED_RATIO: f64 = 0.3;
+/// Step below which the iteration ends.
+const MIN_STEP_M: f64 = 3e-4;
+const MIN_STEP_RAD: f64 = 1e-4;
+/// Minimum cosine between normals of a correspondence: 60 degrees.
+const MIN_NORMAL_COSINE_RATIO: f32 = 0.5;
+/// Weight of a point-to-point residual: the point may be anywhere on its surface.
+const POINT_WEIGHT_FACTOR: f64 = 0.3;
 
 impl Sums {
     fn collect(
@@ -281,10 +284,10 @@ impl Sums {
         let sums = self;
         let pose = target_from_group * moving.group_from_cloud;
         let (target_sine, target_cosine) = libm::sincos(pose.yaw_rad);
-        // From the origin of the group to that of the cloud, in the target.
+        // Lever arm from the origin of the group to that of the cloud, in the target frame.
         let lever = [pose.x_m - target_from_group.x_m, pose.y_m - target_from_group.y_m];
         let scale = f64::from(scale_m) * f64::from(scale_m);
-        // The moving cloud in the frame of each reference.
+        // Pose of the moving cloud in each reference.
         let placed: Vec<(f32, f32, f32, f32)> = frames
             .iter()
             .map(|frame| {
@@ -293,10 +296,10 @@ impl Sums {
                 (place.x_m as f32, place.y_m as f32, sine as f32, cosine as f32)
             })
             .collect();
-        let mut partners: Vec<Partner> = Vec::with_capacity(frames.len());
+        let mut correspondences: Vec<Correspondence> = Vec::with_capacity(frames.len());
         for point in moving.cloud.points().iter().step_by(every) {
-            partners.clear();
-            // From the origin of the moving group to the point, in the target.
+            correspondences.clear();
+            // Lever arm from the origin of the moving group to the point, in the target frame.
             let (along, across) = (f64::from(point.x), f64::from(point.y));
             let arm_x = target_cosine * along - target_sine * across + lever[0];
             let arm_y = target_sine * along + target_cosine * across + lever[1];
@@ -304,23 +307,23 @@ impl Sums {
                 let x = cosine * point.x - sine * point.y + x_m;
                 let y = sine * point.x + cosine * point.y + y_m;
                 let Some(index) = pairs.nearest(frame.cloud, x, y, reach_m) else { continue };
-                let partner = frame.cloud.points()[index];
-                let is_line = partner.is_on_line();
+                let correspondence = frame.cloud.points()[index];
+                let is_line = correspondence.is_on_line();
                 if is_line && point.is_on_line() {
                     let nx = cosine * point.nx - sine * point.ny;
                     let ny = sine * point.nx + cosine * point.ny;
-                    if nx * partner.nx + ny * partner.ny < ALIKE {
+                    if nx * correspondence.nx + ny * correspondence.ny < MIN_NORMAL_COSINE_RATIO {
                         continue;
                     }
                 }
-                let (dx, dy) = (f64::from(x - partner.x), f64::from(y - partner.y));
+                let (dx, dy) = (f64::from(x - correspondence.x), f64::from(y - correspondence.y));
                 let (u, v, error) = if is_line {
-                    let (nx, ny) = (f64::from(partner.nx), f64::from(partner.ny));
+                    let (nx, ny) = (f64::from(correspondence.nx), f64::from(correspondence.ny));
                     (nx, ny, nx * dx + ny * dy)
                 } else {
                     (dx, dy, 0.0)
                 };
-                partners.push(Partner {
+                correspondences.push(Correspondence {
                     x: frame.cosine * u - frame.sine * v,
                     y: frame.sine * u + frame.cosine * v,
                     error,
@@ -328,29 +331,31 @@ impl Sums {
                 });
             }
             sums.count += 1.0;
-            if partners.is_empty() {
-                // As much as a partner at infinity.
+            if correspondences.is_empty() {
+                // Cost of a correspondence at infinity.
                 sums.cost += scale;
                 continue;
             }
             sums.matched += 1.0;
-            let share = 1.0 / partners.len() as f64;
-            for partner in &partners {
-                if partner.is_line {
-                    let (nx, ny, error) = (partner.x, partner.y, partner.error);
-                    // Geman and McClure: rho = e² s / (s + e²), with weight (s / (s + e²))².
+            let share = 1.0 / correspondences.len() as f64;
+            for correspondence in &correspondences {
+                if correspondence.is_line {
+                    let (nx, ny, error) =
+                        (correspondence.x, correspondence.y, correspondence.error);
+                    // Geman-McClure: rho = e² s / (s + e²), with weight (s / (s + e²))².
                     let shrink = scale / (scale + error * error);
                     sums.cost += share * error * error * shrink;
                     let row = [nx, ny, ny * arm_x - nx * arm_y];
                     sums.push(row, error, share * shrink * shrink);
                 } else {
-                    // One weight for both directions, by the whole distance.
-                    let squared = partner.x * partner.x + partner.y * partner.y;
+                    // One weight for both components, by the distance.
+                    let squared =
+                        correspondence.x * correspondence.x + correspondence.y * correspondence.y;
                     let shrink = scale / (scale + squared);
-                    let weight = LOOSE * share * shrink * shrink;
-                    sums.push([1.0, 0.0, -arm_y], partner.x, weight);
-                    sums.push([0.0, 1.0, arm_x], partner.y, weight);
-                    sums.cost += LOOSE * share * squared * shrink;
+                    let weight = POINT_WEIGHT_FACTOR * share * shrink * shrink;
+                    sums.push([1.0, 0.0, -arm_y], correspondence.x, weight);
+                    sums.push([0.0, 1.0, arm_x], correspondence.y, weight);
+                    sums.cost += POINT_WEIGHT_FACTOR * share * squared * shrink;
                 }
             }
         }
@@ -365,9 +370,9 @@ impl Sums {
         self.weights += weight;
     }
 
-    /// What the points resist a shift along the weakest direction with, by doing it. Rough walls and
-    /// partners that move along with a point make the derivatives claim more than there is: only the
-    /// sums after a real shift tell (Olson 2009 takes covariances from such responses).
+    /// Reduces the information along the weakest direction to the measured resistance to a shift.
+    /// Rough walls, and correspondences that move along with a point, make derivatives overestimate
+    /// it; the cost after a real shift does not (Olson 2009 takes covariances from such responses).
     fn probe(
         &mut self,
         moving: &[Placed<'_>],
@@ -376,7 +381,7 @@ impl Sums {
         settings: &RegisterSettings,
     ) {
         let (low, high, [u, v]) = self.information.weakest_shift();
-        if low <= 0.0 || low > WEAK * high {
+        if low <= 0.0 || low > MAX_PROBED_RATIO * high {
             return;
         }
         let turn = self.turn_along(u, v);
@@ -393,13 +398,14 @@ impl Sums {
         self.information.add_outer([u, v, 0.0], -less);
     }
 
-    /// The turn that goes with a shift along the weakest direction.
+    /// Rotation that accompanies a shift along the weakest direction.
     fn turn_along(&self, u: f64, v: f64) -> f64 {
         let Symmetric3 { xt, yt, tt, .. } = self.information;
         if tt > 0.0 { -(xt * u + yt * v) / tt } else { 0.0 }
     }
 
-    /// From sums over points to standard deviations, without what only walls' roughness says.
+    /// Scales sums over points to units of standard deviations and drops information that stems
+    /// from the roughness of walls.
     fn weigh(&mut self, settings: &RegisterSettings) {
         let weight = settings.independent / (settings.sigma_m * settings.sigma_m);
         self.information = self.information * weight;
@@ -409,11 +415,11 @@ impl Sums {
         }
         let (low, high, [u, v]) = self.information.weakest_shift();
         let ratio = if high > 0.0 { low / high } else { 0.0 };
-        // From nothing at the bound to all at twice the bound.
+        // 0 at the bound, 1 at twice the bound.
         self.firmness = (ratio / settings.degenerate.max(1e-9) - 1.0).clamp(0.0, 1.0);
         if self.firmness < 1.0 {
-            // Moving along (u, v), and turning as that asks for, is what the points resist least:
-            // the information takes that direction to low times (u, v, 0).
+            // A shift along (u, v) with its rotation is the direction of least resistance: the
+            // information maps it to low times (u, v, 0).
             let turn = self.turn_along(u, v);
             let along = self.gradient[0] * u + self.gradient[1] * v + self.gradient[2] * turn;
             let part = 1.0 - self.firmness;
@@ -424,20 +430,19 @@ impl Sums {
     }
 }
 
-/// What two clouds say about where one is in the other, both ways: the sums of a least-squares step.
+/// Symmetric comparison of two clouds at a pose: one least-squares step.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Comparison {
-    /// The information about the pose of the moving cloud in the other; errors are a shift along the
-    /// other's axes and a turn about the origin of the moving cloud.
+    /// Information about the pose of the moving cloud. Errors are a translation along the axes of
+    /// the target and a rotation about the origin of the moving cloud.
     pub information: Symmetric3,
-    /// The pose at which both fit best, to first order.
+    /// Pose of the best fit, to first order.
     pub target_from_moving: Pose2,
-    /// Points that found partners among all, both ways.
+    /// Fraction of the points with a correspondence, in both directions.
     pub matched: f64,
 }
 
-/// Holds two clouds against each other at a pose: points of each (or one of `every`) against lines of
-/// the other.
+/// Compares two clouds at a pose: every `every`-th point of each with the lines of the other.
 #[must_use]
 pub fn compare(
     moving: &Cloud,
@@ -470,9 +475,9 @@ pub fn compare(
         every,
         &mut Pairs::default(),
     );
-    // The other way speaks of `moving_from_target` q = (u, phi) with t = -R(-phi) u. To first order a
-    // change (du, dphi) of it is dt = -R du - perp(t) dphi and dtheta = -dphi of ours; so its
-    // information is carried over with the inverse of that, which is du = -R^T (dt - perp(t) dtheta).
+    // The reverse direction is in terms of `moving_from_target` q = (u, phi) with t = -R(-phi) u.
+    // To first order, a change (du, dphi) of it is dt = -R du - perp(t) dphi and dtheta = -dphi.
+    // Its information is transformed with the inverse of that: du = -R^T (dt - perp(t) dtheta).
     let (sine, cosine) = libm::sincos(target_from_moving.yaw_rad);
     let (x, y) = (target_from_moving.x_m, target_from_moving.y_m);
     let columns = [
@@ -480,7 +485,7 @@ pub fn compare(
         [sine, -cosine, -sine * -y + cosine * x],
         [0.0, 0.0, -1.0],
     ];
-    sums.information += carried(&other.information, &columns);
+    sums.information += transformed(&other.information, &columns);
     for (i, sum) in sums.gradient.iter_mut().enumerate() {
         *sum += (0..3).map(|k| columns[k][i] * other.gradient[k]).sum::<f64>();
     }
@@ -490,7 +495,7 @@ pub fn compare(
     let information = sums.information + Symmetric3::diagonal(1e-3, 1e-3, 1e-3);
     let change = information.solve(sums.gradient).unwrap_or_default();
     Comparison {
-        // Both ways count the same surfaces.
+        // Both directions count the same surfaces.
         information: sums.information * 0.5,
         target_from_moving: Pose2::new(
             x - change[0].clamp(-0.2, 0.2),
@@ -502,7 +507,7 @@ pub fn compare(
 }
 
 /// `columns`ᵀ · m · `columns`.
-fn carried(m: &Symmetric3, columns: &[[f64; 3]; 3]) -> Symmetric3 {
+fn transformed(m: &Symmetric3, columns: &[[f64; 3]; 3]) -> Symmetric3 {
     let full = [[m.xx, m.xy, m.xt], [m.xy, m.yy, m.yt], [m.xt, m.yt, m.tt]];
     let entry = |i: usize, j: usize| {
         let mut sum = 0.0;
@@ -530,7 +535,7 @@ mod tests {
     use super::*;
     use crate::CloudSettings;
 
-    /// The walls of a rectangle, seen from a place in it.
+    /// Scan of a rectangular room from a pose in it.
     fn room(from: Pose2, beams: usize) -> Cloud {
         let step = std::f64::consts::TAU / beams as f64;
         let ends = (0..beams).map(|i| {
@@ -554,7 +559,7 @@ mod tests {
         #![proptest_config(ProptestConfig::with_cases(32))]
 
         #[test]
-        fn a_scan_finds_its_place(x in -0.25..0.25_f64, y in -0.25..0.25_f64, yaw in -0.15..0.15_f64) {
+        fn a_scan_is_registered(x in -0.25..0.25_f64, y in -0.25..0.25_f64, yaw in -0.15..0.15_f64) {
             let truth = Pose2::new(x, y, yaw);
             let (first, second) = (room(Pose2::IDENTITY, 360), room(truth, 360));
             let fit = register(
@@ -566,7 +571,7 @@ mod tests {
         }
 
         #[test]
-        fn both_ways_agree(x in -0.04..0.04_f64, y in -0.04..0.04_f64, yaw in -0.02..0.02_f64) {
+        fn both_directions_agree(x in -0.04..0.04_f64, y in -0.04..0.04_f64, yaw in -0.02..0.02_f64) {
             let truth = Pose2::new(x, y, yaw);
             let (first, second) = (room(Pose2::IDENTITY, 360), room(truth, 360));
             let mut pose = Pose2::IDENTITY;
@@ -579,12 +584,12 @@ mod tests {
     }
 
     #[test]
-    fn a_corridor_holds_across_and_lets_go_along() {
+    fn a_corridor_is_determined_across_but_not_along() {
         let beams = |shift: f32| {
             (0..360).map(move |i| {
                 let (s, c) =
                     (libm::sinf((i as f32).to_radians()), libm::cosf((i as f32).to_radians()));
-                // Nothing comes back from the far ends.
+                // No returns from the far ends.
                 let range = if s > 0.0 { (1.0 - shift) / s } else { (-1.2 - shift) / s };
                 (range < 9.0).then_some([range * c, range * s])
             })

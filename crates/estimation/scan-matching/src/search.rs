@@ -1,47 +1,47 @@
-//! The best place in all of a window.
+//! Global search for the best pose in a window.
 
 use periplus_geometry::{Pose2, normalize_angle};
 
 use crate::field::Field;
 
-/// Where to search: around a middle, so far to either side.
+/// Search window.
 #[derive(Clone, Copy, Debug)]
 pub struct Window {
-    /// The middle.
+    /// Center.
     pub middle: Pose2,
-    /// To either side along x and y \[m\].
+    /// Half width along x and y \[m\].
     pub half_m: [f64; 2],
-    /// To either side \[rad\].
+    /// Half width in yaw \[rad\].
     pub half_rad: f64,
-    /// From one heading to the next \[rad\].
+    /// Heading step \[rad\].
     pub step_rad: f64,
 }
 
-/// A place where points fit.
+/// Local maximum of the score.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Peak {
-    /// The place.
+    /// Pose.
     pub pose: Pose2,
-    /// Mean likelihood of the points there, 0 to 1.
+    /// Mean likelihood of the points, 0 to 1.
     pub score: f64,
 }
 
-/// Which peaks are looked for.
+/// Settings of a search for several peaks.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Wanted {
-    /// Lower scores are none.
+    /// Minimum score.
     pub least: f64,
-    /// Nor are those below this share of the best.
+    /// Minimum score as a fraction of the best one.
     pub share: f64,
-    /// No more than so many.
+    /// Maximum number of peaks.
     pub most: usize,
-    /// Of places nearer to each other than this the better one counts: \[m\], \[rad\].
+    /// Minimum separation of peaks \[m\], \[rad\]; of closer ones the better is kept.
     pub apart: (f64, f64),
-    /// So many lookups, and the share is raised, so that the end comes soon.
+    /// Number of lookups after which `share` is raised, to end the search soon.
     pub most_work: u64,
 }
 
-/// A square of shifts at one heading.
+/// Square of translations at one heading.
 #[derive(Clone, Copy)]
 struct Node {
     heading: u32,
@@ -50,18 +50,18 @@ struct Node {
     bound: u32,
 }
 
-/// A place, and how near others count as the same: \[m\], \[rad\].
+/// Pose, and the distance \[m\] and angle \[rad\] within which others count as the same.
 pub(crate) type Zone = (Pose2, f64, f64);
 
 impl Field {
-    /// The place in a window where points have the highest mean likelihood, if any reaches `least`:
-    /// with certainty the best of all on the lattice of cells and headings. With `avoid` places
-    /// nearer than so many metres and radians to a pose do not count: so a second peak is found.
+    /// Finds the pose in a window with the highest mean likelihood of the points, if any reaches
+    /// `least`: the global maximum on the grid of cells and headings. Poses close to `avoid` (pose,
+    /// distance \[m\], angle \[rad\]) do not count, so that a second peak can be found.
     ///
-    /// Branch and bound: the largest value over a square of cells bounds what any shift within it
-    /// can reach (Hess et al. 2016, "Real-time loop closure in 2D LIDAR SLAM").
+    /// Branch and bound: the maximum over a square of cells bounds the score of every translation
+    /// within it (Hess et al. 2016, "Real-time loop closure in 2D LIDAR SLAM").
     ///
-    /// The number beside is the work done, in lookups.
+    /// Also returns the number of lookups.
     #[must_use]
     pub fn search(
         &self,
@@ -80,31 +80,31 @@ impl Field {
 }
 
 impl Field {
-    /// All peaks in a window, the best first, by the same search; the best is among them whatever
-    /// the work. The number beside is the work done, in lookups.
+    /// Finds all peaks in a window, best first, by the same search. The best one is found whatever
+    /// the work. Also returns the number of lookups.
     #[must_use]
     pub fn peaks(&self, points: &[[f32; 2]], window: &Window, wanted: &Wanted) -> (Vec<Peak>, u64) {
         if points.is_empty() || wanted.most == 0 {
             return (Vec::new(), 0);
         }
         let mut search = Search::new(self, points, window, wanted.least, None);
-        search.several = Some(Several { wanted: *wanted, share: wanted.share, peaks: Vec::new() });
+        search.several = Some(PeakList { wanted: *wanted, share: wanted.share, peaks: Vec::new() });
         search.run();
         let peaks = search.several.map_or_else(Vec::new, |several| several.peaks);
         (peaks.into_iter().map(|(_, peak)| peak).collect(), search.work)
     }
 }
 
-/// Peaks so far, the best first, with their bounds.
-struct Several {
+/// Peaks found so far with their bounds, best first.
+struct PeakList {
     wanted: Wanted,
     share: f64,
     peaks: Vec<(u32, Peak)>,
 }
 
-impl Several {
-    /// Takes a place; gives what others have to exceed from now on.
-    fn take(&mut self, bound: u32, peak: Peak, work: u64, least: u32) -> u32 {
+impl PeakList {
+    /// Adds a candidate and returns the new threshold.
+    fn insert(&mut self, bound: u32, peak: Peak, work: u64, least: u32) -> u32 {
         let (metres, radians) = self.wanted.apart;
         let is_near = |other: &Peak| {
             (other.pose.x_m - peak.pose.x_m).abs() < metres
@@ -125,30 +125,30 @@ impl Several {
         let best = self.peaks.first().map_or(0, |(best, _)| *best);
         let full = self.peaks.len() == self.wanted.most;
         let worst = self.peaks.last().filter(|_| full).map_or(0, |(worst, _)| *worst);
-        // One less, since only what exceeds it is looked into.
+        // One less, since only bounds above it are expanded.
         least.max(worst).max(((f64::from(best) * self.share) as u32).saturating_sub(1))
     }
 }
 
-/// More cells than any field has on a side, and few enough to leave a float its fractions.
-const FAR: f32 = 16384.0;
+/// Offset that is larger than any field and leaves a float its fraction.
+const OFFSET_CELLS: f32 = 16384.0;
 
-/// After so many points it is seen whether the rest can matter.
-const POINTS: usize = 12;
+/// Number of points between checks whether the rest can still reach the threshold.
+const CHECK_POINTS: usize = 12;
 
 struct Search<'a> {
     field: &'a Field,
     window: &'a Window,
     avoid: Option<Zone>,
     count: usize,
-    /// Shifts to either side in cells.
+    /// Half width of the window \[cells\].
     reach: [i32; 2],
     headings: u32,
-    /// For each heading, the points in cells.
+    /// Per heading, the points \[cells\].
     cells: Vec<(i32, i32)>,
     found: Option<Node>,
-    /// Where all peaks are wanted.
-    several: Option<Several>,
+    /// State of a search for several peaks.
+    several: Option<PeakList>,
     threshold: u32,
     work: u64,
 }
@@ -171,8 +171,8 @@ impl<'a> Search<'a> {
             let (sine, cosine) = (sine as f32, cosine as f32);
             let x = window.middle.x_m as f32 - field.corner[0];
             let y = window.middle.y_m as f32 - field.corner[1];
-            // Rounds down, also below zero, without a call.
-            let cell = |value: f32| (value * scale + FAR) as i32 - FAR as i32;
+            // Rounds down, including negative values, without a function call.
+            let cell = |value: f32| (value * scale + OFFSET_CELLS) as i32 - OFFSET_CELLS as i32;
             cells.extend(points.iter().map(|p| {
                 (cell(cosine * p[0] - sine * p[1] + x), cell(sine * p[0] + cosine * p[1] + y))
             }));
@@ -197,7 +197,7 @@ impl<'a> Search<'a> {
     }
 
     fn run(&mut self) {
-        // Squares no larger than the window asks for.
+        // Coarsest level that is not larger than the window.
         let mut top = self.field.levels.len() - 1;
         while top > 0 && (1 << (top - 1)) > 2 * self.reach[0].max(self.reach[1]) {
             top -= 1;
@@ -222,7 +222,7 @@ impl<'a> Search<'a> {
         self.descend(roots, top);
     }
 
-    /// Looks into squares, the most promising first.
+    /// Expands squares, the most promising first.
     fn descend(&mut self, mut nodes: Vec<Node>, level: usize) {
         nodes.sort_by_key(|node| std::cmp::Reverse(node.bound));
         for node in nodes {
@@ -231,7 +231,7 @@ impl<'a> Search<'a> {
             }
             if level == 0 {
                 if self.several.is_some() {
-                    self.take(node);
+                    self.add_peak(node);
                 } else if !self.is_avoided(node) {
                     self.threshold = node.bound;
                     self.found = Some(node);
@@ -255,31 +255,31 @@ impl<'a> Search<'a> {
         }
     }
 
-    /// Takes a place as one of several.
-    fn take(&mut self, node: Node) {
+    /// Adds a candidate as one of several peaks.
+    fn add_peak(&mut self, node: Node) {
         let (peak, work, least) = (self.peak(node), self.work, self.threshold);
         if let Some(several) = &mut self.several {
-            self.threshold = several.take(node.bound, peak, work, least);
+            self.threshold = several.insert(node.bound, peak, work, least);
         }
     }
 
-    /// Most that any shift in a square can reach, summed over points.
+    /// Upper bound of the score of the translations in a square, summed over points.
     fn bound(&mut self, node: Node, level: usize) -> u32 {
         self.work += self.count as u64;
         let values = &self.field.levels[level];
         let (width, height) = (self.field.width as u32, self.field.height as u32);
         let start = node.heading as usize * self.count;
         let (mut sum, mut rest) = (0, 255 * self.count as u32);
-        for points in self.cells[start..start + self.count].chunks(POINTS) {
+        for points in self.cells[start..start + self.count].chunks(CHECK_POINTS) {
             for &(column, row) in points {
-                // Below zero is far above the size.
+                // Negative values wrap to values above the size.
                 let (column, row) = ((column + node.x) as u32, (row + node.y) as u32);
                 if column < width && row < height {
                     sum += u32::from(values[(row * width + column) as usize]);
                 }
             }
             rest -= 255 * points.len() as u32;
-            // However well the others fit, nobody will look into it.
+            // Even with full scores of the rest, the square will not be expanded.
             if sum + rest <= self.threshold {
                 break;
             }
@@ -332,7 +332,7 @@ mod tests {
     }
 
     #[test]
-    fn the_best_place_is_the_best_of_all_places() {
+    fn the_best_pose_is_the_global_maximum() {
         for seed in 0..4 {
             let points = scattered(seed);
             let field = Field::new(&points, [0.0, 0.0], &FieldSettings::default());
@@ -351,7 +351,7 @@ mod tests {
             assert!((peak.pose.x_m - truth.x_m).abs() < 0.1, "{peak:?}");
             assert!((peak.pose.y_m - truth.y_m).abs() < 0.1, "{peak:?}");
             assert!((peak.pose.yaw_rad - truth.yaw_rad).abs() < 0.02, "{peak:?}");
-            // Against looking everywhere.
+            // Exhaustive search.
             let mut best = 0.0_f64;
             for heading in -50..=50 {
                 for x in -20..=20 {
@@ -368,7 +368,7 @@ mod tests {
                             .map(|p| {
                                 let x = c * p[0] - s * p[1];
                                 let y = s * p[0] + c * p[1];
-                                // As the search does: cells first, then whole shifts.
+                                // As in the search: cells first, then whole cells of translation.
                                 let cell = |v: f32, corner: f32| {
                                     ((v - corner) / 0.1).floor() * 0.1 + corner + 0.05
                                 };

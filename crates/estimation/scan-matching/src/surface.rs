@@ -1,47 +1,49 @@
-//! The surface on which a point of a scan lies.
+//! Surface normals of points of a scan.
 
-/// Points farther apart than this are not on one surface, however far away \[m\].
-const LARGEST_GAP_M: f32 = 0.6;
-/// A surface seen at a glancing angle has gaps up to so many times those of one seen straight.
-const GLANCING: f32 = 6.0;
-/// Gaps below this never break a surface \[m\].
-const SMALLEST_GAP_M: f32 = 0.12;
-/// How far along the scan points take part on either side \[m\], and how many at least and at most.
+/// Maximum gap between points of one surface \[m\].
+const MAX_GAP_M: f32 = 0.6;
+/// Maximum gap at glancing incidence, as a multiple of that at normal incidence.
+const GLANCING_FACTOR: f32 = 6.0;
+/// Maximum gap that never separates surfaces \[m\].
+const MIN_GAP_M: f32 = 0.12;
+/// Extent of the neighbourhood along the scan on either side \[m\], and its minimum and maximum
+/// number of points.
 const REACH_M: f32 = 0.25;
-const LEAST: usize = 2;
-const MOST: usize = 10;
-/// A line is one when its points lie so near to it \[m\], root mean square,
-const FLAT_M: f32 = 0.035;
-/// and it is so many times longer than wide.
-const LONG: f32 = 4.0;
+const MIN_POINTS: usize = 2;
+const MAX_POINTS: usize = 10;
+/// Maximum root mean square distance of the points from their line \[m\],
+const MAX_RMS_M: f32 = 0.035;
+/// and minimum ratio of its length to its width.
+const MIN_ASPECT_RATIO: f32 = 4.0;
 
-/// A point of a scan in its order.
+/// Point of a scan with its index.
 #[derive(Clone, Copy)]
 pub(crate) struct Beam {
     pub(crate) x: f32,
     pub(crate) y: f32,
-    /// Place in the scan's order, with the beams that saw nothing counted.
+    /// Index in the scan, counting beams without a return.
     pub(crate) index: usize,
 }
 
-/// The normal of the line through a point and its neighbours along the scan, towards the scanner;
-/// (0, 0) where there is no line. Total least squares.
+/// Normal of the line through a point and its neighbours along the scan, towards the scanner; (0,
+/// 0) where there is no line. Total least squares.
 pub(crate) fn normal(beams: &[Beam], at: usize, origin: [f32; 2], step_rad: f32) -> [f32; 2] {
     let here = beams[at];
     let is_joined = |a: Beam, b: Beam| {
         let range = (b.x - origin[0]).hypot(b.y - origin[1]);
-        let gap = (GLANCING * range * step_rad).clamp(SMALLEST_GAP_M, LARGEST_GAP_M);
+        let gap = (GLANCING_FACTOR * range * step_rad).clamp(MIN_GAP_M, MAX_GAP_M);
         a.index.abs_diff(b.index) <= 2 && square(a.x - b.x) + square(a.y - b.y) < square(gap)
     };
     let mut sums = Sums::default();
     sums.add(0.0, 0.0);
     for forward in [false, true] {
         let mut last = here;
-        for count in 1..=MOST {
+        for count in 1..=MAX_POINTS {
             let next = if forward { at.checked_add(count) } else { at.checked_sub(count) };
             let Some(&next) = next.and_then(|index| beams.get(index)) else { break };
             let (x, y) = (next.x - here.x, next.y - here.y);
-            if !is_joined(last, next) || (count > LEAST && square(x) + square(y) > square(REACH_M))
+            if !is_joined(last, next)
+                || (count > MIN_POINTS && square(x) + square(y) > square(REACH_M))
             {
                 break;
             }
@@ -87,7 +89,7 @@ impl Sums {
         let (mean, half) = (0.5 * (xx + yy), 0.5 * (xx - yy));
         let spread = (half * half + xy * xy).sqrt();
         let (across, along) = ((mean - spread).max(0.0), mean + spread);
-        if across > FLAT_M * FLAT_M || across * LONG * LONG > along {
+        if across > MAX_RMS_M * MAX_RMS_M || across * MIN_ASPECT_RATIO * MIN_ASPECT_RATIO > along {
             return [0.0; 2];
         }
         let (a, b) = ((xx - across, xy), (xy, yy - across));

@@ -2,7 +2,7 @@
 
 use std::ops::{Add, AddAssign, Mul};
 
-/// A symmetric matrix over (x, y, yaw): an information [1/m², 1/(m rad), 1/rad²] or a covariance.
+/// Symmetric matrix over (x, y, yaw): an information [1/m², 1/(m rad), 1/rad²] or a covariance.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Symmetric3 {
     /// x with x.
@@ -20,10 +20,10 @@ pub struct Symmetric3 {
 }
 
 impl Symmetric3 {
-    /// Nothing known, or nothing uncertain.
+    /// No information, or no uncertainty.
     pub const ZERO: Self = Self { xx: 0.0, xy: 0.0, xt: 0.0, yy: 0.0, yt: 0.0, tt: 0.0 };
 
-    /// The same for x and y, none between.
+    /// Diagonal matrix.
     #[must_use]
     pub const fn diagonal(xx: f64, yy: f64, tt: f64) -> Self {
         Self { xx, xy: 0.0, xt: 0.0, yy, yt: 0.0, tt }
@@ -52,7 +52,7 @@ impl Symmetric3 {
         ]
     }
 
-    /// Row times matrix times column: with an information, the squared Mahalanobis distance.
+    /// Quadratic form: with an information matrix, the squared Mahalanobis distance.
     #[must_use]
     pub fn quadratic(&self, v: [f64; 3]) -> f64 {
         let w = self.times(v);
@@ -70,7 +70,8 @@ impl Symmetric3 {
     /// The inverse; none when the matrix is not positive definite to within rounding.
     #[must_use]
     pub fn inverse(&self) -> Option<Self> {
-        // A Cholesky factorization first: its pivots tell definiteness in the matrix's own scale.
+        // A Cholesky factorization first: its pivots decide definiteness at the scale of the
+        // matrix.
         let l11 = self.xx;
         let pivot2 = self.yy - self.xy * self.xy / l11;
         let determinant = self.determinant();
@@ -92,14 +93,15 @@ impl Symmetric3 {
         })
     }
 
-    /// The column that this matrix takes to `b`; none when the matrix is not positive definite.
+    /// Solves for the vector that this matrix maps to `b`; none if the matrix is not positive
+    /// definite.
     #[must_use]
     pub fn solve(&self, b: [f64; 3]) -> Option<[f64; 3]> {
         Some(self.inverse()?.times(b))
     }
 
-    /// The same matrix for coordinates in another frame whose axes are turned: with `yaw_rad` that
-    /// of `a_from_b`, a matrix over coordinates of `b` becomes one over coordinates of `a`.
+    /// Rotates the coordinates: with `yaw_rad` of `a_from_b`, a matrix over coordinates of `b`
+    /// becomes one over coordinates of `a`.
     #[must_use]
     pub fn turned(&self, yaw_rad: f64) -> Self {
         let (s, c) = libm::sincos(yaw_rad);
@@ -114,8 +116,8 @@ impl Symmetric3 {
         }
     }
 
-    /// The covariance of `a_from_c` from that of `a_from_b` (self) and `b_from_c`, to first order;
-    /// errors of a pose are a shift along the axes of its parent and a turn.
+    /// Covariance of `a_from_c` from those of `a_from_b` (self) and `b_from_c` (`next`), to first
+    /// order. Errors of a pose are a translation along the axes of its parent and a rotation.
     #[must_use]
     pub fn compounded(
         &self,
@@ -123,7 +125,7 @@ impl Symmetric3 {
         b_from_c: periplus_geometry::Pose2,
         next: &Self,
     ) -> Self {
-        // A turn of b moves c at right angles to the line between them.
+        // A rotation of b moves c perpendicular to the line between them.
         let (s, c) = libm::sincos(a_from_b.yaw_rad);
         let across = [-(s * b_from_c.x_m + c * b_from_c.y_m), c * b_from_c.x_m - s * b_from_c.y_m];
         let Self { xx, xy, xt, yy, yt, tt } = *self;
@@ -138,7 +140,7 @@ impl Symmetric3 {
         moved + next.turned(a_from_b.yaw_rad)
     }
 
-    /// The largest variance of the place (x and y) in any direction.
+    /// Maximum variance of the position in any direction.
     #[must_use]
     pub fn largest_shift(&self) -> f64 {
         let mean = 0.5 * (self.xx + self.yy);
@@ -146,8 +148,8 @@ impl Symmetric3 {
         mean + (half * half + self.xy * self.xy).sqrt()
     }
 
-    /// What an information says about x and y when the yaw is unknown: the smaller and the larger
-    /// eigenvalue of it, and the direction of the smaller.
+    /// Information about x and y with unknown yaw: the smaller and the larger eigenvalue, and the
+    /// direction of the smaller one.
     #[must_use]
     pub fn weakest_shift(&self) -> (f64, f64, [f64; 2]) {
         let share = if self.tt > 0.0 { 1.0 / self.tt } else { 0.0 };
@@ -158,7 +160,8 @@ impl Symmetric3 {
         let half = 0.5 * (xx - yy);
         let spread = (half * half + xy * xy).sqrt();
         let (low, high) = ((mean - spread).max(0.0), mean + spread);
-        // Either row of (matrix - low) is at right angles to the direction; take the longer.
+        // Either row of (matrix - low) is perpendicular to the direction; the longer one is more
+        // accurate.
         let (a, b) = ((xx - low, xy), (xy, yy - low));
         let (u, v) = if a.0 * a.0 + a.1 * a.1 > b.0 * b.0 + b.1 * b.1 { a } else { b };
         let length = (u * u + v * v).sqrt();
@@ -220,7 +223,7 @@ mod tests {
     }
 
     #[test]
-    fn a_turn_of_the_middle_moves_the_end_sideways() {
+    fn a_rotation_moves_a_distant_pose_sideways() {
         let turn = Symmetric3::diagonal(0.0, 0.0, 0.01);
         let far = turn.compounded(Pose2::IDENTITY, Pose2::new(10.0, 0.0, 0.0), &Symmetric3::ZERO);
         assert!((far.yy - 1.0).abs() < 1e-12 && far.xx.abs() < 1e-12);
@@ -228,7 +231,7 @@ mod tests {
     }
 
     #[test]
-    fn a_corridor_says_nothing_along_itself() {
+    fn a_corridor_has_no_information_along_itself() {
         let mut walls = Symmetric3::ZERO;
         for at in [-3.0, -1.0, 2.0] {
             walls.add_outer([0.0, 1.0, at], 100.0);
