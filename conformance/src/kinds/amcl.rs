@@ -1,10 +1,11 @@
-//! Localization by particles: models, sample sizes, recovery, the saved pose.
+//! AMCL: sensor and motion models, KLD-sampling, recovery, the saved pose.
 
 use periplus_geometry::{Pose2, normalize_angle};
 use periplus_grid::{Grid, Lattice};
 use periplus_localization::{
-    AMCL, BIN_M, BIN_RAD, CellPlace, CellState, Compat, Glide, KnownMap, Mixture, Model, Recovery,
-    SampleSize, SavedPose, Settings, TurnWayTurn, has_moved, weight_of_cubes, weight_of_product,
+    AMCL, AmclCompat, BIN_M, BIN_RAD, BeamMixture, CellAlignment, CellState, KldSampling,
+    LikelihoodAverages, LikelihoodMap, OmniMotion, PoseThreshold, RotTransRot, SavedPose,
+    SensorModel, Settings, has_moved, product_weight, sum_of_cubes_weight,
 };
 
 use periplus_params::ParamValue as Parameter;
@@ -37,15 +38,15 @@ fn use_parameters(given: &Reader<'_>) -> Result<(), Unreadable> {
     Ok(())
 }
 
-fn mixture(given: &Reader<'_>) -> Result<Mixture, Unreadable> {
+fn mixture(given: &Reader<'_>) -> Result<BeamMixture, Unreadable> {
     let usual = Settings::default().mixture;
-    Ok(Mixture {
+    Ok(BeamMixture {
         hit: self::usual(given, "z_hit", usual.hit)?,
         short: self::usual(given, "z_short", usual.short)?,
         max: self::usual(given, "z_max", usual.max)?,
         random: self::usual(given, "z_rand", usual.random)?,
-        sigma_m: self::usual(given, "sigma_hit", usual.sigma_m)?,
-        lambda: self::usual(given, "lambda_short", usual.lambda)?,
+        sigma_hit_m: self::usual(given, "sigma_hit", usual.sigma_hit_m)?,
+        lambda_short_per_m: self::usual(given, "lambda_short", usual.lambda_short_per_m)?,
     })
 }
 
@@ -55,11 +56,15 @@ fn pose(reader: &Reader<'_>) -> Result<Pose2, Unreadable> {
 }
 
 /// Which model a case is about: it says so, or its name does.
-fn model(case: &Case) -> Result<Model, Unreadable> {
+fn model(case: &Case) -> Result<SensorModel, Unreadable> {
     let given = case.given();
     let named = given.find_any(&["laser_model_type", "model"]);
     let word = named.map_or(Ok(case.id.as_str()), |it| it.text())?;
-    Ok(if word.contains("prob") { Model::LikelihoodFieldProb } else { Model::LikelihoodField })
+    Ok(if word.contains("prob") {
+        SensorModel::LikelihoodFieldProb
+    } else {
+        SensorModel::LikelihoodField
+    })
 }
 
 /// Pairs of what a beam measured and what it should have.
@@ -74,12 +79,14 @@ pub(super) fn check_beam(
     let mixture = mixture(&given)?;
     let range_max_m = given.get("range_max")?.number()?;
     let pairs = given.get("pairs")?.each(Reader::array::<2>)?;
-    let likelihoods: Vec<f64> =
-        pairs.iter().map(|[measured, map]| mixture.beam(*measured, *map, range_max_m)).collect();
+    let likelihoods: Vec<f64> = pairs
+        .iter()
+        .map(|[measured, map]| mixture.beam_range(*measured, *map, range_max_m))
+        .collect();
     differences.compare_members(
         &[
             (&["p"], numbers(likelihoods.iter().copied())),
-            (&["weight"], number(weight_of_cubes(likelihoods))),
+            (&["weight"], number(sum_of_cubes_weight(likelihoods))),
         ],
         &expect,
     );
@@ -100,11 +107,13 @@ pub(super) fn check_likelihood(
     let outside_m = usual(&given, "laser_likelihood_max_dist", Settings::default().distance_max_m)?;
     let likelihoods = given.get("occ_dist")?.each(|distance| {
         let distance_m = if distance.is_null() { outside_m } else { distance.number()? };
-        Ok(mixture.field(distance_m, range_max_m))
+        Ok(mixture.likelihood_field(distance_m, range_max_m))
     })?;
     let weight = match model(case)? {
-        Model::LikelihoodFieldProb => weight_of_product(likelihoods.iter().copied()),
-        Model::LikelihoodField | Model::Beam => weight_of_cubes(likelihoods.iter().copied()),
+        SensorModel::LikelihoodFieldProb => product_weight(likelihoods.iter().copied()),
+        SensorModel::LikelihoodField | SensorModel::Beam => {
+            sum_of_cubes_weight(likelihoods.iter().copied())
+        }
     };
     differences
         .compare_members(&[(&["p"], numbers(likelihoods)), (&["weight"], number(weight))], &expect);
@@ -126,8 +135,8 @@ pub(super) fn check_beams(
         (None, Some(ranges)) => ranges.numbers()?.len(),
         (None, None) => return Err(given.unreadable("an object with `range_count` or `ranges`")),
     };
-    let most = count(&given, "max_beams", Settings::default().beams.most)?;
-    let stride = model(case)?.thinning().stride(total, most);
+    let max_beams = count(&given, "max_beams", Settings::default().beams.max_beams)?;
+    let stride = model(case)?.beam_step().step(total, max_beams);
     let used: Vec<usize> = (0..total).step_by(stride).collect();
     differences.compare_members(
         &[
@@ -149,15 +158,15 @@ pub(super) fn check_kld(
 ) -> Checked {
     let (given, expect) = (case.given(), case.expect());
     use_parameters(&given)?;
-    let usual = Settings::default().size;
-    let size = SampleSize {
-        error: self::usual(&given, "pf_err", usual.error)?,
+    let usual = Settings::default().kld_sampling;
+    let sampling = KldSampling {
+        max_error: self::usual(&given, "pf_err", usual.max_error)?,
         quantile: self::usual(&given, "pf_z", usual.quantile)?,
-        least: count(&given, "min_particles", usual.least)?,
-        most: count(&given, "max_particles", usual.most)?,
+        min_particles: count(&given, "min_particles", usual.min_particles)?,
+        max_particles: count(&given, "max_particles", usual.max_particles)?,
     };
     let bins = given.get("k")?.each(Reader::count)?;
-    let needed: Vec<usize> = bins.into_iter().map(|bins| size.needed(bins)).collect();
+    let needed: Vec<usize> = bins.into_iter().map(|bins| sampling.particle_count(bins)).collect();
     differences.compare_members(
         &[(&["samples"], json!(needed)), (&["bin_size"], numbers([BIN_M, BIN_M, BIN_RAD]))],
         &expect,
@@ -199,25 +208,25 @@ pub(super) fn check_motion(
         let delta = pose(&motion.get("delta")?)?;
         // In the frame of odometry, not in that of the robot.
         let new = Pose2::new(old.x_m + delta.x_m, old.y_m + delta.y_m, old.yaw_rad + delta.yaw_rad);
-        let turns = TurnWayTurn::between(old, new);
-        let (turns, turns_spread) = (turns, turns.spread(&alphas));
-        let glide = Glide::between(old, new);
-        let glide_spread = glide.spread(&alphas);
+        let turns = RotTransRot::between(old, new);
+        let (turns, turns_noise) = (turns, turns.noise(&alphas));
+        let omni = OmniMotion::between(old, new);
+        let omni_noise = omni.noise(&alphas);
         let has = |name: &&str| expected.has(name);
-        let is_glide = is_omni.unwrap_or(["sd_strafe", "sd_rot", "rot"].iter().any(has));
+        let shows_omni = is_omni.unwrap_or(["sd_strafe", "sd_rot", "rot"].iter().any(has));
         for (name, expected) in expected.members()? {
             let (got, is_angle) = match name {
-                "rot1" => (turns.first_rad, true),
-                "rot2" => (turns.second_rad, true),
-                "trans" => (turns.way_m, false),
-                "sd_rot1" => (turns_spread.first_rad, false),
-                "sd_rot2" => (turns_spread.second_rad, false),
-                "sd_trans" if is_glide => (glide_spread.way_m, false),
-                "sd_trans" => (turns_spread.way_m, false),
-                "sd_rot" => (glide_spread.turn_rad, false),
-                "sd_strafe" => (glide_spread.strafe_m, false),
-                "rot" => (glide.turn_rad, true),
-                "bearing" => (glide.bearing_rad, true),
+                "rot1" => (turns.rot1_rad, true),
+                "rot2" => (turns.rot2_rad, true),
+                "trans" => (turns.trans_m, false),
+                "sd_rot1" => (turns_noise.rot1_rad, false),
+                "sd_rot2" => (turns_noise.rot2_rad, false),
+                "sd_trans" if shows_omni => (omni_noise.trans_m, false),
+                "sd_trans" => (turns_noise.trans_m, false),
+                "sd_rot" => (omni_noise.turn_rad, false),
+                "sd_strafe" => (omni_noise.strafe_m, false),
+                "rot" => (omni.turn_rad, true),
+                "bearing" => (omni.bearing_rad, true),
                 _ => {
                     differences.not_known(format!("`{}`", expected.path()));
                     continue;
@@ -252,21 +261,23 @@ pub(super) fn check_update(
             usual(&given, "recovery_alpha_slow", 0.0)?,
             usual(&given, "recovery_alpha_fast", 0.0)?,
         ];
-        let mut recovery = Recovery::default();
+        let mut averages = LikelihoodAverages::default();
         let mut lists = [Vec::new(), Vec::new(), Vec::new()];
         for mean in means.numbers()? {
-            recovery.take(mean, alphas);
-            let values = [recovery.slow, recovery.fast, recovery.share()];
+            averages.update(mean, alphas);
+            let values = [averages.slow, averages.fast, averages.random_fraction()];
             lists.iter_mut().zip(values).for_each(|(list, value)| list.push(value));
         }
         let names: [&[&str]; 3] = [&["w_slow"], &["w_fast"], &["w_diff"]];
         named.extend(names.into_iter().zip(lists.map(numbers)));
     }
     if let Some(moves) = given.find_any(&["moves", "deltas"]) {
-        let default = Settings::default().update_min;
-        let least =
-            (usual(&given, "update_min_d", default.0)?, usual(&given, "update_min_a", default.1)?);
-        let got = moves.each(|delta| Ok(has_moved(Pose2::IDENTITY, pose(delta)?, least)))?;
+        let default = Settings::default().update_threshold;
+        let threshold = PoseThreshold::new(
+            usual(&given, "update_min_d", default.distance_m)?,
+            usual(&given, "update_min_a", default.angle_rad)?,
+        );
+        let got = moves.each(|delta| Ok(has_moved(Pose2::IDENTITY, pose(delta)?, threshold)))?;
         named.push((&["update", "updates", "result"], json!(got)));
     }
     differences.compare_members(&named, &expect);
@@ -291,7 +302,8 @@ pub(super) fn check_map(
     let points = given.find_any(&["points", "world"]);
     if let Some(values) = &values {
         // -1 may be written as 255.
-        let state = |it: &Reader<'_>| Ok(CellState::of(it.integer()? as i8).number());
+        let state =
+            |it: &Reader<'_>| Ok(CellState::from_occupancy(it.integer()? as i8).amcl_value());
         let names: &[&str] = match points {
             Some(_) => &["states", "occ_state"],
             None => &["states", "occ_state", "cells"],
@@ -311,9 +323,9 @@ pub(super) fn check_map(
         let resolution_m = given.get("resolution")?.number()?;
         let lattice = Lattice::new(resolution_m, width, height, Pose2::new(x_m, y_m, 0.0))
             .map_err(|error| Unreadable(error.to_string()))?;
-        let settings = Settings { compat: Compat::Nav2, ..Settings::default() }.map();
-        debug_assert_eq!(settings.place, CellPlace::Centred);
-        let map = KnownMap::new(&Grid::new(lattice, 100), settings)
+        let settings = Settings { compat: AmclCompat::Nav2, ..Settings::default() }.map_settings();
+        debug_assert_eq!(settings.alignment, CellAlignment::Centered);
+        let map = LikelihoodMap::new(&Grid::new(lattice, 100), settings)
             .map_err(|error| Unreadable(error.message))?;
         let got =
             points.each(|point| point.array::<2>().map(|[x_m, y_m]| map.cell_at(x_m, y_m)))?;
@@ -344,7 +356,7 @@ pub(super) fn check_pose_file(
     };
     let text = saved.to_text();
     differences.compare_members(&[(&["text"], json!(text))], &expect);
-    match SavedPose::read(&text) {
+    match SavedPose::parse(&text) {
         Ok(read) if read.to_text() == text => {}
         Ok(read) => differences.push(format!("read again it is {:?}", read.to_text())),
         Err(error) => differences.push(error.to_string()),

@@ -323,17 +323,17 @@ fn a_ros_2_robot_finds_itself_and_is_told_where() {
     let mut robot = lost_robot(domain, &python);
     robot.hears("map map");
     let amcl = Running::start_and_hear_errors(&mut domain.periplus(&["localize", "--live"]));
-    amcl.says("the robot found itself at");
+    amcl.says("global localization found the pose (");
     robot.says("pose near");
     robot.says("tf near");
     let cloud = robot.says("cloud");
     assert!(cloud.ends_with(" map"), "{cloud}");
     robot.hears("anywhere");
     robot.says("answered");
-    amcl.says("particles are everywhere");
+    amcl.says("particles are distributed over the whole map");
     // A person knows better.
     robot.hears("true");
-    amcl.says("the robot is said to be at");
+    amcl.says("initial pose set to");
     robot.says("pose near");
 }
 
@@ -344,11 +344,11 @@ fn what_a_ros_2_robot_says_wrong_is_told_and_survived() {
     let mut robot = lost_robot(domain, &python);
     let words = ["localize", "--live", "-p", "global_start:=false"];
     let amcl = Running::start_and_hear_errors(&mut domain.periplus(&words));
-    amcl.says("no map has come yet on `/map`");
+    amcl.says("no map received yet on `/map`");
     robot.hears("map world");
     amcl.says("the map is in frame `world`, `global_frame_id` is `map`");
     robot.hears("map map");
-    amcl.says("the map has 120 by 80 cells");
+    amcl.says("received a map of 120 by 80 cells");
     robot.hears("pose 77 0 0");
     amcl.says("the initial pose (77.000, 0.000) is outside of the map");
     robot.hears("doubt 1 1 0");
@@ -365,7 +365,7 @@ fn what_a_ros_2_robot_says_wrong_is_told_and_survived() {
     amcl.says("the frame `nowhere` is not published on /tf");
     robot.hears("scan laser");
     robot.hears("true");
-    amcl.says("the robot is said to be at");
+    amcl.says("initial pose set to");
     robot.says("pose near");
 }
 

@@ -1,4 +1,4 @@
-//! How long a scan takes, on one core: the sensor models alone, and whole updates.
+//! Time per scan on one core: the sensor models alone, and whole updates.
 #![allow(
     clippy::disallowed_methods,
     clippy::print_stdout,
@@ -13,8 +13,8 @@ mod worlds;
 use std::time::Instant;
 
 use periplus_geometry::Stream;
-use periplus_localization::{Amcl, Model, Settings};
-use worlds::{Wanderer, World, guess};
+use periplus_localization::{Amcl, SensorModel, Settings};
+use worlds::{Wanderer, World, initial_pose_at};
 
 fn main() {
     println!("| work | map | least ms | median ms |");
@@ -22,29 +22,30 @@ fn main() {
     for world in [World::house(), World::block_of_offices()] {
         let map = world.map();
         for (name, model) in [
-            ("likelihood_field", Model::LikelihoodField),
-            ("likelihood_field_prob", Model::LikelihoodFieldProb),
-            ("beam", Model::Beam),
+            ("likelihood_field", SensorModel::LikelihoodField),
+            ("likelihood_field_prob", SensorModel::LikelihoodFieldProb),
+            ("beam", SensorModel::Beam),
         ] {
             for beams in [60, 360] {
                 let mut settings = Settings {
-                    model,
-                    starts_anywhere: false,
-                    polishes: false,
-                    seeks_when_lost: false,
+                    sensor_model: model,
+                    localizes_globally: false,
+                    refines_by_scan_matching: false,
+                    searches_when_lost: false,
                     ..Settings::default()
                 };
-                settings.beams.most = beams;
-                // Always so many.
-                (settings.size.least, settings.size.most) = (2000, 2000);
+                settings.beams.max_beams = beams;
+                // Fixed number of particles.
+                (settings.kld_sampling.min_particles, settings.kld_sampling.max_particles) =
+                    (2000, 2000);
                 let mut stream = Stream::keyed(1, "speed", 0);
-                let mut robot = Wanderer::new(world.anywhere(&map, &mut stream), &mut stream);
+                let mut robot = Wanderer::new(world.random_pose(&map, &mut stream), &mut stream);
                 let mut amcl = Amcl::new(settings);
                 amcl.set_map("map", &map).unwrap();
-                amcl.set_pose(&guess(robot.truth)).unwrap();
+                amcl.set_pose(&initial_pose_at(robot.truth)).unwrap();
                 let (mut models, mut updates) = (Vec::new(), Vec::new());
                 for _ in 0..60 {
-                    robot.go(&world, &mut stream);
+                    robot.step(&world, &mut stream);
                     let scan = world.scan(robot.truth, &mut stream);
                     let begin = Instant::now();
                     let said = amcl.likelihoods(&scan).unwrap();

@@ -1,5 +1,5 @@
-//! Localization in worlds with known truth, in tables: tracking, starts anywhere, kidnapping.
-//! `worlds [tracking|starts|kidnapped|large] [NAME=VALUE ...]`; names are those of parameters.
+//! Localization in worlds with known truth: tracking, global localization, kidnapping. `worlds
+//! [tracking|starts|kidnapped|large] [NAME=VALUE ...]`, with names of parameters.
 #![allow(
     clippy::disallowed_methods,
     clippy::print_stdout,
@@ -13,11 +13,11 @@ mod worlds;
 
 use periplus_diagnostics::Diagnostics;
 use periplus_geometry::Stream;
-use periplus_localization::{Amcl, Settings, State};
+use periplus_localization::{Amcl, LocalizationState, Settings};
 use periplus_params::Given;
-use worlds::{Wanderer, World, cpu_s, guess, off};
+use worlds::{Wanderer, World, cpu_s, initial_pose_at, off};
 
-/// Farther off than this an answer is wrong \[m\], \[rad\].
+/// Maximum error of a right pose \[m\], \[rad\].
 const RIGHT: (f64, f64) = (0.5, 0.26);
 
 fn main() {
@@ -57,7 +57,7 @@ fn main() {
     }
 }
 
-/// Driven from a known start for 60 metres: how far off at every scan.
+/// Drives of 60 m with a known initial pose: the error at every scan.
 fn tracking(settings: &Settings, seeds: u64) {
     println!(
         "\n| tracking, {seeds} seeds | scans | RMS m | worst m | RMS degrees | worst degrees | not tracking % | CPU ms a scan |"
@@ -71,10 +71,10 @@ fn tracking(settings: &Settings, seeds: u64) {
             let mut stream = Stream::keyed(seed, "tracking", 0);
             let mut amcl = Amcl::new(Settings { seed, ..settings.clone() });
             amcl.set_map("map", &map).unwrap();
-            let mut robot = Wanderer::new(world.anywhere(&map, &mut stream), &mut stream);
-            amcl.set_pose(&guess(robot.truth)).unwrap();
+            let mut robot = Wanderer::new(world.random_pose(&map, &mut stream), &mut stream);
+            amcl.set_pose(&initial_pose_at(robot.truth)).unwrap();
             for step in 0..600 {
-                robot.go(&world, &mut stream);
+                robot.step(&world, &mut stream);
                 let scan = world.scan(robot.truth, &mut stream);
                 let begin = cpu_s();
                 amcl.update(robot.odom_from_base, &scan).unwrap();
@@ -89,7 +89,7 @@ fn tracking(settings: &Settings, seeds: u64) {
                 worst = worst.max(metres);
                 worst_turn = worst_turn.max(radians);
                 scans += 1;
-                unsure += usize::from(amcl.status().state != State::Tracking);
+                unsure += usize::from(amcl.status().state != LocalizationState::Tracking);
             }
         }
         let count = f64::from(scans);
@@ -106,7 +106,7 @@ fn tracking(settings: &Settings, seeds: u64) {
     }
 }
 
-/// From a random place, unknown to the robot, for five metres.
+/// Drives of 5 m from an unknown pose.
 fn carried(what: &str, worlds: &[World], settings: &Settings, starts: u64, is_kidnapped: bool) {
     println!(
         "\n| {what}, {starts} each | right % | wrong and sure % | not sure % | wrong scans while sure % | m to right | worst | CPU s to right | worst |"
@@ -122,32 +122,32 @@ fn carried(what: &str, worlds: &[World], settings: &Settings, starts: u64, is_ki
             let mut stream = Stream::keyed(seed, "starts", 0);
             let mut amcl = Amcl::new(Settings { seed, ..settings.clone() });
             amcl.set_map("map", &map).unwrap();
-            let mut robot = Wanderer::new(world.anywhere(&map, &mut stream), &mut stream);
+            let mut robot = Wanderer::new(world.random_pose(&map, &mut stream), &mut stream);
             if is_kidnapped {
-                amcl.set_pose(&guess(robot.truth)).unwrap();
+                amcl.set_pose(&initial_pose_at(robot.truth)).unwrap();
                 for _ in 0..30 {
-                    robot.go(world, &mut stream);
+                    robot.step(world, &mut stream);
                     let scan = world.scan(robot.truth, &mut stream);
                     amcl.update(robot.odom_from_base, &scan).unwrap();
                 }
-                robot.truth = world.anywhere(&map, &mut stream);
+                robot.truth = world.random_pose(&map, &mut stream);
             }
             let (mut way_m, mut spent_s) = (0.0, 0.0);
             let mut first = None;
             let (mut is_right, mut is_sure) = (false, false);
-            // Turning on the spot is no way; but all ends some time.
+            // Rotation in place adds no distance, so the number of scans is limited, too.
             for _ in 0..300 {
                 if way_m >= 5.0 {
                     break;
                 }
                 let before = robot.truth;
-                robot.go(world, &mut stream);
+                robot.step(world, &mut stream);
                 way_m += off(before, robot.truth).0;
                 let scan = world.scan(robot.truth, &mut stream);
                 let begin = cpu_s();
                 let _ = amcl.update(robot.odom_from_base, &scan);
                 spent_s += cpu_s() - begin;
-                is_sure = amcl.status().state == State::Tracking;
+                is_sure = amcl.status().state == LocalizationState::Tracking;
                 let Some(map_from_odom) = amcl.map_from_odom() else { continue };
                 let (metres, radians) = off(robot.truth, map_from_odom * robot.odom_from_base);
                 is_right = metres < RIGHT.0 && radians < RIGHT.1;

@@ -1,300 +1,291 @@
-//! The particle filter.
+//! Adaptive Monte Carlo localization.
 
 use periplus_diagnostics::Diagnostic;
 use periplus_geometry::{Pose2, Stream};
 use periplus_grid::OccupancyGrid;
 use periplus_scan_matching::Peak;
 
-mod astray;
-mod finer;
-mod trust;
+mod global_search;
+mod kidnap_recovery;
+mod local_search;
+mod mode;
+mod pose_verification;
+mod tracking;
+mod update;
 
-use self::finer::Seen;
-use self::trust::Trust;
-use crate::anywhere::Everywhere;
-use crate::bins::{Cluster, Taken, clusters};
-use crate::guess::{Guess, check_place, scatter};
-use crate::hunt::{Completeness, Hunt};
-use crate::known_map::KnownMap;
-use crate::motion::move_all;
+use self::global_search::GlobalSearch;
+use self::mode::Mode;
+use self::pose_verification::PoseVerification;
+use crate::branch_and_bound::Completeness;
+use crate::global_localization::GlobalLocalizer;
+use crate::hypotheses::Hypotheses;
+use crate::initial_pose::{InitialPose, check_position, scatter};
+use crate::kld_sampling::{Cluster, clusters};
+use crate::likelihood_map::LikelihoodMap;
 use crate::particles::{Covariance2, Moments, Particles};
-use crate::polish::Known;
-use crate::recovery::Recovery;
-use crate::rivals::Rivals;
-use crate::scan::{Beams, Scan};
-use crate::settings::{Compat, Settings};
-use crate::status::{State, Status, Watch};
-use crate::weigh::{Said, Terms};
+use crate::recovery::LikelihoodAverages;
+use crate::scan::{Beams, MatchingScan, Scan};
+use crate::sensor_model::tables::SensorTables;
+use crate::settings::{AmclCompat, Settings};
+use crate::status::{ConvergenceMonitor, LocalizationStatus};
 
-/// Particles nearer to their mean than this agree, so that beams may be skipped \[m\].
-const CONVERGED_M: f64 = 0.5;
-
-const FITS_NOWHERE: &str = "fits-nowhere";
-
-/// Where the robot is.
+/// Estimated pose of the robot.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Estimate {
-    /// `map_from_base`: the mean of the heaviest cluster.
+pub struct PoseEstimate {
+    /// `map_from_base`: the mean of the cluster of largest weight, refined by scan matching.
     pub pose: Pose2,
-    /// Of all particles.
+    /// Covariance of all particles around `pose`.
     pub covariance: Covariance2,
-    /// The heaviest first.
+    /// Clusters in order of decreasing weight.
     pub clusters: Vec<Cluster>,
 }
 
-/// What came of a scan.
+/// Result of an update of the filter.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Update {
-    /// Where the robot is.
-    pub estimate: Estimate,
-    /// Where odometry began, on the map.
+pub struct AmclUpdate {
+    /// Estimated pose.
+    pub estimate: PoseEstimate,
+    /// Correction of odometry: `map_from_base` times the inverse of `odom_from_base`.
     pub map_from_odom: Pose2,
-    /// How likely the scan is, averaged over particles.
+    /// Mean likelihood of the scan over the particles.
     pub likelihood: f64,
-    /// Which share of the particles was drawn anew from all of the map.
-    pub random_share: f64,
-    /// Whether particles were drawn anew.
+    /// Probability with which particles were drawn from the whole map.
+    pub random_fraction: f64,
+    /// True if the particles were resampled.
     pub is_resampled: bool,
-    /// Whether the robot knows where it is.
-    pub status: Status,
+    /// Status of localization.
+    pub status: LocalizationStatus,
 }
 
-/// Adaptive Monte Carlo localization: particles that odometry moves, scans weigh, and chance renews.
+/// Adaptive Monte Carlo localization: a particle filter with KLD-sampling, scan matching and global
+/// localization.
 ///
 /// No clock, no threads, no files; the same calls with the same seed give the same bits.
 #[derive(Clone, Debug)]
 pub struct Amcl {
     settings: Settings,
-    grid: Option<OccupancyGrid>,
-    map: Option<KnownMap>,
-    terms: Option<Terms>,
+    map: Option<PreparedMap>,
+    mode: Mode,
+    /// Particles; none in [`Mode::Uninitialized`].
     particles: Particles,
-    /// A start that waits for a map.
-    waiting: Option<(Pose2, Covariance2)>,
-    /// `odom_from_base` at the last scan that was used; none when the next one is.
+    recovery: LikelihoodAverages,
+    /// Odometry at the last update; none if the next scan is to be used.
     odom_from_base: Option<Pose2>,
-    is_forced: bool,
-    /// How often chance was asked: each time it gets a stream of its own.
-    draws: u64,
-    /// Scans used since the last start.
-    scans: u64,
-    recovery: Recovery,
-    watch: Watch,
-    status: Status,
-    estimate: Option<Estimate>,
+    is_update_requested: bool,
+    /// Number of random streams drawn.
+    draw_count: u64,
+    /// Number of updates since the last initial pose.
+    update_count: u64,
+    search: GlobalSearch,
+    verification: PoseVerification,
+    monitor: ConvergenceMonitor,
+    /// Distance since the last matching scan \[m\].
+    unmatched_distance_m: f64,
+    has_pose: bool,
+    status: LocalizationStatus,
+    /// Status of the filter where scans or verification put it in doubt.
+    status_before_doubt: Option<LocalizationStatus>,
+    estimate: Option<PoseEstimate>,
     map_from_odom: Option<Pose2>,
-    /// Where odometry had the robot when it was looked for in vain, and what was said.
-    sought: Option<(Pose2, Box<Diagnostic>)>,
-    /// Whether somebody has said where the robot is, or it has found out.
-    is_settled: bool,
-    /// The map, prepared for the search on all of it.
-    everywhere: Option<Everywhere>,
-    /// A search on all of the map that is not at its end, and where odometry had the robot at its scan.
-    search: Option<(Hunt, Pose2)>,
-    /// What one has found, and the same.
-    found: Option<(Vec<Peak>, Completeness, Pose2)>,
-    /// With how many scans it was searched on this map.
-    searches: u64,
-    /// How many lookups that was with the last one.
-    searched: u64,
-    /// What the beams measured with which it was looked for last \[m\].
-    sought_m: Vec<f32>,
-    /// What speaks for the place that is told.
-    trust: Trust,
-    /// Places of which one is the right one.
-    rivals: Option<Rivals>,
-    /// The refined pose, and where odometry had the robot then.
-    fine: Option<(Known, Pose2)>,
-    /// Where scans have the robot while odometry stands still.
-    ahead: Option<Known>,
-    /// The last step of the refined pose, from scan to scan.
-    stride: Option<Pose2>,
-    /// How far a scan contradicts odometry: \[m\], \[rad\].
-    jump: Option<(f64, f64)>,
-    /// What the status was before that.
-    undoubted: Option<Status>,
-    /// The same from before other places came into question.
-    home: Option<(Known, Pose2)>,
-    /// How often a lost robot was looked for in vain.
-    vain: u32,
-    /// How far the robot went since a scan fitted \[m\].
-    astray_m: f64,
+}
+
+/// Map with the tables derived from it.
+#[derive(Clone, Debug)]
+struct PreparedMap {
+    grid: OccupancyGrid,
+    field: LikelihoodMap,
+    /// Tables of the sensor model; none before the first scan.
+    sensor: Option<SensorTables>,
+    /// Search index; none before it is needed.
+    localizer: Option<GlobalLocalizer>,
+}
+
+impl PreparedMap {
+    fn new(grid: OccupancyGrid, field: LikelihoodMap) -> Self {
+        Self { grid, field, sensor: None, localizer: None }
+    }
+
+    /// Returns the search index, built on first use.
+    fn localizer(&mut self) -> (&LikelihoodMap, &GlobalLocalizer) {
+        let Self { field, localizer, .. } = self;
+        let localizer = localizer.get_or_insert_with(|| GlobalLocalizer::new(field));
+        (field, localizer)
+    }
+
+    /// Returns the tables of the sensor model for a maximum range, rebuilt when settings change.
+    fn sensor(&mut self, settings: &Settings, range_max_m: f64) -> (&LikelihoodMap, &SensorTables) {
+        let Settings { sensor_model, mixture, compat, .. } = settings;
+        let Self { field, sensor, .. } = self;
+        sensor.take_if(|it| !it.is_for(*sensor_model, mixture, range_max_m, *compat));
+        let tables = sensor.get_or_insert_with(|| {
+            SensorTables::new(field, *sensor_model, mixture, range_max_m, *compat)
+        });
+        (field, tables)
+    }
 }
 
 impl Amcl {
-    /// Without a map yet. Where settings say where to start, it does as soon as there is one.
+    /// Creates a filter without a map. An initial pose of the settings is applied with the first
+    /// map.
     #[must_use]
     pub fn new(settings: Settings) -> Self {
         Self {
-            waiting: settings.start,
-            settings,
-            grid: None,
             map: None,
-            terms: None,
+            mode: Mode::Uninitialized { initial_pose: settings.initial_pose },
+            settings,
             particles: Particles::default(),
+            recovery: LikelihoodAverages::default(),
             odom_from_base: None,
-            is_forced: false,
-            draws: 0,
-            scans: 0,
-            recovery: Recovery::default(),
-            watch: Watch::default(),
-            status: Status::default(),
+            is_update_requested: false,
+            draw_count: 0,
+            update_count: 0,
+            search: GlobalSearch::default(),
+            verification: PoseVerification::default(),
+            monitor: ConvergenceMonitor::default(),
+            unmatched_distance_m: 0.0,
+            has_pose: false,
+            status: LocalizationStatus::default(),
+            status_before_doubt: None,
             estimate: None,
             map_from_odom: None,
-            sought: None,
-            is_settled: false,
-            everywhere: None,
-            search: None,
-            found: None,
-            searches: 0,
-            searched: 0,
-            sought_m: Vec::new(),
-            trust: Trust::default(),
-            rivals: None,
-            fine: None,
-            ahead: None,
-            stride: None,
-            jump: None,
-            undoubted: None,
-            vain: 0,
-            astray_m: 0.0,
-            home: None,
         }
     }
 
-    /// What holds.
+    /// Present settings.
     #[must_use]
     pub fn settings(&self) -> &Settings {
         &self.settings
     }
 
-    /// The map.
+    /// Present map.
     #[must_use]
-    pub fn map(&self) -> Option<&KnownMap> {
-        self.map.as_ref()
+    pub fn map(&self) -> Option<&LikelihoodMap> {
+        self.map.as_ref().map(|map| &map.field)
     }
 
-    /// Guesses of where the robot is; none before anybody said so.
+    /// Particles; none before an initial pose or global localization.
     #[must_use]
     pub fn particles(&self) -> &Particles {
         &self.particles
     }
 
-    /// Where the robot was at the last scan that was used.
+    /// Estimate of the last update.
     #[must_use]
-    pub fn estimate(&self) -> Option<&Estimate> {
+    pub fn estimate(&self) -> Option<&PoseEstimate> {
         self.estimate.as_ref()
     }
 
-    /// Where odometry began, on the map; none before the first scan.
+    /// Correction of odometry; none before the first scan.
     #[must_use]
     pub fn map_from_odom(&self) -> Option<Pose2> {
         self.map_from_odom
     }
 
-    /// Whether the robot knows where it is.
+    /// Status of localization.
     #[must_use]
-    pub fn status(&self) -> &Status {
+    pub fn status(&self) -> &LocalizationStatus {
         &self.status
     }
 
-    /// Whether a pose is known: somebody has said where the robot is, or after a start anywhere one
-    /// place was left over. Before, [`Amcl::estimate`] is one guess among others.
+    /// True once an initial pose was set or global localization converged. Before,
+    /// [`Amcl::estimate`] is one hypothesis among others.
     #[must_use]
-    pub fn is_settled(&self) -> bool {
-        self.is_settled
+    pub fn has_pose(&self) -> bool {
+        self.has_pose
     }
 
-    /// Forgets where odometry was: it began anew, or is another one.
-    pub fn forget_odometry(&mut self) {
-        self.odom_from_base = None;
-        self.sought = None;
-        self.fine = None;
-        self.home = None;
-        self.search = None;
-        self.found = None;
+    /// Work of the last scan on a search of the map \[lookups\]. The work per scan is bounded for
+    /// all maps; a longer search continues with the next scans.
+    #[must_use]
+    pub fn search_lookup_count(&self) -> u64 {
+        self.search.lookup_count
     }
 
-    /// How much was done with the last scan to look for the robot on all of the map, in lookups of
-    /// points. It is bounded, whatever the map: a search that takes more goes on with the next scans.
+    /// Averages of the measurement likelihood.
     #[must_use]
-    pub fn searched(&self) -> u64 {
-        self.searched
-    }
-
-    /// How well scans fit, as recovery sees it.
-    #[must_use]
-    pub fn recovery(&self) -> Recovery {
+    pub fn recovery(&self) -> LikelihoodAverages {
         self.recovery
     }
 
-    /// Changes settings while running. Particles stay; the next scan follows the new ones.
+    /// Resets odometry: its origin changed.
+    pub fn reset_odometry(&mut self) {
+        self.odom_from_base = None;
+        self.search.reset_odometry();
+        self.mode.reset_odometry();
+    }
+
+    /// Changes settings while running. Particles stay; the next scan uses the new settings.
     ///
     /// # Errors
-    /// When the map cannot be prepared in the new way; the old settings stay.
+    /// The map cannot be prepared with the new settings; the old settings stay.
     pub fn set_settings(&mut self, settings: Settings) -> Result<(), Box<Diagnostic>> {
-        if let Some(grid) = &self.grid
-            && settings.map() != self.settings.map()
+        if let Some(map) = &mut self.map
+            && settings.map_settings() != self.settings.map_settings()
         {
-            self.map = Some(KnownMap::new(grid, settings.map())?);
-            self.terms = None;
-            self.everywhere = None;
-            self.search = None;
-            self.found = None;
+            let field = LikelihoodMap::new(&map.grid, settings.map_settings())?;
+            (map.field, map.sensor, map.localizer) = (field, None, None);
+            self.search.cancel();
         }
         self.settings = settings;
         Ok(())
     }
 
-    /// Takes a map. A robot whose place is known stays there. False when `first_map_only` holds and
-    /// there is one already.
+    /// Sets the map. A known pose stays. False if `first_map_only` is set and there is a map
+    /// already.
     ///
     /// # Errors
-    /// When the map is in another frame, has no cells or no walls: the map before stays. When the robot
-    /// or a start that waited would be outside of it: the map is taken, and somebody must say where the
-    /// robot is.
+    /// The map is in another frame, or has no cells or no obstacles: the map before stays. Or the
+    /// known or initial pose is outside of it: the map is set, and needs a new initial pose.
     pub fn set_map(&mut self, frame: &str, grid: &OccupancyGrid) -> Result<bool, Box<Diagnostic>> {
         if self.settings.first_map_only && self.map.is_some() {
             return Ok(false);
         }
-        let wanted = &self.settings.global_frame;
-        if frame != wanted && self.settings.compat != Compat::Nav2 {
+        let expected = &self.settings.global_frame;
+        if frame != expected && self.settings.compat != AmclCompat::Nav2 {
             return Err(Diagnostic::error(
                 "map-in-other-frame",
-                format!("the map is in frame `{frame}`, `global_frame_id` is `{wanted}`"),
+                format!("the map is in frame `{frame}`, `global_frame_id` is `{expected}`"),
             )
-            .help(format!("set `global_frame_id: {frame}`, or have the map server say `{wanted}`"))
+            .help(format!(
+                "set `global_frame_id: {frame}`, or publish the map in frame `{expected}`"
+            ))
             .into());
         }
-        let map = KnownMap::new(grid, self.settings.map())?;
-        self.grid = Some(grid.clone());
-        self.everywhere = self.settings.searches().then(|| Everywhere::new(&map));
-        self.map = Some(map);
-        self.terms = None;
-        self.search = None;
-        self.found = None;
-        self.searches = 0;
-        let known = self.estimate.as_ref().map(|it| (it.pose, it.covariance));
-        match self.waiting.take().or(known) {
-            Some((pose, covariance)) => {
-                // If that fails, particles of another map mean nothing.
-                self.particles = Particles::default();
-                self.start_at(pose, covariance).map(|_| true)
-            }
-            None => Ok(true),
+        let field = LikelihoodMap::new(grid, self.settings.map_settings())?;
+        let mut map = PreparedMap::new(grid.clone(), field);
+        if self.settings.uses_global_localization() {
+            map.localizer();
         }
+        self.map = Some(map);
+        self.search.reset_map();
+        let initial_pose = match &mut self.mode {
+            Mode::Uninitialized { initial_pose } => initial_pose.take(),
+            _ => None,
+        };
+        let known = self.estimate.as_ref().map(|it| (it.pose, it.covariance));
+        if let Some((pose, covariance)) = initial_pose.or(known) {
+            // Particles of the map before mean nothing if the pose is outside of this one.
+            self.particles = Particles::default();
+            self.mode = Mode::Uninitialized { initial_pose: None };
+            self.start_at(pose, covariance)?;
+        }
+        Ok(true)
     }
 
-    /// Starts where somebody says that the robot is. Without a map this waits for one. What is
-    /// doubtful about the place is told.
+    /// Sets the initial pose. Without a map, the pose waits for one. Returns a warning about a
+    /// doubtful pose.
     ///
     /// # Errors
-    /// When the guess makes no sense: another frame, no numbers, outside of the map. Nothing changes.
-    pub fn set_pose(&mut self, guess: &Guess) -> Result<Option<Diagnostic>, Box<Diagnostic>> {
-        guess.check(&self.settings.global_frame, self.settings.compat)?;
-        let (pose, covariance) = (guess.now(), Covariance2::from_rows(&guess.covariance));
+    /// The pose is invalid: another frame, not finite, outside of the map. Nothing changes.
+    pub fn set_pose(
+        &mut self,
+        initial_pose: &InitialPose,
+    ) -> Result<Option<Diagnostic>, Box<Diagnostic>> {
+        initial_pose.check(&self.settings.global_frame, self.settings.compat)?;
+        let pose = initial_pose.map_from_base();
+        let covariance = Covariance2::from_rows(&initial_pose.covariance);
         if self.map.is_none() {
-            self.waiting = Some((pose, covariance));
+            self.mode = Mode::Uninitialized { initial_pose: Some((pose, covariance)) };
             return Ok(Some(
                 Diagnostic::warning("no-map", "the initial pose waits for a map")
                     .help("start a map server, and check `map_topic`"),
@@ -309,336 +300,122 @@ impl Amcl {
         covariance: Covariance2,
     ) -> Result<Option<Diagnostic>, Box<Diagnostic>> {
         let Some(map) = &self.map else { return Ok(None) };
-        let doubt = check_place(map, pose, self.settings.compat)?;
-        let mut stream = self.stream("start");
+        let warning = check_position(&map.field, pose, self.settings.compat)?;
+        let mut stream = self.random_stream("start");
         let mut particles = Particles::default();
-        scatter(&mut particles, self.settings.size.most, pose, covariance, &mut stream);
-        self.begin(particles);
-        self.is_settled = true;
-        Ok(doubt)
+        let count = self.settings.kld_sampling.max_particles;
+        scatter(&mut particles, count, pose, covariance, &mut stream);
+        self.start(particles, Mode::Tracking { refined: None });
+        self.has_pose = true;
+        Ok(warning)
     }
 
-    /// Spreads particles over all free cells: the robot may be anywhere.
+    /// Distributes particles uniformly over the free cells of the map, as the service
+    /// `reinitialize_global_localization` of Nav2.
     ///
     /// # Errors
-    /// When there is no map, or no free cell on it.
-    pub fn spread(&mut self) -> Result<(), Box<Diagnostic>> {
-        let mut stream = self.stream("spread");
+    /// There is no map, or no free cell on it.
+    pub fn distribute_uniformly(&mut self) -> Result<(), Box<Diagnostic>> {
+        let mut stream = self.random_stream("spread");
         let map = self.map.as_ref().ok_or_else(no_map)?;
         let mut particles = Particles::default();
-        for _ in 0..self.settings.size.most {
-            particles.push(map.random_pose(&mut stream).ok_or_else(nothing_free)?);
+        for _ in 0..self.settings.kld_sampling.max_particles {
+            particles.push(map.field.random_pose(&mut stream).ok_or_else(no_free_cell)?);
         }
-        self.begin(particles);
-        self.is_settled = true;
-        self.trust.open(0);
+        self.start(particles, Mode::Tracking { refined: None });
+        self.has_pose = true;
+        self.verification.require(0);
         Ok(())
     }
 
-    /// Starts where the scan fits best in all of the map, and wherever it fits nearly as well: by a
-    /// search that misses no place of its lattice. Returns these places, the best first; when there
-    /// are several, each is followed until one is left over.
+    /// Localizes the robot globally: finds all poses on the map that fit a scan about as well as the
+    /// best one, and tracks them until one remains. Returns the poses, best first.
     ///
     /// # Errors
-    /// When there is no map, the scan is useless, or it fits nowhere.
-    pub fn start_anywhere(&mut self, scan: &Scan) -> Result<Vec<Peak>, Box<Diagnostic>> {
-        if self.map.is_none() {
-            return Err(no_map());
+    /// There is no map, the scan is invalid, or it fits nowhere.
+    pub fn localize_globally(&mut self, scan: &Scan) -> Result<Vec<Peak>, Box<Diagnostic>> {
+        let map = self.map.as_mut().ok_or_else(no_map)?;
+        let scan = MatchingScan::new(scan, &self.settings.beams)?;
+        let peaks = map.localizer().1.peaks(&scan.ends);
+        if !self.start_at_candidates(&scan, &peaks, Completeness::NearBest) {
+            return Err(fits_nowhere(&scan));
         }
-        let seen = Seen::new(scan, &self.settings)?;
-        let peaks = self.look_everywhere(&seen);
-        self.start_at_peaks(&seen, &peaks, Completeness::Best)?;
         Ok(peaks)
     }
 
-    /// Starts at places that a search has found.
-    fn start_at_peaks(
+    /// Starts to track the candidates of a search. False if there are none.
+    fn start_at_candidates(
         &mut self,
-        seen: &Seen,
+        scan: &MatchingScan,
         peaks: &[Peak],
         completeness: Completeness,
-    ) -> Result<(), Box<Diagnostic>> {
-        let Some(map) = &self.map else { return Err(no_map()) };
+    ) -> bool {
+        let Some(map) = &self.map else { return false };
         let poses = peaks.iter().map(|peak| peak.pose);
-        let Some(rivals) = Rivals::new(map, &seen.beams, &seen.ends, poses, completeness) else {
-            let (hits, beams) = (seen.ends.len(), seen.beams.beams.len());
-            return Err(Diagnostic::error(FITS_NOWHERE, "the scan fits nowhere on the map")
-                .note(format!("{hits} of its {beams} beams hit anything"))
-                .help("move the robot to where it sees walls, or check that this is the right map")
-                .into());
+        let Some(hypotheses) = Hypotheses::new(&map.field, scan, poses, completeness) else {
+            return false;
         };
-        let particles = self.drawn_from(&rivals);
-        self.begin(particles);
-        self.trust.open(0);
-        self.rivals = Some(rivals);
-        Ok(())
+        let particles = self.particles_at(&hypotheses);
+        self.start(particles, Mode::Hypotheses(hypotheses));
+        self.verification.require(0);
+        true
     }
 
-    /// Uses the next scan whether or not the robot moved.
+    /// Uses the next scan even if the robot did not move.
     pub fn request_update(&mut self) {
-        self.is_forced = true;
+        self.is_update_requested = true;
     }
 
-    fn begin(&mut self, mut particles: Particles) {
-        particles.level();
+    fn start(&mut self, mut particles: Particles, mode: Mode) {
+        particles.set_uniform_weights();
         self.particles = particles;
+        self.mode = mode;
         self.odom_from_base = None;
-        self.scans = 0;
-        self.recovery = Recovery::default();
-        self.watch = Watch::default();
-        self.waiting = None;
-        self.sought = None;
-        self.search = None;
-        self.found = None;
-        self.trust = Trust::default();
-        self.vain = 0;
-        self.is_settled = false;
-        self.rivals = None;
-        self.fine = None;
-        self.ahead = None;
-        self.stride = None;
-        self.jump = None;
-        self.undoubted = None;
-        self.home = None;
-        self.astray_m = 0.0;
-        self.estimate = Some(self.sum_up());
-        self.status =
-            Status { reason: "no scan has been used since the start".into(), ..Status::default() };
-    }
-
-    /// How likely a scan is at each particle, up to a common factor; nothing changes.
-    ///
-    /// # Errors
-    /// When there is no map, or the scan is useless.
-    pub fn likelihoods(&mut self, scan: &Scan) -> Result<Vec<f64>, Box<Diagnostic>> {
-        let map = self.map.as_ref().ok_or_else(no_map)?;
-        let settings = &self.settings;
-        let beams = Beams::new(scan, &settings.beams, settings.model.thinning())?;
-        let terms = terms_for(self.terms.take(), map, settings, beams.range_max_m);
-        let said = terms.weigh(map, settings.skip, &beams, &self.particles);
-        self.terms = Some(terms);
-        Ok(said.factors)
-    }
-
-    /// Takes a scan and where odometry has the robot at its time. Nothing when the robot has hardly
-    /// moved since the last scan that was used.
-    ///
-    /// # Errors
-    /// When there is no map, nobody has said where the robot is, or the scan or odometry is useless.
-    /// Nothing changes.
-    pub fn update(
-        &mut self,
-        odom_from_base: Pose2,
-        scan: &Scan,
-    ) -> Result<Option<Update>, Box<Diagnostic>> {
-        if self.map.is_none() {
-            return Err(no_map());
-        }
-        if !odom_from_base.is_finite() {
-            return Err(Diagnostic::error(
-                "bad-odometry",
-                "a number of the robot's pose in the frame of odometry is not finite",
-            )
-            .help("check what publishes `odom_frame_id` to `base_frame_id`")
-            .into());
-        }
-        self.searched = 0;
-        if self.particles.is_empty() && !self.seek(odom_from_base, scan)? {
-            return Ok(None);
-        }
-        self.go_on();
-        self.is_forced |= self.found.is_some();
-        if let Some(old) = self.odom_from_base
-            && !self.is_forced
-            && !has_moved(old, odom_from_base, self.settings.update_min)
-        {
-            self.refine(odom_from_base, scan);
-            return Ok(None);
-        }
-        let Some(map) = &self.map else { return Err(no_map()) };
-        let settings = &self.settings;
-        let beams = Beams::new(scan, &settings.beams, settings.model.thinning())?;
-        self.jump = None;
-        let range_max_m = beams.range_max_m;
-        let terms = self.terms.take();
-        let terms = terms_for(terms, map, settings, range_max_m);
-
-        let old_from_new = self.odom_from_base.map(|old| old.inverse() * odom_from_base);
-        if let Some(old) = self.odom_from_base {
-            let mut stream = Stream::keyed(settings.seed, "amcl motion", self.draws);
-            let particles = &mut self.particles;
-            let (drive, alphas) = (settings.drive, &settings.alphas);
-            move_all(particles, drive, alphas, old, odom_from_base, &mut stream);
-        }
-        // While particles are apart, most of them contradict any beam.
-        let skip = settings.skip.filter(|_| self.particles.is_within(CONVERGED_M));
-        let said = terms.weigh(map, skip, &beams, &self.particles);
-        let likelihood = apply(&mut self.particles, &said);
-        if likelihood > 0.0 {
-            let count = self.particles.len() as f64;
-            let mean =
-                if settings.compat == Compat::Nav2 { likelihood / count } else { likelihood };
-            self.recovery.take(mean, settings.recovery_alphas);
-        }
-        self.terms = Some(terms);
-        self.odom_from_base = Some(odom_from_base);
-        self.is_forced = false;
-        self.draws += 1;
-        self.scans += 1;
-
-        let few_count = || self.particles.effective() <= 0.5 * self.particles.len() as f64;
-        let is_due = self.scans.is_multiple_of(self.settings.resample_interval.max(1));
-        let is_resampled = is_due && (!self.settings.is_selective || few_count());
-        let random_share = if is_resampled { self.resample() } else { 0.0 };
-
-        let mut estimate = self.sum_up();
-        let seen = Seen::new(scan, &self.settings)?;
-        self.follow(&mut estimate, &seen, old_from_new, odom_from_base);
-        self.polish(&mut estimate, &seen, odom_from_base);
-        let fit = self.fit_of_best(&estimate, &seen.beams);
-        self.status = self.watch.judge(&estimate.clusters, fit, self.rivals.is_some());
-        if self.look_out(&mut estimate, &seen, random_share, odom_from_base) {
-            self.watch.forgive();
-            let fit = self.fit_of_best(&estimate, &seen.beams);
-            self.status = self.watch.judge(&estimate.clusters, fit, self.rivals.is_some());
-        }
-        self.see_at(&seen, estimate.pose, odom_from_base);
-        self.undoubted = None;
-        self.doubt();
-        if self.status.state == State::Tracking {
-            self.is_settled = true;
-            self.vain = 0;
-        }
-        let map_from_odom = (estimate.pose * odom_from_base.inverse()).normalized();
-        self.map_from_odom = Some(map_from_odom);
-        self.estimate = Some(estimate.clone());
-        let status = self.status.clone();
-        Ok(Some(Update { estimate, map_from_odom, likelihood, random_share, is_resampled, status }))
-    }
-
-    /// Looks for the robot on all of the map, once for each place where odometry has it; whether there
-    /// are places where it may be. A search that takes longer goes on with the next scan.
-    fn seek(&mut self, odom_from_base: Pose2, scan: &Scan) -> Result<bool, Box<Diagnostic>> {
-        if !self.settings.starts_anywhere {
-            return Err(no_pose());
-        }
-        let seen = Seen::new(scan, &self.settings)?;
-        if self.search.is_some() {
-            self.go_on();
-        } else {
-            if let Some((_, why)) = &self.sought
-                && !self.is_forced
-                && !self.is_elsewhere(&seen, odom_from_base)
-            {
-                return Err(why.clone());
-            }
-            self.begin_search(&seen, odom_from_base, 0.0);
-        }
-        let Some((peaks, completeness)) = self.take_found(odom_from_base) else {
-            self.status.reason = "the robot is being looked for on all of the map".into();
-            return Ok(false);
+        self.update_count = 0;
+        self.recovery = LikelihoodAverages::default();
+        self.monitor = ConvergenceMonitor::default();
+        self.verification = PoseVerification::default();
+        self.search.reset();
+        self.unmatched_distance_m = 0.0;
+        self.has_pose = false;
+        self.status_before_doubt = None;
+        self.estimate = Some(self.summarize());
+        self.status = LocalizationStatus {
+            reason: "no scan was used since the start".into(),
+            ..LocalizationStatus::default()
         };
-        let place = self.sought.take().map_or(odom_from_base, |(place, _)| place);
-        let found = self.start_at_peaks(&seen, &peaks, completeness);
-        if let Err(why) = &found
-            && why.code == FITS_NOWHERE
-        {
-            self.sought = Some((place, why.clone()));
-            self.vain += 1;
-        }
-        found.map(|()| true)
     }
 
-    /// Draws particles anew, each as often as it counts, until there are enough for the bins they
-    /// fill. Returns the share that came from all of the map.
-    fn resample(&mut self) -> f64 {
-        let share = self.recovery.share();
-        let mut stream = self.stream("resample");
-        let mut sums = Vec::with_capacity(self.particles.len());
-        let mut sum = 0.0;
-        for weight in &self.particles.weight {
-            sum += weight;
-            sums.push(sum);
-        }
-        let size = self.settings.size;
-        let mut drawn = Particles::default();
-        let mut taken = Taken::default();
-        while drawn.len() < size.most {
-            let anywhere = if !self.settings.seeks_when_lost && stream.unit() < share {
-                self.map.as_ref().and_then(|map| map.random_pose(&mut stream))
-            } else {
-                None
-            };
-            let pose = anywhere.unwrap_or_else(|| {
-                let level = sum * stream.unit();
-                let index = sums.partition_point(|&sum| sum <= level);
-                self.particles.pose(index.min(sums.len() - 1))
-            });
-            drawn.push(pose);
-            if drawn.len() > size.needed(taken.take(pose)) {
-                break;
-            }
-        }
-        drawn.level();
-        self.particles = drawn;
-        if share > 0.0 {
-            // Otherwise ever more particles would be drawn from anywhere.
-            self.recovery = Recovery::default();
-        }
-        share
+    /// Likelihoods of a scan at all particles, up to a common factor. Nothing changes.
+    ///
+    /// # Errors
+    /// There is no map, or the scan is invalid.
+    pub fn likelihoods(&mut self, scan: &Scan) -> Result<Vec<f64>, Box<Diagnostic>> {
+        let map = self.map.as_mut().ok_or_else(no_map)?;
+        let settings = &self.settings;
+        let beams = Beams::new(scan, &settings.beams, settings.sensor_model.beam_step())?;
+        let (field, sensor) = map.sensor(settings, beams.range_max_m);
+        let scan = sensor.evaluate(field, settings.beam_skip, &beams, &self.particles);
+        Ok(scan.likelihoods)
     }
 
-    fn sum_up(&self) -> Estimate {
+    /// Summarizes the particles.
+    fn summarize(&self) -> PoseEstimate {
         let particles = &self.particles;
         let clusters = clusters(particles);
         let pose = clusters.first().map_or(Pose2::IDENTITY, |cluster| cluster.mean);
-        let mut all = Moments::around(pose);
+        let mut moments = Moments::around(pose);
         for index in 0..particles.len() {
-            all.add(particles.pose(index), particles.weight[index]);
+            moments.add(particles.pose(index), particles.weight[index]);
         }
-        Estimate { pose, covariance: all.covariance(), clusters }
+        PoseEstimate { pose, covariance: moments.covariance(), clusters }
     }
 
-    fn stream(&mut self, name: &str) -> Stream {
-        self.draws += 1;
-        Stream::keyed(self.settings.seed, &format!("amcl {name}"), self.draws)
+    /// Stream of random numbers that is used for one purpose once.
+    fn random_stream(&mut self, purpose: &str) -> Stream {
+        self.draw_count += 1;
+        Stream::keyed(self.settings.seed, &format!("amcl {purpose}"), self.draw_count)
     }
-}
-
-/// Whether the robot moved further along x or y of odometry, or turned further, than the least.
-#[must_use]
-pub fn has_moved(old: Pose2, new: Pose2, (least_m, least_rad): (f64, f64)) -> bool {
-    let turn = periplus_geometry::normalize_angle(new.yaw_rad - old.yaw_rad);
-    (new.x_m - old.x_m).abs() > least_m
-        || (new.y_m - old.y_m).abs() > least_m
-        || turn.abs() > least_rad
-}
-
-/// What is known of the map for a model, made anew only when it has to be.
-fn terms_for(terms: Option<Terms>, map: &KnownMap, settings: &Settings, range_max_m: f64) -> Terms {
-    let Settings { model, mixture, compat, .. } = settings;
-    terms
-        .filter(|terms| terms.is_for(*model, mixture, range_max_m, *compat))
-        .unwrap_or_else(|| Terms::new(map, *model, mixture, range_max_m, *compat))
-}
-
-/// Multiplies weights by what the scan says, and brings their sum back to one. Returns the mean of
-/// what the scan says, 0 when it is impossible everywhere: then all count alike.
-fn apply(particles: &mut Particles, said: &Said) -> f64 {
-    let mut total = 0.0;
-    for (weight, factor) in particles.weight.iter_mut().zip(&said.factors) {
-        *weight *= if factor.is_nan() { 0.0 } else { *factor };
-        total += *weight;
-    }
-    if !(total > 0.0 && total.is_finite()) {
-        particles.level();
-        return 0.0;
-    }
-    let share = 1.0 / total;
-    for weight in &mut particles.weight {
-        *weight *= share;
-    }
-    total * libm::exp(said.scale)
 }
 
 fn no_map() -> Box<Diagnostic> {
@@ -647,17 +424,25 @@ fn no_map() -> Box<Diagnostic> {
         .into()
 }
 
-fn no_pose() -> Box<Diagnostic> {
-    Diagnostic::error("no-initial-pose", "nobody has said where the robot is")
+fn no_initial_pose() -> Box<Diagnostic> {
+    Diagnostic::error("no-initial-pose", "no initial pose is set")
         .help(
-            "set the initial pose: in RViz by `2D Pose Estimate`, by parameter with \
-               `set_initial_pose: true`, or ask for a start anywhere",
+            "set the initial pose: in RViz with `2D Pose Estimate`, by parameter with \
+             `set_initial_pose: true`, or enable global localization with `global_start: true`",
         )
         .into()
 }
 
-fn nothing_free() -> Box<Diagnostic> {
-    Diagnostic::error("nothing-free", "no cell of the map is free, so the robot can be nowhere")
+fn no_free_cell() -> Box<Diagnostic> {
+    Diagnostic::error("nothing-free", "no cell of the map is free, so no pose is possible")
         .help("check `free_thresh` and `negate` in the map's YAML")
+        .into()
+}
+
+fn fits_nowhere(scan: &MatchingScan) -> Box<Diagnostic> {
+    let (hit_count, beam_count) = (scan.ends.len(), scan.beams.beams.len());
+    Diagnostic::error("fits-nowhere", "the scan fits nowhere on the map")
+        .note(format!("{hit_count} of its {beam_count} beams hit anything"))
+        .help("move the robot to where it sees walls, or check that this is the right map")
         .into()
 }

@@ -1,10 +1,11 @@
-//! Where a robot is on a map that is known.
+//! Adaptive Monte Carlo localization (AMCL) on a known map.
 //!
-//! [`Amcl`] is adaptive Monte Carlo localization as Nav2 has it, by the same parameters ([`AMCL`]),
-//! written from the equations: particles moved by odometry ([`Drive`]), weighed by scans ([`Model`]),
-//! drawn anew in numbers that fit ([`SampleSize`]), with a way back from being carried away
-//! ([`Recovery`]). It says when it is not sure ([`Status`]), and can start without being told where
-//! ([`Amcl::start_anywhere`]).
+//! [`Amcl`] is a particle filter with the parameters of Nav2's AMCL ([`AMCL`]), written from the
+//! equations of *Probabilistic Robotics* (Thrun, Burgard, Fox): an odometry motion model
+//! ([`MotionModel`]), a sensor model ([`SensorModel`]), KLD-sampling ([`KldSampling`]) and recovery
+//! by likelihood averages ([`LikelihoodAverages`]). In addition, scan matching refines the estimate,
+//! global localization finds the robot without an initial pose ([`Amcl::localize_globally`]) or after
+//! kidnapping, and a status reports how certain the pose is ([`LocalizationStatus`]).
 //!
 //! Values in, values out: no clock, no threads, no files, no ROS types; the same calls with the same
 //! seed give the same bits.
@@ -12,9 +13,9 @@
 //! ```
 //! use periplus_geometry::Pose2;
 //! use periplus_grid::{Grid, Lattice, occupancy};
-//! use periplus_localization::{Amcl, Guess, Scan, Settings, State};
+//! use periplus_localization::{Amcl, InitialPose, LocalizationState, Scan, Settings};
 //!
-//! // A room of 4 by 3 metres; the robot is in its middle and sees the wall to the right, 2 m away.
+//! // A room of 4 by 3 metres; the robot in its center sees the wall to the right at 2 m.
 //! let mut map = Grid::new(Lattice::new(0.1, 40, 30, Pose2::IDENTITY)?, occupancy::FREE);
 //! for index in 0..map.cells.len() {
 //!     let (column, row) = map.lattice.cell(index);
@@ -26,9 +27,13 @@
 //! amcl.set_map("map", &map).map_err(|it| it.message)?;
 //! let mut covariance = [0.0; 36];
 //! (covariance[0], covariance[7], covariance[35]) = (0.01, 0.01, 0.01);
-//! let pose = Pose2::new(2.0, 1.5, 0.0);
-//! let guess = Guess { frame: "map".into(), pose, covariance, moved: Pose2::IDENTITY };
-//! amcl.set_pose(&guess).map_err(|it| it.message)?;
+//! let initial_pose = InitialPose {
+//!     frame: "map".into(),
+//!     pose: Pose2::new(2.0, 1.5, 0.0),
+//!     covariance,
+//!     then_from_now: Pose2::IDENTITY,
+//! };
+//! amcl.set_pose(&initial_pose).map_err(|it| it.message)?;
 //! let scan = Scan {
 //!     base_from_laser: Pose2::IDENTITY,
 //!     is_flipped: false,
@@ -41,43 +46,49 @@
 //! let update = amcl.update(Pose2::IDENTITY, &scan).map_err(|it| it.message)?;
 //! let update = update.expect("the first scan is always used");
 //! assert!((update.estimate.pose.x_m - 2.0).abs() < 0.1);
-//! assert_eq!(update.status.state, State::Tracking);
+//! assert_eq!(update.status.state, LocalizationState::Tracking);
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
 mod amcl;
-mod anywhere;
-mod bins;
-mod evidence;
-mod guess;
-mod hunt;
-mod known_map;
-mod models;
-mod motion;
+mod branch_and_bound;
+mod global_localization;
+mod hypotheses;
+mod initial_pose;
+mod kld_sampling;
+mod likelihood_map;
+mod likelihood_pyramid;
+mod motion_model;
+mod parameters;
 mod particles;
-mod polish;
 mod pose_file;
-mod pyramid;
-mod ranges;
+mod pose_threshold;
 mod recovery;
-mod rivals;
 mod scan;
+mod scan_likelihood;
+mod scan_refinement;
+mod sensor_model;
 mod settings;
 mod status;
-mod tables;
-mod weigh;
 
-pub use amcl::{Amcl, Estimate, Update, has_moved};
-pub use bins::{BIN_M, BIN_RAD, BINS_AROUND, Cluster, SampleSize};
-pub use guess::Guess;
-pub use known_map::{CellPlace, CellState, Finder, KnownMap, MapSettings};
-pub use models::{BeamSkip, Mixture, Model, expected_range_m, weight_of_cubes, weight_of_product};
-pub use motion::{Alphas, Drive, Glide, GlideSpread, TurnWayTurn, TurnWayTurnSpread};
+pub use amcl::{Amcl, AmclUpdate, PoseEstimate};
+pub use initial_pose::InitialPose;
+pub use kld_sampling::{BIN_M, BIN_RAD, Cluster, KldSampling, YAW_BIN_COUNT};
+pub use likelihood_map::{
+    CellAlignment, CellState, CellTransform, LikelihoodMap, LikelihoodMapSettings,
+};
+pub use motion_model::{
+    MotionModel, MotionNoise, OmniMotion, OmniMotionNoise, RotTransRot, RotTransRotNoise,
+};
+pub use parameters::AMCL;
 pub use particles::{Covariance2, Particles};
 pub use periplus_scan_matching::Peak;
 pub use pose_file::{PoseFileError, SavedPose};
-pub use recovery::Recovery;
-pub use scan::{BeamLimits, Scan, Thinning};
-pub use settings::{Compat, Settings};
-pub use status::{State, Status};
-pub use tables::AMCL;
+pub use pose_threshold::{PoseThreshold, has_moved};
+pub use recovery::LikelihoodAverages;
+pub use scan::{BeamLimits, BeamStep, Scan};
+pub use sensor_model::{
+    BeamMixture, BeamSkip, SensorModel, expected_range_m, product_weight, sum_of_cubes_weight,
+};
+pub use settings::{AmclCompat, Settings};
+pub use status::{LocalizationState, LocalizationStatus};

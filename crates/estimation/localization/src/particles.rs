@@ -1,40 +1,40 @@
-//! Guesses of where the robot is.
+//! Particles and their moments.
 
 use periplus_geometry::{Pose2, normalize_angle};
 
-/// Guesses of where the robot is, each number in a list of its own.
+/// Particles as a structure of arrays.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Particles {
-    /// Along x of the map \[m\].
+    /// x in the map \[m\].
     pub x_m: Vec<f64>,
-    /// Along y of the map \[m\].
+    /// y in the map \[m\].
     pub y_m: Vec<f64>,
-    /// Direction \[rad\].
+    /// Yaw in the map \[rad\].
     pub yaw_rad: Vec<f64>,
-    /// How much each counts; all together 1, unless there are none.
+    /// Importance weights; their sum is 1 unless there are no particles.
     pub weight: Vec<f64>,
 }
 
 impl Particles {
-    /// How many there are.
+    /// Number of particles.
     #[must_use]
     pub fn len(&self) -> usize {
         self.x_m.len()
     }
 
-    /// Whether there are none.
+    /// True if there are no particles.
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.x_m.is_empty()
     }
 
-    /// One of them.
+    /// Pose of a particle.
     #[must_use]
     pub fn pose(&self, index: usize) -> Pose2 {
         Pose2::new(self.x_m[index], self.y_m[index], self.yaw_rad[index])
     }
 
-    /// Adds one of weight 1.
+    /// Adds a particle of weight 1.
     pub fn push(&mut self, pose: Pose2) {
         self.x_m.push(pose.x_m);
         self.y_m.push(pose.y_m);
@@ -42,23 +42,23 @@ impl Particles {
         self.weight.push(1.0);
     }
 
-    /// Gives all the same weight.
-    pub fn level(&mut self) {
+    /// Sets all weights to the same value, with sum 1.
+    pub fn set_uniform_weights(&mut self) {
         let each = 1.0 / self.len() as f64;
         self.weight.fill(each);
     }
 
-    /// By how many equal ones they could be replaced: 1 over the sum of squared weights.
+    /// Effective sample size: 1 over the sum of squared weights.
     #[must_use]
-    pub fn effective(&self) -> f64 {
+    pub fn effective_count(&self) -> f64 {
         let squares: f64 = self.weight.iter().map(|weight| weight * weight).sum();
         if squares > 0.0 { 1.0 / squares } else { 0.0 }
     }
 
-    /// Whether all are within so many metres of their mean, in x and in y: then the filter has made up
-    /// its mind, and beams that contradict most particles may be doubted.
+    /// True if all particles are within `radius_m` of their mean in x and in y: the filter has
+    /// converged, and beam skipping may start.
     #[must_use]
-    pub fn is_within(&self, radius_m: f64) -> bool {
+    pub fn are_within(&self, radius_m: f64) -> bool {
         let count = self.len() as f64;
         let is_near = |values: &[f64]| {
             let mean = values.iter().sum::<f64>() / count;
@@ -68,7 +68,7 @@ impl Particles {
     }
 }
 
-/// Sums from which means and spreads follow.
+/// Weighted sums for mean and covariance.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Moments {
     pub(crate) weight: f64,
@@ -79,17 +79,17 @@ pub(crate) struct Moments {
     xx: f64,
     xy: f64,
     yy: f64,
-    /// Where the sums are counted from, so that far from the origin no digits are lost.
-    from: [f64; 2],
+    /// Reference point of the sums, against loss of precision far from the origin.
+    reference_m: [f64; 2],
 }
 
 impl Moments {
     pub(crate) fn around(pose: Pose2) -> Self {
-        Self { from: [pose.x_m, pose.y_m], ..Self::default() }
+        Self { reference_m: [pose.x_m, pose.y_m], ..Self::default() }
     }
 
     pub(crate) fn add(&mut self, pose: Pose2, weight: f64) {
-        let (x, y) = (pose.x_m - self.from[0], pose.y_m - self.from[1]);
+        let (x, y) = (pose.x_m - self.reference_m[0], pose.y_m - self.reference_m[1]);
         let (sine, cosine) = libm::sincos(pose.yaw_rad);
         self.weight += weight;
         self.x += weight * x;
@@ -102,10 +102,10 @@ impl Moments {
     }
 
     pub(crate) fn mean(&self) -> Pose2 {
-        let share = if self.weight > 0.0 { 1.0 / self.weight } else { 0.0 };
+        let scale = if self.weight > 0.0 { 1.0 / self.weight } else { 0.0 };
         Pose2::new(
-            self.from[0] + self.x * share,
-            self.from[1] + self.y * share,
+            self.reference_m[0] + self.x * scale,
+            self.reference_m[1] + self.y * scale,
             libm::atan2(self.sine, self.cosine),
         )
     }
@@ -114,35 +114,35 @@ impl Moments {
         if self.weight <= 0.0 {
             return Covariance2::default();
         }
-        let share = 1.0 / self.weight;
-        let (x, y) = (self.x * share, self.y * share);
-        let length = (share * libm::hypot(self.cosine, self.sine)).clamp(1e-12, 1.0);
+        let scale = 1.0 / self.weight;
+        let (x, y) = (self.x * scale, self.y * scale);
+        let length = (scale * libm::hypot(self.cosine, self.sine)).clamp(1e-12, 1.0);
         Covariance2 {
-            xx: (self.xx * share - x * x).max(0.0),
-            xy: self.xy * share - x * y,
-            yy: (self.yy * share - y * y).max(0.0),
-            // Of a normal distribution wrapped around the circle.
+            xx: (self.xx * scale - x * x).max(0.0),
+            xy: self.xy * scale - x * y,
+            yy: (self.yy * scale - y * y).max(0.0),
+            // Variance of a wrapped normal distribution.
             yaw: (-2.0 * libm::log(length)).max(0.0),
         }
     }
 }
 
-/// How uncertain a pose on the plane is: squares of metres and of radians.
+/// Covariance of a planar pose, without correlation of position and yaw.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Covariance2 {
-    /// Of x \[m^2\].
+    /// Variance of x \[m^2\].
     pub xx: f64,
-    /// Of x with y \[m^2\].
+    /// Covariance of x and y \[m^2\].
     pub xy: f64,
-    /// Of y \[m^2\].
+    /// Variance of y \[m^2\].
     pub yy: f64,
-    /// Of the direction \[rad^2\].
+    /// Variance of yaw \[rad^2\].
     pub yaw: f64,
 }
 
 impl Covariance2 {
-    /// As `geometry_msgs/PoseWithCovariance` has it: six by six, row by row, of x, y, z, roll, pitch,
-    /// yaw.
+    /// Row-major 6 by 6 covariance of x, y, z, roll, pitch, yaw, as in
+    /// `geometry_msgs/PoseWithCovariance`.
     #[must_use]
     pub fn to_rows(self) -> [f64; 36] {
         let mut rows = [0.0; 36];
@@ -151,13 +151,13 @@ impl Covariance2 {
         rows
     }
 
-    /// The part of a `geometry_msgs/PoseWithCovariance` that is on the plane.
+    /// Planar part of the covariance of a `geometry_msgs/PoseWithCovariance`.
     #[must_use]
     pub fn from_rows(rows: &[f64; 36]) -> Self {
         Self { xx: rows[0], xy: 0.5 * (rows[1] + rows[6]), yy: rows[7], yaw: rows[35] }
     }
 
-    /// The longest half axis of the ellipse of one standard deviation \[m\].
+    /// Semi-major axis of the ellipse of one standard deviation \[m\].
     #[must_use]
     pub fn radius_m(self) -> f64 {
         let middle = 0.5 * (self.xx + self.yy);
@@ -183,13 +183,13 @@ mod tests {
     }
 
     #[test]
-    fn one_particle_that_counts_alone() {
+    fn effective_sample_size() {
         let mut particles = Particles::default();
         (0..4).for_each(|x| particles.push(Pose2::new(f64::from(x), 0.0, 0.0)));
-        particles.level();
-        assert_eq!(particles.effective(), 4.0);
-        assert!(particles.is_within(1.5) && !particles.is_within(1.4));
+        particles.set_uniform_weights();
+        assert_eq!(particles.effective_count(), 4.0);
+        assert!(particles.are_within(1.5) && !particles.are_within(1.4));
         particles.weight = vec![1.0, 0.0, 0.0, 0.0];
-        assert_eq!(particles.effective(), 1.0);
+        assert_eq!(particles.effective_count(), 1.0);
     }
 }

@@ -1,43 +1,43 @@
-//! The pose that outlives a restart, as text.
+//! Text format of the saved pose.
 
 use std::fmt;
 
 use periplus_geometry::Pose2;
 
-/// A pose as it is saved; the form is that of Nav2.
+/// Saved pose, in the format of Nav2.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SavedPose {
-    /// When it held \[ns\].
+    /// Time of the pose \[ns\].
     pub time_ns: i64,
-    /// The frame in which it is.
+    /// Frame of the pose.
     pub frame: String,
-    /// Where the robot was.
+    /// `map_from_base`.
     pub pose: Pose2,
-    /// How high it was \[m\].
+    /// z of the base \[m\].
     pub z_m: f64,
 }
 
-/// A text that is no saved pose.
+/// Error of [`SavedPose::parse`].
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum PoseFileError {
-    /// A line of it is not `name: value`, or its value cannot be read.
+    /// A line is not `name: value`, or its value is invalid.
     Line {
-        /// Which, from 1.
+        /// Line number, from 1.
         line: usize,
-        /// What it says.
+        /// Text of the line.
         text: String,
-        /// What it should say.
-        wanted: &'static str,
+        /// Description of the expected text.
+        expected: &'static str,
     },
-    /// A name is missing.
+    /// A required name is missing.
     Missing(&'static str),
 }
 
 impl fmt::Display for PoseFileError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::Line { line, text, wanted } => {
-                write!(f, "line {line} of the saved pose is `{text}`; it must be {wanted}")
+            Self::Line { line, text, expected } => {
+                write!(f, "line {line} of the saved pose is `{text}`; expected {expected}")
             }
             Self::Missing(name) => write!(f, "the saved pose has no `{name}:`"),
         }?;
@@ -47,18 +47,18 @@ impl fmt::Display for PoseFileError {
 
 impl std::error::Error for PoseFileError {}
 
-const NANOSECONDS: i64 = 1_000_000_000;
+const NS_PER_S: i64 = 1_000_000_000;
 
-/// Longer lines are shown in part.
-const SHOWN: usize = 60;
+/// Maximum number of characters of a line in messages.
+const SHOWN_COUNT: usize = 60;
 
 impl SavedPose {
-    /// The text of the file. Who writes it puts it beside and renames it, so that no half of it is
-    /// ever read.
+    /// Formats the pose. Write it to a temporary file and rename that, so that a reader never sees
+    /// half of it.
     #[must_use]
     pub fn to_text(&self) -> String {
         let (seconds, rest) =
-            (self.time_ns.div_euclid(NANOSECONDS), self.time_ns.rem_euclid(NANOSECONDS));
+            (self.time_ns.div_euclid(NS_PER_S), self.time_ns.rem_euclid(NS_PER_S));
         let Pose2 { x_m, y_m, yaw_rad } = self.pose;
         format!(
             "timestamp: {seconds}.{rest:09}\nframe_id: {}\nx: {x_m:.6}\ny: {y_m:.6}\nz: {:.6}\n\
@@ -67,35 +67,35 @@ impl SavedPose {
         )
     }
 
-    /// Reads the text of a file. Names may come in any order, and unknown ones are passed over.
+    /// Parses the text of a file. Names may be in any order; unknown names are ignored.
     ///
     /// # Errors
-    /// Which line cannot be read, or what is missing.
-    pub fn read(text: &str) -> Result<Self, PoseFileError> {
+    /// The line that is invalid, or the name that is missing.
+    pub fn parse(text: &str) -> Result<Self, PoseFileError> {
         let (mut time_ns, mut frame) = (None, None);
         let mut numbers: [Option<f64>; 4] = [None; 4];
-        for (index, line) in text.lines().enumerate() {
+        for (line_index, line) in text.lines().enumerate() {
             let line = line.trim();
             if line.is_empty() || line.starts_with('#') {
                 continue;
             }
-            let wrong = |wanted| PoseFileError::Line {
-                line: index + 1,
-                text: line.chars().take(SHOWN).collect(),
-                wanted,
+            let wrong = |expected| PoseFileError::Line {
+                line: line_index + 1,
+                text: line.chars().take(SHOWN_COUNT).collect(),
+                expected,
             };
             let (name, value) =
                 line.split_once(':').ok_or_else(|| wrong("a name, a colon and a value"))?;
             let value = value.trim();
-            let place = ["x", "y", "z", "yaw"].iter().position(|it| *it == name.trim());
-            match (name.trim(), place) {
+            let index = ["x", "y", "z", "yaw"].iter().position(|it| *it == name.trim());
+            match (name.trim(), index) {
                 ("timestamp", _) => {
                     time_ns = Some(nanoseconds(value).ok_or_else(|| wrong("seconds"))?);
                 }
                 ("frame_id", _) => frame = Some(value.trim_matches('"').to_owned()),
-                (_, Some(place)) => {
+                (_, Some(index)) => {
                     let number = value.parse().ok().filter(|number: &f64| number.is_finite());
-                    numbers[place] = Some(number.ok_or_else(|| wrong("a finite number"))?);
+                    numbers[index] = Some(number.ok_or_else(|| wrong("a finite number"))?);
                 }
                 _ => {}
             }
@@ -122,7 +122,7 @@ fn nanoseconds(text: &str) -> Option<i64> {
         return None;
     }
     let rest: i64 = format!("{part:0<9}").parse().ok()?;
-    whole.parse::<i64>().ok()?.checked_mul(NANOSECONDS)?.checked_add(rest)
+    whole.parse::<i64>().ok()?.checked_mul(NS_PER_S)?.checked_add(rest)
 }
 
 #[cfg(test)]
@@ -130,20 +130,22 @@ mod tests {
     use super::*;
 
     #[test]
-    fn there_and_back() {
+    fn round_trip() {
         for time_ns in [0, 12_500_000_000, -1, 1_700_000_000_123_456_789] {
             let pose = Pose2::new(1.5, -2.25, 0.5);
             let saved = SavedPose { time_ns, frame: "map".into(), pose, z_m: 0.0 };
-            assert_eq!(SavedPose::read(&saved.to_text()), Ok(saved));
+            assert_eq!(SavedPose::parse(&saved.to_text()), Ok(saved));
         }
     }
 
     #[test]
-    fn what_is_wrong_is_told_with_its_line() {
-        let told = |text: &str| SavedPose::read(text).unwrap_err().to_string();
-        assert!(told("timestamp: 1.5\nx: nan").starts_with("line 2 of the saved pose is `x: nan`"));
-        assert!(told("timestamp: 1.5").starts_with("the saved pose has no `frame_id:`"));
-        assert!(told("hello").starts_with("line 1"));
-        assert!(told("timestamp: 1.\u{661}").starts_with("line 1"));
+    fn errors_name_the_line() {
+        let message = |text: &str| SavedPose::parse(text).unwrap_err().to_string();
+        assert!(
+            message("timestamp: 1.5\nx: nan").starts_with("line 2 of the saved pose is `x: nan`")
+        );
+        assert!(message("timestamp: 1.5").starts_with("the saved pose has no `frame_id:`"));
+        assert!(message("hello").starts_with("line 1"));
+        assert!(message("timestamp: 1.\u{661}").starts_with("line 1"));
     }
 }

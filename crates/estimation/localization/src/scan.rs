@@ -1,69 +1,74 @@
-//! A scan, and the beams of it that are used.
+//! Laser scan and selection of its beams.
 
 use periplus_diagnostics::Diagnostic;
 use periplus_geometry::Pose2;
 
-/// Ranges along beams, as `sensor_msgs/LaserScan` has them, and where the scanner is on the robot.
+use crate::sensor_model::SensorModel;
+
+/// Approximate number of beams for scan matching; more beams do not improve it.
+const MATCHING_BEAMS: usize = 180;
+
+/// RayCaster of a scan, as in `sensor_msgs/LaserScan`, with the pose of the scanner.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Scan {
-    /// Where the scanner is \[m, rad\]. With one that hangs upside down this is where it points after
-    /// [`Scan::is_flipped`] is undone.
+    /// Pose of the scanner in the base frame \[m, rad\]. For a scanner that is mounted upside down,
+    /// the heading after [`Scan::is_flipped`] is undone.
     pub base_from_laser: Pose2,
-    /// Whether the scanner hangs upside down: its beams run clockwise as seen from above.
+    /// True for a scanner that is mounted upside down: its beams run clockwise seen from above.
     pub is_flipped: bool,
-    /// Direction of the first beam \[rad\].
+    /// Angle of the first beam \[rad\].
     pub angle_min_rad: f64,
-    /// From beam to beam \[rad\]; may be negative.
+    /// Angle between beams \[rad\]; may be negative.
     pub angle_increment_rad: f64,
-    /// Readings that are not longer mean nothing \[m\].
+    /// Minimum range \[m\]; readings at or below it are invalid.
     pub range_min_m: f64,
-    /// Readings that are not shorter saw nothing \[m\].
+    /// Maximum range \[m\]; readings at or above it hit nothing.
     pub range_max_m: f64,
-    /// What the beams measured \[m\].
+    /// Measured ranges \[m\].
     pub ranges_m: Vec<f32>,
 }
 
-/// Which beams are used, and up to where.
+/// Limits of the beams that are used.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BeamLimits {
-    /// How many beams are used, about: `max_beams`.
-    pub most: usize,
-    /// `laser_min_range` \[m\]; what the scan says unless above 0.
+    /// Approximate maximum number of beams: `max_beams`.
+    pub max_beams: usize,
+    /// `laser_min_range` \[m\]; the minimum range of the scan unless above 0.
     pub range_min_m: f64,
-    /// `laser_max_range` \[m\]; what the scan says unless above 0.
+    /// `laser_max_range` \[m\]; the maximum range of the scan unless above 0.
     pub range_max_m: f64,
 }
 
-/// How beams are taken from a scan with more of them than wanted.
+/// Step between the used beams of a scan with more beams than `max_beams`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Thinning {
-    /// So that first and last may both be used: (N - 1) / (M - 1), rounded down. There may be more
-    /// than wanted.
-    Between,
-    /// N / M rounded up: never more than wanted.
-    Within,
+pub enum BeamStep {
+    /// `(N - 1) / (M - 1)`, rounded down, as in Nav2's beam and likelihood field models. The number
+    /// of beams may exceed the maximum.
+    RoundedDown,
+    /// `N / M`, rounded up, as in Nav2's `likelihood_field_prob` model.
+    RoundedUp,
 }
 
-impl Thinning {
-    /// Every how many beams one is used, of `count` when `most` are wanted.
+impl BeamStep {
+    /// Step between used beams, for `count` beams of which at most `max_beams` are wanted.
     #[must_use]
-    pub fn stride(self, count: usize, most: usize) -> usize {
-        let stride = match self {
-            Self::Between => count.saturating_sub(1) / most.saturating_sub(1).max(1),
-            Self::Within => count.div_ceil(most.max(1)),
+    pub fn step(self, count: usize, max_beams: usize) -> usize {
+        let step = match self {
+            Self::RoundedDown => count.saturating_sub(1) / max_beams.saturating_sub(1).max(1),
+            Self::RoundedUp => count.div_ceil(max_beams.max(1)),
         };
-        stride.max(1)
+        step.max(1)
     }
 }
 
-/// A beam that is used.
+/// Beam that is used.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Beam {
-    /// What it measured, no more than [`Beams::range_max_m`] \[m\].
+    /// Measured range, at most [`Beams::range_max_m`] \[m\].
     pub(crate) range_m: f64,
-    /// Its direction in the frame of the base \[rad\].
+    /// Bearing in the base frame \[rad\].
     pub(crate) bearing_rad: f64,
-    /// Where it ended in the frame of the base \[m\].
+    /// End point in the base frame \[m\].
     pub(crate) end_m: [f64; 2],
 }
 
@@ -76,11 +81,11 @@ pub(crate) struct Beams {
 }
 
 impl Beams {
-    /// Those that measured anything, also nothing within reach; not those without a number.
+    /// Selects beams of a scan. Maximum range readings are kept, NaN readings are dropped.
     pub(crate) fn new(
         scan: &Scan,
         limits: &BeamLimits,
-        thinning: Thinning,
+        beam_step: BeamStep,
     ) -> Result<Self, Box<Diagnostic>> {
         let limit = |limit: f64| Some(limit).filter(|limit| *limit > 0.0);
         let (mut low, mut high) = (scan.range_min_m, scan.range_max_m);
@@ -92,8 +97,8 @@ impl Beams {
         }
         check(scan, low, high)?;
         let sign = if scan.is_flipped { -1.0 } else { 1.0 };
-        let stride = thinning.stride(scan.ranges_m.len(), limits.most);
-        let used = scan.ranges_m.iter().enumerate().step_by(stride);
+        let step = beam_step.step(scan.ranges_m.len(), limits.max_beams);
+        let used = scan.ranges_m.iter().enumerate().step_by(step);
         let beam = |(index, &range): (usize, &f32)| {
             let range = f64::from(range);
             let range_m = if range <= low { high } else { range.min(high) };
@@ -107,14 +112,30 @@ impl Beams {
         Ok(Self { base_from_laser: scan.base_from_laser, range_max_m: high, beams })
     }
 
-    /// Where beams ended that hit something, in the frame of the base \[m\].
+    /// End points of the beams that hit an obstacle, in the base frame \[m\].
     pub(crate) fn ends(&self) -> Vec<[f32; 2]> {
         let hits = self.beams.iter().filter(|beam| beam.range_m < self.range_max_m);
         hits.map(|beam| beam.end_m.map(|it| it as f32)).collect()
     }
 }
 
-/// What makes a scan useless.
+/// Scan for scan matching, with more beams than the particle filter uses.
+#[derive(Clone, Debug)]
+pub(crate) struct MatchingScan {
+    pub(crate) beams: Beams,
+    /// End points of the beams that hit an obstacle, in the base frame \[m\].
+    pub(crate) ends: Vec<[f32; 2]>,
+}
+
+impl MatchingScan {
+    pub(crate) fn new(scan: &Scan, limits: &BeamLimits) -> Result<Self, Box<Diagnostic>> {
+        let limits = BeamLimits { max_beams: MATCHING_BEAMS.max(limits.max_beams), ..*limits };
+        let beams = Beams::new(scan, &limits, SensorModel::LikelihoodField.beam_step())?;
+        Ok(Self { ends: beams.ends(), beams })
+    }
+}
+
+/// Checks that a scan can be used.
 fn check(scan: &Scan, low: f64, high: f64) -> Result<(), Box<Diagnostic>> {
     let error = |code, message: &str, help: &str| {
         Err(Box::new(Diagnostic::error(code, message).help(help.to_owned())))
@@ -130,21 +151,21 @@ fn check(scan: &Scan, low: f64, high: f64) -> Result<(), Box<Diagnostic>> {
     if !(scan.base_from_laser.is_finite() && angles.iter().all(|angle| angle.is_finite())) {
         return error(
             "bad-scan",
-            "an angle of the scan or the place of the scanner on the robot is not a finite number",
+            "an angle of the scan or the pose of the scanner on the robot is not finite",
             "check `angle_min`, `angle_increment` and the scanner's transform",
         );
     }
     if scan.ranges_m.len() > 1 && scan.angle_increment_rad == 0.0 {
         return error(
             "bad-scan",
-            "all beams of the scan point in one direction",
+            "all beams of the scan have the same direction",
             "its `angle_increment` is 0: check the driver",
         );
     }
     if !(high.is_finite() && high > 0.0 && low < high) {
         return error(
             "bad-scan-limits",
-            &format!("the scan measures from {low} m to {high} m: no reading can be in between"),
+            &format!("the range limits of the scan, {low} m to {high} m, leave no valid reading"),
             "check `range_min`, `range_max` of the scan, `laser_min_range` and `laser_max_range`",
         );
     }
@@ -167,19 +188,19 @@ mod tests {
         }
     }
 
-    const LIMITS: BeamLimits = BeamLimits { most: 60, range_min_m: -1.0, range_max_m: 8.0 };
+    const LIMITS: BeamLimits = BeamLimits { max_beams: 60, range_min_m: -1.0, range_max_m: 8.0 };
 
     #[test]
-    fn strides_are_those_of_the_models() {
-        let strides = [(360, 60), (61, 60), (60, 60), (5, 60), (3600, 2)]
-            .map(|(n, m)| (Thinning::Between.stride(n, m), Thinning::Within.stride(n, m)));
-        assert_eq!(strides, [(6, 6), (1, 2), (1, 1), (1, 1), (3599, 1800)]);
+    fn steps_are_those_of_the_nav2_models() {
+        let steps = [(360, 60), (61, 60), (60, 60), (5, 60), (3600, 2)]
+            .map(|(n, m)| (BeamStep::RoundedDown.step(n, m), BeamStep::RoundedUp.step(n, m)));
+        assert_eq!(steps, [(6, 6), (1, 2), (1, 1), (1, 1), (3599, 1800)]);
     }
 
     #[test]
-    fn too_short_is_nothing_seen_and_no_number_is_no_beam() {
+    fn short_readings_become_maximum_range_and_nan_is_dropped() {
         let scan = scan(vec![2.0, 0.125, f32::NAN, f32::INFINITY]);
-        let beams = Beams::new(&scan, &LIMITS, Thinning::Between).unwrap();
+        let beams = Beams::new(&scan, &LIMITS, BeamStep::RoundedDown).unwrap();
         assert_eq!(beams.range_max_m, 8.0);
         let ranges: Vec<f64> = beams.beams.iter().map(|beam| beam.range_m).collect();
         assert_eq!(ranges, [2.0, 8.0, 8.0]);
@@ -190,17 +211,17 @@ mod tests {
     fn upside_down_beams_run_the_other_way() {
         let mut scan = scan(vec![1.0, 1.0]);
         scan.is_flipped = true;
-        let beams = Beams::new(&scan, &LIMITS, Thinning::Between).unwrap();
+        let beams = Beams::new(&scan, &LIMITS, BeamStep::RoundedDown).unwrap();
         assert!((beams.beams[1].end_m[1] + 1.0).abs() < 1e-12, "{beams:?}");
     }
 
     #[test]
-    fn useless_scans_are_told() {
-        let told = |scan: Scan| Beams::new(&scan, &LIMITS, Thinning::Between).unwrap_err().code;
-        assert_eq!(told(scan(vec![])), "empty-scan");
-        assert_eq!(told(Scan { angle_min_rad: f64::NAN, ..scan(vec![1.0]) }), "bad-scan");
-        assert_eq!(told(Scan { angle_increment_rad: 0.0, ..scan(vec![1.0; 2]) }), "bad-scan");
-        assert_eq!(told(Scan { range_min_m: 9.0, ..scan(vec![1.0]) }), "bad-scan-limits");
-        assert_eq!(told(Scan { range_max_m: 0.0, ..scan(vec![1.0]) }), "bad-scan-limits");
+    fn useless_scans_are_rejected() {
+        let code = |scan: Scan| Beams::new(&scan, &LIMITS, BeamStep::RoundedDown).unwrap_err().code;
+        assert_eq!(code(scan(vec![])), "empty-scan");
+        assert_eq!(code(Scan { angle_min_rad: f64::NAN, ..scan(vec![1.0]) }), "bad-scan");
+        assert_eq!(code(Scan { angle_increment_rad: 0.0, ..scan(vec![1.0; 2]) }), "bad-scan");
+        assert_eq!(code(Scan { range_min_m: 9.0, ..scan(vec![1.0]) }), "bad-scan-limits");
+        assert_eq!(code(Scan { range_max_m: 0.0, ..scan(vec![1.0]) }), "bad-scan-limits");
     }
 }

@@ -1,181 +1,192 @@
-//! Whether the robot knows where it is.
+//! Localization status and its monitor.
 
 use std::f64::consts::FRAC_PI_6;
 
 use periplus_geometry::normalize_angle;
 
-use crate::bins::Cluster;
-use crate::recovery::Recovery;
+use crate::kld_sampling::Cluster;
+use crate::pose_threshold::PoseThreshold;
+use crate::recovery::LikelihoodAverages;
 
-/// Whether the robot knows where it is.
+/// LocalizationState of localization.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum State {
-    /// Nobody has said where it is, or no scan was used since.
+pub enum LocalizationState {
+    /// No initial pose, or no scan used since.
     Unset,
-    /// It knows.
+    /// The pose is known.
     Tracking,
-    /// It may be in several places, or anywhere in a large one.
+    /// Several poses are possible, or the covariance is large.
     Ambiguous,
-    /// Scans do not fit to where it seems to be.
+    /// Scans contradict the estimate.
     Lost,
 }
 
-/// Whether the robot knows where it is, and why so.
+/// LocalizationStatus of localization with its reason.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Status {
-    /// In a word.
-    pub state: State,
-    /// Why, in a sentence.
+pub struct LocalizationStatus {
+    /// LocalizationState.
+    pub state: LocalizationState,
+    /// Reason of the state, as a sentence.
     pub reason: String,
-    /// Other places where it may be, the likeliest first.
-    pub rivals: Vec<Cluster>,
-    /// Which part of the last scan is on walls of the map, 0 to 1; none when nothing was seen.
-    pub fit: Option<f64>,
+    /// Other pose hypotheses, most likely first.
+    pub hypotheses: Vec<Cluster>,
+    /// Fraction of the hits of the last scan at walls of the map, 0 to 1; none without hits.
+    pub inlier_ratio: Option<f64>,
 }
 
-impl Default for Status {
+impl Default for LocalizationStatus {
     fn default() -> Self {
         Self {
-            state: State::Unset,
-            reason: "nobody has said where the robot is".into(),
-            rivals: Vec::new(),
-            fit: None,
+            state: LocalizationState::Unset,
+            reason: "no initial pose is set".into(),
+            hypotheses: Vec::new(),
+            inlier_ratio: None,
         }
     }
 }
 
-/// Clusters that count less are no rivals.
-const LEAST_RIVAL: f64 = 0.1;
-/// More rivals are not told.
-const MOST_RIVALS: usize = 20;
-/// Clusters nearer to the best are the same place \[m\], \[rad\].
-const SAME_PLACE: (f64, f64) = (1.0, FRAC_PI_6);
-/// A spread that is no place any more: one standard deviation \[m\], \[rad\].
-const LARGE_SPREAD: (f64, f64) = (1.0, FRAC_PI_6);
-/// With a smaller part of scans on walls the robot is lost: half may be people and furniture.
-const LEAST_FIT: f64 = 0.35;
-/// So much less than it used to be, and it may be worth a look elsewhere.
-const SUSPECT: f64 = 0.85;
-/// So much less than it used to be is a sudden misfit.
-const SUDDEN: f64 = 0.6;
-/// So much less than it used to be is not usual: at least, as a share, and in mean deviations.
-const UNUSUAL: (f64, f64) = (0.12, 4.0);
-/// Memories of how well scans fit, long and short.
-const MEMORY: [f64; 2] = [0.02, 0.4];
+/// Minimum weight of a cluster that counts as another hypothesis.
+const MIN_HYPOTHESIS_FRACTION: f64 = 0.1;
+/// Maximum number of reported hypotheses.
+const MAX_HYPOTHESES: usize = 20;
+/// Clusters closer than this to the best are the same hypothesis.
+const SAME_HYPOTHESIS: PoseThreshold = PoseThreshold::new(1.0, FRAC_PI_6);
+/// Maximum standard deviations of a known pose.
+const MAX_STD_M: f64 = 1.0;
+const MAX_STD_RAD: f64 = FRAC_PI_6;
+/// Inlier ratio below which the robot is lost; half of a scan may be people and furniture.
+const MIN_INLIER_RATIO: f64 = 0.35;
+/// Fraction of the usual inlier ratio below which a search of the map starts (EXPERIMENTS.md, step
+/// 7).
+const SUSPICIOUS_FRACTION: f64 = 0.85;
+/// Fraction of the usual inlier ratio below which the robot is lost.
+const SUDDEN_LOSS_FRACTION: f64 = 0.6;
+/// Unusual drop of the inlier ratio: as a fraction of the usual one, and in mean absolute
+/// deviations (EXPERIMENTS.md, step 32).
+const UNUSUAL_FRACTION: f64 = 0.12;
+const UNUSUAL_SIGMAS: f64 = 4.0;
+/// Gains of the long-term and short-term averages of the inlier ratio.
+const SLOW_FACTOR: f64 = 0.02;
+const FAST_FACTOR: f64 = 0.4;
 
-/// Watches how well scans fit.
+/// Monitor of the inlier ratio: detects divergence of the filter and kidnapping.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct Watch {
-    fits: Recovery,
-    /// How far scans fit better or worse than usual, in the mean.
+pub(crate) struct ConvergenceMonitor {
+    averages: LikelihoodAverages,
+    /// Mean absolute deviation of the inlier ratio from its long-term average.
     deviation: f64,
-    /// Whether the robot was not sure after the last scan: then nothing is learned of what is usual.
-    is_unsure: bool,
-    /// Whether it ever was.
-    was_sure: bool,
+    /// True if the last state was not tracking: the long-term average is frozen.
+    was_not_tracking: bool,
+    /// True if the state ever was tracking.
+    was_localized: bool,
 }
 
-impl Watch {
-    /// Whether a scan fits so much worse than others did that the robot may be elsewhere.
-    pub(crate) fn suspects(&self, fit: Option<f64>) -> bool {
-        fit.is_some_and(|fit| fit.min(self.fits.fast) < SUSPECT * self.fits.slow)
+impl ConvergenceMonitor {
+    /// True if the inlier ratio dropped enough to suspect kidnapping.
+    pub(crate) fn suspects_kidnapping(&self, inlier_ratio: Option<f64>) -> bool {
+        inlier_ratio
+            .is_some_and(|it| it.min(self.averages.fast) < SUSPICIOUS_FRACTION * self.averages.slow)
     }
 
-    /// How sure it is, by where particles are and which part of the scan is on walls; undecided when
-    /// there are several places and none is to be believed yet.
-    pub(crate) fn judge(
+    /// Classifies the state from clusters and the inlier ratio. `is_undecided`: several hypotheses
+    /// are being tracked and none is accepted yet.
+    pub(crate) fn update(
         &mut self,
         clusters: &[Cluster],
-        fit: Option<f64>,
+        inlier_ratio: Option<f64>,
         is_undecided: bool,
-    ) -> Status {
-        if let Some(fit) = fit {
-            let [slow, fast] = MEMORY;
-            let slow = if self.is_unsure { 0.0 } else { slow };
-            self.fits.take(fit, [slow, fast]);
-            self.deviation += slow * ((fit - self.fits.slow).abs() - self.deviation);
+    ) -> LocalizationStatus {
+        if let Some(ratio) = inlier_ratio {
+            let slow = if self.was_not_tracking { 0.0 } else { SLOW_FACTOR };
+            self.averages.update(ratio, [slow, FAST_FACTOR]);
+            self.deviation += slow * ((ratio - self.averages.slow).abs() - self.deviation);
         }
-        let Recovery { slow, fast } = self.fits;
-        let Some(best) = clusters.first() else { return Status::default() };
-        let rivals: Vec<Cluster> = clusters[1..]
+        let LikelihoodAverages { slow, fast } = self.averages;
+        let Some(best) = clusters.first() else { return LocalizationStatus::default() };
+        let hypotheses: Vec<Cluster> = clusters[1..]
             .iter()
-            .filter(|it| is_undecided || is_rival(it, best))
-            .take(MOST_RIVALS)
+            .filter(|it| is_undecided || is_other_hypothesis(it, best))
+            .take(MAX_HYPOTHESES)
             .copied()
             .collect();
-        let (state, reason) = if fit.is_some() && fast < LEAST_FIT {
+        let (state, reason) = if inlier_ratio.is_some() && fast < MIN_INLIER_RATIO {
             (
-                State::Lost,
-                format!("only {:.0} % of the scans are on walls of the map", 100.0 * fast),
+                LocalizationState::Lost,
+                format!("only {:.0} % of the scan hits are at walls of the map", 100.0 * fast),
             )
-        } else if fit.is_some() && fast < SUDDEN * slow {
+        } else if inlier_ratio.is_some() && fast < SUDDEN_LOSS_FRACTION * slow {
             let (fast, slow) = (100.0 * fast, 100.0 * slow);
-            let words = format!(
-                "scans fit much worse than before: {fast:.0} % are on walls of the map, \
-                 {slow:.0} % used to be; the robot may have been carried away"
+            let reason = format!(
+                "the scan match dropped: {fast:.0} % of the hits are at walls of the map, usually \
+                 {slow:.0} %; the robot may have been kidnapped"
             );
-            (State::Lost, words)
-        } else if let Some(rival) = rivals.first() {
-            let words = format!(
-                "{} places are possible: ({:.2}, {:.2}) by {:.0} %, ({:.2}, {:.2}) by {:.0} %",
-                rivals.len() + 1,
+            (LocalizationState::Lost, reason)
+        } else if let Some(other) = hypotheses.first() {
+            let reason = format!(
+                "{} poses are possible: ({:.2}, {:.2}) with {:.0} %, ({:.2}, {:.2}) with {:.0} %",
+                hypotheses.len() + 1,
                 best.mean.x_m,
                 best.mean.y_m,
                 100.0 * best.weight,
-                rival.mean.x_m,
-                rival.mean.y_m,
-                100.0 * rival.weight,
+                other.mean.x_m,
+                other.mean.y_m,
+                100.0 * other.weight,
             );
-            (State::Ambiguous, words)
+            (LocalizationState::Ambiguous, reason)
         } else if is_undecided {
-            (State::Ambiguous, "one place is likely, but too little has been seen yet".into())
+            (LocalizationState::Ambiguous, "one pose is likely, but needs more scans".into())
         } else {
             let (radius_m, turn_rad) =
                 (best.covariance.radius_m(), libm::sqrt(best.covariance.yaw));
-            if radius_m > LARGE_SPREAD.0 || turn_rad > LARGE_SPREAD.1 {
+            if radius_m > MAX_STD_M || turn_rad > MAX_STD_RAD {
                 let degrees = turn_rad.to_degrees();
-                let words =
-                    format!("the place is known to {radius_m:.1} m and {degrees:.0} degrees");
-                (State::Ambiguous, words)
-            } else if fit.is_none() {
-                (State::Tracking, "by odometry alone: no beam of the scan hit anything".into())
+                let reason =
+                    format!("the pose is uncertain by {radius_m:.1} m and {degrees:.0} degrees");
+                (LocalizationState::Ambiguous, reason)
+            } else if inlier_ratio.is_none() {
+                (
+                    LocalizationState::Tracking,
+                    "by odometry only: no beam of the scan hit anything".into(),
+                )
             } else {
-                let words = format!("{:.0} % of the scans are on walls of the map", 100.0 * fast);
-                (State::Tracking, words)
+                let reason =
+                    format!("{:.0} % of the scan hits are at walls of the map", 100.0 * fast);
+                (LocalizationState::Tracking, reason)
             }
         };
-        self.is_unsure = state != State::Tracking;
-        self.was_sure |= !self.is_unsure;
-        Status { state, reason, rivals, fit }
+        self.was_not_tracking = state != LocalizationState::Tracking;
+        self.was_localized |= !self.was_not_tracking;
+        LocalizationStatus { state, reason, hypotheses, inlier_ratio }
     }
 
-    /// Whether the robot ever knew where it was.
-    pub(crate) fn was_sure(&self) -> bool {
-        self.was_sure
+    /// True if the robot was localized before.
+    pub(crate) fn was_localized(&self) -> bool {
+        self.was_localized
     }
 
-    /// Which part of scans is usually on walls; 0 before the first.
-    pub(crate) fn usual(&self) -> f64 {
-        self.fits.slow
+    /// Long-term average of the inlier ratio; 0 before the first scan.
+    pub(crate) fn usual_inlier_ratio(&self) -> f64 {
+        self.averages.slow
     }
 
-    /// With a smaller part of a scan on walls than this it is unlike scans before.
-    pub(crate) fn least_usual(&self) -> f64 {
-        let (share, deviations) = UNUSUAL;
-        self.fits.slow - (share * self.fits.slow).max(deviations * self.deviation)
+    /// Inlier ratio below which a scan is unusual.
+    pub(crate) fn min_usual_inlier_ratio(&self) -> f64 {
+        let drop = (UNUSUAL_FRACTION * self.averages.slow).max(UNUSUAL_SIGMAS * self.deviation);
+        self.averages.slow - drop
     }
 
-    /// The robot is elsewhere; what was bad a moment ago counts no longer.
-    pub(crate) fn forgive(&mut self) {
-        self.fits.fast = self.fits.slow;
+    /// Resets the short-term average after relocalization.
+    pub(crate) fn reset_short_term(&mut self) {
+        self.averages.fast = self.averages.slow;
     }
 }
 
-fn is_rival(other: &Cluster, best: &Cluster) -> bool {
+fn is_other_hypothesis(other: &Cluster, best: &Cluster) -> bool {
     let (dx, dy) = (other.mean.x_m - best.mean.x_m, other.mean.y_m - best.mean.y_m);
     let turn = normalize_angle(other.mean.yaw_rad - best.mean.yaw_rad).abs();
-    let is_elsewhere = libm::hypot(dx, dy) > SAME_PLACE.0 || turn > SAME_PLACE.1;
-    other.weight >= LEAST_RIVAL && is_elsewhere
+    let is_elsewhere =
+        libm::hypot(dx, dy) > SAME_HYPOTHESIS.distance_m || turn > SAME_HYPOTHESIS.angle_rad;
+    other.weight >= MIN_HYPOTHESIS_FRACTION && is_elsewhere
 }
 
 #[cfg(test)]
@@ -191,43 +202,49 @@ mod tests {
     }
 
     #[test]
-    fn states_are_told_apart() {
-        let state = |clusters: &[Cluster], fit| Watch::default().judge(clusters, fit, false).state;
-        assert_eq!(state(&[], Some(1.0)), State::Unset);
-        assert_eq!(state(&[at(0.0, 1.0)], Some(0.8)), State::Tracking);
-        assert_eq!(state(&[at(0.0, 1.0)], Some(0.2)), State::Lost);
-        assert_eq!(state(&[at(0.0, 1.0)], None), State::Tracking);
-        assert_eq!(state(&[at(0.0, 0.7), at(5.0, 0.3)], Some(0.8)), State::Ambiguous);
-        assert_eq!(state(&[at(0.0, 0.95), at(5.0, 0.05)], Some(0.8)), State::Tracking);
-        assert_eq!(state(&[at(0.0, 0.7), at(0.6, 0.3)], Some(0.8)), State::Tracking);
-        let undecided = |clusters: &[Cluster]| Watch::default().judge(clusters, Some(0.8), true);
-        assert_eq!(undecided(&[at(0.0, 1.0)]).state, State::Ambiguous);
-        assert_eq!(undecided(&[at(0.0, 0.95), at(5.0, 0.05)]).rivals.len(), 1);
-    }
-
-    #[test]
-    fn a_robot_that_is_carried_away_is_lost() {
-        let mut watch = Watch::default();
-        for _ in 0..20 {
-            assert_eq!(watch.judge(&[at(0.0, 1.0)], Some(0.95), false).state, State::Tracking);
-        }
-        let states: Vec<State> =
-            (0..5).map(|_| watch.judge(&[at(0.0, 1.0)], Some(0.45), false).state).collect();
-        assert_eq!(states.last(), Some(&State::Lost));
-    }
-
-    #[test]
-    fn a_scan_is_unlike_others_where_they_agree_with_each_other() {
-        let least_of = |fits: &[f64]| {
-            let mut watch = Watch::default();
-            for number in 0..100 {
-                watch.judge(&[at(0.0, 1.0)], Some(fits[number % fits.len()]), false);
-            }
-            watch.least_usual()
+    fn states_are_distinguished() {
+        let state = |clusters: &[Cluster], fit| {
+            ConvergenceMonitor::default().update(clusters, fit, false).state
         };
-        let steady = least_of(&[0.94, 0.96]);
+        assert_eq!(state(&[], Some(1.0)), LocalizationState::Unset);
+        assert_eq!(state(&[at(0.0, 1.0)], Some(0.8)), LocalizationState::Tracking);
+        assert_eq!(state(&[at(0.0, 1.0)], Some(0.2)), LocalizationState::Lost);
+        assert_eq!(state(&[at(0.0, 1.0)], None), LocalizationState::Tracking);
+        assert_eq!(state(&[at(0.0, 0.7), at(5.0, 0.3)], Some(0.8)), LocalizationState::Ambiguous);
+        assert_eq!(state(&[at(0.0, 0.95), at(5.0, 0.05)], Some(0.8)), LocalizationState::Tracking);
+        assert_eq!(state(&[at(0.0, 0.7), at(0.6, 0.3)], Some(0.8)), LocalizationState::Tracking);
+        let undecided =
+            |clusters: &[Cluster]| ConvergenceMonitor::default().update(clusters, Some(0.8), true);
+        assert_eq!(undecided(&[at(0.0, 1.0)]).state, LocalizationState::Ambiguous);
+        assert_eq!(undecided(&[at(0.0, 0.95), at(5.0, 0.05)]).hypotheses.len(), 1);
+    }
+
+    #[test]
+    fn a_kidnapped_robot_is_lost() {
+        let mut monitor = ConvergenceMonitor::default();
+        for _ in 0..20 {
+            assert_eq!(
+                monitor.update(&[at(0.0, 1.0)], Some(0.95), false).state,
+                LocalizationState::Tracking
+            );
+        }
+        let states: Vec<LocalizationState> =
+            (0..5).map(|_| monitor.update(&[at(0.0, 1.0)], Some(0.45), false).state).collect();
+        assert_eq!(states.last(), Some(&LocalizationState::Lost));
+    }
+
+    #[test]
+    fn a_scan_is_unusual_if_others_vary_less() {
+        let min_of = |fits: &[f64]| {
+            let mut monitor = ConvergenceMonitor::default();
+            for number in 0..100 {
+                monitor.update(&[at(0.0, 1.0)], Some(fits[number % fits.len()]), false);
+            }
+            monitor.min_usual_inlier_ratio()
+        };
+        let steady = min_of(&[0.94, 0.96]);
         assert!(steady > 0.8 && steady < 0.86, "{steady}");
-        let unsteady = least_of(&[0.95, 0.65]);
+        let unsteady = min_of(&[0.95, 0.65]);
         assert!(unsteady < 0.5, "{unsteady}");
     }
 }

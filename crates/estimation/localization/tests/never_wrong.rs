@@ -1,5 +1,5 @@
-//! A robot that is where its map does not say, or where somebody has carried it, is not sure of a wrong
-//! place, and looks for itself at a bounded cost.
+//! A robot off the map, or kidnapped, does not report a wrong pose as known, and searches the map with
+//! bounded work per scan.
 
 #![allow(clippy::unwrap_used, reason = "a test")]
 
@@ -13,12 +13,12 @@ mod worlds;
 use courses::{Course, Cover, erased, rearranged};
 use periplus_geometry::Stream;
 use periplus_grid::{OccupancyGrid, occupancy};
-use periplus_localization::{Amcl, Settings, State};
-use worlds::{Wanderer, World, guess, off};
+use periplus_localization::{Amcl, LocalizationState, Settings};
+use worlds::{Wanderer, World, initial_pose_at, off};
 
-/// Scans in which a robot may be sure before it has noticed.
+/// Maximum number of scans with a wrong known pose before it is detected.
 const NOTICED: usize = 2;
-/// Farther off an answer is wrong \[m\], \[rad\].
+/// Maximum error of a right pose \[m\], \[rad\].
 const RIGHT: (f64, f64) = (1.0, 0.52);
 
 fn amcl(map: &OccupancyGrid, seed: u64) -> Amcl {
@@ -27,9 +27,9 @@ fn amcl(map: &OccupancyGrid, seed: u64) -> Amcl {
     amcl
 }
 
-/// Whether it is sure, and of a wrong place.
+/// True if the pose is known, and true if it is known and wrong.
 fn is_sure(amcl: &Amcl, robot: &Wanderer) -> (bool, bool) {
-    let is_sure = amcl.status().state == State::Tracking;
+    let is_sure = amcl.status().state == LocalizationState::Tracking;
     let found = amcl.map_from_odom().map(|it| it * robot.odom_from_base);
     let is_right = found.is_some_and(|found| {
         let (metres, radians) = off(robot.truth, found);
@@ -39,38 +39,38 @@ fn is_sure(amcl: &Amcl, robot: &Wanderer) -> (bool, bool) {
 }
 
 #[test]
-fn on_the_map_of_another_place_a_robot_is_not_sure() {
+fn on_a_wrong_map_the_pose_is_not_known() {
     let pairs = [
         (World::house(), World::office(), true),
         (World::office(), World::house(), false),
         (World::office(), World::cave(), true),
     ];
-    for (seed, (world, other, is_told)) in (0..).zip(pairs) {
+    for (seed, (world, other, has_initial_pose)) in (0..).zip(pairs) {
         let (map, wrong) = (world.map(), other.map());
         let mut stream = Stream::keyed(seed, "foreign", 0);
         let mut amcl = amcl(&wrong, seed);
-        let mut robot = Wanderer::new(world.anywhere(&map, &mut stream), &mut stream);
-        if is_told {
-            amcl.set_pose(&guess(other.anywhere(&wrong, &mut stream))).unwrap();
+        let mut robot = Wanderer::new(world.random_pose(&map, &mut stream), &mut stream);
+        if has_initial_pose {
+            amcl.set_pose(&initial_pose_at(other.random_pose(&wrong, &mut stream))).unwrap();
         }
         let mut sure = 0;
         for _ in 0..160 {
-            robot.go(&world, &mut stream);
+            robot.step(&world, &mut stream);
             let scan = world.scan(robot.truth, &mut stream);
             let _ = amcl.update(robot.odom_from_base, &scan);
-            sure += usize::from(amcl.status().state == State::Tracking);
+            sure += usize::from(amcl.status().state == LocalizationState::Tracking);
         }
         assert!(sure <= NOTICED, "{} on {}: sure {sure} times", world.name, other.name);
     }
 }
 
 #[test]
-fn off_the_map_a_robot_is_not_sure() {
+fn off_the_map_the_pose_is_not_known() {
     for (seed, world) in (0..).zip([World::office(), World::store()]) {
         let whole = world.map();
         let mut stream = Stream::keyed(seed, "off the map", 0);
-        let mut robot = Wanderer::new(world.anywhere(&whole, &mut stream), &mut stream);
-        // The map ends a bit to the right of where the robot begins.
+        let mut robot = Wanderer::new(world.random_pose(&whole, &mut stream), &mut stream);
+        // The map ends 1 m to the right of the initial pose.
         let mut known = whole.clone();
         let end_m = robot.truth.x_m + 1.0;
         let (mut is_known, lattice) = (0, known.lattice);
@@ -83,13 +83,13 @@ fn off_the_map_a_robot_is_not_sure() {
         }
         assert!(is_known > 100);
         let mut amcl = amcl(&known, seed);
-        amcl.set_pose(&guess(robot.truth)).unwrap();
+        amcl.set_pose(&initial_pose_at(robot.truth)).unwrap();
         let (mut sure, mut wrong) = (0, 0);
         for _ in 0..330 {
-            robot.go(&world, &mut stream);
+            robot.step(&world, &mut stream);
             amcl.update(robot.odom_from_base, &world.scan(robot.truth, &mut stream)).unwrap();
             let (is_sure, is_wrong) = is_sure(&amcl, &robot);
-            // Beyond the last wall that is known.
+            // Beyond the last known wall.
             sure += usize::from(is_sure && robot.truth.x_m > end_m + 1.0);
             wrong += usize::from(is_wrong);
         }
@@ -97,16 +97,16 @@ fn off_the_map_a_robot_is_not_sure() {
     }
 }
 
-/// Follows the first scans of a drive through the store on another map of it. In how many scans it is sure,
-/// and in how many of a wrong place, or where the map does not reach.
+/// Localizes part of a drive through the store on a changed map. Returns the number of scans with a known
+/// pose, with a wrong known pose, and with a wrong known pose off the map.
 fn sure_and_wrong(course: &Course, map: &OccupancyGrid, first: usize, count: usize) -> [usize; 3] {
     let cover = Cover::new(map);
     let mut amcl = amcl(map, 0);
-    amcl.set_pose(&guess(course.sights[first].map_from_base)).unwrap();
+    amcl.set_pose(&initial_pose_at(course.sights[first].map_from_base)).unwrap();
     let mut counts = [0; 3];
     for sight in &course.sights[first..first + count] {
         amcl.update(sight.odom_from_base, &sight.scan).unwrap();
-        if amcl.status().state == State::Tracking {
+        if amcl.status().state == LocalizationState::Tracking {
             let found = amcl.map_from_odom().unwrap() * sight.odom_from_base;
             let (metres, radians) = off(sight.map_from_base, found);
             let is_right = metres < RIGHT.0 && radians < RIGHT.1;
@@ -119,8 +119,8 @@ fn sure_and_wrong(course: &Course, map: &OccupancyGrid, first: usize, count: usi
 }
 
 #[test]
-fn at_the_end_of_the_map_scans_do_not_hold_a_robot_that_goes_on() {
-    // Between two shelves all places look alike, but for the ends of those that are known.
+fn at_the_edge_of_the_map_scan_matching_does_not_hold_the_pose() {
+    // Between two shelves all poses look alike, except at the ends of the known ones.
     let course = Course::of_world(&World::store(), 0);
     let map = erased(&course, std::f64::consts::FRAC_PI_2 * 2.3);
     let cover = Cover::new(&map);
@@ -130,7 +130,7 @@ fn at_the_end_of_the_map_scans_do_not_hold_a_robot_that_goes_on() {
 }
 
 #[test]
-fn among_furniture_that_was_moved_a_robot_is_right_or_says_that_it_is_not_sure() {
+fn with_moved_furniture_a_known_pose_is_right() {
     let course = Course::of_world(&World::store(), 0);
     for (number, share, least) in [(0, 0.1, 100), (1, 0.25, 50)] {
         let map = rearranged(&course, share, &mut Stream::keyed(0, "moved", number));
@@ -140,22 +140,22 @@ fn among_furniture_that_was_moved_a_robot_is_right_or_says_that_it_is_not_sure()
 }
 
 #[test]
-fn a_robot_that_is_carried_away_is_found_or_says_that_it_is_not() {
+fn a_kidnapped_robot_is_relocalized_or_not_known() {
     let mut found = 0;
     for world in [World::office(), World::store()] {
         let map = world.map();
         for seed in 0..4 {
             let mut stream = Stream::keyed(seed, "carried", 0);
             let mut amcl = amcl(&map, seed);
-            let mut robot = Wanderer::new(world.anywhere(&map, &mut stream), &mut stream);
-            amcl.set_pose(&guess(robot.truth)).unwrap();
+            let mut robot = Wanderer::new(world.random_pose(&map, &mut stream), &mut stream);
+            amcl.set_pose(&initial_pose_at(robot.truth)).unwrap();
             let (mut are_sure, mut is_wrong) = (false, false);
             for step in 0..110 {
                 if step == 30 {
-                    // Odometry does not know of this.
-                    robot.truth = world.anywhere(&map, &mut stream);
+                    // Kidnapped.
+                    robot.truth = world.random_pose(&map, &mut stream);
                 }
-                robot.go(&world, &mut stream);
+                robot.step(&world, &mut stream);
                 amcl.update(robot.odom_from_base, &world.scan(robot.truth, &mut stream)).unwrap();
                 (are_sure, is_wrong) = is_sure(&amcl, &robot);
             }
@@ -163,36 +163,36 @@ fn a_robot_that_is_carried_away_is_found_or_says_that_it_is_not() {
             found += usize::from(are_sure);
         }
     }
-    // Rooms are alike; but it does not take long in most.
+    // Rooms are similar, so that not all are found.
     assert!(found >= 6, "{found} of 8 are found");
 }
 
 #[test]
-fn a_search_on_all_of_the_map_is_done_in_parts() {
-    // A robot that is on no map looks for itself again and again.
+fn the_search_of_the_map_is_sliced() {
+    // A robot off the map searches repeatedly.
     let (world, other) = (World::cave(), World::office());
     let map = world.map();
     let mut stream = Stream::keyed(1, "budget", 0);
     let mut amcl = amcl(&other.map(), 1);
-    let mut robot = Wanderer::new(world.anywhere(&map, &mut stream), &mut stream);
+    let mut robot = Wanderer::new(world.random_pose(&map, &mut stream), &mut stream);
     let mut searched = Vec::new();
     for _ in 0..120 {
-        robot.go(&world, &mut stream);
+        robot.step(&world, &mut stream);
         let _ = amcl.update(robot.odom_from_base, &world.scan(robot.truth, &mut stream));
-        searched.push(amcl.searched());
+        searched.push(amcl.search_lookup_count());
     }
-    // At the start more, once.
+    // The first slice is larger.
     let (first, later) = searched.split_first().unwrap();
     assert!(*first > 100_000 && *first < 14_000_000, "{first}");
     let most = later.iter().max().unwrap();
     let sum: u64 = later.iter().sum();
     assert!(sum > 1_000_000 && *most < 4_000_000, "at most {most}, in all {sum}");
-    // Without way or change nobody asks again.
+    // Without motion or change no new search starts.
     let scan = world.scan(robot.truth, &mut stream);
     let again: u64 = (0..60)
         .map(|_| {
             let _ = amcl.update(robot.odom_from_base, &scan);
-            amcl.searched()
+            amcl.search_lookup_count()
         })
         .skip(40)
         .sum();

@@ -1,19 +1,20 @@
-//! Localization as a node on the graph.
+//! AMCL as a ROS node.
 //!
-//! An [`AmclNode`] is what `nav2_amcl` is in ROS 2, and `amcl` in ROS 1: a managed node with the same
-//! topics, services, parameters and transforms around a [`periplus_localization::Amcl`]. Here is only
-//! who is told, under which name, and in which message; beyond those two it finds itself without
-//! being told where it is, and says whether it knows.
+//! [`AmclNode`] corresponds to `nav2_amcl` in ROS 2 and `amcl` in ROS 1: a lifecycle node with the
+//! same topics, services, parameters and transforms around a [`periplus_localization::Amcl`]. In
+//! addition, it localizes globally without an initial pose, and publishes how certain the pose is.
 //!
-//! Source of names and QoS: `nav2_amcl/src/amcl_node.cpp` (main, 2026) and the wiki of ROS 1's `amcl`.
+//! Source of names and QoS: `nav2_amcl/src/amcl_node.cpp` (main, 2026) and the ROS 1 wiki of
+//! `amcl`.
 
-mod file;
 mod inputs;
 mod messages;
 mod node;
 mod outputs;
-mod saved;
+mod parameter_file;
+mod saved_pose;
 mod services;
 
 pub use messages::scan;
-pub use node::{AmclNode, read};
+pub use node::AmclNode;
+pub use parameter_file::read_parameters;

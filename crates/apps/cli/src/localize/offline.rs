@@ -7,7 +7,7 @@ use std::process::ExitCode;
 
 use periplus_geometry::Pose2;
 use periplus_grid::OccupancyGrid;
-use periplus_localization::{Amcl, Scan, Settings, State, Status};
+use periplus_localization::{Amcl, LocalizationState, LocalizationStatus, Scan, Settings};
 use periplus_os::Stopwatch;
 
 use super::options::{self, LocalizeOptions};
@@ -71,7 +71,7 @@ pub(super) fn run(
         return Ok(ExitCode::FAILURE);
     }
     let loaded_s = watch.elapsed().as_secs_f64();
-    let mut amcl = Amcl::new(Settings::of(&values));
+    let mut amcl = Amcl::new(Settings::from_values(&values));
     let frame = amcl.settings().global_frame.clone();
     if let Err(why) = amcl.set_map(&frame, &map) {
         terminal::complain(&why.message);
@@ -111,7 +111,7 @@ fn localize(amcl: &mut Amcl, log: &Log) -> Outcome {
     let mut way_m = 0.0;
     let mut before: Option<Pose2> = None;
     let begin_ns = log.scans.first().map_or(0, |it| it.scan.time_ns);
-    let mut state = State::Unset;
+    let mut state = LocalizationState::Unset;
     for logged in &log.scans {
         let Some(odom_from_base) = logged.odom_from_base else {
             outcome.without_odometry += 1;
@@ -125,7 +125,7 @@ fn localize(amcl: &mut Amcl, log: &Log) -> Outcome {
         match amcl.update(odom_from_base, &scan(logged)) {
             Ok(Some(update)) => {
                 outcome.spent_s.push(one.elapsed().as_secs_f64());
-                if let Some(fit) = update.status.fit {
+                if let Some(fit) = update.status.inlier_ratio {
                     outcome.fits.0 += fit;
                     outcome.fits.1 += 1;
                 }
@@ -136,12 +136,12 @@ fn localize(amcl: &mut Amcl, log: &Log) -> Outcome {
                 *count += 1;
             }
         }
-        let Status { state: now, reason, .. } = amcl.status();
+        let LocalizationStatus { state: now, reason, .. } = amcl.status();
         *outcome.states.entry(word(*now)).or_default() += 1;
         if std::mem::replace(&mut state, *now) != *now && outcome.changes.len() < MOST_CHANGES {
             outcome.changes.push((logged.stamp.clone(), word(*now), reason.clone()));
         }
-        if let Some(map_from_odom) = amcl.map_from_odom().filter(|_| amcl.is_settled()) {
+        if let Some(map_from_odom) = amcl.map_from_odom().filter(|_| amcl.has_pose()) {
             let after_s = (logged.scan.time_ns - begin_ns) as f64 * 1e-9;
             outcome.settled.get_or_insert((after_s, way_m));
             let map_from_base = (map_from_odom * odom_from_base).normalized();
@@ -164,12 +164,12 @@ fn scan(logged: &Logged) -> Scan {
     }
 }
 
-fn word(state: State) -> &'static str {
+fn word(state: LocalizationState) -> &'static str {
     match state {
-        State::Unset => "unset",
-        State::Tracking => "tracking",
-        State::Ambiguous => "ambiguous",
-        State::Lost => "lost",
+        LocalizationState::Unset => "unset",
+        LocalizationState::Tracking => "tracking",
+        LocalizationState::Ambiguous => "ambiguous",
+        LocalizationState::Lost => "lost",
     }
 }
 

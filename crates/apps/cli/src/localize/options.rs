@@ -8,7 +8,7 @@ use periplus_diagnostics::{Diagnostics, SourceMap};
 use periplus_geometry::Pose2;
 use periplus_grid::OccupancyGrid;
 use periplus_maps::{Distro, load};
-use periplus_nav_nodes::amcl::read;
+use periplus_nav_nodes::amcl::read_parameters;
 use periplus_params::ParamValues;
 use periplus_yaml::YamlNode;
 
@@ -128,7 +128,7 @@ pub(super) fn tell(
 ) -> io::Result<Option<ParamValues>> {
     let none = || Yaml { tree: None, diagnostics: Diagnostics::new(), sources: SourceMap::new() };
     let Yaml { tree, mut diagnostics, sources } = file.unwrap_or_else(none);
-    let values = read(tree.as_ref(), "amcl", words, &mut diagnostics);
+    let values = read_parameters(tree.as_ref(), "amcl", words, &mut diagnostics);
     terminal::diagnostics(&mut anstream::stderr().lock(), &diagnostics, &sources)?;
     Ok((!diagnostics.has_errors()).then_some(values))
 }

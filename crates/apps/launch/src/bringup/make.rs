@@ -154,7 +154,7 @@ pub(crate) fn make(
             let name = node.names().name().to_owned();
             let written = Written::new(&named, &full_name)?;
             let values = written.read(&mut made.notes, |tree, found| {
-                periplus_nav_nodes::amcl::read(tree, &name, &[], found)
+                periplus_nav_nodes::amcl::read_parameters(tree, &name, &[], found)
             });
             let amcl = AmclNode::at(node, values, Arc::new(Machine)).map_err(failed)?;
             if !ask.is_managed {

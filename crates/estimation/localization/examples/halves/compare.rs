@@ -1,4 +1,4 @@
-//! Localization against SLAM, scan by scan.
+//! Comparison of localization with SLAM, scan by scan.
 
 use std::fmt::Write as _;
 
@@ -7,33 +7,32 @@ use periplus_grid::{occupancy, squared_distances};
 
 use crate::files::{Found, Half, Seen, Way};
 
-/// Poses of the map near to a place lay SLAM's way over the map there, farther ones less: half at this
-/// distance \[m\].
+/// Distance at which the weight of a map pose in the local alignment with SLAM is one half \[m\].
 const NEARBY_M: f64 = 4.0;
-/// With less of them, counted so, the motion of the whole log counts.
+/// Minimum total weight; below it the alignment of the whole log is used.
 const LEAST_NEARBY: f64 = 2.0;
-/// Ends so near to a wall of the map are on it \[m\].
+/// Maximum distance of a beam end at a wall \[m\].
 const ON_WALL_M: f64 = 0.15;
-/// The map covers a scan of which such a part is on its walls.
+/// Minimum inlier ratio of a scan that the map covers.
 const COVERED: f64 = 0.5;
-/// Agreement with SLAM that was asked for \[m\].
+/// Required agreement with SLAM \[m\].
 pub(crate) const ASKED_M: f64 = 0.1;
 
-/// A scan that both have.
+/// Scan with both poses.
 pub(crate) struct Row {
-    /// Since the first scan of the half \[s\].
+    /// Time since the first scan of the half \[s\].
     pub(crate) after_s: f64,
     pub(crate) state: String,
-    /// Where SLAM has the robot, laid over the map nearby.
+    /// Pose by SLAM, aligned with the map nearby.
     pub(crate) slam: Pose2,
-    /// Where localization has it, if anywhere.
+    /// Pose by localization, if any.
     pub(crate) found: Option<Pose2>,
-    /// How far apart they are: as they are, after one motion, after that of the poses nearby \[m\].
+    /// Difference: as is, after one alignment, after the alignment nearby \[m\].
     off_m: [f64; 3],
     off_rad: f64,
-    /// Which part of the ends is on walls where SLAM has the robot.
+    /// Inlier ratio at the pose by SLAM.
     on_walls: f64,
-    /// Whether SLAM has the robot on a free cell, and enough of the scan is on walls.
+    /// True if the pose by SLAM is in free space and the inlier ratio is sufficient.
     pub(crate) is_covered: bool,
 }
 
@@ -42,20 +41,21 @@ impl Row {
         self.state == "tracking"
     }
 
-    /// After the motion of the poses nearby \[m\].
+    /// Difference after the alignment nearby \[m\].
     pub(crate) fn nearby_m(&self) -> f64 {
         self.off_m[2]
     }
 }
 
-/// All of them, in the order of time.
+/// All scans in order of time.
 pub(crate) struct Compared {
     pub(crate) rows: Vec<Row>,
     scans: usize,
 }
 
-/// Both maps have a frame and a shape of their own: SLAM's way on the whole log is laid over the map by
-/// scans of the first half, which both have. No pose that is judged has a part in it.
+/// Both maps have their own frame and distortion: the trajectory of SLAM on the whole log is
+/// aligned with the map by the scans of the first half, which both contain. Poses under test take
+/// no part in it.
 pub(crate) fn compare(half: &Half, found: &Found) -> Compared {
     let both: Vec<(Pose2, Pose2)> = half
         .first
@@ -95,8 +95,8 @@ fn apart_m(a: Pose2, b: Pose2) -> f64 {
     (a.x_m - b.x_m).hypot(a.y_m - b.y_m)
 }
 
-/// The rigid motion that lays the first of each pair over the second, as far as it counts: turned by
-/// the mean of their turns, and middle upon middle.
+/// Weighted rigid alignment of the first of each pair with the second: mean rotation, and center on
+/// center.
 fn motion(pairs: &[(Pose2, Pose2)], weight: impl Fn(Pose2) -> f64) -> Pose2 {
     let (mut sine, mut cosine, mut all) = (0.0, 0.0, 0.0);
     let mut sums = [0.0; 4];
@@ -118,10 +118,10 @@ fn motion(pairs: &[(Pose2, Pose2)], weight: impl Fn(Pose2) -> f64) -> Pose2 {
     Pose2::new(middles[2] - x, middles[3] - y, turn.yaw_rad)
 }
 
-/// Which part of a scan's ends is on walls of the map, and whether the robot stands where it can.
+/// Inlier ratio of a scan, and whether the robot is in free space.
 fn covered(half: &Half, walls: &[u32], seen: &Seen, map_from_base: Pose2) -> (f64, bool) {
     let lattice = half.map.lattice;
-    let finder = lattice.finder();
+    let cell_transform = lattice.finder();
     let scan = &seen.scan;
     let map_from_laser = map_from_base * scan.base_from_laser;
     let reach = ON_WALL_M / lattice.resolution_m;
@@ -134,16 +134,16 @@ fn covered(half: &Half, walls: &[u32], seen: &Seen, map_from_base: Pose2) -> (f6
         let angle = scan.angle_min_rad + index as f64 * scan.angle_increment_rad;
         let (x, y) = map_from_laser.transform_point(range * angle.cos(), range * angle.sin());
         count += 1;
-        let cell = finder.cell_of(x, y).map(|cell| lattice.index(cell));
+        let cell = cell_transform.cell_of(x, y).map(|cell| lattice.index(cell));
         on += usize::from(cell.is_some_and(|it| f64::from(walls[it]) < reach * reach));
     }
-    let cell = finder.cell_of(map_from_base.x_m, map_from_base.y_m);
+    let cell = cell_transform.cell_of(map_from_base.x_m, map_from_base.y_m);
     let is_free = cell.is_some_and(|cell| half.map[cell] == occupancy::FREE);
     (on as f64 / count.max(1) as f64, is_free)
 }
 
 impl Compared {
-    /// A line for every scan.
+    /// CSV with a line per scan.
     pub(crate) fn csv(&self) -> String {
         let mut text = String::from(
             "after_s,state,on_map,on_walls,x_m,y_m,yaw_rad,slam_x_m,slam_y_m,slam_yaw_rad,\
@@ -173,7 +173,7 @@ impl Compared {
         text
     }
 
-    /// A line of a table.
+    /// Row of the table.
     pub(crate) fn line(&self, name: &str) -> String {
         let covered = self.rows.iter().filter(|row| row.is_covered).count();
         let sure: Vec<&Row> =

@@ -11,18 +11,18 @@ type Colour = [u8; 3];
 const SLAM: Colour = [40, 90, 230];
 const SURE: Colour = [20, 150, 60];
 const UNSURE: Colour = [240, 140, 20];
-/// Sure, and further from SLAM than was asked for.
+/// Color of tracking scans beyond the required agreement.
 const WRONG: Colour = [225, 30, 40];
 const GRID: Colour = [225; 3];
 const INK: Colour = [70; 3];
 const OFF_MAP: Colour = [235, 235, 245];
 
-/// Longest side of the picture of the map.
+/// Maximum side of the map picture \[px\].
 const LONGEST: usize = 2400;
-/// Of the picture of errors: its size, and its margins.
+/// Size and margins of the error picture \[px\].
 const SIZE: (usize, usize) = (1600, 500);
 const MARGIN: (usize, usize) = (60, 30);
-/// Larger errors are drawn at the upper edge \[m\].
+/// Error at the upper edge \[m\].
 const MOST_M: f64 = 0.3;
 
 struct Canvas {
@@ -91,8 +91,8 @@ impl Canvas {
     }
 }
 
-/// The map, SLAM's way in blue, and localization's: green where it was sure, orange where not, red
-/// where it was sure and further off than was asked for. Scale: a bar of ten metres.
+/// Draws the map, the trajectory of SLAM in blue, and that of localization: green while tracking,
+/// orange otherwise, red while tracking beyond the required agreement. Scale: a bar of ten metres.
 pub(crate) fn ways(map: &OccupancyGrid, compared: &Compared) -> Vec<u8> {
     let lattice = map.lattice;
     let margin = 0.5 * lattice.resolution_m;
@@ -113,12 +113,12 @@ pub(crate) fn ways(map: &OccupancyGrid, compared: &Compared) -> Vec<u8> {
     let (width, height) =
         (((high[0] - low[0]) / pixel_m) as usize + 1, ((high[1] - low[1]) / pixel_m) as usize + 1);
     let mut canvas = Canvas::new(width, height, [205; 3]);
-    let finder = lattice.finder();
+    let cell_transform = lattice.finder();
     for row in 0..height {
         for column in 0..width {
             let x = low[0] + (column as f64 + 0.5) * pixel_m;
             let y = low[1] + ((height - row) as f64 - 0.5) * pixel_m;
-            let value = finder.cell_of(x, y).map_or(-1, |cell| map[cell]);
+            let value = cell_transform.cell_of(x, y).map_or(-1, |cell| map[cell]);
             let grey = if value < 0 { 205 } else { 255 - (f64::from(value.min(100)) * 2.55) as u8 };
             canvas.set((column, row), [grey; 3]);
         }
@@ -146,8 +146,8 @@ pub(crate) fn ways(map: &OccupancyGrid, compared: &Compared) -> Vec<u8> {
     canvas.png()
 }
 
-/// How far localization is from SLAM over time, in the colours of the map; the line is what was asked
-/// for, the shaded times are those in which the robot was off the map.
+/// Draws the difference between localization and SLAM over time, in the colors of the map. The line
+/// is the required agreement; shaded times are off the map.
 pub(crate) fn errors(compared: &Compared) -> Vec<u8> {
     let mut canvas = Canvas::new(SIZE.0, SIZE.1, [255; 3]);
     let end_s = compared.rows.last().map_or(1.0, |row| row.after_s).max(1.0);

@@ -1,4 +1,4 @@
-//! What is in the folder.
+//! Files of the comparison.
 
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -14,16 +14,16 @@ use periplus_maps::{Distro, grid_of, read_description};
 /// Poses by their stamps \[us\].
 pub(crate) type Way = BTreeMap<i64, Pose2>;
 
-/// A scan of the second half.
+/// Scan of the second half.
 pub(crate) struct Seen {
     pub(crate) stamp_us: i64,
     pub(crate) odom_from_base: Pose2,
     pub(crate) scan: Scan,
 }
 
-/// All but what localization says.
+/// Inputs of the comparison.
 pub(crate) struct Half {
-    /// Of the first half.
+    /// Map of the first half.
     pub(crate) map: OccupancyGrid,
     /// `whole_from_base` by SLAM on the whole log.
     pub(crate) whole: Way,
@@ -32,12 +32,12 @@ pub(crate) struct Half {
     pub(crate) scans: Vec<Seen>,
 }
 
-/// What localization says.
+/// Results of localization.
 #[derive(Default)]
 pub(crate) struct Found {
-    /// `map_from_base` where it knew.
+    /// `map_from_base` where a pose was known.
     pub(crate) poses: Way,
-    /// From when on it was in a state, in order.
+    /// Start times of states, in order.
     pub(crate) states: Vec<(i64, String)>,
 }
 
@@ -69,7 +69,7 @@ impl Found {
         Ok(Self { poses, states: changes.filter_map(state).collect() })
     }
 
-    /// The state at a time.
+    /// State at a time.
     pub(crate) fn state(&self, stamp_us: i64) -> &str {
         let after = self.states.partition_point(|(begin, _)| *begin <= stamp_us);
         after.checked_sub(1).map_or("unset", |index| self.states[index].1.as_str())
@@ -95,7 +95,7 @@ fn map(folder: &Path) -> Result<OccupancyGrid, String> {
     let distro = Distro::default();
     let file = sources.add("map.yaml", text(&folder.join("map.yaml"))?);
     let description = read_description(file, &sources, distro, &mut diagnostics)
-        .ok_or_else(|| format!("{}: map.yaml is none of a map", folder.display()))?;
+        .ok_or_else(|| format!("{}: map.yaml does not describe a map", folder.display()))?;
     let image = folder.join(&description.image);
     let raster =
         Raster::decode(&bytes(&image)?).map_err(|why| format!("{}: {why}", image.display()))?;

@@ -1,10 +1,10 @@
-//! The second half of a log, localized on the map of its first half, against SLAM on all of it.
-//! `halves FOLDER [again] [NAME=VALUE ...]`.
+//! Localizes the second half of a log on the map of its first half, and compares with SLAM on the
+//! whole log: `halves FOLDER [again] [NAME=VALUE ...]`.
 //!
-//! The folder holds `second.clf`, what `periplus slam` made of the whole log (`whole`) and of the first
-//! half (`map`), and what `periplus localize` made of the second half (`localized`); with `again` that
-//! is made anew here, with parameters of those names. A line of a table goes to the output; figures of
-//! every scan and pictures go to the folder.
+//! The folder contains `second.clf`, results of `periplus slam` for the whole log (`whole`) and the
+//! first half (`map`), and of `periplus localize` for the second half (`localized`); with `again`,
+//! localization runs here, with the given parameters. The output is a row of a table; data of every
+//! scan and pictures are written to the folder.
 #![allow(
     clippy::disallowed_methods,
     clippy::print_stdout,
@@ -61,11 +61,11 @@ fn run(folder: &Path, words: &[String]) -> Result<String, String> {
     Ok(compared.line(&folder.file_name().unwrap_or_default().to_string_lossy()))
 }
 
-/// As `periplus localize` does it.
+/// Runs localization as `periplus localize`.
 fn localize(half: &Half, given: &[String]) -> Result<Found, String> {
     let given = given.iter().filter_map(|word| word.split_once('='));
     let mut diagnostics = Diagnostics::new();
-    // Every scan counts, as it does in SLAM.
+    // Uses every scan, as SLAM does.
     let usual = [("update_min_d", "0.1"), ("update_min_a", "0.1")];
     let all = usual.into_iter().chain(given).map(|(name, value)| Given::new(name, value));
     let (_, settings) = Settings::read(all, &mut diagnostics);
@@ -76,7 +76,7 @@ fn localize(half: &Half, given: &[String]) -> Result<Found, String> {
     for seen in &half.scans {
         let _ = amcl.update(seen.odom_from_base, &seen.scan);
         found.states.push((seen.stamp_us, format!("{:?}", amcl.status().state).to_lowercase()));
-        if let Some(map_from_odom) = amcl.map_from_odom().filter(|_| amcl.is_settled()) {
+        if let Some(map_from_odom) = amcl.map_from_odom().filter(|_| amcl.has_pose()) {
             found.poses.insert(seen.stamp_us, map_from_odom * seen.odom_from_base);
         }
     }

@@ -1,5 +1,4 @@
-//! Drives with a map and a reference, and how maps differ from the place: parts that are not known, and
-//! furniture that was moved.
+//! Drives with a map and a reference, and changed maps: unknown parts and moved furniture.
 
 use periplus_geometry::{Pose2, Stream};
 use periplus_grid::{OccupancyGrid, occupancy, squared_distances};
@@ -7,16 +6,16 @@ use periplus_localization::Scan;
 
 use crate::worlds::{Wanderer, World};
 
-/// Ends so near to a wall of the map are on it \[m\].
+/// Maximum distance of a beam end at a wall \[m\].
 const ON_WALL_M: f64 = 0.15;
-/// A robot not farther than this from a free cell is on the map \[m\].
+/// Maximum distance from free space of a robot on the map \[m\].
 const FREE_M: f64 = 0.3;
-/// The map covers a scan of which such a part is on its walls.
+/// Minimum inlier ratio of a scan that the map covers.
 const COVERED: f64 = 0.5;
 /// Steps of a drive through a world.
 const STEPS: usize = 2500;
 
-/// A scan, and where odometry and the reference have the robot.
+/// Scan with odometry and reference pose.
 #[derive(Clone)]
 pub(crate) struct Sight {
     pub(crate) odom_from_base: Pose2,
@@ -24,7 +23,7 @@ pub(crate) struct Sight {
     pub(crate) scan: Scan,
 }
 
-/// A drive, and the map of the place.
+/// Drive and its map.
 pub(crate) struct Course {
     pub(crate) name: String,
     pub(crate) map: OccupancyGrid,
@@ -32,13 +31,13 @@ pub(crate) struct Course {
 }
 
 impl Course {
-    /// A drive through a world.
+    /// Simulates a drive through a world.
     pub(crate) fn of_world(world: &World, seed: u64) -> Self {
         let map = world.map();
         let mut stream = Stream::keyed(seed, "course", 0);
-        let mut robot = Wanderer::new(world.anywhere(&map, &mut stream), &mut stream);
+        let mut robot = Wanderer::new(world.random_pose(&map, &mut stream), &mut stream);
         let sights = (0..STEPS).map(|_| {
-            robot.go(world, &mut stream);
+            robot.step(world, &mut stream);
             let scan = world.scan(robot.truth, &mut stream);
             Sight { odom_from_base: robot.odom_from_base, map_from_base: robot.truth, scan }
         });
@@ -46,7 +45,7 @@ impl Course {
         Self { name: world.name.to_owned(), map, sights }
     }
 
-    /// How far the reference goes from one sight to another \[m\].
+    /// Distance of the reference between two sights \[m\].
     pub(crate) fn way_m(&self, from: usize, to: usize) -> f64 {
         self.sights[from..=to]
             .windows(2)
@@ -57,7 +56,7 @@ impl Course {
             .sum()
     }
 
-    /// The first sight so much farther on, if the drive goes on that far.
+    /// First sight after a distance, if the drive is long enough.
     pub(crate) fn after_m(&self, from: usize, way_m: f64) -> Option<usize> {
         let mut sum = 0.0;
         for index in from + 1..self.sights.len() {
@@ -69,7 +68,7 @@ impl Course {
         None
     }
 
-    /// A random sight from which the drive goes on so far.
+    /// Random sight with at least a distance after it.
     pub(crate) fn anywhere(&self, way_m: f64, stream: &mut Stream) -> usize {
         let last =
             (0..self.sights.len()).rev().find(|&it| self.after_m(it, way_m).is_some()).unwrap_or(0);
@@ -77,11 +76,11 @@ impl Course {
     }
 }
 
-/// Judges whether a map covers a sight: the robot stands near a free cell, and half of what the scan hits is
-/// on walls.
+/// Test whether a map covers a sight: the robot is near free space, and half of the hits are at
+/// walls.
 pub(crate) struct Cover<'a> {
     map: &'a OccupancyGrid,
-    /// In cells, squared.
+    /// Squared distances to walls \[cells\].
     walls: Vec<u32>,
 }
 
@@ -92,7 +91,7 @@ impl<'a> Cover<'a> {
 
     pub(crate) fn covers(&self, sight: &Sight) -> bool {
         let lattice = self.map.lattice;
-        let finder = lattice.finder();
+        let cell_transform = lattice.finder();
         let scan = &sight.scan;
         let map_from_laser = sight.map_from_base * scan.base_from_laser;
         let reach = ON_WALL_M / lattice.resolution_m;
@@ -105,12 +104,12 @@ impl<'a> Cover<'a> {
             let angle = scan.angle_min_rad + index as f64 * scan.angle_increment_rad;
             let (x, y) = map_from_laser.transform_point(range * angle.cos(), range * angle.sin());
             count += 1;
-            let cell = finder.cell_of(x, y).map(|cell| lattice.index(cell));
+            let cell = cell_transform.cell_of(x, y).map(|cell| lattice.index(cell));
             on += usize::from(cell.is_some_and(|it| f64::from(self.walls[it]) < reach * reach));
         }
         let place = sight.map_from_base;
         let is_free_at = |x: f64, y: f64| {
-            finder.cell_of(x, y).is_some_and(|cell| self.map[cell] == occupancy::FREE)
+            cell_transform.cell_of(x, y).is_some_and(|cell| self.map[cell] == occupancy::FREE)
         };
         let around = (0..16).map(|it| std::f64::consts::PI / 8.0 * f64::from(it));
         let is_free = is_free_at(place.x_m, place.y_m)
@@ -121,8 +120,7 @@ impl<'a> Cover<'a> {
     }
 }
 
-/// A map of which one side is not known: beyond a line across it in direction `angle`, such that about
-/// half of the drive is there.
+/// Map with one side unknown: beyond a line across direction `angle` \[rad\] that halves the drive.
 pub(crate) fn erased(course: &Course, angle: f64) -> OccupancyGrid {
     let (sine, cosine) = angle.sin_cos();
     let beyond = |x: f64, y: f64| cosine * x + sine * y;
@@ -144,8 +142,8 @@ pub(crate) fn erased(course: &Course, angle: f64) -> OccupancyGrid {
     map
 }
 
-/// The map as it was before furniture was moved: such a share of pieces of wall is not there any more,
-/// and as many boxes of it have come elsewhere, none where the robot drives.
+/// Map before furniture was moved: a share of the pieces of wall is missing, and as many boxes are
+/// elsewhere, none on the path of the robot.
 pub(crate) fn rearranged(course: &Course, share: f64, stream: &mut Stream) -> OccupancyGrid {
     let mut map = course.map.clone();
     let lattice = map.lattice;

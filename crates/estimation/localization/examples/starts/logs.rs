@@ -1,4 +1,4 @@
-//! Drives of logs, whose maps and references come from SLAM.
+//! Drives from logs, with maps and references from SLAM.
 
 use std::path::Path;
 
@@ -11,7 +11,7 @@ use periplus_slam::Slam;
 use crate::carmen::scan_of;
 use crate::courses::{Course, Sight};
 
-/// A log in the form of CARMEN: every `every`-th scan of its first scanner.
+/// CARMEN log: every `every`-th scan of its first scanner.
 pub(crate) fn course_of_log(name: &str, path: &Path, every: usize) -> Result<Course, String> {
     let bytes = std::fs::read(path).map_err(|why| format!("{}: {why}", path.display()))?;
     let log = read_carmen(&bytes);
@@ -45,7 +45,7 @@ pub(crate) fn course_of_log(name: &str, path: &Path, every: usize) -> Result<Cou
     Ok(Course { name: name.to_owned(), map: trinary(map), sights: sights.collect() })
 }
 
-/// As a map server gives it.
+/// Map as published by a map server.
 fn trinary(mut map: OccupancyGrid) -> OccupancyGrid {
     for cell in &mut map.cells {
         *cell = match *cell {

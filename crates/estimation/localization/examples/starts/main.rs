@@ -1,10 +1,9 @@
-//! Whether localization is ever sure of a wrong place, in one table: tracking, starts anywhere, half
-//! of the map unknown, the map of another place, kidnapping, furniture that was moved.
-//! `starts [--logs FOLDER] [--only NAME,..] [--tests NAME,..] [--runs N] [--seed N] [NAME=VALUE ...]`;
-//! names are those of parameters.
+//! Measures how often localization reports a wrong pose as known: tracking, global localization, a
+//! half-known map, a wrong map, kidnapping, moved furniture. `starts [--logs FOLDER] [--only
+//! NAME,..] [--tests NAME,..] [--runs N] [--seed N] [NAME=VALUE ...]`, with names of parameters.
 //!
-//! Logs are `FOLDER/NAME/raw.clf`; their maps and references come from SLAM on the same log. Sure is what
-//! a user sees as `tracking`; wrong is farther than a metre or 30 degrees from the reference.
+//! Logs are `FOLDER/NAME/raw.clf`; their maps and references come from SLAM on the same log. Sure
+//! means state `tracking`; wrong means an error above 1 m or 30 degrees.
 #![allow(
     clippy::disallowed_methods,
     clippy::print_stdout,
@@ -33,7 +32,7 @@ use crate::logs::course_of_log;
 use crate::trials::{Tally, Tests};
 use crate::worlds::World;
 
-/// Logs with odometry that SLAM maps right, and every how many of their scans is taken.
+/// Logs with odometry that SLAM maps correctly, and the step between the scans used.
 const LOGS: [(&str, usize); 6] =
     [("aces", 1), ("csail-full", 1), ("edmonton", 1), ("fr101", 1), ("intel", 1), ("seattle", 1)];
 
@@ -58,7 +57,7 @@ fn main() -> ExitCode {
     let mut courses = Vec::new();
     let every = number("--every", 0) as usize;
     let logs = LOGS.iter().map(|(name, every)| ((*name).to_owned(), *every));
-    // Others may be named.
+    // Logs besides these can be named.
     let named = only.iter().flatten().filter(|it| LOGS.iter().all(|(name, _)| name != it));
     for (name, usual) in logs.chain(named.map(|it| (it.clone(), 1))) {
         let Some(path) = folder.as_ref().map(|it| it.join(&name).join("raw.clf")) else { break };
@@ -101,7 +100,7 @@ fn main() -> ExitCode {
             tell(tests.kidnapped(course, true));
         }
         if wants("moved") {
-            tell(tests.moved(course));
+            tell(tests.moved_furniture(course));
         }
     }
     if wants("foreign") {

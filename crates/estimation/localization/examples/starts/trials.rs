@@ -1,19 +1,19 @@
-//! What is tried, and how it went.
+//! Trials and their results.
 
 use periplus_geometry::{Pose2, Stream, normalize_angle};
 use periplus_grid::OccupancyGrid;
-use periplus_localization::{Amcl, Settings, State};
+use periplus_localization::{Amcl, LocalizationState, Settings};
 
 use crate::courses::{Course, Cover, Sight, erased, rearranged};
-use crate::worlds::{cpu_s, guess};
+use crate::worlds::{cpu_s, initial_pose_at};
 
-/// Farther off than this an answer is wrong \[m\], \[rad\].
+/// Maximum error of a right pose \[m\], \[rad\].
 const RIGHT: (f64, f64) = (1.0, std::f64::consts::FRAC_PI_6);
-/// So far a robot drives after it was put somewhere \[m\].
+/// Distance driven after a start \[m\].
 const WAY_M: f64 = 5.0;
-/// Part of a log that is cut out: at least and at most.
+/// Minimum and maximum fraction of a log that is cut out.
 const CUT: (f64, f64) = (0.05, 0.3);
-/// On the map of another place no more scans are tried.
+/// Maximum number of scans on a wrong map.
 const MOST_FOREIGN: usize = 1000;
 
 pub(crate) struct Tests {
@@ -22,33 +22,33 @@ pub(crate) struct Tests {
     pub(crate) seed: u64,
 }
 
-/// How it went.
+/// Result of trials.
 #[derive(Clone, Default)]
 pub(crate) struct Tally {
     course: String,
     test: String,
     runs: usize,
-    /// At the end of runs: sure and right, sure and wrong, not sure.
+    /// Runs that end sure and right, sure and wrong, not sure.
     right: usize,
     wrong: usize,
     unsure: usize,
     scans: usize,
     sure: usize,
-    /// Scans in which it was sure of a wrong place.
+    /// Scans that are sure and wrong.
     sure_wrong: usize,
-    /// Runs of those, and the longest of all in which it was.
+    /// Consecutive scans of those, and their maximum.
     worst_wrong: usize,
     off_map: usize,
-    /// Scans in which it was sure though the map does not cover them, and most in a single run.
+    /// Scans that are sure although the map does not cover them, and their maximum in a run.
     sure_off_map: usize,
     worst_off_map: usize,
-    /// From where it was put to where it was sure and right \[m\].
+    /// Distance from the start to a sure and right pose \[m\].
     ways_m: Vec<f64>,
     squares: f64,
     spent_s: f64,
     worst_s: f64,
     lookups: u64,
-    /// Scans from where it was put to where it was sure and right, summed over runs.
+    /// Scans from the start to a sure and right pose, summed over runs.
     scans_to_right: usize,
 }
 
@@ -109,14 +109,14 @@ impl Tally {
     }
 }
 
-/// A robot on its way.
+/// Robot in a trial.
 struct Robot {
     amcl: Amcl,
-    /// Since it was put somewhere \[m\].
+    /// Distance since the start \[m\].
     way_m: f64,
     last: Option<Pose2>,
     is_found: bool,
-    /// Scans since it was put somewhere.
+    /// Scans since the start.
     scans: usize,
     wrong: usize,
     off_map: usize,
@@ -129,7 +129,7 @@ impl Robot {
         Self { amcl, way_m: 0.0, last, is_found: false, scans: 0, wrong: 0, off_map: 0, state }
     }
 
-    /// Takes a sight; `odom_from_base` is what it is told, and `truth` none where it is on no map.
+    /// Processes a sight, with the given odometry; `truth` is none off the map.
     fn see(
         &mut self,
         sight: &Sight,
@@ -148,10 +148,10 @@ impl Robot {
         let spent_s = cpu_s() - begin;
         tally.scans += 1;
         tally.spent_s += spent_s;
-        tally.lookups += self.amcl.searched();
+        tally.lookups += self.amcl.search_lookup_count();
         tally.worst_s = tally.worst_s.max(spent_s);
         let found = self.amcl.map_from_odom().map(|it| it * odom_from_base);
-        let is_sure = self.amcl.status().state == State::Tracking;
+        let is_sure = self.amcl.status().state == LocalizationState::Tracking;
         let off = found.zip(truth).map(|(found, truth)| apart(truth, found));
         let is_right = off.is_some_and(|off| off.0 < RIGHT.0 && off.1 < RIGHT.1);
         self.state = (is_sure, is_right);
@@ -204,7 +204,7 @@ impl Robot {
 }
 
 impl Tests {
-    /// With a map that is prepared, once for all runs.
+    /// Prepares a map once for all runs.
     fn amcl(&self, map: &OccupancyGrid, course: &Course) -> Amcl {
         let mut amcl = Amcl::new(self.settings.clone());
         amcl.set_map("map", map).unwrap();
@@ -219,12 +219,12 @@ impl Tests {
         amcl
     }
 
-    /// The whole drive, from where it begins.
+    /// The whole drive with a known initial pose.
     pub(crate) fn tracking(&self, course: &Course) -> Tally {
         let mut tally = Tally::new(&course.name, "tracking");
         let cover = Cover::new(&course.map);
         let mut robot = Robot::new(self.amcl(&course.map, course));
-        robot.amcl.set_pose(&guess(course.sights[0].map_from_base)).unwrap();
+        robot.amcl.set_pose(&initial_pose_at(course.sights[0].map_from_base)).unwrap();
         for sight in &course.sights {
             let truth = Some(sight.map_from_base);
             robot.see(sight, sight.odom_from_base, truth, cover.covers(sight), &mut tally);
@@ -233,7 +233,7 @@ impl Tests {
         tally
     }
 
-    /// Put somewhere, unknown to the robot.
+    /// Global localization.
     pub(crate) fn starts(&self, course: &Course) -> Tally {
         let mut tally = Tally::new(&course.name, "starts");
         let mut stream = Stream::keyed(self.seed, "starts", 0);
@@ -250,7 +250,7 @@ impl Tests {
         tally
     }
 
-    /// Half of the map is not known; the drive begins where it is, and leads through both halves.
+    /// Half of the map is unknown; the drive starts in the known half and leads through both.
     pub(crate) fn erased(&self, course: &Course) -> Tally {
         let mut tally = Tally::new(&course.name, "erased");
         for quarter in 0..4 {
@@ -259,7 +259,7 @@ impl Tests {
             let covered: Vec<bool> = course.sights.iter().map(|it| cover.covers(it)).collect();
             let Some(begin) = covered.iter().position(|it| *it) else { continue };
             let mut robot = Robot::new(self.amcl(&map, course));
-            robot.amcl.set_pose(&guess(course.sights[begin].map_from_base)).unwrap();
+            robot.amcl.set_pose(&initial_pose_at(course.sights[begin].map_from_base)).unwrap();
             for (sight, is_covered) in course.sights.iter().zip(covered).skip(begin) {
                 let truth = Some(sight.map_from_base);
                 robot.see(sight, sight.odom_from_base, truth, is_covered, &mut tally);
@@ -269,7 +269,7 @@ impl Tests {
         tally
     }
 
-    /// On the map of another place.
+    /// A wrong map.
     pub(crate) fn foreign(&self, course: &Course, other: &Course) -> Tally {
         let mut tally = Tally::new(&course.name, &format!("on {}", other.name));
         let mut robot = Robot::new(self.amcl(&other.map, course));
@@ -280,7 +280,7 @@ impl Tests {
         tally
     }
 
-    /// A part of the drive is cut out. Odometry knows of the way in between, or does not.
+    /// Part of the drive is cut out, with or without odometry for it.
     pub(crate) fn kidnapped(&self, course: &Course, knows: bool) -> Tally {
         let name = if knows { "cut out" } else { "kidnapped" };
         let mut tally = Tally::new(&course.name, name);
@@ -293,11 +293,11 @@ impl Tests {
             let count = course.sights.len();
             let mut back = gone + (share * count as f64) as usize;
             if course.after_m(back.min(count - 1), WAY_M).is_none() {
-                // Round again.
+                // Continues from the beginning.
                 back = course.anywhere(WAY_M, &mut stream);
             }
             let mut robot = Robot::new(self.seeded(&amcl, run));
-            robot.amcl.set_pose(&guess(course.sights[first].map_from_base)).unwrap();
+            robot.amcl.set_pose(&initial_pose_at(course.sights[first].map_from_base)).unwrap();
             let mut before = Tally::default();
             for sight in &course.sights[first..=gone] {
                 let truth = Some(sight.map_from_base);
@@ -321,14 +321,14 @@ impl Tests {
         tally
     }
 
-    /// Furniture was moved since the map was made: a tenth, a quarter, and two fifths of all there is.
-    pub(crate) fn moved(&self, course: &Course) -> Tally {
+    /// Moved furniture: a tenth, a quarter, two fifths of all.
+    pub(crate) fn moved_furniture(&self, course: &Course) -> Tally {
         let mut tally = Tally::new(&course.name, "moved");
         for (number, share) in [0.1, 0.25, 0.4].into_iter().enumerate() {
             let mut stream = Stream::keyed(self.seed, "moved", number as u64);
             let map = rearranged(course, share, &mut stream);
             let mut robot = Robot::new(self.amcl(&map, course));
-            robot.amcl.set_pose(&guess(course.sights[0].map_from_base)).unwrap();
+            robot.amcl.set_pose(&initial_pose_at(course.sights[0].map_from_base)).unwrap();
             for sight in &course.sights {
                 let truth = Some(sight.map_from_base);
                 robot.see(sight, sight.odom_from_base, truth, true, &mut tally);
@@ -339,7 +339,7 @@ impl Tests {
     }
 }
 
-/// How far apart two poses are: \[m\], \[rad\].
+/// Difference of two poses \[m\], \[rad\].
 fn apart(a: Pose2, b: Pose2) -> (f64, f64) {
     ((a.x_m - b.x_m).hypot(a.y_m - b.y_m), normalize_angle(a.yaw_rad - b.yaw_rad).abs())
 }

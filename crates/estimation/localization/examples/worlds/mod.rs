@@ -1,33 +1,33 @@
-//! Worlds of straight walls, whose truth is known: scans, odometry, and maps of them.
+//! Simulated worlds of straight walls: scans, odometry and maps.
 
 use std::collections::VecDeque;
 use std::f64::consts::{PI, TAU};
 
 use periplus_geometry::{Pose2, Stream, normalize_angle};
 use periplus_grid::{Grid, Lattice, OccupancyGrid, occupancy};
-use periplus_localization::{Guess, Scan};
+use periplus_localization::{InitialPose, Scan};
 
-/// Side of a cell of the map \[m\].
+/// Cell size of the map \[m\].
 const CELL_M: f64 = 0.05;
-/// Beams around, as of a common scanner.
+/// Number of beams around the scanner.
 pub(crate) const BEAMS: usize = 360;
 const RANGE_MAX_M: f64 = 12.0;
-/// Readings are wrong by this: one standard deviation \[m\].
+/// Standard deviation of the ranges \[m\].
 const SIGMA_M: f64 = 0.01;
-/// Share of beams that hit people, who are on no map.
+/// Fraction of beams that hit people, who are not on the map.
 const PEOPLE: f64 = 0.1;
-/// Wheels slip by this share.
+/// Wheel slip.
 const SLIP: f64 = 0.05;
-/// From scan to scan the robot goes so far \[m\].
+/// Step between scans \[m\].
 pub(crate) const STEP_M: f64 = 0.1;
-/// It keeps so far from walls \[m\].
+/// Clearance from walls \[m\].
 const CLEAR_M: f64 = 0.35;
 
-/// A world of straight walls.
+/// World of straight walls.
 pub(crate) struct World {
     pub(crate) name: &'static str,
     walls: Vec<[f64; 4]>,
-    /// Where the robot can be.
+    /// Point of the free space.
     inside: (f64, f64),
     size: (f64, f64),
 }
@@ -50,7 +50,7 @@ impl World {
         self.wall(x0, y1, x0, y0);
     }
 
-    /// A block turned about its middle.
+    /// Block rotated about its center.
     fn turned(&mut self, x: f64, y: f64, length: f64, width: f64, yaw: f64) {
         let place = Pose2::new(x, y, yaw);
         let corners = [(-0.5, -0.5), (0.5, -0.5), (0.5, 0.5), (-0.5, 0.5)]
@@ -61,7 +61,7 @@ impl World {
         }
     }
 
-    /// A corridor with rooms on both sides that are all alike but for where a table stands: strongly
+    /// Corridor with rooms on both sides that differ only in the position of a table: strongly
     /// symmetric.
     pub(crate) fn office() -> Self {
         let mut world = Self::new("office", (31.03, 12.07), (1.0, 6.0));
@@ -69,7 +69,7 @@ impl World {
         world
     }
 
-    /// Rooms of 5 by 5 metres along a corridor of 2 metres.
+    /// Rooms of 5 by 5 m along a corridor of 2 m.
     fn rooms(&mut self, x: f64, y: f64, count: usize, kind: usize) {
         let (low, high) = (y + 5.02, y + 7.03);
         for room in 0..count {
@@ -81,7 +81,7 @@ impl World {
             }
             self.wall(left, y, left, low);
             self.wall(left, high, left, y + 12.07);
-            // On either side of the corridor a piece of furniture, no two in the same place.
+            // A piece of furniture on either side of the corridor, each at another position.
             let mut stream = Stream::keyed(kind as u64, "furniture", room as u64);
             for middle in [y + 2.2, y + 9.8] {
                 let (along, across) = (3.0 * stream.unit(), 1.6 * (stream.unit() - 0.5));
@@ -92,7 +92,7 @@ impl World {
         }
     }
 
-    /// A hall with a grid of pillars: strongly symmetric, but for a few things along its walls.
+    /// Hall with a grid of pillars: strongly symmetric except for a few objects along its walls.
     pub(crate) fn hall() -> Self {
         let mut world = Self::new("hall", (24.02, 16.04), (2.0, 2.0));
         for column in 0..5 {
@@ -107,7 +107,7 @@ impl World {
         world
     }
 
-    /// Rooms of a flat, none like another.
+    /// Rooms of a flat without symmetries.
     pub(crate) fn house() -> Self {
         let mut world = Self::new("house", (12.04, 9.03), (2.0, 2.0));
         world.wall(4.51, 0.0, 4.51, 2.6);
@@ -127,7 +127,7 @@ impl World {
         world
     }
 
-    /// Shelves in rows, of different lengths.
+    /// Rows of shelves of different lengths.
     pub(crate) fn store() -> Self {
         let mut world = Self::new("store", (26.06, 18.02), (1.0, 1.0));
         for row in 0..5 {
@@ -168,7 +168,7 @@ impl World {
         world
     }
 
-    /// Offices over 100 by 100 metres.
+    /// Offices of 100 by 100 m.
     pub(crate) fn block_of_offices() -> Self {
         let mut world = Self::new("100 x 100 m", (100.02, 100.03), (1.0, 6.0));
         for floor in 0..8 {
@@ -179,30 +179,32 @@ impl World {
         world
     }
 
-    /// All of a table.
+    /// All worlds of a table.
     pub(crate) fn all() -> [Self; 5] {
         [Self::office(), Self::hall(), Self::house(), Self::store(), Self::cave()]
     }
 
-    /// A map of it: cells that walls touch are occupied, what can be reached is free.
+    /// Map of the world: cells at walls are occupied, reachable cells are free.
     pub(crate) fn map(&self) -> OccupancyGrid {
         let origin = Pose2::new(-1.013, -1.027, 0.0);
         let side = |metres: f64| ((metres + 2.1) / CELL_M) as usize;
         let lattice = Lattice::new(CELL_M, side(self.size.0), side(self.size.1), origin).unwrap();
         let mut map = Grid::new(lattice, occupancy::UNKNOWN);
-        let finder = lattice.finder();
+        let cell_transform = lattice.finder();
         for &[x0, y0, x1, y1] in &self.walls {
-            // Where a scanner sees them: points as dense as readings.
+            // Points along the walls as dense as ranges.
             let count = (libm::hypot(x1 - x0, y1 - y0) / 0.01) as usize + 1;
             for index in 0..=count {
                 let part = index as f64 / count as f64;
-                if let Some(cell) = finder.cell_of(x0 + part * (x1 - x0), y0 + part * (y1 - y0)) {
+                if let Some(cell) =
+                    cell_transform.cell_of(x0 + part * (x1 - x0), y0 + part * (y1 - y0))
+                {
                     map[cell] = occupancy::OCCUPIED;
                 }
             }
         }
         let mut open: VecDeque<(usize, usize)> =
-            finder.cell_of(self.inside.0, self.inside.1).into_iter().collect();
+            cell_transform.cell_of(self.inside.0, self.inside.1).into_iter().collect();
         while let Some((column, row)) = open.pop_front() {
             if map[(column, row)] != occupancy::UNKNOWN {
                 continue;
@@ -218,7 +220,7 @@ impl World {
         map
     }
 
-    /// How far it is to the first wall \[m\].
+    /// Range to the first wall \[m\].
     fn range_m(&self, (x, y): (f64, f64), angle: f64) -> f64 {
         let (sine, cosine) = libm::sincos(angle);
         let mut range = f64::INFINITY;
@@ -235,7 +237,7 @@ impl World {
         range
     }
 
-    /// What the robot sees, people in the way of some beams.
+    /// Simulates a scan, with people in front of some beams.
     pub(crate) fn scan(&self, map_from_base: Pose2, stream: &mut Stream) -> Scan {
         let place = (map_from_base.x_m, map_from_base.y_m);
         let mut ranges: Vec<f64> = (0..BEAMS)
@@ -249,7 +251,7 @@ impl World {
             for (beam, range) in ranges.iter_mut().enumerate() {
                 let off = normalize_angle(beam as f64 * TAU / BEAMS as f64 - bearing);
                 let aside = far * off.sin();
-                // A person is as wide as this, seen from any side.
+                // Radius of a person, seen from any side.
                 if off.cos() > 0.0 && aside.abs() < 0.2 {
                     let near = far * off.cos() - (0.04 - aside * aside).sqrt();
                     if near < *range {
@@ -274,8 +276,8 @@ impl World {
         }
     }
 
-    /// A place where the robot can stand.
-    pub(crate) fn anywhere(&self, map: &OccupancyGrid, stream: &mut Stream) -> Pose2 {
+    /// Random pose with clearance.
+    pub(crate) fn random_pose(&self, map: &OccupancyGrid, stream: &mut Stream) -> Pose2 {
         let free: Vec<usize> = (0..map.cells.len()).filter(|&it| map.cells[it] == 0).collect();
         loop {
             let cell = map.lattice.cell(free[(stream.unit() * free.len() as f64) as usize]);
@@ -289,11 +291,11 @@ impl World {
     }
 }
 
-/// A robot that wanders, and what its wheels count.
+/// Robot that wanders, with its odometry.
 pub(crate) struct Wanderer {
     pub(crate) truth: Pose2,
     pub(crate) odom_from_base: Pose2,
-    /// What its wheels count too much.
+    /// Systematic error of odometry.
     bias: (f64, f64),
     turning: f64,
 }
@@ -305,8 +307,8 @@ impl Wanderer {
         Self { truth, odom_from_base: Pose2::new(-3.0, 5.0, 1.0), bias, turning: 0.0 }
     }
 
-    /// Goes on: ahead while there is room, otherwise it turns.
-    pub(crate) fn go(&mut self, world: &World, stream: &mut Stream) {
+    /// Moves one step: forward while there is room, otherwise turning.
+    pub(crate) fn step(&mut self, world: &World, stream: &mut Stream) {
         let place = (self.truth.x_m, self.truth.y_m);
         let room = |angle: f64| world.range_m(place, self.truth.yaw_rad + angle);
         let ahead =
@@ -331,7 +333,7 @@ impl Wanderer {
     }
 }
 
-/// How far a pose is off: \[m\], \[rad\].
+/// Error of a pose \[m\], \[rad\].
 pub(crate) fn off(truth: Pose2, found: Pose2) -> (f64, f64) {
     let error = truth.inverse() * found;
     (libm::hypot(error.x_m, error.y_m), normalize_angle(error.yaw_rad).abs())
@@ -345,9 +347,9 @@ pub(crate) fn cpu_s() -> f64 {
     1e-9 * ns.unwrap_or_default()
 }
 
-/// An initial pose as a user gives it by hand.
-pub(crate) fn guess(pose: Pose2) -> Guess {
+/// Initial pose with the accuracy of a user.
+pub(crate) fn initial_pose_at(pose: Pose2) -> InitialPose {
     let mut covariance = [0.0; 36];
     (covariance[0], covariance[7], covariance[35]) = (0.04, 0.04, 0.02);
-    Guess { frame: "map".into(), pose, covariance, moved: Pose2::IDENTITY }
+    InitialPose { frame: "map".into(), pose, covariance, then_from_now: Pose2::IDENTITY }
 }

@@ -1,4 +1,4 @@
-//! What is heard: scans, which wait for their transforms, and maps.
+//! Subscriptions: scans, which wait for their transforms, and maps.
 
 use std::collections::VecDeque;
 use std::sync::Arc;
@@ -10,43 +10,43 @@ use periplus_msgs::sensor_msgs::LaserScan;
 use periplus_params::ParamValues;
 use periplus_tf_ros::{Frames, Places, Robot, places};
 
-/// A scan whose transforms do not come is dropped after so long \[ns\].
-const PATIENCE_NS: i64 = 1_000_000_000;
-/// Most scans that wait.
-const MOST_WAITING: usize = 50;
-/// No scan for so long is told \[ns\].
-const SILENCE_NS: i64 = 2_000_000_000;
-/// How often a map is asked for by service \[ns\].
-const ASK_NS: i64 = 1_000_000_000;
+/// Time after which a scan without transforms is dropped \[ns\].
+const TRANSFORM_TIMEOUT_NS: i64 = 1_000_000_000;
+/// Maximum number of waiting scans.
+const MAX_WAITING_SCANS: usize = 50;
+/// Time without scans after which a warning is logged \[ns\].
+const SCAN_TIMEOUT_NS: i64 = 2_000_000_000;
+/// Interval of calls of the map service \[ns\].
+const MAP_CALL_INTERVAL_NS: i64 = 1_000_000_000;
 
-/// What is said when no scans come.
+/// Code of the report that no scans arrive.
 pub(crate) const NO_SCANS: &str = "no-scans";
 
-/// Topics that are heard.
+/// Subscriptions of the node.
 pub(crate) struct Inputs {
     scans: Mailbox<LaserScan>,
     map: Mailbox<OccupancyGrid>,
-    asks: Option<Asks>,
-    /// When they came \[ns\], oldest first.
+    map_client: Option<MapClient>,
+    /// Scans with their time of arrival \[ns\], oldest first.
     waiting: VecDeque<(i64, Arc<LaserScan>)>,
     last_scan_ns: i64,
 }
 
-/// The map by service, as in ROS 1.
-struct Asks {
+/// Client of the map service, as in ROS 1.
+struct MapClient {
     client: Client<GetMap>,
-    asked_ns: Option<i64>,
+    called_ns: Option<i64>,
     pending: Option<Pending<GetMap>>,
 }
 
 /// Frames of the robot.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub(crate) struct Names {
+pub(crate) struct FrameNames {
     pub(crate) odom: String,
     pub(crate) base: String,
 }
 
-impl Names {
+impl FrameNames {
     fn robot(&self) -> Robot<'_> {
         Robot {
             odom: &self.odom,
@@ -57,7 +57,7 @@ impl Names {
     }
 }
 
-/// A scan with where everything was at its time.
+/// Scan with the transforms at its time.
 pub(crate) struct Placed {
     pub(crate) message: Arc<LaserScan>,
     pub(crate) places: Places,
@@ -69,92 +69,93 @@ impl Inputs {
         let uses_topic = values.flag("use_map_topic").unwrap_or(true);
         let client = (!uses_topic).then(|| node.client::<GetMap>("static_map")).transpose()?;
         Ok(Self {
-            scans: node.mailbox(&text("scan_topic"), Qos::best_effort(MOST_WAITING))?,
+            scans: node.mailbox(&text("scan_topic"), Qos::best_effort(MAX_WAITING_SCANS))?,
             map: node.mailbox(&text("map_topic"), Qos::latched(1))?,
-            asks: client.map(|client| Asks { client, asked_ns: None, pending: None }),
+            map_client: client.map(|client| MapClient { client, called_ns: None, pending: None }),
             waiting: VecDeque::new(),
             last_scan_ns: node.now_ns(),
         })
     }
 
-    /// What waits counts no longer.
-    pub(crate) fn forget(&mut self, now_ns: i64) {
+    /// Drops all waiting scans.
+    pub(crate) fn clear(&mut self, now_ns: i64) {
         self.waiting.clear();
         self.last_scan_ns = now_ns;
     }
 
-    /// A map that has come.
-    pub(crate) fn map(&mut self, now_ns: i64) -> Option<Arc<OccupancyGrid>> {
+    /// Returns a new map, if one arrived.
+    pub(crate) fn take_map(&mut self, now_ns: i64) -> Option<Arc<OccupancyGrid>> {
         if let Some(map) = self.map.latest() {
             return Some(map);
         }
-        let asks = self.asks.as_mut()?;
-        if let Some(answer) = asks.pending.as_ref().and_then(Pending::take) {
-            asks.pending = None;
+        let map_client = self.map_client.as_mut()?;
+        if let Some(answer) = map_client.pending.as_ref().and_then(Pending::take) {
+            map_client.pending = None;
             if let Ok(answer) = answer
                 && !answer.map.data.is_empty()
             {
-                self.asks = None;
+                self.map_client = None;
                 return Some(Arc::new(answer.map.clone()));
             }
         }
-        let is_due = asks.asked_ns.is_none_or(|asked_ns| now_ns - asked_ns >= ASK_NS);
-        if asks.pending.is_none() && is_due && asks.client.is_ready() {
-            asks.asked_ns = Some(now_ns);
-            asks.pending = Some(asks.client.call(GetMapRequest::default()));
+        let is_due =
+            map_client.called_ns.is_none_or(|called_ns| now_ns - called_ns >= MAP_CALL_INTERVAL_NS);
+        if map_client.pending.is_none() && is_due && map_client.client.is_ready() {
+            map_client.called_ns = Some(now_ns);
+            map_client.pending = Some(map_client.client.call(GetMapRequest::default()));
         }
         None
     }
 
-    /// Where a map is waited for, in words.
+    /// Description of the source of the map.
     pub(crate) fn map_source(&self) -> String {
-        match &self.asks {
-            Some(asks) => format!("from the service `{}`", asks.client.name()),
+        match &self.map_client {
+            Some(map_client) => format!("from the service `{}`", map_client.client.name()),
             None => format!("on `{}`", self.map.topic()),
         }
     }
 
-    /// Takes in scans that have come.
-    pub(crate) fn listen(&mut self, now_ns: i64) {
+    /// Moves new scans to the queue.
+    pub(crate) fn receive(&mut self, now_ns: i64) {
         for message in self.scans.drain() {
             self.waiting.push_back((now_ns, message));
             self.last_scan_ns = now_ns;
         }
-        while self.waiting.len() > MOST_WAITING {
+        while self.waiting.len() > MAX_WAITING_SCANS {
             self.waiting.pop_front();
         }
     }
 
-    /// The oldest scan whose transforms are there. Those that waited too long are dropped; why is
-    /// told.
+    /// Returns the oldest scan whose transforms are available. Scans that waited too long are
+    /// dropped and reported.
     pub(crate) fn next(
         &mut self,
         frames: &Frames,
-        names: &Names,
+        names: &FrameNames,
         now_ns: i64,
-        complaints: &mut Vec<Diagnostic>,
+        reports: &mut Vec<Diagnostic>,
     ) -> Option<Placed> {
         loop {
-            let (came_ns, message) = self.waiting.front()?;
+            let (received_ns, message) = self.waiting.front()?;
             match places(message, frames, &names.robot()) {
                 Ok(places) => {
                     let message = message.clone();
                     self.waiting.pop_front();
                     return Some(Placed { message, places });
                 }
-                Err(_) if now_ns - came_ns <= PATIENCE_NS => return None,
+                Err(_) if now_ns - received_ns <= TRANSFORM_TIMEOUT_NS => return None,
                 Err(lack) => {
-                    complaints.push(lack.told(&message.header.frame_id, frames, &names.robot()));
+                    reports.push(lack.told(&message.header.frame_id, frames, &names.robot()));
                     self.waiting.pop_front();
                 }
             }
         }
     }
 
-    /// What to say when no scans come.
-    pub(crate) fn silence(&self, node: &Node) -> Option<Diagnostic> {
-        let silent_ns = node.now_ns() - self.last_scan_ns;
-        if silent_ns < SILENCE_NS {
+    /// Report that no scans arrive, with the likely cause.
+    pub(crate) fn missing_scans(&self, node: &Node) -> Option<Diagnostic> {
+        let elapsed_ns = node.now_ns() - self.last_scan_ns;
+        if elapsed_ns < SCAN_TIMEOUT_NS {
             return None;
         }
         let topic = self.scans.topic();
@@ -162,15 +163,15 @@ impl Inputs {
         let own = node.full_name();
         let help = match info {
             Some(info) if info.publishers.is_empty() => {
-                format!("nobody publishes `{topic}`: start the scanner, or set `scan_topic`")
+                format!("`{topic}` has no publisher: start the scanner, or set `scan_topic`")
             }
             Some(info) if info.mismatches.iter().any(|it| it.subscription == own) => {
-                format!("the QoS of who publishes `{topic}` does not fit")
+                format!("the QoS of the publisher of `{topic}` is incompatible")
             }
-            _ => format!("who publishes `{topic}` is silent"),
+            _ => format!("the publisher of `{topic}` sends nothing"),
         };
-        let silent_s = silent_ns as f64 * 1e-9;
-        let words = format!("no scan has come on `{topic}` for {silent_s:.0} s");
-        Some(Diagnostic::error(NO_SCANS, words).help(help))
+        let elapsed_s = elapsed_ns as f64 * 1e-9;
+        let message = format!("no scan received on `{topic}` for {elapsed_s:.0} s");
+        Some(Diagnostic::error(NO_SCANS, message).help(help))
     }
 }

@@ -1,4 +1,4 @@
-//! Between messages and what localization knows.
+//! Conversions between messages and localization.
 
 use periplus_geometry::{DQuat, DVec3, Pose, Pose2};
 use periplus_localization::{Covariance2, Particles, Scan};
@@ -8,18 +8,22 @@ use periplus_msgs::sensor_msgs::LaserScan;
 use periplus_msgs::std_msgs::Header;
 use periplus_tf_ros::pose;
 
-/// How far the length of a quaternion may be from 1: what is off further was not meant as one.
-const OFF: f64 = 0.01;
+/// Maximum difference of the norm of a quaternion from 1.
+const MAX_NORM_ERROR: f64 = 0.01;
 
-/// A scan of a message, with where its scanner is on the robot: `base_from_laser`. A scanner that
-/// hangs upside down is one whose axis points down.
+/// Converts a scan with the transform `base_from_laser`. A scanner is mounted upside down if its z
+/// axis points down.
 #[must_use]
 pub fn scan(message: &LaserScan, base_from_laser: Pose) -> Scan {
-    let ahead = base_from_laser.rotation * DVec3::X;
+    let forward = base_from_laser.rotation * DVec3::X;
     let up = base_from_laser.rotation * DVec3::Z;
-    let place = base_from_laser.translation;
+    let translation = base_from_laser.translation;
     Scan {
-        base_from_laser: Pose2::new(place.x, place.y, libm::atan2(ahead.y, ahead.x)),
+        base_from_laser: Pose2::new(
+            translation.x,
+            translation.y,
+            libm::atan2(forward.y, forward.x),
+        ),
         is_flipped: up.z < 0.0,
         angle_min_rad: message.angle_min.into(),
         angle_increment_rad: message.angle_increment.into(),
@@ -29,17 +33,17 @@ pub fn scan(message: &LaserScan, base_from_laser: Pose) -> Scan {
     }
 }
 
-/// The pose on the ground of a message; in words why it is none.
+/// Converts a pose to a planar one. The error is a description of an invalid orientation.
 pub(crate) fn pose2(pose: &geometry_msgs::Pose) -> Result<Pose2, String> {
     let geometry_msgs::Pose { position, orientation: q } = pose;
     let rotation = DQuat::from_xyzw(q.x, q.y, q.z, q.w);
     let length = rotation.length();
-    // What is no number is off, too.
-    let is_rotation = (length - 1.0).abs() < OFF;
+    // NaN is invalid, too.
+    let is_rotation = (length - 1.0).abs() < MAX_NORM_ERROR;
     if !is_rotation {
         return Err(format!(
-            "its orientation ({}, {}, {}, {}) is no rotation: a quaternion has length one, this one \
-             has {length:.3}",
+            "its orientation ({}, {}, {}, {}) is no rotation: the norm of the quaternion is \
+             {length:.3}, not 1",
             q.x, q.y, q.z, q.w
         ));
     }
@@ -59,7 +63,11 @@ pub(crate) fn pose_with_covariance(
     }
 }
 
-pub(crate) fn cloud(particles: &Particles, time_ns: i64, frame: &str) -> nav2_msgs::ParticleCloud {
+pub(crate) fn particle_cloud(
+    particles: &Particles,
+    time_ns: i64,
+    frame: &str,
+) -> nav2_msgs::ParticleCloud {
     let particle = |index: usize| nav2_msgs::Particle {
         pose: pose(particles.pose(index)),
         weight: particles.weight[index],
@@ -70,7 +78,7 @@ pub(crate) fn cloud(particles: &Particles, time_ns: i64, frame: &str) -> nav2_ms
     }
 }
 
-pub(crate) fn poses(
+pub(crate) fn pose_array(
     all: impl Iterator<Item = Pose2>,
     time_ns: i64,
     frame: &str,
@@ -83,7 +91,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn poses_go_there_and_back_and_no_rotation_is_none() {
+    fn poses_round_trip_and_invalid_rotations_are_errors() {
         let there = Pose2::new(1.0, -2.0, 3.0);
         let back = pose2(&pose(there)).unwrap_or_default();
         assert!((back.yaw_rad - 3.0).abs() < 1e-12 && back.x_m == 1.0, "{back:?}");
@@ -95,7 +103,7 @@ mod tests {
     }
 
     #[test]
-    fn a_scanner_upside_down_is_known_by_its_axis() {
+    fn an_upside_down_scanner_is_detected_by_its_axis() {
         let message = LaserScan { ranges: vec![1.0], ..LaserScan::default() };
         let over = DQuat::from_rotation_x(std::f64::consts::PI);
         let scan = scan(&message, Pose::from_xyz_quaternion([0.1, 0.0, 0.3], over));

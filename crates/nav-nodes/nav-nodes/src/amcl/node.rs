@@ -1,4 +1,4 @@
-//! The node.
+//! Lifecycle node of AMCL.
 
 use std::sync::Arc;
 
@@ -8,7 +8,9 @@ use periplus_graph::{
     Actor, Graph, GraphError, Level, Lifecycle, Node, NodeSettings, Qos, Step, StepOutcome,
     Transition,
 };
-use periplus_localization::{Amcl, Covariance2, Guess, Settings, Status, Update};
+use periplus_localization::{
+    Amcl, AmclUpdate, Covariance2, InitialPose, LocalizationStatus, Settings,
+};
 use periplus_maps::from_message;
 use periplus_msgs::geometry_msgs::PoseWithCovarianceStamped;
 use periplus_msgs::nav_msgs::OccupancyGrid;
@@ -18,28 +20,26 @@ use periplus_tf::Kind;
 use periplus_tf_ros::{Frames, Told, plain};
 
 use crate::Files;
-use crate::amcl::inputs::{Inputs, NO_SCANS, Names, Placed};
+use crate::amcl::inputs::{FrameNames, Inputs, NO_SCANS, Placed};
 use crate::amcl::messages::{pose2, scan};
 use crate::amcl::outputs::{Health, Outputs};
-use crate::amcl::saved;
+use crate::amcl::saved_pose;
 use crate::amcl::services;
 
-pub use crate::amcl::file::read;
+/// Interval at which waiting scans are processed \[ns\]; new transforms trigger it, too.
+const PROCESSING_INTERVAL_NS: i64 = 20_000_000;
+/// Interval of the status without changes \[ns\].
+const STATUS_INTERVAL_NS: i64 = 1_000_000_000;
+/// Age of an initial pose above which missing odometry is reported \[ns\].
+const MAX_POSE_AGE_NS: i64 = 500_000_000;
 
-/// How often it is looked for what waits \[ns\]; transforms that come are a reason, too.
-const LOOK_NS: i64 = 20_000_000;
-/// How often the state is published when nothing changes \[ns\].
-const STATUS_NS: i64 = 1_000_000_000;
-/// An initial pose that is older and cannot be brought to now is told \[ns\].
-const OLD_NS: i64 = 500_000_000;
-
-/// AMCL as a managed node.
+/// AMCL as a lifecycle node.
 pub struct AmclNode {
-    actor: Actor<State>,
+    actor: Actor<AmclNodeState>,
     life: Lifecycle,
 }
 
-pub(crate) struct State {
+pub(crate) struct AmclNodeState {
     values: ParamValues,
     settings: Settings,
     files: Arc<dyn Files>,
@@ -49,22 +49,22 @@ pub(crate) struct State {
     outputs: Option<Outputs>,
     pub(crate) is_active: bool,
     was_active: bool,
-    /// An initial pose that came before the node was active.
-    early: Option<PoseWithCovarianceStamped>,
-    /// Where the robot was when the node was cleaned up.
-    last: Option<(Pose2, Covariance2)>,
+    /// Initial pose that waits for activation.
+    waiting_pose: Option<PoseWithCovarianceStamped>,
+    /// Pose at the last cleanup.
+    last_pose: Option<(Pose2, Covariance2)>,
     pub(crate) told: Told,
     saved_ns: Option<i64>,
-    /// When the state was published, and what it was.
-    shown: Option<(i64, Status, Option<String>)>,
+    /// Last published status: time, status, error.
+    published_status: Option<(i64, LocalizationStatus, Option<String>)>,
 }
 
 impl AmclNode {
-    /// A node `amcl`, with parameters of [`periplus_localization::AMCL`], see [`read`]. Arguments of
-    /// the graph go before them.
+    /// Creates a node `amcl` with parameters of [`periplus_localization::AMCL`], see
+    /// [`read_parameters`]. Parameter overrides of the graph take precedence.
     ///
     /// # Errors
-    /// When a topic or service of that name has another type.
+    /// A topic or service of that name has another type.
     pub fn new(
         graph: &Graph,
         values: ParamValues,
@@ -73,13 +73,13 @@ impl AmclNode {
         Self::at(graph.node(NodeSettings::new("amcl"))?, values, files)
     }
 
-    /// As this node.
+    /// Runs AMCL as a node of the graph.
     ///
     /// # Errors
-    /// When a topic or service of that name has another type.
+    /// A topic or service of that name has another type.
     pub fn at(node: Node, values: ParamValues, files: Arc<dyn Files>) -> Result<Self, GraphError> {
-        let settings = Settings::of(&values);
-        let state = State {
+        let settings = Settings::from_values(&values);
+        let state = AmclNodeState {
             values: values.clone(),
             settings,
             files,
@@ -89,18 +89,18 @@ impl AmclNode {
             outputs: None,
             is_active: false,
             was_active: false,
-            early: None,
-            last: None,
+            waiting_pose: None,
+            last_pose: None,
             told: Told::default(),
             saved_ns: None,
-            shown: None,
+            published_status: None,
         };
         let mut actor = node.actor(state);
-        let parameters =
-            actor.parameters(values, |state, values, io| state.change(values, io.node()))?;
+        let parameters = actor
+            .parameters(values, |state, values, io| state.set_parameters(values, io.node()))?;
         let given = parameters.values();
         actor.with(|state| {
-            state.settings = Settings::of(&given);
+            state.settings = Settings::from_values(&given);
             state.values = given;
         });
         actor.subscribe("initialpose", Qos::reliable(10), |state, message, io| {
@@ -109,49 +109,49 @@ impl AmclNode {
         actor.subscribe::<TFMessage>("/tf_static", Qos::latched(100), |state, message, _| {
             state.frames.take(&message, Kind::Fixed);
         })?;
-        // Scans wait for transforms.
+        // New transforms may complete waiting scans.
         actor.subscribe::<TFMessage>("/tf", Qos::reliable(1000), |state, message, io| {
             state.frames.take(&message, Kind::Moving);
-            state.work(io.node());
+            state.process(io.node());
         })?;
-        actor.timer(LOOK_NS, |state, io| state.work(io.node()))?;
-        actor.on_jump(|state, io| state.jump(io.node()));
+        actor.timer(PROCESSING_INTERVAL_NS, |state, io| state.process(io.node()))?;
+        actor.on_jump(|state, io| state.on_clock_jump(io.node()));
         services::serve(&mut actor)?;
         let life = actor.managed(|state, step, io| state.step(step, io.node()))?;
         Ok(Self { actor, life })
     }
 
-    /// Configures and activates it, where no lifecycle manager does.
+    /// Configures and activates the node, where no lifecycle manager does.
     pub fn start(&self) {
         self.life.change(Transition::Configure);
         self.life.change(Transition::Activate);
     }
 
-    /// Its node.
+    /// Node of the graph.
     #[must_use]
     pub fn node(&self) -> &Node {
         self.actor.node()
     }
 
-    /// Its life.
+    /// Lifecycle of the node.
     #[must_use]
     pub fn life(&self) -> &Lifecycle {
         &self.life
     }
 
-    /// Looks at the filter, once it is configured.
+    /// Calls a function with the filter, once the node is configured.
     pub fn look<R>(&self, look: impl FnOnce(&Amcl) -> R) -> Option<R> {
         self.actor.with(|state| state.amcl.as_ref().map(look))
     }
 
-    /// What keeps it from its work.
+    /// Error that keeps the node from localizing.
     #[must_use]
     pub fn trouble(&self) -> Option<String> {
         self.actor.with(|state| state.told.trouble.clone())
     }
 }
 
-impl State {
+impl AmclNodeState {
     fn step(&mut self, step: Step, node: &Node) -> StepOutcome {
         match step {
             Step::Configure => self.configure(node),
@@ -167,13 +167,13 @@ impl State {
             Step::Cleanup | Step::Shutdown | Step::Error => {
                 self.is_active = false;
                 self.was_active = false;
-                let known = self.amcl.as_ref().filter(|amcl| amcl.is_settled());
+                let known = self.amcl.as_ref().filter(|amcl| amcl.has_pose());
                 let estimate = known.and_then(Amcl::estimate);
-                self.last = estimate.map(|it| (it.pose, it.covariance)).or(self.last);
+                self.last_pose = estimate.map(|it| (it.pose, it.covariance)).or(self.last_pose);
                 self.amcl = None;
                 self.inputs = None;
                 self.outputs = None;
-                self.shown = None;
+                self.published_status = None;
                 self.told = Told::default();
                 StepOutcome::Success
             }
@@ -196,12 +196,12 @@ impl State {
             }
         }
         let mut settings = self.settings.clone();
-        if !self.resets() && self.last.is_some() {
-            settings.start = self.last;
+        if !self.resets_on_activation() && self.last_pose.is_some() {
+            settings.initial_pose = self.last_pose;
         } else if self.values.flag("initialize_at_saved_pose").unwrap_or_default() {
-            match saved::read(&self.values, &*self.files, &settings.global_frame) {
-                Ok(Some(start)) => settings.start = Some(start),
-                Ok(None) => node.log(Level::Info, "there is no saved pose yet"),
+            match saved_pose::read(&self.values, &*self.files, &settings.global_frame) {
+                Ok(Some(start)) => settings.initial_pose = Some(start),
+                Ok(None) => node.log(Level::Info, "there is no saved pose"),
                 Err(why) => node.log(Level::Warn, why),
             }
         }
@@ -209,15 +209,15 @@ impl State {
         StepOutcome::Success
     }
 
-    /// Whether each activation starts anew.
-    fn resets(&self) -> bool {
+    /// True if each activation resets the pose.
+    fn resets_on_activation(&self) -> bool {
         self.values.flag("always_reset_initial_pose").unwrap_or_default()
     }
 
     fn activate(&mut self, node: &Node) {
         self.is_active = true;
-        if std::mem::replace(&mut self.was_active, true) && self.resets() {
-            // All but the map is forgotten; it comes again, since it is kept for latecomers.
+        if std::mem::replace(&mut self.was_active, true) && self.resets_on_activation() {
+            // Resets everything but the map, which is latched and arrives again.
             self.amcl = Some(Amcl::new(self.settings.clone()));
             match Inputs::new(node, &self.values) {
                 Ok(inputs) => self.inputs = Some(inputs),
@@ -225,47 +225,47 @@ impl State {
             }
         }
         if let Some(inputs) = &mut self.inputs {
-            inputs.forget(node.now_ns());
+            inputs.clear(node.now_ns());
         }
-        if let Some(early) = self.early.take() {
-            self.set_pose(&early, node);
+        if let Some(message) = self.waiting_pose.take() {
+            self.set_pose(&message, node);
         }
     }
 
-    /// Takes an initial pose; whether it could be.
+    /// Sets an initial pose. True if it is valid.
     pub(crate) fn set_pose(&mut self, message: &PoseWithCovarianceStamped, node: &Node) -> bool {
         if !self.is_active {
-            self.early = Some(message.clone());
-            node.log(Level::Info, "an initial pose came; it waits until the node is active");
+            self.waiting_pose = Some(message.clone());
+            node.log(Level::Info, "received an initial pose; it waits until the node is active");
             return true;
         }
         let mut pose = match pose2(&message.pose.pose) {
             Ok(pose) => pose,
             Err(why) => {
                 let bad =
-                    Diagnostic::error("bad-guess", format!("the initial pose is refused: {why}"))
-                        .help("a robot that looks along x has x = y = z = 0 and w = 1");
+                    Diagnostic::error("bad-guess", format!("the initial pose is invalid: {why}"))
+                        .help("the identity rotation is x = y = z = 0, w = 1");
                 node.log_finding(&bad);
                 return false;
             }
         };
         pose = pose.normalized();
-        let moved = self.moved_since(message.header.stamp.ns(), node);
-        let guess = Guess {
+        let then_from_now = self.moved_since(message.header.stamp.ns(), node);
+        let initial_pose = InitialPose {
             frame: message.header.frame_id.clone(),
             pose,
             covariance: message.pose.covariance,
-            moved,
+            then_from_now,
         };
         let Some(amcl) = &mut self.amcl else { return false };
-        match amcl.set_pose(&guess) {
-            Ok(doubt) => {
-                let Pose2 { x_m, y_m, yaw_rad } = guess.pose * guess.moved;
+        match amcl.set_pose(&initial_pose) {
+            Ok(warning) => {
+                let Pose2 { x_m, y_m, yaw_rad } = initial_pose.pose * initial_pose.then_from_now;
                 node.log(
                     Level::Info,
-                    format_args!("the robot is said to be at ({x_m:.3}, {y_m:.3}, {yaw_rad:.3})"),
+                    format_args!("initial pose set to ({x_m:.3}, {y_m:.3}, {yaw_rad:.3})"),
                 );
-                doubt.iter().for_each(|doubt| node.log_finding(doubt));
+                warning.iter().for_each(|warning| node.log_finding(warning));
                 amcl.request_update();
                 true
             }
@@ -276,42 +276,42 @@ impl State {
         }
     }
 
-    /// How odometry moved the robot since a time: `then_from_now`. Time zero is now.
+    /// Motion by odometry since a time: `then_from_now`. Time zero means now.
     fn moved_since(&self, time_ns: i64, node: &Node) -> Pose2 {
         let age_ns = node.now_ns() - time_ns;
         if time_ns == 0 || age_ns <= 0 {
             return Pose2::IDENTITY;
         }
-        let Names { odom, base } = self.names();
+        let FrameNames { odom, base } = self.frame_names();
         self.frames.moved_since(&odom, &base, time_ns).unwrap_or_else(|| {
-            if age_ns > OLD_NS {
+            if age_ns > MAX_POSE_AGE_NS {
                 let age_s = age_ns as f64 * 1e-9;
                 let old = Diagnostic::warning(
                     "old-guess",
                     format!(
-                        "the initial pose is {age_s:.1} s old, and odometry does not reach back that \
-                         far: it is taken as if it were of now"
+                        "the initial pose is {age_s:.1} s old, older than the odometry buffer: it is \
+                         applied without the motion since then"
                     ),
                 )
-                .help("stamp it with the time at which the robot is there, or with 0");
+                .help("set the stamp to the time of the pose, or to 0 for now");
                 node.log_finding(&old);
             }
             Pose2::IDENTITY
         })
     }
 
-    fn names(&self) -> Names {
+    fn frame_names(&self) -> FrameNames {
         let text = |name: &str| self.values.text(name).unwrap_or_default();
-        Names { odom: text("odom_frame_id"), base: text("base_frame_id") }
+        FrameNames { odom: text("odom_frame_id"), base: text("base_frame_id") }
     }
 
-    /// Takes a map; whether it is in use now.
-    pub(crate) fn take_map(&mut self, message: &OccupancyGrid, node: &Node) -> bool {
+    /// Sets the map. True if it is in use.
+    pub(crate) fn set_map(&mut self, message: &OccupancyGrid, node: &Node) -> bool {
         let Some(amcl) = &mut self.amcl else { return false };
         let grid = match from_message(message) {
             Ok(grid) => grid,
             Err(why) => {
-                let bad = Diagnostic::error("bad-map", format!("a map is refused: {why}"));
+                let bad = Diagnostic::error("bad-map", format!("the map is invalid: {why}"));
                 self.told.tell(&bad, node);
                 return false;
             }
@@ -322,12 +322,12 @@ impl State {
                 let (width, height, side) = (lattice.width, lattice.height, lattice.resolution_m);
                 node.log(
                     Level::Info,
-                    format_args!("the map has {width} by {height} cells of {side} m"),
+                    format_args!("received a map of {width} by {height} cells of {side} m"),
                 );
                 true
             }
             Ok(false) => {
-                node.log(Level::Info, "another map is ignored: `first_map_only` is set");
+                node.log(Level::Info, "ignored a new map: `first_map_only` is set");
                 false
             }
             Err(why) => {
@@ -337,38 +337,41 @@ impl State {
         }
     }
 
-    /// Takes in what has come, and uses it.
-    fn work(&mut self, node: &Node) {
+    /// Processes new maps and scans.
+    fn process(&mut self, node: &Node) {
         if !self.is_active {
             return;
         }
         let now_ns = node.now_ns();
-        if let Some(map) = self.inputs.as_mut().and_then(|inputs| inputs.map(now_ns)) {
-            self.take_map(&map, node);
+        if let Some(map) = self.inputs.as_mut().and_then(|inputs| inputs.take_map(now_ns)) {
+            self.set_map(&map, node);
         }
-        let names = self.names();
+        let names = self.frame_names();
         if let Some(inputs) = &mut self.inputs {
-            inputs.listen(now_ns);
+            inputs.receive(now_ns);
         }
-        let mut complaints = Vec::new();
+        let mut reports = Vec::new();
         while let Some(inputs) = &mut self.inputs {
-            let next = inputs.next(&self.frames, &names, now_ns, &mut complaints);
+            let next = inputs.next(&self.frames, &names, now_ns, &mut reports);
             let Some(placed) = next else { break };
             self.use_scan(&placed, &names, node);
         }
         if !self.told.has_said(NO_SCANS, now_ns) {
-            complaints.extend(self.inputs.as_ref().and_then(|inputs| inputs.silence(node)));
+            reports.extend(self.inputs.as_ref().and_then(|inputs| inputs.missing_scans(node)));
         }
-        for complaint in &complaints {
-            self.told.tell(complaint, node);
+        for report in &reports {
+            self.told.tell(report, node);
         }
-        self.show(node);
+        if let Some(notice) = self.outputs.as_mut().and_then(Outputs::old_topic_notice) {
+            node.log_finding(&notice);
+        }
+        self.publish_status_when_due(node);
         self.save_when_due(node);
     }
 
-    fn use_scan(&mut self, placed: &Placed, names: &Names, node: &Node) {
+    fn use_scan(&mut self, placed: &Placed, names: &FrameNames, node: &Node) {
         let Some(amcl) = &mut self.amcl else { return };
-        let was_settled = amcl.is_settled();
+        let had_pose = amcl.has_pose();
         let scan = scan(&placed.message, placed.places.base_from_laser);
         let updated = match amcl.update(placed.places.odom_from_base, &scan) {
             Ok(updated) => {
@@ -385,33 +388,35 @@ impl State {
             }
         };
         self.publish(updated.as_ref(), placed.places.time_ns, names);
-        let now_settled = self.amcl.as_ref().is_some_and(Amcl::is_settled);
+        let has_pose = self.amcl.as_ref().is_some_and(Amcl::has_pose);
         if let Some(update) = updated
-            && now_settled
-            && !was_settled
+            && has_pose
+            && !had_pose
         {
             let Pose2 { x_m, y_m, yaw_rad } = update.estimate.pose;
             node.log(
                 Level::Info,
-                format_args!("the robot found itself at ({x_m:.3}, {y_m:.3}, {yaw_rad:.3})"),
+                format_args!(
+                    "global localization found the pose ({x_m:.3}, {y_m:.3}, {yaw_rad:.3})"
+                ),
             );
         }
     }
 
     fn no_map(&self) -> Diagnostic {
         let source = self.inputs.as_ref().map(Inputs::map_source).unwrap_or_default();
-        Diagnostic::error("no-map", format!("no map has come yet {source}"))
+        Diagnostic::error("no-map", format!("no map received yet {source}"))
             .help("start and activate a map server, or set `map_topic`")
     }
 
-    fn publish(&self, updated: Option<&Update>, time_ns: i64, names: &Names) {
+    fn publish(&self, updated: Option<&AmclUpdate>, time_ns: i64, names: &FrameNames) {
         let (Some(amcl), Some(outputs)) = (&self.amcl, &self.outputs) else { return };
         let map = &self.settings.global_frame;
         if updated.is_some() {
             outputs.publish_particles(amcl, time_ns, map);
         }
-        // One guess among others is no pose.
-        if !amcl.is_settled() {
+        // A hypothesis among others is not published as the pose.
+        if !amcl.has_pose() {
             return;
         }
         if updated.is_some() {
@@ -426,22 +431,23 @@ impl State {
         }
     }
 
-    /// Publishes the state when it changes, and from time to time.
-    fn show(&mut self, node: &Node) {
+    /// Publishes the status when it changes, and at an interval.
+    fn publish_status_when_due(&mut self, node: &Node) {
         let (Some(outputs), Some(amcl)) = (&self.outputs, &self.amcl) else { return };
         let now_ns = node.now_ns();
         let (status, trouble) = (amcl.status(), self.told.trouble.as_deref());
-        let is_same = self.shown.as_ref().is_some_and(|(shown_ns, shown, told)| {
-            (0..STATUS_NS).contains(&(now_ns - shown_ns))
-                && shown.state == status.state
-                && told.as_deref() == trouble
-        });
+        let is_same =
+            self.published_status.as_ref().is_some_and(|(published_ns, published, error)| {
+                (0..STATUS_INTERVAL_NS).contains(&(now_ns - published_ns))
+                    && published.state == status.state
+                    && error.as_deref() == trouble
+            });
         if is_same {
             return;
         }
         let health = Health { node: node.full_name(), status, trouble, amcl: Some(amcl) };
         outputs.publish_status(&health, now_ns, &self.settings.global_frame);
-        self.shown = Some((now_ns, status.clone(), trouble.map(str::to_owned)));
+        self.published_status = Some((now_ns, status.clone(), trouble.map(str::to_owned)));
     }
 
     fn save_when_due(&mut self, node: &Node) {
@@ -458,30 +464,30 @@ impl State {
     }
 
     fn save(&mut self, node: &Node) {
-        let Some(amcl) = self.amcl.as_ref().filter(|amcl| amcl.is_settled()) else { return };
-        // Before the first scan nothing is known but what was said.
+        let Some(amcl) = self.amcl.as_ref().filter(|amcl| amcl.has_pose()) else { return };
+        // Before the first scan only the initial pose is known.
         let (Some(estimate), Some(_)) = (amcl.estimate(), amcl.map_from_odom()) else { return };
         let frame = &self.settings.global_frame;
-        let done = saved::write(&self.values, &*self.files, frame, estimate.pose, node.now_ns());
+        let done =
+            saved_pose::write(&self.values, &*self.files, frame, estimate.pose, node.now_ns());
         if let Err(why) = done {
-            let help = "set `saved_pose_filepath` to a place that can be written, or \
-                        `save_pose_rate: 0.0`";
+            let help = "set `saved_pose_filepath` to a writable path, or `save_pose_rate: 0.0`";
             self.told.tell(&Diagnostic::warning("pose-not-saved", why).help(help), node);
         }
     }
 
-    /// Takes other parameters while it runs.
-    fn change(&mut self, values: &ParamValues, node: &Node) -> Result<(), String> {
+    /// Applies changed parameters at run time.
+    fn set_parameters(&mut self, values: &ParamValues, node: &Node) -> Result<(), String> {
         let findings = Settings::conflicts(values);
-        if let Some(impossible) = findings.iter().find(|it| it.code == "more-least-than-most") {
-            return Err(impossible.message.clone());
+        if let Some(conflict) = findings.iter().find(|it| it.code == "more-least-than-most") {
+            return Err(conflict.message.clone());
         }
-        let settings = Settings::of(values);
+        let settings = Settings::from_values(values);
         if let Some(amcl) = &mut self.amcl {
             if settings.global_frame == self.settings.global_frame {
                 amcl.set_settings(settings.clone()).map_err(|why| why.message)?;
             } else {
-                // A map in another frame is another map.
+                // The map is in another frame, so it is another map.
                 *amcl = Amcl::new(settings.clone());
             }
         }
@@ -497,7 +503,7 @@ impl State {
             *inputs = Inputs::new(node, values).map_err(|error| error.to_string())?;
         }
         if frames && let Some(amcl) = &mut self.amcl {
-            amcl.forget_odometry();
+            amcl.reset_odometry();
         }
         for finding in &findings {
             node.log_finding(finding);
@@ -507,15 +513,15 @@ impl State {
         Ok(())
     }
 
-    /// The clock jumped: what was heard before is of another time.
-    fn jump(&mut self, node: &Node) {
+    /// The clock jumped: data from before is of another time.
+    fn on_clock_jump(&mut self, node: &Node) {
         self.frames.forget();
         if let Some(inputs) = &mut self.inputs {
-            inputs.forget(node.now_ns());
+            inputs.clear(node.now_ns());
         }
-        // As in Nav2 the particles stay, and make the step of odometry: a reset sets the robot and its
-        // odometry back together.
-        self.shown = None;
+        // As in Nav2, particles stay and follow odometry: a reset of a simulation moves the robot
+        // and its odometry together.
+        self.published_status = None;
         self.saved_ns = None;
     }
 }

@@ -1,8 +1,9 @@
-//! Who is told where the robot is.
+//! Publishers of pose, particles, transform and status.
 
+use periplus_diagnostics::Diagnostic;
 use periplus_geometry::Pose2;
 use periplus_graph::{GraphError, Node, Publisher, Qos};
-use periplus_localization::{Amcl, State, Status};
+use periplus_localization::{Amcl, LocalizationState, LocalizationStatus};
 use periplus_msgs::diagnostic_msgs::{DiagnosticArray, DiagnosticStatus, KeyValue};
 use periplus_msgs::geometry_msgs::{PoseArray, PoseWithCovarianceStamped};
 use periplus_msgs::nav2_msgs::ParticleCloud;
@@ -10,17 +11,23 @@ use periplus_msgs::std_msgs::Header;
 use periplus_msgs::tf2_msgs::TFMessage;
 use periplus_tf_ros::transform;
 
-use crate::amcl::messages::{cloud, pose_with_covariance, poses};
+use crate::amcl::messages::{particle_cloud, pose_array, pose_with_covariance};
 
-/// Topics that are published.
+/// Name of the topic `pose_hypotheses` in earlier releases; both are published for one release.
+const OLD_HYPOTHESES_TOPIC: &str = "localization_rivals";
+
+/// Publishers of the node.
 pub(crate) struct Outputs {
     pose: Publisher<PoseWithCovarianceStamped>,
     cloud: Publisher<ParticleCloud>,
-    /// As ROS 1 has it.
-    cloud_of_ros1: Publisher<PoseArray>,
+    /// Particles as in ROS 1.
+    ros1_cloud: Publisher<PoseArray>,
     tf: Publisher<TFMessage>,
     status: Publisher<DiagnosticStatus>,
+    hypotheses: Publisher<PoseArray>,
+    /// Name of `pose_hypotheses` in earlier releases.
     rivals: Publisher<PoseArray>,
+    has_reported_old_topic: bool,
     diagnostics: Publisher<DiagnosticArray>,
 }
 
@@ -29,23 +36,38 @@ impl Outputs {
         Ok(Self {
             pose: node.publisher("amcl_pose", Qos::latched(1))?,
             cloud: node.publisher("particle_cloud", Qos::sensor_data())?,
-            cloud_of_ros1: node.publisher("particlecloud", Qos::sensor_data())?,
+            ros1_cloud: node.publisher("particlecloud", Qos::sensor_data())?,
             tf: node.publisher("/tf", Qos::reliable(100))?,
             status: node.publisher("localization_status", Qos::latched(1))?,
-            rivals: node.publisher("localization_rivals", Qos::latched(1))?,
+            hypotheses: node.publisher("pose_hypotheses", Qos::latched(1))?,
+            rivals: node.publisher(OLD_HYPOTHESES_TOPIC, Qos::latched(1))?,
+            has_reported_old_topic: false,
             diagnostics: node.publisher("/diagnostics", Qos::reliable(10))?,
         })
     }
 
-    /// The particles, as they were at a time.
+    /// Notice that the old name of `pose_hypotheses` has subscribers; once.
+    pub(crate) fn old_topic_notice(&mut self) -> Option<Diagnostic> {
+        if self.has_reported_old_topic || !self.rivals.is_heard() {
+            return None;
+        }
+        self.has_reported_old_topic = true;
+        let message = format!("the topic `{OLD_HYPOTHESES_TOPIC}` is deprecated");
+        Some(
+            Diagnostic::warning("old-topic", message)
+                .help("subscribe to `pose_hypotheses`; the next release has only that topic"),
+        )
+    }
+
+    /// Publishes the particles at a time.
     pub(crate) fn publish_particles(&self, amcl: &Amcl, time_ns: i64, frame: &str) {
         let particles = amcl.particles();
         if self.cloud.is_heard() {
-            self.cloud.publish(cloud(particles, time_ns, frame));
+            self.cloud.publish(particle_cloud(particles, time_ns, frame));
         }
-        if self.cloud_of_ros1.is_heard() {
+        if self.ros1_cloud.is_heard() {
             let all = (0..particles.len()).map(|index| particles.pose(index));
-            self.cloud_of_ros1.publish(poses(all, time_ns, frame));
+            self.ros1_cloud.publish(pose_array(all, time_ns, frame));
         }
     }
 
@@ -56,7 +78,7 @@ impl Outputs {
         }
     }
 
-    /// `map_from_odom`, which holds until a time.
+    /// Publishes `map_from_odom` with a time stamp until which it is valid.
     pub(crate) fn publish_transform(
         &self,
         map_from_odom: Pose2,
@@ -66,35 +88,37 @@ impl Outputs {
         self.tf.publish(transform(map, odom, map_from_odom, until_ns));
     }
 
-    /// How sure the robot is, and why.
+    /// Publishes the status of localization.
     pub(crate) fn publish_status(&self, health: &Health<'_>, time_ns: i64, frame: &str) {
         let status = health.to_message();
         self.status.publish(status.clone());
-        let rivals = health.status.rivals.iter().map(|rival| rival.mean);
-        self.rivals.publish(poses(rivals, time_ns, frame));
+        let poses = health.status.hypotheses.iter().map(|it| it.mean);
+        let hypotheses = pose_array(poses, time_ns, frame);
+        self.rivals.publish(hypotheses.clone());
+        self.hypotheses.publish(hypotheses);
         self.diagnostics
             .publish(DiagnosticArray { header: Header::at(time_ns, ""), status: vec![status] });
     }
 }
 
-/// How it goes.
+/// Status of the node.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Health<'a> {
     /// Full name of the node.
     pub(crate) node: &'a str,
-    pub(crate) status: &'a Status,
-    /// What keeps the node from its work.
+    pub(crate) status: &'a LocalizationStatus,
+    /// Error that keeps the node from localizing.
     pub(crate) trouble: Option<&'a str>,
     pub(crate) amcl: Option<&'a Amcl>,
 }
 
-/// A state in a word, as it is published.
-pub(crate) fn word(state: State) -> &'static str {
+/// Name of a state in messages.
+pub(crate) fn state_name(state: LocalizationState) -> &'static str {
     match state {
-        State::Unset => "unset",
-        State::Tracking => "tracking",
-        State::Ambiguous => "ambiguous",
-        State::Lost => "lost",
+        LocalizationState::Unset => "unset",
+        LocalizationState::Tracking => "tracking",
+        LocalizationState::Ambiguous => "ambiguous",
+        LocalizationState::Lost => "lost",
     }
 }
 
@@ -103,13 +127,13 @@ impl Health<'_> {
         let state = self.status.state;
         let level = match state {
             _ if self.trouble.is_some() => DiagnosticStatus::ERROR,
-            State::Tracking => DiagnosticStatus::OK,
-            State::Ambiguous | State::Unset => DiagnosticStatus::WARN,
-            State::Lost => DiagnosticStatus::ERROR,
+            LocalizationState::Tracking => DiagnosticStatus::OK,
+            LocalizationState::Ambiguous | LocalizationState::Unset => DiagnosticStatus::WARN,
+            LocalizationState::Lost => DiagnosticStatus::ERROR,
         };
-        let why = self.trouble.unwrap_or(&self.status.reason);
-        let mut values = vec![pair("state", word(state).to_owned())];
-        if let Some(fit) = self.status.fit {
+        let reason = self.trouble.unwrap_or(&self.status.reason);
+        let mut values = vec![pair("state", state_name(state).to_owned())];
+        if let Some(fit) = self.status.inlier_ratio {
             values.push(pair("scan on walls [%]", format!("{:.0}", 100.0 * fit)));
         }
         if let Some(amcl) = self.amcl {
@@ -122,15 +146,16 @@ impl Health<'_> {
                 values.push(pair("spread [rad]", format!("{:.4}", libm::sqrt(spread.yaw))));
             }
         }
-        for (number, rival) in self.status.rivals.iter().enumerate() {
-            let Pose2 { x_m, y_m, yaw_rad } = rival.mean;
-            let words = format!("{x_m:.3} {y_m:.3} {yaw_rad:.4} by {:.0} %", 100.0 * rival.weight);
-            values.push(pair(&format!("rival {}", number + 1), words));
+        for (index, other) in self.status.hypotheses.iter().enumerate() {
+            let Pose2 { x_m, y_m, yaw_rad } = other.mean;
+            let percent = 100.0 * other.weight;
+            let value = format!("{x_m:.3} {y_m:.3} {yaw_rad:.4} by {percent:.0} %");
+            values.push(pair(&format!("rival {}", index + 1), value));
         }
         DiagnosticStatus {
             level,
             name: format!("{}: localization", self.node.trim_start_matches('/')),
-            message: format!("{}: {why}", word(state)),
+            message: format!("{}: {reason}", state_name(state)),
             hardware_id: String::new(),
             values,
         }

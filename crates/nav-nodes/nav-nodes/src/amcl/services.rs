@@ -1,4 +1,4 @@
-//! The services of Nav2, and those of ROS 1.
+//! Services of Nav2 and ROS 1.
 
 use periplus_diagnostics::Diagnostic;
 use periplus_graph::{Actor, GraphError, Level, Node};
@@ -6,13 +6,13 @@ use periplus_msgs::nav_msgs::{SetMap, SetMapResponse};
 use periplus_msgs::nav2_msgs::{SetInitialPose, SetInitialPoseResponse};
 use periplus_msgs::std_srvs::{Empty, EmptyResponse};
 
-use crate::amcl::node::State;
+use crate::amcl::node::AmclNodeState;
 
-pub(crate) fn serve(actor: &mut Actor<State>) -> Result<(), GraphError> {
-    // The second is its name in ROS 1.
+pub(crate) fn serve(actor: &mut Actor<AmclNodeState>) -> Result<(), GraphError> {
+    // The second name is that of ROS 1.
     for name in ["reinitialize_global_localization", "global_localization"] {
         actor.serve::<Empty>(name, |state, _, io| {
-            state.spread(io.node());
+            state.reinitialize_global_localization(io.node());
             EmptyResponse::default()
         })?;
     }
@@ -25,34 +25,37 @@ pub(crate) fn serve(actor: &mut Actor<State>) -> Result<(), GraphError> {
         SetInitialPoseResponse::default()
     })?;
     actor.serve::<SetMap>("set_map", |state, request, io| {
-        let is_taken = state.take_map(&request.map, io.node());
-        let success = is_taken && state.set_pose(&request.initial_pose, io.node());
+        let is_set = state.set_map(&request.map, io.node());
+        let success = is_set && state.set_pose(&request.initial_pose, io.node());
         SetMapResponse { success }
     })
 }
 
-impl State {
-    fn spread(&mut self, node: &Node) {
-        let Some(amcl) = self.running(node) else { return };
-        match amcl.spread() {
-            Ok(()) => node.log(Level::Info, "the robot may be anywhere: particles are everywhere"),
+impl AmclNodeState {
+    fn reinitialize_global_localization(&mut self, node: &Node) {
+        let Some(amcl) = self.active_filter(node) else { return };
+        match amcl.distribute_uniformly() {
+            Ok(()) => node.log(
+                Level::Info,
+                "global localization: particles are distributed over the whole map",
+            ),
             Err(why) => self.told.tell(&why, node),
         }
     }
 
     fn request_update(&mut self, node: &Node) {
-        if let Some(amcl) = self.running(node) {
+        if let Some(amcl) = self.active_filter(node) {
             amcl.request_update();
         }
     }
 
-    /// The filter, unless the node is not active, which is told.
-    fn running(&mut self, node: &Node) -> Option<&mut periplus_localization::Amcl> {
+    /// Returns the filter, or logs that the node is not active.
+    fn active_filter(&mut self, node: &Node) -> Option<&mut periplus_localization::Amcl> {
         if self.is_active {
             return self.amcl.as_mut();
         }
         let inactive =
-            Diagnostic::warning("not-active", "somebody asks, but the node is not active")
+            Diagnostic::warning("not-active", "a service was called, but the node is not active")
                 .help("configure and activate it first");
         self.told.tell(&inactive, node);
         None

@@ -30,7 +30,7 @@ use periplus_nav_nodes::amcl::AmclNode;
 use periplus_params::Given;
 use periplus_resources::{EntryKind, FileReadError, Host, MemoryHost, Store, WriteError};
 
-/// A room of 6 by 4 metres with a pillar and a corner cut off: no place is like another.
+/// A room of 6 by 4 metres with a pillar and a cut corner, without symmetries.
 fn room() -> Map {
     let lattice = Lattice::new(0.05, 120, 80, Pose2::new(-1.0, -1.0, 0.0)).unwrap();
     let mut map = Grid::new(lattice, occupancy::FREE);
@@ -141,7 +141,7 @@ fn x_y_yaw(pose: &periplus_msgs::geometry_msgs::Pose) -> (f64, f64, f64) {
     (pose.position.x, pose.position.y, 2.0 * q.z.atan2(q.w))
 }
 
-/// A pose as somebody says it.
+/// Initial pose as a message.
 fn guess(stamp_ns: i64, pose: Pose2) -> PoseWithCovarianceStamped {
     let mut guess = PoseWithCovarianceStamped {
         header: Header { stamp: time(stamp_ns), frame_id: "map".into() },
@@ -211,8 +211,8 @@ impl Stage {
         self.tf.publish(TFMessage { transforms: vec![transform] });
     }
 
-    /// Odometry and the scanner, with the robot at a place of the map.
-    fn place(&self, map_from_base: Pose2) {
+    /// Publishes the transforms of odometry and scanner for a true pose.
+    fn publish_transforms(&self, map_from_base: Pose2) {
         self.send("odom", "base_link", MAP_FROM_ODOM.inverse() * map_from_base);
         self.send("base_link", "laser", Pose2::new(0.1, 0.0, 0.0));
     }
@@ -229,22 +229,22 @@ impl Stage {
         });
     }
 
-    /// The robot at a place sees what is there, a tenth of a second later.
+    /// Publishes the transforms and the scan for a true pose, and waits 0.1 s.
     fn see(&mut self, map_from_base: Pose2) {
-        self.place(map_from_base);
+        self.publish_transforms(map_from_base);
         self.scan(look(&self.map, map_from_base * Pose2::new(0.1, 0.0, 0.0)));
         self.advance(100);
     }
 
-    /// The robot comes to [`START`] and finds itself on the way: from one place alone the room looks
-    /// much the same the other way round.
-    fn find(&mut self) {
-        for way_m in [0.6, 0.3, 0.0] {
-            self.see(START * Pose2::new(-way_m, 0.0, 0.0));
+    /// Drives to [`START`] for global localization: a single scan also fits with the opposite
+    /// heading.
+    fn drive_to_start(&mut self) {
+        for distance_m in [0.6, 0.3, 0.0] {
+            self.see(START * Pose2::new(-distance_m, 0.0, 0.0));
         }
     }
 
-    /// The newest `map` to `odom`, and its time.
+    /// Latest transform `map` to `odom` with its time.
     fn transform(&self) -> Option<(i64, TransformStamped)> {
         let all = self.transforms.drain();
         let mut found =
@@ -252,7 +252,7 @@ impl Stage {
         found.next_back().map(|it| (ns(&it.header.stamp), it.clone()))
     }
 
-    fn said(&self) -> String {
+    fn logged(&self) -> String {
         let lines = self.logs.drain();
         lines.iter().filter(|it| it.name == "amcl").map(|it| format!("{}\n", it.msg)).collect()
     }
@@ -261,11 +261,11 @@ impl Stage {
         self.states.latest().map(|it| it.message.clone()).unwrap_or_default()
     }
 
-    fn hear<T: Message>(&self, topic: &str) -> Mailbox<T> {
+    fn receive<T: Message>(&self, topic: &str) -> Mailbox<T> {
         self.user.mailbox(topic, Qos::sensor_data()).unwrap()
     }
 
-    fn ask<S: Service>(&self, name: &str, request: S::Request) -> Arc<S::Response> {
+    fn call<S: Service>(&self, name: &str, request: S::Request) -> Arc<S::Response> {
         let asked = self.user.client::<S>(name).unwrap().call(request);
         self.graph.settle();
         asked.take().unwrap().unwrap()
@@ -274,7 +274,7 @@ impl Stage {
     fn set(&self, name: &str, value: ParameterValue) -> String {
         let parameters = vec![Parameter { name: name.into(), value }];
         let request = SetParametersRequest { parameters };
-        self.ask::<SetParameters>("amcl/set_parameters", request).results[0].reason.clone()
+        self.call::<SetParameters>("amcl/set_parameters", request).results[0].reason.clone()
     }
 }
 
@@ -289,12 +289,12 @@ fn number(value: f64) -> ParameterValue {
 const START: Pose2 = Pose2::new(1.0, 0.5, 0.3);
 
 #[test]
-fn a_robot_that_was_told_where_it_is_keeps_track() {
+fn a_robot_with_an_initial_pose_is_tracked() {
     let mut stage = Stage::new(&[("transform_tolerance", "0.5")]);
-    let cloud = stage.hear::<ParticleCloud>("particle_cloud");
-    let ros1 = stage.hear::<PoseArray>("particlecloud");
-    let diagnostics = stage.hear::<DiagnosticArray>("/diagnostics");
-    stage.place(START);
+    let cloud = stage.receive::<ParticleCloud>("particle_cloud");
+    let ros1 = stage.receive::<PoseArray>("particlecloud");
+    let diagnostics = stage.receive::<DiagnosticArray>("/diagnostics");
+    stage.publish_transforms(START);
     stage.advance(10);
     stage.guesses.publish(guess(stage.now_ns, START * Pose2::new(0.1, -0.1, 0.1)));
     stage.advance(10);
@@ -329,56 +329,62 @@ fn a_robot_that_was_told_where_it_is_keeps_track() {
 }
 
 #[test]
-fn a_robot_that_nobody_told_finds_itself() {
+fn a_robot_without_an_initial_pose_is_localized_globally() {
     let mut stage = Stage::new(&[]);
+    let hypotheses = stage.receive::<PoseArray>("pose_hypotheses");
+    let old = stage.receive::<PoseArray>("localization_rivals");
     stage.see(START * Pose2::new(-0.6, 0.0, 0.0));
-    assert!(stage.state().starts_with("ambiguous: 2 places are possible"), "{}", stage.state());
-    assert!(stage.transform().is_none(), "one guess among others is no pose");
-    stage.find();
+    assert_eq!(hypotheses.latest().unwrap().poses.len(), 1, "besides the best one");
+    assert_eq!(old.latest().unwrap().poses.len(), 1);
+    let logged = stage.logged();
+    assert!(logged.contains("topic `localization_rivals` is deprecated"), "{logged}");
+    assert!(stage.state().starts_with("ambiguous: 2 poses are possible"), "{}", stage.state());
+    assert!(stage.transform().is_none(), "a hypothesis among others is no pose");
+    stage.drive_to_start();
     let (x, y, yaw) = x_y_yaw(&stage.poses.latest().unwrap().pose.pose);
     assert!((x - START.x_m).hypot(y - START.y_m) < 0.1 && (yaw - START.yaw_rad).abs() < 0.1);
-    assert!(stage.said().contains("the robot found itself"), "{}", stage.said());
+    assert!(stage.logged().contains("global localization found the pose"), "{}", stage.logged());
 }
 
 #[test]
-fn without_that_it_asks_and_publishes_nothing() {
+fn without_global_localization_nothing_is_published() {
     let mut stage = Stage::new(&[("global_start", "false")]);
     stage.see(START);
     assert!(stage.poses.latest().is_none() && stage.transform().is_none());
-    assert!(stage.said().contains("nobody has said where the robot is; set the initial pose"));
-    assert!(stage.state().starts_with("unset: nobody has said where"), "{}", stage.state());
+    assert!(stage.logged().contains("no initial pose is set; set the initial pose"));
+    assert!(stage.state().starts_with("unset: no initial pose is set"), "{}", stage.state());
     // What comes by a service is as good.
     let pose = guess(0, START);
-    stage.ask::<SetInitialPose>("set_initial_pose", SetInitialPoseRequest { pose });
+    stage.call::<SetInitialPose>("set_initial_pose", SetInitialPoseRequest { pose });
     stage.see(START);
     assert!(stage.poses.latest().is_some());
 }
 
 #[test]
-fn services_spread_particles_and_use_scans_of_a_robot_that_stands() {
+fn services_distribute_particles_and_request_updates() {
     let mut stage = Stage::new(&[]);
-    stage.find();
+    stage.drive_to_start();
     assert!(stage.poses.latest().is_some());
     stage.see(START);
     assert!(stage.poses.latest().is_none());
-    stage.ask::<Empty>("request_nomotion_update", EmptyRequest::default());
+    stage.call::<Empty>("request_nomotion_update", EmptyRequest::default());
     stage.see(START);
     assert!(stage.poses.latest().is_some());
     for name in ["reinitialize_global_localization", "global_localization"] {
-        stage.ask::<Empty>(name, EmptyRequest::default());
+        stage.call::<Empty>(name, EmptyRequest::default());
         let spread = stage.amcl.look(|amcl| amcl.estimate().unwrap().covariance).unwrap();
         assert!(spread.radius_m() > 1.0, "{name}: {spread:?}");
     }
 }
 
 #[test]
-fn poses_of_the_past_are_brought_to_now() {
+fn past_initial_poses_are_predicted_by_odometry() {
     let mut stage = Stage::new(&[]);
     let then_ns = stage.now_ns;
-    stage.place(START);
+    stage.publish_transforms(START);
     stage.advance(1000);
     let now = START * Pose2::new(1.0, 0.0, 0.0);
-    stage.place(now);
+    stage.publish_transforms(now);
     stage.advance(10);
     stage.guesses.publish(guess(then_ns, START));
     stage.advance(10);
@@ -387,44 +393,46 @@ fn poses_of_the_past_are_brought_to_now() {
     // Older than anything that is known of odometry.
     for milliseconds in [20_000, 10, 10] {
         stage.advance(milliseconds);
-        stage.place(now);
+        stage.publish_transforms(now);
     }
     stage.advance(10);
     stage.guesses.publish(guess(then_ns, START));
     stage.advance(10);
-    let said = stage.said();
-    assert!(said.contains("odometry does not reach back"), "{said}");
+    let said = stage.logged();
+    assert!(said.contains("older than the odometry buffer"), "{said}");
 }
 
 #[test]
-fn what_cannot_be_used_is_told() {
+fn invalid_inputs_are_reported() {
     let mut stage = Stage::with_files(&[], Arc::default());
     stage.amcl.start();
     stage.advance(10);
     stage.see(START);
-    let said = stage.said();
+    let said = stage.logged();
     assert!(
-        said.contains("no map has come yet on `/map`; start and activate a map server"),
+        said.contains("no map received yet on `/map`; start and activate a map server"),
         "{said}"
     );
-    assert!(stage.state().contains("no map has come yet"), "{}", stage.state());
+    assert!(stage.state().contains("no map received yet"), "{}", stage.state());
     stage.maps.publish(to_message(&stage.map, "world", Time::default()));
     stage.advance(100);
-    let said = stage.said();
+    let said = stage.logged();
     assert!(said.contains("the map is in frame `world`, `global_frame_id` is `map`"), "{said}");
     let mut short = to_message(&stage.map, "map", Time::default());
     short.data.pop();
     stage.maps.publish(short);
     stage.advance(100);
-    assert!(stage.said().contains("a map is refused: the map has 9599 values for 120 by 80 cells"));
+    assert!(
+        stage.logged().contains("the map is invalid: the map has 9599 values for 120 by 80 cells")
+    );
     stage.maps.publish(to_message(&stage.map, "map", Time::default()));
     stage.advance(100);
 
     let refused = |stage: &mut Stage, wrong: PoseWithCovarianceStamped| {
-        stage.said();
+        stage.logged();
         stage.guesses.publish(wrong);
         stage.advance(100);
-        stage.said()
+        stage.logged()
     };
     let good = guess(0, START);
     let mut wrong = good.clone();
@@ -443,22 +451,22 @@ fn what_cannot_be_used_is_told() {
     wrong.pose.pose.position.y = f64::NAN;
     assert!(refused(&mut stage, wrong).contains("not finite"));
 
-    stage.place(START);
+    stage.publish_transforms(START);
     stage.scan(Vec::new());
     stage.advance(100);
-    assert!(stage.said().contains("the scan has no ranges"));
+    assert!(stage.logged().contains("the scan has no ranges"));
     assert!(stage.poses.latest().is_none(), "never a silent wrong pose");
-    stage.find();
+    stage.drive_to_start();
     assert!(stage.poses.latest().is_some(), "and the next good scan is used");
 }
 
 #[test]
-fn the_transform_that_is_missing_is_named() {
+fn a_missing_transform_is_named() {
     let mut stage = Stage::new(&[]);
     stage.send("odom", "base_link", Pose2::IDENTITY);
     stage.scan(vec![1.0; 120]);
     stage.advance(2000);
-    let said = stage.said();
+    let said = stage.logged();
     assert!(
         said.contains(
             "no transform from `laser` to `base_link`: the frame `laser` is not published"
@@ -470,23 +478,25 @@ fn the_transform_that_is_missing_is_named() {
     stage.send("odom", "base_link", Pose2::IDENTITY);
     stage.scan(vec![1.0; 120]);
     stage.advance(2000);
-    let said = stage.said();
+    let said = stage.logged();
     assert!(
         said.contains("the root of `base_link` is `odom`, the root of `laser` is `mount`"),
         "{said}"
     );
     stage.advance(6000);
-    let said = stage.said();
+    let said = stage.logged();
     assert!(
-        said.contains("no scan has come on `/scan` for 2 s; who publishes `/scan` is silent"),
+        said.contains(
+            "no scan received on `/scan` for 2 s; the publisher of `/scan` sends nothing"
+        ),
         "{said}"
     );
 }
 
 #[test]
-fn parameters_change_while_it_runs() {
+fn parameters_change_at_run_time() {
     let mut stage = Stage::new(&[]);
-    stage.find();
+    stage.drive_to_start();
     assert!(stage.poses.latest().is_some());
     assert!(stage.set("sigma_hit", number(-1.0)).contains("above 0"), "out of its range");
     assert_eq!(stage.set("sigma_hit", number(0.1)), "");
@@ -499,7 +509,7 @@ fn parameters_change_while_it_runs() {
     assert_eq!(stage.set("max_particles", most(800)), "");
     assert_eq!(stage.set("update_min_d", number(0.01)), "");
     stage.see(START * Pose2::new(0.05, 0.0, 0.0));
-    assert!(stage.poses.latest().is_some(), "a short way counts now");
+    assert!(stage.poses.latest().is_some(), "a short motion suffices now");
     assert!(stage.amcl.look(|amcl| amcl.particles().len()).unwrap() <= 800);
     let text = |text: &str| ParameterValue {
         r#type: ParameterType::PARAMETER_STRING,
@@ -513,7 +523,7 @@ fn parameters_change_while_it_runs() {
 }
 
 #[test]
-fn the_pose_outlives_a_restart() {
+fn the_pose_survives_a_restart() {
     let files: Arc<Files> = Arc::default();
     let given = [
         ("saved_pose_filepath", "/home/pose"),
@@ -525,7 +535,7 @@ fn the_pose_outlives_a_restart() {
     stage.maps.publish(to_message(&stage.map, "map", Time::default()));
     stage.advance(10);
     stage.see(START);
-    assert!(stage.poses.latest().is_none() && stage.said().contains("there is no saved pose yet"));
+    assert!(stage.poses.latest().is_none() && stage.logged().contains("there is no saved pose"));
     stage.guesses.publish(guess(0, START));
     stage.advance(10);
     stage.see(START);
@@ -542,29 +552,29 @@ fn the_pose_outlives_a_restart() {
     stage.maps.publish(to_message(&stage.map, "map", Time::default()));
     stage.advance(10);
     stage.see(START);
-    assert!(stage.poses.latest().is_some(), "{}", stage.said());
+    assert!(stage.poses.latest().is_some(), "{}", stage.logged());
 
     files.written.lock().unwrap().insert("/home/pose".into(), b"hello".to_vec());
     let mut stage = Stage::with_files(&given, files);
     stage.amcl.start();
     stage.advance(10);
-    let said = stage.said();
+    let said = stage.logged();
     assert!(said.contains("the saved pose /home/pose is not used: line 1"), "{said}");
 
     let given = [("saved_pose_filepath", "/full/pose")];
     let mut stage = Stage::new(&given);
-    stage.find();
+    stage.drive_to_start();
     stage.advance(3000);
-    assert!(stage.said().contains("cannot be saved to /full/pose: the disk is full"));
+    assert!(stage.logged().contains("cannot be saved to /full/pose: the disk is full"));
 }
 
 #[test]
-fn the_map_comes_by_services_of_ros_1_too() {
+fn the_map_service_of_ros1_works() {
     let mut stage = Stage::with_files(&[("use_map_topic", "false")], Arc::default());
     stage.amcl.start();
     stage.advance(10);
     stage.see(START);
-    assert!(stage.said().contains("no map has come yet from the service `/static_map`"));
+    assert!(stage.logged().contains("no map received yet from the service `/static_map`"));
     let map = to_message(&stage.map, "map", Time::default());
     let calls = stage.user.server::<GetMap>("static_map").unwrap();
     stage.advance(1500);
@@ -572,29 +582,29 @@ fn the_map_comes_by_services_of_ros_1_too() {
         call.answer(GetMapResponse { map: map.clone() });
     }
     stage.advance(100);
-    stage.find();
-    assert!(stage.poses.latest().is_some(), "{}", stage.said());
+    stage.drive_to_start();
+    assert!(stage.poses.latest().is_some(), "{}", stage.logged());
     let initial_pose = guess(0, Pose2::new(2.0, 1.0, 1.0));
     let request = SetMapRequest { map: map.clone(), initial_pose: initial_pose.clone() };
-    assert!(stage.ask::<SetMap>("set_map", request).success);
+    assert!(stage.call::<SetMap>("set_map", request).success);
     let x_m = stage.amcl.look(|amcl| amcl.estimate().unwrap().pose.x_m).unwrap();
     assert!((x_m - 2.0).abs() < 0.1);
     let mut far = initial_pose;
     far.pose.pose.position.x = 99.0;
     let request = SetMapRequest { map, initial_pose: far };
-    assert!(!stage.ask::<SetMap>("set_map", request).success);
+    assert!(!stage.call::<SetMap>("set_map", request).success);
 }
 
 #[test]
-fn a_life_of_its_own() {
+fn the_lifecycle_is_managed() {
     let mut stage = Stage::with_files(&[("global_start", "false")], Arc::default());
     stage.maps.publish(to_message(&stage.map, "map", Time::default()));
     stage.guesses.publish(guess(0, START));
     stage.advance(10);
     stage.see(START);
     assert!(stage.poses.latest().is_none(), "nobody has started it");
-    stage.ask::<Empty>("request_nomotion_update", EmptyRequest::default());
-    assert!(stage.said().contains("the node is not active"));
+    stage.call::<Empty>("request_nomotion_update", EmptyRequest::default());
+    assert!(stage.logged().contains("the node is not active"));
     stage.amcl.start();
     stage.advance(10);
     stage.see(START);
@@ -612,7 +622,7 @@ fn a_life_of_its_own() {
 }
 
 #[test]
-fn always_reset_means_each_activation_starts_anew() {
+fn always_reset_resets_each_activation() {
     let given = [("global_start", "false"), ("always_reset_initial_pose", "true")];
     let mut stage = Stage::new(&given);
     stage.guesses.publish(guess(0, START));
@@ -630,7 +640,7 @@ fn always_reset_means_each_activation_starts_anew() {
 fn the_same_seed_gives_the_same_messages() {
     let run = |seed: &'static str| {
         let mut stage = Stage::new(&[("random_seed", seed)]);
-        let cloud = stage.hear::<ParticleCloud>("particle_cloud");
+        let cloud = stage.receive::<ParticleCloud>("particle_cloud");
         stage.see(START);
         stage.see(START * Pose2::new(0.3, 0.0, 0.0));
         cloud.latest().unwrap().particles.clone()

@@ -1,4 +1,4 @@
-//! The pose that outlives a restart.
+//! Saved pose that survives a restart of the node.
 
 use std::path::PathBuf;
 
@@ -8,11 +8,12 @@ use periplus_params::ParamValues;
 
 use crate::Files;
 
-/// How uncertain a saved pose is: the robot may have been pushed \[m\], \[rad\].
-const SAVED: (f64, f64) = (0.5, 0.26);
+/// Standard deviations of a saved pose: the robot may have been pushed.
+const SAVED_STD_M: f64 = 0.5;
+const SAVED_STD_RAD: f64 = 0.26;
 
-/// Where the pose is saved: what the parameter says, otherwise `amcl_saved_pose` in the folder for
-/// temporary files, where Nav2 has it. None when nothing asks for it.
+/// Path of the saved pose: the parameter, otherwise `amcl_saved_pose` in the folder for temporary
+/// files, as in Nav2. None if saved poses are not in use.
 pub(crate) fn path(values: &ParamValues, files: &dyn Files) -> Option<PathBuf> {
     let given = values.text("saved_pose_filepath").unwrap_or_default();
     if !given.is_empty() {
@@ -24,7 +25,7 @@ pub(crate) fn path(values: &ParamValues, files: &dyn Files) -> Option<PathBuf> {
     is_wanted.then(|| PathBuf::from(folder()).join("amcl_saved_pose"))
 }
 
-/// The saved pose, if there is one; in words why it cannot be used.
+/// Reads the saved pose, if there is one. The error is a description.
 pub(crate) fn read(
     values: &ParamValues,
     files: &dyn Files,
@@ -36,18 +37,21 @@ pub(crate) fn read(
     }
     let why = |why: String| format!("the saved pose {} is not used: {why}", path.display());
     let bytes = files.read(&path).map_err(|error| why(error.to_string()))?;
-    let text = String::from_utf8(bytes).map_err(|_| why("it is no text".into()))?;
-    let saved = SavedPose::read(&text).map_err(|error| why(error.to_string()))?;
+    let text = String::from_utf8(bytes).map_err(|_| why("it is not UTF-8 text".into()))?;
+    let saved = SavedPose::parse(&text).map_err(|error| why(error.to_string()))?;
     if saved.frame != global_frame {
-        return Err(why(format!("it is in `{}`, the map is `{global_frame}`", saved.frame)));
+        return Err(why(format!(
+            "its frame is `{}`, that of the map is `{global_frame}`",
+            saved.frame
+        )));
     }
-    let (place, turn) = SAVED;
-    let covariance =
-        Covariance2 { xx: place * place, xy: 0.0, yy: place * place, yaw: turn * turn };
+    let variance_m2 = SAVED_STD_M * SAVED_STD_M;
+    let yaw = SAVED_STD_RAD * SAVED_STD_RAD;
+    let covariance = Covariance2 { xx: variance_m2, xy: 0.0, yy: variance_m2, yaw };
     Ok(Some((saved.pose, covariance)))
 }
 
-/// Saves a pose; in words why it cannot be.
+/// Saves a pose. The error is a description.
 pub(crate) fn write(
     values: &ParamValues,
     files: &dyn Files,

@@ -1,21 +1,21 @@
-//! Parameters from files: those of ROS 2 (`amcl: ros__parameters:`), and those of ROS 1.
+//! Parameters from YAML files of ROS 2 (`amcl: ros__parameters:`) and ROS 1.
 
 use periplus_diagnostics::{Diagnostics, Origin};
 use periplus_localization::{AMCL, Settings};
 use periplus_params::{Given, ParamValues};
 use periplus_yaml::{YamlNode, YamlValue};
 
-/// Namespaces around a node nest no deeper.
-const DEEPEST: usize = 4;
+/// Maximum depth of nested namespaces.
+const MAX_NAMESPACE_DEPTH: usize = 4;
 
-/// Reads the parameters of a node from a file, and then from words `name`, `value`: `amcl` finds `amcl: ros__parameters:`, `/**:` and, in
-/// files of ROS 1, `amcl:`, or everything when there is no such section. What is wrong is told, and
-/// the default is used.
+/// Reads the parameters of a node from a file and from overrides `(name, value)`. For `amcl`, the
+/// sections `amcl: ros__parameters:` and `/**:` apply; in files of ROS 1, `amcl:`, or the whole
+/// file without such a section. Invalid values are reported and replaced by defaults.
 #[must_use]
-pub fn read(
+pub fn read_parameters(
     file: Option<&YamlNode>,
     node: &str,
-    words: &[(String, String)],
+    overrides: &[(String, String)],
     diagnostics: &mut Diagnostics,
 ) -> ParamValues {
     let mut sections = Vec::new();
@@ -33,21 +33,21 @@ pub fn read(
     for section in sections {
         flatten(section, "", &mut flat);
     }
-    flat.extend(words.iter().map(|(name, text)| Flat {
+    flat.extend(overrides.iter().map(|(name, text)| FlatParameter {
         name: name.clone(),
         text: text.clone(),
         name_origin: Origin::default(),
         origin: Origin::default(),
     }));
-    // What comes last counts, and nothing is told of what does not.
-    let meant = |one: &Flat| AMCL.find(&one.name).map(|it| it.name);
-    let flat: Vec<&Flat> = flat
+    // The last value of a parameter applies; earlier ones are not reported.
+    let parameter = |one: &FlatParameter| AMCL.find(&one.name).map(|it| it.name);
+    let flat: Vec<&FlatParameter> = flat
         .iter()
         .enumerate()
         .filter(|(index, one)| {
             flat[index + 1..]
                 .iter()
-                .all(|later| meant(later).is_none_or(|name| meant(one) != Some(name)))
+                .all(|later| parameter(later).is_none_or(|name| parameter(one) != Some(name)))
         })
         .map(|(_, one)| one)
         .collect();
@@ -61,7 +61,7 @@ pub fn read(
 }
 
 fn collect<'a>(at: &'a YamlNode, node: &str, depth: usize, found: &mut Vec<&'a YamlNode>) {
-    for (key, value) in at.entries().filter(|_| depth < DEEPEST).unwrap_or_default() {
+    for (key, value) in at.entries().filter(|_| depth < MAX_NAMESPACE_DEPTH).unwrap_or_default() {
         let Some(key) = key.text() else { continue };
         let name = key.trim_start_matches('/').rsplit('/').next().unwrap_or(key);
         match value.get("ros__parameters") {
@@ -72,15 +72,16 @@ fn collect<'a>(at: &'a YamlNode, node: &str, depth: usize, found: &mut Vec<&'a Y
     }
 }
 
-struct Flat {
+struct FlatParameter {
     name: String,
     text: String,
     name_origin: Origin,
     origin: Origin,
 }
 
-/// Names with dots. A list is no value of any parameter here; it is told as its first one would be.
-fn flatten(at: &YamlNode, prefix: &str, flat: &mut Vec<Flat>) {
+/// Flattens a mapping to dotted names. No parameter is a list: lists are reported with their first
+/// element.
+fn flatten(at: &YamlNode, prefix: &str, flat: &mut Vec<FlatParameter>) {
     for (key, value) in at.entries().unwrap_or_default() {
         let Some(last) = key.text() else { continue };
         let name = if prefix.is_empty() { last.to_owned() } else { format!("{prefix}.{last}") };
@@ -94,7 +95,12 @@ fn flatten(at: &YamlNode, prefix: &str, flat: &mut Vec<Flat>) {
                 list.first().and_then(YamlNode::text).unwrap_or_default().to_owned()
             }
         };
-        flat.push(Flat { name, text, name_origin: key.span.into(), origin: value.span.into() });
+        flat.push(FlatParameter {
+            name,
+            text,
+            name_origin: key.span.into(),
+            origin: value.span.into(),
+        });
     }
 }
 
@@ -109,12 +115,12 @@ mod tests {
         let file = sources.add("params.yaml", text);
         let tree = periplus_yaml::parse(file, &sources).ok().flatten();
         let mut diagnostics = Diagnostics::new();
-        let values = tree.map(|tree| read(Some(&tree), "amcl", &[], &mut diagnostics));
+        let values = tree.map(|tree| read_parameters(Some(&tree), "amcl", &[], &mut diagnostics));
         (values.unwrap_or_else(|| panic!("{text}")), diagnostics.iter().map(|it| it.code).collect())
     }
 
     #[test]
-    fn files_of_ros_2_and_of_ros_1() {
+    fn files_of_ros2_and_ros1() {
         let ros2 = "
 /**: {ros__parameters: {use_sim_time: true}}
 planner: {ros__parameters: {tolerance: 0.5}}

@@ -1,31 +1,36 @@
-//! Where somebody says that the robot is.
+//! Initial pose given by a user or a program.
 
 use periplus_diagnostics::Diagnostic;
 use periplus_geometry::{Pose2, Stream};
 
-use crate::known_map::{CellState, KnownMap};
+use crate::likelihood_map::{CellState, LikelihoodMap};
 use crate::particles::{Covariance2, Particles};
-use crate::settings::Compat;
+use crate::settings::AmclCompat;
 
-/// Where somebody says that the robot is, as `geometry_msgs/PoseWithCovarianceStamped` does.
+/// Initial pose, as in `geometry_msgs/PoseWithCovarianceStamped`.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Guess {
-    /// The frame in which it is said.
+pub struct InitialPose {
+    /// Frame of the pose.
     pub frame: String,
-    /// `map_from_base` at the time of the guess.
+    /// `map_from_base` at the time of the message.
     pub pose: Pose2,
-    /// Six by six numbers, row by row, of x, y, z, roll, pitch, yaw.
+    /// Row-major 6 by 6 covariance of x, y, z, roll, pitch, yaw.
     pub covariance: [f64; 36],
-    /// How odometry has moved the robot since: `then_from_now`. Identity when the guess is new.
-    pub moved: Pose2,
+    /// Motion of the base by odometry since the time of the message; identity for a current pose.
+    pub then_from_now: Pose2,
 }
 
-/// Larger ones are slips: the standard deviation would be above 30 km.
-const LARGEST_COVARIANCE: f64 = 1e9;
+/// Maximum accepted covariance entry \[m^2, rad^2\]: a standard deviation of about 30 km is a
+/// mistake.
+const MAX_COVARIANCE_M2: f64 = 1e9;
 
-impl Guess {
-    /// What makes it useless, whatever the map.
-    pub(crate) fn check(&self, global_frame: &str, compat: Compat) -> Result<(), Box<Diagnostic>> {
+impl InitialPose {
+    /// Checks everything that does not depend on the map.
+    pub(crate) fn check(
+        &self,
+        global_frame: &str,
+        compat: AmclCompat,
+    ) -> Result<(), Box<Diagnostic>> {
         let error = |code, message: String, help: &str| {
             Err(Box::new(Diagnostic::error(code, message).help(help.to_owned())))
         };
@@ -37,17 +42,17 @@ impl Guess {
                 &format!("give it in `{global_frame}`: it is the fixed frame to choose in RViz"),
             );
         }
-        if !(self.pose.is_finite() && self.moved.is_finite()) {
+        if !(self.pose.is_finite() && self.then_from_now.is_finite()) {
             return error(
                 "bad-guess",
                 "a number of the initial pose is not finite".into(),
-                "give x and y in metres and a quaternion of length one",
+                "give x and y in metres and a unit quaternion",
             );
         }
-        let bad = |entry: &f64| entry.is_nan() || entry.abs() > LARGEST_COVARIANCE;
+        let bad = |entry: &f64| entry.is_nan() || entry.abs() > MAX_COVARIANCE_M2;
         let negative = |entry: f64| entry < 0.0;
         let wrong = self.covariance.iter().position(bad).or_else(|| {
-            let is_checked = |index: usize| compat == Compat::Nav2 || index.is_multiple_of(7);
+            let is_checked = |index: usize| compat == AmclCompat::Nav2 || index.is_multiple_of(7);
             (0..36).find(|&index| is_checked(index) && negative(self.covariance[index]))
         });
         if let Some(index) = wrong {
@@ -57,7 +62,7 @@ impl Guess {
                     "entry {index} of the covariance of the initial pose is {}",
                     self.covariance[index]
                 ),
-                "variances are squares of standard deviations: 0 or more and finite; \
+                "variances are squared standard deviations: finite and not negative; \
                  0.25, 0.25, 0.0685 at 0, 7 and 35 are usual",
             );
         }
@@ -66,7 +71,7 @@ impl Guess {
             return error(
                 "bad-covariance",
                 format!(
-                    "x and y of the initial pose cannot vary together by {xy}: \
+                    "the covariance {xy} of x and y of the initial pose is impossible: \
                          their variances are only {xx} and {yy}"
                 ),
                 "entry 1 squared is at most entry 0 times entry 7",
@@ -75,25 +80,25 @@ impl Guess {
         Ok(())
     }
 
-    /// Where the robot is now.
-    pub(crate) fn now(&self) -> Pose2 {
-        self.pose * self.moved
+    /// Pose of the base now.
+    pub(crate) fn map_from_base(&self) -> Pose2 {
+        self.pose * self.then_from_now
     }
 }
 
-/// Whether the robot can be there at all; what is doubtful about it otherwise.
-pub(crate) fn check_place(
-    map: &KnownMap,
+/// Checks the pose against the map. Returns a warning for a pose that is not in free space.
+pub(crate) fn check_position(
+    map: &LikelihoodMap,
     pose: Pose2,
-    compat: Compat,
+    compat: AmclCompat,
 ) -> Result<Option<Diagnostic>, Box<Diagnostic>> {
     let lattice = map.lattice();
     let Pose2 { x_m, y_m, .. } = pose;
     let state = map.state(map.cell_at(x_m, y_m));
     let is_outside = match compat {
-        Compat::None => state.is_none(),
-        // Metres held against a number of cells.
-        Compat::Nav2 => x_m.abs() > lattice.width as f64 || y_m.abs() > lattice.height as f64,
+        AmclCompat::None => state.is_none(),
+        // Nav2 compares metres with a number of cells.
+        AmclCompat::Nav2 => x_m.abs() > lattice.width as f64 || y_m.abs() > lattice.height as f64,
     };
     if is_outside {
         let (low, high) = (
@@ -105,25 +110,25 @@ pub(crate) fn check_place(
             format!("the initial pose ({x_m:.3}, {y_m:.3}) is outside of the map"),
         )
         .note(format!(
-            "the map reaches from ({:.3}, {:.3}) to ({:.3}, {:.3})",
+            "the map extends from ({:.3}, {:.3}) to ({:.3}, {:.3})",
             low.0, low.1, high.0, high.1
         ))
         .help("give a pose on the map, or check the origin in the map's YAML");
         return Err(outside.into());
     }
-    let what = match state {
+    let location = match state {
         Some(CellState::Free) => return Ok(None),
         Some(CellState::Occupied) => "in a wall of the map",
-        Some(CellState::Unknown) => "where the map knows nothing",
+        Some(CellState::Unknown) => "in unknown space of the map",
         None => "outside of the map",
     };
     Ok(Some(Diagnostic::warning(
         "guess-not-free",
-        format!("the initial pose ({x_m:.3}, {y_m:.3}) is {what}"),
+        format!("the initial pose ({x_m:.3}, {y_m:.3}) is {location}"),
     )))
 }
 
-/// So many particles around a pose, normally distributed.
+/// Adds `count` particles, normally distributed around a pose.
 pub(crate) fn scatter(
     particles: &mut Particles,
     count: usize,
@@ -132,7 +137,7 @@ pub(crate) fn scatter(
     stream: &mut Stream,
 ) {
     let Covariance2 { xx, xy, yy, yaw } = covariance;
-    // Cholesky's root of two by two numbers.
+    // Cholesky decomposition of the 2 by 2 position covariance.
     let along = libm::sqrt(xx.max(0.0));
     let shared = if along > 0.0 { xy / along } else { 0.0 };
     let across = libm::sqrt((yy - shared * shared).max(0.0));
