@@ -17,7 +17,7 @@ fuzz_target!(|bytes: &[u8]| {
             assert!(loaded.status != Status::Success && loaded.diagnostics.has_errors());
             continue;
         };
-        assert_eq!(map.grid.cells.len(), map.grid.lattice.len());
+        assert_eq!(map.grid.cells.len(), map.grid.info.len());
         let saving =
             Saving { mode: Mode::Raw, format: Format::Bmp, ..Saving::new("/again", distro) };
         let files = render(&map.grid, &saving);
@@ -25,7 +25,7 @@ fuzz_target!(|bytes: &[u8]| {
             .with_file(&files.image_path, files.image)
             .with_file(&files.yaml_path, files.yaml);
         // Resolutions below what three decimals or digits show are lost to every saver.
-        if map.grid.lattice.resolution_m > 0.001 && map.grid.lattice.resolution_m < 1e6 {
+        if map.grid.info.resolution_m > 0.001 && map.grid.info.resolution_m < 1e6 {
             assert!(load("/again.yaml", distro, &host).map.is_some());
         }
     }

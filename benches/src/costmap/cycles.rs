@@ -4,7 +4,7 @@ use periplus_costmap::layers::StaticLayer;
 use periplus_costmap::{Beams, Config, NoFrames, Projector};
 use periplus_diagnostics::Diagnostics;
 use periplus_geometry::{DVec3, Pose, Pose2, Stream};
-use periplus_grid::{Lattice, OccupancyGrid};
+use periplus_grid::{GridInfo, OccupancyGrid};
 use periplus_params::Given;
 
 use super::{Row, median, seconds};
@@ -123,8 +123,8 @@ fn global(side: usize) -> Vec<Row> {
     ]);
     let mut costmap = config.build();
     let origin = Pose2::IDENTITY;
-    let lattice = Lattice { resolution_m: 0.05, width: side, height: side, origin };
-    let mut map = OccupancyGrid::new(lattice, 0);
+    let info = GridInfo { resolution_m: 0.05, width: side, height: side, origin };
+    let mut map = OccupancyGrid::new(info, 0);
     let mut random = Stream::keyed(5, "global", 0);
     for cell in &mut map.cells {
         if random.unit() < 0.005 {

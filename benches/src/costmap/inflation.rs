@@ -6,7 +6,7 @@ use std::process::Command;
 use periplus_costmap::inflation::{CostTable, Inflation, Scratch, inflate};
 use periplus_costmap::{Compat, Costmap, Window};
 use periplus_geometry::{Pose2, Stream};
-use periplus_grid::Lattice;
+use periplus_grid::GridInfo;
 
 use super::{Row, fastest, number, seconds, wavefront};
 
@@ -24,17 +24,17 @@ pub(super) fn run(python: &Path, script: &Path, work: &Path) -> Result<Vec<Row>,
         let mut row = |who: &str, seconds: f64| {
             rows.push(Row { work: name.clone(), who: who.to_owned(), seconds });
         };
-        let lattice = Lattice {
+        let info = GridInfo {
             resolution_m: RESOLUTION_M,
             width: SIDE,
             height: SIDE,
             origin: Pose2::IDENTITY,
         };
-        let mut ours = Costmap::new(lattice, 0);
+        let mut ours = Costmap::new(info, 0);
         let mut scratch = Scratch::default();
         let taken = fastest(TURNS, || {
             ours.costs_mut().copy_from_slice(&cells);
-            let all = Window::all(&lattice);
+            let all = Window::all(&info);
             seconds(|| inflate(&mut ours, &all, &table, Inflation::default(), &mut scratch))
         });
         row("Periplus", taken);

@@ -1,7 +1,7 @@
 //! AMCL: sensor and motion models, KLD-sampling, recovery, the saved pose.
 
 use periplus_geometry::{Pose2, normalize_angle};
-use periplus_grid::{Grid, Lattice};
+use periplus_grid::{Grid, GridInfo};
 use periplus_localization::{
     AMCL, AmclCompat, BIN_M, BIN_RAD, BeamMixture, CellAlignment, CellState, KldSampling,
     LikelihoodAverages, LikelihoodMap, OmniMotion, PoseThreshold, RotTransRot, SavedPose,
@@ -321,11 +321,11 @@ pub(super) fn check_map(
             None => [usual(&given, "origin_x", 0.0)?, usual(&given, "origin_y", 0.0)?],
         };
         let resolution_m = given.get("resolution")?.number()?;
-        let lattice = Lattice::new(resolution_m, width, height, Pose2::new(x_m, y_m, 0.0))
+        let info = GridInfo::new(resolution_m, width, height, Pose2::new(x_m, y_m, 0.0))
             .map_err(|error| Unreadable(error.to_string()))?;
         let settings = Settings { compat: AmclCompat::Nav2, ..Settings::default() }.map_settings();
         debug_assert_eq!(settings.alignment, CellAlignment::Centered);
-        let map = LikelihoodMap::new(&Grid::new(lattice, 100), settings)
+        let map = LikelihoodMap::new(&Grid::new(info, 100), settings)
             .map_err(|error| Unreadable(error.message))?;
         let got =
             points.each(|point| point.array::<2>().map(|[x_m, y_m]| map.cell_at(x_m, y_m)))?;

@@ -21,7 +21,7 @@ pub(super) use wire::check as check_publisher;
 use periplus_costmap::{Compat, Costmap, Window};
 use periplus_diagnostics::Diagnostics;
 use periplus_geometry::Pose2;
-use periplus_grid::{Lattice, OccupancyGrid};
+use periplus_grid::{GridInfo, OccupancyGrid};
 use periplus_params::{Given, ParamValues, Table};
 use serde_json::Value;
 
@@ -83,7 +83,7 @@ fn values_among(table: &'static Table, given: &Reader<'_>) -> Result<ParamValues
 
 /// The costs of a grid as rows, the lowest first.
 fn rows_of(costmap: &Costmap) -> Value {
-    let width = costmap.lattice().width.max(1);
+    let width = costmap.info().width.max(1);
     costmap.costs().chunks(width).map(|row| Value::from(row.to_vec())).collect()
 }
 
@@ -101,7 +101,7 @@ fn counts_of(costmap: &Costmap) -> Value {
 fn cells_where(costmap: &Costmap, with_cost: bool, holds: impl Fn(u8) -> bool) -> Vec<Value> {
     let listed = costmap.costs().iter().enumerate().filter(|(_, cost)| holds(**cost));
     let listed = listed.map(|(index, cost)| {
-        let (x, y) = costmap.lattice().cell(index);
+        let (x, y) = costmap.info().cell(index);
         if with_cost {
             Value::from(vec![x, y, usize::from(*cost)])
         } else {
@@ -132,10 +132,10 @@ fn costmap_of(reader: &Reader<'_>, first: &str) -> Result<Costmap, Unreadable> {
     let (width, height) = reader.get("size")?.cell()?;
     let [x_m, y_m] = reader.find("origin").map_or(Ok([0.0, 0.0]), |it| it.array())?;
     let origin = Pose2::new(x_m, y_m, 0.0);
-    let lattice = Lattice::new(number(reader, "resolution", 1.0)?, width, height, origin)
+    let info = GridInfo::new(number(reader, "resolution", 1.0)?, width, height, origin)
         .map_err(|error| reader.unreadable(&error.to_string()))?;
     let default = reader.find(first).map_or(Ok(0), |it| it.byte())?;
-    Ok(Costmap::new(lattice, default))
+    Ok(Costmap::new(info, default))
 }
 
 /// A map that is described by `width`, `height`, `resolution`, an origin, and values.
@@ -150,7 +150,7 @@ fn map_of(reader: &Reader<'_>) -> Result<OccupancyGrid, Unreadable> {
     };
     let yaw_rad = number(reader, "origin_yaw", 0.0)?;
     let origin = Pose2::new(x_m, y_m, yaw_rad);
-    let lattice = Lattice::new(number(reader, "resolution", 1.0)?, width, height, origin)
+    let info = GridInfo::new(number(reader, "resolution", 1.0)?, width, height, origin)
         .map_err(|error| reader.unreadable(&error.to_string()))?;
     let occupancy = |it: &Reader<'_>| {
         i8::try_from(it.integer()?).map_err(|_| it.unreadable("a number from -128 to 127"))
@@ -158,27 +158,27 @@ fn map_of(reader: &Reader<'_>) -> Result<OccupancyGrid, Unreadable> {
     let cells = if let Some(data) = reader.find("data") {
         data.each(occupancy)?
     } else if let Some(fill) = reader.find("fill") {
-        vec![occupancy(&fill)?; lattice.len()]
+        vec![occupancy(&fill)?; info.len()]
     } else {
         let formula = reader.get("value_formula")?;
-        by_formula(&formula, &lattice)?
+        by_formula(&formula, &info)?
     };
-    OccupancyGrid::from_cells(lattice, cells)
+    OccupancyGrid::from_cells(info, cells)
         .map_err(|cells| reader.unreadable(&format!("a map; it has {} cells", cells.len())))
 }
 
 /// Cells by a formula such as `x + (y-1)*10 + 1 for y>=1`, 0 where it does not hold.
-fn by_formula(formula: &Reader<'_>, lattice: &Lattice) -> Result<Vec<i8>, Unreadable> {
+fn by_formula(formula: &Reader<'_>, info: &GridInfo) -> Result<Vec<i8>, Unreadable> {
     let known = formula.text()?.replace(' ', "");
-    let width = lattice.width as i64;
+    let width = info.width as i64;
     let value = |x: i64, y: i64| match known.as_str() {
         "x+(y-1)*10+1fory>=1" => Ok(if y >= 1 { x + (y - 1) * 10 + 1 } else { 0 }),
         "x+y*width+1" | "1+x+y*width" => Ok(x + y * width + 1),
         "x+y*width" => Ok(x + y * width),
         _ => Err(formula.unreadable("a formula that is known")),
     };
-    let cells = (0..lattice.len()).map(|index| {
-        let (x, y) = lattice.cell(index);
+    let cells = (0..info.len()).map(|index| {
+        let (x, y) = info.cell(index);
         let value = value(x as i64, y as i64)?;
         i8::try_from(value).map_err(|_| formula.unreadable("a formula with numbers below 128"))
     });

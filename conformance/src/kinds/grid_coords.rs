@@ -1,7 +1,7 @@
 //! Where cells are.
 
 use periplus_geometry::Pose2;
-use periplus_grid::{Grid, Lattice};
+use periplus_grid::{Grid, GridInfo};
 use serde_json::{Value, json};
 
 use super::Setting;
@@ -18,14 +18,14 @@ pub(super) fn check(
     let (width, height) = given.get("size")?.cell()?;
     let resolution = given.get("resolution")?;
     let [x_m, y_m] = given.get("origin")?.array()?;
-    let lattice = Lattice::new(resolution.number()?, width, height, Pose2::new(x_m, y_m, 0.0))
+    let info = GridInfo::new(resolution.number()?, width, height, Pose2::new(x_m, y_m, 0.0))
         .map_err(|error| resolution.unreadable(&error.to_string()))?;
     let default = given.find("default").map_or(Ok(0), |it| it.integer())?;
     let mut named: Vec<(&[&str], Value)> = Vec::new();
     if let Some(points) = given.find_any(&["world", "points"]) {
         let cells = points.each(|point| {
             let [x_m, y_m] = point.array()?;
-            Ok(json!(lattice.cell_of(x_m, y_m)))
+            Ok(json!(info.cell_of(x_m, y_m)))
         })?;
         named.push((&["cells"], Value::Array(cells)));
     }
@@ -33,7 +33,7 @@ pub(super) fn check(
         let points = cells.each(|cell| {
             // Cells beside the grid have centres, too.
             let [column, row] = cell.array()?;
-            let (x_m, y_m) = lattice.point_at(column + 0.5, row + 0.5);
+            let (x_m, y_m) = info.point_at(column + 0.5, row + 0.5);
             Ok(numbers([x_m, y_m]))
         })?;
         named.push((&["world", "centres", "centers", "points"], Value::Array(points)));
@@ -57,10 +57,10 @@ pub(super) fn check(
     }
     for step in moves.distinct()? {
         let [x_m, y_m] = step.get("new_origin")?.input().array()?;
-        let cells = (1..=lattice.len() as i64).collect();
-        let mut grid = Grid { lattice, cells };
+        let cells = (1..=info.len() as i64).collect();
+        let mut grid = Grid { info, cells };
         grid.roll_to(x_m, y_m, default);
-        let origin = grid.lattice.origin;
+        let origin = grid.info.origin;
         let rows: Value = grid.rows().map(|row| json!(row)).collect();
         let got = json!({
             "new_origin": step.get("new_origin")?.input().whole(),

@@ -120,14 +120,14 @@ fn cells(
             return Ok(());
         }
     };
-    let lattice = grid.lattice;
-    let rotation = Pose::from(lattice.origin).rotation;
-    let origin = lattice.origin;
+    let info = grid.info;
+    let rotation = Pose::from(info.origin).rotation;
+    let origin = info.origin;
     differences.compare_members(
         &[
-            (&["width"], json!(lattice.width)),
-            (&["height"], json!(lattice.height)),
-            (&["resolution"], number(lattice.resolution_m)),
+            (&["width"], json!(info.width)),
+            (&["height"], json!(info.height)),
+            (&["resolution"], number(info.resolution_m)),
             (&["data"], json!(grid.cells)),
             (&["origin"], numbers([origin.x_m, origin.y_m, origin.yaw_rad])),
             (&["origin_quaternion_z_w"], numbers([rotation.z, rotation.w])),

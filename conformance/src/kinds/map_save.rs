@@ -9,7 +9,7 @@ use std::time::Duration;
 
 use periplus_geometry::Pose2;
 use periplus_graph::{Graph, GraphError, NodeSettings, Qos};
-use periplus_grid::{Grid, Lattice, OccupancyGrid};
+use periplus_grid::{Grid, GridInfo, OccupancyGrid};
 use periplus_images::Raster;
 use periplus_maps::{Distro, Format, Mode, Saving, render, to_message};
 use periplus_msgs::nav_msgs;
@@ -47,9 +47,9 @@ fn grid(given: &Reader<'_>) -> Result<OccupancyGrid, Unreadable> {
     let [x_m, y_m, yaw_rad] = given.find("origin").map_or(Ok([0.0; 3]), |it| it.array())?;
     let data = given.get("data")?;
     let cells = data.each(cell)?;
-    let lattice = Lattice::new(resolution_m, width, height, Pose2::new(x_m, y_m, yaw_rad))
+    let info = GridInfo::new(resolution_m, width, height, Pose2::new(x_m, y_m, yaw_rad))
         .map_err(|error| given.unreadable(&error.to_string()))?;
-    Grid::from_cells(lattice, cells).map_err(|_| data.unreadable("a value for each cell"))
+    Grid::from_cells(info, cells).map_err(|_| data.unreadable("a value for each cell"))
 }
 
 fn cell(given: &Reader<'_>) -> Result<i8, Unreadable> {
@@ -219,9 +219,9 @@ pub(super) fn check_pixels(
         occupied_thresh: number("occupied_thresh", 0.65)?,
         ..Saving::new("map", distro)
     };
-    let lattice = Lattice::new(0.05, cells.len(), 1, Pose2::IDENTITY)
+    let info = GridInfo::new(0.05, cells.len(), 1, Pose2::IDENTITY)
         .map_err(|error| given.unreadable(&error.to_string()))?;
-    let map = Grid { lattice, cells };
+    let map = Grid { info, cells };
     let raster = match Raster::decode(&picture_of(&map, &saving)) {
         Ok(raster) => raster,
         Err(error) => {
@@ -298,7 +298,7 @@ fn answer(request: SaveMapRequest, distro: Distro) -> Result<(bool, bool), Graph
     let user = graph.node(NodeSettings::new("user"))?;
     let good = nav_msgs::OccupancyGrid {
         data: vec![0, 100, -1, 50],
-        ..to_message(&Grid { lattice: square(), cells: vec![0; 4] }, "map", Default::default())
+        ..to_message(&Grid { info: square(), cells: vec![0; 4] }, "map", Default::default())
     };
     let short = nav_msgs::OccupancyGrid { data: vec![0], ..good.clone() };
     let map = user.publisher("/map", Qos::latched(1))?;
@@ -320,8 +320,8 @@ fn answer(request: SaveMapRequest, distro: Distro) -> Result<(bool, bool), Graph
     Ok((result, written == 2))
 }
 
-fn square() -> Lattice {
-    Lattice { resolution_m: 0.05, width: 2, height: 2, origin: Pose2::IDENTITY }
+fn square() -> GridInfo {
+    GridInfo { resolution_m: 0.05, width: 2, height: 2, origin: Pose2::IDENTITY }
 }
 
 /// Files that are written, and nowhere else.

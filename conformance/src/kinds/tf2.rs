@@ -1,7 +1,10 @@
 //! The buffer of tf2.
 
 use periplus_geometry::{DQuat, DVec3};
-use periplus_tf::{Buffer, CACHE_NS, Found, Kind, Lookup, LookupError, Sample, Samples, Stamped};
+use periplus_tf::{
+    Buffer, CACHE_NS, LookupError, ResolvedTransform, StampedTransform, TransformCache,
+    TransformKind, TransformLookup, TransformSample,
+};
 
 use serde_json::{Value, json};
 
@@ -13,9 +16,9 @@ fn ns(seconds: f64) -> i64 {
     (seconds * 1e9).round() as i64
 }
 
-fn transform(given: &Reader<'_>) -> Result<(Stamped, Kind), Unreadable> {
+fn transform(given: &Reader<'_>) -> Result<(StampedTransform, TransformKind), Unreadable> {
     let vector = given.get("translation")?.array()?;
-    let stamped = Stamped {
+    let stamped = StampedTransform {
         parent: given.get("parent")?.text()?.into(),
         child: given.get("child")?.text()?.into(),
         stamp_ns: ns(given.get("stamp")?.number()?),
@@ -23,7 +26,7 @@ fn transform(given: &Reader<'_>) -> Result<(Stamped, Kind), Unreadable> {
         rotation: DQuat::from_array(given.get("rotation")?.array()?),
     };
     let is_static = given.find("static").map_or(Ok(false), |it| it.truth())?;
-    Ok((stamped, if is_static { Kind::Fixed } else { Kind::Moving }))
+    Ok((stamped, if is_static { TransformKind::Fixed } else { TransformKind::Moving }))
 }
 
 fn buffer(given: &Reader<'_>) -> Result<Buffer, Unreadable> {
@@ -66,7 +69,7 @@ pub(super) fn check_cache(
     differences: &mut Differences,
 ) -> Result<(), Unreadable> {
     let given = case.given();
-    let mut samples = Samples::<&str>::new(given.get("max_storage")?.integer()?);
+    let mut samples = TransformCache::<&str>::new(given.get("max_storage")?.integer()?);
     let inserted = |name: &str| {
         let list = given.get(name)?;
         list.each(|one| match one.list()?.as_slice() {
@@ -74,11 +77,11 @@ pub(super) fn check_cache(
             _ => Err(one.unreadable("a name and a stamp")),
         })
     };
-    let insert = |samples: &mut Samples<_>, parent, stamp_ns| {
+    let insert = |samples: &mut TransformCache<_>, parent, stamp_ns| {
         let (translation, rotation) = (DVec3::ZERO, DQuat::IDENTITY);
-        samples.insert(Sample { stamp_ns, parent, translation, rotation })
+        samples.insert(TransformSample { stamp_ns, parent, translation, rotation })
     };
-    let order = |samples: &Samples<&str>| -> Value {
+    let order = |samples: &TransformCache<&str>| -> Value {
         samples.newest_first().map(|sample| json!(sample.parent)).collect()
     };
     let mut named: Vec<(&[&str], Value)> = Vec::new();
@@ -171,17 +174,19 @@ impl<'v> Query<'v> {
         })
     }
 
-    fn ask(&self, buffer: &Buffer) -> Result<Found, LookupError> {
+    fn ask(&self, buffer: &Buffer) -> Result<ResolvedTransform, LookupError> {
         let &Self { target, source, time_ns, across } = self;
         match across {
             None => buffer.lookup(target, source, time_ns),
-            Some((target_time_ns, source_time_ns, fixed)) => buffer.lookup_across(Lookup {
-                target,
-                target_time_ns,
-                source,
-                source_time_ns,
-                fixed,
-            }),
+            Some((target_time_ns, source_time_ns, fixed)) => {
+                buffer.lookup_across(TransformLookup {
+                    target,
+                    target_time_ns,
+                    source,
+                    source_time_ns,
+                    fixed,
+                })
+            }
         }
     }
 }
@@ -205,7 +210,7 @@ fn names(order: Option<&str>, count: usize) -> Option<Vec<String>> {
 
 fn compare(
     query: &Reader<'_>,
-    got: &Result<Found, LookupError>,
+    got: &Result<ResolvedTransform, LookupError>,
     expected: &Expected<'_>,
     distro: &str,
     differences: &mut Differences,
@@ -266,7 +271,7 @@ fn compare(
 }
 
 /// Null where nothing was found.
-fn found_value(got: &Result<Found, LookupError>) -> Value {
+fn found_value(got: &Result<ResolvedTransform, LookupError>) -> Value {
     if got.is_ok() { json!("found") } else { Value::Null }
 }
 

@@ -4,7 +4,7 @@ use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 
 use periplus_geometry::{Pose2, Stream};
-use periplus_grid::{Cell, Grid, Lattice, Line, squared_distances};
+use periplus_grid::{Cell, Grid, GridInfo, Line, squared_distances};
 
 use crate::stage::Stage;
 
@@ -31,9 +31,9 @@ impl Floor {
         let [x0, y0, x1, y1] = stage.bounds_m;
         let cells = |length: f64| (length / CELL_M).ceil() as usize;
         let origin = Pose2::new(x0, y0, 0.0);
-        let lattice = Lattice::new(CELL_M, cells(x1 - x0), cells(y1 - y0), origin)
+        let info = GridInfo::new(CELL_M, cells(x1 - x0), cells(y1 - y0), origin)
             .unwrap_or_else(|why| panic!("bounds of a world are sound: {why}"));
-        let mut things = Grid::new(lattice, false);
+        let mut things = Grid::new(info, false);
         let mut sweep = |from: [f64; 2], angle_rad: f64, length_m: f64| {
             for z in HEIGHTS_M {
                 let mut gone_m = 0.0;
@@ -44,20 +44,20 @@ impl Floor {
                         break;
                     };
                     let (x, y) = (x + hit_m * angle_rad.cos(), y + hit_m * angle_rad.sin());
-                    if let Some(cell) = lattice.cell_of(x, y) {
-                        things.cells[lattice.index(cell)] = true;
+                    if let Some(cell) = info.cell_of(x, y) {
+                        things.cells[info.index(cell)] = true;
                     }
                     gone_m += hit_m + 0.01;
                 }
             }
         };
         let quarter = std::f64::consts::FRAC_PI_2;
-        for row in 0..lattice.height {
+        for row in 0..info.height {
             let y = y0 + (row as f64 + 0.5) * CELL_M;
             sweep([x0, y], 0.0, x1 - x0);
             sweep([x1, y], 2.0 * quarter, x1 - x0);
         }
-        for column in 0..lattice.width {
+        for column in 0..info.width {
             let x = x0 + (column as f64 + 0.5) * CELL_M;
             sweep([x, y0], quarter, y1 - y0);
             sweep([x, y1], -quarter, y1 - y0);
@@ -66,7 +66,7 @@ impl Floor {
     }
 
     fn room_m(&self, cell: Cell) -> f64 {
-        f64::from(self.room.cells[self.room.lattice.index(cell)]).sqrt() * CELL_M
+        f64::from(self.room.cells[self.room.info.index(cell)]).sqrt() * CELL_M
     }
 
     /// Goals that lead to places drawn at random, until the way is so long \[m\].
@@ -76,15 +76,15 @@ impl Floor {
         length_m: f64,
         stream: &mut Stream,
     ) -> Vec<[f64; 2]> {
-        let lattice = self.room.lattice;
-        let Some(mut here) = lattice.cell_of(start[0], start[1]) else { return Vec::new() };
+        let info = self.room.info;
+        let Some(mut here) = info.cell_of(start[0], start[1]) else { return Vec::new() };
         let mut way: Vec<[f64; 2]> = Vec::new();
         let mut gone_m = 0.0;
         while gone_m < length_m {
             let costs = self.costs(here);
-            let reached: Vec<usize> = (0..lattice.len())
+            let reached: Vec<usize> = (0..info.len())
                 .filter(|&index| {
-                    let (column, row) = lattice.cell(index);
+                    let (column, row) = info.cell(index);
                     let (dx, dy) = (column.abs_diff(here.0) as f64, row.abs_diff(here.1) as f64);
                     costs[index].is_some() && dx.hypot(dy) * CELL_M > APART_M
                 })
@@ -93,8 +93,8 @@ impl Floor {
                 break;
             }
             let goal = reached[(stream.unit() * reached.len() as f64) as usize];
-            let mut cells = vec![lattice.cell(goal)];
-            while let Some(Some((_, before))) = costs.get(lattice.index(cells[cells.len() - 1])) {
+            let mut cells = vec![info.cell(goal)];
+            while let Some(Some((_, before))) = costs.get(info.index(cells[cells.len() - 1])) {
                 if *before == cells[cells.len() - 1] {
                     break;
                 }
@@ -103,7 +103,7 @@ impl Floor {
             cells.reverse();
             let mut last = here;
             for cell in self.corners(&cells) {
-                let ((x, y), (to_x, to_y)) = (lattice.centre_of(last), lattice.centre_of(cell));
+                let ((x, y), (to_x, to_y)) = (info.centre_of(last), info.centre_of(cell));
                 let length_m = (to_x - x).hypot(to_y - y);
                 let steps = (length_m / STEP_M).ceil().max(1.0);
                 // Far goals are driven to in arcs, which leave the straight way.
@@ -121,14 +121,14 @@ impl Floor {
 
     /// The cheapest way from a cell to all others: cost, and the cell before.
     fn costs(&self, start: Cell) -> Vec<Option<(u32, Cell)>> {
-        let lattice = self.room.lattice;
-        let mut best: Vec<Option<(u32, Cell)>> = vec![None; lattice.len()];
-        let mut settled = vec![false; lattice.len()];
+        let info = self.room.info;
+        let mut best: Vec<Option<(u32, Cell)>> = vec![None; info.len()];
+        let mut settled = vec![false; info.len()];
         let mut heap = BinaryHeap::new();
-        best[lattice.index(start)] = Some((0, start));
+        best[info.index(start)] = Some((0, start));
         heap.push(Reverse((0, start)));
         while let Some(Reverse((cost, cell))) = heap.pop() {
-            if std::mem::replace(&mut settled[lattice.index(cell)], true) {
+            if std::mem::replace(&mut settled[info.index(cell)], true) {
                 continue;
             }
             for (dx, dy, length) in [
@@ -144,13 +144,13 @@ impl Floor {
                 let Some(column) = cell.0.checked_add_signed(dx) else { continue };
                 let Some(row) = cell.1.checked_add_signed(dy) else { continue };
                 let next = (column, row);
-                if !lattice.contains(next) || self.room_m(next) < CLEARANCE_M {
+                if !info.contains(next) || self.room_m(next) < CLEARANCE_M {
                     continue;
                 }
                 // Where there is room it is better to stay away from things.
                 let tightness = (0.8 - self.room_m(next)).max(0.0);
                 let cost = cost + (f64::from(length) * (1.0 + 4.0 * tightness)) as u32;
-                let known = &mut best[lattice.index(next)];
+                let known = &mut best[info.index(next)];
                 if known.is_none_or(|(known, _)| cost < known) {
                     *known = Some((cost, cell));
                     heap.push(Reverse((cost, next)));

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::path::Path;
 
 use periplus_geometry::{Pose2, normalize_angle};
-use periplus_grid::{Grid, Lattice, OccupancyGrid, squared_distances};
+use periplus_grid::{Grid, GridInfo, OccupancyGrid, squared_distances};
 use periplus_maps::{Distro, load};
 use periplus_os::Machine;
 use serde_json::Value;
@@ -142,13 +142,13 @@ impl Walls {
     fn of(stage: &Stage, drive: &Drive) -> Self {
         let [x0, y0, x1, y1] = stage.bounds_m;
         let cells = |length: f64| (length / FINE_M).ceil() as usize;
-        let lattice = Lattice::new(FINE_M, cells(x1 - x0), cells(y1 - y0), Pose2::new(x0, y0, 0.0))
+        let info = GridInfo::new(FINE_M, cells(x1 - x0), cells(y1 - y0), Pose2::new(x0, y0, 0.0))
             .unwrap_or_else(|why| panic!("bounds of a world are sound: {why}"));
-        let mut marks = Grid::new(lattice, false);
+        let mut marks = Grid::new(info, false);
         let mut points: Vec<[f32; 2]> = Vec::new();
         let mut mark = |x: f64, y: f64| {
-            let Some(cell) = lattice.cell_of(x, y) else { return };
-            let index = lattice.index(cell);
+            let Some(cell) = info.cell_of(x, y) else { return };
+            let index = info.index(cell);
             if !std::mem::replace(&mut marks.cells[index], true) {
                 points.push([x as f32, y as f32]);
             }
@@ -194,13 +194,13 @@ impl Walls {
     /// Mean distance of middles of occupied cells \[m\], and the part of the cells whose square is
     /// within half a cell of a true wall.
     fn hold(&self, map: &OccupancyGrid, world_from_map: Pose2) -> (f64, f64) {
-        let side = map.lattice.resolution_m;
+        let side = map.info.resolution_m;
         let (mut sum, mut right, mut count) = (0.0, 0, 0);
         for (index, &value) in map.cells.iter().enumerate() {
             if value < OCCUPIED {
                 continue;
             }
-            let (x, y) = map.lattice.centre_of(map.lattice.cell(index));
+            let (x, y) = map.info.centre_of(map.info.cell(index));
             let at = |u: f64, v: f64| {
                 let (x, y) = world_from_map.transform_point(x + u * side, y + v * side);
                 self.distance_m(x, y)
@@ -220,7 +220,7 @@ impl Walls {
     /// Part of the points of true walls that are within half a cell of an occupied one.
     fn found(&self, map: &OccupancyGrid, world_from_map: Pose2) -> f64 {
         let map_from_world = world_from_map.inverse();
-        let half = 0.5 * map.lattice.resolution_m;
+        let half = 0.5 * map.info.resolution_m;
         let is_found = |point: &&[f32; 2]| {
             let (x, y) = map_from_world.transform_point(point[0].into(), point[1].into());
             let around = (-1..=1).flat_map(|u| (-1..=1).map(move |v| (u, v)));

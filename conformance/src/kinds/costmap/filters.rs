@@ -7,7 +7,7 @@ use periplus_costmap::{
     Bounds, Costmap, Footprint, Frames, Layer, Moment, NoFrames, Window, tables,
 };
 use periplus_geometry::{Pose, Pose2};
-use periplus_grid::{Lattice, OccupancyGrid};
+use periplus_grid::{GridInfo, OccupancyGrid};
 use periplus_params::{ParamValues, Table};
 use serde_json::{Value, json};
 
@@ -37,7 +37,7 @@ impl Frames for Shifted {
 fn with_moment<T>(
     distro: &str,
     robot: Pose2,
-    lattice: Lattice,
+    info: GridInfo,
     frames: &dyn Frames,
     use_it: impl FnOnce(&Moment<'_>) -> T,
 ) -> Result<T, Unreadable> {
@@ -45,7 +45,7 @@ fn with_moment<T>(
         now_ns: 0,
         robot,
         footprint: &Footprint::default(),
-        lattice,
+        info,
         is_rolling: false,
         compat: compat_of(distro)?,
         global_frame: GLOBAL,
@@ -82,7 +82,7 @@ pub(in super::super) fn check_keepout(
     }
     let (mut counts, mut grids) = (Vec::new(), Vec::new());
     for (window, robot) in windows.into_iter().zip(poses) {
-        with_moment(distro, robot, *master.lattice(), &frames, |moment| {
+        with_moment(distro, robot, *master.info(), &frames, |moment| {
             filter.bounds(moment, &mut Bounds::default());
             filter.costs(moment, &mut master, window);
         })?;
@@ -91,8 +91,8 @@ pub(in super::super) fn check_keepout(
         grids.push(rows_of(&master));
     }
     let (mut changed, mut new_costs, mut other_costs) = (Vec::new(), Vec::new(), Vec::new());
-    for index in 0..master.lattice().len() {
-        let (x, y) = master.lattice().cell(index);
+    for index in 0..master.info().len() {
+        let (x, y) = master.info().cell(index);
         let cost = master.costs()[index];
         if cost == before.costs()[index] {
             other_costs.push(cost);
@@ -131,11 +131,11 @@ fn only(costs: &[u8]) -> Value {
 /// poses.
 fn masks_and_poses(given: &Reader<'_>) -> Result<Vec<(Mask, Pose2)>, Unreadable> {
     if let Some(values) = given.find("mask_values") {
-        let lattice = Lattice { resolution_m: 1.0, width: 1, height: 1, origin: Pose2::IDENTITY };
+        let info = GridInfo { resolution_m: 1.0, width: 1, height: 1, origin: Pose2::IDENTITY };
         return values.each(|value| {
             let number = i8::try_from(value.integer()?)
                 .map_err(|_| value.unreadable("a number from -128 to 127"))?;
-            let grid = OccupancyGrid::new(lattice, number);
+            let grid = OccupancyGrid::new(info, number);
             Ok((Mask { grid, frame: GLOBAL.to_owned() }, Pose2::new(0.5, 0.5, 0.0)))
         });
     }
@@ -159,7 +159,7 @@ fn info_of(given: &Reader<'_>, kind: FilterKind) -> Result<FilterInfo, Unreadabl
 /// Lets a filter look at the mask where the robot is; it has no costmap to change.
 fn run(filter: &mut dyn Layer, distro: &str, robot: Pose2) -> Result<(), Unreadable> {
     let mut master = Costmap::empty(0);
-    with_moment(distro, robot, *master.lattice(), &NoFrames, |moment| {
+    with_moment(distro, robot, *master.info(), &NoFrames, |moment| {
         filter.bounds(moment, &mut Bounds::default());
         filter.costs(moment, &mut master, Window::default());
     })

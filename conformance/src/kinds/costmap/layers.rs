@@ -11,7 +11,7 @@ use periplus_costmap::{
 };
 use periplus_diagnostics::Diagnostics;
 use periplus_geometry::{Pose, Pose2};
-use periplus_grid::Lattice;
+use periplus_grid::GridInfo;
 use periplus_params::{ParamValue as Parameter, ParamValues};
 use serde_json::{Value, json};
 
@@ -63,17 +63,17 @@ pub(in super::super) fn check_denoise(
     };
     let rows = given.get("rows")?.each(read_row)?;
     let width = rows.first().map_or(0, Vec::len);
-    let lattice = Lattice { resolution_m: 1.0, width, height: rows.len(), origin: Pose2::IDENTITY };
-    let mut costmap = Costmap::new(lattice, 0);
+    let info = GridInfo { resolution_m: 1.0, width, height: rows.len(), origin: Pose2::IDENTITY };
+    let mut costmap = Costmap::new(info, 0);
     let cells = rows.concat();
-    if cells.len() != lattice.len() {
+    if cells.len() != info.len() {
         return Err(given.unreadable("rows of one length"));
     }
     costmap.costs_mut().copy_from_slice(&cells);
     let smallest = given.get("minimal_group_size")?.count()?;
     let diagonally = given.get("group_connectivity_type")?.integer()? == 8;
     let unknown = truth(&given, "no_information_is_obstacle", true)?;
-    denoise(&mut costmap, &Window::all(&lattice), smallest, diagonally, unknown);
+    denoise(&mut costmap, &Window::all(&info), smallest, diagonally, unknown);
     let got: Vec<Vec<u8>> = costmap.costs().chunks(width.max(1)).map(<[u8]>::to_vec).collect();
     for (name, expected) in expect.members()? {
         match name {
@@ -140,12 +140,12 @@ fn compare_one_cleared(
 
 /// A costmap with the layers of a name each, of which some may be cleared; those are lethal.
 fn named_layers(given: &Reader<'_>, compat: Compat) -> Result<LayeredCostmap, Unreadable> {
-    let lattice = match given.find("size") {
-        Some(_) => *costmap_of(given, "default")?.lattice(),
-        None => Lattice { resolution_m: 1.0, width: 10, height: 10, origin: Pose2::IDENTITY },
+    let info = match given.find("size") {
+        Some(_) => *costmap_of(given, "default")?.info(),
+        None => GridInfo { resolution_m: 1.0, width: 10, height: 10, origin: Pose2::IDENTITY },
     };
     let fill = given.find("fill").map_or(Ok(254), |it| it.byte())?;
-    let mut costmap = LayeredCostmap::new(Frame { compat, ..Frame::default() }, lattice);
+    let mut costmap = LayeredCostmap::new(Frame { compat, ..Frame::default() }, info);
     let plugins = given.get("plugins")?.list()?;
     let clearable = given.get("clearable")?.each(Reader::truth)?;
     if plugins.len() != clearable.len() {

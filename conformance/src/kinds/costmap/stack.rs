@@ -12,7 +12,7 @@ use periplus_costmap::{
     Window, tables,
 };
 use periplus_geometry::{Pose, Pose2};
-use periplus_grid::Lattice;
+use periplus_grid::GridInfo;
 use periplus_params::{ParamValue as Parameter, Table, flag};
 use serde_json::{Value, json};
 
@@ -101,7 +101,7 @@ fn compare_exact(
         let costs = rounded.costmap.costs().iter().zip(exact.costmap.costs()).enumerate();
         let others = costs.filter(|(_, (rounded, exact))| rounded != exact);
         let others = others.map(|(index, (_, cost))| {
-            let (x, y) = exact.costmap.lattice().cell(index);
+            let (x, y) = exact.costmap.info().cell(index);
             json!([x, y, cost])
         });
         let what = format!("update {}, cells that differ", at + 1);
@@ -218,7 +218,7 @@ impl Stack {
         let origin =
             Pose2::new(number(&about, "origin_x", 0.0)?, number(&about, "origin_y", 0.0)?, 0.0);
         let resolution_m = about.get("resolution")?.number()?;
-        let lattice = Lattice::new(resolution_m, count("size_x")?, count("size_y")?, origin)
+        let info = GridInfo::new(resolution_m, count("size_x")?, count("size_y")?, origin)
             .map_err(|error| about.unreadable(&error.to_string()))?;
         let frame = Frame {
             global_frame: FRAME.to_owned(),
@@ -227,7 +227,7 @@ impl Stack {
             compat,
         };
         let mut stack = Self {
-            costmap: LayeredCostmap::new(frame, lattice),
+            costmap: LayeredCostmap::new(frame, info),
             distances,
             states: Vec::new(),
             last_point: None,
@@ -564,7 +564,7 @@ fn reading_of(step: &Reader<'_>, range: &Reader<'_>) -> Result<RangeReading, Unr
 
 fn set_cell(grid: &mut Costmap, cell: &Reader<'_>) -> Result<(), Unreadable> {
     match *cell.each(Reader::count)?.as_slice() {
-        [x, y, cost @ 0..=255] if grid.lattice().contains((x, y)) => {
+        [x, y, cost @ 0..=255] if grid.info().contains((x, y)) => {
             grid.set((x, y), cost as u8);
             Ok(())
         }
@@ -592,7 +592,7 @@ fn compare_state(
             "cells" => compare_cells(&what, &got.costmap, &expected, differences)?,
             "current" => differences.compare(what, &json!(got.is_current), &expected),
             "origin" => {
-                let origin = got.costmap.lattice().origin;
+                let origin = got.costmap.info().origin;
                 differences.compare(what, &numbers([origin.x_m, origin.y_m]), &expected);
             }
             "layers" => compare_layers(&what, got, &expected, differences)?,
@@ -656,9 +656,9 @@ fn compare_layers(
                         continue;
                     };
                     for (cell, expected) in expected.members()? {
-                        let at = cell_named(cell).filter(|at| grid.lattice().contains(*at));
+                        let at = cell_named(cell).filter(|at| grid.info().contains(*at));
                         let at = at.ok_or_else(|| expected.unreadable("the column of a cell"))?;
-                        let got = columns.get(grid.lattice().index(at));
+                        let got = columns.get(grid.info().index(at));
                         differences.compare(format_args!("{what} {cell}"), &json!(got), &expected);
                     }
                 }

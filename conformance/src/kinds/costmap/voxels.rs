@@ -2,7 +2,7 @@
 
 use periplus_costmap::{Line3, MOST_VOXELS, Voxel, VoxelGrid};
 use periplus_geometry::Pose2;
-use periplus_grid::Lattice;
+use periplus_grid::GridInfo;
 use serde_json::{Value, json};
 
 use super::super::Setting;
@@ -21,9 +21,9 @@ pub(in super::super) fn check(
         [width, height, depth] => (width, height, depth),
         _ => return Err(size.unreadable("three counts")),
     };
-    let lattice = Lattice::new(1.0, width, height, Pose2::IDENTITY)
+    let info = GridInfo::new(1.0, width, height, Pose2::IDENTITY)
         .map_err(|error| size.unreadable(&error.to_string()))?;
-    let mut grid = VoxelGrid::new(lattice, u32::try_from(depth).unwrap_or(u32::MAX));
+    let mut grid = VoxelGrid::new(info, u32::try_from(depth).unwrap_or(u32::MAX));
     for (start, end) in lines(&given, &["mark_lines"])? {
         grid.mark_line(start, end);
     }
@@ -76,11 +76,11 @@ pub(in super::super) fn check(
                 None => return Err(given.unreadable("one that has `columns`")),
             }
         } else if name == "rays" {
-            compare_rays(&lattice, &expected, differences)?;
+            compare_rays(&info, &expected, differences)?;
         } else if name.starts_with("raw_columns") {
             differences.compare(name, &json!(seen.columns()), &expected);
         } else if name.starts_with("raw_column") {
-            let got = seen.columns().get(seen.lattice().index(column)).copied();
+            let got = seen.columns().get(seen.info().index(column)).copied();
             differences.compare(name, &json!(got), &expected);
         } else if name.starts_with("status_") {
             for (voxel, status) in expected.members()? {
@@ -127,7 +127,7 @@ fn kind_named(word: &str) -> Option<Voxel> {
 }
 
 fn count(grid: &VoxelGrid, kind: Voxel) -> usize {
-    let Lattice { width, height, .. } = *grid.lattice();
+    let GridInfo { width, height, .. } = *grid.info();
     let cells = (0..height).flat_map(|y| (0..width).map(move |x| (x, y)));
     let voxels = cells.flat_map(|cell| (0..grid.height()).map(move |z| (cell, z)));
     voxels.filter(|(cell, z)| grid.voxel(*cell, *z) == kind).count()
@@ -158,7 +158,7 @@ fn columns_of(
 }
 
 fn compare_rays(
-    lattice: &Lattice,
+    info: &GridInfo,
     expected: &Expected<'_>,
     differences: &mut Differences,
 ) -> Result<(), Unreadable> {
@@ -171,9 +171,9 @@ fn compare_rays(
         let (start, end) = (input.get("start")?.array()?, input.get("end")?.array()?);
         let (shortest, longest) = (length("min_length", 0)?, length("max_length", u32::MAX)?);
         let mut voxels = Vec::new();
-        if let Some(line) = Line3::within(lattice.width, start, end, shortest, longest) {
+        if let Some(line) = Line3::within(info.width, start, end, shortest, longest) {
             line.walk(|index, z| {
-                let (x, y) = lattice.cell(index);
+                let (x, y) = info.cell(index);
                 voxels.push(json!([x, y, z]));
             });
         }

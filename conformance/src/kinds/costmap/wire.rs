@@ -26,7 +26,7 @@ pub(in super::super) fn check(
         for change in given.get("changes")?.list()? {
             for cell in change.get("set")?.list()? {
                 match *cell.each(Reader::count)?.as_slice() {
-                    [x, y, cost @ 0..=255] if costmap.lattice().contains((x, y)) => {
+                    [x, y, cost @ 0..=255] if costmap.info().contains((x, y)) => {
                         costmap.set((x, y), cost as u8);
                     }
                     _ => return Err(cell.unreadable("a column, a row and a cost")),
@@ -35,11 +35,11 @@ pub(in super::super) fn check(
             let count = |name: &str| change.get(name)?.count();
             let (x0, xn, y0, yn) = (count("x0")?, count("xn")?, count("y0")?, count("yn")?);
             publication.changed(Window { x0, y0, xn, yn });
-            match publication.next(costmap.lattice(), always_full) {
+            match publication.next(costmap.info(), always_full) {
                 Outgoing::Nothing => {}
                 Outgoing::Full => sent_full += 1,
                 Outgoing::Update(window) => {
-                    let spans = window.spans(costmap.lattice().width);
+                    let spans = window.spans(costmap.info().width);
                     let data: Vec<u8> =
                         spans.flat_map(|span| costmap.costs()[span].to_vec()).collect();
                     let occupancy: Vec<i8> =

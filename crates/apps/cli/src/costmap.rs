@@ -185,7 +185,7 @@ fn draw(node: &CostmapNode, scheme: Scheme, path: &Path) -> Result<(), String> {
     const PIXELS: usize = 4;
     let drawn = node.look(|costmap| {
         let grid = costmap.costmap();
-        let (width, height) = (grid.lattice().width, grid.lattice().height);
+        let (width, height) = (grid.info().width, grid.info().height);
         let values: Vec<i8> = grid.costs().iter().map(|cost| cost::occupancy_of(*cost)).collect();
         let samples = paint(&scheme.palette(), width, &values, PIXELS);
         let size = |cells: usize| (cells * PIXELS) as u32;

@@ -3,7 +3,7 @@
 use std::io::{self, Write};
 
 use periplus_geometry::Pose2;
-use periplus_grid::{Lattice, Line, OccupancyGrid, occupancy};
+use periplus_grid::{GridInfo, Line, OccupancyGrid, occupancy};
 use periplus_images::{Layout, pack_png};
 
 /// Longest side of the image \[px\].
@@ -22,7 +22,7 @@ const OF_RING: u32 = u32::MAX;
 
 /// PNG of a map, the trajectory from blue to red, and a red ring around each marked position \[m\].
 pub(crate) fn draw(map: &OccupancyGrid, way: &[Pose2], marked: &[(f64, f64)]) -> Vec<u8> {
-    let drawn = draw_by(map.lattice, way, marked, |picture| {
+    let drawn = draw_by(map.info, way, marked, |picture| {
         map.rows().rev().try_for_each(|row| picture.push(row))
     });
     debug_assert!(drawn.is_ok(), "{drawn:?}");
@@ -32,21 +32,21 @@ pub(crate) fn draw(map: &OccupancyGrid, way: &[Pose2], marked: &[(f64, f64)]) ->
 /// As [`draw`], for a map that is given row by row: neither map nor image is kept in memory as a
 /// whole.
 pub(crate) fn draw_by(
-    lattice: Lattice,
+    info: GridInfo,
     way: &[Pose2],
     marked: &[(f64, f64)],
     rows: impl FnOnce(&mut Picture<'_>) -> io::Result<()>,
 ) -> io::Result<Vec<u8>> {
-    let every = lattice.width.max(lattice.height).div_ceil(LONGEST).max(1);
-    let (width, height) = (lattice.width.div_ceil(every), lattice.height.div_ceil(every));
+    let every = info.width.max(info.height).div_ceil(LONGEST).max(1);
+    let (width, height) = (info.width.div_ceil(every), info.height.div_ceil(every));
     pack_png(number(width), number(height), Layout::Rgb, |out| {
         rows(&mut Picture {
             out,
-            lattice,
+            info,
             every,
-            left: lattice.height,
+            left: info.height,
             darkest: vec![i8::MIN; width],
-            way: dots(&lattice, every, way, marked),
+            way: dots(&info, every, way, marked),
             drawn: 0,
             steps: way.len(),
             samples: Vec::with_capacity(3 * width),
@@ -57,7 +57,7 @@ pub(crate) fn draw_by(
 /// Image that is being written.
 pub(crate) struct Picture<'a> {
     out: &'a mut dyn Write,
-    lattice: Lattice,
+    info: GridInfo,
     /// Rows and columns of the map per pixel.
     every: usize,
     /// Remaining rows of the map.
@@ -101,7 +101,7 @@ impl Picture<'_> {
             value => [255 - (f64::from(value.min(100)) * 2.55) as u8; 3],
         }));
         darkest.fill(occupancy::UNKNOWN);
-        let row = number(self.lattice.height.div_ceil(self.every) - 1 - from_below);
+        let row = number(self.info.height.div_ceil(self.every) - 1 - from_below);
         while let Some(dot) = self.way.get(self.drawn).filter(|dot| dot.row <= row) {
             let colour: [u8; 3] = if dot.step == OF_RING {
                 RING
@@ -117,9 +117,9 @@ impl Picture<'_> {
 }
 
 /// Pixels of a trajectory and of rings over it, by row from the top.
-fn dots(lattice: &Lattice, every: usize, way: &[Pose2], marked: &[(f64, f64)]) -> Vec<Dot> {
-    let finder = lattice.finder();
-    let height = lattice.height.div_ceil(every);
+fn dots(info: &GridInfo, every: usize, way: &[Pose2], marked: &[(f64, f64)]) -> Vec<Dot> {
+    let finder = info.finder();
+    let height = info.height.div_ceil(every);
     let mut dots = Vec::new();
     let mut before = None;
     for (step, pose) in way.iter().enumerate() {
@@ -130,7 +130,7 @@ fn dots(lattice: &Lattice, every: usize, way: &[Pose2], marked: &[(f64, f64)]) -
         }
     }
     for &(x_m, y_m) in marked {
-        dots.extend(ring(lattice, every, x_m, y_m));
+        dots.extend(ring(info, every, x_m, y_m));
     }
     dots.sort_unstable_by_key(|dot| (dot.row, dot.column, std::cmp::Reverse(dot.step)));
     dots.dedup_by_key(|dot| (dot.row, dot.column));
@@ -138,11 +138,11 @@ fn dots(lattice: &Lattice, every: usize, way: &[Pose2], marked: &[(f64, f64)]) -
 }
 
 /// Pixels of a ring around a position, clipped to the image.
-fn ring(lattice: &Lattice, every: usize, x_m: f64, y_m: f64) -> Vec<Dot> {
-    let (columns, rows) = lattice.finder().cells_to(x_m, y_m);
-    let (width, height) = (lattice.width.div_ceil(every), lattice.height.div_ceil(every));
+fn ring(info: &GridInfo, every: usize, x_m: f64, y_m: f64) -> Vec<Dot> {
+    let (columns, rows) = info.finder().cells_to(x_m, y_m);
+    let (width, height) = (info.width.div_ceil(every), info.height.div_ceil(every));
     let (x, y) = (columns / every as f64, rows / every as f64);
-    let radius = (RING_M / (lattice.resolution_m * every as f64)).max(MIN_RING_PX);
+    let radius = (RING_M / (info.resolution_m * every as f64)).max(MIN_RING_PX);
     let reach = radius + HALF_LINE_PX;
     let around = |middle: f64, end: usize| {
         let inside = |value: f64| value.clamp(0.0, end as f64) as usize;
@@ -175,8 +175,8 @@ mod tests {
     #[test]
     fn walls_and_the_way_are_there_at_any_scale() {
         for side in [40, LONGEST, 2 * LONGEST + 7] {
-            let lattice = Lattice::new(0.05, side, 40, Pose2::new(-1.0, 0.0, 0.0)).unwrap();
-            let mut map = Grid::new(lattice, occupancy::UNKNOWN);
+            let info = GridInfo::new(0.05, side, 40, Pose2::new(-1.0, 0.0, 0.0)).unwrap();
+            let mut map = Grid::new(info, occupancy::UNKNOWN);
             map.cells[..20 * side].fill(occupancy::FREE);
             map[(7, 3)] = occupancy::OCCUPIED;
             let way = [(0.5, 0.5), (0.5, 1.5), (0.52, 1.5)].map(|(x, y)| Pose2::new(x, y, 0.0));
@@ -203,8 +203,8 @@ mod tests {
     /// Positions in the middle, near a border and outside the map.
     #[test]
     fn a_ring_is_around_each_marked_position() {
-        let lattice = Lattice::new(0.05, 100, 80, Pose2::new(-1.0, 0.0, 0.0)).unwrap();
-        let map = Grid::new(lattice, occupancy::FREE);
+        let info = GridInfo::new(0.05, 100, 80, Pose2::new(-1.0, 0.0, 0.0)).unwrap();
+        let map = Grid::new(info, occupancy::FREE);
         let marked = [(1.5, 2.0), (-0.9, 0.1), (40.0, 40.0)];
         let picture = Raster::decode(&draw(&map, &[], &marked)).unwrap();
         let at = |column: usize, row: usize| picture.sample((79 - row) * 100 + column).to_vec();

@@ -226,18 +226,18 @@ fn draw(out: &Path, slam: &dyn Mapper, trajectory: &[(i64, Pose2)]) -> Result<()
                     `--resolution`. The trajectory is written"
             .into());
     };
-    let lattice = plan.lattice();
+    let info = plan.info();
     let saving = Saving::new("map", Distro::Jazzy);
-    let (image_path, yaml_path, yaml) = render_yaml(&lattice, &saving);
+    let (image_path, yaml_path, yaml) = render_yaml(&info, &saving);
     let poses: Vec<_> = trajectory.iter().map(|(_, pose)| *pose).collect();
     let marked = slam.contradictions().into_iter().map(|it| it.map_from_base);
     let marked: Vec<_> = marked.map(|it| (it.x_m, it.y_m)).collect();
     let mut png = Vec::new();
     paths::write_by(&out.join(image_path), |image| {
-        let mut rows = PgmRows::begin(image, &lattice, &saving)?;
-        png = draw_by(lattice, &poses, &marked, |picture| {
-            let at_once = (CELLS_AT_ONCE / lattice.width.max(1)).max(1);
-            let mut top = lattice.height;
+        let mut rows = PgmRows::begin(image, &info, &saving)?;
+        png = draw_by(info, &poses, &marked, |picture| {
+            let at_once = (CELLS_AT_ONCE / info.width.max(1)).max(1);
+            let mut top = info.height;
             while top > 0 {
                 let low = top.saturating_sub(at_once);
                 for row in plan.rows(low..top).rows().rev() {

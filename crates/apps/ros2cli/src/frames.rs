@@ -4,16 +4,16 @@
 //! ```
 //! use periplus_geometry::Pose;
 //! use periplus_ros2cli::frames::Forest;
-//! use periplus_tf::{Kind, Stamped, Survey};
+//! use periplus_tf::{TransformKind, StampedTransform, TransformMonitor};
 //!
-//! let mut survey = Survey::default();
-//! let laser = Stamped::new("base_link", "laser", 0, Pose::from_xyz(0.2, 0.0, 0.1));
-//! survey.hear(&laser, "/robot_state_publisher", Kind::Fixed)?;
+//! let mut survey = TransformMonitor::default();
+//! let laser = StampedTransform::new("base_link", "laser", 0, Pose::from_xyz(0.2, 0.0, 0.1));
+//! survey.insert(&laser, "/robot_state_publisher", TransformKind::Fixed)?;
 //! let forest = Forest::new(&survey);
 //! assert_eq!(forest.roots().collect::<Vec<_>>(), ["base_link"]);
 //! assert!(forest.faults().is_empty());
 //! assert!(forest.dot("12.0").contains(r#""base_link" -> "laser""#));
-//! # Ok::<(), periplus_tf::Refused>(())
+//! # Ok::<(), periplus_tf::RejectedTransform>(())
 //! ```
 
 mod dot;

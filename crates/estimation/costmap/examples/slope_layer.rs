@@ -4,7 +4,7 @@
 
 use periplus_costmap::{Bounds, Costmap, Frame, Layer, LayeredCostmap, Moment, NoFrames, Window};
 use periplus_geometry::Pose2;
-use periplus_grid::Lattice;
+use periplus_grid::GridInfo;
 
 struct SlopeLayer {
     is_new: bool,
@@ -18,13 +18,13 @@ impl Layer for SlopeLayer {
     fn bounds(&mut self, moment: &Moment<'_>, bounds: &mut Bounds) {
         // All changes once, and nothing afterwards.
         if std::mem::take(&mut self.is_new) {
-            bounds.include(&Bounds::of(&moment.lattice));
+            bounds.include(&Bounds::of(&moment.info));
         }
     }
 
     fn costs(&mut self, moment: &Moment<'_>, master: &mut Costmap, window: Window) {
-        let rows = moment.lattice.height.max(1);
-        for (row, span) in (window.y0..).zip(window.spans(moment.lattice.width)) {
+        let rows = moment.info.height.max(1);
+        for (row, span) in (window.y0..).zip(window.spans(moment.info.width)) {
             let cost = (100 * row / rows) as u8;
             for cell in &mut master.costs_mut()[span] {
                 *cell = cost.max(*cell);
@@ -34,8 +34,8 @@ impl Layer for SlopeLayer {
 }
 
 fn main() {
-    let lattice = Lattice { resolution_m: 1.0, width: 8, height: 4, origin: Pose2::IDENTITY };
-    let mut costmap = LayeredCostmap::new(Frame::default(), lattice);
+    let info = GridInfo { resolution_m: 1.0, width: 8, height: 4, origin: Pose2::IDENTITY };
+    let mut costmap = LayeredCostmap::new(Frame::default(), info);
     costmap.add_layer(Box::new(SlopeLayer { is_new: true }));
     costmap.update(0, Pose2::new(1.0, 1.0, 0.0), &NoFrames);
     for row in costmap.costmap().costs().chunks(8).rev() {

@@ -1,6 +1,6 @@
 //! Parts of the plane and parts of a grid.
 
-use periplus_grid::Lattice;
+use periplus_grid::GridInfo;
 
 /// An upright rectangle of the global frame \[m\] that grows as things change. Empty at the start.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -32,9 +32,9 @@ impl Bounds {
 
     /// What a grid covers.
     #[must_use]
-    pub fn of(lattice: &Lattice) -> Self {
-        let (width_m, height_m) = lattice.size_m();
-        let (min_x, min_y) = (lattice.origin.x_m, lattice.origin.y_m);
+    pub fn of(info: &GridInfo) -> Self {
+        let (width_m, height_m) = info.size_m();
+        let (min_x, min_y) = (info.origin.x_m, info.origin.y_m);
         Self { min_x, min_y, max_x: min_x + width_m, max_y: min_y + height_m }
     }
 
@@ -92,8 +92,8 @@ pub struct Window {
 impl Window {
     /// All cells of a grid.
     #[must_use]
-    pub fn all(lattice: &Lattice) -> Self {
-        Self { x0: 0, y0: 0, xn: lattice.width, yn: lattice.height }
+    pub fn all(info: &GridInfo) -> Self {
+        Self { x0: 0, y0: 0, xn: info.width, yn: info.height }
     }
 
     /// Columns.
@@ -122,12 +122,12 @@ impl Window {
 
     /// The same with a margin on all sides, as far as the grid goes.
     #[must_use]
-    pub fn grown(&self, cells: usize, lattice: &Lattice) -> Self {
+    pub fn grown(&self, cells: usize, info: &GridInfo) -> Self {
         Self {
             x0: self.x0.saturating_sub(cells),
             y0: self.y0.saturating_sub(cells),
-            xn: (self.xn.saturating_add(cells)).min(lattice.width),
-            yn: (self.yn.saturating_add(cells)).min(lattice.height),
+            xn: (self.xn.saturating_add(cells)).min(info.width),
+            yn: (self.yn.saturating_add(cells)).min(info.height),
         }
     }
 

@@ -2,7 +2,7 @@
 //!
 //! Source: `nav2_costmap_2d/src/clear_costmap_service.cpp`, `costmap_layer.cpp`.
 
-use periplus_grid::Lattice;
+use periplus_grid::GridInfo;
 
 use crate::cost::UNKNOWN;
 use crate::costmap::cell_clamped;
@@ -45,14 +45,14 @@ pub fn clear(costmap: &mut LayeredCostmap, region: Region, names: &[String]) -> 
         return Ok(());
     }
     let compat = costmap.frame().compat;
-    let lattice = *costmap.costmap().lattice();
+    let info = *costmap.costmap().info();
     for layer in costmap.all_mut() {
         let is_meant = names.is_empty() || names.iter().any(|name| name == layer.name());
         if !is_meant || !layer.is_clearable() {
             continue;
         }
         // A layer may have moved less far than the costmap; its own cells count.
-        let cells = *layer.grid().map_or(&lattice, Costmap::lattice);
+        let cells = *layer.grid().map_or(&info, Costmap::info);
         let corner = |x_m, y_m, side_m| corners(&cells, [x_m, y_m], side_m, compat);
         match region {
             Region::Around { x_m, y_m, side_m } => {
@@ -74,7 +74,7 @@ pub fn clear(costmap: &mut LayeredCostmap, region: Region, names: &[String]) -> 
 
 /// The cells of the lower left and the upper right corner of a square about a point.
 fn corners(
-    cells: &Lattice,
+    cells: &GridInfo,
     [x_m, y_m]: [f64; 2],
     side_m: f64,
     compat: Compat,
@@ -122,8 +122,8 @@ pub fn clear_cells(
     invert: bool,
     compat: Compat,
 ) {
-    let lattice = *grid.lattice();
-    let (width, height) = (lattice.width as i64, lattice.height as i64);
+    let info = *grid.info();
+    let (width, height) = (info.width as i64, info.height as i64);
     let (mut start, mut end) = (start, end);
     if compat.clamps_cleared_areas() {
         start = (start.0.clamp(0, width), start.1.clamp(0, height));
@@ -137,7 +137,7 @@ pub fn clear_cells(
     let (y0, yn) = within(start.1, end.1, height);
     let inside = Window { x0, y0, xn, yn };
     let mut clear = |window: Window| {
-        for span in window.spans(lattice.width) {
+        for span in window.spans(info.width) {
             grid.costs_mut()[span].fill(UNKNOWN);
         }
     };
@@ -145,24 +145,24 @@ pub fn clear_cells(
         return clear(inside);
     }
     if inside.is_empty() {
-        return clear(Window::all(&lattice));
+        return clear(Window::all(&info));
     }
-    clear(Window { x0: 0, y0: 0, xn: lattice.width, yn: y0 });
-    clear(Window { x0: 0, y0: yn, xn: lattice.width, yn: lattice.height });
+    clear(Window { x0: 0, y0: 0, xn: info.width, yn: y0 });
+    clear(Window { x0: 0, y0: yn, xn: info.width, yn: info.height });
     clear(Window { x0: 0, y0, xn: x0, yn });
-    clear(Window { x0: xn, y0, xn: lattice.width, yn });
+    clear(Window { x0: xn, y0, xn: info.width, yn });
 }
 
 #[cfg(test)]
 mod tests {
     use periplus_geometry::Pose2;
-    use periplus_grid::Lattice;
+    use periplus_grid::GridInfo;
 
     use super::*;
 
     fn cleared(start: (i64, i64), end: (i64, i64), invert: bool, compat: Compat) -> String {
-        let lattice = Lattice::new(1.0, 4, 3, Pose2::IDENTITY).unwrap();
-        let mut grid = Costmap::new(lattice, 0);
+        let info = GridInfo::new(1.0, 4, 3, Pose2::IDENTITY).unwrap();
+        let mut grid = Costmap::new(info, 0);
         clear_cells(&mut grid, start, end, invert, compat);
         let row = |row: &[u8]| row.iter().map(|c| if *c == 255 { '?' } else { '.' }).collect();
         let rows: Vec<String> = grid.costs().chunks(4).map(row).collect();

@@ -58,8 +58,8 @@ impl Combination {
 
     /// Combines a window of two grids with the same cells.
     pub fn apply(self, master: &mut Costmap, layer: &Costmap, window: &Window) {
-        debug_assert_eq!(master.lattice().width, layer.lattice().width);
-        for span in window.spans(layer.lattice().width) {
+        debug_assert_eq!(master.info().width, layer.info().width);
+        for span in window.spans(layer.info().width) {
             let olds = &mut master.costs_mut()[span.clone()];
             let news = &layer.costs()[span];
             match self {

@@ -9,7 +9,7 @@ pub use kind::LayerKind;
 use std::collections::BTreeMap;
 
 use periplus_diagnostics::{Diagnostic, Diagnostics, Origin, Span};
-use periplus_grid::Lattice;
+use periplus_grid::GridInfo;
 use periplus_params::{Given, ParamType, ParamValues, Table};
 
 use crate::{Compat, Footprint, Frame, SourceSettings, tables};
@@ -118,20 +118,20 @@ impl Config {
 
     /// The cells, if no map says otherwise.
     #[must_use]
-    pub fn lattice(&self) -> Lattice {
-        lattice_of(&self.node)
+    pub fn info(&self) -> GridInfo {
+        grid_info_of(&self.node)
     }
 }
 
 /// The cells that parameters of [`tables::COSTMAP`] ask for. Too many become none.
 #[must_use]
-pub(crate) fn lattice_of(node: &ParamValues) -> Lattice {
+pub(crate) fn grid_info_of(node: &ParamValues) -> GridInfo {
     let number = |name: &str| node.number(name).unwrap_or_default();
     let resolution_m = number("resolution");
     let count = |name: &str| (number(name) / resolution_m) as usize;
     let origin = periplus_geometry::Pose2::new(number("origin_x"), number("origin_y"), 0.0);
-    let empty = Lattice { resolution_m, width: 0, height: 0, origin };
-    Lattice::new(resolution_m, count("width"), count("height"), origin).unwrap_or(empty)
+    let empty = GridInfo { resolution_m, width: 0, height: 0, origin };
+    GridInfo::new(resolution_m, count("width"), count("height"), origin).unwrap_or(empty)
 }
 
 /// Names and texts, by the group in which they are.
@@ -440,7 +440,7 @@ impl<'a> Reading<'a, '_> {
 
     /// A costmap that would be too large has no cells.
     fn check_size(&mut self, node: &ParamValues) {
-        if !lattice_of(node).is_empty() {
+        if !grid_info_of(node).is_empty() {
             return;
         }
         let number = |name: &str| node.number(name).unwrap_or_default();

@@ -3,7 +3,7 @@
 //! Source of the rules: `nav2_costmap_2d/src/costmap_2d.cpp`.
 
 use periplus_geometry::Pose2;
-use periplus_grid::{Cell, CellFinder, Grid, Lattice};
+use periplus_grid::{Cell, CellFinder, Grid, GridInfo};
 
 use crate::{Bounds, Compat, Window};
 
@@ -17,24 +17,24 @@ pub struct Costmap {
 }
 
 impl Costmap {
-    /// With the default everywhere. A turn of the lattice is dropped.
+    /// With the default everywhere. A turn of the grid is dropped.
     #[must_use]
-    pub fn new(lattice: Lattice, default_cost: u8) -> Self {
-        let lattice = Lattice { origin: Pose2 { yaw_rad: 0.0, ..lattice.origin }, ..lattice };
-        Self { grid: Grid::new(lattice, default_cost), default_cost }
+    pub fn new(info: GridInfo, default_cost: u8) -> Self {
+        let info = GridInfo { origin: Pose2 { yaw_rad: 0.0, ..info.origin }, ..info };
+        Self { grid: Grid::new(info, default_cost), default_cost }
     }
 
     /// Without a cell.
     #[must_use]
     pub fn empty(default_cost: u8) -> Self {
-        let lattice = Lattice { resolution_m: 1.0, width: 0, height: 0, origin: Pose2::IDENTITY };
-        Self::new(lattice, default_cost)
+        let info = GridInfo { resolution_m: 1.0, width: 0, height: 0, origin: Pose2::IDENTITY };
+        Self::new(info, default_cost)
     }
 
     /// Where the cells are.
     #[must_use]
-    pub fn lattice(&self) -> &Lattice {
-        &self.grid.lattice
+    pub fn info(&self) -> &GridInfo {
+        &self.grid.info
     }
 
     /// Costs, row by row from the lower left corner.
@@ -52,7 +52,7 @@ impl Costmap {
     /// Length of a side of a cell \[m\].
     #[must_use]
     pub fn resolution_m(&self) -> f64 {
-        self.grid.lattice.resolution_m
+        self.grid.info.resolution_m
     }
 
     /// The cost of a cell; none outside.
@@ -69,7 +69,7 @@ impl Costmap {
 
     /// Sets the cost of a cell; nothing outside.
     pub fn set(&mut self, cell: Cell, cost: u8) {
-        if self.grid.lattice.contains(cell) {
+        if self.grid.info.contains(cell) {
             self.grid[cell] = cost;
         }
     }
@@ -77,14 +77,14 @@ impl Costmap {
     /// Finds the cells of points.
     #[must_use]
     pub fn finder(&self) -> CellFinder {
-        self.grid.lattice.finder()
+        self.grid.info.finder()
     }
 
     /// The cell of a point, also beyond the grid; what is left over is dropped towards the corner
     /// (`worldToMapNoBounds`).
     #[must_use]
     pub fn cell_anywhere(&self, x_m: f64, y_m: f64) -> (i64, i64) {
-        self.grid.lattice.whole_cells_to(x_m, y_m)
+        self.grid.info.whole_cells_to(x_m, y_m)
     }
 
     /// How many cells a length covers, the last one counted whole (`cellDistance`).
@@ -97,13 +97,13 @@ impl Costmap {
     /// The cells that an update within some bounds concerns; none when the bounds are empty.
     #[must_use]
     pub fn window_of(&self, bounds: &Bounds) -> Option<Window> {
-        let lattice = self.lattice();
-        if lattice.is_empty() {
+        let info = self.info();
+        if info.is_empty() {
             return None;
         }
-        let (x0, y0) = cell_clamped(lattice, bounds.min_x, bounds.min_y);
-        let (xn, yn) = cell_clamped(lattice, bounds.max_x, bounds.max_y);
-        let (xn, yn) = ((xn + 1).min(lattice.width), (yn + 1).min(lattice.height));
+        let (x0, y0) = cell_clamped(info, bounds.min_x, bounds.min_y);
+        let (xn, yn) = cell_clamped(info, bounds.max_x, bounds.max_y);
+        let (xn, yn) = ((xn + 1).min(info.width), (yn + 1).min(info.height));
         (xn >= x0 && yn >= y0).then_some(Window { x0, y0, xn, yn })
     }
 
@@ -119,28 +119,28 @@ impl Costmap {
 
     /// Puts the default into a part.
     pub fn reset_window(&mut self, window: &Window) {
-        for span in window.spans(self.grid.lattice.width) {
+        for span in window.spans(self.grid.info.width) {
             self.grid.cells[span].fill(self.default_cost);
         }
     }
 
     /// Copies a part of another grid with the same cells.
     pub fn copy_window(&mut self, from: &Self, window: &Window) {
-        debug_assert_eq!(self.lattice(), from.lattice());
-        for span in window.spans(self.grid.lattice.width) {
+        debug_assert_eq!(self.info(), from.info());
+        for span in window.spans(self.grid.info.width) {
             self.grid.cells[span.clone()].copy_from_slice(&from.grid.cells[span]);
         }
     }
 
     /// Takes other cells; what was in the old ones is forgotten.
-    pub fn resize(&mut self, lattice: Lattice) {
-        *self = Self::new(lattice, self.default_cost);
+    pub fn resize(&mut self, info: GridInfo) {
+        *self = Self::new(info, self.default_cost);
     }
 
     /// Moves by whole cells so that a robot is in the middle. What is still in the window keeps its
     /// place in the world, new cells hold the default.
     pub fn roll_around(&mut self, robot: Pose2, compat: Compat) {
-        let (half_width_m, half_height_m) = half_size_m(self.lattice(), compat);
+        let (half_width_m, half_height_m) = half_size_m(self.info(), compat);
         let (x_m, y_m) = (robot.x_m - half_width_m, robot.y_m - half_height_m);
         // A robot at infinity would move the grid there for good.
         if x_m.is_finite() && y_m.is_finite() {
@@ -150,15 +150,15 @@ impl Costmap {
 }
 
 /// Distance of the lower left corner of a grid from a robot in its middle, along x and y \[m\].
-pub(crate) fn half_size_m(lattice: &Lattice, compat: Compat) -> (f64, f64) {
-    let length = |cells: usize| (cells as f64 - compat.missing_cells()) * lattice.resolution_m;
-    (length(lattice.width) / 2.0, length(lattice.height) / 2.0)
+pub(crate) fn half_size_m(info: &GridInfo, compat: Compat) -> (f64, f64) {
+    let length = |cells: usize| (cells as f64 - compat.missing_cells()) * info.resolution_m;
+    (length(info.width) / 2.0, length(info.height) / 2.0)
 }
 
 /// The cell of a point; points beyond a side get the cell at that side, and one on the upper edge the
 /// cell after the last (`worldToMapEnforceBounds`).
-pub(crate) fn cell_clamped(lattice: &Lattice, x_m: f64, y_m: f64) -> Cell {
-    let Lattice { resolution_m, width, height, origin } = *lattice;
+pub(crate) fn cell_clamped(info: &GridInfo, x_m: f64, y_m: f64) -> Cell {
+    let GridInfo { resolution_m, width, height, origin } = *info;
     let clamp = |at: f64, start: f64, count: usize| {
         if at < start {
             0

@@ -200,7 +200,7 @@ fn read_points(text: &str) -> Result<Vec<[f64; 2]>, String> {
 
 #[cfg(test)]
 mod tests {
-    use periplus_grid::Lattice;
+    use periplus_grid::GridInfo;
 
     use super::*;
 
@@ -237,8 +237,8 @@ mod tests {
 
     #[test]
     fn the_outline_counts_and_not_what_it_holds() {
-        let lattice = Lattice::new(1.0, 9, 9, Pose2::IDENTITY).unwrap();
-        let mut costmap = Costmap::new(lattice, 0);
+        let info = GridInfo::new(1.0, 9, 9, Pose2::IDENTITY).unwrap();
+        let mut costmap = Costmap::new(info, 0);
         let square = Footprint::read("[[2,2],[2,-2],[-2,-2],[-2,2]]").unwrap();
         let cost = |costmap: &Costmap, x| square.cost(costmap, Pose2::new(x, 4.5, 0.0));
         costmap.set((4, 4), 254);

@@ -9,7 +9,7 @@ mod table;
 
 pub use table::CostTable;
 
-use periplus_grid::{Grid, Lattice, squared_distances};
+use periplus_grid::{Grid, GridInfo, squared_distances};
 
 use crate::cost::{LETHAL, UNKNOWN};
 use crate::{Costmap, Window};
@@ -48,8 +48,8 @@ pub fn inflate(
     how: Inflation,
     scratch: &mut Scratch,
 ) {
-    let lattice = *master.lattice();
-    let window = window.intersection(&Window::all(&lattice));
+    let info = *master.info();
+    let window = window.intersection(&Window::all(&info));
     if window.is_empty() || table.radius_cells() == 0 {
         return;
     }
@@ -58,13 +58,13 @@ pub fn inflate(
     }
     let lowest_of_unknown = if how.into_unknown { 1 } else { crate::cost::INSCRIBED };
     let write = Write { costs: table.costs(), lowest_of_unknown };
-    let area = window.grown(table.radius_cells() as usize, &lattice);
+    let area = window.grown(table.radius_cells() as usize, &info);
     let near = &mut scratch.near;
     let costs = master.costs_mut();
     if table.radius_cells() <= MOST_IN_BYTES {
-        near.run::<u8>(costs, lattice.width, &window, &area, table, how, &write);
+        near.run::<u8>(costs, info.width, &window, &area, table, how, &write);
     } else {
-        near.run::<u16>(costs, lattice.width, &window, &area, table, how, &write);
+        near.run::<u16>(costs, info.width, &window, &area, table, how, &write);
     }
 }
 
@@ -102,16 +102,16 @@ fn is_obstacle(cost: u8, how: Inflation) -> bool {
 
 /// The same for any radius.
 fn inflate_far(master: &mut Costmap, window: &Window, table: &CostTable, how: Inflation) {
-    let lattice = *master.lattice();
+    let info = *master.info();
     let radius = usize::try_from(table.radius_cells()).unwrap_or(usize::MAX);
-    let area = window.grown(radius, &lattice);
-    let part = Lattice { width: area.width(), height: area.height(), ..lattice };
+    let area = window.grown(radius, &info);
+    let part = GridInfo { width: area.width(), height: area.height(), ..info };
     let cells: Vec<u8> =
-        area.spans(lattice.width).flat_map(|span| master.costs()[span].iter().copied()).collect();
-    let squares = squared_distances(&Grid { lattice: part, cells }, |cost| is_obstacle(*cost, how));
+        area.spans(info.width).flat_map(|span| master.costs()[span].iter().copied()).collect();
+    let squares = squared_distances(&Grid { info: part, cells }, |cost| is_obstacle(*cost, how));
     let lowest_of_unknown = if how.into_unknown { 1 } else { crate::cost::INSCRIBED };
     let write = Write { costs: &[], lowest_of_unknown };
-    for (row, span) in (window.y0..window.yn).zip(window.spans(lattice.width)) {
+    for (row, span) in (window.y0..window.yn).zip(window.spans(info.width)) {
         let first = (row - area.y0) * part.width + window.x0 - area.x0;
         let squares = &squares.cells[first..first + window.width()];
         for (cell, square) in master.costs_mut()[span].iter_mut().zip(squares) {
@@ -130,8 +130,8 @@ mod tests {
     use crate::cost::INSCRIBED;
 
     fn costmap(width: usize, cells: &[u8]) -> Costmap {
-        let lattice = Lattice::new(0.1, width, cells.len() / width, Pose2::IDENTITY).unwrap();
-        let mut costmap = Costmap::new(lattice, 0);
+        let info = GridInfo::new(0.1, width, cells.len() / width, Pose2::IDENTITY).unwrap();
+        let mut costmap = Costmap::new(info, 0);
         costmap.costs_mut().copy_from_slice(cells);
         costmap
     }
@@ -143,7 +143,7 @@ mod tests {
         table: &CostTable,
         how: Inflation,
     ) -> Vec<u8> {
-        let width = before.lattice().width;
+        let width = before.info().width;
         let mut after = before.costs().to_vec();
         for y in window.y0..window.yn {
             for x in window.x0..window.xn {
@@ -183,9 +183,9 @@ mod tests {
             into_unknown: bool, around_unknown: bool, is_wide: bool,
         ) {
             let mut costmap = costmap(if is_wide { 70 } else { 9 }, &cells);
-            let lattice = *costmap.lattice();
-            let (x0, y0) = (x0.min(lattice.width - 1), y0.min(lattice.height - 1));
-            let window = Window { x0, y0, xn: lattice.width, yn: lattice.height };
+            let info = *costmap.info();
+            let (x0, y0) = (x0.min(info.width - 1), y0.min(info.height - 1));
+            let window = Window { x0, y0, xn: info.width, yn: info.height };
             let table = CostTable::new(0.1, radius_m, inscribed_m, 2.0, Compat::Main);
             let how = Inflation { into_unknown, around_unknown };
             let expected = brute_force(&costmap, &window, &table, how);
@@ -197,7 +197,7 @@ mod tests {
         fn costs_grow_with_the_radius(cells in cells(), small_m in 0.05..1.0, more_m in 0.0..1.0) {
             let inflated = |radius_m| {
                 let mut costmap = costmap(70, &cells);
-                let all = Window::all(costmap.lattice());
+                let all = Window::all(costmap.info());
                 let table = CostTable::new(0.1, radius_m, 0.15, 2.0, Compat::Main);
                 let how = Inflation::default();
                 inflate(&mut costmap, &all, &table, how, &mut Scratch::default());
@@ -214,7 +214,7 @@ mod tests {
         fn a_part_at_a_time_is_the_same_as_all_at_once(cells in cells(), cut in 1..70_usize) {
             let table = CostTable::new(0.1, 0.55, 0.15, 2.0, Compat::Main);
             let (mut whole, mut parts) = (costmap(70, &cells), costmap(70, &cells));
-            let all = Window::all(whole.lattice());
+            let all = Window::all(whole.info());
             let mut scratch = Scratch::default();
             let how = Inflation::default();
             inflate(&mut whole, &all, &table, how, &mut scratch);

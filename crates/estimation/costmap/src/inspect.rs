@@ -57,7 +57,7 @@ impl LayeredCostmap {
             explanation: layer.explain(self.costmap(), cell, is_rolling),
         });
         let layers = layers.collect();
-        Some(CellReport { cell, centre_m: self.costmap().lattice().centre_of(cell), cost, layers })
+        Some(CellReport { cell, centre_m: self.costmap().info().centre_of(cell), cost, layers })
     }
 
     /// A source of a layer, to give it something to see.

@@ -4,7 +4,7 @@ use std::any::Any;
 
 use periplus_diagnostics::Diagnostic;
 use periplus_geometry::{Pose, Pose2};
-use periplus_grid::{Cell, Lattice};
+use periplus_grid::{Cell, GridInfo};
 use periplus_params::ParamValues;
 
 use crate::filters::Masked;
@@ -42,7 +42,7 @@ pub struct Moment<'a> {
     /// The outline of the robot, padded.
     pub footprint: &'a Footprint,
     /// The cells of the costmap.
-    pub lattice: Lattice,
+    pub info: GridInfo,
     /// Whether the costmap moves with the robot.
     pub is_rolling: bool,
     /// Whose habits to keep.
@@ -86,10 +86,10 @@ pub trait Layer: Any + Send {
     fn footprint_changed(&mut self, _footprint: &Footprint) {}
 
     /// The costmap has other cells; what was in the old ones is gone.
-    fn resized(&mut self, _lattice: &Lattice, _is_rolling: bool) {}
+    fn resized(&mut self, _info: &GridInfo, _is_rolling: bool) {}
 
     /// The cells that the costmap should have because of this layer (a map has its own).
-    fn wants_lattice(&self, _current: &Lattice, _is_size_locked: bool) -> Option<Lattice> {
+    fn requested_grid_info(&self, _current: &GridInfo, _is_size_locked: bool) -> Option<GridInfo> {
         None
     }
 

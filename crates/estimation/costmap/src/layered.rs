@@ -6,7 +6,7 @@ use std::any::Any;
 
 use periplus_diagnostics::{Diagnostic, Diagnostics};
 use periplus_geometry::Pose2;
-use periplus_grid::{Cell, Lattice};
+use periplus_grid::{Cell, GridInfo};
 
 use crate::cost::{FREE, UNKNOWN};
 use crate::layer::is_settled;
@@ -55,11 +55,11 @@ pub struct LayeredCostmap {
 impl LayeredCostmap {
     /// Without layers.
     #[must_use]
-    pub fn new(frame: Frame, lattice: Lattice) -> Self {
+    pub fn new(frame: Frame, info: GridInfo) -> Self {
         let default_cost = if frame.tracks_unknown { UNKNOWN } else { FREE };
         Self {
             frame,
-            primary: Costmap::new(lattice, default_cost),
+            primary: Costmap::new(info, default_cost),
             combined: None,
             layers: Vec::new(),
             filters: Vec::new(),
@@ -85,7 +85,7 @@ impl LayeredCostmap {
     }
 
     fn introduce(&self, layer: &mut dyn Layer) {
-        layer.resized(self.primary.lattice(), self.frame.is_rolling);
+        layer.resized(self.primary.info(), self.frame.is_rolling);
         if !self.footprint.points().is_empty() {
             layer.footprint_changed(&self.footprint);
         }
@@ -142,14 +142,14 @@ impl LayeredCostmap {
     }
 
     /// Takes other cells. All layers forget what they had in theirs.
-    pub fn resize(&mut self, lattice: Lattice, is_size_locked: bool) {
+    pub fn resize(&mut self, info: GridInfo, is_size_locked: bool) {
         self.is_size_locked = is_size_locked;
-        self.primary.resize(lattice);
+        self.primary.resize(info);
         if let Some(combined) = &mut self.combined {
-            combined.resize(lattice);
+            combined.resize(info);
         }
         for layer in self.layers.iter_mut().chain(&mut self.filters) {
-            layer.resized(self.primary.lattice(), self.frame.is_rolling);
+            layer.resized(self.primary.info(), self.frame.is_rolling);
         }
     }
 
@@ -163,9 +163,9 @@ impl LayeredCostmap {
         let wanted = self
             .layers
             .iter()
-            .find_map(|layer| layer.wants_lattice(self.primary.lattice(), self.is_size_locked));
-        if let Some(lattice) = wanted {
-            self.resize(lattice, true);
+            .find_map(|layer| layer.requested_grid_info(self.primary.info(), self.is_size_locked));
+        if let Some(info) = wanted {
+            self.resize(info, true);
         }
     }
 
@@ -222,8 +222,8 @@ impl LayeredCostmap {
             }
         }
         self.watch_robot(global_from_base);
-        let (lattice, footprint) = (*self.primary.lattice(), &self.footprint);
-        let moment = moment_of(&self.frame, lattice, footprint, now_ns, global_from_base, frames);
+        let (info, footprint) = (*self.primary.info(), &self.footprint);
+        let moment = moment_of(&self.frame, info, footprint, now_ns, global_from_base, frames);
         let mut bounds = Bounds::EMPTY;
         for layer in self.layers.iter_mut().chain(&mut self.filters) {
             let before = bounds;
@@ -257,21 +257,21 @@ impl LayeredCostmap {
         global_from_base: Pose2,
         frames: &dyn Frames,
     ) -> bool {
-        let (lattice, footprint) = (*self.primary.lattice(), &self.footprint);
-        let moment = moment_of(&self.frame, lattice, footprint, now_ns, global_from_base, frames);
+        let (info, footprint) = (*self.primary.info(), &self.footprint);
+        let moment = moment_of(&self.frame, info, footprint, now_ns, global_from_base, frames);
         let Some(layer) = self.layers.iter_mut().find_map(|layer| find(&mut **layer, name)) else {
             return false;
         };
         let master = self.combined.as_mut().unwrap_or(&mut self.primary);
-        layer.costs(&moment, master, window.intersection(&Window::all(&lattice)));
+        layer.costs(&moment, master, window.intersection(&Window::all(&info)));
         true
     }
 
     fn watch_robot(&mut self, global_from_base: Pose2) {
         let Pose2 { x_m, y_m, .. } = global_from_base;
-        let is_outside = self.primary.lattice().cell_of(x_m, y_m).is_none();
+        let is_outside = self.primary.info().cell_of(x_m, y_m).is_none();
         if is_outside && !self.was_outside {
-            let Bounds { min_x, min_y, max_x, max_y } = Bounds::of(self.primary.lattice());
+            let Bounds { min_x, min_y, max_x, max_y } = Bounds::of(self.primary.info());
             self.complaints.push(
                 Diagnostic::warning(
                     "robot-outside",
@@ -329,13 +329,13 @@ impl LayeredCostmap {
     /// The cell of a point of the global frame \[m\].
     #[must_use]
     pub fn cell_of(&self, x_m: f64, y_m: f64) -> Option<Cell> {
-        self.primary.lattice().cell_of(x_m, y_m)
+        self.primary.info().cell_of(x_m, y_m)
     }
 }
 
 fn moment_of<'a>(
     frame: &'a Frame,
-    lattice: Lattice,
+    info: GridInfo,
     footprint: &'a Footprint,
     now_ns: i64,
     robot: Pose2,
@@ -345,7 +345,7 @@ fn moment_of<'a>(
         now_ns,
         robot,
         footprint,
-        lattice,
+        info,
         is_rolling: frame.is_rolling,
         compat: frame.compat,
         global_frame: &frame.global_frame,

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use periplus_grid::{Cell, Grid, Lattice};
+use periplus_grid::{Cell, Grid, GridInfo};
 
 use crate::Observation;
 
@@ -63,22 +63,22 @@ pub(crate) struct Trace {
 }
 
 impl Trace {
-    pub(crate) fn resize(&mut self, lattice: &Lattice) {
+    pub(crate) fn resize(&mut self, info: &GridInfo) {
         *self = Self::default();
-        if lattice.len() <= MOST_TRACED_CELLS {
-            self.touches = Some(Grid::new(*lattice, Touch::default()));
+        if info.len() <= MOST_TRACED_CELLS {
+            self.touches = Some(Grid::new(*info, Touch::default()));
         }
     }
 
     /// Moves with the cells of a layer.
-    pub(crate) fn follow(&mut self, there: &Lattice) {
+    pub(crate) fn follow(&mut self, there: &GridInfo) {
         if let Some(touches) = &mut self.touches {
-            let here = &touches.lattice;
+            let here = &touches.info;
             let cells = |to: f64, from: f64| libm::round((to - from) / here.resolution_m) as i64;
             let columns = cells(there.origin.x_m, here.origin.x_m);
             let rows = cells(there.origin.y_m, here.origin.y_m);
             touches.roll(columns, rows, Touch::default());
-            touches.lattice.origin = there.origin;
+            touches.info.origin = there.origin;
         }
     }
 
@@ -186,7 +186,7 @@ mod tests {
     #[test]
     fn old_marks_are_explained_and_nobody_remembers_what_is_not_needed() {
         let mut trace = Trace::default();
-        trace.resize(&Lattice::new(1.0, 10, 1, Pose2::IDENTITY).unwrap());
+        trace.resize(&GridInfo::new(1.0, 10, 1, Pose2::IDENTITY).unwrap());
         let seen = |time_ns| Observation { time_ns, ..Observation::default() };
         let mut most = 0;
         for time_ns in 0..100_000 {

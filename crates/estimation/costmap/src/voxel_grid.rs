@@ -3,7 +3,7 @@
 //! Bit `z` and bit `16 + z` tell of voxel `z`: both set, it is marked; the lower one alone, nobody
 //! knows; none, it is free. Source: `nav2_voxel_grid/voxel_grid.hpp`.
 
-use periplus_grid::{Cell, Grid, Lattice};
+use periplus_grid::{Cell, Grid, GridInfo};
 
 /// As many voxels are in a column at most.
 pub const MOST_VOXELS: u32 = 16;
@@ -22,7 +22,7 @@ pub enum Voxel {
     Marked,
 }
 
-/// Voxels over the cells of a lattice.
+/// Voxels over the cells of a grid.
 #[derive(Clone, Debug, PartialEq)]
 pub struct VoxelGrid {
     columns: Grid<u32>,
@@ -51,8 +51,8 @@ pub(crate) fn unknown(column: u32) -> u32 {
 impl VoxelGrid {
     /// All unknown; more than [`MOST_VOXELS`] are cut off.
     #[must_use]
-    pub fn new(lattice: Lattice, height: u32) -> Self {
-        Self { columns: Grid::new(lattice, UNSEEN), height: height.min(MOST_VOXELS) }
+    pub fn new(info: GridInfo, height: u32) -> Self {
+        Self { columns: Grid::new(info, UNSEEN), height: height.min(MOST_VOXELS) }
     }
 
     /// Voxels in a column.
@@ -63,8 +63,8 @@ impl VoxelGrid {
 
     /// Where the columns are.
     #[must_use]
-    pub fn lattice(&self) -> &Lattice {
-        &self.columns.lattice
+    pub fn info(&self) -> &GridInfo {
+        &self.columns.info
     }
 
     /// The columns, row by row from the lower left corner.
@@ -79,14 +79,14 @@ impl VoxelGrid {
     }
 
     /// Moves to where another grid with cells of the same size is; new columns are unknown.
-    pub fn follow(&mut self, there: &Lattice) {
-        let here = self.columns.lattice;
+    pub fn follow(&mut self, there: &GridInfo) {
+        let here = self.columns.info;
         let cells = |to: f64, from: f64| libm::round((to - from) / here.resolution_m) as i64;
         let columns = cells(there.origin.x_m, here.origin.x_m);
         let rows = cells(there.origin.y_m, here.origin.y_m);
         if (columns, rows) != (0, 0) {
             self.columns.roll(columns, rows, UNSEEN);
-            self.columns.lattice.origin = there.origin;
+            self.columns.info.origin = there.origin;
         }
     }
 
@@ -116,7 +116,7 @@ impl VoxelGrid {
 
     /// Marks a voxel, and tells whether more than `mark_threshold` of its column are marked now.
     pub fn mark(&mut self, cell: Cell, z: u32, mark_threshold: u32) -> bool {
-        if !self.columns.lattice.contains(cell) || z >= self.height {
+        if !self.columns.info.contains(cell) || z >= self.height {
             return false;
         }
         let column = &mut self.columns[cell];
@@ -126,7 +126,7 @@ impl VoxelGrid {
 
     /// Frees a voxel.
     pub fn clear(&mut self, cell: Cell, z: u32) {
-        if self.columns.lattice.contains(cell) && z < self.height {
+        if self.columns.info.contains(cell) && z < self.height {
             self.columns[cell] &= !bits(z);
         }
     }
@@ -141,7 +141,7 @@ impl VoxelGrid {
     /// Marks all voxels of a line; places are in cells from the lowest corner.
     pub fn mark_line(&mut self, start: [f64; 3], end: [f64; 3]) {
         let columns = &mut self.columns.cells;
-        if let Some(line) = Line3::within(self.columns.lattice.width, start, end, 0, u32::MAX) {
+        if let Some(line) = Line3::within(self.columns.info.width, start, end, 0, u32::MAX) {
             line.walk(|index, z| columns[index] |= bits(z));
         }
     }
@@ -161,7 +161,7 @@ impl VoxelGrid {
         longest: u32,
         mut touched: impl FnMut(usize, u32),
     ) {
-        let Lattice { width, height, .. } = self.columns.lattice;
+        let GridInfo { width, height, .. } = self.columns.info;
         let is_inside = |[x, y, z]: [f64; 3]| {
             // Written so that no number (NaN) is outside.
             x >= 0.0
@@ -295,7 +295,7 @@ mod tests {
     use super::*;
 
     fn grid() -> VoxelGrid {
-        VoxelGrid::new(Lattice::new(1.0, 50, 10, Pose2::IDENTITY).unwrap(), 17)
+        VoxelGrid::new(GridInfo::new(1.0, 50, 10, Pose2::IDENTITY).unwrap(), 17)
     }
 
     #[test]

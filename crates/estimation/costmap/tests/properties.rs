@@ -7,7 +7,7 @@ use periplus_costmap::{
 };
 use periplus_diagnostics::Diagnostics;
 use periplus_geometry::Pose2;
-use periplus_grid::Lattice;
+use periplus_grid::GridInfo;
 use periplus_params::{Given, ParamValues, Table};
 use proptest::prelude::*;
 
@@ -19,9 +19,9 @@ fn values(table: &'static Table, given: &[(&'static str, &'static str)]) -> Para
 }
 
 fn costmap(is_rolling: bool) -> LayeredCostmap {
-    let lattice = Lattice::new(0.1, SIDE, SIDE, Pose2::IDENTITY).expect("a lattice");
+    let info = GridInfo::new(0.1, SIDE, SIDE, Pose2::IDENTITY).expect("a valid grid");
     let frame = Frame { is_rolling, ..Frame::default() };
-    LayeredCostmap::new(frame, lattice)
+    LayeredCostmap::new(frame, info)
 }
 
 fn seen(origin: [f64; 2], points: &[[f64; 2]]) -> Observation {
@@ -168,7 +168,7 @@ fn add_source(costmap: &mut LayeredCostmap, is_voxel: bool, source: Source) {
 
 /// Centres of the cells with a cost.
 fn cells_with(costmap: &Costmap, cost: u8) -> Vec<(f64, f64)> {
-    let lattice = costmap.lattice();
-    let indices = (0..lattice.len()).filter(|index| costmap.costs()[*index] == cost);
-    indices.map(|index| lattice.centre_of(lattice.cell(index))).collect()
+    let info = costmap.info();
+    let indices = (0..info.len()).filter(|index| costmap.costs()[*index] == cost);
+    indices.map(|index| info.centre_of(info.cell(index))).collect()
 }

@@ -119,11 +119,11 @@ const SLACK_M: f64 = 0.25;
 /// Cells that are marked though nothing is near them, as they tell it themselves. Whatever is marked
 /// must name a reading, and something must have been there at its time.
 fn stuck(costmap: &LayeredCostmap, posts_now: &[Post]) -> Vec<String> {
-    let lattice = *costmap.costmap().lattice();
+    let info = *costmap.costmap().info();
     let mut stuck = Vec::new();
-    for index in (0..lattice.len()).filter(|index| costmap.costmap().costs()[*index] == 254) {
-        let cell = lattice.cell(index);
-        let (x_m, y_m) = lattice.centre_of(cell);
+    for index in (0..info.len()).filter(|index| costmap.costmap().costs()[*index] == 254) {
+        let cell = info.cell(index);
+        let (x_m, y_m) = info.centre_of(cell);
         let report = costmap.inspect(cell).unwrap();
         let cause = report.layers[0].explanation.cause.as_ref();
         let cause = cause.filter(|cause| cause.is_mark).unwrap_or_else(|| panic!("{report}"));

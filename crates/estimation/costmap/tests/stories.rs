@@ -7,7 +7,7 @@ use periplus_costmap::layers::{RangeLayer, RangeReading, StaticLayer};
 use periplus_costmap::{Compat, Config, LayeredCostmap, NoFrames};
 use periplus_diagnostics::{Diagnostics, RenderStyle, SourceMap, render};
 use periplus_geometry::{DVec3, Pose, Pose2};
-use periplus_grid::{Grid, Lattice, OccupancyGrid};
+use periplus_grid::{Grid, GridInfo, OccupancyGrid};
 
 /// Reads YAML, and what is said about it.
 fn read(text: &str, node: &str) -> (Config, String) {
@@ -240,7 +240,7 @@ fn what_is_set_last_counts() {
     let text =
         "/**:\n  ros__parameters:\n    resolution: 0.1\n    resolution: 0.2\n    plugins: []\n";
     let (config, said) = read(text, "local_costmap");
-    assert_eq!(config.lattice().resolution_m, 0.2);
+    assert_eq!(config.info().resolution_m, 0.2);
     assert!(said.contains("`resolution` is set twice; the last one counts"), "{said}");
 }
 
@@ -270,7 +270,7 @@ fn read_file(path: &std::path::Path) -> std::io::Result<String> {
 }
 
 fn map(width: usize, height: usize, cells: Vec<i8>, origin: Pose2) -> OccupancyGrid {
-    Grid { lattice: Lattice { resolution_m: 1.0, width, height, origin }, cells }
+    Grid { info: GridInfo { resolution_m: 1.0, width, height, origin }, cells }
 }
 
 #[test]
@@ -323,10 +323,10 @@ fn malformed_maps_are_refused() {
     assert_eq!(layer.set_map(short, "map"), Err("it has 3 cells and should have 2 x 2".to_owned()));
     assert!(layer.set_map(good.clone(), "").is_err());
     let mut fine = good.clone();
-    fine.lattice.resolution_m = 1e-9;
+    fine.info.resolution_m = 1e-9;
     assert!(layer.set_map(fine, "map").is_err());
     let mut lost = good;
-    lost.lattice.origin.x_m = f64::NAN;
+    lost.info.origin.x_m = f64::NAN;
     assert!(layer.set_map(lost, "map").is_err());
 }
 

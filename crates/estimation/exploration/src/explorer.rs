@@ -130,7 +130,7 @@ impl Explorer {
             self.mood = Mood::Goes;
             return;
         }
-        let home = map.lattice.cell_of(home_m[0], home_m[1]).map(|cell| map.lattice.index(cell));
+        let home = map.info.cell_of(home_m[0], home_m[1]).map(|cell| map.info.index(cell));
         let way = home.map(|home| reach.way(home)).unwrap_or_default();
         let is_there = apart(here, home_m) < self.settings.tolerance_m || way.is_empty();
         self.mood = if is_there { Mood::Done } else { Mood::Returns };

@@ -21,31 +21,30 @@ pub struct Frontier {
 #[must_use]
 pub fn frontiers(reach: &Reach<'_>, shortest_m: f64) -> Vec<Frontier> {
     let map = reach.map();
-    let lattice = map.lattice;
+    let info = map.info;
     let touches =
-        |index: usize| neighbours(map, lattice.cell(index)).any(|(next, _)| map.cells[next] < 0);
-    let mut open: BTreeSet<usize> = (0..lattice.len())
-        .filter(|index| reach.cost(*index).is_some() && touches(*index))
-        .collect();
+        |index: usize| neighbours(map, info.cell(index)).any(|(next, _)| map.cells[next] < 0);
+    let mut open: BTreeSet<usize> =
+        (0..info.len()).filter(|index| reach.cost(*index).is_some() && touches(*index)).collect();
     let mut found = Vec::new();
     while let Some(first) = open.pop_first() {
         let (mut group, mut waiting) = (Vec::new(), vec![first]);
         while let Some(cell) = waiting.pop() {
             group.push(cell);
-            for (next, _) in neighbours(map, lattice.cell(cell)) {
+            for (next, _) in neighbours(map, info.cell(cell)) {
                 if open.remove(&next) {
                     waiting.push(next);
                 }
             }
         }
-        let length_m = group.len() as f64 * lattice.resolution_m;
+        let length_m = group.len() as f64 * info.resolution_m;
         if length_m < shortest_m {
             continue;
         }
         let cost = |cell: &usize| reach.cost(*cell).unwrap_or(f64::INFINITY);
         let nearest = group.into_iter().min_by(|a, b| cost(a).total_cmp(&cost(b)).then(a.cmp(b)));
         let Some(cell) = nearest else { continue };
-        let (x_m, y_m) = lattice.centre_of(lattice.cell(cell));
+        let (x_m, y_m) = info.centre_of(info.cell(cell));
         found.push(Frontier { cell, place_m: [x_m, y_m], cost_m: cost(&cell), length_m });
     }
     found

@@ -36,14 +36,14 @@ impl<'a> Reach<'a> {
     /// Walks the map from a place; none if that is outside of it.
     #[must_use]
     pub fn new(map: &'a OccupancyGrid, robot: &Robot, x_m: f64, y_m: f64) -> Option<Self> {
-        let lattice = map.lattice;
-        let start = lattice.index(lattice.cell_of(x_m, y_m)?);
+        let info = map.info;
+        let start = info.index(info.cell_of(x_m, y_m)?);
         let far = squared_distances(map, |value| *value >= WALL);
-        let to_wall_m = |index: usize| lattice.resolution_m * f64::from(far.cells[index]).sqrt();
+        let to_wall_m = |index: usize| info.resolution_m * f64::from(far.cells[index]).sqrt();
         // A robot that stands too near to a wall may go away from it, but not nearer.
-        let least_m = robot.radius_m.min(to_wall_m(start) - 0.5 * lattice.resolution_m);
+        let least_m = robot.radius_m.min(to_wall_m(start) - 0.5 * info.resolution_m);
         let mut reach =
-            Self { map, costs: vec![f64::INFINITY; lattice.len()], from: vec![0; lattice.len()] };
+            Self { map, costs: vec![f64::INFINITY; info.len()], from: vec![0; info.len()] };
         reach.costs[start] = 0.0;
         let mut open: Open = BinaryHeap::from([Reverse((0, start))]);
         while let Some(Reverse((bits, index))) = open.pop() {
@@ -51,14 +51,14 @@ impl<'a> Reach<'a> {
             if cost > reach.costs[index] {
                 continue;
             }
-            for (next, step) in neighbours(map, lattice.cell(index)) {
+            for (next, step) in neighbours(map, info.cell(index)) {
                 let wall_m = to_wall_m(next);
                 let is_free = (0..=FREE).contains(&map.cells[next]);
                 if !is_free || wall_m < least_m {
                     continue;
                 }
                 let lack = ((robot.comfort_m - wall_m) / robot.comfort_m.max(1e-9)).max(0.0);
-                let new = cost + step * lattice.resolution_m * (1.0 + 4.0 * lack);
+                let new = cost + step * info.resolution_m * (1.0 + 4.0 * lack);
                 if new < reach.costs[next] {
                     reach.costs[next] = new;
                     reach.from[next] = u32::try_from(index).unwrap_or(u32::MAX);
@@ -97,7 +97,7 @@ impl<'a> Reach<'a> {
             at = self.from[at] as usize;
         }
         let centre = |index: &usize| {
-            let (x_m, y_m) = self.map.lattice.centre_of(self.map.lattice.cell(*index));
+            let (x_m, y_m) = self.map.info.centre_of(self.map.info.cell(*index));
             [x_m, y_m]
         };
         way.iter().rev().map(centre).collect()
@@ -109,11 +109,11 @@ pub(crate) fn neighbours<T>(
     grid: &Grid<T>,
     (column, row): Cell,
 ) -> impl Iterator<Item = (usize, f64)> + use<T> {
-    let lattice = grid.lattice;
+    let info = grid.info;
     let around = [(-1, -1), (0, -1), (1, -1), (-1, 0), (1, 0), (-1, 1), (0, 1), (1, 1)];
     around.into_iter().filter_map(move |(right, up): (isize, isize)| {
         let cell = (column.checked_add_signed(right)?, row.checked_add_signed(up)?);
         let step = if right != 0 && up != 0 { std::f64::consts::SQRT_2 } else { 1.0 };
-        lattice.contains(cell).then(|| (lattice.index(cell), step))
+        info.contains(cell).then(|| (info.index(cell), step))
     })
 }

@@ -2,7 +2,7 @@
 
 use periplus_exploration::{Explorer, Mood, Reach, Robot, Settings, Velocity, follow, frontiers};
 use periplus_geometry::Pose2;
-use periplus_grid::{Grid, Lattice, OccupancyGrid};
+use periplus_grid::{Grid, GridInfo, OccupancyGrid};
 use proptest::prelude::*;
 
 const CELL_M: f64 = 0.1;
@@ -10,8 +10,8 @@ const CELL_M: f64 = 0.1;
 const ROBOT: Robot = Robot { radius_m: 0.15, comfort_m: 0.3 };
 
 fn room(drawing: &[&str]) -> OccupancyGrid {
-    let lattice = Lattice::new(CELL_M, drawing[0].len(), drawing.len(), Pose2::default());
-    let lattice = lattice.expect("a lattice");
+    let info = GridInfo::new(CELL_M, drawing[0].len(), drawing.len(), Pose2::default());
+    let info = info.expect("a valid grid");
     let value = |letter| match letter {
         b'#' => 100,
         b'.' => 0,
@@ -19,7 +19,7 @@ fn room(drawing: &[&str]) -> OccupancyGrid {
     };
     // The first line is the highest.
     let cells = drawing.iter().rev().flat_map(|line| line.bytes().map(value)).collect();
-    Grid::from_cells(lattice, cells).expect("as many cells as there are")
+    Grid::from_cells(info, cells).expect("as many cells as there are")
 }
 
 /// Pose in the middle of a cell, by column and line from below.
@@ -145,7 +145,7 @@ fn a_whole_room_is_seen() {
         "#........#.........#",
         "####################",
     ]);
-    let mut map = Grid::new(truth.lattice, -1_i8);
+    let mut map = Grid::new(truth.info, -1_i8);
     let mut pose = at(4, 4);
     let settings = Settings {
         robot: ROBOT,
@@ -157,7 +157,7 @@ fn a_whole_room_is_seen() {
     let mut explorer = Explorer::new(settings);
     for step in 0..3000_i64 {
         for index in 0..map.cells.len() {
-            let (x, y) = truth.lattice.centre_of(truth.lattice.cell(index));
+            let (x, y) = truth.info.centre_of(truth.info.cell(index));
             if (x - pose.x_m).hypot(y - pose.y_m) < 0.8 {
                 map.cells[index] = truth.cells[index];
             }
@@ -169,7 +169,7 @@ fn a_whole_room_is_seen() {
         pose.yaw_rad += velocity.left_rad_s * 0.05;
         pose.x_m += velocity.forward_m_s * 0.05 * pose.yaw_rad.cos();
         pose.y_m += velocity.forward_m_s * 0.05 * pose.yaw_rad.sin();
-        let (column, row) = truth.lattice.cell_of(pose.x_m, pose.y_m).expect("inside");
+        let (column, row) = truth.info.cell_of(pose.x_m, pose.y_m).expect("inside");
         assert_eq!(*truth.get((column, row)).expect("a cell"), 0, "it drove into a wall");
         if explorer.mood() == Mood::Done {
             let unseen = truth.cells.iter().zip(&map.cells).filter(|(t, m)| **t == 0 && **m != 0);
@@ -185,8 +185,8 @@ proptest! {
     /// Whatever the map, nobody panics, and a way stays on what is free.
     #[test]
     fn ways_stay_on_free_cells(cells in prop::collection::vec(prop::sample::select(vec![-1_i8, 0, 0, 0, 100, 40, -7, 127]), 144), column in 0..12_usize, row in 0..12_usize) {
-        let lattice = Lattice::new(CELL_M, 12, 12, Pose2::default()).expect("a lattice");
-        let map = Grid::from_cells(lattice, cells).expect("as many as there are");
+        let info = GridInfo::new(CELL_M, 12, 12, Pose2::default()).expect("a valid grid");
+        let map = Grid::from_cells(info, cells).expect("as many as there are");
         let pose = at(column, row);
         let reach = Reach::new(&map, &Robot { radius_m: 0.1, comfort_m: 0.2 }, pose.x_m, pose.y_m).expect("on the map");
         for found in frontiers(&reach, 0.0) {

@@ -1,41 +1,42 @@
-//! How far each cell is from the nearest of some.
+//! Euclidean distance transform.
 
 use crate::grid::Grid;
 
-/// The squared distance where there is nothing to be near to.
-pub const NOWHERE: u32 = u32::MAX;
+/// Squared distance where the grid has no site.
+pub const NO_SITE_CELLS: u32 = u32::MAX;
 
-/// Column distance to nothing. Its square is above any real one and fits into 64 bits twice.
-const FAR: u32 = 1 << 30;
+/// Column distance without a site. Its square is above any real one, and twice the square fits into
+/// 64 bits.
+const FAR_CELLS: u32 = 1 << 30;
 
-/// The square of the exact Euclidean distance, from centre to centre in cells, to the nearest cell
-/// for which `is_site` holds; [`NOWHERE`] when it holds for none. Squares that do not fit are one
-/// less than that: no lattice with fewer than 46,000 cells on a side has such.
-///
-/// Exact whole numbers, in time linear in the cells whatever they say: distances along columns first,
-/// then along each row the lower envelope of the parabolas that stand on them.
+/// Returns the square of the exact Euclidean distance \[cells²\], between cell centres, to the
+/// nearest cell for which `is_site` holds; [`NO_SITE_CELLS`] if there is no such cell. Larger
+/// squares are clamped to one less; they do not occur on grids with fewer than 46,000 cells on a
+/// side.
+/// Exact integers, in time linear in the number of cells: first distances along columns, then along
+/// each row the lower envelope of their parabolas.
 ///
 /// Sources: Meijster, Roerdink, Hesselink, "A general algorithm for computing distance transforms in
 /// linear time", 2000; Felzenszwalb, Huttenlocher, "Distance transforms of sampled functions", 2012.
 #[must_use]
 pub fn squared_distances<T>(grid: &Grid<T>, mut is_site: impl FnMut(&T) -> bool) -> Grid<u32> {
-    let lattice = grid.lattice;
-    let width = lattice.width;
-    let mut cells = vec![FAR; lattice.len()];
+    let info = grid.info;
+    let width = info.width;
+    let mut cells = vec![FAR_CELLS; info.len()];
     if width == 0 {
-        return Grid { lattice, cells };
+        return Grid { info, cells };
     }
-    // Down and up all columns at once, a row at a time, as rows lie together in memory.
+    // All columns at once, first down and then up: rows are contiguous in memory.
     for (distance, value) in cells.iter_mut().zip(&grid.cells) {
         if is_site(value) {
             *distance = 0;
         }
     }
-    for row in 1..lattice.height {
+    for row in 1..info.height {
         let (below, here) = cells.split_at_mut(row * width);
         nearer(&mut here[..width], &below[(row - 1) * width..]);
     }
-    for row in (1..lattice.height).rev() {
+    for row in (1..info.height).rev() {
         let (below, here) = cells.split_at_mut(row * width);
         nearer(&mut below[(row - 1) * width..], &here[..width]);
     }
@@ -43,28 +44,28 @@ pub fn squared_distances<T>(grid: &Grid<T>, mut is_site: impl FnMut(&T) -> bool)
     for row in cells.chunks_exact_mut(width) {
         envelope.lower(row);
     }
-    Grid { lattice, cells }
+    Grid { info, cells }
 }
 
-/// A cell is at most one further from a site than its neighbour in the column.
+/// The distance of a cell is at most one above that of its neighbour in the column.
 fn nearer(row: &mut [u32], neighbours: &[u32]) {
     for (distance, neighbour) in row.iter_mut().zip(neighbours) {
-        *distance = (*distance).min(*neighbour + 1).min(FAR);
+        *distance = (*distance).min(*neighbour + 1).min(FAR_CELLS);
     }
 }
 
-/// Parabolas that are lowest somewhere along a row, from left to right.
+/// Lower envelope of the parabolas of a row, from left to right.
 #[derive(Default)]
 struct Envelope {
     parabolas: Vec<Parabola>,
 }
 
 struct Parabola {
-    /// Where it is lowest.
+    /// Column of the minimum.
     column: i64,
-    /// How high it is there.
+    /// Value at the minimum.
     height: i64,
-    /// The first column in which it is the lowest of all.
+    /// First column in which this parabola is the lowest.
     first: i64,
 }
 
@@ -75,18 +76,18 @@ impl Parabola {
 }
 
 impl Envelope {
-    /// Distances along columns become squared distances.
+    /// Replaces distances along columns with squared distances.
     fn lower(&mut self, row: &mut [u32]) {
         self.parabolas.clear();
         let width = row.len() as i64;
         for (column, &distance) in row.iter().enumerate() {
-            if distance == FAR {
+            if distance == FAR_CELLS {
                 continue;
             }
             self.push(column as i64, i64::from(distance).pow(2), width);
         }
         if self.parabolas.is_empty() {
-            row.fill(NOWHERE);
+            row.fill(NO_SITE_CELLS);
             return;
         }
         let mut lowest = 0;
@@ -96,12 +97,13 @@ impl Envelope {
                 lowest += 1;
             }
             let squared = self.parabolas[lowest].at(column);
-            *distance = u32::try_from(squared).map_or(NOWHERE - 1, |it| it.min(NOWHERE - 1));
+            *distance =
+                u32::try_from(squared).map_or(NO_SITE_CELLS - 1, |it| it.min(NO_SITE_CELLS - 1));
         }
     }
 
     fn push(&mut self, column: i64, height: i64, width: i64) {
-        // Whoever is not lower where its own reign begins is lowest nowhere.
+        // A parabola that is not lower at the start of its own interval is lower nowhere.
         while let Some(last) = self.parabolas.last() {
             let here = (last.first - column).pow(2) + height;
             if here > last.at(last.first) {
@@ -111,7 +113,7 @@ impl Envelope {
         }
         let first = match self.parabolas.last() {
             None => 0,
-            // Behind the column where both are equally high the new one is the lower.
+            // The new parabola is lower beyond the column of the intersection.
             Some(last) => {
                 let rise = column.pow(2) - last.column.pow(2) + height - last.height;
                 rise.div_euclid(2 * (column - last.column)) + 1
@@ -129,11 +131,11 @@ mod tests {
     use proptest::prelude::*;
 
     use super::*;
-    use crate::lattice::Lattice;
+    use crate::info::GridInfo;
 
     fn sites(width: usize, height: usize, cells: Vec<bool>) -> Grid<bool> {
-        let lattice = Lattice::new(1.0, width, height, Pose2::IDENTITY).unwrap();
-        Grid::from_cells(lattice, cells).unwrap()
+        let info = GridInfo::new(1.0, width, height, Pose2::IDENTITY).unwrap();
+        Grid::from_cells(info, cells).unwrap()
     }
 
     #[test]
@@ -147,7 +149,7 @@ mod tests {
     #[test]
     fn nothing_to_be_near_to() {
         let squares = squared_distances(&sites(2, 2, vec![false; 4]), |&is| is);
-        assert_eq!(squares.cells, [NOWHERE; 4]);
+        assert_eq!(squares.cells, [NO_SITE_CELLS; 4]);
         assert!(squared_distances(&sites(0, 5, vec![]), |&is| is).cells.is_empty());
     }
 
@@ -162,12 +164,12 @@ mod tests {
             let grid = sites(width, height, cells);
             let squares = squared_distances(&grid, |&is| is);
             for index in 0..squares.cells.len() {
-                let (x, y) = grid.lattice.cell(index);
+                let (x, y) = grid.info.cell(index);
                 let nearest = (0..grid.cells.len()).filter(|&site| grid.cells[site]).map(|site| {
-                    let (site_x, site_y) = grid.lattice.cell(site);
+                    let (site_x, site_y) = grid.info.cell(site);
                     (x.abs_diff(site_x).pow(2) + y.abs_diff(site_y).pow(2)) as u32
                 }).min();
-                prop_assert_eq!(squares.cells[index], nearest.unwrap_or(NOWHERE));
+                prop_assert_eq!(squares.cells[index], nearest.unwrap_or(NO_SITE_CELLS));
             }
         }
     }

@@ -1,64 +1,64 @@
-//! A value in every cell.
+//! Grid with a value for each cell.
 
 use std::ops::{Index, IndexMut};
 
-use crate::lattice::{Cell, Lattice};
+use crate::info::{Cell, GridInfo};
 
-/// A value in every cell of a lattice.
+/// A value for each cell of a [`GridInfo`].
 #[derive(Clone, Debug, PartialEq)]
 pub struct Grid<T> {
-    /// Where the cells are.
-    pub lattice: Lattice,
-    /// Their values, row by row from the lower left corner.
+    /// Resolution, size and origin.
+    pub info: GridInfo,
+    /// Values of the cells, row by row from the lower left corner.
     pub cells: Vec<T>,
 }
 
 impl<T> Grid<T> {
-    /// A grid over values that are there already.
+    /// Creates a grid from existing values.
     ///
     /// # Errors
-    /// The values again when there are not as many as cells.
-    pub fn from_cells(lattice: Lattice, cells: Vec<T>) -> Result<Self, Vec<T>> {
-        if cells.len() == lattice.len() { Ok(Self { lattice, cells }) } else { Err(cells) }
+    /// The values, if their number differs from the number of cells.
+    pub fn from_cells(info: GridInfo, cells: Vec<T>) -> Result<Self, Vec<T>> {
+        if cells.len() == info.len() { Ok(Self { info, cells }) } else { Err(cells) }
     }
 
-    /// The value of a cell, if it is one of these.
+    /// Returns the value of a cell; none outside the grid.
     #[must_use]
     pub fn get(&self, cell: Cell) -> Option<&T> {
-        if self.lattice.contains(cell) { self.cells.get(self.lattice.index(cell)) } else { None }
+        if self.info.contains(cell) { self.cells.get(self.info.index(cell)) } else { None }
     }
 
-    /// The value at a point of the map \[m\], if a cell is there.
+    /// Returns the value at a point of the map \[m\]; none outside the grid.
     #[must_use]
     pub fn at(&self, x_m: f64, y_m: f64) -> Option<&T> {
-        self.get(self.lattice.cell_of(x_m, y_m)?)
+        self.get(self.info.cell_of(x_m, y_m)?)
     }
 
-    /// Rows from the lowest to the highest.
+    /// Iterates over the rows from the lowest to the highest.
     pub fn rows(&self) -> impl DoubleEndedIterator<Item = &[T]> + ExactSizeIterator {
-        // Chunks of no length are an error, and a lattice without columns has no rows to show.
-        self.cells.chunks_exact(self.lattice.width.max(1))
+        // Chunks of length zero are an error, and a grid without columns has no rows.
+        self.cells.chunks_exact(self.info.width.max(1))
     }
 
-    /// A value made of each.
+    /// Converts the value of each cell.
     #[must_use]
     pub fn map<U>(&self, make: impl FnMut(&T) -> U) -> Grid<U> {
-        Grid { lattice: self.lattice, cells: self.cells.iter().map(make).collect() }
+        Grid { info: self.info, cells: self.cells.iter().map(make).collect() }
     }
 }
 
 impl<T: Clone> Grid<T> {
-    /// The same value everywhere.
+    /// Creates a grid with the same value in all cells.
     #[must_use]
-    pub fn new(lattice: Lattice, value: T) -> Self {
-        Self { lattice, cells: vec![value; lattice.len()] }
+    pub fn new(info: GridInfo, value: T) -> Self {
+        Self { info, cells: vec![value; info.len()] }
     }
 
-    /// Moves the window by whole cells over a plane that stays where it is: what is still in the
-    /// window is kept, what comes into it is `fresh`.
+    /// Moves the window by whole cells over the plane. Cells that stay in the window keep their
+    /// values, new cells get `fresh`.
     pub fn roll(&mut self, columns: i64, rows: i64, fresh: T) {
-        let Lattice { width, height, .. } = self.lattice;
-        self.lattice = self.lattice.moved(columns, rows);
+        let GridInfo { width, height, .. } = self.info;
+        self.info = self.info.moved(columns, rows);
         let (Some((from_x, to_x, count_x)), Some((from_y, to_y, count_y))) =
             (overlap(width, columns), overlap(height, rows))
         else {
@@ -77,16 +77,16 @@ impl<T: Clone> Grid<T> {
         self.cells = cells;
     }
 
-    /// Rolls the window so that its corner comes as near to a point of the map \[m\] as whole cells
-    /// allow without passing it; the rule of `Costmap2D::updateOrigin`.
+    /// Moves the window so that its corner is within one cell of a point of the map \[m\] and not
+    /// beyond it; the rule of `Costmap2D::updateOrigin`.
     pub fn roll_to(&mut self, x_m: f64, y_m: f64, fresh: T) {
-        let (columns, rows) = self.lattice.whole_cells_to(x_m, y_m);
+        let (columns, rows) = self.info.whole_cells_to(x_m, y_m);
         self.roll(columns, rows, fresh);
     }
 }
 
-/// What stays of `size` cells when the window moves by `shift`: first in the old window, first in
-/// the new one, and how many.
+/// Overlap of `size` cells with the window moved by `shift`: first cell in the old window, first
+/// cell in the new window, and number of cells.
 fn overlap(size: usize, shift: i64) -> Option<(usize, usize, usize)> {
     let distance = usize::try_from(shift.unsigned_abs()).ok()?;
     let count = size.checked_sub(distance).filter(|&count| count > 0)?;
@@ -97,15 +97,15 @@ impl<T> Index<Cell> for Grid<T> {
     type Output = T;
 
     fn index(&self, cell: Cell) -> &T {
-        debug_assert!(self.lattice.contains(cell), "{cell:?} is not in {:?}", self.lattice);
-        &self.cells[self.lattice.index(cell)]
+        debug_assert!(self.info.contains(cell), "{cell:?} is not in {:?}", self.info);
+        &self.cells[self.info.index(cell)]
     }
 }
 
 impl<T> IndexMut<Cell> for Grid<T> {
     fn index_mut(&mut self, cell: Cell) -> &mut T {
-        debug_assert!(self.lattice.contains(cell), "{cell:?} is not in {:?}", self.lattice);
-        &mut self.cells[self.lattice.index(cell)]
+        debug_assert!(self.info.contains(cell), "{cell:?} is not in {:?}", self.info);
+        &mut self.cells[self.info.index(cell)]
     }
 }
 
@@ -117,8 +117,8 @@ mod tests {
     use super::*;
 
     fn numbered(width: usize, height: usize) -> Grid<usize> {
-        let lattice = Lattice::new(1.0, width, height, Pose2::IDENTITY).unwrap();
-        Grid { lattice, cells: (1..=width * height).collect() }
+        let info = GridInfo::new(1.0, width, height, Pose2::IDENTITY).unwrap();
+        Grid { info, cells: (1..=width * height).collect() }
     }
 
     #[test]
@@ -129,14 +129,14 @@ mod tests {
         assert_eq!(grid.get((3, 0)), None, "not the first of the next row");
         assert_eq!(grid.rows().collect::<Vec<_>>(), [[1, 2, 3], [4, 5, 6]]);
         assert_eq!(grid.map(|value| value * 2)[(0, 1)], 8);
-        assert_eq!(Grid::from_cells(grid.lattice, vec![1]), Err(vec![1]));
+        assert_eq!(Grid::from_cells(grid.info, vec![1]), Err(vec![1]));
     }
 
     #[test]
     fn a_window_rolls_over_the_plane() {
         let mut grid = numbered(3, 2);
         grid.roll_to(1.9, -1.0, 0);
-        assert_eq!((grid.lattice.origin.x_m, grid.lattice.origin.y_m), (1.0, -1.0));
+        assert_eq!((grid.info.origin.x_m, grid.info.origin.y_m), (1.0, -1.0));
         assert_eq!(grid.cells, [0, 0, 0, 2, 3, 0]);
         grid.roll_to(99.0, 0.0, 7);
         assert_eq!(grid.cells, [7; 6]);
@@ -156,7 +156,7 @@ mod tests {
             let mut after = before.clone();
             after.roll(columns, rows, 0);
             for index in 0..after.cells.len() {
-                let (x_m, y_m) = after.lattice.centre_of(after.lattice.cell(index));
+                let (x_m, y_m) = after.info.centre_of(after.info.cell(index));
                 prop_assert_eq!(after.cells[index], before.at(x_m, y_m).copied().unwrap_or(0));
             }
         }

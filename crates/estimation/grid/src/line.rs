@@ -1,28 +1,28 @@
-//! Cells along a straight line.
+//! Ray tracing of cells along a line.
 
-use crate::lattice::Cell;
+use crate::info::Cell;
 
-/// The cells between two, both included, one for each step along the longer side. Bresenham in whole
-/// numbers; where two cells are equally near, the choice is that of `costmap_2d`: the error begins
-/// at half the longer side, rounded down, and a side step is taken when it reaches the whole.
+/// Cells between two cells, both included, one for each step along the longer side. Bresenham's
+/// algorithm in integers. Ties are resolved as in `costmap_2d`: the error starts at half the longer
+/// side, rounded down, and a side step is taken when the error reaches the longer side.
 ///
 /// Source: `nav2_util/raytrace_line_2d.hpp`.
 #[derive(Clone, Debug)]
 pub struct Line {
     next: Cell,
-    /// Cells still to come.
+    /// Number of remaining cells.
     left: usize,
-    /// Longer and shorter side.
+    /// Longer and shorter side \[cells\].
     long: usize,
     short: usize,
     error: usize,
-    /// Whether the longer side is along x.
+    /// True if the longer side is along x.
     is_flat: bool,
     grows: (bool, bool),
 }
 
 impl Line {
-    /// From one cell to another.
+    /// Creates the line from one cell to another.
     #[must_use]
     pub fn between(start: Cell, end: Cell) -> Self {
         let (width, height) = (start.0.abs_diff(end.0), start.1.abs_diff(end.1));
@@ -39,29 +39,29 @@ impl Line {
         }
     }
 
-    /// The part of a line that is at least `shortest` and at most `longest` cells from its start, as
-    /// the crow flies. None when the end is nearer than `shortest`; the last cell is where the
-    /// length along the longer side, cut in proportion and rounded down, ends.
-    ///
-    /// With a `shortest` above 0 the line begins at the cell there, rounded down, and is aimed at
-    /// the end anew.
+    /// Creates the part of a line whose straight distance from the start is at least `min_length`
+    /// and at most `max_length` cells. It is empty when the end is nearer than `min_length`. The
+    /// last cell is the one at which the length along the longer side, scaled in proportion and
+    /// rounded down, ends.
+    /// With a `min_length` above 0 the line begins at the cell at that distance, rounded down, and
+    /// runs from there to the end.
     #[must_use]
-    pub fn within(start: Cell, end: Cell, shortest: u32, longest: u32) -> Self {
+    pub fn within(start: Cell, end: Cell, min_length: u32, max_length: u32) -> Self {
         let (dx, dy) = (end.0 as f64 - start.0 as f64, end.1 as f64 - start.1 as f64);
         let length = libm::hypot(dx, dy);
-        if length < f64::from(shortest) {
+        if length < f64::from(min_length) {
             return Self { left: 0, ..Self::between(start, end) };
         }
         if length == 0.0 {
             return Self::between(start, end);
         }
-        let shortest = f64::from(shortest);
+        let min_length = f64::from(min_length);
         let begin = (
-            (start.0 as f64 + dx / length * shortest) as usize,
-            (start.1 as f64 + dy / length * shortest) as usize,
+            (start.0 as f64 + dx / length * min_length) as usize,
+            (start.1 as f64 + dy / length * min_length) as usize,
         );
         let line = Self::between(begin, end);
-        let part = (f64::from(longest) / length).min(1.0);
+        let part = (f64::from(max_length) / length).min(1.0);
         Self { left: ((part * line.long as f64) as usize).min(line.long) + 1, ..line }
     }
 }
@@ -119,7 +119,7 @@ mod tests {
 
     #[test]
     fn lengths_are_limited() {
-        let cells = |end, shortest, longest| Line::within((0, 0), end, shortest, longest);
+        let cells = |end, min_length, max_length| Line::within((0, 0), end, min_length, max_length);
         // Five cells along a diagonal are 3.5 along each side.
         assert_eq!(cells((9, 9), 0, 5).last(), Some((3, 3)));
         assert_eq!(cells((9, 0), 2, 4).next(), Some((2, 0)));
@@ -142,7 +142,7 @@ mod tests {
             let (dx, dy) = (end.0 as f64 - start.0 as f64, end.1 as f64 - start.1 as f64);
             for (x, y) in cells {
                 let aside = dx * (y as f64 - start.1 as f64) - dy * (x as f64 - start.0 as f64);
-                // Beside the line by a cell at most: it is taken from where two are equally near.
+                // At most one cell off the line, since ties start from the line.
                 prop_assert!(aside.abs() <= dx.abs().max(dy.abs()));
             }
         }

@@ -1,14 +1,14 @@
-//! What the cells of `nav_msgs/OccupancyGrid` say: -1 unknown, else 0 (free) to 100 (occupied).
+//! Cell values of `nav_msgs/OccupancyGrid`: -1 unknown, 0 (free) to 100 (occupied).
 
 use crate::Grid;
 
-/// Nobody knows.
+/// Unknown cell.
 pub const UNKNOWN: i8 = -1;
-/// Nothing is there.
+/// Free cell.
 pub const FREE: i8 = 0;
-/// Something is there.
+/// Occupied cell.
 pub const OCCUPIED: i8 = 100;
 
-/// A map as `nav_msgs/OccupancyGrid` holds it. Other values than -1 to 100 come in from others, and
-/// stay as they are.
+/// An occupancy grid map as in `nav_msgs/OccupancyGrid`. Values outside -1 to 100 from other
+/// programs are kept.
 pub type OccupancyGrid = Grid<i8>;

@@ -43,10 +43,10 @@ pub(crate) struct GlobalLocalizer {
 
 impl GlobalLocalizer {
     pub(crate) fn new(map: &LikelihoodMap) -> Self {
-        let lattice = map.lattice();
+        let info = map.info();
         let corners =
-            [(0, 0), (lattice.width, 0), (0, lattice.height), (lattice.width, lattice.height)]
-                .map(|(column, row)| lattice.point_at(column as f64, row as f64));
+            [(0, 0), (info.width, 0), (0, info.height), (info.width, info.height)]
+                .map(|(column, row)| info.point_at(column as f64, row as f64));
         let span = |values: [f64; 4]| {
             let low = values.into_iter().fold(f64::INFINITY, f64::min);
             let high = values.into_iter().fold(f64::NEG_INFINITY, f64::max);
@@ -56,7 +56,7 @@ impl GlobalLocalizer {
         let (y_m, half_y_m) = span(corners.map(|corner| corner.1));
         let min_cell_m = libm::sqrt(4.0 * half_x_m * half_y_m / MAX_CELLS);
         let min_side_cell_m = 2.0 * half_x_m.max(half_y_m) / MAX_SIDE_CELLS;
-        let cell_m = lattice.resolution_m.max(MIN_CELL_M).max(min_cell_m).max(min_side_cell_m);
+        let cell_m = info.resolution_m.max(MIN_CELL_M).max(min_cell_m).max(min_side_cell_m);
         let corners = [[x_m - half_x_m, y_m - half_y_m], [x_m + half_x_m, y_m + half_y_m]];
         let free = map.cell_centers(CellState::Free);
         let pyramid = LikelihoodPyramid::new(map.obstacles(), free, corners, cell_m);

@@ -92,19 +92,17 @@ pub(crate) fn check_position(
     pose: Pose2,
     compat: AmclCompat,
 ) -> Result<Option<Diagnostic>, Box<Diagnostic>> {
-    let lattice = map.lattice();
+    let info = map.info();
     let Pose2 { x_m, y_m, .. } = pose;
     let state = map.state(map.cell_at(x_m, y_m));
     let is_outside = match compat {
         AmclCompat::None => state.is_none(),
         // Nav2 compares metres with a number of cells.
-        AmclCompat::Nav2 => x_m.abs() > lattice.width as f64 || y_m.abs() > lattice.height as f64,
+        AmclCompat::Nav2 => x_m.abs() > info.width as f64 || y_m.abs() > info.height as f64,
     };
     if is_outside {
-        let (low, high) = (
-            lattice.point_at(0.0, 0.0),
-            lattice.point_at(lattice.width as f64, lattice.height as f64),
-        );
+        let (low, high) =
+            (info.point_at(0.0, 0.0), info.point_at(info.width as f64, info.height as f64));
         let outside = Diagnostic::error(
             "guess-outside-of-map",
             format!("the initial pose ({x_m:.3}, {y_m:.3}) is outside of the map"),

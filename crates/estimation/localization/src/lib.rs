@@ -12,13 +12,13 @@
 //!
 //! ```
 //! use periplus_geometry::Pose2;
-//! use periplus_grid::{Grid, Lattice, occupancy};
+//! use periplus_grid::{Grid, GridInfo, occupancy};
 //! use periplus_localization::{Amcl, InitialPose, LocalizationState, Scan, Settings};
 //!
 //! // A room of 4 by 3 metres; the robot in its center sees the wall to the right at 2 m.
-//! let mut map = Grid::new(Lattice::new(0.1, 40, 30, Pose2::IDENTITY)?, occupancy::FREE);
+//! let mut map = Grid::new(GridInfo::new(0.1, 40, 30, Pose2::IDENTITY)?, occupancy::FREE);
 //! for index in 0..map.cells.len() {
-//!     let (column, row) = map.lattice.cell(index);
+//!     let (column, row) = map.info.cell(index);
 //!     if column % 39 == 0 || row % 29 == 0 {
 //!         map.cells[index] = occupancy::OCCUPIED;
 //!     }

@@ -3,7 +3,7 @@
 
 use periplus_diagnostics::Diagnostic;
 use periplus_geometry::{Pose2, Stream};
-use periplus_grid::{Grid, Lattice, OccupancyGrid, occupancy, squared_distances};
+use periplus_grid::{Grid, GridInfo, OccupancyGrid, occupancy, squared_distances};
 
 /// Maximum number of cells to either side in [`LikelihoodMap::is_free_near`].
 const MAX_NEARBY_CELLS: f64 = 60.0;
@@ -55,7 +55,7 @@ pub enum CellAlignment {
 /// Occupancy grid with the distance from each cell to the nearest obstacle.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LikelihoodMap {
-    lattice: Lattice,
+    info: GridInfo,
     alignment: CellAlignment,
     states: Vec<CellState>,
     /// Distance to the center of the nearest occupied cell, at most `distance_max_m` \[m\].
@@ -86,15 +86,15 @@ impl LikelihoodMap {
         map: &OccupancyGrid,
         settings: LikelihoodMapSettings,
     ) -> Result<Self, Box<Diagnostic>> {
-        let lattice = map.lattice;
+        let info = map.info;
         if let Err(error) =
-            Lattice::new(lattice.resolution_m, lattice.width, lattice.height, lattice.origin)
+            GridInfo::new(info.resolution_m, info.width, info.height, info.origin)
         {
             let message = format!("the map cannot be used: {error}");
             return Err(Diagnostic::error("bad-map", message).into());
         }
-        if lattice.is_empty() || map.cells.len() != lattice.len() {
-            let (width, height, values) = (lattice.width, lattice.height, map.cells.len());
+        if info.is_empty() || map.cells.len() != info.len() {
+            let (width, height, values) = (info.width, info.height, map.cells.len());
             return Err(Diagnostic::error(
                 "empty-map",
                 format!("the map has {width} by {height} cells, but {values} values"),
@@ -115,27 +115,27 @@ impl LikelihoodMap {
             .into());
         }
         let distance_max = settings.distance_max_m as f32;
-        let resolution = lattice.resolution_m as f32;
+        let resolution = info.resolution_m as f32;
         let distances_m = squared_distances(map, |&value| value == occupancy::OCCUPIED)
             .cells
             .iter()
             .map(|&squared| (resolution * (squared as f32).sqrt()).min(distance_max))
             .collect();
         let free = states.iter().enumerate().filter(|&(index, state)| {
-            let (column, row) = lattice.cell(index);
+            let (column, row) = info.cell(index);
             let is_kept = !settings.downsamples_free_space || (column % 2 == 0 && row % 2 == 0);
             *state == CellState::Free && is_kept
         });
         // A grid has fewer cells than 32 bits count.
         let free = free.map(|(index, _)| index as u32).collect();
         let (alignment, distance_max_m) = (settings.alignment, settings.distance_max_m);
-        Ok(Self { lattice, alignment, states, distances_m, distance_max_m, free, occupied })
+        Ok(Self { info, alignment, states, distances_m, distance_max_m, free, occupied })
     }
 
     /// Size, resolution and origin of the map.
     #[must_use]
-    pub fn lattice(&self) -> &Lattice {
-        &self.lattice
+    pub fn info(&self) -> &GridInfo {
+        &self.info
     }
 
     /// Number of free cells.
@@ -158,7 +158,7 @@ impl LikelihoodMap {
 
     /// States of the cells as a grid.
     pub(crate) fn states(&self) -> Grid<CellState> {
-        Grid { lattice: self.lattice, cells: self.states.clone() }
+        Grid { info: self.info, cells: self.states.clone() }
     }
 
     /// Distances of all cells to the nearest obstacle \[m\].
@@ -169,12 +169,12 @@ impl LikelihoodMap {
     /// Returns the conversion from map coordinates to cells.
     #[must_use]
     pub fn cell_transform(&self) -> CellTransform {
-        let (sine, cosine) = libm::sincos(-self.lattice.origin.yaw_rad);
+        let (sine, cosine) = libm::sincos(-self.info.origin.yaw_rad);
         CellTransform {
-            origin: self.lattice.origin,
+            origin: self.info.origin,
             sine,
             cosine,
-            scale: 1.0 / self.lattice.resolution_m,
+            scale: 1.0 / self.info.resolution_m,
             shift: match self.alignment {
                 CellAlignment::Corner => 0.0,
                 CellAlignment::Centered => 0.5,
@@ -205,7 +205,7 @@ impl LikelihoodMap {
     pub(crate) fn is_free_near(&self, x_m: f64, y_m: f64, distance_m: f64) -> bool {
         let (column, row) = self.cell_at(x_m, y_m);
         let is_free = |cell| self.state(cell) == Some(CellState::Free);
-        let cells = (distance_m / self.lattice.resolution_m).min(MAX_NEARBY_CELLS) as i64;
+        let cells = (distance_m / self.info.resolution_m).min(MAX_NEARBY_CELLS) as i64;
         is_free((column, row))
             || (-cells..=cells)
                 .any(|up| (-cells..=cells).any(|right| is_free((column + right, row + up))))
@@ -230,7 +230,7 @@ impl LikelihoodMap {
     ) -> Option<(f64, [f64; 2])> {
         let (u, v) = cell_transform.map_to_cells(x_m, y_m);
         let (u, v) = (u - 0.5, v - 0.5);
-        let (width, height) = (self.lattice.width, self.lattice.height);
+        let (width, height) = (self.info.width, self.info.height);
         // NaN fails, too.
         let is_inside = u >= 0.0 && v >= 0.0 && u < (width - 1) as f64 && v < (height - 1) as f64;
         if !is_inside {
@@ -269,14 +269,14 @@ impl LikelihoodMap {
     ) -> f64 {
         let (mut u, mut v) = cell_transform.map_to_cells(x_m, y_m);
         let (along, across) = cell_transform.direction(bearing_rad);
-        let (width, height) = (self.lattice.width as f64, self.lattice.height as f64);
-        let cell_m = self.lattice.resolution_m;
+        let (width, height) = (self.info.width as f64, self.info.height as f64);
+        let cell_m = self.info.resolution_m;
         (u, v) = (u + along * range_min_m, v + across * range_min_m);
         let mut range_m = range_min_m;
         while range_m < range_max_m {
             let is_inside = u >= 0.0 && v >= 0.0 && u < width && v < height;
             let distance_m = if is_inside {
-                f64::from(self.distances_m[v as usize * self.lattice.width + u as usize])
+                f64::from(self.distances_m[v as usize * self.info.width + u as usize])
             } else {
                 // The ray may enter the map only across its border.
                 cell_m
@@ -294,7 +294,7 @@ impl LikelihoodMap {
 
     fn index(&self, (column, row): (i64, i64)) -> Option<usize> {
         let cell = (usize::try_from(column).ok()?, usize::try_from(row).ok()?);
-        self.lattice.contains(cell).then(|| self.lattice.index(cell))
+        self.info.contains(cell).then(|| self.info.index(cell))
     }
 
     /// Returns the center of a cell in map coordinates \[m\], as localization uses it.
@@ -304,7 +304,7 @@ impl LikelihoodMap {
             CellAlignment::Corner => 0.5,
             CellAlignment::Centered => 0.0,
         };
-        self.lattice.point_at(column as f64 + half, row as f64 + half)
+        self.info.point_at(column as f64 + half, row as f64 + half)
     }
 
     /// Centers of all occupied cells \[m\].
@@ -316,7 +316,7 @@ impl LikelihoodMap {
     pub(crate) fn cell_centers(&self, wanted: CellState) -> impl Iterator<Item = (f64, f64)> + '_ {
         let cells = self.states.iter().enumerate();
         cells.filter(move |(_, state)| **state == wanted).map(|(index, _)| {
-            let (column, row) = self.lattice.cell(index);
+            let (column, row) = self.info.cell(index);
             self.cell_center((column as i64, row as i64))
         })
     }
@@ -324,13 +324,13 @@ impl LikelihoodMap {
     /// Draws a pose uniformly from the free cells; none when no cell is free.
     pub fn random_pose(&self, stream: &mut Stream) -> Option<Pose2> {
         let index = (stream.unit() * self.free.len() as f64) as usize;
-        let (column, row) = self.lattice.cell(*self.free.get(index)? as usize);
+        let (column, row) = self.info.cell(*self.free.get(index)? as usize);
         // Nav2 uses the grid point, its center of the cell.
         let (right, up) = match self.alignment {
             CellAlignment::Corner => (stream.unit(), stream.unit()),
             CellAlignment::Centered => (0.0, 0.0),
         };
-        let (x_m, y_m) = self.lattice.point_at(column as f64 + right, row as f64 + up);
+        let (x_m, y_m) = self.info.point_at(column as f64 + right, row as f64 + up);
         let yaw_rad = std::f64::consts::PI * (2.0 * stream.unit() - 1.0);
         Some(Pose2::new(x_m, y_m, yaw_rad))
     }

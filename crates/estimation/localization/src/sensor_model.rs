@@ -127,9 +127,9 @@ pub fn expected_range_m(
     bearing_rad: f64,
     range_max_m: f64,
 ) -> f64 {
-    let resolution_m = map.lattice().resolution_m;
+    let resolution_m = map.info().resolution_m;
     // No line within the map is longer.
-    let cells = (map.lattice().width + map.lattice().height + 2) as f64;
+    let cells = (map.info().width + map.info().height + 2) as f64;
     let line_max_m = range_max_m.min(cells * resolution_m);
     let start = map.cell_at(x_m, y_m);
     if map.state(start) != Some(CellState::Free) {

@@ -73,10 +73,10 @@ fn off_the_map_the_pose_is_not_known() {
         // The map ends 1 m to the right of the initial pose.
         let mut known = whole.clone();
         let end_m = robot.truth.x_m + 1.0;
-        let (mut is_known, lattice) = (0, known.lattice);
+        let (mut is_known, info) = (0, known.info);
         for index in 0..known.cells.len() {
-            let (column, row) = lattice.cell(index);
-            if lattice.point_at(column as f64, row as f64).0 > end_m {
+            let (column, row) = info.cell(index);
+            if info.point_at(column as f64, row as f64).0 > end_m {
                 known.cells[index] = occupancy::UNKNOWN;
             }
             is_known += usize::from(known.cells[index] == occupancy::OCCUPIED);

@@ -5,7 +5,7 @@
 use std::f64::consts::{PI, TAU};
 
 use periplus_geometry::{Pose2, Stream, normalize_angle};
-use periplus_grid::{Grid, Lattice, OccupancyGrid, occupancy};
+use periplus_grid::{Grid, GridInfo, OccupancyGrid, occupancy};
 use periplus_localization::{
     Amcl, AmclCompat, InitialPose, LocalizationState, MotionModel, Scan, SensorModel, Settings,
     expected_range_m,
@@ -13,8 +13,8 @@ use periplus_localization::{
 
 /// Map of a room of 12 by 8 metres without symmetries.
 fn room(origin: Pose2) -> OccupancyGrid {
-    let lattice = Lattice::new(0.05, 240, 160, origin).unwrap();
-    let mut map = Grid::new(lattice, occupancy::FREE);
+    let info = GridInfo::new(0.05, 240, 160, origin).unwrap();
+    let mut map = Grid::new(info, occupancy::FREE);
     let boxes = [
         (0, 0, 240, 4),
         (0, 156, 240, 160),
@@ -39,7 +39,7 @@ const BEAMS: usize = 180;
 
 /// Scan of a scanner at the center of the robot: steps of 0.01 m along each beam.
 fn simulate_scan(map: &OccupancyGrid, map_from_base: Pose2, stream: &mut Stream) -> Scan {
-    let cell_transform = map.lattice.finder();
+    let cell_transform = map.info.finder();
     let range = |beam: usize, stream: &mut Stream| {
         let angle = map_from_base.yaw_rad - PI + beam as f64 * TAU / BEAMS as f64;
         let (sine, cosine) = libm::sincos(angle);
@@ -166,7 +166,7 @@ fn global_localization_finds_the_pose() {
     let map = room(Pose2::new(-3.0, 20.0, 0.4));
     for step in [0, 20, 50] {
         // The room is rotated in the map frame.
-        let truth = map.lattice.origin * truth(step);
+        let truth = map.info.origin * truth(step);
         let mut amcl = Amcl::new(Settings::default());
         amcl.set_map("map", &map).unwrap();
         let scan = simulate_scan(&map, truth, &mut Stream::keyed(3, "scan", 0));
@@ -303,8 +303,8 @@ fn off_the_map_odometry_continues_and_the_pose_is_doubted() {
 #[test]
 fn similar_poses_are_ambiguous_until_one_remains() {
     // Two rooms side by side, alike but for a box in the corner of one, behind its pillar.
-    let lattice = Lattice::new(0.05, 200, 80, Pose2::IDENTITY).unwrap();
-    let mut map = Grid::new(lattice, occupancy::FREE);
+    let info = GridInfo::new(0.05, 200, 80, Pose2::IDENTITY).unwrap();
+    let mut map = Grid::new(info, occupancy::FREE);
     let boxes = [
         (0, 0, 200, 2),
         (0, 78, 200, 80),
@@ -381,10 +381,10 @@ fn invalid_inputs_are_errors_and_change_nothing() {
     assert_eq!(amcl.update(Pose2::IDENTITY, &scan).unwrap_err().code, "no-map");
     assert_eq!(amcl.distribute_uniformly().unwrap_err().code, "no-map");
     assert_eq!(amcl.set_map("world", &map).unwrap_err().code, "map-in-other-frame");
-    let lattice = Lattice::new(0.05, 4, 4, Pose2::IDENTITY).unwrap();
-    let bare = Grid::new(lattice, occupancy::FREE);
+    let info = GridInfo::new(0.05, 4, 4, Pose2::IDENTITY).unwrap();
+    let bare = Grid::new(info, occupancy::FREE);
     assert_eq!(amcl.set_map("map", &bare).unwrap_err().code, "map-without-walls");
-    let none = Grid::new(Lattice::new(0.05, 0, 4, Pose2::IDENTITY).unwrap(), 0);
+    let none = Grid::new(GridInfo::new(0.05, 0, 4, Pose2::IDENTITY).unwrap(), 0);
     assert_eq!(amcl.set_map("map", &none).unwrap_err().code, "empty-map");
     amcl.set_map("map", &map).unwrap();
     assert_eq!(amcl.update(Pose2::IDENTITY, &scan).unwrap_err().code, "no-initial-pose");
@@ -497,7 +497,7 @@ fn hits_beyond_the_edge_of_the_map_are_no_contradiction() {
     let mut map = room(Pose2::IDENTITY);
     for index in 0..map.cells.len() {
         // The right part of the room is unknown: a third of the beams ends there.
-        if map.lattice.cell(index).0 > 160 {
+        if map.info.cell(index).0 > 160 {
             map.cells[index] = occupancy::UNKNOWN;
         }
     }

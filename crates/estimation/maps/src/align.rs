@@ -1,7 +1,7 @@
 //! Laying one map over another.
 
 use periplus_geometry::Pose2;
-use periplus_grid::{CellFinder, Grid, NOWHERE, OccupancyGrid, squared_distances};
+use periplus_grid::{CellFinder, Grid, NO_SITE_CELLS, OccupancyGrid, squared_distances};
 
 /// A cell is a wall from here on.
 const WALL: i8 = 65;
@@ -44,7 +44,7 @@ pub fn align(
     let points = Points::new(other);
     let stay = |score| Alignment { reference_from_other: Pose2::IDENTITY, score };
     let (Some(walls), Some(points)) = (walls, points) else { return stay(0.0) };
-    let resolution_m = reference.lattice.resolution_m.max(other.lattice.resolution_m);
+    let resolution_m = reference.info.resolution_m.max(other.info.resolution_m);
     let blur_m = BLUR_M.max(2.0 * resolution_m);
     let step_m = blur_m / 2.0;
     let step_rad = step_m / points.reach_m.max(step_m);
@@ -98,23 +98,23 @@ struct Walls {
 impl Walls {
     fn new(map: &OccupancyGrid) -> Option<Self> {
         let squares = squared_distances(map, |&cell| is_wall(cell));
-        if squares.cells.first().is_none_or(|&square| square == NOWHERE) {
+        if squares.cells.first().is_none_or(|&square| square == NO_SITE_CELLS) {
             return None;
         }
-        let resolution_m = map.lattice.resolution_m;
+        let resolution_m = map.info.resolution_m;
         let distances_m = squares.map(|&square| (f64::from(square).sqrt() * resolution_m) as f32);
-        Some(Self { finder: map.lattice.finder(), distances_m, far_m: 10.0 * BLUR_M })
+        Some(Self { finder: map.info.finder(), distances_m, far_m: 10.0 * BLUR_M })
     }
 
     /// Between the centres of four cells the distance is mixed.
     fn distance_m(&self, x_m: f64, y_m: f64) -> f64 {
         let (columns, rows) = self.finder.cells_to(x_m, y_m);
         let (columns, rows) = (columns - 0.5, rows - 0.5);
-        let lattice = self.distances_m.lattice;
+        let info = self.distances_m.info;
         let is_inside = columns >= 0.0
             && rows >= 0.0
-            && columns < (lattice.width - 1) as f64
-            && rows < (lattice.height - 1) as f64;
+            && columns < (info.width - 1) as f64
+            && rows < (info.height - 1) as f64;
         if !is_inside {
             return self.distances_m.at(x_m, y_m).map_or(self.far_m, |&it| f64::from(it));
         }
@@ -182,7 +182,7 @@ impl Points {
         let points: Vec<(f64, f64)> = cells
             .iter()
             .step_by(every)
-            .map(|&index| map.lattice.centre_of(map.lattice.cell(index)))
+            .map(|&index| map.info.centre_of(map.info.cell(index)))
             .collect();
         if points.is_empty() {
             return None;
@@ -230,18 +230,18 @@ impl Turn {
 
 #[cfg(test)]
 mod tests {
-    use periplus_grid::{Lattice, occupancy};
+    use periplus_grid::{GridInfo, occupancy};
 
     use super::*;
 
     /// A room of 6 by 4 m with a wall in it, seen from a corner that is turned.
     pub(crate) fn room(origin: Pose2, resolution_m: f64) -> OccupancyGrid {
         let cells = |length_m: f64| (length_m / resolution_m).round() as usize;
-        let lattice = Lattice::new(resolution_m, cells(8.0), cells(6.0), origin).unwrap();
-        let mut map = Grid::new(lattice, occupancy::UNKNOWN);
+        let info = GridInfo::new(resolution_m, cells(8.0), cells(6.0), origin).unwrap();
+        let mut map = Grid::new(info, occupancy::UNKNOWN);
         for index in 0..map.cells.len() {
             // In coordinates of the room.
-            let (x, y) = lattice.centre_of(lattice.cell(index));
+            let (x, y) = info.centre_of(info.cell(index));
             let thick = 0.1;
             let inside =
                 |x0: f64, x1: f64, y0: f64, y1: f64| x >= x0 && x < x1 && y >= y0 && y < y1;
@@ -263,7 +263,7 @@ mod tests {
         let error = Pose2::new(0.43, -0.31, 0.12);
         // The same cells, said to lie elsewhere.
         let mut other = reference.clone();
-        other.lattice.origin = error * reference.lattice.origin;
+        other.info.origin = error * reference.info.origin;
         let found = align(&reference, &other, 1.0, 0.2);
         let rest = found.reference_from_other * error;
         assert!(libm::hypot(rest.x_m, rest.y_m) < 0.01, "{rest:?}");
@@ -274,7 +274,7 @@ mod tests {
     #[test]
     fn maps_without_walls_stay() {
         let map = room(Pose2::new(-4.0, -3.0, 0.0), 0.2);
-        let empty = Grid::new(map.lattice, occupancy::FREE);
+        let empty = Grid::new(map.info, occupancy::FREE);
         let stay = Alignment { reference_from_other: Pose2::IDENTITY, score: 0.0 };
         assert_eq!(align(&map, &empty, 1.0, 0.1), stay);
         assert_eq!(align(&empty, &map, 1.0, 0.1), stay);

@@ -23,7 +23,7 @@ pub struct WallBox {
 /// then as high as possible, or the other way round. The work is linear in the number of cells.
 #[must_use]
 pub fn wall_boxes(map: &OccupancyGrid) -> Vec<WallBox> {
-    let (width, height) = (map.lattice.width, map.lattice.height);
+    let (width, height) = (map.info.width, map.info.height);
     let mut is_left: Vec<bool> = map.cells.iter().map(|cell| *cell >= MIN_WALL_PERCENT).collect();
     let mut boxes = Vec::new();
     for row in 0..height {
@@ -59,16 +59,16 @@ pub fn wall_boxes(map: &OccupancyGrid) -> Vec<WallBox> {
 #[cfg(test)]
 mod tests {
     use periplus_geometry::{Pose2, Stream};
-    use periplus_grid::{Grid, Lattice};
+    use periplus_grid::{Grid, GridInfo};
 
     use super::*;
 
     fn map(rows_from_above: &[&str]) -> OccupancyGrid {
         let (width, height) = (rows_from_above[0].len(), rows_from_above.len());
-        let lattice = Lattice::new(0.5, width, height, Pose2::default()).expect("a lattice");
+        let info = GridInfo::new(0.5, width, height, Pose2::default()).expect("a valid grid");
         let cells = rows_from_above.iter().rev().flat_map(|row| row.bytes());
         let cells = cells.map(|byte| if byte == b'#' { 100 } else { 0 }).collect();
-        Grid::from_cells(lattice, cells).expect("as many cells")
+        Grid::from_cells(info, cells).expect("as many cells")
     }
 
     #[test]
@@ -85,9 +85,9 @@ mod tests {
     fn every_wall_cell_is_covered_once_and_nothing_else() {
         let mut stream = Stream::keyed(7, "boxes", 0);
         for _ in 0..50 {
-            let lattice = Lattice::new(0.1, 17, 23, Pose2::default()).expect("a lattice");
+            let info = GridInfo::new(0.1, 17, 23, Pose2::default()).expect("a valid grid");
             let cells = (0..17 * 23).map(|_| if stream.unit() < 0.6 { 100 } else { -1 }).collect();
-            let map: OccupancyGrid = Grid::from_cells(lattice, cells).expect("as many cells");
+            let map: OccupancyGrid = Grid::from_cells(info, cells).expect("as many cells");
             let mut covered = vec![0_u32; map.cells.len()];
             for one in wall_boxes(&map) {
                 for row in one.row..one.row + one.rows {

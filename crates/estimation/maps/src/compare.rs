@@ -2,7 +2,9 @@
 
 use periplus_geometry::Pose2;
 use periplus_grid::occupancy::UNKNOWN;
-use periplus_grid::{Grid, Lattice, LatticeError, NOWHERE, OccupancyGrid, squared_distances};
+use periplus_grid::{
+    Grid, GridInfo, GridInfoError, NO_SITE_CELLS, OccupancyGrid, squared_distances,
+};
 
 use crate::align::{Alignment, align, is_wall};
 
@@ -70,7 +72,7 @@ pub struct Comparison {
     /// Where the other map lies over the first.
     pub alignment: Alignment,
     /// Cells of the first map, as many as both maps need.
-    pub lattice: Lattice,
+    pub info: GridInfo,
     /// Walls.
     pub walls: Overlap,
     /// Walls, where one that has a neighbour in the other map counts as met.
@@ -95,21 +97,21 @@ pub fn compare(
     first: &OccupancyGrid,
     other: &OccupancyGrid,
     options: Options,
-) -> Result<Comparison, LatticeError> {
+) -> Result<Comparison, GridInfoError> {
     let alignment = if options.align {
         align(first, other, options.window_m, options.window_rad)
     } else {
         Alignment { reference_from_other: Pose2::IDENTITY, score: f64::NAN }
     };
     let mut laid = other.clone();
-    laid.lattice.origin = alignment.reference_from_other * other.lattice.origin;
-    let lattice = around(first.lattice, laid.lattice)?;
-    let (first, other) = (sampled(first, lattice), sampled(&laid, lattice));
+    laid.info.origin = alignment.reference_from_other * other.info.origin;
+    let info = around(first.info, laid.info)?;
+    let (first, other) = (sampled(first, info), sampled(&laid, info));
     let (to_first, to_other) = (distances(&first), distances(&other));
 
     let (mut walls, mut nearby) = (Overlap::default(), Overlap::default());
     let (mut free, mut known) = (Overlap::default(), Overlap::default());
-    for index in 0..lattice.len() {
+    for index in 0..info.len() {
         let (a, b) = (first.cells[index], other.cells[index]);
         walls.count(is_wall(a), is_wall(b));
         // Diagonal neighbours are the square root of two away.
@@ -123,7 +125,7 @@ pub fn compare(
     }
     Ok(Comparison {
         alignment,
-        lattice,
+        info,
         walls,
         walls_nearby: nearby,
         free,
@@ -135,8 +137,8 @@ pub fn compare(
     })
 }
 
-/// Cells of the first lattice, as many as both need.
-fn around(first: Lattice, other: Lattice) -> Result<Lattice, LatticeError> {
+/// Cells of the first grid, as many as both need.
+fn around(first: GridInfo, other: GridInfo) -> Result<GridInfo, GridInfoError> {
     let finder = first.finder();
     let (mut low, mut high) = ((0_i64, 0_i64), (first.width as i64, first.height as i64));
     for (columns, rows) in
@@ -148,31 +150,30 @@ fn around(first: Lattice, other: Lattice) -> Result<Lattice, LatticeError> {
         high = (high.0.max(column.ceil() as i64), high.1.max(row.ceil() as i64));
     }
     let size = |low: i64, high: i64| usize::try_from(high.saturating_sub(low)).unwrap_or(0);
-    let Lattice { origin, .. } = first.moved(low.0, low.1);
-    Lattice::new(first.resolution_m, size(low.0, high.0), size(low.1, high.1), origin)
+    let GridInfo { origin, .. } = first.moved(low.0, low.1);
+    GridInfo::new(first.resolution_m, size(low.0, high.0), size(low.1, high.1), origin)
 }
 
 /// What a map says of each cell. Cells that are larger than its own show the most occupied of those
 /// that they hold, so that thin walls stay.
-fn sampled(map: &OccupancyGrid, lattice: Lattice) -> OccupancyGrid {
-    let finder = map.lattice.finder();
-    let per_side =
-        (lattice.resolution_m / map.lattice.resolution_m).round().clamp(1.0, 16.0) as usize;
+fn sampled(map: &OccupancyGrid, info: GridInfo) -> OccupancyGrid {
+    let finder = map.info.finder();
+    let per_side = (info.resolution_m / map.info.resolution_m).round().clamp(1.0, 16.0) as usize;
     let part = 1.0 / per_side as f64;
-    let cells = (0..lattice.len()).map(|index| {
-        let (column, row) = lattice.cell(index);
+    let cells = (0..info.len()).map(|index| {
+        let (column, row) = info.cell(index);
         let mut value = UNKNOWN;
         for step in 0..per_side * per_side {
             let right = (column as f64) + ((step % per_side) as f64 + 0.5) * part;
             let up = (row as f64) + ((step / per_side) as f64 + 0.5) * part;
-            let (x_m, y_m) = lattice.point_at(right, up);
+            let (x_m, y_m) = info.point_at(right, up);
             if let Some(&found) = finder.cell_of(x_m, y_m).and_then(|cell| map.get(cell)) {
                 value = value.max(found);
             }
         }
         value
     });
-    Grid { lattice, cells: cells.collect() }
+    Grid { info, cells: cells.collect() }
 }
 
 fn distances(map: &OccupancyGrid) -> Grid<u32> {
@@ -184,7 +185,7 @@ fn statistics(map: &OccupancyGrid, squares: &Grid<u32>) -> Walls {
         .cells
         .iter()
         .zip(&squares.cells)
-        .filter(|&(&cell, &square)| is_wall(cell) && square != NOWHERE)
+        .filter(|&(&cell, &square)| is_wall(cell) && square != NO_SITE_CELLS)
         .map(|(_, &square)| square)
         .collect();
     let count = found.len();
@@ -200,7 +201,7 @@ fn statistics(map: &OccupancyGrid, squares: &Grid<u32>) -> Walls {
         };
     }
     found.sort_unstable();
-    let metres = |square: u32| f64::from(square).sqrt() * map.lattice.resolution_m;
+    let metres = |square: u32| f64::from(square).sqrt() * map.info.resolution_m;
     let at = |share: f64| metres(found[((count - 1) as f64 * share).round() as usize]);
     Walls {
         count,
@@ -216,7 +217,7 @@ fn statistics(map: &OccupancyGrid, squares: &Grid<u32>) -> Walls {
 /// tint of its colour; what nobody knows is grey.
 #[must_use]
 pub fn picture(comparison: &Comparison) -> (u32, u32, Vec<u8>) {
-    let Lattice { width, height, .. } = comparison.lattice;
+    let GridInfo { width, height, .. } = comparison.info;
     let rows = comparison.first.rows().rev().zip(comparison.other.rows().rev());
     let pixels = rows.flat_map(|(first, other)| first.iter().zip(other));
     let bytes = pixels.flat_map(|(&a, &b)| match (is_wall(a), is_wall(b), a >= 0, b >= 0) {
@@ -239,8 +240,8 @@ mod tests {
     use super::*;
 
     fn map(width: usize, height: usize, x_m: f64, cells: &[i8]) -> OccupancyGrid {
-        let lattice = Lattice::new(1.0, width, height, Pose2::new(x_m, 0.0, 0.0)).unwrap();
-        Grid::from_cells(lattice, cells.to_vec()).unwrap()
+        let info = GridInfo::new(1.0, width, height, Pose2::new(x_m, 0.0, 0.0)).unwrap();
+        Grid::from_cells(info, cells.to_vec()).unwrap()
     }
 
     const AS_IT_LIES: Options = Options { align: false, window_m: 0.0, window_rad: 0.0 };
@@ -259,7 +260,7 @@ mod tests {
         let first = map(3, 1, 0.0, &[OCCUPIED, FREE, FREE]);
         let other = map(3, 1, 1.0, &[OCCUPIED, FREE, FREE]);
         let found = compare(&first, &other, AS_IT_LIES).unwrap();
-        assert_eq!((found.lattice.width, found.walls.iou()), (4, 0.0));
+        assert_eq!((found.info.width, found.walls.iou()), (4, 0.0));
         assert_eq!(found.walls_nearby.iou(), 1.0);
         assert_eq!((found.free.both, found.free.first_only, found.free.other_only), (1, 1, 1));
         assert_eq!((found.first_to_other.mean_m, found.other_to_first.median_m), (1.0, 1.0));
@@ -267,7 +268,7 @@ mod tests {
 
     #[test]
     fn thin_walls_of_a_finer_map_stay() {
-        let fine = Lattice::new(0.25, 8, 4, Pose2::IDENTITY).unwrap();
+        let fine = GridInfo::new(0.25, 8, 4, Pose2::IDENTITY).unwrap();
         let mut thin = Grid::new(fine, FREE);
         thin[(1, 2)] = OCCUPIED;
         let found = compare(&map(2, 1, 0.0, &[OCCUPIED, FREE]), &thin, AS_IT_LIES).unwrap();
@@ -286,7 +287,7 @@ mod tests {
     #[test]
     fn maps_far_apart_are_refused() {
         let map = map(1, 1, 0.0, &[OCCUPIED]);
-        let far = Grid { lattice: map.lattice.moved(1 << 40, 1 << 40), ..map.clone() };
+        let far = Grid { info: map.info.moved(1 << 40, 1 << 40), ..map.clone() };
         assert!(compare(&map, &far, AS_IT_LIES).is_err());
     }
 }

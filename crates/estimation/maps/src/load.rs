@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use periplus_diagnostics::{Diagnostic, Diagnostics, SourceMap, Span, closest};
 use periplus_grid::occupancy::FREE;
-use periplus_grid::{Grid, Lattice, LatticeError, OccupancyGrid};
+use periplus_grid::{Grid, GridInfo, GridInfoError, OccupancyGrid};
 use periplus_images::{Layout, Raster};
 use periplus_resources::{FileReadError, Host};
 
@@ -216,13 +216,13 @@ pub fn grid_of(
     raster: &Raster,
     description: &Description,
     distro: Distro,
-) -> Result<OccupancyGrid, LatticeError> {
+) -> Result<OccupancyGrid, GridInfoError> {
     let (width, height) = (raster.width as usize, raster.height as usize);
-    let lattice = Lattice::new(description.resolution_m, width, height, description.origin)?;
+    let info = GridInfo::new(description.resolution_m, width, height, description.origin)?;
     let rule = description.rule(distro);
     let channels = raster.layout.channels();
     let rows = raster.bytes.chunks_exact((width * channels).max(1)).rev();
-    let mut cells = Vec::with_capacity(lattice.len());
+    let mut cells = Vec::with_capacity(info.len());
     if raster.layout == Layout::Grey {
         let table: Vec<i8> = (0..=255).map(|grey| rule.occupancy(Layout::Grey, &[grey])).collect();
         cells.extend(rows.flatten().map(|&grey| table[usize::from(grey)]));
@@ -230,7 +230,7 @@ pub fn grid_of(
         let pixels = rows.flat_map(|row| row.chunks_exact(channels));
         cells.extend(pixels.map(|pixel| rule.occupancy(raster.layout, pixel)));
     }
-    Ok(Grid { lattice, cells })
+    Ok(Grid { info, cells })
 }
 
 /// The savers write 205 for unknown, which is 0.196 dark: with a `free_thresh` above, all of it
@@ -319,7 +319,7 @@ mod tests {
         assert_eq!(said(&loaded), "");
         let grid = loaded.map.unwrap().grid;
         assert_eq!(grid.cells, [0, 0, 100, 100, -1, 0]);
-        assert_eq!(grid.lattice.origin.yaw_rad, 0.5);
+        assert_eq!(grid.info.origin.yaw_rad, 0.5);
     }
 
     #[test]
@@ -384,7 +384,7 @@ mod tests {
                 prop_assert_eq!(loaded.map.is_some(), loaded.status == Status::Success);
                 prop_assert_eq!(loaded.map.is_none(), loaded.diagnostics.has_errors());
                 if let Some(map) = loaded.map {
-                    prop_assert_eq!(map.grid.cells.len(), map.grid.lattice.len());
+                    prop_assert_eq!(map.grid.cells.len(), map.grid.info.len());
                 }
             }
         }

@@ -3,7 +3,7 @@
 use std::fmt;
 
 use periplus_geometry::{DQuat, Pose, Pose2};
-use periplus_grid::{Grid, Lattice, LatticeError, OccupancyGrid};
+use periplus_grid::{Grid, GridInfo, GridInfoError, OccupancyGrid};
 use periplus_msgs::builtin_interfaces::Time;
 use periplus_msgs::geometry_msgs::{self, Point, Quaternion};
 use periplus_msgs::nav_msgs::{self, MapMetaData};
@@ -22,7 +22,7 @@ pub enum BadMap {
         values: usize,
     },
     /// Its cells have no place.
-    Lattice(LatticeError),
+    GridInfo(GridInfoError),
     /// Its orientation is none: the quaternion.
     Orientation([f64; 4]),
 }
@@ -35,7 +35,7 @@ impl fmt::Display for BadMap {
                 "the map has {values} values for {width} by {height} cells; whoever publishes it is \
                  wrong"
             ),
-            Self::Lattice(error) => error.fmt(f),
+            Self::GridInfo(error) => error.fmt(f),
             Self::Orientation(xyzw) => {
                 write!(f, "the orientation of the map's origin, {xyzw:?}, is no rotation")
             }
@@ -52,20 +52,20 @@ impl std::error::Error for BadMap {}
 /// When it is malformed.
 pub fn from_message(message: &nav_msgs::OccupancyGrid) -> Result<OccupancyGrid, BadMap> {
     let MapMetaData { resolution, width, height, ref origin, .. } = message.info;
-    let lattice = lattice_of(resolution, width, height, origin)?;
-    Grid::from_cells(lattice, message.data.clone()).map_err(|cells| BadMap::Length {
+    let info = grid_info_of(resolution, width, height, origin)?;
+    Grid::from_cells(info, message.data.clone()).map_err(|cells| BadMap::Length {
         width,
         height,
         values: cells.len(),
     })
 }
 
-fn lattice_of(
+fn grid_info_of(
     resolution: f32,
     width: u32,
     height: u32,
     origin: &geometry_msgs::Pose,
-) -> Result<Lattice, BadMap> {
+) -> Result<GridInfo, BadMap> {
     let Quaternion { x, y, z, w } = origin.orientation;
     let length = (x * x + y * y + z * z + w * w).sqrt();
     let yaw_rad = if length == 0.0 {
@@ -79,7 +79,7 @@ fn lattice_of(
     // Whole tenths of millimetres were meant: 0.05 is not one in single precision.
     let resolution_m = nearest_decimal(resolution);
     let origin = Pose2::new(origin.position.x, origin.position.y, yaw_rad);
-    Lattice::new(resolution_m, width as usize, height as usize, origin).map_err(BadMap::Lattice)
+    GridInfo::new(resolution_m, width as usize, height as usize, origin).map_err(BadMap::GridInfo)
 }
 
 /// The shortest decimal number that is this one in single precision.
@@ -90,16 +90,16 @@ fn nearest_decimal(value: f32) -> f64 {
 /// A message that says this, in a frame, loaded and stamped at a time.
 #[must_use]
 pub fn to_message(map: &OccupancyGrid, frame_id: &str, stamp: Time) -> nav_msgs::OccupancyGrid {
-    let lattice = map.lattice;
+    let info = map.info;
     let side = |cells: usize| u32::try_from(cells).unwrap_or(u32::MAX);
-    let Pose { translation, rotation } = lattice.origin.into();
+    let Pose { translation, rotation } = info.origin.into();
     nav_msgs::OccupancyGrid {
         header: Header { stamp: stamp.clone(), frame_id: frame_id.into() },
         info: MapMetaData {
             map_load_time: stamp,
-            resolution: lattice.resolution_m as f32,
-            width: side(lattice.width),
-            height: side(lattice.height),
+            resolution: info.resolution_m as f32,
+            width: side(info.width),
+            height: side(info.height),
             origin: geometry_msgs::Pose {
                 position: Point { x: translation.x, y: translation.y, z: 0.0 },
                 orientation: Quaternion { x: 0.0, y: 0.0, z: rotation.z, w: rotation.w },
@@ -115,30 +115,30 @@ mod tests {
 
     #[test]
     fn there_and_back() {
-        let lattice = Lattice::new(0.05, 2, 1, Pose2::new(1.0, -2.0, 1.0)).unwrap();
-        let map = Grid { lattice, cells: vec![-1, 100] };
+        let info = GridInfo::new(0.05, 2, 1, Pose2::new(1.0, -2.0, 1.0)).unwrap();
+        let map = Grid { info, cells: vec![-1, 100] };
         let message = to_message(&map, "map", Time::default());
         assert!((message.info.origin.orientation.z - 0.479425538604203).abs() < 1e-15);
         let back = from_message(&message).unwrap();
-        assert_eq!((back.cells, back.lattice.resolution_m), (vec![-1, 100], 0.05));
-        assert!((back.lattice.origin.yaw_rad - 1.0).abs() < 1e-15);
+        assert_eq!((back.cells, back.info.resolution_m), (vec![-1, 100], 0.05));
+        assert!((back.info.origin.yaw_rad - 1.0).abs() < 1e-15);
     }
 
     #[test]
     fn malformed_ones_are_told() {
-        let lattice = Lattice::new(0.05, 2, 1, Pose2::IDENTITY).unwrap();
-        let good = to_message(&Grid { lattice, cells: vec![0, 0] }, "map", Time::default());
+        let info = GridInfo::new(0.05, 2, 1, Pose2::IDENTITY).unwrap();
+        let good = to_message(&Grid { info, cells: vec![0, 0] }, "map", Time::default());
         let mut short = good.clone();
         short.data.pop();
         assert!(from_message(&short).unwrap_err().to_string().contains("1 values for 2 by 1"));
         let mut flat = good.clone();
         flat.info.resolution = f32::NAN;
-        assert!(matches!(from_message(&flat), Err(BadMap::Lattice(_))));
+        assert!(matches!(from_message(&flat), Err(BadMap::GridInfo(_))));
         let mut giant = good.clone();
         (giant.info.width, giant.info.height) = (u32::MAX, u32::MAX);
         assert!(from_message(&giant).is_err());
         let mut forgotten = good;
         forgotten.info.origin.orientation = Quaternion { x: 0.0, y: 0.0, z: 0.0, w: 0.0 };
-        assert_eq!(from_message(&forgotten).unwrap().lattice.origin.yaw_rad, 0.0);
+        assert_eq!(from_message(&forgotten).unwrap().info.origin.yaw_rad, 0.0);
     }
 }

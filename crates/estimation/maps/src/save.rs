@@ -3,7 +3,7 @@
 use std::fmt;
 use std::io::{self, Write};
 
-use periplus_grid::{Lattice, OccupancyGrid};
+use periplus_grid::{GridInfo, OccupancyGrid};
 use periplus_images::{Layout, pgm_head, write_bmp, write_png};
 
 use crate::distro::{Distro, Mode};
@@ -180,13 +180,13 @@ pub struct MapFiles {
 /// Sources: `map_server/src/map_saver.cpp` (ROS 1), `nav2_map_server/src/map_io.cpp`.
 #[must_use]
 pub fn render(map: &OccupancyGrid, saving: &Saving) -> MapFiles {
-    let (image_path, yaml_path, yaml) = render_yaml(&map.lattice, saving);
+    let (image_path, yaml_path, yaml) = render_yaml(&map.info, saving);
     MapFiles { image: picture(map, &settled(saving)), image_path, yaml_path, yaml }
 }
 
 fn picture(map: &OccupancyGrid, saving: &Saving) -> Vec<u8> {
     let side = |cells: usize| u32::try_from(cells).unwrap_or(u32::MAX);
-    let (width, height) = (side(map.lattice.width), side(map.lattice.height));
+    let (width, height) = (side(map.info.width), side(map.info.height));
     let top_down = map.rows().rev().flatten();
     if saving.mode == Mode::Scale && saving.format != Format::Pgm {
         let pixels: Vec<u8> = top_down
@@ -206,8 +206,8 @@ fn picture(map: &OccupancyGrid, saving: &Saving) -> Vec<u8> {
         Format::Png => write_png(width, height, Layout::Grey, &pixels.collect::<Vec<u8>>()),
         Format::Bmp => write_bmp(width, height, Layout::Grey, &pixels.collect::<Vec<u8>>()),
         Format::Pgm => {
-            let mut bytes = head(&map.lattice, saving).into_bytes();
-            bytes.reserve_exact(map.lattice.len());
+            let mut bytes = head(&map.info, saving).into_bytes();
+            bytes.reserve_exact(map.info.len());
             bytes.extend(pixels);
             bytes
         }
@@ -233,11 +233,11 @@ fn table(saving: &Saving) -> [u8; 256] {
 }
 
 /// What the PGM of a map begins with.
-fn head(lattice: &Lattice, saving: &Saving) -> String {
+fn head(info: &GridInfo, saving: &Saving) -> String {
     let side = |cells: usize| u32::try_from(cells).unwrap_or(u32::MAX);
-    let comment = format!("CREATOR: map_saver.cpp {:.3} m/pix", resolution(lattice));
+    let comment = format!("CREATOR: map_saver.cpp {:.3} m/pix", resolution(info));
     let comment = (saving.distro == Distro::Noetic).then_some(comment.as_str());
-    pgm_head(side(lattice.width), side(lattice.height), comment)
+    pgm_head(side(info.width), side(info.height), comment)
 }
 
 /// The PGM of a map, written row by row: the map itself need not be held as a whole.
@@ -254,11 +254,11 @@ impl<'a> PgmRows<'a> {
     /// When it cannot be written.
     pub fn begin(
         out: &'a mut dyn Write,
-        lattice: &Lattice,
+        info: &GridInfo,
         saving: &Saving,
     ) -> io::Result<PgmRows<'a>> {
         let saving = settled(saving);
-        out.write_all(head(lattice, &saving).as_bytes())?;
+        out.write_all(head(info, &saving).as_bytes())?;
         Ok(PgmRows { out, table: table(&saving), line: Vec::new() })
     }
 
@@ -275,12 +275,12 @@ impl<'a> PgmRows<'a> {
 
 /// Paths of both files of a map, and what the YAML says: image, YAML, text.
 #[must_use]
-pub fn render_yaml(lattice: &Lattice, saving: &Saving) -> (String, String, String) {
+pub fn render_yaml(info: &GridInfo, saving: &Saving) -> (String, String, String) {
     let saving = settled(saving);
     let image_path = format!("{}.{}", saving.name, saving.format.ending());
     let yaml = match saving.distro {
-        Distro::Noetic => noetic_yaml(lattice, &image_path),
-        _ => yaml(lattice, &saving, &image_path),
+        Distro::Noetic => noetic_yaml(info, &image_path),
+        _ => yaml(info, &saving, &image_path),
     };
     (image_path, format!("{}.yaml", saving.name), yaml)
 }
@@ -294,8 +294,8 @@ fn settled(saving: &Saving) -> Saving {
 }
 
 /// Messages carry the resolution in single precision, and savers print that.
-fn resolution(lattice: &Lattice) -> f64 {
-    f64::from(lattice.resolution_m as f32)
+fn resolution(info: &GridInfo) -> f64 {
+    f64::from(info.resolution_m as f32)
 }
 
 fn is_known(cell: i8) -> bool {
@@ -325,15 +325,15 @@ fn scale_grey(cell: i8) -> u8 {
     }
 }
 
-fn yaml(lattice: &Lattice, saving: &Saving, image_path: &str) -> String {
+fn yaml(info: &GridInfo, saving: &Saving, image_path: &str) -> String {
     let image = image_path.rsplit(['/', '\\']).next().unwrap_or(image_path);
     let (image, mode) = (scalar(image), saving.mode.name());
-    let origin = lattice.origin;
+    let origin = info.origin;
     let numbers = if saving.distro == Distro::Humble {
         // Three significant digits, not three decimals: what lies 12.345 m away comes back at 12.3.
         let short = |value: f64| general(value, 3);
         [
-            short(resolution(lattice)),
+            short(resolution(info)),
             short(origin.x_m),
             short(origin.y_m),
             short(origin.yaw_rad),
@@ -347,7 +347,7 @@ fn yaml(lattice: &Lattice, saving: &Saving, image_path: &str) -> String {
             _ => (fixed(saving.occupied_thresh, 3), fixed(saving.free_thresh, 3)),
         };
         [
-            fixed(resolution(lattice), 3),
+            fixed(resolution(info), 3),
             fixed(origin.x_m, 3),
             fixed(origin.y_m, 3),
             general(origin.yaw_rad, 7),
@@ -362,12 +362,12 @@ fn yaml(lattice: &Lattice, saving: &Saving, image_path: &str) -> String {
     )
 }
 
-fn noetic_yaml(lattice: &Lattice, image_path: &str) -> String {
-    let origin = lattice.origin;
+fn noetic_yaml(info: &GridInfo, image_path: &str) -> String {
+    let origin = info.origin;
     format!(
         "image: {image_path}\nresolution: {:.6}\norigin: [{:.6}, {:.6}, {:.6}]\nnegate: 0\n\
          occupied_thresh: 0.65\nfree_thresh: 0.196\n\n",
-        resolution(lattice),
+        resolution(info),
         origin.x_m,
         origin.y_m,
         origin.yaw_rad,
@@ -413,7 +413,7 @@ fn scalar(text: &str) -> String {
 mod tests {
     use expect_test::expect;
     use periplus_geometry::Pose2;
-    use periplus_grid::{Grid, Lattice};
+    use periplus_grid::{Grid, GridInfo};
     use periplus_resources::MemoryHost;
     use proptest::prelude::*;
 
@@ -421,8 +421,8 @@ mod tests {
     use crate::load::load;
 
     fn map(width: usize, height: usize, origin: Pose2, cells: &[i8]) -> OccupancyGrid {
-        let lattice = Lattice::new(0.05, width, height, origin).unwrap();
-        Grid::from_cells(lattice, cells.to_vec()).unwrap()
+        let info = GridInfo::new(0.05, width, height, origin).unwrap();
+        Grid::from_cells(info, cells.to_vec()).unwrap()
     }
 
     #[test]
@@ -509,7 +509,7 @@ mod tests {
             let files = render(&map, &saving);
             if saving.format == Format::Pgm || distro == Distro::Noetic {
                 let mut rows = Vec::new();
-                let mut writer = PgmRows::begin(&mut rows, &map.lattice, &saving).unwrap();
+                let mut writer = PgmRows::begin(&mut rows, &map.info, &saving).unwrap();
                 for row in map.rows().rev() {
                     writer.push(row).unwrap();
                 }
@@ -524,8 +524,8 @@ mod tests {
                 prop_assert_eq!(read.cells, cells);
             }
             let coarse_m = if distro == Distro::Humble { 0.6 } else { 0.0006 };
-            prop_assert!((read.lattice.origin.x_m - x_m).abs() < coarse_m);
-            prop_assert!((read.lattice.origin.yaw_rad - yaw_rad).abs() < 0.006);
+            prop_assert!((read.info.origin.x_m - x_m).abs() < coarse_m);
+            prop_assert!((read.info.origin.yaw_rad - yaw_rad).abs() < 0.006);
         }
     }
 }

@@ -1,7 +1,7 @@
 //! How well a map agrees with what is really there, as far as it says anything.
 
 use periplus_grid::occupancy::UNKNOWN;
-use periplus_grid::{Lattice, LatticeError, OccupancyGrid};
+use periplus_grid::{GridInfo, GridInfoError, OccupancyGrid};
 
 use crate::align::{Alignment, align, is_wall};
 use crate::compare::{Comparison, Options, compare};
@@ -50,11 +50,11 @@ pub fn beside_truth(
     map: &OccupancyGrid,
     window_m: f64,
     window_rad: f64,
-) -> Result<BesideTruth, LatticeError> {
+) -> Result<BesideTruth, GridInfoError> {
     let alignment = align(truth, map, window_m, window_rad);
     let mut laid = map.clone();
-    laid.lattice.origin = alignment.reference_from_other * map.lattice.origin;
-    let is_known = known(&laid, &truth.lattice);
+    laid.info.origin = alignment.reference_from_other * map.info.origin;
+    let is_known = known(&laid, &truth.info);
     let is_free = |cell: i8| cell >= 0 && !is_wall(cell);
     let free = || (0..truth.cells.len()).filter(|&index| is_free(truth.cells[index]));
     let explored = match free().count() {
@@ -64,19 +64,19 @@ pub fn beside_truth(
     let seen = |index: usize| {
         let cell = truth.cells[index];
         let counts =
-            if is_wall(cell) { beside(&truth.lattice, index, &is_known) } else { is_known[index] };
+            if is_wall(cell) { beside(&truth.info, index, &is_known) } else { is_known[index] };
         if counts { cell } else { UNKNOWN }
     };
     let cells = (0..truth.cells.len()).map(seen).collect();
-    let seen = OccupancyGrid { lattice: truth.lattice, cells };
+    let seen = OccupancyGrid { info: truth.info, cells };
     let as_it_lies = Options { align: false, window_m: 0.0, window_rad: 0.0 };
     let comparison = compare(&seen, &laid, as_it_lies)?;
     Ok(BesideTruth { comparison, alignment, explored })
 }
 
 /// Of which cells a map says something.
-fn known(map: &OccupancyGrid, cells: &Lattice) -> Vec<bool> {
-    let finder = map.lattice.finder();
+fn known(map: &OccupancyGrid, cells: &GridInfo) -> Vec<bool> {
+    let finder = map.info.finder();
     let knows = |index: usize| {
         let (x_m, y_m) = cells.centre_of(cells.cell(index));
         finder.cell_of(x_m, y_m).and_then(|cell| map.get(cell)).is_some_and(|&value| value >= 0)
@@ -85,7 +85,7 @@ fn known(map: &OccupancyGrid, cells: &Lattice) -> Vec<bool> {
 }
 
 /// Whether a cell or one of its eight neighbours is known.
-fn beside(cells: &Lattice, index: usize, is_known: &[bool]) -> bool {
+fn beside(cells: &GridInfo, index: usize, is_known: &[bool]) -> bool {
     let (column, row) = cells.cell(index);
     let rows = row.saturating_sub(1)..=(row + 1).min(cells.height - 1);
     let columns = column.saturating_sub(1)..=(column + 1).min(cells.width - 1);
@@ -102,10 +102,10 @@ mod tests {
 
     /// A room of 8 by 8 cells of 0.5 m, with a box in it so that nothing of it is symmetric.
     fn room() -> OccupancyGrid {
-        let lattice = Lattice::new(0.5, 10, 10, Pose2::IDENTITY).unwrap();
-        let mut room = Grid::new(lattice, FREE);
-        for index in 0..lattice.len() {
-            let (column, row) = lattice.cell(index);
+        let info = GridInfo::new(0.5, 10, 10, Pose2::IDENTITY).unwrap();
+        let mut room = Grid::new(info, FREE);
+        for index in 0..info.len() {
+            let (column, row) = info.cell(index);
             let is_edge = [0, 9].contains(&column) || [0, 9].contains(&row);
             if is_edge || (column, row) == (3, 6) {
                 room.cells[index] = OCCUPIED;
@@ -119,7 +119,7 @@ mod tests {
         let room = room();
         let mut map = room.clone();
         for index in 0..map.cells.len() {
-            if map.lattice.cell(index).1 >= 5 {
+            if map.info.cell(index).1 >= 5 {
                 map.cells[index] = UNKNOWN;
             }
         }
@@ -133,7 +133,7 @@ mod tests {
     #[test]
     fn a_map_that_lies_elsewhere_is_moved_first() {
         let (room, mut map) = (room(), room());
-        map.lattice.origin = Pose2::new(0.3, -0.2, 0.0);
+        map.info.origin = Pose2::new(0.3, -0.2, 0.0);
         let found = beside_truth(&room, &map, 1.0, 0.05).unwrap();
         let moved = found.alignment.reference_from_other;
         assert!((moved.x_m + 0.3).abs() < 0.03 && (moved.y_m - 0.2).abs() < 0.03, "{moved:?}");

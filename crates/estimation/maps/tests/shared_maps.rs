@@ -39,8 +39,8 @@ fn maps_load_by_every_rule() {
         for distro in ALL {
             let Some(loaded) = read(name, distro) else { return };
             let map = loaded.map.unwrap_or_else(|| panic!("{name}: {:?}", loaded.diagnostics));
-            let lattice = map.grid.lattice;
-            assert_eq!((lattice.width, lattice.height), (width, height), "{name}");
+            let info = map.grid.info;
+            assert_eq!((info.width, info.height), (width, height), "{name}");
         }
     }
 }

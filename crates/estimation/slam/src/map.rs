@@ -3,7 +3,7 @@
 use std::ops::Range;
 
 use periplus_geometry::Pose2;
-use periplus_grid::{Grid, Lattice, Line, OccupancyGrid, occupancy};
+use periplus_grid::{Grid, GridInfo, Line, OccupancyGrid, occupancy};
 use periplus_scan_matching::PackedPlaces;
 
 use crate::keyframe::Keyframe;
@@ -52,7 +52,7 @@ impl MapSnapshot {
     #[must_use]
     pub fn draw(self) -> Option<OccupancyGrid> {
         let plan = self.plan()?;
-        Some(plan.rows(0..plan.lattice.height))
+        Some(plan.rows(0..plan.info.height))
     }
 
     /// Prepares rasterization by rows; `None` if even that would be too large.
@@ -88,13 +88,13 @@ impl MapSnapshot {
             ((high[axis] - corner[axis]) / resolution_m + MARGIN).ceil().max(1.0) as usize
         };
         let origin = Pose2::new(corner[0], corner[1], 0.0);
-        let lattice = Lattice::new(resolution_m, cells(0), cells(1), origin).ok()?;
+        let info = GridInfo::new(resolution_m, cells(0), cells(1), origin).ok()?;
         // A cell more on either side, for rounding.
         let row = |y: f64| ((y - corner[1]) / resolution_m).max(0.0) as u32;
         let rows = |[low, high]: [f64; 2]| [row(low).saturating_sub(1), row(high) + 2];
         Some(SnapshotRaster {
             scans: self.scans,
-            lattice,
+            info,
             spans: spans.into_iter().map(rows).collect(),
         })
     }
@@ -103,7 +103,7 @@ impl MapSnapshot {
 /// A map that can be drawn a few rows at a time, so that it is never held as a whole.
 pub trait Plan {
     /// Returns the geometry of its cells.
-    fn lattice(&self) -> Lattice;
+    fn info(&self) -> GridInfo;
 
     /// Some of its rows, counted from the lowest.
     fn rows(&self, rows: Range<usize>) -> OccupancyGrid;
@@ -112,25 +112,25 @@ pub trait Plan {
 /// Scans with the rows of the map that each of them touches.
 pub struct SnapshotRaster {
     scans: Vec<Drawn>,
-    lattice: Lattice,
+    info: GridInfo,
     /// First row, and the one after the last.
     spans: Vec<[u32; 2]>,
 }
 
 impl Plan for SnapshotRaster {
-    fn lattice(&self) -> Lattice {
-        self.lattice
+    fn info(&self) -> GridInfo {
+        self.info
     }
 
     /// Rasterizes scans: cells that beams passed are free, those where they ended are occupied. Within a
     /// scan a cell where a beam ends is not passed by others.
     fn rows(&self, rows: Range<usize>) -> OccupancyGrid {
-        let part = part(&self.lattice, &rows);
+        let part = part(&self.info, &rows);
         let mut odds: Grid<i16> = Grid::new(part, UNSEEN);
         let mut marks = Marks::default();
         for (scan, span) in self.scans.iter().zip(&self.spans) {
             if (span[0] as usize) < rows.end && (span[1] as usize) > rows.start {
-                marks.fill(scan, &self.lattice, &rows);
+                marks.fill(scan, &self.info, &rows);
                 marks.vote(&mut odds, rows.start);
             }
         }
@@ -138,9 +138,9 @@ impl Plan for SnapshotRaster {
     }
 }
 
-/// Some rows of a lattice.
-pub(crate) fn part(lattice: &Lattice, rows: &Range<usize>) -> Lattice {
-    Lattice { height: rows.len(), ..lattice.moved(0, rows.start as i64) }
+/// Some rows of a grid.
+pub(crate) fn part(info: &GridInfo, rows: &Range<usize>) -> GridInfo {
+    GridInfo { height: rows.len(), ..info.moved(0, rows.start as i64) }
 }
 
 /// Bit masks of the cells that the beams of a scan passed, and in which they ended, for some rows. The
@@ -156,9 +156,9 @@ struct Marks {
 }
 
 impl Marks {
-    fn fill(&mut self, scan: &Drawn, lattice: &Lattice, rows: &Range<usize>) {
+    fn fill(&mut self, scan: &Drawn, info: &GridInfo, rows: &Range<usize>) {
         self.words = 0;
-        let finder = lattice.finder();
+        let finder = info.finder();
         let (pose, [x, y]) = (scan.map_from_keyframe, scan.keyframe.cloud.places().middle());
         let (x, y) = pose.transform_point(x.into(), y.into());
         let Some(start) = finder.cell_of(x, y) else { return };
@@ -213,7 +213,7 @@ impl Marks {
         }
         let lines = self.passed.chunks_exact(self.words).zip(self.ended.chunks_exact(self.words));
         for (line, (passed, ended)) in lines.enumerate() {
-            let begin = odds.lattice.index((self.low.0, self.low.1 - first_row + line));
+            let begin = odds.info.index((self.low.0, self.low.1 - first_row + line));
             for (word, (&passed, &ended)) in passed.iter().zip(ended).enumerate() {
                 for (mut bits, says) in [(ended, HIT), (passed & !ended, MISS)] {
                     while bits != 0 {
@@ -272,20 +272,20 @@ mod tests {
     }
 
     /// Every scan on the whole map, cell by cell.
-    fn plain(snapshot: &MapSnapshot, lattice: Lattice) -> Vec<i16> {
-        let mut odds = vec![UNSEEN; lattice.len()];
+    fn plain(snapshot: &MapSnapshot, info: GridInfo) -> Vec<i16> {
+        let mut odds = vec![UNSEEN; info.len()];
         for scan in &snapshot.scans {
             let pose = scan.map_from_keyframe;
             let cell = |[x, y]: [f32; 2]| {
                 let (x, y) = pose.transform_point(x.into(), y.into());
-                lattice.cell_of(x, y).unwrap()
+                info.cell_of(x, y).unwrap()
             };
             let start = cell(scan.keyframe.cloud.places().middle());
             let ends: std::collections::BTreeSet<_> = scan.ends().iter().map(cell).collect();
             let passed: std::collections::BTreeSet<_> =
                 ends.iter().flat_map(|&end| Line::between(start, end)).collect();
-            ends.iter().for_each(|&cell| vote(&mut odds[lattice.index(cell)], HIT));
-            passed.difference(&ends).for_each(|&cell| vote(&mut odds[lattice.index(cell)], MISS));
+            ends.iter().for_each(|&cell| vote(&mut odds[info.index(cell)], HIT));
+            passed.difference(&ends).for_each(|&cell| vote(&mut odds[info.index(cell)], MISS));
         }
         odds
     }
@@ -293,17 +293,17 @@ mod tests {
     #[test]
     fn a_map_in_parts_is_the_whole_map() {
         let plan = snapshot().plan().unwrap();
-        let lattice = plan.lattice();
-        let whole = plan.rows(0..lattice.height);
+        let info = plan.info();
+        let whole = plan.rows(0..info.height);
         assert_eq!(Some(&whole), snapshot().draw().as_ref());
-        let plain = plain(&snapshot(), lattice);
+        let plain = plain(&snapshot(), info);
         assert_eq!(whole.cells, plain.iter().map(percent).collect::<Vec<i8>>());
-        for at_once in [1, 7, 64, lattice.height - 1] {
+        for at_once in [1, 7, 64, info.height - 1] {
             let mut cells = Vec::new();
-            for low in (0..lattice.height).step_by(at_once) {
-                let band = plan.rows(low..(low + at_once).min(lattice.height));
-                let (x_m, y_m) = band.lattice.centre_of((3, 0));
-                assert_eq!(lattice.cell_of(x_m, y_m), Some((3, low)));
+            for low in (0..info.height).step_by(at_once) {
+                let band = plan.rows(low..(low + at_once).min(info.height));
+                let (x_m, y_m) = band.info.centre_of((3, 0));
+                assert_eq!(info.cell_of(x_m, y_m), Some((3, low)));
                 cells.extend(band.cells);
             }
             assert!(cells == whole.cells, "{at_once} rows at a time");

@@ -38,7 +38,7 @@ pub trait Mapper: Send {
     /// The map as it is now; none when it would be too large to hold.
     fn map(&self) -> Option<OccupancyGrid> {
         let plan = self.plan()?;
-        Some(plan.rows(0..plan.lattice().height))
+        Some(plan.rows(0..plan.info().height))
     }
 
     /// Counts of what happened.

@@ -1,4 +1,4 @@
-//! All frames, and what is known of them.
+//! Transform buffer: cached transforms of all frames.
 //!
 //! Source: `tf2/src/buffer_core.cpp`.
 
@@ -6,24 +6,25 @@ use std::collections::BTreeMap;
 
 use periplus_geometry::{DQuat, DVec3, Pose};
 
-use crate::cache::{Sample, Samples};
-use crate::error::{LookupError, Refused, Unreachable};
+use crate::cache::{TransformCache, TransformSample};
+use crate::error::{LookupError, LookupErrorKind, RejectedTransform};
 use crate::walk::walk;
 
-/// How long samples are kept unless asked otherwise \[ns\].
+/// Default duration for which samples are kept \[ns\]; the default of tf2.
 pub const CACHE_NS: i64 = 10_000_000_000;
 
-/// How far the square of a quaternion's length may be from 1.
-const DENORMALIZED: f64 = 10e-3;
+/// Largest deviation of a squared quaternion norm from 1 (`QUATERNION_NORMALIZATION_TOLERANCE` of
+/// tf2).
+const QUATERNION_NORM_TOLERANCE_RATIO: f64 = 10e-3;
 
-/// A transform as it comes from a broadcaster.
+/// A transform as a broadcaster publishes it.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Stamped {
-    /// The frame that it is given in. A leading slash is dropped.
+pub struct StampedTransform {
+    /// Parent frame. A leading slash is dropped.
     pub parent: String,
-    /// The frame that it places. A leading slash is dropped.
+    /// Child frame. A leading slash is dropped.
     pub child: String,
-    /// When \[ns\].
+    /// Time of the transform \[ns\].
     pub stamp_ns: i64,
     /// Origin of the child in the parent \[m\].
     pub translation: DVec3,
@@ -31,8 +32,8 @@ pub struct Stamped {
     pub rotation: DQuat,
 }
 
-impl Stamped {
-    /// `parent_from_child` at a time \[ns\].
+impl StampedTransform {
+    /// Creates the transform `parent_from_child` at a time \[ns\].
     #[must_use]
     pub fn new(
         parent: impl Into<String>,
@@ -45,63 +46,64 @@ impl Stamped {
     }
 }
 
-/// How long a transform holds.
+/// Validity of a transform in time.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Kind {
-    /// At its time; from `/tf`.
+pub enum TransformKind {
+    /// Valid at its stamp; from `/tf`.
     Moving,
-    /// Always; from `/tf_static`.
+    /// Valid at all times; from `/tf_static`.
     Fixed,
 }
 
-/// A transform that was asked for.
+/// Result of a lookup.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Found {
-    /// When \[ns\]: the time asked for, or the newest common one.
+pub struct ResolvedTransform {
+    /// Time of the transform \[ns\]: the requested time, or the latest common time.
     pub time_ns: i64,
     /// Turns coordinates in the source into coordinates in the target.
     pub target_from_source: Pose,
 }
 
-/// What is looked up across time: where the source was at one time in the target at another, with a
-/// frame that stood still between.
+/// Lookup across time: the pose of the source frame at one time in the target frame at another,
+/// through a frame that is fixed between both times.
 #[derive(Clone, Copy, Debug)]
-pub struct Lookup<'a> {
-    /// Into which frame.
+pub struct TransformLookup<'a> {
+    /// Target frame.
     pub target: &'a str,
-    /// At which time \[ns\].
+    /// Time in the target frame \[ns\].
     pub target_time_ns: i64,
-    /// From which frame.
+    /// Source frame.
     pub source: &'a str,
-    /// At which time \[ns\].
+    /// Time in the source frame \[ns\].
     pub source_time_ns: i64,
-    /// What stood still.
+    /// Frame that does not move between the two times.
     pub fixed: &'a str,
 }
 
-/// Number of a frame. 0 is no frame.
+/// Index of a frame. 0 is no frame.
 pub(crate) type FrameId = usize;
 
-/// What is kept of a frame.
+/// Cached samples of a frame.
 #[derive(Clone, Debug)]
 pub(crate) enum Cache {
-    Moving(Samples<FrameId>),
-    Fixed(Option<Sample<FrameId>>),
+    Moving(TransformCache<FrameId>),
+    Fixed(Option<TransformSample<FrameId>>),
 }
 
 impl Cache {
-    /// Where the frame was; a fixed one was there at every time.
-    pub(crate) fn at(&self, time_ns: i64) -> Result<Sample<FrameId>, LookupError> {
+    /// Returns the sample at a time; that of a static transform has the requested time.
+    pub(crate) fn at(&self, time_ns: i64) -> Result<TransformSample<FrameId>, LookupError> {
         match self {
             Self::Moving(samples) => samples.at(time_ns),
-            Self::Fixed(Some(sample)) => Ok(Sample { stamp_ns: time_ns, ..*sample }),
+            Self::Fixed(Some(sample)) => Ok(TransformSample { stamp_ns: time_ns, ..*sample }),
             Self::Fixed(None) => {
-                Err(LookupError::new(Unreachable::NoDataForExtrapolation, String::new()))
+                Err(LookupError::new(LookupErrorKind::NoDataForExtrapolation, String::new()))
             }
         }
     }
 
-    /// The newest stamp, 0 for a fixed one, and the parent then, 0 for none.
+    /// Returns the newest stamp (0 for a static transform) and the parent at that time (0 for
+    /// none).
     pub(crate) fn newest(&self) -> (i64, FrameId) {
         match self {
             Self::Moving(samples) => {
@@ -120,7 +122,7 @@ struct Frame {
     authority: String,
 }
 
-/// Where frames were, at which time.
+/// Transforms between frames over time.
 #[derive(Clone, Debug)]
 pub struct Buffer {
     span_ns: i64,
@@ -135,31 +137,31 @@ impl Default for Buffer {
     }
 }
 
-/// What is kept of a frame that has a parent.
+/// Status of a frame that has a parent.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Kept<'a> {
-    /// The frame.
+pub struct FrameStatus<'a> {
+    /// Name of the frame.
     pub name: &'a str,
-    /// Its parent, by the newest sample.
+    /// Parent in the newest sample.
     pub parent: &'a str,
-    /// Who broadcast it last.
+    /// Authority (publisher) of the newest sample.
     pub authority: &'a str,
-    /// Whether it moves.
-    pub kind: Kind,
-    /// How many samples are kept.
+    /// Static or dynamic.
+    pub kind: TransformKind,
+    /// Number of cached samples.
     pub count: usize,
-    /// Stamp of the newest \[ns\]; 0 for a fixed one.
+    /// Stamp of the newest sample \[ns\]; 0 for a static transform.
     pub newest_ns: i64,
-    /// Stamp of the oldest \[ns\]; 0 for a fixed one.
+    /// Stamp of the oldest sample \[ns\]; 0 for a static transform.
     pub oldest_ns: i64,
 }
 
-/// Rates are over this span at least \[ns\].
+/// Shortest duration over which a rate is computed \[ns\].
 const SHORTEST_NS: i64 = 100_000;
 
-impl Kept<'_> {
-    /// Samples in a second, as tf2 counts them: so many over the time from the oldest to the newest.
-    /// Of one sample alone it makes 10000.
+impl FrameStatus<'_> {
+    /// Returns the average rate as tf2 computes it \[Hz\]: the sample count divided by the time
+    /// from the oldest to the newest sample. A single sample results in 10000 Hz.
     #[must_use]
     pub fn rate_hz(&self) -> f64 {
         self.count as f64 * 1e9 / (self.newest_ns - self.oldest_ns).max(SHORTEST_NS) as f64
@@ -167,40 +169,46 @@ impl Kept<'_> {
 }
 
 impl Buffer {
-    /// Keeps samples of a frame for so long behind its newest \[ns\].
+    /// Creates a buffer that keeps the samples of a frame for `span_ns` before its newest one
+    /// \[ns\].
     #[must_use]
     pub fn new(span_ns: i64) -> Self {
         let nowhere = Frame { name: "NO_PARENT".into(), cache: None, authority: String::new() };
         Self { span_ns, frames: vec![nowhere], numbers: BTreeMap::new() }
     }
 
-    /// Takes a transform from a broadcaster, whose name is kept for those who ask. A frame that was
-    /// fixed and now moves, or the other way round, forgets what was before.
+    /// Inserts a transform and stores the name of its authority. If a frame changes between static
+    /// and dynamic, its older samples are dropped.
     ///
     /// # Errors
-    /// Why it is not taken. The buffer stays as it is.
-    pub fn set(&mut self, it: &Stamped, authority: &str, kind: Kind) -> Result<(), Refused> {
+    /// The reason for which the transform is rejected. The buffer is unchanged then.
+    pub fn set(
+        &mut self,
+        it: &StampedTransform,
+        authority: &str,
+        kind: TransformKind,
+    ) -> Result<(), RejectedTransform> {
         let parent = it.parent.strip_prefix('/').unwrap_or(&it.parent);
         let child = it.child.strip_prefix('/').unwrap_or(&it.child);
         if child.is_empty() {
-            return Err(Refused::NoChild);
+            return Err(RejectedTransform::NoChild);
         }
         if parent.is_empty() {
-            return Err(Refused::NoParent(child.into()));
+            return Err(RejectedTransform::NoParent(child.into()));
         }
         if child == parent {
-            return Err(Refused::SelfTransform(child.into()));
+            return Err(RejectedTransform::SelfTransform(child.into()));
         }
         if !it.translation.is_finite() || !it.rotation.is_finite() {
-            return Err(Refused::NotANumber(child.into()));
+            return Err(RejectedTransform::NotANumber(child.into()));
         }
         let off = (it.rotation.length_squared() - 1.0).abs();
-        if off >= DENORMALIZED {
-            return Err(Refused::Denormalized(child.into(), it.rotation.to_array()));
+        if off >= QUATERNION_NORM_TOLERANCE_RATIO {
+            return Err(RejectedTransform::Denormalized(child.into(), it.rotation.to_array()));
         }
         let child_id = self.number(child);
         let parent_id = self.number(parent);
-        let sample = Sample {
+        let sample = TransformSample {
             stamp_ns: it.stamp_ns,
             parent: parent_id,
             translation: it.translation,
@@ -209,60 +217,69 @@ impl Buffer {
         let span_ns = self.span_ns;
         let frame = &mut self.frames[child_id];
         match (&mut frame.cache, kind) {
-            (Some(Cache::Moving(samples)), Kind::Moving) => {
+            (Some(Cache::Moving(samples)), TransformKind::Moving) => {
                 if !samples.insert(sample) {
-                    return Err(Refused::OldData(child.into(), it.stamp_ns));
+                    return Err(RejectedTransform::OldData(child.into(), it.stamp_ns));
                 }
             }
-            (cache, Kind::Moving) => {
-                let mut samples = Samples::new(span_ns);
+            (cache, TransformKind::Moving) => {
+                let mut samples = TransformCache::new(span_ns);
                 samples.insert(sample);
                 *cache = Some(Cache::Moving(samples));
             }
-            (cache, Kind::Fixed) => *cache = Some(Cache::Fixed(Some(sample))),
+            (cache, TransformKind::Fixed) => *cache = Some(Cache::Fixed(Some(sample))),
         }
         authority.clone_into(&mut frame.authority);
         Ok(())
     }
 
-    /// `target_from_source` at a time \[ns\]; 0 asks for the newest that all frames between have in
-    /// common. A frame in itself is always there, known or not.
+    /// Returns `target_from_source` at a time \[ns\]; 0 requests the latest common time of all
+    /// frames in the chain. The transform of a frame to itself always exists, also for an unknown
+    /// frame.
     ///
     /// # Errors
-    /// Why there is none.
-    pub fn lookup(&self, target: &str, source: &str, time_ns: i64) -> Result<Found, LookupError> {
+    /// The reason for which there is no transform.
+    pub fn lookup(
+        &self,
+        target: &str,
+        source: &str,
+        time_ns: i64,
+    ) -> Result<ResolvedTransform, LookupError> {
         if target == source {
             let newest = || Some(self.frames[self.find(target)?].cache.as_ref()?.newest().0);
             let time_ns = if time_ns == 0 { newest().unwrap_or(0) } else { time_ns };
-            return Ok(Found { time_ns, target_from_source: Pose::IDENTITY });
+            return Ok(ResolvedTransform { time_ns, target_from_source: Pose::IDENTITY });
         }
         let target = self.known(target, "target_frame")?;
         let source = self.known(source, "source_frame")?;
         walk(self, target, source, time_ns)
     }
 
-    /// `target_from_source`, each at its own time.
+    /// Returns `target_from_source`, each frame at its own time.
     ///
     /// # Errors
-    /// Why there is none.
-    pub fn lookup_across(&self, lookup: Lookup<'_>) -> Result<Found, LookupError> {
-        let Lookup { target, target_time_ns, source, source_time_ns, fixed } = lookup;
+    /// The reason for which there is no transform.
+    pub fn lookup_across(
+        &self,
+        lookup: TransformLookup<'_>,
+    ) -> Result<ResolvedTransform, LookupError> {
+        let TransformLookup { target, target_time_ns, source, source_time_ns, fixed } = lookup;
         self.known(target, "target_frame")?;
         self.known(source, "source_frame")?;
         self.known(fixed, "fixed_frame")?;
         let fixed_from_source = self.lookup(fixed, source, source_time_ns)?;
         let target_from_fixed = self.lookup(target, fixed, target_time_ns)?;
-        Ok(Found {
+        Ok(ResolvedTransform {
             time_ns: target_from_fixed.time_ns,
             target_from_source: target_from_fixed.target_from_source
                 * fixed_from_source.target_from_source,
         })
     }
 
-    /// Whether [`Buffer::lookup`] would succeed.
+    /// Checks that [`Buffer::lookup`] would succeed.
     ///
     /// # Errors
-    /// Why not, in the words of `canTransform`.
+    /// The reason, worded as by `canTransform` of tf2.
     pub fn can_transform(
         &self,
         target: &str,
@@ -282,64 +299,64 @@ impl Buffer {
             let message = format!(
                 "Invalid frame ID \"{frame}\" passed to canTransform argument {argument} - {why}"
             );
-            Err(LookupError::new(Unreachable::InvalidArgument, message))
+            Err(LookupError::new(LookupErrorKind::InvalidArgument, message))
         };
         let target = check(target, "target_frame")?;
         let source = check(source, "source_frame")?;
         walk(self, target, source, time_ns).map(|_| ())
     }
 
-    /// Forgets all samples; frames stay known.
+    /// Drops all samples of dynamic frames; the frames stay known.
     pub fn clear(&mut self) {
         for frame in &mut self.frames {
             match &mut frame.cache {
                 Some(Cache::Moving(samples)) => samples.clear(),
-                // What is fixed is so after a jump of time, too.
+                // Static transforms stay valid after a time jump.
                 Some(Cache::Fixed(_)) | None => {}
             }
         }
     }
 
-    /// Whether no frame was ever named.
+    /// Returns true if no frame was ever named.
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.frames.len() == 1
     }
 
-    /// The frames that were named, in that order.
+    /// Returns the names of all frames, in the order in which they were first named.
     pub fn frames(&self) -> impl Iterator<Item = &str> {
         self.frames.iter().skip(1).map(|frame| frame.name.as_str())
     }
 
-    /// Whether a frame was ever named.
+    /// Returns true if a frame was ever named.
     #[must_use]
     pub fn has_frame(&self, frame: &str) -> bool {
         self.find(frame).is_some()
     }
 
-    /// The parent of a frame, by its newest sample.
+    /// Returns the parent of a frame in its newest sample.
     #[must_use]
     pub fn parent_of(&self, frame: &str) -> Option<&str> {
         let parent = self.frames[self.find(frame)?].cache.as_ref()?.newest().1;
         (parent != 0).then(|| self.name(parent))
     }
 
-    /// Who broadcast a frame last.
+    /// Returns the authority (publisher) of the newest sample of a frame.
     #[must_use]
     pub fn authority_of(&self, frame: &str) -> Option<&str> {
         let frame = &self.frames[self.find(frame)?];
         frame.cache.as_ref().map(|_| frame.authority.as_str())
     }
 
-    /// The frames from the source up to where both chains meet and down to the target, both
-    /// included, by the newest samples; none when they do not meet.
+    /// Returns the frames from the source up to the common ancestor and down to the target, both
+    /// included, by the newest samples; none if the frames are not connected.
     #[must_use]
     pub fn chain(&self, target: &str, source: &str) -> Option<Vec<&str>> {
         let up = |frame: &str| {
             let mut chain = vec![self.find(frame)?];
             while let Some(cache) = chain.last().and_then(|&last| self.cache(last)) {
                 let parent = cache.newest().1;
-                // A circle has no top.
+                // A loop has no root.
                 if parent == 0 || chain.contains(&parent) {
                     break;
                 }
@@ -355,16 +372,19 @@ impl Buffer {
         Some(whole.map(|&frame| self.name(frame)).collect())
     }
 
-    /// What is kept of each frame that has a parent, in the order in which frames were first named.
-    pub fn kept_frames(&self) -> impl Iterator<Item = Kept<'_>> {
+    /// Iterates over the status of each frame that has a parent, in the order in which frames were
+    /// first named.
+    pub fn kept_frames(&self) -> impl Iterator<Item = FrameStatus<'_>> {
         self.frames.iter().skip(1).filter_map(|frame| {
             let cache = frame.cache.as_ref()?;
             let (newest_ns, parent) = cache.newest();
             let (kind, count, oldest_ns) = match cache {
-                Cache::Moving(samples) => (Kind::Moving, samples.len(), samples.oldest_ns()?),
-                Cache::Fixed(sample) => (Kind::Fixed, 1, sample.map(|_| 0)?),
+                Cache::Moving(samples) => {
+                    (TransformKind::Moving, samples.len(), samples.oldest_ns()?)
+                }
+                Cache::Fixed(sample) => (TransformKind::Fixed, 1, sample.map(|_| 0)?),
             };
-            Some(Kept {
+            Some(FrameStatus {
                 name: &frame.name,
                 parent: self.name(parent),
                 authority: &frame.authority,
@@ -403,7 +423,7 @@ impl Buffer {
             let message = format!(
                 "Invalid argument \"{frame}\" passed to lookupTransform argument {argument} - {why}"
             );
-            Err(LookupError::new(Unreachable::InvalidArgument, message))
+            Err(LookupError::new(LookupErrorKind::InvalidArgument, message))
         };
         if frame.is_empty() {
             return invalid("in tf2 frame_ids cannot be empty");
@@ -415,7 +435,7 @@ impl Buffer {
             let message = format!(
                 "\"{frame}\" passed to lookupTransform argument {argument} does not exist. "
             );
-            LookupError::new(Unreachable::Lookup, message)
+            LookupError::new(LookupErrorKind::Lookup, message)
         })
     }
 }

@@ -1,4 +1,4 @@
-//! What is kept of one frame.
+//! Time cache of one frame.
 //!
 //! Source: `tf2/src/cache.cpp` and `static_cache.cpp`.
 
@@ -6,49 +6,48 @@ use std::collections::VecDeque;
 
 use periplus_geometry::{DQuat, DVec3, Pose};
 
-use crate::error::{LookupError, Unreachable};
+use crate::error::{LookupError, LookupErrorKind};
 use crate::text::display_time;
 
-/// Where a frame was in its parent, at a time.
+/// Pose of a frame in its parent at a time.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Sample<P> {
-    /// When \[ns\].
+pub struct TransformSample<P> {
+    /// Time of the sample \[ns\].
     pub stamp_ns: i64,
-    /// In which frame.
+    /// Parent frame.
     pub parent: P,
-    /// Where its origin was \[m\].
+    /// Origin of the frame in the parent \[m\].
     pub translation: DVec3,
-    /// Its orientation, as it came: near unit length.
+    /// Orientation as published: of near unit length.
     pub rotation: DQuat,
 }
 
-impl<P> Sample<P> {
-    /// `parent_from_child`.
+impl<P> TransformSample<P> {
+    /// Returns `parent_from_child`.
     pub(crate) fn pose(&self) -> Pose {
         Pose::from_xyz_quaternion(self.translation.to_array(), self.rotation)
     }
 }
 
-/// Samples of a frame that moves, kept for a span of time behind the newest.
+/// Samples of a dynamic frame, kept for a duration before the newest one.
 #[derive(Clone, Debug)]
-pub struct Samples<P> {
+pub struct TransformCache<P> {
     span_ns: i64,
-    /// From the oldest to the newest; of equal stamps the one that came later is later.
-    kept: VecDeque<Sample<P>>,
+    /// From the oldest to the newest; samples with equal stamps in the order of arrival.
+    kept: VecDeque<TransformSample<P>>,
 }
 
-impl<P: Copy + PartialEq> Samples<P> {
-    /// Keeps samples for so long \[ns\].
+impl<P: Copy + PartialEq> TransformCache<P> {
+    /// Creates a cache that keeps samples for `span_ns` \[ns\].
     #[must_use]
     pub fn new(span_ns: i64) -> Self {
         Self { span_ns, kept: VecDeque::new() }
     }
 
-    /// Adds a sample; false when it is older than what is kept. The very same sample again changes
-    /// nothing.
-    ///
-    /// What is too old goes first, measured from the newest before this one.
-    pub fn insert(&mut self, sample: Sample<P>) -> bool {
+    /// Inserts a sample; returns false if it is older than all cached samples. An identical sample
+    /// changes nothing.
+    /// Expired samples are removed first, measured from the newest sample before this one.
+    pub fn insert(&mut self, sample: TransformSample<P>) -> bool {
         if let Some(newest_ns) = self.newest_ns() {
             let oldest_ns = newest_ns.saturating_sub(self.span_ns);
             while self.kept.front().is_some_and(|oldest| oldest.stamp_ns < oldest_ns) {
@@ -70,55 +69,55 @@ impl<P: Copy + PartialEq> Samples<P> {
         true
     }
 
-    /// The samples from the newest to the oldest.
-    pub fn newest_first(&self) -> impl Iterator<Item = &Sample<P>> {
+    /// Iterates over the samples from the newest to the oldest.
+    pub fn newest_first(&self) -> impl Iterator<Item = &TransformSample<P>> {
         self.kept.iter().rev()
     }
 
-    /// How many there are.
+    /// Returns the number of samples.
     #[must_use]
     pub fn len(&self) -> usize {
         self.kept.len()
     }
 
-    /// Whether there are none.
+    /// Returns true if there is no sample.
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.kept.is_empty()
     }
 
-    /// The newest stamp \[ns\].
+    /// Returns the newest stamp \[ns\].
     #[must_use]
     pub fn newest_ns(&self) -> Option<i64> {
         self.kept.back().map(|sample| sample.stamp_ns)
     }
 
-    /// The oldest stamp \[ns\].
+    /// Returns the oldest stamp \[ns\].
     #[must_use]
     pub fn oldest_ns(&self) -> Option<i64> {
         self.kept.front().map(|sample| sample.stamp_ns)
     }
 
-    /// The newest sample.
+    /// Returns the newest sample.
     #[must_use]
-    pub fn newest(&self) -> Option<&Sample<P>> {
+    pub fn newest(&self) -> Option<&TransformSample<P>> {
         self.kept.back()
     }
 
-    /// Forgets all.
+    /// Removes all samples.
     pub fn clear(&mut self) {
         self.kept.clear();
     }
 
-    /// Where the frame was at a time \[ns\], 0 for the newest. Between two samples positions are
-    /// mixed and orientations turned evenly; where the parent changed between them, the earlier one
-    /// holds.
+    /// Returns the pose at a time \[ns\], 0 for the newest. Between two samples, positions are
+    /// interpolated linearly and orientations spherically (slerp); if the parent changed between
+    /// them, the earlier sample is returned.
     ///
     /// # Errors
-    /// When the time lies outside of what is kept.
-    pub fn at(&self, time_ns: i64) -> Result<Sample<P>, LookupError> {
+    /// When the time is outside the cached time range.
+    pub fn at(&self, time_ns: i64) -> Result<TransformSample<P>, LookupError> {
         let (Some(oldest), Some(newest)) = (self.kept.front(), self.kept.back()) else {
-            return Err(LookupError::new(Unreachable::NoDataForExtrapolation, String::new()));
+            return Err(LookupError::new(LookupErrorKind::NoDataForExtrapolation, String::new()));
         };
         if time_ns == 0 || time_ns == newest.stamp_ns {
             return Ok(*newest);
@@ -131,7 +130,7 @@ impl<P: Copy + PartialEq> Samples<P> {
         if self.kept.len() == 1 {
             let only = display_time(newest.stamp_ns);
             return beyond(
-                Unreachable::NoDataForExtrapolation,
+                LookupErrorKind::NoDataForExtrapolation,
                 format!(
                     "Lookup would require extrapolation at time {asked}, but only time {only} is in \
                      the buffer"
@@ -141,7 +140,7 @@ impl<P: Copy + PartialEq> Samples<P> {
         if time_ns > newest.stamp_ns {
             let latest = display_time(newest.stamp_ns);
             return beyond(
-                Unreachable::Forward,
+                LookupErrorKind::Forward,
                 format!(
                     "Lookup would require extrapolation into the future.  Requested time {asked} but \
                      the latest data is at time {latest}"
@@ -151,7 +150,7 @@ impl<P: Copy + PartialEq> Samples<P> {
         if time_ns < oldest.stamp_ns {
             let earliest = display_time(oldest.stamp_ns);
             return beyond(
-                Unreachable::Backward,
+                LookupErrorKind::Backward,
                 format!(
                     "Lookup would require extrapolation into the past.  Requested time {asked} but \
                      the earliest data is at time {earliest}"
@@ -164,9 +163,13 @@ impl<P: Copy + PartialEq> Samples<P> {
     }
 }
 
-fn between<P: Copy>(older: Sample<P>, newer: Sample<P>, time_ns: i64) -> Sample<P> {
+fn between<P: Copy>(
+    older: TransformSample<P>,
+    newer: TransformSample<P>,
+    time_ns: i64,
+) -> TransformSample<P> {
     let ratio = (time_ns - older.stamp_ns) as f64 / (newer.stamp_ns - older.stamp_ns) as f64;
-    Sample {
+    TransformSample {
         stamp_ns: time_ns,
         translation: older.translation * (1.0 - ratio) + newer.translation * ratio,
         rotation: turned_between(older.rotation, newer.rotation, ratio),
@@ -174,12 +177,12 @@ fn between<P: Copy>(older: Sample<P>, newer: Sample<P>, time_ns: i64) -> Sample<
     }
 }
 
-/// Turns evenly from one orientation to another, the shorter way round.
+/// Spherical interpolation (slerp) along the shorter arc.
 fn turned_between(from: DQuat, to: DQuat, ratio: f64) -> DQuat {
     let (from, to) = (from.normalize(), to.normalize());
     let dot = from.dot(to);
     let to = if dot < 0.0 { -to } else { to };
-    // Half of the angle between them, exact for small ones, too.
+    // Half the angle between them; also exact for small angles.
     let angle = 2.0 * libm::atan2((from - to).length(), (from + to).length());
     let sine = libm::sin(angle);
     if sine < 1e-12 {
@@ -196,17 +199,17 @@ mod tests {
 
     use super::*;
 
-    fn sample(parent: char, stamp_ns: i64) -> Sample<char> {
-        Sample { stamp_ns, parent, translation: DVec3::ZERO, rotation: DQuat::IDENTITY }
+    fn sample(parent: char, stamp_ns: i64) -> TransformSample<char> {
+        TransformSample { stamp_ns, parent, translation: DVec3::ZERO, rotation: DQuat::IDENTITY }
     }
 
-    fn order(samples: &Samples<char>) -> String {
+    fn order(samples: &TransformCache<char>) -> String {
         samples.newest_first().map(|sample| sample.parent).collect()
     }
 
     #[test]
     fn samples_are_in_the_order_of_time_and_old_ones_go() {
-        let mut samples = Samples::new(10);
+        let mut samples = TransformCache::new(10);
         let first = [('a', 0), ('b', 10), ('c', 5), ('d', 3), ('e', 8), ('f', 8)];
         for (name, stamp_ns) in first.into_iter().chain(first.into_iter().rev()) {
             assert!(samples.insert(sample(name, stamp_ns)));

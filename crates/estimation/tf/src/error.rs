@@ -1,26 +1,26 @@
-//! What goes wrong, in the words of tf2: people search for them.
+//! Errors with the messages of tf2, since users search for them.
 
 use std::fmt;
 
-/// Why a transform is not taken.
+/// Reason for which a transform is rejected.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Refused {
-    /// A frame would be its own parent: `TF_SELF_TRANSFORM`.
+pub enum RejectedTransform {
+    /// A frame is its own parent: `TF_SELF_TRANSFORM`.
     SelfTransform(String),
-    /// It has no child: `TF_NO_CHILD_FRAME_ID`.
+    /// The child frame is missing: `TF_NO_CHILD_FRAME_ID`.
     NoChild,
-    /// It has no parent: `TF_NO_FRAME_ID`; the child.
+    /// The parent frame is missing: `TF_NO_FRAME_ID`; the child.
     NoParent(String),
-    /// A number is none: `TF_NAN_INPUT`; the child.
+    /// A component is NaN or infinite: `TF_NAN_INPUT`; the child.
     NotANumber(String),
-    /// The quaternion is far from unit length: `TF_DENORMALIZED_QUATERNION`; child and quaternion.
+    /// The quaternion is not of unit length: `TF_DENORMALIZED_QUATERNION`; child and quaternion.
     Denormalized(String, [f64; 4]),
-    /// It is older than all that is kept: `TF_OLD_DATA`; child and stamp \[ns\].
+    /// The transform is older than all cached samples: `TF_OLD_DATA`; child and stamp \[ns\].
     OldData(String, i64),
 }
 
-impl Refused {
-    /// The name by which tf2 logs it.
+impl RejectedTransform {
+    /// Returns the name under which tf2 logs it.
     #[must_use]
     pub fn name(&self) -> &'static str {
         match self {
@@ -34,52 +34,52 @@ impl Refused {
     }
 }
 
-impl fmt::Display for Refused {
+impl fmt::Display for RejectedTransform {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{}: ", self.name())?;
         match self {
             Self::SelfTransform(frame) => {
-                write!(f, "`{frame}` is said to be the parent of itself")
+                write!(f, "frame `{frame}` is published as its own parent")
             }
-            Self::NoChild => write!(f, "a transform names no child frame"),
-            Self::NoParent(child) => write!(f, "the transform of `{child}` names no parent frame"),
+            Self::NoChild => write!(f, "a transform has no child frame"),
+            Self::NoParent(child) => write!(f, "the transform of `{child}` has no parent frame"),
             Self::NotANumber(child) => {
-                write!(f, "the transform of `{child}` has a number that is none")
+                write!(f, "the transform of `{child}` contains NaN or infinity")
             }
             Self::Denormalized(child, [x, y, z, w]) => write!(
                 f,
-                "the rotation of `{child}` is no unit quaternion: ({x:.6} {y:.6} {z:.6} {w:.6})"
+                "the rotation of `{child}` is not a unit quaternion: ({x:.6} {y:.6} {z:.6} {w:.6})"
             ),
             Self::OldData(child, stamp_ns) => write!(
                 f,
-                "the transform of `{child}` at time {} is older than all that is kept",
+                "the transform of `{child}` at time {} is older than all cached samples",
                 crate::display_time(*stamp_ns)
             ),
         }
     }
 }
 
-impl std::error::Error for Refused {}
+impl std::error::Error for RejectedTransform {}
 
-/// Why there is no transform.
+/// Class of a lookup error.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Unreachable {
-    /// A frame is not known, or frames run in a circle.
+pub enum LookupErrorKind {
+    /// A frame is unknown, or the tree contains a loop.
     Lookup,
-    /// No chain leads from one to the other.
+    /// The two frames are in different trees.
     Connectivity,
-    /// There is one sample only, and its time is another.
+    /// There is a single sample, with another stamp.
     NoDataForExtrapolation,
     /// The time is later than the newest sample.
     Forward,
     /// The time is earlier than the oldest sample.
     Backward,
-    /// A name is empty or begins with a slash.
+    /// A frame name is empty or begins with a slash.
     InvalidArgument,
 }
 
-impl Unreachable {
-    /// The class that tf2 throws.
+impl LookupErrorKind {
+    /// Returns the exception class of tf2.
     #[must_use]
     pub fn exception(self) -> &'static str {
         match self {
@@ -92,24 +92,25 @@ impl Unreachable {
         }
     }
 
-    /// Whether a time is the reason: these three are one class in humble, `ExtrapolationException`.
+    /// Returns true if the requested time is the reason: these three are `ExtrapolationException`
+    /// in Humble.
     #[must_use]
     pub fn is_extrapolation(self) -> bool {
         matches!(self, Self::NoDataForExtrapolation | Self::Forward | Self::Backward)
     }
 }
 
-/// Why there is no transform, and tf2's words for it.
+/// Reason for which there is no transform, with the message of tf2.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct LookupError {
-    /// The kind.
-    pub kind: Unreachable,
-    /// The words.
+    /// Class of the error.
+    pub kind: LookupErrorKind,
+    /// Message of tf2.
     pub message: String,
 }
 
 impl LookupError {
-    pub(crate) fn new(kind: Unreachable, message: String) -> Self {
+    pub(crate) fn new(kind: LookupErrorKind, message: String) -> Self {
         Self { kind, message }
     }
 }

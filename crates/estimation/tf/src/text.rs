@@ -1,24 +1,24 @@
-//! What tf2 prints about its frames.
+//! Text output of tf2 about its frames.
 
 use std::fmt::Write as _;
 
 use crate::buffer::Buffer;
 
-/// A time in seconds with six decimals, as tf2 shows it.
+/// Formats a time in seconds with six decimals, as tf2 does.
 #[must_use]
 pub fn display_time(time_ns: i64) -> String {
     format!("{:.6}", seconds(time_ns))
 }
 
-/// Whole seconds and the rest apart, so that late times keep their digits.
+/// Converts whole seconds and the rest separately, which keeps the digits of late times.
 fn seconds(time_ns: i64) -> f64 {
     let rest = time_ns % 1_000_000_000;
     ((time_ns - rest) / 1_000_000_000) as f64 + 1e-9 * rest as f64
 }
 
 impl Buffer {
-    /// What the service `tf2_frames` answers: parent, broadcaster, rate, times and length of each
-    /// frame. With a current time, also how old the newest sample is.
+    /// Returns the answer of the service `tf2_frames`: parent, broadcaster, rate, times and buffer
+    /// length of each frame; with a current time, also the age of the newest sample.
     ///
     /// Source: `BufferCore::allFramesAsYAML`.
     #[must_use]
@@ -30,7 +30,7 @@ impl Buffer {
         for frame in self.kept_frames() {
             let span_ns = frame.newest_ns - frame.oldest_ns;
             let rate_hz = frame.rate_hz();
-            // Writing to a String cannot fail.
+            // Writing to a `String` cannot fail.
             let _ = write!(
                 text,
                 "{}: \n  parent: '{}'\n  broadcaster: '{}'\n  rate: {rate_hz:.3}\n  \
@@ -50,7 +50,7 @@ impl Buffer {
         text
     }
 
-    /// A line for each frame that has a parent. Source: `BufferCore::allFramesAsString`.
+    /// Returns a line for each frame that has a parent. Source: `BufferCore::allFramesAsString`.
     #[must_use]
     pub fn frames_text(&self) -> String {
         self.kept_frames()

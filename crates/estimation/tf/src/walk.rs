@@ -1,23 +1,24 @@
-//! From one frame to another.
+//! Transform chains between two frames.
 //!
 //! Source: `BufferCore::walkToTopParent` and `getLatestCommonTime`.
 
 use periplus_geometry::Pose;
 
-use crate::buffer::{Buffer, Found, FrameId};
-use crate::error::{LookupError, Unreachable};
+use crate::buffer::{Buffer, FrameId, ResolvedTransform};
+use crate::error::{LookupError, LookupErrorKind};
 
-/// A chain that is longer runs in a circle.
+/// Longest chain; a longer one is a loop (`MAX_GRAPH_DEPTH` of tf2).
 const DEEPEST: usize = 1000;
 
-/// Up from the source to the top of its tree, then up from the target until both meet. Where the
-/// source has no sample at that time its chain ends, which does no harm when the target lies on it.
+/// Walks up from the source to the root of its tree, then up from the target until both chains
+/// meet. If the source has no sample at that time its chain ends there, which is no error when the
+/// target is on it.
 pub(crate) fn walk(
     buffer: &Buffer,
     target: FrameId,
     source: FrameId,
     time_ns: i64,
-) -> Result<Found, LookupError> {
+) -> Result<ResolvedTransform, LookupError> {
     let time_ns = if time_ns == 0 { common_time_ns(buffer, target, source)? } else { time_ns };
     let mut top_from_source = Pose::IDENTITY;
     let mut top = source;
@@ -35,7 +36,7 @@ pub(crate) fn walk(
             }
         };
         if top == target {
-            return Ok(Found { time_ns, target_from_source: top_from_source });
+            return Ok(ResolvedTransform { time_ns, target_from_source: top_from_source });
         }
         top_from_source = sample.pose() * top_from_source;
         top = sample.parent;
@@ -49,13 +50,16 @@ pub(crate) fn walk(
         }
         if frame == top {
             let target_from_source = top_from_target.inverse() * top_from_source;
-            return Ok(Found { time_ns, target_from_source });
+            return Ok(ResolvedTransform { time_ns, target_from_source });
         }
         let Some(cache) = buffer.cache(frame) else { break };
         let sample =
             cache.at(time_ns).map_err(|error| looking_up(buffer, error, target, source))?;
         if frame == source {
-            return Ok(Found { time_ns, target_from_source: top_from_target.inverse() });
+            return Ok(ResolvedTransform {
+                time_ns,
+                target_from_source: top_from_target.inverse(),
+            });
         }
         top_from_target = sample.pose() * top_from_target;
         frame = sample.parent;
@@ -66,7 +70,7 @@ pub(crate) fn walk(
     })
 }
 
-/// The newest time that all moving frames between two have in common; 0 when none of them moves.
+/// Returns the latest common time of all dynamic frames between two frames; 0 when all are static.
 fn common_time_ns(buffer: &Buffer, target: FrameId, source: FrameId) -> Result<i64, LookupError> {
     let earlier = |time_ns: i64, newest_ns: i64| {
         if newest_ns == 0 { time_ns } else { time_ns.min(newest_ns) }
@@ -106,7 +110,7 @@ fn common_time_ns(buffer: &Buffer, target: FrameId, source: FrameId) -> Result<i
     Err(unconnected(buffer, target, source))
 }
 
-/// Newest stamp and parent of a frame that has one.
+/// Returns the newest stamp and the parent of a frame that has one.
 fn step(buffer: &Buffer, frame: FrameId) -> Option<(i64, FrameId)> {
     let (newest_ns, parent) = buffer.cache(frame)?.newest();
     (parent != 0).then_some((newest_ns, parent))
@@ -134,11 +138,11 @@ fn unconnected(buffer: &Buffer, target: FrameId, source: FrameId) -> LookupError
         buffer.name(target),
         buffer.name(source)
     );
-    LookupError::new(Unreachable::Connectivity, message)
+    LookupError::new(LookupErrorKind::Connectivity, message)
 }
 
 fn circle(buffer: &Buffer) -> LookupError {
     let frames = buffer.frames_text();
     let message = format!("The tf tree is invalid because it contains a loop.\n{frames}\n");
-    LookupError::new(Unreachable::Lookup, message)
+    LookupError::new(LookupErrorKind::Lookup, message)
 }

@@ -1,21 +1,25 @@
-//! What the buffer answers.
-#![allow(clippy::unwrap_used, reason = "a test says what must be there")]
+//! Lookups and error messages of the buffer.
+#![allow(clippy::unwrap_used, reason = "a test states its preconditions")]
 
 use expect_test::expect;
 use periplus_geometry::{DQuat, DVec3, Pose, Rpy};
-use periplus_tf::{Buffer, Kind, Lookup, Refused, Stamped, Unreachable};
+use periplus_tf::{
+    Buffer, LookupErrorKind, RejectedTransform, StampedTransform, TransformKind, TransformLookup,
+};
 use proptest::prelude::*;
 
 const S: i64 = 1_000_000_000;
 
-fn along_x(parent: &str, child: &str, stamp_ns: i64, x_m: f64) -> Stamped {
-    Stamped::new(parent, child, stamp_ns, Pose::from_xyz(x_m, 0.0, 0.0))
+fn along_x(parent: &str, child: &str, stamp_ns: i64, x_m: f64) -> StampedTransform {
+    StampedTransform::new(parent, child, stamp_ns, Pose::from_xyz(x_m, 0.0, 0.0))
 }
 
 fn moving(transforms: &[(&str, &str, i64, f64)]) -> Buffer {
     let mut buffer = Buffer::default();
     for &(parent, child, seconds, x_m) in transforms {
-        buffer.set(&along_x(parent, child, seconds * S, x_m), "test", Kind::Moving).unwrap();
+        buffer
+            .set(&along_x(parent, child, seconds * S, x_m), "test", TransformKind::Moving)
+            .unwrap();
     }
     buffer
 }
@@ -27,8 +31,8 @@ fn x_m(buffer: &Buffer, target: &str, source: &str, time_ns: i64) -> f64 {
 #[test]
 fn up_down_and_across() {
     let mut buffer = moving(&[("map", "odom", 1, 10.0), ("odom", "base", 1, 2.0)]);
-    buffer.set(&along_x("base", "laser", 0, 0.5), "urdf", Kind::Fixed).unwrap();
-    buffer.set(&along_x("odom", "ball", S, 7.0), "camera", Kind::Moving).unwrap();
+    buffer.set(&along_x("base", "laser", 0, 0.5), "urdf", TransformKind::Fixed).unwrap();
+    buffer.set(&along_x("odom", "ball", S, 7.0), "camera", TransformKind::Moving).unwrap();
     assert_eq!(x_m(&buffer, "map", "laser", S), 12.5);
     assert_eq!(x_m(&buffer, "laser", "map", S), -12.5);
     assert_eq!(x_m(&buffer, "laser", "ball", S), 4.5);
@@ -46,7 +50,7 @@ fn time_zero_is_the_newest_that_all_have() {
         ("odom", "base", 2, 0.0),
         ("odom", "base", 4, 2.0),
     ]);
-    buffer.set(&along_x("base", "laser", 0, 0.5), "urdf", Kind::Fixed).unwrap();
+    buffer.set(&along_x("base", "laser", 0, 0.5), "urdf", TransformKind::Fixed).unwrap();
     let found = buffer.lookup("map", "laser", 0).unwrap();
     assert_eq!(found.time_ns, 3 * S);
     assert_eq!(found.target_from_source.translation.x, 3.5);
@@ -82,9 +86,9 @@ fn the_words_of_tf2() {
         .assert_eq(&cannot.to_string());
     assert!(buffer.can_transform("odom", "base", 0).is_ok());
 
-    buffer.set(&along_x("base", "odom", 3 * S, 0.0), "a circle", Kind::Moving).unwrap();
+    buffer.set(&along_x("base", "odom", 3 * S, 0.0), "a circle", TransformKind::Moving).unwrap();
     let error = buffer.lookup("base", "a", 0).unwrap_err();
-    assert_eq!(error.kind, Unreachable::Lookup);
+    assert_eq!(error.kind, LookupErrorKind::Lookup);
     assert!(error.message.starts_with("The tf tree is invalid because it contains a loop."));
     assert!(buffer.chain("base", "a").is_none());
 }
@@ -92,13 +96,17 @@ fn the_words_of_tf2() {
 #[test]
 fn what_is_refused() {
     let mut buffer = moving(&[("odom", "base", 20, 0.0), ("odom", "base", 21, 0.0)]);
-    let mut refused = |transform: Stamped| buffer.set(&transform, "x", Kind::Moving).unwrap_err();
-    assert_eq!(refused(along_x("odom", "", S, 0.0)), Refused::NoChild);
+    let mut refused = |transform: StampedTransform| {
+        buffer.set(&transform, "x", TransformKind::Moving).unwrap_err()
+    };
+    assert_eq!(refused(along_x("odom", "", S, 0.0)), RejectedTransform::NoChild);
     assert_eq!(refused(along_x("", "b", S, 0.0)).name(), "TF_NO_FRAME_ID");
     assert_eq!(refused(along_x("/b", "b", S, 0.0)).name(), "TF_SELF_TRANSFORM");
     assert_eq!(refused(along_x("a", "b", S, f64::NAN)).name(), "TF_NAN_INPUT");
-    let stretched =
-        Stamped { rotation: DQuat::from_xyzw(0.0, 0.0, 0.0, 1.006), ..along_x("a", "b", S, 0.0) };
+    let stretched = StampedTransform {
+        rotation: DQuat::from_xyzw(0.0, 0.0, 0.0, 1.006),
+        ..along_x("a", "b", S, 0.0)
+    };
     assert_eq!(refused(stretched).name(), "TF_DENORMALIZED_QUATERNION");
     assert_eq!(refused(along_x("odom", "base", 9 * S, 0.0)).name(), "TF_OLD_DATA");
     assert!(!buffer.has_frame("b"));
@@ -108,7 +116,7 @@ fn what_is_refused() {
 fn across_time() {
     let buffer = moving(&[("odom", "base", 1, 1.0), ("odom", "base", 2, 3.0)]);
     let found = buffer
-        .lookup_across(Lookup {
+        .lookup_across(TransformLookup {
             target: "base",
             target_time_ns: S,
             source: "base",
@@ -122,9 +130,9 @@ fn across_time() {
 #[test]
 fn another_kind_or_a_clearing_forgets() {
     let mut buffer = moving(&[("odom", "base", 1, 1.0)]);
-    buffer.set(&along_x("odom", "base", 0, 5.0), "x", Kind::Fixed).unwrap();
+    buffer.set(&along_x("odom", "base", 0, 5.0), "x", TransformKind::Fixed).unwrap();
     assert_eq!(x_m(&buffer, "odom", "base", S), 5.0);
-    buffer.set(&along_x("odom", "base", 3 * S, 6.0), "x", Kind::Moving).unwrap();
+    buffer.set(&along_x("odom", "base", 3 * S, 6.0), "x", TransformKind::Moving).unwrap();
     assert_eq!(x_m(&buffer, "odom", "base", 0), 6.0);
     buffer.clear();
     assert!(buffer.lookup("odom", "base", 0).is_err() && buffer.has_frame("base"));
@@ -133,9 +141,11 @@ fn another_kind_or_a_clearing_forgets() {
 #[test]
 fn frames_as_yaml() {
     let mut buffer = moving(&[("odom", "base", 1, 0.0), ("odom", "base", 3, 0.0)]);
-    buffer.set(&along_x("base", "laser", S, 0.0), "Authority undetectable", Kind::Fixed).unwrap();
+    buffer
+        .set(&along_x("base", "laser", S, 0.0), "Authority undetectable", TransformKind::Fixed)
+        .unwrap();
     let yaml = buffer.frames_yaml(Some(4 * S + S / 2));
-    // tf2 leaves a space behind the name of each frame, which no line of this file may have.
+    // tf2 prints a space behind the name of each frame, which no line of this file may end with.
     assert_eq!(yaml.matches(": \n").count(), 2);
     expect![[r#"
         base:
@@ -171,7 +181,7 @@ proptest! {
         let mut whole = Pose::IDENTITY;
         for (depth, pose) in poses.iter().enumerate() {
             let (parent, child) = (format!("f{depth}"), format!("f{}", depth + 1));
-            buffer.set(&Stamped::new(parent, child, S, *pose), "x", Kind::Moving).unwrap();
+            buffer.set(&StampedTransform::new(parent, child, S, *pose), "x", TransformKind::Moving).unwrap();
             whole = whole * *pose;
         }
         let last = format!("f{}", poses.len());

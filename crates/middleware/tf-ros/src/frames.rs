@@ -2,7 +2,7 @@
 
 use periplus_geometry::{DQuat, DVec3, Pose, Pose2};
 use periplus_msgs::{geometry_msgs, tf2_msgs};
-use periplus_tf::{Buffer, Kind, LookupError, Stamped};
+use periplus_tf::{Buffer, LookupError, StampedTransform, TransformKind};
 
 /// Maximum depth of a frame tree.
 const MAX_DEPTH: usize = 1000;
@@ -21,7 +21,7 @@ impl Frames {
     }
 
     /// Inserts the transforms of a message.
-    pub fn take(&mut self, message: &tf2_msgs::TFMessage, kind: Kind) {
+    pub fn take(&mut self, message: &tf2_msgs::TFMessage, kind: TransformKind) {
         for transform in &message.transforms {
             // Malformed transforms are dropped, as in tf2.
             let _refused = self.buffer.set(&stamped(transform), "tf", kind);
@@ -113,9 +113,9 @@ pub fn plain(frame: &str) -> &str {
     frame.trim_start_matches('/')
 }
 
-fn stamped(transform: &geometry_msgs::TransformStamped) -> Stamped {
+fn stamped(transform: &geometry_msgs::TransformStamped) -> StampedTransform {
     let geometry_msgs::Transform { translation, rotation } = &transform.transform;
-    Stamped {
+    StampedTransform {
         parent: transform.header.frame_id.clone(),
         child: transform.child_frame_id.clone(),
         stamp_ns: transform.header.stamp.ns(),
@@ -145,7 +145,10 @@ mod tests {
                     ..geometry_msgs::TransformStamped::default()
                 };
                 transform.transform.rotation.w = 1.0;
-                frames.take(&tf2_msgs::TFMessage { transforms: vec![transform] }, Kind::Moving);
+                frames.take(
+                    &tf2_msgs::TFMessage { transforms: vec![transform] },
+                    TransformKind::Moving,
+                );
             }
             frames.at("odom", "base_link", 5 * SECOND_NS).is_ok()
         };

@@ -32,13 +32,13 @@ const FLOOR_MARGIN_M: f64 = 5.0;
 /// cells are empty. Also returns the number of boxes.
 #[must_use]
 pub fn map_world(map: &OccupancyGrid, name: &str, wall_height_m: f64) -> (String, usize) {
-    let lattice = &map.lattice;
+    let info = &map.info;
     let boxes = wall_boxes(map);
     let mut text = String::from("<?xml version=\"1.0\"?>\n<sdf version=\"1.9\">\n");
     let _ = writeln!(text, "  <world name=\"{}\">", escaped(name));
     text.push_str(HEAD);
     floor(map, &mut text);
-    let (x, y, yaw) = (lattice.origin.x_m, lattice.origin.y_m, lattice.origin.yaw_rad);
+    let (x, y, yaw) = (info.origin.x_m, info.origin.y_m, info.origin.yaw_rad);
     let _ = writeln!(
         text,
         "    <model name=\"map\">\n      <static>true</static>\n      <pose>{} {} 0 0 0 {}</pose>\n      \
@@ -47,7 +47,7 @@ pub fn map_world(map: &OccupancyGrid, name: &str, wall_height_m: f64) -> (String
         format_number(y),
         format_number(yaw)
     );
-    let metres = |cells: f64| format_number(rounded(cells * lattice.resolution_m));
+    let metres = |cells: f64| format_number(rounded(cells * info.resolution_m));
     for (index, one) in boxes.iter().enumerate() {
         let middle = |first: usize, count: usize| {
             #[expect(clippy::cast_precision_loss, reason = "cells are below 2^28")]
@@ -81,10 +81,9 @@ pub fn map_world(map: &OccupancyGrid, name: &str, wall_height_m: f64) -> (String
 
 /// Floor below the whole map, with a margin.
 fn floor(map: &OccupancyGrid, text: &mut String) {
-    let (width_m, height_m) = map.lattice.size_m();
+    let (width_m, height_m) = map.info.size_m();
     #[expect(clippy::cast_precision_loss, reason = "cells are below 2^28")]
-    let middle =
-        map.lattice.point_at(map.lattice.width as f64 / 2.0, map.lattice.height as f64 / 2.0);
+    let middle = map.info.point_at(map.info.width as f64 / 2.0, map.info.height as f64 / 2.0);
     // Large enough for any yaw.
     let side = (width_m.hypot(height_m) + 2.0 * FLOOR_MARGIN_M).ceil();
     let plane = format!(
@@ -116,7 +115,7 @@ mod tests {
     use std::path::Path;
 
     use periplus_geometry::Pose2;
-    use periplus_grid::{Grid, Lattice};
+    use periplus_grid::{Grid, GridInfo};
     use periplus_resources::{MemoryHost, Resolver};
     use periplus_scene::Shape;
 
@@ -140,7 +139,7 @@ mod tests {
     #[test]
     fn scans_agree_with_the_map_within_half_a_cell() {
         const RESOLUTION_M: f64 = 0.05;
-        let lattice = Lattice::new(RESOLUTION_M, 80, 60, Pose2::default()).expect("a lattice");
+        let info = GridInfo::new(RESOLUTION_M, 80, 60, Pose2::default()).expect("a valid grid");
         // A room with a slanted wall and a few single cells.
         let is_wall = |x: usize, y: usize| {
             x == 0
@@ -151,7 +150,7 @@ mod tests {
                 || (x * 7 + y * 13).is_multiple_of(211)
         };
         let cells = (0..4800).map(|i| if is_wall(i % 80, i / 80) { 100 } else { 0 }).collect();
-        let map: OccupancyGrid = Grid::from_cells(lattice, cells).expect("as many cells");
+        let map: OccupancyGrid = Grid::from_cells(info, cells).expect("as many cells");
         let (text, _) = map_world(&map, "room", 2.0);
         let host = MemoryHost::new();
         let setting = LoadContext {
@@ -192,9 +191,9 @@ mod tests {
     #[test]
     fn the_boxes_are_where_the_cells_are() {
         let origin = Pose2 { x_m: -1.0, y_m: 2.0, yaw_rad: 0.5 };
-        let lattice = Lattice::new(0.05, 40, 30, origin).expect("a lattice");
+        let info = GridInfo::new(0.05, 40, 30, origin).expect("a valid grid");
         let cells = (0..1200).map(|i| if i % 7 == 0 || i / 40 == 3 { 100 } else { 0 }).collect();
-        let map: OccupancyGrid = Grid::from_cells(lattice, cells).expect("as many cells");
+        let map: OccupancyGrid = Grid::from_cells(info, cells).expect("as many cells");
         let (text, count) = map_world(&map, "a \"plan\" & b::c", 2.5);
         let host = MemoryHost::new();
         let setting = LoadContext {
@@ -213,7 +212,7 @@ mod tests {
         assert_eq!((walls.collisions.len(), walls.visuals.len()), (count, count));
         // The middle of each cell is inside a box exactly if the cell is a wall.
         for (index, value) in map.cells.iter().enumerate() {
-            let (x, y) = map.lattice.centre_of(map.lattice.cell(index));
+            let (x, y) = map.info.centre_of(map.info.cell(index));
             let inside = walls.collisions.iter().any(|one| {
                 let world_from_box = model.parent_from_model * one.link_from_collision;
                 let box_from_world = world_from_box.inverse();

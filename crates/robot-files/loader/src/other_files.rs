@@ -202,20 +202,20 @@ fn map(setting: &LoadContext<'_>, loaded: &mut LoadedFile) {
     loaded.sources = read.sources;
     loaded.diagnostics.append(read.diagnostics);
     let Some(map) = read.map else { return };
-    let lattice = &map.grid.lattice;
-    let (width_m, height_m) = lattice.size_m();
+    let info = &map.grid.info;
+    let (width_m, height_m) = info.size_m();
     let walls = map.grid.cells.iter().filter(|cell| **cell >= periplus_maps::MIN_WALL_PERCENT);
     let unknown = map.grid.cells.iter().filter(|cell| **cell < 0).count();
     loaded.contents.push(format!(
         "{} x {} cells of {} m: {width_m:.2} x {height_m:.2} m",
-        lattice.width, lattice.height, lattice.resolution_m
+        info.width, info.height, info.resolution_m
     ));
     loaded.contents.push(format!(
         "{} occupied, {unknown} unknown, the rest free; origin {} {} {}",
         walls.count(),
-        lattice.origin.x_m,
-        lattice.origin.y_m,
-        lattice.origin.yaw_rad
+        info.origin.x_m,
+        info.origin.y_m,
+        info.origin.yaw_rad
     ));
     loaded.files.push(map.image_path);
 }

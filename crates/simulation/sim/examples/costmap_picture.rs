@@ -35,7 +35,7 @@ impl Sheet {
     fn draw(&mut self, panel: usize, node: &CostmapNode) {
         node.look(|costmap| {
             let grid = costmap.costmap();
-            let (width, height) = (grid.lattice().width, grid.lattice().height);
+            let (width, height) = (grid.info().width, grid.info().height);
             let pixels = SIDE / width.max(height);
             let values: Vec<i8> = grid.costs().iter().map(|cost| occupancy_of(*cost)).collect();
             let picture = paint(&Scheme::Costmap.palette(), width, &values, pixels);

@@ -65,10 +65,10 @@ struct Marks {
 fn marks(node: &CostmapNode, now_ns: i64) -> Marks {
     let mut marks = Marks::default();
     let lethal = node.look(|costmap| {
-        let lattice = *costmap.costmap().lattice();
+        let info = *costmap.costmap().info();
         let costs = costmap.costmap().costs().iter().enumerate();
         let lethal = costs.filter(|(_, cost)| **cost == LETHAL);
-        lethal.map(|(index, _)| lattice.centre_of(lattice.cell(index))).collect::<Vec<_>>()
+        lethal.map(|(index, _)| info.centre_of(info.cell(index))).collect::<Vec<_>>()
     });
     for (x_m, y_m) in lethal.unwrap() {
         marks.all += 1;

@@ -4,7 +4,7 @@ use std::collections::VecDeque;
 
 use periplus_geometry::{DVec3, Pose, Pose2};
 use periplus_grid::occupancy::{FREE, OCCUPIED, UNKNOWN};
-use periplus_grid::{Grid, Lattice, OccupancyGrid};
+use periplus_grid::{Grid, GridInfo, OccupancyGrid};
 use periplus_raycast::{InstanceId, Ray};
 use periplus_rendering::{RenderScene, SensedGeometry, filter};
 use periplus_scene::{Model, SensorKind};
@@ -31,16 +31,16 @@ impl Simulation {
     /// Returns the true map on the cells of a grid: walls are where a shape intersects the height of
     /// the first robot's lidar, free is what the robot can reach without crossing one, the rest is
     /// unknown. The robot itself is not a wall. `None` without a robot.
-    pub fn truth_map(&mut self, lattice: Lattice) -> Option<OccupancyGrid> {
+    pub fn truth_map(&mut self, info: GridInfo) -> Option<OccupancyGrid> {
         let robot = self.robot()?;
         let (name, model) = (robot.member.name.clone(), robot.model);
         let eye = self.eye(robot);
         let world_from_robot = Pose2::from(self.motion.model_pose(model)?);
         let height_m = eye.height_m;
         let seen = self.views.at(eye.geometry, self.time_ns, &self.motion);
-        let mut map = Grid::new(lattice, UNKNOWN);
+        let mut map = Grid::new(info, UNKNOWN);
         mark_walls(&mut map, seen, height_m, &name);
-        let from = lattice.cell_of(world_from_robot.x_m, world_from_robot.y_m);
+        let from = info.cell_of(world_from_robot.x_m, world_from_robot.y_m);
         if let Some(from) = from {
             flood(&mut map, from);
         }
@@ -89,13 +89,13 @@ fn lidar(model: &Model, scope: &str) -> Option<(String, Mounted)> {
 /// Marks the hits of rays along all rows and columns of cells, two in each and in both directions,
 /// so that no face is missed edge-on or from behind.
 fn mark_walls(map: &mut OccupancyGrid, seen: &RenderScene, height_m: f64, robot: &str) {
-    let lattice = map.lattice;
-    let (columns, rows) = (lattice.width as f64, lattice.height as f64);
-    for half in 0..2 * lattice.height {
+    let info = map.info;
+    let (columns, rows) = (info.width as f64, info.height as f64);
+    for half in 0..2 * info.height {
         let row = half as f64 / 2.0 + 0.25;
         mark_line(map, seen, [(0.0, row), (columns, row)], height_m, robot);
     }
-    for half in 0..2 * lattice.width {
+    for half in 0..2 * info.width {
         let column = half as f64 / 2.0 + 0.25;
         mark_line(map, seen, [(column, 0.0), (column, rows)], height_m, robot);
     }
@@ -110,11 +110,11 @@ fn mark_line(
     robot: &str,
 ) {
     let place = |(column, row): (f64, f64)| {
-        let (x_m, y_m) = map.lattice.point_at(column, row);
+        let (x_m, y_m) = map.info.point_at(column, row);
         DVec3::new(x_m, y_m, height_m)
     };
     let [first, last] = ends.map(place);
-    let finder = map.lattice.finder();
+    let finder = map.info.finder();
     for (from, to) in [(first, last), (last, first)] {
         let length_m = (to - from).length();
         let mut ray = Ray { max_m: length_m, ..Ray::new(from, (to - from) / length_m) };
@@ -145,7 +145,7 @@ fn mark_line(
 
 /// Marks as free all cells reachable from a cell over edges.
 fn flood(map: &mut OccupancyGrid, from: (usize, usize)) {
-    let (width, height) = (map.lattice.width, map.lattice.height);
+    let (width, height) = (map.info.width, map.info.height);
     let mut open = VecDeque::from([from]);
     map[from] = FREE;
     while let Some((column, row)) = open.pop_front() {

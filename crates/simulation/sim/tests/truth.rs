@@ -6,7 +6,7 @@ use std::sync::Arc;
 
 use periplus_geometry::Pose2;
 use periplus_graph::{NodeSettings, Publisher, Qos};
-use periplus_grid::{Grid, Lattice, OccupancyGrid};
+use periplus_grid::{Grid, GridInfo, OccupancyGrid};
 use periplus_loader::LoadContext;
 use periplus_maps::to_message;
 use periplus_msgs::builtin_interfaces::Time;
@@ -59,15 +59,15 @@ fn room() -> Simulation {
     simulation
 }
 
-fn lattice(side_m: f64) -> Lattice {
+fn info(side_m: f64) -> GridInfo {
     let cells = (side_m / 0.1).round() as usize;
-    Lattice::new(0.1, cells, cells, Pose2::new(-side_m / 2.0, -side_m / 2.0, 0.0)).unwrap()
+    GridInfo::new(0.1, cells, cells, Pose2::new(-side_m / 2.0, -side_m / 2.0, 0.0)).unwrap()
 }
 
 #[test]
 fn the_truth_is_a_slice_of_the_world() {
-    let truth = room().truth_map(lattice(5.0)).unwrap();
-    let of = |x_m: f64, y_m: f64| truth[truth.lattice.cell_of(x_m, y_m).unwrap()];
+    let truth = room().truth_map(info(5.0)).unwrap();
+    let of = |x_m: f64, y_m: f64| truth[truth.info.cell_of(x_m, y_m).unwrap()];
     for wall in
         [(2.05, 0.05), (-2.05, 1.95), (0.05, 2.05), (1.05, -2.05), (1.05, 1.25), (1.45, 1.05)]
     {
@@ -98,7 +98,7 @@ fn told(map: &OccupancyGrid, world_from_map: Pose2) -> DiagnosticStatus {
     let frames: Publisher<TFMessage> = node.publisher("/tf_static", Qos::latched(1)).unwrap();
     let heard = node.mailbox::<DiagnosticArray>("/world/room/truth", Qos::latched(1)).unwrap();
     let mut map = map.clone();
-    map.lattice.origin = world_from_map.inverse() * map.lattice.origin;
+    map.info.origin = world_from_map.inverse() * map.info.origin;
     maps.publish(to_message(&map, "map", Time::default()));
     let wrong = Pose2::new(0.6, 0.0, std::f64::consts::FRAC_PI_2);
     let map_from_robot = world_from_map.inverse() * wrong;
@@ -124,7 +124,7 @@ fn value(status: &DiagnosticStatus, key: &str) -> f64 {
 
 #[test]
 fn a_true_map_agrees_wherever_its_frame_is() {
-    let truth = room().truth_map(lattice(5.0)).unwrap();
+    let truth = room().truth_map(info(5.0)).unwrap();
     for world_from_map in [Pose2::IDENTITY, Pose2::new(3.0, -1.0, 0.0)] {
         let status = told(&truth, world_from_map);
         assert_eq!((status.name.as_str(), status.level), ("/map", DiagnosticStatus::OK));
@@ -140,8 +140,8 @@ fn a_true_map_agrees_wherever_its_frame_is() {
 
 #[test]
 fn a_map_of_one_half_is_half_explored() {
-    let truth = room().truth_map(lattice(5.0)).unwrap();
-    let half = Lattice { width: 25, ..truth.lattice };
+    let truth = room().truth_map(info(5.0)).unwrap();
+    let half = GridInfo { width: 25, ..truth.info };
     let cells = truth.rows().flat_map(|row| row[..25].to_vec()).collect();
     let status = told(&Grid::from_cells(half, cells).unwrap(), Pose2::IDENTITY);
     // 20 of 40 columns; the box is in the other half.

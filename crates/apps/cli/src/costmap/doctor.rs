@@ -55,14 +55,14 @@ pub(crate) fn run(options: &DoctorCostmapOptions) -> io::Result<ExitCode> {
     let mut out = anstream::stdout().lock();
     terminal::diagnostics(&mut out, &file.diagnostics, &file.sources)?;
     for (name, config) in &file.configs {
-        let lattice = config.lattice();
+        let info = config.info();
         let frame = config.frame();
         writeln!(
             out,
             "{name}: {} x {} cells of {} m in `{}`{}, as {}",
-            lattice.width,
-            lattice.height,
-            lattice.resolution_m,
+            info.width,
+            info.height,
+            info.resolution_m,
             frame.global_frame,
             if frame.is_rolling { ", moving with the robot" } else { "" },
             config.compat,

@@ -5,13 +5,13 @@ use std::sync::Arc;
 use periplus_exploration::{Mood, Settings};
 use periplus_geometry::{Pose, Pose2};
 use periplus_graph::{Graph, GraphError, Mailbox, NodeSettings, Publisher, Qos};
-use periplus_grid::{Grid, Lattice};
+use periplus_grid::{Grid, GridInfo};
 use periplus_msgs::geometry_msgs::{self, PoseStamped, Twist};
 use periplus_msgs::nav_msgs::{OccupancyGrid, Path};
 use periplus_msgs::sensor_msgs::LaserScan;
 use periplus_msgs::std_msgs::Header;
 use periplus_msgs::tf2_msgs::TFMessage;
-use periplus_tf::Kind;
+use periplus_tf::TransformKind;
 use periplus_tf_ros::Frames;
 
 /// Period of velocity commands \[ns\].
@@ -76,10 +76,10 @@ impl Explorer {
         }
         self.next_ns = now_ns + PERIOD_NS;
         for message in self.fixed.drain() {
-            self.frames.take(&message, Kind::Fixed);
+            self.frames.take(&message, TransformKind::Fixed);
         }
         for message in self.moving.drain() {
-            self.frames.take(&message, Kind::Moving);
+            self.frames.take(&message, TransformKind::Moving);
         }
         self.map = self.maps.latest().or(self.map.take());
         if let Some(scan) = self.scans.latest() {
@@ -144,6 +144,6 @@ fn grid_of(map: &OccupancyGrid) -> Option<periplus_grid::OccupancyGrid> {
     let turned = periplus_geometry::DQuat::from_xyzw(turned.x, turned.y, turned.z, turned.w);
     let origin = Pose2::from(Pose::from_xyz_quaternion([at.x, at.y, 0.0], turned));
     let (width, height) = (map.info.width as usize, map.info.height as usize);
-    let lattice = Lattice::new(f64::from(map.info.resolution), width, height, origin).ok()?;
-    Grid::from_cells(lattice, map.data.to_vec()).ok()
+    let info = GridInfo::new(f64::from(map.info.resolution), width, height, origin).ok()?;
+    Grid::from_cells(info, map.data.to_vec()).ok()
 }

@@ -19,13 +19,13 @@ pub(super) fn of(
     let mut report = run.to_json();
     let status = mapping.node.status();
     if let Some(map) = mapping.node.map() {
-        let cell_m2 = map.lattice.resolution_m * map.lattice.resolution_m;
+        let cell_m2 = map.info.resolution_m * map.info.resolution_m;
         let area_m2 = |wanted: fn(&i8) -> bool| {
             map.cells.iter().filter(|value| wanted(value)).count() as f64 * cell_m2
         };
         report["map"] = json!({
-            "cells": [map.lattice.width, map.lattice.height],
-            "resolution_m": map.lattice.resolution_m,
+            "cells": [map.info.width, map.info.height],
+            "resolution_m": map.info.resolution_m,
             "free_m2": area_m2(|value| (0..=25).contains(value)),
             "occupied_m2": area_m2(|value| *value >= 65),
             "scans": status.counts.scans,

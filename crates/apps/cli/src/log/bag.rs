@@ -13,7 +13,7 @@ use periplus_msgs::nav_msgs::Odometry;
 use periplus_msgs::sensor_msgs::LaserScan;
 use periplus_msgs::tf2_msgs::TFMessage;
 use periplus_slam::Scan;
-use periplus_tf::{Buffer, Kind, Stamped};
+use periplus_tf::{Buffer, StampedTransform, TransformKind};
 
 use super::{Log, LogOptions, Logged};
 use crate::terminal;
@@ -150,10 +150,14 @@ impl Frames {
         let mut transforms = named("TFMessage");
         transforms.extend(named("tfMessage"));
         let mut faults = each::<TFMessage>(bag, &transforms, |topic, message| {
-            let kind = if topic.ends_with("tf_static") { Kind::Fixed } else { Kind::Moving };
+            let kind = if topic.ends_with("tf_static") {
+                TransformKind::Fixed
+            } else {
+                TransformKind::Moving
+            };
             for it in message.transforms {
                 let (t, q) = (it.transform.translation, it.transform.rotation);
-                let stamped = Stamped {
+                let stamped = StampedTransform {
                     parent: it.header.frame_id,
                     child: it.child_frame_id,
                     stamp_ns: it.header.stamp.ns(),
@@ -174,14 +178,14 @@ impl Frames {
                 return;
             }
             let (t, q) = (message.pose.pose.position, message.pose.pose.orientation);
-            let stamped = Stamped {
+            let stamped = StampedTransform {
                 parent: message.header.frame_id.clone(),
                 child: child.to_owned(),
                 stamp_ns: message.header.stamp.ns(),
                 translation: DVec3::new(t.x, t.y, t.z),
                 rotation: DQuat::from_xyzw(q.x, q.y, q.z, q.w),
             };
-            let _ = buffer.set(&stamped, topic, Kind::Moving);
+            let _ = buffer.set(&stamped, topic, TransformKind::Moving);
         })?);
         Ok(Self { buffer, faults })
     }

@@ -7,7 +7,7 @@ use periplus_graph::{Mailbox, Node, Qos, RawMailbox, Sample};
 use periplus_msgs::rosgraph_msgs::Clock;
 use periplus_msgs::sensor_msgs::LaserScan;
 use periplus_msgs::tf2_msgs::TFMessage;
-use periplus_tf::{Kind, Survey};
+use periplus_tf::{TransformKind, TransformMonitor};
 
 use super::picture::{Heard, Picture, ScanFacts};
 use crate::tf::stamped;
@@ -36,7 +36,7 @@ pub struct Ears {
     fixed: Mailbox<TFMessage>,
     clock: Mailbox<Clock>,
     sensors: Vec<(String, RawMailbox)>,
-    survey: Survey,
+    survey: TransformMonitor,
     heard: BTreeMap<String, Heard>,
     times_ns: Option<(i64, i64)>,
     clock_jumps: usize,
@@ -66,7 +66,7 @@ impl Ears {
             fixed: node.mailbox("/tf_static", Qos::latched(100))?,
             clock: node.mailbox("/clock", Qos::sensor_data())?,
             sensors,
-            survey: Survey::default(),
+            survey: TransformMonitor::default(),
             heard,
             times_ns: None,
             clock_jumps: 0,
@@ -75,12 +75,13 @@ impl Ears {
 
     /// Processes messages received since the last call.
     pub fn hear(&mut self) {
-        let fixed = self.fixed.drain().into_iter().map(|message| (message, Kind::Fixed));
-        let moving = self.moving.drain().into_iter().map(|message| (message, Kind::Moving));
+        let fixed = self.fixed.drain().into_iter().map(|message| (message, TransformKind::Fixed));
+        let moving =
+            self.moving.drain().into_iter().map(|message| (message, TransformKind::Moving));
         for (message, kind) in fixed.chain(moving) {
             for transform in &message.transforms {
                 // Refused transforms are counted by the survey.
-                let _ = self.survey.hear(&stamped(transform), AUTHORITY, kind);
+                let _ = self.survey.insert(&stamped(transform), AUTHORITY, kind);
             }
         }
         for message in self.clock.drain() {

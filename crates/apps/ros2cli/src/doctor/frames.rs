@@ -2,7 +2,7 @@
 
 use crate::frames::{Fault, Forest};
 use periplus_diagnostics::{Diagnostic, Diagnostics, closest};
-use periplus_tf::Kind;
+use periplus_tf::TransformKind;
 
 use super::Picture;
 
@@ -122,7 +122,7 @@ fn top<'f>(forest: &'f Forest, frame: &'f str) -> &'f str {
 fn stale(forest: &Forest, found: &mut Diagnostics) {
     let moving = || {
         forest.frames().filter_map(|frame| {
-            let edge = frame.edge.as_ref().filter(|edge| edge.kind == Kind::Moving)?;
+            let edge = frame.edge.as_ref().filter(|edge| edge.kind == TransformKind::Moving)?;
             Some((frame, edge))
         })
     };

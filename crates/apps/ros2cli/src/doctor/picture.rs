@@ -3,7 +3,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::time::Duration;
 
-use periplus_tf::Survey;
+use periplus_tf::TransformMonitor;
 
 use super::network::Surroundings;
 use crate::Seen;
@@ -16,7 +16,7 @@ pub struct Picture {
     /// Duration of the observation.
     pub time: Duration,
     /// Transforms.
-    pub survey: Survey,
+    pub survey: TransformMonitor,
     /// Messages with a header, by topic.
     pub heard: BTreeMap<String, Heard>,
     /// Times on `/clock` \[ns\], the first and the last.

@@ -5,7 +5,7 @@
 
 use std::fmt::Write as _;
 
-use periplus_tf::Kind;
+use periplus_tf::TransformKind;
 
 use crate::frames::forest::Forest;
 
@@ -26,7 +26,7 @@ impl Forest {
             };
             let lines: String =
                 edge.label().iter().map(|line| format!("{}\\n", escaped(line))).collect();
-            let style = if edge.kind == Kind::Fixed { ", style=dashed" } else { "" };
+            let style = if edge.kind == TransformKind::Fixed { ", style=dashed" } else { "" };
             let _ =
                 writeln!(text, "{} -> {child}[label=\" {lines}\"{style}];", quoted(&edge.parent));
             for parent in &frame.other_parents {

@@ -1,7 +1,7 @@
 //! Drawing of a tree as shapes, independent of the file format. Lengths are in points, y points
 //! down.
 
-use periplus_tf::Kind;
+use periplus_tf::TransformKind;
 
 use crate::frames::forest::{Forest, Frame};
 use crate::frames::layout::{Layout, layout};
@@ -249,7 +249,7 @@ impl Place<'_> {
 }
 
 fn is_fixed(frame: &Frame) -> bool {
-    frame.edge.as_ref().is_some_and(|edge| edge.kind == Kind::Fixed)
+    frame.edge.as_ref().is_some_and(|edge| edge.kind == TransformKind::Fixed)
 }
 
 fn name_width(frame: &Frame) -> f64 {

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use periplus_tf::{Kind, Survey, display_time};
+use periplus_tf::{TransformKind, TransformMonitor, display_time};
 
 use crate::frames::faults::Fault;
 
@@ -14,7 +14,7 @@ pub struct Edge {
     /// Broadcaster, if known.
     pub broadcaster: String,
     /// Static or dynamic.
-    pub kind: Kind,
+    pub kind: TransformKind,
     /// Rate \[Hz\]; 10000 for a single sample, as in tf2.
     pub rate_hz: f64,
     /// Stamp of the newest sample \[ns\].
@@ -62,7 +62,7 @@ pub struct Forest {
 impl Forest {
     /// Builds the trees from received transforms.
     #[must_use]
-    pub fn new(survey: &Survey) -> Self {
+    pub fn new(survey: &TransformMonitor) -> Self {
         let edges: BTreeMap<&str, Edge> = survey
             .buffer
             .kept_frames()
@@ -124,7 +124,7 @@ impl Forest {
     }
 
     /// Sets the broadcaster of all frames of a kind.
-    pub fn set_broadcaster(&mut self, kind: Kind, name: &str) {
+    pub fn set_broadcaster(&mut self, kind: TransformKind, name: &str) {
         let edges = self.frames.iter_mut().filter_map(|frame| frame.edge.as_mut());
         for edge in edges.filter(|edge| edge.kind == kind) {
             name.clone_into(&mut edge.broadcaster);
@@ -217,15 +217,15 @@ fn circles(parents: &[Option<usize>]) -> Vec<Vec<usize>> {
 #[cfg(test)]
 mod tests {
     use periplus_geometry::Pose;
-    use periplus_tf::Stamped;
+    use periplus_tf::StampedTransform;
 
     use super::*;
 
     pub(crate) fn forest(edges: &[(&str, &str)]) -> Forest {
-        let mut survey = Survey::default();
+        let mut survey = TransformMonitor::default();
         for (stamp_ns, (parent, child)) in (1..).zip(edges) {
-            let it = Stamped::new(*parent, *child, stamp_ns, Pose::IDENTITY);
-            survey.hear(&it, "test", Kind::Moving).unwrap();
+            let it = StampedTransform::new(*parent, *child, stamp_ns, Pose::IDENTITY);
+            survey.insert(&it, "test", TransformKind::Moving).unwrap();
         }
         Forest::new(&survey)
     }

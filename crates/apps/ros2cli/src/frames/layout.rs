@@ -95,15 +95,15 @@ fn side_by_side(tops: &[usize], outlines: &mut [Outline], gap: f64) -> (Outline,
 #[cfg(test)]
 mod tests {
     use periplus_geometry::Pose;
-    use periplus_tf::{Kind, Stamped, Survey};
+    use periplus_tf::{StampedTransform, TransformKind, TransformMonitor};
 
     use super::*;
 
     fn laid(edges: &[(&str, &str)]) -> (Forest, Layout) {
-        let mut survey = Survey::default();
+        let mut survey = TransformMonitor::default();
         for (parent, child) in edges {
-            let it = Stamped::new(*parent, *child, 1, Pose::IDENTITY);
-            survey.hear(&it, "test", Kind::Moving).unwrap();
+            let it = StampedTransform::new(*parent, *child, 1, Pose::IDENTITY);
+            survey.insert(&it, "test", TransformKind::Moving).unwrap();
         }
         let forest = Forest::new(&survey);
         let layout = layout(&forest, &vec![100.0; forest.frames.len()]);

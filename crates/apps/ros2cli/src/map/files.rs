@@ -48,10 +48,10 @@ impl Shares {
 /// When it cannot be loaded, or the output cannot be written.
 pub fn info(session: &mut Session<'_>, path: &str, distro: Distro) -> Outcome {
     let map = read(session, path, distro)?;
-    let lattice = map.grid.lattice;
+    let info = map.grid.info;
     let shares = Shares::of(&map.grid);
-    let (width_m, height_m) = lattice.size_m();
-    let origin = lattice.origin;
+    let (width_m, height_m) = info.size_m();
+    let origin = info.origin;
     let description = &map.description;
     let (free, occupied) = (shares.free, shares.occupied);
     if session.json {
@@ -63,9 +63,9 @@ pub fn info(session: &mut Session<'_>, path: &str, distro: Distro) -> Outcome {
             "negate": description.negate,
             "occupied_thresh": description.occupied_thresh,
             "free_thresh": description.free_thresh,
-            "resolution": lattice.resolution_m,
-            "width": lattice.width,
-            "height": lattice.height,
+            "resolution": info.resolution_m,
+            "width": info.width,
+            "height": info.height,
             "origin": [origin.x_m, origin.y_m, origin.yaw_rad],
             "cells": {
                 "free": free, "occupied": occupied, "unknown": shares.unknown,
@@ -73,10 +73,10 @@ pub fn info(session: &mut Session<'_>, path: &str, distro: Distro) -> Outcome {
             },
         }));
     }
-    let percent = |count: usize| 100.0 * count as f64 / lattice.len().max(1) as f64;
-    let (low, high) = (lattice.point_at(0.0, 0.0), {
-        let (columns, rows) = (lattice.width as f64, lattice.height as f64);
-        lattice.point_at(columns, rows)
+    let percent = |count: usize| 100.0 * count as f64 / info.len().max(1) as f64;
+    let (low, high) = (info.point_at(0.0, 0.0), {
+        let (columns, rows) = (info.width as f64, info.height as f64);
+        info.point_at(columns, rows)
     });
     let negated = if description.negate { ", negated" } else { "" };
     let out = &mut session.out;
@@ -84,7 +84,7 @@ pub fn info(session: &mut Session<'_>, path: &str, distro: Distro) -> Outcome {
     writeln!(
         out,
         "size        {} x {} cells of {} m: {width_m:.2} x {height_m:.2} m",
-        lattice.width, lattice.height, lattice.resolution_m
+        info.width, info.height, info.resolution_m
     )?;
     writeln!(
         out,

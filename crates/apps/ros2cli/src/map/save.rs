@@ -54,10 +54,10 @@ pub fn save_to(session: &mut Session<'_>, save: &Save, store: &dyn Store) -> Out
     }
     let message = wait(session, &full_name(&save.topic), save.timeout)?;
     let map = from_message(&message).map_err(|error| Failure::failed(error.to_string()))?;
-    let lattice = map.lattice;
+    let info = map.info;
     session.say(&format!(
         "Received a {} X {} map @ {} m/pix",
-        lattice.width, lattice.height, lattice.resolution_m
+        info.width, info.height, info.resolution_m
     ));
     write(session, &render(&map, &saving), store)
 }

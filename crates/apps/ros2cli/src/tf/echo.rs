@@ -4,7 +4,7 @@ use std::time::Duration;
 
 use periplus_geometry::DVec3;
 use periplus_os::{Stopwatch, sleep};
-use periplus_tf::Found;
+use periplus_tf::ResolvedTransform;
 use serde_json::json;
 
 use super::listen::Frames;
@@ -74,7 +74,7 @@ fn run(session: &mut Session<'_>, echo: &Echo) -> Outcome {
     }
 }
 
-fn show(session: &mut Session<'_>, found: &Found) -> Outcome {
+fn show(session: &mut Session<'_>, found: &ResolvedTransform) -> Outcome {
     let pose = found.target_from_source;
     let (shift, turn, rpy) = (pose.translation, pose.rotation, pose.rpy());
     if session.json {

@@ -6,7 +6,7 @@ use periplus_geometry::{DQuat, DVec3};
 use periplus_graph::{Mailbox, Node, Qos};
 use periplus_msgs::geometry_msgs::TransformStamped;
 use periplus_msgs::tf2_msgs::TFMessage;
-use periplus_tf::{Kind, Refused, Stamped, Survey};
+use periplus_tf::{RejectedTransform, StampedTransform, TransformKind, TransformMonitor};
 
 use crate::{Outcome, Session};
 
@@ -15,7 +15,7 @@ pub(super) const AUTHORITY: &str = "Authority undetectable";
 
 /// TF buffer with its subscriptions.
 pub(super) struct Frames {
-    pub(super) survey: Survey,
+    pub(super) survey: TransformMonitor,
     moving: Mailbox<TFMessage>,
     fixed: Mailbox<TFMessage>,
     _node: Node,
@@ -24,7 +24,7 @@ pub(super) struct Frames {
 /// Received transform message.
 pub(super) struct Heard {
     pub(super) message: Arc<TFMessage>,
-    pub(super) kind: Kind,
+    pub(super) kind: TransformKind,
 }
 
 impl Frames {
@@ -36,7 +36,7 @@ impl Frames {
     pub(super) fn of(session: &Session<'_>, [moving, fixed]: [&str; 2]) -> Outcome<Self> {
         let node = session.node(None)?;
         Ok(Self {
-            survey: Survey::default(),
+            survey: TransformMonitor::default(),
             moving: node.mailbox(moving, Qos::reliable(100))?,
             fixed: node.mailbox(fixed, Qos::latched(100))?,
             _node: node,
@@ -45,15 +45,16 @@ impl Frames {
 
     /// Processes messages received since the last call. A jump back in time clears the buffer.
     pub(super) fn hear(&mut self, session: &mut Session<'_>) -> Vec<Heard> {
-        let fixed = self.fixed.drain().into_iter().map(|message| (message, Kind::Fixed));
-        let moving = self.moving.drain().into_iter().map(|message| (message, Kind::Moving));
+        let fixed = self.fixed.drain().into_iter().map(|message| (message, TransformKind::Fixed));
+        let moving =
+            self.moving.drain().into_iter().map(|message| (message, TransformKind::Moving));
         let heard: Vec<Heard> =
             fixed.chain(moving).map(|(message, kind)| Heard { message, kind }).collect();
         for one in &heard {
             for transform in &one.message.transforms {
-                match self.survey.hear(&stamped(transform), AUTHORITY, one.kind) {
+                match self.survey.insert(&stamped(transform), AUTHORITY, one.kind) {
                     Ok(()) => {}
-                    Err(Refused::OldData(..)) => {
+                    Err(RejectedTransform::OldData(..)) => {
                         session.say("Detected jump back in time. Clearing TF buffer.");
                     }
                     Err(refused) => session.say(&format!("WARNING: {refused}")),
@@ -70,9 +71,9 @@ pub(super) fn stamp_ns(transform: &TransformStamped) -> i64 {
 
 /// Converts the transform of a message.
 #[must_use]
-pub fn stamped(transform: &TransformStamped) -> Stamped {
+pub fn stamped(transform: &TransformStamped) -> StampedTransform {
     let (shift, turn) = (&transform.transform.translation, &transform.transform.rotation);
-    Stamped {
+    StampedTransform {
         parent: transform.header.frame_id.clone(),
         child: transform.child_frame_id.clone(),
         stamp_ns: stamp_ns(transform),

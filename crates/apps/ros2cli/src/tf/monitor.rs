@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::time::Duration;
 
 use periplus_os::{Stopwatch, sleep, unix_ns};
-use periplus_tf::Kind;
+use periplus_tf::TransformKind;
 use serde_json::json;
 
 use super::listen::{AUTHORITY, Frames, stamp_ns};
@@ -67,8 +67,8 @@ fn run(session: &mut Session<'_>, monitor: &Monitor) -> Outcome {
                 for transform in &heard.message.transforms {
                     // Static transforms have no delay.
                     let late_ns = match heard.kind {
-                        Kind::Moving => now_ns - stamp_ns(transform),
-                        Kind::Fixed => 0,
+                        TransformKind::Moving => now_ns - stamp_ns(transform),
+                        TransformKind::Fixed => 0,
                     };
                     let late_s = late_ns as f64 * 1e-9;
                     all.add(late_s);

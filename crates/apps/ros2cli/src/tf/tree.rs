@@ -7,7 +7,7 @@ use std::time::Duration;
 use crate::frames::{Forest, Frame};
 use periplus_os::{Machine, Stopwatch, sleep, unix_ns};
 use periplus_resources::Store as _;
-use periplus_tf::{Kind, Survey, display_time};
+use periplus_tf::{TransformKind, TransformMonitor, display_time};
 use serde_json::json;
 
 use super::listen::Frames;
@@ -57,7 +57,9 @@ pub fn tree(session: &mut Session<'_>, tree: &Tree) -> Outcome {
     let mut forest = Forest::new(&frames.survey);
     // Messages do not identify their sender. If only one node publishes the topic, it is that node.
     let seen = session.network.seen();
-    for (topic, kind) in [(&tree.moving, Kind::Moving), (&tree.fixed, Kind::Fixed)] {
+    for (topic, kind) in
+        [(&tree.moving, TransformKind::Moving), (&tree.fixed, TransformKind::Fixed)]
+    {
         let ends = seen.topic(&crate::session::full_name(topic)).map(|topic| &topic.publishers);
         if let Some([only]) = ends.map(Vec::as_slice)
             && let Some(node) = &only.node
@@ -87,7 +89,7 @@ pub fn tree(session: &mut Session<'_>, tree: &Tree) -> Outcome {
 pub fn put_tree(
     session: &mut Session<'_>,
     forest: &Forest,
-    survey: &Survey,
+    survey: &TransformMonitor,
     recorded_ns: i64,
     pictures: &Pictures,
 ) -> Outcome {
@@ -148,8 +150,8 @@ fn in_words(forest: &Forest) -> String {
 fn facts(frame: &Frame) -> String {
     let Some(edge) = &frame.edge else { return String::new() };
     match edge.kind {
-        Kind::Fixed => format!("  (static, {})", edge.broadcaster),
-        Kind::Moving => format!("  ({:.1} Hz, {})", edge.rate_hz, edge.broadcaster),
+        TransformKind::Fixed => format!("  (static, {})", edge.broadcaster),
+        TransformKind::Moving => format!("  ({:.1} Hz, {})", edge.rate_hz, edge.broadcaster),
     }
 }
 
@@ -160,7 +162,7 @@ fn as_json(forest: &Forest, recorded_ns: i64, files: &[String]) -> serde_json::V
             let edge = frame.edge.as_ref().map(|edge| {
                 json!({
                     "parent": edge.parent, "broadcaster": edge.broadcaster,
-                    "static": edge.kind == Kind::Fixed, "rate_hz": edge.rate_hz,
+                    "static": edge.kind == TransformKind::Fixed, "rate_hz": edge.rate_hz,
                     "newest_ns": edge.newest_ns, "oldest_ns": edge.oldest_ns,
                     "buffer_length_s": (edge.newest_ns - edge.oldest_ns) as f64 * 1e-9,
                     "other_parents": frame.other_parents,

@@ -12,7 +12,7 @@ use periplus_msgs::std_msgs::Header;
 use periplus_msgs::tf2_msgs::TFMessage;
 use periplus_ros2cli::frames::Forest;
 use periplus_ros2cli::tf::{Echo, Monitor, Pictures, Tree, echo, monitor, put_tree, tree};
-use periplus_tf::{Kind, Stamped, Survey};
+use periplus_tf::{StampedTransform, TransformKind, TransformMonitor};
 
 use crate::bench::Bench;
 
@@ -131,16 +131,16 @@ fn a_tree_is_drawn_and_told() {
 
 #[test]
 fn what_is_wrong_with_a_tree_is_told() {
-    let mut survey = Survey::default();
+    let mut survey = TransformMonitor::default();
     let mut hear = |parent: &str, child: &str, stamp_ns: i64, kind| {
-        let it = Stamped::new(parent, child, stamp_ns, Pose::IDENTITY);
-        survey.hear(&it, "Authority undetectable", kind).unwrap();
+        let it = StampedTransform::new(parent, child, stamp_ns, Pose::IDENTITY);
+        survey.insert(&it, "Authority undetectable", kind).unwrap();
     };
     for tick in 0..=20 {
-        hear("odom", "base_link", tick * 50_000_000, Kind::Moving);
+        hear("odom", "base_link", tick * 50_000_000, TransformKind::Moving);
     }
-    hear("map", "base_link", 1_010_000_000, Kind::Moving);
-    hear("base_link", "laser", 0, Kind::Fixed);
+    hear("map", "base_link", 1_010_000_000, TransformKind::Moving);
+    hear("base_link", "laser", 0, TransformKind::Fixed);
     let folder = Folder::new("wrong_tree");
     let forest = Forest::new(&survey);
     let pictures = viewed(&folder).pictures;

@@ -2,7 +2,7 @@
 
 use periplus_params::ParamValues;
 
-use super::{Config, LayerConfig, LayerKind, SourceConfig, footprint_of, lattice_of};
+use super::{Config, LayerConfig, LayerKind, SourceConfig, footprint_of, grid_info_of};
 use crate::filters::{BinaryFilter, KeepoutFilter, SpeedFilter};
 use crate::layers::{
     ContainerLayer, DenoiseLayer, InflationLayer, MapMeaning, ObstacleLayer, RangeLayer,
@@ -14,7 +14,7 @@ impl Config {
     /// The costmap.
     #[must_use]
     pub fn build(&self) -> LayeredCostmap {
-        let mut costmap = LayeredCostmap::new(self.frame(), self.lattice());
+        let mut costmap = LayeredCostmap::new(self.frame(), self.info());
         for layer in &self.layers {
             costmap.add_layer(self.layer(layer));
         }
@@ -84,7 +84,7 @@ impl Config {
             costmap.set_footprint(self.footprint.clone());
         }
         if has_size && !costmap.is_size_locked() {
-            costmap.resize(lattice_of(&values), false);
+            costmap.resize(grid_info_of(&values), false);
         }
         self.node = values;
         Ok(())

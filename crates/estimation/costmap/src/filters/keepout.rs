@@ -4,7 +4,7 @@
 
 use periplus_diagnostics::Diagnostic;
 use periplus_geometry::{DVec3, Pose};
-use periplus_grid::{Cell, Lattice};
+use periplus_grid::{Cell, GridInfo};
 use periplus_params::ParamValues;
 
 use super::{FilterInfo, FilterKind, Mask, Masked};
@@ -80,10 +80,10 @@ impl KeepoutFilter {
 /// Where the outline of a mask lies in the global frame.
 fn bounds_of(mask: &Mask, mask_from_global: Pose) -> Bounds {
     let global_from_mask = mask_from_global.inverse();
-    let Lattice { width, height, .. } = mask.grid.lattice;
+    let GridInfo { width, height, .. } = mask.grid.info;
     let mut bounds = Bounds::EMPTY;
     for (column, row) in [(0, 0), (width, 0), (0, height), (width, height)] {
-        let (x_m, y_m) = mask.grid.lattice.point_at(column as f64, row as f64);
+        let (x_m, y_m) = mask.grid.info.point_at(column as f64, row as f64);
         let at = global_from_mask.transform_point(DVec3::new(x_m, y_m, 0.0));
         bounds.touch(at.x, at.y);
     }
@@ -154,18 +154,18 @@ impl Layer for KeepoutFilter {
         let zone_cost = self
             .leaving_cost
             .filter(|_| moment.compat.updates_keepout_zones() && self.is_inside(moment));
-        let lattice = *master.lattice();
-        let finder = mask.grid.lattice.finder();
+        let info = *master.info();
+        let finder = mask.grid.info.finder();
         // Only where the mask is.
         let near = master.window_of(&bounds_of(mask, mask_from_global));
         let window = window.intersection(&near.unwrap_or_default());
         for y in window.y0..window.yn {
             for x in window.x0..window.xn {
-                let (wx, wy) = lattice.centre_of((x, y));
+                let (wx, wy) = info.centre_of((x, y));
                 let at = mask_from_global.transform_point(DVec3::new(wx, wy, 0.0));
                 let Some(cell) = finder.cell_of(at.x, at.y) else { continue };
                 let cost = cost_of(mask.grid[cell]);
-                let index = y * lattice.width + x;
+                let index = y * info.width + x;
                 let old = master.costs()[index];
                 if cost != UNKNOWN && (cost > old || old == UNKNOWN) {
                     master.costs_mut()[index] = zone_cost.unwrap_or(cost);
@@ -174,7 +174,7 @@ impl Layer for KeepoutFilter {
         }
     }
 
-    fn resized(&mut self, _lattice: &Lattice, _is_rolling: bool) {
+    fn resized(&mut self, _info: &GridInfo, _is_rolling: bool) {
         self.has_changed = true;
     }
 
@@ -203,7 +203,7 @@ impl Layer for KeepoutFilter {
                 ..Explanation::default()
             };
         };
-        let (x_m, y_m) = master.lattice().centre_of(cell);
+        let (x_m, y_m) = master.info().centre_of(cell);
         // Where frames are is known in updates only; most masks are in the costmap's own.
         let number = mask.grid.at(x_m, y_m);
         Explanation {

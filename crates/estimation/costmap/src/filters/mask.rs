@@ -30,7 +30,7 @@ impl Mask {
     pub(super) fn cell_of(&self, mask_from_global: Pose, global_from_base: Pose2) -> Option<Cell> {
         let Pose2 { x_m, y_m, .. } = global_from_base;
         let at = mask_from_global.transform_point(DVec3::new(x_m, y_m, 0.0));
-        self.grid.lattice.cell_of(at.x, at.y)
+        self.grid.info.cell_of(at.x, at.y)
     }
 }
 

@@ -5,7 +5,7 @@
 //! another combination, or somebody clears it.
 
 use periplus_diagnostics::Diagnostic;
-use periplus_grid::{Cell, Lattice};
+use periplus_grid::{Cell, GridInfo};
 use periplus_params::ParamValues;
 
 use crate::clear::clear_cells;
@@ -105,15 +105,15 @@ impl Layer for ContainerLayer {
         }
     }
 
-    fn resized(&mut self, lattice: &Lattice, is_rolling: bool) {
-        self.grid.resize(*lattice);
+    fn resized(&mut self, info: &GridInfo, is_rolling: bool) {
+        self.grid.resize(*info);
         for child in &mut self.children {
-            child.resized(lattice, is_rolling);
+            child.resized(info, is_rolling);
         }
     }
 
-    fn wants_lattice(&self, current: &Lattice, is_size_locked: bool) -> Option<Lattice> {
-        self.children.iter().find_map(|child| child.wants_lattice(current, is_size_locked))
+    fn requested_grid_info(&self, current: &GridInfo, is_size_locked: bool) -> Option<GridInfo> {
+        self.children.iter().find_map(|child| child.requested_grid_info(current, is_size_locked))
     }
 
     fn is_enabled(&self) -> bool {

@@ -27,10 +27,10 @@ pub fn denoise(
         UNKNOWN => unknown_is_obstacle,
         _ => false,
     };
-    let lattice = *master.lattice();
+    let info = *master.info();
     // Cells still to be looked at. Each is taken once, so the time is that of the window.
     let mut waits: Vec<bool> = window
-        .spans(lattice.width)
+        .spans(info.width)
         .flat_map(|span| master.costs()[span].iter().map(|cost| is_obstacle(*cost)))
         .collect();
     let mut group: Vec<(usize, usize)> = Vec::new();
@@ -52,7 +52,7 @@ pub fn denoise(
             }
             if group.len() < smallest {
                 for (x, y) in &group {
-                    let index = (window.y0 + y) * lattice.width + window.x0 + x;
+                    let index = (window.y0 + y) * info.width + window.x0 + x;
                     master.costs_mut()[index] = FREE;
                 }
             }

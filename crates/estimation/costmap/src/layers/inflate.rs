@@ -3,7 +3,7 @@
 //! Source of the rules: `nav2_costmap_2d/plugins/inflation_layer.cpp`.
 
 use periplus_diagnostics::Diagnostic;
-use periplus_grid::{Cell, Lattice};
+use periplus_grid::{Cell, GridInfo};
 use periplus_params::ParamValues;
 
 use crate::cost::{LETHAL, UNKNOWN};
@@ -150,9 +150,9 @@ impl Layer for InflationLayer {
         }
     }
 
-    fn resized(&mut self, lattice: &Lattice, _is_rolling: bool) {
+    fn resized(&mut self, info: &GridInfo, _is_rolling: bool) {
         let must_redo = self.must_redo;
-        self.resolution_m = lattice.resolution_m;
+        self.resolution_m = info.resolution_m;
         self.renew_table();
         self.must_redo = must_redo;
     }
@@ -170,7 +170,7 @@ impl Layer for InflationLayer {
         let around = |cost| cost == LETHAL || (self.how.around_unknown && cost == UNKNOWN);
         let (x, y) = cell;
         let window = Window { x0: x, y0: y, xn: x + 1, yn: y + 1 };
-        let near = window.grown(self.table.radius_cells() as usize, master.lattice());
+        let near = window.grown(self.table.radius_cells() as usize, master.info());
         let nearest = (near.y0..near.yn)
             .flat_map(|y| (near.x0..near.xn).map(move |x| (x, y)))
             .filter(|cell| master.cost(*cell).is_some_and(around))

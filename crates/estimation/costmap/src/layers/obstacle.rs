@@ -3,7 +3,7 @@
 //! Source of the rules: `nav2_costmap_2d/plugins/obstacle_layer.cpp`.
 
 use periplus_diagnostics::Diagnostic;
-use periplus_grid::{Cell, Lattice, Line};
+use periplus_grid::{Cell, GridInfo, Line};
 use periplus_params::ParamValues;
 
 use super::repeats::Repeats;
@@ -66,9 +66,9 @@ impl Layer for ObstacleLayer {
                 if !is_inside && index < source.fresh {
                     source.counters.sensor_outside += 1;
                 }
-                let (name, lattice) = (&sight.name, sight.grid.lattice());
+                let (name, info) = (&sight.name, sight.grid.info());
                 let complaints = &mut sight.complaints;
-                complain_of_sensor(!is_inside, name, source, origin, lattice, None, complaints);
+                complain_of_sensor(!is_inside, name, source, origin, info, None, complaints);
             }
         }
         for source in sight.sources.iter_mut().filter(|source| source.settings.is_marking) {
@@ -88,8 +88,8 @@ impl Layer for ObstacleLayer {
         self.sight.reset();
     }
 
-    fn resized(&mut self, lattice: &Lattice, _is_rolling: bool) {
-        self.sight.resized(lattice);
+    fn resized(&mut self, info: &GridInfo, _is_rolling: bool) {
+        self.sight.resized(info);
     }
 
     fn configure(&mut self, values: ParamValues) -> Result<(), String> {
@@ -114,8 +114,8 @@ fn clear_rays(
     let [ox, oy, _] = seen.origin;
     let finder = grid.finder();
     let Some(start) = finder.cell_of(ox, oy) else { return false };
-    let Bounds { min_x, min_y, .. } = Bounds::of(grid.lattice());
-    let Lattice { resolution_m, width, height, .. } = *grid.lattice();
+    let Bounds { min_x, min_y, .. } = Bounds::of(grid.info());
+    let GridInfo { resolution_m, width, height, .. } = *grid.info();
     let (end_x, end_y) =
         (min_x + width as f64 * resolution_m, min_y + height as f64 * resolution_m);
     let longest = grid.cells_along(seen.rays.max_m);
@@ -194,7 +194,7 @@ impl Marker {
         if start.is_none() && measure != RangeMeasure::Space {
             return;
         }
-        let width = grid.lattice().width;
+        let width = grid.info().width;
         let Span { min_m, max_m } = seen.marks;
         let (nearest, furthest) = (grid.cells_along(min_m), grid.cells_along(max_m));
         let costs = grid.costs_mut();

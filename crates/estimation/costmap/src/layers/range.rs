@@ -7,7 +7,7 @@ use std::collections::VecDeque;
 
 use periplus_diagnostics::Diagnostic;
 use periplus_geometry::{DVec3, Pose};
-use periplus_grid::{Cell, Lattice};
+use periplus_grid::{Cell, GridInfo};
 use periplus_params::ParamValues;
 
 use crate::clear::clear_cells;
@@ -252,14 +252,14 @@ impl RangeLayer {
             left: self.grid.cell_anywhere(left.0, left.1),
             right: self.grid.cell_anywhere(right.0, right.1),
         };
-        let lattice = *self.grid.lattice();
-        let window = cone.window(&lattice);
+        let info = *self.grid.info();
+        let window = cone.window(&info);
         for x in window.x0..window.xn {
             for y in window.y0..window.yn {
                 if self.inflate_cone < 1.0 && !cone.holds((x, y), self.inflate_cone) {
                     continue;
                 }
-                let (x_m, y_m) = lattice.centre_of((x, y));
+                let (x_m, y_m) = info.centre_of((x, y));
                 let (dx, dy) = (x_m - origin.x, y_m - origin.y);
                 let angle_rad =
                     periplus_geometry::normalize_angle(libm::atan2(dy, dx) - direction_rad);
@@ -273,10 +273,10 @@ impl RangeLayer {
                         angle_rad,
                         half_angle_rad,
                         self.phi_m,
-                        lattice.resolution_m,
+                        info.resolution_m,
                     )
                 };
-                let index = y * lattice.width + x;
+                let index = y * info.width + x;
                 let prior = f64::from(self.grid.costs()[index]) / f64::from(LETHAL);
                 let occupied = seen * prior;
                 let free = (1.0 - seen) * (1.0 - prior);
@@ -296,7 +296,7 @@ struct Cone {
 
 impl Cone {
     /// The cells about it that are in the grid.
-    fn window(&self, lattice: &Lattice) -> Window {
+    fn window(&self, info: &GridInfo) -> Window {
         let corners = [self.apex, self.left, self.right];
         let range = |part: fn(&(i64, i64)) -> i64, count: usize| {
             let low = corners.iter().map(part).min().unwrap_or(0);
@@ -304,8 +304,8 @@ impl Cone {
             let clamp = |cell: i64| cell.clamp(0, count as i64) as usize;
             (clamp(low), clamp(high.saturating_add(1)))
         };
-        let (x0, xn) = range(|corner| corner.0, lattice.width);
-        let (y0, yn) = range(|corner| corner.1, lattice.height);
+        let (x0, xn) = range(|corner| corner.0, info.width);
+        let (y0, yn) = range(|corner| corner.1, info.height);
         Window { x0, y0, xn, yn }
     }
 
@@ -369,7 +369,7 @@ impl Layer for RangeLayer {
         self.is_waiting = false;
         let threshold = |name: &str| as_cost(self.values.number(name).unwrap_or_default());
         let (mark, clear) = (threshold("mark_threshold"), threshold("clear_threshold"));
-        for span in window.spans(self.grid.lattice().width) {
+        for span in window.spans(self.grid.info().width) {
             let olds = &mut master.costs_mut()[span.clone()];
             for (old, probability) in olds.iter_mut().zip(&self.grid.costs()[span]) {
                 let new = match *probability {
@@ -402,12 +402,12 @@ impl Layer for RangeLayer {
                 *cost = default_cost;
             }
         }
-        self.extra = Some(Bounds::of(self.grid.lattice()));
+        self.extra = Some(Bounds::of(self.grid.info()));
         self.is_waiting = true;
     }
 
-    fn resized(&mut self, lattice: &Lattice, _is_rolling: bool) {
-        self.grid.resize(*lattice);
+    fn resized(&mut self, info: &GridInfo, _is_rolling: bool) {
+        self.grid.resize(*info);
     }
 
     fn is_enabled(&self) -> bool {

@@ -5,7 +5,7 @@
 
 use periplus_diagnostics::Diagnostic;
 use periplus_geometry::{DVec3, Pose, Pose2};
-use periplus_grid::{Cell, Lattice, OccupancyGrid};
+use periplus_grid::{Cell, GridInfo, OccupancyGrid};
 use periplus_params::ParamValues;
 
 use crate::cost::{FREE, INSCRIBED, LETHAL, UNKNOWN};
@@ -144,7 +144,7 @@ impl StaticLayer {
     /// # Errors
     /// Why it is malformed; the layer keeps what it had.
     pub fn set_map(&mut self, map: OccupancyGrid, frame: &str) -> Result<(), String> {
-        let Lattice { resolution_m, width, height, origin } = map.lattice;
+        let GridInfo { resolution_m, width, height, origin } = map.info;
         if frame.is_empty() {
             return Err("it names no frame (`header.frame_id`)".into());
         }
@@ -174,11 +174,11 @@ impl StaticLayer {
     /// Why it does not fit.
     pub fn update_map(&mut self, window: Window, cells: &[i8], frame: &str) -> Result<(), String> {
         let Some(map) = &mut self.map else { return Err("there is no map yet".into()) };
-        let lattice = map.lattice;
-        if window.xn > lattice.width || window.yn > lattice.height {
+        let info = map.info;
+        if window.xn > info.width || window.yn > info.height {
             return Err(format!(
                 "it goes to ({}, {}), and the map has {} x {} cells",
-                window.xn, window.yn, lattice.width, lattice.height
+                window.xn, window.yn, info.width, info.height
             ));
         }
         if frame != self.map_frame {
@@ -195,8 +195,8 @@ impl StaticLayer {
         if window.is_empty() {
             return Ok(());
         }
-        let is_current = self.grid.lattice().len() == lattice.len() && !self.is_new;
-        for (row, span) in cells.chunks(window.width()).zip(window.spans(lattice.width)) {
+        let is_current = self.grid.info().len() == info.len() && !self.is_new;
+        for (row, span) in cells.chunks(window.width()).zip(window.spans(info.width)) {
             map.cells[span.clone()].copy_from_slice(row);
             if is_current {
                 for (cost, value) in self.grid.costs_mut()[span].iter_mut().zip(row) {
@@ -216,7 +216,7 @@ impl StaticLayer {
 
     fn write_grid(&mut self) {
         if let Some(map) = &self.map {
-            self.grid = Costmap::new(map.lattice, FREE);
+            self.grid = Costmap::new(map.info, FREE);
             for (cost, value) in self.grid.costs_mut().iter_mut().zip(&map.cells) {
                 *cost = self.meaning.cost(*value);
             }
@@ -228,14 +228,14 @@ impl StaticLayer {
     /// Looks each cell of a window up in a map that lies elsewhere.
     fn look_up(&self, master: &mut Costmap, window: &Window, map_from_global: Pose) {
         let finder = self.grid.finder();
-        let lattice = *master.lattice();
+        let info = *master.info();
         for y in window.y0..window.yn {
             for x in window.x0..window.xn {
-                let (wx, wy) = lattice.centre_of((x, y));
+                let (wx, wy) = info.centre_of((x, y));
                 let at = map_from_global.transform_point(DVec3::new(wx, wy, 0.0));
                 let Some(cell) = finder.cell_of(at.x, at.y) else { continue };
                 let Some(cost) = self.grid.cost(cell) else { continue };
-                let index = y * lattice.width + x;
+                let index = y * info.width + x;
                 let old = master.costs()[index];
                 let new = if self.meaning.uses_maximum {
                     // Here the reference compares numbers: unknown is the highest.
@@ -251,13 +251,13 @@ impl StaticLayer {
 
 /// A map whose rows run along x of its frame, with the nearest cell of a turned one in each.
 fn upright(map: OccupancyGrid) -> OccupancyGrid {
-    let Lattice { resolution_m, width, height, origin } = map.lattice;
+    let GridInfo { resolution_m, width, height, origin } = map.info;
     if origin.yaw_rad == 0.0 {
         return map;
     }
     let (columns, rows) = (width as f64, height as f64);
     let corners = [(0.0, 0.0), (columns, 0.0), (0.0, rows), (columns, rows)]
-        .map(|(column, row)| map.lattice.point_at(column, row));
+        .map(|(column, row)| map.info.point_at(column, row));
     let mut bounds = Bounds::EMPTY;
     for (x_m, y_m) in corners {
         bounds.touch(x_m, y_m);
@@ -266,19 +266,19 @@ fn upright(map: OccupancyGrid) -> OccupancyGrid {
     let count = |length_m: f64| libm::ceil(length_m / resolution_m - 1e-6).max(1.0) as usize;
     let origin = Pose2::new(bounds.min_x, bounds.min_y, 0.0);
     let (columns, rows) = (count(bounds.max_x - bounds.min_x), count(bounds.max_y - bounds.min_y));
-    let Ok(lattice) = Lattice::new(resolution_m, columns, rows, origin) else { return map };
-    let finder = map.lattice.finder();
-    let cells = (0..lattice.len())
+    let Ok(info) = GridInfo::new(resolution_m, columns, rows, origin) else { return map };
+    let finder = map.info.finder();
+    let cells = (0..info.len())
         .map(|index| {
-            let (x_m, y_m) = lattice.centre_of(lattice.cell(index));
+            let (x_m, y_m) = info.centre_of(info.cell(index));
             let cell = finder.cell_of(x_m, y_m);
             cell.map_or(periplus_grid::occupancy::UNKNOWN, |cell| map[cell])
         })
         .collect();
-    OccupancyGrid { lattice, cells }
+    OccupancyGrid { info, cells }
 }
 
-fn is_same(a: &Lattice, b: &Lattice) -> bool {
+fn is_same(a: &GridInfo, b: &GridInfo) -> bool {
     let near = |a: f64, b: f64| (a - b).abs() < SAME_M;
     (a.width, a.height) == (b.width, b.height)
         && near(a.resolution_m, b.resolution_m)
@@ -296,7 +296,7 @@ impl Layer for StaticLayer {
         if self.map.is_none() {
             return;
         }
-        let is_fitting = moment.is_rolling || is_same(self.grid.lattice(), &moment.lattice);
+        let is_fitting = moment.is_rolling || is_same(self.grid.info(), &moment.info);
         if self.is_new || !is_fitting {
             self.write_grid();
         }
@@ -304,15 +304,15 @@ impl Layer for StaticLayer {
             return;
         }
         if moment.is_rolling && moment.compat.follows_robot_with_map() {
-            let (half_width_m, half_height_m) = half_size_m(&moment.lattice, moment.compat);
+            let (half_width_m, half_height_m) = half_size_m(&moment.info, moment.compat);
             bounds.touch(moment.robot.x_m - half_width_m, moment.robot.y_m - half_height_m);
             bounds.touch(moment.robot.x_m + half_width_m, moment.robot.y_m + half_height_m);
         } else {
             // As far as the reference goes: the centres of the first cell and of one past the last.
-            let lattice = self.grid.lattice();
-            let (x_m, y_m) = lattice.centre_of((0, 0));
+            let info = self.grid.info();
+            let (x_m, y_m) = info.centre_of((0, 0));
             bounds.touch(x_m, y_m);
-            let (x_m, y_m) = lattice.centre_of((lattice.width, lattice.height));
+            let (x_m, y_m) = info.centre_of((info.width, info.height));
             bounds.touch(x_m, y_m);
         }
         if self.clears_footprint {
@@ -354,7 +354,7 @@ impl Layer for StaticLayer {
                 None => {}
             }
             self.was_lost = map_from_global.is_none();
-        } else if is_same(self.grid.lattice(), master.lattice()) {
+        } else if is_same(self.grid.info(), master.info()) {
             let how = if self.meaning.uses_maximum { Combination::Max } else { Combination::Copy };
             how.apply(master, &self.grid, &window);
         }
@@ -370,15 +370,15 @@ impl Layer for StaticLayer {
         self.is_waiting = true;
     }
 
-    fn wants_lattice(&self, current: &Lattice, is_size_locked: bool) -> Option<Lattice> {
+    fn requested_grid_info(&self, current: &GridInfo, is_size_locked: bool) -> Option<GridInfo> {
         let map = self.map.as_ref().filter(|_| self.is_new)?;
-        (!is_size_locked || !is_same(current, &map.lattice)).then_some(map.lattice)
+        (!is_size_locked || !is_same(current, &map.info)).then_some(map.info)
     }
 
-    fn resized(&mut self, lattice: &Lattice, is_rolling: bool) {
+    fn resized(&mut self, info: &GridInfo, is_rolling: bool) {
         // What a rolling costmap covers does not concern the map. Otherwise it is written again.
-        if !is_rolling && !is_same(self.grid.lattice(), lattice) {
-            self.grid.resize(*lattice);
+        if !is_rolling && !is_same(self.grid.info(), info) {
+            self.grid.resize(*info);
             self.is_new = self.map.is_some();
         }
         self.has_changed = true;
@@ -431,7 +431,7 @@ impl Layer for StaticLayer {
             let reason = "the map lies elsewhere; it is looked up when costs are made".to_owned();
             return Explanation { reason: Some(reason), ..Explanation::default() };
         }
-        debug_assert!(is_same(master.lattice(), self.grid.lattice()) || self.is_new);
+        debug_assert!(is_same(master.info(), self.grid.info()) || self.is_new);
         let value = self.grid.cost(cell);
         let reason = map.get(cell).map(|occupancy| format!("the map says {occupancy} here"));
         let parameter = match value {

@@ -3,7 +3,7 @@
 //! Source of the rules: `nav2_costmap_2d/plugins/voxel_layer.cpp`.
 
 use periplus_diagnostics::Diagnostic;
-use periplus_grid::{Cell, CellFinder, Lattice};
+use periplus_grid::{Cell, CellFinder, GridInfo};
 use periplus_params::ParamValues;
 
 use super::obstacle::touch_ray;
@@ -53,19 +53,14 @@ impl Columns {
     }
 
     /// A place in cells from the lowest corner; none outside.
-    fn place(
-        &self,
-        lattice: &Lattice,
-        finder: &CellFinder,
-        [x, y, z]: [f64; 3],
-    ) -> Option<[f64; 3]> {
+    fn place(&self, info: &GridInfo, finder: &CellFinder, [x, y, z]: [f64; 3]) -> Option<[f64; 3]> {
         let (columns, rows) = finder.cells_to(x, y);
         let layers = (z - self.origin_z_m) / self.z_resolution_m;
         let is_inside = columns >= 0.0
             && rows >= 0.0
             && layers >= 0.0
-            && columns < lattice.width as f64
-            && rows < lattice.height as f64
+            && columns < info.width as f64
+            && rows < info.height as f64
             && layers < f64::from(self.height);
         is_inside.then_some([columns, rows, layers])
     }
@@ -93,7 +88,7 @@ impl VoxelLayer {
     ) -> Self {
         let columns = Columns::read(&values);
         let sight = Sight::new(name.into(), values, tracks_unknown, sources);
-        let voxels = VoxelGrid::new(*sight.grid.lattice(), columns.height);
+        let voxels = VoxelGrid::new(*sight.grid.info(), columns.height);
         let mut layer =
             Self { sight, columns, voxels, repeats: Repeats::default(), clearing_ends: None };
         layer.complain_of_height();
@@ -185,9 +180,9 @@ impl VoxelLayer {
                 // A cloud without points has no rays to lose.
                 let is_lost = !is_inside && !source.observations[index].points.is_empty();
                 let heights = Some((self.columns.origin_z_m, self.columns.top_m()));
-                let (name, lattice) = (&sight.name, sight.grid.lattice());
+                let (name, info) = (&sight.name, sight.grid.info());
                 let complaints = &mut sight.complaints;
-                complain_of_sensor(is_lost, name, source, origin, lattice, heights, complaints);
+                complain_of_sensor(is_lost, name, source, origin, info, heights, complaints);
             }
         }
     }
@@ -217,7 +212,7 @@ impl Layer for VoxelLayer {
     fn bounds(&mut self, moment: &Moment<'_>, bounds: &mut Bounds) {
         let takes_part = self.sight.begin(moment, bounds);
         if moment.is_rolling {
-            self.voxels.follow(self.sight.grid.lattice());
+            self.voxels.follow(self.sight.grid.info());
         }
         if !takes_part {
             return;
@@ -235,9 +230,9 @@ impl Layer for VoxelLayer {
         self.voxels.reset();
     }
 
-    fn resized(&mut self, lattice: &Lattice, _is_rolling: bool) {
-        self.sight.resized(lattice);
-        self.voxels = VoxelGrid::new(*self.sight.grid.lattice(), self.columns.height);
+    fn resized(&mut self, info: &GridInfo, _is_rolling: bool) {
+        self.sight.resized(info);
+        self.voxels = VoxelGrid::new(*self.sight.grid.info(), self.columns.height);
     }
 
     fn configure(&mut self, values: ParamValues) -> Result<(), String> {
@@ -251,15 +246,15 @@ impl Layer for VoxelLayer {
         self.sight.configure(values);
         self.complain_of_height();
         if !is_same {
-            let lattice = *self.sight.grid.lattice();
-            self.resized(&lattice, false);
+            let info = *self.sight.grid.info();
+            self.resized(&info, false);
         }
         Ok(())
     }
 
     fn explain(&self, _master: &Costmap, cell: Cell, _is_rolling: bool) -> Explanation {
         let mut explanation = self.sight.explain(cell);
-        let Some(column) = self.voxels.columns().get(self.voxels.lattice().index(cell)) else {
+        let Some(column) = self.voxels.columns().get(self.voxels.info().index(cell)) else {
             return explanation;
         };
         let marked: Vec<String> = (0..self.columns.height)
@@ -299,16 +294,16 @@ impl Clearing<'_> {
     fn clear(&mut self, seen: &Observation, repeats: &mut Repeats, bounds: &mut Bounds) -> bool {
         let Columns { unknown_threshold, mark_threshold, .. } = self.columns;
         let finder = self.grid.finder();
-        let lattice = *self.grid.lattice();
-        let Some(start) = self.columns.place(&lattice, &finder, seen.origin) else { return false };
-        let rays = Rays::new(self.columns, &lattice, self.compat, seen.origin);
+        let info = *self.grid.info();
+        let Some(start) = self.columns.place(&info, &finder, seen.origin) else { return false };
+        let rays = Rays::new(self.columns, &info, self.compat, seen.origin);
         let longest = self.grid.cells_along(seen.rays.max_m);
         let shortest = self.grid.cells_along(seen.rays.min_m);
         let whole_m = f64::from(longest);
         repeats.forget();
         for point in &seen.points {
             let end_m = rays.end(*point);
-            let Some(end) = self.columns.place(&lattice, &finder, end_m) else { continue };
+            let Some(end) = self.columns.place(&info, &finder, end_m) else { continue };
             let [ox, oy, _] = seen.origin;
             touch_ray(bounds, [ox, oy], [end_m[0], end_m[1]], &seen.rays);
             if let Some(ends) = &mut self.ends {
@@ -318,7 +313,7 @@ impl Clearing<'_> {
             // does. Where a cut one ends depends on its length to the last digit.
             if shortest == 0 && is_within(start, end, whole_m) {
                 let [x, y, z] = end.map(|at| at as u64);
-                if repeats.has((y * lattice.width as u64 + x) << 4 | z) {
+                if repeats.has((y * info.width as u64 + x) << 4 | z) {
                     continue;
                 }
             }
@@ -356,13 +351,12 @@ struct Rays {
 }
 
 impl Rays {
-    fn new(columns: Columns, lattice: &Lattice, compat: Compat, origin: [f64; 3]) -> Self {
-        let length = |cells: usize| (cells as f64 - compat.missing_cells()) * lattice.resolution_m;
-        let low = [lattice.origin.x_m, lattice.origin.y_m, columns.origin_z_m];
-        let high =
-            [low[0] + length(lattice.width), low[1] + length(lattice.height), columns.top_m()];
+    fn new(columns: Columns, info: &GridInfo, compat: Compat, origin: [f64; 3]) -> Self {
+        let length = |cells: usize| (cells as f64 - compat.missing_cells()) * info.resolution_m;
+        let low = [info.origin.x_m, info.origin.y_m, columns.origin_z_m];
+        let high = [low[0] + length(info.width), low[1] + length(info.height), columns.top_m()];
         let margin = if compat.shortens_cut_rays() { WITHIN_EDGE } else { 0.0 };
-        Self { origin, low, high, shorter_m: 2.0 * lattice.resolution_m, margin }
+        Self { origin, low, high, shorter_m: 2.0 * info.resolution_m, margin }
     }
 
     /// The end of the ray to a point: two cells before it, so that it does not clear the obstacle
@@ -426,7 +420,7 @@ impl Marker {
     ) {
         let Columns { origin_z_m, z_resolution_m, height, mark_threshold, .. } = self.columns;
         let finder = grid.finder();
-        let width = grid.lattice().width;
+        let width = grid.info().width;
         let [ox, oy, oz] = seen.origin;
         let Span { min_m, max_m } = seen.marks;
         for point in &seen.points {

@@ -120,11 +120,11 @@ fn motion(pairs: &[(Pose2, Pose2)], weight: impl Fn(Pose2) -> f64) -> Pose2 {
 
 /// Inlier ratio of a scan, and whether the robot is in free space.
 fn covered(half: &Half, walls: &[u32], seen: &Seen, map_from_base: Pose2) -> (f64, bool) {
-    let lattice = half.map.lattice;
-    let cell_transform = lattice.finder();
+    let info = half.map.info;
+    let cell_transform = info.finder();
     let scan = &seen.scan;
     let map_from_laser = map_from_base * scan.base_from_laser;
-    let reach = ON_WALL_M / lattice.resolution_m;
+    let reach = ON_WALL_M / info.resolution_m;
     let (mut count, mut on) = (0_usize, 0_usize);
     for (index, &range) in scan.ranges_m.iter().enumerate() {
         let range = f64::from(range);
@@ -134,7 +134,7 @@ fn covered(half: &Half, walls: &[u32], seen: &Seen, map_from_base: Pose2) -> (f6
         let angle = scan.angle_min_rad + index as f64 * scan.angle_increment_rad;
         let (x, y) = map_from_laser.transform_point(range * angle.cos(), range * angle.sin());
         count += 1;
-        let cell = cell_transform.cell_of(x, y).map(|cell| lattice.index(cell));
+        let cell = cell_transform.cell_of(x, y).map(|cell| info.index(cell));
         on += usize::from(cell.is_some_and(|it| f64::from(walls[it]) < reach * reach));
     }
     let cell = cell_transform.cell_of(map_from_base.x_m, map_from_base.y_m);

@@ -94,11 +94,10 @@ impl Canvas {
 /// Draws the map, the trajectory of SLAM in blue, and that of localization: green while tracking,
 /// orange otherwise, red while tracking beyond the required agreement. Scale: a bar of ten metres.
 pub(crate) fn ways(map: &OccupancyGrid, compared: &Compared) -> Vec<u8> {
-    let lattice = map.lattice;
-    let margin = 0.5 * lattice.resolution_m;
+    let info = map.info;
+    let margin = 0.5 * info.resolution_m;
     let corner = |index: usize| {
-        lattice
-            .point_at([0, lattice.width][index % 2] as f64, [0, lattice.height][index / 2] as f64)
+        info.point_at([0, info.width][index % 2] as f64, [0, info.height][index / 2] as f64)
     };
     let corners = (0..4).map(corner);
     let places = compared.rows.iter().flat_map(|row| [Some(row.slam), row.found]).flatten();
@@ -109,11 +108,11 @@ pub(crate) fn ways(map: &OccupancyGrid, compared: &Compared) -> Vec<u8> {
         (high[0], high[1]) = (high[0].max(x + margin), high[1].max(y + margin));
     }
     let span = (high[0] - low[0]).max(high[1] - low[1]);
-    let pixel_m = (span / LONGEST as f64).max(lattice.resolution_m / 2.0);
+    let pixel_m = (span / LONGEST as f64).max(info.resolution_m / 2.0);
     let (width, height) =
         (((high[0] - low[0]) / pixel_m) as usize + 1, ((high[1] - low[1]) / pixel_m) as usize + 1);
     let mut canvas = Canvas::new(width, height, [205; 3]);
-    let cell_transform = lattice.finder();
+    let cell_transform = info.finder();
     for row in 0..height {
         for column in 0..width {
             let x = low[0] + (column as f64 + 0.5) * pixel_m;

@@ -90,11 +90,11 @@ impl<'a> Cover<'a> {
     }
 
     pub(crate) fn covers(&self, sight: &Sight) -> bool {
-        let lattice = self.map.lattice;
-        let cell_transform = lattice.finder();
+        let info = self.map.info;
+        let cell_transform = info.finder();
         let scan = &sight.scan;
         let map_from_laser = sight.map_from_base * scan.base_from_laser;
-        let reach = ON_WALL_M / lattice.resolution_m;
+        let reach = ON_WALL_M / info.resolution_m;
         let (mut count, mut on) = (0_usize, 0_usize);
         for (index, &range) in scan.ranges_m.iter().enumerate() {
             let range = f64::from(range);
@@ -104,7 +104,7 @@ impl<'a> Cover<'a> {
             let angle = scan.angle_min_rad + index as f64 * scan.angle_increment_rad;
             let (x, y) = map_from_laser.transform_point(range * angle.cos(), range * angle.sin());
             count += 1;
-            let cell = cell_transform.cell_of(x, y).map(|cell| lattice.index(cell));
+            let cell = cell_transform.cell_of(x, y).map(|cell| info.index(cell));
             on += usize::from(cell.is_some_and(|it| f64::from(self.walls[it]) < reach * reach));
         }
         let place = sight.map_from_base;
@@ -133,8 +133,8 @@ pub(crate) fn erased(course: &Course, angle: f64) -> OccupancyGrid {
     let line = places[places.len() / 2];
     let mut map = course.map.clone();
     for index in 0..map.cells.len() {
-        let (column, row) = map.lattice.cell(index);
-        let (x, y) = map.lattice.point_at(column as f64 + 0.5, row as f64 + 0.5);
+        let (column, row) = map.info.cell(index);
+        let (x, y) = map.info.point_at(column as f64 + 0.5, row as f64 + 0.5);
         if beyond(x, y) > line {
             map.cells[index] = occupancy::UNKNOWN;
         }
@@ -146,8 +146,8 @@ pub(crate) fn erased(course: &Course, angle: f64) -> OccupancyGrid {
 /// elsewhere, none on the path of the robot.
 pub(crate) fn rearranged(course: &Course, share: f64, stream: &mut Stream) -> OccupancyGrid {
     let mut map = course.map.clone();
-    let lattice = map.lattice;
-    let piece = (1.2 / lattice.resolution_m) as usize;
+    let info = map.info;
+    let piece = (1.2 / info.resolution_m) as usize;
     let walls: Vec<usize> =
         (0..map.cells.len()).filter(|&it| map.cells[it] == occupancy::OCCUPIED).collect();
     let free: Vec<usize> =
@@ -155,24 +155,23 @@ pub(crate) fn rearranged(course: &Course, share: f64, stream: &mut Stream) -> Oc
     let mut driven = course.map.clone();
     driven.cells.fill(0);
     for sight in &course.sights {
-        if let Some(cell) =
-            lattice.finder().cell_of(sight.map_from_base.x_m, sight.map_from_base.y_m)
+        if let Some(cell) = info.finder().cell_of(sight.map_from_base.x_m, sight.map_from_base.y_m)
         {
             driven[cell] = 1;
         }
     }
     let far = squared_distances(&driven, |&value| value == 1).cells;
-    let keep = (0.6 / lattice.resolution_m).powi(2) as u32;
+    let keep = (0.6 / info.resolution_m).powi(2) as u32;
     let pick = |from: &[usize], stream: &mut Stream| {
         from[((stream.unit() * from.len() as f64) as usize).min(from.len() - 1)]
     };
     let mut gone = 0;
     while (gone as f64) < share * walls.len() as f64 {
-        let (column, row) = lattice.cell(pick(&walls, stream));
+        let (column, row) = info.cell(pick(&walls, stream));
         for (a, b) in (0..piece * piece).map(|it| (it % piece, it / piece)) {
             let (column, row) =
                 ((column + a).wrapping_sub(piece / 2), (row + b).wrapping_sub(piece / 2));
-            if lattice.contains((column, row)) && map[(column, row)] == occupancy::OCCUPIED {
+            if info.contains((column, row)) && map[(column, row)] == occupancy::OCCUPIED {
                 map[(column, row)] = occupancy::FREE;
                 gone += 1;
             }
@@ -183,14 +182,14 @@ pub(crate) fn rearranged(course: &Course, share: f64, stream: &mut Stream) -> Oc
         if come >= gone {
             break;
         }
-        let (column, row) = lattice.cell(pick(&free, stream));
+        let (column, row) = info.cell(pick(&free, stream));
         let (wide, high) =
             (6 + (14.0 * stream.unit()) as usize, 6 + (14.0 * stream.unit()) as usize);
         let all: Vec<(usize, usize)> = (0..wide * high)
             .map(|it| (column + it % wide, row + it / wide))
-            .filter(|&cell| lattice.contains(cell))
+            .filter(|&cell| info.contains(cell))
             .collect();
-        if all.len() < wide * high || all.iter().any(|&cell| far[lattice.index(cell)] < keep) {
+        if all.len() < wide * high || all.iter().any(|&cell| far[info.index(cell)] < keep) {
             continue;
         }
         for cell in all {

@@ -4,7 +4,7 @@ use std::collections::VecDeque;
 use std::f64::consts::{PI, TAU};
 
 use periplus_geometry::{Pose2, Stream, normalize_angle};
-use periplus_grid::{Grid, Lattice, OccupancyGrid, occupancy};
+use periplus_grid::{Grid, GridInfo, OccupancyGrid, occupancy};
 use periplus_localization::{InitialPose, Scan};
 
 /// Cell size of the map \[m\].
@@ -188,9 +188,9 @@ impl World {
     pub(crate) fn map(&self) -> OccupancyGrid {
         let origin = Pose2::new(-1.013, -1.027, 0.0);
         let side = |metres: f64| ((metres + 2.1) / CELL_M) as usize;
-        let lattice = Lattice::new(CELL_M, side(self.size.0), side(self.size.1), origin).unwrap();
-        let mut map = Grid::new(lattice, occupancy::UNKNOWN);
-        let cell_transform = lattice.finder();
+        let info = GridInfo::new(CELL_M, side(self.size.0), side(self.size.1), origin).unwrap();
+        let mut map = Grid::new(info, occupancy::UNKNOWN);
+        let cell_transform = info.finder();
         for &[x0, y0, x1, y1] in &self.walls {
             // Points along the walls as dense as ranges.
             let count = (libm::hypot(x1 - x0, y1 - y0) / 0.01) as usize + 1;
@@ -280,8 +280,8 @@ impl World {
     pub(crate) fn random_pose(&self, map: &OccupancyGrid, stream: &mut Stream) -> Pose2 {
         let free: Vec<usize> = (0..map.cells.len()).filter(|&it| map.cells[it] == 0).collect();
         loop {
-            let cell = map.lattice.cell(free[(stream.unit() * free.len() as f64) as usize]);
-            let (x, y) = map.lattice.point_at(cell.0 as f64 + 0.5, cell.1 as f64 + 0.5);
+            let cell = map.info.cell(free[(stream.unit() * free.len() as f64) as usize]);
+            let (x, y) = map.info.point_at(cell.0 as f64 + 0.5, cell.1 as f64 + 0.5);
             let is_clear =
                 (0..24).all(|step| self.range_m((x, y), f64::from(step) * TAU / 24.0) > CLEAR_M);
             if is_clear {

@@ -19,14 +19,14 @@ pub(crate) struct RayCaster {
 
 impl RayCaster {
     pub(crate) fn new(map: &LikelihoodMap) -> Self {
-        let lattice = map.lattice();
+        let info = map.info();
         let blocks = map.states().map(|state| *state != CellState::Free);
         let distances = squared_distances(&blocks, |&blocks| blocks);
         Self {
             cell_transform: map.cell_transform(),
-            width: lattice.width,
-            height: lattice.height,
-            cell_m: lattice.resolution_m,
+            width: info.width,
+            height: info.height,
+            cell_m: info.resolution_m,
             distances_cells: distances
                 .cells
                 .iter()

@@ -175,7 +175,7 @@ struct LookupTable {
 impl LookupTable {
     /// Maps the distances of a likelihood map \[m\] through a function.
     fn new(map: &LikelihoodMap, value: impl Fn(f64) -> f32) -> Self {
-        let (width, height) = (map.lattice().width, map.lattice().height);
+        let (width, height) = (map.info().width, map.info().height);
         let shift = (width + 2).next_power_of_two().trailing_zeros();
         let outside = value(map.distance_max_m());
         let max = map.distance_max_m() as f32;

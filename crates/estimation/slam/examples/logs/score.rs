@@ -318,8 +318,7 @@ fn ate(truth: &[Pose2], trajectory: &[(i64, Pose2)]) -> (f64, f64) {
 fn write(out: &Path, name: &str, slam: &dyn Mapper, trajectory: &[Stamped]) {
     fs::create_dir_all(out).unwrap();
     if let Some(map) = slam.map() {
-        let mut bytes =
-            format!("P5\n{} {}\n255\n", map.lattice.width, map.lattice.height).into_bytes();
+        let mut bytes = format!("P5\n{} {}\n255\n", map.info.width, map.info.height).into_bytes();
         for row in map.rows().rev() {
             bytes.extend(
                 row.iter()

@@ -4,7 +4,7 @@ use std::ops::Range;
 use std::sync::Arc;
 
 use periplus_geometry::Pose2;
-use periplus_grid::{Grid, Lattice, OccupancyGrid, occupancy};
+use periplus_grid::{Grid, GridInfo, OccupancyGrid, occupancy};
 
 use super::trace::Trace;
 use crate::map::{Plan, part};
@@ -351,27 +351,27 @@ impl Cells {
         let origin = low.map(|low| f64::from(low) * self.resolution_m);
         let origin = Pose2::new(origin[0], origin[1], 0.0);
         let size: [usize; 2] = std::array::from_fn(|axis| (high[axis] - low[axis] + 1) as usize);
-        let lattice = Lattice::new(self.resolution_m, size[0], size[1], origin).ok()?;
-        Some(CellsPlan { cells: self, lattice, low, occupied_share })
+        let info = GridInfo::new(self.resolution_m, size[0], size[1], origin).ok()?;
+        Some(CellsPlan { cells: self, info, low, occupied_share })
     }
 }
 
 /// A map of cells, to be drawn a few rows at a time.
 pub(super) struct CellsPlan {
     cells: Cells,
-    lattice: Lattice,
+    info: GridInfo,
     /// The cell at the corner.
     low: [i32; 2],
     occupied_share: f64,
 }
 
 impl Plan for CellsPlan {
-    fn lattice(&self) -> Lattice {
-        self.lattice
+    fn info(&self) -> GridInfo {
+        self.info
     }
 
     fn rows(&self, rows: Range<usize>) -> OccupancyGrid {
-        let mut grid = Grid::new(part(&self.lattice, &rows), occupancy::UNKNOWN);
+        let mut grid = Grid::new(part(&self.info, &rows), occupancy::UNKNOWN);
         let low = [self.low[0], self.low[1] + rows.start as i32];
         let count = rows.len() as i32;
         self.cells.each_tile(|corner, _, tile| {
@@ -607,10 +607,10 @@ mod tests {
         let cells = drawn(&[[3.0, 0.0]]);
         let drawn = |bounds_m| {
             let plan = cells.clone().plan(0.25, bounds_m).unwrap();
-            let whole = plan.rows(0..plan.lattice.height);
-            for low in 0..plan.lattice.height - 2 {
+            let whole = plan.rows(0..plan.info.height);
+            for low in 0..plan.info.height - 2 {
                 let band = plan.rows(low..low + 3);
-                let width = plan.lattice.width;
+                let width = plan.info.width;
                 assert_eq!(band.cells, whole.cells[low * width..(low + 3) * width]);
             }
             whole
@@ -620,7 +620,7 @@ mod tests {
         assert_eq!(grid.at(3.5, 0.5), Some(&occupancy::OCCUPIED));
         assert_eq!(grid.at(4.5, 0.5), Some(&occupancy::UNKNOWN));
         let wide = drawn([Some(-10.0), Some(-20.0), Some(10.0), Some(20.0)]);
-        assert_eq!((wide.lattice.width, wide.lattice.height), (20, 40));
+        assert_eq!((wide.info.width, wide.info.height), (20, 40));
         assert_eq!(wide.at(3.5, 0.5), Some(&occupancy::OCCUPIED));
     }
 

@@ -16,7 +16,7 @@ use periplus_msgs::geometry_msgs::PoseWithCovarianceStamped;
 use periplus_msgs::nav_msgs::OccupancyGrid;
 use periplus_msgs::tf2_msgs::TFMessage;
 use periplus_params::ParamValues;
-use periplus_tf::Kind;
+use periplus_tf::TransformKind;
 use periplus_tf_ros::{Frames, Told, plain};
 
 use crate::Files;
@@ -107,11 +107,11 @@ impl AmclNode {
             state.set_pose(&message, io.node());
         })?;
         actor.subscribe::<TFMessage>("/tf_static", Qos::latched(100), |state, message, _| {
-            state.frames.take(&message, Kind::Fixed);
+            state.frames.take(&message, TransformKind::Fixed);
         })?;
         // New transforms may complete waiting scans.
         actor.subscribe::<TFMessage>("/tf", Qos::reliable(1000), |state, message, io| {
-            state.frames.take(&message, Kind::Moving);
+            state.frames.take(&message, TransformKind::Moving);
             state.process(io.node());
         })?;
         actor.timer(PROCESSING_INTERVAL_NS, |state, io| state.process(io.node()))?;
@@ -316,10 +316,10 @@ impl AmclNodeState {
                 return false;
             }
         };
-        let lattice = grid.lattice;
+        let info = grid.info;
         match amcl.set_map(plain(&message.header.frame_id), &grid) {
             Ok(true) => {
-                let (width, height, side) = (lattice.width, lattice.height, lattice.resolution_m);
+                let (width, height, side) = (info.width, info.height, info.resolution_m);
                 node.log(
                     Level::Info,
                     format_args!("received a map of {width} by {height} cells of {side} m"),

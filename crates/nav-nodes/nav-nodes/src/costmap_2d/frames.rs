@@ -4,7 +4,7 @@ use periplus_costmap::Frames;
 use periplus_geometry::Pose;
 use periplus_graph::{GraphError, Mailbox, Node, Qos};
 use periplus_msgs::tf2_msgs;
-use periplus_tf::{Kind, LookupError};
+use periplus_tf::{LookupError, TransformKind};
 use periplus_tf_ros as whereabouts;
 
 /// Most transforms that wait between two updates.
@@ -28,7 +28,9 @@ impl Listener {
 
     /// Takes in what has come.
     pub(crate) fn listen(&mut self) {
-        for (mailbox, kind) in [(&self.fixed, Kind::Fixed), (&self.moving, Kind::Moving)] {
+        for (mailbox, kind) in
+            [(&self.fixed, TransformKind::Fixed), (&self.moving, TransformKind::Moving)]
+        {
             for message in mailbox.drain() {
                 self.frames.take(&message, kind);
             }

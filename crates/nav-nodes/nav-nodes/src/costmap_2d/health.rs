@@ -99,9 +99,9 @@ fn whole(patient: &Patient<'_>, now_ns: i64) -> DiagnosticStatus {
         let message = "waits until somebody configures and activates it".to_owned();
         return patient.status("costmap", DiagnosticStatus::WARN, message, values);
     };
-    let lattice = costmap.costmap().lattice();
-    values.push(pair("cells", format!("{} x {}", lattice.width, lattice.height)));
-    values.push(pair("resolution [m]", lattice.resolution_m));
+    let info = costmap.costmap().info();
+    values.push(pair("cells", format!("{} x {}", info.width, info.height)));
+    values.push(pair("resolution [m]", info.resolution_m));
     values.push(pair("frame", &costmap.frame().global_frame));
     let mut waiting: Vec<String> = Vec::new();
     for layer in costmap.all().filter(|it| it.is_enabled() && !it.is_current(now_ns)) {

@@ -2,7 +2,7 @@
 
 use periplus_costmap::{Costmap, Window, cost};
 use periplus_geometry::{DQuat, Pose, Pose2};
-use periplus_grid::{Lattice, OccupancyGrid};
+use periplus_grid::{GridInfo, OccupancyGrid};
 use periplus_msgs::builtin_interfaces::Time;
 use periplus_msgs::std_msgs::Header;
 use periplus_msgs::{geometry_msgs, map_msgs, nav_msgs, nav2_msgs};
@@ -33,9 +33,9 @@ fn point_pose(x: f64, y: f64, z: f64) -> geometry_msgs::Pose {
 pub(crate) fn map(message: &nav_msgs::OccupancyGrid) -> Result<OccupancyGrid, String> {
     let info = &message.info;
     let (width, height) = (info.width as usize, info.height as usize);
-    let lattice = Lattice::new(info.resolution.into(), width, height, pose2(&info.origin))
+    let info = GridInfo::new(info.resolution.into(), width, height, pose2(&info.origin))
         .map_err(|error| error.to_string())?;
-    OccupancyGrid::from_cells(lattice, message.data.clone())
+    OccupancyGrid::from_cells(info, message.data.clone())
         .map_err(|cells| format!("it has {} cells and should have {width} x {height}", cells.len()))
 }
 
@@ -46,7 +46,7 @@ pub(crate) fn occupancy_grid(
     now_ns: i64,
     z_m: f64,
 ) -> nav_msgs::OccupancyGrid {
-    let Lattice { resolution_m, width, height, origin } = *costmap.lattice();
+    let GridInfo { resolution_m, width, height, origin } = *costmap.info();
     nav_msgs::OccupancyGrid {
         header: Header::at(now_ns, frame),
         info: nav_msgs::MapMetaData {
@@ -62,7 +62,7 @@ pub(crate) fn occupancy_grid(
 
 /// Costs as they are.
 pub(crate) fn raw(costmap: &Costmap, frame: &str, now_ns: i64, layer: &str) -> nav2_msgs::Costmap {
-    let Lattice { resolution_m, width, height, origin } = *costmap.lattice();
+    let GridInfo { resolution_m, width, height, origin } = *costmap.info();
     nav2_msgs::Costmap {
         header: Header::at(now_ns, frame),
         metadata: nav2_msgs::CostmapMetaData {
@@ -113,7 +113,7 @@ pub(crate) fn raw_update(
 }
 
 fn cells<'a>(costmap: &'a Costmap, window: &Window) -> impl Iterator<Item = u8> + use<'a> {
-    let spans = window.spans(costmap.lattice().width);
+    let spans = window.spans(costmap.info().width);
     spans.flat_map(move |span| costmap.costs()[span].iter().copied())
 }
 

@@ -392,8 +392,8 @@ impl State {
         }
         let costmap = self.costmap.as_ref();
         let size = costmap.map_or((0, 0), |costmap| {
-            let lattice = costmap.costmap().lattice();
-            (lattice.width, lattice.height)
+            let info = costmap.costmap().info();
+            (info.width, info.height)
         });
         CostmapStatus {
             node: node.full_name().to_owned(),

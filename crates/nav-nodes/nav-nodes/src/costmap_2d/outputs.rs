@@ -45,7 +45,7 @@ impl GridPort {
             self.publication.start_over();
         }
         let About { frame, now_ns, .. } = *about;
-        match self.publication.next(costmap.lattice(), about.always_full) {
+        match self.publication.next(costmap.info(), about.always_full) {
             Outgoing::Nothing => {}
             Outgoing::Full => {
                 // The first one is kept for whoever comes later.
@@ -213,7 +213,7 @@ impl Outputs {
         self.master.publish(costmap.costmap(), "master", &about);
         for layer in costmap.layers().iter().filter(|layer| layer.is_enabled()) {
             let Some(port) = self.layers.get_mut(layer.name()) else { continue };
-            if let Some(grid) = layer.grid().filter(|grid| !grid.lattice().is_empty()) {
+            if let Some(grid) = layer.grid().filter(|grid| !grid.info().is_empty()) {
                 port.publish(grid, layer.name(), &about);
             }
         }
@@ -222,22 +222,22 @@ impl Outputs {
 
 fn voxel_grid(layer: &VoxelLayer, frame: &str, now_ns: i64) -> nav2_msgs::VoxelGrid {
     let voxels = layer.voxels();
-    let lattice = voxels.lattice();
+    let info = voxels.info();
     nav2_msgs::VoxelGrid {
         header: Header::at(now_ns, frame),
         data: voxels.columns().to_vec(),
         origin: geometry_msgs::Point32 {
-            x: lattice.origin.x_m as f32,
-            y: lattice.origin.y_m as f32,
+            x: info.origin.x_m as f32,
+            y: info.origin.y_m as f32,
             z: layer.origin_z_m() as f32,
         },
         resolutions: geometry_msgs::Vector3 {
-            x: lattice.resolution_m,
-            y: lattice.resolution_m,
+            x: info.resolution_m,
+            y: info.resolution_m,
             z: layer.z_resolution_m(),
         },
-        size_x: lattice.width as u32,
-        size_y: lattice.height as u32,
+        size_x: info.width as u32,
+        size_y: info.height as u32,
         size_z: voxels.height(),
     }
 }

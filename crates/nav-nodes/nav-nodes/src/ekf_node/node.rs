@@ -9,7 +9,7 @@ use periplus_msgs::geometry_msgs::PoseWithCovarianceStamped;
 use periplus_msgs::std_srvs::{Empty, EmptyResponse};
 use periplus_msgs::tf2_msgs::TFMessage;
 use periplus_params::ParamValues;
-use periplus_tf::Kind;
+use periplus_tf::TransformKind;
 use periplus_tf_ros::{Frames, Told, plain, transform};
 
 use crate::ekf_node::inputs::{Desk, hear};
@@ -70,10 +70,10 @@ impl EkfNode {
         let given = parameters.values();
         actor.with(|state| state.change(&given)).map_err(|reason| GraphError::Value { reason })?;
         actor.subscribe::<TFMessage>("/tf_static", Qos::latched(100), |state, message, _| {
-            state.frames.take(&message, Kind::Fixed);
+            state.frames.take(&message, TransformKind::Fixed);
         })?;
         actor.subscribe::<TFMessage>("/tf", Qos::reliable(1000), |state, message, _| {
-            state.frames.take(&message, Kind::Moving);
+            state.frames.take(&message, TransformKind::Moving);
         })?;
         for (number, source) in settings.sources.iter().enumerate() {
             hear(&mut actor, source, number)?;

@@ -219,15 +219,15 @@ impl State {
             io.node().log(level, words);
         }
         if let Some(map) = &loaded.map {
-            let lattice = map.grid.lattice;
+            let info = map.grid.info;
             io.node().log(
                 Level::Info,
                 format!(
                     "Read map {}: {} X {} map @ {} m/cell",
                     map.image_path.display(),
-                    lattice.width,
-                    lattice.height,
-                    lattice.resolution_m
+                    info.width,
+                    info.height,
+                    info.resolution_m
                 ),
             );
             self.map =

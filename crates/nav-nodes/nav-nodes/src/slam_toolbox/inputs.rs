@@ -185,7 +185,7 @@ mod tests {
     use periplus_msgs::std_msgs::Header;
     use periplus_msgs::tf2_msgs::TFMessage;
     use periplus_slam::tables::SLAM_TOOLBOX;
-    use periplus_tf::Kind;
+    use periplus_tf::TransformKind;
 
     use super::*;
 
@@ -211,9 +211,9 @@ mod tests {
             scans.publish(LaserScan { header, ..LaserScan::default() });
         }
         let mut frames = Frames::default();
-        frames.take(&transform("base", "laser", 1), Kind::Fixed);
+        frames.take(&transform("base", "laser", 1), TransformKind::Fixed);
         for sec in 1..=3 {
-            frames.take(&transform("odom", "base", sec), Kind::Moving);
+            frames.take(&transform("odom", "base", sec), TransformKind::Moving);
         }
         let names = Names { map: "map".into(), odom: "odom".into(), base: "base".into() };
         inputs.listen(0);

@@ -18,7 +18,7 @@ use periplus_scan_matching::Symmetric3;
 use periplus_slam::{
     Closure, CorrectedInput, Counts, MountingCorrection, Scan, ScanOutcome, Slam, Update, tables,
 };
-use periplus_tf::Kind;
+use periplus_tf::TransformKind;
 use periplus_tf_ros::{Frames, Told, plain};
 
 use crate::Files;
@@ -238,11 +238,11 @@ impl SlamNode {
             }
         });
         actor.subscribe::<TFMessage>("/tf_static", Qos::latched(100), |state, message, _| {
-            state.frames.take(&message, Kind::Fixed);
+            state.frames.take(&message, TransformKind::Fixed);
         })?;
         // Scans wait for transforms.
         actor.subscribe::<TFMessage>("/tf", Qos::reliable(1000), |state, message, io| {
-            state.frames.take(&message, Kind::Moving);
+            state.frames.take(&message, TransformKind::Moving);
             state.work(io.node());
         })?;
         actor.timer(LOOK_NS, |state, io| state.work(io.node()))?;

@@ -8,7 +8,7 @@ use std::sync::{Arc, Mutex};
 
 use periplus_geometry::{Pose, Pose2};
 use periplus_graph::{Graph, Mailbox, Node, NodeSettings, Publisher, Qos, Transition};
-use periplus_grid::{Grid, Lattice, OccupancyGrid as Map, occupancy};
+use periplus_grid::{Grid, GridInfo, OccupancyGrid as Map, occupancy};
 use periplus_localization::{AMCL, Settings};
 use periplus_maps::to_message;
 use periplus_msgs::builtin_interfaces::Time;
@@ -32,8 +32,8 @@ use periplus_resources::{EntryKind, FileReadError, Host, MemoryHost, Store, Writ
 
 /// A room of 6 by 4 metres with a pillar and a cut corner, without symmetries.
 fn room() -> Map {
-    let lattice = Lattice::new(0.05, 120, 80, Pose2::new(-1.0, -1.0, 0.0)).unwrap();
-    let mut map = Grid::new(lattice, occupancy::FREE);
+    let info = GridInfo::new(0.05, 120, 80, Pose2::new(-1.0, -1.0, 0.0)).unwrap();
+    let mut map = Grid::new(info, occupancy::FREE);
     let boxes = [
         (0, 0, 120, 2),
         (0, 78, 120, 80),
@@ -55,7 +55,7 @@ fn room() -> Map {
 /// What a scanner in the middle of the robot sees.
 fn look(map: &Map, map_from_laser: Pose2) -> Vec<f32> {
     const BEAMS: usize = 120;
-    let finder = map.lattice.finder();
+    let finder = map.info.finder();
     let range = |beam: usize| {
         let angle = map_from_laser.yaw_rad - PI + beam as f64 * TAU / BEAMS as f64;
         let (sine, cosine) = angle.sin_cos();

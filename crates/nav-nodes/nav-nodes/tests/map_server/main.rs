@@ -7,7 +7,7 @@ use std::sync::{Arc, Mutex};
 
 use periplus_geometry::Pose2;
 use periplus_graph::{Graph, LifecycleState, Mailbox, Node, NodeSettings, Qos, Transition};
-use periplus_grid::{Grid, Lattice};
+use periplus_grid::{Grid, GridInfo};
 use periplus_maps::{Distro, to_message};
 use periplus_msgs::Service;
 use periplus_msgs::nav_msgs::{GetMap, GetMapRequest, MapMetaData, OccupancyGrid};
@@ -157,8 +157,8 @@ fn a_map_is_saved() {
     let files = Files::new();
     let node = stage.graph.node(NodeSettings::new("map_saver")).unwrap();
     let saver = MapSaver::new(node, Distro::Jazzy, files.clone()).unwrap();
-    let lattice = Lattice::new(0.05, 2, 1, Pose2::IDENTITY).unwrap();
-    let map = to_message(&Grid { lattice, cells: vec![-1, 100] }, "map", Default::default());
+    let info = GridInfo::new(0.05, 2, 1, Pose2::IDENTITY).unwrap();
+    let map = to_message(&Grid { info, cells: vec![-1, 100] }, "map", Default::default());
     let publisher = stage.user.publisher("/map", Qos::latched(1)).unwrap();
     publisher.publish(map);
     let save = |url: &str, topic: &str| {

@@ -215,11 +215,11 @@ fn odometry_that_stands_still_is_reported_until_it_moves() {
 /// Walls of a map that are within 0.15 m of those of the room, of all.
 fn right_walls(stage: &Stage) -> f64 {
     let map = stage.slam.map().unwrap();
-    let lattice = map.lattice;
+    let info = map.info;
     let (mut right, mut all) = (0, 0);
-    for row in 0..lattice.height {
-        for column in (0..lattice.width).filter(|&column| map[(column, row)] > 60) {
-            let (x, y) = lattice.centre_of((column, row));
+    for row in 0..info.height {
+        for column in (0..info.width).filter(|&column| map[(column, row)] > 60) {
+            let (x, y) = info.centre_of((column, row));
             let (x, y) = stage.start.transform_point(x, y);
             let away = stage.walls.iter().map(|&[x0, y0, x1, y1]| {
                 let nearest = |value: f64, a: f64, b: f64| value.clamp(a.min(b), a.max(b));

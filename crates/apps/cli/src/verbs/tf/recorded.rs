@@ -9,7 +9,7 @@ use periplus_msgs::tf2_msgs::TFMessage;
 use periplus_ros2cli::Failure;
 use periplus_ros2cli::frames::Forest;
 use periplus_ros2cli::tf::{Pictures, put_tree, stamped};
-use periplus_tf::{Kind, Survey};
+use periplus_tf::{TransformKind, TransformMonitor};
 
 use crate::log::bag::{each, has_type};
 use crate::terminal;
@@ -39,15 +39,19 @@ pub(super) fn tree(path: &Path, pictures: &Pictures, common: &Common) -> io::Res
                 path.display()
             )));
         }
-        let mut survey = Survey::keeping(i64::MAX);
+        let mut survey = TransformMonitor::with_cache_ns(i64::MAX);
         let mut newest_ns = 0;
         let read = each::<TFMessage>(&bag, &topics, |topic, message| {
-            let kind = if topic.ends_with("tf_static") { Kind::Fixed } else { Kind::Moving };
+            let kind = if topic.ends_with("tf_static") {
+                TransformKind::Fixed
+            } else {
+                TransformKind::Moving
+            };
             for transform in &message.transforms {
                 let it = stamped(transform);
                 newest_ns = newest_ns.max(it.stamp_ns);
                 // Refused transforms are counted, and reported below.
-                let _ = survey.hear(&it, topic, kind);
+                let _ = survey.insert(&it, topic, kind);
             }
         });
         for fault in read.map_err(|why| Failure::failed(why.to_string()))? {

@@ -7,14 +7,14 @@ use std::time::Duration;
 use periplus_geometry::Pose2;
 use periplus_graph::{Durability, GraphError, Mailbox, Node, Publisher, Qos, Reliability};
 use periplus_grid::occupancy::FREE;
-use periplus_grid::{Lattice, OccupancyGrid};
+use periplus_grid::{GridInfo, OccupancyGrid};
 use periplus_maps::{BesideTruth, beside_truth, from_message};
 use periplus_msgs::diagnostic_msgs::{DiagnosticArray, DiagnosticStatus, KeyValue};
 use periplus_msgs::nav_msgs;
 use periplus_msgs::std_msgs::Header;
 use periplus_msgs::tf2_msgs::TFMessage;
 use periplus_os::Stopwatch;
-use periplus_tf::Kind;
+use periplus_tf::TransformKind;
 use periplus_tf_ros::Frames;
 
 use crate::Simulation;
@@ -127,7 +127,9 @@ impl MapSubscriptions {
             self.places.pop_front();
         }
         self.places.push_back((now_ns, simulation.robot_links()));
-        for (mailbox, kind) in [(&self.fixed, Kind::Fixed), (&self.moving, Kind::Moving)] {
+        for (mailbox, kind) in
+            [(&self.fixed, TransformKind::Fixed), (&self.moving, TransformKind::Moving)]
+        {
             mailbox.drain().iter().for_each(|message| self.frames.take(message, kind));
         }
     }
@@ -172,7 +174,7 @@ impl MapSubscriptions {
     fn compare(&self, simulation: &mut Simulation) -> Vec<DiagnosticStatus> {
         let maps = self.maps.iter().filter_map(|(name, map)| Some((name, map.last.as_ref()?)));
         maps.filter_map(|(name, message)| {
-            let map = from_message(message).ok().filter(|map| map.lattice.len() <= MAX_CELLS)?;
+            let map = from_message(message).ok().filter(|map| map.info.len() <= MAX_CELLS)?;
             let world_from_map = self.world_from_map(&message.header.frame_id)?;
             Some(describe(name, &simulation.beside_truth(&map, world_from_map)?))
         })
@@ -209,8 +211,8 @@ impl Simulation {
         world_from_map: Pose2,
     ) -> Option<BesideTruth> {
         let mut map = map.clone();
-        map.lattice.origin = world_from_map * map.lattice.origin;
-        let (truth, is_whole) = self.truth_around(map.lattice)?;
+        map.info.origin = world_from_map * map.info.origin;
+        let (truth, is_whole) = self.truth_around(map.info)?;
         let found = beside_truth(&truth, &map, WINDOW_M, WINDOW_RAD).ok()?;
         let explored = found.explored.filter(|_| is_whole);
         Some(BesideTruth { explored, ..found })
@@ -218,17 +220,17 @@ impl Simulation {
 
     /// Returns the true map on the cells of a map, extended to all that the robot could reach, and
     /// whether it is complete; without the extension if it is unbounded.
-    fn truth_around(&mut self, lattice: Lattice) -> Option<(OccupancyGrid, bool)> {
-        let own = self.truth_map(lattice)?;
+    fn truth_around(&mut self, info: GridInfo) -> Option<(OccupancyGrid, bool)> {
+        let own = self.truth_map(info)?;
         let mut truth = own.clone();
         while is_open(&truth) {
-            let Lattice { width, height, resolution_m, .. } = truth.lattice;
+            let GridInfo { width, height, resolution_m, .. } = truth.info;
             let more = width.max(height) / 2 + 1;
             let (width, height) = (width + 2 * more, height + 2 * more);
-            let corner = truth.lattice.moved(-(more as i64), -(more as i64)).origin;
-            let larger = Lattice::new(resolution_m, width, height, corner).ok();
+            let corner = truth.info.moved(-(more as i64), -(more as i64)).origin;
+            let larger = GridInfo::new(resolution_m, width, height, corner).ok();
             let Some(larger) =
-                larger.filter(|it| it.len() <= MAX_MARGIN_CELLS.max(4 * lattice.len()))
+                larger.filter(|it| it.len() <= MAX_MARGIN_CELLS.max(4 * info.len()))
             else {
                 return Some((own, false));
             };
@@ -243,9 +245,9 @@ const MAX_MARGIN_CELLS: usize = 1_000_000;
 
 /// Returns true if free space continues beyond the map: it reaches the border, or begins elsewhere.
 fn is_open(map: &OccupancyGrid) -> bool {
-    let (width, height) = (map.lattice.width, map.lattice.height);
+    let (width, height) = (map.info.width, map.info.height);
     let edge = |index: usize| {
-        let (column, row) = map.lattice.cell(index);
+        let (column, row) = map.info.cell(index);
         column == 0 || row == 0 || column + 1 == width || row + 1 == height
     };
     let mut free = (0..map.cells.len()).filter(|&index| map.cells[index] == FREE).peekable();

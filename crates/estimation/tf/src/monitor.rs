@@ -1,47 +1,53 @@
-//! What a buffer does not keep, and people look for: who said what of a frame.
+//! Monitor of published transforms: every parent of a frame, rejected transforms and time jumps.
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use crate::buffer::{Buffer, Kind, Stamped};
-use crate::error::Refused;
+use crate::buffer::{Buffer, StampedTransform, TransformKind};
+use crate::error::RejectedTransform;
 
-/// A frame that somebody said to be the parent of another.
+/// A frame that was published as the parent of another frame.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Parent {
-    /// Its name.
+pub struct PublishedParent {
+    /// Name of the parent.
     pub name: String,
-    /// How often it was said.
+    /// Number of transforms with this parent.
     pub count: usize,
-    /// The newest stamp with which it was said \[ns\].
+    /// Newest stamp with this parent \[ns\].
     pub newest_ns: i64,
-    /// How long the last one holds.
-    pub kind: Kind,
+    /// Static or dynamic, in the latest transform.
+    pub kind: TransformKind,
 }
 
-/// A buffer, and beside it all that was said.
+/// A transform buffer with statistics about all transforms that were published.
 #[derive(Clone, Debug, Default)]
-pub struct Survey {
-    /// What is kept.
+pub struct TransformMonitor {
+    /// Cached transforms.
     pub buffer: Buffer,
-    parents: BTreeMap<String, Vec<Parent>>,
+    parents: BTreeMap<String, Vec<PublishedParent>>,
     with_slash: BTreeSet<String>,
     refused: BTreeMap<(String, &'static str), usize>,
     jumps: usize,
 }
 
-impl Survey {
-    /// One that keeps samples of a frame for so long behind its newest \[ns\].
+impl TransformMonitor {
+    /// Creates a monitor that keeps the samples of a frame for `span_ns` before its newest one
+    /// \[ns\].
     #[must_use]
-    pub fn keeping(span_ns: i64) -> Self {
+    pub fn with_cache_ns(span_ns: i64) -> Self {
         Self { buffer: Buffer::new(span_ns), ..Self::default() }
     }
 
-    /// Takes a transform, as [`Buffer::set`] does. When it is older than all that is kept, time has
-    /// jumped back: all samples are forgotten, and it is taken.
-    ///
+    /// Inserts a transform like [`Buffer::set`]. A transform older than all cached samples is a
+    /// time jump: all samples are dropped, and the transform is inserted.
     /// # Errors
+    /// The reason for which the transform is rejected, or the time jump.
     /// Why it is not taken, or that time has jumped back.
-    pub fn hear(&mut self, it: &Stamped, authority: &str, kind: Kind) -> Result<(), Refused> {
+    pub fn insert(
+        &mut self,
+        it: &StampedTransform,
+        authority: &str,
+        kind: TransformKind,
+    ) -> Result<(), RejectedTransform> {
         for name in [&it.parent, &it.child] {
             if name.starts_with('/') {
                 self.with_slash.insert(name.clone());
@@ -49,7 +55,7 @@ impl Survey {
         }
         let outcome = self.buffer.set(it, authority, kind);
         if let Err(why) = &outcome {
-            if !matches!(why, Refused::OldData(..)) {
+            if !matches!(why, RejectedTransform::OldData(..)) {
                 let child = it.child.strip_prefix('/').unwrap_or(&it.child).to_owned();
                 *self.refused.entry((child, why.name())).or_default() += 1;
                 return outcome;
@@ -68,37 +74,42 @@ impl Survey {
                 known.kind = kind;
             }
             None => {
-                parents.push(Parent { name: parent, count: 1, newest_ns: it.stamp_ns, kind });
+                parents.push(PublishedParent {
+                    name: parent,
+                    count: 1,
+                    newest_ns: it.stamp_ns,
+                    kind,
+                });
             }
         }
         outcome
     }
 
-    /// The parents of a frame, in the order in which they were first named.
+    /// Returns the parents of a frame, in the order in which they were first named.
     #[must_use]
-    pub fn parents_of(&self, child: &str) -> &[Parent] {
+    pub fn parents_of(&self, child: &str) -> &[PublishedParent] {
         self.parents.get(child).map_or(&[], Vec::as_slice)
     }
 
-    /// Frames that more than one parent was said of.
-    pub fn with_several_parents(&self) -> impl Iterator<Item = (&str, &[Parent])> {
+    /// Iterates over the frames that were published with more than one parent.
+    pub fn with_several_parents(&self) -> impl Iterator<Item = (&str, &[PublishedParent])> {
         self.parents
             .iter()
             .filter(|(_, parents)| parents.len() > 1)
             .map(|(child, parents)| (child.as_str(), parents.as_slice()))
     }
 
-    /// Names that came with a slash in front, which tf2 has no place for.
+    /// Iterates over the frame names with a leading slash, which tf2 does not support.
     pub fn with_slash(&self) -> impl Iterator<Item = &str> {
         self.with_slash.iter().map(String::as_str)
     }
 
-    /// Children whose transforms were not taken, why by tf2's name, and how often.
+    /// Iterates over rejected transforms: child frame, name of the error in tf2, and count.
     pub fn refused(&self) -> impl Iterator<Item = (&str, &'static str, usize)> {
         self.refused.iter().map(|((child, why), count)| (child.as_str(), *why, *count))
     }
 
-    /// How often time has jumped back.
+    /// Returns the number of jumps back in time.
     #[must_use]
     pub fn jumps(&self) -> usize {
         self.jumps
@@ -111,15 +122,15 @@ mod tests {
 
     use super::*;
 
-    fn said(parent: &str, child: &str, stamp_ns: i64) -> Stamped {
-        Stamped::new(parent, child, stamp_ns, Pose::IDENTITY)
+    fn published(parent: &str, child: &str, stamp_ns: i64) -> StampedTransform {
+        StampedTransform::new(parent, child, stamp_ns, Pose::IDENTITY)
     }
 
     #[test]
-    fn what_was_said_is_known_though_only_the_last_counts() {
-        let mut survey = Survey::default();
-        survey.hear(&said("odom", "base", 1), "a", Kind::Moving).unwrap();
-        survey.hear(&said("/map", "base", 2), "b", Kind::Moving).unwrap();
+    fn all_published_parents_are_kept_beside_the_current_one() {
+        let mut survey = TransformMonitor::default();
+        survey.hear(&published("odom", "base", 1), "a", TransformKind::Moving).unwrap();
+        survey.hear(&published("/map", "base", 2), "b", TransformKind::Moving).unwrap();
         assert_eq!(survey.buffer.parent_of("base"), Some("map"));
         let (child, parents) = survey.with_several_parents().next().unwrap();
         assert_eq!(
@@ -131,10 +142,13 @@ mod tests {
 
     #[test]
     fn a_jump_back_forgets_and_goes_on() {
-        let mut survey = Survey::default();
-        survey.hear(&said("odom", "base", 60_000_000_000), "a", Kind::Moving).unwrap();
-        let jump = survey.hear(&said("odom", "base", 1_000_000_000), "a", Kind::Moving);
-        assert!(matches!(jump, Err(Refused::OldData(..))));
+        let mut survey = TransformMonitor::default();
+        survey
+            .hear(&published("odom", "base", 60_000_000_000), "a", TransformKind::Moving)
+            .unwrap();
+        let jump =
+            survey.hear(&published("odom", "base", 1_000_000_000), "a", TransformKind::Moving);
+        assert!(matches!(jump, Err(RejectedTransform::OldData(..))));
         assert_eq!(survey.jumps(), 1);
         let kept: Vec<_> = survey.buffer.kept_frames().map(|kept| kept.newest_ns).collect();
         assert_eq!(kept, [1_000_000_000]);
@@ -142,10 +156,10 @@ mod tests {
 
     #[test]
     fn what_is_refused_is_counted() {
-        let mut survey = Survey::default();
+        let mut survey = TransformMonitor::default();
         let mut broken = said("odom", "base", 1);
         broken.rotation.w = 3.0;
-        assert!(survey.hear(&broken, "a", Kind::Moving).is_err());
+        assert!(survey.hear(&broken, "a", TransformKind::Moving).is_err());
         assert_eq!(
             survey.refused().collect::<Vec<_>>(),
             [("base", "TF_DENORMALIZED_QUATERNION", 1)]

@@ -3,7 +3,7 @@
 //! Source of the rules: `nav2_costmap_2d/plugins/obstacle_layer.cpp`.
 
 use periplus_diagnostics::Diagnostic;
-use periplus_grid::{Cell, Lattice};
+use periplus_grid::{Cell, GridInfo};
 use periplus_params::ParamValues;
 
 use crate::clear::clear_cells;
@@ -83,16 +83,16 @@ impl Sight {
         self.values = values;
     }
 
-    pub(crate) fn resized(&mut self, lattice: &Lattice) {
-        self.grid.resize(*lattice);
-        self.trace.resize(self.grid.lattice());
+    pub(crate) fn resized(&mut self, info: &GridInfo) {
+        self.grid.resize(*info);
+        self.trace.resize(self.grid.info());
     }
 
     /// Begins an update; false when the layer takes no part in it.
     pub(crate) fn begin(&mut self, moment: &Moment<'_>, bounds: &mut Bounds) -> bool {
         if moment.is_rolling {
             self.grid.roll_around(moment.robot, moment.compat);
-            self.trace.follow(self.grid.lattice());
+            self.trace.follow(self.grid.info());
         }
         if !self.is_enabled {
             return false;
@@ -152,7 +152,7 @@ impl Sight {
         clear_cells(&mut self.grid, start, end, invert, compat);
         self.is_waiting = true;
         // So that the next update writes everything anew.
-        self.extra.get_or_insert(Bounds::EMPTY).include(&Bounds::of(self.grid.lattice()));
+        self.extra.get_or_insert(Bounds::EMPTY).include(&Bounds::of(self.grid.info()));
     }
 
     pub(crate) fn is_current(&self, now_ns: i64) -> bool {
@@ -192,12 +192,12 @@ pub(crate) fn complain_of_sensor(
     layer: &str,
     source: &mut Source,
     [x, y, z]: [f64; 3],
-    lattice: &Lattice,
+    info: &GridInfo,
     heights: Option<(f64, f64)>,
     complaints: &mut Vec<Diagnostic>,
 ) {
     if is_outside && !source.was_outside {
-        let Bounds { min_x, min_y, max_x, max_y } = Bounds::of(lattice);
+        let Bounds { min_x, min_y, max_x, max_y } = Bounds::of(info);
         let text = match heights {
             None => format!(
                 "sensor origin at ({x:.2}, {y:.2}) is out of map bounds ({min_x:.2}, {min_y:.2}) \
