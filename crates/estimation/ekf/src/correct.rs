@@ -1,25 +1,25 @@
-//! How a measurement changes the state.
+//! Measurement update of the filter.
 
 use periplus_geometry::normalize_angle;
 
 use crate::state::{Covariance, Measurement, SIZE, State, Variable, wrap};
 
-/// No variance is smaller than this.
+/// Minimum variance, in the unit of the variable squared.
 const LEAST_VARIANCE: f64 = 1e-9;
 
-/// What came of a correction.
+/// Result of a measurement update.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Outcome {
     Corrected,
-    /// It is so many standard deviations off.
+    /// Mahalanobis distance above the rejection threshold.
     TooFar(f64),
-    /// Its covariance is none.
+    /// The innovation covariance is singular.
     Singular,
 }
 
-/// Corrects the state by what was measured, in the form of Joseph, which keeps the covariance one.
-///
-/// What was not measured takes part with no weight at all, so that all matrices have one size.
+/// Updates the state with a measurement, in Joseph form, which keeps the covariance positive
+/// semidefinite.
+/// Variables that were not measured have zero weight, so that all matrices have the same size.
 pub(crate) fn correct(
     state: &mut State,
     covariance: &mut Covariance,
@@ -67,7 +67,7 @@ mod tests {
         let measured = Measurement::of(0, &[(Variable::X, 2.0)], 0.5);
         assert_eq!(correct(&mut state, &mut covariance, &measured), Outcome::Corrected);
         assert!((state[0] - 1.0).abs() < 1e-12 && (covariance[(0, 0)] - 0.25).abs() < 1e-12);
-        // The others are as they were.
+        // The other variables are unchanged.
         assert_eq!((state[1], covariance[(1, 1)]), (0.0, 0.5));
     }
 

@@ -1,49 +1,50 @@
-//! The filter.
+//! Extended Kalman filter.
 
 use crate::correct::{Outcome, correct};
 use crate::motion::predict;
 use crate::settings::Settings;
 use crate::state::{Covariance, Estimate, Measurement, SIZE, State, Variable};
 
-/// Most measurements that wait; older ones are used first.
+/// Maximum number of queued measurements; beyond it the oldest are used at once.
 const MOST_WAITING: usize = 10_000;
-/// How sure it is that a robot on flat ground does not leave it.
+/// Variance of the planar constraints in two-dimensional mode.
 const ON_THE_GROUND: f64 = 1e-6;
-/// Over longer gaps the state is not carried in one step \[s\].
+/// Maximum time step of a prediction \[s\].
 const LONGEST_STEP_S: f64 = 0.1;
-/// After a gap of so many steps the state is not carried at all \[s\].
+/// Gap after which the state is not predicted \[s\].
 const LONGEST_GAP_S: f64 = 100.0;
 
-/// A measurement that was not used, and why.
+/// Reason for which a measurement was rejected.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Refusal {
-    /// It is so many standard deviations off.
+    /// The Mahalanobis distance is above the threshold.
     TooFar {
-        /// Who measured.
+        /// Name of the input.
         source: String,
-        /// How far off.
+        /// Mahalanobis distance.
         deviations: f64,
     },
-    /// It has numbers that are none, or a covariance that is none.
+    /// The measurement has NaN, or an invalid covariance.
     Broken {
-        /// Who measured.
+        /// Name of the input.
         source: String,
     },
 }
 
-/// An extended Kalman filter: measurements go in as they come, and are used in the order of their times.
+/// Extended Kalman filter with a measurement queue: measurements are used in the order of their
+/// stamps.
 #[derive(Clone, Debug)]
 pub struct Ekf {
     settings: Settings,
     estimate: Option<Estimate>,
-    /// When something was last measured \[ns\].
+    /// Stamp of the last measurement \[ns\].
     measured_ns: i64,
     waiting: Vec<Measurement>,
     refusals: Vec<Refusal>,
 }
 
 impl Ekf {
-    /// A filter that knows nothing but its settings.
+    /// Creates a filter without an estimate.
     #[must_use]
     pub fn new(settings: Settings) -> Self {
         Self {
@@ -55,42 +56,42 @@ impl Ekf {
         }
     }
 
-    /// Its settings.
+    /// Returns the settings.
     #[must_use]
     pub fn settings(&self) -> &Settings {
         &self.settings
     }
 
-    /// Changes its settings; what it knows stays.
+    /// Replaces the settings and keeps the estimate.
     pub fn set_settings(&mut self, settings: Settings) {
         self.settings = settings;
     }
 
-    /// What it knows; nothing before the first measurement.
+    /// Returns the estimate; none before the first measurement.
     #[must_use]
     pub fn estimate(&self) -> Option<&Estimate> {
         self.estimate.as_ref()
     }
 
-    /// When something was last measured \[ns\].
+    /// Returns the stamp of the last measurement \[ns\].
     #[must_use]
     pub fn measured_ns(&self) -> Option<i64> {
         self.estimate.as_ref().map(|_| self.measured_ns)
     }
 
-    /// Forgets all but the settings.
+    /// Resets everything except the settings.
     pub fn reset(&mut self) {
         *self = Self::new(self.settings.clone());
     }
 
-    /// Starts from here; what waits is dropped.
+    /// Sets the estimate and drops queued measurements.
     pub fn set_estimate(&mut self, estimate: Estimate) {
         self.waiting.clear();
         self.measured_ns = estimate.time_ns;
         self.estimate = Some(estimate);
     }
 
-    /// A measurement has come; it waits for [`Ekf::run_until`].
+    /// Queues a measurement for [`Ekf::run_until`].
     pub fn push(&mut self, measurement: Measurement) {
         if !measurement.is_finite() {
             self.refusals.push(Refusal::Broken { source: measurement.source });
@@ -99,10 +100,10 @@ impl Ekf {
         }
     }
 
-    /// Uses what was measured up to a time \[ns\]; when nothing was for long, the state goes on by
-    /// itself. Whether there is anything new to tell.
+    /// Processes measurements up to a time \[ns\], and predicts the state after `sensor_timeout`
+    /// without one. Returns true if the estimate has changed.
     pub fn run_until(&mut self, now_ns: i64) -> bool {
-        // Those of one time stay in the order in which they came.
+        // Stable: measurements with equal stamps stay in the order of arrival.
         self.waiting.sort_by_key(|it| it.time_ns);
         let due = self.waiting.partition_point(|it| it.time_ns <= now_ns);
         let due: Vec<Measurement> = self.waiting.drain(..due).collect();
@@ -120,7 +121,7 @@ impl Ekf {
         is_new
     }
 
-    /// The estimate as it will be at a time, if nothing more is measured.
+    /// Returns the estimate predicted to a time without further measurements.
     #[must_use]
     pub fn predicted(&self, time_ns: i64) -> Option<Estimate> {
         let mut estimate = self.estimate.clone()?;
@@ -128,7 +129,7 @@ impl Ekf {
         Some(estimate)
     }
 
-    /// What was not used since the last call.
+    /// Takes the measurements rejected since the last call.
     pub fn take_refusals(&mut self) -> Vec<Refusal> {
         std::mem::take(&mut self.refusals)
     }
@@ -156,7 +157,8 @@ impl Ekf {
     }
 }
 
-/// The state of the first measurement; what it does not tell is as the settings have it, or 0.
+/// Initializes the state from the first measurement; other variables are those of the settings, or
+/// 0.
 fn first(settings: &Settings, measurement: &Measurement) -> Estimate {
     let mut estimate = Estimate {
         time_ns: measurement.time_ns,
@@ -173,7 +175,7 @@ fn first(settings: &Settings, measurement: &Measurement) -> Estimate {
     estimate
 }
 
-/// Carries the state to a time; one that has passed changes nothing.
+/// Predicts the state to a time; a time in the past has no effect.
 fn carry(estimate: &mut Estimate, settings: &Settings, time_ns: i64) {
     let mut rest_s = (time_ns - estimate.time_ns) as f64 * 1e-9;
     if rest_s <= 0.0 {
@@ -181,7 +183,7 @@ fn carry(estimate: &mut Estimate, settings: &Settings, time_ns: i64) {
     }
     estimate.time_ns = time_ns;
     if rest_s > LONGEST_GAP_S {
-        // Nobody knows what happened meanwhile.
+        // The motion during a long gap is unknown.
         return;
     }
     while rest_s > 0.0 {
@@ -193,7 +195,7 @@ fn carry(estimate: &mut Estimate, settings: &Settings, time_ns: i64) {
     }
 }
 
-/// The noise of place and attitude, if that is wished, grows with the speed.
+/// Process noise; that of pose and orientation is scaled by the speed if configured.
 fn noise(estimate: &Estimate, settings: &Settings) -> Covariance {
     let mut noise = settings.noise_per_s;
     if settings.scales_noise {
@@ -205,7 +207,7 @@ fn noise(estimate: &Estimate, settings: &Settings) -> Covariance {
     noise
 }
 
-/// On flat ground everything off it is measured to be nothing.
+/// Adds zero measurements of height, roll, pitch and their rates in two-dimensional mode.
 fn hold_down(measurement: &mut Measurement) {
     for variable in Variable::OFF_THE_GROUND {
         let at = variable.at();
@@ -241,7 +243,7 @@ mod tests {
         let mut ekf = Ekf::new(Settings::default());
         ekf.push(Measurement::of(0, &[(Variable::Vx, 1.0)], 1e-4));
         assert!(ekf.run_until(0));
-        // Less than the timeout: nothing new.
+        // Shorter than the timeout: no change.
         assert!(!ekf.run_until(TICK_NS));
         assert!(ekf.run_until(500_000_000));
         let x_m = ekf.estimate().map(|it| it.get(Variable::X));

@@ -1,4 +1,4 @@
-//! What drivers tell, as measurements.
+//! Conversion of sensor readings to measurements.
 
 use nalgebra::{Matrix3, SMatrix};
 use periplus_geometry::{DQuat, DVec3, Pose};
@@ -8,53 +8,54 @@ use crate::state::{Estimate, Measurement, Variable, three};
 
 type Six = SMatrix<f64, 6, 6>;
 
-/// Parts of a rotation that are smaller do not lead from one axis to another.
+/// Largest element of a rotation matrix that counts as zero.
 const NO_PART: f64 = 1e-6;
 
-/// A pose as a driver tells it.
+/// Pose from a driver.
 #[derive(Clone, Copy, Debug)]
 pub struct PoseReading {
-    /// When \[ns\].
+    /// Stamp \[ns\].
     pub time_ns: i64,
-    /// Where the robot is.
+    /// Pose of the robot.
     pub frame_from_base: Pose,
-    /// Of x y z and rotations about them, in rows.
+    /// Covariance of x, y, z and rotations about them, row-major.
     pub covariance: [f64; 36],
-    /// Where that frame is.
+    /// Transform of that frame into the world frame.
     pub world_from_frame: Pose,
 }
 
-/// Velocities as a driver tells them.
+/// Velocities from a driver.
 #[derive(Clone, Copy, Debug)]
 pub struct TwistReading {
-    /// When \[ns\].
+    /// Stamp \[ns\].
     pub time_ns: i64,
-    /// \[m/s\], of the sensor's origin.
+    /// Linear velocity of the sensor origin \[m/s\].
     pub linear: DVec3,
-    /// \[rad/s\].
+    /// Angular velocity \[rad/s\].
     pub angular: DVec3,
-    /// Of both, in rows.
+    /// Covariance of both, row-major.
     pub covariance: [f64; 36],
-    /// Where the sensor is on the robot.
+    /// Pose of the sensor on the robot.
     pub base_from_sensor: Pose,
 }
 
-/// What an IMU tells.
+/// Reading of an IMU.
 #[derive(Clone, Copy, Debug)]
 pub struct ImuReading {
-    /// When \[ns\].
+    /// Stamp \[ns\].
     pub time_ns: i64,
-    /// How it is turned in the world, with its covariance; none where the driver does not know.
+    /// Orientation and its covariance; none if the IMU has no orientation.
     pub world_from_sensor: Option<(DQuat, [f64; 9])>,
-    /// \[rad/s\].
+    /// Angular velocity \[rad/s\] and its covariance.
     pub angular: Option<(DVec3, [f64; 9])>,
-    /// \[m/s²\], gravity included as far as the IMU includes it.
+    /// Linear acceleration \[m/s²\], including gravity if the IMU includes it, and its covariance.
     pub acceleration: Option<(DVec3, [f64; 9])>,
-    /// Where it sits on the robot.
+    /// Pose of the sensor on the robot.
     pub base_from_sensor: Pose,
 }
 
-/// Turns what one input tells into measurements; remembers what `differential` and `relative` need.
+/// Converter from the readings of one input to measurements, with the state for `differential` and
+/// `relative`.
 #[derive(Clone, Debug)]
 pub struct Intake {
     source: Source,
@@ -63,24 +64,25 @@ pub struct Intake {
 }
 
 impl Intake {
-    /// For an input.
+    /// Creates the converter of an input.
     #[must_use]
     pub fn new(source: Source) -> Self {
         Self { source, last: None, first: None }
     }
 
-    /// Its input.
+    /// Returns the input.
     #[must_use]
     pub fn source(&self) -> &Source {
         &self.source
     }
 
-    /// Forgets what came before.
+    /// Resets the state.
     pub fn forget(&mut self) {
         (self.last, self.first) = (None, None);
     }
 
-    /// A pose. With `differential` it is the velocity since the one before, and the first one says nothing.
+    /// Converts a pose. With `differential` it becomes the velocity since the previous pose, and
+    /// the first pose has no result.
     pub fn pose(&mut self, reading: &PoseReading) -> Option<Measurement> {
         let mut mask = [false; 6];
         mask.copy_from_slice(&self.source.mask[..6]);
@@ -105,7 +107,7 @@ impl Intake {
         Some(measurement)
     }
 
-    /// The velocity from one pose to the next, in the robot's frame.
+    /// Returns the velocity between two poses in the base frame.
     fn difference(
         &mut self,
         reading: &PoseReading,
@@ -123,16 +125,17 @@ impl Intake {
         let (way, turned) = (moved.translation / time_s, moved.rpy());
         let numbers =
             [way.x, way.y, way.z, turned.roll / time_s, turned.pitch / time_s, turned.yaw / time_s];
-        // Both poses have a share, as `robot_localization` counts it.
+        // Both poses contribute, as in `robot_localization`.
         let covariance = (covariance + last_covariance) * time_s;
         let mut measurement = self.blank(reading.time_ns, 0);
-        // Which axes of the frame are taken: those of the robot that lie along them.
+        // Selected axes of the frame are mapped to those of the robot along them.
         let turn = rotation(pose.rotation.conjugate());
         fill_as_seen(&mut measurement, numbers, &covariance, mask, &turn);
         Some(measurement)
     }
 
-    /// Velocities; `estimate` tells how the robot turns, which a sensor off its middle feels.
+    /// Converts velocities; `estimate` has the turn rate, which adds velocity at a sensor off the
+    /// centre.
     pub fn twist(
         &mut self,
         reading: &TwistReading,
@@ -161,7 +164,7 @@ impl Intake {
         Some(measurement)
     }
 
-    /// Attitude, turn rate and acceleration, each a measurement of its own.
+    /// Converts orientation, turn rate and acceleration to separate measurements.
     pub fn imu(
         &mut self,
         reading: &ImuReading,
@@ -195,7 +198,7 @@ impl Intake {
                 covariance: six,
                 base_from_sensor: reading.base_from_sensor,
             };
-            // An IMU tells no velocity, so its arm does not count.
+            // An IMU measures no velocity, so its lever arm is irrelevant.
             reading.base_from_sensor.translation = DVec3::ZERO;
             self.twist(&reading, None)
         });
@@ -232,7 +235,7 @@ impl Intake {
     }
 }
 
-/// Puts six numbers into the state from a place on; covariance and mask are turned.
+/// Writes six variables from an index on, with rotated covariance and mask.
 fn fill(
     measurement: &mut Measurement,
     from: Variable,
@@ -248,7 +251,7 @@ fn fill(
     put(measurement, from, numbers, &covariance, both_led(mask, turn));
 }
 
-/// The same with velocities between poses.
+/// Writes velocities between poses likewise.
 fn fill_as_seen(
     measurement: &mut Measurement,
     numbers: [f64; 6],
@@ -256,7 +259,7 @@ fn fill_as_seen(
     mask: [bool; 6],
     turn: &Matrix3<f64>,
 ) {
-    // Roll, pitch and yaw keep their places; only the axes of the way turn.
+    // Roll, pitch and yaw keep their indices; only the linear axes rotate.
     let way = led([mask[0], mask[1], mask[2]], turn);
     let mask = [way[0], way[1], way[2], mask[3], mask[4], mask[5]];
     put(measurement, Variable::Vx, numbers, covariance, mask);
@@ -276,7 +279,7 @@ fn put(
     measurement.covariance.fixed_view_mut::<6, 6>(at, at).copy_from(covariance);
 }
 
-/// Which axes are measured after a turn: those to which a measured one leads.
+/// Returns the axes that are measured after a rotation: all to which a measured one contributes.
 fn led(mask: [bool; 3], turn: &Matrix3<f64>) -> [bool; 3] {
     std::array::from_fn(|row| {
         (0..3).any(|column| mask[column] && turn[(row, column)].abs() > NO_PART)
@@ -298,7 +301,7 @@ fn turned(covariance: &[f64; 9], turn: &Matrix3<f64>) -> Matrix3<f64> {
     turn * Matrix3::from_row_slice(covariance) * turn.transpose()
 }
 
-/// Puts three by three numbers on the diagonal of six by six in rows.
+/// Writes a 3x3 matrix to the diagonal of a row-major 6x6 matrix.
 fn place(six: &mut [f64; 36], from: usize, three: &Matrix3<f64>) {
     for row in 0..3 {
         for column in 0..3 {
@@ -360,7 +363,7 @@ mod tests {
 
     #[test]
     fn a_sensor_off_the_middle_feels_the_turning() {
-        // 2 m ahead of the middle of a robot that turns on the spot at 0.5 rad/s: 1 m/s to the left.
+        // 2 m ahead of the centre of a robot that rotates in place at 0.5 rad/s: 1 m/s to the left.
         let mut intake = intake(Kind::Twist, &[Variable::Vx, Variable::Vy]);
         let (state, covariance) = (State::zeros(), Covariance::identity());
         let mut turning = Estimate { time_ns: 0, state, covariance };
@@ -383,7 +386,7 @@ mod tests {
         let over = Pose::from_xyz_rpy([0.0; 3], Rpy { roll: PI, pitch: 0.0, yaw: 0.0 });
         let reading = ImuReading {
             time_ns: 0,
-            // The robot looks along y; the IMU hangs from it.
+            // The robot faces along y; the IMU is mounted upside down.
             world_from_sensor: Some((turn(FRAC_PI_2) * over.rotation, [0.01; 9])),
             angular: Some((DVec3::new(0.0, 0.0, -0.3), [0.01; 9])),
             acceleration: Some((DVec3::new(0.0, 0.0, -9.8), [0.01; 9])),

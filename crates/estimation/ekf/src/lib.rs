@@ -1,10 +1,10 @@
-//! Wheels, IMU and poses in one estimate of where a robot is and how it moves: an extended Kalman
-//! filter over 15 numbers, with the parameters of `robot_localization`'s `ekf_node`.
+//! Sensor fusion of odometry, IMU and poses: an extended Kalman filter over 15 variables, with the
+//! parameters of `ekf_node` in `robot_localization`.
 //!
-//! The state is place and attitude in the world, velocity and turn rate in the robot's frame, and the
-//! robot's acceleration ([`Variable`]). Every [`Measurement`] is of some of them, with a covariance. What
-//! drivers tell becomes measurements in [`Intake`]; [`Ekf`] puts them in the order of their times,
-//! moves its state along to each, and corrects it.
+//! The state consists of position and orientation in the world frame, linear and angular velocity
+//! in the base frame, and linear acceleration ([`Variable`]). A [`Measurement`] has values of some
+//! variables, with a covariance. [`Intake`] converts sensor readings to measurements; [`Ekf`] sorts
+//! them by stamp, predicts the state to each stamp, and updates it.
 //!
 //! ```
 //! use periplus_ekf::{Ekf, Measurement, Settings, Variable};
@@ -20,8 +20,8 @@
 //! assert!((estimate.get(Variable::X) - 0.392).abs() < 1e-3);
 //! ```
 //!
-//! Source of names, defaults and of what is done with each kind of message: the documentation and the
-//! commented `params/ekf.yaml` of `robot_localization`; the equations: Moore and Stouch, "A Generalized
+//! Source of names, defaults and message handling: the documentation and the commented
+//! `params/ekf.yaml` of `robot_localization`; of the equations: Moore and Stouch, "A Generalized
 //! Extended Kalman Filter Implementation for the Robot Operating System" (2014).
 
 mod correct;

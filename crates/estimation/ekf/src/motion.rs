@@ -1,14 +1,13 @@
-//! How the state goes on by itself.
+//! Motion model: prediction of the state.
 
 use nalgebra::{Matrix3, Vector3};
 
 use crate::state::{Covariance, State, Variable, wrap};
 
-/// The state after some time \[s\], and how much less sure it is.
-///
-/// Velocity and turn rate are the robot's, so they are turned into the world by its attitude; the
-/// acceleration stays as it is. Near a pitch of a quarter turn yaw and roll cannot be told apart; the
-/// pitch is kept from it by as much as keeps the numbers finite.
+/// Predicts the state and its covariance over a time \[s\].
+/// Linear and angular velocity are in the base frame and are rotated into the world frame by the
+/// orientation; the acceleration is constant. Near a pitch of a quarter turn yaw and roll are not
+/// distinguishable; the cosine of the pitch is limited to keep the values finite.
 pub(crate) fn predict(
     state: &State,
     covariance: &Covariance,
@@ -58,13 +57,13 @@ fn step(state: &State, time_s: f64) -> Step {
     Step { state: next, jacobian }
 }
 
-/// Sines and cosines of roll, pitch, yaw.
+/// Sines and cosines of roll, pitch and yaw.
 struct Attitude {
     sin: [f64; 3],
     cos: [f64; 3],
 }
 
-/// The cosine of the pitch is kept off zero by so much.
+/// Minimum magnitude of the cosine of the pitch.
 const LEAST_COSINE: f64 = 1e-6;
 
 impl Attitude {
@@ -91,12 +90,12 @@ impl Attitude {
         Matrix3::new(c, -s, 0.0, s, c, 0.0, 0.0, 0.0, 1.0)
     }
 
-    /// From the robot's frame into the world's.
+    /// Returns the rotation from the base frame to the world frame.
     fn rotation(&self) -> Matrix3<f64> {
         self.about_z() * self.about_y() * self.about_x()
     }
 
-    /// How that changes with roll, pitch, yaw.
+    /// Returns its derivatives by roll, pitch and yaw.
     fn rotation_by_angles(&self) -> [Matrix3<f64>; 3] {
         let [(sr, cr), (sp, cp), (sy, cy)] = [0, 1, 2].map(|axis| (self.sin[axis], self.cos[axis]));
         let by_roll = Matrix3::new(0.0, 0.0, 0.0, 0.0, -sr, -cr, 0.0, cr, -sr);
@@ -109,14 +108,14 @@ impl Attitude {
         ]
     }
 
-    /// From turn rates about the robot's axes to changes of roll, pitch, yaw.
+    /// Returns the matrix from body rates to rates of roll, pitch and yaw.
     fn rates(&self) -> Matrix3<f64> {
         let ([sr, sp, _], [cr, cp, _]) = (self.sin, self.cos);
         let tp = sp / cp;
         Matrix3::new(1.0, sr * tp, cr * tp, 0.0, cr, -sr, 0.0, sr / cp, cr / cp)
     }
 
-    /// How that changes with roll, pitch, yaw.
+    /// Returns its derivatives by roll, pitch and yaw.
     fn rates_by_angles(&self) -> [Matrix3<f64>; 3] {
         let ([sr, sp, _], [cr, cp, _]) = (self.sin, self.cos);
         let (tp, cp2) = (sp / cp, cp * cp);
@@ -153,7 +152,7 @@ mod tests {
 
     proptest! {
         #![proptest_config(ProptestConfig::with_cases(64))]
-        /// The Jacobian is the derivative that differences give.
+        /// The Jacobian equals the numerical derivative.
         #[test]
         fn the_jacobian_is_the_derivative(
             numbers in prop::array::uniform15(-1.0_f64..1.0), time_s in 0.001_f64..0.5,

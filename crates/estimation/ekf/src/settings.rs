@@ -7,90 +7,91 @@ use periplus_params::{Given, ParamValues, Table, flag, integer, number, numbers,
 
 use crate::state::{Covariance, SIZE, State};
 
-/// Parameters of the filter itself.
+/// Parameters of the filter.
 pub static EKF: Table = Table {
     name: "ekf_node",
-    doc: "Joins wheels, IMU and poses to one estimate by an extended Kalman filter.",
+    doc: "Extended Kalman filter that fuses odometry, IMU and poses.",
     parameters: &[
-        number("frequency", "Hz", "How often the estimate is published.").or("30").above(0.0),
-        number("sensor_timeout", "s", "Without measurements for so long the state goes on by itself; 1 / frequency unless set.")
+        number("frequency", "Hz", "Publication rate of the estimate.").or("30").above(0.0),
+        number("sensor_timeout", "s", "Time without measurements after which the state is predicted; 1 / frequency unless set.")
             .above(0.0),
-        flag("two_d_mode", "The robot stays on flat ground: no height, roll or pitch.").or("false"),
-        number("transform_time_offset", "s", "Transforms are stamped so much later.").or("0"),
-        number("transform_timeout", "s", "How long a message waits for its transform.").or("0").min(0.0),
-        flag("print_diagnostics", "Publishes the filter's health on /diagnostics.").or("true"),
+        flag("two_d_mode", "Estimates planar motion only: no height, roll or pitch.").or("false"),
+        number("transform_time_offset", "s", "Offset added to the stamps of published transforms.").or("0"),
+        number("transform_timeout", "s", "Maximum time that a message waits for its transform.").or("0").min(0.0),
+        flag("print_diagnostics", "Publishes the health of the filter on /diagnostics.").or("true"),
         flag("publish_tf", "Publishes the transform of the estimate.").or("true"),
         flag("publish_acceleration", "Publishes the acceleration on accel/filtered.").or("false"),
-        flag("permit_corrected_publication", "Publishes a time again when late data changed it.").or("false"),
-        flag("predict_to_current_time", "Moves what is published on to the present.").or("false"),
-        text("map_frame", "The frame of the map.").or("map"),
-        text("odom_frame", "The frame of odometry.").or("odom"),
-        text("base_link_frame", "The frame of the robot.").or("base_link"),
-        text("base_link_frame_output", "The frame of the robot in what is published; base_link_frame unless set."),
-        text("world_frame", "The frame in which the robot is estimated, map_frame or odom_frame; odom_frame unless set."),
-        number("gravitational_acceleration", "m/s^2", "Taken off where an IMU measures it.").or("9.80665"),
-        numbers("initial_state", "", "The 15 numbers at the start."),
-        numbers("process_noise_covariance", "1/s", "How much less sure the state gets in a second: 225 numbers in rows, or the 15 of the diagonal."),
-        numbers("initial_estimate_covariance", "", "How sure the start is: 225 numbers in rows, or the 15 of the diagonal."),
-        flag("dynamic_process_noise_covariance", "Scales the noise of place and attitude by how fast the robot moves.").or("false"),
+        flag("permit_corrected_publication", "Publishes a stamp again after late measurements changed it.").or("false"),
+        flag("predict_to_current_time", "Predicts the published estimate to the current time.").or("false"),
+        text("map_frame", "Map frame.").or("map"),
+        text("odom_frame", "Odometry frame.").or("odom"),
+        text("base_link_frame", "Base frame of the robot.").or("base_link"),
+        text("base_link_frame_output", "Base frame in published messages; base_link_frame unless set."),
+        text("world_frame", "Frame of the estimate, map_frame or odom_frame; odom_frame unless set."),
+        number("gravitational_acceleration", "m/s^2", "Gravity removed from IMU accelerations.").or("9.80665"),
+        numbers("initial_state", "", "Initial values of the 15 variables."),
+        numbers("process_noise_covariance", "1/s", "Process noise covariance: 225 numbers in row-major order, or the 15 of the diagonal."),
+        numbers("initial_estimate_covariance", "", "Covariance of the initial state: 225 numbers in row-major order, or the 15 of the diagonal."),
+        flag("dynamic_process_noise_covariance", "Scales the process noise of the pose by the speed of the robot.").or("false"),
         flag("disabled_at_startup", "Waits for the service `enable`.").or("false"),
-        flag("reset_on_time_jump", "Starts anew when time jumps back.").or("false"),
-        flag("use_sim_time", "Time is the simulation's.").or("false"),
-        flag("smooth_lagged_data", "Not there: late measurements are used when they come.").or("false"),
-        number("history_length", "s", "Not there, see smooth_lagged_data.").or("0"),
-        flag("use_control", "Not there: commands are no measurements.").or("false"),
-        flag("stamped_control", "Not there, see use_control.").or("false"),
-        number("control_timeout", "s", "Not there, see use_control.").or("0"),
-        texts("control_config", "Not there, see use_control."),
-        numbers("acceleration_limits", "", "Not there, see use_control."),
-        numbers("deceleration_limits", "", "Not there, see use_control."),
-        numbers("acceleration_gains", "", "Not there, see use_control."),
-        numbers("deceleration_gains", "", "Not there, see use_control."),
+        flag("reset_on_time_jump", "Resets the filter after a jump back in time.").or("false"),
+        flag("use_sim_time", "Uses the time of /clock.").or("false"),
+        flag("smooth_lagged_data", "Not supported: late measurements are used on arrival.").or("false"),
+        number("history_length", "s", "Not supported, see smooth_lagged_data.").or("0"),
+        flag("use_control", "Not supported: commands are not used.").or("false"),
+        flag("stamped_control", "Not supported, see use_control.").or("false"),
+        number("control_timeout", "s", "Not supported, see use_control.").or("0"),
+        texts("control_config", "Not supported, see use_control."),
+        numbers("acceleration_limits", "", "Not supported, see use_control."),
+        numbers("deceleration_limits", "", "Not supported, see use_control."),
+        numbers("acceleration_gains", "", "Not supported, see use_control."),
+        numbers("deceleration_gains", "", "Not supported, see use_control."),
         flag("debug", "Not there.").or("false"),
         text("debug_out_file", "Not there."),
     ],
 };
 
-/// Parameters of one input; their names begin with that of the input, as `odom0_config`.
+/// Parameters of one input, prefixed with its name, as in `odom0_config`.
 pub static SOURCE: Table = Table {
     name: "ekf_node input",
-    doc: "What is heard, and which of its numbers are taken.",
+    doc: "An input topic, and the variables used from it.",
     parameters: &[
-        text("topic", "Its topic, by the name of the input alone: odom0, pose0, twist0, imu0.")
+        text("topic", "Topic; set by the name of the input alone: odom0, pose0, twist0, imu0.")
             .required(),
         texts(
             "config",
-            "Which are taken of x y z, roll pitch yaw, their velocities, and accelerations along x y z.",
+            "Variables used: x y z, roll pitch yaw, their velocities, and accelerations along x y z.",
         ),
-        integer("queue_size", "Most messages that wait.").or("10").min(1.0),
-        flag("differential", "Poses are taken as velocities between them.").or("false"),
-        flag("relative", "Poses count from the first one.").or("false"),
-        number(
-            "pose_rejection_threshold",
-            "",
-            "Poses so many deviations (Mahalanobis) off are not believed.",
-        )
-        .above(0.0)
-        .also(&["rejection_threshold"]),
-        number("twist_rejection_threshold", "", "The same of velocities.").above(0.0),
-        number("linear_acceleration_rejection_threshold", "", "The same of accelerations.")
+        integer("queue_size", "Maximum number of queued messages.").or("10").min(1.0),
+        flag("differential", "Converts poses to the velocities between them.").or("false"),
+        flag("relative", "Poses are relative to the first one.").or("false"),
+        number("pose_rejection_threshold", "", "Maximum Mahalanobis distance of poses.")
+            .above(0.0)
+            .also(&["rejection_threshold"]),
+        number("twist_rejection_threshold", "", "Maximum Mahalanobis distance of velocities.")
             .above(0.0),
-        flag("remove_gravitational_acceleration", "Takes gravity off what the IMU measures.")
+        number(
+            "linear_acceleration_rejection_threshold",
+            "",
+            "Maximum Mahalanobis distance of accelerations.",
+        )
+        .above(0.0),
+        flag("remove_gravitational_acceleration", "Removes gravity from IMU accelerations.")
             .or("false"),
-        flag("nodelay", "Of TCPROS; says nothing here.").or("false"),
-        flag("pose_use_child_frame", "Not there: poses are of base_link.").or("false"),
+        flag("nodelay", "Option of TCPROS; no effect.").or("false"),
+        flag("pose_use_child_frame", "Not supported: poses are of base_link.").or("false"),
     ],
 };
 
-/// Parameters that are read and do nothing, with what they would do.
+/// Parameters without effect, with the behaviour instead.
 const IDLE: [(&str, &str); 4] = [
-    ("smooth_lagged_data", "late measurements are used when they come, with their own covariance"),
-    ("use_control", "commands are not used; the velocity of the wheels is"),
+    ("smooth_lagged_data", "late measurements are used on arrival, with their covariance"),
+    ("use_control", "commands are not used, only the velocity of the wheels"),
     ("debug", "watch /odometry/filtered and /diagnostics instead"),
-    ("permit_corrected_publication", "each time is published once"),
+    ("permit_corrected_publication", "each stamp is published once"),
 ];
 
-/// What kind of message an input has.
+/// Message type of an input.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Kind {
     /// `nav_msgs/Odometry`.
@@ -115,46 +116,46 @@ impl Kind {
 /// An input.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Source {
-    /// As it is called: `odom0`.
+    /// Name, such as `odom0`.
     pub name: String,
-    /// What kind of message it has.
+    /// Message type.
     pub kind: Kind,
-    /// Its topic.
+    /// Topic.
     pub topic: String,
-    /// Which numbers are taken.
+    /// Variables used.
     pub mask: [bool; SIZE],
-    /// Most messages that wait.
+    /// Maximum number of queued messages.
     pub queue: usize,
-    /// Poses are taken as velocities between them.
+    /// True to convert poses to velocities.
     pub is_differential: bool,
-    /// Poses count from the first one.
+    /// True for poses relative to the first one.
     pub is_relative: bool,
-    /// Gravity is taken off.
+    /// True to remove gravity.
     pub removes_gravity: bool,
-    /// From how many deviations on poses, velocities and accelerations are not believed.
+    /// Maximum Mahalanobis distance of poses, velocities and accelerations.
     pub most_deviations: [f64; 3],
 }
 
-/// What a filter is told.
+/// Settings of the filter.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Settings {
-    /// How often the estimate is published \[Hz\].
+    /// Publication rate \[Hz\].
     pub frequency_hz: f64,
-    /// Without measurements for so long the state goes on by itself \[s\].
+    /// Time without measurements after which the state is predicted \[s\].
     pub sensor_timeout_s: f64,
-    /// The robot stays on flat ground.
+    /// True for two-dimensional mode.
     pub is_flat: bool,
-    /// How much less sure the state gets in a second.
+    /// Process noise covariance per second.
     pub noise_per_s: Covariance,
-    /// Whether that of place and attitude is scaled by speed.
+    /// True to scale the process noise of the pose by the speed.
     pub scales_noise: bool,
-    /// The state at the start, if it is told.
+    /// Initial state, if configured.
     pub start: Option<State>,
-    /// How sure that is.
+    /// Covariance of the initial state.
     pub start_covariance: Covariance,
-    /// What an IMU measures upwards when it rests \[m/s²\].
+    /// Upward acceleration that an IMU measures at rest \[m/s²\].
     pub gravity_mps2: f64,
-    /// The inputs.
+    /// Inputs.
     pub sources: Vec<Source>,
 }
 
@@ -165,8 +166,8 @@ impl Default for Settings {
 }
 
 impl Settings {
-    /// Reads what a user wrote: the filter's own parameters, and those of its inputs. Of one that is
-    /// given more than once the last counts. What is wrong is told, and the default is used.
+    /// Reads the parameters of the filter and of its inputs. Of a repeated parameter the last value
+    /// applies. Errors are reported, and the default is used instead.
     pub fn read<'a>(
         given: impl IntoIterator<Item = Given<'a>>,
         diagnostics: &mut Diagnostics,
@@ -190,7 +191,7 @@ impl Settings {
             .filter_map(|((kind, number), given)| source(kind, number, given, diagnostics))
             .collect();
         for (name, instead) in IDLE.iter().filter(|(name, _)| values.flag(name) == Some(true)) {
-            let idle = Diagnostic::warning("idle-parameter", format!("`{name}` does nothing here"))
+            let idle = Diagnostic::warning("idle-parameter", format!("`{name}` has no effect"))
                 .at(values.origin(name))
                 .help(*instead);
             diagnostics.push(idle);
@@ -198,7 +199,7 @@ impl Settings {
         (Self::of(&values, sources, diagnostics), values)
     }
 
-    /// With the parameters of [`EKF`] and these inputs.
+    /// Converts parameters of [`EKF`] with these inputs.
     pub fn of(values: &ParamValues, sources: Vec<Source>, diagnostics: &mut Diagnostics) -> Self {
         let number = |name: &str| values.number(name).unwrap_or_default();
         let flag = |name: &str| values.flag(name).unwrap_or_default();
@@ -223,11 +224,12 @@ impl Settings {
     }
 }
 
-/// Defaults of `process_noise_covariance`, its diagonal.
+/// Diagonal of the default `process_noise_covariance`.
 const NOISE: [f64; SIZE] =
     [0.05, 0.05, 0.06, 0.03, 0.03, 0.06, 0.025, 0.025, 0.04, 0.01, 0.01, 0.02, 0.01, 0.01, 0.015];
 
-/// `odom0_config` is the parameter `config` of an input; `odom0` alone is its topic.
+/// Splits the name of an input parameter: `odom0_config` is `config` of `odom0`; `odom0` alone is
+/// its topic.
 fn input(name: &str) -> Option<((Kind, u32), &str)> {
     Kind::ALL.iter().find_map(|(kind, word)| {
         let rest = name.strip_prefix(word)?;
@@ -254,7 +256,7 @@ fn source(
             format!("`{name}` has parameters, but no topic"),
         )
         .at(at)
-        .help(format!("say `{name}: TOPIC`"));
+        .help(format!("set `{name}: TOPIC`"));
         diagnostics.push(lost);
         return None;
     }
@@ -269,7 +271,7 @@ fn source(
         Some(truths) if truths.is_empty() => {
             let none = Diagnostic::warning(
                 "input-without-config",
-                format!("nothing of `{name}` is taken: `{name}_config` is not set"),
+                format!("no variable of `{name}` is used: `{name}_config` is not set"),
             )
             .at(at)
             .help(
@@ -329,10 +331,10 @@ fn numbers_of(
     let counts: Vec<String> = counts.iter().map(usize::to_string).collect();
     let bad = Diagnostic::error(
         "bad-count",
-        format!("`{name}` has {} numbers; it takes {}", numbers.len(), counts.join(" or ")),
+        format!("`{name}` has {} numbers; it needs {}", numbers.len(), counts.join(" or ")),
     )
     .at(values.origin(name))
-    .help("the default is used");
+    .help("the default is used instead");
     diagnostics.push(bad);
     None
 }

@@ -1,20 +1,20 @@
-//! What is estimated, and what is measured.
+//! State, estimates and measurements.
 
 use nalgebra::{SMatrix, SVector};
 use periplus_geometry::{DVec3, Pose, Rpy, normalize_angle};
 
-/// How many numbers the state has.
+/// Number of variables.
 pub const SIZE: usize = 15;
-/// The state: metres, radians, seconds.
+/// State vector in metres, radians and seconds.
 pub type State = SVector<f64, SIZE>;
-/// How sure each is, and what hangs together.
+/// Covariance of the state.
 pub type Covariance = SMatrix<f64, SIZE, SIZE>;
 
-/// The numbers of the state, in their order.
+/// Variables in the order of the state vector.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 #[allow(
     missing_docs,
-    reason = "the names say it: place, attitude, then their changes in the robot's frame"
+    reason = "the names are those of robot_localization: pose, then velocities in the base frame"
 )]
 pub enum Variable {
     X,
@@ -35,52 +35,52 @@ pub enum Variable {
 }
 
 impl Variable {
-    /// Those that a robot on flat ground has not.
+    /// Variables that are zero in two-dimensional mode.
     pub const OFF_THE_GROUND: [Self; 7] =
         [Self::Z, Self::Roll, Self::Pitch, Self::Vz, Self::Vroll, Self::Vpitch, Self::Az];
-    /// Those that are angles.
+    /// Variables that are angles.
     pub const ANGLES: [Self; 3] = [Self::Roll, Self::Pitch, Self::Yaw];
 
-    /// Where it stands in the state.
+    /// Index in the state vector.
     #[must_use]
     pub const fn at(self) -> usize {
         self as usize
     }
 }
 
-/// Three numbers of the state that stand side by side, from one of them on.
+/// Returns three consecutive variables.
 #[must_use]
 pub(crate) fn three(state: &State, from: Variable) -> DVec3 {
     let at = from.at();
     DVec3::new(state[at], state[at + 1], state[at + 2])
 }
 
-/// Angles within half a turn.
+/// Wraps angles to half a turn.
 pub(crate) fn wrap(state: &mut State) {
     for angle in Variable::ANGLES {
         state[angle.at()] = normalize_angle(state[angle.at()]);
     }
 }
 
-/// Where the robot is, how it moves, and how sure that is.
+/// Estimated state with its covariance.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Estimate {
-    /// Of which time \[ns\].
+    /// Stamp \[ns\].
     pub time_ns: i64,
-    /// What is most likely.
+    /// Mean.
     pub state: State,
-    /// How sure.
+    /// Covariance.
     pub covariance: Covariance,
 }
 
 impl Estimate {
-    /// One of its numbers.
+    /// Returns a variable.
     #[must_use]
     pub fn get(&self, variable: Variable) -> f64 {
         self.state[variable.at()]
     }
 
-    /// Where the robot is: `world_from_base`.
+    /// Returns the pose `world_from_base`.
     #[must_use]
     pub fn world_from_base(&self) -> Pose {
         let (place, angles) = (three(&self.state, Variable::X), three(&self.state, Variable::Roll));
@@ -88,19 +88,19 @@ impl Estimate {
         Pose::from_xyz_rpy(place.into(), rpy)
     }
 
-    /// Velocity \[m/s\] and turn rate \[rad/s\] in the robot's frame.
+    /// Returns linear \[m/s\] and angular velocity \[rad/s\] in the base frame.
     #[must_use]
     pub fn twist(&self) -> (DVec3, DVec3) {
         (three(&self.state, Variable::Vx), three(&self.state, Variable::Vroll))
     }
 
-    /// Acceleration in the robot's frame \[m/s²\].
+    /// Returns the acceleration in the base frame \[m/s²\].
     #[must_use]
     pub fn acceleration(&self) -> DVec3 {
         three(&self.state, Variable::Ax)
     }
 
-    /// How sure six numbers are that stand side by side, in rows, as messages carry it.
+    /// Returns the covariance of six consecutive variables, row-major as in messages.
     #[must_use]
     pub fn covariance_of(&self, from: Variable) -> [f64; 36] {
         let at = from.at();
@@ -108,25 +108,25 @@ impl Estimate {
     }
 }
 
-/// What was measured of the state at a time.
+/// Measurement of some variables at a time.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Measurement {
-    /// When \[ns\].
+    /// Stamp \[ns\].
     pub time_ns: i64,
-    /// The numbers; those that were not measured do not count.
+    /// Values; unmeasured variables are ignored.
     pub state: State,
-    /// How sure; rows and columns of what was not measured do not count.
+    /// Covariance; rows and columns of unmeasured variables are ignored.
     pub covariance: Covariance,
-    /// Which were measured.
+    /// True for measured variables.
     pub mask: [bool; SIZE],
-    /// What is further off than so many standard deviations (Mahalanobis) is not believed.
+    /// Maximum Mahalanobis distance; measurements beyond it are rejected.
     pub most_deviations: f64,
-    /// Who measured, for what is said of it.
+    /// Name of the input, for messages.
     pub source: String,
 }
 
 impl Measurement {
-    /// Of some variables, each with the same variance.
+    /// Creates a measurement of some variables with equal variances.
     #[must_use]
     pub fn of(time_ns: i64, values: &[(Variable, f64)], variance: f64) -> Self {
         let mut it = Self::empty(time_ns, String::new());
@@ -149,13 +149,13 @@ impl Measurement {
         }
     }
 
-    /// Whether it says anything.
+    /// Returns true if no variable is measured.
     #[must_use]
     pub fn is_empty(&self) -> bool {
         !self.mask.contains(&true)
     }
 
-    /// Whether all that was measured is a number.
+    /// Returns true if all measured values are finite.
     #[must_use]
     pub fn is_finite(&self) -> bool {
         let measured = || (0..SIZE).filter(|at| self.mask[*at]);

@@ -1,4 +1,4 @@
-//! One who explores.
+//! Frontier exploration of a robot.
 
 use periplus_geometry::Pose2;
 use periplus_grid::OccupancyGrid;
@@ -7,29 +7,29 @@ use crate::follow::{Velocity, follow};
 use crate::frontier::{Frontier, frontiers};
 use crate::reach::{Reach, Robot};
 
-/// How somebody explores.
+/// Settings of the exploration.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Settings {
-    /// The robot.
+    /// Geometry of the robot.
     pub robot: Robot,
-    /// At most this fast.
+    /// Maximum velocities.
     pub most: Velocity,
-    /// A frontier shorter than this is let be \[m\].
+    /// Minimum length of a frontier \[m\].
     pub shortest_m: f64,
-    /// How much way one metre of frontier is worth \[m\].
+    /// Path length that one metre of frontier is worth \[m/m\].
     pub worth: f64,
-    /// There is near enough \[m\].
+    /// Distance at which a goal counts as reached \[m\].
     pub tolerance_m: f64,
-    /// A wall straight ahead that is nearer than this ends a way \[m\].
+    /// Distance of an obstacle straight ahead at which a path is aborted \[m\].
     pub stop_m: f64,
-    /// Without coming on for so long it gives a place up \[ns\].
+    /// Time without progress after which a goal is abandoned \[ns\].
     pub patience_ns: i64,
-    /// At the beginning it looks around for so long \[ns\].
+    /// Duration of the initial rotation \[ns\].
     pub look_ns: i64,
 }
 
 impl Default for Settings {
-    /// For a robot of half a metre indoors.
+    /// Settings for a robot of half a metre indoors.
     fn default() -> Self {
         Self {
             robot: Robot { radius_m: 0.25, comfort_m: 0.6 },
@@ -44,45 +44,45 @@ impl Default for Settings {
     }
 }
 
-/// What an explorer is about.
+/// State of the exploration.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Mood {
-    /// It waits for a map, or looks around.
+    /// Waits for a map, or rotates to complete it.
     Looks,
-    /// It is on its way to something new.
+    /// Drives to a frontier.
     Goes,
-    /// There is nothing new that it could reach: it goes back to where it began.
+    /// No reachable frontier is left: drives back to the start.
     Returns,
-    /// All is seen.
+    /// The exploration is complete.
     Done,
 }
 
-/// One who explores.
+/// Frontier explorer.
 #[derive(Clone, Debug)]
 pub struct Explorer {
     settings: Settings,
     mood: Mood,
     way: Vec<[f64; 2]>,
     home_m: Option<[f64; 2]>,
-    /// Places that it could not reach \[m\].
+    /// Goals that could not be reached \[m\].
     given_up: Vec<[f64; 2]>,
     began_ns: Option<i64>,
-    /// Where and when it last came on.
+    /// Position and time of the last progress.
     came_on: Option<([f64; 2], i64)>,
     backs_until_ns: i64,
 }
 
-/// Places nearer to each other than this are one \[m\].
+/// Distance below which two goals are the same \[m\].
 const SAME_M: f64 = 0.5;
 
-/// It has come on when it is so far from where it was \[m\].
+/// Distance that counts as progress \[m\].
 const ON_M: f64 = 0.15;
 
-/// Before a wall it goes back for so long \[ns\].
+/// Duration of driving backwards from an obstacle \[ns\].
 const BACK_NS: i64 = 1_000_000_000;
 
 impl Explorer {
-    /// One who has seen nothing yet.
+    /// Creates an explorer without a map.
     #[must_use]
     pub fn new(settings: Settings) -> Self {
         Self {
@@ -97,25 +97,25 @@ impl Explorer {
         }
     }
 
-    /// What it is about.
+    /// Returns the state.
     #[must_use]
     pub fn mood(&self) -> Mood {
         self.mood
     }
 
-    /// The way that it follows \[m\].
+    /// Returns the path that it follows \[m\].
     #[must_use]
     pub fn way(&self) -> &[[f64; 2]] {
         &self.way
     }
 
-    /// Looks at a new map and chooses where to go.
+    /// Selects a goal on a new map.
     pub fn see(&mut self, map: &OccupancyGrid, map_from_base: Pose2) {
         let here = [map_from_base.x_m, map_from_base.y_m];
         let home_m = *self.home_m.get_or_insert(here);
         let Some(reach) = Reach::new(map, &self.settings.robot, here[0], here[1]) else { return };
         if reach.count() == 0 {
-            // The map says nothing yet of where it stands: it looks around until it does.
+            // The robot is in an unknown cell: it rotates until the map covers it.
             self.mood = Mood::Looks;
             self.way.clear();
             return;
@@ -137,7 +137,7 @@ impl Explorer {
         self.way = if is_there { Vec::new() } else { way };
     }
 
-    /// The velocity now. `ahead_m` is how far it is to what stands in the way.
+    /// Returns the velocity command. `ahead_m` is the distance to the nearest obstacle ahead.
     pub fn drive(&mut self, time_ns: i64, map_from_base: Pose2, ahead_m: f64) -> Velocity {
         let settings = self.settings;
         let began_ns = *self.began_ns.get_or_insert(time_ns);
@@ -157,7 +157,7 @@ impl Explorer {
         }
         let Some(end) = self.way.last() else { return turn };
         if apart(*end, here) < settings.tolerance_m {
-            // Something new comes into view; the next map says where to go.
+            // New space comes into view; the next map selects the goal.
             return turn;
         }
         let velocity = follow(&mut self.way, map_from_base, settings.most);
@@ -166,7 +166,7 @@ impl Explorer {
             self.backs_until_ns = time_ns + BACK_NS;
             return Velocity::default();
         }
-        // Not faster than it can stop before what stands there.
+        // Limits the speed to the braking distance before an obstacle.
         let most = (ahead_m - settings.stop_m).max(0.0) + 0.1;
         Velocity { forward_m_s: velocity.forward_m_s.min(most), ..velocity }
     }
@@ -183,7 +183,7 @@ impl Explorer {
         }
     }
 
-    /// The place that it is on the way to cannot be reached.
+    /// Abandons the current goal as unreachable.
     fn give_up(&mut self) {
         self.came_on = None;
         if let Some(end) = self.way.last() {

@@ -1,28 +1,28 @@
-//! Along a way.
+//! Path following by pure pursuit.
 
 use periplus_geometry::{Pose2, normalize_angle};
 
-/// Forwards and to the left.
+/// Velocity command: forward and turning to the left.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Velocity {
-    /// Forwards [m/s].
+    /// Forward velocity [m/s].
     pub forward_m_s: f64,
-    /// To the left [rad/s].
+    /// Turn rate to the left [rad/s].
     pub left_rad_s: f64,
 }
 
-/// So far ahead on the way the robot looks \[m\].
+/// Lookahead distance \[m\].
 const AHEAD_M: f64 = 0.4;
 
-/// Beyond this angle it turns before it drives \[rad\].
+/// Angle beyond which the robot rotates in place first \[rad\].
 const TURN_FIRST_RAD: f64 = 0.7;
 
-/// How much faster it turns the more it is off [1/s].
+/// Proportional gain of the turn rate [1/s].
 const TURN_GAIN: f64 = 2.0;
 
-/// The velocity along a way, at most this fast: towards the point a little ahead of the one that is
-/// nearest, slower where the way bends away and before its end (pure pursuit; Coulter, 1992). Points
-/// that lie behind are taken off the way.
+/// Returns the velocity that follows a path within velocity limits: towards the lookahead point
+/// beyond the nearest point, slower in turns and before the end (pure pursuit; Coulter, 1992).
+/// Passed points are removed from the path.
 pub fn follow(way: &mut Vec<[f64; 2]>, map_from_base: Pose2, most: Velocity) -> Velocity {
     let distance = |[x, y]: &[f64; 2]| libm::hypot(x - map_from_base.x_m, y - map_from_base.y_m);
     let by_distance = |a: &(usize, f64), b: &(usize, f64)| a.1.total_cmp(&b.1);

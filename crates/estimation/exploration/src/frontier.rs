@@ -1,23 +1,23 @@
-//! Where what is free meets what nobody knows.
+//! Frontiers between free and unknown space.
 
 use std::collections::BTreeSet;
 
 use crate::reach::{Reach, neighbours};
 
-/// A place from which something new is seen.
+/// A frontier: a connected set of free cells beside unknown ones.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Frontier {
-    /// The cell of it that is reached first.
+    /// Cell with the lowest cost.
     pub cell: usize,
-    /// Where that is \[m\].
+    /// Position of the cell \[m\].
     pub place_m: [f64; 2],
-    /// What it costs to get there \[m\].
+    /// Cost of the path to it \[m\].
     pub cost_m: f64,
-    /// How long the frontier is \[m\].
+    /// Length of the frontier \[m\].
     pub length_m: f64,
 }
 
-/// All frontiers that can be reached and are so long at least \[m\], in the order of their cells.
+/// Returns all reachable frontiers of at least a minimum length \[m\], ordered by cell.
 #[must_use]
 pub fn frontiers(reach: &Reach<'_>, shortest_m: f64) -> Vec<Frontier> {
     let map = reach.map();

@@ -1,9 +1,9 @@
-//! Where a robot goes to see what it has not seen, and how it gets there.
+//! Frontier exploration: selection of goals at the border of explored space, and path following.
 //!
-//! Frontiers are where what is known to be free meets what nobody knows (Yamauchi, "A frontier-based
-//! approach for autonomous exploration", 1997). [`frontiers`] finds those that can be reached, with the
-//! way to each; an [`Explorer`] chooses one, follows the way, looks again when the map has grown, and
-//! lets a place be that it cannot reach. Values in, values out: it reads no clock and knows no topics.
+//! Frontiers are the borders between free and unknown space (Yamauchi, "A frontier-based approach
+//! for autonomous exploration", 1997). [`frontiers`] returns the reachable ones with path costs; an
+//! [`Explorer`] selects one, follows the path, selects again when the map has grown, and abandons
+//! goals that it cannot reach. The crate has no clock and no topics: all inputs are arguments.
 
 mod explorer;
 mod follow;

@@ -1,46 +1,47 @@
-//! What a robot can reach on a map, and by which way.
+//! Reachable cells of a map, with shortest paths.
 
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 
 use periplus_grid::{Cell, Grid, OccupancyGrid, squared_distances};
 
-/// From this value on a cell counts as a wall, as in `map_server`'s `occupied_thresh` of 0.65.
+/// Minimum occupancy of walls \[%\]: `occupied_thresh` 0.65 of `map_server`.
 const WALL: i8 = 65;
 
-/// Up to this value a cell counts as free, as in `free_thresh` of 0.25.
+/// Maximum occupancy of free cells \[%\]: `free_thresh` 0.25.
 const FREE: i8 = 25;
 
-/// The robot, as far as ways depend on it.
+/// Geometry of the robot for planning.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Robot {
-    /// No nearer to a wall does its middle come \[m\].
+    /// Minimum distance of its centre from walls \[m\].
     pub radius_m: f64,
-    /// Nearer than this it does not like to be \[m\].
+    /// Distance from walls below which costs increase \[m\].
     pub comfort_m: f64,
 }
 
-/// What a robot can reach from where it is. Costs are lengths \[m\], longer near walls.
+/// Reachable cells and shortest paths from the robot (Dijkstra). Costs are lengths \[m\], increased
+/// near walls.
 pub struct Reach<'a> {
     map: &'a OccupancyGrid,
-    /// Cost to each cell; infinite where it cannot go.
+    /// Cost of each cell; infinite if unreachable.
     costs: Vec<f64>,
-    /// From which cell each is reached.
+    /// Predecessor of each cell.
     from: Vec<u32>,
 }
 
-/// Costs compare by their bits: they are never negative and never NaN.
+/// Costs are compared by their bits: they are never negative and never NaN.
 type Open = BinaryHeap<Reverse<(u64, usize)>>;
 
 impl<'a> Reach<'a> {
-    /// Walks the map from a place; none if that is outside of it.
+    /// Runs Dijkstra's algorithm from a position; none if that is outside the map.
     #[must_use]
     pub fn new(map: &'a OccupancyGrid, robot: &Robot, x_m: f64, y_m: f64) -> Option<Self> {
         let info = map.info;
         let start = info.index(info.cell_of(x_m, y_m)?);
         let far = squared_distances(map, |value| *value >= WALL);
         let to_wall_m = |index: usize| info.resolution_m * f64::from(far.cells[index]).sqrt();
-        // A robot that stands too near to a wall may go away from it, but not nearer.
+        // A robot that is too near to a wall may move away from it, but not closer.
         let least_m = robot.radius_m.min(to_wall_m(start) - 0.5 * info.resolution_m);
         let mut reach =
             Self { map, costs: vec![f64::INFINITY; info.len()], from: vec![0; info.len()] };
@@ -69,25 +70,25 @@ impl<'a> Reach<'a> {
         Some(reach)
     }
 
-    /// What it costs to get to a cell \[m\]; none where the robot cannot go.
+    /// Returns the cost of a cell \[m\]; none if unreachable.
     #[must_use]
     pub fn cost(&self, index: usize) -> Option<f64> {
         self.costs.get(index).copied().filter(|cost| cost.is_finite())
     }
 
-    /// How many cells it can go to, beside the one where it is.
+    /// Returns the number of reachable cells, without that of the robot.
     #[must_use]
     pub fn count(&self) -> usize {
         self.costs.iter().filter(|cost| cost.is_finite() && **cost > 0.0).count()
     }
 
-    /// The map that was walked.
+    /// Returns the map.
     #[must_use]
     pub fn map(&self) -> &OccupancyGrid {
         self.map
     }
 
-    /// The way to a cell, from where the robot is \[m\].
+    /// Returns the path to a cell, from the robot \[m\].
     #[must_use]
     pub fn way(&self, index: usize) -> Vec<[f64; 2]> {
         let mut way = Vec::new();
@@ -104,7 +105,7 @@ impl<'a> Reach<'a> {
     }
 }
 
-/// The eight cells around one, with their distances in cells.
+/// Iterates over the eight neighbours of a cell, with their distances \[cells\].
 pub(crate) fn neighbours<T>(
     grid: &Grid<T>,
     (column, row): Cell,

@@ -1,26 +1,26 @@
-//! Laying one map over another.
+//! Alignment of two maps.
 
 use periplus_geometry::Pose2;
 use periplus_grid::{CellFinder, Grid, NO_SITE_CELLS, OccupancyGrid, squared_distances};
 
-/// A cell is a wall from here on.
+/// Minimum occupancy of walls \[%\]: `occupied_thresh` 0.65 of Nav2.
 const WALL: i8 = 65;
 
-/// No more points of walls are compared; of more every so many is taken.
+/// Maximum number of wall points to compare; larger sets are subsampled.
 const MOST_POINTS: usize = 2000;
 
-/// Places of the coarse search that are followed to the end.
+/// Number of candidates of the coarse search that are refined.
 const FOLLOWED: usize = 8;
 
-/// How far the coarse search is blurred \[m\]. It looks at every half of that.
+/// Blur of the coarse search \[m\]; its step is half of that.
 const BLUR_M: f64 = 0.3;
 
-/// Where one map lies over another.
+/// Pose of one map relative to another.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Alignment {
-    /// `reference_from_other`: coordinates of the other map in the frame of the first.
+    /// `reference_from_other`: transform of the other map into the frame of the first.
     pub reference_from_other: Pose2,
-    /// How well walls meet walls: 1 when each lies on one.
+    /// Match score: 1 when each wall point is on a wall of the other map.
     pub score: f64,
 }
 
@@ -28,10 +28,10 @@ pub(crate) fn is_wall(cell: i8) -> bool {
     cell >= WALL
 }
 
-/// Finds where the walls of a map lie best over those of another, within so many metres and radians
-/// of where the files put them. Where one has no walls, it stays there.
-///
-/// A search over the whole window with walls blurred to a third of a metre, about the middle of the
+/// Aligns the walls of a map with those of another, within `window_m` metres and `window_rad`
+/// radians of the origins in the files. A map without walls is not moved.
+/// A coarse search over the whole window with walls blurred to a third of a metre, about the
+/// centroid of the walls, then hill climbing from the best candidates with decreasing blur.
 /// walls, and from the best places of it downhill with less and less blur.
 #[must_use]
 pub fn align(
@@ -59,7 +59,7 @@ pub fn align(
                 let shift = [column as f64 * step_m, row as f64 * step_m];
                 let score = walls.score(&turned, shift, blur_m);
                 if best.len() < FOLLOWED || score > best[FOLLOWED - 1].0 {
-                    // Of equal ones the first stays in front.
+                    // Of equal scores the first stays in front.
                     let at = best.partition_point(|(other, _)| *other >= score);
                     best.insert(at, (score, [shift[0], shift[1], turn as f64 * step_rad]));
                     best.truncate(FOLLOWED);
@@ -87,11 +87,11 @@ pub fn align(
     Alignment { reference_from_other: points.about_middle(x_m, y_m, yaw_rad), score }
 }
 
-/// How far each place is from the nearest wall.
+/// Distance field of the walls.
 struct Walls {
     distances_m: Grid<f32>,
     finder: CellFinder,
-    /// What is off the map is so far from walls \[m\].
+    /// Distance assumed outside the map \[m\].
     far_m: f64,
 }
 
@@ -106,7 +106,7 @@ impl Walls {
         Some(Self { finder: map.info.finder(), distances_m, far_m: 10.0 * BLUR_M })
     }
 
-    /// Between the centres of four cells the distance is mixed.
+    /// Interpolated bilinearly between the centres of four cells.
     fn distance_m(&self, x_m: f64, y_m: f64) -> f64 {
         let (columns, rows) = self.finder.cells_to(x_m, y_m);
         let (columns, rows) = (columns - 0.5, rows - 0.5);
@@ -126,20 +126,21 @@ impl Walls {
         below * (1.0 - up) + above * up
     }
 
-    /// The mean of a bell curve over the distances.
+    /// Returns the mean of a bell curve over the distances.
     fn score(&self, points: &[(f64, f64)], [x_m, y_m]: [f64; 2], blur_m: f64) -> f64 {
         let sum: f64 = points
             .iter()
             .map(|&(x, y)| {
                 let away = self.distance_m(x + x_m, y + y_m) / blur_m;
-                // A rational bell is cheaper than an exponential one, and has one peak as well.
+                // A rational bell curve is cheaper than an exponential one, and has a single peak
+                // as well.
                 1.0 / (1.0 + away * away * away * away)
             })
             .sum();
         sum / points.len() as f64
     }
 
-    /// Steps of one size along each axis as long as they help.
+    /// Hill climbing with steps of one size along each axis.
     fn climb(&self, points: &Points, start: [f64; 3], step_m: f64, blur_m: f64) -> [f64; 3] {
         const MOST_STEPS: usize = 40;
         let step_rad = step_m / points.reach_m.max(step_m);
@@ -166,11 +167,11 @@ impl Walls {
     }
 }
 
-/// Points of walls, from their middle.
+/// Wall points relative to their centroid.
 struct Points {
     points: Vec<(f64, f64)>,
     middle: (f64, f64),
-    /// Half of the points are nearer to the middle, roughly \[m\].
+    /// Roughly the median distance from the centroid \[m\].
     reach_m: f64,
 }
 
@@ -195,21 +196,21 @@ impl Points {
         Some(Self { points, middle, reach_m: (squares / count).sqrt() })
     }
 
-    /// In the map, turned about their middle.
+    /// Returns the points in the map frame, rotated about their centroid.
     fn turned(&self, yaw_rad: f64) -> Vec<(f64, f64)> {
         let about = Pose2::new(self.middle.0, self.middle.1, yaw_rad);
         let finder = Turn::new(about);
         self.points.iter().map(|&(x, y)| finder.apply(x, y)).collect()
     }
 
-    /// A turn about the middle and a shift as one transform of the map.
+    /// Returns a rotation about the centroid with a translation as one transform of the map.
     fn about_middle(&self, x_m: f64, y_m: f64, yaw_rad: f64) -> Pose2 {
         let middle = Pose2::new(self.middle.0, self.middle.1, 0.0);
         Pose2::new(x_m, y_m, 0.0) * middle * Pose2::new(0.0, 0.0, yaw_rad) * middle.inverse()
     }
 }
 
-/// A transform with its sine and cosine at hand.
+/// A transform with precomputed sine and cosine.
 struct Turn {
     sine: f64,
     cosine: f64,
@@ -234,7 +235,7 @@ mod tests {
 
     use super::*;
 
-    /// A room of 6 by 4 m with a wall in it, seen from a corner that is turned.
+    /// A room of 6 by 4 m with an inner wall, in a frame with a rotated corner as origin.
     pub(crate) fn room(origin: Pose2, resolution_m: f64) -> OccupancyGrid {
         let cells = |length_m: f64| (length_m / resolution_m).round() as usize;
         let info = GridInfo::new(resolution_m, cells(8.0), cells(6.0), origin).unwrap();
@@ -261,7 +262,7 @@ mod tests {
     fn a_shifted_and_turned_map_is_laid_back() {
         let reference = room(Pose2::new(-4.0, -3.0, 0.0), 0.05);
         let error = Pose2::new(0.43, -0.31, 0.12);
-        // The same cells, said to lie elsewhere.
+        // The same cells with another origin.
         let mut other = reference.clone();
         other.info.origin = error * reference.info.origin;
         let found = align(&reference, &other, 1.0, 0.2);

@@ -1,26 +1,26 @@
-//! The walls of a map as few rectangles.
+//! Decomposition of the walls of a map into rectangles.
 
 use periplus_grid::OccupancyGrid;
 
 /// Occupancy from which a cell is a wall, in percent: Nav2's `occupied_thresh` of 0.65.
 pub const MIN_WALL_PERCENT: i8 = 65;
 
-/// A rectangle of whole cells, all of them walls.
+/// A rectangle of wall cells.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct WallBox {
     /// Leftmost column.
     pub column: usize,
     /// Lowest row.
     pub row: usize,
-    /// Columns.
+    /// Number of columns.
     pub columns: usize,
-    /// Rows.
+    /// Number of rows.
     pub rows: usize,
 }
 
-/// Rectangles that cover all cells of at least [`MIN_WALL_PERCENT`] and nothing else, each cell
-/// once. From each cell that is left the larger of two rectangles is taken: as wide as possible and
-/// then as high as possible, or the other way round. The work is linear in the number of cells.
+/// Covers all cells of at least [`MIN_WALL_PERCENT`] with disjoint rectangles that contain no other
+/// cells. From each remaining cell the larger of two rectangles is used: extended first along x and
+/// then along y, or the reverse. The run time is linear in the number of cells.
 #[must_use]
 pub fn wall_boxes(map: &OccupancyGrid) -> Vec<WallBox> {
     let (width, height) = (map.info.width, map.info.height);

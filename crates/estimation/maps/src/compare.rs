@@ -1,4 +1,4 @@
-//! How two maps differ.
+//! Comparison of two maps.
 
 use periplus_geometry::Pose2;
 use periplus_grid::occupancy::UNKNOWN;
@@ -8,14 +8,14 @@ use periplus_grid::{
 
 use crate::align::{Alignment, align, is_wall};
 
-/// How to compare.
+/// Options of a comparison.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Options {
-    /// Whether to lay the other map over the first before. Else its files say where it lies.
+    /// True to align the other map first, false to use the origins in the files.
     pub align: bool,
-    /// How far it may be shifted \[m\].
+    /// Maximum translation \[m\].
     pub window_m: f64,
-    /// How far it may be turned \[rad\].
+    /// Maximum rotation \[rad\].
     pub window_rad: f64,
 }
 
@@ -25,19 +25,19 @@ impl Default for Options {
     }
 }
 
-/// Cells of one kind in either map.
+/// Cell counts of one kind in both maps.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Overlap {
-    /// In both.
+    /// In both maps.
     pub both: usize,
-    /// In the first only.
+    /// In the first map only.
     pub first_only: usize,
-    /// In the other only.
+    /// In the other map only.
     pub other_only: usize,
 }
 
 impl Overlap {
-    /// Intersection over union; 1 where there is nothing in either.
+    /// Returns the intersection over union; 1 for two empty sets.
     #[must_use]
     pub fn iou(&self) -> f64 {
         let union = self.both + self.first_only + self.other_only;
@@ -51,48 +51,47 @@ impl Overlap {
     }
 }
 
-/// How far the walls of one map are from those of another \[m\], from centre to centre of cells.
+/// Distances of the walls of one map to those of another \[m\], between cell centres.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Walls {
-    /// How many cells are walls.
+    /// Number of wall cells.
     pub count: usize,
-    /// On average.
+    /// Mean.
     pub mean_m: f64,
-    /// Half are nearer.
+    /// Median.
     pub median_m: f64,
-    /// 95 of 100 are nearer.
+    /// 95th percentile.
     pub p95_m: f64,
-    /// None is further.
+    /// Maximum.
     pub largest_m: f64,
 }
 
-/// How two maps differ.
+/// Result of a comparison.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Comparison {
-    /// Where the other map lies over the first.
+    /// Pose of the other map relative to the first.
     pub alignment: Alignment,
-    /// Cells of the first map, as many as both maps need.
+    /// Grid of the first map, enlarged to contain both.
     pub info: GridInfo,
-    /// Walls.
+    /// Wall cells.
     pub walls: Overlap,
-    /// Walls, where one that has a neighbour in the other map counts as met.
+    /// Wall cells, where a neighbouring wall cell counts as a match.
     pub walls_nearby: Overlap,
     /// Free cells.
     pub free: Overlap,
-    /// Cells of which something is known.
+    /// Known cells.
     pub known: Overlap,
-    /// From the walls of the first map to those of the other.
+    /// Distances from the walls of the first map to those of the other.
     pub first_to_other: Walls,
-    /// From the walls of the other map to those of the first.
+    /// Distances from the walls of the other map to those of the first.
     pub other_to_first: Walls,
     first: OccupancyGrid,
     other: OccupancyGrid,
 }
 
-/// Compares a map with another, over the cells of the first.
-///
+/// Compares two maps on the grid of the first.
 /// # Errors
-/// When together they would take too many cells.
+/// When the common grid would have too many cells.
 pub fn compare(
     first: &OccupancyGrid,
     other: &OccupancyGrid,
@@ -114,7 +113,7 @@ pub fn compare(
     for index in 0..info.len() {
         let (a, b) = (first.cells[index], other.cells[index]);
         walls.count(is_wall(a), is_wall(b));
-        // Diagonal neighbours are the square root of two away.
+        // Diagonal neighbours are at a distance of the square root of two.
         nearby.count(
             is_wall(a) || is_wall(b) && to_first.cells[index] <= 2,
             is_wall(b) || is_wall(a) && to_other.cells[index] <= 2,
@@ -137,7 +136,7 @@ pub fn compare(
     })
 }
 
-/// Cells of the first grid, as many as both need.
+/// Returns the grid of the first map, enlarged to contain both.
 fn around(first: GridInfo, other: GridInfo) -> Result<GridInfo, GridInfoError> {
     let finder = first.finder();
     let (mut low, mut high) = ((0_i64, 0_i64), (first.width as i64, first.height as i64));
@@ -154,8 +153,8 @@ fn around(first: GridInfo, other: GridInfo) -> Result<GridInfo, GridInfoError> {
     GridInfo::new(first.resolution_m, size(low.0, high.0), size(low.1, high.1), origin)
 }
 
-/// What a map says of each cell. Cells that are larger than its own show the most occupied of those
-/// that they hold, so that thin walls stay.
+/// Resamples a map. A cell larger than those of the map gets the highest occupancy that it
+/// contains, which preserves thin walls.
 fn sampled(map: &OccupancyGrid, info: GridInfo) -> OccupancyGrid {
     let finder = map.info.finder();
     let per_side = (info.resolution_m / map.info.resolution_m).round().clamp(1.0, 16.0) as usize;
@@ -212,9 +211,9 @@ fn statistics(map: &OccupancyGrid, squares: &Grid<u32>) -> Walls {
     }
 }
 
-/// Both maps in one picture, in red, green, blue, its first row at the top: walls of both are black,
-/// of the first only blue, of the other only red; free in both is white, and in one alone a light
-/// tint of its colour; what nobody knows is grey.
+/// Returns width, height and RGB pixels of an image of both maps, top row first: walls of both are
+/// black, of the first only blue, of the other only red; free in both is white, free in one only a
+/// light tint of its colour; unknown cells are grey.
 #[must_use]
 pub fn picture(comparison: &Comparison) -> (u32, u32, Vec<u8>) {
     let GridInfo { width, height, .. } = comparison.info;

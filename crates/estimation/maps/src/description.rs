@@ -1,4 +1,4 @@
-//! The YAML of a map.
+//! YAML description of a map.
 
 use periplus_diagnostics::{Diagnostic, Diagnostics, FileId, SourceMap, Span};
 use periplus_geometry::Pose2;
@@ -8,29 +8,29 @@ use periplus_yaml::YamlNode;
 use crate::distro::{Distro, Mode};
 use crate::rule::Rule;
 
-/// What the YAML says.
+/// Contents of the YAML file.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Description {
-    /// Path of the picture, from the folder of the YAML.
+    /// Path of the image, relative to the folder of the YAML file.
     pub image: String,
-    /// Where that is said.
+    /// Position of `image` in the file.
     pub image_span: Option<Span>,
-    /// Length of a side of a cell \[m\].
+    /// Side length of a cell \[m\].
     pub resolution_m: f64,
-    /// `map_from_corner`: the lower left corner of the lower left pixel.
+    /// `map_from_grid`: pose of the lower left corner of the lower left pixel.
     pub origin: Pose2,
-    /// From this share of darkness on a cell is occupied.
+    /// Minimum darkness of occupied cells, 0 to 1.
     pub occupied_thresh: f64,
-    /// Up to this share of darkness a cell is free.
+    /// Maximum darkness of free cells, 0 to 1.
     pub free_thresh: f64,
-    /// Whether white is occupied and black is free.
+    /// True if white is occupied and black is free.
     pub negate: bool,
-    /// What brightness stands for.
+    /// Interpretation of the brightness.
     pub mode: Mode,
 }
 
 impl Description {
-    /// A picture of which only this is known; the rest is as `map_saver` writes it.
+    /// Creates the description of an image; all other values are those of `map_saver`.
     #[must_use]
     pub fn of_image(image: impl Into<String>, resolution_m: f64) -> Self {
         Self {
@@ -45,7 +45,7 @@ impl Description {
         }
     }
 
-    /// What its pixels mean to somebody.
+    /// Returns the rule that interprets pixels.
     #[must_use]
     pub fn rule(&self, distro: Distro) -> Rule {
         Rule {
@@ -58,15 +58,15 @@ impl Description {
     }
 }
 
-/// Names that a description may have; all but `mode` it must have.
+/// Keys of a description; all except `mode` are required.
 const KEYS: [&str; 7] =
     ["image", "resolution", "origin", "occupied_thresh", "free_thresh", "negate", "mode"];
 
-/// An example, for those who have none.
+/// Example for error messages.
 const EXAMPLE: &str = "a map's YAML has `image: room.pgm`, `resolution: 0.05`, \
      `origin: [-10.0, -10.0, 0.0]`, `negate: 0`, `occupied_thresh: 0.65`, `free_thresh: 0.196`";
 
-/// Reads a description; none when anything that must be there is missing or wrong.
+/// Reads a description; none when a required key is missing or wrong.
 pub fn read_description(
     file: FileId,
     sources: &SourceMap,
@@ -83,7 +83,7 @@ pub fn read_description(
     };
     let Some(entries) = node.as_ref().and_then(YamlNode::entries) else {
         let what = node.as_ref().map_or("nothing", YamlNode::kind);
-        let wrong = format!("a map is described by a mapping, not by {what}");
+        let wrong = format!("the description of a map must be a mapping, not {what}");
         let span = node.as_ref().map_or(whole, |node| node.span);
         diagnostics.push(Diagnostic::error("bad-map", wrong).at(span).help(EXAMPLE));
         return None;
@@ -91,7 +91,7 @@ pub fn read_description(
     for (key, _) in entries {
         let name = key.text().unwrap_or_default();
         if !KEYS.contains(&name) {
-            let wrong = format!("`{name}` is nothing that map servers know; it is left out");
+            let wrong = format!("`{name}` is not a key of map descriptions; it is ignored");
             diagnostics.push(
                 Diagnostic::warning("unknown-key", wrong)
                     .at(key.span)
@@ -139,7 +139,7 @@ impl<'a> Reader<'a> {
         if given.is_none() {
             let span = node.map_or(self.whole, |node| node.span);
             let help = format!("write `{key}: {example}`");
-            self.wrong(format!("the map does not say `{key}`"), span, &help);
+            self.wrong(format!("the description of the map lacks `{key}`"), span, &help);
         }
         given
     }
@@ -150,8 +150,8 @@ impl<'a> Reader<'a> {
         match node.text() {
             Some(text) if !text.is_empty() => Some((text.to_owned(), span)),
             _ => {
-                let help = "name the picture, from the folder of this file: `image: room.pgm`";
-                self.wrong("`image` names no picture".into(), span, help);
+                let help = "write the image file, relative to this file: `image: room.pgm`";
+                self.wrong("`image` is empty".into(), span, help);
                 None
             }
         }
@@ -183,7 +183,7 @@ impl<'a> Reader<'a> {
         } else {
             format!("the resolution is {resolution_m}; it must be positive")
         };
-        self.wrong(wrong, span, "it is the length of a pixel's side in metres: `resolution: 0.05`");
+        self.wrong(wrong, span, "write the side length of a pixel in metres: `resolution: 0.05`");
         None
     }
 
@@ -198,7 +198,7 @@ impl<'a> Reader<'a> {
             self.wrong(wrong, span, help);
             return None;
         };
-        // ROS 1 looks at the first three, and at no more.
+        // ROS 1 reads the first three and ignores the rest.
         let fits = list.len() == 3 || distro == Distro::Noetic && list.len() > 3;
         if !fits {
             let wrong = format!("`origin` must have 3 numbers, not {}", list.len());
@@ -207,7 +207,7 @@ impl<'a> Reader<'a> {
         }
         let bad = list[..3].iter().find(|part| number_of(part).is_none()).map(|part| part.span);
         if let Some(bad) = bad {
-            self.wrong("a number of `origin` is none, or not finite".into(), bad, help);
+            self.wrong("a number of `origin` is missing or not finite".into(), bad, help);
             return None;
         }
         let mut numbers = list.iter().map_while(number_of);
@@ -237,12 +237,12 @@ impl<'a> Reader<'a> {
         let Some(node) = self.map.get("mode") else { return Some(Mode::Trinary) };
         let span = node.span;
         let name = node.text().unwrap_or_default();
-        // ROS 1 knows small letters only.
+        // ROS 1 accepts lower case only.
         let is_known = distro != Distro::Noetic || name == name.to_ascii_lowercase();
         if let Some(mode) = Mode::from_name(name).filter(|_| is_known) {
             return Some(mode);
         }
-        let wrong = format!("`{name}` is no mode of maps");
+        let wrong = format!("`{name}` is not a map mode");
         self.diagnostics.push(
             Diagnostic::error("bad-map", wrong)
                 .at(span)
@@ -252,7 +252,7 @@ impl<'a> Reader<'a> {
         None
     }
 
-    /// What is allowed and hardly meant.
+    /// Warns about values that are valid but probably unintended.
     fn doubts(&mut self, description: &Description) {
         let Description { free_thresh, occupied_thresh, mode, .. } = *description;
         if mode != Mode::Raw && free_thresh >= occupied_thresh {
@@ -264,13 +264,13 @@ impl<'a> Reader<'a> {
             self.diagnostics.push(
                 Diagnostic::warning("odd-thresholds", wrong)
                     .at(span)
-                    .help("usual are `free_thresh: 0.196` and `occupied_thresh: 0.65`"),
+                    .help("common values are `free_thresh: 0.196` and `occupied_thresh: 0.65`"),
             );
         }
     }
 }
 
-/// With or without quotes, as the readers of ROS have it.
+/// Reads a number with or without quotes, as the parsers of ROS do.
 fn number_of(node: &YamlNode) -> Option<f64> {
     let text = node.text()?.trim();
     let is_number = text.bytes().all(|b| b.is_ascii_digit() || b"+-.eE".contains(&b));
@@ -311,12 +311,12 @@ mod tests {
     fn each_mistake_has_its_place() {
         let cases = [
             ("origin: [1, 2.5, -1e-1]", "origin: [1, 2.5]", "room.yaml:3:9", "not 2"),
-            ("origin: [1, 2.5, -1e-1]", "origin: [1, x, 0]", "room.yaml:3:13", "none"),
+            ("origin: [1, 2.5, -1e-1]", "origin: [1, x, 0]", "room.yaml:3:13", "missing"),
             ("resolution: 0.05", "resolution: 0", "room.yaml:2:13", "positive"),
             ("resolution: 0.05", "resolution: .nan", "room.yaml:2:13", "finite"),
             ("resolution: 0.05\n", "", "room.yaml:1:1", "`resolution`"),
             ("negate: 0", "negate: maybe", "room.yaml:4:9", "true or false"),
-            ("image: a.pgm", "image: ''", "room.yaml:1:8", "names no picture"),
+            ("image: a.pgm", "image: ''", "room.yaml:1:8", "is empty"),
             ("image: a.pgm", "image: a.pgm\nmode: trinery", "room.yaml:2:7", "did you mean"),
         ];
         for (good, bad, place, words) in cases {

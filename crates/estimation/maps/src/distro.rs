@@ -1,19 +1,20 @@
-//! Whose rules apply, and what pixels stand for.
+//! Map servers of ROS distributions, and map modes.
 
-/// Whose rules apply to pixels and texts.
+/// Distribution whose map server and map saver are reproduced.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Distro {
-    /// ROS 1: `map_server` and `map_saver` of noetic.
+    /// ROS 1: `map_server` and `map_saver` of Noetic.
     Noetic,
-    /// `nav2_map_server` up to humble and iron.
+    /// `nav2_map_server` up to Humble and Iron.
     Humble,
-    /// `nav2_map_server` of jazzy and all that came later.
+    /// `nav2_map_server` of Jazzy and later.
     #[default]
     Jazzy,
 }
 
 impl Distro {
-    /// The rules of a distribution of ROS by its name; `ros1`, `rolling` and `main` are names, too.
+    /// Returns the rules of a ROS distribution by its name; `ros1`, `rolling` and `main` are names
+    /// as well.
     #[must_use]
     pub fn from_name(name: &str) -> Option<Self> {
         match name.to_ascii_lowercase().as_str() {
@@ -24,7 +25,7 @@ impl Distro {
         }
     }
 
-    /// `noetic`, `humble` or `jazzy`.
+    /// Returns `noetic`, `humble` or `jazzy`.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
@@ -35,29 +36,29 @@ impl Distro {
     }
 }
 
-/// What the brightness of a pixel stands for.
+/// Interpretation of the brightness of a pixel.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Mode {
     /// Occupied, free or unknown.
     #[default]
     Trinary,
-    /// The same, and percents between.
+    /// Occupied, free or unknown, and percentages between the thresholds.
     Scale,
-    /// The value itself.
+    /// The occupancy value itself.
     Raw,
 }
 
 impl Mode {
-    /// All of them.
+    /// All modes.
     pub const ALL: [Self; 3] = [Self::Trinary, Self::Scale, Self::Raw];
 
-    /// By its name, in capitals or not.
+    /// Returns a mode by its name, in upper or lower case.
     #[must_use]
     pub fn from_name(name: &str) -> Option<Self> {
         Self::ALL.into_iter().find(|mode| mode.name().eq_ignore_ascii_case(name))
     }
 
-    /// As files write it.
+    /// Returns the name in files.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {

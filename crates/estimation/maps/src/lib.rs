@@ -1,9 +1,9 @@
-//! Map files: a YAML that describes, and a picture that is the map.
+//! Map files: a YAML description and an image.
 //!
-//! [`load`] reads both as ROS 1, humble, or jazzy and later do, which differ in what a pixel means
-//! ([`Rule`]). [`render`] makes both, byte for byte as the savers of these do. [`compare`] lays one
-//! map over another and says how they differ. Maps as messages are [`from_message`] and
-//! [`to_message`]; the colours that `RViz` gives them are in [`palette`].
+//! [`load`] reads both with the rules of ROS 1, Humble, or Jazzy and later, which differ in the
+//! interpretation of pixels ([`Rule`]). [`render`] writes both, byte for byte like the map savers
+//! of these distributions. [`compare`] aligns and compares two maps. [`from_message`] and
+//! [`to_message`] convert maps from and to messages; [`palette`] has the colours of `RViz`.
 //!
 //! ```
 //! use periplus_maps::{Distro, Status, load};

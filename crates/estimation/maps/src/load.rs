@@ -1,4 +1,4 @@
-//! A map from its files.
+//! Loading of map files.
 
 use std::path::{Path, PathBuf};
 
@@ -12,21 +12,21 @@ use crate::description::{Description, read_description};
 use crate::distro::{Distro, Mode};
 use crate::rule::luma;
 
-/// How a loading ended, with the numbers of `nav2_msgs/srv/LoadMap`.
+/// Result of loading, with the codes of `nav2_msgs/srv/LoadMap`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Status {
-    /// The map is there.
+    /// The map was loaded.
     Success,
-    /// Nobody said which map.
+    /// No map was named.
     MapDoesNotExist,
-    /// There is no picture, or it is none.
+    /// The image is missing or invalid.
     InvalidMapData,
-    /// There is no YAML, or it is wrong.
+    /// The YAML file is missing or invalid.
     InvalidMapMetadata,
 }
 
 impl Status {
-    /// As `LoadMap` answers it.
+    /// Returns the code of `LoadMap`.
     #[must_use]
     pub fn code(self) -> u8 {
         match self {
@@ -37,7 +37,7 @@ impl Status {
         }
     }
 
-    /// As `nav2_map_server` calls it.
+    /// Returns the name in `nav2_map_server`.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
@@ -49,34 +49,34 @@ impl Status {
     }
 }
 
-/// A map and where it came from.
+/// A map and the files that it was loaded from.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Map {
-    /// What is where.
+    /// Occupancy values.
     pub grid: OccupancyGrid,
-    /// What its YAML says.
+    /// Contents of the YAML file.
     pub description: Description,
-    /// The picture.
+    /// Path of the image.
     pub image_path: PathBuf,
 }
 
-/// What came of a loading.
+/// Outcome of loading.
 #[derive(Clone, Debug)]
 pub struct Loaded {
-    /// The map, unless something was wrong.
+    /// The map, unless there was an error.
     pub map: Option<Map>,
-    /// How it ended.
+    /// Result code.
     pub status: Status,
-    /// What was read.
+    /// Source texts.
     pub sources: SourceMap,
-    /// What there is to say.
+    /// Errors and warnings.
     pub diagnostics: Diagnostics,
 }
 
-/// Endings of pictures that are read.
+/// File extensions of supported images.
 const PICTURES: [&str; 6] = ["pgm", "png", "bmp", "jpg", "jpeg", "ppm"];
 
-/// `~/` in front of a path becomes the home of the user, if that is known.
+/// Replaces a leading `~/` with the home directory, if that is known.
 #[must_use]
 pub fn expand_home(path: &str, home: &str) -> String {
     match path.strip_prefix('~') {
@@ -85,7 +85,7 @@ pub fn expand_home(path: &str, home: &str) -> String {
     }
 }
 
-/// Loads a map by the path of its YAML.
+/// Loads a map by the path of its YAML file.
 #[must_use]
 pub fn load(path: &str, distro: Distro, host: &dyn Host) -> Loaded {
     let (mut sources, mut diagnostics) = (SourceMap::new(), Diagnostics::new());
@@ -93,7 +93,7 @@ pub fn load(path: &str, distro: Distro, host: &dyn Host) -> Loaded {
     finish(result, sources, diagnostics)
 }
 
-/// Loads a map of which there is a picture only, as ROS 1 `map_server IMAGE RESOLUTION` does.
+/// Loads a map from an image only, as ROS 1 `map_server IMAGE RESOLUTION` does.
 #[must_use]
 pub fn load_image(path: &str, resolution_m: f64, distro: Distro, host: &dyn Host) -> Loaded {
     let mut diagnostics = Diagnostics::new();
@@ -115,7 +115,7 @@ fn finish(result: Result<Map, Failed>, sources: SourceMap, mut diagnostics: Diag
     }
 }
 
-/// How it ended, and why where that is not said yet.
+/// Result code and error, where the error is not reported yet.
 struct Failed(Status, Option<Box<Diagnostic>>);
 
 fn failed(status: Status, message: String, span: Option<Span>) -> Failed {
@@ -141,8 +141,8 @@ fn read(
     diagnostics: &mut Diagnostics,
 ) -> Result<Map, Failed> {
     if path.is_empty() {
-        let wrong = failed(Status::MapDoesNotExist, "no map is named".into(), None);
-        return Err(wrong.help("name the YAML of a map"));
+        let wrong = failed(Status::MapDoesNotExist, "no map is given".into(), None);
+        return Err(wrong.help("give the path of the YAML file of a map"));
     }
     let path = expand_home(path, &host.variable("HOME").unwrap_or_default());
     let bytes = host.read(Path::new(&path)).map_err(|error| {
@@ -152,23 +152,23 @@ fn read(
     })?;
     let text = String::from_utf8(bytes).map_err(|error| {
         let is_picture = Raster::decode(error.as_bytes()).is_ok();
-        let what = if is_picture { "a picture" } else { "no text" };
-        let wrong = format!("`{path}` is {what}, not the YAML of a map");
+        let what = if is_picture { "an image" } else { "not a text file" };
+        let wrong = format!("`{path}` is {what}, not the YAML file of a map");
         let wrong = failed(Status::InvalidMapMetadata, wrong, None);
-        if is_picture { wrong.help("name the YAML that names the picture") } else { wrong }
+        if is_picture { wrong.help("give the YAML file that names the image") } else { wrong }
     })?;
     let file = sources.add(path.as_str(), text);
     let description = read_description(file, sources, distro, diagnostics)
         .ok_or(Failed(Status::InvalidMapMetadata, None))?;
     let image_path = match Path::new(&path).parent() {
-        // An absolute path stays what it is.
+        // An absolute path stays unchanged.
         Some(folder) => folder.join(&description.image),
         None => PathBuf::from(&description.image),
     };
     picture(description, image_path, distro, host, diagnostics)
 }
 
-/// Reads the picture and makes the map of it.
+/// Reads the image and converts it to a map.
 fn picture(
     description: Description,
     image_path: PathBuf,
@@ -180,14 +180,14 @@ fn picture(
     let shown = image_path.display();
     let ending = image_path.extension().and_then(|ending| ending.to_str()).unwrap_or_default();
     if !PICTURES.contains(&ending.to_ascii_lowercase().as_str()) {
-        // A map from elsewhere must not make anything else of this machine be opened.
+        // A foreign map must not open arbitrary files of this machine.
         let wrong =
-            format!("the picture `{shown}` of the map is not opened: it is no picture file");
+            format!("the image `{shown}` of the map is not opened: it is not an image file");
         let wrong = failed(Status::InvalidMapData, wrong, span);
         return Err(wrong.help(format!("its name must end in one of {}", PICTURES.join(", "))));
     }
     let bytes = host.read(&image_path).map_err(|error| {
-        let wrong = format!("cannot read the picture `{shown}` of the map: {error}");
+        let wrong = format!("cannot read the image `{shown}` of the map: {error}");
         let wrong = failed(Status::InvalidMapData, wrong, span);
         match error {
             FileReadError::Missing => with_neighbour(wrong, &image_path, &PICTURES, host),
@@ -195,12 +195,12 @@ fn picture(
         }
     })?;
     let raster = Raster::decode(&bytes).map_err(|error| {
-        let wrong = format!("cannot use the picture `{shown}` of the map: {error}");
+        let wrong = format!("cannot use the image `{shown}` of the map: {error}");
         failed(Status::InvalidMapData, wrong, span)
     })?;
     let raster = raster.into_shallow();
     let grid = grid_of(&raster, &description, distro).map_err(|error| {
-        failed(Status::InvalidMapData, format!("the map makes no sense: {error}"), span)
+        failed(Status::InvalidMapData, format!("the map is invalid: {error}"), span)
     })?;
     if let Some(doubt) = lost_unknown(&raster, &description, distro) {
         diagnostics.push(doubt);
@@ -208,10 +208,9 @@ fn picture(
     Ok(Map { grid, description, image_path })
 }
 
-/// What a picture of eight bits a sample says, with the top row last.
-///
+/// Converts an image with eight bits per sample, with the top row last.
 /// # Errors
-/// When cells have no place, or are too many.
+/// When the grid is invalid or has too many cells.
 pub fn grid_of(
     raster: &Raster,
     description: &Description,
@@ -233,8 +232,8 @@ pub fn grid_of(
     Ok(Grid { info, cells })
 }
 
-/// The savers write 205 for unknown, which is 0.196 dark: with a `free_thresh` above, all of it
-/// becomes free. `map_saver` of humble writes 0.25 itself (navigation2, issue 5138).
+/// Map savers write 205 for unknown, a darkness of 0.196: with a higher `free_thresh` all unknown
+/// cells become free. `map_saver` of Humble itself writes 0.25 (navigation2, issue 5138).
 fn lost_unknown(raster: &Raster, description: &Description, distro: Distro) -> Option<Diagnostic> {
     const UNKNOWN_GREY: u8 = 205;
     if description.mode != Mode::Trinary || description.negate || raster.layout.has_alpha() {
@@ -258,13 +257,13 @@ fn lost_unknown(raster: &Raster, description: &Description, distro: Distro) -> O
     let free_thresh = description.free_thresh;
     let wrong = format!("{lost} unknown pixels (grey 205) become free");
     let mut doubt = Diagnostic::warning("unknown-is-free", wrong)
-        .note(format!("205 is 0.196 dark, and `free_thresh` {free_thresh} is above that"))
+        .note(format!("205 is a darkness of 0.196, and `free_thresh` {free_thresh} is above that"))
         .help("write `free_thresh: 0.196`");
     doubt.span = description.image_span;
     Some(doubt)
 }
 
-/// Names the file beside it that may be meant.
+/// Adds a suggestion of a similar file in the same folder.
 fn with_neighbour(wrong: Failed, path: &Path, endings: &[&str], host: &dyn Host) -> Failed {
     let Some(name) = path.file_name().and_then(|name| name.to_str()) else { return wrong };
     let folder = match path.parent() {

@@ -1,4 +1,4 @@
-//! Maps as messages.
+//! Conversion of maps from and to messages.
 
 use std::fmt;
 
@@ -9,21 +9,21 @@ use periplus_msgs::geometry_msgs::{self, Point, Quaternion};
 use periplus_msgs::nav_msgs::{self, MapMetaData};
 use periplus_msgs::std_msgs::Header;
 
-/// Why a message is no map.
+/// Reason for which a message is not a valid map.
 #[derive(Clone, Debug, PartialEq)]
 pub enum BadMap {
-    /// It has another number of values than cells.
+    /// The number of values differs from the number of cells.
     Length {
-        /// Columns.
+        /// Number of columns.
         width: u32,
-        /// Rows.
+        /// Number of rows.
         height: u32,
-        /// Values.
+        /// Number of values.
         values: usize,
     },
-    /// Its cells have no place.
+    /// Resolution, size or origin are invalid.
     GridInfo(GridInfoError),
-    /// Its orientation is none: the quaternion.
+    /// The quaternion of the orientation is not a rotation.
     Orientation([f64; 4]),
 }
 
@@ -45,11 +45,10 @@ impl fmt::Display for BadMap {
 
 impl std::error::Error for BadMap {}
 
-/// What a message says, without its frame and times. Of the orientation of the origin the yaw
-/// counts; a quaternion of zeros, which many forget, is none.
-///
+/// Converts a message, without its frame and times. Only the yaw of the origin is used; a
+/// quaternion of zeros, a frequent omission, is the identity.
 /// # Errors
-/// When it is malformed.
+/// When the message is malformed.
 pub fn from_message(message: &nav_msgs::OccupancyGrid) -> Result<OccupancyGrid, BadMap> {
     let MapMetaData { resolution, width, height, ref origin, .. } = message.info;
     let info = grid_info_of(resolution, width, height, origin)?;
@@ -76,18 +75,18 @@ fn grid_info_of(
     } else {
         return Err(BadMap::Orientation([x, y, z, w]));
     };
-    // Whole tenths of millimetres were meant: 0.05 is not one in single precision.
+    // Decimal resolutions were meant: 0.05 is not exact in single precision.
     let resolution_m = nearest_decimal(resolution);
     let origin = Pose2::new(origin.position.x, origin.position.y, yaw_rad);
     GridInfo::new(resolution_m, width as usize, height as usize, origin).map_err(BadMap::GridInfo)
 }
 
-/// The shortest decimal number that is this one in single precision.
+/// Returns the shortest decimal number that rounds to this value in single precision.
 fn nearest_decimal(value: f32) -> f64 {
     value.to_string().parse().unwrap_or(f64::from(value))
 }
 
-/// A message that says this, in a frame, loaded and stamped at a time.
+/// Creates a message in a frame, with the stamp as load time and header stamp.
 #[must_use]
 pub fn to_message(map: &OccupancyGrid, frame_id: &str, stamp: Time) -> nav_msgs::OccupancyGrid {
     let info = map.info;

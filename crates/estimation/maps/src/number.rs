@@ -1,7 +1,7 @@
-//! Numbers as the savers print them.
+//! Number formatting of the map savers.
 
-/// As C++ prints with a precision and no other wish, and `printf` with `%.<digits>g`: so many
-/// significant digits, no zeros behind, an exponent where that is shorter.
+/// Formats like C++ streams with a precision, and like `printf` with `%.<digits>g`: significant
+/// digits, no trailing zeros, an exponent where that is shorter.
 pub(crate) fn general(value: f64, digits: usize) -> String {
     if !value.is_finite() {
         return match value {
@@ -26,7 +26,7 @@ pub(crate) fn general(value: f64, digits: usize) -> String {
     trimmed(&format!("{value:.decimals$}"))
 }
 
-/// So many decimals.
+/// Formats with a fixed number of decimals.
 pub(crate) fn fixed(value: f64, decimals: usize) -> String {
     format!("{value:.decimals$}")
 }

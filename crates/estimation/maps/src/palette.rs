@@ -1,7 +1,6 @@
-//! The colours that `RViz` gives to the values of maps and costmaps.
+//! Colours of maps and costmaps in `RViz`.
 //!
-//! Source: `rviz_default_plugins/displays/map/palette_builder.cpp`. Values are taken as unsigned:
-//! -1 is 255.
+//! Source: `rviz_default_plugins/displays/map/palette_builder.cpp`. Values are unsigned: -1 is 255.
 
 /// Red, green, blue, opacity.
 pub type Rgba = [u8; 4];
@@ -9,19 +8,19 @@ pub type Rgba = [u8; 4];
 /// A colour for each value.
 pub type Palette = [Rgba; 256];
 
-/// A colour scheme of the display.
+/// Colour scheme of the map display.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Scheme {
-    /// White is free, black is occupied; illegal values are loud.
+    /// White for free, black for occupied, bright colours for invalid values.
     Map,
-    /// Blue to red by cost; inscribed is cyan, lethal is magenta, free is clear.
+    /// Blue to red by cost; cyan for inscribed, magenta for lethal, transparent for free.
     Costmap,
     /// The value as grey.
     Raw,
 }
 
 impl Scheme {
-    /// By the name that `.rviz` files have for it.
+    /// Returns a scheme by its name in `.rviz` files.
     #[must_use]
     pub fn from_name(name: &str) -> Option<Self> {
         match name {
@@ -32,13 +31,14 @@ impl Scheme {
         }
     }
 
-    /// A colour for each value.
+    /// Returns a colour for each value.
     #[must_use]
     pub fn palette(self) -> Palette {
         std::array::from_fn(|value| self.colour(u8::try_from(value).unwrap_or(u8::MAX)))
     }
 
-    /// A colour for each value of the binary display: below the threshold one, from it on another.
+    /// Returns a colour for each value of the binary display: one below the threshold, another from
+    /// it on.
     #[must_use]
     pub fn binary(self, threshold: u8) -> Palette {
         let (below, from) = match self {
@@ -55,7 +55,7 @@ impl Scheme {
     }
 
     fn colour(self, value: u8) -> Rgba {
-        // A hundred and less in whole numbers, rounded down.
+        // Percentages in integers, rounded down.
         let part = |of: u8| u8::try_from(255 * u16::from(value) / u16::from(of)).unwrap_or(255);
         match (self, value) {
             (Self::Raw, grey) => [grey, grey, grey, 255],
@@ -77,9 +77,9 @@ impl Scheme {
     }
 }
 
-/// A picture of a grid in these colours: red, green and blue from the upper left corner on, over white
-/// where a colour is clear, so many pixels along each side of a cell. `values` are those of messages,
-/// row by row from below.
+/// Renders a grid in the colours of a palette: RGB pixels from the upper left corner, over white
+/// where a colour is transparent, with `pixels` pixels along each side of a cell. `values` are
+/// those of messages, row by row from the lowest row.
 #[must_use]
 pub fn paint(palette: &Palette, width: usize, values: &[i8], pixels: usize) -> Vec<u8> {
     let mut samples = Vec::with_capacity(values.len() * pixels * pixels * 3);
@@ -95,7 +95,7 @@ pub fn paint(palette: &Palette, width: usize, values: &[i8], pixels: usize) -> V
     samples
 }
 
-/// The colour of -1.
+/// Colour of -1.
 const UNKNOWN: Rgba = [0x70, 0x89, 0x86, 255];
 
 #[cfg(test)]

@@ -1,37 +1,35 @@
-//! What a pixel means.
+//! Interpretation of pixels.
 
 use periplus_grid::occupancy::{FREE, OCCUPIED, UNKNOWN};
 use periplus_images::Layout;
 
 use crate::distro::{Distro, Mode};
 
-/// From a pixel to what is on the ground.
-///
-/// Sources: `map_server/src/image_loader.cpp` (ROS 1), `nav2_map_server/src/map_io.cpp` (humble;
-/// jazzy and later).
+/// Rule that converts a pixel to an occupancy value.
+/// Sources: `map_server/src/image_loader.cpp` (ROS 1), `nav2_map_server/src/map_io.cpp` (Humble;
+/// Jazzy and later).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Rule {
-    /// Whose rule.
+    /// Distribution.
     pub distro: Distro,
-    /// What brightness stands for.
+    /// Interpretation of the brightness.
     pub mode: Mode,
-    /// Whether white is occupied and black is free.
+    /// True if white is occupied and black is free.
     pub negate: bool,
-    /// From this share of darkness on a cell is occupied.
+    /// Minimum darkness of occupied cells, 0 to 1.
     pub occupied_thresh: f64,
-    /// Up to this share of darkness a cell is free.
+    /// Maximum darkness of free cells, 0 to 1.
     pub free_thresh: f64,
 }
 
 impl Rule {
-    /// What a pixel of eight bits a sample means.
-    ///
-    /// - Jazzy: grey is the luma of Rec. 601, in whole numbers; thresholds belong to what they bound,
-    ///   and free wins; whatever is not opaque is unknown.
-    /// - Humble: grey is the mean; thresholds belong to neither side; opacity counts as a fourth
-    ///   colour in mode trinary.
-    /// - Noetic: as humble, and between the thresholds there are 99 steps from 1. The last sample
-    ///   counts as opacity even where it is blue.
+    /// Converts a pixel with eight bits per sample.
+    /// - Jazzy: grey is the luma of Rec. 601 in integers; thresholds are inclusive, and free has
+    /// priority; pixels that are not opaque are unknown.
+    /// - Humble: grey is the mean; thresholds are exclusive; in mode trinary, opacity counts as a
+    /// fourth colour.
+    /// - Noetic: as Humble, with 99 steps from 1 between the thresholds. The last sample counts as
+    /// opacity even if it is blue.
     #[must_use]
     pub fn occupancy(&self, layout: Layout, pixel: &[u8]) -> i8 {
         match self.distro {
@@ -41,8 +39,8 @@ impl Rule {
         }
     }
 
-    /// How bright a pixel is, 0 to 255: by luma since jazzy, before as the mean of its colours,
-    /// rounded.
+    /// Returns the brightness of a pixel, 0 to 255: the luma since Jazzy, before that the rounded
+    /// mean of its colours.
     #[must_use]
     pub fn grey(&self, layout: Layout, pixel: &[u8]) -> u8 {
         if self.distro == Distro::Jazzy {
@@ -60,7 +58,7 @@ impl Rule {
         if layout.has_alpha() && pixel.last() != Some(&255) {
             return UNKNOWN;
         }
-        // In single precision, as there.
+        // In single precision, as in the reference.
         let bright = f32::from(grey) / 255.0;
         let dark = if self.negate { bright } else { 1.0 - bright };
         let (free, occupied) = (self.free_thresh as f32, self.occupied_thresh as f32);
@@ -104,7 +102,7 @@ impl Rule {
     }
 
     fn noetic(&self, layout: Layout, pixel: &[u8]) -> i8 {
-        // Grey with opacity comes as colours there.
+        // Grey with opacity is read as colours there.
         let wide: [u8; 4];
         let samples: &[u8] = match (layout, pixel) {
             (Layout::GreyAlpha, &[grey, alpha]) => {
@@ -146,7 +144,7 @@ fn colours(layout: Layout, pixel: &[u8]) -> [u8; 3] {
     }
 }
 
-/// Brightness by Rec. 601 in whole numbers, rounded down, as `GraphicsMagick` has it.
+/// Returns the luma of Rec. 601 in integers, rounded down, as `GraphicsMagick` does.
 pub(crate) fn luma(layout: Layout, pixel: &[u8]) -> u8 {
     let [red, green, blue] = colours(layout, pixel).map(u32::from);
     u8::try_from((306 * red + 601 * green + 117 * blue) / 1024).unwrap_or(u8::MAX)
@@ -168,7 +166,7 @@ mod tests {
 
     #[test]
     fn thresholds_belong_to_their_side_since_jazzy_only() {
-        // 204 is one fifth dark.
+        // 204 is a darkness of one fifth.
         assert_eq!(grey(rule(Distro::Jazzy, Mode::Trinary), 204), FREE);
         let exact = Rule { negate: true, ..rule(Distro::Humble, Mode::Trinary) };
         assert_eq!(exact.occupancy(Layout::Grey, &[51]), UNKNOWN);
@@ -177,7 +175,7 @@ mod tests {
 
     #[test]
     fn percents_between() {
-        // 146 is 0.4275 dark: half way and a little more.
+        // 146 is a darkness of 0.4275: slightly more than half.
         assert_eq!(grey(rule(Distro::Jazzy, Mode::Scale), 146), 51);
         assert_eq!(grey(rule(Distro::Humble, Mode::Scale), 146), 51);
         assert_eq!(grey(rule(Distro::Noetic, Mode::Scale), 146), 50);
@@ -201,7 +199,7 @@ mod tests {
             |distro, mode, alpha| rule(distro, mode).occupancy(Layout::Rgba, &[0, 0, 0, alpha]);
         assert_eq!(black(Distro::Jazzy, Mode::Trinary, 254), UNKNOWN);
         assert_eq!(black(Distro::Humble, Mode::Scale, 254), UNKNOWN);
-        // A quarter of what is averaged is opacity.
+        // A quarter of the mean is opacity.
         assert_eq!(black(Distro::Humble, Mode::Trinary, 0), OCCUPIED);
         assert_eq!(
             rule(Distro::Humble, Mode::Trinary).occupancy(Layout::Rgba, &[60, 60, 60, 255]),
@@ -219,7 +217,7 @@ mod tests {
             let distro = [Distro::Noetic, Distro::Humble, Distro::Jazzy][distro];
             let scale = rule(distro, Mode::Scale);
             prop_assert!(a <= b || grey(scale, a) <= grey(scale, b));
-            // Grey is grey, however it is written.
+            // Grey is grey in every pixel layout.
             let trinary = rule(distro, Mode::Trinary);
             prop_assert_eq!(grey(trinary, a), trinary.occupancy(Layout::Rgb, &[a, a, a]));
         }

@@ -1,4 +1,4 @@
-//! A map to its files.
+//! Saving of map files.
 
 use std::fmt;
 use std::io::{self, Write};
@@ -9,25 +9,25 @@ use periplus_images::{Layout, pgm_head, write_bmp, write_png};
 use crate::distro::{Distro, Mode};
 use crate::number::{fixed, general};
 
-/// The grey of unknown cells.
+/// Grey value of unknown cells.
 const UNKNOWN_GREY: u8 = 205;
-/// The grey of free cells.
+/// Grey value of free cells.
 const FREE_GREY: u8 = 254;
 
-/// What the picture is written as.
+/// Image format.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Format {
-    /// Bytes with a short header.
+    /// Uncompressed with a short header.
     #[default]
     Pgm,
-    /// Packed; the only one in which unknown cells of mode scale stay unknown everywhere.
+    /// Compressed; the only format that preserves unknown cells in mode scale everywhere.
     Png,
-    /// As Windows has it.
+    /// Windows bitmap.
     Bmp,
 }
 
 impl Format {
-    /// By the ending of files, in capitals or not.
+    /// Returns a format by its file extension, in upper or lower case.
     #[must_use]
     pub fn from_name(name: &str) -> Option<Self> {
         [Self::Pgm, Self::Png, Self::Bmp]
@@ -35,7 +35,7 @@ impl Format {
             .find(|format| format.ending().eq_ignore_ascii_case(name))
     }
 
-    /// The ending of files.
+    /// Returns the file extension.
     #[must_use]
     pub fn ending(self) -> &'static str {
         match self {
@@ -46,27 +46,27 @@ impl Format {
     }
 }
 
-/// How to save, as somebody asks for it: what is empty or 0 is left to us.
+/// Save request; empty strings and zeros select defaults.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Wish {
-    /// Path of the files, without ending.
+    /// Path of the files, without extension.
     pub name: String,
     /// `pgm`, `png`, `bmp`.
     pub image_format: String,
     /// `trinary`, `scale`, `raw`.
     pub mode: String,
-    /// From this share on a cell is occupied: 0 to 1.
+    /// Minimum occupancy of occupied cells, 0 to 1.
     pub occupied_thresh: f64,
-    /// Up to this share a cell is free: 0 to 1.
+    /// Maximum occupancy of free cells, 0 to 1.
     pub free_thresh: f64,
 }
 
-/// Thresholds between which nothing lies, or which are no shares.
+/// Thresholds that are out of range or in the wrong order.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BadThresholds {
-    /// That of occupied cells.
+    /// Threshold of occupied cells.
     pub occupied_thresh: f64,
-    /// That of free cells.
+    /// Threshold of free cells.
     pub free_thresh: f64,
 }
 
@@ -83,25 +83,25 @@ impl fmt::Display for BadThresholds {
 
 impl std::error::Error for BadThresholds {}
 
-/// How to save, settled.
+/// Validated save settings.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Saving {
-    /// Path of the files, without ending.
+    /// Path of the files, without extension.
     pub name: String,
-    /// As whose saver.
+    /// Distribution whose map saver is reproduced.
     pub distro: Distro,
-    /// What brightness stands for. ROS 1 writes `trinary` only.
+    /// Interpretation of the brightness. ROS 1 writes `trinary` only.
     pub mode: Mode,
-    /// What the picture is written as. ROS 1 writes PGM only.
+    /// Image format. ROS 1 writes PGM only.
     pub format: Format,
-    /// From this share on a cell is occupied.
+    /// Minimum occupancy of occupied cells, 0 to 1.
     pub occupied_thresh: f64,
-    /// Up to this share a cell is free.
+    /// Maximum occupancy of free cells, 0 to 1.
     pub free_thresh: f64,
 }
 
 impl Saving {
-    /// As a saver does without options: in the files `<name>.pgm` and `<name>.yaml`.
+    /// Creates the default settings of a map saver, for the files `<name>.pgm` and `<name>.yaml`.
     #[must_use]
     pub fn new(name: impl Into<String>, distro: Distro) -> Self {
         Self {
@@ -116,11 +116,11 @@ impl Saving {
 }
 
 impl Wish {
-    /// Settles what is left open, as `nav2_map_server` does: no name is `map_<seconds>`, a format or
-    /// mode that is not known is PNG or trinary. What was settled otherwise than asked is said.
-    ///
+    /// Validates a request and fills in defaults as `nav2_map_server` does: an empty name becomes
+    /// `map_<seconds>`, an unknown format or mode becomes PNG or trinary. Each replacement is
+    /// reported.
     /// # Errors
-    /// When the thresholds make no sense.
+    /// When the thresholds are invalid.
     pub fn settle(
         &self,
         distro: Distro,
@@ -135,13 +135,16 @@ impl Wish {
         let usual = |value: f64, usual: f64| if value == 0.0 { usual } else { value };
         let occupied_thresh = usual(self.occupied_thresh, 0.65);
         let free_thresh = usual(self.free_thresh, 0.25);
-        // Written so that numbers that are none fail, too.
+        // Written such that NaN fails as well.
         if !(free_thresh >= 0.0 && occupied_thresh <= 1.0 && free_thresh < occupied_thresh) {
             return Err(BadThresholds { occupied_thresh, free_thresh });
         }
         let mode = Mode::from_name(&self.mode).unwrap_or_else(|| {
             if !self.mode.is_empty() {
-                said.push(format!("`{}` is no mode of maps; it is saved in trinary", self.mode));
+                said.push(format!(
+                    "`{}` is not a map mode; the map is saved in trinary",
+                    self.mode
+                ));
             }
             Mode::Trinary
         });
@@ -149,13 +152,15 @@ impl Wish {
             "" if mode == Mode::Scale => Format::Png,
             "" => Format::Pgm,
             name => Format::from_name(name).unwrap_or_else(|| {
-                said.push(format!("pictures are not written as `{name}`; it is saved as PNG"));
+                said.push(format!(
+                    "the image format `{name}` is not supported; the map is saved as PNG"
+                ));
                 Format::Png
             }),
         };
         if mode == Mode::Scale && format == Format::Pgm {
             said.push(
-                "a PGM cannot say which cells are unknown, which mode scale needs; take PNG".into(),
+                "a PGM cannot represent unknown cells, which mode scale needs; use PNG".into(),
             );
         }
         Ok((Saving { name, distro, mode, format, occupied_thresh, free_thresh }, said))
@@ -165,17 +170,17 @@ impl Wish {
 /// Both files of a map.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct MapFiles {
-    /// Where the picture belongs.
+    /// Path of the image.
     pub image_path: String,
-    /// The picture.
+    /// Contents of the image.
     pub image: Vec<u8>,
-    /// Where the YAML belongs.
+    /// Path of the YAML file.
     pub yaml_path: String,
-    /// The YAML.
+    /// Contents of the YAML file.
     pub yaml: String,
 }
 
-/// Makes both files of a map, as a saver does.
+/// Renders both files of a map.
 ///
 /// Sources: `map_server/src/map_saver.cpp` (ROS 1), `nav2_map_server/src/map_io.cpp`.
 #[must_use]
@@ -214,7 +219,7 @@ fn picture(map: &OccupancyGrid, saving: &Saving) -> Vec<u8> {
     }
 }
 
-/// The brightness of each value of a cell, but for mode scale with unknown cells.
+/// Returns the brightness of each cell value, except for mode scale with unknown cells.
 fn table(saving: &Saving) -> [u8; 256] {
     let percent = |share: f64| (share * 100.0).round_ties_even() as i64;
     let (free, occupied) = (percent(saving.free_thresh), percent(saving.occupied_thresh));
@@ -232,7 +237,7 @@ fn table(saving: &Saving) -> [u8; 256] {
     std::array::from_fn(|value| grey((value as u8).cast_signed()))
 }
 
-/// What the PGM of a map begins with.
+/// Returns the header of the PGM of a map.
 fn head(info: &GridInfo, saving: &Saving) -> String {
     let side = |cells: usize| u32::try_from(cells).unwrap_or(u32::MAX);
     let comment = format!("CREATOR: map_saver.cpp {:.3} m/pix", resolution(info));
@@ -240,7 +245,7 @@ fn head(info: &GridInfo, saving: &Saving) -> String {
     pgm_head(side(info.width), side(info.height), comment)
 }
 
-/// The PGM of a map, written row by row: the map itself need not be held as a whole.
+/// Row-wise writer of the PGM of a map, which need not be in memory as a whole.
 pub struct PgmRows<'a> {
     out: &'a mut dyn Write,
     table: [u8; 256],
@@ -248,10 +253,9 @@ pub struct PgmRows<'a> {
 }
 
 impl<'a> PgmRows<'a> {
-    /// Begins the picture of a map that lies there.
-    ///
+    /// Begins the image of a map with this grid.
     /// # Errors
-    /// When it cannot be written.
+    /// When writing fails.
     pub fn begin(
         out: &'a mut dyn Write,
         info: &GridInfo,
@@ -262,10 +266,9 @@ impl<'a> PgmRows<'a> {
         Ok(PgmRows { out, table: table(&saving), line: Vec::new() })
     }
 
-    /// The cells of the next row; the highest comes first.
-    ///
+    /// Writes the cells of the next row, from the highest row downward.
     /// # Errors
-    /// When they cannot be written.
+    /// When writing fails.
     pub fn push(&mut self, cells: &[i8]) -> io::Result<()> {
         self.line.clear();
         self.line.extend(cells.iter().map(|cell| self.table[usize::from(cell.cast_unsigned())]));
@@ -273,7 +276,7 @@ impl<'a> PgmRows<'a> {
     }
 }
 
-/// Paths of both files of a map, and what the YAML says: image, YAML, text.
+/// Returns the paths of the image and of the YAML file, and the contents of the YAML file.
 #[must_use]
 pub fn render_yaml(info: &GridInfo, saving: &Saving) -> (String, String, String) {
     let saving = settled(saving);
@@ -285,7 +288,7 @@ pub fn render_yaml(info: &GridInfo, saving: &Saving) -> (String, String, String)
     (image_path, format!("{}.yaml", saving.name), yaml)
 }
 
-/// As the saver of the distribution can do it.
+/// Limits the settings to those that the saver of the distribution supports.
 fn settled(saving: &Saving) -> Saving {
     match saving.distro {
         Distro::Noetic => Saving { mode: Mode::Trinary, format: Format::Pgm, ..saving.clone() },
@@ -293,7 +296,7 @@ fn settled(saving: &Saving) -> Saving {
     }
 }
 
-/// Messages carry the resolution in single precision, and savers print that.
+/// Messages contain the resolution in single precision, which savers print.
 fn resolution(info: &GridInfo) -> f64 {
     f64::from(info.resolution_m as f32)
 }
@@ -303,7 +306,7 @@ fn is_known(cell: i8) -> bool {
 }
 
 fn trinary_grey(cell: i8, free: i64, occupied: i64, distro: Distro) -> u8 {
-    // ROS 1 takes whatever is above the threshold for occupied.
+    // ROS 1 treats all values above the threshold as occupied.
     let is_known = is_known(cell) || distro == Distro::Noetic && cell >= 0;
     let cell = i64::from(cell);
     if !is_known {
@@ -317,7 +320,7 @@ fn trinary_grey(cell: i8, free: i64, occupied: i64, distro: Distro) -> u8 {
     }
 }
 
-/// Percents to brightness, rounded down; half bright where nothing is known.
+/// Converts percentages to brightness, rounded down; unknown cells are half bright.
 fn scale_grey(cell: i8) -> u8 {
     match u16::try_from(cell) {
         Ok(percent @ 0..=100) => u8::try_from((100 - percent) * 255 / 100).unwrap_or(255),
@@ -330,7 +333,7 @@ fn yaml(info: &GridInfo, saving: &Saving, image_path: &str) -> String {
     let (image, mode) = (scalar(image), saving.mode.name());
     let origin = info.origin;
     let numbers = if saving.distro == Distro::Humble {
-        // Three significant digits, not three decimals: what lies 12.345 m away comes back at 12.3.
+        // Three significant digits, not three decimals: 12.345 m is read back as 12.3.
         let short = |value: f64| general(value, 3);
         [
             short(resolution(info)),
@@ -341,7 +344,7 @@ fn yaml(info: &GridInfo, saving: &Saving, image_path: &str) -> String {
             short(saving.free_thresh),
         ]
     } else {
-        // What the pixels are needs these thresholds, whatever those were that made them.
+        // The pixels written here need these thresholds, whatever the thresholds of the original.
         let (occupied, free) = match saving.mode {
             Mode::Trinary => ("0.65".into(), "0.196".into()),
             _ => (fixed(saving.occupied_thresh, 3), fixed(saving.free_thresh, 3)),
@@ -374,7 +377,7 @@ fn noetic_yaml(info: &GridInfo, image_path: &str) -> String {
     )
 }
 
-/// A text as `yaml-cpp` writes it: without quotes where that is no mistake.
+/// Writes a scalar as `yaml-cpp` does: without quotes where they are not needed.
 fn scalar(text: &str) -> String {
     let is_null = matches!(text, "" | "~" | "null" | "Null" | "NULL");
     let mut characters = text.chars();
@@ -519,7 +522,7 @@ mod tests {
                 .with_file(&files.image_path, files.image)
                 .with_file(&files.yaml_path, files.yaml);
             let read = load("/m/a.yaml", distro, &host).map.unwrap().grid;
-            // A PGM of mode scale cannot say what is unknown, and raw has a value for each.
+            // A PGM of mode scale cannot represent unknown cells, and raw has a value for each.
             if mode != Mode::Scale || format != Format::Pgm || distro == Distro::Noetic {
                 prop_assert_eq!(read.cells, cells);
             }

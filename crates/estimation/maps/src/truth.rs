@@ -1,4 +1,4 @@
-//! How well a map agrees with what is really there, as far as it says anything.
+//! Agreement of a map with the ground truth over its explored part.
 
 use periplus_grid::occupancy::UNKNOWN;
 use periplus_grid::{GridInfo, GridInfoError, OccupancyGrid};
@@ -6,22 +6,22 @@ use periplus_grid::{GridInfo, GridInfoError, OccupancyGrid};
 use crate::align::{Alignment, align, is_wall};
 use crate::compare::{Comparison, Options, compare};
 
-/// A map beside the truth.
+/// Comparison of a map with the ground truth.
 #[derive(Clone, Debug, PartialEq)]
 pub struct BesideTruth {
-    /// The truth as the first map, where the map knows something, and the map as the other.
+    /// The known part of the ground truth as the first map, the map as the other.
     pub comparison: Comparison,
-    /// How the map was moved to lie on the truth.
+    /// Transform that aligns the map with the ground truth.
     pub alignment: Alignment,
-    /// Which part of what is really free the map knows, 0 to 1; none where nothing is free.
+    /// Explored fraction of the free space, 0 to 1; none without free space.
     pub explored: Option<f64>,
 }
 
 impl BesideTruth {
-    /// What programs are told of it, by name: `free_iou` and `walls_iou` (where a neighbouring cell
-    /// counts as met), 0 to 1; `wall_mean_m` and `wall_p95_m` from the map's walls to the nearest true
-    /// ones \[m\]; `explored`, 0 to 1; `shift_m` and `turn_rad`, by which the map was moved. What
-    /// cannot be known is left out.
+    /// Returns the metrics by name: `free_iou` and `walls_iou` (where a neighbouring cell counts as
+    /// a match), 0 to 1; `wall_mean_m` and `wall_p95_m` from the walls of the map to the nearest
+    /// true walls \[m\]; `explored`, 0 to 1; `shift_m` and `turn_rad`, by which the map was moved.
+    /// Unknown metrics are omitted.
     #[must_use]
     pub fn numbers(&self) -> Vec<(&'static str, f64)> {
         let walls = self.comparison.other_to_first;
@@ -39,12 +39,11 @@ impl BesideTruth {
     }
 }
 
-/// Compares a map with the truth, after it was moved within so many metres and radians to where it fits
-/// best. Free cells of the truth that the map does not know, and walls that nothing it knows is beside,
-/// do not count: nobody was there yet.
-///
+/// Compares a map with the ground truth after aligning it within `window_m` metres and `window_rad`
+/// radians. Free cells of the truth that are unknown in the map, and walls without a known
+/// neighbour in the map, are ignored: they were not explored yet.
 /// # Errors
-/// When together they would take too many cells.
+/// When the common grid would have too many cells.
 pub fn beside_truth(
     truth: &OccupancyGrid,
     map: &OccupancyGrid,
@@ -74,7 +73,7 @@ pub fn beside_truth(
     Ok(BesideTruth { comparison, alignment, explored })
 }
 
-/// Of which cells a map says something.
+/// Returns for each cell true if it is known in the map.
 fn known(map: &OccupancyGrid, cells: &GridInfo) -> Vec<bool> {
     let finder = map.info.finder();
     let knows = |index: usize| {
@@ -84,7 +83,7 @@ fn known(map: &OccupancyGrid, cells: &GridInfo) -> Vec<bool> {
     (0..cells.len()).map(knows).collect()
 }
 
-/// Whether a cell or one of its eight neighbours is known.
+/// Returns true if a cell or one of its eight neighbours is known.
 fn beside(cells: &GridInfo, index: usize, is_known: &[bool]) -> bool {
     let (column, row) = cells.cell(index);
     let rows = row.saturating_sub(1)..=(row + 1).min(cells.height - 1);
@@ -100,7 +99,7 @@ mod tests {
 
     use super::*;
 
-    /// A room of 8 by 8 cells of 0.5 m, with a box in it so that nothing of it is symmetric.
+    /// A room of 8 by 8 cells of 0.5 m, with a box inside that breaks its symmetry.
     fn room() -> OccupancyGrid {
         let info = GridInfo::new(0.5, 10, 10, Pose2::IDENTITY).unwrap();
         let mut room = Grid::new(info, FREE);

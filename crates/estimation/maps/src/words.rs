@@ -1,25 +1,25 @@
-//! The words behind `map_saver_cli` and behind `map_saver` of ROS 1.
+//! Command lines of `map_saver_cli` and of `map_saver` of ROS 1.
 
 use std::fmt;
 
 use crate::distro::Distro;
 use crate::save::Wish;
 
-/// What is asked for.
+/// Parsed command line.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Words {
-    /// How it is used.
+    /// Print the usage.
     Help,
-    /// To save a map.
+    /// Save a map.
     Save {
-        /// The topic of the map, as a node in the root namespace writes it.
+        /// Topic of the map, relative to the root namespace.
         topic: String,
-        /// How.
+        /// Save request.
         wish: Wish,
     },
 }
 
-/// Words that make no sense.
+/// Invalid command line.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct WrongWords(String);
 
@@ -31,33 +31,33 @@ impl fmt::Display for WrongWords {
 
 impl std::error::Error for WrongWords {}
 
-/// The words that there are.
+/// Returns the usage text.
 #[must_use]
 pub fn usage(distro: Distro) -> &'static str {
     match distro {
         Distro::Noetic => {
-            "  -h             these words\n  \
+            "  -h             this text\n  \
              -f NAME        save as NAME.pgm and NAME.yaml (map)\n  \
-             --occ PERCENT  from so many percent on a cell is occupied, 1 to 100 (65)\n  \
-             --free PERCENT up to so many percent a cell is free, 0 to 100 (25)\n  \
+             --occ PERCENT  minimum occupancy of occupied cells, 1 to 100 (65)\n  \
+             --free PERCENT maximum occupancy of free cells, 0 to 100 (25)\n  \
              FROM:=TO       rename a topic, such as map:=/other_map\n"
         }
         Distro::Humble | Distro::Jazzy => {
-            "  -h, --help     these words\n  \
+            "  -h, --help     this text\n  \
              -t TOPIC       the topic of the map (map)\n  \
              -f NAME        save as NAME.yaml and NAME.pgm (map_SECONDS)\n  \
-             --occ SHARE    from this share on a cell is occupied, 0 to 1 (0.65)\n  \
-             --free SHARE   up to this share a cell is free, 0 to 1 (0.25)\n  \
+             --occ RATIO    minimum occupancy of occupied cells, 0 to 1 (0.65)\n  \
+             --free RATIO   maximum occupancy of free cells, 0 to 1 (0.25)\n  \
              --fmt FORMAT   pgm, png or bmp (pgm; png in mode scale)\n  \
              --mode MODE    trinary, scale or raw (trinary)\n"
         }
     }
 }
 
-/// Reads the words as the saver of a distribution does. What stands behind `--ros-args` is for others.
-///
+/// Parses the arguments as the saver of a distribution does. Arguments after `--ros-args` are
+/// ignored.
 /// # Errors
-/// Which word is wrong.
+/// The invalid argument.
 pub fn read_words(words: &[String], distro: Distro) -> Result<Words, WrongWords> {
     let (mut topic, mut wish) = ("map".to_owned(), Wish::default());
     let is_noetic = distro == Distro::Noetic;
@@ -72,7 +72,7 @@ pub fn read_words(words: &[String], distro: Distro) -> Result<Words, WrongWords>
             _ => false,
         };
         if !is_known {
-            // ROS 1 renames by words anywhere, and knows words of its own.
+            // ROS 1 remaps by arguments in any position, and has special arguments.
             if let Some((from, to)) = word.split_once(":=").filter(|_| is_noetic) {
                 if from.trim_start_matches('/') == "map" {
                     to.clone_into(&mut topic);
@@ -81,9 +81,7 @@ pub fn read_words(words: &[String], distro: Distro) -> Result<Words, WrongWords>
             }
             return Err(unknown(word, is_noetic));
         }
-        let value = rest
-            .next()
-            .ok_or_else(|| WrongWords(format!("`{word}` should be followed by a value")))?;
+        let value = rest.next().ok_or_else(|| WrongWords(format!("`{word}` needs a value")))?;
         match word {
             "-t" => value.clone_into(&mut topic),
             "-f" => value.clone_into(&mut wish.name),
@@ -96,28 +94,28 @@ pub fn read_words(words: &[String], distro: Distro) -> Result<Words, WrongWords>
     Ok(Words::Save { topic, wish })
 }
 
-/// As a share: ROS 1 counts in whole percents.
+/// Parses a threshold as a ratio: ROS 1 uses whole percentages.
 fn threshold(word: &str, value: &str, is_percent: bool) -> Result<f64, WrongWords> {
     if is_percent {
         let least = if word == "--occ" { 1 } else { 0 };
         return match value.parse::<u8>() {
             Ok(percent) if (least..=100).contains(&percent) => Ok(f64::from(percent) / 100.0),
             _ => Err(WrongWords(format!(
-                "`{word}` takes whole percents from {least} to 100, not `{value}`"
+                "`{word}` needs a whole percentage from {least} to 100, not `{value}`"
             ))),
         };
     }
-    value.parse().map_err(|_| WrongWords(format!("`{word}` takes a number, not `{value}`")))
+    value.parse().map_err(|_| WrongWords(format!("`{word}` needs a number, not `{value}`")))
 }
 
 fn unknown(word: &str, is_noetic: bool) -> WrongWords {
     let looks_like_a_name = !word.starts_with('-');
     WrongWords(match (looks_like_a_name, is_noetic) {
-        (true, _) => format!("`{word}` is one word too many; a name stands behind `-f`"),
+        (true, _) => format!("`{word}` is not expected; write the name after `-f`"),
         (false, true) if matches!(word, "-t" | "--mode" | "--fmt") => {
-            format!("`{word}` is a word of ROS 2; here a topic is renamed by `map:=/other_map`")
+            format!("`{word}` is an option of ROS 2; here remap the topic with `map:=/other_map`")
         }
-        (false, _) => format!("`{word}` is no word of the map saver"),
+        (false, _) => format!("`{word}` is not an option of the map saver"),
     })
 }
 

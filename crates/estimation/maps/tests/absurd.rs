@@ -1,10 +1,10 @@
-//! Resolutions and origins that are numbers, and no map's: comparing such maps never ended.
+//! Extreme resolutions and origins, with which comparisons would not terminate.
 #![allow(missing_docs, reason = "tests")]
 
 use periplus_diagnostics::{Diagnostics, SourceMap};
 use periplus_maps::{Distro, read_description};
 
-/// What is said of a map's description; nothing of a sound one.
+/// Returns the messages about the description of a map; none for a valid one.
 fn said(resolution: &str, origin: &str) -> Vec<String> {
     let text = format!(
         "image: a.pgm\nresolution: {resolution}\norigin: {origin}\nnegate: 0\n\

@@ -1,8 +1,8 @@
-//! Maps that others published load, or fail as they should.
+//! Published maps load, or fail as they should.
 #![allow(
     clippy::unwrap_used,
     clippy::print_stdout,
-    reason = "a test says what must be there, and what it leaves out"
+    reason = "a test states its preconditions, and reports skipped cases"
 )]
 
 use std::path::Path;
@@ -77,7 +77,7 @@ fn negated_maps_turn_round() {
     assert!(first > 0 && first < map.grid.cells.len());
 }
 
-/// A robot's map, saved by `map_saver` of ROS 1.
+/// A map of a real robot, saved by `map_saver` of ROS 1.
 #[test]
 fn a_map_of_ros_1_is_written_again_byte_for_byte() {
     let folder = Path::new(concat!(
