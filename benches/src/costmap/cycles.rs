@@ -1,7 +1,7 @@
 //! Updates while a robot drives.
 
 use periplus_costmap::layers::StaticLayer;
-use periplus_costmap::{Beams, Config, NoFrames, Projector};
+use periplus_costmap::{CostmapConfig, NoTransforms, Projector, ScanGeometry};
 use periplus_diagnostics::Diagnostics;
 use periplus_geometry::{DVec3, Pose, Pose2, Stream};
 use periplus_grid::{GridInfo, OccupancyGrid};
@@ -18,10 +18,10 @@ pub(super) fn run() -> Vec<Row> {
     rows
 }
 
-fn config(given: &[(&'static str, &'static str)]) -> Config {
+fn config(given: &[(&'static str, &'static str)]) -> CostmapConfig {
     let given = given.iter().map(|(name, text)| Given::new(name, *text));
     let mut diagnostics = Diagnostics::new();
-    let config = Config::read(given, None, &mut diagnostics);
+    let config = CostmapConfig::read(given, None, &mut diagnostics);
     assert!(diagnostics.is_empty(), "{:?}", diagnostics.iter().next());
     config
 }
@@ -56,7 +56,7 @@ fn scan(random: &mut Stream) -> Vec<f32> {
         .collect()
 }
 
-const BEAMS: Beams = Beams {
+const BEAMS: ScanGeometry = ScanGeometry {
     angle_min_rad: -std::f32::consts::PI,
     angle_increment_rad: 0.017_453_292,
     range_min_m: 0.1,
@@ -100,7 +100,7 @@ fn local() -> Vec<Row> {
             }
         });
         let update = seconds(|| {
-            costmap.update(now_ns, robot, &NoFrames);
+            costmap.update(now_ns, robot, &NoTransforms);
         });
         updates.push(update);
         insert + update
@@ -136,7 +136,7 @@ fn global(side: usize) -> Vec<Row> {
     }
     let middle = side as f64 * 0.025;
     let first = seconds(|| {
-        costmap.update(0, Pose2::new(middle, middle, 0.0), &NoFrames);
+        costmap.update(0, Pose2::new(middle, middle, 0.0), &NoTransforms);
     });
     let mut step = 0;
     let update = median(100, || {
@@ -150,7 +150,7 @@ fn global(side: usize) -> Vec<Row> {
             if let Some(source) = costmap.source_mut("obstacle_layer", "scan") {
                 source.insert(now_ns, now_ns, sensor, sensor.translation, points);
             }
-            costmap.update(now_ns, robot, &NoFrames);
+            costmap.update(now_ns, robot, &NoTransforms);
         })
     });
     let row = |what: &str, seconds| Row {
@@ -177,7 +177,7 @@ fn absorb() -> Row {
             if let Some(source) = costmap.source_mut("voxel_layer", "cloud") {
                 source.insert(now_ns, now_ns, sensor, sensor.translation, points.iter().copied());
             }
-            costmap.update(now_ns, robot, &NoFrames);
+            costmap.update(now_ns, robot, &NoTransforms);
         })
     });
     Row {

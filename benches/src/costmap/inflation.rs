@@ -4,7 +4,7 @@ use std::path::Path;
 use std::process::Command;
 
 use periplus_costmap::inflation::{CostTable, Inflation, Scratch, inflate};
-use periplus_costmap::{Compat, Costmap, Window};
+use periplus_costmap::{CellWindow, Costmap, Nav2Release};
 use periplus_geometry::{Pose2, Stream};
 use periplus_grid::GridInfo;
 
@@ -20,7 +20,7 @@ pub(super) fn run(python: &Path, script: &Path, work: &Path) -> Result<Vec<Row>,
     let mut rows = Vec::new();
     for (name, cells) in [("a building", building()), ("1 % noise", noise())] {
         let name = format!("inflate 4000 x 4000, {name}");
-        let table = CostTable::new(RESOLUTION_M, RADIUS_M, 0.2, 3.0, Compat::Main);
+        let table = CostTable::new(RESOLUTION_M, RADIUS_M, 0.2, 3.0, Nav2Release::Main);
         let mut row = |who: &str, seconds: f64| {
             rows.push(Row { work: name.clone(), who: who.to_owned(), seconds });
         };
@@ -34,7 +34,7 @@ pub(super) fn run(python: &Path, script: &Path, work: &Path) -> Result<Vec<Row>,
         let mut scratch = Scratch::default();
         let taken = fastest(TURNS, || {
             ours.costs_mut().copy_from_slice(&cells);
-            let all = Window::all(&info);
+            let all = CellWindow::all(&info);
             seconds(|| inflate(&mut ours, &all, &table, Inflation::default(), &mut scratch))
         });
         row("Periplus", taken);

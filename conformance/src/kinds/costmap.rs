@@ -18,7 +18,7 @@ pub(super) use values::{check_inflation, check_static, check_to_cost, check_to_o
 pub(super) use voxels::check as check_voxels;
 pub(super) use wire::check as check_publisher;
 
-use periplus_costmap::{Compat, Costmap, Window};
+use periplus_costmap::{CellWindow, Costmap, Nav2Release};
 use periplus_diagnostics::Diagnostics;
 use periplus_geometry::Pose2;
 use periplus_grid::{GridInfo, OccupancyGrid};
@@ -28,7 +28,7 @@ use serde_json::Value;
 use crate::{Reader, Unreadable};
 
 /// The release of Nav2 that a distribution has.
-fn compat_of(distro: &str) -> Result<Compat, Unreadable> {
+fn compat_of(distro: &str) -> Result<Nav2Release, Unreadable> {
     distro.parse().map_err(|why| Unreadable(format!("`applies_to`: {why}")))
 }
 
@@ -186,9 +186,9 @@ fn by_formula(formula: &Reader<'_>, info: &GridInfo) -> Result<Vec<i8>, Unreadab
 }
 
 /// Four numbers as a window.
-fn window_of(reader: &Reader<'_>) -> Result<Window, Unreadable> {
+fn window_of(reader: &Reader<'_>) -> Result<CellWindow, Unreadable> {
     match *reader.each(Reader::count)?.as_slice() {
-        [x0, y0, xn, yn] => Ok(Window { x0, y0, xn, yn }),
+        [x0, y0, xn, yn] => Ok(CellWindow { x0, y0, xn, yn }),
         _ => Err(reader.unreadable("four counts")),
     }
 }

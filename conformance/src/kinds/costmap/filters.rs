@@ -4,7 +4,8 @@ use periplus_costmap::filters::{
     BinaryFilter, FilterInfo, FilterKind, KeepoutFilter, Mask, Masked, SpeedFilter,
 };
 use periplus_costmap::{
-    Bounds, Costmap, Footprint, Frames, Layer, Moment, NoFrames, Window, tables,
+    CellWindow, Costmap, Footprint, Layer, NoTransforms, TransformSource, UpdateBounds,
+    UpdateContext, tables,
 };
 use periplus_geometry::{Pose, Pose2};
 use periplus_grid::{GridInfo, OccupancyGrid};
@@ -24,11 +25,11 @@ const MASK: &str = "mask";
 /// Where the mask is.
 struct Shifted(Pose);
 
-impl Frames for Shifted {
+impl TransformSource for Shifted {
     fn latest(&self, target: &str, source: &str) -> Option<Pose> {
         match (target, source) {
             (MASK, GLOBAL) => Some(self.0),
-            _ => NoFrames.latest(target, source),
+            _ => NoTransforms.latest(target, source),
         }
     }
 }
@@ -38,10 +39,10 @@ fn with_moment<T>(
     distro: &str,
     robot: Pose2,
     info: GridInfo,
-    frames: &dyn Frames,
-    use_it: impl FnOnce(&Moment<'_>) -> T,
+    frames: &dyn TransformSource,
+    use_it: impl FnOnce(&UpdateContext<'_>) -> T,
 ) -> Result<T, Unreadable> {
-    Ok(use_it(&Moment {
+    Ok(use_it(&UpdateContext {
         now_ns: 0,
         robot,
         footprint: &Footprint::default(),
@@ -83,7 +84,7 @@ pub(in super::super) fn check_keepout(
     let (mut counts, mut grids) = (Vec::new(), Vec::new());
     for (window, robot) in windows.into_iter().zip(poses) {
         with_moment(distro, robot, *master.info(), &frames, |moment| {
-            filter.bounds(moment, &mut Bounds::default());
+            filter.bounds(moment, &mut UpdateBounds::default());
             filter.costs(moment, &mut master, window);
         })?;
         let pairs = before.costs().iter().zip(master.costs());
@@ -159,9 +160,9 @@ fn info_of(given: &Reader<'_>, kind: FilterKind) -> Result<FilterInfo, Unreadabl
 /// Lets a filter look at the mask where the robot is; it has no costmap to change.
 fn run(filter: &mut dyn Layer, distro: &str, robot: Pose2) -> Result<(), Unreadable> {
     let mut master = Costmap::empty(0);
-    with_moment(distro, robot, *master.info(), &NoFrames, |moment| {
-        filter.bounds(moment, &mut Bounds::default());
-        filter.costs(moment, &mut master, Window::default());
+    with_moment(distro, robot, *master.info(), &NoTransforms, |moment| {
+        filter.bounds(moment, &mut UpdateBounds::default());
+        filter.costs(moment, &mut master, CellWindow::default());
     })
 }
 

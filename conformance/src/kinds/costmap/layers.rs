@@ -7,7 +7,8 @@ use periplus_costmap::layers::{
     DenoiseLayer, InflationLayer, MapMeaning, ObstacleLayer, StaticLayer, denoise,
 };
 use periplus_costmap::{
-    Compat, Config, Costmap, Frame, Frames, Layer, LayeredCostmap, NoFrames, Window, tables,
+    CellWindow, Costmap, CostmapConfig, CostmapSettings, Layer, LayeredCostmap, Nav2Release,
+    NoTransforms, TransformSource, tables,
 };
 use periplus_diagnostics::Diagnostics;
 use periplus_geometry::{Pose, Pose2};
@@ -73,7 +74,7 @@ pub(in super::super) fn check_denoise(
     let smallest = given.get("minimal_group_size")?.count()?;
     let diagonally = given.get("group_connectivity_type")?.integer()? == 8;
     let unknown = truth(&given, "no_information_is_obstacle", true)?;
-    denoise(&mut costmap, &Window::all(&info), smallest, diagonally, unknown);
+    denoise(&mut costmap, &CellWindow::all(&info), smallest, diagonally, unknown);
     let got: Vec<Vec<u8>> = costmap.costs().chunks(width.max(1)).map(<[u8]>::to_vec).collect();
     for (name, expected) in expect.members()? {
         match name {
@@ -139,13 +140,14 @@ fn compare_one_cleared(
 }
 
 /// A costmap with the layers of a name each, of which some may be cleared; those are lethal.
-fn named_layers(given: &Reader<'_>, compat: Compat) -> Result<LayeredCostmap, Unreadable> {
+fn named_layers(given: &Reader<'_>, compat: Nav2Release) -> Result<LayeredCostmap, Unreadable> {
     let info = match given.find("size") {
         Some(_) => *costmap_of(given, "default")?.info(),
         None => GridInfo { resolution_m: 1.0, width: 10, height: 10, origin: Pose2::IDENTITY },
     };
     let fill = given.find("fill").map_or(Ok(254), |it| it.byte())?;
-    let mut costmap = LayeredCostmap::new(Frame { compat, ..Frame::default() }, info);
+    let mut costmap =
+        LayeredCostmap::new(CostmapSettings { compat, ..CostmapSettings::default() }, info);
     let plugins = given.get("plugins")?.list()?;
     let clearable = given.get("clearable")?.each(Reader::truth)?;
     if plugins.len() != clearable.len() {
@@ -268,9 +270,9 @@ pub(in super::super) fn check_parameters(
     differences: &mut Differences,
 ) -> Result<(), Unreadable> {
     let (given, expect) = (case.given(), case.expect());
-    let mut config = Config::read([], Some(compat_of(distro)?), &mut Diagnostics::new());
+    let mut config = CostmapConfig::read([], Some(compat_of(distro)?), &mut Diagnostics::new());
     let mut costmap = config.build();
-    costmap.update(0, Pose2::IDENTITY, &NoFrames);
+    costmap.update(0, Pose2::IDENTITY, &NoTransforms);
     // Besides the two frames that the costmap has anyway.
     let mut frames = vec!["map".to_owned(), "base_link".to_owned()];
     if let Some(more) = given.find("frames") {
@@ -325,10 +327,10 @@ fn parameter_of(value: &Reader<'_>) -> Result<Parameter, Unreadable> {
 
 /// Sets parameters of a costmap that runs, as a service would.
 fn change(
-    config: &mut Config,
+    config: &mut CostmapConfig,
     costmap: &mut LayeredCostmap,
     set: &Reader<'_>,
-    frames: &dyn Frames,
+    frames: &dyn TransformSource,
 ) -> Result<Result<(), String>, Unreadable> {
     let mut values = config.node.clone();
     for (name, value) in set.members()? {

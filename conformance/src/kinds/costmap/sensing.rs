@@ -1,7 +1,7 @@
 //! What sensors say.
 
 use periplus_costmap::layers::probability;
-use periplus_costmap::{Beams, Projector, Source, tables};
+use periplus_costmap::{ObservationSource, Projector, ScanGeometry, tables};
 use periplus_geometry::{DVec3, Pose};
 
 use serde_json::{Value, json};
@@ -22,7 +22,7 @@ pub(in super::super) fn check_buffer(
     differences: &mut Differences,
 ) -> Result<(), Unreadable> {
     let (given, expect) = (case.given(), case.expect());
-    let mut source = Source::new("source", values_among(&tables::SOURCE, &given)?)
+    let mut source = ObservationSource::new("source", values_among(&tables::SOURCE, &given)?)
         .with_compat(compat_of(distro)?);
     for name in ["observation_keep_time", "persistence"] {
         if let Some(time) = given.find(name) {
@@ -87,7 +87,7 @@ pub(in super::super) fn check_projection(
         }
     }
     let single = |name: &str| Ok(scan.get(name)?.number()? as f32);
-    let beams = Beams {
+    let beams = ScanGeometry {
         angle_min_rad: single("angle_min")?,
         angle_increment_rad: single("angle_increment")?,
         range_min_m: single("range_min")?,

@@ -8,8 +8,8 @@ use periplus_costmap::layers::{
     RangeReading, StaticLayer, VoxelLayer,
 };
 use periplus_costmap::{
-    Compat, Costmap, Footprint, Frame, Layer, LayeredCostmap, NoFrames, Observation, Source, Span,
-    Window, tables,
+    CellWindow, Costmap, CostmapSettings, Footprint, Layer, LayeredCostmap, Nav2Release,
+    NoTransforms, Observation, ObservationSource, RangeLimits, tables,
 };
 use periplus_geometry::{Pose, Pose2};
 use periplus_grid::GridInfo;
@@ -46,9 +46,10 @@ pub(in super::super) fn check_layered(
     let stack = Stack::after(&given, compat, compat)?;
     let exact = expect.stated("cells_that_differ_with_exact_distance");
     // Where a case says how both ways to measure distances differ, its grids are those of main.
-    let rounded = exact.as_ref().map(|_| Stack::after(&given, compat, Compat::Main)).transpose()?;
+    let rounded =
+        exact.as_ref().map(|_| Stack::after(&given, compat, Nav2Release::Main)).transpose()?;
     if let (Some(expected), Some(rounded)) = (&exact, &rounded) {
-        let exact = Stack::after(&given, compat, Compat::Humble)?;
+        let exact = Stack::after(&given, compat, Nav2Release::Humble)?;
         compare_exact(rounded, &exact, expected, differences)?;
     }
     let told = rounded.as_ref().unwrap_or(&stack);
@@ -182,7 +183,7 @@ pub(in super::super) fn check_obstacle(
 /// The costmap at some time.
 struct State {
     costmap: Costmap,
-    window: Option<Window>,
+    window: Option<CellWindow>,
     layers: Vec<(String, Costmap)>,
     columns: Vec<(String, Vec<u32>)>,
     is_current: bool,
@@ -191,7 +192,7 @@ struct State {
 struct Stack {
     costmap: LayeredCostmap,
     /// How inflation layers measure distances, as that release does.
-    distances: Compat,
+    distances: Nav2Release,
     states: Vec<State>,
     /// The point that was observed last, and did not come from a list of several.
     last_point: Option<[f32; 3]>,
@@ -204,7 +205,11 @@ struct Stack {
 
 impl Stack {
     /// All steps done.
-    fn after(given: &Reader<'_>, compat: Compat, distances: Compat) -> Result<Self, Unreadable> {
+    fn after(
+        given: &Reader<'_>,
+        compat: Nav2Release,
+        distances: Nav2Release,
+    ) -> Result<Self, Unreadable> {
         let mut stack = Self::new(given, compat, distances)?;
         for step in given.get("steps")?.list()? {
             stack.step(&step)?;
@@ -212,7 +217,11 @@ impl Stack {
         Ok(stack)
     }
 
-    fn new(given: &Reader<'_>, compat: Compat, distances: Compat) -> Result<Self, Unreadable> {
+    fn new(
+        given: &Reader<'_>,
+        compat: Nav2Release,
+        distances: Nav2Release,
+    ) -> Result<Self, Unreadable> {
         let about = given.get("costmap")?;
         let count = |name: &str| about.get(name)?.count();
         let origin =
@@ -220,7 +229,7 @@ impl Stack {
         let resolution_m = about.get("resolution")?.number()?;
         let info = GridInfo::new(resolution_m, count("size_x")?, count("size_y")?, origin)
             .map_err(|error| about.unreadable(&error.to_string()))?;
-        let frame = Frame {
+        let frame = CostmapSettings {
             global_frame: FRAME.to_owned(),
             is_rolling: truth(&about, "rolling_window", false)?,
             tracks_unknown: truth(&about, "track_unknown_space", false)?,
@@ -243,7 +252,7 @@ impl Stack {
         if let Some(footprint) = given.find("footprint") {
             stack.costmap.set_footprint(Footprint::new(points_of(&footprint)?));
         }
-        stack.costmap.settle_size();
+        stack.costmap.apply_requested_size();
         stack.fill(&layers)?;
         Ok(stack)
     }
@@ -288,7 +297,11 @@ impl Stack {
         }
     }
 
-    fn layer(&mut self, about: &Reader<'_>, compat: Compat) -> Result<Box<dyn Layer>, Unreadable> {
+    fn layer(
+        &mut self,
+        about: &Reader<'_>,
+        compat: Nav2Release,
+    ) -> Result<Box<dyn Layer>, Unreadable> {
         let name = about.get("name")?.text()?.to_owned();
         let params = about.find("params");
         let of = |table: &'static Table, others: &[&'static Table]| {
@@ -403,7 +416,7 @@ impl Stack {
         }
         if let Some(window) = step.find("run_layer_costs") {
             let window = window_of(&window)?;
-            if !self.costmap.apply_layer(name, window, 0, Pose2::IDENTITY, &NoFrames) {
+            if !self.costmap.apply_layer(name, window, 0, Pose2::IDENTITY, &NoTransforms) {
                 return Err(named.unreadable("a layer that is there"));
             }
             self.states.push(self.state(None));
@@ -418,12 +431,12 @@ impl Stack {
     }
 
     fn update(&mut self, pose: Pose2) {
-        let window = self.costmap.update(0, pose, &NoFrames);
+        let window = self.costmap.update(0, pose, &NoTransforms);
         self.states.push(self.state(window));
     }
 
     /// Everything as it is now.
-    fn state(&self, window: Option<Window>) -> State {
+    fn state(&self, window: Option<CellWindow>) -> State {
         let (mut layers, mut columns) = (Vec::new(), Vec::new());
         for layer in self.costmap.all() {
             if let Some(grid) = layer.grid() {
@@ -461,7 +474,7 @@ impl Stack {
     fn update_map(&mut self, named: &Reader<'_>, part: &Reader<'_>) -> Result<(), Unreadable> {
         let count = |name: &str| part.get(name)?.count();
         let (x0, y0) = (count("x")?, count("y")?);
-        let window = Window { x0, y0, xn: x0 + count("width")?, yn: y0 + count("height")? };
+        let window = CellWindow { x0, y0, xn: x0 + count("width")?, yn: y0 + count("height")? };
         let cells = part.get("data")?.each(|cell| {
             i8::try_from(cell.integer()?).map_err(|_| cell.unreadable("a number from -128 to 127"))
         })?;
@@ -482,18 +495,18 @@ impl Stack {
             time_ns: 0,
             origin: observed.get("sensor_origin")?.array()?,
             points: points.iter().map(|point| point.map(|at| at as f32)).collect(),
-            marks: Span {
+            marks: RangeLimits {
                 min_m: range("obstacle_min_range", 0.0)?,
                 max_m: range("obstacle_max_range", 100.0)?,
             },
-            rays: Span {
+            rays: RangeLimits {
                 min_m: range("raytrace_min_range", 0.0)?,
                 max_m: range("raytrace_max_range", 100.0)?,
             },
         };
         let (marks, clears) =
             (truth(observed, "marking", true)?, truth(observed, "clearing", true)?);
-        let source = Source::fixed("given", seen, marks, clears);
+        let source = ObservationSource::fixed("given", seen, marks, clears);
         let name = named.text()?;
         if let Some(layer) = self.costmap.find_as::<ObstacleLayer>(name) {
             layer.add_source(source);
@@ -573,8 +586,8 @@ fn set_cell(grid: &mut Costmap, cell: &Reader<'_>) -> Result<(), Unreadable> {
 }
 
 /// Four numbers of a window; null for no update.
-fn window_value(window: Option<Window>) -> Value {
-    json!(window.map(|Window { x0, y0, xn, yn }| [x0, y0, xn, yn]))
+fn window_value(window: Option<CellWindow>) -> Value {
+    json!(window.map(|CellWindow { x0, y0, xn, yn }| [x0, y0, xn, yn]))
 }
 
 fn compare_state(

@@ -2,7 +2,7 @@
 
 use periplus_costmap::inflation::CostTable;
 use periplus_costmap::layers::MapMeaning;
-use periplus_costmap::{Compat, Footprint, cost, tables};
+use periplus_costmap::{Footprint, Nav2Release, cost, tables};
 use serde_json::json;
 
 use super::super::Setting;
@@ -79,7 +79,7 @@ pub(in super::super) fn check_inflation(
     let footprint = footprint.padded(super::number(&given, "footprint_padding", 0.0)?);
     let inscribed_m = super::number(&given, "inscribed_radius", footprint.inscribed_radius_m)?;
     let resolution_m = given.get("resolution")?.number()?;
-    let table = |compat: Compat| -> Result<CostTable, Unreadable> {
+    let table = |compat: Nav2Release| -> Result<CostTable, Unreadable> {
         Ok(CostTable::new(
             resolution_m,
             given.get("inflation_radius")?.number()?,
@@ -88,7 +88,7 @@ pub(in super::super) fn check_inflation(
             compat,
         ))
     };
-    let (rounded, exact) = (table(Compat::Main)?, table(Compat::Humble)?);
+    let (rounded, exact) = (table(Nav2Release::Main)?, table(Nav2Release::Humble)?);
     // Both are known whatever the distribution; the one that it uses is `table`.
     let used = table(compat_of(distro)?)?;
     for (name, expected) in expect.members()? {

@@ -1,6 +1,6 @@
 //! Voxels.
 
-use periplus_costmap::{Line3, MOST_VOXELS, Voxel, VoxelGrid};
+use periplus_costmap::{MAX_VOXEL_COUNT, Voxel, VoxelGrid, VoxelLine};
 use periplus_geometry::Pose2;
 use periplus_grid::GridInfo;
 use serde_json::{Value, json};
@@ -171,7 +171,7 @@ fn compare_rays(
         let (start, end) = (input.get("start")?.array()?, input.get("end")?.array()?);
         let (shortest, longest) = (length("min_length", 0)?, length("max_length", u32::MAX)?);
         let mut voxels = Vec::new();
-        if let Some(line) = Line3::within(info.width, start, end, shortest, longest) {
+        if let Some(line) = VoxelLine::within(info.width, start, end, shortest, longest) {
             line.walk(|index, z| {
                 let (x, y) = info.cell(index);
                 voxels.push(json!([x, y, z]));
@@ -202,7 +202,7 @@ fn lines(given: &Reader<'_>, names: &[&str]) -> Result<Vec<Ends>, Unreadable> {
 
 fn voxel_of(voxel: &Reader<'_>) -> Result<((usize, usize), u32), Unreadable> {
     match *voxel.each(Reader::count)?.as_slice() {
-        [x, y, z] => Ok(((x, y), u32::try_from(z).unwrap_or(MOST_VOXELS))),
+        [x, y, z] => Ok(((x, y), u32::try_from(z).unwrap_or(MAX_VOXEL_COUNT))),
         _ => Err(voxel.unreadable("three counts")),
     }
 }

@@ -1,6 +1,6 @@
 //! What is published of a costmap.
 
-use periplus_costmap::{Outgoing, Publication, Window, cost};
+use periplus_costmap::{CellWindow, CostmapMessage, PublicationState, cost};
 
 use serde_json::{Value, json};
 
@@ -20,7 +20,7 @@ pub(in super::super) fn check(
     let (mut full, mut parts, mut payloads) = (Vec::new(), Vec::new(), Vec::new());
     for always_full in always {
         let mut costmap = costmap_of(&given, "initial_cost")?;
-        let mut publication = Publication::new();
+        let mut publication = PublicationState::new();
         let mut sent_full = 0;
         let mut updates = Vec::new();
         for change in given.get("changes")?.list()? {
@@ -34,11 +34,11 @@ pub(in super::super) fn check(
             }
             let count = |name: &str| change.get(name)?.count();
             let (x0, xn, y0, yn) = (count("x0")?, count("xn")?, count("y0")?, count("yn")?);
-            publication.changed(Window { x0, y0, xn, yn });
+            publication.changed(CellWindow { x0, y0, xn, yn });
             match publication.next(costmap.info(), always_full) {
-                Outgoing::Nothing => {}
-                Outgoing::Full => sent_full += 1,
-                Outgoing::Update(window) => {
+                CostmapMessage::Nothing => {}
+                CostmapMessage::Full => sent_full += 1,
+                CostmapMessage::Update(window) => {
                     let spans = window.spans(costmap.info().width);
                     let data: Vec<u8> =
                         spans.flat_map(|span| costmap.costs()[span].to_vec()).collect();

@@ -9,7 +9,7 @@ use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
 use clap::Args;
-use periplus_costmap::{Compat, cost};
+use periplus_costmap::{Nav2Release, cost};
 use periplus_graph::Graph;
 use periplus_images::{Layout, write_png};
 use periplus_maps::palette::{Scheme, paint};
@@ -34,7 +34,7 @@ pub(crate) struct CostmapOptions {
     costmap_picture: Option<PathBuf>,
     /// Release of Nav2 whose behaviour is reproduced where releases differ
     #[arg(long, value_name = "humble|jazzy|main", requires = "costmap")]
-    costmap_compat: Option<Compat>,
+    costmap_compat: Option<Nav2Release>,
 }
 
 /// Position on the floor \[m\].
@@ -85,7 +85,11 @@ impl Costmaps {
     }
 
     /// Creates the costmaps of a file, not yet configured.
-    fn of_file(graph: &Graph, path: &Path, compat: Option<Compat>) -> io::Result<Option<Self>> {
+    fn of_file(
+        graph: &Graph,
+        path: &Path,
+        compat: Option<Nav2Release>,
+    ) -> io::Result<Option<Self>> {
         Self::of_read(graph, read(path, compat))
     }
 

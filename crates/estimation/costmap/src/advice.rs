@@ -1,33 +1,33 @@
-//! What becomes of the points of a source, and the parameter that decides it.
+//! Statistics about dropped points of a source, with the parameter responsible.
 
 use std::any::Any;
 use std::fmt;
 
 use periplus_diagnostics::Severity;
 
-use crate::{Counters, Layer, LayeredCostmap, Source};
+use crate::{Counters, Layer, LayeredCostmap, ObservationSource};
 
-/// Where points of a source go, and the parameter that sends them there.
+/// Number of points of a source with one result, and the parameter that causes it.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Advice {
-    /// The source, as `layer.source`.
+    /// Source, as `layer.source`.
     pub source: String,
-    /// How many points, or messages, it concerns.
+    /// Number of points or messages with this result.
     pub count: u64,
-    /// Of how many.
+    /// Total number of points or messages.
     pub of: u64,
-    /// What happened to them.
+    /// Result, such as "were too near to mark".
     pub what: &'static str,
-    /// The parameter, with all that goes before its name.
+    /// Full name of the parameter.
     pub parameter: String,
-    /// What to do.
+    /// Suggested remedy.
     pub help: &'static str,
-    /// A hint for what happens everywhere, an error when nothing is left to mark or clear with.
+    /// A hint for what is normal, an error when no point is left for marking or clearing.
     pub severity: Severity,
 }
 
 impl LayeredCostmap {
-    /// What to do about points that get lost, for all sources.
+    /// Returns advice about dropped points for all sources.
     #[must_use]
     pub fn advice(&self) -> Vec<Advice> {
         let of_layer = |layer: &dyn Layer| {
@@ -37,7 +37,7 @@ impl LayeredCostmap {
         self.all().flat_map(of_layer).collect()
     }
 
-    /// The same for one source, for points that it got after its counters stood so.
+    /// Returns advice for one source, for the points after `before`.
     #[must_use]
     pub fn advice_since(&self, layer: &str, source: &str, before: &Counters) -> Vec<Advice> {
         let layer = self.all().find(|found| found.name() == layer);
@@ -49,15 +49,15 @@ impl LayeredCostmap {
     }
 }
 
-/// How bad it is to lose a share of what comes.
+/// Severity of losing a share of the points.
 enum Loss {
-    /// Every sensor loses some so.
+    /// Normal for every sensor.
     Usual,
-    /// Unless nothing is left.
+    /// Normal unless no point is left.
     UsualInPart,
-    /// Parameters and sensor do not fit when it is more than half.
+    /// Parameters and sensor do not match when it concerns more than half of the points.
     Doubtful,
-    /// It should never happen.
+    /// Always an error.
     Wrong,
 }
 
@@ -75,8 +75,8 @@ impl Loss {
     }
 }
 
-/// What happened to the points of a source, the most first.
-fn advice(layer: &dyn Layer, source: &Source, counters: &Counters) -> Vec<Advice> {
+/// Returns the results for the points of a source, most frequent first.
+fn advice(layer: &dyn Layer, source: &ObservationSource, counters: &Counters) -> Vec<Advice> {
     let is_voxel = (layer as &dyn Any).is::<crate::layers::VoxelLayer>();
     let own = |name: &str| format!("{}.{}.{name}", layer.name(), source.name);
     let above = |name: &str| format!("{}.{name}", layer.name());
@@ -87,7 +87,7 @@ fn advice(layer: &dyn Layer, source: &Source, counters: &Counters) -> Vec<Advice
             counters.too_high,
             points,
             Loss::Doubtful,
-            "were above the source's greatest height, for marking and clearing",
+            "were above `max_obstacle_height` of the source, for marking and clearing",
             own("max_obstacle_height"),
             "it is measured in the global frame and is 0 unless set; set it to the robot's height",
         ),
@@ -95,7 +95,7 @@ fn advice(layer: &dyn Layer, source: &Source, counters: &Counters) -> Vec<Advice
             counters.too_low,
             points,
             Loss::Doubtful,
-            "were below the source's least height, for marking and clearing",
+            "were below `min_obstacle_height` of the source, for marking and clearing",
             own("min_obstacle_height"),
             "lower it a little if the floor is not level",
         ),
@@ -103,7 +103,7 @@ fn advice(layer: &dyn Layer, source: &Source, counters: &Counters) -> Vec<Advice
             counters.layer_too_high,
             points,
             Loss::UsualInPart,
-            "were above what the layer marks",
+            "were above the heights that the layer marks",
             above(if is_voxel { "z_voxels" } else { "max_obstacle_height" }),
             "raise `max_obstacle_height`, and for voxels `z_voxels` or `z_resolution`",
         ),
@@ -111,7 +111,7 @@ fn advice(layer: &dyn Layer, source: &Source, counters: &Counters) -> Vec<Advice
             counters.layer_too_low,
             points,
             Loss::UsualInPart,
-            "were below what the layer marks",
+            "were below the heights that the layer marks",
             above("min_obstacle_height"),
             "lower it a little if the floor is not level",
         ),
@@ -129,21 +129,21 @@ fn advice(layer: &dyn Layer, source: &Source, counters: &Counters) -> Vec<Advice
             Loss::UsualInPart,
             "were too near to mark",
             own("obstacle_min_range"),
-            "lower it if they are no part of the robot",
+            "lower it if they are not part of the robot",
         ),
         (
             counters.outside,
             points,
             Loss::Usual,
-            "were beside the costmap",
+            "were outside the costmap",
             "width".to_owned(),
-            "enlarge the costmap if they should count",
+            "enlarge the costmap to use them",
         ),
         (
             counters.not_finite,
             points,
             Loss::UsualInPart,
-            "were no numbers",
+            "were NaN or infinite",
             own("topic"),
             "clouds have no points without a return; nothing is cleared there",
         ),
@@ -151,15 +151,15 @@ fn advice(layer: &dyn Layer, source: &Source, counters: &Counters) -> Vec<Advice
             if source.settings.inf_is_valid { 0 } else { counters.without_return },
             points + counters.without_return,
             Loss::UsualInPart,
-            "had no return, and cleared nothing",
+            "had no return and cleared nothing",
             own("inf_is_valid"),
-            "with `true`, infinite ranges clear up to the largest range",
+            "with `true`, infinite ranges clear up to `raytrace_max_range`",
         ),
         (
             counters.without_frame,
             messages,
             Loss::Wrong,
-            "messages came in a frame that nobody connects to the global one",
+            "messages had a frame without a transform to the global frame",
             own("sensor_frame"),
             "start what publishes the frame (robot_state_publisher, a static transform, odometry)",
         ),
@@ -167,23 +167,23 @@ fn advice(layer: &dyn Layer, source: &Source, counters: &Counters) -> Vec<Advice
             counters.out_of_time,
             messages,
             Loss::Wrong,
-            "messages came from a time of which no transform is known",
+            "messages had a stamp without a transform",
             "use_sim_time".to_owned(),
-            "check that all nodes use the same time, and that transforms come as often as messages",
+            "check that all nodes use the same clock, and that transforms are published at the rate of the messages",
         ),
         (
             counters.malformed,
             messages,
             Loss::Wrong,
-            "messages could not be read",
+            "messages were malformed",
             own("data_type"),
-            "check that topic and `data_type` belong together",
+            "check that the topic has the type in `data_type`",
         ),
         (
             counters.sensor_outside,
             counters.clouds,
             Loss::Wrong,
-            "messages came from a sensor outside of the costmap",
+            "messages were from a sensor outside the costmap",
             if is_voxel { above("origin_z") } else { own("sensor_frame") },
             "a sensor above or beside the grid clears nothing",
         ),

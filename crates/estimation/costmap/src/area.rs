@@ -1,36 +1,36 @@
-//! Parts of the plane and parts of a grid.
+//! Rectangular areas of the plane and of a grid.
 
 use periplus_grid::GridInfo;
 
-/// An upright rectangle of the global frame \[m\] that grows as things change. Empty at the start.
+/// Axis-aligned bounding box in the global frame \[m\]. Initially empty.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Bounds {
-    /// Lowest x.
+pub struct UpdateBounds {
+    /// Minimum x.
     pub min_x: f64,
-    /// Lowest y.
+    /// Minimum y.
     pub min_y: f64,
-    /// Highest x.
+    /// Maximum x.
     pub max_x: f64,
-    /// Highest y.
+    /// Maximum y.
     pub max_y: f64,
 }
 
-impl Default for Bounds {
+impl Default for UpdateBounds {
     fn default() -> Self {
         Self::EMPTY
     }
 }
 
-impl Bounds {
-    /// Nothing.
+impl UpdateBounds {
+    /// The empty box.
     pub const EMPTY: Self =
         Self { min_x: f64::MAX, min_y: f64::MAX, max_x: -f64::MAX, max_y: -f64::MAX };
 
-    /// Everything.
+    /// The whole plane.
     pub const ALL: Self =
         Self { min_x: -f64::MAX, min_y: -f64::MAX, max_x: f64::MAX, max_y: f64::MAX };
 
-    /// What a grid covers.
+    /// Returns the area of a grid.
     #[must_use]
     pub fn of(info: &GridInfo) -> Self {
         let (width_m, height_m) = info.size_m();
@@ -38,7 +38,7 @@ impl Bounds {
         Self { min_x, min_y, max_x: min_x + width_m, max_y: min_y + height_m }
     }
 
-    /// Grows until it holds a point.
+    /// Enlarges the box to contain a point.
     #[inline]
     pub fn touch(&mut self, x_m: f64, y_m: f64) {
         self.min_x = self.min_x.min(x_m);
@@ -47,7 +47,7 @@ impl Bounds {
         self.max_y = self.max_y.max(y_m);
     }
 
-    /// Grows until it holds another.
+    /// Enlarges the box to contain another box.
     pub fn include(&mut self, other: &Self) {
         self.min_x = self.min_x.min(other.min_x);
         self.min_y = self.min_y.min(other.min_y);
@@ -55,7 +55,7 @@ impl Bounds {
         self.max_y = self.max_y.max(other.max_y);
     }
 
-    /// The same with a margin on all sides \[m\].
+    /// Returns the box enlarged by a margin on all sides \[m\].
     #[must_use]
     pub fn grown(self, margin_m: f64) -> Self {
         Self {
@@ -66,7 +66,7 @@ impl Bounds {
         }
     }
 
-    /// Whether another lies within.
+    /// Returns true if another box is inside this one.
     #[must_use]
     pub fn contains(&self, other: &Self) -> bool {
         self.min_x <= other.min_x
@@ -76,9 +76,9 @@ impl Bounds {
     }
 }
 
-/// Cells from `(x0, y0)` up to, and without, `(xn, yn)`.
+/// Cells from `(x0, y0)` up to and excluding `(xn, yn)`.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Window {
+pub struct CellWindow {
     /// First column.
     pub x0: usize,
     /// First row.
@@ -89,38 +89,38 @@ pub struct Window {
     pub yn: usize,
 }
 
-impl Window {
-    /// All cells of a grid.
+impl CellWindow {
+    /// Returns the window of all cells of a grid.
     #[must_use]
     pub fn all(info: &GridInfo) -> Self {
         Self { x0: 0, y0: 0, xn: info.width, yn: info.height }
     }
 
-    /// Columns.
+    /// Returns the number of columns.
     #[must_use]
     pub fn width(&self) -> usize {
         self.xn.saturating_sub(self.x0)
     }
 
-    /// Rows.
+    /// Returns the number of rows.
     #[must_use]
     pub fn height(&self) -> usize {
         self.yn.saturating_sub(self.y0)
     }
 
-    /// Whether there is no cell in it.
+    /// Returns true if the window has no cells.
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.width() == 0 || self.height() == 0
     }
 
-    /// Whether a cell is in it.
+    /// Returns true if a cell is inside the window.
     #[must_use]
     pub fn contains(&self, (x, y): (usize, usize)) -> bool {
         (self.x0..self.xn).contains(&x) && (self.y0..self.yn).contains(&y)
     }
 
-    /// The same with a margin on all sides, as far as the grid goes.
+    /// Returns the window enlarged by a margin on all sides, clipped to the grid.
     #[must_use]
     pub fn grown(&self, cells: usize, info: &GridInfo) -> Self {
         Self {
@@ -131,7 +131,7 @@ impl Window {
         }
     }
 
-    /// The smallest that holds both; an empty one counts for nothing.
+    /// Returns the smallest window that contains both; an empty window has no effect.
     #[must_use]
     pub fn union(&self, other: &Self) -> Self {
         if self.is_empty() {
@@ -148,7 +148,7 @@ impl Window {
         }
     }
 
-    /// The cells that are in both.
+    /// Returns the cells that are in both windows.
     #[must_use]
     pub fn intersection(&self, other: &Self) -> Self {
         Self {
@@ -159,7 +159,8 @@ impl Window {
         }
     }
 
-    /// For each row of it, where its cells lie in a list of rows that are `width` long.
+    /// Iterates over the rows of the window: the index range of each in row-major order with rows
+    /// of `width` cells.
     pub fn spans(&self, width: usize) -> impl Iterator<Item = std::ops::Range<usize>> + use<> {
         let (x0, xn) = (self.x0, self.xn.max(self.x0));
         (self.y0..self.yn).map(move |y| y * width + x0..y * width + xn)

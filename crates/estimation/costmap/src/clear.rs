@@ -1,4 +1,4 @@
-//! What the clear services of a costmap do.
+//! Clear services of a costmap.
 //!
 //! Source: `nav2_costmap_2d/src/clear_costmap_service.cpp`, `costmap_layer.cpp`.
 
@@ -6,38 +6,37 @@ use periplus_grid::GridInfo;
 
 use crate::cost::UNKNOWN;
 use crate::costmap::cell_clamped;
-use crate::{Compat, Costmap, LayeredCostmap, Window};
+use crate::{CellWindow, Costmap, LayeredCostmap, Nav2Release};
 
-/// Which part of a layer to clear.
+/// Area that a clear service clears.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Region {
-    /// A square about a point of the global frame \[m\].
+    /// A square around a point of the global frame \[m\].
     Around {
-        /// Its middle.
+        /// Centre, x.
         x_m: f64,
-        /// Its middle.
+        /// Centre, y.
         y_m: f64,
-        /// Length of a side.
+        /// Side length.
         side_m: f64,
     },
-    /// All but such a square.
+    /// Everything outside a square.
     Except {
-        /// Its middle.
+        /// Centre, x.
         x_m: f64,
-        /// Its middle.
+        /// Centre, y.
         y_m: f64,
-        /// Length of a side.
+        /// Side length.
         side_m: f64,
     },
-    /// All of it.
+    /// The whole layer.
     Everything,
 }
 
-/// Clears a part of the layers named, or of all that may be cleared when none is named. Only the
-/// layers' own cells change; the next update brings it into the costmap.
-///
+/// Clears an area of the named layers, or of all clearable layers when no name is given. Only the
+/// grids of the layers change; the next update copies the change into the costmap.
 /// # Errors
-/// Why nothing was cleared: a layer is unknown or may not be cleared. One is enough.
+/// The reason for which no layer was cleared: at least one layer is unknown or not clearable.
 pub fn clear(costmap: &mut LayeredCostmap, region: Region, names: &[String]) -> Result<(), String> {
     refuse_unfit(costmap, names)?;
     if names.is_empty() && region == Region::Everything {
@@ -51,7 +50,7 @@ pub fn clear(costmap: &mut LayeredCostmap, region: Region, names: &[String]) -> 
         if !is_meant || !layer.is_clearable() {
             continue;
         }
-        // A layer may have moved less far than the costmap; its own cells count.
+        // The grid of a layer may lag behind a rolling costmap; its own cells apply.
         let cells = *layer.grid().map_or(&info, Costmap::info);
         let corner = |x_m, y_m, side_m| corners(&cells, [x_m, y_m], side_m, compat);
         match region {
@@ -72,12 +71,12 @@ pub fn clear(costmap: &mut LayeredCostmap, region: Region, names: &[String]) -> 
     Ok(())
 }
 
-/// The cells of the lower left and the upper right corner of a square about a point.
+/// Returns the cells of the lower left and the upper right corner of a square around a point.
 fn corners(
     cells: &GridInfo,
     [x_m, y_m]: [f64; 2],
     side_m: f64,
-    compat: Compat,
+    compat: Nav2Release,
 ) -> ((i64, i64), (i64, i64)) {
     let (x_m, y_m) = (x_m - side_m / 2.0, y_m - side_m / 2.0);
     let cell = |x_m, y_m| {
@@ -94,9 +93,9 @@ fn refuse_unfit(costmap: &LayeredCostmap, names: &[String]) -> Result<(), String
     let mut unfit = Vec::new();
     for name in names {
         match costmap.layers().iter().find(|layer| layer.name() == name) {
-            None => unfit.push(format!("`{name}` is not there")),
+            None => unfit.push(format!("there is no layer `{name}`")),
             Some(layer) if !layer.is_clearable() => {
-                unfit.push(format!("`{name}` keeps what it has"));
+                unfit.push(format!("layer `{name}` is not clearable"));
             }
             Some(_) => {}
         }
@@ -111,16 +110,16 @@ fn refuse_unfit(costmap: &LayeredCostmap, names: &[String]) -> Result<(), String
         .map(|layer| layer.name())
         .collect();
     let offer = if clearable.is_empty() { "none".to_owned() } else { clearable.join(", ") };
-    Err(format!("nothing was cleared: {}; layers to clear: {offer}", unfit.join(", ")))
+    Err(format!("nothing was cleared: {}; clearable layers: {offer}", unfit.join(", ")))
 }
 
-/// Makes cells unknown: those strictly between two, or with `invert` all others.
+/// Sets the cells strictly between two corners to unknown, or with `invert` all other cells.
 pub fn clear_cells(
     grid: &mut Costmap,
     start: (i64, i64),
     end: (i64, i64),
     invert: bool,
-    compat: Compat,
+    compat: Nav2Release,
 ) {
     let info = *grid.info();
     let (width, height) = (info.width as i64, info.height as i64);
@@ -135,8 +134,8 @@ pub fn clear_cells(
     };
     let (x0, xn) = within(start.0, end.0, width);
     let (y0, yn) = within(start.1, end.1, height);
-    let inside = Window { x0, y0, xn, yn };
-    let mut clear = |window: Window| {
+    let inside = CellWindow { x0, y0, xn, yn };
+    let mut clear = |window: CellWindow| {
         for span in window.spans(info.width) {
             grid.costs_mut()[span].fill(UNKNOWN);
         }
@@ -145,12 +144,12 @@ pub fn clear_cells(
         return clear(inside);
     }
     if inside.is_empty() {
-        return clear(Window::all(&info));
+        return clear(CellWindow::all(&info));
     }
-    clear(Window { x0: 0, y0: 0, xn: info.width, yn: y0 });
-    clear(Window { x0: 0, y0: yn, xn: info.width, yn: info.height });
-    clear(Window { x0: 0, y0, xn: x0, yn });
-    clear(Window { x0: xn, y0, xn: info.width, yn });
+    clear(CellWindow { x0: 0, y0: 0, xn: info.width, yn: y0 });
+    clear(CellWindow { x0: 0, y0: yn, xn: info.width, yn: info.height });
+    clear(CellWindow { x0: 0, y0, xn: x0, yn });
+    clear(CellWindow { x0: xn, y0, xn: info.width, yn });
 }
 
 #[cfg(test)]
@@ -160,7 +159,7 @@ mod tests {
 
     use super::*;
 
-    fn cleared(start: (i64, i64), end: (i64, i64), invert: bool, compat: Compat) -> String {
+    fn cleared(start: (i64, i64), end: (i64, i64), invert: bool, compat: Nav2Release) -> String {
         let info = GridInfo::new(1.0, 4, 3, Pose2::IDENTITY).unwrap();
         let mut grid = Costmap::new(info, 0);
         clear_cells(&mut grid, start, end, invert, compat);
@@ -171,14 +170,14 @@ mod tests {
 
     #[test]
     fn cells_strictly_between_are_cleared() {
-        assert_eq!(cleared((0, 0), (3, 2), false, Compat::Main), ".... .??. ....");
-        assert_eq!(cleared((0, 0), (3, 2), true, Compat::Main), "???? ?..? ????");
-        assert_eq!(cleared((2, 2), (2, 2), true, Compat::Main), "???? ???? ????");
+        assert_eq!(cleared((0, 0), (3, 2), false, Nav2Release::Main), ".... .??. ....");
+        assert_eq!(cleared((0, 0), (3, 2), true, Nav2Release::Main), "???? ?..? ????");
+        assert_eq!(cleared((2, 2), (2, 2), true, Nav2Release::Main), "???? ???? ????");
     }
 
     #[test]
     fn the_first_row_and_column_are_cleared_before_main() {
-        assert_eq!(cleared((-9, -9), (9, 9), false, Compat::Main), ".... .??? .???");
-        assert_eq!(cleared((-9, -9), (9, 9), false, Compat::Jazzy), "???? ???? ????");
+        assert_eq!(cleared((-9, -9), (9, 9), false, Nav2Release::Main), ".... .??? .???");
+        assert_eq!(cleared((-9, -9), (9, 9), false, Nav2Release::Jazzy), "???? ???? ????");
     }
 }

@@ -1,27 +1,27 @@
-//! How the cells of a layer get into those of the costmap.
+//! Combination of the grid of a layer with the master grid.
 //!
 //! Source: `nav2_costmap_2d/src/costmap_layer.cpp`.
 
 use crate::cost::{INSCRIBED, UNKNOWN};
-use crate::{Costmap, Window};
+use crate::{CellWindow, Costmap};
 
-/// What comes of an old cost and a layer's cost.
+/// Rule that combines an old cost with the cost of a layer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Combination {
-    /// What the layer knows, in the place of what was there.
+    /// Known costs of the layer overwrite.
     Overwrite,
-    /// The higher one; what is unknown gives way.
+    /// The maximum; unknown cells of either grid are ignored.
     Max,
-    /// The higher one, and unknown stays unknown.
+    /// The maximum; unknown cells of the master grid stay unknown.
     MaxOfKnown,
-    /// The layer's cell whatever it is, unknown as well.
+    /// Copies the layer, unknown cells included.
     Copy,
-    /// The sum, below inscribed.
+    /// The sum, limited to below inscribed.
     Sum,
 }
 
 impl Combination {
-    /// By the number that parameters have; others are taken as 1.
+    /// Converts the value of `combination_method`; unknown values become 1.
     #[must_use]
     pub fn from_number(number: i64) -> Self {
         match number {
@@ -39,7 +39,7 @@ impl Combination {
             Self::Copy => new,
             _ if new == UNKNOWN => old,
             Self::Overwrite => new,
-            // Unknown is the highest number and the least that can be said.
+            // Unknown is the highest number but the lowest knowledge.
             Self::Max => {
                 if old == UNKNOWN {
                     new
@@ -57,7 +57,7 @@ impl Combination {
     }
 
     /// Combines a window of two grids with the same cells.
-    pub fn apply(self, master: &mut Costmap, layer: &Costmap, window: &Window) {
+    pub fn apply(self, master: &mut Costmap, layer: &Costmap, window: &CellWindow) {
         debug_assert_eq!(master.info().width, layer.info().width);
         for span in window.spans(layer.info().width) {
             let olds = &mut master.costs_mut()[span.clone()];
@@ -73,7 +73,7 @@ impl Combination {
     }
 }
 
-/// Inlined for each combination, so that the loop has no branches left.
+/// Inlined for each combination, which removes the branches from the loop.
 #[inline(always)]
 fn merge(combination: Combination, olds: &mut [u8], news: &[u8]) {
     for (old, new) in olds.iter_mut().zip(news) {

@@ -6,9 +6,9 @@
 use std::fmt;
 use std::str::FromStr;
 
-/// A release of Nav2.
+/// Release of Nav2.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Compat {
+pub enum Nav2Release {
     /// ROS 2 Humble (2022).
     Humble,
     /// ROS 2 Jazzy (2024) up to Nav2 1.3.10.
@@ -22,41 +22,43 @@ pub enum Compat {
     Main,
 }
 
-/// Measure by which an obstacle layer decides that a point is too far away or too near to mark.
+/// Measure by which an obstacle layer decides whether a point is in the range for marking.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum RangeMeasure {
-    /// Whole cells on the ground, both limits included.
+    /// Whole cells in the plane, both limits included.
     Cells,
-    /// Metres on the ground and whole cells, both limits included.
+    /// Metres in the plane and whole cells, both limits included.
     GroundAndCells,
-    /// Metres in space, the upper limit excluded. The sensor may be outside of the grid.
+    /// Metres in space, the upper limit excluded. The sensor may be outside the grid.
     Space,
 }
 
-impl Compat {
-    /// All of them, oldest first.
+impl Nav2Release {
+    /// All releases, oldest first.
     pub const ALL: [Self; 5] =
         [Self::Humble, Self::EarlyJazzy, Self::Jazzy, Self::Kilted, Self::Main];
 
-    /// Names that parameters and options take, among them those of other releases with the same
-    /// behaviour.
+    /// Names of releases in parameters and options, including those of other distributions with the
+    /// same behaviour.
     pub const NAMES: [&str; 8] =
         ["humble", "iron", "jazzy-1.3.10", "jazzy", "kilted", "lyrical", "rolling", "main"];
 
-    /// Number of cells by which the length of a grid is taken shorter than it is, when half of it is put
-    /// on either side of the robot: before main, `getSizeInMeters` ended in the middle of the last cell.
+    /// Returns the number of cells by which a grid is assumed shorter than it is when it is centred
+    /// on the robot: before main, `getSizeInMeters` ended in the middle of the last cell.
     #[must_use]
     pub fn missing_cells(self) -> f64 {
         if self == Self::Main { 0.0 } else { 0.5 }
     }
 
-    /// True if distances to obstacles are rounded to hundredths of a cell before they become costs.
+    /// Returns true if distances to obstacles are rounded to hundredths of a cell before costs are
+    /// computed.
     #[must_use]
     pub fn rounds_distances(self) -> bool {
         self == Self::Main
     }
 
-    /// Measure of the obstacle range of an obstacle layer. Voxel layers always measure in space.
+    /// Returns the measure of the obstacle range of an obstacle layer. Voxel layers always measure
+    /// in space.
     #[must_use]
     pub fn range_measure(self) -> RangeMeasure {
         match self {
@@ -66,129 +68,131 @@ impl Compat {
         }
     }
 
-    /// True if 99 in a map is an inscribed cell.
+    /// Returns true if the value 99 in a map is inscribed.
     #[must_use]
     pub fn knows_inscribed_maps(self) -> bool {
         self == Self::Main
     }
 
-    /// True if the corners of an area to clear are computed without bounds and then clamped to the grid;
-    /// the other releases enforce the bounds of the grid on the points.
+    /// Returns true if the corners of an area to clear are computed without bounds and then clamped
+    /// to the grid; other releases clamp the points first.
     #[must_use]
     pub fn clamps_cleared_areas(self) -> bool {
         self >= Self::Kilted
     }
 
-    /// True if clear services take the names of layers and answer `success`.
+    /// Returns true if clear services have layer names in the request and `success` in the
+    /// response.
     #[must_use]
     pub fn clears_by_name(self) -> bool {
         self == Self::Main
     }
 
-    /// True if there is a service that clears around a pose.
+    /// Returns true if there is a service that clears around a pose.
     #[must_use]
     pub fn clears_around_poses(self) -> bool {
         matches!(self, Self::EarlyJazzy | Self::Jazzy | Self::Main)
     }
 
-    /// True if the cost service takes several poses in any frame (`GetCosts`).
+    /// Returns true if the cost service accepts several poses in any frame (`GetCosts`).
     #[must_use]
     pub fn answers_several_costs(self) -> bool {
         self >= Self::Kilted
     }
 
-    /// True if relative topics of layers are resolved beside the costmap's namespace, not in it.
+    /// Returns true if relative topics of layers are resolved in the parent namespace of the
+    /// costmap.
     #[must_use]
     pub fn joins_parent_namespace(self) -> bool {
         self >= Self::Kilted
     }
 
-    /// True if a static layer can restore the cells that it cleared under the robot.
+    /// Returns true if a static layer can restore the cells that it cleared under the robot.
     #[must_use]
     pub fn restores_cleared_footprint(self) -> bool {
         self >= Self::Kilted
     }
 
-    /// True if `restore_cleared_footprint` can only be set while the footprint is cleared.
+    /// Returns true if `restore_cleared_footprint` can only be set while the footprint is cleared.
     #[must_use]
     pub fn guards_restore_parameter(self) -> bool {
         self == Self::Main
     }
 
-    /// True if the update after one of the whole map (a reset, another footprint) only concerns what is
-    /// new then; the other releases inflate the bounds of that first update once more.
+    /// Returns true if the update after a full update (a reset, a new footprint) is limited to new
+    /// changes; other releases inflate the bounds of the full update once more.
     #[must_use]
     pub fn forgets_bounds_when_redone(self) -> bool {
         matches!(self, Self::Jazzy | Self::Main)
     }
 
-    /// True if the static layer of a rolling costmap asks for the window around the robot; the other
-    /// releases ask for the area of the map.
+    /// Returns true if the static layer of a rolling costmap requests the window around the robot;
+    /// other releases request the area of the map.
     #[must_use]
     pub fn follows_robot_with_map(self) -> bool {
         matches!(self, Self::Jazzy | Self::Main)
     }
 
-    /// True if a voxel layer ignores points below `min_obstacle_height`.
+    /// Returns true if a voxel layer ignores points below `min_obstacle_height`.
     #[must_use]
     pub fn has_lowest_voxel_height(self) -> bool {
         self != Self::Humble
     }
 
-    /// True if rays of a voxel layer that are cut at the edge of the grid end a little inside of it.
+    /// Returns true if rays of a voxel layer that are cut at the edge of the grid end slightly
+    /// inside it.
     #[must_use]
     pub fn shortens_cut_rays(self) -> bool {
         self != Self::Humble
     }
 
-    /// True if observation layers have combination method 2, and take unknown methods as 1. In Humble
-    /// such a layer writes nothing.
+    /// Returns true if observation layers support combination method 2 and treat unknown methods as
+    /// 1. In Humble such a layer writes nothing.
     #[must_use]
     pub fn knows_max_of_known(self) -> bool {
         self != Self::Humble
     }
 
-    /// True if each observation is dropped by its own age; the other releases drop the first one that is
-    /// too old together with all that came before it.
+    /// Returns true if each observation expires by its own age; other releases drop the first
+    /// expired one together with all older ones.
     #[must_use]
     pub fn drops_observations_one_by_one(self) -> bool {
         self == Self::Main
     }
 
-    /// Cost of a point outside of the costmap that the single cost service answers, where it differs
-    /// from that of a lethal cell.
+    /// Returns the cost of a point outside the costmap in the response of the single-cost service.
     #[must_use]
     pub fn cost_outside(self) -> f32 {
         if self.answers_several_costs() { 254.0 } else { -1.0 }
     }
 
-    /// True if a keepout filter can lower the cost of the zone in which the robot is, and enlarges an
-    /// update by the area of a new mask.
+    /// Returns true if a keepout filter can lower the cost of the zone in which the robot is, and
+    /// extends an update by the area of a new mask.
     #[must_use]
     pub fn updates_keepout_zones(self) -> bool {
         self != Self::Humble
     }
 
-    /// True if `publish_frequency` must stay above 0 while the costmap runs.
+    /// Returns true if `publish_frequency` must stay above 0 while the costmap runs.
     #[must_use]
     pub fn refuses_to_stop_publishing(self) -> bool {
         self == Self::Main
     }
 
-    /// True if a speed filter can look ahead on the path.
+    /// Returns true if a speed filter can look ahead on the path.
     #[must_use]
     pub fn looks_ahead_on_paths(self) -> bool {
         self == Self::Main
     }
 
-    /// True if the layers' own grids are published as well.
+    /// Returns true if the grids of the layers are published as well.
     #[must_use]
     pub fn publishes_layers(self) -> bool {
         self != Self::Humble
     }
 }
 
-impl fmt::Display for Compat {
+impl fmt::Display for Nav2Release {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(match self {
             Self::Humble => "humble",
@@ -200,7 +204,7 @@ impl fmt::Display for Compat {
     }
 }
 
-impl FromStr for Compat {
+impl FromStr for Nav2Release {
     type Err = String;
 
     fn from_str(text: &str) -> Result<Self, String> {
@@ -210,7 +214,7 @@ impl FromStr for Compat {
             "jazzy" => Ok(Self::Jazzy),
             "kilted" => Ok(Self::Kilted),
             "main" | "rolling" | "lyrical" => Ok(Self::Main),
-            _ => Err(format!("`{text}` is none of `{}`", Self::NAMES.join("`, `"))),
+            _ => Err(format!("`{text}` is not one of `{}`", Self::NAMES.join("`, `"))),
         }
     }
 }
@@ -221,13 +225,13 @@ mod tests {
 
     #[test]
     fn every_name_is_read_and_every_release_is_named() {
-        for name in Compat::NAMES {
-            assert!(name.parse::<Compat>().is_ok(), "{name}");
+        for name in Nav2Release::NAMES {
+            assert!(name.parse::<Nav2Release>().is_ok(), "{name}");
         }
-        for compat in Compat::ALL {
+        for compat in Nav2Release::ALL {
             assert_eq!(compat.to_string().parse(), Ok(compat));
-            assert!(Compat::NAMES.contains(&compat.to_string().as_str()));
+            assert!(Nav2Release::NAMES.contains(&compat.to_string().as_str()));
         }
-        assert!("jazzy-1.3.9".parse::<Compat>().unwrap_err().contains("jazzy-1.3.10"));
+        assert!("jazzy-1.3.9".parse::<Nav2Release>().unwrap_err().contains("jazzy-1.3.10"));
     }
 }

@@ -1,4 +1,4 @@
-//! From parameters to a costmap.
+//! Costmap configuration from parameters.
 
 mod build;
 mod kind;
@@ -12,75 +12,74 @@ use periplus_diagnostics::{Diagnostic, Diagnostics, Origin, Span};
 use periplus_grid::GridInfo;
 use periplus_params::{Given, ParamType, ParamValues, Table};
 
-use crate::{Compat, Footprint, Frame, SourceSettings, tables};
+use crate::{CostmapSettings, Footprint, Nav2Release, SourceSettings, tables};
 
-/// A costmap as somebody wants it.
+/// Configuration of a costmap.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Config {
-    /// Parameters of the node, by [`tables::COSTMAP`].
+pub struct CostmapConfig {
+    /// Parameters of the node, from [`tables::COSTMAP`].
     pub node: ParamValues,
-    /// Whose habits to keep.
-    pub compat: Compat,
-    /// Whose messages the services have, where distributions differ: those of `compat` if it was told,
-    /// else Jazzy's, as all messages here are.
-    pub forms: Compat,
+    /// Release of Nav2 whose behaviour is used.
+    pub compat: Nav2Release,
+    /// Release whose service types are used: that of `compat` if it is set explicitly, else Jazzy.
+    pub forms: Nav2Release,
     /// Layers, lowest first.
     pub layers: Vec<LayerConfig>,
     /// Filters, lowest first.
     pub filters: Vec<LayerConfig>,
-    /// The outline of the robot, padded.
+    /// Padded footprint of the robot.
     pub footprint: Footprint,
 }
 
-/// A layer or filter as somebody wants it.
+/// Configuration of a layer or filter.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LayerConfig {
-    /// Its name, with those of the containers around it.
+    /// Name, prefixed with those of its containers.
     pub name: String,
-    /// What it is.
+    /// Plugin.
     pub kind: LayerKind,
-    /// Its parameters.
+    /// Parameters.
     pub values: ParamValues,
-    /// What sees for it.
+    /// Observation sources.
     pub sources: Vec<SourceConfig>,
-    /// Layers within it.
+    /// Layers of a container.
     pub children: Vec<LayerConfig>,
 }
 
-/// A source as somebody wants it.
+/// Configuration of an observation source.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SourceConfig {
-    /// Its name.
+    /// Name.
     pub name: String,
-    /// Its parameters.
+    /// Parameters.
     pub values: ParamValues,
 }
 
 impl SourceConfig {
-    /// What its parameters say.
+    /// Converts the parameters.
     #[must_use]
     pub fn settings(&self) -> SourceSettings {
         SourceSettings::read(&self.name, &self.values)
     }
 }
 
-/// Containers within containers go no deeper.
-const DEEPEST: usize = 8;
+/// Maximum nesting depth of containers.
+const MAX_CONTAINER_DEPTH: usize = 8;
 
-/// What layers are called when nobody names others, with their plugins.
-const USUAL: [(&str, LayerKind); 3] = [
+/// Names and plugins of the default layers.
+const DEFAULT_LAYERS: [(&str, LayerKind); 3] = [
     ("static_layer", LayerKind::Static),
     ("obstacle_layer", LayerKind::Obstacle),
-    ("inflation_layer", LayerKind::Inflation),
+    ("inflation_layer", LayerKind::InflationSettings),
 ];
 
-impl Config {
-    /// Reads parameters: names with dots, such as `obstacle_layer.scan.topic`, and texts. What is
-    /// wrong is told with its place, and the rest is built; `compat` goes before a parameter of that
-    /// name.
+impl CostmapConfig {
+    /// Reads parameters given as names with dots, such as `obstacle_layer.scan.topic`, and texts.
+    /// Errors are reported with their positions, and the rest is built; `compat` overrides the
+    /// parameter of that name.
     pub fn read<'a>(
         given: impl IntoIterator<Item = Given<'a>>,
-        compat: Option<Compat>,
+        compat: Option<Nav2Release>,
         diagnostics: &mut Diagnostics,
     ) -> Self {
         let mut reading = Reading { tree: Tree::default(), diagnostics };
@@ -91,24 +90,24 @@ impl Config {
         reading.check_size(&node);
         let given = || node.text("compat").filter(|_| node.is_given("compat"));
         let told = compat.or_else(|| given().and_then(|text| text.parse().ok()));
-        let (compat, forms) = (told.unwrap_or_default(), told.unwrap_or(Compat::Jazzy));
+        let (compat, forms) = (told.unwrap_or_default(), told.unwrap_or(Nav2Release::Jazzy));
         let names = reading.names(&node, "plugins");
-        let is_usual = names.iter().map(String::as_str).eq(USUAL.map(|(name, _)| name));
-        let usual = if is_usual { &USUAL[..] } else { &[] };
-        let list = List { within: "", at: node.origin("plugins"), usual };
+        let is_usual = names.iter().map(String::as_str).eq(DEFAULT_LAYERS.map(|(name, _)| name));
+        let defaults = if is_usual { &DEFAULT_LAYERS[..] } else { &[] };
+        let list = List { within: "", at: node.origin("plugins"), defaults };
         let layers = reading.layers(&names, &list, compat, 0);
         let names = reading.names(&node, "filters");
-        let list = List { within: "", at: node.origin("filters"), usual: &[] };
+        let list = List { within: "", at: node.origin("filters"), defaults: &[] };
         let filters = reading.layers(&names, &list, compat, 0);
         let footprint = reading.footprint(&node);
         reading.warn_of_rest();
         Self { node, compat, forms, layers, filters, footprint }
     }
 
-    /// What holds for all layers.
+    /// Returns the settings shared by all layers.
     #[must_use]
-    pub fn frame(&self) -> Frame {
-        Frame {
+    pub fn frame(&self) -> CostmapSettings {
+        CostmapSettings {
             global_frame: self.node.text("global_frame").unwrap_or_default(),
             is_rolling: self.node.flag("rolling_window").unwrap_or_default(),
             tracks_unknown: self.node.flag("track_unknown_space").unwrap_or_default(),
@@ -116,14 +115,14 @@ impl Config {
         }
     }
 
-    /// The cells, if no map says otherwise.
+    /// Returns resolution, size and origin; a map may override them.
     #[must_use]
     pub fn info(&self) -> GridInfo {
         grid_info_of(&self.node)
     }
 }
 
-/// The cells that parameters of [`tables::COSTMAP`] ask for. Too many become none.
+/// Returns the grid of parameters of [`tables::COSTMAP`]; a grid that is too large becomes empty.
 #[must_use]
 pub(crate) fn grid_info_of(node: &ParamValues) -> GridInfo {
     let number = |name: &str| node.number(name).unwrap_or_default();
@@ -134,21 +133,21 @@ pub(crate) fn grid_info_of(node: &ParamValues) -> GridInfo {
     GridInfo::new(resolution_m, count("width"), count("height"), origin).unwrap_or(empty)
 }
 
-/// Names and texts, by the group in which they are.
+/// Names and texts, by parameter group.
 #[derive(Default)]
 struct Tree<'a> {
-    /// By group (`obstacle_layer.scan`, or nothing for the node) and then in order.
+    /// By group (`obstacle_layer.scan`, or empty for the node), then in order.
     groups: BTreeMap<String, Vec<Given<'a>>>,
 }
 
-/// A list of layers.
+/// A list of layer names.
 struct List<'a> {
-    /// The container that has it; empty for the node.
+    /// Container of the list; empty for the node.
     within: &'a str,
-    /// Where it is written.
+    /// Position in the file.
     at: Origin,
-    /// Layers that need no plugin.
-    usual: &'a [(&'a str, LayerKind)],
+    /// Default layers, which need no plugin.
+    defaults: &'a [(&'a str, LayerKind)],
 }
 
 struct Reading<'a, 'd> {
@@ -157,7 +156,7 @@ struct Reading<'a, 'd> {
 }
 
 impl<'a> Reading<'a, '_> {
-    /// As in ROS 2, what comes later wins.
+    /// As in ROS 2, the last value applies.
     fn add(&mut self, given: Given<'a>) {
         let (group, name) = given.name.rsplit_once('.').unwrap_or(("", given.name));
         let whole = given.name;
@@ -169,7 +168,7 @@ impl<'a> Reading<'a, '_> {
         self.diagnostics.push(
             Diagnostic::warning(
                 "repeated-parameter",
-                format!("`{whole}` is set twice; the last one counts"),
+                format!("`{whole}` is set twice; the last value applies"),
             )
             .at(given.name_origin)
             .related(earlier.name_origin, "first set here"),
@@ -177,45 +176,42 @@ impl<'a> Reading<'a, '_> {
         *earlier = given;
     }
 
-    /// Takes a parameter out of a group.
+    /// Removes a parameter from a group.
     fn take(&mut self, group: &str, name: &str) -> Option<Given<'a>> {
         let entries = self.tree.groups.get_mut(group)?;
         let index = entries.iter().position(|entry| entry.name == name)?;
         Some(entries.remove(index))
     }
 
-    /// Reads a group by a table; `at` is the place to show when something is missing in it.
+    /// Reads a group by a table; `at` is the position of errors about missing parameters.
     fn values(&mut self, table: &'static Table, group: &str, at: Origin) -> ParamValues {
         let mut entries = self.tree.groups.remove(group).unwrap_or_default();
         let prefix = if group.is_empty() { String::new() } else { format!("{group}.") };
         if group.is_empty() {
-            // These are told apart once all layers have been read.
+            // Unused parameters are sorted once all layers have been read.
             let (known, rest) =
                 entries.into_iter().partition(|entry| table.find(entry.name).is_some());
             entries = known;
             self.tree.groups.insert(String::new(), rest);
         }
         for entry in &mut entries {
-            self.forgive(table, entry, &prefix);
+            self.accept_old_spelling(table, entry, &prefix);
         }
         table.check(entries, at.0, self.diagnostics)
     }
 
-    /// Old names and other kinds of numbers are taken, and told.
-    fn forgive(&mut self, table: &'static Table, entry: &mut Given<'a>, prefix: &str) {
+    /// Accepts old names and other number types with a warning.
+    fn accept_old_spelling(&mut self, table: &'static Table, entry: &mut Given<'a>, prefix: &str) {
         let Some(parameter) = table.find(entry.name) else { return };
         if parameter.name != entry.name {
             self.diagnostics.push(
-                Diagnostic::hint(
-                    "ros1-name",
-                    format!("`{prefix}{}` is the name of ROS 1", entry.name),
-                )
-                .at(entry.name_origin)
-                .replace(
-                    entry.name_origin,
-                    parameter.name,
-                    format!("Nav2 calls it `{}`", parameter.name),
-                ),
+                Diagnostic::hint("ros1-name", format!("`{prefix}{}` is a ROS 1 name", entry.name))
+                    .at(entry.name_origin)
+                    .replace(
+                        entry.name_origin,
+                        parameter.name,
+                        format!("Nav2 calls it `{}`", parameter.name),
+                    ),
             );
         }
         let text = entry.text.trim();
@@ -228,7 +224,7 @@ impl<'a> Reading<'a, '_> {
             let message = if number == whole {
                 format!("`{prefix}{}` is written as {text}, and must be a whole number", entry.name)
             } else {
-                format!("`{prefix}{}`: {text} is no whole number, taken as {whole}", entry.name)
+                format!("`{prefix}{}`: {text} is not a whole number; {whole} is used", entry.name)
             };
             self.diagnostics.push(
                 Diagnostic::warning("not-whole", message)
@@ -247,7 +243,7 @@ impl<'a> Reading<'a, '_> {
                 self.diagnostics.push(
                     Diagnostic::warning(
                         "layer-twice",
-                        format!("`{name}` is in `{parameter}` twice"),
+                        format!("`{name}` is listed twice in `{parameter}`"),
                     )
                     .at(values.origin(parameter))
                     .note("it is used once"),
@@ -263,10 +259,10 @@ impl<'a> Reading<'a, '_> {
         &mut self,
         names: &[String],
         list: &List<'_>,
-        compat: Compat,
+        compat: Nav2Release,
         depth: usize,
     ) -> Vec<LayerConfig> {
-        let List { within, at, usual } = *list;
+        let List { within, at, defaults } = *list;
         let mut layers = Vec::new();
         for name in names {
             let full = if within.is_empty() { name.clone() } else { format!("{within}.{name}") };
@@ -275,8 +271,8 @@ impl<'a> Reading<'a, '_> {
             let kind = match plugin {
                 Some(plugin) => self.kind(&full, &plugin),
                 None => {
-                    let usual = usual.iter().find(|(usual, _)| usual == name);
-                    if usual.is_none() {
+                    let defaults = defaults.iter().find(|(defaults, _)| defaults == name);
+                    if defaults.is_none() {
                         self.diagnostics.push(
                             Diagnostic::error("no-plugin", format!("`{full}.plugin` is not set"))
                                 .at(at)
@@ -287,7 +283,7 @@ impl<'a> Reading<'a, '_> {
                                 )),
                         );
                     }
-                    usual.map(|(_, kind)| *kind)
+                    defaults.map(|(_, kind)| *kind)
                 }
             };
             let Some(kind) = kind else {
@@ -304,7 +300,7 @@ impl<'a> Reading<'a, '_> {
         name: String,
         kind: LayerKind,
         named_at: Origin,
-        compat: Compat,
+        compat: Nav2Release,
         depth: usize,
     ) -> LayerConfig {
         let values = self.values(kind.table(), &name, named_at);
@@ -324,7 +320,7 @@ impl<'a> Reading<'a, '_> {
                 self.diagnostics.push(
                     Diagnostic::warning("no-sources", format!("layer `{name}` has no sources"))
                         .at(place("observation_sources"))
-                        .note("it will never see an obstacle")
+                        .note("it marks no obstacles")
                         .help(format!("set `{name}.observation_sources`, for example to `scan`")),
                 );
             }
@@ -339,13 +335,13 @@ impl<'a> Reading<'a, '_> {
         let mut children = Vec::new();
         if kind == LayerKind::Container {
             let names = self.names(&values, "plugins");
-            if depth < DEEPEST {
-                let list = List { within: &name, at: place("plugins"), usual: &[] };
+            if depth < MAX_CONTAINER_DEPTH {
+                let list = List { within: &name, at: place("plugins"), defaults: &[] };
                 children = self.layers(&names, &list, compat, depth + 1);
             } else {
                 self.diagnostics.push(Diagnostic::error(
                     "too-deep",
-                    format!("`{name}` is a container within {DEEPEST} others; it stays empty"),
+                    format!("`{name}` is nested in {MAX_CONTAINER_DEPTH} containers, the maximum; it stays empty"),
                 ));
             }
         }
@@ -359,7 +355,7 @@ impl<'a> Reading<'a, '_> {
         let tall = values.number("max_obstacle_height").unwrap_or_default();
         let low = values.number("min_obstacle_height").unwrap_or_default();
         if tall <= low {
-            // The first of the pains: everything is dropped, and nothing says so.
+            // The most frequent mistake: all points are dropped without a message.
             let origin = if values.is_given("max_obstacle_height") {
                 values.origin("max_obstacle_height")
             } else {
@@ -368,10 +364,10 @@ impl<'a> Reading<'a, '_> {
             self.diagnostics.push(
                 Diagnostic::warning(
                     "nothing-fits",
-                    format!("`{group}` takes points from {low} m to {tall} m: none, or hardly any"),
+                    format!("`{group}` accepts points from {low} m to {tall} m: none, or hardly any"),
                 )
                 .at(origin)
-                .note("heights are measured in the global frame, and points beyond are dropped for marking and clearing")
+                .note("heights are measured in the global frame; points outside are dropped for marking and clearing")
                 .help(format!("set `{group}.max_obstacle_height`, for example to 2.0")),
             );
         }
@@ -379,10 +375,10 @@ impl<'a> Reading<'a, '_> {
             self.diagnostics.push(
                 Diagnostic::warning(
                     "no-source",
-                    format!("nothing is set under `{group}`; it has all defaults"),
+                    format!("no parameter is set under `{group}`; all defaults apply"),
                 )
                 .at(named_at)
-                .note(format!("it listens to the topic `{name}`")),
+                .note(format!("it subscribes to the topic `{name}`")),
             );
         }
         if values.number("raytrace_max_range") < values.number("obstacle_max_range")
@@ -391,10 +387,10 @@ impl<'a> Reading<'a, '_> {
             self.diagnostics.push(
                 Diagnostic::hint(
                     "marks-beyond-clearing",
-                    format!("`{group}` marks further than it clears"),
+                    format!("`{group}` has an obstacle range above its raytrace range"),
                 )
                 .at(values.origin("obstacle_max_range"))
-                .note("what it marks beyond `raytrace_max_range` is never cleared from where it was seen")
+                .note("obstacles marked beyond `raytrace_max_range` are not cleared from the same position")
                 .help("set `raytrace_max_range` above `obstacle_max_range`"),
             );
         }
@@ -402,7 +398,7 @@ impl<'a> Reading<'a, '_> {
             self.diagnostics.push(
                 Diagnostic::warning("transport", format!("`{group}.transport_type` must be `raw`"))
                     .at(values.origin("transport_type"))
-                    .help("publish the cloud unpacked as well"),
+                    .help("publish the cloud uncompressed as well"),
             );
         }
         SourceConfig { name, values }
@@ -415,7 +411,7 @@ impl<'a> Reading<'a, '_> {
                 self.diagnostics.push(
                     Diagnostic::hint(
                         "ros1-name",
-                        format!("`{}` is the name of ROS 1", plugin.text.trim()),
+                        format!("`{}` is a ROS 1 name", plugin.text.trim()),
                     )
                     .at(plugin.origin)
                     .replace(
@@ -469,7 +465,7 @@ impl<'a> Reading<'a, '_> {
                     "`footprint` is empty and `robot_radius` is 0: the robot is a point",
                 )
                 .at(node.origin("robot_radius"))
-                .note("nothing is inscribed, so that plans may lead along every wall")
+                .note("the inscribed radius is 0, so plans may lead along every wall")
                 .help("set `footprint`, or `robot_radius` to half the robot's width"),
             );
         }
@@ -479,13 +475,13 @@ impl<'a> Reading<'a, '_> {
         footprint.padded(padding_m)
     }
 
-    /// Forgets what is said of a layer that is left out.
+    /// Drops the messages about a layer that is left out.
     fn forget(&mut self, layer: &str) {
         let within = format!("{layer}.");
         self.tree.groups.retain(|group, _| group != layer && !group.starts_with(&within));
     }
 
-    /// Nobody has read these.
+    /// Warns about parameters that no layer reads.
     fn warn_of_rest(&mut self) {
         for (group, entries) in std::mem::take(&mut self.tree.groups) {
             if group.is_empty() {
@@ -498,25 +494,25 @@ impl<'a> Reading<'a, '_> {
                 let span: Option<Span> = entry.name_origin.0;
                 let mut hint = Diagnostic::hint(
                     "unused-group",
-                    format!("nobody reads `{group}`: no layer or source has this name"),
+                    format!("no layer or source is named `{group}`; its parameters are unused"),
                 );
                 hint.span = span;
                 self.diagnostics.push(hint.help(
-                    "name it in `plugins`, `filters` or `observation_sources`, or take it out",
+                    "name it in `plugins`, `filters` or `observation_sources`, or remove it",
                 ));
             }
         }
     }
 }
 
-/// What every node of ROS 2 has.
+/// Returns true for parameters of every ROS 2 node.
 fn is_common(name: &str) -> bool {
     ["qos_overrides", "diagnostic_updater", "start_type_description_service"]
         .iter()
         .any(|common| name.starts_with(common))
 }
 
-/// The outline without padding, and what is wrong with it.
+/// Returns the footprint without padding, and an error in it.
 pub(crate) fn footprint_of(node: &ParamValues) -> (Footprint, Option<Diagnostic>) {
     let circle = Footprint::circle(node.number("robot_radius").unwrap_or_default());
     let text = node.text("footprint").unwrap_or_default();
@@ -528,7 +524,7 @@ pub(crate) fn footprint_of(node: &ParamValues) -> (Footprint, Option<Diagnostic>
         Err(why) => {
             let complaint = Diagnostic::error("bad-footprint", format!("`footprint`: {why}"))
                 .at(node.origin("footprint"))
-                .note("`robot_radius` stands in for it")
+                .note("`robot_radius` is used instead")
                 .help("write corners in order, such as \"[[0.2, 0.1], [0.2, -0.1], [-0.2, -0.1], [-0.2, 0.1]]\"");
             (circle, Some(complaint))
         }

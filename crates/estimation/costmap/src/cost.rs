@@ -1,26 +1,26 @@
-//! What the numbers in the cells mean, and how they become the numbers of maps.
+//! Cost values and their conversion to occupancy values.
 //!
 //! Source: `nav2_costmap_2d/cost_values.hpp`, `costmap_2d_publisher.cpp`, `costmap_2d.cpp`.
 
-/// Nobody knows what is there.
+/// `NO_INFORMATION`: unknown cell.
 pub const UNKNOWN: u8 = 255;
-/// An obstacle.
+/// `LETHAL_OBSTACLE`: cell with an obstacle.
 pub const LETHAL: u8 = 254;
-/// A robot whose centre is here touches an obstacle, whichever way it is turned.
+/// `INSCRIBED_INFLATED_OBSTACLE`: a robot centred here collides in any orientation.
 pub const INSCRIBED: u8 = 253;
-/// The highest cost that is no certain collision.
-pub const MOST_PASSABLE: u8 = 252;
-/// Nothing is there.
+/// `MAX_NON_OBSTACLE`: highest cost without a certain collision.
+pub const MAX_NON_OBSTACLE: u8 = 252;
+/// `FREE_SPACE`: free cell.
 pub const FREE: u8 = 0;
 
-/// What `nav_msgs/OccupancyGrid` says of a cost: 0 free, 1 to 98 graded, 99 inscribed, 100 lethal, -1
-/// unknown.
+/// Converts a cost to a value of `nav_msgs/OccupancyGrid`: 0 free, 1 to 98 graded, 99 inscribed,
+/// 100 lethal, -1 unknown.
 #[must_use]
 pub fn occupancy_of(cost: u8) -> i8 {
-    OCCUPANCY[usize::from(cost)]
+    OCCUPANCY_PERCENT[usize::from(cost)]
 }
 
-const OCCUPANCY: [i8; 256] = {
+const OCCUPANCY_PERCENT: [i8; 256] = {
     let mut table = [0; 256];
     let mut cost = 1;
     while cost < 253 {
@@ -33,8 +33,8 @@ const OCCUPANCY: [i8; 256] = {
     table
 };
 
-/// The cost that a cell of a filter mask, or of a costmap published as a map, stands for. Numbers
-/// above 100 are lethal, those below -1 unknown.
+/// Converts a value of a filter mask, or of a costmap published as a map, to a cost. Values above
+/// 100 are lethal, those below -1 unknown.
 #[must_use]
 pub fn cost_of(occupancy: i8) -> u8 {
     match occupancy {

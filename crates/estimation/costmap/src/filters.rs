@@ -1,4 +1,4 @@
-//! Filters: layers over all others, that follow a mask drawn by somebody.
+//! Costmap filters: layers on top of all others that apply a mask.
 
 mod binary;
 mod keepout;
@@ -7,5 +7,5 @@ mod speed;
 
 pub use binary::BinaryFilter;
 pub use keepout::KeepoutFilter;
-pub use mask::{FilterInfo, FilterKind, Mask, Masked};
+pub use mask::{FilterInfo, FilterKind, FilterMask, MaskFilter};
 pub use speed::{SpeedFilter, SpeedLimit};

@@ -1,4 +1,4 @@
-//! The outline of a robot on the ground.
+//! Footprint of the robot.
 //!
 //! Source: `nav2_costmap_2d/src/footprint.cpp`, `array_parser.cpp`, `footprint_collision_checker.cpp`.
 
@@ -9,35 +9,35 @@ use periplus_grid::{Cell, Line};
 
 use crate::{Costmap, cost};
 
-/// Corners of a circle.
+/// Number of corners of a circle; the value of Nav2.
 const CIRCLE_CORNERS: usize = 16;
 
-/// An outline in the frame of the robot's base, with the radii that follow from it.
+/// Polygon in the base frame of the robot, with the radii that follow from it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Footprint {
     points: Vec<[f64; 2]>,
-    /// Of the largest circle about the base that lies within \[m\].
+    /// Radius of the largest circle around the base inside the footprint \[m\].
     pub inscribed_radius_m: f64,
-    /// Of the smallest circle about the base that holds it \[m\].
+    /// Radius of the smallest circle around the base that contains the footprint \[m\].
     pub circumscribed_radius_m: f64,
 }
 
 impl Default for Footprint {
-    /// No outline; the radii are those with which a layered costmap of Nav2 begins.
+    /// No polygon; the radii are the initial values of a layered costmap of Nav2.
     fn default() -> Self {
         Self { points: Vec::new(), inscribed_radius_m: 0.1, circumscribed_radius_m: 1.0 }
     }
 }
 
 impl Footprint {
-    /// From corners \[m\], in order around the robot.
+    /// Creates a footprint from corners \[m\], in order around the robot.
     #[must_use]
     pub fn new(points: Vec<[f64; 2]>) -> Self {
         let (inscribed_radius_m, circumscribed_radius_m) = radii(&points);
         Self { points, inscribed_radius_m, circumscribed_radius_m }
     }
 
-    /// A circle, as a polygon with 16 corners.
+    /// Creates a circle, as a polygon with 16 corners.
     #[must_use]
     pub fn circle(radius_m: f64) -> Self {
         let corner = |index: usize| {
@@ -47,11 +47,10 @@ impl Footprint {
         Self::new((0..CIRCLE_CORNERS).map(corner).collect())
     }
 
-    /// From a text such as `[[0.2, 0.1], [0.2, -0.1], [-0.2, 0]]`. Numbers pass through single
-    /// precision, as they do in Nav2.
-    ///
+    /// Parses a text such as `[[0.2, 0.1], [0.2, -0.1], [-0.2, 0]]`. As in Nav2, numbers are
+    /// rounded to single precision.
     /// # Errors
-    /// What is wrong with it, in words.
+    /// A description of the mistake.
     pub fn read(text: &str) -> Result<Self, String> {
         let points = read_points(text)?;
         match points.len() {
@@ -60,23 +59,23 @@ impl Footprint {
         }
     }
 
-    /// Every coordinate further from the base by a padding \[m\].
+    /// Returns the footprint with every coordinate moved away from the base by a padding \[m\].
     #[must_use]
     pub fn padded(&self, padding_m: f64) -> Self {
-        // Also coordinates that are zero but for rounding are moved by the whole padding.
+        // Coordinates that are zero but for rounding are moved by the whole padding as well.
         let away = |at: f64| {
             if at == 0.0 { at } else { at + padding_m * at.signum() }
         };
         Self::new(self.points.iter().map(|[x, y]| [away(*x), away(*y)]).collect())
     }
 
-    /// The corners, in the frame of the base \[m\].
+    /// Returns the corners, in the base frame \[m\].
     #[must_use]
     pub fn points(&self) -> &[[f64; 2]] {
         &self.points
     }
 
-    /// The corners in the global frame \[m\] of a robot at `global_from_base`.
+    /// Returns the corners in the global frame \[m\] of a robot at `global_from_base`.
     #[must_use]
     pub fn placed(&self, global_from_base: Pose2) -> Vec<[f64; 2]> {
         let (sine, cosine) = libm::sincos(global_from_base.yaw_rad);
@@ -89,16 +88,16 @@ impl Footprint {
         self.points.iter().map(place).collect()
     }
 
-    /// The cost under the outline of a robot at a pose, as [`outline_cost`] has it.
+    /// Returns the cost of the footprint at a pose; see [`outline_cost`].
     #[must_use]
     pub fn cost(&self, costmap: &Costmap, global_from_base: Pose2) -> u8 {
         outline_cost(costmap, &self.placed(global_from_base))
     }
 }
 
-/// The cost of the outline of a polygon in the global frame \[m\]: the highest of its sides, up to the
-/// first one that is lethal. A side with a lethal cell is lethal, also if it has unknown cells, and so is
-/// a corner outside. Cells within the outline do not count.
+/// Returns the cost of the outline of a polygon in the global frame \[m\]: the highest cost along
+/// its sides, up to the first lethal one. A side with a lethal cell is lethal even if it has
+/// unknown cells; a corner outside the grid is lethal. Cells inside the outline are ignored.
 #[must_use]
 pub fn outline_cost(costmap: &Costmap, corners: &[[f64; 2]]) -> u8 {
     let finder = costmap.finder();
@@ -116,7 +115,7 @@ pub fn outline_cost(costmap: &Costmap, corners: &[[f64; 2]]) -> u8 {
     highest
 }
 
-/// The highest cost on a line of cells, or lethal if one of them is.
+/// Returns the highest cost on a line of cells, or lethal if one of them is.
 fn side_cost(costmap: &Costmap, start: Cell, end: Cell) -> u8 {
     let mut highest = cost::FREE;
     for cost in Line::between(start, end).filter_map(|cell| costmap.cost(cell)) {
@@ -128,8 +127,8 @@ fn side_cost(costmap: &Costmap, start: Cell, end: Cell) -> u8 {
     highest
 }
 
-/// Distances from the base of what is nearest and of the furthest corner \[m\]. Fewer than three
-/// corners hold nothing: the first is then `f64::MAX` and the second 0.
+/// Returns the distance from the base to the nearest point of the outline and to the furthest
+/// corner \[m\]. With fewer than three corners they are `f64::MAX` and 0.
 #[must_use]
 pub fn radii(points: &[[f64; 2]]) -> (f64, f64) {
     if points.len() < 3 {
@@ -146,17 +145,17 @@ pub fn radii(points: &[[f64; 2]]) -> (f64, f64) {
     (nearest, furthest)
 }
 
-/// Distance of the origin to the line between two points \[m\].
+/// Returns the distance of the origin to the line between two points \[m\].
 fn distance_to_side(start: [f64; 2], end: [f64; 2]) -> f64 {
     let (along_x, along_y) = (end[0] - start[0], end[1] - start[1]);
     let length_squared = along_x * along_x + along_y * along_y;
     let part = -(start[0] * along_x + start[1] * along_y) / length_squared;
-    // Of two equal corners the part is no number, and the comparison below takes the first.
+    // For two equal corners the fraction is NaN, and the comparison below selects the first.
     let part = if part > 0.0 { part.min(1.0) } else { 0.0 };
     libm::hypot(start[0] + part * along_x, start[1] + part * along_y)
 }
 
-/// Lists of numbers in brackets; commas, blanks and tabs separate.
+/// Parses lists of numbers in brackets, separated by commas, blanks and tabs.
 fn read_points(text: &str) -> Result<Vec<[f64; 2]>, String> {
     let mut points = Vec::new();
     let mut numbers: Vec<f64> = Vec::new();
@@ -182,11 +181,11 @@ fn read_points(text: &str) -> Result<Vec<[f64; 2]>, String> {
                 let end = rest.find([',', ' ', '\t', '\n', '\r', '[', ']']).unwrap_or(rest.len());
                 let (word, after) = rest.split_at(end);
                 if depth < 2 {
-                    return Err(format!("`{word}` stands outside of a corner's brackets"));
+                    return Err(format!("`{word}` is outside the brackets of a corner"));
                 }
-                let number: f32 = word.parse().map_err(|_| format!("`{word}` is no number"))?;
+                let number: f32 = word.parse().map_err(|_| format!("`{word}` is not a number"))?;
                 if !number.is_finite() {
-                    return Err(format!("`{word}` is no finite number"));
+                    return Err(format!("`{word}` is not a finite number"));
                 }
                 numbers.push(f64::from(number));
                 rest = after;
@@ -214,13 +213,13 @@ mod tests {
     }
 
     #[test]
-    fn what_is_wrong_with_a_footprint_is_said() {
+    fn mistakes_in_a_footprint_are_reported() {
         let wrong = |text: &str| Footprint::read(text).unwrap_err();
         assert_eq!(wrong("[]"), "it has 0 corners, and a footprint needs at least three");
         assert_eq!(wrong("[[1, 2, 3]]"), "a corner needs x and y, and one has 3 numbers");
-        assert_eq!(wrong("[[1, a]]"), "`a` is no number");
-        assert_eq!(wrong("[[1, nan]]"), "`nan` is no finite number");
-        assert_eq!(wrong("[1, 2]"), "`1` stands outside of a corner's brackets");
+        assert_eq!(wrong("[[1, a]]"), "`a` is not a number");
+        assert_eq!(wrong("[[1, nan]]"), "`nan` is not a finite number");
+        assert_eq!(wrong("[1, 2]"), "`1` is outside the brackets of a corner");
         assert_eq!(wrong("[[1, 2]"), "a bracket is not closed");
         assert_eq!(wrong("]"), "a bracket closes that was not opened");
         assert!(wrong("[[[").contains("deeper"));

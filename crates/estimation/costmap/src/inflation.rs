@@ -1,8 +1,8 @@
-//! Costs that fall with the distance from obstacles.
+//! Inflation: costs that decrease with the distance from obstacles.
 //!
-//! [`inflate`] is exact: every cell gets the cost of its Euclidean distance to the nearest obstacle,
-//! as the distance transform of Nav2's main branch gives it, and as the wavefront of earlier ones
-//! would but for its rare detours.
+//! [`inflate`] is exact: every cell gets the cost of its Euclidean distance to the nearest
+//! obstacle. The result equals that of the distance transform of Nav2's main branch, and of the
+//! wavefront of earlier releases but for the wavefront's rare detours.
 
 mod near;
 mod table;
@@ -12,48 +12,48 @@ pub use table::CostTable;
 use periplus_grid::{Grid, GridInfo, squared_distances};
 
 use crate::cost::{LETHAL, UNKNOWN};
-use crate::{Costmap, Window};
+use crate::{CellWindow, Costmap};
 
-use near::{Near, Squares};
+use near::{NearBuffers, Squares};
 
-/// Larger radii \[cells\] go the slow way: their squares do not fit into 16 bits.
-const MOST_NEAR: u32 = 254;
+/// Maximum radius of the fast algorithm \[cells\]: squares of larger radii do not fit into 16 bits.
+const MAX_FAST_RADIUS_CELLS: u32 = 254;
 
-/// Up to this radius \[cells\] squares fit into a byte.
-const MOST_IN_BYTES: u32 = 15;
+/// Maximum radius whose squares fit into a byte \[cells\].
+const MAX_BYTE_RADIUS_CELLS: u32 = 15;
 
-/// How to inflate.
+/// Inflation settings.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Inflation {
-    /// Whether unknown cells get any cost, not only certain collisions.
+pub struct InflationSettings {
+    /// True if unknown cells get all costs, false if only certain collisions.
     pub into_unknown: bool,
-    /// Whether unknown cells are obstacles.
+    /// True if unknown cells are inflated like obstacles.
     pub around_unknown: bool,
 }
 
-/// What inflating needs and may keep for the next time.
+/// Reusable buffers.
 #[derive(Clone, Debug, Default)]
-pub struct Scratch {
-    near: Near,
+pub struct InflationBuffers {
+    near: NearBuffers,
 }
 
-/// Gives each cell of a window the cost of its distance to the nearest lethal cell, unless it has a
-/// higher one. Obstacles beyond the window count as far as the table reaches.
-///
-/// The time is that of reading the window and its surroundings a few times, whatever the map's size.
+/// Sets each cell of a window to the cost of its distance to the nearest lethal cell, unless its
+/// cost is higher. Obstacles outside the window count up to the radius of the table.
+/// The run time is that of reading the window and its margin a few times, whatever the size of the
+/// map.
 pub fn inflate(
     master: &mut Costmap,
-    window: &Window,
+    window: &CellWindow,
     table: &CostTable,
-    how: Inflation,
-    scratch: &mut Scratch,
+    how: InflationSettings,
+    scratch: &mut InflationBuffers,
 ) {
     let info = *master.info();
-    let window = window.intersection(&Window::all(&info));
+    let window = window.intersection(&CellWindow::all(&info));
     if window.is_empty() || table.radius_cells() == 0 {
         return;
     }
-    if table.radius_cells() > MOST_NEAR {
+    if table.radius_cells() > MAX_FAST_RADIUS_CELLS {
         return inflate_far(master, &window, table, how);
     }
     let lowest_of_unknown = if how.into_unknown { 1 } else { crate::cost::INSCRIBED };
@@ -61,18 +61,18 @@ pub fn inflate(
     let area = window.grown(table.radius_cells() as usize, &info);
     let near = &mut scratch.near;
     let costs = master.costs_mut();
-    if table.radius_cells() <= MOST_IN_BYTES {
+    if table.radius_cells() <= MAX_BYTE_RADIUS_CELLS {
         near.run::<u8>(costs, info.width, &window, &area, table, how, &write);
     } else {
         near.run::<u16>(costs, info.width, &window, &area, table, how, &write);
     }
 }
 
-/// Puts costs into cells.
+/// Writer of costs.
 struct Write<'a> {
     /// By squared distance \[cells\].
     costs: &'a [u8],
-    /// An unknown cell gets no lower cost.
+    /// Minimum cost that overwrites an unknown cell.
     lowest_of_unknown: u8,
 }
 
@@ -89,19 +89,24 @@ impl Write<'_> {
     #[inline(always)]
     fn row<S: Squares>(&self, cells: &mut [u8], squares: &[S]) {
         for (cell, square) in cells.iter_mut().zip(squares) {
-            // Beyond the table there is nothing to give.
+            // Distances beyond the table have no cost.
             let cost = self.costs.get(square.index()).copied().unwrap_or(0);
             *cell = self.combine(*cell, cost);
         }
     }
 }
 
-fn is_obstacle(cost: u8, how: Inflation) -> bool {
+fn is_obstacle(cost: u8, how: InflationSettings) -> bool {
     cost == LETHAL || (how.around_unknown && cost == UNKNOWN)
 }
 
-/// The same for any radius.
-fn inflate_far(master: &mut Costmap, window: &Window, table: &CostTable, how: Inflation) {
+/// Inflation with any radius.
+fn inflate_far(
+    master: &mut Costmap,
+    window: &CellWindow,
+    table: &CostTable,
+    how: InflationSettings,
+) {
     let info = *master.info();
     let radius = usize::try_from(table.radius_cells()).unwrap_or(usize::MAX);
     let area = window.grown(radius, &info);
@@ -126,7 +131,7 @@ mod tests {
     use proptest::prelude::*;
 
     use super::*;
-    use crate::Compat;
+    use crate::Nav2Release;
     use crate::cost::INSCRIBED;
 
     fn costmap(width: usize, cells: &[u8]) -> Costmap {
@@ -139,9 +144,9 @@ mod tests {
     /// By the definition: for every cell of the window all cells of the grid.
     fn brute_force(
         before: &Costmap,
-        window: &Window,
+        window: &CellWindow,
         table: &CostTable,
-        how: Inflation,
+        how: InflationSettings,
     ) -> Vec<u8> {
         let width = before.info().width;
         let mut after = before.costs().to_vec();
@@ -185,11 +190,11 @@ mod tests {
             let mut costmap = costmap(if is_wide { 70 } else { 9 }, &cells);
             let info = *costmap.info();
             let (x0, y0) = (x0.min(info.width - 1), y0.min(info.height - 1));
-            let window = Window { x0, y0, xn: info.width, yn: info.height };
-            let table = CostTable::new(0.1, radius_m, inscribed_m, 2.0, Compat::Main);
-            let how = Inflation { into_unknown, around_unknown };
+            let window = CellWindow { x0, y0, xn: info.width, yn: info.height };
+            let table = CostTable::new(0.1, radius_m, inscribed_m, 2.0, Nav2Release::Main);
+            let how = InflationSettings { into_unknown, around_unknown };
             let expected = brute_force(&costmap, &window, &table, how);
-            inflate(&mut costmap, &window, &table, how, &mut Scratch::default());
+            inflate(&mut costmap, &window, &table, how, &mut InflationBuffers::default());
             prop_assert_eq!(costmap.costs(), expected);
         }
 
@@ -197,29 +202,29 @@ mod tests {
         fn costs_grow_with_the_radius(cells in cells(), small_m in 0.05..1.0, more_m in 0.0..1.0) {
             let inflated = |radius_m| {
                 let mut costmap = costmap(70, &cells);
-                let all = Window::all(costmap.info());
-                let table = CostTable::new(0.1, radius_m, 0.15, 2.0, Compat::Main);
-                let how = Inflation::default();
-                inflate(&mut costmap, &all, &table, how, &mut Scratch::default());
+                let all = CellWindow::all(costmap.info());
+                let table = CostTable::new(0.1, radius_m, 0.15, 2.0, Nav2Release::Main);
+                let how = InflationSettings::default();
+                inflate(&mut costmap, &all, &table, how, &mut InflationBuffers::default());
                 costmap
             };
             let (small, large) = (inflated(small_m), inflated(small_m + more_m));
             for (small, large) in small.costs().iter().zip(large.costs()) {
-                // Unknown is the least that can be known, whatever its number.
+                // Unknown is the lowest knowledge, although its number is the highest.
                 prop_assert!(small <= large || *small == UNKNOWN);
             }
         }
 
         #[test]
         fn a_part_at_a_time_is_the_same_as_all_at_once(cells in cells(), cut in 1..70_usize) {
-            let table = CostTable::new(0.1, 0.55, 0.15, 2.0, Compat::Main);
+            let table = CostTable::new(0.1, 0.55, 0.15, 2.0, Nav2Release::Main);
             let (mut whole, mut parts) = (costmap(70, &cells), costmap(70, &cells));
-            let all = Window::all(whole.info());
-            let mut scratch = Scratch::default();
-            let how = Inflation::default();
+            let all = CellWindow::all(whole.info());
+            let mut scratch = InflationBuffers::default();
+            let how = InflationSettings::default();
             inflate(&mut whole, &all, &table, how, &mut scratch);
-            inflate(&mut parts, &Window { xn: cut, ..all }, &table, how, &mut scratch);
-            inflate(&mut parts, &Window { x0: cut, ..all }, &table, how, &mut scratch);
+            inflate(&mut parts, &CellWindow { xn: cut, ..all }, &table, how, &mut scratch);
+            inflate(&mut parts, &CellWindow { x0: cut, ..all }, &table, how, &mut scratch);
             prop_assert_eq!(whole, parts);
         }
     }

@@ -1,52 +1,52 @@
-//! Why a cell is marked, or is not.
+//! Reasons for the cost of a cell.
 
 use std::fmt;
 
 use periplus_grid::Cell;
 
-use crate::{Cause, LayeredCostmap, Source};
+use crate::{Cause, LayeredCostmap, ObservationSource};
 
-/// What a layer gives a cell, and why.
+/// Contribution of a layer to a cell, with the reason.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Explanation {
-    /// The cost; none when the layer has nothing to say.
+    /// Cost; none when the layer does not affect the cell.
     pub value: Option<u8>,
-    /// Why, in words.
+    /// Reason, as a sentence.
     pub reason: Option<String>,
-    /// The reading that decided.
+    /// Reading that set the cell.
     pub cause: Option<Cause>,
-    /// The parameter to look at.
+    /// Parameter that controls it.
     pub parameter: Option<String>,
-    /// What layers within it say.
+    /// Contributions of the layers of a container.
     pub within: Vec<(String, Explanation)>,
 }
 
-/// What a layer says of a cell.
+/// Report of a layer about a cell.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LayerReport {
-    /// Its name.
+    /// Name of the layer.
     pub name: String,
-    /// Whether it takes part.
+    /// True if the layer is enabled.
     pub is_enabled: bool,
-    /// What it says.
+    /// Contribution of the layer.
     pub explanation: Explanation,
 }
 
-/// All that is known of a cell.
+/// Report about a cell.
 #[derive(Clone, Debug, PartialEq)]
 pub struct CellReport {
-    /// The cell.
+    /// Cell.
     pub cell: Cell,
-    /// Its centre in the global frame \[m\].
+    /// Centre in the global frame \[m\].
     pub centre_m: (f64, f64),
-    /// Its cost.
+    /// Cost.
     pub cost: u8,
     /// Layers and filters, lowest first.
     pub layers: Vec<LayerReport>,
 }
 
 impl LayeredCostmap {
-    /// All that is known of a cell; none outside.
+    /// Returns a report about a cell; none outside the grid.
     #[must_use]
     pub fn inspect(&self, cell: Cell) -> Option<CellReport> {
         let cost = self.costmap().cost(cell)?;
@@ -60,14 +60,14 @@ impl LayeredCostmap {
         Some(CellReport { cell, centre_m: self.costmap().info().centre_of(cell), cost, layers })
     }
 
-    /// A source of a layer, to give it something to see.
+    /// Returns a source of a layer, for inserting observations.
     #[must_use]
-    pub fn source_mut(&mut self, layer: &str, source: &str) -> Option<&mut Source> {
+    pub fn source_mut(&mut self, layer: &str, source: &str) -> Option<&mut ObservationSource> {
         self.find_mut(layer)?.sources_mut().iter_mut().find(|found| found.name == source)
     }
 }
 
-/// What a cost means, in words.
+/// Returns a description of a cost.
 fn meaning(cost: u8) -> &'static str {
     match cost {
         0 => "free",

@@ -1,4 +1,4 @@
-//! What a layer is.
+//! Interface of layers.
 
 use std::any::Any;
 
@@ -7,146 +7,152 @@ use periplus_geometry::{Pose, Pose2};
 use periplus_grid::{Cell, GridInfo};
 use periplus_params::ParamValues;
 
-use crate::filters::Masked;
-use crate::{Bounds, Compat, Costmap, Explanation, Footprint, Source, Window};
+use crate::filters::MaskFilter;
+use crate::{
+    CellWindow, Costmap, Explanation, Footprint, Nav2Release, ObservationSource, UpdateBounds,
+};
 
-/// Where frames are.
-pub trait Frames {
-    /// `target_from_source` as it is known now; none when nobody knows.
+/// Source of transforms.
+pub trait TransformSource {
+    /// Returns the latest `target_from_source`; none without a transform.
     fn latest(&self, target: &str, source: &str) -> Option<Pose>;
 }
 
-/// Knows that every frame is where it is itself, and nothing else.
+/// Transforms of a single frame: only the identity of each frame to itself is known.
 #[derive(Clone, Copy, Debug, Default)]
-pub struct NoFrames;
+pub struct NoTransforms;
 
-impl Frames for NoFrames {
+impl TransformSource for NoTransforms {
     fn latest(&self, target: &str, source: &str) -> Option<Pose> {
         (target == source).then_some(Pose::IDENTITY)
     }
 }
 
-impl<F: Fn(&str, &str) -> Option<Pose>> Frames for F {
+impl<F: Fn(&str, &str) -> Option<Pose>> TransformSource for F {
     fn latest(&self, target: &str, source: &str) -> Option<Pose> {
         self(target, source)
     }
 }
 
-/// What layers are told in an update.
+/// Context of an update.
 #[derive(Clone, Copy)]
-pub struct Moment<'a> {
-    /// The time \[ns\].
+pub struct UpdateContext<'a> {
+    /// Time \[ns\].
     pub now_ns: i64,
-    /// `global_from_base`: where the robot is.
+    /// Pose of the robot, `global_from_base`.
     pub robot: Pose2,
-    /// The outline of the robot, padded.
+    /// Padded footprint of the robot.
     pub footprint: &'a Footprint,
-    /// The cells of the costmap.
+    /// Resolution, size and origin of the costmap.
     pub info: GridInfo,
-    /// Whether the costmap moves with the robot.
+    /// True if the costmap moves with the robot.
     pub is_rolling: bool,
-    /// Whose habits to keep.
-    pub compat: Compat,
-    /// The frame of the costmap.
+    /// Release of Nav2 whose behaviour is used.
+    pub compat: Nav2Release,
+    /// Frame of the costmap.
     pub global_frame: &'a str,
-    /// Where frames are.
-    pub frames: &'a dyn Frames,
+    /// Source of transforms.
+    pub frames: &'a dyn TransformSource,
 }
 
 /// A layer of a costmap, or a filter.
-///
-/// In an update every layer is asked for [`Layer::bounds`], in order, and then every one for
-/// [`Layer::costs`] in the window that came of it. The cells of `master` are one flat list of bytes
-/// ([`Costmap::costs_mut`]), row by row.
+/// An update calls [`Layer::bounds`] of all layers in order, and then [`Layer::costs`] of all
+/// layers with the resulting window. The cells of `master` are a slice of bytes in row-major order
+/// ([`Costmap::costs_mut`]).
 pub trait Layer: Any + Send {
-    /// Its name, which also begins the names of its parameters.
+    /// Returns the name, which is also the prefix of its parameters.
     fn name(&self) -> &str;
 
-    /// Takes in what is new, and makes the bounds larger by what changes with it. They must not
-    /// become smaller.
-    fn bounds(&mut self, moment: &Moment<'_>, bounds: &mut Bounds);
+    /// Processes new data and enlarges the bounds by the area that has changed. The bounds must not
+    /// shrink (`updateBounds`).
+    fn bounds(&mut self, moment: &UpdateContext<'_>, bounds: &mut UpdateBounds);
 
-    /// Puts its costs into the window, over what the layers before it put there. Cells outside of
-    /// the window must stay as they are.
-    fn costs(&mut self, moment: &Moment<'_>, master: &mut Costmap, window: Window);
+    /// Writes costs into the window, over those of lower layers. Cells outside the window must not
+    /// change (`updateCosts`).
+    fn costs(&mut self, moment: &UpdateContext<'_>, master: &mut Costmap, window: CellWindow);
 
-    /// Forgets what it has seen.
+    /// Drops all data.
     fn reset(&mut self) {}
 
-    /// Whether services may clear a part of it.
+    /// Returns true if clear services apply to the layer.
     fn is_clearable(&self) -> bool {
         false
     }
 
-    /// Forgets a part: the cells strictly between `start` and `end`, or with `invert` all others.
-    fn clear_area(&mut self, _start: (i64, i64), _end: (i64, i64), _invert: bool, _compat: Compat) {
+    /// Clears the cells strictly between `start` and `end`, or with `invert` all others.
+    fn clear_area(
+        &mut self,
+        _start: (i64, i64),
+        _end: (i64, i64),
+        _invert: bool,
+        _compat: Nav2Release,
+    ) {
     }
 
-    /// The robot has another outline.
+    /// Notifies of a new footprint (`onFootprintChanged`).
     fn footprint_changed(&mut self, _footprint: &Footprint) {}
 
-    /// The costmap has other cells; what was in the old ones is gone.
+    /// Notifies of a new grid, which replaces the old cells (`matchSize`).
     fn resized(&mut self, _info: &GridInfo, _is_rolling: bool) {}
 
-    /// The cells that the costmap should have because of this layer (a map has its own).
+    /// Returns the grid that the layer requests for the costmap (that of a map).
     fn requested_grid_info(&self, _current: &GridInfo, _is_size_locked: bool) -> Option<GridInfo> {
         None
     }
 
-    /// Whether it takes part.
+    /// Returns true if the layer is enabled.
     fn is_enabled(&self) -> bool {
         true
     }
 
-    /// Whether it has what it needs and is not waiting for something.
+    /// Returns true if the layer has current data.
     fn is_current(&self, _now_ns: i64) -> bool {
         true
     }
 
-    /// Its own cells, if it has some to show.
+    /// Returns the grid of the layer, if it has one.
     fn grid(&self) -> Option<&Costmap> {
         None
     }
 
-    /// Its parameters as they are.
+    /// Returns the current parameters.
     fn values(&self) -> Option<&ParamValues> {
         None
     }
 
-    /// Takes other values for its parameters; they are of the right kinds and in their ranges.
-    ///
+    /// Sets parameters of valid types and ranges.
     /// # Errors
-    /// Why they cannot be, in words; nothing has changed then.
+    /// The reason for which they cannot be set; no change is made then.
     fn configure(&mut self, _values: ParamValues) -> Result<(), String> {
         Ok(())
     }
 
-    /// What sees for it.
-    fn sources(&self) -> &[Source] {
+    /// Returns the observation sources.
+    fn sources(&self) -> &[ObservationSource] {
         &[]
     }
 
-    /// The same, to give them something.
-    fn sources_mut(&mut self) -> &mut [Source] {
+    /// Returns the mutable observation sources, for inserting observations.
+    fn sources_mut(&mut self) -> &mut [ObservationSource] {
         &mut []
     }
 
-    /// Itself, if it follows a mask.
-    fn masked(&mut self) -> Option<&mut dyn Masked> {
+    /// Returns the layer as a filter, if it uses a mask.
+    fn masked(&mut self) -> Option<&mut dyn MaskFilter> {
         None
     }
 
-    /// Layers within it.
+    /// Returns the layers of a container.
     fn children(&self) -> &[Box<dyn Layer>] {
         &[]
     }
 
-    /// The same, to be changed.
+    /// Returns the mutable layers of a container.
     fn children_mut(&mut self) -> &mut [Box<dyn Layer>] {
         &mut []
     }
 
-    /// What it gives a cell of `master`, and why.
+    /// Returns the contribution of the layer to a cell of `master`, with the reason.
     fn explain(&self, _master: &Costmap, cell: Cell, _is_rolling: bool) -> Explanation {
         Explanation {
             value: self.grid().and_then(|grid| grid.cost(cell)),
@@ -154,13 +160,13 @@ pub trait Layer: Any + Send {
         }
     }
 
-    /// Hands over what it has to complain about since the last time.
-    fn complaints(&mut self) -> Vec<Diagnostic> {
+    /// Takes the warnings since the last call.
+    fn diagnostics(&mut self) -> Vec<Diagnostic> {
         Vec::new()
     }
 }
 
-/// Whether a layer that is not enabled counts as current too.
+/// Returns true if a layer is current or disabled.
 pub(crate) fn is_settled(layer: &dyn Layer, now_ns: i64) -> bool {
     !layer.is_enabled() || layer.is_current(now_ns)
 }

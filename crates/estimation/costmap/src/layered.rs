@@ -1,4 +1,4 @@
-//! Layers over each other, and the update that makes one costmap of them.
+//! Layered costmap: ordered layers and the update cycle.
 //!
 //! Source of the cycle: `nav2_costmap_2d/src/layered_costmap.cpp`.
 
@@ -10,38 +10,41 @@ use periplus_grid::{Cell, GridInfo};
 
 use crate::cost::{FREE, UNKNOWN};
 use crate::layer::is_settled;
-use crate::{Bounds, Compat, Costmap, Footprint, Frames, Layer, Moment, Window};
+use crate::{
+    CellWindow, Costmap, Footprint, Layer, Nav2Release, TransformSource, UpdateBounds,
+    UpdateContext,
+};
 
-/// What holds for all layers.
+/// Settings shared by all layers.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Frame {
-    /// The frame of the costmap.
+pub struct CostmapSettings {
+    /// Frame of the costmap.
     pub global_frame: String,
-    /// Whether the costmap moves with the robot.
+    /// True if the costmap moves with the robot.
     pub is_rolling: bool,
-    /// Whether cells of which nothing is known are unknown instead of free.
+    /// True if unobserved cells are unknown, false if they are free.
     pub tracks_unknown: bool,
-    /// Whose habits to keep.
-    pub compat: Compat,
+    /// Release of Nav2 whose behaviour is used.
+    pub compat: Nav2Release,
 }
 
-impl Default for Frame {
+impl Default for CostmapSettings {
     fn default() -> Self {
         Self {
             global_frame: "map".to_owned(),
             is_rolling: false,
             tracks_unknown: false,
-            compat: Compat::Main,
+            compat: Nav2Release::Main,
         }
     }
 }
 
-/// A costmap of layers.
+/// Costmap made of layers.
 pub struct LayeredCostmap {
-    frame: Frame,
-    /// What the layers give. Without filters this is the costmap.
+    frame: CostmapSettings,
+    /// Result of the layers. Without filters this is the costmap.
     primary: Costmap,
-    /// With the filters over it. Kept apart so that no layer ever sees what a filter did.
+    /// Result with filters, separate so that no layer sees the effect of a filter.
     combined: Option<Costmap>,
     layers: Vec<Box<dyn Layer>>,
     filters: Vec<Box<dyn Layer>>,
@@ -49,13 +52,13 @@ pub struct LayeredCostmap {
     is_size_locked: bool,
     is_initialized: bool,
     was_outside: bool,
-    complaints: Vec<Diagnostic>,
+    diagnostics: Vec<Diagnostic>,
 }
 
 impl LayeredCostmap {
-    /// Without layers.
+    /// Creates a costmap without layers.
     #[must_use]
-    pub fn new(frame: Frame, info: GridInfo) -> Self {
+    pub fn new(frame: CostmapSettings, info: GridInfo) -> Self {
         let default_cost = if frame.tracks_unknown { UNKNOWN } else { FREE };
         Self {
             frame,
@@ -67,73 +70,73 @@ impl LayeredCostmap {
             is_size_locked: false,
             is_initialized: false,
             was_outside: false,
-            complaints: Vec::new(),
+            diagnostics: Vec::new(),
         }
     }
 
-    /// Puts a layer over those that are there.
+    /// Adds a layer on top of the others.
     pub fn add_layer(&mut self, mut layer: Box<dyn Layer>) {
-        self.introduce(&mut *layer);
+        self.initialize_layer(&mut *layer);
         self.layers.push(layer);
     }
 
-    /// Puts a filter over all layers and the filters that are there.
+    /// Adds a filter on top of the layers and other filters.
     pub fn add_filter(&mut self, mut filter: Box<dyn Layer>) {
-        self.introduce(&mut *filter);
+        self.initialize_layer(&mut *filter);
         self.filters.push(filter);
         self.combined.get_or_insert_with(|| self.primary.clone());
     }
 
-    fn introduce(&self, layer: &mut dyn Layer) {
+    fn initialize_layer(&self, layer: &mut dyn Layer) {
         layer.resized(self.primary.info(), self.frame.is_rolling);
         if !self.footprint.points().is_empty() {
             layer.footprint_changed(&self.footprint);
         }
     }
 
-    /// The costs.
+    /// Returns the costs.
     #[must_use]
     pub fn costmap(&self) -> &Costmap {
         self.combined.as_ref().unwrap_or(&self.primary)
     }
 
-    /// The costs, to be changed by hand. The next update overwrites what its window covers.
+    /// Returns the costs for manual changes. The next update overwrites the cells of its window.
     #[must_use]
     pub fn costmap_mut(&mut self) -> &mut Costmap {
         self.combined.as_mut().unwrap_or(&mut self.primary)
     }
 
-    /// What holds for all layers.
+    /// Returns the settings shared by all layers.
     #[must_use]
-    pub fn frame(&self) -> &Frame {
+    pub fn frame(&self) -> &CostmapSettings {
         &self.frame
     }
 
-    /// The outline of the robot, padded.
+    /// Returns the padded footprint of the robot.
     #[must_use]
     pub fn footprint(&self) -> &Footprint {
         &self.footprint
     }
 
-    /// Whether an update has been made.
+    /// Returns true if an update has been made.
     #[must_use]
     pub fn is_initialized(&self) -> bool {
         self.is_initialized
     }
 
-    /// Whether a map has set the size.
+    /// Returns true if a map has set the size.
     #[must_use]
     pub fn is_size_locked(&self) -> bool {
         self.is_size_locked
     }
 
-    /// Whether all layers that take part have what they need.
+    /// Returns true if all enabled layers are current.
     #[must_use]
     pub fn is_current(&self, now_ns: i64) -> bool {
         self.all().all(|layer| is_settled(layer, now_ns))
     }
 
-    /// Gives the robot an outline, padded already.
+    /// Sets the footprint, including padding.
     pub fn set_footprint(&mut self, footprint: Footprint) {
         self.footprint = footprint;
         for layer in self.layers.iter_mut().chain(&mut self.filters) {
@@ -141,7 +144,7 @@ impl LayeredCostmap {
         }
     }
 
-    /// Takes other cells. All layers forget what they had in theirs.
+    /// Replaces the grid. All layers drop their cells.
     pub fn resize(&mut self, info: GridInfo, is_size_locked: bool) {
         self.is_size_locked = is_size_locked;
         self.primary.resize(info);
@@ -153,10 +156,10 @@ impl LayeredCostmap {
         }
     }
 
-    /// Takes the size of a map that has come, as layers ask for it. Updates do this first; to do it
-    /// earlier lets others see the size before the first update.
-    pub fn settle_size(&mut self) {
-        // A costmap that moves with the robot keeps its own size.
+    /// Applies the size of a received map. Updates do this first; an earlier call makes the size
+    /// visible before the first update.
+    pub fn apply_requested_size(&mut self) {
+        // A rolling costmap keeps its size.
         if self.frame.is_rolling {
             return;
         }
@@ -169,19 +172,19 @@ impl LayeredCostmap {
         }
     }
 
-    /// The layers, lowest first.
+    /// Returns the layers, lowest first.
     #[must_use]
     pub fn layers(&self) -> &[Box<dyn Layer>] {
         &self.layers
     }
 
-    /// The filters, lowest first.
+    /// Returns the filters, lowest first.
     #[must_use]
     pub fn filters(&self) -> &[Box<dyn Layer>] {
         &self.filters
     }
 
-    /// Layers, layers within them, and filters.
+    /// Iterates over layers, layers of containers, and filters.
     pub fn all(&self) -> impl Iterator<Item = &dyn Layer> {
         let mut found: Vec<&dyn Layer> = Vec::new();
         for layer in self.layers.iter().chain(&self.filters) {
@@ -190,46 +193,47 @@ impl LayeredCostmap {
         found.into_iter()
     }
 
-    /// Layers and filters, to be changed; not those within others.
+    /// Iterates over mutable layers and filters, without those of containers.
     pub fn all_mut(&mut self) -> impl Iterator<Item = &mut dyn Layer> {
         self.layers.iter_mut().chain(&mut self.filters).map(|layer| &mut **layer)
     }
 
-    /// A layer or filter by its name; those within others have names such as `container.child`.
+    /// Returns a layer or filter by its name; layers of a container have names such as
+    /// `container.child`.
     #[must_use]
     pub fn find_mut(&mut self, name: &str) -> Option<&mut dyn Layer> {
         self.layers.iter_mut().chain(&mut self.filters).find_map(|layer| find(&mut **layer, name))
     }
 
-    /// A layer or filter of a type, by its name.
+    /// Returns a layer or filter of a type by its name.
     #[must_use]
     pub fn find_as<L: Layer + 'static>(&mut self, name: &str) -> Option<&mut L> {
         (self.find_mut(name)? as &mut dyn Any).downcast_mut()
     }
 
-    /// Makes the costs anew where something has changed, and says where that is.
+    /// Updates the costs where a layer has changed, and returns that window.
     pub fn update(
         &mut self,
         now_ns: i64,
         global_from_base: Pose2,
-        frames: &dyn Frames,
-    ) -> Option<Window> {
-        self.settle_size();
+        frames: &dyn TransformSource,
+    ) -> Option<CellWindow> {
+        self.apply_requested_size();
         if self.frame.is_rolling {
             self.primary.roll_around(global_from_base, self.frame.compat);
             if let Some(combined) = &mut self.combined {
                 combined.roll_around(global_from_base, self.frame.compat);
             }
         }
-        self.watch_robot(global_from_base);
+        self.check_robot_inside(global_from_base);
         let (info, footprint) = (*self.primary.info(), &self.footprint);
         let moment = moment_of(&self.frame, info, footprint, now_ns, global_from_base, frames);
-        let mut bounds = Bounds::EMPTY;
+        let mut bounds = UpdateBounds::EMPTY;
         for layer in self.layers.iter_mut().chain(&mut self.filters) {
             let before = bounds;
             layer.bounds(&moment, &mut bounds);
             if !bounds.contains(&before) {
-                self.complaints.push(shrunk(layer.name(), &before, &bounds));
+                self.diagnostics.push(shrunk(layer.name(), &before, &bounds));
             }
         }
         let window = self.primary.window_of(&bounds)?;
@@ -247,15 +251,14 @@ impl LayeredCostmap {
         Some(window)
     }
 
-    /// Puts the costs of one layer into a window, over what is there. False when there is no such
-    /// layer.
+    /// Writes the costs of one layer into a window. Returns false when there is no such layer.
     pub fn apply_layer(
         &mut self,
         name: &str,
-        window: Window,
+        window: CellWindow,
         now_ns: i64,
         global_from_base: Pose2,
-        frames: &dyn Frames,
+        frames: &dyn TransformSource,
     ) -> bool {
         let (info, footprint) = (*self.primary.info(), &self.footprint);
         let moment = moment_of(&self.frame, info, footprint, now_ns, global_from_base, frames);
@@ -263,16 +266,16 @@ impl LayeredCostmap {
             return false;
         };
         let master = self.combined.as_mut().unwrap_or(&mut self.primary);
-        layer.costs(&moment, master, window.intersection(&Window::all(&info)));
+        layer.costs(&moment, master, window.intersection(&CellWindow::all(&info)));
         true
     }
 
-    fn watch_robot(&mut self, global_from_base: Pose2) {
+    fn check_robot_inside(&mut self, global_from_base: Pose2) {
         let Pose2 { x_m, y_m, .. } = global_from_base;
         let is_outside = self.primary.info().cell_of(x_m, y_m).is_none();
         if is_outside && !self.was_outside {
-            let Bounds { min_x, min_y, max_x, max_y } = Bounds::of(self.primary.info());
-            self.complaints.push(
+            let UpdateBounds { min_x, min_y, max_x, max_y } = UpdateBounds::of(self.primary.info());
+            self.diagnostics.push(
                 Diagnostic::warning(
                     "robot-outside",
                     format!("the robot at ({x_m:.2}, {y_m:.2}) is out of bounds of the costmap"),
@@ -297,7 +300,7 @@ impl LayeredCostmap {
         }
     }
 
-    /// Puts the default into all cells of the result; layers keep theirs.
+    /// Resets the resulting costs; layers keep their data.
     pub fn reset_costs(&mut self) {
         self.primary.reset();
         if let Some(combined) = &mut self.combined {
@@ -305,18 +308,18 @@ impl LayeredCostmap {
         }
     }
 
-    /// Hands over what there was to complain about since the last time.
-    pub fn complaints(&mut self) -> Diagnostics {
+    /// Takes the warnings since the last call.
+    pub fn diagnostics(&mut self) -> Diagnostics {
         let mut diagnostics = Diagnostics::new();
-        diagnostics.extend(self.complaints.drain(..));
+        diagnostics.extend(self.diagnostics.drain(..));
         for layer in self.layers.iter_mut().chain(&mut self.filters) {
-            diagnostics.extend(layer.complaints());
+            diagnostics.extend(layer.diagnostics());
         }
         diagnostics
     }
 
-    /// The cost at a point of the global frame \[m\]. With the footprint: the highest cost on its
-    /// outline at that pose. Outside it is lethal.
+    /// Returns the cost at a point of the global frame \[m\]; with `uses_footprint` the highest
+    /// cost on the outline at that pose. Points outside are lethal.
     #[must_use]
     pub fn cost_at(&self, global_from_base: Pose2, uses_footprint: bool) -> u8 {
         if uses_footprint {
@@ -326,7 +329,7 @@ impl LayeredCostmap {
         self.costmap().cost_at(x_m, y_m).unwrap_or(crate::cost::LETHAL)
     }
 
-    /// The cell of a point of the global frame \[m\].
+    /// Returns the cell of a point of the global frame \[m\].
     #[must_use]
     pub fn cell_of(&self, x_m: f64, y_m: f64) -> Option<Cell> {
         self.primary.info().cell_of(x_m, y_m)
@@ -334,14 +337,14 @@ impl LayeredCostmap {
 }
 
 fn moment_of<'a>(
-    frame: &'a Frame,
+    frame: &'a CostmapSettings,
     info: GridInfo,
     footprint: &'a Footprint,
     now_ns: i64,
     robot: Pose2,
-    frames: &'a dyn Frames,
-) -> Moment<'a> {
-    Moment {
+    frames: &'a dyn TransformSource,
+) -> UpdateContext<'a> {
+    UpdateContext {
         now_ns,
         robot,
         footprint,
@@ -353,7 +356,7 @@ fn moment_of<'a>(
     }
 }
 
-fn shrunk(layer: &str, before: &Bounds, after: &Bounds) -> Diagnostic {
+fn shrunk(layer: &str, before: &UpdateBounds, after: &UpdateBounds) -> Diagnostic {
     Diagnostic::warning(
         "shrunk-bounds",
         format!("layer `{layer}` made the bounds of an update smaller"),

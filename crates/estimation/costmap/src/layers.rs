@@ -1,12 +1,12 @@
-//! The layers.
+//! Layer plugins.
 
 mod container;
 mod denoise;
 mod inflate;
+mod observed;
 mod obstacle;
 mod range;
-mod repeats;
-mod sight;
+mod ray_dedup;
 mod static_map;
 mod voxel;
 

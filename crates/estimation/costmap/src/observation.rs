@@ -1,4 +1,4 @@
-//! What a source has seen, and for how long it counts.
+//! Observations of a source and their persistence.
 //!
 //! Source of the rules: `nav2_costmap_2d/src/observation_buffer.cpp`.
 
@@ -8,34 +8,34 @@ use periplus_diagnostics::Diagnostics;
 use periplus_geometry::{DVec3, Pose};
 use periplus_params::ParamValues;
 
-use crate::Compat;
+use crate::Nav2Release;
 
-/// Points and how to use them.
+/// A point cloud with the ranges for marking and clearing.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Observation {
-    /// When it was seen \[ns\].
+    /// Time of the measurement \[ns\].
     pub time_ns: i64,
-    /// Where rays begin, in the global frame \[m\].
+    /// Origin of the rays in the global frame \[m\].
     pub origin: [f64; 3],
-    /// Where they end, in the global frame \[m\]. In single precision, as messages have it: which
-    /// cell a point on an edge is in depends on it.
+    /// End points of the rays in the global frame \[m\]. Single precision as in messages, since it
+    /// decides in which cell a point on an edge is.
     pub points: Vec<[f32; 3]>,
-    /// Which of them mark \[m\].
-    pub marks: Span,
-    /// Which part of the rays clears \[m\].
-    pub rays: Span,
+    /// Range of points that mark \[m\].
+    pub marks: RangeLimits,
+    /// Range along rays that is cleared \[m\].
+    pub rays: RangeLimits,
 }
 
-/// Distances from a sensor \[m\].
+/// Range of distances from a sensor \[m\].
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Span {
-    /// From here.
+pub struct RangeLimits {
+    /// Minimum.
     pub min_m: f64,
-    /// To here.
+    /// Maximum.
     pub max_m: f64,
 }
 
-/// What comes from a source.
+/// Message type of a source.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum DataType {
     /// `sensor_msgs/LaserScan`.
@@ -44,31 +44,31 @@ pub enum DataType {
     PointCloud2,
 }
 
-/// How a source is to be used.
+/// Settings of a source.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SourceSettings {
-    /// Its topic.
+    /// Topic.
     pub topic: String,
-    /// Where rays begin; empty for the frame of the message.
+    /// Frame of the sensor origin; empty for the frame of the message.
     pub sensor_frame: String,
-    /// How long readings count \[ns\]; 0 for the newest only.
+    /// Duration for which observations are kept \[ns\]; 0 for the newest only.
     pub persistence_ns: i64,
-    /// A longer silence is an error \[ns\]; 0 for any.
+    /// Longest expected interval between messages \[ns\]; 0 for no limit.
     pub expected_every_ns: i64,
-    /// What comes.
+    /// Message type.
     pub data_type: DataType,
-    /// Which points are kept, by their height in the global frame \[m\].
-    pub heights: Span,
-    /// Whether infinite ranges clear up to the largest range.
+    /// Range of heights of accepted points in the global frame \[m\].
+    pub heights: RangeLimits,
+    /// True if infinite ranges clear up to the maximum range.
     pub inf_is_valid: bool,
-    /// Whether it marks.
+    /// True if the source marks obstacles.
     pub is_marking: bool,
-    /// Whether it clears.
+    /// True if the source clears cells along rays.
     pub is_clearing: bool,
-    /// Which points mark, by distance \[m\].
-    pub marks: Span,
-    /// Which part of rays clears \[m\].
-    pub rays: Span,
+    /// Range of distances at which points mark \[m\].
+    pub marks: RangeLimits,
+    /// Range along rays that is cleared \[m\].
+    pub rays: RangeLimits,
 }
 
 fn nanoseconds(seconds: f64) -> i64 {
@@ -76,7 +76,7 @@ fn nanoseconds(seconds: f64) -> i64 {
 }
 
 impl SourceSettings {
-    /// From parameters of [`crate::tables::SOURCE`].
+    /// Converts parameters of [`crate::tables::SOURCE`].
     #[must_use]
     pub fn read(name: &str, values: &ParamValues) -> Self {
         let number = |name: &str| values.number(name).unwrap_or_default();
@@ -92,67 +92,70 @@ impl SourceSettings {
                 "PointCloud2" => DataType::PointCloud2,
                 _ => DataType::LaserScan,
             },
-            heights: Span {
+            heights: RangeLimits {
                 min_m: number("min_obstacle_height"),
                 max_m: number("max_obstacle_height"),
             },
             inf_is_valid: flag("inf_is_valid"),
             is_marking: flag("marking"),
             is_clearing: flag("clearing"),
-            marks: Span {
+            marks: RangeLimits {
                 min_m: number("obstacle_min_range"),
                 max_m: number("obstacle_max_range"),
             },
-            rays: Span { min_m: number("raytrace_min_range"), max_m: number("raytrace_max_range") },
+            rays: RangeLimits {
+                min_m: number("raytrace_min_range"),
+                max_m: number("raytrace_max_range"),
+            },
         }
     }
 }
 
-/// How many points came, and where they went. Each counts once, when it is first used.
+/// Counts of points by result. Each point counts once, at its first use.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Counters {
-    /// Messages taken in.
+    /// Accepted messages.
     pub clouds: u64,
-    /// Messages dropped because nobody knew where the sensor was.
+    /// Messages dropped without a transform of the sensor.
     pub without_frame: u64,
-    /// Messages dropped because nobody knew where the sensor was at their time.
+    /// Messages dropped without a transform at their stamp.
     pub out_of_time: u64,
-    /// Messages dropped because they could not be read.
+    /// Messages dropped as malformed.
     pub malformed: u64,
-    /// Messages that could not be used because the sensor was outside of the grid.
+    /// Messages that were unusable because the sensor was outside the grid.
     pub sensor_outside: u64,
-    /// Points taken in.
+    /// Accepted points.
     pub points: u64,
     /// Readings without a point: no return, or beyond the limits of the sensor.
     pub without_return: u64,
-    /// Points that were no numbers.
+    /// Points with NaN or infinite coordinates.
     pub not_finite: u64,
-    /// Below the source's `min_obstacle_height`.
+    /// Points below `min_obstacle_height` of the source.
     pub too_low: u64,
-    /// Above the source's `max_obstacle_height`.
+    /// Points above `max_obstacle_height` of the source.
     pub too_high: u64,
-    /// Below the layer's `min_obstacle_height`.
+    /// Points below `min_obstacle_height` of the layer.
     pub layer_too_low: u64,
-    /// Above the layer's `max_obstacle_height`.
+    /// Points above `max_obstacle_height` of the layer.
     pub layer_too_high: u64,
-    /// Nearer than `obstacle_min_range`.
+    /// Points nearer than `obstacle_min_range`.
     pub too_near: u64,
-    /// Further than `obstacle_max_range`.
+    /// Points further than `obstacle_max_range`.
     pub too_far: u64,
-    /// Beside the grid.
+    /// Points outside the grid.
     pub outside: u64,
     /// Points that marked a cell.
     pub marked: u64,
 }
 
 impl Counters {
-    /// Messages that came, used or not.
+    /// Returns the number of received messages, used or not.
     #[must_use]
     pub fn messages(&self) -> u64 {
         self.clouds + self.without_frame + self.out_of_time + self.malformed
     }
 
-    /// What has come since they stood so.
+    /// Returns the difference to earlier counts.
     #[must_use]
     pub fn since(&self, before: &Self) -> Self {
         Self {
@@ -178,32 +181,32 @@ impl Counters {
 
 /// A source of observations.
 #[derive(Clone, Debug)]
-pub struct Source {
-    /// Its name.
+pub struct ObservationSource {
+    /// Name.
     pub name: String,
-    /// How it is to be used.
+    /// Settings.
     pub settings: SourceSettings,
-    /// The same as parameters, with the places where they were written.
+    /// Parameters with their positions in the file.
     pub values: ParamValues,
-    /// Where its points went.
+    /// Counts of points by result.
     pub counters: Counters,
     /// Newest first.
     pub(crate) observations: VecDeque<Observation>,
-    /// How many of them, newest first, have not been used yet.
+    /// Number of the newest observations that have not been used yet.
     pub(crate) fresh: usize,
-    /// Lists of points to be used again.
+    /// Reusable point lists.
     spare: Vec<Vec<[f32; 3]>>,
     last_ns: Option<i64>,
-    compat: Compat,
-    /// Whether the sensor was outside of the grid when it was last used.
+    compat: Nav2Release,
+    /// True if the sensor was outside the grid at its last use.
     pub(crate) was_outside: bool,
 }
 
-/// More messages than this never count at once, however long they are to be kept.
-const MOST_KEPT: usize = 1000;
+/// Maximum number of observations, whatever their persistence.
+const MAX_OBSERVATION_COUNT: usize = 1000;
 
-impl Source {
-    /// From parameters of [`crate::tables::SOURCE`].
+impl ObservationSource {
+    /// Creates a source from parameters of [`crate::tables::SOURCE`].
     #[must_use]
     pub fn new(name: impl Into<String>, values: ParamValues) -> Self {
         let name = name.into();
@@ -216,19 +219,19 @@ impl Source {
             fresh: 0,
             spare: Vec::new(),
             last_ns: None,
-            compat: Compat::default(),
+            compat: Nav2Release::default(),
             was_outside: false,
         }
     }
 
-    /// Drops old observations as a release of Nav2 does.
+    /// Selects the release of Nav2 by which observations expire.
     #[must_use]
-    pub fn with_compat(mut self, compat: Compat) -> Self {
+    pub fn with_compat(mut self, compat: Nav2Release) -> Self {
         self.compat = compat;
         self
     }
 
-    /// Takes other values for its parameters. The topic and what comes from it stay.
+    /// Sets parameters. The topic and received observations stay.
     pub fn configure(&mut self, values: ParamValues) {
         let settings = SourceSettings::read(&self.name, &values);
         self.settings = SourceSettings {
@@ -239,9 +242,9 @@ impl Source {
         self.values = values;
     }
 
-    /// Takes in points, given in the frame of the message \[m\]. `global_from_sensor` is where rays
-    /// begin. Points that are no numbers, or outside of the source's heights, are dropped here, for
-    /// rays as well.
+    /// Inserts points given in the frame of the message \[m\]. `global_from_sensor` is the origin
+    /// of the rays. Points with NaN or outside the heights of the source are dropped, for marking
+    /// and clearing.
     pub fn insert(
         &mut self,
         now_ns: i64,
@@ -252,7 +255,7 @@ impl Source {
     ) {
         let mut kept = self.spare.pop().unwrap_or_default();
         kept.clear();
-        let Span { min_m, max_m } = self.settings.heights;
+        let RangeLimits { min_m, max_m } = self.settings.heights;
         let counters = &mut self.counters;
         let [x_axis, y_axis, z_axis] =
             [DVec3::X, DVec3::Y, DVec3::Z].map(|axis| global_from_cloud.rotation * axis);
@@ -285,7 +288,7 @@ impl Source {
         );
     }
 
-    /// A source that has seen one thing and goes on seeing it.
+    /// Creates a source with one permanent observation.
     #[must_use]
     pub fn fixed(name: impl Into<String>, seen: Observation, marks: bool, clears: bool) -> Self {
         let values = crate::tables::SOURCE.check([], None, &mut Diagnostics::new());
@@ -304,18 +307,18 @@ impl Source {
         self.purge(now_ns);
     }
 
-    /// Drops what is too old.
+    /// Drops expired observations.
     pub fn purge(&mut self, now_ns: i64) {
         let persistence_ns = self.settings.persistence_ns;
         let is_stale = |seen: &Observation| now_ns.saturating_sub(seen.time_ns) > persistence_ns;
         let kept = if persistence_ns == 0 {
             1
         } else if self.compat.drops_observations_one_by_one() {
-            MOST_KEPT
+            MAX_OBSERVATION_COUNT
         } else {
-            self.observations.iter().position(is_stale).unwrap_or(MOST_KEPT)
+            self.observations.iter().position(is_stale).unwrap_or(MAX_OBSERVATION_COUNT)
         };
-        while self.observations.len() > kept.min(MOST_KEPT) {
+        while self.observations.len() > kept.min(MAX_OBSERVATION_COUNT) {
             self.drop_at(self.observations.len() - 1);
         }
         if persistence_ns != 0 && self.compat.drops_observations_one_by_one() {
@@ -328,7 +331,7 @@ impl Source {
         self.fresh = self.fresh.min(self.observations.len());
     }
 
-    /// Drops one observation and keeps its list of points to be used again.
+    /// Drops one observation and keeps its point list for reuse.
     fn drop_at(&mut self, index: usize) {
         if index < self.fresh {
             self.fresh -= 1;
@@ -340,32 +343,32 @@ impl Source {
         }
     }
 
-    /// What counts, newest first.
+    /// Iterates over the current observations, newest first.
     pub fn observations(&self) -> impl Iterator<Item = &Observation> {
         self.observations.iter()
     }
 
-    /// Whether something came as lately as it should.
+    /// Returns true if the last message is recent enough.
     #[must_use]
     pub fn is_current(&self, now_ns: i64) -> bool {
         let every_ns = self.settings.expected_every_ns;
         every_ns == 0 || self.last_ns.is_some_and(|last_ns| now_ns - last_ns <= every_ns)
     }
 
-    /// When something came last \[ns\].
+    /// Returns the time of the last message \[ns\].
     #[must_use]
     pub fn last_ns(&self) -> Option<i64> {
         self.last_ns
     }
 
-    /// Drops all observations: the clock jumped, and they are of another time.
+    /// Drops all observations after a jump of the clock.
     pub fn forget(&mut self, now_ns: i64) {
         self.observations.clear();
         self.fresh = 0;
         self.restart(now_ns);
     }
 
-    /// From now on silence counts again.
+    /// Restarts the timeout for messages.
     pub fn restart(&mut self, now_ns: i64) {
         self.last_ns = Some(now_ns);
     }
@@ -377,10 +380,10 @@ mod tests {
 
     use super::*;
 
-    fn source(given: &[(&'static str, &'static str)]) -> Source {
+    fn source(given: &[(&'static str, &'static str)]) -> ObservationSource {
         let given = given.iter().map(|(name, text)| Given::new(name, *text));
         let values = crate::tables::SOURCE.check(given, None, &mut Diagnostics::new());
-        Source::new("scan", values)
+        ObservationSource::new("scan", values)
     }
 
     #[test]
@@ -396,7 +399,9 @@ mod tests {
 
     #[test]
     fn only_the_newest_counts_unless_told_otherwise() {
-        let times = |source: &Source| source.observations().map(|o| o.time_ns).collect::<Vec<_>>();
+        let times = |source: &ObservationSource| {
+            source.observations().map(|o| o.time_ns).collect::<Vec<_>>()
+        };
         let mut source_now = source(&[]);
         let mut source_long = source(&[("observation_persistence", "1.0")]);
         for time_ns in [0, 600_000_000, 1_200_000_000] {

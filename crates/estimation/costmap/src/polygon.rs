@@ -1,22 +1,22 @@
-//! Cells in a polygon.
+//! Rasterization of polygons.
 //!
-//! Source: `Costmap2D::convexFillCells`: the outline as lines of cells, and in each column all
-//! between its lowest and its highest cell.
+//! Source: `Costmap2D::convexFillCells`: lines of cells along the outline, and in each column all
+//! cells between the lowest and the highest.
 
 use periplus_grid::{Cell, Line};
 
 use crate::Costmap;
 
-/// Columns of a polygon: for each, its first and last row.
+/// Columns of a polygon: first and last row of each.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub(crate) struct Columns {
+pub(crate) struct PolygonColumns {
     first: usize,
     rows: Vec<(usize, usize)>,
 }
 
-impl Columns {
-    /// The cells of a convex polygon \[m\]; none unless all its corners are in the grid, which is
-    /// what the reference asks for.
+impl PolygonColumns {
+    /// Rasterizes a convex polygon \[m\]; none unless all corners are inside the grid, as the
+    /// reference requires.
     pub(crate) fn of(costmap: &Costmap, corners: &[[f64; 2]]) -> Option<Self> {
         let finder = costmap.finder();
         let cells: Option<Vec<Cell>> =
@@ -38,7 +38,7 @@ impl Columns {
         Some(Self { first, rows })
     }
 
-    /// Each cell.
+    /// Iterates over the cells.
     pub(crate) fn cells(&self) -> impl Iterator<Item = Cell> + '_ {
         self.rows.iter().enumerate().flat_map(move |(column, &(low, high))| {
             (low..=high).map(move |row| (self.first + column, row))

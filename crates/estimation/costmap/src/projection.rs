@@ -1,50 +1,50 @@
-//! From laser scans to points.
+//! Projection of laser scans to points.
 //!
 //! Source of the rules: `laser_geometry.cpp`, and `ObstacleLayer::laserScanValidInfCallback`.
 
 use periplus_geometry::Pose;
 
-/// How much nearer than the largest range an infinite one is taken to be \[m\].
-const INFINITY_IS_NEARER_M: f32 = 1e-4;
+/// Distance below the maximum range at which an infinite range is assumed \[m\].
+const INF_RANGE_MARGIN_M: f32 = 1e-4;
 
-/// The beams of a scanner.
+/// Beam geometry of a laser scanner.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Beams {
-    /// Direction of the first \[rad\].
+pub struct ScanGeometry {
+    /// Angle of the first beam \[rad\].
     pub angle_min_rad: f32,
-    /// From one to the next \[rad\].
+    /// Angle between beams \[rad\].
     pub angle_increment_rad: f32,
-    /// Shorter ranges say nothing \[m\].
+    /// Minimum range; shorter ones are invalid \[m\].
     pub range_min_m: f32,
-    /// Ranges as long or longer say nothing \[m\].
+    /// Maximum range; ranges from here on are invalid \[m\].
     pub range_max_m: f32,
 }
 
-/// Turns scans into points, and keeps the directions of the beams.
+/// Converter from scans to points that caches the beam directions.
 #[derive(Clone, Debug, Default)]
 pub struct Projector {
-    beams: Beams,
+    beams: ScanGeometry,
     directions: Vec<[f64; 2]>,
 }
 
 impl Projector {
-    /// The points of a scan, in the frame of the scanner \[m\]. Ranges from `range_min_m` up to, and
-    /// without, `range_max_m` have one. With `inf_is_valid` an infinite range is as if it ended just
-    /// before the largest.
+    /// Iterates over the points of a scan, in the frame of the scanner \[m\]. Valid ranges are from
+    /// `range_min_m` up to and excluding `range_max_m`. With `inf_is_valid` an infinite range
+    /// becomes one just below the maximum.
     pub fn points<'a>(
         &'a mut self,
-        beams: Beams,
+        beams: ScanGeometry,
         ranges_m: &'a [f32],
         inf_is_valid: bool,
     ) -> impl Iterator<Item = [f32; 3]> + 'a {
         self.returns(beams, ranges_m, inf_is_valid).map(|(_, point)| point)
     }
 
-    /// The same for a scanner that moves while it scans: points are given in the frame in which the
-    /// two poses are, those of the first and of the last beam.
+    /// Iterates over the points of a scanner that moves during the scan, in the frame of the two
+    /// poses, those at the first and at the last beam.
     pub fn points_in_motion<'a>(
         &'a mut self,
-        beams: Beams,
+        beams: ScanGeometry,
         ranges_m: &'a [f32],
         inf_is_valid: bool,
         global_from_first: Pose,
@@ -66,16 +66,16 @@ impl Projector {
 
     fn returns<'a>(
         &'a mut self,
-        beams: Beams,
+        beams: ScanGeometry,
         ranges_m: &'a [f32],
         inf_is_valid: bool,
     ) -> impl Iterator<Item = (usize, [f32; 3])> + 'a {
         self.aim(beams, ranges_m.len());
-        let Beams { range_min_m, range_max_m, .. } = beams;
+        let ScanGeometry { range_min_m, range_max_m, .. } = beams;
         let pairs = ranges_m.iter().zip(&self.directions).enumerate();
         pairs.filter_map(move |(index, (&range_m, [cosine, sine]))| {
             let is_replaced = inf_is_valid && range_m == f32::INFINITY;
-            let range_m = if is_replaced { range_max_m - INFINITY_IS_NEARER_M } else { range_m };
+            let range_m = if is_replaced { range_max_m - INF_RANGE_MARGIN_M } else { range_m };
             (range_m >= range_min_m && range_m < range_max_m).then(|| {
                 let range_m = f64::from(range_m);
                 (index, [(range_m * cosine) as f32, (range_m * sine) as f32, 0.0])
@@ -83,8 +83,8 @@ impl Projector {
         })
     }
 
-    /// Computes directions when they are others than before.
-    fn aim(&mut self, beams: Beams, count: usize) {
+    /// Recomputes the directions if the beam geometry has changed.
+    fn aim(&mut self, beams: ScanGeometry, count: usize) {
         let is_same = self.directions.len() >= count
             && self.beams.angle_min_rad.to_bits() == beams.angle_min_rad.to_bits()
             && self.beams.angle_increment_rad.to_bits() == beams.angle_increment_rad.to_bits();
@@ -107,7 +107,7 @@ mod tests {
 
     use super::*;
 
-    const BEAMS: Beams = Beams {
+    const BEAMS: ScanGeometry = ScanGeometry {
         angle_min_rad: 0.0,
         angle_increment_rad: FRAC_PI_2,
         range_min_m: 0.5,
@@ -129,7 +129,7 @@ mod tests {
     #[test]
     fn a_scanner_in_motion() {
         let mut projector = Projector::default();
-        let beams = Beams { angle_increment_rad: 0.0, ..BEAMS };
+        let beams = ScanGeometry { angle_increment_rad: 0.0, ..BEAMS };
         let to = Pose::from_xyz(2.0, 0.0, 0.3);
         let points: Vec<_> = projector
             .points_in_motion(beams, &[1.0, 1.0, 1.0], false, Pose::IDENTITY, to)

@@ -1,54 +1,54 @@
-//! What to send to those who follow a costmap: all of it, or what has changed.
+//! Choice between full publication and update messages of a costmap.
 //!
 //! Source: `nav2_costmap_2d/src/costmap_2d_publisher.cpp`.
 
 use periplus_grid::GridInfo;
 
-use crate::Window;
+use crate::CellWindow;
 
-/// What has to be sent.
+/// Message to publish.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Outgoing {
-    /// Nothing has changed.
+pub enum CostmapMessage {
+    /// No message: no cell has changed.
     Nothing,
     /// The whole grid.
     Full,
-    /// This part of it.
-    Update(Window),
+    /// The given part of the grid.
+    Update(CellWindow),
 }
 
-/// What has been sent and what has changed since.
+/// State of the publication: last grid and changes since.
 #[derive(Clone, Debug, Default)]
-pub struct Publication {
+pub struct PublicationState {
     sent: Option<GridInfo>,
-    changed: Window,
+    changed: CellWindow,
 }
 
-impl Publication {
-    /// Nothing has been sent.
+impl PublicationState {
+    /// Creates the state before the first publication.
     #[must_use]
     pub fn new() -> Self {
         Self::default()
     }
 
-    /// Cells have changed.
-    pub fn changed(&mut self, window: Window) {
+    /// Adds changed cells.
+    pub fn changed(&mut self, window: CellWindow) {
         self.changed = self.changed.union(&window);
     }
 
-    /// What to send now; it counts as sent. The first time, and when the grid has moved or has other
-    /// cells, it is all of it.
-    pub fn next(&mut self, info: &GridInfo, always_full: bool) -> Outgoing {
-        let changed = std::mem::take(&mut self.changed).intersection(&Window::all(info));
+    /// Returns the message to publish now and marks it as sent. The first message, and the first
+    /// after the grid has moved or was resized, is the whole grid.
+    pub fn next(&mut self, info: &GridInfo, always_full: bool) -> CostmapMessage {
+        let changed = std::mem::take(&mut self.changed).intersection(&CellWindow::all(info));
         if always_full || self.sent != Some(*info) {
             self.sent = Some(*info);
-            return Outgoing::Full;
+            return CostmapMessage::Full;
         }
-        if changed.is_empty() { Outgoing::Nothing } else { Outgoing::Update(changed) }
+        if changed.is_empty() { CostmapMessage::Nothing } else { CostmapMessage::Update(changed) }
     }
 
-    /// The next one is full.
-    pub fn start_over(&mut self) {
+    /// Makes the next message the whole grid.
+    pub fn request_full(&mut self) {
         self.sent = None;
     }
 }
@@ -62,17 +62,17 @@ mod tests {
     #[test]
     fn one_full_grid_and_then_what_has_changed() {
         let mut info = GridInfo::new(0.1, 10, 10, Pose2::IDENTITY).unwrap();
-        let mut publication = Publication::new();
-        assert_eq!(publication.next(&info, false), Outgoing::Full);
-        assert_eq!(publication.next(&info, false), Outgoing::Nothing);
-        publication.changed(Window { x0: 2, y0: 2, xn: 4, yn: 4 });
-        publication.changed(Window { x0: 7, y0: 3, xn: 8, yn: 5 });
-        let both = Window { x0: 2, y0: 2, xn: 8, yn: 5 };
-        assert_eq!(publication.next(&info, false), Outgoing::Update(both));
-        assert_eq!(publication.next(&info, true), Outgoing::Full);
+        let mut publication = PublicationState::new();
+        assert_eq!(publication.next(&info, false), CostmapMessage::Full);
+        assert_eq!(publication.next(&info, false), CostmapMessage::Nothing);
+        publication.changed(CellWindow { x0: 2, y0: 2, xn: 4, yn: 4 });
+        publication.changed(CellWindow { x0: 7, y0: 3, xn: 8, yn: 5 });
+        let both = CellWindow { x0: 2, y0: 2, xn: 8, yn: 5 };
+        assert_eq!(publication.next(&info, false), CostmapMessage::Update(both));
+        assert_eq!(publication.next(&info, true), CostmapMessage::Full);
         info.origin.x_m = 0.1;
         publication.changed(both);
-        assert_eq!(publication.next(&info, false), Outgoing::Full, "it has moved");
-        assert_eq!(publication.next(&info, false), Outgoing::Nothing);
+        assert_eq!(publication.next(&info, false), CostmapMessage::Full, "it has moved");
+        assert_eq!(publication.next(&info, false), CostmapMessage::Nothing);
     }
 }

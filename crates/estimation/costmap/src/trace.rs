@@ -1,4 +1,4 @@
-//! Which reading changed a cell last.
+//! Last reading that changed each cell.
 
 use std::sync::Arc;
 
@@ -6,28 +6,28 @@ use periplus_grid::{Cell, Grid, GridInfo};
 
 use crate::Observation;
 
-/// Larger grids are not traced unless somebody asks for it: it takes 12 bytes for each cell.
-const MOST_TRACED_CELLS: usize = 1 << 20;
+/// Largest grid that is traced by default: a trace uses 12 bytes per cell.
+const MAX_TRACED_CELLS: usize = 1 << 20;
 
-/// When so many readings are remembered, those are forgotten that no cell speaks of any more.
-const READINGS_AT_FIRST: usize = 1 << 12;
+/// Number of readings at which unreferenced ones are removed for the first time.
+const INITIAL_READINGS: usize = 1 << 12;
 
-/// If cells speak of more readings than this, the oldest half is forgotten; cells last touched by those
-/// cannot tell by what.
-const MOST_READINGS: usize = 1 << 16;
+/// Maximum number of referenced readings; beyond it the oldest half is dropped, and cells last
+/// changed by those have no cause.
+const MAX_READINGS: usize = 1 << 16;
 
-/// What changed a cell.
+/// Reading that changed a cell.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Cause {
-    /// The source.
+    /// Source.
     pub source: String,
-    /// Whether it was marked; otherwise a ray went through it.
+    /// True if the cell was marked, false if a ray cleared it.
     pub is_mark: bool,
-    /// When it was seen \[ns\].
+    /// Time of the reading \[ns\].
     pub time_ns: i64,
-    /// Where the ray began, in the global frame \[m\].
+    /// Origin of the ray in the global frame \[m\].
     pub origin: [f32; 3],
-    /// Where it ended, in the global frame \[m\].
+    /// End of the ray in the global frame \[m\].
     pub end: [f32; 2],
 }
 
@@ -40,32 +40,32 @@ struct Reading {
 
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 struct Touch {
-    /// Twice the place of the reading in the list, counted from 1, plus one for a mark; 0 for none.
+    /// Twice the index of the reading, counted from 1, plus one for a mark; 0 for none.
     reading: u32,
     end: [f32; 2],
 }
 
 impl Touch {
-    /// The place of its reading, counted from 1; 0 for none.
+    /// Index of the reading, counted from 1; 0 for none.
     fn place(self) -> usize {
         (self.reading / 2) as usize
     }
 }
 
-/// Remembers which reading changed each cell last.
+/// Record of the reading that last changed each cell.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct Trace {
+pub(crate) struct ReadingTrace {
     touches: Option<Grid<Touch>>,
     /// Oldest first.
     readings: Vec<Reading>,
-    /// So many may be there before it is looked which of them are needed.
+    /// Number of readings at which unreferenced ones are removed.
     limit: usize,
 }
 
-impl Trace {
+impl ReadingTrace {
     pub(crate) fn resize(&mut self, info: &GridInfo) {
         *self = Self::default();
-        if info.len() <= MOST_TRACED_CELLS {
+        if info.len() <= MAX_TRACED_CELLS {
             self.touches = Some(Grid::new(*info, Touch::default()));
         }
     }
@@ -89,13 +89,13 @@ impl Trace {
         self.readings.clear();
     }
 
-    /// A pen that notes what a reading touches; none when nothing is traced.
-    pub(crate) fn pen(
+    /// Returns a writer for the cells that a reading changes; none when tracing is off.
+    pub(crate) fn writer(
         &mut self,
         source: &str,
         seen: &Observation,
         is_mark: bool,
-    ) -> Option<Pen<'_>> {
+    ) -> Option<TraceWriter<'_>> {
         self.touches.as_ref()?;
         let origin = seen.origin.map(|at| at as f32);
         let is_same = self.readings.last().is_some_and(|last| {
@@ -109,13 +109,13 @@ impl Trace {
         }
         let touches = self.touches.as_mut()?;
         let number = self.readings.len() as u32;
-        Some(Pen { touches: &mut touches.cells, reading: 2 * number + u32::from(is_mark) })
+        Some(TraceWriter { touches: &mut touches.cells, reading: 2 * number + u32::from(is_mark) })
     }
 
-    /// Forgets readings that no cell speaks of, once there are many: memory stays as it is however
-    /// long a robot drives, and a mark can be explained however old it is.
+    /// Removes unreferenced readings once there are many: memory stays bounded during long runs,
+    /// while marks of any age can be explained.
     fn make_room(&mut self) {
-        if self.readings.len() < self.limit.max(READINGS_AT_FIRST) {
+        if self.readings.len() < self.limit.max(INITIAL_READINGS) {
             return;
         }
         let Some(touches) = &mut self.touches else { return };
@@ -125,8 +125,8 @@ impl Trace {
         }
         is_needed[0] = false;
         let needed = is_needed.iter().filter(|is_needed| **is_needed).count();
-        let mut surplus = if needed > MOST_READINGS { needed - MOST_READINGS / 2 } else { 0 };
-        // Where each goes; 0 for those that are forgotten.
+        let mut surplus = if needed > MAX_READINGS { needed - MAX_READINGS / 2 } else { 0 };
+        // New index of each reading; 0 for removed ones.
         let mut places = vec![0_u32; is_needed.len()];
         let mut kept = Vec::with_capacity(needed);
         for (place, is_needed) in is_needed.into_iter().enumerate() {
@@ -144,8 +144,8 @@ impl Trace {
             let place = places[touch.place()];
             touch.reading = if place == 0 { 0 } else { 2 * place + touch.reading % 2 };
         }
-        // So that this is done after many more readings, not after each.
-        self.limit = (2 * kept.len()).max(READINGS_AT_FIRST);
+        // Removes again only after many more readings.
+        self.limit = (2 * kept.len()).max(INITIAL_READINGS);
         self.readings = kept;
     }
 
@@ -162,13 +162,13 @@ impl Trace {
     }
 }
 
-/// Notes what one reading touches.
-pub(crate) struct Pen<'a> {
+/// Writer for the cells that one reading changes.
+pub(crate) struct TraceWriter<'a> {
     touches: &'a mut [Touch],
     reading: u32,
 }
 
-impl Pen<'_> {
+impl TraceWriter<'_> {
     #[inline]
     pub(crate) fn note(&mut self, index: usize, end: [f32; 2]) {
         if let Some(touch) = self.touches.get_mut(index) {
@@ -185,18 +185,18 @@ mod tests {
 
     #[test]
     fn old_marks_are_explained_and_nobody_remembers_what_is_not_needed() {
-        let mut trace = Trace::default();
+        let mut trace = ReadingTrace::default();
         trace.resize(&GridInfo::new(1.0, 10, 1, Pose2::IDENTITY).unwrap());
         let seen = |time_ns| Observation { time_ns, ..Observation::default() };
         let mut most = 0;
         for time_ns in 0..100_000 {
             // The first reading marks cell 0, all others clear cells 1 to 9 in turn.
             let is_first = time_ns == 0;
-            let mut pen = trace.pen("scan", &seen(time_ns), is_first).unwrap();
-            pen.note(if is_first { 0 } else { 1 + time_ns as usize % 9 }, [0.5, 0.5]);
+            let mut writer = trace.writer("scan", &seen(time_ns), is_first).unwrap();
+            writer.note(if is_first { 0 } else { 1 + time_ns as usize % 9 }, [0.5, 0.5]);
             most = most.max(trace.readings.len());
         }
-        assert_eq!(most, READINGS_AT_FIRST);
+        assert_eq!(most, INITIAL_READINGS);
         let cause = trace.cause((0, 0)).unwrap();
         assert_eq!((cause.is_mark, cause.time_ns, cause.source.as_str()), (true, 0, "scan"));
         let cause = trace.cause((1, 0)).unwrap();

@@ -1,24 +1,24 @@
-//! Columns of voxels, a number of 32 bits for each.
+//! Columns of voxels, each a 32-bit integer.
 //!
-//! Bit `z` and bit `16 + z` tell of voxel `z`: both set, it is marked; the lower one alone, nobody
-//! knows; none, it is free. Source: `nav2_voxel_grid/voxel_grid.hpp`.
+//! Bits `z` and `16 + z` encode voxel `z`: both set for marked, only the lower one for unknown,
+//! none for free. Source: `nav2_voxel_grid/voxel_grid.hpp`.
 
 use periplus_grid::{Cell, Grid, GridInfo};
 
-/// As many voxels are in a column at most.
-pub const MOST_VOXELS: u32 = 16;
+/// Maximum number of voxels in a column.
+pub const MAX_VOXEL_COUNT: u32 = 16;
 
-/// Nobody knows anything of a column.
-const UNSEEN: u32 = 0x0000_ffff;
+/// Column of unknown voxels.
+const UNSEEN_COLUMN: u32 = 0x0000_ffff;
 
-/// What is known of a voxel or of a column.
+/// State of a voxel or column.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Voxel {
-    /// Nothing is there.
+    /// Free.
     Free,
-    /// Nobody knows.
+    /// Unknown.
     Unknown,
-    /// Something is there.
+    /// Marked as an obstacle.
     Marked,
 }
 
@@ -29,19 +29,19 @@ pub struct VoxelGrid {
     height: u32,
 }
 
-/// Both bits of a voxel.
+/// Returns both bits of a voxel.
 fn bits(z: u32) -> u32 {
     0x0001_0001 << z
 }
 
-/// How many voxels of a column are marked.
+/// Returns the number of marked voxels of a column.
 #[must_use]
 #[inline]
 pub(crate) fn marked(column: u32) -> u32 {
     (column >> 16).count_ones()
 }
 
-/// How many voxels of a column nobody knows. All 16 count, also those above the grid.
+/// Returns the number of unknown voxels of a column. All 16 count, also those above the grid.
 #[must_use]
 #[inline]
 pub(crate) fn unknown(column: u32) -> u32 {
@@ -49,48 +49,48 @@ pub(crate) fn unknown(column: u32) -> u32 {
 }
 
 impl VoxelGrid {
-    /// All unknown; more than [`MOST_VOXELS`] are cut off.
+    /// Creates a grid of unknown voxels; the height is limited to [`MAX_VOXEL_COUNT`].
     #[must_use]
     pub fn new(info: GridInfo, height: u32) -> Self {
-        Self { columns: Grid::new(info, UNSEEN), height: height.min(MOST_VOXELS) }
+        Self { columns: Grid::new(info, UNSEEN_COLUMN), height: height.min(MAX_VOXEL_COUNT) }
     }
 
-    /// Voxels in a column.
+    /// Returns the number of voxels in a column.
     #[must_use]
     pub fn height(&self) -> u32 {
         self.height
     }
 
-    /// Where the columns are.
+    /// Returns resolution, size and origin of the columns.
     #[must_use]
     pub fn info(&self) -> &GridInfo {
         &self.columns.info
     }
 
-    /// The columns, row by row from the lower left corner.
+    /// Returns the columns, row by row from the lower left corner.
     #[must_use]
     pub fn columns(&self) -> &[u32] {
         &self.columns.cells
     }
 
-    /// Forgets everything.
+    /// Sets all voxels to unknown.
     pub fn reset(&mut self) {
-        self.columns.cells.fill(UNSEEN);
+        self.columns.cells.fill(UNSEEN_COLUMN);
     }
 
-    /// Moves to where another grid with cells of the same size is; new columns are unknown.
+    /// Moves to the origin of another grid with cells of the same size; new columns are unknown.
     pub fn follow(&mut self, there: &GridInfo) {
         let here = self.columns.info;
         let cells = |to: f64, from: f64| libm::round((to - from) / here.resolution_m) as i64;
         let columns = cells(there.origin.x_m, here.origin.x_m);
         let rows = cells(there.origin.y_m, here.origin.y_m);
         if (columns, rows) != (0, 0) {
-            self.columns.roll(columns, rows, UNSEEN);
+            self.columns.roll(columns, rows, UNSEEN_COLUMN);
             self.columns.info.origin = there.origin;
         }
     }
 
-    /// What is known of a voxel; outside nothing is.
+    /// Returns the state of a voxel; unknown outside the grid.
     #[must_use]
     pub fn voxel(&self, cell: Cell, z: u32) -> Voxel {
         let Some(column) = self.columns.get(cell).filter(|_| z < self.height) else {
@@ -103,8 +103,8 @@ impl VoxelGrid {
         }
     }
 
-    /// What is known of a column: more marked voxels than `mark_threshold`, or else more unknown ones
-    /// than `unknown_threshold`.
+    /// Returns the state of a column: marked with more than `mark_threshold` marked voxels, else
+    /// unknown with more than `unknown_threshold` unknown ones.
     #[must_use]
     pub fn column(&self, cell: Cell, unknown_threshold: u32, mark_threshold: u32) -> Voxel {
         match self.columns.get(cell) {
@@ -114,7 +114,8 @@ impl VoxelGrid {
         }
     }
 
-    /// Marks a voxel, and tells whether more than `mark_threshold` of its column are marked now.
+    /// Marks a voxel; returns true if more than `mark_threshold` voxels of its column are marked
+    /// now.
     pub fn mark(&mut self, cell: Cell, z: u32, mark_threshold: u32) -> bool {
         if !self.columns.info.contains(cell) || z >= self.height {
             return false;
@@ -124,35 +125,35 @@ impl VoxelGrid {
         marked(*column) > mark_threshold
     }
 
-    /// Frees a voxel.
+    /// Clears a voxel.
     pub fn clear(&mut self, cell: Cell, z: u32) {
         if self.columns.info.contains(cell) && z < self.height {
             self.columns[cell] &= !bits(z);
         }
     }
 
-    /// Frees all voxels of a column.
+    /// Clears all voxels of a column.
     pub fn clear_column(&mut self, index: usize) {
         if let Some(column) = self.columns.cells.get_mut(index) {
             *column = 0;
         }
     }
 
-    /// Marks all voxels of a line; places are in cells from the lowest corner.
+    /// Marks the voxels along a line; positions are in cells from the lowest corner.
     pub fn mark_line(&mut self, start: [f64; 3], end: [f64; 3]) {
         let columns = &mut self.columns.cells;
-        if let Some(line) = Line3::within(self.columns.info.width, start, end, 0, u32::MAX) {
+        if let Some(line) = VoxelLine::within(self.columns.info.width, start, end, 0, u32::MAX) {
             line.walk(|index, z| columns[index] |= bits(z));
         }
     }
 
-    /// Frees all voxels of a line; places are in cells from the lowest corner.
+    /// Clears the voxels along a line; positions are in cells from the lowest corner.
     pub fn clear_line(&mut self, start: [f64; 3], end: [f64; 3]) {
         self.clear_along(start, end, 0, u32::MAX, |_, _| {});
     }
 
-    /// Frees the voxels of a line between two distances, in cells, and calls for each with the place
-    /// of its column and what the column holds then. Ends outside of the grid free nothing.
+    /// Clears the voxels along a line between two distances \[cells\], and calls `visit` with the
+    /// index and the new value of each column. A line with an end outside the grid has no effect.
     pub fn clear_along(
         &mut self,
         start: [f64; 3],
@@ -163,7 +164,7 @@ impl VoxelGrid {
     ) {
         let GridInfo { width, height, .. } = self.columns.info;
         let is_inside = |[x, y, z]: [f64; 3]| {
-            // Written so that no number (NaN) is outside.
+            // Written such that NaN is outside.
             x >= 0.0
                 && y >= 0.0
                 && z >= 0.0
@@ -175,7 +176,7 @@ impl VoxelGrid {
             return;
         }
         let columns = &mut self.columns.cells;
-        if let Some(line) = Line3::within(width, start, end, shortest, longest) {
+        if let Some(line) = VoxelLine::within(width, start, end, shortest, longest) {
             line.walk(|index, z| {
                 let column = &mut columns[index];
                 *column &= !bits(z);
@@ -185,23 +186,23 @@ impl VoxelGrid {
     }
 }
 
-/// A line of voxels: Bresenham in three dimensions, in whole numbers.
+/// Line of voxels: Bresenham's algorithm in three dimensions with integers.
 #[derive(Clone, Copy, Debug)]
-pub struct Line3 {
+pub struct VoxelLine {
     index: usize,
     z: u32,
-    /// Steps along the longest side.
+    /// Number of steps along the longest side.
     steps: u32,
-    /// The sides, longest first.
+    /// Side lengths, longest first.
     sides: [u32; 3],
-    /// What a step along each side adds to the index and to z.
+    /// Increments of index and z for a step along each side.
     adds: [(isize, i32); 3],
 }
 
-impl Line3 {
-    /// The part of a line that is at least `shortest` and at most `longest` cells from its start;
-    /// places are in cells from the lowest corner of columns in rows of `width`. None when the line
-    /// is shorter.
+impl VoxelLine {
+    /// Creates the part of a line between `min_length` and `max_length` cells from its start;
+    /// positions are in cells from the lowest corner, columns are in rows of `width`. None when the
+    /// line is shorter.
     #[must_use]
     pub fn within(
         width: usize,
@@ -253,7 +254,7 @@ impl Line3 {
         })
     }
 
-    /// Calls for each voxel with the place of its column and its z.
+    /// Calls `visit` with the column index and z of each voxel.
     #[inline(always)]
     pub fn walk(&self, mut visit: impl FnMut(usize, u32)) {
         let [a, b, c] = self.sides;
@@ -280,7 +281,7 @@ impl Line3 {
         visit(index, z);
     }
 
-    /// Steps along the longest side.
+    /// Returns the number of steps along the longest side.
     #[must_use]
     pub fn steps(&self) -> u32 {
         self.steps
@@ -331,7 +332,7 @@ mod tests {
             shortest in 0..20_u32, longest in 0..60_u32,
         ) {
             let (start, end) = (<[f64; 3]>::from(start), <[f64; 3]>::from(end));
-            if let Some(line) = Line3::within(50, start, end, shortest, longest) {
+            if let Some(line) = VoxelLine::within(50, start, end, shortest, longest) {
                 line.walk(|index, z| {
                     let cell = [(index % 50) as f64, (index / 50) as f64, f64::from(z)];
                     for axis in 0..3 {

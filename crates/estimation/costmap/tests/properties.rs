@@ -1,9 +1,9 @@
-//! What holds for any costmap.
+//! Properties of any costmap.
 
 use periplus_costmap::layers::{InflationLayer, ObstacleLayer, VoxelLayer};
 use periplus_costmap::{
-    Compat, Costmap, Footprint, Frame, Layer, LayeredCostmap, NoFrames, Observation, Source, Span,
-    tables,
+    Costmap, CostmapSettings, Footprint, Layer, LayeredCostmap, Nav2Release, NoTransforms,
+    Observation, ObservationSource, RangeLimits, tables,
 };
 use periplus_diagnostics::Diagnostics;
 use periplus_geometry::Pose2;
@@ -20,7 +20,7 @@ fn values(table: &'static Table, given: &[(&'static str, &'static str)]) -> Para
 
 fn costmap(is_rolling: bool) -> LayeredCostmap {
     let info = GridInfo::new(0.1, SIDE, SIDE, Pose2::IDENTITY).expect("a valid grid");
-    let frame = Frame { is_rolling, ..Frame::default() };
+    let frame = CostmapSettings { is_rolling, ..CostmapSettings::default() };
     LayeredCostmap::new(frame, info)
 }
 
@@ -29,12 +29,12 @@ fn seen(origin: [f64; 2], points: &[[f64; 2]]) -> Observation {
         time_ns: 0,
         origin: [origin[0], origin[1], 0.5],
         points: points.iter().map(|[x, y]| [*x as f32, *y as f32, 0.5]).collect(),
-        marks: Span { min_m: 0.0, max_m: 100.0 },
-        rays: Span { min_m: 0.0, max_m: 100.0 },
+        marks: RangeLimits { min_m: 0.0, max_m: 100.0 },
+        rays: RangeLimits { min_m: 0.0, max_m: 100.0 },
     }
 }
 
-fn obstacles(is_voxel: bool, sources: Vec<Source>) -> Box<dyn Layer> {
+fn obstacles(is_voxel: bool, sources: Vec<ObservationSource>) -> Box<dyn Layer> {
     if is_voxel {
         Box::new(VoxelLayer::new("seen", values(&tables::VOXEL, &[]), false, sources))
     } else {
@@ -44,7 +44,7 @@ fn obstacles(is_voxel: bool, sources: Vec<Source>) -> Box<dyn Layer> {
 
 fn inflation(name: &str) -> Box<dyn Layer> {
     let values = values(&tables::INFLATION, &[("inflation_radius", "0.5")]);
-    Box::new(InflationLayer::new(name, values, Compat::Main))
+    Box::new(InflationLayer::new(name, values, Nav2Release::Main))
 }
 
 fn point() -> impl Strategy<Value = [f64; 2]> {
@@ -62,26 +62,26 @@ fn lethal(costmap: &Costmap, [x, y]: [f64; 2]) -> bool {
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(48))]
 
-    /// What one source marks stays, whatever another one sees through in the same update.
+    /// Marks of one source stay although another source clears the same cells in the same update.
     #[test]
     fn clearing_spares_what_is_marked_in_the_same_update(
         marks in points(), clears in points(), origin in point(), is_voxel: bool,
     ) {
         let sources = vec![
-            Source::fixed("marks", seen(origin, &marks), true, false),
-            Source::fixed("clears", seen(origin, &clears), false, true),
+            ObservationSource::fixed("marks", seen(origin, &marks), true, false),
+            ObservationSource::fixed("clears", seen(origin, &clears), false, true),
         ];
         let mut costmap = costmap(false);
         costmap.add_layer(obstacles(is_voxel, sources));
         for now_ns in 0..2 {
-            costmap.update(now_ns, Pose2::IDENTITY, &NoFrames);
+            costmap.update(now_ns, Pose2::IDENTITY, &NoTransforms);
         }
         for mark in marks {
             prop_assert!(lethal(costmap.costmap(), mark), "{mark:?}");
         }
     }
 
-    /// A rolling window keeps what it has seen where it is in the world, as long as it covers it.
+    /// A rolling window keeps observations at their position in the world while it covers them.
     #[test]
     fn a_rolling_window_keeps_the_world_in_its_place(
         marks in points(), steps in proptest::collection::vec([-0.6..0.6, -0.6..0.6], 1..12),
@@ -89,18 +89,18 @@ proptest! {
     ) {
         let mut costmap = costmap(true);
         let origin = [2.0, 2.0];
-        // Seen once: only what is remembered counts afterwards.
+        // A single observation: afterwards only memory counts.
         costmap.add_layer(obstacles(is_voxel, Vec::new()));
-        let mut source = Source::fixed("once", seen(origin, &marks), true, false);
+        let mut source = ObservationSource::fixed("once", seen(origin, &marks), true, false);
         source.settings.persistence_ns = 1;
         add_source(&mut costmap, is_voxel, source);
         let mut robot = Pose2::new(2.0, 2.0, 0.0);
-        costmap.update(0, robot, &NoFrames);
+        costmap.update(0, robot, &NoTransforms);
         let mut remembered: Vec<(f64, f64)> = cells_with(costmap.costmap(), 254);
         prop_assert!(!remembered.is_empty());
         for (step, [dx, dy]) in steps.into_iter().enumerate() {
             robot = Pose2::new(robot.x_m + dx, robot.y_m + dy, 0.0);
-            costmap.update(10 + step as i64, robot, &NoFrames);
+            costmap.update(10 + step as i64, robot, &NoTransforms);
             let layer = costmap.layers()[0].grid().unwrap();
             remembered.retain(|(x_m, y_m)| layer.cost_at(*x_m, *y_m).is_some());
             prop_assert_eq!(cells_with(layer, 254).len(), remembered.len());
@@ -110,12 +110,12 @@ proptest! {
         }
     }
 
-    /// Layers before the inflation are inflated, those after it are not.
+    /// Layers before the inflation layer are inflated, later ones are not.
     #[test]
     fn the_order_of_layers_counts(marks in points(), origin in point()) {
         let build = |inflation_first: bool| {
             let mut costmap = costmap(false);
-            let layer = obstacles(false, vec![Source::fixed("a", seen(origin, &marks), true, false)]);
+            let layer = obstacles(false, vec![ObservationSource::fixed("a", seen(origin, &marks), true, false)]);
             if inflation_first {
                 costmap.add_layer(inflation("inflation"));
                 costmap.add_layer(layer);
@@ -124,7 +124,7 @@ proptest! {
                 costmap.add_layer(inflation("inflation"));
             }
             costmap.set_footprint(Footprint::circle(0.2));
-            costmap.update(0, Pose2::IDENTITY, &NoFrames);
+            costmap.update(0, Pose2::IDENTITY, &NoTransforms);
             costmap
         };
         let (inflated, bare) = (build(false), build(true));
@@ -135,7 +135,7 @@ proptest! {
         prop_assert!(count(&inflated, 0) < count(&bare, 0));
     }
 
-    /// Updates one after the other end where one that makes everything anew does.
+    /// Incremental updates have the same result as one full update.
     #[test]
     fn updates_of_a_part_equal_one_of_all(
         rounds in proptest::collection::vec((points(), point()), 1..6),
@@ -145,20 +145,20 @@ proptest! {
         costmap.add_layer(inflation("inflation"));
         costmap.set_footprint(Footprint::circle(0.2));
         for (index, (marks, origin)) in rounds.iter().enumerate() {
-            let mut source = Source::fixed("scan", seen(*origin, marks), true, true);
+            let mut source = ObservationSource::fixed("scan", seen(*origin, marks), true, true);
             source.settings.persistence_ns = 1;
             add_source(&mut costmap, false, source);
-            costmap.update(100 * index as i64, Pose2::new(2.0, 2.0, 0.0), &NoFrames);
+            costmap.update(100 * index as i64, Pose2::new(2.0, 2.0, 0.0), &NoTransforms);
         }
         let in_parts = costmap.costmap().costs().to_vec();
-        // A changed footprint makes the inflation do everything again.
+        // A changed footprint causes a full inflation.
         costmap.set_footprint(Footprint::circle(0.2));
-        costmap.update(1_000_000, Pose2::new(2.0, 2.0, 0.0), &NoFrames);
+        costmap.update(1_000_000, Pose2::new(2.0, 2.0, 0.0), &NoTransforms);
         prop_assert_eq!(in_parts, costmap.costmap().costs().to_vec());
     }
 }
 
-fn add_source(costmap: &mut LayeredCostmap, is_voxel: bool, source: Source) {
+fn add_source(costmap: &mut LayeredCostmap, is_voxel: bool, source: ObservationSource) {
     if is_voxel {
         costmap.find_as::<VoxelLayer>("seen").expect("it is there").add_source(source);
     } else {

@@ -1,7 +1,7 @@
-//! An hour among moving obstacles.
-#![allow(clippy::unwrap_used, clippy::panic, reason = "a test says what must be there")]
+//! One hour among moving obstacles.
+#![allow(clippy::unwrap_used, clippy::panic, reason = "a test states its preconditions")]
 
-use periplus_costmap::{Beams, Config, LayeredCostmap, NoFrames, Projector};
+use periplus_costmap::{CostmapConfig, LayeredCostmap, NoTransforms, Projector, ScanGeometry};
 use periplus_diagnostics::Diagnostics;
 use periplus_geometry::{Pose, Pose2};
 use periplus_params::Given;
@@ -9,7 +9,7 @@ use periplus_params::Given;
 const SECONDS: i64 = 3600;
 const BEAMS: usize = 180;
 
-/// A post that goes round.
+/// A post that moves on a circle.
 #[derive(Clone, Copy)]
 struct Post {
     x_m: f64,
@@ -20,7 +20,7 @@ struct Post {
 /// Half the length of the room \[m\].
 const WALL_M: f64 = 4.0;
 
-/// How far a ray goes from a place in the room.
+/// Returns the length of a ray from a position in the room \[m\].
 fn range(x_m: f64, y_m: f64, angle_rad: f64, posts: &[Post]) -> f32 {
     let (dy, dx) = libm::sincos(angle_rad);
     let to_wall = |at: f64, along: f64| {
@@ -70,12 +70,12 @@ fn costmap(layer: &'static str) -> LayeredCostmap {
     ];
     let given = given.map(|(name, text)| Given::new(name, text));
     let mut diagnostics = Diagnostics::new();
-    let config = Config::read(given, None, &mut diagnostics);
+    let config = CostmapConfig::read(given, None, &mut diagnostics);
     assert!(diagnostics.is_empty());
     config.build()
 }
 
-/// One look round; where the robot is.
+/// Inserts one scan and returns the pose of the robot.
 fn look(
     costmap: &mut LayeredCostmap,
     projector: &mut Projector,
@@ -89,7 +89,7 @@ fn look(
     let ranges: Vec<f32> = (0..BEAMS)
         .map(|beam| range(robot.x_m, robot.y_m, robot.yaw_rad + beam as f64 * step_rad, posts))
         .collect();
-    let beams = Beams {
+    let beams = ScanGeometry {
         angle_min_rad: 0.0,
         angle_increment_rad: step_rad as f32,
         range_min_m: 0.05,
@@ -100,11 +100,11 @@ fn look(
         let points = projector.points(beams, &ranges, false);
         source.insert(now_ns, now_ns, sensor, sensor.translation, points);
     }
-    costmap.update(now_ns, robot, &NoFrames);
+    costmap.update(now_ns, robot, &NoTransforms);
     robot
 }
 
-/// How far the nearest surface is from a place \[m\].
+/// Returns the distance of the nearest surface from a position \[m\].
 fn to_surface(x_m: f64, y_m: f64, posts: &[Post]) -> f64 {
     let to_wall = (WALL_M - x_m.abs()).min(WALL_M - y_m.abs()).abs();
     let to_post = posts
@@ -113,11 +113,11 @@ fn to_surface(x_m: f64, y_m: f64, posts: &[Post]) -> f64 {
     to_post.fold(to_wall, f64::min)
 }
 
-/// Further than this from a surface nothing is marked: more than the diagonal of a cell \[m\].
+/// Distance beyond which nothing is marked: more than the diagonal of a cell \[m\].
 const SLACK_M: f64 = 0.25;
 
-/// Cells that are marked though nothing is near them, as they tell it themselves. Whatever is marked
-/// must name a reading, and something must have been there at its time.
+/// Returns the reports of marked cells without an obstacle nearby. Each mark must have a reading,
+/// and an obstacle at the time of that reading.
 fn stuck(costmap: &LayeredCostmap, posts_now: &[Post]) -> Vec<String> {
     let info = *costmap.costmap().info();
     let mut stuck = Vec::new();
@@ -143,17 +143,17 @@ fn check(layer: &'static str) {
     for second in 0..SECONDS {
         let posts = posts(second);
         look(&mut costmap, &mut projector, second, &posts);
-        // Behind a post a mark stays until somebody looks there.
+        // A mark behind a post stays until a ray reaches it.
         behind += stuck(&costmap, &posts).len();
     }
-    assert!(behind > 0, "a test without such marks says nothing");
-    // The posts have gone, and the robot drives once round.
+    assert!(behind > 0, "a test without such marks proves nothing");
+    // The posts are gone, and the robot drives one round.
     for second in SECONDS..SECONDS + 130 {
         look(&mut costmap, &mut projector, second, &[]);
     }
     let stuck = stuck(&costmap, &[]);
     assert!(stuck.is_empty(), "{} cells, such as\n{}", stuck.len(), stuck[0]);
-    assert!(costmap.complaints().is_empty());
+    assert!(costmap.diagnostics().is_empty());
 }
 
 #[test]

@@ -1,26 +1,26 @@
-//! What users do, and what goes wrong for them.
+//! Typical tasks and typical mistakes.
 
 use expect_test::{Expect, expect};
 use periplus_costmap::clear::{Region, clear};
-use periplus_costmap::filters::{KeepoutFilter, Mask, Masked};
+use periplus_costmap::filters::{FilterMask, KeepoutFilter, MaskFilter};
 use periplus_costmap::layers::{RangeLayer, RangeReading, StaticLayer};
-use periplus_costmap::{Compat, Config, LayeredCostmap, NoFrames};
+use periplus_costmap::{CostmapConfig, LayeredCostmap, Nav2Release, NoTransforms};
 use periplus_diagnostics::{Diagnostics, RenderStyle, SourceMap, render};
 use periplus_geometry::{DVec3, Pose, Pose2};
 use periplus_grid::{Grid, GridInfo, OccupancyGrid};
 
-/// Reads YAML, and what is said about it.
-fn read(text: &str, node: &str) -> (Config, String) {
+/// Reads YAML and returns the configuration with its messages.
+fn read(text: &str, node: &str) -> (CostmapConfig, String) {
     let mut sources = SourceMap::new();
     let file = sources.add("params.yaml", text);
     let mut diagnostics = Diagnostics::new();
     let tree = periplus_yaml::parse(file, &sources).expect("YAML").expect("something");
-    let config = Config::read_yaml(&tree, node, None, &mut diagnostics);
+    let config = CostmapConfig::read_yaml(&tree, node, None, &mut diagnostics);
     let said = diagnostics.iter().map(|one| render(one, &sources, RenderStyle::Plain)).collect();
     (config, said)
 }
 
-fn check(text: &str, expected: Expect) -> Config {
+fn check(text: &str, expected: Expect) -> CostmapConfig {
     let (config, said) = read(text, "local_costmap");
     expected.assert_eq(&said);
     config
@@ -42,12 +42,12 @@ local_costmap:
       inflation_layer: {plugin: 'nav2_costmap_2d::InflationLayer', inflation_radius: 0.3}
 ";
 
-/// A sensor in the middle sees points in its own frame.
+/// Inserts points seen by a sensor at the centre, in its frame.
 fn look(costmap: &mut LayeredCostmap, now_ns: i64, points: &[[f32; 3]]) {
     let sensor = Pose::from_xyz(1.55, 1.55, 0.2);
     let source = costmap.source_mut("obstacle_layer", "scan").expect("a source");
     source.insert(now_ns, now_ns, sensor, sensor.translation, points.iter().copied());
-    costmap.update(now_ns, Pose2::new(1.55, 1.55, 0.0), &NoFrames);
+    costmap.update(now_ns, Pose2::new(1.55, 1.55, 0.0), &NoTransforms);
 }
 
 #[test]
@@ -58,7 +58,7 @@ fn an_obstacle_appears_and_goes() {
     assert_eq!(cost(&costmap, 2.05), 254);
     assert_eq!(cost(&costmap, 2.15), 253);
     assert!((1..253).contains(&cost(&costmap, 2.25)));
-    // A wall further away: what was there is seen through.
+    // A wall further away: rays cross the former obstacle.
     look(&mut costmap, 1, &[[1.0, 0.0, 0.0]]);
     assert_eq!(cost(&costmap, 2.05), 0);
     assert_eq!(cost(&costmap, 2.55), 254);
@@ -281,16 +281,16 @@ fn a_map_sets_the_size_and_keeps_quiet() {
     );
     let mut costmap = config.build();
     let robot = Pose2::new(0.5, 0.5, 0.0);
-    assert_eq!(costmap.update(0, robot, &NoFrames), None, "no map has come");
+    assert_eq!(costmap.update(0, robot, &NoTransforms), None, "no map was received");
     let layer = costmap.find_as::<StaticLayer>("static_layer").unwrap();
     layer.set_map(map(3, 2, vec![0, 100, 0, 0, 0, -1], Pose2::IDENTITY), "map").unwrap();
-    assert!(costmap.update(1, robot, &NoFrames).is_some());
+    assert!(costmap.update(1, robot, &NoTransforms).is_some());
     assert_eq!(costmap.costmap().costs(), [0, 254, 0, 0, 0, 0]);
-    assert_eq!(costmap.update(2, robot, &NoFrames), None, "nothing has changed");
-    // A smaller map takes its place.
+    assert_eq!(costmap.update(2, robot, &NoTransforms), None, "nothing has changed");
+    // A smaller map replaces it.
     let layer = costmap.find_as::<StaticLayer>("static_layer").unwrap();
     layer.set_map(map(1, 2, vec![100, 0], Pose2::IDENTITY), "map").unwrap();
-    costmap.update(3, robot, &NoFrames);
+    costmap.update(3, robot, &NoTransforms);
     assert_eq!(costmap.costmap().costs(), [254, 0]);
 }
 
@@ -304,7 +304,7 @@ fn a_turned_map_lies_as_it_says() {
     let turned = Pose2::new(10.0, 0.0, std::f64::consts::FRAC_PI_2);
     let layer = costmap.find_as::<StaticLayer>("static_layer").unwrap();
     layer.set_map(map(3, 1, vec![0, 0, 100], turned), "map").unwrap();
-    costmap.update(0, Pose2::IDENTITY, &NoFrames);
+    costmap.update(0, Pose2::IDENTITY, &NoTransforms);
     assert_eq!(costmap.cost_at(Pose2::new(9.5, 2.5, 0.0), false), 254, "the row runs up");
     assert_eq!(costmap.cost_at(Pose2::new(9.5, 0.5, 0.0), false), 0);
 }
@@ -320,7 +320,10 @@ fn malformed_maps_are_refused() {
     let good = map(2, 2, vec![0; 4], Pose2::IDENTITY);
     let mut short = good.clone();
     short.cells.pop();
-    assert_eq!(layer.set_map(short, "map"), Err("it has 3 cells and should have 2 x 2".to_owned()));
+    assert_eq!(
+        layer.set_map(short, "map"),
+        Err("the map has 3 cells and should have 2 x 2".to_owned())
+    );
     assert!(layer.set_map(good.clone(), "").is_err());
     let mut fine = good.clone();
     fine.info.resolution_m = 1e-9;
@@ -339,12 +342,12 @@ fn zones_are_not_inflated_and_appear_at_once() {
     assert_eq!(said, "");
     let mut costmap = config.build();
     let robot = Pose2::new(0.5, 0.5, 0.0);
-    costmap.update(0, robot, &NoFrames);
+    costmap.update(0, robot, &NoTransforms);
     let filter = costmap.find_as::<KeepoutFilter>("zones").unwrap();
     let grid = map(1, 1, vec![100], Pose2::new(2.0, 2.0, 0.0));
-    filter.set_mask(Mask { grid, frame: "map".to_owned() });
+    filter.set_mask(FilterMask { grid, frame: "map".to_owned() });
     for now_ns in 1..4 {
-        costmap.update(now_ns, robot, &NoFrames);
+        costmap.update(now_ns, robot, &NoTransforms);
         let lethal = costmap.costmap().costs().iter().filter(|cost| **cost == 254).count();
         let other = costmap.costmap().costs().iter().filter(|cost| **cost != 0).count();
         assert_eq!((lethal, other), (1, 1));
@@ -361,7 +364,7 @@ fn clearing_makes_room_until_the_next_look() {
     assert!(!costmap.is_current(1));
     let source = costmap.source_mut("obstacle_layer", "scan").unwrap();
     source.insert(1, 1, Pose::IDENTITY, DVec3::new(1.55, 1.55, 0.2), []);
-    costmap.update(1, Pose2::new(1.55, 1.55, 0.0), &NoFrames);
+    costmap.update(1, Pose2::new(1.55, 1.55, 0.0), &NoTransforms);
     assert_eq!(costmap.cost_at(Pose2::new(2.05, 1.55, 0.0), false), 0);
     assert!(costmap.is_current(1));
 }
@@ -378,9 +381,9 @@ fn a_sensor_outside_is_told_once() {
             DVec3::new(-1.0, 0.0, 0.2),
             [[1.0, 1.0, 0.2]],
         );
-        costmap.update(now_ns, Pose2::new(1.0, 1.0, 0.0), &NoFrames);
+        costmap.update(now_ns, Pose2::new(1.0, 1.0, 0.0), &NoTransforms);
     }
-    let said: Vec<String> = costmap.complaints().iter().map(|one| one.message.clone()).collect();
+    let said: Vec<String> = costmap.diagnostics().iter().map(|one| one.message.clone()).collect();
     assert_eq!(
         said,
         [
@@ -408,7 +411,7 @@ fn a_sonar_marks_and_clears() {
             max_range_m: 2.0,
             field_of_view_rad: 0.2,
         });
-        costmap.update(now_ns, Pose2::new(1.05, 1.05, 0.0), &NoFrames);
+        costmap.update(now_ns, Pose2::new(1.05, 1.05, 0.0), &NoTransforms);
     };
     let cost = |costmap: &LayeredCostmap| costmap.cost_at(Pose2::new(1.55, 1.05, 0.0), false);
     read_range(&mut costmap, 0.5, 0);
@@ -427,13 +430,13 @@ fn parameters_change_while_it_runs() {
     look(&mut costmap, 0, &[[0.5, 0.0, 0.0]]);
     let mut values = config.node.clone();
     values.set("robot_radius", periplus_params::ParamValue::Number(0.35));
-    config.change(&mut costmap, values.clone(), &NoFrames).unwrap();
+    config.change(&mut costmap, values.clone(), &NoTransforms).unwrap();
     look(&mut costmap, 1, &[[0.5, 0.0, 0.0]]);
     assert_eq!(costmap.cost_at(Pose2::new(1.75, 1.55, 0.0), false), 253, "now within the robot");
     values.set("rolling_window", periplus_params::ParamValue::Bool(true));
-    let refused = config.change(&mut costmap, values, &NoFrames).unwrap_err();
+    let refused = config.change(&mut costmap, values, &NoTransforms).unwrap_err();
     assert_eq!(refused, "`rolling_window` cannot be changed while the costmap runs");
-    assert_eq!(config.compat, Compat::Main);
+    assert_eq!(config.compat, Nav2Release::Main);
 }
 
 #[test]
@@ -443,7 +446,7 @@ fn what_is_missing_is_shown_where_it_belongs() {
         let file = sources.add("params.yaml", text);
         let tree = periplus_yaml::parse(file, &sources).expect("YAML").expect("something");
         let mut diagnostics = Diagnostics::new();
-        Config::read_yaml(&tree, "local_costmap", None, &mut diagnostics);
+        CostmapConfig::read_yaml(&tree, "local_costmap", None, &mut diagnostics);
         let place = |finding: &periplus_diagnostics::Diagnostic| {
             finding.span.map_or(0, |span| sources.locate(span).1.line)
         };

@@ -167,7 +167,7 @@ impl Default for Settings {
 
 impl Settings {
     /// Reads the parameters of the filter and of its inputs. Of a repeated parameter the last value
-    /// applies. Errors are reported, and the default is used instead.
+    /// applies. Errors are reported, and the default is used.
     pub fn read<'a>(
         given: impl IntoIterator<Item = Given<'a>>,
         diagnostics: &mut Diagnostics,
@@ -334,7 +334,7 @@ fn numbers_of(
         format!("`{name}` has {} numbers; it needs {}", numbers.len(), counts.join(" or ")),
     )
     .at(values.origin(name))
-    .help("the default is used instead");
+    .help("the default is used");
     diagnostics.push(bad);
     None
 }

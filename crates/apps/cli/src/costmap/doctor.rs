@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use clap::Args;
-use periplus_costmap::Compat;
+use periplus_costmap::Nav2Release;
 use periplus_diagnostics::{Diagnostics, SourceMap};
 
 use super::file::{File, read, read_text};
@@ -23,7 +23,7 @@ pub(crate) struct DoctorCostmapOptions {
     file: PathBuf,
     /// Release of Nav2 whose behaviour is reproduced where releases differ
     #[arg(long, value_name = "humble|jazzy|main")]
-    compat: Option<Compat>,
+    compat: Option<Nav2Release>,
 }
 
 /// Findings on the costmaps of a named text; a message if it cannot be read.
@@ -37,7 +37,7 @@ pub(crate) fn findings(path: &Path, text: String) -> Result<(Diagnostics, Source
 fn add_complaints(file: &mut File) {
     for (_, config) in &file.configs {
         let mut costmap = config.build();
-        for finding in costmap.all_mut().flat_map(|layer| layer.complaints()) {
+        for finding in costmap.all_mut().flat_map(|layer| layer.diagnostics()) {
             file.diagnostics.push(finding);
         }
     }

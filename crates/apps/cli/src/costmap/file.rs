@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use periplus_costmap::{Compat, Config};
+use periplus_costmap::{CostmapConfig, Nav2Release};
 use periplus_diagnostics::{Diagnostics, SourceMap};
 
 /// Costmap nodes of Nav2, by name.
@@ -10,7 +10,7 @@ const NODES: [&str; 2] = ["local_costmap", "global_costmap"];
 
 /// Parameter file of costmaps, with its findings.
 pub(super) struct File {
-    pub(super) configs: Vec<(&'static str, Config)>,
+    pub(super) configs: Vec<(&'static str, CostmapConfig)>,
     pub(super) diagnostics: Diagnostics,
     pub(super) sources: SourceMap,
 }
@@ -19,7 +19,7 @@ pub(super) struct File {
 ///
 /// # Errors
 /// A message when the file has no costmap.
-pub(super) fn read(path: &Path, compat: Option<Compat>) -> Result<File, String> {
+pub(super) fn read(path: &Path, compat: Option<Nav2Release>) -> Result<File, String> {
     let text = crate::paths::text(path)?;
     read_text(&path.display().to_string(), text, compat)
 }
@@ -46,7 +46,11 @@ fn looks_like_costmap(tree: &periplus_yaml::YamlNode) -> bool {
 }
 
 /// Reads the costmaps of a named text, as [`read`] does.
-pub(super) fn read_text(name: &str, text: String, compat: Option<Compat>) -> Result<File, String> {
+pub(super) fn read_text(
+    name: &str,
+    text: String,
+    compat: Option<Nav2Release>,
+) -> Result<File, String> {
     let mut sources = SourceMap::new();
     let file = sources.add(name.to_owned(), text);
     let mut diagnostics = Diagnostics::new();
@@ -58,7 +62,7 @@ pub(super) fn read_text(name: &str, text: String, compat: Option<Compat>) -> Res
             return Ok(File { configs: Vec::new(), diagnostics, sources });
         }
     };
-    let named = |node: &&&str| Config::is_in(&tree, node);
+    let named = |node: &&&str| CostmapConfig::is_in(&tree, node);
     let mut nodes: Vec<&&str> = NODES.iter().filter(named).collect();
     if nodes.is_empty() {
         // A file of a single costmap, such as those of ROS 1.
@@ -72,7 +76,7 @@ pub(super) fn read_text(name: &str, text: String, compat: Option<Compat>) -> Res
     }
     let configs = nodes
         .into_iter()
-        .map(|node| (*node, Config::read_yaml(&tree, node, compat, &mut diagnostics)))
+        .map(|node| (*node, CostmapConfig::read_yaml(&tree, node, compat, &mut diagnostics)))
         .collect();
     Ok(File { configs, diagnostics, sources })
 }

@@ -7,7 +7,7 @@ use std::sync::atomic::Ordering;
 use std::time::Duration;
 
 use clap::Args;
-use periplus_costmap::Compat;
+use periplus_costmap::Nav2Release;
 use periplus_diagnostics::SourceMap;
 use periplus_os::sleep;
 
@@ -36,7 +36,7 @@ pub(crate) struct CostmapServeOptions {
     file: PathBuf,
     /// Release of Nav2 whose behaviour is reproduced where releases differ
     #[arg(long, value_name = "humble|jazzy|main")]
-    compat: Option<Compat>,
+    compat: Option<Nav2Release>,
     /// Wait for a lifecycle manager to configure and activate them
     #[arg(long)]
     managed: bool,

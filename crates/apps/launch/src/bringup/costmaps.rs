@@ -1,6 +1,6 @@
 //! Nav2 servers with built-in costmaps but without their algorithms.
 
-use periplus_costmap::Config;
+use periplus_costmap::CostmapConfig;
 use periplus_diagnostics::Diagnostics;
 use periplus_graph::{
     Actor, Graph, GraphError, Level, Lifecycle, LifecycleState, Node, NodeSettings, Step,
@@ -34,8 +34,8 @@ impl Host {
         let named = make::parameters_as(ask, &format!("{namespace}/{costmap}"), notes);
         let written = Written::new(&named, &format!("{namespace}/{costmap}"))?;
         let config = written.read(notes, |tree, found| match tree {
-            Some(tree) => Config::read_yaml(tree, costmap, None, found),
-            None => Config::read([], None, found),
+            Some(tree) => CostmapConfig::read_yaml(tree, costmap, None, found),
+            None => CostmapConfig::read([], None, found),
         });
         let settings = make::remapped(NodeSettings::new(costmap).namespace(&namespace), ask);
         let failed = |error: GraphError| error.to_string();
@@ -88,8 +88,8 @@ pub(crate) fn alone(ask: &Ask, node: Node, notes: &mut Vec<String>) -> Result<Co
     let named = make::parameters_as(ask, node.full_name(), notes);
     let written = Written::new(&named, node.full_name())?;
     let config = written.read(notes, |tree, found: &mut Diagnostics| match tree {
-        Some(tree) => Config::read_yaml(tree, &name, None, found),
-        None => Config::read([], None, found),
+        Some(tree) => CostmapConfig::read_yaml(tree, &name, None, found),
+        None => CostmapConfig::read([], None, found),
     });
     let costmap = CostmapNode::at(node, config).map_err(|error| error.to_string())?;
     costmap.name_lines_of(written.sources);

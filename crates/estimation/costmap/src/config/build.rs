@@ -1,17 +1,17 @@
-//! From a configuration to layers.
+//! Construction of layers from a configuration.
 
 use periplus_params::ParamValues;
 
-use super::{Config, LayerConfig, LayerKind, SourceConfig, footprint_of, grid_info_of};
+use super::{CostmapConfig, LayerConfig, LayerKind, SourceConfig, footprint_of, grid_info_of};
 use crate::filters::{BinaryFilter, KeepoutFilter, SpeedFilter};
 use crate::layers::{
     ContainerLayer, DenoiseLayer, InflationLayer, MapMeaning, ObstacleLayer, RangeLayer,
     StaticLayer, VoxelLayer,
 };
-use crate::{Compat, Frames, Layer, LayeredCostmap, Source};
+use crate::{Layer, LayeredCostmap, Nav2Release, ObservationSource, TransformSource};
 
-impl Config {
-    /// The costmap.
+impl CostmapConfig {
+    /// Creates the costmap.
     #[must_use]
     pub fn build(&self) -> LayeredCostmap {
         let mut costmap = LayeredCostmap::new(self.frame(), self.info());
@@ -31,7 +31,7 @@ impl Config {
         let values = config.values.clone();
         let sources = || {
             let source = |one: &SourceConfig| {
-                Source::new(&one.name, one.values.clone()).with_compat(self.compat)
+                ObservationSource::new(&one.name, one.values.clone()).with_compat(self.compat)
             };
             config.sources.iter().map(source).collect()
         };
@@ -45,7 +45,9 @@ impl Config {
             }
             LayerKind::Voxel => Box::new(VoxelLayer::new(name, values, tracks_unknown, sources())),
             LayerKind::Range => Box::new(RangeLayer::new(name, values)),
-            LayerKind::Inflation => Box::new(InflationLayer::new(name, values, self.compat)),
+            LayerKind::InflationSettings => {
+                Box::new(InflationLayer::new(name, values, self.compat))
+            }
             LayerKind::Denoise => Box::new(DenoiseLayer::new(name, values)),
             LayerKind::Container => {
                 let children = config.children.iter().map(|child| self.layer(child)).collect();
@@ -57,16 +59,15 @@ impl Config {
         }
     }
 
-    /// What changed parameters of the node do to a costmap that runs. Kinds and ranges have been
-    /// checked. The frame of the robot may only become one that `frames` has a transform to.
-    ///
+    /// Applies changed node parameters to a running costmap. Types and ranges are already checked.
+    /// `robot_base_frame` may only become a frame that has a transform in `frames`.
     /// # Errors
-    /// Why they cannot be, in words; nothing has changed then.
+    /// The reason for which a parameter cannot change; no change is made then.
     pub fn change(
         &mut self,
         costmap: &mut LayeredCostmap,
         values: ParamValues,
-        frames: &dyn Frames,
+        frames: &dyn TransformSource,
     ) -> Result<(), String> {
         refuse(&self.node, &values, self.compat)?;
         refuse_lost_robot(&self.node, &values, frames)?;
@@ -91,11 +92,11 @@ impl Config {
     }
 }
 
-/// A frame of the robot without a transform would end all updates.
+/// A base frame without a transform would stop all updates.
 fn refuse_lost_robot(
     before: &ParamValues,
     after: &ParamValues,
-    frames: &dyn Frames,
+    frames: &dyn TransformSource,
 ) -> Result<(), String> {
     let (base, global) = (after.text("robot_base_frame"), after.text("global_frame"));
     let (base, global) = (base.unwrap_or_default(), global.unwrap_or_default());
@@ -110,8 +111,8 @@ fn refuse_lost_robot(
     ))
 }
 
-/// Parameters that only count at the start.
-const FIXED: [&str; 8] = [
+/// Parameters that cannot change while the costmap runs.
+const FIXED_PARAMETERS: [&str; 8] = [
     "plugins",
     "filters",
     "global_frame",
@@ -122,14 +123,14 @@ const FIXED: [&str; 8] = [
     "use_maximum",
 ];
 
-/// Which changes are refused while a costmap runs.
-fn refuse(before: &ParamValues, after: &ParamValues, compat: Compat) -> Result<(), String> {
-    for name in FIXED {
+/// Rejects changes that are not possible while the costmap runs.
+fn refuse(before: &ParamValues, after: &ParamValues, compat: Nav2Release) -> Result<(), String> {
+    for name in FIXED_PARAMETERS {
         if before.get(name) != after.get(name) {
             return Err(format!("`{name}` cannot be changed while the costmap runs"));
         }
     }
-    // At the start it may be anything, and 0 or less means never.
+    // At startup any value is allowed; 0 or less means never.
     let publish_hz = after.number("publish_frequency").unwrap_or_default();
     if compat.refuses_to_stop_publishing()
         && before.number("publish_frequency") != Some(publish_hz)

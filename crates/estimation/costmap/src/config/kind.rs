@@ -1,31 +1,31 @@
-//! Which plugin is which layer.
+//! Plugin names of the layers.
 
 use periplus_params::Table;
 
 use crate::tables;
 
-/// What a layer is.
+/// Type of a layer or filter.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum LayerKind {
-    /// A map.
+    /// Static layer: a map.
     Static,
-    /// What sensors see, on the ground.
+    /// Obstacle layer: obstacles seen by sensors, in the plane.
     Obstacle,
-    /// What sensors see, in columns of voxels.
+    /// Voxel layer: obstacles seen by sensors, in columns of voxels.
     Voxel,
-    /// Sonars.
+    /// Range sensor layer: sonar and infrared sensors.
     Range,
-    /// Costs around obstacles.
-    Inflation,
-    /// Takes out small obstacles.
+    /// Inflation layer: costs around obstacles.
+    InflationSettings,
+    /// Denoise layer: removes small obstacles.
     Denoise,
-    /// Layers with a grid of their own.
+    /// Plugin container layer: layers with a separate grid.
     Container,
-    /// Where not to go.
+    /// Keepout filter: forbidden zones.
     Keepout,
-    /// Where to go slowly.
+    /// Speed filter: zones with speed limits.
     Speed,
-    /// Where something is to be switched.
+    /// Binary filter: zones that switch a state.
     Binary,
 }
 
@@ -34,8 +34,8 @@ const PLUGINS: [(&str, LayerKind); 11] = [
     ("nav2_costmap_2d::ObstacleLayer", LayerKind::Obstacle),
     ("nav2_costmap_2d::VoxelLayer", LayerKind::Voxel),
     ("nav2_costmap_2d::RangeSensorLayer", LayerKind::Range),
-    ("nav2_costmap_2d::InflationLayer", LayerKind::Inflation),
-    ("nav2_costmap_2d::LegacyInflationLayer", LayerKind::Inflation),
+    ("nav2_costmap_2d::InflationLayer", LayerKind::InflationSettings),
+    ("nav2_costmap_2d::LegacyInflationLayer", LayerKind::InflationSettings),
     ("nav2_costmap_2d::DenoiseLayer", LayerKind::Denoise),
     ("nav2_costmap_2d::PluginContainerLayer", LayerKind::Container),
     ("nav2_costmap_2d::KeepoutFilter", LayerKind::Keepout),
@@ -43,8 +43,8 @@ const PLUGINS: [(&str, LayerKind); 11] = [
     ("nav2_costmap_2d::BinaryFilter", LayerKind::Binary),
 ];
 
-/// As they were called in ROS 1.
-const ROS1: [(&str, &str); 6] = [
+/// Names in ROS 1, with those of Nav2.
+const ROS1_PLUGINS: [(&str, &str); 6] = [
     ("costmap_2d::StaticLayer", "nav2_costmap_2d::StaticLayer"),
     ("costmap_2d::ObstacleLayer", "nav2_costmap_2d::ObstacleLayer"),
     ("costmap_2d::VoxelLayer", "nav2_costmap_2d::VoxelLayer"),
@@ -54,32 +54,33 @@ const ROS1: [(&str, &str); 6] = [
 ];
 
 impl LayerKind {
-    /// The layer that a plugin is. With it, Nav2's name of a plugin that is called otherwise.
-    ///
+    /// Returns the layer type of a plugin, and the current name of a plugin that is given by an old
+    /// one.
     /// # Errors
-    /// Why there is none, in words.
+    /// The reason, for an unknown plugin.
     pub fn of_plugin(plugin: &str) -> Result<(Self, Option<&'static str>), String> {
         let plugin = plugin.trim();
         let find = |name: &str| PLUGINS.iter().find(|(plugin, _)| *plugin == name);
         if let Some((_, kind)) = find(plugin) {
             return Ok((*kind, None));
         }
-        // With slashes they were written before Nav2 had namespaces there.
+        // Older files have slashes instead of namespaces.
         let spelled = plugin.replace('/', "::");
-        let modern = ROS1.iter().find(|(old, _)| *old == spelled).map(|(_, modern)| *modern);
+        let modern =
+            ROS1_PLUGINS.iter().find(|(old, _)| *old == spelled).map(|(_, modern)| *modern);
         let modern = modern.or_else(|| find(&spelled).map(|(name, _)| *name));
         match modern.and_then(find) {
             Some((name, kind)) => Ok((*kind, Some(name))),
-            None => Err(format!("`{plugin}` is no layer that is known here")),
+            None => Err(format!("`{plugin}` is not a supported layer")),
         }
     }
 
-    /// The names of all plugins.
+    /// Iterates over the names of all plugins.
     pub fn plugins() -> impl Iterator<Item = &'static str> {
         PLUGINS.iter().map(|(plugin, _)| *plugin)
     }
 
-    /// Its parameters.
+    /// Returns the table of its parameters.
     #[must_use]
     pub fn table(self) -> &'static Table {
         match self {
@@ -87,7 +88,7 @@ impl LayerKind {
             Self::Obstacle => &tables::OBSTACLE,
             Self::Voxel => &tables::VOXEL,
             Self::Range => &tables::RANGE,
-            Self::Inflation => &tables::INFLATION,
+            Self::InflationSettings => &tables::INFLATION,
             Self::Denoise => &tables::DENOISE,
             Self::Container => &tables::CONTAINER,
             Self::Keepout => &tables::KEEPOUT,
@@ -96,13 +97,13 @@ impl LayerKind {
         }
     }
 
-    /// Whether it looks through sources.
+    /// Returns true if the layer has observation sources.
     #[must_use]
     pub fn has_sources(self) -> bool {
         matches!(self, Self::Obstacle | Self::Voxel)
     }
 
-    /// Whether it follows a mask.
+    /// Returns true for costmap filters.
     #[must_use]
     pub fn is_filter(self) -> bool {
         matches!(self, Self::Keepout | Self::Speed | Self::Binary)

@@ -1,17 +1,17 @@
-//! Parameters from YAML, as Nav2 and ROS 1 have them in files.
+//! Parameter files in YAML of Nav2 and ROS 1.
 
 use periplus_diagnostics::{Diagnostic, Diagnostics, Origin};
 use periplus_params::Given;
 use periplus_yaml::{YamlNode, YamlValue};
 
-use super::Config;
-use crate::Compat;
+use super::CostmapConfig;
+use crate::Nav2Release;
 
-/// Namespaces around a node nest no deeper.
-const DEEPEST: usize = 4;
+/// Maximum nesting depth of namespaces around a node.
+const MAX_NAMESPACE_DEPTH: usize = 4;
 
-impl Config {
-    /// Whether a file names a node.
+impl CostmapConfig {
+    /// Returns true if a file has parameters for a node.
     #[must_use]
     pub fn is_in(file: &YamlNode, node: &str) -> bool {
         let names = |at: &YamlNode| {
@@ -22,13 +22,13 @@ impl Config {
         names(file) || file.entries().unwrap_or_default().iter().any(|(_, inner)| names(inner))
     }
 
-    /// Reads a file for the node of a name: `local_costmap` finds `local_costmap: local_costmap:
-    /// ros__parameters:` and `/**`, and in files of ROS 1 `local_costmap:` or, when there is no such
-    /// section, everything.
+    /// Reads the parameters of a node from a file: for `local_costmap` from `local_costmap:
+    /// local_costmap: ros__parameters:` and `/**`; in files of ROS 1 from `local_costmap:` or,
+    /// without such a section, from the whole file.
     pub fn read_yaml(
         file: &YamlNode,
         node: &str,
-        compat: Option<Compat>,
+        compat: Option<Nav2Release>,
         diagnostics: &mut Diagnostics,
     ) -> Self {
         let mut flat = Vec::new();
@@ -45,7 +45,7 @@ impl Config {
     }
 }
 
-/// The mappings with parameters for a node.
+/// Returns the mappings with parameters for a node.
 fn sections<'a>(file: &'a YamlNode, node: &str) -> Vec<&'a YamlNode> {
     let mut found = Vec::new();
     let last = node.rsplit('/').next().unwrap_or(node);
@@ -58,10 +58,11 @@ fn sections<'a>(file: &'a YamlNode, node: &str) -> Vec<&'a YamlNode> {
 }
 
 fn collect<'a>(at: &'a YamlNode, node: &str, found: &mut Vec<&'a YamlNode>, depth: usize) {
-    let Some(entries) = at.entries().filter(|_| depth < DEEPEST) else { return };
+    let Some(entries) = at.entries().filter(|_| depth < MAX_NAMESPACE_DEPTH) else { return };
     for (key, value) in entries {
         let Some(key) = key.text() else { continue };
-        // A namespace, a node in one (`/local_costmap/local_costmap`), or either for all.
+        // A namespace, a node in a namespace (`/local_costmap/local_costmap`), or a wildcard for
+        // either.
         let name = key.trim_start_matches('/').rsplit('/').next().unwrap_or(key);
         if name != node && name != "**" && name != "*" {
             continue;
@@ -80,7 +81,7 @@ struct Flat {
     origin: Origin,
 }
 
-/// Names with dots.
+/// Flattens nested mappings to names with dots.
 fn flatten(at: &YamlNode, prefix: &str, flat: &mut Vec<Flat>, diagnostics: &mut Diagnostics) {
     for (key, value) in at.entries().unwrap_or_default() {
         let Some(key_text) = key.text() else { continue };
@@ -99,7 +100,7 @@ fn flatten(at: &YamlNode, prefix: &str, flat: &mut Vec<Flat>, diagnostics: &mut 
                         diagnostics.push(
                         Diagnostic::hint(
                             "ros1-name",
-                            "a list of names and types is the form of ROS 1",
+                            "a list of names and types is the syntax of ROS 1",
                         )
                         .at(key.span)
                         .help("in Nav2 `plugins` is a list of names, and each layer has a `plugin`"),
@@ -135,7 +136,7 @@ fn named_types(list: &[YamlNode]) -> Option<Vec<(&str, &str, Origin)>> {
         .collect()
 }
 
-/// A list as a text that reads back, with nested lists in brackets.
+/// Formats a list as a text that can be parsed again, with nested lists in brackets.
 fn written(list: &[YamlNode]) -> String {
     let items: Vec<String> = list
         .iter()

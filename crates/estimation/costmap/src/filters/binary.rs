@@ -1,28 +1,29 @@
-//! Where something is to be switched.
+//! Binary filter: zones that switch a state.
 //!
 //! Source of the rules: `nav2_costmap_2d/plugins/costmap_filters/binary_filter.cpp`.
 
 use periplus_diagnostics::Diagnostic;
 use periplus_params::ParamValues;
 
-use super::{FilterInfo, FilterKind, Mask, Masked};
-use crate::{Bounds, Costmap, Layer, Moment, Window};
+use super::{FilterInfo, FilterKind, FilterMask, MaskFilter};
+use crate::{CellWindow, Costmap, Layer, UpdateBounds, UpdateContext};
 
-/// Switches a state where the mask says so.
+/// Filter that publishes a state by the mask value at the robot.
 pub struct BinaryFilter {
     name: String,
     values: ParamValues,
     is_enabled: bool,
     default_state: bool,
     info: Option<FilterInfo>,
-    mask: Option<Mask>,
+    mask: Option<FilterMask>,
     state: bool,
     outgoing: Option<bool>,
-    complaints: Vec<Diagnostic>,
+    diagnostics: Vec<Diagnostic>,
 }
 
 impl BinaryFilter {
-    /// From parameters of [`crate::tables::BINARY`]. The default is published at the start.
+    /// Creates the filter from parameters of [`crate::tables::BINARY`]. The default state is
+    /// published at startup.
     #[must_use]
     pub fn new(name: impl Into<String>, values: ParamValues) -> Self {
         let default_state = values.flag("default_state").unwrap_or_default();
@@ -35,17 +36,17 @@ impl BinaryFilter {
             mask: None,
             state: default_state,
             outgoing: Some(default_state),
-            complaints: Vec::new(),
+            diagnostics: Vec::new(),
         }
     }
 
-    /// The state.
+    /// Returns the state.
     #[must_use]
     pub fn state(&self) -> bool {
         self.state
     }
 
-    /// A state to publish, if it has changed.
+    /// Takes the state to publish, if it has changed.
     pub fn take_state(&mut self) -> Option<bool> {
         self.outgoing.take()
     }
@@ -56,12 +57,12 @@ impl BinaryFilter {
     }
 }
 
-impl Masked for BinaryFilter {
+impl MaskFilter for BinaryFilter {
     fn set_info(&mut self, info: FilterInfo) {
         if info.kind == FilterKind::Binary {
             self.info = Some(info);
         } else {
-            self.complaints.push(
+            self.diagnostics.push(
                 Diagnostic::error(
                     "filter-info",
                     format!("filter `{}`: the mask is for {:?}", self.name, info.kind),
@@ -72,7 +73,7 @@ impl Masked for BinaryFilter {
         }
     }
 
-    fn set_mask(&mut self, mask: Mask) {
+    fn set_mask(&mut self, mask: FilterMask) {
         self.mask = Some(mask);
     }
 }
@@ -82,9 +83,9 @@ impl Layer for BinaryFilter {
         &self.name
     }
 
-    fn bounds(&mut self, _moment: &Moment<'_>, _bounds: &mut Bounds) {}
+    fn bounds(&mut self, _moment: &UpdateContext<'_>, _bounds: &mut UpdateBounds) {}
 
-    fn costs(&mut self, moment: &Moment<'_>, _master: &mut Costmap, _window: Window) {
+    fn costs(&mut self, moment: &UpdateContext<'_>, _master: &mut Costmap, _window: CellWindow) {
         let (Some(mask), Some(info)) = (&self.mask, &self.info) else { return };
         if !self.is_enabled {
             return;
@@ -126,11 +127,11 @@ impl Layer for BinaryFilter {
         Ok(())
     }
 
-    fn masked(&mut self) -> Option<&mut dyn Masked> {
+    fn masked(&mut self) -> Option<&mut dyn MaskFilter> {
         Some(self)
     }
 
-    fn complaints(&mut self) -> Vec<Diagnostic> {
-        std::mem::take(&mut self.complaints)
+    fn diagnostics(&mut self) -> Vec<Diagnostic> {
+        std::mem::take(&mut self.diagnostics)
     }
 }

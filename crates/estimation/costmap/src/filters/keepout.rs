@@ -1,4 +1,4 @@
-//! Where a robot must not go.
+//! Keepout filter: forbidden zones.
 //!
 //! Source of the rules: `nav2_costmap_2d/plugins/costmap_filters/keepout_filter.cpp`.
 
@@ -7,27 +7,27 @@ use periplus_geometry::{DVec3, Pose};
 use periplus_grid::{Cell, GridInfo};
 use periplus_params::ParamValues;
 
-use super::{FilterInfo, FilterKind, Mask, Masked};
+use super::{FilterInfo, FilterKind, FilterMask, MaskFilter};
 use crate::cost::{INSCRIBED, LETHAL, UNKNOWN, cost_of};
-use crate::{Bounds, Costmap, Explanation, Layer, Moment, Window};
+use crate::{CellWindow, Costmap, Explanation, Layer, UpdateBounds, UpdateContext};
 
-/// Raises costs to those of a mask.
+/// Filter that raises costs to those of a mask.
 pub struct KeepoutFilter {
     name: String,
     values: ParamValues,
     is_enabled: bool,
-    /// The cost of zones for a robot that stands in one, if it may leave.
+    /// Cost of zones while the robot is inside one, if `override_lethal_cost` is set.
     leaving_cost: Option<u8>,
-    mask: Option<Mask>,
-    /// The mask must be written anew.
+    mask: Option<FilterMask>,
+    /// True if the whole mask must be written in the next update.
     has_changed: bool,
     was_inside: bool,
     was_lost: bool,
-    complaints: Vec<Diagnostic>,
+    diagnostics: Vec<Diagnostic>,
 }
 
 impl KeepoutFilter {
-    /// From parameters of [`crate::tables::KEEPOUT`].
+    /// Creates the filter from parameters of [`crate::tables::KEEPOUT`].
     #[must_use]
     pub fn new(name: impl Into<String>, values: ParamValues) -> Self {
         let mut filter = Self {
@@ -39,7 +39,7 @@ impl KeepoutFilter {
             has_changed: false,
             was_inside: false,
             was_lost: false,
-            complaints: Vec::new(),
+            diagnostics: Vec::new(),
         };
         filter.take(values);
         filter
@@ -49,7 +49,7 @@ impl KeepoutFilter {
         let flag = |name: &str| values.flag(name).unwrap_or_default();
         self.is_enabled = flag("enabled");
         let cost = values.integer("lethal_override_cost").unwrap_or(252);
-        // Negative ones become large ones without a sign before they are limited.
+        // Negative values wrap to large unsigned ones before they are limited.
         let cost = if (0..=252).contains(&cost) { cost as u8 } else { 252 };
         self.leaving_cost = flag("override_lethal_cost").then_some(cost);
         self.values = values;
@@ -62,14 +62,14 @@ impl KeepoutFilter {
             .help("check the node that publishes the filter info")
     }
 
-    /// Whether a mask is there.
+    /// Returns true if a mask was received.
     #[must_use]
     pub fn has_mask(&self) -> bool {
         self.mask.is_some()
     }
 
-    /// Whether a robot stands in a zone.
-    fn is_inside(&self, moment: &Moment<'_>) -> bool {
+    /// Returns true if the robot is inside a zone.
+    fn is_inside(&self, moment: &UpdateContext<'_>) -> bool {
         let Some(mask) = &self.mask else { return false };
         let Some(mask_from_global) = mask.placed(moment) else { return false };
         mask.cell_of(mask_from_global, moment.robot)
@@ -77,11 +77,11 @@ impl KeepoutFilter {
     }
 }
 
-/// Where the outline of a mask lies in the global frame.
-fn bounds_of(mask: &Mask, mask_from_global: Pose) -> Bounds {
+/// Returns the bounding box of a mask in the global frame.
+fn bounds_of(mask: &FilterMask, mask_from_global: Pose) -> UpdateBounds {
     let global_from_mask = mask_from_global.inverse();
     let GridInfo { width, height, .. } = mask.grid.info;
-    let mut bounds = Bounds::EMPTY;
+    let mut bounds = UpdateBounds::EMPTY;
     for (column, row) in [(0, 0), (width, 0), (0, height), (width, height)] {
         let (x_m, y_m) = mask.grid.info.point_at(column as f64, row as f64);
         let at = global_from_mask.transform_point(DVec3::new(x_m, y_m, 0.0));
@@ -90,21 +90,21 @@ fn bounds_of(mask: &Mask, mask_from_global: Pose) -> Bounds {
     bounds
 }
 
-impl Masked for KeepoutFilter {
+impl MaskFilter for KeepoutFilter {
     fn set_info(&mut self, info: FilterInfo) {
         let plain = FilterInfo::default();
         if info.kind != FilterKind::Keepout {
-            self.complaints.push(self.wrong(format!("the mask is for {:?}", info.kind)));
+            self.diagnostics.push(self.wrong(format!("the mask is for {:?}", info.kind)));
         }
         if (info.base, info.multiplier) != (plain.base, plain.multiplier) {
-            self.complaints.push(self.wrong(format!(
-                "base is {} and multiplier {}, and must be 0 and 1; the mask is used as it is",
+            self.diagnostics.push(self.wrong(format!(
+                "base is {} and multiplier {}, and must be 0 and 1; the mask is used unchanged",
                 info.base, info.multiplier
             )));
         }
     }
 
-    fn set_mask(&mut self, mask: Mask) {
+    fn set_mask(&mut self, mask: FilterMask) {
         self.mask = Some(mask);
         self.has_changed = true;
     }
@@ -115,7 +115,7 @@ impl Layer for KeepoutFilter {
         &self.name
     }
 
-    fn bounds(&mut self, moment: &Moment<'_>, bounds: &mut Bounds) {
+    fn bounds(&mut self, moment: &UpdateContext<'_>, bounds: &mut UpdateBounds) {
         if !self.is_enabled || !moment.compat.updates_keepout_zones() {
             return;
         }
@@ -133,19 +133,19 @@ impl Layer for KeepoutFilter {
         }
     }
 
-    fn costs(&mut self, moment: &Moment<'_>, master: &mut Costmap, window: Window) {
+    fn costs(&mut self, moment: &UpdateContext<'_>, master: &mut Costmap, window: CellWindow) {
         let Some(mask) = self.mask.as_ref().filter(|_| self.is_enabled) else { return };
         let Some(mask_from_global) = mask.placed(moment) else {
             if !std::mem::replace(&mut self.was_lost, true) {
-                self.complaints.push(
+                self.diagnostics.push(
                     Diagnostic::error(
                         "no-transform",
                         format!(
-                            "filter `{}` knows no transform from `{}` to `{}`, the frame of its mask",
+                            "filter `{}` has no transform from `{}` to `{}`, the frame of its mask",
                             self.name, moment.global_frame, mask.frame
                         ),
                     )
-                    .help("nothing is kept out until somebody publishes it"),
+                    .help("publish the transform; until then the keepout zones have no effect"),
                 );
             }
             return;
@@ -156,7 +156,7 @@ impl Layer for KeepoutFilter {
             .filter(|_| moment.compat.updates_keepout_zones() && self.is_inside(moment));
         let info = *master.info();
         let finder = mask.grid.info.finder();
-        // Only where the mask is.
+        // Only the cells of the mask.
         let near = master.window_of(&bounds_of(mask, mask_from_global));
         let window = window.intersection(&near.unwrap_or_default());
         for y in window.y0..window.yn {
@@ -198,26 +198,27 @@ impl Layer for KeepoutFilter {
     fn explain(&self, master: &Costmap, cell: Cell, _is_rolling: bool) -> Explanation {
         let Some(mask) = &self.mask else {
             return Explanation {
-                reason: Some("no mask has come".to_owned()),
+                reason: Some("no mask was received".to_owned()),
                 parameter: Some(format!("{}.filter_info_topic", self.name)),
                 ..Explanation::default()
             };
         };
         let (x_m, y_m) = master.info().centre_of(cell);
-        // Where frames are is known in updates only; most masks are in the costmap's own.
+        // Transforms are available in updates only; most masks are in the frame of the costmap.
         let number = mask.grid.at(x_m, y_m);
         Explanation {
             value: number.map(|number| cost_of(*number)),
-            reason: number.map(|number| format!("the mask (frame `{}`) says {number}", mask.frame)),
+            reason: number
+                .map(|number| format!("the mask (frame `{}`) has the value {number}", mask.frame)),
             ..Explanation::default()
         }
     }
 
-    fn masked(&mut self) -> Option<&mut dyn Masked> {
+    fn masked(&mut self) -> Option<&mut dyn MaskFilter> {
         Some(self)
     }
 
-    fn complaints(&mut self) -> Vec<Diagnostic> {
-        std::mem::take(&mut self.complaints)
+    fn diagnostics(&mut self) -> Vec<Diagnostic> {
+        std::mem::take(&mut self.diagnostics)
     }
 }

@@ -1,32 +1,32 @@
-//! Masks, and what their numbers mean.
+//! Filter masks and the meaning of their values.
 //!
-//! Source: `nav2_costmap_2d/costmap_filters/filter_values.hpp`, `costmap_filter.cpp`. Unlike there, a
-//! mask whose origin is turned lies as it says.
+//! Source: `nav2_costmap_2d/costmap_filters/filter_values.hpp`, `costmap_filter.cpp`. Unlike the
+//! reference, a rotation of the origin is applied.
 
 use periplus_geometry::{DVec3, Pose, Pose2};
 use periplus_grid::{Cell, OccupancyGrid};
 
-use crate::Moment;
+use crate::UpdateContext;
 
-/// A mask.
+/// Filter mask.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Mask {
-    /// Its cells.
+pub struct FilterMask {
+    /// Values.
     pub grid: OccupancyGrid,
-    /// The frame in which they lie.
+    /// Frame of the origin.
     pub frame: String,
 }
 
-impl Mask {
-    /// `mask_from_global`; none when nobody knows.
-    pub(super) fn placed(&self, moment: &Moment<'_>) -> Option<Pose> {
+impl FilterMask {
+    /// Returns `mask_from_global`; none without a transform.
+    pub(super) fn placed(&self, moment: &UpdateContext<'_>) -> Option<Pose> {
         if self.frame == moment.global_frame {
             return Some(Pose::IDENTITY);
         }
         moment.frames.latest(&self.frame, moment.global_frame)
     }
 
-    /// The cell in which a robot at `global_from_base` is.
+    /// Returns the cell of a robot at `global_from_base`.
     pub(super) fn cell_of(&self, mask_from_global: Pose, global_from_base: Pose2) -> Option<Cell> {
         let Pose2 { x_m, y_m, .. } = global_from_base;
         let at = mask_from_global.transform_point(DVec3::new(x_m, y_m, 0.0));
@@ -34,22 +34,22 @@ impl Mask {
     }
 }
 
-/// What a mask is for.
+/// Type of a filter.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum FilterKind {
-    /// Where not to go.
+    /// Keepout zones.
     #[default]
     Keepout,
-    /// How fast to go, in percent of the most.
+    /// Speed limits in percent of the maximum speed.
     SpeedPercent,
-    /// How fast to go \[m/s\].
+    /// Speed limits \[m/s\].
     SpeedAbsolute,
-    /// Where something is to be switched.
+    /// Zones that switch a state.
     Binary,
 }
 
 impl FilterKind {
-    /// By the number in `nav2_msgs/CostmapFilterInfo`.
+    /// Converts the `type` of `nav2_msgs/CostmapFilterInfo`.
     #[must_use]
     pub fn from_number(number: u8) -> Option<Self> {
         [Self::Keepout, Self::SpeedPercent, Self::SpeedAbsolute, Self::Binary]
@@ -58,14 +58,14 @@ impl FilterKind {
     }
 }
 
-/// What the numbers of a mask mean: `base + multiplier * number`.
+/// Meaning of mask values: `base + multiplier * value`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FilterInfo {
-    /// What the mask is for.
+    /// Type of the filter.
     pub kind: FilterKind,
-    /// What 0 means.
+    /// Offset.
     pub base: f64,
-    /// What one more means.
+    /// Factor.
     pub multiplier: f64,
 }
 
@@ -76,18 +76,18 @@ impl Default for FilterInfo {
 }
 
 impl FilterInfo {
-    /// What a number of the mask means.
+    /// Converts a mask value.
     #[must_use]
     pub fn value(&self, number: i8) -> f64 {
         self.base + f64::from(number) * self.multiplier
     }
 }
 
-/// What follows a mask.
-pub trait Masked {
-    /// Takes in what the numbers of the mask mean.
+/// Filter with a mask.
+pub trait MaskFilter {
+    /// Sets the meaning of the mask values.
     fn set_info(&mut self, info: FilterInfo);
 
-    /// Takes in a mask.
-    fn set_mask(&mut self, mask: Mask);
+    /// Sets the mask.
+    fn set_mask(&mut self, mask: FilterMask);
 }

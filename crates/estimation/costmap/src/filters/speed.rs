@@ -1,4 +1,4 @@
-//! Where a robot must go slowly.
+//! Speed filter: zones with speed limits.
 //!
 //! Source of the rules: `nav2_costmap_2d/plugins/costmap_filters/speed_filter.cpp`.
 
@@ -6,40 +6,40 @@ use periplus_diagnostics::Diagnostic;
 use periplus_geometry::Pose2;
 use periplus_params::ParamValues;
 
-use super::{FilterInfo, FilterKind, Mask, Masked};
-use crate::{Bounds, Costmap, Layer, Moment, Window};
+use super::{FilterInfo, FilterKind, FilterMask, MaskFilter};
+use crate::{CellWindow, Costmap, Layer, UpdateBounds, UpdateContext};
 
-/// A limit of speed.
+/// Speed limit.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct SpeedLimit {
-    /// Whether `limit` is in percent of the highest speed; otherwise it is in m/s.
+    /// True if `limit` is in percent of the maximum speed, false for m/s.
     pub is_percentage: bool,
-    /// The limit; 0 for none.
+    /// Limit; 0 for none.
     pub limit: f64,
 }
 
-/// Tells how fast a robot may go where it is.
+/// Filter that publishes the speed limit at the robot.
 pub struct SpeedFilter {
     name: String,
     values: ParamValues,
     is_enabled: bool,
     info: Option<FilterInfo>,
-    mask: Option<Mask>,
-    /// The path that the robot follows, in the global frame \[m\], and where it was found on it.
+    mask: Option<FilterMask>,
+    /// Path of the robot in the global frame \[m\], and the index of the nearest segment.
     path: Vec<[f64; 2]>,
     reached: usize,
     speed_m_s: f64,
-    /// While a limit ahead is other than the one here, the look ahead does not become shorter.
+    /// While the limit ahead differs from the current one, the lookahead distance does not shrink.
     held_m: f64,
     last: f64,
     outgoing: Option<SpeedLimit>,
-    /// The place for which a complaint is out already.
-    complained_of: Option<&'static str>,
-    complaints: Vec<Diagnostic>,
+    /// Reason of the last warning, which is not repeated.
+    last_warning: Option<&'static str>,
+    diagnostics: Vec<Diagnostic>,
 }
 
 impl SpeedFilter {
-    /// From parameters of [`crate::tables::SPEED`].
+    /// Creates the filter from parameters of [`crate::tables::SPEED`].
     #[must_use]
     pub fn new(name: impl Into<String>, values: ParamValues) -> Self {
         Self {
@@ -54,34 +54,34 @@ impl SpeedFilter {
             held_m: 0.0,
             last: 0.0,
             outgoing: None,
-            complained_of: None,
-            complaints: Vec::new(),
+            last_warning: None,
+            diagnostics: Vec::new(),
         }
     }
 
-    /// Takes in the path that the robot follows, in the global frame \[m\].
+    /// Sets the path of the robot, in the global frame \[m\].
     pub fn set_path(&mut self, path: Vec<[f64; 2]>) {
         self.path = path;
         self.reached = 0;
     }
 
-    /// Takes in how fast the robot goes \[m/s\].
+    /// Sets the speed of the robot \[m/s\].
     pub fn set_speed(&mut self, speed_m_s: f64) {
         self.speed_m_s = speed_m_s.abs();
     }
 
-    /// A limit to publish, if it is another than before.
+    /// Takes the limit to publish, if it has changed.
     pub fn take_limit(&mut self) -> Option<SpeedLimit> {
         self.outgoing.take()
     }
 
-    /// The limit at a place; an error where the mask says nothing.
-    fn limit_at(&self, moment: &Moment<'_>, at: Pose2) -> Result<f64, &'static str> {
+    /// Returns the limit at a pose, or the reason for which the mask has none.
+    fn limit_at(&self, moment: &UpdateContext<'_>, at: Pose2) -> Result<f64, &'static str> {
         let (Some(mask), Some(info)) = (&self.mask, &self.info) else {
-            return Err("no mask has come");
+            return Err("no mask was received");
         };
-        let mask_from_global = mask.placed(moment).ok_or("no transform to the mask")?;
-        let cell = mask.cell_of(mask_from_global, at).ok_or("the robot is beside the mask")?;
+        let mask_from_global = mask.placed(moment).ok_or("there is no transform to the mask")?;
+        let cell = mask.cell_of(mask_from_global, at).ok_or("the robot is outside the mask")?;
         let number = mask.grid[cell];
         match number {
             0 => return Ok(0.0),
@@ -96,9 +96,9 @@ impl SpeedFilter {
         Ok(if is_possible { limit } else { 0.0 })
     }
 
-    /// The lowest limit from here along the path; an error where the mask says nothing of the robot's
-    /// own cell.
-    fn limit_ahead(&mut self, moment: &Moment<'_>) -> Result<f64, &'static str> {
+    /// Returns the lowest limit from the robot along the path, or the reason for which the mask has
+    /// none at the robot.
+    fn limit_ahead(&mut self, moment: &UpdateContext<'_>) -> Result<f64, &'static str> {
         let number = |name: &str| self.values.number(name).unwrap_or_default();
         let shortest_m = number("min_lookahead").max(0.0);
         let longest_m = number("max_lookahead").max(shortest_m);
@@ -134,7 +134,7 @@ impl SpeedFilter {
         Ok(lowest)
     }
 
-    /// The start of the segment of the path that is nearest, from where the robot was on it.
+    /// Returns the start of the nearest path segment, searched from the last one.
     fn nearest(&self, robot: Pose2) -> usize {
         let from = if self.reached < self.path.len() { self.reached } else { 0 };
         let mut found = (f64::INFINITY, from);
@@ -147,19 +147,19 @@ impl SpeedFilter {
         found.1
     }
 
-    fn complain(&mut self, why: &'static str) {
-        if self.complained_of.replace(why) == Some(why) {
+    fn warn(&mut self, why: &'static str) {
+        if self.last_warning.replace(why) == Some(why) {
             return;
         }
-        self.complaints.push(
+        self.diagnostics.push(
             Diagnostic::warning("no-limit", format!("filter `{}`: {why}", self.name))
                 .at(self.values.origin("filter_info_topic"))
-                .note("the last limit holds"),
+                .note("the last limit still applies"),
         );
     }
 }
 
-/// Distance of a robot from the line between two points \[m\].
+/// Returns the distance of a robot from the line between two points \[m\].
 fn distance_to_segment(robot: Pose2, start: [f64; 2], end: [f64; 2]) -> f64 {
     let (along_x, along_y) = (end[0] - start[0], end[1] - start[1]);
     let (dx, dy) = (robot.x_m - start[0], robot.y_m - start[1]);
@@ -172,12 +172,12 @@ fn distance_to_segment(robot: Pose2, start: [f64; 2], end: [f64; 2]) -> f64 {
     libm::hypot(dx - part * along_x, dy - part * along_y)
 }
 
-impl Masked for SpeedFilter {
+impl MaskFilter for SpeedFilter {
     fn set_info(&mut self, info: FilterInfo) {
         if matches!(info.kind, FilterKind::SpeedPercent | FilterKind::SpeedAbsolute) {
             self.info = Some(info);
         } else {
-            self.complaints.push(
+            self.diagnostics.push(
                 Diagnostic::error(
                     "filter-info",
                     format!("filter `{}`: the mask is for {:?}", self.name, info.kind),
@@ -188,7 +188,7 @@ impl Masked for SpeedFilter {
         }
     }
 
-    fn set_mask(&mut self, mask: Mask) {
+    fn set_mask(&mut self, mask: FilterMask) {
         self.mask = Some(mask);
     }
 }
@@ -198,9 +198,9 @@ impl Layer for SpeedFilter {
         &self.name
     }
 
-    fn bounds(&mut self, _moment: &Moment<'_>, _bounds: &mut Bounds) {}
+    fn bounds(&mut self, _moment: &UpdateContext<'_>, _bounds: &mut UpdateBounds) {}
 
-    fn costs(&mut self, moment: &Moment<'_>, _master: &mut Costmap, _window: Window) {
+    fn costs(&mut self, moment: &UpdateContext<'_>, _master: &mut Costmap, _window: CellWindow) {
         if !self.is_enabled || self.mask.is_none() || self.info.is_none() {
             return;
         }
@@ -213,9 +213,9 @@ impl Layer for SpeedFilter {
         };
         let limit = match limit {
             Ok(limit) => limit,
-            Err(why) => return self.complain(why),
+            Err(why) => return self.warn(why),
         };
-        self.complained_of = None;
+        self.last_warning = None;
         if limit != self.last {
             self.last = limit;
             let is_percentage = self.info.is_some_and(|info| info.kind == FilterKind::SpeedPercent);
@@ -237,11 +237,11 @@ impl Layer for SpeedFilter {
         Ok(())
     }
 
-    fn masked(&mut self) -> Option<&mut dyn Masked> {
+    fn masked(&mut self) -> Option<&mut dyn MaskFilter> {
         Some(self)
     }
 
-    fn complaints(&mut self) -> Vec<Diagnostic> {
-        std::mem::take(&mut self.complaints)
+    fn diagnostics(&mut self) -> Vec<Diagnostic> {
+        std::mem::take(&mut self.diagnostics)
     }
 }

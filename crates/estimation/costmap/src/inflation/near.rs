@@ -1,32 +1,32 @@
-//! Squared distances to obstacles that are near, many cells at a time.
+//! Squared distances to near obstacles, vectorized over cells.
 //!
-//! A distance is made in two steps, as in Meijster's transform: down and up the columns, and then
-//! along the rows. As nothing further than the radius counts, both have short numbers: distances
-//! along columns have a byte, and squares a byte too up to a radius of 15 cells. So a vector register
-//! holds many cells, and the minimum over a row's neighbours is a few instructions for all of them,
-//! without a branch. Where no obstacle is near, nothing is done.
+//! A distance transform in two passes, as in Meijster's algorithm: down and up the columns, then
+//! along the rows. Distances beyond the radius are irrelevant, so both passes use short integers: a
+//! byte for distances along columns, and a byte for squares up to a radius of 15 cells. A vector
+//! register then holds many cells, and the minimum over the neighbours in a row is a few
+//! instructions without a branch. Areas without a near obstacle are skipped.
 
-use crate::Window;
+use crate::CellWindow;
 use crate::cost::{LETHAL, UNKNOWN};
 
-use super::{CostTable, Inflation, Write};
+use super::{CostTable, InflationSettings, Write};
 
-/// Rows done together, so that what is between the two steps stays in the cache.
-const ROWS: usize = 64;
+/// Rows per band; the data between both passes stays in the cache.
+const BAND_ROWS: usize = 64;
 
-/// Cells done together.
-const BLOCK: usize = 64;
+/// Cells per block.
+const BLOCK_CELLS: usize = 64;
 
-/// Numbers that squared distances fit into, or else stop at the highest.
+/// Saturating integers for squared distances.
 pub(super) trait Squares: Copy + Ord + Default {
-    /// Nothing is near.
+    /// No obstacle is near.
     const FAR: Self;
     fn square(distance: u8) -> Self;
     fn from_square(square: u32) -> Self;
     fn plus(self, other: Self) -> Self;
     fn index(self) -> usize;
-    /// The row of such numbers.
-    fn row(near: &mut Near) -> &mut Vec<Self>;
+    /// Returns the row buffer of this integer type.
+    fn row(near: &mut NearBuffers) -> &mut Vec<Self>;
 }
 
 impl Squares for u8 {
@@ -47,7 +47,7 @@ impl Squares for u8 {
     fn index(self) -> usize {
         usize::from(self)
     }
-    fn row(near: &mut Near) -> &mut Vec<Self> {
+    fn row(near: &mut NearBuffers) -> &mut Vec<Self> {
         &mut near.bytes
     }
 }
@@ -56,7 +56,7 @@ impl Squares for u16 {
     const FAR: Self = Self::MAX;
     #[inline(always)]
     fn square(distance: u8) -> Self {
-        // 255 stands for whatever is further than the radius, 254 at the most.
+        // 255 represents all distances beyond the radius, which is at most 254.
         if distance == u8::MAX { Self::MAX } else { Self::from(distance) * Self::from(distance) }
     }
     fn from_square(square: u32) -> Self {
@@ -70,49 +70,49 @@ impl Squares for u16 {
     fn index(self) -> usize {
         usize::from(self)
     }
-    fn row(near: &mut Near) -> &mut Vec<Self> {
+    fn row(near: &mut NearBuffers) -> &mut Vec<Self> {
         &mut near.words
     }
 }
 
-/// Memory for the distances of a band of rows.
+/// Buffers for the distances of a band of rows.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Near {
+pub(super) struct NearBuffers {
     /// Distance down the column to the nearest obstacle, for each cell of a band.
     below: Vec<u8>,
-    /// The same for one row, while rows go up.
+    /// Distance of the current row while rows go up.
     running: Vec<u8>,
     /// Distance up the column, for one row.
     above: Vec<u8>,
-    /// Squared distances along columns for one row, with room beyond both ends.
+    /// Squared distances along columns for one row, padded at both ends.
     bytes: Vec<u8>,
     words: Vec<u16>,
 }
 
-impl Near {
-    /// Inflates a window; `area` is the window with all around it that counts.
+impl NearBuffers {
+    /// Inflates a window; `area` is the window with the margin of obstacles that count.
     #[expect(clippy::too_many_arguments, reason = "one call, and each is another thing")]
     pub(super) fn run<S: Squares>(
         &mut self,
         costs: &mut [u8],
         width: usize,
-        window: &Window,
-        area: &Window,
+        window: &CellWindow,
+        area: &CellWindow,
         table: &CostTable,
-        how: Inflation,
+        how: InflationSettings,
         write: &Write<'_>,
     ) {
         let radius = table.radius_cells() as usize;
         let mut padded = std::mem::take(S::row(self));
         padded.clear();
-        padded.resize(area.width() + 2 * BLOCK + 2 * radius, S::FAR);
+        padded.resize(area.width() + 2 * BLOCK_CELLS + 2 * radius, S::FAR);
         let squares: Vec<S> =
             (0..=table.radius_cells()).map(|cells| S::from_square(cells * cells)).collect();
         let Self { below, running, above, .. } = self;
         let mut band = Band { costs, width, area, radius, how, below, running, above };
         let mut first = window.y0;
         while first < window.yn {
-            let last = (first + ROWS).min(window.yn);
+            let last = (first + BAND_ROWS).min(window.yn);
             if band.look(first, last) {
                 for row in (first..last).rev() {
                     let is_near = band.square_row(row, &mut padded[radius..]);
@@ -129,28 +129,28 @@ impl Near {
     }
 }
 
-/// Distances along columns for some rows.
+/// Distances along columns for a band of rows.
 struct Band<'a> {
     costs: &'a mut [u8],
     width: usize,
-    area: &'a Window,
+    area: &'a CellWindow,
     radius: usize,
-    how: Inflation,
+    how: InflationSettings,
     below: &'a mut Vec<u8>,
     running: &'a mut Vec<u8>,
     above: &'a mut Vec<u8>,
 }
 
 impl Band<'_> {
-    /// Measures distances down for rows from `first` up to `last`, and up from the row at `last`;
-    /// false when no obstacle is near any of them.
+    /// Computes distances downward for rows from `first` up to `last`, and upward from the row at
+    /// `last`; returns false when no obstacle is near any of them.
     fn look(&mut self, first: usize, last: usize) -> bool {
         let count = self.area.width();
         let far = self.radius as u8 + 1;
         let start = first.saturating_sub(self.radius).max(self.area.y0);
         let end = (last + self.radius).min(self.area.yn);
-        // Obstacles do not change while others are inflated: only they are lethal, and unknown cells
-        // that count as such become lethal.
+        // Obstacles do not change during inflation: only they are lethal, and unknown cells that
+        // count as obstacles become lethal.
         let obstacle = if self.how.around_unknown { LETHAL..=UNKNOWN } else { LETHAL..=LETHAL };
         let any = (start..end).any(|row| {
             let cells = &self.costs[row * self.width + self.area.x0..][..count];
@@ -179,8 +179,8 @@ impl Band<'_> {
         true
     }
 
-    /// Writes the squared distances along columns of one row; rows must come from the last to the
-    /// first. False when nothing is near.
+    /// Writes the squared distances along columns of one row; rows must be in descending order.
+    /// Returns false when no obstacle is near.
     fn square_row<S: Squares>(&mut self, row: usize, squares: &mut [S]) -> bool {
         let count = self.area.width();
         let far = self.radius as u8 + 1;
@@ -199,16 +199,16 @@ impl Band<'_> {
     }
 }
 
-/// Whether a value of a range is among some.
+/// Returns true if a cell has a value in the range.
 fn has(cells: &[u8], low: u8, high: u8) -> bool {
-    // Without leaving early: so it is done for many at a time.
+    // Without early exit, so that the loop is vectorized.
     cells
         .chunks(1024)
         .any(|chunk| chunk.iter().fold(false, |any, cell| any | ((low..=high).contains(cell))))
 }
 
-/// From the distances of a row to those of the next one.
-fn step(distances: &mut [u8], cells: &[u8], far: u8, how: Inflation) {
+/// Advances distances from one row to the next.
+fn step(distances: &mut [u8], cells: &[u8], far: u8, how: InflationSettings) {
     let lowest = LETHAL;
     let highest = if how.around_unknown { UNKNOWN } else { LETHAL };
     for (distance, cell) in distances.iter_mut().zip(cells) {
@@ -218,8 +218,8 @@ fn step(distances: &mut [u8], cells: &[u8], far: u8, how: Inflation) {
     }
 }
 
-/// From squares along columns to those in the plane, and to costs. `padded` has a radius more at
-/// either end.
+/// Converts squares along columns to squares in the plane, and to costs. `padded` has a margin of
+/// one radius at either end.
 fn along_row<S: Squares>(
     padded: &[S],
     squares: &[S],
@@ -228,26 +228,27 @@ fn along_row<S: Squares>(
     write: &Write<'_>,
 ) {
     let radius = squares.len() - 1;
-    for (block, cells) in cells.chunks_mut(BLOCK).enumerate() {
-        // The place of the first cell's leftmost neighbour.
-        let left = start + block * BLOCK;
-        let around = &padded[left..left + BLOCK + 2 * radius];
+    for (block, cells) in cells.chunks_mut(BLOCK_CELLS).enumerate() {
+        // Index of the leftmost neighbour of the first cell.
+        let left = start + block * BLOCK_CELLS;
+        let around = &padded[left..left + BLOCK_CELLS + 2 * radius];
         if around.iter().fold(S::FAR, |least, square| least.min(*square)) == S::FAR {
             continue;
         }
-        let mut least = [S::FAR; BLOCK];
+        let mut least = [S::FAR; BLOCK_CELLS];
         nearest(around, squares, &mut least);
         write.row(cells, &least);
     }
 }
 
-/// The least sum of a neighbour's square and that of the way to it, for a block of cells.
+/// Minimum over the neighbours of their square plus that of the horizontal distance, for a block of
+/// cells.
 #[inline(always)]
-fn nearest<S: Squares>(around: &[S], squares: &[S], least: &mut [S; BLOCK]) {
+fn nearest<S: Squares>(around: &[S], squares: &[S], least: &mut [S; BLOCK_CELLS]) {
     let radius = squares.len() - 1;
     for shift in 0..=2 * radius {
         let way = squares[shift.abs_diff(radius)];
-        let Some(neighbours) = around[shift..].first_chunk::<BLOCK>() else { return };
+        let Some(neighbours) = around[shift..].first_chunk::<BLOCK_CELLS>() else { return };
         for (least, neighbour) in least.iter_mut().zip(neighbours) {
             *least = (*least).min(neighbour.plus(way));
         }

@@ -1,15 +1,15 @@
-//! The cost of a distance.
+//! Cost by distance.
 
-use crate::Compat;
+use crate::Nav2Release;
 use crate::cost::{INSCRIBED, LETHAL};
 
-/// Parts of a cell to which distances are rounded on main.
-const PARTS: f64 = 100.0;
+/// Steps per cell to which distances are rounded on main.
+const STEPS_PER_CELL: f64 = 100.0;
 
-/// A larger table is not made: the radius is cut \[cells\].
-const MOST_CELLS: u32 = 2000;
+/// Maximum radius of a table; larger radii are limited \[cells\].
+const MAX_RADIUS_CELLS: u32 = 2000;
 
-/// Costs by squared distance in cells: whole numbers, so that every distance has its place.
+/// Costs by squared distance \[cells²\]: integers, which makes every distance an index.
 #[derive(Clone, Debug, PartialEq)]
 pub struct CostTable {
     costs: Vec<u8>,
@@ -17,10 +17,9 @@ pub struct CostTable {
 }
 
 impl CostTable {
-    /// Costs are lethal at 0, inscribed up to `inscribed_radius_m`, and fall from there with
-    /// `exp(-cost_scaling_factor * d)`. The last cells with one are at the radius, rounded up to
-    /// whole cells.
-    ///
+    /// Creates a table: lethal at 0, inscribed up to `inscribed_radius_m`, and decreasing beyond
+    /// with `exp(-cost_scaling_factor * d)`. The last cells with a cost are at the radius, rounded
+    /// up to whole cells.
     /// Source: `InflationLayer::computeCost`, `Costmap2D::cellDistance`.
     #[must_use]
     pub fn new(
@@ -28,14 +27,14 @@ impl CostTable {
         inflation_radius_m: f64,
         inscribed_radius_m: f64,
         cost_scaling_factor: f64,
-        compat: Compat,
+        compat: Nav2Release,
     ) -> Self {
         let cells = libm::ceil(inflation_radius_m / resolution_m);
-        let radius_cells = if cells > 0.0 { (cells as u32).min(MOST_CELLS) } else { 0 };
+        let radius_cells = if cells > 0.0 { (cells as u32).min(MAX_RADIUS_CELLS) } else { 0 };
         let cost = |square: u32| {
             let mut distance = f64::from(square).sqrt();
             if compat.rounds_distances() {
-                distance = libm::floor(distance * PARTS + 0.5) / PARTS;
+                distance = libm::floor(distance * STEPS_PER_CELL + 0.5) / STEPS_PER_CELL;
             }
             let distance_m = distance * resolution_m;
             if square == 0 {
@@ -50,19 +49,19 @@ impl CostTable {
         Self { costs: (0..=radius_cells * radius_cells).map(cost).collect(), radius_cells }
     }
 
-    /// The cost at a squared distance \[cells\].
+    /// Returns the cost at a squared distance \[cells²\].
     #[must_use]
     pub fn cost(&self, squared_cells: u32) -> u8 {
         self.costs.get(squared_cells as usize).copied().unwrap_or(0)
     }
 
-    /// All costs, by squared distance \[cells\].
+    /// Returns all costs, by squared distance \[cells²\].
     #[must_use]
     pub fn costs(&self) -> &[u8] {
         &self.costs
     }
 
-    /// How far costs reach \[cells\].
+    /// Returns the radius of the costs \[cells\].
     #[must_use]
     pub fn radius_cells(&self) -> u32 {
         self.radius_cells
@@ -75,7 +74,7 @@ mod tests {
 
     #[test]
     fn costs_fall_from_lethal_to_nothing() {
-        let table = CostTable::new(0.05, 0.55, 0.195, 3.0, Compat::Main);
+        let table = CostTable::new(0.05, 0.55, 0.195, 3.0, Nav2Release::Main);
         assert_eq!(table.radius_cells(), 11);
         let along = [0, 1, 3, 4, 5, 11, 12].map(|cells: u32| table.cost(cells * cells));
         assert_eq!(along, [254, 253, 253, 248, 213, 86, 0]);
@@ -84,6 +83,6 @@ mod tests {
     #[test]
     fn distances_are_rounded_on_main_alone() {
         let cost = |compat| CostTable::new(1.0, 3.0, 1.0, 1.0, compat).cost(2);
-        assert_eq!((cost(Compat::Main), cost(Compat::Jazzy)), (167, 166));
+        assert_eq!((cost(Nav2Release::Main), cost(Nav2Release::Jazzy)), (167, 166));
     }
 }

@@ -1,8 +1,8 @@
-//! Layers with a grid of their own.
+//! Plugin container layer: layers with a separate grid.
 //!
-//! Source of the rules: `nav2_costmap_2d/plugins/plugin_container_layer.cpp`. As there, the grid is
-//! not reset in an update: what a layer within put there by maximum stays until it puts less there by
-//! another combination, or somebody clears it.
+//! Source of the rules: `nav2_costmap_2d/plugins/plugin_container_layer.cpp`. As in the reference,
+//! an update does not reset the grid: a cost that a layer wrote by maximum stays until the layer
+//! lowers it by another combination method, or until it is cleared.
 
 use periplus_diagnostics::Diagnostic;
 use periplus_grid::{Cell, GridInfo};
@@ -11,9 +11,12 @@ use periplus_params::ParamValues;
 use crate::clear::clear_cells;
 use crate::cost::UNKNOWN;
 use crate::layer::is_settled;
-use crate::{Bounds, Combination, Compat, Costmap, Explanation, Footprint, Layer, Moment, Window};
+use crate::{
+    CellWindow, Combination, Costmap, Explanation, Footprint, Layer, Nav2Release, UpdateBounds,
+    UpdateContext,
+};
 
-/// Layers with a grid of their own, put into the costmap together.
+/// Layers with a separate grid, combined into the costmap together.
 pub struct ContainerLayer {
     name: String,
     values: ParamValues,
@@ -25,8 +28,8 @@ pub struct ContainerLayer {
 }
 
 impl ContainerLayer {
-    /// From parameters of [`crate::tables::CONTAINER`]. The names of layers within begin with the
-    /// container's and a dot.
+    /// Creates the layer from parameters of [`crate::tables::CONTAINER`]. The names of its layers
+    /// have the name of the container and a dot as prefix.
     #[must_use]
     pub fn new(
         name: impl Into<String>,
@@ -59,7 +62,7 @@ impl Layer for ContainerLayer {
         &self.name
     }
 
-    fn bounds(&mut self, moment: &Moment<'_>, bounds: &mut Bounds) {
+    fn bounds(&mut self, moment: &UpdateContext<'_>, bounds: &mut UpdateBounds) {
         if moment.is_rolling {
             self.grid.roll_around(moment.robot, moment.compat);
         }
@@ -68,7 +71,7 @@ impl Layer for ContainerLayer {
         }
     }
 
-    fn costs(&mut self, moment: &Moment<'_>, master: &mut Costmap, window: Window) {
+    fn costs(&mut self, moment: &UpdateContext<'_>, master: &mut Costmap, window: CellWindow) {
         if !self.is_enabled {
             return;
         }
@@ -91,7 +94,13 @@ impl Layer for ContainerLayer {
         self.children.iter().any(|child| child.is_clearable())
     }
 
-    fn clear_area(&mut self, start: (i64, i64), end: (i64, i64), invert: bool, compat: Compat) {
+    fn clear_area(
+        &mut self,
+        start: (i64, i64),
+        end: (i64, i64),
+        invert: bool,
+        compat: Nav2Release,
+    ) {
         clear_cells(&mut self.grid, start, end, invert, compat);
         for child in self.children.iter_mut().filter(|child| child.is_clearable()) {
             child.clear_area(start, end, invert, compat);
@@ -155,13 +164,13 @@ impl Layer for ContainerLayer {
             .map(|child| (child.name().to_owned(), child.explain(&self.grid, cell, is_rolling)));
         Explanation {
             value: self.grid.cost(cell),
-            reason: Some("its layers together".to_owned()),
+            reason: Some("the combined layers of the container".to_owned()),
             within: within.collect(),
             ..Explanation::default()
         }
     }
 
-    fn complaints(&mut self) -> Vec<Diagnostic> {
-        self.children.iter_mut().flat_map(|child| child.complaints()).collect()
+    fn diagnostics(&mut self) -> Vec<Diagnostic> {
+        self.children.iter_mut().flat_map(|child| child.diagnostics()).collect()
     }
 }

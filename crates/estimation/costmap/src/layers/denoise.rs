@@ -1,4 +1,4 @@
-//! Takes out obstacles that are too small.
+//! Denoise layer: removes small obstacles.
 //!
 //! Source of the rules: `nav2_costmap_2d/plugins/denoise_layer.cpp`.
 
@@ -7,13 +7,13 @@ use periplus_grid::Cell;
 use periplus_params::ParamValues;
 
 use crate::cost::{FREE, INSCRIBED, LETHAL, UNKNOWN};
-use crate::{Bounds, Costmap, Explanation, Layer, Moment, Window};
+use crate::{CellWindow, Costmap, Explanation, Layer, UpdateBounds, UpdateContext};
 
-/// Frees obstacles with fewer cells than `smallest`. Cells belong together when they are neighbours,
-/// with `diagonally` also across a corner. What is around the window does not count.
+/// Frees groups of obstacle cells with fewer than `smallest` cells. Neighbouring cells form a
+/// group, with `diagonally` also across a corner. Cells outside the window are ignored.
 pub fn denoise(
     master: &mut Costmap,
-    window: &Window,
+    window: &CellWindow,
     smallest: usize,
     diagonally: bool,
     unknown_is_obstacle: bool,
@@ -28,7 +28,7 @@ pub fn denoise(
         _ => false,
     };
     let info = *master.info();
-    // Cells still to be looked at. Each is taken once, so the time is that of the window.
+    // Cells still to visit. Each is visited once, so the run time is linear in the window.
     let mut waits: Vec<bool> = window
         .spans(info.width)
         .flat_map(|span| master.costs()[span].iter().map(|cost| is_obstacle(*cost)))
@@ -75,7 +75,7 @@ fn neighbours(
     })
 }
 
-/// Takes out obstacles that are too small.
+/// Layer that removes small obstacles.
 pub struct DenoiseLayer {
     name: String,
     values: ParamValues,
@@ -83,11 +83,11 @@ pub struct DenoiseLayer {
     smallest: usize,
     diagonally: bool,
     is_waiting: bool,
-    complaints: Vec<Diagnostic>,
+    diagnostics: Vec<Diagnostic>,
 }
 
 impl DenoiseLayer {
-    /// From parameters of [`crate::tables::DENOISE`].
+    /// Creates the layer from parameters of [`crate::tables::DENOISE`].
     #[must_use]
     pub fn new(name: impl Into<String>, values: ParamValues) -> Self {
         let mut layer = Self {
@@ -97,7 +97,7 @@ impl DenoiseLayer {
             smallest: 2,
             diagonally: true,
             is_waiting: false,
-            complaints: Vec::new(),
+            diagnostics: Vec::new(),
         };
         layer.take(values);
         layer
@@ -108,23 +108,23 @@ impl DenoiseLayer {
         let asked = values.integer("minimal_group_size").unwrap_or(2);
         self.smallest = usize::try_from(asked).unwrap_or(1).max(1);
         if asked <= 1 {
-            self.complain(
+            self.warn(
                 &values,
                 "minimal_group_size",
-                "keeps every obstacle, so nothing is done",
+                "keeps every obstacle, so the layer has no effect",
             );
         }
         let ways = values.integer("group_connectivity_type").unwrap_or(8);
         self.diagonally = ways != 4;
         if ways != 4 && ways != 8 {
-            self.complain(&values, "group_connectivity_type", "is neither 4 nor 8, and taken as 8");
+            self.warn(&values, "group_connectivity_type", "is neither 4 nor 8; 8 is used");
         }
         self.values = values;
     }
 
-    fn complain(&mut self, values: &ParamValues, parameter: &str, what: &str) {
+    fn warn(&mut self, values: &ParamValues, parameter: &str, what: &str) {
         let value = values.integer(parameter).unwrap_or_default();
-        self.complaints.push(
+        self.diagnostics.push(
             Diagnostic::warning(
                 "bad-value",
                 format!("`{}.{parameter}`: {value} {what}", self.name),
@@ -133,13 +133,13 @@ impl DenoiseLayer {
         );
     }
 
-    /// Groups with fewer cells go; 1 keeps all.
+    /// Returns the minimum size of groups that are kept \[cells\]; 1 keeps all.
     #[must_use]
     pub fn smallest(&self) -> usize {
         self.smallest
     }
 
-    /// How many neighbours a cell has: 4 or 8.
+    /// Returns the number of neighbours of a cell: 4 or 8.
     #[must_use]
     pub fn ways(&self) -> u8 {
         if self.diagonally { 8 } else { 4 }
@@ -151,9 +151,9 @@ impl Layer for DenoiseLayer {
         &self.name
     }
 
-    fn bounds(&mut self, _moment: &Moment<'_>, _bounds: &mut Bounds) {}
+    fn bounds(&mut self, _moment: &UpdateContext<'_>, _bounds: &mut UpdateBounds) {}
 
-    fn costs(&mut self, _moment: &Moment<'_>, master: &mut Costmap, window: Window) {
+    fn costs(&mut self, _moment: &UpdateContext<'_>, master: &mut Costmap, window: CellWindow) {
         if !self.is_enabled {
             return;
         }
@@ -185,8 +185,8 @@ impl Layer for DenoiseLayer {
 
     fn explain(&self, _master: &Costmap, _cell: Cell, _is_rolling: bool) -> Explanation {
         let reason = match self.smallest {
-            1 => "it keeps every obstacle".to_owned(),
-            smallest => format!("it frees obstacles with fewer than {smallest} cells"),
+            1 => "the layer keeps every obstacle".to_owned(),
+            smallest => format!("the layer removes obstacles with fewer than {smallest} cells"),
         };
         Explanation {
             reason: Some(reason),
@@ -195,7 +195,7 @@ impl Layer for DenoiseLayer {
         }
     }
 
-    fn complaints(&mut self) -> Vec<Diagnostic> {
-        std::mem::take(&mut self.complaints)
+    fn diagnostics(&mut self) -> Vec<Diagnostic> {
+        std::mem::take(&mut self.diagnostics)
     }
 }

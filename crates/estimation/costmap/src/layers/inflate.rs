@@ -1,4 +1,4 @@
-//! Costs around obstacles.
+//! Inflation layer: costs around obstacles.
 //!
 //! Source of the rules: `nav2_costmap_2d/plugins/inflation_layer.cpp`.
 
@@ -7,48 +7,50 @@ use periplus_grid::{Cell, GridInfo};
 use periplus_params::ParamValues;
 
 use crate::cost::{LETHAL, UNKNOWN};
-use crate::inflation::{CostTable, Inflation, Scratch, inflate};
-use crate::{Bounds, Compat, Costmap, Explanation, Footprint, Layer, Moment, Window};
+use crate::inflation::{CostTable, InflationBuffers, InflationSettings, inflate};
+use crate::{
+    CellWindow, Costmap, Explanation, Footprint, Layer, Nav2Release, UpdateBounds, UpdateContext,
+};
 
-/// Gives cells near obstacles a cost.
+/// Layer that inflates obstacles.
 pub struct InflationLayer {
     name: String,
     values: ParamValues,
     is_enabled: bool,
     radius_m: f64,
-    how: Inflation,
-    /// Of the robot, without `custom_inscribed_radius` \[m\].
+    how: InflationSettings,
+    /// Inscribed radius of the footprint, without `custom_inscribed_radius` \[m\].
     inscribed_radius_m: f64,
     resolution_m: f64,
-    compat: Compat,
+    compat: Nav2Release,
     table: CostTable,
-    /// The bounds that the update before had, without the margin.
-    last: Bounds,
+    /// Bounds of the previous update, without the margin.
+    last: UpdateBounds,
     must_redo: bool,
     is_waiting: bool,
-    scratch: Scratch,
-    complaints: Vec<Diagnostic>,
+    scratch: InflationBuffers,
+    diagnostics: Vec<Diagnostic>,
 }
 
 impl InflationLayer {
-    /// From parameters of [`crate::tables::INFLATION`].
+    /// Creates the layer from parameters of [`crate::tables::INFLATION`].
     #[must_use]
-    pub fn new(name: impl Into<String>, values: ParamValues, compat: Compat) -> Self {
+    pub fn new(name: impl Into<String>, values: ParamValues, compat: Nav2Release) -> Self {
         let mut layer = Self {
             name: name.into(),
             values: values.clone(),
             is_enabled: true,
             radius_m: 0.0,
-            how: Inflation::default(),
+            how: InflationSettings::default(),
             inscribed_radius_m: 0.0,
             resolution_m: 1.0,
             compat,
             table: CostTable::new(1.0, 0.0, 0.0, 0.0, compat),
-            last: Bounds::ALL,
+            last: UpdateBounds::ALL,
             must_redo: false,
             is_waiting: false,
-            scratch: Scratch::default(),
-            complaints: Vec::new(),
+            scratch: InflationBuffers::default(),
+            diagnostics: Vec::new(),
         };
         layer.take(values);
         layer.must_redo = false;
@@ -59,15 +61,15 @@ impl InflationLayer {
         let flag = |name: &str| values.flag(name).unwrap_or_default();
         self.is_enabled = flag("enabled");
         self.radius_m = values.number("inflation_radius").unwrap_or_default();
-        self.how = Inflation {
+        self.how = InflationSettings {
             into_unknown: flag("inflate_unknown"),
             around_unknown: flag("inflate_around_unknown"),
         };
         self.values = values;
-        self.renew_table();
+        self.rebuild_table();
     }
 
-    fn renew_table(&mut self) {
+    fn rebuild_table(&mut self) {
         let scaling = self.values.number("cost_scaling_factor").unwrap_or_default();
         let inscribed_m = self.inscribed_m();
         self.table =
@@ -82,7 +84,7 @@ impl InflationLayer {
         }
     }
 
-    /// The costs that it gives.
+    /// Returns the table of costs.
     #[must_use]
     pub fn table(&self) -> &CostTable {
         &self.table
@@ -94,22 +96,22 @@ impl Layer for InflationLayer {
         &self.name
     }
 
-    fn bounds(&mut self, moment: &Moment<'_>, bounds: &mut Bounds) {
+    fn bounds(&mut self, moment: &UpdateContext<'_>, bounds: &mut UpdateBounds) {
         let last = std::mem::replace(&mut self.last, *bounds);
         if std::mem::take(&mut self.must_redo) {
-            *bounds = Bounds::ALL;
+            *bounds = UpdateBounds::ALL;
             if moment.compat.forgets_bounds_when_redone() {
-                // The whole map has just been inflated: nothing of this update must be done again.
-                self.last = Bounds::EMPTY;
+                // The whole map was just inflated; this update need not repeat it.
+                self.last = UpdateBounds::EMPTY;
             }
         } else {
-            // What has gone must lose its costs, too.
+            // Costs around removed obstacles must be removed as well.
             bounds.include(&last);
             *bounds = bounds.grown(self.radius_m);
         }
     }
 
-    fn costs(&mut self, _moment: &Moment<'_>, master: &mut Costmap, window: Window) {
+    fn costs(&mut self, _moment: &UpdateContext<'_>, master: &mut Costmap, window: CellWindow) {
         if self.is_enabled && self.table.radius_cells() > 0 {
             inflate(master, &window, &self.table, self.how, &mut self.scratch);
             self.is_waiting = false;
@@ -131,10 +133,10 @@ impl Layer for InflationLayer {
 
     fn footprint_changed(&mut self, footprint: &Footprint) {
         self.inscribed_radius_m = footprint.inscribed_radius_m;
-        self.renew_table();
+        self.rebuild_table();
         let inscribed_m = self.inscribed_m();
         if self.radius_m > 0.0 && self.radius_m < inscribed_m && inscribed_m < f64::MAX {
-            self.complaints.push(
+            self.diagnostics.push(
                 Diagnostic::warning(
                     "inflation-too-small",
                     format!(
@@ -144,7 +146,7 @@ impl Layer for InflationLayer {
                     ),
                 )
                 .at(self.values.origin("inflation_radius"))
-                .note("planners need costs in all cells in which the robot would touch something")
+                .note("planners require costs in all cells in which the robot would collide")
                 .help(format!("set it to {inscribed_m:.2} or more")),
             );
         }
@@ -153,7 +155,7 @@ impl Layer for InflationLayer {
     fn resized(&mut self, info: &GridInfo, _is_rolling: bool) {
         let must_redo = self.must_redo;
         self.resolution_m = info.resolution_m;
-        self.renew_table();
+        self.rebuild_table();
         self.must_redo = must_redo;
     }
 
@@ -169,7 +171,7 @@ impl Layer for InflationLayer {
     fn explain(&self, master: &Costmap, cell: Cell, _is_rolling: bool) -> Explanation {
         let around = |cost| cost == LETHAL || (self.how.around_unknown && cost == UNKNOWN);
         let (x, y) = cell;
-        let window = Window { x0: x, y0: y, xn: x + 1, yn: y + 1 };
+        let window = CellWindow { x0: x, y0: y, xn: x + 1, yn: y + 1 };
         let near = window.grown(self.table.radius_cells() as usize, master.info());
         let nearest = (near.y0..near.yn)
             .flat_map(|y| (near.x0..near.xn).map(move |x| (x, y)))
@@ -198,7 +200,7 @@ impl Layer for InflationLayer {
         }
     }
 
-    fn complaints(&mut self) -> Vec<Diagnostic> {
-        std::mem::take(&mut self.complaints)
+    fn diagnostics(&mut self) -> Vec<Diagnostic> {
+        std::mem::take(&mut self.diagnostics)
     }
 }

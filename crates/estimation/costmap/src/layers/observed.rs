@@ -1,4 +1,4 @@
-//! What layers that look through sensors have in common.
+//! State and behaviour shared by obstacle and voxel layers.
 //!
 //! Source of the rules: `nav2_costmap_2d/plugins/obstacle_layer.cpp`.
 
@@ -8,56 +8,59 @@ use periplus_params::ParamValues;
 
 use crate::clear::clear_cells;
 use crate::cost::{FREE, LETHAL, UNKNOWN};
-use crate::observation::Span;
-use crate::polygon::Columns;
-use crate::trace::Trace;
-use crate::{Bounds, Combination, Compat, Costmap, Explanation, Moment, Source, Window};
+use crate::observation::RangeLimits;
+use crate::polygon::PolygonColumns;
+use crate::trace::ReadingTrace;
+use crate::{
+    CellWindow, Combination, Costmap, Explanation, Nav2Release, ObservationSource, UpdateBounds,
+    UpdateContext,
+};
 
-/// Cells, sources, and when to forget.
-pub(crate) struct Sight {
+/// Grid, sources and reset state of a layer with observation sources.
+pub(crate) struct ObservationLayer {
     pub(crate) name: String,
     pub(crate) values: ParamValues,
     pub(crate) is_enabled: bool,
     clears_footprint: bool,
-    pub(crate) heights: Span,
+    pub(crate) heights: RangeLimits,
     combination: Combination,
-    /// A number that Humble does not know: there the layer writes nothing.
+    /// Method that Humble does not support: the layer writes nothing there.
     is_late_combination: bool,
     pub(crate) grid: Costmap,
-    pub(crate) sources: Vec<Source>,
-    pub(crate) trace: Trace,
-    extra: Option<Bounds>,
+    pub(crate) sources: Vec<ObservationSource>,
+    pub(crate) trace: ReadingTrace,
+    extra: Option<UpdateBounds>,
     outline: Vec<[f64; 2]>,
-    /// Cleared, and not yet looked at again.
+    /// True after a reset until the next update.
     is_waiting: bool,
-    pub(crate) complaints: Vec<Diagnostic>,
+    pub(crate) diagnostics: Vec<Diagnostic>,
 }
 
-impl Sight {
+impl ObservationLayer {
     pub(crate) fn new(
         name: String,
         values: ParamValues,
         tracks_unknown: bool,
-        sources: Vec<Source>,
+        sources: Vec<ObservationSource>,
     ) -> Self {
-        let mut sight = Self {
+        let mut observed = Self {
             name,
             values: values.clone(),
             is_enabled: true,
             clears_footprint: true,
-            heights: Span::default(),
+            heights: RangeLimits::default(),
             combination: Combination::Max,
             is_late_combination: false,
             grid: Costmap::empty(if tracks_unknown { UNKNOWN } else { FREE }),
             sources,
-            trace: Trace::default(),
+            trace: ReadingTrace::default(),
             extra: None,
             outline: Vec::new(),
             is_waiting: false,
-            complaints: Vec::new(),
+            diagnostics: Vec::new(),
         };
-        sight.configure(values);
-        sight
+        observed.configure(values);
+        observed
     }
 
     pub(crate) fn configure(&mut self, values: ParamValues) {
@@ -65,19 +68,21 @@ impl Sight {
         let flag = |name: &str| values.flag(name).unwrap_or_default();
         self.is_enabled = flag("enabled");
         self.clears_footprint = flag("footprint_clearing_enabled");
-        self.heights =
-            Span { min_m: number("min_obstacle_height"), max_m: number("max_obstacle_height") };
+        self.heights = RangeLimits {
+            min_m: number("min_obstacle_height"),
+            max_m: number("max_obstacle_height"),
+        };
         let method = values.integer("combination_method").unwrap_or(1);
         self.combination = Combination::from_number(method);
         self.is_late_combination = !(0..=1).contains(&method);
         if !(0..=2).contains(&method) {
-            self.complaints.push(
+            self.diagnostics.push(
                 Diagnostic::warning(
                     "bad-value",
-                    format!("`{}.combination_method` is {method}, taken as 1", self.name),
+                    format!("`{}.combination_method` is {method}; 1 is used", self.name),
                 )
                 .at(values.origin("combination_method"))
-                .note("0 overwrites, 1 is the maximum, 2 the maximum of what is known; with `compat: humble` only 0 and 1 write anything"),
+                .note("0 overwrites, 1 is the maximum, 2 the maximum of known costs; with `compat: humble` only 0 and 1 write anything"),
             );
         }
         self.values = values;
@@ -88,8 +93,8 @@ impl Sight {
         self.trace.resize(self.grid.info());
     }
 
-    /// Begins an update; false when the layer takes no part in it.
-    pub(crate) fn begin(&mut self, moment: &Moment<'_>, bounds: &mut Bounds) -> bool {
+    /// Begins an update; returns false when the layer is disabled.
+    pub(crate) fn begin(&mut self, moment: &UpdateContext<'_>, bounds: &mut UpdateBounds) -> bool {
         if moment.is_rolling {
             self.grid.roll_around(moment.robot, moment.compat);
             self.trace.follow(self.grid.info());
@@ -106,8 +111,8 @@ impl Sight {
         true
     }
 
-    /// Ends the first half of an update.
-    pub(crate) fn end(&mut self, moment: &Moment<'_>, bounds: &mut Bounds) {
+    /// Ends the bounds pass of an update.
+    pub(crate) fn end(&mut self, moment: &UpdateContext<'_>, bounds: &mut UpdateBounds) {
         for source in &mut self.sources {
             source.fresh = 0;
         }
@@ -119,13 +124,13 @@ impl Sight {
         }
     }
 
-    pub(crate) fn costs(&mut self, compat: Compat, master: &mut Costmap, window: Window) {
+    pub(crate) fn costs(&mut self, compat: Nav2Release, master: &mut Costmap, window: CellWindow) {
         if !self.is_enabled {
             return;
         }
         self.is_waiting = false;
         if self.clears_footprint
-            && let Some(columns) = Columns::of(&self.grid, &self.outline)
+            && let Some(columns) = PolygonColumns::of(&self.grid, &self.outline)
         {
             for cell in columns.cells() {
                 self.grid.set(cell, FREE);
@@ -147,12 +152,12 @@ impl Sight {
         start: (i64, i64),
         end: (i64, i64),
         invert: bool,
-        compat: Compat,
+        compat: Nav2Release,
     ) {
         clear_cells(&mut self.grid, start, end, invert, compat);
         self.is_waiting = true;
-        // So that the next update writes everything anew.
-        self.extra.get_or_insert(Bounds::EMPTY).include(&Bounds::of(self.grid.info()));
+        // The next update rewrites the whole grid.
+        self.extra.get_or_insert(UpdateBounds::EMPTY).include(&UpdateBounds::of(self.grid.info()));
     }
 
     pub(crate) fn is_current(&self, now_ns: i64) -> bool {
@@ -164,40 +169,42 @@ impl Sight {
         let cause = self.trace.cause(cell);
         let (reason, parameter) = match (value, &cause) {
             (Some(LETHAL), Some(cause)) if cause.is_mark => {
-                (format!("`{}` saw an obstacle here", cause.source), None)
+                (format!("`{}` observed an obstacle here", cause.source), None)
             }
             (Some(FREE), Some(cause)) if cause.is_mark => (
-                "the robot stood here, and its outline was cleared".to_owned(),
+                "the robot was here, and its footprint was cleared".to_owned(),
                 Some(format!("{}.footprint_clearing_enabled", self.name)),
             ),
             (Some(FREE), Some(cause)) => (
-                format!("a ray of `{}` went through here", cause.source),
+                format!("a ray of `{}` crossed this cell", cause.source),
                 Some(format!("{}.{}.raytrace_max_range", self.name, cause.source)),
             ),
             (Some(UNKNOWN), _) => {
-                ("nothing has been seen here, or it was cleared".to_owned(), None)
+                ("the cell was never observed, or it was cleared".to_owned(), None)
             }
-            (Some(_), _) => ("nothing has been seen here, and unseen is free".to_owned(), {
-                Some("track_unknown_space".to_owned())
-            }),
+            (Some(_), _) => {
+                ("the cell was never observed, and unobserved cells are free".to_owned(), {
+                    Some("track_unknown_space".to_owned())
+                })
+            }
             (None, _) => ("the layer has no such cell".to_owned(), None),
         };
         Explanation { value, reason: Some(reason), cause, parameter, within: Vec::new() }
     }
 }
 
-/// Says that a sensor is outside, once for each time that it goes there.
-pub(crate) fn complain_of_sensor(
+/// Warns about a sensor outside the grid, once each time that it leaves the grid.
+pub(crate) fn warn_sensor_outside(
     is_outside: bool,
     layer: &str,
-    source: &mut Source,
+    source: &mut ObservationSource,
     [x, y, z]: [f64; 3],
     info: &GridInfo,
     heights: Option<(f64, f64)>,
-    complaints: &mut Vec<Diagnostic>,
+    diagnostics: &mut Vec<Diagnostic>,
 ) {
     if is_outside && !source.was_outside {
-        let Bounds { min_x, min_y, max_x, max_y } = Bounds::of(info);
+        let UpdateBounds { min_x, min_y, max_x, max_y } = UpdateBounds::of(info);
         let text = match heights {
             None => format!(
                 "sensor origin at ({x:.2}, {y:.2}) is out of map bounds ({min_x:.2}, {min_y:.2}) \
@@ -218,7 +225,7 @@ pub(crate) fn complain_of_sensor(
             "check `sensor_frame` and the transform of the sensor, or enlarge the costmap"
                 .to_owned()
         };
-        complaints.push(
+        diagnostics.push(
             Diagnostic::warning("sensor-outside", text)
                 .at(source.values.origin("topic"))
                 .note(format!("source `{}` of layer `{layer}`", source.name))
@@ -228,42 +235,49 @@ pub(crate) fn complain_of_sensor(
     source.was_outside = is_outside;
 }
 
-/// Makes a layer of something that has a [`Sight`] in its field `sight`.
-macro_rules! delegate_to_sight {
+/// Implements [`crate::Layer`] methods for a type with an [`ObservationLayer`] in its field
+/// `observed`.
+macro_rules! delegate_to_observation_layer {
     () => {
         fn name(&self) -> &str {
-            &self.sight.name
+            &self.observed.name
         }
         fn is_clearable(&self) -> bool {
             true
         }
         fn is_enabled(&self) -> bool {
-            self.sight.is_enabled
+            self.observed.is_enabled
         }
         fn is_current(&self, now_ns: i64) -> bool {
-            self.sight.is_current(now_ns)
+            self.observed.is_current(now_ns)
         }
         fn grid(&self) -> Option<&Costmap> {
-            Some(&self.sight.grid)
+            Some(&self.observed.grid)
         }
         fn values(&self) -> Option<&ParamValues> {
-            Some(&self.sight.values)
+            Some(&self.observed.values)
         }
-        fn sources(&self) -> &[Source] {
-            &self.sight.sources
+        fn sources(&self) -> &[ObservationSource] {
+            &self.observed.sources
         }
-        fn sources_mut(&mut self) -> &mut [Source] {
-            &mut self.sight.sources
+        fn sources_mut(&mut self) -> &mut [ObservationSource] {
+            &mut self.observed.sources
         }
-        fn costs(&mut self, moment: &Moment<'_>, master: &mut Costmap, window: Window) {
-            self.sight.costs(moment.compat, master, window);
+        fn costs(&mut self, moment: &UpdateContext<'_>, master: &mut Costmap, window: CellWindow) {
+            self.observed.costs(moment.compat, master, window);
         }
-        fn clear_area(&mut self, start: (i64, i64), end: (i64, i64), invert: bool, compat: Compat) {
-            self.sight.clear_area(start, end, invert, compat);
+        fn clear_area(
+            &mut self,
+            start: (i64, i64),
+            end: (i64, i64),
+            invert: bool,
+            compat: Nav2Release,
+        ) {
+            self.observed.clear_area(start, end, invert, compat);
         }
-        fn complaints(&mut self) -> Vec<Diagnostic> {
-            std::mem::take(&mut self.sight.complaints)
+        fn diagnostics(&mut self) -> Vec<Diagnostic> {
+            std::mem::take(&mut self.observed.diagnostics)
         }
     };
 }
-pub(crate) use delegate_to_sight;
+pub(crate) use delegate_to_observation_layer;

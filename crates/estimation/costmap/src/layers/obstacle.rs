@@ -1,4 +1,4 @@
-//! What sensors see, on the ground.
+//! Obstacle layer: obstacles seen by sensors, in the plane.
 //!
 //! Source of the rules: `nav2_costmap_2d/plugins/obstacle_layer.cpp`.
 
@@ -6,126 +6,130 @@ use periplus_diagnostics::Diagnostic;
 use periplus_grid::{Cell, GridInfo, Line};
 use periplus_params::ParamValues;
 
-use super::repeats::Repeats;
-use super::sight::{Sight, complain_of_sensor, delegate_to_sight};
+use super::observed::{ObservationLayer, delegate_to_observation_layer, warn_sensor_outside};
+use super::ray_dedup::RayDeduplicator;
 use crate::compat::RangeMeasure;
 use crate::cost::{FREE, LETHAL};
-use crate::observation::{Counters, Span};
-use crate::trace::Pen;
-use crate::{Bounds, Compat, Costmap, Explanation, Layer, Moment, Observation, Source, Window};
+use crate::observation::{Counters, RangeLimits};
+use crate::trace::TraceWriter;
+use crate::{
+    CellWindow, Costmap, Explanation, Layer, Nav2Release, Observation, ObservationSource,
+    UpdateBounds, UpdateContext,
+};
 
-/// How far from the far edges rays are cut \[m\].
-const WITHIN_EDGE_M: f64 = 0.001;
+/// Distance inside the upper edges at which rays are cut \[m\].
+const EDGE_MARGIN_M: f64 = 0.001;
 
-/// Marks cells where something is and clears cells that are seen through.
+/// Layer that marks cells with obstacles and clears cells along rays.
 pub struct ObstacleLayer {
-    sight: Sight,
-    repeats: Repeats,
+    observed: ObservationLayer,
+    ray_dedup: RayDeduplicator,
 }
 
 impl ObstacleLayer {
-    /// From parameters of [`crate::tables::OBSTACLE`]; `tracks_unknown` is the costmap's
-    /// `track_unknown_space`.
+    /// Creates the layer from parameters of [`crate::tables::OBSTACLE`]; `tracks_unknown` is
+    /// `track_unknown_space` of the costmap.
     #[must_use]
     pub fn new(
         name: impl Into<String>,
         values: ParamValues,
         tracks_unknown: bool,
-        sources: Vec<Source>,
+        sources: Vec<ObservationSource>,
     ) -> Self {
-        let sight = Sight::new(name.into(), values, tracks_unknown, sources);
-        Self { sight, repeats: Repeats::default() }
+        let observed = ObservationLayer::new(name.into(), values, tracks_unknown, sources);
+        Self { observed, ray_dedup: RayDeduplicator::default() }
     }
 
     /// Adds a source.
-    pub fn add_source(&mut self, source: Source) {
-        self.sight.sources.push(source);
+    pub fn add_source(&mut self, source: ObservationSource) {
+        self.observed.sources.push(source);
     }
 
-    /// Its own cells, to be changed by hand.
+    /// Returns the grid of the layer for manual changes.
     pub fn grid_mut(&mut self) -> &mut Costmap {
-        &mut self.sight.grid
+        &mut self.observed.grid
     }
 }
 
 impl Layer for ObstacleLayer {
-    delegate_to_sight!();
+    delegate_to_observation_layer!();
 
-    fn bounds(&mut self, moment: &Moment<'_>, bounds: &mut Bounds) {
-        let sight = &mut self.sight;
-        if !sight.begin(moment, bounds) {
+    fn bounds(&mut self, moment: &UpdateContext<'_>, bounds: &mut UpdateBounds) {
+        let observed = &mut self.observed;
+        if !observed.begin(moment, bounds) {
             return;
         }
-        // All rays of all sources first: what is marked in an update stays.
-        for source in sight.sources.iter_mut().filter(|source| source.settings.is_clearing) {
+        // All rays of all sources come first: marks of this update stay.
+        for source in observed.sources.iter_mut().filter(|source| source.settings.is_clearing) {
             for index in 0..source.observations.len() {
                 let seen = &source.observations[index];
                 let origin = seen.origin;
-                let pen = sight.trace.pen(&source.name, seen, false);
-                let is_inside = clear_rays(&mut sight.grid, pen, seen, &mut self.repeats, bounds);
+                let writer = observed.trace.writer(&source.name, seen, false);
+                let is_inside =
+                    clear_rays(&mut observed.grid, writer, seen, &mut self.ray_dedup, bounds);
                 if !is_inside && index < source.fresh {
                     source.counters.sensor_outside += 1;
                 }
-                let (name, info) = (&sight.name, sight.grid.info());
-                let complaints = &mut sight.complaints;
-                complain_of_sensor(!is_inside, name, source, origin, info, None, complaints);
+                let (name, info) = (&observed.name, observed.grid.info());
+                let diagnostics = &mut observed.diagnostics;
+                warn_sensor_outside(!is_inside, name, source, origin, info, None, diagnostics);
             }
         }
-        for source in sight.sources.iter_mut().filter(|source| source.settings.is_marking) {
+        for source in observed.sources.iter_mut().filter(|source| source.settings.is_marking) {
             for (index, seen) in source.observations.iter().enumerate() {
                 let mut unseen = Counters::default();
                 let is_first = index < source.fresh;
                 let counters = if is_first { &mut source.counters } else { &mut unseen };
-                let pen = sight.trace.pen(&source.name, seen, true);
-                let marker = Marker { heights: sight.heights, compat: moment.compat };
-                marker.mark(&mut sight.grid, pen, seen, counters, bounds);
+                let writer = observed.trace.writer(&source.name, seen, true);
+                let marker = Marker { heights: observed.heights, compat: moment.compat };
+                marker.mark(&mut observed.grid, writer, seen, counters, bounds);
             }
         }
-        sight.end(moment, bounds);
+        observed.end(moment, bounds);
     }
 
     fn reset(&mut self) {
-        self.sight.reset();
+        self.observed.reset();
     }
 
     fn resized(&mut self, info: &GridInfo, _is_rolling: bool) {
-        self.sight.resized(info);
+        self.observed.resized(info);
     }
 
     fn configure(&mut self, values: ParamValues) -> Result<(), String> {
-        self.sight.configure(values);
+        self.observed.configure(values);
         Ok(())
     }
 
     fn explain(&self, _master: &Costmap, cell: Cell, _is_rolling: bool) -> Explanation {
-        self.sight.explain(cell)
+        self.observed.explain(cell)
     }
 }
 
-/// Clears what rays go through; false when the sensor is outside of the grid, from where nothing
-/// can be cleared.
+/// Clears the cells along rays; returns false when the sensor is outside the grid, from which rays
+/// cannot be cleared.
 fn clear_rays(
     grid: &mut Costmap,
-    mut pen: Option<Pen<'_>>,
+    mut writer: Option<TraceWriter<'_>>,
     seen: &Observation,
-    repeats: &mut Repeats,
-    bounds: &mut Bounds,
+    ray_dedup: &mut RayDeduplicator,
+    bounds: &mut UpdateBounds,
 ) -> bool {
     let [ox, oy, _] = seen.origin;
     let finder = grid.finder();
     let Some(start) = finder.cell_of(ox, oy) else { return false };
-    let Bounds { min_x, min_y, .. } = Bounds::of(grid.info());
+    let UpdateBounds { min_x, min_y, .. } = UpdateBounds::of(grid.info());
     let GridInfo { resolution_m, width, height, .. } = *grid.info();
     let (end_x, end_y) =
         (min_x + width as f64 * resolution_m, min_y + height as f64 * resolution_m);
     let longest = grid.cells_along(seen.rays.max_m);
     let shortest = grid.cells_along(seen.rays.min_m);
     bounds.touch(ox, oy);
-    repeats.forget();
+    ray_dedup.forget();
     for point in &seen.points {
         let (mut wx, mut wy) = (f64::from(point[0]), f64::from(point[1]));
         let (a, b) = (wx - ox, wy - oy);
-        // Rays that leave the grid are cut at its edge, one side after the other.
+        // Rays that leave the grid are cut at its edges, one side after the other.
         if wx < min_x {
             (wx, wy) = (min_x, oy + b * ((min_x - ox) / a));
         }
@@ -133,32 +137,37 @@ fn clear_rays(
             (wx, wy) = (ox + a * ((min_y - oy) / b), min_y);
         }
         if wx > end_x {
-            (wx, wy) = (end_x - WITHIN_EDGE_M, oy + b * ((end_x - ox) / a));
+            (wx, wy) = (end_x - EDGE_MARGIN_M, oy + b * ((end_x - ox) / a));
         }
         if wy > end_y {
-            (wx, wy) = (ox + a * ((end_y - oy) / b), end_y - WITHIN_EDGE_M);
+            (wx, wy) = (ox + a * ((end_y - oy) / b), end_y - EDGE_MARGIN_M);
         }
         let Some(end) = finder.cell_of(wx, wy) else { continue };
         touch_ray(bounds, [ox, oy], [wx, wy], &seen.rays);
-        // Which cells a ray goes through depends on its first and its last one alone.
-        if repeats.has((end.1 * width + end.0) as u64) {
+        // The cells of a ray depend on its first and last cell alone.
+        if ray_dedup.has((end.1 * width + end.0) as u64) {
             continue;
         }
         let costs = grid.costs_mut();
         for (x, y) in Line::within(start, end, shortest, longest) {
             let index = y * width + x;
             costs[index] = FREE;
-            if let Some(pen) = &mut pen {
-                pen.note(index, [point[0], point[1]]);
+            if let Some(writer) = &mut writer {
+                writer.note(index, [point[0], point[1]]);
             }
         }
     }
     true
 }
 
-/// Enlarges bounds by the part of a ray that clears (`updateRaytraceBounds`).
+/// Enlarges bounds by the cleared part of a ray (`updateRaytraceBounds`).
 #[inline]
-pub(super) fn touch_ray(bounds: &mut Bounds, origin: [f64; 2], end: [f64; 2], rays: &Span) {
+pub(super) fn touch_ray(
+    bounds: &mut UpdateBounds,
+    origin: [f64; 2],
+    end: [f64; 2],
+    rays: &RangeLimits,
+) {
     let (dx, dy) = (end[0] - origin[0], end[1] - origin[1]);
     let squared = dx * dx + dy * dy;
     if rays.min_m > 0.0 && squared < rays.min_m * rays.min_m {
@@ -171,31 +180,31 @@ pub(super) fn touch_ray(bounds: &mut Bounds, origin: [f64; 2], end: [f64; 2], ra
     bounds.touch(origin[0] + dx * part, origin[1] + dy * part);
 }
 
-/// Marks points.
+/// Marker of points.
 struct Marker {
-    heights: Span,
-    compat: Compat,
+    heights: RangeLimits,
+    compat: Nav2Release,
 }
 
 impl Marker {
     fn mark(
         &self,
         grid: &mut Costmap,
-        mut pen: Option<Pen<'_>>,
+        mut writer: Option<TraceWriter<'_>>,
         seen: &Observation,
         counters: &mut Counters,
-        bounds: &mut Bounds,
+        bounds: &mut UpdateBounds,
     ) {
         let [ox, oy, oz] = seen.origin;
         let finder = grid.finder();
         let measure = self.compat.range_measure();
-        // Cells from the sensor are counted where it has one; measured in space it needs none.
+        // Distances in cells need a sensor inside the grid; those in space do not.
         let start = finder.cell_of(ox, oy).filter(|_| measure != RangeMeasure::Space);
         if start.is_none() && measure != RangeMeasure::Space {
             return;
         }
         let width = grid.info().width;
-        let Span { min_m, max_m } = seen.marks;
+        let RangeLimits { min_m, max_m } = seen.marks;
         let (nearest, furthest) = (grid.cells_along(min_m), grid.cells_along(max_m));
         let costs = grid.costs_mut();
         for point in &seen.points {
@@ -248,8 +257,8 @@ impl Marker {
             counters.marked += 1;
             let index = y * width + x;
             costs[index] = LETHAL;
-            if let Some(pen) = &mut pen {
-                pen.note(index, [point[0], point[1]]);
+            if let Some(writer) = &mut writer {
+                writer.note(index, [point[0], point[1]]);
             }
             bounds.touch(px, py);
         }

@@ -1,6 +1,6 @@
-//! Sonars and other sensors with one wide beam.
+//! Range sensor layer: sonars and other sensors with one wide beam.
 //!
-//! Cells hold the probability of an obstacle, times 254. Source of the rules:
+//! Cells contain the probability of an obstacle, times 254. Source of the rules:
 //! `nav2_costmap_2d/plugins/range_sensor_layer.cpp`.
 
 use std::collections::VecDeque;
@@ -12,46 +12,46 @@ use periplus_params::ParamValues;
 
 use crate::clear::clear_cells;
 use crate::cost::{FREE, LETHAL, UNKNOWN};
-use crate::{Bounds, Compat, Costmap, Explanation, Layer, Moment, Window};
+use crate::{CellWindow, Costmap, Explanation, Layer, Nav2Release, UpdateBounds, UpdateContext};
 
-/// What the cell of a reading holds before it counts.
-const EXPECTED: u8 = 233;
+/// Cost of the cell of a reading from which the reading counts as seen.
+const SEEN_COST: u8 = 233;
 
-/// Most readings that wait for an update; while nobody knows where the robot is there is none.
-const MOST_READINGS: usize = 1000;
+/// Maximum number of readings queued for an update, which waits for the pose of the robot.
+const MAX_READINGS: usize = 1000;
 
-/// How far beyond a reading the cone goes, in parts of it.
-const CONE_REACH: f64 = 1.2;
+/// Length of the cone relative to the reading.
+const CONE_LENGTH_RATIO: f64 = 1.2;
 
-/// A reading of a sensor.
+/// Reading of a range sensor.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RangeReading {
-    /// `global_from_sensor`: it looks along x.
+    /// `global_from_sensor`; the beam is along x.
     pub global_from_sensor: Pose,
-    /// What was read \[m\].
+    /// Measured range \[m\].
     pub range_m: f64,
-    /// Shorter ones say nothing \[m\].
+    /// Minimum range; shorter ones are invalid \[m\].
     pub min_range_m: f64,
-    /// Longer ones say nothing \[m\].
+    /// Maximum range; longer ones are invalid \[m\].
     pub max_range_m: f64,
-    /// Width of the beam \[rad\].
+    /// Field of view \[rad\].
     pub field_of_view_rad: f64,
 }
 
-/// What became of readings.
+/// Counts of readings by result.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct RangeCounters {
-    /// Readings that counted.
+    /// Readings that were used.
     pub taken: u64,
-    /// Beyond the limits of their sensor, or of the wrong kind.
+    /// Readings beyond the limits of their sensor, or of the wrong type.
     pub beyond_limits: u64,
-    /// Dropped because nobody knew where the sensor was.
+    /// Readings dropped without a transform of the sensor.
     pub without_frame: u64,
-    /// Dropped because nobody knew where the sensor was at their time.
+    /// Readings dropped without a transform at their stamp.
     pub out_of_time: u64,
 }
 
-/// Which sensors count.
+/// Sensor types that are accepted.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Kind {
     Variable,
@@ -59,8 +59,8 @@ enum Kind {
     All,
 }
 
-/// How probable an obstacle is at a place, after one reading: `distance_m` and `angle_rad` from the
-/// sensor, which read `range_m`.
+/// Returns the probability of an obstacle after one reading of `range_m`, at `distance_m` and
+/// `angle_rad` from the sensor.
 #[must_use]
 pub fn probability(
     range_m: f64,
@@ -74,7 +74,7 @@ pub fn probability(
     let gamma = if angle_rad.abs() > half_angle_rad { 0.0 } else { 1.0 - aside * aside };
     let delta = 1.0 - (1.0 + libm::tanh(2.0 * (distance_m - phi_m))) / 2.0;
     let weight = delta * gamma;
-    // The reference takes the resolution, a length, as a part of the range.
+    // The reference uses the resolution, a length, as a fraction of the range.
     let width_m = resolution_m * range_m;
     if distance_m >= 0.0 && distance_m < range_m - 2.0 * width_m {
         (1.0 - weight) * 0.5
@@ -93,7 +93,7 @@ fn as_cost(probability: f64) -> u8 {
     (probability * f64::from(LETHAL)) as u8
 }
 
-/// Obstacles by their probability.
+/// Layer of obstacle probabilities.
 pub struct RangeLayer {
     name: String,
     values: ParamValues,
@@ -104,20 +104,20 @@ pub struct RangeLayer {
     clears_on_max: bool,
     silence_ns: i64,
     grid: Costmap,
-    /// Where its readings went.
+    /// Counts of readings by result.
     pub counters: RangeCounters,
     readings: VecDeque<RangeReading>,
-    /// What readings touched since the last update.
-    touched: Bounds,
-    extra: Option<Bounds>,
+    /// Area changed by readings since the last update.
+    touched: UpdateBounds,
+    extra: Option<UpdateBounds>,
     last_ns: Option<i64>,
     is_waiting: bool,
     is_complaining: bool,
-    complaints: Vec<Diagnostic>,
+    diagnostics: Vec<Diagnostic>,
 }
 
 impl RangeLayer {
-    /// From parameters of [`crate::tables::RANGE`].
+    /// Creates the layer from parameters of [`crate::tables::RANGE`].
     #[must_use]
     pub fn new(name: impl Into<String>, values: ParamValues) -> Self {
         let mut layer = Self {
@@ -132,12 +132,12 @@ impl RangeLayer {
             grid: Costmap::empty(as_cost(0.5)),
             counters: RangeCounters::default(),
             readings: VecDeque::new(),
-            touched: Bounds::EMPTY,
+            touched: UpdateBounds::EMPTY,
             extra: None,
             last_ns: None,
             is_waiting: false,
             is_complaining: false,
-            complaints: Vec::new(),
+            diagnostics: Vec::new(),
         };
         layer.take(values);
         layer
@@ -156,10 +156,10 @@ impl RangeLayer {
             "FIXED" => Kind::Fixed,
             "ALL" => Kind::All,
             _ => {
-                self.complaints.push(
+                self.diagnostics.push(
                     Diagnostic::error(
                         "bad-value",
-                        format!("`{}.input_sensor_type` is `{kind}`, taken as ALL", self.name),
+                        format!("`{}.input_sensor_type` is `{kind}`; ALL is used", self.name),
                     )
                     .at(values.origin("input_sensor_type"))
                     .help("write VARIABLE, FIXED or ALL"),
@@ -170,15 +170,15 @@ impl RangeLayer {
         self.values = values;
     }
 
-    /// Takes in a reading. It counts from the next update on.
+    /// Queues a reading for the next update.
     pub fn insert(&mut self, reading: RangeReading) {
-        if self.readings.len() == MOST_READINGS {
+        if self.readings.len() == MAX_READINGS {
             self.readings.pop_front();
         }
         self.readings.push_back(reading);
     }
 
-    /// Its own cells, to be changed by hand.
+    /// Returns the grid of the layer for manual changes.
     pub fn grid_mut(&mut self) -> &mut Costmap {
         &mut self.grid
     }
@@ -192,7 +192,7 @@ impl RangeLayer {
         let is_clear;
         if is_fixed {
             if !reading.range_m.is_infinite() {
-                self.complain_of_fixed(reading.range_m);
+                self.warn_fixed_range(reading.range_m);
                 return false;
             }
             is_clear = reading.range_m > 0.0;
@@ -201,7 +201,7 @@ impl RangeLayer {
             }
             reading.range_m = reading.min_range_m;
         } else {
-            // Written so that no number (NaN) is outside.
+            // Written such that NaN is outside.
             let is_inside =
                 reading.range_m >= reading.min_range_m && reading.range_m <= reading.max_range_m;
             if !is_inside {
@@ -213,21 +213,21 @@ impl RangeLayer {
         true
     }
 
-    fn complain_of_fixed(&mut self, range_m: f64) {
+    fn warn_fixed_range(&mut self, range_m: f64) {
         if std::mem::replace(&mut self.is_complaining, true) {
             return;
         }
-        self.complaints.push(
+        self.diagnostics.push(
             Diagnostic::error(
                 "bad-reading",
                 format!("layer `{}`: a sensor with one range read {range_m} m", self.name),
             )
-            .note("when min_range and max_range are equal, -Inf means something is there, and Inf nothing")
-            .help("if it measures distances, give it two different limits"),
+            .note("when min_range and max_range are equal, -Inf means detection, and Inf no detection")
+            .help("for a sensor that measures distances, set two different limits"),
         );
     }
 
-    /// Bayes' rule for the cells of the cone.
+    /// Applies Bayes' rule to the cells of the cone.
     fn put(&mut self, reading: &RangeReading, is_clear: bool) {
         let sensor = reading.global_from_sensor;
         let half_angle_rad = reading.field_of_view_rad / 2.0;
@@ -235,10 +235,10 @@ impl RangeLayer {
         let target = sensor.transform_point(DVec3::X * reading.range_m);
         let (dx, dy) = (target.x - origin.x, target.y - origin.y);
         let direction_rad = libm::atan2(dy, dx);
-        let reach_m = (dx * dx + dy * dy).sqrt() * CONE_REACH;
+        let reach_m = (dx * dx + dy * dy).sqrt() * CONE_LENGTH_RATIO;
         self.touched.touch(origin.x, origin.y);
         if let Some(cell) = self.grid.finder().cell_of(target.x, target.y) {
-            self.grid.set(cell, EXPECTED);
+            self.grid.set(cell, SEEN_COST);
             self.touched.touch(target.x, target.y);
         }
         let [left, right] = [-half_angle_rad, half_angle_rad].map(|turn_rad| {
@@ -280,14 +280,14 @@ impl RangeLayer {
                 let prior = f64::from(self.grid.costs()[index]) / f64::from(LETHAL);
                 let occupied = seen * prior;
                 let free = (1.0 - seen) * (1.0 - prior);
-                // Where both are zero the fraction is no number, and becomes 0.
+                // Where both are zero the fraction is NaN, which becomes 0.
                 self.grid.costs_mut()[index] = as_cost(occupied / (occupied + free));
             }
         }
     }
 }
 
-/// The triangle that a beam covers, in cells.
+/// Triangle of a beam, in cells.
 struct Cone {
     apex: (i64, i64),
     left: (i64, i64),
@@ -295,8 +295,8 @@ struct Cone {
 }
 
 impl Cone {
-    /// The cells about it that are in the grid.
-    fn window(&self, info: &GridInfo) -> Window {
+    /// Returns the bounding window, clipped to the grid.
+    fn window(&self, info: &GridInfo) -> CellWindow {
         let corners = [self.apex, self.left, self.right];
         let range = |part: fn(&(i64, i64)) -> i64, count: usize| {
             let low = corners.iter().map(part).min().unwrap_or(0);
@@ -306,10 +306,11 @@ impl Cone {
         };
         let (x0, xn) = range(|corner| corner.0, info.width);
         let (y0, yn) = range(|corner| corner.1, info.height);
-        Window { x0, y0, xn, yn }
+        CellWindow { x0, y0, xn, yn }
     }
 
-    /// Whether a cell is in the triangle, or beside it by a part of its area.
+    /// Returns true if a cell is inside the triangle, or outside by less than a fraction `slack` of
+    /// its area.
     fn holds(&self, (x, y): Cell, slack: f64) -> bool {
         let area2 = |a: (i64, i64), b: (i64, i64), c: (i64, i64)| {
             ((b.0 - a.0) * (c.1 - a.1) - (b.1 - a.1) * (c.0 - a.0)) as f64
@@ -328,7 +329,7 @@ impl Layer for RangeLayer {
         &self.name
     }
 
-    fn bounds(&mut self, moment: &Moment<'_>, bounds: &mut Bounds) {
+    fn bounds(&mut self, moment: &UpdateContext<'_>, bounds: &mut UpdateBounds) {
         if moment.is_rolling {
             self.grid.roll_around(moment.robot, moment.compat);
         }
@@ -348,10 +349,10 @@ impl Layer for RangeLayer {
         if self.last_ns == Some(silent_since) && !self.is_current(moment.now_ns) {
             if !std::mem::replace(&mut self.is_complaining, true) {
                 let silence_s = (moment.now_ns - silent_since) as f64 / 1e9;
-                self.complaints.push(
+                self.diagnostics.push(
                     Diagnostic::warning(
                         "no-readings",
-                        format!("layer `{}` had no readings for {silence_s:.2} s", self.name),
+                        format!("layer `{}` received no readings for {silence_s:.2} s", self.name),
                     )
                     .at(self.values.origin("topics"))
                     .help("check `topics`, or raise `no_readings_timeout`"),
@@ -362,7 +363,7 @@ impl Layer for RangeLayer {
         }
     }
 
-    fn costs(&mut self, _moment: &Moment<'_>, master: &mut Costmap, window: Window) {
+    fn costs(&mut self, _moment: &UpdateContext<'_>, master: &mut Costmap, window: CellWindow) {
         if !self.is_enabled {
             return;
         }
@@ -393,16 +394,22 @@ impl Layer for RangeLayer {
         true
     }
 
-    fn clear_area(&mut self, start: (i64, i64), end: (i64, i64), invert: bool, compat: Compat) {
+    fn clear_area(
+        &mut self,
+        start: (i64, i64),
+        end: (i64, i64),
+        invert: bool,
+        compat: Nav2Release,
+    ) {
         clear_cells(&mut self.grid, start, end, invert, compat);
-        // An unknown cell would stay so whatever is read; nothing is known of it, and no more.
+        // An unknown cell would stay unknown under Bayes' rule.
         let default_cost = self.grid.default_cost;
         for cost in self.grid.costs_mut() {
             if *cost == UNKNOWN {
                 *cost = default_cost;
             }
         }
-        self.extra = Some(Bounds::of(self.grid.info()));
+        self.extra = Some(UpdateBounds::of(self.grid.info()));
         self.is_waiting = true;
     }
 
@@ -453,7 +460,7 @@ impl Layer for RangeLayer {
         Explanation { value, reason: Some(reason), parameter, ..Explanation::default() }
     }
 
-    fn complaints(&mut self) -> Vec<Diagnostic> {
-        std::mem::take(&mut self.complaints)
+    fn diagnostics(&mut self) -> Vec<Diagnostic> {
+        std::mem::take(&mut self.diagnostics)
     }
 }

@@ -1,24 +1,24 @@
-//! Rays that end where another has ended already.
+//! Detection of rays with the same end cell.
 
-/// How many ends are remembered. A power of two.
-const ENDS: usize = 1 << 13;
+/// Size of the hash table of ray ends. A power of two.
+const RAY_END_SLOTS: usize = 1 << 13;
 
-/// Recognises rays from the same sensor that end in the same cell, as most rays of a dense cloud do:
-/// they go through the same cells. Some repeats are missed, none is made up.
+/// Detector of rays from the same sensor that end in the same cell, as most rays of a dense cloud
+/// do: they cross the same cells. Some repetitions are missed, none is false.
 #[derive(Clone, Debug)]
-pub(crate) struct Repeats {
+pub(crate) struct RayDeduplicator {
     ends: Vec<u64>,
     turn: u64,
 }
 
-impl Default for Repeats {
+impl Default for RayDeduplicator {
     fn default() -> Self {
-        Self { ends: vec![u64::MAX; ENDS], turn: 0 }
+        Self { ends: vec![u64::MAX; RAY_END_SLOTS], turn: 0 }
     }
 }
 
-impl Repeats {
-    /// Another sensor, or another cloud: nothing has been seen yet.
+impl RayDeduplicator {
+    /// Clears the table for another sensor or cloud.
     pub(crate) fn forget(&mut self) {
         self.turn += 1;
         if self.turn == 1 << 24 {
@@ -27,12 +27,13 @@ impl Repeats {
         }
     }
 
-    /// Whether a ray with this end, a number below 2^40, has been here; from now on it has.
+    /// Returns true if a ray with this end, an integer below 2^40, was seen before; marks it as
+    /// seen.
     #[inline]
     pub(crate) fn has(&mut self, end: u64) -> bool {
         let key = self.turn << 40 | end;
-        // Neighbouring cells go to places of their own.
-        let place = (end ^ end >> 13) as usize & (ENDS - 1);
+        // Neighbouring cells get different slots.
+        let place = (end ^ end >> 13) as usize & (RAY_END_SLOTS - 1);
         std::mem::replace(&mut self.ends[place], key) == key
     }
 }
@@ -43,11 +44,11 @@ mod tests {
 
     #[test]
     fn repeats_are_found_until_forgotten() {
-        let mut repeats = Repeats::default();
-        assert!(!repeats.has(7));
-        assert!(repeats.has(7));
-        assert!(!repeats.has(8));
-        repeats.forget();
-        assert!(!repeats.has(7));
+        let mut ray_dedup = RayDeduplicator::default();
+        assert!(!ray_dedup.has(7));
+        assert!(ray_dedup.has(7));
+        assert!(!ray_dedup.has(8));
+        ray_dedup.forget();
+        assert!(!ray_dedup.has(7));
     }
 }

@@ -1,7 +1,7 @@
-//! A map as a layer.
+//! Static layer: a map.
 //!
-//! Source of the rules: `nav2_costmap_2d/plugins/static_layer.cpp`. Unlike there, a map whose origin
-//! is turned lies as it says.
+//! Source of the rules: `nav2_costmap_2d/plugins/static_layer.cpp`. Unlike the reference, a
+//! rotation of the origin is applied.
 
 use periplus_diagnostics::Diagnostic;
 use periplus_geometry::{DVec3, Pose, Pose2};
@@ -10,36 +10,38 @@ use periplus_params::ParamValues;
 
 use crate::cost::{FREE, INSCRIBED, LETHAL, UNKNOWN};
 use crate::costmap::half_size_m;
-use crate::polygon::Columns;
-use crate::{Bounds, Combination, Compat, Costmap, Explanation, Layer, Moment, Window};
+use crate::polygon::PolygonColumns;
+use crate::{
+    CellWindow, Combination, Costmap, Explanation, Layer, Nav2Release, UpdateBounds, UpdateContext,
+};
 
-/// Lengths that differ by less are the same \[m\].
-const SAME_M: f64 = 1e-5;
+/// Tolerance between equal lengths \[m\].
+const EQUAL_TOLERANCE_M: f64 = 1e-5;
 
-/// A finer map is malformed \[m\].
-const FINEST_M: f64 = 1e-6;
+/// Minimum resolution of a map \[m\].
+const MIN_RESOLUTION_M: f64 = 1e-6;
 
-/// What the numbers of a map mean; parameters of the costmap.
+/// Meaning of map values; parameters of the costmap.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct MapMeaning {
-    /// Whether unknown cells are unknown instead of free.
+    /// True if unknown cells stay unknown, false if they become free.
     pub tracks_unknown: bool,
-    /// Which number is unknown; 255 stands for -1.
+    /// Value of unknown cells; 255 represents -1.
     pub unknown_value: i64,
-    /// From which number on a cell is lethal, 0 to 100.
+    /// Minimum value of lethal cells, 0 to 100.
     pub lethal_threshold: i64,
-    /// Whether cells are free, lethal or unknown only.
+    /// True if cells are only free, lethal or unknown.
     pub is_trinary: bool,
-    /// Which number is inscribed, on main.
+    /// Value of inscribed cells, on main.
     pub inscribed_value: Option<i64>,
-    /// Whether the map only raises costs.
+    /// True if the map only raises costs.
     pub uses_maximum: bool,
 }
 
 impl MapMeaning {
-    /// From parameters of [`crate::tables::COSTMAP`].
+    /// Converts parameters of [`crate::tables::COSTMAP`].
     #[must_use]
-    pub fn read(values: &ParamValues, compat: Compat) -> Self {
+    pub fn read(values: &ParamValues, compat: Nav2Release) -> Self {
         let flag = |name: &str| values.flag(name).unwrap_or_default();
         let integer = |name: &str| values.integer(name).unwrap_or_default();
         Self {
@@ -54,10 +56,10 @@ impl MapMeaning {
         }
     }
 
-    /// The cost of a map's cell.
+    /// Converts a map value to a cost.
     #[must_use]
     pub fn cost(&self, occupancy: i8) -> u8 {
-        // The reference takes numbers without a sign: -1 is 255.
+        // As in the reference, values are unsigned: -1 is 255.
         let value = i64::from(occupancy as u8);
         if value == self.unknown_value {
             if self.tracks_unknown { UNKNOWN } else { FREE }
@@ -73,38 +75,38 @@ impl MapMeaning {
     }
 }
 
-/// A map.
+/// Layer with a map.
 pub struct StaticLayer {
     name: String,
     values: ParamValues,
     meaning: MapMeaning,
-    compat: Compat,
+    compat: Nav2Release,
     is_enabled: bool,
     clears_footprint: bool,
     restores_footprint: bool,
-    /// As it came.
+    /// Map as received.
     map: Option<OccupancyGrid>,
     map_frame: String,
     grid: Costmap,
-    /// It came, and is not in `grid` yet.
+    /// True if the map is not in `grid` yet.
     is_new: bool,
     has_changed: bool,
-    /// Whether this update takes part, which is decided in its first half.
+    /// True if the layer contributes to this update, which `bounds` decides.
     takes_part: bool,
     is_waiting: bool,
     was_lost: bool,
     outline: Vec<[f64; 2]>,
-    complaints: Vec<Diagnostic>,
+    diagnostics: Vec<Diagnostic>,
 }
 
 impl StaticLayer {
-    /// From parameters of [`crate::tables::STATIC`].
+    /// Creates the layer from parameters of [`crate::tables::STATIC`].
     #[must_use]
     pub fn new(
         name: impl Into<String>,
         values: ParamValues,
         meaning: MapMeaning,
-        compat: Compat,
+        compat: Nav2Release,
     ) -> Self {
         let mut layer = Self {
             name: name.into(),
@@ -123,7 +125,7 @@ impl StaticLayer {
             is_waiting: false,
             was_lost: false,
             outline: Vec::new(),
-            complaints: Vec::new(),
+            diagnostics: Vec::new(),
         };
         layer.take(values);
         layer
@@ -139,27 +141,26 @@ impl StaticLayer {
         self.has_changed = true;
     }
 
-    /// Takes in a map. It counts from the next update on.
-    ///
+    /// Sets the map, which is used from the next update on.
     /// # Errors
-    /// Why it is malformed; the layer keeps what it had.
+    /// The reason, for a malformed map; the layer keeps the previous one.
     pub fn set_map(&mut self, map: OccupancyGrid, frame: &str) -> Result<(), String> {
         let GridInfo { resolution_m, width, height, origin } = map.info;
         if frame.is_empty() {
-            return Err("it names no frame (`header.frame_id`)".into());
+            return Err("the map has no frame (`header.frame_id`)".into());
         }
-        if !(resolution_m.is_finite() && resolution_m >= FINEST_M) {
-            return Err(format!("its resolution is {resolution_m} m"));
+        if !(resolution_m.is_finite() && resolution_m >= MIN_RESOLUTION_M) {
+            return Err(format!("the resolution of the map is {resolution_m} m"));
         }
         if !origin.is_finite() {
-            return Err("its origin is not finite".into());
+            return Err("the origin of the map is not finite".into());
         }
         if map.cells.len() != width * height {
             let count = map.cells.len();
-            return Err(format!("it has {count} cells and should have {width} x {height}"));
+            return Err(format!("the map has {count} cells and should have {width} x {height}"));
         }
         if width == 0 || height == 0 {
-            return Err("it has no cells".into());
+            return Err("the map has no cells".into());
         }
         frame.clone_into(&mut self.map_frame);
         self.map = Some(upright(map));
@@ -168,25 +169,32 @@ impl StaticLayer {
         Ok(())
     }
 
-    /// Takes in a part of the map that has changed: `cells` row by row in a window of the map.
-    ///
+    /// Updates a part of the map: `cells` in row-major order in a window of the map.
     /// # Errors
-    /// Why it does not fit.
-    pub fn update_map(&mut self, window: Window, cells: &[i8], frame: &str) -> Result<(), String> {
+    /// The reason, if the update does not match the map.
+    pub fn update_map(
+        &mut self,
+        window: CellWindow,
+        cells: &[i8],
+        frame: &str,
+    ) -> Result<(), String> {
         let Some(map) = &mut self.map else { return Err("there is no map yet".into()) };
         let info = map.info;
         if window.xn > info.width || window.yn > info.height {
             return Err(format!(
-                "it goes to ({}, {}), and the map has {} x {} cells",
+                "the update extends to ({}, {}), and the map has {} x {} cells",
                 window.xn, window.yn, info.width, info.height
             ));
         }
         if frame != self.map_frame {
-            return Err(format!("it is in frame `{frame}`, and the map in `{}`", self.map_frame));
+            return Err(format!(
+                "the update is in frame `{frame}`, and the map in `{}`",
+                self.map_frame
+            ));
         }
         if cells.len() != window.width() * window.height() {
             return Err(format!(
-                "it has {} cells and should have {} x {}",
+                "the update has {} cells and should have {} x {}",
                 cells.len(),
                 window.width(),
                 window.height()
@@ -208,7 +216,7 @@ impl StaticLayer {
         Ok(())
     }
 
-    /// Whether a map is there.
+    /// Returns true if a map was received.
     #[must_use]
     pub fn has_map(&self) -> bool {
         self.map.is_some()
@@ -225,8 +233,8 @@ impl StaticLayer {
         self.has_changed = true;
     }
 
-    /// Looks each cell of a window up in a map that lies elsewhere.
-    fn look_up(&self, master: &mut Costmap, window: &Window, map_from_global: Pose) {
+    /// Looks up each cell of a window in a map that is in another frame.
+    fn look_up(&self, master: &mut Costmap, window: &CellWindow, map_from_global: Pose) {
         let finder = self.grid.finder();
         let info = *master.info();
         for y in window.y0..window.yn {
@@ -238,7 +246,7 @@ impl StaticLayer {
                 let index = y * info.width + x;
                 let old = master.costs()[index];
                 let new = if self.meaning.uses_maximum {
-                    // Here the reference compares numbers: unknown is the highest.
+                    // The reference compares numbers here: unknown is the highest.
                     cost.max(old)
                 } else {
                     cost
@@ -249,7 +257,7 @@ impl StaticLayer {
     }
 }
 
-/// A map whose rows run along x of its frame, with the nearest cell of a turned one in each.
+/// Resamples a rotated map on the axes of its frame, with the nearest cell.
 fn upright(map: OccupancyGrid) -> OccupancyGrid {
     let GridInfo { resolution_m, width, height, origin } = map.info;
     if origin.yaw_rad == 0.0 {
@@ -258,11 +266,11 @@ fn upright(map: OccupancyGrid) -> OccupancyGrid {
     let (columns, rows) = (width as f64, height as f64);
     let corners = [(0.0, 0.0), (columns, 0.0), (0.0, rows), (columns, rows)]
         .map(|(column, row)| map.info.point_at(column, row));
-    let mut bounds = Bounds::EMPTY;
+    let mut bounds = UpdateBounds::EMPTY;
     for (x_m, y_m) in corners {
         bounds.touch(x_m, y_m);
     }
-    // Of a half turn a hair is left over, which is no cell.
+    // A half turn leaves a rounding error, which is not a cell.
     let count = |length_m: f64| libm::ceil(length_m / resolution_m - 1e-6).max(1.0) as usize;
     let origin = Pose2::new(bounds.min_x, bounds.min_y, 0.0);
     let (columns, rows) = (count(bounds.max_x - bounds.min_x), count(bounds.max_y - bounds.min_y));
@@ -279,7 +287,7 @@ fn upright(map: OccupancyGrid) -> OccupancyGrid {
 }
 
 fn is_same(a: &GridInfo, b: &GridInfo) -> bool {
-    let near = |a: f64, b: f64| (a - b).abs() < SAME_M;
+    let near = |a: f64, b: f64| (a - b).abs() < EQUAL_TOLERANCE_M;
     (a.width, a.height) == (b.width, b.height)
         && near(a.resolution_m, b.resolution_m)
         && near(a.origin.x_m, b.origin.x_m)
@@ -291,7 +299,7 @@ impl Layer for StaticLayer {
         &self.name
     }
 
-    fn bounds(&mut self, moment: &Moment<'_>, bounds: &mut Bounds) {
+    fn bounds(&mut self, moment: &UpdateContext<'_>, bounds: &mut UpdateBounds) {
         self.takes_part = self.map.is_some();
         if self.map.is_none() {
             return;
@@ -308,7 +316,7 @@ impl Layer for StaticLayer {
             bounds.touch(moment.robot.x_m - half_width_m, moment.robot.y_m - half_height_m);
             bounds.touch(moment.robot.x_m + half_width_m, moment.robot.y_m + half_height_m);
         } else {
-            // As far as the reference goes: the centres of the first cell and of one past the last.
+            // As in the reference: from the centre of the first cell to that of one past the last.
             let info = self.grid.info();
             let (x_m, y_m) = info.centre_of((0, 0));
             bounds.touch(x_m, y_m);
@@ -323,14 +331,14 @@ impl Layer for StaticLayer {
         }
     }
 
-    fn costs(&mut self, moment: &Moment<'_>, master: &mut Costmap, window: Window) {
+    fn costs(&mut self, moment: &UpdateContext<'_>, master: &mut Costmap, window: CellWindow) {
         if !self.is_enabled || !self.takes_part {
             return;
         }
         self.is_waiting = false;
         let mut under_robot = Vec::new();
         if self.clears_footprint
-            && let Some(columns) = Columns::of(&self.grid, &self.outline)
+            && let Some(columns) = PolygonColumns::of(&self.grid, &self.outline)
         {
             for cell in columns.cells() {
                 under_robot.push((cell, self.grid.cost(cell).unwrap_or(FREE)));
@@ -341,15 +349,15 @@ impl Layer for StaticLayer {
             let map_from_global = moment.frames.latest(&self.map_frame, moment.global_frame);
             match map_from_global {
                 Some(map_from_global) => self.look_up(master, &window, map_from_global),
-                None if !self.was_lost => self.complaints.push(
+                None if !self.was_lost => self.diagnostics.push(
                     Diagnostic::warning(
                         "no-transform",
                         format!(
-                            "layer `{}` knows no transform from `{}` to `{}`, the frame of its map",
+                            "layer `{}` has no transform from `{}` to `{}`, the frame of its map",
                             self.name, moment.global_frame, self.map_frame
                         ),
                     )
-                    .help("start what localizes the robot, or set its initial pose"),
+                    .help("start the node that localizes the robot, or set its initial pose"),
                 ),
                 None => {}
             }
@@ -376,7 +384,7 @@ impl Layer for StaticLayer {
     }
 
     fn resized(&mut self, info: &GridInfo, is_rolling: bool) {
-        // What a rolling costmap covers does not concern the map. Otherwise it is written again.
+        // The window of a rolling costmap does not affect the map. Otherwise the map is rewritten.
         if !is_rolling && !is_same(self.grid.info(), info) {
             self.grid.resize(*info);
             self.is_new = self.map.is_some();
@@ -422,18 +430,19 @@ impl Layer for StaticLayer {
     fn explain(&self, master: &Costmap, cell: Cell, is_rolling: bool) -> Explanation {
         let Some(map) = &self.map else {
             return Explanation {
-                reason: Some("no map has come".to_owned()),
+                reason: Some("no map was received".to_owned()),
                 parameter: Some(format!("{}.map_topic", self.name)),
                 ..Explanation::default()
             };
         };
         if is_rolling {
-            let reason = "the map lies elsewhere; it is looked up when costs are made".to_owned();
+            let reason = "the map is in another frame; updates look the cell up".to_owned();
             return Explanation { reason: Some(reason), ..Explanation::default() };
         }
         debug_assert!(is_same(master.info(), self.grid.info()) || self.is_new);
         let value = self.grid.cost(cell);
-        let reason = map.get(cell).map(|occupancy| format!("the map says {occupancy} here"));
+        let reason =
+            map.get(cell).map(|occupancy| format!("the map has the value {occupancy} here"));
         let parameter = match value {
             Some(FREE) if map.get(cell) == Some(&-1) => Some("track_unknown_space".to_owned()),
             Some(_) => Some("lethal_cost_threshold".to_owned()),
@@ -442,7 +451,7 @@ impl Layer for StaticLayer {
         Explanation { value, reason, parameter, ..Explanation::default() }
     }
 
-    fn complaints(&mut self) -> Vec<Diagnostic> {
-        std::mem::take(&mut self.complaints)
+    fn diagnostics(&mut self) -> Vec<Diagnostic> {
+        std::mem::take(&mut self.diagnostics)
     }
 }

@@ -1,4 +1,4 @@
-//! What sensors see, in columns of voxels.
+//! Voxel layer: obstacles seen by sensors, in columns of voxels.
 //!
 //! Source of the rules: `nav2_costmap_2d/plugins/voxel_layer.cpp`.
 
@@ -6,24 +6,27 @@ use periplus_diagnostics::Diagnostic;
 use periplus_grid::{Cell, CellFinder, GridInfo};
 use periplus_params::ParamValues;
 
+use super::observed::{ObservationLayer, delegate_to_observation_layer, warn_sensor_outside};
 use super::obstacle::touch_ray;
-use super::repeats::Repeats;
-use super::sight::{Sight, complain_of_sensor, delegate_to_sight};
+use super::ray_dedup::RayDeduplicator;
 use crate::cost::{FREE, LETHAL, UNKNOWN};
-use crate::observation::{Counters, Span};
-use crate::trace::Pen;
-use crate::voxel_grid::{MOST_VOXELS, Voxel, VoxelGrid, marked, unknown};
-use crate::{Bounds, Compat, Costmap, Explanation, Layer, Moment, Observation, Source, Window};
+use crate::observation::{Counters, RangeLimits};
+use crate::trace::TraceWriter;
+use crate::voxel_grid::{MAX_VOXEL_COUNT, Voxel, VoxelGrid, marked, unknown};
+use crate::{
+    CellWindow, Costmap, Explanation, Layer, Nav2Release, Observation, ObservationSource,
+    UpdateBounds, UpdateContext,
+};
 
-/// How much of a ray that leaves the box is cut off beyond its edge, in parts of the ray.
-const WITHIN_EDGE: f64 = 1e-5;
+/// Fraction of a ray by which it is shortened at the edge of the grid.
+const EDGE_MARGIN_RATIO: f64 = 1e-5;
 
-/// How far below the top rays are cut \[m\].
+/// Distance below the top at which rays are cut \[m\].
 const BELOW_TOP_M: f64 = 0.01;
 
-/// Heights of voxels and what their numbers mean.
+/// Heights of voxels and thresholds of columns.
 #[derive(Clone, Copy, Debug)]
-struct Columns {
+struct VoxelColumns {
     origin_z_m: f64,
     z_resolution_m: f64,
     height: u32,
@@ -31,19 +34,19 @@ struct Columns {
     mark_threshold: u32,
 }
 
-impl Columns {
+impl VoxelColumns {
     fn read(values: &ParamValues) -> Self {
         let number = |name: &str| values.number(name).unwrap_or_default();
         let count = |name: &str| {
             u32::try_from(values.integer(name).unwrap_or_default()).unwrap_or_default()
         };
-        let height = count("z_voxels").min(MOST_VOXELS);
+        let height = count("z_voxels").min(MAX_VOXEL_COUNT);
         Self {
             origin_z_m: number("origin_z"),
             z_resolution_m: number("z_resolution"),
             height,
-            // The voxels that a column does not have are never seen, and shall not count.
-            unknown_threshold: count("unknown_threshold").saturating_add(MOST_VOXELS - height),
+            // Voxels above the grid are always unknown and must not count.
+            unknown_threshold: count("unknown_threshold").saturating_add(MAX_VOXEL_COUNT - height),
             mark_threshold: count("mark_threshold"),
         }
     }
@@ -52,7 +55,7 @@ impl Columns {
         self.origin_z_m + f64::from(self.height) * self.z_resolution_m
     }
 
-    /// A place in cells from the lowest corner; none outside.
+    /// Converts a point to cells from the lowest corner; none outside the grid.
     fn place(&self, info: &GridInfo, finder: &CellFinder, [x, y, z]: [f64; 3]) -> Option<[f64; 3]> {
         let (columns, rows) = finder.cells_to(x, y);
         let layers = (z - self.origin_z_m) / self.z_resolution_m;
@@ -66,43 +69,52 @@ impl Columns {
     }
 }
 
-/// Marks and clears voxels; a cell is an obstacle when enough voxels of its column are.
+/// Layer that marks and clears voxels; a cell is an obstacle with enough marked voxels in its
+/// column.
 pub struct VoxelLayer {
-    sight: Sight,
-    columns: Columns,
+    observed: ObservationLayer,
+    columns: VoxelColumns,
     voxels: VoxelGrid,
-    repeats: Repeats,
-    /// Where rays ended in the last update, in the global frame \[m\], when somebody wants to know.
+    ray_dedup: RayDeduplicator,
+    /// Ends of the rays in the last update in the global frame \[m\], if requested.
     clearing_ends: Option<Vec<[f32; 3]>>,
 }
 
 impl VoxelLayer {
-    /// From parameters of [`crate::tables::VOXEL`]; `tracks_unknown` is the costmap's
-    /// `track_unknown_space`.
+    /// Creates the layer from parameters of [`crate::tables::VOXEL`]; `tracks_unknown` is
+    /// `track_unknown_space` of the costmap.
     #[must_use]
     pub fn new(
         name: impl Into<String>,
         values: ParamValues,
         tracks_unknown: bool,
-        sources: Vec<Source>,
+        sources: Vec<ObservationSource>,
     ) -> Self {
-        let columns = Columns::read(&values);
-        let sight = Sight::new(name.into(), values, tracks_unknown, sources);
-        let voxels = VoxelGrid::new(*sight.grid.info(), columns.height);
-        let mut layer =
-            Self { sight, columns, voxels, repeats: Repeats::default(), clearing_ends: None };
-        layer.complain_of_height();
+        let columns = VoxelColumns::read(&values);
+        let observed = ObservationLayer::new(name.into(), values, tracks_unknown, sources);
+        let voxels = VoxelGrid::new(*observed.grid.info(), columns.height);
+        let mut layer = Self {
+            observed,
+            columns,
+            voxels,
+            ray_dedup: RayDeduplicator::default(),
+            clearing_ends: None,
+        };
+        layer.warn_voxel_count();
         layer
     }
 
-    fn complain_of_height(&mut self) {
-        let values = &self.sight.values;
+    fn warn_voxel_count(&mut self) {
+        let values = &self.observed.values;
         let asked = values.integer("z_voxels").unwrap_or_default();
-        if asked > i64::from(MOST_VOXELS) {
-            self.sight.complaints.push(
+        if asked > i64::from(MAX_VOXEL_COUNT) {
+            self.observed.diagnostics.push(
                 Diagnostic::warning(
                     "too-many-voxels",
-                    format!("`{}.z_voxels` is {asked}; {MOST_VOXELS} are used", self.sight.name),
+                    format!(
+                        "`{}.z_voxels` is {asked}; {MAX_VOXEL_COUNT} are used",
+                        self.observed.name
+                    ),
                 )
                 .at(values.origin("z_voxels"))
                 .help("to reach as high, raise `z_resolution`"),
@@ -111,41 +123,41 @@ impl VoxelLayer {
     }
 
     /// Adds a source.
-    pub fn add_source(&mut self, source: Source) {
-        self.sight.sources.push(source);
+    pub fn add_source(&mut self, source: ObservationSource) {
+        self.observed.sources.push(source);
     }
 
-    /// Its own cells, to be changed by hand; the voxels stay.
+    /// Returns the grid of the layer for manual changes; the voxels stay.
     pub fn grid_mut(&mut self) -> &mut Costmap {
-        &mut self.sight.grid
+        &mut self.observed.grid
     }
 
-    /// The voxels.
+    /// Returns the voxels.
     #[must_use]
     pub fn voxels(&self) -> &VoxelGrid {
         &self.voxels
     }
 
-    /// Height of the lowest voxels \[m\].
+    /// Returns the height of the lowest voxels \[m\].
     #[must_use]
     pub fn origin_z_m(&self) -> f64 {
         self.columns.origin_z_m
     }
 
-    /// Height of a voxel \[m\].
+    /// Returns the height of a voxel \[m\].
     #[must_use]
     pub fn z_resolution_m(&self) -> f64 {
         self.columns.z_resolution_m
     }
 
-    /// Whether voxels are to be published.
+    /// Returns true if voxels are published.
     #[must_use]
     pub fn publishes_voxels(&self) -> bool {
-        self.sight.values.flag("publish_voxel_map").unwrap_or_default()
+        self.observed.values.flag("publish_voxel_map").unwrap_or_default()
     }
 
-    /// Whether somebody wants to know where rays end.
-    pub fn keep_clearing_ends(&mut self, is_wanted: bool) {
+    /// Enables recording of ray ends.
+    pub fn record_clearing_ends(&mut self, is_wanted: bool) {
         if !is_wanted {
             self.clearing_ends = None;
         } else if self.clearing_ends.is_none() {
@@ -153,66 +165,67 @@ impl VoxelLayer {
         }
     }
 
-    /// Where rays ended in the last update, in the global frame \[m\]; empty unless asked for.
+    /// Returns the ends of the rays in the last update in the global frame \[m\]; empty unless
+    /// enabled.
     #[must_use]
     pub fn clearing_ends(&self) -> &[[f32; 3]] {
         self.clearing_ends.as_deref().unwrap_or_default()
     }
 
-    fn clear(&mut self, moment: &Moment<'_>, bounds: &mut Bounds) {
-        let sight = &mut self.sight;
-        for source in sight.sources.iter_mut().filter(|source| source.settings.is_clearing) {
+    fn clear(&mut self, moment: &UpdateContext<'_>, bounds: &mut UpdateBounds) {
+        let observed = &mut self.observed;
+        for source in observed.sources.iter_mut().filter(|source| source.settings.is_clearing) {
             for index in 0..source.observations.len() {
                 let seen = &source.observations[index];
                 let origin = seen.origin;
                 let mut clearing = Clearing {
                     columns: self.columns,
                     compat: moment.compat,
-                    grid: &mut sight.grid,
+                    grid: &mut observed.grid,
                     voxels: &mut self.voxels,
-                    pen: sight.trace.pen(&source.name, seen, false),
+                    writer: observed.trace.writer(&source.name, seen, false),
                     ends: self.clearing_ends.as_mut(),
                 };
-                let is_inside = clearing.clear(seen, &mut self.repeats, bounds);
+                let is_inside = clearing.clear(seen, &mut self.ray_dedup, bounds);
                 if !is_inside && index < source.fresh {
                     source.counters.sensor_outside += 1;
                 }
                 // A cloud without points has no rays to lose.
                 let is_lost = !is_inside && !source.observations[index].points.is_empty();
                 let heights = Some((self.columns.origin_z_m, self.columns.top_m()));
-                let (name, info) = (&sight.name, sight.grid.info());
-                let complaints = &mut sight.complaints;
-                complain_of_sensor(is_lost, name, source, origin, info, heights, complaints);
+                let (name, info) = (&observed.name, observed.grid.info());
+                let diagnostics = &mut observed.diagnostics;
+                warn_sensor_outside(is_lost, name, source, origin, info, heights, diagnostics);
             }
         }
     }
 
-    fn mark(&mut self, compat: Compat, bounds: &mut Bounds) {
-        let sight = &mut self.sight;
-        for source in sight.sources.iter_mut().filter(|source| source.settings.is_marking) {
+    fn mark(&mut self, compat: Nav2Release, bounds: &mut UpdateBounds) {
+        let observed = &mut self.observed;
+        for source in observed.sources.iter_mut().filter(|source| source.settings.is_marking) {
             for (index, seen) in source.observations.iter().enumerate() {
                 let mut unseen = Counters::default();
                 let is_first = index < source.fresh;
                 let counters = if is_first { &mut source.counters } else { &mut unseen };
-                let pen = sight.trace.pen(&source.name, seen, true);
-                let mut heights = sight.heights;
+                let writer = observed.trace.writer(&source.name, seen, true);
+                let mut heights = observed.heights;
                 if !compat.has_lowest_voxel_height() {
                     heights.min_m = f64::NEG_INFINITY;
                 }
                 let marker = Marker { columns: self.columns, heights };
-                marker.mark(&mut sight.grid, &mut self.voxels, pen, seen, counters, bounds);
+                marker.mark(&mut observed.grid, &mut self.voxels, writer, seen, counters, bounds);
             }
         }
     }
 }
 
 impl Layer for VoxelLayer {
-    delegate_to_sight!();
+    delegate_to_observation_layer!();
 
-    fn bounds(&mut self, moment: &Moment<'_>, bounds: &mut Bounds) {
-        let takes_part = self.sight.begin(moment, bounds);
+    fn bounds(&mut self, moment: &UpdateContext<'_>, bounds: &mut UpdateBounds) {
+        let takes_part = self.observed.begin(moment, bounds);
         if moment.is_rolling {
-            self.voxels.follow(self.sight.grid.info());
+            self.voxels.follow(self.observed.grid.info());
         }
         if !takes_part {
             return;
@@ -222,38 +235,38 @@ impl Layer for VoxelLayer {
         }
         self.clear(moment, bounds);
         self.mark(moment.compat, bounds);
-        self.sight.end(moment, bounds);
+        self.observed.end(moment, bounds);
     }
 
     fn reset(&mut self) {
-        self.sight.reset();
+        self.observed.reset();
         self.voxels.reset();
     }
 
     fn resized(&mut self, info: &GridInfo, _is_rolling: bool) {
-        self.sight.resized(info);
-        self.voxels = VoxelGrid::new(*self.sight.grid.info(), self.columns.height);
+        self.observed.resized(info);
+        self.voxels = VoxelGrid::new(*self.observed.grid.info(), self.columns.height);
     }
 
     fn configure(&mut self, values: ParamValues) -> Result<(), String> {
-        if values.flag("publish_voxel_map") != self.sight.values.flag("publish_voxel_map") {
+        if values.flag("publish_voxel_map") != self.observed.values.flag("publish_voxel_map") {
             return Err("`publish_voxel_map` cannot be changed while the costmap runs".into());
         }
-        let columns = Columns::read(&values);
+        let columns = VoxelColumns::read(&values);
         let is_same = (columns.height, columns.origin_z_m, columns.z_resolution_m)
             == (self.columns.height, self.columns.origin_z_m, self.columns.z_resolution_m);
         self.columns = columns;
-        self.sight.configure(values);
-        self.complain_of_height();
+        self.observed.configure(values);
+        self.warn_voxel_count();
         if !is_same {
-            let info = *self.sight.grid.info();
+            let info = *self.observed.grid.info();
             self.resized(&info, false);
         }
         Ok(())
     }
 
     fn explain(&self, _master: &Costmap, cell: Cell, _is_rolling: bool) -> Explanation {
-        let mut explanation = self.sight.explain(cell);
+        let mut explanation = self.observed.explain(cell);
         let Some(column) = self.voxels.columns().get(self.voxels.info().index(cell)) else {
             return explanation;
         };
@@ -264,7 +277,7 @@ impl Layer for VoxelLayer {
                 format!("{low_m:.2}..{:.2} m", low_m + self.columns.z_resolution_m)
             })
             .collect();
-        let missing = MOST_VOXELS - self.columns.height;
+        let missing = MAX_VOXEL_COUNT - self.columns.height;
         let column = format!(
             "{} of {} voxels are marked{}{}, {} unknown",
             marked.len(),
@@ -279,28 +292,33 @@ impl Layer for VoxelLayer {
     }
 }
 
-/// What is needed to clear along rays.
+/// State for clearing along rays.
 struct Clearing<'a> {
-    columns: Columns,
-    compat: Compat,
+    columns: VoxelColumns,
+    compat: Nav2Release,
     grid: &'a mut Costmap,
     voxels: &'a mut VoxelGrid,
-    pen: Option<Pen<'a>>,
+    writer: Option<TraceWriter<'a>>,
     ends: Option<&'a mut Vec<[f32; 3]>>,
 }
 
 impl Clearing<'_> {
-    /// Clears along all rays; false when the sensor is outside of the box.
-    fn clear(&mut self, seen: &Observation, repeats: &mut Repeats, bounds: &mut Bounds) -> bool {
-        let Columns { unknown_threshold, mark_threshold, .. } = self.columns;
+    /// Clears along all rays; returns false when the sensor is outside the grid.
+    fn clear(
+        &mut self,
+        seen: &Observation,
+        ray_dedup: &mut RayDeduplicator,
+        bounds: &mut UpdateBounds,
+    ) -> bool {
+        let VoxelColumns { unknown_threshold, mark_threshold, .. } = self.columns;
         let finder = self.grid.finder();
         let info = *self.grid.info();
         let Some(start) = self.columns.place(&info, &finder, seen.origin) else { return false };
-        let rays = Rays::new(self.columns, &info, self.compat, seen.origin);
+        let rays = RayClipper::new(self.columns, &info, self.compat, seen.origin);
         let longest = self.grid.cells_along(seen.rays.max_m);
         let shortest = self.grid.cells_along(seen.rays.min_m);
         let whole_m = f64::from(longest);
-        repeats.forget();
+        ray_dedup.forget();
         for point in &seen.points {
             let end_m = rays.end(*point);
             let Some(end) = self.columns.place(&info, &finder, end_m) else { continue };
@@ -309,23 +327,23 @@ impl Clearing<'_> {
             if let Some(ends) = &mut self.ends {
                 ends.push(end_m.map(|at| at as f32));
             }
-            // A ray that is not cut goes through the same voxels as the others that end where it
-            // does. Where a cut one ends depends on its length to the last digit.
+            // An uncut ray crosses the same voxels as others with the same end. The end of a cut
+            // ray depends on its exact length.
             if shortest == 0 && is_within(start, end, whole_m) {
                 let [x, y, z] = end.map(|at| at as u64);
-                if repeats.has((y * info.width as u64 + x) << 4 | z) {
+                if ray_dedup.has((y * info.width as u64 + x) << 4 | z) {
                     continue;
                 }
             }
             let costs = self.grid.costs_mut();
-            let pen = &mut self.pen;
+            let writer = &mut self.writer;
             self.voxels.clear_along(start, end, shortest, longest, |index, column| {
                 if marked(column) <= mark_threshold {
-                    let is_free =
-                        unknown_threshold >= MOST_VOXELS || unknown(column) <= unknown_threshold;
+                    let is_free = unknown_threshold >= MAX_VOXEL_COUNT
+                        || unknown(column) <= unknown_threshold;
                     costs[index] = if is_free { FREE } else { UNKNOWN };
-                    if let Some(pen) = pen {
-                        pen.note(index, [point[0], point[1]]);
+                    if let Some(writer) = writer {
+                        writer.note(index, [point[0], point[1]]);
                     }
                 }
             });
@@ -334,33 +352,33 @@ impl Clearing<'_> {
     }
 }
 
-/// Whether two places are no further apart.
+/// Returns true if two positions are at most `distance` apart.
 fn is_within(start: [f64; 3], end: [f64; 3], distance: f64) -> bool {
     let [dx, dy, dz] = [end[0] - start[0], end[1] - start[1], end[2] - start[2]];
     dx * dx + dy * dy + dz * dz <= distance * distance
 }
 
-/// Where rays end that shall stay in a box.
-struct Rays {
+/// Clipping of rays to the box of the grid.
+struct RayClipper {
     origin: [f64; 3],
     low: [f64; 3],
     high: [f64; 3],
     shorter_m: f64,
-    /// Part of a cut ray that is left out at its end.
+    /// Fraction by which a cut ray is shortened.
     margin: f64,
 }
 
-impl Rays {
-    fn new(columns: Columns, info: &GridInfo, compat: Compat, origin: [f64; 3]) -> Self {
+impl RayClipper {
+    fn new(columns: VoxelColumns, info: &GridInfo, compat: Nav2Release, origin: [f64; 3]) -> Self {
         let length = |cells: usize| (cells as f64 - compat.missing_cells()) * info.resolution_m;
         let low = [info.origin.x_m, info.origin.y_m, columns.origin_z_m];
         let high = [low[0] + length(info.width), low[1] + length(info.height), columns.top_m()];
-        let margin = if compat.shortens_cut_rays() { WITHIN_EDGE } else { 0.0 };
+        let margin = if compat.shortens_cut_rays() { EDGE_MARGIN_RATIO } else { 0.0 };
         Self { origin, low, high, shorter_m: 2.0 * info.resolution_m, margin }
     }
 
-    /// The end of the ray to a point: two cells before it, so that it does not clear the obstacle
-    /// itself, or where it leaves the box.
+    /// Returns the end of the ray to a point: two cells before the point, which spares the obstacle
+    /// itself, or the exit from the box.
     #[inline]
     fn end(&self, point: [f32; 3]) -> [f64; 3] {
         let [ox, oy, oz] = self.origin;
@@ -370,7 +388,7 @@ impl Rays {
         let part = ((distance - self.shorter_m) / distance).clamp(0.0, 1.0);
         let along = [dx, dy, dz].map(|length| part * length);
         let end = [along[0] + ox, along[1] + oy, along[2] + oz];
-        // How much of that is in the box.
+        // Fraction of the ray inside the box.
         let mut t: f64 = 1.0;
         let mut is_cut = false;
         if end[2] > self.high[2] {
@@ -402,10 +420,10 @@ impl Rays {
     }
 }
 
-/// Marks points.
+/// Marker of points.
 struct Marker {
-    columns: Columns,
-    heights: Span,
+    columns: VoxelColumns,
+    heights: RangeLimits,
 }
 
 impl Marker {
@@ -413,16 +431,16 @@ impl Marker {
         &self,
         grid: &mut Costmap,
         voxels: &mut VoxelGrid,
-        mut pen: Option<Pen<'_>>,
+        mut writer: Option<TraceWriter<'_>>,
         seen: &Observation,
         counters: &mut Counters,
-        bounds: &mut Bounds,
+        bounds: &mut UpdateBounds,
     ) {
-        let Columns { origin_z_m, z_resolution_m, height, mark_threshold, .. } = self.columns;
+        let VoxelColumns { origin_z_m, z_resolution_m, height, mark_threshold, .. } = self.columns;
         let finder = grid.finder();
         let width = grid.info().width;
         let [ox, oy, oz] = seen.origin;
-        let Span { min_m, max_m } = seen.marks;
+        let RangeLimits { min_m, max_m } = seen.marks;
         for point in &seen.points {
             let [px, py, pz] = point.map(f64::from);
             if pz < self.heights.min_m {
@@ -447,7 +465,7 @@ impl Marker {
                 counters.outside += 1;
                 continue;
             };
-            // What is seen below the box stands on its floor.
+            // Points below the box mark its lowest voxel.
             let layer = (pz.max(origin_z_m) - origin_z_m) / z_resolution_m;
             if layer >= f64::from(height) {
                 counters.layer_too_high += 1;
@@ -457,8 +475,8 @@ impl Marker {
             if voxels.mark(cell, layer as u32, mark_threshold) {
                 let index = cell.1 * width + cell.0;
                 grid.costs_mut()[index] = LETHAL;
-                if let Some(pen) = &mut pen {
-                    pen.note(index, [point[0], point[1]]);
+                if let Some(writer) = &mut writer {
+                    writer.note(index, [point[0], point[1]]);
                 }
                 bounds.touch(px, py);
             }

@@ -1,6 +1,6 @@
 //! Where frames are, as heard on `/tf` and `/tf_static`.
 
-use periplus_costmap::Frames;
+use periplus_costmap::TransformSource;
 use periplus_geometry::Pose;
 use periplus_graph::{GraphError, Mailbox, Node, Qos};
 use periplus_msgs::tf2_msgs;
@@ -58,7 +58,7 @@ impl Listener {
     }
 }
 
-impl Frames for Listener {
+impl TransformSource for Listener {
     fn latest(&self, target: &str, source: &str) -> Option<Pose> {
         self.at(target, source, 0).ok().map(|(pose, _)| pose)
     }

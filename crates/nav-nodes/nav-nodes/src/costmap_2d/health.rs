@@ -4,7 +4,7 @@ use std::any::Any;
 use std::collections::BTreeMap;
 
 use periplus_costmap::layers::{RangeCounters, RangeLayer, StaticLayer};
-use periplus_costmap::{Advice, Counters, LayeredCostmap, Source};
+use periplus_costmap::{Advice, Counters, LayeredCostmap, ObservationSource};
 use periplus_diagnostics::Severity;
 use periplus_graph::{GraphError, Node, Publisher, Qos};
 use periplus_msgs::diagnostic_msgs::{DiagnosticArray, DiagnosticStatus, KeyValue};
@@ -128,7 +128,7 @@ fn whole(patient: &Patient<'_>, now_ns: i64) -> DiagnosticStatus {
 
 impl Heard {
     /// Takes in what has come since the last time; when it is nothing, what was said holds.
-    fn listen(&mut self, costmap: &LayeredCostmap, layer: &str, source: &Source) {
+    fn listen(&mut self, costmap: &LayeredCostmap, layer: &str, source: &ObservationSource) {
         if source.counters.messages() != self.counters.messages() {
             self.advice = costmap.advice_since(layer, &source.name, &self.counters);
             self.counters = source.counters;
@@ -136,7 +136,13 @@ impl Heard {
     }
 
     /// How bad it is, and the worst of it in words.
-    fn verdict(&self, source: &Source, name: &str, topic: &str, now_ns: i64) -> (u8, String) {
+    fn verdict(
+        &self,
+        source: &ObservationSource,
+        name: &str,
+        topic: &str,
+        now_ns: i64,
+    ) -> (u8, String) {
         if source.counters.messages() == 0 {
             let message = format!("no message came on {topic} (`{name}.topic`)");
             return (DiagnosticStatus::ERROR, message);
@@ -167,7 +173,12 @@ impl Heard {
 }
 
 /// What came of a source, where it went, and the parameters that sent it there lately.
-fn values(source: &Source, topic: &str, advice: &[Advice], now_ns: i64) -> Vec<KeyValue> {
+fn values(
+    source: &ObservationSource,
+    topic: &str,
+    advice: &[Advice],
+    now_ns: i64,
+) -> Vec<KeyValue> {
     let counters = &source.counters;
     let mut values = vec![
         pair("topic", topic),

@@ -7,8 +7,8 @@ use std::sync::Arc;
 
 use periplus_costmap::layers::{RangeLayer, RangeReading, StaticLayer};
 use periplus_costmap::{
-    Beams, Compat, Config, DataType, Layer as _, LayerConfig, LayerKind, LayeredCostmap, Projector,
-    Source, Window,
+    CellWindow, CostmapConfig, DataType, Layer as _, LayerConfig, LayerKind, LayeredCostmap,
+    Nav2Release, ObservationSource, Projector, ScanGeometry,
 };
 use periplus_diagnostics::Diagnostic;
 use periplus_geometry::{DVec3, Pose};
@@ -67,7 +67,7 @@ impl Inputs {
     }
 
     /// Listens for all layers and filters. Topics that cannot be are told, and the rest works.
-    pub(crate) fn new(node: &Node, config: &Config) -> (Self, Vec<GraphError>) {
+    pub(crate) fn new(node: &Node, config: &CostmapConfig) -> (Self, Vec<GraphError>) {
         let mut inputs = Self::default();
         let mut errors = Vec::new();
         let mut layers: Vec<&LayerConfig> = Vec::new();
@@ -161,7 +161,7 @@ impl Inputs {
         costmap: &mut LayeredCostmap,
         scene: &Scene<'_>,
         node: &Node,
-        compat: Compat,
+        compat: Nav2Release,
     ) -> Vec<Diagnostic> {
         let mut complaints = Vec::new();
         for port in &mut self.maps {
@@ -221,7 +221,7 @@ fn gather<'a>(layer: &'a LayerConfig, layers: &mut Vec<&'a LayerConfig>) {
 struct Place<'a> {
     node: &'a Node,
     namespace: &'a str,
-    compat: Compat,
+    compat: Nav2Release,
 }
 
 impl Place<'_> {
@@ -367,7 +367,7 @@ impl SourcePort {
 }
 
 /// Says why the frame of a message is not known.
-fn lost(layer: &str, source: &Source, scene: &Scene<'_>, frame: &str) -> Diagnostic {
+fn lost(layer: &str, source: &ObservationSource, scene: &Scene<'_>, frame: &str) -> Diagnostic {
     let why = match scene.tf.at(scene.global_frame, frame, 0) {
         Err(error) => error.to_string(),
         Ok(_) => "its time is too far from that of the transforms".to_owned(),
@@ -391,7 +391,12 @@ fn lost(layer: &str, source: &Source, scene: &Scene<'_>, frame: &str) -> Diagnos
 }
 
 /// Where rays begin: the sensor's own frame if one is set.
-fn origin(source: &Source, scene: &Scene<'_>, header: &Header, cloud: Pose) -> Result<DVec3, Lack> {
+fn origin(
+    source: &ObservationSource,
+    scene: &Scene<'_>,
+    header: &Header,
+    cloud: Pose,
+) -> Result<DVec3, Lack> {
     if source.settings.sensor_frame.is_empty() {
         return Ok(cloud.translation);
     }
@@ -399,13 +404,17 @@ fn origin(source: &Source, scene: &Scene<'_>, header: &Header, cloud: Pose) -> R
 }
 
 /// `global_from_frame` of a message, and where its rays begin.
-fn places(source: &Source, scene: &Scene<'_>, header: &Header) -> Result<(Pose, DVec3), Lack> {
+fn places(
+    source: &ObservationSource,
+    scene: &Scene<'_>,
+    header: &Header,
+) -> Result<(Pose, DVec3), Lack> {
     let pose = placed(scene, &header.frame_id, header)?;
     Ok((pose, origin(source, scene, header, pose)?))
 }
 
 fn take_scan(
-    source: &mut Source,
+    source: &mut ObservationSource,
     scene: &Scene<'_>,
     scan: &sensor_msgs::LaserScan,
     projector: &mut Projector,
@@ -416,7 +425,7 @@ fn take_scan(
         Ok(known) => known,
         Err(lack) => return Tried::Lacks(lack),
     };
-    let beams = Beams {
+    let beams = ScanGeometry {
         angle_min_rad: scan.angle_min,
         angle_increment_rad: scan.angle_increment,
         range_min_m: scan.range_min,
@@ -449,7 +458,7 @@ fn take_scan(
 }
 
 fn take_cloud(
-    source: &mut Source,
+    source: &mut ObservationSource,
     scene: &Scene<'_>,
     cloud: &sensor_msgs::PointCloud2,
     points: &mut Vec<[f32; 3]>,
@@ -502,7 +511,7 @@ impl MapPort {
                 continue;
             };
             let (width, height) = (update.width as usize, update.height as usize);
-            let window = Window { x0, y0, xn: x0 + width, yn: y0 + height };
+            let window = CellWindow { x0, y0, xn: x0 + width, yn: y0 + height };
             if let Err(why) = layer.update_map(window, &update.data, &update.header.frame_id) {
                 refuse(format!("an update: {why}"));
             }

@@ -1,6 +1,6 @@
 //! Between grids and messages.
 
-use periplus_costmap::{Costmap, Window, cost};
+use periplus_costmap::{CellWindow, Costmap, cost};
 use periplus_geometry::{DQuat, Pose, Pose2};
 use periplus_grid::{GridInfo, OccupancyGrid};
 use periplus_msgs::builtin_interfaces::Time;
@@ -81,7 +81,7 @@ pub(crate) fn raw(costmap: &Costmap, frame: &str, now_ns: i64, layer: &str) -> n
 /// A part as a map.
 pub(crate) fn occupancy_update(
     costmap: &Costmap,
-    window: &Window,
+    window: &CellWindow,
     frame: &str,
     now_ns: i64,
 ) -> map_msgs::OccupancyGridUpdate {
@@ -98,7 +98,7 @@ pub(crate) fn occupancy_update(
 /// A part as it is.
 pub(crate) fn raw_update(
     costmap: &Costmap,
-    window: &Window,
+    window: &CellWindow,
     frame: &str,
     now_ns: i64,
 ) -> nav2_msgs::CostmapUpdate {
@@ -112,7 +112,7 @@ pub(crate) fn raw_update(
     }
 }
 
-fn cells<'a>(costmap: &'a Costmap, window: &Window) -> impl Iterator<Item = u8> + use<'a> {
+fn cells<'a>(costmap: &'a Costmap, window: &CellWindow) -> impl Iterator<Item = u8> + use<'a> {
     let spans = window.spans(costmap.info().width);
     spans.flat_map(move |span| costmap.costs()[span].iter().copied())
 }

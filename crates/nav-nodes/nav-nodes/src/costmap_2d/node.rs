@@ -1,6 +1,6 @@
 //! The node.
 
-use periplus_costmap::{Advice, CellReport, Config, Footprint, LayerConfig, LayeredCostmap};
+use periplus_costmap::{Advice, CellReport, CostmapConfig, Footprint, LayerConfig, LayeredCostmap};
 use periplus_diagnostics::{Diagnostic, SourceMap};
 use periplus_geometry::Pose2;
 use periplus_graph::{
@@ -46,7 +46,7 @@ pub struct CostmapStatus {
 }
 
 pub(crate) struct State {
-    config: Config,
+    config: CostmapConfig,
     /// Of all layers, as one table.
     pub(crate) costmap: Option<LayeredCostmap>,
     pub(crate) tf: Listener,
@@ -96,7 +96,7 @@ impl CostmapNode {
     ///
     /// # Errors
     /// When a topic of that name has another type.
-    pub fn new(graph: &Graph, name: &str, config: Config) -> Result<Self, GraphError> {
+    pub fn new(graph: &Graph, name: &str, config: CostmapConfig) -> Result<Self, GraphError> {
         Self::at(graph.node(NodeSettings::new(name).namespace(&format!("/{name}")))?, config)
     }
 
@@ -104,7 +104,7 @@ impl CostmapNode {
     ///
     /// # Errors
     /// When a topic of that name has another type.
-    pub fn at(node: Node, config: Config) -> Result<Self, GraphError> {
+    pub fn at(node: Node, config: CostmapConfig) -> Result<Self, GraphError> {
         let name = node.names().name().to_owned();
         let hertz = config.node.number("update_frequency").unwrap_or_default();
         let forms = config.forms;
@@ -257,7 +257,7 @@ impl State {
             }
         }
         // A map that has come sets the size even before anybody knows where the robot is.
-        costmap.settle_size();
+        costmap.apply_requested_size();
         match robot(&self.tf, &self.config.node, now_ns) {
             Ok(robot) => {
                 self.trouble = None;
@@ -267,7 +267,7 @@ impl State {
                     outputs.changed(window);
                 }
                 self.updates += 1;
-                complaints.extend(costmap.complaints().iter().cloned());
+                complaints.extend(costmap.diagnostics().iter().cloned());
                 outputs.publish_each(costmap, now_ns);
                 let hertz = self.config.node.number("publish_frequency").unwrap_or_default();
                 let is_due = self

@@ -4,7 +4,9 @@ use std::collections::BTreeMap;
 
 use periplus_costmap::filters::{BinaryFilter, SpeedFilter};
 use periplus_costmap::layers::VoxelLayer;
-use periplus_costmap::{Config, Costmap, LayerKind, LayeredCostmap, Outgoing, Publication, Window};
+use periplus_costmap::{
+    CellWindow, Costmap, CostmapConfig, CostmapMessage, LayerKind, LayeredCostmap, PublicationState,
+};
 use periplus_graph::{GraphError, Node, Publisher, Qos};
 use periplus_msgs::std_msgs::Header;
 use periplus_msgs::{geometry_msgs, map_msgs, nav_msgs, nav2_msgs, sensor_msgs, std_msgs};
@@ -18,7 +20,7 @@ const GRID_QOS: Qos = Qos::latched(1);
 
 /// The four topics of a grid.
 struct GridPort {
-    publication: Publication,
+    publication: PublicationState,
     full: Publisher<nav_msgs::OccupancyGrid>,
     full_raw: Publisher<nav2_msgs::Costmap>,
     updates: Publisher<map_msgs::OccupancyGridUpdate>,
@@ -30,7 +32,7 @@ struct GridPort {
 impl GridPort {
     fn new(node: &Node, topic: &str) -> Result<Self, GraphError> {
         Ok(Self {
-            publication: Publication::new(),
+            publication: PublicationState::new(),
             full: node.publisher(topic, GRID_QOS)?,
             full_raw: node.publisher(&format!("{topic}_raw"), GRID_QOS)?,
             updates: node.publisher(&format!("{topic}_updates"), GRID_QOS)?,
@@ -42,18 +44,18 @@ impl GridPort {
     fn publish(&mut self, costmap: &Costmap, layer: &str, about: &About<'_>) {
         let is_heard = self.full.is_heard() || self.full_raw.is_heard();
         if is_heard && self.is_behind {
-            self.publication.start_over();
+            self.publication.request_full();
         }
         let About { frame, now_ns, .. } = *about;
         match self.publication.next(costmap.info(), about.always_full) {
-            Outgoing::Nothing => {}
-            Outgoing::Full => {
+            CostmapMessage::Nothing => {}
+            CostmapMessage::Full => {
                 // The first one is kept for whoever comes later.
                 self.full.publish(occupancy_grid(costmap, frame, now_ns, about.z_m));
                 self.full_raw.publish(raw(costmap, frame, now_ns, layer));
                 self.is_behind = false;
             }
-            Outgoing::Update(window) => {
+            CostmapMessage::Update(window) => {
                 if self.updates.is_heard() {
                     self.updates.publish(occupancy_update(costmap, &window, frame, now_ns));
                 }
@@ -87,14 +89,14 @@ pub(crate) struct Outputs {
 
 impl Outputs {
     /// Publishes whole grids the next time: cells have changed outside of an update.
-    pub(crate) fn start_over(&mut self) {
-        self.master.publication.start_over();
+    pub(crate) fn request_full(&mut self) {
+        self.master.publication.request_full();
         for layer in self.layers.values_mut() {
-            layer.publication.start_over();
+            layer.publication.request_full();
         }
     }
 
-    pub(crate) fn new(node: &Node, config: &Config) -> Result<Self, GraphError> {
+    pub(crate) fn new(node: &Node, config: &CostmapConfig) -> Result<Self, GraphError> {
         let namespace = node.names().namespace().to_owned();
         let mut outputs = Self {
             master: GridPort::new(node, "costmap")?,
@@ -149,13 +151,13 @@ impl Outputs {
     pub(crate) fn prepare(&self, costmap: &mut LayeredCostmap) {
         for (name, ends) in &self.ends {
             if let Some(layer) = costmap.find_as::<VoxelLayer>(name) {
-                layer.keep_clearing_ends(ends.is_heard());
+                layer.record_clearing_ends(ends.is_heard());
             }
         }
     }
 
     /// After an update: a window has changed.
-    pub(crate) fn changed(&mut self, window: Window) {
+    pub(crate) fn changed(&mut self, window: CellWindow) {
         self.master.publication.changed(window);
         for port in self.layers.values_mut() {
             port.publication.changed(window);
@@ -199,7 +201,7 @@ impl Outputs {
     pub(crate) fn publish_grids(
         &mut self,
         costmap: &LayeredCostmap,
-        config: &Config,
+        config: &CostmapConfig,
         outline: &[[f64; 2]],
         now_ns: i64,
     ) {

@@ -2,7 +2,7 @@
 
 use std::sync::Mutex;
 
-use periplus_costmap::{Config, LayerConfig, tables};
+use periplus_costmap::{CostmapConfig, LayerConfig, tables};
 use periplus_diagnostics::Diagnostics;
 use periplus_params::{ParamValues, Parameter, Table};
 
@@ -10,7 +10,7 @@ use periplus_params::{ParamValues, Parameter, Table};
 static MADE: Mutex<Vec<&'static Table>> = Mutex::new(Vec::new());
 
 /// Parts of the table: what goes before their names, and their values.
-fn parts(config: &Config) -> Vec<(String, &ParamValues)> {
+fn parts(config: &CostmapConfig) -> Vec<(String, &ParamValues)> {
     fn layers<'a>(list: &'a [LayerConfig], parts: &mut Vec<(String, &'a ParamValues)>) {
         for layer in list {
             parts.push((format!("{}.", layer.name), &layer.values));
@@ -28,7 +28,7 @@ fn parts(config: &Config) -> Vec<(String, &ParamValues)> {
 
 /// All parameters of a costmap under one table, with names such as `obstacle_layer.scan.topic`.
 #[must_use]
-pub fn node_values(config: &Config) -> ParamValues {
+pub fn node_values(config: &CostmapConfig) -> ParamValues {
     let parts = parts(config);
     let mut parameters: Vec<(String, Parameter)> = Vec::new();
     for (prefix, values) in &parts {

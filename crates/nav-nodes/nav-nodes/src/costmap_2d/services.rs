@@ -2,7 +2,7 @@
 
 mod clearing;
 
-use periplus_costmap::{Compat, Costmap};
+use periplus_costmap::{Costmap, Nav2Release};
 use periplus_geometry::Pose2;
 use periplus_graph::{Actor, GraphError};
 use periplus_msgs::geometry_msgs::PoseStamped;
@@ -21,7 +21,7 @@ pub(crate) fn serve(
     name: &str,
     layers: &[String],
     filters: &[String],
-    forms: Compat,
+    forms: Nav2Release,
 ) -> Result<(), GraphError> {
     actor.serve::<GetCostmap>("get_costmap", |state, _, io| {
         let shown = state.costmap.as_ref().map(|it| (it.costmap(), "master"));

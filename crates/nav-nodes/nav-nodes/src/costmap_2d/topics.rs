@@ -1,10 +1,10 @@
 //! Where layers listen.
 
-use periplus_costmap::Compat;
+use periplus_costmap::Nav2Release;
 
 /// The topic that a layer's parameter means, for a node in a namespace. On main a relative name is
 /// looked for beside the costmap: `scan` of `/local_costmap` is `/scan`. Before, it is in it.
-pub(crate) fn resolve(topic: &str, namespace: &str, compat: Compat) -> String {
+pub(crate) fn resolve(topic: &str, namespace: &str, compat: Nav2Release) -> String {
     if topic.starts_with('/') || topic.starts_with('~') || !compat.joins_parent_namespace() {
         return topic.to_owned();
     }
@@ -19,9 +19,9 @@ mod tests {
     #[test]
     fn relative_topics_are_beside_the_costmap_on_main() {
         let resolve = |topic, compat| resolve(topic, "/robot/local_costmap", compat);
-        assert_eq!(resolve("scan", Compat::Main), "/robot/scan");
-        assert_eq!(resolve("/scan", Compat::Main), "/scan");
-        assert_eq!(resolve("scan", Compat::Humble), "scan");
-        assert_eq!(super::resolve("scan", "/", Compat::Main), "/scan");
+        assert_eq!(resolve("scan", Nav2Release::Main), "/robot/scan");
+        assert_eq!(resolve("/scan", Nav2Release::Main), "/scan");
+        assert_eq!(resolve("scan", Nav2Release::Humble), "scan");
+        assert_eq!(super::resolve("scan", "/", Nav2Release::Main), "/scan");
     }
 }

@@ -2,7 +2,7 @@
 //!
 //! Source: `nav2_costmap_2d/src/costmap_2d_markers.cpp`, `costmap_2d_cloud.cpp`.
 
-use periplus_costmap::MOST_VOXELS;
+use periplus_costmap::MAX_VOXEL_COUNT;
 use periplus_graph::{Actor, Graph, GraphError, Node, NodeSettings, Publisher, Qos};
 use periplus_msgs::sensor_msgs::{PointCloud2, PointField};
 use periplus_msgs::std_msgs::{ColorRGBA, Header};
@@ -11,7 +11,7 @@ use periplus_msgs::{geometry_msgs, nav2_msgs};
 
 /// Centres of the voxels of a message that are marked, or of those that nobody knows \[m\].
 fn centres(grid: &nav2_msgs::VoxelGrid, are_marked: bool) -> Vec<[f64; 3]> {
-    let (width, height) = (grid.size_x as usize, grid.size_z.min(MOST_VOXELS));
+    let (width, height) = (grid.size_x as usize, grid.size_z.min(MAX_VOXEL_COUNT));
     let sides = &grid.resolutions;
     let mut centres = Vec::new();
     for (index, column) in grid.data.iter().enumerate().filter(|_| width > 0) {

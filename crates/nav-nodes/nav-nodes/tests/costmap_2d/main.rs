@@ -3,7 +3,7 @@
 
 use std::sync::Arc;
 
-use periplus_costmap::{Compat, Config, LayeredCostmap};
+use periplus_costmap::{CostmapConfig, LayeredCostmap, Nav2Release};
 use periplus_diagnostics::{Diagnostics, SourceMap};
 use periplus_graph::{Graph, Mailbox, Node, NodeSettings, Publisher, Qos};
 use periplus_msgs::builtin_interfaces::Time;
@@ -55,16 +55,16 @@ global_costmap:
       static_layer: {plugin: 'nav2_costmap_2d::StaticLayer', subscribe_to_updates: true}
 ";
 
-fn config(text: &str, node: &str, compat: Compat) -> Config {
+fn config(text: &str, node: &str, compat: Nav2Release) -> CostmapConfig {
     config_and_text(text, node, compat).0
 }
 
-fn config_and_text(text: &str, node: &str, compat: Compat) -> (Config, SourceMap) {
+fn config_and_text(text: &str, node: &str, compat: Nav2Release) -> (CostmapConfig, SourceMap) {
     let mut sources = SourceMap::new();
     let file = sources.add("params.yaml", text);
     let tree = periplus_yaml::parse(file, &sources).unwrap().unwrap();
     let mut diagnostics = Diagnostics::new();
-    let config = Config::read_yaml(&tree, node, Some(compat), &mut diagnostics);
+    let config = CostmapConfig::read_yaml(&tree, node, Some(compat), &mut diagnostics);
     assert!(diagnostics.is_empty(), "{:?}", diagnostics.iter().next());
     (config, sources)
 }
@@ -79,7 +79,7 @@ struct Stage {
 }
 
 impl Stage {
-    fn new(text: &str, name: &str, compat: Compat) -> Self {
+    fn new(text: &str, name: &str, compat: Nav2Release) -> Self {
         let graph = Graph::new();
         let costmap = CostmapNode::new(&graph, name, config(text, name, compat)).unwrap();
         let user = graph.node(NodeSettings::new("user")).unwrap();
@@ -89,7 +89,7 @@ impl Stage {
     }
 
     fn local() -> Self {
-        let stage = Self::new(LOCAL, "local_costmap", Compat::Main);
+        let stage = Self::new(LOCAL, "local_costmap", Nav2Release::Main);
         stage.costmap.start();
         stage
     }
@@ -262,7 +262,7 @@ impl Told {
 
 #[test]
 fn diagnostics_name_what_is_wrong_and_the_parameter() {
-    let mut stage = Stage::new(LOCAL, "local_costmap", Compat::Main);
+    let mut stage = Stage::new(LOCAL, "local_costmap", Nav2Release::Main);
     let all = stage.user.mailbox::<DiagnosticArray>("/diagnostics", Qos::reliable(10)).unwrap();
     let part = "voxel_layer.scan";
     stage.advance(1000);
@@ -352,7 +352,7 @@ fn diagnostics_name_what_is_wrong_and_the_parameter() {
 
 #[test]
 fn diagnostics_say_that_a_map_is_missing() {
-    let mut stage = Stage::new(GLOBAL, "global_costmap", Compat::Main);
+    let mut stage = Stage::new(GLOBAL, "global_costmap", Nav2Release::Main);
     let all = stage.user.mailbox::<DiagnosticArray>("/diagnostics", Qos::reliable(10)).unwrap();
     stage.costmap.start();
     for _ in 0..10 {
@@ -386,8 +386,8 @@ local_costmap:
 
 #[test]
 fn what_goes_wrong_while_it_runs_names_parameter_file_and_line() {
-    let mut stage = Stage::new(NARROW, "local_costmap", Compat::Main);
-    let (_, text) = config_and_text(NARROW, "local_costmap", Compat::Main);
+    let mut stage = Stage::new(NARROW, "local_costmap", Nav2Release::Main);
+    let (_, text) = config_and_text(NARROW, "local_costmap", Nav2Release::Main);
     stage.costmap.name_lines_of(text);
     let log = stage.user.mailbox::<Log>("/rosout", Qos::reliable(100)).unwrap();
     let said = |words: &str, place: &str| {
@@ -439,7 +439,7 @@ fn what_goes_wrong_while_it_runs_names_parameter_file_and_line() {
 
 #[test]
 fn it_is_managed() {
-    let mut stage = Stage::new(LOCAL, "local_costmap", Compat::Main);
+    let mut stage = Stage::new(LOCAL, "local_costmap", Nav2Release::Main);
     stage.place("odom", 0.0);
     stage.advance(500);
     assert!(stage.costmap.look(|_| ()).is_none(), "not configured");
@@ -491,7 +491,7 @@ fn services_answer() {
 
 #[test]
 fn older_distributions_have_other_forms() {
-    let mut stage = Stage::new(LOCAL, "local_costmap", Compat::Humble);
+    let mut stage = Stage::new(LOCAL, "local_costmap", Nav2Release::Humble);
     stage.costmap.start();
     stage.place("odom", 0.05);
     stage.advance(200);
@@ -506,7 +506,7 @@ fn older_distributions_have_other_forms() {
 
 #[test]
 fn jazzy_answers_minus_one_outside_and_kilted_has_forms_of_both() {
-    let mut stage = Stage::new(LOCAL, "local_costmap", Compat::Jazzy);
+    let mut stage = Stage::new(LOCAL, "local_costmap", Nav2Release::Jazzy);
     stage.costmap.start();
     stage.place("odom", 0.05);
     stage.advance(200);
@@ -514,7 +514,7 @@ fn jazzy_answers_minus_one_outside_and_kilted_has_forms_of_both() {
     let answer = stage.ask::<GetCost>("/local_costmap/get_cost_local_costmap", request);
     assert_eq!(answer.cost, -1.0);
 
-    let mut stage = Stage::new(LOCAL, "local_costmap", Compat::Kilted);
+    let mut stage = Stage::new(LOCAL, "local_costmap", Nav2Release::Kilted);
     stage.costmap.start();
     stage.place("odom", 0.05);
     stage.advance(200);
@@ -562,8 +562,8 @@ fn the_frame_of_the_robot_must_have_a_transform() {
 #[test]
 fn without_a_word_services_have_the_messages_of_jazzy() {
     let mut diagnostics = Diagnostics::new();
-    let untold = Config::read([], None, &mut diagnostics);
-    assert_eq!((untold.compat, untold.forms), (Compat::Main, Compat::Jazzy));
+    let untold = CostmapConfig::read([], None, &mut diagnostics);
+    assert_eq!((untold.compat, untold.forms), (Nav2Release::Main, Nav2Release::Jazzy));
     let graph = Graph::new();
     let _costmap = CostmapNode::new(&graph, "global_costmap", untold).unwrap();
     let hash = |name: &str| {
@@ -595,7 +595,7 @@ local_costmap:
 
 #[test]
 fn a_limit_on_the_way_ahead_counts_when_braking_takes_as_far_and_filters_are_switched() {
-    let mut stage = Stage::new(SLOW, "local_costmap", Compat::Main);
+    let mut stage = Stage::new(SLOW, "local_costmap", Nav2Release::Main);
     stage.costmap.start();
     let limits = stage.user.mailbox::<SpeedLimit>("/speed_limit", Qos::reliable(10)).unwrap();
     let info = stage.user.publisher::<CostmapFilterInfo>("/slow_info", Qos::latched(1)).unwrap();
@@ -680,7 +680,7 @@ fn parameters_are_read_and_set() {
 
 #[test]
 fn a_map_sets_the_size_and_a_footprint_comes_by_topic() {
-    let mut stage = Stage::new(GLOBAL, "global_costmap", Compat::Main);
+    let mut stage = Stage::new(GLOBAL, "global_costmap", Nav2Release::Main);
     stage.costmap.start();
     let maps = stage.user.publisher::<OccupancyGrid>("/map", Qos::latched(1)).unwrap();
     let outlines =

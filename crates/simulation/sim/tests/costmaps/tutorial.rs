@@ -4,7 +4,7 @@
 use std::path::Path;
 use std::sync::Arc;
 
-use periplus_costmap::Config;
+use periplus_costmap::CostmapConfig;
 use periplus_diagnostics::{Diagnostics, SourceMap};
 use periplus_nav_nodes::costmap_2d::CostmapNode;
 
@@ -112,7 +112,7 @@ impl Run {
         let tree = periplus_yaml::parse(file, &sources).unwrap().unwrap();
         let costmaps = LAYERS.map(|(name, _)| {
             let mut diagnostics = Diagnostics::new();
-            let config = Config::read_yaml(&tree, name, None, &mut diagnostics);
+            let config = CostmapConfig::read_yaml(&tree, name, None, &mut diagnostics);
             assert!(!diagnostics.has_errors());
             CostmapNode::new(graph, name, config).unwrap()
         });

@@ -1,7 +1,7 @@
 //! What filters hear: masks, and for limits of speed the path ahead.
 
 use periplus_costmap::LayeredCostmap;
-use periplus_costmap::filters::{FilterInfo, FilterKind, Mask, SpeedFilter};
+use periplus_costmap::filters::{FilterInfo, FilterKind, FilterMask, SpeedFilter};
 use periplus_diagnostics::Diagnostic;
 use periplus_geometry::Pose2;
 use periplus_graph::{GraphError, Mailbox, Qos};
@@ -63,7 +63,7 @@ impl FilterPort {
         let Some(message) = self.mask.as_ref().and_then(Mailbox::latest) else { return };
         match map(&message) {
             Ok(grid) => {
-                filter.set_mask(Mask { grid, frame: message.header.frame_id.clone() });
+                filter.set_mask(FilterMask { grid, frame: message.header.frame_id.clone() });
                 self.has_mask = true;
             }
             Err(why) => complain(format!("the mask is refused: {why}")),

@@ -3,7 +3,7 @@
 //! Until Jazzy they say nothing of how it went, and clear all layers that may be cleared; what could
 //! not be done is logged. Later ones take names of layers, and tell.
 
-use periplus_costmap::Compat;
+use periplus_costmap::Nav2Release;
 use periplus_costmap::clear::{Region, clear};
 use periplus_geometry::Pose2;
 use periplus_graph::{Actor, GraphError, Level, Node};
@@ -19,7 +19,11 @@ struct Wish<'a> {
 }
 
 /// Serves those that a distribution has, with its messages.
-pub(super) fn serve(actor: &mut Actor<State>, name: &str, forms: Compat) -> Result<(), GraphError> {
+pub(super) fn serve(
+    actor: &mut Actor<State>,
+    name: &str,
+    forms: Nav2Release,
+) -> Result<(), GraphError> {
     let entirely = format!("clear_entirely_{name}");
     let around = format!("clear_around_{name}");
     let except = format!("clear_except_{name}");
@@ -144,7 +148,7 @@ impl State {
         if wish.region == Some(Region::Everything)
             && let Some(outputs) = &mut self.outputs
         {
-            outputs.start_over();
+            outputs.request_full();
         }
         match &done {
             Ok(()) => node.log(Level::Info, "cleared"),
