@@ -65,7 +65,7 @@ fn an_obstacle_appears_and_goes() {
 }
 
 #[test]
-fn a_cell_tells_why_it_is_marked() {
+fn a_report_explains_a_marked_cell() {
     let mut costmap = read(LOCAL, "local_costmap").0.build();
     look(&mut costmap, 2_500_000_000, &[[0.5, 0.0, 0.0]]);
     let told = |costmap: &LayeredCostmap, x| {
@@ -74,14 +74,14 @@ fn a_cell_tells_why_it_is_marked() {
     };
     expect![[r#"
         cell (20, 15) at (2.050, 1.550) m: 254, lethal
-          obstacle_layer: 254, lethal; `scan` saw an obstacle here
+          obstacle_layer: 254, lethal; `scan` observed an obstacle here
             marked by `scan` at 2.500 s: ray from (1.55, 1.55, 0.20) to (2.05, 1.55)
           inflation_layer: 254, lethal; the nearest obstacle is cell (20, 15), 0.000 m away [inflation_layer.inflation_radius]
     "#]]
     .assert_eq(&told(&costmap, 2.05));
     expect![[r#"
         cell (18, 15) at (1.850, 1.550) m: 100, near an obstacle
-          obstacle_layer: 0, free; a ray of `scan` went through here [obstacle_layer.scan.raytrace_max_range]
+          obstacle_layer: 0, free; a ray of `scan` crossed this cell [obstacle_layer.scan.raytrace_max_range]
             cleared by `scan` at 2.500 s: ray from (1.55, 1.55, 0.20) to (2.05, 1.55)
           inflation_layer: 100, near an obstacle; the nearest obstacle is cell (20, 15), 0.200 m away [inflation_layer.inflation_radius]
     "#]]
@@ -95,14 +95,14 @@ fn lost_points_name_the_parameter() {
     look(&mut costmap, 1, &[]);
     let advice: Vec<String> = costmap.advice().iter().map(ToString::to_string).collect();
     expect![[r#"
-        obstacle_layer.scan: 2 of 4 were above the source's greatest height, for marking and clearing (`obstacle_layer.scan.max_obstacle_height`): it is measured in the global frame and is 0 unless set; set it to the robot's height
+        obstacle_layer.scan: 2 of 4 were above `max_obstacle_height` of the source, for marking and clearing (`obstacle_layer.scan.max_obstacle_height`): it is measured in the global frame and is 0 unless set; set it to the robot's height
         obstacle_layer.scan: 1 of 4 were too far away to mark (`obstacle_layer.scan.obstacle_max_range`): raise it, and `raytrace_max_range` beyond it
-        obstacle_layer.scan: 1 of 4 were beside the costmap (`width`): enlarge the costmap if they should count"#]]
+        obstacle_layer.scan: 1 of 4 were outside the costmap (`width`): enlarge the costmap to use them"#]]
     .assert_eq(&advice.join("\n"));
 }
 
 #[test]
-fn mistakes_are_told_with_their_place_and_the_rest_is_built() {
+fn mistakes_are_located_and_the_rest_is_built() {
     let config = check(
         "
 local_costmap:
@@ -133,15 +133,15 @@ local_costmap:
             5 -       width: 3.0
             5 +       width: 3
               |
-            warning[nothing-fits]: `obstacle_layer.scan` takes points from 0 m to 0 m: none, or hardly any
+            warning[nothing-fits]: `obstacle_layer.scan` accepts points from 0 m to 0 m: none, or hardly any
               --> params.yaml:10:30
                |
             10 |         observation_sources: scan
                |                              ^^^^
                |
-               = note: heights are measured in the global frame, and points beyond are dropped for marking and clearing
+               = note: heights are measured in the global frame; points outside are dropped for marking and clearing
                = help: set `obstacle_layer.scan.max_obstacle_height`, for example to 2.0
-            error[unknown-plugin]: `camera_layer.plugin`: `spatio_temporal_voxel_layer/SpatioTemporalVoxelLayer` is no layer that is known here
+            error[unknown-plugin]: `camera_layer.plugin`: `spatio_temporal_voxel_layer/SpatioTemporalVoxelLayer` is not a supported layer
               --> params.yaml:12:30
                |
             12 |       camera_layer: {plugin: 'spatio_temporal_voxel_layer/SpatioTemporalVoxelLayer', x: 1}
@@ -164,7 +164,7 @@ local_costmap:
             6 |       footprint: '[[1, 2], [3]]'
               |                  ^^^^^^^^^^^^^^^
               |
-              = note: `robot_radius` stands in for it
+              = note: `robot_radius` is used instead
               = help: write corners in order, such as "[[0.2, 0.1], [0.2, -0.1], [-0.2, -0.1], [-0.2, 0.1]]"
         "#]],
     );
@@ -189,14 +189,14 @@ local_costmap:
     scan: {data_type: LaserScan, topic: /scan, max_obstacle_height: 2.0, obstacle_range: 2.0}
 ",
         expect![[r#"
-            hint[ros1-name]: a list of names and types is the form of ROS 1
+            hint[ros1-name]: a list of names and types is the syntax of ROS 1
              --> params.yaml:6:3
               |
             6 |   plugins:
               |   ^^^^^^^
               |
               = help: in Nav2 `plugins` is a list of names, and each layer has a `plugin`
-            hint[ros1-name]: `costmap_2d::ObstacleLayer` is the name of ROS 1
+            hint[ros1-name]: `costmap_2d::ObstacleLayer` is a ROS 1 name
              --> params.yaml:7:31
               |
             7 |     - {name: obstacles, type: 'costmap_2d::ObstacleLayer'}
@@ -207,7 +207,7 @@ local_costmap:
             7 -     - {name: obstacles, type: 'costmap_2d::ObstacleLayer'}
             7 +     - {name: obstacles, type: nav2_costmap_2d::ObstacleLayer}
               |
-            hint[ros1-name]: `obstacles.scan.obstacle_range` is the name of ROS 1
+            hint[ros1-name]: `obstacles.scan.obstacle_range` is a ROS 1 name
               --> params.yaml:11:74
                |
             11 |     scan: {data_type: LaserScan, topic: /scan, max_obstacle_height: 2.0, obstacle_range: 2.0}
@@ -217,7 +217,7 @@ local_costmap:
                |
             11 |     scan: {data_type: LaserScan, topic: /scan, max_obstacle_height: 2.0, obstacle_max_range: 2.0}
                |                                                                                   ++++
-            hint[ros1-name]: `costmap_2d::InflationLayer` is the name of ROS 1
+            hint[ros1-name]: `costmap_2d::InflationLayer` is a ROS 1 name
              --> params.yaml:8:31
               |
             8 |     - {name: inflation, type: 'costmap_2d::InflationLayer'}
@@ -236,12 +236,12 @@ local_costmap:
 }
 
 #[test]
-fn what_is_set_last_counts() {
+fn the_last_value_applies() {
     let text =
         "/**:\n  ros__parameters:\n    resolution: 0.1\n    resolution: 0.2\n    plugins: []\n";
     let (config, said) = read(text, "local_costmap");
     assert_eq!(config.info().resolution_m, 0.2);
-    assert!(said.contains("`resolution` is set twice; the last one counts"), "{said}");
+    assert!(said.contains("`resolution` is set twice; the last value applies"), "{said}");
 }
 
 #[test]
@@ -274,7 +274,7 @@ fn map(width: usize, height: usize, cells: Vec<i8>, origin: Pose2) -> OccupancyG
 }
 
 #[test]
-fn a_map_sets_the_size_and_keeps_quiet() {
+fn a_map_sets_the_size_and_changes_once() {
     let (config, _) = read(
         "/**:\n  ros__parameters:\n    plugins: [static_layer]\n    static_layer: {plugin: 'nav2_costmap_2d::StaticLayer'}\n",
         "global_costmap",
@@ -295,7 +295,7 @@ fn a_map_sets_the_size_and_keeps_quiet() {
 }
 
 #[test]
-fn a_turned_map_lies_as_it_says() {
+fn the_rotation_of_a_map_is_applied() {
     let (config, _) = read(
         "/**:\n  ros__parameters:\n    plugins: [static_layer]\n    static_layer: {plugin: 'nav2_costmap_2d::StaticLayer'}\n",
         "global_costmap",
@@ -310,7 +310,7 @@ fn a_turned_map_lies_as_it_says() {
 }
 
 #[test]
-fn malformed_maps_are_refused() {
+fn malformed_maps_are_rejected() {
     let (config, _) = read(
         "/**:\n  ros__parameters:\n    plugins: [static_layer]\n    static_layer: {plugin: 'nav2_costmap_2d::StaticLayer'}\n",
         "global_costmap",
@@ -355,7 +355,7 @@ fn zones_are_not_inflated_and_appear_at_once() {
 }
 
 #[test]
-fn clearing_makes_room_until_the_next_look() {
+fn clearing_lasts_until_the_next_observation() {
     let mut costmap = read(LOCAL, "local_costmap").0.build();
     look(&mut costmap, 0, &[[0.5, 0.0, 0.0]]);
     let around = Region::Around { x_m: 1.55, y_m: 1.55, side_m: 2.0 };
@@ -370,7 +370,7 @@ fn clearing_makes_room_until_the_next_look() {
 }
 
 #[test]
-fn a_sensor_outside_is_told_once() {
+fn a_sensor_outside_is_reported_once() {
     let mut costmap = read(LOCAL, "local_costmap").0.build();
     for now_ns in 0..3 {
         let source = costmap.source_mut("obstacle_layer", "scan").unwrap();
@@ -420,7 +420,7 @@ fn a_sonar_marks_and_clears() {
     assert_eq!(cost(&costmap), 0, "nothing in sight");
     read_range(&mut costmap, f64::NAN, 2);
     read_range(&mut costmap, 5.0, 3);
-    assert_eq!(cost(&costmap), 0, "readings outside of the limits say nothing");
+    assert_eq!(cost(&costmap), 0, "readings outside the limits are ignored");
 }
 
 #[test]
@@ -440,7 +440,7 @@ fn parameters_change_while_it_runs() {
 }
 
 #[test]
-fn what_is_missing_is_shown_where_it_belongs() {
+fn missing_parameters_are_located() {
     let told = |text: &str| {
         let mut sources = SourceMap::new();
         let file = sources.add("params.yaml", text);

@@ -340,7 +340,7 @@ mod tests {
         let (code, said) = ends("/m/a", &host());
         assert!(code == 3 && said.contains("did you mean `/m/a.yaml`"), "{said}");
         let (code, said) = ends("/m/a.pgm", &host().with_file("/m/a.pgm", b"P5 1 1 255 \xff"));
-        assert!(code == 3 && said.contains("a picture"), "{said}");
+        assert!(code == 3 && said.contains("an image"), "{said}");
         assert_eq!(ends("/m/a.yaml", &host().with_file("/m/a.yaml", "image: 1")).0, 3);
         assert_eq!(ends("/m/a.yaml", &host().with_file("/m/a.pgm", b"P5 9 9 255 1")).0, 2);
         let lost = host().with_file("/m/a.yaml", YAML.replace("a.pgm", "b.pgm"));

@@ -1,8 +1,8 @@
-//! Costmaps as nodes on the graph.
+//! Costmap nodes.
 //!
-//! A [`CostmapNode`] is what `nav2_costmap_2d` is in ROS 2: a managed node with the same topics,
-//! services and parameters around a [`periplus_costmap::LayeredCostmap`]. Here is only who is told,
-//! under which name, and in which message. [`VoxelMarkers`] and [`VoxelCloud`] show voxels.
+//! A [`CostmapNode`] is a lifecycle node with the topics, services and parameters of
+//! `nav2_costmap_2d` around a [`periplus_costmap::LayeredCostmap`]. This module only converts
+//! messages and connects topics. [`VoxelMarkers`] and [`VoxelCloud`] publish voxels for display.
 //!
 //! Source of names and QoS: `nav2_costmap_2d/src/costmap_2d_ros.cpp`, `costmap_2d_publisher.cpp`,
 //! `clear_costmap_service.cpp`.

@@ -1,6 +1,5 @@
-//! Nodes that serve and save maps, as `nav2_map_server` has them: [`MapServer`] and
-//! [`MapSaver`]. What is in the files is known to `periplus-maps`; here is who is told, under which
-//! name.
+//! Nodes of `nav2_map_server` that serve and save maps: [`MapServer`] and [`MapSaver`]. The file
+//! formats are in `periplus-maps`.
 
 mod saver;
 mod server;

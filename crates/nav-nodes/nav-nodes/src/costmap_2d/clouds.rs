@@ -6,17 +6,16 @@ use periplus_msgs::sensor_msgs::{PointCloud2, PointField};
 const FLOAT32: u8 = 7;
 const FLOAT64: u8 = 8;
 
-/// Where a coordinate is in a point.
+/// Offset and type of a coordinate in a point.
 #[derive(Clone, Copy)]
 struct Place {
     offset: usize,
     is_double: bool,
 }
 
-/// The points of a cloud, without copying it.
-///
+/// Iterates over the points of a cloud without copying it.
 /// # Errors
-/// Why it cannot be read.
+/// The reason, for a malformed cloud.
 pub(crate) fn points(cloud: &PointCloud2) -> Result<impl Iterator<Item = [f32; 3]> + '_, String> {
     let step = cloud.point_step as usize;
     let row_step = cloud.row_step as usize;
@@ -60,7 +59,7 @@ fn read(point: &[u8], Place { offset, is_double }: Place, is_big: bool) -> f32 {
     if is_big { f32::from_be_bytes(*bytes) } else { f32::from_le_bytes(*bytes) }
 }
 
-/// A cloud of plain points.
+/// Creates a cloud with x, y and z.
 pub(crate) fn cloud(points: &[[f32; 3]], header: periplus_msgs::std_msgs::Header) -> PointCloud2 {
     let field = |name: &str, offset| PointField {
         name: name.to_owned(),

@@ -1,4 +1,4 @@
-//! Where frames are, as heard on `/tf` and `/tf_static`.
+//! TF listener of a costmap.
 
 use periplus_costmap::TransformSource;
 use periplus_geometry::Pose;
@@ -7,10 +7,10 @@ use periplus_msgs::tf2_msgs;
 use periplus_tf::{LookupError, TransformKind};
 use periplus_tf_ros as whereabouts;
 
-/// Most transforms that wait between two updates.
+/// Maximum number of transforms queued between two updates.
 const DEPTH: usize = 1000;
 
-/// Frames, and where news of them come from.
+/// TF buffer with its subscriptions.
 pub(crate) struct Listener {
     frames: whereabouts::Frames,
     moving: Mailbox<tf2_msgs::TFMessage>,
@@ -26,7 +26,7 @@ impl Listener {
         })
     }
 
-    /// Takes in what has come.
+    /// Processes received transforms.
     pub(crate) fn listen(&mut self) {
         for (mailbox, kind) in
             [(&self.fixed, TransformKind::Fixed), (&self.moving, TransformKind::Moving)]
@@ -37,13 +37,14 @@ impl Listener {
         }
     }
 
-    /// Drops transforms of before a jump of the clock; frames that never move stay.
+    /// Drops dynamic transforms after a clock jump; static ones stay.
     pub(crate) fn forget(&mut self) {
         let _ = self.moving.drain();
         self.frames.forget();
     }
 
-    /// `target_from_source` at a time \[ns\]; 0 for the newest. With it, when that was \[ns\].
+    /// Returns `target_from_source` at a time \[ns\], 0 for the newest, and the stamp of the result
+    /// \[ns\].
     pub(crate) fn at(
         &self,
         target: &str,

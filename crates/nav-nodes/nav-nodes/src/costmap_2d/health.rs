@@ -1,4 +1,4 @@
-//! How a costmap is, on `/diagnostics`.
+//! Health of a costmap on `/diagnostics`.
 
 use std::any::Any;
 use std::collections::BTreeMap;
@@ -12,28 +12,29 @@ use periplus_msgs::std_msgs::Header;
 
 use crate::costmap_2d::inputs::Inputs;
 
-/// It is told so often \[ns\].
+/// Publication period \[ns\].
 pub(crate) const EVERY_NS: i64 = 1_000_000_000;
 
-/// After so long without a message a source is silent, unless it says how often it expects one \[ns\].
+/// Time without messages after which a source without `expected_update_rate` is reported as silent
+/// \[ns\].
 const SILENCE_NS: i64 = 5_000_000_000;
 
-/// Tells how a costmap is.
+/// Publisher of the health.
 pub(crate) struct Health {
     diagnostics: Publisher<DiagnosticArray>,
     sources: BTreeMap<String, Heard>,
 }
 
-/// What was last heard of a source.
+/// Last report about a source.
 #[derive(Default)]
 struct Heard {
-    /// Where its counters stood then.
+    /// Counters at that time.
     counters: Counters,
-    /// What became of its points then.
+    /// Advice at that time.
     advice: Vec<Advice>,
 }
 
-/// What is looked at.
+/// State of a costmap that is reported.
 pub(crate) struct Patient<'a> {
     /// Full name of the node.
     pub(crate) node: &'a str,
@@ -41,7 +42,7 @@ pub(crate) struct Patient<'a> {
     pub(crate) inputs: &'a Inputs,
     pub(crate) is_active: bool,
     pub(crate) updates: u64,
-    /// What keeps it from its work.
+    /// Reason for which updates fail.
     pub(crate) trouble: Option<&'a str>,
 }
 
@@ -92,7 +93,7 @@ impl Patient<'_> {
     }
 }
 
-/// The costmap as a whole.
+/// Returns the status of the costmap as a whole.
 fn whole(patient: &Patient<'_>, now_ns: i64) -> DiagnosticStatus {
     let mut values = vec![pair("updates", patient.updates)];
     let Some(costmap) = patient.costmap.filter(|_| patient.is_active) else {
@@ -127,7 +128,7 @@ fn whole(patient: &Patient<'_>, now_ns: i64) -> DiagnosticStatus {
 }
 
 impl Heard {
-    /// Takes in what has come since the last time; when it is nothing, what was said holds.
+    /// Updates the report if new messages were received; otherwise the last one stays.
     fn listen(&mut self, costmap: &LayeredCostmap, layer: &str, source: &ObservationSource) {
         if source.counters.messages() != self.counters.messages() {
             self.advice = costmap.advice_since(layer, &source.name, &self.counters);
@@ -135,7 +136,7 @@ impl Heard {
         }
     }
 
-    /// How bad it is, and the worst of it in words.
+    /// Returns the severity and the most severe result as text.
     fn verdict(
         &self,
         source: &ObservationSource,
@@ -157,7 +158,7 @@ impl Heard {
             Severity::Error => DiagnosticStatus::ERROR,
         };
         match worst.filter(|worst| worst.severity > Severity::Hint) {
-            // Messages come, and none is of use: that is worse than silence.
+            // Messages of which none is usable are worse than silence.
             Some(worst) if worst.severity == Severity::Error || silence_ns <= patience_ns => {
                 let Advice { count, of, what, parameter, help, .. } = worst;
                 (level(worst), format!("{count} of {of} {what} (`{parameter}`): {help}"))
@@ -172,7 +173,7 @@ impl Heard {
     }
 }
 
-/// What came of a source, where it went, and the parameters that sent it there lately.
+/// Returns received messages, points by result, and the parameters responsible.
 fn values(
     source: &ObservationSource,
     topic: &str,
@@ -186,7 +187,7 @@ fn values(
         pair("messages dropped by frame", counters.without_frame),
         pair("messages dropped by time", counters.out_of_time),
         pair("messages that could not be read", counters.malformed),
-        pair("messages from a sensor outside of the costmap", counters.sensor_outside),
+        pair("messages from a sensor outside the costmap", counters.sensor_outside),
         pair("points", counters.points),
         pair("points dropped by height", counters.too_low + counters.too_high),
         pair(
@@ -209,7 +210,7 @@ fn values(
     values
 }
 
-/// Layers of sonars.
+/// Returns the status of range sensor layers.
 fn ranges(patient: &Patient<'_>, costmap: &LayeredCostmap) -> Vec<DiagnosticStatus> {
     let mut all = Vec::new();
     for name in patient.inputs.ranges() {

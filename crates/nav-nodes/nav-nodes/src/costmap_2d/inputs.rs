@@ -1,4 +1,4 @@
-//! What layers and filters hear.
+//! Subscriptions of layers and filters.
 
 mod filters;
 
@@ -23,13 +23,13 @@ use crate::costmap_2d::topics::resolve;
 
 use filters::{FilterPort, SpeedPort};
 
-/// A message whose frame nobody knows is dropped after so long \[ns\].
+/// Time after which a message without a transform is dropped \[ns\].
 const PATIENCE_NS: i64 = 1_000_000_000;
 
-/// Most messages of a source that wait for their frame.
+/// Maximum number of messages of a source that wait for their transform.
 const MOST_WAITING: usize = 50;
 
-/// What is heard between two updates, at most, by a source that keeps only its newest.
+/// Queue size of a source that keeps only its newest observation.
 const FEW: usize = 5;
 
 /// Topics of layers and filters.
@@ -42,7 +42,7 @@ pub(crate) struct Inputs {
     speeds: Vec<SpeedPort>,
 }
 
-/// Where an update takes place.
+/// Context of an update.
 pub(crate) struct Scene<'a> {
     pub(crate) tf: &'a Listener,
     pub(crate) global_frame: &'a str,
@@ -50,7 +50,7 @@ pub(crate) struct Scene<'a> {
 }
 
 impl Inputs {
-    /// Drops messages that wait for their transforms, and those that have not been looked at.
+    /// Drops queued messages.
     pub(crate) fn forget(&mut self) {
         for port in &mut self.sources {
             port.scans.messages.clear();
@@ -66,7 +66,8 @@ impl Inputs {
         }
     }
 
-    /// Listens for all layers and filters. Topics that cannot be are told, and the rest works.
+    /// Subscribes to the topics of all layers and filters. Topics that fail are reported, and the
+    /// others work.
     pub(crate) fn new(node: &Node, config: &CostmapConfig) -> (Self, Vec<GraphError>) {
         let mut inputs = Self::default();
         let mut errors = Vec::new();
@@ -155,7 +156,7 @@ impl Inputs {
         Ok(())
     }
 
-    /// Gives the layers what has come. What there is to complain about is told once.
+    /// Passes received messages to the layers. Each warning is reported once.
     pub(crate) fn take(
         &mut self,
         costmap: &mut LayeredCostmap,
@@ -184,7 +185,7 @@ impl Inputs {
         complaints
     }
 
-    /// Topics of sources, with the sources.
+    /// Iterates over layer, source and topic.
     pub(crate) fn topics(&self) -> impl Iterator<Item = (&str, &str, &str)> {
         self.sources.iter().map(|port| {
             let topic = match &port.messages {
@@ -195,17 +196,17 @@ impl Inputs {
         })
     }
 
-    /// Filters without a mask, with the topics on which it should come.
+    /// Iterates over the filters without a mask, with the topics on which they wait for it.
     pub(crate) fn filters_without_mask(&self) -> impl Iterator<Item = (&str, &str)> {
         self.filters.iter().filter_map(FilterPort::waits_for)
     }
 
-    /// Layers with a map, with the topics on which it comes.
+    /// Iterates over the layers with a map, with their topics.
     pub(crate) fn maps(&self) -> impl Iterator<Item = (&str, &str)> {
         self.maps.iter().map(|port| (port.layer.as_str(), port.map.topic()))
     }
 
-    /// Layers of sonars.
+    /// Iterates over the range sensor layers.
     pub(crate) fn ranges(&self) -> impl Iterator<Item = &str> {
         self.ranges.iter().map(|port| port.layer.as_str())
     }
@@ -230,10 +231,10 @@ impl Place<'_> {
     }
 }
 
-/// Messages that wait until somebody knows where their frame was.
+/// Messages that wait for their transform.
 struct Waiting<T> {
     messages: VecDeque<(i64, Arc<T>)>,
-    /// What those that wait lacked last.
+    /// Missing transform of the waiting messages.
     lack: Lack,
 }
 
@@ -243,23 +244,23 @@ impl<T> Default for Waiting<T> {
     }
 }
 
-/// What came of a message.
+/// Result of processing a message.
 enum Tried {
     Taken,
-    /// What it lacks may still come.
+    /// The missing transform may still arrive.
     Lacks(Lack),
 }
 
-/// What nobody knows.
+/// Missing transform of a message.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Lack {
-    /// Where its frame is.
+    /// The frame is unknown.
     Frame,
-    /// Where its frame was at its time.
+    /// The frame is known, but not at the stamp.
     Time,
 }
 
-/// Messages that waited in vain, by what they lacked.
+/// Counts of messages that were dropped after waiting, by missing transform.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 struct Dropped {
     without_frame: u64,
@@ -280,7 +281,7 @@ impl Dropped {
 }
 
 impl<T: periplus_msgs::Message> Waiting<T> {
-    /// Takes in what has come and tries all that wait, oldest first; gives those that were dropped.
+    /// Processes all queued messages, oldest first; returns the counts of dropped ones.
     fn take(
         &mut self,
         mailbox: &Mailbox<T>,
@@ -310,7 +311,7 @@ impl<T: periplus_msgs::Message> Waiting<T> {
     }
 }
 
-/// `global_from_frame` at the time of a message.
+/// Returns `global_from_frame` at the stamp of a message.
 fn placed(scene: &Scene<'_>, frame: &str, header: &Header) -> Result<Pose, Lack> {
     match scene.tf.at(scene.global_frame, frame, header.stamp.ns()) {
         Ok((pose, _)) => Ok(pose),
@@ -366,7 +367,7 @@ impl SourcePort {
     }
 }
 
-/// Says why the frame of a message is not known.
+/// Returns a warning that explains the missing transform of a message.
 fn lost(layer: &str, source: &ObservationSource, scene: &Scene<'_>, frame: &str) -> Diagnostic {
     let why = match scene.tf.at(scene.global_frame, frame, 0) {
         Err(error) => error.to_string(),
@@ -390,7 +391,7 @@ fn lost(layer: &str, source: &ObservationSource, scene: &Scene<'_>, frame: &str)
     .help(help)
 }
 
-/// Where rays begin: the sensor's own frame if one is set.
+/// Returns the origin of the rays: that of `sensor_frame` if it is set.
 fn origin(
     source: &ObservationSource,
     scene: &Scene<'_>,
@@ -403,7 +404,7 @@ fn origin(
     Ok(placed(scene, &source.settings.sensor_frame, header)?.translation)
 }
 
-/// `global_from_frame` of a message, and where its rays begin.
+/// Returns `global_from_frame` of a message, and the origin of its rays.
 fn places(
     source: &ObservationSource,
     scene: &Scene<'_>,
@@ -436,7 +437,7 @@ fn take_scan(
     let length_ns = (f64::from(scan.time_increment) * count * 1e9) as i64;
     let inf_is_valid = source.settings.inf_is_valid;
     points.clear();
-    // When the end of the scan is not known yet, it is taken as one moment, as Nav2 does.
+    // Without a transform at the end of the scan it counts as instantaneous, as in Nav2.
     let last = (length_ns > 0)
         .then(|| scene.tf.at(scene.global_frame, frame, stamp_ns + length_ns).ok())
         .flatten();

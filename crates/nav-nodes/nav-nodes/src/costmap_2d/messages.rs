@@ -1,4 +1,4 @@
-//! Between grids and messages.
+//! Conversion of grids and poses from and to messages.
 
 use periplus_costmap::{CellWindow, Costmap, cost};
 use periplus_geometry::{DQuat, Pose, Pose2};
@@ -7,12 +7,12 @@ use periplus_msgs::builtin_interfaces::Time;
 use periplus_msgs::std_msgs::Header;
 use periplus_msgs::{geometry_msgs, map_msgs, nav_msgs, nav2_msgs};
 
-/// The pose on the ground of a message; its turn is that about z.
+/// Converts a pose to the plane, with its yaw.
 pub(crate) fn pose2(pose: &geometry_msgs::Pose) -> Pose2 {
     let geometry_msgs::Pose { position, orientation } = pose;
     let rotation = DQuat::from_xyzw(orientation.x, orientation.y, orientation.z, orientation.w);
     let xyz = [position.x, position.y, position.z];
-    // Most who fill in a message by hand leave the quaternion zero.
+    // Messages written by hand often have a quaternion of zeros.
     if rotation.length_squared() < 1e-12 {
         return Pose2::new(position.x, position.y, 0.0);
     }
@@ -26,10 +26,9 @@ fn point_pose(x: f64, y: f64, z: f64) -> geometry_msgs::Pose {
     }
 }
 
-/// A map of a message.
-///
+/// Converts a map.
 /// # Errors
-/// Why it is malformed.
+/// The reason, for a malformed map.
 pub(crate) fn map(message: &nav_msgs::OccupancyGrid) -> Result<OccupancyGrid, String> {
     let info = &message.info;
     let (width, height) = (info.width as usize, info.height as usize);
@@ -39,7 +38,7 @@ pub(crate) fn map(message: &nav_msgs::OccupancyGrid) -> Result<OccupancyGrid, St
         .map_err(|cells| format!("it has {} cells and should have {width} x {height}", cells.len()))
 }
 
-/// Costs as a map.
+/// Converts costs to an occupancy grid.
 pub(crate) fn occupancy_grid(
     costmap: &Costmap,
     frame: &str,
@@ -60,7 +59,7 @@ pub(crate) fn occupancy_grid(
     }
 }
 
-/// Costs as they are.
+/// Converts costs to a `nav2_msgs/Costmap`.
 pub(crate) fn raw(costmap: &Costmap, frame: &str, now_ns: i64, layer: &str) -> nav2_msgs::Costmap {
     let GridInfo { resolution_m, width, height, origin } = *costmap.info();
     nav2_msgs::Costmap {
@@ -78,7 +77,7 @@ pub(crate) fn raw(costmap: &Costmap, frame: &str, now_ns: i64, layer: &str) -> n
     }
 }
 
-/// A part as a map.
+/// Converts a window to an occupancy grid update.
 pub(crate) fn occupancy_update(
     costmap: &Costmap,
     window: &CellWindow,
@@ -95,7 +94,7 @@ pub(crate) fn occupancy_update(
     }
 }
 
-/// A part as it is.
+/// Converts a window to a costmap update.
 pub(crate) fn raw_update(
     costmap: &Costmap,
     window: &CellWindow,
@@ -117,7 +116,7 @@ fn cells<'a>(costmap: &'a Costmap, window: &CellWindow) -> impl Iterator<Item = 
     spans.flat_map(move |span| costmap.costs()[span].iter().copied())
 }
 
-/// An outline in a frame.
+/// Converts a footprint.
 pub(crate) fn polygon(
     points: &[[f64; 2]],
     frame: &str,

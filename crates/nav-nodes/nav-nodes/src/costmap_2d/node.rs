@@ -1,4 +1,4 @@
-//! The node.
+//! Costmap node.
 
 use periplus_costmap::{Advice, CellReport, CostmapConfig, Footprint, LayerConfig, LayeredCostmap};
 use periplus_diagnostics::{Diagnostic, SourceMap};
@@ -16,38 +16,37 @@ use crate::costmap_2d::outputs::Outputs;
 use crate::costmap_2d::parameters::{node_values, split};
 use crate::costmap_2d::services;
 
-/// The same thing is not said again for so long \[ns\].
+/// Time during which an identical message is not logged again \[ns\].
 const QUIET_NS: i64 = 5_000_000_000;
 
-/// A costmap as a managed node.
+/// Costmap as a lifecycle node.
 pub struct CostmapNode {
     actor: Actor<State>,
     life: Lifecycle,
 }
 
-/// What a costmap lives on, for those who look for what is wrong.
+/// Status of a costmap, for diagnosis.
 #[derive(Clone, Debug)]
 pub struct CostmapStatus {
-    /// The node.
+    /// Name of the node.
     pub node: String,
-    /// Updates made.
+    /// Number of updates.
     pub updates: u64,
-    /// Whether all layers have what they need.
+    /// True if all layers are current.
     pub is_current: bool,
-    /// Cells, columns and rows.
+    /// Number of columns and rows.
     pub size: (usize, usize),
-    /// Why there was no update the last time, if so.
+    /// Reason for which the last update failed.
     pub trouble: Option<String>,
-    /// Sources: layer and name, topic, messages that came, and how long ago the last one that could
-    /// be used \[s\].
+    /// Sources: layer and name, topic, number of messages, and age of the last usable one \[s\].
     pub sources: Vec<(String, String, u64, Option<f64>)>,
-    /// What happens to points that get lost.
+    /// Advice about dropped points.
     pub advice: Vec<Advice>,
 }
 
 pub(crate) struct State {
     config: CostmapConfig,
-    /// Of all layers, as one table.
+    /// Parameters of all layers, as one table.
     pub(crate) costmap: Option<LayeredCostmap>,
     pub(crate) tf: Listener,
     inputs: Inputs,
@@ -58,13 +57,13 @@ pub(crate) struct State {
     updates: u64,
     trouble: Option<String>,
     told: Vec<(String, i64)>,
-    /// Where the parameters were written, to name the lines.
+    /// Sources of the parameter files, for the lines in messages.
     files: SourceMap,
     published_ns: Option<i64>,
     pub(crate) robot: Option<Pose2>,
 }
 
-/// Where another outline may come from.
+/// Topic of the footprint.
 enum Outlines {
     Plain(Mailbox<geometry_msgs::Polygon>),
     Stamped(Mailbox<geometry_msgs::PolygonStamped>),
@@ -91,19 +90,19 @@ impl Outlines {
 }
 
 impl CostmapNode {
-    /// A costmap `name` in a namespace of its own name, as Nav2 has it: `/local_costmap/local_costmap`.
-    /// `settings` may put both into another namespace and remap.
-    ///
+    /// Creates a costmap `name` in a namespace of the same name, as in Nav2:
+    /// `/local_costmap/local_costmap`. Arguments of the graph may change the namespace and remap
+    /// topics.
     /// # Errors
+    /// When a topic exists with another type.
     /// When a topic of that name has another type.
     pub fn new(graph: &Graph, name: &str, config: CostmapConfig) -> Result<Self, GraphError> {
         Self::at(graph.node(NodeSettings::new(name).namespace(&format!("/{name}")))?, config)
     }
 
-    /// A costmap as this node.
-    ///
+    /// Creates a costmap on an existing node.
     /// # Errors
-    /// When a topic of that name has another type.
+    /// When a topic exists with another type.
     pub fn at(node: Node, config: CostmapConfig) -> Result<Self, GraphError> {
         let name = node.names().name().to_owned();
         let hertz = config.node.number("update_frequency").unwrap_or_default();
@@ -131,7 +130,7 @@ impl CostmapNode {
         };
         let mut actor = node.actor(state);
         let parameters = actor.parameters(values, |state, values, _| state.change(values))?;
-        // What arguments of the program say goes before the file.
+        // Command-line arguments override the parameter file.
         let given = parameters.values();
         actor.with(|state| state.adopt(&given));
         let life = actor.managed(|state, step, io| state.step(step, io.node()))?;
@@ -145,46 +144,46 @@ impl CostmapNode {
         Ok(Self { actor, life })
     }
 
-    /// The files from which its parameters were read: what it tells names their lines then.
+    /// Sets the sources of the parameter files; messages then contain their lines.
     pub fn name_lines_of(&self, files: SourceMap) {
         self.actor.with(|state| state.files = files);
     }
 
-    /// Configures and activates it, as a lifecycle manager would.
+    /// Configures and activates the node, as a lifecycle manager does.
     pub fn start(&self) {
         self.life.start();
     }
 
-    /// Its node.
+    /// Returns the node.
     #[must_use]
     pub fn node(&self) -> &Node {
         self.actor.node()
     }
 
-    /// Its life.
+    /// Returns the lifecycle.
     #[must_use]
     pub fn life(&self) -> &Lifecycle {
         &self.life
     }
 
-    /// Whether its parameters say that time is that of `/clock`.
+    /// Returns true if the parameters select the time of `/clock`.
     #[must_use]
     pub fn uses_simulated_time(&self) -> bool {
         self.actor.with(|state| state.config.node.flag("use_sim_time").unwrap_or_default())
     }
 
-    /// Looks at the costmap, once it is configured.
+    /// Calls a function with the costmap, once it is configured.
     pub fn look<R>(&self, look: impl FnOnce(&LayeredCostmap) -> R) -> Option<R> {
         self.actor.with(|state| state.costmap.as_ref().map(look))
     }
 
-    /// All that is known of the cell at a point of the global frame \[m\].
+    /// Returns a report about the cell at a point of the global frame \[m\].
     #[must_use]
     pub fn inspect(&self, x_m: f64, y_m: f64) -> Option<CellReport> {
         self.look(|costmap| costmap.inspect(costmap.cell_of(x_m, y_m)?)).flatten()
     }
 
-    /// What it lives on.
+    /// Returns the status.
     #[must_use]
     pub fn status(&self) -> CostmapStatus {
         let node = self.node().clone();
@@ -256,7 +255,7 @@ impl State {
                 ));
             }
         }
-        // A map that has come sets the size even before anybody knows where the robot is.
+        // A received map sets the size even before the pose of the robot is known.
         costmap.apply_requested_size();
         match robot(&self.tf, &self.config.node, now_ns) {
             Ok(robot) => {
@@ -289,8 +288,8 @@ impl State {
         }
     }
 
-    /// The clock jumped: transforms and messages of before are of another time. What is marked stays
-    /// until it is cleared, as in Nav2.
+    /// Drops transforms and observations after a clock jump. Marked cells stay until they are
+    /// cleared, as in Nav2.
     fn jump(&mut self, now_ns: i64, node: &Node) {
         self.tf.forget();
         self.inputs.forget();
@@ -307,7 +306,7 @@ impl State {
         );
     }
 
-    /// Tells how it is.
+    /// Publishes the health.
     fn report(&mut self, now_ns: i64, node: &Node) {
         let patient = Patient {
             node: node.full_name(),
@@ -320,7 +319,7 @@ impl State {
         self.health.publish(&patient, now_ns);
     }
 
-    /// Says something, unless it has been said a moment ago.
+    /// Logs a message, unless it was logged a short time ago.
     fn tell(&mut self, complaint: &Diagnostic, now_ns: i64, node: &Node) {
         self.told.retain(|(_, told_ns)| (0..QUIET_NS).contains(&(now_ns - told_ns)));
         if self.told.iter().all(|(told, _)| *told != complaint.message) {
@@ -329,7 +328,7 @@ impl State {
         }
     }
 
-    /// The same with the file and the line that it is about, if somebody has told them.
+    /// Adds the file and line of a message, if the sources are set.
     fn with_line(&self, complaint: &Diagnostic) -> Diagnostic {
         let mut placed = complaint.clone();
         if let Some(span) = complaint.span.filter(|span| self.files.holds(*span)) {
@@ -339,7 +338,7 @@ impl State {
         placed
     }
 
-    /// Takes other parameters while it runs.
+    /// Applies changed parameters.
     fn change(&mut self, all: &ParamValues) -> Result<(), String> {
         let node = split(all, "", &self.config.node);
         let tf = &self.tf;
@@ -357,7 +356,7 @@ impl State {
         Ok(())
     }
 
-    /// Puts parameters into the configuration.
+    /// Copies parameters into the configuration.
     fn adopt(&mut self, all: &ParamValues) {
         fn layers(list: &mut [LayerConfig], all: &ParamValues) {
             for layer in list {
@@ -433,7 +432,7 @@ fn change_layer(
     Ok(())
 }
 
-/// `global_from_base` now.
+/// Returns the current `global_from_base`.
 fn robot(tf: &Listener, node: &ParamValues, now_ns: i64) -> Result<Pose2, Box<Diagnostic>> {
     let text = |name: &str| node.text(name).unwrap_or_default();
     let (global, base) = (text("global_frame"), text("robot_base_frame"));
@@ -459,7 +458,7 @@ fn robot(tf: &Listener, node: &ParamValues, now_ns: i64) -> Result<Pose2, Box<Di
     })?;
     let tolerance_s = node.number("transform_tolerance").unwrap_or_default();
     let age_s = (now_ns - time_ns) as f64 / 1e9;
-    // Time zero is that of frames that never move.
+    // Time zero is that of static transforms.
     if time_ns != 0 && age_s > tolerance_s {
         let old_pose = Diagnostic::error(
             "old-robot-pose",

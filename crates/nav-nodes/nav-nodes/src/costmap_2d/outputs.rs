@@ -1,4 +1,4 @@
-//! What others hear of a costmap.
+//! Publishers of a costmap.
 
 use std::collections::BTreeMap;
 
@@ -15,7 +15,7 @@ use crate::costmap_2d::clouds::cloud;
 use crate::costmap_2d::messages::{occupancy_grid, occupancy_update, polygon, raw, raw_update};
 use crate::costmap_2d::topics::resolve;
 
-/// As Nav2 publishes grids.
+/// QoS of grids in Nav2.
 const GRID_QOS: Qos = Qos::latched(1);
 
 /// The four topics of a grid.
@@ -25,7 +25,7 @@ struct GridPort {
     full_raw: Publisher<nav2_msgs::Costmap>,
     updates: Publisher<map_msgs::OccupancyGridUpdate>,
     updates_raw: Publisher<nav2_msgs::CostmapUpdate>,
-    /// Who has heard nothing since the last full grid needs another one.
+    /// True if a subscriber missed updates and needs a full grid.
     is_behind: bool,
 }
 
@@ -50,7 +50,7 @@ impl GridPort {
         match self.publication.next(costmap.info(), about.always_full) {
             CostmapMessage::Nothing => {}
             CostmapMessage::Full => {
-                // The first one is kept for whoever comes later.
+                // The first grid is latched for late subscribers.
                 self.full.publish(occupancy_grid(costmap, frame, now_ns, about.z_m));
                 self.full_raw.publish(raw(costmap, frame, now_ns, layer));
                 self.is_behind = false;
@@ -68,7 +68,7 @@ impl GridPort {
     }
 }
 
-/// What holds for all messages of an update.
+/// Header data of all messages of an update.
 struct About<'a> {
     frame: &'a str,
     now_ns: i64,
@@ -88,7 +88,7 @@ pub(crate) struct Outputs {
 }
 
 impl Outputs {
-    /// Publishes whole grids the next time: cells have changed outside of an update.
+    /// Requests full grids in the next publication, after cells changed outside an update.
     pub(crate) fn request_full(&mut self) {
         self.master.publication.request_full();
         for layer in self.layers.values_mut() {
@@ -147,7 +147,7 @@ impl Outputs {
         Ok(outputs)
     }
 
-    /// Before an update: whether somebody wants to know where rays end.
+    /// Before an update: enables the recording of ray ends if there are subscribers.
     pub(crate) fn prepare(&self, costmap: &mut LayeredCostmap) {
         for (name, ends) in &self.ends {
             if let Some(layer) = costmap.find_as::<VoxelLayer>(name) {
@@ -156,7 +156,7 @@ impl Outputs {
         }
     }
 
-    /// After an update: a window has changed.
+    /// After an update: adds the changed window.
     pub(crate) fn changed(&mut self, window: CellWindow) {
         self.master.publication.changed(window);
         for port in self.layers.values_mut() {
@@ -164,7 +164,7 @@ impl Outputs {
         }
     }
 
-    /// What goes out after every update: voxels, limits, states.
+    /// Publishes voxels, speed limits and filter states, after every update.
     pub(crate) fn publish_each(&mut self, costmap: &mut LayeredCostmap, now_ns: i64) {
         let frame = costmap.frame().global_frame.clone();
         for (name, voxels) in &self.voxels {
@@ -197,7 +197,7 @@ impl Outputs {
         }
     }
 
-    /// What goes out at the rate of publication: grids and the outline.
+    /// Publishes grids and footprint, at the publication rate.
     pub(crate) fn publish_grids(
         &mut self,
         costmap: &LayeredCostmap,

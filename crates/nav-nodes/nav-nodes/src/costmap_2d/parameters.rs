@@ -1,4 +1,4 @@
-//! One table of all parameters of a costmap, as others read and set them.
+//! Single table of all parameters of a costmap node.
 
 use std::sync::Mutex;
 
@@ -6,10 +6,10 @@ use periplus_costmap::{CostmapConfig, LayerConfig, tables};
 use periplus_diagnostics::Diagnostics;
 use periplus_params::{ParamValues, Parameter, Table};
 
-/// Tables that have been made. A table lives as long as the program, so equal ones are made once.
+/// Cache of created tables. A table lives as long as the program, so equal tables are shared.
 static MADE: Mutex<Vec<&'static Table>> = Mutex::new(Vec::new());
 
-/// Parts of the table: what goes before their names, and their values.
+/// Returns the parts of the table: name prefixes and values.
 fn parts(config: &CostmapConfig) -> Vec<(String, &ParamValues)> {
     fn layers<'a>(list: &'a [LayerConfig], parts: &mut Vec<(String, &'a ParamValues)>) {
         for layer in list {
@@ -26,7 +26,8 @@ fn parts(config: &CostmapConfig) -> Vec<(String, &ParamValues)> {
     parts
 }
 
-/// All parameters of a costmap under one table, with names such as `obstacle_layer.scan.topic`.
+/// Returns all parameters of a costmap in one table, with names such as
+/// `obstacle_layer.scan.topic`.
 #[must_use]
 pub fn node_values(config: &CostmapConfig) -> ParamValues {
     let parts = parts(config);
@@ -47,7 +48,7 @@ pub fn node_values(config: &CostmapConfig) -> ParamValues {
     values
 }
 
-/// A table of these names, one that has been made if it is the same.
+/// Returns a table of these parameters, shared with an equal one.
 fn table(parameters: Vec<(String, Parameter)>) -> &'static Table {
     let mut made = MADE.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
     let is_same = |table: &&&'static Table| {
@@ -72,13 +73,13 @@ fn table(parameters: Vec<(String, Parameter)>) -> &'static Table {
     table
 }
 
-/// Without other names: those are for files.
+/// Removes alternative names, which are for files only.
 fn bare(parameter: &Parameter) -> Parameter {
     Parameter { aliases: &[], ..*parameter }
 }
 
-/// The part of all parameters that belongs to a table; what goes before its names, such as
-/// `inflation_layer.`.
+/// Returns the parameters of one table from all parameters; `prefix` is the prefix of its names,
+/// such as `inflation_layer.`.
 #[must_use]
 pub fn split(all: &ParamValues, prefix: &str, usual: &ParamValues) -> ParamValues {
     let mut values = usual.clone();

@@ -1,4 +1,4 @@
-//! The services of a costmap.
+//! Services of a costmap.
 
 mod clearing;
 
@@ -15,7 +15,7 @@ use periplus_params::ParamValue;
 use crate::costmap_2d::messages::{pose2, raw};
 use crate::costmap_2d::node::State;
 
-/// Answers for a costmap of a name, its layers and its filters, with the messages of a distribution.
+/// Serves the services of a costmap, its layers and its filters, with the types of a distribution.
 pub(crate) fn serve(
     actor: &mut Actor<State>,
     name: &str,
@@ -73,7 +73,7 @@ fn answer_grid(shown: Option<(&Costmap, &str)>, state: &State, now_ns: i64) -> G
 }
 
 impl State {
-    /// Switches a filter on or off.
+    /// Enables or disables a filter.
     fn toggle(&mut self, filter: &str, is_on: bool) -> SetBoolResponse {
         let layer = self.costmap.as_mut().and_then(|costmap| costmap.find_mut(filter));
         let Some((layer, mut values)) = layer.and_then(|layer| {
@@ -93,7 +93,7 @@ impl State {
         }
     }
 
-    /// A pose of any frame in the global one, if somebody knows the way.
+    /// Transforms a pose to the global frame; none without a transform.
     fn placed(&self, pose: &PoseStamped) -> Option<Pose2> {
         let global_frame = &self.costmap.as_ref()?.frame().global_frame;
         let own = pose2(&pose.pose);
@@ -106,7 +106,8 @@ impl State {
         Some(Pose2::from(global_from_frame) * own)
     }
 
-    /// Costs of poses in any frame. Outside they are lethal, and unknown where nobody knows the frame.
+    /// Returns the costs of poses in any frame: lethal outside the costmap, unknown without a
+    /// transform.
     fn costs(&self, poses: &[PoseStamped], uses_footprint: bool) -> GetCostsResponse {
         let mut response = GetCostsResponse { costs: Vec::new(), success: true };
         let Some(costmap) = &self.costmap else {

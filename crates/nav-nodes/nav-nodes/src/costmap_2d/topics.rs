@@ -1,9 +1,10 @@
-//! Where layers listen.
+//! Topic names of layers.
 
 use periplus_costmap::Nav2Release;
 
-/// The topic that a layer's parameter means, for a node in a namespace. On main a relative name is
-/// looked for beside the costmap: `scan` of `/local_costmap` is `/scan`. Before, it is in it.
+/// Resolves the topic parameter of a layer of a node in a namespace. On main a relative name is
+/// resolved in the parent namespace: `scan` of `/local_costmap` is `/scan`. Before main it is
+/// resolved in the namespace of the costmap.
 pub(crate) fn resolve(topic: &str, namespace: &str, compat: Nav2Release) -> String {
     if topic.starts_with('/') || topic.starts_with('~') || !compat.joins_parent_namespace() {
         return topic.to_owned();

@@ -1,4 +1,4 @@
-//! Voxels as others can show them.
+//! Voxels as markers and point clouds.
 //!
 //! Source: `nav2_costmap_2d/src/costmap_2d_markers.cpp`, `costmap_2d_cloud.cpp`.
 
@@ -9,7 +9,7 @@ use periplus_msgs::std_msgs::{ColorRGBA, Header};
 use periplus_msgs::visualization_msgs::Marker;
 use periplus_msgs::{geometry_msgs, nav2_msgs};
 
-/// Centres of the voxels of a message that are marked, or of those that nobody knows \[m\].
+/// Returns the centres of the marked or of the unknown voxels of a message \[m\].
 fn centres(grid: &nav2_msgs::VoxelGrid, are_marked: bool) -> Vec<[f64; 3]> {
     let (width, height) = (grid.size_x as usize, grid.size_z.min(MAX_VOXEL_COUNT));
     let sides = &grid.resolutions;
@@ -17,7 +17,7 @@ fn centres(grid: &nav2_msgs::VoxelGrid, are_marked: bool) -> Vec<[f64; 3]> {
     for (index, column) in grid.data.iter().enumerate().filter(|_| width > 0) {
         let (x, y) = ((index % width) as f64, (index / width) as f64);
         for z in 0..height {
-            // Both bits are set of a marked voxel, the lower one alone of an unknown one.
+            // Both bits of a marked voxel are set, only the lower one of an unknown voxel.
             let (low, high) = (column >> z & 1 == 1, column >> (16 + z) & 1 == 1);
             if low && high == are_marked {
                 centres.push([
@@ -31,24 +31,22 @@ fn centres(grid: &nav2_msgs::VoxelGrid, are_marked: bool) -> Vec<[f64; 3]> {
     centres
 }
 
-/// `nav2_costmap_2d_markers`: marked voxels as cubes on `visualization_marker`.
+/// Node `nav2_costmap_2d_markers`: marked voxels as cubes on `visualization_marker`.
 pub struct VoxelMarkers {
     _actor: Actor<Publisher<Marker>>,
 }
 
 impl VoxelMarkers {
-    /// As a node in a namespace; it listens to `voxel_grid` there.
-    ///
+    /// Creates the node in a namespace; it subscribes to `voxel_grid` there.
     /// # Errors
-    /// When a topic of that name has another type.
+    /// When a topic exists with another type.
     pub fn new(graph: &Graph, namespace: &str) -> Result<Self, GraphError> {
         Self::at(graph.node(NodeSettings::new("costmap_2d_marker").namespace(namespace))?)
     }
 
-    /// As this node.
-    ///
+    /// Creates it on an existing node.
     /// # Errors
-    /// When a topic of that name has another type.
+    /// When a topic exists with another type.
     pub fn at(node: Node) -> Result<Self, GraphError> {
         let markers = node.publisher("visualization_marker", Qos::reliable(1))?;
         let mut actor = node.actor(markers);
@@ -85,25 +83,23 @@ fn marker(grid: &nav2_msgs::VoxelGrid, namespace: &str) -> Marker {
     }
 }
 
-/// `nav2_costmap_2d_cloud`: marked voxels on `voxel_marked_cloud`, unknown ones on
+/// Node `nav2_costmap_2d_cloud`: marked voxels on `voxel_marked_cloud`, unknown ones on
 /// `voxel_unknown_cloud`.
 pub struct VoxelCloud {
     _actor: Actor<[Publisher<PointCloud2>; 2]>,
 }
 
 impl VoxelCloud {
-    /// As a node in a namespace; it listens to `voxel_grid` there.
-    ///
+    /// Creates the node in a namespace; it subscribes to `voxel_grid` there.
     /// # Errors
-    /// When a topic of that name has another type.
+    /// When a topic exists with another type.
     pub fn new(graph: &Graph, namespace: &str) -> Result<Self, GraphError> {
         Self::at(graph.node(NodeSettings::new("costmap_2d_cloud").namespace(namespace))?)
     }
 
-    /// As this node.
-    ///
+    /// Creates it on an existing node.
     /// # Errors
-    /// When a topic of that name has another type.
+    /// When a topic exists with another type.
     pub fn at(node: Node) -> Result<Self, GraphError> {
         let marked = node.publisher("voxel_marked_cloud", Qos::reliable(1))?;
         let unknown = node.publisher("voxel_unknown_cloud", Qos::reliable(1))?;
@@ -125,7 +121,7 @@ impl VoxelCloud {
     }
 }
 
-/// Bytes of a point: three numbers and three colours.
+/// Bytes of a point: three coordinates and three colours.
 const STEP: u32 = 15;
 
 fn cloud(grid: &nav2_msgs::VoxelGrid, are_marked: bool, colour: [u8; 3]) -> PointCloud2 {

@@ -1,4 +1,4 @@
-//! What is heard, and how it gets into the filter.
+//! Subscriptions of the filter.
 
 use periplus_diagnostics::Diagnostic;
 use periplus_ekf::{Ekf, Intake, Kind, Source};
@@ -12,7 +12,7 @@ use periplus_tf_ros::{Frames, plain};
 use crate::ekf_node::messages::{of_imu, of_pose, of_twist};
 use crate::ekf_node::node::State;
 
-/// Hears the topic of an input; it is the one of that number.
+/// Subscribes to the topic of the input with an index.
 pub(crate) fn hear(
     actor: &mut Actor<State>,
     source: &Source,
@@ -45,7 +45,7 @@ pub(crate) fn hear(
     }
 }
 
-/// Where messages of an input become measurements.
+/// Converter from the messages of an input to measurements.
 pub(crate) struct Desk<'a> {
     pub(crate) intake: &'a mut Intake,
     pub(crate) ekf: &'a mut Ekf,
@@ -132,7 +132,7 @@ impl Desk<'_> {
         })
     }
 
-    /// Where a frame of a message is; one that is not named is the one that is wished.
+    /// Returns the transform of the frame of a message; an empty frame is the target frame.
     fn between(
         &self,
         target: &str,

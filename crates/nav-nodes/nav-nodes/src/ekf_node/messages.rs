@@ -1,4 +1,4 @@
-//! Messages as readings.
+//! Conversion of messages to readings.
 
 use periplus_ekf::{ImuReading, PoseReading, TwistReading};
 use periplus_geometry::{DQuat, DVec3, Pose};
@@ -7,7 +7,7 @@ use periplus_msgs::geometry_msgs::{
 };
 use periplus_msgs::sensor_msgs::Imu;
 
-/// Quaternions that are shorter than this are none.
+/// Minimum norm of a valid quaternion.
 const LEAST_LENGTH: f64 = 1e-3;
 
 pub(crate) fn vector(vector: &Vector3) -> DVec3 {
@@ -20,13 +20,13 @@ fn rotation(it: &Quaternion) -> Option<DQuat> {
     (length.is_finite() && length > LEAST_LENGTH).then(|| rotation.normalize())
 }
 
-/// Where a message says that something is; none when its quaternion is none.
+/// Converts a pose; none with an invalid quaternion.
 pub(crate) fn pose(pose: &geometry_msgs::Pose) -> Option<Pose> {
     let translation = DVec3::new(pose.position.x, pose.position.y, pose.position.z);
     Some(Pose { translation, rotation: rotation(&pose.orientation)? })
 }
 
-/// None when its quaternion is none.
+/// Converts a pose reading; none with an invalid quaternion.
 pub(crate) fn of_pose(
     message: &PoseWithCovariance,
     time_ns: i64,
@@ -50,7 +50,7 @@ pub(crate) fn of_twist(
     }
 }
 
-/// A covariance that begins with -1 says that there is no such measurement.
+/// A covariance that begins with -1 marks a missing measurement.
 pub(crate) fn of_imu(message: &Imu, base_from_sensor: Pose) -> ImuReading {
     let is_there = |covariance: &[f64; 9]| covariance[0] != -1.0;
     let (turn, rate, push) = (

@@ -1,4 +1,4 @@
-//! The node.
+//! EKF node.
 
 use periplus_diagnostics::{Diagnostic, Diagnostics};
 use periplus_ekf::Variable;
@@ -16,10 +16,10 @@ use crate::ekf_node::inputs::{Desk, hear};
 use crate::ekf_node::messages::pose;
 use crate::ekf_node::outputs::{Health, Outputs};
 
-/// How often the filter's health is published \[ns\].
+/// Period of the diagnostics \[ns\].
 const HEALTH_NS: i64 = 1_000_000_000;
 
-/// The filter as a node.
+/// Filter node.
 pub struct EkfNode {
     actor: Actor<State>,
 }
@@ -28,7 +28,7 @@ pub(crate) struct State {
     values: ParamValues,
     ekf: Ekf,
     intakes: Vec<Intake>,
-    /// What keeps each input out.
+    /// Reason for which each input is dropped.
     troubles: Vec<Option<String>>,
     frames: Frames,
     outputs: Outputs,
@@ -40,10 +40,10 @@ pub(crate) struct State {
 }
 
 impl EkfNode {
-    /// With settings and the parameters of [`periplus_ekf::EKF`] that they come from.
-    ///
+    /// Creates the filter with settings and the parameters of [`periplus_ekf::EKF`] that they were
+    /// read from.
     /// # Errors
-    /// When a topic or service of that name has another type.
+    /// When a topic or service exists with another type.
     pub fn at(node: Node, settings: Settings, values: ParamValues) -> Result<Self, GraphError> {
         let flag = |name: &str| values.flag(name).unwrap_or_default();
         if settings.sources.is_empty() {
@@ -98,13 +98,13 @@ impl EkfNode {
         Ok(Self { actor })
     }
 
-    /// Its node.
+    /// Returns the node.
     #[must_use]
     pub fn node(&self) -> &Node {
         self.actor.node()
     }
 
-    /// What it knows.
+    /// Returns the estimate.
     #[must_use]
     pub fn estimate(&self) -> Option<Estimate> {
         self.actor.with(|state| state.ekf.estimate().cloned())
@@ -116,12 +116,12 @@ impl State {
         self.values.text(name).unwrap_or_default()
     }
 
-    /// The frame in which the robot is estimated.
+    /// Returns the frame of the estimate.
     fn world(&self) -> String {
         self.values.text("world_frame").unwrap_or_else(|| self.text("odom_frame"))
     }
 
-    /// A message of an input has come.
+    /// Processes a message of an input.
     pub(crate) fn take(
         &mut self,
         number: usize,
@@ -156,7 +156,7 @@ impl State {
             true => self.ekf.predicted(now_ns),
             false => self.ekf.estimate().cloned(),
         };
-        // The same time is not told twice.
+        // Each stamp is published once.
         let Some(estimate) =
             estimate.filter(|it| self.published_ns.is_none_or(|last| last < it.time_ns))
         else {
@@ -181,7 +181,7 @@ impl State {
             self.outputs.tf.publish(transform(plain(world), plain(base), world_from_base, time_ns));
             return;
         }
-        // Somebody else tells where the robot is in odometry; this is what is left to the map.
+        // Another node publishes the pose in odom; the remainder is `map_from_odom`.
         let then = self.frames.at(base, &odom, estimate.time_ns);
         match then.or_else(|_| self.frames.at(base, &odom, 0)) {
             Ok((base_from_odom, _)) => {
@@ -238,7 +238,7 @@ impl State {
         self.outputs.publish_health(&health, node.now_ns());
     }
 
-    /// Somebody says where the robot is.
+    /// Sets the pose from a message on `set_pose`.
     fn set_pose(&mut self, message: &PoseWithCovarianceStamped, node: &Node) {
         let (world, frame) = (self.world(), plain(&message.header.frame_id));
         let is_elsewhere = !frame.is_empty() && frame != plain(&world);
@@ -295,14 +295,14 @@ impl State {
         Ok(())
     }
 
-    /// The clock jumped.
+    /// Handles a jump of the clock.
     fn jump(&mut self, node: &Node) {
-        // Time goes on from tick to tick; what is before the last one is back.
+        // Time advances with each timer tick; an earlier time is a jump back.
         let now_ns = node.now_ns();
         let went_back = now_ns < std::mem::replace(&mut self.last_ns, now_ns);
         self.frames.forget();
         self.published_ns = None;
-        // The state is of a time that has not come yet; without a reset it would never go on.
+        // The state has a stamp in the future; without a reset it would not be updated until then.
         if went_back || self.values.flag("reset_on_time_jump") == Some(true) {
             self.reset();
             node.log(

@@ -1,4 +1,4 @@
-//! Who is told what is estimated.
+//! Publishers of the filter.
 
 use periplus_ekf::{Estimate, Variable};
 use periplus_geometry::DVec3;
@@ -13,7 +13,7 @@ use periplus_msgs::std_msgs::Header;
 use periplus_msgs::tf2_msgs::TFMessage;
 use periplus_tf_ros::pose;
 
-/// Topics that are published.
+/// Publishers.
 pub(crate) struct Outputs {
     odometry: Publisher<Odometry>,
     acceleration: Option<Publisher<AccelWithCovarianceStamped>>,
@@ -63,14 +63,14 @@ impl Outputs {
         }
     }
 
-    /// How it goes: what keeps the node from its work, and what was not believed.
+    /// Publishes the diagnostics: what blocks the node, and rejected measurements.
     pub(crate) fn publish_health(&self, health: &Health<'_>, time_ns: i64) {
         let status = vec![health.to_message()];
         self.diagnostics.publish(DiagnosticArray { header: Header::at(time_ns, ""), status });
     }
 }
 
-/// How it goes.
+/// Health of the filter.
 pub(crate) struct Health<'a> {
     pub(crate) node: &'a str,
     pub(crate) trouble: Option<&'a str>,

@@ -1,4 +1,4 @@
-//! The map saver.
+//! Map saver node.
 
 use std::path::Path;
 use std::sync::Arc;
@@ -14,10 +14,10 @@ use periplus_params::{ParamValues, Table, flag, number};
 
 use crate::Files;
 
-/// How long a map is waited for \[ns\].
+/// Default time to wait for a map \[ns\].
 pub const WAIT_NS: i64 = 2_000_000_000;
 
-/// How often a map that is waited for is looked for \[ns\].
+/// Polling period while waiting for a map \[ns\].
 const LOOK_NS: i64 = 20_000_000;
 
 /// Parameters of [`MapSaver`].
@@ -25,16 +25,22 @@ pub static MAP_SAVER: Table = Table {
     name: "map_saver",
     doc: "Saves maps from topics to files.",
     parameters: &[
-        number("save_map_timeout", "s", "How long a map is waited for.").or("2.0").within(0.0, 1e6),
-        number("free_thresh_default", "", "Up to this share a cell is free.").or("0.25"),
-        number("occupied_thresh_default", "", "From this share on a cell is occupied.").or("0.65"),
-        flag("map_subscribe_transient_local", "Whether maps that were published before count.")
-            .or("true"),
+        number("save_map_timeout", "s", "Maximum time to wait for a map.")
+            .or("2.0")
+            .within(0.0, 1e6),
+        number("free_thresh_default", "", "Maximum occupancy of free cells, 0 to 1.").or("0.25"),
+        number("occupied_thresh_default", "", "Minimum occupancy of occupied cells, 0 to 1.")
+            .or("0.65"),
+        flag(
+            "map_subscribe_transient_local",
+            "Subscribes with transient-local durability, which delivers a map published earlier.",
+        )
+        .or("true"),
     ],
 };
 
-/// A managed node that saves maps: the service `~/save_map`. It waits for the next map on the topic
-/// that it is asked for, and answers when the files are written or no map came in time.
+/// Lifecycle node that saves maps: the service `~/save_map` waits for the next map on the requested
+/// topic, and responds when the files are written or after a timeout.
 ///
 /// Source: `nav2_map_server/src/map_saver/map_saver.cpp`.
 pub struct MapSaver {
@@ -51,7 +57,7 @@ struct State {
     is_active: bool,
 }
 
-/// Somebody who waits for a map.
+/// Request that waits for a map.
 struct Waiting {
     request: Arc<SaveMapRequest>,
     call: Call<SaveMap>,
@@ -60,10 +66,9 @@ struct Waiting {
 }
 
 impl MapSaver {
-    /// As a node of a graph, which writes as the savers of a distribution do.
-    ///
+    /// Creates the saver on a node; it writes files as the map savers of a distribution do.
     /// # Errors
-    /// When a name is taken by another type.
+    /// When a name exists with another type.
     pub fn new(node: Node, distro: Distro, files: Arc<dyn Files>) -> Result<Self, GraphError> {
         let values = MAP_SAVER.check([], None, &mut Diagnostics::new());
         let calls = Some(node.server::<SaveMap>("~/save_map")?);
@@ -89,26 +94,26 @@ impl MapSaver {
         Ok(Self { actor, life })
     }
 
-    /// Its node.
+    /// Returns the node.
     #[must_use]
     pub fn node(&self) -> &Node {
         self.actor.node()
     }
 
-    /// Its life.
+    /// Returns the lifecycle.
     #[must_use]
     pub fn life(&self) -> &Lifecycle {
         &self.life
     }
 
-    /// Configures and activates it, where no lifecycle manager does.
+    /// Configures and activates the node without a lifecycle manager.
     pub fn start(&self) {
         self.life.start();
     }
 }
 
 impl State {
-    /// New calls, and those that wait.
+    /// Processes new and waiting requests.
     fn look(&mut self, io: &mut Io<'_, Self>) {
         while let Some(call) = self.calls.as_ref().and_then(Calls::take) {
             self.hear(call, io);
@@ -143,7 +148,7 @@ impl State {
             return refuse(call, io, "the map saver is not active".into());
         }
         let request = call.request.clone();
-        // Thresholds that make no sense need no map to be refused.
+        // Invalid thresholds are rejected without waiting for a map.
         if let Err(error) = self.wish(&request).settle(self.distro, 0) {
             return refuse(call, io, error.to_string());
         }
@@ -174,7 +179,7 @@ impl State {
         }
     }
 
-    /// Writes both files; whether that went well.
+    /// Writes both files; returns true on success.
     fn save(&self, map: &OccupancyGrid, request: &SaveMapRequest, io: &mut Io<'_, Self>) -> bool {
         let saved = self.try_save(map, request, io);
         if let Err(words) = &saved {
@@ -197,7 +202,7 @@ impl State {
             io.node().log(Level::Warn, words);
         }
         let files = render(&grid, &saving);
-        // The picture first: a YAML that is there names a picture that is there.
+        // The image first: an existing YAML file then always has its image.
         for (path, content) in
             [(&files.image_path, files.image.as_slice()), (&files.yaml_path, files.yaml.as_bytes())]
         {
@@ -210,7 +215,7 @@ impl State {
     }
 }
 
-/// What was meant by a number that came in single precision.
+/// Returns the decimal number that was meant by a single-precision number.
 fn decimal(value: f32) -> f64 {
     value.to_string().parse().unwrap_or(f64::from(value))
 }

@@ -1,4 +1,4 @@
-//! The map server.
+//! Map server node.
 
 use std::sync::Arc;
 
@@ -19,23 +19,26 @@ pub static MAP_SERVER: Table = Table {
     name: "map_server",
     doc: "Serves a map from its files.",
     parameters: &[
-        text("yaml_filename", "The YAML of the map. Without it one is loaded by the service.")
-            .or(""),
-        text("topic_name", "The topic of the map.").or("map"),
-        text("frame_id", "The frame of the map.").or("map"),
+        text(
+            "yaml_filename",
+            "YAML file of the map; if empty, a map is loaded by the service `load_map`.",
+        )
+        .or(""),
+        text("topic_name", "Topic of the map.").or("map"),
+        text("frame_id", "Frame of the map.").or("map"),
     ],
 };
 
-/// What a [`MapServer`] is told.
+/// Settings of a [`MapServer`].
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct MapServerSettings {
-    /// The YAML of the map; none when empty.
+    /// YAML file of the map; empty for none.
     pub yaml_filename: String,
-    /// The topic of the map.
+    /// Topic of the map.
     pub topic_name: String,
-    /// The frame of the map.
+    /// Frame of the map.
     pub frame_id: String,
-    /// Whose rules apply to the files.
+    /// Distribution whose rules apply to the files.
     pub distro: Distro,
 }
 
@@ -51,7 +54,7 @@ impl Default for MapServerSettings {
 }
 
 impl MapServerSettings {
-    /// As parameters of [`MAP_SERVER`].
+    /// Converts to parameters of [`MAP_SERVER`].
     fn values(&self) -> ParamValues {
         let mut values = MAP_SERVER.check([], None, &mut Diagnostics::new());
         let texts = [
@@ -73,9 +76,9 @@ impl MapServerSettings {
     }
 }
 
-/// A managed node that serves a map: on its topic and its description on `map_metadata`, both kept
-/// for latecomers, and through the services `~/map` and `~/load_map`. It loads when it is
-/// configured, and publishes when it is activated.
+/// Lifecycle node that serves a map: on its topic and its metadata on `map_metadata`, both latched,
+/// and by the services `~/map` and `~/load_map`. It loads the map when it is configured, and
+/// publishes it when it is activated.
 ///
 /// Source: `nav2_map_server/src/map_server/map_server.cpp`; `map_metadata` as in ROS 1.
 pub struct MapServer {
@@ -97,10 +100,10 @@ struct Outlets {
 }
 
 impl MapServer {
-    /// As a node of a graph. Arguments of the graph may change the settings, and so may others until
-    /// it is configured.
-    ///
+    /// Creates the server on a node. Arguments of the graph may change the settings, as may
+    /// parameters until it is configured.
     /// # Errors
+    /// When a name is invalid or exists with another type.
     /// When a name is not valid or taken by another type.
     pub fn new(
         node: Node,
@@ -130,19 +133,19 @@ impl MapServer {
         Ok(Self { actor, life })
     }
 
-    /// Its node.
+    /// Returns the node.
     #[must_use]
     pub fn node(&self) -> &Node {
         self.actor.node()
     }
 
-    /// Its life.
+    /// Returns the lifecycle.
     #[must_use]
     pub fn life(&self) -> &Lifecycle {
         &self.life
     }
 
-    /// Configures and activates it, where no lifecycle manager does.
+    /// Configures and activates the node without a lifecycle manager.
     pub fn start(&self) {
         self.life.start();
     }
@@ -201,7 +204,7 @@ impl State {
         })
     }
 
-    /// Loads a map, and keeps it if it is one. What is wrong is logged.
+    /// Loads a map and replaces the current one on success. Errors are logged.
     fn load(&mut self, path: &str, io: &mut Io<'_, Self>) -> Loaded {
         let loaded = load(path, self.settings.distro, &*self.files);
         for finding in loaded.diagnostics.iter() {
@@ -243,7 +246,7 @@ impl State {
             let result = LoadMapResponse::RESULT_UNDEFINED_FAILURE;
             return LoadMapResponse { result, ..LoadMapResponse::default() };
         }
-        // A URL of a file is a path with more in front.
+        // A file URL is a path with a prefix.
         let path = path.strip_prefix("file://").unwrap_or(path);
         let result = self.load(path, io).status.code();
         if result != LoadMapResponse::RESULT_SUCCESS {

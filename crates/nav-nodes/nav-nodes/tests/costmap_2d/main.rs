@@ -481,7 +481,10 @@ fn services_answer() {
         let request = main::ClearCostmapAroundRobotRequest { reset_distance: 5.0, plugins };
         stage.ask::<main::ClearCostmapAroundRobot>(around, request).success
     };
-    assert!(!clear(&stage, &["voxel_layer", "inflation_layer"]), "inflation keeps what it has");
+    assert!(
+        !clear(&stage, &["voxel_layer", "inflation_layer"]),
+        "the inflation layer is not clearable"
+    );
     assert!(clear(&stage, &["voxel_layer"]));
     stage.place("odom", 0.05);
     stage.see([9.0; 4]);

@@ -1,4 +1,4 @@
-//! What filters hear: masks, and for limits of speed the path ahead.
+//! Subscriptions of filters: masks, and the path of speed filters.
 
 use periplus_costmap::LayeredCostmap;
 use periplus_costmap::filters::{FilterInfo, FilterKind, FilterMask, SpeedFilter};
@@ -10,7 +10,7 @@ use periplus_msgs::{nav_msgs, nav2_msgs};
 use super::{Place, Scene};
 use crate::costmap_2d::messages::map;
 
-/// The mask of a filter, whose topic another topic names.
+/// Mask of a filter, on the topic that its filter info names.
 pub(super) struct FilterPort {
     filter: String,
     info: Mailbox<nav2_msgs::CostmapFilterInfo>,
@@ -24,7 +24,7 @@ impl FilterPort {
         Ok(Self { filter: filter.to_owned(), info, mask: None, has_mask: false })
     }
 
-    /// Its filter, and the topic on which nothing has come that it needs.
+    /// Returns the filter and the topic for which it waits.
     pub(super) fn waits_for(&self) -> Option<(&str, &str)> {
         let topic = match &self.mask {
             None => self.info.topic(),
@@ -71,7 +71,7 @@ impl FilterPort {
     }
 }
 
-/// Where the robot is going, and how fast it goes: for limits that hold ahead.
+/// Path and speed of the robot, for limits ahead on the path.
 pub(super) struct SpeedPort {
     filter: String,
     path: Mailbox<nav_msgs::Path>,
@@ -99,7 +99,7 @@ impl SpeedPort {
             filter.set_speed(libm::hypot(velocity.x, velocity.y));
         }
         let Some(path) = self.path.latest() else { return };
-        // A path in a frame that nobody knows says nothing of the way ahead.
+        // A path in an unknown frame is not usable.
         let global_from_path = scene.tf.at(scene.global_frame, &path.header.frame_id, 0);
         let Ok((global_from_path, _)) = global_from_path else {
             filter.set_path(Vec::new());

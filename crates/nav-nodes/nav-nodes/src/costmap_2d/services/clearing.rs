@@ -1,7 +1,7 @@
-//! Services that clear.
+//! Clear services.
 //!
-//! Until Jazzy they say nothing of how it went, and clear all layers that may be cleared; what could
-//! not be done is logged. Later ones take names of layers, and tell.
+//! Up to Jazzy the responses are empty and all clearable layers are cleared; errors are logged.
+//! Later releases have layer names in the request and `success` in the response.
 
 use periplus_costmap::Nav2Release;
 use periplus_costmap::clear::{Region, clear};
@@ -12,13 +12,13 @@ use periplus_msgs::{Service, nav2_msgs, nav2_msgs_main};
 
 use crate::costmap_2d::node::State;
 
-/// What a request asks for.
+/// Contents of a request.
 struct Wish<'a> {
     region: Option<Region>,
     plugins: &'a [String],
 }
 
-/// Serves those that a distribution has, with its messages.
+/// Serves the clear services of a distribution, with its types.
 pub(super) fn serve(
     actor: &mut Actor<State>,
     name: &str,
@@ -138,7 +138,7 @@ impl State {
         Some(Region::Around { x_m, y_m, side_m })
     }
 
-    /// Clears; whether it could be done.
+    /// Clears an area; returns true on success.
     fn clear(&mut self, wish: Wish<'_>, node: &Node) -> bool {
         let done = match (&mut self.costmap, wish.region) {
             (None, _) => Err("the costmap is not configured".to_owned()),
