@@ -3,7 +3,7 @@
 use std::path::Path;
 use std::process::Command;
 
-use periplus_costmap::inflation::{CostTable, Inflation, Scratch, inflate};
+use periplus_costmap::inflation::{CostTable, InflationBuffers, InflationSettings, inflate};
 use periplus_costmap::{CellWindow, Costmap, Nav2Release};
 use periplus_geometry::{Pose2, Stream};
 use periplus_grid::GridInfo;
@@ -31,11 +31,11 @@ pub(super) fn run(python: &Path, script: &Path, work: &Path) -> Result<Vec<Row>,
             origin: Pose2::IDENTITY,
         };
         let mut ours = Costmap::new(info, 0);
-        let mut scratch = Scratch::default();
+        let mut scratch = InflationBuffers::default();
         let taken = fastest(TURNS, || {
             ours.costs_mut().copy_from_slice(&cells);
             let all = CellWindow::all(&info);
-            seconds(|| inflate(&mut ours, &all, &table, Inflation::default(), &mut scratch))
+            seconds(|| inflate(&mut ours, &all, &table, InflationSettings::default(), &mut scratch))
         });
         row("Periplus", taken);
         let mut theirs = cells.clone();

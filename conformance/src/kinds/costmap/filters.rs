@@ -1,7 +1,7 @@
 //! Filters.
 
 use periplus_costmap::filters::{
-    BinaryFilter, FilterInfo, FilterKind, KeepoutFilter, Mask, Masked, SpeedFilter,
+    BinaryFilter, FilterInfo, FilterKind, FilterMask, KeepoutFilter, MaskFilter, SpeedFilter,
 };
 use periplus_costmap::{
     CellWindow, Costmap, Footprint, Layer, NoTransforms, TransformSource, UpdateBounds,
@@ -71,7 +71,7 @@ pub(in super::super) fn check_keepout(
     let values = values_of(&tables::KEEPOUT, &[], given.find("params").as_ref())?;
     let mut filter = KeepoutFilter::new("keepout", values);
     filter.set_info(info_of(&given, FilterKind::Keepout)?);
-    filter.set_mask(Mask { grid: map_of(&given.get("mask")?)?, frame: frame.to_owned() });
+    filter.set_mask(FilterMask { grid: map_of(&given.get("mask")?)?, frame: frame.to_owned() });
     let windows = given.get("windows")?.each(window_of)?;
     let poses = match (given.find("poses"), given.find("pose")) {
         (Some(poses), _) => poses.each(pose_of)?,
@@ -130,17 +130,17 @@ fn only(costs: &[u8]) -> Value {
 
 /// A mask with one cell for each of some values, and the robot on each of them in turn; or a mask and
 /// poses.
-fn masks_and_poses(given: &Reader<'_>) -> Result<Vec<(Mask, Pose2)>, Unreadable> {
+fn masks_and_poses(given: &Reader<'_>) -> Result<Vec<(FilterMask, Pose2)>, Unreadable> {
     if let Some(values) = given.find("mask_values") {
         let info = GridInfo { resolution_m: 1.0, width: 1, height: 1, origin: Pose2::IDENTITY };
         return values.each(|value| {
             let number = i8::try_from(value.integer()?)
                 .map_err(|_| value.unreadable("a number from -128 to 127"))?;
             let grid = OccupancyGrid::new(info, number);
-            Ok((Mask { grid, frame: GLOBAL.to_owned() }, Pose2::new(0.5, 0.5, 0.0)))
+            Ok((FilterMask { grid, frame: GLOBAL.to_owned() }, Pose2::new(0.5, 0.5, 0.0)))
         });
     }
-    let mask = Mask { grid: map_of(&given.get("mask")?)?, frame: GLOBAL.to_owned() };
+    let mask = FilterMask { grid: map_of(&given.get("mask")?)?, frame: GLOBAL.to_owned() };
     given.get("poses")?.each(|pose| Ok((mask.clone(), pose_of(pose)?)))
 }
 

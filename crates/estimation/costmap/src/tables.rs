@@ -301,7 +301,9 @@ pub static SPEED: Table = Table {
         number("min_lookahead", "m", "Minimum lookahead distance.").or("0.3"),
         number("max_lookahead", "m", "Maximum lookahead distance.").or("5"),
         text("path_topic", "Topic of the path.").or("plan").naming(NamedEntity::Topic),
-        text("odom_topic", "Topic of the odometry, for the speed.").or("odom").naming(NamedEntity::Topic),
+        text("odom_topic", "Topic of the odometry, for the speed.")
+            .or("odom")
+            .naming(NamedEntity::Topic),
     ],
 };
 

@@ -44,9 +44,8 @@ pub(crate) struct GlobalLocalizer {
 impl GlobalLocalizer {
     pub(crate) fn new(map: &LikelihoodMap) -> Self {
         let info = map.info();
-        let corners =
-            [(0, 0), (info.width, 0), (0, info.height), (info.width, info.height)]
-                .map(|(column, row)| info.point_at(column as f64, row as f64));
+        let corners = [(0, 0), (info.width, 0), (0, info.height), (info.width, info.height)]
+            .map(|(column, row)| info.point_at(column as f64, row as f64));
         let span = |values: [f64; 4]| {
             let low = values.into_iter().fold(f64::INFINITY, f64::min);
             let high = values.into_iter().fold(f64::NEG_INFINITY, f64::max);

@@ -87,9 +87,7 @@ impl LikelihoodMap {
         settings: LikelihoodMapSettings,
     ) -> Result<Self, Box<Diagnostic>> {
         let info = map.info;
-        if let Err(error) =
-            GridInfo::new(info.resolution_m, info.width, info.height, info.origin)
-        {
+        if let Err(error) = GridInfo::new(info.resolution_m, info.width, info.height, info.origin) {
             let message = format!("the map cannot be used: {error}");
             return Err(Diagnostic::error("bad-map", message).into());
         }

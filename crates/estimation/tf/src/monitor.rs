@@ -128,42 +128,42 @@ mod tests {
 
     #[test]
     fn all_published_parents_are_kept_beside_the_current_one() {
-        let mut survey = TransformMonitor::default();
-        survey.hear(&published("odom", "base", 1), "a", TransformKind::Moving).unwrap();
-        survey.hear(&published("/map", "base", 2), "b", TransformKind::Moving).unwrap();
-        assert_eq!(survey.buffer.parent_of("base"), Some("map"));
-        let (child, parents) = survey.with_several_parents().next().unwrap();
+        let mut monitor = TransformMonitor::default();
+        monitor.insert(&published("odom", "base", 1), "a", TransformKind::Moving).unwrap();
+        monitor.insert(&published("/map", "base", 2), "b", TransformKind::Moving).unwrap();
+        assert_eq!(monitor.buffer.parent_of("base"), Some("map"));
+        let (child, parents) = monitor.with_several_parents().next().unwrap();
         assert_eq!(
             (child, parents[0].name.as_str(), parents[1].name.as_str()),
             ("base", "odom", "map")
         );
-        assert_eq!(survey.with_slash().collect::<Vec<_>>(), ["/map"]);
+        assert_eq!(monitor.with_slash().collect::<Vec<_>>(), ["/map"]);
     }
 
     #[test]
     fn a_jump_back_forgets_and_goes_on() {
-        let mut survey = TransformMonitor::default();
-        survey
-            .hear(&published("odom", "base", 60_000_000_000), "a", TransformKind::Moving)
+        let mut monitor = TransformMonitor::default();
+        monitor
+            .insert(&published("odom", "base", 60_000_000_000), "a", TransformKind::Moving)
             .unwrap();
         let jump =
-            survey.hear(&published("odom", "base", 1_000_000_000), "a", TransformKind::Moving);
+            monitor.insert(&published("odom", "base", 1_000_000_000), "a", TransformKind::Moving);
         assert!(matches!(jump, Err(RejectedTransform::OldData(..))));
-        assert_eq!(survey.jumps(), 1);
-        let kept: Vec<_> = survey.buffer.kept_frames().map(|kept| kept.newest_ns).collect();
+        assert_eq!(monitor.jumps(), 1);
+        let kept: Vec<_> = monitor.buffer.kept_frames().map(|kept| kept.newest_ns).collect();
         assert_eq!(kept, [1_000_000_000]);
     }
 
     #[test]
     fn what_is_refused_is_counted() {
-        let mut survey = TransformMonitor::default();
-        let mut broken = said("odom", "base", 1);
+        let mut monitor = TransformMonitor::default();
+        let mut broken = published("odom", "base", 1);
         broken.rotation.w = 3.0;
-        assert!(survey.hear(&broken, "a", TransformKind::Moving).is_err());
+        assert!(monitor.insert(&broken, "a", TransformKind::Moving).is_err());
         assert_eq!(
-            survey.refused().collect::<Vec<_>>(),
+            monitor.refused().collect::<Vec<_>>(),
             [("base", "TF_DENORMALIZED_QUATERNION", 1)]
         );
-        assert!(survey.parents_of("base").is_empty());
+        assert!(monitor.parents_of("base").is_empty());
     }
 }

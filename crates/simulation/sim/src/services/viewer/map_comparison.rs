@@ -229,8 +229,7 @@ impl Simulation {
             let (width, height) = (width + 2 * more, height + 2 * more);
             let corner = truth.info.moved(-(more as i64), -(more as i64)).origin;
             let larger = GridInfo::new(resolution_m, width, height, corner).ok();
-            let Some(larger) =
-                larger.filter(|it| it.len() <= MAX_MARGIN_CELLS.max(4 * info.len()))
+            let Some(larger) = larger.filter(|it| it.len() <= MAX_MARGIN_CELLS.max(4 * info.len()))
             else {
                 return Some((own, false));
             };
