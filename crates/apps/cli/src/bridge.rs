@@ -26,13 +26,13 @@ use services::Services;
 use spec::Spec;
 
 /// Polling period.
-const LOOK: Duration = Duration::from_millis(5);
+const POLL_PERIOD: Duration = Duration::from_millis(5);
 
 /// Timeout for delivering the last messages at the end.
-const LAST_WORD: Duration = Duration::from_millis(500);
+const FLUSH_TIMEOUT: Duration = Duration::from_millis(500);
 
 /// Exit code of `parameter_bridge` for arguments that it cannot parse.
-const NOT_UNDERSTOOD: u8 = 255;
+const USAGE_EXIT_CODE: u8 = 255;
 
 /// Bridge topics and services between ROS 2 and Gazebo, as `parameter_bridge` of `ros_gz_bridge`
 /// does
@@ -59,13 +59,13 @@ pub(crate) struct BridgeOptions {
 }
 
 /// Parameters of the bridge.
-struct Told {
+struct BridgeParameters {
     config: Option<PathBuf>,
     is_lazy: bool,
     expands: bool,
 }
 
-impl Told {
+impl BridgeParameters {
     fn of(options: &BridgeOptions, arguments: &Arguments, node: &Node) -> Self {
         let told = arguments.parameters_of(node.full_name());
         let truth = |name: &str| told.get(name).is_some_and(|value| value.bool_value);
@@ -83,7 +83,7 @@ pub(crate) fn run(options: &BridgeOptions, ros: Vec<String>) -> io::Result<ExitC
     let words = options.remaps.iter().flat_map(|rule| ["-r".to_owned(), rule.clone()]);
     let parameters = options.parameters.iter().flat_map(|one| ["-p".to_owned(), one.clone()]);
     let Some(arguments) = arguments::read(words.chain(parameters).chain(ros).collect())? else {
-        return Ok(ExitCode::from(NOT_UNDERSTOOD));
+        return Ok(ExitCode::from(USAGE_EXIT_CODE));
     };
     let mut specs = Vec::new();
     for word in &options.words {
@@ -92,7 +92,7 @@ pub(crate) fn run(options: &BridgeOptions, ros: Vec<String>) -> io::Result<ExitC
             Err(why) => {
                 terminal::complain(&format!("`{word}`: {why}"));
                 terminal::say("see `periplus bridge --help`");
-                return Ok(ExitCode::from(NOT_UNDERSTOOD));
+                return Ok(ExitCode::from(USAGE_EXIT_CODE));
             }
         }
     }
@@ -112,7 +112,7 @@ pub(crate) fn run(options: &BridgeOptions, ros: Vec<String>) -> io::Result<ExitC
             return Ok(ExitCode::FAILURE);
         }
     };
-    let told = Told::of(options, &arguments, &node);
+    let told = BridgeParameters::of(options, &arguments, &node);
     let mut pairs = Vec::new();
     let mut services = Services::new(&node, &transport);
     for spec in specs {
@@ -121,7 +121,7 @@ pub(crate) fn run(options: &BridgeOptions, ros: Vec<String>) -> io::Result<ExitC
             Spec::Service(service) => {
                 if let Err(why) = services.offer(&service) {
                     terminal::complain(&why);
-                    return Ok(ExitCode::from(NOT_UNDERSTOOD));
+                    return Ok(ExitCode::from(USAGE_EXIT_CODE));
                 }
             }
         }
@@ -143,7 +143,7 @@ pub(crate) fn run(options: &BridgeOptions, ros: Vec<String>) -> io::Result<ExitC
             "nothing to bridge; name a topic such as \
              /lidar@sensor_msgs/msg/LaserScan[gz.msgs.LaserScan, or a file with --config",
         );
-        return Ok(ExitCode::from(NOT_UNDERSTOOD));
+        return Ok(ExitCode::from(USAGE_EXIT_CODE));
     }
     let link = Link::new(&live.graph, &transport);
     for mut pair in pairs {
@@ -159,14 +159,14 @@ pub(crate) fn run(options: &BridgeOptions, ros: Vec<String>) -> io::Result<ExitC
     }
     terminal::say(&format!("Gazebo: partition {}", settings.partition));
     while !stop.load(Ordering::Relaxed) {
-        live.go_on();
+        live.spin_once();
         live.tell();
         tell(&link.take_findings())?;
         services.serve();
-        sleep(LOOK);
+        sleep(POLL_PERIOD);
     }
     drop(link);
-    live.end(LAST_WORD);
+    live.end(FLUSH_TIMEOUT);
     Ok(ExitCode::SUCCESS)
 }
 
@@ -178,7 +178,7 @@ fn tell(findings: &Diagnostics) -> io::Result<()> {
 fn described(pair: &Pair) -> String {
     let Pair { ros_topic, gz_topic, ros_type, gz_type, direction, .. } = pair;
     let arrow = match direction {
-        Direction::Both => "<->",
+        Direction::BridgedService => "<->",
         Direction::ToRos => "->",
         Direction::ToGazebo => "<-",
     };

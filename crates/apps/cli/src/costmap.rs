@@ -27,8 +27,8 @@ pub(crate) struct CostmapOptions {
     costmap: Option<PathBuf>,
     /// At the end explain why the cell at this position is marked or free, for each costmap, in its
     /// frame [m]
-    #[arg(long, value_name = "X,Y", value_parser = place, allow_hyphen_values = true, requires = "costmap")]
-    costmap_cell: Vec<Place>,
+    #[arg(long, value_name = "X,Y", value_parser = floor_point, allow_hyphen_values = true, requires = "costmap")]
+    costmap_cell: Vec<FloorPoint>,
     /// At the end write each costmap to a folder as images in RViz's colours: costmap, map and raw
     #[arg(long, value_name = "FOLDER", requires = "costmap")]
     costmap_picture: Option<PathBuf>,
@@ -39,18 +39,18 @@ pub(crate) struct CostmapOptions {
 
 /// Position on the floor \[m\].
 #[derive(Clone, Copy, Debug, PartialEq)]
-struct Place {
+struct FloorPoint {
     x_m: f64,
     y_m: f64,
 }
 
-fn place(word: &str) -> Result<Place, String> {
+fn floor_point(word: &str) -> Result<FloorPoint, String> {
     let (x, y) = word.split_once(',').ok_or("give two numbers, such as `1.5,-0.2`")?;
     let number = |word: &str| {
         let number: Option<f64> = word.trim().parse().ok().filter(|it: &f64| it.is_finite());
         number.ok_or_else(|| format!("`{word}` is not a number"))
     };
-    Ok(Place { x_m: number(x)?, y_m: number(y)? })
+    Ok(FloorPoint { x_m: number(x)?, y_m: number(y)? })
 }
 
 /// Costmap nodes of a run.
@@ -58,7 +58,7 @@ fn place(word: &str) -> Result<Place, String> {
 pub(crate) struct Costmaps {
     nodes: Vec<CostmapNode>,
     _markers: Vec<VoxelMarkers>,
-    cells: Vec<Place>,
+    cells: Vec<FloorPoint>,
     pictures: Option<PathBuf>,
 }
 
@@ -150,7 +150,7 @@ impl Costmaps {
     pub(crate) fn tell(&self, out: &mut dyn Write) -> io::Result<()> {
         for node in &self.nodes {
             status(node, out)?;
-            for Place { x_m, y_m } in &self.cells {
+            for FloorPoint { x_m, y_m } in &self.cells {
                 match node.inspect(*x_m, *y_m) {
                     Some(report) => write!(out, "{report}")?,
                     None => writeln!(out, "({x_m}, {y_m}) is outside the costmap")?,
@@ -186,13 +186,13 @@ impl Costmaps {
 
 /// Renders an image in RViz colours, four pixels per cell.
 fn draw(node: &CostmapNode, scheme: Scheme, path: &Path) -> Result<(), String> {
-    const PIXELS: usize = 4;
+    const PIXELS_PER_CELL: usize = 4;
     let drawn = node.look(|costmap| {
         let grid = costmap.costmap();
         let (width, height) = (grid.info().width, grid.info().height);
         let values: Vec<i8> = grid.costs().iter().map(|cost| cost::occupancy_of(*cost)).collect();
-        let samples = paint(&scheme.palette(), width, &values, PIXELS);
-        let size = |cells: usize| (cells * PIXELS) as u32;
+        let samples = paint(&scheme.palette(), width, &values, PIXELS_PER_CELL);
+        let size = |cells: usize| (cells * PIXELS_PER_CELL) as u32;
         write_png(size(width), size(height), Layout::Rgb, &samples)
     });
     let Some(bytes) = drawn else { return Err("the costmap has no data yet".into()) };

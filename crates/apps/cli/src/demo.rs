@@ -27,13 +27,13 @@ use crate::stop;
 use crate::terminal;
 
 use explorer::Explorer;
-use pictures::Eyes;
+use pictures::SnapshotRecorder;
 
 /// Default duration of a run without a page \[s\].
-const USUAL_S: f64 = 60.0;
+const DEFAULT_DURATION_S: f64 = 60.0;
 
 /// Default folder of the results.
-const USUAL_OUT: &str = "periplus-demo";
+const DEFAULT_OUT: &str = "periplus-demo";
 
 /// Show a robot in a room: sensors, mapping, costmaps
 ///
@@ -79,12 +79,12 @@ impl Default for DemoOptions {
 
 impl DemoOptions {
     fn out(&self) -> Option<PathBuf> {
-        let usual = self.headless.then(|| PathBuf::from(USUAL_OUT));
+        let usual = self.headless.then(|| PathBuf::from(DEFAULT_OUT));
         self.out.clone().or(usual)
     }
 
     fn duration(&self) -> Option<f64> {
-        self.duration.or(self.headless.then_some(USUAL_S))
+        self.duration.or(self.headless.then_some(DEFAULT_DURATION_S))
     }
 }
 
@@ -129,7 +129,7 @@ fn show(options: &DemoOptions) -> Result<ExitCode, String> {
         (!options.headless).then(|| open(options, &simulation, &mut services)).transpose()?;
     let end_ns = options.duration().map(|seconds| (seconds * 1e9).round() as i64);
     let mut eyes = match &out {
-        Some(_) => Some(Eyes::join(&graph, end_ns).map_err(|error| words(&error))?),
+        Some(_) => Some(SnapshotRecorder::join(&graph, end_ns).map_err(|error| words(&error))?),
         None => None,
     };
     let stop = stop::on_signal();
@@ -142,7 +142,7 @@ fn show(options: &DemoOptions) -> Result<ExitCode, String> {
     let stopwatch = Stopwatch::start();
     let outcome = run.go(&mut simulation, &mut services, &mut Driver::default(), &mut |progress| {
         if let Some(explorer) = &mut explorer {
-            explorer.go_on(progress.time_ns);
+            explorer.spin_once(progress.time_ns);
         }
         if let Some(eyes) = &mut eyes {
             eyes.look(progress.time_ns);

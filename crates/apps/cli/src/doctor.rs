@@ -1,8 +1,8 @@
 //! `periplus doctor`.
 
 mod files;
+mod network_test;
 mod parameters;
-mod surroundings;
 
 pub(crate) use parameters::examine as examine_parameters;
 
@@ -60,10 +60,10 @@ pub(crate) fn run(options: &DoctorOptions) -> io::Result<ExitCode> {
     }
     let mut found = None;
     let code = with_session(&options.common, |session| {
-        let mut picture = listen(session, Duration::from_secs_f64(options.time))?;
-        picture.surroundings = Some(surroundings::look());
-        let counts = (picture.seen.nodes.len(), picture.seen.topics.len());
-        found = Some((examine(&picture), counts));
+        let mut observation = listen(session, Duration::from_secs_f64(options.time))?;
+        observation.network_settings = Some(network_test::look());
+        let counts = (observation.seen.nodes.len(), observation.seen.topics.len());
+        found = Some((examine(&observation), counts));
         Ok(())
     })?;
     let Some((found, (nodes, topics))) = found else { return Ok(code) };

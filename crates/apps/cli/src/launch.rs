@@ -14,7 +14,9 @@ use std::time::Duration;
 
 use clap::Args;
 use periplus_diagnostics::{Diagnostics, Severity, SourceMap};
-use periplus_launch::{Ending, MissingInput, Plan, Request, Step, What, dialect, plan_with_ending};
+use periplus_launch::{
+    MissingInput, Plan, Request, ShutdownHandlers, Step, What, dialect, plan_with_ending,
+};
 use periplus_os::{Machine, Stopwatch};
 use periplus_resources::Resolver;
 
@@ -72,7 +74,7 @@ pub(crate) fn run(options: &LaunchOptions, ros: Vec<String>) -> io::Result<ExitC
     let limits = outside::Limits {
         is_kept: options.print,
         runs_code: !options.no_code,
-        longest: Duration::from_secs_f64(options.evaluation_limit.min(LONGEST_EVALUATION_S)),
+        longest: Duration::from_secs_f64(options.evaluation_limit.min(MAX_EVALUATION_S)),
     };
     let tools = limits.runs_code.then(|| Tools::make(&options.search.resource_path)).flatten();
     let mut outside = outside::Programs::new(&resolver, &here, limits, tools.as_ref());
@@ -88,9 +90,9 @@ pub(crate) fn run(options: &LaunchOptions, ros: Vec<String>) -> io::Result<ExitC
             let (plan, found, ending) = plan_with_ending(request, &mut sources);
             (plan, found, ending, file)
         }
-        Ok(Found::StandIn(file)) => {
+        Ok(Found::Replacement(file)) => {
             let plan = only(&file, arguments);
-            (plan, Diagnostics::new(), Ending::default(), PathBuf::from(file))
+            (plan, Diagnostics::new(), ShutdownHandlers::default(), PathBuf::from(file))
         }
         Err(wrong) => {
             let mut found = Diagnostics::new();
@@ -189,7 +191,7 @@ pub(crate) fn examine(
             };
             strict(periplus_launch::plan(request, &mut sources).1)
         }
-        Ok(Found::StandIn(_)) => Diagnostics::new(),
+        Ok(Found::Replacement(_)) => Diagnostics::new(),
         Err(wrong) => {
             let mut found = Diagnostics::new();
             found.push(*wrong);
@@ -214,7 +216,7 @@ fn strict(found: Diagnostics) -> Diagnostics {
 }
 
 /// Upper limit of `--evaluation-limit`, one day.
-const LONGEST_EVALUATION_S: f64 = 86_400.0;
+const MAX_EVALUATION_S: f64 = 86_400.0;
 
 /// Plan that includes one launch file that is missing here.
 fn only(file: &str, arguments: Vec<(String, String)>) -> Plan {

@@ -1,6 +1,6 @@
 //! Graph connected to ROS 2, for commands whose nodes join the network.
 
-mod watched;
+mod monitor;
 
 use std::time::Duration;
 
@@ -12,7 +12,7 @@ use periplus_os::{Machine, sleep, unix_ns};
 
 use crate::terminal;
 
-pub(crate) use watched::Watched;
+pub(crate) use monitor::NodeMonitor;
 
 /// Live graph and its network connection.
 pub(crate) struct Live {
@@ -53,7 +53,7 @@ impl Live {
     }
 
     /// Processes everything due now.
-    pub(crate) fn go_on(&self) {
+    pub(crate) fn spin_once(&self) {
         match &self.clock {
             None => self.graph.advance_to(unix_ns()),
             Some(clock) => {

@@ -33,7 +33,7 @@ pub(crate) struct LogOptions {
 }
 
 /// Scan of a log.
-pub(crate) struct Logged {
+pub(crate) struct LoggedScan {
     /// Stamp as written in the log, to the microsecond \[s\].
     pub(crate) stamp: String,
     pub(crate) scan: Scan,
@@ -45,7 +45,7 @@ pub(crate) struct Logged {
 pub(crate) struct Log {
     /// Format of the log.
     pub(crate) kind: String,
-    pub(crate) scans: Vec<Logged>,
+    pub(crate) scans: Vec<LoggedScan>,
     /// Damaged parts.
     pub(crate) faults: Vec<String>,
     /// Missing data and its consequence.
@@ -95,10 +95,10 @@ fn carmen(log: CarmenLog) -> Log {
     Log { kind: format!("CARMEN, {kind}"), scans: scans.collect(), faults, warnings: Vec::new() }
 }
 
-fn logged(scan: CarmenScan) -> Logged {
+fn logged(scan: CarmenScan) -> LoggedScan {
     #[expect(clippy::cast_possible_truncation, reason = "a stamp fits for 292 years")]
     let micros = (scan.time_s * 1e6).round() as i64;
-    Logged {
+    LoggedScan {
         stamp: format!("{:.6}", scan.time_s),
         odom_from_base: scan.odom_from_base,
         scan: Scan {

@@ -9,6 +9,7 @@ mod convert;
 mod costmap;
 mod demo;
 mod doctor;
+mod foreign_commands;
 mod help;
 mod launch;
 mod live;
@@ -17,7 +18,6 @@ mod log;
 mod map;
 mod mapping;
 mod new;
-mod old_words;
 mod options;
 mod page;
 mod paths;
@@ -25,10 +25,10 @@ mod picture;
 mod program;
 mod sim;
 mod slam;
-mod spent;
 mod stop;
 mod teleop;
 mod terminal;
+mod timing;
 mod verbs;
 mod view;
 
@@ -90,7 +90,7 @@ fn main() -> ExitCode {
         let words: Vec<String> = std::env::args().skip(2).collect();
         return ended(launch::run_xacro(&words));
     }
-    let words = match old_words::translate(std::env::args().collect()) {
+    let words = match foreign_commands::translate(std::env::args().collect()) {
         Ok(Ok(words)) => words,
         Ok(Err(code)) => return code,
         Err(error) => return ended(Err(error)),

@@ -20,7 +20,7 @@ use crate::sim::stack::RobotProfile;
 use crate::{picture, terminal};
 
 /// Number of loop closures that are printed.
-const MOST_TOLD: usize = 10;
+const MAX_PRINTED: usize = 10;
 
 /// Mapping options of `periplus sim`.
 #[derive(Debug, Args)]
@@ -248,7 +248,7 @@ impl Mapping {
             let refused = status.closures.len() - accepted;
             writeln!(out, "  {accepted} loops closed, {refused} refused")?;
         }
-        for closure in status.closures.iter().rev().take(MOST_TOLD) {
+        for closure in status.closures.iter().rev().take(MAX_PRINTED) {
             let verdict = if closure.is_accepted { "closed" } else { "refused" };
             writeln!(
                 out,

@@ -1,7 +1,7 @@
 //! Web page of a run or a network.
 
 mod assets;
-mod far;
+mod remote_topics;
 
 use std::collections::BTreeMap;
 use std::net::{IpAddr, SocketAddr};
@@ -143,7 +143,7 @@ impl Page {
 
     /// Updates the topics of remote nodes.
     pub(crate) fn set_remote(&self, remote: &Remote) {
-        self.hub.set_far(far::far(remote));
+        self.hub.set_far(remote_topics::remote_topics(remote));
     }
 
     /// URL of the page.

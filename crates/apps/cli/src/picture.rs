@@ -7,22 +7,22 @@ use periplus_grid::{GridInfo, Line, OccupancyGrid, occupancy};
 use periplus_images::{Layout, pack_png};
 
 /// Longest side of the image \[px\].
-const LONGEST: usize = 1600;
+const MAX_SIDE_PX: usize = 1600;
 /// Colours from the first pose to the last.
-const BEGIN: [f64; 3] = [40.0, 90.0, 230.0];
-const END: [f64; 3] = [225.0, 50.0, 40.0];
+const FIRST_COLOUR: [f64; 3] = [40.0, 90.0, 230.0];
+const LAST_COLOUR: [f64; 3] = [225.0, 50.0, 40.0];
 /// Rings around marked positions: colour, radius in the map \[m\], minimum radius and half the line
 /// width \[px\].
-const RING: [u8; 3] = [255, 0, 0];
-const RING_M: f64 = 1.5;
-const MIN_RING_PX: f64 = 12.0;
-const HALF_LINE_PX: f64 = 1.5;
+const RING_COLOUR: [u8; 3] = [255, 0, 0];
+const RING_RADIUS_M: f64 = 1.5;
+const MIN_RING_RADIUS_PX: f64 = 12.0;
+const HALF_LINE_WIDTH_PX: f64 = 1.5;
 /// Order of a ring pixel, instead of the index of a pose.
-const OF_RING: u32 = u32::MAX;
+const RING_ORDER: u32 = u32::MAX;
 
 /// PNG of a map, the trajectory from blue to red, and a red ring around each marked position \[m\].
-pub(crate) fn draw(map: &OccupancyGrid, way: &[Pose2], marked: &[(f64, f64)]) -> Vec<u8> {
-    let drawn = draw_by(map.info, way, marked, |picture| {
+pub(crate) fn draw(map: &OccupancyGrid, trajectory: &[Pose2], marked: &[(f64, f64)]) -> Vec<u8> {
+    let drawn = draw_by(map.info, trajectory, marked, |picture| {
         map.rows().rev().try_for_each(|row| picture.push(row))
     });
     debug_assert!(drawn.is_ok(), "{drawn:?}");
@@ -33,11 +33,11 @@ pub(crate) fn draw(map: &OccupancyGrid, way: &[Pose2], marked: &[(f64, f64)]) ->
 /// whole.
 pub(crate) fn draw_by(
     info: GridInfo,
-    way: &[Pose2],
+    trajectory: &[Pose2],
     marked: &[(f64, f64)],
     rows: impl FnOnce(&mut Picture<'_>) -> io::Result<()>,
 ) -> io::Result<Vec<u8>> {
-    let every = info.width.max(info.height).div_ceil(LONGEST).max(1);
+    let every = info.width.max(info.height).div_ceil(MAX_SIDE_PX).max(1);
     let (width, height) = (info.width.div_ceil(every), info.height.div_ceil(every));
     pack_png(number(width), number(height), Layout::Rgb, |out| {
         rows(&mut Picture {
@@ -46,9 +46,9 @@ pub(crate) fn draw_by(
             every,
             left: info.height,
             darkest: vec![i8::MIN; width],
-            way: dots(&info, every, way, marked),
+            trajectory: dots(&info, every, trajectory, marked),
             drawn: 0,
-            steps: way.len(),
+            steps: trajectory.len(),
             samples: Vec::with_capacity(3 * width),
         })
     })
@@ -66,7 +66,7 @@ pub(crate) struct Picture<'a> {
     darkest: Vec<i8>,
     /// Pixels of the trajectory by row from the top; of several at the same position the last one
     /// counts.
-    way: Vec<Dot>,
+    trajectory: Vec<Dot>,
     /// Number of pixels drawn so far.
     drawn: usize,
     /// Number of poses of the trajectory.
@@ -102,12 +102,14 @@ impl Picture<'_> {
         }));
         darkest.fill(occupancy::UNKNOWN);
         let row = number(self.info.height.div_ceil(self.every) - 1 - from_below);
-        while let Some(dot) = self.way.get(self.drawn).filter(|dot| dot.row <= row) {
-            let colour: [u8; 3] = if dot.step == OF_RING {
-                RING
+        while let Some(dot) = self.trajectory.get(self.drawn).filter(|dot| dot.row <= row) {
+            let colour: [u8; 3] = if dot.step == RING_ORDER {
+                RING_COLOUR
             } else {
                 let part = f64::from(dot.step) / self.steps as f64;
-                std::array::from_fn(|i| (BEGIN[i] + part * (END[i] - BEGIN[i])) as u8)
+                std::array::from_fn(|i| {
+                    (FIRST_COLOUR[i] + part * (LAST_COLOUR[i] - FIRST_COLOUR[i])) as u8
+                })
             };
             self.samples[3 * dot.column as usize..][..3].copy_from_slice(&colour);
             self.drawn += 1;
@@ -117,12 +119,12 @@ impl Picture<'_> {
 }
 
 /// Pixels of a trajectory and of rings over it, by row from the top.
-fn dots(info: &GridInfo, every: usize, way: &[Pose2], marked: &[(f64, f64)]) -> Vec<Dot> {
+fn dots(info: &GridInfo, every: usize, trajectory: &[Pose2], marked: &[(f64, f64)]) -> Vec<Dot> {
     let finder = info.finder();
     let height = info.height.div_ceil(every);
     let mut dots = Vec::new();
     let mut before = None;
-    for (step, pose) in way.iter().enumerate() {
+    for (step, pose) in trajectory.iter().enumerate() {
         let Some((column, row)) = finder.cell_of(pose.x_m, pose.y_m) else { continue };
         let here = (column / every, height - 1 - row / every);
         for (column, row) in Line::between(before.replace(here).unwrap_or(here), here) {
@@ -142,8 +144,8 @@ fn ring(info: &GridInfo, every: usize, x_m: f64, y_m: f64) -> Vec<Dot> {
     let (columns, rows) = info.finder().cells_to(x_m, y_m);
     let (width, height) = (info.width.div_ceil(every), info.height.div_ceil(every));
     let (x, y) = (columns / every as f64, rows / every as f64);
-    let radius = (RING_M / (info.resolution_m * every as f64)).max(MIN_RING_PX);
-    let reach = radius + HALF_LINE_PX;
+    let radius = (RING_RADIUS_M / (info.resolution_m * every as f64)).max(MIN_RING_RADIUS_PX);
+    let reach = radius + HALF_LINE_WIDTH_PX;
     let around = |middle: f64, end: usize| {
         let inside = |value: f64| value.clamp(0.0, end as f64) as usize;
         inside(middle - reach)..inside(middle + reach + 1.0)
@@ -152,9 +154,9 @@ fn ring(info: &GridInfo, every: usize, x_m: f64, y_m: f64) -> Vec<Dot> {
     for from_below in around(y, height) {
         for column in around(x, width) {
             let away = (column as f64 + 0.5 - x).hypot(from_below as f64 + 0.5 - y);
-            if (away - radius).abs() <= HALF_LINE_PX {
+            if (away - radius).abs() <= HALF_LINE_WIDTH_PX {
                 let row = number(height - 1 - from_below);
-                dots.push(Dot { row, column: number(column), step: OF_RING });
+                dots.push(Dot { row, column: number(column), step: RING_ORDER });
             }
         }
     }
@@ -174,14 +176,15 @@ mod tests {
 
     #[test]
     fn walls_and_the_way_are_there_at_any_scale() {
-        for side in [40, LONGEST, 2 * LONGEST + 7] {
+        for side in [40, MAX_SIDE_PX, 2 * MAX_SIDE_PX + 7] {
             let info = GridInfo::new(0.05, side, 40, Pose2::new(-1.0, 0.0, 0.0)).unwrap();
             let mut map = Grid::new(info, occupancy::UNKNOWN);
             map.cells[..20 * side].fill(occupancy::FREE);
             map[(7, 3)] = occupancy::OCCUPIED;
-            let way = [(0.5, 0.5), (0.5, 1.5), (0.52, 1.5)].map(|(x, y)| Pose2::new(x, y, 0.0));
-            let picture = Raster::decode(&draw(&map, &way, &[])).unwrap();
-            let every = side.div_ceil(LONGEST);
+            let trajectory =
+                [(0.5, 0.5), (0.5, 1.5), (0.52, 1.5)].map(|(x, y)| Pose2::new(x, y, 0.0));
+            let picture = Raster::decode(&draw(&map, &trajectory, &[])).unwrap();
+            let every = side.div_ceil(MAX_SIDE_PX);
             let height = 40_usize.div_ceil(every);
             assert_eq!(
                 (picture.width as usize, picture.height as usize),
@@ -210,7 +213,7 @@ mod tests {
         let at = |column: usize, row: usize| picture.sample((79 - row) * 100 + column).to_vec();
         // 1.5 m are 30 cells.
         for (column, row) in [(80, 40), (20, 40), (50, 70), (50, 10), (32, 2), (2, 32)] {
-            assert_eq!(at(column, row), RING, "({column}, {row})");
+            assert_eq!(at(column, row), RING_COLOUR, "({column}, {row})");
         }
         assert_eq!(at(50, 40), [255; 3]);
         assert_eq!(at(99, 79), [255; 3]);

@@ -319,7 +319,7 @@ pub(crate) fn run(options: &SimOptions, ros: Vec<String>) -> io::Result<ExitCode
         paused: false,
     };
     let start_up = start.elapsed();
-    let mut line = progress::Line::new(options.duration, options.quiet || options.json);
+    let mut line = progress::ProgressLine::new(options.duration, options.quiet || options.json);
     let mut watch = RecordingWatch::default();
     let stopwatch = Stopwatch::start();
     let outcome = run.go(&mut simulation, &mut services, &mut driver, &mut |progress| {

@@ -20,7 +20,7 @@ use crate::picture::draw_by;
 use crate::{paths, terminal};
 use parameters::Parameters;
 use report::Report;
-use session::Made;
+use session::SelectedMapper;
 
 pub(crate) use options::SlamOptions;
 
@@ -58,7 +58,7 @@ fn from_log(options: &SlamOptions) -> io::Result<ExitCode> {
         }
     };
     let is_corrected = parameters.values.flag("correct_mounting").unwrap_or(false);
-    let remedy = MountingCorrection::of(run.made.mapper().remarks())
+    let remedy = MountingCorrection::of(run.selected.mapper().remarks())
         .filter(|_| options.session.is_none() && is_corrected);
     if remedy.is_some() {
         // An error of mounting or axes is certain: the map is rebuilt with corrected data.
@@ -71,8 +71,8 @@ fn from_log(options: &SlamOptions) -> io::Result<ExitCode> {
             }
         };
     }
-    let Run { log, made, before, spent_s, used, saved, loaded_s, finish_s } = run;
-    let slam = made.mapper();
+    let Run { log, selected, before, spent_s, used, saved, loaded_s, finish_s } = run;
+    let slam = selected.mapper();
     let stamps: Vec<&str> = used.iter().map(|&number| log.scans[number].stamp.as_str()).collect();
     let report = Report {
         options,
@@ -87,7 +87,7 @@ fn from_log(options: &SlamOptions) -> io::Result<ExitCode> {
     };
     // The report is last, so that it contains the peak memory.
     let written = saved
-        .and_then(|()| match (&options.g2o, made.graph()) {
+        .and_then(|()| match (&options.g2o, selected.graph()) {
             (Some(path), Some(graph)) => put(path, graph.to_g2o().as_bytes()),
             _ => Ok(()),
         })
@@ -99,7 +99,7 @@ fn from_log(options: &SlamOptions) -> io::Result<ExitCode> {
         terminal::complain(&why);
         return Ok(ExitCode::FAILURE);
     }
-    for fault in log.faults.iter().take(MOST_TOLD) {
+    for fault in log.faults.iter().take(MAX_PRINTED) {
         terminal::complain(fault);
     }
     if let Some(why) = report.failure() {
@@ -114,7 +114,7 @@ struct Run {
     /// The log without its ranges: they are most of its memory, and the map has copied what it
     /// needs.
     log: Log,
-    made: Made,
+    selected: SelectedMapper,
     /// Number of poses of the session, which precede those of the log in the trajectory.
     before: usize,
     /// CPU time per scan \[s\].
@@ -143,16 +143,16 @@ fn map(
     if log.scans.is_empty() {
         return Ok(Err(format!("{} has no scans", options.log.display())));
     }
-    let mut made = match Made::new(options, parameters) {
-        Ok(made) => made,
+    let mut selected = match SelectedMapper::new(options, parameters) {
+        Ok(selected) => selected,
         Err(why) => return Ok(Err(why)),
     };
-    let before = made.mapper().trajectory().len();
+    let before = selected.mapper().trajectory().len();
     let loaded_s = watch.elapsed().as_secs_f64();
     let bar = terminal::bar(log.scans.len() as u64, "scans", options.quiet);
     let mut cure = remedy.map(CorrectedInput::new);
     let (mut spent_s, mut used) = (Vec::with_capacity(log.scans.len()), Vec::new());
-    let slam = made.mapper_mut();
+    let slam = selected.mapper_mut();
     for (number, logged) in log.scans.iter_mut().enumerate().step_by(parameters.every()) {
         bar.set_position(number as u64);
         let one = Stopwatch::start();
@@ -171,23 +171,23 @@ fn map(
         logged.scan.ranges_m = Vec::new();
     }
     bar.finish_and_clear();
-    let saved = save(options, &made);
+    let saved = save(options, &selected);
     let last = Stopwatch::start();
-    made.mapper_mut().finish();
+    selected.mapper_mut().finish();
     let finish_s = last.elapsed().as_secs_f64();
-    Ok(Ok(Run { log, made, before, spent_s, used, saved, loaded_s, finish_s }))
+    Ok(Ok(Run { log, selected, before, spent_s, used, saved, loaded_s, finish_s }))
 }
 
 /// Writes the requested session.
-fn save(options: &SlamOptions, made: &Made) -> Result<(), String> {
-    match (&options.save_session, made.graph()) {
+fn save(options: &SlamOptions, selected: &SelectedMapper) -> Result<(), String> {
+    match (&options.save_session, selected.graph()) {
         (Some(path), Some(graph)) => put(path, &graph.save()),
         _ => Ok(()),
     }
 }
 
 /// Number of log errors that are printed.
-const MOST_TOLD: usize = 20;
+const MAX_PRINTED: usize = 20;
 
 fn put(path: &Path, bytes: &[u8]) -> Result<(), String> {
     paths::write(path, bytes)

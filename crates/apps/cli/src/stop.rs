@@ -16,10 +16,10 @@ use crate::terminal::complain;
 const SAME_REQUEST: Duration = Duration::from_secs(1);
 
 /// Offset that shells add to a signal for an exit code.
-const OF_SHELLS: i32 = 128;
+const SHELL_SIGNAL_OFFSET: i32 = 128;
 
 /// First signal received; 0 is none.
-static FIRST: AtomicI32 = AtomicI32::new(0);
+static FIRST_SIGNAL: AtomicI32 = AtomicI32::new(0);
 
 /// Returns a flag that the first of the signals sets.
 pub(crate) fn on_signal() -> Arc<AtomicBool> {
@@ -36,8 +36,10 @@ pub(crate) fn on_signal() -> Arc<AtomicBool> {
 /// Exit code of a run that the system ended: 143 for `SIGTERM`, 129 for `SIGHUP`. Ctrl-C is a
 /// regular end of a run, with separate rules.
 pub(crate) fn exit_code() -> Option<u8> {
-    match FIRST.load(Ordering::Relaxed) {
-        signal @ (platform::TERMINATE | platform::HANG_UP) => u8::try_from(OF_SHELLS + signal).ok(),
+    match FIRST_SIGNAL.load(Ordering::Relaxed) {
+        signal @ (platform::TERMINATE | platform::HANG_UP) => {
+            u8::try_from(SHELL_SIGNAL_OFFSET + signal).ok()
+        }
         _ => None,
     }
 }
@@ -68,7 +70,7 @@ impl Requests {
         match &self.first {
             None => {
                 self.first = Some(Stopwatch::start());
-                FIRST.store(signal, Ordering::Relaxed);
+                FIRST_SIGNAL.store(signal, Ordering::Relaxed);
                 self.stop.store(true, Ordering::Relaxed);
                 Answer::InGoodOrder
             }
@@ -95,7 +97,7 @@ mod platform {
     use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM};
     use signal_hook::iterator::Signals;
 
-    use super::{Answer, OF_SHELLS, Requests};
+    use super::{Answer, Requests, SHELL_SIGNAL_OFFSET};
 
     pub(super) const TERMINATE: i32 = SIGTERM;
     pub(super) const HANG_UP: i32 = SIGHUP;
@@ -113,7 +115,7 @@ mod platform {
                     leave_terminal();
                 }
                 if requests.take(signal) == Answer::AtOnce {
-                    signal_hook::low_level::exit(OF_SHELLS + signal);
+                    signal_hook::low_level::exit(SHELL_SIGNAL_OFFSET + signal);
                 }
             }
         })?;
@@ -147,7 +149,7 @@ mod platform {
     use std::sync::Arc;
     use std::sync::atomic::AtomicBool;
 
-    use super::{Answer, OF_SHELLS, Requests};
+    use super::{Answer, Requests, SHELL_SIGNAL_OFFSET};
 
     const INTERRUPT: i32 = 2;
     pub(super) const TERMINATE: i32 = 15;
@@ -157,7 +159,7 @@ mod platform {
         let mut requests = Requests::new(stop);
         ctrlc::set_handler(move || {
             if requests.take(INTERRUPT) == Answer::AtOnce {
-                std::process::exit(OF_SHELLS + INTERRUPT);
+                std::process::exit(SHELL_SIGNAL_OFFSET + INTERRUPT);
             }
         })
     }

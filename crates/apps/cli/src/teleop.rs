@@ -26,10 +26,10 @@ use terminal::RawTerminal;
 const LINES_PER_SCREEN: u32 = 15;
 
 /// Timeout for delivering the last velocity.
-const LAST_WORD: Duration = Duration::from_millis(500);
+const FLUSH_TIMEOUT: Duration = Duration::from_millis(500);
 
 /// Longest wait for a key.
-const LOOK: Duration = Duration::from_millis(50);
+const POLL_PERIOD: Duration = Duration::from_millis(50);
 
 /// Drive a robot with the keyboard, with the keys of `teleop_twist_keyboard`
 ///
@@ -94,7 +94,7 @@ pub(crate) fn run(options: &TeleopOptions, ros: Vec<String>) -> io::Result<ExitC
     // The robot is stopped in every case.
     driving.keyboard.stop();
     driving.publish();
-    live.end(LAST_WORD);
+    live.end(FLUSH_TIMEOUT);
     outcome.map(|()| ExitCode::SUCCESS)
 }
 
@@ -154,7 +154,7 @@ impl Driving {
         let (mut since_key, mut since_sent) = (Stopwatch::start(), Stopwatch::start());
         let mut lines = 0;
         loop {
-            let key = terminal.key(LOOK.min(self.repeat_period().unwrap_or(LOOK)))?;
+            let key = terminal.key(POLL_PERIOD.min(self.repeat_period().unwrap_or(POLL_PERIOD)))?;
             graph.advance_to(unix_ns());
             self.simulated =
                 self.clock.latest().map(|clock| clock.clock.clone()).or(self.simulated.take());

@@ -2,6 +2,7 @@
 
 mod action;
 mod common;
+mod connection;
 mod gazebo;
 mod interface;
 mod lifecycle;
@@ -10,7 +11,6 @@ mod param;
 mod service;
 mod tf;
 mod topic;
-mod wired;
 
 use std::io::{self, Write as _};
 use std::process::ExitCode;
@@ -24,7 +24,7 @@ use periplus_os::Machine;
 use periplus_resources::Host as _;
 use periplus_ros2cli::{Failure, InGraph, Outcome, Ros2Line, Session, Types};
 
-use crate::old_words;
+use crate::foreign_commands;
 use crate::stop;
 use crate::terminal;
 
@@ -38,7 +38,7 @@ pub(crate) use tf::TfOptions;
 pub(crate) use topic::TopicOptions;
 
 pub(crate) use common::{Common, seconds};
-use wired::Wired;
+use connection::NetworkConnection;
 
 /// Joins the network and runs a verb.
 pub(crate) fn with_session(
@@ -46,8 +46,8 @@ pub(crate) fn with_session(
     verb: impl FnOnce(&mut Session<'_>) -> Outcome,
 ) -> io::Result<ExitCode> {
     let types = types(common)?;
-    let mut wired = match Wired::open() {
-        Ok(wired) => wired,
+    let mut connection = match NetworkConnection::open() {
+        Ok(connection) => connection,
         Err(words) => {
             terminal::complain(&words);
             return Ok(ExitCode::FAILURE);
@@ -56,7 +56,7 @@ pub(crate) fn with_session(
     let stop = stop::on_signal();
     let mut out = io::BufWriter::new(io::stdout().lock());
     let outcome = verb(&mut Session {
-        network: &wired,
+        network: &connection,
         types: &types,
         out: &mut out,
         talk: &mut anstream::stderr(),
@@ -64,7 +64,7 @@ pub(crate) fn with_session(
         json: common.json,
         spin_time: common.spin_time.map(Duration::from_secs_f64),
     });
-    tell(&wired.take_findings())?;
+    tell(&connection.take_findings())?;
     end(outcome)
 }
 
@@ -106,7 +106,7 @@ fn end(outcome: Outcome) -> io::Result<ExitCode> {
         Ok(()) => Ok(ExitCode::SUCCESS),
         Err(Failure::Output(error)) => Err(error),
         // Scripts for ROS parse the output, not the exit code.
-        Err(Failure::Refused(refusal)) if old_words::is_ros2() => {
+        Err(Failure::Refused(refusal)) if foreign_commands::is_ros2() => {
             match refusal.ros2 {
                 Ros2Line::Nothing => {}
                 Ros2Line::Stdout(line) => writeln!(io::stdout().lock(), "{line}")?,

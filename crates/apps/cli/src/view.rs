@@ -20,13 +20,13 @@ use crate::stop;
 use crate::terminal::{complain, say};
 
 /// Polling period.
-const LOOK: Duration = Duration::from_millis(5);
+const POLL_PERIOD: Duration = Duration::from_millis(5);
 
 /// Period of sending remote topics to the page.
-const LOOK_AROUND: Duration = Duration::from_millis(200);
+const REMOTE_UPDATE_PERIOD: Duration = Duration::from_millis(200);
 
 /// Timeout for delivering the last messages at the end.
-const LAST_WORD: Duration = Duration::from_millis(300);
+const FLUSH_TIMEOUT: Duration = Duration::from_millis(300);
 
 /// Show a running ROS 2 system in the browser
 ///
@@ -80,8 +80,8 @@ pub(crate) fn run(options: &ViewOptions, ros: Vec<String>) -> io::Result<ExitCod
     let mut looked: Option<Stopwatch> = None;
     let mut follows = false;
     while !stop.load(Ordering::Relaxed) {
-        live.go_on();
-        if looked.as_ref().is_none_or(|looked| looked.elapsed() >= LOOK_AROUND) {
+        live.spin_once();
+        if looked.as_ref().is_none_or(|looked| looked.elapsed() >= REMOTE_UPDATE_PERIOD) {
             looked = Some(Stopwatch::start());
             let remote = live.wire.remote();
             let tells = |topic: &RemoteTopic| !topic.publishers.is_empty();
@@ -97,9 +97,9 @@ pub(crate) fn run(options: &ViewOptions, ros: Vec<String>) -> io::Result<ExitCod
             page.set_remote(&remote);
             live.tell();
         }
-        sleep(LOOK);
+        sleep(POLL_PERIOD);
     }
     drop(page);
-    live.end(LAST_WORD);
+    live.end(FLUSH_TIMEOUT);
     Ok(ExitCode::SUCCESS)
 }

@@ -2,19 +2,19 @@
 
 use serde_json::Value;
 
-use crate::outside::{Complaint, Interpreter};
+use crate::outside::{Interpreter, LaunchError};
 
 /// Functions to call at shutdown (`OnShutdown`), and the interpreter that has them. They are called
-/// by [`Ending::run`] only.
+/// by [`ShutdownHandlers::run`] only.
 #[derive(Default)]
-pub struct Ending {
+pub struct ShutdownHandlers {
     pub(crate) interpreter: Option<Box<dyn Interpreter>>,
     pub(crate) calls: Vec<Value>,
 }
 
-impl Ending {
+impl ShutdownHandlers {
     /// Calls the functions in order; returns their errors.
-    pub fn run(self) -> Vec<Complaint> {
+    pub fn run(self) -> Vec<LaunchError> {
         let Some(mut interpreter) = self.interpreter else { return Vec::new() };
         let refuse = |_| Err("this is not available at shutdown".to_owned());
         let call = |call| interpreter.ask(call, &mut { refuse }).err();

@@ -12,24 +12,24 @@ use periplus_resources::{Host, Resolver, in_sources, package_of};
 use serde_json::{Value, json};
 
 use crate::context::{Context, within};
-use crate::ending::Ending;
+use crate::ending::ShutdownHandlers;
 use crate::front;
-use crate::guess::Guess as _;
 use crate::outside::{Interpreter, MissingInput, Outside};
 use crate::plan::{Argument, Parameters, Plan, Step, Trigger, What};
 use crate::python;
-use crate::tree::{Action, Condition, Deed, Event, Given, Names, Place, Text};
+use crate::suggest::Suggest as _;
+use crate::tree::{Action, ActionKind, Condition, Event, Given, Names, Place, Text};
 use crate::truth::value_of;
 
 /// Maximum depth of includes.
-const DEEPEST: usize = 50;
+const MAX_DEPTH: usize = 50;
 
 /// Maximum number of actions of a launch: real ones have hundreds.
-const MOST_ACTIONS: usize = 100_000;
+const MAX_ACTIONS: usize = 100_000;
 
 /// Maximum nesting of actions: real ones have about ten levels. Stops functions that return
 /// themselves and groups in groups before the stack overflows.
-const MOST_NESTED: usize = 150;
+const MAX_NESTING: usize = 150;
 
 pub(crate) type Outcome<T> = Result<T, Box<Diagnostic>>;
 
@@ -47,7 +47,7 @@ pub(crate) struct Evaluation<'a> {
     /// True while the interpreter handles a request.
     is_asking: bool,
     /// Event handlers, in order of registration.
-    later: VecDeque<Later>,
+    later: VecDeque<EventHandler>,
     /// Functions of the launch file to call at shutdown.
     at_end: Vec<Value>,
     /// Position of the current action.
@@ -65,7 +65,7 @@ pub(crate) struct Evaluation<'a> {
 }
 
 /// Actions that wait for an event.
-struct Later {
+struct EventHandler {
     after: Vec<Trigger>,
     actions: Vec<Action>,
     /// Launch file that contains them.
@@ -108,11 +108,11 @@ impl<'a> Evaluation<'a> {
 
     /// Evaluates a launch file of ROS 2.
     pub(crate) fn launch(&mut self, file: &Path, given: &[(String, String)]) -> Outcome<()> {
-        if self.depth == DEEPEST {
+        if self.depth == MAX_DEPTH {
             return Err(self
                 .error(
                     "launch-include",
-                    format!("includes are nested more than {DEEPEST} levels deep"),
+                    format!("includes are nested more than {MAX_DEPTH} levels deep"),
                 )
                 .help("a file that includes itself needs a condition that ends the recursion")
                 .into());
@@ -131,7 +131,9 @@ impl<'a> Evaluation<'a> {
     /// Evaluates event handlers: as in `launch`, after all other actions, with the configurations,
     /// environment and scopes of that time.
     pub(crate) fn events(&mut self) -> Outcome<()> {
-        while let Some(Later { after, actions, file, configurations }) = self.later.pop_front() {
+        while let Some(EventHandler { after, actions, file, configurations }) =
+            self.later.pop_front()
+        {
             let is_at_end = after.contains(&Trigger::Shutdown);
             if self.is_over && !is_at_end {
                 continue;
@@ -148,9 +150,9 @@ impl<'a> Evaluation<'a> {
     }
 
     /// Interpreter with the functions to call at shutdown.
-    pub(crate) fn ending(&mut self) -> Ending {
+    pub(crate) fn ending(&mut self) -> ShutdownHandlers {
         let calls = std::mem::take(&mut self.at_end);
-        Ending { interpreter: self.python.take().filter(|_| !calls.is_empty()), calls }
+        ShutdownHandlers { interpreter: self.python.take().filter(|_| !calls.is_empty()), calls }
     }
 
     /// Actions of a file.
@@ -172,7 +174,8 @@ impl<'a> Evaluation<'a> {
         given: &[(String, String)],
     ) -> Outcome<()> {
         for action in actions {
-            let Deed::Declare { name, default: None, description, .. } = &action.deed else {
+            let ActionKind::Declare { name, default: None, description, .. } = &action.action_kind
+            else {
                 continue;
             };
             if self.context.configurations.contains_key(name) || action.condition.is_some() {
@@ -197,11 +200,11 @@ impl<'a> Evaluation<'a> {
     }
 
     pub(crate) fn run_all(&mut self, actions: &[Action]) -> Outcome<()> {
-        if self.nesting == MOST_NESTED {
+        if self.nesting == MAX_NESTING {
             return Err(self
                 .error(
                     "launch-size",
-                    format!("actions are nested more than {MOST_NESTED} levels deep"),
+                    format!("actions are nested more than {MAX_NESTING} levels deep"),
                 )
                 .help(
                     "a function or group that returns itself needs a condition that ends the recursion",
@@ -220,11 +223,11 @@ impl<'a> Evaluation<'a> {
                 break;
             }
             self.actions += 1;
-            if self.actions > MOST_ACTIONS {
+            if self.actions > MAX_ACTIONS {
                 return Err(self
                     .error(
                         "launch-size",
-                        format!("this launch has more than {MOST_ACTIONS} actions"),
+                        format!("this launch has more than {MAX_ACTIONS} actions"),
                     )
                     .into());
             }
@@ -262,27 +265,27 @@ impl<'a> Evaluation<'a> {
     }
 
     fn run(&mut self, action: &Action) -> Outcome<()> {
-        match &action.deed {
-            Deed::Declare { name, default, description, choices } => {
+        match &action.action_kind {
+            ActionKind::Declare { name, default, description, choices } => {
                 self.declare(name, default.as_ref(), description.as_ref(), choices)?;
             }
-            Deed::Configure { name, value } => {
+            ActionKind::Configure { name, value } => {
                 let (name, value) = (self.perform(name)?, self.perform(value)?);
                 self.context.configurations.insert(name, value);
             }
-            Deed::Forget { name } => {
+            ActionKind::Forget { name } => {
                 let name = self.perform(name)?;
                 self.context.configurations.remove(&name);
             }
-            Deed::ForgetAll { keep } => {
+            ActionKind::ForgetAll { keep } => {
                 let kept = self.perform_pairs(keep)?;
                 self.context.configurations = kept.into_iter().collect();
             }
-            Deed::Environment { name, value } => {
+            ActionKind::Environment { name, value } => {
                 let (name, value) = (self.perform(name)?, self.perform(value)?);
                 self.set_variable(name, Some(value));
             }
-            Deed::Append { name, value, separator, prepend } => {
+            ActionKind::Append { name, value, separator, prepend } => {
                 let (name, value) = (self.perform(name)?, self.perform(value)?);
                 let separator =
                     self.perform_some(separator.as_ref())?.unwrap_or_else(|| ":".into());
@@ -295,86 +298,86 @@ impl<'a> Evaluation<'a> {
                 };
                 self.set_variable(name, Some(joined));
             }
-            Deed::Unset { name } => {
+            ActionKind::Unset { name } => {
                 let name = self.perform(name)?;
                 self.set_variable(name, None);
             }
-            Deed::ResetEnvironment => {
+            ActionKind::ResetEnvironment => {
                 self.context.environment.clear();
                 self.context.changed_at.clear();
             }
-            Deed::Group { actions, is_scoped, is_forwarding, configurations } => {
+            ActionKind::Group { actions, is_scoped, is_forwarding, configurations } => {
                 self.group(actions, *is_scoped, *is_forwarding, configurations)?;
             }
-            Deed::ForEach { function } => {
+            ActionKind::ForEach { function } => {
                 let answer = self.ask_python(json!({"ask": "for_each", "id": function}))?;
                 let actions: Vec<Action> = self.decode(answer)?;
                 self.run_all(&actions)?;
             }
-            Deed::Include { file, arguments } => self.include(file, arguments)?,
+            ActionKind::Include { file, arguments } => self.include(file, arguments)?,
             // Runs at shutdown, when the results of the launch are no longer needed.
-            Deed::Call { function } if self.after.contains(&Trigger::Shutdown) => {
+            ActionKind::Call { function } if self.after.contains(&Trigger::Shutdown) => {
                 let context = json!(self.context.snapshot());
                 self.at_end.push(json!({"ask": "call", "id": function, "context": context}));
             }
-            Deed::Call { function } => {
+            ActionKind::Call { function } => {
                 let answer = self.ask_python(json!({"ask": "call", "id": function}))?;
                 let actions: Vec<Action> = self.decode(answer)?;
                 self.run_all(&actions)?;
             }
-            Deed::PushNamespace { namespace } => {
+            ActionKind::PushNamespace { namespace } => {
                 let namespace = self.perform(namespace)?;
                 self.context.namespace = within(&self.context.namespace, &namespace);
             }
-            Deed::SetParameter { name, value } => {
+            ActionKind::SetParameter { name, value } => {
                 let (name, value) = (self.perform(name)?, self.value(value)?);
                 self.context.parameters.push(Parameters::Values(BTreeMap::from([(name, value)])));
             }
-            Deed::SetParametersFromFile { file, node: _ } => {
+            ActionKind::SetParametersFromFile { file, node: _ } => {
                 let file = self.perform(file)?;
                 self.context.parameters.push(Parameters::File(file));
             }
-            Deed::SetRemap { from, to } => {
+            ActionKind::SetRemap { from, to } => {
                 let pair = (self.perform(from)?, self.perform(to)?);
                 self.context.remaps.push(pair);
             }
-            Deed::Node(node) => {
+            ActionKind::Node(node) => {
                 let id = self.step_of(action.id);
                 let what = self.node(node)?;
                 self.push(id, what);
                 self.at_end_of(id, &node.running.on_exit);
             }
-            Deed::Load { container, components } => {
+            ActionKind::Load { container, components } => {
                 let what = self.load(container, components)?;
                 let id = self.step_of(action.id);
                 self.push(id, what);
             }
-            Deed::Process(process) => {
+            ActionKind::Process(process) => {
                 let id = self.step_of(action.id);
                 let what = self.process(process)?;
                 self.push(id, what);
                 self.at_end_of(id, &process.running.on_exit);
             }
-            Deed::Log { text, level } => {
+            ActionKind::Log { text, level } => {
                 let text = self.perform(text)?;
                 let level = self.perform_some(level.as_ref())?;
                 let id = self.step_of(action.id);
                 let level = level.map_or_else(|| "info".into(), |level| level.to_lowercase());
                 self.push(id, What::Log { level, text });
             }
-            Deed::Shutdown { reason } => {
+            ActionKind::Shutdown { reason } => {
                 let reason = self.perform_some(reason.as_ref())?.unwrap_or_default();
                 let id = self.step_of(action.id);
                 self.push(id, What::Shutdown { reason });
                 // Actions after it are not reached; event handlers may never run.
                 self.is_over = self.after.is_empty();
             }
-            Deed::Transition { target, transition } => {
+            ActionKind::Transition { target, transition } => {
                 let step = target.map(|target| self.step_of(Some(target)));
                 let id = self.step_of(action.id);
                 self.push(id, What::Transition { step, transition: transition.clone() });
             }
-            Deed::Timer { seconds, actions } => {
+            ActionKind::Timer { seconds, actions } => {
                 let seconds = self.perform(seconds)?;
                 let Some(seconds) = seconds.trim().parse().ok().filter(|s: &f64| *s >= 0.0) else {
                     return Err(self
@@ -383,11 +386,13 @@ impl<'a> Evaluation<'a> {
                 };
                 self.run_after(Trigger::Seconds(seconds), actions);
             }
-            Deed::When { event, actions } => {
+            ActionKind::When { event, actions } => {
                 let trigger = match event {
                     Event::Started { of } => Trigger::Started(of.map(|of| self.step_of(Some(of)))),
                     Event::Ended { of } => Trigger::Ended(of.map(|of| self.step_of(Some(of)))),
-                    Event::Printed { of } => Trigger::Printed(of.map(|of| self.step_of(Some(of)))),
+                    Event::ProgramOutput { of } => {
+                        Trigger::ProgramOutput(of.map(|of| self.step_of(Some(of))))
+                    }
                     Event::Reached { of, from, to } => Trigger::Reached {
                         step: of.map(|of| self.step_of(Some(of))),
                         from: from.clone(),
@@ -397,7 +402,7 @@ impl<'a> Evaluation<'a> {
                 };
                 self.run_after(trigger, actions);
             }
-            Deed::Left { what } => {
+            ActionKind::Left { what } => {
                 let left = self
                     .warning("launch-left", format!("{what} is not part of the plan"))
                     .note("the rest of the file is");
@@ -432,7 +437,7 @@ impl<'a> Evaluation<'a> {
                         choices.join(", ")
                     ),
                 )
-                .guess(&value, choices.iter().map(String::as_str))
+                .suggest(&value, choices.iter().map(String::as_str))
                 .into());
         }
         self.context.configurations.insert(name.to_owned(), value.clone());
@@ -585,7 +590,7 @@ impl<'a> Evaluation<'a> {
     fn run_after(&mut self, trigger: Trigger, actions: &[Action]) {
         let mut after = self.after.clone();
         after.push(trigger);
-        self.later.push_back(Later {
+        self.later.push_back(EventHandler {
             after,
             actions: actions.to_vec(),
             file: self.context.file.clone(),

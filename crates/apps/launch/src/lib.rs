@@ -12,7 +12,6 @@ mod dialect;
 mod ending;
 mod evaluate;
 mod front;
-mod guess;
 mod modules;
 mod outside;
 mod perform;
@@ -21,6 +20,7 @@ mod python;
 mod rewrite;
 mod roslaunch;
 mod stand_in;
+mod suggest;
 mod tree;
 mod truth;
 mod words;
@@ -30,15 +30,17 @@ use std::path::{Path, PathBuf};
 use periplus_diagnostics::{Diagnostics, SourceMap};
 use periplus_resources::{Host, Resolver};
 
-use crate::guess::Guess as _;
+use crate::suggest::Suggest as _;
 pub use dialect::{Dialect, dialect};
-pub use ending::Ending;
-pub use outside::{Answer, Complaint, Interpreter, MissingInput, Nothing, Outside, Printed};
+pub use ending::ShutdownHandlers;
+pub use outside::{
+    Answer, Interpreter, LaunchError, MissingInput, Nothing, Outside, ProgramOutput,
+};
 pub use plan::{
     Argument, Component, Identity, Node, Parameters, Plan, Process, Running, Step, Trigger,
     Variable, What,
 };
-pub use stand_in::{BOOT, MODULES, MOST_MEMORY};
+pub use stand_in::{BOOT, MAX_MEMORY_BYTES, MODULES};
 
 /// Launch file with its arguments and environment.
 pub struct Request<'a> {
@@ -64,7 +66,7 @@ pub fn plan(request: Request<'_>, sources: &mut SourceMap) -> (Plan, Diagnostics
 pub fn plan_with_ending(
     request: Request<'_>,
     sources: &mut SourceMap,
-) -> (Plan, Diagnostics, Ending) {
+) -> (Plan, Diagnostics, ShutdownHandlers) {
     let Request { file, arguments, host, resolver, outside } = request;
     let mut evaluation = evaluate::Evaluation::new(host, resolver, outside, sources);
     let dialect = dialect(host, &file);
@@ -99,7 +101,7 @@ fn unused(evaluation: &mut evaluate::Evaluation<'_>, given: &[(String, String)],
                 "launch-argument",
                 format!("{} has no argument `{name}`", file.display()),
             )
-            .guess(name, known)
+            .suggest(name, known)
             .help("`--show-args` lists its arguments");
             evaluation.found.push(finding);
         }

@@ -7,7 +7,7 @@ use periplus_resources::{EntryKind, Host};
 use crate::evaluate::Evaluation;
 
 /// Folders of a package that may contain modules, beside the package's own.
-const USUAL: [&str; 4] = ["src", "python", "scripts", "lib"];
+const MODULE_FOLDERS: [&str; 4] = ["src", "python", "scripts", "lib"];
 
 /// Folder of a package around the launch file that contains a Python module of this name.
 pub(crate) fn folder(evaluation: &Evaluation<'_>, module: &str) -> Option<String> {
@@ -30,7 +30,7 @@ pub(crate) fn folder(evaluation: &Evaluation<'_>, module: &str) -> Option<String
 /// files.
 fn candidates(host: &dyn Host, package: &Path) -> Vec<PathBuf> {
     let mut folders = vec![package.to_path_buf()];
-    folders.extend(USUAL.iter().map(|name| package.join(name)));
+    folders.extend(MODULE_FOLDERS.iter().map(|name| package.join(name)));
     for (file, word) in [("setup.py", "package_dir"), ("CMakeLists.txt", "PACKAGE_DIR")] {
         let Ok(bytes) = host.read(&package.join(file)) else { continue };
         let text = String::from_utf8_lossy(&bytes);

@@ -6,7 +6,7 @@ use serde_json::Value;
 
 /// Result of a program.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct Printed {
+pub struct ProgramOutput {
     /// Standard output.
     pub output: String,
     /// Standard error.
@@ -45,7 +45,7 @@ impl MissingInput {
 
 /// Error of an interpreter or a launch file.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct Complaint {
+pub struct LaunchError {
     /// Error message.
     pub message: String,
     /// `file:line` of the launch file, if known.
@@ -54,7 +54,7 @@ pub struct Complaint {
     pub help: Option<String>,
 }
 
-impl From<String> for Complaint {
+impl From<String> for LaunchError {
     fn from(message: String) -> Self {
         Self { message, ..Self::default() }
     }
@@ -66,7 +66,7 @@ pub trait Outside {
     ///
     /// # Errors
     /// A message when it cannot be started.
-    fn run(&mut self, words: &[String]) -> Result<Printed, String>;
+    fn run(&mut self, words: &[String]) -> Result<ProgramOutput, String>;
 
     /// Writes a text to a temporary file that exists as long as the launch. `name` is a suggestion.
     ///
@@ -90,7 +90,7 @@ pub trait Interpreter {
     ///
     /// # Errors
     /// An error of the interpreter or the launch file.
-    fn ask(&mut self, request: Value, answer: &mut Answer<'_>) -> Result<Value, Complaint>;
+    fn ask(&mut self, request: Value, answer: &mut Answer<'_>) -> Result<Value, LaunchError>;
 }
 
 /// Machine without programs, for tests.
@@ -98,7 +98,7 @@ pub trait Interpreter {
 pub struct Nothing;
 
 impl Outside for Nothing {
-    fn run(&mut self, words: &[String]) -> Result<Printed, String> {
+    fn run(&mut self, words: &[String]) -> Result<ProgramOutput, String> {
         Err(format!("program `{}` does not exist", words.first().map_or("", String::as_str)))
     }
 

@@ -8,25 +8,25 @@ use periplus_resources::EntryKind;
 use serde_json::json;
 
 use crate::evaluate::{Evaluation, Outcome};
-use crate::guess::Guess as _;
-use crate::outside::{MissingInput, Printed};
+use crate::outside::{MissingInput, ProgramOutput};
 use crate::rewrite;
+use crate::suggest::Suggest as _;
 use crate::tree::{Part, Substitution, Text};
 use crate::truth::truth;
 use crate::words;
 
 /// Limits of work and memory for one expression: launch files compare strings.
-const STEPS: u64 = 100_000;
-const BYTES: u64 = 1 << 20;
+const MAX_STEPS: u64 = 100_000;
+const MAX_BYTES: u64 = 1 << 20;
 
 /// Maximum length of a text: robot descriptions have some hundred thousand bytes.
-pub(crate) const LONGEST: usize = 16 << 20;
+pub(crate) const MAX_TEXT_BYTES: usize = 16 << 20;
 
 /// Consequence of a missing file that a launch would rewrite.
 pub(crate) const UNCHANGED: &str = "the plan names the file itself";
 
 /// Maximum length of a path [bytes].
-const LONGEST_PATH: usize = 4096;
+const MAX_PATH_BYTES: usize = 4096;
 
 impl Evaluation<'_> {
     /// Resolves a text.
@@ -37,9 +37,9 @@ impl Evaluation<'_> {
                 Part::Plain(plain) => whole.push_str(plain),
                 Part::Substitution(substitution) => whole.push_str(&self.substitute(substitution)?),
             }
-            if whole.len() > LONGEST {
+            if whole.len() > MAX_TEXT_BYTES {
                 return Err(self
-                    .error("launch-size", format!("a text has more than {LONGEST} bytes"))
+                    .error("launch-size", format!("a text has more than {MAX_TEXT_BYTES} bytes"))
                     .help("check for a text that contains itself")
                     .into());
             }
@@ -54,7 +54,7 @@ impl Evaluation<'_> {
         if let Some(rest) = text.strip_prefix("package:/").filter(|rest| !rest.starts_with('/')) {
             return format!("package://{rest}");
         }
-        let is_path = text.starts_with('/') && text.len() < LONGEST_PATH && !text.contains('\n');
+        let is_path = text.starts_with('/') && text.len() < MAX_PATH_BYTES && !text.contains('\n');
         if is_path { self.in_sources(&text) } else { text }
     }
 
@@ -261,7 +261,7 @@ impl Evaluation<'_> {
     fn no_configuration(&self, name: &str) -> Box<Diagnostic> {
         let known = self.context.configurations.keys().map(String::as_str);
         self.error("launch-configuration", format!("the launch configuration `{name}` is not set"))
-            .guess(name, known)
+            .suggest(name, known)
             .help(format!("declare the argument `{name}` before its use, or pass `{name}:=VALUE`"))
             .into()
     }
@@ -349,7 +349,7 @@ impl Evaluation<'_> {
     ///
     /// # Errors
     /// When it is not a command, or it fails.
-    pub(crate) fn ran(&mut self, line: &str) -> Outcome<Result<Printed, NotRun>> {
+    pub(crate) fn ran(&mut self, line: &str) -> Outcome<Result<ProgramOutput, NotRun>> {
         let Some(mut words) = words::split(line).filter(|words| !words.is_empty()) else {
             return Err(self
                 .error("launch-command", format!("cannot parse the command `{line}`"))
@@ -397,7 +397,7 @@ impl Evaluation<'_> {
 
     /// Value of a Python expression, as text.
     pub(crate) fn expression(&mut self, expression: &str) -> Outcome<String> {
-        let mut budget = Budget::new(STEPS, BYTES);
+        let mut budget = Budget::new(MAX_STEPS, MAX_BYTES);
         let value = Expression::parse(expression)
             .and_then(|parsed| evaluate(&parsed, &EmptyScope, &mut budget))
             .and_then(|value| value.to_text(&mut budget));

@@ -11,7 +11,7 @@ use serde_json::{Value, json};
 use crate::context::Snapshot;
 use crate::evaluate::Evaluation;
 use crate::modules;
-use crate::outside::Complaint;
+use crate::outside::LaunchError;
 use crate::tree::{Condition, Place, Text};
 
 /// Answers a question that a launch file asks during its evaluation.
@@ -105,7 +105,7 @@ pub(crate) fn prefix(folder: &Path) -> String {
 }
 
 /// Converts an error of a launch file to a finding.
-pub(crate) fn complaint(evaluation: &Evaluation<'_>, why: &Complaint) -> Box<Diagnostic> {
+pub(crate) fn complaint(evaluation: &Evaluation<'_>, why: &LaunchError) -> Box<Diagnostic> {
     let message = match &why.line {
         Some(line) => format!("{line}: {}", why.message.trim()),
         None => why.message.trim().to_owned(),

@@ -15,15 +15,15 @@ use serde_json::Value;
 
 use crate::context::within;
 use crate::evaluate::{Evaluation, Outcome};
-use crate::guess::Guess as _;
 use crate::plan::{Variable, What};
+use crate::suggest::Suggest as _;
 use crate::truth::truth;
 
 /// Maximum depth of includes.
-const DEEPEST: usize = 50;
+const MAX_DEPTH: usize = 50;
 
 /// Maximum number of elements of a launch, with repeated includes.
-const MOST_ELEMENTS: usize = 100_000;
+const MAX_ELEMENTS: usize = 100_000;
 
 /// Evaluates a file into a plan.
 pub(crate) fn launch(
@@ -73,10 +73,10 @@ struct Loader<'l, 'e> {
 
 impl Loader<'_, '_> {
     fn file(&mut self, path: &Path, mut scope: Scope, depth: usize) -> Outcome<()> {
-        if depth == DEEPEST {
+        if depth == MAX_DEPTH {
             return Err(Diagnostic::error(
                 "launch-include",
-                format!("includes are nested more than {DEEPEST} levels deep"),
+                format!("includes are nested more than {MAX_DEPTH} levels deep"),
             )
             .help("a file that includes itself needs an `if` that ends the recursion")
             .into());
@@ -94,7 +94,7 @@ impl Loader<'_, '_> {
                     "launch-argument",
                     format!("{} has no argument `{name}`", path.display()),
                 )
-                .guess(name, scope.arguments.keys().map(String::as_str));
+                .suggest(name, scope.arguments.keys().map(String::as_str));
                 self.evaluation.found.push(unused);
             }
         }
@@ -137,10 +137,10 @@ impl Loader<'_, '_> {
         }
         for element in parent.elements() {
             self.elements += 1;
-            if self.elements > MOST_ELEMENTS {
+            if self.elements > MAX_ELEMENTS {
                 return Err(Diagnostic::error(
                     "launch-size",
-                    format!("this launch has more than {MOST_ELEMENTS} elements"),
+                    format!("this launch has more than {MAX_ELEMENTS} elements"),
                 )
                 .at(element.name_origin())
                 .into());
@@ -221,7 +221,7 @@ impl Loader<'_, '_> {
                 let unknown =
                     Diagnostic::warning("launch-element", format!("unknown element `<{other}>`"))
                         .at(element.name_origin())
-                        .guess(other, KNOWN);
+                        .suggest(other, KNOWN);
                 self.evaluation.found.push(unknown);
                 Ok(())
             }

@@ -3,13 +3,13 @@
 //! `crates/apps/launch/python/submodules.py`.
 
 /// Program of the interpreter: `python3 -c BOOT`. Its first input line is a JSON object with
-/// [`MODULES`] as `modules` and [`MOST_MEMORY`] as `most_memory`; then it answers requests, line by
+/// [`MODULES`] as `modules` and [`MAX_MEMORY_BYTES`] as `most_memory`; then it answers requests, line by
 /// line.
 pub const BOOT: &str = include_str!("../python/boot.py");
 
 /// Memory limit of an interpreter \[bytes\]: launch files need about ten megabytes, and those that
 /// load numerical libraries some hundred.
-pub const MOST_MEMORY: u64 = 4 << 30;
+pub const MAX_MEMORY_BYTES: u64 = 4 << 30;
 
 /// Modules by name.
 pub const MODULES: [(&str, &str); 52] = [

@@ -190,13 +190,13 @@ pub(crate) struct Action {
     pub(crate) condition: Option<Condition>,
     /// Kind of the action, with its data.
     #[serde(flatten)]
-    pub(crate) deed: Deed,
+    pub(crate) action_kind: ActionKind,
 }
 
 /// Kind of an action, with its data.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(tag = "do", rename_all = "snake_case")]
-pub(crate) enum Deed {
+pub(crate) enum ActionKind {
     /// Declares an argument.
     Declare {
         name: String,
@@ -272,7 +272,7 @@ fn yes() -> bool {
 pub(crate) enum Event {
     Started { of: Option<u64> },
     Ended { of: Option<u64> },
-    Printed { of: Option<u64> },
+    ProgramOutput { of: Option<u64> },
     Reached { of: Option<u64>, from: Option<String>, to: Option<String> },
     Shutdown,
 }

@@ -30,7 +30,7 @@ fn look_up(session: &mut Session<'_>, name: &str) -> Outcome<SeenService> {
     let name = full_name(name);
     let service = format!("{name}/_action/send_goal");
     let (seen, is_there) = session.look_for(|seen| seen.service(&service).is_some());
-    session.go_on()?;
+    session.check_interrupted()?;
     let seen = if is_there { session.look() } else { seen };
     let actions = seen.actions();
     let near = advice(&name, actions.iter().map(|action| action.name.as_str()));

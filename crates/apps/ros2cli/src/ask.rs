@@ -7,28 +7,28 @@ use periplus_graph::{CallError, Node, RawClient, RawMessage};
 use periplus_msgs::{Message, Service};
 use periplus_os::{Stopwatch, sleep};
 
-use crate::session::BREATH;
+use crate::session::INTERRUPT_POLL_PERIOD;
 use crate::{Failure, Outcome, Session};
 
 /// Polling period for the response.
-const PAUSE: Duration = Duration::from_millis(1);
+const POLL_PERIOD: Duration = Duration::from_millis(1);
 
 /// Timeout of a response: a node that is busy starting may need some time.
-pub(crate) const PATIENCE: Duration = Duration::from_secs(10);
+pub(crate) const RESPONSE_TIMEOUT: Duration = Duration::from_secs(10);
 
 /// Service client.
-pub(crate) struct Asker {
+pub(crate) struct ServiceCaller {
     name: String,
     client: RawClient,
 }
 
 /// Pending request.
-pub(crate) struct Question {
+pub(crate) struct PendingRequest {
     name: String,
     answer: Receiver<Result<RawMessage, CallError>>,
 }
 
-impl Asker {
+impl ServiceCaller {
     /// Creates the client.
     pub(crate) fn new(
         node: &Node,
@@ -44,30 +44,30 @@ impl Asker {
     pub(crate) fn wait(&self, session: &Session<'_>, timeout: Option<Duration>) -> Outcome<bool> {
         let clock = Stopwatch::start();
         while !self.client.is_ready() {
-            session.go_on()?;
+            session.check_interrupted()?;
             if timeout.is_some_and(|timeout| clock.elapsed() >= timeout) {
                 return Ok(false);
             }
             let served = |seen: &crate::Seen| {
                 seen.service(&self.name).is_some_and(|service| !service.servers.is_empty())
             };
-            session.network.wait(BREATH, &mut { served });
-            sleep(PAUSE);
+            session.network.wait(INTERRUPT_POLL_PERIOD, &mut { served });
+            sleep(POLL_PERIOD);
         }
         Ok(true)
     }
 
     /// Sends a request.
-    pub(crate) fn ask(&self, cdr: Vec<u8>) -> Question {
+    pub(crate) fn ask(&self, cdr: Vec<u8>) -> PendingRequest {
         let (send, answer) = channel();
         self.client.call(cdr, move |result| {
             let _ = send.send(result);
         });
-        Question { name: self.name.clone(), answer }
+        PendingRequest { name: self.name.clone(), answer }
     }
 }
 
-impl Question {
+impl PendingRequest {
     /// Returns the response if it has arrived.
     pub(crate) fn take(&self) -> Outcome<Option<Vec<u8>>> {
         match self.answer.try_recv() {
@@ -94,7 +94,7 @@ impl Question {
             if let Some(answer) = self.take()? {
                 return Ok(answer);
             }
-            session.go_on()?;
+            session.check_interrupted()?;
             if let Some(timeout) = timeout
                 && clock.elapsed() >= timeout
             {
@@ -102,7 +102,7 @@ impl Question {
                 let words = format!("{} did not answer within {seconds} s", self.name);
                 return Err(Failure::failed(words));
             }
-            sleep(PAUSE);
+            sleep(POLL_PERIOD);
         }
     }
 }
@@ -114,13 +114,13 @@ pub(crate) fn ask<S: Service>(
     name: &str,
     request: &S::Request,
 ) -> Outcome<S::Response> {
-    let asker = Asker::new(node, name, S::TYPE_NAME, Some(S::TYPE_HASH))?;
+    let asker = ServiceCaller::new(node, name, S::TYPE_NAME, Some(S::TYPE_HASH))?;
     let time = session.found_within();
     if !asker.wait(session, Some(time))? {
         return Err(Failure::failed(format!("no server of {name} was found")));
     }
     let cdr = request.to_cdr().map_err(|error| Failure::failed(error.to_string()))?;
-    let answer = asker.ask(cdr).wait(session, Some(PATIENCE))?;
+    let answer = asker.ask(cdr).wait(session, Some(RESPONSE_TIMEOUT))?;
     S::Response::decode_cdr(&answer).map_err(|error| {
         Failure::failed(format!("the response of {name} is not a {}: {error}", S::TYPE_NAME))
     })

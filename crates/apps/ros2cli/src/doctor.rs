@@ -1,15 +1,15 @@
 //! `doctor`: diagnosis of a running system, with the parameter to change.
 //!
-//! [`Ears`] collect messages into a [`Picture`]; [`examine`] finds its problems. Neither needs a
+//! [`SystemObserver`] collect messages into a [`SystemObservation`]; [`examine`] finds its problems. Neither needs a
 //! network, so that a simulation in the same program can be diagnosed before anything runs for
 //! real.
 
 mod clocks;
-mod ears;
-mod ends;
+mod endpoints;
 mod frames;
 mod network;
-mod picture;
+mod observation;
+mod observer;
 mod sensors;
 
 use std::time::Duration;
@@ -20,22 +20,22 @@ use periplus_os::{Stopwatch, sleep};
 use crate::param::simulated_time;
 use crate::{Outcome, Session};
 
-pub use ears::Ears;
-pub use network::{Surroundings, domains_in};
-pub use picture::{Heard, Picture, ScanFacts};
+pub use network::{NetworkSettings, domains_in};
+pub use observation::{ScanFacts, SystemObservation, TopicStatistics};
+pub use observer::SystemObserver;
 
 /// Polling period for messages.
-const LOOK: Duration = Duration::from_millis(5);
+const POLL_PERIOD: Duration = Duration::from_millis(5);
 
 /// Returns all findings, causes first.
 #[must_use]
-pub fn examine(picture: &Picture) -> Diagnostics {
+pub fn examine(observation: &SystemObservation) -> Diagnostics {
     let mut found = Diagnostics::new();
-    network::examine(picture, &mut found);
-    ends::examine(picture, &mut found);
-    clocks::examine(picture, &mut found);
-    frames::examine(picture, &mut found);
-    sensors::examine(picture, &mut found);
+    network::examine(observation, &mut found);
+    endpoints::examine(observation, &mut found);
+    clocks::examine(observation, &mut found);
+    frames::examine(observation, &mut found);
+    sensors::examine(observation, &mut found);
     found
 }
 
@@ -43,18 +43,18 @@ pub fn examine(picture: &Picture) -> Diagnostics {
 ///
 /// # Errors
 /// When it was interrupted, or the graph refuses its node.
-pub fn listen(session: &mut Session<'_>, time: Duration) -> Outcome<Picture> {
+pub fn listen(session: &mut Session<'_>, time: Duration) -> Outcome<SystemObservation> {
     let seen = session.look();
     let node = session.node(None)?;
-    let mut ears = Ears::open(&node, &seen)?;
+    let mut observer = SystemObserver::open(&node, &seen)?;
     let clock = Stopwatch::start();
     while clock.elapsed() < time {
-        ears.hear();
-        session.go_on()?;
-        sleep(LOOK);
+        observer.hear();
+        session.check_interrupted()?;
+        sleep(POLL_PERIOD);
     }
-    ears.hear();
+    observer.hear();
     let simulated = simulated_time(session, &node, &seen);
     let seen = session.network.seen();
-    Ok(ears.picture(seen, simulated, time))
+    Ok(observer.observation(seen, simulated, time))
 }

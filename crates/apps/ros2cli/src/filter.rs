@@ -12,8 +12,8 @@ use crate::show::whole_number;
 use crate::{Failure, Outcome};
 
 /// Limits of work and memory for a message, sufficient to sum up a whole image.
-const STEPS: u64 = 50_000_000;
-const BYTES: u64 = 1 << 30;
+const MAX_STEPS: u64 = 50_000_000;
+const MAX_BYTES: u64 = 1 << 30;
 
 /// Filter expression.
 pub(crate) struct Filter(Expression);
@@ -35,7 +35,7 @@ impl Filter {
     /// When the expression cannot be evaluated for it.
     pub(crate) fn wants(&self, message: &DynamicMessage) -> Outcome<bool> {
         let scope = Fields { message };
-        let mut budget = Budget::new(STEPS, BYTES);
+        let mut budget = Budget::new(MAX_STEPS, MAX_BYTES);
         match evaluate(&self.0, &scope, &mut budget) {
             Ok(value) => Ok(value.is_true()),
             Err(error) => {

@@ -36,8 +36,8 @@ mod values;
 
 pub use failure::{Failure, Outcome, Refusal, Ros2Line};
 pub use network::{InGraph, Network, Progress};
-pub use qos::QosWish;
-pub use seen::{Seen, SeenEnd, SeenNode, SeenService, SeenTopic, is_hidden};
+pub use qos::QosRequest;
+pub use seen::{Seen, SeenNode, SeenService, SeenTopic, TopicEndpoint, is_hidden};
 pub use session::Session;
 pub use types::Types;
 pub use values::Values;

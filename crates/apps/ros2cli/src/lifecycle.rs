@@ -38,7 +38,7 @@ fn look_up(session: &Session<'_>, name: &str) -> Outcome<String> {
     let name = full_name(name);
     let is_managed = |seen: &Seen| managed(seen, true).contains(&name);
     let (seen, is_there) = session.look_for(is_managed);
-    session.go_on()?;
+    session.check_interrupted()?;
     if is_there {
         return Ok(name);
     }

@@ -8,10 +8,10 @@ use periplus_rosidl::InterfaceKind;
 
 use crate::session::{advice, full_name};
 use crate::types::full_type;
-use crate::{Failure, Outcome, QosWish, Seen, SeenTopic, Session};
+use crate::{Failure, Outcome, QosRequest, Seen, SeenTopic, Session};
 
 /// Time without a publisher after which a warning is printed.
-const PATIENCE: Duration = Duration::from_millis(1_000);
+const WARNING_DELAY: Duration = Duration::from_millis(1_000);
 
 /// Subscription to a topic.
 pub(crate) struct Listener {
@@ -31,7 +31,7 @@ impl Listener {
         node: &Node,
         name: &str,
         type_name: Option<&str>,
-        wish: &QosWish,
+        wish: &QosRequest,
         is_impatient: bool,
     ) -> Outcome<Self> {
         let topic = full_name(name);
@@ -75,7 +75,7 @@ impl Listener {
 /// warning. The wait is bounded if at least one is published.
 pub(crate) fn await_any(session: &mut Session<'_>, topics: &[String]) -> Outcome<Vec<String>> {
     let is_there = |seen: &Seen, name: &String| is_published(seen, &full_name(name));
-    if !session.wait(Some(PATIENCE), |seen| topics.iter().all(|name| is_there(seen, name)))? {
+    if !session.wait(Some(WARNING_DELAY), |seen| topics.iter().all(|name| is_there(seen, name)))? {
         let seen = session.network.seen();
         for name in topics.iter().filter(|name| !is_there(&seen, name)) {
             let name = full_name(name);
@@ -101,10 +101,10 @@ fn await_topic(
 ) -> Outcome<SeenTopic> {
     let is_published = |seen: &Seen| is_published(seen, topic);
     let is_known = |seen: &Seen| seen.topic(topic).is_some();
-    if !session.wait(Some(PATIENCE), is_published)? {
+    if !session.wait(Some(WARNING_DELAY), is_published)? {
         session.say(&format!("WARNING: topic [{topic}] does not appear to be published yet"));
         if is_impatient && !is_typed && !session.look_for(is_known).1 {
-            session.go_on()?;
+            session.check_interrupted()?;
             let seen = session.network.seen();
             let near = advice(topic, seen.topics.iter().map(|topic| topic.name.as_str()));
             return Err(Failure::failed(format!(
@@ -190,7 +190,7 @@ pub(crate) fn hear(
         if let Next::Done = tick(session, listeners, clock.elapsed())? {
             return Ok(());
         }
-        session.go_on()?;
+        session.check_interrupted()?;
         sleep(pause);
     }
 }

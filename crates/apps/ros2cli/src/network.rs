@@ -8,7 +8,7 @@ use periplus_os::{Stopwatch, sleep};
 use crate::Seen;
 
 /// Polling period of a graph in the same program.
-const LOOK_AGAIN: Duration = Duration::from_millis(2);
+const POLL_PERIOD: Duration = Duration::from_millis(2);
 
 /// Source of nodes, topics and services for verbs.
 pub trait Network {
@@ -68,7 +68,7 @@ impl Network for InGraph {
             if clock.elapsed() >= timeout {
                 return false;
             }
-            sleep(LOOK_AGAIN);
+            sleep(POLL_PERIOD);
         }
     }
 

@@ -3,7 +3,7 @@
 use serde_json::json;
 
 use crate::session::{advice, full_name};
-use crate::{Failure, Outcome, Seen, SeenEnd, SeenService, Session, is_hidden};
+use crate::{Failure, Outcome, Seen, SeenService, Session, TopicEndpoint, is_hidden};
 
 /// Lists all nodes.
 ///
@@ -32,7 +32,7 @@ pub fn list(session: &mut Session<'_>, all: bool, count: bool) -> Outcome {
 pub fn info(session: &mut Session<'_>, name: &str, include_hidden: bool) -> Outcome {
     let name = full_name(name);
     let (seen, is_there) = session.look_for(|seen| seen.count_nodes(&name) > 0);
-    session.go_on()?;
+    session.check_interrupted()?;
     if !is_there {
         let near = advice(&name, seen.nodes.iter().map(|node| node.name.as_str()));
         return Err(Failure::failed(format!("Unable to find node '{name}'{near}")));
@@ -72,8 +72,8 @@ type Uses = Vec<(String, Vec<String>)>;
 
 fn parts(seen: &Seen, node: &str, include_hidden: bool) -> [(&'static str, &'static str, Uses); 6] {
     let shown = |name: &str| include_hidden || !is_hidden(name);
-    let topics = |ends: fn(&crate::SeenTopic) -> &Vec<SeenEnd>| -> Uses {
-        let mine = |end: &SeenEnd| end.node.as_deref() == Some(node);
+    let topics = |ends: fn(&crate::SeenTopic) -> &Vec<TopicEndpoint>| -> Uses {
+        let mine = |end: &TopicEndpoint| end.node.as_deref() == Some(node);
         let topics = seen.topics.iter().filter(|topic| shown(&topic.name));
         let topics = topics.filter(|topic| ends(topic).iter().any(mine));
         topics.map(|topic| (topic.name.clone(), topic.types.clone())).collect()

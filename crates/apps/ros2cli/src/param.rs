@@ -64,7 +64,7 @@ pub(crate) fn simulated_time(
 fn look_up(session: &Session<'_>, name: &str) -> Outcome<String> {
     let name = full_name(name);
     let (seen, is_there) = session.look_for(|seen| parametric(seen).contains(&name));
-    session.go_on()?;
+    session.check_interrupted()?;
     if is_there {
         return Ok(name);
     }

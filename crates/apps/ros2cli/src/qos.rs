@@ -6,7 +6,7 @@ use crate::{Failure, Outcome, SeenTopic};
 
 /// QoS options; `None` selects a matching policy.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct QosWish {
+pub struct QosRequest {
     /// `--qos-profile`.
     pub profile: Option<String>,
     /// `--qos-depth`.
@@ -37,7 +37,7 @@ const PROFILES: [(&str, Qos); 6] = [
 /// each of which may hold many transforms.
 const LATCHED_DEPTH: usize = 100;
 
-impl QosWish {
+impl QosRequest {
     /// QoS offered by a publisher.
     ///
     /// # Errors
@@ -131,7 +131,7 @@ impl QosWish {
     }
 }
 
-fn count(ends: &[crate::SeenEnd], is_so: impl Fn(&Qos) -> bool) -> usize {
+fn count(ends: &[crate::TopicEndpoint], is_so: impl Fn(&Qos) -> bool) -> usize {
     ends.iter().filter(|end| is_so(&end.qos)).count()
 }
 

@@ -30,14 +30,14 @@ pub struct SeenTopic {
     /// Types; two or more if its endpoints disagree.
     pub types: Vec<String>,
     /// Publishers.
-    pub publishers: Vec<SeenEnd>,
+    pub publishers: Vec<TopicEndpoint>,
     /// Subscriptions.
-    pub subscriptions: Vec<SeenEnd>,
+    pub subscriptions: Vec<TopicEndpoint>,
 }
 
 /// Endpoint of a topic.
 #[derive(Clone, Debug, PartialEq)]
-pub struct SeenEnd {
+pub struct TopicEndpoint {
     /// Full name of its node, if known.
     pub node: Option<String>,
     /// Message type.
@@ -85,14 +85,14 @@ impl Seen {
     /// Snapshot of a graph, without the nodes whose names `is_own` accepts.
     #[must_use]
     pub fn of_graph(graph: &Graph, is_own: impl Fn(&str) -> bool) -> Self {
-        let end = |topic: &TopicInfo, end: &EndpointInfo| SeenEnd {
+        let end = |topic: &TopicInfo, end: &EndpointInfo| TopicEndpoint {
             node: Some(end.node.clone()),
             type_name: topic.type_name.clone(),
             type_hash: topic.type_hash.clone(),
             gid: String::new(),
             qos: end.qos,
         };
-        let others = |ends: &[EndpointInfo], topic: &TopicInfo| -> Vec<SeenEnd> {
+        let others = |ends: &[EndpointInfo], topic: &TopicInfo| -> Vec<TopicEndpoint> {
             let ends = ends.iter().filter(|end| !is_own(&end.node));
             ends.map(|one| end(topic, one)).collect()
         };

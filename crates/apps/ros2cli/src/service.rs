@@ -7,14 +7,14 @@ use periplus_os::{Stopwatch, sleep};
 use periplus_rosidl::InterfaceKind;
 use serde_json::json;
 
-use crate::ask::Asker;
+use crate::ask::ServiceCaller;
 use crate::failure::endless;
-use crate::session::{BREATH, advice, full_name, titled};
+use crate::session::{INTERRUPT_POLL_PERIOD, advice, full_name, titled};
 use crate::types::full_type;
 use crate::{Failure, Outcome, SeenService, Session, Values, clock, is_hidden, show};
 
 /// Time without a server after which a warning is printed.
-const TELL: Duration = Duration::from_millis(1_000);
+const REPORT_PERIOD: Duration = Duration::from_millis(1_000);
 
 /// Lists all services.
 ///
@@ -42,7 +42,7 @@ pub fn list(
 fn look_up(session: &mut Session<'_>, name: &str) -> Outcome<SeenService> {
     let name = full_name(name);
     let (seen, is_there) = session.look_for(|seen| seen.service(&name).is_some());
-    session.go_on()?;
+    session.check_interrupted()?;
     let seen = if is_there { session.look() } else { seen };
     seen.service(&name).cloned().ok_or_else(|| {
         let near = advice(&name, seen.services.iter().map(|one| one.name.as_str()));
@@ -117,8 +117,8 @@ pub fn call(
     let name = full_name(name);
     let node = session.node(None)?;
     let hash = session.types.registry().hash(&type_name);
-    let asker = Asker::new(&node, &name, &type_name, hash.as_deref())?;
-    if !asker.wait(session, Some(TELL))? {
+    let asker = ServiceCaller::new(&node, &name, &type_name, hash.as_deref())?;
+    if !asker.wait(session, Some(REPORT_PERIOD))? {
         session.say("waiting for service to become available...");
         asker.wait(session, None)?;
     }
@@ -148,8 +148,8 @@ pub fn call(
             let Some(rate_hz) = rate_hz else { return Ok(()) };
             let period = Duration::from_secs_f64(1.0 / rate_hz);
             while clock.elapsed() < period {
-                session.go_on()?;
-                sleep((period - clock.elapsed().min(period)).min(BREATH));
+                session.check_interrupted()?;
+                sleep((period - clock.elapsed().min(period)).min(INTERRUPT_POLL_PERIOD));
             }
         }
     };

@@ -16,7 +16,7 @@ use crate::{Failure, Network, Outcome, Seen, Types};
 const MIN_DISCOVERY: Duration = Duration::from_millis(600);
 
 /// Discovery continues until nothing has changed for this time.
-const QUIET: Duration = Duration::from_millis(200);
+const SETTLE_TIME: Duration = Duration::from_millis(200);
 
 /// Maximum wait for participants on this machine that do not respond: they may be on another
 /// network.
@@ -29,10 +29,10 @@ const MAX_INCOMPLETE: Duration = Duration::from_secs(10);
 const MIN_SEARCH: Duration = Duration::from_millis(2_000);
 
 /// Polling period of discovery.
-const LOOK_AGAIN: Duration = Duration::from_millis(20);
+const POLL_PERIOD: Duration = Duration::from_millis(20);
 
 /// Polling period of the interrupt flag.
-pub(crate) const BREATH: Duration = Duration::from_millis(100);
+pub(crate) const INTERRUPT_POLL_PERIOD: Duration = Duration::from_millis(100);
 
 /// One use of the command: its network, its types, and its output.
 pub struct Session<'a> {
@@ -86,7 +86,7 @@ impl Session<'_> {
             let is_done = match self.spin_time {
                 Some(time) => now >= time,
                 None => {
-                    let is_settled = now >= changed + QUIET
+                    let is_settled = now >= changed + SETTLE_TIME
                         && last.incomplete == 0
                         && (last.unanswered == 0 || now >= MAX_UNANSWERED);
                     now >= MAX_INCOMPLETE || now >= min && is_settled
@@ -95,7 +95,7 @@ impl Session<'_> {
             if is_done || self.is_stopped() {
                 return last;
             }
-            sleep(LOOK_AGAIN);
+            sleep(POLL_PERIOD);
             let progress = self.network.progress();
             is_new = progress.changes != last.changes;
             if is_new {
@@ -131,11 +131,13 @@ impl Session<'_> {
         let clock = Stopwatch::start();
         loop {
             let now = clock.elapsed();
-            let rest = timeout.map_or(BREATH, |timeout| timeout.saturating_sub(now).min(BREATH));
+            let rest = timeout.map_or(INTERRUPT_POLL_PERIOD, |timeout| {
+                timeout.saturating_sub(now).min(INTERRUPT_POLL_PERIOD)
+            });
             if self.network.wait(rest, &mut wanted) {
                 return Ok(true);
             }
-            self.go_on()?;
+            self.check_interrupted()?;
             if timeout.is_some_and(|timeout| clock.elapsed() >= timeout) {
                 return Ok(false);
             }
@@ -150,7 +152,7 @@ impl Session<'_> {
 
     /// # Errors
     /// When interrupted.
-    pub fn go_on(&self) -> Outcome {
+    pub fn check_interrupted(&self) -> Outcome {
         if self.is_stopped() { Err(Failure::Interrupted) } else { Ok(()) }
     }
 

@@ -14,8 +14,8 @@ use periplus_msgs::rosgraph_msgs::Clock;
 use periplus_msgs::sensor_msgs::LaserScan;
 use periplus_msgs::std_msgs::Header;
 use periplus_msgs::tf2_msgs::TFMessage;
-use periplus_ros2cli::doctor::{Ears, Picture, Surroundings, examine};
-use periplus_ros2cli::{Seen, SeenEnd, SeenTopic};
+use periplus_ros2cli::doctor::{NetworkSettings, SystemObservation, SystemObserver, examine};
+use periplus_ros2cli::{Seen, SeenTopic, TopicEndpoint};
 
 const SECOND_NS: i64 = 1_000_000_000;
 
@@ -37,7 +37,7 @@ struct Robot {
     /// Offset of the stamps of scans \[ns\].
     stamp_shift_ns: i64,
     simulated: BTreeMap<String, bool>,
-    surroundings: Option<Surroundings>,
+    network_settings: Option<NetworkSettings>,
     is_alone: bool,
 }
 
@@ -75,17 +75,17 @@ impl Robot {
             every: 1,
             stamp_shift_ns: 0,
             simulated: BTreeMap::from([("/amcl".into(), true), ("/lidar".into(), true)]),
-            surroundings: None,
+            network_settings: None,
             is_alone: false,
             graph,
         }
     }
 
     /// Collects three seconds.
-    fn picture(&self) -> Picture {
+    fn observation(&self) -> SystemObservation {
         let own = node(&self.graph, "_doctor");
         let look = || Seen::of_graph(&self.graph, |name| name.ends_with("_doctor"));
-        let mut ears = Ears::open(&own, &look()).unwrap();
+        let mut ears = SystemObserver::open(&own, &look()).unwrap();
         if self.says_fixed {
             self.fixed.publish(transform("base_link", "lidar_link", 0));
         }
@@ -116,20 +116,21 @@ impl Robot {
             self.graph.advance_to(now_ns + 1);
             ears.hear();
         }
-        let mut picture = ears.picture(look(), self.simulated.clone(), Duration::from_secs(3));
-        picture.surroundings = self.surroundings.clone();
-        picture.is_alone = self.is_alone;
-        picture
+        let mut observation =
+            ears.observation(look(), self.simulated.clone(), Duration::from_secs(3));
+        observation.network_settings = self.network_settings.clone();
+        observation.is_alone = self.is_alone;
+        observation
     }
 
     fn check(&self, expected: Expect) {
-        check(&self.picture(), expected);
+        check(&self.observation(), expected);
     }
 }
 
-fn check(picture: &Picture, expected: Expect) {
+fn check(observation: &SystemObservation, expected: Expect) {
     let mut text = String::new();
-    for finding in examine(picture).iter() {
+    for finding in examine(observation).iter() {
         text += &format!("{} {}: {}\n", finding.severity.name(), finding.code, finding.message);
         for help in &finding.help {
             text += &format!("  {help}\n");
@@ -303,14 +304,14 @@ fn a_lidar_that_is_too_slow() {
 
 #[test]
 fn another_domain() {
-    let around = Surroundings {
+    let around = NetworkSettings {
         domain_id: 7,
         is_loopback: true,
         domains: [0, 7].into(),
-        ..Surroundings::default()
+        ..NetworkSettings::default()
     };
     check(
-        &Picture { surroundings: Some(around), ..Picture::default() },
+        &SystemObservation { network_settings: Some(around), ..SystemObservation::default() },
         expect![[r#"
         error nobody: no participant found in domain 7
           set ROS_DOMAIN_ID=0
@@ -320,9 +321,9 @@ fn another_domain() {
 
 #[test]
 fn multicast_that_is_blocked() {
-    let around = Surroundings { has_multicast: Some(false), ..Surroundings::default() };
+    let around = NetworkSettings { has_multicast: Some(false), ..NetworkSettings::default() };
     check(
-        &Picture { surroundings: Some(around), ..Robot::new().picture() },
+        &SystemObservation { network_settings: Some(around), ..Robot::new().observation() },
         expect![[r#"
         warning multicast: packets to 239.255.0.1 are not received: multicast is blocked
           allow UDP to 239.255.0.1 in the firewall, or list the other machines in ROS_STATIC_PEERS
@@ -332,7 +333,7 @@ fn multicast_that_is_blocked() {
 
 #[test]
 fn one_name_for_two_types() {
-    let end = |node: &str, type_name: &str| SeenEnd {
+    let end = |node: &str, type_name: &str| TopicEndpoint {
         node: Some(node.to_owned()),
         type_name: type_name.to_owned(),
         type_hash: None,
@@ -348,7 +349,7 @@ fn one_name_for_two_types() {
     };
     let seen = Seen { topics: vec![topic], ..Seen::default() };
     check(
-        &Picture { seen, ..Picture::default() },
+        &SystemObservation { seen, ..SystemObservation::default() },
         expect![[r#"
         error topic-types: `/cmd_vel` has endpoints of different types: geometry_msgs/msg/Twist, geometry_msgs/msg/TwistStamped
           rename one of them: `-r /cmd_vel:=/cmd_vel_other`
@@ -391,20 +392,20 @@ fn a_mapper_that_shows_nothing_yet() {
 #[test]
 fn nodes_in_the_process_of_the_simulation() {
     let process = |byte: &str| [byte; 12].join(".") + ".00.00.01.03";
-    let end = |node: &str, gid: String| SeenEnd {
+    let end = |node: &str, gid: String| TopicEndpoint {
         node: Some(node.to_owned()),
         type_name: "rosgraph_msgs/msg/Clock".into(),
         type_hash: None,
         gid,
         qos: Qos::reliable(1),
     };
-    let topic = |name: &str, publishers: Vec<SeenEnd>| SeenTopic {
+    let topic = |name: &str, publishers: Vec<TopicEndpoint>| SeenTopic {
         name: name.into(),
         types: vec!["rosgraph_msgs/msg/Clock".into()],
         publishers,
         subscriptions: Vec::new(),
     };
-    let picture = |amcl: &str| Picture {
+    let observation = |amcl: &str| SystemObservation {
         seen: Seen {
             topics: vec![
                 topic("/clock", vec![end("/gazebo", process("01"))]),
@@ -413,8 +414,8 @@ fn nodes_in_the_process_of_the_simulation() {
             ..Seen::default()
         },
         simulated: BTreeMap::from([("/amcl".to_owned(), false)]),
-        ..Picture::default()
+        ..SystemObservation::default()
     };
-    check(&picture("01"), expect![[""]]);
-    assert!(examine(&picture("02")).iter().any(|finding| finding.code == "wall-time"));
+    check(&observation("01"), expect![[""]]);
+    assert!(examine(&observation("02")).iter().any(|finding| finding.code == "wall-time"));
 }

@@ -8,7 +8,7 @@ use periplus_diagnostics::{Severity, SourceMap, to_json};
 use serde_json::json;
 
 use super::options::CheckOptions;
-use super::progress::Line;
+use super::progress::ProgressLine;
 use crate::terminal;
 
 pub(super) fn run(options: &CheckOptions) -> io::Result<ExitCode> {
@@ -19,7 +19,7 @@ pub(super) fn run(options: &CheckOptions) -> io::Result<ExitCode> {
             failed = true;
             continue;
         };
-        let line = Line::new(bag.message_count());
+        let line = ProgressLine::new(bag.message_count());
         let checked = check(&bag, &mut |count| line.show(count));
         line.clear();
         let (messages, findings) = match checked {

@@ -8,7 +8,7 @@ use periplus_bags::files::{Bag, Conversion, Kind, Storage, WriteSettings, conver
 
 use super::options::{ConvertOptions, CutOptions, SelectOptions};
 use super::outputs;
-use super::progress::Line;
+use super::progress::ProgressLine;
 use crate::terminal;
 
 pub(super) fn run(options: &ConvertOptions) -> io::Result<ExitCode> {
@@ -75,7 +75,7 @@ fn write(
     // Conversion runs alone, so it may use all cores.
     let threads = std::thread::available_parallelism().map_or(1, std::num::NonZero::get);
     let write = WriteSettings { threads, ..write };
-    let line = Line::new(bags.iter().map(Bag::message_count).sum());
+    let line = ProgressLine::new(bags.iter().map(Bag::message_count).sum());
     let done =
         convert(bags, output, Conversion { selection, write }, &mut |count| line.show(count));
     line.clear();

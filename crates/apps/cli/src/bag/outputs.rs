@@ -13,7 +13,7 @@ use super::options::{Chunks, Format, Mode, SelectOptions, StorageId, WriteOption
 
 /// Settings of one output recording.
 #[derive(Debug)]
-pub(super) struct Wanted {
+pub(super) struct OutputSettings {
     pub(super) output: PathBuf,
     pub(super) select: SelectOptions,
     pub(super) write: WriteOptions,
@@ -67,7 +67,7 @@ pub(super) fn is_one(path: &Path) -> bool {
 }
 
 /// Reads a YAML file of outputs; the findings carry their source lines.
-pub(super) fn read(path: &Path) -> Result<(Vec<Wanted>, Diagnostics, SourceMap), String> {
+pub(super) fn read(path: &Path) -> Result<(Vec<OutputSettings>, Diagnostics, SourceMap), String> {
     let text = crate::paths::text(path)?;
     let (mut sources, mut findings) = (SourceMap::new(), Diagnostics::new());
     let file = sources.add(path.display().to_string(), text);
@@ -88,12 +88,12 @@ pub(super) fn read(path: &Path) -> Result<(Vec<Wanted>, Diagnostics, SourceMap),
     Ok((wanted, findings, sources))
 }
 
-fn outputs(node: &YamlNode, findings: &mut Diagnostics) -> Vec<Wanted> {
+fn outputs(node: &YamlNode, findings: &mut Diagnostics) -> Vec<OutputSettings> {
     let list = node.get("output_bags").and_then(YamlNode::list).unwrap_or_default();
     list.iter().filter_map(|one| output(one, findings)).collect()
 }
 
-fn output(node: &YamlNode, findings: &mut Diagnostics) -> Option<Wanted> {
+fn output(node: &YamlNode, findings: &mut Diagnostics) -> Option<OutputSettings> {
     let Some(uri) = node.get("uri").and_then(YamlNode::text) else {
         findings.push(
             Diagnostic::error(
@@ -104,7 +104,7 @@ fn output(node: &YamlNode, findings: &mut Diagnostics) -> Option<Wanted> {
         );
         return None;
     };
-    let mut wanted = Wanted {
+    let mut wanted = OutputSettings {
         output: PathBuf::from(uri),
         select: SelectOptions::default(),
         write: WriteOptions::default(),
@@ -132,7 +132,7 @@ fn output(node: &YamlNode, findings: &mut Diagnostics) -> Option<Wanted> {
     Some(wanted)
 }
 
-fn set(wanted: &mut Wanted, key: &str, value: &YamlNode) -> Result<(), String> {
+fn set(wanted: &mut OutputSettings, key: &str, value: &YamlNode) -> Result<(), String> {
     let (select, write) = (&mut wanted.select, &mut wanted.write);
     let text = || value.text().ok_or_else(|| "expected a string".to_owned());
     let number = || value.integer().ok_or_else(|| "expected an integer".to_owned());

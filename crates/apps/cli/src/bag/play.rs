@@ -16,13 +16,13 @@ use crate::stop;
 use crate::terminal;
 
 /// Longest sleep of the loop, so that Ctrl-C and ENTER are handled within this time.
-const LOOK: Duration = Duration::from_millis(10);
+const POLL_PERIOD: Duration = Duration::from_millis(10);
 
 /// Time that subscribers have to fetch the last messages.
-const LAST_WORDS: Duration = Duration::from_secs(2);
+const FLUSH_TIMEOUT: Duration = Duration::from_secs(2);
 
 /// Time for discovery: messages published before are lost to subscribers that have not matched yet.
-const GREETING: Duration = Duration::from_millis(500);
+const DISCOVERY_DELAY: Duration = Duration::from_millis(500);
 
 pub(super) fn run(options: &PlayOptions) -> io::Result<ExitCode> {
     let Some(bag) = super::open(&options.bag)? else { return Ok(ExitCode::FAILURE) };
@@ -42,7 +42,7 @@ pub(super) fn run(options: &PlayOptions) -> io::Result<ExitCode> {
     let stop = stop::on_signal();
     let player = Player::new(bag, &live.graph, settings);
     let played = player.and_then(|mut player| play(&mut player, &live, options.delay, &stop));
-    if !live.end(LAST_WORDS) {
+    if !live.end(FLUSH_TIMEOUT) {
         terminal::complain("a subscriber did not acknowledge all messages before the end");
     }
     match played {
@@ -62,23 +62,23 @@ fn play(
     stop: &Arc<AtomicBool>,
 ) -> Result<(), BagError> {
     let keys = enter_keys();
-    let delay = Duration::from_nanos(delay_ns.unsigned_abs()).max(GREETING);
+    let delay = Duration::from_nanos(delay_ns.unsigned_abs()).max(DISCOVERY_DELAY);
     let watch = Stopwatch::start();
     while !stop.load(Ordering::Relaxed) {
-        live.go_on();
+        live.spin_once();
         if keys.swap(false, Ordering::Relaxed) {
             player.set_paused(!player.is_paused());
             terminal::say(if player.is_paused() { "paused" } else { "resumed" });
         }
         let wall = watch.elapsed();
         let Some(wall) = wall.checked_sub(delay) else {
-            sleep(LOOK.min(delay - wall));
+            sleep(POLL_PERIOD.min(delay - wall));
             continue;
         };
         let wall_ns = i64::try_from(wall.as_nanos()).unwrap_or(i64::MAX);
         let Some(next_ns) = player.advance_to(wall_ns)? else { break };
         let left = Duration::from_nanos(next_ns.saturating_sub(wall_ns).max(0).unsigned_abs());
-        sleep(left.min(LOOK));
+        sleep(left.min(POLL_PERIOD));
         super::tell(&player.take_findings()).ok();
         live.tell();
     }

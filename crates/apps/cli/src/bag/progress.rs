@@ -3,9 +3,9 @@
 use indicatif::{ProgressBar, ProgressStyle};
 
 /// Progress bar at the bottom of the terminal; hidden where stderr is no terminal.
-pub(super) struct Line(ProgressBar);
+pub(super) struct ProgressLine(ProgressBar);
 
-impl Line {
+impl ProgressLine {
     pub(super) fn new(messages: u64) -> Self {
         let style = "{bar:30} {percent} %, {human_pos} messages, {eta} left";
         let style = ProgressStyle::with_template(style);

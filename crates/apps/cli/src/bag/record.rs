@@ -22,10 +22,10 @@ use crate::stop;
 use crate::terminal;
 
 /// Period of discovery of new topics and of flushing old messages to the disk.
-const LOOK: Duration = Duration::from_millis(100);
+const POLL_PERIOD: Duration = Duration::from_millis(100);
 
 /// Polling period of the clock.
-const TICK: Duration = Duration::from_millis(2);
+const CLOCK_POLL_PERIOD: Duration = Duration::from_millis(2);
 
 pub(super) fn run(options: &RecordOptions) -> io::Result<ExitCode> {
     if !options.all && options.topics.is_empty() && options.regex.is_none() {
@@ -52,7 +52,7 @@ pub(super) fn run(options: &RecordOptions) -> io::Result<ExitCode> {
 
 fn record(options: &RecordOptions, live: &mut Live) -> Result<(), BagError> {
     let output = options.output.clone().unwrap_or_else(named_by_time);
-    let offers = Offers::default();
+    let offers = PublisherQos::default();
     let known = offers.clone();
     let settings = RecordSettings {
         // This node publishes nothing, so every received message was subscribed to.
@@ -71,19 +71,19 @@ fn record(options: &RecordOptions, live: &mut Live) -> Result<(), BagError> {
     }
     let stop = stop::on_signal();
     let recorder = Recorder::start(&live.graph, &output, settings)?;
-    let mut heard = Heard { node, offers, mailboxes: BTreeMap::new() };
+    let mut subscriptions = RecorderSubscriptions { node, offers, mailboxes: BTreeMap::new() };
     terminal::say(&format!("{}: recording; Ctrl-C ends it", output.display()));
     let mut ticks = 0;
     while !stop.load(Ordering::Relaxed) {
-        live.go_on();
-        if ticks % (LOOK.as_millis() / TICK.as_millis()) == 0 {
-            heard.follow(options, &live.wire.remote())?;
+        live.spin_once();
+        if ticks % (POLL_PERIOD.as_millis() / CLOCK_POLL_PERIOD.as_millis()) == 0 {
+            subscriptions.follow(options, &live.wire.remote())?;
             recorder.keep()?;
             live.tell();
         }
         ticks += 1;
-        heard.drop_read();
-        sleep(TICK);
+        subscriptions.drop_read();
+        sleep(CLOCK_POLL_PERIOD);
     }
     let recording = recorder.finish()?;
     live.tell();
@@ -100,9 +100,9 @@ fn record(options: &RecordOptions, live: &mut Live) -> Result<(), BagError> {
 
 /// QoS of the publishers of each topic, from discovery.
 #[derive(Clone, Default)]
-struct Offers(Arc<Mutex<BTreeMap<String, Vec<Qos>>>>);
+struct PublisherQos(Arc<Mutex<BTreeMap<String, Vec<Qos>>>>);
 
-impl Offers {
+impl PublisherQos {
     fn of(&self, topic: &str) -> Vec<Qos> {
         let offers = self.0.lock().unwrap_or_else(PoisonError::into_inner);
         offers.get(topic).cloned().unwrap_or_default()
@@ -116,14 +116,14 @@ impl Offers {
 }
 
 /// Subscriptions of the recorder.
-struct Heard {
+struct RecorderSubscriptions {
     node: Node,
-    offers: Offers,
+    offers: PublisherQos,
     /// By topic: requested QoS, and the subscription.
     mailboxes: BTreeMap<String, (Qos, RawMailbox)>,
 }
 
-impl Heard {
+impl RecorderSubscriptions {
     /// Subscribes to selected topics that are new, and again when a publisher appears that offers
     /// less than the requested QoS.
     fn follow(&mut self, options: &RecordOptions, remote: &Remote) -> Result<(), BagError> {

@@ -8,7 +8,7 @@ use periplus_diagnostics::{Diagnostic, Diagnostics, SourceMap};
 use periplus_gz_transport::{Direction, Pair};
 use periplus_yaml::YamlNode;
 
-use super::spec::QUEUE;
+use super::spec::QUEUE_DEPTH;
 
 /// Keys of an entry.
 const KEYS: [&str; 9] = [
@@ -88,7 +88,7 @@ fn entry(node: &YamlNode, is_lazy: bool, findings: &mut Diagnostics) -> Option<P
         return wrong("`ros_type_name` and `gz_type_name` are required", findings);
     };
     let direction = match text("direction").as_deref() {
-        None | Some("BIDIRECTIONAL") => Direction::Both,
+        None | Some("BIDIRECTIONAL") => Direction::BridgedService,
         Some("GZ_TO_ROS") => Direction::ToRos,
         Some("ROS_TO_GZ") => Direction::ToGazebo,
         Some(_) => {
@@ -98,7 +98,7 @@ fn entry(node: &YamlNode, is_lazy: bool, findings: &mut Diagnostics) -> Option<P
     };
     let queue = |name: &str| {
         let count = node.get(name).and_then(YamlNode::integer);
-        count.and_then(|count| usize::try_from(count).ok()).unwrap_or(QUEUE)
+        count.and_then(|count| usize::try_from(count).ok()).unwrap_or(QUEUE_DEPTH)
     };
     Some(Pair {
         ros_topic,
@@ -144,7 +144,7 @@ mod tests {
         assert_eq!((pairs[0].ros_topic.as_str(), pairs[0].gz_topic.as_str()), ("scan", "/lidar"));
         assert_eq!((pairs[0].direction, pairs[0].is_lazy), (Direction::ToRos, true));
         assert_eq!((pairs[0].publisher_queue, pairs[0].subscriber_queue), (3, 10));
-        assert_eq!((pairs[1].direction, pairs[1].is_lazy), (Direction::Both, false));
+        assert_eq!((pairs[1].direction, pairs[1].is_lazy), (Direction::BridgedService, false));
         assert_eq!((pairs[2].ros_topic.as_str(), pairs[2].gz_topic.as_str()), ("/e", "/e"));
         assert_eq!(findings.iter().count(), 5);
     }

@@ -12,42 +12,42 @@ use periplus_msgs::ros_gz_interfaces::{
     SetEntityPoseResponse, SpawnEntity, SpawnEntityResponse,
 };
 
-use super::spec::Asked;
+use super::spec::ServiceSpec;
 use crate::terminal;
 
 /// Timeout of a Gazebo service, the value of `ros_gz_bridge`.
-const PATIENCE: Duration = Duration::from_secs(5);
+const SERVICE_TIMEOUT: Duration = Duration::from_secs(5);
 
 /// Bridged services.
 pub(super) struct Services {
     node: Node,
     transport: Arc<Transport>,
-    offers: Vec<Box<dyn Offer>>,
+    offers: Vec<Box<dyn Forward>>,
 }
 
-trait Offer {
+trait Forward {
     /// Forwards pending requests to Gazebo.
     fn serve(&self, transport: &Arc<Transport>);
 }
 
 /// Service type that exists in ROS 2 and in Gazebo; its Gazebo response is a Boolean.
-trait Both: Service {
+trait BridgedService: Service {
     type Gazebo: Message;
 
-    fn question(request: &Self::Request) -> Option<Self::Gazebo>;
-    fn answer(success: bool) -> Self::Response;
+    fn gazebo_request(request: &Self::Request) -> Option<Self::Gazebo>;
+    fn ros_response(success: bool) -> Self::Response;
 }
 
 macro_rules! both {
-    ($($service:ident, $gazebo:ident, $response:ident, |$asked:ident| $question:expr;)*) => {$(
-        impl Both for $service {
+    ($($service:ident, $gazebo:ident, $response:ident, |$asked:ident| $gazebo_request:expr;)*) => {$(
+        impl BridgedService for $service {
             type Gazebo = $gazebo;
 
-            fn question($asked: &Self::Request) -> Option<$gazebo> {
-                $question
+            fn gazebo_request($asked: &Self::Request) -> Option<$gazebo> {
+                $gazebo_request
             }
 
-            fn answer(success: bool) -> $response {
+            fn ros_response(success: bool) -> $response {
                 $response { success }
             }
         }
@@ -65,14 +65,14 @@ both! {
     };
 }
 
-struct Offered<S> {
+struct ForwardedService<S> {
     calls: Calls<S>,
     types: [String; 2],
     /// Service name in Gazebo.
     name: String,
 }
 
-impl<S: Both> Offer for Offered<S> {
+impl<S: BridgedService> Forward for ForwardedService<S> {
     fn serve(&self, transport: &Arc<Transport>) {
         while let Some(call) = self.calls.take() {
             let (name, types) = (self.name.clone(), self.types.clone());
@@ -83,17 +83,22 @@ impl<S: Both> Offer for Offered<S> {
     }
 }
 
-fn pass_on<S: Both>(call: Call<S>, transport: &Transport, name: &str, types: &[String; 2]) {
-    let question = S::question(&call.request).unwrap_or_default().encode();
-    let answer = transport.call(name, &types[0], &types[1], &question, PATIENCE);
-    let success = match answer {
-        Ok(bytes) => Boolean::decode(&bytes).is_ok_and(|answer| answer.data),
+fn pass_on<S: BridgedService>(
+    call: Call<S>,
+    transport: &Transport,
+    name: &str,
+    types: &[String; 2],
+) {
+    let gazebo_request = S::gazebo_request(&call.request).unwrap_or_default().encode();
+    let ros_response = transport.call(name, &types[0], &types[1], &gazebo_request, SERVICE_TIMEOUT);
+    let success = match ros_response {
+        Ok(bytes) => Boolean::decode(&bytes).is_ok_and(|ros_response| ros_response.data),
         Err(error) => {
             terminal::complain(&format!("the service `{name}` of Gazebo: {error}"));
             false
         }
     };
-    call.answer(S::answer(success));
+    call.ros_response(S::ros_response(success));
 }
 
 impl Services {
@@ -107,7 +112,7 @@ impl Services {
 
     /// # Errors
     /// A message when the type is not supported.
-    pub(super) fn offer(&mut self, asked: &Asked) -> Result<(), String> {
+    pub(super) fn offer(&mut self, asked: &ServiceSpec) -> Result<(), String> {
         let known = self.one::<ControlWorld>(asked)?
             || self.one::<SpawnEntity>(asked)?
             || self.one::<DeleteEntity>(asked)?
@@ -130,14 +135,14 @@ impl Services {
     }
 
     /// Offers the service if its type is `S`; returns true if it is.
-    fn one<S: Both>(&mut self, asked: &Asked) -> Result<bool, String> {
+    fn one<S: BridgedService>(&mut self, asked: &ServiceSpec) -> Result<bool, String> {
         if asked.ros_type != S::TYPE_NAME {
             return Ok(false);
         }
         let usual = [format!("gz.msgs.{}", S::Gazebo::NAME), "gz.msgs.Boolean".to_owned()];
         let calls = self.node.server::<S>(&asked.name).map_err(|error| error.to_string())?;
         let types = asked.gz_types.clone().unwrap_or(usual);
-        self.offers.push(Box::new(Offered { calls, types, name: asked.name.clone() }));
+        self.offers.push(Box::new(ForwardedService { calls, types, name: asked.name.clone() }));
         Ok(true)
     }
 

@@ -3,18 +3,18 @@
 use periplus_gz_transport::{Direction, Pair};
 
 /// Queue size, the value of `ros_gz_bridge`.
-pub(super) const QUEUE: usize = 10;
+pub(super) const QUEUE_DEPTH: usize = 10;
 
 /// A topic or a service.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) enum Spec {
     Topic(Pair),
-    Service(Asked),
+    Service(ServiceSpec),
 }
 
 /// Gazebo service to offer in ROS 2.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub(super) struct Asked {
+pub(super) struct ServiceSpec {
     pub(super) name: String,
     pub(super) ros_type: String,
     /// Gazebo types of request and response, if given.
@@ -46,7 +46,7 @@ impl Spec {
                 Some(_) => return Err("a service has no direction; write `@`".into()),
             };
             let (name, ros_type) = (name.to_owned(), ros_type.to_owned());
-            return Ok(Self::Service(Asked { name, ros_type, gz_types }));
+            return Ok(Self::Service(ServiceSpec { name, ros_type, gz_types }));
         }
         let (mark, ros_type, gz_type) =
             found.ok_or("missing `@`, `[` or `]` before the Gazebo type")?;
@@ -61,11 +61,11 @@ impl Spec {
             direction: match mark {
                 '[' => Direction::ToRos,
                 ']' => Direction::ToGazebo,
-                _ => Direction::Both,
+                _ => Direction::BridgedService,
             },
             is_lazy: false,
-            publisher_queue: QUEUE,
-            subscriber_queue: QUEUE,
+            publisher_queue: QUEUE_DEPTH,
+            subscriber_queue: QUEUE_DEPTH,
         }))
     }
 }
@@ -86,7 +86,7 @@ mod tests {
     #[test]
     fn the_mark_says_the_direction() {
         for (mark, direction) in
-            [('@', Direction::Both), ('[', Direction::ToRos), (']', Direction::ToGazebo)]
+            [('@', Direction::BridgedService), ('[', Direction::ToRos), (']', Direction::ToGazebo)]
         {
             let word = format!("/lidar@sensor_msgs/msg/LaserScan{mark}gz.msgs.LaserScan");
             let (topic, ros, gazebo, found) = topic(&word).expect("a topic");

@@ -25,7 +25,7 @@ pub(super) fn read(path: &Path, compat: Option<Nav2Release>) -> Result<File, Str
 }
 
 /// Parameter names of which a file of a single costmap has at least one.
-const OF_ONE: [&str; 9] = [
+const COSTMAP_PARAMETERS: [&str; 9] = [
     "global_frame",
     "robot_base_frame",
     "update_frequency",
@@ -41,7 +41,8 @@ const OF_ONE: [&str; 9] = [
 fn looks_like_costmap(tree: &periplus_yaml::YamlNode) -> bool {
     let Some(entries) = tree.entries() else { return false };
     entries.iter().any(|(key, value)| {
-        key.text().is_some_and(|name| OF_ONE.contains(&name)) || looks_like_costmap(value)
+        key.text().is_some_and(|name| COSTMAP_PARAMETERS.contains(&name))
+            || looks_like_costmap(value)
     })
 }
 

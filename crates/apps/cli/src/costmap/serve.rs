@@ -11,17 +11,17 @@ use periplus_costmap::Nav2Release;
 use periplus_diagnostics::SourceMap;
 use periplus_os::sleep;
 
-use super::{Costmaps, Place, place};
+use super::{Costmaps, FloorPoint, floor_point};
 use crate::arguments;
-use crate::live::{Live, Watched};
+use crate::live::{Live, NodeMonitor};
 use crate::stop;
 use crate::terminal::{complain, diagnostics, say};
 
 /// Polling period.
-const LOOK: Duration = Duration::from_millis(5);
+const POLL_PERIOD: Duration = Duration::from_millis(5);
 
 /// Timeout for delivering the last messages at the end.
-const LAST_WORD: Duration = Duration::from_millis(500);
+const FLUSH_TIMEOUT: Duration = Duration::from_millis(500);
 
 /// Run the costmaps of a Nav2 parameter file for a robot on ROS 2: `local_costmap` and
 /// `global_costmap`, if the file has them
@@ -42,8 +42,8 @@ pub(crate) struct CostmapServeOptions {
     managed: bool,
     /// At the end explain why the cell at this position is marked or free, for each costmap, in its
     /// frame [m]
-    #[arg(long, value_name = "X,Y", value_parser = place, allow_hyphen_values = true)]
-    cell: Vec<Place>,
+    #[arg(long, value_name = "X,Y", value_parser = floor_point, allow_hyphen_values = true)]
+    cell: Vec<FloorPoint>,
     /// At the end write each costmap to a folder as images in RViz's colours: costmap, map and raw
     #[arg(long, value_name = "FOLDER")]
     picture: Option<PathBuf>,
@@ -75,17 +75,17 @@ pub(crate) fn run(options: &CostmapServeOptions, ros: Vec<String>) -> io::Result
     for findings in [live.graph.take_findings(), live.graph.unused_arguments()] {
         diagnostics(&mut anstream::stderr().lock(), &findings, &SourceMap::new())?;
     }
-    let watched: Result<Vec<_>, _> =
-        costmaps.nodes.iter().map(|node| Watched::new(node.node())).collect();
+    let monitor: Result<Vec<_>, _> =
+        costmaps.nodes.iter().map(|node| NodeMonitor::new(node.node())).collect();
     let follows_clock = options.use_sim_time || costmaps.wants_simulated_time();
-    let ready = watched.and_then(|watched| {
+    let ready = monitor.and_then(|monitor| {
         if let Some(node) = costmaps.nodes.first().filter(|_| follows_clock) {
             live.follow_clock(node.node())?;
         }
-        Ok(watched)
+        Ok(monitor)
     });
-    let watched = match ready {
-        Ok(watched) => watched,
+    let monitor = match ready {
+        Ok(monitor) => monitor,
         Err(error) => {
             complain(&error.to_string());
             return Ok(ExitCode::FAILURE);
@@ -98,13 +98,13 @@ pub(crate) fn run(options: &CostmapServeOptions, ros: Vec<String>) -> io::Result
         costmaps.start();
     }
     while !stop.load(Ordering::Relaxed) {
-        live.go_on();
-        sleep(LOOK);
-        for one in &watched {
+        live.spin_once();
+        sleep(POLL_PERIOD);
+        for one in &monitor {
             one.tell();
         }
     }
-    live.end(LAST_WORD);
+    live.end(FLUSH_TIMEOUT);
     costmaps.tell(&mut anstream::stdout().lock())?;
     Ok(ExitCode::SUCCESS)
 }

@@ -15,10 +15,10 @@ use periplus_tf::TransformKind;
 use periplus_tf_ros::Frames;
 
 /// Period of velocity commands \[ns\].
-const PERIOD_NS: i64 = 50_000_000;
+const COMMAND_PERIOD_NS: i64 = 50_000_000;
 
 /// Period of map updates \[ns\].
-const LOOK_NS: i64 = 1_000_000_000;
+const MAP_PERIOD_NS: i64 = 1_000_000_000;
 
 /// Half of the robot's width plus a margin \[m\].
 const HALF_WIDTH_M: f64 = 0.24;
@@ -70,11 +70,11 @@ impl Explorer {
     }
 
     /// Processes everything due at this time.
-    pub(super) fn go_on(&mut self, now_ns: i64) {
+    pub(super) fn spin_once(&mut self, now_ns: i64) {
         if now_ns < self.next_ns {
             return;
         }
-        self.next_ns = now_ns + PERIOD_NS;
+        self.next_ns = now_ns + COMMAND_PERIOD_NS;
         for message in self.fixed.drain() {
             self.frames.take(&message, TransformKind::Fixed);
         }
@@ -93,7 +93,7 @@ impl Explorer {
         if now_ns >= self.look_ns
             && let Some(map) = self.map.as_deref().and_then(grid_of)
         {
-            self.look_ns = now_ns + LOOK_NS;
+            self.look_ns = now_ns + MAP_PERIOD_NS;
             self.explorer.see(&map, here);
             self.tell_way(now_ns);
         }

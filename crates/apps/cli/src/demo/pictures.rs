@@ -10,18 +10,18 @@ use periplus_msgs::sensor_msgs::{Image, LaserScan};
 
 /// Time before the end at which the camera is subscribed \[ns\]: images cost more than all other
 /// sensors.
-const LOOK_NS: i64 = 200_000_000;
+const CAMERA_LEAD_NS: i64 = 200_000_000;
 
 /// Width and height of the image of a scan \[px\].
-const SIDE: usize = 800;
+const SIDE_PX: usize = 800;
 
-const BACK: [u8; 3] = [250, 250, 248];
-const RAY: [u8; 3] = [206, 222, 240];
-const HIT: [u8; 3] = [200, 30, 40];
-const ROBOT: [u8; 3] = [30, 60, 120];
+const BACKGROUND_COLOUR: [u8; 3] = [250, 250, 248];
+const RAY_COLOUR: [u8; 3] = [206, 222, 240];
+const HIT_COLOUR: [u8; 3] = [200, 30, 40];
+const ROBOT_COLOUR: [u8; 3] = [30, 60, 120];
 
 /// Keeps the last scan and the last images.
-pub(super) struct Eyes {
+pub(super) struct SnapshotRecorder {
     node: Node,
     end_ns: Option<i64>,
     scans: Mailbox<LaserScan>,
@@ -31,7 +31,7 @@ pub(super) struct Eyes {
     colour: Option<Arc<Image>>,
 }
 
-impl Eyes {
+impl SnapshotRecorder {
     pub(super) fn join(graph: &Graph, end_ns: Option<i64>) -> Result<Self, GraphError> {
         let node = graph.node(NodeSettings::new("eyes"))?;
         let scans = node.mailbox("/scan", Qos::sensor_data())?;
@@ -51,7 +51,7 @@ impl Eyes {
 
     /// Subscribes to the camera once the end is near, and stores new messages.
     pub(super) fn look(&mut self, now_ns: i64) {
-        let is_near = self.end_ns.is_none_or(|end_ns| now_ns >= end_ns - LOOK_NS);
+        let is_near = self.end_ns.is_none_or(|end_ns| now_ns >= end_ns - CAMERA_LEAD_NS);
         if !is_near {
             return;
         }
@@ -83,11 +83,11 @@ impl Eyes {
 /// Renders a scan from above, with the robot in the centre and its front up.
 fn draw_scan(scan: &LaserScan) -> Vec<u8> {
     let reach_m = f64::from(scan.range_max).clamp(0.1, 1000.0);
-    let middle = SIDE as f64 / 2.0;
+    let middle = SIDE_PX as f64 / 2.0;
     let scale = 0.96 * middle / reach_m;
-    let mut pixels = vec![BACK; SIDE * SIDE];
+    let mut pixels = vec![BACKGROUND_COLOUR; SIDE_PX * SIDE_PX];
     let pixel = |x_m: f64, y_m: f64| {
-        let place = |value: f64| value.clamp(0.0, SIDE as f64 - 1.0) as usize;
+        let place = |value: f64| value.clamp(0.0, SIDE_PX as f64 - 1.0) as usize;
         (place(middle - scale * y_m), place(middle - scale * x_m))
     };
     let beams = scan.ranges.iter().enumerate().map(|(beam, range)| {
@@ -99,24 +99,24 @@ fn draw_scan(scan: &LaserScan) -> Vec<u8> {
     let beams: Vec<_> = beams.collect();
     for (end, _) in &beams {
         for (column, row) in Line::between(pixel(0.0, 0.0), *end) {
-            pixels[row * SIDE + column] = RAY;
+            pixels[row * SIDE_PX + column] = RAY_COLOUR;
         }
     }
     let mut dot = |(column, row): (usize, usize), radius: usize, colour: [u8; 3]| {
-        for row in row.saturating_sub(radius)..=(row + radius).min(SIDE - 1) {
-            for column in column.saturating_sub(radius)..=(column + radius).min(SIDE - 1) {
-                pixels[row * SIDE + column] = colour;
+        for row in row.saturating_sub(radius)..=(row + radius).min(SIDE_PX - 1) {
+            for column in column.saturating_sub(radius)..=(column + radius).min(SIDE_PX - 1) {
+                pixels[row * SIDE_PX + column] = colour;
             }
         }
     };
-    beams.iter().filter(|(_, is_hit)| *is_hit).for_each(|(end, _)| dot(*end, 2, HIT));
-    dot(pixel(0.0, 0.0), 6, ROBOT);
-    write_png(SIDE as u32, SIDE as u32, Layout::Rgb, pixels.as_flattened())
+    beams.iter().filter(|(_, is_hit)| *is_hit).for_each(|(end, _)| dot(*end, 2, HIT_COLOUR));
+    dot(pixel(0.0, 0.0), 6, ROBOT_COLOUR);
+    write_png(SIDE_PX as u32, SIDE_PX as u32, Layout::Rgb, pixels.as_flattened())
 }
 
 /// Renders depths \[m\] as grey values: near is dark, missing returns are blue.
 fn draw_depth(image: &Image) -> Option<Vec<u8>> {
-    const NOTHING: [u8; 3] = [40, 60, 110];
+    const NO_RETURN_COLOUR: [u8; 3] = [40, 60, 110];
     if image.encoding != "32FC1" {
         return None;
     }
@@ -128,7 +128,7 @@ fn draw_depth(image: &Image) -> Option<Vec<u8>> {
     let far = depths.iter().copied().filter(|depth| depth.is_finite()).fold(0.1, f32::max);
     let colour = |depth: &f32| match depth {
         depth if depth.is_finite() && *depth > 0.0 => [(255.0 * (depth / far).min(1.0)) as u8; 3],
-        _ => NOTHING,
+        _ => NO_RETURN_COLOUR,
     };
     let pixels: Vec<[u8; 3]> = depths.iter().map(colour).collect();
     let is_whole = pixels.len() == width * image.height as usize;

@@ -10,7 +10,7 @@ use std::time::Duration;
 use periplus_diagnostics::{Diagnostics, SourceMap};
 use periplus_graph::NodeSettings;
 use periplus_loader::FileFormat;
-use periplus_ros2cli::doctor::{Ears, examine};
+use periplus_ros2cli::doctor::{SystemObserver, examine};
 use periplus_ros2cli::{Failure, Seen};
 use periplus_sim::{AssetFiles, Options, Simulation, compose};
 
@@ -22,10 +22,10 @@ use crate::terminal;
 const SPAN_S: u64 = 2;
 
 /// Period of reading received messages \[ns\].
-const LOOK_NS: i64 = 50_000_000;
+const POLL_PERIOD_NS: i64 = 50_000_000;
 
 /// Name of the doctor's own node.
-const OWN: &str = "_periplus_doctor";
+const DOCTOR_NODE: &str = "_periplus_doctor";
 
 pub(super) fn run(options: &DoctorOptions) -> io::Result<ExitCode> {
     let (mut files, arguments) = split(&options.words);
@@ -98,22 +98,23 @@ fn simulated(
         return Err(format!("{} has nothing to simulate", missing.display()));
     }
     let graph = simulation.graph().clone();
-    let node = graph.node(NodeSettings::new(OWN).bare()).map_err(|error| error.to_string())?;
-    let look = || Seen::of_graph(&graph, |name| name.ends_with(OWN));
+    let node =
+        graph.node(NodeSettings::new(DOCTOR_NODE).bare()).map_err(|error| error.to_string())?;
+    let look = || Seen::of_graph(&graph, |name| name.ends_with(DOCTOR_NODE));
     let told = |failure: Failure| failure.to_string();
-    let mut ears = Ears::open(&node, &look()).map_err(told)?;
+    let mut ears = SystemObserver::open(&node, &look()).map_err(told)?;
     let span_ns = i64::try_from(SPAN_S).unwrap_or(0) * 1_000_000_000;
     while simulation.time_ns() < span_ns {
-        let until_ns = simulation.time_ns() + LOOK_NS;
+        let until_ns = simulation.time_ns() + POLL_PERIOD_NS;
         simulation.step_until(until_ns).map_err(|diverged| diverged.to_string())?;
         ears.hear();
     }
-    let mut picture = ears.picture(look(), BTreeMap::new(), Duration::from_secs(SPAN_S));
+    let mut observation = ears.observation(look(), BTreeMap::new(), Duration::from_secs(SPAN_S));
     let is_robot = |language: FileFormat| matches!(language, FileFormat::Urdf | FileFormat::Xacro);
-    picture.is_alone = composition.files.first().is_some_and(|file| is_robot(file.language));
+    observation.is_alone = composition.files.first().is_some_and(|file| is_robot(file.language));
     let mut found: Vec<_> =
         composition.files.into_iter().map(|file| (file.diagnostics, file.sources)).collect();
     found.push((simulation.take_findings(), SourceMap::new()));
-    found.push((examine(&picture), SourceMap::new()));
+    found.push((examine(&observation), SourceMap::new()));
     Ok(found)
 }

@@ -6,7 +6,7 @@ use clap::Command;
 use periplus_graph::split_arguments;
 
 use super::{EXAMPLES, GROUPS, command, examples_of};
-use crate::old_words::words_of_line;
+use crate::foreign_commands::words_of_line;
 
 /// Paths of all commands without subcommands.
 fn leaves(command: &Command, path: &str, found: &mut Vec<String>) {

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 use periplus_diagnostics::{Diagnostic, closest};
-use periplus_launch::bringup::{STOOD_FOR, stands_for};
+use periplus_launch::bringup::{REPLACED_LAUNCH_FILES, has_replacement};
 use periplus_os::Machine;
 use periplus_resources::{EntryKind, Host as _, Resolver};
 
@@ -13,14 +13,14 @@ pub(super) enum Found {
     /// A launch file.
     File(PathBuf),
     /// Missing launch file of a missing package, with a built-in replacement.
-    StandIn(String),
+    Replacement(String),
 }
 
 /// Maximum depth of the search for files of a package.
-const DEEPEST: usize = 8;
+const MAX_DEPTH: usize = 8;
 
 /// Maximum number of launch files that a message lists.
-const MOST_LISTED: usize = 20;
+const MAX_LISTED: usize = 20;
 
 /// Resolves a launch file by its path, or by package and file name.
 pub(super) fn file(
@@ -41,8 +41,8 @@ pub(super) fn file(
             let file = name.display().to_string();
             let folder = match resolver.find_package(&package, &here.join("launch")) {
                 Ok(folder) => folder,
-                Err(_) if stands_for(&package, &file) => {
-                    return Ok(Found::StandIn(format!("package://{package}/launch/{file}")));
+                Err(_) if has_replacement(&package, &file) => {
+                    return Ok(Found::Replacement(format!("package://{package}/launch/{file}")));
                 }
                 Err(miss) => {
                     return Err(no_package(&package, &file, &miss.tried, resolver, here).into());
@@ -83,7 +83,7 @@ fn walk(folder: &Path, depth: usize, visit: &mut dyn FnMut(&Path)) {
         let inner = folder.join(entry);
         match Machine.kind(&inner) {
             Some(EntryKind::File) => visit(&inner),
-            Some(EntryKind::Folder) if depth < DEEPEST => walk(&inner, depth + 1, visit),
+            Some(EntryKind::Folder) if depth < MAX_DEPTH => walk(&inner, depth + 1, visit),
             _ => {}
         }
     }
@@ -194,14 +194,14 @@ fn not_in_package(folder: &Path, package: &str, name: &str) -> Diagnostic {
 
 /// Built-in launch files that replace those of a missing package.
 fn built_in(package: &str) -> Option<Vec<String>> {
-    let (_, files) = STOOD_FOR.iter().find(|(name, _)| *name == package)?;
+    let (_, files) = REPLACED_LAUNCH_FILES.iter().find(|(name, _)| *name == package)?;
     Some(files.iter().map(|file| (*file).to_owned()).collect())
 }
 
 /// Packages that can be launched from a folder, with their folders where known.
 fn packages(resolver: &Resolver<'_>, here: &Path) -> BTreeMap<String, Option<PathBuf>> {
     let mut all: BTreeMap<_, _> =
-        STOOD_FOR.iter().map(|(name, _)| ((*name).to_owned(), None)).collect();
+        REPLACED_LAUNCH_FILES.iter().map(|(name, _)| ((*name).to_owned(), None)).collect();
     let seen = resolver.packages(&here.join("launch")).into_iter();
     all.extend(seen.map(|(name, folder)| (name, Some(folder))));
     all
@@ -253,10 +253,10 @@ fn one_of(wrong: Diagnostic, usage: &str, files: &[String]) -> Diagnostic {
 fn listed(wrong: Diagnostic, files: &[String]) -> Diagnostic {
     match files {
         [] => wrong,
-        files if files.len() > MOST_LISTED => wrong.note(format!(
+        files if files.len() > MAX_LISTED => wrong.note(format!(
             "its launch files are {} and {} others",
-            files[..MOST_LISTED].join(", "),
-            files.len() - MOST_LISTED
+            files[..MAX_LISTED].join(", "),
+            files.len() - MAX_LISTED
         )),
         files => wrong.note(format!("its launch files are {}", files.join(", "))),
     }

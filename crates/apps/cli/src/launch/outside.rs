@@ -7,7 +7,7 @@ use std::sync::mpsc::{RecvTimeoutError, channel};
 use std::time::Duration;
 
 use periplus_launch::bringup::xacro;
-use periplus_launch::{Interpreter, Outside, Printed};
+use periplus_launch::{Interpreter, Outside, ProgramOutput};
 use periplus_loader::LoadContext;
 use periplus_os::{Machine, Stopwatch};
 use periplus_resources::{Resolver, Store as _};
@@ -44,7 +44,7 @@ impl Limits {
 }
 
 /// Maximum output that is read from a program \[bytes\].
-const MOST_OUTPUT: u64 = 64 << 20;
+const MAX_OUTPUT_BYTES: u64 = 64 << 20;
 
 impl Drop for Programs<'_> {
     fn drop(&mut self) {
@@ -66,7 +66,7 @@ impl<'a> Programs<'a> {
     }
 
     /// Runs the built-in `xacro FILE name:=value`.
-    fn xacro(&self, words: &[String]) -> Result<Printed, String> {
+    fn xacro(&self, words: &[String]) -> Result<ProgramOutput, String> {
         let setting = LoadContext {
             host: &Machine,
             resolver: self.resolver,
@@ -79,7 +79,7 @@ impl<'a> Programs<'a> {
 }
 
 impl Outside for Programs<'_> {
-    fn run(&mut self, words: &[String]) -> Result<Printed, String> {
+    fn run(&mut self, words: &[String]) -> Result<ProgramOutput, String> {
         let [program, rest @ ..] = words else { return Err("the command is empty".into()) };
         let name = program.rsplit('/').next().unwrap_or_default();
         if matches!(name, "xacro" | "xacro.py") {
@@ -126,7 +126,7 @@ fn bounded(
     words: &[String],
     longest: Duration,
     tools: Option<&Tools>,
-) -> Result<Printed, String> {
+) -> Result<ProgramOutput, String> {
     let mut child = Command::new(program)
         .args(words)
         .envs(tools.map(|tools| ("PATH", tools.path())))
@@ -145,12 +145,12 @@ fn bounded(
         let send = send.clone();
         std::thread::spawn(move || {
             let mut bytes = Vec::new();
-            let _ = pipe.take(MOST_OUTPUT).read_to_end(&mut bytes);
+            let _ = pipe.take(MAX_OUTPUT_BYTES).read_to_end(&mut bytes);
             let _ = send.send((place, String::from_utf8_lossy(&bytes).into_owned()));
         });
     }
     drop(send);
-    let mut printed = Printed::default();
+    let mut printed = ProgramOutput::default();
     let start = Stopwatch::start();
     loop {
         let rest = longest.saturating_sub(start.elapsed());

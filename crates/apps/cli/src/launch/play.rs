@@ -13,7 +13,7 @@ use std::time::Duration;
 use clap::Args;
 use periplus_diagnostics::SourceMap;
 use periplus_graph::{Arguments, Graph, Level};
-use periplus_launch::bringup::{Bringup, Kind, Settings};
+use periplus_launch::bringup::{Kind, LaunchRunner, Settings};
 use periplus_launch::{Dialect, Plan};
 use periplus_os::{Stopwatch, sleep};
 use periplus_sim::{
@@ -32,16 +32,16 @@ use crate::stop;
 use crate::terminal;
 
 /// Polling period without a simulated world.
-const LOOK: Duration = Duration::from_millis(5);
+const POLL_PERIOD: Duration = Duration::from_millis(5);
 
 /// Timeout of discovery.
 const DISCOVERY: Duration = Duration::from_millis(1500);
 
 /// Period of sending remote topics to the page.
-const LOOK_AROUND: Duration = Duration::from_millis(200);
+const REMOTE_UPDATE_PERIOD: Duration = Duration::from_millis(200);
 
 /// Timeout for delivering the last messages at the end.
-const LAST_WORD: Duration = Duration::from_millis(500);
+const FLUSH_TIMEOUT: Duration = Duration::from_millis(500);
 
 /// Options of running a plan.
 #[derive(Debug, Args)]
@@ -113,7 +113,7 @@ pub(super) fn play(
         guarding_program: std::env::current_exe().ok(),
         tools: launched.tools.clone(),
     };
-    let bringup = Bringup::new(&launched.plan, settings);
+    let bringup = LaunchRunner::new(&launched.plan, settings);
     let is_alone = match options.ros2 {
         Some(reach) => reach == Reach::Off,
         None => is_free,
@@ -129,12 +129,12 @@ pub(super) fn play(
 /// Runs with a world that is simulated here.
 fn in_world(
     launched: Launched,
-    mut bringup: Bringup,
+    mut bringup: LaunchRunner,
     options: &PlayOptions,
     search: &SearchOptions,
 ) -> io::Result<ExitCode> {
     let stop = stop::on_signal();
-    let mut teller = Teller::new(options);
+    let mut teller = LogPrinter::new(options);
     prepare(&mut bringup, &mut teller, &stop);
     let wish = bringup.world().cloned().unwrap_or_default();
     let composed = world::compose(&wish, bringup.search());
@@ -220,7 +220,7 @@ fn in_world(
         paused: wish.is_paused && is_heard,
     };
     let start_up = launched.start.elapsed();
-    let mut line = progress::Line::new(options.duration, options.quiet || options.json);
+    let mut line = progress::ProgressLine::new(options.duration, options.quiet || options.json);
     let stopwatch = Stopwatch::start();
     let mut driver = Driver::default();
     let mut watch = RecordingWatch::default();
@@ -299,7 +299,7 @@ fn in_world(
 }
 
 /// Runs the programs that must end before the world is loaded.
-fn prepare(bringup: &mut Bringup, teller: &mut Teller, stop: &AtomicBool) {
+fn prepare(bringup: &mut LaunchRunner, teller: &mut LogPrinter, stop: &AtomicBool) {
     let graph = Graph::new();
     let since = Stopwatch::start();
     while !stop.load(Ordering::Relaxed) {
@@ -309,14 +309,14 @@ fn prepare(bringup: &mut Bringup, teller: &mut Teller, stop: &AtomicBool) {
         if is_ready {
             break;
         }
-        sleep(LOOK);
+        sleep(POLL_PERIOD);
     }
 }
 
 /// Runs without a world, on the ROS 2 network.
 fn among_others(
     launched: Launched,
-    mut bringup: Bringup,
+    mut bringup: LaunchRunner,
     options: &PlayOptions,
     search: &SearchOptions,
 ) -> io::Result<ExitCode> {
@@ -368,14 +368,14 @@ fn among_others(
             return Ok(ExitCode::FAILURE);
         }
     };
-    let mut teller = Teller::new(options);
+    let mut teller = LogPrinter::new(options);
     let mut looked = Stopwatch::start();
     let since = Stopwatch::start();
     let is_time = |since: &Stopwatch| {
         options.duration.is_some_and(|seconds| since.elapsed().as_secs_f64() >= seconds)
     };
     while !stop.load(Ordering::Relaxed) && !bringup.is_over() && !is_time(&since) {
-        live.go_on();
+        live.spin_once();
         let graph = live.graph.clone();
         // Timers of launch files use wall time, whatever clock the nodes use.
         let now_ns = i64::try_from(since.elapsed().as_nanos()).unwrap_or(i64::MAX);
@@ -386,11 +386,11 @@ fn among_others(
             break;
         }
         live.tell();
-        if let Some(page) = page.as_ref().filter(|_| looked.elapsed() >= LOOK_AROUND) {
+        if let Some(page) = page.as_ref().filter(|_| looked.elapsed() >= REMOTE_UPDATE_PERIOD) {
             looked = Stopwatch::start();
             page.set_remote(&live.wire.remote());
         }
-        sleep(LOOK);
+        sleep(POLL_PERIOD);
     }
     drop(page);
     bringup.end_all(&live.graph, i64::MAX);
@@ -400,7 +400,7 @@ fn among_others(
         writeln!(io::stdout().lock(), "{json:#}")?;
     }
     drop(bringup);
-    live.end(LAST_WORD);
+    live.end(FLUSH_TIMEOUT);
     if teller.has_failed {
         terminal::complain("parts of the launch have errors and were not started");
         return Ok(ExitCode::FAILURE);
@@ -416,13 +416,13 @@ fn tells_time(live: &Live) -> bool {
         if remote.topic("/clock").is_some_and(|topic| !topic.publishers.is_empty()) {
             return true;
         }
-        sleep(LOOK);
+        sleep(POLL_PERIOD);
     }
     false
 }
 
 /// Prints the log of a launch.
-struct Teller {
+struct LogPrinter {
     told: usize,
     is_quiet: bool,
     has_failed: bool,
@@ -431,13 +431,13 @@ struct Teller {
 /// Writes to a terminal that also shows a progress bar.
 type Aside<'a> = dyn Fn(&mut dyn FnMut() -> io::Result<()>) + 'a;
 
-impl Teller {
+impl LogPrinter {
     fn new(options: &PlayOptions) -> Self {
         Self { told: 0, is_quiet: options.quiet, has_failed: false }
     }
 
-    fn tell(&mut self, bringup: &mut Bringup, aside: &Aside<'_>) {
-        let said = bringup.take_said();
+    fn tell(&mut self, bringup: &mut LaunchRunner, aside: &Aside<'_>) {
+        let said = bringup.take_log();
         let lines = &bringup.lines()[self.told..];
         if said.is_empty() && lines.is_empty() {
             return;
@@ -448,14 +448,14 @@ impl Teller {
         aside(&mut || {
             let mut err = anstream::stderr().lock();
             for line in lines.iter().filter(|_| !is_quiet) {
-                let sign = match line.became.kind {
+                let sign = match line.outcome.kind {
                     Kind::World | Kind::BuiltIn | Kind::Program => "+",
                     Kind::Needless => "=",
                     Kind::Missing => "-",
                 };
-                let node = line.became.node.as_deref();
+                let node = line.outcome.node.as_deref();
                 let node = node.map(|node| format!("{node}: ")).unwrap_or_default();
-                writeln!(err, "{sign} {}: {node}{}", short(&line.asked), line.became.told)?;
+                writeln!(err, "{sign} {}: {node}{}", short(&line.asked), line.outcome.told)?;
             }
             for one in said.iter().filter(|one| !is_quiet || one.level >= Level::Error) {
                 match one.level {
@@ -471,11 +471,11 @@ impl Teller {
 
 /// Truncates a long text.
 fn short(text: &str) -> String {
-    const MOST: usize = 80;
-    if text.chars().count() <= MOST {
+    const MAX_CHARS: usize = 80;
+    if text.chars().count() <= MAX_CHARS {
         return text.to_owned();
     }
-    text.chars().take(MOST).chain("...".chars()).collect()
+    text.chars().take(MAX_CHARS).chain("...".chars()).collect()
 }
 
 impl PlayOptions {
@@ -496,7 +496,7 @@ impl PlayOptions {
     }
 
     /// Returns true if a page is requested, or replaces a window of the launch file.
-    fn wants_page(&self, bringup: &Bringup, is_paced: bool) -> bool {
+    fn wants_page(&self, bringup: &LaunchRunner, is_paced: bool) -> bool {
         self.page.page.is_some() || (!self.headless && is_paced && bringup.wants_page())
     }
 
@@ -506,7 +506,7 @@ impl PlayOptions {
         &self,
         graph: &periplus_graph::Graph,
         about: About,
-        bringup: &Bringup,
+        bringup: &LaunchRunner,
     ) -> Result<Option<Page>, String> {
         let is_asked = self.page.page.is_some();
         let usual = SocketAddr::from(([127, 0, 0, 1], PORT));

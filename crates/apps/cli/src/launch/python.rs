@@ -6,13 +6,13 @@ use std::process::{Child, ChildStdin, ChildStdout, Command, Stdio};
 use std::sync::mpsc::{Receiver, RecvTimeoutError, channel};
 use std::time::Duration;
 
-use periplus_launch::{Answer, BOOT, Complaint, Interpreter, MODULES, MOST_MEMORY};
+use periplus_launch::{Answer, BOOT, Interpreter, LaunchError, MAX_MEMORY_BYTES, MODULES};
 use serde_json::{Map, Value, json};
 
 use super::tools::Tools;
 
 /// Maximum size of an answer \[bytes\]: robot descriptions have some hundred thousand.
-const LONGEST: u64 = 256 << 20;
+const MAX_ANSWER_BYTES: u64 = 256 << 20;
 
 /// Python process that serves requests.
 pub(super) struct Python {
@@ -46,7 +46,7 @@ impl Python {
         let mut python = Self { child, requests, answers: lines(answers), limit };
         let modules: Map<String, Value> =
             MODULES.iter().map(|(name, text)| ((*name).to_owned(), json!(text))).collect();
-        python.send(&json!({ "modules": modules, "most_memory": MOST_MEMORY }))?;
+        python.send(&json!({ "modules": modules, "most_memory": MAX_MEMORY_BYTES }))?;
         Ok(python)
     }
 
@@ -56,11 +56,11 @@ impl Python {
         self.requests.write_all(line.as_bytes()).map_err(|error| format!("python3 ended: {error}"))
     }
 
-    fn message(&mut self) -> Result<Value, Complaint> {
+    fn message(&mut self) -> Result<Value, LaunchError> {
         let line = match self.answers.recv_timeout(self.limit) {
             Ok(line) => line.map_err(|error| error.to_string())?,
             Err(RecvTimeoutError::Timeout) => {
-                return Err(Complaint {
+                return Err(LaunchError {
                     message: format!(
                         "evaluation of this launch file exceeded {} s",
                         self.limit.as_secs_f64()
@@ -85,7 +85,7 @@ fn lines(pipe: ChildStdout) -> Receiver<io::Result<String>> {
         let mut pipe = BufReader::new(pipe);
         loop {
             let mut line = String::new();
-            let read = pipe.by_ref().take(LONGEST).read_line(&mut line);
+            let read = pipe.by_ref().take(MAX_ANSWER_BYTES).read_line(&mut line);
             let sent = match read {
                 Ok(0) => return,
                 Ok(_) => send.send(Ok(line)),
@@ -100,7 +100,7 @@ fn lines(pipe: ChildStdout) -> Receiver<io::Result<String>> {
 }
 
 impl Interpreter for Python {
-    fn ask(&mut self, request: Value, answer: &mut Answer<'_>) -> Result<Value, Complaint> {
+    fn ask(&mut self, request: Value, answer: &mut Answer<'_>) -> Result<Value, LaunchError> {
         self.send(&request)?;
         loop {
             let message = self.message()?;
@@ -112,7 +112,7 @@ impl Interpreter for Python {
                 self.send(&reply)?;
             } else if let Some(error) = message.get("error") {
                 let text = |name: &str| message[name].as_str().map(str::to_owned);
-                return Err(Complaint {
+                return Err(LaunchError {
                     message: error.as_str().unwrap_or_default().to_owned(),
                     line: text("line"),
                     help: text("help"),

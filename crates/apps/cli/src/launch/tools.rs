@@ -14,7 +14,7 @@ use crate::terminal;
 pub(crate) const XACRO_VERB: &str = "__xacro";
 
 /// Number of folder names that are tried.
-const MOST_FOLDERS: u32 = 1000;
+const MAX_FOLDERS: u32 = 1000;
 
 /// Private folder with these programs. It is last on the PATH, after installed ones, and is removed
 /// on drop.
@@ -73,7 +73,7 @@ fn private_folder() -> Option<PathBuf> {
     let own = std::process::id();
     let mut builder = std::fs::DirBuilder::new();
     builder.mode(0o700);
-    (0..MOST_FOLDERS)
+    (0..MAX_FOLDERS)
         .map(|number| std::env::temp_dir().join(format!("periplus_tools_{own}_{number}")))
         .find(|folder| builder.create(folder).is_ok())
 }

@@ -9,16 +9,16 @@ use periplus_diagnostics::SourceMap;
 
 use super::{Localization, LocalizeOptions};
 use crate::arguments;
-use crate::live::{Live, Watched};
+use crate::live::{Live, NodeMonitor};
 use crate::stop;
 use crate::terminal::{complain, diagnostics};
 
 /// Shortest and longest sleep of the loop: the filter polls for scans every 20 ms.
-const SHORTEST_STEP: Duration = Duration::from_millis(5);
-const LONGEST_STEP: Duration = Duration::from_millis(20);
+const MIN_SLEEP: Duration = Duration::from_millis(5);
+const MAX_SLEEP: Duration = Duration::from_millis(20);
 
 /// Timeout for delivering the last messages at the end.
-const LAST_WORD: Duration = Duration::from_millis(500);
+const FLUSH_TIMEOUT: Duration = Duration::from_millis(500);
 
 pub(super) fn run(options: &LocalizeOptions, ros: Vec<String>) -> io::Result<ExitCode> {
     let Some(values) = options.values()? else { return Ok(ExitCode::from(2)) };
@@ -44,14 +44,14 @@ pub(super) fn run(options: &LocalizeOptions, ros: Vec<String>) -> io::Result<Exi
         diagnostics(&mut anstream::stderr().lock(), &findings, &SourceMap::new())?;
     }
     let node = localization.amcl().node();
-    let ready = Watched::new(node).and_then(|watched| {
+    let ready = NodeMonitor::new(node).and_then(|monitor| {
         if is_simulated {
             live.follow_clock(node)?;
         }
-        Ok(watched)
+        Ok(monitor)
     });
-    let watched = match ready {
-        Ok(watched) => watched,
+    let monitor = match ready {
+        Ok(monitor) => monitor,
         Err(error) => {
             complain(&error.to_string());
             return Ok(ExitCode::FAILURE);
@@ -59,14 +59,14 @@ pub(super) fn run(options: &LocalizeOptions, ros: Vec<String>) -> io::Result<Exi
     };
     let mut code = ExitCode::SUCCESS;
     while !stop.load(Ordering::Relaxed) {
-        live.go_on();
-        live.sleep_until_due(SHORTEST_STEP, LONGEST_STEP);
-        if watched.tell() {
+        live.spin_once();
+        live.sleep_until_due(MIN_SLEEP, MAX_SLEEP);
+        if monitor.tell() {
             // The reason has been logged.
             code = ExitCode::FAILURE;
             break;
         }
     }
-    live.end(LAST_WORD);
+    live.end(FLUSH_TIMEOUT);
     Ok(code)
 }

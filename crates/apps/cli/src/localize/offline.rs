@@ -12,13 +12,13 @@ use periplus_os::Stopwatch;
 
 use super::options::{self, LocalizeOptions};
 use super::report::Report;
-use crate::log::{Log, LogOptions, Logged};
+use crate::log::{Log, LogOptions, LoggedScan};
 use crate::{picture, terminal};
 
 /// Number of log errors that are printed; the others are counted.
-const MOST_TOLD: usize = 20;
+const MAX_PRINTED: usize = 20;
 /// Number of state changes that are listed; the others are counted.
-const MOST_CHANGES: usize = 1000;
+const MAX_CHANGES: usize = 1000;
 
 /// Result of localizing a log.
 #[derive(Default)]
@@ -98,7 +98,7 @@ pub(super) fn run(
     if let Err(why) = &written {
         terminal::complain(why);
     }
-    for fault in log.faults.iter().take(MOST_TOLD) {
+    for fault in log.faults.iter().take(MAX_PRINTED) {
         terminal::complain(fault);
     }
     let is_good = written.is_ok() && log.faults.is_empty() && outcome.settled.is_some();
@@ -138,7 +138,7 @@ fn localize(amcl: &mut Amcl, log: &Log) -> Outcome {
         }
         let LocalizationStatus { state: now, reason, .. } = amcl.status();
         *outcome.states.entry(word(*now)).or_default() += 1;
-        if std::mem::replace(&mut state, *now) != *now && outcome.changes.len() < MOST_CHANGES {
+        if std::mem::replace(&mut state, *now) != *now && outcome.changes.len() < MAX_CHANGES {
             outcome.changes.push((logged.stamp.clone(), word(*now), reason.clone()));
         }
         if let Some(map_from_odom) = amcl.map_from_odom().filter(|_| amcl.has_pose()) {
@@ -151,7 +151,7 @@ fn localize(amcl: &mut Amcl, log: &Log) -> Outcome {
     outcome
 }
 
-fn scan(logged: &Logged) -> Scan {
+fn scan(logged: &LoggedScan) -> Scan {
     let scan = &logged.scan;
     Scan {
         base_from_laser: scan.base_from_laser,

@@ -9,7 +9,7 @@ use serde_json::{Map, Value, json};
 
 use super::offline::Outcome;
 use crate::log::Log;
-use crate::spent::{cpu_s, steps_ms};
+use crate::timing::{cpu_s, steps_ms};
 
 /// Report of a localization run.
 pub(super) struct Report<'a> {

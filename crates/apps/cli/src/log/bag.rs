@@ -15,11 +15,11 @@ use periplus_msgs::tf2_msgs::TFMessage;
 use periplus_slam::Scan;
 use periplus_tf::{Buffer, StampedTransform, TransformKind};
 
-use super::{Log, LogOptions, Logged};
+use super::{Log, LogOptions, LoggedScan};
 use crate::terminal;
 
 /// Common names of the base frame, in order of preference.
-const BASES: [&str; 2] = ["base_footprint", "base_link"];
+const BASE_FRAMES: [&str; 2] = ["base_footprint", "base_link"];
 
 /// Reads a recording; a message if it cannot be read.
 pub(super) fn read(path: &Path, options: &LogOptions) -> io::Result<Result<Log, String>> {
@@ -73,7 +73,7 @@ fn scans(bag: &Bag, path: &Path, options: &LogOptions) -> Result<Log, String> {
             Some(Pose2::from(found.ok()?.target_from_source))
         });
         let stamp = &message.header.stamp;
-        log.scans.push(Logged {
+        log.scans.push(LoggedScan {
             stamp: format!("{}.{:06}", stamp.sec, stamp.nanosec / 1000),
             scan: scan(message, time_ns, base_from_laser),
             odom_from_base,
@@ -193,7 +193,7 @@ impl Frames {
     /// Base frame that is connected to odometry: the given one, or one of the common names.
     fn base(&self, odom: &str, told: Option<&str>) -> Option<String> {
         let leads = |base: &&str| self.buffer.chain(odom, base).is_some();
-        told.into_iter().chain(BASES).find(leads).map(str::to_owned)
+        told.into_iter().chain(BASE_FRAMES).find(leads).map(str::to_owned)
     }
 }
 

@@ -13,15 +13,15 @@ use periplus_os::{Machine, sleep};
 
 use super::options::{SaveOptions, ServeOptions};
 use crate::arguments;
-use crate::live::{Live, Watched};
+use crate::live::{Live, NodeMonitor};
 use crate::stop;
 use crate::terminal::{complain, diagnostics, say};
 
 /// Polling period.
-const LOOK: Duration = Duration::from_millis(20);
+const POLL_PERIOD: Duration = Duration::from_millis(20);
 
 /// Timeout for delivering the last messages at the end.
-const LAST_WORD: Duration = Duration::from_millis(500);
+const FLUSH_TIMEOUT: Duration = Duration::from_millis(500);
 
 pub(super) fn run(options: &ServeOptions, ros: Vec<String>) -> io::Result<ExitCode> {
     if let Some(name) = &options.file {
@@ -62,21 +62,21 @@ pub(super) fn run(options: &ServeOptions, ros: Vec<String>) -> io::Result<ExitCo
     for findings in [graph.take_findings(), graph.unused_arguments()] {
         diagnostics(&mut anstream::stderr().lock(), &findings, &SourceMap::new())?;
     }
-    let watched = Watched::new(server.node()).map_err(|error| complain(&error.to_string()));
-    let Ok(watched) = watched else { return Ok(ExitCode::FAILURE) };
+    let monitor = NodeMonitor::new(server.node()).map_err(|error| complain(&error.to_string()));
+    let Ok(monitor) = monitor else { return Ok(ExitCode::FAILURE) };
     if !options.managed {
         server.start();
     }
     let mut code = ExitCode::SUCCESS;
     while !stop.load(Ordering::Relaxed) {
-        live.go_on();
-        sleep(LOOK);
-        if watched.tell() && !options.managed {
+        live.spin_once();
+        sleep(POLL_PERIOD);
+        if monitor.tell() && !options.managed {
             // The reason has been logged.
             code = ExitCode::FAILURE;
             break;
         }
     }
-    live.end(LAST_WORD);
+    live.end(FLUSH_TIMEOUT);
     Ok(code)
 }

@@ -14,7 +14,7 @@ const KINDS: [&str; 24] = [
 ];
 
 /// A path of a missing file so deep that its surroundings are empty.
-const NOWHERE: &str = "/.periplus/no/file/was/loaded/so/nothing/is/around/it";
+const MISSING_FILE: &str = "/.periplus/no/file/was/loaded/so/nothing/is/around/it";
 
 /// Returns files by URI, with the same access rules as for references in the loaded files.
 pub(super) fn fetch(
@@ -28,7 +28,7 @@ pub(super) fn fetch(
     from.retain(|file| file.parent().is_some_and(|folder| folder.parent().is_some()));
     if from.is_empty() {
         // Nothing was loaded: only packages and models of the environment are accessible.
-        from.push(PathBuf::from(NOWHERE));
+        from.push(PathBuf::from(MISSING_FILE));
     }
     move |uri| {
         // A new resolver for each request: it caches, and files change.

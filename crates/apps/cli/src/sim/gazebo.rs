@@ -13,7 +13,7 @@ use periplus_sim::{GazeboPublisher, Services, Simulation, gazebo_topic};
 use crate::terminal;
 
 /// Topics for ROS programs only.
-const OF_ROS: [&str; 3] = ["/rosout", "/parameter_events", "/robot_description"];
+const ROS_ONLY_TOPICS: [&str; 3] = ["/rosout", "/parameter_events", "/robot_description"];
 
 /// Visibility of a run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -119,7 +119,9 @@ impl Gazebo {
         desk.set_outlet(Box::new(Outlet(publishers?)));
         let link = Link::new(simulation.graph(), &transport);
         let name = gazebo_topic(simulation);
-        link.offer_all(move |topic| if OF_ROS.contains(&topic) { None } else { name(topic) })?;
+        link.offer_all(
+            move |topic| if ROS_ONLY_TOPICS.contains(&topic) { None } else { name(topic) },
+        )?;
         Ok(Self { link, _servers: servers })
     }
 

@@ -7,13 +7,13 @@ use indicatif::{ProgressBar, ProgressStyle};
 use periplus_sim::RunProgress;
 
 /// Period of lines without a terminal.
-const LINES: Duration = Duration::from_secs(10);
+const LINE_PERIOD: Duration = Duration::from_secs(10);
 
 /// Redraw period of the progress bar.
-const REDRAW: Duration = Duration::from_millis(100);
+const REDRAW_PERIOD: Duration = Duration::from_millis(100);
 
 /// Progress bar at the bottom of the terminal; hidden where stderr is no terminal.
-pub(crate) struct Line {
+pub(crate) struct ProgressLine {
     bar: ProgressBar,
     drawn: Duration,
     end_s: Option<f64>,
@@ -21,7 +21,7 @@ pub(crate) struct Line {
     next_line: Option<Duration>,
 }
 
-impl Line {
+impl ProgressLine {
     /// Progress of a run of `end_s` simulated seconds, or without end.
     pub(crate) fn new(end_s: Option<f64>, quiet: bool) -> Self {
         let bar = match end_s {
@@ -30,7 +30,7 @@ impl Line {
             None => ProgressBar::new_spinner().with_style(style("{spinner} {msg}")),
         };
         let is_drawn = quiet || std::io::stderr().is_terminal();
-        let next_line = (!is_drawn && end_s.is_some()).then_some(LINES);
+        let next_line = (!is_drawn && end_s.is_some()).then_some(LINE_PERIOD);
         Self { bar, drawn: Duration::ZERO, end_s, next_line }
     }
 
@@ -42,7 +42,7 @@ impl Line {
         reason = "for display"
     )]
     pub(crate) fn show(&mut self, progress: RunProgress) {
-        if progress.wall < self.drawn + REDRAW {
+        if progress.wall < self.drawn + REDRAW_PERIOD {
             return;
         }
         self.drawn = progress.wall;
@@ -51,7 +51,7 @@ impl Line {
         if let (Some(due), Some(end_s)) = (self.next_line, self.end_s)
             && progress.wall >= due
         {
-            self.next_line = Some(progress.wall + LINES);
+            self.next_line = Some(progress.wall + LINE_PERIOD);
             crate::terminal::say(&format!(
                 "{time_s:.1} of {end_s} s simulated, {factor:.1} x real time"
             ));

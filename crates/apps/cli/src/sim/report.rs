@@ -42,15 +42,15 @@ impl Report<'_> {
     /// JSON report.
     pub(crate) fn to_json(&self) -> Value {
         let shares = self.simulation.shares();
-        let spent = Work::ALL
-            .map(|work| (format!("{}_s", work.name()), json!(shares.spent(work).as_secs_f64())));
+        let timing = Work::ALL
+            .map(|work| (format!("{}_s", work.name()), json!(shares.timing(work).as_secs_f64())));
         json!({
             "simulated_s": self.simulated_s(),
             "wall_s": self.wall.as_secs_f64(),
             "start_up_s": self.start_up.as_secs_f64(),
             "real_time_factor": self.factor(),
             "step_s": seconds(self.simulation.step_ns()),
-            "work": spent.into_iter().collect::<serde_json::Map<_, _>>(),
+            "work": timing.into_iter().collect::<serde_json::Map<_, _>>(),
             "models": self.simulation.models().collect::<Vec<_>>(),
             "recording": self.recording.map(|recording| json!({
                 "path": recording.path,
@@ -76,7 +76,7 @@ fn seconds(time_ns: i64) -> f64 {
 }
 
 fn percent(shares: &WorkProfile, work: Work) -> f64 {
-    shares.spent(work).as_secs_f64() / shares.total().as_secs_f64().max(1e-9) * 100.0
+    shares.timing(work).as_secs_f64() / shares.total().as_secs_f64().max(1e-9) * 100.0
 }
 
 #[expect(clippy::cast_precision_loss, reason = "for display")]

@@ -15,7 +15,7 @@ use crate::terminal;
 mod zenoh;
 
 /// Period of checking for network problems.
-const LOOK: Duration = Duration::from_millis(500);
+const POLL_PERIOD: Duration = Duration::from_millis(500);
 
 /// Visibility of a run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -114,7 +114,7 @@ impl Ros2 {
 
     /// Returns true if the next check for network problems is due.
     pub(crate) fn is_due(&mut self, wall: Duration) -> bool {
-        let is_due = self.wire.is_some() && wall >= self.looked + LOOK;
+        let is_due = self.wire.is_some() && wall >= self.looked + POLL_PERIOD;
         if is_due {
             self.looked = wall;
         }

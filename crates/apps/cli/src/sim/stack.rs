@@ -18,13 +18,13 @@ use periplus_params::{Given, ParamValue, ParamValues};
 use periplus_sim::{Diverged, Simulation};
 
 /// Longest detection phase \[ns\]: odometry and scans are published several times per second.
-const LONGEST_LOOK_NS: i64 = 2_000_000_000;
+const MAX_DETECTION_NS: i64 = 2_000_000_000;
 
 /// Shortest detection phase \[ns\], for slow publishers of transforms.
-const SHORTEST_LOOK_NS: i64 = 500_000_000;
+const MIN_DETECTION_NS: i64 = 500_000_000;
 
 /// Radius of a robot whose collisions give no size \[m\], the default of Nav2's example.
-const USUAL_RADIUS_M: f64 = 0.22;
+const DEFAULT_RADIUS_M: f64 = 0.22;
 
 /// Maximum depth of a chain of frames.
 const MAX_DEPTH: usize = 100;
@@ -49,7 +49,7 @@ pub(crate) struct RobotProfile {
 }
 
 /// Subscriptions of the detection phase.
-struct Look {
+struct DetectionSubscriptions {
     moving: Mailbox<TFMessage>,
     fixed: Mailbox<TFMessage>,
     odometry: Option<Mailbox<Odometry>>,
@@ -65,17 +65,18 @@ impl RobotProfile {
     /// # Errors
     /// An error when the world cannot run, or a name is invalid.
     pub(crate) fn of(simulation: &mut Simulation) -> Result<Self, String> {
-        let mut look = Look::new(simulation.graph()).map_err(|error| error.to_string())?;
+        let mut look =
+            DetectionSubscriptions::new(simulation.graph()).map_err(|error| error.to_string())?;
         let words = |diverged: Diverged| diverged.to_string();
-        while simulation.time_ns() < LONGEST_LOOK_NS {
+        while simulation.time_ns() < MAX_DETECTION_NS {
             simulation.step().map_err(words)?;
             look.take();
-            if simulation.time_ns() >= SHORTEST_LOOK_NS && look.has_all() {
+            if simulation.time_ns() >= MIN_DETECTION_NS && look.has_all() {
                 break;
             }
         }
         let mut profile = look.finish();
-        profile.radius_m = simulation.robot_radius_m().unwrap_or(USUAL_RADIUS_M);
+        profile.radius_m = simulation.robot_radius_m().unwrap_or(DEFAULT_RADIUS_M);
         simulation.reset();
         Ok(profile)
     }
@@ -170,7 +171,7 @@ impl RobotProfile {
     }
 }
 
-impl Look {
+impl DetectionSubscriptions {
     fn new(graph: &Graph) -> Result<Self, GraphError> {
         let node = graph.node(NodeSettings::new("stack").bare().keep_names())?;
         let topics = graph.topics();

@@ -12,15 +12,15 @@ use periplus_os::sleep;
 
 use super::options::SlamOptions;
 use crate::arguments;
-use crate::live::{Live, Watched};
+use crate::live::{Live, NodeMonitor};
 use crate::mapping::{Mapping, parameters};
 use crate::stop;
 use crate::terminal::{complain, diagnostics, say};
 
 /// Period of clock updates: background work is split into slices of this duration.
-const LOOK: Duration = Duration::from_millis(4);
+const POLL_PERIOD: Duration = Duration::from_millis(4);
 /// Timeout for delivering the last messages at the end.
-const LAST_WORD: Duration = Duration::from_millis(500);
+const FLUSH_TIMEOUT: Duration = Duration::from_millis(500);
 
 pub(super) fn run(options: &SlamOptions, ros: Vec<String>) -> io::Result<ExitCode> {
     let Some(arguments) = arguments::read(ros)? else {
@@ -60,29 +60,29 @@ pub(super) fn run(options: &SlamOptions, ros: Vec<String>) -> io::Result<ExitCod
             if out.is_some() { " and writes the map" } else { "" }
         ));
     }
-    let ready = Watched::new(mapping.node.node()).and_then(|watched| {
+    let ready = NodeMonitor::new(mapping.node.node()).and_then(|monitor| {
         if is_simulated {
             live.follow_clock(mapping.node.node())?;
         }
-        Ok(watched)
+        Ok(monitor)
     });
-    let watched = match ready {
-        Ok(watched) => watched,
+    let monitor = match ready {
+        Ok(monitor) => monitor,
         Err(error) => {
             complain(&error.to_string());
             return Ok(ExitCode::FAILURE);
         }
     };
     while !stop.load(Ordering::Relaxed) {
-        live.go_on();
-        sleep(LOOK);
-        watched.tell();
+        live.spin_once();
+        sleep(POLL_PERIOD);
+        monitor.tell();
     }
     if !options.quiet {
         mapping.tell(&mut anstream::stderr().lock())?;
     }
     let written = mapping.write();
-    live.end(LAST_WORD);
+    live.end(FLUSH_TIMEOUT);
     match written {
         Ok(Some(folder)) if !options.quiet => say(&format!("written: {}", folder.display())),
         Ok(_) => {}

@@ -9,7 +9,7 @@ use serde_json::{Value, json};
 use super::options::SlamOptions;
 use super::parameters::Parameters;
 use crate::log::Log;
-use crate::spent::{cpu_s, steps_ms};
+use crate::timing::{cpu_s, steps_ms};
 
 /// Report of a mapping run.
 pub(super) struct Report<'a> {

@@ -8,12 +8,12 @@ use super::options::SlamOptions;
 use super::parameters::Parameters;
 
 /// Map, by method.
-pub(super) enum Made {
+pub(super) enum SelectedMapper {
     Graph(Box<Slam>),
     Gmapping(Box<Gmapping>),
 }
 
-impl Made {
+impl SelectedMapper {
     /// Initial map: an empty one, or that of the given session.
     pub(super) fn new(options: &SlamOptions, parameters: &Parameters) -> Result<Self, String> {
         let values = &parameters.values;

@@ -1,7 +1,7 @@
 //! Common options of verbs.
 
 use clap::Args;
-use periplus_ros2cli::QosWish;
+use periplus_ros2cli::QosRequest;
 
 #[derive(Clone, Debug, Default, Args)]
 pub(crate) struct Common {
@@ -67,8 +67,8 @@ pub(crate) struct QosOptions {
 }
 
 impl QosOptions {
-    pub(crate) fn wish(&self) -> QosWish {
-        QosWish {
+    pub(crate) fn wish(&self) -> QosRequest {
+        QosRequest {
             profile: self.qos_profile.clone(),
             depth: self.qos_depth,
             history: self.qos_history.clone(),

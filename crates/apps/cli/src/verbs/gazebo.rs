@@ -17,10 +17,10 @@ use crate::terminal;
 const DISCOVERY: Duration = Duration::from_millis(2500);
 
 /// Time without a new topic after which discovery is complete.
-const QUIET: Duration = Duration::from_millis(500);
+const SETTLE_TIME: Duration = Duration::from_millis(500);
 
 /// Polling period.
-const LOOK: Duration = Duration::from_millis(20);
+const POLL_PERIOD: Duration = Duration::from_millis(20);
 
 /// Lists the topics of Gazebo programs, as `gz topic -l` does.
 pub(super) fn topics(common: &Common, show_types: bool, count: bool) -> io::Result<ExitCode> {
@@ -50,12 +50,12 @@ fn list(
     };
     let longest = common.spin_time.map_or(DISCOVERY, Duration::from_secs_f64);
     let (clock, mut changed, mut known) = (Stopwatch::start(), Stopwatch::start(), 0);
-    while clock.elapsed() < longest && (known == 0 || changed.elapsed() < QUIET) {
+    while clock.elapsed() < longest && (known == 0 || changed.elapsed() < SETTLE_TIME) {
         let now = offered(&transport).len();
         if now != known {
             (known, changed) = (now, Stopwatch::start());
         }
-        sleep(LOOK);
+        sleep(POLL_PERIOD);
     }
     let mut found: BTreeMap<String, BTreeSet<String>> = BTreeMap::new();
     for one in offered(&transport) {

@@ -8,8 +8,8 @@ use periplus_graph::{
 };
 use periplus_nav_nodes::costmap_2d::CostmapNode;
 
-use crate::bringup::make::{self, Written};
-use crate::bringup::parts::Ask;
+use crate::bringup::make::{self, ParameterFile};
+use crate::bringup::parts::BuiltInRequest;
 
 /// Lifecycle node that replaces a server, and its costmap in the same state.
 pub(crate) struct Host {
@@ -23,7 +23,7 @@ impl Host {
     /// # Errors
     /// A message when it cannot be created.
     pub(crate) fn new(
-        ask: &Ask,
+        ask: &BuiltInRequest,
         node: &Node,
         graph: &Graph,
         (costmap, lacks): (&'static str, &'static str),
@@ -32,7 +32,7 @@ impl Host {
         let around = node.names().namespace().trim_end_matches('/');
         let namespace = format!("{around}/{costmap}");
         let named = make::parameters_as(ask, &format!("{namespace}/{costmap}"), notes);
-        let written = Written::new(&named, &format!("{namespace}/{costmap}"))?;
+        let written = ParameterFile::new(&named, &format!("{namespace}/{costmap}"))?;
         let config = written.read(notes, |tree, found| match tree {
             Some(tree) => CostmapConfig::read_yaml(tree, costmap, None, found),
             None => CostmapConfig::read([], None, found),
@@ -83,10 +83,14 @@ fn follow(costmap: &CostmapNode, step: Step) -> StepOutcome {
 ///
 /// # Errors
 /// A message when it cannot be created.
-pub(crate) fn alone(ask: &Ask, node: Node, notes: &mut Vec<String>) -> Result<CostmapNode, String> {
+pub(crate) fn alone(
+    ask: &BuiltInRequest,
+    node: Node,
+    notes: &mut Vec<String>,
+) -> Result<CostmapNode, String> {
     let name = node.names().name().to_owned();
     let named = make::parameters_as(ask, node.full_name(), notes);
-    let written = Written::new(&named, node.full_name())?;
+    let written = ParameterFile::new(&named, node.full_name())?;
     let config = written.read(notes, |tree, found: &mut Diagnostics| match tree {
         Some(tree) => CostmapConfig::read_yaml(tree, &name, None, found),
         None => CostmapConfig::read([], None, found),

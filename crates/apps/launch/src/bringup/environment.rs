@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use crate::{Running, Step};
 use periplus_resources::SEARCH_VARIABLES;
 
-use crate::bringup::world::WorldWish;
+use crate::bringup::world::WorldRequest;
 
 /// Maximum length of a variable's value in messages.
 const MAX_SHOWN_CHARS: usize = 200;
@@ -47,7 +47,7 @@ pub(crate) fn of_step(step: &Step) -> Environment {
 
 /// Advice about a model, mesh or world that was not found: the launch file lines that set search
 /// paths, or the line before which one should.
-pub(crate) fn advice(settings: &[VariableSetting], wish: &WorldWish) -> String {
+pub(crate) fn advice(settings: &[VariableSetting], wish: &WorldRequest) -> String {
     let started = wish.written.as_deref();
     let mut lines = Vec::new();
     for name in SEARCH_VARIABLES {
@@ -101,10 +101,10 @@ mod tests {
             .collect();
         let environment =
             holds.iter().map(|(name, value)| ((*name).to_owned(), Some((*value).to_owned())));
-        let wish = WorldWish {
+        let wish = WorldRequest {
             environment: environment.collect(),
             written: Some("a.launch.py:20".into()),
-            ..WorldWish::default()
+            ..WorldRequest::default()
         };
         let advice = advice(&settings, &wish);
         assert!(advice.starts_with(expected), "{advice}");

@@ -14,10 +14,10 @@ use std::time::Duration;
 use periplus_os::{Stopwatch, sleep};
 
 /// Time between signals.
-const GRACE: Duration = Duration::from_secs(3);
+const SIGNAL_INTERVAL: Duration = Duration::from_secs(3);
 
 /// Polling period.
-const CHECK: Duration = Duration::from_millis(20);
+const POLL_PERIOD: Duration = Duration::from_millis(20);
 
 /// Guard of the processes of a launch; clones share it.
 #[derive(Clone, Debug, Default)]
@@ -90,19 +90,19 @@ pub fn guard(reports: impl BufRead) {
             _ => groups.remove(&group),
         };
     }
-    for signal in [Ending::Interrupt, Ending::Terminate, Ending::Kill] {
+    for signal in [EndSignal::Interrupt, EndSignal::Terminate, EndSignal::Kill] {
         groups.retain(|group| has_members(*group));
         groups.iter().for_each(|group| send(*group, signal));
         let since = Stopwatch::start();
-        while groups.iter().any(|group| has_members(*group)) && since.elapsed() < GRACE {
-            sleep(CHECK);
+        while groups.iter().any(|group| has_members(*group)) && since.elapsed() < SIGNAL_INTERVAL {
+            sleep(POLL_PERIOD);
         }
     }
 }
 
 /// Signals to end processes, in the order in which `launch` sends them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Ending {
+pub(crate) enum EndSignal {
     /// SIGINT, as Ctrl-C.
     Interrupt,
     /// SIGTERM, as `kill`.
@@ -122,12 +122,12 @@ pub(crate) fn own_group(command: &mut Command) {
 
 /// Sends a signal to all processes of a group.
 #[cfg(unix)]
-pub(crate) fn send(group: u32, ending: Ending) {
+pub(crate) fn send(group: u32, ending: EndSignal) {
     use rustix::process::{Signal, kill_process_group};
     let signal = match ending {
-        Ending::Interrupt => Signal::INT,
-        Ending::Terminate => Signal::TERM,
-        Ending::Kill => Signal::KILL,
+        EndSignal::Interrupt => Signal::INT,
+        EndSignal::Terminate => Signal::TERM,
+        EndSignal::Kill => Signal::KILL,
     };
     if let Some(group) = group_id(group) {
         let _ = kill_process_group(group, signal);
@@ -148,7 +148,7 @@ fn group_id(group: u32) -> Option<rustix::process::Pid> {
 
 /// Other systems have no process groups: only the leader is known, and ends with its handle.
 #[cfg(not(unix))]
-pub(crate) fn send(_group: u32, _ending: Ending) {}
+pub(crate) fn send(_group: u32, _ending: EndSignal) {}
 
 /// Returns true if a process of a group is left.
 #[cfg(not(unix))]

@@ -9,18 +9,18 @@ use crate::{Identity, Node, Parameters, Process, What};
 use serde_json::json;
 
 use crate::bringup::parts::{truth, values};
-use crate::bringup::world::{self, WorldWish};
+use crate::bringup::world::{self, WorldRequest};
 
 /// Replacement of a launch file.
-pub(crate) enum StandIn {
+pub(crate) enum Replacement {
     /// Simulation.
-    World(WorldWish),
+    World(WorldRequest),
     /// Steps.
     Steps(Vec<What>),
 }
 
 /// Launch files with a replacement, by package.
-pub const STOOD_FOR: [(&str, &[&str]); 5] = [
+pub const REPLACED_LAUNCH_FILES: [(&str, &[&str]); 5] = [
     (
         "gazebo_ros",
         &["empty_world.launch", "gazebo.launch.py", "gzclient.launch.py", "gzserver.launch.py"],
@@ -51,47 +51,52 @@ pub const STOOD_FOR: [(&str, &[&str]); 5] = [
 
 /// Returns true if a launch file of a missing package has a replacement.
 #[must_use]
-pub fn stands_for(package: &str, file: &str) -> bool {
-    stand_in(&format!("package://{package}/launch/{file}"), &BTreeMap::new()).is_some()
+pub fn has_replacement(package: &str, file: &str) -> bool {
+    replacement(&format!("package://{package}/launch/{file}"), &BTreeMap::new()).is_some()
 }
 
 /// Replacement of a file; `None` if it is unknown.
-pub(crate) fn stand_in(file: &str, given: &BTreeMap<String, String>) -> Option<StandIn> {
+pub(crate) fn replacement(file: &str, given: &BTreeMap<String, String>) -> Option<Replacement> {
     let (package, path) = file.strip_prefix("package://")?.split_once('/')?;
     let name = path.rsplit('/').next().unwrap_or(path);
     let arguments = Arguments(given);
     Some(match (package, name) {
         ("gazebo_ros", "gzclient.launch.py") => {
-            StandIn::Steps(vec![node("gazebo_ros", "gzclient")])
+            Replacement::Steps(vec![node("gazebo_ros", "gzclient")])
         }
         ("gazebo_ros", "gazebo.launch.py" | "gzserver.launch.py") => {
-            StandIn::World(gazebo(&arguments, "world", "pause"))
+            Replacement::World(gazebo(&arguments, "world", "pause"))
         }
         ("gazebo_ros", "empty_world.launch") => {
-            StandIn::World(gazebo(&arguments, "world_name", "paused"))
+            Replacement::World(gazebo(&arguments, "world_name", "paused"))
         }
         // `rubble_world.launch` and similar files show the world of that name.
         ("gazebo_ros", name) if name.ends_with("_world.launch") => {
             let world = name.trim_end_matches("_world.launch");
             let wish = gazebo(&arguments, "world_name", "paused");
-            StandIn::World(WorldWish { file: Some(format!("worlds/{world}.world")), ..wish })
+            Replacement::World(WorldRequest { file: Some(format!("worlds/{world}.world")), ..wish })
         }
-        ("ros_gz_sim", "gz_sim.launch.py") => StandIn::World(gz(&arguments, "gz_args")),
+        ("ros_gz_sim", "gz_sim.launch.py") => Replacement::World(gz(&arguments, "gz_args")),
         ("ros_ign_gazebo" | "ros_gz_sim", "ign_gazebo.launch.py") => {
-            StandIn::World(gz(&arguments, "ign_args"))
+            Replacement::World(gz(&arguments, "ign_args"))
         }
         ("ros_gz_sim", "gz_server.launch.py" | "ros_gz_sim.launch.py") => {
             let file = arguments.get("world_sdf_file").filter(|file| !file.is_empty());
-            StandIn::World(WorldWish { file: file.map(str::to_owned), ..WorldWish::default() })
+            Replacement::World(WorldRequest {
+                file: file.map(str::to_owned),
+                ..WorldRequest::default()
+            })
         }
         ("ros_gz_sim", "gz_spawn_model.launch.py" | "ros_gz_spawn_model.launch.py") => {
-            StandIn::Steps(vec![spawn(&arguments)])
+            Replacement::Steps(vec![spawn(&arguments)])
         }
-        ("ros_gz_bridge", "ros_gz_bridge.launch.py") => StandIn::Steps(vec![bridge(&arguments)]),
-        ("slam_toolbox", name) => StandIn::Steps(vec![slam(slam_program(name)?, &arguments)]),
-        ("nav2_bringup", "navigation_launch.py") => StandIn::Steps(navigation(&arguments)),
-        ("nav2_bringup", "localization_launch.py") => StandIn::Steps(localization(&arguments)),
-        ("nav2_bringup", "slam_launch.py") => StandIn::Steps(mapping(&arguments)),
+        ("ros_gz_bridge", "ros_gz_bridge.launch.py") => {
+            Replacement::Steps(vec![bridge(&arguments)])
+        }
+        ("slam_toolbox", name) => Replacement::Steps(vec![slam(slam_program(name)?, &arguments)]),
+        ("nav2_bringup", "navigation_launch.py") => Replacement::Steps(navigation(&arguments)),
+        ("nav2_bringup", "localization_launch.py") => Replacement::Steps(localization(&arguments)),
+        ("nav2_bringup", "slam_launch.py") => Replacement::Steps(mapping(&arguments)),
         ("nav2_bringup", "bringup_launch.py") => {
             let mut steps = if arguments.is("slam", false) {
                 mapping(&arguments)
@@ -99,9 +104,9 @@ pub(crate) fn stand_in(file: &str, given: &BTreeMap<String, String>) -> Option<S
                 localization(&arguments)
             };
             steps.extend(navigation(&arguments));
-            StandIn::Steps(steps)
+            Replacement::Steps(steps)
         }
-        ("nav2_bringup", "rviz_launch.py") => StandIn::Steps(vec![node("rviz2", "rviz2")]),
+        ("nav2_bringup", "rviz_launch.py") => Replacement::Steps(vec![node("rviz2", "rviz2")]),
         _ => return None,
     })
 }
@@ -119,20 +124,20 @@ impl Arguments<'_> {
     }
 }
 
-fn gazebo(arguments: &Arguments<'_>, world: &str, paused: &str) -> WorldWish {
+fn gazebo(arguments: &Arguments<'_>, world: &str, paused: &str) -> WorldRequest {
     let extra = arguments.get("extra_gazebo_args").unwrap_or_default();
     let extra: Vec<String> = extra.split_whitespace().map(str::to_owned).collect();
     let seed = arguments.get("seed").and_then(|seed| seed.parse().ok());
-    WorldWish {
+    WorldRequest {
         file: arguments.get(world).filter(|file| !file.is_empty()).map(str::to_owned),
         is_paused: arguments.is(paused, false),
         seed: seed.or(world::classic(&extra).seed),
         has_window: arguments.is("gui", true),
-        ..WorldWish::default()
+        ..WorldRequest::default()
     }
 }
 
-fn gz(arguments: &Arguments<'_>, name: &str) -> WorldWish {
+fn gz(arguments: &Arguments<'_>, name: &str) -> WorldRequest {
     let line = arguments.get(name).unwrap_or_default();
     let words: Vec<String> = line.split_whitespace().map(str::to_owned).collect();
     world::gz(&words)
@@ -147,7 +152,7 @@ fn node(package: &str, executable: &str) -> What {
 }
 
 /// Named node with parameters.
-fn named(package: &str, executable: &str, name: &str, around: &Around) -> What {
+fn named(package: &str, executable: &str, name: &str, around: &CommonSettings) -> What {
     let identity = Identity {
         name: Some(name.to_owned()),
         namespace: around.namespace.clone(),
@@ -164,13 +169,13 @@ fn named(package: &str, executable: &str, name: &str, around: &Around) -> What {
 
 /// Settings of all nodes of a file.
 #[derive(Clone, Debug, Default)]
-struct Around {
+struct CommonSettings {
     namespace: Option<String>,
     parameters: Vec<Parameters>,
     remaps: Vec<(String, String)>,
 }
 
-impl Around {
+impl CommonSettings {
     fn of_nav2(arguments: &Arguments<'_>) -> Self {
         let mut parameters = Vec::new();
         parameters.extend(arguments.get("params_file").map(|file| Parameters::File(file.into())));
@@ -196,7 +201,7 @@ impl Around {
 }
 
 /// Lifecycle manager of these nodes.
-fn manager(name: &str, nodes: &[&str], arguments: &Arguments<'_>, around: &Around) -> What {
+fn manager(name: &str, nodes: &[&str], arguments: &Arguments<'_>, around: &CommonSettings) -> What {
     let autostart = arguments.is("autostart", true);
     let around = around.with(&json!({ "autostart": autostart, "node_names": nodes }));
     named("nav2_lifecycle_manager", "lifecycle_manager", name, &around)
@@ -212,7 +217,7 @@ fn navigation(arguments: &Arguments<'_>) -> Vec<What> {
         ("nav2_bt_navigator", "bt_navigator"),
         ("nav2_waypoint_follower", "waypoint_follower"),
     ];
-    let around = Around::of_nav2(arguments);
+    let around = CommonSettings::of_nav2(arguments);
     let mut steps: Vec<What> =
         NODES.iter().map(|(package, name)| named(package, name, name, &around)).collect();
     let names = NODES.map(|(_, name)| name);
@@ -221,7 +226,7 @@ fn navigation(arguments: &Arguments<'_>) -> Vec<What> {
 }
 
 fn localization(arguments: &Arguments<'_>) -> Vec<What> {
-    let around = Around::of_nav2(arguments);
+    let around = CommonSettings::of_nav2(arguments);
     let map = arguments.get("map").filter(|map| !map.is_empty());
     let with_map = match map {
         Some(map) => around.with(&json!({ "yaml_filename": map })),
@@ -235,7 +240,7 @@ fn localization(arguments: &Arguments<'_>) -> Vec<What> {
 }
 
 fn mapping(arguments: &Arguments<'_>) -> Vec<What> {
-    let around = Around::of_nav2(arguments);
+    let around = CommonSettings::of_nav2(arguments);
     vec![
         named("nav2_map_server", "map_saver_server", "map_saver", &around),
         manager("lifecycle_manager_slam", &["map_saver"], arguments, &around),
@@ -254,9 +259,9 @@ fn slam_program(name: &str) -> Option<&'static str> {
 }
 
 fn slam(program: &str, arguments: &Arguments<'_>) -> What {
-    let mut around = Around {
+    let mut around = CommonSettings {
         parameters: vec![values(&json!({ "use_sim_time": arguments.is("use_sim_time", true) }))],
-        ..Around::default()
+        ..CommonSettings::default()
     };
     if let Some(file) = arguments.get("slam_params_file").or(arguments.get("params_file")) {
         around.parameters.insert(0, Parameters::File(file.to_owned()));
@@ -290,24 +295,26 @@ fn spawn(arguments: &Arguments<'_>) -> What {
 
 fn bridge(arguments: &Arguments<'_>) -> What {
     let file = arguments.get("config_file").unwrap_or_default();
-    let around =
-        Around { parameters: vec![values(&json!({ "config_file": file }))], ..Around::default() };
+    let around = CommonSettings {
+        parameters: vec![values(&json!({ "config_file": file }))],
+        ..CommonSettings::default()
+    };
     let name = arguments.get("bridge_name").unwrap_or("ros_gz_bridge");
     named("ros_gz_bridge", "parameter_bridge", name, &around)
 }
 
 #[cfg(test)]
 mod tests {
-    use super::{STOOD_FOR, stands_for};
+    use super::{REPLACED_LAUNCH_FILES, has_replacement};
 
     #[test]
     fn something_stands_for_each_file_of_the_list() {
-        for (package, files) in STOOD_FOR {
+        for (package, files) in REPLACED_LAUNCH_FILES {
             assert!(files.is_sorted(), "{package}");
             for file in files {
-                assert!(stands_for(package, file), "{package} {file}");
+                assert!(has_replacement(package, file), "{package} {file}");
             }
         }
-        assert!(!stands_for("nav2_bringup", "tb3_simulation_launch.py"));
+        assert!(!has_replacement("nav2_bringup", "tb3_simulation_launch.py"));
     }
 }

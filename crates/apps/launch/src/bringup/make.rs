@@ -25,20 +25,20 @@ use serde_json::Value;
 use crate::bringup::bridge::{self, Direction};
 use crate::bringup::catalogue::Role;
 use crate::bringup::costmaps::{self, Host};
-use crate::bringup::crew::Settings;
-use crate::bringup::hands::{
-    Described, Hand, Manager, ManagerSettings, Relay, Saver, Spawner, Unstamp, robot,
+use crate::bringup::parameters::{self, NamedParameters, text_of, texts_of, truth_of};
+use crate::bringup::parts::{BuiltInRequest, searched};
+use crate::bringup::report::Kind;
+use crate::bringup::runner::Settings;
+use crate::bringup::tasks::{
+    JointStateTask, Manager, ManagerSettings, Relay, Saver, Spawner, Task, Unstamp, robot,
 };
-use crate::bringup::parameters::{self, Named, text_of, texts_of, truth_of};
-use crate::bringup::parts::{Ask, searched};
-use crate::bringup::told::Kind;
 use crate::bringup::transform::FixedFrame;
 
 /// Created replacement.
 #[derive(Default)]
-pub(crate) struct Made {
+pub(crate) struct BuiltIn {
     pub(crate) kept: Vec<Box<dyn Any + Send>>,
-    pub(crate) hands: Vec<Box<dyn Hand>>,
+    pub(crate) tasks: Vec<Box<dyn Task>>,
     pub(crate) kind: Kind,
     pub(crate) node: Option<String>,
     pub(crate) told: String,
@@ -46,13 +46,13 @@ pub(crate) struct Made {
     pub(crate) notes: Vec<String>,
 }
 
-impl Made {
+impl BuiltIn {
     fn keep(&mut self, what: impl Any + Send) {
         self.kept.push(Box::new(what));
     }
 
-    fn hand(&mut self, hand: impl Hand + 'static) {
-        self.hands.push(Box::new(hand));
+    fn hand(&mut self, hand: impl Task + 'static) {
+        self.tasks.push(Box::new(hand));
     }
 }
 
@@ -61,13 +61,13 @@ impl Made {
 /// # Errors
 /// A message when it cannot be created.
 pub(crate) fn make(
-    ask: &Ask,
+    ask: &BuiltInRequest,
     graph: &Graph,
     now_ns: i64,
     settings: &Settings,
     lacking: &[String],
-) -> Result<Made, String> {
-    let mut made = Made { told: ask.entry.becomes.to_owned(), ..Made::default() };
+) -> Result<BuiltIn, String> {
+    let mut made = BuiltIn { told: ask.entry.becomes.to_owned(), ..BuiltIn::default() };
     match ask.entry.role {
         Role::Viewer | Role::Needless | Role::Container | Role::Gazebo => {
             made.kind = Kind::Needless;
@@ -116,7 +116,7 @@ pub(crate) fn make(
                     let model = robot(&text, &settings.search)?;
                     made.keep(JointStateSource::new(node, &model, options).map_err(failed)?);
                 }
-                None => made.hand(Described::new(node, options)?),
+                None => made.hand(JointStateTask::new(node, options)?),
             }
         }
         Role::StaticTransform => {
@@ -152,7 +152,7 @@ pub(crate) fn make(
         Role::Amcl { .. } => {
             let full_name = node.full_name().to_owned();
             let name = node.names().name().to_owned();
-            let written = Written::new(&named, &full_name)?;
+            let written = ParameterFile::new(&named, &full_name)?;
             let values = written.read(&mut made.notes, |tree, found| {
                 periplus_nav_nodes::amcl::read_parameters(tree, &name, &[], found)
             });
@@ -229,13 +229,17 @@ pub(crate) fn make(
 }
 
 /// Parameters of the node of a program.
-pub(crate) fn parameters(ask: &Ask, notes: &mut Vec<String>) -> Named {
+pub(crate) fn parameters(ask: &BuiltInRequest, notes: &mut Vec<String>) -> NamedParameters {
     parameters_as(ask, &ask.full_name(), notes)
 }
 
 /// Parameters for a node name, from all that a program is given.
-pub(crate) fn parameters_as(ask: &Ask, full_name: &str, notes: &mut Vec<String>) -> Named {
-    let mut named = Named::new();
+pub(crate) fn parameters_as(
+    ask: &BuiltInRequest,
+    full_name: &str,
+    notes: &mut Vec<String>,
+) -> NamedParameters {
+    let mut named = NamedParameters::new();
     // ROS 1: private parameters of the server first.
     let prefix = format!("{full_name}/");
     for (name, value) in &ask.server {
@@ -252,7 +256,7 @@ pub(crate) fn parameters_as(ask: &Ask, full_name: &str, notes: &mut Vec<String>)
 }
 
 /// Settings with the remappings of a program.
-pub(crate) fn remapped(mut settings: NodeSettings, ask: &Ask) -> NodeSettings {
+pub(crate) fn remapped(mut settings: NodeSettings, ask: &BuiltInRequest) -> NodeSettings {
     for (from, to) in &ask.identity.remaps {
         settings = settings.remap(from, to);
     }
@@ -278,7 +282,12 @@ fn is_urdf(text: &str) -> bool {
 
 /// Creates the node of a program; a number is appended to a name in use, as for programs that are
 /// started twice.
-fn node(ask: &Ask, graph: &Graph, named: &Named, notes: &mut Vec<String>) -> Result<Node, String> {
+fn node(
+    ask: &BuiltInRequest,
+    graph: &Graph,
+    named: &NamedParameters,
+    notes: &mut Vec<String>,
+) -> Result<Node, String> {
     let full_name = ask.full_name();
     let (namespace, name) = full_name.rsplit_once('/').unwrap_or(("", &full_name));
     let has_name = ask.identity.name.is_some() || ask.told.name.is_some();
@@ -303,7 +312,11 @@ fn node(ask: &Ask, graph: &Graph, named: &Named, notes: &mut Vec<String>) -> Res
 }
 
 /// Robot description: a parameter, one of the ROS 1 server, or a file in the arguments.
-fn description(ask: &Ask, named: &Named, launch_folder: &Path) -> Result<Option<String>, String> {
+fn description(
+    ask: &BuiltInRequest,
+    named: &NamedParameters,
+    launch_folder: &Path,
+) -> Result<Option<String>, String> {
     const NAME: &str = "robot_description";
     if let Some(text) = text_of(named, NAME) {
         return Ok(Some(text));
@@ -327,14 +340,14 @@ fn description(ask: &Ask, named: &Named, launch_folder: &Path) -> Result<Option<
 }
 
 fn slam(
-    ask: &Ask,
+    ask: &BuiltInRequest,
     node: Node,
     program: Program,
-    named: &Named,
+    named: &NamedParameters,
     settings: &Settings,
-    made: &mut Made,
+    made: &mut BuiltIn,
 ) -> Result<(), String> {
-    let written = Written::new(named, node.full_name())?;
+    let written = ParameterFile::new(named, node.full_name())?;
     let values = written.read(&mut made.notes, |tree, found| match tree {
         Some(tree) => periplus_nav_nodes::slam_toolbox::read(tree, Some(program), found).1,
         None => program.table().check([], None, found),
@@ -352,11 +365,11 @@ fn slam(
 }
 
 fn maps(
-    ask: &Ask,
+    ask: &BuiltInRequest,
     node: Node,
-    named: &Named,
+    named: &NamedParameters,
     settings: &Settings,
-    made: &mut Made,
+    made: &mut BuiltIn,
 ) -> Result<(), String> {
     let folder = &settings.search.working_folder;
     let words = &with_paths(ask, folder);
@@ -410,7 +423,7 @@ fn unusable_map(file: &str, distro: Distro) -> Option<String> {
 }
 
 /// Arguments of a program that reads or writes a map, with resolved paths.
-fn with_paths(ask: &Ask, launch_folder: &Path) -> Vec<String> {
+fn with_paths(ask: &BuiltInRequest, launch_folder: &Path) -> Vec<String> {
     let words = &ask.told.own;
     let is_saved = |index: usize| index > 0 && words[index - 1] == "-f";
     let is_served =
@@ -424,11 +437,11 @@ fn with_paths(ask: &Ask, launch_folder: &Path) -> Vec<String> {
 
 /// Gazebo topics have their names in the simulation already; remapped ones are relayed.
 fn bridged(
-    ask: &Ask,
+    ask: &BuiltInRequest,
     graph: &Graph,
     node: Node,
-    named: &Named,
-    made: &mut Made,
+    named: &NamedParameters,
+    made: &mut BuiltIn,
 ) -> Result<(), String> {
     let is_image = ask.entry.executables == ["image_bridge"];
     let mut pairs = if is_image {
@@ -476,17 +489,17 @@ fn bridged(
 }
 
 /// Parameters as a YAML file, for code that reads files.
-pub(crate) struct Written {
+pub(crate) struct ParameterFile {
     pub(crate) sources: SourceMap,
     tree: Option<periplus_yaml::YamlNode>,
 }
 
-impl Written {
+impl ParameterFile {
     /// Writes the parameters of a node by its full name.
     ///
     /// # Errors
     /// A message; unexpected, because the text is generated here.
-    pub(crate) fn new(named: &Named, full_name: &str) -> Result<Self, String> {
+    pub(crate) fn new(named: &NamedParameters, full_name: &str) -> Result<Self, String> {
         let all: Vec<_> = named.iter().map(|(name, value)| (name.clone(), value.clone())).collect();
         let text = if all.is_empty() { String::new() } else { parameters_to_yaml("/**", &all) };
         let mut sources = SourceMap::new();

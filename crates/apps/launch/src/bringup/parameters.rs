@@ -12,7 +12,7 @@ use periplus_resources::Host as _;
 use serde_json::Value;
 
 /// Parameters by name.
-pub(crate) type Named = BTreeMap<String, ParameterValue>;
+pub(crate) type NamedParameters = BTreeMap<String, ParameterValue>;
 
 /// Parameters of a node: values and files in their order, then `--ros-args`. Errors are added to
 /// `notes`.
@@ -21,8 +21,8 @@ pub(crate) fn of_node(
     given: &[Parameters],
     ros: &[String],
     notes: &mut Vec<String>,
-) -> Named {
-    let mut all = Named::new();
+) -> NamedParameters {
+    let mut all = NamedParameters::new();
     for parameters in given {
         match parameters {
             Parameters::Values(values) => {
@@ -59,7 +59,7 @@ fn text(path: &Path) -> Result<String, String> {
 }
 
 /// Adds a value, or its members with dotted names.
-fn collect(name: &str, value: &Value, all: &mut Named, notes: &mut Vec<String>) {
+fn collect(name: &str, value: &Value, all: &mut NamedParameters, notes: &mut Vec<String>) {
     if let Value::Object(inner) = value {
         for (inner_name, value) in inner {
             collect(&format!("{name}.{inner_name}"), value, all, notes);
@@ -120,13 +120,13 @@ fn list(items: &[Value]) -> Option<ParameterValue> {
 }
 
 /// Text value of a parameter.
-pub(crate) fn text_of(all: &Named, name: &str) -> Option<String> {
+pub(crate) fn text_of(all: &NamedParameters, name: &str) -> Option<String> {
     let value = all.get(name)?;
     (value.r#type == Type::PARAMETER_STRING).then(|| value.string_value.clone())
 }
 
 /// Numeric value of a parameter.
-pub(crate) fn number_of(all: &Named, name: &str) -> Option<f64> {
+pub(crate) fn number_of(all: &NamedParameters, name: &str) -> Option<f64> {
     let value = all.get(name)?;
     match value.r#type {
         Type::PARAMETER_DOUBLE => Some(value.double_value),
@@ -138,7 +138,7 @@ pub(crate) fn number_of(all: &Named, name: &str) -> Option<f64> {
 }
 
 /// Boolean value of a parameter.
-pub(crate) fn truth_of(all: &Named, name: &str) -> Option<bool> {
+pub(crate) fn truth_of(all: &NamedParameters, name: &str) -> Option<bool> {
     let value = all.get(name)?;
     match value.r#type {
         Type::PARAMETER_BOOL => Some(value.bool_value),
@@ -152,7 +152,7 @@ pub(crate) fn truth_of(all: &Named, name: &str) -> Option<bool> {
 }
 
 /// Texts of a parameter.
-pub(crate) fn texts_of(all: &Named, name: &str) -> Vec<String> {
+pub(crate) fn texts_of(all: &NamedParameters, name: &str) -> Vec<String> {
     all.get(name).map(|value| value.string_array_value.clone()).unwrap_or_default()
 }
 

@@ -9,8 +9,8 @@ use serde_json::{Value, json};
 use crate::bringup::catalogue::{Entry, Role, of_plugin, of_program};
 use crate::bringup::environment;
 use crate::bringup::includes;
-use crate::bringup::words::{self, Told};
-use crate::bringup::world::{self, WorldWish};
+use crate::bringup::words::{self, ProgramArguments};
+use crate::bringup::world::{self, WorldRequest};
 
 /// Part of a plan.
 #[derive(Clone, Debug)]
@@ -31,9 +31,9 @@ pub(crate) struct Part {
 #[derive(Clone, Debug)]
 pub(crate) enum Work {
     /// Simulation.
-    World(WorldWish),
+    World(WorldRequest),
     /// Built-in replacement of a program.
-    Ours(Box<Ask>),
+    Ours(Box<BuiltInRequest>),
     /// External program.
     Program(Box<Program>),
     /// Built-in `xacro`.
@@ -50,10 +50,10 @@ pub(crate) enum Work {
 
 /// Request for a built-in replacement.
 #[derive(Clone, Debug)]
-pub(crate) struct Ask {
+pub(crate) struct BuiltInRequest {
     pub(crate) entry: &'static Entry,
     pub(crate) identity: Identity,
-    pub(crate) told: Told,
+    pub(crate) told: ProgramArguments,
     /// True if it waits for a lifecycle manager.
     pub(crate) is_managed: bool,
     /// ROS 1 parameter server.
@@ -64,7 +64,7 @@ pub(crate) struct Ask {
     pub(crate) written: Option<String>,
 }
 
-impl Ask {
+impl BuiltInRequest {
     /// Resolves a path relative to the working folder of the program.
     pub(crate) fn path(&self, launch_folder: &Path, path: &str) -> String {
         match own_folder(&self.running) {
@@ -95,7 +95,7 @@ pub(crate) struct Program {
 }
 
 /// Parts of a plan, in its order.
-pub(crate) fn of_plan(plan: &Plan) -> Vec<Part> {
+pub(crate) fn parts_of_plan(plan: &Plan) -> Vec<Part> {
     let mut parts = Vec::new();
     for step in &plan.steps {
         of_step(step, &step.what, &plan.parameters, &mut parts);
@@ -113,7 +113,7 @@ pub(crate) fn own_folder(running: &Running) -> Option<&str> {
 /// World with the environment and folder of its program.
 fn placed(work: Work, running: &Running) -> Work {
     match work {
-        Work::World(wish) => Work::World(WorldWish {
+        Work::World(wish) => Work::World(WorldRequest {
             environment: environment::of_running(running),
             folder: own_folder(running).map(str::to_owned),
             ..wish
@@ -127,9 +127,11 @@ fn of_step(step: &Step, what: &What, server: &BTreeMap<String, Value>, parts: &m
         let after = step.after.clone();
         let work = match work {
             Work::World(wish) => {
-                Work::World(WorldWish { step: step.id, written: step.written.clone(), ..wish })
+                Work::World(WorldRequest { step: step.id, written: step.written.clone(), ..wish })
             }
-            Work::Ours(ask) => Work::Ours(Box::new(Ask { written: step.written.clone(), ..*ask })),
+            Work::Ours(ask) => {
+                Work::Ours(Box::new(BuiltInRequest { written: step.written.clone(), ..*ask }))
+            }
             work => work,
         };
         parts.push(Part { step: step.id, after, work, asked, is_required });
@@ -168,12 +170,12 @@ fn of_step(step: &Step, what: &What, server: &BTreeMap<String, Value>, parts: &m
         What::Shutdown { reason } => {
             add(reason.clone(), false, Work::Shutdown { reason: reason.clone() });
         }
-        What::Include { file, arguments } => match includes::stand_in(file, arguments) {
-            Some(includes::StandIn::World(wish)) => {
+        What::Include { file, arguments } => match includes::replacement(file, arguments) {
+            Some(includes::Replacement::World(wish)) => {
                 let environment = environment::of_step(step);
-                add(file.clone(), false, Work::World(WorldWish { environment, ..wish }));
+                add(file.clone(), false, Work::World(WorldRequest { environment, ..wish }));
             }
-            Some(includes::StandIn::Steps(steps)) => {
+            Some(includes::Replacement::Steps(steps)) => {
                 for what in &steps {
                     of_step(step, what, server, parts);
                 }
@@ -212,7 +214,7 @@ fn of_node(node: &Node, server: &BTreeMap<String, Value>) -> Work {
         let is_gz = node.package.as_deref().is_some_and(|package| package.starts_with("ros_"));
         let wish = if is_gz { server_wish(&node.identity) } else { world::classic(&told.own) };
         let has_window = wish.has_window && !node.executable.contains("server");
-        return Work::World(WorldWish { has_window, ..wish });
+        return Work::World(WorldRequest { has_window, ..wish });
     }
     let starts_itself = told.own.iter().any(|word| word == "--autostart")
         || node.ros_arguments.iter().any(|word| word == "--autostart");
@@ -227,7 +229,9 @@ fn of_component(
 ) -> Work {
     match of_plugin(&component.package, &component.plugin) {
         Some(entry) if entry.role == Role::Gazebo => Work::World(server_wish(&component.identity)),
-        Some(entry) => ours(entry, &component.identity, Told::default(), false, server, running),
+        Some(entry) => {
+            ours(entry, &component.identity, ProgramArguments::default(), false, server, running)
+        }
         None => Work::Nothing(format!(
             "the component {} of the package {} is compiled code for ROS without a built-in replacement",
             component.plugin, component.package
@@ -238,7 +242,7 @@ fn of_component(
 fn ours(
     entry: &'static Entry,
     identity: &Identity,
-    told: Told,
+    told: ProgramArguments,
     is_lifecycle: bool,
     server: &BTreeMap<String, Value>,
     running: &Running,
@@ -252,7 +256,7 @@ fn ours(
                 | Role::CostmapHost { .. }
                 | Role::Costmap
         );
-    Work::Ours(Box::new(Ask {
+    Work::Ours(Box::new(BuiltInRequest {
         entry,
         identity: identity.clone(),
         told,
@@ -264,8 +268,8 @@ fn ours(
 }
 
 /// World of `gzserver` of `ros_gz_sim`, from its parameters.
-fn server_wish(identity: &Identity) -> WorldWish {
-    let mut wish = WorldWish::default();
+fn server_wish(identity: &Identity) -> WorldRequest {
+    let mut wish = WorldRequest::default();
     for values in &identity.parameters {
         if let crate::Parameters::Values(values) = values
             && let Some(Value::String(file)) = values.get("world_sdf_file")

@@ -7,7 +7,7 @@ use crate::Trigger;
 use crate::bringup::parts::{Part, Work};
 
 /// Additional time for a process that writes the world file, once the file exists \[ns\].
-pub(crate) const LONGEST_WAIT_NS: i64 = 2_000_000_000;
+pub(crate) const MAX_WAIT_NS: i64 = 2_000_000_000;
 
 /// Indices of the parts that run before the world is loaded: those whose end or output the world
 /// waits for, those that have its file among their arguments, and those that these wait for. Only
@@ -55,7 +55,7 @@ fn step_of(trigger: &Trigger) -> Wait {
         Trigger::Seconds(_) => Wait::Time,
         Trigger::Started(Some(step))
         | Trigger::Ended(Some(step))
-        | Trigger::Printed(Some(step)) => Wait::Step(*step),
+        | Trigger::ProgramOutput(Some(step)) => Wait::Step(*step),
         _ => Wait::Other,
     }
 }

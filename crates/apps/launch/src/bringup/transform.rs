@@ -9,7 +9,7 @@ use periplus_msgs::geometry_msgs::{Quaternion, Transform, TransformStamped, Vect
 use periplus_msgs::std_msgs::Header;
 use periplus_msgs::tf2_msgs::TFMessage;
 
-use crate::bringup::parameters::{Named, number_of, text_of};
+use crate::bringup::parameters::{NamedParameters, number_of, text_of};
 use crate::bringup::words;
 
 /// Static transform from arguments or parameters.
@@ -27,7 +27,7 @@ impl FixedFrame {
     ///
     /// # Errors
     /// A message with the syntax.
-    pub(crate) fn read(words: &[String], named: &Named) -> Result<Self, String> {
+    pub(crate) fn read(words: &[String], named: &NamedParameters) -> Result<Self, String> {
         let positions: Vec<&String> = words.iter().take_while(|word| !is_flag(word)).collect();
         match positions.len() {
             0 if words.is_empty() => Self::of_parameters(named),
@@ -90,7 +90,7 @@ impl FixedFrame {
         Self::checked(parent, child, parent_from_child, period_ns)
     }
 
-    fn of_parameters(named: &Named) -> Result<Self, String> {
+    fn of_parameters(named: &NamedParameters) -> Result<Self, String> {
         let number = |name: &str| number_of(named, name).unwrap_or_default();
         let xyz = ["x", "y", "z"].map(|axis| number(&format!("translation.{axis}")));
         let [x, y, z] = ["x", "y", "z"].map(|axis| number(&format!("rotation.{axis}")));
@@ -174,7 +174,7 @@ mod tests {
 
     fn read(line: &str) -> Result<FixedFrame, String> {
         let words: Vec<String> = line.split_whitespace().map(str::to_owned).collect();
-        FixedFrame::read(&words, &Named::new())
+        FixedFrame::read(&words, &NamedParameters::new())
     }
 
     #[test]

@@ -5,7 +5,7 @@ use periplus_graph::split_arguments;
 
 /// Parsed arguments of a program.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub(crate) struct Told {
+pub(crate) struct ProgramArguments {
     /// Own arguments.
     pub(crate) own: Vec<String>,
     /// Arguments after `--ros-args`, with `a:=b` of ROS 1 and old ROS 2 as rules.
@@ -20,10 +20,10 @@ pub(crate) struct Told {
 ///
 /// `_name:=value` is a ROS 1 parameter, `__name:=` and `__ns:=` rename the node, `from:=to` remaps
 /// a topic. `__log:=` and similar arguments of `roslaunch` are ignored.
-pub(crate) fn read(words: &[String], ros_words: &[String]) -> Told {
+pub(crate) fn read(words: &[String], ros_words: &[String]) -> ProgramArguments {
     let (mixed, mut ros) = split_arguments(words.iter().cloned());
     ros.extend(ros_words.iter().filter(|word| *word != "--ros-args").cloned());
-    let mut told = Told::default();
+    let mut told = ProgramArguments::default();
     for word in mixed {
         let Some((from, to)) = word.split_once(":=").filter(|(from, _)| is_name(from)) else {
             told.own.push(word);
@@ -58,7 +58,7 @@ fn is_name(word: &str) -> bool {
 }
 
 /// Full name of a node.
-pub(crate) fn full_name(identity: &Identity, told: &Told, usual: &str) -> String {
+pub(crate) fn full_name(identity: &Identity, told: &ProgramArguments, usual: &str) -> String {
     let name = told.name.as_deref().or(identity.name.as_deref()).unwrap_or(usual);
     let namespace = told.namespace.as_deref().or(identity.namespace.as_deref()).unwrap_or("/");
     let namespace = namespace.trim_matches('/');

@@ -6,7 +6,7 @@ use crate::bringup::environment::Environment;
 
 /// World requested by a plan.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
-pub struct WorldWish {
+pub struct WorldRequest {
     /// Step that requests it.
     pub step: usize,
     /// File as written; `None` for an empty plane.
@@ -26,7 +26,7 @@ pub struct WorldWish {
 }
 
 /// Options of Gazebo Classic with a value, from `gazebo --help`.
-const CLASSIC_VALUES: [&str; 17] = [
+const CLASSIC_VALUE_OPTIONS: [&str; 17] = [
     "-s",
     "--server-plugin",
     "-g",
@@ -47,7 +47,7 @@ const CLASSIC_VALUES: [&str; 17] = [
 ];
 
 /// Options of `gz sim` with a value, from `gz sim --help`.
-const GZ_VALUES: [&str; 20] = [
+const GZ_VALUE_OPTIONS: [&str; 20] = [
     "-v",
     "--verbose",
     "-z",
@@ -71,11 +71,11 @@ const GZ_VALUES: [&str; 20] = [
 ];
 
 /// World of a Gazebo Classic command line: `gazebo`, `gzserver` and the programs of `gazebo_ros`.
-pub(crate) fn classic(words: &[String]) -> WorldWish {
-    let mut wish = WorldWish { has_window: true, ..WorldWish::default() };
+pub(crate) fn classic(words: &[String]) -> WorldRequest {
+    let mut wish = WorldRequest { has_window: true, ..WorldRequest::default() };
     let mut words = words.iter();
     while let Some(word) = words.next() {
-        if CLASSIC_VALUES.contains(&word.as_str()) {
+        if CLASSIC_VALUE_OPTIONS.contains(&word.as_str()) {
             let value = words.next();
             if word == "--seed" {
                 wish.seed = value.and_then(|value| value.parse().ok());
@@ -90,12 +90,12 @@ pub(crate) fn classic(words: &[String]) -> WorldWish {
 }
 
 /// World of a `gz sim` command line.
-pub(crate) fn gz(words: &[String]) -> WorldWish {
+pub(crate) fn gz(words: &[String]) -> WorldRequest {
     // It starts paused without `-r`.
-    let mut wish = WorldWish { has_window: true, is_paused: true, ..WorldWish::default() };
+    let mut wish = WorldRequest { has_window: true, is_paused: true, ..WorldRequest::default() };
     let mut words = words.iter().peekable();
     while let Some(word) = words.next() {
-        if GZ_VALUES.contains(&word.as_str()) {
+        if GZ_VALUE_OPTIONS.contains(&word.as_str()) {
             // `-v` without a value is a flag too.
             let is_value = |next: &&String| word != "-v" || next.parse::<u8>().is_ok();
             let value = words.next_if(|next| is_value(next));
@@ -114,7 +114,7 @@ pub(crate) fn gz(words: &[String]) -> WorldWish {
 }
 
 /// World of a command line; `None` if it starts no Gazebo.
-pub(crate) fn of_command(words: &[String]) -> Option<WorldWish> {
+pub(crate) fn of_command(words: &[String]) -> Option<WorldRequest> {
     let (program, rest) = words.split_first()?;
     let name = program.rsplit('/').next().unwrap_or(program);
     match (name, rest.first().map(String::as_str)) {
@@ -122,7 +122,7 @@ pub(crate) fn of_command(words: &[String]) -> Option<WorldWish> {
         // Started through ruby, as in the launch files of ros_gz_sim.
         (name, _) if name.starts_with("ruby") => of_command(rest),
         ("gazebo", _) => Some(classic(rest)),
-        ("gzserver", _) => Some(WorldWish { has_window: false, ..classic(rest) }),
+        ("gzserver", _) => Some(WorldRequest { has_window: false, ..classic(rest) }),
         _ => None,
     }
 }

@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use crate::{MissingInput, Printed};
+use crate::{MissingInput, ProgramOutput};
 use periplus_diagnostics::{Diagnostic, RenderStyle, Severity, SourceMap, render};
 use periplus_loader::{LoadContext, load};
 use periplus_os::Machine;
@@ -24,7 +24,7 @@ pub struct Xacro {
     pub file: Option<PathBuf>,
 }
 
-impl From<Xacro> for Printed {
+impl From<Xacro> for ProgramOutput {
     fn from(Xacro { output, errors, is_success, missing, file: _ }: Xacro) -> Self {
         Self { output, errors, is_success, missing }
     }
@@ -32,7 +32,7 @@ impl From<Xacro> for Printed {
 
 /// Parsed command line.
 #[derive(Debug, Default, PartialEq)]
-struct Asked<'a> {
+struct XacroArguments<'a> {
     file: Option<&'a str>,
     output: Option<&'a str>,
     arguments: Vec<(String, String)>,
@@ -131,8 +131,8 @@ fn summary(errors: &[&Diagnostic], sources: &SourceMap) -> String {
         });
         lines.push(format!("{}{}", place.unwrap_or_default(), error.message));
     }
-    let rest = lines.len().saturating_sub(MOST_SHOWN);
-    lines.truncate(MOST_SHOWN);
+    let rest = lines.len().saturating_sub(MAX_LISTED);
+    lines.truncate(MAX_LISTED);
     if rest > 0 {
         lines.push(format!("and {rest} more"));
     }
@@ -146,10 +146,10 @@ fn summary(errors: &[&Diagnostic], sources: &SourceMap) -> String {
 }
 
 /// Maximum number of missing files in a message.
-const MOST_SHOWN: usize = 8;
+const MAX_LISTED: usize = 8;
 
-fn read(words: &[String]) -> Result<Asked<'_>, String> {
-    let mut asked = Asked::default();
+fn read(words: &[String]) -> Result<XacroArguments<'_>, String> {
+    let mut asked = XacroArguments::default();
     let mut words = words.iter();
     while let Some(word) = words.next() {
         match word.as_str() {

@@ -4,10 +4,10 @@ use periplus_diagnostics::Diagnostic;
 
 use super::entity::Entity;
 use crate::evaluate::Outcome;
-use crate::guess::Guess as _;
+use crate::suggest::Suggest as _;
 use crate::tree::{
-    Action, ComponentOf, Condition, Deed, Given, IdentityOf, NodeOf, ParametersOf, Part, Place,
-    ProcessOf, RunningOf, Substitution, Target, Text, plain,
+    Action, ActionKind, ComponentOf, Condition, Given, IdentityOf, NodeOf, ParametersOf, Part,
+    Place, ProcessOf, RunningOf, Substitution, Target, Text, plain,
 };
 
 /// Names of actions.
@@ -71,10 +71,10 @@ fn action(entity: &Entity<'_>) -> Outcome<Action> {
         (None, None) => None,
     };
     let place = Place { span: entity.span(), line: None };
-    Ok(Action { id: None, place, condition, deed: deed(entity)? })
+    Ok(Action { id: None, place, condition, action_kind: action_kind(entity)? })
 }
 
-fn deed(entity: &Entity<'_>) -> Outcome<Deed> {
+fn action_kind(entity: &Entity<'_>) -> Outcome<ActionKind> {
     let name = entity.name();
     Ok(match name.as_str() {
         "arg" => {
@@ -82,7 +82,7 @@ fn deed(entity: &Entity<'_>) -> Outcome<Deed> {
             let Some((name, _)) = entity.written("name") else {
                 return Err(wrong(entity, "launch-attribute", "`arg` needs `name`"));
             };
-            Deed::Declare {
+            ActionKind::Declare {
                 name: name.to_owned(),
                 default: entity.text("default")?,
                 description: entity.written("description").map(|(text, _)| plain(text)),
@@ -96,15 +96,15 @@ fn deed(entity: &Entity<'_>) -> Outcome<Deed> {
         }
         "let" => {
             known(entity, &["name", "value"])?;
-            Deed::Configure { name: entity.needed("name")?, value: entity.needed("value")? }
+            ActionKind::Configure { name: entity.needed("name")?, value: entity.needed("value")? }
         }
-        "unset_let" => Deed::Forget { name: entity.needed("name")? },
-        "reset" => Deed::ForgetAll { keep: pairs(entity, "keep", "name", "value")? },
+        "unset_let" => ActionKind::Forget { name: entity.needed("name")? },
+        "reset" => ActionKind::ForgetAll { keep: pairs(entity, "keep", "name", "value")? },
         "set_env" => {
             known(entity, &["name", "value"])?;
-            Deed::Environment { name: entity.needed("name")?, value: entity.needed("value")? }
+            ActionKind::Environment { name: entity.needed("name")?, value: entity.needed("value")? }
         }
-        "append_env" => Deed::Append {
+        "append_env" => ActionKind::Append {
             name: entity.needed("name")?,
             value: entity.needed("value")?,
             separator: entity.text("separator")?,
@@ -112,11 +112,12 @@ fn deed(entity: &Entity<'_>) -> Outcome<Deed> {
                 .written("prepend")
                 .is_some_and(|(text, _)| crate::truth::truth(text).unwrap_or_default()),
         },
-        "unset_env" => Deed::Unset { name: entity.needed("name")? },
-        "reset_env" => Deed::ResetEnvironment,
-        "set_ros_log_dir" => {
-            Deed::Environment { name: plain("ROS_LOG_DIR"), value: entity.needed("new_log_dir")? }
-        }
+        "unset_env" => ActionKind::Unset { name: entity.needed("name")? },
+        "reset_env" => ActionKind::ResetEnvironment,
+        "set_ros_log_dir" => ActionKind::Environment {
+            name: plain("ROS_LOG_DIR"),
+            value: entity.needed("new_log_dir")?,
+        },
         "group" => {
             let scoped = entity.written("scoped").map(|(text, _)| text);
             let forwarding = entity.written("forwarding").map(|(text, _)| text);
@@ -130,7 +131,7 @@ fn deed(entity: &Entity<'_>) -> Outcome<Deed> {
                     actions.push(action(&child)?);
                 }
             }
-            Deed::Group {
+            ActionKind::Group {
                 actions,
                 is_scoped: truth(scoped) != Some(false),
                 is_forwarding: truth(forwarding) != Some(false),
@@ -141,26 +142,30 @@ fn deed(entity: &Entity<'_>) -> Outcome<Deed> {
             known(entity, &["file", "arg", "let"])?;
             let mut arguments = pairs(entity, "arg", "name", "value")?;
             arguments.extend(pairs(entity, "let", "name", "value")?);
-            Deed::Include { file: entity.needed("file")?, arguments }
+            ActionKind::Include { file: entity.needed("file")?, arguments }
         }
-        "push_ros_namespace" => Deed::PushNamespace { namespace: entity.needed("namespace")? },
+        "push_ros_namespace" => {
+            ActionKind::PushNamespace { namespace: entity.needed("namespace")? }
+        }
         "set_parameter" => {
-            Deed::SetParameter { name: entity.needed("name")?, value: given(entity)? }
+            ActionKind::SetParameter { name: entity.needed("name")?, value: given(entity)? }
         }
         "set_use_sim_time" => {
             let text = entity.needed("value")?;
-            Deed::SetParameter {
+            ActionKind::SetParameter {
                 name: plain("use_sim_time"),
                 value: Given::Text { text, of_type: Some("bool".into()) },
             }
         }
-        "set_parameters_from_file" => Deed::SetParametersFromFile {
+        "set_parameters_from_file" => ActionKind::SetParametersFromFile {
             file: entity.needed("filename")?,
             node: entity.text("node")?,
         },
-        "set_remap" => Deed::SetRemap { from: entity.needed("from")?, to: entity.needed("to")? },
+        "set_remap" => {
+            ActionKind::SetRemap { from: entity.needed("from")?, to: entity.needed("to")? }
+        }
         "node" | "lifecycle_node" | "node_container" => node(entity, &name)?,
-        "load_composable_node" => Deed::Load {
+        "load_composable_node" => ActionKind::Load {
             container: Target::Name { name: entity.needed("target")? },
             components: components(entity)?,
         },
@@ -168,7 +173,7 @@ fn deed(entity: &Entity<'_>) -> Outcome<Deed> {
             let mut allowed = RUNNING.to_vec();
             allowed.push("cmd");
             known(entity, &allowed)?;
-            Deed::Process(Box::new(ProcessOf {
+            ActionKind::Process(Box::new(ProcessOf {
                 command: vec![entity.needed("cmd")?],
                 is_line: true,
                 shell: entity.text("shell")?,
@@ -182,19 +187,19 @@ fn deed(entity: &Entity<'_>) -> Outcome<Deed> {
                 Some(text) => text,
                 None => entity.needed("text")?,
             };
-            Deed::Log { text, level: entity.text("level")? }
+            ActionKind::Log { text, level: entity.text("level")? }
         }
         "gz_server" => include_of(entity, "ros_gz_sim", "gz_server", &GZ_SERVER)?,
         "gz_spawn_model" => include_of(entity, "ros_gz_sim", "gz_spawn_model", &GZ_SPAWN_MODEL)?,
         "ros_gz_bridge" => include_of(entity, "ros_gz_bridge", "ros_gz_bridge", &ROS_GZ_BRIDGE)?,
-        "shutdown" => Deed::Shutdown { reason: entity.text("reason")? },
+        "shutdown" => ActionKind::Shutdown { reason: entity.text("reason")? },
         "timer" | "ros_timer" => {
-            Deed::Timer { seconds: entity.needed("period")?, actions: all(entity)? }
+            ActionKind::Timer { seconds: entity.needed("period")?, actions: all(entity)? }
         }
         _ => {
             let mut unknown =
                 Diagnostic::error("launch-action", format!("unknown action `{name}`"))
-                    .guess(&name, KNOWN);
+                    .suggest(&name, KNOWN);
             if matches!(name.as_str(), "param" | "rosparam" | "remap" | "machine" | "test") {
                 unknown = unknown.help(format!(
                     "`{name}` outside a node is ROS 1: in ROS 2 put it into a node, or use `set_{}`",
@@ -249,7 +254,12 @@ const ROS_GZ_BRIDGE: [&str; 10] = [
 ];
 
 /// Includes the launch file of an action, with its attributes as arguments.
-fn include_of(entity: &Entity<'_>, package: &str, file: &str, names: &[&str]) -> Outcome<Deed> {
+fn include_of(
+    entity: &Entity<'_>,
+    package: &str,
+    file: &str,
+    names: &[&str],
+) -> Outcome<ActionKind> {
     known(entity, names)?;
     let mut arguments = Vec::new();
     for name in names {
@@ -260,10 +270,10 @@ fn include_of(entity: &Entity<'_>, package: &str, file: &str, names: &[&str]) ->
     let folder = Substitution::Package { name: plain(package), is_prefix: false };
     let mut path = vec![Part::Substitution(Box::new(folder))];
     path.extend(plain(format!("/launch/{file}.launch.py")));
-    Ok(Deed::Include { file: path, arguments })
+    Ok(ActionKind::Include { file: path, arguments })
 }
 
-fn node(entity: &Entity<'_>, kind: &str) -> Outcome<Deed> {
+fn node(entity: &Entity<'_>, kind: &str) -> Outcome<ActionKind> {
     let mut allowed = RUNNING.to_vec();
     allowed.extend([
         "pkg",
@@ -280,7 +290,7 @@ fn node(entity: &Entity<'_>, kind: &str) -> Outcome<Deed> {
         "autostart",
     ]);
     known(entity, &allowed)?;
-    Ok(Deed::Node(Box::new(NodeOf {
+    Ok(ActionKind::Node(Box::new(NodeOf {
         package: Some(entity.needed("pkg")?),
         executable: entity.needed("exec")?,
         identity: identity(entity)?,
@@ -406,7 +416,7 @@ fn known(entity: &Entity<'_>, names: &[&str]) -> Outcome<()> {
             let of = entity.name().replace('_', "-");
             let mut wrong =
                 Diagnostic::error("launch-attribute", format!("`{of}` has no `{other}`"))
-                    .guess(&other, names.iter().copied());
+                    .suggest(&other, names.iter().copied());
             let ros1 = match other.as_str() {
                 "type" => Some("exec"),
                 "ns" => Some("namespace"),

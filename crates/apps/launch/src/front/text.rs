@@ -3,7 +3,7 @@
 use periplus_diagnostics::{Diagnostic, Span};
 
 use crate::evaluate::Outcome;
-use crate::guess::Guess as _;
+use crate::suggest::Suggest as _;
 use crate::tree::{Part, Substitution, Text, plain};
 
 /// Names of substitutions.
@@ -36,7 +36,7 @@ const KNOWN: [&str; 25] = [
 ];
 
 /// Maximum nesting of `$(...)`.
-const DEEPEST: usize = 40;
+const MAX_DEPTH: usize = 40;
 
 /// Parses a text with substitutions.
 pub(crate) fn text(written: &str, span: Span) -> Outcome<Text> {
@@ -94,9 +94,9 @@ impl Reader<'_> {
     fn substitution(&mut self) -> Outcome<Substitution> {
         let from = self.whole.len() - self.rest.len();
         self.depth += 1;
-        if self.depth > DEEPEST {
+        if self.depth > MAX_DEPTH {
             return Err(self
-                .wrong(from, format!("`$(...)` is nested more than {DEEPEST} levels deep"))
+                .wrong(from, format!("`$(...)` is nested more than {MAX_DEPTH} levels deep"))
                 .into());
         }
         self.rest = self.rest[2..].trim_start();
@@ -252,7 +252,7 @@ fn meaning(name: &str, mut words: Vec<Text>) -> Result<Substitution, Box<Diagnos
                 "launch-substitution",
                 format!("unknown substitution `$({name})`"),
             )
-            .guess(name, KNOWN)
+            .suggest(name, KNOWN)
             .into());
         }
     })

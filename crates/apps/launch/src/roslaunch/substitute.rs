@@ -10,12 +10,12 @@ use periplus_xml::Attribute;
 
 use super::{Loader, Scope, wrong_at};
 use crate::evaluate::Outcome;
-use crate::guess::Guess as _;
-use crate::perform::LONGEST;
+use crate::perform::MAX_TEXT_BYTES;
+use crate::suggest::Suggest as _;
 
 /// Limits of work and memory for one expression.
-const STEPS: u64 = 100_000;
-const BYTES: u64 = 1 << 20;
+const MAX_STEPS: u64 = 100_000;
+const MAX_BYTES: u64 = 1 << 20;
 
 impl Loader<'_, '_> {
     /// Resolves an attribute.
@@ -46,8 +46,8 @@ impl Loader<'_, '_> {
             let words: Vec<&str> = rest[from + 2..from + to].split_whitespace().collect();
             whole.push_str(&self.substitution(&words, origin, scope)?);
             rest = &rest[from + to + 1..];
-            if whole.len() > LONGEST {
-                let message = format!("a text has more than {LONGEST} bytes");
+            if whole.len() > MAX_TEXT_BYTES {
+                let message = format!("a text has more than {MAX_TEXT_BYTES} bytes");
                 return Err(wrong_at("launch-size", message, origin));
             }
         }
@@ -64,7 +64,7 @@ impl Loader<'_, '_> {
                     format!("the argument `{name}` is not declared before this line"),
                 )
                 .at(*origin)
-                .guess(name, known)
+                .suggest(name, known)
                 .help(format!(
                     "pass `{name}:=VALUE`, or declare it before: \
                      `<arg name=\"{name}\" default=\"...\"/>`"
@@ -111,14 +111,14 @@ impl Loader<'_, '_> {
                     format!("unknown substitution `$({})`", words.join(" ")),
                 )
                 .at(*origin)
-                .guess(name, ["anon", "arg", "dirname", "env", "eval", "find", "optenv"])
+                .suggest(name, ["anon", "arg", "dirname", "env", "eval", "find", "optenv"])
                 .into())
             }
         }
     }
 
     fn evaluated(&mut self, expression: &str, origin: &Origin, scope: &Scope) -> Outcome<String> {
-        let mut budget = Budget::new(STEPS, BYTES);
+        let mut budget = Budget::new(MAX_STEPS, MAX_BYTES);
         let names = Arguments { loader: std::cell::RefCell::new(self), scope };
         Expression::parse(expression)
             .and_then(|parsed| evaluate(&parsed, &names, &mut budget))

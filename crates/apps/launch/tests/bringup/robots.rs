@@ -2,7 +2,7 @@
 
 use periplus_diagnostics::{Diagnostics, SourceMap};
 use periplus_graph::{Arguments, Graph, Level, Mailbox, NodeSettings, Qos};
-use periplus_launch::bringup::{Bringup, Settings};
+use periplus_launch::bringup::{LaunchRunner, Settings};
 use periplus_launch::{Dialect, Node, Plan, Step, What};
 use periplus_msgs::sensor_msgs::JointState;
 use periplus_msgs::tf2_msgs::TFMessage;
@@ -41,9 +41,9 @@ fn a_description_behind_ros_args_moves_joints_of_links_without_inertia() {
     let user = graph.node(NodeSettings::new("user").bare()).unwrap();
     let states = user.publisher::<JointState>("/joint_states", Qos::reliable(10)).unwrap();
     let tf: Mailbox<TFMessage> = user.mailbox("/tf", Qos::reliable(10)).unwrap();
-    let mut bringup = Bringup::new(&plan, settings);
+    let mut bringup = LaunchRunner::new(&plan, settings);
     bringup.work(&graph, 0, None);
-    let said = bringup.take_said();
+    let said = bringup.take_log();
     assert!(said.iter().all(|one| one.level < Level::Error), "{said:?}");
     graph.advance_to(1_000_000_000);
     let mut state = JointState { name: vec!["turn".into()], ..JointState::default() };

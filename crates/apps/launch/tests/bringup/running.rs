@@ -5,8 +5,8 @@ use std::sync::Arc;
 
 use periplus_diagnostics::SourceMap;
 use periplus_graph::{Graph, Mailbox, NodeSettings, Publisher, Qos};
-use periplus_launch::bringup::{Bringup, Settings, xacro};
-use periplus_launch::{Dialect, Interpreter, Outside, Printed, Request, plan};
+use periplus_launch::bringup::{LaunchRunner, Settings, xacro};
+use periplus_launch::{Dialect, Interpreter, Outside, ProgramOutput, Request, plan};
 use periplus_loader::LoadContext;
 use periplus_msgs::geometry_msgs::{Twist, TwistStamped};
 use periplus_msgs::nav_msgs::{OccupancyGrid, Odometry};
@@ -23,7 +23,7 @@ const PART_NS: i64 = 6_000_000_000;
 struct Programs(Search);
 
 impl Outside for Programs {
-    fn run(&mut self, words: &[String]) -> Result<Printed, String> {
+    fn run(&mut self, words: &[String]) -> Result<ProgramOutput, String> {
         let host = self.0.host();
         let resolver = self.0.resolver(&host);
         Ok(xacro(&words[1..], &self.0.setting(&host, &resolver, false))?.into())
@@ -43,7 +43,7 @@ fn top() -> PathBuf {
 }
 
 /// A launch file of these tests.
-fn bringup(file: &str, folder: &Path) -> Bringup {
+fn bringup(file: &str, folder: &Path) -> LaunchRunner {
     let search = Search { working_folder: folder.to_owned(), ..Search::default() };
     let own = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/bringup/running").join(file);
     let resolver = Resolver::new(&Machine, &[]);
@@ -64,13 +64,13 @@ fn bringup(file: &str, folder: &Path) -> Bringup {
         guarding_program: None,
         tools: None,
     };
-    Bringup::new(&plan, settings)
+    LaunchRunner::new(&plan, settings)
 }
 
 struct Stack {
     simulation: Simulation,
     services: Services,
-    bringup: Bringup,
+    bringup: LaunchRunner,
     filtered: Mailbox<Odometry>,
     tf: Mailbox<TFMessage>,
     costs: Mailbox<OccupancyGrid>,
@@ -122,8 +122,7 @@ impl Stack {
             }
             self.simulation.step().unwrap();
         }
-        let said: Vec<String> =
-            self.bringup.take_said().into_iter().map(|said| said.text).collect();
+        let said: Vec<String> = self.bringup.take_log().into_iter().map(|said| said.text).collect();
         assert!(said.iter().all(|text| !text.contains("not spawned")), "{said:?}");
     }
 
@@ -200,7 +199,7 @@ fn a_map_that_is_not_there_is_an_error() {
     let graph = Graph::new();
     bringup.work(&graph, 0, None);
     graph.settle();
-    let said = bringup.take_said();
+    let said = bringup.take_log();
     let is_told = |text: &str| text.contains("nowhere.yaml") && text.contains("cannot be read");
     assert!(said.iter().any(|one| is_told(&one.text)), "{:?}", bringup.lines());
 }

@@ -11,13 +11,13 @@ use periplus_os::{Stopwatch, sleep};
 use periplus_rosidl::InterfaceKind;
 use serde_json::json;
 
-use crate::ask::{Asker, PATIENCE, Question, ask};
+use crate::ask::{PendingRequest, RESPONSE_TIMEOUT, ServiceCaller, ask};
 use crate::session::full_name;
 use crate::types::full_type;
 use crate::{Failure, Outcome, Refusal, Ros2Line, Session, Values, clock};
 
 /// Polling period for feedback and the result.
-const PAUSE: Duration = Duration::from_millis(2);
+const POLL_PERIOD: Duration = Duration::from_millis(2);
 
 /// Sends a goal, waits for its result and prints it; with `feedback` also prints the feedback. An
 /// interrupt cancels the goal.
@@ -60,7 +60,7 @@ impl Action<'_, '_> {
         let id = uuid();
         let request = json!({ "goal_id": { "uuid": id }, "goal": goal.to_json() });
         let question = self.ask(&sending, "SendGoal_Request", &request)?;
-        let answer = question.wait(self.session, Some(PATIENCE))?;
+        let answer = question.wait(self.session, Some(RESPONSE_TIMEOUT))?;
         let accepted = self.decode("SendGoal_Response", &answer)?;
         if accepted.get("accepted") != Some(Value::Number(Number::Bool(true))) {
             let message = "Goal was rejected.".to_owned();
@@ -73,7 +73,7 @@ impl Action<'_, '_> {
             self.session.put(&json!({ "accepted": true, "goal_id": hex }))?;
         }
         let request = json!({ "goal_id": { "uuid": id } });
-        results.wait(self.session, Some(PATIENCE))?;
+        results.wait(self.session, Some(RESPONSE_TIMEOUT))?;
         let question = self.ask(&results, "GetResult_Request", &request)?;
         match self.follow(&question, mailbox.as_ref(), id) {
             Err(Failure::Interrupted) => self.cancel(id),
@@ -84,7 +84,7 @@ impl Action<'_, '_> {
     /// Prints feedback until the result arrives, and then the result.
     fn follow(
         &mut self,
-        result: &Question,
+        result: &PendingRequest,
         feedback: Option<&(RawMailbox, Arc<Layout>)>,
         id: [u8; 16],
     ) -> Outcome {
@@ -101,8 +101,8 @@ impl Action<'_, '_> {
             if let Some(answer) = result.take()? {
                 return self.finish(&self.decode("GetResult_Response", &answer)?);
             }
-            self.session.go_on()?;
-            sleep(PAUSE);
+            self.session.check_interrupted()?;
+            sleep(POLL_PERIOD);
         }
     }
 
@@ -157,14 +157,14 @@ impl Action<'_, '_> {
         request.goal_info.goal_id.uuid = id;
         let service = format!("{}/_action/cancel_goal", self.name);
         // The interrupt flag is set already; the cancellation must still run.
-        let go_on = std::sync::atomic::AtomicBool::new(false);
+        let check_interrupted = std::sync::atomic::AtomicBool::new(false);
         let (mut out, mut talk) = (std::io::sink(), std::io::sink());
         let session = Session {
             network: self.session.network,
             types: self.session.types,
             out: &mut out,
             talk: &mut talk,
-            stop: &go_on,
+            stop: &check_interrupted,
             json: false,
             spin_time: self.session.spin_time,
         };
@@ -176,11 +176,11 @@ impl Action<'_, '_> {
         Err(Failure::Interrupted)
     }
 
-    fn asker(&self, service: &str, suffix: &str) -> Outcome<Asker> {
+    fn asker(&self, service: &str, suffix: &str) -> Outcome<ServiceCaller> {
         let type_name = format!("{}_{suffix}", self.type_name);
         let hash = self.session.types.registry().hash(&type_name);
         let name = format!("{}/_action/{service}", self.name);
-        Asker::new(self.node, &name, &type_name, hash.as_deref())
+        ServiceCaller::new(self.node, &name, &type_name, hash.as_deref())
     }
 
     fn feedback(&self) -> Outcome<(RawMailbox, Arc<Layout>)> {
@@ -191,7 +191,12 @@ impl Action<'_, '_> {
         Ok((self.node.raw_mailbox(&topic, name, hash.as_deref(), qos)?, layout.clone()))
     }
 
-    fn ask(&self, asker: &Asker, part: &str, json: &serde_json::Value) -> Outcome<Question> {
+    fn ask(
+        &self,
+        asker: &ServiceCaller,
+        part: &str,
+        json: &serde_json::Value,
+    ) -> Outcome<PendingRequest> {
         let (_, layout) = self.session.types.action(self.type_name, part)?;
         let message = DynamicMessage::from_json(layout, json).map_err(|error| {
             Failure::failed(format!("the goal does not match its type: {error}"))

@@ -4,13 +4,13 @@ use std::collections::BTreeSet;
 
 use periplus_diagnostics::{Diagnostic, Diagnostics};
 
-use super::Picture;
+use super::SystemObservation;
 
 /// Difference above which stamps come from different clocks \[ns\].
 const OTHER_CLOCK_NS: i64 = 60_000_000_000;
 
-pub(super) fn examine(picture: &Picture, found: &mut Diagnostics) {
-    let publishers = picture.seen.topic("/clock").map_or(&[][..], |topic| &topic.publishers);
+pub(super) fn examine(observation: &SystemObservation, found: &mut Diagnostics) {
+    let publishers = observation.seen.topic("/clock").map_or(&[][..], |topic| &topic.publishers);
     let tellers: Vec<&str> =
         publishers.iter().map(|end| end.node.as_deref().unwrap_or("somebody")).collect();
     // Nodes in the process that publishes the time have it without `/clock`, as plugins of Gazebo
@@ -18,13 +18,16 @@ pub(super) fn examine(picture: &Picture, found: &mut Diagnostics) {
     let with_clock: BTreeSet<&str> =
         publishers.iter().filter_map(|end| participant(&end.gid)).collect();
     let has_clock = |node: &str| {
-        let ends =
-            picture.seen.topics.iter().flat_map(|it| it.publishers.iter().chain(&it.subscriptions));
-        let mut own = ends.filter(|end| end.node.as_deref() == Some(node));
+        let endpoints = observation
+            .seen
+            .topics
+            .iter()
+            .flat_map(|it| it.publishers.iter().chain(&it.subscriptions));
+        let mut own = endpoints.filter(|end| end.node.as_deref() == Some(node));
         own.any(|end| participant(&end.gid).is_some_and(|one| with_clock.contains(one)))
     };
     let with = |wanted: bool| -> Vec<&str> {
-        let nodes = picture.simulated.iter().filter(|(node, is_simulated)| {
+        let nodes = observation.simulated.iter().filter(|(node, is_simulated)| {
             **is_simulated == wanted
                 && !tellers.contains(&node.as_str())
                 && (wanted || !has_clock(node))
@@ -55,11 +58,11 @@ pub(super) fn examine(picture: &Picture, found: &mut Diagnostics) {
             )
             .help("stop all but one of them, or give them separate domains (ROS_DOMAIN_ID)"),
         );
-    } else if picture.clock_jumps > 0 {
+    } else if observation.clock_jumps > 0 {
         found.push(
             Diagnostic::warning(
                 "clock-jumps",
-                format!("the time on `/clock` went back {} times", picture.clock_jumps),
+                format!("the time on `/clock` went back {} times", observation.clock_jumps),
             )
             .help("a simulation was reset or a bag restarted: nodes clear their buffers then"),
         );
@@ -78,10 +81,10 @@ pub(super) fn examine(picture: &Picture, found: &mut Diagnostics) {
             .help("set `use_sim_time` of these nodes to true: `-p use_sim_time:=true`"),
         );
     }
-    if let Some((_, now_ns)) = picture.clock {
-        for (topic, heard) in &picture.heard {
+    if let Some((_, now_ns)) = observation.clock {
+        for (topic, heard) in &observation.heard {
             if heard.count > 0 && (heard.stamp_ns - now_ns).abs() > OTHER_CLOCK_NS {
-                let node = publisher(picture, topic);
+                let node = publisher(observation, topic);
                 found.push(
                     Diagnostic::error(
                         "other-clock",
@@ -103,8 +106,8 @@ fn participant(gid: &str) -> Option<&str> {
     gid.get(..LENGTH)
 }
 
-fn publisher(picture: &Picture, topic: &str) -> String {
-    let topic = picture.seen.topic(topic);
+fn publisher(observation: &SystemObservation, topic: &str) -> String {
+    let topic = observation.seen.topic(topic);
     let first = topic.and_then(|topic| topic.publishers.first());
     first.and_then(|end| end.node.clone()).unwrap_or_else(|| "its publisher".into())
 }

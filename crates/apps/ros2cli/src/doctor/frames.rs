@@ -4,27 +4,27 @@ use crate::frames::{Fault, Forest};
 use periplus_diagnostics::{Diagnostic, Diagnostics, closest};
 use periplus_tf::TransformKind;
 
-use super::Picture;
+use super::SystemObservation;
 
 /// Standard frames from root to leaf (REP 105).
-const USUAL: [&str; 5] = ["earth", "map", "odom", "base_footprint", "base_link"];
+const STANDARD_FRAMES: [&str; 5] = ["earth", "map", "odom", "base_footprint", "base_link"];
 
 /// Delay behind the newest transform after which a dynamic frame is stale \[ns\].
 const STALE_NS: i64 = 2_000_000_000;
 
-pub(super) fn examine(picture: &Picture, found: &mut Diagnostics) {
-    let forest = Forest::new(&picture.survey);
+pub(super) fn examine(observation: &SystemObservation, found: &mut Diagnostics) {
+    let forest = Forest::new(&observation.survey);
     for fault in forest.faults() {
         found.push(told(&fault, &forest));
     }
-    for name in picture.survey.with_slash() {
+    for name in observation.survey.with_slash() {
         found.push(
             Diagnostic::warning("frame-slash", format!("the frame `{name}` has a leading slash"))
                 .note("tf2 strips it when transforms are published, and refuses it in lookups")
                 .help(format!("write `{}`", name.trim_start_matches('/'))),
         );
     }
-    for (child, why, count) in picture.survey.refused() {
+    for (child, why, count) in observation.survey.refused() {
         found.push(
             Diagnostic::error(
                 "frame-refused",
@@ -34,7 +34,7 @@ pub(super) fn examine(picture: &Picture, found: &mut Diagnostics) {
         );
     }
     stale(&forest, found);
-    named(picture, &forest, found);
+    named(observation, &forest, found);
 }
 
 fn told(fault: &Fault, forest: &Forest) -> Diagnostic {
@@ -87,15 +87,15 @@ fn told(fault: &Fault, forest: &Forest) -> Diagnostic {
 
 /// Transform that would connect the trees: from the standard parent frame to the disconnected root.
 fn missing<'f>(forest: &'f Forest, roots: &'f [String]) -> Option<(&'f str, &'f str)> {
-    let rank = |name: &str| USUAL.iter().position(|usual| *usual == name);
+    let rank = |name: &str| STANDARD_FRAMES.iter().position(|usual| *usual == name);
     // The lowest root that is a standard frame; otherwise the first root.
     let child = roots
         .iter()
         .filter(|root| rank(root).is_some())
         .max_by_key(|root| rank(root))
         .or_else(|| roots.last())?;
-    let below = rank(child).unwrap_or(USUAL.len());
-    let parent = USUAL[..below].iter().rev().find(|usual| {
+    let below = rank(child).unwrap_or(STANDARD_FRAMES.len());
+    let parent = STANDARD_FRAMES[..below].iter().rev().find(|usual| {
         forest.frames().any(|frame| frame.name == **usual && top(forest, &frame.name) != *child)
     });
     let parent = match parent {
@@ -149,8 +149,8 @@ fn stale(forest: &Forest, found: &mut Diagnostics) {
     }
 }
 
-fn named(picture: &Picture, forest: &Forest, found: &mut Diagnostics) {
-    if forest.frames().next().is_none() && picture.heard.values().any(|heard| heard.count > 0) {
+fn named(observation: &SystemObservation, forest: &Forest, found: &mut Diagnostics) {
+    if forest.frames().next().is_none() && observation.heard.values().any(|heard| heard.count > 0) {
         // One finding for all: without transforms no frame has a pose.
         found.push(
             Diagnostic::hint("no-frames", "no transforms are published on `/tf` or `/tf_static`")
@@ -161,7 +161,7 @@ fn named(picture: &Picture, forest: &Forest, found: &mut Diagnostics) {
                 ),
         );
     }
-    for (topic, heard) in &picture.heard {
+    for (topic, heard) in &observation.heard {
         for frame in &heard.frames {
             let plain = frame.trim_start_matches('/');
             if frame.is_empty() {

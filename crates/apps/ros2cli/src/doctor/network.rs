@@ -4,11 +4,11 @@ use std::collections::BTreeSet;
 
 use periplus_diagnostics::{Diagnostic, Diagnostics};
 
-use super::Picture;
+use super::SystemObservation;
 
 /// Network settings of the machine.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct Surroundings {
+pub struct NetworkSettings {
     /// ROS domain.
     pub domain_id: u32,
     /// True if discovery is limited to this machine.
@@ -18,15 +18,15 @@ pub struct Surroundings {
     /// Domains of participants on this machine.
     pub domains: BTreeSet<u32>,
     /// Maximum receive buffer of a socket \[bytes\].
-    pub most_held: Option<u64>,
+    pub max_receive_buffer_bytes: Option<u64>,
 }
 
 /// Receive buffer that point clouds and maps need \[bytes\].
-const HELD: u64 = 2_000_000;
+const MIN_RECEIVE_BUFFER_BYTES: u64 = 2_000_000;
 
-pub(super) fn examine(picture: &Picture, found: &mut Diagnostics) {
-    let Some(around) = &picture.surroundings else { return };
-    let is_alone = picture.seen.nodes.is_empty() && picture.seen.topics.is_empty();
+pub(super) fn examine(observation: &SystemObservation, found: &mut Diagnostics) {
+    let Some(around) = &observation.network_settings else { return };
+    let is_alone = observation.seen.nodes.is_empty() && observation.seen.topics.is_empty();
     if is_alone {
         let others: Vec<String> = around
             .domains
@@ -62,12 +62,15 @@ pub(super) fn examine(picture: &Picture, found: &mut Diagnostics) {
             ),
         );
     }
-    let carries_much = picture.seen.topics.iter().any(|topic| {
+    let carries_much = observation.seen.topics.iter().any(|topic| {
         topic.types.iter().any(|name| {
             matches!(name.as_str(), "sensor_msgs/msg/PointCloud2" | "sensor_msgs/msg/Image")
         })
     });
-    if let Some(held) = around.most_held.filter(|held| *held < HELD && carries_much) {
+    if let Some(held) = around
+        .max_receive_buffer_bytes
+        .filter(|held| *held < MIN_RECEIVE_BUFFER_BYTES && carries_much)
+    {
         found.push(
             Diagnostic::hint(
                 "socket-buffers",

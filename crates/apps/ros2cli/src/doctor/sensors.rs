@@ -2,25 +2,25 @@
 
 use periplus_diagnostics::{Diagnostic, Diagnostics};
 
-use super::Picture;
-use super::picture::{Heard, ScanFacts};
+use super::SystemObservation;
+use super::observation::{ScanFacts, TopicStatistics};
 
 /// Fraction of the expected rate below which a sensor is slow.
-const SLOW: f64 = 0.7;
+const MIN_RATE_FRACTION: f64 = 0.7;
 
 /// Minimum number of readings before a scanner is judged.
-const ENOUGH: usize = 20;
+const MIN_READINGS: usize = 20;
 
-pub(super) fn examine(picture: &Picture, found: &mut Diagnostics) {
-    for (topic, heard) in &picture.heard {
+pub(super) fn examine(observation: &SystemObservation, found: &mut Diagnostics) {
+    for (topic, heard) in &observation.heard {
         if heard.count == 0 {
-            if !is_derived(picture, topic) {
-                found.push(silent(picture, topic));
+            if !is_derived(observation, topic) {
+                found.push(silent(observation, topic));
             }
             continue;
         }
         if let Some(finding) =
-            heard.scans.and_then(|scans| useless(topic, &scans, picture.is_alone))
+            heard.scans.and_then(|scans| useless(topic, &scans, observation.is_alone))
         {
             found.push(finding);
         }
@@ -32,31 +32,31 @@ pub(super) fn examine(picture: &Picture, found: &mut Diagnostics) {
 
 /// Returns true for a topic of a node that itself subscribes to sensor data, such as a filter or a
 /// mapper, which publishes only with input. If it is silent by mistake, its sensor is silent too.
-fn is_derived(picture: &Picture, topic: &str) -> bool {
-    let publishers = picture.seen.topic(topic).map_or(&[][..], |topic| &topic.publishers);
+fn is_derived(observation: &SystemObservation, topic: &str) -> bool {
+    let publishers = observation.seen.topic(topic).map_or(&[][..], |topic| &topic.publishers);
     let mut nodes = publishers.iter().filter_map(|end| end.node.as_deref());
     let subscribes = |node: &str| {
-        let inputs = picture
+        let inputs = observation
             .seen
             .topics
             .iter()
-            .filter(|other| other.name != topic && picture.heard.contains_key(&other.name));
+            .filter(|other| other.name != topic && observation.heard.contains_key(&other.name));
         inputs.flat_map(|input| &input.subscriptions).any(|end| end.node.as_deref() == Some(node))
     };
     nodes.any(subscribes)
 }
 
-fn silent(picture: &Picture, topic: &str) -> Diagnostic {
-    let ends = picture.seen.topic(topic).map_or(&[][..], |topic| &topic.publishers);
-    let node = ends.first().and_then(|end| end.node.as_deref()).unwrap_or("somebody");
+fn silent(observation: &SystemObservation, topic: &str) -> Diagnostic {
+    let endpoints = observation.seen.topic(topic).map_or(&[][..], |topic| &topic.publishers);
+    let node = endpoints.first().and_then(|end| end.node.as_deref()).unwrap_or("somebody");
     let finding = Diagnostic::warning(
         "sensor-silent",
         format!(
             "`{node}` has a publisher on `{topic}`, and no message was received in {:.1} s",
-            picture.time.as_secs_f64()
+            observation.time.as_secs_f64()
         ),
     );
-    if picture.clock.is_none() && picture.simulated.values().any(|simulated| *simulated) {
+    if observation.clock.is_none() && observation.simulated.values().any(|simulated| *simulated) {
         return finding.help("simulated time does not advance: see the finding on `/clock`");
     }
     finding.help(
@@ -66,7 +66,7 @@ fn silent(picture: &Picture, topic: &str) -> Diagnostic {
 }
 
 fn useless(topic: &str, scans: &ScanFacts, is_alone: bool) -> Option<Diagnostic> {
-    if scans.readings < ENOUGH || scans.good > 0 {
+    if scans.readings < MIN_READINGS || scans.good > 0 {
         return None;
     }
     let all = scans.readings;
@@ -95,9 +95,9 @@ fn useless(topic: &str, scans: &ScanFacts, is_alone: bool) -> Option<Diagnostic>
     Some(Diagnostic::warning("scan-useless", message).help(help))
 }
 
-fn slow(topic: &str, heard: &Heard) -> Option<Diagnostic> {
+fn slow(topic: &str, heard: &TopicStatistics) -> Option<Diagnostic> {
     let (rate_hz, wanted_hz) = (heard.rate_hz()?, heard.wanted_hz?);
-    (rate_hz < SLOW * wanted_hz).then(|| {
+    (rate_hz < MIN_RATE_FRACTION * wanted_hz).then(|| {
         Diagnostic::warning(
             "sensor-slow",
             format!("`{topic}` has a rate of {rate_hz:.1} Hz instead of {wanted_hz:.1} Hz"),

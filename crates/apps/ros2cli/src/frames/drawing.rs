@@ -10,28 +10,28 @@ use crate::frames::widths::width;
 /// Red, green, blue.
 pub(crate) type Colour = [u8; 3];
 
-const INK: Colour = [0x1f, 0x29, 0x37];
-const SOFT: Colour = [0x6b, 0x72, 0x80];
-const LINE: Colour = [0x94, 0xa3, 0xb8];
-const MOVING: Colour = [0x25, 0x63, 0xeb];
-const MOVING_PAPER: Colour = [0xef, 0xf5, 0xff];
-const FIXED_PAPER: Colour = [0xf5, 0xf6, 0xf8];
-const ROOT_PAPER: Colour = [0xe7, 0xf6, 0xec];
-const ROOT: Colour = [0x15, 0x80, 0x3d];
-const WRONG: Colour = [0xdc, 0x26, 0x26];
-const PAPER: Colour = [0xff, 0xff, 0xff];
+const TEXT_COLOUR: Colour = [0x1f, 0x29, 0x37];
+const NOTE_COLOUR: Colour = [0x6b, 0x72, 0x80];
+const STATIC_COLOUR: Colour = [0x94, 0xa3, 0xb8];
+const DYNAMIC_COLOUR: Colour = [0x25, 0x63, 0xeb];
+const DYNAMIC_FILL: Colour = [0xef, 0xf5, 0xff];
+const STATIC_FILL: Colour = [0xf5, 0xf6, 0xf8];
+const ROOT_FILL: Colour = [0xe7, 0xf6, 0xec];
+const ROOT_COLOUR: Colour = [0x15, 0x80, 0x3d];
+const FAULT_COLOUR: Colour = [0xdc, 0x26, 0x26];
+const PAGE_COLOUR: Colour = [0xff, 0xff, 0xff];
 
 /// Margin of the page.
-const MARGIN: f64 = 28.0;
-const NAME: f64 = 12.0;
-const NAME_HEIGHT: f64 = 28.0;
-const LABEL: f64 = 8.5;
-const LABEL_LINE: f64 = 11.5;
-const LABEL_PAD: f64 = 7.0;
+const MARGIN_PT: f64 = 28.0;
+const NAME_SIZE_PT: f64 = 12.0;
+const NAME_HEIGHT_PT: f64 = 28.0;
+const LABEL_SIZE_PT: f64 = 8.5;
+const LABEL_LINE_PT: f64 = 11.5;
+const LABEL_PAD_PT: f64 = 7.0;
 /// Vertical distance from a frame to the label of its child, for a curve.
-const CURVE: f64 = 40.0;
+const CURVE_PT: f64 = 40.0;
 /// Vertical distance from the label to the frame, for the arrow.
-const ARROW: f64 = 18.0;
+const ARROW_PT: f64 = 18.0;
 
 /// Shape.
 #[derive(Clone, Debug, PartialEq)]
@@ -60,12 +60,12 @@ impl Drawing {
         let layout = layout(forest, &widths);
         let mut drawing = Self { size: [0.0, 0.0], shapes: Vec::new() };
         let (head_width, head_height) = drawing.head(forest, recorded_at);
-        let width = layout.width.max(head_width) + 2.0 * MARGIN;
-        let place = Place {
+        let width = layout.width.max(head_width) + 2.0 * MARGIN_PT;
+        let place = Positions {
             forest,
             left: 0.5 * (width - layout.width),
             top: head_height,
-            label_height: 5.0 * LABEL_LINE + 2.0 * LABEL_PAD,
+            label_height: 5.0 * LABEL_LINE_PT + 2.0 * LABEL_PAD_PT,
             layout,
         };
         // Lines first, so that cards cover them.
@@ -75,21 +75,23 @@ impl Drawing {
         for &frame in &forest.downward() {
             drawing.cards(&place, frame);
         }
-        drawing.size =
-            [width, place.frame_top(place.layout.layers.saturating_sub(1)) + NAME_HEIGHT + MARGIN];
+        drawing.size = [
+            width,
+            place.frame_top(place.layout.layers.saturating_sub(1)) + NAME_HEIGHT_PT + MARGIN_PT,
+        ];
         if forest.frames.is_empty() {
-            drawing.size[1] = head_height + MARGIN;
+            drawing.size[1] = head_height + MARGIN_PT;
         }
         drawing
     }
 
     /// Adds title, legend and faults; returns their size.
     fn head(&mut self, forest: &Forest, recorded_at: &str) -> (f64, f64) {
-        let (mut y, mut widest) = (MARGIN + 16.0, 0.0_f64);
+        let (mut y, mut widest) = (MARGIN_PT + 16.0, 0.0_f64);
         let mut line = |shapes: &mut Vec<Shape>, text: String, size: f64, is_bold, fill| {
             widest = widest.max(width(&text, size, is_bold));
             shapes.push(Shape::Text {
-                at: [MARGIN, y],
+                at: [MARGIN_PT, y],
                 text,
                 size,
                 is_bold,
@@ -99,10 +101,10 @@ impl Drawing {
             y += size + 6.0;
         };
         let shapes = &mut self.shapes;
-        line(shapes, "view_frames Result".into(), 17.0, true, INK);
-        line(shapes, format!("Recorded at time: {recorded_at}"), 10.0, false, SOFT);
+        line(shapes, "view_frames Result".into(), 17.0, true, TEXT_COLOUR);
+        line(shapes, format!("Recorded at time: {recorded_at}"), 10.0, false, NOTE_COLOUR);
         if forest.frames.is_empty() {
-            line(shapes, "No tf data received".into(), 12.0, true, WRONG);
+            line(shapes, "No tf data received".into(), 12.0, true, FAULT_COLOUR);
         } else {
             let roots = forest.roots().count();
             let counts = format!(
@@ -110,15 +112,15 @@ impl Drawing {
                 forest.frames.len(),
                 if roots == 1 { "" } else { "s" }
             );
-            line(shapes, counts, 10.0, false, SOFT);
+            line(shapes, counts, 10.0, false, NOTE_COLOUR);
         }
         for fault in forest.faults() {
-            line(shapes, fault.to_string().replace('`', ""), 11.0, true, WRONG);
+            line(shapes, fault.to_string().replace('`', ""), 11.0, true, FAULT_COLOUR);
         }
         (widest, y + 10.0)
     }
 
-    fn lines(&mut self, place: &Place<'_>, frame: usize) {
+    fn lines(&mut self, place: &Positions<'_>, frame: usize) {
         let from = place.bottom(frame);
         for child in place.forest.below(frame) {
             let to = place.label_top(child);
@@ -126,7 +128,7 @@ impl Drawing {
             let middle = 0.5 * (from[1] + to[1]);
             self.shapes.push(Shape::Curve {
                 points: [from, [from[0], middle], [to[0], middle], to],
-                stroke: if is_dashed { LINE } else { MOVING },
+                stroke: if is_dashed { STATIC_COLOUR } else { DYNAMIC_COLOUR },
                 is_dashed,
             });
         }
@@ -141,14 +143,14 @@ impl Drawing {
             let aside = if to[0] < from[0] { -1.0 } else { 1.0 } * (0.5 * breadth(it) + 24.0);
             self.shapes.push(Shape::Curve {
                 points: [from, [from[0], from[1] + 60.0], [to[0] + aside, to[1] - 70.0], to],
-                stroke: WRONG,
+                stroke: FAULT_COLOUR,
                 is_dashed: true,
             });
-            self.shapes.push(Shape::Head { tip: to, fill: WRONG });
+            self.shapes.push(Shape::Head { tip: to, fill: FAULT_COLOUR });
         }
     }
 
-    fn cards(&mut self, place: &Place<'_>, frame: usize) {
+    fn cards(&mut self, place: &Positions<'_>, frame: usize) {
         let it = &place.forest.frames[frame];
         let middle = place.middle(frame);
         let (is_fixed, is_root) = (is_fixed(it), it.edge.is_none());
@@ -156,8 +158,11 @@ impl Drawing {
             let lines = edge.label();
             let size = [label_width(&lines), place.label_height];
             let [_, top] = place.label_top(frame);
-            let (fill, stroke) =
-                if is_fixed { (FIXED_PAPER, LINE) } else { (MOVING_PAPER, MOVING) };
+            let (fill, stroke) = if is_fixed {
+                (STATIC_FILL, STATIC_COLOUR)
+            } else {
+                (DYNAMIC_FILL, DYNAMIC_COLOUR)
+            };
             self.shapes.push(Shape::Card {
                 at: [middle - 0.5 * size[0], top],
                 size,
@@ -167,13 +172,13 @@ impl Drawing {
                 is_dashed: false,
             });
             for (number, text) in (0_u8..).zip(lines) {
-                let y = top + LABEL_PAD + LABEL_LINE * (f64::from(number) + 0.8);
+                let y = top + LABEL_PAD_PT + LABEL_LINE_PT * (f64::from(number) + 0.8);
                 let at = [middle, y];
-                let fill = SOFT;
+                let fill = NOTE_COLOUR;
                 self.shapes.push(Shape::Text {
                     at,
                     text,
-                    size: LABEL,
+                    size: LABEL_SIZE_PT,
                     is_bold: false,
                     is_centred: true,
                     fill,
@@ -185,33 +190,33 @@ impl Drawing {
             self.shapes.push(Shape::Head { tip: to, fill: stroke });
         }
         let (fill, stroke) = match (is_root, is_fixed) {
-            (true, _) => (ROOT_PAPER, ROOT),
-            (_, true) => (PAPER, LINE),
-            _ => (PAPER, MOVING),
+            (true, _) => (ROOT_FILL, ROOT_COLOUR),
+            (_, true) => (PAGE_COLOUR, STATIC_COLOUR),
+            _ => (PAGE_COLOUR, DYNAMIC_COLOUR),
         };
-        let size = [name_width(it), NAME_HEIGHT];
+        let size = [name_width(it), NAME_HEIGHT_PT];
         let top = place.top(frame);
         self.shapes.push(Shape::Card {
             at: [middle - 0.5 * size[0], top[1]],
             size,
-            round: 0.5 * NAME_HEIGHT,
+            round: 0.5 * NAME_HEIGHT_PT,
             fill,
             stroke,
             is_dashed: is_fixed,
         });
         self.shapes.push(Shape::Text {
-            at: [middle, top[1] + 0.5 * NAME_HEIGHT + 0.36 * NAME],
+            at: [middle, top[1] + 0.5 * NAME_HEIGHT_PT + 0.36 * NAME_SIZE_PT],
             text: it.name.clone(),
-            size: NAME,
+            size: NAME_SIZE_PT,
             is_bold: true,
             is_centred: true,
-            fill: INK,
+            fill: TEXT_COLOUR,
         });
     }
 }
 
 /// Positions of frames on the page.
-struct Place<'a> {
+struct Positions<'a> {
     forest: &'a Forest,
     layout: Layout,
     left: f64,
@@ -219,7 +224,7 @@ struct Place<'a> {
     label_height: f64,
 }
 
-impl Place<'_> {
+impl Positions<'_> {
     fn middle(&self, frame: usize) -> f64 {
         self.left + self.layout.middle[frame]
     }
@@ -228,8 +233,8 @@ impl Place<'_> {
     fn frame_top(&self, layer: usize) -> f64 {
         // A top frame with an edge (in a loop) has its label above.
         let is_closed = self.forest.tops.iter().any(|&top| self.forest.frames[top].edge.is_some());
-        let first = if is_closed { self.label_height + ARROW } else { 0.0 };
-        let step = NAME_HEIGHT + CURVE + self.label_height + ARROW;
+        let first = if is_closed { self.label_height + ARROW_PT } else { 0.0 };
+        let step = NAME_HEIGHT_PT + CURVE_PT + self.label_height + ARROW_PT;
         self.top + first + layer as f64 * step
     }
 
@@ -239,12 +244,12 @@ impl Place<'_> {
 
     fn bottom(&self, frame: usize) -> [f64; 2] {
         let [x, y] = self.top(frame);
-        [x, y + NAME_HEIGHT]
+        [x, y + NAME_HEIGHT_PT]
     }
 
     fn label_top(&self, frame: usize) -> [f64; 2] {
         let [x, y] = self.top(frame);
-        [x, y - ARROW - self.label_height]
+        [x, y - ARROW_PT - self.label_height]
     }
 }
 
@@ -253,12 +258,12 @@ fn is_fixed(frame: &Frame) -> bool {
 }
 
 fn name_width(frame: &Frame) -> f64 {
-    width(&frame.name, NAME, true) + 26.0
+    width(&frame.name, NAME_SIZE_PT, true) + 26.0
 }
 
 fn label_width(lines: &[String]) -> f64 {
-    let widest = lines.iter().map(|line| width(line, LABEL, false)).fold(0.0, f64::max);
-    widest + 2.0 * LABEL_PAD
+    let widest = lines.iter().map(|line| width(line, LABEL_SIZE_PT, false)).fold(0.0, f64::max);
+    widest + 2.0 * LABEL_PAD_PT
 }
 
 /// Width of a frame with its label.

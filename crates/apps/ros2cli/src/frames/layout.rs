@@ -7,9 +7,9 @@
 use crate::frames::forest::Forest;
 
 /// Distance between neighbours on a layer \[pt\].
-const GAP: f64 = 18.0;
+const GAP_PT: f64 = 18.0;
 /// Distance between trees \[pt\].
-const TREE_GAP: f64 = 48.0;
+const TREE_GAP_PT: f64 = 48.0;
 
 /// Horizontal centre and layer of each frame.
 pub(crate) struct Layout {
@@ -35,7 +35,7 @@ pub(crate) fn layout(forest: &Forest, widths: &[f64]) -> Layout {
     let mut outlines: Vec<Outline> = vec![Vec::new(); count];
     for &frame in order.iter().rev() {
         let children: Vec<usize> = forest.below(frame).collect();
-        let (mut below, places) = side_by_side(&children, &mut outlines, GAP);
+        let (mut below, places) = side_by_side(&children, &mut outlines, GAP_PT);
         let middle = match (places.first(), places.last()) {
             (Some(first), Some(last)) => 0.5 * (first + last),
             _ => 0.0,
@@ -51,7 +51,7 @@ pub(crate) fn layout(forest: &Forest, widths: &[f64]) -> Layout {
         below.insert(0, (-half, half));
         outlines[frame] = below;
     }
-    let (all, places) = side_by_side(&forest.tops, &mut outlines, TREE_GAP);
+    let (all, places) = side_by_side(&forest.tops, &mut outlines, TREE_GAP_PT);
     let left = all.iter().map(|(left, _)| *left).fold(0.0, f64::min);
     let right = all.iter().map(|(_, right)| *right).fold(0.0, f64::max);
     let mut layout = Layout {
@@ -134,7 +134,7 @@ mod tests {
         for one in 0..forest.frames.len() {
             for other in 0..one {
                 let apart = (layout.middle[one] - layout.middle[other]).abs();
-                assert!(layout.layer[one] != layout.layer[other] || apart >= 100.0 + GAP - 1e-9);
+                assert!(layout.layer[one] != layout.layer[other] || apart >= 100.0 + GAP_PT - 1e-9);
             }
             assert!(layout.middle[one] >= 50.0 && layout.middle[one] <= layout.width - 50.0);
         }

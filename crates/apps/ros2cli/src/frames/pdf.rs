@@ -9,10 +9,10 @@ use crate::frames::forest::Forest;
 use crate::frames::widths::width;
 
 /// Maximum size of a page (PDF 1.7, annex C).
-const LONGEST_PT: f64 = 14_400.0;
+const MAX_PAGE_PT: f64 = 14_400.0;
 
 /// Position of the control points of a quarter circle, as a fraction of its radius.
-const ROUND: f64 = 0.552_284_75;
+const ARC_CONTROL_FACTOR: f64 = 0.552_284_75;
 
 impl Forest {
     /// PDF of the trees, with the time of recording \[s\].
@@ -24,7 +24,7 @@ impl Forest {
 
 fn write(drawing: &Drawing) -> Vec<u8> {
     let [width, height] = drawing.size;
-    let scale = (LONGEST_PT / width.max(height)).min(1.0);
+    let scale = (MAX_PAGE_PT / width.max(height)).min(1.0);
     let [catalog, pages, page, text, bold, content, info] = [1, 2, 3, 4, 5, 6, 7].map(Ref::new);
     let mut pdf = Pdf::new();
     pdf.catalog(catalog).pages(pages);
@@ -88,7 +88,7 @@ fn card(
     round: f64,
     up: &dyn Fn([f64; 2]) -> [f32; 2],
 ) {
-    let (right, bottom, near) = (x + width, y + height, round * (1.0 - ROUND));
+    let (right, bottom, near) = (x + width, y + height, round * (1.0 - ARC_CONTROL_FACTOR));
     let corners = [
         [[right - round, y], [right - near, y], [right, y + near], [right, y + round]],
         [

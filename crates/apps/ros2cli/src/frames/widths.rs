@@ -12,19 +12,19 @@ const HELVETICA: [u16; 95] = [
 ];
 
 /// The widest character, for those that are not listed.
-const WIDEST: u16 = 1015;
+const MAX_CHAR_WIDTH: u16 = 1015;
 
 /// Maximum factor by which bold characters are wider.
-const BOLD: f64 = 1.1;
+const BOLD_FACTOR: f64 = 1.1;
 
 /// Width of a line \[pt\]; an upper bound for bold text.
 pub(crate) fn width(text: &str, size: f64, is_bold: bool) -> f64 {
     let of = |letter: char| {
         let place = (letter as usize).checked_sub(' ' as usize);
-        place.and_then(|place| HELVETICA.get(place)).copied().unwrap_or(WIDEST)
+        place.and_then(|place| HELVETICA.get(place)).copied().unwrap_or(MAX_CHAR_WIDTH)
     };
     let sum: f64 = text.chars().map(|letter| f64::from(of(letter))).sum();
-    sum * 1e-3 * size * if is_bold { BOLD } else { 1.0 }
+    sum * 1e-3 * size * if is_bold { BOLD_FACTOR } else { 1.0 }
 }
 
 #[test]

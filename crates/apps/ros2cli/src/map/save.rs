@@ -15,7 +15,7 @@ use crate::session::full_name;
 use crate::{Failure, Outcome, Session};
 
 /// Polling period for the map.
-const LOOK: Duration = Duration::from_millis(10);
+const POLL_PERIOD: Duration = Duration::from_millis(10);
 
 /// Options of saving a map.
 #[derive(Clone, Debug, PartialEq)]
@@ -103,11 +103,11 @@ fn wait(
         if let Some(map) = mailboxes.iter().find_map(Mailbox::latest) {
             return Ok(map);
         }
-        session.go_on()?;
+        session.check_interrupted()?;
         if let Some(timeout) = timeout.filter(|timeout| clock.elapsed() >= *timeout) {
             return Err(Failure::failed(missing(session, topic, timeout)));
         }
-        sleep(LOOK);
+        sleep(POLL_PERIOD);
     }
 }
 

@@ -7,10 +7,10 @@ use periplus_maps::{Distro, Words, read_words, usage};
 use super::Save;
 
 /// Exit code of `map_saver_cli` for invalid arguments.
-const WRONG_WORDS_EXIT_CODE: u8 = 255;
+const USAGE_EXIT_CODE: u8 = 255;
 
 /// Default timeout of the ROS 2 map savers.
-const USUAL_TIMEOUT: Duration = Duration::from_secs(2);
+const DEFAULT_TIMEOUT: Duration = Duration::from_secs(2);
 
 /// Parsed command line of a map saver.
 #[derive(Clone, Debug, PartialEq)]
@@ -50,11 +50,11 @@ pub fn saver_command(
             wish,
             distro,
             // The map saver of ROS 1 waits without a limit.
-            timeout: timeout.or((distro != Distro::Noetic).then_some(USUAL_TIMEOUT)),
+            timeout: timeout.or((distro != Distro::Noetic).then_some(DEFAULT_TIMEOUT)),
         }),
         Err(error) => SaverCommand::Wrong {
             message: format!("{error}\narguments of {program}:\n{}", usage(distro)),
-            exit_code: WRONG_WORDS_EXIT_CODE,
+            exit_code: USAGE_EXIT_CODE,
         },
     }
 }

@@ -14,7 +14,7 @@ use crate::failure::endless;
 use crate::{Failure, Outcome, Session};
 
 /// Polling period of the interrupt flag.
-const LOOK: Duration = Duration::from_millis(20);
+const POLL_PERIOD: Duration = Duration::from_millis(20);
 
 /// Static transform.
 #[derive(Clone, Debug, PartialEq)]
@@ -143,8 +143,8 @@ pub fn broadcast(session: &mut Session<'_>, broadcast: &Broadcast) -> Outcome {
 
 fn wait(session: &Session<'_>) -> Outcome {
     loop {
-        session.go_on()?;
-        sleep(LOOK);
+        session.check_interrupted()?;
+        sleep(POLL_PERIOD);
     }
 }
 

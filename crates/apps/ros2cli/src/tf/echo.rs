@@ -12,10 +12,10 @@ use crate::failure::endless;
 use crate::{Outcome, Session};
 
 /// Polling period for transforms.
-const LOOK: Duration = Duration::from_millis(5);
+const POLL_PERIOD: Duration = Duration::from_millis(5);
 
 /// Period of messages while waiting.
-const PATIENCE: Duration = Duration::from_secs(1);
+const WAIT_REPORT_PERIOD: Duration = Duration::from_secs(1);
 
 /// Options of `tf echo`.
 #[derive(Clone, Debug, PartialEq)]
@@ -45,7 +45,7 @@ pub fn echo(session: &mut Session<'_>, echo: &Echo) -> Outcome {
 fn run(session: &mut Session<'_>, echo: &Echo) -> Outcome {
     let mut frames = Frames::open(session)?;
     let clock = Stopwatch::start();
-    let (mut due, mut complain) = (Duration::ZERO, PATIENCE);
+    let (mut due, mut complain) = (Duration::ZERO, WAIT_REPORT_PERIOD);
     loop {
         frames.hear(session);
         let now = clock.elapsed();
@@ -57,20 +57,20 @@ fn run(session: &mut Session<'_>, echo: &Echo) -> Outcome {
                         return Ok(());
                     }
                     due = now + echo.period;
-                    complain = now + PATIENCE;
+                    complain = now + WAIT_REPORT_PERIOD;
                 }
                 Err(error) if now >= complain => {
                     session.say(&format!(
                         "Waiting for transform {} ->  {}: {error}",
                         echo.source, echo.target
                     ));
-                    complain = now + PATIENCE;
+                    complain = now + WAIT_REPORT_PERIOD;
                 }
                 Err(_) => {}
             }
         }
-        session.go_on()?;
-        sleep(LOOK);
+        session.check_interrupted()?;
+        sleep(POLL_PERIOD);
     }
 }
 

@@ -22,7 +22,7 @@ pub(super) struct Frames {
 }
 
 /// Received transform message.
-pub(super) struct Heard {
+pub(super) struct ReceivedTransform {
     pub(super) message: Arc<TFMessage>,
     pub(super) kind: TransformKind,
 }
@@ -44,12 +44,14 @@ impl Frames {
     }
 
     /// Processes messages received since the last call. A jump back in time clears the buffer.
-    pub(super) fn hear(&mut self, session: &mut Session<'_>) -> Vec<Heard> {
+    pub(super) fn hear(&mut self, session: &mut Session<'_>) -> Vec<ReceivedTransform> {
         let fixed = self.fixed.drain().into_iter().map(|message| (message, TransformKind::Fixed));
         let moving =
             self.moving.drain().into_iter().map(|message| (message, TransformKind::Moving));
-        let heard: Vec<Heard> =
-            fixed.chain(moving).map(|(message, kind)| Heard { message, kind }).collect();
+        let heard: Vec<ReceivedTransform> = fixed
+            .chain(moving)
+            .map(|(message, kind)| ReceivedTransform { message, kind })
+            .collect();
         for one in &heard {
             for transform in &one.message.transforms {
                 match self.survey.insert(&stamped(transform), AUTHORITY, one.kind) {

@@ -12,7 +12,7 @@ use crate::failure::endless;
 use crate::{Failure, Outcome, Session};
 
 /// Polling period for transforms.
-const LOOK: Duration = Duration::from_millis(5);
+const POLL_PERIOD: Duration = Duration::from_millis(5);
 
 /// Options of `tf monitor`.
 #[derive(Clone, Debug, PartialEq)]
@@ -82,8 +82,8 @@ fn run(session: &mut Session<'_>, monitor: &Monitor) -> Outcome {
             {
                 net.add((unix_ns() - found.time_ns) as f64 * 1e-9);
             }
-            session.go_on()?;
-            sleep(LOOK);
+            session.check_interrupted()?;
+            sleep(POLL_PERIOD);
         }
         let chain = match &monitor.between {
             Some((a, b)) => Some(chain(&frames, a, b)?),

@@ -14,7 +14,7 @@ use super::listen::Frames;
 use crate::{Failure, Outcome, Session};
 
 /// Polling period for transforms.
-const LOOK: Duration = Duration::from_millis(5);
+const POLL_PERIOD: Duration = Duration::from_millis(5);
 
 /// Options of `tf tree`.
 #[derive(Clone, Debug, PartialEq)]
@@ -51,8 +51,8 @@ pub fn tree(session: &mut Session<'_>, tree: &Tree) -> Outcome {
     let clock = Stopwatch::start();
     while clock.elapsed() < tree.wait {
         frames.hear(session);
-        session.go_on()?;
-        sleep(LOOK);
+        session.check_interrupted()?;
+        sleep(POLL_PERIOD);
     }
     let mut forest = Forest::new(&frames.survey);
     // Messages do not identify their sender. If only one node publishes the topic, it is that node.

@@ -11,10 +11,10 @@ use crate::failure::endless;
 use crate::filter::Filter;
 use crate::listen::{Listener, Next, hear};
 use crate::show::{Form, Show};
-use crate::{Failure, Outcome, QosWish, Session};
+use crate::{Failure, Outcome, QosRequest, Session};
 
 /// Polling period for messages.
-const PAUSE: Duration = Duration::from_millis(2);
+const POLL_PERIOD: Duration = Duration::from_millis(2);
 
 /// Options of `topic echo`.
 #[derive(Clone, Debug, Default)]
@@ -34,7 +34,7 @@ pub struct Echo {
     /// `--no-lost-messages`.
     pub no_lost_messages: bool,
     /// `--qos-...`.
-    pub qos: QosWish,
+    pub qos: QosRequest,
 }
 
 /// Prints the messages of a topic.
@@ -61,7 +61,7 @@ pub fn echo(session: &mut Session<'_>, topic: &str, options: &Echo) -> Outcome {
     let outcome = hear(
         session,
         &mut listeners,
-        PAUSE,
+        POLL_PERIOD,
         |session, _, sample, at| {
             shown.set(at);
             let is_shown = show(session, sample, layout.as_ref(), filter.as_ref(), options);

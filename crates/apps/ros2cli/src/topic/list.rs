@@ -5,7 +5,7 @@ use serde_json::json;
 
 use crate::session::{advice, full_name, titled};
 use crate::types::full_type;
-use crate::{Failure, Outcome, SeenEnd, SeenTopic, Session, is_hidden, qos};
+use crate::{Failure, Outcome, SeenTopic, Session, TopicEndpoint, is_hidden, qos};
 
 /// Options of `topic list`.
 #[derive(Clone, Copy, Debug, Default)]
@@ -68,7 +68,7 @@ fn look_up(session: &mut Session<'_>, name: &str) -> Outcome<SeenTopic> {
         // Other endpoints may be discovered a little later.
         seen = session.look();
     }
-    session.go_on()?;
+    session.check_interrupted()?;
     seen.topic(&name).cloned().ok_or_else(|| {
         let near = advice(&name, seen.topics.iter().map(|topic| topic.name.as_str()));
         Failure::failed(format!("Unknown topic '{name}'{near}"))
@@ -82,7 +82,7 @@ fn look_up(session: &mut Session<'_>, name: &str) -> Outcome<SeenTopic> {
 pub fn info(session: &mut Session<'_>, name: &str, verbose: bool) -> Outcome {
     let topic = look_up(session, name)?;
     if session.json {
-        let ends = |ends: &[SeenEnd]| ends.iter().map(end_to_json).collect::<Vec<_>>();
+        let ends = |ends: &[TopicEndpoint]| ends.iter().map(end_to_json).collect::<Vec<_>>();
         return session.put(&json!({
             "name": topic.name,
             "types": topic.types,
@@ -115,7 +115,7 @@ pub fn info(session: &mut Session<'_>, name: &str, verbose: bool) -> Outcome {
     Ok(())
 }
 
-fn describe(end: &SeenEnd, kind: &str) -> String {
+fn describe(end: &TopicEndpoint, kind: &str) -> String {
     let (namespace, name) = split_name(end.node.as_deref());
     // Only endpoints on a network have a GID.
     let gid = if end.gid.is_empty() { String::new() } else { format!("GID: {}\n", end.gid) };
@@ -137,7 +137,7 @@ fn split_name(node: Option<&str>) -> (&str, &str) {
     }
 }
 
-fn end_to_json(end: &SeenEnd) -> serde_json::Value {
+fn end_to_json(end: &TopicEndpoint) -> serde_json::Value {
     json!({
         "node": end.node,
         "type": end.type_name,

@@ -6,14 +6,14 @@ use periplus_msgs::Format;
 use periplus_os::{Stopwatch, sleep};
 use serde_json::json;
 
-use crate::session::{BREATH, full_name};
-use crate::{Failure, Outcome, QosWish, Seen, Session, Values, clock, show};
+use crate::session::{INTERRUPT_POLL_PERIOD, full_name};
+use crate::{Failure, Outcome, QosRequest, Seen, Session, Values, clock, show};
 
 /// Period of messages while waiting for subscribers.
-const TELL: Duration = Duration::from_secs(1);
+const REPORT_PERIOD: Duration = Duration::from_secs(1);
 
 /// Timeout for delivering the last message.
-const FLUSH: Duration = Duration::from_secs(2);
+const FLUSH_TIMEOUT: Duration = Duration::from_secs(2);
 
 /// Options of `topic pub`.
 #[derive(Clone, Debug)]
@@ -33,7 +33,7 @@ pub struct Publish {
     /// `-n`.
     pub node_name: Option<String>,
     /// `--qos-...`.
-    pub qos: QosWish,
+    pub qos: QosRequest,
 }
 
 impl Default for Publish {
@@ -46,7 +46,7 @@ impl Default for Publish {
             most_wait: None,
             keep_alive: Duration::from_millis(100),
             node_name: None,
-            qos: QosWish::default(),
+            qos: QosRequest::default(),
         }
     }
 }
@@ -81,7 +81,7 @@ pub fn publish(
     let is_met = |seen: &Seen| wanted == 0 || listeners(seen) >= wanted && publisher.is_heard();
     let waiting = Stopwatch::start();
     // No message during the first period.
-    while !session.wait(Some(if wanted == 0 { Duration::ZERO } else { TELL }), is_met)? {
+    while !session.wait(Some(if wanted == 0 { Duration::ZERO } else { REPORT_PERIOD }), is_met)? {
         if options.most_wait.is_some_and(|most| waiting.elapsed() >= most) {
             return Err(Failure::failed(format!(
                 "Timed out waiting for subscribers: expected {wanted} on {topic}, found {}",
@@ -125,7 +125,7 @@ pub fn publish(
     if !session.is_stopped() {
         pause(session, options.keep_alive)?;
     }
-    let _ = session.network.flush(FLUSH);
+    let _ = session.network.flush(FLUSH_TIMEOUT);
     Ok(())
 }
 
@@ -133,11 +133,11 @@ pub fn publish(
 fn pause(session: &Session<'_>, time: Duration) -> Outcome {
     let clock = Stopwatch::start();
     loop {
-        session.go_on()?;
+        session.check_interrupted()?;
         let left = time.saturating_sub(clock.elapsed());
         if left.is_zero() {
             return Ok(());
         }
-        sleep(left.min(BREATH));
+        sleep(left.min(INTERRUPT_POLL_PERIOD));
     }
 }

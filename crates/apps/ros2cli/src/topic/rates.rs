@@ -13,15 +13,15 @@ use crate::failure::endless;
 use crate::filter::Filter;
 use crate::listen::{Listener, Next, await_any, hear, is_published};
 use crate::session::full_name;
-use crate::{Failure, Outcome, QosWish, Seen, Session, clock};
+use crate::{Failure, Outcome, QosRequest, Seen, Session, clock};
 
 use window::{Sizes, Spread, Window};
 
 /// Polling period for messages, which limits the resolution of `hz`.
-const PAUSE: Duration = Duration::from_millis(1);
+const POLL_PERIOD: Duration = Duration::from_millis(1);
 
 /// Output period.
-const TELL: Duration = Duration::from_secs(1);
+const REPORT_PERIOD: Duration = Duration::from_secs(1);
 
 /// Options of `hz`, `bw` and `delay`.
 #[derive(Clone, Debug, Default)]
@@ -31,12 +31,12 @@ pub struct Rate {
     /// `--filter`, of `hz`.
     pub filter: Option<String>,
     /// `--qos-...`.
-    pub qos: QosWish,
+    pub qos: QosRequest,
 }
 
 /// Default windows of `ros2 topic hz` and `bw`.
-const WINDOW: usize = 10_000;
-const BANDWIDTH_WINDOW: usize = 100;
+const DEFAULT_WINDOW: usize = 10_000;
+const DEFAULT_BANDWIDTH_WINDOW: usize = 100;
 
 /// Prints the rate of messages of one or several topics. Of several, it starts with those that are
 /// published; the others are added when they appear.
@@ -46,7 +46,7 @@ const BANDWIDTH_WINDOW: usize = 100;
 pub fn hz(session: &mut Session<'_>, topics: &[String], options: &Rate) -> Outcome {
     let filter = options.filter.as_deref().map(Filter::read).transpose()?;
     let node = session.node(None)?;
-    let size = options.window.unwrap_or(WINDOW);
+    let size = options.window.unwrap_or(DEFAULT_WINDOW);
     let mut missing = match topics {
         [_] => Vec::new(),
         _ => await_any(session, topics)?,
@@ -62,7 +62,7 @@ pub fn hz(session: &mut Session<'_>, topics: &[String], options: &Rate) -> Outco
     endless(hear(
         session,
         &mut listeners,
-        PAUSE,
+        POLL_PERIOD,
         |_, place, sample, at| {
             let one = &mut measured.borrow_mut()[place];
             if let (Some(filter), Some(layout)) = (&filter, &one.layout) {
@@ -76,7 +76,7 @@ pub fn hz(session: &mut Session<'_>, topics: &[String], options: &Rate) -> Outco
             Ok(Next::Go)
         },
         |session, listeners, now| {
-            if now < told + TELL {
+            if now < told + REPORT_PERIOD {
                 return Ok(Next::Go);
             }
             told = now;
@@ -195,19 +195,20 @@ pub fn bandwidth(session: &mut Session<'_>, topic: &str, options: &Rate) -> Outc
         writeln!(session.out, "Subscribed to [{}]", listeners[0].topic)?;
         session.out.flush()?;
     }
-    let sizes = std::cell::RefCell::new(Sizes::new(options.window.unwrap_or(BANDWIDTH_WINDOW)));
+    let sizes =
+        std::cell::RefCell::new(Sizes::new(options.window.unwrap_or(DEFAULT_BANDWIDTH_WINDOW)));
     let mut told = Duration::ZERO;
     endless(hear(
         session,
         &mut listeners,
-        PAUSE,
+        POLL_PERIOD,
         |_, _, sample, at| {
             let size = sample.cdr().map_or(0, <[u8]>::len);
             sizes.borrow_mut().arrive(at.as_secs_f64(), size);
             Ok(Next::Go)
         },
         |session, listeners, now| {
-            if now < told + TELL {
+            if now < told + REPORT_PERIOD {
                 return Ok(Next::Go);
             }
             told = now;
@@ -246,12 +247,12 @@ pub fn delay(session: &mut Session<'_>, topic: &str, options: &Rate) -> Outcome 
             layout.type_name()
         )));
     }
-    let window = std::cell::RefCell::new(Window::new(options.window.unwrap_or(WINDOW)));
+    let window = std::cell::RefCell::new(Window::new(options.window.unwrap_or(DEFAULT_WINDOW)));
     let mut told = Duration::ZERO;
     endless(hear(
         session,
         &mut listeners,
-        PAUSE,
+        POLL_PERIOD,
         |_, _, sample, _| {
             let stamp = sample.cdr().ok();
             let stamp =
@@ -262,7 +263,7 @@ pub fn delay(session: &mut Session<'_>, topic: &str, options: &Rate) -> Outcome 
             Ok(Next::Go)
         },
         |session, listeners, now| {
-            if now < told + TELL {
+            if now < told + REPORT_PERIOD {
                 return Ok(Next::Go);
             }
             told = now;

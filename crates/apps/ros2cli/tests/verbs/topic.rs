@@ -5,7 +5,7 @@ use std::time::Duration;
 use expect_test::{Expect, expect};
 use periplus_graph::{Publisher, Qos};
 use periplus_msgs::{geometry_msgs, sensor_msgs, std_msgs, tf2_msgs};
-use periplus_ros2cli::QosWish;
+use periplus_ros2cli::QosRequest;
 use periplus_ros2cli::show::Form;
 use periplus_ros2cli::topic::{self, Echo, List, Publish, Rate};
 
@@ -430,7 +430,7 @@ fn who_comes_late_hears_latched_topics() {
     "#]],
     );
     // Explicit options take precedence.
-    let volatile = QosWish { durability: Some("volatile".into()), ..QosWish::default() };
+    let volatile = QosRequest { durability: Some("volatile".into()), ..QosRequest::default() };
     let options = Echo { qos: volatile, timeout: Some(Duration::from_millis(50)), ..once() };
     bench.check(
         |session| topic::echo(session, "/map_name", &options),
@@ -438,7 +438,7 @@ fn who_comes_late_hears_latched_topics() {
         ! no message received on /map_name in time
     "#]],
     );
-    let wrong = QosWish { reliability: Some("relaible".into()), ..QosWish::default() };
+    let wrong = QosRequest { reliability: Some("relaible".into()), ..QosRequest::default() };
     let options = Echo { qos: wrong, ..once() };
     bench.check(
         |session| topic::echo(session, "/map_name", &options),
@@ -451,7 +451,7 @@ fn who_comes_late_hears_latched_topics() {
 #[test]
 fn publishers_that_do_not_fit_are_named() {
     let robot = robot();
-    let reliable = QosWish { reliability: Some("reliable".into()), ..QosWish::default() };
+    let reliable = QosRequest { reliability: Some("reliable".into()), ..QosRequest::default() };
     let options = Echo { qos: reliable, timeout: Some(Duration::from_millis(30)), ..once() };
     robot.bench.check(|session| topic::echo(session, "/scan", &options), expect![[r#"
         | WARNING: /bot/lidar offers /scan with reliability best_effort, and reliable is requested: its messages are not received

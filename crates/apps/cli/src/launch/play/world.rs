@@ -3,26 +3,26 @@
 use std::path::{Path, PathBuf};
 
 use periplus_diagnostics::{Origin, RenderStyle, SourceMap, render};
-use periplus_launch::bringup::WorldWish;
+use periplus_launch::bringup::WorldRequest;
 use periplus_loader::LoadContext;
 use periplus_resources::EntryKind;
 use periplus_sim::{Composition, Search, compose as compose_file, compose_plain};
 
 /// Worlds that Gazebo installs and that are a plane under a sun.
-const PLAIN: [&str; 4] = ["empty.world", "empty.sdf", "empty", "default.sdf"];
+const PLANE_WORLDS: [&str; 4] = ["empty.world", "empty.sdf", "empty", "default.sdf"];
 
 /// Reads the world, with the environment and working folder in which it is started.
 ///
 /// # Errors
 /// A message when there is no such file.
-pub(super) fn compose(wish: &WorldWish, search: &Search) -> Result<Composition, String> {
+pub(super) fn compose(wish: &WorldRequest, search: &Search) -> Result<Composition, String> {
     let host = search.host();
     let resolver = search.resolver(&host);
     let setting = search.setting(&host, &resolver, true);
     let Some(file) = wish.file.as_deref() else { return Ok(compose_plain(&setting)) };
     match find(file, &setting) {
         Ok(path) => Ok(compose_file(&path, &[], &setting)),
-        Err(_) if PLAIN.contains(&file.rsplit('/').next().unwrap_or(file)) => {
+        Err(_) if PLANE_WORLDS.contains(&file.rsplit('/').next().unwrap_or(file)) => {
             Ok(compose_plain(&setting))
         }
         Err(why) => Err(match &wish.written {

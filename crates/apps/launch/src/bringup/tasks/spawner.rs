@@ -5,13 +5,13 @@ use periplus_graph::{Mailbox, Node, Qos};
 use periplus_msgs::std_msgs;
 use periplus_sim::{InsertionSource, ModelInsertion};
 
-use super::{Done, Hand, Stage};
-use crate::bringup::parameters::{Named, number_of, text_of};
-use crate::bringup::told::Said;
+use super::{Done, Task, TaskContext};
+use crate::bringup::parameters::{NamedParameters, number_of, text_of};
+use crate::bringup::report::LaunchLog;
 use crate::bringup::words;
 
 /// Time after which a missing input is logged \[ns\].
-const PATIENCE_NS: i64 = 5_000_000_000;
+const WARNING_DELAY_NS: i64 = 5_000_000_000;
 
 /// Model to spawn, and its pose.
 pub(crate) struct Spawner {
@@ -37,7 +37,7 @@ enum From {
 /// Value of an option, or of the parameter of that name: `create` accepts both.
 struct Given<'a> {
     words: &'a [String],
-    named: &'a Named,
+    named: &'a NamedParameters,
 }
 
 impl Given<'_> {
@@ -67,7 +67,7 @@ impl Spawner {
     /// A message with the error.
     pub(crate) fn new(
         node: &Node,
-        (words, named): (&[String], &Named),
+        (words, named): (&[String], &NamedParameters),
         parameter: &dyn Fn(&str) -> Option<String>,
         path: &dyn Fn(&str) -> String,
         now_ns: i64,
@@ -127,21 +127,21 @@ impl Spawner {
         format!("`{name}` from {from} at ({}, {}, {})", place.x, place.y, place.z)
     }
 
-    fn wait(&mut self, stage: &mut Stage<'_>, why: &str) -> Done {
-        if stage.now_ns - self.since_ns > PATIENCE_NS && !self.has_complained {
+    fn wait(&mut self, stage: &mut TaskContext<'_>, why: &str) -> Done {
+        if stage.now_ns - self.since_ns > WARNING_DELAY_NS && !self.has_complained {
             self.has_complained = true;
-            stage.said.push(Said::warning(format!("`{}` not spawned yet: {why}", self.name)));
+            stage.said.push(LaunchLog::warning(format!("`{}` not spawned yet: {why}", self.name)));
         }
         Done::No
     }
 }
 
-impl Hand for Spawner {
+impl Task for Spawner {
     fn time_went_back(&mut self, by_ns: i64) {
         self.since_ns -= by_ns;
     }
 
-    fn work(&mut self, stage: &mut Stage<'_>) -> Done {
+    fn work(&mut self, stage: &mut TaskContext<'_>) -> Done {
         if stage.simulation.is_none() {
             return self
                 .wait(stage, "this launch has no world; start the world in the same launch");
@@ -180,11 +180,13 @@ impl Hand for Spawner {
                     "" => String::new(),
                     place => format!("`{}`{place}:\n", arrived.name),
                 };
-                stage.said.push(Said::info(intro + &arrived.notes));
+                stage.said.push(LaunchLog::info(intro + &arrived.notes));
             }
             Err(why) => {
                 let Self { name, place, .. } = self;
-                stage.said.push(Said::error(format!("`{name}`{place} was not spawned: {why}")));
+                stage
+                    .said
+                    .push(LaunchLog::error(format!("`{name}`{place} was not spawned: {why}")));
             }
         }
         Done::Yes

@@ -7,24 +7,24 @@ use periplus_msgs::rcl_interfaces::Log;
 use crate::terminal::say;
 
 /// Monitor of the log messages and the lifecycle state of a node.
-pub(crate) struct Watched {
+pub(crate) struct NodeMonitor {
     logger: String,
     logs: Mailbox<Log>,
     events: Mailbox<TransitionEvent>,
     _node: Node,
 }
 
-impl Watched {
+impl NodeMonitor {
     /// Monitors a node, from a hidden node.
     ///
     /// # Errors
     /// An error when the graph refuses the names.
-    pub(crate) fn new(watched: &Node) -> Result<Self, GraphError> {
-        let name = watched.full_name().replace('/', "_");
-        let node = watched.graph().node(NodeSettings::new(format!("{name}_watch")).bare())?;
-        let events = format!("{}/transition_event", watched.full_name());
+    pub(crate) fn new(monitor: &Node) -> Result<Self, GraphError> {
+        let name = monitor.full_name().replace('/', "_");
+        let node = monitor.graph().node(NodeSettings::new(format!("{name}_watch")).bare())?;
+        let events = format!("{}/transition_event", monitor.full_name());
         Ok(Self {
-            logger: watched.logger(),
+            logger: monitor.logger(),
             logs: node.mailbox("/rosout", Qos::latched(100))?,
             events: node.mailbox(&events, Qos::reliable(100))?,
             _node: node,

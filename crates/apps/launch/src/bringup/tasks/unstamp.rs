@@ -4,7 +4,7 @@
 use periplus_graph::{Graph, Mailbox, Node, NodeSettings, Publisher, Qos};
 use periplus_msgs::geometry_msgs::{Twist, TwistStamped};
 
-use super::{Done, Hand, Stage};
+use super::{Done, Task, TaskContext};
 
 /// Forwards velocities from one topic to another.
 pub(crate) struct Unstamp {
@@ -29,8 +29,8 @@ impl Unstamp {
     }
 }
 
-impl Hand for Unstamp {
-    fn work(&mut self, _stage: &mut Stage<'_>) -> Done {
+impl Task for Unstamp {
+    fn work(&mut self, _stage: &mut TaskContext<'_>) -> Done {
         for message in self.stamped.drain() {
             self.plain.publish(message.twist.clone());
         }

@@ -12,12 +12,12 @@ pub struct Line {
     pub asked: String,
     /// Replacement of the part.
     #[serde(flatten)]
-    pub became: Became,
+    pub outcome: Outcome,
 }
 
 /// Replacement of a part of a plan.
 #[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Became {
+pub struct Outcome {
     /// Kind of replacement.
     pub kind: Kind,
     /// Full name of its node, if it has one.
@@ -46,14 +46,14 @@ pub enum Kind {
 
 /// Log message of a running plan.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Said {
+pub struct LaunchLog {
     /// Severity.
     pub level: Level,
     /// Text.
     pub text: String,
 }
 
-impl Said {
+impl LaunchLog {
     pub(crate) fn info(text: impl Into<String>) -> Self {
         Self { level: Level::Info, text: text.into() }
     }

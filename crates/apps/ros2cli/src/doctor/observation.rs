@@ -5,12 +5,12 @@ use std::time::Duration;
 
 use periplus_tf::TransformMonitor;
 
-use super::network::Surroundings;
+use super::network::NetworkSettings;
 use crate::Seen;
 
 /// Input of all rules.
 #[derive(Clone, Debug, Default)]
-pub struct Picture {
+pub struct SystemObservation {
     /// Nodes, topics and services.
     pub seen: Seen,
     /// Duration of the observation.
@@ -18,7 +18,7 @@ pub struct Picture {
     /// Transforms.
     pub survey: TransformMonitor,
     /// Messages with a header, by topic.
-    pub heard: BTreeMap<String, Heard>,
+    pub heard: BTreeMap<String, TopicStatistics>,
     /// Times on `/clock` \[ns\], the first and the last.
     pub clock: Option<(i64, i64)>,
     /// Number of backward jumps of `/clock`.
@@ -28,12 +28,12 @@ pub struct Picture {
     /// True for a robot alone on a plane: its sensors detect nothing, which is not a problem.
     pub is_alone: bool,
     /// Network of this machine, if relevant.
-    pub surroundings: Option<Surroundings>,
+    pub network_settings: Option<NetworkSettings>,
 }
 
 /// Statistics of a topic.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Heard {
+pub struct TopicStatistics {
     /// Message type.
     pub type_name: String,
     /// Number of messages.
@@ -50,7 +50,7 @@ pub struct Heard {
     pub wanted_hz: Option<f64>,
 }
 
-impl Heard {
+impl TopicStatistics {
     /// Measured rate \[Hz\].
     #[must_use]
     pub fn rate_hz(&self) -> Option<f64> {

@@ -9,12 +9,12 @@ use periplus_msgs::sensor_msgs::LaserScan;
 use periplus_msgs::tf2_msgs::TFMessage;
 use periplus_tf::{TransformKind, TransformMonitor};
 
-use super::picture::{Heard, Picture, ScanFacts};
+use super::observation::{ScanFacts, SystemObservation, TopicStatistics};
 use crate::tf::stamped;
 use crate::{Outcome, Seen};
 
 /// Sensor message types that begin with a header.
-const TYPES: [&str; 8] = [
+const SENSOR_TYPES: [&str; 8] = [
     "sensor_msgs/msg/LaserScan",
     "sensor_msgs/msg/PointCloud2",
     "sensor_msgs/msg/Image",
@@ -25,24 +25,24 @@ const TYPES: [&str; 8] = [
     "nav_msgs/msg/Odometry",
 ];
 
-const SCAN: &str = TYPES[0];
+const SCAN_TYPE: &str = SENSOR_TYPES[0];
 
 /// The broadcaster of a transform is unknown.
 const AUTHORITY: &str = "";
 
 /// Subscriptions to all relevant topics.
-pub struct Ears {
+pub struct SystemObserver {
     moving: Mailbox<TFMessage>,
     fixed: Mailbox<TFMessage>,
     clock: Mailbox<Clock>,
     sensors: Vec<(String, RawMailbox)>,
     survey: TransformMonitor,
-    heard: BTreeMap<String, Heard>,
+    heard: BTreeMap<String, TopicStatistics>,
     times_ns: Option<(i64, i64)>,
     clock_jumps: usize,
 }
 
-impl Ears {
+impl SystemObserver {
     /// Subscribes to the topics of a snapshot.
     ///
     /// # Errors
@@ -51,14 +51,16 @@ impl Ears {
         let mut sensors = Vec::new();
         let mut heard = BTreeMap::new();
         for topic in seen.topics.iter().filter(|topic| !topic.publishers.is_empty()) {
-            let Some(type_name) = topic.types.iter().find(|name| TYPES.contains(&name.as_str()))
+            let Some(type_name) =
+                topic.types.iter().find(|name| SENSOR_TYPES.contains(&name.as_str()))
             else {
                 continue;
             };
             let hash = topic.publishers.iter().find_map(|end| end.type_hash.as_deref());
             let mailbox = node.raw_mailbox(&topic.name, type_name, hash, Qos::sensor_data())?;
             sensors.push((topic.name.clone(), mailbox));
-            let empty = Heard { type_name: type_name.clone(), ..Heard::default() };
+            let empty =
+                TopicStatistics { type_name: type_name.clone(), ..TopicStatistics::default() };
             heard.insert(topic.name.clone(), empty);
         }
         Ok(Self {
@@ -100,8 +102,13 @@ impl Ears {
 
     /// Returns all collected data, with a snapshot of the graph.
     #[must_use]
-    pub fn picture(self, seen: Seen, simulated: BTreeMap<String, bool>, time: Duration) -> Picture {
-        Picture {
+    pub fn observation(
+        self,
+        seen: Seen,
+        simulated: BTreeMap<String, bool>,
+        time: Duration,
+    ) -> SystemObservation {
+        SystemObservation {
             seen,
             time,
             survey: self.survey,
@@ -110,12 +117,12 @@ impl Ears {
             clock_jumps: self.clock_jumps,
             simulated,
             is_alone: false,
-            surroundings: None,
+            network_settings: None,
         }
     }
 }
 
-fn take(heard: &mut Heard, sample: &Sample) {
+fn take(heard: &mut TopicStatistics, sample: &Sample) {
     if heard.count == 0 {
         heard.arrived_ns.0 = sample.time_ns;
     }
@@ -125,7 +132,7 @@ fn take(heard: &mut Heard, sample: &Sample) {
         heard.stamp_ns = heard.stamp_ns.max(stamp_ns);
         heard.frames.insert(frame);
     }
-    if heard.type_name == SCAN
+    if heard.type_name == SCAN_TYPE
         && let Ok(scan) = sample.message::<LaserScan>()
     {
         count(heard.scans.get_or_insert_default(), &scan);

@@ -36,7 +36,7 @@ pub(super) enum RespawnStatus {
     /// Idle.
     Idle,
     /// A node has not responded yet.
-    Waiting,
+    PartState,
     /// All nodes have responded; their states by name.
     Back(BTreeMap<String, u8>),
     /// A node did not come back in time.
@@ -107,6 +107,6 @@ impl Respawn {
                 .map(|(name, client)| (name.clone(), client.call(GetStateRequest::default())))
                 .collect();
         }
-        RespawnStatus::Waiting
+        RespawnStatus::PartState
     }
 }

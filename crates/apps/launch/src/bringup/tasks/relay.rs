@@ -2,7 +2,7 @@
 
 use periplus_graph::{Graph, Node, NodeSettings, RawMailbox, RawPublisher};
 
-use super::{Done, Hand, Stage};
+use super::{Done, Task, TaskContext};
 
 /// Relay between two names of a topic.
 pub(crate) struct Relay {
@@ -47,7 +47,7 @@ impl Relay {
     }
 
     /// Detects the source; its publisher determines type and QoS.
-    fn look(&mut self, stage: &Stage<'_>) {
+    fn look(&mut self, stage: &TaskContext<'_>) {
         let topics = stage.graph.topics();
         for (from, to) in &self.ways {
             let Some(topic) = topics.iter().find(|topic| topic.name == *from) else { continue };
@@ -65,8 +65,8 @@ impl Relay {
     }
 }
 
-impl Hand for Relay {
-    fn work(&mut self, stage: &mut Stage<'_>) -> Done {
+impl Task for Relay {
+    fn work(&mut self, stage: &mut TaskContext<'_>) -> Done {
         if self.open.is_none() {
             self.look(stage);
         }

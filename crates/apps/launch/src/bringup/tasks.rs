@@ -14,9 +14,9 @@ mod unstamp;
 use periplus_graph::Graph;
 use periplus_sim::{Search, Simulation};
 
-pub(crate) use changer::Changer;
+pub(crate) use changer::TransitionTask;
 pub(crate) use child::Child;
-pub(crate) use described::Described;
+pub(crate) use described::JointStateTask;
 pub(crate) use described::robot;
 pub(crate) use manager::{Manager, ManagerSettings};
 pub(crate) use relay::Relay;
@@ -24,16 +24,16 @@ pub(crate) use saver::Saver;
 pub(crate) use spawner::Spawner;
 pub(crate) use unstamp::Unstamp;
 
-use crate::bringup::told::Said;
+use crate::bringup::report::LaunchLog;
 
 /// Context of a task.
-pub(crate) struct Stage<'a> {
+pub(crate) struct TaskContext<'a> {
     pub(crate) graph: &'a Graph,
     pub(crate) now_ns: i64,
     /// World, if one is simulated here.
     pub(crate) simulation: Option<&'a mut Simulation>,
     pub(crate) search: &'a Search,
-    pub(crate) said: &'a mut Vec<Said>,
+    pub(crate) said: &'a mut Vec<LaunchLog>,
     /// True if the task has printed output.
     pub(crate) has_printed: bool,
 }
@@ -48,9 +48,9 @@ pub(crate) enum Done {
 }
 
 /// Periodic task.
-pub(crate) trait Hand: Send {
+pub(crate) trait Task: Send {
     /// Processes what is due now.
-    fn work(&mut self, stage: &mut Stage<'_>) -> Done;
+    fn work(&mut self, stage: &mut TaskContext<'_>) -> Done;
 
     /// Adapts deadlines after a jump back in time by this amount \[ns\].
     fn time_went_back(&mut self, _by_ns: i64) {}

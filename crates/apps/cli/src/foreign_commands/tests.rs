@@ -62,7 +62,7 @@ fn becomes(line: &str) -> String {
 }
 
 #[test]
-fn every_old_word_is_understood() {
+fn every_foreign_command_is_translated() {
     let mut page = String::from(
         "# ROS and Gazebo commands\n\nPrefix the ROS or Gazebo command you know with `periplus`; it runs the \
          equivalent and prints it. This page is generated: `UPDATE_EXPECT=1 cargo test -p periplus-cli \

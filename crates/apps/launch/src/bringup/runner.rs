@@ -12,12 +12,12 @@ use periplus_sim::{Search, Simulation};
 
 use crate::bringup::environment;
 use crate::bringup::guard::Guard;
-use crate::bringup::hands::{Changer, Child, Done, Hand, Stage};
-use crate::bringup::make::{Made, make};
-use crate::bringup::parts::{self, Ask, Part, Program, Work, own_folder};
-use crate::bringup::preparation::{self, LONGEST_WAIT_NS};
-use crate::bringup::told::{Became, Kind, Line, Said};
-use crate::bringup::world::WorldWish;
+use crate::bringup::make::{BuiltIn, make};
+use crate::bringup::parts::{self, BuiltInRequest, Part, Program, Work, own_folder};
+use crate::bringup::preparation::{self, MAX_WAIT_NS};
+use crate::bringup::report::{Kind, LaunchLog, Line, Outcome};
+use crate::bringup::tasks::{Child, Done, Task, TaskContext, TransitionTask};
+use crate::bringup::world::WorldRequest;
 use crate::bringup::xacro::xacro;
 
 /// Settings of an execution.
@@ -43,13 +43,13 @@ pub struct Settings {
 pub(crate) enum Event {
     Started(usize),
     Ended(usize),
-    Printed(usize),
+    ProgramOutput(usize),
     Reached { step: usize, from: String, to: String },
     Shutdown,
 }
 
 /// State of a part.
-struct Waiting {
+struct PartState {
     part: Part,
     /// Number of triggers that have occurred.
     come: usize,
@@ -60,15 +60,15 @@ struct Waiting {
     is_begun: bool,
 }
 
-/// Execution of a plan on a graph. The caller calls [`Bringup::work`] periodically.
-pub struct Bringup {
-    waiting: Vec<Waiting>,
+/// Execution of a plan on a graph. The caller calls [`LaunchRunner::work`] periodically.
+pub struct LaunchRunner {
+    waiting: Vec<PartState>,
     events: Vec<Event>,
-    hands: Vec<(usize, Box<dyn Hand>)>,
+    tasks: Vec<(usize, Box<dyn Task>)>,
     kept: Vec<Box<dyn Any + Send>>,
     watched: Vec<(usize, Mailbox<TransitionEvent>)>,
     lines: Vec<Line>,
-    said: Vec<Said>,
+    said: Vec<LaunchLog>,
     settings: Settings,
     /// Names of nodes without a built-in replacement.
     lacking: Vec<String>,
@@ -80,11 +80,11 @@ pub struct Bringup {
     last_ns: i64,
 }
 
-impl Bringup {
+impl LaunchRunner {
     /// Prepares a plan.
     #[must_use]
     pub fn new(plan: &Plan, settings: Settings) -> Self {
-        let waiting = parts::of_plan(plan).into_iter().map(|part| Waiting {
+        let waiting = parts::parts_of_plan(plan).into_iter().map(|part| PartState {
             part,
             come: 0,
             cursor: 0,
@@ -94,7 +94,7 @@ impl Bringup {
         let mut bringup = Self {
             waiting: waiting.collect(),
             events: Vec::new(),
-            hands: Vec::new(),
+            tasks: Vec::new(),
             kept: Vec::new(),
             watched: Vec::new(),
             lines: Vec::new(),
@@ -122,7 +122,7 @@ impl Bringup {
 
     /// World to simulate, if any; of several the first with a file.
     #[must_use]
-    pub fn world(&self) -> Option<&WorldWish> {
+    pub fn world(&self) -> Option<&WorldRequest> {
         match &self.waiting[self.world_part()?].part.work {
             Work::World(wish) => Some(wish),
             _ => None,
@@ -173,14 +173,14 @@ impl Bringup {
         while self.begin_some(graph, wall_ns, &is_wanted) {}
         self.work_hands(graph, wall_ns, None);
         while self.begin_some(graph, wall_ns, &is_wanted) {}
-        let runs = self.hands.iter().any(|(part, _)| is_wanted(*part));
+        let runs = self.tasks.iter().any(|(part, _)| is_wanted(*part));
         let may_come = wanted.iter().any(|index| {
             let waiting = &self.waiting[*index];
             let next = waiting.part.after.get(waiting.come);
             !waiting.is_begun && matches!(next, Some(Trigger::Seconds(_)))
         });
         let has_file = self.world_file().is_some_and(|file| Machine.kind(&file).is_some());
-        let is_ready = !(runs || may_come) || (has_file && wall_ns > LONGEST_WAIT_NS);
+        let is_ready = !(runs || may_come) || (has_file && wall_ns > MAX_WAIT_NS);
         if is_ready {
             // From here on the time is simulated.
             self.waiting.iter_mut().for_each(|waiting| waiting.since_ns = 0);
@@ -215,7 +215,7 @@ impl Bringup {
     /// RViz files of the plan.
     #[must_use]
     pub fn views(&self) -> Vec<PathBuf> {
-        let path = |ask: &Ask| {
+        let path = |ask: &BuiltInRequest| {
             let file = option_of_viewer(ask, "d", "display-config")?;
             let folder = &self.settings.search.working_folder;
             Some(folder.join(ask.path(folder, file)))
@@ -235,7 +235,7 @@ impl Bringup {
     #[must_use]
     pub fn follows_clock(&self) -> bool {
         let mut notes = Vec::new();
-        let wants = |ask: &Ask, notes: &mut Vec<String>| {
+        let wants = |ask: &BuiltInRequest, notes: &mut Vec<String>| {
             let named = crate::bringup::make::parameters(ask, notes);
             crate::bringup::parameters::truth_of(&named, "use_sim_time") == Some(true)
         };
@@ -246,7 +246,7 @@ impl Bringup {
         self.asks().any(|(_, ask)| ask.entry.role == role)
     }
 
-    fn asks(&self) -> impl Iterator<Item = (usize, &Ask)> {
+    fn asks(&self) -> impl Iterator<Item = (usize, &BuiltInRequest)> {
         self.waiting.iter().filter_map(|waiting| match &waiting.part.work {
             Work::Ours(ask) => Some((waiting.part.step, &**ask)),
             _ => None,
@@ -260,7 +260,7 @@ impl Bringup {
     }
 
     /// Returns the log messages since the last call.
-    pub fn take_said(&mut self) -> Vec<Said> {
+    pub fn take_log(&mut self) -> Vec<LaunchLog> {
         std::mem::take(&mut self.said)
     }
 
@@ -273,11 +273,11 @@ impl Bringup {
     /// Returns true if nothing runs, and nothing will start.
     #[must_use]
     pub fn is_idle(&self) -> bool {
-        let waits = |waiting: &Waiting| {
+        let waits = |waiting: &PartState| {
             let timed = |trigger: &Trigger| matches!(trigger, Trigger::Seconds(_));
             !waiting.is_begun && waiting.part.after.get(waiting.come).is_none_or(timed)
         };
-        self.hands.is_empty() && self.kept.is_empty() && !self.waiting.iter().any(waits)
+        self.tasks.is_empty() && self.kept.is_empty() && !self.waiting.iter().any(waits)
     }
 
     /// Processes everything due at this time \[ns\].
@@ -286,7 +286,7 @@ impl Bringup {
             // After a reset of the world, timers of the launch continue.
             let back_ns = self.last_ns - now_ns;
             self.waiting.iter_mut().for_each(|waiting| waiting.since_ns -= back_ns);
-            self.hands.iter_mut().for_each(|(_, hand)| hand.time_went_back(back_ns));
+            self.tasks.iter_mut().for_each(|(_, hand)| hand.time_went_back(back_ns));
         }
         self.last_ns = now_ns;
         self.hear();
@@ -298,8 +298,8 @@ impl Bringup {
 
     fn work_hands(&mut self, graph: &Graph, now_ns: i64, mut simulation: Option<&mut Simulation>) {
         let mut ended = Vec::new();
-        for (part, hand) in &mut self.hands {
-            let mut stage = Stage {
+        for (part, hand) in &mut self.tasks {
+            let mut stage = TaskContext {
                 graph,
                 now_ns,
                 simulation: simulation.as_deref_mut(),
@@ -310,13 +310,13 @@ impl Bringup {
             let done = hand.work(&mut stage);
             let step = self.waiting[*part].part.step;
             if stage.has_printed {
-                self.events.push(Event::Printed(step));
+                self.events.push(Event::ProgramOutput(step));
             }
             if done == Done::Yes {
                 ended.push(*part);
             }
         }
-        self.hands.retain(|(part, _)| !ended.contains(part));
+        self.tasks.retain(|(part, _)| !ended.contains(part));
         for part in ended {
             self.end(part);
         }
@@ -327,9 +327,9 @@ impl Bringup {
         self.events.push(Event::Shutdown);
         while self.begin(graph, now_ns) {}
         // All are asked first, so that they end in parallel.
-        self.hands.iter_mut().for_each(|(_, hand)| hand.ask_to_stop());
-        self.hands.iter_mut().for_each(|(_, hand)| hand.stop());
-        self.hands.clear();
+        self.tasks.iter_mut().for_each(|(_, hand)| hand.ask_to_stop());
+        self.tasks.iter_mut().for_each(|(_, hand)| hand.stop());
+        self.tasks.clear();
     }
 
     fn end(&mut self, part: usize) {
@@ -337,7 +337,7 @@ impl Bringup {
         self.events.push(Event::Ended(part.step));
         if part.is_required {
             let text = format!("`{}` has ended and is required: shutting down", part.asked);
-            self.said.push(Said::warning(text));
+            self.said.push(LaunchLog::warning(text));
             self.is_over = true;
         }
     }
@@ -405,7 +405,7 @@ impl Bringup {
         match &part.work {
             Work::World(wish) => {
                 let file = wish.file.as_deref().unwrap_or("an empty plane");
-                self.became(&part, Kind::World, None, format!("the simulation of {file}"));
+                self.outcome(&part, Kind::World, None, format!("the simulation of {file}"));
                 self.kept.push(Box::new(()));
             }
             Work::Ours(ask) => {
@@ -415,12 +415,13 @@ impl Bringup {
             Work::Xacro(program) => self.xacro(index, &part, program),
             Work::Program(program) => match Child::start(program, &self.settings, &self.guard) {
                 Ok(child) => {
-                    self.became(&part, Kind::Program, None, child.told());
-                    self.hands.push((index, Box::new(child)));
+                    self.outcome(&part, Kind::Program, None, child.told());
+                    self.tasks.push((index, Box::new(child)));
                 }
                 Err(why) => {
-                    self.said.push(Said::error(format!("`{}` does not run: {why}", part.asked)));
-                    self.became(&part, Kind::Missing, None, why);
+                    self.said
+                        .push(LaunchLog::error(format!("`{}` does not run: {why}", part.asked)));
+                    self.outcome(&part, Kind::Missing, None, why);
                     self.end(index);
                 }
             },
@@ -431,26 +432,26 @@ impl Bringup {
                     .map(|(_, ask)| ask.full_name())
                     .collect();
                 for name in targets {
-                    match Changer::new(graph, &name, transition) {
-                        Ok(changer) => self.hands.push((index, Box::new(changer))),
-                        Err(why) => self.said.push(Said::error(why)),
+                    match TransitionTask::new(graph, &name, transition) {
+                        Ok(changer) => self.tasks.push((index, Box::new(changer))),
+                        Err(why) => self.said.push(LaunchLog::error(why)),
                     }
                 }
             }
             Work::Log { level, text } => {
                 let level = periplus_graph::Level::named(level);
                 let level = level.unwrap_or(periplus_graph::Level::Info);
-                self.said.push(Said { level, text: text.clone() });
+                self.said.push(LaunchLog { level, text: text.clone() });
             }
             Work::Shutdown { reason } => {
                 let reason =
                     if reason.is_empty() { "requested by the launch file" } else { reason };
-                self.said.push(Said::info(format!("shutdown: {reason}")));
+                self.said.push(LaunchLog::info(format!("shutdown: {reason}")));
                 self.is_over = true;
             }
             Work::Nothing(why) => {
-                self.said.push(Said::warning(why.clone()));
-                self.became(&part, Kind::Missing, None, why.clone());
+                self.said.push(LaunchLog::warning(why.clone()));
+                self.outcome(&part, Kind::Missing, None, why.clone());
             }
         }
     }
@@ -468,50 +469,56 @@ impl Bringup {
         let (kind, told) = match xacro(&program.words[1..], &setting) {
             Ok(ran) if ran.is_success => {
                 if let Some(text) = Some(ran.output).filter(|text| !text.is_empty()) {
-                    self.said.push(Said::info(text));
-                    self.events.push(Event::Printed(part.step));
+                    self.said.push(LaunchLog::info(text));
+                    self.events.push(Event::ProgramOutput(part.step));
                 }
                 let file = ran.file.map(|file| format!(" writes {}", file.display()));
                 (Kind::BuiltIn, format!("the built-in xacro{}", file.unwrap_or_default()))
             }
             Ok(ran) => {
                 let why = ran.errors.trim_end();
-                self.said.push(Said::error(format!("`{}` failed: {why}", part.asked)));
+                self.said.push(LaunchLog::error(format!("`{}` failed: {why}", part.asked)));
                 (Kind::Missing, "xacro could not expand its file".to_owned())
             }
             Err(why) => {
-                self.said.push(Said::error(format!("`{}` failed: {why}", part.asked)));
+                self.said.push(LaunchLog::error(format!("`{}` failed: {why}", part.asked)));
                 (Kind::Missing, why)
             }
         };
-        self.became(part, kind, None, told);
+        self.outcome(part, kind, None, told);
         self.end(index);
     }
 
-    fn take(&mut self, index: usize, part: &Part, ask: &Ask, made: Result<Made, String>) {
+    fn take(
+        &mut self,
+        index: usize,
+        part: &Part,
+        ask: &BuiltInRequest,
+        made: Result<BuiltIn, String>,
+    ) {
         match made {
             Ok(made) => {
                 for note in made.notes {
-                    self.said.push(Said::warning(format!("`{}`: {note}", part.asked)));
+                    self.said.push(LaunchLog::warning(format!("`{}`: {note}", part.asked)));
                 }
-                self.became(part, made.kind, made.node, made.told);
+                self.outcome(part, made.kind, made.node, made.told);
                 self.kept.extend(made.kept);
-                for hand in made.hands {
-                    self.hands.push((index, hand));
+                for hand in made.tasks {
+                    self.tasks.push((index, hand));
                 }
             }
             Err(why) => {
                 let told = format!("`{}` cannot run: {why}", part.asked);
-                self.said.push(Said::error(told));
-                self.became(part, Kind::Missing, Some(ask.full_name()), why);
+                self.said.push(LaunchLog::error(told));
+                self.outcome(part, Kind::Missing, Some(ask.full_name()), why);
                 self.end(index);
             }
         }
     }
 
-    fn became(&mut self, part: &Part, kind: Kind, node: Option<String>, told: String) {
-        let became = Became { kind, node, told };
-        self.lines.push(Line { step: part.step, asked: part.asked.clone(), became });
+    fn outcome(&mut self, part: &Part, kind: Kind, node: Option<String>, told: String) {
+        let outcome = Outcome { kind, node, told };
+        self.lines.push(Line { step: part.step, asked: part.asked.clone(), outcome });
     }
 }
 
@@ -520,7 +527,7 @@ fn listener(graph: &Graph) -> Result<Node, periplus_graph::GraphError> {
     graph.node(NodeSettings::new("launch_ros").bare().keep_names())
 }
 
-impl Waiting {
+impl PartState {
     /// Returns true if all its triggers have occurred.
     fn is_due(&mut self, events: &[Event], now_ns: i64) -> bool {
         while let Some(trigger) = self.part.after.get(self.come) {
@@ -553,7 +560,7 @@ impl Event {
         match (self, trigger) {
             (Self::Started(step), Trigger::Started(of))
             | (Self::Ended(step), Trigger::Ended(of))
-            | (Self::Printed(step), Trigger::Printed(of)) => same(of, step),
+            | (Self::ProgramOutput(step), Trigger::ProgramOutput(of)) => same(of, step),
             (
                 Self::Reached { step, from, to },
                 Trigger::Reached { step: of, from: wanted_from, to: wanted_to },
@@ -570,7 +577,7 @@ fn nanoseconds(seconds: f64) -> i64 {
 }
 
 /// Value of an RViz option, by its short or long name.
-fn option_of_viewer<'a>(ask: &'a Ask, short: &str, long: &str) -> Option<&'a str> {
+fn option_of_viewer<'a>(ask: &'a BuiltInRequest, short: &str, long: &str) -> Option<&'a str> {
     let words = &ask.told.own;
     let value = || {
         crate::bringup::words::option(words, short)

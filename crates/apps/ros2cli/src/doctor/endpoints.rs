@@ -3,10 +3,10 @@
 use periplus_diagnostics::{Diagnostic, Diagnostics};
 use periplus_graph::Policy;
 
-use super::Picture;
+use super::SystemObservation;
 
-pub(super) fn examine(picture: &Picture, found: &mut Diagnostics) {
-    for topic in &picture.seen.topics {
+pub(super) fn examine(observation: &SystemObservation, found: &mut Diagnostics) {
+    for topic in &observation.seen.topics {
         let name = &topic.name;
         if topic.types.len() > 1 {
             found.push(

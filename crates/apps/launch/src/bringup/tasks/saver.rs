@@ -8,8 +8,8 @@ use periplus_msgs::nav_msgs::OccupancyGrid;
 use periplus_os::{Machine, unix_ns};
 use periplus_resources::Store as _;
 
-use super::{Done, Hand, Stage};
-use crate::bringup::told::Said;
+use super::{Done, Task, TaskContext};
+use crate::bringup::report::LaunchLog;
 
 /// Task that saves one map.
 pub(crate) struct Saver {
@@ -48,12 +48,12 @@ impl Saver {
     }
 }
 
-impl Hand for Saver {
-    fn work(&mut self, stage: &mut Stage<'_>) -> Done {
+impl Task for Saver {
+    fn work(&mut self, stage: &mut TaskContext<'_>) -> Done {
         let Some(map) = self.maps.latest() else { return Done::No };
         stage.said.push(match self.save(&map) {
-            Ok(path) => Said::info(format!("map saved to {path}")),
-            Err(why) => Said::error(format!("the map was not saved: {why}")),
+            Ok(path) => LaunchLog::info(format!("map saved to {path}")),
+            Err(why) => LaunchLog::error(format!("the map was not saved: {why}")),
         });
         Done::Yes
     }

@@ -10,16 +10,16 @@ use crate::{Dialect, Parameters, Running};
 use periplus_os::{Machine, Overlay, Stopwatch, sleep};
 use periplus_resources::{EntryKind, Host as _, Resolver};
 
-use super::{Done, Hand, Stage};
-use crate::bringup::crew::Settings;
+use super::{Done, Task, TaskContext};
 use crate::bringup::environment;
-use crate::bringup::guard::{self, Ending, Guard, own_group};
+use crate::bringup::guard::{self, EndSignal, Guard, own_group};
 use crate::bringup::parameters::parameter;
 use crate::bringup::parts::{Program, own_folder};
-use crate::bringup::told::Said;
+use crate::bringup::report::LaunchLog;
+use crate::bringup::runner::Settings;
 
 /// Time that a program has to end after SIGINT.
-const LAST_WORDS: Duration = Duration::from_secs(5);
+const SHUTDOWN_TIMEOUT: Duration = Duration::from_secs(5);
 
 /// Folders of a package's sources that may contain programs.
 const FOLDERS: [&str; 5] = ["scripts", "nodes", "bin", "src", ""];
@@ -180,23 +180,23 @@ impl Child {
     }
 
     /// Forwards new output.
-    fn pass_on(&self, stage: &mut Stage<'_>) {
+    fn pass_on(&self, stage: &mut TaskContext<'_>) {
         let Some(printed) = &self.printed else { return };
         for line in printed.try_iter() {
             stage.has_printed = true;
-            stage.said.push(Said::info(format!("[{}] {line}", self.name)));
+            stage.said.push(LaunchLog::info(format!("[{}] {line}", self.name)));
         }
     }
 }
 
-impl Hand for Child {
-    fn work(&mut self, stage: &mut Stage<'_>) -> Done {
+impl Task for Child {
+    fn work(&mut self, stage: &mut TaskContext<'_>) -> Done {
         self.pass_on(stage);
         let Some(process) = &mut self.process else {
             if self.respawn_ns.is_some_and(|at_ns| stage.now_ns >= at_ns) {
                 self.respawn_ns = None;
                 if let Err(why) = self.spawn() {
-                    stage.said.push(Said::error(why));
+                    stage.said.push(LaunchLog::error(why));
                     return Done::Yes;
                 }
             }
@@ -206,7 +206,7 @@ impl Hand for Child {
             Ok(None) => return Done::No,
             Ok(Some(status)) => status,
             Err(error) => {
-                stage.said.push(Said::error(format!("[{}] {error}", self.name)));
+                stage.said.push(LaunchLog::error(format!("[{}] {error}", self.name)));
                 return Done::Yes;
             }
         };
@@ -215,7 +215,11 @@ impl Hand for Child {
         sleep(Duration::from_millis(5));
         self.pass_on(stage);
         let text = format!("[{}] has ended: {status}", self.name);
-        stage.said.push(if status.success() { Said::info(text) } else { Said::error(text) });
+        stage.said.push(if status.success() {
+            LaunchLog::info(text)
+        } else {
+            LaunchLog::error(text)
+        });
         self.process = None;
         match self.running.respawn_after_s {
             Some(delay_s) => {
@@ -234,7 +238,7 @@ impl Hand for Child {
 
     fn ask_to_stop(&mut self) {
         if let Some(process) = &self.process {
-            guard::send(process.id(), Ending::Interrupt);
+            guard::send(process.id(), EndSignal::Interrupt);
         }
     }
 
@@ -242,12 +246,12 @@ impl Hand for Child {
         let Some(process) = &mut self.process else { return };
         let group = process.id();
         // SIGINT was sent already; now stronger signals to the whole process group.
-        for ending in [None, Some(Ending::Terminate), Some(Ending::Kill)] {
+        for ending in [None, Some(EndSignal::Terminate), Some(EndSignal::Kill)] {
             if let Some(ending) = ending {
                 guard::send(group, ending);
             }
             let since = Stopwatch::start();
-            while since.elapsed() < LAST_WORDS {
+            while since.elapsed() < SHUTDOWN_TIMEOUT {
                 let has_ended = !matches!(process.try_wait(), Ok(None));
                 if has_ended && ending.is_none() && guard::has_members(group) {
                     // A shell ends on SIGINT, its background processes do not.
@@ -270,7 +274,7 @@ impl Hand for Child {
 impl Drop for Child {
     fn drop(&mut self) {
         if let Some(process) = &mut self.process {
-            guard::send(process.id(), Ending::Kill);
+            guard::send(process.id(), EndSignal::Kill);
             let _ = process.kill();
             let _ = process.wait();
             self.guard.forget(process.id());

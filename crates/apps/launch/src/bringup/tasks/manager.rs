@@ -15,14 +15,14 @@ use periplus_msgs::nav2_msgs::{
 use periplus_msgs::std_msgs;
 use periplus_msgs::std_srvs::{Trigger, TriggerResponse};
 
-use super::bonds::{Bonds, Broken};
+use super::bonds::{Bonds, BrokenBond};
 use super::changer::transition;
 use super::respawn::{Respawn, RespawnStatus, SERVICE_TIMEOUT_NS};
-use super::{Done, Hand, Stage};
-use crate::bringup::told::Said;
+use super::{Done, Task, TaskContext};
+use crate::bringup::report::LaunchLog;
 
 /// Time after which a missing node is logged \[ns\].
-const PATIENCE_NS: i64 = 5_000_000_000;
+const WARNING_DELAY_NS: i64 = 5_000_000_000;
 
 /// Parameters of a lifecycle manager, as named by Nav2; times in seconds.
 pub(crate) struct ManagerSettings {
@@ -136,13 +136,13 @@ impl Manager {
         true
     }
 
-    fn say(&self, stage: &mut Stage<'_>, level: Level, text: &str) {
+    fn say(&self, stage: &mut TaskContext<'_>, level: Level, text: &str) {
         self.node.log(level, text);
-        stage.said.push(Said { level, text: format!("{}: {text}", self.node.full_name()) });
+        stage.said.push(LaunchLog { level, text: format!("{}: {text}", self.node.full_name()) });
     }
 
     /// Processes the queue; returns true on progress.
-    fn go_on(&mut self, stage: &mut Stage<'_>) -> bool {
+    fn process_queue(&mut self, stage: &mut TaskContext<'_>) -> bool {
         let Some((name, label)) = self.to_do.front().cloned() else {
             self.is_hard_reset = false;
             return false;
@@ -200,7 +200,7 @@ impl Manager {
                 self.to_do.pop_front();
                 return true;
             }
-            if stage.now_ns - self.waits_since_ns > PATIENCE_NS && !self.has_complained {
+            if stage.now_ns - self.waits_since_ns > WARNING_DELAY_NS && !self.has_complained {
                 self.has_complained = true;
                 let text = format!("waiting for the services of `{name}`");
                 self.say(stage, Level::Warn, &text);
@@ -218,10 +218,10 @@ impl Manager {
 
 impl Manager {
     /// Resets all nodes when one of them is gone.
-    fn keep_bonds(&mut self, stage: &mut Stage<'_>) {
+    fn keep_bonds(&mut self, stage: &mut TaskContext<'_>) {
         let Some(bonds) = &mut self.bonds else { return };
         let steady_ns = stage.graph.steady_now_ns();
-        let Some(Broken { name, reason, was_formed }) = bonds.keep(steady_ns) else { return };
+        let Some(BrokenBond { name, reason, was_formed }) = bonds.keep(steady_ns) else { return };
         self.say(stage, Level::Error, &format!("{reason}; resetting the other nodes"));
         self.is_hard_reset = true;
         if let Some(respawn) = self.respawn.as_mut().filter(|_| was_formed) {
@@ -242,14 +242,14 @@ impl Manager {
 
 impl Manager {
     /// Restarts the system once all nodes are back.
-    fn await_respawn(&mut self, stage: &mut Stage<'_>) {
+    fn await_respawn(&mut self, stage: &mut TaskContext<'_>) {
         let Some(respawn) = &mut self.respawn else { return };
         if !self.to_do.is_empty() || self.pending.is_some() {
             return;
         }
         match respawn.look(stage.graph.steady_now_ns()) {
             RespawnStatus::Idle => {}
-            RespawnStatus::Waiting => stage.graph.settle(),
+            RespawnStatus::PartState => stage.graph.settle(),
             RespawnStatus::Back(states) => {
                 let text = "all nodes respond again after a bond broke; restarting the system";
                 self.say(stage, Level::Info, text);
@@ -279,12 +279,12 @@ impl Manager {
     }
 }
 
-impl Hand for Manager {
+impl Task for Manager {
     fn time_went_back(&mut self, by_ns: i64) {
         self.waits_since_ns -= by_ns;
     }
 
-    fn work(&mut self, stage: &mut Stage<'_>) -> Done {
+    fn work(&mut self, stage: &mut TaskContext<'_>) -> Done {
         self.keep_bonds(stage);
         while let Some(call) = self.manage.take() {
             let success = self.order(call.request.command);
@@ -293,7 +293,7 @@ impl Hand for Manager {
         while let Some(call) = self.is_active.take() {
             call.answer(TriggerResponse { success: self.is_up, ..TriggerResponse::default() });
         }
-        while self.go_on(stage) {}
+        while self.process_queue(stage) {}
         self.await_respawn(stage);
         if self.is_rising && !self.bonds.as_ref().is_some_and(Bonds::is_forming) {
             (self.is_rising, self.is_up) = (false, true);

@@ -31,17 +31,17 @@ struct Heartbeats {
     timeout_s: f64,
     publisher: Publisher<Status>,
     received: Mailbox<Status>,
-    bonds: BTreeMap<String, Held>,
+    bonds: BTreeMap<String, BondState>,
 }
 
-struct Held {
+struct BondState {
     bond: Bond,
     since_ns: i64,
     was_formed: bool,
 }
 
 /// Bond that broke, or never formed.
-pub(super) struct Broken {
+pub(super) struct BrokenBond {
     pub(super) name: String,
     pub(super) reason: String,
     /// False if the node never responded: it has no bond, and a restart would not change that.
@@ -86,7 +86,7 @@ impl Bonds {
     }
 
     /// Exchanges heartbeats. Returns a bond that broke or did not form.
-    pub(super) fn keep(&mut self, now_ns: i64) -> Option<Broken> {
+    pub(super) fn keep(&mut self, now_ns: i64) -> Option<BrokenBond> {
         let mut heartbeats = lock(&self.heartbeats);
         heartbeats.exchange(now_ns);
         heartbeats.take_broken(now_ns)
@@ -104,7 +104,7 @@ impl Heartbeats {
         let id = name.rsplit('/').next().unwrap_or(name);
         let instance_id = format!("{}:{name}:{now_ns}", self.instance_id);
         let bond = Bond::new(id, &instance_id, settings);
-        self.bonds.insert(name.to_owned(), Held { bond, since_ns: now_ns, was_formed: false });
+        self.bonds.insert(name.to_owned(), BondState { bond, since_ns: now_ns, was_formed: false });
     }
 
     fn end(&mut self, name: &str, now_ns: i64) {
@@ -130,7 +130,7 @@ impl Heartbeats {
         }
     }
 
-    fn take_broken(&mut self, now_ns: i64) -> Option<Broken> {
+    fn take_broken(&mut self, now_ns: i64) -> Option<BrokenBond> {
         let timeout_s = self.timeout_s;
         #[allow(clippy::cast_possible_truncation, reason = "saturates")]
         let forming_ns = (timeout_s / 2.0 * 1e9) as i64;
@@ -147,7 +147,7 @@ impl Heartbeats {
             } else {
                 return None;
             };
-            Some(Broken { name: name.clone(), reason, was_formed: held.was_formed })
+            Some(BrokenBond { name: name.clone(), reason, was_formed: held.was_formed })
         })?;
         self.bonds.remove(&broken.name);
         Some(broken)

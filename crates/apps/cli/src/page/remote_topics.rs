@@ -4,7 +4,7 @@ use periplus_dds::{Remote, RemoteEndpoint};
 use periplus_web::foxglove::{Far, FarEnd, FarService, FarTopic};
 
 /// Converts remote topics; if types differ, the first one counts.
-pub(super) fn far(remote: &Remote) -> Far {
+pub(super) fn remote_topics(remote: &Remote) -> Far {
     let topics = remote.topics.iter().filter_map(|topic| {
         let type_name = topic.type_names.first()?.clone();
         let same = topic.publishers.iter().filter(|end| end.type_name == type_name);

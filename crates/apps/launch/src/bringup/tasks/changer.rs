@@ -3,11 +3,11 @@
 use periplus_graph::{Client, Graph, NodeSettings, Pending};
 use periplus_msgs::lifecycle_msgs::{ChangeState, ChangeStateRequest, Transition};
 
-use super::{Done, Hand, Stage};
-use crate::bringup::told::Said;
+use super::{Done, Task, TaskContext};
+use crate::bringup::report::LaunchLog;
 
 /// Task that requests one transition once the node exists.
-pub(crate) struct Changer {
+pub(crate) struct TransitionTask {
     name: String,
     transition: Transition,
     client: Client<ChangeState>,
@@ -29,7 +29,7 @@ pub(crate) fn transition(label: &str) -> Option<Transition> {
     Some(Transition { id, label: label.to_owned() })
 }
 
-impl Changer {
+impl TransitionTask {
     /// Creates the task for a node by its full name.
     ///
     /// # Errors
@@ -55,8 +55,8 @@ impl Changer {
     }
 }
 
-impl Hand for Changer {
-    fn work(&mut self, stage: &mut Stage<'_>) -> Done {
+impl Task for TransitionTask {
+    fn work(&mut self, stage: &mut TaskContext<'_>) -> Done {
         let Some(pending) = &self.pending else {
             if self.client.is_ready() {
                 let transition = self.transition.clone();
@@ -69,10 +69,10 @@ impl Hand for Changer {
         match answer {
             Ok(answer) if answer.success => {}
             Ok(_) => {
-                stage.said.push(Said::error(format!("{}: `{label}` failed", self.name)));
+                stage.said.push(LaunchLog::error(format!("{}: `{label}` failed", self.name)));
             }
             Err(error) => {
-                stage.said.push(Said::error(format!("{}: `{label}`: {error}", self.name)));
+                stage.said.push(LaunchLog::error(format!("{}: `{label}`: {error}", self.name)));
             }
         }
         Done::Yes

@@ -9,10 +9,11 @@ use periplus_resources::{EntryKind, Host as _};
 use crate::terminal::working_folder;
 
 /// Maximum depth of the search.
-const DEEPEST: usize = 6;
+const MAX_DEPTH: usize = 6;
 
 /// Output folders of colcon, catkin and others, and folders that never contain packages.
-const OTHERS: [&str; 7] = ["build", "install", "log", "devel", "target", "node_modules", "venv"];
+const IGNORED_FOLDERS: [&str; 7] =
+    ["build", "install", "log", "devel", "target", "node_modules", "venv"];
 
 /// Lists the packages under the working folder and on the paths of the environment, one per line.
 pub(super) fn list(out: &mut dyn Write) -> io::Result<()> {
@@ -49,11 +50,11 @@ fn collect(folder: &Path, depth: usize, found: &mut Vec<(String, PathBuf)>) {
         // Packages are not nested.
         return;
     }
-    if depth == DEEPEST {
+    if depth == MAX_DEPTH {
         return;
     }
     for entry in Machine.list(folder) {
-        if entry.starts_with('.') || OTHERS.contains(&entry.as_str()) {
+        if entry.starts_with('.') || IGNORED_FOLDERS.contains(&entry.as_str()) {
             continue;
         }
         let inner = folder.join(&entry);

@@ -7,7 +7,7 @@ use super::{Reading, become_words};
 /// Subcommands of `gz` that are translated.
 const WORDS: [&str; 7] = ["sim", "topic", "service", "model", "sdf", "launch", "gui"];
 
-const AT_ONCE: &str = "it starts running; pause and step it on the page";
+const RUNNING_NOTE: &str = "it starts running; pause and step it on the page";
 
 pub(super) fn read(program: &str, words: &[String]) -> Reading {
     let Some((verb, rest)) = words.split_first() else {
@@ -114,7 +114,7 @@ fn simulate(program: &str, rest: &[String]) -> Reading {
         words.extend(["--gz-types".into(), "ignition".into()]);
     }
     let reading = without(become_words(&["sim"], words), &dropped);
-    if runs { reading } else { reading.noting(AT_ONCE) }
+    if runs { reading } else { reading.noting(RUNNING_NOTE) }
 }
 
 /// `gazebo`, `gzserver` and `gzclient` of Gazebo Classic.

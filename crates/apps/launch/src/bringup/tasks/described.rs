@@ -7,18 +7,18 @@ use periplus_scene::Model;
 use periplus_sim::Search;
 use periplus_sim_nodes::states::{JointStateOptions, JointStateSource};
 
-use super::{Done, Hand, Stage};
-use crate::bringup::told::Said;
+use super::{Done, Task, TaskContext};
+use crate::bringup::report::LaunchLog;
 
 /// `joint_state_publisher` that waits for `robot_description`.
-pub(crate) struct Described {
+pub(crate) struct JointStateTask {
     node: Node,
     options: JointStateOptions,
     descriptions: Mailbox<std_msgs::String>,
     made: Option<JointStateSource>,
 }
 
-impl Described {
+impl JointStateTask {
     /// Waits for the first description.
     ///
     /// # Errors
@@ -30,8 +30,8 @@ impl Described {
     }
 }
 
-impl Hand for Described {
-    fn work(&mut self, stage: &mut Stage<'_>) -> Done {
+impl Task for JointStateTask {
+    fn work(&mut self, stage: &mut TaskContext<'_>) -> Done {
         let Some(description) = self.descriptions.latest() else { return Done::No };
         if self.made.is_some() {
             return Done::No;
@@ -44,7 +44,9 @@ impl Hand for Described {
             Ok(source) => self.made = Some(source),
             Err(why) => {
                 let name = self.node.full_name();
-                stage.said.push(Said::error(format!("{name}: the robot cannot be read: {why}")));
+                stage
+                    .said
+                    .push(LaunchLog::error(format!("{name}: the robot cannot be read: {why}")));
             }
         }
         Done::No

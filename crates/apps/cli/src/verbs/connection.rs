@@ -8,10 +8,10 @@ use periplus_diagnostics::Diagnostics;
 use periplus_graph::Graph;
 use periplus_os::Machine;
 use periplus_resources::Host as _;
-use periplus_ros2cli::{Network, Progress, Seen, SeenEnd, SeenNode, SeenService, SeenTopic};
+use periplus_ros2cli::{Network, Progress, Seen, SeenNode, SeenService, SeenTopic, TopicEndpoint};
 
 /// Network connection and the graph of the command.
-pub(crate) struct Wired {
+pub(crate) struct NetworkConnection {
     // Declared first, so that the network is left before the graph is dropped.
     wire: Wire,
     graph: Graph,
@@ -19,7 +19,7 @@ pub(crate) struct Wired {
     findings: Diagnostics,
 }
 
-impl Wired {
+impl NetworkConnection {
     /// Joins the network that the environment selects.
     ///
     /// # Errors
@@ -40,7 +40,7 @@ impl Wired {
     }
 }
 
-impl Network for Wired {
+impl Network for NetworkConnection {
     fn graph(&self) -> &Graph {
         &self.graph
     }
@@ -72,7 +72,7 @@ impl Network for Wired {
 }
 
 fn seen(remote: &Remote) -> Seen {
-    let end = |end: &RemoteEndpoint| SeenEnd {
+    let end = |end: &RemoteEndpoint| TopicEndpoint {
         node: end.node.clone(),
         type_name: end.type_name.clone(),
         type_hash: end.type_hash.clone(),
