@@ -1,6 +1,5 @@
 //! `--ros-args` of a command line.
 
-use std::io;
 use std::path::Path;
 
 use periplus_diagnostics::{Diagnostics, SourceMap};
@@ -8,14 +7,15 @@ use periplus_graph::Arguments;
 use periplus_os::Machine;
 use periplus_resources::{FileReadError, Host as _};
 
+use crate::error::CliError;
 use crate::terminal;
 
-/// Reads the words of `--ros-args`; prints the findings and returns `None` when one is an error.
-pub(crate) fn read(words: Vec<String>) -> io::Result<Option<Arguments>> {
+/// Reads the words of `--ros-args` and prints the findings; an error is wrong usage.
+pub(crate) fn read(words: Vec<String>) -> Result<Arguments, CliError> {
     let (mut sources, mut diagnostics) = (SourceMap::new(), Diagnostics::new());
     let arguments = Arguments::read(&words, &mut sources, &mut diagnostics, &mut text);
     terminal::diagnostics(&mut anstream::stderr().lock(), &diagnostics, &sources)?;
-    Ok((!diagnostics.has_errors()).then_some(arguments))
+    if diagnostics.has_errors() { Err(CliError::Reported(2)) } else { Ok(arguments) }
 }
 
 fn text(path: &Path) -> Result<String, String> {

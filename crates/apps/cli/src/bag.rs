@@ -18,11 +18,12 @@ use std::process::ExitCode;
 use periplus_bags::files::Bag;
 use periplus_diagnostics::{Diagnostics, SourceMap};
 
+use crate::error::CliError;
 use crate::{paths, terminal};
 
 pub(crate) use options::BagCommand;
 
-pub(crate) fn run(command: &BagCommand) -> io::Result<ExitCode> {
+pub(crate) fn run(command: &BagCommand) -> Result<ExitCode, CliError> {
     match command {
         BagCommand::Info(options) => info::run(options),
         BagCommand::Convert(options) => convert::run(options),
@@ -34,17 +35,22 @@ pub(crate) fn run(command: &BagCommand) -> io::Result<ExitCode> {
     }
 }
 
-/// Opens a recording and prints its findings; `None` when it cannot be opened.
-fn open(path: &Path) -> io::Result<Option<Bag>> {
-    match paths::bag(path) {
-        Ok(bag) => {
-            tell(bag.findings())?;
-            Ok(Some(bag))
-        }
-        Err(error) => {
-            terminal::complain(&error);
+/// Opens a recording and prints its findings.
+fn open(path: &Path) -> Result<Bag, CliError> {
+    let bag = paths::bag(path)?;
+    tell(bag.findings())?;
+    Ok(bag)
+}
+
+/// Opens one of several recordings; prints the error and returns `None` if it cannot be opened.
+fn try_open(path: &Path) -> Result<Option<Bag>, CliError> {
+    match open(path) {
+        Ok(bag) => Ok(Some(bag)),
+        Err(CliError::Failed(message)) => {
+            terminal::complain(&message);
             Ok(None)
         }
+        Err(error) => Err(error),
     }
 }
 

@@ -19,6 +19,7 @@ use periplus_msgs::rcl_interfaces::ParameterValue;
 use periplus_os::{Machine, sleep};
 
 use crate::arguments;
+use crate::error::CliError;
 use crate::live::Live;
 use crate::stop;
 use crate::terminal;
@@ -79,12 +80,15 @@ impl BridgeParameters {
     }
 }
 
-pub(crate) fn run(options: &BridgeOptions, ros: Vec<String>) -> io::Result<ExitCode> {
+pub(crate) fn run(options: &BridgeOptions, ros: Vec<String>) -> Result<ExitCode, CliError> {
     let words = options.remaps.iter().flat_map(|rule| ["-r".to_owned(), rule.clone()]);
     let parameters = options.parameters.iter().flat_map(|one| ["-p".to_owned(), one.clone()]);
-    let Some(arguments) = arguments::read(words.chain(parameters).chain(ros).collect())? else {
-        return Ok(ExitCode::from(USAGE_EXIT_CODE));
-    };
+    let arguments = arguments::read(words.chain(parameters).chain(ros).collect()).map_err(
+        |error| match error {
+            CliError::Reported(_) => CliError::Reported(USAGE_EXIT_CODE),
+            error => error,
+        },
+    )?;
     let mut specs = Vec::new();
     for word in &options.words {
         match Spec::read(word) {
@@ -92,7 +96,7 @@ pub(crate) fn run(options: &BridgeOptions, ros: Vec<String>) -> io::Result<ExitC
             Err(why) => {
                 terminal::complain(&format!("`{word}`: {why}"));
                 terminal::say("see `periplus bridge --help`");
-                return Ok(ExitCode::from(USAGE_EXIT_CODE));
+                return Err(CliError::Reported(USAGE_EXIT_CODE));
             }
         }
     }
@@ -105,13 +109,7 @@ pub(crate) fn run(options: &BridgeOptions, ros: Vec<String>) -> io::Result<ExitC
         let transport = Transport::open(&settings).map_err(|error| error.to_string())?;
         Ok((live, node, Arc::new(transport)))
     });
-    let (live, node, transport) = match opened {
-        Ok(opened) => opened,
-        Err(words) => {
-            terminal::complain(&words);
-            return Ok(ExitCode::FAILURE);
-        }
-    };
+    let (live, node, transport) = opened.map_err(CliError::failed)?;
     let told = BridgeParameters::of(options, &arguments, &node);
     let mut pairs = Vec::new();
     let mut services = Services::new(&node, &transport);
@@ -121,7 +119,7 @@ pub(crate) fn run(options: &BridgeOptions, ros: Vec<String>) -> io::Result<ExitC
             Spec::Service(service) => {
                 if let Err(why) = services.offer(&service) {
                     terminal::complain(&why);
-                    return Ok(ExitCode::from(USAGE_EXIT_CODE));
+                    return Err(CliError::Reported(USAGE_EXIT_CODE));
                 }
             }
         }
@@ -133,8 +131,7 @@ pub(crate) fn run(options: &BridgeOptions, ros: Vec<String>) -> io::Result<ExitC
                 pairs.extend(read);
             }
             Err(why) => {
-                terminal::complain(&why);
-                return Ok(ExitCode::FAILURE);
+                return Err(CliError::failed(why));
             }
         }
     }
@@ -143,7 +140,7 @@ pub(crate) fn run(options: &BridgeOptions, ros: Vec<String>) -> io::Result<ExitC
             "nothing to bridge; name a topic such as \
              /lidar@sensor_msgs/msg/LaserScan[gz.msgs.LaserScan, or a file with --config",
         );
-        return Ok(ExitCode::from(USAGE_EXIT_CODE));
+        return Err(CliError::Reported(USAGE_EXIT_CODE));
     }
     let link = Link::new(&live.graph, &transport);
     for mut pair in pairs {

@@ -8,16 +8,18 @@ use periplus_diagnostics::{Diagnostic, Diagnostics, Severity, SourceMap, to_json
 use periplus_loader::{FileFormat, LoadedFile, describe, load, summarise};
 use serde_json::{Value, json};
 
+use crate::error::CliError;
 use crate::options::{CheckOptions, split};
 use crate::terminal::{self, counts, with_setting};
 
 const BOLD: clap::builder::styling::Style = clap::builder::styling::Style::new().bold();
 
-pub(crate) fn run(options: &CheckOptions) -> io::Result<ExitCode> {
+pub(crate) fn run(options: &CheckOptions) -> Result<ExitCode, CliError> {
     let (files, arguments) = split(&options.words);
     if files.is_empty() {
-        terminal::complain("no file is given, only `name:=value`; see `periplus check --help`");
-        return Ok(ExitCode::from(2));
+        return Err(CliError::usage(
+            "no file is given, only `name:=value`; see `periplus check --help`",
+        ));
     }
     let mut out = anstream::AutoStream::auto(io::stdout().lock());
     with_setting(&options.search.resource_path, arguments, |setting| {

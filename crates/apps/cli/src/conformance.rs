@@ -8,6 +8,7 @@ use clap::Args;
 use periplus_conformance::run as run_cases;
 use periplus_os::Machine;
 
+use crate::error::CliError;
 use crate::terminal::complain;
 
 /// Run conformance cases: files that describe the behaviour of ROS programs
@@ -24,14 +25,8 @@ pub(crate) struct ConformanceOptions {
     json: bool,
 }
 
-pub(crate) fn run(options: &ConformanceOptions) -> io::Result<ExitCode> {
-    let report = match run_cases(&options.path, &Machine) {
-        Ok(report) => report,
-        Err(error) => {
-            complain(&error.to_string());
-            return Ok(ExitCode::FAILURE);
-        }
-    };
+pub(crate) fn run(options: &ConformanceOptions) -> Result<ExitCode, CliError> {
+    let report = run_cases(&options.path, &Machine).map_err(CliError::failed)?;
     let text = if options.json { format!("{:#}\n", report.to_json()) } else { report.to_text() };
     io::stdout().lock().write_all(text.as_bytes())?;
     Ok(if report.is_passed() { ExitCode::SUCCESS } else { ExitCode::FAILURE })

@@ -10,15 +10,15 @@ use periplus_maps::Distro;
 use periplus_scene::Scene;
 use periplus_xml::write_document;
 
+use crate::error::CliError;
 use crate::options::{ConvertOptions, Format, split};
 use crate::paths;
 use crate::terminal::{self, with_setting, working_folder};
 
-pub(crate) fn run(options: &ConvertOptions) -> io::Result<ExitCode> {
+pub(crate) fn run(options: &ConvertOptions) -> Result<ExitCode, CliError> {
     let (files, arguments) = split(&options.words);
     let [file] = files.as_slice() else {
-        terminal::complain("convert takes one file; see `periplus convert --help`");
-        return Ok(ExitCode::from(2));
+        return Err(CliError::usage("convert takes one file; see `periplus convert --help`"));
     };
     let mut loaded =
         with_setting(&options.search.resource_path, arguments, |setting| load(file, setting));
@@ -28,8 +28,7 @@ pub(crate) fn run(options: &ConvertOptions) -> io::Result<ExitCode> {
         }) {
             Ok(world) => world,
             Err(why) => {
-                terminal::complain(&why);
-                return Ok(ExitCode::from(2));
+                return Err(CliError::usage(why));
             }
         };
     }
@@ -50,14 +49,12 @@ pub(crate) fn run(options: &ConvertOptions) -> io::Result<ExitCode> {
     let text = if may_write(&loaded) { convert(&mut loaded, options.to) } else { None };
     terminal::findings(&mut anstream::stderr().lock(), &loaded)?;
     let Some(text) = text.filter(|_| may_write(&loaded)) else {
-        terminal::complain(&format!("{} is not converted", file.display()));
-        return Ok(ExitCode::FAILURE);
+        return Err(CliError::failed(format!("{} is not converted", file.display())));
     };
     match &options.output {
         Some(path) => {
             if let Err(why) = paths::write(path, text.as_bytes()) {
-                terminal::complain(&why);
-                return Ok(ExitCode::FAILURE);
+                return Err(CliError::failed(why));
             }
         }
         None => {

@@ -15,6 +15,7 @@ use periplus_images::{Layout, write_png};
 use periplus_maps::palette::{Scheme, paint};
 use periplus_nav_nodes::costmap_2d::{CostmapNode, VoxelMarkers};
 
+use crate::error::CliError;
 use crate::terminal;
 use file::{File, read, read_text};
 
@@ -63,25 +64,23 @@ pub(crate) struct Costmaps {
 }
 
 impl Costmaps {
-    /// Adds the costmap nodes to a graph, if requested; `None` when they have errors, which are
-    /// printed. `usual` are the parameters used when no file is given.
+    /// Adds the costmap nodes to a graph, if requested. `usual` are the parameters used when no
+    /// file is given.
     pub(crate) fn join(
         graph: &Graph,
         options: &CostmapOptions,
         usual: Option<&str>,
-    ) -> io::Result<Option<Self>> {
+    ) -> Result<Self, CliError> {
         let Some(path) = &options.costmap else {
             return match usual {
                 Some(text) => Self::of_text(graph, "the default costmaps", text, None),
-                None => Ok(Some(Self::default())),
+                None => Ok(Self::default()),
             };
         };
-        let Some(costmaps) = Self::of_file(graph, path, options.costmap_compat)? else {
-            return Ok(None);
-        };
+        let costmaps = Self::of_file(graph, path, options.costmap_compat)?;
         costmaps.start();
         let (cells, pictures) = (options.costmap_cell.clone(), options.costmap_picture.clone());
-        Ok(Some(Self { cells, pictures, ..costmaps }))
+        Ok(Self { cells, pictures, ..costmaps })
     }
 
     /// Creates the costmaps of a file, not yet configured.
@@ -89,7 +88,7 @@ impl Costmaps {
         graph: &Graph,
         path: &Path,
         compat: Option<Nav2Release>,
-    ) -> io::Result<Option<Self>> {
+    ) -> Result<Self, CliError> {
         Self::of_read(graph, read(path, compat))
     }
 
@@ -100,40 +99,26 @@ impl Costmaps {
         name: &str,
         text: &str,
         pictures: Option<PathBuf>,
-    ) -> io::Result<Option<Self>> {
+    ) -> Result<Self, CliError> {
         let costmaps = Self::of_read(graph, read_text(name, text.to_owned(), None))?;
-        if let Some(costmaps) = &costmaps {
-            costmaps.start();
-        }
-        Ok(costmaps.map(|costmaps| Self { pictures, ..costmaps }))
+        costmaps.start();
+        Ok(Self { pictures, ..costmaps })
     }
 
-    fn of_read(graph: &Graph, read: Result<File, String>) -> io::Result<Option<Self>> {
-        let file = match read {
-            Ok(file) => file,
-            Err(why) => {
-                terminal::complain(&why);
-                return Ok(None);
-            }
-        };
+    fn of_read(graph: &Graph, read: Result<File, String>) -> Result<Self, CliError> {
+        let file = read?;
         terminal::diagnostics(&mut anstream::stderr().lock(), &file.diagnostics, &file.sources)?;
         let mut costmaps = Self::default();
         for (name, config) in file.configs {
             let made = CostmapNode::new(graph, name, config)
                 .and_then(|node| Ok((node, VoxelMarkers::new(graph, &format!("/{name}"))?)));
-            match made {
-                Ok((node, markers)) => {
-                    node.name_lines_of(file.sources.clone());
-                    costmaps.nodes.push(node);
-                    costmaps._markers.push(markers);
-                }
-                Err(error) => {
-                    terminal::complain(&format!("{name} cannot run: {error}"));
-                    return Ok(None);
-                }
-            }
+            let (node, markers) =
+                made.map_err(|error| CliError::failed(format!("{name} cannot run: {error}")))?;
+            node.name_lines_of(file.sources.clone());
+            costmaps.nodes.push(node);
+            costmaps._markers.push(markers);
         }
-        Ok(Some(costmaps))
+        Ok(costmaps)
     }
 
     /// Returns true if one of them uses `/clock`.

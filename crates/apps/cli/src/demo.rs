@@ -21,6 +21,7 @@ use periplus_sim::{
 };
 
 use crate::costmap::Costmaps;
+use crate::error::CliError;
 use crate::mapping::Mapping;
 use crate::page::{About, PORT, Page, PageOptions};
 use crate::stop;
@@ -88,17 +89,7 @@ impl DemoOptions {
     }
 }
 
-pub(crate) fn run(options: &DemoOptions) -> io::Result<ExitCode> {
-    match show(options) {
-        Ok(code) => Ok(code),
-        Err(why) => {
-            terminal::complain(&why);
-            Ok(ExitCode::FAILURE)
-        }
-    }
-}
-
-fn show(options: &DemoOptions) -> Result<ExitCode, String> {
+pub(crate) fn run(options: &DemoOptions) -> Result<ExitCode, CliError> {
     let start = Stopwatch::start();
     let words = |error: &dyn std::fmt::Display| error.to_string();
     let mut composition = stage::composition();
@@ -117,11 +108,8 @@ fn show(options: &DemoOptions) -> Result<ExitCode, String> {
     let (program, values) = stage::mapping();
     let pace = if options.headless { Pace::Whole } else { Pace::Sliced };
     let node = graph.node(NodeSettings::new(program.node_name()));
-    let mapping = Mapping::new(node, program, values, pace, out.as_deref());
-    let mapping = mapping.map_err(|()| "the mapping node could not start".to_owned())?;
-    let costmaps = Costmaps::of_text(&graph, "costmaps.yaml", stage::COSTMAPS, out.clone());
-    let costmaps =
-        costmaps.map_err(|error| words(&error))?.ok_or("the costmaps could not start")?;
+    let mapping = Mapping::new(node, program, values, pace, out.as_deref())?;
+    let costmaps = Costmaps::of_text(&graph, "costmaps.yaml", stage::COSTMAPS, out.clone())?;
     let drives = options.headless || options.explore;
     let mut explorer =
         drives.then(|| Explorer::join(&graph)).transpose().map_err(|error| words(&error))?;

@@ -16,6 +16,7 @@ use periplus_ros2cli::doctor::{examine, listen};
 use serde_json::json;
 
 use crate::costmap::doctor::DoctorCostmapOptions;
+use crate::error::CliError;
 use crate::options::SearchOptions;
 use crate::sim::Robots;
 use crate::terminal;
@@ -51,7 +52,7 @@ enum DoctorCommand {
     Costmap(DoctorCostmapOptions),
 }
 
-pub(crate) fn run(options: &DoctorOptions) -> io::Result<ExitCode> {
+pub(crate) fn run(options: &DoctorOptions) -> Result<ExitCode, CliError> {
     if let Some(DoctorCommand::Costmap(options)) = &options.command {
         return crate::costmap::doctor::run(options);
     }
@@ -93,7 +94,11 @@ fn every_finding_is_counted_by_its_kind() {
 }
 
 /// Prints findings; the exit code is 1 when there are warnings or errors.
-fn tell(found: &[(Diagnostics, SourceMap)], what: &str, is_json: bool) -> io::Result<ExitCode> {
+fn tell(
+    found: &[(Diagnostics, SourceMap)],
+    what: &str,
+    is_json: bool,
+) -> Result<ExitCode, CliError> {
     let all =
         || found.iter().flat_map(|(found, sources)| found.iter().map(move |it| (it, sources)));
     let is_serious = |(finding, _): (&Diagnostic, &SourceMap)| finding.severity != Severity::Hint;

@@ -24,6 +24,7 @@ use self::named::Found;
 use self::tools::Tools;
 pub(crate) use self::tools::{XACRO_VERB, run_xacro};
 use crate::arguments;
+use crate::error::CliError;
 use crate::options::{SearchOptions, split};
 use crate::sim::positive;
 use crate::terminal::{self, working_folder};
@@ -58,11 +59,9 @@ pub(crate) struct LaunchOptions {
     search: SearchOptions,
 }
 
-pub(crate) fn run(options: &LaunchOptions, ros: Vec<String>) -> io::Result<ExitCode> {
+pub(crate) fn run(options: &LaunchOptions, ros: Vec<String>) -> Result<ExitCode, CliError> {
     let start = Stopwatch::start();
-    let Some(to_nodes) = arguments::read(ros)? else {
-        return Ok(ExitCode::from(2));
-    };
+    let to_nodes = arguments::read(ros)?;
     let (words, arguments) = split(&options.words);
     let host = Machine;
     let here = working_folder();
@@ -136,13 +135,12 @@ pub(crate) fn run(options: &LaunchOptions, ros: Vec<String>) -> io::Result<ExitC
     if missing > 0 {
         // As with ROS: without its description or parameters a robot or node would run in a
         // different configuration than intended.
-        terminal::complain(&format!(
+        return Err(CliError::failed(format!(
             "the launch was not started: {missing} of its inputs {} not on this machine; `--print` \
              shows the plan without {}",
             if missing == 1 { "is" } else { "are" },
             if missing == 1 { "it" } else { "them" },
-        ));
-        return Ok(ExitCode::FAILURE);
+        )));
     }
     let launched = play::Launched {
         plan,

@@ -11,6 +11,7 @@ use periplus_diagnostics::plain_words;
 use periplus_geometry::Pose2;
 use periplus_slam::Scan;
 
+use crate::error::CliError;
 use crate::paths;
 
 /// Selection of topics and frames of a log.
@@ -53,8 +54,8 @@ pub(crate) struct Log {
 }
 
 impl Log {
-    /// Reads a log; a message if it cannot be read.
-    pub(crate) fn open(path: &Path, options: &LogOptions) -> io::Result<Result<Self, String>> {
+    /// Reads a log and prints the findings.
+    pub(crate) fn open(path: &Path, options: &LogOptions) -> Result<Self, CliError> {
         let is_recording = path.is_dir()
             || path.extension().is_some_and(|it| {
                 ["bag", "mcap", "db3", "zstd"].iter().any(|other| it.eq_ignore_ascii_case(other))
@@ -62,18 +63,15 @@ impl Log {
         if is_recording {
             return bag::read(path, options);
         }
-        let mut text = match paths::reader(path) {
-            Ok(text) => text,
-            Err(why) => return Ok(Err(why)),
-        };
+        let mut text = paths::reader(path)?;
         let log = match text.fill_buf() {
             Ok(head) if !is_carmen(head) => return bag::read(path, options),
             Ok(_) => read_carmen_from(&mut text),
             Err(error) => Err(error),
         };
-        Ok(log
-            .map(carmen)
-            .map_err(|error| format!("cannot read {}: {}", path.display(), plain_words(&error))))
+        log.map(carmen).map_err(|error| {
+            CliError::failed(format!("cannot read {}: {}", path.display(), plain_words(&error)))
+        })
     }
 
     /// Time from the first scan to the last \[s\].

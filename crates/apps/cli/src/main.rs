@@ -9,6 +9,7 @@ mod convert;
 mod costmap;
 mod demo;
 mod doctor;
+mod error;
 mod foreign_commands;
 mod help;
 mod launch;
@@ -43,8 +44,10 @@ use periplus_launch::bringup::{GUARD_VERB, guard};
 use demo::DemoOptions;
 use options::Command;
 
+use crate::error::CliError;
+
 /// Prints the completion script in one write, so that a closed pipe is an error that [`main`] handles.
-fn completions(shell: clap_complete::Shell) -> std::io::Result<ExitCode> {
+fn completions(shell: clap_complete::Shell) -> Result<ExitCode, CliError> {
     let mut script = Vec::new();
     clap_complete::generate(shell, &mut help::command(), "periplus", &mut script);
     std::io::stdout().lock().write_all(&script)?;
@@ -52,28 +55,19 @@ fn completions(shell: clap_complete::Shell) -> std::io::Result<ExitCode> {
 }
 
 /// Prints the manual page of the program, or writes those of all its commands to a folder.
-fn manual(folder: Option<&Path>) -> std::io::Result<ExitCode> {
+fn manual(folder: Option<&Path>) -> Result<ExitCode, CliError> {
     let command = help::command();
     if let Some(folder) = folder {
-        let written = paths::make_folder(folder).and_then(|()| {
-            clap_mangen::generate_to(command, folder).map_err(|error| {
-                format!("cannot write to {}: {}", folder.display(), plain_words(&error))
-            })
-        });
-        return Ok(match written {
-            Ok(()) => {
-                terminal::say(&format!(
-                    "the manual pages are in {}: `man -l {}`",
-                    folder.display(),
-                    folder.join("periplus.1").display()
-                ));
-                ExitCode::SUCCESS
-            }
-            Err(why) => {
-                terminal::complain(&why);
-                ExitCode::FAILURE
-            }
-        });
+        paths::make_folder(folder)?;
+        clap_mangen::generate_to(command, folder).map_err(|error| {
+            format!("cannot write to {}: {}", folder.display(), plain_words(&error))
+        })?;
+        terminal::say(&format!(
+            "the manual pages are in {}: `man -l {}`",
+            folder.display(),
+            folder.join("periplus.1").display()
+        ));
+        return Ok(ExitCode::SUCCESS);
     }
     let mut page = Vec::new();
     clap_mangen::Man::new(command).render(&mut page)?;
@@ -93,7 +87,7 @@ fn main() -> ExitCode {
     let words = match foreign_commands::translate(std::env::args().collect()) {
         Ok(Ok(words)) => words,
         Ok(Err(code)) => return code,
-        Err(error) => return ended(Err(error)),
+        Err(error) => return ended(Err(error.into())),
     };
     // clap prints usage errors and exits with code 2.
     let (words, ros) = split_arguments(words);
@@ -111,13 +105,10 @@ fn main() -> ExitCode {
         Command::Costmap(options) => costmap::serve::run(&options, ros),
         Command::Run(options) => program::run(&options, ros),
         Command::Bridge(options) => bridge::run(&options, ros),
-        _ if !ros.is_empty() => {
-            terminal::complain(
-                "`--ros-args` require a command that runs nodes: `periplus sim`, `launch`, `localize`, `teleop`, \
-                 `view`, `map`, `costmap` and `slam --live`",
-            );
-            return ExitCode::from(2);
-        }
+        _ if !ros.is_empty() => Err(CliError::usage(
+            "`--ros-args` require a command that runs nodes: `periplus sim`, `launch`, `localize`, `teleop`, \
+             `view`, `map`, `costmap` and `slam --live`",
+        )),
         Command::Bag(command) => bag::run(&command),
         Command::Check(options) => check::run(&options),
         Command::Conformance(options) => conformance::run(&options),
@@ -139,17 +130,12 @@ fn main() -> ExitCode {
     ended(outcome)
 }
 
-/// Exit code of a command; prints the error of its output.
-fn ended(outcome: std::io::Result<ExitCode>) -> ExitCode {
+/// Exit code of a command; prints its error.
+fn ended(outcome: Result<ExitCode, CliError>) -> ExitCode {
     match outcome {
         // A failure takes precedence over the signal that ended the run.
         Ok(code) if code == ExitCode::FAILURE => code,
         Ok(code) => stop::exit_code().map_or(code, ExitCode::from),
-        // The reader of our output has closed it.
-        Err(error) if error.kind() == std::io::ErrorKind::BrokenPipe => ExitCode::SUCCESS,
-        Err(error) => {
-            terminal::complain(&format!("cannot write the output: {}", plain_words(&error)));
-            ExitCode::FAILURE
-        }
+        Err(error) => error.report(),
     }
 }

@@ -10,16 +10,16 @@ use std::time::Duration;
 use periplus_maps::{Options, Wish};
 use periplus_ros2cli::map::{self, Convert, Diff, SaverCommand};
 
+use crate::error::CliError;
 use crate::terminal::{complain, say};
 use crate::verbs::{Common, with_session, without_network};
 
 pub(crate) use options::MapCommand;
 use options::{ConvertOptions, DiffOptions, SaveOptions};
 
-pub(crate) fn run(command: &MapCommand, ros: Vec<String>) -> io::Result<ExitCode> {
+pub(crate) fn run(command: &MapCommand, ros: Vec<String>) -> Result<ExitCode, CliError> {
     if !ros.is_empty() && !matches!(command, MapCommand::Serve(_) | MapCommand::Save(_)) {
-        complain("`--ros-args` require `periplus map serve` and `save`");
-        return Ok(ExitCode::from(2));
+        return Err(CliError::usage("`--ros-args` require `periplus map serve` and `save`"));
     }
     let common = |json: bool| Common { json, ..Common::default() };
     match command {
@@ -38,7 +38,7 @@ pub(crate) fn run(command: &MapCommand, ros: Vec<String>) -> io::Result<ExitCode
 }
 
 /// The arguments are those of the ROS map savers, whose parsers read them.
-fn save(options: &SaveOptions, ros: &[String]) -> io::Result<ExitCode> {
+fn save(options: &SaveOptions, ros: &[String]) -> Result<ExitCode, CliError> {
     let timeout = options.timeout.map(Duration::from_secs_f64);
     match map::saver_command(&options.words, ros, options.distro, timeout) {
         SaverCommand::Save(save) => {
@@ -50,7 +50,7 @@ fn save(options: &SaveOptions, ros: &[String]) -> io::Result<ExitCode> {
         }
         SaverCommand::Wrong { message, exit_code } => {
             complain(&message);
-            Ok(ExitCode::from(exit_code))
+            Err(CliError::Reported(exit_code))
         }
     }
 }

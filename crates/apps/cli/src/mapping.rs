@@ -16,6 +16,7 @@ use periplus_os::Machine;
 use periplus_params::{ParamValue, ParamValues};
 use periplus_slam::{MapContradiction, Slam};
 
+use crate::error::CliError;
 use crate::sim::stack::RobotProfile;
 use crate::{picture, terminal};
 
@@ -65,33 +66,25 @@ pub(crate) struct Mapping {
     out: Option<PathBuf>,
 }
 
-/// Reads a parameter file and detects its program; prints the error and returns `None` when it
-/// cannot be read.
+/// Reads a parameter file, detects its program and prints the findings.
 pub(crate) fn parameters(
     path: Option<&Path>,
     wanted: Option<Program>,
-) -> io::Result<Option<(Program, ParamValues)>> {
+) -> Result<(Program, ParamValues), CliError> {
     let mut diagnostics = Diagnostics::new();
     let Some(path) = path else {
         let program = wanted.unwrap_or(Program::Async);
-        return Ok(Some((program, program.table().check([], None, &mut diagnostics))));
+        return Ok((program, program.table().check([], None, &mut diagnostics)));
     };
-    let text = match crate::paths::text(path) {
-        Ok(text) => text,
-        Err(why) => {
-            terminal::complain(&why);
-            return Ok(None);
-        }
-    };
+    let text = crate::paths::text(path)?;
     let mut sources = SourceMap::new();
     let file = sources.add(path.display().to_string(), text);
     let read = match periplus_yaml::parse(file, &sources) {
         Ok(Some(tree)) if tree.entries().is_none() => {
-            terminal::complain(&format!(
+            return Err(CliError::failed(format!(
                 "{} has no parameters: `--slam` takes a file of slam_toolbox or slam_gmapping",
                 path.display()
-            ));
-            return Ok(None);
+            )));
         }
         Ok(Some(tree)) => {
             Some(periplus_nav_nodes::slam_toolbox::read(&tree, wanted, &mut diagnostics))
@@ -107,14 +100,13 @@ pub(crate) fn parameters(
     };
     terminal::diagnostics(&mut anstream::stderr().lock(), &diagnostics, &sources)?;
     if diagnostics.iter().any(|finding| finding.code == "no-parameters") {
-        terminal::complain(&format!(
+        return Err(CliError::failed(format!(
             "{} has no parameters for slam_toolbox or slam_gmapping; leave the file out to map with the \
              defaults",
             path.display()
-        ));
-        return Ok(None);
+        )));
     }
-    Ok(read)
+    read.ok_or(CliError::Reported(1))
 }
 
 /// The only topic with scans, if `scan_topic` is not set and the default topic has none.
@@ -133,26 +125,22 @@ fn scan_topic(graph: &Graph, values: &ParamValues) -> Option<String> {
 }
 
 impl Mapping {
-    /// Adds the node to the graph of a run, if requested. `Err` when it cannot start, after
-    /// printing the error.
+    /// Adds the node to the graph of a run, if requested; `None` if not.
     pub(crate) fn join(
         graph: &Graph,
         options: &MappingOptions,
         is_paced: bool,
         (is_usual, profile): (bool, Option<&RobotProfile>),
-    ) -> io::Result<Result<Option<Self>, ()>> {
+    ) -> Result<Option<Self>, CliError> {
         let asked = options.slam.clone().or(is_usual.then_some(None));
         let Some(path) = &asked else {
             if options.more.slam_node.is_some() || options.more.slam_out.is_some() {
-                terminal::complain("`--slam-node` and `--slam-out` require `--slam`");
-                return Ok(Err(()));
+                let why = "`--slam-node` and `--slam-out` require `--slam`";
+                return Err(CliError::failed(why));
             }
-            return Ok(Ok(None));
+            return Ok(None);
         };
-        let Some((program, mut values)) = parameters(path.as_deref(), options.more.slam_node)?
-        else {
-            return Ok(Err(()));
-        };
+        let (program, mut values) = parameters(path.as_deref(), options.more.slam_node)?;
         if let Some(profile) = profile {
             // Scans have a separate rule below.
             profile.fill(&mut values, ["odom_frame", "base_frame", ""]);
@@ -173,29 +161,24 @@ impl Mapping {
         }
         let pace = if is_paced { Pace::Sliced } else { Pace::Whole };
         let node = graph.node(settings);
-        Ok(Self::new(node, program, values, pace, options.more.out()).map(Some))
+        Self::new(node, program, values, pace, options.more.out()).map(Some)
     }
 
-    /// Starts this SLAM program. `Err` when it cannot start, after printing the error.
+    /// Starts this SLAM program.
     pub(crate) fn new(
         node: Result<Node, GraphError>,
         program: Program,
         values: ParamValues,
         pace: Pace,
         out: Option<&Path>,
-    ) -> Result<Self, ()> {
+    ) -> Result<Self, CliError> {
         let made =
             node.and_then(|node| SlamNode::at(node, program, values, Arc::new(Machine), pace));
-        match made {
-            Ok(node) => {
-                node.start();
-                Ok(Self { node, out: out.map(Path::to_owned) })
-            }
-            Err(error) => {
-                terminal::complain(&format!("{} cannot run: {error}", program.executable()));
-                Err(())
-            }
-        }
+        let node = made.map_err(|error| {
+            CliError::failed(format!("{} cannot run: {error}", program.executable()))
+        })?;
+        node.start();
+        Ok(Self { node, out: out.map(Path::to_owned) })
     }
 
     /// Prints the report at the end of a run.

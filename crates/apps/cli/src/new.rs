@@ -11,6 +11,7 @@ use clap::{Args, Subcommand, ValueEnum};
 use periplus_os::Machine;
 use periplus_resources::Host as _;
 
+use crate::error::CliError;
 use crate::{paths, terminal};
 use files::NewFile;
 
@@ -113,7 +114,7 @@ impl Simulator {
     }
 }
 
-pub(crate) fn run(command: &NewCommand) -> io::Result<ExitCode> {
+pub(crate) fn run(command: &NewCommand) -> Result<ExitCode, CliError> {
     let (place, files, next) = match command {
         NewCommand::Robot(options) => {
             let name = &options.name;
@@ -161,10 +162,7 @@ pub(crate) fn run(command: &NewCommand) -> io::Result<ExitCode> {
             }
             Ok(ExitCode::SUCCESS)
         }
-        Err(why) => {
-            terminal::complain(&why);
-            Ok(ExitCode::FAILURE)
-        }
+        Err(why) => Err(CliError::failed(why)),
     }
 }
 

@@ -8,6 +8,7 @@ use periplus_diagnostics::plain_words;
 use periplus_os::Machine;
 use periplus_resources::Store as _;
 
+use crate::error::CliError;
 use crate::options::{Command, Options};
 use crate::{launch, terminal};
 
@@ -25,7 +26,7 @@ pub(crate) struct RunOptions {
     words: Vec<String>,
 }
 
-pub(crate) fn run(options: &RunOptions, ros: Vec<String>) -> io::Result<ExitCode> {
+pub(crate) fn run(options: &RunOptions, ros: Vec<String>) -> Result<ExitCode, CliError> {
     let folder = std::env::temp_dir().join(format!("periplus_run_{}", std::process::id()));
     let file = folder.join("run.launch.xml");
     let written = std::fs::create_dir_all(&folder).map_err(|error| plain_words(&error));
@@ -33,8 +34,7 @@ pub(crate) fn run(options: &RunOptions, ros: Vec<String>) -> io::Result<ExitCode
         Machine.replace(&file, text(options, &ros).as_bytes()).map_err(String::from)
     });
     if let Err(why) = written {
-        terminal::complain(&format!("cannot write {}: {why}", file.display()));
-        return Ok(ExitCode::FAILURE);
+        return Err(CliError::failed(format!("cannot write {}: {why}", file.display())));
     }
     let words = ["periplus".into(), "launch".into(), file.into_os_string()];
     let outcome = match Options::try_parse_from(words).map(|options| options.command) {

@@ -26,6 +26,7 @@ use periplus_sim::{
 use crate::arguments;
 use crate::costmap::{CostmapOptions, Costmaps};
 use crate::demo::browser;
+use crate::error::CliError;
 use crate::localize::{BesideOptions, Localization};
 use crate::mapping::{Mapping, MappingOptions};
 use crate::options::{SearchOptions, split};
@@ -164,16 +165,14 @@ pub(crate) enum Factor {
     Of(f64),
 }
 
-pub(crate) fn run(options: &SimOptions, ros: Vec<String>) -> io::Result<ExitCode> {
+pub(crate) fn run(options: &SimOptions, ros: Vec<String>) -> Result<ExitCode, CliError> {
     let start = Stopwatch::start();
-    let Some(to_nodes) = arguments::read(options.ros_words(ros))? else {
-        return Ok(ExitCode::from(2));
-    };
+    let to_nodes = arguments::read(options.ros_words(ros))?;
     let (mut files, arguments) = split(&options.words);
     // `--robot FILE WORLD`: a word that is no argument of the robot is the world.
     files.extend(options.robots.others.iter().map(PathBuf::from));
     let [world] = files.as_slice() else {
-        terminal::complain(&match files.as_slice() {
+        return Err(CliError::Usage(match files.as_slice() {
             [] => "no world given; add robots with --robot; see `periplus sim --help`".to_owned(),
             several => {
                 let names: Vec<_> = several.iter().map(|it| it.display().to_string()).collect();
@@ -183,12 +182,10 @@ pub(crate) fn run(options: &SimOptions, ros: Vec<String>) -> io::Result<ExitCode
                     names.len()
                 )
             }
-        });
-        return Ok(ExitCode::from(2));
+        }));
     };
     if let Err(why) = options.can_run() {
-        terminal::complain(&why);
-        return Ok(ExitCode::from(2));
+        return Err(CliError::usage(why));
     }
     let (mut driver, findings) = match &options.cmd {
         Some(path) => Driver::read(path),
@@ -198,8 +195,7 @@ pub(crate) fn run(options: &SimOptions, ros: Vec<String>) -> io::Result<ExitCode
     terminal::diagnostics(&mut err, &findings.diagnostics, &findings.sources)?;
     drop(err);
     if findings.diagnostics.has_errors() {
-        terminal::complain("the script has errors");
-        return Ok(ExitCode::FAILURE);
+        return Err(CliError::failed("the script has errors"));
     }
     let search = &options.search.resource_path;
     let mut composition = terminal::with_setting(search, arguments, |setting| {
@@ -212,96 +208,63 @@ pub(crate) fn run(options: &SimOptions, ros: Vec<String>) -> io::Result<ExitCode
     );
     let whole = tell_findings(&composition, options.quiet)?;
     if let Some(missing) = composition.missing() {
-        terminal::complain(&format!("{} has nothing to simulate", missing.display()));
-        return Ok(ExitCode::FAILURE);
+        return Err(CliError::failed(format!("{} has nothing to simulate", missing.display())));
     }
-    let profile = match options.profile(&mut simulation) {
-        Ok(profile) => profile,
-        Err(why) => {
-            terminal::complain(&why);
-            return Ok(ExitCode::FAILURE);
-        }
-    };
+    let profile = options.profile(&mut simulation).map_err(CliError::failed)?;
     let profile = profile.as_ref();
     let recorder = match options.record.as_deref() {
         None => None,
         Some(path) => match SimulationRecorder::start(&simulation, path, options.wanted()) {
             Ok(recorder) => Some(recorder),
             Err(error) => {
-                terminal::complain(&format!("cannot record to {}: {error}", path.display()));
-                return Ok(ExitCode::FAILURE);
+                return Err(CliError::failed(format!(
+                    "cannot record to {}: {error}",
+                    path.display()
+                )));
             }
         },
     };
     if let Some(heard) = options.hear.clone() {
         compute_topics(&simulation, Box::new(move |name| heard.is_match(name)));
     }
-    let mut services = match Services::new(&simulation, terminal::search(search)) {
-        Ok(services) => services,
-        Err(error) => {
-            terminal::complain(&format!("cannot offer the services of the world: {error}"));
-            return Ok(ExitCode::FAILURE);
-        }
-    };
+    let mut services = Services::new(&simulation, terminal::search(search)).map_err(|error| {
+        CliError::failed(format!("cannot offer the services of the world: {error}"))
+    })?;
     match driver.join(&simulation) {
         Ok(warnings) => {
             terminal::diagnostics(&mut anstream::stderr().lock(), &warnings, &SourceMap::new())?;
         }
         Err(error) => {
-            terminal::complain(&format!("cannot run the script: {error}"));
-            return Ok(ExitCode::FAILURE);
+            return Err(CliError::failed(format!("cannot run the script: {error}")));
         }
     }
     let filter = profile.filter(|profile| profile.needs_filter());
     let filter = filter.map(|profile| profile.filter(simulation.graph())).transpose();
-    let _filter = match filter {
-        Ok(filter) => filter,
-        Err(error) => {
-            terminal::complain(&format!("the odometry filter cannot run: {error}"));
-            return Ok(ExitCode::FAILURE);
-        }
-    };
+    let _filter = filter
+        .map_err(|error| CliError::failed(format!("the odometry filter cannot run: {error}")))?;
     let own = profile.filter(|_| options.stack).map(RobotProfile::costmaps);
-    let joined = Costmaps::join(simulation.graph(), &options.costmaps, own.as_deref())?;
-    let Some(costmaps) = joined else { return Ok(ExitCode::FAILURE) };
-    let joined = Localization::join(simulation.graph(), &options.localization, profile)?;
-    let localization = match joined {
-        Ok(localization) => localization,
-        Err(why) => {
-            terminal::complain(&format!("localization cannot run: {why}"));
-            return Ok(ExitCode::FAILURE);
-        }
-    };
+    let costmaps = Costmaps::join(simulation.graph(), &options.costmaps, own.as_deref())?;
+    let localization = Localization::join(simulation.graph(), &options.localization, profile)?;
     let factor = options.factor(&composition);
     let is_mapping = options.stack && localization.is_none();
     let usual = (is_mapping, profile);
-    let joined = Mapping::join(simulation.graph(), &options.mapping, factor.is_some(), usual)?;
-    let Ok(mapping) = joined else { return Ok(ExitCode::FAILURE) };
+    let mapping = Mapping::join(simulation.graph(), &options.mapping, factor.is_some(), usual)?;
     // All nodes exist now.
     if !options.quiet {
         let unused = simulation.graph().unused_arguments();
         terminal::diagnostics(&mut anstream::stderr().lock(), &unused, &SourceMap::new())?;
     }
-    let joined = Ros2::join(&simulation, options.ros2, factor.is_some(), options.quiet)?;
-    let Some(mut ros2) = joined else { return Ok(ExitCode::FAILURE) };
-    let joined =
+    let mut ros2 = Ros2::join(&simulation, options.ros2, factor.is_some(), options.quiet)?;
+    let gazebo =
         Gazebo::join(&simulation, &mut services, options.gz, options.gz_types, options.quiet)?;
-    let Some(gazebo) = joined else { return Ok(ExitCode::FAILURE) };
     if options.page.page.is_some() {
         let around = composition.files.iter().filter_map(|file| file.path.parent());
         if let Err(error) = services.show(&simulation, around.map(Into::into).collect()) {
-            terminal::complain(&format!("the world cannot be shown: {error}"));
-            return Ok(ExitCode::FAILURE);
+            return Err(CliError::failed(format!("the world cannot be shown: {error}")));
         }
     }
     let about = options.about(&composition);
-    let page = match Page::join(simulation.graph(), &options.page, about) {
-        Ok(page) => page,
-        Err(why) => {
-            terminal::complain(&why);
-            return Ok(ExitCode::FAILURE);
-        }
-    };
+    let page = Page::join(simulation.graph(), &options.page, about).map_err(CliError::failed)?;
     if let Some(page) = &page {
         let url = page.url();
         if !options.quiet {
@@ -373,29 +336,21 @@ pub(crate) fn run(options: &SimOptions, ros: Vec<String>) -> io::Result<ExitCode
         }
         Ok(_) => {}
         Err(why) => {
-            terminal::complain(&why);
-            return Ok(ExitCode::FAILURE);
+            return Err(CliError::failed(why));
         }
     }
     // Without a duration, a signal is the regular end of a run.
     let cut_short = stop.load(Ordering::Relaxed) && options.duration.is_some();
     // Findings name each of them.
     if let Some(diverged) = simulation.diverged().first().filter(|_| outcome.is_ok()) {
-        terminal::complain(&format!("{diverged}; its model was removed"));
-        return Ok(ExitCode::FAILURE);
+        return Err(CliError::failed(format!("{diverged}; its model was removed")));
     }
     match outcome {
         Ok(()) if !is_recorded => Ok(ExitCode::FAILURE),
         Ok(()) if whole && cut_short => Ok(ExitCode::from(terminal::INTERRUPTED)),
         Ok(()) if whole => Ok(ExitCode::SUCCESS),
-        Ok(()) => {
-            terminal::complain("parts of the files have errors and were left out");
-            Ok(ExitCode::FAILURE)
-        }
-        Err(diverged) => {
-            terminal::complain(&diverged.to_string());
-            Ok(ExitCode::FAILURE)
-        }
+        Ok(()) => Err(CliError::failed("parts of the files have errors and were left out")),
+        Err(diverged) => Err(CliError::failed(diverged)),
     }
 }
 

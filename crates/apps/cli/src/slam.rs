@@ -15,6 +15,7 @@ use periplus_maps::{Distro, PgmRows, Saving, render_yaml};
 use periplus_os::Stopwatch;
 use periplus_slam::{CorrectedInput, Mapper, MountingCorrection};
 
+use crate::error::CliError;
 use crate::log::{Log, LogOptions};
 use crate::picture::draw_by;
 use crate::{paths, terminal};
@@ -24,52 +25,33 @@ use session::SelectedMapper;
 
 pub(crate) use options::SlamOptions;
 
-pub(crate) fn run(options: &SlamOptions, ros: Vec<String>) -> io::Result<ExitCode> {
+pub(crate) fn run(options: &SlamOptions, ros: Vec<String>) -> Result<ExitCode, CliError> {
     if options.live.live {
         return live::run(options, ros);
     }
     if !ros.is_empty() {
-        terminal::complain("`--ros-args` require `periplus slam --live`");
-        return Ok(ExitCode::from(2));
+        return Err(CliError::usage("`--ros-args` require `periplus slam --live`"));
     }
     from_log(options)
 }
 
-fn from_log(options: &SlamOptions) -> io::Result<ExitCode> {
+fn from_log(options: &SlamOptions) -> Result<ExitCode, CliError> {
     let watch = Stopwatch::start();
-    let parameters = match Parameters::read(options) {
-        Ok(parameters) => parameters,
-        Err(why) => {
-            terminal::complain(&why);
-            return Ok(ExitCode::FAILURE);
-        }
-    };
+    let parameters = Parameters::read(options).map_err(CliError::failed)?;
     let findings = &parameters.diagnostics;
     terminal::diagnostics(&mut anstream::stderr().lock(), findings, &parameters.sources)?;
     if findings.has_errors() {
         return Ok(ExitCode::FAILURE);
     }
     let input = parameters.input(&options.input);
-    let mut run = match map(options, &parameters, &input, None)? {
-        Ok(run) => run,
-        Err(why) => {
-            terminal::complain(&why);
-            return Ok(ExitCode::FAILURE);
-        }
-    };
+    let mut run = map(options, &parameters, &input, None)?;
     let is_corrected = parameters.values.flag("correct_mounting").unwrap_or(false);
     let remedy = MountingCorrection::of(run.selected.mapper().remarks())
         .filter(|_| options.session.is_none() && is_corrected);
     if remedy.is_some() {
         // An error of mounting or axes is certain: the map is rebuilt with corrected data.
         drop(run);
-        run = match map(options, &parameters, &input, remedy)? {
-            Ok(run) => run,
-            Err(why) => {
-                terminal::complain(&why);
-                return Ok(ExitCode::FAILURE);
-            }
-        };
+        run = map(options, &parameters, &input, remedy)?;
     }
     let Run { log, selected, before, spent_s, used, saved, loaded_s, finish_s } = run;
     let slam = selected.mapper();
@@ -96,15 +78,13 @@ fn from_log(options: &SlamOptions) -> io::Result<ExitCode> {
         report.tell(&mut anstream::stdout().lock(), written.is_ok())?;
     }
     if let Err(why) = written {
-        terminal::complain(&why);
-        return Ok(ExitCode::FAILURE);
+        return Err(CliError::failed(why));
     }
     for fault in log.faults.iter().take(MAX_PRINTED) {
         terminal::complain(fault);
     }
     if let Some(why) = report.failure() {
-        terminal::complain(&why);
-        return Ok(ExitCode::FAILURE);
+        return Err(CliError::failed(why));
     }
     Ok(if log.faults.is_empty() { ExitCode::SUCCESS } else { ExitCode::FAILURE })
 }
@@ -134,19 +114,13 @@ fn map(
     parameters: &Parameters,
     input: &LogOptions,
     remedy: Option<MountingCorrection>,
-) -> io::Result<Result<Run, String>> {
+) -> Result<Run, CliError> {
     let watch = Stopwatch::start();
-    let mut log = match Log::open(&options.log, input)? {
-        Ok(log) => log,
-        Err(why) => return Ok(Err(why)),
-    };
+    let mut log = Log::open(&options.log, input)?;
     if log.scans.is_empty() {
-        return Ok(Err(format!("{} has no scans", options.log.display())));
+        return Err(CliError::failed(format!("{} has no scans", options.log.display())));
     }
-    let mut selected = match SelectedMapper::new(options, parameters) {
-        Ok(selected) => selected,
-        Err(why) => return Ok(Err(why)),
-    };
+    let mut selected = SelectedMapper::new(options, parameters)?;
     let before = selected.mapper().trajectory().len();
     let loaded_s = watch.elapsed().as_secs_f64();
     let bar = terminal::bar(log.scans.len() as u64, "scans", options.quiet);
@@ -175,7 +149,7 @@ fn map(
     let last = Stopwatch::start();
     selected.mapper_mut().finish();
     let finish_s = last.elapsed().as_secs_f64();
-    Ok(Ok(Run { log, selected, before, spent_s, used, saved, loaded_s, finish_s }))
+    Ok(Run { log, selected, before, spent_s, used, saved, loaded_s, finish_s })
 }
 
 /// Writes the requested session.

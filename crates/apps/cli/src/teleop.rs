@@ -18,6 +18,7 @@ use periplus_params::Given;
 use periplus_ros2cli::teleop::{Keyboard, Pressed, SCREEN, Settings, TELEOP, status};
 
 use crate::arguments;
+use crate::error::CliError;
 use crate::live::Live;
 use crate::terminal::{complain, diagnostics};
 use terminal::RawTerminal;
@@ -66,28 +67,17 @@ pub(crate) struct TeleopOptions {
     remaps: Vec<String>,
 }
 
-pub(crate) fn run(options: &TeleopOptions, ros: Vec<String>) -> io::Result<ExitCode> {
+pub(crate) fn run(options: &TeleopOptions, ros: Vec<String>) -> Result<ExitCode, CliError> {
     let remaps = options.remaps.iter().flat_map(|rule| ["-r".to_owned(), rule.clone()]);
-    let Some(arguments) = arguments::read(remaps.chain(ros).collect())? else {
-        return Ok(ExitCode::from(2));
-    };
+    let arguments = arguments::read(remaps.chain(ros).collect())?;
     if !io::stdin().is_terminal() {
-        complain(
+        return Err(CliError::usage(
             "teleop reads keys from a terminal, and its input is not a terminal; run it in a \
              separate terminal, not from a launch file or a pipe",
-        );
-        return Ok(ExitCode::from(2));
+        ));
     }
-    let live = match Live::open(arguments) {
-        Ok(live) => live,
-        Err(words) => {
-            complain(&words);
-            return Ok(ExitCode::FAILURE);
-        }
-    };
-    let Some(mut driving) = Driving::new(&live.graph, options)? else {
-        return Ok(ExitCode::FAILURE);
-    };
+    let live = Live::open(arguments).map_err(CliError::failed)?;
+    let mut driving = Driving::new(&live.graph, options)?;
     let terminal = RawTerminal::open()?;
     let outcome = driving.go(&live.graph, &terminal);
     drop(terminal);
@@ -115,8 +105,8 @@ enum Outlet {
 }
 
 impl Driving {
-    /// Creates the node; prints the error and returns `None` on failure.
-    fn new(graph: &Graph, options: &TeleopOptions) -> io::Result<Option<Self>> {
+    /// Creates the node and prints the findings.
+    fn new(graph: &Graph, options: &TeleopOptions) -> Result<Self, CliError> {
         let mut found = Diagnostics::new();
         let values = TELEOP.check(options.given(), None, &mut found);
         let made = Self::on(graph, values);
@@ -124,13 +114,8 @@ impl Driving {
             found.push(finding.clone());
         }
         diagnostics(&mut anstream::stderr().lock(), &found, &SourceMap::new())?;
-        Ok(match made {
-            Ok(driving) => (!found.has_errors()).then_some(driving),
-            Err(error) => {
-                complain(&error.to_string());
-                None
-            }
-        })
+        let driving = made.map_err(CliError::failed)?;
+        if found.has_errors() { Err(CliError::Reported(1)) } else { Ok(driving) }
     }
 
     fn on(graph: &Graph, values: periplus_params::ParamValues) -> Result<Self, GraphError> {

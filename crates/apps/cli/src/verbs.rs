@@ -24,6 +24,7 @@ use periplus_os::Machine;
 use periplus_resources::Host as _;
 use periplus_ros2cli::{Failure, InGraph, Outcome, Ros2Line, Session, Types};
 
+use crate::error::CliError;
 use crate::foreign_commands;
 use crate::stop;
 use crate::terminal;
@@ -44,15 +45,9 @@ use connection::NetworkConnection;
 pub(crate) fn with_session(
     common: &Common,
     verb: impl FnOnce(&mut Session<'_>) -> Outcome,
-) -> io::Result<ExitCode> {
+) -> Result<ExitCode, CliError> {
     let types = types(common)?;
-    let mut connection = match NetworkConnection::open() {
-        Ok(connection) => connection,
-        Err(words) => {
-            terminal::complain(&words);
-            return Ok(ExitCode::FAILURE);
-        }
-    };
+    let mut connection = NetworkConnection::open().map_err(CliError::failed)?;
     let stop = stop::on_signal();
     let mut out = io::BufWriter::new(io::stdout().lock());
     let outcome = verb(&mut Session {
@@ -85,7 +80,7 @@ fn types(common: &Common) -> io::Result<Types> {
 pub(crate) fn without_network(
     common: &Common,
     verb: impl FnOnce(&mut Session<'_>) -> Outcome,
-) -> io::Result<ExitCode> {
+) -> Result<ExitCode, CliError> {
     let types = types(common)?;
     let mut out = io::BufWriter::new(io::stdout().lock());
     let outcome = verb(&mut Session {
@@ -101,7 +96,7 @@ pub(crate) fn without_network(
 }
 
 /// Exit code of an outcome; prints its error.
-fn end(outcome: Outcome) -> io::Result<ExitCode> {
+fn end(outcome: Outcome) -> Result<ExitCode, CliError> {
     match outcome {
         Ok(()) => Ok(ExitCode::SUCCESS),
         Err(Failure::Output(error)) => Err(error),

@@ -14,6 +14,7 @@ use periplus_os::{Stopwatch, sleep};
 
 use crate::arguments;
 use crate::demo::browser;
+use crate::error::CliError;
 use crate::live::Live;
 use crate::page::{About, PORT, Page, PageOptions};
 use crate::stop;
@@ -50,10 +51,8 @@ pub(crate) struct ViewOptions {
     resource_path: Vec<PathBuf>,
 }
 
-pub(crate) fn run(options: &ViewOptions, ros: Vec<String>) -> io::Result<ExitCode> {
-    let Some(arguments) = arguments::read(ros)? else {
-        return Ok(ExitCode::from(2));
-    };
+pub(crate) fn run(options: &ViewOptions, ros: Vec<String>) -> Result<ExitCode, CliError> {
+    let arguments = arguments::read(ros)?;
     let stop = stop::on_signal();
     let opened = Live::open(arguments).and_then(|live| {
         let usual = SocketAddr::from(([127, 0, 0, 1], PORT));
@@ -64,13 +63,7 @@ pub(crate) fn run(options: &ViewOptions, ros: Vec<String>) -> io::Result<ExitCod
         let (address, token) = (options.page.page.unwrap_or(usual), options.page.token.clone());
         Ok((Page::open(&live.graph, address, token, about)?, live))
     });
-    let (page, mut live) = match opened {
-        Ok(opened) => opened,
-        Err(why) => {
-            complain(&why);
-            return Ok(ExitCode::FAILURE);
-        }
-    };
+    let (page, mut live) = opened.map_err(CliError::failed)?;
     let url = page.url();
     say(&format!("ROS 2 domain {}; page: {url} (Ctrl-C ends it)", live.domain_id));
     if !options.no_browser && !browser::open(&url) {

@@ -27,7 +27,7 @@ pub use catalogue::table;
 pub use environment::Environment;
 pub use guard::{GUARD_VERB, guard};
 pub use includes::{REPLACED_LAUNCH_FILES, has_replacement};
-pub use report::{Kind, LaunchLog, Line, Outcome};
+pub use report::{LaunchLog, PartOutcome, PartOutcomeKind, PartReport};
 pub use runner::{LaunchRunner, Settings};
 pub use world::WorldRequest;
 pub use xacro::{Xacro, xacro};

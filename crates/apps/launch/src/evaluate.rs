@@ -390,9 +390,7 @@ impl<'a> Evaluation<'a> {
                 let trigger = match event {
                     Event::Started { of } => Trigger::Started(of.map(|of| self.step_of(Some(of)))),
                     Event::Ended { of } => Trigger::Ended(of.map(|of| self.step_of(Some(of)))),
-                    Event::ProgramOutput { of } => {
-                        Trigger::ProgramOutput(of.map(|of| self.step_of(Some(of))))
-                    }
+                    Event::Printed { of } => Trigger::Printed(of.map(|of| self.step_of(Some(of)))),
                     Event::Reached { of, from, to } => Trigger::Reached {
                         step: of.map(|of| self.step_of(Some(of))),
                         from: from.clone(),

@@ -33,9 +33,7 @@ use periplus_resources::{Host, Resolver};
 use crate::suggest::Suggest as _;
 pub use dialect::{Dialect, dialect};
 pub use ending::ShutdownHandlers;
-pub use outside::{
-    Answer, Interpreter, LaunchError, MissingInput, Nothing, Outside, ProgramOutput,
-};
+pub use outside::{Answer, Interpreter, LaunchError, MissingInput, Nothing, Outside, Printed};
 pub use plan::{
     Argument, Component, Identity, Node, Parameters, Plan, Process, Running, Step, Trigger,
     Variable, What,

@@ -6,7 +6,7 @@ use serde_json::Value;
 
 /// Result of a program.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct ProgramOutput {
+pub struct Printed {
     /// Standard output.
     pub output: String,
     /// Standard error.
@@ -66,7 +66,7 @@ pub trait Outside {
     ///
     /// # Errors
     /// A message when it cannot be started.
-    fn run(&mut self, words: &[String]) -> Result<ProgramOutput, String>;
+    fn run(&mut self, words: &[String]) -> Result<Printed, String>;
 
     /// Writes a text to a temporary file that exists as long as the launch. `name` is a suggestion.
     ///
@@ -98,7 +98,7 @@ pub trait Interpreter {
 pub struct Nothing;
 
 impl Outside for Nothing {
-    fn run(&mut self, words: &[String]) -> Result<ProgramOutput, String> {
+    fn run(&mut self, words: &[String]) -> Result<Printed, String> {
         Err(format!("program `{}` does not exist", words.first().map_or("", String::as_str)))
     }
 

@@ -8,7 +8,7 @@ use periplus_resources::EntryKind;
 use serde_json::json;
 
 use crate::evaluate::{Evaluation, Outcome};
-use crate::outside::{MissingInput, ProgramOutput};
+use crate::outside::{MissingInput, Printed};
 use crate::rewrite;
 use crate::suggest::Suggest as _;
 use crate::tree::{Part, Substitution, Text};
@@ -349,7 +349,7 @@ impl Evaluation<'_> {
     ///
     /// # Errors
     /// When it is not a command, or it fails.
-    pub(crate) fn ran(&mut self, line: &str) -> Outcome<Result<ProgramOutput, NotRun>> {
+    pub(crate) fn ran(&mut self, line: &str) -> Outcome<Result<Printed, NotRun>> {
         let Some(mut words) = words::split(line).filter(|words| !words.is_empty()) else {
             return Err(self
                 .error("launch-command", format!("cannot parse the command `{line}`"))

@@ -77,7 +77,7 @@ pub enum Trigger {
     /// A step has ended; any if `None`.
     Ended(Option<usize>),
     /// A step has printed output.
-    ProgramOutput(Option<usize>),
+    Printed(Option<usize>),
     /// A lifecycle node made a transition.
     Reached {
         /// Step of the node; any if `None`.

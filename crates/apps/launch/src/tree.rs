@@ -272,7 +272,7 @@ fn yes() -> bool {
 pub(crate) enum Event {
     Started { of: Option<u64> },
     Ended { of: Option<u64> },
-    ProgramOutput { of: Option<u64> },
+    Printed { of: Option<u64> },
     Reached { of: Option<u64>, from: Option<String>, to: Option<String> },
     Shutdown,
 }

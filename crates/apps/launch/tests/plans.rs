@@ -5,15 +5,15 @@ use std::path::{Path, PathBuf};
 
 use expect_test::{Expect, expect};
 use periplus_diagnostics::{RenderStyle, SourceMap, render};
-use periplus_launch::{Interpreter, Outside, ProgramOutput, Request, plan};
+use periplus_launch::{Interpreter, Outside, Printed, Request, plan};
 use periplus_resources::{MemoryHost, Resolver};
 
 /// A machine whose programs echo their arguments.
 struct Echo;
 
 impl Outside for Echo {
-    fn run(&mut self, words: &[String]) -> Result<ProgramOutput, String> {
-        Ok(ProgramOutput { output: words.join("|"), is_success: true, ..ProgramOutput::default() })
+    fn run(&mut self, words: &[String]) -> Result<Printed, String> {
+        Ok(Printed { output: words.join("|"), is_success: true, ..Printed::default() })
     }
 
     fn scratch(&mut self, name: &str, _text: &str) -> Result<PathBuf, String> {

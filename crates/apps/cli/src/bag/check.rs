@@ -9,13 +9,14 @@ use serde_json::json;
 
 use super::options::CheckOptions;
 use super::progress::ProgressLine;
+use crate::error::CliError;
 use crate::terminal;
 
-pub(super) fn run(options: &CheckOptions) -> io::Result<ExitCode> {
+pub(super) fn run(options: &CheckOptions) -> Result<ExitCode, CliError> {
     let mut failed = false;
     let mut reports = Vec::new();
     for path in &options.bags {
-        let Some(bag) = super::open(path)? else {
+        let Some(bag) = super::try_open(path)? else {
             failed = true;
             continue;
         };

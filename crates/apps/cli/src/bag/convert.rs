@@ -9,28 +9,20 @@ use periplus_bags::files::{Bag, Conversion, Kind, Storage, WriteSettings, conver
 use super::options::{ConvertOptions, CutOptions, SelectOptions};
 use super::outputs;
 use super::progress::ProgressLine;
+use crate::error::CliError;
 use crate::terminal;
 
-pub(super) fn run(options: &ConvertOptions) -> io::Result<ExitCode> {
+pub(super) fn run(options: &ConvertOptions) -> Result<ExitCode, CliError> {
     let paths: Vec<&PathBuf> = options.bags.iter().chain(&options.input).collect();
     let mut bags = Vec::new();
     for path in paths {
-        match super::open(path)? {
-            Some(bag) => bags.push(bag),
-            None => return Ok(ExitCode::FAILURE),
-        }
+        bags.push(super::open(path)?);
     }
     if !outputs::is_one(&options.output) {
         let settings = options.write.settings(&options.output, Storage::Mcap);
         return write(&bags, &options.output, &options.select, settings);
     }
-    let (wanted, findings, sources) = match outputs::read(&options.output) {
-        Ok(read) => read,
-        Err(words) => {
-            terminal::complain(&words);
-            return Ok(ExitCode::FAILURE);
-        }
-    };
+    let (wanted, findings, sources) = outputs::read(&options.output).map_err(CliError::failed)?;
     terminal::diagnostics(&mut anstream::stderr().lock(), &findings, &sources)?;
     if findings.has_errors() {
         return Ok(ExitCode::FAILURE);
@@ -45,12 +37,13 @@ pub(super) fn run(options: &ConvertOptions) -> io::Result<ExitCode> {
     Ok(ExitCode::SUCCESS)
 }
 
-pub(super) fn cut(options: &CutOptions) -> io::Result<ExitCode> {
+pub(super) fn cut(options: &CutOptions) -> Result<ExitCode, CliError> {
     if options.select.is_all() {
-        terminal::complain("nothing to cut: select topics or times, or use `bag convert`");
-        return Ok(ExitCode::from(2));
+        return Err(CliError::usage(
+            "nothing to cut: select topics or times, or use `bag convert`",
+        ));
     }
-    let Some(bag) = super::open(&options.bag)? else { return Ok(ExitCode::FAILURE) };
+    let bag = super::open(&options.bag)?;
     let settings = options.write.settings(&options.output, bag.storage());
     let is_file = bag.kind() == Kind::Ros1 && Storage::of_path(&options.output).is_none();
     let output =
@@ -63,13 +56,11 @@ fn write(
     output: &Path,
     select: &SelectOptions,
     write: WriteSettings,
-) -> io::Result<ExitCode> {
-    let unknown: Vec<&String> = select.unknown(bags).collect();
-    if !unknown.is_empty() {
-        for name in unknown {
-            terminal::complain(&format!("no recording has a topic `{name}`"));
-        }
-        return Ok(ExitCode::from(2));
+) -> Result<ExitCode, CliError> {
+    let mut unknown = select.unknown(bags).peekable();
+    if unknown.peek().is_some() {
+        unknown.for_each(|name| terminal::complain(&format!("no recording has a topic `{name}`")));
+        return Err(CliError::Reported(2));
     }
     let selection = select.of(bags);
     // Conversion runs alone, so it may use all cores.
@@ -86,9 +77,6 @@ fn write(
             terminal::say(&format!("{}: {messages} messages on {topics} topics", output.display()));
             Ok(ExitCode::SUCCESS)
         }
-        Err(error) => {
-            terminal::complain(&error.to_string());
-            Ok(ExitCode::FAILURE)
-        }
+        Err(error) => Err(CliError::failed(error)),
     }
 }

@@ -8,12 +8,14 @@ use serde_json::{Value, json};
 
 use super::options::InfoOptions;
 
-pub(super) fn run(options: &InfoOptions) -> io::Result<ExitCode> {
+use crate::error::CliError;
+
+pub(super) fn run(options: &InfoOptions) -> Result<ExitCode, CliError> {
     let mut out = io::stdout().lock();
     let mut reports = Vec::new();
     let mut failed = false;
     for path in &options.bags {
-        let Some(bag) = super::open(path)? else {
+        let Some(bag) = super::try_open(path)? else {
             failed = true;
             continue;
         };

@@ -11,6 +11,7 @@ use periplus_graph::Arguments;
 use periplus_os::{Stopwatch, sleep};
 
 use super::options::{PlayOptions, SelectOptions};
+use crate::error::CliError;
 use crate::live::Live;
 use crate::stop;
 use crate::terminal;
@@ -24,20 +25,13 @@ const FLUSH_TIMEOUT: Duration = Duration::from_secs(2);
 /// Time for discovery: messages published before are lost to subscribers that have not matched yet.
 const DISCOVERY_DELAY: Duration = Duration::from_millis(500);
 
-pub(super) fn run(options: &PlayOptions) -> io::Result<ExitCode> {
-    let Some(bag) = super::open(&options.bag)? else { return Ok(ExitCode::FAILURE) };
+pub(super) fn run(options: &PlayOptions) -> Result<ExitCode, CliError> {
+    let bag = super::open(&options.bag)?;
     let select = options.select();
     if let Some(name) = select.unknown(std::slice::from_ref(&bag)).next() {
-        terminal::complain(&format!("the recording has no topic `{name}`"));
-        return Ok(ExitCode::from(2));
+        return Err(CliError::usage(format!("the recording has no topic `{name}`")));
     }
-    let live = match Live::open(Arguments::default()) {
-        Ok(live) => live,
-        Err(words) => {
-            terminal::complain(&words);
-            return Ok(ExitCode::FAILURE);
-        }
-    };
+    let live = Live::open(Arguments::default()).map_err(CliError::failed)?;
     let settings = options.settings(&select, &bag);
     let stop = stop::on_signal();
     let player = Player::new(bag, &live.graph, settings);
@@ -48,10 +42,7 @@ pub(super) fn run(options: &PlayOptions) -> io::Result<ExitCode> {
     match played {
         Ok(()) if stop.load(Ordering::Relaxed) => Ok(ExitCode::from(terminal::INTERRUPTED)),
         Ok(()) => Ok(ExitCode::SUCCESS),
-        Err(error) => {
-            terminal::complain(&error.to_string());
-            Ok(ExitCode::FAILURE)
-        }
+        Err(error) => Err(CliError::failed(error)),
     }
 }
 

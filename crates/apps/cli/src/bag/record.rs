@@ -17,6 +17,7 @@ use periplus_os::{Machine, sleep, unix_ns};
 use periplus_resources::Host as _;
 
 use super::options::RecordOptions;
+use crate::error::CliError;
 use crate::live::Live;
 use crate::stop;
 use crate::terminal;
@@ -27,26 +28,16 @@ const POLL_PERIOD: Duration = Duration::from_millis(100);
 /// Polling period of the clock.
 const CLOCK_POLL_PERIOD: Duration = Duration::from_millis(2);
 
-pub(super) fn run(options: &RecordOptions) -> io::Result<ExitCode> {
+pub(super) fn run(options: &RecordOptions) -> Result<ExitCode, CliError> {
     if !options.all && options.topics.is_empty() && options.regex.is_none() {
-        terminal::complain(
+        return Err(CliError::usage(
             "name topics, or record all with --all; see `periplus bag record --help`",
-        );
-        return Ok(ExitCode::from(2));
+        ));
     }
-    let mut live = match Live::open(Arguments::default()) {
-        Ok(live) => live,
-        Err(words) => {
-            terminal::complain(&words);
-            return Ok(ExitCode::FAILURE);
-        }
-    };
+    let mut live = Live::open(Arguments::default()).map_err(CliError::failed)?;
     match record(options, &mut live) {
         Ok(()) => Ok(ExitCode::SUCCESS),
-        Err(error) => {
-            terminal::complain(&error.to_string());
-            Ok(ExitCode::FAILURE)
-        }
+        Err(error) => Err(CliError::failed(error)),
     }
 }
 

@@ -98,7 +98,7 @@ fn pass_on<S: BridgedService>(
             false
         }
     };
-    call.ros_response(S::ros_response(success));
+    call.answer(S::ros_response(success));
 }
 
 impl Services {

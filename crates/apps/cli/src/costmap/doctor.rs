@@ -9,6 +9,7 @@ use periplus_costmap::Nav2Release;
 use periplus_diagnostics::{Diagnostics, SourceMap};
 
 use super::file::{File, read, read_text};
+use crate::error::CliError;
 use crate::terminal;
 
 /// Check the costmaps of a Nav2 parameter file
@@ -43,14 +44,8 @@ fn add_complaints(file: &mut File) {
     }
 }
 
-pub(crate) fn run(options: &DoctorCostmapOptions) -> io::Result<ExitCode> {
-    let mut file = match read(&options.file, options.compat) {
-        Ok(file) => file,
-        Err(why) => {
-            terminal::complain(&why);
-            return Ok(ExitCode::FAILURE);
-        }
-    };
+pub(crate) fn run(options: &DoctorCostmapOptions) -> Result<ExitCode, CliError> {
+    let mut file = read(&options.file, options.compat).map_err(CliError::failed)?;
     add_complaints(&mut file);
     let mut out = anstream::stdout().lock();
     terminal::diagnostics(&mut out, &file.diagnostics, &file.sources)?;

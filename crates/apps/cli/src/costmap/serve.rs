@@ -13,6 +13,7 @@ use periplus_os::sleep;
 
 use super::{Costmaps, FloorPoint, floor_point};
 use crate::arguments;
+use crate::error::CliError;
 use crate::live::{Live, NodeMonitor};
 use crate::stop;
 use crate::terminal::{complain, diagnostics, say};
@@ -55,21 +56,12 @@ pub(crate) struct CostmapServeOptions {
     remaps: Vec<String>,
 }
 
-pub(crate) fn run(options: &CostmapServeOptions, ros: Vec<String>) -> io::Result<ExitCode> {
+pub(crate) fn run(options: &CostmapServeOptions, ros: Vec<String>) -> Result<ExitCode, CliError> {
     let remaps = options.remaps.iter().flat_map(|rule| ["-r".to_owned(), rule.clone()]);
-    let Some(arguments) = arguments::read(remaps.chain(ros).collect())? else {
-        return Ok(ExitCode::from(2));
-    };
+    let arguments = arguments::read(remaps.chain(ros).collect())?;
     let stop = stop::on_signal();
-    let mut live = match Live::open(arguments) {
-        Ok(live) => live,
-        Err(words) => {
-            complain(&words);
-            return Ok(ExitCode::FAILURE);
-        }
-    };
-    let made = Costmaps::of_file(&live.graph, &options.file, options.compat)?;
-    let Some(costmaps) = made else { return Ok(ExitCode::FAILURE) };
+    let mut live = Live::open(arguments).map_err(CliError::failed)?;
+    let costmaps = Costmaps::of_file(&live.graph, &options.file, options.compat)?;
     let (cells, pictures) = (options.cell.clone(), options.picture.clone());
     let costmaps = Costmaps { cells, pictures, ..costmaps };
     for findings in [live.graph.take_findings(), live.graph.unused_arguments()] {
@@ -84,13 +76,7 @@ pub(crate) fn run(options: &CostmapServeOptions, ros: Vec<String>) -> io::Result
         }
         Ok(monitor)
     });
-    let monitor = match ready {
-        Ok(monitor) => monitor,
-        Err(error) => {
-            complain(&error.to_string());
-            return Ok(ExitCode::FAILURE);
-        }
-    };
+    let monitor = ready.map_err(CliError::failed)?;
     if follows_clock {
         say("using the time of /clock");
     }

@@ -15,6 +15,7 @@ use periplus_ros2cli::{Failure, Seen};
 use periplus_sim::{AssetFiles, Options, Simulation, compose};
 
 use super::{DoctorOptions, parameters, tell};
+use crate::error::CliError;
 use crate::options::split;
 use crate::terminal;
 
@@ -27,7 +28,7 @@ const POLL_PERIOD_NS: i64 = 50_000_000;
 /// Name of the doctor's own node.
 const DOCTOR_NODE: &str = "_periplus_doctor";
 
-pub(super) fn run(options: &DoctorOptions) -> io::Result<ExitCode> {
+pub(super) fn run(options: &DoctorOptions) -> Result<ExitCode, CliError> {
     let (mut files, arguments) = split(&options.words);
     files.extend(options.robots.others.iter().map(std::path::PathBuf::from));
     let is_launch = |path: &Path| {
@@ -48,8 +49,7 @@ pub(super) fn run(options: &DoctorOptions) -> io::Result<ExitCode> {
         match parameters::examine(path) {
             Ok(findings) => found.extend(findings),
             Err(why) => {
-                terminal::complain(&why);
-                return Ok(ExitCode::FAILURE);
+                return Err(CliError::failed(why));
             }
         }
         what.push(path.display().to_string());
@@ -66,15 +66,13 @@ pub(super) fn run(options: &DoctorOptions) -> io::Result<ExitCode> {
             match simulated(world, arguments, options) {
                 Ok(findings) => found.extend(findings),
                 Err(why) => {
-                    terminal::complain(&why);
-                    return Ok(ExitCode::FAILURE);
+                    return Err(CliError::failed(why));
                 }
             }
             what.push(world.display().to_string());
         }
         _ => {
-            terminal::complain("give one world; add robots with --robot");
-            return Ok(ExitCode::from(2));
+            return Err(CliError::usage("give one world; add robots with --robot"));
         }
     }
     tell(&found, &what.join(", "), options.common.json)

@@ -7,7 +7,7 @@ use std::sync::mpsc::{RecvTimeoutError, channel};
 use std::time::Duration;
 
 use periplus_launch::bringup::xacro;
-use periplus_launch::{Interpreter, Outside, ProgramOutput};
+use periplus_launch::{Interpreter, Outside, Printed};
 use periplus_loader::LoadContext;
 use periplus_os::{Machine, Stopwatch};
 use periplus_resources::{Resolver, Store as _};
@@ -66,7 +66,7 @@ impl<'a> Programs<'a> {
     }
 
     /// Runs the built-in `xacro FILE name:=value`.
-    fn xacro(&self, words: &[String]) -> Result<ProgramOutput, String> {
+    fn xacro(&self, words: &[String]) -> Result<Printed, String> {
         let setting = LoadContext {
             host: &Machine,
             resolver: self.resolver,
@@ -79,7 +79,7 @@ impl<'a> Programs<'a> {
 }
 
 impl Outside for Programs<'_> {
-    fn run(&mut self, words: &[String]) -> Result<ProgramOutput, String> {
+    fn run(&mut self, words: &[String]) -> Result<Printed, String> {
         let [program, rest @ ..] = words else { return Err("the command is empty".into()) };
         let name = program.rsplit('/').next().unwrap_or_default();
         if matches!(name, "xacro" | "xacro.py") {
@@ -126,7 +126,7 @@ fn bounded(
     words: &[String],
     longest: Duration,
     tools: Option<&Tools>,
-) -> Result<ProgramOutput, String> {
+) -> Result<Printed, String> {
     let mut child = Command::new(program)
         .args(words)
         .envs(tools.map(|tools| ("PATH", tools.path())))
@@ -150,7 +150,7 @@ fn bounded(
         });
     }
     drop(send);
-    let mut printed = ProgramOutput::default();
+    let mut printed = Printed::default();
     let start = Stopwatch::start();
     loop {
         let rest = longest.saturating_sub(start.elapsed());

@@ -13,7 +13,7 @@ use std::time::Duration;
 use clap::Args;
 use periplus_diagnostics::SourceMap;
 use periplus_graph::{Arguments, Graph, Level};
-use periplus_launch::bringup::{Kind, LaunchRunner, Settings};
+use periplus_launch::bringup::{LaunchRunner, PartOutcomeKind, Settings};
 use periplus_launch::{Dialect, Plan};
 use periplus_os::{Stopwatch, sleep};
 use periplus_sim::{
@@ -22,6 +22,7 @@ use periplus_sim::{
 use serde_json::json;
 
 use crate::demo::browser;
+use crate::error::CliError;
 use crate::live::Live;
 use crate::options::SearchOptions;
 use crate::page::{About, PORT, Page, PageOptions};
@@ -103,7 +104,7 @@ pub(super) fn play(
     launched: Launched,
     options: &PlayOptions,
     search: &SearchOptions,
-) -> io::Result<ExitCode> {
+) -> Result<ExitCode, CliError> {
     let is_free = options.duration.is_some() && options.rtf.is_none();
     let settings = Settings {
         search: terminal::search(&search.resource_path),
@@ -132,7 +133,7 @@ fn in_world(
     mut bringup: LaunchRunner,
     options: &PlayOptions,
     search: &SearchOptions,
-) -> io::Result<ExitCode> {
+) -> Result<ExitCode, CliError> {
     let stop = stop::on_signal();
     let mut teller = LogPrinter::new(options);
     prepare(&mut bringup, &mut teller, &stop);
@@ -143,8 +144,7 @@ fn in_world(
         Err(why) => {
             bringup.end_all(&Graph::new(), 0);
             teller.tell(&mut bringup, &|write| drop(write()));
-            terminal::complain(&why);
-            return Ok(ExitCode::FAILURE);
+            return Err(CliError::failed(why));
         }
     };
     let to_simulation = Options {
@@ -158,36 +158,31 @@ fn in_world(
         Simulation::new(&mut composition, Arc::new(AssetFiles::default()), to_simulation);
     let whole = tell_findings(&composition, options.quiet)?;
     if let Some(missing) = composition.missing() {
-        terminal::complain(&format!("{} has nothing to simulate", missing.display()));
-        return Ok(ExitCode::FAILURE);
+        return Err(CliError::failed(format!("{} has nothing to simulate", missing.display())));
     }
     let recorder = match options.record.as_deref() {
         None => None,
         Some(path) => match SimulationRecorder::start(&simulation, path, options.wanted()) {
             Ok(recorder) => Some(recorder),
             Err(error) => {
-                terminal::complain(&format!("cannot record to {}: {error}", path.display()));
-                return Ok(ExitCode::FAILURE);
+                return Err(CliError::failed(format!(
+                    "cannot record to {}: {error}",
+                    path.display()
+                )));
             }
         },
     };
-    let mut services = match Services::new(&simulation, bringup.search().clone()) {
-        Ok(services) => services,
-        Err(error) => {
-            terminal::complain(&format!("cannot offer the services of the world: {error}"));
-            return Ok(ExitCode::FAILURE);
-        }
-    };
+    let mut services = Services::new(&simulation, bringup.search().clone()).map_err(|error| {
+        CliError::failed(format!("cannot offer the services of the world: {error}"))
+    })?;
     let factor = options.factor(&composition);
-    let joined = Ros2::join(&simulation, options.ros2, factor.is_some(), options.quiet)?;
-    let Some(mut ros2) = joined else { return Ok(ExitCode::FAILURE) };
+    let mut ros2 = Ros2::join(&simulation, options.ros2, factor.is_some(), options.quiet)?;
     bringup.set_wired(ros2.is_joined());
     let wants_page = options.wants_page(&bringup, factor.is_some());
     if wants_page {
         let around = composition.files.iter().filter_map(|file| file.path.parent());
         if let Err(error) = services.show(&simulation, around.map(Into::into).collect()) {
-            terminal::complain(&format!("the world cannot be shown: {error}"));
-            return Ok(ExitCode::FAILURE);
+            return Err(CliError::failed(format!("the world cannot be shown: {error}")));
         }
     }
     let about = About {
@@ -201,8 +196,7 @@ fn in_world(
         None => None,
         Some(Ok(page)) => page,
         Some(Err(why)) => {
-            terminal::complain(&why);
-            return Ok(ExitCode::FAILURE);
+            return Err(CliError::failed(why));
         }
     };
     let is_heard = page.is_some() || ros2.is_joined();
@@ -280,21 +274,14 @@ fn in_world(
     let cut_short = stop.load(Ordering::Relaxed) && options.duration.is_some();
     // Findings name each of them.
     if let Some(diverged) = simulation.diverged().first().filter(|_| outcome.is_ok()) {
-        terminal::complain(&format!("{diverged}; its model was removed"));
-        return Ok(ExitCode::FAILURE);
+        return Err(CliError::failed(format!("{diverged}; its model was removed")));
     }
     match outcome {
         Ok(()) if !is_recorded => Ok(ExitCode::FAILURE),
         Ok(()) if cut_short => Ok(ExitCode::from(terminal::INTERRUPTED)),
         Ok(()) if whole && !teller.has_failed => Ok(ExitCode::SUCCESS),
-        Ok(()) => {
-            terminal::complain("parts of the launch have errors and were not started");
-            Ok(ExitCode::FAILURE)
-        }
-        Err(diverged) => {
-            terminal::complain(&diverged.to_string());
-            Ok(ExitCode::FAILURE)
-        }
+        Ok(()) => Err(CliError::failed("parts of the launch have errors and were not started")),
+        Err(diverged) => Err(CliError::failed(diverged)),
     }
 }
 
@@ -319,19 +306,14 @@ fn among_others(
     mut bringup: LaunchRunner,
     options: &PlayOptions,
     search: &SearchOptions,
-) -> io::Result<ExitCode> {
+) -> Result<ExitCode, CliError> {
     if options.record.is_some() {
-        terminal::complain("this launch simulates no world; record it with `periplus bag record`");
-        return Ok(ExitCode::from(2));
+        return Err(CliError::usage(
+            "this launch simulates no world; record it with `periplus bag record`",
+        ));
     }
     let stop = stop::on_signal();
-    let mut live = match Live::open(launched.arguments) {
-        Ok(live) => live,
-        Err(words) => {
-            terminal::complain(&words);
-            return Ok(ExitCode::FAILURE);
-        }
-    };
+    let mut live = Live::open(launched.arguments).map_err(CliError::failed)?;
     bringup.set_wired(true);
     if !options.quiet {
         terminal::say(&format!("ROS 2: domain {}", live.domain_id));
@@ -347,8 +329,7 @@ fn among_others(
             Ok(()) if !options.quiet => terminal::say("using the time of /clock"),
             Ok(()) => {}
             Err(error) => {
-                terminal::complain(&error.to_string());
-                return Ok(ExitCode::FAILURE);
+                return Err(CliError::failed(error));
             }
         }
     }
@@ -364,8 +345,7 @@ fn among_others(
         None => None,
         Some(Ok(page)) => page,
         Some(Err(why)) => {
-            terminal::complain(&why);
-            return Ok(ExitCode::FAILURE);
+            return Err(CliError::failed(why));
         }
     };
     let mut teller = LogPrinter::new(options);
@@ -402,8 +382,7 @@ fn among_others(
     drop(bringup);
     live.end(FLUSH_TIMEOUT);
     if teller.has_failed {
-        terminal::complain("parts of the launch have errors and were not started");
-        return Ok(ExitCode::FAILURE);
+        return Err(CliError::failed("parts of the launch have errors and were not started"));
     }
     Ok(ExitCode::SUCCESS)
 }
@@ -449,9 +428,11 @@ impl LogPrinter {
             let mut err = anstream::stderr().lock();
             for line in lines.iter().filter(|_| !is_quiet) {
                 let sign = match line.outcome.kind {
-                    Kind::World | Kind::BuiltIn | Kind::Program => "+",
-                    Kind::Needless => "=",
-                    Kind::Missing => "-",
+                    PartOutcomeKind::World
+                    | PartOutcomeKind::BuiltIn
+                    | PartOutcomeKind::Program => "+",
+                    PartOutcomeKind::Needless => "=",
+                    PartOutcomeKind::Missing => "-",
                 };
                 let node = line.outcome.node.as_deref();
                 let node = node.map(|node| format!("{node}: ")).unwrap_or_default();

@@ -8,6 +8,7 @@ use periplus_launch::bringup::xacro;
 use periplus_os::Machine;
 use periplus_resources::Host as _;
 
+use crate::error::CliError;
 use crate::terminal;
 
 /// Argument that makes this program act as `xacro`. Not a command for users.
@@ -99,7 +100,7 @@ fn program(_path: &Path, _text: &str) -> Option<()> {
 
 /// Runs `xacro`: `N FOLDER...`, the folders searched for packages, followed by the arguments of the
 /// command.
-pub(crate) fn run_xacro(words: &[String]) -> std::io::Result<ExitCode> {
+pub(crate) fn run_xacro(words: &[String]) -> Result<ExitCode, CliError> {
     let (count, words) = match words.split_first() {
         Some((count, words)) => (count.parse().unwrap_or(0).min(words.len()), words),
         None => (0, words),
@@ -115,9 +116,6 @@ pub(crate) fn run_xacro(words: &[String]) -> std::io::Result<ExitCode> {
             std::io::Write::write_all(&mut std::io::stderr().lock(), done.errors.as_bytes())?;
             Ok(if done.is_success { ExitCode::SUCCESS } else { ExitCode::FAILURE })
         }
-        Err(why) => {
-            terminal::complain(&why);
-            Ok(ExitCode::from(2))
-        }
+        Err(why) => Err(CliError::usage(why)),
     }
 }

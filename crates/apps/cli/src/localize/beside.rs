@@ -38,34 +38,33 @@ impl BesideOptions {
 }
 
 impl Localization {
-    /// Adds the nodes to a graph, if requested: `Ok(Ok(None))` if not; a message if they cannot
-    /// start.
+    /// Adds the nodes to a graph, if requested; `None` if not.
     pub(crate) fn join(
         graph: &Graph,
         options: &BesideOptions,
         profile: Option<&RobotProfile>,
-    ) -> io::Result<Result<Option<Self>, String>> {
+    ) -> Result<Option<Self>, CliError> {
         if options.localize.is_empty() {
-            return Ok(Ok(None));
+            return Ok(None);
         }
         let (mut map, mut file) = (None, None);
         for path in &options.localize {
-            match options::yaml(path) {
-                Err(why) => return Ok(Err(why)),
-                Ok(yaml) if is_map(&yaml) => map = Some(path.clone()),
-                Ok(yaml) => {
-                    map = map.or_else(|| map_of(&yaml, path));
-                    file = Some(yaml);
-                }
+            let yaml = options::yaml(path).map_err(cannot_run)?;
+            if is_map(&yaml) {
+                map = Some(path.clone());
+            } else {
+                map = map.or_else(|| map_of(&yaml, path));
+                file = Some(yaml);
             }
         }
-        let Some(mut values) = options::tell(file, &[])? else {
-            return Ok(Err("the parameters of `amcl` have errors".into()));
-        };
+        let mut values = options::tell(file, &[]).map_err(|error| match error {
+            CliError::Reported(_) => cannot_run("the parameters of `amcl` have errors".into()),
+            error => error,
+        })?;
         if let Some(profile) = profile {
             profile.fill(&mut values, ["odom_frame_id", "base_frame_id", "scan_topic"]);
         }
-        Ok(Self::new(graph, map.as_deref(), values).map(Some))
+        Self::new(graph, map.as_deref(), values).map(Some).map_err(cannot_run)
     }
 
     /// Starts both nodes, `map_server` only if there is a map; a message if they cannot start.
@@ -120,6 +119,11 @@ impl Localization {
         }
         Ok(())
     }
+}
+
+/// Error of localization that cannot start.
+fn cannot_run(why: String) -> CliError {
+    CliError::Failed(format!("localization cannot run: {why}"))
 }
 
 /// Returns true if a file describes a map.

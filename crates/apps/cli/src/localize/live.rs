@@ -9,6 +9,7 @@ use periplus_diagnostics::SourceMap;
 
 use super::{Localization, LocalizeOptions};
 use crate::arguments;
+use crate::error::CliError;
 use crate::live::{Live, NodeMonitor};
 use crate::stop;
 use crate::terminal::{complain, diagnostics};
@@ -20,26 +21,15 @@ const MAX_SLEEP: Duration = Duration::from_millis(20);
 /// Timeout for delivering the last messages at the end.
 const FLUSH_TIMEOUT: Duration = Duration::from_millis(500);
 
-pub(super) fn run(options: &LocalizeOptions, ros: Vec<String>) -> io::Result<ExitCode> {
-    let Some(values) = options.values()? else { return Ok(ExitCode::from(2)) };
-    let Some(arguments) = arguments::read(ros)? else { return Ok(ExitCode::from(2)) };
+pub(super) fn run(options: &LocalizeOptions, ros: Vec<String>) -> Result<ExitCode, CliError> {
+    let values = options.values()?;
+    let arguments = arguments::read(ros)?;
     let stop = stop::on_signal();
     let is_simulated = values.flag("use_sim_time").unwrap_or_default();
-    let mut live = match Live::open(arguments) {
-        Ok(live) => live,
-        Err(words) => {
-            complain(&words);
-            return Ok(ExitCode::FAILURE);
-        }
-    };
+    let mut live = Live::open(arguments).map_err(CliError::failed)?;
     let graph = &live.graph;
-    let localization = match Localization::new(graph, options.map.as_deref(), values) {
-        Ok(localization) => localization,
-        Err(why) => {
-            complain(&why);
-            return Ok(ExitCode::FAILURE);
-        }
-    };
+    let localization =
+        Localization::new(graph, options.map.as_deref(), values).map_err(CliError::failed)?;
     for findings in [graph.take_findings(), graph.unused_arguments()] {
         diagnostics(&mut anstream::stderr().lock(), &findings, &SourceMap::new())?;
     }
@@ -50,13 +40,7 @@ pub(super) fn run(options: &LocalizeOptions, ros: Vec<String>) -> io::Result<Exi
         }
         Ok(monitor)
     });
-    let monitor = match ready {
-        Ok(monitor) => monitor,
-        Err(error) => {
-            complain(&error.to_string());
-            return Ok(ExitCode::FAILURE);
-        }
-    };
+    let monitor = ready.map_err(CliError::failed)?;
     let mut code = ExitCode::SUCCESS;
     while !stop.load(Ordering::Relaxed) {
         live.spin_once();

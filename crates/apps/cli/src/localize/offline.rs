@@ -12,6 +12,7 @@ use periplus_os::Stopwatch;
 
 use super::options::{self, LocalizeOptions};
 use super::report::Report;
+use crate::error::CliError;
 use crate::log::{Log, LogOptions, LoggedScan};
 use crate::{picture, terminal};
 
@@ -45,30 +46,23 @@ pub(super) fn run(
     log_path: &Path,
     map_path: &Path,
     out: &Path,
-) -> io::Result<ExitCode> {
+) -> Result<ExitCode, CliError> {
     let watch = Stopwatch::start();
-    let Some(values) = options.values()? else { return Ok(ExitCode::from(2)) };
-    let Some(map) = options::map(map_path)? else { return Ok(ExitCode::FAILURE) };
+    let values = options.values()?;
+    let map = options::map(map_path)?;
     let frame = |name: &str| values.is_given(name).then(|| values.text(name)).flatten();
     let input = LogOptions {
         odom_frame: frame("odom_frame_id").unwrap_or_else(|| options.input.odom_frame.clone()),
         base_frame: options.input.base_frame.clone().or_else(|| frame("base_frame_id")),
         ..options.input.clone()
     };
-    let mut log = match Log::open(log_path, &input)? {
-        Ok(log) => log,
-        Err(why) => {
-            terminal::complain(&why);
-            return Ok(ExitCode::FAILURE);
-        }
-    };
+    let mut log = Log::open(log_path, &input)?;
     if let Some(begin_ns) = log.scans.first().map(|it| it.scan.time_ns) {
         let skip_ns = (options.skip * 1e9) as i64;
         log.scans.retain(|it| it.scan.time_ns - begin_ns >= skip_ns);
     }
     if log.scans.is_empty() {
-        terminal::complain(&format!("{} has no scans", log_path.display()));
-        return Ok(ExitCode::FAILURE);
+        return Err(CliError::failed(format!("{} has no scans", log_path.display())));
     }
     let loaded_s = watch.elapsed().as_secs_f64();
     let mut amcl = Amcl::new(Settings::from_values(&values));
@@ -77,7 +71,7 @@ pub(super) fn run(
         terminal::complain(&why.message);
         why.notes.iter().for_each(|note| terminal::say(&format!("note: {note}")));
         why.help.iter().for_each(|help| terminal::say(&format!("help: {help}")));
-        return Ok(ExitCode::FAILURE);
+        return Err(CliError::Reported(1));
     }
     let outcome = localize(&mut amcl, &log);
     let wall_s = watch.elapsed().as_secs_f64();

@@ -12,6 +12,7 @@ use periplus_nav_nodes::amcl::read_parameters;
 use periplus_params::ParamValues;
 use periplus_yaml::YamlNode;
 
+use crate::error::CliError;
 use crate::log::LogOptions;
 use crate::terminal;
 
@@ -74,8 +75,8 @@ fn pose(word: &str) -> Result<Pose2, String> {
 }
 
 impl LocalizeOptions {
-    /// All parameters of `amcl`; prints findings and returns `None` on errors.
-    pub(crate) fn values(&self) -> io::Result<Option<ParamValues>> {
+    /// All parameters of `amcl`; prints the findings.
+    pub(crate) fn values(&self) -> Result<ParamValues, CliError> {
         let mut words = self.parameters.clone();
         let mut word = |name: &str, value: String| words.push((name.to_owned(), value));
         if let Some(Pose2 { x_m, y_m, yaw_rad }) = self.initial_pose {
@@ -87,13 +88,7 @@ impl LocalizeOptions {
         if let Some(seed) = self.seed {
             word("random_seed", seed.to_string());
         }
-        let file = match self.params_file.as_deref().map(yaml).transpose() {
-            Ok(file) => file,
-            Err(why) => {
-                terminal::complain(&why);
-                return Ok(None);
-            }
-        };
+        let file = self.params_file.as_deref().map(yaml).transpose().map_err(CliError::usage)?;
         tell(file, &words)
     }
 }
@@ -120,26 +115,20 @@ pub(super) fn yaml(path: &Path) -> Result<Yaml, String> {
     Ok(Yaml { tree, diagnostics, sources })
 }
 
-/// Parameters of `amcl` from a file and the command line; prints findings and returns `None` on
-/// errors.
-pub(super) fn tell(
-    file: Option<Yaml>,
-    words: &[(String, String)],
-) -> io::Result<Option<ParamValues>> {
+/// Parameters of `amcl` from a file and the command line; prints the findings.
+pub(super) fn tell(file: Option<Yaml>, words: &[(String, String)]) -> Result<ParamValues, CliError> {
     let none = || Yaml { tree: None, diagnostics: Diagnostics::new(), sources: SourceMap::new() };
     let Yaml { tree, mut diagnostics, sources } = file.unwrap_or_else(none);
     let values = read_parameters(tree.as_ref(), "amcl", words, &mut diagnostics);
     terminal::diagnostics(&mut anstream::stderr().lock(), &diagnostics, &sources)?;
-    Ok((!diagnostics.has_errors()).then_some(values))
+    if diagnostics.has_errors() { Err(CliError::Reported(2)) } else { Ok(values) }
 }
 
-/// Reads a map; prints the error and returns `None` if it cannot be read.
-pub(super) fn map(path: &Path) -> io::Result<Option<OccupancyGrid>> {
+/// Reads a map and prints its findings.
+pub(super) fn map(path: &Path) -> Result<OccupancyGrid, CliError> {
     let loaded = load(&path.to_string_lossy(), Distro::Jazzy, &periplus_os::Machine);
     let mut err = anstream::stderr().lock();
     terminal::diagnostics(&mut err, &loaded.diagnostics, &loaded.sources)?;
-    if loaded.map.is_none() {
-        terminal::complain(&format!("{} is not a usable map", path.display()));
-    }
-    Ok(loaded.map.map(|map| map.grid))
+    let unusable = || CliError::failed(format!("{} is not a usable map", path.display()));
+    loaded.map.map(|map| map.grid).ok_or_else(unusable)
 }

@@ -16,20 +16,18 @@ use periplus_slam::Scan;
 use periplus_tf::{Buffer, StampedTransform, TransformKind};
 
 use super::{Log, LogOptions, LoggedScan};
+use crate::error::CliError;
 use crate::terminal;
 
 /// Common names of the base frame, in order of preference.
 const BASE_FRAMES: [&str; 2] = ["base_footprint", "base_link"];
 
-/// Reads a recording; a message if it cannot be read.
-pub(super) fn read(path: &Path, options: &LogOptions) -> io::Result<Result<Log, String>> {
-    let bag = match crate::paths::bag(path) {
-        Ok(bag) => bag,
-        Err(why) => return Ok(Err(why)),
-    };
+/// Reads a recording and prints its findings.
+pub(super) fn read(path: &Path, options: &LogOptions) -> Result<Log, CliError> {
+    let bag = crate::paths::bag(path)?;
     let findings = bag.findings();
     terminal::diagnostics(&mut anstream::stderr().lock(), findings, &SourceMap::new())?;
-    Ok(scans(&bag, path, options))
+    Ok(scans(&bag, path, options)?)
 }
 
 fn scans(bag: &Bag, path: &Path, options: &LogOptions) -> Result<Log, String> {

@@ -13,6 +13,7 @@ use periplus_os::{Machine, sleep};
 
 use super::options::{SaveOptions, ServeOptions};
 use crate::arguments;
+use crate::error::CliError;
 use crate::live::{Live, NodeMonitor};
 use crate::stop;
 use crate::terminal::{complain, diagnostics, say};
@@ -23,24 +24,16 @@ const POLL_PERIOD: Duration = Duration::from_millis(20);
 /// Timeout for delivering the last messages at the end.
 const FLUSH_TIMEOUT: Duration = Duration::from_millis(500);
 
-pub(super) fn run(options: &ServeOptions, ros: Vec<String>) -> io::Result<ExitCode> {
+pub(super) fn run(options: &ServeOptions, ros: Vec<String>) -> Result<ExitCode, CliError> {
     if let Some(name) = &options.file {
         say(&format!("`-f` saves a map; running `periplus map save -f {name}`"));
         let words = vec!["-f".to_owned(), name.clone()];
         return super::save(&SaveOptions { distro: options.distro, timeout: None, words }, &ros);
     }
     let remaps = options.remaps.iter().flat_map(|rule| ["-r".to_owned(), rule.clone()]);
-    let Some(arguments) = arguments::read(remaps.chain(ros).collect())? else {
-        return Ok(ExitCode::from(2));
-    };
+    let arguments = arguments::read(remaps.chain(ros).collect())?;
     let stop = stop::on_signal();
-    let live = match Live::open(arguments) {
-        Ok(live) => live,
-        Err(words) => {
-            complain(&words);
-            return Ok(ExitCode::FAILURE);
-        }
-    };
+    let live = Live::open(arguments).map_err(CliError::failed)?;
     let graph = &live.graph;
     let usual = MapServerSettings::default();
     let settings = MapServerSettings {
@@ -52,18 +45,11 @@ pub(super) fn run(options: &ServeOptions, ros: Vec<String>) -> io::Result<ExitCo
     let made = graph
         .node(NodeSettings::new("map_server"))
         .and_then(|node| MapServer::new(node, settings, Arc::new(Machine)));
-    let server = match made {
-        Ok(server) => server,
-        Err(error) => {
-            complain(&error.to_string());
-            return Ok(ExitCode::FAILURE);
-        }
-    };
+    let server = made.map_err(CliError::failed)?;
     for findings in [graph.take_findings(), graph.unused_arguments()] {
         diagnostics(&mut anstream::stderr().lock(), &findings, &SourceMap::new())?;
     }
-    let monitor = NodeMonitor::new(server.node()).map_err(|error| complain(&error.to_string()));
-    let Ok(monitor) = monitor else { return Ok(ExitCode::FAILURE) };
+    let monitor = NodeMonitor::new(server.node()).map_err(CliError::failed)?;
     if !options.managed {
         server.start();
     }

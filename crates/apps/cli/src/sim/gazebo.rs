@@ -56,16 +56,15 @@ impl GazeboPublisher for Outlet {
 }
 
 impl Gazebo {
-    /// Connects if requested: without a connection if not, and `None` on failure, after printing
-    /// the error.
+    /// Connects if requested; `None` if not.
     pub(crate) fn join(
         simulation: &Simulation,
         services: &mut Services,
         asked: Option<GzReach>,
         types: GzTypes,
         quiet: bool,
-    ) -> io::Result<Option<Option<Self>>> {
-        let Some(reach) = asked else { return Ok(Some(None)) };
+    ) -> Result<Option<Self>, CliError> {
+        let Some(reach) = asked else { return Ok(None) };
         let (mut settings, findings) = Settings::from_environment(&Machine);
         terminal::diagnostics(&mut anstream::stderr().lock(), &findings, &SourceMap::new())?;
         settings.reach = match reach {
@@ -76,22 +75,15 @@ impl Gazebo {
             GzTypes::Gz => Dialect::Gz,
             GzTypes::Ignition => Dialect::Ignition,
         };
-        match Self::open(simulation, services, &settings) {
-            Ok(joined) => {
-                if !quiet {
-                    let on = match reach {
-                        GzReach::Loopback => "this machine only",
-                        GzReach::Network => "on the network",
-                    };
-                    terminal::say(&format!("Gazebo: partition {}, {on}", settings.partition));
-                }
-                Ok(Some(Some(joined)))
-            }
-            Err(error) => {
-                terminal::complain(&error.to_string());
-                Ok(None)
-            }
+        let joined = Self::open(simulation, services, &settings).map_err(CliError::failed)?;
+        if !quiet {
+            let on = match reach {
+                GzReach::Loopback => "this machine only",
+                GzReach::Network => "on the network",
+            };
+            terminal::say(&format!("Gazebo: partition {}, {on}", settings.partition));
         }
+        Ok(Some(joined))
     }
 
     fn open(

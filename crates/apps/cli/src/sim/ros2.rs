@@ -56,14 +56,13 @@ impl Joined {
 
 impl Ros2 {
     /// Connects as requested. By default a real-time run joins on this machine, or as the
-    /// environment sets, and continues without ROS 2 if that fails; `None` when it was requested
-    /// and fails.
+    /// environment sets, and continues without ROS 2 if that fails.
     pub(crate) fn join(
         simulation: &Simulation,
         asked: Option<Reach>,
         is_paced: bool,
         quiet: bool,
-    ) -> io::Result<Option<Self>> {
+    ) -> Result<Self, CliError> {
         if asked == Some(Reach::Zenoh) {
             return join_zenoh(simulation, quiet);
         }
@@ -79,7 +78,7 @@ impl Ros2 {
         let wire = None;
         let mut joined = Self { wire, looked: Duration::ZERO, quiet };
         if settings.range == Range::Off {
-            return Ok(Some(joined));
+            return Ok(joined);
         }
         terminal::diagnostics(&mut anstream::stderr().lock(), &findings, &SourceMap::new())?;
         let opened = Wire::open(&settings).and_then(|wire| {
@@ -88,10 +87,7 @@ impl Ros2 {
         });
         match opened {
             Ok(wire) => joined.wire = Some(Joined::Dds(wire)),
-            Err(error) if asked.is_some() => {
-                terminal::complain(&error.to_string());
-                return Ok(None);
-            }
+            Err(error) if asked.is_some() => return Err(CliError::failed(error)),
             Err(error) => terminal::say(&format!("warning: {error}; running without ROS 2")),
         }
         if joined.wire.is_some() && !quiet {
@@ -104,7 +100,7 @@ impl Ros2 {
                 _ => format!("ROS 2: domain {domain}, on the network"),
             });
         }
-        Ok(Some(joined))
+        Ok(joined)
     }
 
     /// Returns true if the run is on the network.
@@ -146,11 +142,9 @@ use zenoh::join as join_zenoh;
 
 /// Reports that this build has no Zenoh.
 #[cfg(not(feature = "zenoh"))]
-#[expect(clippy::unnecessary_wraps, reason = "as the one with the feature")]
-fn join_zenoh(_: &Simulation, _: bool) -> io::Result<Option<Ros2>> {
-    terminal::complain(
+fn join_zenoh(_: &Simulation, _: bool) -> Result<Ros2, CliError> {
+    Err(CliError::failed(
         "this periplus was built without Zenoh, which needs 200 more crates; build one with \
          `cargo build --release --features zenoh`",
-    );
-    Ok(None)
+    ))
 }

@@ -12,6 +12,7 @@ use periplus_os::sleep;
 
 use super::options::SlamOptions;
 use crate::arguments;
+use crate::error::CliError;
 use crate::live::{Live, NodeMonitor};
 use crate::mapping::{Mapping, parameters};
 use crate::stop;
@@ -22,33 +23,21 @@ const POLL_PERIOD: Duration = Duration::from_millis(4);
 /// Timeout for delivering the last messages at the end.
 const FLUSH_TIMEOUT: Duration = Duration::from_millis(500);
 
-pub(super) fn run(options: &SlamOptions, ros: Vec<String>) -> io::Result<ExitCode> {
-    let Some(arguments) = arguments::read(ros)? else {
-        return Ok(ExitCode::from(2));
-    };
+pub(super) fn run(options: &SlamOptions, ros: Vec<String>) -> Result<ExitCode, CliError> {
+    let arguments = arguments::read(ros)?;
     let file = options.live.params_file.as_deref();
-    let Some((program, values)) = parameters(file, options.live.node)? else {
-        return Ok(ExitCode::FAILURE);
-    };
+    let (program, values) = parameters(file, options.live.node)?;
     let told = arguments.parameters_of(&format!("/{}", program.node_name()));
     let is_simulated = told
         .get("use_sim_time")
         .map_or(values.flag("use_sim_time"), |value| Some(value.bool_value))
         .unwrap_or(false);
     let stop = stop::on_signal();
-    let mut live = match Live::open(arguments) {
-        Ok(live) => live,
-        Err(words) => {
-            complain(&words);
-            return Ok(ExitCode::FAILURE);
-        }
-    };
+    let mut live = Live::open(arguments).map_err(CliError::failed)?;
     let graph = &live.graph;
     let out = Some(options.out.as_path()).filter(|out| !out.as_os_str().is_empty());
     let node = graph.node(NodeSettings::new(program.node_name()));
-    let Ok(mapping) = Mapping::new(node, program, values, Pace::Whole, out) else {
-        return Ok(ExitCode::FAILURE);
-    };
+    let mapping = Mapping::new(node, program, values, Pace::Whole, out)?;
     for findings in [graph.take_findings(), graph.unused_arguments()] {
         diagnostics(&mut anstream::stderr().lock(), &findings, &SourceMap::new())?;
     }
@@ -66,13 +55,7 @@ pub(super) fn run(options: &SlamOptions, ros: Vec<String>) -> io::Result<ExitCod
         }
         Ok(monitor)
     });
-    let monitor = match ready {
-        Ok(monitor) => monitor,
-        Err(error) => {
-            complain(&error.to_string());
-            return Ok(ExitCode::FAILURE);
-        }
-    };
+    let monitor = ready.map_err(CliError::failed)?;
     while !stop.load(Ordering::Relaxed) {
         live.spin_once();
         sleep(POLL_PERIOD);
@@ -87,8 +70,7 @@ pub(super) fn run(options: &SlamOptions, ros: Vec<String>) -> io::Result<ExitCod
         Ok(Some(folder)) if !options.quiet => say(&format!("written: {}", folder.display())),
         Ok(_) => {}
         Err(why) => {
-            complain(&why);
-            return Ok(ExitCode::FAILURE);
+            return Err(CliError::failed(why));
         }
     }
     Ok(ExitCode::SUCCESS)

@@ -10,6 +10,8 @@ use super::common::Common;
 use super::service::read_stdin;
 use super::with_session;
 
+use crate::error::CliError;
+
 /// List actions and send goals, as `ros2 action` does
 #[derive(Debug, Args)]
 pub(crate) struct ActionOptions {
@@ -77,7 +79,7 @@ enum Verb {
 }
 
 impl ActionOptions {
-    pub(crate) fn run(&self) -> io::Result<ExitCode> {
+    pub(crate) fn run(&self) -> Result<ExitCode, CliError> {
         match &self.verb {
             Verb::Find { action_type, count_actions, common } => {
                 with_session(common, |session| action::find(session, action_type, *count_actions))

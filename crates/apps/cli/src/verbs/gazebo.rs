@@ -11,6 +11,7 @@ use periplus_os::{Machine, Stopwatch, sleep};
 use serde_json::json;
 
 use super::Common;
+use crate::error::CliError;
 use crate::terminal;
 
 /// Longest wait for Gazebo programs, which send heartbeats every second.
@@ -23,12 +24,16 @@ const SETTLE_TIME: Duration = Duration::from_millis(500);
 const POLL_PERIOD: Duration = Duration::from_millis(20);
 
 /// Lists the topics of Gazebo programs, as `gz topic -l` does.
-pub(super) fn topics(common: &Common, show_types: bool, count: bool) -> io::Result<ExitCode> {
+pub(super) fn topics(common: &Common, show_types: bool, count: bool) -> Result<ExitCode, CliError> {
     list("topic", Transport::topics, common, show_types, count)
 }
 
 /// Lists the services of Gazebo programs, as `gz service -l` does.
-pub(super) fn services(common: &Common, show_types: bool, count: bool) -> io::Result<ExitCode> {
+pub(super) fn services(
+    common: &Common,
+    show_types: bool,
+    count: bool,
+) -> Result<ExitCode, CliError> {
     list("service", Transport::services, common, show_types, count)
 }
 
@@ -38,16 +43,10 @@ fn list(
     common: &Common,
     show_types: bool,
     count: bool,
-) -> io::Result<ExitCode> {
+) -> Result<ExitCode, CliError> {
     let (settings, findings) = Settings::from_environment(&Machine);
     terminal::diagnostics(&mut anstream::stderr().lock(), &findings, &SourceMap::new())?;
-    let transport = match Transport::open(&settings) {
-        Ok(transport) => transport,
-        Err(error) => {
-            terminal::complain(&error.to_string());
-            return Ok(ExitCode::FAILURE);
-        }
-    };
+    let transport = Transport::open(&settings).map_err(CliError::failed)?;
     let longest = common.spin_time.map_or(DISCOVERY, Duration::from_secs_f64);
     let (clock, mut changed, mut known) = (Stopwatch::start(), Stopwatch::start(), 0);
     while clock.elapsed() < longest && (known == 0 || changed.elapsed() < SETTLE_TIME) {

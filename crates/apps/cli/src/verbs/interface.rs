@@ -10,6 +10,8 @@ use periplus_rosidl::InterfaceKind;
 use super::common::Common;
 use super::without_network;
 
+use crate::error::CliError;
+
 /// Show types of messages, services and actions, as `ros2 interface` does
 #[derive(Debug, Args)]
 pub(crate) struct InterfaceOptions {
@@ -106,7 +108,7 @@ impl InterfaceCommon {
 }
 
 impl InterfaceOptions {
-    pub(crate) fn run(&self) -> io::Result<ExitCode> {
+    pub(crate) fn run(&self) -> Result<ExitCode, CliError> {
         match &self.verb {
             Verb::List { kinds, common } => without_network(&common.common(), |session| {
                 interface::list(session, &kinds.kinds())

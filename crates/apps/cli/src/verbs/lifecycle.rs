@@ -9,6 +9,8 @@ use periplus_ros2cli::lifecycle;
 use super::common::Common;
 use super::with_session;
 
+use crate::error::CliError;
+
 /// Manage lifecycle nodes, as `ros2 lifecycle` does
 #[derive(Debug, Args)]
 pub(crate) struct LifecycleOptions {
@@ -54,7 +56,7 @@ enum Verb {
 }
 
 impl LifecycleOptions {
-    pub(crate) fn run(&self) -> io::Result<ExitCode> {
+    pub(crate) fn run(&self) -> Result<ExitCode, CliError> {
         match &self.verb {
             Verb::Get { node_name, common } => {
                 with_session(common, |session| lifecycle::get(session, node_name.as_deref()))

@@ -9,6 +9,8 @@ use periplus_ros2cli::node;
 use super::common::Common;
 use super::with_session;
 
+use crate::error::CliError;
+
 /// List nodes, as `ros2 node` does
 #[derive(Debug, Args)]
 pub(crate) struct NodeOptions {
@@ -41,7 +43,7 @@ enum Verb {
 }
 
 impl NodeOptions {
-    pub(crate) fn run(&self) -> io::Result<ExitCode> {
+    pub(crate) fn run(&self) -> Result<ExitCode, CliError> {
         match &self.verb {
             Verb::Info { node_name, include_hidden, common } => {
                 with_session(common, |session| node::info(session, node_name, *include_hidden))

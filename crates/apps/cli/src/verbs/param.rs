@@ -9,6 +9,7 @@ use periplus_ros2cli::param::{self, List};
 
 use super::common::Common;
 use super::with_session;
+use crate::error::CliError;
 use crate::{paths, terminal};
 
 /// List, get and set parameters, as `ros2 param` does
@@ -88,7 +89,7 @@ enum Verb {
 }
 
 impl ParamOptions {
-    pub(crate) fn run(&self) -> io::Result<ExitCode> {
+    pub(crate) fn run(&self) -> Result<ExitCode, CliError> {
         match &self.verb {
             Verb::Delete { node_name, name, common } => {
                 with_session(common, |session| param::delete(session, node_name, name))
@@ -115,13 +116,7 @@ impl ParamOptions {
             }
             Verb::Load { node_name, parameter_file, no_use_wildcard, common } => {
                 let file = terminal::working_folder().join(parameter_file);
-                let text = match paths::text(&file) {
-                    Ok(text) => text,
-                    Err(why) => {
-                        terminal::complain(&why);
-                        return Ok(ExitCode::FAILURE);
-                    }
-                };
+                let text = paths::text(&file).map_err(CliError::failed)?;
                 with_session(common, |session| {
                     param::load(session, node_name, parameter_file, &text, !no_use_wildcard)
                 })

@@ -10,6 +10,8 @@ use periplus_ros2cli::topic::{self, Echo};
 use super::common::{Common, rate};
 use super::{gazebo, with_session};
 
+use crate::error::CliError;
+
 /// List and call services, as `ros2 service` does
 #[derive(Debug, Args)]
 pub(crate) struct ServiceOptions {
@@ -93,7 +95,7 @@ enum Verb {
 }
 
 impl ServiceOptions {
-    pub(crate) fn run(&self) -> io::Result<ExitCode> {
+    pub(crate) fn run(&self) -> Result<ExitCode, CliError> {
         let all = self.include_hidden_services;
         match &self.verb {
             Verb::Call { service_name, service_type, values, stdin, rate, common } => {

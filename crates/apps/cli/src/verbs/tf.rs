@@ -14,6 +14,8 @@ use periplus_ros2cli::tf::{self, Echo, Monitor, Pictures, Tree, read_broadcast};
 use super::common::{Common, rate, seconds};
 use super::with_session;
 
+use crate::error::CliError;
+
 /// Inspect and publish transforms, as the programs of tf2 do
 #[derive(Debug, Args)]
 pub(crate) struct TfOptions {
@@ -123,7 +125,7 @@ struct StaticOptions {
 }
 
 impl TfOptions {
-    pub(crate) fn run(&self) -> io::Result<ExitCode> {
+    pub(crate) fn run(&self) -> Result<ExitCode, CliError> {
         match &self.verb {
             Verb::Echo(options) => {
                 let echo = Echo {

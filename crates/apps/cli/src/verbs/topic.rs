@@ -12,6 +12,8 @@ use periplus_ros2cli::topic::{self, Echo, List, Publish, Rate};
 use super::common::{Common, QosOptions, count, rate, seconds};
 use super::{gazebo, with_session};
 
+use crate::error::CliError;
+
 /// List, print, measure and publish topics, as `ros2 topic` does
 #[derive(Debug, Args)]
 pub(crate) struct TopicOptions {
@@ -219,7 +221,7 @@ struct PubOptions {
 }
 
 impl TopicOptions {
-    pub(crate) fn run(&self) -> io::Result<ExitCode> {
+    pub(crate) fn run(&self) -> Result<ExitCode, CliError> {
         let hidden = self.include_hidden_topics;
         match &self.verb {
             Verb::List(options) if options.gz => {

@@ -27,7 +27,7 @@ use crate::bringup::catalogue::Role;
 use crate::bringup::costmaps::{self, Host};
 use crate::bringup::parameters::{self, NamedParameters, text_of, texts_of, truth_of};
 use crate::bringup::parts::{BuiltInRequest, searched};
-use crate::bringup::report::Kind;
+use crate::bringup::report::PartOutcomeKind;
 use crate::bringup::runner::Settings;
 use crate::bringup::tasks::{
     JointStateTask, Manager, ManagerSettings, Relay, Saver, Spawner, Task, Unstamp, robot,
@@ -39,7 +39,7 @@ use crate::bringup::transform::FixedFrame;
 pub(crate) struct BuiltIn {
     pub(crate) kept: Vec<Box<dyn Any + Send>>,
     pub(crate) tasks: Vec<Box<dyn Task>>,
-    pub(crate) kind: Kind,
+    pub(crate) kind: PartOutcomeKind,
     pub(crate) node: Option<String>,
     pub(crate) told: String,
     /// Notes for the user.
@@ -70,11 +70,11 @@ pub(crate) fn make(
     let mut made = BuiltIn { told: ask.entry.becomes.to_owned(), ..BuiltIn::default() };
     match ask.entry.role {
         Role::Viewer | Role::Needless | Role::Container | Role::Gazebo => {
-            made.kind = Kind::Needless;
+            made.kind = PartOutcomeKind::Needless;
             return Ok(made);
         }
         Role::Lacking => {
-            made.kind = Kind::Missing;
+            made.kind = PartOutcomeKind::Missing;
             return Ok(made);
         }
         _ => {}

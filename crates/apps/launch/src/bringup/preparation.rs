@@ -55,7 +55,7 @@ fn step_of(trigger: &Trigger) -> Wait {
         Trigger::Seconds(_) => Wait::Time,
         Trigger::Started(Some(step))
         | Trigger::Ended(Some(step))
-        | Trigger::ProgramOutput(Some(step)) => Wait::Step(*step),
+        | Trigger::Printed(Some(step)) => Wait::Step(*step),
         _ => Wait::Other,
     }
 }

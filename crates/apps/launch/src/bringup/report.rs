@@ -5,21 +5,21 @@ use serde::Serialize;
 
 /// Outcome of a part of a plan.
 #[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Line {
+pub struct PartReport {
     /// Step of the plan.
     pub step: usize,
     /// Name in the launch file.
     pub asked: String,
     /// Replacement of the part.
     #[serde(flatten)]
-    pub outcome: Outcome,
+    pub outcome: PartOutcome,
 }
 
 /// Replacement of a part of a plan.
 #[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Outcome {
+pub struct PartOutcome {
     /// Kind of replacement.
-    pub kind: Kind,
+    pub kind: PartOutcomeKind,
     /// Full name of its node, if it has one.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub node: Option<String>,
@@ -30,7 +30,7 @@ pub struct Outcome {
 /// Kind of replacement of a part.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
-pub enum Kind {
+pub enum PartOutcomeKind {
     /// Simulation.
     World,
     /// Built-in node or task.

@@ -15,7 +15,7 @@ use crate::bringup::guard::Guard;
 use crate::bringup::make::{BuiltIn, make};
 use crate::bringup::parts::{self, BuiltInRequest, Part, Program, Work, own_folder};
 use crate::bringup::preparation::{self, MAX_WAIT_NS};
-use crate::bringup::report::{Kind, LaunchLog, Line, Outcome};
+use crate::bringup::report::{LaunchLog, PartOutcome, PartOutcomeKind, PartReport};
 use crate::bringup::tasks::{Child, Done, Task, TaskContext, TransitionTask};
 use crate::bringup::world::WorldRequest;
 use crate::bringup::xacro::xacro;
@@ -43,7 +43,7 @@ pub struct Settings {
 pub(crate) enum Event {
     Started(usize),
     Ended(usize),
-    ProgramOutput(usize),
+    Printed(usize),
     Reached { step: usize, from: String, to: String },
     Shutdown,
 }
@@ -67,7 +67,7 @@ pub struct LaunchRunner {
     tasks: Vec<(usize, Box<dyn Task>)>,
     kept: Vec<Box<dyn Any + Send>>,
     watched: Vec<(usize, Mailbox<TransitionEvent>)>,
-    lines: Vec<Line>,
+    lines: Vec<PartReport>,
     said: Vec<LaunchLog>,
     settings: Settings,
     /// Names of nodes without a built-in replacement.
@@ -255,7 +255,7 @@ impl LaunchRunner {
 
     /// Outcomes of the parts that were started, in their order.
     #[must_use]
-    pub fn lines(&self) -> &[Line] {
+    pub fn lines(&self) -> &[PartReport] {
         &self.lines
     }
 
@@ -310,7 +310,7 @@ impl LaunchRunner {
             let done = hand.work(&mut stage);
             let step = self.waiting[*part].part.step;
             if stage.has_printed {
-                self.events.push(Event::ProgramOutput(step));
+                self.events.push(Event::Printed(step));
             }
             if done == Done::Yes {
                 ended.push(*part);
@@ -405,7 +405,12 @@ impl LaunchRunner {
         match &part.work {
             Work::World(wish) => {
                 let file = wish.file.as_deref().unwrap_or("an empty plane");
-                self.outcome(&part, Kind::World, None, format!("the simulation of {file}"));
+                self.record_outcome(
+                    &part,
+                    PartOutcomeKind::World,
+                    None,
+                    format!("the simulation of {file}"),
+                );
                 self.kept.push(Box::new(()));
             }
             Work::Ours(ask) => {
@@ -415,13 +420,13 @@ impl LaunchRunner {
             Work::Xacro(program) => self.xacro(index, &part, program),
             Work::Program(program) => match Child::start(program, &self.settings, &self.guard) {
                 Ok(child) => {
-                    self.outcome(&part, Kind::Program, None, child.told());
+                    self.record_outcome(&part, PartOutcomeKind::Program, None, child.told());
                     self.tasks.push((index, Box::new(child)));
                 }
                 Err(why) => {
                     self.said
                         .push(LaunchLog::error(format!("`{}` does not run: {why}", part.asked)));
-                    self.outcome(&part, Kind::Missing, None, why);
+                    self.record_outcome(&part, PartOutcomeKind::Missing, None, why);
                     self.end(index);
                 }
             },
@@ -451,7 +456,7 @@ impl LaunchRunner {
             }
             Work::Nothing(why) => {
                 self.said.push(LaunchLog::warning(why.clone()));
-                self.outcome(&part, Kind::Missing, None, why.clone());
+                self.record_outcome(&part, PartOutcomeKind::Missing, None, why.clone());
             }
         }
     }
@@ -470,22 +475,25 @@ impl LaunchRunner {
             Ok(ran) if ran.is_success => {
                 if let Some(text) = Some(ran.output).filter(|text| !text.is_empty()) {
                     self.said.push(LaunchLog::info(text));
-                    self.events.push(Event::ProgramOutput(part.step));
+                    self.events.push(Event::Printed(part.step));
                 }
                 let file = ran.file.map(|file| format!(" writes {}", file.display()));
-                (Kind::BuiltIn, format!("the built-in xacro{}", file.unwrap_or_default()))
+                (
+                    PartOutcomeKind::BuiltIn,
+                    format!("the built-in xacro{}", file.unwrap_or_default()),
+                )
             }
             Ok(ran) => {
                 let why = ran.errors.trim_end();
                 self.said.push(LaunchLog::error(format!("`{}` failed: {why}", part.asked)));
-                (Kind::Missing, "xacro could not expand its file".to_owned())
+                (PartOutcomeKind::Missing, "xacro could not expand its file".to_owned())
             }
             Err(why) => {
                 self.said.push(LaunchLog::error(format!("`{}` failed: {why}", part.asked)));
-                (Kind::Missing, why)
+                (PartOutcomeKind::Missing, why)
             }
         };
-        self.outcome(part, kind, None, told);
+        self.record_outcome(part, kind, None, told);
         self.end(index);
     }
 
@@ -501,7 +509,7 @@ impl LaunchRunner {
                 for note in made.notes {
                     self.said.push(LaunchLog::warning(format!("`{}`: {note}", part.asked)));
                 }
-                self.outcome(part, made.kind, made.node, made.told);
+                self.record_outcome(part, made.kind, made.node, made.told);
                 self.kept.extend(made.kept);
                 for hand in made.tasks {
                     self.tasks.push((index, hand));
@@ -510,15 +518,21 @@ impl LaunchRunner {
             Err(why) => {
                 let told = format!("`{}` cannot run: {why}", part.asked);
                 self.said.push(LaunchLog::error(told));
-                self.outcome(part, Kind::Missing, Some(ask.full_name()), why);
+                self.record_outcome(part, PartOutcomeKind::Missing, Some(ask.full_name()), why);
                 self.end(index);
             }
         }
     }
 
-    fn outcome(&mut self, part: &Part, kind: Kind, node: Option<String>, told: String) {
-        let outcome = Outcome { kind, node, told };
-        self.lines.push(Line { step: part.step, asked: part.asked.clone(), outcome });
+    fn record_outcome(
+        &mut self,
+        part: &Part,
+        kind: PartOutcomeKind,
+        node: Option<String>,
+        told: String,
+    ) {
+        let outcome = PartOutcome { kind, node, told };
+        self.lines.push(PartReport { step: part.step, asked: part.asked.clone(), outcome });
     }
 }
 
@@ -560,7 +574,7 @@ impl Event {
         match (self, trigger) {
             (Self::Started(step), Trigger::Started(of))
             | (Self::Ended(step), Trigger::Ended(of))
-            | (Self::ProgramOutput(step), Trigger::ProgramOutput(of)) => same(of, step),
+            | (Self::Printed(step), Trigger::Printed(of)) => same(of, step),
             (
                 Self::Reached { step, from, to },
                 Trigger::Reached { step: of, from: wanted_from, to: wanted_to },

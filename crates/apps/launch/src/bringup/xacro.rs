@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use crate::{MissingInput, ProgramOutput};
+use crate::{MissingInput, Printed};
 use periplus_diagnostics::{Diagnostic, RenderStyle, Severity, SourceMap, render};
 use periplus_loader::{LoadContext, load};
 use periplus_os::Machine;
@@ -24,7 +24,7 @@ pub struct Xacro {
     pub file: Option<PathBuf>,
 }
 
-impl From<Xacro> for ProgramOutput {
+impl From<Xacro> for Printed {
     fn from(Xacro { output, errors, is_success, missing, file: _ }: Xacro) -> Self {
         Self { output, errors, is_success, missing }
     }

@@ -6,7 +6,7 @@ use std::sync::Arc;
 use periplus_diagnostics::SourceMap;
 use periplus_graph::{Graph, Mailbox, NodeSettings, Publisher, Qos};
 use periplus_launch::bringup::{LaunchRunner, Settings, xacro};
-use periplus_launch::{Dialect, Interpreter, Outside, ProgramOutput, Request, plan};
+use periplus_launch::{Dialect, Interpreter, Outside, Printed, Request, plan};
 use periplus_loader::LoadContext;
 use periplus_msgs::geometry_msgs::{Twist, TwistStamped};
 use periplus_msgs::nav_msgs::{OccupancyGrid, Odometry};
@@ -23,7 +23,7 @@ const PART_NS: i64 = 6_000_000_000;
 struct Programs(Search);
 
 impl Outside for Programs {
-    fn run(&mut self, words: &[String]) -> Result<ProgramOutput, String> {
+    fn run(&mut self, words: &[String]) -> Result<Printed, String> {
         let host = self.0.host();
         let resolver = self.0.resolver(&host);
         Ok(xacro(&words[1..], &self.0.setting(&host, &resolver, false))?.into())

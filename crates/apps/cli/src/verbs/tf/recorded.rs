@@ -11,19 +11,18 @@ use periplus_ros2cli::frames::Forest;
 use periplus_ros2cli::tf::{Pictures, put_tree, stamped};
 use periplus_tf::{TransformKind, TransformMonitor};
 
+use crate::error::CliError;
 use crate::log::bag::{each, has_type};
 use crate::terminal;
 use crate::verbs::{Common, without_network};
 
 /// Builds the tree of all frames of a recording.
-pub(super) fn tree(path: &Path, pictures: &Pictures, common: &Common) -> io::Result<ExitCode> {
-    let bag = match crate::paths::bag(path) {
-        Ok(bag) => bag,
-        Err(why) => {
-            terminal::complain(&why);
-            return Ok(ExitCode::FAILURE);
-        }
-    };
+pub(super) fn tree(
+    path: &Path,
+    pictures: &Pictures,
+    common: &Common,
+) -> Result<ExitCode, CliError> {
+    let bag = crate::paths::bag(path).map_err(CliError::failed)?;
     let mut err = anstream::stderr().lock();
     terminal::diagnostics(&mut err, bag.findings(), &SourceMap::new())?;
     drop(err);
