@@ -66,7 +66,7 @@ fn every_foreign_command_is_translated() {
     let mut page = String::from(
         "# ROS and Gazebo commands\n\nPrefix the ROS or Gazebo command you know with `periplus`; it runs the \
          equivalent and prints it. This page is generated: `UPDATE_EXPECT=1 cargo test -p periplus-cli \
-         old_word` rewrites it.\n\n| Command | Equivalent of `periplus` |\n|---|---|\n",
+         foreign_command` rewrites it.\n\n| Command | Equivalent of `periplus` |\n|---|---|\n",
     );
     for line in include_str!("examples.txt").lines().filter(|line| !line.is_empty()) {
         if let Some(title) = line.strip_prefix("# ") {
