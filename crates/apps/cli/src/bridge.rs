@@ -175,7 +175,7 @@ fn tell(findings: &Diagnostics) -> io::Result<()> {
 fn described(pair: &Pair) -> String {
     let Pair { ros_topic, gz_topic, ros_type, gz_type, direction, .. } = pair;
     let arrow = match direction {
-        Direction::BridgedService => "<->",
+        Direction::Both => "<->",
         Direction::ToRos => "->",
         Direction::ToGazebo => "<-",
     };

@@ -9,7 +9,6 @@ use periplus_conformance::run as run_cases;
 use periplus_os::Machine;
 
 use crate::error::CliError;
-use crate::terminal::complain;
 
 /// Run conformance cases: files that describe the behaviour of ROS programs
 ///

@@ -6,7 +6,7 @@ mod pictures;
 mod report;
 mod stage;
 
-use std::io::{self, Write};
+use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::sync::Arc;

@@ -6,11 +6,9 @@ mod offline;
 mod options;
 mod report;
 
-use std::io;
 use std::process::ExitCode;
 
 use crate::error::CliError;
-use crate::terminal;
 
 pub(crate) use beside::{BesideOptions, Localization};
 pub(crate) use options::LocalizeOptions;

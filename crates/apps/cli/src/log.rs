@@ -2,7 +2,7 @@
 
 pub(crate) mod bag;
 
-use std::io::{self, BufRead as _};
+use std::io::BufRead as _;
 use std::path::Path;
 
 use clap::Args;

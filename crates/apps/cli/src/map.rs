@@ -3,7 +3,6 @@
 mod options;
 mod serve;
 
-use std::io;
 use std::process::ExitCode;
 use std::time::Duration;
 

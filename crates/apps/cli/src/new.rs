@@ -3,7 +3,6 @@
 mod files;
 mod names;
 
-use std::io;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 

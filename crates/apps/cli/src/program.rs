@@ -1,6 +1,5 @@
 //! `periplus run`.
 
-use std::io;
 use std::process::ExitCode;
 
 use clap::{Args, Parser as _};
@@ -9,8 +8,8 @@ use periplus_os::Machine;
 use periplus_resources::Store as _;
 
 use crate::error::CliError;
+use crate::launch;
 use crate::options::{Command, Options};
-use crate::{launch, terminal};
 
 /// Run one program of a package, as `ros2 run` does: a built-in node, or an installed program
 ///

@@ -6,7 +6,6 @@ mod parameters;
 mod report;
 mod session;
 
-use std::io;
 use std::path::Path;
 use std::process::ExitCode;
 

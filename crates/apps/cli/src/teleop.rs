@@ -20,7 +20,7 @@ use periplus_ros2cli::teleop::{Keyboard, Pressed, SCREEN, Settings, TELEOP, stat
 use crate::arguments;
 use crate::error::CliError;
 use crate::live::Live;
-use crate::terminal::{complain, diagnostics};
+use crate::terminal::diagnostics;
 use terminal::RawTerminal;
 
 /// Number of velocity lines after which the screen is printed again, as in `teleop_twist_keyboard`.
@@ -85,7 +85,8 @@ pub(crate) fn run(options: &TeleopOptions, ros: Vec<String>) -> Result<ExitCode,
     driving.keyboard.stop();
     driving.publish();
     live.end(FLUSH_TIMEOUT);
-    outcome.map(|()| ExitCode::SUCCESS)
+    outcome?;
+    Ok(ExitCode::SUCCESS)
 }
 
 /// Teleop node.

@@ -99,7 +99,7 @@ pub(crate) fn without_network(
 fn end(outcome: Outcome) -> Result<ExitCode, CliError> {
     match outcome {
         Ok(()) => Ok(ExitCode::SUCCESS),
-        Err(Failure::Output(error)) => Err(error),
+        Err(Failure::Output(error)) => Err(error.into()),
         // Scripts for ROS parse the output, not the exit code.
         Err(Failure::Refused(refusal)) if foreign_commands::is_ros2() => {
             match refusal.ros2 {

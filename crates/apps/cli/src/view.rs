@@ -1,6 +1,5 @@
 //! `periplus view`.
 
-use std::io;
 use std::net::SocketAddr;
 use std::path::PathBuf;
 use std::process::ExitCode;

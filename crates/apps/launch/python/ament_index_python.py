@@ -1,4 +1,4 @@
-"""Stands in for `ament_index_python`: packages are found by their package.xml."""
+"""Replacement of `ament_index_python`: packages are found by their package.xml."""
 import os
 
 from . import packages  # noqa: F401

@@ -1,4 +1,4 @@
-"""Where packages are. One that is not here has the place `package://NAME`."""
+"""Folders of packages. A missing package has the path `package://NAME`."""
 import pathlib
 import sys
 
@@ -49,7 +49,7 @@ _WAYS_OUT = {"PackageNotFoundError", "KeyError", "LookupError", "Exception", "Ba
 
 
 def _is_expected_to_miss():
-    """Whether the launch file's line that asks handles a package that is not found."""
+    """Returns true if the calling line of the launch file handles a missing package."""
     frame = sys._getframe(1)
     while frame is not None and not objects.is_own(frame.f_code.co_filename):
         frame = frame.f_back

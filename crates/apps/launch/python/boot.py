@@ -123,7 +123,7 @@ class Absent(importlib.abc.MetaPathFinder, importlib.abc.Loader):
         return importlib.util.spec_from_loader(name, self, is_package=True)
 
     def is_import_of_user(self, name):
-        """Whether a module is imported by a line of a launch file, or of a module of its workspace, that
+        """Returns true if a module is imported by a line of a launch file, or of a module of its workspace, that
         is not prepared for its absence."""
         from periplus_launch import objects
 
@@ -171,7 +171,7 @@ def main():
         importlib.util.spec_from_loader("periplus_submodules", loader=None)
     )
     execute(sources["periplus_launch.submodules"], "periplus_launch.submodules", vars(submodules))
-    # The folder where the program was started is no place of modules.
+    # The working folder of the program is not a module path.
     sys.path[:] = [folder for folder in sys.path if folder]
     sys.dont_write_bytecode = True
     sys.meta_path.insert(0, Sources(sources, lambda top: top not in submodules.LAST))

@@ -20,7 +20,7 @@ _open = open
 
 
 class Refused(Exception):
-    """What the program that evaluates the file has to say against it."""
+    """Error reported by the program that evaluates the file."""
 
 
 def _send(message):
@@ -112,7 +112,7 @@ def _line(problem):
 
 
 def _help(problem):
-    """What to do about a problem, where that is known."""
+    """Suggested correction of a problem, if known."""
     if isinstance(problem, ModuleNotFoundError) and problem.name:
         top = problem.name.partition(".")[0]
         return (
@@ -143,12 +143,12 @@ def _help(problem):
 
 
 def _is_start(frame):
-    """Whether a frame is the one in which Python's library starts a program."""
+    """Returns true if a frame is the one in which Python's library starts a program."""
     return os.path.basename(frame.filename) == "subprocess.py"
 
 
 def _comes_of_empty(problem):
-    """Whether a problem may come from a file that is taken to be empty."""
+    """Returns true if a problem may come from a file that is taken to be empty."""
     if isinstance(problem, (ImportError, NameError, OSError, SyntaxError)):
         return False
     top = type(problem).__module__.partition(".")[0]
@@ -176,7 +176,7 @@ def _do(request):
         elif kind in ("call", "for_each"):
             answer = [objects.described(action) for action in objects.flat(subject(context))]
         else:
-            raise Refused(f"`{kind}` is no request")
+            raise Refused(f"`{kind}` is not a request")
     return {"answer": answer, **context._changes()}
 
 

@@ -1,4 +1,4 @@
-"""Stands in for `launch`, while a launch file is evaluated."""
+"""Replacement of `launch`, while a launch file is evaluated."""
 import contextlib
 import os
 import sys
@@ -46,7 +46,7 @@ class LaunchDescriptionEntity:
 
 
 class LaunchContext:
-    """What holds while a file is evaluated."""
+    """State of the evaluation of a file."""
 
     def __init__(self, *, argv=None, noninteractive=False):
         self.argv = list(argv or [])
@@ -83,7 +83,7 @@ class LaunchContext:
         }
 
     def _environment_changes(self):
-        """What differs from the machine's environment; null for what is taken away."""
+        """Changes of the environment; null for unset variables."""
         if self not in _active:
             return getattr(self, "_changed", {})
         changed = {}
@@ -190,7 +190,7 @@ class LaunchService:
 
 
 class LaunchDescriptionSource:
-    """Where included actions come from."""
+    """Sources of included actions."""
 
     def __init__(self, launch_description=None, location=None, method=None):
         self._location = location if location is not None else launch_description

@@ -4,7 +4,7 @@ from periplus_launch import objects
 
 
 class Action(LaunchDescriptionEntity):
-    """Something that a launch file does. A subclass of a launch file's own has `execute`."""
+    """Launch action. A subclass defined in a launch file has `execute`."""
 
     def __init__(self, *, condition=None):
         self._condition = condition

@@ -49,7 +49,7 @@ class ResetLaunchConfigurations(Action):
 
 
 class PushLaunchConfigurations(Action):
-    """What a group does at its start by itself."""
+    """Actions at the start of a group."""
 
     def _deed(self):
         return {"do": "group", "actions": [], "is_scoped": False}
@@ -279,7 +279,7 @@ def _process(command, name, running):
 
 
 def described_running(running):
-    """How a program runs, from the keyword arguments of actions that start one."""
+    """Process settings, from the keyword arguments of actions that start one."""
     respawn, delay = running.get("respawn", False), running.get("respawn_delay")
     only = running.get("env")
     exits = running.get("on_exit")

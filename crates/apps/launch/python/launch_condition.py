@@ -3,7 +3,7 @@ from periplus_launch import conversation, objects
 
 
 class Condition:
-    """Whether something is done: a function of the context."""
+    """Condition: a function of the context."""
 
     def __init__(self, *, predicate=None):
         self._predicate = predicate
@@ -27,7 +27,7 @@ class Condition:
 
 def described(condition):
     if not isinstance(condition, Condition):
-        raise TypeError(f"{condition!r} is no condition")
+        raise TypeError(f"{condition!r} is not a condition")
     if objects.is_own(type(condition).evaluate.__code__.co_filename):
         return Condition._described(condition)
     return condition._described()

@@ -3,7 +3,7 @@ from periplus_launch import objects
 
 
 class EventHandler:
-    """Does something when an event matches. Which events, is for Python alone to know."""
+    """Event handler with a Python matcher."""
 
     def __init__(self, *, matcher=None, entities=None, handle_once=False):
         self.matcher, self.entities = matcher, entities

@@ -3,7 +3,7 @@ from launch.event import Event
 
 
 class RunningProcessEvent(Event):
-    """What has become of a process; one that went well."""
+    """Result of a process that succeeded."""
 
     def __init__(self, *, action=None, name="", cmd=(), cwd=None, env=None, pid=0, **_others):
         self.action, self.cmd, self.cwd, self.env, self.pid = action, list(cmd), cwd, env, pid

@@ -1,4 +1,4 @@
-"""Where included actions come from."""
+"""Sources of included actions."""
 from launch import LaunchDescriptionSource
 
 

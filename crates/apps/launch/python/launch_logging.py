@@ -1,4 +1,4 @@
-"""Loggers: what a launch file says while it is evaluated goes to the standard error."""
+"""Loggers: messages during the evaluation go to stderr."""
 import logging as _logging
 
 

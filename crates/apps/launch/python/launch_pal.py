@@ -1,4 +1,4 @@
-"""Stands in for `launch_pal`: how PAL's launch files include others and merge parameters."""
+"""Replacement of `launch_pal`: how PAL's launch files include others and merge parameters."""
 import re
 import tempfile
 from dataclasses import dataclass, fields
@@ -253,7 +253,7 @@ def substitute_variables(file_path, variables, ld=None):
         value = default if value is None else value
         if value is None:
             if ld is not None:
-                ld.add_action(LogInfo(msg=f"{file_path}: nothing has set `{name}`"))
+                ld.add_action(LogInfo(msg=f"{file_path}: unset variable `{name}`"))
             return ""
         used[match.group(0)] = value
         return str(value)
@@ -322,7 +322,7 @@ class ConcatSubstitution(Substitution):
 
 
 class IfNodeRunning(IfCondition):
-    """Whether a node runs already: none does when a plan is made."""
+    """Returns False: no node runs when a plan is made."""
 
     _text_when_planned = "false"
 

@@ -1,4 +1,4 @@
-"""Stands in for `launch_param_builder`: parameters from the files of a package."""
+"""Replacement of `launch_param_builder`: parameters from the files of a package."""
 from pathlib import Path
 
 from periplus_launch import conversation
@@ -8,7 +8,7 @@ from ament_index_python.packages import get_package_share_path, get_package_shar
 
 
 class ParameterBuilderFileNotFoundError(KeyError):
-    """A file that is not there."""
+    """Missing file."""
 
 
 ParameterValueType = object

@@ -1,4 +1,4 @@
-"""Stands in for `launch_ros`, while a launch file is evaluated."""
+"""Replacement of `launch_ros`, while a launch file is evaluated."""
 from . import (  # noqa: F401
     actions,
     descriptions,

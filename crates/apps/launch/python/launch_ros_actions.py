@@ -142,7 +142,7 @@ ROSTimer = RosTimer
 
 
 class LifecycleTransition(Action):
-    """Leads managed nodes through transitions."""
+    """Leads lifecycle nodes through transitions."""
 
     def __init__(self, *, lifecycle_node_names, transition_ids, **others):
         super().__init__(**others)

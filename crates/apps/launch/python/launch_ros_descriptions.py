@@ -39,7 +39,7 @@ class ComposableNode:
 
 
 class ComposableLifecycleNode(ComposableNode):
-    """A component that is a managed node."""
+    """A component that is a lifecycle node."""
 
     def __init__(self, *, autostart=False, **others):
         super().__init__(**others)

@@ -1,4 +1,4 @@
-"""Events of managed nodes."""
+"""Events of lifecycle nodes."""
 from launch.event import Event
 from lifecycle_msgs.msg import Transition
 
@@ -8,11 +8,11 @@ class ChangeState(Event):
         self.lifecycle_node_matcher = lifecycle_node_matcher
         self.transition = Transition._names.get(transition_id)
         if self.transition is None:
-            raise ValueError(f"{transition_id!r} is no transition of a managed node")
+            raise ValueError(f"{transition_id!r} is not a transition of a lifecycle node")
 
 
 class StateTransition(Event):
-    """A managed node has gone to another state."""
+    """A lifecycle node has gone to another state."""
 
     def __init__(self, *, action=None, msg=None, **_others):
         self.action, self.msg = action, msg

@@ -52,7 +52,7 @@ class Parameter:
 
 
 def described(parameters):
-    """What a node's `parameters` says, as JSON."""
+    """`parameters` of a node, as JSON."""
     if parameters is None:
         return []
     if isinstance(parameters, dict) or isinstance(parameters, (str, ParameterFile)):
@@ -115,4 +115,4 @@ def given(value):
         return {"given": "value", "value": list(value)}
     if type(value).__module__ == "numpy":
         return given(value.tolist())
-    raise TypeError(f"{value!r} is no value of a parameter")
+    raise TypeError(f"{value!r} is not a parameter value")

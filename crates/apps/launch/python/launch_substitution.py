@@ -3,7 +3,7 @@ from periplus_launch import conversation, objects
 
 
 class Substitution:
-    """What is put in the place of something, when it is needed. A launch file's own have `perform`."""
+    """Substitution, resolved when needed. One defined in a launch file has `perform`."""
 
     def _described(self):
         return {"sub": "python", "id": objects.keep(self)}

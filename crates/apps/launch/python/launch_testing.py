@@ -1,4 +1,4 @@
-"""Stands in for `launch_testing`: descriptions of tests are read, tests are not run."""
+"""Replacement of `launch_testing`: descriptions of tests are read, tests are not run."""
 from launch.action import Action
 from launch.actions import ExecuteProcess
 
@@ -7,7 +7,7 @@ EXIT_OK, EXIT_SIGINT, EXIT_SIGQUIT, EXIT_SIGKILL, EXIT_SIGSEGV = 0, 130, 131, 13
 
 
 class ReadyToTest(Action):
-    """Where the tests of a description begin: nothing that runs."""
+    """Start of the tests of a description; runs nothing."""
 
     def _deed(self):
         return {"do": "group", "actions": [], "is_scoped": False}

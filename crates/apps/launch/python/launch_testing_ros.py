@@ -1,4 +1,4 @@
-"""Stands in for `launch_testing_ros`: its classes need a runner of tests."""
+"""Replacement of `launch_testing_ros`: its classes need a runner of tests."""
 from launch_testing import _Later
 
 DataRepublisher = MessagePump = LaunchTestRunner = WaitForTopics = EnableRmwIsolation = _Later

@@ -1,2 +1,2 @@
-"""Stands in for `lifecycle_msgs`."""
+"""Replacement of `lifecycle_msgs`."""
 from . import msg  # noqa: F401

@@ -1,4 +1,4 @@
-"""Stands in for `moveit_configs_utils`: the parameters of MoveIt from the files of a package."""
+"""Replacement of `moveit_configs_utils`: the parameters of MoveIt from the files of a package."""
 import re
 from dataclasses import dataclass, field
 from pathlib import Path

@@ -29,13 +29,13 @@ def get(number):
 
 
 def is_own(file):
-    """Whether a file is one of the user's, and not of the machinery."""
+    """Returns true for a file of the user, not of this interpreter."""
     is_installed = file.startswith(_LIBRARY) or "-packages/" in file
     return not file.startswith("<") and not is_installed
 
 
 def is_caught(file, line, problems):
-    """Whether a line of a file is in a `try` that handles one of the problems."""
+    """Returns true if a line of a file is in a `try` that handles one of the problems."""
     try:
         tree = ast.parse("".join(linecache.getlines(file)))
     except (SyntaxError, ValueError, RecursionError):
@@ -88,12 +88,12 @@ def described(action):
     if isinstance(action, EventHandler):
         return {"place": getattr(action, "_written", None), **action._described()}
     if not isinstance(action, Action):
-        raise TypeError(f"{action!r} is no action of a launch file")
+        raise TypeError(f"{action!r} is not a launch action")
     return action._described()
 
 
 def text(value):
-    """What may stand where a text is wanted, as a list of parts."""
+    """Text or substitutions, as a list of parts."""
     from launch.substitution import Substitution
 
     if value is None:

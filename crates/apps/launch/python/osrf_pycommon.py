@@ -1,2 +1,2 @@
-"""Stands in for `osrf_pycommon`: processes are run by the plan."""
+"""Replacement of `osrf_pycommon`: processes are run by the plan."""
 from . import process_utils  # noqa: F401

@@ -1,4 +1,4 @@
-"""Stands in for `xacro`: files are expanded by the program that evaluates the launch file."""
+"""Replacement of `xacro`: files are expanded by the program that evaluates the launch file."""
 import os
 from xml.dom import minidom
 
@@ -6,7 +6,7 @@ from periplus_launch import conversation
 
 
 class XacroException(Exception):
-    """What is wrong with a file of xacro."""
+    """Error of an xacro file."""
 
 
 def _expanded(file, mappings):

@@ -5,7 +5,7 @@ from periplus_launch import conversation
 
 
 class YAMLError(Exception):
-    """A text that is no YAML."""
+    """Invalid YAML."""
 
 
 class Loader:

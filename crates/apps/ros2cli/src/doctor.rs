@@ -1,6 +1,6 @@
 //! `doctor`: diagnosis of a running system, with the parameter to change.
 //!
-//! [`SystemObserver`] collect messages into a [`SystemObservation`]; [`examine`] finds its problems. Neither needs a
+//! A [`SystemObserver`] collects messages into a [`SystemObservation`]; [`examine`] finds problems. Neither needs a
 //! network, so that a simulation in the same program can be diagnosed before anything runs for
 //! real.
 

@@ -1,6 +1,5 @@
 //! `periplus bag convert` and `periplus bag cut`.
 
-use std::io;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 

@@ -1,11 +1,9 @@
 //! `periplus bag reindex`.
 
-use std::io;
 use std::process::ExitCode;
 
 use super::options::ReindexOptions;
 use crate::error::CliError;
-use crate::terminal;
 
 pub(super) fn run(options: &ReindexOptions) -> Result<ExitCode, CliError> {
     let bag = super::open(&options.bag)?;

@@ -88,7 +88,7 @@ fn entry(node: &YamlNode, is_lazy: bool, findings: &mut Diagnostics) -> Option<P
         return wrong("`ros_type_name` and `gz_type_name` are required", findings);
     };
     let direction = match text("direction").as_deref() {
-        None | Some("BIDIRECTIONAL") => Direction::BridgedService,
+        None | Some("BIDIRECTIONAL") => Direction::Both,
         Some("GZ_TO_ROS") => Direction::ToRos,
         Some("ROS_TO_GZ") => Direction::ToGazebo,
         Some(_) => {
@@ -144,7 +144,7 @@ mod tests {
         assert_eq!((pairs[0].ros_topic.as_str(), pairs[0].gz_topic.as_str()), ("scan", "/lidar"));
         assert_eq!((pairs[0].direction, pairs[0].is_lazy), (Direction::ToRos, true));
         assert_eq!((pairs[0].publisher_queue, pairs[0].subscriber_queue), (3, 10));
-        assert_eq!((pairs[1].direction, pairs[1].is_lazy), (Direction::BridgedService, false));
+        assert_eq!((pairs[1].direction, pairs[1].is_lazy), (Direction::Both, false));
         assert_eq!((pairs[2].ros_topic.as_str(), pairs[2].gz_topic.as_str()), ("/e", "/e"));
         assert_eq!(findings.iter().count(), 5);
     }

@@ -61,7 +61,7 @@ impl Spec {
             direction: match mark {
                 '[' => Direction::ToRos,
                 ']' => Direction::ToGazebo,
-                _ => Direction::BridgedService,
+                _ => Direction::Both,
             },
             is_lazy: false,
             publisher_queue: QUEUE_DEPTH,
@@ -86,7 +86,7 @@ mod tests {
     #[test]
     fn the_mark_says_the_direction() {
         for (mark, direction) in
-            [('@', Direction::BridgedService), ('[', Direction::ToRos), (']', Direction::ToGazebo)]
+            [('@', Direction::Both), ('[', Direction::ToRos), (']', Direction::ToGazebo)]
         {
             let word = format!("/lidar@sensor_msgs/msg/LaserScan{mark}gz.msgs.LaserScan");
             let (topic, ros, gazebo, found) = topic(&word).expect("a topic");

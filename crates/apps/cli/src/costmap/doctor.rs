@@ -1,6 +1,6 @@
 //! `periplus doctor costmap`.
 
-use std::io::{self, Write};
+use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 

@@ -1,6 +1,5 @@
 //! `periplus costmap`.
 
-use std::io;
 use std::path::PathBuf;
 use std::process::ExitCode;
 use std::sync::atomic::Ordering;
@@ -16,7 +15,7 @@ use crate::arguments;
 use crate::error::CliError;
 use crate::live::{Live, NodeMonitor};
 use crate::stop;
-use crate::terminal::{complain, diagnostics, say};
+use crate::terminal::{diagnostics, say};
 
 /// Polling period.
 const POLL_PERIOD: Duration = Duration::from_millis(5);

@@ -1,7 +1,6 @@
 //! Static checks of files, before anything runs.
 
 use std::collections::BTreeMap;
-use std::io;
 use std::path::Path;
 use std::process::ExitCode;
 use std::sync::Arc;

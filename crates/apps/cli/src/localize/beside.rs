@@ -13,6 +13,7 @@ use periplus_params::ParamValues;
 use periplus_yaml::YamlNode;
 
 use super::options::{self, Yaml};
+use crate::error::CliError;
 use crate::sim::stack::RobotProfile;
 
 /// Localization options of `periplus sim`.

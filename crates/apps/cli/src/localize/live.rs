@@ -1,6 +1,5 @@
 //! Localization on ROS 2.
 
-use std::io;
 use std::process::ExitCode;
 use std::sync::atomic::Ordering;
 use std::time::Duration;
@@ -12,7 +11,7 @@ use crate::arguments;
 use crate::error::CliError;
 use crate::live::{Live, NodeMonitor};
 use crate::stop;
-use crate::terminal::{complain, diagnostics};
+use crate::terminal::diagnostics;
 
 /// Shortest and longest sleep of the loop: the filter polls for scans every 20 ms.
 const MIN_SLEEP: Duration = Duration::from_millis(5);

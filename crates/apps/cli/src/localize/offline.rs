@@ -1,7 +1,6 @@
 //! Localization of a log, scan by scan.
 
 use std::collections::BTreeMap;
-use std::io;
 use std::path::Path;
 use std::process::ExitCode;
 

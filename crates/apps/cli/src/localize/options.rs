@@ -1,6 +1,5 @@
 //! Options of `periplus localize`.
 
-use std::io;
 use std::path::{Path, PathBuf};
 
 use clap::Args;

@@ -1,7 +1,6 @@
 //! Scans of a recording, with odometry from its transforms.
 
 use std::collections::{BTreeMap, BTreeSet};
-use std::io;
 use std::path::Path;
 
 use periplus_bags::files::{Bag, BagError};

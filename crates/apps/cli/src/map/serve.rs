@@ -1,6 +1,5 @@
 //! `periplus map serve`.
 
-use std::io;
 use std::process::ExitCode;
 use std::sync::Arc;
 use std::sync::atomic::Ordering;
@@ -16,7 +15,7 @@ use crate::arguments;
 use crate::error::CliError;
 use crate::live::{Live, NodeMonitor};
 use crate::stop;
-use crate::terminal::{complain, diagnostics, say};
+use crate::terminal::{diagnostics, say};
 
 /// Polling period.
 const POLL_PERIOD: Duration = Duration::from_millis(20);

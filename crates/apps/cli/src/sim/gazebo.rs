@@ -10,6 +10,7 @@ use periplus_gz_transport::{Link, Publisher, Reach, Server, Settings, Transport,
 use periplus_os::Machine;
 use periplus_sim::{GazeboPublisher, Services, Simulation, gazebo_topic};
 
+use crate::error::CliError;
 use crate::terminal;
 
 /// Topics for ROS programs only.

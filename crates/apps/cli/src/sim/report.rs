@@ -43,7 +43,7 @@ impl Report<'_> {
     pub(crate) fn to_json(&self) -> Value {
         let shares = self.simulation.shares();
         let timing = Work::ALL
-            .map(|work| (format!("{}_s", work.name()), json!(shares.timing(work).as_secs_f64())));
+            .map(|work| (format!("{}_s", work.name()), json!(shares.spent(work).as_secs_f64())));
         json!({
             "simulated_s": self.simulated_s(),
             "wall_s": self.wall.as_secs_f64(),
@@ -76,7 +76,7 @@ fn seconds(time_ns: i64) -> f64 {
 }
 
 fn percent(shares: &WorkProfile, work: Work) -> f64 {
-    shares.timing(work).as_secs_f64() / shares.total().as_secs_f64().max(1e-9) * 100.0
+    shares.spent(work).as_secs_f64() / shares.total().as_secs_f64().max(1e-9) * 100.0
 }
 
 #[expect(clippy::cast_precision_loss, reason = "for display")]

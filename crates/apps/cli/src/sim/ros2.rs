@@ -9,6 +9,7 @@ use periplus_diagnostics::{Diagnostics, SourceMap};
 use periplus_os::Machine;
 use periplus_sim::Simulation;
 
+use crate::error::CliError;
 use crate::terminal;
 
 #[cfg(feature = "zenoh")]

@@ -1,6 +1,5 @@
 //! `periplus slam --live`: mapping on ROS 2.
 
-use std::io;
 use std::process::ExitCode;
 use std::sync::atomic::Ordering;
 use std::time::Duration;
@@ -16,7 +15,7 @@ use crate::error::CliError;
 use crate::live::{Live, NodeMonitor};
 use crate::mapping::{Mapping, parameters};
 use crate::stop;
-use crate::terminal::{complain, diagnostics, say};
+use crate::terminal::{diagnostics, say};
 
 /// Period of clock updates: background work is split into slices of this duration.
 const POLL_PERIOD: Duration = Duration::from_millis(4);

@@ -1,6 +1,5 @@
 //! `periplus action`.
 
-use std::io;
 use std::process::ExitCode;
 
 use clap::{Args, Subcommand};

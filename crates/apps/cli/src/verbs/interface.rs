@@ -1,6 +1,5 @@
 //! `periplus interface`.
 
-use std::io;
 use std::process::ExitCode;
 
 use clap::{Args, Subcommand};

@@ -1,6 +1,5 @@
 //! `periplus lifecycle`.
 
-use std::io;
 use std::process::ExitCode;
 
 use clap::{Args, Subcommand};

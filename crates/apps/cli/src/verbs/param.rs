@@ -1,6 +1,5 @@
 //! `periplus param`.
 
-use std::io;
 use std::path::PathBuf;
 use std::process::ExitCode;
 

@@ -2,7 +2,6 @@
 
 mod recorded;
 
-use std::io;
 use std::path::PathBuf;
 use std::process::ExitCode;
 use std::time::Duration;

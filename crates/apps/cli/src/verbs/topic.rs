@@ -1,6 +1,5 @@
 //! `periplus topic`.
 
-use std::io;
 use std::process::ExitCode;
 use std::time::Duration;
 

@@ -1,6 +1,5 @@
 //! Tree of frames of a recording.
 
-use std::io;
 use std::path::Path;
 use std::process::ExitCode;
 
