@@ -84,11 +84,7 @@ impl Costmaps {
     }
 
     /// Creates the costmaps of a file, not yet configured.
-    fn of_file(
-        graph: &Graph,
-        path: &Path,
-        compat: Option<Nav2Release>,
-    ) -> Result<Self, CliError> {
+    fn of_file(graph: &Graph, path: &Path, compat: Option<Nav2Release>) -> Result<Self, CliError> {
         Self::of_read(graph, read(path, compat))
     }
 

@@ -115,7 +115,10 @@ pub(super) fn yaml(path: &Path) -> Result<Yaml, String> {
 }
 
 /// Parameters of `amcl` from a file and the command line; prints the findings.
-pub(super) fn tell(file: Option<Yaml>, words: &[(String, String)]) -> Result<ParamValues, CliError> {
+pub(super) fn tell(
+    file: Option<Yaml>,
+    words: &[(String, String)],
+) -> Result<ParamValues, CliError> {
     let none = || Yaml { tree: None, diagnostics: Diagnostics::new(), sources: SourceMap::new() };
     let Yaml { tree, mut diagnostics, sources } = file.unwrap_or_else(none);
     let values = read_parameters(tree.as_ref(), "amcl", words, &mut diagnostics);
