@@ -3,9 +3,9 @@
 #![no_main]
 
 use libfuzzer_sys::fuzz_target;
-use periplus_cyclonedds_sys::{Guid, Identity, Sample, Vendor};
+use periplus_cyclonedds_sys::{Guid, SampleIdentity, DdsSample, Vendor};
 use periplus_dds::{entities, names, request, user_data};
-use periplus_rmw_zenoh::Token;
+use periplus_rmw_zenoh::EntityToken;
 use periplus_rmw_zenoh::attachment::Attachment;
 
 fuzz_target!(|bytes: &[u8]| {
@@ -36,8 +36,8 @@ fuzz_target!(|bytes: &[u8]| {
             assert_eq!(names::message(&names::type_of(&name)).as_deref(), Some(&*name));
         }
         let _ = names::service_of(text);
-        if let Some(token) = Token::read(text) {
-            assert_eq!(Token::read(&token.write()), Some(token));
+        if let Some(token) = EntityToken::read(text) {
+            assert_eq!(EntityToken::read(&token.write()), Some(token));
         }
     }
     if let Some(beside) = Attachment::read(bytes) {
@@ -45,9 +45,9 @@ fuzz_target!(|bytes: &[u8]| {
     }
     let (caller, reader) = (Guid([1; 16]), Guid([2; 16]));
     for vendor in [Vendor::CYCLONE, Vendor::FAST] {
-        for related in [None, Some(Identity { writer: reader, sequence: 3 })] {
-            let source = Some(Identity { writer: caller, sequence: 3 });
-            let sample = Sample { bytes: bytes.to_vec(), time_ns: 0, source, vendor, related };
+        for related in [None, Some(SampleIdentity { writer: reader, sequence: 3 })] {
+            let source = Some(SampleIdentity { writer: caller, sequence: 3 });
+            let sample = DdsSample { bytes: bytes.to_vec(), time_ns: 0, source, vendor, related };
             let _ = request::read_answer(sample.clone(), caller, reader);
             if let Some((ticket, body)) = request::read_question(sample) {
                 let (answer, _) = request::write_answer(ticket, &body);

@@ -3,7 +3,7 @@
 use std::f32::consts::{PI, TAU};
 use std::time::{Duration, Instant};
 
-use periplus_dds::{Settings, Wire};
+use periplus_dds::{DdsTransport, Settings};
 use periplus_graph::{Graph, NodeSettings, Qos};
 use periplus_msgs::Message;
 use periplus_msgs::builtin_interfaces::Time;
@@ -106,7 +106,7 @@ struct Plan {
 
 impl Plan {
     fn publish<T: Stamped>(&self, mut message: T) -> Result<(), String> {
-        let wire = Wire::open(&self.settings).map_err(|error| error.to_string())?;
+        let wire = DdsTransport::open(&self.settings).map_err(|error| error.to_string())?;
         let graph = Graph::live();
         wire.attach(&graph).map_err(|error| error.to_string())?;
         let failed = |error: periplus_graph::GraphError| error.to_string();

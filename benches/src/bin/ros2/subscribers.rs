@@ -6,7 +6,7 @@ use std::net::{TcpListener, TcpStream};
 use std::path::Path;
 use std::time::{Duration, Instant};
 
-use periplus_dds::{Settings, Wire};
+use periplus_dds::{DdsTransport, Settings};
 use periplus_graph::{Graph, Mailbox, NodeSettings, Qos};
 use periplus_msgs::rosgraph_msgs::Clock;
 use serde_json::{Value, json};
@@ -245,14 +245,14 @@ fn free_address() -> Result<String, String> {
 struct SimulationClock {
     clock: Mailbox<Clock>,
     // In this order: the wire leaves before its graph.
-    _wire: Wire,
+    _wire: DdsTransport,
     _graph: Graph,
 }
 
 impl SimulationClock {
     fn join(domain_id: u32) -> Result<Self, String> {
         let settings = Settings { domain_id, ..Settings::default() };
-        let wire = Wire::open(&settings).map_err(|error| error.to_string())?;
+        let wire = DdsTransport::open(&settings).map_err(|error| error.to_string())?;
         let graph = Graph::live();
         wire.attach(&graph).map_err(|error| error.to_string())?;
         let failed = |error: periplus_graph::GraphError| error.to_string();

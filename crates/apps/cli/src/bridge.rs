@@ -14,7 +14,7 @@ use std::time::Duration;
 use clap::Args;
 use periplus_diagnostics::{Diagnostics, SourceMap};
 use periplus_graph::{Arguments, Node, NodeSettings};
-use periplus_gz_transport::{Direction, Link, Pair, Settings, Transport};
+use periplus_gz_transport::{BridgeDirection, GzBridge, Settings, TopicPair, Transport};
 use periplus_msgs::rcl_interfaces::ParameterValue;
 use periplus_os::{Machine, sleep};
 
@@ -115,7 +115,7 @@ pub(crate) fn run(options: &BridgeOptions, ros: Vec<String>) -> Result<ExitCode,
     let mut services = Services::new(&node, &transport);
     for spec in specs {
         match spec {
-            Spec::Topic(pair) => pairs.push(Pair { is_lazy: told.is_lazy, ..pair }),
+            Spec::Topic(pair) => pairs.push(TopicPair { is_lazy: told.is_lazy, ..pair }),
             Spec::Service(service) => {
                 if let Err(why) = services.offer(&service) {
                     terminal::complain(&why);
@@ -142,7 +142,7 @@ pub(crate) fn run(options: &BridgeOptions, ros: Vec<String>) -> Result<ExitCode,
         );
         return Err(CliError::Reported(USAGE_EXIT_CODE));
     }
-    let link = Link::new(&live.graph, &transport);
+    let link = GzBridge::new(&live.graph, &transport);
     for mut pair in pairs {
         if told.expands && !pair.gz_topic.starts_with('/') {
             let space = node.names().namespace().trim_end_matches('/');
@@ -172,12 +172,12 @@ fn tell(findings: &Diagnostics) -> io::Result<()> {
 }
 
 /// One line that describes a bridged pair.
-fn described(pair: &Pair) -> String {
-    let Pair { ros_topic, gz_topic, ros_type, gz_type, direction, .. } = pair;
+fn described(pair: &TopicPair) -> String {
+    let TopicPair { ros_topic, gz_topic, ros_type, gz_type, direction, .. } = pair;
     let arrow = match direction {
-        Direction::Both => "<->",
-        Direction::ToRos => "->",
-        Direction::ToGazebo => "<-",
+        BridgeDirection::Both => "<->",
+        BridgeDirection::ToRos => "->",
+        BridgeDirection::ToGazebo => "<-",
     };
     format!("Gazebo {gz_topic} ({gz_type}) {arrow} ROS {ros_topic} ({ros_type})")
 }

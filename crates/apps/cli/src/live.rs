@@ -4,7 +4,7 @@ mod monitor;
 
 use std::time::Duration;
 
-use periplus_dds::{Settings, Wire};
+use periplus_dds::{DdsTransport, Settings};
 use periplus_diagnostics::{Diagnostics, SourceMap};
 use periplus_graph::{Arguments, Graph, GraphError, Mailbox, Node, Qos};
 use periplus_msgs::rosgraph_msgs::Clock;
@@ -17,7 +17,7 @@ pub(crate) use monitor::NodeMonitor;
 /// Live graph and its network connection.
 pub(crate) struct Live {
     // Declared first, so that the network is left before the graph is dropped.
-    pub(crate) wire: Wire,
+    pub(crate) wire: DdsTransport,
     pub(crate) graph: Graph,
     /// ROS 2 domain.
     pub(crate) domain_id: u32,
@@ -36,7 +36,8 @@ impl Live {
         graph.set_simulated_time(false);
         graph.advance_to(unix_ns());
         graph.set_arguments(arguments);
-        let attached = Wire::open(&settings).and_then(|wire| wire.attach(&graph).map(|()| wire));
+        let attached =
+            DdsTransport::open(&settings).and_then(|wire| wire.attach(&graph).map(|()| wire));
         let wire = attached.map_err(|error| format!("cannot join ROS 2: {error}"))?;
         Ok(Self { wire, graph, domain_id: settings.domain_id, clock: None })
     }

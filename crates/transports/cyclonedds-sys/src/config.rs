@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 
 /// Network interfaces.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub enum Network {
+pub enum NetworkSelection {
     /// This machine only.
     Loopback,
     /// The interface that Cyclone chooses, and loopback: programs on this machine may reach no
@@ -18,11 +18,11 @@ pub enum Network {
 /// size, since the standard 1344 bytes lose most of a point cloud in transit, and the largest
 /// receive buffers that the system allows.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Config {
+pub struct ParticipantConfig {
     /// Domain id, which determines the ports.
     pub domain_id: u32,
     /// Network interfaces.
-    pub network: Network,
+    pub network: NetworkSelection,
     /// Use multicast for discovery. Data never uses multicast.
     pub multicast: bool,
     /// Machines to discover, by name or address: at the ports of the first participants of each,
@@ -35,11 +35,11 @@ pub struct Config {
     pub more: String,
 }
 
-impl Default for Config {
+impl Default for ParticipantConfig {
     fn default() -> Self {
         Self {
             domain_id: 0,
-            network: Network::Loopback,
+            network: NetworkSelection::Loopback,
             multicast: true,
             peers: vec!["127.0.0.1".to_owned()],
             tag: String::new(),
@@ -52,7 +52,7 @@ impl Default for Config {
 /// machine without multicast.
 const PARTICIPANTS: u32 = 60;
 
-impl Config {
+impl ParticipantConfig {
     /// Configuration as XML. `has_network`: the machine has an interface besides loopback; Cyclone
     /// refuses to use one interface twice.
     #[must_use]
@@ -61,13 +61,15 @@ impl Config {
         // The loopback interface of most systems supports multicast without declaring it.
         let loopback = format!("address=\"127.0.0.1\" multicast=\"{}\"", self.multicast);
         let interfaces = match &self.network {
-            Network::Loopback => vec![loopback],
-            Network::Any if has_network => vec!["autodetermine=\"true\"".to_owned(), loopback],
-            Network::Any => vec![loopback],
-            Network::Interface(name) if name.parse::<std::net::IpAddr>().is_ok() => {
+            NetworkSelection::Loopback => vec![loopback],
+            NetworkSelection::Any if has_network => {
+                vec!["autodetermine=\"true\"".to_owned(), loopback]
+            }
+            NetworkSelection::Any => vec![loopback],
+            NetworkSelection::Interface(name) if name.parse::<std::net::IpAddr>().is_ok() => {
                 vec![format!("address=\"{}\"", escape(name))]
             }
-            Network::Interface(name) => vec![format!("name=\"{}\"", escape(name))],
+            NetworkSelection::Interface(name) => vec![format!("name=\"{}\"", escape(name))],
         };
         for interface in interfaces {
             let _ = write!(xml, "<NetworkInterface {interface}/>");

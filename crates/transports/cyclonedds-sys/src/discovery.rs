@@ -4,11 +4,11 @@ use std::ffi::{CStr, c_char};
 
 use crate::error::check;
 use crate::participant::{Entity, Participant};
-use crate::{Error, Guid, Qos, Vendor, ffi};
+use crate::{DdsQos, Error, Guid, Vendor, ffi};
 
 /// Kind of entities to discover.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Kind {
+pub enum BuiltinTopic {
     /// Participants.
     Participants,
     /// Writers.
@@ -19,7 +19,7 @@ pub enum Kind {
 
 /// A discovery sample: an entity appeared, changed or disappeared. Own entities are included.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Found {
+pub struct DiscoverySample {
     /// GUID of the entity.
     pub guid: Guid,
     /// GUID of its participant.
@@ -33,7 +33,7 @@ pub struct Found {
     /// Type name; empty for participants.
     pub type_name: String,
     /// QoS offered or requested.
-    pub qos: Qos,
+    pub qos: DdsQos,
     /// Its `USER_DATA`.
     pub user_data: Vec<u8>,
 }
@@ -41,12 +41,12 @@ pub struct Found {
 /// Reader of the discovery topics of DDS.
 pub struct Discovery {
     reader: Entity,
-    kind: Kind,
+    kind: BuiltinTopic,
     _participant: Participant,
 }
 
 impl Discovery {
-    pub(crate) fn new(participant: Participant, kind: Kind) -> Result<Self, Error> {
+    pub(crate) fn new(participant: Participant, kind: BuiltinTopic) -> Result<Self, Error> {
         // SAFETY: the arguments are numbers.
         let code = unsafe { ffi::pp_discovery(participant.0.entity, kind as i32) };
         let reader = Entity(check(code, || "create a discovery reader".to_owned())?);
@@ -57,7 +57,7 @@ impl Discovery {
     ///
     /// # Errors
     /// When memory is exhausted.
-    pub fn take(&self) -> Result<Option<Found>, Error> {
+    pub fn take(&self) -> Result<Option<DiscoverySample>, Error> {
         let mut found = std::mem::MaybeUninit::<ffi::Found>::zeroed();
         let reader = self.reader.0;
         // SAFETY: the function writes one such structure.
@@ -73,7 +73,7 @@ impl Discovery {
             // SAFETY: the bytes are valid until the sample is returned.
             unsafe { std::slice::from_raw_parts(found.user_data, found.user_data_size) }.to_vec()
         };
-        let told = Found {
+        let told = DiscoverySample {
             guid: Guid(found.guid),
             participant: Guid(found.participant),
             is_alive: found.is_alive != 0,
@@ -82,7 +82,7 @@ impl Discovery {
             topic: unsafe { text(found.topic) },
             // SAFETY: as above.
             type_name: unsafe { text(found.type_name) },
-            qos: Qos::from_ffi(&found.qos),
+            qos: DdsQos::from_ffi(&found.qos),
             user_data,
         };
         // SAFETY: returns the taken sample, once.

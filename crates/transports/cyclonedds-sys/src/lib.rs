@@ -1,15 +1,15 @@
 //! DDS, the protocol of ROS 2, by Eclipse Cyclone DDS (C, built in).
 //!
-//! Samples are opaque bytes. A [`Participant`] creates a [`Writer`] for outgoing and a [`Reader`]
+//! Samples are opaque bytes. A [`Participant`] creates a [`DataWriter`] for outgoing and a [`DataReader`]
 //! for incoming samples; [`Discovery`] reports remote participants and endpoints; a [`Waitset`]
 //! lets a thread sleep until something happens.
 //!
 //! ```no_run
-//! use periplus_cyclonedds_sys::{Config, Participant, Qos};
+//! use periplus_cyclonedds_sys::{ParticipantConfig, Participant, DdsQos};
 //!
-//! let participant = Participant::open(&Config::default(), b"")?;
+//! let participant = Participant::open(&ParticipantConfig::default(), b"")?;
 //! let writer =
-//!     participant.writer("rt/chatter", "std_msgs::msg::dds_::String_", &Qos::default(), b"")?;
+//!     participant.writer("rt/chatter", "std_msgs::msg::dds_::String_", &DdsQos::default(), b"")?;
 //! writer.write(vec![0, 1, 0, 0, 3, 0, 0, 0, b'h', b'i', 0], None)?;
 //! # Ok::<(), periplus_cyclonedds_sys::Error>(())
 //! ```
@@ -31,15 +31,15 @@ mod reader;
 mod waitset;
 mod writer;
 
-pub use config::{Config, Network};
-pub use discovery::{Discovery, Found, Kind};
+pub use config::{NetworkSelection, ParticipantConfig};
+pub use discovery::{BuiltinTopic, Discovery, DiscoverySample};
 pub use error::Error;
 pub use log::{LogLine, take_log};
 pub use participant::Participant;
-pub use qos::{Durability, Liveliness, Qos};
-pub use reader::{Reader, Sample};
-pub use waitset::{Token, Waitset, Waker};
-pub use writer::{Bytes, Writer};
+pub use qos::{DdsDurability, DdsLiveliness, DdsQos};
+pub use reader::{DataReader, DdsSample};
+pub use waitset::{WaitToken, Waitset, Waker};
+pub use writer::{Bytes, DataWriter};
 
 /// GUID of a participant, writer or reader, unique in the network, in the byte order of the wire.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -68,7 +68,7 @@ impl Guid {
 
 /// Identity of a sample: writer and sequence number.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub struct Identity {
+pub struct SampleIdentity {
     /// The writer.
     pub writer: Guid,
     /// The sequence number.

@@ -4,12 +4,12 @@ use std::ffi::CString;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU32, Ordering};
 
-use crate::discovery::{Discovery, Kind};
+use crate::discovery::{BuiltinTopic, Discovery};
 use crate::error::check;
-use crate::reader::Reader;
+use crate::reader::DataReader;
 use crate::waitset::Waitset;
-use crate::writer::Writer;
-use crate::{Config, Error, Guid, Qos, ffi};
+use crate::writer::DataWriter;
+use crate::{DdsQos, Error, Guid, ParticipantConfig, ffi};
 
 /// An entity of Cyclone, deleted when this is dropped.
 pub(crate) struct Entity(pub(crate) i32);
@@ -39,7 +39,7 @@ impl Participant {
     ///
     /// # Errors
     /// When there is no such network, no free port, or the configuration is invalid.
-    pub fn open(config: &Config, user_data: &[u8]) -> Result<Self, Error> {
+    pub fn open(config: &ParticipantConfig, user_data: &[u8]) -> Result<Self, Error> {
         // Domain ids are unique within a process in Cyclone; the id on the wire is part of the
         // configuration.
         static NEXT: AtomicU32 = AtomicU32::new(1);
@@ -71,11 +71,11 @@ impl Participant {
         &self,
         topic: &str,
         type_name: &str,
-        qos: &Qos,
+        qos: &DdsQos,
         user_data: &[u8],
-    ) -> Result<Writer, Error> {
+    ) -> Result<DataWriter, Error> {
         let made = self.endpoint(topic, type_name, qos, user_data, ffi::pp_writer)?;
-        Ok(Writer::new(made, self.clone()))
+        Ok(DataWriter::new(made, self.clone()))
     }
 
     /// Creates a reader.
@@ -86,18 +86,18 @@ impl Participant {
         &self,
         topic: &str,
         type_name: &str,
-        qos: &Qos,
+        qos: &DdsQos,
         user_data: &[u8],
-    ) -> Result<Reader, Error> {
+    ) -> Result<DataReader, Error> {
         let made = self.endpoint(topic, type_name, qos, user_data, ffi::pp_reader)?;
-        Ok(Reader::new(made, self.clone()))
+        Ok(DataReader::new(made, self.clone()))
     }
 
     fn endpoint(
         &self,
         topic: &str,
         type_name: &str,
-        qos: &Qos,
+        qos: &DdsQos,
         user_data: &[u8],
         make: unsafe extern "C" fn(i32, i32, *const ffi::Qos, *const u8, usize) -> i32,
     ) -> Result<Endpoint, Error> {
@@ -118,7 +118,7 @@ impl Participant {
     ///
     /// # Errors
     /// When memory is exhausted.
-    pub fn discovery(&self, kind: Kind) -> Result<Discovery, Error> {
+    pub fn discovery(&self, kind: BuiltinTopic) -> Result<Discovery, Error> {
         Discovery::new(self.clone(), kind)
     }
 

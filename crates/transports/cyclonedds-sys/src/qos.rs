@@ -4,7 +4,7 @@ use crate::ffi;
 
 /// Durability policy, in ascending order of strength.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Durability {
+pub enum DdsDurability {
     /// Late readers get no earlier samples.
     Volatile,
     /// Late readers get earlier samples while the writer exists.
@@ -17,7 +17,7 @@ pub enum Durability {
 
 /// Liveliness policy, in ascending order of strength.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Liveliness {
+pub enum DdsLiveliness {
     /// Asserted by the participant automatically.
     Automatic,
     /// Asserted by any writer of the participant.
@@ -28,11 +28,11 @@ pub enum Liveliness {
 
 /// QoS that a writer offers or a reader requests. Times are in ns, none is infinite.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Qos {
+pub struct DdsQos {
     /// Reliability: lost samples are sent again.
     pub is_reliable: bool,
     /// Durability.
-    pub durability: Durability,
+    pub durability: DdsDurability,
     /// History depth; none for `KEEP_ALL`, 0 if a remote endpoint does not announce it.
     pub depth: Option<usize>,
     /// Maximum time between samples.
@@ -40,7 +40,7 @@ pub struct Qos {
     /// Lifespan of a sample.
     pub lifespan_ns: Option<i64>,
     /// Liveliness.
-    pub liveliness: Liveliness,
+    pub liveliness: DdsLiveliness,
     /// Lease duration of the liveliness.
     pub lease_ns: Option<i64>,
     /// Maximum time that a reliable writer blocks for buffer space.
@@ -48,22 +48,22 @@ pub struct Qos {
 }
 
 /// Reliable and volatile, depth 10; a writer blocks for at most 100 ms.
-impl Default for Qos {
+impl Default for DdsQos {
     fn default() -> Self {
         Self {
             is_reliable: true,
-            durability: Durability::Volatile,
+            durability: DdsDurability::Volatile,
             depth: Some(10),
             deadline_ns: None,
             lifespan_ns: None,
-            liveliness: Liveliness::Automatic,
+            liveliness: DdsLiveliness::Automatic,
             lease_ns: None,
             blocking_ns: Some(100_000_000),
         }
     }
 }
 
-impl Qos {
+impl DdsQos {
     pub(crate) fn to_ffi(self) -> ffi::Qos {
         let span = |ns: Option<i64>| ns.map_or(i64::MAX, |ns| ns.max(0));
         let depth = self.depth.map_or(1, |depth| depth.clamp(1, i32::MAX as usize));
@@ -86,10 +86,10 @@ impl Qos {
         Self {
             is_reliable: from.reliability != 0,
             durability: match from.durability {
-                0 => Durability::Volatile,
-                1 => Durability::TransientLocal,
-                2 => Durability::Transient,
-                _ => Durability::Persistent,
+                0 => DdsDurability::Volatile,
+                1 => DdsDurability::TransientLocal,
+                2 => DdsDurability::Transient,
+                _ => DdsDurability::Persistent,
             },
             depth: match from.history {
                 0 => Some(usize::try_from(from.depth).unwrap_or(0)),
@@ -99,9 +99,9 @@ impl Qos {
             deadline_ns: span(from.deadline_ns),
             lifespan_ns: span(from.lifespan_ns),
             liveliness: match from.liveliness {
-                0 => Liveliness::Automatic,
-                1 => Liveliness::ManualByParticipant,
-                _ => Liveliness::ManualByTopic,
+                0 => DdsLiveliness::Automatic,
+                1 => DdsLiveliness::ManualByParticipant,
+                _ => DdsLiveliness::ManualByTopic,
             },
             lease_ns: span(from.lease_ns),
             blocking_ns: span(from.blocking_ns),

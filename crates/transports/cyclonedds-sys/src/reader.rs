@@ -2,30 +2,30 @@
 
 use crate::error::check;
 use crate::participant::{Endpoint, Participant};
-use crate::{Error, Guid, Identity, Vendor, ffi};
+use crate::{Error, Guid, SampleIdentity, Vendor, ffi};
 
 /// A received sample.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Sample {
+pub struct DdsSample {
     /// CDR with the four-byte encapsulation header, and up to three bytes of padding.
     pub bytes: Vec<u8>,
     /// Source time stamp since 1970 \[ns\].
     pub time_ns: i64,
     /// Identity of the sample; none if it was not received in a packet.
-    pub source: Option<Identity>,
+    pub source: Option<SampleIdentity>,
     /// DDS vendor of the sender.
     pub vendor: Vendor,
     /// Identity of the related request (Fast DDS).
-    pub related: Option<Identity>,
+    pub related: Option<SampleIdentity>,
 }
 
 /// Reader of a topic.
-pub struct Reader {
+pub struct DataReader {
     endpoint: Endpoint,
     participant: Participant,
 }
 
-impl Reader {
+impl DataReader {
     pub(crate) fn new(endpoint: Endpoint, participant: Participant) -> Self {
         Self { endpoint, participant }
     }
@@ -40,7 +40,7 @@ impl Reader {
     ///
     /// # Errors
     /// When memory is exhausted.
-    pub fn take(&self) -> Result<Option<Sample>, Error> {
+    pub fn take(&self) -> Result<Option<DdsSample>, Error> {
         loop {
             let mut taken = std::mem::MaybeUninit::<ffi::Sample>::zeroed();
             // SAFETY: the function writes one such structure.
@@ -54,9 +54,11 @@ impl Reader {
             if taken.is_data == 0 {
                 continue;
             }
-            let identity =
-                |one: ffi::Identity| Identity { writer: Guid(one.guid), sequence: one.sequence };
-            return Ok(Some(Sample {
+            let identity = |one: ffi::Identity| SampleIdentity {
+                writer: Guid(one.guid),
+                sequence: one.sequence,
+            };
+            return Ok(Some(DdsSample {
                 // SAFETY: allocated for this sample, completely written, and owned by it.
                 bytes: unsafe { ffi::buffer(taken.bytes, taken.size) },
                 time_ns: taken.time_ns,

@@ -5,8 +5,8 @@ use std::sync::Arc;
 use crate::discovery::Discovery;
 use crate::error::check;
 use crate::participant::{Entity, Participant};
-use crate::reader::Reader;
-use crate::writer::Writer;
+use crate::reader::DataReader;
+use crate::writer::DataWriter;
 use crate::{Error, ffi};
 
 /// Events of `shim.h`.
@@ -19,7 +19,7 @@ const ROOM: usize = 256;
 
 /// Identifies a watched entity in the result of [`Waitset::wait`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub struct Token(i32);
+pub struct WaitToken(i32);
 
 /// Lets a thread sleep until one of the watched entities has an event. Each event is reported once,
 /// handled or not, so that an unhandled event never keeps the thread awake. Take all samples of a
@@ -64,26 +64,26 @@ impl Waitset {
         Waker { guard: self.guard.clone(), _participant: self.participant.clone() }
     }
 
-    fn watch(&self, entity: i32, event: i32) -> Result<Token, Error> {
+    fn watch(&self, entity: i32, event: i32) -> Result<WaitToken, Error> {
         // SAFETY: numbers.
         let code = unsafe { ffi::pp_watch(self.waitset.0, entity, event) };
-        check(code, || "watch an entity".to_owned()).map(|_| Token(entity))
+        check(code, || "watch an entity".to_owned()).map(|_| WaitToken(entity))
     }
 
     /// Watches a reader for samples, until the reader is dropped.
     ///
     /// # Errors
     /// When it is watched already.
-    pub fn watch_reader(&self, reader: &Reader) -> Result<Token, Error> {
+    pub fn watch_reader(&self, reader: &DataReader) -> Result<WaitToken, Error> {
         self.watch(reader.entity(), DATA)
     }
 
-    /// Watches a writer for matched and unmatched readers; [`Writer::readers`] returns their
+    /// Watches a writer for matched and unmatched readers; [`DataWriter::readers`] returns their
     /// number.
     ///
     /// # Errors
     /// When it is watched already.
-    pub fn watch_writer(&self, writer: &Writer) -> Result<Token, Error> {
+    pub fn watch_writer(&self, writer: &DataWriter) -> Result<WaitToken, Error> {
         self.watch(writer.entity(), MATCHED)
     }
 
@@ -91,7 +91,7 @@ impl Waitset {
     ///
     /// # Errors
     /// When it is watched already.
-    pub fn watch_discovery(&self, discovery: &Discovery) -> Result<Token, Error> {
+    pub fn watch_discovery(&self, discovery: &Discovery) -> Result<WaitToken, Error> {
         self.watch(discovery.entity(), DATA)
     }
 
@@ -100,7 +100,7 @@ impl Waitset {
     ///
     /// # Errors
     /// When memory is exhausted.
-    pub fn wait(&self, timeout_ns: i64) -> Result<Vec<Token>, Error> {
+    pub fn wait(&self, timeout_ns: i64) -> Result<Vec<WaitToken>, Error> {
         let mut entities = [0_isize; ROOM];
         // SAFETY: the buffer has this size.
         let code =
@@ -114,7 +114,7 @@ impl Waitset {
                 // SAFETY: a number.
                 let _ = unsafe { ffi::pp_guard_set(self.guard.0, 0) };
             } else {
-                tokens.push(Token(entity));
+                tokens.push(WaitToken(entity));
             }
         }
         Ok(tokens)

@@ -5,7 +5,7 @@ use std::sync::{Mutex, PoisonError};
 
 use crate::error::check;
 use crate::participant::{Endpoint, Participant};
-use crate::{Error, Guid, Identity, ffi};
+use crate::{Error, Guid, SampleIdentity, ffi};
 
 /// Owner of the bytes of a sample. They are sent without a copy, now and for retransmission.
 pub trait Bytes: Send + Sync + 'static {
@@ -20,13 +20,13 @@ impl Bytes for Vec<u8> {
 }
 
 /// Writer of a topic.
-pub struct Writer {
+pub struct DataWriter {
     endpoint: Endpoint,
     writing: Mutex<()>,
     participant: Participant,
 }
 
-impl Writer {
+impl DataWriter {
     pub(crate) fn new(endpoint: Endpoint, participant: Participant) -> Self {
         Self { endpoint, writing: Mutex::default(), participant }
     }
@@ -43,14 +43,14 @@ impl Writer {
     ///
     /// # Errors
     /// When the blocking time has passed, or the bytes are not a sample.
-    pub fn write(&self, bytes: impl Bytes, related: Option<Identity>) -> Result<i64, Error> {
+    pub fn write(&self, bytes: impl Bytes, related: Option<SampleIdentity>) -> Result<i64, Error> {
         self.put(bytes, related, true)
     }
 
-    /// Writes a sample as [`Writer::write`], without blocking on slow readers.
+    /// Writes a sample as [`DataWriter::write`], without blocking on slow readers.
     ///
     /// # Errors
-    /// When there is no buffer space, which is a timeout; otherwise as [`Writer::write`].
+    /// When there is no buffer space, which is a timeout; otherwise as [`DataWriter::write`].
     pub fn write_at_once(&self, bytes: impl Bytes) -> Result<i64, Error> {
         self.put(bytes, None, false)
     }
@@ -59,12 +59,12 @@ impl Writer {
     /// that participant has no matched reader. Other readers do not get it.
     ///
     /// # Errors
-    /// As [`Writer::write`].
+    /// As [`DataWriter::write`].
     pub fn write_to(
         &self,
         participant: Guid,
         bytes: impl Bytes,
-        related: Option<Identity>,
+        related: Option<SampleIdentity>,
     ) -> Result<Option<i64>, Error> {
         let prefix = participant.0;
         self.hand_over(bytes, related, |bytes, size, owner, related, sequence| {
@@ -92,7 +92,12 @@ impl Writer {
         unsafe { ffi::pp_reaches(self.endpoint.entity.0, participant.0.as_ptr()) > 0 }
     }
 
-    fn put(&self, bytes: impl Bytes, related: Option<Identity>, waits: bool) -> Result<i64, Error> {
+    fn put(
+        &self,
+        bytes: impl Bytes,
+        related: Option<SampleIdentity>,
+        waits: bool,
+    ) -> Result<i64, Error> {
         self.hand_over(bytes, related, |bytes, size, owner, related, sequence| {
             // SAFETY: the bytes live as long as their owner, which C owns from here on.
             unsafe {
@@ -115,7 +120,7 @@ impl Writer {
     fn hand_over(
         &self,
         bytes: impl Bytes,
-        related: Option<Identity>,
+        related: Option<SampleIdentity>,
         write: impl FnOnce(*const u8, usize, *mut c_void, *const ffi::Identity, *mut i64) -> i32,
     ) -> Result<(i32, i64), Error> {
         let owner: ffi::Owner = Box::new(bytes);

@@ -4,8 +4,8 @@
 use std::time::{Duration, Instant};
 
 use periplus_cyclonedds_sys::{
-    Bytes, Config, Durability, Found, Guid, Identity, Kind, Participant, Qos, Reader, Sample,
-    Vendor, Writer,
+    BuiltinTopic, Bytes, DataReader, DataWriter, DdsDurability, DdsQos, DdsSample, DiscoverySample,
+    Guid, Participant, ParticipantConfig, SampleIdentity, Vendor,
 };
 
 const TYPE: &str = "std_msgs::msg::dds_::UInt8MultiArray_";
@@ -17,7 +17,8 @@ struct Net {
 
 impl Net {
     fn participant(&self) -> Participant {
-        let config = Config { domain_id: self.domain_id, ..Config::default() };
+        let config =
+            ParticipantConfig { domain_id: self.domain_id, ..ParticipantConfig::default() };
         Participant::open(&config, b"enclave=/;").unwrap()
     }
 }
@@ -38,7 +39,7 @@ fn wait<T>(what: &str, mut poll: impl FnMut() -> Option<T>) -> T {
     }
 }
 
-fn pair(net: &Net, qos: &Qos) -> (Writer, Reader) {
+fn pair(net: &Net, qos: &DdsQos) -> (DataWriter, DataReader) {
     let writer = net.participant().writer(&topic(), TYPE, qos, b"").unwrap();
     let reader = net.participant().reader(&topic(), TYPE, qos, b"").unwrap();
     wait("the two to match", || (writer.readers() == 1 && reader.writers() == 1).then_some(()));
@@ -51,13 +52,13 @@ fn cdr(size: usize) -> Vec<u8> {
     bytes
 }
 
-fn receive(reader: &Reader) -> Sample {
+fn receive(reader: &DataReader) -> DdsSample {
     wait("a sample", || reader.take().unwrap())
 }
 
 #[test]
 fn bytes_arrive_with_their_source() {
-    let (writer, reader) = pair(&Net { domain_id: 60 }, &Qos::default());
+    let (writer, reader) = pair(&Net { domain_id: 60 }, &DdsQos::default());
     for size in [4, 5, 6, 7, 8, 1000, 64_999, 65_000, 65_001, 300_001] {
         let sequence = writer.write(cdr(size), None).unwrap();
         let sample = receive(&reader);
@@ -66,16 +67,16 @@ fn bytes_arrive_with_their_source() {
         // size.
         assert!(sample.bytes.len() <= size.next_multiple_of(4));
         assert!(sample.bytes[size..].iter().all(|byte| *byte == 0));
-        assert_eq!(sample.source, Some(Identity { writer: writer.guid(), sequence }));
+        assert_eq!(sample.source, Some(SampleIdentity { writer: writer.guid(), sequence }));
         assert_eq!((sample.vendor, sample.related), (Vendor::CYCLONE, None));
     }
 }
 
 #[test]
 fn answers_name_their_request() {
-    let (writer, reader) = pair(&Net { domain_id: 61 }, &Qos::default());
+    let (writer, reader) = pair(&Net { domain_id: 61 }, &DdsQos::default());
     let guid = Guid([1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16]);
-    let request = Identity { writer: guid, sequence: 0x1_2345_6789 };
+    let request = SampleIdentity { writer: guid, sequence: 0x1_2345_6789 };
     // In one packet and in several.
     for size in [20, 200_000] {
         writer.write(cdr(size), Some(request)).unwrap();
@@ -86,7 +87,8 @@ fn answers_name_their_request() {
 #[test]
 fn a_latecomer_gets_what_is_latched() {
     let net = Net { domain_id: 62 };
-    let qos = Qos { durability: Durability::TransientLocal, depth: Some(2), ..Qos::default() };
+    let qos =
+        DdsQos { durability: DdsDurability::TransientLocal, depth: Some(2), ..DdsQos::default() };
     let writer = net.participant().writer(&topic(), TYPE, &qos, b"").unwrap();
     for size in [100, 200, 4000 * 4000 + 100] {
         writer.write(cdr(size), None).unwrap();
@@ -102,18 +104,18 @@ fn a_latecomer_gets_what_is_latched() {
 fn who_comes_and_goes_is_told() {
     let net = Net { domain_id: 63 };
     let here = net.participant();
-    let readers = here.discovery(Kind::Readers).unwrap();
+    let readers = here.discovery(BuiltinTopic::Readers).unwrap();
     let waitset = here.waitset().unwrap();
     let watched = waitset.watch_discovery(&readers).unwrap();
     let there = net.participant();
-    let qos = Qos {
+    let qos = DdsQos {
         is_reliable: false,
         deadline_ns: Some(250_000_000),
         lease_ns: Some(3_000_000_000),
-        ..Qos::default()
+        ..DdsQos::default()
     };
     let reader = there.reader(&topic(), TYPE, &qos, b"typehash=RIHS01_00;").unwrap();
-    let foreign = |found: &Found| found.participant == there.guid();
+    let foreign = |found: &DiscoverySample| found.participant == there.guid();
     let found = wait("the reader", || {
         assert!(waitset.wait(1_000_000_000).unwrap().iter().all(|token| *token == watched));
         std::iter::from_fn(|| readers.take().unwrap()).find(foreign)
@@ -145,7 +147,7 @@ fn bytes_are_given_back_when_nobody_needs_them() {
             let _ = self.1.send(());
         }
     }
-    let (writer, reader) = pair(&Net { domain_id: 64 }, &Qos::default());
+    let (writer, reader) = pair(&Net { domain_id: 64 }, &DdsQos::default());
     let (send, gone) = std::sync::mpsc::channel();
     for _ in 0..100 {
         writer.write(Counted(cdr(999), send.clone()), None).unwrap();
@@ -175,15 +177,18 @@ fn a_waker_ends_the_sleep() {
 
 #[test]
 fn what_is_wrong_is_said() {
-    let config =
-        Config { domain_id: 66, more: "<CycloneDDS><Nonsense/>".into(), ..Config::default() };
+    let config = ParticipantConfig {
+        domain_id: 66,
+        more: "<CycloneDDS><Nonsense/>".into(),
+        ..ParticipantConfig::default()
+    };
     let error = Participant::open(&config, b"").map(drop).unwrap_err().to_string();
     assert!(error.contains("join domain 66"), "{error}");
-    let config = Config { domain_id: 100_000, ..Config::default() };
+    let config = ParticipantConfig { domain_id: 100_000, ..ParticipantConfig::default() };
     let error = Participant::open(&config, b"").map(drop).unwrap_err().to_string();
     assert!(error.contains("join domain 100000"), "{error}");
     let participant = Net { domain_id: 66 }.participant();
-    let error = participant.writer("a\0b", TYPE, &Qos::default(), b"").map(drop).unwrap_err();
+    let error = participant.writer("a\0b", TYPE, &DdsQos::default(), b"").map(drop).unwrap_err();
     assert!(error.to_string().contains("zero byte"), "{error}");
 }
 
@@ -194,13 +199,13 @@ fn an_event_is_reported_once() {
     let net = Net { domain_id: 67 };
     let (here, there) = (net.participant(), net.participant());
     let waitset = here.waitset().unwrap();
-    let writer = here.writer(&topic(), TYPE, &Qos::default(), b"").unwrap();
+    let writer = here.writer(&topic(), TYPE, &DdsQos::default(), b"").unwrap();
     let back = format!("{}b", topic());
-    let reader = here.reader(&back, TYPE, &Qos::default(), b"").unwrap();
+    let reader = here.reader(&back, TYPE, &DdsQos::default(), b"").unwrap();
     let watched =
         [waitset.watch_writer(&writer), waitset.watch_reader(&reader)].map(Result::unwrap);
-    let other = there.reader(&topic(), TYPE, &Qos::default(), b"").unwrap();
-    let talker = there.writer(&back, TYPE, &Qos::default(), b"").unwrap();
+    let other = there.reader(&topic(), TYPE, &DdsQos::default(), b"").unwrap();
+    let talker = there.writer(&back, TYPE, &DdsQos::default(), b"").unwrap();
     wait("both to match", || (other.writers() == 1 && talker.readers() == 1).then_some(()));
     talker.write(cdr(100), None).unwrap();
     let mut seen = Vec::new();
@@ -228,7 +233,7 @@ fn an_event_is_reported_once() {
 fn a_sample_for_one_participant_comes_to_it_alone() {
     let net = Net { domain_id: 68 };
     let here = net.participant();
-    let qos = Qos { depth: None, ..Qos::default() };
+    let qos = DdsQos { depth: None, ..DdsQos::default() };
     let writer = here.writer(&topic(), TYPE, &qos, b"").unwrap();
     assert!(!writer.reaches(Guid::default()));
     assert_eq!(writer.write_to(Guid::default(), cdr(10), None).unwrap(), None);
@@ -240,7 +245,7 @@ fn a_sample_for_one_participant_comes_to_it_alone() {
         (writer.readers() == 4 && all).then_some(())
     });
     assert!(there.iter().all(|one| writer.reaches(one.guid())));
-    let related = Identity { writer: readers[0].guid(), sequence: 5 };
+    let related = SampleIdentity { writer: readers[0].guid(), sequence: 5 };
     // In one packet and in several, faster than acknowledgements.
     let mut expected = [const { Vec::new() }; 3];
     for round in 0..60_usize {

@@ -15,7 +15,7 @@ pub const HASH: &str = "RIHS01_91a0593bacdcc50ea9bdcf849a938b128412cc1ea821245c6
 
 /// Length of a GID in the message.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Form {
+pub enum GidForm {
     /// 16 bytes: Iron and later.
     #[default]
     Iron,
@@ -23,7 +23,7 @@ pub enum Form {
     Humble,
 }
 
-impl Form {
+impl GidForm {
     const fn gid(self) -> usize {
         match self {
             Self::Iron => 16,
@@ -54,7 +54,7 @@ pub struct NodeEntities {
 
 /// Encodes the message as CDR.
 #[must_use]
-pub fn encode(entities: &Entities, form: Form) -> Vec<u8> {
+pub fn encode(entities: &Entities, form: GidForm) -> Vec<u8> {
     let mut out = vec![0, 1, 0, 0];
     put_gid(&mut out, &entities.participant, form);
     put_length(&mut out, entities.nodes.len());
@@ -81,18 +81,18 @@ fn put_text(out: &mut Vec<u8>, text: &str) {
     out.push(0);
 }
 
-fn put_gid(out: &mut Vec<u8>, gid: &[u8; 16], form: Form) {
+fn put_gid(out: &mut Vec<u8>, gid: &[u8; 16], form: GidForm) {
     out.extend(gid);
     out.resize(out.len() + form.gid() - 16, 0);
 }
 
 /// Decodes a message in either form; none if it is neither.
 #[must_use]
-pub fn decode(bytes: &[u8]) -> Option<(Entities, Form)> {
-    [Form::Iron, Form::Humble].into_iter().find_map(|form| Some((read(bytes, form)?, form)))
+pub fn decode(bytes: &[u8]) -> Option<(Entities, GidForm)> {
+    [GidForm::Iron, GidForm::Humble].into_iter().find_map(|form| Some((read(bytes, form)?, form)))
 }
 
-fn read(bytes: &[u8], form: Form) -> Option<Entities> {
+fn read(bytes: &[u8], form: GidForm) -> Option<Entities> {
     let (header, rest) = bytes.split_at_checked(4)?;
     let is_little = match header[..2] {
         [0, 1] => true,
@@ -117,7 +117,7 @@ struct Reader<'a> {
     bytes: &'a [u8],
     at: usize,
     is_little: bool,
-    form: Form,
+    form: GidForm,
 }
 
 impl<'a> Reader<'a> {
@@ -178,7 +178,7 @@ mod tests {
 
     #[test]
     fn both_forms_come_back() {
-        for form in [Form::Iron, Form::Humble] {
+        for form in [GidForm::Iron, GidForm::Humble] {
             let bytes = encode(&sample(), form);
             assert_eq!(decode(&bytes), Some((sample(), form)));
             // Padding as in a packet.
@@ -208,7 +208,7 @@ mod tests {
         expected.extend([2, 0, 0, 0, b'n', 0, 0, 0]);
         expected.extend([0, 0, 0, 0, 1, 0, 0, 0]);
         expected.extend([5; 16]);
-        assert_eq!(encode(&one, Form::Iron), expected);
+        assert_eq!(encode(&one, GidForm::Iron), expected);
     }
 
     proptest! {

@@ -7,7 +7,7 @@ use periplus_graph::GraphError;
 /// Error of the DDS transport.
 #[derive(Clone, Debug)]
 #[non_exhaustive]
-pub enum WireError {
+pub enum DdsError {
     /// The network cannot be joined.
     Network {
         /// Domain id.
@@ -21,7 +21,7 @@ pub enum WireError {
     Graph(GraphError),
 }
 
-impl fmt::Display for WireError {
+impl fmt::Display for DdsError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Network { domain_id, why } => write!(
@@ -38,9 +38,9 @@ impl fmt::Display for WireError {
     }
 }
 
-impl std::error::Error for WireError {}
+impl std::error::Error for DdsError {}
 
-impl From<GraphError> for WireError {
+impl From<GraphError> for DdsError {
     fn from(error: GraphError) -> Self {
         Self::Graph(error)
     }

@@ -1,18 +1,18 @@
 //! DDS transport for ROS 2: connects a graph to ROS 2 programs on the network, without a ROS
 //! installation.
 //!
-//! A [`Wire`] joins the network and lists the nodes, topics and services of other programs
-//! ([`Wire::remote`]). An attached graph takes part: its publishers and subscriptions are matched
+//! A [`DdsTransport`] joins the network and lists the nodes, topics and services of other programs
+//! ([`DdsTransport::remote`]). An attached graph takes part: its publishers and subscriptions are matched
 //! with those of other programs, and services work in both directions.
 //!
 //! ```no_run
 //! use std::time::Duration;
 //!
 //! use periplus_graph::{Graph, NodeSettings, Qos};
-//! use periplus_dds::{Settings, Wire};
+//! use periplus_dds::{Settings, DdsTransport};
 //!
 //! Read the environment with `Settings::from_environment(&host)`.
-//! let wire = Wire::open(&Settings::default())?;
+//! let wire = DdsTransport::open(&Settings::default())?;
 //!
 //! Endpoints of other programs, once discovery has run.
 //! wire.wait_for(Duration::from_secs(2), |remote| remote.topic("/scan").is_some());
@@ -36,7 +36,7 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
-//! A program that publishes once and exits must call [`Wire::flush`] first.
+//! A program that publishes once and exits must call [`DdsTransport::flush`] first.
 
 pub mod entities;
 mod error;
@@ -52,8 +52,10 @@ mod settings;
 pub mod user_data;
 mod wire;
 
-pub use error::WireError;
+pub use error::DdsError;
 pub use periplus_cyclonedds_sys::{Guid, Vendor};
-pub use remote::{Progress, Remote, RemoteEndpoint, RemoteNode, RemoteService, RemoteTopic};
-pub use settings::{Range, Settings};
-pub use wire::Wire;
+pub use remote::{
+    DiscoveryProgress, Remote, RemoteEndpoint, RemoteNode, RemoteService, RemoteTopic,
+};
+pub use settings::{DiscoveryRange, Settings};
+pub use wire::DdsTransport;

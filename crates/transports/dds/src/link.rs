@@ -11,7 +11,8 @@ use std::sync::Arc;
 use std::sync::atomic::Ordering;
 
 use periplus_cyclonedds_sys::{
-    Discovery, Durability, Error, Kind, Participant, Qos, Reader, Token, Waker, Writer,
+    BuiltinTopic, DataReader, DataWriter, DdsDurability, DdsQos, Discovery, Error, Participant,
+    WaitToken, Waker,
 };
 use periplus_graph::{Graph, Node};
 use periplus_transport::{Own, SteadyClock, lock};
@@ -28,15 +29,16 @@ use topics::Topics;
 /// Period at which changes of the graph are checked \[ns\], unless something else wakes the thread.
 const LOOK_NS: i64 = 25_000_000;
 
-const KINDS: [Kind; 3] = [Kind::Participants, Kind::Writers, Kind::Readers];
+const KINDS: [BuiltinTopic; 3] =
+    [BuiltinTopic::Participants, BuiltinTopic::Writers, BuiltinTopic::Readers];
 
 pub(crate) struct Link {
     net: Net,
     discoveries: [Discovery; 3],
     /// Tokens of `discoveries` and of `info_reader`.
-    discovery_tokens: Vec<Token>,
-    info_reader: Reader,
-    info_writer: Writer,
+    discovery_tokens: Vec<WaitToken>,
+    info_reader: DataReader,
+    info_writer: DataWriter,
     info_written: Vec<u8>,
     /// Change counter of the peers at the last check.
     seen: u64,
@@ -67,12 +69,16 @@ impl Link {
         for discovery in &discoveries {
             discovery_tokens.push(net.waitset.watch_discovery(discovery)?);
         }
-        let qos = Qos { durability: Durability::TransientLocal, depth: Some(1), ..Qos::default() };
+        let qos = DdsQos {
+            durability: DdsDurability::TransientLocal,
+            depth: Some(1),
+            ..DdsQos::default()
+        };
         let said = user_data::type_hash(entities::HASH);
         let (topic, type_name) = (entities::TOPIC, entities::TYPE);
         let info_writer = participant.writer(topic, type_name, &qos, &said)?;
         // All participants write to one instance, and no sample may be lost.
-        let all = Qos { depth: None, ..qos };
+        let all = DdsQos { depth: None, ..qos };
         let info_reader = participant.reader(topic, type_name, &all, &said)?;
         discovery_tokens.push(net.waitset.watch_reader(&info_reader)?);
         let info_written = Vec::new();
@@ -144,7 +150,7 @@ impl Link {
     }
 
     /// Synchronizes the endpoints with the graph and receives data.
-    fn follow(&mut self, tokens: &[Token]) {
+    fn follow(&mut self, tokens: &[WaitToken]) {
         let Some(attached) = &mut self.attached else { return };
         let changes = lock(&self.net.shared.peers).changes();
         let generation = attached.graph.generation();

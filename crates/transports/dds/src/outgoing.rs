@@ -8,7 +8,7 @@ use std::sync::{Arc, Condvar, Mutex, PoisonError};
 use std::thread::JoinHandle;
 use std::time::Duration;
 
-use periplus_cyclonedds_sys::{Bytes, Guid, Identity, Writer};
+use periplus_cyclonedds_sys::{Bytes, DataWriter, Guid, SampleIdentity};
 use periplus_graph::Sample;
 use periplus_transport::{Way, lock};
 
@@ -34,8 +34,8 @@ pub(crate) enum Parcel {
 /// A service response.
 pub(crate) struct Response {
     pub(crate) bytes: Vec<u8>,
-    /// Identity of the request, for Fast DDS.
-    pub(crate) related: Option<Identity>,
+    /// SampleIdentity of the request, for Fast DDS.
+    pub(crate) related: Option<SampleIdentity>,
     /// Participant of the client.
     pub(crate) client: Guid,
 }
@@ -52,7 +52,7 @@ impl Bytes for Held {
 
 /// A writer with its queue.
 pub(crate) struct Outgoing {
-    pub(crate) writer: Writer,
+    pub(crate) writer: DataWriter,
     /// Queue depth; the oldest sample is dropped when it is exceeded.
     depth: usize,
     /// True if samples matter without matched readers (transient local).
@@ -73,7 +73,12 @@ struct Queue {
 }
 
 impl Outgoing {
-    pub(crate) fn new(writer: Writer, depth: usize, keeps: bool, lanes: &Arc<Lanes>) -> Arc<Self> {
+    pub(crate) fn new(
+        writer: DataWriter,
+        depth: usize,
+        keeps: bool,
+        lanes: &Arc<Lanes>,
+    ) -> Arc<Self> {
         Arc::new(Self {
             writer,
             depth: depth.max(1),

@@ -2,13 +2,15 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use periplus_cyclonedds_sys::{Found, Guid, Kind, Vendor};
+use periplus_cyclonedds_sys::{BuiltinTopic, DiscoverySample, Guid, Vendor};
 use periplus_graph::{History, Qos};
 
-use crate::entities::{self, Form, NodeEntities};
+use crate::entities::{self, GidForm, NodeEntities};
 use crate::names::{self, Use};
 use crate::qos;
-use crate::remote::{Progress, Remote, RemoteEndpoint, RemoteNode, RemoteService, RemoteTopic};
+use crate::remote::{
+    DiscoveryProgress, Remote, RemoteEndpoint, RemoteNode, RemoteService, RemoteTopic,
+};
 use crate::user_data;
 
 /// Maximum number of endpoints stored, which bounds the memory on a faulty network.
@@ -46,14 +48,14 @@ pub(crate) struct Peers {
     /// Node of each endpoint.
     nodes: BTreeMap<Guid, String>,
     /// Form of `ros_discovery_info` of each participant.
-    forms: BTreeMap<Guid, Form>,
+    forms: BTreeMap<Guid, GidForm>,
     /// Counts changes.
     changes: u64,
 }
 
 /// QoS announced by an endpoint. Fast DDS does not announce history and depth, and Cyclone DDS,
 /// which reads them, fills in the DDS default; these are unknown, as `ros2 topic info` prints them.
-fn announced(qos: &periplus_cyclonedds_sys::Qos, vendor: Vendor) -> Qos {
+fn announced(qos: &periplus_cyclonedds_sys::DdsQos, vendor: Vendor) -> Qos {
     let announced = qos::from_dds(qos);
     if vendor == Vendor::FAST {
         return Qos { history: History::KeepLast, depth: 0, ..announced };
@@ -71,18 +73,18 @@ impl Peers {
     }
 
     /// Processes a discovery sample.
-    pub(crate) fn note(&mut self, kind: Kind, found: Found) {
+    pub(crate) fn note(&mut self, kind: BuiltinTopic, found: DiscoverySample) {
         if found.participant == self.own || found.guid.participant() == self.own {
             return;
         }
         self.changes += 1;
-        if kind == Kind::Participants {
+        if kind == BuiltinTopic::Participants {
             self.note_participant(found);
         } else if !found.is_alive {
             self.endpoints.remove(&found.guid);
         } else if self.endpoints.len() < MOST || self.endpoints.contains_key(&found.guid) {
             let endpoint = Endpoint {
-                is_writer: kind == Kind::Writers,
+                is_writer: kind == BuiltinTopic::Writers,
                 type_hash: user_data::hash_of(&found.user_data),
                 topic: found.topic,
                 type_name: found.type_name,
@@ -94,7 +96,7 @@ impl Peers {
         }
     }
 
-    fn note_participant(&mut self, found: Found) {
+    fn note_participant(&mut self, found: DiscoverySample) {
         if !found.is_alive {
             self.participants.remove(&found.guid);
             self.forms.remove(&found.guid);
@@ -144,9 +146,10 @@ impl Peers {
 
     /// Form in which to publish our own nodes: that of the other participants, or the newer one if
     /// they differ.
-    pub(crate) fn form(&self) -> Form {
-        let is_old = !self.forms.is_empty() && self.forms.values().all(|one| *one == Form::Humble);
-        if is_old { Form::Humble } else { Form::Iron }
+    pub(crate) fn form(&self) -> GidForm {
+        let is_old =
+            !self.forms.is_empty() && self.forms.values().all(|one| *one == GidForm::Humble);
+        if is_old { GidForm::Humble } else { GidForm::Iron }
     }
 
     pub(crate) fn node_of(&self, endpoint: Guid) -> Option<&str> {
@@ -174,7 +177,7 @@ impl Peers {
     }
 
     /// Progress of discovery.
-    pub(crate) fn progress(&self) -> Progress {
+    pub(crate) fn progress(&self) -> DiscoveryProgress {
         // Participants with an endpoint that belongs to none of their nodes.
         let nodeless: BTreeSet<Guid> = self
             .endpoints
@@ -193,7 +196,7 @@ impl Peers {
             !nodeless.contains(guid) && nodes.iter().all(ends)
         };
         let ros = self.participants.iter().filter(|(_, one)| one.is_ros);
-        Progress {
+        DiscoveryProgress {
             changes: self.changes,
             participants: self.participants.len(),
             incomplete: ros.filter(|(guid, one)| !is_complete(guid, one)).count(),
@@ -279,15 +282,15 @@ mod tests {
         guid
     }
 
-    fn found(number: u8, topic: &str, type_name: &str) -> Found {
-        Found {
+    fn found(number: u8, topic: &str, type_name: &str) -> DiscoverySample {
+        DiscoverySample {
             guid: Guid(guid(number)),
             participant: Guid(OTHER),
             is_alive: true,
             vendor: Vendor::FAST,
             topic: topic.into(),
             type_name: type_name.into(),
-            qos: periplus_cyclonedds_sys::Qos::default(),
+            qos: periplus_cyclonedds_sys::DdsQos::default(),
             user_data: Vec::new(),
         }
     }
@@ -295,21 +298,29 @@ mod tests {
     #[test]
     fn endpoints_become_nodes_topics_and_services() {
         let mut peers = Peers::new(Guid([1; 16]));
-        peers.note(Kind::Participants, Found { guid: Guid(OTHER), ..found(0, "", "") });
+        peers.note(
+            BuiltinTopic::Participants,
+            DiscoverySample { guid: Guid(OTHER), ..found(0, "", "") },
+        );
         let scan = "sensor_msgs::msg::dds_::LaserScan_";
-        peers.note(Kind::Writers, found(1, "rt/scan", scan));
-        peers.note(Kind::Readers, found(2, "rt/scan", "std_msgs::msg::dds_::String_"));
-        peers
-            .note(Kind::Readers, found(3, "rq/goRequest", "std_srvs::srv::dds_::Trigger_Request_"));
-        peers.note(Kind::Writers, found(4, "rr/goReply", "std_srvs::srv::dds_::Trigger_Response_"));
-        peers.note(Kind::Writers, found(5, "Square", "ShapeType"));
+        peers.note(BuiltinTopic::Writers, found(1, "rt/scan", scan));
+        peers.note(BuiltinTopic::Readers, found(2, "rt/scan", "std_msgs::msg::dds_::String_"));
+        peers.note(
+            BuiltinTopic::Readers,
+            found(3, "rq/goRequest", "std_srvs::srv::dds_::Trigger_Request_"),
+        );
+        peers.note(
+            BuiltinTopic::Writers,
+            found(4, "rr/goReply", "std_srvs::srv::dds_::Trigger_Response_"),
+        );
+        peers.note(BuiltinTopic::Writers, found(5, "Square", "ShapeType"));
         let node = NodeEntities {
             name: "/lidar".into(),
             readers: vec![guid(3)],
             writers: vec![guid(1), guid(4)],
         };
         let said = Entities { participant: OTHER, nodes: vec![node] };
-        assert!(peers.hear(&entities::encode(&said, Form::Iron), Vendor::FAST));
+        assert!(peers.hear(&entities::encode(&said, GidForm::Iron), Vendor::FAST));
         let told = |remote: &Remote| {
             let nodes = remote.nodes.iter().map(|node| format!("{} {}\n", node.name, node.enclave));
             let topics = remote.topics.iter().map(|topic| {
@@ -333,9 +344,9 @@ mod tests {
         assert_eq!(peers.servers("/go"), [(Guid(OTHER), Vendor::FAST)]);
 
         // The participant leaves.
-        peers.note(Kind::Writers, Found { is_alive: false, ..found(1, "", "") });
-        let gone = Found { guid: Guid(OTHER), is_alive: false, ..found(0, "", "") };
-        peers.note(Kind::Participants, gone);
+        peers.note(BuiltinTopic::Writers, DiscoverySample { is_alive: false, ..found(1, "", "") });
+        let gone = DiscoverySample { guid: Guid(OTHER), is_alive: false, ..found(0, "", "") };
+        peers.note(BuiltinTopic::Participants, gone);
         expect![[r#"
             /scan ["std_msgs/msg/String"] [] 1
             /go ["std_srvs/srv/Trigger"] ["(a program without nodes)"]
@@ -346,14 +357,14 @@ mod tests {
     #[test]
     fn among_old_ones_we_write_as_they_do() {
         let mut peers = Peers::new(Guid([1; 16]));
-        assert_eq!(peers.form(), Form::Iron);
+        assert_eq!(peers.form(), GidForm::Iron);
         let mut say = |participant: u8, form| {
             let said = Entities { participant: [participant; 16], nodes: Vec::new() };
             assert!(peers.hear(&entities::encode(&said, form), Vendor::CYCLONE));
             peers.form()
         };
-        assert_eq!(say(2, Form::Humble), Form::Humble);
-        assert_eq!(say(3, Form::Iron), Form::Iron);
+        assert_eq!(say(2, GidForm::Humble), GidForm::Humble);
+        assert_eq!(say(3, GidForm::Iron), GidForm::Iron);
         assert!(!peers.hear(b"nonsense", Vendor::CYCLONE));
     }
 }

@@ -10,23 +10,23 @@ const BLOCKING_NS: i64 = 3_000_000;
 /// Depth used for a `KEEP_ALL` history; DDS would keep samples until memory is exhausted.
 pub(crate) const MOST_KEPT: usize = 10_000;
 
-pub(crate) fn to_dds(qos: &Qos) -> dds::Qos {
+pub(crate) fn to_dds(qos: &Qos) -> dds::DdsQos {
     let depth = match qos.history {
         History::KeepLast => qos.depth.clamp(1, MOST_KEPT),
         History::KeepAll => MOST_KEPT,
     };
-    dds::Qos {
+    dds::DdsQos {
         is_reliable: qos.reliability == Reliability::Reliable,
         durability: match qos.durability {
-            Durability::Volatile => dds::Durability::Volatile,
-            Durability::TransientLocal => dds::Durability::TransientLocal,
+            Durability::Volatile => dds::DdsDurability::Volatile,
+            Durability::TransientLocal => dds::DdsDurability::TransientLocal,
         },
         depth: Some(depth),
         deadline_ns: qos.deadline_ns,
         lifespan_ns: qos.lifespan_ns,
         liveliness: match qos.liveliness {
-            Liveliness::Automatic => dds::Liveliness::Automatic,
-            Liveliness::ManualByTopic => dds::Liveliness::ManualByTopic,
+            Liveliness::Automatic => dds::DdsLiveliness::Automatic,
+            Liveliness::ManualByTopic => dds::DdsLiveliness::ManualByTopic,
         },
         lease_ns: qos.lease_ns,
         blocking_ns: Some(BLOCKING_NS),
@@ -34,7 +34,7 @@ pub(crate) fn to_dds(qos: &Qos) -> dds::Qos {
 }
 
 /// Converts QoS from DDS. Policies that ROS does not have map to the next weaker one.
-pub(crate) fn from_dds(qos: &dds::Qos) -> Qos {
+pub(crate) fn from_dds(qos: &dds::DdsQos) -> Qos {
     let reliability = if qos.is_reliable { Reliability::Reliable } else { Reliability::BestEffort };
     let (history, depth) = match qos.depth {
         Some(depth) => (History::KeepLast, depth),
@@ -43,7 +43,7 @@ pub(crate) fn from_dds(qos: &dds::Qos) -> Qos {
     Qos {
         reliability,
         durability: match qos.durability {
-            dds::Durability::Volatile => Durability::Volatile,
+            dds::DdsDurability::Volatile => Durability::Volatile,
             _ => Durability::TransientLocal,
         },
         history,
@@ -51,7 +51,7 @@ pub(crate) fn from_dds(qos: &dds::Qos) -> Qos {
         deadline_ns: qos.deadline_ns,
         lifespan_ns: qos.lifespan_ns,
         liveliness: match qos.liveliness {
-            dds::Liveliness::ManualByTopic => Liveliness::ManualByTopic,
+            dds::DdsLiveliness::ManualByTopic => Liveliness::ManualByTopic,
             _ => Liveliness::Automatic,
         },
         lease_ns: qos.lease_ns,

@@ -16,7 +16,7 @@ pub struct Remote {
 
 /// Progress of discovery.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Progress {
+pub struct DiscoveryProgress {
     /// Number of changes of participants, endpoints and nodes so far.
     pub changes: u64,
     /// Number of participants found.

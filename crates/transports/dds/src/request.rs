@@ -7,7 +7,7 @@
 //! `rmw_request.cpp` and `rmw_response.cpp` of `rmw_fastrtps_shared_cpp`; `serdata.cpp` of
 //! `rmw_cyclonedds_cpp`.
 
-use periplus_cyclonedds_sys::{Guid, Identity, Sample, Vendor};
+use periplus_cyclonedds_sys::{DdsSample, Guid, SampleIdentity, Vendor};
 
 /// Location of the request identity.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -29,11 +29,11 @@ impl Mapping {
 /// Size of Cyclone's header in front of the body \[bytes\].
 const HEADER: usize = 16;
 
-/// Identity that a response must repeat.
+/// SampleIdentity that a response must repeat.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Ticket {
     /// For the inline QoS.
-    Fast(Identity),
+    Fast(SampleIdentity),
     /// For the front of the body, as received.
     Cyclone([u8; HEADER]),
 }
@@ -41,7 +41,7 @@ pub enum Ticket {
 /// Splits a received request into the identity that the response must repeat, and the body. None if
 /// it is too short.
 #[must_use]
-pub fn read_question(sample: Sample) -> Option<(Ticket, Vec<u8>)> {
+pub fn read_question(sample: DdsSample) -> Option<(Ticket, Vec<u8>)> {
     match (sample.related, Mapping::of(sample.vendor)) {
         // A sender that sets the inline QoS expects the response there, whatever its vendor.
         (None, Mapping::Cyclone) => {
@@ -51,14 +51,14 @@ pub fn read_question(sample: Sample) -> Option<(Ticket, Vec<u8>)> {
         (related, _) => {
             let source = sample.source?;
             let writer = related.map_or(source.writer, |related| related.writer);
-            Some((Ticket::Fast(Identity { writer, ..source }), sample.bytes))
+            Some((Ticket::Fast(SampleIdentity { writer, ..source }), sample.bytes))
         }
     }
 }
 
 /// Encodes a response: its bytes, and the identity for the inline QoS.
 #[must_use]
-pub fn write_answer(ticket: Ticket, body: &[u8]) -> (Vec<u8>, Option<Identity>) {
+pub fn write_answer(ticket: Ticket, body: &[u8]) -> (Vec<u8>, Option<SampleIdentity>) {
     match ticket {
         Ticket::Fast(identity) => (body.to_vec(), Some(identity)),
         Ticket::Cyclone(header) => (join(header, body), None),
@@ -73,12 +73,12 @@ pub fn write_question(
     answers_to: Guid,
     number: i64,
     body: &[u8],
-) -> (Vec<u8>, Option<Identity>) {
+) -> (Vec<u8>, Option<SampleIdentity>) {
     match mapping {
         // "Unknown", as in Fast DDS.
         Mapping::Fast => {
             let sequence = -1 << 32;
-            (body.to_vec(), Some(Identity { writer: answers_to, sequence }))
+            (body.to_vec(), Some(SampleIdentity { writer: answers_to, sequence }))
         }
         Mapping::Cyclone => {
             // Byte order as declared by the body's encapsulation header.
@@ -100,7 +100,7 @@ pub fn write_question(
 /// if it is for another client.
 #[must_use]
 pub fn read_answer(
-    sample: Sample,
+    sample: DdsSample,
     caller: Guid,
     answers_to: Guid,
 ) -> Option<(Mapping, i64, Vec<u8>)> {
@@ -150,9 +150,9 @@ mod tests {
     const ANSWERS: Guid = Guid([1, 16, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 0, 0, 2, 4]);
     const BODY: [u8; 8] = [0, 1, 0, 0, 42, 0, 0, 0];
 
-    fn sample(bytes: Vec<u8>, related: Option<Identity>, vendor: Vendor) -> Sample {
-        let source = Some(Identity { writer: CALLER, sequence: 17 });
-        Sample { bytes, time_ns: 0, source, vendor, related }
+    fn sample(bytes: Vec<u8>, related: Option<SampleIdentity>, vendor: Vendor) -> DdsSample {
+        let source = Some(SampleIdentity { writer: CALLER, sequence: 17 });
+        DdsSample { bytes, time_ns: 0, source, vendor, related }
     }
 
     #[test]

@@ -10,7 +10,7 @@ const OFF_TAG: &str = "periplus_discovery_off";
 
 /// Discovery range.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Range {
+pub enum DiscoveryRange {
     /// No discovery in either direction, static peers included, as in `rmw_fastrtps`.
     Off,
     /// This machine only.
@@ -22,7 +22,7 @@ pub enum Range {
     SystemDefault,
 }
 
-impl Range {
+impl DiscoveryRange {
     const NAMES: [(&'static str, Self); 4] = [
         ("OFF", Self::Off),
         ("LOCALHOST", Self::Localhost),
@@ -37,7 +37,7 @@ pub struct Settings {
     /// `ROS_DOMAIN_ID`: programs in another domain are invisible.
     pub domain_id: u32,
     /// `ROS_AUTOMATIC_DISCOVERY_RANGE`, or `ROS_LOCALHOST_ONLY`.
-    pub range: Range,
+    pub range: DiscoveryRange,
     /// `ROS_STATIC_PEERS`: additional machines to discover.
     pub peers: Vec<String>,
     /// Use multicast for discovery.
@@ -53,7 +53,7 @@ impl Default for Settings {
     fn default() -> Self {
         Self {
             domain_id: 0,
-            range: Range::default(),
+            range: DiscoveryRange::default(),
             peers: Vec::new(),
             multicast: true,
             enclave: "/".to_owned(),
@@ -72,10 +72,10 @@ impl Settings {
         settings.domain_id = environment::domain_id(host, &mut findings);
         if let Some(value) = variable("ROS_AUTOMATIC_DISCOVERY_RANGE") {
             let asked = value.trim().to_uppercase();
-            match Range::NAMES.iter().find(|(name, _)| *name == asked) {
+            match DiscoveryRange::NAMES.iter().find(|(name, _)| *name == asked) {
                 Some((_, range)) => settings.range = *range,
                 None => {
-                    let names = Range::NAMES.map(|(name, _)| name);
+                    let names = DiscoveryRange::NAMES.map(|(name, _)| name);
                     let near = closest(&asked, names);
                     let near = near.map_or(String::new(), |near| format!("did you mean {near}? "));
                     findings.push(not_used("ROS_AUTOMATIC_DISCOVERY_RANGE", &value).help(format!(
@@ -87,7 +87,7 @@ impl Settings {
         }
         if let Some(value) = variable("ROS_LOCALHOST_ONLY") {
             match value.trim() {
-                "1" => settings.range = Range::Localhost,
+                "1" => settings.range = DiscoveryRange::Localhost,
                 "0" => {}
                 _ => {
                     findings.push(not_used("ROS_LOCALHOST_ONLY", &value).help("it must be 0 or 1"))
@@ -102,23 +102,30 @@ impl Settings {
         (settings, findings)
     }
 
-    pub(crate) fn config(&self) -> dds::Config {
+    pub(crate) fn config(&self) -> dds::ParticipantConfig {
         let here = "127.0.0.1".to_owned();
         let (network, multicast, mut peers) = match self.range {
-            Range::Off => (dds::Network::Loopback, false, Vec::new()),
+            DiscoveryRange::Off => (dds::NetworkSelection::Loopback, false, Vec::new()),
             // Static peers must be reachable, too.
-            Range::Localhost if !self.peers.is_empty() => (dds::Network::Any, false, vec![here]),
-            Range::Localhost => (dds::Network::Loopback, self.multicast, vec![here]),
+            DiscoveryRange::Localhost if !self.peers.is_empty() => {
+                (dds::NetworkSelection::Any, false, vec![here])
+            }
+            DiscoveryRange::Localhost => {
+                (dds::NetworkSelection::Loopback, self.multicast, vec![here])
+            }
             // ROS 2 nodes with range LOCALHOST do not listen to multicast.
-            Range::Subnet | Range::SystemDefault => (dds::Network::Any, self.multicast, vec![here]),
+            DiscoveryRange::Subnet | DiscoveryRange::SystemDefault => {
+                (dds::NetworkSelection::Any, self.multicast, vec![here])
+            }
         };
-        if self.range != Range::Off {
+        if self.range != DiscoveryRange::Off {
             peers.extend(self.peers.iter().cloned());
         }
         // No announcement is sent; the tag makes this participant ignore those of others.
-        let tag = if self.range == Range::Off { OFF_TAG.to_owned() } else { String::new() };
+        let tag =
+            if self.range == DiscoveryRange::Off { OFF_TAG.to_owned() } else { String::new() };
         let more = self.cyclone.clone();
-        dds::Config { domain_id: self.domain_id, network, multicast, peers, tag, more }
+        dds::ParticipantConfig { domain_id: self.domain_id, network, multicast, peers, tag, more }
     }
 }
 
@@ -150,7 +157,7 @@ mod tests {
             ],
             Settings {
                 domain_id: 42,
-                range: Range::Subnet,
+                range: DiscoveryRange::Subnet,
                 peers: vec!["192.168.1.5".into(), "robot.local".into()],
                 cyclone: "file:///c.xml".into(),
                 ..Settings::default()
@@ -180,9 +187,9 @@ mod tests {
     fn peers_elsewhere_need_a_network() {
         let settings = Settings { peers: vec!["10.0.0.7".into()], ..Settings::default() };
         let config = settings.config();
-        assert_eq!((config.network, config.multicast), (dds::Network::Any, false));
+        assert_eq!((config.network, config.multicast), (dds::NetworkSelection::Any, false));
         assert_eq!(config.peers, ["127.0.0.1", "10.0.0.7"]);
         let config = Settings::default().config();
-        assert_eq!((config.network, config.multicast), (dds::Network::Loopback, true));
+        assert_eq!((config.network, config.multicast), (dds::NetworkSelection::Loopback, true));
     }
 }

@@ -13,17 +13,17 @@ use periplus_transport::{Since, lock, stand_in};
 use crate::link::Link;
 use crate::outgoing::{Lanes, Outgoing};
 use crate::peers::Peers;
-use crate::remote::{Progress, Remote};
-use crate::{Guid, Settings, WireError, user_data};
+use crate::remote::{DiscoveryProgress, Remote};
+use crate::{DdsError, Guid, Settings, user_data};
 
-/// Polling period of [`Wire::flush`].
+/// Polling period of [`DdsTransport::flush`].
 const LOOK_AGAIN: Duration = Duration::from_millis(5);
 
 /// Time for sending the remaining samples when the transport is dropped.
 const LAST_CHANCE: Duration = Duration::from_millis(300);
 
 /// A DDS participant for one graph. It leaves the network when this is dropped.
-pub struct Wire {
+pub struct DdsTransport {
     shared: Arc<Shared>,
     waker: Waker,
     participant: Participant,
@@ -39,7 +39,7 @@ pub(crate) struct Shared {
     /// A graph to attach, with the node that represents all remote participants.
     pub(crate) joining: Mutex<Option<(Graph, Node)>>,
     pub(crate) lanes: Arc<Lanes>,
-    /// All writers, for [`Wire::flush`].
+    /// All writers, for [`DdsTransport::flush`].
     pub(crate) writers: Mutex<Vec<Arc<Outgoing>>>,
     pub(crate) is_closing: AtomicBool,
     is_attached: AtomicBool,
@@ -51,16 +51,14 @@ impl Shared {
     }
 }
 
-impl Wire {
+impl DdsTransport {
     /// Joins the network.
     ///
     /// # Errors
     /// When there is no such network, or DDS refuses its settings.
-    pub fn open(settings: &Settings) -> Result<Self, WireError> {
-        let network = |error: dds::Error| WireError::Network {
-            domain_id: settings.domain_id,
-            why: error.why,
-        };
+    pub fn open(settings: &Settings) -> Result<Self, DdsError> {
+        let network =
+            |error: dds::Error| DdsError::Network { domain_id: settings.domain_id, why: error.why };
         let said = user_data::enclave(&settings.enclave);
         let participant = Participant::open(&settings.config(), &said).map_err(network)?;
         let (lanes, mut threads) = Lanes::start();
@@ -87,9 +85,9 @@ impl Wire {
     ///
     /// # Errors
     /// When a graph is attached already.
-    pub fn attach(&self, graph: &Graph) -> Result<(), WireError> {
+    pub fn attach(&self, graph: &Graph) -> Result<(), DdsError> {
         if self.shared.is_attached.swap(true, Ordering::AcqRel) {
-            return Err(WireError::Attached);
+            return Err(DdsError::Attached);
         }
         let node = stand_in(graph, &self.participant.guid().0[2..12])?;
         *lock(&self.shared.joining) = Some((graph.clone(), node));
@@ -97,15 +95,15 @@ impl Wire {
         Ok(())
     }
 
-    /// Remote nodes, topics and services. Discovery takes a moment: see [`Wire::wait_for`].
+    /// Remote nodes, topics and services. Discovery takes a moment: see [`DdsTransport::wait_for`].
     #[must_use]
     pub fn remote(&self) -> Remote {
         lock(&self.shared.peers).view()
     }
 
-    /// Progress of discovery. Cheaper than [`Wire::remote`].
+    /// Progress of discovery. Cheaper than [`DdsTransport::remote`].
     #[must_use]
-    pub fn progress(&self) -> Progress {
+    pub fn progress(&self) -> DiscoveryProgress {
         lock(&self.shared.peers).progress()
     }
 
@@ -165,7 +163,7 @@ impl Wire {
     }
 }
 
-impl Drop for Wire {
+impl Drop for DdsTransport {
     fn drop(&mut self) {
         let _ = self.flush(LAST_CHANCE);
         self.shared.is_closing.store(true, Ordering::Release);
@@ -178,8 +176,8 @@ impl Drop for Wire {
     }
 }
 
-impl std::fmt::Debug for Wire {
+impl std::fmt::Debug for DdsTransport {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.debug_struct("Wire").field("guid", &self.guid()).finish_non_exhaustive()
+        f.debug_struct("DdsTransport").field("guid", &self.guid()).finish_non_exhaustive()
     }
 }

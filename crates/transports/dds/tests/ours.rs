@@ -4,7 +4,7 @@
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-use periplus_dds::{Settings, Wire};
+use periplus_dds::{DdsTransport, Settings};
 use periplus_graph::{Graph, NodeSettings, Publisher, Qos};
 use periplus_msgs::sensor_msgs::{LaserScan, PointCloud2};
 use periplus_msgs::std_msgs::String as Text;
@@ -25,8 +25,8 @@ fn wait<T>(what: &str, mut poll: impl FnMut() -> Option<T>) -> T {
 }
 
 /// A transport with a graph in live mode.
-fn join(domain_id: u32) -> (Wire, Graph) {
-    let wire = Wire::open(&Settings { domain_id, ..Settings::default() }).unwrap();
+fn join(domain_id: u32) -> (DdsTransport, Graph) {
+    let wire = DdsTransport::open(&Settings { domain_id, ..Settings::default() }).unwrap();
     let graph = Graph::live();
     wire.attach(&graph).unwrap();
     (wire, graph)
@@ -224,6 +224,6 @@ fn one_wire_takes_one_graph() {
     let error = wire.attach(&Graph::new()).unwrap_err();
     assert_eq!(error.to_string(), "the transport already has a graph; open another transport");
     let wrong = Settings { cyclone: "<CycloneDDS><Nonsense/>".into(), ..Settings::default() };
-    let error = Wire::open(&wrong).unwrap_err().to_string();
+    let error = DdsTransport::open(&wrong).unwrap_err().to_string();
     assert!(error.contains("cannot join the ROS 2 network, domain 0"), "{error}");
 }

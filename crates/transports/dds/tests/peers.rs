@@ -12,7 +12,7 @@ use std::sync::OnceLock;
 use std::sync::mpsc::{Receiver, channel};
 use std::time::{Duration, Instant};
 
-use periplus_dds::{Settings, Wire};
+use periplus_dds::{DdsTransport, Settings};
 use periplus_graph::{Graph, Mailbox, Node, NodeSettings, Publisher, Qos};
 use periplus_msgs::geometry_msgs::{Quaternion, TransformStamped};
 use periplus_msgs::nav_msgs::OccupancyGrid;
@@ -176,13 +176,13 @@ fn wait<T>(what: &str, mut poll: impl FnMut() -> Option<T>) -> T {
 }
 
 struct Ours {
-    wire: Wire,
+    wire: DdsTransport,
     node: Node,
 }
 
 fn join(domain_id: u32, multicast: bool) -> Ours {
     let settings = Settings { domain_id, multicast, ..Settings::default() };
-    let wire = Wire::open(&settings).unwrap();
+    let wire = DdsTransport::open(&settings).unwrap();
     let graph = Graph::live();
     wire.attach(&graph).unwrap();
     Ours { wire, node: graph.node(NodeSettings::new("periplus")).unwrap() }

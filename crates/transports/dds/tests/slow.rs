@@ -9,7 +9,7 @@ use std::process::{Child, Command, Stdio};
 use std::sync::mpsc::channel;
 use std::time::{Duration, Instant};
 
-use periplus_dds::{Settings, Wire};
+use periplus_dds::{DdsTransport, Settings};
 use periplus_graph::{Graph, NodeSettings, Publisher, Qos};
 use periplus_msgs::sensor_msgs::{LaserScan, PointCloud2};
 
@@ -69,7 +69,7 @@ fn stopped_subscribers_cost_nothing() {
         eprintln!("SKIPPED: no ROS 2 to test against; see .ci/ros2.txt");
         return;
     }
-    let wire = Wire::open(&Settings { domain_id: 96, ..Settings::default() }).unwrap();
+    let wire = DdsTransport::open(&Settings { domain_id: 96, ..Settings::default() }).unwrap();
     let graph = Graph::live();
     wire.attach(&graph).unwrap();
     let node = graph.node(NodeSettings::new("periplus")).unwrap();

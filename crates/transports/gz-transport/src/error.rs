@@ -8,7 +8,7 @@ use periplus_graph::GraphError;
 /// Error of the Gazebo transport.
 #[derive(Clone, Debug)]
 #[non_exhaustive]
-pub enum WireError {
+pub enum GzTransportError {
     /// The network cannot be joined.
     Network {
         /// Address of the interface.
@@ -27,7 +27,7 @@ pub enum WireError {
     Graph(GraphError),
 }
 
-impl fmt::Display for WireError {
+impl fmt::Display for GzTransportError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Network { address, why } => write!(
@@ -43,9 +43,9 @@ impl fmt::Display for WireError {
     }
 }
 
-impl std::error::Error for WireError {}
+impl std::error::Error for GzTransportError {}
 
-impl From<GraphError> for WireError {
+impl From<GraphError> for GzTransportError {
     fn from(error: GraphError) -> Self {
         Self::Graph(error)
     }
@@ -53,7 +53,7 @@ impl From<GraphError> for WireError {
 
 /// Reason for which a call has no response.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum CallError {
+pub enum ServiceCallError {
     /// There is no service of this name and these types.
     Nobody,
     /// The server did not respond in time.
@@ -62,7 +62,7 @@ pub enum CallError {
     Refused,
 }
 
-impl fmt::Display for CallError {
+impl fmt::Display for ServiceCallError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(match self {
             Self::Nobody => "there is no service of this name and these types",
@@ -72,4 +72,4 @@ impl fmt::Display for CallError {
     }
 }
 
-impl std::error::Error for CallError {}
+impl std::error::Error for ServiceCallError {}

@@ -2,7 +2,7 @@
 //! libraries.
 //!
 //! A [`Transport`] joins the network. Discovery uses multicast; topics and services use TCP with
-//! ZeroMQ framing. A [`Link`] bridges topics of a graph.
+//! ZeroMQ framing. A [`GzBridge`] bridges topics of a graph.
 //!
 //! ```no_run
 //! use periplus_gz_msgs::{Boolean, Message};
@@ -28,11 +28,11 @@ mod settings;
 mod transport;
 
 pub use convert::{gazebo_types, ros_types};
-pub use error::{CallError, WireError};
-pub use link::{Direction, Link, Pair, PairError};
+pub use error::{GzTransportError, ServiceCallError};
+pub use link::{BridgeDirection, GzBridge, TopicPair, TopicPairError};
 pub use names::{MOST_NAME, Name};
-pub use settings::{Reach, Settings};
+pub use settings::{DiscoveryReach, Settings};
 pub use transport::{
-    Answer, Arrival, Call, Offered, Publisher, Server, Subscription, Transport, fuzz_discovery,
-    fuzz_frames,
+    Advertisement, GzPublisher, GzService, GzSubscription, ReceivedMessage, ServiceReply,
+    ServiceRequest, Transport, fuzz_discovery, fuzz_frames,
 };

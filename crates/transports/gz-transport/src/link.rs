@@ -13,7 +13,7 @@ use periplus_transport::{is_stand_in, lock, stand_in};
 
 use crate::convert::{Feed, between, gazebo_types, ros_types};
 use crate::outgoing::{Ear, Lane, Outgoing, Who};
-use crate::{Subscription, Transport, WireError};
+use crate::{GzSubscription, GzTransportError, Transport};
 
 /// Period at which changes are checked.
 const LOOK: Duration = Duration::from_millis(20);
@@ -24,7 +24,7 @@ const COMMANDS: [&str; 3] =
 
 /// Direction of a bridge.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Direction {
+pub enum BridgeDirection {
     /// In both directions.
     #[default]
     Both,
@@ -36,7 +36,7 @@ pub enum Direction {
 
 /// A bridged pair of topics.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Pair {
+pub struct TopicPair {
     /// ROS topic, as written by a node.
     pub ros_topic: String,
     /// Gazebo topic.
@@ -46,7 +46,7 @@ pub struct Pair {
     /// Gazebo type, such as `gz.msgs.LaserScan`.
     pub gz_type: String,
     /// Direction.
-    pub direction: Direction,
+    pub direction: BridgeDirection,
     /// Subscribe in Gazebo only while there are subscribers in ROS.
     pub is_lazy: bool,
     /// Queue depth of the ROS publisher.
@@ -57,14 +57,14 @@ pub struct Pair {
 
 /// Reason for which a pair of topics cannot be bridged.
 #[derive(Clone, Debug)]
-pub enum PairError {
+pub enum TopicPairError {
     /// There is no conversion between the types; the text names alternatives.
     Types(String),
     /// A name is invalid, or the graph refused an endpoint.
-    Wire(WireError),
+    Wire(GzTransportError),
 }
 
-impl std::fmt::Display for PairError {
+impl std::fmt::Display for TopicPairError {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         match self {
             Self::Types(words) => f.write_str(words),
@@ -73,16 +73,16 @@ impl std::fmt::Display for PairError {
     }
 }
 
-impl std::error::Error for PairError {}
+impl std::error::Error for TopicPairError {}
 
-impl<E: Into<WireError>> From<E> for PairError {
+impl<E: Into<GzTransportError>> From<E> for TopicPairError {
     fn from(error: E) -> Self {
         Self::Wire(error.into())
     }
 }
 
 /// Bridges between a graph and Gazebo Transport, which exist until this is dropped.
-pub struct Link {
+pub struct GzBridge {
     graph: Graph,
     transport: Arc<Transport>,
     inner: Arc<Mutex<Inner>>,
@@ -119,7 +119,7 @@ struct Inward {
     gz_topic: String,
     gz_type: String,
     is_lazy: bool,
-    subscription: Option<Subscription>,
+    subscription: Option<GzSubscription>,
     unsaid: Arc<AtomicBool>,
 }
 
@@ -134,7 +134,7 @@ struct Automatic {
     bridges: BTreeMap<(String, bool), Bridge>,
 }
 
-impl Link {
+impl GzBridge {
     /// Creates a link between a graph and a Gazebo transport.
     #[must_use]
     pub fn new(graph: &Graph, transport: &Arc<Transport>) -> Self {
@@ -164,12 +164,12 @@ impl Link {
     ///
     /// # Errors
     /// When there is no conversion between the types, or a name is invalid.
-    pub fn bridge(&self, node: &Node, pair: &Pair) -> Result<(), PairError> {
+    pub fn bridge(&self, node: &Node, pair: &TopicPair) -> Result<(), TopicPairError> {
         let (ros_type, convert) = between(&pair.ros_type, &pair.gz_type)
-            .ok_or_else(|| PairError::Types(no_such_pair(&pair.ros_type, &pair.gz_type)))?;
+            .ok_or_else(|| TopicPairError::Types(no_such_pair(&pair.ros_type, &pair.gz_type)))?;
         let mut bridge = Bridge { out: None, into: None };
         let mut own = BTreeSet::new();
-        if pair.direction != Direction::ToGazebo {
+        if pair.direction != BridgeDirection::ToGazebo {
             let qos = Qos::reliable(pair.publisher_queue.max(1));
             let feed: Arc<dyn Feed> = convert.feed(node, &pair.ros_topic, qos)?.into();
             own.insert(feed.id());
@@ -182,7 +182,7 @@ impl Link {
                 unsaid: Arc::default(),
             });
         }
-        if pair.direction != Direction::ToRos {
+        if pair.direction != BridgeDirection::ToRos {
             let qos = Qos::reliable(pair.subscriber_queue.max(1));
             let heard = node.raw_mailbox(&pair.ros_topic, ros_type, None, qos)?;
             let topic = heard.topic().to_owned();
@@ -204,7 +204,7 @@ impl Link {
     pub fn offer_all(
         &self,
         rename: impl Fn(&str) -> Option<String> + Send + 'static,
-    ) -> Result<(), WireError> {
+    ) -> Result<(), GzTransportError> {
         let node = stand_in(&self.graph, b"gz")?;
         let rename: Rename = Box::new(rename);
         let bridges = BTreeMap::new();
@@ -219,7 +219,7 @@ impl Link {
     }
 }
 
-impl Drop for Link {
+impl Drop for GzBridge {
     fn drop(&mut self) {
         self.is_closing.store(true, Ordering::Release);
         self.lane.end();
@@ -323,7 +323,7 @@ fn say(findings: &mut Diagnostics, said: &mut BTreeSet<String>, topic: &str, a: 
 }
 
 impl Inward {
-    fn subscribe(&self, transport: &Transport) -> Result<Subscription, WireError> {
+    fn subscribe(&self, transport: &Transport) -> Result<GzSubscription, GzTransportError> {
         let (feed, unsaid) = (self.feed.clone(), self.unsaid.clone());
         let wanted = bare_name(&self.gz_type).map(str::to_owned);
         transport.subscribe(&self.gz_topic, &self.gz_type, move |arrival| {
@@ -380,7 +380,7 @@ impl Automatic {
         worker: &Worker,
         topic: &TopicInfo,
         is_out: bool,
-    ) -> Result<Option<Bridge>, WireError> {
+    ) -> Result<Option<Bridge>, GzTransportError> {
         let Some(gz_topic) = (self.rename)(&topic.name) else { return Ok(None) };
         let Some(bare) = gazebo_types(&topic.type_name).into_iter().next() else { return Ok(None) };
         let gz_type = worker.transport.settings().dialect.full_name(bare);

@@ -18,8 +18,8 @@ impl Name {
     ///
     /// # Errors
     /// When it is not a valid name.
-    pub fn new(partition: &str, topic: &str) -> Result<Self, WireError> {
-        let wrong = |why| Err(WireError::Name { name: topic.to_owned(), why });
+    pub fn new(partition: &str, topic: &str) -> Result<Self, GzTransportError> {
+        let wrong = |why| Err(GzTransportError::Name { name: topic.to_owned(), why });
         let bare = topic.trim_end_matches('/');
         if bare.is_empty() {
             return wrong("it is empty");

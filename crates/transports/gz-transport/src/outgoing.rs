@@ -15,7 +15,7 @@ use crate::convert::Convert;
 /// Send queue of one topic.
 pub(crate) struct Outgoing {
     topic: String,
-    publisher: Publisher,
+    publisher: GzPublisher,
     convert: Box<dyn Convert>,
     /// Queue depth; the oldest message is dropped when it is exceeded.
     depth: usize,
@@ -45,7 +45,7 @@ struct Queue {
 impl Outgoing {
     pub(crate) fn new(
         topic: &str,
-        publisher: Publisher,
+        publisher: GzPublisher,
         convert: Box<dyn Convert>,
         depth: usize,
         who: Who,

@@ -10,7 +10,7 @@ use periplus_transport::environment::variable;
 
 /// Reach of discovery.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Reach {
+pub enum DiscoveryReach {
     /// Programs on this machine.
     #[default]
     Machine,
@@ -24,9 +24,9 @@ pub struct Settings {
     /// Partition; programs in another partition are invisible.
     pub partition: String,
     /// Reach of discovery.
-    pub reach: Reach,
+    pub reach: DiscoveryReach,
     /// Address of the interface; by default that of the loopback interface, or with
-    /// [`Reach::Network`] that of the default route.
+    /// [`DiscoveryReach::Network`] that of the default route.
     pub address: Option<Ipv4Addr>,
     /// Multicast group of discovery.
     pub group: Ipv4Addr,
@@ -42,7 +42,7 @@ impl Default for Settings {
     fn default() -> Self {
         Self {
             partition: "localhost:user".to_owned(),
-            reach: Reach::Machine,
+            reach: DiscoveryReach::Machine,
             address: None,
             group: Ipv4Addr::new(239, 255, 0, 7),
             topic_port: 10_317,

@@ -18,14 +18,14 @@ use std::sync::atomic::Ordering;
 use std::thread::JoinHandle;
 use std::time::Duration;
 
-pub use calls::{Answer, Call, Server};
+pub use calls::{GzService, ServiceReply, ServiceRequest};
 pub use packet::fuzz as fuzz_discovery;
 pub use publish::Publisher;
 pub use remote::Offered;
-pub use subscribe::{Arrival, Subscription};
+pub use subscribe::{GzSubscription, ReceivedMessage};
 pub use zmtp::fuzz as fuzz_frames;
 
-use crate::{CallError, Name, Settings, WireError};
+use crate::{GzTransportError, Name, ServiceCallError, Settings};
 use shared::{Kind, Shared};
 
 /// A participant of the Gazebo network. It leaves the network when this is dropped.
@@ -39,7 +39,7 @@ impl Transport {
     ///
     /// # Errors
     /// When the address is not one of this machine, or a port cannot be bound.
-    pub fn open(settings: &Settings) -> Result<Self, WireError> {
+    pub fn open(settings: &Settings) -> Result<Self, GzTransportError> {
         let (shared, threads) = shared::open(settings)?;
         Ok(Self { shared, threads })
     }
@@ -48,7 +48,7 @@ impl Transport {
     ///
     /// # Errors
     /// When Gazebo does not allow the name.
-    pub fn advertise(&self, topic: &str, type_name: &str) -> Result<Publisher, WireError> {
+    pub fn advertise(&self, topic: &str, type_name: &str) -> Result<GzPublisher, GzTransportError> {
         let name = self.name(topic)?;
         Ok(publish::advertise(&self.shared, name, type_name))
     }
@@ -62,8 +62,8 @@ impl Transport {
         &self,
         topic: &str,
         type_name: &str,
-        take: impl Fn(Arrival<'_>) + Send + Sync + 'static,
-    ) -> Result<Subscription, WireError> {
+        take: impl Fn(ReceivedMessage<'_>) + Send + Sync + 'static,
+    ) -> Result<GzSubscription, GzTransportError> {
         let name = self.name(topic)?;
         Ok(subscribe::subscribe(&self.shared, name, type_name, Box::new(take)))
     }
@@ -78,8 +78,8 @@ impl Transport {
         service: &str,
         request_type: &str,
         response_type: &str,
-        take: impl Fn(Call) + Send + Sync + 'static,
-    ) -> Result<Server, WireError> {
+        take: impl Fn(ServiceRequest) + Send + Sync + 'static,
+    ) -> Result<GzService, GzTransportError> {
         let name = self.name(service)?;
         Ok(calls::serve(&self.shared, name, request_type, response_type, Box::new(take)))
     }
@@ -96,20 +96,20 @@ impl Transport {
         response_type: &str,
         request: &[u8],
         timeout: Duration,
-    ) -> Result<Vec<u8>, CallError> {
-        let name = self.name(service).map_err(|_| CallError::Nobody)?;
+    ) -> Result<Vec<u8>, ServiceCallError> {
+        let name = self.name(service).map_err(|_| ServiceCallError::Nobody)?;
         calls::call(&self.shared, &name, [request_type, response_type], request, timeout)
     }
 
     /// Topics of other programs with their publishers, sorted by name.
     #[must_use]
-    pub fn topics(&self) -> Vec<Offered> {
+    pub fn topics(&self) -> Vec<Advertisement> {
         self.shared.remote(Kind::Topics).offered()
     }
 
     /// Services of other programs, sorted by name.
     #[must_use]
-    pub fn services(&self) -> Vec<Offered> {
+    pub fn services(&self) -> Vec<Advertisement> {
         self.shared.remote(Kind::Services).offered()
     }
 
@@ -125,7 +125,7 @@ impl Transport {
         &self.shared.settings
     }
 
-    fn name(&self, topic: &str) -> Result<Name, WireError> {
+    fn name(&self, topic: &str) -> Result<Name, GzTransportError> {
         Name::new(&self.shared.settings.partition, topic)
     }
 }

@@ -9,7 +9,7 @@ use std::sync::mpsc::channel;
 use std::time::Duration;
 
 use periplus_gz_msgs::{Boolean, Message, StringMsg};
-use periplus_gz_transport::{CallError, Settings, Transport};
+use periplus_gz_transport::{ServiceCallError, Settings, Transport};
 
 use common::{LONG, until};
 
@@ -108,11 +108,11 @@ fn a_call_is_answered_refused_or_late() {
     };
     assert_eq!(ask("hello", LONG), Ok("hello!".to_owned()));
     assert_eq!(ask("again", LONG), Ok("again!".to_owned()));
-    assert_eq!(ask("refuse", LONG), Err(CallError::Refused));
-    assert_eq!(ask("wait", Duration::from_millis(200)), Err(CallError::Late));
+    assert_eq!(ask("refuse", LONG), Err(ServiceCallError::Refused));
+    assert_eq!(ask("wait", Duration::from_millis(200)), Err(ServiceCallError::Late));
     let short = Duration::from_millis(100);
     let other = b.call("/nobody", types[0], types[1], &[], short);
-    assert_eq!(other, Err(CallError::Nobody));
+    assert_eq!(other, Err(ServiceCallError::Nobody));
     let other = b.call("/echo", "gz.msgs.Boolean", types[1], &[], short);
-    assert_eq!(other, Err(CallError::Nobody));
+    assert_eq!(other, Err(ServiceCallError::Nobody));
 }

@@ -14,7 +14,7 @@ use std::sync::mpsc::channel;
 use std::time::Duration;
 
 use periplus_gz_msgs::{Dialect, LaserScan, Message, StringMsg, Twist};
-use periplus_gz_transport::{CallError, Settings, Transport};
+use periplus_gz_transport::{ServiceCallError, Settings, Transport};
 
 use common::{Gazebo, LONG};
 
@@ -163,5 +163,5 @@ fn gazebo_calls_us_and_we_call_gazebo() {
     };
     assert_eq!(ask("we"), Ok("we!".to_owned()));
     assert_eq!(ask("we again"), Ok("we again!".to_owned()));
-    assert_eq!(ask("refuse"), Err(CallError::Refused));
+    assert_eq!(ask("refuse"), Err(ServiceCallError::Refused));
 }

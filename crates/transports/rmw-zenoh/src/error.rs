@@ -7,7 +7,7 @@ use periplus_graph::GraphError;
 /// Error of the Zenoh transport.
 #[derive(Clone, Debug)]
 #[non_exhaustive]
-pub enum WireError {
+pub enum ZenohError {
     /// An invalid setting.
     Setting {
         /// Name of the setting.
@@ -28,7 +28,7 @@ pub enum WireError {
     Graph(GraphError),
 }
 
-impl fmt::Display for WireError {
+impl fmt::Display for ZenohError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Setting { what, why } => write!(f, "{what} is not valid for Zenoh: {why}"),
@@ -46,9 +46,9 @@ impl fmt::Display for WireError {
     }
 }
 
-impl std::error::Error for WireError {}
+impl std::error::Error for ZenohError {}
 
-impl From<GraphError> for WireError {
+impl From<GraphError> for ZenohError {
     fn from(error: GraphError) -> Self {
         Self::Graph(error)
     }

@@ -36,8 +36,8 @@ mod outgoing;
 #[cfg(feature = "zenoh")]
 mod wire;
 
-pub use error::WireError;
+pub use error::ZenohError;
 pub use settings::Settings;
-pub use token::{End, Kind, Token};
+pub use token::{End, EntityKind, EntityToken};
 #[cfg(feature = "zenoh")]
-pub use wire::Wire;
+pub use wire::ZenohTransport;

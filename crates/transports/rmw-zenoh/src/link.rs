@@ -17,7 +17,7 @@ use zenoh::liveliness::LivelinessToken;
 
 use crate::outgoing::Lane;
 use crate::wire::Shared;
-use crate::{Kind, Settings};
+use crate::{EntityKind, Settings};
 
 use net::Net;
 use report::Told;
@@ -106,7 +106,7 @@ impl Attached {
         self.nodes.retain(|name, _| own.nodes.contains(name));
         for name in own.nodes {
             if !self.nodes.contains_key(&name)
-                && let Some((_, token)) = net.token(Kind::Node, &name, None)
+                && let Some((_, token)) = net.token(EntityKind::Node, &name, None)
             {
                 self.nodes.insert(name, token);
             }

@@ -18,7 +18,7 @@ const NO_HASH: &str = "TypeHashNotSupported";
 
 /// Kind of the entity that a token describes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Kind {
+pub enum EntityKind {
     /// A node.
     Node,
     /// A publisher.
@@ -31,7 +31,7 @@ pub enum Kind {
     Client,
 }
 
-impl Kind {
+impl EntityKind {
     const NAMES: [(Self, &'static str); 5] = [
         (Self::Node, "NN"),
         (Self::Publisher, "MP"),
@@ -43,7 +43,7 @@ impl Kind {
 
 /// Content of a token.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Token {
+pub struct EntityToken {
     /// Domain id.
     pub domain_id: u32,
     /// The session that declares it.
@@ -53,7 +53,7 @@ pub struct Token {
     /// Id of the entity in that session; that of a node equals `node_id`.
     pub id: u64,
     /// Kind of the entity.
-    pub kind: Kind,
+    pub kind: EntityKind,
     /// Security enclave of its node.
     pub enclave: String,
     /// Full name of its node.
@@ -119,13 +119,15 @@ fn mangled(name: &str) -> String {
     name.replace('/', "%")
 }
 
-impl Token {
+impl EntityToken {
     /// Encodes the key expression.
     #[must_use]
     pub fn write(&self) -> String {
         let Self { domain_id, session, node_id, id, .. } = self;
-        let kind =
-            Kind::NAMES.iter().find(|(kind, _)| *kind == self.kind).map_or("", |(_, name)| name);
+        let kind = EntityKind::NAMES
+            .iter()
+            .find(|(kind, _)| *kind == self.kind)
+            .map_or("", |(_, name)| name);
         let (namespace, node) = self.node.rsplit_once('/').unwrap_or(("", &self.node));
         let namespace = mangled(if namespace.is_empty() { "/" } else { namespace });
         let enclave = mangled(&self.enclave);
@@ -150,10 +152,10 @@ impl Token {
         if space != SPACE || !is_whole {
             return None;
         }
-        let (kind, _) = *Kind::NAMES.iter().find(|(_, name)| *name == kind)?;
+        let (kind, _) = *EntityKind::NAMES.iter().find(|(_, name)| *name == kind)?;
         let plain = |name: &str| name.replace('%', "/");
         let end = match (kind, rest) {
-            (Kind::Node, _) => None,
+            (EntityKind::Node, _) => None,
             (_, [name, type_name, hash, qos]) => Some(End {
                 name: plain(name),
                 type_name: names::message(type_name)?,
@@ -182,13 +184,13 @@ mod tests {
 
     const HASH: &str = "RIHS01_df668c740482bbd48fb39d76a70dfd4bd59db1288021743503259e948f6b1a18";
 
-    fn talker() -> Token {
-        Token {
+    fn talker() -> EntityToken {
+        EntityToken {
             domain_id: 2,
             session: "8b20917502ee955ac4476e0266340d5c".into(),
             node_id: 0,
             id: 10,
-            kind: Kind::Publisher,
+            kind: EntityKind::Publisher,
             enclave: "/".into(),
             node: "/talker".into(),
             end: Some(End {
@@ -201,9 +203,9 @@ mod tests {
     }
 
     #[track_caller]
-    fn check(token: &Token, key: &str) {
+    fn check(token: &EntityToken, key: &str) {
         assert_eq!(token.write(), key);
-        assert_eq!(Token::read(key).as_ref(), Some(token));
+        assert_eq!(EntityToken::read(key).as_ref(), Some(token));
     }
 
     #[test]
@@ -212,9 +214,9 @@ mod tests {
         let session = "8b20917502ee955ac4476e0266340d5c";
         let end = format!("%chatter/std_msgs::msg::dds_::String_/{HASH}/::,7:,:,:,,");
         check(&talker(), &format!("@ros2_lv/2/{session}/0/10/MP/%/%/talker/{end}"));
-        let node = Token { id: 0, kind: Kind::Node, end: None, ..talker() };
+        let node = EntityToken { id: 0, kind: EntityKind::Node, end: None, ..talker() };
         check(&node, &format!("@ros2_lv/2/{session}/0/0/NN/%/%/talker"));
-        let deep = Token { node: "/demo/sub/wheels".into(), ..node };
+        let deep = EntityToken { node: "/demo/sub/wheels".into(), ..node };
         check(&deep, &format!("@ros2_lv/2/{session}/0/0/NN/%/%demo%sub/wheels"));
     }
 
@@ -260,7 +262,12 @@ mod tests {
     fn what_is_none_is_none() {
         let key = talker().write();
         for end in 0..key.len() {
-            assert_eq!(Token::read(&key[..end]).map(|token| token.kind), None, "{}", &key[..end]);
+            assert_eq!(
+                EntityToken::read(&key[..end]).map(|token| token.kind),
+                None,
+                "{}",
+                &key[..end]
+            );
         }
         for bad in [
             key.replace("MP", "XX"),
@@ -269,9 +276,10 @@ mod tests {
             key.replace("/talker/", "//"),
             format!("{key}/more"),
         ] {
-            assert_eq!(Token::read(&bad), None, "{bad}");
+            assert_eq!(EntityToken::read(&bad), None, "{bad}");
         }
-        let old = Token { end: talker().end.map(|end| End { type_hash: None, ..end }), ..talker() };
+        let old =
+            EntityToken { end: talker().end.map(|end| End { type_hash: None, ..end }), ..talker() };
         check(&old, &key.replace(HASH, NO_HASH));
     }
 
@@ -283,9 +291,9 @@ mod tests {
             cut in 0_usize..100,
         ) {
             let key = head + &rest;
-            let _ = Token::read(&key[..cut.min(key.len())]);
-            if let Some(token) = Token::read(&key) {
-                prop_assert_eq!(Token::read(&token.write()), Some(token));
+            let _ = EntityToken::read(&key[..cut.min(key.len())]);
+            if let Some(token) = EntityToken::read(&key) {
+                prop_assert_eq!(EntityToken::read(&token.write()), Some(token));
             }
         }
     }

@@ -13,16 +13,16 @@ use zenoh::{Config, Session, Wait};
 
 use crate::link::Link;
 use crate::outgoing::{Job, Lane};
-use crate::{Settings, Token, WireError, token};
+use crate::{EntityToken, Settings, ZenohError, token};
 
-/// Polling period of [`Wire::flush`].
+/// Polling period of [`ZenohTransport::flush`].
 const LOOK_AGAIN: Duration = Duration::from_millis(5);
 
 /// Time for sending the remaining messages when the transport is dropped.
 const LAST_CHANCE: Duration = Duration::from_millis(300);
 
 /// A Zenoh session for one graph. It leaves the network when this is dropped.
-pub struct Wire {
+pub struct ZenohTransport {
     shared: Arc<Shared>,
     session: Session,
     lane: Lane,
@@ -33,7 +33,7 @@ pub struct Wire {
 #[derive(Default)]
 pub(crate) struct Shared {
     /// Remote tokens by key, and their change counter.
-    others: Mutex<(BTreeMap<String, Token>, u64)>,
+    others: Mutex<(BTreeMap<String, EntityToken>, u64)>,
     /// Notified when the tokens have changed.
     changed: Condvar,
     /// Set and notified when the link thread has work.
@@ -67,14 +67,17 @@ impl Shared {
     }
 
     /// Accesses the remote tokens and their change counter.
-    pub(crate) fn others<T>(&self, look: impl FnOnce(&BTreeMap<String, Token>, u64) -> T) -> T {
+    pub(crate) fn others<T>(
+        &self,
+        look: impl FnOnce(&BTreeMap<String, EntityToken>, u64) -> T,
+    ) -> T {
         let others = lock(&self.others);
         look(&others.0, others.1)
     }
 
     /// Adds or removes a token.
     fn note(&self, key: &str, is_alive: bool) {
-        let Some(token) = Token::read(key) else { return };
+        let Some(token) = EntityToken::read(key) else { return };
         let mut others = lock(&self.others);
         if is_alive {
             others.0.insert(key.to_owned(), token);
@@ -89,8 +92,8 @@ impl Shared {
 }
 
 /// Builds Zenoh's configuration: a file as it is, or the defaults, with the overrides on top.
-fn configuration(settings: &Settings) -> Result<Config, WireError> {
-    let wrong = |what: &str, why: &dyn std::fmt::Display| WireError::Setting {
+fn configuration(settings: &Settings) -> Result<Config, ZenohError> {
+    let wrong = |what: &str, why: &dyn std::fmt::Display| ZenohError::Setting {
         what: what.to_owned(),
         why: why.to_string(),
     };
@@ -111,13 +114,13 @@ fn configuration(settings: &Settings) -> Result<Config, WireError> {
     Ok(config)
 }
 
-impl Wire {
+impl ZenohTransport {
     /// Joins the network.
     ///
     /// # Errors
     /// When a setting is invalid, or Zenoh cannot listen at an endpoint.
-    pub fn open(settings: &Settings) -> Result<Self, WireError> {
-        let network = |error: zenoh::Error| WireError::Network {
+    pub fn open(settings: &Settings) -> Result<Self, ZenohError> {
+        let network = |error: zenoh::Error| ZenohError::Network {
             way: settings.way(),
             why: error.to_string(),
         };
@@ -158,9 +161,9 @@ impl Wire {
     ///
     /// # Errors
     /// When a graph is attached already.
-    pub fn attach(&self, graph: &Graph) -> Result<(), WireError> {
+    pub fn attach(&self, graph: &Graph) -> Result<(), ZenohError> {
         if self.shared.is_attached.swap(true, Ordering::AcqRel) {
-            return Err(WireError::Attached);
+            return Err(ZenohError::Attached);
         }
         let node = stand_in(graph, &self.session.zid().to_le_bytes())?;
         *lock(&self.shared.joining) = Some((graph.clone(), node));
@@ -168,15 +171,19 @@ impl Wire {
         Ok(())
     }
 
-    /// Remote tokens, sorted by key. Discovery takes a moment: see [`Wire::wait_for`].
+    /// Remote tokens, sorted by key. Discovery takes a moment: see [`ZenohTransport::wait_for`].
     #[must_use]
-    pub fn remote(&self) -> Vec<Token> {
+    pub fn remote(&self) -> Vec<EntityToken> {
         self.shared.others(|others, _| others.values().cloned().collect())
     }
 
     /// Waits until the remote side satisfies the condition, at most for the timeout; true if it
     /// does.
-    pub fn wait_for(&self, timeout: Duration, mut wanted: impl FnMut(&[Token]) -> bool) -> bool {
+    pub fn wait_for(
+        &self,
+        timeout: Duration,
+        mut wanted: impl FnMut(&[EntityToken]) -> bool,
+    ) -> bool {
         let others = lock(&self.shared.others);
         let mut seen = None;
         let waited =
@@ -185,7 +192,7 @@ impl Wire {
                 if seen.replace(*changes) == Some(*changes) {
                     return true;
                 }
-                let others: Vec<Token> = others.values().cloned().collect();
+                let others: Vec<EntityToken> = others.values().cloned().collect();
                 !wanted(&others)
             });
         !waited.unwrap_or_else(PoisonError::into_inner).1.timed_out()
@@ -214,7 +221,7 @@ impl Wire {
     }
 }
 
-impl Drop for Wire {
+impl Drop for ZenohTransport {
     fn drop(&mut self) {
         let _ = self.flush(LAST_CHANCE);
         self.shared.is_closing.store(true, Ordering::Release);
@@ -227,8 +234,10 @@ impl Drop for Wire {
     }
 }
 
-impl std::fmt::Debug for Wire {
+impl std::fmt::Debug for ZenohTransport {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.debug_struct("Wire").field("session", &self.session.zid()).finish_non_exhaustive()
+        f.debug_struct("ZenohTransport")
+            .field("session", &self.session.zid())
+            .finish_non_exhaustive()
     }
 }

@@ -17,7 +17,7 @@ use periplus_msgs::nav_msgs::OccupancyGrid;
 use periplus_msgs::sensor_msgs::LaserScan;
 use periplus_msgs::std_msgs::String as Text;
 use periplus_msgs::std_srvs::{Trigger, TriggerRequest, TriggerResponse};
-use periplus_rmw_zenoh::{Kind, Settings, Wire};
+use periplus_rmw_zenoh::{EntityKind, Settings, ZenohTransport};
 
 const LONG: Duration = Duration::from_secs(40);
 
@@ -102,7 +102,7 @@ struct Place {
 }
 
 struct Ours {
-    wire: Wire,
+    wire: ZenohTransport,
     node: Node,
 }
 
@@ -121,7 +121,7 @@ impl Place {
 
     fn join(&self, name: &str) -> Ours {
         let connect = vec![format!("tcp/127.0.0.1:{}", self.port)];
-        let wire = Wire::open(&Settings { connect, ..Settings::default() }).unwrap();
+        let wire = ZenohTransport::open(&Settings { connect, ..Settings::default() }).unwrap();
         let graph = Graph::live();
         wire.attach(&graph).unwrap();
         let findings = wire.take_findings();
@@ -189,10 +189,10 @@ fn others_see_who_we_are_and_we_see_them() {
     );
     // They are discovered, and removed when they are killed.
     let serving = place.peer(&["serve", "/theirs", "1"]);
-    let has_server = |others: &[periplus_rmw_zenoh::Token]| {
+    let has_server = |others: &[periplus_rmw_zenoh::EntityToken]| {
         others.iter().any(|one| {
             let name = one.end.as_ref().map(|end| end.name.as_str());
-            one.kind == Kind::Server && one.node == "/peer" && name == Some("/theirs")
+            one.kind == EntityKind::Server && one.node == "/peer" && name == Some("/theirs")
         })
     };
     assert!(ours.wire.wait_for(LONG, has_server), "{:?}", ours.wire.remote());
@@ -286,17 +286,18 @@ fn types_that_differ_are_named() {
 #[test]
 fn no_router_is_a_finding_and_bad_settings_are_errors() {
     let connect = vec!["tcp/127.0.0.1:17599".to_owned()];
-    let alone = Wire::open(&Settings { connect: connect.clone(), ..Settings::default() }).unwrap();
+    let alone = ZenohTransport::open(&Settings { connect: connect.clone(), ..Settings::default() })
+        .unwrap();
     let findings = alone.take_findings();
     let told: Vec<&str> = findings.iter().map(|one| one.code).collect();
     assert_eq!(told, ["zenoh-router"]);
     for more in ["mode", "mode=\"king\"", "no/such/thing=1"] {
         let bad =
             Settings { connect: connect.clone(), more: more.to_owned(), ..Settings::default() };
-        let error = Wire::open(&bad).unwrap_err().to_string();
+        let error = ZenohTransport::open(&bad).unwrap_err().to_string();
         assert!(error.contains(more) && error.contains("ZENOH_CONFIG_OVERRIDE"), "{error}");
     }
     let missing = Settings { file: Some("/no/such/file.json5".to_owned()), ..Settings::default() };
-    let error = Wire::open(&missing).unwrap_err().to_string();
+    let error = ZenohTransport::open(&missing).unwrap_err().to_string();
     assert!(error.contains("/no/such/file.json5"), "{error}");
 }

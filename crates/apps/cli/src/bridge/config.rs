@@ -5,7 +5,7 @@
 use std::path::Path;
 
 use periplus_diagnostics::{Diagnostic, Diagnostics, SourceMap};
-use periplus_gz_transport::{Direction, Pair};
+use periplus_gz_transport::{BridgeDirection, TopicPair};
 use periplus_yaml::YamlNode;
 
 use super::spec::QUEUE_DEPTH;
@@ -28,12 +28,12 @@ const KEYS: [&str; 9] = [
 pub(super) fn read(
     path: &Path,
     is_lazy: bool,
-) -> Result<(Vec<Pair>, Diagnostics, SourceMap), String> {
+) -> Result<(Vec<TopicPair>, Diagnostics, SourceMap), String> {
     let text = crate::paths::text(path)?;
     Ok(read_text(&path.display().to_string(), text, is_lazy))
 }
 
-fn read_text(name: &str, text: String, is_lazy: bool) -> (Vec<Pair>, Diagnostics, SourceMap) {
+fn read_text(name: &str, text: String, is_lazy: bool) -> (Vec<TopicPair>, Diagnostics, SourceMap) {
     let (mut sources, mut findings) = (SourceMap::new(), Diagnostics::new());
     let file = sources.add(name.to_owned(), text);
     let mut pairs = Vec::new();
@@ -54,7 +54,7 @@ fn read_text(name: &str, text: String, is_lazy: bool) -> (Vec<Pair>, Diagnostics
     (pairs, findings, sources)
 }
 
-fn entry(node: &YamlNode, is_lazy: bool, findings: &mut Diagnostics) -> Option<Pair> {
+fn entry(node: &YamlNode, is_lazy: bool, findings: &mut Diagnostics) -> Option<TopicPair> {
     let wrong = |message: &str, findings: &mut Diagnostics| {
         let finding = Diagnostic::error("bridge-config", message).at(node.span);
         findings.push(finding.help("the topic is left out"));
@@ -88,9 +88,9 @@ fn entry(node: &YamlNode, is_lazy: bool, findings: &mut Diagnostics) -> Option<P
         return wrong("`ros_type_name` and `gz_type_name` are required", findings);
     };
     let direction = match text("direction").as_deref() {
-        None | Some("BIDIRECTIONAL") => Direction::Both,
-        Some("GZ_TO_ROS") => Direction::ToRos,
-        Some("ROS_TO_GZ") => Direction::ToGazebo,
+        None | Some("BIDIRECTIONAL") => BridgeDirection::Both,
+        Some("GZ_TO_ROS") => BridgeDirection::ToRos,
+        Some("ROS_TO_GZ") => BridgeDirection::ToGazebo,
         Some(_) => {
             let told = "`direction` must be BIDIRECTIONAL, GZ_TO_ROS or ROS_TO_GZ";
             return wrong(told, findings);
@@ -100,7 +100,7 @@ fn entry(node: &YamlNode, is_lazy: bool, findings: &mut Diagnostics) -> Option<P
         let count = node.get(name).and_then(YamlNode::integer);
         count.and_then(|count| usize::try_from(count).ok()).unwrap_or(QUEUE_DEPTH)
     };
-    Some(Pair {
+    Some(TopicPair {
         ros_topic,
         gz_topic,
         ros_type,
@@ -142,9 +142,9 @@ mod tests {
         let (pairs, findings, _) = read_text("bridge.yaml", text.to_owned(), false);
         assert_eq!(pairs.len(), 3);
         assert_eq!((pairs[0].ros_topic.as_str(), pairs[0].gz_topic.as_str()), ("scan", "/lidar"));
-        assert_eq!((pairs[0].direction, pairs[0].is_lazy), (Direction::ToRos, true));
+        assert_eq!((pairs[0].direction, pairs[0].is_lazy), (BridgeDirection::ToRos, true));
         assert_eq!((pairs[0].publisher_queue, pairs[0].subscriber_queue), (3, 10));
-        assert_eq!((pairs[1].direction, pairs[1].is_lazy), (Direction::Both, false));
+        assert_eq!((pairs[1].direction, pairs[1].is_lazy), (BridgeDirection::Both, false));
         assert_eq!((pairs[2].ros_topic.as_str(), pairs[2].gz_topic.as_str()), ("/e", "/e"));
         assert_eq!(findings.iter().count(), 5);
     }

@@ -1,6 +1,6 @@
 //! Command-line syntax of `parameter_bridge`.
 
-use periplus_gz_transport::{Direction, Pair};
+use periplus_gz_transport::{BridgeDirection, TopicPair};
 
 /// Queue size, the value of `ros_gz_bridge`.
 pub(super) const QUEUE_DEPTH: usize = 10;
@@ -8,7 +8,7 @@ pub(super) const QUEUE_DEPTH: usize = 10;
 /// A topic or a service.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) enum Spec {
-    Topic(Pair),
+    Topic(TopicPair),
     Service(ServiceSpec),
 }
 
@@ -53,15 +53,15 @@ impl Spec {
         if ros_type.is_empty() || gz_type.is_empty() {
             return Err("a type is missing".into());
         }
-        Ok(Self::Topic(Pair {
+        Ok(Self::Topic(TopicPair {
             ros_topic: name.to_owned(),
             gz_topic: name.to_owned(),
             ros_type: ros_type.to_owned(),
             gz_type: gz_type.to_owned(),
             direction: match mark {
-                '[' => Direction::ToRos,
-                ']' => Direction::ToGazebo,
-                _ => Direction::Both,
+                '[' => BridgeDirection::ToRos,
+                ']' => BridgeDirection::ToGazebo,
+                _ => BridgeDirection::Both,
             },
             is_lazy: false,
             publisher_queue: QUEUE_DEPTH,
@@ -74,7 +74,7 @@ impl Spec {
 mod tests {
     use super::*;
 
-    fn topic(word: &str) -> Option<(String, String, String, Direction)> {
+    fn topic(word: &str) -> Option<(String, String, String, BridgeDirection)> {
         match Spec::read(word) {
             Ok(Spec::Topic(pair)) => {
                 Some((pair.gz_topic, pair.ros_type, pair.gz_type, pair.direction))
@@ -85,9 +85,11 @@ mod tests {
 
     #[test]
     fn the_mark_says_the_direction() {
-        for (mark, direction) in
-            [('@', Direction::Both), ('[', Direction::ToRos), (']', Direction::ToGazebo)]
-        {
+        for (mark, direction) in [
+            ('@', BridgeDirection::Both),
+            ('[', BridgeDirection::ToRos),
+            (']', BridgeDirection::ToGazebo),
+        ] {
             let word = format!("/lidar@sensor_msgs/msg/LaserScan{mark}gz.msgs.LaserScan");
             let (topic, ros, gazebo, found) = topic(&word).expect("a topic");
             assert_eq!((topic.as_str(), ros.as_str()), ("/lidar", "sensor_msgs/msg/LaserScan"));

@@ -5,7 +5,7 @@ use std::net::{Ipv4Addr, SocketAddr, UdpSocket};
 use std::path::Path;
 use std::time::Duration;
 
-use periplus_dds::{Range, Settings};
+use periplus_dds::{DiscoveryRange, Settings};
 use periplus_os::Machine;
 use periplus_resources::Host as _;
 use periplus_ros2cli::doctor::{NetworkSettings, domains_in};
@@ -23,7 +23,7 @@ pub(super) fn look() -> NetworkSettings {
         let bytes = Machine.read(Path::new(path)).ok()?;
         Some(String::from_utf8_lossy(&bytes).into_owned())
     };
-    let is_loopback = matches!(settings.range, Range::Localhost | Range::Off);
+    let is_loopback = matches!(settings.range, DiscoveryRange::Localhost | DiscoveryRange::Off);
     NetworkSettings {
         domain_id: settings.domain_id,
         is_loopback,

@@ -6,7 +6,9 @@ use std::sync::Arc;
 use clap::ValueEnum;
 use periplus_diagnostics::SourceMap;
 use periplus_gz_msgs::Dialect;
-use periplus_gz_transport::{Link, Publisher, Reach, Server, Settings, Transport, WireError};
+use periplus_gz_transport::{
+    DiscoveryReach, GzBridge, GzPublisher, GzService, GzTransportError, Settings, Transport,
+};
 use periplus_os::Machine;
 use periplus_sim::{GazeboPublisher, Services, Simulation, gazebo_topic};
 
@@ -37,16 +39,16 @@ pub(crate) enum GzTypes {
 /// Connection of a run to Gazebo programs.
 pub(crate) struct Gazebo {
     // Declared first, so that the graph is left before the network is dropped.
-    link: Link,
-    _servers: Vec<Server>,
+    link: GzBridge,
+    _servers: Vec<GzService>,
 }
 
 /// Publishers of world state and statistics.
-struct Outlet(Vec<Publisher>);
+struct Outlet(Vec<GzPublisher>);
 
 impl GazeboPublisher for Outlet {
     fn is_heard(&self, topic: usize) -> bool {
-        self.0.get(topic).is_some_and(Publisher::is_heard)
+        self.0.get(topic).is_some_and(GzPublisher::is_heard)
     }
 
     fn put(&self, topic: usize, message: Vec<u8>) {
@@ -69,8 +71,8 @@ impl Gazebo {
         let (mut settings, findings) = Settings::from_environment(&Machine);
         terminal::diagnostics(&mut anstream::stderr().lock(), &findings, &SourceMap::new())?;
         settings.reach = match reach {
-            GzReach::Loopback => Reach::Machine,
-            GzReach::Network => Reach::Network,
+            GzReach::Loopback => DiscoveryReach::Machine,
+            GzReach::Network => DiscoveryReach::Network,
         };
         settings.dialect = match types {
             GzTypes::Gz => Dialect::Gz,
@@ -91,7 +93,7 @@ impl Gazebo {
         simulation: &Simulation,
         services: &mut Services,
         settings: &Settings,
-    ) -> Result<Self, WireError> {
+    ) -> Result<Self, GzTransportError> {
         let transport = Arc::new(Transport::open(settings)?);
         let desk = services.open_to_gazebo(simulation);
         let full = |bare: &str| settings.dialect.full_name(bare);
@@ -99,7 +101,7 @@ impl Gazebo {
         for (place, service) in desk.services().iter().enumerate() {
             let types = [full(service.request), full(service.response)];
             let desk = desk.clone();
-            let asking = move |call: periplus_gz_transport::Call| {
+            let asking = move |call: periplus_gz_transport::ServiceRequest| {
                 let answer = call.answer;
                 let answer = Box::new(move |bytes: Option<Vec<u8>>| answer.send(bytes.as_deref()));
                 desk.ask(place, call.request, answer);
@@ -110,7 +112,7 @@ impl Gazebo {
         let publishers: Result<_, _> =
             topics.map(|topic| transport.advertise(&topic.name, &full(topic.of))).collect();
         desk.set_outlet(Box::new(Outlet(publishers?)));
-        let link = Link::new(simulation.graph(), &transport);
+        let link = GzBridge::new(simulation.graph(), &transport);
         let name = gazebo_topic(simulation);
         link.offer_all(
             move |topic| if ROS_ONLY_TOPICS.contains(&topic) { None } else { name(topic) },

@@ -4,7 +4,7 @@ use std::io;
 use std::time::Duration;
 
 use clap::ValueEnum;
-use periplus_dds::{Range, Remote, Settings, Wire};
+use periplus_dds::{DdsTransport, DiscoveryRange, Remote, Settings};
 use periplus_diagnostics::{Diagnostics, SourceMap};
 use periplus_os::Machine;
 use periplus_sim::Simulation;
@@ -40,9 +40,9 @@ pub(crate) struct Ros2 {
 
 /// Network of the connection.
 enum Joined {
-    Dds(Wire),
+    Dds(DdsTransport),
     #[cfg(feature = "zenoh")]
-    Zenoh(periplus_rmw_zenoh::Wire),
+    Zenoh(periplus_rmw_zenoh::ZenohTransport),
 }
 
 impl Joined {
@@ -69,20 +69,20 @@ impl Ros2 {
         }
         let (mut settings, findings) = Settings::from_environment(&Machine);
         match asked {
-            Some(Reach::Off) => settings.range = Range::Off,
-            None if !is_paced => settings.range = Range::Off,
+            Some(Reach::Off) => settings.range = DiscoveryRange::Off,
+            None if !is_paced => settings.range = DiscoveryRange::Off,
             None | Some(Reach::Zenoh) => {}
-            Some(Reach::Loopback) => settings.range = Range::Localhost,
-            Some(Reach::Network) if settings.range == Range::SystemDefault => {}
-            Some(Reach::Network) => settings.range = Range::Subnet,
+            Some(Reach::Loopback) => settings.range = DiscoveryRange::Localhost,
+            Some(Reach::Network) if settings.range == DiscoveryRange::SystemDefault => {}
+            Some(Reach::Network) => settings.range = DiscoveryRange::Subnet,
         }
         let wire = None;
         let mut joined = Self { wire, looked: Duration::ZERO, quiet };
-        if settings.range == Range::Off {
+        if settings.range == DiscoveryRange::Off {
             return Ok(joined);
         }
         terminal::diagnostics(&mut anstream::stderr().lock(), &findings, &SourceMap::new())?;
-        let opened = Wire::open(&settings).and_then(|wire| {
+        let opened = DdsTransport::open(&settings).and_then(|wire| {
             wire.attach(simulation.graph())?;
             Ok(wire)
         });
@@ -94,7 +94,7 @@ impl Ros2 {
         if joined.wire.is_some() && !quiet {
             let domain = settings.domain_id;
             terminal::say(&match settings.range {
-                Range::Localhost => format!(
+                DiscoveryRange::Localhost => format!(
                     "ROS 2: domain {domain}, this machine only; --ros2 network opens it, \
                      --ros2 off keeps it out"
                 ),

@@ -3,7 +3,7 @@
 use std::path::Path;
 use std::time::Duration;
 
-use periplus_dds::{Remote, RemoteEndpoint, Settings, Wire, ports};
+use periplus_dds::{DdsTransport, Remote, RemoteEndpoint, Settings, ports};
 use periplus_diagnostics::Diagnostics;
 use periplus_graph::Graph;
 use periplus_os::Machine;
@@ -13,7 +13,7 @@ use periplus_ros2cli::{Network, Progress, Seen, SeenNode, SeenService, SeenTopic
 /// Network connection and the graph of the command.
 pub(crate) struct NetworkConnection {
     // Declared first, so that the network is left before the graph is dropped.
-    wire: Wire,
+    wire: DdsTransport,
     graph: Graph,
     domain_id: u32,
     findings: Diagnostics,
@@ -26,7 +26,7 @@ impl NetworkConnection {
     /// A message when the network cannot be joined.
     pub(crate) fn open() -> Result<Self, String> {
         let (settings, findings) = Settings::from_environment(&Machine);
-        let wire = Wire::open(&settings).map_err(|error| error.to_string())?;
+        let wire = DdsTransport::open(&settings).map_err(|error| error.to_string())?;
         let graph = Graph::live();
         wire.attach(&graph).map_err(|error| error.to_string())?;
         Ok(Self { wire, graph, domain_id: settings.domain_id, findings })

@@ -6,7 +6,7 @@ use std::process::ExitCode;
 use std::time::Duration;
 
 use periplus_diagnostics::SourceMap;
-use periplus_gz_transport::{Offered, Settings, Transport};
+use periplus_gz_transport::{Advertisement, Settings, Transport};
 use periplus_os::{Machine, Stopwatch, sleep};
 use serde_json::json;
 
@@ -39,7 +39,7 @@ pub(super) fn services(
 
 fn list(
     what: &str,
-    offered: impl Fn(&Transport) -> Vec<Offered>,
+    offered: impl Fn(&Transport) -> Vec<Advertisement>,
     common: &Common,
     show_types: bool,
     count: bool,

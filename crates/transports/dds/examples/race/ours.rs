@@ -4,7 +4,7 @@ use std::io::{Read as _, Write as _};
 use std::sync::Arc;
 use std::time::{Duration, Instant, SystemTime};
 
-use periplus_dds::{Settings, Wire};
+use periplus_dds::{DdsTransport, Settings};
 use periplus_graph::{Graph, Io, Node, NodeSettings, Qos};
 use periplus_msgs::Message;
 use periplus_msgs::builtin_interfaces::Time;
@@ -65,7 +65,7 @@ fn take_part<T: Stamped>(words: &[String]) -> Result<(), String> {
     let topic = words[2].trim_start_matches("rt").to_owned();
     let qos = Qos::reliable(number(4)? as usize);
     let failed = |error: periplus_graph::GraphError| error.to_string();
-    let wire = Wire::open(&settings).map_err(|error| error.to_string())?;
+    let wire = DdsTransport::open(&settings).map_err(|error| error.to_string())?;
     let graph = Graph::live();
     wire.attach(&graph).map_err(|error| error.to_string())?;
     if words[1] == "sub" {

@@ -4,7 +4,7 @@ use std::cell::RefCell;
 use std::collections::BTreeSet;
 use std::sync::Arc;
 
-use periplus_cyclonedds_sys::{Participant, Qos, Reader, Token, Waitset, Writer};
+use periplus_cyclonedds_sys::{DataReader, DataWriter, DdsQos, Participant, WaitToken, Waitset};
 use periplus_diagnostics::Diagnostic;
 use periplus_transport::lock;
 
@@ -47,9 +47,9 @@ impl Net {
     pub(super) fn watched_writer(
         &self,
         subject: &Subject<'_>,
-        qos: &Qos,
+        qos: &DdsQos,
         keeps: bool,
-    ) -> Option<(Arc<Outgoing>, Token)> {
+    ) -> Option<(Arc<Outgoing>, WaitToken)> {
         let writer = self.raw_writer(subject, qos)?;
         let watched = self.waitset.watch_writer(&writer);
         let token = watched.map_err(|error| self.complain("wire", error.to_string())).ok()?;
@@ -57,11 +57,11 @@ impl Net {
     }
 
     /// Creates a writer with its queue.
-    pub(super) fn writer(&self, subject: &Subject<'_>, qos: &Qos) -> Option<Arc<Outgoing>> {
+    pub(super) fn writer(&self, subject: &Subject<'_>, qos: &DdsQos) -> Option<Arc<Outgoing>> {
         Some(self.queued(self.raw_writer(subject, qos)?, qos, true))
     }
 
-    fn queued(&self, writer: Writer, qos: &Qos, keeps: bool) -> Arc<Outgoing> {
+    fn queued(&self, writer: DataWriter, qos: &DdsQos, keeps: bool) -> Arc<Outgoing> {
         let depth = qos.depth.unwrap_or(crate::qos::MOST_KEPT);
         let outgoing = Outgoing::new(writer, depth, keeps, &self.shared.lanes);
         let mut writers = lock(&self.shared.writers);
@@ -72,14 +72,18 @@ impl Net {
     }
 
     /// Creates a writer without a queue.
-    pub(super) fn raw_writer(&self, subject: &Subject<'_>, qos: &Qos) -> Option<Writer> {
+    pub(super) fn raw_writer(&self, subject: &Subject<'_>, qos: &DdsQos) -> Option<DataWriter> {
         let said = subject.type_hash.map_or_else(Vec::new, user_data::type_hash);
         let made = self.participant.writer(subject.topic, subject.type_name, qos, &said);
         made.map_err(|error| self.complain("wire", error.to_string())).ok()
     }
 
     /// Creates a reader, and the token that reports new samples.
-    pub(super) fn reader(&self, subject: &Subject<'_>, qos: &Qos) -> Option<(Reader, Token)> {
+    pub(super) fn reader(
+        &self,
+        subject: &Subject<'_>,
+        qos: &DdsQos,
+    ) -> Option<(DataReader, WaitToken)> {
         let said = subject.type_hash.map_or_else(Vec::new, user_data::type_hash);
         let made = self.participant.reader(subject.topic, subject.type_name, qos, &said);
         let watched = made.and_then(|reader| {

@@ -4,7 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::sync::{Arc, Mutex};
 use std::time::Duration;
 
-use periplus_cyclonedds_sys::{Guid, Qos, Reader, Token, Waker, Writer};
+use periplus_cyclonedds_sys::{DataReader, DataWriter, DdsQos, Guid, WaitToken, Waker};
 use periplus_graph::{Node, RawCall, RawCalls, RawClient, ServiceInfo};
 use periplus_transport::{Since, lock};
 
@@ -33,8 +33,8 @@ struct Serving {
     node: String,
     type_name: String,
     client: RawClient,
-    questions: Reader,
-    token: Token,
+    questions: DataReader,
+    token: WaitToken,
     /// One writer for clients of all vendors: rmw_fastrtps considers a service ready only if there
     /// are as many response writers as request readers. Each response is sent to its client only,
     /// so that no client gets the format of another vendor.
@@ -58,9 +58,9 @@ struct Calling {
     type_name: String,
     type_hash: Option<String>,
     /// Each request is sent to one server only, in the format of its vendor.
-    questions: Writer,
-    answers: Reader,
-    token: Token,
+    questions: DataWriter,
+    answers: DataReader,
+    token: WaitToken,
     /// The server, while there is one.
     server: Option<Server>,
     /// Sequence number of the last request.
@@ -111,7 +111,7 @@ impl Services {
         let (request, reply) = names::service(&service.name);
         let (question, answer) = names::service_types(&service.type_name);
         let type_hash = service.type_hash.as_deref();
-        let qos = Qos::default();
+        let qos = DdsQos::default();
         let asked = Subject { topic: &request, type_name: &question, type_hash };
         let told = Subject { topic: &reply, type_name: &answer, type_hash };
         let client = match node.raw_client(&service.name, &service.type_name, type_hash) {
@@ -119,7 +119,7 @@ impl Services {
             Err(error) => return net.complain("wire", error.to_string()),
         };
         // Responses to many callers may be queued.
-        let many = Qos { depth: Some(1000), ..qos };
+        let many = DdsQos { depth: Some(1000), ..qos };
         let Some(answers) = net.writer(&told, &many) else { return };
         let Some((questions, token)) = net.reader(&asked, &many) else { return };
         let (node, type_name) = (server.to_owned(), service.type_name.clone());
@@ -132,7 +132,7 @@ impl Services {
         let (request, reply) = names::service(&service.name);
         let (question, answer) = names::service_types(&service.type_name);
         let type_hash = service.type_hash.as_deref();
-        let qos = Qos { depth: Some(1000), ..Qos::default() };
+        let qos = DdsQos { depth: Some(1000), ..DdsQos::default() };
         let asked = Subject { topic: &request, type_name: &question, type_hash };
         let told = Subject { topic: &reply, type_name: &answer, type_hash };
         // The response reader comes first: a server that sees the request writer may respond at
@@ -181,7 +181,7 @@ impl Services {
     }
 
     /// Receives requests and responses, and sends the requests of the graph.
-    pub(super) fn take(&mut self, net: &Net, tokens: &[Token]) {
+    pub(super) fn take(&mut self, net: &Net, tokens: &[WaitToken]) {
         for (name, serving) in &self.serving {
             if tokens.contains(&serving.token) {
                 serving.take(net, name, &self.answers);

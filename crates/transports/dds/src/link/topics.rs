@@ -3,7 +3,7 @@
 use std::collections::{BTreeMap, BTreeSet, VecDeque};
 use std::sync::Arc;
 
-use periplus_cyclonedds_sys::{Guid, Reader, Token};
+use periplus_cyclonedds_sys::{DataReader, Guid, WaitToken};
 use periplus_graph::{
     Durability, EndpointId, Graph, History, Liveliness, Node, Qos, RawPublisher, Reliability,
     TopicInfo,
@@ -34,7 +34,7 @@ pub(super) struct Publishing {
     pub(super) type_hash: Option<String>,
     pub(super) qos: Qos,
     pub(super) outgoing: Arc<Outgoing>,
-    token: Token,
+    token: WaitToken,
 }
 
 /// Subscriptions of the graph with the same request, as one DDS reader.
@@ -44,8 +44,8 @@ pub(super) struct Subscribing {
     pub(super) type_name: String,
     pub(super) type_hash: Option<String>,
     pub(super) qos: Qos,
-    reader: Reader,
-    token: Token,
+    reader: DataReader,
+    token: WaitToken,
     /// Samples of writers that discovery has not reported yet.
     early: VecDeque<(Guid, Vec<u8>)>,
 }
@@ -163,7 +163,7 @@ impl Topics {
     }
 
     /// Updates the subscriptions of topics whose readers changed.
-    pub(super) fn notice(&mut self, graph: &Graph, tokens: &[Token]) {
+    pub(super) fn notice(&mut self, graph: &Graph, tokens: &[WaitToken]) {
         if self.publishing.values().any(|one| tokens.contains(&one.token)) {
             self.listen(graph);
         }
@@ -239,7 +239,7 @@ impl Topics {
     }
 
     /// Receives samples.
-    pub(super) fn take(&mut self, net: &Net, tokens: &[Token]) {
+    pub(super) fn take(&mut self, net: &Net, tokens: &[WaitToken]) {
         for (key, subscribing) in &mut self.subscribing {
             if !tokens.contains(&subscribing.token) {
                 continue;

@@ -15,7 +15,7 @@ use periplus_transport::{Since, lock};
 use super::replies::Reply;
 use super::shared::{Kind, Shared};
 use super::{listener, sockets, uuid, zmtp};
-use crate::{CallError, Name};
+use crate::{Name, ServiceCallError};
 
 /// Maximum size of a request or response \[bytes\]: a world as text, with its height maps.
 const LARGEST: usize = 64 << 20;
@@ -24,25 +24,25 @@ const LARGEST: usize = 64 << 20;
 const LOOK: Duration = Duration::from_millis(50);
 
 /// Callback for requests.
-pub(super) type Take = Box<dyn Fn(Call) + Send + Sync>;
+pub(super) type Take = Box<dyn Fn(ServiceRequest) + Send + Sync>;
 
 /// A received request.
 #[derive(Debug)]
-pub struct Call {
+pub struct ServiceRequest {
     /// The request.
     pub request: Vec<u8>,
     /// Sends the response.
-    pub answer: Answer,
+    pub answer: ServiceReply,
 }
 
 /// Return path of a response, usable at any later time. If it is dropped, the client times out.
-pub struct Answer {
+pub struct ServiceReply {
     shared: Arc<Shared>,
     to: Option<SocketAddr>,
     parts: [Vec<u8>; 3],
 }
 
-impl Answer {
+impl ServiceReply {
     /// Sends the response; none reports failure.
     pub fn send(self, answer: Option<&[u8]>) {
         let Some(to) = self.to else { return };
@@ -55,20 +55,20 @@ impl Answer {
     }
 }
 
-impl std::fmt::Debug for Answer {
+impl std::fmt::Debug for ServiceReply {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         f.debug_struct("Answer").field("to", &self.to).finish_non_exhaustive()
     }
 }
 
 /// A service that is advertised until this is dropped.
-pub struct Server {
+pub struct GzService {
     shared: Arc<Shared>,
     name: Name,
     id: u64,
 }
 
-impl Server {
+impl GzService {
     /// Name of the service.
     #[must_use]
     pub fn service(&self) -> &str {
@@ -76,14 +76,14 @@ impl Server {
     }
 }
 
-impl Drop for Server {
+impl Drop for GzService {
     fn drop(&mut self) {
         lock(&self.shared.calling.servers).remove(&self.id);
         self.shared.withdraw(Kind::Services, self.id);
     }
 }
 
-impl std::fmt::Debug for Server {
+impl std::fmt::Debug for GzService {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         f.debug_tuple("Server").field(&self.name.topic()).finish()
     }
@@ -96,7 +96,7 @@ struct Serving {
 }
 
 /// State of a call: pending, response, or failure.
-type Outcome = Option<Result<Vec<u8>, CallError>>;
+type Outcome = Option<Result<Vec<u8>, ServiceCallError>>;
 
 #[derive(Default)]
 pub(super) struct Calling {
@@ -111,7 +111,7 @@ pub(super) fn serve(
     request_type: &str,
     response_type: &str,
     take: Take,
-) -> Server {
+) -> GzService {
     let offer = DiscoveryPublisher {
         topic: name.full().to_owned(),
         address: shared.replying.clone(),
@@ -131,7 +131,7 @@ pub(super) fn serve(
     let id = shared.offer(Kind::Services, offer);
     servers.insert(id, Arc::new(Serving { name: name.clone(), types, take }));
     drop(servers);
-    Server { shared: shared.clone(), name, id }
+    GzService { shared: shared.clone(), name, id }
 }
 
 /// True if both names are one type in different releases.
@@ -158,7 +158,7 @@ pub(super) fn take_requests(shared: &Arc<Shared>, mut stream: TcpStream) {
 
 /// Parses a request: topic; address and id of the response receiver; its node; id of the request;
 /// the request; both types.
-fn request(shared: &Arc<Shared>, parts: Vec<Vec<u8>>) -> Option<(Arc<Serving>, Call)> {
+fn request(shared: &Arc<Shared>, parts: Vec<Vec<u8>>) -> Option<(Arc<Serving>, ServiceRequest)> {
     let [topic, address, _, node, number, request, request_type, response_type] =
         <[Vec<u8>; 8]>::try_from(parts).ok()?;
     let text = |bytes: &'_ [u8]| std::str::from_utf8(bytes).ok().map(str::to_owned);
@@ -173,8 +173,8 @@ fn request(shared: &Arc<Shared>, parts: Vec<Vec<u8>>) -> Option<(Arc<Serving>, C
     let to = sockets::address(&text(&address)?).filter(|to| shared.ways.is_for(*to));
     // A client that expects no response type gets none.
     let to = to.filter(|_| bare_name(&types[1]) != Some("Empty"));
-    let answer = Answer { shared: shared.clone(), to, parts: [topic, node, number] };
-    Some((serving, Call { request, answer }))
+    let answer = ServiceReply { shared: shared.clone(), to, parts: [topic, node, number] };
+    Some((serving, ServiceRequest { request, answer }))
 }
 
 /// Receives responses on a connection.
@@ -184,7 +184,8 @@ pub(super) fn take_answers(shared: &Arc<Shared>, mut stream: TcpStream) {
         let Ok([_, _, number, answer, is_done]) = <[Vec<u8>; 5]>::try_from(parts) else { continue };
         let Ok(number) = String::from_utf8(number) else { continue };
         if let Some(outcome) = lock(&shared.calling.asked).get_mut(&number) {
-            *outcome = Some(if is_done == b"1" { Ok(answer) } else { Err(CallError::Refused) });
+            *outcome =
+                Some(if is_done == b"1" { Ok(answer) } else { Err(ServiceCallError::Refused) });
             shared.calling.answered.notify_all();
         }
     }
@@ -196,14 +197,14 @@ pub(super) fn call(
     types: [&str; 2],
     request: &[u8],
     timeout: Duration,
-) -> Result<Vec<u8>, CallError> {
+) -> Result<Vec<u8>, ServiceCallError> {
     let start = Since::now();
-    let offer = find(shared, name, types, start, timeout).ok_or(CallError::Nobody)?;
+    let offer = find(shared, name, types, start, timeout).ok_or(ServiceCallError::Nobody)?;
     let told = offer.srv_pub.unwrap_or_default();
     let to = sockets::address(&offer.address).filter(|to| shared.ways.is_for(*to));
     let left = timeout.saturating_sub(start.elapsed()).max(LOOK);
     let stream = to.and_then(|to| TcpStream::connect_timeout(&to, left).ok());
-    let mut stream = stream.ok_or(CallError::Nobody)?;
+    let mut stream = stream.ok_or(ServiceCallError::Nobody)?;
     let number = uuid::new();
     lock(&shared.calling.asked).insert(number.clone(), None);
     let message = zmtp::message(&[
@@ -232,7 +233,7 @@ pub(super) fn call(
         outcome = asked.remove(&number).flatten();
     }
     lock(&shared.calling.asked).remove(&number);
-    outcome.unwrap_or(Err(CallError::Late))
+    outcome.unwrap_or(Err(ServiceCallError::Late))
 }
 
 /// Finds a server, waiting for discovery up to the deadline.

@@ -23,14 +23,14 @@ const MOST_WAITING_BYTES: usize = 64 << 20;
 const MOST_FILTERS: usize = 10_000;
 
 /// A topic that is advertised until this is dropped.
-pub struct Publisher {
+pub struct GzPublisher {
     shared: Arc<Shared>,
     name: Name,
     type_name: String,
     id: u64,
 }
 
-pub(super) fn advertise(shared: &Arc<Shared>, name: Name, type_name: &str) -> Publisher {
+pub(super) fn advertise(shared: &Arc<Shared>, name: Name, type_name: &str) -> GzPublisher {
     let offer = DiscoveryPublisher {
         topic: name.full().to_owned(),
         address: shared.publishing.clone(),
@@ -45,10 +45,10 @@ pub(super) fn advertise(shared: &Arc<Shared>, name: Name, type_name: &str) -> Pu
         srv_pub: None,
     };
     let id = shared.offer(Kind::Topics, offer);
-    Publisher { shared: shared.clone(), name, type_name: type_name.to_owned(), id }
+    GzPublisher { shared: shared.clone(), name, type_name: type_name.to_owned(), id }
 }
 
-impl Publisher {
+impl GzPublisher {
     /// Sends a message to all subscribers. It never blocks on a slow one.
     pub fn publish(&self, message: impl AsRef<[u8]>) {
         let hearers = self.shared.hearers.of(&self.name);
@@ -80,13 +80,13 @@ impl Publisher {
     }
 }
 
-impl Drop for Publisher {
+impl Drop for GzPublisher {
     fn drop(&mut self) {
         self.shared.withdraw(Kind::Topics, self.id);
     }
 }
 
-impl std::fmt::Debug for Publisher {
+impl std::fmt::Debug for GzPublisher {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         f.debug_tuple("Publisher").field(&self.name.topic()).finish()
     }

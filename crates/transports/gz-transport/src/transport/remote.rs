@@ -17,7 +17,7 @@ const MOST_PROCESSES: usize = 4_000;
 
 /// An advertised topic or service.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Offered {
+pub struct Advertisement {
     /// Name of the topic or service.
     pub name: String,
     /// Address of the server or publisher.
@@ -111,9 +111,9 @@ impl Remote {
         self.offers.get(name).map(Vec::as_slice).unwrap_or_default()
     }
 
-    pub(super) fn offered(&self) -> Vec<Offered> {
+    pub(super) fn offered(&self) -> Vec<Advertisement> {
         let all = self.offers.iter().flat_map(|(name, offers)| {
-            offers.iter().map(|offer| Offered {
+            offers.iter().map(|offer| Advertisement {
                 name: name.topic().to_owned(),
                 address: offer.address.clone(),
                 types: types(offer),

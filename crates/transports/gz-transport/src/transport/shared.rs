@@ -18,7 +18,7 @@ use super::replies::{self, Reply};
 use super::sockets::Ways;
 use super::subscribe::Ears;
 use super::{calls, discovery, listener, packet, publish, uuid, zmtp};
-use crate::{Settings, WireError};
+use crate::{GzTransportError, Settings};
 
 /// Maximum number of open connections.
 const MOST_CONNECTIONS: usize = 1_000;
@@ -67,10 +67,12 @@ pub(super) struct Shared {
 }
 
 /// Joins the network.
-pub(super) fn open(settings: &Settings) -> Result<(Arc<Shared>, Vec<JoinHandle<()>>), WireError> {
+pub(super) fn open(
+    settings: &Settings,
+) -> Result<(Arc<Shared>, Vec<JoinHandle<()>>), GzTransportError> {
     let ways = Ways::of(settings);
     let address = ways.told;
-    let network = |error: io::Error| WireError::Network { address, why: error.to_string() };
+    let network = |error: io::Error| GzTransportError::Network { address, why: error.to_string() };
     let bound = || TcpListener::bind((address, 0)).and_then(|it| Ok((it.local_addr()?, it)));
     let (publishing, publisher) = bound().map_err(network)?;
     let (replying, replier) = bound().map_err(network)?;

@@ -6,7 +6,7 @@ use std::time::Duration;
 
 use socket2::{Domain, Protocol, Socket, Type};
 
-use crate::{Reach, Settings};
+use crate::{DiscoveryReach, Settings};
 
 /// Timeout of receiving threads, after which they check for shutdown.
 pub(super) const LOOK: Duration = Duration::from_millis(100);
@@ -14,7 +14,7 @@ pub(super) const LOOK: Duration = Duration::from_millis(100);
 /// Addresses of this machine.
 #[derive(Clone, Debug)]
 pub(super) struct Ways {
-    reach: Reach,
+    reach: DiscoveryReach,
     /// Interfaces used for sending and receiving.
     own: Vec<Ipv4Addr>,
     /// Address announced to other programs.
@@ -32,7 +32,7 @@ impl Ways {
         own.dedup();
         own.retain(|address| !address.is_loopback());
         let told = match (reach, own.first()) {
-            (Reach::Network, Some(first)) => *first,
+            (DiscoveryReach::Network, Some(first)) => *first,
             _ => Ipv4Addr::LOCALHOST,
         };
         // Gazebo programs without `GZ_IP` use the default route, also among each other.
@@ -43,11 +43,11 @@ impl Ways {
     /// True if packets from this address are accepted.
     pub(super) fn is_for(&self, address: SocketAddr) -> bool {
         match (self.reach, address) {
-            (Reach::Network, _) => true,
-            (Reach::Machine, SocketAddr::V4(address)) => {
+            (DiscoveryReach::Network, _) => true,
+            (DiscoveryReach::Machine, SocketAddr::V4(address)) => {
                 address.ip().is_loopback() || self.own.contains(address.ip())
             }
-            (Reach::Machine, SocketAddr::V6(address)) => address.ip().is_loopback(),
+            (DiscoveryReach::Machine, SocketAddr::V6(address)) => address.ip().is_loopback(),
         }
     }
 
@@ -55,7 +55,7 @@ impl Ways {
     /// nothing that is sent to an address of the machine.
     fn listens_at(&self, group: Ipv4Addr) -> Ipv4Addr {
         match self.reach {
-            Reach::Machine if cfg!(target_os = "linux") => group,
+            DiscoveryReach::Machine if cfg!(target_os = "linux") => group,
             _ => Ipv4Addr::UNSPECIFIED,
         }
     }
@@ -80,7 +80,7 @@ impl Ways {
         Ok(socket.into())
     }
 
-    /// Opens the send sockets. With [`Reach::Machine`](crate::settings::Reach) packets do not leave
+    /// Opens the send sockets. With [`DiscoveryReach::Machine`](crate::settings::Reach) packets do not leave
     /// the machine.
     pub(super) fn senders(&self) -> io::Result<Vec<UdpSocket>> {
         let mut senders = Vec::new();
@@ -102,7 +102,7 @@ impl Ways {
         socket.bind(&SocketAddr::from((own, 0)).into())?;
         socket.set_multicast_if_v4(&own)?;
         socket.set_multicast_loop_v4(true)?;
-        socket.set_multicast_ttl_v4(u32::from(self.reach == Reach::Network))?;
+        socket.set_multicast_ttl_v4(u32::from(self.reach == DiscoveryReach::Network))?;
         Ok(socket.into())
     }
 }
@@ -135,7 +135,7 @@ fn what_is_for_this_machine_does_not_hear_others() {
     let ways = Ways::of(&Settings::default());
     assert!(ways.is_for(([127, 0, 0, 1], 1).into()));
     assert!(!ways.is_for(([192, 0, 2, 7], 1).into()));
-    let ways = Ways::of(&Settings { reach: Reach::Network, ..Settings::default() });
+    let ways = Ways::of(&Settings { reach: DiscoveryReach::Network, ..Settings::default() });
     assert!(ways.is_for(([192, 0, 2, 7], 1).into()));
 }
 

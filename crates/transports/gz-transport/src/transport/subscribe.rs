@@ -27,7 +27,7 @@ const GRACE: Duration = Duration::from_millis(10);
 
 /// A received message.
 #[derive(Clone, Copy, Debug)]
-pub struct Arrival<'a> {
+pub struct ReceivedMessage<'a> {
     /// Full type name, as declared by the publisher.
     pub type_name: &'a str,
     /// The message.
@@ -35,10 +35,10 @@ pub struct Arrival<'a> {
 }
 
 /// Callback for messages.
-pub(super) type Take = Box<dyn Fn(Arrival<'_>) + Send + Sync>;
+pub(super) type Take = Box<dyn Fn(ReceivedMessage<'_>) + Send + Sync>;
 
 /// A subscription that exists until this is dropped.
-pub struct Subscription {
+pub struct GzSubscription {
     shared: Arc<Shared>,
     ear: Arc<Ear>,
 }
@@ -74,7 +74,7 @@ pub(super) fn subscribe(
     name: Name,
     type_name: &str,
     take: Take,
-) -> Subscription {
+) -> GzSubscription {
     let id = shared.next_id();
     let topic = name.full().to_owned();
     let ear = Arc::new(Ear { id, name, type_name: type_name.to_owned(), take });
@@ -83,10 +83,10 @@ pub(super) fn subscribe(
         told.sub = Some(DiscoverySubscriber { topic });
     });
     follow(shared);
-    Subscription { shared: shared.clone(), ear }
+    GzSubscription { shared: shared.clone(), ear }
 }
 
-impl Subscription {
+impl GzSubscription {
     /// Number of publishers of the topic.
     #[must_use]
     pub fn publishers(&self) -> usize {
@@ -100,14 +100,14 @@ impl Subscription {
     }
 }
 
-impl Drop for Subscription {
+impl Drop for GzSubscription {
     fn drop(&mut self) {
         lock(&self.shared.ears.all).remove(&self.ear.id);
         follow(&self.shared);
     }
 }
 
-impl std::fmt::Debug for Subscription {
+impl std::fmt::Debug for GzSubscription {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         f.debug_tuple("Subscription").field(&self.ear.name.topic()).finish()
     }
@@ -241,7 +241,7 @@ fn listen(shared: &Shared, line: &Line, mut stream: TcpStream) -> std::io::Resul
                 let [topic, _, bytes, type_name, ..] = parts.as_slice() else { continue };
                 let Ok(type_name) = std::str::from_utf8(type_name) else { continue };
                 for ear in shared.ears.of(topic) {
-                    (ear.take)(Arrival { type_name, bytes });
+                    (ear.take)(ReceivedMessage { type_name, bytes });
                 }
             }
             zmtp::Event::Ping(context) => {

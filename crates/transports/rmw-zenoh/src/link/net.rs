@@ -10,9 +10,9 @@ use zenoh::{Session, Wait};
 
 use crate::attachment::Gid;
 use crate::outgoing::Lane;
-use crate::token::{self, End, Kind, Token};
+use crate::token::{self, End, EntityKind, EntityToken};
 use crate::wire::Shared;
-use crate::{Settings, WireError};
+use crate::{Settings, ZenohError};
 
 pub(super) struct Net {
     pub(super) session: Session,
@@ -52,7 +52,7 @@ impl Net {
 
     /// Reports a graph error once.
     pub(super) fn complain_of_graph(&self, error: periplus_graph::GraphError) {
-        self.say(Diagnostic::warning("wire", WireError::from(error).to_string()));
+        self.say(Diagnostic::warning("wire", ZenohError::from(error).to_string()));
     }
 
     fn next_id(&self) -> u64 {
@@ -62,7 +62,7 @@ impl Net {
     /// Declares the liveliness token of a node or endpoint; returns it with the id of the endpoint.
     pub(super) fn token(
         &self,
-        kind: Kind,
+        kind: EntityKind,
         node: &str,
         end: Option<End>,
     ) -> Option<(Gid, LivelinessToken)> {
@@ -72,11 +72,11 @@ impl Net {
             self.nodes.borrow_mut().insert(node.to_owned(), id);
             id
         });
-        let token = Token {
+        let token = EntityToken {
             domain_id: self.domain_id,
             session: self.session.zid().to_string(),
             node_id,
-            id: if kind == Kind::Node { node_id } else { self.next_id() },
+            id: if kind == EntityKind::Node { node_id } else { self.next_id() },
             kind,
             enclave: self.enclave.clone(),
             node: node.to_owned(),
@@ -89,7 +89,7 @@ impl Net {
     }
 
     /// Ids of the remote endpoints of a kind that match this endpoint.
-    pub(super) fn heard_by(&self, end: &End, kind: Kind) -> Vec<Gid> {
+    pub(super) fn heard_by(&self, end: &End, kind: EntityKind) -> Vec<Gid> {
         self.shared.others(|others, _| {
             let wanted = others.iter().filter(|(_, token)| {
                 token.kind == kind && token.end.as_ref().is_some_and(|other| end.hears(other))

@@ -11,7 +11,7 @@ use periplus_transport::report::{Party, other_hash, other_type};
 
 use super::net::Net;
 use super::topics::Topics;
-use crate::token::{End, Kind};
+use crate::token::{End, EntityKind};
 
 /// Period at which outgoing traffic is checked.
 const LOOK: Duration = Duration::from_millis(250);
@@ -31,11 +31,11 @@ impl Told {
     /// Compares the local endpoints with the remote ones.
     pub(super) fn look(&self, net: &Net, topics: &Topics) {
         for (_, one) in topics.publishing() {
-            compare(net, &one.node, &one.end, Kind::Subscription);
+            compare(net, &one.node, &one.end, EntityKind::Subscription);
         }
         for one in topics.subscribing() {
             for (node, _) in one.ends.values() {
-                compare(net, node, &one.end, Kind::Publisher);
+                compare(net, node, &one.end, EntityKind::Publisher);
             }
         }
     }
@@ -60,7 +60,7 @@ impl Told {
     }
 }
 
-fn compare(net: &Net, node: &str, end: &End, kind: Kind) {
+fn compare(net: &Net, node: &str, end: &End, kind: EntityKind) {
     net.shared.others(|others, _| {
         for other in others.values().filter(|other| other.kind == kind) {
             let Some(theirs) = other.end.as_ref().filter(|theirs| theirs.name == end.name) else {

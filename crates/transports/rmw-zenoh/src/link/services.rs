@@ -16,7 +16,7 @@ use zenoh::sample::Locality;
 use super::net::Net;
 use crate::attachment::{Attachment, Gid};
 use crate::outgoing::Job;
-use crate::token::{End, Kind};
+use crate::token::{End, EntityKind};
 
 /// Query timeout. The result of an action may take any time; the token reports a server that
 /// leaves.
@@ -80,7 +80,7 @@ impl Services {
     /// Finds the servers of the services that the graph calls.
     pub(super) fn meet(&mut self, net: &Net, node: &Node) {
         for calling in self.calling.values_mut() {
-            if net.heard_by(&calling.end, Kind::Server).is_empty() {
+            if net.heard_by(&calling.end, EntityKind::Server).is_empty() {
                 calling.server = None;
             } else if calling.server.is_none() {
                 let End { name, type_name, type_hash, .. } = &calling.end;
@@ -150,7 +150,7 @@ fn serve(net: &Net, node: &Node, server: &str, end: End) -> Option<Serving> {
         })
         .wait();
     let queryable = queryable.map_err(|error| net.complain(&error)).ok()?;
-    let (_, token) = net.token(Kind::Server, server, Some(end.clone()))?;
+    let (_, token) = net.token(EntityKind::Server, server, Some(end.clone()))?;
     Some(Serving { node: server.to_owned(), end, _queryable: queryable, _token: token })
 }
 
@@ -164,7 +164,7 @@ impl Calling {
         self.tokens.retain(|node, _| nodes.contains(node));
         for node in nodes {
             if !self.tokens.contains_key(node)
-                && let Some(made) = net.token(Kind::Client, node, Some(self.end.clone()))
+                && let Some(made) = net.token(EntityKind::Client, node, Some(self.end.clone()))
             {
                 self.tokens.insert(node.clone(), made);
             }

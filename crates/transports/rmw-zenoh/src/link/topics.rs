@@ -24,7 +24,7 @@ use super::inbox::Inbox;
 use super::net::Net;
 use crate::attachment::Attachment;
 use crate::outgoing::Outgoing;
-use crate::token::{End, Kind};
+use crate::token::{End, EntityKind};
 
 /// Period at which a transient-local publisher announces its last sequence number, as `rmw_zenoh`
 /// does.
@@ -93,7 +93,7 @@ impl Topics {
         let is_heard = Arc::new(AtomicBool::new(false));
         let publisher = self.publisher(net, &end, &is_heard);
         let publisher = publisher.map_err(|error| net.complain(&error)).ok()?;
-        let (gid, token) = net.token(Kind::Publisher, node, Some(end.clone()))?;
+        let (gid, token) = net.token(EntityKind::Publisher, node, Some(end.clone()))?;
         let keeps = end.qos.durability == Durability::TransientLocal;
         let outgoing = Outgoing::new(publisher, gid, depth(&end.qos), keeps, is_heard, &net.lane);
         Some(Publishing { node: node.to_owned(), end, outgoing, _token: token })
@@ -162,7 +162,7 @@ impl Topics {
         for subscription in &topic.subscriptions {
             let Entry::Vacant(place) = one.ends.entry(subscription.id) else { continue };
             let (node, end) = (&subscription.node, self::end(topic, subscription.qos));
-            if let Some((_, token)) = net.token(Kind::Subscription, node, Some(end)) {
+            if let Some((_, token)) = net.token(EntityKind::Subscription, node, Some(end)) {
                 place.insert((node.clone(), token));
             }
         }
@@ -171,7 +171,7 @@ impl Topics {
     /// Creates publishers in the graph for the remote ones.
     pub(super) fn feed(&mut self, net: &Net, node: &Node) {
         for one in self.subscribing.values() {
-            let known = net.heard_by(&one.end, Kind::Publisher);
+            let known = net.heard_by(&one.end, EntityKind::Publisher);
             one.inbox.feed(&known, self.taps.foreign(), || one.feed(net, node));
         }
     }

@@ -5,7 +5,7 @@ use std::time::Duration;
 
 use periplus_diagnostics::SourceMap;
 use periplus_os::Machine;
-use periplus_rmw_zenoh::{Settings, Wire};
+use periplus_rmw_zenoh::{Settings, ZenohTransport};
 use periplus_sim::Simulation;
 
 use super::{Joined, Ros2};
@@ -16,7 +16,7 @@ use crate::terminal;
 pub(super) fn join(simulation: &Simulation, quiet: bool) -> Result<Ros2, CliError> {
     let (settings, findings) = Settings::from_environment(&Machine);
     terminal::diagnostics(&mut anstream::stderr().lock(), &findings, &SourceMap::new())?;
-    let opened = Wire::open(&settings).and_then(|wire| {
+    let opened = ZenohTransport::open(&settings).and_then(|wire| {
         wire.attach(simulation.graph())?;
         Ok(wire)
     });
