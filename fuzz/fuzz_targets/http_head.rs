@@ -3,16 +3,16 @@
 #![no_main]
 
 use libfuzzer_sys::fuzz_target;
-use periplus_web::server::{Door, Head, LONGEST_HEAD};
+use periplus_web::server::{Authorization, Head, LONGEST_HEAD};
 
 fuzz_target!(|bytes: &[u8]| {
     let Ok(Some((head, length))) = Head::read(bytes) else { return };
     assert!(length <= bytes.len() && length <= LONGEST_HEAD);
-    let shut = Door { is_loopback: false, token: Some("0123456789abcdef".to_owned()) };
+    let shut = Authorization { is_loopback: false, token: Some("0123456789abcdef".to_owned()) };
     if head.query("token") != Some("0123456789abcdef") {
         assert!(shut.admit(&head).is_err());
     }
-    let own = Door { is_loopback: true, token: None };
+    let own = Authorization { is_loopback: true, token: None };
     if own.admit(&head).is_ok() {
         let origin = head.header("origin").unwrap_or_default();
         let is_own = ["localhost", "127.", "[", "file://"]

@@ -8,7 +8,7 @@ use std::time::Duration;
 use libfuzzer_sys::fuzz_target;
 use periplus_graph::{Graph, NodeSettings, Publisher, Qos};
 use periplus_msgs::nav_msgs::OccupancyGrid;
-use periplus_web::foxglove::{Hub, Kind, Settings, Taken};
+use periplus_web::foxglove::{Hub, FrameKind, Settings, OutboxItem};
 
 /// A graph with something to hear, and a hub before it.
 struct Place {
@@ -39,15 +39,15 @@ fuzz_target!(|bytes: &[u8]| {
     (map.info.width, map.info.height) = (2, 2);
     place.maps.publish(map);
     place.graph.settle();
-    while let Taken::Frame(frame) = session.outbox().take(Duration::ZERO) {
+    while let OutboxItem::Frame(frame) = session.outbox().take(Duration::ZERO) {
         let whole = frame.parts().concat();
         match frame.kind() {
-            Kind::Text => {
+            FrameKind::Text => {
                 let said: serde_json::Value = serde_json::from_slice(&whole).expect("JSON");
                 assert!(said["op"].is_string());
             }
-            Kind::Binary => assert!((1..=4).contains(&whole[0])),
-            Kind::Raw => {}
+            FrameKind::Binary => assert!((1..=4).contains(&whole[0])),
+            FrameKind::Raw => {}
         }
     }
 });

@@ -15,7 +15,7 @@ use periplus_os::{Machine, unix_ns};
 use periplus_resources::Host as _;
 use periplus_web::foxglove::Hub;
 use periplus_web::foxglove::Settings;
-use periplus_web::server::{Server, ServerSettings, token};
+use periplus_web::server::{WebServer, WebServerSettings, token};
 
 use crate::terminal;
 
@@ -61,7 +61,7 @@ pub(crate) struct About {
 #[derive(Debug)]
 pub(crate) struct Page {
     // Declared first, so that no client connects while the rest is dropped.
-    server: Server,
+    server: WebServer,
     hub: Arc<Hub>,
 }
 
@@ -123,7 +123,8 @@ impl Page {
         let hub = Hub::open(graph, settings).map_err(|error| error.to_string())?;
         hub.serve_assets(assets::fetch(about.files, about.resource_path));
         let hub = Arc::new(hub);
-        let open = |address, token| Server::open(hub.clone(), ServerSettings { address, token });
+        let open =
+            |address, token| WebServer::open(hub.clone(), WebServerSettings { address, token });
         let is_taken = |error: &std::io::Error| error.kind() == std::io::ErrorKind::AddrInUse;
         let server = match open(address, token.clone()) {
             // Another run has the default port: any other will do unless one was requested.
@@ -143,7 +144,7 @@ impl Page {
 
     /// Updates the topics of remote nodes.
     pub(crate) fn set_remote(&self, remote: &Remote) {
-        self.hub.set_far(remote_topics::remote_topics(remote));
+        self.hub.set_network_endpoints(remote_topics::remote_topics(remote));
     }
 
     /// URL of the page.

@@ -1,6 +1,6 @@
 //! Names of topics and services, and their partitions.
 
-use crate::WireError;
+use crate::GzTransportError;
 
 /// Maximum length of a name \[bytes\].
 pub const MOST_NAME: usize = 65_535;

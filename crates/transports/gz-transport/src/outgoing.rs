@@ -9,7 +9,7 @@ use std::thread::JoinHandle;
 use periplus_graph::{EndpointId, Sample, Sink, TopicInfo};
 use periplus_transport::lock;
 
-use crate::Publisher;
+use crate::GzPublisher;
 use crate::convert::Convert;
 
 /// Send queue of one topic.

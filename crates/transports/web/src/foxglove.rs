@@ -1,8 +1,8 @@
 //! Foxglove WebSocket protocol, version 1, for a graph: topics are channels of CDR with `ros2msg`
 //! schemas; services and parameters map to those of the protocol.
 //!
-//! A [`Hub`] connects one graph with any number of clients. Each client is a [`Session`]: messages
-//! from the client go into [`Session::text`] and [`Session::binary`], messages to it wait in its
+//! A [`Hub`] connects one graph with any number of clients. Each client is a [`ClientSession`]: messages
+//! from the client go into [`ClientSession::text`] and [`ClientSession::binary`], messages to it wait in its
 //! [`Outbox`]. There are no sockets here; message bytes are shared with all other subscribers.
 //!
 //! A slow client loses old messages, but no latched ones, and blocks no other client: see
@@ -10,10 +10,10 @@
 //!
 //! Source: `docs/ws-protocol/spec.md` of `foxglove/ws-protocol`.
 
-mod far;
 mod frame;
 mod grid;
 mod hub;
+mod network_endpoints;
 mod outbox;
 mod outgoing;
 pub mod protocol;
@@ -21,9 +21,9 @@ mod recent_frames;
 mod session;
 mod settings;
 
-pub use far::{Far, FarEnd, FarService, FarTopic};
-pub use frame::{Frame, Kind};
+pub use frame::{FrameKind, WebSocketFrame};
 pub use hub::Hub;
-pub use outbox::{Outbox, Taken};
+pub use network_endpoints::{NetworkEndpoint, NetworkEndpoints, NetworkService, NetworkTopic};
+pub use outbox::{Outbox, OutboxItem};
 pub use session::Session;
-pub use settings::{Limits, Settings};
+pub use settings::{ClientLimits, Settings};

@@ -1,22 +1,22 @@
 //! HTTP and WebSocket server for the viewer page.
 //!
-//! A [`Server`] listens on one address. HTTP requests get the files of the page, which are part of
+//! A [`WebServer`] listens on one address. HTTP requests get the files of the page, which are part of
 //! the program; WebSocket connections become clients of a [`Hub`](crate::foxglove::Hub). Without a
 //! token only this machine is admitted, and of its browsers only pages that came from it: see
-//! [`Door`].
+//! [`Authorization`].
 
-mod admit;
 mod authority;
+mod authorization;
 mod frame;
-mod guesses;
 mod http;
 mod listener;
 mod page;
-mod patient;
 mod socket;
+mod timeout_stream;
 mod token;
+mod token_rate_limit;
 
-pub use admit::{Door, Refused};
+pub use authorization::{AdmissionError, Authorization};
 pub use http::{Head, HeadError, LONGEST_HEAD};
-pub use listener::{Server, ServerSettings};
+pub use listener::{WebServer, WebServerSettings};
 pub use token::{MIN_TOKEN_CHARACTERS, token};

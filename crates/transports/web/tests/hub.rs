@@ -12,7 +12,8 @@ use periplus_msgs::std_msgs;
 use periplus_msgs::std_srvs::{SetBool, SetBoolRequest, SetBoolResponse};
 use periplus_msgs::tf2_msgs::TFMessage;
 use periplus_web::foxglove::{
-    Far, FarEnd, FarTopic, Frame, Hub, Kind, Limits, Session, Settings, Taken,
+    ClientLimits, ClientSession, FrameKind, Hub, NetworkEndpoint, NetworkEndpoints, NetworkTopic,
+    OutboxItem, Settings, WebSocketFrame,
 };
 use serde_json::{Value, json};
 
@@ -31,7 +32,7 @@ fn node(graph: &Graph, name: &str) -> Node {
 }
 
 /// A client that reads its messages.
-struct Client(Session);
+struct Client(ClientSession);
 
 impl Client {
     fn join(hub: &Hub) -> Self {
@@ -42,10 +43,10 @@ impl Client {
         self.0.text(&text.to_string());
     }
 
-    fn next(&self, patience: Duration) -> Option<Frame> {
+    fn next(&self, patience: Duration) -> Option<WebSocketFrame> {
         match self.0.outbox().take(patience) {
-            Taken::Frame(frame) => Some(frame),
-            Taken::Nothing | Taken::End(_) => None,
+            OutboxItem::Frame(frame) => Some(frame),
+            OutboxItem::Nothing | OutboxItem::End(_) => None,
         }
     }
 
@@ -54,7 +55,7 @@ impl Client {
     fn hears(&self, op: &str) -> Value {
         loop {
             let frame = self.next(SOON).unwrap_or_else(|| panic!("no `{op}` came"));
-            if frame.kind() == Kind::Text {
+            if frame.kind() == FrameKind::Text {
                 let said: Value = serde_json::from_slice(frame.parts()[0]).expect("JSON");
                 if said["op"] == op {
                     return said;
@@ -69,7 +70,7 @@ impl Client {
         loop {
             let frame = self.next(SOON).expect("bytes");
             let bytes = frame.parts().concat();
-            if frame.kind() == Kind::Binary && bytes[0] == op {
+            if frame.kind() == FrameKind::Binary && bytes[0] == op {
                 return bytes;
             }
         }
@@ -84,7 +85,7 @@ impl Client {
     }
 
     /// All messages that have arrived.
-    fn drain(&self) -> Vec<Frame> {
+    fn drain(&self) -> Vec<WebSocketFrame> {
         std::iter::from_fn(|| self.next(NOW)).collect()
     }
 
@@ -346,7 +347,7 @@ fn parameters_are_told_set_and_followed() {
         for _ in 0..500 {
             graph.settle();
             for frame in client.drain() {
-                if frame.kind() == Kind::Text {
+                if frame.kind() == FrameKind::Text {
                     let said: Value = serde_json::from_slice(frame.parts()[0]).expect("JSON");
                     if said["op"] == op {
                         return said;
@@ -401,7 +402,8 @@ fn who_wants_to_know_is_told_who_uses_what() {
 #[test]
 fn too_many_clients_and_too_much_that_waits_are_refused() {
     let graph = Graph::new();
-    let limits = Limits { clients: 1, entries: 2, waiting: 60_000, ..Limits::default() };
+    let limits =
+        ClientLimits { clients: 1, entries: 2, waiting: 60_000, ..ClientLimits::default() };
     let hub = Hub::open(&graph, Settings { limits, ..Settings::default() }).expect("a name");
     let mut client = Client::join(&hub);
     assert!(hub.join().is_none());
@@ -415,7 +417,9 @@ fn too_many_clients_and_too_much_that_waits_are_refused() {
     for _ in 0..10_000 {
         client.0.text("{");
     }
-    assert!(matches!(client.0.outbox().take(NOW), Taken::End(why) if why.contains("too much")));
+    assert!(
+        matches!(client.0.outbox().take(NOW), OutboxItem::End(why) if why.contains("too much"))
+    );
     drop(client);
     assert!(hub.join().is_some());
 }
@@ -444,7 +448,7 @@ fn a_hub_that_goes_sends_its_clients_away() {
     let client = Client::join(&hub);
     client.drain();
     drop(hub);
-    assert!(matches!(client.0.outbox().take(SOON), Taken::End(why) if why.contains("over")));
+    assert!(matches!(client.0.outbox().take(SOON), OutboxItem::End(why) if why.contains("over")));
     drop(client);
     assert!(graph.node(NodeSettings::new("viewers")).is_ok(), "its node went too");
 }
@@ -516,23 +520,23 @@ fn who_asks_for_times_gives_way() {
 }
 
 /// A remote topic with one endpoint on each side.
-fn far(name: &str, publisher: Option<Qos>, subscription: Option<Qos>) -> Far {
-    let end = |node: &str, qos| FarEnd { node: node.to_owned(), qos };
-    let topic = FarTopic {
+fn far(name: &str, publisher: Option<Qos>, subscription: Option<Qos>) -> NetworkEndpoints {
+    let end = |node: &str, qos| NetworkEndpoint { node: node.to_owned(), qos };
+    let topic = NetworkTopic {
         name: name.to_owned(),
         type_name: "sensor_msgs/msg/LaserScan".to_owned(),
         type_hash: None,
         publishers: publisher.map(|qos| end("/talker", qos)).into_iter().collect(),
         subscriptions: subscription.map(|qos| end("/listener", qos)).into_iter().collect(),
     };
-    Far { topics: vec![topic], services: Vec::new() }
+    NetworkEndpoints { topics: vec![topic], services: Vec::new() }
 }
 
 #[test]
 fn of_others_it_is_said_what_to_change_there() {
     let graph = Graph::new();
     let hub = open(&graph);
-    hub.set_far(far("/scan", Some(Qos::sensor_data()), Some(Qos::reliable(1))));
+    hub.set_network_endpoints(far("/scan", Some(Qos::sensor_data()), Some(Qos::reliable(1))));
     let mut client = Client::join(&hub);
     client.say(&json!({"op": "subscribeConnectionGraph"}));
     let told = client.hears("connectionGraphUpdate");
@@ -553,7 +557,7 @@ fn of_others_it_is_said_what_to_change_there() {
 fn what_a_client_publishes_is_made_to_fit_who_listens_elsewhere() {
     let graph = Graph::new();
     let hub = open(&graph);
-    hub.set_far(far("/scan", None, Some(Qos::latched(1))));
+    hub.set_network_endpoints(far("/scan", None, Some(Qos::latched(1))));
     let mut client = Client::join(&hub);
     client.say(&json!({"op": "subscribeConnectionGraph"}));
     client.hears("connectionGraphUpdate");
@@ -580,12 +584,12 @@ fn what_a_client_publishes_is_made_to_fit_who_listens_elsewhere() {
 fn what_a_client_hears_of_others_follows_what_they_offer() {
     let graph = Graph::new();
     let hub = open(&graph);
-    hub.set_far(far("/scan", Some(Qos::latched(1)), None));
+    hub.set_network_endpoints(far("/scan", Some(Qos::latched(1)), None));
     let mut client = Client::join(&hub);
     let told = client.hears("advertise");
     client.subscribe(1, &told, "/scan");
     let asked = || graph.topics()[0].subscriptions[0].qos;
     assert_eq!(asked().durability, Durability::TransientLocal);
-    hub.set_far(far("/scan", Some(Qos::sensor_data()), None));
+    hub.set_network_endpoints(far("/scan", Some(Qos::sensor_data()), None));
     assert!(Qos::sensor_data().incompatible_policies(&asked()).is_empty());
 }

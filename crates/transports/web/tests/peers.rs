@@ -17,7 +17,7 @@ use periplus_msgs::std_msgs::String as Words;
 use periplus_msgs::std_srvs::{SetBool, SetBoolResponse};
 use periplus_web::foxglove::Hub;
 use periplus_web::foxglove::Settings;
-use periplus_web::server::{Server, ServerSettings};
+use periplus_web::server::{WebServer, WebServerSettings};
 use serde_json::{Value, json};
 use tungstenite::client::IntoClientRequest as _;
 use tungstenite::{Message, WebSocket};
@@ -93,7 +93,7 @@ impl Drop for Peer {
 /// A server with a topic, a service and a file.
 struct Ours {
     graph: Graph,
-    server: Server,
+    server: WebServer,
 }
 
 impl Ours {
@@ -105,8 +105,8 @@ impl Ours {
         hub.serve_assets(|uri| {
             if uri == "package://arm/hand.stl" { Ok(b"solid".to_vec()) } else { Err("no".into()) }
         });
-        let settings = ServerSettings { address: "127.0.0.1:0".parse().unwrap(), token: None };
-        let server = Server::open(Arc::new(hub), settings).unwrap();
+        let settings = WebServerSettings { address: "127.0.0.1:0".parse().unwrap(), token: None };
+        let server = WebServer::open(Arc::new(hub), settings).unwrap();
         Self { graph, server }
     }
 }

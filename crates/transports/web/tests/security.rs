@@ -10,8 +10,8 @@ use std::time::{Duration, Instant};
 use periplus_graph::{Graph, NodeSettings, Publisher, Qos};
 use periplus_msgs::std_msgs::{String as Words, UInt8MultiArray};
 use periplus_web::foxglove::Hub;
-use periplus_web::foxglove::{Limits, Settings};
-use periplus_web::server::{Server, ServerSettings};
+use periplus_web::foxglove::{ClientLimits, Settings};
+use periplus_web::server::{WebServer, WebServerSettings};
 use tungstenite::client::IntoClientRequest as _;
 use tungstenite::stream::MaybeTlsStream;
 use tungstenite::{Error, Message, WebSocket};
@@ -22,25 +22,25 @@ const LONG: Duration = Duration::from_secs(20);
 
 struct Place {
     graph: Graph,
-    server: Server,
+    server: WebServer,
     hub: Arc<Hub>,
 }
 
 impl Place {
-    fn open(token: Option<&str>, limits: Limits) -> Self {
+    fn open(token: Option<&str>, limits: ClientLimits) -> Self {
         let graph = Graph::live();
         let settings = Settings { name: "test".into(), limits, ..Settings::default() };
         let hub = Arc::new(Hub::open(&graph, settings).unwrap());
-        let settings = ServerSettings {
+        let settings = WebServerSettings {
             address: "127.0.0.1:0".parse().unwrap(),
             token: token.map(Into::into),
         };
-        let server = Server::open(hub.clone(), settings).unwrap();
+        let server = WebServer::open(hub.clone(), settings).unwrap();
         Self { graph, server, hub }
     }
 
     fn usual() -> Self {
-        Self::open(Some(TOKEN), Limits::default())
+        Self::open(Some(TOKEN), ClientLimits::default())
     }
 
     fn address(&self) -> SocketAddr {
@@ -170,7 +170,7 @@ fn a_token_that_could_be_guessed_does_not_open_it_to_others() {
     let hub = Arc::new(Hub::open(&graph, Settings::default()).unwrap());
     let open = |address: &str, token: &str| {
         let address = address.parse().unwrap();
-        Server::open(hub.clone(), ServerSettings { address, token: Some(token.into()) })
+        WebServer::open(hub.clone(), WebServerSettings { address, token: Some(token.into()) })
     };
     let error = open("0.0.0.0:0", "a").unwrap_err().to_string();
     assert!(error.contains("too short") && error.contains("16 characters"), "{error}");
@@ -192,7 +192,7 @@ fn the_page_connects_to_its_own_server_only() {
 #[test]
 fn a_client_that_never_reads_is_disconnected_in_time() {
     let stalled = Duration::from_secs(2);
-    let place = Place::open(None, Limits { stalled, ..Limits::default() });
+    let place = Place::open(None, ClientLimits { stalled, ..ClientLimits::default() });
     let node = place.graph.node(NodeSettings::new("camera")).unwrap();
     let pictures: Publisher<UInt8MultiArray> =
         node.publisher("/pictures", Qos::sensor_data()).unwrap();
@@ -221,7 +221,7 @@ fn an_address_that_others_reach_needs_a_token() {
     let hub = Arc::new(Hub::open(&graph, Settings::default()).unwrap());
     let open = |token: Option<&str>| {
         let address = "0.0.0.0:0".parse().unwrap();
-        Server::open(hub.clone(), ServerSettings { address, token: token.map(Into::into) })
+        WebServer::open(hub.clone(), WebServerSettings { address, token: token.map(Into::into) })
     };
     assert!(open(None).is_err() && open(Some("")).is_err());
     let server = open(Some(TOKEN)).unwrap();
@@ -397,7 +397,7 @@ fn nobody_waits_for_who_does_not_read() {
 
 #[test]
 fn only_so_many_come_in() {
-    let place = Place::open(None, Limits { clients: 2, ..Limits::default() });
+    let place = Place::open(None, ClientLimits { clients: 2, ..ClientLimits::default() });
     let first = place.connect("/", None).unwrap();
     let _second = place.connect("/", None).unwrap();
     assert_eq!(place.ask("/", None), 503);

@@ -80,7 +80,7 @@ impl Ways {
         Ok(socket.into())
     }
 
-    /// Opens the send sockets. With [`DiscoveryReach::Machine`](crate::settings::Reach) packets do not leave
+    /// Opens the send sockets. With [`DiscoveryReach::Machine`](crate::settings::DiscoveryReach) packets do not leave
     /// the machine.
     pub(super) fn senders(&self) -> io::Result<Vec<UdpSocket>> {
         let mut senders = Vec::new();

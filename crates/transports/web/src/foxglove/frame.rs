@@ -4,15 +4,15 @@ use periplus_graph::Sample;
 
 /// A message to a client. The bytes of a sample are shared, not copied.
 #[derive(Clone, Debug)]
-pub struct Frame {
-    kind: Kind,
+pub struct WebSocketFrame {
+    kind: FrameKind,
     head: Vec<u8>,
     body: Option<Sample>,
 }
 
 /// WebSocket form of a frame.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Kind {
+pub enum FrameKind {
     /// A text message.
     Text,
     /// A binary message.
@@ -21,23 +21,23 @@ pub enum Kind {
     Raw,
 }
 
-impl Frame {
+impl WebSocketFrame {
     /// Creates a text message (JSON).
     #[must_use]
     pub fn text(text: String) -> Self {
-        Self { kind: Kind::Text, head: text.into_bytes(), body: None }
+        Self { kind: FrameKind::Text, head: text.into_bytes(), body: None }
     }
 
     /// Creates a binary message.
     #[must_use]
     pub fn binary(bytes: Vec<u8>) -> Self {
-        Self { kind: Kind::Binary, head: bytes, body: None }
+        Self { kind: FrameKind::Binary, head: bytes, body: None }
     }
 
     /// Creates a frame from bytes with WebSocket framing, such as pongs.
     #[must_use]
     pub fn raw(bytes: Vec<u8>) -> Self {
-        Self { kind: Kind::Raw, head: bytes, body: None }
+        Self { kind: FrameKind::Raw, head: bytes, body: None }
     }
 
     /// Creates a binary message that ends with the bytes of a sample. None when the sample cannot
@@ -45,12 +45,12 @@ impl Frame {
     #[must_use]
     pub(crate) fn sample(head: Vec<u8>, sample: Sample) -> Option<Self> {
         sample.cdr().ok()?;
-        Some(Self { kind: Kind::Binary, head, body: Some(sample) })
+        Some(Self { kind: FrameKind::Binary, head, body: Some(sample) })
     }
 
     /// Form of the frame.
     #[must_use]
-    pub fn kind(&self) -> Kind {
+    pub fn kind(&self) -> FrameKind {
         self.kind
     }
 

@@ -16,10 +16,10 @@ use std::time::Duration;
 use periplus_graph::{Graph, GraphError, Node, NodeSettings};
 use periplus_transport::lock;
 
-use crate::foxglove::far::Far;
+use crate::foxglove::network_endpoints::NetworkEndpoints;
 use crate::foxglove::outbox::Outbox;
 use crate::foxglove::protocol::AssetAnswer;
-use crate::foxglove::session::Session;
+use crate::foxglove::session::ClientSession;
 use crate::foxglove::settings::Settings;
 
 use parameters::News;
@@ -83,16 +83,16 @@ impl Hub {
     }
 
     /// Sets the remote endpoints. Call it when they have changed.
-    pub fn set_far(&self, far: Far) {
-        lock(&self.shared.state).set_far(&self.shared, far);
+    pub fn set_network_endpoints(&self, network: NetworkEndpoints) {
+        lock(&self.shared.state).set_network_endpoints(&self.shared, network);
     }
 
     /// Adds a client. None if there are too many.
     #[must_use]
-    pub fn join(&self) -> Option<Session> {
+    pub fn join(&self) -> Option<ClientSession> {
         let outbox = Arc::new(Outbox::new(self.shared.settings.limits.waiting));
         let id = lock(&self.shared.state).join(&self.shared, &outbox)?;
-        Some(Session::new(id, self.shared.clone(), outbox))
+        Some(ClientSession::new(id, self.shared.clone(), outbox))
     }
 
     /// Number of clients.

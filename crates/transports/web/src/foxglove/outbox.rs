@@ -10,7 +10,7 @@ use periplus_msgs::map_msgs::OccupancyGridUpdate;
 use periplus_msgs::nav_msgs::OccupancyGrid;
 use periplus_transport::lock;
 
-use crate::foxglove::frame::Frame;
+use crate::foxglove::frame::WebSocketFrame;
 use crate::foxglove::grid::{Difference, difference};
 use crate::foxglove::protocol;
 
@@ -35,7 +35,7 @@ pub struct Outbox {
 
 #[derive(Default)]
 struct Waiting {
-    urgent: VecDeque<Frame>,
+    urgent: VecDeque<WebSocketFrame>,
     urgent_bytes: usize,
     most_urgent_bytes: usize,
     time_ns: Option<i64>,
@@ -69,9 +69,9 @@ pub(crate) struct Rule {
 
 /// Result of taking from an outbox.
 #[derive(Debug)]
-pub enum Taken {
+pub enum OutboxItem {
     /// A frame to send.
-    Frame(Frame),
+    Frame(WebSocketFrame),
     /// Nothing arrived before the timeout.
     Nothing,
     /// The outbox is closed, with the reason if there is one.
@@ -85,7 +85,7 @@ impl Outbox {
     }
 
     /// Queues a frame that must not be dropped.
-    pub fn push(&self, frame: Frame) {
+    pub fn push(&self, frame: WebSocketFrame) {
         let mut waiting = lock(&self.waiting);
         if waiting.end.is_some() {
             return;
@@ -150,22 +150,22 @@ impl Outbox {
 
     /// Takes the next frame, waiting at most for `patience`.
     #[must_use]
-    pub fn take(&self, patience: Duration) -> Taken {
+    pub fn take(&self, patience: Duration) -> OutboxItem {
         let waiting = lock(&self.waiting);
         let is_idle = |waiting: &mut Waiting| !waiting.has_any() && waiting.end.is_none();
         let waited = self.filled.wait_timeout_while(waiting, patience, is_idle);
         let mut waiting = waited.unwrap_or_else(PoisonError::into_inner).0;
         if let Some(frame) = waiting.urgent.pop_front() {
             waiting.urgent_bytes -= frame.len();
-            return Taken::Frame(frame);
+            return OutboxItem::Frame(frame);
         }
         if let Some(why) = &waiting.end {
-            return Taken::End(why.clone());
+            return OutboxItem::End(why.clone());
         }
         if let Some(time_ns) = waiting.time_ns.take() {
-            return Taken::Frame(protocol::time(time_ns));
+            return OutboxItem::Frame(protocol::time(time_ns));
         }
-        let Some((id, sample)) = waiting.next_sample() else { return Taken::Nothing };
+        let Some((id, sample)) = waiting.next_sample() else { return OutboxItem::Nothing };
         let lane = waiting.lanes.get_mut(&id);
         let (updates, told) = lane.map_or((None, None), |lane| (lane.updates, lane.told.take()));
         drop(waiting);
@@ -179,25 +179,27 @@ impl Outbox {
             }
             match new {
                 Difference::All => {}
-                Difference::None => return Taken::Nothing,
+                Difference::None => return OutboxItem::Nothing,
                 Difference::Part(part) => return update(updates, sample.time_ns, &part),
             }
         }
-        let Some(frame) = Frame::sample(protocol::message_head(id, sample.time_ns), sample) else {
-            return Taken::Nothing;
+        let Some(frame) =
+            WebSocketFrame::sample(protocol::message_head(id, sample.time_ns), sample)
+        else {
+            return OutboxItem::Nothing;
         };
         if let Some(lane) = lock(&self.waiting).lanes.get_mut(&id) {
             lane.size = frame.len();
         }
-        Taken::Frame(frame)
+        OutboxItem::Frame(frame)
     }
 }
 
-fn update(subscription_id: u32, time_ns: i64, part: &OccupancyGridUpdate) -> Taken {
-    let Ok(cdr) = part.to_cdr() else { return Taken::Nothing };
+fn update(subscription_id: u32, time_ns: i64, part: &OccupancyGridUpdate) -> OutboxItem {
+    let Ok(cdr) = part.to_cdr() else { return OutboxItem::Nothing };
     let mut bytes = protocol::message_head(subscription_id, time_ns);
     bytes.extend(cdr);
-    Taken::Frame(Frame::binary(bytes))
+    OutboxItem::Frame(WebSocketFrame::binary(bytes))
 }
 
 impl Waiting {

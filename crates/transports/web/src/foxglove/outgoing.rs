@@ -8,7 +8,7 @@ use periplus_msgs::Message as _;
 use periplus_msgs::tf2_msgs::TFMessage;
 use periplus_transport::{Way, lock};
 
-use crate::foxglove::frame::Frame;
+use crate::foxglove::frame::WebSocketFrame;
 use crate::foxglove::outbox::{Outbox, Rule};
 use crate::foxglove::protocol;
 use crate::foxglove::recent_frames::RecentFrames;
@@ -64,7 +64,7 @@ impl Outgoing {
             let mut bytes =
                 protocol::message_head(hearer.subscription_id, time_ns.unwrap_or_default());
             bytes.extend(cdr);
-            hearer.outbox.push(Frame::binary(bytes));
+            hearer.outbox.push(WebSocketFrame::binary(bytes));
         }
         hearers.of.push(hearer);
     }

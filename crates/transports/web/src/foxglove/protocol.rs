@@ -3,10 +3,12 @@
 mod client;
 mod server;
 
-pub use client::{ClientBinary, ClientChannel, ClientText, Malformed, ParameterText, Subscription};
+pub use client::{
+    ChannelSubscription, ClientBinary, ClientChannel, ClientText, Malformed, ParameterText,
+};
 pub use server::{
-    AssetAnswer, ChannelText, ConnectionGraph, Level, MismatchText, PartyText, PolicyText,
-    ServiceText, advertise, advertise_services, asset, connection_graph, message_head, parameters,
+    AssetAnswer, ChannelText, ConnectionGraph, MismatchText, PartyText, PolicyText, ServiceText,
+    StatusLevel, advertise, advertise_services, asset, connection_graph, message_head, parameters,
     remove_status, repair_result, schema_of, server_info, service_answer, service_failure, status,
     time, unadvertise, unadvertise_services,
 };

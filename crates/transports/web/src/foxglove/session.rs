@@ -7,13 +7,15 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use periplus_graph::{Qos, RawPublisher};
 use periplus_transport::lock;
 
-use crate::foxglove::frame::Frame;
+use crate::foxglove::frame::WebSocketFrame;
 use crate::foxglove::hub::Shared;
 use crate::foxglove::outbox::Outbox;
-use crate::foxglove::protocol::{self, ClientBinary, ClientChannel, ClientText, Level, Malformed};
+use crate::foxglove::protocol::{
+    self, ClientBinary, ClientChannel, ClientText, Malformed, StatusLevel,
+};
 
 /// A connected client. It is removed when this is dropped.
-pub struct Session {
+pub struct ClientSession {
     id: u64,
     shared: Arc<Shared>,
     outbox: Arc<Outbox>,
@@ -23,7 +25,7 @@ pub struct Session {
     calls: Arc<AtomicUsize>,
 }
 
-impl Session {
+impl ClientSession {
     pub(crate) fn new(id: u64, shared: Arc<Shared>, outbox: Arc<Outbox>) -> Self {
         Self { id, shared, outbox, publishing: BTreeMap::new(), calls: Arc::default() }
     }
@@ -54,10 +56,10 @@ impl Session {
     }
 
     fn refuse(&self, why: &str) {
-        self.outbox.push(protocol::status(Level::Error, why, None));
+        self.outbox.push(protocol::status(StatusLevel::Error, why, None));
     }
 
-    fn say(&self, frame: Frame) {
+    fn say(&self, frame: WebSocketFrame) {
         self.outbox.push(frame);
     }
 
@@ -174,14 +176,14 @@ impl Session {
     }
 }
 
-impl Drop for Session {
+impl Drop for ClientSession {
     fn drop(&mut self) {
         self.outbox.end("");
         lock(&self.shared.state).leave(&self.shared, self.id);
     }
 }
 
-impl std::fmt::Debug for Session {
+impl std::fmt::Debug for ClientSession {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         f.debug_struct("Session").field("id", &self.id).finish_non_exhaustive()
     }

@@ -13,13 +13,13 @@ pub struct Settings {
     /// Additional information about the server.
     pub metadata: BTreeMap<String, String>,
     /// Limits for clients.
-    pub limits: Limits,
+    pub limits: ClientLimits,
 }
 
 /// Limits for clients. Each is far above the needs of a viewer, and far below values that would
 /// slow the run down.
 #[derive(Clone, Copy, Debug)]
-pub struct Limits {
+pub struct ClientLimits {
     /// Maximum number of clients.
     pub clients: usize,
     /// Maximum size of a client's message \[bytes\]: a map of 4000 by 4000 cells fits.
@@ -35,7 +35,7 @@ pub struct Limits {
     pub stalled: Duration,
 }
 
-impl Default for Limits {
+impl Default for ClientLimits {
     fn default() -> Self {
         Self {
             clients: 32,

@@ -9,17 +9,17 @@ use std::time::Duration;
 
 use crate::foxglove::Hub;
 
-use crate::server::admit::Door;
-use crate::server::guesses::Guesses;
+use crate::server::authorization::Authorization;
 use crate::server::socket;
 use crate::server::token::{MIN_TOKEN_CHARACTERS, encoded};
+use crate::server::token_rate_limit::TokenRateLimit;
 
 /// Maximum number of connections; each has a thread.
 const MOST_CONNECTIONS: usize = 256;
 
 /// Settings of the server.
 #[derive(Clone, Debug)]
-pub struct ServerSettings {
+pub struct WebServerSettings {
     /// Address to listen on; port 0 is any free port.
     pub address: SocketAddr,
     /// Token for other machines; required if they can reach the server.
@@ -28,7 +28,7 @@ pub struct ServerSettings {
 
 /// The HTTP and WebSocket server, open until this is dropped.
 #[derive(Debug)]
-pub struct Server {
+pub struct WebServer {
     address: SocketAddr,
     token: Option<String>,
     room: Arc<Room>,
@@ -39,20 +39,20 @@ pub struct Server {
 #[derive(Debug)]
 pub(crate) struct Room {
     pub(crate) hub: Arc<Hub>,
-    pub(crate) door: Door,
-    pub(crate) guesses: Guesses,
+    pub(crate) authorization: Authorization,
+    pub(crate) token_rate_limit: TokenRateLimit,
     pub(crate) is_closing: AtomicBool,
     connections: AtomicUsize,
 }
 
-impl Server {
+impl WebServer {
     /// Starts listening.
     ///
     /// # Errors
     /// When the port is in use, or the address is reachable from other machines and the
     /// token is missing or too short.
-    pub fn open(hub: Arc<Hub>, settings: ServerSettings) -> io::Result<Self> {
-        let ServerSettings { address, token } = settings;
+    pub fn open(hub: Arc<Hub>, settings: WebServerSettings) -> io::Result<Self> {
+        let WebServerSettings { address, token } = settings;
         let is_loopback = address.ip().is_loopback();
         if !is_loopback && token.as_ref().is_none_or(String::is_empty) {
             let why = format!("{address} is reachable from other machines, which requires a token");
@@ -67,11 +67,11 @@ impl Server {
         }
         let listener = TcpListener::bind(address)?;
         let address = listener.local_addr()?;
-        let door = Door { is_loopback, token: token.clone() };
+        let authorization = Authorization { is_loopback, token: token.clone() };
         let room = Arc::new(Room {
             hub,
-            door,
-            guesses: Guesses::default(),
+            authorization,
+            token_rate_limit: TokenRateLimit::default(),
             is_closing: AtomicBool::new(false),
             connections: AtomicUsize::new(0),
         });
@@ -105,7 +105,7 @@ impl Server {
     }
 }
 
-impl Drop for Server {
+impl Drop for WebServer {
     fn drop(&mut self) {
         self.room.is_closing.store(true, Ordering::Release);
         // A connection wakes the accepting thread.

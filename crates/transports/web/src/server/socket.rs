@@ -6,19 +6,19 @@ use std::sync::Arc;
 use std::sync::atomic::Ordering;
 use std::time::Duration;
 
-use crate::foxglove::{Frame, Outbox, Session, Taken, protocol};
+use crate::foxglove::{ClientSession, Outbox, OutboxItem, WebSocketFrame, protocol};
 use periplus_os::{Stopwatch, sleep};
 use tungstenite::error::Error;
 use tungstenite::handshake::derive_accept_key;
 use tungstenite::protocol::{Role, WebSocketConfig};
 use tungstenite::{Message, WebSocket};
 
-use crate::server::admit::Refused;
+use crate::server::authorization::AdmissionError;
 use crate::server::frame;
 use crate::server::http::{Answer, Head, HeadError, LONGEST_HEAD};
 use crate::server::listener::Room;
 use crate::server::page;
-use crate::server::patient::Patient;
+use crate::server::timeout_stream::TimeoutStream;
 
 /// Timeout of a request, and idle time of a connection.
 const PATIENCE: Duration = Duration::from_secs(15);
@@ -43,7 +43,7 @@ pub(crate) fn serve(mut stream: TcpStream, room: &Room) -> io::Result<()> {
             Ok(None) => return Ok(()),
             Err(error) => {
                 let answer = Answer::words("400 Bad Request", &error.to_string());
-                return patient(&stream, room)?.write_all(&answer.bytes(false, false));
+                return with_timeout(&stream, room)?.write_all(&answer.bytes(false, false));
             }
         };
         if head.is_upgrade() {
@@ -56,7 +56,7 @@ pub(crate) fn serve(mut stream: TcpStream, room: &Room) -> io::Result<()> {
         } else {
             Answer::words("405 Method Not Allowed", "only GET and HEAD are supported")
         };
-        patient(&stream, room)?.write_all(&answer.bytes(is_head, stays))?;
+        with_timeout(&stream, room)?.write_all(&answer.bytes(is_head, stays))?;
         if !stays {
             return Ok(());
         }
@@ -64,8 +64,8 @@ pub(crate) fn serve(mut stream: TcpStream, room: &Room) -> io::Result<()> {
     Ok(())
 }
 
-fn patient<'a>(stream: &'a TcpStream, room: &Room) -> io::Result<Patient<'a>> {
-    Patient::new(stream, room.hub.settings().limits.stalled)
+fn patient<'a>(stream: &'a TcpStream, room: &Room) -> io::Result<TimeoutStream<'a>> {
+    TimeoutStream::new(stream, room.hub.settings().limits.stalled)
 }
 
 /// Bodies are not needed, and could not be separated from the next request.
@@ -104,16 +104,16 @@ fn next_head(
 /// Upgrades the connection to a WebSocket if the client is admitted.
 fn upgrade(stream: TcpStream, came: Vec<u8>, head: &Head, room: &Room) -> io::Result<()> {
     let refuse = |status, why: &str| {
-        patient(&stream, room)?.write_all(&Answer::words(status, why).bytes(false, false))
+        with_timeout(&stream, room)?.write_all(&Answer::words(status, why).bytes(false, false))
     };
     let address = stream.peer_addr()?.ip();
-    if head.query("token").is_some() && room.guesses.are_too_many(address) {
+    if head.query("token").is_some() && room.token_rate_limit.are_too_many(address) {
         let why = "too many wrong tokens came from this address; wait a minute";
         return refuse("429 Too Many Requests", why);
     }
-    if let Err(refused) = room.door.admit(head) {
-        if refused == Refused::WrongToken {
-            room.guesses.add(address);
+    if let Err(refused) = room.authorization.admit(head) {
+        if refused == AdmissionError::WrongToken {
+            room.token_rate_limit.add(address);
         }
         return refuse("403 Forbidden", &refused.to_string());
     }
@@ -139,7 +139,7 @@ fn upgrade(stream: TcpStream, came: Vec<u8>, head: &Head, room: &Room) -> io::Re
         "HTTP/1.1 101 Switching Protocols\r\nUpgrade: websocket\r\nConnection: Upgrade\r\n\
          Sec-WebSocket-Accept: {key}\r\nSec-WebSocket-Protocol: {subprotocol}\r\n\r\n"
     );
-    patient(&stream, room)?.write_all(answer.as_bytes())?;
+    with_timeout(&stream, room)?.write_all(answer.as_bytes())?;
     stream.set_read_timeout(None)?;
     let outbox = session.outbox().clone();
     let writing = stream.try_clone()?;
@@ -158,7 +158,7 @@ fn upgrade(stream: TcpStream, came: Vec<u8>, head: &Head, room: &Room) -> io::Re
 }
 
 /// Receives from a client until it leaves.
-fn hear(stream: TcpStream, came: Vec<u8>, mut session: Session, room: &Room) {
+fn hear(stream: TcpStream, came: Vec<u8>, mut session: ClientSession, room: &Room) {
     let outbox = session.outbox().clone();
     let limits = room.hub.settings().limits;
     let config = WebSocketConfig::default()
@@ -183,7 +183,7 @@ fn hear(stream: TcpStream, came: Vec<u8>, mut session: Session, room: &Room) {
         other => Some((1002, other.to_string())),
     };
     if let Some((code, why)) = close {
-        outbox.push(Frame::raw(frame::close(code, &why)));
+        outbox.push(WebSocketFrame::raw(frame::close(code, &why)));
     }
     outbox.end("");
     drop(session);
@@ -191,23 +191,23 @@ fn hear(stream: TcpStream, came: Vec<u8>, mut session: Session, room: &Room) {
 
 /// Sends the outbox of a client until it is closed.
 fn write(stream: &TcpStream, outbox: &Outbox, room: &Room) -> io::Result<()> {
-    let mut stream = patient(stream, room)?;
+    let mut stream = with_timeout(stream, room)?;
     let mut idle = Stopwatch::start();
     loop {
         if room.is_closing.load(Ordering::Acquire) {
             outbox.end("the server shuts down");
         }
         match outbox.take(LOOK) {
-            Taken::Frame(frame) => {
+            OutboxItem::Frame(frame) => {
                 send(&mut stream, &frame)?;
                 idle = Stopwatch::start();
             }
-            Taken::Nothing if idle.elapsed() >= PING => {
+            OutboxItem::Nothing if idle.elapsed() >= PING => {
                 stream.write_all(&frame::ping())?;
                 idle = Stopwatch::start();
             }
-            Taken::Nothing => {}
-            Taken::End(why) => {
+            OutboxItem::Nothing => {}
+            OutboxItem::End(why) => {
                 // No close frame to a client that has left.
                 return if why.is_empty() {
                     Ok(())
@@ -220,12 +220,12 @@ fn write(stream: &TcpStream, outbox: &Outbox, room: &Room) -> io::Result<()> {
 }
 
 /// Sends a message without concatenating its parts.
-fn send(stream: &mut Patient<'_>, frame: &Frame) -> io::Result<()> {
-    use crate::foxglove::Kind;
+fn send(stream: &mut TimeoutStream<'_>, frame: &WebSocketFrame) -> io::Result<()> {
+    use crate::foxglove::FrameKind;
     let [head, body] = frame.parts();
     let before = match frame.kind() {
-        Kind::Raw => Vec::new(),
-        kind => frame::header(kind == Kind::Text, head.len() + body.len()),
+        FrameKind::Raw => Vec::new(),
+        kind => frame::header(kind == FrameKind::Text, head.len() + body.len()),
     };
     let mut parts = [IoSlice::new(&before), IoSlice::new(head), IoSlice::new(body)];
     let mut parts = &mut parts[..];
@@ -256,7 +256,7 @@ impl Read for Line {
 
 impl Write for Line {
     fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
-        self.outbox.push(Frame::raw(bytes.to_vec()));
+        self.outbox.push(WebSocketFrame::raw(bytes.to_vec()));
         Ok(bytes.len())
     }
 

@@ -29,7 +29,7 @@ impl State {
             Ok(client) => client,
             Err(why) => return answered(Err(why)),
         };
-        if client.is_ready() || !self.is_far(name) {
+        if client.is_ready() || !self.is_remote(name) {
             send(&client, cdr, answered);
         } else {
             self.waiting.push(Waiting { client, cdr, answered, since: Since::now() });

@@ -69,17 +69,17 @@ impl State {
             }
         }
         self.ways.retain(|id, _| !gone.contains(id));
-        self.hear_far(shared);
+        self.subscribe_to_network(shared);
         self.listen(&shared.graph);
     }
 
     /// Published topics with their types.
     fn published(&self, topics: &[TopicInfo]) -> BTreeMap<String, Published> {
-        let far = self.far.topics.iter().filter(|topic| !topic.publishers.is_empty());
-        let far = far.map(|topic| (&topic.name, &topic.type_name));
+        let network = self.network.topics.iter().filter(|topic| !topic.publishers.is_empty());
+        let network = network.map(|topic| (&topic.name, &topic.type_name));
         let own = topics.iter().filter(|topic| !topic.publishers.is_empty());
         let own = own.map(|topic| (&topic.name, &topic.type_name));
-        let mut all: BTreeMap<String, Published> = far
+        let mut all: BTreeMap<String, Published> = network
             .chain(own)
             .map(|(name, type_name)| {
                 (name.clone(), Published { type_name: type_name.clone(), of: None })
@@ -136,12 +136,12 @@ impl State {
     }
 
     /// Subscribes the graph to the remote topics that clients use.
-    pub(super) fn hear_far(&mut self, shared: &Shared) {
+    pub(super) fn subscribe_to_network(&mut self, shared: &Shared) {
         let hears = |topic: &str| {
             let mut clients = self.clients.values();
             clients.any(|client| client.subscriptions.values().any(|heard| heard == topic))
         };
-        let wanted = self.far.topics.iter();
+        let wanted = self.network.topics.iter();
         let wanted = wanted.filter(|topic| !topic.publishers.is_empty() && hears(&topic.name));
         let mut heard = BTreeMap::new();
         for topic in wanted {

@@ -7,7 +7,7 @@ use super::parameters::Followed;
 use super::{Shared, State};
 use crate::foxglove::outbox::Outbox;
 use crate::foxglove::outgoing::Hearer;
-use crate::foxglove::protocol::{self, Subscription};
+use crate::foxglove::protocol::{self, ChannelSubscription};
 
 /// A client.
 pub(crate) struct Client {
@@ -51,7 +51,7 @@ impl State {
             self.stop(id, *subscription_id, topic);
         }
         self.forget_events();
-        self.hear_far(shared);
+        self.subscribe_to_network(shared);
         self.listen(&shared.graph);
     }
 
@@ -60,7 +60,7 @@ impl State {
         &mut self,
         shared: &Shared,
         client: u64,
-        wanted: &[Subscription],
+        wanted: &[ChannelSubscription],
     ) -> Vec<String> {
         let mut refused = Vec::new();
         for one in wanted {
@@ -87,7 +87,7 @@ impl State {
             }
         }
         self.pair(client);
-        self.hear_far(shared);
+        self.subscribe_to_network(shared);
         self.listen(&shared.graph);
         refused
     }
@@ -101,7 +101,7 @@ impl State {
             self.stop(client, *id, &topic);
         }
         self.pair(client);
-        self.hear_far(shared);
+        self.subscribe_to_network(shared);
         self.listen(&shared.graph);
     }
 

@@ -4,7 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use super::mismatches::{Mismatch, mismatches};
 use super::{Shared, State};
-use crate::foxglove::frame::Frame;
+use crate::foxglove::frame::WebSocketFrame;
 use crate::foxglove::protocol::{self, ConnectionGraph};
 
 type Names = BTreeMap<String, BTreeSet<String>>;
@@ -22,7 +22,7 @@ impl Connections {
     fn of(shared: &Shared, state: &State) -> Self {
         let mut all = Self::default();
         let topics = shared.graph.topics();
-        all.mismatches = mismatches(&topics, &state.far);
+        all.mismatches = mismatches(&topics, &state.network);
         for topic in topics {
             let name = &topic.name;
             for end in topic.publishers {
@@ -37,7 +37,7 @@ impl Connections {
                 all.served.entry(service.name).or_default().insert(server);
             }
         }
-        for topic in &state.far.topics {
+        for topic in &state.network.topics {
             let sides = [
                 (&mut all.published, &topic.publishers),
                 (&mut all.subscribed, &topic.subscriptions),
@@ -47,7 +47,7 @@ impl Connections {
                 names.entry(topic.name.clone()).or_default().extend(nodes);
             }
         }
-        for service in &state.far.services {
+        for service in &state.network.services {
             all.served.entry(service.name.clone()).or_default().extend(service.servers.clone());
         }
         for names in [&mut all.published, &mut all.subscribed, &mut all.served] {
@@ -59,7 +59,7 @@ impl Connections {
     }
 
     /// Changes since `before`; everything if there is none.
-    fn since(&self, before: Option<&Self>) -> Frame {
+    fn since(&self, before: Option<&Self>) -> WebSocketFrame {
         let is_first = before.is_none();
         let nothing = Self::default();
         let before = before.unwrap_or(&nothing);

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use periplus_graph::{EndpointId, IncompatiblePolicy, Policy, Qos, TopicInfo};
 
 use super::{Shared, State};
-use crate::foxglove::far::Far;
+use crate::foxglove::network_endpoints::NetworkEndpoints;
 use crate::foxglove::protocol::{MismatchText, PartyText, PolicyText};
 
 pub(super) type Mismatch = MismatchText;
@@ -27,7 +27,10 @@ struct Ends<'a> {
 }
 
 /// Endpoints of each topic by name and type; endpoints of different types are not compared.
-fn ends<'a>(topics: &'a [TopicInfo], far: &'a Far) -> BTreeMap<(&'a str, &'a str), Ends<'a>> {
+fn ends<'a>(
+    topics: &'a [TopicInfo],
+    network: &'a NetworkEndpoints,
+) -> BTreeMap<(&'a str, &'a str), Ends<'a>> {
     let mut all: BTreeMap<(&str, &str), Ends<'_>> = BTreeMap::new();
     for topic in topics {
         let of = all.entry((&topic.name, &topic.type_name)).or_default();
@@ -42,7 +45,7 @@ fn ends<'a>(topics: &'a [TopicInfo], far: &'a Far) -> BTreeMap<(&'a str, &'a str
             side.extend(own.map(|end| End { node: &end.node, qos: end.qos, own: Some(end.id) }));
         }
     }
-    for topic in &far.topics {
+    for topic in &network.topics {
         let of = all.entry((&topic.name, &topic.type_name)).or_default();
         let sides = [
             (&mut of.publishers, &topic.publishers),
@@ -64,13 +67,13 @@ struct Found {
 }
 
 /// Incompatible pairs by topic, publisher and subscription.
-pub(super) fn mismatches(topics: &[TopicInfo], far: &Far) -> Vec<Mismatch> {
-    find(topics, far).into_iter().map(|found| found.text).collect()
+pub(super) fn mismatches(topics: &[TopicInfo], network: &NetworkEndpoints) -> Vec<Mismatch> {
+    find(topics, network).into_iter().map(|found| found.text).collect()
 }
 
-fn find(topics: &[TopicInfo], far: &Far) -> Vec<Found> {
+fn find(topics: &[TopicInfo], network: &NetworkEndpoints) -> Vec<Found> {
     let mut all: BTreeMap<(&str, &str, &str), Found> = BTreeMap::new();
-    for ((topic, _), ends) in ends(topics, far) {
+    for ((topic, _), ends) in ends(topics, network) {
         for publisher in &ends.publishers {
             for subscription in &ends.subscriptions {
                 let unfit = IncompatiblePolicy::between(&publisher.qos, &subscription.qos);
@@ -141,7 +144,7 @@ fn describe(
 /// Side of a pair.
 enum Side {
     Publisher,
-    Subscription,
+    ChannelSubscription,
 }
 
 /// Local side to change, preferably the publisher: that affects no other pair. Deadlines and
@@ -171,7 +174,7 @@ impl State {
         subscription: &str,
     ) -> Result<String, String> {
         let next = || {
-            let all = find(&shared.graph.topics(), &self.far);
+            let all = find(&shared.graph.topics(), &self.network);
             all.into_iter().find(|Found { text, .. }| {
                 (&*text.topic, &*text.publisher.node, &*text.subscription.node)
                     == (topic, publisher, subscription)

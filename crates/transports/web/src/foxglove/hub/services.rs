@@ -14,7 +14,7 @@ pub(super) struct Offered {
     type_name: String,
     type_hash: Option<String>,
     /// True if the server is remote.
-    is_far: bool,
+    is_remote: bool,
     /// Created by the first call.
     client: Option<Arc<RawClient>>,
 }
@@ -23,7 +23,7 @@ pub(super) struct Offered {
 struct Found {
     type_name: String,
     type_hash: Option<String>,
-    is_far: bool,
+    is_remote: bool,
 }
 
 impl State {
@@ -57,14 +57,15 @@ impl State {
             self.tell_all(&protocol::unadvertise_services(&gone));
         }
         let mut new = Vec::new();
-        for (name, Found { type_name, type_hash, is_far }) in served {
+        for (name, Found { type_name, type_hash, is_remote }) in served {
             if let Some(known) = self.services.get_mut(&name) {
-                known.is_far = is_far;
+                known.is_remote = is_remote;
                 continue;
             }
             let id = self.number();
             new.push(id);
-            self.services.insert(name, Offered { id, type_name, type_hash, is_far, client: None });
+            self.services
+                .insert(name, Offered { id, type_name, type_hash, is_remote, client: None });
         }
         if !new.is_empty() {
             let mut texts = self.service_texts();
@@ -75,24 +76,24 @@ impl State {
     }
 
     fn found_services(&self, shared: &Shared) -> BTreeMap<String, Found> {
-        let far = self.far.services.iter().map(|one| {
+        let network = self.network.services.iter().map(|one| {
             let type_name = one.type_name.clone();
-            (one.name.clone(), Found { type_name, type_hash: None, is_far: true })
+            (one.name.clone(), Found { type_name, type_hash: None, is_remote: true })
         });
-        let mut found: BTreeMap<String, Found> = far.collect();
+        let mut found: BTreeMap<String, Found> = network.collect();
         for one in shared.graph.services() {
             let Some(server) = one.server else { continue };
             // A service that a transport represents belongs to its remote server.
-            let is_far = server.starts_with("/_wire") && found.contains_key(&one.name);
-            let own = Found { type_name: one.type_name, type_hash: one.type_hash, is_far };
+            let is_remote = server.starts_with("/_wire") && found.contains_key(&one.name);
+            let own = Found { type_name: one.type_name, type_hash: one.type_hash, is_remote };
             found.insert(one.name, own);
         }
         found
     }
 
     /// True if the server is remote.
-    pub(super) fn is_far(&self, name: &str) -> bool {
-        self.services.get(name).is_some_and(|one| one.is_far)
+    pub(super) fn is_remote(&self, name: &str) -> bool {
+        self.services.get(name).is_some_and(|one| one.is_remote)
     }
 
     /// Name of a service.

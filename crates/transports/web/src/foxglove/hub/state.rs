@@ -14,8 +14,8 @@ use super::clients::Client;
 use super::connections::Connections;
 use super::parameters::Jobs;
 use super::services::Offered;
-use crate::foxglove::far::Far;
-use crate::foxglove::frame::Frame;
+use crate::foxglove::frame::WebSocketFrame;
+use crate::foxglove::network_endpoints::NetworkEndpoints;
 use crate::foxglove::outgoing::Outgoing;
 
 /// State of a hub.
@@ -42,7 +42,7 @@ pub(crate) struct State {
     /// Subscription to parameter events, while a client needs it.
     pub(super) events: Option<Mailbox<ParameterEvent>>,
     /// Remote endpoints.
-    pub(super) far: Far,
+    pub(super) network: NetworkEndpoints,
     /// Subscriptions to remote topics that clients use; they make the transport receive these
     /// topics.
     pub(super) heard: BTreeMap<String, RawMailbox>,
@@ -72,9 +72,9 @@ impl State {
     }
 
     /// Replaces the remote endpoints.
-    pub(super) fn set_far(&mut self, shared: &Shared, far: Far) {
-        if self.far != far {
-            self.far = far;
+    pub(super) fn set_network_endpoints(&mut self, shared: &Shared, network: NetworkEndpoints) {
+        if self.network != network {
+            self.network = network;
             self.generation = None;
             self.look(shared);
         }
@@ -88,7 +88,7 @@ impl State {
         self.heard.values().for_each(|mailbox| drop(mailbox.drain()));
     }
 
-    pub(super) fn tell_all(&self, frame: &Frame) {
+    pub(super) fn tell_all(&self, frame: &WebSocketFrame) {
         for client in self.clients.values() {
             client.outbox.push(frame.clone());
         }

@@ -12,7 +12,7 @@ pub enum ClientText {
     /// Subscribes to channels.
     Subscribe {
         /// Channels with the client's subscription ids.
-        subscriptions: Vec<Subscription>,
+        subscriptions: Vec<ChannelSubscription>,
     },
     /// Ends subscriptions.
     Unsubscribe {
@@ -83,7 +83,7 @@ pub enum ClientText {
 /// A subscription to a channel.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "camelCase")]
-pub struct Subscription {
+pub struct ChannelSubscription {
     /// Subscription id of the client.
     pub id: u32,
     /// Channel id of the server.
@@ -203,7 +203,7 @@ mod tests {
     fn what_clients_say_is_read() {
         let read =
             ClientText::read(r#"{"op":"subscribe","subscriptions":[{"id":1,"channelId":2}]}"#);
-        let subscriptions = vec![Subscription { id: 1, channel_id: 2 }];
+        let subscriptions = vec![ChannelSubscription { id: 1, channel_id: 2 }];
         assert_eq!(read, Ok(ClientText::Subscribe { subscriptions }));
         let read = ClientText::read(r#"{"op":"subscribeConnectionGraph"}"#);
         assert_eq!(read, Ok(ClientText::SubscribeConnectionGraph));

@@ -6,7 +6,7 @@ use periplus_msgs::TypeRegistry;
 use serde::Serialize;
 use serde_json::{Value, json};
 
-use crate::foxglove::frame::Frame;
+use crate::foxglove::frame::WebSocketFrame;
 
 /// Capabilities beyond channels.
 const CAPABILITIES: [&str; 7] = [
@@ -21,7 +21,7 @@ const CAPABILITIES: [&str; 7] = [
 
 /// Severity of a status message.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Level {
+pub enum StatusLevel {
     /// Information.
     Info = 0,
     /// Something may be wrong.
@@ -65,13 +65,17 @@ pub fn schema_of(type_name: &str) -> &'static str {
     TypeRegistry::builtin().schema_text(type_name).unwrap_or_default()
 }
 
-fn text(value: &Value) -> Frame {
-    Frame::text(value.to_string())
+fn text(value: &Value) -> WebSocketFrame {
+    WebSocketFrame::text(value.to_string())
 }
 
 /// The first message: name and capabilities of the server.
 #[must_use]
-pub fn server_info(name: &str, session_id: &str, metadata: &BTreeMap<String, String>) -> Frame {
+pub fn server_info(
+    name: &str,
+    session_id: &str,
+    metadata: &BTreeMap<String, String>,
+) -> WebSocketFrame {
     text(&json!({
         "op": "serverInfo",
         "name": name,
@@ -84,7 +88,7 @@ pub fn server_info(name: &str, session_id: &str, metadata: &BTreeMap<String, Str
 
 /// A status message for the user. `id` allows removing it.
 #[must_use]
-pub fn status(level: Level, message: &str, id: Option<&str>) -> Frame {
+pub fn status(level: StatusLevel, message: &str, id: Option<&str>) -> WebSocketFrame {
     let mut value = json!({"op": "status", "level": level as u8, "message": message});
     if let Some(id) = id {
         value["id"] = id.into();
@@ -94,26 +98,26 @@ pub fn status(level: Level, message: &str, id: Option<&str>) -> Frame {
 
 /// Removes status messages.
 #[must_use]
-pub fn remove_status(ids: &[&str]) -> Frame {
+pub fn remove_status(ids: &[&str]) -> WebSocketFrame {
     text(&json!({"op": "removeStatus", "statusIds": ids}))
 }
 
 /// Announces channels.
 #[must_use]
-pub fn advertise(channels: &[ChannelText<'_>]) -> Frame {
+pub fn advertise(channels: &[ChannelText<'_>]) -> WebSocketFrame {
     text(&json!({"op": "advertise", "channels": channels}))
 }
 
 /// Removes channels.
 #[must_use]
-pub fn unadvertise(ids: &[u32]) -> Frame {
+pub fn unadvertise(ids: &[u32]) -> WebSocketFrame {
     text(&json!({"op": "unadvertise", "channelIds": ids}))
 }
 
 /// Announces services, with request and response schemas in the current form and in that of old
 /// clients.
 #[must_use]
-pub fn advertise_services(services: &[ServiceText<'_>]) -> Frame {
+pub fn advertise_services(services: &[ServiceText<'_>]) -> WebSocketFrame {
     let one = |service: &ServiceText<'_>| {
         let side = |suffix: &str| {
             let name = format!("{}{suffix}", service.type_name);
@@ -141,13 +145,16 @@ pub fn advertise_services(services: &[ServiceText<'_>]) -> Frame {
 
 /// Removes services.
 #[must_use]
-pub fn unadvertise_services(ids: &[u32]) -> Frame {
+pub fn unadvertise_services(ids: &[u32]) -> WebSocketFrame {
     text(&json!({"op": "unadvertiseServices", "serviceIds": ids}))
 }
 
 /// Parameter values: name, value, and the type where JSON is ambiguous.
 #[must_use]
-pub fn parameters(values: &[(String, Value, Option<&'static str>)], id: Option<&str>) -> Frame {
+pub fn parameters(
+    values: &[(String, Value, Option<&'static str>)],
+    id: Option<&str>,
+) -> WebSocketFrame {
     let one = |(name, value, kind): &(String, Value, Option<&'static str>)| {
         let mut one = json!({"name": name, "value": value});
         if let Some(kind) = kind {
@@ -221,7 +228,7 @@ pub struct PolicyText {
 
 /// Encodes the connection graph.
 #[must_use]
-pub fn connection_graph(graph: &ConnectionGraph<'_>) -> Frame {
+pub fn connection_graph(graph: &ConnectionGraph<'_>) -> WebSocketFrame {
     let list = |map: &BTreeMap<String, BTreeSet<String>>, key: &str| -> Vec<Value> {
         map.iter().map(|(name, ids)| json!({"name": name, key: ids})).collect()
     };
@@ -242,7 +249,7 @@ pub fn connection_graph(graph: &ConnectionGraph<'_>) -> Frame {
 /// Result of [`ClientText::RepairQos`](super::ClientText::RepairQos), sent to the requesting client
 /// only. Extension of Foxglove's protocol.
 #[must_use]
-pub fn repair_result(id: u32, outcome: &Result<String, String>) -> Frame {
+pub fn repair_result(id: u32, outcome: &Result<String, String>) -> WebSocketFrame {
     let (Ok(message) | Err(message)) = outcome;
     let is_repaired = outcome.is_ok();
     text(&json!({
@@ -262,15 +269,15 @@ pub fn message_head(subscription_id: u32, time_ns: i64) -> Vec<u8> {
 
 /// The time.
 #[must_use]
-pub fn time(time_ns: i64) -> Frame {
+pub fn time(time_ns: i64) -> WebSocketFrame {
     let mut bytes = vec![2];
     bytes.extend(u64::try_from(time_ns).unwrap_or(0).to_le_bytes());
-    Frame::binary(bytes)
+    WebSocketFrame::binary(bytes)
 }
 
 /// Response of a service.
 #[must_use]
-pub fn service_answer(service_id: u32, call_id: u32, cdr: &[u8]) -> Frame {
+pub fn service_answer(service_id: u32, call_id: u32, cdr: &[u8]) -> WebSocketFrame {
     const ENCODING: &[u8] = b"cdr";
     let mut bytes = Vec::with_capacity(16 + cdr.len());
     bytes.push(3);
@@ -279,12 +286,12 @@ pub fn service_answer(service_id: u32, call_id: u32, cdr: &[u8]) -> Frame {
     bytes.extend((ENCODING.len() as u32).to_le_bytes());
     bytes.extend(ENCODING);
     bytes.extend(cdr);
-    Frame::binary(bytes)
+    WebSocketFrame::binary(bytes)
 }
 
 /// Failure of a service call, with the reason.
 #[must_use]
-pub fn service_failure(service_id: u32, call_id: u32, why: &str) -> Frame {
+pub fn service_failure(service_id: u32, call_id: u32, why: &str) -> WebSocketFrame {
     text(&json!({
         "op": "serviceCallFailure", "serviceId": service_id, "callId": call_id, "message": why,
     }))
@@ -295,7 +302,7 @@ pub type AssetAnswer = Result<Vec<u8>, String>;
 
 /// Encodes a file or the reason of failure.
 #[must_use]
-pub fn asset(request_id: u32, answer: &AssetAnswer) -> Frame {
+pub fn asset(request_id: u32, answer: &AssetAnswer) -> WebSocketFrame {
     let (status, why, data) = match answer {
         Ok(data) => (0, "", data.as_slice()),
         Err(why) => (1, why.as_str(), &[][..]),
@@ -307,5 +314,5 @@ pub fn asset(request_id: u32, answer: &AssetAnswer) -> Frame {
     bytes.extend(u32::try_from(why.len()).unwrap_or(0).to_le_bytes());
     bytes.extend(why.as_bytes());
     bytes.extend(data);
-    Frame::binary(bytes)
+    WebSocketFrame::binary(bytes)
 }

@@ -15,7 +15,7 @@ use periplus_transport::Since;
 use super::convert::{Named, from_json, to_json};
 use super::{Shared, State};
 use crate::foxglove::outbox::Outbox;
-use crate::foxglove::protocol::{self, Level, ParameterText};
+use crate::foxglove::protocol::{self, ParameterText, StatusLevel};
 
 /// Timeout of a request; then the client gets the values received so far.
 const PATIENCE: Duration = Duration::from_secs(4);
@@ -175,7 +175,7 @@ impl State {
     fn tell_refused(&self, job: u64, node: &str, name: &str, why: &str) {
         if let Some(job) = self.jobs.open.get(&job) {
             let words = format!("`{node}.{name}` was not set: {why}");
-            job.outbox.push(protocol::status(Level::Error, &words, None));
+            job.outbox.push(protocol::status(StatusLevel::Error, &words, None));
         }
     }
 

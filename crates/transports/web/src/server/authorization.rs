@@ -13,7 +13,7 @@ use crate::server::token;
 /// host name resolves to this machine (`Host`). A client with the token is always admitted; if
 /// other machines can reach the server, the token is required.
 #[derive(Clone, Debug)]
-pub struct Door {
+pub struct Authorization {
     /// True if only this machine can reach the server.
     pub is_loopback: bool,
     /// Token that admits any client; without one only this machine is admitted.
@@ -22,7 +22,7 @@ pub struct Door {
 
 /// Reason for a rejection.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub enum Refused {
+pub enum AdmissionError {
     /// The token is wrong.
     WrongToken,
     /// The token is missing.
@@ -33,7 +33,7 @@ pub enum Refused {
     ForeignHost(String),
 }
 
-impl fmt::Display for Refused {
+impl fmt::Display for AdmissionError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::WrongToken => f.write_str("the token in `?token=` is not the token of this server"),
@@ -55,29 +55,29 @@ impl fmt::Display for Refused {
     }
 }
 
-impl Door {
+impl Authorization {
     /// Checks if a request is admitted.
     ///
     /// # Errors
     /// The reason of the rejection.
-    pub fn admit(&self, head: &Head) -> Result<(), Refused> {
+    pub fn admit(&self, head: &Head) -> Result<(), AdmissionError> {
         if let Some(given) = head.query("token") {
             let given = token::decoded(given);
             return match &self.token {
                 Some(own) if token::same(own.as_bytes(), &given) => Ok(()),
-                _ => Err(Refused::WrongToken),
+                _ => Err(AdmissionError::WrongToken),
             };
         }
         if !self.is_loopback {
-            return Err(Refused::NoToken);
+            return Err(AdmissionError::NoToken);
         }
         // If there are several, each must name this machine: the client must not choose which one
         // counts.
         if let Some(host) = head.headers("host").find(|host| !is_this_machine(host)) {
-            return Err(Refused::ForeignHost(host.to_owned()));
+            return Err(AdmissionError::ForeignHost(host.to_owned()));
         }
         match head.headers("origin").find(|origin| !is_own_origin(origin)) {
-            Some(origin) => Err(Refused::ForeignOrigin(origin.to_owned())),
+            Some(origin) => Err(AdmissionError::ForeignOrigin(origin.to_owned())),
             None => Ok(()),
         }
     }
@@ -87,17 +87,21 @@ impl Door {
 mod tests {
     use super::*;
 
-    fn admit(door: &Door, path: &str, headers: &str) -> Result<(), Refused> {
+    fn admit(
+        authorization: &Authorization,
+        path: &str,
+        headers: &str,
+    ) -> Result<(), AdmissionError> {
         let text = format!("GET {path} HTTP/1.1\r\n{headers}\r\n");
-        door.admit(&Head::read(text.as_bytes()).expect("a head").expect("whole").0)
+        authorization.admit(&Head::read(text.as_bytes()).expect("a head").expect("whole").0)
     }
 
     #[test]
     fn this_machine_comes_in_and_foreign_pages_do_not() {
-        let door = Door { is_loopback: true, token: Some("secret".into()) };
+        let authorization = Authorization { is_loopback: true, token: Some("secret".into()) };
         let own = "Host: 127.0.0.1:8765\r\n";
-        let come = |origin: &str| admit(&door, "/", &format!("{own}Origin: {origin}\r\n"));
-        assert_eq!(admit(&door, "/", own), Ok(()));
+        let come = |origin: &str| admit(&authorization, "/", &format!("{own}Origin: {origin}\r\n"));
+        assert_eq!(admit(&authorization, "/", own), Ok(()));
         for origin in
             ["http://localhost:5173", "http://127.0.0.1:8765", "http://[::1]:80", "file://"]
         {
@@ -116,36 +120,42 @@ mod tests {
             "",
         ];
         for origin in foreign {
-            assert_eq!(come(origin), Err(Refused::ForeignOrigin(origin.into())), "{origin}");
+            assert_eq!(come(origin), Err(AdmissionError::ForeignOrigin(origin.into())), "{origin}");
         }
     }
 
     #[test]
     fn a_name_that_was_made_to_lead_here_does_not() {
-        let door = Door { is_loopback: true, token: None };
+        let authorization = Authorization { is_loopback: true, token: None };
         let rebound = "Host: evil.example.org:8765\r\nOrigin: http://evil.example.org:8765\r\n";
         let host = "evil.example.org:8765".to_owned();
-        assert_eq!(admit(&door, "/", rebound), Err(Refused::ForeignHost(host)));
+        assert_eq!(admit(&authorization, "/", rebound), Err(AdmissionError::ForeignHost(host)));
         let host = "[::1].evil.example:8765".to_owned();
         let rebound = format!("Host: {host}\r\n");
-        assert_eq!(admit(&door, "/", &rebound), Err(Refused::ForeignHost(host)));
+        assert_eq!(admit(&authorization, "/", &rebound), Err(AdmissionError::ForeignHost(host)));
         let twice = "Host: localhost\r\nHost: evil.example\r\n";
         let host = "evil.example".to_owned();
-        assert_eq!(admit(&door, "/", twice), Err(Refused::ForeignHost(host)));
+        assert_eq!(admit(&authorization, "/", twice), Err(AdmissionError::ForeignHost(host)));
     }
 
     #[test]
     fn the_token_opens_and_a_wrong_one_does_not() {
-        let door = Door { is_loopback: false, token: Some("secret".into()) };
+        let authorization = Authorization { is_loopback: false, token: Some("secret".into()) };
         let foreign = "Host: robot:8765\r\nOrigin: https://example.org\r\n";
-        assert_eq!(admit(&door, "/", foreign), Err(Refused::NoToken));
-        assert_eq!(admit(&door, "/?token=", foreign), Err(Refused::WrongToken));
-        assert_eq!(admit(&door, "/?token=Secret", foreign), Err(Refused::WrongToken));
-        assert_eq!(admit(&door, "/x?a=b&token=secret", foreign), Ok(()));
-        let odd = Door { is_loopback: false, token: Some("a b+c/ü%&".into()) };
+        assert_eq!(admit(&authorization, "/", foreign), Err(AdmissionError::NoToken));
+        assert_eq!(admit(&authorization, "/?token=", foreign), Err(AdmissionError::WrongToken));
+        assert_eq!(
+            admit(&authorization, "/?token=Secret", foreign),
+            Err(AdmissionError::WrongToken)
+        );
+        assert_eq!(admit(&authorization, "/x?a=b&token=secret", foreign), Ok(()));
+        let odd = Authorization { is_loopback: false, token: Some("a b+c/ü%&".into()) };
         assert_eq!(admit(&odd, "/?token=a%20b%2bc%2F%C3%BC%25%26", foreign), Ok(()));
-        assert_eq!(admit(&odd, "/?token=a+b+c", foreign), Err(Refused::WrongToken));
-        let none = Door { is_loopback: true, token: None };
-        assert_eq!(admit(&none, "/?token=", "Host: localhost\r\n"), Err(Refused::WrongToken));
+        assert_eq!(admit(&odd, "/?token=a+b+c", foreign), Err(AdmissionError::WrongToken));
+        let none = Authorization { is_loopback: true, token: None };
+        assert_eq!(
+            admit(&none, "/?token=", "Host: localhost\r\n"),
+            Err(AdmissionError::WrongToken)
+        );
     }
 }

@@ -11,12 +11,12 @@ use periplus_os::Stopwatch;
 const CALL_WAIT: Duration = Duration::from_millis(250);
 
 /// A stream whose writes fail once the client has read nothing for a while.
-pub(crate) struct Patient<'a> {
+pub(crate) struct TimeoutStream<'a> {
     stream: &'a TcpStream,
     patience: Duration,
 }
 
-impl<'a> Patient<'a> {
+impl<'a> TimeoutStream<'a> {
     pub(crate) fn new(stream: &'a TcpStream, patience: Duration) -> io::Result<Self> {
         stream.set_write_timeout(Some(CALL_WAIT.min(patience)))?;
         Ok(Self { stream, patience })
@@ -37,7 +37,7 @@ fn is_late(error: &io::Error) -> bool {
     matches!(error.kind(), io::ErrorKind::WouldBlock | io::ErrorKind::TimedOut)
 }
 
-impl Write for Patient<'_> {
+impl Write for TimeoutStream<'_> {
     fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
         let mut stream = self.stream;
         self.wait(|| stream.write(bytes))

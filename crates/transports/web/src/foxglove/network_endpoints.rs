@@ -7,16 +7,16 @@ use periplus_graph::Qos;
 /// Remote endpoints of the network. The graph lists only the topics that it uses itself; clients
 /// can subscribe to these as well.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Far {
+pub struct NetworkEndpoints {
     /// Topics.
-    pub topics: Vec<FarTopic>,
+    pub topics: Vec<NetworkTopic>,
     /// Services.
-    pub services: Vec<FarService>,
+    pub services: Vec<NetworkService>,
 }
 
 /// A topic used by remote nodes.
 #[derive(Clone, Debug, PartialEq)]
-pub struct FarTopic {
+pub struct NetworkTopic {
     /// Full name.
     pub name: String,
     /// Type.
@@ -24,14 +24,14 @@ pub struct FarTopic {
     /// Type hash, if known.
     pub type_hash: Option<String>,
     /// Publishers with their offered QoS.
-    pub publishers: Vec<FarEnd>,
+    pub publishers: Vec<NetworkEndpoint>,
     /// Subscriptions with their requested QoS.
-    pub subscriptions: Vec<FarEnd>,
+    pub subscriptions: Vec<NetworkEndpoint>,
 }
 
 /// A remote publisher or subscription.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct FarEnd {
+pub struct NetworkEndpoint {
     /// Full name of its node.
     pub node: String,
     /// QoS offered or requested.
@@ -40,7 +40,7 @@ pub struct FarEnd {
 
 /// A service with remote servers.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct FarService {
+pub struct NetworkService {
     /// Full name.
     pub name: String,
     /// Type.
@@ -49,7 +49,7 @@ pub struct FarService {
     pub servers: BTreeSet<String>,
 }
 
-impl FarTopic {
+impl NetworkTopic {
     /// The strongest request that is compatible with all offers.
     pub(crate) fn wanted(&self) -> Qos {
         let weakest = |one: Qos, other: &Qos| Qos {

@@ -17,7 +17,7 @@ const MAX_ADDRESSES: usize = 4096;
 
 /// Wrong tokens by address.
 #[derive(Debug, Default)]
-pub(crate) struct Guesses {
+pub(crate) struct TokenRateLimit {
     by_address: Mutex<BTreeMap<IpAddr, Wrong>>,
 }
 
@@ -34,7 +34,7 @@ impl Wrong {
     }
 }
 
-impl Guesses {
+impl TokenRateLimit {
     fn known(&self) -> MutexGuard<'_, BTreeMap<IpAddr, Wrong>> {
         self.by_address.lock().unwrap_or_else(PoisonError::into_inner)
     }
@@ -69,19 +69,19 @@ mod tests {
 
     #[test]
     fn an_address_has_ten_guesses_and_others_have_theirs() {
-        let (guesses, own, other) =
-            (Guesses::default(), [10, 0, 0, 1].into(), [10, 0, 0, 2].into());
+        let (token_rate_limit, own, other) =
+            (TokenRateLimit::default(), [10, 0, 0, 1].into(), [10, 0, 0, 2].into());
         for _ in 0..10 {
-            assert!(!guesses.are_too_many(own));
-            guesses.add(own);
+            assert!(!token_rate_limit.are_too_many(own));
+            token_rate_limit.add(own);
         }
-        assert!(guesses.are_too_many(own) && !guesses.are_too_many(other));
+        assert!(token_rate_limit.are_too_many(own) && !token_rate_limit.are_too_many(other));
     }
 
     #[test]
     fn many_addresses_take_bounded_memory() {
-        let guesses = Guesses::default();
-        (0..10_000_u32).for_each(|n| guesses.add(IpAddr::from(n.to_be_bytes())));
-        assert_eq!(guesses.known().len(), MAX_ADDRESSES);
+        let token_rate_limit = TokenRateLimit::default();
+        (0..10_000_u32).for_each(|n| token_rate_limit.add(IpAddr::from(n.to_be_bytes())));
+        assert_eq!(token_rate_limit.known().len(), MAX_ADDRESSES);
     }
 }
