@@ -13,7 +13,7 @@
 //! let transport = Transport::open(&settings)?;
 //! let publisher = transport.advertise("/lamp", "gz.msgs.Boolean")?;
 //! publisher.publish(Boolean::from(true).encode());
-//! # Ok::<(), periplus_gz_transport::WireError>(())
+//! # Ok::<(), periplus_gz_transport::GzTransportError>(())
 //! ```
 //!
 //! Source: the wire protocol of `gz-transport` 11 to 14, discovery version 10, and ZMTP 3.0

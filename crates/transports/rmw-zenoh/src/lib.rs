@@ -9,9 +9,9 @@
 //! use std::time::Duration;
 //!
 //! use periplus_graph::{Graph, NodeSettings, Qos};
-//! use periplus_rmw_zenoh::{Settings, Wire};
+//! use periplus_rmw_zenoh::{Settings, ZenohTransport};
 //!
-//! let wire = Wire::open(&Settings::default())?;
+//! let wire = ZenohTransport::open(&Settings::default())?;
 //! let graph = Graph::live();
 //! wire.attach(&graph)?;
 //! let node = graph.node(NodeSettings::new("listener"))?;
