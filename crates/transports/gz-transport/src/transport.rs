@@ -20,8 +20,8 @@ use std::time::Duration;
 
 pub use calls::{GzService, ServiceReply, ServiceRequest};
 pub use packet::fuzz as fuzz_discovery;
-pub use publish::Publisher;
-pub use remote::Offered;
+pub use publish::GzPublisher;
+pub use remote::Advertisement;
 pub use subscribe::{GzSubscription, ReceivedMessage};
 pub use zmtp::fuzz as fuzz_frames;
 

@@ -25,5 +25,5 @@ pub use frame::{FrameKind, WebSocketFrame};
 pub use hub::Hub;
 pub use network_endpoints::{NetworkEndpoint, NetworkEndpoints, NetworkService, NetworkTopic};
 pub use outbox::{Outbox, OutboxItem};
-pub use session::Session;
+pub use session::ClientSession;
 pub use settings::{ClientLimits, Settings};

@@ -64,7 +64,7 @@ pub(crate) fn serve(mut stream: TcpStream, room: &Room) -> io::Result<()> {
     Ok(())
 }
 
-fn patient<'a>(stream: &'a TcpStream, room: &Room) -> io::Result<TimeoutStream<'a>> {
+fn with_timeout<'a>(stream: &'a TcpStream, room: &Room) -> io::Result<TimeoutStream<'a>> {
     TimeoutStream::new(stream, room.hub.settings().limits.stalled)
 }
 

@@ -144,7 +144,7 @@ fn describe(
 /// Side of a pair.
 enum Side {
     Publisher,
-    ChannelSubscription,
+    Subscription,
 }
 
 /// Local side to change, preferably the publisher: that affects no other pair. Deadlines and

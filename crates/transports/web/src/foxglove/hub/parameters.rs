@@ -92,7 +92,7 @@ impl State {
                     nodes.entry(node).or_default().push(ParameterText { name, ..one });
                 }
                 None => outbox.push(protocol::status(
-                    protocol::Level::Error,
+                    protocol::StatusLevel::Error,
                     &format!("`{}` is not a parameter name; the form is `/node.name`", one.name),
                     None,
                 )),
