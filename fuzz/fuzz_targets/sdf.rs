@@ -24,7 +24,7 @@ impl IncludeResolver for Itself {
             let document = Arc::clone(&self.0);
             return IncludeTarget::Sdf { document, key: uri.to_owned() };
         }
-        IncludeTarget::Missing { tried: Vec::new() }
+        IncludeTarget::Missing { tried: Vec::new(), advice: None }
     }
 }
 

@@ -29,11 +29,11 @@ fuzz_target!(|text: &str| {
     let model = to_model(&robot, ConversionOptions::default(), &mut context);
     for one in diagnostics.iter().take(20) {
         assert!(one.span.is_some(), "{one:?} has no place");
-        render(one, &sources, RenderStyle::Plain);
+        let _ = render(one, &sources, RenderStyle::Plain);
     }
     let tree = tf_tree(&model);
     assert!(tree.iter().all(|edge| edge.parent != edge.child));
-    from_model(&model, &mut Diagnostics::new());
+    let _ = from_model(&model, &mut Diagnostics::new());
     let scene = Scene { models: vec![model], ..Scene::default() };
     periplus_sdf::write(&scene, &mut Diagnostics::new());
 });
