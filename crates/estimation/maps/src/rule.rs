@@ -24,12 +24,13 @@ pub struct Rule {
 
 impl Rule {
     /// Converts a pixel with eight bits per sample.
+    ///
     /// - Jazzy: grey is the luma of Rec. 601 in integers; thresholds are inclusive, and free has
-    /// priority; pixels that are not opaque are unknown.
+    ///   priority; pixels that are not opaque are unknown.
     /// - Humble: grey is the mean; thresholds are exclusive; in mode trinary, opacity counts as a
-    /// fourth colour.
+    ///   fourth colour.
     /// - Noetic: as Humble, with 99 steps from 1 between the thresholds. The last sample counts as
-    /// opacity even if it is blue.
+    ///   opacity even if it is blue.
     #[must_use]
     pub fn occupancy(&self, layout: Layout, pixel: &[u8]) -> i8 {
         match self.distro {

@@ -1,7 +1,7 @@
 //! Quality of service and the compatibility of offered and requested policies.
 //!
-//! Source of names, defaults and rules: ROS 2, `rmw/qos_profiles.h` and the design article "ROS QoS
-//! - Deadline, Liveliness, and Lifespan"; the compatibility table is that of DDS 1.4, section 2.2.3
+//! Source of names, defaults and rules: ROS 2, `rmw/qos_profiles.h` and the design article on
+//! deadline, liveliness and lifespan; the compatibility table is that of DDS 1.4, section 2.2.3
 //! (requested versus offered).
 
 use std::fmt;

@@ -180,7 +180,7 @@ impl LumpPlan {
             match self.outcome[link] {
                 LumpOutcome::Body => members[link].push((link, Pose::IDENTITY)),
                 LumpOutcome::Merged { head, head_from_link } => {
-                    members[head].push((link, head_from_link))
+                    members[head].push((link, head_from_link));
                 }
                 LumpOutcome::World | LumpOutcome::Lost => {}
             }

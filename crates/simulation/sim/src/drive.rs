@@ -180,7 +180,7 @@ impl Driver {
         let outlet = self.outlets.iter().find(|(name, _)| name.as_deref() == topic);
         match (outlet.map(|(_, outlet)| outlet), body) {
             (Some(Outlet::Twist(publisher)), CommandMessage::Twist(twist)) => {
-                publisher.publish(twist)
+                publisher.publish(twist);
             }
             (Some(Outlet::Stamped(publisher)), CommandMessage::TwistStamped(twist)) => {
                 publisher.publish(twist);

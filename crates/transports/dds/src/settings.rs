@@ -90,7 +90,7 @@ impl Settings {
                 "1" => settings.range = DiscoveryRange::Localhost,
                 "0" => {}
                 _ => {
-                    findings.push(not_used("ROS_LOCALHOST_ONLY", &value).help("it must be 0 or 1"))
+                    findings.push(not_used("ROS_LOCALHOST_ONLY", &value).help("it must be 0 or 1"));
                 }
             }
         }

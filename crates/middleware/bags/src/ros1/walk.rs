@@ -49,7 +49,7 @@ pub(super) fn all<R: Read + Seek>(
             }
             Some(op::BAG | op::INDEX | op::CHUNK_INFO | op::CONNECTION) => {}
             Some(op::MESSAGE) => {
-                fault(faults, at, "a message is outside of all chunks and is skipped")
+                fault(faults, at, "a message is outside of all chunks and is skipped");
             }
             _ => {
                 fault(faults, at, "this is not a record; nothing after it can be read");

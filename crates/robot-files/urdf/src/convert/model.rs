@@ -31,7 +31,7 @@ impl ConversionState<'_> {
                     to.push(self.link_element(link, with_settings, diagnostics));
                 }
                 LumpOutcome::Merged { .. } | LumpOutcome::Lost => {
-                    self.frames(link, &brought, &mut to)
+                    self.frames(link, &brought, &mut to);
                 }
                 LumpOutcome::World => {}
             }

@@ -142,7 +142,7 @@ impl Device for ContactDevice {
                             .iter()
                             .map(|it| self.state(world, it, *in_world))
                             .collect(),
-                    })
+                    });
                 }
                 // As in Gazebo, no message without contacts.
                 ContactOutput::Gz { .. } if contacts.is_empty() => {}

@@ -339,16 +339,16 @@ impl LidarDevice {
                     publisher.publish(settings.scan(&self.lidar, all, start_ns, span_ns));
                 }
                 Channel::Points(publisher) => {
-                    publisher.publish(settings.points(&self.lidar, start_ns))
+                    publisher.publish(settings.points(&self.lidar, start_ns));
                 }
                 Channel::Rings(publisher) => {
-                    publisher.publish(settings.rings(&self.lidar, start_ns))
+                    publisher.publish(settings.rings(&self.lidar, start_ns));
                 }
                 Channel::OldPoints(publisher) => {
                     publisher.publish(settings.old_points(&self.lidar, start_ns));
                 }
                 Channel::Range(publisher) => {
-                    publisher.publish(settings.range(&self.lidar, start_ns))
+                    publisher.publish(settings.range(&self.lidar, start_ns));
                 }
             }
         }

@@ -83,17 +83,17 @@ impl CameraOutput {
         let header = Header::at(time_ns, &self.frame);
         match &self.to {
             OutputKind::Colour(out, encoding) => {
-                out.publish(colour_image(header, picture, *encoding))
+                out.publish(colour_image(header, picture, *encoding));
             }
             OutputKind::Depth(out) => out.publish(depth_image(header, picture)),
             OutputKind::Millimetres(out) => out.publish(millimetre_image(header, picture)),
             OutputKind::Points(out, layout) => {
-                out.publish(cloud(header, picture, pinhole, *layout))
+                out.publish(cloud(header, picture, pinhole, *layout));
             }
             OutputKind::ColouredLabels(out) => out.publish(label_image(header, picture, true)),
             OutputKind::Labels(out) => out.publish(label_image(header, picture, false)),
             OutputKind::Info(out, calibration) => {
-                out.publish(message(header, pinhole, calibration))
+                out.publish(message(header, pinhole, calibration));
             }
         }
     }
