@@ -180,7 +180,7 @@ export const DISPLAYS = [
   },
   {
     kind: rviz('Camera'),
-    text: "A camera image with the scene drawn over it from the pose of the camera: scan, costmap and frames appear at their positions.",
+    text: 'A camera image with the scene drawn over it from the pose of the camera: scan, costmap and frames appear at their positions.',
     shots: {
       camera: {
         with: [
@@ -232,7 +232,7 @@ export const DISPLAYS = [
   },
   {
     kind: rviz('MarkerArray'),
-    text: "Many markers at once, switched on and off by namespace; here the pose graph of `slam_toolbox`.",
+    text: 'Many markers at once, switched on and off by namespace; here the pose graph of `slam_toolbox`.',
     run: 'demo',
     shots: {
       markerarray: {
