@@ -33,7 +33,7 @@ const SHIFT_M: f64 = 0.2;
 const TURN_RAD: f64 = 0.2;
 /// Longer readings are not drawn \[m\].
 const RANGE_MAX_M: f32 = 40.0;
-const WALL: u8 = 0;
+const OCCUPIED: u8 = 0;
 const UNKNOWN: u8 = 214;
 const FREE: u8 = 255;
 
@@ -221,7 +221,7 @@ fn draw(log: &CarmenLog, poses: &Poses, frame: &Frame) -> Map {
     }
     let grey = |&(hits, all): &(u32, u32)| match all {
         0 => UNKNOWN,
-        _ if f64::from(hits) >= WALL_RATIO * f64::from(all) => WALL,
+        _ if f64::from(hits) >= WALL_RATIO * f64::from(all) => OCCUPIED,
         _ => FREE,
     };
     counts.chunks(SIDE_PX).rev().flatten().map(grey).collect()

@@ -37,13 +37,13 @@ const OTHER_PASS_M: f64 = 12.0;
 const TOLERANCE_M: f32 = 0.2;
 /// Length over which scans are summed \[m\], and points that are evidence.
 const STRETCH_M: f64 = 3.0;
-const JUDGED: u32 = 400;
+const MIN_JUDGED_POINTS: u32 = 400;
 /// Maximum length of a stretch outdoors, where few points are judged \[m\].
 const LONGEST_M: f64 = 20.0;
 /// Stretches whose scans agree on less are contradictions.
-const AGREEING: f64 = 0.7;
+const MIN_AGREEMENT_RATIO: f64 = 0.7;
 /// Maximum number of passes that each keyframe is compared with.
-const PASSES: usize = 2;
+const MAX_PASS_COUNT: usize = 2;
 
 /// A keyframe compared with one of another pass.
 #[derive(Clone, Copy, Debug)]
@@ -72,13 +72,13 @@ pub(crate) fn contradictions(
         let mut end = start;
         let goes_on = |it: &ConstraintResidual, judged: u32| {
             let way_m = keyframes[it.keyframe].travel_m - from_m;
-            way_m < STRETCH_M || (judged <= JUDGED && way_m < LONGEST_M)
+            way_m < STRETCH_M || (judged <= MIN_JUDGED_POINTS && way_m < LONGEST_M)
         };
         while end < held.len() && goes_on(&held[end], sum.judged()) {
             sum += held[end].sum;
             end += 1;
         }
-        if sum.judged() > JUDGED && sum.share() < AGREEING {
+        if sum.judged() > MIN_JUDGED_POINTS && sum.share() < MIN_AGREEMENT_RATIO {
             let next = Contradiction {
                 keyframes: (held[start].keyframe, held[end - 1].keyframe),
                 others: other_stretch(&held[start..end], keyframes),
@@ -164,7 +164,7 @@ pub(crate) fn other_passes(
             |it: &usize| (keyframes[*it].travel_m - keyframes[other].travel_m).abs() < OTHER_PASS_M;
         if !chosen.iter().any(is_same) {
             chosen.push(other);
-            if chosen.len() >= PASSES {
+            if chosen.len() >= MAX_PASS_COUNT {
                 break;
             }
         }

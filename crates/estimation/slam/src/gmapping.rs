@@ -55,23 +55,23 @@ use ways::{Tip, Ways};
 pub use settings::{GmappingSettings, Noise};
 
 /// Scans are laid onto cells in which at least this part of the beams ended.
-const SOLID_SHARE: f64 = 0.1;
+const SOLID_CELL_RATIO: f64 = 0.1;
 /// Scans of fewer points cannot be laid onto a map.
 const LEAST_POINTS: usize = 12;
 /// Part of the points that the map must have something near for a scan to fit.
-const LEAST_MATCHED: f64 = 0.3;
+const MIN_MATCHED_RATIO: f64 = 0.3;
 /// Minimum standard deviation of odometry \[m, rad\].
-const LEAST_SIGMA: [f64; 2] = [0.01, 0.005];
+const MIN_SIGMAS_M_RAD: [f64; 2] = [0.01, 0.005];
 /// Kept scans that the front end remembers; it lays new ones onto no more.
-const REMEMBERED: usize = 30;
+const FRONT_END_SCANS: usize = 30;
 /// Bytes that the front end and the scans that were used may take \[bytes\]: some 5 km. Without them the
 /// particles go on alone.
-const MOST_REMEMBERED: usize = 64 << 20;
+const MAX_FRONT_END_BYTES: usize = 64 << 20;
 /// Bytes that the maps of all particles may take, and after how many scans that are used these are weighed.
-const MOST_OF_MAPS: usize = 80 << 20;
-const WEIGHED_EVERY: u64 = 4;
+const MAX_MAPS_BYTES: usize = 80 << 20;
+const SIZE_CHECK_INTERVAL_SCANS: u64 = 4;
 /// Number of scans for whose unshared tiles memory is reserved per particle.
-const ROOM: usize = 2;
+const RESERVED_SCANS: usize = 2;
 /// Errors that last do so for about this way \[m\].
 const LASTING_M: f64 = 20.0;
 /// Path length equivalent of a rotation by one radian \[m\].
@@ -219,7 +219,7 @@ impl Gmapping {
         let node = Node::new(here, self.way_m, beams);
         self.nodes_size += node.size();
         self.nodes.push(node);
-        if self.nodes_size + self.front.size() > MOST_REMEMBERED {
+        if self.nodes_size + self.front.size() > MAX_FRONT_END_BYTES {
             self.nodes = Vec::new();
             self.nodes_size = 0;
         }
@@ -227,7 +227,7 @@ impl Gmapping {
 
     /// The first scan: all particles share its map.
     fn begin(&mut self, beams: &Beams, map_from_base: Pose2) {
-        let mut cells = Cells::new(self.settings.resolution_m, SOLID_SHARE);
+        let mut cells = Cells::new(self.settings.resolution_m, SOLID_CELL_RATIO);
         let trace = &mut self.traces[0];
         trace.fill(beams, map_from_base, cells.per_m());
         cells.draw(trace);
@@ -263,7 +263,7 @@ impl Gmapping {
         let sigma_m = noise.place_by_way * metres + noise.place_by_turn * radians;
         let sigma_rad = noise.heading_by_way * metres + noise.heading_by_turn * radians;
         let front = self.used.as_ref().and_then(|used| self.front.covariance_since(used));
-        let sigmas = (sigma_m.max(LEAST_SIGMA[0]), sigma_rad.max(LEAST_SIGMA[1]));
+        let sigmas = (sigma_m.max(MIN_SIGMAS_M_RAD[0]), sigma_rad.max(MIN_SIGMAS_M_RAD[1]));
         let step = |index: usize, particle: &mut Particle, trace: &mut Trace| {
             // Particles are at most 10,000.
             let mut stream =
@@ -303,7 +303,7 @@ impl Gmapping {
         self.best = self.foremost();
         self.counts.lost += usize::from(!self.particles[self.best].is_matched);
         self.resample(number);
-        if number % WEIGHED_EVERY == 0 {
+        if number % SIZE_CHECK_INTERVAL_SCANS == 0 {
             self.save_memory();
         }
     }
@@ -314,8 +314,8 @@ impl Gmapping {
         let Some(best) = self.particles.get(self.best) else { return };
         let trace = &mut self.traces[0];
         trace.fill(beams, (best.map_from_base * moved).normalized(), best.cells.per_m());
-        let copied = ROOM * trace.tiles() * cells::TILE_SIZE;
-        let room = (MOST_OF_MAPS / copied.max(1)).max(1);
+        let copied = RESERVED_SCANS * trace.tiles() * cells::TILE_BYTES;
+        let room = (MAX_MAPS_BYTES / copied.max(1)).max(1);
         if self.particles.len() > room {
             let mut order = self.order();
             order.truncate(room);
@@ -338,7 +338,7 @@ impl Gmapping {
     /// Replaces other particles by the best ones if the maps need too much memory.
     fn save_memory(&mut self) {
         let mut order = self.order();
-        while order.len() > 1 && self.maps_size() > MOST_OF_MAPS {
+        while order.len() > 1 && self.maps_size() > MAX_MAPS_BYTES {
             order.truncate(order.len().div_ceil(2));
             let chosen = (0..self.particles.len()).map(|it| order[it % order.len()]);
             self.go_on_from(&chosen.collect::<Vec<_>>(), false);
@@ -444,7 +444,7 @@ impl Particle {
     ) {
         let fit = climb(&self.cells, &beams.points, guess, settings);
         self.is_matched =
-            fit.matched() > LEAST_MATCHED && fit.score(settings) > settings.least_score;
+            fit.matched() > MIN_MATCHED_RATIO && fit.score(settings) > settings.least_score;
         let drawn = if self.is_matched {
             proposal::around(&fit, guess, settings, stream)
         } else {
@@ -490,7 +490,7 @@ impl Mapper for Gmapping {
             });
         }
         if self.nodes.len() < self.counts.kept {
-            self.front.forget(REMEMBERED);
+            self.front.forget(FRONT_END_SCANS);
         }
         self.tell(scan.time_ns);
         let map_from_base = self.map_from_base();
@@ -532,7 +532,7 @@ impl Mapper for Gmapping {
         let settings = &self.settings;
         let cells = match self.particles.get(self.best) {
             Some(best) => best.cells.clone(),
-            None => Cells::new(settings.resolution_m, SOLID_SHARE),
+            None => Cells::new(settings.resolution_m, SOLID_CELL_RATIO),
         };
         Some(Box::new(cells.plan(settings.occupied_share, settings.bounds_m)?))
     }

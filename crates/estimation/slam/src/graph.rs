@@ -42,7 +42,7 @@ pub(crate) struct Edge {
 }
 
 /// Information of a step of which nothing is known.
-const GAP: f64 = 1e-4;
+const GAP_INFORMATION_FACTOR: f64 = 1e-4;
 
 impl Edge {
     pub(crate) fn new(
@@ -59,13 +59,17 @@ impl Edge {
 
     /// A step of which nothing is known: a separate piece of map begins after it.
     pub(crate) fn gap((from, to): (usize, usize), from_from_to: Pose2) -> Self {
-        let nothing = Symmetric3::diagonal(GAP, GAP, GAP);
+        let nothing = Symmetric3::diagonal(
+            GAP_INFORMATION_FACTOR,
+            GAP_INFORMATION_FACTOR,
+            GAP_INFORMATION_FACTOR,
+        );
         Self::new((from, to), from_from_to, nothing, ConstraintKind::Sequential)
     }
 
     /// True if it constrains nothing: a new map component begins after it.
     pub(crate) fn is_gap(&self) -> bool {
-        self.kind == ConstraintKind::Sequential && self.information.xx <= GAP
+        self.kind == ConstraintKind::Sequential && self.information.xx <= GAP_INFORMATION_FACTOR
     }
 
     /// The same, with another information for questions of uncertainty.

@@ -13,23 +13,23 @@ use crate::settings::Settings;
 /// Points of a scan that are searched with.
 const SEARCH_POINTS: usize = 120;
 /// The same of a stretch.
-const MOST_SPREAD: usize = 350;
+const MAX_STRETCH_POINTS: usize = 350;
 /// A scan of which fewer points find partners is not where it was searched.
-const LEAST_MATCHED: f64 = 0.45;
+const MIN_MATCHED_RATIO: f64 = 0.45;
 /// Number of scans and iterations for comparing start poses.
 const FEW_SCANS: usize = 3;
 const FEW_STEPS: usize = 5;
 /// A fit that matches less than this part of what is usual is doubted.
-const POOR: f64 = 0.75;
+const POOR_MATCH_RATIO: f64 = 0.75;
 /// Weights of the odometry prior where it is doubted, and the squared Mahalanobis distance by which such a
 /// match must be better.
-const HALF_TRUST: f64 = 0.1;
-const DISTRUST: f64 = 0.004;
-const PRICE: f64 = 20.0;
+const DOUBTED_PRIOR_FACTOR: f64 = 0.1;
+const DISTRUSTED_PRIOR_FACTOR: f64 = 0.004;
+const DISTRUST_SQUARED_SIGMAS: f64 = 20.0;
 /// Scans that agree on less than the first part of what both can see are in doubt; where they agree on
 /// more than the second they belong together.
-const DOUBTFUL: f64 = 0.75;
-const SURE: f64 = 0.9;
+const DOUBTFUL_AGREEMENT_RATIO: f64 = 0.75;
+const SURE_AGREEMENT_RATIO: f64 = 0.9;
 /// Range over which the heading step is computed: with the range of most points, ends move by a cell per
 /// step \[m\].
 const ARM_M: std::ops::Range<f64> = 2.0..12.0;
@@ -125,7 +125,7 @@ pub(crate) fn spread(points: &[[f32; 2]], spacing_m: f32, most_m: f32) -> Vec<[f
         .collect();
     cells.sort_unstable();
     cells.dedup_by_key(|it| (it.0, it.1));
-    let every = cells.len().div_ceil(MOST_SPREAD).max(1);
+    let every = cells.len().div_ceil(MAX_STRETCH_POINTS).max(1);
     cells.iter().step_by(every).map(|it| points[it.2 as usize]).collect()
 }
 
@@ -163,7 +163,7 @@ pub(crate) fn match_locally(
         register(&moving, group, fit.target_from_moving, Some(prior), &how)
     };
     let mut best = fit_from(frame_from_base, &prior);
-    let is_poor = |fit: &Fit| fit.matched < LEAST_MATCHED.max(POOR * inlier_ratio);
+    let is_poor = |fit: &Fit| fit.matched < MIN_MATCHED_RATIO.max(POOR_MATCH_RATIO * inlier_ratio);
     if searches || is_poor(&best) {
         let points = sampled(cloud, SEARCH_POINTS);
         let step_rad = heading_step(&points, settings.local_field.resolution_m);
@@ -187,20 +187,26 @@ pub(crate) fn match_locally(
         // away, with less trust in odometry; then, where scans contradict each other and do not only
         // see different things, all around, with hardly any.
         let stages = [
-            (HALF_TRUST, [(6.0 * sigmas[0]).clamp(0.4, 1.0); 2], (6.0 * sigmas[1]).clamp(0.4, 0.8)),
-            (DISTRUST, [(9.0 * sigmas[0]).clamp(1.0, 3.0); 2], std::f64::consts::PI),
+            (
+                DOUBTED_PRIOR_FACTOR,
+                [(6.0 * sigmas[0]).clamp(0.4, 1.0); 2],
+                (6.0 * sigmas[1]).clamp(0.4, 0.8),
+            ),
+            (DISTRUSTED_PRIOR_FACTOR, [(9.0 * sigmas[0]).clamp(1.0, 3.0); 2], std::f64::consts::PI),
         ];
         for (trust, half_m, half_rad) in stages {
-            if !is_poor(&best) || (trust == DISTRUST && seen(&best) >= DOUBTFUL) {
+            if !is_poor(&best)
+                || (trust == DISTRUSTED_PRIOR_FACTOR && seen(&best) >= DOUBTFUL_AGREEMENT_RATIO)
+            {
                 break;
             }
             prior.information = information * trust;
             let window = Window { half_m, half_rad, ..window };
             let (Some(peak), _) = field.search(&points, &window, 0.25, None) else { continue };
             let fit = fit_from(peak.pose, &prior);
-            if fit.cost + PRICE < best.cost
+            if fit.cost + DISTRUST_SQUARED_SIGMAS < best.cost
                 && fit.matched > 1.2 * best.matched
-                && seen(&fit) > SURE.max(seen(&best))
+                && seen(&fit) > SURE_AGREEMENT_RATIO.max(seen(&best))
             {
                 let fit = finish(&fit, &prior);
                 let information = prior.information + fit.information;
@@ -216,7 +222,7 @@ pub(crate) fn match_locally(
         }
     }
     let fit = finish(&best, &Prior { information, ..prior });
-    let is_matched = fit.matched > LEAST_MATCHED * 0.7;
+    let is_matched = fit.matched > MIN_MATCHED_RATIO * 0.7;
     let agreeing = match is_matched {
         true if is_poor(&fit) => against(cloud, group, fit.target_from_moving).share(),
         true => 1.0,
@@ -257,15 +263,17 @@ pub(crate) fn reweighted(
     ];
     let Some(information) = typical.inverse() else { return located };
     let distance = information.quadratic(off);
-    if distance < ORDINARY {
+    if distance < ORDINARY_STEP_SQUARED_SIGMAS {
         return located;
     }
     let seen = against(cloud, group, found);
-    let part = ((seen.share() - DISAGREED) / (AGREED - DISAGREED)).clamp(LEAST_PART, 1.0);
+    let part = ((seen.share() - LEAST_WEIGHT_AGREEMENT_RATIO)
+        / (FULL_WEIGHT_AGREEMENT_RATIO - LEAST_WEIGHT_AGREEMENT_RATIO))
+        .clamp(MIN_WEIGHT_RATIO, 1.0);
     let smooth = settings.register.sigma_m / located.fit.rms_m.max(settings.register.sigma_m);
-    let rough = if distance < POSSIBLE { smooth * smooth } else { 1.0 };
+    let rough = if distance < POSSIBLE_STEP_SQUARED_SIGMAS { smooth * smooth } else { 1.0 };
     let trusted = part.powi(4) * rough;
-    if trusted > NEARLY_ALL {
+    if trusted > UNCHANGED_WEIGHT_RATIO {
         return located;
     }
     let information = information * (1.0 / trusted);
@@ -273,7 +281,8 @@ pub(crate) fn reweighted(
     let how = close_by(&settings.register);
     let mut fit = register(&[Placed::alone(cloud)], group, frame_from_base, Some(&prior), &how);
     // Wheels that slipped, or that were counted late, do not change how well scans agree.
-    if against(cloud, group, fit.target_from_moving).share() < seen.share() - WORSE {
+    if against(cloud, group, fit.target_from_moving).share() < seen.share() - WORSE_AGREEMENT_RATIO
+    {
         return LocalMatch { is_doubted: true, ..located };
     }
     fit.information = fit.information * trusted;
@@ -288,11 +297,12 @@ pub(crate) fn is_better(
     one: &LocalMatch,
     other: &LocalMatch,
 ) -> bool {
-    if !one.is_matched || one.fit.matched < CLEARLY * other.fit.matched {
+    if !one.is_matched || one.fit.matched < BETTER_MATCH_FACTOR * other.fit.matched {
         return false;
     }
     let seen = |it: &LocalMatch| against(cloud, group, it.fit.target_from_moving).share();
-    !other.is_matched || seen(one) > (seen(other) + CLEARLY_SEEN).min(SURE)
+    !other.is_matched
+        || seen(one) > (seen(other) + BETTER_AGREEMENT_RATIO).min(SURE_AGREEMENT_RATIO)
 }
 
 /// Information for the uncertainty of a path; `typical` is the covariance of an ordinary odometry step.
@@ -305,26 +315,26 @@ pub(crate) fn uncertain(located: &LocalMatch, typical: &Symmetric3) -> Symmetric
 }
 
 /// Squared Mahalanobis distance from odometry up to which a step is ordinary.
-const ORDINARY: f64 = 1.0;
+const ORDINARY_STEP_SQUARED_SIGMAS: f64 = 1.0;
 /// Beyond this the step cannot be an ordinary one: 99.9 % for 3 degrees of freedom.
-const POSSIBLE: f64 = 16.3;
+const POSSIBLE_STEP_SQUARED_SIGMAS: f64 = 16.3;
 /// Agreement at which scans have full weight, and almost none; minimum weight before its fourth power.
-const AGREED: f64 = 0.95;
-const DISAGREED: f64 = 0.65;
-const LEAST_PART: f64 = 0.05;
+const FULL_WEIGHT_AGREEMENT_RATIO: f64 = 0.95;
+const LEAST_WEIGHT_AGREEMENT_RATIO: f64 = 0.65;
+const MIN_WEIGHT_RATIO: f64 = 0.05;
 /// Minimum ratio of matched points and minimum difference of agreement for a clearly better match.
-const CLEARLY: f64 = 1.1;
-const CLEARLY_SEEN: f64 = 0.05;
+const BETTER_MATCH_FACTOR: f64 = 1.1;
+const BETTER_AGREEMENT_RATIO: f64 = 0.05;
 /// Decrease of the agreement that shows that following odometry is wrong.
-const WORSE: f64 = 0.02;
+const WORSE_AGREEMENT_RATIO: f64 = 0.02;
 /// Scans that keep more than this part of their weight are left as they are.
-const NEARLY_ALL: f64 = 0.9;
+const UNCHANGED_WEIGHT_RATIO: f64 = 0.9;
 
 /// Weight of odometry in the uncertainty of a path where walls leave a direction free. Along a corridor its
 /// errors have one sign: they add up instead of averaging out, so that odometry counts less than its
 /// scatter suggests.
 fn doubted(information: &Symmetric3, firmness: f64) -> Symmetric3 {
-    *information * (ALONG + (1.0 - ALONG) * firmness)
+    *information * (FREE_DIRECTION_FACTOR + (1.0 - FREE_DIRECTION_FACTOR) * firmness)
 }
 
 /// Compares a scan with the first few of a group in both directions.
@@ -367,7 +377,7 @@ pub(crate) fn both_ways(a: &Cloud, b: &Cloud, b_from_a: Pose2, tolerance_m: f32)
 
 /// Weight of odometry where walls leave a direction free: errors of 3 % over a hundred steps are as likely
 /// as their scatter implies only if one step errs by that much more.
-const ALONG: f64 = 0.15;
+const FREE_DIRECTION_FACTOR: f64 = 0.15;
 /// Maximum distance of two points of the same surface \[m\].
 const TOLERANCE_M: f32 = 0.2;
 

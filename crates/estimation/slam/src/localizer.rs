@@ -13,8 +13,8 @@ use crate::odometry_noise::OdometryNoise;
 use crate::scan::Scan;
 
 /// Scans of the stored graph, and of the robot's own memory, that a new one is laid onto.
-const STORED: usize = 6;
-const OWN: usize = 2;
+const STORED_SCANS: usize = 6;
+const RECENT_SCANS: usize = 2;
 /// Scans this near look at the same things \[m\].
 const REACH_M: f64 = 5.0;
 /// Less motion than this since the scan before needs no search \[m, rad\].
@@ -26,15 +26,15 @@ const LEAST_POINTS: usize = 12;
 const JUMP_M: f64 = 4.0;
 const FASTEST_M_S: f64 = 5.0;
 /// Gain of the running mean of the inlier ratio.
-const USUAL: f64 = 0.05;
+const INLIER_MEAN_GAIN_RATIO: f64 = 0.05;
 /// Poses that are remembered.
-const REMEMBERED: usize = 10_000;
+const MAX_POSE_COUNT: usize = 10_000;
 /// Minimum and maximum uncertainty of the pose; a lost robot is searched within the maximum. One standard
 /// deviation \[m, rad\].
-const LEAST: [f64; 2] = [0.02, 0.01];
-const MOST: [f64; 2] = [1.0, 0.5];
+const MIN_SIGMAS_M_RAD: [f64; 2] = [0.02, 0.01];
+const MAX_SIGMAS_M_RAD: [f64; 2] = [1.0, 0.5];
 /// Default uncertainty of an initial pose \[m, rad\].
-const START: [f64; 2] = [0.5, 0.26];
+const INITIAL_SIGMAS_M_RAD: [f64; 2] = [0.5, 0.26];
 
 /// Finds the robot on a stored graph. The graph stays as it is; of what the robot sees itself it keeps
 /// only the last few scans, so that it is found where the world has changed, and its memory does not
@@ -92,7 +92,7 @@ impl Localizer {
             most_own,
             odometry_noise: OdometryNoise::default(),
             last: None,
-            start: (first, spread(START)),
+            start: (first, spread(INITIAL_SIGMAS_M_RAD)),
             poses: VecDeque::new(),
             counts: Counts::default(),
             inlier_ratio: 0.7,
@@ -171,7 +171,7 @@ impl Localizer {
             self.own
                 .iter()
                 .rev()
-                .take(OWN)
+                .take(RECENT_SCANS)
                 .filter(|own| apart(own.map_from_keyframe, expected).0 < REACH_M)
         };
         // In the frame of one scan numbers are small.
@@ -206,7 +206,8 @@ impl Localizer {
                 next.map_from_base = (map_from_frame * found.fit.target_from_moving).normalized();
                 let known = found.information.inverse().unwrap_or(turned);
                 next.covariance = bounded(&known.turned(map_from_frame.yaw_rad));
-                self.inlier_ratio += USUAL * (found.fit.matched - self.inlier_ratio);
+                self.inlier_ratio +=
+                    INLIER_MEAN_GAIN_RATIO * (found.fit.matched - self.inlier_ratio);
                 outcome = ScanOutcome::BelowMotionThreshold;
             }
         }
@@ -243,15 +244,15 @@ impl Localizer {
             })
             .collect();
         near.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
-        near.truncate(STORED);
+        near.truncate(STORED_SCANS);
         near.into_iter().map(|it| it.1).collect()
     }
 }
 
 /// A covariance between the least and the most that is believed.
 fn bounded(covariance: &Symmetric3) -> Symmetric3 {
-    let sum = *covariance + spread(LEAST);
-    let most = spread(MOST);
+    let sum = *covariance + spread(MIN_SIGMAS_M_RAD);
+    let most = spread(MAX_SIGMAS_M_RAD);
     if sum.largest_shift() > most.xx || sum.tt > most.tt { most } else { sum }
 }
 
@@ -276,7 +277,7 @@ impl Mapper for Localizer {
         let map_from_base = self.map_from_base();
         if !matches!(outcome, ScanOutcome::Rejected(_)) {
             self.poses.push_back((scan.time_ns, map_from_base));
-            if self.poses.len() > REMEMBERED {
+            if self.poses.len() > MAX_POSE_COUNT {
                 self.poses.pop_front();
             }
         }

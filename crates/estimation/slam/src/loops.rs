@@ -49,62 +49,63 @@ const MOST_M: f64 = 60.0;
 const KNOWN_M: f64 = 0.5;
 const KNOWN_RAD: f64 = 0.2;
 /// Searched points have a mean likelihood of at least this.
-const LEAST_SCORE: f64 = 0.42;
+const MIN_SCORE_RATIO: f64 = 0.42;
 /// The second best pose is verified if its score is at least this fraction of the best one's.
-const RIVAL: f64 = 0.8;
+const SECOND_POSE_SCORE_RATIO: f64 = 0.8;
 /// Minimum distance of two different poses \[m, rad\].
 const OTHER_M: f64 = 0.8;
 const OTHER_RAD: f64 = 0.5;
 /// Part of judged points that must agree; points to judge; part of points with partners.
-const AGREEING: f64 = 0.88;
-const JUDGED: u32 = 400;
-const MATCHED: f64 = 0.6;
+const MIN_AGREEMENT_RATIO: f64 = 0.88;
+const MIN_JUDGED_POINTS: u32 = 400;
+const MIN_MATCHED_RATIO: f64 = 0.6;
 /// Number of scans of the old stretch that each of the new one is compared with.
-const COMPARED: usize = 3;
+const COMPARED_SCANS: usize = 3;
 /// The same where two stretches were driven in opposite directions, and each shows a part that is
 /// hidden from the other: fewer partners, but more points that both can judge and that agree.
-const PARTLY_MATCHED: f64 = 0.3;
-const PARTLY_JUDGED: u32 = 800;
-const PARTLY_AGREEING: f64 = 0.9;
+const OPPOSITE_MIN_MATCHED_RATIO: f64 = 0.3;
+const OPPOSITE_MIN_JUDGED_POINTS: u32 = 800;
+const OPPOSITE_MIN_AGREEMENT_RATIO: f64 = 0.9;
 /// Peaks this near to the rim of what was searched are none \[m\].
 const RIM_M: f64 = 0.15;
 /// Squared Mahalanobis distance within which closures agree: 99 % for 3 degrees of freedom.
-const CONSISTENT: f64 = 11.3;
+const CONSISTENT_SQUARED_SIGMAS: f64 = 11.3;
 /// Regions (3 standard deviations) up to this need one witness, up to that two, else three \[m\].
 const ONE_WITNESS_M: f64 = 2.0;
 const PARTLY_ONE_WITNESS_M: f64 = 1.0;
 const TWO_WITNESSES_M: f64 = 12.0;
 /// A closure that others speak against is tried at the end when its scans agree on more than this.
-const CLEAR: f64 = 0.93;
+const TRIAL_MIN_AGREEMENT_RATIO: f64 = 0.93;
 /// Witnesses for each against, where those against would be enough for another closure.
-const MAJORITY: usize = 3;
+const MAJORITY_FACTOR: usize = 3;
 /// Minimum path between two witnesses, and maximum path over which they count \[m\].
 const APART_M: f64 = 4.0;
 const HEARD_M: f64 = 60.0;
 /// Two closures are uninformative about each other if three standard deviations of the paths between them
 /// exceed this fraction of the smaller region, and this distance: they would agree by chance.
-const EMPTY: f64 = 0.5;
-const EMPTY_M: f64 = 2.0;
+const UNINFORMATIVE_REGION_RATIO: f64 = 0.5;
+const UNINFORMATIVE_REGION_M: f64 = 2.0;
 /// Searches for one stretch, and searches that wait, at most.
-const MOST_ASKED: usize = 30;
-const MOST_WAITING: usize = 300;
+const MAX_SEARCHES_PER_STRETCH_COUNT: usize = 30;
+const MAX_WAITING_SEARCH_COUNT: usize = 300;
 /// Covariance of poses in other map components: unknown.
-const ANYWHERE: Symmetric3 = Symmetric3 { xx: 1e4, xy: 0.0, xt: 0.0, yy: 1e4, yt: 0.0, tt: 10.0 };
+const UNKNOWN_COVARIANCE: Symmetric3 =
+    Symmetric3 { xx: 1e4, xy: 0.0, xt: 0.0, yy: 1e4, yt: 0.0, tt: 10.0 };
 /// Stricter limits for closures between components, where nothing is known of the relative pose: region,
 /// score, agreement, witnesses, searches per stretch, and their priority.
-const ANYWHERE_M: f64 = 250.0;
-const ANYWHERE_SCORE: f64 = 0.5;
-const ANYWHERE_AGREEING: f64 = 0.95;
-const ANYWHERE_WITNESSES: usize = 5;
-const MOST_ELSEWHERE: usize = 24;
-const FARTHER: f64 = 2.0;
+const GLOBAL_REGION_M: f64 = 250.0;
+const GLOBAL_MIN_SCORE_RATIO: f64 = 0.5;
+const GLOBAL_MIN_AGREEMENT_RATIO: f64 = 0.95;
+const GLOBAL_MIN_WITNESS_COUNT: usize = 5;
+const MAX_GLOBAL_CANDIDATES: usize = 24;
+const GLOBAL_DISTANCE_FACTOR: f64 = 2.0;
 /// Fields that are kept; the larger, the fewer.
-const KEPT_FIELDS: usize = 12;
+const CACHED_FIELD_COUNT: usize = 12;
 /// Points of a stretch are searched with when they are not farther away \[m\], one for each spacing.
 const FAR_M: f32 = 14.0;
 const SPACING_M: f32 = 0.15;
 /// Maximum factor of the cell size for long-range scanners.
-const COARSE: f64 = 2.0;
+const MAX_CELL_SIZE_FACTOR: f64 = 2.0;
 /// Scans of a stretch that are laid onto others, and more where they have few points.
 const FEW_SCANS: usize = 8;
 const FEW_POINTS: usize = 800;
@@ -187,7 +188,7 @@ struct Evidence {
 impl Evidence {
     fn is_enough(&self) -> bool {
         // As many against it as would suffice for another closure: two areas look alike.
-        let is_clear = self.rivals < self.wanted || self.witnesses >= MAJORITY * self.rivals;
+        let is_clear = self.rivals < self.wanted || self.witnesses >= MAJORITY_FACTOR * self.rivals;
         self.witnesses >= self.wanted + self.rivals && is_clear
     }
 }
@@ -293,8 +294,13 @@ impl Loops {
             }
             let Some(uncertainty) = &covariances[old.middle] else {
                 // Another map component, or too far away for a bound on the uncertainty.
-                let task = Task { stretch: stretch.clone(), anchor, place, covariance: ANYWHERE };
-                elsewhere.push((FARTHER, task));
+                let task = Task {
+                    stretch: stretch.clone(),
+                    anchor,
+                    place,
+                    covariance: UNKNOWN_COVARIANCE,
+                };
+                elsewhere.push((GLOBAL_DISTANCE_FACTOR, task));
                 continue;
             };
             let (region_m, region_rad) =
@@ -312,13 +318,13 @@ impl Loops {
             asked.push(((metres - scale * MEET_M).max(0.0) / region_m.max(0.1), task));
         }
         asked.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.place.cmp(&b.1.place)));
-        asked.truncate(MOST_ASKED);
+        asked.truncate(MAX_SEARCHES_PER_STRETCH_COUNT);
         if is_torn {
-            let every = elsewhere.len().div_ceil(MOST_ELSEWHERE).max(1);
+            let every = elsewhere.len().div_ceil(MAX_GLOBAL_CANDIDATES).max(1);
             asked.extend(elsewhere.into_iter().skip(anchor % every).step_by(every));
         }
         // Under load the oldest questions go unanswered; they are asked again at the end.
-        let over = (self.tasks.len() + asked.len()).saturating_sub(MOST_WAITING);
+        let over = (self.tasks.len() + asked.len()).saturating_sub(MAX_WAITING_SEARCH_COUNT);
         self.tasks.drain(..over.min(self.tasks.len()));
         self.tasks.extend(asked.into_iter().map(|it| it.1));
     }
@@ -394,13 +400,14 @@ impl Loops {
             middle: Pose2::new(x_m, y_m, expected.yaw_rad),
             half_m: [half_x_m, half_y_m],
             half_rad,
-            step_rad: heading_step(&points, settings.loop_field.resolution_m) / scale.min(COARSE),
+            step_rad: heading_step(&points, settings.loop_field.resolution_m)
+                / scale.min(MAX_CELL_SIZE_FACTOR),
         };
         let of = around.iter().map(|&keyframe| (keyframe, graph.between(middle, keyframe)));
         let field = self.field(task.place, of, keyframes, settings, scale);
         let region_m = 3.0 * task.covariance.largest_shift().sqrt();
-        let is_anywhere = region_m > ANYWHERE_M;
-        let least_score = if is_anywhere { ANYWHERE_SCORE } else { LEAST_SCORE };
+        let is_anywhere = region_m > GLOBAL_REGION_M;
+        let least_score = if is_anywhere { GLOBAL_MIN_SCORE_RATIO } else { MIN_SCORE_RATIO };
         let (best, _) = field.search(&points, &window, least_score, None);
         let best = best?;
         // A peak at the rim is the slope of something beyond.
@@ -410,7 +417,7 @@ impl Loops {
         if is_at_rim || is_far {
             return None;
         }
-        let least = (RIVAL * best.score).max(least_score);
+        let least = (SECOND_POSE_SCORE_RATIO * best.score).max(least_score);
         let (second, _) =
             field.search(&points, &window, least, Some((best.pose, OTHER_M, OTHER_RAD)));
         let verdict = verify(best.pose, &new, &old, settings);
@@ -427,7 +434,7 @@ impl Loops {
             self.closures.push(told);
             return None;
         }
-        if is_anywhere && verdict.share < ANYWHERE_AGREEING {
+        if is_anywhere && verdict.share < GLOBAL_MIN_AGREEMENT_RATIO {
             told.reason = format!(
                 "{:.0} % of the points are seen through, too many for an unbounded search",
                 100.0 * (1.0 - verdict.share)
@@ -450,7 +457,7 @@ impl Loops {
             region_m,
             share: verdict.share,
             is_unique: rival.is_none() && verdict.fit.firmness > 0.0,
-            is_partial: verdict.fit.matched < MATCHED,
+            is_partial: verdict.fit.matched < MIN_MATCHED_RATIO,
         })
     }
 
@@ -475,7 +482,7 @@ impl Loops {
         let at = self.fields.iter().position(|kept| kept.place == place);
         let kept = at.and_then(|at| self.fields.remove(at));
         let kept = kept.unwrap_or_else(|| Kept { place, of: of.collect(), field: None });
-        self.fields.truncate((KEPT_FIELDS as f64 / scale) as usize - 1);
+        self.fields.truncate((CACHED_FIELD_COUNT as f64 / scale) as usize - 1);
         self.fields.push_front(kept);
         let Kept { of, field, .. } = &mut self.fields[0];
         field.get_or_insert_with(|| {
@@ -560,8 +567,8 @@ impl Loops {
             ..PARTLY_ONE_WITNESS_M => 1,
             ..ONE_WITNESS_M if !it.is_partial => 1,
             ..TWO_WITNESSES_M => 2,
-            ..ANYWHERE_M => 3,
-            _ => ANYWHERE_WITNESSES,
+            ..GLOBAL_REGION_M => 3,
+            _ => GLOBAL_MIN_WITNESS_COUNT,
         };
         Evidence { agreeing, witnesses: witnesses.len(), wanted, rivals: rivals.len() }
     }
@@ -597,7 +604,8 @@ impl Loops {
             .filter_map(|index| {
                 let evidence = self.evidence(index, keyframes, graph);
                 let lacks = evidence.wanted.saturating_sub(evidence.witnesses);
-                let is_clear = evidence.rivals == 0 || self.pending[index].share > CLEAR;
+                let is_clear =
+                    evidence.rivals == 0 || self.pending[index].share > TRIAL_MIN_AGREEMENT_RATIO;
                 let is_near = lacks <= 1 && evidence.witnesses > evidence.rivals && is_clear;
                 is_near.then(|| (lacks, 1.0 - self.pending[index].share, index))
             })
@@ -703,7 +711,7 @@ impl Loops {
 /// Settings of the likelihood field for scanners with `scale` times the range of indoor ones.
 fn field_settings(settings: &Settings, scale: f64) -> FieldSettings {
     let indoors = settings.loop_field;
-    let (scale, coarse) = (scale as f32, scale.min(COARSE) as f32);
+    let (scale, coarse) = (scale as f32, scale.min(MAX_CELL_SIZE_FACTOR) as f32);
     FieldSettings {
         resolution_m: coarse * indoors.resolution_m,
         sigma_m: coarse * indoors.sigma_m,
@@ -734,16 +742,17 @@ fn verify(start: Pose2, new: &[Placed<'_>], old: &[Placed<'_>], settings: &Setti
         Prior { target_from_moving: start, information: Symmetric3::diagonal(25.0, 25.0, 400.0) };
     let (new_few, old_few) = (few(new), few(old));
     let fit = register(&new_few, &old_few, start, Some(&prior), &close_by(&settings.register));
-    let sum = against_nearest(new, old, fit.target_from_moving, COMPARED);
+    let sum = against_nearest(new, old, fit.target_from_moving, COMPARED_SCANS);
     let share = sum.share();
     // Seen from the other end, most points of one are hidden from the other.
-    let is_partial =
-        fit.matched > PARTLY_MATCHED && share > PARTLY_AGREEING && sum.judged() > PARTLY_JUDGED;
-    let fault = if fit.matched < MATCHED && !is_partial {
+    let is_partial = fit.matched > OPPOSITE_MIN_MATCHED_RATIO
+        && share > OPPOSITE_MIN_AGREEMENT_RATIO
+        && sum.judged() > OPPOSITE_MIN_JUDGED_POINTS;
+    let fault = if fit.matched < MIN_MATCHED_RATIO && !is_partial {
         Some(format!("only {:.0} % of the points find partners", 100.0 * fit.matched))
-    } else if sum.judged() < JUDGED {
+    } else if sum.judged() < MIN_JUDGED_POINTS {
         Some(format!("only {} points are seen from both", sum.judged()))
-    } else if share < AGREEING {
+    } else if share < MIN_AGREEMENT_RATIO {
         Some(format!("{:.0} % of the points are seen through", 100.0 * (1.0 - share)))
     } else {
         None
@@ -787,11 +796,13 @@ fn consistency(
     ];
     let sum = old_covariance + new_covariance;
     let Some(information) = sum.inverse() else { return Consistency::Uninformative };
-    if information.quadratic(error) >= CONSISTENT {
+    if information.quadratic(error) >= CONSISTENT_SQUARED_SIGMAS {
         return Consistency::Contradicts;
     }
     let by_chance_m = 3.0 * sum.largest_shift().sqrt();
-    if by_chance_m < (EMPTY * a.region_m.min(b.region_m)).max(EMPTY_M) {
+    if by_chance_m
+        < (UNINFORMATIVE_REGION_RATIO * a.region_m.min(b.region_m)).max(UNINFORMATIVE_REGION_M)
+    {
         Consistency::Agrees
     } else {
         Consistency::Uninformative

@@ -10,13 +10,13 @@ use crate::keyframe::Keyframe;
 
 /// Log odds in hundredths that a beam adds to a cell that it passes and to the one it ends in, for
 /// probabilities of 0.4 and 0.75; sums are limited to ±4, so that changed cells are relearned.
-const MISS: i16 = -41;
-const HIT: i16 = 110;
-const LIMIT: i16 = 400;
+const MISS_LOG_ODDS_PERCENT: i16 = -41;
+const HIT_LOG_ODDS_PERCENT: i16 = 110;
+const MAX_LOG_ODDS_PERCENT: i16 = 400;
 /// Cells beyond a map's edge \[cells\].
-const MARGIN: f64 = 4.0;
+const MARGIN_CELLS: f64 = 4.0;
 /// Neither seen nor passed.
-const UNSEEN: i16 = i16::MIN;
+const UNSEEN_LOG_ODDS_PERCENT: i16 = i16::MIN;
 
 /// Scans and poses at one moment. It can be rasterized on another thread while mapping continues; the scans
 /// are shared.
@@ -83,9 +83,9 @@ impl MapSnapshot {
         }
         // Corners at whole cells: the same position has the same cell in every run.
         let resolution_m = self.resolution_m;
-        let corner = low.map(|low| ((low / resolution_m).floor() - MARGIN) * resolution_m);
+        let corner = low.map(|low| ((low / resolution_m).floor() - MARGIN_CELLS) * resolution_m);
         let cells = |axis: usize| {
-            ((high[axis] - corner[axis]) / resolution_m + MARGIN).ceil().max(1.0) as usize
+            ((high[axis] - corner[axis]) / resolution_m + MARGIN_CELLS).ceil().max(1.0) as usize
         };
         let origin = Pose2::new(corner[0], corner[1], 0.0);
         let info = GridInfo::new(resolution_m, cells(0), cells(1), origin).ok()?;
@@ -126,7 +126,7 @@ impl Plan for SnapshotRaster {
     /// scan a cell where a beam ends is not passed by others.
     fn rows(&self, rows: Range<usize>) -> OccupancyGrid {
         let part = part(&self.info, &rows);
-        let mut odds: Grid<i16> = Grid::new(part, UNSEEN);
+        let mut odds: Grid<i16> = Grid::new(part, UNSEEN_LOG_ODDS_PERCENT);
         let mut marks = Marks::default();
         for (scan, span) in self.scans.iter().zip(&self.spans) {
             if (span[0] as usize) < rows.end && (span[1] as usize) > rows.start {
@@ -215,7 +215,9 @@ impl Marks {
         for (line, (passed, ended)) in lines.enumerate() {
             let begin = odds.info.index((self.low.0, self.low.1 - first_row + line));
             for (word, (&passed, &ended)) in passed.iter().zip(ended).enumerate() {
-                for (mut bits, says) in [(ended, HIT), (passed & !ended, MISS)] {
+                for (mut bits, says) in
+                    [(ended, HIT_LOG_ODDS_PERCENT), (passed & !ended, MISS_LOG_ODDS_PERCENT)]
+                {
                     while bits != 0 {
                         let bit = bits.trailing_zeros() as usize;
                         bits &= bits - 1;
@@ -229,7 +231,7 @@ impl Marks {
 
 /// Occupancy probability of a cell in percent.
 fn percent(&odds: &i16) -> i8 {
-    if odds == UNSEEN {
+    if odds == UNSEEN_LOG_ODDS_PERCENT {
         return occupancy::UNKNOWN;
     }
     let chance = 1.0 / (1.0 + libm::exp(-f64::from(odds) / 100.0));
@@ -237,8 +239,8 @@ fn percent(&odds: &i16) -> i8 {
 }
 
 fn vote(cell: &mut i16, by: i16) {
-    let before = if *cell == UNSEEN { 0 } else { *cell };
-    *cell = (before + by).clamp(-LIMIT, LIMIT);
+    let before = if *cell == UNSEEN_LOG_ODDS_PERCENT { 0 } else { *cell };
+    *cell = (before + by).clamp(-MAX_LOG_ODDS_PERCENT, MAX_LOG_ODDS_PERCENT);
 }
 
 #[cfg(test)]
@@ -273,7 +275,7 @@ mod tests {
 
     /// Every scan on the whole map, cell by cell.
     fn plain(snapshot: &MapSnapshot, info: GridInfo) -> Vec<i16> {
-        let mut odds = vec![UNSEEN; info.len()];
+        let mut odds = vec![UNSEEN_LOG_ODDS_PERCENT; info.len()];
         for scan in &snapshot.scans {
             let pose = scan.map_from_keyframe;
             let cell = |[x, y]: [f32; 2]| {
@@ -284,8 +286,10 @@ mod tests {
             let ends: std::collections::BTreeSet<_> = scan.ends().iter().map(cell).collect();
             let passed: std::collections::BTreeSet<_> =
                 ends.iter().flat_map(|&end| Line::between(start, end)).collect();
-            ends.iter().for_each(|&cell| vote(&mut odds[info.index(cell)], HIT));
-            passed.difference(&ends).for_each(|&cell| vote(&mut odds[info.index(cell)], MISS));
+            ends.iter().for_each(|&cell| vote(&mut odds[info.index(cell)], HIT_LOG_ODDS_PERCENT));
+            passed
+                .difference(&ends)
+                .for_each(|&cell| vote(&mut odds[info.index(cell)], MISS_LOG_ODDS_PERCENT));
         }
         odds
     }

@@ -22,21 +22,21 @@ const SHIFT_M: [f64; 3] = [0.02, 0.08, 0.03];
 const TURN_RAD: [f64; 3] = [0.015, 0.03, 0.08];
 /// Bounds of the factor in searches, squared; a robot with wheels that slip on every turn stays findable,
 /// and one with perfect wheels does not come to a window of nothing.
-const LEAST: f64 = 0.25;
-const MOST: f64 = 36.0;
+const MIN_SEARCH_FACTOR: f64 = 0.25;
+const MAX_SEARCH_FACTOR: f64 = 36.0;
 /// Lower bound of what is learnt, squared.
-const LEAST_LEARNT: f64 = 0.01;
+const MIN_LEARNED_FACTOR: f64 = 0.01;
 /// Maximum squared factor with which a step counts for ordinary steps.
-const CLIPPED: f64 = 9.0;
+const MAX_STEP_FACTOR: f64 = 9.0;
 /// Odometry that goes farther in one step than this, and faster than that, has jumped \[m, m/s\].
 const JUMP_M: f64 = 4.0;
 const FASTEST_M_S: f64 = 5.0;
 /// A step is a jump too if it exceeds this multiple of the longest recent one, this distance, and this
 /// speed.
-const USUAL_STEPS: f64 = 3.0;
+const JUMP_STEP_FACTOR: f64 = 3.0;
 const LEAST_JUMP_M: f64 = 0.5;
 const FAST_M_S: f64 = 3.0;
-const FORGOTTEN: f64 = 0.998;
+const DECAY_FACTOR: f64 = 0.998;
 /// After a longer time without scans \[s\] a robot that has moved may have gone at this pace \[m/s, rad/s\].
 const BLIND_S: f64 = 5.0;
 const LONGEST_S: f64 = 60.0;
@@ -45,7 +45,7 @@ const HIDDEN_RAD_S: f64 = 0.1;
 const MOVED_M: f64 = 0.3;
 const MOVED_RAD: f64 = 0.3;
 /// Learning rate.
-const RATE: f64 = 0.04;
+const LEARNING_RATE_FACTOR: f64 = 0.04;
 
 impl Default for OdometryNoise {
     fn default() -> Self {
@@ -57,8 +57,8 @@ impl OdometryNoise {
     /// Covariance of an odometry motion, along the axes of its start.
     pub(crate) fn covariance(&self, motion: Pose2, seconds: f64) -> Symmetric3 {
         let model = Self::model(motion, seconds);
-        let place = model[0] * self.place.max(LEAST);
-        Symmetric3::diagonal(place, place, model[1] * self.heading.max(LEAST))
+        let place = model[0] * self.place.max(MIN_SEARCH_FACTOR);
+        Symmetric3::diagonal(place, place, model[1] * self.heading.max(MIN_SEARCH_FACTOR))
     }
 
     /// Covariance of an ordinary step without wheel slip and without the lower bound for searches: the
@@ -77,7 +77,8 @@ impl OdometryNoise {
     /// True if a robot can have moved this far in this time.
     pub(crate) fn is_possible(&self, motion: Pose2, seconds: f64) -> bool {
         let way_m = libm::hypot(motion.x_m, motion.y_m);
-        let usual_m = (USUAL_STEPS * self.step_m).max(LEAST_JUMP_M) + FAST_M_S * seconds.max(0.0);
+        let usual_m =
+            (JUMP_STEP_FACTOR * self.step_m).max(LEAST_JUMP_M) + FAST_M_S * seconds.max(0.0);
         way_m < usual_m.min(JUMP_M + FASTEST_M_S * seconds.max(0.0))
     }
 
@@ -97,16 +98,16 @@ impl OdometryNoise {
     /// Learns from where a scan was found against where odometry had it.
     pub(crate) fn learn(&mut self, motion: Pose2, found: Pose2, is_doubted: bool) {
         let model = Self::model(motion, 0.0);
-        self.step_m = (self.step_m * FORGOTTEN).max(libm::hypot(found.x_m, found.y_m));
+        self.step_m = (self.step_m * DECAY_FACTOR).max(libm::hypot(found.x_m, found.y_m));
         let (x, y) = (found.x_m - motion.x_m, found.y_m - motion.y_m);
         let turn = normalize_angle(found.yaw_rad - motion.yaw_rad);
         let toward = |factor: &mut f64, squared: f64| {
-            *factor += RATE * (squared.min(4.0 * MOST) - *factor);
-            *factor = factor.clamp(LEAST_LEARNT, MOST);
+            *factor += LEARNING_RATE_FACTOR * (squared.min(4.0 * MAX_SEARCH_FACTOR) - *factor);
+            *factor = factor.clamp(MIN_LEARNED_FACTOR, MAX_SEARCH_FACTOR);
         };
         let clipped = |factor: &mut f64, squared: f64| {
-            *factor += RATE * (squared.min(CLIPPED * *factor) - *factor);
-            *factor = factor.clamp(LEAST_LEARNT, MOST);
+            *factor += LEARNING_RATE_FACTOR * (squared.min(MAX_STEP_FACTOR * *factor) - *factor);
+            *factor = factor.clamp(MIN_LEARNED_FACTOR, MAX_SEARCH_FACTOR);
         };
         let (place, heading) = (0.5 * (x * x + y * y) / model[0], turn * turn / model[1]);
         toward(&mut self.place, place);

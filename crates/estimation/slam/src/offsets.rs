@@ -45,7 +45,7 @@ const FAR_M: f32 = 14.0;
 /// Offsets below this are what maps have \[m\].
 const LEAST_M: f64 = 0.15;
 /// Squared Mahalanobis distance of an offset that scans are sure of.
-const SURE: f64 = 30.0;
+const CERTAIN_SQUARED_SIGMAS: f64 = 30.0;
 
 /// Minimum overlap and agreement of a stretch with another pass.
 #[derive(Clone, Copy)]
@@ -64,11 +64,11 @@ const ELSEWHERE: Least = Least { matched: 0.6, judged: 0.6, agreeing: 0.9 };
 /// Maximum distance of two points on the same wall \[m\]; minimum increase of the fraction of such points
 /// over the pose in the map.
 const SAME_M: f32 = 0.1;
-const CLEARLY: f64 = 0.15;
+const CLEAR_DIFFERENCE_RATIO: f64 = 0.15;
 /// Mean likelihood of points that are where they were searched, at least.
-const LEAST_SCORE: f64 = 0.5;
+const MIN_SCORE_RATIO: f64 = 0.5;
 /// A second pose in the window is ambiguous with this fraction of the likelihood, at least this far away.
-const RIVAL: f64 = 0.9;
+const SECOND_POSE_SCORE_RATIO: f64 = 0.9;
 const OTHER_M: f64 = 0.5;
 const OTHER_RAD: f64 = 0.5;
 
@@ -192,7 +192,7 @@ fn word(
     };
     let middle = [expected.x_m as f32, expected.y_m as f32];
     let field = Field::new(&points_of(&target), middle, &settings.local_field);
-    let Some(best) = field.search(&points, &window, LEAST_SCORE, None).0 else {
+    let Some(best) = field.search(&points, &window, MIN_SCORE_RATIO, None).0 else {
         return Consistency::Uninformative;
     };
     let fit = fit_from(best.pose);
@@ -201,13 +201,19 @@ fn word(
     let turn_rad = normalize_angle(there.yaw_rad - expected.yaw_rad);
     let off = [there.x_m - expected.x_m, there.y_m - expected.y_m, turn_rad];
     let shift_m = apart(expected, there).0;
-    let is_sure = shift_m > LEAST_M && information.quadratic(off) > SURE && fits(&fit, ELSEWHERE);
+    let is_sure = shift_m > LEAST_M
+        && information.quadratic(off) > CERTAIN_SQUARED_SIGMAS
+        && fits(&fit, ELSEWHERE);
     let same = |pose: Pose2| part_on_walls(&moving, &target, pose);
-    if !is_sure || same(there) - same(expected) < CLEARLY {
+    if !is_sure || same(there) - same(expected) < CLEAR_DIFFERENCE_RATIO {
         return Consistency::Uninformative;
     }
     let elsewhere = (there, OTHER_M, OTHER_RAD);
-    if field.search(&points, &window, RIVAL * best.score, Some(elsewhere)).0.is_some() {
+    if field
+        .search(&points, &window, SECOND_POSE_SCORE_RATIO * best.score, Some(elsewhere))
+        .0
+        .is_some()
+    {
         return Consistency::Uninformative;
     }
     let edge = Edge::new((old, new), there, information, ConstraintKind::LoopClosure);

@@ -21,23 +21,23 @@ const REACH_M: f64 = 4.0;
 const OLD_M: f64 = 10.0;
 /// Points that the other scans must judge, the part of them that must agree, and the part of all
 /// points that must find partners.
-const JUDGED: u32 = 50;
-const AGREEING: f64 = 0.85;
-const MATCHED: f64 = 0.6;
+const MIN_JUDGED_POINTS: u32 = 50;
+const MIN_AGREEMENT_RATIO: f64 = 0.85;
+const MIN_MATCHED_RATIO: f64 = 0.6;
 /// Uncertainties (3 standard deviations) beyond which the pose is searched for.
 const KNOWN_M: f64 = 0.2;
 const KNOWN_RAD: f64 = 0.06;
 /// A match is ambiguous if another pose at least this far away has this fraction of its likelihood.
 const OTHER_M: f64 = 0.5;
-const RIVAL: f64 = 0.8;
+const SECOND_POSE_SCORE_RATIO: f64 = 0.8;
 /// Squared Mahalanobis distance of what is possible: 99.9 % for 3 degrees of freedom.
-const POSSIBLE: f64 = 16.3;
+const POSSIBLE_SQUARED_SIGMAS: f64 = 16.3;
 /// Maximum distance of two points of the same surface \[m\].
 const TOLERANCE_M: f32 = 0.2;
 /// Old scans on either side of the one that is compared with.
-const BESIDE: usize = 2;
+const NEIGHBOUR_SCANS: usize = 2;
 /// Ties of one scan to different visits.
-const VISITS: usize = 2;
+const MAX_VISIT_COUNT: usize = 2;
 
 /// Ties a key to old ones nearby whose place it knows well; gives the new edges.
 pub(crate) fn proximity(
@@ -82,7 +82,7 @@ pub(crate) fn proximity(
         }
         tried.push(candidate.keyframe);
         edges.extend(tie(keyframes, graph, keyframe, &candidate, settings));
-        if edges.len() >= VISITS || tried.len() >= 2 * VISITS {
+        if edges.len() >= MAX_VISIT_COUNT || tried.len() >= 2 * MAX_VISIT_COUNT {
             break;
         }
     }
@@ -97,8 +97,10 @@ pub(crate) fn tie(
     old: &RelativeUncertainty,
     settings: &Settings,
 ) -> Option<Edge> {
-    let (from, to) =
-        (old.keyframe.saturating_sub(BESIDE), (old.keyframe + BESIDE).min(keyframes.len() - 1));
+    let (from, to) = (
+        old.keyframe.saturating_sub(NEIGHBOUR_SCANS),
+        (old.keyframe + NEIGHBOUR_SCANS).min(keyframes.len() - 1),
+    );
     let group: Vec<usize> = (from..=to).collect();
     let group = grouped(keyframes, graph, &group, old.keyframe);
     let group = group.placed();
@@ -133,7 +135,7 @@ pub(crate) fn tie(
             if other.cost < fit.cost {
                 fit = other;
             }
-            let least = RIVAL * peak.score;
+            let least = SECOND_POSE_SCORE_RATIO * peak.score;
             let elsewhere = (fit.target_from_moving, OTHER_M, 0.5);
             let (second, _) = field.search(&points, &window, least, Some(elsewhere));
             rival = second.map(|peak| register(&moving, &group, peak.pose, Some(&prior), &how));
@@ -145,12 +147,13 @@ pub(crate) fn tie(
     let off = [off.x_m, off.y_m, normalize_angle(off.yaw_rad)];
     let loose = Symmetric3::diagonal(1e-3, 1e-3, 1e-4);
     let turned = old.covariance.turned(-graph.between(keyframe, old.keyframe).yaw_rad) + loose;
-    let is_possible = turned.inverse().is_some_and(|known| known.quadratic(off) < POSSIBLE);
+    let is_possible =
+        turned.inverse().is_some_and(|known| known.quadratic(off) < POSSIBLE_SQUARED_SIGMAS);
     let is_ambiguous = rival.is_some_and(|rival| {
         apart(rival.target_from_moving, found).0 > 0.5 * OTHER_M
             && rival.matched > 0.85 * fit.matched
     });
-    if fit.matched < MATCHED || !is_possible || is_ambiguous {
+    if fit.matched < MIN_MATCHED_RATIO || !is_possible || is_ambiguous {
         return None;
     }
     let mut sum = Agreement::default();
@@ -158,7 +161,7 @@ pub(crate) fn tie(
         let one_from_key = one.group_from_cloud.inverse() * found;
         sum += both_ways(cloud, one.cloud, one_from_key, TOLERANCE_M);
     }
-    if sum.judged() < JUDGED || sum.share() < AGREEING {
+    if sum.judged() < MIN_JUDGED_POINTS || sum.share() < MIN_AGREEMENT_RATIO {
         return None;
     }
     let information = floored(&fit.information);

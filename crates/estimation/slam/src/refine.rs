@@ -21,7 +21,7 @@ const SAME_VISIT_M: f64 = 6.0;
 const PARTNERS_M: [f32; 2] = [0.3, 0.15];
 const WEIGHTS_M: [f32; 2] = [0.12, 0.06];
 /// Weight of the sequential constraints: along corridors only odometry measures the distance.
-const CHAIN: f64 = 0.1;
+const SEQUENTIAL_FACTOR: f64 = 0.1;
 /// A sweep moves poses by centimetres: one that would move some by more is not believed \[m\].
 const FARTHEST_M: f64 = 2.0;
 
@@ -62,7 +62,7 @@ fn refined(
     let ends = || chain().map(|edge| (edge.from, edge.to)).chain(pairs.iter().copied());
     let mut system = System::new(&bodies, ends);
     for edge in chain() {
-        let information = edge.information * CHAIN;
+        let information = edge.information * SEQUENTIAL_FACTOR;
         system.add(poses, (edge.from, edge.to), edge.error(poses), &information);
     }
     let mut clouds = Clouds::new(keyframes);
@@ -93,15 +93,15 @@ struct Clouds<'a> {
 }
 
 /// Size of the cache.
-const KEPT_CLOUDS: usize = 128;
+const CACHED_CLOUD_COUNT: usize = 128;
 
 impl<'a> Clouds<'a> {
     fn new(keyframes: &'a [Keyframe]) -> Self {
-        Self { keyframes, kept: vec![None; KEPT_CLOUDS] }
+        Self { keyframes, kept: vec![None; CACHED_CLOUD_COUNT] }
     }
 
     fn get(&mut self, keyframe: usize) -> Rc<Cloud> {
-        let kept = &mut self.kept[keyframe % KEPT_CLOUDS];
+        let kept = &mut self.kept[keyframe % CACHED_CLOUD_COUNT];
         match kept {
             Some((of, cloud)) if *of == keyframe => Rc::clone(cloud),
             _ => {

@@ -24,9 +24,9 @@ pub const SESSION_MAGIC: [u8; 8] = *b"PERISLAM";
 pub const SESSION_VERSION: u32 = 3;
 
 /// Bytes before the first section: magic and version.
-const HEAD: usize = 12;
+const HEADER_BYTES: usize = 12;
 /// Bytes after the last one: the checksum.
-const TAIL: usize = 4;
+const CHECKSUM_BYTES: usize = 4;
 /// Coordinates beyond are not of a building \[m\], and turns beyond not of a robot \[rad\].
 const FARTHEST_M: f64 = 1e6;
 const MOST_RAD: f64 = 1e3;
@@ -98,10 +98,10 @@ fn sections(bytes: &[u8]) -> Result<Vec<([u8; 4], Reader<'_>)>, SessionError> {
                 .into(),
         );
     }
-    if bytes.len() < HEAD + TAIL {
+    if bytes.len() < HEADER_BYTES + CHECKSUM_BYTES {
         return fault(bytes.len(), "the file ends here; take another copy".into());
     }
-    let (all, sum) = bytes.split_at(bytes.len() - TAIL);
+    let (all, sum) = bytes.split_at(bytes.len() - CHECKSUM_BYTES);
     let mut head = Reader::new(all, SESSION_MAGIC.len());
     let version = u32::unpack(&mut head).unwrap_or_default();
     if version != SESSION_VERSION {

@@ -18,8 +18,8 @@ const CARRIED_M: f64 = 30.0;
 const GAP_S: f64 = 10.0;
 /// Maximum agreement with the scans before of a scan that belongs elsewhere: without, and with an
 /// interruption or an odometry jump.
-const STRANGE: f64 = 0.6;
-const SURE: f64 = 0.8;
+const MAX_STRANGE_AGREEMENT_RATIO: f64 = 0.6;
+const MAX_INTERRUPTED_AGREEMENT_RATIO: f64 = 0.8;
 /// Minimum path and number of consecutive scans that belong elsewhere.
 const STRANGE_M: f64 = 1.5;
 const STRANGE_SCANS: usize = 4;
@@ -40,10 +40,10 @@ impl Slam {
             return false;
         }
         let is_interrupted = step.jump_m.is_some() || step.seconds > GAP_S;
-        if is_interrupted && scan_match.agreeing < SURE {
+        if is_interrupted && scan_match.agreeing < MAX_INTERRUPTED_AGREEMENT_RATIO {
             return true;
         }
-        if scan_match.agreeing > STRANGE {
+        if scan_match.agreeing > MAX_STRANGE_AGREEMENT_RATIO {
             self.unmatched = UnmatchedRun::default();
             return false;
         }

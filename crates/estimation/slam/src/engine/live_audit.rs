@@ -13,8 +13,8 @@ use crate::local::apart;
 use crate::remark::{Remark, RemarkKind};
 
 /// Pairs of scans that are compared in one slice, some 2 ms together, and kept scans that are visited.
-const COMPARISONS: usize = 4;
-const VISITS: usize = 40;
+const COMPARISONS_PER_SLICE_COUNT: usize = 4;
+const VISITS_PER_SLICE_COUNT: usize = 40;
 /// Scans that moved less against each other are not compared again \[m, rad\]: a small part of the
 /// tolerance of a comparison, at 10 m for the turn.
 const SAME_M: f64 = 0.03;
@@ -83,8 +83,8 @@ impl LiveAudit {
         }
         self.is_current = false;
         let mut compared = 0;
-        for _ in 0..VISITS {
-            if self.next >= keyframes.len() || compared >= COMPARISONS {
+        for _ in 0..VISITS_PER_SLICE_COUNT {
+            if self.next >= keyframes.len() || compared >= COMPARISONS_PER_SLICE_COUNT {
                 break;
             }
             compared += self.visit(keyframes, graph);

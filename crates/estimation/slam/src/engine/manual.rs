@@ -17,10 +17,10 @@ const REACH_M: f64 = 5.0;
 const SAME_VISIT_M: f64 = 3.0;
 /// Standard deviations of a manually moved keyframe: of the search window, and of the constraint if no scan
 /// matches \[m, rad\].
-const HAND: [f64; 2] = [0.3, 0.15];
-const CLAIM: [f64; 2] = [0.1, 0.05];
+const SEARCH_SIGMAS_M_RAD: [f64; 2] = [0.3, 0.15];
+const CONSTRAINT_SIGMAS_M_RAD: [f64; 2] = [0.1, 0.05];
 /// Minimum fraction of matched points for which the match overrides the user's pose.
-const MATCHED: f64 = 0.5;
+const MIN_MATCHED_RATIO: f64 = 0.5;
 
 fn diagonal([shift_m, turn_rad]: [f64; 2]) -> Symmetric3 {
     let (place, heading) = (shift_m * shift_m, turn_rad * turn_rad);
@@ -58,7 +58,7 @@ impl Slam {
         let map_from_keyframe = self.graph.poses[keyframe];
         let expected = (map_from_keyframe.inverse() * start).normalized();
         let turned = covariance.turned(-map_from_keyframe.yaw_rad);
-        let claim = turned.inverse().unwrap_or(diagonal(HAND));
+        let claim = turned.inverse().unwrap_or(diagonal(SEARCH_SIGMAS_M_RAD));
         let (keyframe_from_base, information, doubted, is_matched) = if near.is_empty() {
             (expected, claim, claim, false)
         } else {
@@ -123,13 +123,14 @@ impl Slam {
         let expected = (self.graph.poses[other].inverse() * map_from_keyframe).normalized();
         let group = grouped(&self.keyframes, &self.graph, &near, other);
         let group = group.placed();
-        let prior = Prior { target_from_moving: expected, information: diagonal(HAND) };
+        let prior =
+            Prior { target_from_moving: expected, information: diagonal(SEARCH_SIGMAS_M_RAD) };
         let cloud = self.keyframes[keyframe].cloud();
         let moving = [Placed::alone(&cloud)];
         let how = close_by(&self.settings.register);
         let fit = (!near.is_empty())
             .then(|| register(&moving, &group, expected, Some(&prior), &how))
-            .filter(|fit| fit.matched >= MATCHED);
+            .filter(|fit| fit.matched >= MIN_MATCHED_RATIO);
         let (pose, information, words) = match &fit {
             Some(fit) => (
                 fit.target_from_moving,
@@ -138,7 +139,7 @@ impl Slam {
             ),
             None => (
                 expected,
-                diagonal(CLAIM),
+                diagonal(CONSTRAINT_SIGMAS_M_RAD),
                 "no scan matches there; the pose set by hand is used".into(),
             ),
         };

@@ -13,13 +13,13 @@ const VISIT_M: f64 = 10.0;
 /// Maximum distance of two points of the same surface \[m\].
 const TOLERANCE_M: f32 = 0.2;
 /// Minimum fraction of the points of a scan that the newer scan must observe, present or gone.
-const COVERED: f64 = 0.75;
+const MIN_COVERED_RATIO: f64 = 0.75;
 /// Maximum distance between redundant keyframes, relative to the keyframe distance.
-const BESIDE: f64 = 1.2;
+const REDUNDANT_DISTANCE_FACTOR: f64 = 1.2;
 /// Ties and closures of one key, at most.
-const MOST_TIES: usize = 8;
+const MAX_CONSTRAINT_COUNT: usize = 8;
 /// Number of recent trajectory nodes kept besides those of keyframes.
-const REMEMBERED: usize = 1000;
+const RECENT_TRAJECTORY_NODES: usize = 1000;
 
 impl Slam {
     /// Removes keyframes of earlier visits that a newer one makes redundant. The newer one must have a
@@ -29,7 +29,7 @@ impl Slam {
             return;
         }
         let here = self.graph.poses[keyframe];
-        let reach_m = BESIDE * self.settings.keyframe_distance_m;
+        let reach_m = REDUNDANT_DISTANCE_FACTOR * self.settings.keyframe_distance_m;
         let is_gone = |&old: &usize| {
             self.keyframes[keyframe].travel_m - self.keyframes[old].travel_m > VISIT_M
                 && apart(here, self.graph.poses[old]).0 < reach_m
@@ -46,7 +46,7 @@ impl Slam {
     fn is_covered(&self, old: usize, new: usize) -> bool {
         let (cloud, by) = (self.keyframes[old].cloud(), self.keyframes[new].cloud());
         let sum = agreement(&cloud, &by, self.graph.between(new, old), TOLERANCE_M);
-        f64::from(sum.judged()) >= COVERED * cloud.points().len() as f64
+        f64::from(sum.judged()) >= MIN_COVERED_RATIO * cloud.points().len() as f64
     }
 
     /// Removes keyframes; their constraints pass to their neighbours.
@@ -75,7 +75,7 @@ impl Slam {
             keyframe += 1;
             number[keyframe - 1].is_some()
         });
-        let recent = self.nodes.len().saturating_sub(REMEMBERED);
+        let recent = self.nodes.len().saturating_sub(RECENT_TRAJECTORY_NODES);
         let mut at = 0;
         let mut first_of = 0;
         self.nodes.retain_mut(|node| {
@@ -131,7 +131,7 @@ fn bypass(graph: &mut Graph, keyframe: usize) {
         let is_full = |graph: &Graph, keyframe: usize| {
             let at = graph.at[keyframe].iter().map(|&index| &graph.edges[index as usize]);
             at.filter(|it| it.kind != ConstraintKind::Sequential && it.weight > 0.0).count()
-                >= MOST_TIES
+                >= MAX_CONSTRAINT_COUNT
         };
         let is_needless = is_known || is_full(graph, before.from) || is_full(graph, other);
         if is_chain || !is_needless {

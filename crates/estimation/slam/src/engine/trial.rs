@@ -8,14 +8,14 @@ use crate::local::apart;
 use crate::offsets::{Offset, compare};
 
 /// Closures that are tried, and that are left out, at most.
-const MOST_TRIED: usize = 8;
-const MOST_LEFT_OUT: usize = 8;
+const MAX_TRIED_COUNT: usize = 8;
+const MAX_EXCLUDED_COUNT: usize = 8;
 /// Path around a closure over which its scans are compared \[m\]; number of points that must be judged (or
 /// fraction of all points, if there are few); minimum fraction of them that must agree.
 const AROUND_M: f64 = 6.0;
-const JUDGED: u32 = 600;
-const LEAST_PART: f64 = 0.15;
-const AGREEING: f64 = 0.9;
+const MIN_JUDGED_POINTS: u32 = 600;
+const MIN_JUDGED_RATIO: f64 = 0.15;
+const MIN_AGREEMENT_RATIO: f64 = 0.9;
 /// Undecided closures nearer to each other than this get one remark \[m\].
 const SAME_STRETCH_M: f64 = 60.0;
 /// A closure that the map agrees with to this is not tried \[m, rad\].
@@ -23,7 +23,7 @@ const KNOWN_M: f64 = 0.3;
 const KNOWN_RAD: f64 = 0.1;
 /// A closure that is off by more is pulled at (squared Mahalanobis distance: 99.99 % for 3 degrees of
 /// freedom).
-const PULLED: f64 = 21.1;
+const TENSION_SQUARED_SIGMAS: f64 = 21.1;
 
 /// A kept scan around which two closures that contradict each other passed the same trial.
 pub(super) struct Undecided {
@@ -44,7 +44,7 @@ impl Slam {
     pub(super) fn try_waiting(&mut self) -> Vec<Undecided> {
         let mut refused: Vec<(usize, usize)> = Vec::new();
         let mut undecided: Vec<Undecided> = Vec::new();
-        for _ in 0..MOST_TRIED {
+        for _ in 0..MAX_TRIED_COUNT {
             let waiting = self.loops.waiting(&self.keyframes, &self.graph);
             let next = waiting.into_iter().find(|edge| {
                 let known = self.graph.between(edge.from, edge.to);
@@ -105,8 +105,9 @@ impl Slam {
         self.align_components(&[edge]);
         let index = self.solve_with(edge);
         let (sum, all) = overlap(&self.keyframes, &self.graph, edge.to, edge.from, AROUND_M);
-        let has_passed = sum.judged() > JUDGED.min((LEAST_PART * f64::from(all)) as u32)
-            && sum.share() > AGREEING
+        let has_passed = sum.judged()
+            > MIN_JUDGED_POINTS.min((MIN_JUDGED_RATIO * f64::from(all)) as u32)
+            && sum.share() > MIN_AGREEMENT_RATIO
             && audit(&self.keyframes, &self.graph).len() <= worse;
         if !has_passed || !is_kept {
             self.undo(&poses, &[index]);
@@ -135,7 +136,7 @@ impl Slam {
         let mut left = found(self);
         let mut worse = audit(&self.keyframes, &self.graph).len();
         let mut refused: Vec<(usize, usize)> = Vec::new();
-        for _ in 0..MOST_TRIED {
+        for _ in 0..MAX_TRIED_COUNT {
             let is_new = |it: &&Offset| !refused.contains(&(it.edge.from, it.edge.to));
             let next = left.iter().filter(is_new);
             let next =
@@ -157,7 +158,7 @@ impl Slam {
 
     /// Leaves out closures in turn where passes contradict each other, and those that the others pull at.
     pub(super) fn doubt_closures(&mut self) {
-        for _ in 0..MOST_LEFT_OUT {
+        for _ in 0..MAX_EXCLUDED_COUNT {
             let worse = audit(&self.keyframes, &self.graph).len();
             let graph = &self.graph;
             let is_closure =
@@ -165,7 +166,10 @@ impl Slam {
             let pulled = graph.edges.iter().enumerate().filter(|(_, edge)| is_closure(edge));
             let pulled = pulled.map(|(index, edge)| (index, edge.chi2(&graph.poses)));
             let most = pulled.max_by(|a, b| a.1.total_cmp(&b.1).then(b.0.cmp(&a.0)));
-            let Some((index, chi2)) = most.filter(|it| it.1 > PULLED && worse > 0) else { return };
+            let Some((index, chi2)) = most.filter(|it| it.1 > TENSION_SQUARED_SIGMAS && worse > 0)
+            else {
+                return;
+            };
             let (poses, edge) = (graph.poses.clone(), graph.edges[index]);
             self.graph.edges[index].weight = 0.0;
             self.solve(None);

@@ -49,25 +49,25 @@ struct Solving {
 }
 
 /// A tie that is off by more pulls (squared Mahalanobis distance).
-const STRAIN: f64 = 6.0;
+const TENSION_SQUARED_SIGMAS: f64 = 6.0;
 /// Minimum number of keyframes between two optimizations for proximity constraints, and number of keyframes
 /// for which it grows by one.
-const SOLVE_EVERY: usize = 4;
-const SOLVE_PART: usize = 60;
+const MIN_SOLVE_INTERVAL_KEYFRAMES: usize = 4;
+const SOLVE_INTERVAL_GROWTH_KEYFRAMES: usize = 60;
 /// Number of satisfied proximity constraints after which the map is optimized anyway.
-const LOOSE: usize = 60;
+const MAX_UNSOLVED_CONSTRAINT_COUNT: usize = 60;
 /// Products of blocks in one slice of a step: some 4 ms.
-const PRODUCTS: usize = 1_000_000;
+const BLOCK_PRODUCTS_PER_SLICE_COUNT: usize = 1_000_000;
 /// A step that moves less is the last \[m\].
 const SETTLED_M: f64 = 1e-3;
 /// Ties whose squared Mahalanobis distance is far above this count little.
-const DOUBTED: f64 = 100.0;
+const OUTLIER_SQUARED_SIGMAS: f64 = 100.0;
 /// Minimum fraction of newly overlapping points that must agree after a closure, and minimum number of
 /// points for a verdict.
-const AGREEING: f64 = 0.65;
-const JUDGED: u32 = 600;
+const MIN_AGREEMENT_RATIO: f64 = 0.65;
+const MIN_JUDGED_POINTS: u32 = 600;
 /// Number of newest keyframes checked after a closure, and maximum distance of the others \[m\].
-const LOOKED_AT: usize = 40;
+const CHECKED_KEYFRAMES: usize = 40;
 const NEAR_M: f64 = 4.0;
 /// Minimum path to an old keyframe \[m\].
 const OLD_M: f64 = 10.0;
@@ -77,7 +77,7 @@ const OLD_M: f64 = 10.0;
 fn robust(kind: ConstraintKind, chi2: f64) -> f64 {
     match kind {
         ConstraintKind::Proximity => {
-            let shrink = DOUBTED / (DOUBTED + chi2);
+            let shrink = OUTLIER_SQUARED_SIGMAS / (OUTLIER_SQUARED_SIGMAS + chi2);
             shrink * shrink
         }
         _ => 1.0,
@@ -120,13 +120,18 @@ impl Slam {
     /// more keyframes share an optimization.
     fn is_to_be_solved(&self) -> bool {
         let keyframes = self.keyframes.len();
-        let is_due = keyframes >= self.work.solved_at + SOLVE_EVERY + keyframes / SOLVE_PART;
-        (self.work.is_strained && is_due) || self.work.loose >= LOOSE + keyframes / SOLVE_PART
+        let is_due = keyframes
+            >= self.work.solved_at
+                + MIN_SOLVE_INTERVAL_KEYFRAMES
+                + keyframes / SOLVE_INTERVAL_GROWTH_KEYFRAMES;
+        (self.work.is_strained && is_due)
+            || self.work.loose
+                >= MAX_UNSOLVED_CONSTRAINT_COUNT + keyframes / SOLVE_INTERVAL_GROWTH_KEYFRAMES
     }
 
     fn tie(&mut self, keyframe: usize) {
         for edge in proximity(&self.keyframes, &self.graph, keyframe, &self.settings) {
-            self.work.is_strained |= edge.chi2(&self.graph.poses) > STRAIN;
+            self.work.is_strained |= edge.chi2(&self.graph.poses) > TENSION_SQUARED_SIGMAS;
             self.work.loose += 1;
             self.work.proximity_count += 1;
             self.work.proximity_m = self.work.proximity_m.max(self.keyframes[keyframe].travel_m);
@@ -161,7 +166,8 @@ impl Slam {
 
     /// Requests an optimization, after the current one if there is one.
     pub(super) fn solve_soon(&mut self) {
-        self.work.loose += LOOSE + self.keyframes.len() / SOLVE_PART;
+        self.work.loose +=
+            MAX_UNSOLVED_CONSTRAINT_COUNT + self.keyframes.len() / SOLVE_INTERVAL_GROWTH_KEYFRAMES;
     }
 
     fn solve_step(&mut self) {
@@ -178,7 +184,7 @@ impl Slam {
             self.work.solving = Some(solving);
             return;
         };
-        let outcome = solver.advance(&mut self.graph, &robust, PRODUCTS);
+        let outcome = solver.advance(&mut self.graph, &robust, BLOCK_PRODUCTS_PER_SLICE_COUNT);
         solving.solver = Some(solver);
         let Some(outcome) = outcome else {
             self.work.solving = Some(solving);
@@ -198,7 +204,7 @@ impl Slam {
     fn judge(&mut self, before: Vec<Pose2>, edges: &[usize]) {
         let sum = self.overlap();
         let closed: Vec<Edge> = edges.iter().map(|&edge| self.graph.edges[edge]).collect();
-        if sum.judged() > JUDGED && sum.share() < AGREEING {
+        if sum.judged() > MIN_JUDGED_POINTS && sum.share() < MIN_AGREEMENT_RATIO {
             self.undo(&before, edges);
             let reason = format!(
                 "undone: in the map that came of it {:.0} % of the points were seen through",
@@ -215,7 +221,7 @@ impl Slam {
         self.loops.closures_of(&closed).for_each(|told| told.reason.push_str(&how));
         // The uncertainty is gone: near scans can now be compared directly.
         self.loops.forget();
-        let first = self.keyframes.len().saturating_sub(LOOKED_AT);
+        let first = self.keyframes.len().saturating_sub(CHECKED_KEYFRAMES);
         self.work.proximity.extend(first..self.keyframes.len());
     }
 
@@ -232,7 +238,7 @@ impl Slam {
     /// Compares the newest keyframes with the old ones that they overlap now.
     fn overlap(&self) -> Agreement {
         let mut sum = Agreement::default();
-        let first = self.keyframes.len().saturating_sub(LOOKED_AT);
+        let first = self.keyframes.len().saturating_sub(CHECKED_KEYFRAMES);
         for keyframe in first..self.keyframes.len() {
             let here = self.graph.poses[keyframe];
             let mut near: Vec<(f64, usize)> = (0..first)

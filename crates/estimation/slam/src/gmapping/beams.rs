@@ -7,7 +7,7 @@ use super::settings::GmappingSettings;
 use crate::scan::Scan;
 
 /// Beams that are drawn, at most.
-const MOST_DRAWN: usize = 720;
+const MAX_DRAWN_BEAMS: usize = 720;
 
 /// A scan in the frame of the base \[m\].
 pub(super) struct Beams {
@@ -29,7 +29,7 @@ impl Beams {
         let near = scan.ends(motion, [settings.range_min_m, used_m]);
         let cloud = near.cloud(&CloudSettings::default());
         let points = cloud.points().iter().copied().step_by(settings.skipped_beams + 1).collect();
-        let every = near.ends.len().div_ceil(MOST_DRAWN).max(1);
+        let every = near.ends.len().div_ceil(MAX_DRAWN_BEAMS).max(1);
         let [x, y] = near.origin;
         let rims = if used_m < most_m {
             let far = scan.ends(motion, [used_m, most_m]).ends;

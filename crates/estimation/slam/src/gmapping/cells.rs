@@ -10,17 +10,17 @@ use super::trace::Trace;
 use crate::map::{Plan, part};
 
 /// Cells along a side of a tile, and tiles along a side of a page.
-pub(super) const SIDE: i32 = 32;
+pub(super) const TILE_SIDE_CELLS: i32 = 32;
 const TILES: i32 = 8;
-const PAGE: i32 = SIDE * TILES;
+const PAGE_SIDE_CELLS: i32 = TILE_SIDE_CELLS * TILES;
 /// Pages of a map, at most: 3 km by 3 km with cells of 0.05 m. What lies beyond is not drawn, so that
 /// a wild jump of odometry does not ask for all memory.
-const MOST_PAGES: i64 = 1 << 16;
+const MAX_PAGE_COUNT: i64 = 1 << 16;
 /// Counts of a cell are halved when they get here, so that what changed is learnt in the end.
 const MOST_COUNT: u8 = 250;
 
 /// Minimum number of passes of a free cell.
-const SURELY: u8 = 3;
+const MIN_FREE_PASS_COUNT: u8 = 3;
 
 /// Content of a map around a beam end.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -55,12 +55,12 @@ struct End {
 #[derive(Clone)]
 struct Tile {
     /// Beams that ended in a cell or passed.
-    beams: [u8; (SIDE * SIDE) as usize],
+    beams: [u8; (TILE_SIDE_CELLS * TILE_SIDE_CELLS) as usize],
     /// For each row a bit for each cell that is solid, and for each in which beams ended.
-    solid: [u32; SIDE as usize],
-    ended: [u32; SIDE as usize],
+    solid: [u32; TILE_SIDE_CELLS as usize],
+    ended: [u32; TILE_SIDE_CELLS as usize],
     /// Number of hit cells before each row.
-    before: [u16; SIDE as usize],
+    before: [u16; TILE_SIDE_CELLS as usize],
     /// Those cells in order.
     ends: Vec<End>,
 }
@@ -85,15 +85,15 @@ pub(super) struct Cells {
 }
 
 /// Bytes of a tile, about.
-pub(super) const TILE_SIZE: usize = size_of::<Tile>() + 32 * size_of::<End>();
+pub(super) const TILE_BYTES: usize = size_of::<Tile>() + 32 * size_of::<End>();
 
 impl Default for Tile {
     fn default() -> Self {
         Self {
-            beams: [0; (SIDE * SIDE) as usize],
-            solid: [0; SIDE as usize],
-            ended: [0; SIDE as usize],
-            before: [0; SIDE as usize],
+            beams: [0; (TILE_SIDE_CELLS * TILE_SIDE_CELLS) as usize],
+            solid: [0; TILE_SIDE_CELLS as usize],
+            ended: [0; TILE_SIDE_CELLS as usize],
+            before: [0; TILE_SIDE_CELLS as usize],
             ends: Vec::new(),
         }
     }
@@ -128,8 +128,10 @@ impl Cells {
     }
 
     fn page_index(&self, column: i32, row: i32) -> Option<usize> {
-        let (x, y) =
-            (column.div_euclid(PAGE) - self.first[0], row.div_euclid(PAGE) - self.first[1]);
+        let (x, y) = (
+            column.div_euclid(PAGE_SIDE_CELLS) - self.first[0],
+            row.div_euclid(PAGE_SIDE_CELLS) - self.first[1],
+        );
         let is_inside = x >= 0 && y >= 0 && x < self.size[0] && y < self.size[1];
         is_inside.then_some((y * self.size[0] + x) as usize)
     }
@@ -153,7 +155,8 @@ impl Cells {
         let mut first = [0; 2];
         let mut size = [0; 2];
         for axis in 0..2 {
-            let (mut from, mut to) = (low[axis].div_euclid(PAGE), high[axis].div_euclid(PAGE) + 1);
+            let (mut from, mut to) =
+                (low[axis].div_euclid(PAGE_SIDE_CELLS), high[axis].div_euclid(PAGE_SIDE_CELLS) + 1);
             if !self.pages.is_empty() {
                 from = from.min(self.first[axis]);
                 to = to.max(self.first[axis] + self.size[axis]);
@@ -161,7 +164,7 @@ impl Cells {
             (first[axis], size[axis]) = (from, to - from);
         }
         let is_larger = first != self.first || size != self.size;
-        if !is_larger || i64::from(size[0]) * i64::from(size[1]) > MOST_PAGES {
+        if !is_larger || i64::from(size[0]) * i64::from(size[1]) > MAX_PAGE_COUNT {
             return;
         }
         let mut pages = vec![None; (size[0] * size[1]) as usize];
@@ -180,13 +183,13 @@ impl Cells {
         let (low, high) = trace.bounds();
         self.reach(low, high);
         let share = self.solid_share;
-        for row in (low[1]..=high[1]).step_by(SIDE as usize) {
-            for column in (low[0]..=high[0]).step_by(SIDE as usize) {
+        for row in (low[1]..=high[1]).step_by(TILE_SIDE_CELLS as usize) {
+            for column in (low[0]..=high[0]).step_by(TILE_SIDE_CELLS as usize) {
                 if !trace.touches(column, row) {
                     continue;
                 }
                 let Some(tile) = self.tile_mut(column, row) else { continue };
-                for line in 0..SIDE {
+                for line in 0..TILE_SIDE_CELLS {
                     let mut free = trace.free(column, row + line);
                     while free != 0 {
                         let bit = free.trailing_zeros();
@@ -212,14 +215,17 @@ impl Cells {
         let (column, row) = (floor(x), floor(y));
         let (left, low) = (column - kernel, row - kernel);
         let mut best = (f64::INFINITY, [0.0; 2]);
-        let is_in_one =
-            (left & (SIDE - 1)) + 2 * kernel < SIDE && (low & (SIDE - 1)) + 2 * kernel < SIDE;
+        let is_in_one = (left & (TILE_SIDE_CELLS - 1)) + 2 * kernel < TILE_SIDE_CELLS
+            && (low & (TILE_SIDE_CELLS - 1)) + 2 * kernel < TILE_SIDE_CELLS;
         if is_in_one {
             self.tile(left, low)?.nearest([left, low], 2 * kernel + 1, [x, y], &mut best);
         } else {
             // The window lies over two or four tiles.
             let split = |from: i32| {
-                (((from | (SIDE - 1)) + 1).min(from + 2 * kernel + 1), from + 2 * kernel + 1)
+                (
+                    ((from | (TILE_SIDE_CELLS - 1)) + 1).min(from + 2 * kernel + 1),
+                    from + 2 * kernel + 1,
+                )
             };
             let ((middle_x, end_x), (middle_y, end_y)) = (split(left), split(low));
             for (from_y, to_y) in [(low, middle_y), (middle_y, end_y)] {
@@ -243,15 +249,15 @@ impl Cells {
         }
         let (column, row) = (floor(x), floor(y));
         let beams = self.tile(column, row).map_or(0, |tile| tile.beams[cell_index(column, row)]);
-        if beams < SURELY { Seen::Nothing } else { Seen::Through }
+        if beams < MIN_FREE_PASS_COUNT { Seen::Nothing } else { Seen::Through }
     }
 
     /// Number of solid cells that a scan sees through.
     pub(super) fn passed(&self, trace: &Trace) -> u32 {
         let (low, high) = trace.bounds();
         let mut sum = 0;
-        for row in (low[1]..=high[1]).step_by(SIDE as usize) {
-            for column in (low[0]..=high[0]).step_by(SIDE as usize) {
+        for row in (low[1]..=high[1]).step_by(TILE_SIDE_CELLS as usize) {
+            for column in (low[0]..=high[0]).step_by(TILE_SIDE_CELLS as usize) {
                 if !trace.touches(column, row) {
                     continue;
                 }
@@ -290,7 +296,7 @@ impl Cells {
     fn extent(&self) -> Option<([i32; 2], [i32; 2])> {
         let (mut low, mut high) = ([i32::MAX; 2], [i32::MIN; 2]);
         self.each_tile(|corner, _, tile| {
-            for (line, cells) in tile.beams.chunks_exact(SIDE as usize).enumerate() {
+            for (line, cells) in tile.beams.chunks_exact(TILE_SIDE_CELLS as usize).enumerate() {
                 for (place, &beams) in cells.iter().enumerate() {
                     if beams > 0 {
                         let at = [corner[0] + place as i32, corner[1] + line as i32];
@@ -314,7 +320,7 @@ impl Cells {
                 let Some(tile) = tile else { continue };
                 let inside = [place as i32 % TILES, place as i32 / TILES];
                 let corner: [i32; 2] = std::array::from_fn(|axis| {
-                    (self.first[axis] + at[axis]) * PAGE + inside[axis] * SIDE
+                    (self.first[axis] + at[axis]) * PAGE_SIDE_CELLS + inside[axis] * TILE_SIDE_CELLS
                 });
                 let shared = Arc::strong_count(page) as f64 * Arc::strong_count(tile) as f64;
                 call(corner, shared, tile);
@@ -335,13 +341,13 @@ impl Cells {
     /// Prepares the occupancy grid: cells in which more than a fraction of the beams ended are occupied. It
     /// covers everything observed and the given corners \[m\]; `None` if it would be too large.
     pub(super) fn plan(self, occupied_share: f64, bounds_m: [Option<f64>; 4]) -> Option<CellsPlan> {
-        const MARGIN: i32 = 4;
+        const MARGIN_CELLS: i32 = 4;
         let seen = self.extent();
         let (mut low, mut high) = seen.unwrap_or(([0; 2], [0; 2]));
         let [x0, y0, x1, y1] = bounds_m;
         let cell = |metres: f64| floor((metres * self.per_m).clamp(-1e6, 1e6));
         for (axis, (from, to)) in [(x0, x1), (y0, y1)].into_iter().enumerate() {
-            (low[axis], high[axis]) = (low[axis] - MARGIN, high[axis] + MARGIN);
+            (low[axis], high[axis]) = (low[axis] - MARGIN_CELLS, high[axis] + MARGIN_CELLS);
             if let (Some(from), Some(to)) = (from, to)
                 && from < to
             {
@@ -376,15 +382,15 @@ impl Plan for CellsPlan {
         let count = rows.len() as i32;
         self.cells.each_tile(|corner, _, tile| {
             let first = corner[1] - low[1];
-            if first >= count || first + SIDE <= 0 {
+            if first >= count || first + TILE_SIDE_CELLS <= 0 {
                 return;
             }
             for (place, &beams) in tile.beams.iter().enumerate() {
-                let row = first + place as i32 / SIDE;
+                let row = first + place as i32 / TILE_SIDE_CELLS;
                 if beams == 0 || row < 0 || row >= count {
                     continue;
                 }
-                let column = corner[0] + place as i32 % SIDE - low[0];
+                let column = corner[0] + place as i32 % TILE_SIDE_CELLS - low[0];
                 let is_occupied = tile.cell(place).share() > self.occupied_share;
                 grid[(column as usize, row as usize)] =
                     if is_occupied { occupancy::OCCUPIED } else { occupancy::FREE };
@@ -490,10 +496,10 @@ impl Tile {
         place: [f64; 2],
         best: &mut (f64, [f64; 2]),
     ) {
-        let shift = (from[0] & (SIDE - 1)) as u32;
-        let mask = (!0_u32) >> (SIDE - (to[0] - from[0])) as u32;
+        let shift = (from[0] & (TILE_SIDE_CELLS - 1)) as u32;
+        let mask = (!0_u32) >> (TILE_SIDE_CELLS - (to[0] - from[0])) as u32;
         for row in from[1]..to[1] {
-            let line = (row & (SIDE - 1)) as usize;
+            let line = (row & (TILE_SIDE_CELLS - 1)) as usize;
             let mut bits = (self.solid[line] >> shift) & mask;
             while bits != 0 {
                 let bit = bits.trailing_zeros();
@@ -512,19 +518,19 @@ impl Tile {
 }
 
 fn tile_index(column: i32, row: i32) -> usize {
-    let inside = |at: i32| at.rem_euclid(PAGE) / SIDE;
+    let inside = |at: i32| at.rem_euclid(PAGE_SIDE_CELLS) / TILE_SIDE_CELLS;
     (inside(row) * TILES + inside(column)) as usize
 }
 
 fn cell_index(column: i32, row: i32) -> usize {
-    ((row & (SIDE - 1)) * SIDE + (column & (SIDE - 1))) as usize
+    ((row & (TILE_SIDE_CELLS - 1)) * TILE_SIDE_CELLS + (column & (TILE_SIDE_CELLS - 1))) as usize
 }
 
 /// Rounds down without a call; for positions within a million cells of the origin and more.
 #[inline]
 pub(super) fn floor(value: f64) -> i32 {
-    const HIGH: f64 = 1_073_741_824.0;
-    (value + HIGH) as i32 - 1_073_741_824
+    const MAX_COORDINATE_CELLS: f64 = 1_073_741_824.0;
+    (value + MAX_COORDINATE_CELLS) as i32 - 1_073_741_824
 }
 
 #[cfg(test)]

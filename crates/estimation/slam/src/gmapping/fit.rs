@@ -41,12 +41,12 @@ pub(super) struct Fit {
 
 /// Steps with a wider kernel that come before the others, and how much wider it is.
 const WIDE_STEPS: usize = 3;
-const WIDER: usize = 2;
+const WIDER_FACTOR: usize = 2;
 /// No step is longer \[m, rad\], and a shorter one is the last.
-const MOST_STEP: [f64; 2] = [0.1, 0.06];
-const LEAST_STEP: [f64; 2] = [2e-4, 1e-4];
+const MAX_STEP_M_RAD: [f64; 2] = [0.1, 0.06];
+const MIN_STEP_M_RAD: [f64; 2] = [2e-4, 1e-4];
 /// Cost of a beam without a match: that of one this many times `lsigma` away.
-const NOTHING: f64 = 0.5;
+const UNMATCHED_FACTOR: f64 = 0.5;
 
 /// Moves a scan to where it fits best near a guess: least squares with weights, from each point along
 /// its normal to the nearest of the map's (Gauss and Newton; the weights are those of the score
@@ -63,7 +63,7 @@ pub(super) fn climb(
     let mut pairs = Vec::with_capacity(points.len());
     for step in 0..WIDE_STEPS + settings.steps {
         let is_wide = step < WIDE_STEPS;
-        let reach = if is_wide { kernel + WIDER } else { kernel };
+        let reach = if is_wide { kernel + WIDER_FACTOR } else { kernel };
         find(cells, points, pose, reach, &mut pairs);
         let mut information = Symmetric3::diagonal(prior[0], prior[0], prior[1]);
         let mut pull = [
@@ -77,17 +77,17 @@ pub(super) fn climb(
         let Some(change) = information.solve(pull) else { break };
         let bound = |change: f64, most: f64| change.clamp(-most, most);
         let change = [
-            bound(change[0], MOST_STEP[0]),
-            bound(change[1], MOST_STEP[0]),
-            bound(change[2], MOST_STEP[1]),
+            bound(change[0], MAX_STEP_M_RAD[0]),
+            bound(change[1], MAX_STEP_M_RAD[0]),
+            bound(change[2], MAX_STEP_M_RAD[1]),
         ];
         pose = Pose2::new(
             pose.x_m - change[0],
             pose.y_m - change[1],
             normalize_angle(pose.yaw_rad - change[2]),
         );
-        let is_settled =
-            change[0].abs() + change[1].abs() < LEAST_STEP[0] && change[2].abs() < LEAST_STEP[1];
+        let is_settled = change[0].abs() + change[1].abs() < MIN_STEP_M_RAD[0]
+            && change[2].abs() < MIN_STEP_M_RAD[1];
         if is_settled && !is_wide {
             break;
         }
@@ -179,7 +179,7 @@ impl Fit {
 
     /// Logarithm of how likely the scan is when the robot is shifted and turned a little.
     pub(super) fn likelihood(&self, shift: [f64; 3], settings: &GmappingSettings) -> f64 {
-        let most = NOTHING * settings.likelihood_sigma_m2;
+        let most = UNMATCHED_FACTOR * settings.likelihood_sigma_m2;
         let near: f64 = self.pairs.iter().map(|pair| pair.squared(shift).min(most)).sum();
         let lost = (self.points - self.pairs.len()) as f64;
         -(near + lost * most) / settings.likelihood_sigma_m2

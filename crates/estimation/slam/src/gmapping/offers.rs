@@ -12,7 +12,7 @@ use periplus_geometry::Pose2;
 use super::cells::{Cells, Seen};
 use super::nodes::Node;
 use super::trace::Trace;
-use super::{Gmapping, GmappingSettings, Particle, SOLID_SHARE};
+use super::{Gmapping, GmappingSettings, Particle, SOLID_CELL_RATIO};
 use crate::local::apart;
 
 /// Minimum path to the older scans that a scan is compared with \[m\]: consecutive scans agree anyway.
@@ -23,14 +23,14 @@ const ELSEWHERE_M: f64 = 0.08;
 const EVERY_M: f64 = 20.0;
 const LEAST_M: f64 = 2.0;
 /// Every Nth particle keeps its own trajectory.
-const KEEPS: usize = 2;
+const OWN_TRAJECTORY_INTERVAL_PARTICLES: usize = 2;
 /// Maximum number of beam ends compared with the map.
-const JUDGED: usize = 120;
+const MAX_COMPARED_BEAMS: usize = 120;
 /// Logarithms of the likelihood of an end where nothing was seen, and where the map was seen through.
 const UNKNOWN: f64 = -0.5;
-const OPEN: f64 = -1.0;
+const OPEN_END_NATS: f64 = -1.0;
 /// The same for each solid cell that the scan sees through.
-const THROUGH: f64 = -0.3;
+const SEEN_THROUGH_NATS: f64 = -0.3;
 
 /// A map drawn along a trajectory, and the likelihood of what was seen twice.
 pub(super) struct Drawn {
@@ -45,7 +45,7 @@ pub(super) fn draw(
     settings: &GmappingSettings,
     trace: &mut Trace,
 ) -> Drawn {
-    let mut cells = Cells::new(settings.resolution_m, SOLID_SHARE);
+    let mut cells = Cells::new(settings.resolution_m, SOLID_CELL_RATIO);
     let mut log = 0.0;
     let mut old = 0;
     for (node, &pose) in nodes.iter().zip(way) {
@@ -67,17 +67,17 @@ pub(super) fn draw(
 /// Logarithm of how likely a scan is on a map.
 fn judge(cells: &Cells, trace: &Trace, settings: &GmappingSettings) -> f64 {
     let ends = trace.ends();
-    let every = ends.len().div_ceil(JUDGED).max(1);
+    let every = ends.len().div_ceil(MAX_COMPARED_BEAMS).max(1);
     let per_squared = settings.resolution_m * settings.resolution_m / settings.likelihood_sigma_m2;
     let kernel = settings.kernel_cells as i32;
     let one = |&[x, y]: &[f64; 2]| match cells.seen(x, y, kernel) {
         Seen::Near(squared) => (-squared * per_squared).max(UNKNOWN),
         Seen::Nothing => UNKNOWN,
-        Seen::Through => OPEN,
+        Seen::Through => OPEN_END_NATS,
     };
     let sum: f64 = ends.iter().step_by(every).map(one).sum();
     let passed = cells.passed(trace) as f64;
-    sum * every as f64 + THROUGH * passed
+    sum * every as f64 + SEEN_THROUGH_NATS * passed
 }
 
 impl Gmapping {
@@ -111,7 +111,11 @@ impl Gmapping {
         let (log, log_of_way) = (best.log + better, best.log_of_way + better);
         let chosen: Vec<usize> = (0..self.particles.len())
             .filter(|&it| self.particles[it].log_of_way < log_of_way)
-            .filter(|&it| it % KEEPS != self.offered.count % KEEPS || self.particles.len() == 1)
+            .filter(|&it| {
+                it % OWN_TRAJECTORY_INTERVAL_PARTICLES
+                    != self.offered.count % OWN_TRAJECTORY_INTERVAL_PARTICLES
+                    || self.particles.len() == 1
+            })
             .collect();
         self.offered.count += 1;
         if chosen.is_empty() {

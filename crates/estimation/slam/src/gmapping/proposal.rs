@@ -14,7 +14,7 @@ pub(super) struct Drawn {
 }
 
 /// Points around the best fit on either side of each axis, at most.
-const MOST_STEPS: f64 = 4.0;
+const MAX_AXIS_POINTS: f64 = 4.0;
 
 /// Draws from the normal distribution that fits what is likely around the best fit (Grisetti,
 /// Stachniss, Burgard 2007, equations (13) to (15): mean and covariance of sampled poses weighted by
@@ -27,7 +27,7 @@ pub(super) fn around(
 ) -> Drawn {
     let [shifts, turns] = [0, 1].map(|kind| {
         let (range, step) = (settings.sample_range[kind], settings.sample_step[kind]);
-        let steps = (range / step + 1e-9).floor().min(MOST_STEPS);
+        let steps = (range / step + 1e-9).floor().min(MAX_AXIS_POINTS);
         let steps = if steps.is_finite() { steps as i32 } else { 0 };
         (-steps..=steps).map(|at| f64::from(at) * step).collect::<Vec<f64>>()
     });
@@ -93,8 +93,9 @@ fn open(fit: &Fit, guess: &Guess, settings: &GmappingSettings) -> Option<Symmetr
 fn drift(covariance: &Symmetric3, guess: &Guess, stream: &mut Stream) -> [f64; 3] {
     let along = root(&covariance.turned(-guess.began_rad));
     let fresh = [stream.normal(), stream.normal(), stream.normal()];
-    let units: [f64; 3] =
-        std::array::from_fn(|axis| FRESH * fresh[axis] + LASTING * guess.lasting[axis]);
+    let units: [f64; 3] = std::array::from_fn(|axis| {
+        FRESH_ERROR_RATIO * fresh[axis] + LASTING_ERROR_RATIO * guess.lasting[axis]
+    });
     let [x, y, turn] = along.map(|row| row.iter().zip(units).map(|(a, b)| a * b).sum());
     let (s, c) = libm::sincos(guess.began_rad);
     [c * x - s * y, s * x + c * y, turn]
@@ -103,8 +104,8 @@ fn drift(covariance: &Symmetric3, guess: &Guess, stream: &mut Stream) -> [f64; 3
 /// Less than this is never taken for open \[m\].
 const LEAST_OPEN_M: f64 = 0.01;
 /// Parts of an error that are new and that last; their squares add up to 1.
-const FRESH: f64 = 0.6;
-const LASTING: f64 = 0.8;
+const FRESH_ERROR_RATIO: f64 = 0.6;
+const LASTING_ERROR_RATIO: f64 = 0.8;
 
 /// Samples from the front end or odometry alone, where the scan does not match.
 pub(super) fn blind(

@@ -4,10 +4,10 @@ use periplus_geometry::Pose2;
 use periplus_grid::Line;
 
 use super::beams::Beams;
-use super::cells::{SIDE, floor};
+use super::cells::{TILE_SIDE_CELLS, floor};
 
 /// Traces are no longer and no wider \[cells\]; nothing is drawn beyond.
-const MOST: i32 = 1 << 13;
+const MAX_TRACE_CELLS: i32 = 1 << 13;
 
 /// Cells passed by the beams of a scan, and the positions where they ended, in cells. A cell counts once
 /// however many beams passed it, and not at all if one ended there. The buffers are reused.
@@ -37,7 +37,8 @@ impl Trace {
             ]
         };
         let start = place(beams.origin).map(floor);
-        let (least, most) = (start.map(|it| it - MOST / 2), start.map(|it| it + MOST / 2));
+        let (least, most) =
+            (start.map(|it| it - MAX_TRACE_CELLS / 2), start.map(|it| it + MAX_TRACE_CELLS / 2));
         let is_near = |at: &[f64; 2]| {
             (0..2).all(|axis| at[axis] > f64::from(least[axis]) && at[axis] < f64::from(most[axis]))
         };
@@ -52,14 +53,14 @@ impl Trace {
                 high[axis] = high[axis].max(at[axis]);
             }
         }
-        self.low = low.map(|it| it & !(SIDE - 1));
-        self.high = high.map(|it| it | (SIDE - 1));
-        self.words = ((self.high[0] - self.low[0] + 1) / SIDE) as usize;
+        self.low = low.map(|it| it & !(TILE_SIDE_CELLS - 1));
+        self.high = high.map(|it| it | (TILE_SIDE_CELLS - 1));
+        self.words = ((self.high[0] - self.low[0] + 1) / TILE_SIDE_CELLS) as usize;
         let rows = (self.high[1] - self.low[1] + 1) as usize;
         self.free.clear();
         self.free.resize(rows * self.words, 0);
         self.touched.clear();
-        self.touched.resize(rows / SIDE as usize * self.words, false);
+        self.touched.resize(rows / TILE_SIDE_CELLS as usize * self.words, false);
         let local = |at: [i32; 2]| ((at[0] - self.low[0]) as usize, (at[1] - self.low[1]) as usize);
         let from = local(start);
         for target in &targets {
@@ -72,7 +73,8 @@ impl Trace {
             self.free[row * self.words + column / 32] &= !(1 << (column % 32));
         }
         for (row, words) in self.free.chunks_exact(self.words).enumerate() {
-            let tiles = &mut self.touched[row / SIDE as usize * self.words..][..self.words];
+            let tiles =
+                &mut self.touched[row / TILE_SIDE_CELLS as usize * self.words..][..self.words];
             for (is_touched, word) in tiles.iter_mut().zip(words) {
                 *is_touched |= *word != 0;
             }
@@ -91,13 +93,14 @@ impl Trace {
 
     /// True if a cell in the tile of a cell was passed.
     pub(super) fn touches(&self, column: i32, row: i32) -> bool {
-        let (x, y) = ((column - self.low[0]) / SIDE, (row - self.low[1]) / SIDE);
+        let (x, y) =
+            ((column - self.low[0]) / TILE_SIDE_CELLS, (row - self.low[1]) / TILE_SIDE_CELLS);
         self.touched[y as usize * self.words + x as usize]
     }
 
     /// Bits of the passed cells in a row, of the tile that begins at a column.
     pub(super) fn free(&self, column: i32, row: i32) -> u32 {
-        let (word, row) = ((column - self.low[0]) / SIDE, row - self.low[1]);
+        let (word, row) = ((column - self.low[0]) / TILE_SIDE_CELLS, row - self.low[1]);
         self.free[row as usize * self.words + word as usize]
     }
 

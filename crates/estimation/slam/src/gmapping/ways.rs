@@ -5,13 +5,13 @@ use periplus_geometry::Pose2;
 /// A pose of a trajectory.
 struct Node {
     map_from_base: Pose2,
-    /// The one before; [`NONE`] for the first.
+    /// The one before; [`NO_NODE_INDEX`] for the first.
     before: u32,
     /// Nodes and particles that go on from here.
     users: u32,
 }
 
-const NONE: u32 = u32::MAX;
+const NO_NODE_INDEX: u32 = u32::MAX;
 
 /// Trajectories of all particles. Branches without a particle are dropped.
 #[derive(Default)]
@@ -27,7 +27,7 @@ pub(super) struct Tip(u32);
 impl Ways {
     /// Starts a trajectory.
     pub(super) fn begin(&mut self, map_from_base: Pose2) -> Tip {
-        self.add(map_from_base, NONE)
+        self.add(map_from_base, NO_NODE_INDEX)
     }
 
     /// Creates a trajectory along poses, of which there is at least one.
@@ -64,7 +64,7 @@ impl Ways {
     /// A particle ends here.
     pub(super) fn end(&mut self, tip: Tip) {
         let mut at = tip.0;
-        while at != NONE {
+        while at != NO_NODE_INDEX {
             let node = &mut self.nodes[at as usize];
             node.users -= 1;
             if node.users > 0 {
@@ -79,7 +79,7 @@ impl Ways {
     pub(super) fn to(&self, tip: Tip) -> Vec<Pose2> {
         let mut way = Vec::new();
         let mut at = tip.0;
-        while at != NONE {
+        while at != NO_NODE_INDEX {
             let node = &self.nodes[at as usize];
             way.push(node.map_from_base);
             at = node.before;

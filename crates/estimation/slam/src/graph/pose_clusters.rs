@@ -5,7 +5,7 @@ use periplus_geometry::Stream;
 use super::{ConstraintKind, Graph, Size};
 
 /// Approximate maximum number of clusters.
-const MOST: usize = 6000;
+const MAX_CLUSTER_COUNT: usize = 6000;
 /// Only steps that are known this well are as if they were stiff: one standard deviation \[m\].
 const FIRM_M: f64 = 0.05;
 
@@ -16,7 +16,7 @@ const FIRM_M: f64 = 0.05;
 /// Cluster boundaries are random and change with every turn, so that no step stays rigid. They are random
 /// because with alternating pairs a zigzag would hardly ever vanish: every cluster is pulled to both sides.
 pub(crate) fn pose_clusters(graph: &Graph, (poses, edges): Size, turn: usize) -> Vec<u32> {
-    let together = poses.div_ceil(MOST).max(1);
+    let together = poses.div_ceil(MAX_CLUSTER_COUNT).max(1);
     let mut is_firm = vec![false; poses];
     for edge in graph.edges[..edges].iter().filter(|edge| edge.weight > 0.0) {
         let is_step = edge.kind == ConstraintKind::Sequential && edge.to == edge.from + 1;
@@ -66,23 +66,26 @@ mod tests {
 
     #[test]
     fn poses_of_small_maps_are_their_own() {
-        let graph = way(MOST, 7);
-        let bodies = pose_clusters(&graph, (MOST, MOST - 1), 3);
-        assert!(bodies.into_iter().eq(0..MOST as u32));
+        let graph = way(MAX_CLUSTER_COUNT, 7);
+        let bodies = pose_clusters(&graph, (MAX_CLUSTER_COUNT, MAX_CLUSTER_COUNT - 1), 3);
+        assert!(bodies.into_iter().eq(0..MAX_CLUSTER_COUNT as u32));
     }
 
     #[test]
     fn poses_of_large_maps_ride_with_others_and_not_over_loose_steps() {
-        let graph = way(3 * MOST, 7);
-        let size = (3 * MOST, 3 * MOST - 1);
+        let graph = way(3 * MAX_CLUSTER_COUNT, 7);
+        let size = (3 * MAX_CLUSTER_COUNT, 3 * MAX_CLUSTER_COUNT - 1);
         let turns = [0, 1].map(|turn| pose_clusters(&graph, size, turn));
         assert_ne!(turns[0], turns[1]);
         for bodies in turns {
             assert_ne!(bodies[6], bodies[7]);
             assert!(bodies.windows(2).all(|it| it[1] == it[0] || it[1] == it[0] + 1));
             assert!(bodies.windows(7).all(|it| it[6] > it[0]));
-            let count = bodies[3 * MOST - 1] as usize;
-            assert!((MOST * 9 / 10..MOST * 13 / 10).contains(&count), "{count}");
+            let count = bodies[3 * MAX_CLUSTER_COUNT - 1] as usize;
+            assert!(
+                (MAX_CLUSTER_COUNT * 9 / 10..MAX_CLUSTER_COUNT * 13 / 10).contains(&count),
+                "{count}"
+            );
         }
     }
 }

@@ -44,7 +44,7 @@ struct Stage {
 pub(crate) type Saved = (Vec<u32>, (f64, Option<(usize, (usize, f64))>));
 
 /// Maximum number of damping values tried in a step.
-const TRIES: usize = 6;
+const MAX_DAMPING_ATTEMPTS: usize = 6;
 
 /// The edges that take part and count.
 fn edges(graph: &Graph, size: Size) -> impl Iterator<Item = &Edge> {
@@ -130,7 +130,7 @@ impl Solver {
         stage: Stage,
     ) -> Option<Outcome> {
         self.damping = (self.damping * 10.0).max(1e-3);
-        if stage.tries + 1 >= TRIES {
+        if stage.tries + 1 >= MAX_DAMPING_ATTEMPTS {
             return Some(Outcome::Settled);
         }
         self.begin(graph, robust, stage.tries + 1, stage.before);

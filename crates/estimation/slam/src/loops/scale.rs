@@ -3,27 +3,28 @@
 use crate::keyframe::Keyframe;
 
 /// Scans before, and how many of them are asked.
-const BEFORE: usize = 320;
-const EVERY: usize = 10;
+const RECENT_SCANS: usize = 320;
+const SAMPLE_INTERVAL_SCANS: usize = 10;
 /// Typical range up to which indoor lengths apply \[m\], and maximum factor beyond it.
 const INDOORS_M: f32 = 12.0;
-const MOST: f64 = 3.0;
+const MAX_SCALE_FACTOR: f64 = 3.0;
 /// Quantile of the point ranges of a scan.
-const PART: f64 = 0.75;
+const RANGE_QUANTILE_RATIO: f64 = 0.75;
 
 /// Ratio of the typical range to the indoor one: the median, over the path before a keyframe, of the range
 /// within which three quarters of the points of a scan are.
 pub(super) fn scale(keyframes: &[Keyframe], last: usize) -> f64 {
-    let first = last.saturating_sub(BEFORE);
-    let ranges = keyframes[first..=last].iter().rev().step_by(EVERY).filter_map(range_m);
+    let first = last.saturating_sub(RECENT_SCANS);
+    let ranges =
+        keyframes[first..=last].iter().rev().step_by(SAMPLE_INTERVAL_SCANS).filter_map(range_m);
     let typical_m = nth(ranges.collect(), 0.5).unwrap_or(0.0);
-    f64::from(typical_m / INDOORS_M).clamp(1.0, MOST)
+    f64::from(typical_m / INDOORS_M).clamp(1.0, MAX_SCALE_FACTOR)
 }
 
 fn range_m(keyframe: &Keyframe) -> Option<f32> {
     let cloud = keyframe.cloud();
     let [x, y] = cloud.origin();
-    nth(cloud.points().iter().map(|p| (p.x - x).hypot(p.y - y)).collect(), PART)
+    nth(cloud.points().iter().map(|p| (p.x - x).hypot(p.y - y)).collect(), RANGE_QUANTILE_RATIO)
 }
 
 fn nth(mut values: Vec<f32>, part: f64) -> Option<f32> {

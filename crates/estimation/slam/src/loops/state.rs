@@ -19,7 +19,7 @@ packed!(Candidate {
 packed!(Loops { places, place_from, searched_m, tasks, pending, fields, closures });
 
 /// Maximum number of closure reports in lifelong mapping.
-const MOST_TOLD: usize = 300;
+const MAX_REPORT_COUNT: usize = 300;
 
 impl Pack for Kept {
     fn pack(&self, out: &mut Bytes) {
@@ -69,7 +69,7 @@ impl Loops {
             _ => false,
         });
         // Those that are part of the map stay.
-        let mut many = self.closures.len().saturating_sub(MOST_TOLD);
+        let mut many = self.closures.len().saturating_sub(MAX_REPORT_COUNT);
         self.closures.retain(|it| {
             let stays = it.is_accepted || many == 0;
             many -= usize::from(!stays);

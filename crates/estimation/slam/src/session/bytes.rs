@@ -103,7 +103,7 @@ macro_rules! numbers {
 }
 
 /// No count is larger.
-const MOST: u64 = 1 << 48;
+const MAX_COUNT: u64 = 1 << 48;
 
 numbers!(u8, u32, u64, i64, f32, f64);
 
@@ -115,7 +115,7 @@ impl Pack for usize {
     fn unpack(from: &mut Reader<'_>) -> Result<Self, Fault> {
         let value = u64::unpack(from)?;
         // Counts go on from here, and must not overflow for it.
-        let value = Some(value).filter(|&value| value < MOST).ok_or(value);
+        let value = Some(value).filter(|&value| value < MAX_COUNT).ok_or(value);
         value
             .and_then(|value| Self::try_from(value).map_err(|_| value))
             .map_err(|value| Fault(format!("{value} is too large a number")))
