@@ -9,7 +9,7 @@ use periplus_grid::{Cell, Grid, GridInfo};
 pub const MAX_VOXEL_COUNT: u32 = 16;
 
 /// Column of unknown voxels.
-const UNSEEN_COLUMN: u32 = 0x0000_ffff;
+const UNKNOWN_COLUMN_MASK: u32 = 0x0000_ffff;
 
 /// State of a voxel or column.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -52,7 +52,7 @@ impl VoxelGrid {
     /// Creates a grid of unknown voxels; the height is limited to [`MAX_VOXEL_COUNT`].
     #[must_use]
     pub fn new(info: GridInfo, height: u32) -> Self {
-        Self { columns: Grid::new(info, UNSEEN_COLUMN), height: height.min(MAX_VOXEL_COUNT) }
+        Self { columns: Grid::new(info, UNKNOWN_COLUMN_MASK), height: height.min(MAX_VOXEL_COUNT) }
     }
 
     /// Returns the number of voxels in a column.
@@ -75,7 +75,7 @@ impl VoxelGrid {
 
     /// Sets all voxels to unknown.
     pub fn reset(&mut self) {
-        self.columns.cells.fill(UNSEEN_COLUMN);
+        self.columns.cells.fill(UNKNOWN_COLUMN_MASK);
     }
 
     /// Moves to the origin of another grid with cells of the same size; new columns are unknown.
@@ -85,7 +85,7 @@ impl VoxelGrid {
         let columns = cells(there.origin.x_m, here.origin.x_m);
         let rows = cells(there.origin.y_m, here.origin.y_m);
         if (columns, rows) != (0, 0) {
-            self.columns.roll(columns, rows, UNSEEN_COLUMN);
+            self.columns.roll(columns, rows, UNKNOWN_COLUMN_MASK);
             self.columns.info.origin = there.origin;
         }
     }

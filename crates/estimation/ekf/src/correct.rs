@@ -2,10 +2,10 @@
 
 use periplus_geometry::normalize_angle;
 
-use crate::state::{Covariance, Measurement, SIZE, State, Variable, wrap};
+use crate::state::{Covariance, Measurement, STATE_DIMENSIONS, State, Variable, wrap};
 
 /// Minimum variance, in the unit of the variable squared.
-const LEAST_VARIANCE: f64 = 1e-9;
+const MIN_VARIANCE_FACTOR: f64 = 1e-9;
 
 /// Result of a measurement update.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -28,15 +28,15 @@ pub(crate) fn correct(
     let mask = measured.mask;
     let mut noise = Covariance::identity();
     let mut surprise = State::zeros();
-    for row in (0..SIZE).filter(|row| mask[*row]) {
+    for row in (0..STATE_DIMENSIONS).filter(|row| mask[*row]) {
         surprise[row] = measured.state[row] - state[row];
         if Variable::ANGLES.iter().any(|angle| angle.at() == row) {
             surprise[row] = normalize_angle(surprise[row]);
         }
-        for column in (0..SIZE).filter(|column| mask[*column]) {
+        for column in (0..STATE_DIMENSIONS).filter(|column| mask[*column]) {
             noise[(row, column)] = measured.covariance[(row, column)];
         }
-        noise[(row, row)] = noise[(row, row)].abs().max(LEAST_VARIANCE);
+        noise[(row, row)] = noise[(row, row)].abs().max(MIN_VARIANCE_FACTOR);
     }
     let seen = Covariance::from_diagonal(&State::from_fn(|at, _| f64::from(u8::from(mask[at]))));
     let seen_covariance = seen * *covariance * seen;

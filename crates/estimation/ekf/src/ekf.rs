@@ -3,12 +3,12 @@
 use crate::correct::{Outcome, correct};
 use crate::motion::predict;
 use crate::settings::Settings;
-use crate::state::{Covariance, Estimate, Measurement, SIZE, State, Variable};
+use crate::state::{Covariance, Estimate, Measurement, STATE_DIMENSIONS, State, Variable};
 
 /// Maximum number of queued measurements; beyond it the oldest are used at once.
-const MOST_WAITING: usize = 10_000;
+const MAX_QUEUED_COUNT: usize = 10_000;
 /// Variance of the planar constraints in two-dimensional mode.
-const ON_THE_GROUND: f64 = 1e-6;
+const PLANAR_VARIANCE_FACTOR: f64 = 1e-6;
 /// Maximum time step of a prediction \[s\].
 const LONGEST_STEP_S: f64 = 0.1;
 /// Gap after which the state is not predicted \[s\].
@@ -95,7 +95,7 @@ impl Ekf {
     pub fn push(&mut self, measurement: Measurement) {
         if !measurement.is_finite() {
             self.refusals.push(Refusal::Broken { source: measurement.source });
-        } else if !measurement.is_empty() && self.waiting.len() < MOST_WAITING {
+        } else if !measurement.is_empty() && self.waiting.len() < MAX_QUEUED_COUNT {
             self.waiting.push(measurement);
         }
     }
@@ -165,7 +165,7 @@ fn first(settings: &Settings, measurement: &Measurement) -> Estimate {
         state: settings.start.unwrap_or_else(State::zeros),
         covariance: settings.start_covariance,
     };
-    let measured = || (0..SIZE).filter(|at| measurement.mask[*at]);
+    let measured = || (0..STATE_DIMENSIONS).filter(|at| measurement.mask[*at]);
     for row in measured() {
         estimate.state[row] = measurement.state[row];
         for column in measured() {
@@ -214,7 +214,7 @@ fn hold_down(measurement: &mut Measurement) {
         measurement.state[at] = 0.0;
         measurement.covariance.row_mut(at).fill(0.0);
         measurement.covariance.column_mut(at).fill(0.0);
-        measurement.covariance[(at, at)] = ON_THE_GROUND;
+        measurement.covariance[(at, at)] = PLANAR_VARIANCE_FACTOR;
         measurement.mask[at] = true;
     }
 }

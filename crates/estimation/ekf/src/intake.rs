@@ -9,7 +9,7 @@ use crate::state::{Estimate, Measurement, Variable, three};
 type Six = SMatrix<f64, 6, 6>;
 
 /// Largest element of a rotation matrix that counts as zero.
-const NO_PART: f64 = 1e-6;
+const MIN_ROTATION_RATIO: f64 = 1e-6;
 
 /// Pose from a driver.
 #[derive(Clone, Copy, Debug)]
@@ -282,7 +282,7 @@ fn put(
 /// Returns the axes that are measured after a rotation: all to which a measured one contributes.
 fn led(mask: [bool; 3], turn: &Matrix3<f64>) -> [bool; 3] {
     std::array::from_fn(|row| {
-        (0..3).any(|column| mask[column] && turn[(row, column)].abs() > NO_PART)
+        (0..3).any(|column| mask[column] && turn[(row, column)].abs() > MIN_ROTATION_RATIO)
     })
 }
 
@@ -318,10 +318,10 @@ mod tests {
 
     use super::*;
     use crate::settings::Kind;
-    use crate::state::{Covariance, SIZE, State};
+    use crate::state::{Covariance, STATE_DIMENSIONS, State};
 
     fn intake(kind: Kind, taken: &[Variable]) -> Intake {
-        let mut mask = [false; SIZE];
+        let mut mask = [false; STATE_DIMENSIONS];
         taken.iter().for_each(|it| mask[it.at()] = true);
         Intake::new(Source {
             name: "it".into(),

@@ -34,4 +34,4 @@ mod state;
 pub use ekf::{Ekf, Refusal};
 pub use intake::{ImuReading, Intake, PoseReading, TwistReading};
 pub use settings::{EKF, Kind, SOURCE, Settings, Source};
-pub use state::{Covariance, Estimate, Measurement, SIZE, State, Variable};
+pub use state::{Covariance, Estimate, Measurement, STATE_DIMENSIONS, State, Variable};

@@ -64,13 +64,13 @@ struct Attitude {
 }
 
 /// Minimum magnitude of the cosine of the pitch.
-const LEAST_COSINE: f64 = 1e-6;
+const MIN_COSINE_RATIO: f64 = 1e-6;
 
 impl Attitude {
     fn of(angles: Vector3<f64>) -> Self {
         let mut cos = [libm::cos(angles.x), libm::cos(angles.y), libm::cos(angles.z)];
-        if cos[1].abs() < LEAST_COSINE {
-            cos[1] = LEAST_COSINE.copysign(cos[1]);
+        if cos[1].abs() < MIN_COSINE_RATIO {
+            cos[1] = MIN_COSINE_RATIO.copysign(cos[1]);
         }
         Self { sin: [libm::sin(angles.x), libm::sin(angles.y), libm::sin(angles.z)], cos }
     }
@@ -132,7 +132,7 @@ mod tests {
     use proptest::prelude::*;
 
     use super::*;
-    use crate::state::SIZE;
+    use crate::state::STATE_DIMENSIONS;
 
     #[test]
     fn a_quarter_circle() {
@@ -160,12 +160,12 @@ mod tests {
             let state = State::from(numbers);
             let jacobian = step(&state, time_s).jacobian;
             let small = 1e-6;
-            for column in 0..SIZE {
+            for column in 0..STATE_DIMENSIONS {
                 let (mut more, mut less) = (state, state);
                 more[column] += small;
                 less[column] -= small;
                 let change = step(&more, time_s).state - step(&less, time_s).state;
-                for row in 0..SIZE {
+                for row in 0..STATE_DIMENSIONS {
                     let slope = change[row] / (2.0 * small);
                     prop_assert!((slope - jacobian[(row, column)]).abs() < 1e-6, "{row} {column}");
                 }

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use periplus_diagnostics::{Diagnostic, Diagnostics};
 use periplus_params::{Given, ParamValues, Table, flag, integer, number, numbers, text, texts};
 
-use crate::state::{Covariance, SIZE, State};
+use crate::state::{Covariance, STATE_DIMENSIONS, State};
 
 /// Parameters of the filter.
 pub static EKF: Table = Table {
@@ -123,7 +123,7 @@ pub struct Source {
     /// Topic.
     pub topic: String,
     /// Variables used.
-    pub mask: [bool; SIZE],
+    pub mask: [bool; STATE_DIMENSIONS],
     /// Maximum number of queued messages.
     pub queue: usize,
     /// True to convert poses to velocities.
@@ -204,18 +204,23 @@ impl Settings {
         let number = |name: &str| values.number(name).unwrap_or_default();
         let flag = |name: &str| values.flag(name).unwrap_or_default();
         let frequency_hz = number("frequency");
-        let start = numbers_of(values, "initial_state", &[SIZE], diagnostics);
+        let start = numbers_of(values, "initial_state", &[STATE_DIMENSIONS], diagnostics);
         Self {
             frequency_hz,
             sensor_timeout_s: values.number("sensor_timeout").unwrap_or(1.0 / frequency_hz),
             is_flat: flag("two_d_mode"),
-            noise_per_s: matrix(values, "process_noise_covariance", NOISE, diagnostics),
+            noise_per_s: matrix(
+                values,
+                "process_noise_covariance",
+                PROCESS_NOISE_PER_VARIABLE,
+                diagnostics,
+            ),
             scales_noise: flag("dynamic_process_noise_covariance"),
             start: start.map(|numbers| State::from_row_slice(&numbers)),
             start_covariance: matrix(
                 values,
                 "initial_estimate_covariance",
-                [1e-9; SIZE],
+                [1e-9; STATE_DIMENSIONS],
                 diagnostics,
             ),
             gravity_mps2: number("gravitational_acceleration"),
@@ -225,7 +230,7 @@ impl Settings {
 }
 
 /// Diagonal of the default `process_noise_covariance`.
-const NOISE: [f64; SIZE] =
+const PROCESS_NOISE_PER_VARIABLE: [f64; STATE_DIMENSIONS] =
     [0.05, 0.05, 0.06, 0.03, 0.03, 0.06, 0.025, 0.025, 0.04, 0.01, 0.01, 0.02, 0.01, 0.01, 0.015];
 
 /// Splits the name of an input parameter: `odom0_config` is `config` of `odom0`; `odom0` alone is
@@ -264,10 +269,10 @@ fn source(
     let flag = |name: &str| values.flag(name).unwrap_or_default();
     let threshold = |name: &str| values.number(name).unwrap_or(f64::INFINITY);
     let config = values.texts("config");
-    let mut mask = [false; SIZE];
+    let mut mask = [false; STATE_DIMENSIONS];
     let truths: Option<Vec<bool>> = config.iter().map(|word| truth(word)).collect();
     match truths {
-        Some(truths) if truths.len() == SIZE => mask.copy_from_slice(&truths),
+        Some(truths) if truths.len() == STATE_DIMENSIONS => mask.copy_from_slice(&truths),
         Some(truths) if truths.is_empty() => {
             let none = Diagnostic::warning(
                 "input-without-config",
@@ -342,11 +347,16 @@ fn numbers_of(
 fn matrix(
     values: &ParamValues,
     name: &str,
-    usual: [f64; SIZE],
+    usual: [f64; STATE_DIMENSIONS],
     diagnostics: &mut Diagnostics,
 ) -> Covariance {
-    match numbers_of(values, name, &[SIZE, SIZE * SIZE], diagnostics) {
-        Some(numbers) if numbers.len() == SIZE => {
+    match numbers_of(
+        values,
+        name,
+        &[STATE_DIMENSIONS, STATE_DIMENSIONS * STATE_DIMENSIONS],
+        diagnostics,
+    ) {
+        Some(numbers) if numbers.len() == STATE_DIMENSIONS => {
             Covariance::from_diagonal(&State::from_row_slice(&numbers))
         }
         Some(numbers) => Covariance::from_row_slice(&numbers),
@@ -383,7 +393,7 @@ mod tests {
         assert_eq!(names, ["odom0", "imu0"]);
         let imu = &settings.sources[1];
         assert_eq!((imu.topic.as_str(), imu.most_deviations[1]), ("demo/imu", 3.0));
-        assert_eq!((0..SIZE).filter(|at| imu.mask[*at]).collect::<Vec<_>>(), [11]);
+        assert_eq!((0..STATE_DIMENSIONS).filter(|at| imu.mask[*at]).collect::<Vec<_>>(), [11]);
         assert_eq!((settings.frequency_hz, settings.sensor_timeout_s), (50.0, 0.02));
     }
 

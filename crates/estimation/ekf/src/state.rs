@@ -4,11 +4,11 @@ use nalgebra::{SMatrix, SVector};
 use periplus_geometry::{DVec3, Pose, Rpy, normalize_angle};
 
 /// Number of variables.
-pub const SIZE: usize = 15;
+pub const STATE_DIMENSIONS: usize = 15;
 /// State vector in metres, radians and seconds.
-pub type State = SVector<f64, SIZE>;
+pub type State = SVector<f64, STATE_DIMENSIONS>;
 /// Covariance of the state.
-pub type Covariance = SMatrix<f64, SIZE, SIZE>;
+pub type Covariance = SMatrix<f64, STATE_DIMENSIONS, STATE_DIMENSIONS>;
 
 /// Variables in the order of the state vector.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -118,7 +118,7 @@ pub struct Measurement {
     /// Covariance; rows and columns of unmeasured variables are ignored.
     pub covariance: Covariance,
     /// True for measured variables.
-    pub mask: [bool; SIZE],
+    pub mask: [bool; STATE_DIMENSIONS],
     /// Maximum Mahalanobis distance; measurements beyond it are rejected.
     pub most_deviations: f64,
     /// Name of the input, for messages.
@@ -143,7 +143,7 @@ impl Measurement {
             time_ns,
             state: State::zeros(),
             covariance: Covariance::zeros(),
-            mask: [false; SIZE],
+            mask: [false; STATE_DIMENSIONS],
             most_deviations: f64::INFINITY,
             source,
         }
@@ -158,7 +158,7 @@ impl Measurement {
     /// Returns true if all measured values are finite.
     #[must_use]
     pub fn is_finite(&self) -> bool {
-        let measured = || (0..SIZE).filter(|at| self.mask[*at]);
+        let measured = || (0..STATE_DIMENSIONS).filter(|at| self.mask[*at]);
         measured().all(|row| {
             self.state[row].is_finite()
                 && measured().all(|column| self.covariance[(row, column)].is_finite())

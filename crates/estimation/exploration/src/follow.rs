@@ -18,7 +18,7 @@ const AHEAD_M: f64 = 0.4;
 const TURN_FIRST_RAD: f64 = 0.7;
 
 /// Proportional gain of the turn rate [1/s].
-const TURN_GAIN: f64 = 2.0;
+const TURN_RATE_PER_ANGLE_HZ: f64 = 2.0;
 
 /// Returns the velocity that follows a path within velocity limits: towards the lookahead point
 /// beyond the nearest point, slower in turns and before the end (pure pursuit; Coulter, 1992).
@@ -34,7 +34,7 @@ pub fn follow(way: &mut Vec<[f64; 2]>, map_from_base: Pose2, most: Velocity) -> 
     let target = way.iter().find(|point| distance(point) >= AHEAD_M).unwrap_or(end);
     let bearing = libm::atan2(target[1] - map_from_base.y_m, target[0] - map_from_base.x_m);
     let off_rad = normalize_angle(bearing - map_from_base.yaw_rad);
-    let left_rad_s = (TURN_GAIN * off_rad).clamp(-most.left_rad_s, most.left_rad_s);
+    let left_rad_s = (TURN_RATE_PER_ANGLE_HZ * off_rad).clamp(-most.left_rad_s, most.left_rad_s);
     if off_rad.abs() > TURN_FIRST_RAD {
         return Velocity { forward_m_s: 0.0, left_rad_s };
     }

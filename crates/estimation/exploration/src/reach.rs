@@ -6,7 +6,7 @@ use std::collections::BinaryHeap;
 use periplus_grid::{Cell, Grid, OccupancyGrid, squared_distances};
 
 /// Minimum occupancy of walls \[%\]: `occupied_thresh` 0.65 of `map_server`.
-const WALL: i8 = 65;
+const OCCUPIED_PERCENT: i8 = 65;
 
 /// Maximum occupancy of free cells \[%\]: `free_thresh` 0.25.
 const FREE: i8 = 25;
@@ -39,7 +39,7 @@ impl<'a> Reach<'a> {
     pub fn new(map: &'a OccupancyGrid, robot: &Robot, x_m: f64, y_m: f64) -> Option<Self> {
         let info = map.info;
         let start = info.index(info.cell_of(x_m, y_m)?);
-        let far = squared_distances(map, |value| *value >= WALL);
+        let far = squared_distances(map, |value| *value >= OCCUPIED_PERCENT);
         let to_wall_m = |index: usize| info.resolution_m * f64::from(far.cells[index]).sqrt();
         // A robot that is too near to a wall may move away from it, but not closer.
         let least_m = robot.radius_m.min(to_wall_m(start) - 0.5 * info.resolution_m);

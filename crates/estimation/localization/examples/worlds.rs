@@ -18,7 +18,8 @@ use periplus_params::Given;
 use worlds::{Wanderer, World, cpu_s, initial_pose_at, off};
 
 /// Maximum error of a right pose \[m\], \[rad\].
-const RIGHT: (f64, f64) = (0.5, 0.26);
+const MAX_RIGHT_ERROR_M: f64 = 0.5;
+const MAX_RIGHT_ERROR_RAD: f64 = 0.26;
 
 fn main() {
     let words: Vec<String> = std::env::args().skip(1).collect();
@@ -150,7 +151,7 @@ fn carried(what: &str, worlds: &[World], settings: &Settings, starts: u64, is_ki
                 is_sure = amcl.status().state == LocalizationState::Tracking;
                 let Some(map_from_odom) = amcl.map_from_odom() else { continue };
                 let (metres, radians) = off(robot.truth, map_from_odom * robot.odom_from_base);
-                is_right = metres < RIGHT.0 && radians < RIGHT.1;
+                is_right = metres < MAX_RIGHT_ERROR_M && radians < MAX_RIGHT_ERROR_RAD;
                 if is_sure {
                     sure_scans += 1;
                     wrong_scans += usize::from(!is_right);

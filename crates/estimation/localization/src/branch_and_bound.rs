@@ -9,7 +9,7 @@ use periplus_geometry::{Pose2, normalize_angle};
 use periplus_scan_matching::Peak;
 
 use crate::likelihood_pyramid::{
-    CellBox, LikelihoodPyramid, MAX_POINT_SCORE, RotatedPoints, Square, TOP_LEVEL,
+    CellBox, LikelihoodPyramid, MAX_SCORE_PER_POINT, RotatedPoints, Square, TOP_LEVEL_INDEX,
 };
 use crate::pose_threshold::PoseThreshold;
 
@@ -135,9 +135,9 @@ impl BranchAndBound {
             heading_count,
             started_count: 0,
             min_fraction,
-            threshold: (min_score.clamp(0.0, 1.0) * f64::from(MAX_POINT_SCORE) * count as f64)
+            threshold: (min_score.clamp(0.0, 1.0) * f64::from(MAX_SCORE_PER_POINT) * count as f64)
                 as u32,
-            nodes: BucketQueue::new(MAX_POINT_SCORE as usize * count),
+            nodes: BucketQueue::new(MAX_SCORE_PER_POINT as usize * count),
             sums: Vec::new(),
             lookup_count: 0,
             best: 0,
@@ -203,10 +203,10 @@ impl BranchAndBound {
                 self.lookup_count += work;
             }
             Region::Box { low, high } => {
-                let bound = MAX_POINT_SCORE * self.count as u32;
-                for y in (low[1]..=high[1]).step_by(1 << TOP_LEVEL) {
-                    for x in (low[0]..=high[0]).step_by(1 << TOP_LEVEL) {
-                        let square = Square { x, y, level: TOP_LEVEL as u8 };
+                let bound = MAX_SCORE_PER_POINT * self.count as u32;
+                for y in (low[1]..=high[1]).step_by(1 << TOP_LEVEL_INDEX) {
+                    for x in (low[0]..=high[0]).step_by(1 << TOP_LEVEL_INDEX) {
+                        let square = Square { x, y, level: TOP_LEVEL_INDEX as u8 };
                         self.nodes.push(Node { bound, heading: number, square });
                     }
                 }
@@ -261,7 +261,7 @@ impl BranchAndBound {
         if self.is_near_better(pyramid, node, limits) {
             return;
         }
-        let score = f64::from(node.bound) / (f64::from(MAX_POINT_SCORE) * self.count as f64);
+        let score = f64::from(node.bound) / (f64::from(MAX_SCORE_PER_POINT) * self.count as f64);
         self.peaks.push(Peak { pose: self.pose(pyramid, node), score });
         self.best = self.best.max(node.bound);
         let threshold = (f64::from(self.best) * self.min_fraction) as u32;
@@ -285,7 +285,7 @@ impl BranchAndBound {
     /// fraction `min_fraction` of the best score.
     pub(crate) fn narrow(&mut self, min_fraction: f64, min_score: f64) {
         self.min_fraction = self.min_fraction.max(min_fraction);
-        let by_score = (min_score * f64::from(MAX_POINT_SCORE) * self.count as f64) as u32;
+        let by_score = (min_score * f64::from(MAX_SCORE_PER_POINT) * self.count as f64) as u32;
         let by_best = (f64::from(self.best) * self.min_fraction) as u32;
         self.threshold = self.threshold.max(by_best).max(by_score);
         self.completeness = self.completeness.min(Completeness::NearBest);
@@ -309,7 +309,7 @@ impl BranchAndBound {
 /// Square of positions at one heading.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 struct Node {
-    /// Upper bound of the score of its positions; [`MAX_POINT_SCORE`] per point.
+    /// Upper bound of the score of its positions; [`MAX_SCORE_PER_POINT`] per point.
     bound: u32,
     heading: u16,
     square: Square,

@@ -9,9 +9,9 @@ use crate::likelihood_pyramid::LikelihoodPyramid;
 use crate::pose_threshold::PoseThreshold;
 
 /// Maximum number of cells of the search grid; larger maps are searched on coarser cells.
-const MAX_CELLS: f64 = 4e6;
+const MAX_CELL_COUNT: f64 = 4e6;
 /// Maximum number of cells along one side.
-const MAX_SIDE_CELLS: f64 = 60_000.0;
+const MAX_SIDE_CELL_COUNT: f64 = 60_000.0;
 /// Minimum cell size \[m\]. Finer cells take longer and find nothing more: the refinement does the
 /// rest.
 const MIN_CELL_M: f64 = 0.1;
@@ -53,8 +53,8 @@ impl GlobalLocalizer {
         };
         let (x_m, half_x_m) = span(corners.map(|corner| corner.0));
         let (y_m, half_y_m) = span(corners.map(|corner| corner.1));
-        let min_cell_m = libm::sqrt(4.0 * half_x_m * half_y_m / MAX_CELLS);
-        let min_side_cell_m = 2.0 * half_x_m.max(half_y_m) / MAX_SIDE_CELLS;
+        let min_cell_m = libm::sqrt(4.0 * half_x_m * half_y_m / MAX_CELL_COUNT);
+        let min_side_cell_m = 2.0 * half_x_m.max(half_y_m) / MAX_SIDE_CELL_COUNT;
         let cell_m = info.resolution_m.max(MIN_CELL_M).max(min_cell_m).max(min_side_cell_m);
         let corners = [[x_m - half_x_m, y_m - half_y_m], [x_m + half_x_m, y_m + half_y_m]];
         let free = map.cell_centers(CellState::Free);

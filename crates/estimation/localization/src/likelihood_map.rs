@@ -6,7 +6,7 @@ use periplus_geometry::{Pose2, Stream};
 use periplus_grid::{Grid, GridInfo, OccupancyGrid, occupancy, squared_distances};
 
 /// Maximum number of cells to either side in [`LikelihoodMap::is_free_near`].
-const MAX_NEARBY_CELLS: f64 = 60.0;
+const MAX_NEARBY_CELL_COUNT: f64 = 60.0;
 
 /// Occupancy of a cell as AMCL uses it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -203,7 +203,7 @@ impl LikelihoodMap {
     pub(crate) fn is_free_near(&self, x_m: f64, y_m: f64, distance_m: f64) -> bool {
         let (column, row) = self.cell_at(x_m, y_m);
         let is_free = |cell| self.state(cell) == Some(CellState::Free);
-        let cells = (distance_m / self.info.resolution_m).min(MAX_NEARBY_CELLS) as i64;
+        let cells = (distance_m / self.info.resolution_m).min(MAX_NEARBY_CELL_COUNT) as i64;
         is_free((column, row))
             || (-cells..=cells)
                 .any(|up| (-cells..=cells).any(|right| is_free((column + right, row + up))))

@@ -8,17 +8,17 @@
 
 use periplus_geometry::{Pose2, normalize_angle};
 
-/// Level of the coarsest squares, with 2^[`TOP_LEVEL`] cells on a side.
-pub(crate) const TOP_LEVEL: usize = 4;
-const SIDE_CELLS: usize = 1 << TOP_LEVEL;
+/// Level of the coarsest squares, with 2^[`TOP_LEVEL_INDEX`] cells on a side.
+pub(crate) const TOP_LEVEL_INDEX: usize = 4;
+const SIDE_CELLS: usize = 1 << TOP_LEVEL_INDEX;
 /// Number of points between checks whether the rest can still reach the threshold.
 const CHECK_POINTS: usize = 12;
 /// Standard deviation of the distance between a point and its wall \[cells\].
-const SIGMA_CELLS: f32 = 1.2;
+const SIGMA_CELL_COUNT: f32 = 1.2;
 /// Range of the likelihood around a wall \[cells\].
 const LIKELIHOOD_RANGE_CELLS: usize = 2;
 /// Maximum score of a point.
-pub(crate) const MAX_POINT_SCORE: u32 = 255;
+pub(crate) const MAX_SCORE_PER_POINT: u32 = 255;
 /// Number of contiguous additions that take as long as one lookup.
 const CONTIGUOUS_ADDITION_COUNT: u64 = 8;
 
@@ -115,7 +115,7 @@ impl LikelihoodPyramid {
         let mut finest = vec![0_u8; width * height];
         for wall in walls {
             let (column, row) = cell_of(wall);
-            finest[row * width + column] = MAX_POINT_SCORE as u8;
+            finest[row * width + column] = MAX_SCORE_PER_POINT as u8;
         }
         add_likelihoods(&mut finest, width);
         let mut free_cells = vec![0_u8; width * height];
@@ -126,7 +126,7 @@ impl LikelihoodPyramid {
         dilate(&mut free_cells, width);
         let raised = |finest: Vec<u8>| {
             let mut levels = vec![finest];
-            for level in 1..=TOP_LEVEL {
+            for level in 1..=TOP_LEVEL_INDEX {
                 let mut next = levels[level - 1].clone();
                 maximum_over(&mut next, width, 1 << (level - 1));
                 levels.push(next);
@@ -136,14 +136,14 @@ impl LikelihoodPyramid {
         let (levels, free) = (raised(finest), raised(free_cells));
         let (across, up) = (width / SIDE_CELLS, height / SIDE_CELLS);
         let mut by_offset = vec![0; width * height];
-        for (cell, value) in levels[TOP_LEVEL].iter().enumerate() {
+        for (cell, value) in levels[TOP_LEVEL_INDEX].iter().enumerate() {
             let (column, row) = (cell % width, cell / width);
             let offset = row % SIDE_CELLS * SIDE_CELLS + column % SIDE_CELLS;
             by_offset[(offset * up + row / SIDE_CELLS) * across + column / SIDE_CELLS] = *value;
         }
         let spans = (0..up).map(|row| {
             let is_free = |column: &usize| {
-                free[TOP_LEVEL][row * SIDE_CELLS * width + column * SIDE_CELLS] > 0
+                free[TOP_LEVEL_INDEX][row * SIDE_CELLS * width + column * SIDE_CELLS] > 0
             };
             let first = (0..across).find(is_free).unwrap_or(across);
             let last = (0..across).rev().find(is_free).map_or(first, |last| last + 1);
@@ -215,7 +215,7 @@ impl LikelihoodPyramid {
             for column in *first..*last {
                 let bound = u32::from(sums[row * across + column]);
                 let (x, y) = ((column * SIDE_CELLS) as u16, (row * SIDE_CELLS) as u16);
-                let square = Square { x, y, level: TOP_LEVEL as u8 };
+                let square = Square { x, y, level: TOP_LEVEL_INDEX as u8 };
                 if bound > threshold && self.is_free(square) {
                     found(square, bound);
                 }
@@ -243,7 +243,7 @@ impl LikelihoodPyramid {
             && ((y + bounding_box.high[1]) as usize) + half < self.height;
         let (last, top) = (self.width as i32 - 1, self.height as i32 - 1);
         let up = half * self.width;
-        let (mut sums, mut rest) = ([0_u32; 4], MAX_POINT_SCORE * offsets.len() as u32);
+        let (mut sums, mut rest) = ([0_u32; 4], MAX_SCORE_PER_POINT * offsets.len() as u32);
         let mut lookup_count = 0;
         for points in offsets.chunks(CHECK_POINTS) {
             if is_inside {
@@ -268,7 +268,7 @@ impl LikelihoodPyramid {
                 }
             }
             lookup_count += 4 * points.len() as u64;
-            rest -= MAX_POINT_SCORE * points.len() as u32;
+            rest -= MAX_SCORE_PER_POINT * points.len() as u32;
             if sums.iter().all(|sum| sum + rest <= threshold) {
                 break;
             }
@@ -284,7 +284,7 @@ impl LikelihoodPyramid {
                 ((x - self.corner_m[0]) / self.cell_m, (y - self.corner_m[1]) / self.cell_m);
             let is_inside = u >= 0.0 && v >= 0.0 && u < self.width as f64 && v < self.height as f64;
             let cell = if is_inside { v as usize * self.width + u as usize } else { 0 };
-            f64::from(self.levels[0][cell]) / f64::from(MAX_POINT_SCORE)
+            f64::from(self.levels[0][cell]) / f64::from(MAX_SCORE_PER_POINT)
         };
         points.iter().map(at).sum::<f64>() / points.len().max(1) as f64
     }
@@ -301,8 +301,8 @@ fn add_likelihoods(finest: &mut [u8], width: usize) {
                 right as f32 - LIKELIHOOD_RANGE_CELLS as f32,
                 up as f32 - LIKELIHOOD_RANGE_CELLS as f32,
             );
-            let squared = (x * x + y * y) / (SIGMA_CELLS * SIGMA_CELLS);
-            let value = (MAX_POINT_SCORE as f32 * libm::expf(-0.5 * squared)) as u8;
+            let squared = (x * x + y * y) / (SIGMA_CELL_COUNT * SIGMA_CELL_COUNT);
+            let value = (MAX_SCORE_PER_POINT as f32 * libm::expf(-0.5 * squared)) as u8;
             let cell = index + up * width + right - LIKELIHOOD_RANGE_CELLS * (width + 1);
             finest[cell] = finest[cell].max(value);
         }

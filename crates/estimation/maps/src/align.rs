@@ -4,13 +4,13 @@ use periplus_geometry::Pose2;
 use periplus_grid::{CellFinder, Grid, NO_SITE_CELLS, OccupancyGrid, squared_distances};
 
 /// Minimum occupancy of walls \[%\]: `occupied_thresh` 0.65 of Nav2.
-const WALL: i8 = 65;
+const OCCUPIED_PERCENT: i8 = 65;
 
 /// Maximum number of wall points to compare; larger sets are subsampled.
 const MOST_POINTS: usize = 2000;
 
 /// Number of candidates of the coarse search that are refined.
-const FOLLOWED: usize = 8;
+const REFINED_CANDIDATES: usize = 8;
 
 /// Blur of the coarse search \[m\]; its step is half of that.
 const BLUR_M: f64 = 0.3;
@@ -25,7 +25,7 @@ pub struct Alignment {
 }
 
 pub(crate) fn is_wall(cell: i8) -> bool {
-    cell >= WALL
+    cell >= OCCUPIED_PERCENT
 }
 
 /// Aligns the walls of a map with those of another, within `window_m` metres and `window_rad`
@@ -58,11 +58,11 @@ pub fn align(
             for column in -count..=count {
                 let shift = [column as f64 * step_m, row as f64 * step_m];
                 let score = walls.score(&turned, shift, blur_m);
-                if best.len() < FOLLOWED || score > best[FOLLOWED - 1].0 {
+                if best.len() < REFINED_CANDIDATES || score > best[REFINED_CANDIDATES - 1].0 {
                     // Of equal scores the first stays in front.
                     let at = best.partition_point(|(other, _)| *other >= score);
                     best.insert(at, (score, [shift[0], shift[1], turn as f64 * step_rad]));
-                    best.truncate(FOLLOWED);
+                    best.truncate(REFINED_CANDIDATES);
                 }
             }
         }

@@ -15,7 +15,7 @@ pub struct PackedPlaces {
 /// beyond.
 const MAX_STEP_BITS: u8 = 11;
 /// Maximum number of steps.
-const MAX_STEPS: f32 = 32_767.0;
+const MAX_STEP_COUNT: f32 = 32_767.0;
 
 impl PackedPlaces {
     /// Packs positions; those beyond 32 km from the center are clamped.
@@ -23,8 +23,10 @@ impl PackedPlaces {
     pub fn new(places: &[[f32; 2]], middle: [f32; 2]) -> Self {
         let offsets = || places.iter().map(|[x, y]| [x - middle[0], y - middle[1]]);
         let farthest = offsets().flatten().fold(0.0_f32, |most, it| most.max(it.abs()));
-        let power =
-            (0..=MAX_STEP_BITS).rev().find(|&it| farthest / step_m(it) <= MAX_STEPS).unwrap_or(0);
+        let power = (0..=MAX_STEP_BITS)
+            .rev()
+            .find(|&it| farthest / step_m(it) <= MAX_STEP_COUNT)
+            .unwrap_or(0);
         let per_metre = 1.0 / step_m(power);
         let steps = offsets().map(|it| it.map(|metres| (metres * per_metre).round() as i16));
         Self { middle, power, steps: steps.collect() }

@@ -131,7 +131,7 @@ impl PeakList {
 }
 
 /// Offset that is larger than any field and leaves a float its fraction.
-const OFFSET_CELLS: f32 = 16384.0;
+const OFFSET_CELL_COUNT: f32 = 16384.0;
 
 /// Number of points between checks whether the rest can still reach the threshold.
 const CHECK_POINTS: usize = 12;
@@ -172,7 +172,8 @@ impl<'a> Search<'a> {
             let x = window.middle.x_m as f32 - field.corner[0];
             let y = window.middle.y_m as f32 - field.corner[1];
             // Rounds down, including negative values, without a function call.
-            let cell = |value: f32| (value * scale + OFFSET_CELLS) as i32 - OFFSET_CELLS as i32;
+            let cell =
+                |value: f32| (value * scale + OFFSET_CELL_COUNT) as i32 - OFFSET_CELL_COUNT as i32;
             cells.extend(points.iter().map(|p| {
                 (cell(cosine * p[0] - sine * p[1] + x), cell(sine * p[0] + cosine * p[1] + y))
             }));

@@ -14,7 +14,7 @@ const MISS_LOG_ODDS_PERCENT: i16 = -41;
 const HIT_LOG_ODDS_PERCENT: i16 = 110;
 const MAX_LOG_ODDS_PERCENT: i16 = 400;
 /// Cells beyond a map's edge \[cells\].
-const MARGIN_CELLS: f64 = 4.0;
+const MARGIN_CELL_COUNT: f64 = 4.0;
 /// Neither seen nor passed.
 const UNSEEN_LOG_ODDS_PERCENT: i16 = i16::MIN;
 
@@ -83,9 +83,11 @@ impl MapSnapshot {
         }
         // Corners at whole cells: the same position has the same cell in every run.
         let resolution_m = self.resolution_m;
-        let corner = low.map(|low| ((low / resolution_m).floor() - MARGIN_CELLS) * resolution_m);
+        let corner =
+            low.map(|low| ((low / resolution_m).floor() - MARGIN_CELL_COUNT) * resolution_m);
         let cells = |axis: usize| {
-            ((high[axis] - corner[axis]) / resolution_m + MARGIN_CELLS).ceil().max(1.0) as usize
+            ((high[axis] - corner[axis]) / resolution_m + MARGIN_CELL_COUNT).ceil().max(1.0)
+                as usize
         };
         let origin = Pose2::new(corner[0], corner[1], 0.0);
         let info = GridInfo::new(resolution_m, cells(0), cells(1), origin).ok()?;

@@ -8,7 +8,7 @@ use crate::buffer::{Buffer, FrameId, ResolvedTransform};
 use crate::error::{LookupError, LookupErrorKind};
 
 /// Longest chain; a longer one is a loop (`MAX_GRAPH_DEPTH` of tf2).
-const DEEPEST: usize = 1000;
+const MAX_GRAPH_DEPTH: usize = 1000;
 
 /// Walks up from the source to the root of its tree, then up from the target until both chains
 /// meet. If the source has no sample at that time its chain ends there, which is no error when the
@@ -24,7 +24,7 @@ pub(crate) fn walk(
     let mut top = source;
     let mut outside = None;
     for depth in 0.. {
-        if depth > DEEPEST {
+        if depth > MAX_GRAPH_DEPTH {
             return Err(circle(buffer));
         }
         let Some(cache) = buffer.cache(top) else { break };
@@ -45,7 +45,7 @@ pub(crate) fn walk(
     let mut top_from_target = Pose::IDENTITY;
     let mut frame = target;
     for depth in 0.. {
-        if depth > DEEPEST {
+        if depth > MAX_GRAPH_DEPTH {
             return Err(circle(buffer));
         }
         if frame == top {
@@ -86,14 +86,14 @@ fn common_time_ns(buffer: &Buffer, target: FrameId, source: FrameId) -> Result<i
         if frame == target {
             return Ok(or_none(time_ns));
         }
-        if rise.len() > DEEPEST {
+        if rise.len() > MAX_GRAPH_DEPTH {
             return Err(circle(buffer));
         }
     }
     let mut time_ns = i64::MAX;
     let mut frame = target;
     for depth in 0.. {
-        if depth > DEEPEST {
+        if depth > MAX_GRAPH_DEPTH {
             return Err(circle(buffer));
         }
         let Some((newest_ns, parent)) = step(buffer, frame) else { break };

@@ -14,10 +14,10 @@ use periplus_sim::PhysicsMode;
 use tutorial::Run;
 
 /// Length of a side of a panel; costmaps are drawn as large as fits.
-const SIDE: usize = 320;
+const SIDE_PX: usize = 320;
 
 /// Between panels.
-const GAP: usize = 16;
+const GAP_PX: usize = 16;
 
 /// A picture in red, green and blue.
 struct Sheet {
@@ -27,8 +27,8 @@ struct Sheet {
 
 impl Sheet {
     fn new(panels: usize) -> Self {
-        let width = panels * SIDE + (panels - 1) * GAP;
-        Self { width, samples: vec![230; width * SIDE * 3] }
+        let width = panels * SIDE_PX + (panels - 1) * GAP_PX;
+        Self { width, samples: vec![230; width * SIDE_PX * 3] }
     }
 
     /// Draws a costmap into the middle of a panel.
@@ -36,11 +36,11 @@ impl Sheet {
         node.look(|costmap| {
             let grid = costmap.costmap();
             let (width, height) = (grid.info().width, grid.info().height);
-            let pixels = SIDE / width.max(height);
+            let pixels = SIDE_PX / width.max(height);
             let values: Vec<i8> = grid.costs().iter().map(|cost| occupancy_of(*cost)).collect();
             let picture = paint(&Scheme::Costmap.palette(), width, &values, pixels);
-            let left = panel * (SIDE + GAP) + (SIDE - width * pixels) / 2;
-            let top = (SIDE - height * pixels) / 2;
+            let left = panel * (SIDE_PX + GAP_PX) + (SIDE_PX - width * pixels) / 2;
+            let top = (SIDE_PX - height * pixels) / 2;
             for (row, line) in picture.chunks_exact(width * pixels * 3).enumerate() {
                 let start = ((top + row) * self.width + left) * 3;
                 self.samples[start..start + line.len()].copy_from_slice(line);
@@ -68,7 +68,7 @@ fn main() {
     }
     let file = std::fs::File::create(out).unwrap();
     let mut encoder =
-        png::Encoder::new(std::io::BufWriter::new(file), sheet.width as u32, SIDE as u32);
+        png::Encoder::new(std::io::BufWriter::new(file), sheet.width as u32, SIDE_PX as u32);
     encoder.set_color(png::ColorType::Rgb);
     encoder.write_header().unwrap().write_image_data(&sheet.samples).unwrap();
 }

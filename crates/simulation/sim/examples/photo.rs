@@ -11,8 +11,8 @@ use periplus_rendering::{ImageOutputs, Lens, RenderRequest, RenderedImages, Sens
 use periplus_resources::Resolver;
 use periplus_sim::{AssetFiles, compose};
 
-const WIDTH: usize = 960;
-const HEIGHT: usize = 540;
+const WIDTH_PX: usize = 960;
+const HEIGHT_PX: usize = 540;
 /// Rays along each side of a pixel, for smooth edges.
 const RAYS: usize = 3;
 
@@ -30,7 +30,8 @@ fn main() {
     let world_from_camera = Pose::from_xyz_rpy([x, y, z], Rpy { roll, pitch, yaw });
     let picture = take(Path::new(world), world_from_camera);
     let file = std::fs::File::create(out).expect("a place to write to");
-    let mut encoder = png::Encoder::new(std::io::BufWriter::new(file), WIDTH as u32, HEIGHT as u32);
+    let mut encoder =
+        png::Encoder::new(std::io::BufWriter::new(file), WIDTH_PX as u32, HEIGHT_PX as u32);
     encoder.set_color(png::ColorType::Rgb);
     let mut writer = encoder.write_header().expect("a header");
     writer.write_image_data(&smaller(&picture.rgb)).expect("a whole image");
@@ -42,10 +43,10 @@ fn smaller(rgb: &[u8]) -> Vec<u8> {
         let rays =
             (0..RAYS).flat_map(|y| (0..RAYS).map(move |x| (row * RAYS + y, column * RAYS + x)));
         let sum: usize =
-            rays.map(|(y, x)| usize::from(rgb[(y * WIDTH * RAYS + x) * 3 + colour])).sum();
+            rays.map(|(y, x)| usize::from(rgb[(y * WIDTH_PX * RAYS + x) * 3 + colour])).sum();
         (sum / (RAYS * RAYS)) as u8
     };
-    let pixels = (0..HEIGHT).flat_map(|row| (0..WIDTH).map(move |column| (row, column)));
+    let pixels = (0..HEIGHT_PX).flat_map(|row| (0..WIDTH_PX).map(move |column| (row, column)));
     pixels.flat_map(|(row, column)| [0, 1, 2].map(|colour| mean(row, column, colour))).collect()
 }
 
@@ -72,7 +73,8 @@ fn take(world: &Path, world_from_camera: Pose) -> RenderedImages {
             views.add(Arc::new(member.model.clone()), id, &motion);
         }
     }
-    let lens = Lens::pinhole((WIDTH * RAYS) as u32, (HEIGHT * RAYS) as u32, 1.2).expect("a lens");
+    let lens =
+        Lens::pinhole((WIDTH_PX * RAYS) as u32, (HEIGHT_PX * RAYS) as u32, 1.2).expect("a lens");
     let shot = RenderRequest {
         lens: &lens,
         world_from_camera,

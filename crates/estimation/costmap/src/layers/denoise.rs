@@ -66,10 +66,10 @@ fn neighbours(
     height: usize,
     diagonally: bool,
 ) -> impl Iterator<Item = Cell> {
-    const STEPS: [(isize, isize); 8] =
-        [(-1, 0), (1, 0), (0, -1), (0, 1), (-1, -1), (1, -1), (-1, 1), (1, 1)];
+    const NEIGHBOUR_DIRECTIONS: [[isize; 2]; 8] =
+        [[-1, 0], [1, 0], [0, -1], [0, 1], [-1, -1], [1, -1], [-1, 1], [1, 1]];
     let count = if diagonally { 8 } else { 4 };
-    STEPS.into_iter().take(count).filter_map(move |(dx, dy)| {
+    NEIGHBOUR_DIRECTIONS.into_iter().take(count).filter_map(move |[dx, dy]| {
         let (x, y) = (x.checked_add_signed(dx)?, y.checked_add_signed(dy)?);
         (x < width && y < height).then_some((x, y))
     })

@@ -10,11 +10,11 @@ use crate::files::{Found, Half, Seen, Way};
 /// Distance at which the weight of a map pose in the local alignment with SLAM is one half \[m\].
 const NEARBY_M: f64 = 4.0;
 /// Minimum total weight; below it the alignment of the whole log is used.
-const LEAST_NEARBY: f64 = 2.0;
+const MIN_NEARBY_WEIGHT_FACTOR: f64 = 2.0;
 /// Maximum distance of a beam end at a wall \[m\].
 const ON_WALL_M: f64 = 0.15;
 /// Minimum inlier ratio of a scan that the map covers.
-const COVERED: f64 = 0.5;
+const MIN_INLIER_RATIO: f64 = 0.5;
 /// Required agreement with SLAM \[m\].
 pub(crate) const ASKED_M: f64 = 0.1;
 
@@ -68,7 +68,8 @@ pub(crate) fn compare(half: &Half, found: &Found) -> Compared {
     let row = |seen: &Seen| {
         let whole = *half.whole.get(&seen.stamp_us)?;
         let weight = |it: Pose2| 0.5_f64.powf((apart_m(it, whole) / NEARBY_M).powi(2));
-        let is_near = both.iter().map(|(it, _)| weight(*it)).sum::<f64>() >= LEAST_NEARBY;
+        let is_near =
+            both.iter().map(|(it, _)| weight(*it)).sum::<f64>() >= MIN_NEARBY_WEIGHT_FACTOR;
         let local = if is_near { motion(&both, weight) } else { all };
         let places = [Pose2::IDENTITY, all, local].map(|motion| motion * whole);
         let (on_walls, is_free) = covered(half, &walls, seen, all * whole);
@@ -81,7 +82,7 @@ pub(crate) fn compare(half: &Half, found: &Found) -> Compared {
             off_m: places.map(|place| at.map_or(f64::NAN, |at| apart_m(at, place))),
             off_rad: at.map_or(f64::NAN, |at| normalize_angle(at.yaw_rad - places[2].yaw_rad)),
             on_walls,
-            is_covered: is_free && on_walls >= COVERED,
+            is_covered: is_free && on_walls >= MIN_INLIER_RATIO,
         })
     };
     Compared { rows: half.scans.iter().filter_map(row).collect(), scans: half.scans.len() }

@@ -18,10 +18,12 @@ const INK: Colour = [70; 3];
 const OFF_MAP: Colour = [235, 235, 245];
 
 /// Maximum side of the map picture \[px\].
-const LONGEST: usize = 2400;
+const MAX_SIDE_PX: usize = 2400;
 /// Size and margins of the error picture \[px\].
-const SIZE: (usize, usize) = (1600, 500);
-const MARGIN: (usize, usize) = (60, 30);
+const WIDTH_PX: usize = 1600;
+const HEIGHT_PX: usize = 500;
+const MARGIN_X_PX: usize = 60;
+const MARGIN_Y_PX: usize = 30;
 /// Error at the upper edge \[m\].
 const MOST_M: f64 = 0.3;
 
@@ -108,7 +110,7 @@ pub(crate) fn ways(map: &OccupancyGrid, compared: &Compared) -> Vec<u8> {
         (high[0], high[1]) = (high[0].max(x + margin), high[1].max(y + margin));
     }
     let span = (high[0] - low[0]).max(high[1] - low[1]);
-    let pixel_m = (span / LONGEST as f64).max(info.resolution_m / 2.0);
+    let pixel_m = (span / MAX_SIDE_PX as f64).max(info.resolution_m / 2.0);
     let (width, height) =
         (((high[0] - low[0]) / pixel_m) as usize + 1, ((high[1] - low[1]) / pixel_m) as usize + 1);
     let mut canvas = Canvas::new(width, height, [205; 3]);
@@ -148,33 +150,37 @@ pub(crate) fn ways(map: &OccupancyGrid, compared: &Compared) -> Vec<u8> {
 /// Draws the difference between localization and SLAM over time, in the colors of the map. The line
 /// is the required agreement; shaded times are off the map.
 pub(crate) fn errors(compared: &Compared) -> Vec<u8> {
-    let mut canvas = Canvas::new(SIZE.0, SIZE.1, [255; 3]);
+    let mut canvas = Canvas::new(WIDTH_PX, HEIGHT_PX, [255; 3]);
     let end_s = compared.rows.last().map_or(1.0, |row| row.after_s).max(1.0);
-    let (wide, high) = (SIZE.0 - 2 * MARGIN.0, SIZE.1 - 2 * MARGIN.1);
-    let column = |after_s: f64| MARGIN.0 + (after_s / end_s * wide as f64) as usize;
-    let row = |off_m: f64| MARGIN.1 + high - (off_m.min(MOST_M) / MOST_M * high as f64) as usize;
+    let (wide, high) = (WIDTH_PX - 2 * MARGIN_X_PX, HEIGHT_PX - 2 * MARGIN_Y_PX);
+    let column = |after_s: f64| MARGIN_X_PX + (after_s / end_s * wide as f64) as usize;
+    let row = |off_m: f64| MARGIN_Y_PX + high - (off_m.min(MOST_M) / MOST_M * high as f64) as usize;
     for pair in compared.rows.windows(2).filter(|pair| !pair[0].is_covered) {
         for x in column(pair[0].after_s)..column(pair[1].after_s).max(column(pair[0].after_s) + 1) {
-            canvas.line((x, MARGIN.1), (x, MARGIN.1 + high), OFF_MAP);
+            canvas.line((x, MARGIN_Y_PX), (x, MARGIN_Y_PX + high), OFF_MAP);
         }
     }
     for step in 0..=6_u32 {
         let off_m = 0.05 * f64::from(step);
         let y = row(off_m);
         canvas.line(
-            (MARGIN.0, y),
-            (MARGIN.0 + wide, y),
+            (MARGIN_X_PX, y),
+            (MARGIN_X_PX + wide, y),
             if off_m == ASKED_M { WRONG } else { GRID },
         );
         canvas.number((4, y - 4), &format!("{off_m:.2}"));
     }
-    canvas.number((MARGIN.0 + 4, MARGIN.1 - 18), "m");
+    canvas.number((MARGIN_X_PX + 4, MARGIN_Y_PX - 18), "m");
     let every_s = [10.0, 30.0, 60.0, 300.0, 1800.0].into_iter().find(|it| end_s / it < 20.0);
     let every_s = every_s.unwrap_or(7200.0);
     let mut tick_s = 0.0;
     while tick_s <= end_s {
-        canvas.line((column(tick_s), MARGIN.1 + high), (column(tick_s), MARGIN.1 + high + 5), INK);
-        canvas.number((column(tick_s), MARGIN.1 + high + 10), &format!("{tick_s:.0} s"));
+        canvas.line(
+            (column(tick_s), MARGIN_Y_PX + high),
+            (column(tick_s), MARGIN_Y_PX + high + 5),
+            INK,
+        );
+        canvas.number((column(tick_s), MARGIN_Y_PX + high + 10), &format!("{tick_s:.0} s"));
         tick_s += every_s;
     }
     for it in compared.rows.iter().filter(|it| it.found.is_some()) {

@@ -11,7 +11,7 @@ const ON_WALL_M: f64 = 0.15;
 /// Maximum distance from free space of a robot on the map \[m\].
 const FREE_M: f64 = 0.3;
 /// Minimum inlier ratio of a scan that the map covers.
-const COVERED: f64 = 0.5;
+const MIN_INLIER_RATIO: f64 = 0.5;
 /// Steps of a drive through a world.
 const STEPS: usize = 2500;
 
@@ -116,7 +116,7 @@ impl<'a> Cover<'a> {
             || around
                 .map(|bearing| (FREE_M * bearing.cos(), FREE_M * bearing.sin()))
                 .any(|(dx, dy)| is_free_at(place.x_m + dx, place.y_m + dy));
-        is_free && on as f64 >= COVERED * count as f64
+        is_free && on as f64 >= MIN_INLIER_RATIO * count as f64
     }
 }
 

@@ -32,9 +32,8 @@ use crate::logs::course_of_log;
 use crate::trials::{Tally, Tests};
 use crate::worlds::World;
 
-/// Logs with odometry that SLAM maps correctly, and the step between the scans used.
-const LOGS: [(&str, usize); 6] =
-    [("aces", 1), ("csail-full", 1), ("edmonton", 1), ("fr101", 1), ("intel", 1), ("seattle", 1)];
+/// Logs with odometry that SLAM maps correctly.
+const LOGS: [&str; 6] = ["aces", "csail-full", "edmonton", "fr101", "intel", "seattle"];
 
 fn main() -> ExitCode {
     let words: Vec<String> = std::env::args().skip(1).collect();
@@ -56,15 +55,15 @@ fn main() -> ExitCode {
     let wants = |name: &str| only.as_ref().is_none_or(|only| only.iter().any(|it| it == name));
     let mut courses = Vec::new();
     let every = number("--every", 0) as usize;
-    let logs = LOGS.iter().map(|(name, every)| ((*name).to_owned(), *every));
+    let logs = LOGS.map(str::to_owned).into_iter();
     // Logs besides these can be named.
-    let named = only.iter().flatten().filter(|it| LOGS.iter().all(|(name, _)| name != it));
-    for (name, usual) in logs.chain(named.map(|it| (it.clone(), 1))) {
+    let named = only.iter().flatten().filter(|it| !LOGS.contains(&it.as_str()));
+    for name in logs.chain(named.cloned()) {
         let Some(path) = folder.as_ref().map(|it| it.join(&name).join("raw.clf")) else { break };
         if !wants(&name) || !path.exists() {
             continue;
         }
-        match course_of_log(&name, &path, if every > 0 { every } else { usual }) {
+        match course_of_log(&name, &path, every.max(1)) {
             Ok(course) => courses.push(course),
             Err(why) => {
                 println!("{why}");

@@ -8,13 +8,15 @@ use crate::courses::{Course, Cover, Sight, erased, rearranged};
 use crate::worlds::{cpu_s, initial_pose_at};
 
 /// Maximum error of a right pose \[m\], \[rad\].
-const RIGHT: (f64, f64) = (1.0, std::f64::consts::FRAC_PI_6);
+const MAX_RIGHT_ERROR_M: f64 = 1.0;
+const MAX_RIGHT_ERROR_RAD: f64 = std::f64::consts::FRAC_PI_6;
 /// Distance driven after a start \[m\].
 const WAY_M: f64 = 5.0;
 /// Minimum and maximum fraction of a log that is cut out.
-const CUT: (f64, f64) = (0.05, 0.3);
+const CUT_MIN_RATIO: f64 = 0.05;
+const CUT_MAX_RATIO: f64 = 0.3;
 /// Maximum number of scans on a wrong map.
-const MOST_FOREIGN: usize = 1000;
+const MAX_FOREIGN_SCANS: usize = 1000;
 
 pub(crate) struct Tests {
     pub(crate) settings: Settings,
@@ -153,7 +155,8 @@ impl Robot {
         let found = self.amcl.map_from_odom().map(|it| it * odom_from_base);
         let is_sure = self.amcl.status().state == LocalizationState::Tracking;
         let off = found.zip(truth).map(|(found, truth)| apart(truth, found));
-        let is_right = off.is_some_and(|off| off.0 < RIGHT.0 && off.1 < RIGHT.1);
+        let is_right =
+            off.is_some_and(|off| off.0 < MAX_RIGHT_ERROR_M && off.1 < MAX_RIGHT_ERROR_RAD);
         self.state = (is_sure, is_right);
         tally.off_map += usize::from(!is_covered);
         if !is_sure {
@@ -273,7 +276,7 @@ impl Tests {
     pub(crate) fn foreign(&self, course: &Course, other: &Course) -> Tally {
         let mut tally = Tally::new(&course.name, &format!("on {}", other.name));
         let mut robot = Robot::new(self.amcl(&other.map, course));
-        for sight in course.sights.iter().take(MOST_FOREIGN) {
+        for sight in course.sights.iter().take(MAX_FOREIGN_SCANS) {
             robot.see(sight, sight.odom_from_base, None, false, &mut tally);
         }
         robot.end(&mut tally);
@@ -289,7 +292,7 @@ impl Tests {
         for run in 0..self.runs {
             let first = course.anywhere(2.0 * WAY_M, &mut stream);
             let gone = course.after_m(first, WAY_M).unwrap_or(first);
-            let share = CUT.0 + (CUT.1 - CUT.0) * stream.unit();
+            let share = CUT_MIN_RATIO + (CUT_MAX_RATIO - CUT_MIN_RATIO) * stream.unit();
             let count = course.sights.len();
             let mut back = gone + (share * count as f64) as usize;
             if course.after_m(back.min(count - 1), WAY_M).is_none() {

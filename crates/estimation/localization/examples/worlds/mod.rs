@@ -15,9 +15,9 @@ const RANGE_MAX_M: f64 = 12.0;
 /// Standard deviation of the ranges \[m\].
 const SIGMA_M: f64 = 0.01;
 /// Fraction of beams that hit people, who are not on the map.
-const PEOPLE: f64 = 0.1;
+const PEOPLE_BEAM_RATIO: f64 = 0.1;
 /// Wheel slip.
-const SLIP: f64 = 0.05;
+const SLIP_RATIO: f64 = 0.05;
 /// Step between scans \[m\].
 pub(crate) const STEP_M: f64 = 0.1;
 /// Clearance from walls \[m\].
@@ -246,7 +246,7 @@ impl World {
             })
             .collect();
         let mut blocked = 0;
-        while blocked < (PEOPLE * BEAMS as f64) as usize {
+        while blocked < (PEOPLE_BEAM_RATIO * BEAMS as f64) as usize {
             let (bearing, far) = (TAU * stream.unit(), 0.8 + 2.5 * stream.unit());
             for (beam, range) in ranges.iter_mut().enumerate() {
                 let off = normalize_angle(beam as f64 * TAU / BEAMS as f64 - bearing);
@@ -302,7 +302,7 @@ pub(crate) struct Wanderer {
 
 impl Wanderer {
     pub(crate) fn new(truth: Pose2, stream: &mut Stream) -> Self {
-        let mut slip = || SLIP * (2.0 * stream.unit() - 1.0);
+        let mut slip = || SLIP_RATIO * (2.0 * stream.unit() - 1.0);
         let bias = (slip(), slip());
         Self { truth, odom_from_base: Pose2::new(-3.0, 5.0, 1.0), bias, turning: 0.0 }
     }
@@ -326,7 +326,7 @@ impl Wanderer {
             Pose2::new(0.0, 0.0, 0.2 * self.turning)
         };
         self.truth = (self.truth * moved).normalized();
-        let mut slip = |bias: f64| 1.0 + bias + SLIP * stream.normal();
+        let mut slip = |bias: f64| 1.0 + bias + SLIP_RATIO * stream.normal();
         let counted =
             Pose2::new(slip(self.bias.0) * moved.x_m, 0.0, slip(self.bias.1) * moved.yaw_rad);
         self.odom_from_base = (self.odom_from_base * counted).normalized();

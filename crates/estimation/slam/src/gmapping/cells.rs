@@ -529,8 +529,8 @@ fn cell_index(column: i32, row: i32) -> usize {
 /// Rounds down without a call; for positions within a million cells of the origin and more.
 #[inline]
 pub(super) fn floor(value: f64) -> i32 {
-    const MAX_COORDINATE_CELLS: f64 = 1_073_741_824.0;
-    (value + MAX_COORDINATE_CELLS) as i32 - 1_073_741_824
+    const MAX_COORDINATE_CELL_COUNT: f64 = 1_073_741_824.0;
+    (value + MAX_COORDINATE_CELL_COUNT) as i32 - 1_073_741_824
 }
 
 #[cfg(test)]

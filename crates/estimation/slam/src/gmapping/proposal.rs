@@ -14,7 +14,7 @@ pub(super) struct Drawn {
 }
 
 /// Points around the best fit on either side of each axis, at most.
-const MAX_AXIS_POINTS: f64 = 4.0;
+const MAX_AXIS_POINT_COUNT: f64 = 4.0;
 
 /// Draws from the normal distribution that fits what is likely around the best fit (Grisetti,
 /// Stachniss, Burgard 2007, equations (13) to (15): mean and covariance of sampled poses weighted by
@@ -27,7 +27,7 @@ pub(super) fn around(
 ) -> Drawn {
     let [shifts, turns] = [0, 1].map(|kind| {
         let (range, step) = (settings.sample_range[kind], settings.sample_step[kind]);
-        let steps = (range / step + 1e-9).floor().min(MAX_AXIS_POINTS);
+        let steps = (range / step + 1e-9).floor().min(MAX_AXIS_POINT_COUNT);
         let steps = if steps.is_finite() { steps as i32 } else { 0 };
         (-steps..=steps).map(|at| f64::from(at) * step).collect::<Vec<f64>>()
     });

@@ -230,10 +230,10 @@ pub(crate) fn unscoped(name: &str) -> &str {
 
 /// Lists names for a message, at most 12.
 fn some_of(names: &[&str]) -> String {
-    const MAX_NAMES: usize = 12;
-    let shown = names.iter().take(MAX_NAMES).map(|name| format!("`{name}`"));
+    const MAX_NAME_COUNT: usize = 12;
+    let shown = names.iter().take(MAX_NAME_COUNT).map(|name| format!("`{name}`"));
     let mut text = shown.collect::<Vec<_>>().join(", ");
-    if names.len() > MAX_NAMES {
+    if names.len() > MAX_NAME_COUNT {
         text.push_str(", ...");
     }
     text

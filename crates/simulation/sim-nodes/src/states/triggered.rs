@@ -14,7 +14,7 @@ use serde_json::Value;
 use crate::{Device, StepInterval, gz_topic};
 
 /// Default tolerance of number comparisons, as in Gazebo; `tol` overrides it.
-const TOLERANCE: f64 = 1e-8;
+const NUMBER_TOLERANCE_FACTOR: f64 = 1e-8;
 
 /// Publishes messages when a matching one arrives: all `<match>` of `<input>` must hold; each
 /// `<output>` is published after `<delay_ms>` of simulated time.
@@ -244,7 +244,7 @@ fn read_match<R: Message, G: AsRos<R>>(element: &Element) -> Result<Match, Strin
             return Err(format!("`logic_type` must be positive or negative, not `{other}`"));
         }
     };
-    Ok(Match { expected, tolerance: tolerance.unwrap_or(TOLERANCE), is_negative })
+    Ok(Match { expected, tolerance: tolerance.unwrap_or(NUMBER_TOLERANCE_FACTOR), is_negative })
 }
 
 /// Converts the text format of protobuf to a ROS message.
