@@ -1,7 +1,8 @@
 //! Dependency rules between the wings of the workspace.
 //!
 //! A crate belongs to the wing that its folder stands in: `crates/<wing>/<room>`. A crate uses
-//! crates of its own wing and of wings below it; wings in one row do not use each other. Estimators
+//! crates of its own wing and of wings below it; wings in one row do not use each other. The facade,
+//! `crates/periplus`, is alone in its wing, beside the apps: it re-exports libraries. Estimators
 //! never reach the files of robots or the simulation, not even through other crates: an estimator
 //! that can read the truth proves nothing.
 
@@ -19,8 +20,11 @@ const ROWS: [&[&str]; 6] = [
     &["robot-files", "estimation"],
     &["middleware"],
     &["simulation", "nav-nodes", "transports"],
-    &["apps"],
+    &["apps", FACADE],
 ];
+
+/// Wing and room of the crate that re-exports the libraries.
+const FACADE: &str = "periplus";
 
 /// Wings that must not reach other wings through any chain of crates, and the reason.
 const NEVERS: [(&[&str], &[&str], &str); 3] = [
@@ -101,6 +105,9 @@ fn folder(manifest: &str) -> (Option<String>, String) {
     let mut parts = manifest.rsplit(['/', '\\']).skip(1);
     let room = parts.next().unwrap_or_default().to_owned();
     let wing = parts.next().unwrap_or_default();
+    if wing == "crates" && room == FACADE {
+        return (Some(FACADE.to_owned()), room);
+    }
     let is_product = wing == "crates" || parts.next() == Some("crates");
     (is_product.then(|| wing.to_owned()), room)
 }
@@ -116,7 +123,7 @@ fn faults(crates: &BTreeMap<String, Crate>, exceptions: &[(&str, &str, &str)]) -
                     this.room
                 ));
             }
-            if *name != format!("periplus-{}", this.room) {
+            if wing != FACADE && *name != format!("periplus-{}", this.room) {
                 faults.push(format!("{name}: rename it to periplus-{}, as its folder", this.room));
             }
         }
@@ -255,7 +262,7 @@ mod tests {
         ];
         check(house, &[]);
         let expected = "beside the product\n  xtask          cli\napps\n  \
-            cli            geometry launch\n  launch         geometry\nsimulation\nnav-nodes\n\
+            cli            geometry launch\n  launch         geometry\nperiplus\nsimulation\nnav-nodes\n\
             transports\nmiddleware\nrobot-files\nestimation\nmessages\nfoundation\n  geometry\n";
         assert_eq!(table(&crates(&workspace(house))), expected);
     }
@@ -305,6 +312,8 @@ mod tests {
             faults(&crates(&workspace), &[]),
             ["periplus-mapper: rename it to periplus-slam, as its folder"]
         );
+        let facade = folder("/x/crates/periplus/Cargo.toml");
+        assert_eq!(facade, (Some(FACADE.to_owned()), FACADE.to_owned()));
         let windows = folder(r"C:\x\crates\apps\cli\Cargo.toml");
         assert_eq!(windows, (Some("apps".to_owned()), "cli".to_owned()));
     }
