@@ -1,4 +1,4 @@
-//! Runs every example; each ends with a check of its own.
+//! Runs every example; each ends with its own check.
 
 /// One test for each example, and the list of them.
 macro_rules! examples {
