@@ -17,6 +17,7 @@ mod drive;
 mod fuzz;
 mod layers;
 mod localization;
+mod package;
 mod physics;
 mod pictures;
 mod rays;
@@ -55,6 +56,9 @@ enum Task {
     Clippy,
     /// Which crate may use which, and whether each keeps to it
     Layers,
+    /// Package every library without building it: metadata, README, and the files that the code
+    /// includes
+    Package,
     /// Licences, sources and bans of what we borrow
     Deny,
     /// The documentation: links and anchors of every page, the site, and the code's own, with every
@@ -224,6 +228,7 @@ fn perform(task: &Task) -> Result<(), Failed> {
         Task::Fmt => fmt(),
         Task::Clippy => clippy(),
         Task::Layers => layers::run(),
+        Task::Package => package::check(),
         Task::Deny => deny(),
         Task::Docs { only } => docs::run(*only),
         Task::Test { rest } => test(rest),
@@ -286,6 +291,7 @@ fn ci() -> Result<(), Failed> {
     timed("fmt", fmt)?;
     timed("layers", layers::run)?;
     timed("tidy", || tidy::run(&tidy::Options::default()))?;
+    timed("package", package::check)?;
     timed("clippy", clippy)?;
     timed("deny", deny)?;
     timed("docs", || docs::run(None))?;
