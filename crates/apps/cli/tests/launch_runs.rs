@@ -255,8 +255,8 @@ fn a_world_of_harmonic_and_its_bridge() {
     );
     expect![[r#"
         + package://ros_gz_sim/launch/gz_sim.launch.py: the simulation of TOP/worlds/pong.sdf
-        + ros_gz_bridge parameter_bridge: /ros_gz_bridge: /lidar is /laser_scan
-        + ros_gz_bridge parameter_bridge: /ros_gz_bridge_2: /model/pong_bot/odometry is /odometry
+        + ros_gz_bridge parameter_bridge: /ros_gz_bridge: /lidar to /laser_scan
+        + ros_gz_bridge parameter_bridge: /ros_gz_bridge_2: /model/pong_bot/odometry to /odometry
     "#]]
     .assert_eq(&ran.became());
 }
@@ -282,7 +282,7 @@ fn programs_of_the_machine_and_what_is_missing() {
     assert!(!ran.is_success);
     assert!(ran.topics().contains("/tf_static tf2_msgs/msg/TFMessage 1"), "{}", ran.told);
     for words in [
-        "no program `periplus_has_no_such_program` on the PATH",
+        "program `periplus_has_no_such_program` is not on the PATH",
         "a ROS 2 program, and this run is not on a network",
         "a quarter is over",
         "shutdown: half is over",

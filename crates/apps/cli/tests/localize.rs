@@ -136,7 +136,7 @@ fn what_is_wrong_with_the_map_is_said() {
         &USUAL,
         1,
         &[
-            "no cell of the map is occupied, so no scan can tell where the robot is",
+            "no cell of the map is occupied, so scans cannot be matched",
             "occupied_thresh",
         ],
     );
@@ -173,7 +173,7 @@ fn what_is_wrong_with_the_initial_pose_is_said() {
         &folder,
         &with(&["--initial-pose", "77,0,0"]),
         1,
-        &["the initial pose (77.000, 0.000) is outside of the map", "the map reaches from"],
+        &["the initial pose (77.000, 0.000) is outside of the map", "the map extends from"],
     );
     refused(&folder, &with(&["-p", "max_particles:=many"]), 2, &["max_particles"]);
     // A right one is taken.

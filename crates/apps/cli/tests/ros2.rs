@@ -241,7 +241,7 @@ fn a_filter_without_scans_rarely_wakes() {
     let map = write_map(&folder);
     let words = ["localize", "--live", "--map", &map, "--initial-pose", "0,0,0"];
     let filter = Running::start(&mut domain.periplus(None, &words));
-    filter.tells("the map has 2 by 2 cells");
+    filter.tells("received a map of 2 by 2 cells");
     let (before, start) = (filter.wakes(), Instant::now());
     std::thread::sleep(WINDOW);
     let wakes_per_s = (filter.wakes() - before) as f64 / start.elapsed().as_secs_f64();
@@ -553,7 +553,7 @@ fn recordings_note_the_distribution_and_the_qos_of_publishers() {
     let mut record = domain.periplus(None, &["bag", "record", "-o", &output, "/chatter", "/map"]);
     let mut recording = Running::start(record.env("ROS_DISTRO", "jazzy"));
     // Until Ctrl-C; and both topics, in any order.
-    (0..3).for_each(|_| recording.tells("records "));
+    (0..3).for_each(|_| recording.tells("recording "));
     std::thread::sleep(Duration::from_secs(2));
     let id = recording.child.id().to_string();
     assert!(Command::new("kill").args(["-INT", &id]).status().unwrap().success());

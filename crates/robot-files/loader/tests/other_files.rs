@@ -73,7 +73,7 @@ fn a_map_opens_pictures_only() {
     let found = loaded.diagnostics.iter().next().expect("a finding");
     assert_eq!(
         found.message,
-        "the picture `/etc/passwd` of the map is not opened: it is no picture file"
+        "the image `/etc/passwd` of the map is not opened: it is not an image file"
     );
 }
 

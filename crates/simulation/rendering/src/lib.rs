@@ -8,7 +8,7 @@
 //!
 //! ```
 //! use periplus_geometry::{DVec3, Pose};
-//! use periplus_rendering::{Geometry, NoShapes, RenderScene};
+//! use periplus_rendering::{NoAssets, RenderScene, SensedGeometry};
 //! use periplus_raycast::{Filter, Ray};
 //! use periplus_scene::{Collision, Link, Model, Shape};
 //!
@@ -17,8 +17,8 @@
 //! let mut model = Model::new("toy");
 //! model.links.push(ball);
 //!
-//! let mut scene = RenderScene::empty(Geometry::Collision, 1);
-//! let parts = scene.add(&model, Pose::from_xyz(1.0, 0.0, 0.0), &NoShapes);
+//! let mut scene = RenderScene::empty(SensedGeometry::Collision, 1);
+//! let parts = scene.add(&model, Pose::from_xyz(1.0, 0.0, 0.0), &NoAssets);
 //! let ray = Ray::new(DVec3::ZERO, DVec3::X);
 //! let hit = scene.rays().cast(&ray, Filter::default()).expect("a hit");
 //! assert!((hit.distance_m - 0.9).abs() < 1e-12);

@@ -436,7 +436,7 @@ fn calls_that_fail_teach() {
     let plain = refused("<sdf version='1.9'/>", "a", "");
     assert!(plain.contains("holds no world, model, light"), "{plain}");
     let taken = refused(BOX, "ball", "");
-    assert!(taken.contains("`ball` is there already"), "{taken}");
+    assert!(taken.contains("`ball` exists already"), "{taken}");
     let frame = refused(BOX, "a", "bal");
     assert!(frame.contains("did you mean `ball`?") && frame.contains("eye"), "{frame}");
     let gone =
@@ -476,7 +476,7 @@ fn states_without_a_plugin_are_there_for_who_subscribes() {
     lab.run(30);
     let heard = states.drain();
     assert!(heard.len() >= 15, "{}", heard.len());
-    assert_eq!(heard[0].name, ["default_world::link", "ball::body", "eye::head"]);
+    assert_eq!(heard[0].name, ["ground::link", "ball::body", "eye::head"]);
 }
 
 #[test]

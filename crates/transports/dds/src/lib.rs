@@ -11,16 +11,16 @@
 //! use periplus_graph::{Graph, NodeSettings, Qos};
 //! use periplus_dds::{Settings, DdsTransport};
 //!
-//! Read the environment with `Settings::from_environment(&host)`.
+//! // Read the environment with `Settings::from_environment(&host)`.
 //! let wire = DdsTransport::open(&Settings::default())?;
 //!
-//! Endpoints of other programs, once discovery has run.
+//! // Endpoints of other programs, once discovery has run.
 //! wire.wait_for(Duration::from_secs(2), |remote| remote.topic("/scan").is_some());
 //! for topic in &wire.remote().topics {
 //!     println!("{} {:?}", topic.name, topic.type_names);
 //! }
 //!
-//! Taking part: a short `ros2 topic echo`.
+//! // Taking part: a short `ros2 topic echo`.
 //! let graph = Graph::live();
 //! wire.attach(&graph)?;
 //! let node = graph.node(NodeSettings::new("listener"))?;

@@ -418,7 +418,7 @@ fn too_many_clients_and_too_much_that_waits_are_refused() {
         client.0.text("{");
     }
     assert!(
-        matches!(client.0.outbox().take(NOW), OutboxItem::End(why) if why.contains("too much"))
+        matches!(client.0.outbox().take(NOW), OutboxItem::End(why) if why.contains("is full"))
     );
     drop(client);
     assert!(hub.join().is_some());
@@ -470,7 +470,7 @@ fn ends_that_do_not_fit_are_told_and_made_to() {
         "subscription": {"node": "/planner", "isOurs": true},
         "policies": [{"policy": "reliability", "offered": "best_effort", "asked": "reliable"}],
         "repair": "publisher",
-        "advice": "let `/lidar` offer reliability reliable",
+        "advice": "make `/lidar` offer reliability reliable",
     }]);
     assert_eq!(told["mismatches"], expected);
     let wish = json!({
@@ -573,8 +573,8 @@ fn what_a_client_publishes_is_made_to_fit_who_listens_elsewhere() {
         "op": "repairQos", "id": 9, "topic": "/scan", "publisher": "/viewers", "subscription": "/listener",
     }));
     let done = client.hears("repairQosResult");
-    let message = "`/viewers` now offers durability transient_local; what it published before was not \
-                   kept";
+    let message = "`/viewers` now offers durability transient_local; earlier messages were not \
+                   retained";
     assert_eq!((&done["id"], &done["message"]), (&json!(9), &json!(message)));
     let offered = graph.topics()[0].publishers[0].qos;
     assert!(offered.incompatible_policies(&Qos::latched(1)).is_empty());

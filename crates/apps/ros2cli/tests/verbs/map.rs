@@ -101,7 +101,7 @@ fn without_a_map_it_says_why() {
     .assert_eq(&run(&bench, &folder, &what));
     let silent = Save { topic: "/slam/map".into(), ..what };
     let said = run(&bench, &folder, &silent);
-    assert!(said.contains("nothing new came"), "{said}");
+    assert!(said.contains("published nothing new"), "{said}");
     let odd = Save { wish: Wish { free_thresh: 0.9, ..silent.wish.clone() }, ..silent };
     assert!(run(&bench, &folder, &odd).starts_with("! the thresholds are 0.9"));
 }

@@ -206,7 +206,7 @@ fn odometry_that_stands_still_is_reported_until_it_moves() {
     let half = way.len() / 2;
     assert_eq!(it.drive(&way[..half]), ["odometry"]);
     let status = it.status("odometry").clone();
-    assert!(status.message.contains("odometry stands still while scans show"), "{status:?}");
+    assert!(status.message.contains("odometry is constant while scans show"), "{status:?}");
     it.stage.odometry = |moved| Pose2::new(moved.x_m - 6.0, moved.y_m, moved.yaw_rad);
     it.drive(&way[half..]);
     assert_eq!(it.status("odometry").level, DiagnosticStatus::OK, "{:?}", it.latest);

@@ -206,7 +206,7 @@ fn a_robot_is_found_on_a_stored_graph() {
     said.pose.pose = message_pose(in_map(round[20]) * Pose2::new(0.25, -0.2, 0.15));
     initial.publish(said.clone());
     stage.advance(10);
-    assert!(stage.said().contains("has to be in `map`"));
+    assert!(stage.said().contains("must be in `map`"));
     said.header.frame_id = "map".into();
     initial.publish(said);
     stage.advance(10);

@@ -66,7 +66,7 @@ fn a_joint_that_turns_about_x_by_default() {
     };
     check(&joint("continuous", "1.5708 0 0", ""), &["write <axis xyz=\"0 1 0\"/>: the cylinder"]);
     check(&joint("revolute", "0 0 0", ""), &["write <axis xyz=\"0 0 1\"/>: the cylinder"]);
-    check(&joint("prismatic", "0 0 0", ""), &["slides along x"]);
+    check(&joint("prismatic", "0 0 0", ""), &["slides along the x axis"]);
     check(&joint("continuous", "0 1.5708 0", ""), &[]);
     check(&joint("continuous", "1.5708 0 0", "<axis xyz='0 1 0'/>"), &[]);
     check(&joint("fixed", "0 0 0", ""), &[]);

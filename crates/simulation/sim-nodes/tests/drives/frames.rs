@@ -174,7 +174,7 @@ fn links_need_no_inertia_and_another_description_is_taken_at_run_time() {
     };
     assert!(!set("robot_description", "").successful);
     let refused = set("robot_description", "<robot name='r'/>");
-    assert!(refused.reason.contains("no robot"), "{}", refused.reason);
+    assert!(refused.reason.contains("is not a robot"), "{}", refused.reason);
     assert!(set("frame_prefix", "left/").successful);
     let other = ARM.replace("plate", "table").replace("upper", "lower");
     assert!(set("robot_description", &other).successful);

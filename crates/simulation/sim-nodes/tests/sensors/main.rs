@@ -153,7 +153,7 @@ fn a_bumper_without_its_collision_is_told() {
     let bench = Bench::with(
         "<sensor name='bump' type='contact'><contact><collision>nose</collision></contact></sensor>",
     );
-    assert!(bench.said.contains("watches `nose`"), "{}", bench.said);
+    assert!(bench.said.contains("uses the collision `nose`"), "{}", bench.said);
     assert!(bench.said.contains("body"), "{}", bench.said);
 }
 
