@@ -248,7 +248,7 @@ fn a_robot_whose_frames_nobody_tells() {
     robot.says_fixed = false;
     robot.check(expect![[r#"
         hint no-frames: no transforms are published on `/tf` or `/tf_static`
-          start robot_state_publisher with the robot's `robot_description`; of Harmonic's plugins `gz::sim::systems::PosePublisher` tells them
+          start robot_state_publisher with the robot's `robot_description`; in Gazebo Harmonic `gz::sim::systems::PosePublisher` publishes them
     "#]]);
 }
 
@@ -351,9 +351,9 @@ fn one_name_for_two_types() {
     check(
         &SystemObservation { seen, ..SystemObservation::default() },
         expect![[r#"
-        error topic-types: `/cmd_vel` has endpoints of different types: geometry_msgs/msg/Twist, geometry_msgs/msg/TwistStamped
-          rename one of them: `-r /cmd_vel:=/cmd_vel_other`
-    "#]],
+            error topic-types: `/cmd_vel` has endpoints of different types: geometry_msgs/msg/Twist, geometry_msgs/msg/TwistStamped
+              remap one of them: `-r /cmd_vel:=/cmd_vel_other`
+        "#]],
     );
 }
 

@@ -209,11 +209,11 @@ mod tests {
               wheel_separation: [0.34]
               # Diameter of the wheels of a pair. [m] (above 0)
               wheel_diameter: [0.15]
-              # Most torque of a wheel. [N m] (at least 0)
+              # Maximum torque of a wheel. [N m] (at least 0)
               max_wheel_torque: 5.0
-              # Most acceleration at the rim; 0 is without limit. [m/s^2] (at least 0)
+              # Maximum acceleration at the rim; 0: unlimited. [m/s^2] (at least 0)
               max_wheel_acceleration: 0.0
-              # Steps of the controller per second; 0 is each step. [Hz] (at least 0)
+              # Steps of the controller per second; 0: each step. [Hz] (at least 0)
               update_rate: 100.0
               # 0 counts wheel turns, 1 is the true pose. (0 to 1)
               odometry_source: 1
@@ -221,11 +221,11 @@ mod tests {
               odometry_frame: odom
               # Frame that the odometry moves.
               robot_base_frame: base_footprint
-              # Whether odometry is published.
+              # If true, odometry is published.
               publish_odom: false
-              # Whether the transform from odometry to base is published.
+              # If true, the transform from odometry to base is published.
               publish_odom_tf: false
-              # Whether the transforms of the wheels are published.
+              # If true, the transforms of the wheels are published.
               publish_wheel_tf: false
               # Entry of the covariance of pose and velocity. [m^2] (at least 0)
               covariance_x: 1e-5
@@ -235,9 +235,9 @@ mod tests {
               covariance_yaw: 0.001
             # Drives a wheel on the left and one on the right.
             libgazebo_ros_diff_drive.so:
-              # Before every topic and service.
+              # Prefix of every topic and service.
               # robotNamespace:
-              # Nobody reads it since Gazebo 1; harmless.
+              # Unused since Gazebo 1.
               # alwaysOn:
               # The joint of the left wheel.
               leftJoint: left_joint
@@ -247,11 +247,11 @@ mod tests {
               wheelSeparation: 0.34
               # Diameter of the wheels. [m] (above 0)
               wheelDiameter: 0.15
-              # Most torque of a wheel. [N m] (at least 0)
+              # Maximum torque of a wheel. [N m] (at least 0)
               wheelTorque: 5.0
-              # Most acceleration at the rim; 0 is without limit. [m/s^2] (at least 0)
+              # Maximum acceleration at the rim; 0: unlimited. [m/s^2] (at least 0)
               wheelAcceleration: 0.0
-              # Steps of the controller per second; 0 is each step. [Hz] (at least 0)
+              # Steps of the controller per second; 0: each step. [Hz] (at least 0)
               updateRate: 100.0
               # Topic of velocity commands.
               commandTopic: cmd_vel
@@ -263,17 +263,17 @@ mod tests {
               odometrySource: world
               # Frame that the odometry moves.
               robotBaseFrame: base_footprint
-              # Whether the transforms of the wheels are published.
+              # If true, the transforms of the wheels are published.
               publishWheelTF: false
-              # Whether the wheels' joint states are published.
+              # If true, the wheels' joint states are published.
               publishWheelJointState: false
-              # Whether the transform from odometry to base is published.
+              # If true, the transform from odometry to base is published.
               publishOdomTF: true
-              # Whether transforms are published at all.
+              # If true, transforms are published at all.
               publishTf: true
-              # Whether left and right are swapped, as before Indigo.
+              # If true, left and right are swapped, as before Indigo.
               # legacyMode:
-              # How much the plugin tells.
+              # Verbosity of the log.
               rosDebugLevel: na
             # Drives wheels on the left and on the right.
             gz-sim-diff-drive-system:
@@ -285,7 +285,7 @@ mod tests {
               wheel_separation: 1.0
               # Radius of the wheels. [m] (above 0)
               wheel_radius: 0.2
-              # Odometry messages per second; 0 is one each step. [Hz] (at least 0)
+              # Odometry messages per second; 0: one per step. [Hz] (at least 0)
               odom_publish_frequency: 50.0
               # Topic of commands.
               # topic:
@@ -293,45 +293,45 @@ mod tests {
               # odom_topic:
               # Topic of the transform from odometry to base.
               # tf_topic:
-              # Frame of the odometry; without it `<model>/odom`.
+              # Frame of the odometry (default: `<model>/odom`).
               # frame_id:
-              # Frame that the odometry moves; without it `<model>/<link>`.
+              # Frame that the odometry moves (default: `<model>/<link>`).
               # child_frame_id:
-              # Limit of commands; without it none. [m/s]
+              # Limit of commands (default: none). [m/s]
               # min_velocity:
-              # Limit of commands; without it none. [m/s]
+              # Limit of commands (default: none). [m/s]
               # max_velocity:
-              # Limit of commands; without it none. [m/s^2]
+              # Limit of commands (default: none). [m/s^2]
               # min_acceleration:
-              # Limit of commands; without it none. [m/s^2]
+              # Limit of commands (default: none). [m/s^2]
               # max_acceleration:
-              # Limit of commands; without it none. [m/s^3]
+              # Limit of commands (default: none). [m/s^3]
               # min_jerk:
-              # Limit of commands; without it none. [m/s^3]
+              # Limit of commands (default: none). [m/s^3]
               # max_jerk:
-              # Limit of commands; without it none. [m/s]
+              # Limit of commands (default: none). [m/s]
               # min_linear_velocity:
-              # Limit of commands; without it none. [m/s]
+              # Limit of commands (default: none). [m/s]
               # max_linear_velocity:
-              # Limit of commands; without it none. [rad/s]
+              # Limit of commands (default: none). [rad/s]
               # min_angular_velocity:
-              # Limit of commands; without it none. [rad/s]
+              # Limit of commands (default: none). [rad/s]
               # max_angular_velocity:
-              # Limit of commands; without it none. [m/s^2]
+              # Limit of commands (default: none). [m/s^2]
               # min_linear_acceleration:
-              # Limit of commands; without it none. [m/s^2]
+              # Limit of commands (default: none). [m/s^2]
               # max_linear_acceleration:
-              # Limit of commands; without it none. [rad/s^2]
+              # Limit of commands (default: none). [rad/s^2]
               # min_angular_acceleration:
-              # Limit of commands; without it none. [rad/s^2]
+              # Limit of commands (default: none). [rad/s^2]
               # max_angular_acceleration:
-              # Limit of commands; without it none. [m/s^3]
+              # Limit of commands (default: none). [m/s^3]
               # min_linear_jerk:
-              # Limit of commands; without it none. [m/s^3]
+              # Limit of commands (default: none). [m/s^3]
               # max_linear_jerk:
-              # Limit of commands; without it none. [rad/s^3]
+              # Limit of commands (default: none). [rad/s^3]
               # min_angular_jerk:
-              # Limit of commands; without it none. [rad/s^3]
+              # Limit of commands (default: none). [rad/s^3]
               # max_angular_jerk:
         "#]]
         .assert_eq(&yaml);
