@@ -132,5 +132,8 @@ fn one_file_names_many_results() {
     let output = convert(&words);
     assert_eq!(output.status.code(), Some(1));
     let said = String::from_utf8(output.stderr).unwrap();
-    assert!(said.contains("out.yaml:3") && said.contains("expected one of mcap, sqlite3"), "{said}");
+    assert!(
+        said.contains("out.yaml:3") && said.contains("expected one of mcap, sqlite3"),
+        "{said}"
+    );
 }

@@ -137,7 +137,12 @@ fn names_that_lead_nowhere_lead_to_near_ones() {
     );
     proposes(
         &["launch_bot"],
-        &["is a package", "its launch files are ", "display.launch.py", "`periplus launch launch_bot FILE`"],
+        &[
+            "is a package",
+            "its launch files are ",
+            "display.launch.py",
+            "`periplus launch launch_bot FILE`",
+        ],
     );
     let file = "display.launch.py";
     let whole = "did you mean `periplus launch launch_bot display.launch.py`?";

@@ -135,10 +135,7 @@ fn what_is_wrong_with_the_map_is_said() {
         &folder,
         &USUAL,
         1,
-        &[
-            "no cell of the map is occupied, so scans cannot be matched",
-            "occupied_thresh",
-        ],
+        &["no cell of the map is occupied, so scans cannot be matched", "occupied_thresh"],
     );
 }
 

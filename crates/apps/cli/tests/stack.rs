@@ -63,11 +63,7 @@ fn a_script_and_a_map_with_both_robots() {
         let output = periplus(&words);
         let told = told(&output);
         assert!(output.status.success(), "{robot}: {told}");
-        assert_eq!(
-            told.contains("the EKF of robot_localization"),
-            has_filter,
-            "{robot}: {told}"
-        );
+        assert_eq!(told.contains("the EKF of robot_localization"), has_filter, "{robot}: {told}");
         assert!(!told.contains("the map contains"), "{robot}: {told}");
         // The first scan arrives before the first message of the filter.
         let lost =
@@ -230,7 +226,11 @@ fn a_page_takes_another_port_where_the_usual_one_is_taken() {
     let words = ["sim", "worlds/closed_room.world", &page, "--no-browser", "--duration", "0.1"];
     let output = periplus(&words);
     assert_eq!(output.status.code(), Some(1), "{}", told(&output));
-    assert!(told(&output).contains("choose another port, such as --page=8766"), "{}", told(&output));
+    assert!(
+        told(&output).contains("choose another port, such as --page=8766"),
+        "{}",
+        told(&output)
+    );
 }
 
 /// `launch` warns of these; `sim --robot` and `check` took them without a word.

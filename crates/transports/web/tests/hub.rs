@@ -417,9 +417,7 @@ fn too_many_clients_and_too_much_that_waits_are_refused() {
     for _ in 0..10_000 {
         client.0.text("{");
     }
-    assert!(
-        matches!(client.0.outbox().take(NOW), OutboxItem::End(why) if why.contains("is full"))
-    );
+    assert!(matches!(client.0.outbox().take(NOW), OutboxItem::End(why) if why.contains("is full")));
     drop(client);
     assert!(hub.join().is_some());
 }

@@ -316,7 +316,11 @@ fn diagnostics_name_what_is_wrong_and_the_parameter() {
     see(&mut stage, "laser", 0);
     let high = Told::latest(&all, part);
     assert_eq!(high.level, DiagnosticStatus::ERROR);
-    assert!(high.message.starts_with("30 of 30 were above `max_obstacle_height` of the source"), "{}", high.message);
+    assert!(
+        high.message.starts_with("30 of 30 were above `max_obstacle_height` of the source"),
+        "{}",
+        high.message
+    );
     assert!(high.message.contains("(`voxel_layer.scan.max_obstacle_height`)"));
     assert_eq!(high.value("points dropped by height"), "30");
     // A frame that nobody knows, and a clock that goes ahead.
