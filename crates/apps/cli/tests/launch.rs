@@ -146,7 +146,7 @@ fn names_that_lead_nowhere_lead_to_near_ones() {
     );
     let file = "display.launch.py";
     let whole = "did you mean `periplus launch launch_bot display.launch.py`?";
-    proposes(&["launch_bt", file], &["there is no package `launch_bt`", whole]);
+    proposes(&["launch_bt", file], &["package `launch_bt` was not found", whole]);
     proposes(&["launch_bot_description", file], &["was not found", whole]);
     proposes(&["launch_bot_bringup", "dispaly.launch.py"], &[whole]);
     // Packages of this repository, around the working folder, without a path.
