@@ -553,7 +553,7 @@ fn recordings_note_the_distribution_and_the_qos_of_publishers() {
     let mut record = domain.periplus(None, &["bag", "record", "-o", &output, "/chatter", "/map"]);
     let mut recording = Running::start(record.env("ROS_DISTRO", "jazzy"));
     // Until Ctrl-C; and both topics, in any order.
-    (0..3).for_each(|_| recording.tells("recording "));
+    (0..3).for_each(|_| recording.tells("recording"));
     std::thread::sleep(Duration::from_secs(2));
     let id = recording.child.id().to_string();
     assert!(Command::new("kill").args(["-INT", &id]).status().unwrap().success());
