@@ -1,5 +1,5 @@
-// The page for everybody: axe finds nothing serious in its main states, and on a phone all that is
-// needed at once can be reached.
+// Accessibility: axe finds no serious violation in the main states of the page, and on a phone all main
+// controls are reachable.
 import assert from 'node:assert/strict';
 import { readFileSync } from 'node:fs';
 import { createRequire } from 'node:module';
@@ -11,11 +11,11 @@ const AXE = readFileSync(createRequire(import.meta.url).resolve('axe-core/axe.mi
 const PANELS = ['Drive', 'World', 'Topics', 'Nodes', 'Parameters', 'Services', 'Plot', 'Log'];
 const PHONE = { viewport: { width: 390, height: 844 }, hasTouch: true, isMobile: true };
 
-/** What axe finds wrong, of the kinds that keep people from using the page. */
+/** Violations found by axe that keep people from using the page. */
 async function wrong(page, state) {
   if (!(await page.evaluate('!!window.axe'))) await page.evaluate(AXE);
   const found = await page.evaluate(async () => {
-    // Landmarks, headings and names that differ from what is seen count too.
+    // Includes landmarks, headings and names that differ from the visible text.
     const { violations } = await window.axe.run(document, {
       resultTypes: ['violations'],
       rules: { 'label-content-name-mismatch': { enabled: true } },
@@ -63,7 +63,7 @@ async function states(page, state) {
   return all;
 }
 
-/** On a phone nothing that is needed at once is off the screen, and keys are not spoken of. */
+/** On a phone the main controls are on the screen, and no text mentions keys. */
 async function phone(page) {
   const width = page.viewportSize().width;
   for (const name of [

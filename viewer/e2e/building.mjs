@@ -1,4 +1,4 @@
-// The Building Editor: a room is drawn, saved, checked, simulated and scanned; buildings of others are
+// The Building Editor: a room is drawn, saved, checked, simulated and scanned; buildings of other programs are
 // opened, changed and saved.
 import assert from 'node:assert/strict';
 import { execFileSync } from 'node:child_process';
@@ -11,7 +11,7 @@ const PORT = 8822;
 const KBOT = 'robots/kbot/urdf/kbot.urdf.xacro';
 const CORPUS = join(ROOT, '../shared/corpus');
 
-/** What `periplus check` says of a file; it has to find nothing wrong. */
+/** Report of `periplus check` for a file; it must have no finding. */
 function checked(file) {
   const said = execFileSync(PROGRAM, ['check', file], { encoding: 'utf8' });
   assert.match(said, /no findings/, said);
@@ -29,7 +29,7 @@ async function saved(page, button, file) {
   await download.saveAs(file);
 }
 
-/** A place of the plan on the screen: its middle is at 3, 2. */
+/** Screen position of a point of the plan, whose center is at 3, 2. */
 async function presser(page) {
   const box = await page.getByRole('application').boundingBox();
   return async (x, y) => {
@@ -60,7 +60,7 @@ export async function building(chrome, url, out) {
   await press(3, 4);
   await page.keyboard.press('Control+z');
   await page.keyboard.press('Control+y');
-  // Letters of the plan are not drawn over by the lines of what is being drawn.
+  // Labels of the plan are not crossed by the lines of the wall being drawn.
   for (const mode of ['select', 'wall', 'door', 'window', 'stairs', 'scale']) {
     await page.evaluate((name) => window.building.setMode(name), mode);
     await page.waitForFunction(
@@ -104,7 +104,7 @@ export async function building(chrome, url, out) {
         return { right: middle(xs, (x) => x > 3.7), left: middle(xs, (x) => x < -1.8), up: middle(ys, (y) => y > 1.8), down: middle(ys, (y) => y < -1.8) };
       })()`,
     );
-    // Walls are 0.15 m thick, and drawn by their middles.
+    // Walls are 0.15 m thick, and drawn by their center lines.
     const drawn = { right: 3.925, left: -1.925, up: 1.925, down: -1.925 };
     for (const [side, m] of Object.entries(drawn)) {
       assert.ok(Math.abs(found[side] - m) < 0.02, `${side}: ${found[side]} m instead of ${m} m`);
@@ -115,7 +115,7 @@ export async function building(chrome, url, out) {
   }
 }
 
-/** Files that Gazebo's editor, or somebody after it, wrote: how many walls, doors and windows they have. */
+/** Files of Gazebo's editor, partly edited by hand: their numbers of walls, doors and windows. */
 const FOREIGN = [
   { file: join(ROOT, 'worlds/models/closed_room/model.sdf'), walls: 6, doors: 1 },
   {
@@ -144,7 +144,7 @@ export async function foreignBuildings(chrome, url, out) {
     }));
     assert.ok(had.walls >= walls, `${name} has ${had.walls} walls`);
     if (doors !== undefined) assert.deepEqual(had, { walls, doors });
-    // A wall more, drawn by keys alone: from a corner of the grid a metre and a half to the right.
+    // One more wall, drawn by keys: from a corner of the grid 1.5 m to the right.
     await page.keyboard.press('w');
     await page.getByRole('application').focus();
     await page.keyboard.press('Enter');
@@ -165,7 +165,7 @@ export async function foreignBuildings(chrome, url, out) {
     );
     await page.getByRole('button', { name: 'New' }).click();
   }
-  // The model comes as a folder in a .zip; its parts are what the program reads.
+  // The model is a folder in a .zip file; the program reads its files.
   const press = await presser(page);
   for (const [x, y] of [
     [0, 0],
@@ -184,7 +184,7 @@ export async function foreignBuildings(chrome, url, out) {
   await page.close();
 }
 
-/** Files of a .zip that stores them as they are. */
+/** Files of a .zip file without compression. */
 function* stored(zip) {
   for (let at = 0; zip.readUInt32LE(at) === 0x04034b50;) {
     const [size, name, extra] = [

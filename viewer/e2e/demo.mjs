@@ -1,4 +1,4 @@
-// `periplus demo` as a newcomer meets it: it opens, is driven by keys, and what is seen grows.
+// `periplus demo` for a new user: the page opens, keys drive the robot, and the map grows.
 import assert from 'node:assert/strict';
 import { existsSync } from 'node:fs';
 import { join } from 'node:path';
@@ -7,7 +7,7 @@ import { next, open, periplus, ROOT, until } from './lib.mjs';
 const PORT = 8823;
 const CORPUS = join(ROOT, '../shared/corpus');
 
-/** Files of RViz, and the displays that they name. */
+/** `.rviz` files, and the displays that they contain. */
 const RVIZ = {
   'robots/sam_bot/rviz/sam_bot.rviz': ['Grid', 'RobotModel', 'TF', 'LaserScan'],
   [join(CORPUS, 'navigation2_tutorials@humble/sam_bot_description/rviz/urdf_config.rviz')]: [
@@ -44,7 +44,7 @@ const STEPS = {
     await until(page, 'periplus.fixedFrame === "map"', 'the frame of the map');
   },
 
-  /** The cube stands straight ahead, and is red. */
+  /** The cube is straight ahead, and red. */
   async 'sees the cube'(page) {
     const red = `(() => {
       const { canvas } = periplus.displays.find((d) => d.isEnabled && d.canvas?.width > 300);
@@ -92,7 +92,7 @@ const STEPS = {
     );
     const map = await page.evaluate('periplus.maps.find((m) => m.topic === "/map")');
     assert.ok(map.freeIou > 0.5 && map.freeIou <= 1, `free space agrees by ${map.freeIou}`);
-    await page.getByText('overlaps the world by').waitFor();
+    await page.getByText('free space IoU').waitFor();
   },
 
   async "opens RViz's files"(page) {
@@ -107,16 +107,16 @@ const STEPS = {
       await until(page, `periplus.fileName === ${JSON.stringify(base)}`, name);
       const shown = await page.evaluate('periplus.displays.map((d) => d.kind.title)');
       assert.deepEqual(shown.slice(0, kinds.length), kinds);
-      // The simulated world stays beside what RViz knows.
+      // The simulated world stays beside the displays of the file.
       if (name.startsWith('/')) assert.deepEqual(shown.slice(kinds.length), ['World']);
-      // What the demo has of it is really shown.
+      // Displays with a topic in the demo show its messages.
       for (const title of ['RobotModel', 'Map', 'LaserScan']) {
         const one = `periplus.displays.find((d) => d.kind.title === "${title}" && d.isEnabled)`;
         const isHere = `(periplus.topics.some((t) => t.type && t.name === ${one}?.values.Topic))`;
         if (!(await page.evaluate(isHere))) continue;
         await until(page, `${one}.statuses.Topic?.level === "ok"`, `${title} of ${base}`);
       }
-      // It is written as it came, and read again.
+      // The saved file has the same displays.
       const text = await page.evaluate('periplus.rvizText()');
       await page.evaluate((written) => window.periplus.openRviz(written, 'again'), text);
       assert.deepEqual(await page.evaluate('periplus.displays.map((d) => d.kind.title)'), shown);
@@ -124,7 +124,7 @@ const STEPS = {
   },
 };
 
-/** All of it on one run, each step under its own name. */
+/** All steps on one run, each reported by name. */
 export async function demo(chrome, url, attempt) {
   if (!attempt.isWanted('demo')) return;
   const run = await periplus(['demo', '--no-browser', `--page=127.0.0.1:${PORT}`], PORT);

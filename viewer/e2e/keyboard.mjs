@@ -1,11 +1,11 @@
-// The page without a mouse: every control is reached by Tab, is seen when it is, and has a name.
+// The page without a mouse: every control is reachable by Tab, visible when focused, and has a name.
 import assert from 'node:assert/strict';
 import { next, open, periplus, sim, until } from './lib.mjs';
 
 const PORT = 8824;
 const SAM_BOT = 'robots/sam_bot/urdf/sam_bot.urdf.xacro';
 
-/** What can be reached now: numbered, with names. Notes from now on what gets the focus. Runs in the page. */
+/** Focusable elements, numbered and with names. Records from now on which gets the focus. Runs in the page. */
 function watch() {
   const nameOf = (element) =>
     [
@@ -39,14 +39,14 @@ function watch() {
   return { texts, nameless: all.filter((e) => !nameOf(e).trim()).map((e) => e.outerHTML) };
 }
 
-/** Goes once around by Tab; tells what was not reached, not seen or not named. */
+/** Goes once through the page by Tab; returns elements that were not reached, not visible or not named. */
 async function around(page) {
   const { texts, nameless } = await page.evaluate(watch);
   for (let i = 0; i < texts.length + 10; i++) await page.keyboard.press('Tab');
   const { reached, unseen, gone } = await page.evaluate('seen');
   return {
     count: reached.length,
-    // What went away meanwhile cannot be reached.
+    // Elements removed meanwhile are not reachable.
     unreached: texts.filter((_, i) => !reached.includes(i) && !gone.includes(i)),
     unseen,
     nameless,
@@ -76,12 +76,12 @@ export async function keyboard(chrome, url) {
     const { page } = await open(chrome, `${url}?ws=ws://127.0.0.1:${PORT}/`);
     await until(page, 'periplus.displays.length > 4', 'displays');
     await until(page, 'periplus.displays.some((d) => d.statuses.Description)', 'a robot');
-    // From now on the list stays as it is.
+    // From now on the list of displays does not change.
     await page.evaluate(() => (window.periplus.isAutomatic = false));
-    // A run that stands has the same buttons all the time.
+    // While the simulation is paused the buttons do not change.
     await page.getByRole('button', { name: 'Pause' }).first().click();
     await until(page, 'periplus.isPaused', 'standing still');
-    // Each panel by arrow keys.
+    // Arrow keys select each panel.
     await page.getByRole('tab', { name: 'Drive' }).focus();
     for (const tab of [
       'World',
@@ -98,7 +98,7 @@ export async function keyboard(chrome, url) {
       if (['World', 'Plot', 'Log', 'Drive'].includes(tab)) await holds(page, tab);
       await page.locator(`#tab-${tab}`).focus();
     }
-    // A display is opened and turned off by keys.
+    // A display is expanded and disabled by keys.
     const shown = page.getByRole('checkbox', { name: /^Show (Scan|scan)/ });
     await shown.focus();
     await page.keyboard.press('Space');
@@ -107,7 +107,7 @@ export async function keyboard(chrome, url) {
     await page.getByRole('button', { name: /^Options of (Scan|scan)/ }).focus();
     await page.keyboard.press('Enter');
     await holds(page, 'the options of a display');
-    // A goal: the tool by its letter, the place by arrows, the heading by more of them.
+    // A goal: the tool by its letter, position and heading by arrow keys.
     await page.evaluate(
       'periplus.setView({ kind: "TopDownOrtho", x: 0, y: 0, scale: 60, angle: 0 })',
     );
@@ -117,7 +117,7 @@ export async function keyboard(chrome, url) {
         await page.keyboard.press(key);
       }
     };
-    // Nobody spoke of goals before: the first one makes the topic.
+    // The topic of goals does not exist before the first one.
     await aim();
     await until(page, 'periplus.topics.some((t) => t.name === "/goal_pose" && t.type)', 'a goal');
     const goal = next(page, '/goal_pose', 'message.pose');
@@ -128,7 +128,7 @@ export async function keyboard(chrome, url) {
       Math.abs(2 * Math.atan2(orientation.z, orientation.w) - Math.PI / 2) < 0.05,
       'it looks up',
     );
-    // The editor holds the focus while it is open, and gives it back.
+    // The editor keeps the focus while it is open, and returns it when it is closed.
     await page.getByRole('button', { name: 'Building Editor' }).focus();
     await page.keyboard.press('Enter');
     await page.getByRole('application').waitFor();

@@ -1,4 +1,4 @@
-// What tests and pictures need: a running Periplus, and a browser that looks at it.
+// Library of the tests and screenshots: a running Periplus, and a browser with the page.
 import { spawn } from 'node:child_process';
 import { existsSync, readFileSync } from 'node:fs';
 import { createServer } from 'node:http';
@@ -12,7 +12,7 @@ const PAGE = join(ROOT, 'crates/transports/web/page');
 export const PROGRAM = process.env.PERIPLUS ?? join(ROOT, 'target/release/periplus');
 const BROWSER = process.env.CHROMIUM ?? '/usr/bin/chromium';
 
-/** The words that run a world with a robot in it, as fast as the clock, with nobody else listening. */
+/** Arguments that run a world with a robot in real time, invisible to other programs. */
 export const sim = (world, robot, ...more) => [
   'sim',
   world,
@@ -25,10 +25,10 @@ export const sim = (world, robot, ...more) => [
   'off',
 ];
 
-/** Runs the program; resolves once its port answers. */
+/** Runs the program; resolves once its port responds. */
 export async function periplus(args, port, environment = {}) {
   if (!existsSync(PROGRAM))
-    throw new Error(`${PROGRAM} is not there: build it, or say PERIPLUS=...`);
+    throw new Error(`${PROGRAM} does not exist: build it, or set PERIPLUS=...`);
   const child = spawn(PROGRAM, args, {
     cwd: ROOT,
     stdio: ['ignore', 'pipe', 'pipe'],
@@ -64,7 +64,7 @@ const TYPES = {
   '.svg': 'image/svg+xml',
 };
 
-/** Serves the page as it was built last, for a program that was built with an older one. */
+/** Serves the latest build of the page, for a program that was built with an older one. */
 export async function servePage() {
   const server = createServer((request, response) => {
     const path = new URL(request.url, 'http://x').pathname;
@@ -81,7 +81,7 @@ export async function servePage() {
   return { url: `http://127.0.0.1:${server.address().port}/`, stop: () => server.close() };
 }
 
-/** Debian's Chromium without a window; pictures come from its software renderer. */
+/** Debian's Chromium without a window, with its software renderer. */
 export async function browser() {
   return chromium.launch({
     executablePath: BROWSER,
@@ -95,7 +95,7 @@ export async function browser() {
   });
 }
 
-/** Opens the page and waits until it is connected; complaints of the page fail the test. */
+/** Opens the page and waits until it is connected; errors of the page fail the test. */
 export async function open(chrome, url, options = {}) {
   const page = await chrome.newPage({
     viewport: { width: 1280, height: 720 },
@@ -122,15 +122,15 @@ export const until = (page, expression, what, timeout = 30_000) =>
       notices: window.periplus.notices.map((n) => n.text),
       frames: window.periplus.frames,
     }));
-    throw new Error(`${what} did not happen; the page says ${JSON.stringify(now)}`);
+    throw new Error(`${what} did not happen; the state of the page is ${JSON.stringify(now)}`);
   });
 
-/** Numbers of a message of a topic, taken in the page. */
+/** Numbers of a message of a topic, received by the page. */
 export const next = (page, topic, pick) =>
   page.evaluate(
     ([name, text]) =>
       new Promise((resolve, reject) => {
-        setTimeout(() => reject(new Error(`nothing came on ${name}`)), 8000);
+        setTimeout(() => reject(new Error(`no message received on ${name}`)), 8000);
         const leave = window.periplus.client.subscribe(name, (message) => {
           leave();
           resolve(new Function('message', `return ${text}`)(message));

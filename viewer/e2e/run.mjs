@@ -1,4 +1,4 @@
-// The page beside a running Periplus, in Debian's Chromium without a window.
+// End-to-end tests of the page with a running Periplus, in Debian's Chromium without a window.
 //
 //   npm run e2e [NAME...]     PERIPLUS=path/to/periplus
 import assert from 'node:assert/strict';
@@ -24,7 +24,7 @@ const where = (page) =>
   });
 
 const tests = {
-  /** The robot goes where keys send it, and the map grows. */
+  /** Keys drive the robot, and the map grows. */
   async drive(page) {
     await until(page, "periplus.fixedFrame === 'map'", 'a map');
     await until(page, 'periplus.displays.some((d) => d.kind.title === "RobotModel")', 'a robot');
@@ -33,7 +33,7 @@ const tests = {
     const known = () => next(page, '/map', 'message.data.reduce((n, c) => n + (c >= 0), 0)');
     const first = await known();
     await page.locator('canvas').first().focus();
-    // The key is held until it has got somewhere: a machine may be slow.
+    // The key is held until the robot has moved: a machine may be slow.
     await page.keyboard.down('i');
     await until(
       page,
@@ -62,7 +62,7 @@ const tests = {
     assert.ok(later > first, `cells of the map: ${first}, then ${later}`);
   },
 
-  /** A map's changes come as changes, and are drawn. */
+  /** Updates of a map are received as updates, and are drawn. */
   async map(page) {
     await until(
       page,
@@ -89,7 +89,7 @@ const tests = {
     await until(page, '!periplus.isPaused', 'going on');
   },
 
-  /** A thing is put in front of the robot, seen by its scanner, and taken away. */
+  /** A model is inserted in front of the robot, measured by its scanner, and deleted. */
   async insert(page) {
     const scan = '/kbot/sensor_laser/scan';
     const nearest = () => next(page, scan, 'Math.min(...message.ranges.filter((r) => r > 0.05))');
@@ -119,7 +119,7 @@ const tests = {
     );
   },
 
-  /** Parameters of nodes, with bounds that they told of. */
+  /** Parameters of nodes, with the ranges that they declare. */
   async parameters(page) {
     await page.getByRole('tab', { name: 'Parameters' }).click();
     await until(page, 'Object.keys(periplus.parameters).length > 10', 'parameters');

@@ -1,4 +1,4 @@
-// A picture of the page of a program that runs: node e2e/shot.mjs URL PICTURE [FILE.rviz]
+// Screenshot of the page of a running program: node e2e/shot.mjs URL PICTURE [FILE.rviz]
 import { browser, open } from './lib.mjs';
 
 const [url, picture, rviz] = process.argv.slice(2);
@@ -9,7 +9,7 @@ try {
     timeout: 60_000,
   });
   if (rviz) await page.getByTestId('rviz-file').setInputFiles(rviz);
-  // What comes seldom, such as maps, has to have come.
+  // Waits for rare messages, such as maps.
   await page.waitForTimeout(8000);
   await page.screenshot({ path: picture });
 } finally {

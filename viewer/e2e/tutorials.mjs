@@ -1,5 +1,5 @@
-// The tutorials' steps by hand, followed as they are written: the names of controls and the values come
-// from the texts in docs/tutorials, so that a text that is no longer true fails.
+// Executes the manual steps of the tutorials: the names of controls and the values are read from the texts
+// in docs/tutorials, so that an outdated text fails.
 import assert from 'node:assert/strict';
 import { execFileSync } from 'node:child_process';
 import { readFileSync } from 'node:fs';
@@ -9,8 +9,7 @@ import { next, open, periplus, PROGRAM, ROOT, sim, until } from './lib.mjs';
 const PORT = 8827;
 
 /**
- * The numbered steps of the list after a text: each with the bold names and the code in it. A name that
- * the page breaks over two lines is one.
+ * Numbered steps of the list after a text, each with its bold names and code. A name may span two lines.
  */
 function stepsOf(file, before) {
   const text = readFileSync(join(ROOT, 'docs/tutorials', file), 'utf8');
@@ -28,7 +27,7 @@ function stepsOf(file, before) {
     });
 }
 
-/** Does each step by its function; there have to be as many. */
+/** Runs the function of each step; there must be one per step. */
 async function follow(file, before, actions) {
   const steps = stepsOf(file, before);
   assert.equal(steps.length, actions.length, `${file}: steps after "${before}"`);
@@ -44,13 +43,13 @@ async function follow(file, before, actions) {
 const side = (page, name) => page.getByRole('complementary', { name });
 const press = (where, name) => where.getByRole('button', { name, exact: true }).first().click();
 
-/** An option of the display whose options are open. */
+/** Option of the display that is expanded. */
 const option = (page, name) =>
   side(page, 'Displays')
     .locator('.option', { has: page.locator('.name').getByText(name, { exact: true }) })
     .locator('input, select');
 
-/** Sets options as a step says: each name with the code after it. */
+/** Sets the options of a step: each name to the code after it. */
 async function set(page, { names, codes }) {
   assert.equal(names.length, codes.length);
   for (const [i, name] of names.entries()) {
@@ -64,12 +63,12 @@ async function set(page, { names, codes }) {
   }
 }
 
-/** Adds a display by its kind, with all others shut so that one name means one control. */
+/** Adds a display by its kind, with all others collapsed so that the names of controls are unique. */
 async function addByKind(page, { names: [add, kind] }) {
   await press(side(page, 'Displays'), add);
   const list = page.getByRole('group', { name: 'Add a display' });
   const title = page.locator('.title', { hasText: new RegExp(`^${kind}$`) });
-  // Kinds come after topics, which name the kind that shows them.
+  // Kinds are listed after topics, which name their kind too.
   await list.locator('.pick', { has: title }).last().click();
 }
 
@@ -81,7 +80,7 @@ const fixedFrame =
     await until(page, `periplus.fixedFrame === ${JSON.stringify(codes[0])}`, 'the fixed frame');
   };
 
-/** What the last display shows of a scan. */
+/** Scan shown by the last display. */
 async function scanIsShown(page, topic, sizeM) {
   const last = 'periplus.displays[periplus.displays.length - 1]';
   await until(page, `${last}.statuses.Points && ${last}.level === "ok"`, 'the scan');
@@ -91,7 +90,7 @@ async function scanIsShown(page, topic, sizeM) {
   assert.equal(values.Style, 'Flat Squares');
 }
 
-/** Runs a program and follows a text on its page; `shoot` takes a picture. */
+/** Runs a program and follows a text on its page; `shoot` takes a screenshot. */
 async function beside(chrome, url, words, look) {
   const run = await periplus([...words, `--page=127.0.0.1:${PORT}`], PORT);
   const { page } = await open(chrome, `${url}?ws=ws://127.0.0.1:${PORT}/`);
@@ -118,7 +117,7 @@ const KBOT = ['launch', 'robots/kbot/launch/kbot.launch', '--no-browser'];
 const PLAIN = ['--ros2', 'off'];
 
 const TUTORIALS = {
-  /** Third tutorial of kbot: the scan as a display of one's own. */
+  /** Third tutorial of kbot: a display for the scan. */
   'kbot scan': (chrome, url, { shoot }) =>
     beside(chrome, url, [...KBOT, ...PLAIN], async (page) => {
       await page.evaluate(async () => {
@@ -139,7 +138,7 @@ const TUTORIALS = {
       await shoot(page, 'kbot-scan-by-hand', { distance: 4.5, focal: [0.8, 0, 0] });
     }),
 
-  /** A room is drawn, inserted and saved; the lidar sees it, and the saved world is one. */
+  /** A room is drawn, inserted and saved; the lidar measures it, and the saved world is valid. */
   'kbot room': (chrome, url, { out, shoot }) =>
     beside(chrome, url, [...KBOT, ...PLAIN], async (page) => {
       const editor = page.getByRole('dialog', { name: 'Building Editor' });
@@ -201,7 +200,7 @@ const TUTORIALS = {
       ]);
       await page.waitForTimeout(1500);
       await shoot(page, 'kbot-room-by-hand', { distance: 11, pitch: 1, focal: [1.5, 0.75, 0] });
-      // Every beam ends at a wall: the farthest corner is nearer than six metres.
+      // Every beam hits a wall: the farthest corner is nearer than six metres.
       const scan = '/kbot/sensor_laser/scan';
       const far = () => next(page, scan, 'message.ranges.filter((r) => !(r < 6)).length');
       assert.equal(await far(), 0, 'beams that leave the room');

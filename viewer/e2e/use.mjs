@@ -1,4 +1,4 @@
-// What a new user does first: each test holds something that broke a promise once.
+// First steps of a new user: each test covers a fault that users once met.
 import assert from 'node:assert/strict';
 import { readFileSync } from 'node:fs';
 import { basename, join } from 'node:path';
@@ -31,7 +31,7 @@ async function share(page, test) {
   );
 }
 
-/** Drags on the ground of the 3D view with a tool that is chosen by its button. */
+/** Drags on the floor of the 3D view with a tool chosen by its button. */
 async function drag(page, tool) {
   await button(page, tool).click();
   const box = await page.locator('canvas').first().boundingBox();
@@ -54,7 +54,7 @@ async function lidarWithoutTf(page) {
   const lidar = 'periplus.displays.find((d) => d.kind.title === "Visualize Lidar")';
   await until(page, `${lidar}?.statuses.Rays`, 'rays');
   await until(page, 'periplus.displays.every((d) => d.level !== "error")', 'no red display');
-  // The beams leave the robot where the simulation has it, and end at what it has there.
+  // The beams start at the simulated pose of the lidar, and end at the simulated obstacles.
   const ends = await page.evaluate(`new Promise((resolve) => setTimeout(() => {
     const d = ${lidar}.display;
     const group = d.root.children[0];
@@ -70,13 +70,13 @@ async function lidarWithoutTf(page) {
   assert.ok(blue > 0.02, `${(blue * 100).toFixed(1)} % of the view is blue`);
 }
 
-/** A goal in a frame that no node knows is not sent. */
+/** A goal in a frame without transforms is not sent. */
 async function goalWithoutFrames(page) {
   await drag(page, '2D Goal Pose');
   await notice(page, 'Not sent: no transform names the frame "world"').waitFor();
 }
 
-/** A goal and an estimate that no node receives: the user is told, and sees where they are. */
+/** A goal and a pose estimate without a subscriber: a notice reports it, and both arrows are shown. */
 async function goalIntoTheVoid(page) {
   await until(page, 'periplus.tf.has("odom")', 'frames');
   for (const [tool, topic, advice, rgb] of [
@@ -92,16 +92,16 @@ async function goalIntoTheVoid(page) {
   }
 }
 
-/** Nothing estimates, so nothing can be off. */
+/** Without a pose estimator the page shows no localization error. */
 async function nothingEstimates(page) {
   await until(page, 'periplus.displays.some((d) => d.kind.title === "World")', 'the world');
   await until(page, 'periplus.tf.has("base_link")', 'the robot');
   await page.waitForTimeout(1500);
   assert.deepEqual(await page.evaluate('[...periplus.estimators]'), []);
-  assert.equal(await page.getByText('estimate off by').count(), 0);
+  assert.equal(await page.getByText('localization error').count(), 0);
 }
 
-/** All names of displays can be read when one is added. */
+/** The list of displays to add shows all names in full. */
 async function namesInAdd(page) {
   await page.getByRole('button', { name: 'Add', exact: true }).click();
   const clipped = await page.evaluate(() => {
@@ -121,13 +121,13 @@ async function namesInAdd(page) {
   await page.getByRole('button', { name: 'Add', exact: true }).click();
 }
 
-/** Steps show in the clock of the page. */
+/** Single steps advance the clock of the page. */
 async function stepsShow(page) {
   await button(page, 'Pause').click();
   await until(page, 'periplus.isPaused', 'a pause');
   const time = page.locator('.time');
   await page.waitForTimeout(400);
-  // Each of them: two decimals would show one in ten.
+  // Each step is visible: two decimals would show one in ten.
   for (let i = 0; i < 4; i++) {
     const before = await time.textContent();
     await button(page, 'Step').click();
@@ -136,7 +136,7 @@ async function stepsShow(page) {
   }
 }
 
-/** A page that comes while time stands still shows what the run last had. */
+/** A page opened while the simulation is paused shows the last messages. */
 async function openedWhilePaused(chrome, address) {
   const { page } = await open(chrome, address);
   await until(page, 'periplus.isPaused', 'a pause');
@@ -160,16 +160,16 @@ async function openedWhilePaused(chrome, address) {
   await page.close();
 }
 
-/** Play and Pause show what the simulation does, also where a step takes seconds. */
+/** Play and Pause show the state of the simulation, also if a step takes seconds. */
 async function slowMachine(page) {
   await until(page, 'periplus.clock.nowS > 0', 'time');
   await button(page, 'Pause').waitFor();
-  // Longer than any guess by the clock would wait.
+  // Longer than the window in which the clock would detect a pause.
   for (let i = 0; i < 12; i++) {
     await page.waitForTimeout(250);
     assert.equal(await page.evaluate('periplus.isPaused'), false, 'it runs, slowly');
   }
-  // A reset lets it run on.
+  // A reset does not pause the simulation.
   await button(page, 'Reset').click();
   await page.waitForTimeout(1500);
   assert.equal(await page.evaluate('periplus.isPaused'), false, 'it runs after a reset');
@@ -180,7 +180,7 @@ async function slowMachine(page) {
   assert.equal(await page.evaluate('periplus.isPaused'), true, 'a reset keeps the pause');
 }
 
-/** The world is seen all the while a run with a filter is reset. */
+/** The world stays visible while a run with a pose filter is reset. */
 async function reset(page) {
   await until(page, 'periplus.estimators.length > 0', 'a filter', 60_000);
   const aligned = 'periplus.world()?.root.visible && !!periplus.world().truth';
@@ -199,11 +199,11 @@ async function reset(page) {
   assert.ok(after > before / 4, `the cube is seen: ${before}, then ${after}`);
 }
 
-/** The world stays in view while no node says yet where the robot is: a paused run that is reset. */
+/** The world stays visible while no node has published the pose yet: a paused run that is reset. */
 async function resetWhilePaused(page) {
   await until(page, 'periplus.tf.has("odom") && periplus.clock.nowS > 1', 'odometry');
   const red = 'r > 110 && r > 2 * g && r > 2 * b';
-  // Chosen by the user, so it stays when nobody publishes it.
+  // Chosen by the user, so it stays while no node publishes it.
   await page.getByRole('combobox', { name: 'Fixed frame' }).selectOption('odom');
   await page.evaluate('periplus.setFixedFrame("odom")');
   await button(page, 'Pause').click();
@@ -218,7 +218,7 @@ async function resetWhilePaused(page) {
   assert.ok(after > before / 4, `the cube is seen: ${before}, then ${after}`);
 }
 
-/** A file of RViz leaves the simulated world on the page. */
+/** An `.rviz` file keeps the simulated world on the page. */
 async function rvizKeepsWorld(page) {
   await until(page, 'periplus.displays.some((d) => d.kind.title === "World")', 'the world');
   const file = join(ROOT, 'robots/sam_bot/rviz/sam_bot.rviz');
@@ -231,7 +231,7 @@ async function rvizKeepsWorld(page) {
   );
   const worlds = 'periplus.displays.filter((d) => d.kind.title === "World").length';
   assert.equal(await page.evaluate(worlds), 1);
-  // A file that has it brings its own.
+  // A file with a world display replaces it.
   await page.evaluate(
     (text) => window.periplus.openRviz(text, 'again'),
     await page.evaluate('periplus.rvizText()'),
@@ -239,7 +239,7 @@ async function rvizKeepsWorld(page) {
   assert.equal(await page.evaluate(worlds), 1);
 }
 
-/** Names and classes of displays, as a file of RViz lists them. */
+/** Names and classes of the displays in an `.rviz` file. */
 function displaysOf(file) {
   const text = readFileSync(join(ROOT, file), 'utf8');
   return [
@@ -249,7 +249,7 @@ function displaysOf(file) {
   ].map(([, kind, name]) => [kind, name]);
 }
 
-/** The file of RViz that the command line or a launch file names is open without a click. */
+/** The `.rviz` file named by the command line or a launch file is opened automatically. */
 async function opensRviz(page, file, { fixedFrame, works, hasWorld = false }) {
   await until(page, `periplus.fileName === ${JSON.stringify(basename(file))}`, 'the file');
   const wanted = displaysOf(file);
@@ -314,7 +314,7 @@ async function rviz2(chrome, url) {
   }
 }
 
-/** A token does not stay where others see it, and a reload still has it. */
+/** The token is removed from the address, and a reload still has it. */
 async function tokenLeavesTheAddress(chrome, url) {
   const address = `${url}?ws=ws://127.0.0.1:${PORT}/&token=sixteen%20letters%20%26%20more`;
   const { page } = await open(chrome, address);
@@ -325,7 +325,7 @@ async function tokenLeavesTheAddress(chrome, url) {
   await page.close();
 }
 
-/** Runs a program, opens the page on it and lets tests look. */
+/** Runs a program, opens the page on it and runs tests. */
 async function beside(chrome, url, words, look) {
   const run = await periplus([...words, `--page=127.0.0.1:${PORT}`], PORT);
   const address = `${url}?ws=ws://127.0.0.1:${PORT}/`;

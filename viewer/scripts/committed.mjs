@@ -1,5 +1,5 @@
-// Whether the page as it was just built is the one that is committed. Contents are compared, not packed
-// bytes: those differ between versions of brotli.
+// Checks that the committed page equals the present build. Contents are compared, not compressed bytes, which
+// differ between versions of brotli.
 import { execFileSync } from 'node:child_process';
 import { existsSync, readdirSync, readFileSync } from 'node:fs';
 import { join, relative } from 'node:path';

@@ -1,7 +1,7 @@
-// What each display is shown with in docs/displays.md: pictures of running examples, and a few words.
+// Content of docs/displays.md: for each display screenshots of running examples, and a description.
 //
-// `showroom` runs a robot that has every sensor, which finds itself on a map of the demo's room; `demo`
-// is `periplus demo --explore`. The last display of a shot is the one that the shot is of.
+// `showroom` runs a robot with every sensor that localizes on a map of the demo's room; `demo` is
+// `periplus demo --explore`. The last display of a shot is the one that the shot documents.
 
 const SEEN = { kind: 'Orbit', distance: 4.4, yaw: 3.75, pitch: 0.62, focal: [0.7, 0, 0.15] };
 const NEAR = { ...SEEN, distance: 1.9, focal: [0.1, 0, 0.2] };
@@ -38,7 +38,7 @@ const lidar = (more) => ['periplus/VisualizeLidar', { Topic: '/scan', ...more }]
 export const DISPLAYS = [
   {
     kind: rviz('RobotModel'),
-    text: 'The robot of a URDF at the poses of its frames; meshes come from the packages of the robot. Optional: collision shapes, masses as spheres of lead, inertias as equivalent boxes.',
+    text: 'The robot of a URDF at the poses of its frames; meshes are read from the packages of the robot. Optional: collision shapes, masses as spheres of lead, inertias as equivalent boxes.',
     shots: {
       robot: { with: [GRID, ROBOT], view: { ...NEAR, distance: 1.6 } },
       robot_inertia: {
@@ -60,7 +60,7 @@ export const DISPLAYS = [
   },
   {
     kind: rviz('TF'),
-    text: 'All frames: axes, names, and arrows to their parents. Stale frames fade out and are then removed.',
+    text: 'The TF tree: axes and names of all frames, and arrows to their parents. Stale frames fade out and are then removed.',
     shots: {
       tf: {
         with: [
@@ -412,7 +412,7 @@ export const DISPLAYS = [
   },
 ];
 
-/** What runs, and in which program; the map is one that the demo made. */
+/** Programs to run; the map is one made by the demo. */
 export const SHOWROOM = (map) => [
   ...['sim', 'worlds/demo_room.sdf', '--robot', 'viewer/e2e/show/showbot.urdf.xacro'],
   ...['--resource-path', 'robots', '--localize', map, '--costmap', 'viewer/e2e/show/costmaps.yaml'],

@@ -1,5 +1,5 @@
-// How long it takes from the shell prompt to a picture: `periplus demo` is started, and a tab is opened in a
-// browser that runs already. Medians of five.
+// Measures the time from the shell prompt to the first picture: `periplus demo` is started, and a tab is opened in
+// a running browser. Medians of five runs.
 //
 //   npm run bench:first     PERIPLUS=path/to/periplus
 import { spawn } from 'node:child_process';
@@ -27,7 +27,7 @@ for (let i = 0; i < RUNS; i++) {
   await page.goto(url, { waitUntil: 'commit' });
   await page.waitForFunction(() => window.periplus?.stage);
   note('the page has come');
-  // Placed by its frames, and drawn.
+  // Posed by its frames, and drawn.
   await page.waitForFunction(() => {
     const robot = window.periplus.displays.find((d) => d.kind.title === 'RobotModel');
     return robot?.display?.root.children.some((link) => link.visible);

@@ -1,4 +1,4 @@
-// Packs the built page with brotli, as hard as it goes: the server gives it out as it is.
+// Compresses the built page with brotli at its highest level; the server sends the compressed files unchanged.
 import { readdirSync, readFileSync, rmSync, statSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { fileURLToPath } from 'node:url';

@@ -17,7 +17,7 @@ mkdirSync(OUT, { recursive: true });
 const pages = await servePage();
 const chrome = await browser();
 
-/** Runs a world, opens the page on it, and lets a function look. */
+/** Runs a world, opens the page on it, and calls a function with it. */
 async function scene(args, look, options = {}) {
   const run = await periplus([...args, `--page=127.0.0.1:${PORT}`], PORT);
   const { page } = await open(chrome, `${pages.url}?ws=ws://127.0.0.1:${PORT}/`, options);
@@ -32,7 +32,7 @@ async function scene(args, look, options = {}) {
 }
 
 const whole = (page, name) => page.screenshot({ path: join(OUT, `viewer-${name}.png`) });
-/** What is taken, by name. */
+/** Screenshots by name. */
 const PICTURES = {
   demo: () =>
     scene(['demo', '--no-browser', '--explore'], async (page) => {
@@ -92,7 +92,7 @@ async function building() {
   await page.close();
 }
 
-/** Of the tutorials' steps by hand: the tests that follow the texts take them. */
+/** Screenshots of the manual steps of the tutorials, taken by the tests that follow the texts. */
 async function ofTutorials() {
   const out = mkdtempSync(join(tmpdir(), 'periplus-pictures-'));
   const shoot = async (page, name, view = {}) => {

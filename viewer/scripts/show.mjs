@@ -1,4 +1,4 @@
-// Takes the pictures of every display and writes docs/displays.md around them.
+// Takes the screenshots of every display and writes docs/displays.md with them.
 import { execFileSync } from 'node:child_process';
 import { mkdirSync, mkdtempSync, rmSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
@@ -7,13 +7,13 @@ import { open, periplus, PROGRAM, ROOT } from '../e2e/lib.mjs';
 import { DISPLAYS, SHOWROOM } from './displays.mjs';
 
 const PORT = 8842;
-/** The stage fills the page, and nothing lies over it. */
+/** Hides everything that covers the 3D view. */
 const BARE =
   'header.bar, .views, .corner, .truth, .pictures, .notices, .hint { display: none !important }';
 const SIZE = { width: 440, height: 280 };
 
-/** Poses that are told by the page: where the robot might be, and where it shall go. */
-const SAID = {
+/** Poses published by the page: a pose estimate and a goal. */
+const PUBLISHED = {
   estimate: () => {
     const covariance = new Float64Array(36);
     [covariance[0], covariance[7], covariance[35]] = [0.09, 0.03, 0.06];
@@ -33,7 +33,7 @@ const SAID = {
   },
 };
 
-/** Of thousands of coloured points a JPEG is a third of a PNG. */
+/** With thousands of coloured points a JPEG takes a third of a PNG. */
 const fileOf = (name, shot) => `${name}.${shot.isDense ? 'jpg' : 'png'}`;
 
 async function look(page, shot, file) {
@@ -56,11 +56,11 @@ async function look(page, shot, file) {
     await page.waitForTimeout(300);
   }
   for (let i = 0; shot.says && i < 2; i++) {
-    await page.evaluate(SAID[shot.says]);
+    await page.evaluate(PUBLISHED[shot.says]);
     await page.waitForTimeout(1000);
   }
   if (shot.isPicture) {
-    // As the browser scales it.
+    // At the scale of the browser.
     const data = await page.evaluate((width) => {
       const { canvas } = window.periplus.displays.find((d) => d.canvas);
       const small = document.createElement('canvas');
@@ -118,7 +118,7 @@ async function run(chrome, url, words, wanted, folder, early) {
   return found;
 }
 
-/** Options in one line: with what RViz lets one choose of QoS told once for all. */
+/** Options in one line, without RViz's QoS options, which are described once for all displays. */
 function optionsOf({ options }) {
   const isQos = /\/(Depth|History Policy|Reliability Policy|Durability Policy|Filter size)$/;
   return options
@@ -155,7 +155,7 @@ always get a compatible QoS, and the last message of a latched topic is always d
 ${parts.join('\n')}`;
 }
 
-/** Everything for docs/displays.md. */
+/** Writes docs/displays.md and its pictures. */
 export async function displays(chrome, url, out) {
   const folder = join(out, 'displays');
   mkdirSync(folder, { recursive: true });

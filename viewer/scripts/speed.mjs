@@ -1,10 +1,10 @@
-// How fast the page draws what is large: 2,000,000 points ten times a second, and a map of 4000 x 4000
-// cells of which a part changes; and a camera. The server is the protocol's own, in Node.
+// Frame rate with large data: 2,000,000 points at 10 Hz, a map of 4000 x 4000 cells with partial updates, and
+// a camera. The server is the reference server of the protocol, in Node.
 //
 //   npm run bench:frames [PICTURE.png]
 //
-// Beside frames a second it counts what a frame asks of the GPU, which is the same on every machine: draw
-// calls, points, and bytes that are sent to it.
+// Besides frames per second it counts the GPU work per frame, which is the same on every machine: draw calls,
+// points, and uploaded bytes.
 import protocol from '@foxglove/ws-protocol';
 import { WebSocketServer } from 'ws';
 import { browser, open, servePage } from '../e2e/lib.mjs';
@@ -35,7 +35,7 @@ const GRID =
 const UPDATE =
   'std_msgs/Header header\nint32 x\nint32 y\nuint32 width\nuint32 height\nint8[] data\n' + HEADER;
 
-/** Little endian CDR, as far as it is needed here. */
+/** Little endian CDR of the messages used here. */
 class Cdr {
   parts = [Buffer.from([0, 1, 0, 0])];
   size = 0;
@@ -85,7 +85,7 @@ const grid = new Cdr().header().u32(0).u32(0).f32(0.05).u32(CELLS).u32(CELLS);
 for (const v of [-100, -100, 0, 0, 0, 0, 1]) grid.f64(v);
 const gridBytes = grid.bytes(cells).done();
 
-/** Counts what is asked of the GPU. Runs in the page. */
+/** Counts GPU calls and uploads. Runs in the page. */
 function count() {
   const counted = (window.counted = { draws: 0, vertices: 0, bytes: 0 });
   const { prototype: gl } = WebGL2RenderingContext;

@@ -3,7 +3,7 @@ import App from './panels/App.svelte';
 import { App as State } from './app/app.svelte';
 
 /**
- * The token of a server. It comes once, in the address, and is then kept for this tab alone: an address
+ * Token of a server. It arrives once in the address and is then kept in this tab's session storage: an address
  * bar is seen by others, copied and synchronized.
  */
 function tokenFor(base: string): string | null {
@@ -14,7 +14,7 @@ function tokenFor(base: string): string | null {
     if (given === null) return sessionStorage.getItem(key);
     sessionStorage.setItem(key, given);
   } catch {
-    // A page that may not store keeps it in its address, or a reload would need it again.
+    // Without session storage the token stays in the address; a reload would lose it otherwise.
     return given;
   }
   here.searchParams.delete('token');
@@ -22,7 +22,7 @@ function tokenFor(base: string): string | null {
   return given;
 }
 
-/** Where the server is: beside the page, unless `?ws=` names another. */
+/** Address of the server: the host of the page, unless `?ws=` names another. */
 function address(): string {
   const query = new URLSearchParams(location.search);
   const base =
@@ -38,6 +38,6 @@ function address(): string {
 
 const state = new State(address());
 mount(App, { target: document.getElementById('app')!, props: { app: state } });
-// Tests and pictures look in by this.
+// Entry point for end-to-end tests and screenshots.
 (window as unknown as { periplus: State }).periplus = state;
 state.client.start();

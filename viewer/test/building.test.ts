@@ -31,7 +31,7 @@ describe('walls', () => {
     expect(sizes(room())).toEqual([[0, 1.25, 6.15, 0.15, 2.5]]);
   });
 
-  test('a door leaves what is beside it, and a lintel', () => {
+  test('a door divides a wall into two sides and a lintel', () => {
     const plan = room();
     plan.openings.push({ id: 9, wall: 1, kind: 'door', atM: 3, ...DOOR });
     expect(sizes(plan)).toEqual([
@@ -41,7 +41,7 @@ describe('walls', () => {
     ]);
   });
 
-  test('a window leaves what is under and over it', () => {
+  test('a window leaves the wall below and above it', () => {
     const plan = room();
     plan.openings.push({ id: 9, wall: 1, kind: 'window', atM: 1, ...WINDOW });
     expect(sizes(plan).map(([, z, x, , h]) => [z, x, h])).toEqual([
@@ -52,7 +52,7 @@ describe('walls', () => {
     ]);
   });
 
-  test('the boxes of a wall have its volume without the openings, whatever these are', () => {
+  test('the boxes of a wall have its volume minus the union of all openings', () => {
     const plan = room();
     plan.openings.push({ id: 9, wall: 1, kind: 'window', atM: 1, ...WINDOW });
     plan.openings.push({
@@ -65,19 +65,19 @@ describe('walls', () => {
       sillM: 0,
     });
     const volume = sizes(plan).reduce((sum, [, , x, y, z]) => sum + x! * y! * z!, 0);
-    // The union of both holes: the door, and of the window 0.4 by 1 m that is left of it.
+    // The union of both openings: the door, and the 0.4 by 1 m of the window beside it.
     expect(volume).toBeCloseTo((6.15 * 2.5 - (1 * 2 + 0.4 * 1)) * 0.15, 9);
   });
 
-  test('a hole beyond the wall is told of', () => {
+  test('an opening beyond the end of its wall is reported', () => {
     const plan = room();
     plan.openings.push({ id: 9, wall: 1, kind: 'door', atM: 5.8, ...DOOR });
-    expect(problems(plan)).toEqual(['A door reaches beyond its wall of 6.00 m']);
+    expect(problems(plan)).toEqual(['A door extends beyond its wall of length 6.00 m']);
   });
 });
 
 describe('storeys', () => {
-  test('a floor is over the first level, with a hole over the stairs', () => {
+  test('the second level has a floor with an opening over the stairs', () => {
     const plan = room();
     plan.levels.push({ name: 'Level 2', heightM: 2.5 });
     plan.stairs.push({
@@ -100,7 +100,7 @@ describe('storeys', () => {
 });
 
 describe('files', () => {
-  test('names and places as the Building Editor has them', () => {
+  test('names and poses are those of the Building Editor', () => {
     const plan = room();
     plan.openings.push({ id: 9, wall: 1, kind: 'door', atM: 3, ...DOOR });
     const text = modelSdf(plan);
@@ -115,13 +115,13 @@ describe('files', () => {
     expect(bounds(plan)).toEqual({ min: { x: -0.075, y: -0.075 }, max: { x: 6.075, y: 4.075 } });
   });
 
-  test('names cannot break out of the text', () => {
+  test('names are escaped in XML', () => {
     const plan = room();
     plan.name = 'a"/><plugin name="x';
     expect(modelSdf(plan)).not.toContain('<plugin');
   });
 
-  test('numbers are short', () => {
+  test('numbers are written in their shortest form', () => {
     expect([0.1 + 0.2, -0.0000001, 3, 2.5, -1.25].map(num)).toEqual([
       '0.3',
       '0',
@@ -131,7 +131,7 @@ describe('files', () => {
     ]);
   });
 
-  test('files in one', () => {
+  test('files are stored in a ZIP archive', () => {
     expect(crc32(new TextEncoder().encode('123456789'))).toBe(0xcbf43926);
     const bytes = zip({ 'a.txt': 'hi' });
     expect([...bytes.subarray(0, 4)]).toEqual([0x50, 0x4b, 3, 4]);
@@ -145,7 +145,7 @@ describe('files', () => {
 describe('snapping', () => {
   const settings = { reachM: 0.2, gridM: 0.1, isOff: false };
 
-  test('to ends, to angles of 15 degrees, to the grid, or not at all', () => {
+  test('snaps to ends, to angles of 15 degrees, to the grid, or not at all', () => {
     const plan = room();
     expect(snap(plan, 0, { x: 6.1, y: 0.1 }, undefined, settings)).toEqual({
       at: { x: 6, y: 0 },
@@ -158,7 +158,7 @@ describe('snapping', () => {
     expect(snap(plan, 0, free, undefined, { ...settings, isOff: true }).at).toEqual(free);
   });
 
-  test('a wall closes a room: it ends across from where others began', () => {
+  test('the last wall of a room snaps to the start of the first one', () => {
     const plan = room();
     const at = snap(plan, 0, { x: 6.07, y: 8.02 }, { x: 0.03, y: 8 }, settings).at;
     expect(at.x).toBeCloseTo(6, 9);

@@ -5,7 +5,7 @@ import { parseSchema } from '../src/core/schema';
 const bytes = (...parts: number[][]) => new Uint8Array(parts.flat());
 const LITTLE = [0, 1, 0, 0];
 
-describe('texts of messages', () => {
+describe('message definitions', () => {
   test('fields, constants, comments, types of the same package', () => {
     const schema = parseSchema(
       'demo/msg/Thing',
@@ -24,14 +24,14 @@ describe('texts of messages', () => {
     ]);
   });
 
-  test('a type that nobody defines is named', () => {
+  test('an undefined type is reported by name', () => {
     const schema = parseSchema('demo/Thing', 'geometry_msgs/Point p');
     expect(() => decoder(schema)).toThrow('geometry_msgs/Point');
   });
 });
 
-describe('messages from bytes', () => {
-  test('numbers stand at multiples of their size after the header', () => {
+describe('decoding', () => {
+  test('numbers are aligned to their size, counted from the end of the header', () => {
     const decode = decoder(parseSchema('demo/A', 'uint8 a\nuint32 b\nuint8 c\nfloat64 d'));
     const d = [...new Uint8Array(new Float64Array([0.5]).buffer)];
     const read = decode(bytes(LITTLE, [1, 0, 0, 0], [2, 0, 0, 0], [3, 0, 0, 0, 0, 0, 0, 0], d));
@@ -44,7 +44,7 @@ describe('messages from bytes', () => {
     expect(read).toEqual({ a: new Uint16Array([256, 7]), s: 'hi' });
   });
 
-  test('arrays of numbers are views where they are aligned, and right where they are not', () => {
+  test('aligned arrays of numbers are views, unaligned ones are copies', () => {
     const decode = decoder(parseSchema('demo/A', 'float32[] ranges'));
     const message = bytes(LITTLE, [2, 0, 0, 0], [0, 0, 128, 63], [0, 0, 0, 64]);
     const aligned = decode(message).ranges as Float32Array;
@@ -55,14 +55,14 @@ describe('messages from bytes', () => {
     expect([...(decode(shifted.subarray(1)).ranges as Float32Array)]).toEqual([1, 2]);
   });
 
-  test('a count that the message cannot hold is refused before anything is made', () => {
+  test('a length that exceeds the message is refused before memory is allocated', () => {
     const decode = decoder(parseSchema('demo/A', 'float64[] x\nstring[] y'));
-    expect(() => decode(bytes(LITTLE, [255, 255, 255, 255]))).toThrow('ends before');
-    expect(() => decode(bytes(LITTLE, [0, 0, 0, 0], [9, 0, 0, 0]))).toThrow('ends before');
+    expect(() => decode(bytes(LITTLE, [255, 255, 255, 255]))).toThrow('shorter than that');
+    expect(() => decode(bytes(LITTLE, [0, 0, 0, 0], [9, 0, 0, 0]))).toThrow('shorter than that');
     expect(() => decode(bytes([0]))).toThrow('shorter');
   });
 
-  test('what is written reads back', () => {
+  test('an encoded message decodes to the same values', () => {
     const text =
       'std_msgs/Header header\nbool b\nint64 big\nuint8[] data\nfloat64[2] pair\nstring[] names\n' +
       'wstring w\ndemo/Empty nothing\nint8 last\n===\nMSG: std_msgs/Header\n' +
@@ -82,7 +82,7 @@ describe('messages from bytes', () => {
     expect(decoder(schema)(encoder(schema)(message))).toEqual(message);
   });
 
-  test('an empty request is one byte after its header', () => {
+  test('an empty request has one byte after its header', () => {
     expect([...encoder(parseSchema('std_srvs/Empty', ''))({})]).toEqual([...LITTLE, 0]);
     expect(decoder(parseSchema('std_srvs/Empty', ''))(new Uint8Array(LITTLE))).toEqual({});
   });

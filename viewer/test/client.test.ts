@@ -6,7 +6,7 @@ import { Client, type Socket } from '../src/core/client';
 import type { Mismatch, Parameter } from '../src/core/protocol';
 import { parseSchema } from '../src/core/schema';
 
-/** The protocol's own server, as peer. */
+/** Reference server of the protocol. */
 async function peer() {
   const server = new FoxgloveServer({
     name: 'peer',
@@ -31,7 +31,7 @@ function clientOf(url: string, events: Partial<ConstructorParameters<typeof Clie
     () => new WebSocket(url, ['foxglove.websocket.v1']) as unknown as Socket,
     {
       state: nothing,
-      offers: nothing,
+      graphChanged: nothing,
       parameters: nothing,
       time: nothing,
       status: nothing,
@@ -43,7 +43,7 @@ function clientOf(url: string, events: Partial<ConstructorParameters<typeof Clie
 
 const text = { topic: '/chatter', encoding: 'cdr', schemaName: 'std_msgs/msg/String' };
 
-test('hears a topic as soon as there is one, and only while somebody hears', async () => {
+test('subscribes once a topic is advertised, and only while it has a handler', async () => {
   const { server, sockets, url } = await peer();
   const subscribed = vi.fn();
   const unsubscribed = vi.fn();
@@ -65,12 +65,12 @@ test('hears a topic as soon as there is one, and only while somebody hears', asy
   sockets.close();
 });
 
-test('who comes later hears what was said once', async () => {
+test('a later handler receives the last message of a latched topic', async () => {
   const { server, sockets, url } = await peer();
   const encode = encoder(parseSchema('std_msgs/msg/String', 'string data'));
   const schema = { schema: 'string data', schemaEncoding: 'ros2msg' };
   const channel = server.addChannel({ ...text, ...schema });
-  // As a latched topic does: each who subscribes gets the last message.
+  // A latched topic: each new subscription gets the last message.
   server.on('subscribe', () =>
     server.sendMessage(channel, 5n, new Uint8Array(encode({ data: 'map' }))),
   );
@@ -90,7 +90,7 @@ test('publishes, calls services, reads and sets parameters', async () => {
   const { server, sockets, url } = await peer();
   const said: string[] = [];
   server.on('message', (event) => {
-    // Behind the header of the message and the length of the text.
+    // After the header of the message and the length of the string.
     const { data } = event as never as { data: Uint8Array };
     said.push(String.fromCharCode(...data.subarray(8, 10)));
   });
@@ -129,18 +129,18 @@ test('publishes, calls services, reads and sets parameters', async () => {
   await vi.waitFor(() => expect(set).toHaveBeenCalledWith([{ name: 'node.speed', value: 0.75 }]));
   say({ data: 'hi' });
   await vi.waitFor(() => expect(said).toEqual(['hi']));
-  await expect(client.call('/nowhere', {})).rejects.toThrow('nobody offers');
+  await expect(client.call('/nowhere', {})).rejects.toThrow('no node provides the service');
   client.stop();
   sockets.close();
 });
 
-test('connects again after the server was away, and hears what it heard', async () => {
+test('reconnects after the server was down, and renews its subscriptions', async () => {
   const first = await peer();
   let url = first.url;
   const nothing = () => undefined;
   const client = new Client(
     () => new WebSocket(url, ['foxglove.websocket.v1']) as unknown as Socket,
-    { state: nothing, offers: nothing, parameters: nothing, time: nothing, status: nothing },
+    { state: nothing, graphChanged: nothing, parameters: nothing, time: nothing, status: nothing },
   );
   client.subscribe('/chatter', nothing);
   client.start();
@@ -157,7 +157,7 @@ test('connects again after the server was away, and hears what it heard', async 
   second.sockets.close();
 });
 
-test('tells of ends that do not fit, and has them repaired', async () => {
+test('reports incompatible endpoints, and requests their repair', async () => {
   const sockets = new WebSocketServer({ port: 0 });
   await new Promise((resolve) => sockets.once('listening', resolve));
   const mismatch: Mismatch = {

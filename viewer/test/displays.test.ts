@@ -9,7 +9,7 @@ import { thinned } from '../src/scene/cloud';
 import { voxels } from '../src/displays/voxels';
 import { numberAt, numericPaths, show, unitOf } from '../src/app/fields';
 import { faster, FIRST_SPEEDS, MOVES, qtCode, twist } from '../src/app/teleop';
-import { wishFor } from '../src/app/auto';
+import { suggestionFor } from '../src/app/auto';
 import { mapTruths, percent } from '../src/app/truth';
 import { Clock } from '../src/app/clock';
 import { estimatorsOf } from '../src/app/estimators';
@@ -33,7 +33,7 @@ const floats = (words: Uint32Array) =>
   new Float32Array(words.buffer, words.byteOffset, words.length);
 
 describe('points', () => {
-  test('of a scan: only what was met', () => {
+  test('a scan has points only for beams with a return', () => {
     const rows = rowsOfScan(scan);
     expect(rows.count).toBe(2);
     const all = floats(rows.words);
@@ -65,42 +65,42 @@ describe('points', () => {
     };
   };
 
-  test('of a cloud: its own bytes where they are whole words', () => {
+  test('a cloud of aligned 32-bit fields is not copied', () => {
     const message = cloud(16, 0);
     const rows = rowsOfCloud(message, 'intensity');
     expect(rows.words.buffer).toBe(message.data.buffer);
     expect([rows.stride, rows.xyz, rows.count, rows.value]).toEqual([4, 0, 2, undefined]);
   });
 
-  test('of a cloud with crooked steps: a copy that says the same', () => {
+  test('a cloud with an unaligned point step is copied without a change of its values', () => {
     const rows = rowsOfCloud(cloud(15, 1), 'intensity');
     expect([...floats(rows.words)].filter((_, i) => i % 5 < 3)).toEqual([0, 10, 20, 1, 10, 20]);
   });
 
-  test('fewer of them, evenly', () => {
+  test('a large cloud is thinned evenly', () => {
     const words = new Uint32Array([1, 2, 3, 4, 5, 6, 7, 8, 9, 10]);
     const thin = thinned({ words, stride: 2, count: 5, xyz: 0 }, 2);
     expect([thin.every, thin.count, ...thin.words]).toEqual([3, 1, 1, 2]);
     expect(thinned({ words, stride: 2, count: 5, xyz: 0 }, 5).words).toBe(words);
   });
 
-  test('a cloud without coordinates is refused in words', () => {
+  test('a cloud without coordinates is refused with a reason', () => {
     expect(() => rowsOfCloud({ ...cloud(16, 0), fields: [] }, '')).toThrow('no fields x, y and z');
   });
 });
 
-test('Visualize Lidar: a beam that meets nothing is drawn to the greatest range, if at all', () => {
+test('Visualize Lidar: a beam without a hit is drawn to the maximum range, or not at all', () => {
   const all = fansOf(scan, true);
   expect(all.points.length).toBe(6);
   expect(all.rays.length).toBe(12);
   expect(all.openRays.slice(3).map((v) => +v.toFixed(4))).toEqual([7.0711, 7.0711, 0]);
   expect(all.hit.length).toBe(0);
   expect(all.open.length).toBe(2 * 18);
-  expect(all.dead.length).toBe(2 * 9);
+  expect(all.deadZone.length).toBe(2 * 9);
   expect(fansOf(scan, false).open.length).toBe(0);
 });
 
-test('voxels are marked by two bits, unknown by one', () => {
+test('a marked voxel has two bits, an unknown one has one', () => {
   const grid = {
     header,
     data: new Uint32Array([0x0003_0001]),
@@ -114,7 +114,7 @@ test('voxels are marked by two bits, unknown by one', () => {
   expect(voxels(grid, 'unknown')).toEqual([[0.5, 0.5, 1.5]]);
 });
 
-describe('pictures', () => {
+describe('images', () => {
   const image = (encoding: string, data: number[], width = 1): ImageMessage => ({
     header,
     height: 1,
@@ -130,26 +130,26 @@ describe('pictures', () => {
     return [...out];
   };
 
-  test('colours in any order', () => {
+  test('channels in any order', () => {
     expect(pixels(image('rgb8', [1, 2, 3]))).toEqual([1, 2, 3, 255]);
     expect(pixels(image('bgr8', [1, 2, 3]))).toEqual([3, 2, 1, 255]);
     expect(pixels(image('mono8', [9]))).toEqual([9, 9, 9, 255]);
   });
 
-  test('depth from its least to its greatest; nothing seen is black', () => {
+  test('depth is grey from minimum to maximum; missing values are black', () => {
     const depth = [...new Uint8Array(new Float32Array([1, NaN, 3]).buffer)];
     expect(pixels(image('32FC1', depth, 3))).toEqual([
       0, 0, 0, 255, 0, 0, 0, 255, 255, 255, 255, 255,
     ]);
   });
 
-  test('an encoding that nobody knows is named', () => {
+  test('an unknown encoding is reported by name', () => {
     expect(() => pixels(image('nv21', [1]))).toThrow('nv21');
   });
 });
 
-describe('shapes of numbers', () => {
-  test('the box of an inertia has the edges of the body, however its axes are turned', () => {
+describe('inertia and covariance', () => {
+  test('the box of an inertia has the edges of the body for any rotation of its axes', () => {
     // 2 kg, 1 x 2 x 3 m: 2/12 (4 + 9), 2/12 (1 + 9), 2/12 (1 + 4).
     const plain = principal([13 / 6, 0, 0, 10 / 6, 0, 5 / 6]);
     expect(
@@ -168,7 +168,7 @@ describe('shapes of numbers', () => {
     expect(leadRadius(11_340 * (4 / 3) * Math.PI)).toBeCloseTo(1, 12);
   });
 
-  test('an ellipse of a covariance; what nobody measured is not drawn', () => {
+  test('the ellipse of a covariance; unmeasured components are not drawn', () => {
     const covariance = new Float64Array(36);
     expect(ellipsoidOf(covariance)).toBeUndefined();
     covariance[0] = 0.25;
@@ -180,7 +180,7 @@ describe('shapes of numbers', () => {
   });
 });
 
-test('every display has a class of its own, and defaults for all of its options', () => {
+test('every display has a unique class, and defaults for all of its options', () => {
   const names = KINDS.flatMap((kind) => [kind.class, ...(kind.also ?? [])]);
   expect(new Set(names).size).toBe(names.length);
   for (const { options } of KINDS) {
@@ -203,7 +203,7 @@ test('fields of messages', () => {
 });
 
 describe('driving', () => {
-  test('keys as teleop_twist_keyboard has them', () => {
+  test('keys are those of teleop_twist_keyboard', () => {
     expect(twist(MOVES.u!, FIRST_SPEEDS)).toMatchObject({ linear: { x: 0.5 }, angular: { z: 1 } });
     expect(twist(MOVES.m!, FIRST_SPEEDS)).toMatchObject({
       linear: { x: -0.5 },
@@ -215,7 +215,7 @@ describe('driving', () => {
     expect(faster('w', FIRST_SPEEDS)).toEqual({ linearMS: 0.55, angularRadS: 1 });
   });
 
-  test("Qt's codes", () => {
+  test('Qt key codes', () => {
     const codes = [
       'ArrowUp',
       'ArrowDown',
@@ -232,20 +232,20 @@ describe('driving', () => {
   });
 });
 
-test('what shows itself', () => {
+test('displays added automatically', () => {
   expect(
-    wishFor('/global_costmap/costmap', 'nav_msgs/msg/OccupancyGrid')?.values['Color Scheme'],
+    suggestionFor('/global_costmap/costmap', 'nav_msgs/msg/OccupancyGrid')?.values['Color Scheme'],
   ).toBe('costmap');
-  expect(wishFor('/world/x/scene', 'visualization_msgs/msg/MarkerArray')?.class).toBe(
+  expect(suggestionFor('/world/x/scene', 'visualization_msgs/msg/MarkerArray')?.class).toBe(
     'periplus/World',
   );
-  expect(wishFor('/world/x/poses', 'tf2_msgs/msg/TFMessage')).toBeUndefined();
-  expect(wishFor('/tf', 'tf2_msgs/msg/TFMessage')).toBeUndefined();
-  expect(wishFor('/scan', 'sensor_msgs/msg/LaserScan')?.isEnabled).toBe(true);
-  expect(wishFor('/chatter', 'std_msgs/msg/String')).toBeUndefined();
+  expect(suggestionFor('/world/x/poses', 'tf2_msgs/msg/TFMessage')).toBeUndefined();
+  expect(suggestionFor('/tf', 'tf2_msgs/msg/TFMessage')).toBeUndefined();
+  expect(suggestionFor('/scan', 'sensor_msgs/msg/LaserScan')?.isEnabled).toBe(true);
+  expect(suggestionFor('/chatter', 'std_msgs/msg/String')).toBeUndefined();
 });
 
-test('a clock knows its pace, when it stands, and when time went back', () => {
+test('the clock has the real time factor, and detects pauses and jumps back', () => {
   const clock = new Clock();
   for (let i = 0; i <= 10; i++) expect(clock.set(i * 0.2, i * 100)).toBe(false);
   expect(clock.factor()).toBeCloseTo(2, 9);
@@ -254,9 +254,9 @@ test('a clock knows its pace, when it stands, and when time went back', () => {
   expect(clock.set(0, 2100)).toBe(true);
 });
 
-test('a simulation says itself that it is paused, however slow the machine is', () => {
+test('the pause state comes from the simulation, also on a slow machine', () => {
   const clock = new Clock();
-  // Two steps in four seconds: a guess would call it paused.
+  // Two steps in four seconds: the heuristic for other servers would report a pause.
   clock.set(0.1, 0);
   clock.setStats({ timeS: 0.1, realS: 0, isPaused: false });
   clock.set(0.2, 4000);
@@ -269,20 +269,20 @@ test('a simulation says itself that it is paused, however slow the machine is', 
   expect(clock.isPaused(9999)).toBe(true);
 });
 
-test('a rate needs a second of time', () => {
+test('the real time factor needs a second of samples', () => {
   const clock = new Clock();
   for (let i = 0; i <= 4; i++) clock.set(i * 2, i * 100);
   expect(clock.factor()).toBeUndefined();
 });
 
-test('an estimator publishes transforms and hears measurements', () => {
+test('an estimator publishes transforms and subscribes to measurements', () => {
   const row = (name: string, type: string, publishers: string[], subscribers: string[]) => ({
     ...{ name, type, publishers, subscribers },
   });
   const scan = row('/scan', 'sensor_msgs/msg/LaserScan', ['/lidar'], ['/viewers']);
   const tf = row('/tf', 'tf2_msgs/msg/TFMessage', ['/diff_drive', '/viewers'], ['/viewers']);
   expect(estimatorsOf([scan])).toEqual([]);
-  // The page itself hears everything, and publishes no transforms.
+  // The page subscribes to all topics, and publishes no transforms.
   expect(estimatorsOf([scan, { ...tf, publishers: ['/diff_drive'] }])).toEqual([]);
   const joined = { ...scan, subscribers: ['/viewers', '/amcl'] };
   expect(estimatorsOf([joined, { ...tf, publishers: ['/diff_drive', '/amcl'] }])).toEqual([
@@ -303,12 +303,12 @@ test('poses of sensors come from the simulation', () => {
   frames.addPoses({ transforms: [one('world', 'bot/base', 1, 1)] } as never);
   frames.addPoses({ transforms: [one('world', 'bot/base', 3, 2)] } as never);
   expect(frames.worldFromData('/lidar', 'any', 1.5)?.t).toEqual([2.5, 0, 0]);
-  // Bridged under another name, and later than the last pose.
+  // Bridged to another topic name, and newer than the last pose.
   expect(frames.worldFromData('/laser_scan', '/lidar_frame', 2.5)?.t).toEqual([3.5, 0, 0]);
   expect(frames.worldFromData('/camera', 'camera', 1)).toBeUndefined();
 });
 
-test('maps beside the truth', () => {
+test('comparison of maps with the truth', () => {
   const values = { free_iou: '0.962', walls_iou: '0.9', wall_mean_m: '0.021', explored: '0.5' };
   const status = {
     level: 0,
@@ -322,7 +322,7 @@ test('maps beside the truth', () => {
   expect(percent(NaN)).toBe('–');
 });
 
-test('numbers have units by their path', () => {
+test('units follow from the path of a field', () => {
   const check = (path: string, unit: string) => expect([path, unitOf(path)]).toEqual([path, unit]);
   check('ranges[720]', 'm');
   check('pose.pose.position.x', 'm');

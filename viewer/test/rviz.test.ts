@@ -54,7 +54,7 @@ Window Geometry:
 `;
 
 describe('.rviz files', () => {
-  test("a robot's description by its parameter in ROS 1", () => {
+  test('RViz for ROS 1 names the parameter of the robot description', () => {
     const file = readRviz(`Visualization Manager:
   Displays:
     - {Class: rviz/RobotModel, Name: Robot, Robot Description: robot_description}
@@ -64,7 +64,7 @@ describe('.rviz files', () => {
     expect(topics).toEqual(['/robot_description', '/a/robot_description']);
   });
 
-  test('displays, groups, options below options, tools, views', () => {
+  test('displays, groups, nested options, tools, views', () => {
     const file = readRviz(FILE);
     expect(file.fixedFrame).toBe('odom');
     expect(file.displays.map((d) => [d.name, d.isEnabled])).toEqual([
@@ -82,7 +82,7 @@ describe('.rviz files', () => {
     expect(viewFrom(file.view!)).toMatchObject({ kind: 'TopDownOrtho', scale: 40, x: 1, y: 2 });
   });
 
-  test('what is not known is written back', () => {
+  test('unknown entries are written back', () => {
     const file = readRviz(FILE);
     const scan = file.displays[0]!;
     const text = writeRviz({
@@ -122,7 +122,7 @@ describe('.rviz files', () => {
     });
   });
 
-  test('ROS 1 names', () => {
+  test('option names of RViz for ROS 1', () => {
     const file = readRviz(
       'Visualization Manager: {Displays: [{Class: rviz/Marker, Marker Topic: /m, Queue Size: 100}, {Class: rviz/LaserScan, Topic: /scan, Unreliable: true}]}',
     );
@@ -130,12 +130,12 @@ describe('.rviz files', () => {
     expect(file.displays[1]!.values['Topic/Reliability Policy']).toBe('Best Effort');
   });
 
-  test('a file that is none is told so', () => {
-    expect(() => readRviz('a: [')).toThrow('no YAML');
-    expect(() => readRviz('a: 1')).toThrow('no .rviz file');
+  test('a file of another format is refused', () => {
+    expect(() => readRviz('a: [')).toThrow('not YAML');
+    expect(() => readRviz('a: 1')).toThrow('not an .rviz file');
   });
 
-  test('paths become maps again', () => {
+  test('paths are converted back to nested maps', () => {
     expect(nest({ Shape: 'Arrow', 'Shape/Color': 'red', 'Offset/X': 1 })).toEqual({
       Shape: { Value: 'Arrow', Color: 'red' },
       Offset: { X: 1 },
@@ -146,7 +146,7 @@ describe('.rviz files', () => {
 describe('palettes', () => {
   const at = (colors: Uint8Array, i: number) => [...colors.subarray(i * 4, i * 4 + 4)];
 
-  test('map: free is white, occupied black, unknown the well-known green grey', () => {
+  test('map: free is white, occupied is black, unknown is green grey', () => {
     const map = palette('map');
     expect([0, 50, 100, 101, 128, 254, 255].map((i) => at(map, i))).toEqual([
       [255, 255, 255, 255],
@@ -159,7 +159,7 @@ describe('palettes', () => {
     ]);
   });
 
-  test('costmap: free is clear, then blue to red, inscribed cyan, lethal magenta', () => {
+  test('costmap: free is transparent, costs are blue to red, inscribed is cyan, lethal is magenta', () => {
     const cost = palette('costmap');
     expect([0, 1, 98, 99, 100].map((i) => at(cost, i))).toEqual([
       [0, 0, 0, 0],
@@ -170,7 +170,7 @@ describe('palettes', () => {
     ]);
   });
 
-  test('raw, and two colours only', () => {
+  test('raw, and binary palettes', () => {
     expect(at(palette('raw'), 77)).toEqual([77, 77, 77, 255]);
     const binary = palette('map', 65);
     expect([64, 65].map((i) => at(binary, i))).toEqual([
@@ -180,7 +180,7 @@ describe('palettes', () => {
   });
 });
 
-test('links, frames and namespaces are switched by their names, whatever these hold', () => {
+test('links, frames and namespaces are enabled by name, for any characters in it', () => {
   const file = readRviz(`
 Visualization Manager:
   Displays:
@@ -211,7 +211,7 @@ Visualization Manager:
   ]);
 });
 
-test('what RViz nests below a switch reaches the option', () => {
+test('options that RViz nests below a checkbox are read', () => {
   const cloud = kindOf('rviz_default_plugins/PointCloud2')!;
   const names = new Set(cloud.options.map((option) => option.path));
   const { values } = readRviz(FILE).displays[0]!;

@@ -22,7 +22,7 @@ function found(buffer: TfBuffer, to: string, from: string, timeS?: number): Pose
   return result.pose;
 }
 
-test('up one branch and down another', () => {
+test('lookup across two branches', () => {
   const buffer = new TfBuffer();
   put(buffer, 'odom', 'base', 1, fromYaw(Math.PI / 2, [2, 0, 0]));
   put(buffer, 'base', 'laser', 0, fromYaw(0, [1, 0, 0.5]), true);
@@ -33,7 +33,7 @@ test('up one branch and down another', () => {
   expect(Math.hypot(...back)).toBeLessThan(1e-12);
 });
 
-test('between two times it goes straight, the rotation by the shorter arc', () => {
+test('interpolation is linear, rotations take the shorter arc', () => {
   const buffer = new TfBuffer();
   put(buffer, 'odom', 'base', 1, fromYaw(3, [0, 0, 0]));
   put(buffer, 'odom', 'base', 2, fromYaw(-3, [4, 0, 0]));
@@ -43,7 +43,7 @@ test('between two times it goes straight, the rotation by the shorter arc', () =
   expect(Math.abs(yaw)).toBeCloseTo(3 + (2 * Math.PI - 6) / 4, 9);
 });
 
-test('the future may come, the past does not', () => {
+test('a lookup in the future can be retried, one in the past cannot', () => {
   const buffer = new TfBuffer();
   put(buffer, 'odom', 'base', 5, fromYaw(0));
   put(buffer, 'odom', 'base', 6, fromYaw(0));
@@ -52,7 +52,7 @@ test('the future may come, the past does not', () => {
   expect(buffer.lookup('odom', 'nowhere', 5).kind).toBe('later');
 });
 
-test('the newest is the newest that all between have', () => {
+test('the newest time is the newest that all transforms of the chain have', () => {
   const buffer = new TfBuffer();
   put(buffer, 'map', 'odom', 1, fromYaw(0, [1, 0, 0]));
   put(buffer, 'odom', 'base', 1, fromYaw(0, [5, 0, 0]));
@@ -60,7 +60,7 @@ test('the newest is the newest that all between have', () => {
   expect(found(buffer, 'map', 'base').t[0]).toBe(6);
 });
 
-test('a loop of frames ends', () => {
+test('a loop of frames is an error', () => {
   const buffer = new TfBuffer();
   put(buffer, 'a', 'b', 1, fromYaw(0));
   put(buffer, 'b', 'a', 1, fromYaw(0));
@@ -68,7 +68,7 @@ test('a loop of frames ends', () => {
   expect(buffer.lookup('a', 'y', 1).kind).toBe('later');
 });
 
-test('time that goes back by more than is kept starts anew', () => {
+test('a jump back by more than the history clears the buffer', () => {
   const buffer = new TfBuffer();
   put(buffer, 'odom', 'base', 100, fromYaw(0, [9, 0, 0]));
   put(buffer, 'odom', 'base', 0.5, fromYaw(0, [1, 0, 0]));

@@ -1,4 +1,4 @@
-/** What all panels share: the connection, time, frames, displays, words for the user. */
+/** State shared by all panels: connection, time, frames, displays, notices. */
 import { Client, type Handler, type Socket, type State } from '../core/client';
 import type { Message } from '../core/cdr';
 import { SUBPROTOCOL, type Mismatch, type Parameter } from '../core/protocol';
@@ -15,7 +15,7 @@ import { viewFrom, viewTo } from '../rviz/view';
 import { Stage } from '../scene/stage';
 import { FIRST_VIEW, type ViewState } from '../scene/view';
 import { SensorFrames, WORLD } from '../sim/sensor_frames';
-import { bestFrame, wishFor } from './auto';
+import { bestFrame, suggestionFor } from './auto';
 import { Clock } from './clock';
 import { Entry } from './entry.svelte';
 import { estimatorsOf } from './estimators';
@@ -70,7 +70,7 @@ export class App {
   view: ViewState = $state(structuredClone(FIRST_VIEW));
   background = $state('');
   theme: 'dark' | 'light' = $state('dark');
-  /** Displays come by themselves until somebody has chosen. */
+  /** Displays are added automatically until the user adds or removes one. */
   isAutomatic = $state(true);
   /** True after a file without a world was opened, until the simulation's world is known. */
   private awaitsWorld = false;
@@ -87,7 +87,7 @@ export class App {
   readonly client: Client;
   stage?: Stage;
   private readonly sensors = new SensorFrames();
-  private leaveWorld: (() => void)[] = [];
+  private worldSubscriptions: (() => void)[] = [];
   private rvizOriginal?: Tree;
   private hasOpenedLaunched = false;
   private seen = new Set<string>();
@@ -95,7 +95,7 @@ export class App {
   private lastId = 0;
   private newLog: LogLine[] = [];
   private framesKey = '';
-  private isOffersNew = false;
+  private isGraphChanged = false;
   private flushedMs = 0;
 
   constructor(url: string) {
@@ -103,7 +103,7 @@ export class App {
       () => new WebSocket(url, [SUBPROTOCOL]) as unknown as Socket,
       {
         state: (state, why) => this.connected(state, why),
-        offers: () => (this.isOffersNew = true),
+        graphChanged: () => (this.isGraphChanged = true),
         parameters: (all) => {
           for (const one of all) this.parameters[one.name] = one;
         },
@@ -113,7 +113,7 @@ export class App {
       },
       TEXTS,
     );
-    // Both tell the same, but one may come later than the other: time would seem to go back.
+    // Both sources have the same time, but one may arrive later; without this, time would jump back.
     this.client.subscribe('/clock', (message) => {
       const isToldAnyhow = this.client.capabilities.includes('time');
       if (!isToldAnyhow) this.time(seconds(message.clock as never));
@@ -170,7 +170,7 @@ export class App {
     this.notices = this.notices.filter((notice) => notice.id !== id);
   }
 
-  // The stage.
+  // The 3D view.
 
   attach(stage: Stage): void {
     this.stage = stage;
@@ -209,7 +209,7 @@ export class App {
     }
   }
 
-  /** The view goes along with its target frame. */
+  /** Moves the camera with its target frame. */
   private follow(): void {
     const { view } = this.stage!;
     const { targetFrame } = view.state;
@@ -229,8 +229,8 @@ export class App {
   }
 
   private flush(nowMs: number): void {
-    if (this.isOffersNew) {
-      this.isOffersNew = false;
+    if (this.isGraphChanged) {
+      this.isGraphChanged = false;
       this.offersChanged();
     }
     for (const entry of this.displays) entry.flush();
@@ -248,7 +248,7 @@ export class App {
     this.chooseFrame();
   }
 
-  /** Frames that there are; the world's own where a simulation publishes no transforms. */
+  /** Known frames; the world frame of a simulation that publishes no transforms. */
   private chooseFrame(): void {
     const key = `${this.tf.version} ${this.worldName}`;
     if (key === this.framesKey) return;
@@ -277,7 +277,7 @@ export class App {
     this.view = structuredClone(this.stage?.view.state ?? FIRST_VIEW);
   }
 
-  // What is offered.
+  // Topics and services.
 
   private offersChanged(): void {
     const { client } = this;
@@ -306,26 +306,26 @@ export class App {
       .map((service) => /^\/world\/(.+)\/control$/.exec(service.name)?.[1])
       .find(Boolean);
     this.setWorld(world ?? '');
-    if (this.isAutomatic) this.addWished();
+    if (this.isAutomatic) this.addSuggested();
     else this.addAwaitedWorld();
   }
 
-  /** A simulation knows how well maps agree with its world. */
+  /** Subscribes to the topics of the simulated world. */
   private setWorld(name: string): void {
     if (name === this.worldName) return;
     this.worldName = name;
-    this.leaveWorld.forEach((leave) => leave());
-    this.leaveWorld = [];
+    this.worldSubscriptions.forEach((unsubscribe) => unsubscribe());
+    this.worldSubscriptions = [];
     this.maps = [];
     this.sensors.clear();
     this.clock.forgetStats();
     if (!name) return;
-    const hear = (what: string, handler: Handler) =>
-      this.leaveWorld.push(this.client.subscribe(`/world/${name}/${what}`, handler));
-    hear('truth', (message) => (this.maps = mapTruths(message)));
-    hear('sensors', (message) => this.sensors.setMounts(message));
-    hear('poses', (message) => this.sensors.addPoses(message));
-    hear('stats', (message) =>
+    const subscribe = (what: string, handler: Handler) =>
+      this.worldSubscriptions.push(this.client.subscribe(`/world/${name}/${what}`, handler));
+    subscribe('truth', (message) => (this.maps = mapTruths(message)));
+    subscribe('sensors', (message) => this.sensors.setMounts(message));
+    subscribe('poses', (message) => this.sensors.addPoses(message));
+    subscribe('stats', (message) =>
       this.clock.setStats({
         timeS: seconds(message.sim_time as never),
         realS: seconds(message.real_time as never),
@@ -334,7 +334,7 @@ export class App {
     );
   }
 
-  /** Makes two ends of a topic fit. */
+  /** Makes a publisher and a subscription of a topic compatible. */
   async repair(mismatch: Mismatch): Promise<void> {
     try {
       this.notice('info', `${mismatch.topic}: ${await this.client.repair(mismatch)}`);
@@ -347,7 +347,7 @@ export class App {
     return this.topics.filter((t) => types.includes(t.type)).map((t) => t.name);
   }
 
-  private addWished(): void {
+  private addSuggested(): void {
     if (!this.stage || this.connection !== 'open') return;
     if (this.displays.length === 0) {
       const grid = this.add(
@@ -364,23 +364,23 @@ export class App {
     for (const { name, type } of this.topics) {
       if (!type || this.seen.has(name)) continue;
       this.seen.add(name);
-      const wish = wishFor(name, type);
-      if (!wish) continue;
+      const suggestion = suggestionFor(name, type);
+      if (!suggestion) continue;
       const isPicture = type.endsWith('/Image');
-      const isEnabled = wish.isEnabled && (!isPicture || ++pictures <= 1);
-      this.add(wish.class, wish.name, wish.values, isEnabled, true);
+      const isEnabled = suggestion.isEnabled && (!isPicture || ++pictures <= 1);
+      this.add(suggestion.class, suggestion.name, suggestion.values, isEnabled, true);
     }
   }
 
-  /** The simulated world beside the displays of a file that was opened before the world was known. */
+  /** Adds the simulated world to the displays of a file that was opened before the world was known. */
   private addAwaitedWorld(): void {
     if (!this.awaitsWorld) return;
     for (const { name, type } of this.topics) {
-      const wish = type && !this.seen.has(name) ? wishFor(name, type) : undefined;
-      if (wish?.class !== WORLD_CLASS) continue;
+      const suggestion = type && !this.seen.has(name) ? suggestionFor(name, type) : undefined;
+      if (suggestion?.class !== WORLD_CLASS) continue;
       this.seen.add(name);
       this.awaitsWorld = false;
-      this.add(wish.class, wish.name, wish.values, wish.isEnabled, true);
+      this.add(suggestion.class, suggestion.name, suggestion.values, suggestion.isEnabled, true);
     }
   }
 
@@ -395,7 +395,7 @@ export class App {
   ): Entry | undefined {
     const kind = kindOf(kindClass);
     if (!kind) {
-      this.notice('warn', `There is no display "${kindClass}" here; it was left out.`);
+      this.notice('warn', `The display class "${kindClass}" is unknown; the display was skipped.`);
       return undefined;
     }
     if (!isAutomatic) this.isAutomatic = false;
@@ -443,7 +443,7 @@ export class App {
 
   // `.rviz` files.
 
-  /** Opens the file that the launch names, once: a reconnection leaves displays as they are. */
+  /** Opens the file that the launch file names, once: a reconnection leaves the displays as they are. */
   private openLaunched(metadata: Record<string, string>): void {
     const { rviz: text, rviz_file: fileName, fixed_frame: frame } = metadata;
     if (this.hasOpenedLaunched || !(text || frame)) return;
@@ -458,7 +458,7 @@ export class App {
 
   openRviz(text: string, fileName = ''): void {
     const file = readRviz(text);
-    // RViz knows no simulated world: it stays, unless the file brings it.
+    // RViz has no display for a simulated world: the present one stays, unless the file has one.
     const isWorldKept = !file.displays.some(({ class: name }) => name === WORLD_CLASS);
     const worlds = this.displays.filter((entry) => isWorldKept && entry.kind.class === WORLD_CLASS);
     this.clear();
@@ -497,13 +497,13 @@ export class App {
     });
   }
 
-  /** What a tool of the file was given; else what RViz gives it. */
+  /** Property of a tool in the opened file; otherwise RViz's default. */
   toolValue<T extends string | number>(tool: string, path: string, otherwise: T): T {
     const found = this.rvizTools.find((t) => t.class.endsWith(`/${tool}`))?.values[path];
     return (found as T | undefined) ?? otherwise;
   }
 
-  // Saying something.
+  // Publishing and calling.
 
   publish(topic: string, type: string, message: Message): void {
     const key = `${topic} ${type}`;
@@ -524,13 +524,13 @@ export class App {
     return { stamp: stampOf(this.clock.nowS), frame_id: frame };
   }
 
-  /** Calls a service and tells the user if that fails; whether it was done. */
+  /** Calls a service and reports a failure; returns the response, or `undefined` after a failure. */
   async call(name: string, request: Message): Promise<Message | undefined> {
     try {
       const answer = await this.client.call(name, request);
       if (answer.success === false) {
         const why = answer.message ?? answer.status_message ?? this.lastComplaint();
-        this.notice('error', `${name} was refused. ${String(why)}`);
+        this.notice('error', `${name} failed. ${String(why)}`);
         return undefined;
       }
       return answer;
@@ -542,6 +542,6 @@ export class App {
 
   private lastComplaint(): string {
     const line = [...this.log, ...this.newLog].reverse().find((l) => l.level >= 30);
-    return line ? line.text : 'The log tells why.';
+    return line ? line.text : 'See the log for the reason.';
   }
 }

@@ -1,13 +1,13 @@
-/** Which displays a newcomer wants to see of the topics that there are. */
+/** Displays that are added automatically for the topics of a new connection. */
 import { kindForType, kindOf } from '../displays/registry';
 import type { Values } from '../displays/options';
 
-export interface Wish {
+export interface Suggestion {
   class: string;
   name: string;
   values: Values;
   isEnabled: boolean;
-  /** What it shows; one display for each. */
+  /** Topic of the display; at most one display per topic. */
   key: string;
 }
 
@@ -18,10 +18,15 @@ const HIDDEN = new Set([
   'geometry_msgs/msg/PoseWithCovarianceStamped',
 ]);
 
-/** The wish for one topic; none if it is no sight. */
-export function wishFor(topic: string, type: string): Wish | undefined {
+/** Display for a topic; `undefined` for topics without one. */
+export function suggestionFor(topic: string, type: string): Suggestion | undefined {
   const name = topic.replace(/^\//, '');
-  const wish = (kindClass: string, values: Values, isEnabled = true, title = name): Wish => ({
+  const suggestion = (
+    kindClass: string,
+    values: Values,
+    isEnabled = true,
+    title = name,
+  ): Suggestion => ({
     class: kindClass,
     name: title,
     values,
@@ -29,52 +34,57 @@ export function wishFor(topic: string, type: string): Wish | undefined {
     key: topic,
   });
   if (/^\/world\/.+\/scene$/.test(topic)) {
-    return wish('periplus/World', { Topic: topic }, true, 'World');
+    return suggestion('periplus/World', { Topic: topic }, true, 'World');
   }
   if (/^\/world\//.test(topic) || type === 'tf2_msgs/msg/TFMessage') return undefined;
   if (type === 'std_msgs/msg/String' && /robot_description$/.test(topic)) {
-    return wish('rviz_default_plugins/RobotModel', { 'Description Topic': topic }, true, 'Robot');
+    return suggestion(
+      'rviz_default_plugins/RobotModel',
+      { 'Description Topic': topic },
+      true,
+      'Robot',
+    );
   }
   const kind = kindForType(type);
   if (!kind || !kindOf(kind.class)) return undefined;
   const values: Values = { Topic: topic };
-  // What nodes show of their inner life.
-  if (/visualization|_markers$/.test(topic)) return wish(kind.class, values, false);
+  // Debug visualization of nodes.
+  if (/visualization|_markers$/.test(topic)) return suggestion(kind.class, values, false);
   switch (type) {
     case 'nav_msgs/msg/OccupancyGrid': {
       const isCost = /cost/.test(topic);
       const isLocal = /local/.test(topic);
       if (/_raw$|_layer$|filter_mask|keepout|speed/.test(topic))
-        return wish(kind.class, values, false);
+        return suggestion(kind.class, values, false);
       if (isCost) Object.assign(values, { 'Color Scheme': 'costmap', Alpha: isLocal ? 0.7 : 0.35 });
       else values.Alpha = 1;
-      return wish(kind.class, values);
+      return suggestion(kind.class, values);
     }
     case 'sensor_msgs/msg/LaserScan':
-      // A point of light for each beam, seen from afar.
+      // One flat-coloured point per beam, visible from afar.
       Object.assign(values, {
         Style: 'Points',
         'Size (Pixels)': 4,
         'Color Transformer': 'FlatColor',
       });
       Object.assign(values, { Color: '255; 70; 60', 'Reliability Policy': 'Best Effort' });
-      return wish(kind.class, values);
+      return suggestion(kind.class, values);
     case 'sensor_msgs/msg/PointCloud2':
       Object.assign(values, { 'Color Transformer': 'AxisColor', Style: 'Points' });
-      return wish(kind.class, values, false);
+      return suggestion(kind.class, values, false);
     case 'sensor_msgs/msg/Image':
-      return wish(kind.class, values, !/(^|\/)depth\/|depth_image|label|segment/.test(topic));
+      return suggestion(kind.class, values, !/(^|\/)depth\/|depth_image|label|segment/.test(topic));
     case 'geometry_msgs/msg/PolygonStamped':
-      return wish(kind.class, values, !/raw/.test(topic));
+      return suggestion(kind.class, values, !/raw/.test(topic));
     case 'geometry_msgs/msg/PoseArray':
-      // Beside Nav2's particles AMCL tells ROS 1's: the same once more.
-      return wish(kind.class, values, !/particlecloud$/.test(topic));
+      // AMCL publishes Nav2's particles and the same as a PoseArray for ROS 1.
+      return suggestion(kind.class, values, !/particlecloud$/.test(topic));
     default:
-      return wish(kind.class, values, !HIDDEN.has(type));
+      return suggestion(kind.class, values, !HIDDEN.has(type));
   }
 }
 
-/** The frame in which a robot is best seen, of those that there are. */
+/** Best fixed frame of those that exist. */
 export function bestFrame(names: readonly string[], rootOf: (name: string) => string): string {
   for (const wanted of ['map', 'odom', 'world']) if (names.includes(wanted)) return wanted;
   const first = names[0];

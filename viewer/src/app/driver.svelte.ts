@@ -1,15 +1,15 @@
-/** Drives a robot by keys, by a stick, and passes keys on as Gazebo's Key Publisher does. */
+/** Teleoperation by keys and joystick, and Gazebo's Key Publisher. */
 import type { App } from './app.svelte';
 import { faster, FIRST_SPEEDS, MOVES, qtCode, SPEEDS, twist } from './teleop';
 
-/** How often a held key is said again [ms]: robots stop that hear nothing for long. */
+/** Period at which the command of a held key is published again [ms]: robots have a command timeout. */
 const REPEAT_MS = 100;
 
 export class Driver {
   isOn = $state(true);
   topic = $state('/cmd_vel');
   isStamped = $state(false);
-  /** As a person expects of a page; teleop_twist_keyboard goes on until k. */
+  /** Stops on release, as users of a page expect; teleop_twist_keyboard continues until `k`. */
   stopsOnRelease = $state(true);
   speeds = $state({ ...FIRST_SPEEDS });
   move: readonly number[] = $state([0, 0, 0, 0]);
@@ -22,7 +22,7 @@ export class Driver {
 
   constructor(private app: App) {}
 
-  /** Topics on which somebody waits for velocities. */
+  /** Topics of velocity commands that have a subscriber. */
   topics(): string[] {
     const found = this.app.topics
       .filter((t) => /(^|\/)cmd_vel\w*$/.test(t.name) || /Twist(Stamped)?$/.test(t.type))
@@ -30,7 +30,7 @@ export class Driver {
     return [...new Set([this.topic, ...found])].sort();
   }
 
-  /** Takes the topic that a robot listens to, unless the user chose one. */
+  /** Selects the topic that a robot subscribes to, unless the user chose one. */
   settle(): void {
     const listened = this.app.topics.filter((t) => t.subscribers.length > 0).map((t) => t.name);
     if (this.isChosen || listened.includes(this.topic)) return;
@@ -47,7 +47,7 @@ export class Driver {
     return this.move.some((part) => part !== 0);
   }
 
-  /** Whether the key was one of ours. */
+  /** Returns true if the key is one of the teleoperation keys. */
   keyDown(event: KeyboardEvent): boolean {
     if (event.ctrlKey || event.metaKey || event.altKey) return false;
     if (this.sendsKeys) this.passOn(event.key);
@@ -79,7 +79,7 @@ export class Driver {
     this.go(last ? MOVES[last]! : [0, 0, 0, 0]);
   }
 
-  /** Nobody can let go of a key outside of the page. */
+  /** Releases all keys: a page without the focus receives no key events. */
   release(): void {
     if (this.held.length > 0) {
       this.held = [];
@@ -94,7 +94,7 @@ export class Driver {
     this.app.publish(this.keyTopic, 'std_msgs/msg/Int32', { data: code });
   }
 
-  /** Parts of the speeds: forward, left, up, turn to the left. */
+  /** Fractions of the maximum speeds: forward, left, up, yaw to the left. */
   go(move: readonly number[]): void {
     this.move = move;
     this.send();

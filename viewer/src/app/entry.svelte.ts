@@ -1,4 +1,4 @@
-/** One display in the list: its options, how it is, and whether it is on. */
+/** One display in the list: its options, its status, and whether it is enabled. */
 import type { Context, Display, Host, Kind, Level } from '../displays/display';
 import { defaultsOf, type Values } from '../displays/options';
 import type { Tree } from '../rviz/file';
@@ -19,9 +19,9 @@ export class Entry {
   statuses: Record<string, Status> = $state({});
   canvas: HTMLCanvasElement | undefined = $state();
   display?: Display;
-  /** Of the file that it came from. */
+  /** Display in the `.rviz` file that it was read from. */
   original?: Tree;
-  /** Put there because its topic was. */
+  /** True for a display that was added automatically for its topic. */
   isAutomatic = false;
   private pending = new Map<string, Status | undefined>();
 
@@ -64,7 +64,7 @@ export class Entry {
     this.pending.clear();
   }
 
-  /** Shows what was said since the last time: messages come faster than one reads. */
+  /** Shows the status since the last call: messages arrive faster than a user reads. */
   flush(): void {
     for (const [name, status] of this.pending) {
       if (!status) delete this.statuses[name];

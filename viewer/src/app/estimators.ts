@@ -1,4 +1,4 @@
-/** Nodes that estimate where a robot is: EKF, AMCL, SLAM, whatever their names are. */
+/** Nodes that estimate the pose of a robot (EKF, AMCL, SLAM), recognized by their topics and not by their names. */
 
 interface Row {
   name: string;
@@ -7,7 +7,7 @@ interface Row {
   subscribers: string[];
 }
 
-/** Measurements that an estimate is made of. */
+/** Types of the measurements that pose estimators subscribe to. */
 const MEASUREMENTS = new Set([
   'sensor_msgs/msg/LaserScan',
   'sensor_msgs/msg/PointCloud2',
@@ -17,7 +17,7 @@ const MEASUREMENTS = new Set([
   'geometry_msgs/msg/PoseWithCovarianceStamped',
 ]);
 
-/** Nodes that publish transforms and subscribe to measurements. Drives and models do not subscribe. */
+/** Nodes that publish transforms and subscribe to measurements. Drive controllers and state publishers subscribe to none. */
 export function estimatorsOf(topics: readonly Row[]): string[] {
   const placed = topics.find((topic) => topic.name === '/tf')?.publishers ?? [];
   const measured = topics.filter((topic) => MEASUREMENTS.has(topic.type));

@@ -1,9 +1,9 @@
-/** Messages as text, and the numbers in them by their paths. */
+/** Messages as text, and the numeric fields in them by path. */
 
 const isNumbers = (value: unknown): value is ArrayLike<number | bigint> =>
   ArrayBuffer.isView(value) && !(value instanceof DataView);
 
-/** As `ros2 topic echo` would, with long arrays cut. */
+/** Message as text in the style of `ros2 topic echo`, with long arrays cut. */
 export function show(value: unknown, indent = '', most = 24): string {
   if (isNumbers(value)) {
     const all = Array.from({ length: Math.min(most, value.length) }, (_, i) => number(value[i]!));
@@ -43,7 +43,7 @@ function number(value: number | bigint): string {
     : value.toPrecision(6);
 }
 
-/** Paths of all numbers; of a list, the first few. */
+/** Paths of all numeric fields; of a list, those of the first few elements. */
 export function numericPaths(value: unknown, prefix = ''): string[] {
   if (typeof value === 'number' || typeof value === 'boolean') return [prefix];
   if (isNumbers(value) || Array.isArray(value)) {
@@ -56,7 +56,7 @@ export function numericPaths(value: unknown, prefix = ''): string[] {
   );
 }
 
-/** The number at a path: "pose.position.x", "ranges[3]", and of a rotation "orientation.yaw". */
+/** Number at a path: "pose.position.x", "ranges[3]", and of a quaternion "orientation.yaw". */
 export function numberAt(value: unknown, path: string): number {
   let at: unknown = value;
   for (const part of path.split(/[.[\]]+/).filter(Boolean)) {
@@ -71,7 +71,7 @@ export function numberAt(value: unknown, path: string): number {
   return typeof at === 'boolean' ? Number(at) : typeof at === 'number' ? at : NaN;
 }
 
-/** Units of numbers by the last words of their path; REP 103. */
+/** Units of numbers by the last name of their path; REP 103. */
 const UNITS: [RegExp, string][] = [
   [/(^|\.)linear_acceleration\.[xyz]$|(^|\.)accel\.linear\.[xyz]$/, 'm/s²'],
   [/(^|\.)angular_velocity\.[xyz]$|(^|\.)angular\.[xyz]$/, 'rad/s'],
@@ -89,7 +89,7 @@ const UNITS: [RegExp, string][] = [
   [/(^|\.)temperature$/, '°C'],
 ];
 
-/** The unit of a number; none where its path does not say. */
+/** Unit of the number at a path; empty where the path does not define one. */
 export function unitOf(path: string): string {
   return UNITS.find(([pattern]) => pattern.test(path))?.[1] ?? '';
 }

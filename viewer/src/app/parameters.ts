@@ -1,4 +1,4 @@
-/** Names of parameters as the protocol writes them: node, dot, name. */
+/** Names of parameters in the protocol: node, dot, name. */
 
 export interface Range {
   from: number;
@@ -6,7 +6,7 @@ export interface Range {
   step: number;
 }
 
-/** "/demo/amcl.laser.max" is "laser.max" of "/demo/amcl": no node has a dot in its name. */
+/** Splits "/demo/amcl.laser.max" into "/demo/amcl" and "laser.max": no node name has a dot. */
 export function splitName(full: string): { node: string; name: string } {
   const dot = full.indexOf('.');
   return dot < 0

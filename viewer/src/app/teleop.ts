@@ -1,6 +1,6 @@
-/** The keys of teleop_twist_keyboard, and the velocity that follows. */
+/** Keys of teleop_twist_keyboard and the velocities that they command. */
 
-/** x, y, z of the way and the turn, as parts of the speeds. */
+/** Fractions of the maximum speeds: linear x, y, z and angular z. */
 export const MOVES: Record<string, [number, number, number, number]> = {
   i: [1, 0, 0, 0],
   o: [1, 0, 0, -1],
@@ -22,7 +22,7 @@ export const MOVES: Record<string, [number, number, number, number]> = {
   b: [0, 0, -1, 0],
 };
 
-/** Factors of the speed [m/s] and of the turn [rad/s]. */
+/** Factors of the linear speed [m/s] and of the angular speed [rad/s]. */
 export const SPEEDS: Record<string, [number, number]> = {
   q: [1.1, 1.1],
   z: [0.9, 0.9],
@@ -81,7 +81,7 @@ const NAMED: Record<string, number> = {
   F1: 16777264,
 };
 
-/** What Gazebo's Key Publisher sends for a key of the browser: Qt's code. */
+/** Qt key code that Gazebo's Key Publisher sends for a key of the browser. */
 export function qtCode(key: string): number | undefined {
   if (NAMED[key] !== undefined) return NAMED[key];
   const f = /^F(\d+)$/.exec(key);

@@ -1,4 +1,4 @@
-/** An empty message of a type, to be filled in by a person. */
+/** Empty message of a type, for the user to edit. */
 import { definitionOf, type Definition, type Field, type Schema } from '../core/schema';
 
 const MOST_DEEP = 8;
@@ -26,7 +26,7 @@ function one(schema: Schema, field: Field, depth: number): unknown {
   }
   if (depth > MOST_DEEP) return {};
   const inner = structure(schema, definitionOf(schema, field.type), depth + 1);
-  // No rotation is a rotation too.
+  // The identity rotation.
   if (field.type === 'geometry_msgs/Quaternion') inner.w = 1;
   return inner;
 }

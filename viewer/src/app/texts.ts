@@ -1,4 +1,4 @@
-/** What the messages hold that the page itself publishes. */
+/** Definitions of the message types that the page publishes. */
 
 const HEADER =
   'MSG: std_msgs/Header\nbuiltin_interfaces/Time stamp\nstring frame_id\n' +

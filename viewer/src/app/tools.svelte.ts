@@ -1,4 +1,4 @@
-/** What the mouse does on the stage, and what is asked of a simulation. */
+/** Tools of the 3D view, and requests to the simulation. */
 import {
   Matrix4,
   Points,
@@ -16,7 +16,16 @@ import { Color, Group, Mesh } from 'three';
 import type { App } from './app.svelte';
 
 export type ToolName =
-  'move' | 'select' | 'focus' | 'measure' | 'pose' | 'goal' | 'point' | 'carry' | 'turn' | 'insert';
+  | 'move'
+  | 'select'
+  | 'focus'
+  | 'measure'
+  | 'pose'
+  | 'goal'
+  | 'point'
+  | 'translate'
+  | 'rotate'
+  | 'insert';
 
 export const SHORTCUTS: Record<string, ToolName> = {
   m: 'move',
@@ -31,15 +40,15 @@ export const SHORTCUTS: Record<string, ToolName> = {
 
 const GREEN = new Color('#2fc46b');
 const PINK = new Color('#ff5ad2');
-/** Above the ground, so that maps do not hide it. */
+/** Height above the floor plane, so that maps do not hide the arrow [m]. */
 const ARROW_HEIGHT_M = 0.05;
-/** The node that stands for all pages. */
+/** Node name under which all pages appear. */
 const OWN_NODE = '/viewers';
-/** A shorter drag gives no direction [m]. */
-const LEAST_DRAG_M = 0.05;
+/** Shortest drag that sets a heading [m]. */
+const MIN_DRAG_M = 0.05;
 
-/** A point of the page. */
-interface Place {
+/** Point in page coordinates. */
+interface PagePoint {
   clientX: number;
   clientY: number;
 }
@@ -52,19 +61,19 @@ const ARROWS: Record<string, [number, number]> = {
   ArrowDown: [0, 1],
 };
 
-type InspectMore = (uv: Vector2, tell: (more: Record<string, string>) => void) => void;
+type InspectMore = (uv: Vector2, report: (more: Record<string, string>) => void) => void;
 
 export class Tools {
   active: ToolName = $state('move');
-  /** What was found under the mouse. */
+  /** Result of a selection. */
   found: Record<string, string> | undefined = $state();
   measured = $state('');
-  /** Where the keys point, while they do. */
-  cross: Place | undefined = $state();
-  /** SDF that waits for a place. */
+  /** Cursor of the keyboard, while it is in use. */
+  cross: PagePoint | undefined = $state();
+  /** SDF of the model that the next click inserts. */
   toInsert?: { name: string; sdf: string; file: string };
   private marks = new Group();
-  /** The last pose estimate and the last goal, each where it was put until there is another. */
+  /** Last pose estimate and last goal, each kept in its frame until the next one. */
   private poses = new Group();
   private arrows = new Map<'pose' | 'goal', { frame: string; pose: Pose; mesh: Mesh }>();
   private start?: Vector3;
@@ -77,7 +86,7 @@ export class Tools {
     const { stage } = this.app;
     stage!.scene.add(this.marks, this.poses);
     stage!.ticks.add(() => this.placeArrows());
-    // Before the view hears of it.
+    // Capture: before the camera controls receive the event.
     canvas.addEventListener(
       'pointerdown',
       (event) => {
@@ -91,18 +100,18 @@ export class Tools {
     canvas.addEventListener('keydown', (event) => this.key(event, canvas), true);
   }
 
-  /** What a mouse does, by keys: arrows move a cross, Enter presses there, and lets go after a drag. */
+  /** Mouse by keyboard: arrow keys move a crosshair, Enter presses, and releases after a drag. */
   private key(event: KeyboardEvent, canvas: HTMLCanvasElement): void {
     if (this.active === 'move' || event.ctrlKey || event.metaKey || event.altKey) return;
     const box = canvas.getBoundingClientRect();
     const middle = { clientX: box.left + box.width / 2, clientY: box.top + box.height / 2 };
     const at = this.cross ?? middle;
     const by = event.shiftKey ? 1 : STEP_PX;
-    const way = ARROWS[event.key];
-    if (way) {
+    const direction = ARROWS[event.key];
+    if (direction) {
       this.cross = {
-        clientX: Math.min(box.right - 1, Math.max(box.left, at.clientX + way[0] * by)),
-        clientY: Math.min(box.bottom - 1, Math.max(box.top, at.clientY + way[1] * by)),
+        clientX: Math.min(box.right - 1, Math.max(box.left, at.clientX + direction[0] * by)),
+        clientY: Math.min(box.bottom - 1, Math.max(box.top, at.clientY + direction[1] * by)),
       };
       this.moved(this.cross);
     } else if (event.key === 'Enter') {
@@ -111,7 +120,7 @@ export class Tools {
       if (wasHeld) this.up(at);
       else {
         this.down(at);
-        // A drag goes on until the next Enter; all else is done.
+        // A drag goes on until the next Enter; any other tool is done.
         if (!this.start) this.up(at);
       }
       if ((this.active as ToolName) === 'move') this.cross = undefined;
@@ -143,7 +152,7 @@ export class Tools {
     this.fading = setTimeout(() => this.clear(), 600);
   }
 
-  private down(event: Place): void {
+  private down(event: PagePoint): void {
     if (this.active === 'move') return;
     const { view } = this.app.stage!;
     view.isHeld = true;
@@ -155,8 +164,8 @@ export class Tools {
       case 'goal':
         this.start = ground;
         break;
-      case 'carry':
-      case 'turn':
+      case 'translate':
+      case 'rotate':
         this.pick(hit?.object);
         this.start = ground;
         break;
@@ -179,25 +188,25 @@ export class Tools {
     }
   }
 
-  private moved(event: Place): void {
+  private moved(event: PagePoint): void {
     const now = this.start && this.app.stage!.view.ground(event.clientX, event.clientY);
     if (!this.start || !now) return;
     if (this.active === 'pose' || this.active === 'goal') this.arrow(this.start, now);
-    if (this.active === 'carry' || this.active === 'turn') this.ghost(now);
+    if (this.active === 'translate' || this.active === 'rotate') this.preview(now);
   }
 
-  private up(event: Place): void {
+  private up(event: PagePoint): void {
     const { start } = this;
     const now = this.app.stage!.view.ground(event.clientX, event.clientY);
     if (!start || !now) return;
     if (this.active === 'pose' || this.active === 'goal') {
-      const way = now.clone().sub(start);
-      const yaw = way.length() > LEAST_DRAG_M ? Math.atan2(way.y, way.x) : 0;
-      this.publishPose(this.active, fromYaw(yaw, [start.x, start.y, 0]), way.length());
+      const drag = now.clone().sub(start);
+      const yaw = drag.length() > MIN_DRAG_M ? Math.atan2(drag.y, drag.x) : 0;
+      this.publishPose(this.active, fromYaw(yaw, [start.x, start.y, 0]), drag.length());
       this.active = 'move';
       this.clear();
       this.app.stage!.view.isHeld = false;
-    } else if (this.active === 'carry' || this.active === 'turn') {
+    } else if (this.active === 'translate' || this.active === 'rotate') {
       void this.drop(now);
     }
     this.start = undefined;
@@ -211,10 +220,10 @@ export class Tools {
 
   private arrow(from: Vector3, to: Vector3): void {
     for (const child of [...this.marks.children]) dispose(child);
-    const way = to.clone().sub(from);
-    const arrow = arrowOf(this.active === 'pose' ? 'pose' : 'goal', way.length());
+    const drag = to.clone().sub(from);
+    const arrow = arrowOf(this.active === 'pose' ? 'pose' : 'goal', drag.length());
     arrow.position.copy(from).setZ(ARROW_HEIGHT_M);
-    arrow.rotation.z = Math.atan2(way.y, way.x);
+    arrow.rotation.z = Math.atan2(drag.y, drag.x);
     this.marks.add(arrow);
     this.app.stage!.invalidate();
   }
@@ -229,7 +238,7 @@ export class Tools {
     this.app.stage!.invalidate();
   }
 
-  /** Keeps each arrow in the frame in which it was put. */
+  /** Keeps each arrow in the frame in which it was published. */
   private placeArrows(): void {
     for (const { frame, pose, mesh } of this.arrows.values()) {
       const found = this.app.tf.lookup(this.app.fixedFrame, frame);
@@ -241,13 +250,13 @@ export class Tools {
     }
   }
 
-  /** Where the last goal or estimate was put, and in which frame. */
+  /** Pose and frame of the last goal or estimate. */
   shownPose(tool: 'pose' | 'goal'): { frame: string; pose: Pose } | undefined {
     const arrow = this.arrows.get(tool);
     return arrow && { frame: arrow.frame, pose: arrow.pose };
   }
 
-  /** Whether a pose in the fixed frame means anything to a node; if not, the user learns why. */
+  /** Returns true if the fixed frame is a frame of the TF tree; otherwise reports why the pose was not sent. */
   private canPlace(): boolean {
     const { app } = this;
     if (app.tf.has(app.fixedFrame)) return true;
@@ -259,12 +268,15 @@ export class Tools {
     return false;
   }
 
-  /** Warns where nobody receives what was just published. */
+  /** Warns if the topic just published to has no subscriber. */
   private warnOfSilence(topic: string, advice: string): void {
     const row = this.app.topics.find((one) => one.name === topic);
     const others = row?.subscribers.filter((node) => node !== OWN_NODE) ?? [];
     if (others.length === 0) {
-      this.app.notice('warn', `No node subscribes to ${topic}, so nothing happens. ${advice}`);
+      this.app.notice(
+        'warn',
+        `No node subscribes to ${topic}: the message has no effect. ${advice}`,
+      );
     }
   }
 
@@ -278,11 +290,8 @@ export class Tools {
     if (tool === 'goal') {
       const topic = absolute(app.toolValue('SetGoal', 'Topic', 'goal_pose'));
       app.publish(topic, 'geometry_msgs/msg/PoseStamped', { header, pose: messageOf(pose) });
-      app.notice('info', `Goal in ${app.fixedFrame}: ${where}`);
-      this.warnOfSilence(
-        topic,
-        'Start a navigator that takes goals, such as bt_navigator of Nav2 on ROS 2.',
-      );
+      app.notice('info', `2D goal pose in ${app.fixedFrame}: ${where}`);
+      this.warnOfSilence(topic, 'Start a navigator, such as bt_navigator of Nav2 on ROS 2.');
       return;
     }
     const covariance = new Float64Array(36);
@@ -292,7 +301,7 @@ export class Tools {
     const topic = absolute(app.toolValue('SetInitialPose', 'Topic', 'initialpose'));
     const inner = { pose: messageOf(pose), covariance };
     app.publish(topic, 'geometry_msgs/msg/PoseWithCovarianceStamped', { header, pose: inner });
-    app.notice('info', `Pose estimate in ${app.fixedFrame}: ${where}`);
+    app.notice('info', `2D pose estimate in ${app.fixedFrame}: ${where}`);
     this.warnOfSilence(
       topic,
       'Start localization, such as `periplus ros2 launch nav2_bringup localization_launch.py map:=MAP.yaml`.',
@@ -307,7 +316,7 @@ export class Tools {
     app.publish(topic, 'geometry_msgs/msg/PointStamped', { header: app.header(), point });
     app.notice(
       'info',
-      `Point in ${app.fixedFrame}: ${at.x.toFixed(3)}, ${at.y.toFixed(3)}, ${at.z.toFixed(3)}`,
+      `Clicked point in ${app.fixedFrame}: ${at.x.toFixed(3)}, ${at.y.toFixed(3)}, ${at.z.toFixed(3)}`,
     );
     if (app.toolValue<string | number>('PublishPoint', 'Single click', 1)) this.done();
   }
@@ -320,17 +329,17 @@ export class Tools {
     const length = a.distanceTo(b);
     this.measured = `${length.toFixed(3)} m (x ${(b.x - a.x).toFixed(3)}, y ${(b.y - a.y).toFixed(3)}, z ${(b.z - a.z).toFixed(3)})`;
     this.marks.add(polyline([...a.toArray(), ...b.toArray()], new Color('#e6c229')));
-    const words = label(`${length.toFixed(3)} m`, Math.max(0.12, length * 0.05), '#ffe27a', true);
-    words.position
+    const caption = label(`${length.toFixed(3)} m`, Math.max(0.12, length * 0.05), '#ffe27a', true);
+    caption.position
       .copy(a)
       .lerp(b, 0.5)
       .setZ(Math.max(a.z, b.z) + 0.15);
-    this.marks.add(words);
+    this.marks.add(caption);
     this.app.stage!.invalidate();
   }
 
-  /** The first thing under the mouse; points count if they are near. */
-  private hit(event: Place): Intersection | undefined {
+  /** First object under the mouse; a point of a cloud if it is near the mouse. */
+  private hit(event: PagePoint): Intersection | undefined {
     const { view, content } = this.app.stage!;
     const caster: Raycaster = view.ray(event.clientX, event.clientY);
     caster.params.Line.threshold = 0.02;
@@ -351,7 +360,7 @@ export class Tools {
     return caster.intersectObjects(solid, false)[0];
   }
 
-  /** A point within some pixels of the mouse. */
+  /** Nearest point of a cloud within a few pixels of the mouse. */
   private nearestPoint(
     object: Points,
     mouse: Vector2,
@@ -393,7 +402,7 @@ export class Tools {
 
   private inspect(hit: Intersection | undefined): void {
     if (!hit) {
-      this.found = { Nothing: 'is there' };
+      this.found = { Selection: 'nothing under the mouse' };
       return;
     }
     let object: Object3D | null = hit.object;
@@ -407,7 +416,7 @@ export class Tools {
     };
     this.found = found;
     const current = this.found;
-    // What has to be asked for comes a little later.
+    // Details that need a request arrive later.
     const inspectMore = object?.userData.inspectMore as InspectMore | undefined;
     if (hit.uv) {
       inspectMore?.(hit.uv, (more) => {
@@ -451,11 +460,11 @@ export class Tools {
 
   async remove(name: string): Promise<void> {
     const done = await this.app.call(this.service('remove'), { entity: this.entity(name) });
-    if (done) this.app.notice('info', `${name} is gone`);
+    if (done) this.app.notice('info', `${name} was deleted`);
     if (this.app.selectedModel === name) this.app.selectedModel = '';
   }
 
-  /** Puts a model elsewhere; in the world's frame. */
+  /** Moves a model to a pose in the world frame. */
   async place(name: string, worldFromModel: Pose): Promise<void> {
     await this.app.call(this.service('set_pose'), {
       entity: this.entity(name),
@@ -463,14 +472,14 @@ export class Tools {
     });
   }
 
-  private wanted(now: Vector3): Pose | undefined {
+  private draggedPose(now: Vector3): Pose | undefined {
     const { app, start } = this;
     const world = app.world();
     const old = world?.poseOf(app.selectedModel);
     if (!world || !old || !start) return undefined;
     const worldFromFixed = inverse(world.fixedFromWorld);
     const fixedFromOld = multiply(world.fixedFromWorld, old);
-    if (this.active === 'carry') {
+    if (this.active === 'translate') {
       const t: Pose['t'] = [
         fixedFromOld.t[0] + now.x - start.x,
         fixedFromOld.t[1] + now.y - start.y,
@@ -483,8 +492,8 @@ export class Tools {
     return { t: old.t, q: multiply(turn, { t: [0, 0, 0], q: old.q }).q };
   }
 
-  private ghost(now: Vector3): void {
-    const pose = this.wanted(now);
+  private preview(now: Vector3): void {
+    const pose = this.draggedPose(now);
     const world = this.app.world();
     for (const child of [...this.marks.children]) dispose(child);
     if (!pose || !world) return;
@@ -492,30 +501,30 @@ export class Tools {
     const mark = new Mesh(arrowGeometry(0.4, 0.02, 0.15, 0.07), surface(GREEN));
     mark.position.set(t[0], t[1], 0.05);
     mark.rotation.z = yawOf(pose.q);
-    const words = label(
+    const caption = label(
       `${pose.t[0].toFixed(2)}, ${pose.t[1].toFixed(2)} m, ${((yawOf(pose.q) * 180) / Math.PI).toFixed(0)}°`,
       0.14,
       '#d5ffe6',
       true,
     );
-    words.position.set(t[0], t[1], t[2] + 0.5);
-    this.marks.add(mark, words);
+    caption.position.set(t[0], t[1], t[2] + 0.5);
+    this.marks.add(mark, caption);
     this.app.stage!.invalidate();
   }
 
   private async drop(now: Vector3): Promise<void> {
-    const pose = this.wanted(now);
+    const pose = this.draggedPose(now);
     const { selectedModel } = this.app;
     for (const child of [...this.marks.children]) dispose(child);
     if (pose && selectedModel) await this.place(selectedModel, pose);
   }
 
-  /** The next click on the ground puts it there. */
+  /** Inserts the model at the next click on the floor plane. */
   prepare(name: string, sdf: string, file = ''): void {
     this.toInsert = { name, sdf, file };
     this.active = 'insert';
     this.app.stage!.view.isHeld = true;
-    this.app.notice('info', `Click where ${name} shall stand`);
+    this.app.notice('info', `Click the position for ${name}`);
   }
 
   private async insertAt(at: Vector3): Promise<void> {
@@ -538,7 +547,7 @@ export class Tools {
       relative_to: 'world',
     };
     const done = await this.app.call(this.service('create'), { entity_factory: factory });
-    if (done) this.app.notice('info', `${name} stands in the world`);
+    if (done) this.app.notice('info', `${name} was inserted`);
     return !!done;
   }
 }

@@ -1,17 +1,17 @@
-/** How well maps agree with the simulated world, as the server tells it (docs/live.md). */
+/** Comparison of maps with the simulated world, as the server publishes it (docs/live.md). */
 import type { Message } from '../core/cdr';
 
 export interface MapTruth {
   topic: string;
-  /** In words. */
+  /** Summary as text. */
   text: string;
   isGood: boolean;
-  /** What is free in both of what is free in either, 0 to 1. */
+  /** Intersection over union of free space, 0 to 1. */
   freeIou: number;
   wallsIou: number;
-  /** From the map's walls to the true ones, on average [m]. */
+  /** Mean distance from the walls of the map to the true walls [m]. */
   wallMeanM: number;
-  /** Which part of what can be seen is known, 0 to 1. */
+  /** Explored fraction of the space that can be seen, 0 to 1. */
   explored: number;
 }
 
@@ -37,6 +37,6 @@ export function mapTruths(message: Message): MapTruth[] {
   });
 }
 
-/** A part of one as a person reads it. */
+/** Fraction formatted as percent. */
 export const percent = (part: number) =>
   Number.isFinite(part) ? `${Math.round(part * 100)} %` : '–';

@@ -1,4 +1,4 @@
-/** What is being drawn: the plan, what is chosen, and what the next press does. */
+/** State of the Building Editor: the plan, the selection, and the effect of the next click. */
 import { History } from './history';
 import {
   along,
@@ -20,7 +20,7 @@ import { gridded, snap, type Snapped } from './snap';
 
 export type Mode = 'select' | 'wall' | 'door' | 'window' | 'stairs' | 'scale';
 
-/** An opening is put into a wall that is so near [m]. */
+/** Maximum distance from the cursor to the wall that gets an opening [m]. */
 const WALL_REACH_M = 0.6;
 
 export class Editor {
@@ -28,25 +28,25 @@ export class Editor {
   mode: Mode = $state('wall');
   level = $state(0);
   selected = $state(0);
-  /** Where the wall began that is being drawn. */
+  /** Start of the wall being drawn. */
   start: Point | undefined = $state();
-  /** Where the mouse or the keys are. */
+  /** Position of the mouse or of the keyboard cursor. */
   cursor: Snapped = $state({ at: { x: 0, y: 0 }, to: 'grid' });
   gridM = $state(0.1);
   isSnapping = $state(true);
-  /** A length that was typed while drawing. */
+  /** Length typed while drawing a wall. */
   typed = $state('');
   canUndo = $state(false);
   canRedo = $state(false);
-  /** Ends of the line of known length in the picture. */
+  /** Ends of the line of known length in the image. */
   scaleFrom: Point | undefined = $state();
   scaleTo: Point | undefined = $state();
-  /** Pixels per metre on the screen: what is near depends on it. */
+  /** Pixels per metre on the screen, from which the snapping distance follows. */
   zoom = $state(60);
   private history = History.of(emptyPlan());
   private chainStart?: Point;
 
-  /** How often a plan was opened: the view then shows all of it. */
+  /** Number of plans opened so far: the view fits each new one. */
   opened = $state(0);
 
   open(plan: Plan): void {
@@ -58,7 +58,7 @@ export class Editor {
     this.note();
   }
 
-  /** After each change: it can be undone from here. */
+  /** Records the state for undo; to be called after each change. */
   note(): void {
     this.history.note($state.snapshot(this.plan));
     this.canUndo = this.history.canUndo;
@@ -102,7 +102,7 @@ export class Editor {
     return this.plan.walls.find((w) => w.id === id);
   }
 
-  // Pointing.
+  // Cursor.
 
   point(at: Point, isFree = false): void {
     const settings = {
@@ -114,13 +114,13 @@ export class Editor {
     else this.cursor = snap(this.plan, this.level, at, this.start, settings);
   }
 
-  /** Moves the cursor by keys. */
+  /** Moves the cursor by arrow keys. */
   nudge(dx: number, dy: number): void {
     const { at } = this.cursor;
     this.cursor = { at: gridded({ x: at.x + dx, y: at.y + dy }, this.gridM / 10), to: 'grid' };
   }
 
-  /** Does what the mode says, where the cursor is. */
+  /** Applies the current mode at the cursor. */
   press(): void {
     const at = { ...this.cursor.at };
     if (this.mode === 'wall') this.pressWall(at);
@@ -141,7 +141,7 @@ export class Editor {
     this.endWall(at);
   }
 
-  /** The wall goes where the cursor points, as long as was typed. */
+  /** Ends the wall in the direction of the cursor, with the length typed. */
   endTyped(): void {
     const length = Number(this.typed.replace(',', '.'));
     const { start } = this;
@@ -160,7 +160,7 @@ export class Editor {
     if (Math.hypot(to.x - from.x, to.y - from.y) < 0.01) return;
     const id = ++this.plan.lastId;
     const last = this.plan.walls[this.plan.walls.length - 1];
-    // As thick and high as the one before.
+    // Thickness and height of the last wall.
     const { thicknessM, heightM, material } = last ?? WALL;
     this.plan.walls.push({ id, level: this.level, from, to, thicknessM, heightM, material });
     const first = this.chainStart!;
@@ -191,7 +191,7 @@ export class Editor {
     this.note();
   }
 
-  // Changing what is chosen.
+  // Changes of the selection.
 
   remove(): void {
     const { plan, selected } = this;
@@ -202,7 +202,7 @@ export class Editor {
     this.note();
   }
 
-  /** A wall of another length: it keeps its beginning and direction; what met its end goes along. */
+  /** Changes the length of a wall, which keeps its start and direction; walls joined to its end follow. */
   setLength(wall: Wall, lengthM: number): void {
     if (!(lengthM > 0.01)) return;
     const old = { ...wall.to };
@@ -215,7 +215,7 @@ export class Editor {
     this.moveEnds(old, to, wall.level);
   }
 
-  /** Moves every wall's end that is at a point. */
+  /** Moves the ends of all walls at a point. */
   moveEnds(from: Point, to: Point, level: number): void {
     const isAt = (p: Point) => Math.hypot(p.x - from.x, p.y - from.y) < 1e-6;
     for (const wall of this.plan.walls) {
@@ -226,7 +226,7 @@ export class Editor {
     }
   }
 
-  /** Moves what is chosen by so much. */
+  /** Moves the selection by an offset [m]. */
   move(dx: number, dy: number): void {
     const { plan, selected } = this;
     const wall = this.wall(selected);
@@ -251,13 +251,13 @@ export class Editor {
     opening.atM = Math.max(half, Math.min(lengthOf(wall) - half, Math.round(atM * 1000) / 1000));
   }
 
-  // Levels and the picture.
+  // Levels and the image.
 
   addLevel(): void {
     const { levels } = this.plan;
     levels.push({ name: `Level ${levels.length + 1}`, heightM: WALL.heightM });
     const top = levels.length - 1;
-    // As the Building Editor does: the outer walls go on.
+    // As in Gazebo's Building Editor, a new level starts with the outer walls of the one below.
     for (const wall of this.plan.walls.filter((w) => w.level === top - 1)) {
       this.plan.walls.push({
         ...structuredClone($state.snapshot(wall)),
@@ -282,7 +282,7 @@ export class Editor {
     this.note();
   }
 
-  /** The line that was drawn in the picture is so long. */
+  /** Sets the scale of the image from the length of the line drawn in it. */
   setScale(lengthM: number): void {
     const { picture } = this.plan;
     if (!picture || !this.scaleFrom || !this.scaleTo || !(lengthM > 0)) return;

@@ -1,4 +1,4 @@
-/** What was done, undone and done again: whole states, for a plan is small. */
+/** Undo and redo by whole states, since a plan is small. */
 
 const MOST = 300;
 
@@ -12,7 +12,7 @@ export class History<T> {
     return new History<T>(JSON.stringify(state));
   }
 
-  /** Notes a new state. One that is like the last is none. */
+  /** Records a new state, unless it equals the last one. */
   note(state: T): void {
     const text = JSON.stringify(state);
     if (text === this.now) return;

@@ -1,4 +1,4 @@
-/** A building as it is drawn: walls between points, what is cut into them, stairs, levels. Metres. */
+/** Floor plan: walls between points, openings in walls, stairs, levels. Lengths in metres. */
 
 export interface Point {
   x: number;
@@ -15,27 +15,27 @@ export interface Wall {
   material: string;
 }
 
-/** A hole in a wall. */
+/** Door or window in a wall. */
 export interface Opening {
   id: number;
   wall: number;
   kind: 'door' | 'window';
-  /** Where its middle is along the wall, from the wall's beginning. */
+  /** Distance from the start of the wall to the center of the opening. */
   atM: number;
   widthM: number;
   heightM: number;
-  /** How far it is above the floor. */
+  /** Height of the sill above the floor. */
   sillM: number;
 }
 
 export interface Stairs {
   id: number;
   level: number;
-  /** The middle. */
+  /** Center of the stairs. */
   at: Point;
-  /** Up along x, turned by this. */
+  /** Direction of ascent: the x axis turned by this angle. */
   yawRad: number;
-  /** How far they go, and how wide they are. */
+  /** Horizontal length and width. */
   lengthM: number;
   widthM: number;
   steps: number;
@@ -47,12 +47,12 @@ export interface Level {
 }
 
 export interface FloorPlan {
-  /** As the page can show it. */
+  /** Image as a data URL. */
   url: string;
   widthPx: number;
   heightPx: number;
   pixelsPerM: number;
-  /** Where the middle of the picture is. */
+  /** Position of the center of the image. */
   at: Point;
 }
 
@@ -67,14 +67,14 @@ export interface Plan {
   lastId: number;
 }
 
-/** What the Building Editor begins with. */
+/** Defaults of Gazebo's Building Editor. */
 export const WALL = { thicknessM: 0.15, heightM: 2.5, material: 'Gazebo/Grey' };
 export const DOOR = { widthM: 0.9, heightM: 2, sillM: 0 };
 export const WINDOW = { widthM: 0.8, heightM: 1, sillM: 1 };
 export const STAIRS = { lengthM: 3, widthM: 1, steps: 10 };
 export const PIXELS_PER_M = 100;
 
-/** Materials of Gazebo by name, with their colours. */
+/** Names of Gazebo's materials with their colours. */
 export const MATERIALS: Record<string, [number, number, number]> = {
   'Gazebo/Grey': [0.7, 0.7, 0.7],
   'Gazebo/White': [1, 1, 1],
@@ -98,18 +98,18 @@ export const lengthOf = (wall: Wall) =>
 export const yawOfWall = (wall: Wall) =>
   Math.atan2(wall.to.y - wall.from.y, wall.to.x - wall.from.x);
 
-/** The place so far along a wall. */
+/** Point at a distance along a wall. */
 export function along(wall: Wall, m: number): Point {
   const yaw = yawOfWall(wall);
   return { x: wall.from.x + Math.cos(yaw) * m, y: wall.from.y + Math.sin(yaw) * m };
 }
 
-/** How high a level's floor is. */
+/** Height of a level's floor. */
 export function baseOf(plan: Plan, level: number): number {
   return plan.levels.slice(0, level).reduce((sum, l) => sum + l.heightM, 0);
 }
 
-/** The wall nearest to a point, and where on it that is. */
+/** Wall nearest to a point, and the distance along it. */
 export function nearestWall(
   plan: Plan,
   level: number,
@@ -129,27 +129,27 @@ export function nearestWall(
   return best;
 }
 
-/** Files of others are as exact [m]. */
+/** Tolerance for files of other programs [m]. */
 const CLOSE_M = 1e-3;
 
-/** What is wrong with a plan, in words; nothing if it can be built. */
+/** Errors of a plan as text; empty if the building can be written. */
 export function problems(plan: Plan): string[] {
   const out: string[] = [];
   if (!/^[A-Za-z0-9_][\w -]*$/.test(plan.name))
-    out.push('Give the building a name of letters, digits and _');
-  if (plan.walls.length === 0) out.push('There are no walls yet');
+    out.push('The name of the building must consist of letters, digits and _');
+  if (plan.walls.length === 0) out.push('The plan has no walls');
   for (const opening of plan.openings) {
     const wall = plan.walls.find((w) => w.id === opening.wall);
     if (!wall) continue;
     const length = lengthOf(wall);
     const what = opening.kind === 'door' ? 'A door' : 'A window';
-    // A wall goes on beyond its line by half of its thickness.
+    // A wall extends beyond its line by half of its thickness.
     const end = wall.thicknessM / 2 + CLOSE_M;
     if (
       opening.atM - opening.widthM / 2 < -end ||
       opening.atM + opening.widthM / 2 > length + end
     ) {
-      out.push(`${what} reaches beyond its wall of ${length.toFixed(2)} m`);
+      out.push(`${what} extends beyond its wall of length ${length.toFixed(2)} m`);
     }
     if (opening.sillM + opening.heightM > wall.heightM + 1e-6) {
       out.push(`${what} is higher than its wall of ${wall.heightM.toFixed(2)} m`);

@@ -1,4 +1,4 @@
-/** Buildings from files: ours, and those of Gazebo's Building Editor. */
+/** Reader of buildings from SDF files: those of the page, and those of Gazebo's Building Editor. */
 import { emptyPlan, type Plan } from './plan';
 import type { Box } from './solid';
 
@@ -8,7 +8,7 @@ const numbers = (text: string | null | undefined) =>
 const child = (element: Element | undefined, name: string) =>
   element && [...element.children].find((c) => c.localName === name);
 
-/** Two boxes belong to one row if they end where the other begins, to this [m]. */
+/** Maximum gap between two boxes of one row [m]. */
 const CLOSE_M = 1e-4;
 
 interface Link {
@@ -29,7 +29,8 @@ export function readBuilding(text: string, parser: DOMParser = new DOMParser()):
   );
   if (!model) throw new Error('The file has no model with links "Wall_0", "Wall_1", ... to edit');
   const [mx = 0, my = 0, , , , myaw = 0] = numbers(child(model, 'pose')?.textContent);
-  if (Math.abs(myaw) > 1e-6) throw new Error('The model is turned; set its yaw to 0 first');
+  if (Math.abs(myaw) > 1e-6)
+    throw new Error('The pose of the model is rotated; set its yaw to 0 first');
   const plan = emptyPlan();
   plan.name = model.getAttribute('name') ?? 'building';
   const links = [...model.children]
@@ -124,7 +125,7 @@ function addWall(plan: Plan, link: Link, level: number): void {
 
 const round = (v: number) => Math.round(v * 1e4) / 1e4;
 
-/** What a wall's boxes leave open: rectangles, as wide as they go. */
+/** Openings left by the boxes of a wall: rectangles as wide as possible. */
 function holesOf(boxes: Box[], left: number, right: number, top: number) {
   const edges = (values: number[]) => {
     const sorted = [...values].sort((a, b) => a - b);

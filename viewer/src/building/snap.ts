@@ -1,17 +1,17 @@
-/** Where a point is put that was nearly meant: on ends of walls, on the grid, at round angles. */
+/** Snapping of points: to ends of walls, to the grid, to multiples of 15 degrees. */
 import { along, lengthOf, nearestWall, type Plan, type Point } from './plan';
 
 export interface Snapped {
   at: Point;
-  /** What it was put on. */
+  /** Target of the snapping. */
   to: 'end' | 'wall' | 'angle' | 'grid' | 'none';
 }
 
 export interface Settings {
-  /** Within this, something is meant [m]. */
+  /** Maximum distance at which a point snaps [m]. */
   reachM: number;
   gridM: number;
-  /** Free hand. */
+  /** Disables snapping. */
   isOff: boolean;
 }
 
@@ -53,7 +53,7 @@ function angled(plan: Plan, level: number, at: Point, from: Point, s: Settings):
   const [dx, dy] = [at.x - from.x, at.y - from.y];
   const angle = Math.round(Math.atan2(dy, dx) / ANGLE_STEP_RAD) * ANGLE_STEP_RAD;
   let length = Math.round(Math.hypot(dx, dy) / s.gridM) * s.gridM;
-  // In line with the end of another wall, across from where this one began.
+  // In line with the end of another wall, perpendicular to the start of this one.
   const [c, sn] = [Math.cos(angle), Math.sin(angle)];
   for (const wall of plan.walls) {
     if (wall.level !== level) continue;
@@ -65,7 +65,7 @@ function angled(plan: Plan, level: number, at: Point, from: Point, s: Settings):
   return { x: tidy(from.x + c * length), y: tidy(from.y + sn * length) };
 }
 
-/** Without the dust of sine and cosine. */
+/** Rounds away the errors of sine and cosine. */
 const tidy = (v: number) => Math.round(v * 1e6) / 1e6;
 
 export function gridded(at: Point, gridM: number): Point {

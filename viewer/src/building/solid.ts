@@ -1,4 +1,4 @@
-/** What a plan is made of: boxes. Pure; the window and the writer both draw these. */
+/** Geometry of a plan as boxes, shared by the view and the SDF writer. */
 import {
   baseOf,
   lengthOf,
@@ -9,7 +9,7 @@ import {
   type Wall,
 } from './plan';
 
-/** A box in the frame of its part; the middle and the sizes. */
+/** Box in the frame of its part: center and size. */
 export interface Box {
   x: number;
   y: number;
@@ -23,7 +23,7 @@ export interface Part {
   name: string;
   kind: 'wall' | 'stairs' | 'floor';
   level: number;
-  /** Where the part is in the building: on the floor of its level. */
+  /** Pose of the part in the building, on the floor of its level. */
   at: Point;
   baseM: number;
   yawRad: number;
@@ -31,7 +31,7 @@ export interface Part {
   boxes: Box[];
 }
 
-/** A floor is so thick; its upper side is the level's floor. */
+/** Thickness of a floor; its upper side is the level's floor [m]. */
 export const FLOOR_THICKNESS_M = 0.1;
 
 interface Hole {
@@ -41,7 +41,7 @@ interface Hole {
   high: number;
 }
 
-/** A rectangle without holes as rectangles: upright strips, as few as these need. */
+/** Divides a rectangle with holes into the fewest upright strips of rectangles. */
 export function cut(
   width: [number, number],
   height: [number, number],
@@ -62,7 +62,7 @@ export function cut(
       height,
       inside.filter((h) => h.from < middle && h.to > middle),
     );
-    // A strip like the one before goes on with it.
+    // A strip with the same gaps as the previous one extends it.
     if (last && same(last.spans, spans)) {
       for (let k = last.at; k < out.length; k++) out[k]!.u[1] = to;
       last.to = to;
@@ -88,7 +88,7 @@ function spansOf([low, high]: [number, number], holes: readonly Hole[]): [number
 const same = (a: [number, number][], b: [number, number][]) =>
   a.length === b.length && a.every((span, i) => span[0] === b[i]![0] && span[1] === b[i]![1]);
 
-/** A wall is longer than the line by its thickness, so that corners are closed. */
+/** Boxes of a wall, which is longer than its line by its thickness so that corners are closed. */
 export function wallBoxes(wall: Wall, openings: readonly Opening[]): Box[] {
   const length = lengthOf(wall);
   const half = length / 2;
@@ -111,7 +111,7 @@ export function wallBoxes(wall: Wall, openings: readonly Opening[]): Box[] {
   }));
 }
 
-/** Around all walls of all levels; without walls, nothing. */
+/** Bounding rectangle of all walls of all levels. */
 export function bounds(plan: Plan): { min: Point; max: Point } {
   const points = plan.walls.flatMap((wall) => {
     const t = wall.thicknessM / 2;
@@ -167,7 +167,7 @@ export function partsOf(plan: Plan): Part[] {
   return [...walls, ...stairs, ...floorsOf(plan)];
 }
 
-/** Levels above the first have a floor, with holes where stairs come up. */
+/** Floors of the levels above the first, with openings for stairs. */
 function floorsOf(plan: Plan): Part[] {
   const box = bounds(plan);
   const at = { x: (box.min.x + box.max.x) / 2, y: (box.min.y + box.max.y) / 2 };

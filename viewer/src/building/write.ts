@@ -1,8 +1,8 @@
-/** A building as files, in the structure of Gazebo's Building Editor. */
+/** Writer of buildings as SDF files, in the structure of Gazebo's Building Editor. */
 import { MATERIALS, type Plan } from './plan';
 import { bounds, partsOf, type Box, type Part } from './solid';
 
-/** Numbers as short as they are exact to a hundredth of a millimetre. */
+/** Shortest form of a number rounded to a hundredth of a millimetre. */
 export function num(value: number): string {
   const text = value.toFixed(5).replace(/\.?0+$/, '');
   return text === '-0' ? '0' : text;
@@ -37,7 +37,7 @@ function linkText(part: Part, offset: { x: number; y: number }): string {
   return `    <link name="${part.name}">\n      <pose>${pose}</pose>\n${inner.join('')}    </link>\n`;
 }
 
-/** The model's own text, without the head of a file. */
+/** The `<model>` element without the header of a file. */
 function modelText(plan: Plan): string {
   const { min, max } = bounds(plan);
   const middle = { x: (min.x + max.x) / 2, y: (min.y + max.y) / 2 };
@@ -61,7 +61,7 @@ export function modelConfig(plan: Plan): string {
   );
 }
 
-/** A world with sun, ground and the building. */
+/** A world with a sun, a ground plane and the building. */
 export function worldSdf(plan: Plan): string {
   const indented = modelText(plan).replace(/^(?=.)/gm, '  ');
   return (

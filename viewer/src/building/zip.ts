@@ -1,4 +1,4 @@
-/** Files in one, as ZIP has it (APPNOTE 6.3): stored, not packed. */
+/** ZIP archive of several files (APPNOTE 6.3), stored without compression. */
 
 const TABLE = Array.from({ length: 256 }, (_, n) => {
   let c = n;
@@ -12,7 +12,7 @@ export function crc32(bytes: Uint8Array): number {
   return (c ^ 0xffffffff) >>> 0;
 }
 
-/** 1980-01-01: the same files give the same bytes. */
+/** 1980-01-01: a fixed date, so that the same files give the same bytes. */
 const DATE = 0x21;
 
 export function zip(files: Record<string, string>): Uint8Array<ArrayBuffer> {
@@ -24,7 +24,7 @@ export function zip(files: Record<string, string>): Uint8Array<ArrayBuffer> {
     const data = encoder.encode(text);
     const path = encoder.encode(name);
     const shared = new DataView(new ArrayBuffer(26));
-    // Version 2.0, names in UTF-8, no packing.
+    // Version 2.0, names in UTF-8, no compression.
     [20, 0x0800, 0, 0, DATE].forEach((v, i) => shared.setUint16(i * 2, v, true));
     [crc32(data), data.length, data.length].forEach((v, i) =>
       shared.setUint32(10 + i * 4, v, true),

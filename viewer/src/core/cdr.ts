@@ -1,8 +1,8 @@
 /**
- * Messages from and to CDR, the bytes of DDS (OMG DDS-XTypes 1.3, 7.4.3; plain CDR of both versions).
+ * Conversion of messages from and to CDR, the encoding of DDS (OMG DDS-XTypes 1.3, 7.4.3; plain CDR versions 1 and 2).
  *
- * A plan of small functions is made once for a type. Arrays of numbers are views into the bytes where
- * these are aligned, and one copy otherwise.
+ * Each type is compiled once into a plan of small functions. Arrays of numbers are views of the message's bytes
+ * if these are aligned, and copies otherwise.
  */
 import { definitionOf, type Definition, type Field, type Schema } from './schema';
 
@@ -34,7 +34,7 @@ class Reader {
     this.bytes = bytes;
     this.view = new DataView(bytes.buffer, bytes.byteOffset, bytes.byteLength);
     const kind = this.view.getUint16(0);
-    if (kind > 11) throw new Error(`the message is written in an unknown way (kind ${kind})`);
+    if (kind > 11) throw new Error(`unknown CDR encapsulation kind ${kind}`);
     this.isLittle = (kind & 1) === 1;
     this.maxAlign = kind >= 6 ? 4 : 8;
   }
@@ -45,24 +45,24 @@ class Reader {
     return this.offset;
   }
 
-  take(size: number, align: number): number {
+  advance(size: number, align: number): number {
     const at = this.align(align);
-    if (at + size > this.bytes.byteLength) throw new Error('the message ends too early');
+    if (at + size > this.bytes.byteLength) throw new Error('the message is truncated');
     this.offset = at + size;
     return at;
   }
 
   count(leastBytes: number): number {
-    const count = this.view.getUint32(this.take(4, 4), this.isLittle);
+    const count = this.view.getUint32(this.advance(4, 4), this.isLittle);
     if (count * leastBytes > this.bytes.byteLength - this.offset) {
-      throw new Error(`the message tells of ${count} elements, but ends before`);
+      throw new Error(`the message declares ${count} elements and is shorter than that`);
     }
     return count;
   }
 
   string(): string {
-    const length = this.view.getUint32(this.take(4, 4), this.isLittle);
-    const at = this.take(length, 1);
+    const length = this.view.getUint32(this.advance(4, 4), this.isLittle);
+    const at = this.advance(length, 1);
     const end = length > 0 && this.bytes[at + length - 1] === 0 ? at + length - 1 : at + length;
     return TEXT.decode(this.bytes.subarray(at, end));
   }
@@ -91,7 +91,7 @@ class Writer {
 
   count(count: number): void {
     const at = this.grow(4, 4);
-    // Growing may have replaced the view.
+    // `grow` may have replaced the view.
     this.view.setUint32(at, count, true);
   }
 }
@@ -105,7 +105,7 @@ interface Primitive {
 
 const asNumber = (v: unknown) => Number(v ?? 0);
 const asBig = (v: unknown) => BigInt(typeof v === 'bigint' ? v : Math.trunc(Number(v ?? 0)));
-/** 64 bits as a number where a number holds them. */
+/** 64-bit integer as a `number` if exact, otherwise as a `bigint`. */
 const plain = (v: bigint) => (BigInt.asIntN(54, v) === v ? Number(v) : v);
 
 const PRIMITIVES: Record<string, Primitive> = {
@@ -183,14 +183,14 @@ const HOST_IS_LITTLE = new Uint8Array(new Uint16Array([1]).buffer)[0] === 1;
 type Read = (reader: Reader) => unknown;
 type Write = (writer: Writer, value: unknown) => void;
 
-/** Makes messages of one type from bytes. */
+/** Compiles a decoder for messages of one type. */
 export function decoder(schema: Schema): (bytes: Uint8Array) => Message {
   const plans = new Map<string, Read>();
   const root = readStruct(schema, schema.root, plans);
   return (bytes) => root(new Reader(bytes)) as Message;
 }
 
-/** Makes bytes (little endian) of messages of one type; what a message lacks is zero. */
+/** Compiles an encoder (little endian) for messages of one type; missing fields are written as zero. */
 export function encoder(schema: Schema): (message: Message) => Uint8Array {
   const plans = new Map<string, Write>();
   const root = writeStruct(schema, schema.root, plans);
@@ -211,13 +211,13 @@ function readStruct(schema: Schema, definition: Definition, plans: Map<string, R
     for (let i = 0; i < reads.length; i++) out[names[i]!] = reads[i]!(reader);
     return out;
   };
-  // A type may not hold itself, but a wrong text may say so: the plan is known before it is full.
+  // A definition with a cycle is wrong, but must not recurse without end: the plan is registered before its fields.
   plans.set(definition.name, plan);
   for (const field of definition.fields) {
     names.push(field.name);
     reads.push(readField(schema, field, plans));
   }
-  // A struct without members has one byte on the wire (rosidl).
+  // A struct without fields takes one byte in CDR (rosidl).
   if (reads.length === 0) return noMembers;
   return plan;
 }
@@ -246,7 +246,7 @@ function readField(schema: Schema, field: Field, plans: Map<string, Read>): Read
 function readNumbers(reader: Reader, primitive: Primitive, count: number): Numbers {
   const Kind = primitive.array!;
   if (count === 0) return new Kind(new ArrayBuffer(0), 0, 0);
-  const at = reader.take(count * primitive.size, primitive.size);
+  const at = reader.advance(count * primitive.size, primitive.size);
   const { buffer, byteOffset } = reader.bytes;
   const start = byteOffset + at;
   if (primitive.size === 1 || reader.isLittle === HOST_IS_LITTLE) {
@@ -271,14 +271,14 @@ function readOne(schema: Schema, field: Field, plans: Map<string, Read>): Read {
   if (field.type === 'string') return (reader) => reader.string();
   if (field.type === 'wstring') return readWide;
   const { size, read } = PRIMITIVES[field.type]!;
-  return (reader) => read(reader.view, reader.take(size, size), reader.isLittle);
+  return (reader) => read(reader.view, reader.advance(size, size), reader.isLittle);
 }
 
 const readWide: Read = (reader) => {
   const count = reader.count(2);
   let out = '';
   for (let i = 0; i < count; i++) {
-    out += String.fromCharCode(reader.view.getUint16(reader.take(2, 2), reader.isLittle));
+    out += String.fromCharCode(reader.view.getUint16(reader.advance(2, 2), reader.isLittle));
   }
   return out;
 };
@@ -342,7 +342,7 @@ function writeOne(schema: Schema, field: Field, plans: Map<string, Write>): Writ
     };
   }
   const { size, write } = PRIMITIVES[field.type]!;
-  // The view is looked up after growing: growing may replace it.
+  // The view is read after growing, which may replace it.
   return (writer, value) => {
     const at = writer.grow(size, size);
     write(writer.view, at, value);

@@ -1,6 +1,6 @@
 /**
- * The other end of a Periplus, Foxglove bridge or any server of the protocol: topics, services,
- * parameters, assets, time. It connects again by itself, and asks only for what somebody hears.
+ * Client of a Periplus server, a Foxglove bridge or any other server of the protocol: topics, services,
+ * parameters, assets, time. It reconnects by itself, and subscribes only to topics that have a handler.
  */
 import { decoder, encoder, type Message } from './cdr';
 import {
@@ -18,7 +18,7 @@ import {
 } from './protocol';
 import { parseSchema } from './schema';
 
-/** The part of a WebSocket that is used; tests give one of their own. */
+/** Part of a WebSocket that the client uses; tests replace it. */
 export interface Socket {
   binaryType: string;
   readonly readyState: number;
@@ -37,13 +37,13 @@ export type State = 'connecting' | 'open' | 'closed';
 
 export interface Events {
   state(state: State, why: string): void;
-  /** Topics, services or who uses them changed. */
-  offers(): void;
+  /** Topics, services or their publishers, subscribers and providers changed. */
+  graphChanged(): void;
   parameters(parameters: Parameter[]): void;
   time(seconds: number): void;
-  /** What the server says about itself, once per connection. */
+  /** `serverInfo`, once per connection. */
   info?(metadata: Record<string, string>): void;
-  /** What the server, or a message, has to say to the user. */
+  /** Status message of the server, or an error of a message that cannot be decoded. */
   status(level: number, message: string): void;
 }
 
@@ -65,11 +65,11 @@ const LONGEST_RETRY_MS = 3000;
 const CALL_TIMEOUT_MS = 15_000;
 
 export class Client {
-  /** By topic. */
+  /** Subscriptions by topic. */
   readonly channels = new Map<string, Channel>();
   readonly services = new Map<string, ServiceOffer>();
   ends: Ends = { publishedTopics: [], subscribedTopics: [], advertisedServices: [] };
-  /** Ends of topics that do not fit. */
+  /** Publishers and subscriptions with incompatible QoS or types. */
   mismatches: Mismatch[] = [];
   serverName = '';
   capabilities: string[] = [];
@@ -91,7 +91,7 @@ export class Client {
   constructor(
     private open: () => Socket,
     private events: Events,
-    /** Texts of types that we publish although no server told of them. */
+    /** Definitions of types that the page publishes although the server has not sent them. */
     private texts: Record<string, string> = {},
   ) {}
 
@@ -102,7 +102,7 @@ export class Client {
     try {
       socket = this.open();
     } catch (error) {
-      this.lost(`the address is not usable: ${String(error)}`);
+      this.lost(`the address is not valid: ${String(error)}`);
       return;
     }
     this.socket = socket;
@@ -115,7 +115,7 @@ export class Client {
     socket.onmessage = (event) => this.receive(event.data);
     socket.onerror = () => undefined;
     socket.onclose = () => {
-      if (this.socket === socket) this.lost('the server cannot be reached');
+      if (this.socket === socket) this.lost('the server is unreachable');
     };
   }
 
@@ -157,7 +157,7 @@ export class Client {
     this.calls.clear();
     this.assets.clear();
     this.repairs.clear();
-    this.events.offers();
+    this.events.graphChanged();
   }
 
   private setState(state: State, why: string): void {
@@ -171,23 +171,23 @@ export class Client {
 
   // Topics.
 
-  /** Hears a topic, now or as soon as there is one. Call what is returned to hear it no longer. */
+  /** Subscribes to a topic, now or once it is advertised. Call the returned function to unsubscribe. */
   subscribe(topic: string, handler: Handler): () => void {
     let entry = this.topics.get(topic);
     if (!entry) this.topics.set(topic, (entry = { handlers: new Set() }));
     entry.handlers.add(handler);
-    // Who comes later wants to hear as well what was said once: a map, a robot's description.
-    if (entry.handlers.size > 1) this.leave(entry);
+    // A new handler needs the last message of a latched topic (map, robot description): subscribe again.
+    if (entry.handlers.size > 1) this.unsubscribe(entry);
     this.ask(topic, entry);
     return () => {
       entry.handlers.delete(handler);
       if (entry.handlers.size > 0 || this.topics.get(topic) !== entry) return;
       this.topics.delete(topic);
-      this.leave(entry);
+      this.unsubscribe(entry);
     };
   }
 
-  private leave(entry: Topic): void {
+  private unsubscribe(entry: Topic): void {
     if (entry.subscription === undefined) return;
     this.topicOf.delete(entry.subscription);
     this.send({ op: 'unsubscribe', subscriptionIds: [entry.subscription] });
@@ -198,7 +198,10 @@ export class Client {
     const channel = this.channels.get(topic);
     if (!channel || entry.subscription !== undefined) return;
     if (channel.encoding !== 'cdr') {
-      this.events.status(1, `${topic} comes as ${channel.encoding}; this page reads CDR only`);
+      this.events.status(
+        1,
+        `${topic} has the encoding ${channel.encoding}; this page decodes only CDR`,
+      );
       return;
     }
     try {
@@ -213,7 +216,7 @@ export class Client {
     this.send({ op: 'subscribe', subscriptions });
   }
 
-  /** Makes a topic of ours; what is returned publishes on it. */
+  /** Advertises a topic; the returned function publishes on it. */
   publisher(topic: string, schema: string): (message: Message) => void {
     let known = this.ours.get(topic);
     if (!known) {
@@ -241,15 +244,15 @@ export class Client {
     for (const channel of this.channels.values()) {
       if (channel.schemaName === schemaName) return channel.schema;
     }
-    throw new Error(`nobody told what a ${schemaName} holds`);
+    throw new Error(`the definition of the message type ${schemaName} is unknown`);
   }
 
   // Services, assets and parameters.
 
-  /** Calls a service; fails with the server's reason, or after a while. */
+  /** Calls a service; fails with the server's reason, or after a timeout. */
   call(name: string, request: Message, timeoutMs = CALL_TIMEOUT_MS): Promise<Message> {
     const offer = this.services.get(name);
-    if (!offer) return Promise.reject(new Error(`nobody offers the service ${name}`));
+    if (!offer) return Promise.reject(new Error(`no node provides the service ${name}`));
     const schema = offer.request?.schema ?? offer.requestSchema ?? '';
     const schemaName = offer.request?.schemaName ?? `${offer.type}_Request`;
     let payload: Uint8Array;
@@ -262,34 +265,34 @@ export class Client {
     return new Promise((resolve, reject) => {
       const timer = setTimeout(() => {
         this.calls.delete(id);
-        reject(new Error(`${name} did not answer within ${timeoutMs / 1000} s`));
+        reject(new Error(`${name} did not respond within ${timeoutMs / 1000} s`));
       }, timeoutMs);
       this.calls.set(id, { resolve, reject, timer, offer });
       if (this.socket?.readyState === 1) this.socket.send(callFrame(offer.id, id, 'cdr', payload));
     });
   }
 
-  /** The bytes behind a `package://`, `model://` or other address that the server knows. */
+  /** Bytes of a `package://`, `model://` or other URI that the server resolves. */
   asset(uri: string): Promise<Uint8Array> {
     if (this.state !== 'open') return Promise.reject(new Error('not connected'));
     const requestId = ++this.lastId;
     return new Promise((resolve, reject) => {
       const timer = setTimeout(() => {
         this.assets.delete(requestId);
-        reject(new Error(`${uri} did not come in time`));
+        reject(new Error(`${uri} was not received in time`));
       }, CALL_TIMEOUT_MS);
       this.assets.set(requestId, { resolve, reject, timer });
       this.send({ op: 'fetchAsset', uri, requestId });
     });
   }
 
-  /** Has the server make both ends fit; gives its words, or fails with them. */
+  /** Asks the server to make a publisher and a subscription compatible; returns its report, or fails with it. */
   repair({ topic, publisher, subscription }: Mismatch): Promise<string> {
     const id = ++this.lastId;
     return new Promise((resolve, reject) => {
       const timer = setTimeout(() => {
         this.repairs.delete(id);
-        reject(new Error(`The server did not say whether it repaired ${topic}`));
+        reject(new Error(`The server did not confirm the repair of ${topic}`));
       }, CALL_TIMEOUT_MS);
       this.repairs.set(id, { resolve, reject, timer });
       const ends = { publisher: publisher.node, subscription: subscription.node };
@@ -312,7 +315,7 @@ export class Client {
       try {
         text = JSON.parse(data) as ServerText;
       } catch {
-        this.events.status(2, 'the server sent text that is no JSON');
+        this.events.status(2, 'the server sent text that is not JSON');
         return;
       }
       this.receiveText(text);
@@ -339,21 +342,21 @@ export class Client {
         break;
       case 'advertise':
         for (const channel of text.channels) this.advertised(channel);
-        this.events.offers();
+        this.events.graphChanged();
         break;
       case 'unadvertise':
         for (const id of text.channelIds) this.unadvertised(id);
-        this.events.offers();
+        this.events.graphChanged();
         break;
       case 'advertiseServices':
         for (const service of text.services) this.services.set(service.name, service);
-        this.events.offers();
+        this.events.graphChanged();
         break;
       case 'unadvertiseServices':
         for (const [name, service] of this.services) {
           if (text.serviceIds.includes(service.id)) this.services.delete(name);
         }
-        this.events.offers();
+        this.events.graphChanged();
         break;
       case 'parameterValues':
         this.events.parameters(text.parameters);
@@ -361,7 +364,7 @@ export class Client {
       case 'connectionGraphUpdate':
         this.graphChanged(text);
         if (text.mismatches) this.mismatches = text.mismatches;
-        this.events.offers();
+        this.events.graphChanged();
         break;
       case 'repairQosResult': {
         const repair = this.repairs.get(text.id);
@@ -465,7 +468,7 @@ export class Client {
     try {
       message = entry.decode!(payload);
     } catch (error) {
-      // Said once: a topic may send a hundred a second.
+      // Reported once: a topic may have a hundred messages per second.
       if (!entry.isBroken) this.events.status(2, `${topic}: ${(error as Error).message}`);
       entry.isBroken = true;
       return;

@@ -1,7 +1,7 @@
-/** Places and directions in space, as plain numbers. `aFromB` times `bFromC` is `aFromC`. */
+/** Positions, directions and poses in space. `aFromB` times `bFromC` is `aFromC`. */
 
 export type Vec3 = [number, number, number];
-/** x, y, z, w. */
+/** Quaternion x, y, z, w. */
 export type Quat = [number, number, number, number];
 
 export interface Pose {
@@ -52,7 +52,7 @@ export function fromYaw(yaw: number, t: Vec3 = [0, 0, 0]): Pose {
   return { t, q: [0, 0, Math.sin(yaw / 2), Math.cos(yaw / 2)] };
 }
 
-/** Fixed-axis roll, pitch, yaw, as URDF and SDF write them. */
+/** Fixed-axis roll, pitch, yaw, as in URDF and SDF. */
 export function fromRpy(roll: number, pitch: number, yaw: number): Quat {
   const [sr, cr] = [Math.sin(roll / 2), Math.cos(roll / 2)];
   const [sp, cp] = [Math.sin(pitch / 2), Math.cos(pitch / 2)];
@@ -70,7 +70,7 @@ export function yawOf(q: Quat): number {
   return Math.atan2(2 * (w * z + x * y), 1 - 2 * (y * y + z * z));
 }
 
-/** The rotation a fraction `u` of the way, by the shorter arc. */
+/** Spherical interpolation from `a` to `b` by the fraction `u`, along the shorter arc. */
 export function slerp(a: Quat, b: Quat, u: number): Quat {
   let dot = a[0] * b[0] + a[1] * b[1] + a[2] * b[2] + a[3] * b[3];
   const sign = dot < 0 ? -1 : 1;
@@ -91,7 +91,7 @@ export function slerp(a: Quat, b: Quat, u: number): Quat {
   ]);
 }
 
-/** Of unit length. A zero quaternion, which messages hold that nobody filled, is no rotation. */
+/** Quaternion of unit length. A zero quaternion, as in messages that were never filled, becomes the identity. */
 export function normalize(q: Quat): Quat {
   const n = Math.hypot(q[0], q[1], q[2], q[3]);
   if (!(n > 1e-9)) return [0, 0, 0, 1];

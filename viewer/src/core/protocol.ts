@@ -1,4 +1,4 @@
-/** What goes over the socket: `foxglove.websocket.v1`, as its specification tells. */
+/** Messages of the WebSocket protocol `foxglove.websocket.v1`. */
 
 export const SUBPROTOCOL = 'foxglove.websocket.v1';
 
@@ -9,7 +9,7 @@ export interface Channel {
   schemaName: string;
   schema: string;
   schemaEncoding?: string;
-  /** Ours tells more about a topic here; others leave it out. */
+  /** Extension of Periplus: more about a topic; other servers leave it out. */
   metadata?: Record<string, string>;
 }
 
@@ -44,13 +44,13 @@ export interface Ends {
   advertisedServices: { name: string; providerIds: string[] }[];
 }
 
-/** Two ends of a topic between which nothing flows; our server's own key, see docs/live.md. */
+/** Publisher and subscription that are incompatible; an extension of Periplus, see docs/live.md. */
 export interface Mismatch {
   topic: string;
   publisher: { node: string; isOurs: boolean };
   subscription: { node: string; isOurs: boolean };
   policies: { policy: string; offered: string; asked: string }[];
-  /** Which end the server can make to fit. */
+  /** Side that the server can change: publisher or subscription. */
   repair: 'publisher' | 'subscription' | null;
   advice: string;
 }
@@ -89,7 +89,7 @@ export type ServerFrame =
 const TEXT = new TextDecoder();
 const BYTES = new TextEncoder();
 
-/** A binary message of the server; none if it is of a kind that later versions may add. */
+/** Decodes a binary message of the server; `undefined` for kinds that later versions may add. */
 export function parseFrame(data: ArrayBuffer): ServerFrame | undefined {
   const view = new DataView(data);
   const bytes = new Uint8Array(data);
@@ -115,7 +115,7 @@ export function parseFrame(data: ArrayBuffer): ServerFrame | undefined {
       return {
         op: 'asset',
         request: view.getUint32(1, true),
-        error: failed ? error || 'the server cannot give it' : undefined,
+        error: failed ? error || 'the server does not have it' : undefined,
         data: bytes.subarray(end),
       };
     }

@@ -1,11 +1,11 @@
-/** Texts of ROS messages ("ros2msg"): what fields a type has. */
+/** Parser of ROS message definitions ("ros2msg"). */
 
 export interface Field {
   name: string;
-  /** A primitive ("float64", "string") or the full name of another type ("geometry_msgs/Point"). */
+  /** Primitive type ("float64", "string") or full name of another type ("geometry_msgs/Point"). */
   type: string;
   isComplex: boolean;
-  /** None: one value; "sequence": any number; a number: exactly so many. */
+  /** Undefined: one value; "sequence": any number of values; a number: an array of this length. */
   array: undefined | 'sequence' | number;
 }
 
@@ -21,7 +21,7 @@ export interface Definition {
   constants: Constant[];
 }
 
-/** All types that a text speaks of; `root` is the first. */
+/** All types of a definition; `root` is the first. */
 export interface Schema {
   root: Definition;
   types: Map<string, Definition>;
@@ -33,7 +33,7 @@ const PRIMITIVES = new Set(
     'string wstring'
   ).split(' '),
 );
-/** ROS 1 had these as words of the language. */
+/** Primitive types of ROS 1. */
 const ALIASES: Record<string, string> = {
   time: 'builtin_interfaces/Time',
   duration: 'builtin_interfaces/Duration',
@@ -46,13 +46,13 @@ export function shortName(type: string): string {
   return parts.length > 2 ? `${parts[0]}/${parts[parts.length - 1]}` : type;
 }
 
-/** "geometry_msgs/Point" as ROS 2 writes it. */
+/** Name of ROS 2: "geometry_msgs/msg/Point" for "geometry_msgs/Point". */
 export function longName(type: string): string {
   const parts = type.split('/');
   return parts.length === 2 ? `${parts[0]}/msg/${parts[1]}` : type;
 }
 
-/** Reads a text of `name` with all texts that it uses, divided by lines of `=`. */
+/** Parses the definition of `name` with all types that it uses, separated by lines of `=`. */
 export function parseSchema(name: string, text: string): Schema {
   const types = new Map<string, Definition>();
   let root: Definition | undefined;
@@ -92,7 +92,7 @@ function parseOne(name: string, text: string): Definition {
   return definition;
 }
 
-/** What follows a `#`, unless that is in a string. */
+/** Comment after `#`, unless the `#` is inside a string. */
 function withoutComment(line: string): string {
   let quote = '';
   for (let i = 0; i < line.length; i++) {
@@ -117,6 +117,6 @@ function readField(own: string, written: string, name: string): Field {
 
 export function definitionOf(schema: Schema, type: string): Definition {
   const found = schema.types.get(type);
-  if (!found) throw new Error(`${schema.root.name}: its text does not define ${type}`);
+  if (!found) throw new Error(`${schema.root.name}: its definition lacks the type ${type}`);
   return found;
 }

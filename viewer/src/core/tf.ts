@@ -1,4 +1,4 @@
-/** Where frames were at which time, with the rules of tf2: ten seconds, no extrapolation. */
+/** Transform buffer with the rules of tf2: ten seconds of history, no extrapolation. */
 import { IDENTITY, interpolate, inverse, multiply, normalize, type Pose } from './pose';
 import { seconds, type TransformStamped } from './types';
 
@@ -10,30 +10,30 @@ interface Sample {
 
 interface Frame {
   isStatic: boolean;
-  /** By time, the newest last. */
+  /** Sorted by time, newest last. */
   samples: Sample[];
-  /** When the viewer heard of it last, by its own clock [ms]. */
-  heardMs: number;
+  /** Time of the last message with this frame, by the browser's clock [ms]. */
+  receivedMs: number;
 }
 
 export type Lookup =
   | { kind: 'found'; pose: Pose }
-  /** It may still come. */
+  /** The transform may arrive later. */
   | { kind: 'later'; why: string }
   | { kind: 'never'; why: string };
 
 const KEPT_S = 10;
-/** More frames than this in one chain is a loop. */
+/** A chain of more frames than this is a loop. */
 const MOST_LINKS = 200;
 
-/** ROS 1 wrote frames with a leading slash. */
+/** Removes the leading slash of ROS 1 frame names. */
 export function frameName(name: string): string {
   return name.startsWith('/') ? name.slice(1) : name;
 }
 
 export class TfBuffer {
   private frames = new Map<string, Frame>();
-  /** Counts what changed, so that others know when to look again. */
+  /** Incremented at each change, for users that cache lookups. */
   version = 0;
 
   clear(): void {
@@ -54,17 +54,17 @@ export class TfBuffer {
     this.version++;
     const frame = this.frames.get(child);
     if (!frame || isStatic || frame.isStatic !== isStatic) {
-      this.frames.set(child, { isStatic, samples: [sample], heardMs: nowMs });
+      this.frames.set(child, { isStatic, samples: [sample], receivedMs: nowMs });
       return;
     }
-    frame.heardMs = nowMs;
+    frame.receivedMs = nowMs;
     this.insert(frame, sample);
   }
 
   private insert(frame: Frame, sample: Sample): void {
     const { samples } = frame;
     const newest = samples[samples.length - 1]!;
-    // Time went back: a simulation was reset, or a recording starts anew.
+    // Time jumped back: a simulation was reset, or a recording restarted.
     if (sample.timeS < newest.timeS - KEPT_S) samples.length = 0;
     let at = samples.length;
     while (at > 0 && samples[at - 1]!.timeS > sample.timeS) at--;
@@ -75,7 +75,7 @@ export class TfBuffer {
     if (drop > 64) samples.splice(0, drop);
   }
 
-  /** Forgets what is newer than now: time went back. */
+  /** Drops transforms newer than now, after time jumped back. */
   rewind(nowS: number): void {
     for (const [name, frame] of this.frames) {
       if (frame.isStatic) continue;
@@ -85,7 +85,7 @@ export class TfBuffer {
     this.version++;
   }
 
-  /** Names of all frames, sorted. */
+  /** Sorted names of all frames. */
   names(): string[] {
     const all = new Set<string>();
     for (const [name, frame] of this.frames) {
@@ -109,10 +109,10 @@ export class TfBuffer {
     return samples?.[samples.length - 1]?.parent;
   }
 
-  /** How long ago the viewer heard of it [ms]; a static frame is always fresh. */
+  /** Age of the last message with this frame [ms]; a static frame has the age 0. */
   ageMs(name: string, nowMs: number): number {
     const frame = this.frames.get(name);
-    return !frame || frame.isStatic ? 0 : nowMs - frame.heardMs;
+    return !frame || frame.isStatic ? 0 : nowMs - frame.receivedMs;
   }
 
   root(name: string): string {
@@ -125,7 +125,7 @@ export class TfBuffer {
     return at;
   }
 
-  /** `targetFromSource` at a time; without one, at the newest that all transforms between have. */
+  /** Transform `targetFromSource` at a time; by default at the newest time that all transforms in the chain have. */
   lookup(target: string, source: string, timeS?: number): Lookup {
     const to = frameName(target);
     const from = frameName(source);
@@ -137,7 +137,7 @@ export class TfBuffer {
     const down = this.chain(to);
     const common = up.find((name) => down.includes(name));
     if (common === undefined) {
-      return { kind: 'later', why: `"${to}" and "${from}" are not in one tree of frames` };
+      return { kind: 'later', why: `"${to}" and "${from}" are in different transform trees` };
     }
     const used = [...up.slice(0, up.indexOf(common)), ...down.slice(0, down.indexOf(common))];
     const at = timeS ?? this.newestCommon(used);
@@ -183,14 +183,17 @@ export class TfBuffer {
     const newest = samples[samples.length - 1]!;
     if (isStatic || timeS === newest.timeS) return newest.parentFromChild;
     if (timeS > newest.timeS) {
-      // tf2 never extrapolates: what is asked for may come with the next message.
+      // As in tf2 there is no extrapolation: the next message may have the time requested.
       if (timeS === Infinity) return newest.parentFromChild;
-      return { kind: 'later', why: `the newest of "${name}" is ${newest.timeS.toFixed(3)} s` };
+      return {
+        kind: 'later',
+        why: `the newest transform of "${name}" is at ${newest.timeS.toFixed(3)} s`,
+      };
     }
     if (timeS < samples[0]!.timeS) {
       return {
         kind: 'never',
-        why: `"${name}" is known only from ${samples[0]!.timeS.toFixed(3)} s on`,
+        why: `the oldest transform of "${name}" is at ${samples[0]!.timeS.toFixed(3)} s`,
       };
     }
     let low = 0;

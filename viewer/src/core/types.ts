@@ -1,4 +1,4 @@
-/** The messages that the viewer looks into, as they come out of the decoder. */
+/** Messages that the viewer reads, as the decoder returns them. */
 import type { Pose } from './pose';
 import { normalize } from './pose';
 
@@ -119,7 +119,7 @@ export interface Path {
   poses: { header: Header; pose: PoseMessage }[];
 }
 
-/** Seconds. Equal stamps give equal numbers. */
+/** Time stamp in seconds. Equal stamps give equal numbers. */
 export function seconds(stamp: Stamp): number {
   return stamp.sec + stamp.nanosec * 1e-9;
 }

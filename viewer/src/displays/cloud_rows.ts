@@ -1,11 +1,11 @@
-/** Messages as rows of points. */
+/** Conversion of messages to rows of points. */
 import type { LaserScan, PointCloud2, PointField } from '../core/types';
 import type { Rows } from '../scene/cloud';
 
 const SIZES = [0, 1, 1, 2, 2, 4, 4, 4, 8];
 const FLOAT32 = 7;
 
-/** One row of x, y, z, value for each beam that met something, by REP 117. */
+/** One row of x, y, z, intensity for each beam with a return, by REP 117. */
 export function rowsOfScan(scan: LaserScan): Rows {
   const { ranges, intensities } = scan;
   const out = new Float32Array(ranges.length * 4);
@@ -23,8 +23,8 @@ export function rowsOfScan(scan: LaserScan): Rows {
 }
 
 /**
- * A cloud's own bytes where they are whole words, which most are; else a copy of what is needed.
- * `channel` names the field that tells the colour; `isFloats` asks for colours in three fields of their own.
+ * The cloud's own bytes if its fields are aligned 32-bit words, as in most clouds; otherwise a converted copy.
+ * `channel` names the field that sets the colour; `isFloats` reads colours from the fields r, g and b.
  */
 export function rowsOfCloud(cloud: PointCloud2, channel: string, isFloats = false): Rows {
   const field = (name: string) => cloud.fields.find((f) => f.name === name);
@@ -99,7 +99,7 @@ function converted(
   };
 }
 
-/** Colours from 0 to 1 as 0x00rrggbb. */
+/** Colours from 0 to 1 packed as 0x00rrggbb. */
 function packed(parts: number[]): number {
   const [r, g, b] = parts.map((v) => Math.max(0, Math.min(255, Math.round(v * 255))));
   return (r! << 16) | (g! << 8) | b!;

@@ -1,4 +1,4 @@
-/** LaserScan, PointCloud2 and DepthCloud: points, for as long as they are kept. */
+/** LaserScan, PointCloud2 and DepthCloud: points that are kept for the decay time. */
 import type { Message } from '../core/cdr';
 import type { Pose } from '../core/pose';
 import {
@@ -11,13 +11,13 @@ import {
 } from '../core/types';
 import { Cloud, thinned, type Rows, type Style } from '../scene/cloud';
 import { dispose } from '../scene/stage';
-import { cloudOptions, lookOf } from './cloud_look';
+import { cloudOptions, appearanceOf } from './cloud_appearance';
 import { rowsOfCloud, rowsOfScan } from './cloud_rows';
 import { depthRows } from './depth';
 import { FramedDisplay, type Kind } from './display';
 import { alpha, number, topic, type Values } from './options';
 
-/** So many points are drawn without a GPU. */
+/** Maximum number of points drawn without a GPU. */
 const MOST_WITHOUT_GPU = 60_000;
 
 interface Shown {
@@ -48,7 +48,7 @@ export abstract class PointsDisplay<M extends { header: Header }> extends Framed
     }
     entry.stampS = stampS;
     entry.cloud.show(rows);
-    entry.cloud.look(lookOf(this.values, rows, fixedFromFrame));
+    entry.cloud.setAppearance(appearanceOf(this.values, rows, fixedFromFrame));
     entry.cloud.object.userData.isMark = !this.get('Selectable');
     this.put(entry.cloud.object, fixedFromFrame);
     const thin = rows.every > 1 ? `; without a GPU, one in ${rows.every} is drawn` : '';
@@ -68,7 +68,7 @@ export abstract class PointsDisplay<M extends { header: Header }> extends Framed
     return out;
   }
 
-  /** Kept for the inspection of what is under the mouse. */
+  /** Kept for the inspection of the point under the mouse. */
   clouds(): Cloud[] {
     return this.shown.map((s) => s.cloud);
   }
@@ -106,19 +106,19 @@ class DepthCloudDisplay extends PointsDisplay<ImageMessage> {
   private others: (() => void)[] = [];
 
   override start(): void {
-    for (const leave of this.others) leave();
+    for (const unsubscribe of this.others) unsubscribe();
     this.others = [];
     const depth = this.get<string>('Depth Map Topic');
     this.values.Topic = depth;
     super.start();
     if (!depth) return;
     const base = depth.slice(0, depth.lastIndexOf('/'));
-    const hear = (name: string, take: (message: Message) => void) => {
-      if (name) this.others.push(this.context.subscribe(name, take));
+    const subscribe = (name: string, handler: (message: Message) => void) => {
+      if (name) this.others.push(this.context.subscribe(name, handler));
     };
-    // ROS puts it beside the picture; Gazebo Classic's cameras call it the same below "depth".
-    hear(`${base}/camera_info`, (message) => (this.info = message as never));
-    hear(this.get('Color Image Topic'), (message) => (this.color = message as never));
+    // ROS publishes it next to the image; for Gazebo Classic's depth cameras it has the same name in the namespace `depth`.
+    subscribe(`${base}/camera_info`, (message) => (this.info = message as never));
+    subscribe(this.get('Color Image Topic'), (message) => (this.color = message as never));
   }
 
   override changed(path: string): void {
@@ -131,13 +131,13 @@ class DepthCloudDisplay extends PointsDisplay<ImageMessage> {
 
   protected override rows(message: ImageMessage): Rows {
     if (!this.info) {
-      throw new Error('No camera_info came beside the depth picture yet');
+      throw new Error('No camera_info received for the depth image yet');
     }
     return depthRows(message, this.info, this.color);
   }
 
   override stop(): void {
-    for (const leave of this.others) leave();
+    for (const unsubscribe of this.others) unsubscribe();
     super.stop();
   }
 }
@@ -150,7 +150,7 @@ export const laserScan: Kind = {
   class: 'rviz_default_plugins/LaserScan',
   also: ['rviz/LaserScan'],
   title: 'LaserScan',
-  help: 'What a laser scanner met, as points',
+  help: 'Points measured by a laser scanner',
   types: SCAN,
   options: [...topic('Topic', '', SCAN, { isFiltered: true }), ...cloudOptions('Intensity')],
   make: (...all) => new LaserScanDisplay(...all),
@@ -160,7 +160,7 @@ export const pointCloud2: Kind = {
   class: 'rviz_default_plugins/PointCloud2',
   also: ['rviz/PointCloud2'],
   title: 'PointCloud2',
-  help: 'Clouds of points, coloured by a field, by height or as they come',
+  help: 'Point clouds, coloured by a field, by an axis, by their own colours or flat',
   types: CLOUD,
   options: [...topic('Topic', '', CLOUD, { isFiltered: true }), ...cloudOptions('Intensity')],
   make: (...all) => new PointCloud2Display(...all),
@@ -171,7 +171,7 @@ export const depthCloud: Kind = {
   class: 'rviz_default_plugins/DepthCloud',
   also: ['rviz/DepthCloud'],
   title: 'DepthCloud',
-  help: 'A depth picture as points, with the colours of a second picture',
+  help: 'A depth image as points, with the colours of a second image',
   types: IMAGE,
   options: [
     { path: 'Depth Map Topic', kind: 'topic', default: '', types: IMAGE },

@@ -1,4 +1,4 @@
-/** How sure a pose is: an ellipse for the place, a sector for the heading. */
+/** Covariance of a pose: an ellipsoid for the position, a sector for the heading. */
 import {
   BufferAttribute,
   BufferGeometry,
@@ -24,9 +24,9 @@ import {
 
 export type Get = <T extends Value>(path: string) => T;
 
-/** What is less sure is not known at all: drivers write such numbers where they measure nothing [m²]. */
+/** Larger variances mean that the value is unknown: drivers write such numbers for what they do not measure [m²]. */
 const UNKNOWN_M2 = 1e4;
-/** A flat ellipse is as thick [m]. */
+/** Thickness of a flat ellipsoid [m]. */
 const THIN_M = 2e-3;
 const STEPS = 24;
 const BLUE = new Color('#2f6fed');
@@ -52,18 +52,18 @@ export function covarianceOptions(): Option[] {
 }
 
 export interface Ellipsoid {
-  /** Standard deviations along its axes [m]; none where nothing is known or wanted. */
+  /** Standard deviations along the axes [m]. */
   radii: Vector3;
   frameFromAxes: Matrix4;
 }
 
-/** Of one standard deviation; nothing if the place is not known at all. */
+/** Ellipsoid of one standard deviation; `undefined` if the position is unknown. */
 export function ellipsoidOf(covariance: ArrayLike<number>): Ellipsoid | undefined {
   const at = (row: number, column: number) => covariance[row * 6 + column] ?? 0;
   if (!(at(0, 0) < UNKNOWN_M2 && at(1, 1) < UNKNOWN_M2) || !(at(0, 0) + at(1, 1) > 0)) {
     return undefined;
   }
-  // Robots on the ground know nothing of the height, and say so in many ways.
+  // Planar estimators leave z unknown, as zero or as a huge variance.
   const isFlat = !(at(2, 2) > 0 && at(2, 2) < UNKNOWN_M2);
   const z = isFlat ? [0, 0, THIN_M * THIN_M] : [at(0, 2), at(1, 2), at(2, 2)];
   const tensor = [at(0, 0), at(0, 1), z[0]!, at(1, 1), z[1]!, z[2]!];
@@ -75,7 +75,7 @@ export function ellipsoidOf(covariance: ArrayLike<number>): Ellipsoid | undefine
   };
 }
 
-/** A sector of one standard deviation to both sides of x. */
+/** Sector of one standard deviation to both sides of x. */
 function sector(halfAngle: number, length: number): BufferGeometry {
   const wide = Math.min(halfAngle, Math.PI);
   const points: number[] = [];
@@ -89,7 +89,7 @@ function sector(halfAngle: number, length: number): BufferGeometry {
   return geometry;
 }
 
-/** In the frame of the message: the ellipse around the pose, the sector along its heading. */
+/** Ellipsoid around the pose and sector along its heading, in the frame of the message. */
 export function covarianceOf(
   get: Get,
   covariance: ArrayLike<number>,

@@ -1,4 +1,4 @@
-/** Depth pictures as points (REP 118: metres as floats, or millimetres as 16-bit numbers). */
+/** Depth images as points (REP 118: metres as floats, or millimetres as 16-bit integers). */
 import type { CameraInfo, ImageMessage } from '../core/types';
 import type { Rows } from '../scene/cloud';
 import { pixelReader } from './pixels';
@@ -7,7 +7,9 @@ export function depthRows(depth: ImageMessage, info: CameraInfo, color?: ImageMe
   const { width, height } = depth;
   const is16 = depth.encoding === '16UC1' || depth.encoding === 'mono16';
   if (!is16 && depth.encoding !== '32FC1') {
-    throw new Error(`A depth picture is 32FC1 or 16UC1, this one is ${depth.encoding}`);
+    throw new Error(
+      `The encoding of a depth image must be 32FC1 or 16UC1; this one is ${depth.encoding}`,
+    );
   }
   const [fx, cx, fy, cy] = [info.k[0]!, info.k[2]!, info.k[4]!, info.k[5]!];
   if (!(fx > 0 && fy > 0)) throw new Error('The camera_info has no focal length');

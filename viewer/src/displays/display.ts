@@ -1,4 +1,4 @@
-/** What all displays have in common: a place in the scene, options, a topic, and words about how it is. */
+/** Base of all displays: a group in the scene, options, a topic and a status. */
 import { Group, type Object3D } from 'three';
 import type { Message } from '../core/cdr';
 import type { Handler } from '../core/client';
@@ -11,7 +11,7 @@ import type { Option, Value, Values } from './options';
 
 export type Level = 'ok' | 'warn' | 'error';
 
-/** What a display may use. */
+/** Services of the application that a display uses. */
 export interface Context {
   stage: Stage;
   tf: TfBuffer;
@@ -24,39 +24,39 @@ export interface Context {
   fixedFromSensor(topic: string, frame: string, timeS: number): Pose | undefined;
   /** Nodes that estimate where the robot is. */
   estimators(): readonly string[];
-  /** Texts that were published once: the robot's description. */
+  /** Topics of these types. */
   topicsOfType(types: readonly string[]): string[];
 }
 
-/** What a user sees of a display besides the scene. */
+/** Entry of a display in the list of displays. */
 export interface Host {
-  /** Says under a name how something is; without a text, it is no longer worth words. */
+  /** Sets the status of this name; without a text, removes it. */
   status(name: string, level: Level, text?: string): void;
   note(path: string, value: Value): void;
-  /** A picture to be shown beside the scene. */
+  /** Shows an image beside the scene. */
   picture?(canvas: HTMLCanvasElement): void;
 }
 
 export interface Kind {
-  /** As `.rviz` files name it: "rviz_default_plugins/LaserScan". */
+  /** Class name in `.rviz` files: "rviz_default_plugins/LaserScan". */
   class: string;
-  /** Other names for the same. */
+  /** Other class names of the same display. */
   also?: readonly string[];
   title: string;
   help: string;
-  /** Messages that it shows. */
+  /** Types of the messages that it shows. */
   types: readonly string[];
   options: readonly Option[];
-  /** Has a picture beside the scene. */
+  /** True if it shows an image beside the scene. */
   hasPicture?: boolean;
   make(context: Context, values: Values, host: Host): Display;
 }
 
 export abstract class Display {
   readonly root = new Group();
-  private leave?: () => void;
-  private heard = 0;
-  private heardTopic = '';
+  private unsubscribe?: () => void;
+  private messageCount = 0;
+  private subscribedTopic = '';
 
   constructor(
     protected context: Context,
@@ -70,21 +70,21 @@ export abstract class Display {
     return this.values[path] as T;
   }
 
-  /** Begins to hear its topic. */
+  /** Subscribes to the topic. */
   start(): void {
-    this.leave?.();
-    this.heard = 0;
+    this.unsubscribe?.();
+    this.messageCount = 0;
     const topic = this.values.Topic;
     if (typeof topic !== 'string') return;
-    this.heardTopic = topic;
+    this.subscribedTopic = topic;
     if (!topic) {
-      this.host.status('Topic', 'warn', 'No topic is chosen');
+      this.host.status('Topic', 'warn', 'No topic is set');
       return;
     }
-    this.host.status('Topic', 'warn', `Nothing came on ${topic} yet`);
-    this.leave = this.context.subscribe(topic, (message) => {
-      this.heard++;
-      this.host.status('Topic', 'ok', `${this.heard} messages on ${topic}`);
+    this.host.status('Topic', 'warn', `No message received on ${topic} yet`);
+    this.unsubscribe = this.context.subscribe(topic, (message) => {
+      this.messageCount++;
+      this.host.status('Topic', 'ok', `${this.messageCount} messages on ${topic}`);
       try {
         this.receive(message);
       } catch (error) {
@@ -95,31 +95,31 @@ export abstract class Display {
 
   protected abstract receive(message: Message): void;
 
-  /** An option has another value. */
+  /** Called when an option has changed. */
   changed(path: string): void {
-    if (path === 'Topic' && this.values.Topic !== this.heardTopic) {
+    if (path === 'Topic' && this.values.Topic !== this.subscribedTopic) {
       this.clear();
       this.start();
     }
     this.context.stage.invalidate();
   }
 
-  /** Called for each picture. */
+  /** Called once per rendered frame. */
   tick(_nowMs: number): void {}
 
-  /** Shows nothing any more: another topic, another time. */
+  /** Removes everything shown: another topic, or another time. */
   clear(): void {}
 
-  /** The fixed frame is another one. */
+  /** Called when the fixed frame has changed. */
   moved(): void {}
 
   stop(): void {
-    this.leave?.();
+    this.unsubscribe?.();
     dispose(this.root);
     this.context.stage.invalidate();
   }
 
-  /** Turns all parts on or off whose names begin so; `all` is what was just set. */
+  /** Enables or disables all parts whose names begin with `prefix`; `all` is the switch that the user set. */
   protected toggleAll(prefix: string, all: string): void {
     for (const path of Object.keys(this.values)) {
       const isPart = path.startsWith(prefix) && path !== all;
@@ -139,11 +139,11 @@ export abstract class Display {
   }
 }
 
-const PATIENCE_MS = 700;
+const TRANSFORM_TIMEOUT_MS = 700;
 
 /**
- * Waits for the transform of each message, as RViz does. What nobody can transform is shown where its
- * frame was last, with a word about it.
+ * Waits for the transform of each message, as RViz does. A message without one is shown at the last known pose
+ * of its frame, with a status that reports this.
  */
 export abstract class FramedDisplay<M extends { header: Header }> extends Display {
   private pending: { message: M; sinceMs: number }[] = [];
@@ -156,23 +156,23 @@ export abstract class FramedDisplay<M extends { header: Header }> extends Displa
   }
 
   override tick(nowMs: number): void {
-    // The newest that can be placed makes older ones needless, unless a display keeps them.
+    // The newest message with a transform replaces older ones, unless a display keeps them.
     let done = -1;
     for (let i = 0; i < this.pending.length; i++) {
       const { message, sinceMs } = this.pending[i]!;
-      const pose = this.placeOf(message, nowMs - sinceMs);
+      const pose = this.fixedFromMessage(message, nowMs - sinceMs);
       if (pose) {
         this.keep(message, pose);
         done = i;
-      } else if (nowMs - sinceMs > PATIENCE_MS && this.pending.length > 1) {
+      } else if (nowMs - sinceMs > TRANSFORM_TIMEOUT_MS && this.pending.length > 1) {
         done = Math.max(done, i - 1);
       }
     }
     if (done >= 0) this.pending.splice(0, done + 1);
   }
 
-  /** Pose of a message in the fixed frame; none as long as it may still come, or cannot. */
-  private placeOf({ header }: M, waitedMs: number): Pose | undefined {
+  /** Pose of a message in the fixed frame; `undefined` if its transform is not available (yet). */
+  private fixedFromMessage({ header }: M, waitedMs: number): Pose | undefined {
     const { tf } = this.context;
     const fixed = this.context.fixedFrame();
     const stampS = seconds(header.stamp);
@@ -188,12 +188,12 @@ export abstract class FramedDisplay<M extends { header: Header }> extends Displa
       if (pose) this.host.status('Transform', 'ok', 'Pose from the simulation; TF has none');
       if (pose) return pose;
     }
-    if (then.kind !== 'never' && waitedMs <= PATIENCE_MS) return undefined;
+    if (then.kind !== 'never' && waitedMs <= TRANSFORM_TIMEOUT_MS) return undefined;
     if (newest.kind === 'found') {
-      this.host.status('Transform', 'warn', `Shown by the newest transform: ${then.why}`);
+      this.host.status('Transform', 'warn', `Using the newest transform: ${then.why}`);
       return newest.pose;
     }
-    this.host.status('Transform', 'error', `Cannot be placed: ${newest.why}`);
+    this.host.status('Transform', 'error', `No transform: ${newest.why}`);
     return undefined;
   }
 
@@ -205,7 +205,7 @@ export abstract class FramedDisplay<M extends { header: Header }> extends Displa
 
   protected abstract show(message: M, fixedFromFrame: Pose): void;
 
-  /** Shows the last message again: an option changed. */
+  /** Shows the last message again, after an option changed. */
   protected again(): void {
     if (this.last && !this.pending.some((p) => p.message === this.last)) {
       this.pending.unshift({ message: this.last, sinceMs: 0 });

@@ -1,4 +1,4 @@
-/** TF, Grid and Axes: frames and where they are. */
+/** TF, Grid and Axes. */
 import { Group, LineSegments, Mesh } from 'three';
 import { multiply, type Pose } from '../core/pose';
 import type { Message } from '../core/cdr';
@@ -93,7 +93,7 @@ class TfDisplay extends Display {
     this.host.status(
       'Frames',
       lost > 0 ? 'warn' : 'ok',
-      `${names.length - lost} frames${lost ? `, ${lost} without a way to ${fixed}` : ''}`,
+      `${names.length - lost} frames${lost ? `, ${lost} without a transform to ${fixed}` : ''}`,
     );
     this.context.stage.invalidate();
   }
@@ -110,7 +110,7 @@ class TfDisplay extends Display {
       this.root.add(entry.axes);
       if (this.get('Show Names')) {
         entry.name = label(name, 0.075 * scale);
-        // Frames are inside of what they belong to.
+        // Names are drawn over the geometry that surrounds their frames.
         entry.name.material.depthTest = false;
         entry.name.renderOrder = 40;
         this.root.add(entry.name);
@@ -125,20 +125,20 @@ class TfDisplay extends Display {
     if (this.get('Show Arrows')) this.arrow(name, entry, pose);
   }
 
-  /** From a frame to its parent. */
+  /** Arrow from a frame to its parent. */
   private arrow(name: string, entry: Shown, pose: Pose): void {
     const parent = this.context.tf.parentOf(name);
     const found = parent ? this.context.tf.lookup(this.context.fixedFrame(), parent) : undefined;
     if (found?.kind !== 'found') return;
     const from = new Vector3(...pose.t);
-    const way = new Vector3(...found.pose.t).sub(from);
-    const length = way.length();
+    const toParent = new Vector3(...found.pose.t).sub(from);
+    const length = toParent.length();
     entry.arrow ??= this.makeArrow();
     entry.arrow.visible = length > 0.01;
     if (length <= 0.01) return;
     const turn = new Quaternion().setFromUnitVectors(
       new Vector3(1, 0, 0),
-      way.divideScalar(length),
+      toParent.divideScalar(length),
     );
     const thick = Math.min(1, length / 0.4) * this.get<number>('Marker Scale');
     entry.arrow.matrix = new Matrix4().compose(from, turn, new Vector3(length, thick, thick));
@@ -267,7 +267,7 @@ export const tf: Kind = {
   class: 'rviz_default_plugins/TF',
   also: ['rviz/TF'],
   title: 'TF',
-  help: 'All frames: axes, names, and arrows to their parents',
+  help: 'The TF tree: axes and names of all frames, and arrows to their parents',
   types: ['tf2_msgs/msg/TFMessage'],
   options: [
     bool('Show Names', false),
@@ -287,7 +287,7 @@ export const grid: Kind = {
   class: 'rviz_default_plugins/Grid',
   also: ['rviz/Grid'],
   title: 'Grid',
-  help: 'Lines on the ground',
+  help: 'A grid of lines in a plane',
   types: [],
   options: [
     frame('Reference Frame', '<Fixed Frame>'),
@@ -312,7 +312,7 @@ export const axes: Kind = {
   class: 'rviz_default_plugins/Axes',
   also: ['rviz/Axes'],
   title: 'Axes',
-  help: 'Red, green and blue along x, y and z of a frame',
+  help: 'The axes of a frame: x red, y green, z blue',
   types: [],
   options: [
     frame('Reference Frame', '<Fixed Frame>'),

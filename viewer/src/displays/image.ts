@@ -1,4 +1,4 @@
-/** Image and Camera: pictures beside the scene; through a camera's eyes the scene lies over them. */
+/** Image and Camera: images beside the scene; Camera overlays the scene, rendered from the camera's pose. */
 import { Matrix4, PerspectiveCamera, WebGLRenderTarget } from 'three';
 import type { Message } from '../core/cdr';
 import { seconds, type CameraInfo, type ImageMessage } from '../core/types';
@@ -27,7 +27,7 @@ class ImageDisplay extends Display {
     }
     const image = message as unknown as ImageMessage;
     const { width, height } = image;
-    if (!(width > 0 && height > 0)) throw new Error('The picture has no pixels');
+    if (!(width > 0 && height > 0)) throw new Error('The image has no pixels');
     if (this.screen?.width !== width || this.screen.height !== height) {
       this.screen = new ImageData(width, height);
       this.extents = [];
@@ -42,7 +42,7 @@ class ImageDisplay extends Display {
     this.host.status('Image', 'ok', `${width} x ${height}, ${image.encoding}`);
   }
 
-  /** Between which numbers a depth picture is grey: given ones, or the median of the last ones found. */
+  /** Depths shown as black and white: the options, or the median over the last images. */
   private range(image: ImageMessage): Extent {
     if (!isDepth(image.encoding)) return NONE;
     if (!this.get('Normalize Range')) {
@@ -71,25 +71,29 @@ class ImageDisplay extends Display {
       this.canvas.getContext('2d')!.drawImage(bitmap, 0, 0);
       this.host.status('Image', 'ok', `${bitmap.width} x ${bitmap.height}, ${message.format}`);
     } catch {
-      this.host.status('Image', 'error', `The browser cannot read pictures of "${message.format}"`);
+      this.host.status(
+        'Image',
+        'error',
+        `The browser cannot decode the format "${message.format}"`,
+      );
     }
   }
 
   protected painted(): void {}
 }
 
-/** Linear light as bytes of sRGB. */
+/** Lookup table from linear light to sRGB. */
 const SRGB = Uint8Array.from({ length: 256 }, (_, i) => {
   const v = i / 255;
   return Math.round(255 * (v <= 0.0031308 ? 12.92 * v : 1.055 * Math.pow(v, 1 / 2.4) - 0.055));
 });
 
-/** At most so often the scene is drawn through a camera's eyes [ms]. */
-const LEAST_MS = 150;
+/** Minimum period at which the scene is rendered from the camera's pose [ms]. */
+const MIN_PERIOD_MS = 150;
 
 class CameraDisplay extends ImageDisplay {
   private info?: CameraInfo;
-  private leaveInfo?: () => void;
+  private unsubscribeInfo?: () => void;
   private target?: WebGLRenderTarget;
   private camera = new PerspectiveCamera();
   private drawnMs = 0;
@@ -99,23 +103,23 @@ class CameraDisplay extends ImageDisplay {
 
   override start(): void {
     super.start();
-    this.leaveInfo?.();
+    this.unsubscribeInfo?.();
     const topic = this.get<string>('Topic');
     if (!topic) return;
     const info = `${topic.slice(0, topic.lastIndexOf('/'))}/camera_info`;
-    this.leaveInfo = this.context.subscribe(info, (m) => (this.info = m as never));
+    this.unsubscribeInfo = this.context.subscribe(info, (m) => (this.info = m as never));
   }
 
   protected override painted(): void {
     const { info, image } = this;
     const now = performance.now();
     if (!image) return;
-    if (now - this.drawnMs < LEAST_MS) {
+    if (now - this.drawnMs < MIN_PERIOD_MS) {
       this.compose();
       return;
     }
     if (!info) {
-      this.host.status('Camera', 'warn', 'No camera_info came beside the picture yet');
+      this.host.status('Camera', 'warn', 'No camera_info received for the image yet');
       return;
     }
     const { stage, tf } = this.context;
@@ -141,7 +145,7 @@ class CameraDisplay extends ImageDisplay {
     this.target.setSize(w, h);
     const { renderer, scene } = stage;
     const { background } = scene;
-    // Where nothing is, nothing is drawn.
+    // Transparent background.
     scene.background = null;
     renderer.setClearColor(0x000000, 0);
     renderer.setRenderTarget(this.target);
@@ -163,7 +167,7 @@ class CameraDisplay extends ImageDisplay {
     this.canvas.getContext('2d')!.drawImage(this.canvas, dx, dy, w * factor, h * factor);
   }
 
-  /** ROS's optical frames look along z with y down; three.js looks along -z with y up. */
+  /** ROS's optical frames have z forward and y down; three.js has -z forward and y up. */
   private aim(info: CameraInfo, fixedFromOptical: ReturnType<typeof matrixOf>): void {
     const { camera } = this;
     const [fx, cx, fy, cy] = [info.k[0]!, info.k[2]!, info.k[4]!, info.k[5]!];
@@ -185,7 +189,7 @@ class CameraDisplay extends ImageDisplay {
     camera.updateMatrixWorld(true);
   }
 
-  /** Takes over what was drawn. */
+  /** Reads back the rendered pixels. */
   private overlay(pixels: ImageData, w: number, h: number): void {
     const { bytes } = this;
     for (let v = 0; v < h; v++) {
@@ -194,7 +198,7 @@ class CameraDisplay extends ImageDisplay {
         const to = (v * w + u) * 4;
         const alpha = bytes[from + 3]!;
         pixels.data[to + 3] = alpha;
-        // A render target holds linear light, times what covers it; the screen wants sRGB.
+        // A render target has linear light with premultiplied alpha; the canvas needs sRGB.
         for (let k = 0; alpha > 0 && k < 3; k++) {
           const linear = Math.round((bytes[from + k]! * 255) / alpha);
           pixels.data[to + k] = SRGB[Math.min(255, linear)]!;
@@ -215,21 +219,21 @@ class CameraDisplay extends ImageDisplay {
     this.compose();
   }
 
-  /** Scene and picture together, as RViz has it: the picture behind the scene, over it, or both. */
+  /** Composes scene and image as RViz does: the image behind the scene, over it, or both. */
   private compose(): void {
     this.zoom(this.get('Zoom Factor'));
     const context = this.canvas.getContext('2d')!;
     const { width, height } = this.canvas;
     const rendering = this.get<string>('Image Rendering');
-    // A veil of so much picture lies over the scene.
-    const veil = rendering === 'background' ? 0 : this.get<number>('Overlay Alpha');
-    context.globalAlpha = 1 - veil;
+    // The image over the scene, with the opacity `Overlay Alpha`.
+    const overlay = rendering === 'background' ? 0 : this.get<number>('Overlay Alpha');
+    context.globalAlpha = 1 - overlay;
     if (this.drawnMs > 0) context.drawImage(this.layer, 0, 0, width, height);
     context.globalAlpha = 1;
   }
 
   override stop(): void {
-    this.leaveInfo?.();
+    this.unsubscribeInfo?.();
     this.target?.dispose();
     super.stop();
   }
@@ -247,7 +251,7 @@ export const image: Kind = {
   class: 'rviz_default_plugins/Image',
   also: ['rviz/Image'],
   title: 'Image',
-  help: 'Pictures, also of depth',
+  help: 'Images, including depth images',
   types: IMAGE,
   hasPicture: true,
   options: [...topic('Topic', '', IMAGE), ...range],
@@ -258,7 +262,7 @@ export const camera: Kind = {
   class: 'rviz_default_plugins/Camera',
   also: ['rviz/Camera'],
   title: 'Camera',
-  help: "A camera's picture with the scene over it, through the camera's eyes",
+  help: 'A camera image overlaid with the scene as seen by the camera',
   types: IMAGE,
   hasPicture: true,
   options: [

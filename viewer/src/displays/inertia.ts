@@ -1,23 +1,23 @@
-/** Masses and inertias as shapes that one can look at. */
+/** Shapes that visualize masses and inertias. */
 import { Matrix3, Matrix4, Quaternion, Vector3 } from 'three';
 
-/** Of lead [kg/m³]: RViz shows a mass as a ball of it. */
+/** Density of lead [kg/m³]: RViz shows a mass as a ball of lead. */
 const LEAD_KG_M3 = 11_340;
 
-/** Radius of the ball of lead that weighs as much [m]. */
+/** Radius of a ball of lead of this mass [m]. */
 export function leadRadius(massKg: number): number {
   return Math.cbrt((3 * massKg) / (4 * Math.PI * LEAD_KG_M3));
 }
 
 export interface Principal {
   moments: [number, number, number];
-  /** From the axes of the moments to those in which the tensor was given. */
+  /** Rotation from the principal axes to the axes of the tensor. */
   turn: Quaternion;
 }
 
 const ROUNDS = 24;
 
-/** Principal moments and axes of a symmetric tensor, by Jacobi's rotations. */
+/** Principal moments and axes of a symmetric tensor, by Jacobi rotations. */
 export function principal(inertia: readonly number[]): Principal {
   const [xx = 0, xy = 0, xz = 0, yy = 0, yz = 0, zz = 0] = inertia;
   const a = [
@@ -62,8 +62,8 @@ export function principal(inertia: readonly number[]): Principal {
 }
 
 /**
- * Edges of the solid box that has these moments: of a box of mass m with edges a, b, c the moment around
- * a is m (b² + c²) / 12. None if no such box exists: the moments are impossible.
+ * Edge lengths of the solid box that has these principal moments: for a box of mass m with edges a, b, c the
+ * moment around a is m (b² + c²) / 12. `undefined` if no such box exists: the moments are impossible.
  */
 export function boxOf(massKg: number, [i, j, k]: [number, number, number]): Vector3 | undefined {
   const squares = [j + k - i, i + k - j, i + j - k].map((sum) => (6 * sum) / massKg);

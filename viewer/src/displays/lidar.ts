@@ -1,4 +1,4 @@
-/** Visualize Lidar: rays, points or triangles of a scan, as Gazebo's window shows them. */
+/** Visualize Lidar: rays, points or triangles of a scan, as in Gazebo. */
 import {
   BufferAttribute,
   BufferGeometry,
@@ -20,23 +20,23 @@ const BLUE = new Color(0, 0, 1);
 const BLACK = new Color(0, 0, 0);
 
 export interface Fans {
-  /** Corners of triangles, three numbers each. */
+  /** Corners of triangles, three numbers per corner. */
   hit: number[];
   open: number[];
-  dead: number[];
-  /** Ends of lines. */
+  deadZone: number[];
+  /** End points of lines. */
   rays: number[];
   openRays: number[];
   points: number[];
 }
 
 /**
- * What is drawn of a scan. As in gz-sim's plugin, a beam is open if its range is infinite, also below
- * zero, or not less than the greatest; it is then drawn to the greatest range. Rays begin where the
- * sensor does, at its least range; within that is the dead zone.
+ * Geometry of a scan. As in gz-sim's plugin, a beam has no hit if its range is infinite (of either sign) or at
+ * least `range_max`; it is then drawn up to `range_max`. Rays begin at `range_min`; nearer than that is the
+ * deadZone zone.
  */
 export function fansOf(scan: LaserScan, showsOpen: boolean): Fans {
-  const out: Fans = { hit: [], open: [], dead: [], rays: [], openRays: [], points: [] };
+  const out: Fans = { hit: [], open: [], deadZone: [], rays: [], openRays: [], points: [] };
   const { range_min: min, range_max: max } = scan;
   let last: { near: number[]; far: number[]; isOpen: boolean } | undefined;
   for (let i = 0; i < scan.ranges.length; i++) {
@@ -51,7 +51,7 @@ export function fansOf(scan: LaserScan, showsOpen: boolean): Fans {
     if (!isOpen) out.rays.push(...near, ...far);
     else if (showsOpen) out.openRays.push(...near, ...far);
     if (last) {
-      out.dead.push(0, 0, 0, ...last.near, ...near);
+      out.deadZone.push(0, 0, 0, ...last.near, ...near);
       const isStripOpen = isOpen || last.isOpen;
       if (!isStripOpen || showsOpen) {
         const strip = isStripOpen ? out.open : out.hit;
@@ -88,11 +88,11 @@ class LidarDisplay extends FramedDisplay<LaserScan> {
     if (type === 'Triangles') {
       if (fans.hit.length) group.add(strip(fans.hit, BLUE, 0.4));
       if (fans.open.length) group.add(strip(fans.open, BLUE, 0.8));
-      if (fans.dead.length) group.add(strip(fans.dead, BLACK, 0.4));
+      if (fans.deadZone.length) group.add(strip(fans.deadZone, BLACK, 0.4));
     }
     if (type === 'Rays') {
       group.add(segments(fans.rays, BLUE), segments(fans.openRays, BLUE, 0.2));
-      if (fans.dead.length) group.add(strip(fans.dead, BLACK, 0.4));
+      if (fans.deadZone.length) group.add(strip(fans.deadZone, BLACK, 0.4));
     }
     if (type !== 'Triangles') {
       const geometry = new BufferGeometry();
@@ -110,8 +110,8 @@ class LidarDisplay extends FramedDisplay<LaserScan> {
     this.put(group, fixedFromFrame);
     this.host.note('Minimum Range', +scan.range_min.toFixed(3));
     this.host.note('Maximum Range', +scan.range_max.toFixed(3));
-    const met = fans.points.length / 3;
-    this.host.status('Rays', 'ok', `${met} of ${scan.ranges.length} rays meet something`);
+    const hitCount = fans.points.length / 3;
+    this.host.status('Rays', 'ok', `${hitCount} of ${scan.ranges.length} rays hit an object`);
   }
 }
 
@@ -120,7 +120,7 @@ const SCAN = ['sensor_msgs/msg/LaserScan'];
 export const visualizeLidar: Kind = {
   class: 'periplus/VisualizeLidar',
   title: 'Visualize Lidar',
-  help: 'The rays of a laser scanner, as in Gazebo',
+  help: 'Rays of a laser scanner, as in Gazebo',
   types: [],
   options: [
     ...topic('Topic', '', SCAN, { reliability: 'Best Effort' }),

@@ -1,4 +1,4 @@
-/** Map: one texture of bytes, coloured by a palette in the shader; changes touch only their cells. */
+/** Map: one byte texture, coloured by a palette in the shader; updates change only their cells. */
 import {
   BufferGeometry,
   DataTexture,
@@ -37,7 +37,7 @@ void main() {
   if (color.a < 0.004) discard;
 }`;
 
-/** A map lies this far under what is drawn on the ground at the same height [m]. */
+/** Offset by which a map is drawn below other displays in its plane [m]. */
 const UNDER_M = 0.002;
 
 class MapDisplay extends Display {
@@ -45,35 +45,36 @@ class MapDisplay extends Display {
   private cells?: DataTexture;
   private colors = new DataTexture(new Uint8Array(1024), 256, 1, RGBAFormat);
   private mesh?: Mesh;
-  private leaveUpdates?: () => void;
+  private unsubscribeUpdates?: () => void;
   private placed?: Pose;
 
   override start(): void {
     super.start();
-    this.leaveUpdates?.();
+    this.unsubscribeUpdates?.();
     const topic = this.get<string>('Topic');
     if (!topic) return;
     if (!this.values['Update Topic']) {
       this.values['Update Topic'] = `${topic}_updates`;
     }
     const updates = this.get<string>('Update Topic');
-    this.leaveUpdates = this.context.subscribe(updates, (message) => this.update(message));
+    this.unsubscribeUpdates = this.context.subscribe(updates, (message) => this.update(message));
   }
 
   protected override receive(message: Message): void {
     const grid = message as unknown as OccupancyGrid;
     const { width, height, resolution } = grid.info;
     if (!(width > 0 && height > 0 && resolution > 0)) {
-      throw new Error(`The map has ${width} x ${height} cells of ${resolution} m: nothing to show`);
+      throw new Error(`The map has ${width} x ${height} cells of ${resolution} m: it is empty`);
     }
-    if (grid.data.length < width * height) throw new Error('The map has fewer cells than it says');
+    if (grid.data.length < width * height)
+      throw new Error('The map has fewer cells than its width and height require');
     const most = this.context.stage.renderer.capabilities.maxTextureSize;
     if (Math.max(width, height) > most) {
-      throw new Error(`The map is larger than this GPU can show (${most} cells a side)`);
+      throw new Error(`The map is larger than this GPU supports (${most} cells per side)`);
     }
     const old = this.grid?.info;
     const bytes = new Uint8Array(grid.data.buffer, grid.data.byteOffset, width * height);
-    // Own bytes: updates are written into them.
+    // Own copy: updates are written into it.
     const copy = bytes.slice();
     this.grid = { ...grid, data: new Int8Array(copy.buffer) };
     if (this.cells && old?.width === width && old.height === height) {
@@ -110,13 +111,15 @@ class MapDisplay extends Display {
     this.mesh = new Mesh<BufferGeometry>(plane, material);
     this.mesh.frustumCulled = false;
     this.mesh.userData.inspect = (_i: number, uv?: Vector2) => this.inspect(uv);
-    this.mesh.userData.inspectMore = (uv: Vector2, tell: (more: Record<string, string>) => void) =>
-      this.layers(uv, tell);
+    this.mesh.userData.inspectMore = (
+      uv: Vector2,
+      report: (more: Record<string, string>) => void,
+    ) => this.layers(uv, report);
     this.root.add(this.mesh);
-    this.look();
+    this.applyStyle();
   }
 
-  /** A part of the map changed. */
+  /** Applies an update of a part of the map. */
   private update(message: Message): void {
     const { grid, cells } = this;
     const change = message as unknown as OccupancyGridUpdate;
@@ -124,7 +127,7 @@ class MapDisplay extends Display {
     const { width, height } = grid.info;
     const { x, y, width: w, height: h, data } = change;
     if (x < 0 || y < 0 || x + w > width || y + h > height || data.length < w * h) {
-      this.host.status('Update', 'error', 'A change of the map lies outside of the map');
+      this.host.status('Update', 'error', 'An update of the map is outside the map');
       return;
     }
     if (w === 0 || h === 0) return;
@@ -133,8 +136,8 @@ class MapDisplay extends Display {
     for (let row = 0; row < h; row++) {
       bytes.set(patch.subarray(row * w, (row + 1) * w), (y + row) * width + x);
     }
-    this.host.status('Update', 'ok', `The last change had ${w} x ${h} cells`);
-    // A texture that was never drawn is uploaded whole anyhow.
+    this.host.status('Update', 'ok', `Last update: ${w} x ${h} cells`);
+    // A texture that was never drawn is uploaded completely anyway.
     const known = this.context.stage.renderer.properties.get(cells) as { __webglTexture?: unknown };
     if (!known.__webglTexture || cells.version === 0) {
       cells.needsUpdate = true;
@@ -158,7 +161,7 @@ class MapDisplay extends Display {
     this.host.note('Orientation', of(q.x, q.y, q.z, q.w));
   }
 
-  private look(): void {
+  private applyStyle(): void {
     const material = this.mesh?.material as RawShaderMaterial | undefined;
     if (!material) return;
     const isBinary = this.get<boolean>('Binary representation');
@@ -168,7 +171,7 @@ class MapDisplay extends Display {
     this.colors.needsUpdate = true;
     material.uniforms.alpha!.value = this.get('Alpha');
     const behind = this.get<boolean>('Draw Behind');
-    // Maps first, costmaps over them, then the rest; what stands on a map hides it either way.
+    // Maps first, costmaps over them, then other displays; objects on a map hide it in either case.
     this.mesh!.renderOrder = behind ? -30 : scheme === 'costmap' ? -10 : -20;
   }
 
@@ -176,7 +179,7 @@ class MapDisplay extends Display {
     super.changed(path);
     if (path === 'Topic') this.values['Update Topic'] = `${this.get<string>('Topic')}_updates`;
     if (path === 'Update Topic') this.start();
-    this.look();
+    this.applyStyle();
   }
 
   override tick(): void {
@@ -187,7 +190,7 @@ class MapDisplay extends Display {
     const found = this.context.tf.lookup(fixed, grid.header.frame_id, at);
     mesh.visible = found.kind === 'found';
     if (found.kind !== 'found') {
-      this.host.status('Transform', 'error', `Cannot be placed: ${found.why}`);
+      this.host.status('Transform', 'error', `No transform: ${found.why}`);
       return;
     }
     const fixedFromMap: Pose = multiply(found.pose, poseOf(grid.info.origin));
@@ -209,14 +212,14 @@ class MapDisplay extends Display {
     return {
       Map: this.get('Topic'),
       Cell: `${i}, ${j}`,
-      'Middle of the cell': `${(origin.position.x + (i + 0.5) * resolution).toFixed(3)}, ${(origin.position.y + (j + 0.5) * resolution).toFixed(3)} m`,
+      Center: `${(origin.position.x + (i + 0.5) * resolution).toFixed(3)}, ${(origin.position.y + (j + 0.5) * resolution).toFixed(3)} m`,
       Value: value === 255 ? '-1 (unknown)' : String(value),
       Meaning: meaning(value, this.get<Scheme>('Color Scheme')),
     };
   }
 
-  /** What each layer of a costmap has in the cell: Nav2 tells them beside the sum. */
-  private layers(uv: Vector2, tell: (more: Record<string, string>) => void): void {
+  /** Costs of the layers of a costmap in the cell, from the topics that Nav2 publishes beside the master grid. */
+  private layers(uv: Vector2, report: (more: Record<string, string>) => void): void {
     const { grid } = this;
     if (!grid || this.get('Color Scheme') !== 'costmap') return;
     const topic = this.get<string>('Topic');
@@ -226,8 +229,8 @@ class MapDisplay extends Display {
     const sum = this.valueAt(uv);
     const values = new Map<string, number>();
     for (const name of names) {
-      const leave = this.context.subscribe(name, (message) => {
-        leave();
+      const unsubscribe = this.context.subscribe(name, (message) => {
+        unsubscribe();
         const layer = message as unknown as OccupancyGrid;
         if (layer.info.width !== grid.info.width || layer.info.height !== grid.info.height) return;
         const value = layer.data[cellOf(grid, uv).at];
@@ -237,17 +240,17 @@ class MapDisplay extends Display {
         const makers = [...values].filter(([, v]) => v === most && v >= 99).map(([n]) => n);
         const why =
           values.size < names.length
-            ? 'asking the layers'
+            ? 'waiting for the layers'
             : makers.length > 0 && sum >= 99 && sum !== 255
               ? `marked by ${makers.join(', ')}`
               : sum > 0 && sum !== 255
-                ? 'by inflation: no layer itself marks it'
+                ? 'by inflation: no layer marks it as occupied'
                 : 'no layer marks it';
         const all = [...values].map(([n, v]) => [`Layer ${n}`, v < 0 ? 'unknown' : String(v)]);
-        tell({ ...Object.fromEntries(all), Why: why });
+        report({ ...Object.fromEntries(all), Why: why });
       });
-      // A layer that says nothing is not waited for.
-      setTimeout(leave, 3000);
+      // A layer that publishes nothing is not waited for.
+      setTimeout(unsubscribe, 3000);
     }
   }
 
@@ -264,7 +267,7 @@ class MapDisplay extends Display {
   }
 
   override stop(): void {
-    this.leaveUpdates?.();
+    this.unsubscribeUpdates?.();
     this.cells?.dispose();
     this.colors.dispose();
     super.stop();
@@ -280,9 +283,9 @@ function cellOf({ info: { width, height } }: OccupancyGrid, uv: Vector2) {
   return { i, j, at: j * width + i };
 }
 
-/** What a cell of an OccupancyGrid says. Costs are published by Nav2 scaled to 0..100. */
+/** Meaning of the value of an OccupancyGrid cell. Nav2 publishes costs scaled to 0..100. */
 export function meaning(value: number, scheme: Scheme): string {
-  if (value === 255) return 'nobody has seen it';
+  if (value === 255) return 'unknown: never observed';
   if (scheme !== 'costmap') return `occupied with a probability of ${value} %`;
   if (value === 0) return 'free';
   if (value === 100) return 'lethal: an obstacle (cost 254)';
@@ -298,7 +301,7 @@ export const map: Kind = {
   class: 'rviz_default_plugins/Map',
   also: ['rviz/Map'],
   title: 'Map',
-  help: 'Maps and costmaps',
+  help: 'Occupancy grids: maps and costmaps',
   types: MAP,
   options: [
     ...topic('Topic', '', MAP, { isFiltered: true }),

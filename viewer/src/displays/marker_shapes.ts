@@ -1,4 +1,4 @@
-/** What each kind of visualization_msgs/Marker looks like. */
+/** Shapes of visualization_msgs/Marker by type. */
 import {
   BufferAttribute,
   BufferGeometry,
@@ -30,7 +30,7 @@ import { Quaternion, Vector3 } from 'three';
 const paintOf = (c: ColorMessage) => new Color().setRGB(c.r, c.g, c.b, 'srgb');
 const flat = (points: Point[]) => points.flatMap((p) => [p.x, p.y, p.z]);
 
-/** In the frame of the marker's pose. What takes time to come is put into it later. */
+/** Object in the frame of the marker's pose. Meshes and textures are added when they are loaded. */
 export function markerObject(
   marker: Marker,
   library: MeshLibrary,
@@ -65,20 +65,20 @@ export function markerObject(
     case 8:
       return points(marker, paint);
     case 9: {
-      const words = label(marker.text, s.z, `#${paint.getHexString()}`);
-      words.material.opacity = c.a;
-      return words;
+      const text = label(marker.text, s.z, `#${paint.getHexString()}`);
+      text.material.opacity = c.a;
+      return text;
     }
     case 10:
       return mesh(marker, library, paint, done);
     case 11:
       return triangles(marker, paint);
     default:
-      throw new Error(`Markers of type ${marker.type} are unknown`);
+      throw new Error(`The marker type ${marker.type} is unknown`);
   }
 }
 
-/** Puts a picture on a thing, once it has come. */
+/** Applies a texture once it is loaded. */
 function dress(
   object: Object3D,
   uri: string,
@@ -103,17 +103,17 @@ function arrow(marker: Marker, paint: Color): Object3D {
   const { scale: s, points: p } = marker;
   const material = surface(paint, marker.color.a);
   if (p.length >= 2) {
-    // From one point to another: shaft and head diameters, head length.
+    // From one point to another: scale has the shaft diameter, head diameter and head length.
     const from = new Vector3(p[0]!.x, p[0]!.y, p[0]!.z);
-    const way = new Vector3(p[1]!.x, p[1]!.y, p[1]!.z).sub(from);
-    const length = way.length();
+    const direction = new Vector3(p[1]!.x, p[1]!.y, p[1]!.z).sub(from);
+    const length = direction.length();
     const head = s.z > 0 ? Math.min(s.z, length) : length * 0.23;
     const mesh = new Mesh(arrowGeometry(length - head, s.x / 2, head, s.y / 2), material);
     mesh.position.copy(from);
-    mesh.quaternion.setFromUnitVectors(new Vector3(1, 0, 0), way.normalize());
+    mesh.quaternion.setFromUnitVectors(new Vector3(1, 0, 0), direction.normalize());
     return mesh;
   }
-  // RViz: of the length, 0.77 is the shaft.
+  // RViz: the shaft takes 0.77 of the length.
   const mesh = new Mesh(arrowGeometry(0.77, 0.25, 0.23, 0.5), material);
   mesh.scale.set(s.x, s.y, s.z);
   return mesh;
@@ -161,7 +161,7 @@ function points(marker: Marker, paint: Color): Object3D {
   });
   const cloud = new Cloud('Flat Squares');
   cloud.show({ words, stride: 4, count: p.length, xyz: 0, rgb: 3 });
-  cloud.look({
+  cloud.setAppearance({
     style: 'Flat Squares',
     sizeM: Math.max(scale.x, scale.y),
     sizePx: 0,
@@ -191,7 +191,7 @@ function mesh(
   const holder = new Group();
   const { scale: s, color: c } = marker;
   holder.scale.set(s.x, s.y, s.z);
-  // A marker without colour and with its mesh's own materials keeps these.
+  // A marker without a colour keeps the materials of its mesh.
   const isPainted = !marker.mesh_use_embedded_materials || c.r + c.g + c.b + c.a > 0;
   library.load(marker.mesh_resource).then(
     (loaded) => {

@@ -1,4 +1,4 @@
-/** Marker and MarkerArray: shapes that others draw. */
+/** Marker and MarkerArray: shapes published by nodes. */
 import { Group } from 'three';
 import type { Message } from '../core/cdr';
 import { multiply } from '../core/pose';
@@ -14,7 +14,7 @@ interface Entry {
   object: Group;
   isPlaced: boolean;
   sinceMs: number;
-  /** When it goes by itself, by the time of messages [s]. */
+  /** Time at which the marker expires, in the time of the messages [s]. */
   untilS: number;
 }
 
@@ -31,7 +31,7 @@ export class MarkerDisplay extends Display {
   protected override receive(message: Message): void {
     const all =
       'markers' in message ? (message.markers as Marker[]) : [message as unknown as Marker];
-    for (const marker of all) this.take(marker);
+    for (const marker of all) this.update(marker);
     const names = [...new Set([...this.entries.values()].map((e) => e.marker.ns))];
     for (const ns of names) {
       if (!(`Namespaces/${ns}` in this.values)) this.host.note(`Namespaces/${ns}`, true);
@@ -40,7 +40,7 @@ export class MarkerDisplay extends Display {
     this.context.stage.invalidate();
   }
 
-  private take(marker: Marker): void {
+  private update(marker: Marker): void {
     const key = `${marker.ns}\n${marker.id}`;
     if (marker.action === DELETE_ALL) {
       for (const name of [...this.entries.keys()]) {
@@ -142,7 +142,7 @@ export const marker: Kind = {
   class: 'rviz_default_plugins/Marker',
   also: ['rviz/Marker'],
   title: 'Marker',
-  help: 'A shape that a node draws',
+  help: 'A shape published by a node',
   types: MARKER,
   options: topic('Topic', '', MARKER, { isFiltered: true }),
   make: (...all) => new MarkerDisplay(...all),
@@ -152,7 +152,7 @@ export const markerArray: Kind = {
   class: 'rviz_default_plugins/MarkerArray',
   also: ['rviz/MarkerArray'],
   title: 'MarkerArray',
-  help: 'Shapes that a node draws',
+  help: 'Shapes published by a node',
   types: ARRAY,
   options: topic('Topic', '', ARRAY),
   make: (...all) => new MarkerDisplay(...all),

@@ -1,4 +1,4 @@
-/** What can be set of a display: RViz's names and defaults, declared once; panels and files read them. */
+/** Options of displays: RViz's names and defaults, declared once for the panels and for `.rviz` files. */
 
 export type Value = boolean | number | string;
 export type Values = Record<string, Value>;
@@ -9,12 +9,12 @@ export interface Option {
   kind: 'bool' | 'number' | 'int' | 'color' | 'choice' | 'text' | 'topic' | 'frame' | 'note';
   default: Value;
   choices?: readonly string[];
-  /** Of topics: types that may be chosen. */
+  /** Message types of a topic option. */
   types?: readonly string[];
   min?: number;
   max?: number;
   step?: number;
-  /** Shown only while this holds. */
+  /** Condition under which the option is shown. */
   when?: (values: Values) => boolean;
 }
 
@@ -63,18 +63,18 @@ export const choice = (
   extra: Extra = {},
 ): Option => ({ path, kind: 'choice', default: value, choices, ...extra });
 
-/** One number between 0 and 1. */
+/** Opacity between 0 and 1. */
 export const alpha = (path: string, value: number): Option =>
   number(path, value, { min: 0, max: 1, step: 0.05 });
 
-/** Three numbers as RViz writes vectors. */
+/** Vector as three numbers, as in RViz. */
 export const vector = (path: string, value: [number, number, number]): Option[] => [
   number(`${path}/X`, value[0], { step: 0.1 }),
   number(`${path}/Y`, value[1], { step: 0.1 }),
   number(`${path}/Z`, value[2], { step: 0.1 }),
 ];
 
-/** A topic with what RViz lets one choose of its QoS. */
+/** Topic with the QoS options of RViz. */
 export function topic(
   path: string,
   value: string,

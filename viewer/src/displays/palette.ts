@@ -1,12 +1,12 @@
-/** RViz's colours of maps: 256 of red, green, blue, alpha, by the byte of a cell. */
+/** RViz's palettes of maps: 256 RGBA colours, indexed by the byte of a cell. */
 
 export const SCHEMES = ['map', 'costmap', 'raw'] as const;
 export type Scheme = (typeof SCHEMES)[number];
 
-/** Unknown cells. */
+/** Colour of unknown cells. */
 const UNKNOWN = [0x70, 0x89, 0x86, 255];
 
-/** `binaryFrom`: cells are of two colours, and this is the first of the second. */
+/** `binaryFrom`: first value that gets the second colour, for palettes of two colours. */
 export function palette(scheme: Scheme, binaryFrom?: number): Uint8Array {
   const out = new Uint8Array(256 * 4);
   for (let i = 0; i < 256; i++) {
@@ -29,7 +29,7 @@ function plain(scheme: Scheme, i: number): number[] {
   return [v, 0, 255 - v, 255];
 }
 
-/** Values that no map should hold: green if positive, red to yellow if negative. */
+/** Colours of values outside the valid range: green if positive, red to yellow if negative. */
 function wrong(i: number): number[] {
   if (i === 255) return UNKNOWN;
   if (i < 128) return [0, 255, 0, 255];

@@ -1,7 +1,7 @@
-/** Pictures of every raw encoding of sensor_msgs as pixels of the screen. */
+/** Conversion of all raw encodings of sensor_msgs/Image to RGBA. */
 import type { ImageMessage } from '../core/types';
 
-/** The numbers that are black and white. */
+/** Values shown as black and as white. */
 export interface Extent {
   min: number;
   max: number;
@@ -10,7 +10,7 @@ export interface Extent {
 type Reader = (u: number, v: number) => number;
 const rgb = (r: number, g: number, b: number) => (r << 16) | (g << 8) | b;
 const CHANNELS: Record<string, [number, number, number, number]> = {
-  // Bytes of a pixel, and where red, green and blue are.
+  // Bytes per pixel, and offsets of red, green and blue.
   rgb8: [3, 0, 1, 2],
   '8UC3': [3, 2, 1, 0],
   bgr8: [3, 2, 1, 0],
@@ -20,7 +20,7 @@ const CHANNELS: Record<string, [number, number, number, number]> = {
   mono8: [1, 0, 0, 0],
   '8UC1': [1, 0, 0, 0],
 };
-/** Where red is in the square of four. */
+/** Position of red in the 2 x 2 Bayer pattern. */
 const BAYER: Record<string, [number, number]> = {
   bayer_rggb8: [0, 0],
   bayer_bggr8: [1, 1],
@@ -28,12 +28,12 @@ const BAYER: Record<string, [number, number]> = {
   bayer_grbg8: [1, 0],
 };
 
-/** A picture with numbers of its own, which need a range to become grey. */
+/** Encodings with one value per pixel, which needs a range to become grey. */
 export function isDepth(encoding: string): boolean {
   return ['16UC1', 'mono16', '32FC1', '16SC1', '32SC1', '64FC1'].includes(encoding);
 }
 
-/** Gives 0xrrggbb of a pixel. */
+/** Reader that returns 0xrrggbb of a pixel. */
 export function pixelReader(image: ImageMessage): Reader {
   const { data, step, encoding } = image;
   const known = CHANNELS[encoding];
@@ -71,12 +71,12 @@ export function pixelReader(image: ImageMessage): Reader {
       return rgb(clamp(y + 1.402 * cr), clamp(y - 0.344 * cb - 0.714 * cr), clamp(y + 1.772 * cb));
     };
   }
-  throw new Error(`Pictures in the encoding "${encoding}" cannot be shown`);
+  throw new Error(`The image encoding "${encoding}" is not supported`);
 }
 
 type Numbers = ArrayLike<number>;
 
-/** Numbers of a depth picture, metres or whatever it holds; as they lie in memory where that fits. */
+/** Values of a depth image in its own unit; a view of the message if it is aligned. */
 function numbersOf(image: ImageMessage): { numbers: Numbers; perRow: number } {
   const { data, step, encoding, height, width } = image;
   const size =
@@ -110,7 +110,7 @@ function numbersOf(image: ImageMessage): { numbers: Numbers; perRow: number } {
   return { numbers, perRow: width };
 }
 
-/** The least and the greatest number of a depth picture; what nothing was seen of does not count. */
+/** Minimum and maximum of a depth image; infinite and NaN values are ignored. */
 export function extentOf(image: ImageMessage): Extent {
   const { numbers, perRow } = numbersOf(image);
   let [min, max] = [Infinity, -Infinity];
@@ -124,7 +124,7 @@ export function extentOf(image: ImageMessage): Extent {
   return { min, max };
 }
 
-/** Fills RGBA pixels. Depth is grey between two numbers. */
+/** Fills RGBA pixels. Depth is grey within `extent`. */
 export function toPixels(image: ImageMessage, out: Uint8ClampedArray, extent: Extent): void {
   const { width, height, encoding, data, step } = image;
   const words = new Uint32Array(out.buffer, out.byteOffset, width * height);
@@ -155,7 +155,7 @@ export function toPixels(image: ImageMessage, out: Uint8ClampedArray, extent: Ex
   for (let v = 0; v < height; v++) {
     for (let at = v * perRow, end = at + width; at < end; at++) {
       const grey = (numbers[at]! - min) * scale;
-      // What is no number is black.
+      // NaN is black.
       const byte = grey > 255 ? 255 : grey > 0 ? grey | 0 : 0;
       words[to++] = 0xff000000 | (byte << 16) | (byte << 8) | byte;
     }

@@ -1,4 +1,4 @@
-/** Odometry, Path, Pose, PoseArray, ParticleCloud: where something is, was, or may be. */
+/** Odometry, Path, Pose, PoseArray, ParticleCloud, Range. */
 import {
   type BufferGeometry,
   Color,
@@ -42,7 +42,7 @@ import {
 
 const SHAPES = ['Arrow', 'Axes'];
 
-/** One shape that stands for a pose. RViz names the options alike with and without "Shape/". */
+/** Shape of a pose. RViz uses the same option names with and without "Shape/". */
 function shapeOptions(prefix: string): Option[] {
   const isArrow = (v: Values) => v.Shape === 'Arrow';
   const isAxes = (v: Values) => v.Shape === 'Axes';
@@ -104,11 +104,12 @@ class OdometryDisplay extends FramedDisplay<Odometry> {
   }
 
   private isFar(a: Pose, b: Pose): boolean {
-    const way = Math.hypot(a.t[0] - b.t[0], a.t[1] - b.t[1], a.t[2] - b.t[2]);
+    const distance = Math.hypot(a.t[0] - b.t[0], a.t[1] - b.t[1], a.t[2] - b.t[2]);
     const dot = Math.abs(a.q[0] * b.q[0] + a.q[1] * b.q[1] + a.q[2] * b.q[2] + a.q[3] * b.q[3]);
     const angle = 2 * Math.acos(Math.min(1, dot));
     return (
-      way > this.get<number>('Position Tolerance') || angle > this.get<number>('Angle Tolerance')
+      distance > this.get<number>('Position Tolerance') ||
+      angle > this.get<number>('Angle Tolerance')
     );
   }
 
@@ -242,14 +243,14 @@ class PoseArrayDisplay extends FramedDisplay<Many> {
     this.host.status('Poses', 'ok', `${poses.length} poses`);
   }
 
-  /** The heavier, the longer. */
+  /** Arrow lengths proportional to the weights of the particles. */
   private weighted(part: number): number {
     const [min, max] = [this.get<number>('Min Arrow Length'), this.get<number>('Max Arrow Length')];
     return min + (max - min) * part;
   }
 }
 
-/** All of them in one piece: thousands of particles at 30 Hz. */
+/** All flat arrows in one geometry: thousands of particles at 30 Hz. */
 function flatArrows(matrices: Matrix4[], paint: Color, opacity: number) {
   const shape = flatArrowGeometry().getAttribute('position').array;
   const points = new Float32Array(matrices.length * shape.length);
@@ -297,7 +298,7 @@ class RangeDisplay extends FramedDisplay<RangeMessage> {
     const range = Math.min(message.range, message.max_range);
     const isSeen = message.range >= message.min_range && range > 0 && Number.isFinite(range);
     if (!isSeen) {
-      this.host.status('Range', 'ok', `${message.range} m: nothing is drawn`);
+      this.host.status('Range', 'ok', `${message.range} m: not drawn`);
       this.clear();
       return;
     }
@@ -325,10 +326,10 @@ class RangeDisplay extends FramedDisplay<RangeMessage> {
   }
 }
 
-/** A cone along x with its tip at the sensor. */
+/** Cone along x with its apex at the sensor. */
 function coneGeometry(length: number, angle: number): BufferGeometry {
   const radius = length * Math.tan(angle / 2);
-  // An arrow without a shaft is a cone that points the other way.
+  // An arrow without a shaft is a cone that points in the opposite direction.
   const cone = arrowGeometry(1e-6, 1e-6, length, Math.max(radius, 1e-3));
   return cone.rotateZ(Math.PI).translate(length, 0, 0);
 }
@@ -355,7 +356,7 @@ const ODOMETRY = ['nav_msgs/msg/Odometry'];
 export const odometry = kind(
   'Odometry',
   ODOMETRY,
-  'Where a robot says it was, as arrows or axes',
+  'Past poses from odometry, as arrows or axes',
   [
     ...topic('Topic', '', ODOMETRY, { isFiltered: true }),
     number('Position Tolerance', 0.1, { min: 0, step: 0.05 }),
@@ -372,7 +373,7 @@ const styledAs = (style: string) => ({ when: (v: Values) => v['Pose Style'] === 
 export const path = kind(
   'Path',
   PATH,
-  'A line through poses',
+  'A path as a line through its poses',
   [
     ...topic('Topic', '', PATH, { isFiltered: true }),
     choice('Line Style', 'Lines', ['Lines', 'Billboards']),
@@ -401,7 +402,7 @@ const POSE = ['geometry_msgs/msg/PoseStamped'];
 export const pose = kind(
   'Pose',
   POSE,
-  'One pose as an arrow or axes: a goal',
+  'A pose, such as a goal, as an arrow or axes',
   [...topic('Topic', '', POSE, { isFiltered: true }), ...shapeOptions('')],
   PoseDisplay,
 );
@@ -410,7 +411,7 @@ const WITH_COVARIANCE = ['geometry_msgs/msg/PoseWithCovarianceStamped'];
 export const poseWithCovariance = kind(
   'PoseWithCovariance',
   WITH_COVARIANCE,
-  'A pose, and how sure it is',
+  'A pose with its covariance',
   [
     ...topic('Topic', '', WITH_COVARIANCE, { isFiltered: true }),
     ...shapeOptions(''),
@@ -429,7 +430,7 @@ const shaped = (shape: string) => ({
 export const poseArray = kind(
   'PoseArray',
   ARRAY,
-  'Many poses at once',
+  'An array of poses as arrows or axes',
   [
     ...topic('Topic', '', ARRAY, { isFiltered: true }),
     choice('Shape', 'Arrow (Flat)', ARRAY_SHAPES),
@@ -450,7 +451,7 @@ const PARTICLES = ['nav2_msgs/msg/ParticleCloud'];
 export const particleCloud = kind(
   'ParticleCloud',
   PARTICLES,
-  'What AMCL believes: the heavier a particle, the longer its arrow',
+  'Particles of AMCL: the larger the weight, the longer the arrow',
   [
     ...topic('Topic', '', PARTICLES, { isFiltered: true, reliability: 'Best Effort' }),
     choice('Shape', 'Arrow (Flat)', ARRAY_SHAPES),
@@ -480,7 +481,7 @@ const RANGE = ['sensor_msgs/msg/Range'];
 export const range = kind(
   'Range',
   RANGE,
-  'The cone of a sonar or infrared sensor, as far as it sees',
+  'The range of a sonar or infrared sensor, as a cone',
   [
     ...topic('Topic', '', RANGE, { isFiltered: true }),
     color('Color', '255; 255; 255'),

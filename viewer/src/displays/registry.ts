@@ -1,4 +1,4 @@
-/** All displays, and which one shows a type of message by itself. */
+/** All displays, and the default display of each message type. */
 import { depthCloud, laserScan, pointCloud2 } from './clouds';
 import type { Kind } from './display';
 import { axes, grid, tf } from './frames';
@@ -46,12 +46,12 @@ export const KINDS: readonly Kind[] = [
   world,
 ];
 
-/** By the name in an `.rviz` file, of any generation. */
+/** Display with this class name in an `.rviz` file, of any RViz version. */
 export function kindOf(name: string): Kind | undefined {
   return KINDS.find((kind) => kind.class === name || kind.also?.includes(name));
 }
 
-/** The display that a topic of this type is shown with. */
+/** Default display of a message type. */
 export function kindForType(type: string): Kind | undefined {
   return KINDS.find((kind) => kind.types.includes(type) && kind !== camera && kind !== depthCloud);
 }

@@ -1,4 +1,4 @@
-/** RobotModel: the links of a URDF where TF says they are. */
+/** RobotModel: the links of a URDF at the poses given by TF. */
 import { Color, Group, Mesh, type Object3D } from 'three';
 import type { Message } from '../core/cdr';
 import { copyOf, MeshLibrary } from '../scene/meshes';
@@ -22,7 +22,7 @@ class RobotModelDisplay extends Display {
   private missing = new Set<string>();
 
   override start(): void {
-    // A file or topic of RViz under its own name.
+    // RViz has its own option names for the file and the topic.
     this.values.Topic = this.values['Description Topic'] ?? '';
     super.start();
     if (this.get('Description Source') === 'File') void this.fromFile();
@@ -81,7 +81,7 @@ class RobotModelDisplay extends Display {
     if (link.mass > 0) this.masses(group, link);
   }
 
-  /** As RViz: the mass as a red ball of lead, the inertia as the green box that has it. */
+  /** Mass as a red ball of lead, inertia as the green box of equal inertia, as in RViz. */
   private masses(group: Group, link: Link): void {
     const middle = matrixOf(link.linkFromMass);
     const put = (mesh: Mesh) => {
@@ -99,7 +99,7 @@ class RobotModelDisplay extends Display {
     const { moments, turn } = principal(link.inertia);
     const size = boxOf(link.mass, moments);
     if (!size) {
-      this.host.status('Inertia', 'warn', `The inertia of ${link.name} is that of no solid body`);
+      this.host.status('Inertia', 'warn', `The inertia of ${link.name} is physically impossible`);
       return;
     }
     const box = new Mesh(UNIT_BOX, surface(INERTIA, 0.5));
@@ -205,7 +205,7 @@ export const robotModel: Kind = {
   class: 'rviz_default_plugins/RobotModel',
   also: ['rviz/RobotModel'],
   title: 'RobotModel',
-  help: 'A robot, from its URDF, where its frames are',
+  help: 'A robot model from a URDF, posed by TF',
   types: [],
   options: [
     bool('Visual Enabled', true),

@@ -1,4 +1,4 @@
-/** What of a URDF is drawn: links with their shapes, and the joints between them. */
+/** Part of a URDF that is drawn: links with their shapes, and the joints between them. */
 import { fromRpy, type Pose } from '../core/pose';
 
 export type Shape =
@@ -10,7 +10,7 @@ export type Shape =
 export interface Part {
   linkFromPart: Pose;
   shape: Shape;
-  /** Red, green, blue, alpha; none if the file gives none. */
+  /** Red, green, blue, alpha; `undefined` if the file has none. */
   rgba?: [number, number, number, number];
 }
 
@@ -19,7 +19,7 @@ export interface Link {
   visuals: Part[];
   collisions: Part[];
   mass: number;
-  /** Where its middle of mass is, and its moments there [kg m²]: ixx, ixy, ixz, iyy, iyz, izz. */
+  /** Pose of the center of mass, and the inertia there [kg m²]: ixx, ixy, ixz, iyy, iyz, izz. */
   linkFromMass: Pose;
   inertia: number[];
 }
@@ -41,12 +41,12 @@ const children = (element: Element, name: string) =>
   [...element.children].filter((child) => child.localName === name);
 const child = (element: Element | undefined, name: string) => element && children(element, name)[0];
 
-/** Reads the text with the parser of the page. */
+/** Parses the text with the browser's XML parser. */
 export function readUrdf(text: string, parser: DOMParser = new DOMParser()): Robot {
   const document = parser.parseFromString(text, 'text/xml');
   const root = document.documentElement;
   if (!root || root.localName !== 'robot')
-    throw new Error('The description is no URDF: no <robot>');
+    throw new Error('The description is not a URDF: it has no <robot>');
   const colors = new Map<string, Part['rgba']>();
   for (const material of children(root, 'material')) {
     colors.set(material.getAttribute('name') ?? '', rgbaOf(material));

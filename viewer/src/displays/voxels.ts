@@ -1,4 +1,4 @@
-/** VoxelGrid: the cells that Nav2's voxel layer has marked. */
+/** VoxelGrid: cells marked by Nav2's voxel layer. */
 import { Color, Matrix4 } from 'three';
 import type { Pose } from '../core/pose';
 import type { Header, Point } from '../core/types';
@@ -17,8 +17,8 @@ interface VoxelGrid {
 }
 
 /**
- * Middles of the cells of a kind. A column is one word: the upper half tells which cells were looked
- * at and found full, the lower which are not known to be free (nav2_voxel_grid).
+ * Centers of the cells with a state. A column is one 32-bit word: the upper half has the bits of marked cells,
+ * the lower half those of cells that are not known to be free (nav2_voxel_grid).
  */
 export function voxels(grid: VoxelGrid, want: 'marked' | 'unknown'): [number, number, number][] {
   const out: [number, number, number][] = [];
@@ -64,7 +64,7 @@ const VOXELS = ['nav2_msgs/msg/VoxelGrid'];
 export const voxelGrid: Kind = {
   class: 'periplus/VoxelGrid',
   title: 'VoxelGrid',
-  help: 'The cells that the voxel layer of a costmap has marked',
+  help: 'Cells marked by the voxel layer of a costmap',
   types: VOXELS,
   options: [
     ...topic('Topic', '', VOXELS, { isFiltered: true }),

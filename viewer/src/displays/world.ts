@@ -1,8 +1,8 @@
 /**
- * World: what a simulation knows to be true, beside what the robot believes.
+ * World: the ground truth of a simulation, next to the estimate of the robot.
  *
- * A simulation has no frame in common with the robot's. So the world is laid where the robot was seen
- * first: from there on the two drift apart as far as the estimate is wrong.
+ * A simulation shares no frame with the robot's TF tree. The world is therefore anchored at the first estimated
+ * pose of the robot: from there on the two diverge by the error of the estimate.
  */
 import { Box3, Group, type Mesh, type Object3D, Vector3 } from 'three';
 import type { Message } from '../core/cdr';
@@ -16,22 +16,22 @@ import { Display, type Kind } from './display';
 import { markerObject } from './marker_shapes';
 import { alpha, bool, choice, topic } from './options';
 
-/** Where the world is in the fixed frame, and how far the estimate is from the truth. */
+/** Error of the estimated pose. */
 export interface Truth {
-  /** The link by which the two are compared. */
+  /** Link by which estimate and truth are compared. */
   link: string;
   distanceM: number;
   yawRad: number;
 }
 
-/** So many poses of the truth wait for an estimate of their time: two seconds of them. */
+/** Maximum number of true poses kept until an estimate of their time arrives: two seconds of them. */
 const RECENT = 60;
-/** A plane comes as a box that is as thin. */
+/** Thickness of the box that represents a plane [m]. */
 const GROUND_M = 0.0011;
 const UNDER_M = 0.02;
-/** What is lower never stands in the way. */
+/** Objects below this height never hide the view [m]. */
 const TALL_M = 1.3;
-/** So much nearer to the eye than the middle of the view. */
+/** Objects nearer to the camera than the focal point by at least this become transparent [m]. */
 const NEAR_M = 0.3;
 const GLASS = 0.14;
 
@@ -47,38 +47,38 @@ export class WorldDisplay extends Display {
   private parts = new Map<string, Part>();
   private frames = new Map<string, { holder: Group; worldFromLink: Pose; stampS: number }>();
   private library = new MeshLibrary((uri) => this.context.asset(uri));
-  private leavePoses?: () => void;
+  private unsubscribePoses?: () => void;
   private anchor?: { fixed: string; fixedFromWorld: Pose };
   private tfVersion = -1;
   private seen = '';
   private seenParts = 0;
-  /** Whether time went back since the anchor was found: the next estimate gives another. */
+  /** True after time jumped back: the next estimate sets a new anchor. */
   private isAnchorOld = false;
   private recent: { frame: string; stampS: number; worldFromLink: Pose }[] = [];
   truth?: Truth;
-  /** Called when models come and go. */
+  /** Called when models are added or removed. */
   onModels?: (names: string[]) => void;
-  /** The one that is outlined. */
+  /** Model that is outlined. */
   selected = '';
 
   override start(): void {
     super.start();
-    this.leavePoses?.();
+    this.unsubscribePoses?.();
     const topic = this.get<string>('Topic');
     if (!topic) return;
-    this.leavePoses = this.context.subscribe(topic.replace(/\/scene$/, '/poses'), (message) =>
+    this.unsubscribePoses = this.context.subscribe(topic.replace(/\/scene$/, '/poses'), (message) =>
       this.poses(message),
     );
   }
 
   protected override receive(message: Message): void {
-    for (const marker of message.markers as Marker[]) this.take(marker);
+    for (const marker of message.markers as Marker[]) this.update(marker);
     this.host.status('Scene', 'ok', `${this.parts.size} shapes of ${this.models().length} models`);
     this.onModels?.(this.models());
     this.context.stage.invalidate();
   }
 
-  private take(marker: Marker): void {
+  private update(marker: Marker): void {
     const key = `${marker.ns}\n${marker.id}`;
     if (marker.action === 3) {
       for (const name of [...this.parts.keys()]) {
@@ -93,7 +93,7 @@ export class WorldDisplay extends Display {
     object.position.set(...pose.t);
     object.quaternion.set(...pose.q);
     const { scale, color } = marker;
-    // A ground lies a little under what is drawn on it: maps, lines.
+    // The floor plane is drawn a little below maps and lines on it.
     if (marker.type === 1 && scale.z <= GROUND_M) object.position.z -= UNDER_M;
     const made = markerObject(
       { ...marker, color: { ...color, a: color.a * this.get<number>('Alpha') } },
@@ -153,7 +153,7 @@ export class WorldDisplay extends Display {
     this.context.stage.invalidate();
   }
 
-  /** Names of what stands in the world. */
+  /** Names of the models in the world. */
   models(): string[] {
     const withShape = [...this.parts.values()].map((p) => modelOf(p.marker.header.frame_id));
     return [...new Set(withShape)].sort();
@@ -163,7 +163,7 @@ export class WorldDisplay extends Display {
     return [...this.frames.keys()].filter((f) => f !== model && modelOf(f) === model).map(linkOf);
   }
 
-  /** Where a model is in the world. */
+  /** Pose of a model in the world frame. */
   poseOf(model: string): Pose | undefined {
     return this.frames.get(model)?.worldFromLink;
   }
@@ -176,7 +176,7 @@ export class WorldDisplay extends Display {
     return this.anchor?.fixedFromWorld ?? { t: [0, 0, 0], q: [0, 0, 0, 1] };
   }
 
-  /** The robot's links, which TF knows too. */
+  /** Links of the robot that exist in TF as well. */
   private common(): { frame: string; link: string }[] {
     const { tf } = this.context;
     const parts = [...this.frames.keys()].filter((frame) => frame !== modelOf(frame));
@@ -186,7 +186,7 @@ export class WorldDisplay extends Display {
     return known.sort((a, b) => rank(a.link) - rank(b.link));
   }
 
-  /** Lays the world where the robot is now. */
+  /** Anchors the world at the present estimate of the robot's pose. */
   align(): void {
     this.anchor = undefined;
     this.compare();
@@ -213,7 +213,7 @@ export class WorldDisplay extends Display {
     this.host.status(
       'Alignment',
       isAligned ? 'ok' : 'warn',
-      isAligned ? undefined : `No transform from ${shown!.link} to ${fixed} yet`,
+      isAligned ? undefined : `No transform from ${shown!.link} to ${fixed}`,
     );
     if (!this.truth) this.host.status('Truth', 'ok');
     else {
@@ -222,14 +222,14 @@ export class WorldDisplay extends Display {
       this.host.status(
         'Truth',
         'ok',
-        `The estimate is off by ${distanceM.toFixed(3)} m, ${degrees}°`,
+        `Error of the estimate: ${distanceM.toFixed(3)} m, ${degrees}°`,
       );
     }
     this.robots();
   }
 
   /**
-   * The estimate comes later than the truth: both are compared at the newest time that both have.
+   * Estimates arrive later than the truth: both are compared at the newest time that both have.
    */
   private measure(frame: string, link: string, fixed: string): void {
     const { worldFromLink, stampS } = this.frames.get(frame)!;
@@ -246,7 +246,7 @@ export class WorldDisplay extends Display {
       }
       const really = multiply(this.anchor.fixedFromWorld, then.worldFromLink);
       const off = multiply(inverse(really), found.pose);
-      // Without an estimator these are the simulation's own frames: there is nothing to compare.
+      // Without a pose estimator these transforms are the simulation's own: there is nothing to compare.
       const isEstimated = this.context.estimators().length > 0;
       this.truth = isEstimated
         ? { link, distanceM: Math.hypot(off.t[0], off.t[1]), yawRad: yawOf(off.q) }
@@ -255,14 +255,14 @@ export class WorldDisplay extends Display {
       return;
     }
     if (this.anchor) return;
-    // Time stands still, so no estimate of just this time may ever come: the newest has to do.
+    // While time is paused, an estimate of this time may never arrive: use the newest one.
     const newest = this.context.tf.lookup(fixed, link);
     if (newest.kind !== 'found') return;
     this.anchor = { fixed, fixedFromWorld: multiply(newest.pose, inverse(worldFromLink)) };
     this.isAnchorOld = true;
   }
 
-  /** What RobotModel shows already is drawn again only if that is wanted. */
+  /** Hides the simulated robot, which RobotModel shows already, unless the option enables it. */
   private robots(): void {
     const names = new Set(this.common().map(({ frame }) => modelOf(frame)));
     const isShown = this.get<string>('Robots') !== 'Hidden';
@@ -274,8 +274,8 @@ export class WorldDisplay extends Display {
   }
 
   /**
-   * Walls between the eye and what it looks at become like glass: all that is tall, and nearer to the
-   * eye than the point around which the view turns.
+   * Makes walls between the camera and the focal point transparent: objects that are tall, and nearer to the
+   * camera than the focal point.
    */
   private seeInside(): void {
     const { view } = this.context.stage;
@@ -321,7 +321,7 @@ export class WorldDisplay extends Display {
     super.changed(path);
     this.seen = '';
     if (path === 'Align') this.align();
-    if (path === 'Alpha') for (const { marker } of [...this.parts.values()]) this.take(marker);
+    if (path === 'Alpha') for (const { marker } of [...this.parts.values()]) this.update(marker);
     this.robots();
   }
 
@@ -334,16 +334,16 @@ export class WorldDisplay extends Display {
     this.recent = [];
   }
 
-  /** Time went back: the robot stands where it began. */
+  /** Called when time jumped back: the robot is at its start. */
   restarted(): void {
-    // The world stays where it was until the robot is seen again: nodes may need a while.
+    // The world stays at its anchor until the next estimate of the pose, which may update a while.
     this.isAnchorOld = true;
     this.recent = [];
     this.truth = undefined;
   }
 
   override stop(): void {
-    this.leavePoses?.();
+    this.unsubscribePoses?.();
     super.stop();
   }
 }
@@ -353,7 +353,7 @@ const ARRAY = ['visualization_msgs/msg/MarkerArray'];
 export const world: Kind = {
   class: 'periplus/World',
   title: 'World',
-  help: 'The simulated world as it truly is',
+  help: 'The simulated world (ground truth)',
   types: [],
   options: [
     ...topic('Topic', '', ARRAY, { durability: 'Transient Local' }),

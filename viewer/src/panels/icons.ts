@@ -1,4 +1,4 @@
-/** Small pictures on buttons, 24 by 24, drawn with one line. */
+/** Icons of buttons: 24 by 24, each a single path. */
 export const ICONS = {
   move: 'M12 3v18M3 12h18M12 3l-3 3M12 3l3 3M12 21l-3-3M12 21l3-3M3 12l3-3M3 12l3 3M21 12l-3-3M21 12l-3 3',
   select: 'M5 3l14 8-6 2-3 6z',

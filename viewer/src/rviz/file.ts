@@ -1,4 +1,4 @@
-/** `.rviz` files in and out. What is not known stays as it was. */
+/** Reader and writer of `.rviz` files. Unknown content is kept. */
 import { dump, load } from 'js-yaml';
 import type { Option, Value, Values } from '../displays/options';
 
@@ -9,7 +9,7 @@ export interface RvizDisplay {
   name: string;
   isEnabled: boolean;
   values: Values;
-  /** As it was in the file; what is not known of it is written back. */
+  /** Original entry of the file; its unknown parts are written back. */
   original: Tree;
 }
 
@@ -36,21 +36,21 @@ export interface RvizFile {
 const isTree = (value: unknown): value is Tree =>
   typeof value === 'object' && value !== null && !Array.isArray(value);
 
-/** RViz's own words between the names of parts. */
+/** Options between the parts of a display, which are no parts themselves. */
 const NO_PARTS =
   /^(All (Links )?Enabled|Expand .*|Link Tree Style)$|\/(Alpha|Show Axes|Show Trail)$/;
 
-/** The part of a display that a path is the switch of: `Links/base_link`. */
+/** Part of a display that is enabled by the option at a path: `Links/base_link`. */
 export function partOf(path: string): { group: string; name: string } | undefined {
   const [, group, name] = /^(Namespaces|Links|Frames)\/(.+)$/.exec(path) ?? [];
   if (!group || !name || (group !== 'Namespaces' && NO_PARTS.test(name))) return undefined;
   return { group, name };
 }
 
-/** RViz's own keys of a display, which are no options. */
+/** Keys of a display that are not options. */
 const FRAME_KEYS = ['Class', 'Name', 'Enabled', 'Value'];
 
-/** Nested maps as paths: `{Topic: {Value: /scan}}` is `Topic` with "/scan". */
+/** Flattens nested maps into paths: `{Topic: {Value: /scan}}` becomes `Topic` with "/scan". */
 export function flatten(tree: Tree, prefix = '', out: Values = {}): Values {
   for (const [key, value] of Object.entries(tree)) {
     const path = prefix ? `${prefix}/${key}` : key;
@@ -66,7 +66,7 @@ function displayOf(tree: Tree): RvizDisplay {
     Object.entries(tree).filter(([key]) => !FRAME_KEYS.includes(key)),
   );
   const values = flatten(rest);
-  // ROS 1 wrote other names for the same.
+  // Option names of RViz for ROS 1.
   if (values.Unreliable !== undefined && values['Topic/Reliability Policy'] === undefined) {
     values['Topic/Reliability Policy'] = values.Unreliable ? 'Best Effort' : 'Reliable';
   }
@@ -77,7 +77,7 @@ function displayOf(tree: Tree): RvizDisplay {
   ] as const) {
     const value = values[old];
     if (typeof value !== 'string' || values[now] !== undefined) continue;
-    // A parameter of ROS 1 is a topic today.
+    // RViz for ROS 1 has a parameter where RViz for ROS 2 has a topic.
     const isParameter = old === 'Robot Description' && !value.startsWith('/');
     values[now] = isParameter ? `/${value}` : value;
   }
@@ -90,7 +90,7 @@ function displayOf(tree: Tree): RvizDisplay {
   };
 }
 
-/** Displays in groups come one after another; a group that is off turns its displays off. */
+/** Flattens groups of displays; a disabled group disables its displays. */
 function displaysOf(list: unknown, isOn = true): RvizDisplay[] {
   return (Array.isArray(list) ? list : []).filter(isTree).flatMap((tree) => {
     if (!String(tree.Class ?? '').endsWith('/Group')) {
@@ -106,10 +106,11 @@ export function readRviz(text: string): RvizFile {
   try {
     tree = load(text);
   } catch (error) {
-    throw new Error(`This is no YAML: ${(error as Error).message.split('\n')[0]}`);
+    throw new Error(`This is not YAML: ${(error as Error).message.split('\n')[0]}`);
   }
   const manager = isTree(tree) ? tree['Visualization Manager'] : undefined;
-  if (!isTree(manager)) throw new Error('This is no .rviz file: it has no "Visualization Manager"');
+  if (!isTree(manager))
+    throw new Error('This is not an .rviz file: it has no "Visualization Manager"');
   const global = isTree(manager['Global Options']) ? manager['Global Options'] : {};
   const views = isTree(manager.Views) ? manager.Views : {};
   const current = isTree(views.Current) ? views.Current : undefined;
@@ -125,7 +126,7 @@ export function readRviz(text: string): RvizFile {
   };
 }
 
-/** Paths as nested maps again. What has parts below it gets its own value as `Value`. */
+/** Nested maps of paths. A path that has parts below it gets its own value as `Value`. */
 export function nest(values: Values): Tree {
   const out: Tree = {};
   const paths = Object.keys(values);
@@ -204,7 +205,7 @@ function topicTree(topic: string): Tree {
   };
 }
 
-/** What came by itself, with names that may hold anything: namespaces, links, frames. */
+/** Options added at runtime, with arbitrary names: namespaces, links, frames. */
 function partsOf(values: Values): Tree {
   const out: Tree = {};
   for (const [path, value] of Object.entries(values)) {

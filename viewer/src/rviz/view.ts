@@ -1,4 +1,4 @@
-/** RViz's views and ours. */
+/** Conversion between RViz's views and those of the page. */
 import type { ViewState } from '../scene/view';
 import type { RvizView } from './file';
 
@@ -22,7 +22,7 @@ export function viewFrom(view: RvizView): Out {
     };
   }
   return {
-    // What else there is (XYOrbit, FPS) is seen from the same place by an orbit.
+    // Other views (XYOrbit, FPS) become an Orbit view from the same camera pose.
     kind: name === 'ThirdPersonFollower' ? 'ThirdPersonFollower' : 'Orbit',
     distance: number('Distance', 10),
     focal: ['X', 'Y', 'Z'].map((axis) => number(`Focal Point/${axis}`, 0)) as ViewState['focal'],

@@ -1,6 +1,6 @@
 /**
- * Points, straight from the bytes of a message to the GPU: the shader picks coordinates and colours out
- * of each point's words, so that two million points cost one upload and no loop.
+ * Point clouds, uploaded from the bytes of a message to the GPU: the shader reads coordinates and colours from
+ * each point's words, so that two million points need one upload and no loop.
  */
 import {
   Box3,
@@ -29,17 +29,17 @@ export interface Rows {
   /** Words from one point to the next. */
   stride: number;
   count: number;
-  /** Words into a row: where x, y, z begin. */
+  /** Offset of x, y, z in the row [words]. */
   xyz: number;
-  /** Where the number is that tells the colour; a float. */
+  /** Offset of the float that sets the colour [words]. */
   value?: number;
-  /** Where colours are: 0x00rrggbb. */
+  /** Offset of the colour 0x00rrggbb [words]. */
   rgb?: number;
-  /** Nobody else has the words: they need not be copied. */
+  /** True if the words are not shared with a message, so that they need no copy. */
   isOwn?: boolean;
 }
 
-/** Every so-many-th row, so that no more than `most` are left: a drawing without a GPU stays usable. */
+/** Every Nth row, so that at most `most` are left: rendering without a GPU stays interactive. */
 export function thinned(rows: Rows, most: number): Rows & { every: number } {
   const every = Math.max(1, Math.ceil(rows.count / most));
   if (every === 1) return { ...rows, every };
@@ -56,21 +56,21 @@ export function thinned(rows: Rows, most: number): Rows & { every: number } {
 export const STYLES = ['Points', 'Squares', 'Flat Squares', 'Spheres', 'Boxes', 'Tiles'] as const;
 export type Style = (typeof STYLES)[number];
 
-export interface Look {
+export interface Appearance {
   style: Style;
   sizeM: number;
   sizePx: number;
   alpha: number;
   coloring: 'flat' | 'value' | 'axis' | 'rgb';
   color: Color;
-  /** Between these the colours go. */
+  /** Range of values that the colours span. */
   low: number;
   high: number;
   isRainbow: boolean;
   isInverted: boolean;
   lowColor: Color;
   highColor: Color;
-  /** Which coordinate; in the fixed frame or in that of the points. */
+  /** Axis that sets the colour; in the fixed frame or in that of the points. */
   axis: Vector3;
   axisOffset: number;
 }
@@ -80,7 +80,7 @@ uniform int coloring;
 uniform vec3 flatColor, lowColor, highColor, axis;
 uniform float low, high, axisOffset;
 uniform bool isRainbow, isInverted;
-// RViz's rainbow: from red at 0 over yellow, green and cyan to blue and magenta at 1.
+// RViz's rainbow: red at 0 through yellow, green, cyan and blue to magenta at 1.
 vec3 rainbow(float v) {
   float h = clamp(v, 0.0, 1.0) * 5.0 + 1.0;
   int i = int(floor(h));
@@ -199,7 +199,7 @@ export class Cloud {
     this.rows = rows;
     const usable = words.subarray(0, rows.count * stride);
     if (this.buffer && this.buffer.stride === stride && this.buffer.array.length >= usable.length) {
-      // The place on the GPU is kept: scans come often.
+      // The GPU buffer is reused: scans arrive often.
       const isWhole = rows.isOwn && this.buffer.array.length === usable.length;
       if (isWhole) this.buffer.array = usable;
       else (this.buffer.array as Uint32Array).set(usable);
@@ -231,7 +231,7 @@ export class Cloud {
       this.buffer = new InterleavedBuffer(array, stride);
       this.object.geometry = new BufferGeometry();
     }
-    // Nobody may ask for a box around words that are no coordinates.
+    // The words are no coordinates, so three.js must not compute bounds from them.
     this.object.geometry.boundingSphere = new Sphere(new Vector3(), Infinity);
     this.object.geometry.boundingBox = new Box3();
   }
@@ -241,38 +241,38 @@ export class Cloud {
     const old = geometry.getAttribute(name) as InterleavedBufferAttribute | undefined;
     if (old?.data === this.buffer && old?.offset === offset) return;
     const attribute = new InterleavedBufferAttribute(this.buffer!, size, offset);
-    // The words go to the shader as they are.
+    // The shader reads the words as integers.
     (attribute as unknown as BufferAttribute).gpuType = IntType;
     geometry.setAttribute(name, attribute);
   }
 
-  look(look: Look): void {
+  setAppearance(appearance: Appearance): void {
     const { uniforms } = this.material;
-    const isPixels = look.style === 'Points';
+    const isPixels = appearance.style === 'Points';
     const set = (name: string, value: unknown) => (uniforms[name]!.value = value);
     const linear = (color: Color) => {
       const { r, g, b } = color.clone().convertLinearToSRGB();
       return new Vector3(r, g, b);
     };
-    set('coloring', COLORINGS[look.coloring]);
-    set('flatColor', linear(look.color));
-    set('lowColor', linear(look.lowColor));
-    set('highColor', linear(look.highColor));
-    set('low', look.low);
-    set('high', look.high);
-    set('isRainbow', look.isRainbow);
-    set('isInverted', look.isInverted);
-    set('axis', look.axis);
-    set('axisOffset', look.axisOffset);
-    set('sizePx', isPixels ? look.sizePx : 0);
-    set('sizeM', look.sizeM);
-    set('alpha', look.alpha);
-    set('isRound', look.style === 'Spheres');
-    this.material.transparent = look.alpha < 0.999;
-    this.material.depthWrite = look.alpha >= 0.999;
+    set('coloring', COLORINGS[appearance.coloring]);
+    set('flatColor', linear(appearance.color));
+    set('lowColor', linear(appearance.lowColor));
+    set('highColor', linear(appearance.highColor));
+    set('low', appearance.low);
+    set('high', appearance.high);
+    set('isRainbow', appearance.isRainbow);
+    set('isInverted', appearance.isInverted);
+    set('axis', appearance.axis);
+    set('axisOffset', appearance.axisOffset);
+    set('sizePx', isPixels ? appearance.sizePx : 0);
+    set('sizeM', appearance.sizeM);
+    set('alpha', appearance.alpha);
+    set('isRound', appearance.style === 'Spheres');
+    this.material.transparent = appearance.alpha < 0.999;
+    this.material.depthWrite = appearance.alpha >= 0.999;
   }
 
-  /** Where a point is, and what it holds, in its own frame. */
+  /** Coordinates and value of a point, in the frame of the cloud. */
   at(index: number): { xyz: Vector3; value?: number } | undefined {
     const { rows } = this;
     if (!rows || index >= rows.count) return undefined;

@@ -1,4 +1,4 @@
-/** Meshes by their address; readers are loaded when a first file of their kind comes. */
+/** Library of meshes by URI; a loader is imported when the first file of its kind is requested. */
 import {
   Box3,
   BufferGeometry,
@@ -17,14 +17,14 @@ export type Fetch = (uri: string) => Promise<Uint8Array>;
 
 const HIDDEN_LIGHTS = ['AmbientLight', 'DirectionalLight', 'PointLight', 'SpotLight', 'Camera'];
 
-/** A shared, unchanging thing: clone it before use. */
+/** Shared and immutable object: clone it before use. */
 export class MeshLibrary {
   private known = new Map<string, Promise<Object3D>>();
   private pictures = new Map<string, Promise<Texture>>();
 
   constructor(private fetch: Fetch) {}
 
-  /** A picture for a surface. */
+  /** Loads a texture. */
   texture(uri: string): Promise<Texture> {
     let picture = this.pictures.get(uri);
     if (!picture) {
@@ -50,13 +50,13 @@ export class MeshLibrary {
     if (!mesh) {
       mesh = this.read(uri);
       this.known.set(uri, mesh);
-      // What failed is tried again when it is next asked for.
+      // A failed load is retried at the next request.
       mesh.catch(() => this.known.delete(uri));
     }
     return mesh;
   }
 
-  /** `file.dae#submesh=Name&center=1` is a part of a file, as SDF may ask for it. */
+  /** `file.dae#submesh=Name&center=1` is a part of a file, as SDF requests it. */
   private async read(uri: string): Promise<Object3D> {
     const hash = uri.indexOf('#');
     if (hash < 0) return this.readFile(uri);
@@ -80,9 +80,9 @@ export class MeshLibrary {
         const text = new TextDecoder().decode(bytes);
         const manager = await this.textures(folder, text.matchAll(/<init_from>\s*([^<]+?)\s*</g));
         const read = new ColladaLoader(manager).parse(text, '');
-        if (!read) throw new Error(`${uri} is no COLLADA`);
+        if (!read) throw new Error(`${uri} is not a COLLADA file`);
         const { scene } = read;
-        // The loader turns Y_UP files for three.js; with z up, files with Z_UP are right as they are.
+        // The loader rotates Y_UP files to three.js; in a scene with z up, files with Z_UP are right without it.
         if (/<up_axis>\s*Z_UP/.test(text)) scene.rotation.set(0, 0, 0);
         else scene.rotation.set(Math.PI / 2, 0, 0);
         return tidy(scene);
@@ -105,7 +105,7 @@ export class MeshLibrary {
       }
       default:
         throw new Error(
-          `meshes of the kind "${ending ?? uri}" cannot be shown (stl, dae, obj, glb can)`,
+          `the mesh format "${ending ?? uri}" is not supported (supported: stl, dae, obj, glb)`,
         );
     }
   }
@@ -123,11 +123,11 @@ export class MeshLibrary {
       read.preload();
       loader.setMaterials(read as never);
     } catch {
-      // A mesh without its colours is still a mesh.
+      // A mesh without its textures is still shown.
     }
   }
 
-  /** Fetches pictures that a mesh names, and tells loaders where they are now. */
+  /** Fetches the textures that a mesh names, and maps their names to the fetched ones. */
   private async textures(
     folder: string,
     names: Iterable<RegExpMatchArray>,
@@ -140,7 +140,7 @@ export class MeshLibrary {
         const bytes = await this.fetch(uri);
         urls.set(name, URL.createObjectURL(new Blob([bytes as Uint8Array<ArrayBuffer>])));
       } catch {
-        // Shown without its picture.
+        // Shown without its texture.
       }
     }
     const manager = new LoadingManager();
@@ -152,7 +152,7 @@ export class MeshLibrary {
   }
 }
 
-/** What of a file has this name; all of it, if nothing has. */
+/** Object of this name in a file; the whole file if there is none. */
 function partOf(whole: Object3D, name: string, isCentered: boolean): Object3D {
   const copy = whole.clone(true);
   const isWanted = (o: Object3D) => o.name === name || (o as Mesh).geometry?.name === name;
@@ -184,7 +184,7 @@ function plain(geometry: BufferGeometry): Object3D {
   return tidy(group);
 }
 
-/** Lights of files stay out; materials become of one kind. */
+/** Removes the lights of a file and unifies its materials. */
 function tidy(object: Object3D): Object3D {
   const out = new Group();
   out.add(object);
@@ -210,7 +210,7 @@ function collect(object: Object3D): Object3D[] {
   return all;
 }
 
-/** A copy with materials of its own, painted where a colour is given. */
+/** Copy with its own materials, in the colour if one is given. */
 export function copyOf(object: Object3D, color?: Color, alpha = 1, paintAll = false): Object3D {
   const copy = object.clone(true);
   copy.traverse((part) => {

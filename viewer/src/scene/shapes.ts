@@ -1,4 +1,4 @@
-/** Arrows, axes, lines and words: what displays are made of. */
+/** Arrows, axes, lines and labels, from which displays are built. */
 import {
   BoxGeometry,
   BufferAttribute,
@@ -29,7 +29,7 @@ import { LineGeometry } from 'three/examples/jsm/lines/LineGeometry.js';
 import { LineMaterial } from 'three/examples/jsm/lines/LineMaterial.js';
 import type { Pose } from '../core/pose';
 
-/** "255; 25; 0", as RViz writes colours, or none of it. */
+/** Parses a colour as RViz writes it: "255; 25; 0". */
 export function colorOf(text: string): Color {
   const [r = 255, g = 255, b = 255] = text.split(';').map(Number);
   return new Color().setRGB(r / 255, g / 255, b / 255, 'srgb');
@@ -59,10 +59,10 @@ function shared<G extends BufferGeometry>(geometry: G): G {
 
 export const UNIT_BOX = shared(new BoxGeometry(1, 1, 1));
 export const UNIT_SPHERE = shared(new SphereGeometry(0.5, 24, 16));
-/** Along z, as ROS has it. */
+/** Cylinder along z, as in ROS. */
 export const UNIT_CYLINDER = shared(new CylinderGeometry(0.5, 0.5, 1, 32).rotateX(Math.PI / 2));
 
-/** Along x, its tail at the origin. */
+/** Arrow along x with its tail at the origin. */
 export function arrowGeometry(
   shaftLength: number,
   shaftRadius: number,
@@ -76,7 +76,7 @@ export function arrowGeometry(
   return mergeGeometries([shaft, head]).rotateZ(-Math.PI / 2);
 }
 
-/** Red, green and blue along x, y and z. */
+/** Axes x, y and z in red, green and blue. */
 export function axesGeometry(length: number, radius: number): BufferGeometry {
   const bars = (['x', 'y', 'z'] as const).map((axis, i) => {
     const bar = new CylinderGeometry(radius, radius, length, 10).translate(0, length / 2, 0);
@@ -95,7 +95,7 @@ export function axesMaterial(alpha = 1): MeshLambertMaterial {
   return new MeshLambertMaterial({ vertexColors: true, transparent: alpha < 1, opacity: alpha });
 }
 
-/** An arrow of lines that lies flat: along x, with a length of one. */
+/** Flat arrow of lines along x, of length one. */
 export function flatArrowGeometry(): BufferGeometry {
   const points = [0, 0, 0, 1, 0, 0, 1, 0, 0, 0.75, 0.2, 0, 1, 0, 0, 0.75, -0.2, 0];
   return new BufferGeometry().setAttribute(
@@ -104,7 +104,7 @@ export function flatArrowGeometry(): BufferGeometry {
   );
 }
 
-/** The same shape at many places. */
+/** Instances of one shape at many poses. */
 export function instances(
   geometry: BufferGeometry,
   material: Material,
@@ -119,7 +119,7 @@ export function instances(
   return mesh;
 }
 
-/** Through points; `width` metres wide, or one pixel where that is none. */
+/** Line through points; `width` in metres, or one pixel if it is 0. */
 export function polyline(
   points: ArrayLike<number>,
   color: Color,
@@ -160,7 +160,7 @@ export function segments(points: ArrayLike<number>, color: Color, alpha = 1): Li
   return lines;
 }
 
-/** Words that face the eye; `height` metres tall. */
+/** Text that faces the camera; `height` in metres. */
 export function label(text: string, height: number, color = '#e8edf4', backing = false): Sprite {
   const canvas = document.createElement('canvas');
   const context = canvas.getContext('2d')!;
@@ -189,7 +189,7 @@ export function label(text: string, height: number, color = '#e8edf4', backing =
   return sprite;
 }
 
-/** A filled shape over a closed line, seen from both sides. */
+/** Filled polygon inside a closed line, visible from both sides. */
 export function flatMaterial(color: Color, alpha: number): MeshBasicMaterial {
   return new MeshBasicMaterial({
     color,

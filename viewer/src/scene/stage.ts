@@ -1,4 +1,4 @@
-/** The 3D stage: a scene with z up, drawn when something changed. */
+/** The 3D view: a scene with z up, rendered when something has changed. */
 import {
   AmbientLight,
   Color,
@@ -18,14 +18,14 @@ AnyObject.DEFAULT_UP.set(0, 0, 1);
 
 export class Stage {
   readonly scene = new Scene();
-  /** Displays; in the fixed frame. */
+  /** Displays, in the fixed frame. */
   readonly content = new Group();
   readonly renderer: WebGLRenderer;
   readonly view: View;
-  /** No GPU: fewer pixels, no shadows. */
+  /** True without a GPU: fewer pixels, no shadows. */
   readonly isSoftware: boolean;
   framesPerSecond = 0;
-  /** Called before each look at whether something changed. */
+  /** Called before each check for changes. */
   ticks = new Set<(nowMs: number) => void>();
   private isDirty = true;
   private frames = 0;
@@ -42,7 +42,7 @@ export class Stage {
     });
     if (!context) {
       throw new Error(
-        'This browser cannot draw with WebGL 2. Turn on hardware acceleration or take another.',
+        'This browser cannot draw with WebGL 2. Enable hardware acceleration or use another browser.',
       );
     }
     const info = context.getExtension('WEBGL_debug_renderer_info');
@@ -111,7 +111,7 @@ export class Stage {
   draw(nowMs = performance.now()): void {
     this.isDirty = false;
     const [x, y] = this.view.state.focal;
-    // The light goes along, so that shadows are fine where one looks.
+    // The light follows the focal point, where shadows get the highest resolution.
     this.sun.target.position.set(x + this.view.origin.x, y + this.view.origin.y, 0);
     this.sun.position.copy(this.sun.target.position).add({ x: 6, y: -9, z: 18 } as never);
     this.renderer.render(this.scene, this.view.camera);
@@ -129,7 +129,7 @@ export class Stage {
   }
 }
 
-/** Gives back what a thing holds on the GPU. */
+/** Frees the GPU resources of an object. */
 export function dispose(object: Object3D): void {
   object.removeFromParent();
   object.traverse((part) => {

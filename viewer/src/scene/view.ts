@@ -1,25 +1,25 @@
-/** How one looks at the scene: RViz's views with RViz's numbers, moved by mouse, fingers and keys. */
+/** Camera: RViz's views with RViz's parameters, moved by mouse, touch and keys. */
 import { OrthographicCamera, PerspectiveCamera, Plane, Raycaster, Vector2, Vector3 } from 'three';
 
 export type ViewKind = 'Orbit' | 'TopDownOrtho' | 'ThirdPersonFollower';
 
 export interface ViewState {
   kind: ViewKind;
-  /** [m] from the focal point. */
+  /** Distance from the focal point [m]. */
   distance: number;
   focal: [number, number, number];
-  /** [rad] above the ground. */
+  /** Elevation above the floor plane [rad]. */
   pitch: number;
-  /** [rad] */
+  /** Azimuth [rad]. */
   yaw: number;
-  /** Pixels per metre, seen from above. */
+  /** Pixels per metre of the orthographic view. */
   scale: number;
-  /** [rad] seen from above. */
+  /** Rotation of the orthographic view [rad]. */
   angle: number;
-  /** The middle, seen from above [m]. */
+  /** Center of the orthographic view [m]. */
   x: number;
   y: number;
-  /** What the view goes along with. */
+  /** Frame that the camera follows. */
   targetFrame: string;
 }
 
@@ -42,14 +42,14 @@ const LONGEST_M = 5000;
 
 export class View {
   state: ViewState = structuredClone(FIRST_VIEW);
-  /** Where the target frame is, and its yaw. */
+  /** Position and yaw of the target frame. */
   readonly origin = new Vector3();
   originYaw = 0;
   readonly perspective = new PerspectiveCamera(FIELD_OF_VIEW_DEG, 1, NEAREST_M, LONGEST_M);
   readonly orthographic = new OrthographicCamera(-1, 1, 1, -1, -1000, 1000);
   width = 1;
   height = 1;
-  /** While a tool uses the mouse. */
+  /** True while a tool uses the mouse. */
   isHeld = false;
 
   constructor(
@@ -100,7 +100,7 @@ export class View {
     element.addEventListener('keydown', (event) => this.key(event));
   }
 
-  /** Arrow keys turn, with shift they pan; + and - zoom. */
+  /** Arrow keys rotate, with shift they pan; + and - zoom. */
   private key(event: KeyboardEvent): void {
     if (this.isHeld || event.ctrlKey || event.metaKey || event.altKey) return;
     const move = event.shiftKey ? this.pan.bind(this) : this.turn.bind(this);
@@ -197,7 +197,7 @@ export class View {
     this.changed();
   }
 
-  /** The ray under a point of the page. */
+  /** Ray from the camera through a point of the page. */
   ray(clientX: number, clientY: number): Raycaster {
     const box = this.element.getBoundingClientRect();
     const point = new Vector2(
@@ -209,7 +209,7 @@ export class View {
     return caster;
   }
 
-  /** Where the ray under a point of the page meets the ground; none towards the sky. */
+  /** Intersection of the ray through a point of the page with the floor plane; `undefined` above the horizon. */
   ground(clientX: number, clientY: number, z = 0): Vector3 | undefined {
     const { ray } = this.ray(clientX, clientY);
     return ray.intersectPlane(new Plane(new Vector3(0, 0, 1), -z), new Vector3()) ?? undefined;

@@ -1,13 +1,13 @@
 /**
- * Poses of sensors from the simulation itself: data of a sensor is drawn also where no node publishes
- * the transforms of its robot.
+ * Poses of sensors from the simulation itself: data of a sensor is shown even if no node publishes the
+ * transforms of its robot.
  */
 import type { Message } from '../core/cdr';
 import { multiply, type Pose } from '../core/pose';
 import { frameName, TfBuffer } from '../core/tf';
 import type { TransformStamped } from '../core/types';
 
-/** The frame that is the simulated world. */
+/** World frame of the simulation. */
 export const WORLD = 'world';
 
 interface Mount {
@@ -17,7 +17,7 @@ interface Mount {
 }
 
 export class SensorFrames {
-  /** By topic (`/scan`) and by frame (`laser`). */
+  /** Mounts by topic (`/scan`) and by frame (`laser`). */
   private mounts = new Map<string, Mount>();
   private links = new Set<string>();
   private tf = new TfBuffer();
@@ -28,12 +28,12 @@ export class SensorFrames {
     this.tf.clear();
   }
 
-  /** Forgets what is newer than now: time went back. */
+  /** Drops poses newer than now, after time jumped back. */
   rewind(nowS: number): void {
     this.tf.rewind(nowS);
   }
 
-  /** Takes `/world/<w>/sensors`. */
+  /** Applies a message of `/world/<w>/sensors`. */
   setMounts(message: Message): void {
     this.mounts.clear();
     for (const one of message.transforms as TransformStamped[]) {
@@ -44,14 +44,14 @@ export class SensorFrames {
     this.links = new Set([...this.mounts.values()].map((mount) => mount.link));
   }
 
-  /** Takes `/world/<w>/poses`. */
+  /** Applies a message of `/world/<w>/poses`. */
   addPoses(message: Message): void {
     for (const one of message.transforms as TransformStamped[]) {
       if (this.links.has(one.child_frame_id)) this.tf.add(one, false);
     }
   }
 
-  /** Pose of the data on a topic in the world; none of what no simulated sensor measures. */
+  /** Pose in the world of the data on a topic; `undefined` for topics without a simulated sensor. */
   worldFromData(topic: string, frame: string, timeS: number): Pose | undefined {
     const mount = this.mounts.get(topic) ?? this.mounts.get(frameName(frame));
     if (!mount) return undefined;

@@ -1,6 +1,6 @@
-/** Things to put into a world. */
+/** Shapes that can be inserted into a world. */
 
-export interface Thing {
+export interface Shape {
   name: string;
   sdf: string;
 }
@@ -12,10 +12,10 @@ function model(
   color: string,
   massKg: number,
   inertia: number[],
-): Thing {
+): Shape {
   const [ixx, iyy, izz] = inertia;
   const shape = `<geometry>${geometry}</geometry>`;
-  const look = `<material><ambient>${color}</ambient><diffuse>${color}</diffuse></material>`;
+  const material = `<material><ambient>${color}</ambient><diffuse>${color}</diffuse></material>`;
   return {
     name,
     sdf:
@@ -23,7 +23,7 @@ function model(
       `<inertial><mass>${massKg}</mass><inertia><ixx>${ixx}</ixx><ixy>0</ixy><ixz>0</ixz>` +
       `<iyy>${iyy}</iyy><iyz>0</iyz><izz>${izz}</izz></inertia></inertial>` +
       `<collision name="collision">${shape}</collision>` +
-      `<visual name="visual">${shape}${look}</visual></link></model></sdf>`,
+      `<visual name="visual">${shape}${material}</visual></link></model></sdf>`,
   };
 }
 
@@ -34,7 +34,7 @@ export function box(
   massKg: number,
   name = 'box',
   color = '0.85 0.55 0.2 1',
-): Thing {
+): Shape {
   const inertia = [y * y + z * z, x * x + z * z, x * x + y * y].map(
     (v) => +((massKg * v) / 12).toPrecision(6),
   );
@@ -47,7 +47,7 @@ export function cylinder(
   massKg: number,
   name = 'cylinder',
   color = '0.25 0.6 0.85 1',
-): Thing {
+): Shape {
   const side = (massKg * (3 * radius * radius + length * length)) / 12;
   const inertia = [side, side, (massKg * radius * radius) / 2].map((v) => +v.toPrecision(6));
   const geometry = `<cylinder><radius>${radius}</radius><length>${length}</length></cylinder>`;
@@ -59,7 +59,7 @@ export function sphere(
   massKg: number,
   name = 'sphere',
   color = '0.8 0.3 0.35 1',
-): Thing {
+): Shape {
   const i = +(0.4 * massKg * radius * radius).toPrecision(6);
   return model(name, radius, `<sphere><radius>${radius}</radius></sphere>`, color, massKg, [
     i,
@@ -68,9 +68,9 @@ export function sphere(
   ]);
 }
 
-export const THINGS: Thing[] = [
+export const SHAPES: Shape[] = [
   box(0.5, 0.5, 0.5, 5),
-  // Named after the "Cube 20k" of Gazebo's models, whose mesh has 20,000 triangles.
+  // Named after "Cube 20k" of Gazebo's models, whose mesh has 20,000 triangles.
   box(0.5, 0.5, 0.5, 20, 'cube_20k', '0.75 0.75 0.78 1'),
   box(2, 0.15, 1, 60, 'barrier', '0.9 0.3 0.25 1'),
   cylinder(0.25, 1, 10),

@@ -1,8 +1,8 @@
-/** The options that clouds and scans share, and what they mean. */
+/** Options that clouds and scans share. */
 import { Vector3 } from 'three';
 import type { Pose } from '../core/pose';
 import { inverse, rotate } from '../core/pose';
-import { STYLES, type Look, type Rows, type Style } from '../scene/cloud';
+import { STYLES, type Appearance, type Rows, type Style } from '../scene/cloud';
 import { colorOf } from '../scene/shapes';
 import { alpha, bool, choice, color, int, number, text, type Option, type Values } from './options';
 
@@ -43,11 +43,11 @@ export function cloudOptions(transformer: string): Option[] {
   ];
 }
 
-/** How rows of points look by these options. */
-export function lookOf(values: Values, rows: Rows, fixedFromCloud: Pose): Look {
+/** Style of a cloud by these options. */
+export function appearanceOf(values: Values, rows: Rows, fixedFromCloud: Pose): Appearance {
   const get = <T>(path: string) => values[path] as T;
   const transformer = get<string>('Color Transformer');
-  const look: Look = {
+  const appearance: Appearance = {
     style: get<Style>('Style'),
     sizeM: get('Size (m)'),
     sizePx: get('Size (Pixels)'),
@@ -63,40 +63,42 @@ export function lookOf(values: Values, rows: Rows, fixedFromCloud: Pose): Look {
     axis: new Vector3(0, 0, 1),
     axisOffset: 0,
   };
-  if (/^RGB/.test(transformer) && rows.rgb !== undefined) look.coloring = 'rgb';
+  if (/^RGB/.test(transformer) && rows.rgb !== undefined) appearance.coloring = 'rgb';
   if (transformer === 'Intensity' && rows.value !== undefined) {
-    look.coloring = 'value';
-    if (get('Autocompute Intensity Bounds')) [look.low, look.high] = bounds(rows, 'value', look);
+    appearance.coloring = 'value';
+    if (get('Autocompute Intensity Bounds'))
+      [appearance.low, appearance.high] = bounds(rows, 'value', appearance);
   }
   if (transformer === 'AxisColor') {
-    look.coloring = 'axis';
+    appearance.coloring = 'axis';
     const i = 'XYZ'.indexOf(get('Axis'));
-    look.axis.set(+(i === 0), +(i === 1), +(i === 2));
+    appearance.axis.set(+(i === 0), +(i === 1), +(i === 2));
     if (get('Use Fixed Frame')) {
       const cloudFromFixed = inverse(fixedFromCloud);
-      look.axis.set(...rotate(cloudFromFixed.q, look.axis.toArray()));
-      look.axisOffset = fixedFromCloud.t[i]!;
+      appearance.axis.set(...rotate(cloudFromFixed.q, appearance.axis.toArray()));
+      appearance.axisOffset = fixedFromCloud.t[i]!;
     }
-    look.low = get('Autocompute Value Bounds/Min Value');
-    look.high = get('Autocompute Value Bounds/Max Value');
-    if (get('Autocompute Value Bounds')) [look.low, look.high] = bounds(rows, 'axis', look);
+    appearance.low = get('Autocompute Value Bounds/Min Value');
+    appearance.high = get('Autocompute Value Bounds/Max Value');
+    if (get('Autocompute Value Bounds'))
+      [appearance.low, appearance.high] = bounds(rows, 'axis', appearance);
   }
-  return look;
+  return appearance;
 }
 
-/** The least and the greatest number that there is. */
-function bounds(rows: Rows, of: 'value' | 'axis', look: Look): [number, number] {
+/** Minimum and maximum of the values or of the coordinates along the axis. */
+function bounds(rows: Rows, of: 'value' | 'axis', appearance: Appearance): [number, number] {
   const { words, stride, count, xyz, value } = rows;
   const floats = new Float32Array(words.buffer, words.byteOffset, words.length);
   let low = Infinity;
   let high = -Infinity;
-  const { x, y, z } = look.axis;
+  const { x, y, z } = appearance.axis;
   for (let i = 0, at = 0; i < count; i++, at += stride) {
     const p = at + xyz;
     const number =
       of === 'value'
         ? floats[at + value!]!
-        : floats[p]! * x + floats[p + 1]! * y + floats[p + 2]! * z + look.axisOffset;
+        : floats[p]! * x + floats[p + 1]! * y + floats[p + 2]! * z + appearance.axisOffset;
     if (number < low && number > -Infinity) low = number;
     if (number > high && number < Infinity) high = number;
   }
