@@ -1,4 +1,4 @@
-//! What must hold of every mesh that any reader gives back.
+//! Invariants of every mesh that a reader returns.
 
 use periplus_meshes::{MeshFormat, MeshLimits, read_within};
 

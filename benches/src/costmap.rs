@@ -39,7 +39,7 @@ pub(crate) fn median(turns: usize, mut work: impl FnMut() -> f64) -> f64 {
     taken[turns / 2]
 }
 
-/// How long something takes \[s\].
+/// Duration of a function \[s\].
 pub(crate) fn seconds(work: impl FnOnce()) -> f64 {
     let start = std::time::Instant::now();
     work();

@@ -32,7 +32,7 @@ pub(crate) fn accepted(
     Ok(jobs)
 }
 
-/// How many megabytes the files hold together.
+/// Total size of the files in megabytes.
 pub(crate) fn megabytes(jobs: &[Job]) -> f64 {
     let bytes = jobs.iter().filter_map(|job| std::fs::metadata(&job.file).ok()).map(|m| m.len());
     bytes.sum::<u64>() as f64 / 1e6

@@ -1,4 +1,4 @@
-//! The peers, as programs that say how long they took.
+//! Peer programs that report their run time.
 
 use std::io::Write as _;
 use std::process::{Command, Stdio};

@@ -8,7 +8,7 @@ use std::path::Path;
 
 use serde_json::{Value, json};
 
-/// What a robot is told to do, after a second of standing.
+/// Command sequence of a robot, after one second at rest.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Order {
     name: &'static str,
@@ -18,7 +18,7 @@ pub(crate) struct Order {
     block: Block,
 }
 
-/// What stands in its way.
+/// Obstacle in front of the robot.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Block {
     Nothing,
@@ -57,7 +57,7 @@ const RADIUS_M: f64 = 0.1;
 /// Distance between the driven wheels [m].
 const SEPARATION_M: f64 = 0.36;
 
-/// What became of an order, seen from where the robot stood before it.
+/// Result of an order, relative to the pose before it.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Outcome {
     along_m: f64,
@@ -80,7 +80,7 @@ struct Row {
 /// `benches/oracles/physics_ode.cc`, `mujoco` a Python that has MuJoCo.
 ///
 /// # Errors
-/// When our own robot cannot be run; a peer that is missing is only said.
+/// When our own robot cannot be run; a missing peer is only reported.
 pub(crate) fn run(oracles: &Path, ode: &Path, python: &Path) -> Result<(String, Value), String> {
     let mut rows = vec![Row { engine: "Periplus".into(), outcomes: ours::drive_all(&ORDERS)? }];
     for tyre in ["ball", "cylinder"] {

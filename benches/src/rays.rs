@@ -16,12 +16,12 @@ pub(crate) use ours::run as cast;
 
 const SCENES: [&str; 4] = ["tutorial", "house", "warehouse", "city"];
 
-/// What came of it.
+/// Result of the race.
 pub(crate) enum Race {
     Tables(String),
     /// No peer is installed: our figures compare with nothing.
     Alone(String),
-    /// Nobody could make the scenes.
+    /// The scenes cannot be made: a program is missing.
     NoScenes,
 }
 

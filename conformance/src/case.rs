@@ -6,26 +6,26 @@ use crate::expected::Expected;
 use crate::reader::{Reader, Unreadable};
 use crate::used::Used;
 
-/// What a case says.
+/// A conformance case.
 #[derive(Debug)]
 pub struct Case {
     /// The name of the file.
     pub file: String,
     /// Its own name.
     pub id: String,
-    /// What is checked.
+    /// Behaviour that is checked.
     pub kind: String,
     /// The same in words.
     pub title: String,
     /// The distributions of ROS that behave so.
     pub applies_to: Vec<String>,
-    /// How far a number may be off; without it whole numbers are exact and others to 1e-6.
+    /// Tolerance of numbers; by default integers are exact and others have 1e-6.
     pub tolerance: Option<f64>,
     content: Value,
     used: Used,
 }
 
-/// How far numbers that are not whole may be off.
+/// Default tolerance of numbers that are not integers.
 const TOLERANCE: f64 = 1e-6;
 
 impl Case {
@@ -54,13 +54,13 @@ impl Case {
         Ok(Self { file: file.to_owned(), id, kind, title, applies_to, tolerance, content, used })
     }
 
-    /// What is given.
+    /// Inputs of the case.
     #[must_use]
     pub fn given(&self) -> Reader<'_> {
         Reader::new(&self.content["given"], &self.used, "given")
     }
 
-    /// What to expect.
+    /// Expected results.
     #[must_use]
     pub fn expect(&self) -> Expected<'_> {
         Expected::new(Reader::new(&self.content["expect"], &self.used, "expect"))
@@ -73,7 +73,7 @@ impl Case {
         unused.into_iter().map(|path| path.trim_start_matches('.').to_owned()).collect()
     }
 
-    /// How far a number that is not whole may be off.
+    /// Tolerance of numbers that are not integers.
     #[must_use]
     pub fn tolerance(&self) -> f64 {
         self.tolerance.unwrap_or(TOLERANCE)

@@ -1,4 +1,4 @@
-//! What is not as expected.
+//! Differences between expected and actual results.
 
 use std::fmt::Display;
 
@@ -12,7 +12,7 @@ use crate::used::is_remark;
 /// More differences of a case are only counted.
 const MAX_LISTED: usize = 20;
 
-/// What is not as expected, in words.
+/// Differences between expected and actual results, as text.
 #[derive(Clone, Debug)]
 pub struct Differences {
     listed: Vec<String>,
@@ -53,7 +53,7 @@ impl Differences {
         self.at(&what.to_string(), expected.path(), got, expected.compared());
     }
 
-    /// The same by a tolerance of its own, for numbers that are not exact by nature.
+    /// Compares with a separate tolerance, for numbers that are inexact by nature.
     pub fn compare_by(
         &mut self,
         what: impl Display,

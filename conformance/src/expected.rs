@@ -1,13 +1,13 @@
-//! What a case expects.
+//! Expected results of a case.
 
 use serde_json::Value;
 
 use crate::used::is_remark;
 use crate::{Reader, Unreadable};
 
-/// A part of what a case expects. It cannot be read, only compared
-/// ([`crate::Differences::compare`]) or taken apart, so that nothing that is stated goes without a
-/// comparison. What stands there as an input of the check, such as the ends of a ray, is an
+/// Part of the expected results. It cannot be read, only compared
+/// ([`crate::Differences::compare`]) or split into its members, so that every stated result is
+/// compared. A value that is an input of the check, such as the ends of a ray, is an
 /// [`Expected::input`].
 #[derive(Clone, Debug)]
 pub struct Expected<'v>(Reader<'v>);
@@ -23,7 +23,7 @@ impl<'v> Expected<'v> {
         self.0.path()
     }
 
-    /// An input of the check that stands among the expectations.
+    /// Input of the check that is given among the expected results.
     #[must_use]
     pub fn input(&self) -> Reader<'v> {
         self.0.clone()
@@ -81,7 +81,7 @@ impl<'v> Expected<'v> {
         Ok(self.0.list()?.into_iter().map(Self).collect())
     }
 
-    /// The elements of a list of inputs with what each leads to. One that is there twice says nothing.
+    /// Elements of a list of distinct inputs, each with its expected result.
     ///
     /// # Errors
     /// When it is no list, or two elements are the same.
@@ -105,7 +105,7 @@ impl<'v> Expected<'v> {
         Ok(stated.map(|(name, value)| (name, Self(value))).collect())
     }
 
-    /// An error that says what this would have to be.
+    /// Error that states the required type or value.
     #[must_use]
     pub fn unreadable(&self, wanted: &str) -> Unreadable {
         self.0.unreadable(wanted)

@@ -1,4 +1,4 @@
-//! What is done with a case of each kind. A kind is one module with a `check`, and one line in
+//! Checks of the kinds of cases. A kind is one module with a `check`, and one line in
 //! [`KINDS`].
 
 use std::path::{Path, PathBuf};
@@ -20,10 +20,10 @@ mod rviz_palette;
 mod teleop_keys;
 mod tf2;
 
-/// Does with what is given what a user of a distribution would, and tells every difference.
+/// Runs the inputs of a case as a user of a distribution would, and records every difference.
 pub type Check = fn(&Case, distro: &str, &Setting<'_>, &mut Differences) -> Result<(), Unreadable>;
 
-/// What there is beside a case.
+/// Environment of a case.
 #[derive(Clone, Copy)]
 pub struct Setting<'a> {
     /// The folder of the cases.

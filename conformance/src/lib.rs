@@ -1,8 +1,8 @@
-//! Case files, each of which says how another program behaves, run against this one.
+//! Case files that define the behaviour of other programs, checked against this project.
 //!
 //! A case is a JSON file: an `id`, a `kind`, what is `given` and what to `expect`, and the
-//! distributions of ROS that it `applies_to`. Each kind has a module in [`kinds`], which does with the
-//! given what a user would, and tells every [`Differences`]. A kind that nobody checks yet is not
+//! distributions of ROS that it `applies_to`. Each kind has a module in [`kinds`], which runs the
+//! inputs as a user would, and records every [`Differences`]. A kind without a check is not
 //! passed: it is [`Verdict::Unknown`].
 //!
 //! ```

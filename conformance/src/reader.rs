@@ -1,4 +1,4 @@
-//! JSON that says where it is not as expected.
+//! JSON reader whose errors name the position of the unexpected value.
 
 use std::fmt;
 
@@ -6,7 +6,7 @@ use serde_json::Value;
 
 use crate::used::Used;
 
-/// What a case holds that its check does not understand.
+/// Content of a case that its check does not understand.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Unreadable(pub String);
 
@@ -81,7 +81,7 @@ impl<'v> Reader<'v> {
         &self.path
     }
 
-    /// What this value would have to be.
+    /// Error that states the required type or value.
     #[must_use]
     pub fn unreadable(&self, wanted: &str) -> Unreadable {
         let shown = self.shown();
@@ -225,7 +225,7 @@ impl<'v> Reader<'v> {
         Ok(object.iter().map(member).collect())
     }
 
-    /// What each element of a list is.
+    /// Reads each element of a list.
     ///
     /// # Errors
     /// When one is not.
@@ -244,7 +244,7 @@ impl<'v> Reader<'v> {
         self.each(Self::number)
     }
 
-    /// So many numbers.
+    /// Reads exactly `N` numbers.
     ///
     /// # Errors
     /// When there are more or fewer.

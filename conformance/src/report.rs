@@ -1,4 +1,4 @@
-//! What came of all cases.
+//! Results of all cases.
 
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
@@ -7,21 +7,21 @@ use serde_json::{Value, json};
 
 use crate::run::{Outcome, Verdict};
 
-/// What came of all cases.
+/// Results of all cases.
 #[derive(Clone, Debug)]
 pub struct Report {
     /// One for each file.
     pub results: Vec<Outcome>,
 }
 
-/// How many cases ended how.
+/// Number of cases by verdict.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Tally {
     /// As expected.
     pub passed: usize,
     /// Not as expected.
     pub failed: usize,
-    /// Nobody checks them yet.
+    /// Cases of a kind without a check.
     pub unknown: usize,
     /// No cases, or none that are understood.
     pub unreadable: usize,
@@ -63,7 +63,7 @@ impl Report {
         kinds
     }
 
-    /// Whether every case is as expected. A kind that nobody checks is not.
+    /// True if every case passed. A case without a check has not.
     #[must_use]
     pub fn is_passed(&self) -> bool {
         self.results.iter().all(|result| result.verdict == Verdict::Passed)

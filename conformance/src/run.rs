@@ -11,7 +11,7 @@ use crate::differences::Differences;
 use crate::kinds::{KINDS, Setting};
 use crate::report::Report;
 
-/// What came of a case.
+/// Result of a case.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Verdict {
     /// All is as expected.
@@ -31,13 +31,13 @@ pub struct Outcome {
     pub file: String,
     /// Its own name; that of the file where it is no case.
     pub id: String,
-    /// What is checked; empty where it is no case.
+    /// Kind of the case; empty if the file is not a case.
     pub kind: String,
     /// The same in words.
     pub title: String,
-    /// What came of it.
+    /// Result of the case.
     pub verdict: Verdict,
-    /// What is wrong, where something is.
+    /// Differences, if any.
     pub differences: Vec<String>,
 }
 

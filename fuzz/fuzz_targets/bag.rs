@@ -1,5 +1,5 @@
-//! Any bytes as an MCAP file: refused or read, in the order of time, by the summary or without; and
-//! a file that the strict check likes gives as many messages as it says it has.
+//! Any bytes as an MCAP file: refused or read, in the order of time, with the summary or without; and
+//! a file that passes the strict check gives as many messages as its summary declares.
 #![no_main]
 
 use std::io::Cursor;

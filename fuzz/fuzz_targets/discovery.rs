@@ -1,5 +1,5 @@
-//! Any bytes as what other programs on the ROS 2 network say of themselves: their nodes, their
-//! types, the names of their topics, and questions and answers of services; over DDS and Zenoh.
+//! Any bytes as discovery data of other programs on the ROS 2 network: their nodes, types and topic names,
+//! and service requests and responses; over DDS and Zenoh.
 #![no_main]
 
 use libfuzzer_sys::fuzz_target;

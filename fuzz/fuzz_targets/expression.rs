@@ -1,4 +1,4 @@
-//! Any text as an expression: an answer or an error that names a place in the text, within the budget.
+//! Any text as an expression: a value, or an error with a position in the text, within the budget.
 #![no_main]
 
 use libfuzzer_sys::fuzz_target;

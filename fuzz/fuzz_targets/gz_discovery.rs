@@ -1,5 +1,5 @@
-//! Packets by which programs of Gazebo find each other: any bytes are survived, and what is understood is
-//! understood again when it is written anew.
+//! Discovery packets of Gazebo Transport: no panic for any bytes, and a parsed packet can be written and
+//! parsed again.
 #![no_main]
 
 use libfuzzer_sys::fuzz_target;

@@ -1,4 +1,4 @@
-//! What comes over a connection of ZeroMQ: any bytes are survived, and messages come back as they are.
+//! Bytes of a ZeroMQ connection: no panic for any bytes, and written messages are read back unchanged.
 #![no_main]
 
 use libfuzzer_sys::fuzz_target;

@@ -1,5 +1,5 @@
-//! Any bytes as the head of a request: refused, waited for, or read; and whoever is let in without a
-//! token is of this machine.
+//! Any bytes as the head of a request: refused, incomplete, or read; and a client that is admitted without a
+//! token is on this machine.
 #![no_main]
 
 use libfuzzer_sys::fuzz_target;

@@ -1,5 +1,5 @@
-//! Any bytes as what a client says to a hub: several messages, in JSON and in bytes. Nothing panics,
-//! and all that the client is told is well formed.
+//! Any bytes as messages of a client to a hub, in JSON and binary. No panic, and all responses are well
+//! formed.
 #![no_main]
 
 use std::sync::LazyLock;
@@ -10,7 +10,7 @@ use periplus_graph::{Graph, NodeSettings, Publisher, Qos};
 use periplus_msgs::nav_msgs::OccupancyGrid;
 use periplus_web::foxglove::{Hub, FrameKind, Settings, OutboxItem};
 
-/// A graph with something to hear, and a hub before it.
+/// A graph with a topic to subscribe to, and a hub in front of it.
 struct Place {
     graph: Graph,
     maps: Publisher<OccupancyGrid>,

@@ -1,4 +1,4 @@
-//! Any text as a message, a service, an action and a schema of either ROS: findings with places, or
+//! Any text as a message, a service, an action and a schema of ROS 1 or 2: findings with positions, or
 //! types that have a hash, code, a schema that reads back, and values.
 #![no_main]
 
@@ -9,7 +9,7 @@ use periplus_diagnostics::{Diagnostics, RenderStyle, SourceMap, render};
 use periplus_msgs::{DynamicMessage, Format, TypeRegistry, YamlStyle};
 use periplus_rosidl::{InterfaceDialect, Registry, TypeName, rust};
 
-/// What services, actions and ROS 1 need; all packages would only make it slow.
+/// Packages needed by services, actions and ROS 1; all packages would only make it slow.
 static BASE: LazyLock<Registry> = LazyLock::new(|| {
     let mut base = Registry::new();
     for name in [

@@ -29,7 +29,7 @@ fuzz_target!(|rest: &[u8]| {
             .expect("what was read can be written");
         written.push((message.log_ns.max(1), message.data.to_vec()));
     }
-    // Only an index that is wrong, and said to be, leads astray.
+    // Times decrease only with a wrong index, which is reported as a fault.
     assert!(written.is_sorted_by_key(|(time_ns, _)| *time_ns) || !reader.faults().is_empty());
     written.sort_by_key(|(time_ns, _)| *time_ns);
     let again = bag.finish().expect("memory takes all").0.into_inner();

@@ -9,7 +9,7 @@ use periplus_diagnostics::{Diagnostics, Origin, SourceMap};
 use periplus_sdf::{IncludeResolver, IncludeTarget, NoIncludes, SdfContext, read_document, write};
 use periplus_xml::{Document, parse, write_document};
 
-/// `model://self` is the file itself, `model://again/...` too, under names of its own.
+/// `model://self` is the file itself, `model://again/...` too, under different names.
 struct Itself(Arc<Document>);
 
 impl IncludeResolver for Itself {

@@ -1,5 +1,5 @@
-//! Any text as a URDF: findings with places, a robot that reads back as it was written, and a
-//! model that can be shown as a tree, written as SDF, and made a URDF again.
+//! Any text as a URDF: findings with positions; a robot that can be written and read back; and a model
+//! that can be shown as a tree, written as SDF, and converted back to a URDF.
 #![no_main]
 
 use libfuzzer_sys::fuzz_target;

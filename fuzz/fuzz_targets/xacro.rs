@@ -1,5 +1,5 @@
-//! A xacro file with a file it may include and a YAML file it may load: a document or an error at a
-//! place, in bounded time. The three are separated by lines of `=====`.
+//! A xacro file with an include file and a YAML file: a document, or an error with a position, in bounded
+//! time. The three are separated by lines of `=====`.
 #![no_main]
 
 use std::path::PathBuf;

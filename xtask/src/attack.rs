@@ -26,7 +26,7 @@ pub(crate) const SEED: u64 = 20_261_122;
 /// Processes at a time.
 const WORKERS: usize = 2;
 
-/// What is asked for.
+/// Requested runs.
 pub(crate) struct Wish {
     pub(crate) seed: u64,
     /// Only kinds with this in their names.

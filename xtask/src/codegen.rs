@@ -10,7 +10,7 @@ use periplus_rosidl::{InterfaceDialect, InterfaceKind, Registry, TypeName, parse
 
 use crate::step::{Failed, root};
 
-/// Writes what differs; or with `check` only says that something does.
+/// Writes generated files that differ; with `check` it only fails if one differs.
 ///
 /// # Errors
 /// When a text is wrong, a file cannot be read or written, or the check finds a difference.
@@ -34,7 +34,7 @@ pub(crate) fn run(check: bool) -> Result<(), Failed> {
         return if names.is_empty() {
             Ok(())
         } else {
-            Err(Failed(format!("not what the texts say: {}: {help}", names.join(", "))))
+            Err(Failed(format!("generated files are out of date: {}: {help}", names.join(", "))))
         };
     }
     fs::create_dir_all(source.join("generated")).map_err(|error| failed(&source, &error))?;

@@ -1,4 +1,4 @@
-//! What the outside programs make of the corpus, and whether we agree.
+//! Comparison with the results of other programs on the corpus.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -47,7 +47,7 @@ pub(crate) fn bench() -> Result<(), Failed> {
     run(&mut race, "run `cargo xtask corpus` first: it builds the peers and asks what they accept")
 }
 
-/// Where the corpus is, and where the oracles and their answers go.
+/// Folders of the corpus, of the oracles and of their results.
 struct Work {
     corpus: PathBuf,
     folder: PathBuf,
@@ -160,7 +160,7 @@ impl Work {
         run(&mut cargo, "we and an outside program disagree: the files are named above")
     }
 
-    /// Where the oracles and we look for packages and models.
+    /// Sets the paths on which the oracles and Periplus look for packages and models.
     fn surroundings(&self, command: &mut Command) {
         let folders = [
             self.folder.join("packages"),

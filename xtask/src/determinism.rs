@@ -53,7 +53,7 @@ pub(crate) fn check() -> Result<(), Failed> {
 }
 
 fn bag_of(folder: &Path, build: &[&str], threads: &str) -> Result<Vec<u8>, Failed> {
-    // One name for all, for it stands in the bag.
+    // The same name for all runs, since the bag contains it.
     let path = folder.join("run.mcap");
     let mut command = cargo();
     command.arg("run").arg("--quiet").args(build).arg("--").args(RUN);

@@ -11,8 +11,8 @@ const SLOWEST_S: u32 = 10;
 /// A single input that takes more than this is a finding; MiB.
 const LARGEST_MIB: u32 = 2048;
 
-/// Runs the named targets, or all, each for some seconds from the kept seeds. What is found on the
-/// way goes into a copy, so that the seeds stay as they are; a crash is kept in `fuzz/artifacts`.
+/// Runs the named targets, or all, each for some seconds from the kept seeds. New inputs go into a
+/// copy, so that the seeds do not change; a crash is kept in `fuzz/artifacts`.
 ///
 /// # Errors
 /// When a target is unknown, cannot be built, or finds something.
@@ -60,7 +60,7 @@ fn run_one(seconds: u32, target: &str) -> Result<(), Failed> {
     }
     let outcome = run(
         &mut fuzz,
-        "an input that broke it lies in fuzz/artifacts; needed are \
+        "the input that failed is in fuzz/artifacts; required are \
          `rustup toolchain install nightly` and `cargo install --locked cargo-fuzz`",
     );
     let _ = fs::remove_dir_all(&corpus);

@@ -1,7 +1,7 @@
 //! Dependency rules between the wings of the workspace.
 //!
-//! A crate belongs to the wing that its folder stands in: `crates/<wing>/<room>`. A crate uses
-//! crates of its own wing and of wings below it; wings in one row do not use each other. The facade,
+//! A crate belongs to the wing that contains its folder: `crates/<wing>/<room>`. A crate uses
+//! other crates of its wing and of wings below it; wings in one row do not use each other. The facade,
 //! `crates/periplus`, is alone in its wing, beside the apps: it re-exports libraries. Estimators
 //! never reach the files of robots or the simulation, not even through other crates: an estimator
 //! that can read the truth proves nothing.
@@ -142,7 +142,7 @@ fn faults(crates: &BTreeMap<String, Crate>, exceptions: &[(&str, &str, &str)]) -
 fn fault_of_use((name, this): (&str, &Crate), (used, other): (&str, &Crate)) -> Option<String> {
     let own = this.wing.as_ref()?;
     let Some(wing) = &other.wing else {
-        return Some(format!("{name} uses {used}, which stands beside the product"));
+        return Some(format!("{name} uses {used}, which is not part of the product"));
     };
     if own == wing || this.row()? > other.row()? {
         return None;
@@ -303,7 +303,7 @@ mod tests {
                 &format!(
                     "periplus-b: `attic` is not a wing: move it to crates/<wing>/b, one of {wings}"
                 ),
-                "periplus-b uses xtask, which stands beside the product",
+                "periplus-b uses xtask, which is not part of the product",
             ],
         );
         let mut workspace = workspace(&[("crates/estimation/slam", &[])]);

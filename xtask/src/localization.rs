@@ -43,7 +43,7 @@ pub(crate) fn bench() -> Result<(), Failed> {
         run(example("halves").arg("--").arg(out.join(name)), "see above")?;
     }
     println!(
-        "\nIn {}, of each log: `map.png` (SLAM's way blue; localization's green where it was sure, orange \
+        "\nIn {}, of each log: `map.png` (trajectory of SLAM blue; of localization green where it was certain, orange \
          where not, red where it was sure and wrong), `errors.png`, `scans.csv`",
         out.display()
     );

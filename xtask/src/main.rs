@@ -3,7 +3,7 @@
     clippy::disallowed_methods,
     clippy::print_stdout,
     clippy::print_stderr,
-    reason = "a tool that runs other programs, reads the source tree and says how it went"
+    reason = "a tool that runs other programs, reads the source tree and prints results"
 )]
 
 mod attack;
@@ -50,11 +50,11 @@ struct Arguments {
 enum Task {
     /// All checks, in the order in which they fail fastest; ends with the tests
     Ci,
-    /// Whether the sources are formatted
+    /// Check the format of the sources
     Fmt,
     /// Clippy, with every warning an error
     Clippy,
-    /// Which crate may use which, and whether each keeps to it
+    /// Check the dependencies of crates against the allowed ones
     Layers,
     /// Package every library without building it: metadata, README, and the files that the code
     /// includes
@@ -82,38 +82,38 @@ enum Task {
     Bench {
         /// Only this: `loading`; or one of the others, which need nothing of `corpus`
         only: Option<Contest>,
-        /// Of `wire`: only loads whose names have this; the results are only shown then. Of `ros2`: only
-        /// the part `rates`, `lists` or `idle`
+        /// `wire`: only loads whose names contain this, printed only. `ros2`: only the part `rates`, `lists` or
+        /// `idle`
         #[arg(long)]
         load: Option<String>,
-        /// Of `ros2` and `subscribers`: few and short measurements, whose results are only shown
+        /// `ros2` and `subscribers`: few and short measurements, printed only
         #[arg(long)]
         quick: bool,
-        /// Of `slam`: logs by name, with commas between; the results are only shown
+        /// `slam`: logs by name, separated by commas; the results are printed only
         #[arg(long = "only", value_name = "LOG,..", id = "logs")]
         logs: Option<String>,
-        /// Of `slam`: runs by name (`plain,rotate,..`), with commas between; the results are only shown
+        /// `slam`: runs by name (`plain,rotate,..`), separated by commas; the results are printed only
         #[arg(long, value_name = "RUN,..")]
         runs: Option<String>,
-        /// Of `slam`: a line of JSON for each run
+        /// `slam`: a line of JSON for each run
         #[arg(long)]
         json: bool,
-        /// Of `slam`: fail where a figure differs from docs/slam-benchmark.md, times apart
+        /// `slam`: fail where a figure differs from docs/slam-benchmark.md, except times
         #[arg(long, conflicts_with = "json")]
         check: bool,
-        /// Of `slam`: go on with runs that were interrupted
+        /// `slam`: continue interrupted runs
         #[arg(long)]
         resume: bool,
-        /// Of `slam`: write the page again from the runs of the last time
+        /// `slam`: write the page again from the last runs
         #[arg(long, conflicts_with_all = ["json", "check", "logs", "runs"])]
         page: bool,
-        /// Of `slam`: the program whose memory is measured, in place of a release build
+        /// `slam`: program whose memory is measured, in place of a release build
         #[arg(long, value_name = "FILE")]
         program: Option<std::path::PathBuf>,
     },
     /// Rust code for the messages, from the texts in `crates/messages/msgs/interfaces`
     Codegen {
-        /// Only say whether the code is what the texts say
+        /// Only check that the generated code is up to date
         #[arg(long)]
         check: bool,
     },
@@ -164,12 +164,12 @@ enum Task {
         /// For how long each target runs
         #[arg(long, default_value_t = 60)]
         seconds: u32,
-        /// Which targets; all when none is named
+        /// Targets to run; by default all
         targets: Vec<String>,
     },
 }
 
-/// What is done with the page.
+/// Action on the page.
 #[derive(Clone, Copy, Subcommand)]
 enum Page {
     /// Build it into `crates/transports/web/page`, where it is committed
@@ -182,7 +182,7 @@ enum Page {
     Axe,
 }
 
-/// What can be raced.
+/// Benchmarks.
 #[derive(Clone, Copy, ValueEnum)]
 enum Contest {
     /// Large recordings

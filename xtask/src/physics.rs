@@ -17,7 +17,7 @@ fn folder() -> Result<PathBuf, Failed> {
     Ok(folder)
 }
 
-/// Builds a program that links ODE; a message says so where that fails.
+/// Builds a program that links ODE; prints a message if that fails.
 fn build_ode(source: &Path, program: &Path) {
     let built = Command::new("g++")
         .args(["-std=c++17", "-O2", "-Wall", "-Wextra", "-o"])
@@ -42,7 +42,7 @@ pub(crate) fn casters() -> Result<(), Failed> {
     race.args(["--example", "casters", "--"]);
     race.arg(ode).arg(python).arg(oracles.join("casters_mujoco.py"));
     race.arg(root().join("benches/RESULTS.md"));
-    run(&mut race, "see what it says above; `pip install mujoco` and PERIPLUS_PYTHON for MuJoCo")
+    run(&mut race, "see its output above; `pip install mujoco` and PERIPLUS_PYTHON for MuJoCo")
 }
 
 /// Drives the same robot in all engines. Peers that are not installed are named and left out.
@@ -55,5 +55,5 @@ pub(crate) fn bench() -> Result<(), Failed> {
     let mut race = cargo();
     race.args(["run", "--quiet", "--release", "--package", "periplus-benches", "--", "physics"]);
     race.arg(oracles).arg(ode).arg(python).arg(folder.join("physics.json"));
-    run(&mut race, "see what it says above; `pip install mujoco` and PERIPLUS_PYTHON for MuJoCo")
+    run(&mut race, "see its output above; `pip install mujoco` and PERIPLUS_PYTHON for MuJoCo")
 }

@@ -19,7 +19,7 @@ const ROBOT: &str = "robots/sam_bot/urdf/sam_bot.urdf.xacro";
 
 const LOADS: [Load; 5] = [
     Load {
-        name: "tutorial world, physics at 1 ms, lidar and odometry recorded, camera unheard",
+        name: "tutorial world, physics at 1 ms, lidar and odometry recorded, camera without a subscriber",
         words: &["--duration", "60", "--topics", "scan|odom", "--threads", "1"],
         wanted: 25.0,
     },
@@ -38,7 +38,7 @@ const LOADS: [Load; 5] = [
         wanted: 500.0,
     },
     Load {
-        name: "depth image heard, 640x480 at 30 Hz, one core",
+        name: "depth image subscribed, 640x480 at 30 Hz, one core",
         words: &[
             "--duration",
             "10",
@@ -52,7 +52,7 @@ const LOADS: [Load; 5] = [
         wanted: 2.0,
     },
     Load {
-        name: "depth image and coloured points heard, one core",
+        name: "depth image and coloured points subscribed, one core",
         words: &[
             "--duration",
             "10",
@@ -66,7 +66,7 @@ const LOADS: [Load; 5] = [
         wanted: 2.0,
     },
     Load {
-        name: "depth image and coloured points heard, two cores",
+        name: "depth image and coloured points subscribed, two cores",
         words: &[
             "--duration",
             "10",

@@ -1,10 +1,10 @@
-//! Running other programs, and telling how long it took.
+//! Running other programs, and printing their run time.
 
 use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::time::Instant;
 
-/// Why a task failed, in words.
+/// Reason why a task failed.
 #[derive(Debug)]
 pub(crate) struct Failed(pub(crate) String);
 

@@ -1,6 +1,6 @@
 //! The tutorials in `docs/tutorials`: every block of commands is run, and what it promises is checked.
 //!
-//! A block says in its first line what it is:
+//! The first line of a block defines its kind:
 //!
 //! | block | what is done |
 //! |---|---|
@@ -55,8 +55,8 @@ fn follow(file: &Path, pictures: bool) -> Result<(), Failed> {
     if steps.is_empty() {
         return Ok(());
     }
-    let desk = play::Desk::new(&name(file), pictures)?;
-    play::play(&steps, desk).map_err(|why| Failed(format!("{}:{why}", file.display())))
+    let terminals = play::Terminals::new(&name(file), pictures)?;
+    play::play(&steps, terminals).map_err(|why| Failed(format!("{}:{why}", file.display())))
 }
 
 #[cfg(test)]

@@ -1,11 +1,12 @@
-//! The page: checked, tested, built, and held against what is committed in `crates/transports/web/page`.
+//! The page: format, types, tests and build, and comparison of the build with the committed one in
+//! `crates/transports/web/page`.
 
 use std::path::PathBuf;
 use std::process::Command;
 
 use crate::step::{Failed, cargo, root, run, timed};
 
-/// What needs Node is said once.
+/// Advice of every failure for want of Node.
 const NEEDS_NODE: &str = "it needs Node 20 or newer with npm; see viewer/README.md";
 
 /// Builds the page into the server's folder.
@@ -41,7 +42,7 @@ pub(crate) fn axe() -> Result<(), Failed> {
     with_browser("page: axe", &["run", "e2e", "--", "axe"])
 }
 
-/// How long it takes from the prompt to the first picture, and how large the page is.
+/// Measures the time from the prompt to the first picture, and the size of the page.
 pub(crate) fn bench() -> Result<(), Failed> {
     with_browser("page: first picture", &["run", "--silent", "bench:first"])
 }

@@ -9,7 +9,7 @@ use crate::step::{Failed, cargo, root};
 const PYTHON: &str = "PERIPLUS_PYTHON";
 
 /// Sends clouds, scans and small messages between us, Fast DDS and Cyclone DDS, and writes the tables
-/// into `benches/RESULTS.md`; all figures lie in `wire.json` beside the peers. `only` picks loads.
+/// into `benches/RESULTS.md`; all figures are in `wire.json` beside the peers. `only` picks loads.
 pub(crate) fn bench(only: Option<&str>) -> Result<(), Failed> {
     let target = std::env::var_os("CARGO_TARGET_DIR").map(PathBuf::from);
     let folder = target.unwrap_or_else(|| root().join("target")).join("oracles");

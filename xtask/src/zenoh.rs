@@ -4,7 +4,7 @@ use std::process::Command;
 
 use crate::step::{Failed, cargo, root, run, timed};
 
-/// What the tests speak with, and how it names ends.
+/// Python packages of the peer: Zenoh, and the hash of its endpoint names.
 const PEER: [&str; 2] = ["eclipse-zenoh==1.10.2", "xxhash"];
 
 /// Checks and tests everything that is only there with the feature.

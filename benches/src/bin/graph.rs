@@ -1,4 +1,4 @@
-//! What a message costs on the graph: `cargo run --release -p periplus-benches --bin graph [RESULT.json]`.
+//! Cost of a message on the graph: `cargo run --release -p periplus-benches --bin graph [RESULT.json]`.
 //!
 //! Each figure is the fastest of several turns.
 #![allow(

@@ -63,7 +63,7 @@ const BEAMS: ScanGeometry = ScanGeometry {
     range_max_m: 10.0,
 };
 
-/// What a depth camera sees: walls and the floor in a view of 87 by 58 degrees.
+/// Points of a depth camera: walls and the floor in a field of view of 87 by 58 degrees.
 fn cloud(count: usize, random: &mut Stream) -> Vec<[f32; 3]> {
     let columns = ((count as f64) * 1.5).sqrt() as usize;
     (0..count)

@@ -1,4 +1,4 @@
-//! An engine in a program of its own.
+//! Physics engine in a separate process.
 
 use std::ffi::OsStr;
 use std::io::Write as _;
@@ -25,7 +25,7 @@ pub(super) fn drive_all(
         .map_err(|error| format!("`{name}` cannot be started: {error}"))?;
     let lines: String = orders.iter().map(line).collect();
     if let Some(mut stdin) = child.stdin.take() {
-        // A program that ends early says why on its error output.
+        // A process that ends early reports the reason on its standard error.
         let _ = stdin.write_all(lines.as_bytes());
     }
     let output = child.wait_with_output().map_err(|error| format!("`{name}`: {error}"))?;

@@ -152,7 +152,7 @@ fn three(value: &Value) -> [f64; 3] {
     [0, 1, 2].map(|axis: usize| value[axis].as_f64().unwrap_or_default())
 }
 
-/// The house with its moving instances, after some frames; tells what a frame's update takes.
+/// The house with moving instances after some frames; prints the time of a frame's update.
 fn dynamic(scene: &Value, positions: &[[f64; 3]], triangles: &[[u32; 3]]) -> RaycastWorld {
     let mut builder: RaycastWorldBuilder = RaycastWorld::builder();
     builder.add_fixed(positions, triangles, &Pose::IDENTITY, Tags::default()).expect(SOUND);

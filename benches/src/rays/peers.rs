@@ -1,4 +1,4 @@
-//! Who else casts rays.
+//! Other ray casters.
 
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
@@ -66,7 +66,7 @@ fn runs(command: &mut Command) -> bool {
     quiet.status().is_ok_and(|status| status.success())
 }
 
-/// Makes the scenes, once: about 300 MB. Tells when that cannot be.
+/// Makes the scenes once, about 300 MB. Returns false, and prints the reason, if that is not possible.
 pub(super) fn make_scenes(engines: &Path, work: &Path) -> bool {
     if work.join("scenes/dynamic.json").exists() {
         return true;
@@ -81,7 +81,7 @@ pub(super) fn make_scenes(engines: &Path, work: &Path) -> bool {
     made
 }
 
-/// Those that are there; tells of the others.
+/// Installed peers; prints those that are missing.
 pub(super) fn all(engines: &Path, work: &Path) -> Result<Vec<Peer>, String> {
     let mut all = Vec::new();
     for (engine, package) in PYTHON {

@@ -1,11 +1,11 @@
-//! What the race gave, for a person.
+//! Results of the race as a table.
 
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
 
 use serde_json::Value;
 
-/// Who, where, what, with how many threads.
+/// Engine, scene, rays and number of threads.
 type Key = (String, String, String, u64);
 
 /// Tables in Markdown: rays per CPU second and how they compare, threads, builds, updates.
@@ -90,7 +90,7 @@ fn two_to_one(rates: &BTreeMap<Key, f64>) -> BTreeMap<String, (f64, f64)> {
     scenes
 }
 
-/// Of every key the largest value, or with a `sign` of -1 the smallest.
+/// Largest value of each key, or with a `sign` of -1 the smallest.
 fn best(lines: &[Value], name: &str, sign: f64) -> BTreeMap<Key, f64> {
     let mut all: BTreeMap<Key, f64> = BTreeMap::new();
     for line in lines {

@@ -55,7 +55,7 @@ fn pose(reader: &Reader<'_>) -> Result<Pose2, Unreadable> {
     Ok(Pose2::new(x_m, y_m, yaw_rad))
 }
 
-/// Which model a case is about: it says so, or its name does.
+/// Sensor model of a case: its field, or by default from its name.
 fn model(case: &Case) -> Result<SensorModel, Unreadable> {
     let given = case.given();
     let named = given.find_any(&["laser_model_type", "model"]);
@@ -174,7 +174,7 @@ pub(super) fn check_kld(
     Ok(())
 }
 
-/// What motions are made of and how far they may be off.
+/// Terms of the motion model, with tolerances.
 pub(super) fn check_motion(
     case: &Case,
     _distro: &str,
@@ -284,7 +284,7 @@ pub(super) fn check_update(
     Ok(())
 }
 
-/// What cells mean, and in which cell a point is for Nav2's AMCL.
+/// Values of cells, and the cell of a point, in Nav2's AMCL.
 pub(super) fn check_map(
     case: &Case,
     _distro: &str,

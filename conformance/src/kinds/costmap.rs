@@ -87,7 +87,7 @@ fn rows_of(costmap: &Costmap) -> Value {
     costmap.costs().chunks(width).map(|row| Value::from(row.to_vec())).collect()
 }
 
-/// How many cells have each cost, by the cost.
+/// Number of cells of each cost.
 fn counts_of(costmap: &Costmap) -> Value {
     let mut counts = [0_u64; 256];
     for cost in costmap.costs() {
@@ -193,7 +193,7 @@ fn window_of(reader: &Reader<'_>) -> Result<CellWindow, Unreadable> {
     }
 }
 
-/// A pose on the ground; the yaw may be left out.
+/// Pose in the plane; the yaw is optional.
 fn pose_of(reader: &Reader<'_>) -> Result<Pose2, Unreadable> {
     match *reader.numbers()?.as_slice() {
         [x_m, y_m] => Ok(Pose2::new(x_m, y_m, 0.0)),
@@ -202,7 +202,7 @@ fn pose_of(reader: &Reader<'_>) -> Result<Pose2, Unreadable> {
     }
 }
 
-/// Points on the ground.
+/// Points in the plane.
 fn points_of(reader: &Reader<'_>) -> Result<Vec<[f64; 2]>, Unreadable> {
     reader.each(Reader::array)
 }

@@ -1,4 +1,4 @@
-//! Where cells are.
+//! Coordinates of cells.
 
 use periplus_geometry::Pose2;
 use periplus_grid::{Grid, GridInfo};

@@ -52,7 +52,7 @@ fn ends(
     Ok(())
 }
 
-/// What a YAML says, or that it is none that can be used.
+/// Values of a map's YAML file; an error if it cannot be used.
 fn values(
     case: &Case,
     yaml: &Reader<'_>,

@@ -11,9 +11,8 @@ use crate::{Case, Differences, Reader, Unreadable};
 pub(super) fn distro_of(case: &Case, name: &str) -> Result<Distro, Unreadable> {
     // A release of a distribution is named after it.
     let distro = name.split('-').next().unwrap_or_default();
-    Distro::from_name(distro).ok_or_else(|| {
-        Unreadable(format!("{} names the distribution `{name}`, which nobody knows", case.id))
-    })
+    Distro::from_name(distro)
+        .ok_or_else(|| Unreadable(format!("{} names the unknown distribution `{name}`", case.id)))
 }
 
 /// Mode, thresholds and negation, where they are given.
@@ -66,7 +65,7 @@ fn pixels(given: &Reader<'_>) -> Result<(Layout, Vec<Vec<u8>>), Unreadable> {
     Err(Unreadable("`given` has no `pixels`, `gray_alpha`, `rgb` or `rgba`".into()))
 }
 
-/// What pixels mean, or how bright they are.
+/// Cell values of pixels, or their grey values.
 pub(super) fn check(
     case: &Case,
     distro: &str,

@@ -56,8 +56,8 @@ fn cell(given: &Reader<'_>) -> Result<i8, Unreadable> {
     i8::try_from(given.integer()?).map_err(|_| given.unreadable("a number from -128 to 127"))
 }
 
-/// What `periplus map save` writes, and with which code it ends. The map is on `map`; nothing is on other
-/// topics.
+/// Files and exit code of `periplus map save`. The map is published on `map`; other topics have no
+/// publisher.
 fn commands(case: &Case, distro: Distro, differences: &mut Differences) -> Result<(), Unreadable> {
     let (given, expect) = (case.given(), case.expect());
     let map = grid(&given.get("grid")?)?;
@@ -104,10 +104,10 @@ fn commands(case: &Case, distro: Distro, differences: &mut Differences) -> Resul
     Ok(())
 }
 
-/// A map that is not there is waited for so long: publishers and the saver are in one program.
+/// Timeout for a map that is not published; short, since publisher and saver are in one program.
 const WAIT: Duration = Duration::from_millis(100);
 
-/// Runs `periplus map save` with some words, and says with which code it ends.
+/// Runs `periplus map save` with arguments, and returns its exit code.
 fn program(words: &[String], distro: Distro, map: &OccupancyGrid, files: &Written) -> u8 {
     let save = match saver_command(words, &[], distro, Some(WAIT)) {
         SaverCommand::Help(_) => return 0,
@@ -184,7 +184,7 @@ fn files(case: &Case, distro: Distro, differences: &mut Differences) -> Result<(
     Ok(())
 }
 
-/// What the YAML of a map says when it is read again.
+/// Compares the YAML file of a saved map, read back.
 fn compare_yaml(
     yaml: &str,
     distro: Distro,
@@ -254,7 +254,7 @@ fn picture_of(map: &OccupancyGrid, saving: &Saving) -> Vec<u8> {
     render(map, saving).image
 }
 
-/// What the service answers. A good map is on `map`, one that is too short on `malformed_map`.
+/// Responses of the service. `map` has a valid map, `malformed_map` one with too few cells.
 fn requests(case: &Case, distro: Distro, differences: &mut Differences) -> Result<(), Unreadable> {
     let requests = case.given().get("requests")?.list()?;
     let mut results = Vec::new();

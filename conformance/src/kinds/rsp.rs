@@ -24,8 +24,8 @@ struct Told {
     positions: Vec<(String, f64)>,
 }
 
-/// Which joint states lead to transforms, and to which: a robot (`urdf`; else one with the joint `turn`)
-/// and the states that come, as `stamps` or as `joint_states` with `stamp`, `name` and `position`.
+/// Transforms published for joint states: a robot (`urdf`; by default one with the joint `turn`)
+/// and its joint states, as `stamps` or as `joint_states` with `stamp`, `name` and `position`.
 pub(super) fn check(
     case: &Case,
     _distro: &str,

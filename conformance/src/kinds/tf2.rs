@@ -42,7 +42,7 @@ fn buffer(given: &Reader<'_>) -> Result<Buffer, Unreadable> {
     Ok(buffer)
 }
 
-/// Which transforms are taken.
+/// Transforms that the buffer accepts.
 pub(super) fn check_set(
     case: &Case,
     _distro: &str,
@@ -132,7 +132,7 @@ pub(super) fn check_lookup(
     Ok(())
 }
 
-/// What is asked for.
+/// Arguments of a lookup.
 #[derive(Default)]
 struct Query<'v> {
     target: &'v str,
@@ -143,7 +143,7 @@ struct Query<'v> {
 }
 
 impl<'v> Query<'v> {
-    /// A list in an order that the case may tell, or an object.
+    /// Reads a list, whose order the case may define, or an object.
     fn read(query: &Reader<'v>, order: Option<&str>) -> Result<Self, Unreadable> {
         let named: Vec<(String, Reader<'v>)> = match query.list() {
             Ok(words) => names(order, words.len())
@@ -191,8 +191,8 @@ impl<'v> Query<'v> {
     }
 }
 
-/// The names of the parts of a query: those that the case tells, as `target, source, time (0 =
-/// latest)`, or the usual ones.
+/// Names of the parts of a query: those that the case defines, as `target, source, time (0 =
+/// latest)`, or the default ones.
 fn names(order: Option<&str>, count: usize) -> Option<Vec<String>> {
     let told = order.map(|order| {
         let words = order.split(',').filter_map(|part| part.split_whitespace().next());
@@ -275,7 +275,7 @@ fn found_value(got: &Result<ResolvedTransform, LookupError>) -> Value {
     if got.is_ok() { json!("found") } else { Value::Null }
 }
 
-/// What is told of all frames.
+/// Output of `allFramesAsYAML`.
 pub(super) fn check_frames_yaml(
     case: &Case,
     _distro: &str,

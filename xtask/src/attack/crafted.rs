@@ -21,7 +21,7 @@ fn tower(open: &str, close: &str, height: usize) -> String {
     open.repeat(height) + &close.repeat(height)
 }
 
-/// What every XML format has to bear, under its root element.
+/// Inputs that every XML format must survive, under its root element.
 pub(super) fn xml(end: &'static str, root: &str) -> Vec<Input> {
     let attributes: String = (0..80_000).map(|at| format!(" a{at}=\"1\"")).collect();
     let of = |content: &str| format!("<{root} name=\"a\">{content}</{root}>");

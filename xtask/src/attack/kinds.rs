@@ -5,7 +5,7 @@ use super::mutate::mutated;
 use super::random::Random;
 use crate::step::root;
 
-/// How a file is handed over. `{}` stands for the input, or for all inputs of a batch.
+/// Arguments that pass a file. `{}` stands for the input, or for all inputs of a batch.
 pub(super) type Words = &'static [&'static str];
 
 /// A kind of input.
@@ -346,7 +346,7 @@ fn seed_files(patterns: &[&str]) -> Vec<(String, Vec<u8>)> {
     }
     let file = |path: std::path::PathBuf| {
         let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
-        // Seeds of fuzz targets may have no end of their own: the folder says what they are.
+        // Seeds of fuzz targets may have no extension: the folder gives their kind.
         let folder = path.parent().and_then(|it| it.file_name()).unwrap_or_default();
         let end = match name.split_once('.') {
             Some((_, end)) => end.to_owned(),

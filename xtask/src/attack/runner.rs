@@ -12,7 +12,7 @@ const BROKEN: [i32; 3] = [101, 134, 139];
 /// Time between two looks at a running program.
 const LOOK: Duration = Duration::from_millis(4);
 
-/// What a run may take.
+/// Limits of a run.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Limits {
     /// Processor time of the program \[s\].
@@ -34,7 +34,7 @@ pub(super) const ONE: Limits =
 /// Limits of several inputs in one process.
 pub(super) const SEVERAL: Limits = Limits { cpu_s: 20, ..ONE };
 
-/// What is wrong with a run.
+/// Failure of a run.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) enum Fault {
     /// Ended by a signal, a panic or an abort.

@@ -8,7 +8,7 @@ use super::page::{Link, Page, Target};
 /// Anchors that a message lists when one is missing.
 const SHOWN_ANCHORS: usize = 8;
 
-/// Checks the links of all pages; `exists` says if a path from the root of the tree is there.
+/// Checks the links of all pages; `exists` tests a path from the root of the tree.
 pub(crate) fn check(pages: &[Page], exists: &dyn Fn(&str) -> bool) -> Vec<String> {
     let tree =
         Tree { pages: pages.iter().map(|page| (page.path.as_str(), page)).collect(), exists };

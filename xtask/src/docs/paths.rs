@@ -17,7 +17,7 @@ const FOLDERS: [&str; 9] = [
 /// Pages about the past: they name files as they were then.
 const HISTORIES: [&str; 3] = ["CHANGELOG.md", "EXPERIMENTS.md", "RESULTS.md"];
 
-/// Checks all pages; `exists` says if a path from the root of the tree is there.
+/// Checks all pages; `exists` tests a path from the root of the tree.
 pub(crate) fn check(pages: &[Page], exists: &dyn Fn(&str) -> bool) -> Vec<String> {
     let is_present = |page: &&Page| !HISTORIES.iter().any(|name| page.path.ends_with(name));
     let mut findings = Vec::new();

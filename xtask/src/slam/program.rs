@@ -9,7 +9,7 @@ use serde_json::{Value, json};
 
 use crate::step::{Failed, cargo, run};
 
-/// How a run of the program went.
+/// Result of a run of the program.
 pub(crate) struct Whole {
     pub(crate) log: String,
     pub(crate) path_m: f64,
@@ -22,7 +22,7 @@ pub(crate) struct Whole {
     pub(crate) edges: usize,
 }
 
-/// What a process may take \[bytes\]: 30 MB and 8 MB for a kilometre.
+/// Memory budget of a process \[bytes\]: 30 MB and 8 MB per kilometre.
 pub(crate) fn budget_bytes(path_m: f64) -> f64 {
     30e6 + 8e6 * path_m / 1000.0
 }
@@ -148,7 +148,7 @@ fn high_water_bytes(status: &str) -> Option<f64> {
     Some(1024.0 * line.split_whitespace().next()?.parse::<f64>().ok()?)
 }
 
-/// How often each pair of kept scans is tied.
+/// Number of constraints between each pair of kept scans.
 type Edges = BTreeMap<(u64, u64), usize>;
 
 fn edges_of_report(report: &Value) -> Edges {

@@ -44,7 +44,7 @@ impl Record {
         value.as_f64().unwrap_or_default()
     }
 
-    /// True if relations are known between places that the robot came back to.
+    /// True if relations between revisited poses are known.
     pub(crate) fn has_loops(&self) -> bool {
         self.number("loops.relations") > 0.0
     }

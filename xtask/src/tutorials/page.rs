@@ -1,6 +1,6 @@
-//! What a page of Markdown has to be done.
+//! Steps of a Markdown page.
 
-/// Something to do, and the line where it is said.
+/// Step with its line in the page.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct Step {
     pub(crate) line: usize,
@@ -14,7 +14,7 @@ pub(crate) enum What {
     Run(String),
     /// Commands that run on in a terminal.
     Open { terminal: String, commands: String },
-    /// What the last block has printed.
+    /// Expected output of the last block.
     Prints(Vec<String>),
     /// A file that a reader saves.
     Save { path: String, text: String },
@@ -22,7 +22,7 @@ pub(crate) enum What {
     Check(String),
     /// A command that succeeds soon.
     Await(String),
-    /// What runs in a terminal is ended.
+    /// Ends the program in a terminal.
     Close(String),
     /// The page is pictured, with a file of RViz if there is one.
     Picture(String),
@@ -78,14 +78,18 @@ fn block(info: &str, body: &[&str]) -> Result<Option<What>, String> {
         ("sh" | "text" | "", Some((other, _))) => {
             return Err(format!("`{other}` is no setting of a block: `terminal=` or `file=`"));
         }
-        ("", None) => return Err("say what the block is: sh, text, or another language".to_owned()),
+        ("", None) => {
+            return Err("name the kind of the block: sh, text, or another language".to_owned());
+        }
         // Shown only.
         _ => return Ok(None),
     }))
 }
 
-/// Whether a text has lines that look like these, one after the other. The first that is missing
-/// otherwise.
+/// Checks that a text has lines that match these, in this order.
+///
+/// # Errors
+/// The first missing line.
 pub(crate) fn has(text: &str, expected: &[String]) -> Result<(), String> {
     let mut rest = text.lines();
     for line in expected.iter().filter(|line| line.trim() != "..." && !line.trim().is_empty()) {

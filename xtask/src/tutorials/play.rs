@@ -1,4 +1,4 @@
-//! Doing what a page says, in a folder of its own.
+//! Execution of the steps of a page, in a separate folder.
 
 use std::collections::BTreeMap;
 use std::fs::File;
@@ -9,35 +9,35 @@ use std::time::{Duration, Instant};
 use crate::step::{Failed, root, run};
 use crate::tutorials::page::{Step, What, has};
 
-/// Commands that end do so within this.
-const LONGEST: Duration = Duration::from_secs(180);
-/// What is waited for comes within this.
-const PATIENCE: Duration = Duration::from_secs(60);
-/// Where the page of what runs is.
+/// Timeout of commands.
+const COMMAND_TIMEOUT: Duration = Duration::from_secs(180);
+/// Timeout of `await` and of expected output.
+const TIMEOUT: Duration = Duration::from_secs(60);
+/// Address of the page of the running program.
 const PAGE: &str = "http://127.0.0.1:8765/";
-/// How often it is looked for.
-const LOOK: Duration = Duration::from_millis(250);
+/// Period of the checks for it.
+const POLL_PERIOD: Duration = Duration::from_millis(250);
 
-/// A folder with what a fresh clone has for a reader, and terminals.
-pub(crate) struct Desk {
+/// Folder with the files of a fresh clone, and the terminals of a reader.
+pub(crate) struct Terminals {
     folder: PathBuf,
-    /// What runs, by the name of its terminal.
-    terminals: BTreeMap<String, Child>,
-    /// What the last block prints into.
+    /// Running programs by the name of their terminal.
+    children: BTreeMap<String, Child>,
+    /// Output file of the last block, and its state.
     last: Option<(PathBuf, Ended)>,
     blocks: usize,
     domain_id: u32,
     pictures: bool,
 }
 
-/// Whether the last block has ended.
+/// State of the last block: ended or running.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Ended {
     Yes,
     No,
 }
 
-impl Desk {
+impl Terminals {
     pub(crate) fn new(name: &str, pictures: bool) -> Result<Self, Failed> {
         let folder = root().join("target/tutorials").join(name);
         if folder.exists() {
@@ -50,10 +50,10 @@ impl Desk {
             let mut copy = Command::new("cp");
             run(copy.arg("-r").arg(root().join(part)).arg(&folder), "see above")?;
         }
-        // A network where nobody else is.
+        // A domain that no other program uses.
         let domain_id = 20 + std::process::id() % 80;
-        let terminals = BTreeMap::new();
-        Ok(Self { folder, terminals, last: None, blocks: 0, domain_id, pictures })
+        let children = BTreeMap::new();
+        Ok(Self { folder, children, last: None, blocks: 0, domain_id, pictures })
     }
 
     fn log(&mut self) -> Result<(PathBuf, File), String> {
@@ -90,7 +90,7 @@ impl Desk {
         self.last = Some((path.clone(), Ended::Yes));
         let child = self.shell(commands, out)?.spawn().map_err(|error| error.to_string())?;
         let mut child = Running(child);
-        let end = Instant::now() + LONGEST;
+        let end = Instant::now() + COMMAND_TIMEOUT;
         while Instant::now() < end {
             if let Some(status) = child.0.try_wait().map_err(|error| error.to_string())? {
                 return match status.success() {
@@ -98,30 +98,30 @@ impl Desk {
                     false => Err(format!("failed ({status}):\n{}", tail(&path))),
                 };
             }
-            std::thread::sleep(LOOK / 5);
+            std::thread::sleep(POLL_PERIOD / 5);
         }
-        Err(format!("did not end within {LONGEST:?}:\n{}", tail(&path)))
+        Err(format!("did not end within {COMMAND_TIMEOUT:?}:\n{}", tail(&path)))
     }
 
     fn open(&mut self, terminal: &str, commands: &str) -> Result<(), String> {
         self.close(terminal)?;
         let (path, out) = self.log()?;
         let child = self.shell(commands, out)?.spawn().map_err(|error| error.to_string())?;
-        self.terminals.insert(terminal.to_owned(), child);
+        self.children.insert(terminal.to_owned(), child);
         self.last = Some((path, Ended::No));
         Ok(())
     }
 
     /// Ctrl-C, and a while later less politely.
     fn close(&mut self, terminal: &str) -> Result<(), String> {
-        let Some(mut child) = self.terminals.remove(terminal) else { return Ok(()) };
+        let Some(mut child) = self.children.remove(terminal) else { return Ok(()) };
         signal(&child, "INT");
         let end = Instant::now() + Duration::from_secs(10);
         while Instant::now() < end {
             if child.try_wait().map_err(|error| error.to_string())?.is_some() {
                 return Ok(());
             }
-            std::thread::sleep(LOOK);
+            std::thread::sleep(POLL_PERIOD);
         }
         drop(Running(child));
         Err(format!("what runs in `{terminal}` does not end on Ctrl-C"))
@@ -129,7 +129,7 @@ impl Desk {
 
     fn prints(&self, expected: &[String]) -> Result<(), String> {
         let (path, ended) = self.last.as_ref().ok_or("nothing has run yet")?;
-        let end = Instant::now() + PATIENCE;
+        let end = Instant::now() + TIMEOUT;
         loop {
             let text = std::fs::read(path).unwrap_or_default();
             let missing = match has(&String::from_utf8_lossy(&text), expected) {
@@ -139,7 +139,7 @@ impl Desk {
             if *ended == Ended::Yes || Instant::now() >= end {
                 return Err(format!("nothing like `{missing}` is printed:\n{}", tail(path)));
             }
-            std::thread::sleep(LOOK);
+            std::thread::sleep(POLL_PERIOD);
         }
     }
 
@@ -156,20 +156,20 @@ impl Desk {
     }
 
     fn wait_for(&mut self, command: &str) -> Result<(), String> {
-        let end = Instant::now() + PATIENCE;
+        let end = Instant::now() + TIMEOUT;
         loop {
             match self.run(command) {
                 Ok(()) => return Ok(()),
                 Err(why) if Instant::now() >= end => return Err(why),
-                Err(_) => std::thread::sleep(LOOK),
+                Err(_) => std::thread::sleep(POLL_PERIOD),
             }
         }
     }
 }
 
-impl Drop for Desk {
+impl Drop for Terminals {
     fn drop(&mut self) {
-        std::mem::take(&mut self.terminals).into_values().for_each(|child| drop(Running(child)));
+        std::mem::take(&mut self.children).into_values().for_each(|child| drop(Running(child)));
     }
 }
 
@@ -185,7 +185,7 @@ impl Drop for Running {
     }
 }
 
-/// Each block leads a group of its own.
+/// Each block leads its own process group.
 fn signal(child: &Child, name: &str) {
     let group = format!("-{}", child.id());
     let _ = Command::new("kill").args(["-s", name, "--", &group]).stderr(Stdio::null()).status();
@@ -200,30 +200,30 @@ fn tail(path: &Path) -> String {
 }
 
 /// Does all steps; the line of the one that failed, and why.
-pub(crate) fn play(steps: &[Step], mut desk: Desk) -> Result<(), String> {
+pub(crate) fn play(steps: &[Step], mut terminals: Terminals) -> Result<(), String> {
     for Step { line, what } in steps {
         let done = match what {
-            What::Run(commands) => desk.run(commands),
-            What::Open { terminal, commands } => desk.open(terminal, commands),
-            What::Prints(expected) => desk.prints(expected),
-            What::Save { path, text } => save(&desk.folder.join(path), text),
+            What::Run(commands) => terminals.run(commands),
+            What::Open { terminal, commands } => terminals.open(terminal, commands),
+            What::Prints(expected) => terminals.prints(expected),
+            What::Save { path, text } => save(&terminals.folder.join(path), text),
             What::Check(command) => {
-                let last = desk.last.clone();
-                desk.run(command).inspect(|()| desk.last = last)
+                let last = terminals.last.clone();
+                terminals.run(command).inspect(|()| terminals.last = last)
             }
             What::Await(command) => {
-                let last = desk.last.clone();
-                desk.wait_for(command).inspect(|()| desk.last = last)
+                let last = terminals.last.clone();
+                terminals.wait_for(command).inspect(|()| terminals.last = last)
             }
-            What::Close(terminal) => desk.close(terminal),
-            What::Picture(_) if !desk.pictures => Ok(()),
-            What::Picture(words) => desk.picture(words),
+            What::Close(terminal) => terminals.close(terminal),
+            What::Picture(_) if !terminals.pictures => Ok(()),
+            What::Picture(words) => terminals.picture(words),
         };
         done.map_err(|why| format!("{line}: {why}"))?;
         println!("   line {line}: ok");
     }
-    let open: Vec<String> = desk.terminals.keys().cloned().collect();
-    open.iter().try_for_each(|terminal| desk.close(terminal))
+    let open: Vec<String> = terminals.children.keys().cloned().collect();
+    open.iter().try_for_each(|terminal| terminals.close(terminal))
 }
 
 fn save(path: &Path, text: &str) -> Result<(), String> {

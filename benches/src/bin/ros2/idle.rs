@@ -39,7 +39,7 @@ pub(crate) fn measure(setup: &Setup) -> Result<String, String> {
         eprintln!("idle: {name}");
         let mut run = command(&setup.periplus, domain_id, words);
         let server = Running::start(run.current_dir(&setup.root))?;
-        // Loading ends, and the services are there once somebody has found them.
+        // Loading has ended when the services are discovered.
         output_of_list(setup, domain_id)?;
         std::thread::sleep(Duration::from_secs(3));
         let share = || -> f64 {

@@ -7,7 +7,7 @@ use std::time::{Duration, Instant};
 use crate::Setup;
 use crate::process::{Running, command, median, output, quantile};
 
-/// Numbers of rclpy nodes, each in a participant of its own.
+/// Numbers of rclpy nodes, each with its own participant.
 const NODES: [usize; 2] = [5, 55];
 
 /// Processes that keep a core busy for the load of ten.

@@ -36,7 +36,7 @@ pub(crate) struct Setup {
     pub(crate) cyclone_python: PathBuf,
     /// The peer for `cyclone_python`.
     pub(crate) cyclone_script: PathBuf,
-    /// Files that are needed on the way.
+    /// Folder for temporary files.
     pub(crate) folder: PathBuf,
     /// Few and short measurements.
     pub(crate) is_quick: bool,

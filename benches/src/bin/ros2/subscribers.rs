@@ -235,7 +235,7 @@ fn subscriber(
     ))
 }
 
-/// An address at which nobody listens.
+/// Address on which no program listens.
 fn free_address() -> Result<String, String> {
     let listener = TcpListener::bind("127.0.0.1:0").map_err(|error| error.to_string())?;
     listener.local_addr().map(|address| address.to_string()).map_err(|error| error.to_string())
@@ -316,7 +316,10 @@ fn page_client(address: &str) -> Result<WebSocket<TcpStream>, String> {
     Ok(socket)
 }
 
-/// True where both peers can be used; says what is missing.
+/// Checks that the Python bindings of Cyclone DDS are installed.
+///
+/// # Errors
+/// When they are missing.
 pub(crate) fn has_cyclone(python: &Path) -> Result<(), String> {
     let mut asked = std::process::Command::new(python);
     asked.args(["-c", "import cyclonedds"]).stderr(std::process::Stdio::null());

@@ -12,10 +12,10 @@ use periplus_sim::{Composition, Driver, Options, PhysicsMode, Simulation, Simula
 
 use crate::stage::{LASER_M, Stage};
 
-/// A robot that is longer under way than this has got stuck \[s of the simulation\].
+/// A drive that takes longer than this is stuck \[s, simulated time\].
 const LONGEST_S: f64 = 2000.0;
 
-/// Where the robot was at each scan \[ns\].
+/// Drive of a robot through a world: true poses with the times of the scans \[ns\], and a log.
 pub(crate) struct Drive {
     pub(crate) truth: Vec<(i64, Pose2)>,
     /// The same drive as a log of CARMEN.

@@ -1,4 +1,4 @@
-//! Where a small robot can go, and how it comes there.
+//! Free space of a small robot, and paths in it.
 
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
@@ -10,13 +10,13 @@ use crate::stage::Stage;
 
 /// Side of a cell \[m\].
 const CELL_M: f64 = 0.05;
-/// The middle of the robot stays so far from everything \[m\].
+/// Minimum distance of the robot's center from all obstacles \[m\].
 const CLEARANCE_M: f64 = 0.3;
-/// Heights at which things stand in the way: wheels, deck and laser \[m\].
+/// Heights at which obstacles block the robot: wheels, deck and laser \[m\].
 const HEIGHTS_M: [f64; 5] = [0.015, 0.045, 0.06, 0.075, 0.095];
-/// From goal to goal on a straight way, at most \[m\].
+/// Maximum distance between successive goals on a straight path \[m\].
 const STEP_M: f64 = 0.5;
-/// Places to visit are so far from each other at least \[m\].
+/// Minimum distance between goals \[m\].
 const APART_M: f64 = 2.0;
 
 /// The floor as a robot sees it.
@@ -69,7 +69,7 @@ impl Floor {
         f64::from(self.room.cells[self.room.info.index(cell)]).sqrt() * CELL_M
     }
 
-    /// Goals that lead to places drawn at random, until the way is so long \[m\].
+    /// Goals on paths to random positions, up to a total path length \[m\].
     pub(crate) fn wander(
         &self,
         start: [f64; 2],
@@ -106,7 +106,7 @@ impl Floor {
                 let ((x, y), (to_x, to_y)) = (info.centre_of(last), info.centre_of(cell));
                 let length_m = (to_x - x).hypot(to_y - y);
                 let steps = (length_m / STEP_M).ceil().max(1.0);
-                // Far goals are driven to in arcs, which leave the straight way.
+                // Far goals are reached in arcs, which leave the straight path.
                 for step in 1..=steps as usize {
                     let part = step as f64 / steps;
                     way.push([x + part * (to_x - x), y + part * (to_y - y)]);
@@ -119,7 +119,7 @@ impl Floor {
         way
     }
 
-    /// The cheapest way from a cell to all others: cost, and the cell before.
+    /// Cheapest paths from a cell to all others: cost, and the previous cell.
     fn costs(&self, start: Cell) -> Vec<Option<(u32, Cell)>> {
         let info = self.room.info;
         let mut best: Vec<Option<(u32, Cell)>> = vec![None; info.len()];
@@ -160,7 +160,7 @@ impl Floor {
         best
     }
 
-    /// Only the cells at which a straight way would come too near to something.
+    /// Corners of a path: the cells left when straight segments with enough clearance replace the others.
     fn corners(&self, cells: &[Cell]) -> Vec<Cell> {
         let mut corners = Vec::new();
         let mut at = 0;

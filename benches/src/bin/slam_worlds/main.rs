@@ -1,8 +1,8 @@
 //! Maps of worlds whose truth is known: `slam-worlds PERIPLUS FOLDER [--only WORLD] [--seeds FIRST..END]
 //! [--keep]`. `cargo xtask bench slam-worlds` knows the first two.
 //!
-//! A robot is driven through a world of ours by the real simulator, its bag is mapped by `periplus
-//! slam`, and trajectory and map are held against where the robot and the walls really were.
+//! The simulator drives a robot through one of the project's worlds, `periplus slam` maps its bag, and
+//! trajectory and map are compared with the true poses and walls.
 #![allow(
     clippy::disallowed_methods,
     clippy::print_stdout,

@@ -14,22 +14,25 @@ use crate::stage::{Stage, laser};
 
 /// Side of the cells in which true walls are kept \[m\].
 const FINE_M: f64 = 0.005;
-/// Rays around a place, from place to place \[m\], and how far walls count \[m\].
+/// Number of rays around a position.
 const RAYS: usize = 2880;
+/// Spacing of the positions \[m\].
 const EVERY_M: f64 = 0.5;
+/// Maximum range of walls \[m\].
 const FARTHEST_M: f64 = 29.5;
 /// Neighbouring rays whose ends are nearer are on one surface \[m\].
 const JOINED_M: f64 = 0.08;
 /// Cells of at least this are walls.
 const OCCUPIED: i8 = 65;
 
-/// How right a map is.
+/// Accuracy of a map.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Score {
     pub(crate) scans: usize,
     pub(crate) way_m: f64,
-    /// Root mean square of the error of place, aligned by the first pose, and at best \[m\].
+    /// Root mean square of the position error, aligned by the first pose \[m\].
     pub(crate) ate_m: f64,
+    /// Root mean square of the position error with the best alignment \[m\].
     pub(crate) ate_best_m: f64,
     pub(crate) worst_m: f64,
     /// Root mean square of the error of heading, as seen from the first pose \[deg\].
@@ -107,7 +110,7 @@ pub(crate) fn score(stage: &Stage, drive: &Drive, out: &Path) -> Result<Score, S
     })
 }
 
-/// The rigid motion that brings the found places nearest to the true ones (Umeyama 1991, in the
+/// Rigid transform that best aligns the estimated positions with the true ones (Umeyama 1991, in the
 /// plane, without scale).
 fn aligned(pairs: &[(Pose2, Pose2)]) -> Pose2 {
     let count = pairs.len() as f64;

@@ -1,4 +1,4 @@
-//! A world with a robot in it, and the way that the robot is to go.
+//! A world with a robot, and the path that the robot drives.
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -18,15 +18,15 @@ pub(crate) struct Venue {
     pub(crate) name: &'static str,
     file: &'static str,
     start: [f64; 3],
-    /// Where there is something: x and y from, x and y to \[m\].
+    /// Bounds of the world: minimum x and y, maximum x and y \[m\].
     pub(crate) bounds_m: [f64; 4],
     tour: Tour,
 }
 
 enum Tour {
-    /// To places drawn by the seed, until the way is so long \[m\].
+    /// To random positions, up to a total path length \[m\].
     Wander(f64),
-    /// From place to place; with odd seeds the other way round.
+    /// From point to point; with odd seeds in the opposite direction.
     Around(&'static [[f64; 2]]),
 }
 
@@ -79,17 +79,17 @@ pub(crate) const VENUES: [Venue; 5] = [
 ];
 
 const ROBOT: &str = "robots/kbot/urdf/kbot.urdf.xacro";
-/// What the drive believes of its wheels is wrong by so much, one standard deviation.
+/// Relative error of the wheel radius that odometry assumes, one standard deviation.
 const RADIUS_ERROR: f64 = 0.01;
 const TRACK_ERROR: f64 = 0.03;
 /// Middle of the laser as seen from the base: ahead and up \[m\].
 pub(crate) const LASER_M: [f64; 2] = [0.065, 0.075];
 
-/// A world with a robot in it, and the way that the robot is to go.
+/// A world with a robot, and the path that the robot drives.
 pub(crate) struct Stage {
     pub(crate) composition: Composition,
     pub(crate) files: Arc<AssetFiles>,
-    /// What a lidar sees, without the robot.
+    /// Surfaces that a lidar measures, without the robot.
     scene: RenderScene,
     pub(crate) bounds_m: [f64; 4],
     /// Goals in their order \[m\].
@@ -130,7 +130,7 @@ impl Stage {
         if composition.has_errors() {
             return Err(format!("{} or {ROBOT} has errors", venue.file));
         }
-        // What stands around loose stays where it is: a wall that moves has no true place.
+        // Movable models are made static: a wall that moves has no true position.
         let standing = composition.members.iter_mut().filter(|it| it.description.is_none());
         standing.for_each(|it| it.model.is_static = true);
         let files = Arc::new(AssetFiles::default());
@@ -154,7 +154,7 @@ impl Stage {
                     places.remove(0);
                     places.push([28.0, 0.0]);
                 }
-                // Nobody drives along the very middle.
+                // Real robots do not drive exactly along the middle.
                 let mut aside = || 0.25 * (2.0 * stream.unit() - 1.0);
                 places.iter().map(|[x, y]| [x + aside(), y + aside()]).collect()
             }
@@ -170,7 +170,7 @@ impl Stage {
     }
 }
 
-/// Where the laser is when the base is there.
+/// Position of the laser for a pose of the base.
 pub(crate) fn laser(world_from_base: Pose2) -> [f64; 3] {
     let (x, y) = world_from_base.transform_point(LASER_M[0], 0.0);
     [x, y, LASER_M[1]]

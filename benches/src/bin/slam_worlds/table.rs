@@ -1,4 +1,4 @@
-//! What came of it, in lines.
+//! Table of the results.
 
 use crate::score::Score;
 

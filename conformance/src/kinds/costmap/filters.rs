@@ -22,7 +22,7 @@ use crate::{Case, Differences, Reader, Unreadable, number, numbers};
 const GLOBAL: &str = "map";
 const MASK: &str = "mask";
 
-/// Where the mask is.
+/// Pose of the mask.
 struct Shifted(Pose);
 
 impl TransformSource for Shifted {
@@ -191,7 +191,7 @@ fn per_pose(
     Ok(Some(values))
 }
 
-/// Kind `speed_filter`: limits on the way over a mask.
+/// Kind `speed_filter`: speed limits along a path over a mask.
 pub(in super::super) fn check_speed(
     case: &Case,
     distro: &str,
@@ -244,7 +244,7 @@ pub(in super::super) fn check_speed(
     Ok(())
 }
 
-/// Kind `binary_filter`: states on the way over a mask.
+/// Kind `binary_filter`: states along a path over a mask.
 pub(in super::super) fn check_binary(
     case: &Case,
     distro: &str,

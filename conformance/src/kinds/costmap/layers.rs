@@ -109,7 +109,7 @@ pub(in super::super) fn check_clear_area(
     compare_cleared(&grid, &expect, differences)
 }
 
-/// What is left of a grid after clearing.
+/// Compares the grid after clearing.
 fn compare_cleared(
     grid: &Costmap,
     expect: &Expected<'_>,
@@ -356,7 +356,7 @@ fn change(
     Ok(config.change(costmap, values, frames))
 }
 
-/// Puts a value among others; what is in the way, if it does not fit.
+/// Sets a parameter; the inner error is the reason why the value does not fit.
 fn put(
     values: &mut ParamValues,
     name: &str,

@@ -1,4 +1,4 @@
-//! What sensors say.
+//! Sensor messages.
 
 use periplus_costmap::layers::probability;
 use periplus_costmap::{ObservationSource, Projector, ScanGeometry, tables};

@@ -45,7 +45,7 @@ pub(in super::super) fn check_layered(
     let compat = compat_of(distro)?;
     let stack = Stack::after(&given, compat, compat)?;
     let exact = expect.stated("cells_that_differ_with_exact_distance");
-    // Where a case says how both ways to measure distances differ, its grids are those of main.
+    // A case that states how the two distance metrics differ has the grids of the branch main.
     let rounded =
         exact.as_ref().map(|_| Stack::after(&given, compat, Nav2Release::Main)).transpose()?;
     if let (Some(expected), Some(rounded)) = (&exact, &rounded) {
@@ -139,7 +139,7 @@ pub(in super::super) fn check_obstacle(
         match name {
             "counts" => differences.compare("the layer", &counts_of(&grid), &expected),
             // A cell that is not lethal must be the one of the point that was observed, or the case
-            // would say nothing.
+            // would check nothing.
             "cell" => {
                 let cell = expected.input().cell()?;
                 let is_lethal = grid.cost(cell) == Some(254);
@@ -191,15 +191,15 @@ struct State {
 
 struct Stack {
     costmap: LayeredCostmap,
-    /// How inflation layers measure distances, as that release does.
+    /// Release whose distance metric the inflation layers use.
     distances: Nav2Release,
     states: Vec<State>,
     /// The point that was observed last, and did not come from a list of several.
     last_point: Option<[f32; 3]>,
-    /// Whether parameters were accepted.
+    /// True for each parameter change that was accepted.
     accepted: Vec<bool>,
     refusals: Vec<String>,
-    /// What clear services answered.
+    /// Responses of the clear services.
     success: Vec<bool>,
 }
 
@@ -264,7 +264,7 @@ impl Stack {
         Some([x, y])
     }
 
-    /// What is expected at the end, whatever the kind.
+    /// Compares the final state; for all kinds.
     fn compare_end(
         &self,
         name: &str,
@@ -287,11 +287,11 @@ impl Stack {
         Ok(())
     }
 
-    /// A case in which a parameter is refused must say so.
+    /// Fails if a parameter is refused and the case does not expect that.
     fn refuse_silent(&self, expect: &Expected<'_>) -> Result<(), Unreadable> {
         match self.refusals.first() {
             Some(why) if !expect.has("accepted") => Err(Unreadable(format!(
-                "a parameter was refused ({why}), and `expect.accepted` does not say so"
+                "a parameter was refused ({why}), and `expect.accepted` does not expect that"
             ))),
             _ => Ok(()),
         }
@@ -347,7 +347,7 @@ impl Stack {
         })
     }
 
-    /// What layers hold at the start.
+    /// Initial costs of the layers.
     fn fill(&mut self, layers: &[Reader<'_>]) -> Result<(), Unreadable> {
         for about in layers {
             if let Some(children) = about.find("plugins") {
@@ -365,7 +365,7 @@ impl Stack {
             } else if let Some(layer) = self.costmap.find_as::<RangeLayer>(name) {
                 layer.grid_mut()
             } else {
-                return Err(about.unreadable("a layer with cells of its own"));
+                return Err(about.unreadable("a layer with its own cells"));
             };
             if let Some(fill) = fill {
                 grid.fill(fill.byte()?);
@@ -699,7 +699,7 @@ fn compare_cells(
 /// The only bound that the peer's tests have: inscribed.
 const BOUND: u8 = 253;
 
-/// What the tests of the peer assert.
+/// Assertions of the peer's own tests.
 fn assert_as_peer(
     costmap: &Costmap,
     asserts: &Expected<'_>,
@@ -717,9 +717,7 @@ fn assert_as_peer(
                 for (cell, bound) in expected.members()? {
                     let at = cell_named(cell).ok_or_else(|| bound.unreadable("a bound"))?;
                     if bound.input().byte().ok() != Some(BOUND) {
-                        return Err(
-                            bound.unreadable("253 (inscribed): other bounds say too little")
-                        );
+                        return Err(bound.unreadable("253 (inscribed): other bounds are too weak"));
                     }
                     let got = costmap.cost(at);
                     let is_met = got.is_some_and(|got| (got >= BOUND) == (name == "at_least"));

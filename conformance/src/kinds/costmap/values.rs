@@ -1,4 +1,4 @@
-//! What numbers mean: of maps, of masks, of distances.
+//! Meaning of values: of maps, of masks, of distances.
 
 use periplus_costmap::inflation::CostTable;
 use periplus_costmap::layers::MapMeaning;

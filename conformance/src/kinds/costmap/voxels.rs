@@ -183,7 +183,7 @@ fn compare_rays(
     Ok(())
 }
 
-/// Where a line begins and ends.
+/// Start and end of a line.
 type Ends = ([f64; 3], [f64; 3]);
 
 /// Lines from voxel to voxel, under any of some names.

@@ -1,4 +1,4 @@
-//! What is published of a costmap.
+//! Published messages of a costmap.
 
 use periplus_costmap::{CellWindow, CostmapMessage, PublicationState, cost};
 

@@ -182,7 +182,7 @@ fn a_whole_room_is_seen() {
 }
 
 proptest! {
-    /// Whatever the map, nobody panics, and a way stays on what is free.
+    /// For any map there is no panic, and every path stays on free cells.
     #[test]
     fn ways_stay_on_free_cells(cells in prop::collection::vec(prop::sample::select(vec![-1_i8, 0, 0, 0, 100, 40, -7, 127]), 144), column in 0..12_usize, row in 0..12_usize) {
         let info = GridInfo::new(CELL_M, 12, 12, Pose2::default()).expect("a valid grid");
@@ -201,7 +201,7 @@ proptest! {
         prop_assert!(velocity.forward_m_s.is_finite() && velocity.left_rad_s.is_finite());
     }
 
-    /// Whoever follows a way that begins where it is comes to its end.
+    /// A robot that follows a path from its pose reaches the end.
     #[test]
     fn who_follows_comes_there(yaw in -3.0..3.0_f64, x in -3.0..3.0_f64, y in -3.0..3.0_f64) {
         let most = Velocity { forward_m_s: 0.5, left_rad_s: 1.0 };

@@ -103,7 +103,7 @@ impl Envelope {
     }
 
     fn push(&mut self, column: i64, height: i64, width: i64) {
-        // A parabola that is not lower at the start of its own interval is lower nowhere.
+        // A parabola that is not lower at the start of its interval is lower nowhere.
         while let Some(last) = self.parabolas.last() {
             let here = (last.first - column).pow(2) + height;
             if here > last.at(last.first) {

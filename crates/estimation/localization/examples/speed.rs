@@ -3,7 +3,7 @@
     clippy::disallowed_methods,
     clippy::print_stdout,
     clippy::unwrap_used,
-    reason = "a tool that measures time and says how it went"
+    reason = "a tool that measures time and prints results"
 )]
 
 #[path = "worlds/mod.rs"]

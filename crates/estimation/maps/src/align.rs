@@ -30,9 +30,9 @@ pub(crate) fn is_wall(cell: i8) -> bool {
 
 /// Aligns the walls of a map with those of another, within `window_m` metres and `window_rad`
 /// radians of the origins in the files. A map without walls is not moved.
-/// A coarse search over the whole window with walls blurred to a third of a metre, about the
-/// centroid of the walls, then hill climbing from the best candidates with decreasing blur.
-/// walls, and from the best places of it downhill with less and less blur.
+///
+/// Searches the whole window coarsely with walls blurred to a third of a metre, rotated about the
+/// centroid of the walls, then climbs from the best candidates with decreasing blur.
 #[must_use]
 pub fn align(
     reference: &OccupancyGrid,

@@ -32,8 +32,8 @@ impl fmt::Display for BadMap {
         match self {
             Self::Length { width, height, values } => write!(
                 f,
-                "the map has {values} values for {width} by {height} cells; whoever publishes it is \
-                 wrong"
+                "the map has {values} values for {width} by {height} cells; correct its \
+                 publisher"
             ),
             Self::GridInfo(error) => error.fmt(f),
             Self::Orientation(xyzw) => {

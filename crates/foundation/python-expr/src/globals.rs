@@ -222,7 +222,7 @@ pub(super) fn hint(dialect: ExpressionDialect, name: &str) -> Option<String> {
             Some(format!("xacro has it as `xacro.{name}`"))
         }
         (ExpressionDialect::SubstitutionArgs, "math") => {
-            Some("here the functions of `math` stand without it: `sin(...)`".to_owned())
+            Some("here the functions of `math` are used without it: `sin(...)`".to_owned())
         }
         _ => None,
     }

@@ -96,7 +96,7 @@ impl<'a> Parser<'a> {
                 ExpressionError::new(format!("the expression ends where {wanted} is needed"))
             }
             _ => ExpressionError::new(format!(
-                "`{}` stands where {wanted} is needed",
+                "expected {wanted}, found `{}`",
                 written.escape_debug()
             )),
         };

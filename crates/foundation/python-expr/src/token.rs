@@ -102,8 +102,9 @@ fn is_blank(rest: &str) -> bool {
 fn unexpected(sign: char) -> ExpressionError {
     let error = ExpressionError::new(format!("unexpected character `{}`", sign.escape_debug()));
     match sign {
-        '$' => error
-            .with_help("`$` is not needed inside an expression: names of properties stand alone"),
+        '$' => error.with_help(
+            "`$` is not needed inside an expression: write the name of a property without it",
+        ),
         '?' => error.with_help("write a choice as `a if condition else b`"),
         '\u{2018}'..='\u{201f}' => error.with_help("use the straight quotes ' or \""),
         '\u{2013}' | '\u{2014}' | '\u{2212}' => error.with_help("use the plain minus sign `-`"),

@@ -161,7 +161,7 @@ fn errors_teach() {
     check(
         "side == 'left' && 1",
         &expect![[r#"
-        `&&` stands where an operator or the end is needed
+        expected an operator or the end, found `&&`
         side == 'left' && 1
                        ^^
         help: write `and`"#]],
@@ -169,7 +169,7 @@ fn errors_teach() {
     check(
         "side = 'left'",
         &expect![[r#"
-        `=` stands where an operator or the end is needed
+        expected an operator or the end, found `=`
         side = 'left'
              ^
         help: use `==` to compare; an expression cannot assign"#]],

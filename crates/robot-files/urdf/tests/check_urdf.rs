@@ -1,7 +1,7 @@
 //! Every file that liburdfdom (`check_urdf`) accepts is read, and is the same tree.
 //!
 //! The answers of the library come from `benches/oracles/urdf_oracle`; `PERIPLUS_URDF_ORACLE`
-//! names its output. Without it this test says that it was skipped.
+//! names its output. Without it this test prints that it was skipped.
 #![allow(clippy::disallowed_methods, reason = "this test reads a corpus of real files")]
 
 use std::collections::BTreeMap;

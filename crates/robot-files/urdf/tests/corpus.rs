@@ -1,7 +1,7 @@
 //! Real files: what is written reads back the same, and a model has the tree of its URDF.
 //!
 //! `PERIPLUS_URDF_ORACLE` names the output of `benches/oracles/urdf_oracle`, of which only the
-//! names of the files are used. Without it this test says that it was skipped.
+//! names of the files are used. Without it this test prints that it was skipped.
 #![allow(clippy::disallowed_methods, reason = "this test reads a corpus of real files")]
 #![allow(clippy::print_stdout, clippy::unwrap_used, reason = "helpers of a test")]
 

@@ -2,7 +2,7 @@
 //! shapes and where they are, sensors, joints.
 //!
 //! The answers come from `benches/oracles/sdf_oracle`; `PERIPLUS_SDF_ORACLE` names its outputs,
-//! separated by colons. Without it this test says that it was skipped.
+//! separated by colons. Without it this test prints that it was skipped.
 #![allow(clippy::disallowed_methods, reason = "this test reads a corpus of real files")]
 
 use std::collections::BTreeMap;
@@ -236,7 +236,7 @@ fn pose(value: &Value) -> Pose {
     Pose { translation: DVec3::new(at(0), at(1), at(2)), rotation }
 }
 
-/// Whether two poses are the same but for the rounding of libsdformat: it goes through roll,
+/// True if two poses are equal up to the rounding of libsdformat: it converts to roll,
 /// pitch and yaw, and where the sine of the pitch exceeds 0.99999 liburdfdom takes a right angle
 /// (urdf_model/pose.h, `getRPY`), which is up to 4.5 mrad off.
 fn near(own: Pose, expected: &Value) -> bool {

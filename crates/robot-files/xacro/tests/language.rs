@@ -1,7 +1,7 @@
 //! The xacro language, one file a theme.
 //!
-//! Every result was compared with what PyPI's xacro 2.1.1 gives. Where we take more than it does, a
-//! test calls `check_lenient` and says why; where we refuse more, a comment says so.
+//! Every result was compared with that of PyPI's xacro 2.1.1. Where this one accepts more, a
+//! test calls `check_lenient` and gives the reason; where it refuses more, a comment does.
 #![allow(clippy::unwrap_used, reason = "a test that panics is a test that fails")]
 
 #[path = "language/blocks.rs"]

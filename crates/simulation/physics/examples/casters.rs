@@ -1,4 +1,4 @@
-//! Ways of a cart between two casters that are too low, beside ODE and MuJoCo.
+//! Distance travelled by a cart between two casters that are too low, compared with ODE and MuJoCo.
 //!
 //! `casters ODE PYTHON MUJOCO RESULTS.md`: the program built from `benches/oracles/casters_ode.cc`, a
 //! Python that has `mujoco`, `benches/oracles/casters_mujoco.py`, and the file that gets the table.
@@ -59,7 +59,7 @@ fn main() -> ExitCode {
             table += "\n";
         }
     }
-    println!("Way [m]; {} m without slip.\n\n{table}", cart::FULL_M);
+    println!("Distance travelled [m]; {} m without slip.\n\n{table}", cart::FULL_M);
     if rows.iter().any(|(_, ways)| ways.is_err()) {
         println!("A peer is missing, so the file stays as it is.");
         return ExitCode::SUCCESS;
@@ -78,7 +78,7 @@ fn jobs() -> impl Iterator<Item = (f64, f64)> {
     FRICTION_RATIO.into_iter().flat_map(|mu| DROPS_MM.into_iter().map(move |drop_mm| (drop_mm, mu)))
 }
 
-/// Runs a program that answers each line `DROP_M FRICTION` with a way [m].
+/// Runs a program that answers each line `DROP_M FRICTION` with a distance travelled [m].
 fn peer(program: &OsString, arguments: &[&str]) -> Result<Vec<f64>, String> {
     let mut child = Command::new(program)
         .args(arguments)

@@ -1,5 +1,5 @@
-//! How long one step of a robot with two wheels takes on this machine, and the bits of where it
-//! ends, which are the same in every build on every machine.
+//! Time of one step of a robot with two wheels on this machine, and the bits of its final pose, which are
+//! the same in every build on every machine.
 #![allow(
     clippy::disallowed_methods,
     clippy::print_stdout,

@@ -37,7 +37,7 @@ fn a_skate_slides_one_way() {
     let slid = state(&world, "skate", "runner");
     let way_m = slid.world_from_link.translation.y;
     assert!((way_m - 1.0).abs() < 0.02, "slid {way_m} m");
-    // Braking turns it a little, and its rough way with it.
+    // Braking turns the body a little, and with it the direction of larger friction.
     let along_m_s = slid.linear_m_s.dot(slid.world_from_link.rotation * DVec3::X);
     assert!(along_m_s.abs() < 1e-3, "{along_m_s}");
 }

@@ -66,7 +66,7 @@ fn a_ball_rolls_without_slipping() {
 fn a_sliding_box_stops_after_v_squared_by_two_mu_g() {
     let mut world = flat_world();
     let mut stone = solid_box("box", 1.0, DVec3::new(0.4, 0.4, 0.1));
-    // The smaller of 0.5 here and 1 of the ground holds.
+    // The smaller friction applies: 0.5 here, 1 of the floor.
     stone.collisions[0].surface.friction.mu = 0.5;
     stone.collisions[0].surface.friction.mu2 = 0.5;
     put(&mut world, &model("stone", vec![stone], vec![]), Pose::from_xyz(0.0, 0.0, 0.05));
@@ -89,7 +89,7 @@ fn masks_decide_who_touches() {
         state(&world, "stone", "box").world_from_link.translation.z
     };
     assert!(height(0x1) > 0.09);
-    // The ground has 0xffff: it falls 1.2 m in half a second.
+    // The floor has 0xffff: the body falls 1.2 m in half a second.
     assert!(height(0x10000) < -1.0);
 }
 
@@ -160,7 +160,7 @@ fn compound_links_and_every_convex_shape_stand() {
         put(&mut world, &model("thing", vec![link], vec![]), Pose::from_xyz(0.0, 0.0, height));
         run(&mut world, 2.0);
         let pose = state(&world, "thing", "body").world_from_link;
-        // The foot hangs a centimetre above: the shape itself stands, or leans on the foot's rim.
+        // The foot ends a centimetre above the floor: the shape itself touches it, or the rim of the foot.
         let z = pose.translation.z;
         assert!((height - 0.012..height + 0.001).contains(&z), "{shape:?} {pose:?}");
     }
@@ -204,7 +204,7 @@ fn a_bounce_keeps_its_share_of_speed() {
         };
         put(&mut world, &bouncy(ground()), Pose::IDENTITY);
         let ball = bouncy(model("ball", vec![solid_ball("ball", 1.0, 0.1)], vec![]));
-        // 0.8 m above the ground: 4 m/s after 0.4 s.
+        // 0.8 m above the floor: 4 m/s after 0.4 s.
         put(&mut world, &ball, Pose::from_xyz(0.0, 0.0, 0.9));
         run(&mut world, 0.6);
         state(&world, "ball", "ball").world_from_link.translation.z - 0.1

@@ -1,5 +1,5 @@
-//! Every robot and world of the corpus that loads: it stands in a world and moves for a fifth of a
-//! second, or says why not.
+//! Every robot and world of the corpus that loads: it is simulated for a fifth of a second, or the reason
+//! why it cannot is reported.
 #![allow(clippy::disallowed_methods, clippy::print_stdout, reason = "a test at the edge")]
 #![allow(missing_docs, clippy::unwrap_used, reason = "tests")]
 

@@ -94,7 +94,7 @@ fn a_gearbox_without_its_body_binds_nothing_and_says_so() {
     assert_eq!(added.diagnostics.iter().next().unwrap().code, "joint-not-simulated");
 }
 
-/// Two boxes, a metre apart, each a model of its own.
+/// Two boxes, a metre apart, each a separate model.
 fn two_boxes(joints: Vec<Joint>) -> periplus_scene::World {
     let stone = |name: &str, x: f64| Model {
         parent_from_model: Pose::from_xyz(x, 0.0, 2.0),

@@ -46,7 +46,7 @@ fn a_quarter_circle_in_one_step() {
     let expected = DVec3::new(0.12 * FRAC_PI_2, 0.82 * FRAC_PI_2, 0.0);
     assert!(wheel.linear_m_s.distance(expected) < 1e-9, "{wheel:?}");
     assert_eq!(world.time_ns(), SECOND_NS);
-    // It goes on until told otherwise, and stands when told.
+    // It moves until the next command, and stops when commanded.
     world.step(3 * SECOND_NS).unwrap();
     near(world.model_pose(robot).unwrap(), Pose::IDENTITY);
     assert!(world.follow(robot, Twist::default()));
@@ -124,7 +124,7 @@ fn joints_follow_their_commands_and_links_follow_joints() {
     let speed = state(&world, "robot", "hand").linear_m_s;
     let across = at_yaw(0.0, 0.0, 0.0, 0.5).transform_point(DVec3::new(0.0, 0.65, 0.0));
     assert!(speed.distance(across) < 1e-9, "{speed:?}");
-    // The limit holds, and the joint then stands.
+    // The limit holds the joint, which is then at rest.
     world.step(5 * SECOND_NS).unwrap();
     let held = world.axis_state(shoulder).unwrap();
     assert_eq!((held.position, held.velocity), (1.0, 0.0));
@@ -146,7 +146,7 @@ fn a_robot_whose_wheel_is_the_parent_stays_whole() {
     reversed.canonical_link = Some("base".into());
     let left = &mut reversed.joints[0];
     std::mem::swap(&mut left.parent, &mut left.child);
-    // The joint stays at the wheel: its frame is told in the child's, which is the base now.
+    // The joint stays at the wheel: its frame is given in the frame of the child, which is now the base.
     left.child_from_joint = Pose::from_xyz(-0.12, 0.18, -0.05);
     let mut world = world_with(&reversed, Pose::IDENTITY);
     let robot = world.find_model("robot").unwrap();
@@ -172,7 +172,7 @@ fn what_is_not_told_stays_and_what_is_put_elsewhere_is_there() {
     assert!(world.follow(robot, forward));
     world.step(SECOND_NS).unwrap();
     near(world.model_pose(stone).unwrap(), Pose::from_xyz(0.5, 0.0, 4.0));
-    // Put down it stands, and goes on from there when told again.
+    // After a new pose it is at rest, and moves from there at the next command.
     assert!(world.set_pose(robot, at_yaw(5.0, 5.0, 0.2, FRAC_PI_2)));
     world.step(SECOND_NS).unwrap();
     near(world.model_pose(robot).unwrap(), at_yaw(5.0, 5.0, 0.2, FRAC_PI_2));
@@ -187,7 +187,7 @@ fn what_is_not_told_stays_and_what_is_put_elsewhere_is_there() {
     assert!(world.set_model_velocity(stone, DVec3::new(0.0, 1.0, -1.0), DVec3::Z * FRAC_PI_2));
     world.step(SECOND_NS).unwrap();
     near(world.model_pose(stone).unwrap(), at_yaw(0.5, 1.0, 3.0, FRAC_PI_2));
-    // Reset: everything as it was added, and nothing is told any more.
+    // A reset restores the initial state, and clears the commands.
     world.reset();
     world.step(SECOND_NS).unwrap();
     near(world.model_pose(stone).unwrap(), Pose::from_xyz(0.5, 0.0, 4.0));

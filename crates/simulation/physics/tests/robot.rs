@@ -38,7 +38,7 @@ fn straight_ahead() {
     assert!((way.translation.x - 5.0).abs() < 0.05, "{way:?}");
     assert!(way.translation.y.abs() < 0.005 * 5.0, "{way:?}");
     assert!(way.rpy().yaw.abs() < 0.005, "{way:?}");
-    // What the encoders say: the wheels turned as told, and slip is what is missing.
+    // The encoders report the commanded wheel rotation; the difference is slip.
     let turned = angle(&world, &wheels) - before;
     assert!((turned - 50.0).abs() < 0.1, "{turned}");
 }

@@ -79,7 +79,7 @@ fn a_mesh_that_stands_is_its_triangles() {
 
 #[test]
 fn a_mesh_that_moves_is_its_hull() {
-    // The pyramid falls on its base and lies there: its top is 1 m up, its frame at the floor.
+    // The pyramid comes to rest on its base: its top is 1 m up, its frame at the floor.
     let mut pyramid = solid_box("link", 1.0, DVec3::ONE);
     pyramid.collisions[0].shape = mesh();
     let mut world = flat_world();

@@ -323,7 +323,7 @@ mod avx2 {
             for line in 0..size_of::<T>().div_ceil(CACHE_LINE_BYTES) {
                 let index =
                     std::ptr::from_ref(what).cast::<i8>().wrapping_add(line * CACHE_LINE_BYTES);
-                // SAFETY: a hint, which reads nothing, at whatever place.
+                // SAFETY: a hint, which reads nothing, at any address.
                 unsafe { _mm_prefetch::<_MM_HINT_T0>(index) };
             }
         }

@@ -1,4 +1,4 @@
-//! Ground on a grid.
+//! Height maps.
 
 #![allow(clippy::unwrap_used, reason = "helpers of tests")]
 
@@ -102,7 +102,7 @@ proptest! {
             });
             prop_assert!((ours - theirs).abs() < 1e-4 || on_edge, "{ours} {theirs}");
         }
-        // Straight down on samples and on the lines between: ground has no gaps there.
+        // Straight down on samples and on the lines between: a height map has no gaps there.
         for pair in positions.windows(2) {
             let [a, b] = [pair[0], pair[1]].map(DVec3::from_array);
             for target in [a, a + (b - a) * stream.unit()] {

@@ -1,4 +1,4 @@
-//! Triangles against brute force in double precision, and all ways of asking against each other.
+//! Triangles compared with brute force in double precision, and all kinds of queries with each other.
 
 #![allow(clippy::unwrap_used, reason = "helpers of tests")]
 
@@ -127,7 +127,7 @@ proptest! {
     }
 }
 
-/// Fixed triangles, meshes, shapes, ground, all over each other.
+/// Fixed triangles, meshes, shapes, height maps, overlapping each other.
 fn everything(seed: u64) -> RaycastWorld {
     let mut stream = Stream::keyed(seed, "world", 0);
     let mut builder = RaycastWorld::builder();
@@ -216,7 +216,7 @@ fn rays_do_not_depend_on_threads() {
     }
 }
 
-/// Among so many triangles rays of different origins go in turns.
+/// With many triangles, rays of different origins are cast alternately.
 #[test]
 fn rays_in_turns_equal_single_rays() {
     let solid = soup(60_000, 6);

@@ -9,7 +9,7 @@ const MAX_PIXELS: u64 = 1 << 26;
 /// Maximum number of iterations of the inverse distortion.
 const MAX_ITERATIONS: usize = 64;
 
-/// A camera projection with its image size. It looks along x of its own frame, y to the left, z up.
+/// A camera projection with its image size. Its frame has x along the optical axis, y to the left, z up.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Lens {
     width: u32,

@@ -55,8 +55,8 @@ pub struct ModelGroup(pub u32);
 /// Gazebo reserves the four highest anyway.
 pub const SHADOW_MASK: u32 = 1 << 31;
 
-/// Returns the filter of a sensor's rays: shapes that share a bit with its visibility mask and are
-/// not of its own model.
+/// Returns the filter of a sensor's rays: shapes of other models that share a bit with its visibility
+/// mask.
 #[must_use]
 pub fn filter(visibility_mask: u32, own: Option<ModelGroup>) -> Filter {
     Filter {

@@ -142,7 +142,7 @@ fn what_stands_in_the_light_throws_a_shadow_if_it_may() {
         {
             let mut scene = RenderScene::empty(SensedGeometry::Visual, 1);
             put(&mut scene, visual(wall(10.0), [1.0; 3]), [3.0, 0.0, 0.0]);
-            // Behind the camera, before the lamp.
+            // Behind the camera, in front of the light.
             let mut screen = visual(wall(1.0), [1.0; 3]);
             screen.cast_shadows = cast_shadows;
             screen.transparency = transparency;

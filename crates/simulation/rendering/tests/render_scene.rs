@@ -151,7 +151,7 @@ fn links_move_alone() {
 #[test]
 fn a_sensor_looks_past_its_own_model() {
     let mut robot = model("robot", Shape::Sphere { radius_m: 0.5 });
-    // A housing that is a link of its own.
+    // A housing that is a separate link.
     let mut housing = robot.links[0].clone();
     housing.name = "housing".into();
     robot.links.push(housing);

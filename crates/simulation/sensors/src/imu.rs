@@ -24,7 +24,7 @@ pub struct ImuMeasurement {
 /// An inertial measurement unit.
 ///
 /// A real accelerometer integrates velocity over its period. This model does the same: it reports
-/// the change of its own velocity (with the lever arm on its link) since the last measurement,
+/// the change of the sensor's velocity (with the lever arm on its link) since the last measurement,
 /// divided by the time, in the orientation halfway in between. The sum of all readings times their
 /// periods is then the change of velocity, for any motion in between. Gravity is that of the current
 /// orientation.

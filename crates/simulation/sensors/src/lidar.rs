@@ -28,7 +28,7 @@ pub struct LidarScan {
 /// A lidar of any sensor type: `ray`, `gpu_ray`, `lidar`, `gpu_lidar`.
 ///
 /// Rays start at the minimum range, so that the housing of the lidar is not seen; farther parts of
-/// its own model are. Another model within the minimum range is reported as too near.
+/// the same model are. Another model within the minimum range is reported as too near.
 /// `<range><resolution>` is not applied, as in Gazebo.
 #[derive(Clone, Debug)]
 pub struct LidarSensor {

@@ -17,7 +17,7 @@ const REFINEMENT_COUNT: i32 = 9;
 /// Angle between successive rays of the spiral: the golden angle, for even coverage (Vogel 1979).
 const GOLDEN_RAD: f64 = 2.399_963_229_728_653;
 
-/// A sonar. Its cone opens along the x axis of its own frame (Classic's `sonar`).
+/// A sonar. Its cone opens along the x axis of the sensor's frame (Classic's `sonar`).
 ///
 /// The reading is the nearest of many rays, refined around it. Objects thinner than the gaps of the
 /// first 512 rays, about a twentieth of the cone's radius, can be missed.

@@ -167,8 +167,8 @@ fn out_of_range_is_told_by_rep_117() {
     assert_eq!(ball(30.5), f32::INFINITY);
 }
 
-/// A lidar inside its own housing looks out of it; a mast of its own model it does see; a cable of
-/// another link inside the least range is too near.
+/// A lidar inside its housing measures beyond it; a mast of the same model is measured; a cable of
+/// another link within the minimum range is too near.
 #[test]
 fn the_own_housing_is_not_seen() {
     let scene = |cable_group: u32| {

@@ -19,7 +19,7 @@ pub fn plugin_node(
 ) -> Result<Node, GraphError> {
     let ros = &interpreted.ros;
     if interpreted.known.family != Family::ClassicRos2 {
-        // These plugins have no node of their own, and their names need not be unique.
+        // These plugins have no separate node, and their names need not be unique.
         return unique_node(setting, &ros.node, &ros.namespace);
     }
     let mut settings = node_settings(setting, &ros.node, &ros.namespace);

@@ -1,5 +1,5 @@
-//! Every robot of the corpus with a drive: whom it hears, where it tells its odometry, and how far
-//! it gets in a second at half a metre per second.
+//! Every robot of the corpus with a drive: the topics that it subscribes to, its odometry topics, and the
+//! distance it travels in one second at 0.5 m/s.
 #![allow(clippy::disallowed_methods, clippy::print_stdout, reason = "a test at the edge")]
 #![allow(missing_docs, clippy::unwrap_used, reason = "tests")]
 
@@ -73,7 +73,7 @@ fn models(loaded: &LoadedFile) -> Vec<&scene::Model> {
     worlds.chain(&scene.models).filter(|model| !model.is_static).collect()
 }
 
-/// What a model's drives hear and tell, and where they say that they got; none without drives.
+/// Topics of a model's drives, and their odometry after a second; `None` without drives.
 fn try_out(model: &scene::Model) -> Option<(String, Vec<f64>)> {
     let mut file = scene::World::empty("corpus");
     file.models.push(scene::Model { parent_from_model: Default::default(), ..model.clone() });

@@ -15,7 +15,7 @@ use periplus_sim::PhysicsMode;
 
 use tutorial::Run;
 
-/// Things are put to a new place so often \[ms\].
+/// Period at which the obstacles are moved \[ms\].
 const STEP_MS: i64 = 100;
 
 /// Half a side of the cube \[m\].
@@ -24,8 +24,8 @@ const CUBE_M: f64 = 0.5;
 /// Radius of the sphere where the lidar cuts it \[m\].
 const SPHERE_M: f64 = 0.44;
 
-/// A mark may be so far from the surface that made it: a cell's diagonal, the noise of the lidar, and
-/// what moves during a step \[m\].
+/// Maximum distance from a mark to the surface that made it: a cell's diagonal, the noise of the lidar,
+/// and the motion during a step \[m\].
 const SLACK_M: f64 = 0.15;
 
 /// More memory than this between the tenth and the last minute is a leak \[MB\].
@@ -51,7 +51,7 @@ fn to_surface(x_m: f64, y_m: f64, time_ns: i64) -> f64 {
     to_cube.min(to_sphere)
 }
 
-/// Marks of a costmap, by what its inspector says of them.
+/// Marks of a costmap, by the result of its inspector.
 #[derive(Default)]
 struct Marks {
     /// All of them.
@@ -87,7 +87,7 @@ fn marks(node: &CostmapNode, now_ns: i64) -> Marks {
     marks
 }
 
-/// Memory of this process now \[MB\], where the system tells it.
+/// Resident memory of this process \[MB\], if the system reports it.
 fn memory_mb() -> f64 {
     let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
     let line = status.lines().find(|line| line.starts_with("VmRSS:"));

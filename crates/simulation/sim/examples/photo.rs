@@ -29,7 +29,7 @@ fn main() {
     };
     let world_from_camera = Pose::from_xyz_rpy([x, y, z], Rpy { roll, pitch, yaw });
     let picture = take(Path::new(world), world_from_camera);
-    let file = std::fs::File::create(out).expect("a place to write to");
+    let file = std::fs::File::create(out).expect("the file can be created");
     let mut encoder =
         png::Encoder::new(std::io::BufWriter::new(file), WIDTH_PX as u32, HEIGHT_PX as u32);
     encoder.set_color(png::ColorType::Rgb);

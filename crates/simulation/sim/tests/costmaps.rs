@@ -33,15 +33,15 @@ fn the_cube_and_the_sphere_appear_inflate_and_go() {
         run.call::<DeleteEntity>("/delete_entity", DeleteEntityRequest { name: "cube".into() });
     assert!(gone.success, "{}", gone.status_message);
     run.go_on(3000);
-    // The floor is open: beams through where it stood end nowhere. By this file they clear nothing, and
-    // the costmaps say so.
+    // The floor is open: beams through the removed cube have no hit. With this file they clear nothing, and
+    // the costmaps report that.
     assert_eq!(run.largest(CUBE.0, CUBE.1), [cost::LETHAL; 2]);
     for (node, (_, layer)) in run.costmaps.iter().zip(LAYERS) {
         let wanted = format!("{layer}.scan.inf_is_valid");
         let advice = node.status().advice;
         assert!(advice.iter().any(|one| one.parameter == wanted), "{advice:?}");
     }
-    // As they are told to do, while they run.
+    // As the report advises, at runtime.
     run.let_infinite_ranges_clear();
     run.go_on(3000);
     assert_eq!(run.largest(CUBE.0, CUBE.1), [cost::FREE; 2]);

@@ -1,4 +1,4 @@
-//! Scripts as people write them, and what is said when they are wrong.
+//! Scripts as users write them, and the reports of their errors.
 #![allow(clippy::unwrap_used, reason = "helpers of tests may unwrap as tests do")]
 
 use std::io::Cursor;

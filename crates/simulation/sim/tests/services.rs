@@ -21,7 +21,7 @@ use periplus_msgs::{Encapsulation, Format, Message, Service, encode};
 use periplus_resources::{MemoryHost, Resolver};
 use periplus_sim::{AssetFiles, Options, Search, Services, Simulation, compose};
 
-/// A ground, a ball that falls, and a lidar at a height of 1 m that looks along x.
+/// A ground plane, a ball that falls, and a lidar at a height of 1 m that looks along x.
 const LAB: &str = r#"<sdf version="1.9"><world name="lab">
   <physics name="p" type="ode"><max_step_size>0.01</max_step_size></physics>
   <plugin name="states" filename="libgazebo_ros_state.so">
@@ -95,7 +95,7 @@ impl Lab {
         answer.take().expect("an answer").unwrap_or_else(|error| panic!("{error}"))
     }
 
-    /// Goes on for so many steps, or as far as it may.
+    /// Runs this number of steps, or as many as possible.
     fn run(&mut self, steps: u32) {
         for _ in 0..steps {
             self.services.serve(&mut self.simulation);
@@ -589,7 +589,7 @@ fn who_subscribes_while_time_stands_still_gets_one_measurement() {
     let scans = late.drain();
     assert_eq!(scans.len(), 1, "one, not one for each look");
     assert_eq!(scans[0].header.stamp.ns(), lab.simulation.time_ns());
-    // A second one finds it measured already: the first is not told twice.
+    // A second subscriber gets the same measurement: the first one gets no second message.
     let _other = lab.node.mailbox::<LaserScan>("/scan", Qos::sensor_data()).unwrap();
     lab.run(3);
     assert!(late.drain().is_empty());

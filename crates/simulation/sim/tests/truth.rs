@@ -18,7 +18,7 @@ use periplus_msgs::tf2_msgs::TFMessage;
 use periplus_resources::{MemoryHost, Resolver};
 use periplus_sim::{AssetFiles, Options, Search, Services, Simulation, compose};
 
-/// A room of 4 by 4 m inside, its walls 0.1 m thick; in it a robot with a lidar 0.3 m above the ground,
+/// A room of 4 by 4 m inside, its walls 0.1 m thick; in it a robot with a lidar 0.3 m above the floor,
 /// a box that it sees and one that is too low.
 const ROOM: &str = r#"<sdf version="1.9"><world name="room">
 <model name="walls"><static>true</static><link name="l">
@@ -86,7 +86,7 @@ fn the_truth_is_a_slice_of_the_world() {
     assert_eq!(truth.cells.iter().filter(|&&cell| cell == 0).count(), 1600 - 25);
 }
 
-/// What is told of a map that lies so in the world, where the robot believes it lies there, wrong by
+/// Status of a map at this pose in the world, while the estimated pose of the robot is wrong by
 /// 0.1 m.
 fn told(map: &OccupancyGrid, world_from_map: Pose2) -> DiagnosticStatus {
     let mut simulation = room();

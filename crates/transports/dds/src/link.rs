@@ -51,7 +51,7 @@ struct Attached {
     /// The node that represents all remote participants.
     node: Node,
     generation: Option<u64>,
-    /// Full names of its own nodes.
+    /// Full names of the participant's nodes.
     nodes: Vec<String>,
     topics: Topics,
     services: Services,

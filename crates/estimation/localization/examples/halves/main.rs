@@ -8,7 +8,7 @@
 #![allow(
     clippy::disallowed_methods,
     clippy::print_stdout,
-    reason = "a tool that reads files and says how it went"
+    reason = "a tool that reads files and prints results"
 )]
 
 mod compare;

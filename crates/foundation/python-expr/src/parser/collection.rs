@@ -159,9 +159,8 @@ impl Parser<'_> {
 
     fn comprehension(&mut self, shape: Shape, element: Item, value: Option<Node>) -> Outcome<Kind> {
         if element.spread {
-            return Err(
-                ExpressionError::new("`*` cannot stand in a comprehension").at(&element.node.range)
-            );
+            return Err(ExpressionError::new("`*` is not allowed in a comprehension")
+                .at(&element.node.range));
         }
         let mut clauses = Vec::new();
         while self.take_word("for") {

@@ -32,7 +32,7 @@ fn run(python: &Path, task: &str, paths: &[PathBuf]) -> String {
     String::from_utf8(output.stdout).unwrap()
 }
 
-/// Every type with the random values of its own rosbags test, three times.
+/// Writes every type with the random values of rosbags' own test, three times.
 fn write_all(path: &Path) -> u64 {
     let types = TypeRegistry::builtin();
     let mut bag = BagWriter::create(path, WriteSettings::new(Storage::Mcap)).unwrap();

@@ -28,7 +28,7 @@ pub enum CameraKind {
     Multi,
 }
 
-/// Camera. Its optical axis is x of its own frame, with y to the left and z up.
+/// Camera. Its frame has x along the optical axis, y to the left and z up.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Camera {
     /// Name, if given.

@@ -53,7 +53,7 @@ pub(super) fn child_mut<'a>(parent: &'a mut Element, name: &str) -> &'a mut Elem
     match &mut parent.children[place] {
         XmlNode::Element(child) => child,
         // The index was found by the same test.
-        _ => unreachable!("the node at this place is an element"),
+        _ => unreachable!("the node at this index is an element"),
     }
 }
 

@@ -156,7 +156,7 @@ fn an_expression_that_is_no_python() {
     check_messages(
         "\n<a v=\"1 ${1 +* 2} 3\"/>\n",
         expect![[r#"
-        error[expression]: `*` stands where a value is needed
+        error[expression]: expected a value, found `*`
          --> main.xacro:2:14
           |
         2 | <a v="1 ${1 +* 2} 3"/>

@@ -38,7 +38,7 @@ impl Builder<'_, '_> {
             );
             if let (true, (Some(a), Some(b))) = (rigid, ends) {
                 let (a, b) = (find(&mut above, a), find(&mut above, b));
-                // The world is the root of its own group; otherwise the lowest link is the root.
+                // The world is the root of its group; otherwise the lowest link is the root.
                 let (low, high) = if a == count || (b != count && a < b) { (a, b) } else { (b, a) };
                 above[high] = low;
             }

@@ -31,7 +31,7 @@ impl PhysicsWorld {
         true
     }
 
-    /// In [`PhysicsMode::Kinematic`](crate::Mode) moves a model along the arc of a twist of its own frame,
+    /// In [`PhysicsMode::Kinematic`](crate::Mode) moves a model along the arc of a twist in the model's frame,
     /// in the plane, until the next command. In [`PhysicsMode::Rigid`](crate::Mode), where wheels move a
     /// robot, this does nothing. Returns true if the model moves: it must exist and be free, and the
     /// numbers must be finite.

@@ -11,7 +11,7 @@ use crate::common::{
 /// Speed that is commanded [m/s], reached with 1 m/s².
 const SPEED_M_S: f64 = 0.3;
 const DRIVE_S: f64 = 5.0;
-/// Way of a cart whose wheels do not slip [m].
+/// Distance travelled by a cart whose wheels do not slip [m].
 pub(crate) const FULL_M: f64 = SPEED_M_S * DRIVE_S - SPEED_M_S * SPEED_M_S / 2.0;
 
 /// The deck and wheels of `robots/kbot`, the axle in the middle and a caster at either end, each
@@ -56,7 +56,7 @@ pub(crate) fn cart(drop_m: f64, caster_mu: f64, scale: f64) -> Model {
     model("cart", links, joints)
 }
 
-/// Way that the cart goes [m] after a second of standing.
+/// Distance travelled by the cart [m] after one second at rest.
 pub(crate) fn drive(cart: &Model, height_m: f64) -> f64 {
     let torque_n_m = 8.0 * cart.links[0].inertial.mass_kg;
     let mut world = flat_world();

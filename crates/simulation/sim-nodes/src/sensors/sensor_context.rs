@@ -100,14 +100,14 @@ impl SensorContext<'_> {
             Diagnostic::warning(
                 "sensor-frame",
                 format!(
-                    "the messages of sensor `{}` carry the frame `{}`, but it stands {away:.3} m \
-                     from that frame's origin or is turned against it",
+                    "the messages of sensor `{}` carry the frame `{}`, but the sensor is {away:.3} m \
+                     from that frame's origin or is rotated against it",
                     self.sensor.name, self.link.name
                 ),
             )
             .at(self.sensor.origin)
             .help(
-                "give the sensor a link or frame of its own and name it in `<frame_name>` of the \
+                "give the sensor a separate link or frame and name it in `<frame_name>` of the \
                  plugin or `<gz_frame_id>` of the sensor",
             ),
         );

@@ -22,7 +22,7 @@ const WORLDS: [&str; 4] = ["world", "/world", "map", "/map"];
 ///
 /// Source: `gazebo_plugins/src/gazebo_ros_p3d.cpp` of `gazebo_ros_pkgs`: the twist is in world axes
 /// (the original turns it once more, the wrong way, where the frame is a link; here it is in that
-/// link's axes). Links that were merged over fixed joints are found, with their own place.
+/// link's axes). Links that were merged over fixed joints are found, with their original pose.
 pub(crate) struct P3d {
     name: String,
     body: Body,

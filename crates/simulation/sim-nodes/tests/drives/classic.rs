@@ -60,7 +60,7 @@ fn one_metre_in_one_second() {
     }
 }
 
-/// The truth is told in the world, wheels from zero.
+/// Odometry of type world starts at the true pose, odometry of wheels at zero.
 #[test]
 fn truth_starts_where_the_robot_stands_and_wheels_at_zero() {
     for (source, start_m) in [("", 2.0), (ENCODERS, 0.0)] {
@@ -219,7 +219,7 @@ fn diff_drive_of_ros_1() {
     near(&last.position, &[2.0, -2.0], 1e-9);
 }
 
-/// Whatever the joints are called, a robot without `legacyMode` turns left when told to.
+/// A robot without `legacyMode` turns left on a positive command, for any names of its joints.
 #[test]
 fn legacy_mode_follows_the_wheels_where_nobody_says() {
     for (left, right, wanted) in
@@ -286,7 +286,7 @@ fn a_planar_robot_slides_sideways() {
     }
 }
 
-/// Only ROS 1 forgets commands, and only if told to.
+/// Only the plugin of ROS 1 has a command timeout, and only if it is set.
 #[test]
 fn a_command_is_forgotten_after_its_time() {
     let plugin = "<plugin name='slide' filename='libgazebo_ros_planar_move.so'>

@@ -49,7 +49,7 @@ fn a_joint_turns_at_the_speed_it_is_told() {
     }
 }
 
-/// Of a speed error of 1 rad/s, a gain of 10 on 1 kg m² leaves `exp(-10)` after a second.
+/// With a gain of 10 on 1 kg m², `exp(-10)` of a speed error is left after one second.
 #[test]
 fn a_speed_held_by_forces() {
     let plugin = "<plugin filename='gz-sim-joint-controller-system'

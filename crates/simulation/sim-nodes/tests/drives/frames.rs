@@ -1,4 +1,4 @@
-//! `robot_state_publisher` and `joint_state_publisher` as nodes of their own.
+//! `robot_state_publisher` and `joint_state_publisher` as separate nodes.
 
 use std::sync::Arc;
 
@@ -13,7 +13,7 @@ use periplus_sim_nodes::states::{
     JointStateOptions, JointStateSource, RobotStateOptions, RobotStatePublisher,
 };
 
-/// A hand that slides, a finger that follows it twice as far the other way, and a fixed lamp.
+/// A gripper that slides, a finger that mimics it with a factor of -2, and a fixed light.
 fn model() -> Model {
     let link = |name: &str, x: f64| Link {
         model_from_link: Pose::from_xyz(x, 0.0, 0.0),

@@ -90,7 +90,7 @@ fn disabled_it_stops_and_hears_nothing() {
     near(&numbers(&odometry.latest().unwrap())[..1], &[0.2], 1e-9);
 }
 
-/// Nobody hears: it tells nothing, and asks for no step.
+/// Without subscribers it publishes nothing, and requests no step.
 #[test]
 fn unheard_it_asks_for_nothing() {
     let mut bench = Bench::exact(&diff_drive(""));

@@ -210,7 +210,7 @@ fn the_clock() {
     assert!(bench.topics().contains("/clock -> /clock rosgraph_msgs/msg/Clock best"));
 }
 
-/// A robot from a URDF: its joints are told though no plugin does, and so its frames come.
+/// A robot from a URDF: its joint states are published without a plugin, and therefore its transforms.
 #[test]
 fn a_whole_robot_tells_its_frames() {
     let mut bench = Bench::exact(TURNING);

@@ -1,4 +1,4 @@
-//! Plugins that cannot work say where and why, and the rest runs.
+//! Plugins that cannot work are reported with position and reason, and the others run.
 
 use expect_test::expect;
 

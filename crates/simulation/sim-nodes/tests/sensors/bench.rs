@@ -26,8 +26,8 @@ pub(crate) struct Bench {
 }
 
 impl Bench {
-    /// A hall with a floor, a wall whose face stands 3 m ahead, and a box of 2 kg, 0.4 m wide,
-    /// whose bottom is on the floor, with this on its link `base`.
+    /// A hall with a floor, a wall whose face is 3 m ahead, and a box of 2 kg, 0.4 m wide, whose bottom
+    /// is on the floor, with this text on its link `base`.
     pub(crate) fn with(on_base: &str) -> Self {
         Self::in_world("", on_base)
     }
@@ -101,7 +101,7 @@ impl Bench {
         self.ear.mailbox(topic, Qos::best_effort(1000)).unwrap()
     }
 
-    /// Topics, each with its type, whom it is from, and its quality of service.
+    /// Topics, each with its type, its publisher, and its quality of service.
     pub(crate) fn topics(&self) -> Vec<String> {
         self.graph
             .topics()

@@ -205,9 +205,11 @@ fn set(simulation: &mut Simulation, wanted: &RequestedState<'_>) -> Result<(), S
             simulation.motion.set_model_velocity(model, linear, angular);
             Ok(())
         }
-        Entity::Link(_) => Err("the link is in its place, but at rest: only whole models can be \
+        Entity::Link(_) => {
+            Err("the link has its new pose, but is at rest: only whole models can be \
                                 given a velocity"
-            .into()),
+                .into())
+        }
     }
 }
 

@@ -13,7 +13,7 @@ const HEAVY: [&str; 3] =
     ["sensor_msgs/msg/Image", "sensor_msgs/msg/CompressedImage", "sensor_msgs/msg/PointCloud2"];
 const ENOUGH: u64 = 2;
 
-/// Types of which a robot at work says something within seconds, unasked.
+/// Types that an active robot publishes within seconds, without a request.
 const TALKATIVE: [&str; 11] = [
     "sensor_msgs/msg/LaserScan",
     "sensor_msgs/msg/Image",
@@ -64,7 +64,7 @@ impl Ears {
         ears
     }
 
-    /// Takes the pictures and clouds that came; what was heard often enough is heard no more.
+    /// Receives the queued images and clouds; unsubscribes from topics with enough messages.
     pub(crate) fn listen(&mut self) {
         let topics = &self.topics;
         self.heavy.retain(|(type_name, mailbox)| {

@@ -1,4 +1,4 @@
-//! Robots that do not do what they are told, and why that is right.
+//! Robots that do not follow their commands, with the reasons.
 
 /// Part of the robot's name in the table, part of what is seen, and the reason.
 pub(crate) type Known = (&'static str, &'static str, &'static str);

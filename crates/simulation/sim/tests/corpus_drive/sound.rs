@@ -4,8 +4,8 @@ use periplus_graph::Sample;
 use periplus_msgs::sensor_msgs::{Image, LaserScan, PointCloud2, PointField, Range};
 use periplus_msgs::{DynamicMessage, Format, Message, Number, Numbers, TypeRegistry, Value};
 
-/// What is wrong with a message, if anything is. Infinities are right where REP 117 and 118 want
-/// them: in ranges and depths that are beyond the nearest or farthest.
+/// Error of a message, if it has one. Infinities are valid in ranges and depths beyond the limits, as
+/// defined by REP 117 and 118.
 pub(crate) fn fault(type_name: &str, sample: &Sample) -> Option<String> {
     let found = match type_name {
         LaserScan::TYPE_NAME => sample.message().map(|scan| scan_fault(&scan)),
@@ -36,7 +36,7 @@ fn range_fault(range: &Range) -> Option<String> {
     (!sound).then(|| format!("the range is {}", range.range))
 }
 
-/// A point without a return has no numbers; then the cloud must say that it is not dense.
+/// A point without a return has no numbers; the cloud must then have `is_dense` false.
 fn cloud_fault(cloud: &PointCloud2) -> Option<String> {
     let (width, height) = (cloud.width as usize, cloud.height as usize);
     let (step, row) = (cloud.point_step as usize, cloud.row_step as usize);

@@ -26,7 +26,7 @@ const COMMAND_NS: i64 = 100_000_000;
 /// Distance and angle beyond which a robot has moved.
 const MOVED_M: f64 = 0.2;
 const MOVED_RAD: f64 = 0.2;
-/// A robot that sinks so much in the end falls \[m\].
+/// A robot that is lower than this at the end has fallen \[m\].
 const FALLS_M: f64 = 0.1;
 const LATE_NS: i64 = 500_000_000;
 
@@ -145,7 +145,7 @@ pub(crate) fn drive(
     report
 }
 
-/// How far and how much; what it should not have done becomes a fault.
+/// Distance and rotation of the motion; unexpected motion is added to the faults.
 fn motion([start, late, end]: [Pose; 3], faults: &mut Vec<String>) -> (f64, f64) {
     let way = end.translation - start.translation;
     let moved_m = way.truncate().length();

@@ -1,4 +1,4 @@
-//! The tutorial's robot between a cube and a sphere, with the costmaps of its own parameter file.
+//! The tutorial's robot between a cube and a sphere, with the costmaps of the tutorial's parameter file.
 #![allow(dead_code, reason = "a test and examples share it, and each uses a part")]
 
 use std::path::Path;
@@ -133,7 +133,7 @@ impl Run {
         }
     }
 
-    /// Tells where the robot is, as the filter of the tutorial does: by its odometry.
+    /// Publishes the pose of the robot by odometry, as the filter of the tutorial does.
     fn place(&self) {
         let transforms = self.odometry.drain().into_iter().map(|odometry| {
             let Pose { position, orientation } = odometry.pose.pose.clone();
@@ -157,8 +157,8 @@ impl Run {
         answer.take().expect("an answer").unwrap()
     }
 
-    /// Lets infinite ranges clear, as the costmaps advise: the floor is open, and beams through where
-    /// something stood end nowhere.
+    /// Lets infinite ranges clear, as the costmaps advise: the floor is open, and beams through removed
+    /// obstacles have no hit.
     pub(crate) fn let_infinite_ranges_clear(&mut self) {
         for (name, layer) in LAYERS {
             let value = ParameterValue {
@@ -173,12 +173,12 @@ impl Run {
         }
     }
 
-    /// The cost at a place, in both costmaps.
+    /// Costs at a position, in both costmaps.
     pub(crate) fn costs(&self, x_m: f64, y_m: f64) -> [u8; 2] {
         self.costmaps.each_ref().map(|node| node.inspect(x_m, y_m).unwrap().cost)
     }
 
-    /// The largest cost near a place, in both.
+    /// Largest costs near a position, in both costmaps.
     pub(crate) fn largest(&self, x_m: f64, y_m: f64) -> [u8; 2] {
         let around = [-0.1, -0.05, 0.0, 0.05, 0.1];
         let near = around.iter().flat_map(|dx| around.map(|dy| (x_m + dx, y_m + dy)));
