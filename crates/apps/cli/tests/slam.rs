@@ -292,7 +292,6 @@ fn passes_that_contradict_each_other_are_in_the_report_and_in_the_picture() {
 
 /// Scans of a building in which each second one is of elsewhere: no map, and exit code 1.
 #[test]
-#[ignore = "defect: random scans between good ones count as matched, so the map is not refused"]
 fn a_log_whose_scans_fit_nothing_fails() {
     let folder = Folder::new("slam-unfitting");
     let mut moments = drive();

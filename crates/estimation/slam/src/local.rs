@@ -30,6 +30,9 @@ const DISTRUST_SQUARED_SIGMAS: f64 = 20.0;
 /// more than the second they belong together.
 const DOUBTFUL_AGREEMENT_RATIO: f64 = 0.75;
 const SURE_AGREEMENT_RATIO: f64 = 0.9;
+/// Maximum agreement with the scans before of a scan that belongs elsewhere: half of the points that both can
+/// see contradict each other by chance.
+pub(crate) const MIN_AGREEMENT_RATIO: f64 = 0.6;
 /// Range over which the heading step is computed: with the range of most points, ends move by a cell per
 /// step \[m\].
 const ARM_M: std::ops::Range<f64> = 2.0..12.0;
@@ -222,12 +225,14 @@ pub(crate) fn match_locally(
         }
     }
     let fit = finish(&best, &Prior { information, ..prior });
-    let is_matched = fit.matched > MIN_MATCHED_RATIO * 0.7;
-    let agreeing = match is_matched {
+    let finds_partners = fit.matched > MIN_MATCHED_RATIO * 0.7;
+    let agreeing = match finds_partners {
         true if is_poor(&fit) => against(cloud, group, fit.target_from_moving).share(),
         true => 1.0,
         false => 0.0,
     };
+    // Clutter finds partners everywhere: once a scan of it is a keyframe, more of its kind match it.
+    let is_matched = finds_partners && agreeing > MIN_AGREEMENT_RATIO;
     if !is_matched {
         best.target_from_moving = frame_from_base;
         let doubted = doubted(&information, 0.0);

@@ -7,7 +7,7 @@ use periplus_scan_matching::{Cloud, Symmetric3};
 use super::{Last, OdometryStep, ROTATION_ARM_M, ScanMatch, ScanOutcome, Slam, drawn_ends};
 use crate::graph::{ConstraintKind, Edge};
 use crate::keyframe::{Keyframe, TrajectoryNode};
-use crate::local::apart;
+use crate::local::{MIN_AGREEMENT_RATIO, apart};
 use crate::remark::RemarkKind;
 use crate::scan::{Ends, Scan};
 
@@ -16,9 +16,8 @@ use crate::scan::{Ends, Scan};
 const CARRIED_M: f64 = 30.0;
 /// Longest interruption of the scans across which matching is trusted \[s\].
 const GAP_S: f64 = 10.0;
-/// Maximum agreement with the scans before of a scan that belongs elsewhere: without, and with an
-/// interruption or an odometry jump.
-const MAX_STRANGE_AGREEMENT_RATIO: f64 = 0.6;
+/// Maximum agreement with the scans before of a scan that belongs elsewhere, after an interruption or an
+/// odometry jump; [`MIN_AGREEMENT_RATIO`] otherwise.
 const MAX_INTERRUPTED_AGREEMENT_RATIO: f64 = 0.8;
 /// Minimum path and number of consecutive scans that belong elsewhere.
 const STRANGE_M: f64 = 1.5;
@@ -43,7 +42,7 @@ impl Slam {
         if is_interrupted && scan_match.agreeing < MAX_INTERRUPTED_AGREEMENT_RATIO {
             return true;
         }
-        if scan_match.agreeing > MAX_STRANGE_AGREEMENT_RATIO {
+        if scan_match.agreeing > MIN_AGREEMENT_RATIO {
             self.unmatched = UnmatchedRun::default();
             return false;
         }
