@@ -74,7 +74,10 @@ pub use info::{
     EndpointInfo, NodeInfo, PublisherTraffic, QosMismatch, ServiceInfo, SubscriptionTraffic,
     TopicInfo, Traffic,
 };
-pub use lifecycle::{Bond, BondSettings, Lifecycle, LifecycleState, Step, StepOutcome, Transition};
+pub use lifecycle::{
+    Bond, BondSettings, Lifecycle, LifecycleCallbacks, LifecycleNode, LifecycleState, Step,
+    StepOutcome, Transition,
+};
 pub use log::Level;
 pub use mailbox::{Mailbox, RawMailbox};
 pub use name::{

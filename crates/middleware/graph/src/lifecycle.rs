@@ -7,6 +7,7 @@
 
 mod bond;
 mod machine;
+mod node;
 mod services;
 
 use std::sync::{Arc, Mutex, Weak};
@@ -15,6 +16,7 @@ use periplus_msgs::lifecycle_msgs::TransitionEvent;
 
 pub use bond::{Bond, BondSettings};
 pub use machine::{LifecycleState, Step, StepOutcome, Transition};
+pub use node::{LifecycleCallbacks, LifecycleNode};
 
 use crate::actor::{Io, Once};
 use crate::common::lock;
@@ -26,7 +28,7 @@ use crate::{Actor, GraphError, Publisher, Qos};
 #[derive(Clone)]
 pub struct Lifecycle(Arc<LifecycleCore>);
 
-struct LifecycleCore {
+pub(crate) struct LifecycleCore {
     node: Weak<NodeCore>,
     state: Mutex<LifecycleState>,
     /// Locked while the state changes.
@@ -48,7 +50,7 @@ impl Lifecycle {
     /// True in the active state.
     #[must_use]
     pub fn is_active(&self) -> bool {
-        self.state() == LifecycleState::Active
+        self.0.is_active()
     }
 
     /// Changes the state from inside the program, as soon as the node is idle; no effect if the
@@ -108,11 +110,17 @@ impl<S: Send + 'static> Actor<S> {
         for server in services::serve(&node, &life)? {
             self.keep(server);
         }
+        // The services are there, so no other lifecycle is.
+        let _ = node.0.lifecycle.set(Arc::downgrade(&life));
         Ok(Lifecycle(life))
     }
 }
 
 impl LifecycleCore {
+    pub(crate) fn is_active(&self) -> bool {
+        *lock(&self.state) == LifecycleState::Active
+    }
+
     /// Executes a transition; true if it succeeded.
     fn change(
         &self,

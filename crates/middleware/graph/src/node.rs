@@ -9,6 +9,7 @@ use crate::actor::Actor;
 use crate::common::lock;
 use crate::event_queue::EventQueue;
 use crate::graph::{Core, Graph};
+use crate::lifecycle::LifecycleCore;
 use crate::mailbox::{Mailbox, RawMailbox};
 use crate::parameters::Store;
 use crate::publisher::{Publisher, RawPublisher};
@@ -34,6 +35,8 @@ pub(crate) struct NodeCore {
     /// Event queue of its thread, in live mode.
     own_event_queue: OnceLock<Arc<EventQueue>>,
     pub(crate) standard: OnceLock<Standard>,
+    /// Lifecycle of a managed node.
+    pub(crate) lifecycle: OnceLock<Weak<LifecycleCore>>,
 }
 
 impl Node {
@@ -62,6 +65,7 @@ impl Node {
             ordinal: 0.into(),
             own_event_queue: OnceLock::new(),
             standard: OnceLock::new(),
+            lifecycle: OnceLock::new(),
         });
         Standard::join(&node, store, is_bare, &arguments)?;
         let itself = Arc::downgrade(&node);
@@ -91,6 +95,14 @@ impl Node {
     #[must_use]
     pub fn now_ns(&self) -> i64 {
         self.0.core.common.clock.now_ns()
+    }
+
+    /// True in the active state of a managed node; always true for other nodes. It is false while a
+    /// transition to or from the active state runs.
+    #[must_use]
+    pub fn is_active(&self) -> bool {
+        let lifecycle = self.0.lifecycle.get();
+        lifecycle.is_none_or(|life| life.upgrade().is_some_and(|life| life.is_active()))
     }
 
     /// Creates a publisher.

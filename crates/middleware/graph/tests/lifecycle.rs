@@ -4,8 +4,8 @@
 use std::sync::Arc;
 
 use periplus_graph::{
-    Actor, Graph, Lifecycle, LifecycleState, Mailbox, Node, NodeSettings, Qos, Step, StepOutcome,
-    Transition,
+    Actor, Graph, Io, Lifecycle, LifecycleCallbacks, LifecycleNode, LifecycleState, Mailbox, Node,
+    NodeSettings, Qos, Step, StepOutcome, Transition,
 };
 use periplus_msgs::Service;
 use periplus_msgs::lifecycle_msgs::*;
@@ -135,4 +135,84 @@ fn a_program_changes_the_state_itself() {
     stage.graph.settle();
     assert!(stage.life.is_active());
     assert!(stage.user.actor(()).managed(|(), _, _| StepOutcome::Success).is_ok());
+}
+
+/// A node that records its callbacks and whether it was active in them.
+#[derive(Default)]
+struct Recorder {
+    calls: Vec<(&'static str, bool)>,
+    outcome: Option<StepOutcome>,
+}
+
+impl Recorder {
+    fn record(&mut self, call: &'static str, io: &Io<'_, Self>) -> StepOutcome {
+        self.calls.push((call, io.node().is_active()));
+        self.outcome.take().unwrap_or(StepOutcome::Success)
+    }
+}
+
+impl LifecycleCallbacks for Recorder {
+    fn on_configure(&mut self, io: &mut Io<'_, Self>) -> StepOutcome {
+        self.record("configure", io)
+    }
+
+    fn on_activate(&mut self, io: &mut Io<'_, Self>) -> StepOutcome {
+        self.record("activate", io)
+    }
+
+    fn on_cleanup(&mut self, io: &mut Io<'_, Self>) -> StepOutcome {
+        self.record("cleanup", io)
+    }
+}
+
+fn recorder(graph: &Graph) -> LifecycleNode<Recorder> {
+    let node = graph.node(NodeSettings::new("recorder")).unwrap();
+    LifecycleNode::new(node.actor(Recorder::default())).unwrap()
+}
+
+#[test]
+fn a_lifecycle_node_runs_the_callback_of_each_transition() {
+    let graph = Graph::new();
+    let node = recorder(&graph);
+    assert!(!node.node().is_active());
+    node.start();
+    graph.settle();
+    assert!(node.node().is_active() && node.lifecycle().is_active());
+    // A transition without a callback succeeds; a shutdown cleans up.
+    for transition in [Transition::Deactivate, Transition::Activate, Transition::Shutdown] {
+        node.lifecycle().change(transition);
+        graph.settle();
+    }
+    assert!(!node.node().is_active());
+    assert_eq!(node.lifecycle().state(), LifecycleState::Finalized);
+    let calls = node.with(|recorder| std::mem::take(&mut recorder.calls));
+    let all = ["configure", "activate", "activate", "cleanup"];
+    assert_eq!(calls, all.map(|call| (call, false)), "it is active between transitions only");
+}
+
+#[test]
+fn a_lifecycle_node_cleans_up_after_an_error() {
+    let graph = Graph::new();
+    let node = recorder(&graph);
+    node.lifecycle().change(Transition::Configure);
+    graph.settle();
+    node.with(|recorder| recorder.outcome = Some(StepOutcome::Error));
+    node.lifecycle().change(Transition::Activate);
+    graph.settle();
+    assert_eq!(node.lifecycle().state(), LifecycleState::Unconfigured);
+    let calls: Vec<_> = node.with(|it| it.calls.iter().map(|it| it.0).collect());
+    assert_eq!(calls, ["configure", "activate", "cleanup"]);
+}
+
+#[test]
+fn a_node_has_one_lifecycle_and_others_are_always_active() {
+    let graph = Graph::new();
+    let plain = graph.node(NodeSettings::new("plain")).unwrap();
+    assert!(plain.is_active(), "not managed");
+    let managed = recorder(&graph);
+    let again = LifecycleNode::new(managed.node().actor(Recorder::default()));
+    assert!(again.is_err());
+    managed.start();
+    graph.settle();
+    assert!(managed.node().is_active(), "the first lifecycle stays");
 }
