@@ -28,8 +28,8 @@ pub(crate) fn main() -> Result<(), Box<dyn Error>> {
     }
     graph.settle();
 
-    let status = slam.status();
-    let map = slam.map().ok_or("no scan was used")?;
+    let (status, map) = slam.with(|slam| (slam.status(), slam.map()));
+    let map = map.ok_or("no scan was used")?;
     // Percent; unknown cells are negative.
     let occupied = map.cells.iter().filter(|&&cell| cell > 50).count();
     let (x_m, y_m) = (status.map_from_base.x_m, status.map_from_base.y_m);

@@ -10,7 +10,7 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 use periplus_costmap::{Nav2Release, cost};
-use periplus_graph::Graph;
+use periplus_graph::{Graph, LifecycleNode};
 use periplus_images::{Layout, write_png};
 use periplus_maps::palette::{Scheme, paint};
 use periplus_nav_nodes::costmap_2d::{CostmapNode, VoxelMarkers};
@@ -57,7 +57,7 @@ fn floor_point(word: &str) -> Result<FloorPoint, String> {
 /// Costmap nodes of a run.
 #[derive(Default)]
 pub(crate) struct Costmaps {
-    nodes: Vec<CostmapNode>,
+    nodes: Vec<LifecycleNode<CostmapNode>>,
     _markers: Vec<VoxelMarkers>,
     cells: Vec<FloorPoint>,
     pictures: Option<PathBuf>,
@@ -110,7 +110,7 @@ impl Costmaps {
                 .and_then(|node| Ok((node, VoxelMarkers::new(graph, &format!("/{name}"))?)));
             let (node, markers) =
                 made.map_err(|error| CliError::failed(format!("{name} cannot run: {error}")))?;
-            node.name_lines_of(file.sources.clone());
+            node.with(|node| node.name_lines_of(file.sources.clone()));
             costmaps.nodes.push(node);
             costmaps._markers.push(markers);
         }
@@ -119,12 +119,12 @@ impl Costmaps {
 
     /// Returns true if one of them uses `/clock`.
     fn wants_simulated_time(&self) -> bool {
-        self.nodes.iter().any(CostmapNode::uses_simulated_time)
+        self.nodes.iter().any(|node| node.with(|node| node.uses_simulated_time()))
     }
 
     /// Configures and activates them.
     fn start(&self) {
-        self.nodes.iter().for_each(CostmapNode::start);
+        self.nodes.iter().for_each(LifecycleNode::start);
     }
 
     /// Prints the report at the end of a run.
@@ -132,7 +132,7 @@ impl Costmaps {
         for node in &self.nodes {
             status(node, out)?;
             for FloorPoint { x_m, y_m } in &self.cells {
-                match node.inspect(*x_m, *y_m) {
+                match node.with(|node| node.inspect(*x_m, *y_m)) {
                     Some(report) => write!(out, "{report}")?,
                     None => writeln!(out, "({x_m}, {y_m}) is outside the costmap")?,
                 }
@@ -166,15 +166,15 @@ impl Costmaps {
 }
 
 /// Renders an image in RViz colours, four pixels per cell.
-fn draw(node: &CostmapNode, scheme: Scheme, path: &Path) -> Result<(), String> {
+fn draw(node: &LifecycleNode<CostmapNode>, scheme: Scheme, path: &Path) -> Result<(), String> {
     const PIXELS_PER_CELL: usize = 4;
-    let drawn = node.look(|costmap| {
-        let grid = costmap.costmap();
+    let drawn = node.with(|node| {
+        let grid = node.costmap()?.costmap();
         let (width, height) = (grid.info().width, grid.info().height);
         let values: Vec<i8> = grid.costs().iter().map(|cost| cost::occupancy_of(*cost)).collect();
         let samples = paint(&scheme.palette(), width, &values, PIXELS_PER_CELL);
         let size = |cells: usize| (cells * PIXELS_PER_CELL) as u32;
-        write_png(size(width), size(height), Layout::Rgb, &samples)
+        Some(write_png(size(width), size(height), Layout::Rgb, &samples))
     });
     let Some(bytes) = drawn else { return Err("the costmap has no data yet".into()) };
     if let Some(folder) = path.parent() {
@@ -184,8 +184,8 @@ fn draw(node: &CostmapNode, scheme: Scheme, path: &Path) -> Result<(), String> {
 }
 
 /// Prints the inputs of a costmap and the missing ones.
-fn status(node: &CostmapNode, out: &mut dyn Write) -> io::Result<()> {
-    let status = node.status();
+fn status(node: &LifecycleNode<CostmapNode>, out: &mut dyn Write) -> io::Result<()> {
+    let status = node.with(|node| node.status());
     let (width, height) = status.size;
     writeln!(out, "{}: {width} x {height} cells, {} updates", status.node, status.updates)?;
     if let Some(trouble) = &status.trouble {

@@ -142,7 +142,7 @@ pub(crate) fn run(options: &DemoOptions) -> Result<ExitCode, CliError> {
     let Some(out) = out else { return Ok(ExitCode::SUCCESS) };
     let recording = recorder.map(|recorder| recorder.finish(&mut simulation)).transpose();
     let recording = recording.map_err(|error| format!("the bag is incomplete: {error}"))?;
-    let map = mapping.node.map();
+    let map = mapping.node.with(|node| node.map());
     let truth = map.and_then(|map| simulation.beside_truth(&map, Pose2::IDENTITY));
     let run = crate::sim::Report {
         simulation: &simulation,

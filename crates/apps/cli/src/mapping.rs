@@ -7,7 +7,7 @@ use std::sync::Arc;
 
 use clap::Args;
 use periplus_diagnostics::{Diagnostics, SourceMap};
-use periplus_graph::{Graph, GraphError, Node, NodeSettings, TopicInfo};
+use periplus_graph::{Graph, GraphError, LifecycleNode, Node, NodeSettings, TopicInfo};
 use periplus_maps::{Distro, Saving, render};
 use periplus_msgs::Message as _;
 use periplus_msgs::sensor_msgs::LaserScan;
@@ -62,7 +62,7 @@ impl MoreMapping {
 
 /// SLAM node of a run.
 pub(crate) struct Mapping {
-    pub(crate) node: SlamNode,
+    pub(crate) node: LifecycleNode<SlamNode>,
     out: Option<PathBuf>,
 }
 
@@ -183,7 +183,7 @@ impl Mapping {
 
     /// Prints the report at the end of a run.
     pub(crate) fn tell(&self, out: &mut dyn Write) -> io::Result<()> {
-        let status = self.node.status();
+        let status = self.node.with(|node| node.status());
         let counts = status.counts;
         writeln!(
             out,
@@ -244,7 +244,7 @@ impl Mapping {
 
     /// Regions of the current map in which two passes contradict each other.
     fn contradictions(&self) -> Vec<MapContradiction> {
-        self.node.look(Slam::audit).unwrap_or_default()
+        self.node.with(|node| node.graph().map(Slam::audit)).unwrap_or_default()
     }
 
     /// Writes the requested results; a message if they cannot be written.
@@ -252,18 +252,20 @@ impl Mapping {
         let Some(folder) = &self.out else { return Ok(None) };
         crate::paths::make_folder(folder)?;
         let put = |name: &str, bytes: &[u8]| crate::paths::write(&folder.join(name), bytes);
-        let is_empty = self.node.status().counts.kept == 0 && self.node.status().graph.0 == 0;
-        let Some(map) = self.node.map().filter(|_| !is_empty) else {
+        let status = self.node.with(|node| node.status());
+        let is_empty = status.counts.kept == 0 && status.graph.0 == 0;
+        let Some(map) = self.node.with(|node| node.map()).filter(|_| !is_empty) else {
             return Err("there is no map to write: no scan was inserted".into());
         };
         let files = render(&map, &Saving::new("map", Distro::Jazzy));
         put(&files.image_path, &files.image)?;
         put(&files.yaml_path, files.yaml.as_bytes())?;
-        let poses = self.node.look(|slam| slam.poses().to_vec()).unwrap_or_default();
+        let poses = self.node.with(|node| node.graph().map(|slam| slam.poses().to_vec()));
+        let poses = poses.unwrap_or_default();
         let marked = self.contradictions().into_iter().map(|it| it.map_from_base);
         let marked: Vec<(f64, f64)> = marked.map(|it| (it.x_m, it.y_m)).collect();
         put("map.png", &picture::draw(&map, &poses, &marked))?;
-        if let Some(session) = self.node.look(Slam::save) {
+        if let Some(session) = self.node.with(|node| node.graph().map(Slam::save)) {
             put("map.session", &session)?;
         }
         Ok(Some(folder.clone()))

@@ -8,7 +8,7 @@ use crate::Frames;
 
 /// Frames of a robot, and the parameters that name them.
 #[derive(Clone, Copy, Debug)]
-pub struct Robot<'a> {
+pub struct RobotFrames<'a> {
     /// Odometry frame.
     pub odom: &'a str,
     /// Base frame of the robot.
@@ -19,9 +19,9 @@ pub struct Robot<'a> {
     pub base_parameter: &'static str,
 }
 
-/// Transforms at the time of a scan.
+/// Transforms of the stamp of a scan.
 #[derive(Clone, Copy, Debug)]
-pub struct Places {
+pub struct ScanTransforms {
     /// The time \[ns\].
     pub time_ns: i64,
     /// Mounting pose of the scanner.
@@ -32,7 +32,7 @@ pub struct Places {
 
 /// Transform that a scan lacks.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Lack {
+pub enum MissingTransform {
     /// The `frame_id` of the scan is empty.
     Frame,
     /// The mounting pose of the scanner.
@@ -45,25 +45,29 @@ pub enum Lack {
 ///
 /// # Errors
 /// The first transform that is not available.
-pub fn places(message: &LaserScan, frames: &Frames, robot: &Robot<'_>) -> Result<Places, Lack> {
+pub fn scan_transforms(
+    message: &LaserScan,
+    frames: &Frames,
+    robot: &RobotFrames<'_>,
+) -> Result<ScanTransforms, MissingTransform> {
     let time_ns = message.header.stamp.ns();
     let (laser, base) = (message.header.frame_id.as_str(), robot.base);
     if laser.is_empty() {
-        return Err(Lack::Frame);
+        return Err(MissingTransform::Frame);
     }
     // The mounting pose rarely changes; the latest one is used if none is available at that time.
     let base_from_laser = frames.at(base, laser, time_ns).or_else(|_| frames.at(base, laser, 0));
-    let (base_from_laser, _) = base_from_laser.map_err(|_| Lack::Laser)?;
+    let (base_from_laser, _) = base_from_laser.map_err(|_| MissingTransform::Laser)?;
     let found = frames.at(robot.odom, base, time_ns);
-    let odom_from_base = Pose2::from(found.map_err(|_| Lack::Odometry)?.0);
-    Ok(Places { time_ns, base_from_laser, odom_from_base })
+    let odom_from_base = Pose2::from(found.map_err(|_| MissingTransform::Odometry)?.0);
+    Ok(ScanTransforms { time_ns, base_from_laser, odom_from_base })
 }
 
-impl Lack {
-    /// Describes the missing transform.
+impl MissingTransform {
+    /// Finding that describes the missing transform, and what to start or set.
     #[must_use]
-    pub fn told(self, laser: &str, frames: &Frames, robot: &Robot<'_>) -> Diagnostic {
-        let Robot { odom, base, odom_parameter, base_parameter } = robot;
+    pub fn finding(self, laser: &str, frames: &Frames, robot: &RobotFrames<'_>) -> Diagnostic {
+        let RobotFrames { odom, base, odom_parameter, base_parameter } = robot;
         match self {
             Self::Frame => Diagnostic::error("scan-without-frame", "scans have no `frame_id`")
                 .help("set the frame in which the driver measures"),

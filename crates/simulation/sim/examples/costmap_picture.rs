@@ -7,6 +7,7 @@
 mod tutorial;
 
 use periplus_costmap::cost::occupancy_of;
+use periplus_graph::LifecycleNode;
 use periplus_maps::palette::{Scheme, paint};
 use periplus_nav_nodes::costmap_2d::CostmapNode;
 use periplus_sim::PhysicsMode;
@@ -32,8 +33,9 @@ impl Sheet {
     }
 
     /// Draws a costmap into the middle of a panel.
-    fn draw(&mut self, panel: usize, node: &CostmapNode) {
-        node.look(|costmap| {
+    fn draw(&mut self, panel: usize, node: &LifecycleNode<CostmapNode>) {
+        node.with(|node| {
+            let Some(costmap) = node.costmap() else { return };
             let grid = costmap.costmap();
             let (width, height) = (grid.info().width, grid.info().height);
             let pixels = SIDE_PX / width.max(height);

@@ -8,7 +8,7 @@ mod tutorial;
 
 use periplus_costmap::cost::LETHAL;
 use periplus_geometry::Pose;
-use periplus_graph::Qos;
+use periplus_graph::{LifecycleNode, Qos};
 use periplus_msgs::geometry_msgs::{Twist, Vector3};
 use periplus_nav_nodes::costmap_2d::CostmapNode;
 use periplus_sim::PhysicsMode;
@@ -62,17 +62,18 @@ struct Marks {
     unexplained: usize,
 }
 
-fn marks(node: &CostmapNode, now_ns: i64) -> Marks {
+fn marks(node: &LifecycleNode<CostmapNode>, now_ns: i64) -> Marks {
     let mut marks = Marks::default();
-    let lethal = node.look(|costmap| {
+    let lethal = node.with(|node| {
+        let costmap = node.costmap()?;
         let info = *costmap.costmap().info();
         let costs = costmap.costmap().costs().iter().enumerate();
         let lethal = costs.filter(|(_, cost)| **cost == LETHAL);
-        lethal.map(|(index, _)| info.centre_of(info.cell(index))).collect::<Vec<_>>()
+        Some(lethal.map(|(index, _)| info.centre_of(info.cell(index))).collect::<Vec<_>>())
     });
     for (x_m, y_m) in lethal.unwrap() {
         marks.all += 1;
-        let report = node.inspect(x_m, y_m).unwrap();
+        let report = node.with(|node| node.inspect(x_m, y_m)).unwrap();
         let cause = report.layers.iter().find_map(|layer| layer.explanation.cause.as_ref());
         match cause.filter(|cause| cause.is_mark) {
             Some(cause) if to_surface(x_m, y_m, cause.time_ns) < SLACK_M => {

@@ -38,7 +38,7 @@ fn the_cube_and_the_sphere_appear_inflate_and_go() {
     assert_eq!(run.largest(CUBE.0, CUBE.1), [cost::LETHAL; 2]);
     for (node, (_, layer)) in run.costmaps.iter().zip(LAYERS) {
         let wanted = format!("{layer}.scan.inf_is_valid");
-        let advice = node.status().advice;
+        let advice = node.with(|node| node.status()).advice;
         assert!(advice.iter().any(|one| one.parameter == wanted), "{advice:?}");
     }
     // As the report advises, at runtime.

@@ -17,8 +17,8 @@ pub(super) fn of(
     explorer: Option<&Explorer>,
 ) -> Value {
     let mut report = run.to_json();
-    let status = mapping.node.status();
-    if let Some(map) = mapping.node.map() {
+    let status = mapping.node.with(|node| node.status());
+    if let Some(map) = mapping.node.with(|node| node.map()) {
         let cell_m2 = map.info.resolution_m * map.info.resolution_m;
         let area_m2 = |wanted: fn(&i8) -> bool| {
             map.cells.iter().filter(|value| wanted(value)).count() as f64 * cell_m2

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use clap::Args;
-use periplus_graph::{Graph, NodeSettings};
+use periplus_graph::{Graph, LifecycleNode, NodeSettings};
 use periplus_nav_nodes::amcl::AmclNode;
 use periplus_nav_nodes::map_server::{MapServer, MapServerSettings};
 use periplus_os::Machine;
@@ -27,8 +27,8 @@ pub(crate) struct BesideOptions {
 
 /// Localization nodes.
 pub(crate) struct Localization {
-    amcl: AmclNode,
-    _server: Option<MapServer>,
+    amcl: LifecycleNode<AmclNode>,
+    _server: Option<LifecycleNode<MapServer>>,
 }
 
 impl BesideOptions {
@@ -95,13 +95,14 @@ impl Localization {
     }
 
     /// The node `amcl`.
-    pub(super) fn amcl(&self) -> &AmclNode {
+    pub(super) fn amcl(&self) -> &LifecycleNode<AmclNode> {
         &self.amcl
     }
 
     /// Prints the report at the end of a run.
     pub(crate) fn tell(&self, out: &mut dyn Write) -> io::Result<()> {
-        let told = self.amcl.look(|amcl| {
+        let told = self.amcl.with(|node| {
+            let amcl = node.amcl()?;
             let status = amcl.status();
             let place = amcl.estimate().zip(amcl.map_from_odom()).map(|(estimate, _)| {
                 let (pose, spread_m) = (estimate.pose, estimate.covariance.radius_m());
@@ -112,10 +113,10 @@ impl Localization {
                 )
             });
             let place = place.unwrap_or_else(|| "no pose yet".into());
-            format!("localization: {place}: {:?}, {}", status.state, status.reason)
+            Some(format!("localization: {place}: {:?}, {}", status.state, status.reason))
         });
         writeln!(out, "{}", told.unwrap_or_else(|| "localization: not configured".into()))?;
-        if let Some(trouble) = self.amcl.trouble() {
+        if let Some(trouble) = self.amcl.with(|node| node.trouble().map(str::to_owned)) {
             writeln!(out, "  {trouble}")?;
         }
         Ok(())

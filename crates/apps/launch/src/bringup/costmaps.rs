@@ -3,8 +3,8 @@
 use periplus_costmap::CostmapConfig;
 use periplus_diagnostics::Diagnostics;
 use periplus_graph::{
-    Actor, Graph, GraphError, Level, Lifecycle, LifecycleState, Node, NodeSettings, Step,
-    StepOutcome, Transition,
+    Graph, GraphError, Io, Level, LifecycleCallbacks, LifecycleNode, LifecycleState, Node,
+    NodeSettings, StepOutcome, Transition,
 };
 use periplus_nav_nodes::costmap_2d::CostmapNode;
 
@@ -13,8 +13,9 @@ use crate::bringup::parts::BuiltInRequest;
 
 /// Lifecycle node that replaces a server, and its costmap in the same state.
 pub(crate) struct Host {
-    _actor: Actor<CostmapNode>,
-    life: Lifecycle,
+    costmap: LifecycleNode<CostmapNode>,
+    /// The part of the server that Periplus does not have.
+    lacks: &'static str,
 }
 
 impl Host {
@@ -28,7 +29,7 @@ impl Host {
         graph: &Graph,
         (costmap, lacks): (&'static str, &'static str),
         notes: &mut Vec<String>,
-    ) -> Result<Self, String> {
+    ) -> Result<LifecycleNode<Self>, String> {
         let around = node.names().namespace().trim_end_matches('/');
         let namespace = format!("{around}/{costmap}");
         let named = make::parameters_as(ask, &format!("{namespace}/{costmap}"), notes);
@@ -41,42 +42,44 @@ impl Host {
         let failed = |error: GraphError| error.to_string();
         let inner = graph.node(settings).map_err(failed)?;
         let costmap = CostmapNode::at(inner, config).map_err(failed)?;
-        costmap.name_lines_of(written.sources);
-        let mut actor = node.actor(costmap);
-        let life = actor
-            .managed(move |costmap, step, io| {
-                let outcome = follow(costmap, step);
-                if step == Step::Activate {
-                    let text =
-                        format!("its costmap is active; Periplus has no {lacks} to go with it");
-                    io.node().log(Level::Warn, text);
-                }
-                outcome
-            })
-            .map_err(failed)?;
-        Ok(Self { _actor: actor, life })
+        costmap.with(|costmap| costmap.name_lines_of(written.sources));
+        LifecycleNode::new(node.actor(Self { costmap, lacks })).map_err(failed)
     }
 
-    pub(crate) fn life(&self) -> &Lifecycle {
-        &self.life
+    /// Lets the costmap follow a transition of its server.
+    fn follow(&self, transition: Transition) -> StepOutcome {
+        let lifecycle = self.costmap.lifecycle();
+        if lifecycle.state() == LifecycleState::Finalized {
+            return StepOutcome::Failure;
+        }
+        lifecycle.change(transition);
+        StepOutcome::Success
     }
 }
 
-/// The costmap follows the transitions of its server.
-fn follow(costmap: &CostmapNode, step: Step) -> StepOutcome {
-    let life = costmap.life();
-    let transition = match step {
-        Step::Configure => Transition::Configure,
-        Step::Activate => Transition::Activate,
-        Step::Deactivate => Transition::Deactivate,
-        Step::Cleanup | Step::Error => Transition::Cleanup,
-        Step::Shutdown => Transition::Shutdown,
-    };
-    if life.state() == LifecycleState::Finalized {
-        return StepOutcome::Failure;
+impl LifecycleCallbacks for Host {
+    fn on_configure(&mut self, _: &mut Io<'_, Self>) -> StepOutcome {
+        self.follow(Transition::Configure)
     }
-    life.change(transition);
-    StepOutcome::Success
+
+    fn on_activate(&mut self, io: &mut Io<'_, Self>) -> StepOutcome {
+        let outcome = self.follow(Transition::Activate);
+        let text = format!("its costmap is active; Periplus has no {} to go with it", self.lacks);
+        io.node().log(Level::Warn, text);
+        outcome
+    }
+
+    fn on_deactivate(&mut self, _: &mut Io<'_, Self>) -> StepOutcome {
+        self.follow(Transition::Deactivate)
+    }
+
+    fn on_cleanup(&mut self, _: &mut Io<'_, Self>) -> StepOutcome {
+        self.follow(Transition::Cleanup)
+    }
+
+    fn on_shutdown(&mut self, _: &mut Io<'_, Self>) -> StepOutcome {
+        self.follow(Transition::Shutdown)
+    }
 }
 
 /// Creates a stand-alone costmap.
@@ -87,7 +90,7 @@ pub(crate) fn alone(
     ask: &BuiltInRequest,
     node: Node,
     notes: &mut Vec<String>,
-) -> Result<CostmapNode, String> {
+) -> Result<LifecycleNode<CostmapNode>, String> {
     let name = node.names().name().to_owned();
     let named = make::parameters_as(ask, node.full_name(), notes);
     let written = ParameterFile::new(&named, node.full_name())?;
@@ -96,6 +99,6 @@ pub(crate) fn alone(
         None => CostmapConfig::read([], None, found),
     });
     let costmap = CostmapNode::at(node, config).map_err(|error| error.to_string())?;
-    costmap.name_lines_of(written.sources);
+    costmap.with(|costmap| costmap.name_lines_of(written.sources));
     Ok(costmap)
 }

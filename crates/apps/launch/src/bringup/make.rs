@@ -165,7 +165,7 @@ pub(crate) fn make(
         Role::CostmapHost { costmap, lacks } => {
             let host = Host::new(ask, &node, graph, (costmap, lacks), &mut made.notes)?;
             if !ask.is_managed {
-                host.life().start();
+                host.start();
             }
             made.keep(host);
         }

@@ -5,8 +5,8 @@ use std::sync::Arc;
 use periplus_diagnostics::Diagnostic;
 use periplus_geometry::Pose2;
 use periplus_graph::{
-    Actor, Graph, GraphError, Level, Lifecycle, Node, NodeSettings, Qos, Step, StepOutcome,
-    Transition,
+    Graph, GraphError, Io, Level, LifecycleCallbacks, LifecycleNode, Node, NodeSettings, Qos,
+    StepOutcome,
 };
 use periplus_localization::{
     Amcl, AmclUpdate, Covariance2, InitialPose, LocalizationStatus, Settings,
@@ -17,11 +17,11 @@ use periplus_msgs::nav_msgs::OccupancyGrid;
 use periplus_msgs::tf2_msgs::TFMessage;
 use periplus_params::ParamValues;
 use periplus_tf::TransformKind;
-use periplus_tf_ros::{Frames, Told, plain};
+use periplus_tf_ros::{Frames, NO_SCANS, Told, TransformedScan, plain};
 
 use crate::Files;
-use crate::amcl::inputs::{FrameNames, Inputs, NO_SCANS, Placed};
-use crate::amcl::messages::{pose2, scan};
+use crate::amcl::inputs::{FrameNames, Inputs};
+use crate::amcl::messages::{pose2, scan as laser_scan};
 use crate::amcl::outputs::{Health, Outputs};
 use crate::amcl::saved_pose;
 use crate::amcl::services;
@@ -35,11 +35,6 @@ const MAX_POSE_AGE_NS: i64 = 500_000_000;
 
 /// AMCL as a lifecycle node.
 pub struct AmclNode {
-    actor: Actor<AmclNodeState>,
-    life: Lifecycle,
-}
-
-pub(crate) struct AmclNodeState {
     values: ParamValues,
     settings: Settings,
     files: Arc<dyn Files>,
@@ -47,7 +42,6 @@ pub(crate) struct AmclNodeState {
     frames: Frames,
     inputs: Option<Inputs>,
     outputs: Option<Outputs>,
-    pub(crate) is_active: bool,
     was_active: bool,
     /// Initial pose that waits for activation.
     waiting_pose: Option<PoseWithCovarianceStamped>,
@@ -69,7 +63,7 @@ impl AmclNode {
         graph: &Graph,
         values: ParamValues,
         files: Arc<dyn Files>,
-    ) -> Result<Self, GraphError> {
+    ) -> Result<LifecycleNode<Self>, GraphError> {
         Self::at(graph.node(NodeSettings::new("amcl"))?, values, files)
     }
 
@@ -77,9 +71,13 @@ impl AmclNode {
     ///
     /// # Errors
     /// A topic or service of that name has another type.
-    pub fn at(node: Node, values: ParamValues, files: Arc<dyn Files>) -> Result<Self, GraphError> {
+    pub fn at(
+        node: Node,
+        values: ParamValues,
+        files: Arc<dyn Files>,
+    ) -> Result<LifecycleNode<Self>, GraphError> {
         let settings = Settings::from_values(&values);
-        let state = AmclNodeState {
+        let state = Self {
             values: values.clone(),
             settings,
             files,
@@ -87,7 +85,6 @@ impl AmclNode {
             frames: Frames::default(),
             inputs: None,
             outputs: None,
-            is_active: false,
             was_active: false,
             waiting_pose: None,
             last_pose: None,
@@ -117,70 +114,25 @@ impl AmclNode {
         actor.timer(PROCESSING_INTERVAL_NS, |state, io| state.process(io.node()))?;
         actor.on_jump(|state, io| state.on_clock_jump(io.node()));
         services::serve(&mut actor)?;
-        let life = actor.managed(|state, step, io| state.step(step, io.node()))?;
-        Ok(Self { actor, life })
+        LifecycleNode::new(actor)
     }
 
-    /// Configures and activates the node, where no lifecycle manager does.
-    pub fn start(&self) {
-        self.life.change(Transition::Configure);
-        self.life.change(Transition::Activate);
-    }
-
-    /// Node of the graph.
+    /// The filter, once the node is configured.
     #[must_use]
-    pub fn node(&self) -> &Node {
-        self.actor.node()
-    }
-
-    /// Lifecycle of the node.
-    #[must_use]
-    pub fn life(&self) -> &Lifecycle {
-        &self.life
-    }
-
-    /// Calls a function with the filter, once the node is configured.
-    pub fn look<R>(&self, look: impl FnOnce(&Amcl) -> R) -> Option<R> {
-        self.actor.with(|state| state.amcl.as_ref().map(look))
+    pub fn amcl(&self) -> Option<&Amcl> {
+        self.amcl.as_ref()
     }
 
     /// Error that keeps the node from localizing.
     #[must_use]
-    pub fn trouble(&self) -> Option<String> {
-        self.actor.with(|state| state.told.trouble.clone())
+    pub fn trouble(&self) -> Option<&str> {
+        self.told.trouble.as_deref()
     }
 }
 
-impl AmclNodeState {
-    fn step(&mut self, step: Step, node: &Node) -> StepOutcome {
-        match step {
-            Step::Configure => self.configure(node),
-            Step::Activate => {
-                self.activate(node);
-                StepOutcome::Success
-            }
-            Step::Deactivate => {
-                self.is_active = false;
-                self.save(node);
-                StepOutcome::Success
-            }
-            Step::Cleanup | Step::Shutdown | Step::Error => {
-                self.is_active = false;
-                self.was_active = false;
-                let known = self.amcl.as_ref().filter(|amcl| amcl.has_pose());
-                let estimate = known.and_then(Amcl::estimate);
-                self.last_pose = estimate.map(|it| (it.pose, it.covariance)).or(self.last_pose);
-                self.amcl = None;
-                self.inputs = None;
-                self.outputs = None;
-                self.published_status = None;
-                self.told = Told::default();
-                StepOutcome::Success
-            }
-        }
-    }
-
-    fn configure(&mut self, node: &Node) -> StepOutcome {
+impl LifecycleCallbacks for AmclNode {
+    fn on_configure(&mut self, io: &mut Io<'_, Self>) -> StepOutcome {
+        let node = io.node();
         for finding in Settings::conflicts(&self.values) {
             node.log_finding(&finding);
         }
@@ -209,13 +161,8 @@ impl AmclNodeState {
         StepOutcome::Success
     }
 
-    /// True if each activation resets the pose.
-    fn resets_on_activation(&self) -> bool {
-        self.values.flag("always_reset_initial_pose").unwrap_or_default()
-    }
-
-    fn activate(&mut self, node: &Node) {
-        self.is_active = true;
+    fn on_activate(&mut self, io: &mut Io<'_, Self>) -> StepOutcome {
+        let node = io.node();
         if std::mem::replace(&mut self.was_active, true) && self.resets_on_activation() {
             // Resets everything but the map, which is latched and arrives again.
             self.amcl = Some(Amcl::new(self.settings.clone()));
@@ -225,20 +172,50 @@ impl AmclNodeState {
             }
         }
         if let Some(inputs) = &mut self.inputs {
-            inputs.clear(node.now_ns());
+            inputs.scans.clear(node.now_ns());
         }
         if let Some(message) = self.waiting_pose.take() {
-            self.set_pose(&message, node);
+            self.apply_pose(&message, node);
         }
+        StepOutcome::Success
     }
 
-    /// Sets an initial pose. True if it is valid.
+    fn on_deactivate(&mut self, io: &mut Io<'_, Self>) -> StepOutcome {
+        self.save(io.node());
+        StepOutcome::Success
+    }
+
+    fn on_cleanup(&mut self, _: &mut Io<'_, Self>) -> StepOutcome {
+        self.was_active = false;
+        let known = self.amcl.as_ref().filter(|amcl| amcl.has_pose());
+        let estimate = known.and_then(Amcl::estimate);
+        self.last_pose = estimate.map(|it| (it.pose, it.covariance)).or(self.last_pose);
+        self.amcl = None;
+        self.inputs = None;
+        self.outputs = None;
+        self.published_status = None;
+        self.told = Told::default();
+        StepOutcome::Success
+    }
+}
+
+impl AmclNode {
+    /// True if each activation resets the pose.
+    fn resets_on_activation(&self) -> bool {
+        self.values.flag("always_reset_initial_pose").unwrap_or_default()
+    }
+
+    /// Sets an initial pose, or keeps it until the node is active. True if it is valid.
     pub(crate) fn set_pose(&mut self, message: &PoseWithCovarianceStamped, node: &Node) -> bool {
-        if !self.is_active {
-            self.waiting_pose = Some(message.clone());
-            node.log(Level::Info, "received an initial pose; it waits until the node is active");
-            return true;
+        if node.is_active() {
+            return self.apply_pose(message, node);
         }
+        self.waiting_pose = Some(message.clone());
+        node.log(Level::Info, "received an initial pose; it waits until the node is active");
+        true
+    }
+
+    fn apply_pose(&mut self, message: &PoseWithCovarianceStamped, node: &Node) -> bool {
         let mut pose = match pose2(&message.pose.pose) {
             Ok(pose) => pose,
             Err(why) => {
@@ -339,7 +316,7 @@ impl AmclNodeState {
 
     /// Processes new maps and scans.
     fn process(&mut self, node: &Node) {
-        if !self.is_active {
+        if !node.is_active() {
             return;
         }
         let now_ns = node.now_ns();
@@ -348,16 +325,16 @@ impl AmclNodeState {
         }
         let names = self.frame_names();
         if let Some(inputs) = &mut self.inputs {
-            inputs.receive(now_ns);
+            inputs.scans.receive(now_ns);
         }
         let mut reports = Vec::new();
         while let Some(inputs) = &mut self.inputs {
-            let next = inputs.next(&self.frames, &names, now_ns, &mut reports);
-            let Some(placed) = next else { break };
-            self.use_scan(&placed, &names, node);
+            let next = inputs.scans.next(&self.frames, &names.robot(), now_ns, &mut reports);
+            let Some(scan) = next else { break };
+            self.use_scan(&scan, &names, node);
         }
         if !self.told.has_said(NO_SCANS, now_ns) {
-            reports.extend(self.inputs.as_ref().and_then(|inputs| inputs.missing_scans(node)));
+            reports.extend(self.inputs.as_ref().and_then(|inputs| inputs.scans.silence(node)));
         }
         for report in &reports {
             self.told.tell(report, node);
@@ -369,11 +346,12 @@ impl AmclNodeState {
         self.save_when_due(node);
     }
 
-    fn use_scan(&mut self, placed: &Placed, names: &FrameNames, node: &Node) {
+    fn use_scan(&mut self, scan: &TransformedScan, names: &FrameNames, node: &Node) {
         let Some(amcl) = &mut self.amcl else { return };
         let had_pose = amcl.has_pose();
-        let scan = scan(&placed.message, placed.places.base_from_laser);
-        let updated = match amcl.update(placed.places.odom_from_base, &scan) {
+        let TransformedScan { message, transforms } = scan;
+        let scan = laser_scan(message, transforms.base_from_laser);
+        let updated = match amcl.update(transforms.odom_from_base, &scan) {
             Ok(updated) => {
                 self.told.fine();
                 updated
@@ -387,7 +365,7 @@ impl AmclNodeState {
                 return;
             }
         };
-        self.publish(updated.as_ref(), placed.places.time_ns, names);
+        self.publish(updated.as_ref(), transforms.time_ns, names);
         let has_pose = self.amcl.as_ref().is_some_and(Amcl::has_pose);
         if let Some(update) = updated
             && has_pose
@@ -517,7 +495,7 @@ impl AmclNodeState {
     fn on_clock_jump(&mut self, node: &Node) {
         self.frames.forget();
         if let Some(inputs) = &mut self.inputs {
-            inputs.clear(node.now_ns());
+            inputs.scans.clear(node.now_ns());
         }
         // As in Nav2, particles stay and follow odometry: a reset of a simulation moves the robot
         // and its odometry together.

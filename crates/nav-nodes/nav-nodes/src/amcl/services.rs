@@ -6,9 +6,9 @@ use periplus_msgs::nav_msgs::{SetMap, SetMapResponse};
 use periplus_msgs::nav2_msgs::{SetInitialPose, SetInitialPoseResponse};
 use periplus_msgs::std_srvs::{Empty, EmptyResponse};
 
-use crate::amcl::node::AmclNodeState;
+use crate::amcl::node::AmclNode;
 
-pub(crate) fn serve(actor: &mut Actor<AmclNodeState>) -> Result<(), GraphError> {
+pub(crate) fn serve(actor: &mut Actor<AmclNode>) -> Result<(), GraphError> {
     // The second name is that of ROS 1.
     for name in ["reinitialize_global_localization", "global_localization"] {
         actor.serve::<Empty>(name, |state, _, io| {
@@ -31,7 +31,7 @@ pub(crate) fn serve(actor: &mut Actor<AmclNodeState>) -> Result<(), GraphError> 
     })
 }
 
-impl AmclNodeState {
+impl AmclNode {
     fn reinitialize_global_localization(&mut self, node: &Node) {
         let Some(amcl) = self.active_filter(node) else { return };
         match amcl.distribute_uniformly() {
@@ -51,7 +51,7 @@ impl AmclNodeState {
 
     /// Returns the filter, or logs that the node is not active.
     fn active_filter(&mut self, node: &Node) -> Option<&mut periplus_localization::Amcl> {
-        if self.is_active {
+        if node.is_active() {
             return self.amcl.as_mut();
         }
         let inactive =

@@ -2,7 +2,6 @@
 
 mod filters;
 
-use std::collections::VecDeque;
 use std::sync::Arc;
 
 use periplus_costmap::layers::{RangeLayer, RangeReading, StaticLayer};
@@ -13,8 +12,10 @@ use periplus_costmap::{
 use periplus_diagnostics::Diagnostic;
 use periplus_geometry::{DVec3, Pose};
 use periplus_graph::{GraphError, Mailbox, Node, Qos};
+use periplus_msgs::sensor_msgs::{LaserScan, PointCloud2, Range};
 use periplus_msgs::std_msgs::Header;
-use periplus_msgs::{map_msgs, nav_msgs, sensor_msgs};
+use periplus_msgs::{map_msgs, nav_msgs};
+use periplus_tf_ros::{FilterOrder, FilterSettings, MessageFilter};
 
 use crate::costmap_2d::clouds;
 use crate::costmap_2d::frames::Listener;
@@ -24,10 +25,10 @@ use crate::costmap_2d::topics::resolve;
 use filters::{FilterPort, SpeedPort};
 
 /// Time after which a message without a transform is dropped \[ns\].
-const PATIENCE_NS: i64 = 1_000_000_000;
+const TRANSFORM_TIMEOUT_NS: i64 = 1_000_000_000;
 
 /// Maximum number of messages of a source that wait for their transform.
-const MOST_WAITING: usize = 50;
+const MAX_WAITING: usize = 50;
 
 /// Queue size of a source that keeps only its newest observation.
 const FEW: usize = 5;
@@ -53,15 +54,15 @@ impl Inputs {
     /// Drops queued messages.
     pub(crate) fn forget(&mut self) {
         for port in &mut self.sources {
-            port.scans.messages.clear();
-            port.clouds.messages.clear();
+            port.scans.filter.clear();
+            port.clouds.filter.clear();
             match &port.messages {
                 Messages::Scans(scans) => drop(scans.drain()),
                 Messages::Clouds(clouds) => drop(clouds.drain()),
             }
         }
         for port in &mut self.ranges {
-            port.waiting.messages.clear();
+            port.waiting.filter.clear();
             port.ranges.iter().for_each(|ranges| drop(ranges.drain()));
         }
     }
@@ -122,7 +123,7 @@ impl Inputs {
                 for source in &layer.sources {
                     let settings = source.settings();
                     let topic = place.resolve(&settings.topic);
-                    let depth = if settings.persistence_ns == 0 { FEW } else { MOST_WAITING };
+                    let depth = if settings.persistence_ns == 0 { FEW } else { MAX_WAITING };
                     let qos = Qos::best_effort(depth);
                     let messages = match settings.data_type {
                         DataType::LaserScan => Messages::Scans(place.node.mailbox(&topic, qos)?),
@@ -231,92 +232,106 @@ impl Place<'_> {
     }
 }
 
-/// Messages that wait for their transform.
-struct Waiting<T> {
-    messages: VecDeque<(i64, Arc<T>)>,
-    /// Missing transform of the waiting messages.
-    lack: Lack,
-}
-
-impl<T> Default for Waiting<T> {
-    fn default() -> Self {
-        Self { messages: VecDeque::new(), lack: Lack::Frame }
-    }
-}
-
-/// Result of processing a message.
-enum Tried {
-    Taken,
-    /// The missing transform may still arrive.
-    Lacks(Lack),
-}
-
 /// Missing transform of a message.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Lack {
+enum MissingPose {
     /// The frame is unknown.
     Frame,
     /// The frame is known, but not at the stamp.
     Time,
 }
 
-/// Counts of messages that were dropped after waiting, by missing transform.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+/// Counts of messages that were dropped after waiting, by missing transform, and the frame of the
+/// last one.
+#[derive(Clone, Debug, Default)]
 struct Dropped {
     without_frame: u64,
     out_of_time: u64,
+    frame: Option<String>,
 }
 
 impl Dropped {
-    fn count(&mut self, lack: Lack) {
-        match lack {
-            Lack::Frame => self.without_frame += 1,
-            Lack::Time => self.out_of_time += 1,
+    fn count(&mut self, missing: MissingPose, header: &Header) {
+        match missing {
+            MissingPose::Frame => self.without_frame += 1,
+            MissingPose::Time => self.out_of_time += 1,
         }
-    }
-
-    fn is_none(&self) -> bool {
-        *self == Self::default()
+        self.frame = Some(header.frame_id.clone());
     }
 }
 
-impl<T: periplus_msgs::Message> Waiting<T> {
-    /// Processes all queued messages, oldest first; returns the counts of dropped ones.
-    fn take(
-        &mut self,
-        mailbox: &Mailbox<T>,
-        now_ns: i64,
-        mut attempt: impl FnMut(&T) -> Tried,
-    ) -> Dropped {
+/// Messages with a header.
+trait Stamped {
+    fn header(&self) -> &Header;
+}
+
+impl Stamped for LaserScan {
+    fn header(&self) -> &Header {
+        &self.header
+    }
+}
+
+impl Stamped for PointCloud2 {
+    fn header(&self) -> &Header {
+        &self.header
+    }
+}
+
+impl Stamped for Range {
+    fn header(&self) -> &Header {
+        &self.header
+    }
+}
+
+/// Messages that wait for their transform.
+struct Waiting<T> {
+    filter: MessageFilter<T>,
+    /// Missing transform of the waiting messages.
+    missing: MissingPose,
+}
+
+impl<T> Default for Waiting<T> {
+    fn default() -> Self {
+        let settings = FilterSettings {
+            max_waiting: MAX_WAITING,
+            timeout_ns: TRANSFORM_TIMEOUT_NS,
+            order: FilterOrder::EachReady,
+        };
+        Self { filter: MessageFilter::new(settings), missing: MissingPose::Frame }
+    }
+}
+
+impl<T: periplus_msgs::Message + Stamped> Waiting<T> {
+    /// Adds the messages that have arrived. A dropped one is counted by the transform that the
+    /// waiting ones lack.
+    fn receive(&mut self, mailbox: &Mailbox<T>, dropped: &mut Dropped) {
         for (sample, message) in mailbox.drain_samples() {
-            self.messages.push_back((sample.time_ns, message));
-        }
-        let mut dropped = Dropped::default();
-        while self.messages.len() > MOST_WAITING {
-            self.messages.pop_front();
-            dropped.count(self.lack);
-        }
-        self.messages.retain(|(came_ns, message)| match attempt(message) {
-            Tried::Taken => false,
-            Tried::Lacks(lack) => {
-                self.lack = lack;
-                let may_wait = now_ns - came_ns <= PATIENCE_NS;
-                if !may_wait {
-                    dropped.count(lack);
-                }
-                may_wait
+            if let Some(oldest) = self.filter.push(sample.time_ns, message) {
+                dropped.count(self.missing, oldest.header());
             }
-        });
-        dropped
+        }
+    }
+
+    /// Returns the oldest message whose transforms are available, with the result of `lookup`.
+    fn next<R>(
+        &mut self,
+        now_ns: i64,
+        mut lookup: impl FnMut(&T) -> Result<R, MissingPose>,
+        dropped: &mut Dropped,
+    ) -> Option<(Arc<T>, R)> {
+        let last = &mut self.missing;
+        let lookup = |message: &T| lookup(message).inspect_err(|missing| *last = *missing);
+        let on_timeout = |message: &T, missing| dropped.count(missing, message.header());
+        self.filter.next(now_ns, lookup, on_timeout)
     }
 }
 
 /// Returns `global_from_frame` at the stamp of a message.
-fn placed(scene: &Scene<'_>, frame: &str, header: &Header) -> Result<Pose, Lack> {
+fn placed(scene: &Scene<'_>, frame: &str, header: &Header) -> Result<Pose, MissingPose> {
     match scene.tf.at(scene.global_frame, frame, header.stamp.ns()) {
         Ok((pose, _)) => Ok(pose),
-        Err(why) if why.kind.is_extrapolation() => Err(Lack::Time),
-        Err(_) => Err(Lack::Frame),
+        Err(why) if why.kind.is_extrapolation() => Err(MissingPose::Time),
+        Err(_) => Err(MissingPose::Frame),
     }
 }
 
@@ -324,16 +339,16 @@ struct SourcePort {
     layer: String,
     source: String,
     messages: Messages,
-    scans: Waiting<sensor_msgs::LaserScan>,
-    clouds: Waiting<sensor_msgs::PointCloud2>,
+    scans: Waiting<LaserScan>,
+    clouds: Waiting<PointCloud2>,
     projector: Projector,
     points: Vec<[f32; 3]>,
     is_lost: bool,
 }
 
 enum Messages {
-    Scans(Mailbox<sensor_msgs::LaserScan>),
-    Clouds(Mailbox<sensor_msgs::PointCloud2>),
+    Scans(Mailbox<LaserScan>),
+    Clouds(Mailbox<PointCloud2>),
 }
 
 impl SourcePort {
@@ -345,24 +360,43 @@ impl SourcePort {
     ) {
         let Some(source) = costmap.source_mut(&self.layer, &self.source) else { return };
         let (projector, points) = (&mut self.projector, &mut self.points);
-        let mut last_frame = None;
-        let dropped = match &self.messages {
-            Messages::Scans(scans) => self.scans.take(scans, scene.now_ns, |scan| {
-                last_frame = Some(scan.header.frame_id.clone());
-                take_scan(source, scene, scan, projector, points)
-            }),
-            Messages::Clouds(clouds) => self.clouds.take(clouds, scene.now_ns, |cloud| {
-                last_frame = Some(cloud.header.frame_id.clone());
-                take_cloud(source, scene, cloud, points)
-            }),
-        };
+        let (mut dropped, mut has_messages) = (Dropped::default(), false);
+        match &self.messages {
+            Messages::Scans(scans) => {
+                let waiting = &mut self.scans;
+                waiting.receive(scans, &mut dropped);
+                while let Some((scan, poses)) = waiting.next(
+                    scene.now_ns,
+                    |scan| source_poses(source, scene, &scan.header),
+                    &mut dropped,
+                ) {
+                    insert_scan(source, scene, &scan, poses, projector, points);
+                    has_messages = true;
+                }
+                has_messages |= !waiting.filter.is_empty();
+            }
+            Messages::Clouds(clouds) => {
+                let waiting = &mut self.clouds;
+                waiting.receive(clouds, &mut dropped);
+                while let Some((cloud, poses)) = waiting.next(
+                    scene.now_ns,
+                    |cloud| source_poses(source, scene, &cloud.header),
+                    &mut dropped,
+                ) {
+                    insert_cloud(source, scene, &cloud, poses, points);
+                    has_messages = true;
+                }
+                has_messages |= !waiting.filter.is_empty();
+            }
+        }
         source.counters.without_frame += dropped.without_frame;
         source.counters.out_of_time += dropped.out_of_time;
-        if dropped.is_none() {
-            self.is_lost &= last_frame.is_none();
-        } else if !std::mem::replace(&mut self.is_lost, true) {
-            let frame = last_frame.unwrap_or_default();
-            complaints.push(lost(&self.layer, source, scene, &frame));
+        match dropped.frame {
+            Some(frame) if !std::mem::replace(&mut self.is_lost, true) => {
+                complaints.push(lost(&self.layer, source, scene, &frame));
+            }
+            Some(_) => {}
+            None => self.is_lost &= !has_messages,
         }
     }
 }
@@ -397,7 +431,7 @@ fn origin(
     scene: &Scene<'_>,
     header: &Header,
     cloud: Pose,
-) -> Result<DVec3, Lack> {
+) -> Result<DVec3, MissingPose> {
     if source.settings.sensor_frame.is_empty() {
         return Ok(cloud.translation);
     }
@@ -405,27 +439,24 @@ fn origin(
 }
 
 /// Returns `global_from_frame` of a message, and the origin of its rays.
-fn places(
+fn source_poses(
     source: &ObservationSource,
     scene: &Scene<'_>,
     header: &Header,
-) -> Result<(Pose, DVec3), Lack> {
+) -> Result<(Pose, DVec3), MissingPose> {
     let pose = placed(scene, &header.frame_id, header)?;
     Ok((pose, origin(source, scene, header, pose)?))
 }
 
-fn take_scan(
+fn insert_scan(
     source: &mut ObservationSource,
     scene: &Scene<'_>,
-    scan: &sensor_msgs::LaserScan,
+    scan: &LaserScan,
+    (first, origin): (Pose, DVec3),
     projector: &mut Projector,
     points: &mut Vec<[f32; 3]>,
-) -> Tried {
+) {
     let frame = scan.header.frame_id.as_str();
-    let (first, origin) = match places(source, scene, &scan.header) {
-        Ok(known) => known,
-        Err(lack) => return Tried::Lacks(lack),
-    };
     let beams = ScanGeometry {
         angle_min_rad: scan.angle_min,
         angle_increment_rad: scan.angle_increment,
@@ -455,19 +486,15 @@ fn take_scan(
     source.counters.without_return += (scan.ranges.len() - points.len()) as u64;
     let points = points.iter().copied();
     source.insert(scene.now_ns, stamp_ns, global_from_points, origin, points);
-    Tried::Taken
 }
 
-fn take_cloud(
+fn insert_cloud(
     source: &mut ObservationSource,
     scene: &Scene<'_>,
-    cloud: &sensor_msgs::PointCloud2,
+    cloud: &PointCloud2,
+    (pose, origin): (Pose, DVec3),
     points: &mut Vec<[f32; 3]>,
-) -> Tried {
-    let (pose, origin) = match places(source, scene, &cloud.header) {
-        Ok(known) => known,
-        Err(lack) => return Tried::Lacks(lack),
-    };
+) {
     points.clear();
     match clouds::points(cloud) {
         Ok(all) => {
@@ -476,7 +503,6 @@ fn take_cloud(
         }
         Err(_) => source.counters.malformed += 1,
     }
-    Tried::Taken
 }
 
 struct MapPort {
@@ -522,19 +548,21 @@ impl MapPort {
 
 struct RangePort {
     layer: String,
-    ranges: Vec<Mailbox<sensor_msgs::Range>>,
-    waiting: Waiting<sensor_msgs::Range>,
+    ranges: Vec<Mailbox<Range>>,
+    waiting: Waiting<Range>,
 }
 
 impl RangePort {
     fn take(&mut self, costmap: &mut LayeredCostmap, scene: &Scene<'_>) {
         let Some(layer) = costmap.find_as::<RangeLayer>(&self.layer) else { return };
         for ranges in &self.ranges {
-            let dropped = self.waiting.take(ranges, scene.now_ns, |range| {
-                let pose = match placed(scene, &range.header.frame_id, &range.header) {
-                    Ok(pose) => pose,
-                    Err(lack) => return Tried::Lacks(lack),
-                };
+            let mut dropped = Dropped::default();
+            self.waiting.receive(ranges, &mut dropped);
+            while let Some((range, pose)) = self.waiting.next(
+                scene.now_ns,
+                |range| placed(scene, &range.header.frame_id, &range.header),
+                &mut dropped,
+            ) {
                 layer.insert(RangeReading {
                     global_from_sensor: pose,
                     range_m: range.range.into(),
@@ -542,8 +570,7 @@ impl RangePort {
                     max_range_m: range.max_range.into(),
                     field_of_view_rad: range.field_of_view.into(),
                 });
-                Tried::Taken
-            });
+            }
             layer.counters.without_frame += dropped.without_frame;
             layer.counters.out_of_time += dropped.out_of_time;
         }

@@ -4,7 +4,8 @@ use periplus_costmap::{Advice, CellReport, CostmapConfig, Footprint, LayerConfig
 use periplus_diagnostics::{Diagnostic, SourceMap};
 use periplus_geometry::Pose2;
 use periplus_graph::{
-    Actor, Graph, GraphError, Level, Lifecycle, Mailbox, Node, NodeSettings, Qos, Step, StepOutcome,
+    Graph, GraphError, Io, Level, LifecycleCallbacks, LifecycleNode, Mailbox, Node, NodeSettings,
+    Qos, StepOutcome,
 };
 use periplus_msgs::geometry_msgs;
 use periplus_params::ParamValues;
@@ -18,12 +19,6 @@ use crate::costmap_2d::services;
 
 /// Time during which an identical message is not logged again \[ns\].
 const QUIET_NS: i64 = 5_000_000_000;
-
-/// Costmap as a lifecycle node.
-pub struct CostmapNode {
-    actor: Actor<State>,
-    life: Lifecycle,
-}
 
 /// Status of a costmap, for diagnosis.
 #[derive(Clone, Debug)]
@@ -44,16 +39,17 @@ pub struct CostmapStatus {
     pub advice: Vec<Advice>,
 }
 
-pub(crate) struct State {
+/// Costmap as a lifecycle node.
+pub struct CostmapNode {
+    node: Node,
+    /// Parameters of the node and of all layers.
     config: CostmapConfig,
-    /// Parameters of all layers, as one table.
     pub(crate) costmap: Option<LayeredCostmap>,
     pub(crate) tf: Listener,
     inputs: Inputs,
     pub(crate) outputs: Option<Outputs>,
     outlines: Outlines,
     health: Health,
-    is_active: bool,
     updates: u64,
     trouble: Option<String>,
     told: Vec<(String, i64)>,
@@ -93,17 +89,22 @@ impl CostmapNode {
     /// Creates a costmap `name` in a namespace of the same name, as in Nav2:
     /// `/local_costmap/local_costmap`. Arguments of the graph may change the namespace and remap
     /// topics.
+    ///
     /// # Errors
-    /// When a topic exists with another type.
     /// When a topic of that name has another type.
-    pub fn new(graph: &Graph, name: &str, config: CostmapConfig) -> Result<Self, GraphError> {
+    pub fn new(
+        graph: &Graph,
+        name: &str,
+        config: CostmapConfig,
+    ) -> Result<LifecycleNode<Self>, GraphError> {
         Self::at(graph.node(NodeSettings::new(name).namespace(&format!("/{name}")))?, config)
     }
 
     /// Creates a costmap on an existing node.
+    ///
     /// # Errors
-    /// When a topic exists with another type.
-    pub fn at(node: Node, config: CostmapConfig) -> Result<Self, GraphError> {
+    /// When a topic of that name has another type.
+    pub fn at(node: Node, config: CostmapConfig) -> Result<LifecycleNode<Self>, GraphError> {
         let name = node.names().name().to_owned();
         let hertz = config.node.number("update_frequency").unwrap_or_default();
         let forms = config.forms;
@@ -112,7 +113,8 @@ impl CostmapNode {
         let names =
             |layers: &[LayerConfig]| layers.iter().map(|layer| layer.name.clone()).collect();
         let (layers, filters): (Vec<_>, Vec<_>) = (names(&config.layers), names(&config.filters));
-        let state = State {
+        let state = Self {
+            node: node.clone(),
             config,
             costmap: None,
             tf: Listener::new(&node)?,
@@ -120,7 +122,6 @@ impl CostmapNode {
             outputs: None,
             outlines: Outlines::new(&node, is_stamped)?,
             health: Health::new(&node)?,
-            is_active: false,
             updates: 0,
             trouble: None,
             told: Vec::new(),
@@ -133,7 +134,6 @@ impl CostmapNode {
         // Command-line arguments override the parameter file.
         let given = parameters.values();
         actor.with(|state| state.adopt(&given));
-        let life = actor.managed(|state, step, io| state.step(step, io.node()))?;
         services::serve(&mut actor, &name, &layers, &filters, forms)?;
         if hertz > 0.0 {
             let period_ns = ((1e9 / hertz) as i64).max(1);
@@ -141,103 +141,77 @@ impl CostmapNode {
         }
         actor.timer(EVERY_NS, |state, io| state.report(io.now_ns(), io.node()))?;
         actor.on_jump(|state, io| state.jump(io.now_ns(), io.node()));
-        Ok(Self { actor, life })
+        LifecycleNode::new(actor)
     }
 
     /// Sets the sources of the parameter files; messages then contain their lines.
-    pub fn name_lines_of(&self, files: SourceMap) {
-        self.actor.with(|state| state.files = files);
-    }
-
-    /// Configures and activates the node, as a lifecycle manager does.
-    pub fn start(&self) {
-        self.life.start();
-    }
-
-    /// Returns the node.
-    #[must_use]
-    pub fn node(&self) -> &Node {
-        self.actor.node()
-    }
-
-    /// Returns the lifecycle.
-    #[must_use]
-    pub fn life(&self) -> &Lifecycle {
-        &self.life
+    pub fn name_lines_of(&mut self, files: SourceMap) {
+        self.files = files;
     }
 
     /// Returns true if the parameters select the time of `/clock`.
     #[must_use]
     pub fn uses_simulated_time(&self) -> bool {
-        self.actor.with(|state| state.config.node.flag("use_sim_time").unwrap_or_default())
+        self.config.node.flag("use_sim_time").unwrap_or_default()
     }
 
-    /// Calls a function with the costmap, once it is configured.
-    pub fn look<R>(&self, look: impl FnOnce(&LayeredCostmap) -> R) -> Option<R> {
-        self.actor.with(|state| state.costmap.as_ref().map(look))
+    /// The costmap, once it is configured.
+    #[must_use]
+    pub fn costmap(&self) -> Option<&LayeredCostmap> {
+        self.costmap.as_ref()
     }
 
     /// Returns a report about the cell at a point of the global frame \[m\].
     #[must_use]
     pub fn inspect(&self, x_m: f64, y_m: f64) -> Option<CellReport> {
-        self.look(|costmap| costmap.inspect(costmap.cell_of(x_m, y_m)?)).flatten()
-    }
-
-    /// Returns the status.
-    #[must_use]
-    pub fn status(&self) -> CostmapStatus {
-        let node = self.node().clone();
-        self.actor.with(|state| state.status(&node))
+        let costmap = self.costmap.as_ref()?;
+        costmap.inspect(costmap.cell_of(x_m, y_m)?)
     }
 }
 
-impl State {
-    fn step(&mut self, step: Step, node: &Node) -> StepOutcome {
-        match step {
-            Step::Configure => match Outputs::new(node, &self.config) {
-                Ok(outputs) => {
-                    let (inputs, errors) = Inputs::new(node, &self.config);
-                    for error in errors {
-                        node.log(Level::Error, error);
-                    }
-                    self.inputs = inputs;
-                    self.outputs = Some(outputs);
-                    self.costmap = Some(self.config.build());
-                    StepOutcome::Success
-                }
-                Err(error) => {
+impl LifecycleCallbacks for CostmapNode {
+    fn on_configure(&mut self, io: &mut Io<'_, Self>) -> StepOutcome {
+        let node = io.node();
+        match Outputs::new(node, &self.config) {
+            Ok(outputs) => {
+                let (inputs, errors) = Inputs::new(node, &self.config);
+                for error in errors {
                     node.log(Level::Error, error);
-                    StepOutcome::Failure
                 }
-            },
-            Step::Activate => {
-                self.is_active = true;
-                let now_ns = node.now_ns();
-                for layer in self.costmap.iter_mut().flat_map(LayeredCostmap::all_mut) {
-                    for source in layer.sources_mut() {
-                        source.restart(now_ns);
-                    }
-                }
+                self.inputs = inputs;
+                self.outputs = Some(outputs);
+                self.costmap = Some(self.config.build());
                 StepOutcome::Success
             }
-            Step::Deactivate => {
-                self.is_active = false;
-                StepOutcome::Success
-            }
-            Step::Cleanup | Step::Shutdown | Step::Error => {
-                self.is_active = false;
-                self.costmap = None;
-                self.outputs = None;
-                self.inputs = Inputs::default();
-                self.published_ns = None;
-                StepOutcome::Success
+            Err(error) => {
+                node.log(Level::Error, error);
+                StepOutcome::Failure
             }
         }
     }
 
+    fn on_activate(&mut self, io: &mut Io<'_, Self>) -> StepOutcome {
+        for layer in self.costmap.iter_mut().flat_map(LayeredCostmap::all_mut) {
+            for source in layer.sources_mut() {
+                source.restart(io.now_ns());
+            }
+        }
+        StepOutcome::Success
+    }
+
+    fn on_cleanup(&mut self, _: &mut Io<'_, Self>) -> StepOutcome {
+        self.costmap = None;
+        self.outputs = None;
+        self.inputs = Inputs::default();
+        self.published_ns = None;
+        StepOutcome::Success
+    }
+}
+
+impl CostmapNode {
     fn update(&mut self, now_ns: i64, node: &Node) {
         self.tf.listen();
-        if !self.is_active {
+        if !node.is_active() {
             return;
         }
         let (Some(costmap), Some(outputs)) = (&mut self.costmap, &mut self.outputs) else { return };
@@ -312,7 +286,7 @@ impl State {
             node: node.full_name(),
             costmap: self.costmap.as_ref(),
             inputs: &self.inputs,
-            is_active: self.is_active,
+            is_active: node.is_active(),
             updates: self.updates,
             trouble: self.trouble.as_deref(),
         };
@@ -373,8 +347,10 @@ impl State {
         layers(&mut self.config.filters, all);
     }
 
-    fn status(&self, node: &Node) -> CostmapStatus {
-        let now_ns = node.now_ns();
+    /// Returns the status.
+    #[must_use]
+    pub fn status(&self) -> CostmapStatus {
+        let now_ns = self.node.now_ns();
         let mut sources = Vec::new();
         for (layer, name, topic) in self.inputs.topics() {
             let found = self.costmap.iter().flat_map(LayeredCostmap::all);
@@ -395,7 +371,7 @@ impl State {
             (info.width, info.height)
         });
         CostmapStatus {
-            node: node.full_name().to_owned(),
+            node: self.node.full_name().to_owned(),
             updates: self.updates,
             is_current: costmap.is_some_and(|costmap| costmap.is_current(now_ns)),
             size,

@@ -13,11 +13,11 @@ use periplus_msgs::std_srvs::{SetBool, SetBoolResponse};
 use periplus_params::ParamValue;
 
 use crate::costmap_2d::messages::{pose2, raw};
-use crate::costmap_2d::node::State;
+use crate::costmap_2d::node::CostmapNode;
 
 /// Serves the services of a costmap, its layers and its filters, with the types of a distribution.
 pub(crate) fn serve(
-    actor: &mut Actor<State>,
+    actor: &mut Actor<CostmapNode>,
     name: &str,
     layers: &[String],
     filters: &[String],
@@ -62,7 +62,11 @@ pub(crate) fn serve(
     }
 }
 
-fn answer_grid(shown: Option<(&Costmap, &str)>, state: &State, now_ns: i64) -> GetCostmapResponse {
+fn answer_grid(
+    shown: Option<(&Costmap, &str)>,
+    state: &CostmapNode,
+    now_ns: i64,
+) -> GetCostmapResponse {
     let frame = state.costmap.as_ref().map(|costmap| costmap.frame().global_frame.clone());
     match (shown, frame) {
         (Some((grid, layer)), Some(frame)) => {
@@ -72,7 +76,7 @@ fn answer_grid(shown: Option<(&Costmap, &str)>, state: &State, now_ns: i64) -> G
     }
 }
 
-impl State {
+impl CostmapNode {
     /// Enables or disables a filter.
     fn toggle(&mut self, filter: &str, is_on: bool) -> SetBoolResponse {
         let layer = self.costmap.as_mut().and_then(|costmap| costmap.find_mut(filter));

@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use periplus_diagnostics::Diagnostics;
 use periplus_graph::{
-    Actor, Call, Calls, GraphError, Io, Level, Lifecycle, Mailbox, Node, Qos, Step, StepOutcome,
+    Call, Calls, GraphError, Io, Level, LifecycleCallbacks, LifecycleNode, Mailbox, Node, Qos,
 };
 use periplus_maps::{Distro, Wish, from_message, render};
 use periplus_msgs::nav_msgs::OccupancyGrid;
@@ -44,17 +44,11 @@ pub static MAP_SAVER: Table = Table {
 ///
 /// Source: `nav2_map_server/src/map_saver/map_saver.cpp`.
 pub struct MapSaver {
-    actor: Actor<State>,
-    life: Lifecycle,
-}
-
-struct State {
     files: Arc<dyn Files>,
     distro: Distro,
     values: ParamValues,
     calls: Option<Calls<SaveMap>>,
     waiting: Vec<Waiting>,
-    is_active: bool,
 }
 
 /// Request that waits for a map.
@@ -67,52 +61,27 @@ struct Waiting {
 
 impl MapSaver {
     /// Creates the saver on a node; it writes files as the map savers of a distribution do.
+    ///
     /// # Errors
     /// When a name exists with another type.
-    pub fn new(node: Node, distro: Distro, files: Arc<dyn Files>) -> Result<Self, GraphError> {
+    pub fn new(
+        node: Node,
+        distro: Distro,
+        files: Arc<dyn Files>,
+    ) -> Result<LifecycleNode<Self>, GraphError> {
         let values = MAP_SAVER.check([], None, &mut Diagnostics::new());
         let calls = Some(node.server::<SaveMap>("~/save_map")?);
-        let state = State {
-            files,
-            distro,
-            values: values.clone(),
-            calls,
-            waiting: Vec::new(),
-            is_active: false,
-        };
+        let state = Self { files, distro, values: values.clone(), calls, waiting: Vec::new() };
         let mut actor = node.actor(state);
         let parameters = actor.parameters(values, |state, values, _| {
             state.values = values.clone();
             Ok(())
         })?;
         actor.with(|state| state.values = parameters.values());
-        actor.timer(LOOK_NS, State::look)?;
-        let life = actor.managed(|state, step, _| {
-            state.is_active = step == Step::Activate;
-            StepOutcome::Success
-        })?;
-        Ok(Self { actor, life })
+        actor.timer(LOOK_NS, Self::look)?;
+        LifecycleNode::new(actor)
     }
 
-    /// Returns the node.
-    #[must_use]
-    pub fn node(&self) -> &Node {
-        self.actor.node()
-    }
-
-    /// Returns the lifecycle.
-    #[must_use]
-    pub fn life(&self) -> &Lifecycle {
-        &self.life
-    }
-
-    /// Configures and activates the node without a lifecycle manager.
-    pub fn start(&self) {
-        self.life.start();
-    }
-}
-
-impl State {
     /// Processes new and waiting requests.
     fn look(&mut self, io: &mut Io<'_, Self>) {
         while let Some(call) = self.calls.as_ref().and_then(Calls::take) {
@@ -144,7 +113,7 @@ impl State {
             io.node().log(Level::Error, why);
             call.answer(SaveMapResponse { result: false });
         };
-        if !self.is_active {
+        if !io.node().is_active() {
             return refuse(call, io, "the map saver is not active".into());
         }
         let request = call.request.clone();
@@ -214,6 +183,8 @@ impl State {
         Ok(())
     }
 }
+
+impl LifecycleCallbacks for MapSaver {}
 
 /// Returns the decimal number that was meant by a single-precision number.
 fn decimal(value: f32) -> f64 {

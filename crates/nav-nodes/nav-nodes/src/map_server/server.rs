@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use periplus_diagnostics::{Diagnostics, Severity};
 use periplus_graph::{
-    Actor, GraphError, Io, Level, Lifecycle, Node, Publisher, Qos, Step, StepOutcome,
+    GraphError, Io, Level, LifecycleCallbacks, LifecycleNode, Node, Publisher, Qos, StepOutcome,
 };
 use periplus_maps::{Distro, Loaded, load, to_message};
 use periplus_msgs::builtin_interfaces::Time;
@@ -82,19 +82,13 @@ impl MapServerSettings {
 ///
 /// Source: `nav2_map_server/src/map_server/map_server.cpp`; `map_metadata` as in ROS 1.
 pub struct MapServer {
-    actor: Actor<State>,
-    life: Lifecycle,
-}
-
-struct State {
     settings: MapServerSettings,
     files: Arc<dyn Files>,
-    outlets: Option<Outlets>,
+    outputs: Option<Outputs>,
     map: Option<OccupancyGrid>,
-    is_active: bool,
 }
 
-struct Outlets {
+struct Outputs {
     map: Publisher<OccupancyGrid>,
     metadata: Publisher<MapMetaData>,
 }
@@ -102,24 +96,23 @@ struct Outlets {
 impl MapServer {
     /// Creates the server on a node. Arguments of the graph may change the settings, as may
     /// parameters until it is configured.
+    ///
     /// # Errors
-    /// When a name is invalid or exists with another type.
-    /// When a name is not valid or taken by another type.
+    /// When a name is not valid or exists with another type.
     pub fn new(
         node: Node,
         settings: MapServerSettings,
         files: Arc<dyn Files>,
-    ) -> Result<Self, GraphError> {
+    ) -> Result<LifecycleNode<Self>, GraphError> {
         let values = settings.values();
-        let state = State { settings, files, outlets: None, map: None, is_active: false };
-        let mut actor = node.actor(state);
+        let mut actor = node.actor(Self { settings, files, outputs: None, map: None });
         let parameters = actor.parameters(values, |state, values, _| {
             state.settings.read(values);
             Ok(())
         })?;
         actor.with(|state| state.settings.read(&parameters.values()));
         actor.serve::<GetMap>("~/map", |state, _, io| {
-            if state.is_active {
+            if io.node().is_active() {
                 return GetMapResponse { map: state.map.clone().unwrap_or_default() };
             }
             io.node()
@@ -129,51 +122,12 @@ impl MapServer {
         actor.serve::<LoadMap>("~/load_map", |state, request, io| {
             state.reload(&request.map_url, io)
         })?;
-        let life = actor.managed(State::step)?;
-        Ok(Self { actor, life })
-    }
-
-    /// Returns the node.
-    #[must_use]
-    pub fn node(&self) -> &Node {
-        self.actor.node()
-    }
-
-    /// Returns the lifecycle.
-    #[must_use]
-    pub fn life(&self) -> &Lifecycle {
-        &self.life
-    }
-
-    /// Configures and activates the node without a lifecycle manager.
-    pub fn start(&self) {
-        self.life.start();
+        LifecycleNode::new(actor)
     }
 }
 
-impl State {
-    fn step(&mut self, step: Step, io: &mut Io<'_, Self>) -> StepOutcome {
-        match step {
-            Step::Configure => self.configure(io),
-            Step::Activate => {
-                self.is_active = true;
-                self.publish();
-                StepOutcome::Success
-            }
-            Step::Deactivate => {
-                self.is_active = false;
-                StepOutcome::Success
-            }
-            Step::Cleanup | Step::Shutdown | Step::Error => {
-                self.is_active = false;
-                self.outlets = None;
-                self.map = None;
-                StepOutcome::Success
-            }
-        }
-    }
-
-    fn configure(&mut self, io: &mut Io<'_, Self>) -> StepOutcome {
+impl LifecycleCallbacks for MapServer {
+    fn on_configure(&mut self, io: &mut Io<'_, Self>) -> StepOutcome {
         let path = self.settings.yaml_filename.clone();
         if path.is_empty() {
             io.node().log(
@@ -183,10 +137,9 @@ impl State {
         } else if self.load(&path, io).map.is_none() {
             return StepOutcome::Failure;
         }
-        let outlets = self.outlets(io.node());
-        match outlets {
-            Ok(outlets) => {
-                self.outlets = Some(outlets);
+        match self.advertise(io.node()) {
+            Ok(outputs) => {
+                self.outputs = Some(outputs);
                 StepOutcome::Success
             }
             Err(error) => {
@@ -196,8 +149,21 @@ impl State {
         }
     }
 
-    fn outlets(&self, node: &Node) -> Result<Outlets, GraphError> {
-        Ok(Outlets {
+    fn on_activate(&mut self, _: &mut Io<'_, Self>) -> StepOutcome {
+        self.publish();
+        StepOutcome::Success
+    }
+
+    fn on_cleanup(&mut self, _: &mut Io<'_, Self>) -> StepOutcome {
+        self.outputs = None;
+        self.map = None;
+        StepOutcome::Success
+    }
+}
+
+impl MapServer {
+    fn advertise(&self, node: &Node) -> Result<Outputs, GraphError> {
+        Ok(Outputs {
             map: node.publisher(&self.settings.topic_name, Qos::latched(1))?,
             metadata: node
                 .publisher(&format!("{}_metadata", self.settings.topic_name), Qos::latched(1))?,
@@ -240,7 +206,7 @@ impl State {
     }
 
     fn reload(&mut self, path: &str, io: &mut Io<'_, Self>) -> LoadMapResponse {
-        if !self.is_active {
+        if !io.node().is_active() {
             io.node()
                 .log(Level::Warn, "somebody wants a map loaded, but the map server is not active");
             let result = LoadMapResponse::RESULT_UNDEFINED_FAILURE;
@@ -257,9 +223,9 @@ impl State {
     }
 
     fn publish(&self) {
-        if let (Some(outlets), Some(map)) = (&self.outlets, &self.map) {
-            outlets.metadata.publish(map.info.clone());
-            outlets.map.publish(map.clone());
+        if let (Some(outputs), Some(map)) = (&self.outputs, &self.map) {
+            outputs.metadata.publish(map.info.clone());
+            outputs.map.publish(map.clone());
         }
     }
 }

@@ -7,7 +7,7 @@ use periplus_slam::{MapContradiction, Remark, RemarkKind, ScanOutcome};
 
 use crate::slam_toolbox::engine::Engine;
 use crate::slam_toolbox::markers;
-use crate::slam_toolbox::node::State;
+use crate::slam_toolbox::node::SlamNode;
 
 /// Period of publication \[ns\].
 pub(crate) const EVERY_NS: i64 = 1_000_000_000;
@@ -141,11 +141,11 @@ impl SlamHealth {
     }
 }
 
-impl State {
+impl SlamNode {
     /// Publishes the state, logs contradictions that are new, and draws them when they have changed.
     pub(crate) fn publish_health(&mut self, node: &Node) {
         let now_ns = node.now_ns();
-        let mapper = self.engine.as_ref().map(Engine::mapper).filter(|_| self.is_active);
+        let mapper = self.engine.as_ref().map(Engine::mapper).filter(|_| node.is_active());
         let contradictions = mapper.map_or_else(Vec::new, periplus_slam::Mapper::contradictions);
         let remarks = mapper.map(periplus_slam::Mapper::current_remarks);
         for found in &contradictions {
@@ -191,7 +191,7 @@ impl State {
 
     /// The node as a whole.
     fn whole(&self, node: &Node) -> DiagnosticStatus {
-        let status = self.status(node.full_name().to_owned());
+        let status = self.status();
         let counts = status.counts;
         let values = vec![
             pair("scans", counts.scans),
@@ -201,7 +201,7 @@ impl State {
             pair("scans left out for newer ones", status.left_out),
             pair("memory of the map [bytes]", status.size),
         ];
-        let (level, message) = if !self.is_active {
+        let (level, message) = if !node.is_active() {
             let message = "waits until a client configures and activates it";
             (DiagnosticStatus::WARN, message.to_owned())
         } else if let Some(trouble) = status.trouble {

@@ -6,8 +6,8 @@ use std::sync::Arc;
 use periplus_diagnostics::Diagnostic;
 use periplus_geometry::Pose2;
 use periplus_graph::{
-    Actor, Graph, GraphError, Level, Lifecycle, Node, NodeSettings, Parameters, Qos, Step,
-    StepOutcome, Transition,
+    Graph, GraphError, Io, Level, LifecycleCallbacks, LifecycleNode, Node, NodeSettings,
+    Parameters, Qos, StepOutcome,
 };
 use periplus_grid::OccupancyGrid;
 use periplus_msgs::geometry_msgs::PoseWithCovarianceStamped;
@@ -19,7 +19,7 @@ use periplus_slam::{
     Closure, CorrectedInput, Counts, MountingCorrection, Scan, ScanOutcome, Slam, Update, tables,
 };
 use periplus_tf::TransformKind;
-use periplus_tf_ros::{Frames, Told, plain};
+use periplus_tf_ros::{Frames, ScanQueue, Told, TransformedScan, plain};
 
 use crate::Files;
 use crate::slam_toolbox::Program;
@@ -27,9 +27,9 @@ use crate::slam_toolbox::correction::Anchor;
 use crate::slam_toolbox::drawing::Drawer;
 use crate::slam_toolbox::engine::{Engine, SURE, Start};
 use crate::slam_toolbox::health::{self, SET_RIGHT, SlamHealth};
-use crate::slam_toolbox::inputs::{Inputs, Names, Placed};
+use crate::slam_toolbox::inputs::{Names, scan_queue};
 use crate::slam_toolbox::markers;
-use crate::slam_toolbox::messages::{covariance, pose2, scan};
+use crate::slam_toolbox::messages::{covariance, pose2, scan as laser_scan};
 use crate::slam_toolbox::outputs::Outputs;
 use crate::slam_toolbox::services;
 use crate::slam_toolbox::values::{flag, integer, is_given, number, numbers, text};
@@ -60,12 +60,6 @@ pub enum Pace {
     Sliced,
 }
 
-/// A mapper as a managed node.
-pub struct SlamNode {
-    actor: Actor<State>,
-    life: Lifecycle,
-}
-
 /// State of a mapper for observers.
 #[derive(Clone, Debug)]
 pub struct SlamStatus {
@@ -93,7 +87,9 @@ pub struct SlamStatus {
     pub correction: Option<MountingCorrection>,
 }
 
-pub(crate) struct State {
+/// A mapper as a managed node.
+pub struct SlamNode {
+    node: Node,
     pub(crate) program: Program,
     pub(crate) values: ParamValues,
     /// For states that others read as parameters.
@@ -103,18 +99,17 @@ pub(crate) struct State {
     is_live: bool,
     pub(crate) engine: Option<Engine>,
     frames: Frames,
-    pub(crate) inputs: Option<Inputs>,
+    pub(crate) scans: Option<ScanQueue>,
     pub(crate) outputs: Option<Outputs>,
     pub(crate) told: Told,
     pub(crate) health: SlamHealth,
-    pub(crate) is_active: bool,
     pub(crate) is_paused: bool,
     pub(crate) is_interactive: bool,
     /// Kept scans that were moved by hand.
     pub(crate) moved: BTreeMap<usize, Pose2>,
     /// Number of the last news of handles.
     pub(crate) handled: u64,
-    scans: u64,
+    scan_count: u64,
     /// Number of engine remarks logged.
     remarked: usize,
     /// A fault of the data that is undone before the engine gets it.
@@ -166,7 +161,7 @@ impl SlamNode {
         values: ParamValues,
         files: Arc<dyn Files>,
         pace: Pace,
-    ) -> Result<Self, GraphError> {
+    ) -> Result<LifecycleNode<Self>, GraphError> {
         let node = graph.node(NodeSettings::new(program.node_name()))?;
         Self::at(node, program, values, files, pace)
     }
@@ -181,10 +176,11 @@ impl SlamNode {
         values: ParamValues,
         files: Arc<dyn Files>,
         pace: Pace,
-    ) -> Result<Self, GraphError> {
+    ) -> Result<LifecycleNode<Self>, GraphError> {
         let is_live = node.graph().is_live();
         let health = SlamHealth::new(&node)?;
-        let state = State {
+        let state = Self {
+            node: node.clone(),
             program,
             values: values.clone(),
             parameters: None,
@@ -197,16 +193,15 @@ impl SlamNode {
             is_live,
             engine: None,
             frames: Frames::default(),
-            inputs: None,
+            scans: None,
             outputs: None,
             told: Told::default(),
             health,
-            is_active: false,
             is_paused: false,
             is_interactive: false,
             moved: BTreeMap::new(),
             handled: 0,
-            scans: 0,
+            scan_count: 0,
             remarked: 0,
             correction: None,
             is_continued: false,
@@ -261,8 +256,8 @@ impl SlamNode {
         actor.on_jump(|state, io| {
             state.frames.forget();
             let now_ns = io.now_ns();
-            if let Some(inputs) = &mut state.inputs {
-                inputs.forget(now_ns);
+            if let Some(scans) = &mut state.scans {
+                scans.clear(now_ns);
             }
             state.published_ns = None;
             if state.last.as_ref().is_some_and(|last| now_ns < last.time_ns) {
@@ -282,76 +277,25 @@ impl SlamNode {
             })?;
         }
         services::serve(&mut actor, program, &values)?;
-        let life = actor.managed(|state, step, io| state.step(step, io.node()))?;
-        Ok(Self { actor, life })
+        LifecycleNode::new(actor)
     }
 
-    /// Configures and activates it, where no lifecycle manager does.
-    pub fn start(&self) {
-        self.life.change(Transition::Configure);
-        self.life.change(Transition::Activate);
-    }
-
-    /// Its node.
+    /// The pose graph, if the program has one and is configured.
     #[must_use]
-    pub fn node(&self) -> &Node {
-        self.actor.node()
+    pub fn graph(&self) -> Option<&Slam> {
+        self.engine.as_ref().and_then(Engine::graph)
     }
 
-    /// Its life.
-    #[must_use]
-    pub fn life(&self) -> &Lifecycle {
-        &self.life
-    }
-
-    /// Looks at the graph, if there is one.
-    pub fn look<R>(&self, look: impl FnOnce(&Slam) -> R) -> Option<R> {
-        self.actor.with(|state| state.engine.as_ref().and_then(Engine::graph).map(look))
-    }
-
-    /// The map as it is now, drawn for this.
+    /// Renders the current map.
     #[must_use]
     pub fn map(&self) -> Option<OccupancyGrid> {
-        self.actor.with(|state| state.engine.as_ref().and_then(|engine| engine.mapper().map()))
-    }
-
-    /// Returns the current state.
-    #[must_use]
-    pub fn status(&self) -> SlamStatus {
-        let node = self.node().full_name().to_owned();
-        self.actor.with(|state| state.status(node))
+        self.engine.as_ref().and_then(|engine| engine.mapper().map())
     }
 }
 
-impl State {
-    fn step(&mut self, step: Step, node: &Node) -> StepOutcome {
-        match step {
-            Step::Configure => self.configure(node),
-            Step::Activate => {
-                self.is_active = true;
-                let now_ns = node.now_ns();
-                if let Some(inputs) = &mut self.inputs {
-                    inputs.forget(now_ns);
-                }
-                StepOutcome::Success
-            }
-            Step::Deactivate => {
-                self.is_active = false;
-                StepOutcome::Success
-            }
-            Step::Cleanup | Step::Shutdown | Step::Error => {
-                self.is_active = false;
-                self.inputs = None;
-                self.outputs = None;
-                self.begin(None);
-                self.correction = None;
-                self.told = Told::default();
-                StepOutcome::Success
-            }
-        }
-    }
-
-    fn configure(&mut self, node: &Node) -> StepOutcome {
+impl LifecycleCallbacks for SlamNode {
+    fn on_configure(&mut self, io: &mut Io<'_, Self>) -> StepOutcome {
+        let node = io.node();
         let values = &self.values;
         for finding in tables::conflicts(values) {
             node.log_finding(&finding);
@@ -359,11 +303,11 @@ impl State {
         self.is_paused = flag(values, "paused_new_measurements").unwrap_or(false);
         let topic = text(values, "scan_topic").unwrap_or_else(|| "scan".to_owned());
         let is_newest_first = self.is_live && self.program != Program::Sync;
-        let ports = Inputs::new(node, &topic, values, is_newest_first)
+        let ports = scan_queue(node, &topic, values, is_newest_first)
             .and_then(|it| Ok((it, Outputs::new(node, self.program, values)?)));
         match ports {
-            Ok((inputs, outputs)) => {
-                self.inputs = Some(inputs);
+            Ok((scans, outputs)) => {
+                self.scans = Some(scans);
                 self.outputs = Some(outputs);
             }
             Err(error) => {
@@ -382,6 +326,24 @@ impl State {
         StepOutcome::Success
     }
 
+    fn on_activate(&mut self, io: &mut Io<'_, Self>) -> StepOutcome {
+        if let Some(scans) = &mut self.scans {
+            scans.clear(io.now_ns());
+        }
+        StepOutcome::Success
+    }
+
+    fn on_cleanup(&mut self, _: &mut Io<'_, Self>) -> StepOutcome {
+        self.scans = None;
+        self.outputs = None;
+        self.begin(None);
+        self.correction = None;
+        self.told = Told::default();
+        StepOutcome::Success
+    }
+}
+
+impl SlamNode {
     /// The robot's pose on the stored graph to begin with, as `slam_toolbox` decides it: a given pose
     /// goes before the dock, and one that cannot be read is the origin.
     fn map_start(&self, node: &Node) -> Start {
@@ -452,12 +414,13 @@ impl State {
 
     fn work(&mut self, node: &Node) {
         let now_ns = node.now_ns();
-        let Some(inputs) = &mut self.inputs else { return };
-        if !self.is_active || self.is_paused {
-            inputs.forget(now_ns);
+        let Some(scans) = &mut self.scans else { return };
+        let is_working = node.is_active() && !self.is_paused;
+        if !is_working {
+            scans.clear(now_ns);
         }
-        inputs.listen(now_ns);
-        if let Some(silence) = inputs.silence(node).filter(|_| self.is_active && !self.is_paused) {
+        scans.receive(now_ns);
+        if let Some(silence) = scans.silence(node).filter(|_| is_working) {
             self.told.tell(&silence, node);
         }
         // Scans wait meanwhile, as in `slam_toolbox`: what is moved by hand stays where it is put.
@@ -466,12 +429,12 @@ impl State {
         }
         let names = self.names();
         let mut complaints = Vec::new();
-        while let Some(placed) = self
-            .inputs
+        while let Some(scan) = self
+            .scans
             .as_mut()
-            .and_then(|inputs| inputs.next(&self.frames, &names, now_ns, &mut complaints))
+            .and_then(|scans| scans.next(&self.frames, &names.robot(), now_ns, &mut complaints))
         {
-            self.take(&placed, &names, node);
+            self.take(&scan, &names, node);
             if self.is_live {
                 // Other nodes run in between.
                 break;
@@ -480,18 +443,19 @@ impl State {
         for complaint in complaints {
             self.told.tell(&complaint, node);
         }
-        if self.is_active {
+        if node.is_active() {
             self.publish_map(now_ns, &names, node);
         }
     }
 
-    fn take(&mut self, placed: &Placed, names: &Names, node: &Node) {
-        self.scans += 1;
+    fn take(&mut self, scan: &TransformedScan, names: &Names, node: &Node) {
+        let TransformedScan { message, transforms } = scan;
+        self.scan_count += 1;
         let every = integer(&self.values, "throttle_scans").unwrap_or(1).max(1);
-        if !(self.scans - 1).is_multiple_of(u64::try_from(every).unwrap_or(1)) {
+        if !(self.scan_count - 1).is_multiple_of(u64::try_from(every).unwrap_or(1)) {
             return;
         }
-        let time_ns = placed.message.header.stamp.ns();
+        let time_ns = message.header.stamp.ns();
         // Only if set: by default the engine benefits from every scan.
         let interval_ns = number(&self.values, "minimum_time_interval")
             .filter(|_| is_given(&self.values, "minimum_time_interval"))
@@ -507,8 +471,8 @@ impl State {
             return;
         }
         let is_inverted = flag(&self.values, "inverted_laser").unwrap_or(false);
-        let scan = scan(&placed.message, placed.places.base_from_laser, is_inverted);
-        let odom_from_base = placed.places.odom_from_base;
+        let scan = laser_scan(message, transforms.base_from_laser, is_inverted);
+        let odom_from_base = transforms.odom_from_base;
         let Some((mut update, mut corrected)) = self.add(&scan, odom_from_base) else { return };
         self.log_remarks(node);
         if let Some(again) = self.correct(&scan, odom_from_base, names, node) {
@@ -535,7 +499,7 @@ impl State {
         let Some(outputs) = &self.outputs else { return };
         outputs.publish_pose(update.map_from_base, &self.scaled(&covariance), time_ns, &names.map);
         if update.outcome == ScanOutcome::Inserted {
-            outputs.publish_scan(&placed.message);
+            outputs.publish_scan(message);
         }
     }
 
@@ -660,7 +624,7 @@ impl State {
             return;
         };
         // After a jump back the time of the last scan has not come yet.
-        if !self.is_active || self.is_back_in_time {
+        if !self.node.is_active() || self.is_back_in_time {
             return;
         }
         let number = |name: &str| number(&self.values, name);
@@ -849,7 +813,7 @@ impl State {
             values.table().parameters.iter().map(|parameter| parameter.name).find(|name| {
                 !AT_ANY_TIME.contains(name) && values.get(name) != self.values.get(name)
             });
-        if let Some(name) = changed.filter(|_| self.inputs.is_some()) {
+        if let Some(name) = changed.filter(|_| self.scans.is_some()) {
             return Err(format!(
                 "`{name}` is read when the node is configured; set it before, or clean the node up \
                  and configure it again"
@@ -863,15 +827,17 @@ impl State {
         Ok(())
     }
 
-    pub(crate) fn status(&self, node: String) -> SlamStatus {
+    /// Returns the current state.
+    #[must_use]
+    pub fn status(&self) -> SlamStatus {
         let mapper = self.engine.as_ref().map(Engine::mapper);
         let graph = self.engine.as_ref().and_then(Engine::graph);
         SlamStatus {
-            node,
+            node: self.node.full_name().to_owned(),
             program: self.program,
             counts: mapper.map(periplus_slam::Mapper::counts).unwrap_or_default(),
-            left_out: self.inputs.as_ref().map_or(0, |inputs| inputs.left_out),
-            dropped: self.inputs.as_ref().map_or(0, |inputs| inputs.dropped),
+            left_out: self.scans.as_ref().map_or(0, ScanQueue::superseded),
+            dropped: self.scans.as_ref().map_or(0, ScanQueue::without_transforms),
             graph: graph.map_or((0, 0), |slam| (slam.poses().len(), slam.links().count())),
             closures: mapper.map(|it| it.closures().to_vec()).unwrap_or_default(),
             map_from_base: mapper.map_or(Pose2::IDENTITY, periplus_slam::Mapper::map_from_base),

@@ -21,14 +21,14 @@ use periplus_params::ParamValues;
 use crate::slam_toolbox::Program;
 use crate::slam_toolbox::engine::{Engine, Start, settings};
 use crate::slam_toolbox::messages::published;
-use crate::slam_toolbox::node::State;
+use crate::slam_toolbox::node::SlamNode;
 use crate::slam_toolbox::values::{flag, text};
 
 /// Extension of session files.
 const ENDING: &str = "session";
 
 pub(crate) fn serve(
-    actor: &mut Actor<State>,
+    actor: &mut Actor<SlamNode>,
     program: Program,
     values: &ParamValues,
 ) -> Result<(), GraphError> {
@@ -67,8 +67,8 @@ pub(crate) fn serve(
     })?;
     actor.serve::<ClearQueue>("slam_toolbox/clear_queue", |state, _, io| {
         let now_ns = io.now_ns();
-        if let Some(inputs) = &mut state.inputs {
-            inputs.forget(now_ns);
+        if let Some(scans) = &mut state.scans {
+            scans.clear(now_ns);
         }
         ClearQueueResponse { status: true }
     })?;
@@ -101,7 +101,7 @@ pub(crate) fn serve(
     })
 }
 
-impl State {
+impl SlamNode {
     fn map_now(&self, node: &Node) -> GetMapResponse {
         let frame = text(&self.values, "map_frame").unwrap_or_default();
         let now = Time::of_ns(node.now_ns());
@@ -226,8 +226,8 @@ impl State {
             self.begin(Engine::empty(self.program, &self.values, self.slices));
         }
         let now_ns = node.now_ns();
-        if let Some(inputs) = &mut self.inputs {
-            inputs.forget(now_ns);
+        if let Some(scans) = &mut self.scans {
+            scans.clear(now_ns);
         }
         self.is_paused = pauses;
         self.show_state("paused_new_measurements", pauses);

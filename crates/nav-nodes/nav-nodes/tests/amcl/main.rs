@@ -7,7 +7,9 @@ use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex};
 
 use periplus_geometry::{Pose, Pose2};
-use periplus_graph::{Graph, Mailbox, Node, NodeSettings, Publisher, Qos, Transition};
+use periplus_graph::{
+    Graph, LifecycleNode, Mailbox, Node, NodeSettings, Publisher, Qos, Transition,
+};
 use periplus_grid::{Grid, GridInfo, OccupancyGrid as Map, occupancy};
 use periplus_localization::{AMCL, Settings};
 use periplus_maps::to_message;
@@ -112,7 +114,7 @@ impl Store for Files {
 struct Stage {
     graph: Graph,
     user: Node,
-    amcl: AmclNode,
+    amcl: LifecycleNode<AmclNode>,
     map: Map,
     maps: Publisher<OccupancyGrid>,
     tf: Publisher<TFMessage>,
@@ -372,7 +374,10 @@ fn services_distribute_particles_and_request_updates() {
     assert!(stage.poses.latest().is_some());
     for name in ["reinitialize_global_localization", "global_localization"] {
         stage.call::<Empty>(name, EmptyRequest::default());
-        let spread = stage.amcl.look(|amcl| amcl.estimate().unwrap().covariance).unwrap();
+        let spread = stage
+            .amcl
+            .with(|it| it.amcl().map(|amcl| amcl.estimate().unwrap().covariance))
+            .unwrap();
         assert!(spread.radius_m() > 1.0, "{name}: {spread:?}");
     }
 }
@@ -388,7 +393,7 @@ fn past_initial_poses_are_predicted_by_odometry() {
     stage.advance(10);
     stage.guesses.publish(guess(then_ns, START));
     stage.advance(10);
-    let pose = stage.amcl.look(|amcl| amcl.estimate().unwrap().pose).unwrap();
+    let pose = stage.amcl.with(|it| it.amcl().map(|amcl| amcl.estimate().unwrap().pose)).unwrap();
     assert!((pose.x_m - now.x_m).hypot(pose.y_m - now.y_m) < 0.1, "{pose:?} {now:?}");
     // Older than anything that is known of odometry.
     for milliseconds in [20_000, 10, 10] {
@@ -510,7 +515,7 @@ fn parameters_change_at_run_time() {
     assert_eq!(stage.set("update_min_d", number(0.01)), "");
     stage.see(START * Pose2::new(0.05, 0.0, 0.0));
     assert!(stage.poses.latest().is_some(), "a short motion suffices now");
-    assert!(stage.amcl.look(|amcl| amcl.particles().len()).unwrap() <= 800);
+    assert!(stage.amcl.with(|it| it.amcl().map(|amcl| amcl.particles().len())).unwrap() <= 800);
     let text = |text: &str| ParameterValue {
         r#type: ParameterType::PARAMETER_STRING,
         string_value: text.into(),
@@ -587,7 +592,8 @@ fn the_map_service_of_ros1_works() {
     let initial_pose = guess(0, Pose2::new(2.0, 1.0, 1.0));
     let request = SetMapRequest { map: map.clone(), initial_pose: initial_pose.clone() };
     assert!(stage.call::<SetMap>("set_map", request).success);
-    let x_m = stage.amcl.look(|amcl| amcl.estimate().unwrap().pose.x_m).unwrap();
+    let x_m =
+        stage.amcl.with(|it| it.amcl().map(|amcl| amcl.estimate().unwrap().pose.x_m)).unwrap();
     assert!((x_m - 2.0).abs() < 0.1);
     let mut far = initial_pose;
     far.pose.pose.position.x = 99.0;
@@ -609,7 +615,7 @@ fn the_lifecycle_is_managed() {
     stage.advance(10);
     stage.see(START);
     assert!(stage.poses.latest().is_some(), "the pose that came before counts");
-    let life = stage.amcl.life().clone();
+    let life = stage.amcl.lifecycle().clone();
     life.change(Transition::Deactivate);
     stage.advance(10);
     stage.see(START * Pose2::new(0.5, 0.0, 0.0));
@@ -629,8 +635,8 @@ fn always_reset_resets_each_activation() {
     stage.advance(10);
     stage.see(START);
     assert!(stage.poses.latest().is_some());
-    stage.amcl.life().change(Transition::Deactivate);
-    stage.amcl.life().change(Transition::Activate);
+    stage.amcl.lifecycle().change(Transition::Deactivate);
+    stage.amcl.lifecycle().change(Transition::Activate);
     stage.advance(10);
     stage.see(START);
     assert!(stage.poses.latest().is_none(), "it has to be told again");

@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use periplus_costmap::{CostmapConfig, LayeredCostmap, Nav2Release};
 use periplus_diagnostics::{Diagnostics, SourceMap};
-use periplus_graph::{Graph, Mailbox, Node, NodeSettings, Publisher, Qos};
+use periplus_graph::{Graph, LifecycleNode, Mailbox, Node, NodeSettings, Publisher, Qos};
 use periplus_msgs::builtin_interfaces::Time;
 use periplus_msgs::diagnostic_msgs::{DiagnosticArray, DiagnosticStatus};
 use periplus_msgs::geometry_msgs::{
@@ -72,7 +72,7 @@ fn config_and_text(text: &str, node: &str, compat: Nav2Release) -> (CostmapConfi
 struct Stage {
     graph: Graph,
     user: Node,
-    costmap: CostmapNode,
+    costmap: LifecycleNode<CostmapNode>,
     tf: Publisher<TFMessage>,
     scan: Publisher<LaserScan>,
     now_ns: i64,
@@ -186,7 +186,7 @@ fn an_obstacle_is_seen_published_and_cleared() {
     assert!(grids.latest().is_none(), "only what has changed");
     let update = updates.latest().unwrap();
     assert!(update.data.contains(&100));
-    assert_eq!(stage.costmap.inspect(1.05, 0.05).unwrap().cost, 0);
+    assert_eq!(stage.costmap.with(|it| it.inspect(1.05, 0.05)).unwrap().cost, 0);
     // It rolls on: another grid.
     stage.place("odom", 1.05);
     stage.advance(100);
@@ -199,17 +199,17 @@ fn it_waits_for_the_robot_and_says_so() {
     let mut stage = Stage::local();
     stage.see([1.0; 4]);
     stage.advance(500);
-    let status = stage.costmap.status();
+    let status = stage.costmap.with(|it| it.status());
     assert_eq!(status.updates, 0);
     assert!(status.trouble.unwrap().contains("`base_link` to `odom`"));
     stage.place("odom", 0.0);
     stage.advance(100);
-    let status = stage.costmap.status();
+    let status = stage.costmap.with(|it| it.status());
     assert!(status.updates > 0 && status.trouble.is_none());
     assert_eq!(status.sources[0].1, "/scan", "beside the costmap, not in it");
     // The pose gets old.
     stage.advance(1000);
-    assert!(stage.costmap.status().trouble.unwrap().contains("old"));
+    assert!(stage.costmap.with(|it| it.status()).trouble.unwrap().contains("old"));
 }
 
 #[test]
@@ -224,7 +224,7 @@ fn readings_wait_for_their_frame_but_not_for_ever() {
     stage.now_ns = 250_000_000;
     stage.place("odom", 0.05);
     stage.advance(100);
-    assert_eq!(stage.costmap.inspect(1.05, 0.05).unwrap().cost, 254);
+    assert_eq!(stage.costmap.with(|it| it.inspect(1.05, 0.05)).unwrap().cost, 254);
     // This frame never comes.
     stage.scan.publish(LaserScan {
         header: Header { stamp: stage.stamp(), frame_id: "nowhere".into() },
@@ -235,7 +235,7 @@ fn readings_wait_for_their_frame_but_not_for_ever() {
         stage.place("odom", 0.05);
         stage.advance(100);
     }
-    let advice = stage.costmap.status().advice;
+    let advice = stage.costmap.with(|it| it.status()).advice;
     assert!(advice.iter().any(|one| one.parameter.ends_with("scan.sensor_frame")), "{advice:?}");
 }
 
@@ -392,7 +392,7 @@ local_costmap:
 fn what_goes_wrong_while_it_runs_names_parameter_file_and_line() {
     let mut stage = Stage::new(NARROW, "local_costmap", Nav2Release::Main);
     let (_, text) = config_and_text(NARROW, "local_costmap", Nav2Release::Main);
-    stage.costmap.name_lines_of(text);
+    stage.costmap.with(|it| it.name_lines_of(text));
     let log = stage.user.mailbox::<Log>("/rosout", Qos::reliable(100)).unwrap();
     let said = |words: &str, place: &str| {
         let lines: Vec<String> = log.drain().iter().map(|line| line.msg.clone()).collect();
@@ -446,13 +446,13 @@ fn it_is_managed() {
     let mut stage = Stage::new(LOCAL, "local_costmap", Nav2Release::Main);
     stage.place("odom", 0.0);
     stage.advance(500);
-    assert!(stage.costmap.look(|_| ()).is_none(), "not configured");
+    assert!(stage.costmap.with(|it| it.costmap().map(|_| ())).is_none(), "not configured");
     stage.costmap.start();
     stage.advance(1);
     stage.place("odom", 0.0);
     stage.advance(200);
-    assert!(stage.costmap.status().updates > 0);
-    assert!(stage.costmap.life().is_active());
+    assert!(stage.costmap.with(|it| it.status()).updates > 0);
+    assert!(stage.costmap.lifecycle().is_active());
 }
 
 #[test]
@@ -493,7 +493,7 @@ fn services_answer() {
     stage.place("odom", 0.05);
     stage.see([9.0; 4]);
     stage.advance(100);
-    assert_ne!(stage.costmap.inspect(1.05, 0.05).unwrap().cost, 254);
+    assert_ne!(stage.costmap.with(|it| it.inspect(1.05, 0.05)).unwrap().cost, 254);
 }
 
 #[test]
@@ -502,7 +502,7 @@ fn older_distributions_have_other_forms() {
     stage.costmap.start();
     stage.place("odom", 0.05);
     stage.advance(200);
-    assert_eq!(stage.costmap.status().sources[0].1, "/local_costmap/scan");
+    assert_eq!(stage.costmap.with(|it| it.status()).sources[0].1, "/local_costmap/scan");
     let request = GetCostRequest { x: 0.0, y: 0.0, ..GetCostRequest::default() };
     let answer = stage.ask::<GetCost>("/local_costmap/get_cost_local_costmap", request);
     assert_eq!(answer.cost, 0.0);
@@ -525,7 +525,7 @@ fn jazzy_answers_minus_one_outside_and_kilted_has_forms_of_both() {
     stage.costmap.start();
     stage.place("odom", 0.05);
     stage.advance(200);
-    assert_eq!(stage.costmap.status().sources[0].1, "/scan");
+    assert_eq!(stage.costmap.with(|it| it.status()).sources[0].1, "/scan");
     let mut pose = periplus_msgs::geometry_msgs::PoseStamped::default();
     pose.header.frame_id = "odom".into();
     pose.pose.position.x = 99.0;
@@ -559,10 +559,10 @@ fn the_frame_of_the_robot_must_have_a_transform() {
     let refused = set(&stage, "nowhere");
     assert!(!refused.successful);
     assert!(refused.reason.contains("no transform from `nowhere` to `odom`"), "{}", refused.reason);
-    let before = stage.costmap.status().updates;
+    let before = stage.costmap.with(|it| it.status()).updates;
     stage.place("odom", 0.05);
     stage.advance(400);
-    assert!(stage.costmap.status().updates > before, "the costmap goes on");
+    assert!(stage.costmap.with(|it| it.status()).updates > before, "the costmap goes on");
     assert!(set(&stage, "odom").successful);
 }
 
@@ -650,7 +650,7 @@ fn a_limit_on_the_way_ahead_counts_when_braking_takes_as_far_and_filters_are_swi
         let is_off = |costmap: &LayeredCostmap| {
             costmap.all().any(|layer| layer.name() == "slow" && !layer.is_enabled())
         };
-        stage.costmap.look(is_off).unwrap()
+        stage.costmap.with(|it| it.costmap().map(is_off)).unwrap()
     };
     assert!(off(&stage));
     stage.ask::<SetBool>(toggle, SetBoolRequest { data: true });
@@ -682,7 +682,11 @@ fn parameters_are_read_and_set() {
     stage.place("odom", 0.05);
     stage.see([1.0, 9.0, 9.0, 9.0]);
     stage.advance(100);
-    assert_ne!(stage.costmap.inspect(0.55, 0.05).unwrap().cost, 0, "further than before");
+    assert_ne!(
+        stage.costmap.with(|it| it.inspect(0.55, 0.05)).unwrap().cost,
+        0,
+        "further than before"
+    );
 }
 
 #[test]
@@ -707,7 +711,11 @@ fn a_map_sets_the_size_and_a_footprint_comes_by_topic() {
     stage.advance(100);
     let (costs, corners) = stage
         .costmap
-        .look(|costmap| (costmap.costmap().costs().to_vec(), costmap.footprint().points().len()))
+        .with(|it| {
+            it.costmap().map(|costmap| {
+                (costmap.costmap().costs().to_vec(), costmap.footprint().points().len())
+            })
+        })
         .unwrap();
     assert_eq!(costs, [0, 254, 0, 0, 0, 0]);
     assert_eq!(corners, 3);

@@ -6,7 +6,9 @@ use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex};
 
 use periplus_geometry::Pose2;
-use periplus_graph::{Graph, LifecycleState, Mailbox, Node, NodeSettings, Qos, Transition};
+use periplus_graph::{
+    Graph, LifecycleNode, LifecycleState, Mailbox, Node, NodeSettings, Qos, Transition,
+};
 use periplus_grid::{Grid, GridInfo};
 use periplus_maps::{Distro, to_message};
 use periplus_msgs::Service;
@@ -81,7 +83,7 @@ impl Stage {
         Self { graph, user, maps }
     }
 
-    fn server(&self, yaml_filename: &str) -> MapServer {
+    fn server(&self, yaml_filename: &str) -> LifecycleNode<MapServer> {
         let node = self.graph.node(NodeSettings::new("map_server")).unwrap();
         let settings = MapServerSettings {
             yaml_filename: yaml_filename.into(),
@@ -130,7 +132,7 @@ fn a_map_is_served() {
     assert!(stage.maps.latest().is_none(), "the map stays");
     assert_eq!(stage.load("/m/b.yaml"), 0);
     assert_eq!(stage.maps.latest().unwrap().data, [-1]);
-    server.life().change(Transition::Deactivate);
+    server.lifecycle().change(Transition::Deactivate);
     stage.graph.settle();
     assert!(stage.ask::<GetMap>("/map_server/map", GetMapRequest::default()).map.data.is_empty());
 }
@@ -141,12 +143,12 @@ fn a_server_without_its_map_is_not_configured() {
     let server = stage.server("/m/none.yaml");
     server.start();
     stage.graph.settle();
-    assert_eq!(server.life().state(), LifecycleState::Unconfigured);
+    assert_eq!(server.lifecycle().state(), LifecycleState::Unconfigured);
     drop(server);
     let server = stage.server("");
     server.start();
     stage.graph.settle();
-    assert!(server.life().is_active(), "it waits for a map");
+    assert!(server.lifecycle().is_active(), "it waits for a map");
     assert_eq!(stage.load("file:///m/a.yaml"), 0);
     assert!(stage.maps.latest().is_some());
 }

@@ -177,7 +177,7 @@ fn a_robot_that_was_carried_unnoticed_is_reported() {
     // It is set down 6 m further on in the aisle, and odometry has only 3 m to the left of that.
     it.stage.odometry = |moved| Pose2::new(moved.x_m - 6.0, moved.y_m + 3.0, moved.yaw_rad);
     let raised = it.drive(&rounds()[40..]);
-    let found = it.stage.slam.status().map_from_base;
+    let found = it.stage.slam.with(|it| it.status()).map_from_base;
     let end = in_map(&it.stage, rounds()[rounds().len() - 1]);
     assert!(off(found, end) > 2.0, "the map would be right: {found:?} {end:?}");
     assert_eq!(raised, ["contradictions"]);
@@ -214,7 +214,7 @@ fn odometry_that_stands_still_is_reported_until_it_moves() {
 
 /// Walls of a map that are within 0.15 m of those of the room, of all.
 fn right_walls(stage: &Stage) -> f64 {
-    let map = stage.slam.map().unwrap();
+    let map = stage.slam.with(|it| it.map()).unwrap();
     let info = map.info;
     let (mut right, mut all) = (0, 0);
     for row in 0..info.height {
@@ -246,7 +246,7 @@ fn a_scanner_upside_down_is_corrected_and_the_map_begins_again() {
     assert!(status.message.starts_with("corrected: scans are taken"), "{status:?}");
     // The frame is that of the first beginning, and the map is right.
     let end = in_map(&it.stage, rounds()[rounds().len() - 1]);
-    let found = it.stage.slam.status().map_from_base;
+    let found = it.stage.slam.with(|it| it.status()).map_from_base;
     assert!(off(found, end) < 0.1, "{found:?} {end:?}");
     assert!(right_walls(&it.stage) > 0.95, "{}", right_walls(&it.stage));
 
@@ -274,7 +274,7 @@ fn swapped_axes_are_corrected_in_the_frame_that_was_set() {
     it.stage.advance(10);
     assert_eq!(it.drive(&rounds()), ["mounting"]);
     let end = rounds()[rounds().len() - 1];
-    let found = it.stage.slam.status().map_from_base;
+    let found = it.stage.slam.with(|it| it.status()).map_from_base;
     assert!(off(found, end) < 0.1, "{found:?} {end:?}");
     assert!(it.said.contains("x and y of odometry are swapped back"));
     // `map -> odom` makes up for the odometry that others get.
@@ -291,6 +291,6 @@ fn particles_are_corrected_too() {
     assert_eq!(it.drive(&rounds()), ["mounting"]);
     assert!(it.said.contains("the map begins again: scans are taken"));
     let end = in_map(&it.stage, rounds()[rounds().len() - 1]);
-    let found = it.stage.slam.status().map_from_base;
+    let found = it.stage.slam.with(|it| it.status()).map_from_base;
     assert!(off(found, end) < 0.15, "{found:?} {end:?}");
 }

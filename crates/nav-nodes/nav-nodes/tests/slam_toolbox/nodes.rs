@@ -76,7 +76,7 @@ fn a_robot_maps_a_room() {
     // Nothing is wrong, but for the wheels.
     let said = stage.said();
     assert!(said.lines().all(|line| line.starts_with("odometry reports")), "{said}");
-    assert_eq!(stage.slam.status().trouble, None);
+    assert_eq!(stage.slam.with(|it| it.status()).trouble, None);
 }
 
 #[test]
@@ -84,7 +84,7 @@ fn the_same_run_gives_the_same_map() {
     let run = || {
         let mut stage = Stage::new(Program::Async, &[]);
         stage.drive(&round());
-        stage.slam.look(Slam::save).unwrap()
+        stage.slam.with(|it| it.graph().map(Slam::save)).unwrap()
     };
     assert!(run() == run());
 }
@@ -100,11 +100,11 @@ fn the_transform_that_is_missing_is_named() {
     let said = stage.said();
     assert!(said.contains("no transform from `base_link` to `odom`"), "{said}");
     assert!(said.contains("the frame `odom` is not published"), "{said}");
-    assert!(stage.slam.status().trouble.unwrap().contains("odometry"));
+    assert!(stage.slam.with(|it| it.status()).trouble.unwrap().contains("odometry"));
     // Once it is there all is well.
     stage.drive(&round()[..5]);
-    assert_eq!(stage.slam.status().trouble, None);
-    assert!(stage.slam.status().dropped > 0);
+    assert_eq!(stage.slam.with(|it| it.status()).trouble, None);
+    assert!(stage.slam.with(|it| it.status()).dropped > 0);
 
     let mut stage = Stage::new(Program::Async, &[("scan_topic", "/front/scan")]);
     stage.advance(3000);
@@ -117,7 +117,7 @@ fn scans_that_were_asked_to_be_left_out_are() {
     let scans = |given: &[(&'static str, &'static str)]| {
         let mut stage = Stage::new(Program::Sync, given);
         stage.drive(&round()[..20]);
-        let status = stage.slam.status();
+        let status = stage.slam.with(|it| it.status());
         assert_eq!((status.left_out, status.dropped), (0, 0));
         status.counts.scans
     };
@@ -175,7 +175,7 @@ fn maps_and_sessions_are_saved_and_gone_on_with() {
     stage.drive(&round[10..30]);
     let after = stage.poses();
     assert!(after.len() > before.len());
-    let found = stage.slam.status().map_from_base;
+    let found = stage.slam.with(|it| it.status()).map_from_base;
     assert!(off(found, in_map(round[29])) < 0.1, "{found:?} {:?}", in_map(round[29]));
 }
 
@@ -211,10 +211,10 @@ fn a_robot_is_found_on_a_stored_graph() {
     initial.publish(said);
     stage.advance(10);
     stage.drive(&round[20..]);
-    let found = stage.slam.status().map_from_base;
+    let found = stage.slam.with(|it| it.status()).map_from_base;
     assert!(off(found, in_map(round[round.len() - 1])) < 0.08, "{found:?}");
     assert_eq!(stage.poses(), stored);
-    assert_eq!(stage.slam.status().counts.lost, 0);
+    assert_eq!(stage.slam.with(|it| it.status()).counts.lost, 0);
 }
 
 #[test]
@@ -269,7 +269,7 @@ fn a_run_can_be_paused_reset_and_put_right_by_hand() {
     assert!(close(&stage).contains("1 of 1 moved scans are tied"));
     let closures =
         |slam: &Slam| slam.links().filter(|it| it.2 == ConstraintKind::LoopClosure).count();
-    assert_eq!(stage.slam.look(closures), Some(1));
+    assert_eq!(stage.slam.with(|it| it.graph().map(closures)), Some(1));
 
     let reset = ResetRequest { pause_new_measurements: true };
     assert_eq!(stage.ask::<Reset>("/slam_toolbox/reset", reset).result, 0);
@@ -320,7 +320,7 @@ fn states_are_shown_and_the_start_on_a_map_is_chosen_by_parameters() {
         let all = [&[("map_file_name", "/maps/room")], given].concat();
         let mut stage = Stage::with_files(Program::Localization, &all, files.clone());
         stage.advance(10);
-        (stage.slam.status().map_from_base, stage.said())
+        (stage.slam.with(|it| it.status()).map_from_base, stage.said())
     };
     let pose = Pose2::new(0.5, -0.25, 0.1);
     let (found, said) =
@@ -355,7 +355,7 @@ fn a_life_is_lived_and_ros_1_is_heard() {
     let entropy = entropy.drain().pop().unwrap().data;
     // Thirty particles, none of which knows better yet.
     assert!(entropy > 0.0 && entropy <= 30_f64.ln() + 1e-9, "{entropy}");
-    let found = stage.slam.status().map_from_base;
+    let found = stage.slam.with(|it| it.status()).map_from_base;
     assert!(off(found, in_map(round[29])) < 0.1, "{found:?} {:?}", in_map(round[29]));
     assert!(stage.maps.latest().is_some());
     assert!(stage.transform().unwrap().0 > stage.now_ns, "`tf_delay` is in the future");

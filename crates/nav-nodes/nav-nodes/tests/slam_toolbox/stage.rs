@@ -7,7 +7,7 @@ use std::sync::{Arc, Mutex};
 
 use periplus_diagnostics::Diagnostics;
 use periplus_geometry::{Pose, Pose2};
-use periplus_graph::{Graph, Mailbox, Node, NodeSettings, Publisher, Qos};
+use periplus_graph::{Graph, LifecycleNode, Mailbox, Node, NodeSettings, Publisher, Qos};
 use periplus_msgs::builtin_interfaces::Time;
 use periplus_msgs::geometry_msgs::{Quaternion, Transform, TransformStamped, Vector3};
 use periplus_msgs::nav_msgs::OccupancyGrid;
@@ -118,7 +118,7 @@ impl Store for Files {
 pub(crate) struct Stage {
     pub(crate) graph: Graph,
     pub(crate) user: Node,
-    pub(crate) slam: SlamNode,
+    pub(crate) slam: LifecycleNode<SlamNode>,
     tf: Publisher<TFMessage>,
     scans: Publisher<LaserScan>,
     pub(crate) maps: Mailbox<OccupancyGrid>,
@@ -271,6 +271,6 @@ impl Stage {
     }
 
     pub(crate) fn poses(&self) -> Vec<Pose2> {
-        self.slam.look(|slam| slam.poses().to_vec()).unwrap()
+        self.slam.with(|it| it.graph().map(|slam| slam.poses().to_vec())).unwrap()
     }
 }

@@ -8,7 +8,7 @@ use periplus_costmap::CostmapConfig;
 use periplus_diagnostics::{Diagnostics, SourceMap};
 use periplus_nav_nodes::costmap_2d::CostmapNode;
 
-use periplus_graph::{Mailbox, Node, NodeSettings, Publisher, Qos};
+use periplus_graph::{LifecycleNode, Mailbox, Node, NodeSettings, Publisher, Qos};
 use periplus_loader::LoadContext;
 use periplus_msgs::Service;
 use periplus_msgs::geometry_msgs::{Pose, Quaternion, Transform, TransformStamped, Vector3};
@@ -59,7 +59,7 @@ pub(crate) struct Run {
     pub(crate) simulation: Simulation,
     services: Services,
     pub(crate) user: Node,
-    pub(crate) costmaps: [CostmapNode; 2],
+    pub(crate) costmaps: [LifecycleNode<CostmapNode>; 2],
     odometry: Mailbox<Odometry>,
     frames: Publisher<TFMessage>,
     _map: (Publisher<TFMessage>, Publisher<OccupancyGrid>),
@@ -116,7 +116,7 @@ impl Run {
             assert!(!diagnostics.has_errors());
             CostmapNode::new(graph, name, config).unwrap()
         });
-        costmaps.iter().for_each(CostmapNode::start);
+        costmaps.iter().for_each(LifecycleNode::start);
         let odometry = user.mailbox("/demo/odom", Qos::reliable(10)).unwrap();
         let moving = user.publisher("/tf", Qos::reliable(10)).unwrap();
         let _map = (frames, maps);
@@ -175,7 +175,7 @@ impl Run {
 
     /// Costs at a position, in both costmaps.
     pub(crate) fn costs(&self, x_m: f64, y_m: f64) -> [u8; 2] {
-        self.costmaps.each_ref().map(|node| node.inspect(x_m, y_m).unwrap().cost)
+        self.costmaps.each_ref().map(|node| node.with(|it| it.inspect(x_m, y_m)).unwrap().cost)
     }
 
     /// Largest costs near a position, in both costmaps.

@@ -10,7 +10,7 @@ use periplus_graph::{Actor, GraphError, Level, Node};
 use periplus_msgs::geometry_msgs::PoseStamped;
 use periplus_msgs::{Service, nav2_msgs, nav2_msgs_main};
 
-use crate::costmap_2d::node::State;
+use crate::costmap_2d::node::CostmapNode;
 
 /// Contents of a request.
 struct Wish<'a> {
@@ -20,7 +20,7 @@ struct Wish<'a> {
 
 /// Serves the clear services of a distribution, with its types.
 pub(super) fn serve(
-    actor: &mut Actor<State>,
+    actor: &mut Actor<CostmapNode>,
     name: &str,
     forms: Nav2Release,
 ) -> Result<(), GraphError> {
@@ -113,9 +113,9 @@ pub(super) fn serve(
 }
 
 fn one<S: Service>(
-    actor: &mut Actor<State>,
+    actor: &mut Actor<CostmapNode>,
     name: &str,
-    wish: impl for<'a> Fn(&'a S::Request, &State) -> Wish<'a> + Send + 'static,
+    wish: impl for<'a> Fn(&'a S::Request, &CostmapNode) -> Wish<'a> + Send + 'static,
     answer: impl Fn(bool) -> S::Response + Send + 'static,
 ) -> Result<(), GraphError> {
     actor.serve::<S>(name, move |state, request, io| {
@@ -124,7 +124,7 @@ fn one<S: Service>(
     })
 }
 
-impl State {
+impl CostmapNode {
     fn around(&self, side_m: f64) -> Option<Region> {
         self.robot.map(|Pose2 { x_m, y_m, .. }| Region::Around { x_m, y_m, side_m })
     }
