@@ -4,7 +4,6 @@ mod config;
 mod services;
 mod spec;
 
-use std::io;
 use std::path::PathBuf;
 use std::process::ExitCode;
 use std::sync::Arc;
@@ -12,16 +11,14 @@ use std::sync::atomic::Ordering;
 use std::time::Duration;
 
 use clap::Args;
-use periplus_diagnostics::{Diagnostics, SourceMap};
 use periplus_graph::{Arguments, Node, NodeSettings};
 use periplus_gz_transport::{BridgeDirection, GzBridge, Settings, TopicPair, Transport};
 use periplus_msgs::rcl_interfaces::ParameterValue;
 use periplus_os::{Machine, sleep};
+use periplus_session::{LiveGraph, stop};
 
 use crate::arguments;
 use crate::error::CliError;
-use crate::live::Live;
-use crate::stop;
 use crate::terminal;
 use services::Services;
 use spec::Spec;
@@ -81,70 +78,20 @@ impl BridgeParameters {
 }
 
 pub(crate) fn run(options: &BridgeOptions, ros: Vec<String>) -> Result<ExitCode, CliError> {
-    let words = options.remaps.iter().flat_map(|rule| ["-r".to_owned(), rule.clone()]);
-    let parameters = options.parameters.iter().flat_map(|one| ["-p".to_owned(), one.clone()]);
-    let arguments = arguments::read(words.chain(parameters).chain(ros).collect()).map_err(
-        |error| match error {
-            CliError::Reported(_) => CliError::Reported(USAGE_EXIT_CODE),
-            error => error,
-        },
-    )?;
-    let mut specs = Vec::new();
-    for word in &options.words {
-        match Spec::read(word) {
-            Ok(spec) => specs.push(spec),
-            Err(why) => {
-                terminal::complain(&format!("`{word}`: {why}"));
-                terminal::say("see `periplus bridge --help`");
-                return Err(CliError::Reported(USAGE_EXIT_CODE));
-            }
-        }
-    }
+    let arguments = options.arguments(ros)?;
+    let specs = options.specs()?;
     let stop = stop::on_signal();
     let (settings, findings) = Settings::from_environment(&Machine);
-    tell(&findings)?;
-    let opened = Live::open(arguments.clone()).and_then(|live| {
-        let made = live.graph.node(NodeSettings::new("ros_gz_bridge").any_parameters());
-        let node = made.map_err(|error| error.to_string())?;
-        let transport = Transport::open(&settings).map_err(|error| error.to_string())?;
-        Ok((live, node, Arc::new(transport)))
-    });
-    let (live, node, transport) = opened.map_err(CliError::failed)?;
-    let told = BridgeParameters::of(options, &arguments, &node);
-    let mut pairs = Vec::new();
+    terminal::print_findings(&findings)?;
+    let live = LiveGraph::open(arguments.clone())?;
+    let node = live.graph.node(NodeSettings::new("ros_gz_bridge").any_parameters())?;
+    let transport = Arc::new(Transport::open(&settings).map_err(CliError::failed)?);
+    let parameters = BridgeParameters::of(options, &arguments, &node);
     let mut services = Services::new(&node, &transport);
-    for spec in specs {
-        match spec {
-            Spec::Topic(pair) => pairs.push(TopicPair { is_lazy: told.is_lazy, ..pair }),
-            Spec::Service(service) => {
-                if let Err(why) = services.offer(&service) {
-                    terminal::complain(&why);
-                    return Err(CliError::Reported(USAGE_EXIT_CODE));
-                }
-            }
-        }
-    }
-    if let Some(path) = &told.config {
-        match config::read(path, told.is_lazy) {
-            Ok((read, findings, sources)) => {
-                terminal::diagnostics(&mut anstream::stderr().lock(), &findings, &sources)?;
-                pairs.extend(read);
-            }
-            Err(why) => {
-                return Err(CliError::failed(why));
-            }
-        }
-    }
-    if pairs.is_empty() && services.is_empty() {
-        terminal::complain(
-            "nothing to bridge; name a topic such as \
-             /lidar@sensor_msgs/msg/LaserScan[gz.msgs.LaserScan, or a file with --config",
-        );
-        return Err(CliError::Reported(USAGE_EXIT_CODE));
-    }
+    let pairs = parameters.pairs(specs, &mut services)?;
     let link = GzBridge::new(&live.graph, &transport);
     for mut pair in pairs {
-        if told.expands && !pair.gz_topic.starts_with('/') {
+        if parameters.expands && !pair.gz_topic.starts_with('/') {
             let space = node.names().namespace().trim_end_matches('/');
             pair.gz_topic = format!("{space}/{}", pair.gz_topic);
         }
@@ -157,8 +104,8 @@ pub(crate) fn run(options: &BridgeOptions, ros: Vec<String>) -> Result<ExitCode,
     terminal::say(&format!("Gazebo: partition {}", settings.partition));
     while !stop.load(Ordering::Relaxed) {
         live.spin_once();
-        live.tell();
-        tell(&link.take_findings())?;
+        live.print_findings();
+        terminal::print_findings(&link.take_findings())?;
         services.serve();
         sleep(POLL_PERIOD);
     }
@@ -167,8 +114,57 @@ pub(crate) fn run(options: &BridgeOptions, ros: Vec<String>) -> Result<ExitCode,
     Ok(ExitCode::SUCCESS)
 }
 
-fn tell(findings: &Diagnostics) -> io::Result<()> {
-    terminal::diagnostics(&mut anstream::stderr().lock(), findings, &SourceMap::new())
+/// Error in the arguments, with the exit code of `parameter_bridge`.
+fn wrong_usage(message: impl Into<String>) -> CliError {
+    CliError::Exit(message.into(), USAGE_EXIT_CODE)
+}
+
+impl BridgeOptions {
+    /// Remaps and parameters of the node.
+    fn arguments(&self, ros: Vec<String>) -> Result<Arguments, CliError> {
+        let remaps = self.remaps.iter().flat_map(|rule| ["-r".to_owned(), rule.clone()]);
+        let parameters = self.parameters.iter().flat_map(|one| ["-p".to_owned(), one.clone()]);
+        let words = remaps.chain(parameters).chain(ros).collect();
+        arguments::read(words).map_err(|error| match error {
+            CliError::Reported(_) => CliError::Reported(USAGE_EXIT_CODE),
+            error => error,
+        })
+    }
+
+    /// Topics and services of the command line.
+    fn specs(&self) -> Result<Vec<Spec>, CliError> {
+        let read = |word: &String| {
+            Spec::read(word).map_err(|why| {
+                wrong_usage(format!("`{word}`: {why}\nsee `periplus bridge --help`"))
+            })
+        };
+        self.words.iter().map(read).collect()
+    }
+}
+
+impl BridgeParameters {
+    /// Offers the services, and returns the topics of the command line and of the file.
+    fn pairs(&self, specs: Vec<Spec>, services: &mut Services) -> Result<Vec<TopicPair>, CliError> {
+        let mut pairs = Vec::new();
+        for spec in specs {
+            match spec {
+                Spec::Topic(pair) => pairs.push(TopicPair { is_lazy: self.is_lazy, ..pair }),
+                Spec::Service(service) => services.offer(&service).map_err(wrong_usage)?,
+            }
+        }
+        if let Some(path) = &self.config {
+            let (read, findings, sources) = config::read(path, self.is_lazy)?;
+            terminal::diagnostics(&mut anstream::stderr().lock(), &findings, &sources)?;
+            pairs.extend(read);
+        }
+        if pairs.is_empty() && services.is_empty() {
+            return Err(wrong_usage(
+                "nothing to bridge; name a topic such as \
+                 /lidar@sensor_msgs/msg/LaserScan[gz.msgs.LaserScan, or a file with --config",
+            ));
+        }
+        Ok(pairs)
+    }
 }
 
 /// One line that describes a bridged pair.

@@ -1,6 +1,5 @@
 //! `periplus demo`, also run by `periplus` without arguments.
 
-pub(crate) mod browser;
 mod explorer;
 mod pictures;
 mod report;
@@ -9,23 +8,25 @@ mod stage;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
-use std::sync::Arc;
 
 use clap::Args;
 use periplus_geometry::Pose2;
-use periplus_graph::NodeSettings;
-use periplus_nav_nodes::slam_toolbox::Pace;
+use periplus_graph::{Graph, GraphError};
+use periplus_maps::BesideTruth;
 use periplus_os::Stopwatch;
-use periplus_sim::{
-    AssetFiles, Driver, Options, Run, Search, Services, Simulation, SimulationRecorder,
+use periplus_session::nodes::{
+    CostmapRequest, CostmapSource, EstimatorRequest, Mapping, MappingRequest, MappingSource,
 };
+use periplus_session::{
+    PageContext, PageSettings, RecordingRequest, RunEnd, RunSettings, SessionBuilder, SessionTask,
+    SimulationSession, stop,
+};
+use periplus_sim::{Options, RunProgress, Search};
 
-use crate::costmap::Costmaps;
 use crate::error::CliError;
-use crate::mapping::Mapping;
-use crate::page::{About, PORT, Page, PageOptions};
-use crate::stop;
-use crate::terminal;
+use crate::page::PageOptions;
+use crate::run_options::{exit_code, positive};
+use crate::{paths, terminal};
 
 use explorer::Explorer;
 use pictures::SnapshotRecorder;
@@ -46,7 +47,7 @@ pub(crate) struct DemoOptions {
     #[arg(long)]
     headless: bool,
     /// Duration of the run in simulated seconds [default with --headless: 60]
-    #[arg(long, value_name = "SECONDS", value_parser = crate::sim::positive)]
+    #[arg(long, value_name = "SECONDS", value_parser = positive)]
     duration: Option<f64>,
     /// Folder for map, bag, report and images [default with --headless: `periplus-demo`]
     #[arg(long, value_name = "DIR")]
@@ -73,7 +74,7 @@ impl Default for DemoOptions {
             explore: false,
             no_browser: false,
             seed: 0,
-            page: PageOptions { page: None, token: None },
+            page: PageOptions::default(),
         }
     }
 }
@@ -91,112 +92,136 @@ impl DemoOptions {
 
 pub(crate) fn run(options: &DemoOptions) -> Result<ExitCode, CliError> {
     let start = Stopwatch::start();
-    let words = |error: &dyn std::fmt::Display| error.to_string();
-    let mut composition = stage::composition();
-    let files = Arc::new(AssetFiles::default());
-    let threads = terminal::processors();
-    let settings = Options { seed: options.seed, threads, ..Options::default() };
-    let mut simulation = Simulation::new(&mut composition, files, settings);
     let out = options.out();
     if let Some(out) = &out {
-        crate::paths::make_folder(out)?;
+        paths::make_folder(out)?;
     }
-    let recorder = out.as_deref().map(|out| record(&simulation, out)).transpose()?;
-    let search = Search { working_folder: terminal::working_folder(), ..Search::default() };
-    let mut services = Services::new(&simulation, search).map_err(|error| words(&error))?;
-    let graph = simulation.graph().clone();
-    let (program, values) = stage::mapping();
-    let pace = if options.headless { Pace::Whole } else { Pace::Sliced };
-    let node = graph.node(NodeSettings::new(program.node_name()));
-    let mapping = Mapping::new(node, program, values, pace, out.as_deref())?;
-    let costmaps = Costmaps::of_text(&graph, "costmaps.yaml", stage::COSTMAPS, out.clone())?;
-    let drives = options.headless || options.explore;
-    let mut explorer =
-        drives.then(|| Explorer::join(&graph)).transpose().map_err(|error| words(&error))?;
-    let page =
-        (!options.headless).then(|| open(options, &simulation, &mut services)).transpose()?;
-    let end_ns = options.duration().map(|seconds| (seconds * 1e9).round() as i64);
-    let mut eyes = match &out {
-        Some(_) => Some(SnapshotRecorder::join(&graph, end_ns).map_err(|error| words(&error))?),
-        None => None,
-    };
+    let mut session = options.session(out.as_deref(), start).build()?;
+    let mut task = DemoTask::new(session.graph(), options, out.is_some())?;
     let stop = stop::on_signal();
-    let factor = (!options.headless).then_some(1.0);
-    let run = Run { end_ns, factor, stop: &stop, paused: false };
-    let start_up = start.elapsed();
-    if let Some(page) = &page {
-        tell(options, page);
+    let settings = RunSettings { duration_s: options.duration(), stop: &stop, is_paused: false };
+    session.run(settings, &mut task);
+    if let RunEnd::Diverged(diverged) = session.end() {
+        return Err(CliError::failed(diverged));
     }
-    let stopwatch = Stopwatch::start();
-    let outcome = run.go(&mut simulation, &mut services, &mut Driver::default(), &mut |progress| {
-        if let Some(explorer) = &mut explorer {
-            explorer.spin_once(progress.time_ns);
-        }
-        if let Some(eyes) = &mut eyes {
-            eyes.look(progress.time_ns);
-        }
-    });
-    let wall = stopwatch.elapsed();
-    drop(page);
-    outcome.map_err(|diverged| diverged.to_string())?;
     let Some(out) = out else { return Ok(ExitCode::SUCCESS) };
-    let recording = recorder.map(|recorder| recorder.finish(&mut simulation)).transpose();
-    let recording = recording.map_err(|error| format!("the bag is incomplete: {error}"))?;
-    let map = mapping.node.with(|node| node.map());
-    let truth = map.and_then(|map| simulation.beside_truth(&map, Pose2::IDENTITY));
-    let run = crate::sim::Report {
-        simulation: &simulation,
-        start_up,
-        wall,
-        recording: recording.as_ref(),
-    };
-    let told = report::of(&run, &mapping, truth.as_ref(), explorer.as_ref());
-    mapping.write()?;
-    costmaps.write()?;
-    if let Some(eyes) = &eyes {
-        eyes.write(&out)?;
+    session.finish()?;
+    task.write(&mut session, &out)?;
+    match session.end() {
+        // The results of a shorter run are complete, too.
+        RunEnd::Interrupted => Ok(ExitCode::SUCCESS),
+        end => exit_code(end),
     }
-    let text = format!("{told:#}\n");
-    crate::paths::write(&out.join("report.json"), text.as_bytes())?;
-    let mut err = anstream::stderr().lock();
-    let said = run.tell(&mut err).and_then(|()| mapping.tell(&mut err));
-    let said = said.and_then(|()| match &truth {
-        None => Ok(()),
-        Some(truth) => writeln!(
-            err,
-            "the walls of the map are {:.3} m from the true walls on average",
-            truth.comparison.other_to_first.mean_m
-        ),
-    });
-    said.and_then(|()| writeln!(err, "results are in {}", out.display()))
-        .map_err(|error| words(&error))?;
-    Ok(ExitCode::SUCCESS)
+}
+
+impl DemoOptions {
+    fn session(&self, out: Option<&Path>, start: Stopwatch) -> SessionBuilder {
+        let simulation =
+            Options { seed: self.seed, threads: terminal::processors(), ..Options::default() };
+        let search = Search { working_folder: terminal::working_folder(), ..Search::default() };
+        let (program, values) = stage::mapping();
+        let estimators = EstimatorRequest {
+            costmaps: Some(CostmapRequest {
+                source: CostmapSource::Text("costmaps.yaml", stage::COSTMAPS.to_owned()),
+                cells: Vec::new(),
+                images: out.map(Path::to_owned),
+            }),
+            mapping: Some(MappingRequest {
+                source: MappingSource::Values(program, values),
+                out: out.map(Path::to_owned),
+            }),
+            ..EstimatorRequest::default()
+        };
+        SessionBuilder::new(stage::composition(), simulation, start)
+            .quiet(true)
+            .factor((!self.headless).then_some(1.0))
+            .search(search)
+            .recording(out.map(recording))
+            .estimators(estimators)
+            .page((!self.headless).then(|| self.page_settings()))
+    }
+
+    fn page_settings(&self) -> PageSettings {
+        let world = Some(stage::WORLD_NAME.to_owned());
+        PageSettings {
+            opens_browser: !self.no_browser,
+            hint: " (Ctrl-C ends the demo)",
+            ..self.page.settings(PageContext { world, ..PageContext::default() })
+        }
+    }
 }
 
 /// Records everything but images, which only a viewer subscribes to.
-fn record(simulation: &Simulation, out: &Path) -> Result<SimulationRecorder, String> {
+fn recording(out: &Path) -> RecordingRequest {
     let wanted = |name: &str| !name.starts_with("/depth_camera/");
-    SimulationRecorder::start(simulation, &out.join("demo.mcap"), Box::new(wanted))
-        .map_err(|error| format!("cannot record to {}: {error}", out.display()))
+    RecordingRequest { path: out.join("demo.mcap"), wanted: Box::new(wanted) }
 }
 
-fn open(
-    options: &DemoOptions,
-    simulation: &Simulation,
-    services: &mut Services,
-) -> Result<Page, String> {
-    services.show(simulation, Vec::new()).map_err(|error| error.to_string())?;
-    let about = About { world: Some(stage::WORLD_NAME.to_owned()), ..About::default() };
-    let token = &options.page.token;
-    let usual = std::net::SocketAddr::from(([127, 0, 0, 1], PORT));
-    let asked = options.page.page;
-    Page::open(simulation.graph(), asked.unwrap_or(usual), token.clone(), about)
+/// Exploration, and images at the end.
+struct DemoTask {
+    explorer: Option<Explorer>,
+    images: Option<SnapshotRecorder>,
 }
 
-fn tell(options: &DemoOptions, page: &Page) {
-    let url = page.url();
-    terminal::say(&format!("page: {url} (Ctrl-C ends the demo)"));
-    if !options.no_browser && !browser::open(&url) {
-        terminal::say("no browser could be started; open the page yourself");
+impl SessionTask for DemoTask {
+    fn after_step(&mut self, progress: RunProgress) {
+        if let Some(explorer) = &mut self.explorer {
+            explorer.spin_once(progress.time_ns);
+        }
+        if let Some(images) = &mut self.images {
+            images.look(progress.time_ns);
+        }
     }
+}
+
+impl DemoTask {
+    fn new(graph: &Graph, options: &DemoOptions, has_images: bool) -> Result<Self, GraphError> {
+        let explores = options.headless || options.explore;
+        let explorer = explores.then(|| Explorer::join(graph)).transpose()?;
+        let end_ns = options.duration().map(|seconds| (seconds * 1e9).round() as i64);
+        let images = has_images.then(|| SnapshotRecorder::join(graph, end_ns)).transpose()?;
+        Ok(Self { explorer, images })
+    }
+
+    /// Writes all results and prints the report.
+    fn write(&self, session: &mut SimulationSession, out: &Path) -> Result<(), CliError> {
+        let map = session
+            .estimators()
+            .mapping
+            .as_ref()
+            .and_then(|mapping| mapping.node.with(|node| node.map()));
+        let truth =
+            map.and_then(|map| session.simulation_mut().beside_truth(&map, Pose2::IDENTITY));
+        let estimators = session.estimators();
+        let Some(mapping) = &estimators.mapping else { return Ok(()) };
+        let report = report::of(&session.report(), mapping, truth.as_ref(), self.explorer.as_ref());
+        mapping.write_results()?;
+        estimators.costmaps.write_images()?;
+        if let Some(images) = &self.images {
+            images.write(out)?;
+        }
+        let text = format!("{report:#}\n");
+        paths::write(&out.join("report.json"), text.as_bytes())?;
+        print_report(session, mapping, truth.as_ref(), out)
+    }
+}
+
+fn print_report(
+    session: &SimulationSession,
+    mapping: &Mapping,
+    truth: Option<&BesideTruth>,
+    out: &Path,
+) -> Result<(), CliError> {
+    let mut err = anstream::stderr().lock();
+    session.report().write_text(&mut err)?;
+    mapping.write_report(&mut err)?;
+    if let Some(truth) = truth {
+        writeln!(
+            err,
+            "the walls of the map are {:.3} m from the true walls on average",
+            truth.comparison.other_to_first.mean_m
+        )?;
+    }
+    writeln!(err, "results are in {}", out.display())?;
+    Ok(())
 }

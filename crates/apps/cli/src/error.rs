@@ -4,7 +4,11 @@ use std::fmt::Display;
 use std::io;
 use std::process::ExitCode;
 
+use periplus_bags::files::BagError;
 use periplus_diagnostics::plain_words;
+use periplus_graph::GraphError;
+use periplus_session::files::FileError;
+use periplus_session::{PageError, RunError};
 
 use crate::terminal;
 
@@ -15,6 +19,8 @@ pub(crate) enum CliError {
     Failed(String),
     /// Bad usage: prints the message, exit code 2.
     Usage(String),
+    /// Prints the message, with the exit code of the ROS program that the command replaces.
+    Exit(String, u8),
     /// Error with this exit code that is printed already, such as findings of a file.
     Reported(u8),
     /// Failed write to stdout or stderr.
@@ -34,23 +40,19 @@ impl CliError {
 
     /// Prints the message and returns the exit code.
     pub(crate) fn report(self) -> ExitCode {
-        match self {
-            Self::Failed(message) => {
-                terminal::complain(&message);
-                ExitCode::FAILURE
-            }
-            Self::Usage(message) => {
-                terminal::complain(&message);
-                ExitCode::from(2)
-            }
-            Self::Reported(code) => ExitCode::from(code),
+        let (message, code) = match self {
+            Self::Failed(message) => (message, 1),
+            Self::Usage(message) => (message, 2),
+            Self::Exit(message, code) => (message, code),
+            Self::Reported(code) => return ExitCode::from(code),
             // The reader of our output has closed it.
-            Self::Output(error) if error.kind() == io::ErrorKind::BrokenPipe => ExitCode::SUCCESS,
-            Self::Output(error) => {
-                terminal::complain(&format!("cannot write the output: {}", plain_words(&error)));
-                ExitCode::FAILURE
+            Self::Output(error) if error.kind() == io::ErrorKind::BrokenPipe => {
+                return ExitCode::SUCCESS;
             }
-        }
+            Self::Output(error) => (format!("cannot write the output: {}", plain_words(&error)), 1),
+        };
+        terminal::complain(&message);
+        ExitCode::from(code)
     }
 }
 
@@ -63,5 +65,39 @@ impl From<String> for CliError {
 impl From<io::Error> for CliError {
     fn from(error: io::Error) -> Self {
         Self::Output(error)
+    }
+}
+
+impl From<RunError> for CliError {
+    fn from(error: RunError) -> Self {
+        match error {
+            RunError::Reported => Self::Reported(1),
+            RunError::Output(error) => Self::Output(error),
+            error => Self::failed(error),
+        }
+    }
+}
+
+impl From<FileError> for CliError {
+    fn from(error: FileError) -> Self {
+        Self::failed(error)
+    }
+}
+
+impl From<PageError> for CliError {
+    fn from(error: PageError) -> Self {
+        Self::failed(error)
+    }
+}
+
+impl From<GraphError> for CliError {
+    fn from(error: GraphError) -> Self {
+        Self::failed(error)
+    }
+}
+
+impl From<BagError> for CliError {
+    fn from(error: BagError) -> Self {
+        Self::failed(error)
     }
 }

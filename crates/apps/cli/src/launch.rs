@@ -26,7 +26,7 @@ pub(crate) use self::tools::{XACRO_VERB, run_xacro};
 use crate::arguments;
 use crate::error::CliError;
 use crate::options::{SearchOptions, split};
-use crate::sim::positive;
+use crate::run_options::positive;
 use crate::terminal::{self, working_folder};
 
 /// Run a launch file of ROS 1 or ROS 2

@@ -10,7 +10,7 @@ use std::process::ExitCode;
 
 use crate::error::CliError;
 
-pub(crate) use beside::{BesideOptions, Localization};
+pub(crate) use beside::BesideOptions;
 pub(crate) use options::LocalizeOptions;
 
 pub(crate) fn run(options: &LocalizeOptions, ros: Vec<String>) -> Result<ExitCode, CliError> {

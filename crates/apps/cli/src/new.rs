@@ -145,31 +145,26 @@ pub(crate) fn run(command: &NewCommand) -> Result<ExitCode, CliError> {
         }
     };
     let folder = place.output.clone().unwrap_or_default();
-    match write(&folder, &files) {
-        Ok(written) => {
-            for path in written {
-                terminal::say(&format!("wrote {}", path.display()));
-            }
-            let at = if folder.as_os_str().is_empty() {
-                String::new()
-            } else {
-                format!(", in {}", folder.display())
-            };
-            terminal::say(&format!("next{at}:"));
-            for line in next {
-                terminal::say(&format!("  {line}"));
-            }
-            Ok(ExitCode::SUCCESS)
-        }
-        Err(why) => Err(CliError::failed(why)),
+    for path in write(&folder, &files)? {
+        terminal::say(&format!("wrote {}", path.display()));
     }
+    let at = if folder.as_os_str().is_empty() {
+        String::new()
+    } else {
+        format!(", in {}", folder.display())
+    };
+    terminal::say(&format!("next{at}:"));
+    for line in next {
+        terminal::say(&format!("  {line}"));
+    }
+    Ok(ExitCode::SUCCESS)
 }
 
 /// Writes all files, or none if one exists.
 ///
 /// # Errors
 /// A message when a file cannot be written.
-fn write(folder: &Path, files: &[NewFile]) -> Result<Vec<PathBuf>, String> {
+fn write(folder: &Path, files: &[NewFile]) -> Result<Vec<PathBuf>, CliError> {
     // The folder of a package must be new, so that it contains no parts of another package.
     for file in files {
         let first = file
@@ -179,10 +174,10 @@ fn write(folder: &Path, files: &[NewFile]) -> Result<Vec<PathBuf>, String> {
             .map_or(file.path.as_path(), |one| Path::new(one.as_os_str()));
         let path = folder.join(first);
         if Machine.kind(&path).is_some() {
-            return Err(format!(
+            return Err(CliError::Failed(format!(
                 "{} exists and is not overwritten: choose another name, or another folder with --output",
                 path.display()
-            ));
+            )));
         }
     }
     let mut written = Vec::new();

@@ -1,45 +1,34 @@
 //! `periplus sim`.
 
-mod gazebo;
-pub(crate) mod progress;
-mod recording;
-mod report;
 mod robots;
-pub(crate) mod ros2;
-pub(crate) mod stack;
 
 use std::io::{self, Write};
 use std::path::PathBuf;
 use std::process::ExitCode;
-use std::sync::Arc;
-use std::sync::atomic::Ordering;
 
 use clap::{Args, ValueEnum};
-use periplus_diagnostics::SourceMap;
 use periplus_graph::Arguments;
+use periplus_loader::LoadContext;
 use periplus_os::Stopwatch;
-use periplus_sim::{
-    AssetFiles, Composition, Driver, Options, PhysicsMode, Quirks, Run, Services, Simulation,
-    SimulationRecorder, TopicFilter, compose, compute_topics,
+use periplus_session::nodes::EstimatorRequest;
+use periplus_session::{
+    GazeboSettings, NoTask, PageContext, PageSettings, RecordingRequest, RunSettings,
+    SessionBuilder, SimulationSession, stop,
 };
+use periplus_sim::{Composition, Driver, Options, PhysicsMode, Quirks, TopicFilter, compose};
 
 use crate::arguments;
-use crate::costmap::{CostmapOptions, Costmaps};
-use crate::demo::browser;
+use crate::costmap::CostmapOptions;
 use crate::error::CliError;
-use crate::localize::{BesideOptions, Localization};
-use crate::mapping::{Mapping, MappingOptions};
+use crate::localize::BesideOptions;
+use crate::mapping::MappingOptions;
 use crate::options::{SearchOptions, split};
-use crate::page::{About, Page, PageOptions};
-use crate::stop;
+use crate::page::PageOptions;
+use crate::run_options::{
+    Factor, GzReach, GzTypes, Reach, TopicSelection, exit_code, factor, positive,
+};
 use crate::terminal;
 
-use gazebo::{Gazebo, GzReach, GzTypes};
-use ros2::{Reach, Ros2};
-use stack::RobotProfile;
-
-pub(crate) use recording::RecordingWatch;
-pub(crate) use report::Report;
 pub(crate) use robots::Robots;
 
 /// Simulate robots in a world: physics, sensors, topics, and a recording
@@ -60,12 +49,8 @@ pub(crate) struct SimOptions {
     /// Record published topics to a bag: FILE.mcap, or a folder in the format of `ros2 bag`
     #[arg(long, value_name = "FILE.mcap|FOLDER")]
     record: Option<std::path::PathBuf>,
-    /// Record only topics that match this regular expression
-    #[arg(long, value_name = "REGEX")]
-    topics: Option<regex::Regex>,
-    /// Do not record topics that match this regular expression
-    #[arg(long, value_name = "REGEX")]
-    exclude: Option<regex::Regex>,
+    #[command(flatten)]
+    recorded: TopicSelection,
     /// Simulate sensors of topics that match this regular expression even without subscribers, to
     /// measure their cost
     #[arg(long, value_name = "REGEX")]
@@ -156,201 +141,43 @@ enum Dynamics {
     Kinematic,
 }
 
-/// Real-time factor: simulated seconds per second of wall time.
-#[derive(Clone, Copy, Debug)]
-pub(crate) enum Factor {
-    /// As fast as possible.
-    Max,
-    /// Fixed factor.
-    Of(f64),
-}
-
 pub(crate) fn run(options: &SimOptions, ros: Vec<String>) -> Result<ExitCode, CliError> {
     let start = Stopwatch::start();
     let to_nodes = arguments::read(options.ros_words(ros))?;
-    let (mut files, arguments) = split(&options.words);
-    // `--robot FILE WORLD`: a word that is no argument of the robot is the world.
-    files.extend(options.robots.others.iter().map(PathBuf::from));
-    let [world] = files.as_slice() else {
-        return Err(CliError::Usage(match files.as_slice() {
-            [] => "no world given; add robots with --robot; see `periplus sim --help`".to_owned(),
-            several => {
-                let names: Vec<_> = several.iter().map(|it| it.display().to_string()).collect();
-                let several = names.join(", ");
-                format!(
-                    "expected one world, got {}: {several}; give each robot a separate --robot",
-                    names.len()
-                )
-            }
-        }));
-    };
-    if let Err(why) = options.can_run() {
-        return Err(CliError::usage(why));
-    }
-    let (mut driver, findings) = match &options.cmd {
-        Some(path) => Driver::read(path),
-        None => Default::default(),
-    };
-    let mut err = anstream::stderr().lock();
-    terminal::diagnostics(&mut err, &findings.diagnostics, &findings.sources)?;
-    drop(err);
-    if findings.diagnostics.has_errors() {
-        return Err(CliError::failed("the script has errors"));
-    }
-    let search = &options.search.resource_path;
-    let mut composition = terminal::with_setting(search, arguments, |setting| {
-        compose(world, &options.robots.placements, setting)
+    let (world, arguments) = options.world()?;
+    options.check()?;
+    let driver = options.driver()?;
+    let search = terminal::search(&options.search.resource_path);
+    let composition = search.with_context(true, |context| {
+        let context = LoadContext { arguments, ..context.clone() };
+        compose(&world, &options.robots.placements, &context)
     });
-    let mut simulation = Simulation::new(
-        &mut composition,
-        Arc::new(AssetFiles::default()),
-        options.simulation(to_nodes),
-    );
-    let whole = tell_findings(&composition, options.quiet)?;
-    if let Some(missing) = composition.missing() {
-        return Err(CliError::failed(format!("{} has nothing to simulate", missing.display())));
-    }
-    let profile = options.profile(&mut simulation).map_err(CliError::failed)?;
-    let profile = profile.as_ref();
-    let recorder = match options.record.as_deref() {
-        None => None,
-        Some(path) => match SimulationRecorder::start(&simulation, path, options.wanted()) {
-            Ok(recorder) => Some(recorder),
-            Err(error) => {
-                return Err(CliError::failed(format!(
-                    "cannot record to {}: {error}",
-                    path.display()
-                )));
-            }
-        },
-    };
-    if let Some(heard) = options.hear.clone() {
-        compute_topics(&simulation, Box::new(move |name| heard.is_match(name)));
-    }
-    let mut services = Services::new(&simulation, terminal::search(search)).map_err(|error| {
-        CliError::failed(format!("cannot offer the services of the world: {error}"))
-    })?;
-    match driver.join(&simulation) {
-        Ok(warnings) => {
-            terminal::diagnostics(&mut anstream::stderr().lock(), &warnings, &SourceMap::new())?;
-        }
-        Err(error) => {
-            return Err(CliError::failed(format!("cannot run the script: {error}")));
-        }
-    }
-    let filter = profile.filter(|profile| profile.needs_filter());
-    let filter = filter.map(|profile| profile.filter(simulation.graph())).transpose();
-    let _filter = filter
-        .map_err(|error| CliError::failed(format!("the odometry filter cannot run: {error}")))?;
-    let own = profile.filter(|_| options.stack).map(RobotProfile::costmaps);
-    let costmaps = Costmaps::join(simulation.graph(), &options.costmaps, own.as_deref())?;
-    let localization = Localization::join(simulation.graph(), &options.localization, profile)?;
-    let factor = options.factor(&composition);
-    let is_mapping = options.stack && localization.is_none();
-    let usual = (is_mapping, profile);
-    let mapping = Mapping::join(simulation.graph(), &options.mapping, factor.is_some(), usual)?;
-    // All nodes exist now.
-    if !options.quiet {
-        let unused = simulation.graph().unused_arguments();
-        terminal::diagnostics(&mut anstream::stderr().lock(), &unused, &SourceMap::new())?;
-    }
-    let mut ros2 = Ros2::join(&simulation, options.ros2, factor.is_some(), options.quiet)?;
-    let gazebo =
-        Gazebo::join(&simulation, &mut services, options.gz, options.gz_types, options.quiet)?;
-    if options.page.page.is_some() {
-        let around = composition.files.iter().filter_map(|file| file.path.parent());
-        if let Err(error) = services.show(&simulation, around.map(Into::into).collect()) {
-            return Err(CliError::failed(format!("the world cannot be shown: {error}")));
-        }
-    }
-    let about = options.about(&composition);
-    let page = Page::join(simulation.graph(), &options.page, about).map_err(CliError::failed)?;
-    if let Some(page) = &page {
-        let url = page.url();
-        if !options.quiet {
-            terminal::say(&format!("page: {url}"));
-        }
-        if !options.no_browser && !browser::open(&url) && !options.quiet {
-            terminal::say("no browser could be started; open the page yourself");
-        }
-    }
+    let factor = Factor::of_run(options.rtf, options.duration, &composition);
+    let page = options.page(&composition);
+    let mut session = SessionBuilder::new(composition, options.simulation(to_nodes), start)
+        .quiet(options.quiet)
+        .progress(!options.quiet && !options.json)
+        .factor(factor)
+        .search(search)
+        .recording(options.recording())
+        .computed(options.computed())
+        .driver(driver)
+        .estimators(options.estimators())
+        .ros2(options.ros2.map(Into::into))
+        .gazebo(options.gazebo())
+        .page(page)
+        .build()?;
     let stop = stop::on_signal();
-    let run = Run {
-        end_ns: options.duration.map(|seconds| (seconds * 1e9).round() as i64),
-        factor,
-        stop: &stop,
-        paused: false,
-    };
-    let start_up = start.elapsed();
-    let mut line = progress::ProgressLine::new(options.duration, options.quiet || options.json);
-    let mut watch = RecordingWatch::default();
-    let stopwatch = Stopwatch::start();
-    let outcome = run.go(&mut simulation, &mut services, &mut driver, &mut |progress| {
-        line.show(progress);
-        watch.look(recorder.as_ref(), progress, &|write| line.aside(write));
-        if ros2.is_due(progress.wall) {
-            line.aside(|| ros2.tell());
-            if let (Some(page), Some(remote)) = (&page, ros2.remote()) {
-                page.set_remote(&remote);
-            }
+    let settings = RunSettings { duration_s: options.duration, stop: &stop, is_paused: false };
+    session.run(settings, &mut NoTask);
+    session.finish()?;
+    options.report(&session)?;
+    session.estimators().write_map(options.quiet)?;
+    match exit_code(session.end()) {
+        Ok(_) if !session.is_whole() => {
+            Err(CliError::failed("parts of the files have errors and were left out"))
         }
-    });
-    let wall = stopwatch.elapsed();
-    drop(page);
-    line.clear();
-    if let Some(gazebo) = gazebo {
-        gazebo.tell()?;
-    }
-    ros2.tell()?;
-    if !options.quiet {
-        let mut err = anstream::stderr().lock();
-        for findings in [simulation.take_findings(), services.take_findings()] {
-            terminal::diagnostics(&mut err, &findings, &SourceMap::new())?;
-        }
-    }
-    let finished = recorder.map(|recorder| recorder.finish(&mut simulation)).transpose();
-    let is_recorded = finished.is_ok();
-    // A broken bag does not affect the map and the report.
-    let recording = finished.unwrap_or_else(|error| {
-        terminal::complain(&format!("the bag is incomplete: {error}"));
-        None
-    });
-    let report = Report { simulation: &simulation, start_up, wall, recording: recording.as_ref() };
-    if options.json {
-        writeln!(io::stdout().lock(), "{:#}", report.to_json())?;
-    } else if !options.quiet {
-        report.tell(&mut anstream::stderr().lock())?;
-    }
-    if !options.quiet {
-        costmaps.tell(&mut anstream::stderr().lock())?;
-        if let Some(localization) = &localization {
-            localization.tell(&mut anstream::stderr().lock())?;
-        }
-        if let Some(mapping) = &mapping {
-            mapping.tell(&mut anstream::stderr().lock())?;
-        }
-    }
-    match mapping.as_ref().map_or(Ok(None), Mapping::write) {
-        Ok(Some(folder)) if !options.quiet => {
-            terminal::say(&format!("map: {}", folder.display()));
-        }
-        Ok(_) => {}
-        Err(why) => {
-            return Err(CliError::failed(why));
-        }
-    }
-    // Without a duration, a signal is the regular end of a run.
-    let cut_short = stop.load(Ordering::Relaxed) && options.duration.is_some();
-    // Findings name each of them.
-    if let Some(diverged) = simulation.diverged().first().filter(|_| outcome.is_ok()) {
-        return Err(CliError::failed(format!("{diverged}; its model was removed")));
-    }
-    match outcome {
-        Ok(()) if !is_recorded => Ok(ExitCode::FAILURE),
-        Ok(()) if whole && cut_short => Ok(ExitCode::from(terminal::INTERRUPTED)),
-        Ok(()) if whole => Ok(ExitCode::SUCCESS),
-        Ok(()) => Err(CliError::failed("parts of the files have errors and were left out")),
-        Err(diverged) => Err(CliError::failed(diverged)),
+        end => end,
     }
 }
 
@@ -368,69 +195,59 @@ impl SimOptions {
         own.chain(ros).collect()
     }
 
+    /// The world and its xacro arguments.
+    fn world(&self) -> Result<(PathBuf, Vec<(String, String)>), CliError> {
+        let (mut files, arguments) = split(&self.words);
+        // `--robot FILE WORLD`: a word that is no argument of the robot is the world.
+        files.extend(self.robots.others.iter().map(PathBuf::from));
+        match files.as_slice() {
+            [world] => Ok((world.clone(), arguments)),
+            [] => Err(CliError::usage(
+                "no world given; add robots with --robot; see `periplus sim --help`",
+            )),
+            several => {
+                let names: Vec<_> = several.iter().map(|it| it.display().to_string()).collect();
+                Err(CliError::Usage(format!(
+                    "expected one world, got {}: {}; give each robot a separate --robot",
+                    names.len(),
+                    names.join(", ")
+                )))
+            }
+        }
+    }
+
     /// Checks combinations of options.
-    fn can_run(&self) -> Result<(), String> {
+    fn check(&self) -> Result<(), CliError> {
         if let Some(path) =
             self.record.as_ref().filter(|path| path.extension() == Some("bag".as_ref()))
         {
             let mcap = path.with_extension("mcap");
-            return Err(format!(
+            return Err(CliError::Usage(format!(
                 "recordings are MCAP, not ROS 1 bags: write `--record {0}`, then \
                  `periplus bag convert {0} {1}`",
                 mcap.display(),
                 path.display()
-            ));
+            )));
         }
         if self.stack && self.robots.placements.len() > 1 {
-            return Err(
-                "--stack supports one robot; start the nodes of several robots with a launch file"
-                    .into(),
-            );
+            return Err(CliError::usage(
+                "--stack supports one robot; start the nodes of several robots with a launch file",
+            ));
+        }
+        if self.mapping.needs_mapping() && !self.runs_mapping() {
+            return Err(CliError::failed("`--slam-node` and `--slam-out` require `--slam`"));
         }
         Ok(())
     }
 
-    /// Topics and frames of the robot, if nodes beside it need them.
-    fn profile(&self, simulation: &mut Simulation) -> Result<Option<RobotProfile>, String> {
-        let is_wanted = self.stack || self.mapping.is_wanted() || self.localization.is_wanted();
-        // For several robots the topics are set by the user.
-        if !is_wanted || self.robots.placements.len() > 1 {
-            return Ok(None);
-        }
-        let profile = RobotProfile::of(simulation)?;
-        if profile.scan.is_none() && self.stack {
-            return Err(
-                "no sensor of this robot publishes laser scans, which mapping, localization and \
-                        costmaps need; give the robot a lidar"
-                    .into(),
-            );
-        }
-        if !self.quiet && profile.needs_filter() {
-            let (odom, base) = (profile.odom(), profile.base());
-            let inputs: Vec<&str> = [&profile.odometry, &profile.imu]
-                .into_iter()
-                .flatten()
-                .map(String::as_str)
-                .collect();
-            terminal::say(&format!(
-                "the robot publishes no transform from {base} to {odom}: the EKF of \
-                 robot_localization publishes it, from {}",
-                inputs.join(" and ")
-            ));
-        }
-        if !self.quiet && self.stack {
-            let named = |topic: &Option<String>| topic.clone().unwrap_or_else(|| "none".to_owned());
-            terminal::say(&format!(
-                "stack: scans on {}, odometry on {}, IMU on {}, frames {} and {}, radius {:.2} m",
-                named(&profile.scan),
-                named(&profile.odometry),
-                named(&profile.imu),
-                profile.odom(),
-                profile.base(),
-                profile.radius_m
-            ));
-        }
-        Ok(Some(profile))
+    /// Reads the velocity script and prints its findings.
+    fn driver(&self) -> Result<Driver, CliError> {
+        let Some(path) = &self.cmd else { return Ok(Driver::default()) };
+        let (driver, findings) = Driver::read(path);
+        let mut err = anstream::stderr().lock();
+        terminal::diagnostics(&mut err, &findings.diagnostics, &findings.sources)?;
+        let has_errors = findings.diagnostics.has_errors();
+        if has_errors { Err(CliError::failed("the script has errors")) } else { Ok(driver) }
     }
 
     fn simulation(&self, arguments: Arguments) -> Options {
@@ -449,52 +266,59 @@ impl SimOptions {
         }
     }
 
-    /// As fast as possible if there is a duration, otherwise at the rate of the world.
-    fn factor(&self, composition: &Composition) -> Option<f64> {
-        match (self.rtf, self.duration) {
-            (Some(Factor::Of(factor)), _) => Some(factor),
-            (Some(Factor::Max), _) | (None, Some(_)) => None,
-            (None, None) => composition.real_time_factor(),
+    fn recording(&self) -> Option<RecordingRequest> {
+        let path = self.record.clone()?;
+        Some(RecordingRequest { path, wanted: self.recorded.filter() })
+    }
+
+    fn computed(&self) -> Option<TopicFilter> {
+        let topics = self.hear.clone()?;
+        Some(Box::new(move |name| topics.is_match(name)))
+    }
+
+    /// Returns true if a mapping node runs, requested or as a part of the stack.
+    fn runs_mapping(&self) -> bool {
+        self.mapping.is_wanted() || (self.stack && !self.localization.is_wanted())
+    }
+
+    /// Estimator nodes. For several robots their topics are set by the user.
+    fn estimators(&self) -> EstimatorRequest {
+        let needs_topics = self.stack || self.mapping.is_wanted() || self.localization.is_wanted();
+        EstimatorRequest {
+            has_stack: self.stack,
+            detects_robot: needs_topics && self.robots.placements.len() <= 1,
+            costmaps: self.costmaps.request(),
+            localization: self.localization.files(),
+            mapping: self.mapping.request(self.runs_mapping()),
         }
     }
 
-    /// Context of the page.
-    fn about(&self, composition: &Composition) -> About {
-        About {
-            world: Some(composition.world.name.clone()),
-            files: composition.files.iter().map(|file| file.path.clone()).collect(),
-            resource_path: self.search.resource_path.clone(),
-            view: None,
-            fixed_frame: None,
-        }
+    fn gazebo(&self) -> Option<GazeboSettings> {
+        Some(GazeboSettings { reach: self.gz?.into(), dialect: self.gz_types.into() })
     }
 
-    fn wanted(&self) -> TopicFilter {
-        let (topics, exclude) = (self.topics.clone(), self.exclude.clone());
-        Box::new(move |name| {
-            topics.as_ref().is_none_or(|topics| topics.is_match(name))
-                && !exclude.as_ref().is_some_and(|exclude| exclude.is_match(name))
+    fn page(&self, composition: &Composition) -> Option<PageSettings> {
+        self.page.page?;
+        let context = PageContext::of(composition, &self.search.resource_path);
+        Some(PageSettings {
+            is_quiet: self.quiet,
+            opens_browser: !self.no_browser,
+            ..self.page.settings(context)
         })
     }
-}
 
-/// Prints the findings of the files. Returns false when a requested part is missing.
-pub(crate) fn tell_findings(composition: &Composition, quiet: bool) -> io::Result<bool> {
-    let mut err = anstream::stderr().lock();
-    let mut whole = true;
-    for loaded in &composition.files {
-        whole &= !loaded.diagnostics.has_errors();
-        if !quiet || loaded.diagnostics.has_errors() {
-            terminal::findings(&mut err, loaded)?;
+    /// Prints the reports of the run and of its nodes.
+    fn report(&self, session: &SimulationSession) -> Result<(), CliError> {
+        let report = session.report();
+        if self.json {
+            writeln!(io::stdout().lock(), "{:#}", report.to_json())?;
+        } else if !self.quiet {
+            report.write_text(&mut anstream::stderr().lock())?;
         }
-    }
-    Ok(whole)
-}
-
-pub(crate) fn positive(word: &str) -> Result<f64, String> {
-    match word.parse::<f64>() {
-        Ok(number) if number.is_finite() && number > 0.0 => Ok(number),
-        _ => Err("expected a number above 0".into()),
+        if !self.quiet {
+            session.estimators().write_reports(&mut anstream::stderr().lock())?;
+        }
+        Ok(())
     }
 }
 
@@ -505,11 +329,4 @@ fn step(word: &str) -> Result<f64, String> {
         Ok(step_s) if (shortest_s..=longest_s).contains(&step_s) => Ok(step_s),
         _ => Err(format!("expected a number from {shortest_s} to {longest_s}")),
     }
-}
-
-pub(crate) fn factor(word: &str) -> Result<Factor, String> {
-    if word == "max" {
-        return Ok(Factor::Max);
-    }
-    positive(word).map(Factor::Of).map_err(|_| "expected a number above 0, or `max`".into())
 }

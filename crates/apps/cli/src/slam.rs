@@ -12,11 +12,11 @@ use std::process::ExitCode;
 use periplus_geometry::Pose2;
 use periplus_maps::{Distro, PgmRows, Saving, render_yaml};
 use periplus_os::Stopwatch;
+use periplus_session::picture::draw_by;
 use periplus_slam::{CorrectedInput, Mapper, MountingCorrection};
 
 use crate::error::CliError;
 use crate::log::{Log, LogOptions};
-use crate::picture::draw_by;
 use crate::{paths, terminal};
 use parameters::Parameters;
 use report::Report;
@@ -163,7 +163,7 @@ fn save(options: &SlamOptions, selected: &SelectedMapper) -> Result<(), String> 
 const MAX_PRINTED: usize = 20;
 
 fn put(path: &Path, bytes: &[u8]) -> Result<(), String> {
-    paths::write(path, bytes)
+    paths::write(path, bytes).map_err(|error| error.to_string())
 }
 
 /// Writes all results of a run.
@@ -175,7 +175,7 @@ fn write(
     (stamps, before): (&[&str], usize),
     report: &Report<'_>,
 ) -> Result<(), String> {
-    paths::make_folder(out)?;
+    paths::make_folder(out).map_err(|error| error.to_string())?;
     let put = |name: &str, bytes: &[u8]| put(&out.join(name), bytes);
     let trajectory = slam.trajectory();
     let lines: String = stamps
@@ -222,7 +222,8 @@ fn draw(out: &Path, slam: &dyn Mapper, trajectory: &[(i64, Pose2)]) -> Result<()
             Ok(())
         })?;
         Ok(())
-    })?;
+    })
+    .map_err(|error| error.to_string())?;
     put(&out.join(yaml_path), yaml.as_bytes())?;
     put(&out.join("trajectory.png"), &png)
 }

@@ -16,10 +16,10 @@ use periplus_msgs::std_msgs::Header;
 use periplus_os::{Stopwatch, unix_ns};
 use periplus_params::Given;
 use periplus_ros2cli::teleop::{Keyboard, Pressed, SCREEN, Settings, TELEOP, status};
+use periplus_session::LiveGraph;
 
 use crate::arguments;
 use crate::error::CliError;
-use crate::live::Live;
 use crate::terminal::diagnostics;
 use terminal::RawTerminal;
 
@@ -76,7 +76,7 @@ pub(crate) fn run(options: &TeleopOptions, ros: Vec<String>) -> Result<ExitCode,
              separate terminal, not from a launch file or a pipe",
         ));
     }
-    let live = Live::open(arguments).map_err(CliError::failed)?;
+    let live = LiveGraph::open(arguments)?;
     let mut driving = Driving::new(&live.graph, options)?;
     let terminal = RawTerminal::open()?;
     let outcome = driving.go(&live.graph, &terminal);

@@ -23,10 +23,10 @@ use periplus_loader::load_interfaces;
 use periplus_os::Machine;
 use periplus_resources::Host as _;
 use periplus_ros2cli::{Failure, InGraph, Outcome, Ros2Line, Session, Types};
+use periplus_session::stop;
 
 use crate::error::CliError;
 use crate::foreign_commands;
-use crate::stop;
 use crate::terminal;
 
 pub(crate) use action::ActionOptions;

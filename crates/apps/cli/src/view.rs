@@ -1,6 +1,5 @@
 //! `periplus view`.
 
-use std::net::SocketAddr;
 use std::path::PathBuf;
 use std::process::ExitCode;
 use std::sync::atomic::Ordering;
@@ -10,13 +9,12 @@ use clap::Args;
 use periplus_dds::RemoteTopic;
 use periplus_graph::NodeSettings;
 use periplus_os::{Stopwatch, sleep};
+use periplus_session::page::{Page, PageContext, PageError, browser};
+use periplus_session::{LiveGraph, stop};
 
 use crate::arguments;
-use crate::demo::browser;
 use crate::error::CliError;
-use crate::live::Live;
-use crate::page::{About, PORT, Page, PageOptions};
-use crate::stop;
+use crate::page::PageOptions;
 use crate::terminal::{complain, say};
 
 /// Polling period.
@@ -53,16 +51,8 @@ pub(crate) struct ViewOptions {
 pub(crate) fn run(options: &ViewOptions, ros: Vec<String>) -> Result<ExitCode, CliError> {
     let arguments = arguments::read(ros)?;
     let stop = stop::on_signal();
-    let opened = Live::open(arguments).and_then(|live| {
-        let usual = SocketAddr::from(([127, 0, 0, 1], PORT));
-        let resource_path = options.resource_path.clone();
-        let view = options.display_config.clone();
-        let fixed_frame = options.fixed_frame.clone();
-        let about = About { resource_path, view, fixed_frame, ..About::default() };
-        let (address, token) = (options.page.page.unwrap_or(usual), options.page.token.clone());
-        Ok((Page::open(&live.graph, address, token, about)?, live))
-    });
-    let (page, mut live) = opened.map_err(CliError::failed)?;
+    let mut live = LiveGraph::open(arguments)?;
+    let page = options.open_page(&live)?;
     let url = page.url();
     say(&format!("ROS 2 domain {}; page: {url} (Ctrl-C ends it)", live.domain_id));
     if !options.no_browser && !browser::open(&url) {
@@ -87,11 +77,23 @@ pub(crate) fn run(options: &ViewOptions, ros: Vec<String>) -> Result<ExitCode, C
                 }
             }
             page.set_remote(&remote);
-            live.tell();
+            live.print_findings();
         }
         sleep(POLL_PERIOD);
     }
     drop(page);
     live.end(FLUSH_TIMEOUT);
     Ok(ExitCode::SUCCESS)
+}
+
+impl ViewOptions {
+    fn open_page(&self, live: &LiveGraph) -> Result<Page, PageError> {
+        let context = PageContext {
+            resource_path: self.resource_path.clone(),
+            view: self.display_config.clone(),
+            fixed_frame: self.fixed_frame.clone(),
+            ..PageContext::default()
+        };
+        Page::serve(&live.graph, &self.page.settings(context))
+    }
 }

@@ -21,7 +21,7 @@ pub(super) fn run(options: &ConvertOptions) -> Result<ExitCode, CliError> {
         let settings = options.write.settings(&options.output, Storage::Mcap);
         return write(&bags, &options.output, &options.select, settings);
     }
-    let (wanted, findings, sources) = outputs::read(&options.output).map_err(CliError::failed)?;
+    let (wanted, findings, sources) = outputs::read(&options.output)?;
     terminal::diagnostics(&mut anstream::stderr().lock(), &findings, &sources)?;
     if findings.has_errors() {
         return Ok(ExitCode::FAILURE);

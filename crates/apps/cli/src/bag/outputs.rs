@@ -7,6 +7,7 @@ use std::path::{Path, PathBuf};
 
 use clap::ValueEnum;
 use periplus_diagnostics::{Diagnostic, Diagnostics, SourceMap, closest};
+use periplus_session::files::{FileError, text};
 use periplus_yaml::YamlNode;
 
 use super::options::{Chunks, Format, Mode, SelectOptions, StorageId, WriteOptions};
@@ -67,8 +68,10 @@ pub(super) fn is_one(path: &Path) -> bool {
 }
 
 /// Reads a YAML file of outputs; the findings carry their source lines.
-pub(super) fn read(path: &Path) -> Result<(Vec<OutputSettings>, Diagnostics, SourceMap), String> {
-    let text = crate::paths::text(path)?;
+pub(super) fn read(
+    path: &Path,
+) -> Result<(Vec<OutputSettings>, Diagnostics, SourceMap), FileError> {
+    let text = text(path)?;
     let (mut sources, mut findings) = (SourceMap::new(), Diagnostics::new());
     let file = sources.add(path.display().to_string(), text);
     let wanted = match periplus_yaml::parse(file, &sources) {

@@ -9,11 +9,10 @@ use std::time::Duration;
 use periplus_bags::files::{Bag, BagError, PlaySettings, Player};
 use periplus_graph::Arguments;
 use periplus_os::{Stopwatch, sleep};
+use periplus_session::{LiveGraph, stop};
 
 use super::options::{PlayOptions, SelectOptions};
 use crate::error::CliError;
-use crate::live::Live;
-use crate::stop;
 use crate::terminal;
 
 /// Longest sleep of the loop, so that Ctrl-C and ENTER are handled within this time.
@@ -31,7 +30,7 @@ pub(super) fn run(options: &PlayOptions) -> Result<ExitCode, CliError> {
     if let Some(name) = select.unknown(std::slice::from_ref(&bag)).next() {
         return Err(CliError::usage(format!("the recording has no topic `{name}`")));
     }
-    let live = Live::open(Arguments::default()).map_err(CliError::failed)?;
+    let live = LiveGraph::open(Arguments::default())?;
     let settings = options.settings(&select, &bag);
     let stop = stop::on_signal();
     let player = Player::new(bag, &live.graph, settings);
@@ -39,16 +38,14 @@ pub(super) fn run(options: &PlayOptions) -> Result<ExitCode, CliError> {
     if !live.end(FLUSH_TIMEOUT) {
         terminal::complain("a subscriber did not acknowledge all messages before the end");
     }
-    match played {
-        Ok(()) if stop.load(Ordering::Relaxed) => Ok(ExitCode::from(terminal::INTERRUPTED)),
-        Ok(()) => Ok(ExitCode::SUCCESS),
-        Err(error) => Err(CliError::failed(error)),
-    }
+    played?;
+    let is_stopped = stop.load(Ordering::Relaxed);
+    Ok(if is_stopped { ExitCode::from(terminal::INTERRUPTED) } else { ExitCode::SUCCESS })
 }
 
 fn play(
     player: &mut Player,
-    live: &Live,
+    live: &LiveGraph,
     delay_ns: i64,
     stop: &Arc<AtomicBool>,
 ) -> Result<(), BagError> {
@@ -71,7 +68,7 @@ fn play(
         let left = Duration::from_nanos(next_ns.saturating_sub(wall_ns).max(0).unsigned_abs());
         sleep(left.min(POLL_PERIOD));
         super::tell(&player.take_findings()).ok();
-        live.tell();
+        live.print_findings();
     }
     super::tell(&player.take_findings()).ok();
     terminal::say(&format!("{} messages", player.published()));

@@ -14,11 +14,10 @@ use periplus_graph::{
 };
 use periplus_os::{Machine, sleep, unix_ns};
 use periplus_resources::Host as _;
+use periplus_session::{LiveGraph, stop};
 
 use super::options::RecordOptions;
 use crate::error::CliError;
-use crate::live::Live;
-use crate::stop;
 use crate::terminal;
 
 /// Period of discovery of new topics and of flushing old messages to the disk.
@@ -33,14 +32,12 @@ pub(super) fn run(options: &RecordOptions) -> Result<ExitCode, CliError> {
             "name topics, or record all with --all; see `periplus bag record --help`",
         ));
     }
-    let mut live = Live::open(Arguments::default()).map_err(CliError::failed)?;
-    match record(options, &mut live) {
-        Ok(()) => Ok(ExitCode::SUCCESS),
-        Err(error) => Err(CliError::failed(error)),
-    }
+    let mut live = LiveGraph::open(Arguments::default())?;
+    record(options, &mut live)?;
+    Ok(ExitCode::SUCCESS)
 }
 
-fn record(options: &RecordOptions, live: &mut Live) -> Result<(), BagError> {
+fn record(options: &RecordOptions, live: &mut LiveGraph) -> Result<(), BagError> {
     let output = options.output.clone().unwrap_or_else(named_by_time);
     let offers = PublisherQos::default();
     let known = offers.clone();
@@ -69,14 +66,14 @@ fn record(options: &RecordOptions, live: &mut Live) -> Result<(), BagError> {
         if ticks % (POLL_PERIOD.as_millis() / CLOCK_POLL_PERIOD.as_millis()) == 0 {
             subscriptions.follow(options, &live.wire.remote())?;
             recorder.keep()?;
-            live.tell();
+            live.print_findings();
         }
         ticks += 1;
         subscriptions.drop_read();
         sleep(CLOCK_POLL_PERIOD);
     }
     let recording = recorder.finish()?;
-    live.tell();
+    live.print_findings();
     let (messages, topics) = (recording.info.messages(), recording.info.topics.len());
     terminal::say(&format!("{}: {messages} messages on {topics} topics", output.display()));
     if recording.dropped > 0 {

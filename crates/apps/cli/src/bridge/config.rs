@@ -6,6 +6,7 @@ use std::path::Path;
 
 use periplus_diagnostics::{Diagnostic, Diagnostics, SourceMap};
 use periplus_gz_transport::{BridgeDirection, TopicPair};
+use periplus_session::files::FileError;
 use periplus_yaml::YamlNode;
 
 use super::spec::QUEUE_DEPTH;
@@ -24,11 +25,11 @@ const KEYS: [&str; 9] = [
 ];
 
 /// # Errors
-/// A message when the file cannot be read.
+/// When the file cannot be read.
 pub(super) fn read(
     path: &Path,
     is_lazy: bool,
-) -> Result<(Vec<TopicPair>, Diagnostics, SourceMap), String> {
+) -> Result<(Vec<TopicPair>, Diagnostics, SourceMap), FileError> {
     let text = crate::paths::text(path)?;
     Ok(read_text(&path.display().to_string(), text, is_lazy))
 }

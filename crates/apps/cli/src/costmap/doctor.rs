@@ -7,8 +7,9 @@ use std::process::ExitCode;
 use clap::Args;
 use periplus_costmap::Nav2Release;
 use periplus_diagnostics::{Diagnostics, SourceMap};
+use periplus_session::RunError;
+use periplus_session::nodes::{CostmapFile, read_costmap_text, read_costmaps};
 
-use super::file::{File, read, read_text};
 use crate::error::CliError;
 use crate::terminal;
 
@@ -27,15 +28,15 @@ pub(crate) struct DoctorCostmapOptions {
     compat: Option<Nav2Release>,
 }
 
-/// Findings on the costmaps of a named text; a message if it cannot be read.
-pub(crate) fn findings(path: &Path, text: String) -> Result<(Diagnostics, SourceMap), String> {
-    let mut file = read_text(&path.display().to_string(), text, None)?;
+/// Findings on the costmaps of a named text.
+pub(crate) fn findings(path: &Path, text: String) -> Result<(Diagnostics, SourceMap), RunError> {
+    let mut file = read_costmap_text(&path.display().to_string(), text, None)?;
     add_complaints(&mut file);
     Ok((file.diagnostics, file.sources))
 }
 
 /// Adds the findings that only the layers know.
-fn add_complaints(file: &mut File) {
+fn add_complaints(file: &mut CostmapFile) {
     for (_, config) in &file.configs {
         let mut costmap = config.build();
         for finding in costmap.all_mut().flat_map(|layer| layer.diagnostics()) {
@@ -45,7 +46,7 @@ fn add_complaints(file: &mut File) {
 }
 
 pub(crate) fn run(options: &DoctorCostmapOptions) -> Result<ExitCode, CliError> {
-    let mut file = read(&options.file, options.compat).map_err(CliError::failed)?;
+    let mut file = read_costmaps(&options.file, options.compat)?;
     add_complaints(&mut file);
     let mut out = anstream::stdout().lock();
     terminal::diagnostics(&mut out, &file.diagnostics, &file.sources)?;

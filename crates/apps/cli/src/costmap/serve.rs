@@ -1,24 +1,22 @@
 //! `periplus costmap`.
 
+use std::ops::ControlFlow;
 use std::path::PathBuf;
 use std::process::ExitCode;
-use std::sync::atomic::Ordering;
 use std::time::Duration;
 
 use clap::Args;
 use periplus_costmap::Nav2Release;
-use periplus_diagnostics::SourceMap;
-use periplus_os::sleep;
+use periplus_session::nodes::{CostmapRequest, CostmapSource, Costmaps, FloorPoint};
+use periplus_session::{LiveGraph, NodeMonitor, PollSleep, stop};
 
-use super::{Costmaps, FloorPoint, floor_point};
+use super::floor_point;
 use crate::arguments;
 use crate::error::CliError;
-use crate::live::{Live, NodeMonitor};
-use crate::stop;
-use crate::terminal::{diagnostics, say};
+use crate::terminal::say;
 
 /// Polling period.
-const POLL_PERIOD: Duration = Duration::from_millis(5);
+const POLL_SLEEP: PollSleep = PollSleep::fixed(Duration::from_millis(5));
 
 /// Timeout for delivering the last messages at the end.
 const FLUSH_TIMEOUT: Duration = Duration::from_millis(500);
@@ -59,37 +57,39 @@ pub(crate) fn run(options: &CostmapServeOptions, ros: Vec<String>) -> Result<Exi
     let remaps = options.remaps.iter().flat_map(|rule| ["-r".to_owned(), rule.clone()]);
     let arguments = arguments::read(remaps.chain(ros).collect())?;
     let stop = stop::on_signal();
-    let mut live = Live::open(arguments).map_err(CliError::failed)?;
-    let costmaps = Costmaps::of_file(&live.graph, &options.file, options.compat)?;
-    let (cells, pictures) = (options.cell.clone(), options.picture.clone());
-    let costmaps = Costmaps { cells, pictures, ..costmaps };
-    for findings in [live.graph.take_findings(), live.graph.unused_arguments()] {
-        diagnostics(&mut anstream::stderr().lock(), &findings, &SourceMap::new())?;
-    }
-    let monitor: Result<Vec<_>, _> =
-        costmaps.nodes.iter().map(|node| NodeMonitor::new(node.node())).collect();
-    let follows_clock = options.use_sim_time || costmaps.wants_simulated_time();
-    let ready = monitor.and_then(|monitor| {
-        if let Some(node) = costmaps.nodes.first().filter(|_| follows_clock) {
+    let mut live = LiveGraph::open(arguments)?;
+    let costmaps = Costmaps::new(&live.graph, options.request())?;
+    live.print_start_findings()?;
+    let nodes = costmaps.nodes();
+    let monitors: Result<Vec<_>, _> =
+        nodes.iter().map(|node| NodeMonitor::new(node.node())).collect();
+    let monitors = monitors?;
+    if options.use_sim_time || costmaps.wants_simulated_time() {
+        if let Some(node) = nodes.first() {
             live.follow_clock(node.node())?;
         }
-        Ok(monitor)
-    });
-    let monitor = ready.map_err(CliError::failed)?;
-    if follows_clock {
         say("using the time of /clock");
     }
     if !options.managed {
         costmaps.start();
     }
-    while !stop.load(Ordering::Relaxed) {
-        live.spin_once();
-        sleep(POLL_PERIOD);
-        for one in &monitor {
-            one.tell();
+    live.spin(&stop, POLL_SLEEP, || {
+        for monitor in &monitors {
+            monitor.print_log();
+        }
+        ControlFlow::Continue(())
+    });
+    live.end(FLUSH_TIMEOUT);
+    costmaps.write_report(&mut anstream::stdout().lock())?;
+    Ok(ExitCode::SUCCESS)
+}
+
+impl CostmapServeOptions {
+    fn request(&self) -> CostmapRequest {
+        CostmapRequest {
+            source: CostmapSource::File(self.file.clone(), self.compat),
+            cells: self.cell.clone(),
+            images: self.picture.clone(),
         }
     }
-    live.end(FLUSH_TIMEOUT);
-    costmaps.tell(&mut anstream::stdout().lock())?;
-    Ok(ExitCode::SUCCESS)
 }

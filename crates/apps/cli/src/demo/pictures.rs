@@ -7,6 +7,7 @@ use periplus_graph::{Graph, GraphError, Mailbox, Node, NodeSettings, Qos};
 use periplus_grid::Line;
 use periplus_images::{Layout, write_png};
 use periplus_msgs::sensor_msgs::{Image, LaserScan};
+use periplus_session::files::{FileError, write};
 
 /// Time before the end at which the camera is subscribed \[ns\]: images cost more than all other
 /// sensors.
@@ -66,7 +67,7 @@ impl SnapshotRecorder {
     }
 
     /// Writes `scan.png`, `depth.png` and `camera.png`, as far as messages arrived.
-    pub(super) fn write(&self, folder: &Path) -> Result<(), String> {
+    pub(super) fn write(&self, folder: &Path) -> Result<(), FileError> {
         let pictures = [
             ("scan.png", self.scan.as_deref().map(draw_scan)),
             ("depth.png", self.depth.as_deref().and_then(draw_depth)),
@@ -74,7 +75,7 @@ impl SnapshotRecorder {
         ];
         for (name, bytes) in pictures {
             let Some(bytes) = bytes else { continue };
-            crate::paths::write(&folder.join(name), &bytes)?;
+            write(&folder.join(name), &bytes)?;
         }
         Ok(())
     }

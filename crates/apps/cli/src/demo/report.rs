@@ -2,16 +2,16 @@
 
 use periplus_geometry::Pose2;
 use periplus_maps::BesideTruth;
+use periplus_session::RunReport;
+use periplus_session::nodes::Mapping;
 use serde_json::{Value, json};
 
 use super::explorer::Explorer;
-use crate::mapping::Mapping;
-use crate::sim::Report;
 
 /// Report of the run with map quality and pose error. The robot starts at the origin of the world,
 /// which is also the origin of the map, so that estimate and ground truth can be compared.
 pub(super) fn of(
-    run: &Report<'_>,
+    run: &RunReport<'_>,
     mapping: &Mapping,
     truth: Option<&BesideTruth>,
     explorer: Option<&Explorer>,

@@ -7,7 +7,7 @@ use periplus_yaml::YamlNode;
 
 /// Findings on a file; a message if it cannot be read.
 pub(crate) fn examine(path: &Path) -> Result<Vec<(Diagnostics, SourceMap)>, String> {
-    let text = crate::paths::text(path)?;
+    let text = crate::paths::text(path).map_err(|error| error.to_string())?;
     let mut sources = SourceMap::new();
     let mut found = Diagnostics::new();
     let file = sources.add(path.display().to_string(), text.clone());
@@ -18,7 +18,8 @@ pub(crate) fn examine(path: &Path) -> Result<Vec<(Diagnostics, SourceMap)>, Stri
             let has_costmap = text.contains("costmap");
             all.push((found, sources));
             if has_costmap {
-                all.push(crate::costmap::doctor::findings(path, text)?);
+                let costmaps = crate::costmap::doctor::findings(path, text);
+                all.push(costmaps.map_err(|error| error.to_string())?);
             }
         }
         Ok(None) => return Err(format!("{} is empty", path.display())),

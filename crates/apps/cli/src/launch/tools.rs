@@ -108,14 +108,9 @@ pub(crate) fn run_xacro(words: &[String]) -> Result<ExitCode, CliError> {
     let (folders, words) = words.split_at(count);
     let folders: Vec<PathBuf> = folders.iter().map(PathBuf::from).collect();
     let search = terminal::search(&folders);
-    let host = search.host();
-    let resolver = search.resolver(&host);
-    match xacro(words, &search.setting(&host, &resolver, false)) {
-        Ok(done) => {
-            std::io::Write::write_all(&mut std::io::stdout().lock(), done.output.as_bytes())?;
-            std::io::Write::write_all(&mut std::io::stderr().lock(), done.errors.as_bytes())?;
-            Ok(if done.is_success { ExitCode::SUCCESS } else { ExitCode::FAILURE })
-        }
-        Err(why) => Err(CliError::usage(why)),
-    }
+    let done = search.with_context(false, |context| xacro(words, context));
+    let done = done.map_err(CliError::usage)?;
+    std::io::Write::write_all(&mut std::io::stdout().lock(), done.output.as_bytes())?;
+    std::io::Write::write_all(&mut std::io::stderr().lock(), done.errors.as_bytes())?;
+    Ok(if done.is_success { ExitCode::SUCCESS } else { ExitCode::FAILURE })
 }

@@ -1,21 +1,19 @@
 //! Localization on ROS 2.
 
+use std::ops::ControlFlow;
 use std::process::ExitCode;
-use std::sync::atomic::Ordering;
 use std::time::Duration;
 
-use periplus_diagnostics::SourceMap;
+use periplus_session::nodes::Localization;
+use periplus_session::{LiveGraph, PollSleep, stop};
 
-use super::{Localization, LocalizeOptions};
+use super::LocalizeOptions;
 use crate::arguments;
 use crate::error::CliError;
-use crate::live::{Live, NodeMonitor};
-use crate::stop;
-use crate::terminal::diagnostics;
 
-/// Shortest and longest sleep of the loop: the filter polls for scans every 20 ms.
-const MIN_SLEEP: Duration = Duration::from_millis(5);
-const MAX_SLEEP: Duration = Duration::from_millis(20);
+/// Sleep of the loop: the filter polls for scans every 20 ms.
+const POLL_SLEEP: PollSleep =
+    PollSleep { min: Duration::from_millis(5), max: Duration::from_millis(20) };
 
 /// Timeout for delivering the last messages at the end.
 const FLUSH_TIMEOUT: Duration = Duration::from_millis(500);
@@ -25,31 +23,14 @@ pub(super) fn run(options: &LocalizeOptions, ros: Vec<String>) -> Result<ExitCod
     let arguments = arguments::read(ros)?;
     let stop = stop::on_signal();
     let is_simulated = values.flag("use_sim_time").unwrap_or_default();
-    let mut live = Live::open(arguments).map_err(CliError::failed)?;
-    let graph = &live.graph;
-    let localization =
-        Localization::new(graph, options.map.as_deref(), values).map_err(CliError::failed)?;
-    for findings in [graph.take_findings(), graph.unused_arguments()] {
-        diagnostics(&mut anstream::stderr().lock(), &findings, &SourceMap::new())?;
-    }
-    let node = localization.amcl().node();
-    let ready = NodeMonitor::new(node).and_then(|monitor| {
-        if is_simulated {
-            live.follow_clock(node)?;
-        }
-        Ok(monitor)
+    let mut live = LiveGraph::open(arguments)?;
+    let localization = Localization::new(&live.graph, options.map.as_deref(), values)?;
+    live.print_start_findings()?;
+    let monitor = live.monitor(localization.amcl().node(), is_simulated)?;
+    let has_failed = live.spin(&stop, POLL_SLEEP, || {
+        // The reason has been logged.
+        if monitor.print_log() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
     });
-    let monitor = ready.map_err(CliError::failed)?;
-    let mut code = ExitCode::SUCCESS;
-    while !stop.load(Ordering::Relaxed) {
-        live.spin_once();
-        live.sleep_until_due(MIN_SLEEP, MAX_SLEEP);
-        if monitor.tell() {
-            // The reason has been logged.
-            code = ExitCode::FAILURE;
-            break;
-        }
-    }
     live.end(FLUSH_TIMEOUT);
-    Ok(code)
+    Ok(if has_failed { ExitCode::FAILURE } else { ExitCode::SUCCESS })
 }

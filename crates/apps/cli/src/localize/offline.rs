@@ -8,12 +8,14 @@ use periplus_geometry::Pose2;
 use periplus_grid::OccupancyGrid;
 use periplus_localization::{Amcl, LocalizationState, LocalizationStatus, Scan, Settings};
 use periplus_os::Stopwatch;
+use periplus_session::files::FileError;
+use periplus_session::picture;
 
 use super::options::{self, LocalizeOptions};
 use super::report::Report;
 use crate::error::CliError;
 use crate::log::{Log, LogOptions, LoggedScan};
-use crate::{picture, terminal};
+use crate::terminal;
 
 /// Number of log errors that are printed; the others are counted.
 const MAX_PRINTED: usize = 20;
@@ -89,7 +91,7 @@ pub(super) fn run(
         report.tell(&mut anstream::stdout().lock())?;
     }
     if let Err(why) = &written {
-        terminal::complain(why);
+        terminal::complain(&why.to_string());
     }
     for fault in log.faults.iter().take(MAX_PRINTED) {
         terminal::complain(fault);
@@ -167,7 +169,7 @@ fn word(state: LocalizationState) -> &'static str {
 }
 
 /// Writes all results of a run.
-fn write(out: &Path, map: &OccupancyGrid, report: &Report<'_>) -> Result<(), String> {
+fn write(out: &Path, map: &OccupancyGrid, report: &Report<'_>) -> Result<(), FileError> {
     crate::paths::make_folder(out)?;
     let put = |name: &str, bytes: &[u8]| crate::paths::write(&out.join(name), bytes);
     let trajectory = &report.outcome.trajectory;

@@ -3,13 +3,12 @@
 use std::path::{Path, PathBuf};
 
 use clap::Args;
-use periplus_diagnostics::{Diagnostics, SourceMap};
 use periplus_geometry::Pose2;
 use periplus_grid::OccupancyGrid;
 use periplus_maps::{Distro, load};
-use periplus_nav_nodes::amcl::read_parameters;
 use periplus_params::ParamValues;
-use periplus_yaml::YamlNode;
+use periplus_session::RunError;
+use periplus_session::nodes::{ParameterFile, amcl_parameters};
 
 use crate::error::CliError;
 use crate::log::LogOptions;
@@ -87,43 +86,12 @@ impl LocalizeOptions {
         if let Some(seed) = self.seed {
             word("random_seed", seed.to_string());
         }
-        let file = self.params_file.as_deref().map(yaml).transpose().map_err(CliError::usage)?;
-        tell(file, &words)
+        let file = self.params_file.as_deref().map(ParameterFile::read).transpose();
+        amcl_parameters(file.map_err(CliError::usage)?, &words).map_err(|error| match error {
+            RunError::Reported => CliError::Reported(2),
+            error => error.into(),
+        })
     }
-}
-
-/// YAML file with its findings.
-pub(super) struct Yaml {
-    pub(super) tree: Option<YamlNode>,
-    pub(super) diagnostics: Diagnostics,
-    pub(super) sources: SourceMap,
-}
-
-/// Reads a file; a message if it cannot be read.
-pub(super) fn yaml(path: &Path) -> Result<Yaml, String> {
-    let text = crate::paths::text(path)?;
-    let (mut sources, mut diagnostics) = (SourceMap::new(), Diagnostics::new());
-    let file = sources.add(path.display().to_string(), text);
-    let tree = match periplus_yaml::parse(file, &sources) {
-        Ok(tree) => tree,
-        Err(error) => {
-            diagnostics.push(*error);
-            None
-        }
-    };
-    Ok(Yaml { tree, diagnostics, sources })
-}
-
-/// Parameters of `amcl` from a file and the command line; prints the findings.
-pub(super) fn tell(
-    file: Option<Yaml>,
-    words: &[(String, String)],
-) -> Result<ParamValues, CliError> {
-    let none = || Yaml { tree: None, diagnostics: Diagnostics::new(), sources: SourceMap::new() };
-    let Yaml { tree, mut diagnostics, sources } = file.unwrap_or_else(none);
-    let values = read_parameters(tree.as_ref(), "amcl", words, &mut diagnostics);
-    terminal::diagnostics(&mut anstream::stderr().lock(), &diagnostics, &sources)?;
-    if diagnostics.has_errors() { Err(CliError::Reported(2)) } else { Ok(values) }
 }
 
 /// Reads a map and prints its findings.

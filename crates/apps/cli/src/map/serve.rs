@@ -1,24 +1,22 @@
 //! `periplus map serve`.
 
+use std::ops::ControlFlow;
 use std::process::ExitCode;
 use std::sync::Arc;
-use std::sync::atomic::Ordering;
 use std::time::Duration;
 
-use periplus_diagnostics::SourceMap;
 use periplus_graph::NodeSettings;
 use periplus_nav_nodes::map_server::{MapServer, MapServerSettings};
-use periplus_os::{Machine, sleep};
+use periplus_os::Machine;
+use periplus_session::{LiveGraph, PollSleep, stop};
 
 use super::options::{SaveOptions, ServeOptions};
 use crate::arguments;
 use crate::error::CliError;
-use crate::live::{Live, NodeMonitor};
-use crate::stop;
-use crate::terminal::{diagnostics, say};
+use crate::terminal::say;
 
 /// Polling period.
-const POLL_PERIOD: Duration = Duration::from_millis(20);
+const POLL_SLEEP: PollSleep = PollSleep::fixed(Duration::from_millis(20));
 
 /// Timeout for delivering the last messages at the end.
 const FLUSH_TIMEOUT: Duration = Duration::from_millis(500);
@@ -32,36 +30,31 @@ pub(super) fn run(options: &ServeOptions, ros: Vec<String>) -> Result<ExitCode, 
     let remaps = options.remaps.iter().flat_map(|rule| ["-r".to_owned(), rule.clone()]);
     let arguments = arguments::read(remaps.chain(ros).collect())?;
     let stop = stop::on_signal();
-    let live = Live::open(arguments).map_err(CliError::failed)?;
-    let graph = &live.graph;
-    let usual = MapServerSettings::default();
-    let settings = MapServerSettings {
-        yaml_filename: options.path.clone().unwrap_or_default(),
-        topic_name: options.topic_name.clone().unwrap_or(usual.topic_name),
-        frame_id: options.frame_id.clone().unwrap_or(usual.frame_id),
-        distro: options.distro,
-    };
-    let made = graph
-        .node(NodeSettings::new("map_server"))
-        .and_then(|node| MapServer::new(node, settings, Arc::new(Machine)));
-    let server = made.map_err(CliError::failed)?;
-    for findings in [graph.take_findings(), graph.unused_arguments()] {
-        diagnostics(&mut anstream::stderr().lock(), &findings, &SourceMap::new())?;
-    }
-    let monitor = NodeMonitor::new(server.node()).map_err(CliError::failed)?;
+    let mut live = LiveGraph::open(arguments)?;
+    let node = live.graph.node(NodeSettings::new("map_server"))?;
+    let server = MapServer::new(node, options.settings(), Arc::new(Machine))?;
+    live.print_start_findings()?;
+    let monitor = live.monitor(server.node(), false)?;
     if !options.managed {
         server.start();
     }
-    let mut code = ExitCode::SUCCESS;
-    while !stop.load(Ordering::Relaxed) {
-        live.spin_once();
-        sleep(POLL_PERIOD);
-        if monitor.tell() && !options.managed {
-            // The reason has been logged.
-            code = ExitCode::FAILURE;
-            break;
+    let has_failed = live.spin(&stop, POLL_SLEEP, || {
+        // The reason has been logged.
+        let has_failed = monitor.print_log() && !options.managed;
+        if has_failed { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+    });
+    live.end(FLUSH_TIMEOUT);
+    Ok(if has_failed { ExitCode::FAILURE } else { ExitCode::SUCCESS })
+}
+
+impl ServeOptions {
+    fn settings(&self) -> MapServerSettings {
+        let usual = MapServerSettings::default();
+        MapServerSettings {
+            yaml_filename: self.path.clone().unwrap_or_default(),
+            topic_name: self.topic_name.clone().unwrap_or(usual.topic_name),
+            frame_id: self.frame_id.clone().unwrap_or(usual.frame_id),
+            distro: self.distro,
         }
     }
-    live.end(FLUSH_TIMEOUT);
-    Ok(code)
 }

@@ -27,7 +27,7 @@ impl Parameters {
         // Method of the node whose parameters the file has.
         let mut named = None;
         if let Some(path) = &options.live.params_file {
-            let text = crate::paths::text(path)?;
+            let text = crate::paths::text(path).map_err(|error| error.to_string())?;
             let file = sources.add(path.display().to_string(), text);
             match periplus_yaml::parse(file, &sources) {
                 Ok(Some(tree)) => {

@@ -55,7 +55,7 @@ impl SelectedMapper {
 }
 
 fn read(path: &Path, settings: Settings) -> Result<Slam, String> {
-    let bytes = crate::paths::read(path)?;
+    let bytes = crate::paths::read(path).map_err(|error| error.to_string())?;
     Slam::resume(&bytes, settings)
         .map_err(|why| format!("cannot continue the session {}: {why}", path.display()))
 }

@@ -468,10 +468,8 @@ impl LaunchRunner {
         if let Some(folder) = own_folder(&program.running) {
             search.working_folder = search.working_folder.join(folder);
         }
-        let host = search.host();
-        let resolver = search.resolver(&host);
-        let setting = search.setting(&host, &resolver, false);
-        let (kind, told) = match xacro(&program.words[1..], &setting) {
+        let ran = search.with_context(false, |context| xacro(&program.words[1..], context));
+        let (kind, told) = match ran {
             Ok(ran) if ran.is_success => {
                 if let Some(text) = Some(ran.output).filter(|text| !text.is_empty()) {
                     self.said.push(LaunchLog::info(text));

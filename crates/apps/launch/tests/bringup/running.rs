@@ -24,9 +24,7 @@ struct Programs(Search);
 
 impl Outside for Programs {
     fn run(&mut self, words: &[String]) -> Result<Printed, String> {
-        let host = self.0.host();
-        let resolver = self.0.resolver(&host);
-        Ok(xacro(&words[1..], &self.0.setting(&host, &resolver, false))?.into())
+        Ok(self.0.with_context(false, |context| xacro(&words[1..], context))?.into())
     }
 
     fn scratch(&mut self, name: &str, _text: &str) -> Result<PathBuf, String> {

@@ -49,28 +49,19 @@ pub(super) enum Found {
 }
 
 impl Search {
-    /// Returns the machine with the variables of the search.
-    #[must_use]
-    pub fn host(&self) -> Overlay {
-        Overlay { variables: self.variables.clone() }
-    }
-
-    /// Returns a resolver over the folders of the search.
-    #[must_use]
-    pub fn resolver<'h>(&self, host: &'h Overlay) -> Resolver<'h> {
-        Resolver::new(host, &self.folders).advising(self.advice.clone())
-    }
-
-    /// Returns the settings for reading files.
-    #[must_use]
-    pub fn setting<'a>(
-        &self,
-        host: &'a Overlay,
-        resolver: &'a Resolver<'a>,
-        open_meshes: bool,
-    ) -> LoadContext<'a> {
+    /// Runs a function with a context for reading files: the machine with the variables of the
+    /// search, and a resolver over its folders.
+    pub fn with_context<T>(&self, open_meshes: bool, run: impl FnOnce(&LoadContext<'_>) -> T) -> T {
+        let host = Overlay { variables: self.variables.clone() };
+        let resolver = Resolver::new(&host, &self.folders).advising(self.advice.clone());
         let working_folder = self.working_folder.clone();
-        LoadContext { host, resolver, working_folder, arguments: Vec::new(), open_meshes }
+        run(&LoadContext {
+            host: &host,
+            resolver: &resolver,
+            working_folder,
+            arguments: Vec::new(),
+            open_meshes,
+        })
     }
 
     /// Reads a model or light.
@@ -78,31 +69,26 @@ impl Search {
     /// # Errors
     /// The problems, with their positions.
     pub(super) fn read(&self, source: &Source<'_>) -> Result<Reading, String> {
-        let host = self.host();
-        let resolver = self.resolver(&host);
-        let setting = LoadContext {
-            host: &host,
-            resolver: &resolver,
-            working_folder: self.working_folder.clone(),
-            arguments: Vec::new(),
-            open_meshes: true,
-        };
+        self.with_context(true, |context| self.read_in(source, context))
+    }
+
+    fn read_in(&self, source: &Source<'_>, context: &LoadContext<'_>) -> Result<Reading, String> {
         let mut loaded = match source {
             Source::Text(text, _) if text.trim().is_empty() => {
                 return Err("the text is empty; send a URDF or SDF".into());
             }
-            Source::Text(text, called) => load_bytes(&file_of(called), text.as_bytes(), &setting),
+            Source::Text(text, called) => load_bytes(&file_of(called), text.as_bytes(), context),
             Source::File(uri) => {
                 let from = self.working_folder.join(SPAWNED);
-                let path = resolver.resolve(uri, &from).map_err(|miss| {
+                let path = context.resolver.resolve(uri, &from).map_err(|miss| {
                     let finding = miss.into_diagnostic(Origin::default());
                     render(&finding, &SourceMap::new(), RenderStyle::Plain)
                 })?;
-                load(&path, &setting)
+                load(&path, context)
             }
         };
         if let Some(scene) = &mut loaded.scene {
-            settle_images(scene, &loaded.sources, &setting, &mut loaded.diagnostics);
+            settle_images(scene, &loaded.sources, context, &mut loaded.diagnostics);
         }
         let scene = loaded.scene.take().unwrap_or_default();
         let description = description_of(&loaded);

@@ -21,7 +21,7 @@ pub(super) fn tree(
     pictures: &Pictures,
     common: &Common,
 ) -> Result<ExitCode, CliError> {
-    let bag = crate::paths::bag(path).map_err(CliError::failed)?;
+    let bag = crate::paths::bag(path)?;
     let mut err = anstream::stderr().lock();
     terminal::diagnostics(&mut err, bag.findings(), &SourceMap::new())?;
     drop(err);

@@ -61,10 +61,9 @@ pub(crate) fn robot(text: &str, search: &Search) -> Result<Model, String> {
     if text.trim().is_empty() {
         return Err("`robot_description` is empty".into());
     }
-    let host = search.host();
-    let resolver = search.resolver(&host);
-    let setting = search.setting(&host, &resolver, false);
-    let mut loaded = load_bytes("robot_description.urdf".as_ref(), text.as_bytes(), &setting);
+    let mut loaded = search.with_context(false, |context| {
+        load_bytes("robot_description.urdf".as_ref(), text.as_bytes(), context)
+    });
     let scene = loaded.scene.take().unwrap_or_default();
     let models = scene.worlds.into_iter().flat_map(|world| world.models).chain(scene.models);
     models.into_iter().next().ok_or_else(|| {

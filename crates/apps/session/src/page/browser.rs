@@ -3,7 +3,8 @@
 use std::process::{Command, Stdio};
 
 /// Asks the system to open a URL; returns false when no opener could be started.
-pub(crate) fn open(url: &str) -> bool {
+#[must_use]
+pub fn open(url: &str) -> bool {
     let mut command = if cfg!(target_os = "windows") {
         let mut command = Command::new("rundll32");
         command.arg("url.dll,FileProtocolHandler");

@@ -1,10 +1,10 @@
 //! Monitor of a recording.
 
-use std::io;
 use std::time::Duration;
 
 use periplus_sim::{RunProgress, SimulationRecorder};
 
+use crate::progress::ProgressLine;
 use crate::terminal;
 
 /// Polling period of a recording.
@@ -17,16 +17,13 @@ pub(crate) struct RecordingWatch {
     has_reported: bool,
 }
 
-/// Writes to a terminal that also shows a progress bar.
-type Aside<'a> = dyn Fn(&mut dyn FnMut() -> io::Result<()>) + 'a;
-
 impl RecordingWatch {
     /// Checks a recording, at a limited rate.
-    pub(crate) fn look(
+    pub(crate) fn check(
         &mut self,
         recorder: Option<&SimulationRecorder>,
         progress: RunProgress,
-        aside: &Aside<'_>,
+        line: &ProgressLine,
     ) {
         if self.has_reported || progress.wall < self.next {
             return;
@@ -36,7 +33,7 @@ impl RecordingWatch {
         self.has_reported = true;
         #[expect(clippy::cast_precision_loss, reason = "for display")]
         let time_s = progress.time_ns as f64 * 1e-9;
-        aside(&mut || {
+        line.aside(|| {
             terminal::warn(&format!(
                 "recording to {} stopped at {time_s:.1} s: {why}; later messages are \
                  lost, those before can be read; the run goes on",

@@ -21,7 +21,7 @@ const HALF_LINE_WIDTH_PX: f64 = 1.5;
 const RING_ORDER: u32 = u32::MAX;
 
 /// PNG of a map, the trajectory from blue to red, and a red ring around each marked position \[m\].
-pub(crate) fn draw(map: &OccupancyGrid, trajectory: &[Pose2], marked: &[(f64, f64)]) -> Vec<u8> {
+pub fn draw(map: &OccupancyGrid, trajectory: &[Pose2], marked: &[(f64, f64)]) -> Vec<u8> {
     let drawn = draw_by(map.info, trajectory, marked, |picture| {
         map.rows().rev().try_for_each(|row| picture.push(row))
     });
@@ -31,7 +31,7 @@ pub(crate) fn draw(map: &OccupancyGrid, trajectory: &[Pose2], marked: &[(f64, f6
 
 /// As [`draw`], for a map that is given row by row: neither map nor image is kept in memory as a
 /// whole.
-pub(crate) fn draw_by(
+pub fn draw_by(
     info: GridInfo,
     trajectory: &[Pose2],
     marked: &[(f64, f64)],
@@ -55,7 +55,7 @@ pub(crate) fn draw_by(
 }
 
 /// Image that is being written.
-pub(crate) struct Picture<'a> {
+pub struct Picture<'a> {
     out: &'a mut dyn Write,
     info: GridInfo,
     /// Rows and columns of the map per pixel.
@@ -83,7 +83,7 @@ struct Dot {
 
 impl Picture<'_> {
     /// Adds the cells of the next row of the map, from the top.
-    pub(crate) fn push(&mut self, cells: &[i8]) -> io::Result<()> {
+    pub fn push(&mut self, cells: &[i8]) -> io::Result<()> {
         let Some(row) = self.left.checked_sub(1) else { return Ok(()) };
         self.left = row;
         for (darkest, cells) in self.darkest.iter_mut().zip(cells.chunks(self.every)) {

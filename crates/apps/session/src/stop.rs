@@ -2,7 +2,7 @@
 //!
 //! Ctrl-C (`SIGINT`), `docker stop` and systemd (`SIGTERM`) and a closed terminal (`SIGHUP`) set one flag:
 //! the run ends after its step, and closes its bag, map and report. GNU `timeout` and shells signal a
-//! A later signal ends the program at once.
+//! program and its group, so a second signal within [`SAME_REQUEST`] is the same request. A later signal ends the program at once.
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicI32, Ordering};
@@ -22,7 +22,8 @@ const SHELL_SIGNAL_OFFSET: i32 = 128;
 static FIRST_SIGNAL: AtomicI32 = AtomicI32::new(0);
 
 /// Returns a flag that the first of the signals sets.
-pub(crate) fn on_signal() -> Arc<AtomicBool> {
+#[must_use]
+pub fn on_signal() -> Arc<AtomicBool> {
     let stop = Arc::new(AtomicBool::new(false));
     if let Err(error) = platform::listen(Arc::clone(&stop)) {
         complain(&format!(
@@ -35,7 +36,8 @@ pub(crate) fn on_signal() -> Arc<AtomicBool> {
 
 /// Exit code of a run that the system ended: 143 for `SIGTERM`, 129 for `SIGHUP`. Ctrl-C is a
 /// regular end of a run, with separate rules.
-pub(crate) fn exit_code() -> Option<u8> {
+#[must_use]
+pub fn exit_code() -> Option<u8> {
     match FIRST_SIGNAL.load(Ordering::Relaxed) {
         signal @ (platform::TERMINATE | platform::HANG_UP) => {
             u8::try_from(SHELL_SIGNAL_OFFSET + signal).ok()

@@ -7,7 +7,7 @@ use periplus_msgs::rcl_interfaces::Log;
 use crate::terminal::say;
 
 /// Monitor of the log messages and the lifecycle state of a node.
-pub(crate) struct NodeMonitor {
+pub struct NodeMonitor {
     logger: String,
     logs: Mailbox<Log>,
     events: Mailbox<TransitionEvent>,
@@ -19,7 +19,7 @@ impl NodeMonitor {
     ///
     /// # Errors
     /// An error when the graph refuses the names.
-    pub(crate) fn new(monitor: &Node) -> Result<Self, GraphError> {
+    pub fn new(monitor: &Node) -> Result<Self, GraphError> {
         let name = monitor.full_name().replace('/', "_");
         let node = monitor.graph().node(NodeSettings::new(format!("{name}_watch")).bare())?;
         let events = format!("{}/transition_event", monitor.full_name());
@@ -32,7 +32,7 @@ impl NodeMonitor {
     }
 
     /// Prints new log messages; returns true if the node failed.
-    pub(crate) fn tell(&self) -> bool {
+    pub fn print_log(&self) -> bool {
         // Read before the log, whose lines come first.
         let events = self.events.drain();
         for line in self.logs.drain().iter().filter(|line| line.name == self.logger) {

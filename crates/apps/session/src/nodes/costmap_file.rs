@@ -1,26 +1,32 @@
-//! Nav2 parameter files.
+//! Costmaps of Nav2 parameter files.
 
 use std::path::Path;
 
 use periplus_costmap::{CostmapConfig, Nav2Release};
 use periplus_diagnostics::{Diagnostics, SourceMap};
 
+use crate::error::RunError;
+use crate::files;
+
 /// Costmap nodes of Nav2, by name.
 const NODES: [&str; 2] = ["local_costmap", "global_costmap"];
 
 /// Parameter file of costmaps, with its findings.
-pub(super) struct File {
-    pub(super) configs: Vec<(&'static str, CostmapConfig)>,
-    pub(super) diagnostics: Diagnostics,
-    pub(super) sources: SourceMap,
+pub struct CostmapFile {
+    /// Costmaps, by the name of their node.
+    pub configs: Vec<(&'static str, CostmapConfig)>,
+    /// Findings on the parameters.
+    pub diagnostics: Diagnostics,
+    /// The text that the findings refer to.
+    pub sources: SourceMap,
 }
 
 /// Reads the costmaps of a file; those without parameters are left out.
 ///
 /// # Errors
-/// A message when the file has no costmap.
-pub(super) fn read(path: &Path, compat: Option<Nav2Release>) -> Result<File, String> {
-    let text = crate::paths::text(path)?;
+/// When the file cannot be read, or has no costmap.
+pub fn read(path: &Path, compat: Option<Nav2Release>) -> Result<CostmapFile, RunError> {
+    let text = files::text(path)?;
     read_text(&path.display().to_string(), text, compat)
 }
 
@@ -47,20 +53,23 @@ fn looks_like_costmap(tree: &periplus_yaml::YamlNode) -> bool {
 }
 
 /// Reads the costmaps of a named text, as [`read`] does.
-pub(super) fn read_text(
+///
+/// # Errors
+/// As for [`read`].
+pub fn read_text(
     name: &str,
     text: String,
     compat: Option<Nav2Release>,
-) -> Result<File, String> {
+) -> Result<CostmapFile, RunError> {
     let mut sources = SourceMap::new();
     let file = sources.add(name.to_owned(), text);
     let mut diagnostics = Diagnostics::new();
     let tree = match periplus_yaml::parse(file, &sources) {
         Ok(Some(tree)) => tree,
-        Ok(None) => return Err(format!("{name} is empty")),
+        Ok(None) => return Err(RunError::NoParameters(format!("{name} is empty"))),
         Err(error) => {
             diagnostics.push(*error);
-            return Ok(File { configs: Vec::new(), diagnostics, sources });
+            return Ok(CostmapFile { configs: Vec::new(), diagnostics, sources });
         }
     };
     let named = |node: &&&str| CostmapConfig::is_in(&tree, node);
@@ -68,10 +77,10 @@ pub(super) fn read_text(
     if nodes.is_empty() {
         // A file of a single costmap, such as those of ROS 1.
         if !looks_like_costmap(&tree) {
-            return Err(format!(
+            return Err(RunError::NoParameters(format!(
                 "{name} has no costmap: neither `local_costmap` nor `global_costmap`, nor a costmap \
                  parameter such as `resolution` or `plugins`; give a file with Nav2's parameters"
-            ));
+            )));
         }
         nodes = NODES.iter().take(1).collect();
     }
@@ -79,5 +88,5 @@ pub(super) fn read_text(
         .into_iter()
         .map(|node| (*node, CostmapConfig::read_yaml(&tree, node, compat, &mut diagnostics)))
         .collect();
-    Ok(File { configs, diagnostics, sources })
+    Ok(CostmapFile { configs, diagnostics, sources })
 }

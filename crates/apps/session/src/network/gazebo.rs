@@ -3,8 +3,6 @@
 use std::io;
 use std::sync::Arc;
 
-use clap::ValueEnum;
-use periplus_diagnostics::SourceMap;
 use periplus_gz_msgs::Dialect;
 use periplus_gz_transport::{
     DiscoveryReach, GzBridge, GzPublisher, GzService, GzTransportError, Settings, Transport,
@@ -12,32 +10,23 @@ use periplus_gz_transport::{
 use periplus_os::Machine;
 use periplus_sim::{GazeboPublisher, Services, Simulation, gazebo_topic};
 
-use crate::error::CliError;
+use crate::error::RunError;
 use crate::terminal;
 
 /// Topics for ROS programs only.
 const ROS_ONLY_TOPICS: [&str; 3] = ["/rosout", "/parameter_events", "/robot_description"];
 
-/// Visibility of a run.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub(crate) enum GzReach {
-    /// Gazebo programs on this machine
-    Loopback,
-    /// Gazebo programs in the range of multicast
-    Network,
-}
-
-/// Prefix of message types.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub(crate) enum GzTypes {
-    /// `gz.msgs.LaserScan`: Garden, Harmonic and later
-    Gz,
-    /// `ignition.msgs.LaserScan`: Fortress and before, and Debian
-    Ignition,
+/// Visibility of a session on Gazebo Transport.
+#[derive(Clone, Copy, Debug)]
+pub struct GazeboSettings {
+    /// Programs that can connect.
+    pub reach: DiscoveryReach,
+    /// Names of the message types.
+    pub dialect: Dialect,
 }
 
 /// Connection of a run to Gazebo programs.
-pub(crate) struct Gazebo {
+pub(crate) struct GazeboConnection {
     // Declared first, so that the graph is left before the network is dropped.
     link: GzBridge,
     _servers: Vec<GzService>,
@@ -58,35 +47,26 @@ impl GazeboPublisher for Outlet {
     }
 }
 
-impl Gazebo {
-    /// Connects if requested; `None` if not.
+impl GazeboConnection {
+    /// Connects.
     pub(crate) fn join(
         simulation: &Simulation,
         services: &mut Services,
-        asked: Option<GzReach>,
-        types: GzTypes,
-        quiet: bool,
-    ) -> Result<Option<Self>, CliError> {
-        let Some(reach) = asked else { return Ok(None) };
+        asked: GazeboSettings,
+        is_quiet: bool,
+    ) -> Result<Self, RunError> {
         let (mut settings, findings) = Settings::from_environment(&Machine);
-        terminal::diagnostics(&mut anstream::stderr().lock(), &findings, &SourceMap::new())?;
-        settings.reach = match reach {
-            GzReach::Loopback => DiscoveryReach::Machine,
-            GzReach::Network => DiscoveryReach::Network,
-        };
-        settings.dialect = match types {
-            GzTypes::Gz => Dialect::Gz,
-            GzTypes::Ignition => Dialect::Ignition,
-        };
-        let joined = Self::open(simulation, services, &settings).map_err(CliError::failed)?;
-        if !quiet {
-            let on = match reach {
-                GzReach::Loopback => "this machine only",
-                GzReach::Network => "on the network",
+        terminal::print_findings(&findings)?;
+        (settings.reach, settings.dialect) = (asked.reach, asked.dialect);
+        let joined = Self::open(simulation, services, &settings)?;
+        if !is_quiet {
+            let on = match settings.reach {
+                DiscoveryReach::Machine => "this machine only",
+                DiscoveryReach::Network => "on the network",
             };
             terminal::say(&format!("Gazebo: partition {}, {on}", settings.partition));
         }
-        Ok(Some(joined))
+        Ok(joined)
     }
 
     fn open(
@@ -95,23 +75,23 @@ impl Gazebo {
         settings: &Settings,
     ) -> Result<Self, GzTransportError> {
         let transport = Arc::new(Transport::open(settings)?);
-        let desk = services.open_to_gazebo(simulation);
+        let requests = services.open_to_gazebo(simulation);
         let full = |bare: &str| settings.dialect.full_name(bare);
         let mut servers = Vec::new();
-        for (place, service) in desk.services().iter().enumerate() {
+        for (place, service) in requests.services().iter().enumerate() {
             let types = [full(service.request), full(service.response)];
-            let desk = desk.clone();
+            let requests = requests.clone();
             let asking = move |call: periplus_gz_transport::ServiceRequest| {
                 let answer = call.answer;
                 let answer = Box::new(move |bytes: Option<Vec<u8>>| answer.send(bytes.as_deref()));
-                desk.ask(place, call.request, answer);
+                requests.ask(place, call.request, answer);
             };
             servers.push(transport.serve(&service.name, &types[0], &types[1], asking)?);
         }
-        let topics = desk.topics().iter();
+        let topics = requests.topics().iter();
         let publishers: Result<_, _> =
             topics.map(|topic| transport.advertise(&topic.name, &full(topic.of))).collect();
-        desk.set_outlet(Box::new(Outlet(publishers?)));
+        requests.set_outlet(Box::new(Outlet(publishers?)));
         let link = GzBridge::new(simulation.graph(), &transport);
         let name = gazebo_topic(simulation);
         link.offer_all(
@@ -121,8 +101,7 @@ impl Gazebo {
     }
 
     /// Prints network problems.
-    pub(crate) fn tell(&self) -> io::Result<()> {
-        let findings = self.link.take_findings();
-        terminal::diagnostics(&mut anstream::stderr().lock(), &findings, &SourceMap::new())
+    pub(crate) fn print_findings(&self) -> io::Result<()> {
+        terminal::print_findings(&self.link.take_findings())
     }
 }

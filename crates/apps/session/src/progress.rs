@@ -13,7 +13,7 @@ const LINE_PERIOD: Duration = Duration::from_secs(10);
 const REDRAW_PERIOD: Duration = Duration::from_millis(100);
 
 /// Progress bar at the bottom of the terminal; hidden where stderr is no terminal.
-pub(crate) struct ProgressLine {
+pub struct ProgressLine {
     bar: ProgressBar,
     drawn: Duration,
     end_s: Option<f64>,
@@ -23,13 +23,13 @@ pub(crate) struct ProgressLine {
 
 impl ProgressLine {
     /// Progress of a run of `end_s` simulated seconds, or without end.
-    pub(crate) fn new(end_s: Option<f64>, quiet: bool) -> Self {
+    pub(crate) fn new(end_s: Option<f64>, is_quiet: bool) -> Self {
         let bar = match end_s {
-            _ if quiet => ProgressBar::hidden(),
+            _ if is_quiet => ProgressBar::hidden(),
             Some(_) => ProgressBar::new(1000).with_style(style("{bar:30} {msg}")),
             None => ProgressBar::new_spinner().with_style(style("{spinner} {msg}")),
         };
-        let is_drawn = quiet || std::io::stderr().is_terminal();
+        let is_drawn = is_quiet || std::io::stderr().is_terminal();
         let next_line = (!is_drawn && end_s.is_some()).then_some(LINE_PERIOD);
         Self { bar, drawn: Duration::ZERO, end_s, next_line }
     }
@@ -70,7 +70,7 @@ impl ProgressLine {
     }
 
     /// Writes something else to the terminal.
-    pub(crate) fn aside(&self, write: impl FnOnce() -> std::io::Result<()>) {
+    pub fn aside(&self, write: impl FnOnce() -> std::io::Result<()>) {
         // A closed terminal must not end a run.
         let _ = self.bar.suspend(write);
     }

@@ -3,13 +3,12 @@
 use std::io;
 use std::time::Duration;
 
-use clap::ValueEnum;
 use periplus_dds::{DdsTransport, DiscoveryRange, Remote, Settings};
-use periplus_diagnostics::{Diagnostics, SourceMap};
+use periplus_diagnostics::Diagnostics;
 use periplus_os::Machine;
 use periplus_sim::Simulation;
 
-use crate::error::CliError;
+use crate::error::RunError;
 use crate::terminal;
 
 #[cfg(feature = "zenoh")]
@@ -18,24 +17,26 @@ mod zenoh;
 /// Period of checking for network problems.
 const POLL_PERIOD: Duration = Duration::from_millis(500);
 
-/// Visibility of a run.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub(crate) enum Reach {
-    /// No program
+/// Visibility of a session on ROS 2.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Ros2Reach {
+    /// No program.
     Off,
-    /// ROS 2 programs on this machine
+    /// ROS 2 programs on this machine.
     Loopback,
-    /// ROS 2 programs in the range of multicast or named by `ROS_STATIC_PEERS`
+    /// ROS 2 programs in the range of multicast or named by `ROS_STATIC_PEERS`.
     Network,
-    /// ROS 2 programs that use `rmw_zenoh`, through its router
+    /// ROS 2 programs that use `rmw_zenoh`, through its router.
     Zenoh,
 }
 
-/// Connection of a run to ROS 2, if any.
-pub(crate) struct Ros2 {
+/// Connection of a session to ROS 2, if any.
+#[derive(Default)]
+pub(crate) struct Ros2Connection {
     wire: Option<Joined>,
-    looked: Duration,
-    quiet: bool,
+    /// Wall time of the last check for network problems, since the start of the run.
+    checked: Duration,
+    is_quiet: bool,
 }
 
 /// Network of the connection.
@@ -55,43 +56,42 @@ impl Joined {
     }
 }
 
-impl Ros2 {
+impl Ros2Connection {
     /// Connects as requested. By default a real-time run joins on this machine, or as the
     /// environment sets, and continues without ROS 2 if that fails.
     pub(crate) fn join(
         simulation: &Simulation,
-        asked: Option<Reach>,
+        asked: Option<Ros2Reach>,
         is_paced: bool,
-        quiet: bool,
-    ) -> Result<Self, CliError> {
-        if asked == Some(Reach::Zenoh) {
-            return join_zenoh(simulation, quiet);
+        is_quiet: bool,
+    ) -> Result<Self, RunError> {
+        if asked == Some(Ros2Reach::Zenoh) {
+            return join_zenoh(simulation, is_quiet);
         }
         let (mut settings, findings) = Settings::from_environment(&Machine);
         match asked {
-            Some(Reach::Off) => settings.range = DiscoveryRange::Off,
+            Some(Ros2Reach::Off) => settings.range = DiscoveryRange::Off,
             None if !is_paced => settings.range = DiscoveryRange::Off,
-            None | Some(Reach::Zenoh) => {}
-            Some(Reach::Loopback) => settings.range = DiscoveryRange::Localhost,
-            Some(Reach::Network) if settings.range == DiscoveryRange::SystemDefault => {}
-            Some(Reach::Network) => settings.range = DiscoveryRange::Subnet,
+            None | Some(Ros2Reach::Zenoh) => {}
+            Some(Ros2Reach::Loopback) => settings.range = DiscoveryRange::Localhost,
+            Some(Ros2Reach::Network) if settings.range == DiscoveryRange::SystemDefault => {}
+            Some(Ros2Reach::Network) => settings.range = DiscoveryRange::Subnet,
         }
-        let wire = None;
-        let mut joined = Self { wire, looked: Duration::ZERO, quiet };
+        let mut joined = Self { is_quiet, ..Self::default() };
         if settings.range == DiscoveryRange::Off {
             return Ok(joined);
         }
-        terminal::diagnostics(&mut anstream::stderr().lock(), &findings, &SourceMap::new())?;
+        terminal::print_findings(&findings)?;
         let opened = DdsTransport::open(&settings).and_then(|wire| {
             wire.attach(simulation.graph())?;
             Ok(wire)
         });
         match opened {
             Ok(wire) => joined.wire = Some(Joined::Dds(wire)),
-            Err(error) if asked.is_some() => return Err(CliError::failed(error)),
+            Err(error) if asked.is_some() => return Err(error.into()),
             Err(error) => terminal::say(&format!("warning: {error}; running without ROS 2")),
         }
-        if joined.wire.is_some() && !quiet {
+        if joined.wire.is_some() && !is_quiet {
             let domain = settings.domain_id;
             terminal::say(&match settings.range {
                 DiscoveryRange::Localhost => format!(
@@ -111,9 +111,9 @@ impl Ros2 {
 
     /// Returns true if the next check for network problems is due.
     pub(crate) fn is_due(&mut self, wall: Duration) -> bool {
-        let is_due = self.wire.is_some() && wall >= self.looked + POLL_PERIOD;
+        let is_due = self.wire.is_some() && wall >= self.checked + POLL_PERIOD;
         if is_due {
-            self.looked = wall;
+            self.checked = wall;
         }
         is_due
     }
@@ -128,13 +128,13 @@ impl Ros2 {
     }
 
     /// Prints network problems.
-    pub(crate) fn tell(&self) -> io::Result<()> {
+    pub(crate) fn print_findings(&self) -> io::Result<()> {
         let Some(wire) = &self.wire else { return Ok(()) };
         let findings = wire.take_findings();
-        if self.quiet {
+        if self.is_quiet {
             return Ok(());
         }
-        terminal::diagnostics(&mut anstream::stderr().lock(), &findings, &SourceMap::new())
+        terminal::print_findings(&findings)
     }
 }
 
@@ -143,9 +143,6 @@ use zenoh::join as join_zenoh;
 
 /// Reports that this build has no Zenoh.
 #[cfg(not(feature = "zenoh"))]
-fn join_zenoh(_: &Simulation, _: bool) -> Result<Ros2, CliError> {
-    Err(CliError::failed(
-        "this periplus was built without Zenoh, which needs 200 more crates; build one with \
-         `cargo build --release --features zenoh`",
-    ))
+fn join_zenoh(_: &Simulation, _: bool) -> Result<Ros2Connection, RunError> {
+    Err(RunError::WithoutZenoh)
 }

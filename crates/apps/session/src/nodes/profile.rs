@@ -1,4 +1,4 @@
-//! Navigation stack for any robot: topics and frames are detected.
+//! Topics and frames of a robot, detected by running it.
 //!
 //! The world runs briefly before the run begins. Its messages give the topics of scans, odometry
 //! and IMU, the frames, and whether the odometry transform is published. Then the simulation is
@@ -15,7 +15,10 @@ use periplus_msgs::sensor_msgs::{Imu, LaserScan};
 use periplus_msgs::tf2_msgs::TFMessage;
 use periplus_nav_nodes::ekf_node::EkfNode;
 use periplus_params::{Given, ParamValue, ParamValues};
-use periplus_sim::{Diverged, Simulation};
+use periplus_sim::Simulation;
+
+use crate::error::RunError;
+use crate::terminal;
 
 /// Longest detection phase \[ns\]: odometry and scans are published several times per second.
 const MAX_DETECTION_NS: i64 = 2_000_000_000;
@@ -31,21 +34,21 @@ const MAX_DEPTH: usize = 100;
 
 /// Topics and frames of a robot that the stack needs.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub(crate) struct RobotProfile {
+pub struct RobotProfile {
     /// Topic of laser scans.
-    pub(crate) scan: Option<String>,
+    pub scan: Option<String>,
     /// Topic of odometry.
-    pub(crate) odometry: Option<String>,
+    pub odometry: Option<String>,
     /// Topic of an IMU.
-    pub(crate) imu: Option<String>,
+    pub imu: Option<String>,
     /// Odometry frame.
-    pub(crate) odom_frame: Option<String>,
+    pub odom_frame: Option<String>,
     /// Root of the robot's frames.
-    pub(crate) base_frame: Option<String>,
+    pub base_frame: Option<String>,
     /// True if a transform connects `base_frame` to `odom_frame`.
-    pub(crate) has_odom_transform: bool,
+    pub has_odom_transform: bool,
     /// Radius of a circle around the robot \[m\].
-    pub(crate) radius_m: f64,
+    pub radius_m: f64,
 }
 
 /// Subscriptions of the detection phase.
@@ -63,14 +66,12 @@ impl RobotProfile {
     /// Runs the world briefly, detects topics and frames, and resets it.
     ///
     /// # Errors
-    /// An error when the world cannot run, or a name is invalid.
-    pub(crate) fn of(simulation: &mut Simulation) -> Result<Self, String> {
-        let mut look =
-            DetectionSubscriptions::new(simulation.graph()).map_err(|error| error.to_string())?;
-        let words = |diverged: Diverged| diverged.to_string();
+    /// When the world cannot run, or the graph refuses a name.
+    pub fn detect(simulation: &mut Simulation) -> Result<Self, RunError> {
+        let mut look = DetectionSubscriptions::new(simulation.graph())?;
         while simulation.time_ns() < MAX_DETECTION_NS {
-            simulation.step().map_err(words)?;
-            look.take();
+            simulation.step()?;
+            look.read();
             if simulation.time_ns() >= MIN_DETECTION_NS && look.has_all() {
                 break;
             }
@@ -81,8 +82,36 @@ impl RobotProfile {
         Ok(profile)
     }
 
+    /// Prints the detected topics and frames.
+    pub(crate) fn print(&self) {
+        let named = |topic: &Option<String>| topic.clone().unwrap_or_else(|| "none".to_owned());
+        terminal::say(&format!(
+            "stack: scans on {}, odometry on {}, IMU on {}, frames {} and {}, radius {:.2} m",
+            named(&self.scan),
+            named(&self.odometry),
+            named(&self.imu),
+            self.odom(),
+            self.base(),
+            self.radius_m
+        ));
+    }
+
+    /// Prints why an EKF runs, and its inputs.
+    pub(crate) fn print_filter(&self) {
+        let inputs: Vec<&str> =
+            [&self.odometry, &self.imu].into_iter().flatten().map(String::as_str).collect();
+        terminal::say(&format!(
+            "the robot publishes no transform from {} to {}: the EKF of robot_localization \
+             publishes it, from {}",
+            self.base(),
+            self.odom(),
+            inputs.join(" and ")
+        ));
+    }
+
     /// Returns true if an EKF has to publish the odometry transform, and has the inputs.
-    pub(crate) fn needs_filter(&self) -> bool {
+    #[must_use]
+    pub fn needs_filter(&self) -> bool {
         !self.has_odom_transform && self.odometry.is_some()
     }
 
@@ -91,7 +120,7 @@ impl RobotProfile {
     ///
     /// # Errors
     /// An error when it cannot run.
-    pub(crate) fn filter(&self, graph: &Graph) -> Result<EkfNode, GraphError> {
+    pub fn filter(&self, graph: &Graph) -> Result<EkfNode, GraphError> {
         const WHEELS: &str = "[false, false, false, false, false, false, true, true, false, \
                               false, false, true, false, false, false]";
         const TURNS: &str = "[false, false, false, false, false, false, false, false, false, \
@@ -115,7 +144,7 @@ impl RobotProfile {
 
     /// Sets unset parameters of a node: the frames of odometry and robot, and the topic of scans,
     /// by these names.
-    pub(crate) fn fill(&self, values: &mut ParamValues, names: [&'static str; 3]) {
+    pub fn fill(&self, values: &mut ParamValues, names: [&'static str; 3]) {
         let known = [&self.odom_frame, &self.base_frame, &self.scan];
         for (name, known) in names.into_iter().zip(known) {
             if let Some(text) = known
@@ -128,17 +157,20 @@ impl RobotProfile {
     }
 
     /// Odometry frame, or its default name.
-    pub(crate) fn odom(&self) -> &str {
+    #[must_use]
+    pub fn odom(&self) -> &str {
         self.odom_frame.as_deref().unwrap_or("odom")
     }
 
     /// Base frame, or its default name.
-    pub(crate) fn base(&self) -> &str {
+    #[must_use]
+    pub fn base(&self) -> &str {
         self.base_frame.as_deref().unwrap_or("base_link")
     }
 
     /// Both costmaps of Nav2 with the values of Nav2's example, for this robot.
-    pub(crate) fn costmaps(&self) -> String {
+    #[must_use]
+    pub fn costmap_parameters(&self) -> String {
         let (odom, base, radius_m) = (self.odom(), self.base(), self.radius_m);
         let scan = self.scan.as_deref().unwrap_or("/scan");
         let common = |frame: &str| {
@@ -192,7 +224,7 @@ impl DetectionSubscriptions {
     }
 
     /// Reads received messages.
-    fn take(&mut self) {
+    fn read(&mut self) {
         for message in self.moving.drain().into_iter().chain(self.fixed.drain()) {
             for edge in &message.transforms {
                 let plain = |frame: &str| frame.trim_start_matches('/').to_owned();

@@ -18,9 +18,9 @@ const MISSING_FILE: &str = "/.periplus/no/file/was/loaded/so/nothing/is/around/i
 
 /// Returns files by URI, with the same access rules as for references in the loaded files.
 pub(super) fn fetch(
-    files: Vec<PathBuf>,
-    resource_path: Vec<PathBuf>,
-) -> impl Fn(&str) -> Result<Vec<u8>, String> + Send + Sync {
+    files: &[PathBuf],
+    resource_path: &[PathBuf],
+) -> impl Fn(&str) -> Result<Vec<u8>, String> + Send + Sync + use<> {
     let here = terminal::working_folder();
     let folders: Vec<PathBuf> = resource_path.iter().map(|folder| here.join(folder)).collect();
     let mut from: Vec<PathBuf> = files.iter().map(|file| here.join(file)).collect();
@@ -83,7 +83,7 @@ mod tests {
     #[test]
     fn only_what_models_are_made_of_and_only_from_the_project() {
         let root = project("inside");
-        let fetch = fetch(vec![root.join("ws/room.world")], Vec::new());
+        let fetch = fetch(&[root.join("ws/room.world")], &[]);
         assert_eq!(fetch("package://arm/meshes/hand.stl"), Ok(b"solid hand".to_vec()));
         let hand = root.join("ws/arm/meshes/hand.stl");
         assert_eq!(fetch(&format!("file://{}", hand.display())), Ok(b"solid hand".to_vec()));
@@ -116,10 +116,10 @@ mod tests {
     #[test]
     fn without_a_file_nothing_lies_around_it() {
         let root = project("nothing");
-        let fetch = fetch(Vec::new(), Vec::new());
+        let fetch = fetch(&[], &[]);
         let hand = root.join("ws/arm/meshes/hand.stl");
         assert!(fetch(&format!("file://{}", hand.display())).is_err());
-        let at_the_root = super::fetch(vec![PathBuf::from("/room.world")], Vec::new());
+        let at_the_root = super::fetch(&[PathBuf::from("/room.world")], &[]);
         assert!(at_the_root(&format!("file://{}", hand.display())).is_err());
         let _ = std::fs::remove_dir_all(root);
     }

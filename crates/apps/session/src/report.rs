@@ -7,25 +7,30 @@ use periplus_sim::{RecordingSummary, Simulation, Work, WorkProfile};
 use serde_json::{Value, json};
 
 /// Report of a run.
-pub(crate) struct Report<'a> {
-    pub(crate) simulation: &'a Simulation,
+pub struct RunReport<'a> {
+    /// The simulation after the run.
+    pub simulation: &'a Simulation,
     /// Time from the start of the program to the first step.
-    pub(crate) start_up: Duration,
+    pub start_up: Duration,
     /// Wall time of all steps.
-    pub(crate) wall: Duration,
-    pub(crate) recording: Option<&'a RecordingSummary>,
+    pub wall: Duration,
+    /// Recording, if there is one.
+    pub recording: Option<&'a RecordingSummary>,
 }
 
-impl Report<'_> {
-    /// Prints the report as text.
-    pub(crate) fn tell(&self, out: &mut dyn Write) -> io::Result<()> {
+impl RunReport<'_> {
+    /// Writes the report as text.
+    ///
+    /// # Errors
+    /// A failed write.
+    pub fn write_text(&self, out: &mut dyn Write) -> io::Result<()> {
         let simulated_s = self.simulated_s();
         let wall_s = self.wall.as_secs_f64();
         let factor = self.factor();
         writeln!(out, "{simulated_s:.3} s simulated in {wall_s:.2} s: {factor:.1} x real time")?;
         let shares = self.simulation.shares();
-        let told = Work::ALL.map(|work| format!("{} {:.0} %", work.name(), percent(shares, work)));
-        writeln!(out, "  {}", told.join(", "))?;
+        let parts = Work::ALL.map(|work| format!("{} {:.0} %", work.name(), percent(shares, work)));
+        writeln!(out, "  {}", parts.join(", "))?;
         if let Some(recording) = self.recording {
             writeln!(
                 out,
@@ -40,7 +45,8 @@ impl Report<'_> {
     }
 
     /// JSON report.
-    pub(crate) fn to_json(&self) -> Value {
+    #[must_use]
+    pub fn to_json(&self) -> Value {
         let shares = self.simulation.shares();
         let timing = Work::ALL
             .map(|work| (format!("{}_s", work.name()), json!(shares.spent(work).as_secs_f64())));

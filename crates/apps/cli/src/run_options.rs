@@ -1,0 +1,149 @@
+//! Options and exit codes that all simulating commands share.
+
+use std::process::ExitCode;
+
+use clap::{Args, ValueEnum};
+use periplus_gz_msgs::Dialect;
+use periplus_gz_transport::DiscoveryReach;
+use periplus_session::{Ros2Reach, RunEnd};
+use periplus_sim::{Composition, TopicFilter};
+
+use crate::error::CliError;
+use crate::terminal;
+
+/// Selection of recorded topics.
+#[derive(Debug, Args)]
+pub(crate) struct TopicSelection {
+    /// Record only topics that match this regular expression
+    #[arg(long, value_name = "REGEX")]
+    topics: Option<regex::Regex>,
+    /// Do not record topics that match this regular expression
+    #[arg(long, value_name = "REGEX")]
+    exclude: Option<regex::Regex>,
+}
+
+impl TopicSelection {
+    pub(crate) fn filter(&self) -> TopicFilter {
+        let (topics, exclude) = (self.topics.clone(), self.exclude.clone());
+        Box::new(move |name| {
+            topics.as_ref().is_none_or(|topics| topics.is_match(name))
+                && !exclude.as_ref().is_some_and(|exclude| exclude.is_match(name))
+        })
+    }
+}
+
+/// Real-time factor: simulated seconds per second of wall time.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Factor {
+    /// As fast as possible.
+    Max,
+    /// Fixed factor.
+    Of(f64),
+}
+
+impl Factor {
+    /// Requested factor. By default a run with a duration is as fast as possible, any other at the
+    /// rate of the world. `None` is as fast as possible.
+    pub(crate) fn of_run(
+        requested: Option<Self>,
+        duration_s: Option<f64>,
+        composition: &Composition,
+    ) -> Option<f64> {
+        match (requested, duration_s) {
+            (Some(Self::Of(factor)), _) => Some(factor),
+            (Some(Self::Max), _) | (None, Some(_)) => None,
+            (None, None) => composition.real_time_factor(),
+        }
+    }
+}
+
+/// Visibility of a run on ROS 2.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum Reach {
+    /// No program
+    Off,
+    /// ROS 2 programs on this machine
+    Loopback,
+    /// ROS 2 programs in the range of multicast or named by `ROS_STATIC_PEERS`
+    Network,
+    /// ROS 2 programs that use `rmw_zenoh`, through its router
+    Zenoh,
+}
+
+impl From<Reach> for Ros2Reach {
+    fn from(reach: Reach) -> Self {
+        match reach {
+            Reach::Off => Self::Off,
+            Reach::Loopback => Self::Loopback,
+            Reach::Network => Self::Network,
+            Reach::Zenoh => Self::Zenoh,
+        }
+    }
+}
+
+/// Visibility of a run on Gazebo Transport.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum GzReach {
+    /// Gazebo programs on this machine
+    Loopback,
+    /// Gazebo programs in the range of multicast
+    Network,
+}
+
+impl From<GzReach> for DiscoveryReach {
+    fn from(reach: GzReach) -> Self {
+        match reach {
+            GzReach::Loopback => Self::Machine,
+            GzReach::Network => Self::Network,
+        }
+    }
+}
+
+/// Prefix of message types on Gazebo Transport.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum GzTypes {
+    /// `gz.msgs.LaserScan`: Garden, Harmonic and later
+    Gz,
+    /// `ignition.msgs.LaserScan`: Fortress and before, and Debian
+    Ignition,
+}
+
+impl From<GzTypes> for Dialect {
+    fn from(types: GzTypes) -> Self {
+        match types {
+            GzTypes::Gz => Self::Gz,
+            GzTypes::Ignition => Self::Ignition,
+        }
+    }
+}
+
+/// Exit code of a run.
+pub(crate) fn exit_code(end: RunEnd) -> Result<ExitCode, CliError> {
+    match end {
+        RunEnd::Complete => Ok(ExitCode::SUCCESS),
+        RunEnd::Interrupted => Ok(ExitCode::from(terminal::INTERRUPTED)),
+        // The reason is printed already.
+        RunEnd::RecordingIncomplete => Err(CliError::Reported(1)),
+        // Findings name each of them.
+        RunEnd::ModelRemoved(diverged) => {
+            Err(CliError::Failed(format!("{diverged}; its model was removed")))
+        }
+        RunEnd::Diverged(diverged) => Err(CliError::failed(diverged)),
+    }
+}
+
+/// Parses a number above 0.
+pub(crate) fn positive(word: &str) -> Result<f64, String> {
+    match word.parse::<f64>() {
+        Ok(number) if number.is_finite() && number > 0.0 => Ok(number),
+        _ => Err("expected a number above 0".into()),
+    }
+}
+
+/// Parses a real-time factor.
+pub(crate) fn factor(word: &str) -> Result<Factor, String> {
+    if word == "max" {
+        return Ok(Factor::Max);
+    }
+    positive(word).map(Factor::Of).map_err(|_| "expected a number above 0, or `max`".into())
+}

@@ -1,0 +1,245 @@
+//! Composition of sessions.
+
+use std::path::PathBuf;
+use std::sync::Arc;
+
+use periplus_nav_nodes::slam_toolbox::Pace;
+use periplus_os::Stopwatch;
+use periplus_sim::{
+    AssetFiles, Composition, Driver, Options, Search, Services, Simulation, SimulationRecorder,
+    TopicFilter, compute_topics,
+};
+
+use crate::error::RunError;
+use crate::network::{GazeboConnection, GazeboSettings, Ros2Connection, Ros2Reach};
+use crate::nodes::{EstimatorRequest, Estimators};
+use crate::page::{Page, PageSettings};
+use crate::session::{SessionParts, SimulationSession};
+use crate::terminal;
+
+/// Recording of a session.
+pub struct RecordingRequest {
+    /// File, or folder in the format of `ros2 bag`.
+    pub path: PathBuf,
+    /// Topics to record.
+    pub wanted: TopicFilter,
+}
+
+/// Parts of a session. Everything but the world is optional.
+pub struct SessionBuilder {
+    composition: Composition,
+    options: Options,
+    start: Stopwatch,
+    is_quiet: bool,
+    has_progress: bool,
+    factor: Option<f64>,
+    search: Search,
+    recording: Option<RecordingRequest>,
+    computed: Option<TopicFilter>,
+    driver: Driver,
+    estimators: Option<EstimatorRequest>,
+    ros2: Option<Option<Ros2Reach>>,
+    gazebo: Option<GazeboSettings>,
+    page: Option<PageSettings>,
+}
+
+impl SessionBuilder {
+    /// Session of a world, at full speed. `start` is the start of the program.
+    #[must_use]
+    pub fn new(composition: Composition, options: Options, start: Stopwatch) -> Self {
+        Self {
+            composition,
+            options,
+            start,
+            is_quiet: false,
+            has_progress: false,
+            factor: None,
+            search: Search::default(),
+            recording: None,
+            computed: None,
+            driver: Driver::default(),
+            estimators: None,
+            ros2: None,
+            gazebo: None,
+            page: None,
+        }
+    }
+
+    /// Prints only errors.
+    #[must_use]
+    pub fn quiet(mut self, is_quiet: bool) -> Self {
+        self.is_quiet = is_quiet;
+        self
+    }
+
+    /// Shows a progress bar.
+    #[must_use]
+    pub fn progress(mut self, has_progress: bool) -> Self {
+        self.has_progress = has_progress;
+        self
+    }
+
+    /// Runs at this real-time factor; `None` is full speed.
+    #[must_use]
+    pub fn factor(mut self, factor: Option<f64>) -> Self {
+        self.factor = factor;
+        self
+    }
+
+    /// Search paths of entities that clients spawn.
+    #[must_use]
+    pub fn search(mut self, search: Search) -> Self {
+        self.search = search;
+        self
+    }
+
+    /// Records topics.
+    #[must_use]
+    pub fn recording(mut self, recording: Option<RecordingRequest>) -> Self {
+        self.recording = recording;
+        self
+    }
+
+    /// Simulates the sensors of these topics even without subscribers.
+    #[must_use]
+    pub fn computed(mut self, topics: Option<TopicFilter>) -> Self {
+        self.computed = topics;
+        self
+    }
+
+    /// Plays velocity commands.
+    #[must_use]
+    pub fn driver(mut self, driver: Driver) -> Self {
+        self.driver = driver;
+        self
+    }
+
+    /// Runs estimator nodes. They are the last nodes of the session: names and parameters of
+    /// `--ros-args` that no node uses are printed.
+    #[must_use]
+    pub fn estimators(mut self, request: EstimatorRequest) -> Self {
+        self.estimators = Some(request);
+        self
+    }
+
+    /// Connects to ROS 2. With `None` a real-time session joins on this machine, or as the
+    /// environment sets, and continues without ROS 2 if that fails.
+    #[must_use]
+    pub fn ros2(mut self, reach: Option<Ros2Reach>) -> Self {
+        self.ros2 = Some(reach);
+        self
+    }
+
+    /// Connects to Gazebo Transport.
+    #[must_use]
+    pub fn gazebo(mut self, settings: Option<GazeboSettings>) -> Self {
+        self.gazebo = settings;
+        self
+    }
+
+    /// Serves the page.
+    #[must_use]
+    pub fn page(mut self, settings: Option<PageSettings>) -> Self {
+        self.page = settings;
+        self
+    }
+
+    /// Creates all parts, prints the findings of the files, and connects to the networks.
+    ///
+    /// # Errors
+    /// When a part cannot start.
+    pub fn build(mut self) -> Result<SimulationSession, RunError> {
+        let files = Arc::new(AssetFiles::default());
+        let options = std::mem::take(&mut self.options);
+        let mut simulation = Simulation::new(&mut self.composition, files, options);
+        let is_whole = self.print_file_findings()?;
+        if let Some(missing) = self.composition.missing() {
+            return Err(RunError::Empty(missing.to_owned()));
+        }
+        let request = self.estimators.take();
+        let profile = request.as_ref().map(|it| it.detect(&mut simulation, self.is_quiet));
+        let profile = profile.transpose()?.flatten();
+        let recorder = self.recording.take().map(|request| record(&simulation, request));
+        let recorder = recorder.transpose()?;
+        if let Some(topics) = self.computed.take() {
+            compute_topics(&simulation, topics);
+        }
+        let mut services = Services::new(&simulation, std::mem::take(&mut self.search))
+            .map_err(RunError::Services)?;
+        let warnings = self.driver.join(&simulation).map_err(RunError::Script)?;
+        terminal::print_findings(&warnings)?;
+        let pace = if self.factor.is_some() { Pace::Sliced } else { Pace::Whole };
+        let estimators = match request {
+            Some(request) => {
+                let estimators = request.start(&simulation, profile.as_ref(), pace)?;
+                if !self.is_quiet {
+                    terminal::print_findings(&simulation.graph().unused_arguments())?;
+                }
+                estimators
+            }
+            None => Estimators::default(),
+        };
+        let ros2 = self.connect_ros2(&simulation)?;
+        let gazebo = self.gazebo.map(|settings| {
+            GazeboConnection::join(&simulation, &mut services, settings, self.is_quiet)
+        });
+        let gazebo = gazebo.transpose()?;
+        let page = self.open_page(&simulation, &mut services)?;
+        Ok(SimulationSession::new(SessionParts {
+            page,
+            gazebo,
+            ros2,
+            estimators,
+            services,
+            recorder,
+            driver: self.driver,
+            simulation,
+            start: self.start,
+            factor: self.factor,
+            is_quiet: self.is_quiet,
+            has_progress: self.has_progress,
+            is_whole,
+        }))
+    }
+
+    /// Prints the findings of the files. Returns false when a requested part is missing.
+    fn print_file_findings(&self) -> Result<bool, RunError> {
+        let mut err = anstream::stderr().lock();
+        let mut is_whole = true;
+        for loaded in &self.composition.files {
+            is_whole &= !loaded.diagnostics.has_errors();
+            if !self.is_quiet || loaded.diagnostics.has_errors() {
+                terminal::findings(&mut err, loaded)?;
+            }
+        }
+        Ok(is_whole)
+    }
+
+    fn connect_ros2(&self, simulation: &Simulation) -> Result<Ros2Connection, RunError> {
+        match self.ros2 {
+            None => Ok(Ros2Connection::default()),
+            Some(reach) => {
+                Ros2Connection::join(simulation, reach, self.factor.is_some(), self.is_quiet)
+            }
+        }
+    }
+
+    fn open_page(
+        &self,
+        simulation: &Simulation,
+        services: &mut Services,
+    ) -> Result<Option<Page>, RunError> {
+        let Some(settings) = &self.page else { return Ok(None) };
+        services.show(simulation, settings.context.folders()).map_err(RunError::Display)?;
+        Ok(Page::open(simulation.graph(), settings)?)
+    }
+}
+
+fn record(
+    simulation: &Simulation,
+    request: RecordingRequest,
+) -> Result<SimulationRecorder, RunError> {
+    let RecordingRequest { path, wanted } = request;
+    SimulationRecorder::start(simulation, &path, wanted)
+        .map_err(|error| RunError::Recording { path, error })
+}

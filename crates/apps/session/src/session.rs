@@ -1,0 +1,260 @@
+//! Running sessions.
+
+use std::cell::RefCell;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::Duration;
+
+use periplus_graph::Graph;
+use periplus_os::Stopwatch;
+use periplus_sim::{
+    Diverged, Driver, RecordingSummary, Run, RunProgress, Services, Simulation, SimulationRecorder,
+    Tick,
+};
+
+use crate::error::RunError;
+use crate::network::{GazeboConnection, Ros2Connection};
+use crate::nodes::Estimators;
+use crate::page::Page;
+use crate::progress::ProgressLine;
+use crate::recording::RecordingWatch;
+use crate::report::RunReport;
+use crate::terminal;
+
+/// Limits of a run.
+#[derive(Clone, Copy, Debug)]
+pub struct RunSettings<'a> {
+    /// Simulated duration \[s\]; `None` runs until stopped.
+    pub duration_s: Option<f64>,
+    /// Flag that ends the run after the current step; can be set from any thread.
+    pub stop: &'a AtomicBool,
+    /// True if the run starts paused.
+    pub is_paused: bool,
+}
+
+/// Work between the steps of a session.
+pub trait SessionTask {
+    /// Called before each step, and periodically while the world is paused. Lines beside the
+    /// progress bar are written through it.
+    fn before_step(&mut self, _simulation: &mut Simulation, _line: &ProgressLine) -> Tick {
+        Tick::Go
+    }
+
+    /// Called after each step.
+    fn after_step(&mut self, _progress: RunProgress) {}
+}
+
+/// No work between the steps.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct NoTask;
+
+impl SessionTask for NoTask {}
+
+/// Result of a run.
+#[derive(Clone, Debug, PartialEq)]
+pub enum RunEnd {
+    /// The run is complete.
+    Complete,
+    /// A signal ended a run before its duration had passed.
+    Interrupted,
+    /// The run is complete, its recording is not; the reason has been printed.
+    RecordingIncomplete,
+    /// A model that diverged was removed.
+    ModelRemoved(Diverged),
+    /// The run ended at a step that diverged.
+    Diverged(Diverged),
+}
+
+/// Parts of a session, from its builder.
+///
+/// Fields are dropped in this order: clients and networks leave the graph before the simulation
+/// ends.
+pub(crate) struct SessionParts {
+    pub(crate) page: Option<Page>,
+    pub(crate) gazebo: Option<GazeboConnection>,
+    pub(crate) ros2: Ros2Connection,
+    pub(crate) estimators: Estimators,
+    pub(crate) services: Services,
+    pub(crate) recorder: Option<SimulationRecorder>,
+    pub(crate) driver: Driver,
+    pub(crate) simulation: Simulation,
+    /// Start of the program.
+    pub(crate) start: Stopwatch,
+    pub(crate) factor: Option<f64>,
+    pub(crate) is_quiet: bool,
+    pub(crate) has_progress: bool,
+    /// False if files of the world have errors.
+    pub(crate) is_whole: bool,
+}
+
+/// Simulation with its recording, estimator nodes, networks and page.
+pub struct SimulationSession {
+    parts: SessionParts,
+    start_up: Duration,
+    wall: Duration,
+    is_cut_short: bool,
+    diverged: Option<Diverged>,
+    is_recorded: bool,
+    recording: Option<RecordingSummary>,
+}
+
+impl SimulationSession {
+    pub(crate) fn new(parts: SessionParts) -> Self {
+        Self {
+            parts,
+            start_up: Duration::ZERO,
+            wall: Duration::ZERO,
+            is_cut_short: false,
+            diverged: None,
+            is_recorded: true,
+            recording: None,
+        }
+    }
+
+    /// The simulation.
+    #[must_use]
+    pub fn simulation(&self) -> &Simulation {
+        &self.parts.simulation
+    }
+
+    /// The simulation, to compare results with the truth.
+    pub fn simulation_mut(&mut self) -> &mut Simulation {
+        &mut self.parts.simulation
+    }
+
+    /// Graph of all nodes.
+    #[must_use]
+    pub fn graph(&self) -> &Graph {
+        self.parts.simulation.graph()
+    }
+
+    /// Estimator nodes.
+    #[must_use]
+    pub fn estimators(&self) -> &Estimators {
+        &self.parts.estimators
+    }
+
+    /// Returns true if the session is on a ROS 2 network.
+    #[must_use]
+    pub fn is_on_ros2(&self) -> bool {
+        self.parts.ros2.is_joined()
+    }
+
+    /// Returns true if the session has a page.
+    #[must_use]
+    pub fn has_page(&self) -> bool {
+        self.parts.page.is_some()
+    }
+
+    /// Returns false if files of the world have errors, so that parts are missing.
+    #[must_use]
+    pub fn is_whole(&self) -> bool {
+        self.parts.is_whole
+    }
+
+    /// Runs, and closes the page. Call [`SimulationSession::finish`] afterwards.
+    pub fn run(&mut self, settings: RunSettings<'_>, task: &mut dyn SessionTask) {
+        let parts = &mut self.parts;
+        let run = Run {
+            end_ns: settings.duration_s.map(|seconds| (seconds * 1e9).round() as i64),
+            factor: parts.factor,
+            stop: settings.stop,
+            paused: settings.is_paused,
+        };
+        self.start_up = parts.start.elapsed();
+        let line = ProgressLine::new(settings.duration_s, !parts.has_progress);
+        let (line, task) = (RefCell::new(line), RefCell::new(task));
+        let (page, recorder, ros2) = (&parts.page, &parts.recorder, &mut parts.ros2);
+        let mut watch = RecordingWatch::default();
+        let stopwatch = Stopwatch::start();
+        let outcome = run.go_with(
+            &mut parts.simulation,
+            &mut parts.services,
+            &mut parts.driver,
+            &mut |simulation| task.borrow_mut().before_step(simulation, &line.borrow()),
+            &mut |progress| {
+                task.borrow_mut().after_step(progress);
+                let mut line = line.borrow_mut();
+                line.show(progress);
+                watch.check(recorder.as_ref(), progress, &line);
+                if ros2.is_due(progress.wall) {
+                    line.aside(|| ros2.print_findings());
+                    if let (Some(page), Some(remote)) = (page, ros2.remote()) {
+                        page.set_remote(&remote);
+                    }
+                }
+            },
+        );
+        self.wall = stopwatch.elapsed();
+        self.diverged = outcome.err();
+        self.is_cut_short = settings.stop.load(Ordering::Relaxed) && settings.duration_s.is_some();
+        parts.page = None;
+        line.borrow().clear();
+    }
+
+    /// Ends a run whose nodes need no shutdown of their own:
+    /// [`SimulationSession::print_findings`], then [`SimulationSession::close_recording`].
+    ///
+    /// # Errors
+    /// A failed write to stderr.
+    pub fn finish(&mut self) -> Result<(), RunError> {
+        self.print_findings()?;
+        self.close_recording();
+        Ok(())
+    }
+
+    /// Prints the findings of the run and of the networks, and leaves Gazebo Transport.
+    ///
+    /// # Errors
+    /// A failed write to stderr.
+    pub fn print_findings(&mut self) -> Result<(), RunError> {
+        let parts = &mut self.parts;
+        if let Some(gazebo) = parts.gazebo.take() {
+            gazebo.print_findings()?;
+        }
+        parts.ros2.print_findings()?;
+        if !parts.is_quiet {
+            for findings in [parts.simulation.take_findings(), parts.services.take_findings()] {
+                terminal::print_findings(&findings)?;
+            }
+        }
+        Ok(())
+    }
+
+    /// Closes the recording; it contains all messages that nodes published before. An incomplete
+    /// recording is printed, and [`SimulationSession::end`] returns it.
+    pub fn close_recording(&mut self) {
+        let parts = &mut self.parts;
+        let finished = parts.recorder.take().map(|it| it.finish(&mut parts.simulation));
+        match finished.transpose() {
+            Ok(recording) => self.recording = recording,
+            // A broken bag does not affect maps and reports.
+            Err(error) => {
+                self.is_recorded = false;
+                terminal::complain(&format!("the bag is incomplete: {error}"));
+            }
+        }
+    }
+
+    /// Report of the run.
+    #[must_use]
+    pub fn report(&self) -> RunReport<'_> {
+        RunReport {
+            simulation: &self.parts.simulation,
+            start_up: self.start_up,
+            wall: self.wall,
+            recording: self.recording.as_ref(),
+        }
+    }
+
+    /// Result of the run.
+    #[must_use]
+    pub fn end(&self) -> RunEnd {
+        match (&self.diverged, self.parts.simulation.diverged().first()) {
+            (Some(diverged), _) => RunEnd::Diverged(diverged.clone()),
+            (None, Some(diverged)) => RunEnd::ModelRemoved(diverged.clone()),
+            _ if !self.is_recorded => RunEnd::RecordingIncomplete,
+            _ if self.is_cut_short => RunEnd::Interrupted,
+            _ => RunEnd::Complete,
+        }
+    }
+}

@@ -1,0 +1,79 @@
+//! Output to the terminal.
+
+use std::io::{self, Write};
+use std::path::PathBuf;
+
+use periplus_diagnostics::{Diagnostic, Diagnostics, RenderStyle, SourceMap, render};
+use periplus_loader::LoadedFile;
+use periplus_sim::Search;
+
+/// Writes an error line to stderr.
+pub fn complain(words: &str) {
+    let _ = writeln!(anstream::stderr(), "error: {words}");
+}
+
+/// Writes a warning line to stderr.
+pub fn warn(words: &str) {
+    let _ = writeln!(anstream::stderr(), "warning: {words}");
+}
+
+/// Writes an informational line to stderr.
+pub fn say(words: &str) {
+    let _ = writeln!(anstream::stderr(), "{words}");
+}
+
+/// Writes the findings of a file; colours are stripped where the output does not show them.
+///
+/// # Errors
+/// A failed write.
+pub fn findings(out: &mut dyn Write, loaded: &LoadedFile) -> io::Result<()> {
+    diagnostics(out, &loaded.diagnostics, &loaded.sources)
+}
+
+/// Writes findings with the source texts that they refer to.
+///
+/// # Errors
+/// A failed write.
+pub fn diagnostics(
+    out: &mut dyn Write,
+    diagnostics: &Diagnostics,
+    sources: &SourceMap,
+) -> io::Result<()> {
+    for diagnostic in diagnostics.iter() {
+        writeln!(out, "{}", render(diagnostic, sources, RenderStyle::Colour))?;
+    }
+    let unkept = diagnostics.unkept();
+    if unkept > 0 {
+        let more = Diagnostic::hint("more", format!("{unkept} more findings are not shown"));
+        writeln!(out, "{}", render(&more, sources, RenderStyle::Colour))?;
+    }
+    Ok(())
+}
+
+/// Writes findings of a running graph or network, which have no source text, to stderr.
+///
+/// # Errors
+/// A failed write.
+pub fn print_findings(findings: &Diagnostics) -> io::Result<()> {
+    diagnostics(&mut anstream::stderr().lock(), findings, &SourceMap::new())
+}
+
+/// Working folder of the user.
+#[must_use]
+pub fn working_folder() -> PathBuf {
+    std::env::current_dir().unwrap_or_default()
+}
+
+/// Search paths of files: these folders, then those of the environment.
+#[must_use]
+pub fn search(resource_path: &[PathBuf]) -> Search {
+    let working_folder = working_folder();
+    let folders = resource_path.iter().map(|folder| working_folder.join(folder)).collect();
+    Search { folders, working_folder, ..Search::default() }
+}
+
+/// Number of threads that can run in parallel.
+#[must_use]
+pub fn processors() -> usize {
+    std::thread::available_parallelism().map_or(1, usize::from)
+}
