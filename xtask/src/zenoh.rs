@@ -11,7 +11,7 @@ const PEER: [&str; 2] = ["eclipse-zenoh==1.10.2", "xxhash"];
 pub(crate) fn check() -> Result<(), Failed> {
     timed("peer", install)?;
     timed("clippy", || {
-        let packages = ["-p", "periplus-rmw-zenoh", "-p", "periplus-cli"];
+        let packages = ["-p", "periplus-rmw-zenoh", "-p", "periplus-session", "-p", "periplus-cli"];
         let mut command = cargo();
         command.arg("clippy").args(packages).args(["--features", "zenoh", "--all-targets"]);
         run(command.args(["--", "-D", "warnings"]), "see the findings above")

@@ -41,7 +41,7 @@ const DEFAULT_OUT: &str = "periplus-demo";
 ///
 /// Opens a page in the browser, where the robot is driven with keys or the mouse. With `--headless`
 /// it explores autonomously and writes a map, a bag, a report and images.
-#[derive(Debug, Args)]
+#[derive(Debug, Default, Args)]
 pub(crate) struct DemoOptions {
     /// Run without a page, as fast as possible, exploring autonomously
     #[arg(long)]
@@ -63,20 +63,6 @@ pub(crate) struct DemoOptions {
     seed: u64,
     #[command(flatten)]
     page: PageOptions,
-}
-
-impl Default for DemoOptions {
-    fn default() -> Self {
-        Self {
-            headless: false,
-            duration: None,
-            out: None,
-            explore: false,
-            no_browser: false,
-            seed: 0,
-            page: PageOptions::default(),
-        }
-    }
 }
 
 impl DemoOptions {

@@ -191,7 +191,7 @@ impl SimulationSession {
         line.borrow().clear();
     }
 
-    /// Ends a run whose nodes need no shutdown of their own:
+    /// Ends a run whose nodes need no separate shutdown:
     /// [`SimulationSession::print_findings`], then [`SimulationSession::close_recording`].
     ///
     /// # Errors

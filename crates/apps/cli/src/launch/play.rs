@@ -111,7 +111,7 @@ impl PlayOptions {
     ) -> Option<PageSettings> {
         let is_requested = self.page.page.is_some();
         let opens_window = !self.headless && bringup.wants_page();
-        if !is_requested && !(opens_window && is_paced) {
+        if !(is_requested || opens_window && is_paced) {
             return None;
         }
         let context = PageContext {
