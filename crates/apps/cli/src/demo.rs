@@ -15,7 +15,7 @@ use periplus_graph::{Graph, GraphError};
 use periplus_maps::BesideTruth;
 use periplus_os::Stopwatch;
 use periplus_session::nodes::{
-    CostmapRequest, CostmapSource, EstimatorRequest, Mapping, MappingRequest, MappingSource,
+    CostmapRequest, CostmapSource, EstimatorRequest, MappingNode, MappingRequest, MappingSource,
 };
 use periplus_session::{
     PageContext, PageSettings, RecordingRequest, RunEnd, RunSettings, SessionBuilder, SessionTask,
@@ -194,7 +194,7 @@ impl DemoTask {
 
 fn print_report(
     session: &SimulationSession,
-    mapping: &Mapping,
+    mapping: &MappingNode,
     truth: Option<&BesideTruth>,
     out: &Path,
 ) -> Result<(), CliError> {

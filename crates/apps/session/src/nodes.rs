@@ -16,7 +16,7 @@ use periplus_sim::Simulation;
 pub use costmap_file::{CostmapFile, read as read_costmaps, read_text as read_costmap_text};
 pub use costmaps::{CostmapRequest, CostmapSource, Costmaps, FloorPoint};
 pub use localization::{Localization, ParameterFile, amcl_parameters};
-pub use mapping::{Mapping, MappingRequest, MappingSource, slam_parameters};
+pub use mapping::{MappingNode, MappingRequest, MappingSource, slam_parameters};
 pub use profile::RobotProfile;
 
 use crate::error::RunError;
@@ -43,7 +43,7 @@ pub struct EstimatorRequest {
 #[derive(Default)]
 pub struct Estimators {
     /// Mapping.
-    pub mapping: Option<Mapping>,
+    pub mapping: Option<MappingNode>,
     /// Localization.
     pub localization: Option<Localization>,
     /// Costmaps; empty if there are none.
@@ -106,7 +106,7 @@ impl EstimatorRequest {
         let localization =
             is_localized.then(|| Localization::from_files(graph, &self.localization, profile));
         let localization = localization.transpose()?;
-        let mapping = self.mapping.map(|it| Mapping::in_simulation(graph, it, pace, profile));
+        let mapping = self.mapping.map(|it| MappingNode::in_simulation(graph, it, pace, profile));
         Ok(Estimators { mapping: mapping.transpose()?, localization, costmaps, _filter: filter })
     }
 }
@@ -132,7 +132,7 @@ impl Estimators {
     /// # Errors
     /// When there is no map, or a file cannot be written.
     pub fn write_map(&self, is_quiet: bool) -> Result<(), RunError> {
-        let folder = self.mapping.as_ref().map_or(Ok(None), Mapping::write_results)?;
+        let folder = self.mapping.as_ref().map_or(Ok(None), MappingNode::write_results)?;
         if let Some(folder) = folder.filter(|_| !is_quiet) {
             terminal::say(&format!("map: {}", folder.display()));
         }

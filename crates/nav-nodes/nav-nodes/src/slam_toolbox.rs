@@ -22,6 +22,6 @@ mod program;
 mod services;
 mod values;
 
-pub use file::{InFile, Written, in_file, read};
+pub use file::{InFile, MapperParameters, Written, in_file, read};
 pub use node::{Pace, SlamNode, SlamStatus};
 pub use program::Program;

@@ -3,7 +3,7 @@
 use periplus_geometry::Pose2;
 use periplus_maps::BesideTruth;
 use periplus_session::RunReport;
-use periplus_session::nodes::Mapping;
+use periplus_session::nodes::MappingNode;
 use serde_json::{Value, json};
 
 use super::explorer::Explorer;
@@ -12,7 +12,7 @@ use super::explorer::Explorer;
 /// which is also the origin of the map, so that estimate and ground truth can be compared.
 pub(super) fn of(
     run: &RunReport<'_>,
-    mapping: &Mapping,
+    mapping: &MappingNode,
     truth: Option<&BesideTruth>,
     explorer: Option<&Explorer>,
 ) -> Value {

@@ -4,7 +4,7 @@ use std::ops::ControlFlow;
 use std::process::ExitCode;
 use std::time::Duration;
 
-use periplus_session::nodes::{Mapping, MappingRequest, MappingSource, slam_parameters};
+use periplus_session::nodes::{MappingNode, MappingRequest, MappingSource, slam_parameters};
 use periplus_session::{LiveGraph, PollSleep, stop};
 
 use super::options::SlamOptions;
@@ -31,7 +31,7 @@ pub(super) fn run(options: &SlamOptions, ros: Vec<String>) -> Result<ExitCode, C
     let out = Some(options.out.clone()).filter(|out| !out.as_os_str().is_empty());
     let request = MappingRequest { source: MappingSource::Values(program, values), out };
     let ending = if request.out.is_some() { " and writes the map" } else { "" };
-    let mapping = Mapping::live(&live.graph, request)?;
+    let mapping = MappingNode::live(&live.graph, request)?;
     live.print_start_findings()?;
     if !options.quiet {
         say(&format!(

@@ -349,7 +349,7 @@ fn slam(
 ) -> Result<(), String> {
     let written = ParameterFile::new(named, node.full_name())?;
     let values = written.read(&mut made.notes, |tree, found| match tree {
-        Some(tree) => periplus_nav_nodes::slam_toolbox::read(tree, Some(program), found).1,
+        Some(tree) => periplus_nav_nodes::slam_toolbox::read(tree, Some(program), found).values,
         None => program.table().check([], None, found),
     });
     let pace = if settings.is_paced { Pace::Sliced } else { Pace::Whole };

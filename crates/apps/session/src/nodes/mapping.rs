@@ -51,7 +51,7 @@ pub struct MappingRequest {
 }
 
 /// SLAM node of a session.
-pub struct Mapping {
+pub struct MappingNode {
     /// The node.
     pub node: LifecycleNode<SlamNode>,
     out: Option<PathBuf>,
@@ -73,6 +73,7 @@ pub fn slam_parameters(
     let text = files::text(path)?;
     let mut sources = SourceMap::new();
     let file = sources.add(path.display().to_string(), text);
+    let mut is_for_other_nodes = false;
     let read = match periplus_yaml::parse(file, &sources) {
         Ok(Some(tree)) if tree.entries().is_none() => {
             return Err(RunError::NoParameters(format!(
@@ -81,7 +82,9 @@ pub fn slam_parameters(
             )));
         }
         Ok(Some(tree)) => {
-            Some(periplus_nav_nodes::slam_toolbox::read(&tree, wanted, &mut diagnostics))
+            let read = periplus_nav_nodes::slam_toolbox::read(&tree, wanted, &mut diagnostics);
+            is_for_other_nodes = read.is_for_other_nodes;
+            Some((read.program, read.values))
         }
         Ok(None) => {
             let program = wanted.unwrap_or(Program::Async);
@@ -93,7 +96,7 @@ pub fn slam_parameters(
         }
     };
     terminal::diagnostics(&mut anstream::stderr().lock(), &diagnostics, &sources)?;
-    if diagnostics.iter().any(|finding| finding.code == "no-parameters") {
+    if is_for_other_nodes {
         return Err(RunError::NoParameters(format!(
             "{} has no parameters for slam_toolbox or slam_gmapping; leave the file out to map with the \
              defaults",
@@ -118,7 +121,7 @@ fn scan_topic(graph: &Graph, values: &ParamValues) -> Option<String> {
     }
 }
 
-impl Mapping {
+impl MappingNode {
     /// Adds the node to the graph of a simulation and starts it. Unset frames are those of the
     /// robot; without `scan_topic` and without `/scan` it uses the only topic with scans.
     ///

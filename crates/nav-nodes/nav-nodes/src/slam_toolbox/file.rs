@@ -52,6 +52,19 @@ pub struct InFile {
     pub method: Option<Method>,
     /// Its parameters, in their order.
     pub written: Vec<Written>,
+    /// True if the file has parameters, and all of them are for other nodes.
+    pub is_for_other_nodes: bool,
+}
+
+/// Program of a mapper with its parameters.
+#[derive(Clone, Debug)]
+pub struct MapperParameters {
+    /// The requested program, or the one given by the names of nodes and parameters.
+    pub program: Program,
+    /// Values of the program's table.
+    pub values: ParamValues,
+    /// True if the file has parameters, and all of them are for other nodes.
+    pub is_for_other_nodes: bool,
 }
 
 /// Finds the parameters for a mapper in a file; with `wanted` only those for that method. They are below
@@ -81,7 +94,8 @@ pub fn in_file(file: &YamlNode, wanted: Option<Method>, diagnostics: &mut Diagno
             sections.found.push(file);
         }
     }
-    if sections.found.is_empty() {
+    let is_for_other_nodes = sections.found.is_empty();
+    if is_for_other_nodes {
         diagnostics.push(
             Diagnostic::warning("no-parameters", "no node in here makes maps")
                 .at(file.span)
@@ -93,7 +107,7 @@ pub fn in_file(file: &YamlNode, wanted: Option<Method>, diagnostics: &mut Diagno
     for section in sections.found {
         flatten(section, "", &mut written);
     }
-    InFile { method, written }
+    InFile { method, written, is_for_other_nodes }
 }
 
 /// Reads a file for a mapper: for the requested program, or the one given by the names of its nodes and
@@ -103,8 +117,9 @@ pub fn read(
     file: &YamlNode,
     wanted: Option<Program>,
     diagnostics: &mut Diagnostics,
-) -> (Program, ParamValues) {
-    let InFile { method, written } = in_file(file, wanted.map(Program::method), diagnostics);
+) -> MapperParameters {
+    let InFile { method, written, is_for_other_nodes } =
+        in_file(file, wanted.map(Program::method), diagnostics);
     let given: Vec<Given<'_>> = written.iter().map(Written::given).collect();
     let program = wanted.unwrap_or_else(|| match method.or_else(|| tables::method_of(&given)) {
         Some(Method::Gmapping) => Program::Gmapping,
@@ -117,7 +132,7 @@ pub fn read(
     for finding in tables::idle(&values).into_iter().chain(tables::conflicts(&values)) {
         diagnostics.push(finding);
     }
-    (program, values)
+    MapperParameters { program, values, is_for_other_nodes }
 }
 
 /// Content below `ros__parameters`.
@@ -179,10 +194,11 @@ mod tests {
         let tree = periplus_yaml::parse(file, &sources).ok().flatten();
         let mut diagnostics = Diagnostics::new();
         let read = tree.map(|tree| read(&tree, None, &mut diagnostics));
-        let (found, values) = read.unwrap_or_else(|| panic!("{text}"));
+        let read = read.unwrap_or_else(|| panic!("{text}"));
         let codes: Vec<&str> = diagnostics.iter().map(|it| it.code).collect();
-        assert_eq!((found, codes.as_slice()), (program, named), "{text}");
-        values
+        assert_eq!((read.program, codes.as_slice()), (program, named), "{text}");
+        assert_eq!(read.is_for_other_nodes, named.contains(&"no-parameters"), "{text}");
+        read.values
     }
 
     #[test]
