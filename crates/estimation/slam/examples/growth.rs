@@ -4,7 +4,7 @@
     clippy::disallowed_methods,
     clippy::print_stdout,
     clippy::unwrap_used,
-    reason = "a tool that measures time and says how it went"
+    reason = "a tool that measures time and prints results"
 )]
 
 #[path = "../tests/worlds/mod.rs"]

@@ -6,7 +6,7 @@
     clippy::print_stdout,
     clippy::print_stderr,
     clippy::unwrap_used,
-    reason = "a tool that measures time and says how it went"
+    reason = "a tool that measures time and prints results"
 )]
 
 #[path = "../tests/worlds/mod.rs"]
@@ -100,13 +100,13 @@ fn main() {
         loops.sort_by(f64::total_cmp);
         let bytes = of.iter().map(|it| it.bytes).max().unwrap_or(0);
         println!(
-            "{:<10} {:>3} runs: {:>2} right, {:>2} right, yet told, {:>2} wrong, told, {:>2} SILENTLY WRONG; loops \
+            "{:<10} {:>3} runs: {:>2} right, {:>2} right, yet reported, {:>2} wrong, reported, {:>2} SILENTLY WRONG; loops \
              {:.3} m in the median, {:.3} at most; {:.2} ms a scan, {} kB at most",
             kind.name,
             of.len(),
             count(Verdict::Right),
-            count(Verdict::RightYetTold),
-            count(Verdict::WrongTold),
+            count(Verdict::RightYetReported),
+            count(Verdict::WrongReported),
             count(Verdict::SilentlyWrong),
             loops[loops.len() / 2],
             loops[loops.len() - 1],

@@ -13,7 +13,7 @@
 //!    them and nothing contradicts the graph's map (`fallback`).
 //!
 //! Along corridors, where only odometry measures the distance, particles are spread as widely as the front
-//! end is uncertain, each with slowly varying errors of its own (`proposal`). Memory is bounded: if the
+//! end is uncertain, each with its own slowly varying errors (`proposal`). Memory is bounded: if the
 //! maps share too little, fewer particles continue, with a remark.
 //!
 //! The result is the map of the particle with the highest weight over its whole trajectory (`ways`).

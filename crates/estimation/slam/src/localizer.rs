@@ -76,7 +76,7 @@ fn spread([shift_m, turn_rad]: [f64; 2]) -> Symmetric3 {
 }
 
 impl Localizer {
-    /// Creates a localizer on a stored graph that remembers `most_own` scans of its own. It starts at the
+    /// Creates a localizer on a stored graph that keeps its last `most_own` scans. It starts at the
     /// origin of the graph unless [`Localizer::place`] sets another pose.
     #[must_use]
     pub fn new(stored: Slam, most_own: usize) -> Self {

@@ -2,8 +2,8 @@
 //!
 //! Between two keyframes odometry measures a motion `o` and scan matching a motion `s`, both in the frame of
 //! the base. As complex numbers, a drive with wrong wheel sizes and a scanner with a wrong yaw give `o = z s`
-//! with one `z` for all steps: its modulus is the scale, its argument the yaw. Rotations have a ratio of their
-//! own. Swapped or negated axes mirror the plane: then steps in the frame of the map satisfy `o = w conj(s)`.
+//! with one `z` for all steps: its modulus is the scale, its argument the yaw. Rotations have
+//! another ratio. Swapped or negated axes mirror the plane: then steps in the frame of the map satisfy `o = w conj(s)`.
 
 use std::f64::consts::{FRAC_PI_2, PI};
 

@@ -121,8 +121,8 @@ impl std::fmt::Display for Remark {
             ),
             RemarkKind::ScanMirrored => f.write_str(
                 "scans rotate left when odometry rotates right: the scan is mirrored (the scanner is mounted \
-                 upside down and its transform does not say so), or odometry rotates with the wrong sign (left \
-                 and right wheels swapped)",
+                 upside down and its transform lacks the roll of 180 degrees), or odometry rotates with the \
+                 wrong sign (left and right wheels swapped)",
             ),
             RemarkKind::OdometryReversed => f.write_str(
                 "odometry moves backward when the scans move forward, and rotates the other way: both wheels \
@@ -184,7 +184,7 @@ impl std::fmt::Display for Remark {
             ),
             RemarkKind::UnconfirmedPath(open_m, whole_m) => write!(
                 f,
-                "of {whole_m:.0} m of path through known places, scans confirm nothing for {open_m:.0} m: the \
+                "of {whole_m:.0} m of path through mapped areas, scans confirm nothing for {open_m:.0} m: the \
                  map may be off there; more beams, a longer range, lower speed, or driving there in the same \
                  direction give more evidence"
             ),

@@ -81,7 +81,7 @@ fn walls_that_are_the_same_all_along_are_no_confirmation() {
     );
 }
 
-/// Rows of equal racks: the way back matches one row as well as the next, five metres away. Seven stretches
+/// Rows of equal racks: the return path matches one row as well as the next, five metres away. Seven stretches
 /// support the wrong row and five the right one, so that neither closure is made.
 #[test]
 fn equal_racks_leave_a_loop_undecided() {

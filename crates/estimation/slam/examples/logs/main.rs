@@ -12,7 +12,7 @@
     clippy::print_stdout,
     clippy::print_stderr,
     clippy::unwrap_used,
-    reason = "a tool that reads logs, measures time and prints how it went"
+    reason = "a tool that reads logs, measures time and prints results"
 )]
 
 #[path = "../../tests/carmen/mod.rs"]

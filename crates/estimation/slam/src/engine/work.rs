@@ -178,7 +178,7 @@ impl Slam {
             resumed.and_then(|it| Solver::resumed(&self.graph, solving.size, &robust, it))
         });
         let Some(mut solver) = solver else {
-            // Building the solver is a slice of its own.
+            // Building the solver takes one slice.
             solving.solver = Some(Solver::new(&self.graph, solving.size, self.work.solves));
             self.work.solves += 1;
             self.work.solving = Some(solving);

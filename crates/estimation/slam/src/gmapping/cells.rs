@@ -270,7 +270,6 @@ impl Cells {
         sum
     }
 
-    /// What beams said of a cell.
     /// A map with one scan from the origin, of walls at these points.
     #[cfg(test)]
     pub(super) fn of_points(points: &[periplus_scan_matching::Point]) -> Self {

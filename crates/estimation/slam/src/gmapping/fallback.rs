@@ -4,7 +4,7 @@
 //! An offer is weighted by likelihood, and likelihood prefers the unknown: a torn trajectory that leads
 //! through unseen space never contradicts earlier scans. Where the floor slopes or furniture has moved,
 //! scans of the closed loop contradict each other here and there, and the torn trajectory wins. The
-//! closures of the graph have evidence of their own: independent witnesses, and an audit of the whole map.
+//! closures of the graph have their own evidence: independent witnesses, and an audit of the whole map.
 //! They decide at the end, unless the audit contradicts the graph itself.
 
 use periplus_geometry::Pose2;

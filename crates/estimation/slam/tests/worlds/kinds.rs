@@ -38,8 +38,8 @@ pub(crate) const KINDS: [Kind; 12] = [
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Verdict {
     Right,
-    RightYetTold,
-    WrongTold,
+    RightYetReported,
+    WrongReported,
     SilentlyWrong,
 }
 
@@ -47,8 +47,8 @@ impl Verdict {
     pub(crate) fn words(self) -> &'static str {
         match self {
             Self::Right => "right",
-            Self::RightYetTold => "right, yet told",
-            Self::WrongTold => "wrong, told",
+            Self::RightYetReported => "right, yet reported",
+            Self::WrongReported => "wrong, reported",
             Self::SilentlyWrong => "SILENTLY WRONG",
         }
     }
@@ -75,8 +75,8 @@ pub(crate) fn outcome(kind: &Kind, moments: &[Moment]) -> Outcome {
     let is_told = slam.remarks().iter().any(|it| it.is_warning());
     let verdict = match (judgement.loops_m > kind.wrong_m, is_told) {
         (false, false) => Verdict::Right,
-        (false, true) => Verdict::RightYetTold,
-        (true, true) => Verdict::WrongTold,
+        (false, true) => Verdict::RightYetReported,
+        (true, true) => Verdict::WrongReported,
         (true, false) => Verdict::SilentlyWrong,
     };
     Outcome { slam, judgement, verdict, remedy }
