@@ -3,6 +3,17 @@
 //! A reader never fails on broken input: it returns the content that it could read together with
 //! [`Diagnostics`]. Each [`Diagnostic`] refers to a [`SourceMap`] by [`Span`], which also records the macro
 //! calls and includes that produced the text.
+//!
+//! ```
+//! use periplus_diagnostics::{Diagnostic, Diagnostics, SourceMap};
+//!
+//! let mut sources = SourceMap::new();
+//! let file = sources.add("robot.urdf", "<robot nam='cart'/>");
+//! let mut findings = Diagnostics::new();
+//! let span = sources.whole(file).part(7, 10);
+//! findings.push(Diagnostic::error("unknown-attribute", "`nam` is unknown").at(span));
+//! assert!(findings.has_errors());
+//! ```
 
 mod collect;
 mod diagnostic;

@@ -2,6 +2,17 @@
 //!
 //! Variables are named by frames: `map_from_base` transforms coordinates in `base` to coordinates in `map`,
 //! and `map_from_odom * odom_from_base` is `map_from_base`.
+//!
+//! ```
+//! use periplus_geometry::{DVec3, Pose, Rpy};
+//!
+//! let map_from_odom = Pose::from_xyz(1.0, 0.0, 0.0);
+//! let left = Rpy { roll: 0.0, pitch: 0.0, yaw: std::f64::consts::FRAC_PI_2 };
+//! let odom_from_base = Pose::from_xyz_rpy([2.0, 0.0, 0.0], left);
+//! let map_from_base = map_from_odom * odom_from_base;
+//! let point = map_from_base.transform_point(DVec3::X);
+//! assert!((point - DVec3::new(3.0, 1.0, 0.0)).length() < 1e-12);
+//! ```
 
 mod base64;
 mod number;
