@@ -117,7 +117,7 @@ fn line(row: &Row) -> String {
     let encoder_m = (straight.wheels_rad[0] + straight.wheels_rad[1]) / 2.0 * RADIUS_M;
     let encoder_rad = (turns.wheels_rad[1] - turns.wheels_rad[0]) * RADIUS_M / SEPARATION_M;
     let climbed = step.along_m > 1.5 && step.height_m > 0.15 + 0.008;
-    // At rest we sleep; that is no race.
+    // At rest we sleep; that is not a race.
     let driving_us = (straight.us_per_step + turns.us_per_step) / 2.0;
     format!(
         "| {} | {:.3} m, {:+.1} mm ({:.3} %) | {:.2} of {told_rad:.1} rad, {:+.2} % | {:.4} | {:.3} m | {} | {:+.2} %, {:+.2} % | {driving_us:.1} |\n",

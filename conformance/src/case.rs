@@ -35,7 +35,7 @@ impl Case {
     /// Why it is none.
     pub fn read(file: &str, text: &str) -> Result<Self, Unreadable> {
         let content: Value =
-            serde_json::from_str(text).map_err(|error| Unreadable(format!("no JSON: {error}")))?;
+            serde_json::from_str(text).map_err(|error| Unreadable(format!("not JSON: {error}")))?;
         let used = Used::default();
         let reader = Reader::new(&content, &used, "case");
         let word = |name: &str| Ok(reader.get(name)?.text()?.to_owned());

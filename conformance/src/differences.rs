@@ -153,7 +153,7 @@ impl Differences {
         };
         let is_whole = got.is_i64() || got.is_u64();
         let tolerance = if is_whole { self.whole_tolerance } else { self.tolerance };
-        // Written so that what is no number is a difference, unless it is expected.
+        // Written so that what is not a number is a difference, unless it is expected.
         let is_equal = number == wanted || number.is_nan() && wanted.is_nan();
         is_equal || (number - wanted).abs() <= tolerance
     }

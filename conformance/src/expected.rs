@@ -84,7 +84,7 @@ impl<'v> Expected<'v> {
     /// Elements of a list of distinct inputs, each with its expected result.
     ///
     /// # Errors
-    /// When it is no list, or two elements are the same.
+    /// When it is not a list, or two elements are the same.
     pub fn distinct(&self) -> Result<Vec<Self>, Unreadable> {
         let list = self.list()?;
         for (at, one) in list.iter().enumerate() {

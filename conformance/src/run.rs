@@ -20,7 +20,7 @@ pub enum Verdict {
     Failed,
     /// No check has this kind.
     Unknown,
-    /// The file is no case, or not one that its check understands.
+    /// The file is not a case, or not one that its check understands.
     Unreadable,
 }
 
@@ -29,7 +29,7 @@ pub enum Verdict {
 pub struct Outcome {
     /// The name of the file.
     pub file: String,
-    /// Its own name; that of the file where it is no case.
+    /// Its own name; that of the file where it is not a case.
     pub id: String,
     /// Kind of the case; empty if the file is not a case.
     pub kind: String,
@@ -76,7 +76,7 @@ fn one(file: &str, setting: &Setting<'_>) -> Outcome {
     let text = setting.host.read(&setting.folder.join(file));
     let text = text
         .map_err(|error| error.to_string())
-        .and_then(|bytes| String::from_utf8(bytes).map_err(|_| "it is no text".to_owned()));
+        .and_then(|bytes| String::from_utf8(bytes).map_err(|_| "it is not text".to_owned()));
     match text {
         Ok(text) => run_text(file, &text, setting),
         Err(words) => no_case(file, words),
@@ -155,7 +155,7 @@ fn judge(case: &Case, setting: &Setting<'_>) -> Outcome {
         puzzles.extend(differences.unknown().iter().map(|name| format!("unknown name: {name}")));
         words.extend(differences.into_words().into_iter().map(|it| format!("{distro}: {it}")));
     }
-    // What a check does not get to because it gives up is no news.
+    // What a check does not get to because it gives up is not news.
     if puzzles.is_empty() {
         puzzles.extend(case.unused().iter().map(|path| format!("nothing reads `{path}`")));
         if is_empty {

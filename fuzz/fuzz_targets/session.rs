@@ -12,7 +12,7 @@ fuzz_target!(|bytes: &[u8]| {
     let mut whole = bytes[..end].to_vec();
     let sum = crc32fast::hash(&whole);
     whole.extend_from_slice(&sum.to_le_bytes());
-    // Work in the background of hostile graphs is no question of reading.
+    // Work in the background of hostile graphs is not a question of reading.
     let settings = Settings { slices_per_scan: 0, ..Settings::default() };
     let Ok(mut slam) = Slam::resume(&whole, settings.clone()) else { return };
     let again = slam.save();

@@ -20,7 +20,7 @@ pub(crate) fn run_all(seconds: u32, wanted: &[String]) -> Result<(), Failed> {
     let known = targets(&root().join("fuzz/fuzz_targets"))?;
     if let Some(stranger) = wanted.iter().find(|name| !known.contains(name)) {
         return Err(Failed(format!(
-            "there is no fuzz target `{stranger}`; there are: {}",
+            "unknown fuzz target `{stranger}`; known targets: {}",
             known.join(", ")
         )));
     }

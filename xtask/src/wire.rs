@@ -40,7 +40,7 @@ pub(crate) fn bench(only: Option<&str>) -> Result<(), Failed> {
     if !output.status.success() {
         return Err(Failed("the race failed, see above".to_owned()));
     }
-    // A part of it is no result.
+    // A part of it is not a result.
     if only.is_none() { write(&tables) } else { Ok(()) }
 }
 

@@ -35,7 +35,7 @@ fn compat_of(distro: &str) -> Result<Nav2Release, Unreadable> {
 /// Parameters of a table from the members of an object.
 ///
 /// # Errors
-/// When a member is no parameter of this table or one of the `others`, or its value does not fit.
+/// When a member is not a parameter of this table or one of the `others`, or its value does not fit.
 fn values_of(
     table: &'static Table,
     others: &[&'static Table],

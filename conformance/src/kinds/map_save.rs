@@ -157,7 +157,7 @@ fn files(case: &Case, distro: Distro, differences: &mut Differences) -> Result<(
         }
     }
     let files = render(&map, &saving);
-    // The header of a PGM ends behind its third line that is no comment.
+    // The header of a PGM ends behind its third line that is not a comment.
     let mut lines = files.image.split_inclusive(|byte| *byte == b'\n');
     let (mut header, mut count) = (0, 0);
     while count < 3

@@ -98,7 +98,7 @@ impl Tree<'_> {
     /// The reason why an anchor leads nowhere.
     fn anchor_fault(&self, path: &str, anchor: &str) -> Option<String> {
         let Some(page) = self.pages.get(path) else {
-            return Some(format!("`{path}` is no Markdown page, and has no anchors"));
+            return Some(format!("`{path}` is not a Markdown page, and has no anchors"));
         };
         let included = page.includes.iter().filter_map(|include| match &include.target {
             Target::Known(target) => self.pages.get(resolve(path, target)?.as_str()),
@@ -203,7 +203,9 @@ mod tests {
         );
         assert_eq!(
             faults(&[("a.md", "[x](docs/a.png#b)")]),
-            ["a.md:1:1: link `docs/a.png#b`: `docs/a.png` is no Markdown page, and has no anchors"]
+            [
+                "a.md:1:1: link `docs/a.png#b`: `docs/a.png` is not a Markdown page, and has no anchors"
+            ]
         );
     }
 

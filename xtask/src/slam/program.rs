@@ -70,7 +70,8 @@ pub(crate) fn read(out: &Path) -> Result<Vec<Whole>, Failed> {
     let text = std::fs::read_to_string(&path).map_err(super::failed(&path))?;
     let whole = |(index, line): (usize, &str)| {
         let value = serde_json::from_str(line).ok();
-        let why = || Failed(format!("{}:{}: this is no run", path.display(), index + 1));
+        let why =
+            || Failed(format!("{}:{}: this is not the record of a run", path.display(), index + 1));
         value.as_ref().and_then(Whole::of_json).ok_or_else(why)
     };
     text.lines().enumerate().map(whole).collect()

@@ -70,7 +70,8 @@ impl Record {
 pub(crate) fn read(path: &Path) -> Result<Vec<Record>, Failed> {
     let text = std::fs::read_to_string(path).map_err(super::failed(path))?;
     let record = |(index, line): (usize, &str)| {
-        let why = || Failed(format!("{}:{}: this is no run", path.display(), index + 1));
+        let why =
+            || Failed(format!("{}:{}: this is not the record of a run", path.display(), index + 1));
         Record::new(line).ok_or_else(why)
     };
     text.lines().enumerate().map(record).collect()

@@ -40,7 +40,7 @@ pub(crate) fn parse(path: &str, text: &str) -> Result<Counts, Failed> {
             let package = package.text().unwrap_or_default();
             let count = count.integer().and_then(|count| usize::try_from(count).ok());
             let count =
-                count.ok_or_else(|| fault(&format!("`{name}` of `{package}` is no count")))?;
+                count.ok_or_else(|| fault(&format!("`{name}` of `{package}` is not a count")))?;
             counts.entry(check).or_default().insert(package.to_owned(), count);
         }
     }
@@ -177,6 +177,6 @@ mod tests {
             fault("word: {a: 1}"),
             "ratchet.yaml: no check is called `word`; restore it with `git checkout ratchet.yaml`"
         );
-        assert!(fault("words: {a: x}").contains("`words` of `a` is no count"));
+        assert!(fault("words: {a: x}").contains("`words` of `a` is not a count"));
     }
 }

@@ -76,7 +76,7 @@ fn block(info: &str, body: &[&str]) -> Result<Option<What>, String> {
         }
         ("text", None) => What::Prints(body.iter().map(|&line| line.to_owned()).collect()),
         ("sh" | "text" | "", Some((other, _))) => {
-            return Err(format!("`{other}` is no setting of a block: `terminal=` or `file=`"));
+            return Err(format!("`{other}` is not a setting of a block: `terminal=` or `file=`"));
         }
         ("", None) => {
             return Err("name the kind of the block: sh, text, or another language".to_owned());

@@ -37,7 +37,8 @@ pub(crate) fn run(words: &[String]) -> Result<(), String> {
     let [domain, kind, size, reliability, rate, count] = words else {
         return Err("usage: ros2 pub DOMAIN KIND SIZE RELIABILITY HZ COUNT".to_owned());
     };
-    let number = |word: &String| word.parse::<u32>().map_err(|_| format!("`{word}` is no number"));
+    let number =
+        |word: &String| word.parse::<u32>().map_err(|_| format!("`{word}` is not a number"));
     let settings = Settings { domain_id: number(domain)?, ..Settings::default() };
     let size = number(size)?;
     let plan = Plan {

@@ -61,7 +61,7 @@ pub(crate) fn score(stage: &Stage, drive: &Drive, out: &Path) -> Result<Score, S
         let numbers: Vec<f64> =
             line.split_whitespace().filter_map(|word| word.parse().ok()).collect();
         let [time_s, x_m, y_m, yaw_rad] = numbers[..] else {
-            return Err(format!("`{line}` is no line of a trajectory"));
+            return Err(format!("`{line}` is not a line of a trajectory"));
         };
         let time_us = (time_s * 1e6).round() as i64;
         let there = truth.get(&time_us).ok_or_else(|| format!("nothing is known of {time_s} s"))?;
@@ -84,7 +84,7 @@ pub(crate) fn score(stage: &Stage, drive: &Drive, out: &Path) -> Result<Score, S
     });
     let turn_rad = (turns.sum::<f64>() / pairs.len() as f64).sqrt();
     let path = out.join("map.yaml").display().to_string();
-    let map = load(&path, Distro::Jazzy, &Machine).map.ok_or(format!("{path} is no map"))?.grid;
+    let map = load(&path, Distro::Jazzy, &Machine).map.ok_or(format!("{path} is not a map"))?.grid;
     let walls = Walls::of(stage, drive);
     let (wall_m, right) = walls.hold(&map, world_from_map);
     let (_, right_best) = walls.hold(&map, best_from_map);

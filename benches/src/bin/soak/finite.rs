@@ -22,7 +22,7 @@ impl FiniteCheck {
     /// Checks one message.
     ///
     /// # Errors
-    /// When the type is unknown, or the bytes are no message of it.
+    /// When the type is unknown, or the bytes are not a message of it.
     pub(crate) fn check(
         &mut self,
         topic: &str,

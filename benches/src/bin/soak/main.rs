@@ -40,7 +40,7 @@ fn main() -> ExitCode {
     };
     let hours = rest.first().map_or(Some(HOURS), |hours| hours.parse().ok());
     let Some(hours) = hours.filter(|hours: &f64| hours.is_finite() && *hours > 0.0) else {
-        eprintln!("`{}` is no number of hours", rest[0]);
+        eprintln!("`{}` is not a number of hours", rest[0]);
         return ExitCode::from(2);
     };
     let [periplus, root, folder] = [periplus, root, folder].map(PathBuf::from);

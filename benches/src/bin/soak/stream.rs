@@ -32,7 +32,7 @@ pub(crate) struct Stream<R> {
 }
 
 fn bad(what: &str) -> io::Error {
-    io::Error::new(ErrorKind::InvalidData, format!("the recording is no MCAP: {what}"))
+    io::Error::new(ErrorKind::InvalidData, format!("the recording is not an MCAP file: {what}"))
 }
 
 /// Reads fields of a record from its front.

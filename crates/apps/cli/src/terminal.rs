@@ -25,7 +25,7 @@ pub(crate) fn counts(loaded: &LoadedFile) -> String {
     if parts.is_empty() { "no findings".to_owned() } else { parts.join(", ") }
 }
 
-/// Progress bar; hidden where stderr is no terminal.
+/// Progress bar; hidden where stderr is not a terminal.
 pub(crate) fn bar(length: u64, what: &str, quiet: bool) -> ProgressBar {
     if quiet {
         return ProgressBar::hidden();

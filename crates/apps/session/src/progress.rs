@@ -12,7 +12,7 @@ const LINE_PERIOD: Duration = Duration::from_secs(10);
 /// Redraw period of the progress bar.
 const REDRAW_PERIOD: Duration = Duration::from_millis(100);
 
-/// Progress bar at the bottom of the terminal; hidden where stderr is no terminal.
+/// Progress bar at the bottom of the terminal; hidden where stderr is not a terminal.
 pub struct ProgressLine {
     bar: ProgressBar,
     drawn: Duration,

@@ -36,7 +36,7 @@ impl RecordingWatch {
         line.aside(|| {
             terminal::warn(&format!(
                 "recording to {} stopped at {time_s:.1} s: {why}; later messages are \
-                 lost, those before can be read; the run goes on",
+                 lost, those before can be read; the run continues",
                 path.display()
             ));
             Ok(())

@@ -279,7 +279,7 @@ impl<'a> Reading<'a, '_> {
                                 .note(format!("layer `{full}` is left out"))
                                 .help(format!(
                                     "write `plugin: \"nav2_costmap_2d::ObstacleLayer\"`, or \
-                                     whatever it is, under `{name}`"
+                                     the plugin of that layer, under `{name}`"
                                 )),
                         );
                     }

@@ -39,7 +39,7 @@ pub(crate) struct InlierRatios {
     pub(crate) all: f64,
     /// Inliers among the hits that the map can judge, at least half of all: the measure for a pose
     /// that was tracked. Hits in unknown space with no wall in front do not count, so that the edge
-    /// of the map is no contradiction (EXPERIMENTS.md, step 13).
+    /// of the map is not a contradiction (EXPERIMENTS.md, step 13).
     pub(crate) judged: f64,
     /// Hits among all that end in known free space or pass through a wall.
     pub(crate) contradicted: f64,

@@ -413,7 +413,7 @@ fn invalid_inputs_are_errors_and_change_nothing() {
     let wild = Pose2::new(f64::NAN, 0.0, 0.0);
     assert_eq!(amcl.update(wild, &scan).unwrap_err().code, "bad-odometry");
     assert!(amcl.update(Pose2::IDENTITY, &scan).unwrap().is_some());
-    // A scan without hits is no error: odometry continues.
+    // A scan without hits is not an error: odometry continues.
     let blind = Scan { ranges_m: vec![f32::INFINITY; 9], ..scan };
     let update = amcl.update(Pose2::new(1.0, 0.0, 0.0), &blind).unwrap().unwrap();
     assert_eq!(update.status.inlier_ratio, None);

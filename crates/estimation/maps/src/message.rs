@@ -37,7 +37,7 @@ impl fmt::Display for BadMap {
             ),
             Self::GridInfo(error) => error.fmt(f),
             Self::Orientation(xyzw) => {
-                write!(f, "the orientation of the map's origin, {xyzw:?}, is no rotation")
+                write!(f, "the orientation of the map's origin, {xyzw:?}, is not a rotation")
             }
         }
     }

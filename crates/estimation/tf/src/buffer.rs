@@ -80,7 +80,7 @@ pub struct TransformLookup<'a> {
     pub fixed: &'a str,
 }
 
-/// Index of a frame. 0 is no frame.
+/// Index of a frame. 0 is not a frame.
 pub(crate) type FrameId = usize;
 
 /// Cached samples of a frame.
@@ -126,7 +126,7 @@ struct Frame {
 #[derive(Clone, Debug)]
 pub struct Buffer {
     span_ns: i64,
-    /// In the order in which they were first named; the first is no frame.
+    /// In the order in which they were first named; the first is not a frame.
     frames: Vec<Frame>,
     numbers: BTreeMap<String, FrameId>,
 }

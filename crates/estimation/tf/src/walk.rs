@@ -11,7 +11,7 @@ use crate::error::{LookupError, LookupErrorKind};
 const MAX_GRAPH_DEPTH: usize = 1000;
 
 /// Walks up from the source to the root of its tree, then up from the target until both chains
-/// meet. If the source has no sample at that time its chain ends there, which is no error when the
+/// meet. If the source has no sample at that time its chain ends there, which is not an error when the
 /// target is on it.
 pub(crate) fn walk(
     buffer: &Buffer,

@@ -26,7 +26,7 @@ pub fn plain_words(error: &Error) -> String {
         ErrorKind::AddrNotAvailable => "this machine has no such address",
         ErrorKind::ConnectionRefused => "the connection was refused",
         ErrorKind::ConnectionReset => "the connection was reset",
-        ErrorKind::TimedOut => "no answer came in time",
+        ErrorKind::TimedOut => "no response within the timeout",
         ErrorKind::ExecutableFileBusy => "the program is being written by another",
         ErrorKind::OutOfMemory => "there is not enough memory",
         ErrorKind::BrokenPipe => "the reader has closed the pipe",

@@ -2,7 +2,7 @@
 
 use crate::raster::{BadImage, Layout, Raster};
 
-/// Maximum number of pixels: 8192 by 8192. More are no texture but an attack on memory.
+/// Maximum number of pixels: 8192 by 8192. More are not a texture but an attack on memory.
 const MAX_PIXELS: usize = 1 << 26;
 
 /// Image with eight bits per channel, first row at the top.

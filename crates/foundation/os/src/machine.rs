@@ -1,5 +1,8 @@
 //! Files and environment of the machine.
-#![allow(clippy::disallowed_methods, reason = "this is the edge that all others ask")]
+#![allow(
+    clippy::disallowed_methods,
+    reason = "the edge through which all other code reads the clock"
+)]
 
 use std::fs;
 use std::io::{BufRead, BufReader, BufWriter, ErrorKind, Read as _, Write as _};

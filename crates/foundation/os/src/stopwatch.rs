@@ -1,5 +1,8 @@
 //! Wall time, for pacing and measurements.
-#![allow(clippy::disallowed_methods, reason = "this is the edge that all others ask")]
+#![allow(
+    clippy::disallowed_methods,
+    reason = "the edge through which all other code reads the clock"
+)]
 
 use std::time::{Duration, Instant, SystemTime, UNIX_EPOCH};
 

@@ -27,7 +27,7 @@ impl ParamValue {
     /// so SDF and YAML have the same syntax.
     ///
     /// # Errors
-    /// If the text is no value of the parameter's type, or out of range.
+    /// If the text is not a value of the parameter's type, or out of range.
     pub fn read(parameter: &Parameter, written: &str) -> Result<Self, ParamError> {
         let written = written.trim();
         let value = match parameter.kind {

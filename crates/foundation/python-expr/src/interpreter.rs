@@ -205,7 +205,9 @@ impl<'a> Interpreter<'a> {
             Some('r') => Value::text(value.to_repr(self.budget)?),
             Some('a') => Value::text(to_ascii(&value.to_repr(self.budget)?)),
             Some(other) => {
-                return fail(format!("`!{other}` is no conversion, one of `!r`, `!s` and `!a` is"));
+                return fail(format!(
+                    "`!{other}` is not a conversion, one of `!r`, `!s` and `!a` is"
+                ));
             }
         })
     }

@@ -179,7 +179,7 @@ pub(super) fn string(text: &str, at: &mut usize) -> Outcome<StringSource> {
             .at(&(start..opened + 1)));
     }
     if !matches!(prefix.as_str(), "" | "r" | "u" | "f" | "fr" | "rf") {
-        return Err(ExpressionError::new(format!("`{prefix}` is no prefix of a string"))
+        return Err(ExpressionError::new(format!("`{prefix}` is not a prefix of a string"))
             .at(&(start..opened)));
     }
     let quote = &text[opened..opened + 1];

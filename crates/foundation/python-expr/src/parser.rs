@@ -592,7 +592,7 @@ fn hint(written: &str) -> Option<&'static str> {
         | ">>=" | "@=" => "an expression cannot assign; use a property",
         "@" => "matrix products are not supported",
         ";" => "only one expression is allowed",
-        "import" | "from" => "modules cannot be imported; `math` is there already",
+        "import" | "from" => "modules cannot be imported; `math` is already available",
         "def" | "class" | "return" | "while" | "with" | "try" | "raise" | "del" | "assert"
         | "pass" | "global" | "nonlocal" | "async" => "only expressions are allowed, no statements",
         _ => return None,

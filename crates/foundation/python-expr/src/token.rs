@@ -50,7 +50,7 @@ pub(super) fn tokenize(text: &str, within: Range<usize>) -> Outcome<Vec<Placed>>
                 continue;
             }
             '\n' | '\r' => {
-                return Err(ExpressionError::new("the expression goes on after a line break")
+                return Err(ExpressionError::new("the expression continues after a line break")
                     .with_help("put it in parentheses to write it over several lines")
                     .at(&(start..start + 1)));
             }

@@ -66,7 +66,7 @@ fn project(host: &dyn Host, folder: &Path) -> (PathBuf, Vec<PathBuf>) {
     }
     let home = home(host);
     let above = |up: &Path| {
-        // Folders next to a home folder, or anywhere on the machine, are no common project.
+        // Folders next to a home folder, or anywhere on the machine, have no common project.
         let is_home = home.as_deref() == Some(up);
         up.parent().filter(|above| above.parent().is_some() && !is_home).unwrap_or(up).to_path_buf()
     };
@@ -81,7 +81,7 @@ const BUILT: [&str; 6] = ["install", "devel", "build", "log", ".catkin_workspace
 /// Source folders of the workspaces around a folder, nearest first: each `src` above it, and each folder
 /// with build output. Clones next to each other there are visible to each other, as in colcon and catkin.
 fn workspaces(host: &dyn Host, folder: &Path, home: Option<&Path>) -> Vec<PathBuf> {
-    // A home folder is no workspace, nor is a system folder.
+    // A home folder is not a workspace, nor is a system folder.
     let may_be = |up: &&Path| up.components().count() > 2 && Some(*up) != home;
     let is_workspace = |up: &&Path| {
         let is_src = up.file_name().is_some_and(|name| name == "src");

@@ -107,7 +107,9 @@ fn named(uri: &str, scheme: Scheme, rest: &str) -> Result<Uri, ResolveError> {
     match name {
         "" => Err(ResolveError::malformed(uri, format!("it names no {word}"))
             .help(format!("write `{word}://NAME/path/in/it`"))),
-        "." | ".." => Err(ResolveError::malformed(uri, format!("`{name}` is no {word}'s name"))),
+        "." | ".." => {
+            Err(ResolveError::malformed(uri, format!("`{name}` is not a valid {word} name")))
+        }
         _ => {
             let rest = rest.trim_matches('/');
             Ok(Uri::Named { scheme, name: name.into(), rest: rest.into() })
@@ -208,7 +210,7 @@ mod tests {
             "its scheme is not one that names robot files",
             "did you mean `package://bot/a.stl`?",
         );
-        check_bad("model://../x", "`..` is no model's name", "");
+        check_bad("model://../x", "`..` is not a valid model name", "");
     }
 
     #[test]

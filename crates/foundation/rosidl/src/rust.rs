@@ -23,7 +23,7 @@ pub enum CodegenError {
         /// Name of the field.
         field: String,
     },
-    /// A list of values for a field that is no array.
+    /// A list of values for a field that is not an array.
     ListForOneValue,
 }
 
@@ -33,7 +33,7 @@ impl fmt::Display for CodegenError {
             Self::NameClash(name, other) => {
                 write!(f, "`{name}` and `{other}` would have the same name in Rust")
             }
-            Self::UnknownType(name) => write!(f, "`{name}` needs a type that is not there"),
+            Self::UnknownType(name) => write!(f, "`{name}` needs a type that is not available"),
             Self::ArrayOfBoundedStrings { owner, field } => {
                 write!(f, "`{owner}`: an array of bounded strings: `{field}`")
             }

@@ -40,7 +40,7 @@ fn slips_in_types_are_shown_with_what_was_meant() {
         "my_msgs/Scan",
         "flaot32 range\nfloat angle\nstrin<=5 name\nuint8 ok\n",
         expect![[r#"
-            error[unknown-type]: `flaot32` is no type
+            error[unknown-type]: `flaot32` is not a type
              --> Scan.msg:1:1
               |
             1 | flaot32 range
@@ -53,7 +53,7 @@ fn slips_in_types_are_shown_with_what_was_meant() {
             1 + float32 range
               |
 
-            error[unknown-type]: `float` is no type
+            error[unknown-type]: `float` is not a type
              --> Scan.msg:2:1
               |
             2 | float angle
@@ -65,7 +65,7 @@ fn slips_in_types_are_shown_with_what_was_meant() {
             2 | float32 angle
               |      ++
 
-            error[unknown-type]: `strin` is no type
+            error[unknown-type]: `strin` is not a type
              --> Scan.msg:3:1
               |
             3 | strin<=5 name

@@ -110,7 +110,7 @@ impl<'a> Parser<'a> {
 
     pub(crate) fn unknown(&self, name: &str, known: &[&str]) -> TextError {
         let known: Vec<&str> = known.iter().map(|name| name.trim_start_matches("r#")).collect();
-        self.wrong(format!("there is no field `{name}`; there are: {}", known.join(", ")))
+        self.wrong(format!("unknown field `{name}`; known fields: {}", known.join(", ")))
     }
 
     /// Skips spaces and comments; returns the next character.
@@ -225,7 +225,7 @@ impl<'a> Parser<'a> {
         let word = self.word()?;
         let suffixed = word.strip_suffix(['f', 'F']);
         let value = word.parse().ok().or_else(|| suffixed.and_then(|word| word.parse().ok()));
-        value.ok_or_else(|| self.wrong(format!("`{word}` is no number that the field can hold")))
+        value.ok_or_else(|| self.wrong(format!("`{word}` is not a number that the field can hold")))
     }
 
     pub(crate) fn boolean(&mut self) -> Result<bool, TextError> {
@@ -379,8 +379,8 @@ mod tests {
 
     #[test]
     fn slips_are_told_with_their_places() {
-        check_wrong("linaer {x: 1}", 1, 7, "there is no field `linaer`; there are: header, linear");
-        check_wrong("linear {\n  x: fast }", 2, 10, "`fast` is no number");
+        check_wrong("linaer {x: 1}", 1, 7, "unknown field `linaer`; known fields: header, linear");
+        check_wrong("linear {\n  x: fast }", 2, 10, "`fast` is not a number");
         check_wrong("linear {x: 1", 1, 13, "`}` is missing");
         check_wrong("linear: 3", 1, 9, "a message should be here");
         check_wrong("linear {header {data {key: '", 1, 29, "no ' at its end");

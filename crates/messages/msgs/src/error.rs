@@ -93,7 +93,7 @@ impl fmt::Display for DecodeError {
             Problem::Encapsulation(first, second) => {
                 write!(
                     f,
-                    "the message begins with {first:02x} {second:02x}, not as plain CDR does"
+                    "the message begins with {first:02x} {second:02x}, which is not a header of plain CDR"
                 )?;
             }
             Problem::Count(count) => {
@@ -103,7 +103,7 @@ impl fmt::Display for DecodeError {
                 write!(f, "{count} elements where the type allows {limit}")?;
             }
             Problem::Truth(byte) => write!(f, "a truth value is {byte}, neither 0 nor 1")?,
-            Problem::Text => write!(f, "a string is no valid text")?,
+            Problem::Text => write!(f, "a string is not valid UTF-8")?,
             Problem::Json { expected, found } => write!(f, "expected {expected}, found {found}")?,
             Problem::Unknown { name, known } => {
                 write!(f, "there is no field `{name}`")?;

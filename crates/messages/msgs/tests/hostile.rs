@@ -11,7 +11,7 @@ use periplus_msgs::{
 use proptest::prelude::*;
 
 fn check<T: Message>(bytes: &[u8], expected: Expect) {
-    let error = T::decode_cdr(bytes).expect_err("this is no message");
+    let error = T::decode_cdr(bytes).expect_err("this is not a message");
     expected.assert_eq(&format!("{error}\n"));
 }
 
@@ -35,7 +35,7 @@ fn errors_say_where() {
     check::<LaserScan>(
         &[0, 7, 0, 0, 1],
         expect![[r#"
-        the message begins with 00 07, not as plain CDR does
+        the message begins with 00 07, which is not a header of plain CDR
     "#]],
     );
     check::<LaserScan>(
@@ -53,7 +53,7 @@ fn errors_say_where() {
     check::<std_msgs::String>(
         &[0, 1, 0, 0, 2, 0, 0, 0, 0xff, 0],
         expect![[r#"
-        a string is no valid text (at `data`) (byte 10)
+        a string is not valid UTF-8 (at `data`) (byte 10)
     "#]],
     );
 }

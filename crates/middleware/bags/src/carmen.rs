@@ -45,7 +45,7 @@ pub struct CarmenScan {
     pub angle_min_rad: f64,
     /// Angle between beams \[rad\].
     pub angle_increment_rad: f64,
-    /// Readings at or above this are no returns \[m\].
+    /// Readings at or above this are not returns \[m\].
     pub range_max_m: f32,
     /// Ranges \[m\].
     pub ranges_m: Vec<f32>,

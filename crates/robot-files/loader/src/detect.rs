@@ -45,7 +45,7 @@ pub enum FileFormat {
     Archive,
     /// The manifest of a package.
     Package,
-    /// Folder that is no model.
+    /// Folder that is not a model.
     Folder,
     /// Unknown format.
     Unknown,

@@ -72,7 +72,7 @@ impl Reading<'_> {
     fn named(&mut self, folder: &Path) {
         let shown = folder.display();
         if self.host.kind(folder) != Some(Standing::Folder) {
-            let message = format!("`{shown}` is no folder");
+            let message = format!("`{shown}` is not a folder");
             let wrong = Diagnostic::error("no-interfaces", message);
             return self.diagnostics.push(wrong.help("name a package, or a folder with packages"));
         }
@@ -256,7 +256,7 @@ mod tests {
         let (loaded, said) = load(&host, &["/a_msgs", "/empty", "/gone"]);
         assert!(loaded.types.layout("a_msgs/msg/Needs").is_none());
         expect![[r#"
-            error[unknown-type]: `flaot64` is no type
+            error[unknown-type]: `flaot64` is not a type
              --> /a_msgs/msg/Broken.msg:2:1
               |
             2 | flaot64 b
@@ -281,7 +281,7 @@ mod tests {
             warning[no-interfaces]: there are no interfaces in `/empty`
              |
              = help: a package has its texts in folders `msg`, `srv` and `action`, such as `my_interfaces/msg/Thing.msg`
-            error[no-interfaces]: `/gone` is no folder
+            error[no-interfaces]: `/gone` is not a folder
              |
              = help: name a package, or a folder with packages
             error[unknown-type]: `a_msgs/msg/Needs` needs the unknown type `b_msgs/msg/B`

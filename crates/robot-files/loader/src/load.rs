@@ -304,7 +304,7 @@ fn interpret(document: Document, setting: &LoadContext<'_>, loaded: &mut LoadedF
             loaded.diagnostics.push(
                 Diagnostic::error(
                     "unknown-format",
-                    format!("`<{other}>` is no robot, model or world"),
+                    format!("`<{other}>` is not a robot, model or world"),
                 )
                 .at(origin)
                 .did_you_mean(origin, other, ["robot", "sdf", "launch"])

@@ -87,7 +87,7 @@ fn picture(name: &str, bytes: &[u8], loaded: &mut LoadedFile) {
 
 fn yaml(name: &str, bytes: &[u8], setting: &LoadContext<'_>, loaded: &mut LoadedFile) {
     let Ok(text) = String::from_utf8(bytes.to_vec()) else {
-        loaded.diagnostics.push(Diagnostic::error("encoding", format!("`{name}` is no UTF-8")));
+        loaded.diagnostics.push(Diagnostic::error("encoding", format!("`{name}` is not UTF-8")));
         return;
     };
     let file = loaded.sources.add(name, text);

@@ -137,7 +137,7 @@ fn a_file_of_macros_is_expanded_and_no_robot() {
     }
     let robot = format!("<robot name='r' {XMLNS}><link name='a'/></robot>");
     assert!(read("a.xacro", &robot).scene.is_some());
-    // A part of a robot is expanded too, though it is no robot by itself.
+    // A part of a robot is expanded too, though it is not a robot by itself.
     let part = format!(
         "<robot name='r' {XMLNS}><link name='a'/><joint name='j' type='fixed'><parent link='b'/>\
          <child link='a'/></joint></robot>"

@@ -20,7 +20,7 @@ use periplus_xml::{Element, XmlNode};
 use crate::robot::{GazeboBlock, UrdfOrigin, UrdfRobot};
 
 /// Returns a robot that [`crate::to_model`] converts back to this model as far as URDF allows. Returns
-/// `None`, with errors, if the model is no tree of links with joints that URDF has. Errors also mark data
+/// `None`, with errors, if the model is not a tree of links with joints that URDF has. Errors also mark data
 /// that is lost.
 #[must_use]
 pub fn from_model(model: &Model, diagnostics: &mut Diagnostics) -> Option<UrdfRobot> {

@@ -29,7 +29,7 @@ const MANY: [&str; 9] = [
 ];
 
 /// Reads a URDF and checks it as `check_urdf` does, and more: names, the tree, limits, masses. Returns
-/// `None` if the root is no `<robot>`; after other errors the robot holds everything that could be read.
+/// `None` if the root is not a `<robot>`; after other errors the robot holds everything that could be read.
 #[must_use]
 pub fn read(document: &Document, diagnostics: &mut Diagnostics) -> Option<UrdfRobot> {
     let root = &document.root;
@@ -80,7 +80,7 @@ fn version(root: &Element, diagnostics: &mut Diagnostics) -> Option<String> {
         diagnostics.push(
             Diagnostic::warning(
                 "unknown-version",
-                format!("there is no version `{}` of URDF", attribute.value),
+                format!("unknown URDF version `{}`", attribute.value),
             )
             .at(attribute.value_origin)
             .help("write version=\"1.0\", or leave it out"),
@@ -141,7 +141,7 @@ fn placement(element: &Element, diagnostics: &mut Diagnostics) -> UrdfOrigin {
         }
         Some(_) => {
             diagnostics.push(
-                Diagnostic::error("bad-number", "a quaternion of length zero is no rotation")
+                Diagnostic::error("bad-number", "a quaternion of length zero is not a rotation")
                     .at(element.attribute("quat_xyzw").map_or(element.origin, |a| a.value_origin))
                     .help("write quat_xyzw=\"0 0 0 1\" for no rotation"),
             );

@@ -44,7 +44,7 @@ impl State<'_> {
                     format!("properties and texts refer to each other more than {MAX_DEPTH} deep"),
                 )
                 .at(origin)
-                .help("does a property lead back to itself?"),
+                .help("does a property refer to itself?"),
             ));
         }
         self.depth.set(self.depth.get() + 1);

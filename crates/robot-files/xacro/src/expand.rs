@@ -404,7 +404,7 @@ impl State<'_> {
             Diagnostic::error("xml-name", format!("`{name}` cannot be a name in XML"))
                 .at(origin)
                 .help(
-                    "a name starts with a letter and goes on with letters, digits, `_`, `-`, `.`",
+                    "a name starts with a letter and continues with letters, digits, `_`, `-`, `.`",
                 ),
         ))
     }

@@ -67,7 +67,7 @@ pub(crate) fn condition(value: &Value) -> Option<bool> {
     }
 }
 
-/// Returns true if a property may have this name: a Python identifier that is no keyword.
+/// Returns true if a property may have this name: a Python identifier that is not a keyword.
 pub(crate) fn is_name(name: &str) -> bool {
     const KEYWORDS: &[&str] = &[
         "False", "None", "True", "and", "as", "assert", "async", "await", "break", "class",

@@ -28,7 +28,7 @@ impl State<'_> {
                 format!("`{name}` cannot be the name of a property"),
             )
             .at(name_origin)
-            .help("a name is letters, digits and `_`, starts with a letter, and is no word of Python's");
+            .help("a name is letters, digits and `_`, starts with a letter, and is not a Python keyword");
             let repaired = name.replace(['-', '.', ' '], "_");
             let is_written = element.value("name") == Some(&name);
             if is_written && is_name(&repaired) && !repaired.starts_with("__") {

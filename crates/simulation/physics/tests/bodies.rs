@@ -212,6 +212,6 @@ fn a_bounce_keeps_its_share_of_speed() {
     // Up again with 2 m/s, and 0.2 s later at the top, 0.2 m high.
     let height = height_after(0.5);
     assert!((height - 0.2).abs() < 0.01, "{height}");
-    // What is no number bounces nothing.
+    // What is not a number bounces nothing.
     assert!(height_after(f64::NAN).abs() < 0.002);
 }

@@ -11,7 +11,7 @@ pub(crate) fn label_of(plugins: &[Plugin], diagnostics: &mut Diagnostics) -> Opt
     if label.is_none() {
         let said = text.unwrap_or_default();
         diagnostics.push(
-            Diagnostic::warning("bad-label", format!("`{said}` is no label"))
+            Diagnostic::warning("bad-label", format!("`{said}` is not a label"))
                 .at(plugin.origin)
                 .help("write <label> with an integer from 0 to 255"),
         );

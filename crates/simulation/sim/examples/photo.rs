@@ -24,7 +24,7 @@ fn main() {
     };
     let numbers: Vec<f64> = pose.split(',').filter_map(|word| word.parse().ok()).collect();
     let [x, y, z, roll, pitch, yaw] = numbers[..] else {
-        eprintln!("`{pose}` is no pose");
+        eprintln!("`{pose}` is not a pose");
         std::process::exit(2);
     };
     let world_from_camera = Pose::from_xyz_rpy([x, y, z], Rpy { roll, pitch, yaw });

@@ -234,7 +234,7 @@ fn chosen(listeners: &[VelocityTopic]) -> Result<(String, bool), DriveError> {
         (Some(one), _) | (None, [one]) => Ok((one.name.clone(), one.is_stamped)),
         (None, []) => Err(DriveError::NoTopic(
             "no robot of this world subscribes to velocities; add one with `--robot FILE`, or set `topic: \
-             NAME` where one that comes later listens"
+             NAME` to the topic of a robot that is added later"
                 .into(),
         )),
         (None, several) => Err(DriveError::NoTopic(format!(

@@ -73,7 +73,7 @@ fn the_truth_is_a_slice_of_the_world() {
     {
         assert_eq!(of(wall.0, wall.1), 100, "{wall:?}");
     }
-    // Beside the walls; the robot, at (0.5, 0), and what is below the lidar are no walls.
+    // Beside the walls; the robot, at (0.5, 0), and what is below the lidar are not walls.
     for free in
         [(1.95, 0.05), (-1.95, -1.95), (0.55, 0.05), (0.45, 0.15), (-1.05, -1.05), (0.85, 1.25)]
     {

@@ -89,7 +89,7 @@ words:
   why: vague
 - words: [who]
   write: a node that
-  why: programs are no people
+  why: programs are not people
   allow: [<person> who]
 - words: [as it is told]
   write: as commanded
@@ -128,7 +128,7 @@ types: {shared: [], allow: [], exempt: []}
             "Those who",
             &[
                 &format!("openings Those who -> {advice}"),
-                "words who -> a node that (programs are no people)",
+                "words who -> a node that (programs are not people)",
             ],
         );
         check_text(Source::Doc, "What is new", &[]);

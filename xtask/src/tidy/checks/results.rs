@@ -33,7 +33,7 @@ pub(crate) fn check_signatures(rust: &Rust) -> Vec<Finding> {
 fn string_error(rust: &Rust, item_at: usize) -> Option<Finding> {
     let mut end = item_at;
     while end < rust.tokens.len() && !rust.is_punct(end, b'{') && !rust.is_punct(end, b';') {
-        // The `;` of an array's type is no end.
+        // The `;` of an array's type is not an end.
         end = rust.closers[end] + 1;
     }
     let end = end.min(rust.tokens.len());

@@ -2,7 +2,7 @@
 
 use indicatif::{ProgressBar, ProgressStyle};
 
-/// Progress bar at the bottom of the terminal; hidden where stderr is no terminal.
+/// Progress bar at the bottom of the terminal; hidden where stderr is not a terminal.
 pub(super) struct ProgressLine(ProgressBar);
 
 impl ProgressLine {

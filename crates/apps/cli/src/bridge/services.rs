@@ -127,7 +127,7 @@ impl Services {
             SetEntityPose::TYPE_NAME,
         ];
         Err(format!(
-            "`{}`: {} is no service type of both ROS 2 and Gazebo; supported: {}",
+            "`{}`: {} is not a service type of both ROS 2 and Gazebo; supported: {}",
             asked.name,
             asked.ros_type,
             all.join(", ")

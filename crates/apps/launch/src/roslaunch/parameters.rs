@@ -133,7 +133,9 @@ impl Loader<'_, '_> {
         if let Some(file) = file.as_deref().filter(|file| file.starts_with("package://")) {
             let finding = Diagnostic::warning(
                 "launch-file",
-                format!("the parameters of {file} are left out: its package is not here"),
+                format!(
+                    "the parameters of {file} are left out: its package is not on this machine"
+                ),
             )
             .at(element.name_origin());
             self.evaluation.found.push(finding);

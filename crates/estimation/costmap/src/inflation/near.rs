@@ -91,7 +91,7 @@ pub(super) struct NearBuffers {
 
 impl NearBuffers {
     /// Inflates a window; `area` is the window with the margin of obstacles that count.
-    #[expect(clippy::too_many_arguments, reason = "one call, and each is another thing")]
+    #[expect(clippy::too_many_arguments, reason = "one call, and each is a different argument")]
     pub(super) fn run<S: Squares>(
         &mut self,
         costs: &mut [u8],

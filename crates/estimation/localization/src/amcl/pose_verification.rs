@@ -33,7 +33,7 @@ const MIN_TRUSTED_RATIO: f64 = 0.6;
 const MAX_FREE_DISTANCE_M: f64 = 0.3;
 /// Distance without a match, less the distance with one, above which a pose has to be verified \[m\].
 const MAX_UNMATCHED_DISTANCE_M: f64 = 2.0;
-/// Weight of that distance where scans hit nothing: open space is no contradiction.
+/// Weight of that distance where scans hit nothing: open space is not a contradiction.
 const OPEN_SPACE_FACTOR: f64 = 0.25;
 /// Weight of that distance where scans are unusual (step 32).
 const UNUSUAL_FACTOR: f64 = 0.5;
@@ -395,7 +395,7 @@ impl Amcl {
         let refined = |peak: Pose2| {
             refine_pose(map, &scan.ends, &PoseBelief { pose: peak, information }).belief.pose
         };
-        // For a pose with a usual match, poses beyond the error of odometry are no alternatives.
+        // For a pose with a usual match, poses beyond the error of odometry are not alternatives.
         let is_usual = ratio >= self.monitor.min_usual_inlier_ratio();
         let is_other = |other: &Pose2| {
             let agreement = self.odometry_agreement(*other);

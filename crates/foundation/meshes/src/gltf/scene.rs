@@ -168,7 +168,7 @@ fn parent_from_node(node: &Node) -> DMat4 {
     let scale = vector(node.scale.unwrap_or([1.0; 3]));
     let translation = vector(node.translation.unwrap_or_default());
     let rotation = node.rotation.map_or(DVec4::W, |q| DVec4::from_array(q.0.map(f64::from)));
-    // A zero quaternion is no rotation.
+    // A zero quaternion is not a rotation.
     let rotation = rotation.try_normalize().unwrap_or(DVec4::W);
     DMat4::from_scale_rotation_translation(scale, DQuat::from_vec4(rotation), translation)
 }

@@ -248,7 +248,7 @@ fn unknown(word: &str) -> Wrong {
             "str" => Some("string"),
             _ => None,
         };
-        let wrong = Diagnostic::error("unknown-type", format!("`{word}` is no type")).at(span);
+        let wrong = Diagnostic::error("unknown-type", format!("`{word}` is not a type")).at(span);
         match other {
             Some(name) => {
                 let end = word.len();

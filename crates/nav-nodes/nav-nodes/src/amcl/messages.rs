@@ -42,7 +42,7 @@ pub(crate) fn pose2(pose: &geometry_msgs::Pose) -> Result<Pose2, String> {
     let is_rotation = (length - 1.0).abs() < MAX_NORM_ERROR;
     if !is_rotation {
         return Err(format!(
-            "its orientation ({}, {}, {}, {}) is no rotation: the norm of the quaternion is \
+            "its orientation ({}, {}, {}, {}) is not a rotation: the norm of the quaternion is \
              {length:.3}, not 1",
             q.x, q.y, q.z, q.w
         ));
@@ -97,7 +97,7 @@ mod tests {
         assert!((back.yaw_rad - 3.0).abs() < 1e-12 && back.x_m == 1.0, "{back:?}");
         let mut bad = pose(there);
         bad.orientation = geometry_msgs::Quaternion { x: 0.0, y: 0.0, z: 0.0, w: 0.0 };
-        assert!(pose2(&bad).is_err_and(|why| why.contains("is no rotation")));
+        assert!(pose2(&bad).is_err_and(|why| why.contains("is not a rotation")));
         bad.orientation.w = f64::NAN;
         assert!(pose2(&bad).is_err());
     }

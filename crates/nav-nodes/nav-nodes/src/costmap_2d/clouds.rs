@@ -25,7 +25,7 @@ pub(crate) fn points(cloud: &PointCloud2) -> Result<impl Iterator<Item = [f32; 3
         let field: &PointField = field.ok_or_else(|| format!("it has no field `{name}`"))?;
         let (offset, is_double) = (field.offset as usize, field.datatype == FLOAT64);
         if field.datatype != FLOAT32 && !is_double {
-            return Err(format!("its field `{name}` is no floating point number"));
+            return Err(format!("its field `{name}` is not a floating point number"));
         }
         let length = if is_double { 8 } else { 4 };
         if offset.checked_add(length).is_none_or(|end| end > step) {

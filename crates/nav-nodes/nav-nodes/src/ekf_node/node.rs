@@ -211,8 +211,9 @@ impl State {
         let (source, finding) = match refusal {
             Refusal::TooFar { source, .. } => (source, None),
             Refusal::Broken { source } => {
-                let words =
-                    format!("a measurement of `{source}` is no number, or its covariance is none");
+                let words = format!(
+                    "a measurement of `{source}` is not a number, or its covariance is none"
+                );
                 (source, Some(Diagnostic::warning("broken-input", words)))
             }
         };

@@ -53,7 +53,7 @@ pub(crate) fn pose2(pose: &geometry_msgs::Pose) -> Result<Pose2, String> {
     let geometry_msgs::Pose { position, orientation: q } = pose;
     let rotation = DQuat::from_xyzw(q.x, q.y, q.z, q.w);
     let length = rotation.length();
-    // What is no number is off, too.
+    // What is not a number is off, too.
     let is_rotation = (length - 1.0).abs() < OFF;
     if !is_rotation || !position.x.is_finite() || !position.y.is_finite() {
         return Err(format!(

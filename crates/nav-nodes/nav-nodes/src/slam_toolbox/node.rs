@@ -769,7 +769,7 @@ impl SlamNode {
                     .to_owned()
             }
             (true, None, _) => format!(
-                "`{}` is no kept scan; they are numbered from 0, and there are {kept}",
+                "`{}` is not a stored scan; they are numbered from 0, and there are {kept}",
                 message.marker_name
             ),
             (true, Some(_), Err(why)) => why,

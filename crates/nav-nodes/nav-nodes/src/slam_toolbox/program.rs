@@ -90,7 +90,7 @@ impl FromStr for Program {
         let named = |program: &Self| program.word() == word || program.executable() == word;
         Self::ALL.into_iter().find(named).ok_or_else(|| {
             let words: Vec<&str> = Self::ALL.iter().map(|it| it.word()).collect();
-            format!("`{word}` is no program for maps; there are {}", words.join(", "))
+            format!("`{word}` is not a mapping program; there are {}", words.join(", "))
         })
     }
 }

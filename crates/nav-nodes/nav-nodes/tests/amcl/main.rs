@@ -341,7 +341,7 @@ fn a_robot_without_an_initial_pose_is_localized_globally() {
     let logged = stage.logged();
     assert!(logged.contains("topic `localization_rivals` is deprecated"), "{logged}");
     assert!(stage.state().starts_with("ambiguous: 2 poses are possible"), "{}", stage.state());
-    assert!(stage.transform().is_none(), "a hypothesis among others is no pose");
+    assert!(stage.transform().is_none(), "a hypothesis among others is not a pose");
     stage.drive_to_start();
     let (x, y, yaw) = x_y_yaw(&stage.poses.latest().unwrap().pose.pose);
     assert!((x - START.x_m).hypot(y - START.y_m) < 0.1 && (yaw - START.yaw_rad).abs() < 0.1);
@@ -451,7 +451,7 @@ fn invalid_inputs_are_reported() {
     assert!(refused(&mut stage, wrong).contains("outside of the map"));
     let mut wrong = good.clone();
     wrong.pose.pose.orientation = Quaternion { x: 0.0, y: 0.0, z: 0.0, w: 0.0 };
-    assert!(refused(&mut stage, wrong).contains("is no rotation"));
+    assert!(refused(&mut stage, wrong).contains("is not a rotation"));
     let mut wrong = good;
     wrong.pose.pose.position.y = f64::NAN;
     assert!(refused(&mut stage, wrong).contains("not finite"));

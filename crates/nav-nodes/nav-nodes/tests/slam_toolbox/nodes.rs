@@ -261,7 +261,7 @@ fn a_run_can_be_paused_reset_and_put_right_by_hand() {
     assert_eq!(handles.markers.len(), last + 1);
     assert_eq!(handles.markers[last].name, last.to_string());
     drag(&mut stage, "nonsense".into());
-    assert!(stage.said().contains("`nonsense` is no kept scan"));
+    assert!(stage.said().contains("`nonsense` is not a stored scan"));
     drag(&mut stage, last.to_string());
     stage.ask::<Clear>("/slam_toolbox/clear_changes", ClearRequest {});
     assert!(close(&stage).contains("no scan was moved"));

@@ -236,7 +236,7 @@ fn frame(name: &str, origin: Origin, things: &Things) -> Option<Diagnostic> {
     Some(
         Diagnostic::hint(
             "foreign-frame",
-            format!("`{name}` is no link or frame of the model; another node must publish it"),
+            format!("`{name}` is not a link or frame of the model; another node must publish it"),
         )
         .at(origin),
     )
@@ -320,7 +320,7 @@ mod tests {
                    |
                 10 |   <frame_name>imu_link</frame_name>
                    |                    +
-                hint[foreign-frame]: `tower` is no link or frame of the model; another node must publish it
+                hint[foreign-frame]: `tower` is not a link or frame of the model; another node must publish it
                   --> test.sdf:14:15
                    |
                 14 |   <frame_name>tower</frame_name>

@@ -88,7 +88,7 @@ fn check_remapping(
 ) {
     let text = element.text();
     let Some((from, to)) = text.split_once(":=") else {
-        let message = format!("`{text}` is no remapping");
+        let message = format!("`{text}` is not a remapping");
         diagnostics.push(
             Diagnostic::error("bad-remapping", message)
                 .at(element.text_origin())
@@ -197,7 +197,7 @@ mod tests {
                   |
                 3 |     <namespace>demo</namspace>
                   |         +
-                error[bad-remapping]: `odom=/odom` is no remapping
+                error[bad-remapping]: `odom=/odom` is not a remapping
                  --> test.sdf:4:16
                   |
                 4 |     <remapping>odom=/odom</remapping>

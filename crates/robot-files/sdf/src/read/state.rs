@@ -75,7 +75,7 @@ fn place_models(states: &[&Element], models: &mut [ModelDraft], diagnostics: &mu
             diagnostics.push(
                 Diagnostic::warning(
                     "unknown-model",
-                    format!("the saved state names a model `{}` that is not there", name.value),
+                    format!("the saved state names a model `{}` that does not exist", name.value),
                 )
                 .at(name.value_origin)
                 .did_you_mean(

@@ -83,7 +83,7 @@ pub(super) fn one_tree(robot: &UrdfRobot, root: &Element, diagnostics: &mut Diag
     }
 }
 
-/// Reports an error for each end of a joint that is no link. Returns true if both are links.
+/// Reports an error for each end of a joint that is not a link. Returns true if both are links.
 fn missing_ends(
     tree: &Tree<'_>,
     joint: &UrdfJoint,

@@ -88,7 +88,7 @@ impl ConversionState<'_> {
         order.iter().all(|&link| self.link(link).inertial.is_none())
     }
 
-    /// The link `world` is no body, so shapes and masses of it are dropped.
+    /// The link `world` is not a body, so shapes and masses of it are dropped.
     fn check_world_link(&self, diagnostics: &mut Diagnostics) {
         for &link in &self.plan.order {
             let data = self.link(link);

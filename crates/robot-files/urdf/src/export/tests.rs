@@ -32,7 +32,7 @@ fn export(content: &str) -> (Option<UrdfRobot>, Vec<String>) {
     (robot, findings.collect())
 }
 
-/// Checks that a model is no URDF, and why.
+/// Checks that a model is not a URDF, and why.
 fn refused(content: &str, expected: &str) {
     let (robot, findings) = export(content);
     assert_eq!(robot, None, "{content}");

@@ -331,7 +331,7 @@ fn an_attribute_of_a_directive_in_a_macro() {
               |                         ^^^
               |
               = note: in the macro `m`, called at main.xacro:6:1
-              = help: a name is letters, digits and `_`, starts with a letter, and is no word of Python's
+              = help: a name is letters, digits and `_`, starts with a letter, and is not a Python keyword
             help: this would do
               |
             3 -   <xacro:property name="a-b" value="1"/>

@@ -111,7 +111,7 @@ fn names_that_xml_cannot_hold() {
         1 | <r xmlns:xacro="http://www.ros.org/wiki/xacro"><xacro:element xacro:name="2${1}"/></r>
           |                                                                           ^^^^^
           |
-          = help: a name starts with a letter and goes on with letters, digits, `_`, `-`, `.`
+          = help: a name starts with a letter and continues with letters, digits, `_`, `-`, `.`
     "#]],
     );
     check_messages(
@@ -123,7 +123,7 @@ fn names_that_xml_cannot_hold() {
         1 | <r xmlns:xacro="http://www.ros.org/wiki/xacro"><a><xacro:attribute name="a b" value="v"/></a></r>
           |                                                                          ^^^
           |
-          = help: a name starts with a letter and goes on with letters, digits, `_`, `-`, `.`
+          = help: a name starts with a letter and continues with letters, digits, `_`, `-`, `.`
     "#]],
     );
     check_messages(
@@ -135,7 +135,7 @@ fn names_that_xml_cannot_hold() {
         1 | <r xmlns:xacro="http://www.ros.org/wiki/xacro"><xacro:element xacro:name="${''}"/></r>
           |                                                                           ^^^^^
           |
-          = help: a name starts with a letter and goes on with letters, digits, `_`, `-`, `.`
+          = help: a name starts with a letter and continues with letters, digits, `_`, `-`, `.`
     "#]],
     );
 }

@@ -569,7 +569,7 @@ fn files_outside_of_the_project() {
     );
     check_secret(
         r#"<a v="$(find ../etc)/passwd"/>"#,
-        expect!["bad-uri: `package://../etc` names nothing: `..` is no package's name"],
+        expect!["bad-uri: `package://../etc` names nothing: `..` is not a valid package name"],
     );
 }
 

@@ -246,7 +246,7 @@ fn names_that_cannot_be() {
             1 | <r xmlns:xacro="http://www.ros.org/wiki/xacro"><xacro:property name="wheel-radius" value="1"/></r>
               |                                                                      ^^^^^^^^^^^^
               |
-              = help: a name is letters, digits and `_`, starts with a letter, and is no word of Python's
+              = help: a name is letters, digits and `_`, starts with a letter, and is not a Python keyword
             help: this would do
               |
             1 - <r xmlns:xacro="http://www.ros.org/wiki/xacro"><xacro:property name="wheel-radius" value="1"/></r>
@@ -263,7 +263,7 @@ fn names_that_cannot_be() {
         1 | <r xmlns:xacro="http://www.ros.org/wiki/xacro"><xacro:property name="lambda" value="1"/></r>
           |                                                                      ^^^^^^
           |
-          = help: a name is letters, digits and `_`, starts with a letter, and is no word of Python's
+          = help: a name is letters, digits and `_`, starts with a letter, and is not a Python keyword
     "#]],
     );
     check_messages(
@@ -275,7 +275,7 @@ fn names_that_cannot_be() {
         1 | <r xmlns:xacro="http://www.ros.org/wiki/xacro"><xacro:property name="__a" value="1"/></r>
           |                                                                      ^^^
           |
-          = help: a name is letters, digits and `_`, starts with a letter, and is no word of Python's
+          = help: a name is letters, digits and `_`, starts with a letter, and is not a Python keyword
     "#]],
     );
 }

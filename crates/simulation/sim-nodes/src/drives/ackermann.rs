@@ -72,7 +72,7 @@ pub(crate) fn build(
     let Some(radius_m) = radius_of(context, "rear_right_joint") else {
         let message = format!(
             "plugin `{}` gets the radius of its wheels from the first collision of the right rear \
-             wheel, which is no cylinder or sphere",
+             wheel, which is not a cylinder or sphere",
             context.site.plugin.name
         );
         diagnostics.push(

@@ -94,7 +94,7 @@ fn set(
     if !(0.0..=MAX_UPDATE_RATE_HZ).contains(max_update_rate) {
         return Err(format!(
             "`max_update_rate` is {max_update_rate}; it must be a rate of at most \
-             {MAX_UPDATE_RATE_HZ} Hz, or 0 for as fast as can be"
+             {MAX_UPDATE_RATE_HZ} Hz, or 0 for as fast as possible"
         ));
     }
     simulation.set_step(*time_step);

@@ -21,7 +21,7 @@ fn scan_fault(scan: &LaserScan) -> Option<String> {
     let frame = [scan.angle_min, scan.angle_max, scan.angle_increment, scan.time_increment];
     let limits = [scan.scan_time, scan.range_min, scan.range_max];
     if !frame.iter().chain(&limits).chain(&scan.intensities).all(|number| number.is_finite()) {
-        return Some("an angle, time, limit or intensity is no number".into());
+        return Some("an angle, time, limit or intensity is not a number".into());
     }
     if scan.ranges.is_empty() {
         return Some("no ranges".into());

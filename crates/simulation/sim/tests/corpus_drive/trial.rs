@@ -153,7 +153,7 @@ fn motion([start, late, end]: [Pose; 3], faults: &mut Vec<String>) -> (f64, f64)
     let (from, to) = (ahead(start), ahead(end));
     let turned_rad = (from.x * to.y - from.y * to.x).atan2(from.x * to.x + from.y * to.y);
     if !end.is_finite() {
-        faults.push("its pose is no number".into());
+        faults.push("its pose is not a number".into());
     } else if late.translation.z - end.translation.z > FALLS_M {
         faults.push(format!("falls, {:.2} m so far", -way.z));
     } else if (start.rotation * DVec3::Z).dot(end.rotation * DVec3::Z) < 0.7 {

@@ -15,7 +15,7 @@ const UNBUILT: &str = "<!doctype html><meta charset=utf-8><title>Periplus</title
     <body style=\"font:16px/1.5 system-ui;max-width:40em;margin:4em auto;padding:0 1em\">\
     <h1>This Periplus has no page in it</h1>\
     <p>It was built from sources in which the page was not: run <code>cargo xtask viewer</code>, then \
-    build again. What the page would show is here all the same: attach Lichtblick or Foxglove to \
+    build again. Everything that the page shows is available without it: connect Lichtblick or Foxglove to \
     <code>ws://127.0.0.1:8765</code>.";
 
 /// Content security policy: only content from this server, and images and workers created by the

@@ -108,7 +108,7 @@ fn upgrade(stream: TcpStream, came: Vec<u8>, head: &Head, room: &Room) -> io::Re
     };
     let address = stream.peer_addr()?.ip();
     if head.query("token").is_some() && room.token_rate_limit.are_too_many(address) {
-        let why = "too many wrong tokens came from this address; wait a minute";
+        let why = "too many wrong tokens from this address; wait a minute";
         return refuse("429 Too Many Requests", why);
     }
     if let Err(refused) = room.authorization.admit(head) {

@@ -258,7 +258,7 @@ fn describe(topic: &str, found: &BesideTruth) -> DiagnosticStatus {
     let free_iou = found.comparison.free.iou();
     let message = if walls.mean_m.is_finite() {
         format!(
-            "walls are {:.3} m from true ones on average; {:.0} % of what is free is as it is",
+            "walls are {:.3} m from true ones on average; {:.0} % of the free space agrees",
             walls.mean_m,
             100.0 * free_iou
         )
