@@ -1,4 +1,4 @@
-//! Recordings by the command: what is heard on the network, and one file that names many results.
+//! Recording by the command: topics of the network, and one output file that names several bags.
 #![allow(clippy::unwrap_used, reason = "helpers of tests may unwrap as tests do")]
 #![allow(clippy::disallowed_methods, reason = "tests with other programs wait for them")]
 
@@ -35,7 +35,7 @@ impl Drop for Running {
     }
 }
 
-/// The texts of a recording, by topic.
+/// Text messages of a recording by topic.
 fn texts(bag: &Path) -> Vec<(String, String)> {
     let bag = Bag::open(bag).unwrap();
     let names: Vec<String> = bag.topics().iter().map(|topic| topic.name.clone()).collect();

@@ -9,7 +9,7 @@ use std::process::Command;
 use common::Folder;
 use serde_json::Value;
 
-/// All that a run leaves, by name; of the report what does not tell how fast this machine is.
+/// All output files of a run by name; of the report only the part that does not depend on the speed of the machine.
 fn run(folder: &Folder, name: &str, seed: &str) -> BTreeMap<String, Vec<u8>> {
     let mut command = Command::new(env!("CARGO_BIN_EXE_periplus"));
     command.current_dir(&folder.0);

@@ -1,4 +1,4 @@
-//! `periplus doctor` on files: what is known before anything runs.
+//! `periplus doctor` on files: faults that are found before a run.
 #![allow(clippy::unwrap_used, reason = "helpers of tests may unwrap as tests do")]
 #![allow(clippy::disallowed_methods, reason = "files are written for the command")]
 
@@ -9,7 +9,7 @@ use std::process::Command;
 
 use common::Folder;
 
-/// Codes of what is found, and the exit code.
+/// Codes of the findings, and the exit code.
 fn doctor(file: &Path) -> (Vec<String>, Option<i32>) {
     let mut command = Command::new(env!("CARGO_BIN_EXE_periplus"));
     let output = command.arg("doctor").arg(file).arg("--json").output().unwrap();
@@ -36,8 +36,8 @@ fn nodes_of_one_file_that_live_by_different_clocks() {
     assert_eq!(doctor(&file), (Vec::new(), Some(0)));
 }
 
-/// The lidar of the world with the paddles stands in a housing that is a link of its own; its scans
-/// were nothing but "too near".
+/// Regression test: the lidar of this world is inside a housing that is a separate link; all its readings
+/// were "too near".
 #[test]
 fn a_lidar_in_a_housing_sees_the_world() {
     let world = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../worlds/pong.sdf");

@@ -1,4 +1,4 @@
-//! Runs that are ended from outside: by signals, by a full disk.
+//! Runs that end early: by signals, by a full disk.
 #![cfg(unix)]
 #![allow(clippy::unwrap_used, clippy::print_stderr, reason = "tests")]
 #![allow(clippy::disallowed_methods, reason = "these tests look at files, processes and time")]
@@ -16,8 +16,8 @@ fn top() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../../..").canonicalize().unwrap()
 }
 
-/// A program with the default action for the signals of these tests: one that ran under `nohup`, or in
-/// the background of a script, hands on that they are ignored.
+/// A program with the default action for the signals of these tests: one that was started by `nohup`, or
+/// in the background of a script, inherits that they are ignored.
 fn with_default_signals(program: &str) -> Command {
     if cfg!(target_os = "linux") {
         let mut command = Command::new("env");
@@ -62,7 +62,7 @@ fn text(path: &Path) -> String {
     fs::read_to_string(path).unwrap_or_default()
 }
 
-/// The exit code of a simulation that records and maps, after these signals; its bag and map are whole.
+/// Exit code of a simulation that records and maps, after these signals; its bag and map must be complete.
 fn ended_by(name: &str, signals: &[&str]) -> Option<i32> {
     let folder = Folder::new(name);
     let (bag, map, log) = (folder.path("run.mcap"), folder.path("map"), folder.path("log"));
@@ -110,7 +110,7 @@ fn each_signal_closes_the_bag_and_writes_the_map() {
     assert_eq!(ended_by("ended_twice", &["-INT", "-INT"]), Some(0));
 }
 
-/// A launch file whose program starts another one in the background, and writes both numbers down.
+/// A launch file whose program starts another one in the background, and writes the ids of both to a file.
 fn launch_with_children(folder: &Folder) -> (PathBuf, PathBuf) {
     let numbers = folder.path("numbers");
     let script = folder.path("work.sh");
@@ -147,8 +147,8 @@ fn children_of_a_launch_end_with_it_however_it_ends() {
     }
 }
 
-/// A limit on the size of files is a disk that is full for the bag alone. The signal that comes with it
-/// is ignored, as nobody sends one for a full disk.
+/// A limit on file sizes acts as a full disk for the bag alone. Its signal is ignored, since a full disk
+/// sends none.
 #[test]
 fn a_full_disk_is_reported_while_the_run_goes_on() {
     let folder = Folder::new("full_disk");

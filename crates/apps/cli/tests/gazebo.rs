@@ -1,5 +1,5 @@
-//! A running world and the bridge among programs of Gazebo: Debian's `ignition-transport` 11, where it is
-//! installed, and a transport of our own.
+//! A running world and the bridge, with programs of Gazebo: Debian's `ignition-transport` 11 if it is
+//! installed, and this project's transport.
 #![allow(clippy::unwrap_used, clippy::print_stderr, reason = "tests")]
 #![allow(clippy::disallowed_methods, reason = "tests with other programs wait and look for them")]
 
@@ -47,7 +47,7 @@ fn pong() -> String {
     world.to_str().unwrap().to_owned()
 }
 
-/// The number behind a name in the text of a message, after another name.
+/// Number after a name in a text message, searched after another name.
 fn number(text: &str, after: &str, name: &str) -> f64 {
     let rest = text.split_once(after).map_or("", |(_, rest)| rest);
     let line = rest.lines().find_map(|line| line.trim().strip_prefix(name));

@@ -1,4 +1,4 @@
-//! `periplus launch` on files in Python, and on all launch files of other people that are at hand.
+//! `periplus launch` on Python files, and on all launch files of other projects on this machine.
 #![allow(clippy::unwrap_used, clippy::print_stderr, reason = "tests")]
 #![allow(clippy::disallowed_methods, reason = "these tests look at files and the environment")]
 
@@ -26,7 +26,7 @@ fn has_python() -> bool {
     has
 }
 
-/// A text without what differs between machines.
+/// Text without parts that differ between machines.
 fn neutral(bytes: &[u8]) -> String {
     let text = String::from_utf8_lossy(bytes).replace(&own().display().to_string(), "OWN");
     let mut out = String::new();
@@ -111,8 +111,8 @@ fn arguments_are_listed() {
     .assert_eq(&neutral(&output.stderr));
 }
 
-/// Slips in the names of packages and files lead to what is there: packages of one robot to each other,
-/// packages to their launch files, and packages of ROS to the files of theirs that are built in.
+/// Misspelt names of packages and files are corrected: with packages of the same robot, with launch files of
+/// the package, and with built-in files of ROS packages.
 #[test]
 fn names_that_lead_nowhere_lead_to_near_ones() {
     let complaint = |words: &[&str]| {
@@ -168,8 +168,8 @@ fn names_that_lead_nowhere_lead_to_near_ones() {
     assert!(!stranger.contains("did you mean"), "{stranger}");
 }
 
-/// Launch files of other people, in XML of ROS 1 and in XML, YAML and Python of ROS 2: all become plans,
-/// and arguments that nothing gives are told by name.
+/// Launch files of other projects, in XML of ROS 1 and in XML, YAML and Python of ROS 2: each has a plan, and
+/// arguments without a value are reported by name.
 #[test]
 fn all_files_of_the_corpus_have_a_plan() {
     let corpus = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../../shared/corpus");
@@ -210,7 +210,7 @@ fn all_files_of_the_corpus_have_a_plan() {
     assert!(wrong.is_empty(), "{wrong}");
 }
 
-/// The usual ends of the names of launch files.
+/// Usual extensions of launch files.
 const ENDINGS: [&str; 5] = [".launch", "launch.xml", "launch.py", "launch.yaml", "launch.yml"];
 
 fn collect(folder: &Path, files: &mut Vec<PathBuf>) {

@@ -1,5 +1,5 @@
-//! The environment, the working directory and the processes of a launch file act on the world that it
-//! starts: what is found with them, and what is said without them.
+//! Environment, working directory and processes of a launch file apply to the world that it starts: files
+//! that are found through them, and the errors without them.
 #![allow(clippy::unwrap_used, clippy::print_stderr, reason = "tests")]
 #![allow(clippy::disallowed_methods, reason = "these tests look at files and the environment")]
 
@@ -11,7 +11,7 @@ use std::process::Command;
 
 use common::Folder;
 
-/// A package with a world that wants a model, and the model far away from it.
+/// A package with a world that includes a model, and the model in another folder.
 struct Machine {
     folder: Folder,
 }
@@ -187,7 +187,7 @@ fn the_working_directory_of_a_process() {
     machine.misses("gone.launch.py", &process("TOP/nowhere"), "`cwd`");
 }
 
-/// A world that other processes make: they end before it is loaded.
+/// A world written by other processes, which end before it is loaded.
 #[test]
 fn processes_that_make_the_world() {
     if !has_python() {

@@ -1,4 +1,4 @@
-//! Launch files in Python: modules that they import, what they may do, and when.
+//! Launch files in Python: imported modules, permitted actions, and the time of evaluation.
 #![allow(clippy::unwrap_used, clippy::print_stderr, reason = "tests")]
 #![allow(clippy::disallowed_methods, reason = "these tests look at files and the environment")]
 
@@ -130,7 +130,7 @@ def generate_launch_description():
     assert_eq!(code, Some(0), "{said}");
 }
 
-/// `env` is all that a process gets, `additional_env` comes on top: of it, or of the launch's own variables.
+/// `env` replaces the environment of a process, `additional_env` adds to it or to that of the launch.
 #[test]
 fn env_replaces_the_environment_and_additional_env_adds_to_it() {
     if !has_python() {
@@ -363,7 +363,7 @@ def generate_launch_description():
     assert!(!said.contains("spawned.xml"), "{said}");
 }
 
-/// Lists of flags from a launch file are values of the parameters that are lists of words.
+/// Lists of flags from a launch file are values of string array parameters.
 #[test]
 fn lists_of_flags_are_read() {
     if !has_python() {
@@ -391,8 +391,8 @@ def generate_launch_description():
     assert!(!said.contains("the value"), "{said}");
 }
 
-/// A package that is not on this machine leaves its part of the plan empty, with the place of the launch
-/// file and that of the description; a run does not start.
+/// A missing package leaves its part of the plan empty, with the lines of the launch file and of the
+/// description; a run does not start.
 #[test]
 fn descriptions_that_need_absent_packages_are_empty_in_the_plan_and_end_a_run() {
     if !has_python() {
@@ -485,8 +485,8 @@ def generate_launch_description():
     assert!(said.contains("`no_such` is not defined") && said.contains("a.xacro:1:"), "{said}");
 }
 
-/// Files that Python code reads from a package that is not on this machine are empty, and a line that
-/// cannot work with that names the file.
+/// Files that Python code reads from a missing package are empty, and an error that this causes names the
+/// file.
 #[test]
 fn python_reads_files_of_absent_packages_as_empty() {
     if !has_python() {
@@ -571,7 +571,7 @@ def generate_launch_description():
     assert!(plan.contains("speed_m_s") && plan.contains("0.25"), "{plan}");
 }
 
-/// A module that is not on this machine ends a plan where it is used, and not where it is imported.
+/// A missing module is an error where it is used, not where it is imported.
 #[test]
 fn absent_modules_are_missed_where_they_are_used() {
     if !has_python() {
@@ -618,7 +618,7 @@ def generate_launch_description():
     }
 }
 
-/// `PythonExpression` has everything that Python has.
+/// `PythonExpression` supports all of Python.
 #[test]
 fn expressions_are_those_of_python() {
     if !has_python() {

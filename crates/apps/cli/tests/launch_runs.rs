@@ -1,4 +1,4 @@
-//! `periplus launch` runs what it has read: what is in the bag afterwards.
+//! `periplus launch` runs a file: contents of the bag afterwards.
 #![allow(clippy::unwrap_used, clippy::print_stderr, reason = "tests")]
 #![allow(clippy::disallowed_methods, reason = "these tests look at files and the environment")]
 
@@ -10,7 +10,7 @@ use std::process::{Command, Output};
 use common::Folder;
 use expect_test::{Expect, expect};
 
-/// The top of the tree.
+/// Root of the source tree.
 fn top() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../../..").canonicalize().unwrap()
 }
@@ -53,7 +53,7 @@ fn run(name: &str, words: &[&str]) -> Ran {
 }
 
 impl Ran {
-    /// Topics with their types and how many messages they have.
+    /// Topics with their types and numbers of messages.
     fn topics(&self) -> String {
         let output = periplus(&["bag", "info", &self.bag.display().to_string()]);
         let text = String::from_utf8_lossy(&output.stdout).into_owned();
@@ -120,7 +120,7 @@ fn the_robot_of_the_second_tutorial_in_its_world() {
     "#]].assert_eq(&ran.became());
 }
 
-/// The first tutorial: a map is drawn while the robot stands in its room.
+/// The first tutorial: a map is built while the robot stands in its room.
 #[test]
 fn gazebo_and_gmapping_of_ros_1() {
     let ran = run("kbot_maps", &["launch_tutorials", "kbot_maps.launch", "--duration", "1"]);
@@ -155,7 +155,7 @@ fn gazebo_and_gmapping_of_ros_1() {
     "#]].assert_eq(&ran.became());
 }
 
-/// ... and found again on that map.
+/// Second part: the robot is localized on that map.
 #[test]
 fn a_map_server_and_amcl_of_ros_1() {
     let folder = Folder::new("room");
@@ -261,7 +261,7 @@ fn a_world_of_harmonic_and_its_bridge() {
     .assert_eq(&ran.became());
 }
 
-/// A missing program is reported once, and the rest runs; a required program ends everything.
+/// A missing program is reported once, and the others run; a required program ends the launch.
 #[test]
 fn programs_of_the_machine_and_what_is_missing() {
     let folder = Folder::new("programs");
@@ -292,7 +292,7 @@ fn programs_of_the_machine_and_what_is_missing() {
     }
 }
 
-/// Launch files of other people, as they are, with what each of them starts at least.
+/// Unchanged launch files of other projects, with the minimum that each of them starts.
 #[test]
 fn launch_files_of_others_run() {
     let corpus = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../../shared/corpus");

@@ -1,5 +1,4 @@
-//! `periplus localize` on logs: a robot that finds itself, and all that can be wrong with what it is
-//! given.
+//! `periplus localize` on logs: global localization, and errors of all inputs.
 #![allow(clippy::unwrap_used, clippy::disallowed_methods, reason = "tests look at files")]
 
 mod common;
@@ -16,8 +15,8 @@ const SIDE_M: f64 = 0.05;
 const WIDTH: usize = 120;
 const HEIGHT: usize = 80;
 
-/// A room of 6 by 4 metres with a pillar and a corner cut off: no place is like another. Its corner is at
-/// (-1, -1).
+/// A room of 6 by 4 metres with a pillar and a corner cut off, so that no two poses look alike. Its corner is
+/// at (-1, -1).
 fn is_wall(column: usize, row: usize) -> bool {
     let boxes = [
         (0, 0, 120, 2),
@@ -58,7 +57,7 @@ fn look(x_m: f64, y_m: f64) -> Vec<f64> {
     (0..180).map(beam).collect()
 }
 
-/// A drive of two metres along x, as CARMEN writes it; odometry begins at (0, 0).
+/// A drive of two metres along x in CARMEN's format; odometry begins at (0, 0).
 fn log() -> String {
     let mut log = String::new();
     for step in 0..40_u32 {

@@ -1,5 +1,5 @@
-//! `periplus new`: what it writes passes every check, drives, maps, launches and localizes; and a new
-//! user's walk through all of it, with mistakes on purpose.
+//! `periplus new`: its files pass every check, drive, map, launch and localize; and the first steps of a new
+//! user with deliberate mistakes.
 #![allow(clippy::unwrap_used, clippy::print_stderr, reason = "tests")]
 #![allow(clippy::disallowed_methods, reason = "these tests look at files and the environment")]
 
@@ -14,7 +14,7 @@ use periplus_bags::files::Bag;
 use periplus_msgs::Message as _;
 use periplus_msgs::nav_msgs::Odometry;
 
-/// The program in a folder, apart from what the machine has of ROS.
+/// The program in a folder, without the ROS installation of the machine.
 fn periplus(folder: &Path, words: &[&str]) -> Output {
     let mut command = Command::new(env!("CARGO_BIN_EXE_periplus"));
     command.args(words).current_dir(folder).env("NO_COLOR", "1");
@@ -166,7 +166,7 @@ fn a_package_launches_maps_and_localizes() {
     }
 }
 
-/// The files as the programs that they are for read them.
+/// The files as read by the programs that use them.
 #[test]
 fn others_read_the_files() {
     let folder = Folder::new("new-others");
@@ -196,8 +196,8 @@ fn others_read_the_files() {
     }
 }
 
-/// A new user's walk: a robot and a room, three mistakes, check, a drive with a map, the robot found
-/// again on that map, and both with the usual stack.
+/// First steps of a new user: a robot and a room, three mistakes, `check`, a drive with a map,
+/// localization on that map, and both with `--stack`.
 #[test]
 fn the_walk_of_a_new_user() {
     let folder = Folder::new("walk");

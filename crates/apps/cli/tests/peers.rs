@@ -1,6 +1,6 @@
-//! The verbs over the wire against programs that know nothing of Periplus: a ROS 2 node of PyPI's
-//! `cyclonedds` (`peers/robot.py`) and Fast DDS (`crates/transports/dds/tests/peers/fast.cpp`). What is not
-//! installed is skipped, loudly.
+//! Commands over DDS with programs of other projects: a ROS 2 node of PyPI's `cyclonedds`
+//! (`peers/robot.py`) and Fast DDS (`crates/transports/dds/tests/peers/fast.cpp`). Missing peers are skipped
+//! with a message.
 #![allow(clippy::unwrap_used, clippy::print_stderr, reason = "tests")]
 #![allow(clippy::disallowed_methods, reason = "tests with other programs wait and look for them")]
 
@@ -37,7 +37,7 @@ fn python() -> Option<PathBuf> {
     found
 }
 
-/// Fast DDS as the tests of the wire have it.
+/// Fast DDS, built as for the tests of the transport.
 fn fast() -> Option<PathBuf> {
     let program = Path::new(env!("CARGO_TARGET_TMPDIR")).join("fast-peer-of-verbs");
     let source = here().join("../../transports/dds/tests/peers/fast.cpp");
@@ -67,7 +67,7 @@ impl Running {
         Self::reading(child, output)
     }
 
-    /// A program whose output of interest is stderr.
+    /// A program whose standard error is read.
     fn start_and_hear_errors(command: &mut Command) -> Self {
         let mut child = command.stdin(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
         let output = child.stderr.take().unwrap();
@@ -89,7 +89,7 @@ impl Running {
         writeln!(input, "{line}").and_then(|()| input.flush()).unwrap();
     }
 
-    /// The next line that has this in it.
+    /// The next line that contains this text.
     #[track_caller]
     fn says(&self, wanted: &str) -> String {
         let start = Instant::now();
@@ -142,7 +142,7 @@ impl Domain {
         self.periplus(&words).output().unwrap()
     }
 
-    /// Output of a verb.
+    /// Standard output of a command.
     #[track_caller]
     fn gives(self, line: &str) -> String {
         let output = self.run(line);
@@ -155,7 +155,7 @@ impl Domain {
         assert_eq!(self.gives(line), expected, "{line}");
     }
 
-    /// Error output of a verb.
+    /// Standard error of a command.
     #[track_caller]
     fn fails(self, line: &str) -> String {
         let output = self.run(line);
@@ -306,7 +306,7 @@ fn keys_drive_a_ros_2_node() {
     assert!(teleop.child.wait().unwrap().success());
 }
 
-/// A robot of another program on a known map (`peers/localize.py`).
+/// A robot on a known map, simulated by another program (`peers/localize.py`).
 fn lost_robot(domain: Domain, python: &Path) -> Running {
     let mut robot = Command::new(python);
     robot.env("PYTHONDONTWRITEBYTECODE", "1");

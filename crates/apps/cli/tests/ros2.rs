@@ -1,5 +1,5 @@
-//! The command among real ROS 2 programs: rclpy on rmw_fastrtps_cpp, from PyPI. What is not installed is
-//! skipped, loudly.
+//! The command with real ROS 2 programs: rclpy on rmw_fastrtps_cpp, from PyPI. Missing peers are skipped with
+//! a message.
 #![allow(clippy::unwrap_used, clippy::print_stderr, reason = "tests")]
 #![allow(clippy::disallowed_methods, reason = "tests with other programs wait and look for them")]
 
@@ -23,7 +23,7 @@ fn here() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).to_path_buf()
 }
 
-/// The Python that has ROS.
+/// Python with ROS.
 fn ros() -> Option<PathBuf> {
     let python = here().join("../../../target/peers/ros2/bin/python");
     let mut asked = Command::new(&python);
@@ -45,7 +45,7 @@ struct Running {
 }
 
 impl Running {
-    /// Stdout and stderr come as lines of one stream.
+    /// Lines of stdout and stderr as one stream.
     fn start(command: &mut Command) -> Self {
         let mut child = command
             .stdin(Stdio::piped())
@@ -65,7 +65,7 @@ impl Running {
         Self { child, lines }
     }
 
-    /// The next line that has these words.
+    /// The next line that contains these words.
     #[track_caller]
     fn tells(&self, wanted: &str) {
         let end = Instant::now() + LONG;
@@ -79,7 +79,7 @@ impl Running {
         }
     }
 
-    /// The next line that begins so.
+    /// The next line with this prefix.
     #[track_caller]
     fn says(&self, wanted: &str) -> String {
         let end = Instant::now() + LONG;
@@ -93,7 +93,7 @@ impl Running {
         }
     }
 
-    /// Time on the processor so far, of all threads.
+    /// CPU time so far, of all threads.
     fn processor(&self) -> Duration {
         let threads = std::fs::read_dir(format!("/proc/{}/task", self.child.id())).unwrap();
         let times = threads.map(|thread| {
@@ -188,8 +188,8 @@ fn write_map(folder: &Folder) -> String {
     map.to_string_lossy().into_owned()
 }
 
-/// Before, each service had two writers of responses, for two vendors, and no client of rmw_fastrtps ever
-/// found one ready. After the first call a thread of the server never slept again.
+/// Regression test: each service had two response writers, for two vendors, and no client of rmw_fastrtps
+/// found it ready. After the first call a thread of the server never slept again.
 #[test]
 fn every_service_is_ready_and_answers_and_the_server_rests_afterwards() {
     let Some(python) = ros() else { return };
@@ -228,12 +228,12 @@ fn every_service_is_ready_and_answers_and_the_server_rests_afterwards() {
     assert!(after.iter().any(|ratio| *ratio <= before + 0.01), "{before} before, {after:?} after");
 }
 
-/// Every step of the clock, 200 in a second, woke the threads of all nodes of a program: more than half of
-/// the CPU of `localize --live`.
+/// Regression test: every step of the clock, 200 per second, woke the threads of all nodes of a program,
+/// which took more than half of the CPU time of `localize --live`.
 #[test]
 #[cfg(target_os = "linux")]
 fn a_filter_without_scans_rarely_wakes() {
-    /// 250 of the filter (which looks for scans 50 times in a second), the wire and DDS; 520 to 590 before.
+    /// 250 wake-ups of the filter (which polls for scans at 50 Hz), the transport and DDS; 520 to 590 before.
     const MAX_WAKES_PER_S: f64 = 400.0;
     const WINDOW: Duration = Duration::from_secs(2);
     let domain = Domain(123);
@@ -248,8 +248,8 @@ fn a_filter_without_scans_rarely_wakes() {
     assert!(wakes_per_s < MAX_WAKES_PER_S, "{wakes_per_s:.0} wakes per second");
 }
 
-/// Lists printed what was known after 0.7 s, and nodes of Fast DDS tell their names only when they are
-/// asked in the way of Fast DDS, or 3 s later.
+/// Regression test: lists were printed after 0.7 s, but nodes of Fast DDS announce their names only on a
+/// request of Fast DDS, or after 3 s.
 #[test]
 fn lists_name_all_nodes_of_ros() {
     let Some(python) = ros() else { return };
@@ -323,7 +323,7 @@ fn verbs_work_with_a_node_of_ros() {
     assert!(stderr.lines().any(|line| line.starts_with("Setting parameter failed: ")), "{stderr}");
 }
 
-/// A node of ROS in the range LOCALHOST hears no multicast and tells addresses of this machine only.
+/// A ROS node in the range LOCALHOST receives no multicast, and announces only addresses of this machine.
 #[test]
 fn ranges_meet_on_one_machine() {
     let Some(python) = ros() else { return };
@@ -343,7 +343,7 @@ fn ranges_meet_on_one_machine() {
     }
 }
 
-/// OFF means off, also towards a node that looks for others on every port of the machine.
+/// In the range OFF no program is found, not even by a node that searches all ports of the machine.
 #[test]
 fn nobody_is_found_in_the_range_off() {
     let Some(python) = ros() else { return };
@@ -358,7 +358,7 @@ fn nobody_is_found_in_the_range_off() {
     }
 }
 
-/// "This machine only" holds for the ports too.
+/// The range of this machine applies to the ports too.
 #[test]
 #[cfg(target_os = "linux")]
 fn ports_of_this_machine_only_are_bound_to_it() {
@@ -413,7 +413,7 @@ impl Domain {
         Running::start(&mut command)
     }
 
-    /// Our lifecycle manager of one node, with more parameters and, perhaps, a world.
+    /// Periplus' lifecycle manager of one node, with additional parameters and an optional world.
     fn manager_with(self, name: &str, more: &[&str], world: Option<&Path>) -> (Running, Folder) {
         let folder = Folder::new(&format!("manager-{}", self.0));
         let parameters = folder.path("manager.yaml");
@@ -448,11 +448,11 @@ fn world() -> PathBuf {
     here().join("../../../worlds/demo_room.sdf")
 }
 
-/// Longer than any heartbeat may be missing.
+/// Longer than the timeout of any heartbeat.
 const PAUSE: Duration = Duration::from_secs(6);
 
-/// Heartbeats ran on the time of the simulation: a pause broke the bond with every lifecycle manager
-/// outside, which then took the whole system down.
+/// Regression test: heartbeats ran on simulated time, so that a pause broke the bond with every external
+/// lifecycle manager, which then shut the whole system down.
 #[test]
 fn bonds_hold_while_the_simulation_is_paused() {
     let Some(python) = cyclone() else { return };
@@ -488,8 +488,7 @@ fn bonds_hold_while_the_simulation_is_paused() {
     own_manager.tells("`alpha` is down");
 }
 
-/// Nav2's `attempt_respawn_reconnection` (default true): the system starts again with a node that was
-/// started anew.
+/// Nav2's `attempt_respawn_reconnection` (default true): the system restarts when a node has been restarted.
 #[test]
 fn a_lifecycle_manager_starts_again_when_its_nodes_come_back() {
     let Some(python) = cyclone() else { return };
@@ -521,8 +520,7 @@ fn a_lifecycle_manager_starts_again_when_its_nodes_come_back() {
     assert!(!manager.lines.try_iter().any(|line| line.contains("restarting the system")));
 }
 
-/// Tools ask a node for the definitions of the types that it uses, as every node of ROS 2 has had
-/// them since Jazzy.
+/// Tools request the definitions of a node's types, which every node of ROS 2 has provided since Jazzy.
 #[test]
 fn nodes_describe_their_types_as_nodes_of_ros_do() {
     let Some(python) = ros() else { return };
@@ -541,7 +539,7 @@ fn nodes_describe_their_types_as_nodes_of_ros_do() {
     peer.says("nonsense Failed to parse type hash");
 }
 
-/// `rosbag2` notes the distribution, and the QoS that publishers announce.
+/// `rosbag2` records the distribution, and the QoS announced by publishers.
 #[test]
 fn recordings_note_the_distribution_and_the_qos_of_publishers() {
     let Some(python) = ros() else { return };
@@ -570,7 +568,7 @@ fn recordings_note_the_distribution_and_the_qos_of_publishers() {
     assert_eq!(offered("/map"), "history: keep_last depth: 1");
 }
 
-/// Byte arrays became lists of integers.
+/// Regression test: byte arrays became lists of integers.
 #[test]
 fn byte_arrays_of_a_node_of_ros_survive_a_dump() {
     let Some(python) = ros() else { return };
@@ -593,7 +591,7 @@ fn byte_arrays_of_a_node_of_ros_survive_a_dump() {
     assert_eq!(domain.gives(&["param", "dump", "/bytes"]), dump);
 }
 
-/// A lifecycle manager of Nav2 gives up a node that keeps no bond with it.
+/// A lifecycle manager of Nav2 shuts a node down that has no bond with it.
 #[test]
 fn a_managed_node_keeps_a_bond_while_it_is_active() {
     let Some(python) = cyclone() else { return };
@@ -627,7 +625,8 @@ fn a_lifecycle_manager_keeps_bonds_with_its_nodes() {
     manager.tells("`beta` was unable to be reached after 2.00 s by bond");
 }
 
-/// Parameters behind `--ros-args` did not reach a manager of `periplus run`: it had no nodes.
+/// Regression test: parameters after `--ros-args` did not reach a manager started by `periplus run`, which had
+/// no nodes.
 #[test]
 fn a_manager_that_runs_alone_knows_its_nodes() {
     let folder = Folder::new("manager-alone");

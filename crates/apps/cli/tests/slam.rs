@@ -1,5 +1,5 @@
-//! `periplus slam` on logs of every kind: ours, those of PyPI's `rosbags` (`peers/slam.py`, skipped
-//! loudly where it is not installed), and damaged ones.
+//! `periplus slam` on logs of every kind: those of the project, those of PyPI's `rosbags` (`peers/slam.py`,
+//! skipped with a message if it is not installed), and damaged ones.
 #![allow(clippy::unwrap_used, clippy::print_stderr, reason = "tests")]
 #![allow(clippy::disallowed_methods, reason = "these tests look at files and the environment")]
 
@@ -28,7 +28,7 @@ const AHEAD_M: f64 = 0.1;
 /// Start time of the drive \[ns\].
 const BEGIN_NS: i64 = 1_000_000_000_000;
 
-/// Around the corner of a corridor, with a scanner ahead of the robot's middle.
+/// A path around the corner of a corridor, with a scanner in front of the robot's center.
 fn drive() -> Vec<Moment> {
     let world = World::ring(12.0, 8.0, 2.4, 1);
     let mut moments = world.drive(&[(2.0, 0.0), (12.0, 0.0), (12.0, 6.0)], 0.3, &ROBOT, 1);
@@ -96,7 +96,7 @@ fn write_mcap(path: &Path, moments: &[Moment]) {
     bag.finish().unwrap();
 }
 
-/// The drive as CARMEN writes it: `ROBOTLASER1 type start field step max accuracy mode n ranges..
+/// The drive in CARMEN's format: `ROBOTLASER1 type start field step max accuracy mode n ranges..
 /// m remissions.. laser robot tv rv distances.. stamp host stamp`.
 fn carmen(moments: &[Moment]) -> String {
     let mut text = String::from("# CARMEN Logfile\n");
@@ -191,8 +191,8 @@ fn a_drive_is_the_same_in_logs_of_every_kind() {
     check(&other, &moments);
 }
 
-/// Wheels that are counted with the wrong sign: the log is mapped again without that, which is told; the
-/// report has the edges that g2o reads.
+/// Wheels counted with the wrong sign: the log is mapped again with corrected odometry, which is reported;
+/// the report has the edges that g2o reads.
 #[test]
 fn a_log_with_reversed_wheels_is_mapped_again() {
     let folder = Folder::new("slam-reversed");
@@ -233,8 +233,8 @@ fn a_log_with_reversed_wheels_is_mapped_again() {
     assert!(!said.contains("the map was rebuilt"), "{said}");
 }
 
-/// Two shelves are gone when the robot passes the second time: the report has the place and the times of both
-/// passes, and the picture a red ring.
+/// Two shelves are missing when the robot passes for the second time: the report has the position and the
+/// times of both passes, and the picture a red ring.
 #[test]
 fn passes_that_contradict_each_other_are_in_the_report_and_in_the_picture() {
     let folder = Folder::new("slam-contradiction");
@@ -290,7 +290,7 @@ fn passes_that_contradict_each_other_are_in_the_report_and_in_the_picture() {
     assert!(red > 300, "{red}");
 }
 
-/// Scans of a building in which each second one is of elsewhere: no map, and exit code 1.
+/// Scans of a building in which every second one was taken elsewhere: no map, and exit code 1.
 #[test]
 fn a_log_whose_scans_fit_nothing_fails() {
     let folder = Folder::new("slam-unfitting");

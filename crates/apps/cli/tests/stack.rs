@@ -1,4 +1,4 @@
-//! The navigation stack beside robots without configuration, and scripts without topics.
+//! The navigation stack with robots that have no configuration, and scripts without topics.
 #![allow(clippy::unwrap_used, reason = "tests")]
 #![allow(clippy::disallowed_methods, reason = "these tests look at files and the environment")]
 
@@ -38,7 +38,7 @@ fn script(folder: &Folder, text: &str) -> String {
     path.display().to_string()
 }
 
-/// The line of the README: a script without a topic, and a map.
+/// The command of the README: a script without a topic, and a map.
 #[test]
 fn a_script_and_a_map_with_both_robots() {
     let folder = Folder::new("stack_readme");
@@ -208,7 +208,8 @@ fn words_that_are_not_what_they_seem() {
     }
 }
 
-/// `launch` went on without a page and `sim` stopped; both take another port unless one was named.
+/// Regression test: with the port in use `launch` continued without a page and `sim` stopped; both use another
+/// port unless one was named.
 #[test]
 fn a_page_takes_another_port_where_the_usual_one_is_taken() {
     // Where it cannot be had, another program has it already.
@@ -233,7 +234,7 @@ fn a_page_takes_another_port_where_the_usual_one_is_taken() {
     );
 }
 
-/// `launch` warns of these; `sim --robot` and `check` took them without a word.
+/// Regression test: `launch` warned of these; `sim --robot` and `check` accepted them silently.
 #[test]
 fn misspelt_arguments_of_xacro_are_named() {
     let world = "worlds/closed_room.world";

@@ -1,4 +1,4 @@
-//! The table of steps (`docs/tutorials/steps.md`) against the tutorials and the tests that it names.
+//! The table of steps (`docs/tutorials/steps.md`) compared with the tutorials and tests that it names.
 #![allow(clippy::unwrap_used, reason = "helpers of tests may unwrap as tests do")]
 #![allow(clippy::disallowed_methods, reason = "files of the project are read")]
 #![allow(clippy::print_stderr, reason = "skipped tests are reported")]
@@ -10,7 +10,7 @@ fn root() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../../..")
 }
 
-/// A row: its lines, and its cells from the second on.
+/// A row: line numbers in the tutorial, and the cells from the second on.
 struct Row {
     lines: Vec<usize>,
     cells: Vec<String>,
@@ -22,7 +22,7 @@ struct Table {
     read_only: Vec<usize>,
 }
 
-/// `3`, `5-7`, and commas between.
+/// Parses `3`, `5-7`, and lists of them separated by commas.
 fn numbers(text: &str) -> Vec<usize> {
     let part = |part: &str| {
         let (first, last) = part.trim().split_once('-').unwrap_or((part.trim(), part.trim()));

@@ -3,7 +3,7 @@
 
 use std::process::{Child, Command, Output, Stdio};
 
-/// A domain of this run's own.
+/// A domain that only this run uses.
 fn domain() -> String {
     (101 + std::process::id() % 100).to_string()
 }

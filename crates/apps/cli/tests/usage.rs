@@ -1,5 +1,5 @@
-//! Exit codes and words of every command where something is missing: 1 for a job that failed, 2 for words
-//! that make no sense; the system's error numbers are never shown, and near names are proposed.
+//! Exit codes and messages of every command for missing and wrong arguments: 1 for a job that failed, 2 for
+//! wrong usage; error numbers of the system are never shown, and similar names are proposed.
 #![allow(clippy::unwrap_used, reason = "tests")]
 #![allow(clippy::disallowed_methods, reason = "these tests write files")]
 
@@ -10,7 +10,7 @@ use std::process::Command;
 
 use common::Folder;
 
-/// Exit code and all that was written.
+/// Exit code and all output.
 fn run(folder: &Path, line: &str) -> (i32, String) {
     let output = Command::new(env!("CARGO_BIN_EXE_periplus"))
         .args(line.split(' ').filter(|word| !word.is_empty()))
@@ -32,7 +32,7 @@ fn check(folder: &Path, code: i32, line: &str) -> String {
     text
 }
 
-/// A file that is not there fails the job, whichever command is to read it.
+/// A missing file fails the job, for every command that reads it.
 #[test]
 fn a_missing_file_is_1_everywhere() {
     let folder = Folder::new("usage-missing");
@@ -81,7 +81,7 @@ fn a_missing_file_is_1_everywhere() {
     }
 }
 
-/// Words without meaning are wrong usage, whichever command has them.
+/// Unknown arguments are wrong usage, for every command.
 #[test]
 fn wrong_words_are_2_everywhere() {
     let folder = Folder::new("usage-words");
@@ -159,7 +159,7 @@ fn a_place_that_cannot_be_written_is_1() {
     }
 }
 
-/// Near names of files and commands are proposed.
+/// Similar names of files and commands are proposed.
 #[test]
 fn slips_are_recognised() {
     let folder = Folder::new("usage-slips");
@@ -190,7 +190,7 @@ fn slips_are_recognised() {
     }
 }
 
-/// Manual pages go to a folder that is made.
+/// Manual pages are written to a folder, which is created.
 #[test]
 fn manual_pages_make_their_folder() {
     let folder = Folder::new("usage-man");

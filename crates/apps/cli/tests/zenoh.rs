@@ -1,4 +1,4 @@
-//! `periplus sim --ros2 zenoh`: a run that PyPI's `eclipse-zenoh` sees as it would see one of
+//! `periplus sim --ros2 zenoh`: PyPI's `eclipse-zenoh` discovers and reads a run like a program of
 //! `rmw_zenoh`.
 #![cfg(feature = "zenoh")]
 #![allow(clippy::unwrap_used, clippy::print_stderr, reason = "tests")]
@@ -12,7 +12,7 @@ fn root() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../../..")
 }
 
-/// A robot among walls, on Zenoh.
+/// A robot between walls, on Zenoh.
 fn run(more: &[&str]) -> Command {
     let mut command = Command::new(env!("CARGO_BIN_EXE_periplus"));
     command.arg("sim").arg(root().join("worlds/closed_room.world"));
