@@ -1,5 +1,5 @@
-//! COLLADA documents put together piece by piece, so that each test shows only
-//! what it is about.
+//! COLLADA documents put together piece by piece, so that each test contains only the relevant
+//! elements.
 
 mod support;
 

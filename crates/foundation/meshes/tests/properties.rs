@@ -87,7 +87,7 @@ proptest! {
     }
 }
 
-/// Own small files that use most of what each reader knows.
+/// Small files that use most features of each reader.
 fn seeds() -> Vec<(MeshFormat, &'static [u8])> {
     macro_rules! seed {
         ($format:ident, $path:literal) => {

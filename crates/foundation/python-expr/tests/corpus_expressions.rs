@@ -24,7 +24,7 @@ fn files(folder: &Path, found: &mut Vec<PathBuf>) {
     }
 }
 
-/// The texts between the marks, as xacro's own lexer cuts them: up to the first closing mark.
+/// Texts between the delimiters, as split by xacro's lexer: up to the first closing delimiter.
 fn between<'a>(text: &'a str, open: &'a str, close: char) -> impl Iterator<Item = &'a str> {
     text.split(open)
         .skip(1)

@@ -1,4 +1,4 @@
-//! The evaluator against Python itself, by the table that python_expressions.py writes.
+//! Comparison of the evaluator with Python, by the table that python_expressions.py writes.
 
 use periplus_python_expr::{
     Budget, EmptyScope, Expression, ExpressionDialect, ExpressionError, Scope, Value, evaluate,

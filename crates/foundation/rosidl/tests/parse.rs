@@ -7,7 +7,7 @@ use periplus_rosidl::{
     ArrayShape, ElementType, InterfaceDialect, Registry, Scalar, TypeName, parse,
 };
 
-/// The findings on a text of such a name.
+/// Findings about a text with this file name.
 fn check(name: &str, text: &str, expected: Expect) {
     check_as(InterfaceDialect::Ros2, name, text, expected);
 }

@@ -272,7 +272,7 @@ fn a_type_from_a_bag_is_read_and_written() {
     assert_eq!(message.get("corners[0].x"), Some(periplus_msgs::Value::Number(1.0.into())));
 }
 
-/// A text that begins with a letter of several bytes once ended the program.
+/// Regression test: a text that begins with a multi-byte character caused a panic.
 #[test]
 fn any_text_can_be_shown() {
     use proptest::prelude::*;

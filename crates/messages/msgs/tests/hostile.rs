@@ -1,4 +1,4 @@
-//! Bytes from strangers: any outcome but a panic, a hang, or more memory than they pay for.
+//! Arbitrary bytes: no panic, no hang, and no more memory than the size of the input justifies.
 #![allow(clippy::unwrap_used, reason = "helpers of tests may unwrap as tests do")]
 
 use std::sync::Arc;
@@ -113,7 +113,7 @@ fn any_format() -> impl Strategy<Value = Format> {
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(2_000))]
 
-    /// Small bytes make lengths that fit, so that reading gets far.
+    /// Small values give plausible lengths, so that decoding proceeds.
     #[test]
     fn any_bytes_are_read_or_refused(
         layout in any_layout(),
@@ -137,7 +137,7 @@ proptest! {
         }
     }
 
-    /// One byte changed in a message that is right.
+    /// A valid message with one changed byte.
     #[test]
     fn a_flipped_byte_never_panics(at in 0_usize..400, flip in 1_u8.., ranges in prop::collection::vec(any::<f32>(), 0..40)) {
         let mut bytes = LaserScan { ranges, ..LaserScan::default() }.to_cdr().unwrap();

@@ -1,4 +1,5 @@
-//! The bytes and hashes of others; see `data/make.py` for where they come from.
+//! Comparison with the bytes and hashes of other implementations; `data/make.py` lists their
+//! sources.
 #![allow(clippy::unwrap_used, reason = "helpers of tests may unwrap as tests do")]
 
 use std::collections::BTreeMap;

@@ -1,4 +1,4 @@
-//! Files that are neither robot nor world: each is called by its name, and no XML error is shown.
+//! Files that are neither robot nor world: each is identified by its format, without an XML error.
 
 mod common;
 

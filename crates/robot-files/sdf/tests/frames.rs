@@ -1,4 +1,4 @@
-//! Frames: what poses are relative to.
+//! Frames that poses are relative to.
 
 mod common;
 

@@ -1,4 +1,4 @@
-//! Real files: what is written reads back the same, and a model has the tree of its URDF.
+//! Real files: written files are read back unchanged, and a model has the tree of its URDF.
 //!
 //! `PERIPLUS_URDF_ORACLE` names the output of `benches/oracles/urdf_oracle`, of which only the
 //! names of the files are used. Without it this test prints that it was skipped.

@@ -11,7 +11,7 @@ use periplus_urdf::{ConversionOptions, from_model, read, to_model, write};
 const BODY: &str = "<inertial><mass value='1'/><inertia ixx='1' ixy='0' ixz='0' iyy='1' iyz='0' \
                     izz='1'/></inertial>";
 
-/// Everything that can be done with a text; gives how many links the model and the tree have.
+/// Runs all operations on a text; returns the numbers of links of the model and of the tree.
 fn all(text: &str) -> (usize, usize) {
     let mut sources = SourceMap::new();
     let mut diagnostics = Diagnostics::new();
@@ -36,7 +36,7 @@ fn all(text: &str) -> (usize, usize) {
     (links, tree)
 }
 
-/// A robot whose links hang in a row on joints of one kind.
+/// A robot whose links form a chain of joints of one kind.
 fn row(count: usize, kind: &str, body: impl Fn(usize) -> &'static str) -> String {
     let mut text = String::from("<robot name='row'>");
     for index in 0..count {

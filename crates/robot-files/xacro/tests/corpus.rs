@@ -1,4 +1,4 @@
-//! The corpus of real files, against what PyPI's xacro makes of it.
+//! The corpus of real files, compared with the output of PyPI's xacro.
 //!
 //! `cargo xtask corpus` runs the reference and then this test, with the file of its answers in
 //! PERIPLUS_XACRO_ORACLE.
@@ -18,7 +18,7 @@ use periplus_xacro::{XacroContext, expand};
 use periplus_xml::{canonical, decode, parse};
 use serde_json::Value;
 
-/// Files that we expand and the reference does not, and why we are right to.
+/// Files that are expanded here and refused by the reference, with the reasons.
 const MORE_LENIENT: &[(&str, &str)] = &[(
     "xacro_tests/test/B.xacro",
     "scope=\"parent\" outside of macros: the reference means to warn, and crashes",

@@ -19,8 +19,8 @@ fn rough(link: &mut Link, fdir1: DVec3, frame: Option<&str>) {
     };
 }
 
-/// A runner that was pushed along x and y at 1 m/s each: it stops along x after 5.1 cm
-/// (v² / 2 mu g), and slides on along y for ever.
+/// A runner that was pushed along x and y at 1 m/s each: it stops along x after 5.1 cm (v² / 2 mu
+/// g), and slides along y without end.
 #[test]
 fn a_skate_slides_one_way() {
     let mut runner = at(0.0, 0.0, 0.05, solid_box("runner", 2.0, DVec3::new(0.2, 0.2, 0.1)));

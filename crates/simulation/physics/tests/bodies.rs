@@ -1,4 +1,4 @@
-//! Bodies with answers that one can do in the head.
+//! Bodies with results in closed form.
 #![allow(missing_docs, reason = "tests")]
 
 mod common;

@@ -1,4 +1,4 @@
-//! Carts that stand on wheels and casters at once: the load is shared, so the wheels drive.
+//! Carts on wheels and casters: the load is shared, so the wheels have traction.
 #![allow(missing_docs, clippy::unwrap_used, reason = "tests")]
 
 #[path = "casters/cart.rs"]

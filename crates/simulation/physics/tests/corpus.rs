@@ -57,7 +57,7 @@ fn floor() -> Model {
     Model { is_static: true, links: vec![link], ..Model::new("floor") }
 }
 
-/// The worlds of a scene; its robots each alone on a floor, half a metre up.
+/// Worlds of a scene; each of its robots alone, half a metre above a floor.
 fn worlds(scene: &Scene, mode: PhysicsMode, files: &Files) -> (Vec<PhysicsWorld>, Vec<String>) {
     let mut made = Vec::new();
     let mut refused = Vec::new();

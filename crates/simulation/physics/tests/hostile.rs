@@ -1,4 +1,4 @@
-//! Scenes that no one should have written.
+//! Invalid and extreme scenes.
 #![allow(missing_docs, reason = "tests")]
 
 mod common;
@@ -9,7 +9,7 @@ use periplus_physics::{NoMeshes, PhysicsMode, PhysicsWorld};
 use periplus_scene::{Axis, DVec3, Friction, Inertial, Joint, JointKind, Link, Model, Pose, Shape};
 use proptest::prelude::*;
 
-/// Adds a model and answers whether it was taken, and the findings' codes.
+/// Adds a model; returns true if it was accepted, and the codes of the findings.
 fn check(model: &Model) -> (bool, Vec<&'static str>) {
     let mut world = flat_world();
     let added = world.add(model, Pose::from_xyz(0.0, 0.0, 1.0), &NoMeshes);

@@ -1,4 +1,4 @@
-//! Joints with answers that one can do in the head.
+//! Joints with results in closed form.
 #![allow(missing_docs, reason = "tests")]
 
 mod common;

@@ -1,4 +1,4 @@
-//! Robots of any mass, with inertias as files have them, stay where they are put.
+//! Robots of any mass, with inertias as files have them, stay at rest.
 #![allow(missing_docs, clippy::unwrap_used, reason = "tests")]
 
 mod common;

@@ -1,4 +1,4 @@
-//! Shapes from files and outlines: what lies on them lies where they are.
+//! Shapes from files and outlines: bodies rest on their surfaces.
 #![allow(missing_docs, clippy::unwrap_used, reason = "tests")]
 
 mod common;

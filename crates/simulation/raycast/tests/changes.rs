@@ -1,4 +1,4 @@
-//! A world that was changed answers like one built that way.
+//! A changed world gives the same hits as one built in its final state.
 
 #![allow(clippy::unwrap_used, reason = "helpers of tests")]
 
@@ -30,7 +30,7 @@ fn ball(builder: &mut RaycastWorldBuilder, x: f64) -> InstanceId {
     builder.add_shape(&RaycastShape::Sphere { radius_m: 0.5 }, &at(x), Tags::default()).unwrap()
 }
 
-/// Along x from the origin: how far and what.
+/// Distance and instance of the first hit along x from the origin.
 fn ahead(world: &RaycastWorld) -> Option<(f64, InstanceId)> {
     let ray = Ray::new(DVec3::new(0.0, 0.1, -0.3), DVec3::X);
     world
@@ -88,7 +88,7 @@ fn anywhere(stream: &mut Stream) -> Pose {
     Pose::from_xyz_rpy((unit(stream) * 6.0 * stream.unit()).to_array(), rotate_into_world)
 }
 
-/// One of several things that can move.
+/// One of several movable shapes.
 fn thing(builder: &mut RaycastWorldBuilder, kind: u64, pose: &Pose) {
     let tags = Tags::default();
     let shape = match kind {
@@ -105,15 +105,15 @@ fn thing(builder: &mut RaycastWorldBuilder, kind: u64, pose: &Pose) {
     builder.add_shape(&shape, pose, tags).unwrap();
 }
 
-/// Planes are rare, lest nothing else is seen.
+/// Planes are rare, since they hide everything else.
 fn kind(stream: &mut Stream) -> u64 {
     [0, 1, 2, 4, 0, 1, 2, 4, 0, 1, 2, 4, 3][usize::try_from(stream.bits() % 13).unwrap()]
 }
 
-/// Kind and pose of what is there, by id.
+/// Kind and pose of each instance, by id.
 type Things = Vec<Option<(u64, Pose)>>;
 
-/// Built at once: ids without holes, and the ids they stand for.
+/// The same world built in one step: contiguous ids, with the original ids.
 fn built(things: &Things) -> (RaycastWorld, Vec<InstanceId>) {
     let mut builder = RaycastWorld::builder();
     let mut ids = vec![InstanceId(0)];

@@ -1,4 +1,4 @@
-//! Shapes, with answers one can do in one's head.
+//! Shapes with intersections in closed form.
 
 #![allow(clippy::unwrap_used, reason = "helpers of tests")]
 

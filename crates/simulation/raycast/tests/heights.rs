@@ -58,7 +58,7 @@ fn no_grid_no_ground() {
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(64))]
 
-    /// The same as its triangles, and no ray falls through, on grid lines neither.
+    /// Hits equal those of its triangles, and no ray passes through, not even on grid lines.
     #[test]
     fn as_its_triangles(columns in 2_usize..12, rows in 2_usize..12, seed in any::<u64>()) {
         let mut stream = Stream::keyed(seed, "ground", 0);
@@ -118,7 +118,8 @@ proptest! {
     }
 }
 
-/// The neighbour across a line was passed over when the ray's shadow is a point on that line.
+/// Regression test: a cell across a grid line was skipped when the ray's projection is a point on
+/// that line.
 #[test]
 fn straight_down_on_a_grid_line() {
     let field = world(7, 3, [4.0, 3.0], vec![0.5; 21]);

@@ -13,7 +13,7 @@ use periplus_raycast::{
 use proptest::prelude::*;
 use support::{Solid, fixed, unit};
 
-/// The nearest distance when triangles are a little smaller, or larger, than they are.
+/// Nearest distances to slightly smaller and to slightly larger triangles.
 fn brute_force(solid: &Solid, ray: &Ray, grow: f64) -> f64 {
     let mut nearest = f64::INFINITY;
     for triangle in &solid.triangles {
@@ -91,7 +91,7 @@ proptest! {
         }
     }
 
-    /// Single, many, in rows, with other threads: the same bits.
+    /// Single rays, batches, packets, and any number of threads give the same bits.
     #[test]
     fn many_rays_equal_single_rays(seed in any::<u64>(), columns in 1_usize..40, narrow in any::<bool>()) {
         let world = everything(seed);

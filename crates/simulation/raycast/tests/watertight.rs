@@ -1,4 +1,4 @@
-//! From inside a closed mesh no ray gets out, wherever it is aimed: at edges and corners above all.
+//! No ray leaves a closed mesh from inside, not even through edges and corners.
 
 #![allow(clippy::unwrap_used, reason = "helpers of tests")]
 

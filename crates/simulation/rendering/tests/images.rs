@@ -1,4 +1,4 @@
-//! Pictures whose pixels one can work out.
+//! Images whose pixels are known in closed form.
 #![allow(missing_docs, reason = "tests")]
 
 use periplus_rendering::{

@@ -1,4 +1,4 @@
-//! Scenes whose rays one can follow in the head.
+//! Scenes with intersections in closed form.
 #![allow(missing_docs, reason = "tests")]
 
 use std::sync::Arc;
@@ -14,7 +14,7 @@ use periplus_scene::{
     Visual,
 };
 
-/// A triangle in the plane x = 0, from the files that there are.
+/// A mesh reader whose only file is a triangle in the plane x = 0.
 struct OneTriangle;
 
 impl AssetLoader for OneTriangle {
@@ -69,7 +69,7 @@ fn material(scene: &RenderScene, origin: [f64; 3], towards: [f64; 3]) -> Option<
     scene.rays().cast(&ray, filter(u32::MAX, None))
 }
 
-/// The distance along x from the origin, if anything is there.
+/// Distance to the first hit along x from the origin.
 fn ahead(scene: &RenderScene) -> Option<f64> {
     material(scene, [0.0; 3], [1.0, 0.0, 0.0]).map(|hit| (hit.distance_m * 1e9).round() / 1e9)
 }

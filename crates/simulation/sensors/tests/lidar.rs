@@ -236,8 +236,8 @@ fn noise_stays_within_the_range_and_leaves_infinities() {
     assert!((mean - 0.05).abs() < 0.005 && (sigma - 0.1).abs() < 0.005, "{mean} {sigma}");
 }
 
-/// Two rays at ±45 degrees to a wall 1 m ahead, both 1.414 m, and three ranges of them: the one
-/// between is what lies between, not the wall itself.
+/// Two rays at ±45 degrees to a wall 1 m ahead, both 1.414 m, and three ranges of them: the middle
+/// one is interpolated, not the distance of the wall.
 #[test]
 fn resolution_makes_ranges_between_rays() {
     let quarter = std::f64::consts::FRAC_PI_4;

@@ -10,7 +10,7 @@ use periplus_physics::{PhysicsMode, PhysicsWorld};
 use periplus_scene as scene;
 use periplus_sim_nodes::{Device, StepInterval, world_devices};
 
-/// The devices of a world that has a plugin with this inside, and what is wrong with it.
+/// Devices and findings of a world that has a plugin with these elements.
 fn devices(graph: &Graph, inside: &str) -> (Vec<Box<dyn Device>>, Vec<String>) {
     let text = format!("<plugin>{inside}</plugin>");
     let mut sources = SourceMap::new();
@@ -50,7 +50,7 @@ impl Bench {
         Self { graph, devices, keys, commands, motion, now_ns: 0 }
     }
 
-    /// Forward velocities that a key brings, a millisecond later.
+    /// Forward velocities commanded by a key, one millisecond later.
     fn press(&mut self, data: i32) -> Vec<f64> {
         self.keys.publish(Int32 { data });
         self.wait(1)

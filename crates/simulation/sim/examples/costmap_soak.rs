@@ -1,5 +1,6 @@
-//! An hour of simulated time among things that move, with the costmaps of the tutorial's robot: memory
-//! after ten and after sixty minutes, and whether every mark can be explained. `costmap_soak [MINUTES]`.
+//! An hour of simulated time among moving obstacles, with the costmaps of the tutorial's robot:
+//! memory after ten and after sixty minutes, and whether every mark can be explained.
+//! `costmap_soak [MINUTES]`.
 #![allow(clippy::unwrap_used, clippy::print_stdout, reason = "a small program for people")]
 #![allow(clippy::disallowed_methods, reason = "it reads a file and its own memory")]
 
@@ -96,7 +97,7 @@ fn memory_mb() -> f64 {
     kilobytes.unwrap_or(f64::NAN) / 1e3
 }
 
-/// One step among what moves; the robot drives in a circle of 0.3 m.
+/// One step among the moving obstacles; the robot drives a circle of 0.3 m.
 fn step(run: &mut Run, are_things_there: bool) {
     if are_things_there {
         let [cube, sphere] = places(run.simulation.time_ns());

@@ -1,4 +1,5 @@
-//! A photo of a world: `photo WORLD X,Y,Z,ROLL,PITCH,YAW OUT.png`, from there along x.
+//! Renders an image of a world: `photo WORLD X,Y,Z,ROLL,PITCH,YAW OUT.png`, from this pose along
+//! its x axis.
 #![allow(clippy::print_stderr, clippy::expect_used, reason = "a small program for people")]
 
 use std::path::{Path, PathBuf};

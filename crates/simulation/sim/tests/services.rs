@@ -1,4 +1,4 @@
-//! The services of a world, called as a user's node calls them.
+//! The services of a world, called as by a node of a user.
 #![allow(clippy::unwrap_used, reason = "helpers of tests may unwrap as tests do")]
 
 use std::path::Path;

@@ -1,4 +1,4 @@
-//! Maps beside the truth: what is really there at the height of a lidar, and how well a map agrees.
+//! Comparison of maps with the true world at the height of a lidar.
 #![allow(clippy::unwrap_used, clippy::disallowed_methods, reason = "tests")]
 
 use std::path::Path;
@@ -18,8 +18,8 @@ use periplus_msgs::tf2_msgs::TFMessage;
 use periplus_resources::{MemoryHost, Resolver};
 use periplus_sim::{AssetFiles, Options, Search, Services, Simulation, compose};
 
-/// A room of 4 by 4 m inside, its walls 0.1 m thick; in it a robot with a lidar 0.3 m above the floor,
-/// a box that it sees and one that is too low.
+/// A room of 4 by 4 m inside, its walls 0.1 m thick; in it a robot with a lidar 0.3 m above the
+/// floor, a box that it measures and one that is too low.
 const ROOM: &str = r#"<sdf version="1.9"><world name="room">
 <model name="walls"><static>true</static><link name="l">
   <collision name="e"><pose>2.05 0 0.5 0 0 0</pose><geometry><box><size>0.1 4.2 1</size></box></geometry></collision>

@@ -179,7 +179,7 @@ fn a_stamped_velocity_drives_a_robot_of_gazebo() {
     assert_eq!(speeds, [0.5], "{:?}", bringup.lines());
 }
 
-/// RViz is started with a file and a fixed frame: the page opens both.
+/// A launch file starts RViz with a file and a fixed frame: the page opens both.
 #[test]
 fn rviz_names_its_file_and_fixed_frame() {
     let folder = top().canonicalize().unwrap();

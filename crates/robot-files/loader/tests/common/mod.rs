@@ -13,7 +13,7 @@ pub(crate) fn folder() -> PathBuf {
     PathBuf::from(env!("CARGO_MANIFEST_DIR"))
 }
 
-/// Reads a file as a person standing in `folder` would.
+/// Reads a file with the working directory `folder`.
 pub(crate) fn read(host: &dyn Host, folder: &Path, path: &Path, search: &[PathBuf]) -> LoadedFile {
     let resolver = Resolver::new(host, search);
     let setting = LoadContext {
@@ -42,7 +42,7 @@ pub(crate) fn said_of(path: &str) -> String {
     shown(&read(&Machine, &folder(), Path::new(path), &[]))
 }
 
-/// Findings about a text with an invented name.
+/// Findings about a text with a given file name.
 pub(crate) fn said_of_text(name: &str, text: &str) -> String {
     let host = MemoryHost::new().with_file(Path::new("/r").join(name), text);
     shown(&read(&host, Path::new("/r"), Path::new(name), &[]))

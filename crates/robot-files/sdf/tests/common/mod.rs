@@ -58,7 +58,7 @@ pub(crate) fn read_with(text: &str, files: &mut Files) -> (Scene, Diagnostics, S
     (scene, diagnostics, sources)
 }
 
-/// Reads a text in which everything is right.
+/// Reads a valid text.
 pub(crate) fn read(text: &str) -> Scene {
     let (scene, diagnostics, sources) = read_with(text, &mut Files::default());
     assert!(diagnostics.is_empty(), "{}", told(&diagnostics, &sources));

@@ -1,4 +1,4 @@
-//! A scene beside the oracle's answer.
+//! Comparison of a scene with the oracle's result.
 
 use periplus_scene::{Collision, DVec3, Joint, Link, Model, Pose, Scene, Sensor, Shape, World};
 use serde_json::Value;

@@ -1,4 +1,4 @@
-//! Files, and includes where libsdformat found them.
+//! Files, with includes resolved as by libsdformat.
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -9,7 +9,7 @@ use periplus_sdf::{IncludeResolver, IncludeTarget, Version};
 use periplus_xml::Document;
 use serde_json::Value;
 
-/// Answers includes as the oracle did.
+/// Resolves includes as the oracle did.
 pub(crate) struct Recorded {
     paths: BTreeMap<String, String>,
     /// True if an included file is not SDF.

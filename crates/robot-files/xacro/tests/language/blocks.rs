@@ -1,4 +1,4 @@
-//! Elements handed to macros, and elements as properties.
+//! Elements as arguments of macros, and as properties.
 
 use expect_test::expect;
 

@@ -1,4 +1,4 @@
-//! Comments: which stay, which go, which are evaluated.
+//! Comments that are kept, removed or evaluated.
 
 use expect_test::expect;
 

@@ -1,4 +1,4 @@
-//! Messages: where it is wrong, how the reader came there, and what to do.
+//! Messages: position, chain of includes and macros, and remedy.
 
 use expect_test::expect;
 

@@ -32,7 +32,7 @@ pub(crate) fn check(content: &str, expected: Expect) {
     example(content).check(expected);
 }
 
-/// The same, of something that the reference refuses or gets wrong.
+/// The same for input that the reference refuses or expands wrongly.
 pub(crate) fn check_lenient(content: &str, expected: Expect) {
     example(content).check_lenient(expected);
 }

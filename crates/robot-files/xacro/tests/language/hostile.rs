@@ -7,7 +7,7 @@ use expect_test::{Expect, expect};
 
 use crate::example::{Example, example, whole};
 
-/// Longest time a hostile file may take, in a debug build on a machine that is busy ten times over.
+/// Longest time a hostile file may take, in a debug build on a machine with ten times its load.
 const SOON: Duration = Duration::from_secs(60);
 
 /// Stack of the thread that expands [bytes]; the main thread of a program has eight times as much.

@@ -5,7 +5,7 @@ use proptest::prelude::*;
 
 use crate::example::{example, whole};
 
-/// Elements without anything of xacro's.
+/// Elements without xacro syntax.
 fn plain_element() -> impl Strategy<Value = Element> {
     let name = "[a-z][a-z0-9_]{0,4}";
     let value = "[ -#%-~é]{0,8}";

@@ -1,4 +1,4 @@
-//! Defaults of parameters, and values handed on.
+//! Defaults of parameters, and forwarded values.
 
 use expect_test::expect;
 

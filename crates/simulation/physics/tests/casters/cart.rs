@@ -8,7 +8,7 @@ use crate::common::{
     STEP_NS, at, find_joint, flat_world, joint, model, put, run, solid_ball, solid_box, state,
 };
 
-/// Speed that is commanded [m/s], reached with 1 m/s².
+/// Commanded speed [m/s], reached with 1 m/s².
 const SPEED_M_S: f64 = 0.3;
 const DRIVE_S: f64 = 5.0;
 /// Distance travelled by a cart whose wheels do not slip [m].

@@ -92,7 +92,7 @@ pub(crate) fn find_joint(world: &PhysicsWorld, model: &str, name: &str) -> Joint
     world.find_joint(world.find_model(model).unwrap(), name).unwrap()
 }
 
-/// Like `robots/sam_bot`, in numbers that are easy to remember: wheels of 0.1 m, 0.36 m apart.
+/// Similar to `robots/sam_bot`, with round numbers: wheels of 0.1 m, 0.36 m apart.
 pub(crate) fn two_wheels() -> Model {
     let mut base = solid_box("base", 15.0, DVec3::new(0.42, 0.31, 0.18));
     base.model_from_link = Pose::from_xyz(0.0, 0.0, 0.15);

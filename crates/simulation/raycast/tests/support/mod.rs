@@ -13,7 +13,7 @@ pub(crate) struct Solid {
     pub(crate) triangles: Vec<[u32; 3]>,
 }
 
-/// A world of nothing but these.
+/// A world of these triangles only.
 pub(crate) fn fixed(solid: &Solid) -> RaycastWorld {
     let mut builder = RaycastWorld::builder();
     builder
@@ -22,7 +22,7 @@ pub(crate) fn fixed(solid: &Solid) -> RaycastWorld {
     builder.build(1).unwrap()
 }
 
-/// A direction, evenly spread (Archimedes: height and angle are).
+/// A direction with uniform distribution on the sphere (by Archimedes: uniform height and angle).
 pub(crate) fn unit(stream: &mut Stream) -> DVec3 {
     let z = 2.0 * stream.unit() - 1.0;
     let (sine, cosine) = (std::f64::consts::TAU * stream.unit()).sin_cos();

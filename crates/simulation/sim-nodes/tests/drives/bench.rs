@@ -1,4 +1,4 @@
-//! A small world in memory with one robot, its devices, and ears on the graph.
+//! A small world in memory with one robot, its devices, and subscribers on the graph.
 
 use std::sync::Arc;
 
@@ -51,7 +51,7 @@ const ROBOT: &str = r#"
   <joint name="caster_joint" type="fixed"><parent>base</parent><child>caster</child></joint>
 "#;
 
-/// A robot that stands somewhere with some plugins.
+/// The robot at a pose, with plugins.
 pub(crate) struct Bench {
     pub(crate) graph: Graph,
     pub(crate) world: PhysicsWorld,
@@ -76,7 +76,7 @@ impl Bench {
         Self::of(&format!("{ROBOT}{plugins}"), PhysicsMode::Rigid)
     }
 
-    /// A model of one's own.
+    /// A custom model.
     pub(crate) fn of(model: &str, mode: PhysicsMode) -> Self {
         Self::in_world(
             &format!(
@@ -126,7 +126,7 @@ impl Bench {
         self.ear.publisher(topic, Qos::reliable(10)).unwrap()
     }
 
-    /// Lets time go on in steps of 1 ms.
+    /// Advances time in steps of 1 ms.
     pub(crate) fn run(&mut self, time_s: f64) {
         self.run_in_steps(time_s, STEP_NS);
     }
@@ -154,7 +154,7 @@ impl Bench {
         }
     }
 
-    /// Everything as at the beginning.
+    /// Resets the world to its initial state.
     pub(crate) fn reset(&mut self) {
         self.world.reset();
         self.graph.jump_to(0);
@@ -231,7 +231,7 @@ fn devices(
     built.collect()
 }
 
-/// Findings as a person sees them.
+/// Findings as printed.
 fn said(sources: &SourceMap, found: &Diagnostics) -> String {
     found.iter().map(|finding| render(finding, sources, RenderStyle::Plain) + "\n").collect()
 }

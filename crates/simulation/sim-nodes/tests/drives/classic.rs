@@ -188,7 +188,7 @@ fn wheels_are_told_on_the_link_that_carries_them() {
     );
 }
 
-/// Noetic's `publishTf` is for everything, and its twist has no covariance.
+/// In Noetic `publishTf` applies to all transforms, and the twist has no covariance.
 #[test]
 fn diff_drive_of_ros_1() {
     let plugin = "<plugin name='old' filename='libgazebo_ros_diff_drive.so'>

@@ -1,4 +1,4 @@
-//! Drives, controllers and publishers of states in small worlds whose answers one knows.
+//! Drives, controllers and publishers of states in small worlds with known results.
 #![allow(missing_docs, clippy::unwrap_used, reason = "tests")]
 #![allow(clippy::cast_possible_truncation, reason = "times of a few seconds")]
 

@@ -66,7 +66,7 @@ fn without_a_plugin_all_joints_50_times_a_second() {
     assert!(JointStatePublisher::fallback(&still.setting()).unwrap().is_none());
 }
 
-/// The robot goes 1 m/s along x and has gone 1 m.
+/// The robot moves at 1 m/s along x and is at x = 1 m.
 const GOING: &str = "<plugin filename='gz-sim-velocity-control-system'
     name='gz::sim::systems::VelocityControl'><initial_linear>1 0 0</initial_linear></plugin>";
 

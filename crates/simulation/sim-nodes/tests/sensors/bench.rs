@@ -1,4 +1,4 @@
-//! A small world in memory, its devices, and ears on the graph.
+//! A small world in memory, its devices, and subscribers on the graph.
 
 use std::sync::Arc;
 
@@ -111,7 +111,7 @@ impl Bench {
             .collect()
     }
 
-    /// Lets time go on in steps of 1 ms.
+    /// Advances time in steps of 1 ms.
     pub(crate) fn run(&mut self, time_s: f64) {
         let end_ns = self.now_ns + (time_s * 1e9).round() as i64;
         while self.now_ns < end_ns {

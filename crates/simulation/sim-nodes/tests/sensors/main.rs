@@ -12,7 +12,7 @@ use periplus_msgs::sensor_msgs::{
     PointCloud2, Range,
 };
 
-/// At rest on the floor the box feels 9.8 m/s² upwards, at the sensor's own rate.
+/// At rest on the floor the box measures 9.8 m/s² upwards, at the sensor's own rate.
 #[test]
 fn an_imu_of_ros_2() {
     let mut bench = Bench::with(
@@ -242,7 +242,8 @@ fn a_depth_camera_of_ros_2() {
     assert_eq!(colour.latest().unwrap().encoding, "rgb8");
 }
 
-/// Today's Gazebo: topics below the sensor's own, points x ahead, and nothing beyond the clip.
+/// gz-sim: topics below the sensor's topic, points with x forward, and none beyond the clip
+/// distance.
 #[test]
 fn an_rgbd_camera_of_todays_gazebo() {
     let mut bench = Bench::with(
@@ -303,8 +304,8 @@ fn depths_follow_the_pinhole_formula() {
     }
 }
 
-/// Every plugin of a lidar, 2.8 m before a wall: `ray` meets what touches (retro 50), `gpu_ray` what
-/// is seen (70).
+/// Every plugin of a lidar, 2.8 m before a wall: `ray` measures collisions (retro 50), `gpu_ray`
+/// visuals (70).
 #[test]
 fn lidars_through_every_plugin() {
     let lidar = |name: &str, kind: &str, plugin: &str| {

@@ -8,7 +8,7 @@ use periplus_sim::Simulation;
 
 use crate::sound::fault;
 
-/// Pictures and clouds take long: two of each are enough.
+/// Images and clouds are slow to check: two of each are enough.
 const HEAVY: [&str; 3] =
     ["sensor_msgs/msg/Image", "sensor_msgs/msg/CompressedImage", "sensor_msgs/msg/PointCloud2"];
 const ENOUGH: u64 = 2;

@@ -1,6 +1,6 @@
 //! Robots that do not follow their commands, with the reasons.
 
-/// Part of the robot's name in the table, part of what is seen, and the reason.
+/// Part of the robot's name in the table, part of the fault, and the reason.
 pub(crate) type Known = (&'static str, &'static str, &'static str);
 
 pub(crate) const KNOWN: &[Known] = &[

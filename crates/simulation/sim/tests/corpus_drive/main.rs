@@ -1,5 +1,5 @@
 //! Every robot with a drive is spawned in its world, or on a plane in the sun, driven along a
-//! circle and listened to: it moves, and every number that it publishes is one.
+//! circle: it must move, and publish only finite numbers.
 //!
 //! `cargo xtask drive` runs it and shows the table.
 #![allow(clippy::disallowed_methods, clippy::print_stdout, reason = "a test at the edge")]

@@ -1,4 +1,4 @@
-//! One file: spawned, driven, listened to.
+//! Test of one file: its robots are spawned and driven, and their messages checked.
 
 use std::path::Path;
 use std::sync::Arc;
@@ -30,7 +30,7 @@ const MOVED_RAD: f64 = 0.2;
 const FALLS_M: f64 = 0.1;
 const LATE_NS: i64 = 500_000_000;
 
-/// A robot with a drive, and how it fared.
+/// A robot with a drive, and its result.
 #[derive(Clone, Debug)]
 pub(crate) struct Trial {
     pub(crate) robot: String,
@@ -47,7 +47,7 @@ pub(crate) struct Trial {
 }
 
 impl Trial {
-    /// A file that never came so far.
+    /// A file without a result: it cannot be simulated.
     pub(crate) fn failed(name: &str, fault: String) -> Self {
         Self {
             robot: name.into(),
@@ -62,7 +62,7 @@ impl Trial {
     }
 }
 
-/// All that came of a file.
+/// All results of a file.
 #[derive(Debug, Default)]
 pub(crate) struct Report {
     pub(crate) trials: Vec<Trial>,
@@ -190,7 +190,7 @@ fn sensors(model: &Model) -> usize {
     own + model.models.iter().map(sensors).sum::<usize>()
 }
 
-/// Findings by code, each as a user sees it.
+/// Findings by code, each as printed.
 fn findings(composition: &Composition) -> Vec<(Severity, &'static str, String)> {
     let mut found = Vec::new();
     for file in &composition.files {

@@ -28,7 +28,7 @@ use periplus_sim::{
 const NAV2: &str = "/../../../../shared/corpus/navigation2_tutorials@humble/sam_bot_description/config/\
                     nav2_params.yaml";
 
-/// The same in short, where that file is not at hand.
+/// A short form of it, if that file is not available.
 const SHORT: &str = "
 local_costmap: {local_costmap: {ros__parameters: {
   update_frequency: 5.0, publish_frequency: 2.0, global_frame: odom, robot_base_frame: base_link,
@@ -50,7 +50,7 @@ fn own(path: &str) -> String {
     format!("{}/../../../{path}", env!("CARGO_MANIFEST_DIR"))
 }
 
-/// The costmaps, and the layer of each that sees.
+/// The costmaps, and the obstacle layer of each.
 pub(crate) const LAYERS: [(&str, &str); 2] =
     [("local_costmap", "voxel_layer"), ("global_costmap", "obstacle_layer")];
 
@@ -123,7 +123,7 @@ impl Run {
         Self { simulation, services, user, costmaps, odometry, frames: moving, _map }
     }
 
-    /// Some simulated time goes by.
+    /// Advances simulated time.
     pub(crate) fn go_on(&mut self, milliseconds: i64) {
         let until_ns = self.simulation.time_ns() + milliseconds * 1_000_000;
         while self.simulation.time_ns() < until_ns {
