@@ -151,7 +151,7 @@ fn a_saved_state_overrides_poses_inserts_and_deletes() {
           link l (0 0 1) yaw 0
         model new (0 0 0) yaw 0
           link l (0 0 0) yaw 0
-        warning[unknown-model]: the saved state names a model `boxx` that is not there
+        warning[unknown-model]: the saved state names a model `boxx` that does not exist
           --> test.sdf:11:26
            |
         11 |             <model name="boxx"><pose>5 0 0 0 0 0</pose></model>
