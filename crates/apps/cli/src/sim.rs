@@ -198,7 +198,7 @@ impl SimOptions {
     /// The world and its xacro arguments.
     fn world(&self) -> Result<(PathBuf, Vec<(String, String)>), CliError> {
         let (mut files, arguments) = split(&self.words);
-        // `--robot FILE WORLD`: a word that is no argument of the robot is the world.
+        // `--robot FILE WORLD`: a word that is not an argument of the robot is the world.
         files.extend(self.robots.others.iter().map(PathBuf::from));
         match files.as_slice() {
             [world] => Ok((world.clone(), arguments)),
