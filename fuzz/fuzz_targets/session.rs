@@ -3,8 +3,8 @@
 #![no_main]
 
 use libfuzzer_sys::fuzz_target;
-use periplus_geometry::Pose2;
-use periplus_slam::{Scan, Settings, Slam};
+use periplus_geometry::{LaserScan2, Pose2, ScannerMounting};
+use periplus_slam::{Settings, Slam};
 
 fuzz_target!(|bytes: &[u8]| {
     // The last four bytes are the checksum of the rest.
@@ -20,10 +20,9 @@ fuzz_target!(|bytes: &[u8]| {
     assert_eq!(read.save(), again);
     let _ = slam.to_g2o();
     let _ = slam.trajectory();
-    let scan = Scan {
+    let scan = LaserScan2 {
         time_ns: 1_000_000_000,
-        base_from_laser: Pose2::IDENTITY,
-        is_flipped: false,
+        mounting: ScannerMounting::upright(Pose2::IDENTITY),
         angle_min_rad: -1.5,
         angle_increment_rad: 0.05,
         time_increment_s: 0.0,

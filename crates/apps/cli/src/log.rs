@@ -8,8 +8,7 @@ use std::path::Path;
 use clap::Args;
 use periplus_bags::{CarmenLog, CarmenScan, is_carmen, read_carmen_from};
 use periplus_diagnostics::plain_words;
-use periplus_geometry::Pose2;
-use periplus_slam::Scan;
+use periplus_geometry::{LaserScan2, Pose2};
 
 use crate::error::CliError;
 use crate::paths;
@@ -37,7 +36,7 @@ pub(crate) struct LogOptions {
 pub(crate) struct LoggedScan {
     /// Stamp as written in the log, to the microsecond \[s\].
     pub(crate) stamp: String,
-    pub(crate) scan: Scan,
+    pub(crate) scan: LaserScan2,
     pub(crate) odom_from_base: Option<Pose2>,
 }
 
@@ -94,21 +93,9 @@ fn carmen(log: CarmenLog) -> Log {
 }
 
 fn logged(scan: CarmenScan) -> LoggedScan {
-    #[expect(clippy::cast_possible_truncation, reason = "a stamp fits for 292 years")]
-    let micros = (scan.time_s * 1e6).round() as i64;
     LoggedScan {
         stamp: format!("{:.6}", scan.time_s),
         odom_from_base: scan.odom_from_base,
-        scan: Scan {
-            time_ns: micros.saturating_mul(1000),
-            base_from_laser: scan.base_from_laser,
-            is_flipped: false,
-            angle_min_rad: scan.angle_min_rad,
-            angle_increment_rad: scan.angle_increment_rad,
-            time_increment_s: 0.0,
-            range_min_m: 0.02,
-            range_max_m: scan.range_max_m,
-            ranges_m: scan.ranges_m,
-        },
+        scan: scan.into(),
     }
 }

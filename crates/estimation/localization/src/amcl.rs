@@ -1,7 +1,7 @@
 //! Adaptive Monte Carlo localization.
 
 use periplus_diagnostics::Diagnostic;
-use periplus_geometry::{Pose2, Stream};
+use periplus_geometry::{LaserScan2, Pose2, Stream};
 use periplus_grid::OccupancyGrid;
 use periplus_scan_matching::Peak;
 
@@ -24,7 +24,7 @@ use crate::kld_sampling::{Cluster, clusters};
 use crate::likelihood_map::LikelihoodMap;
 use crate::particles::{Covariance2, Moments, Particles};
 use crate::recovery::LikelihoodAverages;
-use crate::scan::{Beams, MatchingScan, Scan};
+use crate::scan::{Beams, MatchingScan};
 use crate::sensor_model::tables::SensorTables;
 use crate::settings::{AmclCompat, Settings};
 use crate::status::{ConvergenceMonitor, LocalizationStatus};
@@ -333,7 +333,7 @@ impl Amcl {
     ///
     /// # Errors
     /// There is no map, the scan is invalid, or it fits nowhere.
-    pub fn localize_globally(&mut self, scan: &Scan) -> Result<Vec<Peak>, Box<Diagnostic>> {
+    pub fn localize_globally(&mut self, scan: &LaserScan2) -> Result<Vec<Peak>, Box<Diagnostic>> {
         let map = self.map.as_mut().ok_or_else(no_map)?;
         let scan = MatchingScan::new(scan, &self.settings.beams)?;
         let peaks = map.localizer().1.peaks(&scan.ends);
@@ -390,7 +390,7 @@ impl Amcl {
     ///
     /// # Errors
     /// There is no map, or the scan is invalid.
-    pub fn likelihoods(&mut self, scan: &Scan) -> Result<Vec<f64>, Box<Diagnostic>> {
+    pub fn likelihoods(&mut self, scan: &LaserScan2) -> Result<Vec<f64>, Box<Diagnostic>> {
         let map = self.map.as_mut().ok_or_else(no_map)?;
         let settings = &self.settings;
         let beams = Beams::new(scan, &settings.beams, settings.sensor_model.beam_step())?;

@@ -11,9 +11,9 @@
 //! seed give the same bits.
 //!
 //! ```
-//! use periplus_geometry::Pose2;
+//! use periplus_geometry::{LaserScan2, Pose2, ScannerMounting};
 //! use periplus_grid::{Grid, GridInfo, occupancy};
-//! use periplus_localization::{Amcl, InitialPose, LocalizationState, Scan, Settings};
+//! use periplus_localization::{Amcl, InitialPose, LocalizationState, Settings};
 //!
 //! // A room of 4 by 3 metres; the robot in its center sees the wall to the right at 2 m.
 //! let mut map = Grid::new(GridInfo::new(0.1, 40, 30, Pose2::IDENTITY)?, occupancy::FREE);
@@ -34,9 +34,10 @@
 //!     then_from_now: Pose2::IDENTITY,
 //! };
 //! amcl.set_pose(&initial_pose).map_err(|it| it.message)?;
-//! let scan = Scan {
-//!     base_from_laser: Pose2::IDENTITY,
-//!     is_flipped: false,
+//! let scan = LaserScan2 {
+//!     time_ns: 0,
+//!     mounting: ScannerMounting::upright(Pose2::IDENTITY),
+//!     time_increment_s: 0.0,
 //!     angle_min_rad: -0.1,
 //!     angle_increment_rad: 0.1,
 //!     range_min_m: 0.1,
@@ -86,7 +87,7 @@ pub use periplus_scan_matching::Peak;
 pub use pose_file::{PoseFileError, SavedPose};
 pub use pose_threshold::{PoseThreshold, has_moved};
 pub use recovery::LikelihoodAverages;
-pub use scan::{BeamLimits, BeamStep, Scan};
+pub use scan::{BeamLimits, BeamStep};
 pub use sensor_model::{
     BeamMixture, BeamSkip, SensorModel, expected_range_m, product_weight, sum_of_cubes_weight,
 };

@@ -1,32 +1,12 @@
-//! Laser scan and selection of its beams.
+//! Selection of the beams of a scan.
 
 use periplus_diagnostics::Diagnostic;
-use periplus_geometry::Pose2;
+use periplus_geometry::{LaserScan2, Pose2};
 
 use crate::sensor_model::SensorModel;
 
 /// Approximate number of beams for scan matching; more beams do not improve it.
 const MATCHING_BEAMS: usize = 180;
-
-/// RayCaster of a scan, as in `sensor_msgs/LaserScan`, with the pose of the scanner.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Scan {
-    /// Pose of the scanner in the base frame \[m, rad\]. For a scanner that is mounted upside down,
-    /// the heading after [`Scan::is_flipped`] is undone.
-    pub base_from_laser: Pose2,
-    /// True for a scanner that is mounted upside down: its beams run clockwise seen from above.
-    pub is_flipped: bool,
-    /// Angle of the first beam \[rad\].
-    pub angle_min_rad: f64,
-    /// Angle between beams \[rad\]; may be negative.
-    pub angle_increment_rad: f64,
-    /// Minimum range \[m\]; readings at or below it are invalid.
-    pub range_min_m: f64,
-    /// Maximum range \[m\]; readings at or above it hit nothing.
-    pub range_max_m: f64,
-    /// Measured ranges \[m\].
-    pub ranges_m: Vec<f32>,
-}
 
 /// Limits of the beams that are used.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -75,7 +55,7 @@ pub(crate) struct Beam {
 /// Beams that are used.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Beams {
-    pub(crate) base_from_laser: Pose2,
+    pub(crate) base_from_scanner: Pose2,
     pub(crate) range_max_m: f64,
     pub(crate) beams: Vec<Beam>,
 }
@@ -83,12 +63,12 @@ pub(crate) struct Beams {
 impl Beams {
     /// Selects beams of a scan. Maximum range readings are kept, NaN readings are dropped.
     pub(crate) fn new(
-        scan: &Scan,
+        scan: &LaserScan2,
         limits: &BeamLimits,
         beam_step: BeamStep,
     ) -> Result<Self, Box<Diagnostic>> {
         let limit = |limit: f64| Some(limit).filter(|limit| *limit > 0.0);
-        let (mut low, mut high) = (scan.range_min_m, scan.range_max_m);
+        let (mut low, mut high) = (f64::from(scan.range_min_m), f64::from(scan.range_max_m));
         if let Some(limit) = limit(limits.range_min_m) {
             low = low.max(limit);
         }
@@ -96,20 +76,20 @@ impl Beams {
             high = if high.is_nan() { limit } else { high.min(limit) };
         }
         check(scan, low, high)?;
-        let sign = if scan.is_flipped { -1.0 } else { 1.0 };
+        let base_from_scanner = scan.mounting.base_from_scanner;
         let step = beam_step.step(scan.ranges_m.len(), limits.max_beams);
         let used = scan.ranges_m.iter().enumerate().step_by(step);
         let beam = |(index, &range): (usize, &f32)| {
             let range = f64::from(range);
             let range_m = if range <= low { high } else { range.min(high) };
-            let angle = sign * (scan.angle_min_rad + index as f64 * scan.angle_increment_rad);
+            let angle = scan.beam_angle_rad(index);
             let (sine, cosine) = libm::sincos(angle);
-            let (x, y) = scan.base_from_laser.transform_point(range_m * cosine, range_m * sine);
-            let bearing_rad = scan.base_from_laser.yaw_rad + angle;
+            let (x, y) = base_from_scanner.transform_point(range_m * cosine, range_m * sine);
+            let bearing_rad = base_from_scanner.yaw_rad + angle;
             Beam { range_m, bearing_rad, end_m: [x, y] }
         };
         let beams = used.filter(|(_, range)| !range.is_nan()).map(beam).collect();
-        Ok(Self { base_from_laser: scan.base_from_laser, range_max_m: high, beams })
+        Ok(Self { base_from_scanner, range_max_m: high, beams })
     }
 
     /// End points of the beams that hit an obstacle, in the base frame \[m\].
@@ -128,7 +108,7 @@ pub(crate) struct MatchingScan {
 }
 
 impl MatchingScan {
-    pub(crate) fn new(scan: &Scan, limits: &BeamLimits) -> Result<Self, Box<Diagnostic>> {
+    pub(crate) fn new(scan: &LaserScan2, limits: &BeamLimits) -> Result<Self, Box<Diagnostic>> {
         let limits = BeamLimits { max_beams: MATCHING_BEAMS.max(limits.max_beams), ..*limits };
         let beams = Beams::new(scan, &limits, SensorModel::LikelihoodField.beam_step())?;
         Ok(Self { ends: beams.ends(), beams })
@@ -136,7 +116,7 @@ impl MatchingScan {
 }
 
 /// Checks that a scan can be used.
-fn check(scan: &Scan, low: f64, high: f64) -> Result<(), Box<Diagnostic>> {
+fn check(scan: &LaserScan2, low: f64, high: f64) -> Result<(), Box<Diagnostic>> {
     let error = |code, message: &str, help: &str| {
         Err(Box::new(Diagnostic::error(code, message).help(help.to_owned())))
     };
@@ -148,7 +128,9 @@ fn check(scan: &Scan, low: f64, high: f64) -> Result<(), Box<Diagnostic>> {
         );
     }
     let angles = [scan.angle_min_rad, scan.angle_increment_rad];
-    if !(scan.base_from_laser.is_finite() && angles.iter().all(|angle| angle.is_finite())) {
+    if !(scan.mounting.base_from_scanner.is_finite()
+        && angles.iter().all(|angle| angle.is_finite()))
+    {
         return error(
             "bad-scan",
             "an angle of the scan or the pose of the scanner on the robot is not finite",
@@ -174,12 +156,15 @@ fn check(scan: &Scan, low: f64, high: f64) -> Result<(), Box<Diagnostic>> {
 
 #[cfg(test)]
 mod tests {
+    use periplus_geometry::ScannerMounting;
+
     use super::*;
 
-    fn scan(ranges_m: Vec<f32>) -> Scan {
-        Scan {
-            base_from_laser: Pose2::new(0.5, 0.0, 0.0),
-            is_flipped: false,
+    fn scan(ranges_m: Vec<f32>) -> LaserScan2 {
+        LaserScan2 {
+            time_ns: 0,
+            mounting: ScannerMounting::upright(Pose2::new(0.5, 0.0, 0.0)),
+            time_increment_s: 0.0,
             angle_min_rad: 0.0,
             angle_increment_rad: std::f64::consts::FRAC_PI_2,
             range_min_m: 0.125,
@@ -210,18 +195,19 @@ mod tests {
     #[test]
     fn upside_down_beams_run_the_other_way() {
         let mut scan = scan(vec![1.0, 1.0]);
-        scan.is_flipped = true;
+        scan.mounting.is_upside_down = true;
         let beams = Beams::new(&scan, &LIMITS, BeamStep::RoundedDown).unwrap();
         assert!((beams.beams[1].end_m[1] + 1.0).abs() < 1e-12, "{beams:?}");
     }
 
     #[test]
     fn useless_scans_are_rejected() {
-        let code = |scan: Scan| Beams::new(&scan, &LIMITS, BeamStep::RoundedDown).unwrap_err().code;
+        let code =
+            |scan: LaserScan2| Beams::new(&scan, &LIMITS, BeamStep::RoundedDown).unwrap_err().code;
         assert_eq!(code(scan(vec![])), "empty-scan");
-        assert_eq!(code(Scan { angle_min_rad: f64::NAN, ..scan(vec![1.0]) }), "bad-scan");
-        assert_eq!(code(Scan { angle_increment_rad: 0.0, ..scan(vec![1.0; 2]) }), "bad-scan");
-        assert_eq!(code(Scan { range_min_m: 9.0, ..scan(vec![1.0]) }), "bad-scan-limits");
-        assert_eq!(code(Scan { range_max_m: 0.0, ..scan(vec![1.0]) }), "bad-scan-limits");
+        assert_eq!(code(LaserScan2 { angle_min_rad: f64::NAN, ..scan(vec![1.0]) }), "bad-scan");
+        assert_eq!(code(LaserScan2 { angle_increment_rad: 0.0, ..scan(vec![1.0; 2]) }), "bad-scan");
+        assert_eq!(code(LaserScan2 { range_min_m: 9.0, ..scan(vec![1.0]) }), "bad-scan-limits");
+        assert_eq!(code(LaserScan2 { range_max_m: 0.0, ..scan(vec![1.0]) }), "bad-scan-limits");
     }
 }

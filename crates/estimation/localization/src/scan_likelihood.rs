@@ -52,7 +52,7 @@ pub(crate) fn inlier_ratios(
     map_from_base: Pose2,
 ) -> Option<InlierRatios> {
     let cell_transform = map.cell_transform();
-    let map_from_laser = map_from_base * beams.base_from_laser;
+    let map_from_laser = map_from_base * beams.base_from_scanner;
     let start = (map_from_laser.x_m, map_from_laser.y_m);
     let every = beams.beams.len().div_ceil(MAX_BEAMS).max(1);
     let (mut sum, mut count, mut unknown, mut contradicted) = (0.0, 0.0_f64, 0.0, 0.0);
@@ -93,7 +93,7 @@ pub(crate) fn inlier_ratios(
 /// Log-likelihood of a scan at a pose \[nats\], up to an additive constant.
 pub(crate) fn log_likelihood(map: &LikelihoodMap, beams: &Beams, map_from_base: Pose2) -> f64 {
     let cell_transform = map.cell_transform();
-    let map_from_laser = map_from_base * beams.base_from_laser;
+    let map_from_laser = map_from_base * beams.base_from_scanner;
     let start = (map_from_laser.x_m, map_from_laser.y_m);
     let every = beams.beams.len().div_ceil(MAX_BEAMS).max(1);
     let (mut sum, mut count) = (0.0, 0);

@@ -4,10 +4,10 @@
 
 use std::f64::consts::{PI, TAU};
 
-use periplus_geometry::{Pose2, Stream, normalize_angle};
+use periplus_geometry::{LaserScan2, Pose2, ScannerMounting, Stream, normalize_angle};
 use periplus_grid::{Grid, GridInfo, OccupancyGrid, occupancy};
 use periplus_localization::{
-    Amcl, AmclCompat, InitialPose, LocalizationState, MotionModel, Scan, SensorModel, Settings,
+    Amcl, AmclCompat, InitialPose, LocalizationState, MotionModel, SensorModel, Settings,
     expected_range_m,
 };
 
@@ -38,7 +38,7 @@ fn room(origin: Pose2) -> OccupancyGrid {
 const BEAMS: usize = 180;
 
 /// Scan of a scanner at the center of the robot: steps of 0.01 m along each beam.
-fn simulate_scan(map: &OccupancyGrid, map_from_base: Pose2, stream: &mut Stream) -> Scan {
+fn simulate_scan(map: &OccupancyGrid, map_from_base: Pose2, stream: &mut Stream) -> LaserScan2 {
     let cell_transform = map.info.finder();
     let range = |beam: usize, stream: &mut Stream| {
         let angle = map_from_base.yaw_rad - PI + beam as f64 * TAU / BEAMS as f64;
@@ -49,9 +49,10 @@ fn simulate_scan(map: &OccupancyGrid, map_from_base: Pose2, stream: &mut Stream)
         });
         hit.map_or(f32::INFINITY, |range| (range + 0.01 * stream.normal()) as f32)
     };
-    Scan {
-        base_from_laser: Pose2::IDENTITY,
-        is_flipped: false,
+    LaserScan2 {
+        time_ns: 0,
+        time_increment_s: 0.0,
+        mounting: ScannerMounting::upright(Pose2::IDENTITY),
         angle_min_rad: -PI,
         angle_increment_rad: TAU / BEAMS as f64,
         range_min_m: 0.05,
@@ -408,13 +409,13 @@ fn invalid_inputs_are_errors_and_change_nothing() {
     let wall = InitialPose { pose: Pose2::new(0.1, 3.0, 0.0), ..good.clone() };
     assert_eq!(amcl.set_pose(&wall).unwrap().unwrap().code, "guess-not-free");
     assert_eq!(amcl.set_pose(&good).unwrap(), None);
-    let empty = Scan { ranges_m: vec![], ..scan.clone() };
+    let empty = LaserScan2 { ranges_m: vec![], ..scan.clone() };
     assert_eq!(amcl.update(Pose2::IDENTITY, &empty).unwrap_err().code, "empty-scan");
     let wild = Pose2::new(f64::NAN, 0.0, 0.0);
     assert_eq!(amcl.update(wild, &scan).unwrap_err().code, "bad-odometry");
     assert!(amcl.update(Pose2::IDENTITY, &scan).unwrap().is_some());
     // A scan without hits is not an error: odometry continues.
-    let blind = Scan { ranges_m: vec![f32::INFINITY; 9], ..scan };
+    let blind = LaserScan2 { ranges_m: vec![f32::INFINITY; 9], ..scan };
     let update = amcl.update(Pose2::new(1.0, 0.0, 0.0), &blind).unwrap().unwrap();
     assert_eq!(update.status.inlier_ratio, None);
     assert_eq!(amcl.localize_globally(&blind).unwrap_err().code, "fits-nowhere");

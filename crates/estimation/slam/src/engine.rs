@@ -14,7 +14,7 @@ mod state;
 mod trial;
 mod work;
 
-use periplus_geometry::Pose2;
+use periplus_geometry::{LaserScan2, Pose2};
 use periplus_scan_matching::{PackedPlaces, Symmetric3};
 
 use crate::graph::{Edge, Graph};
@@ -25,7 +25,7 @@ use crate::odometry_diagnostics::{OdometryDiagnostics, Step};
 use crate::odometry_monitor::{OdometryMonitor, OdometryTrust};
 use crate::odometry_noise::OdometryNoise;
 use crate::remark::RemarkKind;
-use crate::scan::{Ends, Scan};
+use crate::scan::{Ends, fault};
 use crate::settings::Settings;
 
 pub use crate::graph::ConstraintKind;
@@ -183,14 +183,14 @@ impl Slam {
     /// Adds a scan, with the odometry pose at its stamp if there is one, and returns the corrected pose.
     ///
     /// Runs at most [`Settings::slices_per_scan`] slices of background work.
-    pub fn add_scan(&mut self, scan: &Scan, odom_from_base: Option<Pose2>) -> Update {
+    pub fn add_scan(&mut self, scan: &LaserScan2, odom_from_base: Option<Pose2>) -> Update {
         self.counts.scans += 1;
         if std::mem::take(&mut self.is_finished) && !self.settings.audits_live {
             self.live_audit = LiveAudit::default();
         }
         let odom_from_base = odom_from_base.filter(|pose| pose.is_finite());
         let revision = self.work.map_revision;
-        let outcome = match scan.fault() {
+        let outcome = match fault(scan) {
             Some(reason) => ScanOutcome::Rejected(reason),
             None => self.process_scan(scan, odom_from_base),
         };
@@ -212,7 +212,7 @@ impl Slam {
     }
 
     /// Processes a scan: predict, match, check for kidnapping, learn, decide on a keyframe, add constraints.
-    fn process_scan(&mut self, scan: &Scan, odom_from_base: Option<Pose2>) -> ScanOutcome {
+    fn process_scan(&mut self, scan: &LaserScan2, odom_from_base: Option<Pose2>) -> ScanOutcome {
         if let Some((pose, covariance)) = self.start.take() {
             return self.process_scan_at(scan, odom_from_base, pose, covariance);
         }
@@ -266,7 +266,7 @@ impl Slam {
 
     /// Matches a scan with odometry as the prior; without it where odometry has never moved and the scan
     /// contradicts that.
-    fn match_with_prior(&mut self, scan: &Scan, step: &OdometryStep) -> ScanMatch {
+    fn match_with_prior(&mut self, scan: &LaserScan2, step: &OdometryStep) -> ScanMatch {
         let mut found = self.match_scan(scan, step.motion, step.seconds);
         if step.trust == OdometryTrust::Unproved
             && step.motion.is_some()
@@ -386,8 +386,13 @@ impl Slam {
     }
 
     /// Inserts the first scan: the map starts at the odometry pose, or at the pose set from outside.
-    fn begin(&mut self, scan: &Scan, odom_from_base: Option<Pose2>, start: Pose2) -> ScanOutcome {
-        let ends = scan.ends(None, self.settings.used_m());
+    fn begin(
+        &mut self,
+        scan: &LaserScan2,
+        odom_from_base: Option<Pose2>,
+        start: Pose2,
+    ) -> ScanOutcome {
+        let ends = Ends::new(scan, None, self.settings.used_m());
         let cloud = ends.cloud(&self.settings.cloud);
         self.graph.add_pose(start.normalized());
         self.diagnostics.begin(odom_from_base);

@@ -33,7 +33,7 @@ mod ways;
 
 use std::thread;
 
-use periplus_geometry::{Pose2, Stream};
+use periplus_geometry::{LaserScan2, Pose2, Stream};
 
 use crate::engine::{Counts, ScanOutcome, Slam, Update};
 use crate::keyframe::TrajectoryNode;
@@ -41,7 +41,6 @@ use crate::local::apart;
 use crate::map::Plan;
 use crate::method::{Mapper, Method};
 use crate::remark::{Remark, RemarkKind};
-use crate::scan::Scan;
 use crate::settings::Settings;
 
 use beams::Beams;
@@ -169,7 +168,7 @@ impl Gmapping {
     }
 
     /// Takes a scan that the front end has placed; whether it was used.
-    fn take(&mut self, scan: &Scan, here: TrajectoryNode) -> bool {
+    fn take(&mut self, scan: &LaserScan2, here: TrajectoryNode) -> bool {
         // The front end's map may have been revised: use its present poses.
         let front_from_base = self.front.pose_of(&here);
         let since = |node: &TrajectoryNode| {
@@ -463,7 +462,7 @@ impl Mapper for Gmapping {
         Method::Gmapping
     }
 
-    fn add_scan(&mut self, scan: &Scan, odom_from_base: Option<Pose2>) -> Update {
+    fn add_scan(&mut self, scan: &LaserScan2, odom_from_base: Option<Pose2>) -> Update {
         self.counts.scans += 1;
         let before = self.particles.get(self.best).map(|it| it.map_from_base);
         let told = self.front.add_scan(scan, odom_from_base);

@@ -58,6 +58,5 @@ pub use method::{Mapper, Method};
 pub use mounting::{CorrectedInput, MountingCorrection};
 pub use relations::{Errors, Miss, Relation, Score, Stamped, misses, read_relations, score};
 pub use remark::{Remark, RemarkKind};
-pub use scan::Scan;
 pub use session::{SESSION_MAGIC, SESSION_VERSION, SessionError};
 pub use settings::Settings;

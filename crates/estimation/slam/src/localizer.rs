@@ -2,7 +2,7 @@
 
 use std::collections::{BTreeMap, VecDeque};
 
-use periplus_geometry::Pose2;
+use periplus_geometry::{LaserScan2, Pose2};
 use periplus_scan_matching::{Cloud, Placed, Symmetric3};
 
 use crate::engine::{Counts, ScanOutcome, Slam, Update};
@@ -10,7 +10,7 @@ use crate::local::{Group, apart, match_locally};
 use crate::map::{MapSnapshot, Plan};
 use crate::method::{Mapper, Method};
 use crate::odometry_noise::OdometryNoise;
-use crate::scan::Scan;
+use crate::scan::{Ends, fault};
 
 /// Scans of the stored graph, and of the robot's own memory, that a new one is laid onto.
 const STORED_SCANS: usize = 6;
@@ -138,7 +138,7 @@ impl Localizer {
         self.last.as_ref().map_or(self.start.1, |last| last.covariance)
     }
 
-    fn take(&mut self, scan: &Scan, odom_from_base: Option<Pose2>) -> ScanOutcome {
+    fn take(&mut self, scan: &LaserScan2, odom_from_base: Option<Pose2>) -> ScanOutcome {
         let settings = self.stored.settings();
         let seconds = self
             .last
@@ -163,7 +163,7 @@ impl Localizer {
         let motion = told
             .filter(|_| seconds > 0.0 && seconds < 1.0)
             .map(|it| Pose2::new(it.x_m / seconds, it.y_m / seconds, it.yaw_rad / seconds));
-        let cloud = scan.ends(motion, settings.used_m()).cloud(&settings.cloud);
+        let cloud = Ends::new(scan, motion, settings.used_m()).cloud(&settings.cloud);
         let mut next =
             Last { time_ns: scan.time_ns, odom_from_base, map_from_base: expected, covariance };
         let near = self.near(expected);
@@ -261,10 +261,10 @@ impl Mapper for Localizer {
         Method::Graph
     }
 
-    fn add_scan(&mut self, scan: &Scan, odom_from_base: Option<Pose2>) -> Update {
+    fn add_scan(&mut self, scan: &LaserScan2, odom_from_base: Option<Pose2>) -> Update {
         self.counts.scans += 1;
         let odom_from_base = odom_from_base.filter(|pose| pose.is_finite());
-        let outcome = match scan.fault() {
+        let outcome = match fault(scan) {
             Some(reason) => ScanOutcome::Rejected(reason),
             None => self.take(scan, odom_from_base),
         };

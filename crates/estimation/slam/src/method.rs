@@ -3,14 +3,13 @@
 use std::fmt;
 use std::str::FromStr;
 
-use periplus_geometry::Pose2;
+use periplus_geometry::{LaserScan2, Pose2};
 use periplus_grid::OccupancyGrid;
 
 use crate::engine::{ConstraintResidual, Counts, MapContradiction, Slam, Update};
 use crate::loops::Closure;
 use crate::map::Plan;
 use crate::remark::Remark;
-use crate::scan::Scan;
 
 /// A map under construction by any method.
 ///
@@ -21,7 +20,7 @@ pub trait Mapper: Send {
     fn method(&self) -> Method;
 
     /// Takes a scan, and where odometry has the robot at its time, if it does.
-    fn add_scan(&mut self, scan: &Scan, odom_from_base: Option<Pose2>) -> Update;
+    fn add_scan(&mut self, scan: &LaserScan2, odom_from_base: Option<Pose2>) -> Update;
 
     /// Finishes what was left for later, and makes the map as good as it gets. More scans may follow.
     fn finish(&mut self);
@@ -123,7 +122,7 @@ impl Mapper for Slam {
         Method::Graph
     }
 
-    fn add_scan(&mut self, scan: &Scan, odom_from_base: Option<Pose2>) -> Update {
+    fn add_scan(&mut self, scan: &LaserScan2, odom_from_base: Option<Pose2>) -> Update {
         Self::add_scan(self, scan, odom_from_base)
     }
 

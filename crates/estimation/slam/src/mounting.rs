@@ -4,10 +4,9 @@
 use std::f64::consts::FRAC_PI_2;
 use std::fmt;
 
-use periplus_geometry::{Pose2, normalize_angle};
+use periplus_geometry::{LaserScan2, Pose2, normalize_angle};
 
 use crate::remark::{Remark, RemarkKind};
-use crate::scan::Scan;
 
 /// Correction of a scanner mounting or of odometry axes.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -66,13 +65,14 @@ impl MountingCorrection {
     }
 
     /// A scan without the fault.
-    fn scan(self, scan: &Scan) -> Scan {
+    fn scan(self, scan: &LaserScan2) -> LaserScan2 {
         let mut scan = scan.clone();
         match self {
-            Self::Flip => scan.is_flipped = !scan.is_flipped,
+            Self::Flip => scan.mounting.is_upside_down = !scan.mounting.is_upside_down,
             Self::Turn(turn_rad) => {
-                let Pose2 { x_m, y_m, yaw_rad } = scan.base_from_laser;
-                scan.base_from_laser = Pose2::new(x_m, y_m, normalize_angle(yaw_rad + turn_rad));
+                let Pose2 { x_m, y_m, yaw_rad } = scan.mounting.base_from_scanner;
+                scan.mounting.base_from_scanner =
+                    Pose2::new(x_m, y_m, normalize_angle(yaw_rad + turn_rad));
             }
             Self::SwapAxes | Self::NegateX | Self::NegateY | Self::Reverse => {}
         }
@@ -108,7 +108,7 @@ impl fmt::Display for MountingCorrection {
         match self {
             Self::Flip => f.write_str(
                 "scans are taken as those of a scanner that hangs upside down; if odometry turns with \
-                 the wrong sign instead (left and right odometry_monitor swapped), the map is a mirror image",
+                 the wrong sign instead (left and right wheels swapped), the map is a mirror image",
             ),
             Self::Turn(turn_rad) => write!(
                 f,
@@ -145,7 +145,11 @@ impl CorrectedInput {
     }
 
     /// A scan and where odometry has the robot at its time, without the fault.
-    pub fn apply(&mut self, scan: &Scan, odom_from_base: Option<Pose2>) -> (Scan, Option<Pose2>) {
+    pub fn apply(
+        &mut self,
+        scan: &LaserScan2,
+        odom_from_base: Option<Pose2>,
+    ) -> (LaserScan2, Option<Pose2>) {
         (self.remedy.scan(scan), odom_from_base.map(|now| self.odometry(now)))
     }
 
@@ -157,6 +161,8 @@ impl CorrectedInput {
 
 #[cfg(test)]
 mod tests {
+    use periplus_geometry::ScannerMounting;
+
     use super::*;
 
     fn remark(kind: RemarkKind) -> Remark {
@@ -166,10 +172,9 @@ mod tests {
     /// A drive of 1 m ahead and 0.5 rad to the left, counted with the wrong sign, is what it was.
     #[test]
     fn steps_that_went_backwards_go_ahead() {
-        let scan = Scan {
+        let scan = LaserScan2 {
             time_ns: 0,
-            base_from_laser: Pose2::IDENTITY,
-            is_flipped: false,
+            mounting: ScannerMounting::upright(Pose2::IDENTITY),
             angle_min_rad: 0.0,
             angle_increment_rad: 0.1,
             time_increment_s: 0.0,

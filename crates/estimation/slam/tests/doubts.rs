@@ -108,7 +108,9 @@ fn a_scanner_that_points_elsewhere_is_told() {
     for turn_rad in [FRAC_PI_2, -0.3] {
         let mut moments = drive();
         // The scanner points to the right of its transform.
-        moments.iter_mut().for_each(|it| it.scan.base_from_laser = Pose2::new(0.0, 0.0, turn_rad));
+        moments
+            .iter_mut()
+            .for_each(|it| it.scan.mounting.base_from_scanner = Pose2::new(0.0, 0.0, turn_rad));
         let diagnostics = diagnostics(&moments);
         let [RemarkKind::ScannerYaw(told)] = diagnostics[..] else { panic!("{diagnostics:?}") };
         assert!((told + turn_rad).abs() < 0.05, "{told} {turn_rad}");

@@ -2,8 +2,8 @@
 
 mod worlds;
 
-use periplus_geometry::{Pose2, normalize_angle};
-use periplus_slam::{Scan, ScanOutcome, Settings, Slam};
+use periplus_geometry::{LaserScan2, Pose2, ScannerMounting, normalize_angle};
+use periplus_slam::{ScanOutcome, Settings, Slam};
 use worlds::{Moment, ROBOT, Robot, World};
 
 fn map_of(moments: &[Moment], with_odometry: bool) -> Slam {
@@ -72,16 +72,19 @@ fn a_scanner_all_around_needs_no_odometry() {
 #[test]
 fn hanging_upside_down_and_off_centre_changes_nothing() {
     let world = World::ring(24.0, 14.0, 2.4, 4);
-    let base_from_laser = Pose2::new(0.2, -0.1, 0.4);
+    let base_from_scanner = Pose2::new(0.2, -0.1, 0.4);
     let mut moments = world.drive(&[(6.0, 0.0), (24.0, 0.0), (24.0, 9.0)], 0.5, &ROBOT, 4);
     let mut stream = periplus_geometry::Stream::keyed(4, "again", 0);
     for moment in &mut moments {
         let time_ns = moment.scan.time_ns;
-        let laser = moment.truth * base_from_laser;
+        let laser = moment.truth * base_from_scanner;
         let mut scan = world.scan(laser, &ROBOT, time_ns, &mut stream);
         // Seen from above its beams run the other way round.
         scan.ranges_m.reverse();
-        moment.scan = Scan { base_from_laser, is_flipped: true, ..scan };
+        moment.scan = LaserScan2 {
+            mounting: ScannerMounting { base_from_scanner, is_upside_down: true },
+            ..scan
+        };
     }
     let slam = map_of(&moments, true);
     let (metres, radians) = worst(&slam, &moments);
@@ -107,11 +110,11 @@ fn bad_scans_say_nothing_and_break_nothing() {
     assert!(worst(&slam, &moments).0 < 0.25, "{:?}", worst(&slam, &moments));
 
     let mut slam = Slam::new(Settings::default());
-    let empty = Scan { ranges_m: Vec::new(), ..moments[0].scan.clone() };
+    let empty = LaserScan2 { ranges_m: Vec::new(), ..moments[0].scan.clone() };
     for _ in 0..3 {
         let _ = slam.add_scan(&empty, None);
     }
-    let broken = Scan { angle_min_rad: f64::NAN, ..moments[0].scan.clone() };
+    let broken = LaserScan2 { angle_min_rad: f64::NAN, ..moments[0].scan.clone() };
     assert!(matches!(slam.add_scan(&broken, None).outcome, ScanOutcome::Rejected(_)));
     let _ = slam.add_scan(&moments[0].scan, Some(Pose2::new(f64::NAN, 0.0, 0.0)));
     slam.finish();

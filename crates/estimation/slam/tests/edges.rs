@@ -2,7 +2,6 @@
 #![allow(clippy::unwrap_used, clippy::print_stderr, reason = "tests")]
 #![allow(clippy::disallowed_methods, reason = "these tests look at files")]
 
-mod carmen;
 mod worlds;
 
 use std::collections::BTreeSet;
@@ -11,9 +10,8 @@ use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::thread;
 
-use carmen::scan_of;
 use periplus_bags::{CarmenScan, read_carmen};
-use periplus_geometry::Pose2;
+use periplus_geometry::{LaserScan2, Pose2};
 use periplus_slam::{ConstraintKind, Settings, Slam};
 use worlds::{ROBOT, World};
 
@@ -108,7 +106,7 @@ fn the_edges_of_all_real_logs_are_told() {
                     let text = fs::read(log.join("raw.clf")).unwrap();
                     let mut slam = Slam::new(Settings::default());
                     for scan in &shortened(read_carmen(&text).scans) {
-                        let _ = slam.add_scan(&scan_of(scan), scan.odom_from_base);
+                        let _ = slam.add_scan(&LaserScan2::from(scan.clone()), scan.odom_from_base);
                     }
                     slam.finish();
                     check(&slam, &log.display().to_string());

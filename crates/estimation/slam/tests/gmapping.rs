@@ -2,8 +2,8 @@
 
 mod worlds;
 
-use periplus_geometry::{Pose2, normalize_angle};
-use periplus_slam::{Gmapping, GmappingSettings, Mapper, Scan, ScanOutcome};
+use periplus_geometry::{LaserScan2, Pose2, normalize_angle};
+use periplus_slam::{Gmapping, GmappingSettings, Mapper, ScanOutcome};
 use worlds::{Moment, ROBOT, Robot, World};
 
 fn map_of(moments: &[Moment], settings: GmappingSettings) -> Gmapping {
@@ -183,9 +183,9 @@ fn bad_scans_say_nothing_and_break_nothing() {
 
     let mut slam = Gmapping::new(few());
     assert!(slam.map().is_some() && slam.trajectory().is_empty());
-    let broken = Scan { angle_min_rad: f64::NAN, ..moments[0].scan.clone() };
+    let broken = LaserScan2 { angle_min_rad: f64::NAN, ..moments[0].scan.clone() };
     assert!(matches!(slam.add_scan(&broken, None).outcome, ScanOutcome::Rejected(_)));
-    let empty = Scan { ranges_m: Vec::new(), ..moments[0].scan.clone() };
+    let empty = LaserScan2 { ranges_m: Vec::new(), ..moments[0].scan.clone() };
     for _ in 0..3 {
         let _ = slam.add_scan(&empty, None);
     }

@@ -2,15 +2,14 @@
 #![allow(clippy::unwrap_used, clippy::print_stderr, reason = "tests")]
 #![allow(clippy::disallowed_methods, reason = "these tests look at files")]
 
-mod carmen;
 #[path = "../examples/logs/perturb.rs"]
 #[allow(dead_code, reason = "one perturbation of many")]
 mod perturb;
 
+use periplus_geometry::LaserScan2;
 use std::fs;
 use std::path::Path;
 
-use carmen::scan_of;
 use periplus_bags::{CarmenScan, read_carmen};
 use periplus_slam::{Remark, Settings, Slam, Stamped, read_relations, score};
 use perturb::perturbed;
@@ -27,7 +26,7 @@ fn check(name: &str) {
     let log = read_carmen(&text);
     let mut slam = Slam::new(Settings::default());
     for scan in &perturbed(&log, "thin4").scans {
-        let _ = slam.add_scan(&scan_of(scan), scan.odom_from_base);
+        let _ = slam.add_scan(&LaserScan2::from(scan.clone()), scan.odom_from_base);
     }
     slam.finish();
     let stamps = log.scans.iter().map(|it| it.time_s);

@@ -2,7 +2,8 @@
 
 mod worlds;
 
-use periplus_slam::{Gmapping, GmappingSettings, Mapper, Scan, Settings, Slam};
+use periplus_geometry::LaserScan2;
+use periplus_slam::{Gmapping, GmappingSettings, Mapper, Settings, Slam};
 use worlds::{ROBOT, World};
 
 /// A short drive, and N scans at its end.
@@ -15,7 +16,7 @@ fn drive_and_stand(slam: &mut dyn Mapper, standing: usize) {
     let last = moments.last().expect("a drive");
     for number in 1..=standing {
         let time_ns = last.scan.time_ns + 100_000_000 * i64::try_from(number).expect("few");
-        let scan = Scan { time_ns, ..last.scan.clone() };
+        let scan = LaserScan2 { time_ns, ..last.scan.clone() };
         let _ = slam.add_scan(&scan, Some(last.odometry));
     }
 }

@@ -15,6 +15,7 @@
 //! ```
 
 mod base64;
+mod laser_scan;
 mod number;
 mod pose;
 mod pose2;
@@ -22,6 +23,7 @@ mod stream;
 
 pub use base64::{decode_base64, encode_base64};
 pub use glam::{DQuat, DVec3};
+pub use laser_scan::{LaserScan2, ScannerMounting};
 pub use number::{format_number, parse_number, parse_numbers};
 pub use pose::{Pose, Rpy, quaternion_from_rpy, rpy_from_quaternion};
 pub use pose2::{Pose2, normalize_angle};

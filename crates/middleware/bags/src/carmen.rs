@@ -8,7 +8,7 @@
 use std::f64::consts::PI;
 use std::io::{self, BufRead};
 
-use periplus_geometry::Pose2;
+use periplus_geometry::{LaserScan2, Pose2, ScannerMounting};
 
 /// Content of a log, with the lines that could not be parsed.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -49,6 +49,27 @@ pub struct CarmenScan {
     pub range_max_m: f32,
     /// Ranges \[m\].
     pub ranges_m: Vec<f32>,
+}
+
+/// Minimum range of the scanners that wrote such logs; lines do not contain it \[m\].
+const RANGE_MIN_M: f32 = 0.02;
+
+/// The stamp is rounded to the microsecond, and all beams have the same.
+impl From<CarmenScan> for LaserScan2 {
+    fn from(scan: CarmenScan) -> Self {
+        #[expect(clippy::cast_possible_truncation, reason = "a stamp fits for 292 years")]
+        let stamp_us = (scan.time_s * 1e6).round() as i64;
+        Self {
+            time_ns: stamp_us.saturating_mul(1000),
+            mounting: ScannerMounting::upright(scan.base_from_laser),
+            angle_min_rad: scan.angle_min_rad,
+            angle_increment_rad: scan.angle_increment_rad,
+            time_increment_s: 0.0,
+            range_min_m: RANGE_MIN_M,
+            range_max_m: scan.range_max_m,
+            ranges_m: scan.ranges_m,
+        }
+    }
 }
 
 impl CarmenLog {
@@ -279,6 +300,9 @@ mod tests {
         assert!(first.range_max_m > 79.0 && first.range_max_m < 80.0);
         assert!((third.base_from_laser.x_m - 0.2).abs() < 1e-9);
         assert_eq!((third.angle_min_rad, third.range_max_m), (-1.5, 8.0));
+        let scan = LaserScan2::from(third.clone());
+        assert_eq!((scan.time_ns, scan.beam_angle_rad(0)), (11_500_000_000, -1.5));
+        assert_eq!(scan.mounting, ScannerMounting::upright(third.base_from_laser));
     }
 
     #[test]

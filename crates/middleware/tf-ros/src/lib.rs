@@ -15,5 +15,5 @@ pub use frames::{Frames, plain};
 pub use message_filter::{FilterOrder, FilterSettings, MessageFilter};
 pub use poses::{pose, transform};
 pub use scan_queue::{NO_SCANS, SCAN_TRANSFORM_TIMEOUT_NS, ScanQueue, TransformedScan};
-pub use scans::{MissingTransform, RobotFrames, ScanTransforms, scan_transforms};
+pub use scans::{MissingTransform, RobotFrames, ScanTransforms, laser_scan, scan_transforms};
 pub use told::Told;

@@ -1,7 +1,7 @@
 //! Transforms of scans.
 
 use periplus_diagnostics::Diagnostic;
-use periplus_geometry::{Pose, Pose2};
+use periplus_geometry::{LaserScan2, Pose, Pose2, ScannerMounting};
 use periplus_msgs::sensor_msgs::LaserScan;
 
 use crate::Frames;
@@ -28,6 +28,21 @@ pub struct ScanTransforms {
     pub base_from_laser: Pose,
     /// Odometry pose of the robot.
     pub odom_from_base: Pose2,
+}
+
+/// Converts a scan, with the mounting pose of its scanner.
+#[must_use]
+pub fn laser_scan(message: &LaserScan, base_from_scanner: Pose) -> LaserScan2 {
+    LaserScan2 {
+        time_ns: message.header.stamp.ns(),
+        mounting: ScannerMounting::from(base_from_scanner),
+        angle_min_rad: message.angle_min.into(),
+        angle_increment_rad: message.angle_increment.into(),
+        time_increment_s: message.time_increment.into(),
+        range_min_m: message.range_min,
+        range_max_m: message.range_max,
+        ranges_m: message.ranges.clone(),
+    }
 }
 
 /// Transform that a scan lacks.

@@ -15,6 +15,5 @@ mod parameter_file;
 mod saved_pose;
 mod services;
 
-pub use messages::scan;
 pub use node::AmclNode;
 pub use parameter_file::read_parameters;

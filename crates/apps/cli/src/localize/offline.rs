@@ -6,7 +6,7 @@ use std::process::ExitCode;
 
 use periplus_geometry::Pose2;
 use periplus_grid::OccupancyGrid;
-use periplus_localization::{Amcl, LocalizationState, LocalizationStatus, Scan, Settings};
+use periplus_localization::{Amcl, LocalizationState, LocalizationStatus, Settings};
 use periplus_os::Stopwatch;
 use periplus_session::files::FileError;
 use periplus_session::picture;
@@ -14,7 +14,7 @@ use periplus_session::picture;
 use super::options::{self, LocalizeOptions};
 use super::report::Report;
 use crate::error::CliError;
-use crate::log::{Log, LogOptions, LoggedScan};
+use crate::log::{Log, LogOptions};
 use crate::terminal;
 
 /// Number of log errors that are printed; the others are counted.
@@ -117,7 +117,7 @@ fn localize(amcl: &mut Amcl, log: &Log) -> Outcome {
             way_m += moved.x_m.hypot(moved.y_m);
         }
         let one = Stopwatch::start();
-        match amcl.update(odom_from_base, &scan(logged)) {
+        match amcl.update(odom_from_base, &logged.scan) {
             Ok(Some(update)) => {
                 outcome.spent_s.push(one.elapsed().as_secs_f64());
                 if let Some(fit) = update.status.inlier_ratio {
@@ -144,19 +144,6 @@ fn localize(amcl: &mut Amcl, log: &Log) -> Outcome {
         }
     }
     outcome
-}
-
-fn scan(logged: &LoggedScan) -> Scan {
-    let scan = &logged.scan;
-    Scan {
-        base_from_laser: scan.base_from_laser,
-        is_flipped: scan.is_flipped,
-        angle_min_rad: scan.angle_min_rad,
-        angle_increment_rad: scan.angle_increment_rad,
-        range_min_m: scan.range_min_m.into(),
-        range_max_m: scan.range_max_m.into(),
-        ranges_m: scan.ranges_m.clone(),
-    }
 }
 
 fn word(state: LocalizationState) -> &'static str {

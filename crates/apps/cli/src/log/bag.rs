@@ -11,8 +11,8 @@ use periplus_msgs::Message;
 use periplus_msgs::nav_msgs::Odometry;
 use periplus_msgs::sensor_msgs::LaserScan;
 use periplus_msgs::tf2_msgs::TFMessage;
-use periplus_slam::Scan;
 use periplus_tf::{Buffer, StampedTransform, TransformKind};
+use periplus_tf_ros::laser_scan;
 
 use super::{Log, LogOptions, LoggedScan};
 use crate::error::CliError;
@@ -72,7 +72,7 @@ fn scans(bag: &Bag, path: &Path, options: &LogOptions) -> Result<Log, String> {
         let stamp = &message.header.stamp;
         log.scans.push(LoggedScan {
             stamp: format!("{}.{:06}", stamp.sec, stamp.nanosec / 1000),
-            scan: scan(message, time_ns, base_from_laser),
+            scan: laser_scan(&message, base_from_laser),
             odom_from_base,
         });
     });
@@ -81,23 +81,6 @@ fn scans(bag: &Bag, path: &Path, options: &LogOptions) -> Result<Log, String> {
         log.warnings.push(format!("{count} scans have no transform {edge} at their stamp"));
     }
     Ok(log)
-}
-
-fn scan(message: LaserScan, time_ns: i64, base_from_laser: Pose) -> Scan {
-    let ahead = base_from_laser.rotation * DVec3::X;
-    let up = base_from_laser.rotation * DVec3::Z;
-    let place = base_from_laser.translation;
-    Scan {
-        time_ns,
-        base_from_laser: Pose2::new(place.x, place.y, ahead.y.atan2(ahead.x)),
-        is_flipped: up.z < 0.0,
-        angle_min_rad: message.angle_min.into(),
-        angle_increment_rad: message.angle_increment.into(),
-        time_increment_s: message.time_increment.into(),
-        range_min_m: message.range_min,
-        range_max_m: message.range_max,
-        ranges_m: message.ranges,
-    }
 }
 
 /// Topic with the most scans, or the requested one.

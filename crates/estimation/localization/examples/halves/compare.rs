@@ -124,12 +124,12 @@ fn covered(half: &Half, walls: &[u32], seen: &Seen, map_from_base: Pose2) -> (f6
     let info = half.map.info;
     let cell_transform = info.finder();
     let scan = &seen.scan;
-    let map_from_laser = map_from_base * scan.base_from_laser;
+    let map_from_laser = map_from_base * scan.mounting.base_from_scanner;
     let reach = ON_WALL_M / info.resolution_m;
     let (mut count, mut on) = (0_usize, 0_usize);
     for (index, &range) in scan.ranges_m.iter().enumerate() {
         let range = f64::from(range);
-        if !(range > scan.range_min_m && range < scan.range_max_m) {
+        if !(range > scan.range_min_m.into() && range < scan.range_max_m.into()) {
             continue;
         }
         let angle = scan.angle_min_rad + index as f64 * scan.angle_increment_rad;

@@ -5,10 +5,9 @@ use std::path::Path;
 
 use periplus_bags::{CarmenScan, read_carmen};
 use periplus_diagnostics::{Diagnostics, SourceMap};
-use periplus_geometry::Pose2;
+use periplus_geometry::{LaserScan2, Pose2};
 use periplus_grid::OccupancyGrid;
 use periplus_images::Raster;
-use periplus_localization::Scan;
 use periplus_maps::{Distro, grid_of, read_description};
 
 /// Poses by their stamps \[us\].
@@ -18,7 +17,7 @@ pub(crate) type Way = BTreeMap<i64, Pose2>;
 pub(crate) struct Seen {
     pub(crate) stamp_us: i64,
     pub(crate) odom_from_base: Pose2,
-    pub(crate) scan: Scan,
+    pub(crate) scan: LaserScan2,
 }
 
 /// Inputs of the comparison.
@@ -77,17 +76,9 @@ impl Found {
 }
 
 fn seen(logged: CarmenScan) -> Option<Seen> {
-    let scan = Scan {
-        base_from_laser: logged.base_from_laser,
-        is_flipped: false,
-        angle_min_rad: logged.angle_min_rad,
-        angle_increment_rad: logged.angle_increment_rad,
-        range_min_m: 0.02,
-        range_max_m: logged.range_max_m.into(),
-        ranges_m: logged.ranges_m,
-    };
     let odom_from_base = logged.odom_from_base?;
-    Some(Seen { stamp_us: (logged.time_s * 1e6).round() as i64, odom_from_base, scan })
+    let stamp_us = (logged.time_s * 1e6).round() as i64;
+    Some(Seen { stamp_us, odom_from_base, scan: logged.into() })
 }
 
 fn map(folder: &Path) -> Result<OccupancyGrid, String> {

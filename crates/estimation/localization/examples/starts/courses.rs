@@ -1,8 +1,7 @@
 //! Drives with a map and a reference, and changed maps: unknown parts and moved furniture.
 
-use periplus_geometry::{Pose2, Stream};
+use periplus_geometry::{LaserScan2, Pose2, Stream};
 use periplus_grid::{OccupancyGrid, occupancy, squared_distances};
-use periplus_localization::Scan;
 
 use crate::worlds::{Wanderer, World};
 
@@ -20,7 +19,7 @@ const STEPS: usize = 2500;
 pub(crate) struct Sight {
     pub(crate) odom_from_base: Pose2,
     pub(crate) map_from_base: Pose2,
-    pub(crate) scan: Scan,
+    pub(crate) scan: LaserScan2,
 }
 
 /// Drive and its map.
@@ -93,12 +92,12 @@ impl<'a> Cover<'a> {
         let info = self.map.info;
         let cell_transform = info.finder();
         let scan = &sight.scan;
-        let map_from_laser = sight.map_from_base * scan.base_from_laser;
+        let map_from_laser = sight.map_from_base * scan.mounting.base_from_scanner;
         let reach = ON_WALL_M / info.resolution_m;
         let (mut count, mut on) = (0_usize, 0_usize);
         for (index, &range) in scan.ranges_m.iter().enumerate() {
             let range = f64::from(range);
-            if !(range > scan.range_min_m && range < scan.range_max_m) {
+            if !(range > scan.range_min_m.into() && range < scan.range_max_m.into()) {
                 continue;
             }
             let angle = scan.angle_min_rad + index as f64 * scan.angle_increment_rad;

@@ -3,12 +3,10 @@
 use std::path::Path;
 
 use periplus_bags::read_carmen;
-use periplus_geometry::Pose2;
+use periplus_geometry::{LaserScan2, Pose2};
 use periplus_grid::{OccupancyGrid, occupancy};
-use periplus_localization::Scan;
 use periplus_slam::Slam;
 
-use crate::carmen::scan_of;
 use crate::courses::{Course, Sight};
 
 /// CARMEN log: every `every`-th scan of its first scanner.
@@ -22,17 +20,8 @@ pub(crate) fn course_of_log(name: &str, path: &Path, every: usize) -> Result<Cou
     for (number, scan) in scans.step_by(every).enumerate() {
         let Some(odom_from_base) = scan.odom_from_base else { continue };
         let time_ns = number as i64 * 100_000_000;
-        let as_seen = periplus_slam::Scan { time_ns, ..scan_of(&scan) };
-        let _ = slam.add_scan(&as_seen, Some(odom_from_base));
-        let scan = Scan {
-            base_from_laser: scan.base_from_laser,
-            is_flipped: false,
-            angle_min_rad: scan.angle_min_rad,
-            angle_increment_rad: scan.angle_increment_rad,
-            range_min_m: 0.05,
-            range_max_m: scan.range_max_m.into(),
-            ranges_m: scan.ranges_m,
-        };
+        let scan = LaserScan2 { time_ns, ..scan.into() };
+        let _ = slam.add_scan(&scan, Some(odom_from_base));
         taken.push((time_ns, odom_from_base, scan));
     }
     slam.finish();

@@ -11,8 +11,6 @@
     reason = "a tool that measures time and prints results"
 )]
 
-#[path = "../../../slam/tests/carmen/mod.rs"]
-mod carmen;
 mod courses;
 mod logs;
 mod trials;

@@ -3,9 +3,9 @@
 use std::collections::VecDeque;
 use std::f64::consts::{PI, TAU};
 
-use periplus_geometry::{Pose2, Stream, normalize_angle};
+use periplus_geometry::{LaserScan2, Pose2, ScannerMounting, Stream, normalize_angle};
 use periplus_grid::{Grid, GridInfo, OccupancyGrid, occupancy};
-use periplus_localization::{InitialPose, Scan};
+use periplus_localization::InitialPose;
 
 /// Cell size of the map \[m\].
 const CELL_M: f64 = 0.05;
@@ -238,7 +238,7 @@ impl World {
     }
 
     /// Simulates a scan, with people in front of some beams.
-    pub(crate) fn scan(&self, map_from_base: Pose2, stream: &mut Stream) -> Scan {
+    pub(crate) fn scan(&self, map_from_base: Pose2, stream: &mut Stream) -> LaserScan2 {
         let place = (map_from_base.x_m, map_from_base.y_m);
         let mut ranges: Vec<f64> = (0..BEAMS)
             .map(|beam| {
@@ -265,13 +265,14 @@ impl World {
             let range = range + SIGMA_M * stream.normal();
             if range < RANGE_MAX_M { range as f32 } else { f32::INFINITY }
         });
-        Scan {
-            base_from_laser: Pose2::IDENTITY,
-            is_flipped: false,
+        LaserScan2 {
+            time_ns: 0,
+            time_increment_s: 0.0,
+            mounting: ScannerMounting::upright(Pose2::IDENTITY),
             angle_min_rad: -PI,
             angle_increment_rad: TAU / BEAMS as f64,
             range_min_m: 0.1,
-            range_max_m: RANGE_MAX_M,
+            range_max_m: RANGE_MAX_M as f32,
             ranges_m: measured.collect(),
         }
     }

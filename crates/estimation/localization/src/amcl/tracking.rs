@@ -1,6 +1,6 @@
 //! Tracking of one pose by scan matching.
 
-use periplus_geometry::{Pose2, normalize_angle};
+use periplus_geometry::{LaserScan2, Pose2, normalize_angle};
 use periplus_scan_matching::Symmetric3;
 
 use super::local_search::{
@@ -13,7 +13,7 @@ use crate::kld_sampling::Cluster;
 use crate::likelihood_map::LikelihoodMap;
 use crate::particles::{Covariance2, Particles};
 use crate::pose_threshold::{PoseThreshold, has_moved};
-use crate::scan::{MatchingScan, Scan};
+use crate::scan::MatchingScan;
 use crate::scan_likelihood::log_likelihood;
 use crate::scan_refinement::{PoseBelief, inflated, information_from_std, predicted, refine_pose};
 use crate::status::LocalizationState;
@@ -160,7 +160,7 @@ impl Amcl {
 
     /// Refines the tracked pose with a scan that the particle filter does not use. Requests an
     /// update of the filter where the scan may be the first sign of kidnapping.
-    pub(super) fn refine_between_updates(&mut self, odom_from_base: Pose2, scan: &Scan) {
+    pub(super) fn refine_between_updates(&mut self, odom_from_base: Pose2, scan: &LaserScan2) {
         let Some(before) = self.mode.refined().copied() else { return };
         let Ok(scan) = MatchingScan::new(scan, &self.settings.beams) else { return };
         if scan.ends.is_empty() {

@@ -1,7 +1,7 @@
 //! Update of the filter with odometry and a scan.
 
 use periplus_diagnostics::Diagnostic;
-use periplus_geometry::{Pose2, Stream};
+use periplus_geometry::{LaserScan2, Pose2, Stream};
 
 use super::global_search::LastSearch;
 use super::tracking::OdometrySlip;
@@ -11,7 +11,7 @@ use crate::motion_model::sample_motion;
 use crate::particles::Particles;
 use crate::pose_threshold::has_moved;
 use crate::recovery::LikelihoodAverages;
-use crate::scan::{Beams, MatchingScan, Scan};
+use crate::scan::{Beams, MatchingScan};
 use crate::scan_likelihood::inlier_ratios;
 use crate::sensor_model::tables::ScanLikelihoods;
 use crate::settings::AmclCompat;
@@ -34,7 +34,7 @@ impl Amcl {
     pub fn update(
         &mut self,
         odom_from_base: Pose2,
-        scan: &Scan,
+        scan: &LaserScan2,
     ) -> Result<Option<AmclUpdate>, Box<Diagnostic>> {
         self.check_inputs(odom_from_base)?;
         self.search.lookup_count = 0;
@@ -104,7 +104,11 @@ impl Amcl {
 
     /// Localizes the robot globally without an initial pose. A search that takes longer continues
     /// with the next scan. True once there are hypotheses.
-    fn initialize(&mut self, odom_from_base: Pose2, scan: &Scan) -> Result<bool, Box<Diagnostic>> {
+    fn initialize(
+        &mut self,
+        odom_from_base: Pose2,
+        scan: &LaserScan2,
+    ) -> Result<bool, Box<Diagnostic>> {
         if !self.settings.localizes_globally {
             return Err(no_initial_pose());
         }

@@ -118,7 +118,7 @@ impl SensorTables {
         let (_, mixture, range_max_m, _) = &self.key;
         let weight = |index: usize| {
             let map_from_base = particles.pose(index);
-            let map_from_laser = map_from_base * beams.base_from_laser;
+            let map_from_laser = map_from_base * beams.base_from_scanner;
             let start = (map_from_laser.x_m, map_from_laser.y_m);
             let beam_likelihoods = beams.beams.iter().map(|beam| {
                 let bearing = map_from_base.yaw_rad + beam.bearing_rad;

@@ -15,8 +15,6 @@
     reason = "a tool that reads logs, measures time and prints results"
 )]
 
-#[path = "../../tests/carmen/mod.rs"]
-mod carmen;
 mod perturb;
 mod print;
 mod score;

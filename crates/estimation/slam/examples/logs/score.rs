@@ -5,14 +5,13 @@ use std::path::Path;
 
 use periplus_bags::CarmenLog;
 use periplus_diagnostics::Diagnostics;
-use periplus_geometry::Pose2;
+use periplus_geometry::{LaserScan2, Pose2};
 use periplus_params::{Given, ParamValues};
 use periplus_slam::{
     CorrectedInput, Counts, Gmapping, GmappingSettings, Mapper, Method, MountingCorrection,
     Relation, Score, Settings, Slam, Stamped, misses, score,
 };
 
-use crate::carmen::scan_of;
 use crate::perturb::Copy;
 use crate::why::why;
 
@@ -161,7 +160,7 @@ fn drive(
     for (index, scan) in copy.scans.iter().enumerate() {
         let begin = cpu_ns();
         let mut odometry = scan.odom_from_base;
-        let mut scan = scan_of(scan);
+        let mut scan = LaserScan2::from(scan.clone());
         if let Some(cure) = &mut cure {
             (scan, odometry) = cure.apply(&scan, odometry);
         }

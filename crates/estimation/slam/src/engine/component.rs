@@ -1,7 +1,7 @@
 //! Pieces of map: when scans suddenly fit nothing that was seen before, the robot was carried, or a part
 //! of the log is missing. Then a new piece begins, and only closures join it to the rest.
 
-use periplus_geometry::Pose2;
+use periplus_geometry::{LaserScan2, Pose2};
 use periplus_scan_matching::{Cloud, Symmetric3};
 
 use super::{Last, OdometryStep, ROTATION_ARM_M, ScanMatch, ScanOutcome, Slam, drawn_ends};
@@ -9,7 +9,7 @@ use crate::graph::{ConstraintKind, Edge};
 use crate::keyframe::{Keyframe, TrajectoryNode};
 use crate::local::{MIN_AGREEMENT_RATIO, apart};
 use crate::remark::RemarkKind;
-use crate::scan::{Ends, Scan};
+use crate::scan::Ends;
 
 /// Path length added at the start of a component, so that earlier scans count as old and can be closed with
 /// \[m\].
@@ -55,7 +55,7 @@ impl Slam {
     /// Begins a piece of map with a scan, where odometry has it.
     pub(super) fn begin_component(
         &mut self,
-        scan: &Scan,
+        scan: &LaserScan2,
         odom_from_base: Option<Pose2>,
         scan_match: &ScanMatch,
     ) -> ScanOutcome {

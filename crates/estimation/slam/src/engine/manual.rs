@@ -2,14 +2,14 @@
 
 use std::collections::BTreeMap;
 
-use periplus_geometry::Pose2;
+use periplus_geometry::{LaserScan2, Pose2};
 use periplus_scan_matching::{Placed, Prior, Symmetric3, register};
 
 use super::{MIN_POINTS_COUNT, ScanOutcome, Slam};
 use crate::graph::{ConstraintKind, Edge};
 use crate::local::{apart, close_by, floored, grouped, match_locally};
 use crate::loops::Closure;
-use crate::scan::Scan;
+use crate::scan::Ends;
 
 /// Scans this near look at the same things \[m\].
 const REACH_M: f64 = 5.0;
@@ -40,13 +40,13 @@ impl Slam {
     /// Processes a scan at a pose set by the user.
     pub(super) fn process_scan_at(
         &mut self,
-        scan: &Scan,
+        scan: &LaserScan2,
         odom_from_base: Option<Pose2>,
         start: Pose2,
         covariance: Symmetric3,
     ) -> ScanOutcome {
         let Some(last) = &self.last else { return self.begin(scan, odom_from_base, start) };
-        let ends = scan.ends(None, self.settings.used_m());
+        let ends = Ends::new(scan, None, self.settings.used_m());
         let cloud = ends.cloud(&self.settings.cloud);
         if cloud.points().len() < MIN_POINTS_COUNT {
             // Nothing to match; the next scan may do.

@@ -1,12 +1,12 @@
 //! Matching of a scan with odometry as the prior.
 
-use periplus_geometry::Pose2;
+use periplus_geometry::{LaserScan2, Pose2};
 use periplus_scan_matching::{Cloud, Symmetric3};
 
 use super::{MIN_POINTS_COUNT, Slam};
 use crate::local::{apart, grouped, is_better, match_locally, neighbours, reweighted, uncertain};
 use crate::odometry_noise::OdometryNoise;
-use crate::scan::{Ends, Scan};
+use crate::scan::Ends;
 
 /// Less motion than this is standing still \[m, rad\].
 const STILL_M: f64 = 0.002;
@@ -57,7 +57,7 @@ impl Slam {
     /// Looks for a scan among those just before.
     pub(super) fn match_scan(
         &self,
-        scan: &Scan,
+        scan: &LaserScan2,
         odometry: Option<Pose2>,
         seconds: f64,
     ) -> ScanMatch {
@@ -75,7 +75,7 @@ impl Slam {
         } else {
             OdometryNoise::blind()
         };
-        let ends = scan.ends(per_second(motion, seconds), self.settings.used_m());
+        let ends = Ends::new(scan, per_second(motion, seconds), self.settings.used_m());
         let cloud = ends.cloud(&self.settings.cloud);
         let (metres, radians) = apart(motion, Pose2::IDENTITY);
         let expected = (last_from_base * motion).normalized();

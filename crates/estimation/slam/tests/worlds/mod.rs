@@ -13,8 +13,7 @@ pub(crate) mod ramp;
 pub(crate) mod rig;
 pub(crate) mod solid;
 
-use periplus_geometry::{Pose2, Stream, normalize_angle};
-use periplus_slam::Scan;
+use periplus_geometry::{LaserScan2, Pose2, ScannerMounting, Stream, normalize_angle};
 
 /// From the middle of an aisle to the next \[m\].
 const AISLE_M: f64 = 4.0;
@@ -51,7 +50,7 @@ pub(crate) const ROBOT: Robot = Robot {
 pub(crate) struct Moment {
     pub(crate) truth: Pose2,
     pub(crate) odometry: Pose2,
-    pub(crate) scan: Scan,
+    pub(crate) scan: LaserScan2,
 }
 
 impl World {
@@ -192,7 +191,7 @@ impl World {
         robot: &Robot,
         time_ns: i64,
         stream: &mut Stream,
-    ) -> Scan {
+    ) -> LaserScan2 {
         let step = robot.field_rad / (robot.beams - 1).max(1) as f64;
         let start = -0.5 * robot.field_rad;
         let near = self.around(pose, robot.range_max_m);
@@ -201,10 +200,9 @@ impl World {
             let noisy = range + robot.range_sigma_m * stream.normal();
             if range < robot.range_max_m { noisy as f32 } else { f32::INFINITY }
         });
-        Scan {
+        LaserScan2 {
             time_ns,
-            base_from_laser: Pose2::IDENTITY,
-            is_flipped: false,
+            mounting: ScannerMounting::upright(Pose2::IDENTITY),
             angle_min_rad: start,
             angle_increment_rad: step,
             time_increment_s: 0.0,

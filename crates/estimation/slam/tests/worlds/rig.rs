@@ -1,7 +1,6 @@
 //! A robot in a scene: a scanner at a height, which tilts with the floor, and wheels.
 
-use periplus_geometry::{Pose2, Stream};
-use periplus_slam::Scan;
+use periplus_geometry::{LaserScan2, Pose2, ScannerMounting, Stream};
 
 use super::solid::{Scene, Surface};
 use super::{Moment, OdometryMonitor, ROBOT, Robot, poses_along};
@@ -80,7 +79,7 @@ impl Rig {
         truth: Pose2,
         time_s: f64,
         stream: &mut Stream,
-    ) -> Scan {
+    ) -> LaserScan2 {
         let robot = &self.robot;
         let near = scene.around(time_s, truth, robot.range_max_m);
         let height = |forward: f64, left: f64| {
@@ -125,10 +124,9 @@ impl Rig {
             if range < robot.range_max_m { range as f32 } else { f32::INFINITY }
         };
         let ranges_m = (0..robot.beams).map(&mut range).collect();
-        Scan {
+        LaserScan2 {
             time_ns: (time_s * 1e9) as i64,
-            base_from_laser: Pose2::IDENTITY,
-            is_flipped: false,
+            mounting: ScannerMounting::upright(Pose2::IDENTITY),
             angle_min_rad: start,
             angle_increment_rad: step,
             time_increment_s: 0.0,

@@ -1,37 +1,14 @@
 //! Conversions between messages and localization.
 
-use periplus_geometry::{DQuat, DVec3, Pose, Pose2};
-use periplus_localization::{Covariance2, Particles, Scan};
+use periplus_geometry::{DQuat, Pose, Pose2};
+use periplus_localization::{Covariance2, Particles};
 use periplus_msgs::geometry_msgs::{self, PoseWithCovariance, PoseWithCovarianceStamped};
 use periplus_msgs::nav2_msgs;
-use periplus_msgs::sensor_msgs::LaserScan;
 use periplus_msgs::std_msgs::Header;
 use periplus_tf_ros::pose;
 
 /// Maximum difference of the norm of a quaternion from 1.
 const MAX_NORM_ERROR: f64 = 0.01;
-
-/// Converts a scan with the transform `base_from_laser`. A scanner is mounted upside down if its z
-/// axis points down.
-#[must_use]
-pub fn scan(message: &LaserScan, base_from_laser: Pose) -> Scan {
-    let forward = base_from_laser.rotation * DVec3::X;
-    let up = base_from_laser.rotation * DVec3::Z;
-    let translation = base_from_laser.translation;
-    Scan {
-        base_from_laser: Pose2::new(
-            translation.x,
-            translation.y,
-            libm::atan2(forward.y, forward.x),
-        ),
-        is_flipped: up.z < 0.0,
-        angle_min_rad: message.angle_min.into(),
-        angle_increment_rad: message.angle_increment.into(),
-        range_min_m: message.range_min.into(),
-        range_max_m: message.range_max.into(),
-        ranges_m: message.ranges.clone(),
-    }
-}
 
 /// Converts a pose to a planar one. The error is a description of an invalid orientation.
 pub(crate) fn pose2(pose: &geometry_msgs::Pose) -> Result<Pose2, String> {
@@ -100,13 +77,5 @@ mod tests {
         assert!(pose2(&bad).is_err_and(|why| why.contains("is not a rotation")));
         bad.orientation.w = f64::NAN;
         assert!(pose2(&bad).is_err());
-    }
-
-    #[test]
-    fn an_upside_down_scanner_is_detected_by_its_axis() {
-        let message = LaserScan { ranges: vec![1.0], ..LaserScan::default() };
-        let over = DQuat::from_rotation_x(std::f64::consts::PI);
-        let scan = scan(&message, Pose::from_xyz_quaternion([0.1, 0.0, 0.3], over));
-        assert!(scan.is_flipped && scan.base_from_laser.yaw_rad.abs() < 1e-12, "{scan:?}");
     }
 }

@@ -17,11 +17,11 @@ use periplus_msgs::nav_msgs::OccupancyGrid;
 use periplus_msgs::tf2_msgs::TFMessage;
 use periplus_params::ParamValues;
 use periplus_tf::TransformKind;
-use periplus_tf_ros::{Frames, NO_SCANS, Told, TransformedScan, plain};
+use periplus_tf_ros::{Frames, NO_SCANS, Told, TransformedScan, laser_scan, plain};
 
 use crate::Files;
 use crate::amcl::inputs::{FrameNames, Inputs};
-use crate::amcl::messages::{pose2, scan as laser_scan};
+use crate::amcl::messages::pose2;
 use crate::amcl::outputs::{Health, Outputs};
 use crate::amcl::saved_pose;
 use crate::amcl::services;

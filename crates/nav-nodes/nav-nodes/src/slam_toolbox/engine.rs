@@ -115,7 +115,11 @@ impl Engine {
         }
     }
 
-    pub(crate) fn add_scan(&mut self, scan: &periplus_slam::Scan, odom_from_base: Pose2) -> Update {
+    pub(crate) fn add_scan(
+        &mut self,
+        scan: &periplus_geometry::LaserScan2,
+        odom_from_base: Pose2,
+    ) -> Update {
         let odom_from_base = Some(odom_from_base);
         match self {
             Self::Graph(slam) => slam.add_scan(scan, odom_from_base),

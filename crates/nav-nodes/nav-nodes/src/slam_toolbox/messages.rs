@@ -1,38 +1,17 @@
 //! Between messages and what mapping knows.
 
-use periplus_geometry::{DQuat, DVec3, Pose, Pose2};
+use periplus_geometry::{DQuat, Pose, Pose2};
 use periplus_grid::OccupancyGrid;
 use periplus_grid::occupancy::{FREE, OCCUPIED, UNKNOWN};
 use periplus_msgs::geometry_msgs::{self, PoseWithCovariance, PoseWithCovarianceStamped};
-use periplus_msgs::sensor_msgs::LaserScan;
 use periplus_msgs::std_msgs::Header;
 use periplus_scan_matching::Symmetric3;
-use periplus_slam::Scan;
 use periplus_tf_ros::pose;
 
 /// Maximum deviation of the norm of a quaternion from 1.
 const OFF: f64 = 0.01;
 /// Default standard deviations of an initial pose \[m, rad\], as RViz sends them.
 const USUAL: [f64; 2] = [0.5, 0.26];
-
-/// Converts a message, with the pose of its scanner on the robot. A scanner is mounted upside down if its
-/// axis points down, or if declared so.
-pub(crate) fn scan(message: &LaserScan, base_from_laser: Pose, is_inverted: bool) -> Scan {
-    let ahead = base_from_laser.rotation * DVec3::X;
-    let up = base_from_laser.rotation * DVec3::Z;
-    let place = base_from_laser.translation;
-    Scan {
-        time_ns: message.header.stamp.ns(),
-        base_from_laser: Pose2::new(place.x, place.y, libm::atan2(ahead.y, ahead.x)),
-        is_flipped: (up.z < 0.0) != is_inverted,
-        angle_min_rad: message.angle_min.into(),
-        angle_increment_rad: message.angle_increment.into(),
-        time_increment_s: message.time_increment.into(),
-        range_min_m: message.range_min,
-        range_max_m: message.range_max,
-        ranges_m: message.ranges.clone(),
-    }
-}
 
 /// From which share of hits on a cell of a published map is a wall \[%\]: when more spoke for it than
 /// against it.

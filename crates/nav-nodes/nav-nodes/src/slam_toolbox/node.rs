@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use periplus_diagnostics::Diagnostic;
-use periplus_geometry::Pose2;
+use periplus_geometry::{LaserScan2, Pose2};
 use periplus_graph::{
     Graph, GraphError, Io, Level, LifecycleCallbacks, LifecycleNode, Node, NodeSettings,
     Parameters, Qos, StepOutcome,
@@ -16,10 +16,10 @@ use periplus_msgs::visualization_msgs::{InteractiveMarker, InteractiveMarkerFeed
 use periplus_params::{ParamValue, ParamValues};
 use periplus_scan_matching::Symmetric3;
 use periplus_slam::{
-    Closure, CorrectedInput, Counts, MountingCorrection, Scan, ScanOutcome, Slam, Update, tables,
+    Closure, CorrectedInput, Counts, MountingCorrection, ScanOutcome, Slam, Update, tables,
 };
 use periplus_tf::TransformKind;
-use periplus_tf_ros::{Frames, ScanQueue, Told, TransformedScan, plain};
+use periplus_tf_ros::{Frames, ScanQueue, Told, TransformedScan, laser_scan, plain};
 
 use crate::Files;
 use crate::slam_toolbox::Program;
@@ -29,7 +29,7 @@ use crate::slam_toolbox::engine::{Engine, SURE, Start};
 use crate::slam_toolbox::health::{self, SET_RIGHT, SlamHealth};
 use crate::slam_toolbox::inputs::{Names, scan_queue};
 use crate::slam_toolbox::markers;
-use crate::slam_toolbox::messages::{covariance, pose2, scan as laser_scan};
+use crate::slam_toolbox::messages::{covariance, pose2};
 use crate::slam_toolbox::outputs::Outputs;
 use crate::slam_toolbox::services;
 use crate::slam_toolbox::values::{flag, integer, is_given, number, numbers, text};
@@ -471,7 +471,8 @@ impl SlamNode {
             return;
         }
         let is_inverted = flag(&self.values, "inverted_laser").unwrap_or(false);
-        let scan = laser_scan(message, transforms.base_from_laser, is_inverted);
+        let mut scan = laser_scan(message, transforms.base_from_laser);
+        scan.mounting.is_upside_down ^= is_inverted;
         let odom_from_base = transforms.odom_from_base;
         let Some((mut update, mut corrected)) = self.add(&scan, odom_from_base) else { return };
         self.log_remarks(node);
@@ -505,7 +506,7 @@ impl SlamNode {
 
     /// Hands a scan to the engine, with the fault of the data undone that is known; gives also odometry
     /// as the engine got it.
-    fn add(&mut self, scan: &Scan, odom_from_base: Pose2) -> Option<(Update, Pose2)> {
+    fn add(&mut self, scan: &LaserScan2, odom_from_base: Pose2) -> Option<(Update, Pose2)> {
         let engine = self.engine.as_mut()?;
         let cured = self.correction.as_mut().map(|it| it.cure.apply(scan, Some(odom_from_base)));
         let (scan, corrected) = match &cured {
@@ -549,7 +550,7 @@ impl SlamNode {
     /// what became of the scan then.
     fn correct(
         &mut self,
-        scan: &Scan,
+        scan: &LaserScan2,
         odom_from_base: Pose2,
         names: &Names,
         node: &Node,
