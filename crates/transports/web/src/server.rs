@@ -7,6 +7,7 @@
 
 mod authority;
 mod authorization;
+mod connection;
 mod frame;
 mod http;
 mod listener;
@@ -17,6 +18,5 @@ mod token;
 mod token_rate_limit;
 
 pub use authorization::{AdmissionError, Authorization};
-pub use http::{Head, HeadError, LONGEST_HEAD};
 pub use listener::{WebServer, WebServerSettings};
 pub use token::{MIN_TOKEN_CHARACTERS, token};

@@ -154,6 +154,55 @@ fn hosts_are_read_strictly() {
 }
 
 #[test]
+fn a_host_in_the_target_counts() {
+    let place = Place::usual();
+    let ask = |target: &str| {
+        let text = format!(
+            "GET {target} HTTP/1.1\r\nHost: localhost\r\nConnection: Upgrade\r\nUpgrade: websocket\r\n\
+             Sec-WebSocket-Version: 13\r\nSec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\n\
+             Sec-WebSocket-Protocol: chat\r\n\r\n"
+        );
+        place.send(text.as_bytes())[9..12].to_owned()
+    };
+    // An admitted client gets an error for an unknown subprotocol.
+    assert_eq!(ask("http://localhost:8765/"), "400");
+    assert_eq!(ask("http://evil.example/"), "403");
+}
+
+#[test]
+fn requests_that_two_parsers_could_divide_differently_are_refused() {
+    let place = Place::usual();
+    for framing in [
+        "Content-Length: 5\r\nContent-Length: 6\r\n",
+        "Content-Length: +5\r\n",
+        "Transfer-Encoding: chunked, identity\r\n",
+        "Host : localhost\r\n",
+        "X: a\r\n b\r\n",
+    ] {
+        let request = format!("GET / HTTP/1.1\r\n{framing}\r\nhello");
+        let answer = place.send(request.as_bytes());
+        assert!(answer.starts_with("HTTP/1.1 400"), "{framing}: {answer}");
+    }
+    place.is_well();
+}
+
+#[test]
+fn frames_that_come_with_the_request_are_read() {
+    let place = Place::usual();
+    let request = b"GET / HTTP/1.1\r\nHost: localhost\r\nConnection: Upgrade\r\n\
+        Upgrade: websocket\r\nSec-WebSocket-Version: 13\r\n\
+        Sec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\n\
+        Sec-WebSocket-Protocol: foxglove.websocket.v1\r\n\r\n";
+    // A close frame without a code, masked.
+    let close = [0x88, 0x80, 1, 2, 3, 4];
+    let answer = place.send(&[request.as_slice(), &close].concat());
+    assert!(answer.starts_with("HTTP/1.1 101 Switching Protocols\r\n"), "{answer}");
+    assert!(answer.contains("Sec-Websocket-Accept: s3pPLMBiTxaQ9kYGzzhZRbK+xOo=\r\n"), "{answer}");
+    assert!(answer.contains("serverInfo"), "{answer}");
+    eventually("the client is gone", || place.hub.clients() == 0);
+}
+
+#[test]
 fn tokens_cannot_be_tried_out() {
     let place = Place::usual();
     let wrong = (0..30).map(|n| place.ask(&format!("/?token=wrong{n}"), None));
@@ -252,7 +301,7 @@ fn requests_that_are_none_are_answered_and_forgotten() {
     assert!(place.send(b"\x16\x03\x01\x02\x00\x01\x00\r\n\r\n").starts_with("HTTP/1.1 400"));
     let long = [b"GET / HTTP/1.1\r\nX: ".as_slice(), &[b'x'; 40_000]].concat();
     let answer = place.send(&long);
-    assert!(answer.is_empty() || answer.starts_with("HTTP/1.1 400"), "{answer}");
+    assert!(answer.is_empty() || answer.starts_with("HTTP/1.1 431"), "{answer}");
     assert!(place.send(b"POST / HTTP/1.1\r\nContent-Length: 5\r\n\r\nhello").contains("405"));
     let answer = place.send(b"GET /../../etc/passwd HTTP/1.1\r\nConnection: close\r\n\r\n");
     assert!(answer.starts_with("HTTP/1.1 404"), "{answer}");

@@ -2,9 +2,11 @@
 
 use std::fmt;
 
+use hyper::header::{HOST, ORIGIN};
+use hyper::{HeaderMap, Uri};
+
 use crate::server::authority::{is_own_origin, is_this_machine};
-use crate::server::http::Head;
-use crate::server::token;
+use crate::server::{http, token};
 
 /// Admission rule for WebSocket clients.
 ///
@@ -56,12 +58,12 @@ impl fmt::Display for AdmissionError {
 }
 
 impl Authorization {
-    /// Checks if a request is admitted.
+    /// Checks if a request is admitted, by its target and headers.
     ///
     /// # Errors
     /// The reason of the rejection.
-    pub fn admit(&self, head: &Head) -> Result<(), AdmissionError> {
-        if let Some(given) = head.query("token") {
+    pub fn admit(&self, target: &Uri, headers: &HeaderMap) -> Result<(), AdmissionError> {
+        if let Some(given) = http::query(target, "token") {
             let given = token::decoded(given);
             return match &self.token {
                 Some(own) if token::same(own.as_bytes(), &given) => Ok(()),
@@ -72,12 +74,14 @@ impl Authorization {
             return Err(AdmissionError::NoToken);
         }
         // If there are several, each must name this machine: the client must not choose which one
-        // counts.
-        if let Some(host) = head.headers("host").find(|host| !is_this_machine(host)) {
-            return Err(AdmissionError::ForeignHost(host.to_owned()));
+        // counts. A target with a host counts as well (RFC 9112, section 3.2.2).
+        let in_target = target.authority().map(|authority| authority.as_str().into());
+        let mut hosts = http::values(headers, HOST).chain(in_target);
+        if let Some(host) = hosts.find(|host| !is_this_machine(host)) {
+            return Err(AdmissionError::ForeignHost(host.into_owned()));
         }
-        match head.headers("origin").find(|origin| !is_own_origin(origin)) {
-            Some(origin) => Err(AdmissionError::ForeignOrigin(origin.to_owned())),
+        match http::values(headers, ORIGIN).find(|origin| !is_own_origin(origin)) {
+            Some(origin) => Err(AdmissionError::ForeignOrigin(origin.into_owned())),
             None => Ok(()),
         }
     }
@@ -89,11 +93,15 @@ mod tests {
 
     fn admit(
         authorization: &Authorization,
-        path: &str,
+        target: &str,
         headers: &str,
     ) -> Result<(), AdmissionError> {
-        let text = format!("GET {path} HTTP/1.1\r\n{headers}\r\n");
-        authorization.admit(&Head::read(text.as_bytes()).expect("a head").expect("whole").0)
+        let mut request = hyper::Request::get(target);
+        for (name, value) in headers.lines().filter_map(|line| line.split_once(": ")) {
+            request = request.header(name, value);
+        }
+        let request = request.body(()).expect("a request");
+        authorization.admit(request.uri(), request.headers())
     }
 
     #[test]
@@ -136,6 +144,9 @@ mod tests {
         let twice = "Host: localhost\r\nHost: evil.example\r\n";
         let host = "evil.example".to_owned();
         assert_eq!(admit(&authorization, "/", twice), Err(AdmissionError::ForeignHost(host)));
+        let host = "evil.example".to_owned();
+        let in_target = admit(&authorization, "http://evil.example/", "Host: localhost\r\n");
+        assert_eq!(in_target, Err(AdmissionError::ForeignHost(host)));
     }
 
     #[test]

@@ -1,48 +1,41 @@
 //! WebSocket frames of servers (RFC 6455, section 5.2): one per message, unmasked.
 
-const TEXT: u8 = 1;
-const BINARY: u8 = 2;
-const CLOSE: u8 = 8;
-const PING: u8 = 9;
+use tungstenite::protocol::CloseFrame;
+use tungstenite::protocol::frame::coding::{Data, OpCode};
+use tungstenite::protocol::frame::{Frame, FrameHeader};
+
+/// Maximum length of the reason of a close frame \[bytes\]: a control frame has at most 125 bytes,
+/// two of which are the code.
+const MAX_REASON_BYTES: usize = 123;
 
 /// Header of a message of this length \[bytes\].
 pub(crate) fn header(is_text: bool, length: usize) -> Vec<u8> {
-    head(if is_text { TEXT } else { BINARY }, length)
-}
-
-fn head(opcode: u8, length: usize) -> Vec<u8> {
-    // The FIN bit: the message ends with this frame.
-    let mut bytes = vec![0x80 | opcode];
-    match (u8::try_from(length), u16::try_from(length)) {
-        (Ok(length @ 0..=125), _) => bytes.push(length),
-        (_, Ok(length)) => {
-            bytes.push(126);
-            bytes.extend(length.to_be_bytes());
-        }
-        _ => {
-            bytes.push(127);
-            bytes.extend((length as u64).to_be_bytes());
-        }
-    }
+    let opcode = OpCode::Data(if is_text { Data::Text } else { Data::Binary });
+    let header = FrameHeader { opcode, ..FrameHeader::default() };
+    let mut bytes = Vec::with_capacity(10);
+    // Fails only if the sink does, and memory does not.
+    let _ = header.format(length as u64, &mut bytes);
     bytes
 }
 
 /// Close frame with a code and reason.
 pub(crate) fn close(code: u16, why: &str) -> Vec<u8> {
-    // A control frame has at most 125 bytes, two of which are the code.
-    let mut end = why.len().min(123);
+    let mut end = why.len().min(MAX_REASON_BYTES);
     while !why.is_char_boundary(end) {
         end -= 1;
     }
-    let mut bytes = head(CLOSE, 2 + end);
-    bytes.extend(code.to_be_bytes());
-    bytes.extend(&why.as_bytes()[..end]);
-    bytes
+    encode(Frame::close(Some(CloseFrame { code: code.into(), reason: why[..end].into() })))
 }
 
 /// Ping frame.
 pub(crate) fn ping() -> Vec<u8> {
-    head(PING, 0)
+    encode(Frame::ping(Vec::new()))
+}
+
+fn encode(frame: Frame) -> Vec<u8> {
+    let mut bytes = Vec::with_capacity(frame.len());
+    let _ = frame.format(&mut bytes);
+    bytes
 }
 
 #[cfg(test)]
@@ -64,5 +57,6 @@ mod tests {
         assert_eq!(frame.len(), 2 + 2 + 122);
         assert!(std::str::from_utf8(&frame[4..]).is_ok());
         assert_eq!(close(1000, ""), [0x88, 2, 0x03, 0xe8]);
+        assert_eq!(ping(), [0x89, 0]);
     }
 }

@@ -1,21 +1,36 @@
 //! The listening server.
 
 use std::io;
-use std::net::{Ipv6Addr, SocketAddr, TcpListener, TcpStream};
+use std::net::{SocketAddr, TcpListener};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::thread::JoinHandle;
 use std::time::Duration;
 
-use crate::foxglove::Hub;
+use tokio::sync::oneshot;
 
+use crate::foxglove::Hub;
 use crate::server::authorization::Authorization;
-use crate::server::socket;
+use crate::server::connection;
 use crate::server::token::{MIN_TOKEN_CHARACTERS, encoded};
 use crate::server::token_rate_limit::TokenRateLimit;
 
-/// Maximum number of connections; each has a thread.
-const MOST_CONNECTIONS: usize = 256;
+/// Limits of connections.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct HttpLimits {
+    /// Maximum number of connections, including those that became a WebSocket.
+    pub(crate) connections: usize,
+    /// Maximum number of requests per connection.
+    pub(crate) requests: usize,
+    /// Timeout of a request head, and idle time of a connection.
+    pub(crate) patience: Duration,
+}
+
+impl Default for HttpLimits {
+    fn default() -> Self {
+        Self { connections: 256, requests: 1000, patience: Duration::from_secs(15) }
+    }
+}
 
 /// Settings of the server.
 #[derive(Clone, Debug)]
@@ -27,11 +42,15 @@ pub struct WebServerSettings {
 }
 
 /// The HTTP and WebSocket server, open until this is dropped.
+///
+/// One thread serves all HTTP connections; each WebSocket has two threads of its own.
 #[derive(Debug)]
 pub struct WebServer {
     address: SocketAddr,
     token: Option<String>,
     room: Arc<Room>,
+    /// Ends the thread of the listener.
+    close: Option<oneshot::Sender<()>>,
     thread: Option<JoinHandle<()>>,
 }
 
@@ -42,6 +61,7 @@ pub(crate) struct Room {
     pub(crate) authorization: Authorization,
     pub(crate) token_rate_limit: TokenRateLimit,
     pub(crate) is_closing: AtomicBool,
+    pub(crate) limits: HttpLimits,
     connections: AtomicUsize,
 }
 
@@ -52,6 +72,14 @@ impl WebServer {
     /// When the port is in use, or the address is reachable from other machines and the
     /// token is missing or too short.
     pub fn open(hub: Arc<Hub>, settings: WebServerSettings) -> io::Result<Self> {
+        Self::open_within(hub, settings, HttpLimits::default())
+    }
+
+    fn open_within(
+        hub: Arc<Hub>,
+        settings: WebServerSettings,
+        limits: HttpLimits,
+    ) -> io::Result<Self> {
         let WebServerSettings { address, token } = settings;
         let is_loopback = address.ip().is_loopback();
         if !is_loopback && token.as_ref().is_none_or(String::is_empty) {
@@ -73,12 +101,24 @@ impl WebServer {
             authorization,
             token_rate_limit: TokenRateLimit::default(),
             is_closing: AtomicBool::new(false),
+            limits,
             connections: AtomicUsize::new(0),
         });
         let own = room.clone();
+        let (close, closed) = oneshot::channel();
+        listener.set_nonblocking(true)?;
+        let runtime = tokio::runtime::Builder::new_current_thread().enable_all().build()?;
+        let listener = {
+            let _context = runtime.enter();
+            tokio::net::TcpListener::from_std(listener)?
+        };
         let builder = std::thread::Builder::new().name("server".to_owned());
-        let thread = builder.spawn(move || accept(&listener, &own))?;
-        Ok(Self { address, token, room, thread: Some(thread) })
+        let thread = builder.spawn(move || {
+            runtime.spawn(accept(listener, own));
+            // Dropping the runtime then closes the listener and all HTTP connections.
+            let _ = runtime.block_on(closed);
+        })?;
+        Ok(Self { address, token, room, close: Some(close), thread: Some(thread) })
     }
 
     /// Address of the listener.
@@ -108,14 +148,8 @@ impl WebServer {
 impl Drop for WebServer {
     fn drop(&mut self) {
         self.room.is_closing.store(true, Ordering::Release);
-        // A connection wakes the accepting thread.
-        let own = match self.address {
-            SocketAddr::V4(_) => SocketAddr::from(([127, 0, 0, 1], self.address.port())),
-            SocketAddr::V6(_) => SocketAddr::from((Ipv6Addr::LOCALHOST, self.address.port())),
-        };
-        let knock = if self.address.ip().is_unspecified() { own } else { self.address };
-        let came = TcpStream::connect_timeout(&knock, Duration::from_secs(1));
-        if let (Ok(_), Some(thread)) = (came, self.thread.take()) {
+        drop(self.close.take());
+        if let Some(thread) = self.thread.take() {
             let _ = thread.join();
         }
     }
@@ -126,7 +160,20 @@ fn is_short(token: &str) -> bool {
 }
 
 /// A counted connection, until this is dropped.
-struct Place(Arc<Room>);
+pub(crate) struct Place(Arc<Room>);
+
+impl Place {
+    /// Counts a connection; none if there are too many.
+    fn new(room: &Arc<Room>) -> Option<Self> {
+        let before = room.connections.fetch_add(1, Ordering::AcqRel);
+        let place = Self(room.clone());
+        (before < room.limits.connections).then_some(place)
+    }
+
+    pub(crate) fn room(&self) -> &Room {
+        &self.0
+    }
+}
 
 impl Drop for Place {
     fn drop(&mut self) {
@@ -134,25 +181,127 @@ impl Drop for Place {
     }
 }
 
-fn accept(listener: &TcpListener, room: &Arc<Room>) {
+/// Accepts connections until the runtime is dropped.
+async fn accept(listener: tokio::net::TcpListener, room: Arc<Room>) {
     loop {
-        let came = listener.accept();
-        if room.is_closing.load(Ordering::Acquire) {
-            return;
-        }
-        let Ok((stream, _)) = came else {
+        let Ok((stream, from)) = listener.accept().await else {
             // Too many open files, or the client has left.
-            periplus_os::sleep(Duration::from_millis(20));
+            tokio::time::sleep(Duration::from_millis(20)).await;
             continue;
         };
-        let before = room.connections.fetch_add(1, Ordering::AcqRel);
-        let place = Place(room.clone());
-        if before >= MOST_CONNECTIONS {
-            continue;
+        if let Some(place) = Place::new(&room)
+            && stream.set_nodelay(true).is_ok()
+        {
+            tokio::spawn(connection::serve(stream, from.ip(), place));
         }
-        let builder = std::thread::Builder::new().name("connection".to_owned());
-        let _ = builder.spawn(move || {
-            let _ = socket::serve(stream, &place.0);
-        });
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::io::{Read as _, Write as _};
+    use std::net::TcpStream;
+
+    use periplus_graph::Graph;
+    use periplus_os::{Stopwatch, sleep};
+
+    use super::*;
+    use crate::foxglove::{ClientLimits, Settings};
+
+    const LONG: Duration = Duration::from_secs(20);
+    const SHORT: Duration = Duration::from_millis(400);
+
+    fn server(limits: HttpLimits, stalled: Duration) -> WebServer {
+        let clients = ClientLimits { stalled, ..ClientLimits::default() };
+        let settings = Settings { limits: clients, ..Settings::default() };
+        let hub = Arc::new(Hub::open(&Graph::live(), settings).expect("a hub"));
+        let address = "127.0.0.1:0".parse().expect("an address");
+        let settings = WebServerSettings { address, token: None };
+        WebServer::open_within(hub, settings, limits).expect("a server")
+    }
+
+    fn connect(server: &WebServer) -> TcpStream {
+        let stream = TcpStream::connect(server.address()).expect("a connection");
+        stream.set_read_timeout(Some(LONG)).expect("a timeout");
+        stream
+    }
+
+    /// Reads until the server closes the connection.
+    fn read(stream: &mut TcpStream) -> String {
+        let mut bytes = Vec::new();
+        stream.read_to_end(&mut bytes).expect("it is closed");
+        String::from_utf8_lossy(&bytes).into_owned()
+    }
+
+    #[track_caller]
+    fn eventually(mut holds: impl FnMut() -> bool) {
+        let since = Stopwatch::start();
+        while !holds() {
+            assert!(since.elapsed() < LONG);
+            sleep(Duration::from_millis(10));
+        }
+    }
+
+    #[test]
+    fn a_head_in_drops_ends_in_time() {
+        let limits = HttpLimits { patience: SHORT, ..HttpLimits::default() };
+        let server = server(limits, LONG);
+        let mut stream = connect(&server);
+        let since = Stopwatch::start();
+        let mut head = b"GET / HTTP/1.1\r\nX: ".iter().chain(std::iter::repeat(&b'x'));
+        while server.room.connections.load(Ordering::Acquire) > 0 || since.elapsed() < SHORT / 2 {
+            let _ = stream.write_all(&[*head.next().expect("without end")]);
+            sleep(Duration::from_millis(20));
+            assert!(since.elapsed() < LONG, "it is still there");
+        }
+        assert!(since.elapsed() >= SHORT);
+    }
+
+    #[test]
+    fn an_idle_connection_is_closed() {
+        let limits = HttpLimits { patience: SHORT, ..HttpLimits::default() };
+        let server = server(limits, LONG);
+        let mut stream = connect(&server);
+        stream.write_all(b"HEAD / HTTP/1.1\r\n\r\n").expect("it is sent");
+        assert!(read(&mut stream).starts_with("HTTP/1.1 200 OK\r\n"));
+    }
+
+    #[test]
+    fn a_connection_has_so_many_requests() {
+        let server = server(HttpLimits { requests: 3, ..HttpLimits::default() }, LONG);
+        let mut stream = connect(&server);
+        stream.write_all(&b"HEAD / HTTP/1.1\r\n\r\n".repeat(4)).expect("they are sent");
+        let mut answers = String::new();
+        let _ = stream.read_to_string(&mut answers);
+        assert_eq!(answers.matches("HTTP/1.1 200 OK").count(), 3, "{answers}");
+        assert_eq!(answers.matches("Connection: close").count(), 1, "{answers}");
+    }
+
+    #[test]
+    fn connections_over_the_limit_are_closed() {
+        let server = server(HttpLimits { connections: 2, ..HttpLimits::default() }, LONG);
+        let held = [connect(&server), connect(&server)];
+        eventually(|| server.room.connections.load(Ordering::Acquire) == 2);
+        assert_eq!(read(&mut connect(&server)), "");
+        drop(held);
+        eventually(|| server.room.connections.load(Ordering::Acquire) == 0);
+        let mut stream = connect(&server);
+        stream.write_all(b"HEAD / HTTP/1.0\r\n\r\n").expect("it is sent");
+        assert!(read(&mut stream).contains(" 200 OK\r\n"));
+    }
+
+    #[test]
+    fn who_asks_and_never_reads_is_disconnected() {
+        let server = server(HttpLimits::default(), SHORT);
+        let mut stream = connect(&server);
+        stream.set_write_timeout(Some(SHORT)).expect("a timeout");
+        // More answers than the buffers of the system hold.
+        for _ in 0..900 {
+            let _ = stream.write(&b"GET /none HTTP/1.1\r\n\r\n".repeat(1000));
+            if server.room.connections.load(Ordering::Acquire) == 0 {
+                break;
+            }
+        }
+        eventually(|| server.room.connections.load(Ordering::Acquire) == 0);
     }
 }

@@ -2,9 +2,16 @@
 
 use std::io::Read as _;
 
+use http_body_util::Full;
+use hyper::body::Bytes;
+use hyper::header::{
+    ACCEPT_ENCODING, CACHE_CONTROL, CONTENT_ENCODING, CONTENT_SECURITY_POLICY, CONTENT_TYPE, ETAG,
+    HeaderValue, IF_NONE_MATCH, REFERRER_POLICY, VARY, X_CONTENT_TYPE_OPTIONS,
+};
+use hyper::{HeaderMap, StatusCode};
 use sha2::{Digest as _, Sha256};
 
-use crate::server::http::{Answer, Head};
+use crate::server::http::{Answer, empty, lists, plain_text, values};
 
 /// Every file of `page/` by its path. A file that ends in `.br` is compressed, and is requested
 /// without that suffix.
@@ -25,50 +32,56 @@ const POLICY: &str = "default-src 'self'; connect-src 'self' blob: data:; \
     script-src 'self' 'wasm-unsafe-eval'; worker-src 'self' blob:; frame-ancestors 'self'";
 
 /// Response to a request for a file.
-pub(crate) fn answer(head: &Head) -> Answer {
-    answer_from(FILES, head)
+pub(crate) fn answer(path: &str, headers: &HeaderMap) -> Answer {
+    answer_from(FILES, path, headers)
 }
 
-fn answer_from(files: &[(&str, &[u8])], head: &Head) -> Answer {
-    let path = head.path().trim_start_matches('/');
+fn answer_from(files: &[(&str, &'static [u8])], path: &str, headers: &HeaderMap) -> Answer {
+    let path = path.trim_start_matches('/');
     let path = if path.is_empty() { "index.html" } else { path };
     let find = |name: &str| files.iter().find(|(own, _)| *own == name).map(|(_, bytes)| *bytes);
     let packed = find(&format!("{path}.br"));
     let Some(bytes) = packed.or_else(|| find(path)) else {
         if path == "index.html" {
-            return page(UNBUILT.as_bytes().to_vec(), "index.html");
+            return page(Bytes::from_static(UNBUILT.as_bytes()), "index.html");
         }
-        return Answer::words("404 Not Found", "there is no such file; the page is at /");
+        let why = "there is no such file; the page is at /";
+        return plain_text(StatusCode::NOT_FOUND, why);
     };
     let tag = tag(bytes);
-    let is_known = head.header("if-none-match").is_some_and(|known| known.contains(&tag));
-    let mut answer = if is_known {
-        Answer { status: "304 Not Modified", headers: Vec::new(), body: Vec::new() }
+    let mut answer = if values(headers, IF_NONE_MATCH).any(|known| known.contains(&tag)) {
+        empty(StatusCode::NOT_MODIFIED)
     } else if packed.is_none() {
-        page(bytes.to_vec(), path)
-    } else if head.lists("accept-encoding", "br") {
-        let mut answer = page(bytes.to_vec(), path);
-        answer.headers.push(("Content-Encoding", "br".to_owned()));
+        page(Bytes::from_static(bytes), path)
+    } else if lists(headers, ACCEPT_ENCODING, "br") {
+        let mut answer = page(Bytes::from_static(bytes), path);
+        answer.headers_mut().insert(CONTENT_ENCODING, HeaderValue::from_static("br"));
         answer
     } else {
-        page(unpack(bytes), path)
+        page(unpack(bytes).into(), path)
     };
-    answer.headers.push(("ETag", format!("\"{tag}\"")));
-    answer.headers.push(("Vary", "Accept-Encoding".to_owned()));
+    let own = answer.headers_mut();
+    if let Ok(tag) = HeaderValue::from_str(&format!("\"{tag}\"")) {
+        own.insert(ETAG, tag);
+    }
+    own.insert(VARY, HeaderValue::from_static("Accept-Encoding"));
     // Files below `assets` have the hash of their content in their names.
     let keep = if path.starts_with("assets/") { "max-age=31536000, immutable" } else { "no-cache" };
-    answer.headers.push(("Cache-Control", keep.to_owned()));
+    own.insert(CACHE_CONTROL, HeaderValue::from_static(keep));
     answer
 }
 
-fn page(body: Vec<u8>, path: &str) -> Answer {
-    let headers = vec![
-        ("Content-Type", kind_of(path).to_owned()),
-        ("X-Content-Type-Options", "nosniff".to_owned()),
-        ("Content-Security-Policy", POLICY.to_owned()),
-        ("Referrer-Policy", "no-referrer".to_owned()),
-    ];
-    Answer { status: "200 OK", headers, body }
+fn page(body: Bytes, path: &str) -> Answer {
+    let mut answer = Answer::new(Full::new(body));
+    for (name, value) in [
+        (CONTENT_TYPE, kind_of(path)),
+        (X_CONTENT_TYPE_OPTIONS, "nosniff"),
+        (CONTENT_SECURITY_POLICY, POLICY),
+        (REFERRER_POLICY, "no-referrer"),
+    ] {
+        answer.headers_mut().insert(name, HeaderValue::from_static(value));
+    }
+    answer
 }
 
 /// For clients without Brotli: browsers accept it from this machine or over TLS only.
@@ -102,6 +115,11 @@ fn kind_of(path: &str) -> &'static str {
 
 #[cfg(test)]
 mod tests {
+    use std::pin::Pin;
+    use std::task::{Context, Poll, Waker};
+
+    use hyper::body::Body as _;
+
     use super::*;
 
     /// "periplus\n" in one uncompressed block.
@@ -111,57 +129,70 @@ mod tests {
     const SOME: &[(&str, &[u8])] =
         &[("index.html", b"<p>"), ("assets/a-1.js.br", PACKED), ("logo.svg", b"<svg/>")];
 
-    fn ask(path: &str, headers: &str) -> Answer {
-        let text = format!("GET {path} HTTP/1.1\r\n{headers}\r\n");
-        answer_from(SOME, &Head::read(text.as_bytes()).expect("a head").expect("whole").0)
+    fn request(path: &str, headers: &[(&'static str, &str)]) -> HeaderMap {
+        let mut request = hyper::Request::get(path);
+        for (name, value) in headers {
+            request = request.header(*name, *value);
+        }
+        request.body(()).expect("a request").headers().clone()
+    }
+
+    fn ask(path: &str, headers: &[(&'static str, &str)]) -> Answer {
+        answer_from(SOME, path, &request(path, headers))
     }
 
     fn header<'a>(answer: &'a Answer, name: &str) -> Option<&'a str> {
-        answer.headers.iter().find(|(own, _)| *own == name).map(|(_, value)| value.as_str())
+        answer.headers().get(name).map(|value| value.to_str().expect("text"))
+    }
+
+    /// Body of a response, which is in memory.
+    fn body(answer: Answer) -> Bytes {
+        let mut body = answer.into_body();
+        let mut context = Context::from_waker(Waker::noop());
+        match Pin::new(&mut body).poll_frame(&mut context) {
+            Poll::Ready(Some(Ok(frame))) => frame.into_data().expect("data"),
+            Poll::Ready(None) => Bytes::new(),
+            other => panic!("{other:?}"),
+        }
     }
 
     #[test]
     fn files_are_had_by_their_paths() {
-        assert_eq!(ask("/", "").body, b"<p>");
-        assert_eq!(ask("/index.html?token=x", "").body, b"<p>");
-        assert_eq!(header(&ask("/logo.svg", ""), "Content-Type"), Some("image/svg+xml"));
+        assert_eq!(body(ask("/", &[])), "<p>");
+        assert_eq!(body(ask("/index.html", &[])), "<p>");
+        assert_eq!(header(&ask("/logo.svg", &[]), "Content-Type"), Some("image/svg+xml"));
         for path in ["/x", "/../Cargo.toml", "/assets/../../Cargo.toml", "//etc/passwd", "/assets"]
         {
-            assert_eq!(ask(path, "").status, "404 Not Found", "{path}");
+            assert_eq!(ask(path, &[]).status(), StatusCode::NOT_FOUND, "{path}");
         }
     }
 
     #[test]
     fn what_is_packed_is_unpacked_for_who_cannot() {
-        let packed = ask("/assets/a-1.js", "Accept-Encoding: gzip, br;q=0.9\r\n");
-        assert_eq!(
-            (packed.body.as_slice(), header(&packed, "Content-Encoding")),
-            (PACKED, Some("br"))
-        );
-        let plain = ask("/assets/a-1.js", "Accept-Encoding: gzip\r\n");
-        assert_eq!(
-            (plain.body.as_slice(), header(&plain, "Content-Encoding")),
-            (&b"periplus\n"[..], None)
-        );
+        let packed = ask("/assets/a-1.js", &[("Accept-Encoding", "gzip, br;q=0.9")]);
+        assert_eq!(header(&packed, "Content-Encoding"), Some("br"));
+        assert_eq!(body(packed), PACKED);
+        let plain = ask("/assets/a-1.js", &[("Accept-Encoding", "gzip")]);
+        assert_eq!(header(&plain, "Content-Encoding"), None);
+        assert_eq!(body(plain), "periplus\n");
     }
 
     #[test]
     fn what_is_known_is_not_sent_again() {
-        let first = ask("/logo.svg", "");
+        let first = ask("/logo.svg", &[]);
         let tag = header(&first, "ETag").expect("a tag");
-        let again = ask("/logo.svg", &format!("If-None-Match: {tag}\r\n"));
-        assert_eq!((again.status, again.body.len()), ("304 Not Modified", 0));
+        let again = ask("/logo.svg", &[("If-None-Match", tag)]);
+        assert_eq!(again.status(), StatusCode::NOT_MODIFIED);
+        assert!(body(again).is_empty());
     }
 
     #[test]
     fn all_that_is_in_the_program_can_be_had() {
         for (name, _) in FILES {
             let name = name.strip_suffix(".br").unwrap_or(name);
-            let text = format!("GET /{name} HTTP/1.1\r\n\r\n");
-            let head = Head::read(text.as_bytes()).expect("a head").expect("whole").0;
-            let answer = answer(&head);
-            assert_eq!(answer.status, "200 OK", "{name}");
-            assert!(!answer.body.is_empty(), "{name}");
+            let answer = answer(&format!("/{name}"), &HeaderMap::new());
+            assert_eq!(answer.status(), StatusCode::OK, "{name}");
+            assert!(!body(answer).is_empty(), "{name}");
         }
     }
 }

@@ -1,4 +1,4 @@
-//! A connection: file requests, or a WebSocket.
+//! A WebSocket: one thread receives from the client and one sends to it.
 
 use std::io::{self, IoSlice, Read, Write};
 use std::net::{Shutdown, TcpStream};
@@ -6,22 +6,15 @@ use std::sync::Arc;
 use std::sync::atomic::Ordering;
 use std::time::Duration;
 
-use crate::foxglove::{ClientSession, Outbox, OutboxItem, WebSocketFrame, protocol};
+use crate::foxglove::{ClientSession, Outbox, OutboxItem, WebSocketFrame};
 use periplus_os::{Stopwatch, sleep};
 use tungstenite::error::Error;
-use tungstenite::handshake::derive_accept_key;
 use tungstenite::protocol::{Role, WebSocketConfig};
 use tungstenite::{Message, WebSocket};
 
-use crate::server::authorization::AdmissionError;
 use crate::server::frame;
-use crate::server::http::{Answer, Head, HeadError, LONGEST_HEAD};
 use crate::server::listener::Room;
-use crate::server::page;
 use crate::server::timeout_stream::TimeoutStream;
-
-/// Timeout of a request, and idle time of a connection.
-const PATIENCE: Duration = Duration::from_secs(15);
 
 /// Ping period for a client without traffic.
 const PING: Duration = Duration::from_secs(15);
@@ -29,118 +22,13 @@ const PING: Duration = Duration::from_secs(15);
 /// Period at which the writer checks for shutdown.
 const LOOK: Duration = Duration::from_millis(200);
 
-/// Maximum number of requests per connection.
-const MOST_REQUESTS: usize = 1000;
-
-/// Serves a connection until it ends.
-pub(crate) fn serve(mut stream: TcpStream, room: &Room) -> io::Result<()> {
-    stream.set_nodelay(true)?;
-    stream.set_read_timeout(Some(PATIENCE))?;
-    let mut came = Vec::new();
-    for _ in 0..MOST_REQUESTS {
-        let head = match next_head(&mut stream, &mut came)? {
-            Ok(Some(head)) => head,
-            Ok(None) => return Ok(()),
-            Err(error) => {
-                let answer = Answer::words("400 Bad Request", &error.to_string());
-                return with_timeout(&stream, room)?.write_all(&answer.bytes(false, false));
-            }
-        };
-        if head.is_upgrade() {
-            return upgrade(stream, came, &head, room);
-        }
-        let is_head = head.method == "HEAD";
-        let stays = !head.lists("connection", "close") && !has_body(&head);
-        let answer = if is_head || head.method == "GET" {
-            page::answer(&head)
-        } else {
-            Answer::words("405 Method Not Allowed", "only GET and HEAD are supported")
-        };
-        with_timeout(&stream, room)?.write_all(&answer.bytes(is_head, stays))?;
-        if !stays {
-            return Ok(());
-        }
-    }
-    Ok(())
-}
-
-fn with_timeout<'a>(stream: &'a TcpStream, room: &Room) -> io::Result<TimeoutStream<'a>> {
-    TimeoutStream::new(stream, room.hub.settings().limits.stalled)
-}
-
-/// Bodies are not needed, and could not be separated from the next request.
-fn has_body(head: &Head) -> bool {
-    head.header("content-length").is_some() || head.header("transfer-encoding").is_some()
-}
-
-/// Reads the next request; none at the end. Bytes after it stay in `came`.
-fn next_head(
-    stream: &mut TcpStream,
-    came: &mut Vec<u8>,
-) -> io::Result<Result<Option<Head>, HeadError>> {
-    let since = Stopwatch::start();
-    loop {
-        match Head::read(came) {
-            Ok(Some((head, length))) => {
-                came.drain(..length);
-                return Ok(Ok(Some(head)));
-            }
-            Ok(None) => {}
-            Err(error) => return Ok(Err(error)),
-        }
-        if since.elapsed() > PATIENCE {
-            return Ok(Ok(None));
-        }
-        let mut some = [0; 2048];
-        let room = LONGEST_HEAD.saturating_sub(came.len()).clamp(1, some.len());
-        let count = stream.read(&mut some[..room])?;
-        if count == 0 {
-            return Ok(Ok(None));
-        }
-        came.extend(&some[..count]);
-    }
-}
-
-/// Upgrades the connection to a WebSocket if the client is admitted.
-fn upgrade(stream: TcpStream, came: Vec<u8>, head: &Head, room: &Room) -> io::Result<()> {
-    let refuse = |status, why: &str| {
-        with_timeout(&stream, room)?.write_all(&Answer::words(status, why).bytes(false, false))
-    };
-    let address = stream.peer_addr()?.ip();
-    if head.query("token").is_some() && room.token_rate_limit.are_too_many(address) {
-        let why = "too many wrong tokens from this address; wait a minute";
-        return refuse("429 Too Many Requests", why);
-    }
-    if let Err(refused) = room.authorization.admit(head) {
-        if refused == AdmissionError::WrongToken {
-            room.token_rate_limit.add(address);
-        }
-        return refuse("403 Forbidden", &refused.to_string());
-    }
-    let known = |name: &&&str| head.lists("sec-websocket-protocol", name);
-    let Some(subprotocol) = protocol::SUBPROTOCOLS.iter().find(known) else {
-        let why = format!(
-            "this WebSocket requires the subprotocol {}",
-            protocol::SUBPROTOCOLS.join(" or ")
-        );
-        return refuse("400 Bad Request", &why);
-    };
-    let version = head.header("sec-websocket-version");
-    let (Some(key), Some("13"), "GET") =
-        (head.header("sec-websocket-key"), version, head.method.as_str())
-    else {
-        return refuse("426 Upgrade Required", "this server requires WebSocket version 13");
-    };
-    let Some(session) = room.hub.join() else {
-        return refuse("503 Service Unavailable", "too many viewers are connected");
-    };
-    let key = derive_accept_key(key.as_bytes());
-    let answer = format!(
-        "HTTP/1.1 101 Switching Protocols\r\nUpgrade: websocket\r\nConnection: Upgrade\r\n\
-         Sec-WebSocket-Accept: {key}\r\nSec-WebSocket-Protocol: {subprotocol}\r\n\r\n"
-    );
-    with_timeout(&stream, room)?.write_all(answer.as_bytes())?;
-    stream.set_read_timeout(None)?;
+/// Serves a client until it leaves. `came` are the bytes that it sent after its request.
+pub(crate) fn serve(
+    stream: TcpStream,
+    came: Vec<u8>,
+    session: ClientSession,
+    room: &Room,
+) -> io::Result<()> {
     let outbox = session.outbox().clone();
     let writing = stream.try_clone()?;
     let builder = std::thread::Builder::new().name("viewer".to_owned());
@@ -191,7 +79,7 @@ fn hear(stream: TcpStream, came: Vec<u8>, mut session: ClientSession, room: &Roo
 
 /// Sends the outbox of a client until it is closed.
 fn write(stream: &TcpStream, outbox: &Outbox, room: &Room) -> io::Result<()> {
-    let mut stream = with_timeout(stream, room)?;
+    let mut stream = TimeoutStream::new(stream, room.hub.settings().limits.stalled)?;
     let mut idle = Stopwatch::start();
     loop {
         if room.is_closing.load(Ordering::Acquire) {
