@@ -20,13 +20,13 @@ const TOKEN: &str = "a secret of 25 characters";
 const TOKEN_IN_ADDRESS: &str = "a%20secret%20of%2025%20characters";
 const LONG: Duration = Duration::from_secs(20);
 
-struct Place {
+struct ServerFixture {
     graph: Graph,
     server: WebServer,
     hub: Arc<Hub>,
 }
 
-impl Place {
+impl ServerFixture {
     fn open(token: Option<&str>, limits: ClientLimits) -> Self {
         let graph = Graph::live();
         let settings = Settings { name: "test".into(), limits, ..Settings::default() };
@@ -39,7 +39,7 @@ impl Place {
         Self { graph, server, hub }
     }
 
-    fn usual() -> Self {
+    fn new() -> Self {
         Self::open(Some(TOKEN), ClientLimits::default())
     }
 
@@ -120,31 +120,31 @@ fn eventually(what: &str, mut holds: impl FnMut() -> bool) {
 
 #[test]
 fn foreign_pages_and_wrong_tokens_stay_out() {
-    let place = Place::usual();
-    assert_eq!(place.ask("/", None), 101);
-    assert_eq!(place.ask("/any/path", Some("http://localhost:5173")), 101);
-    assert_eq!(place.ask("/", Some("https://example.org")), 403);
-    assert_eq!(place.ask("/", Some("null")), 403);
-    assert_eq!(place.ask("/?token=wrong", None), 403);
+    let fixture = ServerFixture::new();
+    assert_eq!(fixture.ask("/", None), 101);
+    assert_eq!(fixture.ask("/any/path", Some("http://localhost:5173")), 101);
+    assert_eq!(fixture.ask("/", Some("https://example.org")), 403);
+    assert_eq!(fixture.ask("/", Some("null")), 403);
+    assert_eq!(fixture.ask("/?token=wrong", None), 403);
     let right = format!("/?token={TOKEN_IN_ADDRESS}");
-    assert_eq!(place.ask(&right, Some("https://example.org")), 101);
+    assert_eq!(fixture.ask(&right, Some("https://example.org")), 101);
     for lax in
         ["http://[::1].evil.example", "http://localhost:80@evil.example", "http://localhost/"]
     {
-        assert_eq!(place.ask("/", Some(lax)), 403, "{lax}");
+        assert_eq!(fixture.ask("/", Some(lax)), 403, "{lax}");
     }
 }
 
 #[test]
 fn hosts_are_read_strictly() {
-    let place = Place::usual();
+    let fixture = ServerFixture::new();
     let ask = |hosts: &str| {
         let text = format!(
             "GET / HTTP/1.1\r\n{hosts}Connection: Upgrade\r\nUpgrade: websocket\r\n\
              Sec-WebSocket-Version: 13\r\nSec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\n\
              Sec-WebSocket-Protocol: chat\r\n\r\n"
         );
-        place.send(text.as_bytes())[9..12].to_owned()
+        fixture.send(text.as_bytes())[9..12].to_owned()
     };
     // An admitted client gets an error for an unknown subprotocol.
     assert_eq!(ask("Host: localhost:8765\r\n"), "400");
@@ -155,14 +155,14 @@ fn hosts_are_read_strictly() {
 
 #[test]
 fn a_host_in_the_target_counts() {
-    let place = Place::usual();
+    let fixture = ServerFixture::new();
     let ask = |target: &str| {
         let text = format!(
             "GET {target} HTTP/1.1\r\nHost: localhost\r\nConnection: Upgrade\r\nUpgrade: websocket\r\n\
              Sec-WebSocket-Version: 13\r\nSec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\n\
              Sec-WebSocket-Protocol: chat\r\n\r\n"
         );
-        place.send(text.as_bytes())[9..12].to_owned()
+        fixture.send(text.as_bytes())[9..12].to_owned()
     };
     // An admitted client gets an error for an unknown subprotocol.
     assert_eq!(ask("http://localhost:8765/"), "400");
@@ -171,7 +171,7 @@ fn a_host_in_the_target_counts() {
 
 #[test]
 fn requests_that_two_parsers_could_divide_differently_are_refused() {
-    let place = Place::usual();
+    let fixture = ServerFixture::new();
     for framing in [
         "Content-Length: 5\r\nContent-Length: 6\r\n",
         "Content-Length: +5\r\n",
@@ -180,37 +180,37 @@ fn requests_that_two_parsers_could_divide_differently_are_refused() {
         "X: a\r\n b\r\n",
     ] {
         let request = format!("GET / HTTP/1.1\r\n{framing}\r\nhello");
-        let answer = place.send(request.as_bytes());
+        let answer = fixture.send(request.as_bytes());
         assert!(answer.starts_with("HTTP/1.1 400"), "{framing}: {answer}");
     }
-    place.is_well();
+    fixture.is_well();
 }
 
 #[test]
 fn frames_that_come_with_the_request_are_read() {
-    let place = Place::usual();
+    let fixture = ServerFixture::new();
     let request = b"GET / HTTP/1.1\r\nHost: localhost\r\nConnection: Upgrade\r\n\
         Upgrade: websocket\r\nSec-WebSocket-Version: 13\r\n\
         Sec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\n\
         Sec-WebSocket-Protocol: foxglove.websocket.v1\r\n\r\n";
     // A close frame without a code, masked.
     let close = [0x88, 0x80, 1, 2, 3, 4];
-    let answer = place.send(&[request.as_slice(), &close].concat());
+    let answer = fixture.send(&[request.as_slice(), &close].concat());
     assert!(answer.starts_with("HTTP/1.1 101 Switching Protocols\r\n"), "{answer}");
     assert!(answer.contains("Sec-Websocket-Accept: s3pPLMBiTxaQ9kYGzzhZRbK+xOo=\r\n"), "{answer}");
     assert!(answer.contains("serverInfo"), "{answer}");
-    eventually("the client is gone", || place.hub.clients() == 0);
+    eventually("the client is gone", || fixture.hub.clients() == 0);
 }
 
 #[test]
 fn tokens_cannot_be_tried_out() {
-    let place = Place::usual();
-    let wrong = (0..30).map(|n| place.ask(&format!("/?token=wrong{n}"), None));
+    let fixture = ServerFixture::new();
+    let wrong = (0..30).map(|n| fixture.ask(&format!("/?token=wrong{n}"), None));
     let answers: Vec<u16> = wrong.collect();
     assert_eq!(answers[..10], [403; 10]);
     assert_eq!(answers[10..], [429; 20]);
     // Local programs are admitted without a token.
-    place.is_well();
+    fixture.is_well();
 }
 
 #[test]
@@ -231,8 +231,8 @@ fn a_token_that_could_be_guessed_does_not_open_it_to_others() {
 
 #[test]
 fn the_page_connects_to_its_own_server_only() {
-    let place = Place::usual();
-    let answer = place.send(b"GET / HTTP/1.1\r\nConnection: close\r\n\r\n");
+    let fixture = ServerFixture::new();
+    let answer = fixture.send(b"GET / HTTP/1.1\r\nConnection: close\r\n\r\n");
     let policy = answer.lines().find(|line| line.starts_with("Content-Security-Policy:")).unwrap();
     let connect = policy.split(';').find(|part| part.contains("connect-src")).unwrap();
     assert_eq!(connect.trim(), "connect-src 'self' blob: data:");
@@ -241,11 +241,11 @@ fn the_page_connects_to_its_own_server_only() {
 #[test]
 fn a_client_that_never_reads_is_disconnected_in_time() {
     let stalled = Duration::from_secs(2);
-    let place = Place::open(None, ClientLimits { stalled, ..ClientLimits::default() });
-    let node = place.graph.node(NodeSettings::new("camera")).unwrap();
+    let fixture = ServerFixture::open(None, ClientLimits { stalled, ..ClientLimits::default() });
+    let node = fixture.graph.node(NodeSettings::new("camera")).unwrap();
     let pictures: Publisher<UInt8MultiArray> =
         node.publisher("/pictures", Qos::sensor_data()).unwrap();
-    let mut socket = place.connect("/", None).unwrap();
+    let mut socket = fixture.connect("/", None).unwrap();
     let channel = channel_of(&mut socket, "/pictures");
     let wanted = serde_json::json!({"op": "subscribe", "subscriptions": [
         {"id": 1, "channelId": channel},
@@ -253,7 +253,7 @@ fn a_client_that_never_reads_is_disconnected_in_time() {
     socket.send(Message::text(wanted.to_string())).unwrap();
     eventually("there is a subscriber", || pictures.is_heard());
     let start = Instant::now();
-    while place.hub.clients() > 0 {
+    while fixture.hub.clients() > 0 {
         let data = vec![0; 1 << 20];
         pictures.publish(UInt8MultiArray { data, ..UInt8MultiArray::default() });
         std::thread::sleep(Duration::from_millis(20));
@@ -277,7 +277,7 @@ fn an_address_that_others_reach_needs_a_token() {
     let right = format!("/?token={TOKEN_IN_ADDRESS}");
     assert!(server.url().ends_with(&right), "{}", server.url());
     let port = server.address().port();
-    let place = Place { graph, server, hub };
+    let fixture = ServerFixture { graph, server, hub };
     let ask = |target: &str| {
         let text = format!(
             "GET {target} HTTP/1.1\r\nHost: 127.0.0.1:{port}\r\nConnection: Upgrade\r\nUpgrade: websocket\r\n\
@@ -292,33 +292,33 @@ fn an_address_that_others_reach_needs_a_token() {
     };
     assert_eq!(ask("/"), "HTTP/1.1 403");
     assert_eq!(ask(&right), "HTTP/1.1 101");
-    drop(place);
+    drop(fixture);
 }
 
 #[test]
 fn requests_that_are_none_are_answered_and_forgotten() {
-    let place = Place::usual();
-    assert!(place.send(b"\x16\x03\x01\x02\x00\x01\x00\r\n\r\n").starts_with("HTTP/1.1 400"));
+    let fixture = ServerFixture::new();
+    assert!(fixture.send(b"\x16\x03\x01\x02\x00\x01\x00\r\n\r\n").starts_with("HTTP/1.1 400"));
     let long = [b"GET / HTTP/1.1\r\nX: ".as_slice(), &[b'x'; 40_000]].concat();
-    let answer = place.send(&long);
+    let answer = fixture.send(&long);
     assert!(answer.is_empty() || answer.starts_with("HTTP/1.1 431"), "{answer}");
-    assert!(place.send(b"POST / HTTP/1.1\r\nContent-Length: 5\r\n\r\nhello").contains("405"));
-    let answer = place.send(b"GET /../../etc/passwd HTTP/1.1\r\nConnection: close\r\n\r\n");
+    assert!(fixture.send(b"POST / HTTP/1.1\r\nContent-Length: 5\r\n\r\nhello").contains("405"));
+    let answer = fixture.send(b"GET /../../etc/passwd HTTP/1.1\r\nConnection: close\r\n\r\n");
     assert!(answer.starts_with("HTTP/1.1 404"), "{answer}");
-    let answer = place.send(b"HEAD / HTTP/1.1\r\nConnection: close\r\n\r\n");
+    let answer = fixture.send(b"HEAD / HTTP/1.1\r\nConnection: close\r\n\r\n");
     assert!(answer.starts_with("HTTP/1.1 200") && answer.ends_with("\r\n\r\n"), "{answer}");
     let upgrade = "GET / HTTP/1.1\r\nConnection: Upgrade\r\nUpgrade: websocket\r\n";
     let other = format!("{upgrade}Sec-WebSocket-Protocol: chat\r\n\r\n");
-    assert!(place.send(other.as_bytes()).starts_with("HTTP/1.1 400"));
+    assert!(fixture.send(other.as_bytes()).starts_with("HTTP/1.1 400"));
     let keyless = format!("{upgrade}Sec-WebSocket-Protocol: foxglove.sdk.v1\r\n\r\n");
-    assert!(place.send(keyless.as_bytes()).starts_with("HTTP/1.1 426"));
-    place.is_well();
+    assert!(fixture.send(keyless.as_bytes()).starts_with("HTTP/1.1 426"));
+    fixture.is_well();
 }
 
 #[test]
 fn a_frame_of_a_gigabyte_is_refused_before_it_comes() {
-    let place = Place::usual();
-    let mut socket = place.connect("/", None).unwrap();
+    let fixture = ServerFixture::new();
+    let mut socket = fixture.connect("/", None).unwrap();
     let MaybeTlsStream::Plain(stream) = socket.get_mut() else { panic!("no TLS here") };
     // The header of a masked binary frame of 2^30 bytes.
     let head = [0x82, 0xff, 0, 0, 0, 0, 0x40, 0, 0, 0, 1, 2, 3, 4];
@@ -331,13 +331,13 @@ fn a_frame_of_a_gigabyte_is_refused_before_it_comes() {
         }
     };
     assert_eq!(code, 1009);
-    eventually("the client is gone", || place.hub.clients() == 0);
-    place.is_well();
+    eventually("the client is gone", || fixture.hub.clients() == 0);
+    fixture.is_well();
 }
 
 #[test]
 fn broken_frames_end_only_who_sends_them() {
-    let place = Place::usual();
+    let fixture = ServerFixture::new();
     let broken: [&[u8]; 5] = [
         // Not masked.
         &[0x82, 0x01, 0x00],
@@ -351,7 +351,7 @@ fn broken_frames_end_only_who_sends_them() {
         &[0x81, 0x82, 0, 0, 0, 0, 0xff, 0xfe],
     ];
     for bytes in broken {
-        let mut socket = place.connect("/", None).unwrap();
+        let mut socket = fixture.connect("/", None).unwrap();
         let MaybeTlsStream::Plain(stream) = socket.get_mut() else { panic!("no TLS here") };
         stream.write_all(bytes).unwrap();
         let code = loop {
@@ -363,14 +363,14 @@ fn broken_frames_end_only_who_sends_them() {
         };
         assert!(code == 1002 || code == 1007, "{bytes:?}: {code}");
     }
-    eventually("all are gone", || place.hub.clients() == 0);
-    place.is_well();
+    eventually("all are gone", || fixture.hub.clients() == 0);
+    fixture.is_well();
 }
 
 #[test]
 fn malformed_messages_are_answered_in_words() {
-    let place = Place::usual();
-    let mut socket = place.connect("/", None).unwrap();
+    let fixture = ServerFixture::new();
+    let mut socket = fixture.connect("/", None).unwrap();
     let wrong: [Message; 5] = [
         Message::text("{"),
         Message::text(r#"{"op":"dance"}"#),
@@ -392,8 +392,8 @@ fn malformed_messages_are_answered_in_words() {
 
 #[test]
 fn nobody_waits_for_who_does_not_read() {
-    let place = Place::usual();
-    let node = place.graph.node(NodeSettings::new("camera")).unwrap();
+    let fixture = ServerFixture::new();
+    let node = fixture.graph.node(NodeSettings::new("camera")).unwrap();
     let pictures: Publisher<UInt8MultiArray> =
         node.publisher("/pictures", Qos::sensor_data()).unwrap();
     let maps: Publisher<Words> = node.publisher("/maps", Qos::latched(1)).unwrap();
@@ -414,8 +414,8 @@ fn nobody_waits_for_who_does_not_read() {
         ]});
         socket.send(Message::text(wanted.to_string())).unwrap();
     };
-    let mut asleep = place.connect("/", None).unwrap();
-    let mut awake = place.connect("/", None).unwrap();
+    let mut asleep = fixture.connect("/", None).unwrap();
+    let mut awake = fixture.connect("/", None).unwrap();
     subscribe(&mut asleep);
     subscribe(&mut awake);
     eventually("both have subscribers", || pictures.is_heard() && maps.is_heard());
@@ -446,21 +446,21 @@ fn nobody_waits_for_who_does_not_read() {
 
 #[test]
 fn only_so_many_come_in() {
-    let place = Place::open(None, ClientLimits { clients: 2, ..ClientLimits::default() });
-    let first = place.connect("/", None).unwrap();
-    let _second = place.connect("/", None).unwrap();
-    assert_eq!(place.ask("/", None), 503);
+    let fixture = ServerFixture::open(None, ClientLimits { clients: 2, ..ClientLimits::default() });
+    let first = fixture.connect("/", None).unwrap();
+    let _second = fixture.connect("/", None).unwrap();
+    assert_eq!(fixture.ask("/", None), 503);
     drop(first);
-    eventually("there is room again", || place.hub.clients() < 2);
-    place.is_well();
+    eventually("there is room again", || fixture.hub.clients() < 2);
+    fixture.is_well();
 }
 
 #[test]
 fn a_server_that_goes_says_so_and_frees_its_port() {
-    let place = Place::usual();
-    let address = place.address();
-    let mut socket = place.connect("/", None).unwrap();
-    drop(place.server);
+    let fixture = ServerFixture::new();
+    let address = fixture.address();
+    let mut socket = fixture.connect("/", None).unwrap();
+    drop(fixture.server);
     let last = loop {
         match socket.read() {
             Ok(Message::Close(frame)) => break frame,

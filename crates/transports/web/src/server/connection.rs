@@ -24,7 +24,7 @@ use tungstenite::handshake::derive_accept_key;
 use crate::foxglove::{ClientSession, protocol};
 use crate::server::authorization::AdmissionError;
 use crate::server::http::{Answer, empty, is_upgrade, lists, plain_text, query, value};
-use crate::server::listener::Place;
+use crate::server::listener::ConnectionSlot;
 use crate::server::{page, socket};
 
 /// Maximum size of a request head \[bytes\]; browsers send less than 2 kB.
@@ -40,14 +40,14 @@ type Stream = Pin<Box<TimeoutStream<tokio::net::TcpStream>>>;
 pub(crate) async fn serve(
     stream: tokio::net::TcpStream,
     address: IpAddr,
-    place: Place,
+    slot: ConnectionSlot,
 ) -> hyper::Result<()> {
-    let (place, requests) = (Arc::new(place), AtomicUsize::new(0));
-    let limits = place.room().limits;
+    let (slot, requests) = (Arc::new(slot), AtomicUsize::new(0));
+    let limits = slot.state().limits;
     let mut stream = TimeoutStream::new(stream);
-    stream.set_write_timeout(Some(place.room().hub.settings().limits.stalled));
+    stream.set_write_timeout(Some(slot.state().hub.settings().limits.stalled));
     let service = service_fn(|request: Request<Incoming>| {
-        let mut answer = respond(request, address, &place);
+        let mut answer = respond(request, address, &slot);
         if requests.fetch_add(1, Ordering::Relaxed) + 1 >= limits.requests {
             close_after(&mut answer);
         }
@@ -56,7 +56,7 @@ pub(crate) async fn serve(
     let stream: Stream = Box::pin(stream);
     http1::Builder::new()
         .timer(TokioTimer::new())
-        .header_read_timeout(limits.patience)
+        .header_read_timeout(limits.head_timeout)
         .max_header_size(MAX_HEAD_BYTES)
         .max_headers(MAX_HEADERS)
         .max_buf_size(MAX_HEAD_BYTES)
@@ -73,9 +73,9 @@ fn close_after(answer: &mut Answer) {
 }
 
 /// Response to a request.
-fn respond(request: Request<Incoming>, address: IpAddr, place: &Arc<Place>) -> Answer {
+fn respond(request: Request<Incoming>, address: IpAddr, slot: &Arc<ConnectionSlot>) -> Answer {
     if is_upgrade(request.headers()) {
-        return match upgrade(request, address, place) {
+        return match upgrade(request, address, slot) {
             Ok(answer) => answer,
             Err((status, why)) => {
                 let mut answer = plain_text(status, &why);
@@ -97,17 +97,17 @@ fn respond(request: Request<Incoming>, address: IpAddr, place: &Arc<Place>) -> A
 fn upgrade(
     request: Request<Incoming>,
     address: IpAddr,
-    place: &Arc<Place>,
+    slot: &Arc<ConnectionSlot>,
 ) -> Result<Answer, (StatusCode, String)> {
-    let room = place.room();
+    let state = slot.state();
     let headers = request.headers();
-    if query(request.uri(), "token").is_some() && room.token_rate_limit.are_too_many(address) {
+    if query(request.uri(), "token").is_some() && state.token_rate_limit.are_too_many(address) {
         let why = "too many wrong tokens from this address; wait a minute";
         return Err((StatusCode::TOO_MANY_REQUESTS, why.to_owned()));
     }
-    if let Err(refused) = room.authorization.admit(request.uri(), headers) {
+    if let Err(refused) = state.authorization.admit(request.uri(), headers) {
         if refused == AdmissionError::WrongToken {
-            room.token_rate_limit.add(address);
+            state.token_rate_limit.add(address);
         }
         return Err((StatusCode::FORBIDDEN, refused.to_string()));
     }
@@ -124,7 +124,7 @@ fn upgrade(
         let why = "this server requires WebSocket version 13".to_owned();
         return Err((StatusCode::UPGRADE_REQUIRED, why));
     };
-    let Some(session) = room.hub.join() else {
+    let Some(session) = state.hub.join() else {
         return Err((StatusCode::SERVICE_UNAVAILABLE, "too many viewers are connected".to_owned()));
     };
     let mut answer = empty(StatusCode::SWITCHING_PROTOCOLS);
@@ -133,21 +133,21 @@ fn upgrade(
     own.insert(CONNECTION, HeaderValue::from_static("Upgrade"));
     own.insert(SEC_WEBSOCKET_ACCEPT, key);
     own.insert(SEC_WEBSOCKET_PROTOCOL, HeaderValue::from_static(subprotocol));
-    let place = place.clone();
+    let slot = slot.clone();
     tokio::spawn(async move {
         if let Ok(upgraded) = hyper::upgrade::on(request).await {
-            // A client whose connection fails here has left: dropping the session says so.
-            let _ = start(upgraded, session, place);
+            // A client whose connection fails here has left; dropping the session reports it.
+            let _ = start(upgraded, session, slot);
         }
     });
     Ok(answer)
 }
 
 /// Starts the threads of a WebSocket.
-fn start(upgraded: Upgraded, session: ClientSession, place: Arc<Place>) -> io::Result<()> {
+fn start(upgraded: Upgraded, session: ClientSession, slot: Arc<ConnectionSlot>) -> io::Result<()> {
     let (stream, came) = into_std(upgraded)?;
     let builder = std::thread::Builder::new().name("connection".to_owned());
-    builder.spawn(move || socket::serve(stream, came.into(), session, place.room()))?;
+    builder.spawn(move || socket::serve(stream, came.into(), session, slot.state()))?;
     Ok(())
 }
 

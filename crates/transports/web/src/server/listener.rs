@@ -23,12 +23,12 @@ pub(crate) struct HttpLimits {
     /// Maximum number of requests per connection.
     pub(crate) requests: usize,
     /// Timeout of a request head, and idle time of a connection.
-    pub(crate) patience: Duration,
+    pub(crate) head_timeout: Duration,
 }
 
 impl Default for HttpLimits {
     fn default() -> Self {
-        Self { connections: 256, requests: 1000, patience: Duration::from_secs(15) }
+        Self { connections: 256, requests: 1000, head_timeout: Duration::from_secs(15) }
     }
 }
 
@@ -43,12 +43,12 @@ pub struct WebServerSettings {
 
 /// The HTTP and WebSocket server, open until this is dropped.
 ///
-/// One thread serves all HTTP connections; each WebSocket has two threads of its own.
+/// One thread serves all HTTP connections; each WebSocket has two further threads.
 #[derive(Debug)]
 pub struct WebServer {
     address: SocketAddr,
     token: Option<String>,
-    room: Arc<Room>,
+    state: Arc<ServerState>,
     /// Ends the thread of the listener.
     close: Option<oneshot::Sender<()>>,
     thread: Option<JoinHandle<()>>,
@@ -56,7 +56,7 @@ pub struct WebServer {
 
 /// State shared by all connections.
 #[derive(Debug)]
-pub(crate) struct Room {
+pub(crate) struct ServerState {
     pub(crate) hub: Arc<Hub>,
     pub(crate) authorization: Authorization,
     pub(crate) token_rate_limit: TokenRateLimit,
@@ -96,7 +96,7 @@ impl WebServer {
         let listener = TcpListener::bind(address)?;
         let address = listener.local_addr()?;
         let authorization = Authorization { is_loopback, token: token.clone() };
-        let room = Arc::new(Room {
+        let state = Arc::new(ServerState {
             hub,
             authorization,
             token_rate_limit: TokenRateLimit::default(),
@@ -104,7 +104,7 @@ impl WebServer {
             limits,
             connections: AtomicUsize::new(0),
         });
-        let own = room.clone();
+        let own = state.clone();
         let (close, closed) = oneshot::channel();
         listener.set_nonblocking(true)?;
         let runtime = tokio::runtime::Builder::new_current_thread().enable_all().build()?;
@@ -118,7 +118,7 @@ impl WebServer {
             // Dropping the runtime then closes the listener and all HTTP connections.
             let _ = runtime.block_on(closed);
         })?;
-        Ok(Self { address, token, room, close: Some(close), thread: Some(thread) })
+        Ok(Self { address, token, state, close: Some(close), thread: Some(thread) })
     }
 
     /// Address of the listener.
@@ -147,7 +147,7 @@ impl WebServer {
 
 impl Drop for WebServer {
     fn drop(&mut self) {
-        self.room.is_closing.store(true, Ordering::Release);
+        self.state.is_closing.store(true, Ordering::Release);
         drop(self.close.take());
         if let Some(thread) = self.thread.take() {
             let _ = thread.join();
@@ -160,39 +160,39 @@ fn is_short(token: &str) -> bool {
 }
 
 /// A counted connection, until this is dropped.
-pub(crate) struct Place(Arc<Room>);
+pub(crate) struct ConnectionSlot(Arc<ServerState>);
 
-impl Place {
+impl ConnectionSlot {
     /// Counts a connection; none if there are too many.
-    fn new(room: &Arc<Room>) -> Option<Self> {
-        let before = room.connections.fetch_add(1, Ordering::AcqRel);
-        let place = Self(room.clone());
-        (before < room.limits.connections).then_some(place)
+    fn new(state: &Arc<ServerState>) -> Option<Self> {
+        let before = state.connections.fetch_add(1, Ordering::AcqRel);
+        let slot = Self(state.clone());
+        (before < state.limits.connections).then_some(slot)
     }
 
-    pub(crate) fn room(&self) -> &Room {
+    pub(crate) fn state(&self) -> &ServerState {
         &self.0
     }
 }
 
-impl Drop for Place {
+impl Drop for ConnectionSlot {
     fn drop(&mut self) {
         self.0.connections.fetch_sub(1, Ordering::AcqRel);
     }
 }
 
 /// Accepts connections until the runtime is dropped.
-async fn accept(listener: tokio::net::TcpListener, room: Arc<Room>) {
+async fn accept(listener: tokio::net::TcpListener, state: Arc<ServerState>) {
     loop {
         let Ok((stream, from)) = listener.accept().await else {
             // Too many open files, or the client has left.
             tokio::time::sleep(Duration::from_millis(20)).await;
             continue;
         };
-        if let Some(place) = Place::new(&room)
+        if let Some(slot) = ConnectionSlot::new(&state)
             && stream.set_nodelay(true).is_ok()
         {
-            tokio::spawn(connection::serve(stream, from.ip(), place));
+            tokio::spawn(connection::serve(stream, from.ip(), slot));
         }
     }
 }
@@ -243,13 +243,13 @@ mod tests {
     }
 
     #[test]
-    fn a_head_in_drops_ends_in_time() {
-        let limits = HttpLimits { patience: SHORT, ..HttpLimits::default() };
+    fn a_head_sent_byte_by_byte_times_out() {
+        let limits = HttpLimits { head_timeout: SHORT, ..HttpLimits::default() };
         let server = server(limits, LONG);
         let mut stream = connect(&server);
         let since = Stopwatch::start();
         let mut head = b"GET / HTTP/1.1\r\nX: ".iter().chain(std::iter::repeat(&b'x'));
-        while server.room.connections.load(Ordering::Acquire) > 0 || since.elapsed() < SHORT / 2 {
+        while server.state.connections.load(Ordering::Acquire) > 0 || since.elapsed() < SHORT / 2 {
             let _ = stream.write_all(&[*head.next().expect("without end")]);
             sleep(Duration::from_millis(20));
             assert!(since.elapsed() < LONG, "it is still there");
@@ -259,7 +259,7 @@ mod tests {
 
     #[test]
     fn an_idle_connection_is_closed() {
-        let limits = HttpLimits { patience: SHORT, ..HttpLimits::default() };
+        let limits = HttpLimits { head_timeout: SHORT, ..HttpLimits::default() };
         let server = server(limits, LONG);
         let mut stream = connect(&server);
         stream.write_all(b"HEAD / HTTP/1.1\r\n\r\n").expect("it is sent");
@@ -267,7 +267,7 @@ mod tests {
     }
 
     #[test]
-    fn a_connection_has_so_many_requests() {
+    fn the_requests_of_a_connection_are_limited() {
         let server = server(HttpLimits { requests: 3, ..HttpLimits::default() }, LONG);
         let mut stream = connect(&server);
         stream.write_all(&b"HEAD / HTTP/1.1\r\n\r\n".repeat(4)).expect("they are sent");
@@ -281,27 +281,27 @@ mod tests {
     fn connections_over_the_limit_are_closed() {
         let server = server(HttpLimits { connections: 2, ..HttpLimits::default() }, LONG);
         let held = [connect(&server), connect(&server)];
-        eventually(|| server.room.connections.load(Ordering::Acquire) == 2);
+        eventually(|| server.state.connections.load(Ordering::Acquire) == 2);
         assert_eq!(read(&mut connect(&server)), "");
         drop(held);
-        eventually(|| server.room.connections.load(Ordering::Acquire) == 0);
+        eventually(|| server.state.connections.load(Ordering::Acquire) == 0);
         let mut stream = connect(&server);
         stream.write_all(b"HEAD / HTTP/1.0\r\n\r\n").expect("it is sent");
         assert!(read(&mut stream).contains(" 200 OK\r\n"));
     }
 
     #[test]
-    fn who_asks_and_never_reads_is_disconnected() {
+    fn a_client_that_never_reads_is_disconnected() {
         let server = server(HttpLimits::default(), SHORT);
         let mut stream = connect(&server);
         stream.set_write_timeout(Some(SHORT)).expect("a timeout");
         // More answers than the buffers of the system hold.
         for _ in 0..900 {
             let _ = stream.write(&b"GET /none HTTP/1.1\r\n\r\n".repeat(1000));
-            if server.room.connections.load(Ordering::Acquire) == 0 {
+            if server.state.connections.load(Ordering::Acquire) == 0 {
                 break;
             }
         }
-        eventually(|| server.room.connections.load(Ordering::Acquire) == 0);
+        eventually(|| server.state.connections.load(Ordering::Acquire) == 0);
     }
 }

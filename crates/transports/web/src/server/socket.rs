@@ -13,21 +13,21 @@ use tungstenite::protocol::{Role, WebSocketConfig};
 use tungstenite::{Message, WebSocket};
 
 use crate::server::frame;
-use crate::server::listener::Room;
+use crate::server::listener::ServerState;
 use crate::server::timeout_stream::TimeoutStream;
 
 /// Ping period for a client without traffic.
-const PING: Duration = Duration::from_secs(15);
+const PING_PERIOD: Duration = Duration::from_secs(15);
 
 /// Period at which the writer checks for shutdown.
-const LOOK: Duration = Duration::from_millis(200);
+const SHUTDOWN_POLL: Duration = Duration::from_millis(200);
 
 /// Serves a client until it leaves. `came` are the bytes that it sent after its request.
 pub(crate) fn serve(
     stream: TcpStream,
     came: Vec<u8>,
     session: ClientSession,
-    room: &Room,
+    state: &ServerState,
 ) -> io::Result<()> {
     let outbox = session.outbox().clone();
     let writing = stream.try_clone()?;
@@ -35,20 +35,20 @@ pub(crate) fn serve(
     std::thread::scope(|scope| {
         let outlet = outbox.clone();
         let writer = builder.spawn_scoped(scope, move || {
-            let _ = write(&writing, &outlet, room);
+            let _ = write(&writing, &outlet, state);
             // Wakes the reading thread.
             let _ = writing.shutdown(Shutdown::Both);
         })?;
-        hear(stream, came, session, room);
+        receive(stream, came, session, state);
         let _ = writer.join();
         Ok(())
     })
 }
 
 /// Receives from a client until it leaves.
-fn hear(stream: TcpStream, came: Vec<u8>, mut session: ClientSession, room: &Room) {
+fn receive(stream: TcpStream, came: Vec<u8>, mut session: ClientSession, state: &ServerState) {
     let outbox = session.outbox().clone();
-    let limits = room.hub.settings().limits;
+    let limits = state.hub.settings().limits;
     let config = WebSocketConfig::default()
         .max_message_size(Some(limits.message))
         .max_frame_size(Some(limits.message));
@@ -78,19 +78,19 @@ fn hear(stream: TcpStream, came: Vec<u8>, mut session: ClientSession, room: &Roo
 }
 
 /// Sends the outbox of a client until it is closed.
-fn write(stream: &TcpStream, outbox: &Outbox, room: &Room) -> io::Result<()> {
-    let mut stream = TimeoutStream::new(stream, room.hub.settings().limits.stalled)?;
+fn write(stream: &TcpStream, outbox: &Outbox, state: &ServerState) -> io::Result<()> {
+    let mut stream = TimeoutStream::new(stream, state.hub.settings().limits.stalled)?;
     let mut idle = Stopwatch::start();
     loop {
-        if room.is_closing.load(Ordering::Acquire) {
+        if state.is_closing.load(Ordering::Acquire) {
             outbox.end("the server shuts down");
         }
-        match outbox.take(LOOK) {
+        match outbox.take(SHUTDOWN_POLL) {
             OutboxItem::Frame(frame) => {
                 send(&mut stream, &frame)?;
                 idle = Stopwatch::start();
             }
-            OutboxItem::Nothing if idle.elapsed() >= PING => {
+            OutboxItem::Nothing if idle.elapsed() >= PING_PERIOD => {
                 stream.write_all(&frame::ping())?;
                 idle = Stopwatch::start();
             }
