@@ -155,6 +155,14 @@ impl Counters {
         self.clouds + self.without_frame + self.out_of_time + self.malformed
     }
 
+    /// Counts a point outside the heights of its layer; returns true if it is inside.
+    #[inline]
+    pub(crate) fn is_in_layer(&mut self, z_m: f64, heights: &RangeLimits) -> bool {
+        self.layer_too_low += u64::from(z_m < heights.min_m);
+        self.layer_too_high += u64::from(z_m > heights.max_m);
+        !(z_m < heights.min_m || z_m > heights.max_m)
+    }
+
     /// Returns the difference to earlier counts.
     #[must_use]
     pub fn since(&self, before: &Self) -> Self {

@@ -5,6 +5,7 @@
 use periplus_diagnostics::Diagnostic;
 use periplus_params::ParamValues;
 
+use super::mask::filter_info_error;
 use super::{FilterInfo, FilterKind, FilterMask, MaskFilter};
 use crate::{CellWindow, Costmap, Layer, UpdateBounds, UpdateContext};
 
@@ -62,14 +63,9 @@ impl MaskFilter for BinaryFilter {
         if info.kind == FilterKind::Binary {
             self.info = Some(info);
         } else {
-            self.diagnostics.push(
-                Diagnostic::error(
-                    "filter-info",
-                    format!("filter `{}`: the mask is for {:?}", self.name, info.kind),
-                )
-                .at(self.values.origin("filter_info_topic"))
-                .help("publish type 3 (binary)"),
-            );
+            let what = format!("the mask is for {:?}", info.kind);
+            let error = filter_info_error(&self.name, &self.values, &what);
+            self.diagnostics.push(error.help("publish type 3 (binary)"));
         }
     }
 

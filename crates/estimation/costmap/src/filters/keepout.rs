@@ -7,6 +7,7 @@ use periplus_geometry::{DVec3, Pose};
 use periplus_grid::{Cell, GridInfo};
 use periplus_params::ParamValues;
 
+use super::mask::filter_info_error;
 use super::{FilterInfo, FilterKind, FilterMask, MaskFilter};
 use crate::cost::{INSCRIBED, LETHAL, UNKNOWN, cost_of};
 use crate::{CellWindow, Costmap, Explanation, Layer, UpdateBounds, UpdateContext};
@@ -56,9 +57,8 @@ impl KeepoutFilter {
         self.has_changed = true;
     }
 
-    fn wrong(&self, what: String) -> Diagnostic {
-        Diagnostic::error("filter-info", format!("filter `{}`: {what}", self.name))
-            .at(self.values.origin("filter_info_topic"))
+    fn wrong(&self, what: &str) -> Diagnostic {
+        filter_info_error(&self.name, &self.values, what)
             .help("check the node that publishes the filter info")
     }
 
@@ -94,10 +94,10 @@ impl MaskFilter for KeepoutFilter {
     fn set_info(&mut self, info: FilterInfo) {
         let plain = FilterInfo::default();
         if info.kind != FilterKind::Keepout {
-            self.diagnostics.push(self.wrong(format!("the mask is for {:?}", info.kind)));
+            self.diagnostics.push(self.wrong(&format!("the mask is for {:?}", info.kind)));
         }
         if (info.base, info.multiplier) != (plain.base, plain.multiplier) {
-            self.diagnostics.push(self.wrong(format!(
+            self.diagnostics.push(self.wrong(&format!(
                 "base is {} and multiplier {}, and must be 0 and 1; the mask is used unchanged",
                 info.base, info.multiplier
             )));

@@ -3,8 +3,10 @@
 //! Source: `nav2_costmap_2d/costmap_filters/filter_values.hpp`, `costmap_filter.cpp`. Unlike the
 //! reference, a rotation of the origin is applied.
 
+use periplus_diagnostics::Diagnostic;
 use periplus_geometry::{DVec3, Pose, Pose2};
 use periplus_grid::{Cell, OccupancyGrid};
+use periplus_params::ParamValues;
 
 use crate::UpdateContext;
 
@@ -90,4 +92,10 @@ pub trait MaskFilter {
 
     /// Sets the mask.
     fn set_mask(&mut self, mask: FilterMask);
+}
+
+/// Error of a filter whose filter info has a wrong type or wrong values.
+pub(super) fn filter_info_error(name: &str, values: &ParamValues, what: &str) -> Diagnostic {
+    Diagnostic::error("filter-info", format!("filter `{name}`: {what}"))
+        .at(values.origin("filter_info_topic"))
 }

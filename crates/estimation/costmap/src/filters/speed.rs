@@ -6,6 +6,7 @@ use periplus_diagnostics::Diagnostic;
 use periplus_geometry::Pose2;
 use periplus_params::ParamValues;
 
+use super::mask::filter_info_error;
 use super::{FilterInfo, FilterKind, FilterMask, MaskFilter};
 use crate::{CellWindow, Costmap, Layer, UpdateBounds, UpdateContext};
 
@@ -177,14 +178,9 @@ impl MaskFilter for SpeedFilter {
         if matches!(info.kind, FilterKind::SpeedPercent | FilterKind::SpeedAbsolute) {
             self.info = Some(info);
         } else {
-            self.diagnostics.push(
-                Diagnostic::error(
-                    "filter-info",
-                    format!("filter `{}`: the mask is for {:?}", self.name, info.kind),
-                )
-                .at(self.values.origin("filter_info_topic"))
-                .help("publish type 1 (percent) or 2 (metres per second)"),
-            );
+            let what = format!("the mask is for {:?}", info.kind);
+            let error = filter_info_error(&self.name, &self.values, &what);
+            self.diagnostics.push(error.help("publish type 1 (percent) or 2 (metres per second)"));
         }
     }
 

@@ -209,12 +209,7 @@ impl Marker {
         let costs = grid.costs_mut();
         for point in &seen.points {
             let [px, py, pz] = point.map(f64::from);
-            if pz < self.heights.min_m {
-                counters.layer_too_low += 1;
-                continue;
-            }
-            if pz > self.heights.max_m {
-                counters.layer_too_high += 1;
+            if !counters.is_in_layer(pz, &self.heights) {
                 continue;
             }
             let (dx, dy, dz) = (px - ox, py - oy, pz - oz);

@@ -15,7 +15,7 @@ use super::encoders::{angle, speed};
 use super::pid::{Gains, Pid};
 use super::rate_timer::{RateTimer, earlier};
 use super::wheel_frames::WheelFrames;
-use crate::states::{OdometryPublisher, planar_covariance, planar_twist};
+use crate::states::{OdometryPublisher, planar_twist};
 use crate::{Device, SenseContext, StepInterval, publisher_qos};
 
 const JOINTS: [&str; 6] = [
@@ -95,22 +95,7 @@ pub(crate) fn build(
     }
     let node = context.node(diagnostics)?;
     let start_ns = context.setting.start_ns;
-    let mut odometry_publisher = OdometryPublisher::between(
-        context.text("odometry_frame"),
-        context.text("robot_base_frame"),
-    );
-    odometry_publisher.pose_covariance = planar_covariance(
-        context.number("covariance_x"),
-        context.number("covariance_y"),
-        context.number("covariance_yaw"),
-    );
-    odometry_publisher.twist_covariance = odometry_publisher.pose_covariance;
-    if context.flag("publish_odom") {
-        odometry_publisher = odometry_publisher.on(context, &node, "odom", diagnostics)?;
-    }
-    if context.flag("publish_odom_tf") {
-        odometry_publisher = odometry_publisher.with_tf(context, &node, "/tf", diagnostics)?;
-    }
+    let odometry_publisher = OdometryPublisher::of_gazebo_ros(context, &node, diagnostics)?;
     let distance = if context.flag("publish_distance") {
         let qos = publisher_qos(&context.plugin.ros, "distance", Qos::reliable(1));
         Some(context.accept(node.publisher("distance", qos), diagnostics)?)

@@ -53,6 +53,28 @@ impl OdometryPublisher {
         }
     }
 
+    /// Creates the publisher of a drive of `gazebo_ros` for ROS 2, from its parameters.
+    pub(crate) fn of_gazebo_ros(
+        context: &BuildContext<'_>,
+        node: &Node,
+        diagnostics: &mut Diagnostics,
+    ) -> Option<Self> {
+        let frames = ["odometry_frame", "robot_base_frame"].map(|name| context.text(name));
+        let [parent_frame, child_frame] = frames;
+        let mut publisher = Self::between(parent_frame, child_frame);
+        let variances =
+            ["covariance_x", "covariance_y", "covariance_yaw"].map(|name| context.number(name));
+        publisher.pose_covariance = planar_covariance(variances[0], variances[1], variances[2]);
+        publisher.twist_covariance = publisher.pose_covariance;
+        if context.flag("publish_odom") {
+            publisher = publisher.on(context, node, "odom", diagnostics)?;
+        }
+        if context.flag("publish_odom_tf") {
+            publisher = publisher.with_tf(context, node, "/tf", diagnostics)?;
+        }
+        Some(publisher)
+    }
+
     /// Adds a topic of odometry.
     pub(crate) fn on(
         mut self,

@@ -62,22 +62,7 @@ pub(super) fn diff_drive_of_ros2(
         max_wheel_torque_n_m: context.number("max_wheel_torque"),
         update_rate_hz: context.number("update_rate"),
     };
-    let mut odometry_publisher = OdometryPublisher::between(
-        context.text("odometry_frame"),
-        context.text("robot_base_frame"),
-    );
-    odometry_publisher.pose_covariance = planar_covariance(
-        context.number("covariance_x"),
-        context.number("covariance_y"),
-        context.number("covariance_yaw"),
-    );
-    odometry_publisher.twist_covariance = odometry_publisher.pose_covariance;
-    if context.flag("publish_odom") {
-        odometry_publisher = odometry_publisher.on(context, &node, "odom", diagnostics)?;
-    }
-    if context.flag("publish_odom_tf") {
-        odometry_publisher = odometry_publisher.with_tf(context, &node, "/tf", diagnostics)?;
-    }
+    let odometry_publisher = OdometryPublisher::of_gazebo_ros(context, &node, diagnostics)?;
     let joints = ["left_joint", "right_joint"];
     let wheel_frames = context
         .flag("publish_wheel_tf")
