@@ -19,7 +19,7 @@ const ROBOT: &str = "robots/sam_bot/urdf/sam_bot.urdf.xacro";
 
 const LOADS: [Load; 5] = [
     Load {
-        name: "tutorial world, physics at 1 ms, lidar and odometry recorded, camera without a subscriber",
+        name: "tutorial world, physics at 1 ms, lidar and odometry recorded, camera without subscribers",
         words: &["--duration", "60", "--topics", "scan|odom", "--threads", "1"],
         wanted: 25.0,
     },
@@ -44,7 +44,7 @@ const LOADS: [Load; 5] = [
             "10",
             "--topics",
             "scan|odom",
-            "--hear",
+            "--compute",
             "depth/image_raw",
             "--threads",
             "1",
@@ -58,7 +58,7 @@ const LOADS: [Load; 5] = [
             "10",
             "--topics",
             "scan|odom",
-            "--hear",
+            "--compute",
             "depth/image_raw|points",
             "--threads",
             "1",
@@ -72,7 +72,7 @@ const LOADS: [Load; 5] = [
             "10",
             "--topics",
             "scan|odom",
-            "--hear",
+            "--compute",
             "depth/image_raw|points",
             "--threads",
             "2",

@@ -166,7 +166,7 @@ fn one(
         pace,
         "--ros2",
         "loopback",
-        "--hear",
+        "--compute",
         &heard,
         &page,
         "--no-browser",

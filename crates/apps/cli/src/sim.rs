@@ -54,6 +54,9 @@ pub(crate) struct SimOptions {
     /// Simulate sensors of topics that match this regular expression even without subscribers, to
     /// measure their cost
     #[arg(long, value_name = "REGEX")]
+    compute: Option<regex::Regex>,
+    /// Old name of `--compute`
+    #[arg(long, value_name = "REGEX", hide = true, conflicts_with = "compute")]
     hear: Option<regex::Regex>,
     /// Drive by a script (YAML) or by the velocity commands of a bag
     #[arg(long, value_name = "FILE")]
@@ -144,6 +147,11 @@ enum Dynamics {
 pub(crate) fn run(options: &SimOptions, ros: Vec<String>) -> Result<ExitCode, CliError> {
     let start = Stopwatch::start();
     let to_nodes = arguments::read(options.ros_words(ros))?;
+    if options.hear.is_some() {
+        terminal::say(
+            "`--hear` is deprecated: use `--compute`; the next release has only that option",
+        );
+    }
     let (world, arguments) = options.world()?;
     options.check()?;
     let driver = options.driver()?;
@@ -272,7 +280,7 @@ impl SimOptions {
     }
 
     fn computed(&self) -> Option<TopicFilter> {
-        let topics = self.hear.clone()?;
+        let topics = self.compute.clone().or_else(|| self.hear.clone())?;
         Some(Box::new(move |name| topics.is_match(name)))
     }
 
@@ -328,5 +336,33 @@ fn step(word: &str) -> Result<f64, String> {
     match word.parse::<f64>() {
         Ok(step_s) if (shortest_s..=longest_s).contains(&step_s) => Ok(step_s),
         _ => Err(format!("expected a number from {shortest_s} to {longest_s}")),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use clap::Parser;
+
+    use super::SimOptions;
+
+    #[derive(Parser)]
+    struct Line {
+        #[command(flatten)]
+        options: SimOptions,
+    }
+
+    /// True if the camera is simulated without subscribers.
+    fn computes_camera(words: &[&str]) -> bool {
+        let line = ["sim", "world.sdf"].iter().chain(words);
+        let line = Line::try_parse_from(line).unwrap_or_else(|error| panic!("{error}"));
+        line.options.computed().is_some_and(|topics| topics("/camera/image_raw"))
+    }
+
+    #[test]
+    fn the_old_name_of_compute_still_works() {
+        assert!(computes_camera(&["--compute", "camera"]));
+        assert!(computes_camera(&["--hear", "camera"]));
+        assert!(!computes_camera(&["--compute", "scan"]));
+        assert!(!computes_camera(&[]));
     }
 }

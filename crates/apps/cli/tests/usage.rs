@@ -199,3 +199,15 @@ fn manual_pages_make_their_folder() {
     let page = std::fs::read_to_string(folder.path("deep/er/periplus-sim.1")).unwrap();
     assert!(page.contains("Examples") && !page.contains('\u{1b}'));
 }
+
+/// Old names of options work for one release, with a notice.
+#[test]
+fn deprecated_options_print_a_notice() {
+    let folder = Folder::new("usage-deprecated");
+    let world = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../worlds/closed_room.world");
+    let line = format!("sim {} --duration 0.01 --ros2 off", world.display());
+    let notice = "`--hear` is deprecated: use `--compute`";
+    assert!(check(&folder.0, 0, &format!("{line} --hear scan")).contains(notice));
+    assert!(!check(&folder.0, 0, &format!("{line} --compute scan")).contains(notice));
+    check(&folder.0, 2, &format!("{line} --hear scan --compute scan"));
+}
