@@ -19,11 +19,11 @@ use page::Page;
 /// One part of the task.
 #[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub(crate) enum Part {
-    /// The documentation of the code, with every warning an error
+    /// Documentation of the code, with every warning as an error
     Code,
     /// Links and anchors of every Markdown page, the table of contents, the list of dependencies
     Links,
-    /// The site in `target/site`, built by mdbook where it is installed
+    /// Site in `target/site`, built by mdbook if it is installed
     Site,
 }
 

@@ -38,7 +38,7 @@ use clap::{Parser, Subcommand, ValueEnum};
 
 use crate::step::{Failed, cargo, run, timed};
 
-/// Everything a developer of Periplus runs.
+/// Tasks of a developer of Periplus.
 #[derive(Parser)]
 #[command(name = "cargo xtask", bin_name = "cargo xtask")]
 struct Arguments {
@@ -48,39 +48,38 @@ struct Arguments {
 
 #[derive(Subcommand)]
 enum Task {
-    /// All checks, in the order in which they fail fastest; ends with the tests
+    /// Run all checks, the fastest first, and then the tests
     Ci,
     /// Check the format of the sources
     Fmt,
-    /// Clippy, with every warning an error
+    /// Run clippy, with every warning as an error
     Clippy,
     /// Check the dependencies of crates against the allowed ones
     Layers,
-    /// Package every library without building it: metadata, README, and the files that the code
-    /// includes
+    /// Package every library without building it: checks metadata, README, and included files
     Package,
-    /// Licences, sources and bans of what we borrow
+    /// Check licences, sources and bans of dependencies
     Deny,
-    /// The documentation: links and anchors of every page, the site, and the code's own, with every
-    /// warning an error
+    /// Check the documentation: links and anchors of every page, the site, and that of the code, with every
+    /// warning as an error
     Docs {
-        /// Only this part
+        /// Run only this part
         #[arg(long, value_enum)]
         only: Option<docs::Part>,
     },
-    /// All tests
+    /// Run all tests
     Test {
-        /// Passed on to `cargo test`
+        /// Arguments for `cargo test`
         #[arg(trailing_var_arg = true, allow_hyphen_values = true)]
         rest: Vec<String>,
     },
-    /// The language of the tree: words, doc comments, names of constants and types
+    /// Check the language of the tree: words, doc comments, names of constants and types
     Tidy(tidy::Options),
-    /// The corpus of real files, against libsdformat, liburdfdom and PyPI's xacro
+    /// Compare the corpus of real files with libsdformat, liburdfdom and PyPI's xacro
     Corpus,
-    /// Speed, side by side with the peers; run `corpus` first
+    /// Measure speed in comparison with other programs; run `corpus` first
     Bench {
-        /// Only this: `loading`; or one of the others, which need nothing of `corpus`
+        /// Benchmark: `loading`, or one of the others, which do not need `corpus`
         only: Option<Contest>,
         /// `wire`: only loads whose names contain this, printed only. `ros2`: only the part `rates`, `lists` or
         /// `idle`
@@ -111,57 +110,57 @@ enum Task {
         #[arg(long, value_name = "FILE")]
         program: Option<std::path::PathBuf>,
     },
-    /// Rust code for the messages, from the texts in `crates/messages/msgs/interfaces`
+    /// Generate Rust code of the messages from `crates/messages/msgs/interfaces`
     Codegen {
         /// Only check that the generated code is up to date
         #[arg(long)]
         check: bool,
     },
-    /// Every robot of the corpus with a drive, driven for five simulated seconds
+    /// Drive every robot of the corpus with a drive for five simulated seconds
     Drive,
-    /// The same bag from every build and number of threads
+    /// Compare the bags of different builds and numbers of threads
     Determinism,
-    /// Hostile inputs of every kind, made from a fixed seed: crashes, time-outs over 10 s and memory over
-    /// 500 MB are faults
+    /// Run all commands on hostile inputs, generated from a fixed seed: crashes, time-outs over 10 s and memory
+    /// over 500 MB are faults
     Attack {
-        /// Only kinds with this in their names
+        /// Only kinds whose names contain this
         only: Option<String>,
-        /// Every Nth input alone
+        /// Run every Nth input separately
         #[arg(long, default_value_t = 1)]
         every: usize,
-        /// Another seed makes other inputs
+        /// Seed of the inputs
         #[arg(long, default_value_t = attack::SEED)]
         seed: u64,
-        /// The program, in place of a release build
+        /// Program to test, in place of a release build
         #[arg(long, value_name = "FILE")]
         program: Option<std::path::PathBuf>,
     },
-    /// Long runs: an hour of costmaps among moving things, and ten hours of a robot that drives with a
-    /// map and costmaps; memory stays flat, and nothing that is published is NaN
+    /// Run for a long time: costmaps among moving obstacles for an hour, and a robot with a map and costmaps for
+    /// ten hours; memory must not grow, and no published number may be NaN
     Soak {
-        /// Simulated hours of the robot alone, without the costmaps among moving things
+        /// Simulated hours of the robot only, without the costmaps among moving obstacles
         #[arg(long)]
         hours: Option<f64>,
     },
-    /// The pictures in the documentation, from the program itself
+    /// Generate the pictures of the documentation
     Pictures,
-    /// The page in `viewer`, which needs Node
+    /// Build or test the page in `viewer`, which needs Node
     #[command(subcommand)]
     Viewer(Page),
-    /// The tutorials in `docs/tutorials`, every command of them, with what it promises
+    /// Run every command of the tutorials in `docs/tutorials`, and check its output
     Tutorials {
-        /// Only those with this in their names
+        /// Only tutorials whose names contain this
         only: Option<String>,
-        /// Take their pictures, too, which needs Node and Chromium
+        /// Take their screenshots too, which needs Node and Chromium
         #[arg(long)]
         pictures: bool,
     },
-    /// The optional wire on Zenoh, which no other task builds: clippy and tests against PyPI's
+    /// Check the optional transport for Zenoh, which no other task builds: clippy and tests with PyPI's
     /// eclipse-zenoh, installed into `.venv`
     Zenoh,
-    /// Fuzz targets, starting from the seeds kept in `fuzz/seeds`
+    /// Run fuzz targets, starting from the seeds in `fuzz/seeds`
     Fuzz {
-        /// For how long each target runs
+        /// Duration of each target [s]
         #[arg(long, default_value_t = 60)]
         seconds: u32,
         /// Targets to run; by default all
@@ -174,11 +173,11 @@ enum Task {
 enum Page {
     /// Build it into `crates/transports/web/page`, where it is committed
     Build,
-    /// Formatting, types, tests; whether it is committed as it is built
+    /// Check format and types, run the tests, and compare the build with the committed one
     Check,
-    /// In a browser, against a running `periplus`
+    /// Test it in a browser with a running `periplus`
     Browse,
-    /// Its accessibility by the rules of axe, in a browser
+    /// Check its accessibility by the rules of axe, in a browser
     Axe,
 }
 
@@ -187,12 +186,12 @@ enum Page {
 enum Contest {
     /// Large recordings
     Bags,
-    /// Carts between casters that are too low, in three engines
+    /// Carts between casters that are too low, in three physics engines
     Casters,
     /// Costmaps: inflation and updates
     Costmap,
     Loading,
-    /// The page: how soon the demo shows it, and how large it is
+    /// The page: time until the demo shows it, and its size
     Page,
     Physics,
     Rays,
@@ -200,15 +199,15 @@ enum Contest {
     Sim,
     /// Messages to and from Fast DDS and Cyclone DDS
     Wire,
-    /// A real ROS 2 (rclpy): rates and losses of sensor messages, complete lists, CPU around calls
+    /// Comparison with ROS 2 (rclpy): rates and losses of sensor messages, completeness of lists, CPU time of calls
     Ros2,
-    /// The real-time factor of a simulation beside stopped and reading subscribers
+    /// Real time factor of a simulation with stopped and with reading subscribers
     Subscribers,
     /// Maps and trajectories from logs of real robots
     Slam,
-    /// Maps of our worlds, driven through by the simulator, against their truth
+    /// Maps of simulated worlds, compared with their truth
     SlamWorlds,
-    /// Finding a robot on a map: worlds with known truth, speed, logs of real robots
+    /// Localization: worlds with known truth, speed, logs of real robots
     Localization,
 }
 
