@@ -1,9 +1,9 @@
 //! Mapping as nodes on the graph.
 //!
-//! A [`SlamNode`] is what the nodes of `slam_toolbox` are in ROS 2 and `slam_gmapping` is in ROS 1
+//! A [`SlamNode`] corresponds to the nodes of `slam_toolbox` in ROS 2 and to `slam_gmapping` in ROS 1
 //! ([`Program`]): a managed node with the same topics, services, parameters and transforms around the
-//! engines of [`periplus_slam`]. Here is only who is told, under which name, and in which message;
-//! beyond those it names the transform that is missing, and tells why loops were closed or not.
+//! engines of [`periplus_slam`]. This module has the names and messages; in addition it reports missing
+//! transforms, and why loops were closed or not.
 //!
 //! Source of names and QoS: `slam_toolbox/src/slam_toolbox_common.cpp` and its siblings (humble to
 //! rolling, 2026), `gmapping/src/slam_gmapping.cpp` (noetic).

@@ -39,7 +39,7 @@ pub(crate) fn points(cloud: &PointCloud2) -> Result<impl Iterator<Item = [f32; 3
         .is_some_and(|row| row_step >= row && height.checked_mul(row_step).is_some())
         && cloud.data.len() >= height.saturating_mul(row_step);
     if !is_long_enough {
-        return Err("its data are shorter than its size says".into());
+        return Err("its data is shorter than its width and height require".into());
     }
     let is_big = cloud.is_bigendian;
     Ok((0..height).flat_map(move |row| {

@@ -97,7 +97,7 @@ impl Patient<'_> {
 fn whole(patient: &Patient<'_>, now_ns: i64) -> DiagnosticStatus {
     let mut values = vec![pair("updates", patient.updates)];
     let Some(costmap) = patient.costmap.filter(|_| patient.is_active) else {
-        let message = "waits until somebody configures and activates it".to_owned();
+        let message = "waits until a client configures and activates it".to_owned();
         return patient.status("costmap", DiagnosticStatus::WARN, message, values);
     };
     let info = costmap.costmap().info();
@@ -221,10 +221,10 @@ fn ranges(patient: &Patient<'_>, costmap: &LayeredCostmap) -> Vec<DiagnosticStat
         };
         let RangeCounters { taken, beyond_limits, without_frame, out_of_time } = layer.counters;
         let (level, message) = if without_frame + out_of_time > taken + beyond_limits {
-            let message = "most readings are dropped: nobody knows where the sensor was";
+            let message = "most readings are dropped: the pose of the sensor is unknown";
             (DiagnosticStatus::ERROR, message.to_owned())
         } else if taken + beyond_limits == 0 {
-            (DiagnosticStatus::ERROR, format!("no reading came (`{name}.topics`)"))
+            (DiagnosticStatus::ERROR, format!("no reading received (`{name}.topics`)"))
         } else if taken == 0 {
             let message = format!(
                 "no reading was within the limits of its sensor \

@@ -423,12 +423,12 @@ fn robot(tf: &Listener, node: &ParamValues, now_ns: i64) -> Result<Pose2, Box<Di
             missing_pose
                 .at(node.origin(parameter))
                 .help(match (tf.has(missing), missing.as_str()) {
-                (true, _) => "both frames are there, but nothing connects them".to_owned(),
+                (true, _) => "both frames exist, but no transforms connect them".to_owned(),
                 (false, "map") => {
-                    "nobody publishes `map`: start SLAM or localization, and set an initial pose"
+                    "no node publishes `map`: start SLAM or localization, and set an initial pose"
                         .to_owned()
                 }
-                (false, _) => format!("nobody publishes `{missing}`; check `{parameter}`"),
+                (false, _) => format!("no node publishes `{missing}`; check `{parameter}`"),
             }),
         )
     })?;

@@ -47,10 +47,10 @@ impl EkfNode {
     pub fn at(node: Node, settings: Settings, values: ParamValues) -> Result<Self, GraphError> {
         let flag = |name: &str| values.flag(name).unwrap_or_default();
         if settings.sources.is_empty() {
-            let deaf =
-                Diagnostic::error("no-inputs", "the filter has no inputs, and tells nothing")
+            let missing =
+                Diagnostic::error("no-inputs", "the filter has no inputs, and publishes nothing")
                     .help("set `odom0`, `imu0`, `pose0` or `twist0` to a topic, and its `_config`");
-            node.log_finding(&deaf);
+            node.log_finding(&missing);
         }
         let state = State {
             outputs: Outputs::new(&node, flag("publish_acceleration"))?,
@@ -88,7 +88,7 @@ impl EkfNode {
         })?;
         actor.serve::<Empty>("reset", |state, _, io| {
             state.reset();
-            io.node().log(Level::Info, "the filter starts anew");
+            io.node().log(Level::Info, "the filter was reset");
             EmptyResponse::default()
         })?;
         let period_ns = (1e9 / settings.frequency_hz).max(1.0) as i64;
@@ -198,10 +198,14 @@ impl State {
                 let lost = Diagnostic::error(
                     "no-odometry",
                     format!(
-                        "no transform from `{base}` to `{odom}`, so none to `{map}` is told: {why}"
+                        "no transform from `{base}` to `{odom}`, so none to `{map}` is published: \
+                         {why}"
                     ),
                 )
-                .help("start what publishes odometry, or set `world_frame` to that of odometry");
+                .help(
+                    "start a node that publishes odometry, or set `world_frame` to the frame of \
+                     odometry",
+                );
                 self.told.tell(&lost, node);
             }
         }
@@ -283,7 +287,7 @@ impl State {
         let differs = |name: &str| self.values.text(name) != values.text(name);
         if let Some(name) = ["frequency", "publish_acceleration"].into_iter().find(|it| differs(it))
         {
-            return Err(format!("`{name}` is read when the node starts; start it anew"));
+            return Err(format!("`{name}` is read when the node starts; restart the node"));
         }
         let mut findings = Diagnostics::new();
         let sources = self.ekf.settings().sources.clone();

@@ -97,7 +97,7 @@ impl MapSaver {
                 io.node().log(
                     Level::Error,
                     format!(
-                        "no map came on `{topic}`; see who publishes it: \
+                        "no map received on `{topic}`; to list its publishers: \
                          `periplus topic info -v {topic}`"
                     ),
                 );

@@ -115,8 +115,7 @@ impl MapServer {
             if io.node().is_active() {
                 return GetMapResponse { map: state.map.clone().unwrap_or_default() };
             }
-            io.node()
-                .log(Level::Warn, "somebody asks for the map, but the map server is not active");
+            io.node().log(Level::Warn, "the map was requested, but the map server is not active");
             GetMapResponse::default()
         })?;
         actor.serve::<LoadMap>("~/load_map", |state, request, io| {
@@ -207,8 +206,7 @@ impl MapServer {
 
     fn reload(&mut self, path: &str, io: &mut Io<'_, Self>) -> LoadMapResponse {
         if !io.node().is_active() {
-            io.node()
-                .log(Level::Warn, "somebody wants a map loaded, but the map server is not active");
+            io.node().log(Level::Warn, "a map was to be loaded, but the map server is not active");
             let result = LoadMapResponse::RESULT_UNDEFINED_FAILURE;
             return LoadMapResponse { result, ..LoadMapResponse::default() };
         }

@@ -35,7 +35,7 @@ pub(crate) enum Start {
 pub(crate) enum Drawing {
     /// Rasterized on another thread.
     MapSnapshot(MapSnapshot),
-    /// Rasterized already; `None` if it would be too large.
+    /// Rasterized map; `None` if it would be too large.
     Map(Option<OccupancyGrid>),
 }
 
@@ -80,7 +80,7 @@ impl Engine {
         }
     }
 
-    /// A stored map, to go on with or to be found on.
+    /// A stored map, to continue or to localize on.
     pub(crate) fn stored(
         bytes: &[u8],
         settings: Settings,

@@ -7,7 +7,7 @@ use periplus_yaml::{YamlNode, YamlValue};
 
 use crate::slam_toolbox::Program;
 
-/// Namespaces around a node nest no deeper.
+/// Maximum nesting of namespaces around a node.
 const DEEPEST: usize = 4;
 
 /// Names under which nodes that make maps have their parameters, with the method that each stands for.
@@ -22,7 +22,7 @@ const NODES: [(&str, Option<Method>); 5] = [
 /// A parameter as written in a file.
 #[derive(Clone, Debug)]
 pub struct Written {
-    /// Its name, with dots.
+    /// Name, with dots.
     pub name: String,
     /// Value; for a list, its values joined.
     pub text: String,
@@ -111,7 +111,7 @@ pub fn in_file(file: &YamlNode, wanted: Option<Method>, diagnostics: &mut Diagno
 }
 
 /// Reads a file for a mapper: for the requested program, or the one given by the names of its nodes and
-/// parameters, see [`in_file`]. Reports faults, and uses the defaults in their place.
+/// parameters, see [`in_file`]. Reports faults, and uses the defaults instead.
 #[must_use]
 pub fn read(
     file: &YamlNode,
@@ -163,7 +163,7 @@ impl<'a> Sections<'a> {
     }
 }
 
-/// Names with dots; a list is its values side by side.
+/// Parameters with dotted names; the values of a list are joined.
 fn flatten(at: &YamlNode, prefix: &str, flat: &mut Vec<Written>) {
     for (key, value) in at.entries().unwrap_or_default() {
         let Some(last) = key.text() else { continue };

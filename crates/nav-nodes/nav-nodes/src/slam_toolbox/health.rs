@@ -1,4 +1,5 @@
-//! State of the mapper on `/diagnostics`: remarks and contradictions of the map as long as they hold.
+//! State of the mapper on `/diagnostics`: warnings and contradictions of the map as long as they
+//! apply.
 
 use periplus_graph::{GraphError, Level, Node, Publisher, Qos};
 use periplus_msgs::diagnostic_msgs::{DiagnosticArray, DiagnosticStatus, KeyValue};
@@ -13,12 +14,12 @@ use crate::slam_toolbox::node::SlamNode;
 pub(crate) const EVERY_NS: i64 = 1_000_000_000;
 /// Maximum number of contradictions listed with values, worst first.
 const MOST_PLACES: usize = 20;
-/// Weight of the newest scan in the share of scans that fit nothing, and the share from which a map is
-/// not to be relied on: a dozen scans in a row.
+/// Weight of the newest scan in the moving average of scans without a match, and the fraction above
+/// which a map is unreliable: a dozen scans in a row.
 const NEWEST: f64 = 0.01;
 const MOST_LOST: f64 = 0.1;
 
-/// Parts of the state that have a status each; a monitor sees all of them, also while they are fine.
+/// Parts of the state that have a status each; each is always published, also without a problem.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Part {
     Scans,
@@ -93,9 +94,9 @@ pub(crate) struct SlamHealth {
     diagnostics: Publisher<DiagnosticArray>,
     /// Times of scans in contradictions that are logged \[ns\].
     logged_ns: Vec<(i64, i64)>,
-    /// Contradictions as they were drawn last.
+    /// Contradictions published last.
     drawn: Vec<MapContradiction>,
-    /// Share of scans that fit nothing, of late.
+    /// Moving average of the fraction of scans without a match.
     lost_ratio: f64,
 }
 
@@ -109,20 +110,20 @@ impl SlamHealth {
         })
     }
 
-    /// Another map begins.
+    /// Resets the state for a new map.
     pub(crate) fn forget(&mut self) {
         self.logged_ns.clear();
         self.lost_ratio = 0.0;
     }
 
-    /// Draws contradictions once more, if there are some.
+    /// Publishes the contradictions again, if any.
     pub(crate) fn draw_again(&self, draw: impl FnOnce(&[MapContradiction])) {
         if !self.drawn.is_empty() {
             draw(&self.drawn);
         }
     }
 
-    /// Takes note of a scan.
+    /// Counts a scan.
     pub(crate) fn count(&mut self, taken: ScanOutcome) {
         let lost = f64::from(u8::from(taken == ScanOutcome::NoMatch));
         self.lost_ratio += NEWEST * (lost - self.lost_ratio);
@@ -178,7 +179,7 @@ impl SlamNode {
         self.health.diagnostics.publish(array);
     }
 
-    /// Draws contradictions, none when all are gone.
+    /// Publishes the contradictions; an empty message after the last one was resolved.
     pub(crate) fn draw_contradictions(&self, now_ns: i64, found: &[MapContradiction]) {
         let Some(outputs) = &self.outputs else { return };
         outputs.publish_contradictions(|| {

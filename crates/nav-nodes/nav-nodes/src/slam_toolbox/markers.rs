@@ -1,4 +1,4 @@
-//! The graph as `RViz` draws it.
+//! The pose graph as markers for `RViz`.
 
 use std::collections::BTreeMap;
 
@@ -26,8 +26,8 @@ const RING_CORNERS: u32 = 32;
 /// Number of newest closures labelled with their reasons.
 const TOLD: usize = 30;
 
-/// The graph: a sphere for each kept scan, lines between those that hold each other, and what became
-/// of the newest closures, with the reason as text.
+/// The graph: a sphere for each kept scan, lines for the constraints, and the decisions on the
+/// newest loop closures, with the reason as text.
 pub(crate) fn graph(
     slam: &Slam,
     moved: &BTreeMap<usize, Pose2>,
@@ -151,7 +151,7 @@ fn marker(
     }
 }
 
-/// Deletes all markers of before.
+/// Deletes all earlier markers.
 fn nothing((frame, time_ns): (&str, i64)) -> Marker {
     Marker {
         header: Header::at(time_ns, frame),

@@ -1,4 +1,4 @@
-//! Between messages and what mapping knows.
+//! Conversion between messages and types of the mapper.
 
 use periplus_geometry::{DQuat, Pose, Pose2};
 use periplus_grid::OccupancyGrid;
@@ -13,12 +13,11 @@ const OFF: f64 = 0.01;
 /// Default standard deviations of an initial pose \[m, rad\], as RViz sends them.
 const USUAL: [f64; 2] = [0.5, 0.26];
 
-/// From which share of hits on a cell of a published map is a wall \[%\]: when more spoke for it than
-/// against it.
+/// Minimum occupancy of a published cell that is a wall \[%\]: more hits than passes.
 const WALL: i8 = 50;
 
 /// Converts a map as `slam_toolbox` and `slam_gmapping` publish it: occupied, free and unknown cells.
-/// Nav2's static layer takes only cells of 100 as occupied by default.
+/// By default, Nav2's static layer treats only cells of 100 as occupied.
 pub(crate) fn published(map: &OccupancyGrid) -> OccupancyGrid {
     map.map(|&cell| match cell {
         UNKNOWN => UNKNOWN,

@@ -36,8 +36,8 @@ use crate::slam_toolbox::values::{flag, integer, is_given, number, numbers, text
 
 /// Period of checking the queue \[ns\]; new transforms trigger it too.
 const LOOK_NS: i64 = 20_000_000;
-/// Variances of the position \[m²\] and the heading \[rad²\] that are expected after a jump of the clock
-/// back: what odometry has drifted until then.
+/// Variances of the position \[m²\] and the heading \[rad²\] after a jump of the clock back: the
+/// expected drift of odometry.
 const AFTER_RESET_VARIANCES: (f64, f64) = (0.25, 0.03);
 /// Period of a background slice when live \[ns\]. A slice takes some milliseconds; a scan waits for at most
 /// one.
@@ -46,17 +46,17 @@ const SLICE_NS: i64 = 4_000_000;
 const BASES: [&str; 2] = ["base_footprint", "base_link"];
 /// Parameter for the length of the transform buffer \[s\].
 const BUFFER: &str = "tf_buffer_duration";
-/// Slices of work after each scan where a run is to keep a pace.
+/// Slices of work after each scan in a run with a real time factor.
 const FEW_SLICES: usize = 4;
 
 /// Distribution of the background work in lockstep. When live it runs between scans on the node's own
 /// thread, whatever this setting.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Pace {
-    /// All of it before the next scan: what comes of it is what `periplus slam` makes of a log.
+    /// All of it before the next scan: the result equals that of `periplus slam` on a log.
     #[default]
     Whole,
-    /// A few milliseconds of it after each scan, so that no scan is late; the same every time, too.
+    /// A few milliseconds of it after each scan, so that no scan is late; deterministic as well.
     Sliced,
 }
 
@@ -67,23 +67,23 @@ pub struct SlamStatus {
     pub node: String,
     /// The ROS program that it replaces.
     pub program: Program,
-    /// Counts of what happened to scans.
+    /// Counts of scans by outcome.
     pub counts: Counts,
     /// Scans that were left out for newer ones.
     pub left_out: u64,
     /// Scans that were dropped because a transform was missing.
     pub dropped: u64,
-    /// Scans of the graph, and what is known between them.
+    /// Scans and constraints of the graph.
     pub graph: (usize, usize),
     /// Loop closure candidates with the decision on each.
     pub closures: Vec<Closure>,
     /// Pose of the robot.
     pub map_from_base: Pose2,
-    /// Bytes that the map holds, about.
+    /// Approximate memory of the map \[bytes\].
     pub size: usize,
     /// Current problem, if any.
     pub trouble: Option<String>,
-    /// The fault of the data that is corrected.
+    /// Fault of the data that is being corrected.
     pub correction: Option<MountingCorrection>,
 }
 
@@ -92,7 +92,7 @@ pub struct SlamNode {
     node: Node,
     pub(crate) program: Program,
     pub(crate) values: ParamValues,
-    /// For states that others read as parameters.
+    /// Handle for states that are published as parameters.
     parameters: Option<Parameters>,
     pub(crate) files: Arc<dyn Files>,
     pub(crate) slices: usize,
@@ -105,14 +105,14 @@ pub struct SlamNode {
     pub(crate) health: SlamHealth,
     pub(crate) is_paused: bool,
     pub(crate) is_interactive: bool,
-    /// Kept scans that were moved by hand.
+    /// Keyframes moved by hand.
     pub(crate) moved: BTreeMap<usize, Pose2>,
-    /// Number of the last news of handles.
+    /// Sequence number of the last feedback of handles.
     pub(crate) handled: u64,
     scan_count: u64,
     /// Number of engine remarks logged.
     remarked: usize,
-    /// A fault of the data that is undone before the engine gets it.
+    /// Fault of the data that is corrected before it is passed to the engine.
     pub(crate) correction: Option<Correction>,
     /// True if the map continues a stored one.
     pub(crate) is_continued: bool,
@@ -128,7 +128,7 @@ pub struct SlamNode {
     /// True if the clock has gone back since the last scan.
     is_back_in_time: bool,
     drawer: Drawer,
-    /// The map as it was drawn last.
+    /// Map rasterized last.
     pub(crate) map: Option<OccupancyGrid>,
     drawn: Option<(usize, usize)>,
     published_ns: Option<i64>,
@@ -142,10 +142,10 @@ struct Last {
     corrected: Pose2,
 }
 
-/// A fault of the data that is undone.
+/// Fault of the data that is being corrected.
 pub(crate) struct Correction {
     pub(crate) cure: CorrectedInput,
-    /// Since when \[ns\].
+    /// Start of the correction \[ns\].
     pub(crate) time_ns: i64,
 }
 
@@ -344,8 +344,8 @@ impl LifecycleCallbacks for SlamNode {
 }
 
 impl SlamNode {
-    /// The robot's pose on the stored graph to begin with, as `slam_toolbox` decides it: a given pose
-    /// goes before the dock, and one that cannot be read is the origin.
+    /// Initial pose on the stored graph, by the rules of `slam_toolbox`: a given pose takes
+    /// precedence over the dock, and an invalid one is replaced by the origin.
     fn map_start(&self, node: &Node) -> Start {
         let dock = flag(&self.values, "map_start_at_dock");
         match numbers(&self.values, "map_start_pose").as_slice() {
@@ -371,7 +371,7 @@ impl SlamNode {
         }
     }
 
-    /// Lets others read a state as a parameter.
+    /// Publishes a state as a parameter.
     pub(crate) fn show_state(&mut self, name: &'static str, is_so: bool) {
         if let Some(parameters) = self.parameters.as_ref().filter(|_| self.program.is_toolbox())
             && parameters.set(name, ParamValue::Bool(is_so)).is_ok()
@@ -380,7 +380,7 @@ impl SlamNode {
         }
     }
 
-    /// Begins with another map, or none.
+    /// Starts with another map, or with none.
     pub(crate) fn begin(&mut self, engine: Option<Engine>) {
         self.engine = engine;
         self.moved.clear();
@@ -504,8 +504,8 @@ impl SlamNode {
         }
     }
 
-    /// Hands a scan to the engine, with the fault of the data undone that is known; gives also odometry
-    /// as the engine got it.
+    /// Passes a scan to the engine, with a known fault of the data corrected; also returns the
+    /// corrected odometry.
     fn add(&mut self, scan: &LaserScan2, odom_from_base: Pose2) -> Option<(Update, Pose2)> {
         let engine = self.engine.as_mut()?;
         let cured = self.correction.as_mut().map(|it| it.cure.apply(scan, Some(odom_from_base)));
@@ -546,8 +546,8 @@ impl SlamNode {
         self.remarked = remarks.len();
     }
 
-    /// Begins the map again when a fault of the data is certain, with the fault undone; once only. Gives
-    /// what became of the scan then.
+    /// Restarts the map, at most once, when a fault of the data is certain and can be corrected.
+    /// Returns the outcome of the scan in the new map.
     fn correct(
         &mut self,
         scan: &LaserScan2,
@@ -600,7 +600,7 @@ impl SlamNode {
         again
     }
 
-    /// As `position_covariance_scale` and `yaw_covariance_scale` want it.
+    /// Scales a covariance by `position_covariance_scale` and `yaw_covariance_scale`.
     fn scaled(
         &self,
         covariance: &periplus_scan_matching::Symmetric3,
@@ -645,8 +645,8 @@ impl SlamNode {
         outputs.publish_transform(&names.map, &names.odom, map_from_odom, time_ns);
     }
 
-    /// Draws the map when it has changed, and publishes it when it is time: first as soon as there is
-    /// one.
+    /// Rasterizes the map when it has changed, and publishes it periodically: the first one at
+    /// once.
     fn publish_map(&mut self, now_ns: i64, names: &Names, node: &Node) {
         let (Some(outputs), Some(engine)) = (&self.outputs, &self.engine) else { return };
         if let Some(map) = self.drawer.take() {
@@ -700,7 +700,7 @@ impl SlamNode {
         }
     }
 
-    /// Kept scans as handles, while they can be moved.
+    /// Publishes the keyframes as handles while interactive mode is on.
     pub(crate) fn handles(&self, now_ns: i64) -> Vec<InteractiveMarker> {
         let graph = self.engine.as_ref().and_then(Engine::graph).filter(|_| self.is_interactive);
         graph.map_or_else(Vec::new, |slam| {
@@ -782,7 +782,7 @@ impl SlamNode {
         node.log(Level::Warn, format!("a scan is not moved: {refusal}"));
     }
 
-    /// Takes other parameters while it runs.
+    /// Applies parameter changes at runtime.
     fn change(&mut self, values: &ParamValues) -> Result<(), String> {
         const STATES: [&str; 2] = ["interactive_mode", "paused_processing"];
         const AT_ANY_TIME: [&str; 11] = [

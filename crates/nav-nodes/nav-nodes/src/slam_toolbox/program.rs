@@ -1,4 +1,4 @@
-//! The programs that this one stands for.
+//! Programs of `slam_toolbox` and `gmapping`.
 
 use std::fmt;
 use std::str::FromStr;
@@ -9,25 +9,25 @@ use periplus_slam::Method;
 /// A program of `slam_toolbox`, or `slam_gmapping`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Program {
-    /// `async_slam_toolbox_node`: in live the newest scan counts, and those that came meanwhile are
-    /// left out.
+    /// `async_slam_toolbox_node`: in live mode the newest scan is used, and older ones are skipped.
     Async,
-    /// `sync_slam_toolbox_node`: every scan counts; they wait for their turn.
+    /// `sync_slam_toolbox_node`: every scan is used; scans are queued.
     Sync,
-    /// `localization_slam_toolbox_node`: the robot is found on a stored graph, which stays as it is.
+    /// `localization_slam_toolbox_node`: the robot is localized on a stored graph, which is not
+    /// changed.
     Localization,
-    /// `lifelong_slam_toolbox_node`: scans go when newer ones show the same.
+    /// `lifelong_slam_toolbox_node`: scans are removed when newer ones cover the same area.
     Lifelong,
     /// `slam_gmapping` of ROS 1.
     Gmapping,
 }
 
 impl Program {
-    /// All of them.
+    /// All programs.
     pub const ALL: [Self; 5] =
         [Self::Async, Self::Sync, Self::Localization, Self::Lifelong, Self::Gmapping];
 
-    /// The word for it.
+    /// Name on the command line.
     #[must_use]
     pub const fn word(self) -> &'static str {
         match self {
@@ -51,7 +51,7 @@ impl Program {
         }
     }
 
-    /// The name that its launch files give the node.
+    /// Name of the node in its launch files.
     #[must_use]
     pub const fn node_name(self) -> &'static str {
         if self.is_toolbox() { "slam_toolbox" } else { "slam_gmapping" }
@@ -85,7 +85,7 @@ impl fmt::Display for Program {
 impl FromStr for Program {
     type Err = String;
 
-    /// By its word or the name of its executable.
+    /// Returns the program of a name on the command line or of an executable.
     fn from_str(word: &str) -> Result<Self, String> {
         let named = |program: &Self| program.word() == word || program.executable() == word;
         Self::ALL.into_iter().find(named).ok_or_else(|| {

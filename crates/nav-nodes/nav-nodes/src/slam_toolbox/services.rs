@@ -1,4 +1,4 @@
-//! The services of `slam_toolbox`, and the one of `slam_gmapping`.
+//! Services of `slam_toolbox`, and that of `slam_gmapping`.
 
 use std::path::{Path, PathBuf};
 
@@ -112,7 +112,7 @@ impl SlamNode {
         GetMapResponse { map: map.unwrap_or_default() }
     }
 
-    /// Saves the map as pictures are saved; gives the code of the answer.
+    /// Saves the map as an image; returns the result code.
     fn save_map(&self, name: &str, node: &Node) -> u8 {
         let name = if name.is_empty() { "map" } else { name };
         let Some(map) = &self.map else {
@@ -188,7 +188,7 @@ impl SlamNode {
         self.load(&request.filename, localizes, start, node);
     }
 
-    /// Takes a stored graph in the place of the map; whether that went well. What is wrong is logged.
+    /// Replaces the map by a stored graph; returns true on success. Errors are logged.
     pub(crate) fn load(&mut self, name: &str, localizes: bool, start: Start, node: &Node) -> bool {
         let path = session_path(name);
         let settings = settings(self.program, &self.values, self.slices);
@@ -268,7 +268,7 @@ impl SlamNode {
     }
 }
 
-/// The file of a session by the name that was given: with its ending.
+/// Path of a session file: the given name with its extension.
 fn session_path(name: &str) -> PathBuf {
     let path = PathBuf::from(if name.is_empty() { "map" } else { name });
     if path.extension().is_some_and(|ending| ending == ENDING) {

@@ -1,4 +1,4 @@
-//! Parameters of tables that do not have all of them.
+//! Access to parameters that some tables lack.
 
 use periplus_params::ParamValues;
 

@@ -239,7 +239,7 @@ fn readings_wait_for_their_frame_but_not_for_ever() {
     assert!(advice.iter().any(|one| one.parameter.ends_with("scan.sensor_frame")), "{advice:?}");
 }
 
-/// What `/diagnostics` says of a part: how bad it is, in words, and the values.
+/// Status of a part on `/diagnostics`: level, message and values.
 struct Told {
     level: u8,
     message: String,
@@ -278,7 +278,7 @@ fn diagnostics_name_what_is_wrong_and_the_parameter() {
     assert!(
         array.status[1].message.contains("no message came on /scan (`voxel_layer.scan.topic`)")
     );
-    // One second of scans, of a frame and so much later than now.
+    // One second of scans with a frame, and stamps that are later than now.
     let see = |stage: &mut Stage, frame: &str, late_ns: i64| {
         for _ in 0..10 {
             stage.place("odom", 0.05);
@@ -323,7 +323,7 @@ fn diagnostics_name_what_is_wrong_and_the_parameter() {
     );
     assert!(high.message.contains("(`voxel_layer.scan.max_obstacle_height`)"));
     assert_eq!(high.value("points dropped by height"), "30");
-    // A frame that nobody knows, and a clock that goes ahead.
+    // An unknown frame, and a clock that is ahead.
     for (frame, late_ns, parameter, key) in [
         ("nowhere", 0, "voxel_layer.scan.sensor_frame", "messages dropped by frame"),
         ("laser", 900_000_000_000, "use_sim_time", "messages dropped by time"),
@@ -640,7 +640,7 @@ fn a_limit_on_the_way_ahead_counts_when_braking_takes_as_far_and_filters_are_swi
         }
         limits.latest().map(|limit| limit.speed_limit)
     };
-    // At 0.5 m/s 0.25 m are enough to stand, at 1 m/s it takes a metre.
+    // At 0.5 m/s the braking distance is 0.25 m, at 1 m/s one metre.
     assert_eq!(drive(&mut stage, 0.5), None);
     assert_eq!(drive(&mut stage, 1.0), Some(30.0));
     let toggle = "/local_costmap/slow/toggle_filter";

@@ -93,7 +93,7 @@ impl Scene {
                 ..Odometry::default()
             };
             wheels.twist.twist.linear.x = SPEED_MPS;
-            // Wheels that slip when it turns: nobody listens to that.
+            // Wheels that slip in turns: this component is not used.
             wheels.twist.twist.angular.z = 3.0 * RATE_RADPS;
             wheels.pose.pose.orientation.w = 1.0;
             (0..6).for_each(|row| wheels.twist.covariance[row * 7] = 1e-4);
@@ -168,7 +168,7 @@ fn somebody_says_where_it_is() {
 fn in_the_map_it_tells_what_is_left_to_odometry() {
     let more = [("world_frame", "map"), ("odom0_config", XY)];
     let scene = scene(&more, true);
-    // Odometry says 3 m ahead, the wheels' pose in the map 0: the map lies 3 m behind.
+    // Odometry has 3 m ahead, the wheels' pose in the map 0: the map is 3 m behind.
     scene.tf.publish(transform("map", "nowhere", Pose::IDENTITY, TICK_NS));
     scene.tf.publish(transform("odom", "base_link", Pose::from_xyz(3.0, 0.0, 0.0), TICK_NS));
     let mut wheels = Odometry { header: Header::at(TICK_NS, "map"), ..Odometry::default() };

@@ -142,7 +142,7 @@ impl CostmapNode {
     fn clear(&mut self, wish: Wish<'_>, node: &Node) -> bool {
         let done = match (&mut self.costmap, wish.region) {
             (None, _) => Err("the costmap is not configured".to_owned()),
-            (_, None) => Err("nobody knows where that is: a transform is missing".to_owned()),
+            (_, None) => Err("the position is unknown: a transform is missing".to_owned()),
             (Some(costmap), Some(region)) => clear(costmap, region, wish.plugins),
         };
         if wish.region == Some(Region::Everything)
