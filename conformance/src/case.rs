@@ -3,7 +3,7 @@
 use serde_json::Value;
 
 use crate::expected::Expected;
-use crate::reader::{Reader, Unreadable};
+use crate::reader::{CaseReader, Unreadable};
 use crate::used::Used;
 
 /// A conformance case.
@@ -37,7 +37,7 @@ impl Case {
         let content: Value =
             serde_json::from_str(text).map_err(|error| Unreadable(format!("not JSON: {error}")))?;
         let used = Used::default();
-        let reader = Reader::new(&content, &used, "case");
+        let reader = CaseReader::new(&content, &used, "case");
         let word = |name: &str| Ok(reader.get(name)?.text()?.to_owned());
         for about in ["source", "basis", "title"] {
             if let Some(about) = reader.find(about) {
@@ -56,14 +56,14 @@ impl Case {
 
     /// Inputs of the case.
     #[must_use]
-    pub fn given(&self) -> Reader<'_> {
-        Reader::new(&self.content["given"], &self.used, "given")
+    pub fn given(&self) -> CaseReader<'_> {
+        CaseReader::new(&self.content["given"], &self.used, "given")
     }
 
     /// Expected results.
     #[must_use]
     pub fn expect(&self) -> Expected<'_> {
-        Expected::new(Reader::new(&self.content["expect"], &self.used, "expect"))
+        Expected::new(CaseReader::new(&self.content["expect"], &self.used, "expect"))
     }
 
     /// The paths of what no check of this case has used yet.

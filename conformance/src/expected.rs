@@ -3,17 +3,17 @@
 use serde_json::Value;
 
 use crate::used::is_remark;
-use crate::{Reader, Unreadable};
+use crate::{CaseReader, Unreadable};
 
 /// Part of the expected results. It cannot be read, only compared
 /// ([`crate::Differences::compare`]) or split into its members, so that every stated result is
 /// compared. A value that is an input of the check, such as the ends of a ray, is an
 /// [`Expected::input`].
 #[derive(Clone, Debug)]
-pub struct Expected<'v>(Reader<'v>);
+pub struct Expected<'v>(CaseReader<'v>);
 
 impl<'v> Expected<'v> {
-    pub(crate) fn new(reader: Reader<'v>) -> Self {
+    pub(crate) fn new(reader: CaseReader<'v>) -> Self {
         Self(reader)
     }
 
@@ -25,7 +25,7 @@ impl<'v> Expected<'v> {
 
     /// Input of the check that is given among the expected results.
     #[must_use]
-    pub fn input(&self) -> Reader<'v> {
+    pub fn input(&self) -> CaseReader<'v> {
         self.0.clone()
     }
 

@@ -20,13 +20,13 @@ impl std::error::Error for Unreadable {}
 
 /// A value of a case and the path to it. Whatever is read from it is noted in [`Used`].
 #[derive(Clone, Debug)]
-pub struct Reader<'v> {
+pub struct CaseReader<'v> {
     value: &'v Value,
     used: &'v Used,
     path: String,
 }
 
-impl<'v> Reader<'v> {
+impl<'v> CaseReader<'v> {
     /// A value that is called so.
     #[must_use]
     pub fn new(value: &'v Value, used: &'v Used, name: &str) -> Self {

@@ -5,13 +5,13 @@ use std::fmt::Write as _;
 
 use serde_json::{Value, json};
 
-use crate::run::{Outcome, Verdict};
+use crate::run::{CaseOutcome, Verdict};
 
 /// Results of all cases.
 #[derive(Clone, Debug)]
-pub struct Report {
+pub struct ConformanceReport {
     /// One for each file.
-    pub results: Vec<Outcome>,
+    pub results: Vec<CaseOutcome>,
 }
 
 /// Number of cases by verdict.
@@ -44,7 +44,7 @@ impl Tally {
     }
 }
 
-impl Report {
+impl ConformanceReport {
     /// All cases.
     #[must_use]
     pub fn total(&self) -> Tally {

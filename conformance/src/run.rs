@@ -9,7 +9,7 @@ use periplus_resources::{EntryKind, Host};
 use crate::case::Case;
 use crate::differences::Differences;
 use crate::kinds::{KINDS, Setting};
-use crate::report::Report;
+use crate::report::ConformanceReport;
 
 /// Result of a case.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -26,7 +26,7 @@ pub enum Verdict {
 
 /// A case and what came of it.
 #[derive(Clone, Debug)]
-pub struct Outcome {
+pub struct CaseOutcome {
     /// The name of the file.
     pub file: String,
     /// Its own name; that of the file where it is not a case.
@@ -57,7 +57,7 @@ impl std::error::Error for NoCases {}
 ///
 /// # Errors
 /// When there is none.
-pub fn run(path: &Path, host: &dyn Host) -> Result<Report, NoCases> {
+pub fn run(path: &Path, host: &dyn Host) -> Result<ConformanceReport, NoCases> {
     let is_file = host.kind(path) == Some(EntryKind::File);
     let folder = if is_file { path.parent().unwrap_or(Path::new("")) } else { path };
     let names = match path.file_name().filter(|_| is_file) {
@@ -69,10 +69,10 @@ pub fn run(path: &Path, host: &dyn Host) -> Result<Report, NoCases> {
         return Err(NoCases(path.to_owned()));
     }
     let setting = Setting { folder, host };
-    Ok(Report { results: names.iter().map(|name| one(name, &setting)).collect() })
+    Ok(ConformanceReport { results: names.iter().map(|name| one(name, &setting)).collect() })
 }
 
-fn one(file: &str, setting: &Setting<'_>) -> Outcome {
+fn one(file: &str, setting: &Setting<'_>) -> CaseOutcome {
     let text = setting.host.read(&setting.folder.join(file));
     let text = text
         .map_err(|error| error.to_string())
@@ -85,15 +85,15 @@ fn one(file: &str, setting: &Setting<'_>) -> Outcome {
 
 /// Runs the case that a text holds, as a file of that name would.
 #[must_use]
-pub fn run_text(file: &str, text: &str, setting: &Setting<'_>) -> Outcome {
+pub fn run_text(file: &str, text: &str, setting: &Setting<'_>) -> CaseOutcome {
     match Case::read(file, text) {
         Ok(case) => judge(&case, setting),
         Err(error) => no_case(file, error.0),
     }
 }
 
-fn no_case(file: &str, words: String) -> Outcome {
-    Outcome {
+fn no_case(file: &str, words: String) -> CaseOutcome {
+    CaseOutcome {
         file: file.into(),
         id: file.trim_end_matches(".json").into(),
         kind: String::new(),
@@ -120,8 +120,8 @@ const DISTROS: [&str; 11] = [
 
 /// A case is passed when it is for every distribution that it names, and when nothing in it has gone
 /// without influence.
-fn judge(case: &Case, setting: &Setting<'_>) -> Outcome {
-    let outcome = |verdict, differences| Outcome {
+fn judge(case: &Case, setting: &Setting<'_>) -> CaseOutcome {
+    let outcome = |verdict, differences| CaseOutcome {
         file: case.file.clone(),
         id: case.id.clone(),
         kind: case.kind.clone(),

@@ -4,10 +4,10 @@
 
 use std::path::Path;
 
-use periplus_conformance::{Report, Verdict, run};
+use periplus_conformance::{ConformanceReport, Verdict, run};
 use periplus_os::Machine;
 
-fn check(folder: &Path) -> Option<Report> {
+fn check(folder: &Path) -> Option<ConformanceReport> {
     let report = run(folder, &Machine).ok()?;
     let wrong = report.results.iter().filter(|result| result.verdict != Verdict::Passed);
     assert_eq!(wrong.count(), 0, "\n{}", report.to_text());

@@ -12,23 +12,23 @@ use periplus_params::ParamValue as Parameter;
 use serde_json::{Value, json};
 
 use super::Setting;
-use crate::{Case, Differences, Reader, Unreadable, number, numbers};
+use crate::{Case, CaseReader, Differences, Unreadable, number, numbers};
 
 type Checked = Result<(), Unreadable>;
 
 /// A number, or what it is by default.
-fn usual(given: &Reader<'_>, name: &str, usual: f64) -> Result<f64, Unreadable> {
+fn usual(given: &CaseReader<'_>, name: &str, usual: f64) -> Result<f64, Unreadable> {
     given.find(name).map_or(Ok(usual), |it| it.number())
 }
 
 /// A whole number, or what it is by default.
-fn count(given: &Reader<'_>, name: &str, usual: usize) -> Result<usize, Unreadable> {
+fn count(given: &CaseReader<'_>, name: &str, usual: usize) -> Result<usize, Unreadable> {
     given.find(name).map_or(Ok(usual), |it| it.count())
 }
 
 /// Parameters of AMCL that a case lists for the record count as used: which of them have an influence
 /// depends on the kind.
-fn use_parameters(given: &Reader<'_>) -> Result<(), Unreadable> {
+fn use_parameters(given: &CaseReader<'_>) -> Result<(), Unreadable> {
     for parameter in AMCL.parameters {
         let Some(value) = given.find(parameter.name) else { continue };
         Parameter::read(parameter, &value.written()).map_err(|why| {
@@ -38,7 +38,7 @@ fn use_parameters(given: &Reader<'_>) -> Result<(), Unreadable> {
     Ok(())
 }
 
-fn mixture(given: &Reader<'_>) -> Result<BeamMixture, Unreadable> {
+fn mixture(given: &CaseReader<'_>) -> Result<BeamMixture, Unreadable> {
     let usual = Settings::default().mixture;
     Ok(BeamMixture {
         hit: self::usual(given, "z_hit", usual.hit)?,
@@ -50,7 +50,7 @@ fn mixture(given: &Reader<'_>) -> Result<BeamMixture, Unreadable> {
     })
 }
 
-fn pose(reader: &Reader<'_>) -> Result<Pose2, Unreadable> {
+fn pose(reader: &CaseReader<'_>) -> Result<Pose2, Unreadable> {
     let [x_m, y_m, yaw_rad] = reader.array()?;
     Ok(Pose2::new(x_m, y_m, yaw_rad))
 }
@@ -78,7 +78,7 @@ pub(super) fn check_beam(
     use_parameters(&given)?;
     let mixture = mixture(&given)?;
     let range_max_m = given.get("range_max")?.number()?;
-    let pairs = given.get("pairs")?.each(Reader::array::<2>)?;
+    let pairs = given.get("pairs")?.each(CaseReader::array::<2>)?;
     let likelihoods: Vec<f64> = pairs
         .iter()
         .map(|[measured, map]| mixture.beam_range(*measured, *map, range_max_m))
@@ -165,7 +165,7 @@ pub(super) fn check_kld(
         min_particles: count(&given, "min_particles", usual.min_particles)?,
         max_particles: count(&given, "max_particles", usual.max_particles)?,
     };
-    let bins = given.get("k")?.each(Reader::count)?;
+    let bins = given.get("k")?.each(CaseReader::count)?;
     let needed: Vec<usize> = bins.into_iter().map(|bins| sampling.particle_count(bins)).collect();
     differences.compare_members(
         &[(&["samples"], json!(needed)), (&["bin_size"], numbers([BIN_M, BIN_M, BIN_RAD]))],
@@ -303,7 +303,7 @@ pub(super) fn check_map(
     if let Some(values) = &values {
         // -1 may be written as 255.
         let state =
-            |it: &Reader<'_>| Ok(CellState::from_occupancy(it.integer()? as i8).amcl_value());
+            |it: &CaseReader<'_>| Ok(CellState::from_occupancy(it.integer()? as i8).amcl_value());
         let names: &[&str] = match points {
             Some(_) => &["states", "occ_state"],
             None => &["states", "occ_state", "cells"],
@@ -344,7 +344,7 @@ pub(super) fn check_pose_file(
 ) -> Checked {
     let (given, expect) = (case.given(), case.expect());
     let number = |name: &str| given.get(name)?.number();
-    let stamp = given.get("stamp")?.each(Reader::integer)?;
+    let stamp = given.get("stamp")?.each(CaseReader::integer)?;
     let [seconds, nanoseconds] = stamp[..] else {
         return Err(given.get("stamp")?.unreadable("seconds and nanoseconds"));
     };

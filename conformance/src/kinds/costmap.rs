@@ -25,7 +25,7 @@ use periplus_grid::{GridInfo, OccupancyGrid};
 use periplus_params::{Given, ParamValues, Table};
 use serde_json::Value;
 
-use crate::{Reader, Unreadable};
+use crate::{CaseReader, Unreadable};
 
 /// The release of Nav2 that a distribution has.
 fn compat_of(distro: &str) -> Result<Nav2Release, Unreadable> {
@@ -39,7 +39,7 @@ fn compat_of(distro: &str) -> Result<Nav2Release, Unreadable> {
 fn values_of(
     table: &'static Table,
     others: &[&'static Table],
-    params: Option<&Reader<'_>>,
+    params: Option<&CaseReader<'_>>,
 ) -> Result<ParamValues, Unreadable> {
     let mut given: Vec<(&str, String)> = Vec::new();
     if let Some(params) = params {
@@ -65,7 +65,7 @@ fn values_of(
 }
 
 /// The parameters of a table among the members of an object that holds other things as well.
-fn values_among(table: &'static Table, given: &Reader<'_>) -> Result<ParamValues, Unreadable> {
+fn values_among(table: &'static Table, given: &CaseReader<'_>) -> Result<ParamValues, Unreadable> {
     let mut diagnostics = Diagnostics::new();
     let mut found: Vec<(&str, String)> = Vec::new();
     for parameter in table.parameters {
@@ -118,17 +118,17 @@ fn cell_named(text: &str) -> Option<(usize, usize)> {
 }
 
 /// A truth value that may be left out.
-fn truth(reader: &Reader<'_>, name: &str, usual: bool) -> Result<bool, Unreadable> {
+fn truth(reader: &CaseReader<'_>, name: &str, usual: bool) -> Result<bool, Unreadable> {
     reader.find(name).map_or(Ok(usual), |it| it.truth())
 }
 
 /// A number that may be left out.
-fn number(reader: &Reader<'_>, name: &str, usual: f64) -> Result<f64, Unreadable> {
+fn number(reader: &CaseReader<'_>, name: &str, usual: f64) -> Result<f64, Unreadable> {
     reader.find(name).map_or(Ok(usual), |it| it.number())
 }
 
 /// A grid that is described by `size`, `resolution`, `origin` and a first value.
-fn costmap_of(reader: &Reader<'_>, first: &str) -> Result<Costmap, Unreadable> {
+fn costmap_of(reader: &CaseReader<'_>, first: &str) -> Result<Costmap, Unreadable> {
     let (width, height) = reader.get("size")?.cell()?;
     let [x_m, y_m] = reader.find("origin").map_or(Ok([0.0, 0.0]), |it| it.array())?;
     let origin = Pose2::new(x_m, y_m, 0.0);
@@ -139,7 +139,7 @@ fn costmap_of(reader: &Reader<'_>, first: &str) -> Result<Costmap, Unreadable> {
 }
 
 /// A map that is described by `width`, `height`, `resolution`, an origin, and values.
-fn map_of(reader: &Reader<'_>) -> Result<OccupancyGrid, Unreadable> {
+fn map_of(reader: &CaseReader<'_>) -> Result<OccupancyGrid, Unreadable> {
     let (width, height) = (reader.get("width")?.count()?, reader.get("height")?.count()?);
     let [x_m, y_m] = match reader.find("origin") {
         Some(origin) => match *origin.numbers()?.as_slice() {
@@ -152,7 +152,7 @@ fn map_of(reader: &Reader<'_>) -> Result<OccupancyGrid, Unreadable> {
     let origin = Pose2::new(x_m, y_m, yaw_rad);
     let info = GridInfo::new(number(reader, "resolution", 1.0)?, width, height, origin)
         .map_err(|error| reader.unreadable(&error.to_string()))?;
-    let occupancy = |it: &Reader<'_>| {
+    let occupancy = |it: &CaseReader<'_>| {
         i8::try_from(it.integer()?).map_err(|_| it.unreadable("a number from -128 to 127"))
     };
     let cells = if let Some(data) = reader.find("data") {
@@ -168,7 +168,7 @@ fn map_of(reader: &Reader<'_>) -> Result<OccupancyGrid, Unreadable> {
 }
 
 /// Cells by a formula such as `x + (y-1)*10 + 1 for y>=1`, 0 where it does not hold.
-fn by_formula(formula: &Reader<'_>, info: &GridInfo) -> Result<Vec<i8>, Unreadable> {
+fn by_formula(formula: &CaseReader<'_>, info: &GridInfo) -> Result<Vec<i8>, Unreadable> {
     let known = formula.text()?.replace(' ', "");
     let width = info.width as i64;
     let value = |x: i64, y: i64| match known.as_str() {
@@ -186,15 +186,15 @@ fn by_formula(formula: &Reader<'_>, info: &GridInfo) -> Result<Vec<i8>, Unreadab
 }
 
 /// Four numbers as a window.
-fn window_of(reader: &Reader<'_>) -> Result<CellWindow, Unreadable> {
-    match *reader.each(Reader::count)?.as_slice() {
+fn window_of(reader: &CaseReader<'_>) -> Result<CellWindow, Unreadable> {
+    match *reader.each(CaseReader::count)?.as_slice() {
         [x0, y0, xn, yn] => Ok(CellWindow { x0, y0, xn, yn }),
         _ => Err(reader.unreadable("four counts")),
     }
 }
 
 /// Pose in the plane; the yaw is optional.
-fn pose_of(reader: &Reader<'_>) -> Result<Pose2, Unreadable> {
+fn pose_of(reader: &CaseReader<'_>) -> Result<Pose2, Unreadable> {
     match *reader.numbers()?.as_slice() {
         [x_m, y_m] => Ok(Pose2::new(x_m, y_m, 0.0)),
         [x_m, y_m, yaw_rad] => Ok(Pose2::new(x_m, y_m, yaw_rad)),
@@ -203,6 +203,6 @@ fn pose_of(reader: &Reader<'_>) -> Result<Pose2, Unreadable> {
 }
 
 /// Points in the plane.
-fn points_of(reader: &Reader<'_>) -> Result<Vec<[f64; 2]>, Unreadable> {
-    reader.each(Reader::array)
+fn points_of(reader: &CaseReader<'_>) -> Result<Vec<[f64; 2]>, Unreadable> {
+    reader.each(CaseReader::array)
 }

@@ -8,7 +8,7 @@ use serde_json::{Value, json};
 
 use super::Setting;
 use super::map_pixel::{distro_of, rule_of};
-use crate::{Case, Differences, Reader, Unreadable, number, numbers};
+use crate::{Case, CaseReader, Differences, Unreadable, number, numbers};
 
 /// A picture with what its YAML would say, or paths of YAMLs and how loading each ends.
 pub(super) fn check(
@@ -55,7 +55,7 @@ fn ends(
 /// Values of a map's YAML file; an error if it cannot be used.
 fn values(
     case: &Case,
-    yaml: &Reader<'_>,
+    yaml: &CaseReader<'_>,
     distro: &str,
     differences: &mut Differences,
 ) -> Result<(), Unreadable> {

@@ -5,7 +5,7 @@ use periplus_maps::{Distro, Mode, Rule};
 use serde_json::json;
 
 use super::Setting;
-use crate::{Case, Differences, Reader, Unreadable};
+use crate::{Case, CaseReader, Differences, Unreadable};
 
 /// The rules of a distribution by its name.
 pub(super) fn distro_of(case: &Case, name: &str) -> Result<Distro, Unreadable> {
@@ -16,7 +16,7 @@ pub(super) fn distro_of(case: &Case, name: &str) -> Result<Distro, Unreadable> {
 }
 
 /// Mode, thresholds and negation, where they are given.
-pub(super) fn rule_of(given: &Reader<'_>, distro: Distro) -> Result<Rule, Unreadable> {
+pub(super) fn rule_of(given: &CaseReader<'_>, distro: Distro) -> Result<Rule, Unreadable> {
     let mode = match given.find("mode") {
         Some(name) => Mode::from_name(name.text()?).ok_or_else(|| name.unreadable("a mode"))?,
         None => Mode::Trinary,
@@ -32,8 +32,8 @@ pub(super) fn rule_of(given: &Reader<'_>, distro: Distro) -> Result<Rule, Unread
 }
 
 /// Pixels that are given, and how many samples each has.
-fn pixels(given: &Reader<'_>) -> Result<(Layout, Vec<Vec<u8>>), Unreadable> {
-    let bytes = |list: &Reader<'_>| list.each(Reader::byte);
+fn pixels(given: &CaseReader<'_>) -> Result<(Layout, Vec<Vec<u8>>), Unreadable> {
+    let bytes = |list: &CaseReader<'_>| list.each(CaseReader::byte);
     if let Some(list) = given.find("pixels") {
         let first = list.list()?.first().is_some_and(|pixel| pixel.raw().is_array());
         if !first {

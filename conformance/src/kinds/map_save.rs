@@ -15,14 +15,14 @@ use periplus_maps::{Distro, Format, Mode, Saving, render, to_message};
 use periplus_msgs::nav_msgs;
 use periplus_msgs::nav2_msgs::{SaveMap, SaveMapRequest};
 use periplus_nav_nodes::map_server::MapSaver;
-use periplus_resources::{EntryKind, FileReadError, Host, Store, WriteError};
+use periplus_resources::{EntryKind, FileReadError, FileWriteError, Host, Store};
 use periplus_ros2cli::map::{SaverCommand, save_to, saver_command};
 use periplus_ros2cli::{InGraph, Outcome, Session, Types};
 use serde_json::{Value, json};
 
 use super::Setting;
 use super::map_pixel::distro_of;
-use crate::{Case, Differences, Expected, Reader, Unreadable};
+use crate::{Case, CaseReader, Differences, Expected, Unreadable};
 
 /// Commands, requests of the service, or the files of ROS 1.
 pub(super) fn check(
@@ -41,7 +41,7 @@ pub(super) fn check(
     files(case, distro, differences)
 }
 
-fn grid(given: &Reader<'_>) -> Result<OccupancyGrid, Unreadable> {
+fn grid(given: &CaseReader<'_>) -> Result<OccupancyGrid, Unreadable> {
     let (width, height) = (given.get("width")?.count()?, given.get("height")?.count()?);
     let resolution_m = given.get("resolution")?.number()?;
     let [x_m, y_m, yaw_rad] = given.find("origin").map_or(Ok([0.0; 3]), |it| it.array())?;
@@ -52,7 +52,7 @@ fn grid(given: &Reader<'_>) -> Result<OccupancyGrid, Unreadable> {
     Grid::from_cells(info, cells).map_err(|_| data.unreadable("a value for each cell"))
 }
 
-fn cell(given: &Reader<'_>) -> Result<i8, Unreadable> {
+fn cell(given: &CaseReader<'_>) -> Result<i8, Unreadable> {
     i8::try_from(given.integer()?).map_err(|_| given.unreadable("a number from -128 to 127"))
 }
 
@@ -329,7 +329,7 @@ fn square() -> GridInfo {
 struct Written(Mutex<BTreeMap<PathBuf, Vec<u8>>>);
 
 impl Store for Written {
-    fn replace(&self, path: &Path, content: &[u8]) -> Result<(), WriteError> {
+    fn replace(&self, path: &Path, content: &[u8]) -> Result<(), FileWriteError> {
         let mut files = self.0.lock().unwrap_or_else(PoisonError::into_inner);
         files.insert(path.to_owned(), content.to_vec());
         Ok(())

@@ -8,7 +8,7 @@ use periplus_sim_nodes::states::{RobotStateOptions, RobotStatePublisher};
 use serde_json::{Map, Value, json};
 
 use super::Setting;
-use crate::{Case, Differences, Reader, Unreadable, number, numbers};
+use crate::{Case, CaseReader, Differences, Unreadable, number, numbers};
 
 /// A robot with one joint, for cases about the rate.
 const ONE_JOINT: &str = r#"<robot name="robot">
@@ -84,7 +84,7 @@ fn nanoseconds(seconds: f64) -> i64 {
     (seconds * 1e9).round() as i64
 }
 
-fn state(given: &Reader<'_>) -> Result<Told, Unreadable> {
+fn state(given: &CaseReader<'_>) -> Result<Told, Unreadable> {
     let names = given.get_any(&["name", "names"])?.each(|it| Ok(it.text()?.to_owned()))?;
     let positions = given.get_any(&["position", "positions"])?.numbers()?;
     if names.len() != positions.len() {

@@ -9,14 +9,14 @@ use periplus_tf::{
 use serde_json::{Value, json};
 
 use super::Setting;
-use crate::{Case, Differences, Expected, Reader, Unreadable, number, numbers};
+use crate::{Case, CaseReader, Differences, Expected, Unreadable, number, numbers};
 
 /// Seconds of a case as nanoseconds. Cases have them as decimal numbers.
 fn ns(seconds: f64) -> i64 {
     (seconds * 1e9).round() as i64
 }
 
-fn transform(given: &Reader<'_>) -> Result<(StampedTransform, TransformKind), Unreadable> {
+fn transform(given: &CaseReader<'_>) -> Result<(StampedTransform, TransformKind), Unreadable> {
     let vector = given.get("translation")?.array()?;
     let stamped = StampedTransform {
         parent: given.get("parent")?.text()?.into(),
@@ -29,7 +29,7 @@ fn transform(given: &Reader<'_>) -> Result<(StampedTransform, TransformKind), Un
     Ok((stamped, if is_static { TransformKind::Fixed } else { TransformKind::Moving }))
 }
 
-fn buffer(given: &Reader<'_>) -> Result<Buffer, Unreadable> {
+fn buffer(given: &CaseReader<'_>) -> Result<Buffer, Unreadable> {
     let span_ns = given.find("cache_time").map_or(Ok(CACHE_NS), |it| it.number().map(ns))?;
     let authority = given.find("authority").map_or(Ok("default_authority"), |it| it.text())?;
     let mut buffer = Buffer::new(span_ns);
@@ -144,8 +144,8 @@ struct Query<'v> {
 
 impl<'v> Query<'v> {
     /// Reads a list, whose order the case may define, or an object.
-    fn read(query: &Reader<'v>, order: Option<&str>) -> Result<Self, Unreadable> {
-        let named: Vec<(String, Reader<'v>)> = match query.list() {
+    fn read(query: &CaseReader<'v>, order: Option<&str>) -> Result<Self, Unreadable> {
+        let named: Vec<(String, CaseReader<'v>)> = match query.list() {
             Ok(words) => names(order, words.len())
                 .ok_or_else(|| query.unreadable("target, source and time"))?
                 .into_iter()
@@ -209,7 +209,7 @@ fn names(order: Option<&str>, count: usize) -> Option<Vec<String>> {
 }
 
 fn compare(
-    query: &Reader<'_>,
+    query: &CaseReader<'_>,
     got: &Result<ResolvedTransform, LookupError>,
     expected: &Expected<'_>,
     distro: &str,

@@ -17,7 +17,7 @@ use super::{
     compat_of, costmap_of, counts_of, map_of, points_of, pose_of, rows_of, values_among, values_of,
     window_of,
 };
-use crate::{Case, Differences, Reader, Unreadable, number, numbers};
+use crate::{Case, CaseReader, Differences, Unreadable, number, numbers};
 
 const GLOBAL: &str = "map";
 const MASK: &str = "mask";
@@ -130,7 +130,7 @@ fn only(costs: &[u8]) -> Value {
 
 /// A mask with one cell for each of some values, and the robot on each of them in turn; or a mask and
 /// poses.
-fn masks_and_poses(given: &Reader<'_>) -> Result<Vec<(FilterMask, Pose2)>, Unreadable> {
+fn masks_and_poses(given: &CaseReader<'_>) -> Result<Vec<(FilterMask, Pose2)>, Unreadable> {
     if let Some(values) = given.find("mask_values") {
         let info = GridInfo { resolution_m: 1.0, width: 1, height: 1, origin: Pose2::IDENTITY };
         return values.each(|value| {
@@ -144,7 +144,7 @@ fn masks_and_poses(given: &Reader<'_>) -> Result<Vec<(FilterMask, Pose2)>, Unrea
     given.get("poses")?.each(|pose| Ok((mask.clone(), pose_of(pose)?)))
 }
 
-fn info_of(given: &Reader<'_>, kind: FilterKind) -> Result<FilterInfo, Unreadable> {
+fn info_of(given: &CaseReader<'_>, kind: FilterKind) -> Result<FilterInfo, Unreadable> {
     let kind = match given.find("type") {
         Some(number) => FilterKind::from_number(number.byte()?)
             .ok_or_else(|| number.unreadable("a type of filter"))?,
@@ -167,7 +167,7 @@ fn run(filter: &mut dyn Layer, distro: &str, robot: Pose2) -> Result<(), Unreada
 }
 
 /// Parameters of a filter, in `params` or among what is given.
-fn filter_values(table: &'static Table, given: &Reader<'_>) -> Result<ParamValues, Unreadable> {
+fn filter_values(table: &'static Table, given: &CaseReader<'_>) -> Result<ParamValues, Unreadable> {
     match given.find("params") {
         Some(params) => values_of(table, &[], Some(&params)),
         None => values_among(table, given),
@@ -176,7 +176,7 @@ fn filter_values(table: &'static Table, given: &Reader<'_>) -> Result<ParamValue
 
 /// A value for each of some poses: a list, or one number for all.
 fn per_pose(
-    given: &Reader<'_>,
+    given: &CaseReader<'_>,
     names: &[&str],
     count: usize,
 ) -> Result<Option<Vec<f64>>, Unreadable> {

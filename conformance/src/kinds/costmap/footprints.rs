@@ -6,7 +6,7 @@ use serde_json::{Value, json};
 
 use super::super::Setting;
 use super::{costmap_of, points_of, pose_of, window_of};
-use crate::{Case, Differences, Reader, Unreadable, number, numbers};
+use crate::{Case, CaseReader, Differences, Unreadable, number, numbers};
 
 /// Kind `footprint`: corners and radii.
 pub(in super::super) fn check_footprint(
@@ -83,7 +83,7 @@ pub(in super::super) fn check_cost(
 }
 
 /// A grid with some cells set.
-fn draw(given: &Reader<'_>) -> Result<Costmap, Unreadable> {
+fn draw(given: &CaseReader<'_>) -> Result<Costmap, Unreadable> {
     let mut costmap = costmap_of(given, "default")?;
     if let Some(window) = given.find("free_box_cells") {
         fill(&mut costmap, &window, 0)?;
@@ -92,14 +92,14 @@ fn draw(given: &Reader<'_>) -> Result<Costmap, Unreadable> {
         fill(&mut costmap, &window, 254)?;
     }
     if let Some(cells) = given.find("lethal_cells") {
-        for cell in cells.each(Reader::cell)? {
+        for cell in cells.each(CaseReader::cell)? {
             costmap.set(cell, 254);
         }
     }
     for name in ["cells", "set", "set_cells"] {
         let Some(cells) = given.find(name) else { continue };
         for cell in cells.list()? {
-            match *cell.each(Reader::count)?.as_slice() {
+            match *cell.each(CaseReader::count)?.as_slice() {
                 [x, y, cost @ 0..=255] => costmap.set((x, y), cost as u8),
                 _ => return Err(cell.unreadable("a column, a row and a cost")),
             }
@@ -109,7 +109,7 @@ fn draw(given: &Reader<'_>) -> Result<Costmap, Unreadable> {
 }
 
 /// Boxes are given with their last cells.
-fn fill(costmap: &mut Costmap, window: &Reader<'_>, cost: u8) -> Result<(), Unreadable> {
+fn fill(costmap: &mut Costmap, window: &CaseReader<'_>, cost: u8) -> Result<(), Unreadable> {
     let window = window_of(window)?;
     for y in window.y0..=window.yn {
         for x in window.x0..=window.xn {

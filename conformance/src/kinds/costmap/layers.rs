@@ -18,7 +18,7 @@ use serde_json::{Value, json};
 
 use super::super::Setting;
 use super::{cells_where, compat_of, costmap_of, counts_of, pose_of, rows_of, truth, values_of};
-use crate::{Case, Differences, Expected, Reader, Unreadable};
+use crate::{Case, CaseReader, Differences, Expected, Unreadable};
 
 /// Kind `denoise`: pictures before and after, or what becomes of parameters.
 pub(in super::super) fn check_denoise(
@@ -48,7 +48,7 @@ pub(in super::super) fn check_denoise(
             cost.byte()?;
         }
     }
-    let cost = |reader: &Reader<'_>, letter: char| -> Result<u8, Unreadable> {
+    let cost = |reader: &CaseReader<'_>, letter: char| -> Result<u8, Unreadable> {
         match &legend {
             Some(legend) => legend.get(&letter.to_string())?.byte(),
             None => match letter {
@@ -59,7 +59,7 @@ pub(in super::super) fn check_denoise(
             },
         }
     };
-    let read_row = |row: &Reader<'_>| -> Result<Vec<u8>, Unreadable> {
+    let read_row = |row: &CaseReader<'_>| -> Result<Vec<u8>, Unreadable> {
         row.text()?.chars().map(|letter| cost(row, letter)).collect()
     };
     let rows = given.get("rows")?.each(read_row)?;
@@ -101,7 +101,7 @@ pub(in super::super) fn check_clear_area(
     let (given, expect) = (case.given(), case.expect());
     let mut grid = costmap_of(&given, "fill")?;
     let corners = given.get("start_end_cells")?;
-    let (start, end) = match *corners.each(Reader::integer)?.as_slice() {
+    let (start, end) = match *corners.each(CaseReader::integer)?.as_slice() {
         [x0, y0, x1, y1] => ((x0, y0), (x1, y1)),
         _ => return Err(corners.unreadable("four whole numbers")),
     };
@@ -140,7 +140,7 @@ fn compare_one_cleared(
 }
 
 /// A costmap with the layers of a name each, of which some may be cleared; those are lethal.
-fn named_layers(given: &Reader<'_>, compat: Nav2Release) -> Result<LayeredCostmap, Unreadable> {
+fn named_layers(given: &CaseReader<'_>, compat: Nav2Release) -> Result<LayeredCostmap, Unreadable> {
     let info = match given.find("size") {
         Some(_) => *costmap_of(given, "default")?.info(),
         None => GridInfo { resolution_m: 1.0, width: 10, height: 10, origin: Pose2::IDENTITY },
@@ -149,7 +149,7 @@ fn named_layers(given: &Reader<'_>, compat: Nav2Release) -> Result<LayeredCostma
     let mut costmap =
         LayeredCostmap::new(CostmapSettings { compat, ..CostmapSettings::default() }, info);
     let plugins = given.get("plugins")?.list()?;
-    let clearable = given.get("clearable")?.each(Reader::truth)?;
+    let clearable = given.get("clearable")?.each(CaseReader::truth)?;
     if plugins.len() != clearable.len() {
         return Err(given.unreadable("one with `clearable` for each of its `plugins`"));
     }
@@ -179,7 +179,7 @@ fn named_layers(given: &Reader<'_>, compat: Nav2Release) -> Result<LayeredCostma
 
 /// The region that a clear service concerns, by the beginning of its name.
 pub(super) fn region_of(
-    service: &Reader<'_>,
+    service: &CaseReader<'_>,
     [x_m, y_m]: [f64; 2],
     side_m: f64,
 ) -> Result<Region, Unreadable> {
@@ -313,7 +313,7 @@ pub(in super::super) fn check_parameters(
 }
 
 /// A value as a parameter of its kind.
-fn parameter_of(value: &Reader<'_>) -> Result<Parameter, Unreadable> {
+fn parameter_of(value: &CaseReader<'_>) -> Result<Parameter, Unreadable> {
     Ok(match value.whole() {
         Value::Bool(truth) => Parameter::Bool(*truth),
         Value::String(text) => Parameter::Text(text.clone()),
@@ -329,7 +329,7 @@ fn parameter_of(value: &Reader<'_>) -> Result<Parameter, Unreadable> {
 fn change(
     config: &mut CostmapConfig,
     costmap: &mut LayeredCostmap,
-    set: &Reader<'_>,
+    set: &CaseReader<'_>,
     frames: &dyn TransformSource,
 ) -> Result<Result<(), String>, Unreadable> {
     let mut values = config.node.clone();
@@ -361,7 +361,7 @@ fn put(
     values: &mut ParamValues,
     name: &str,
     parameter: Parameter,
-    value: &Reader<'_>,
+    value: &CaseReader<'_>,
 ) -> Result<Result<(), String>, Unreadable> {
     let found = values.table().find(name);
     let found = found.ok_or_else(|| value.unreadable("the value of a known parameter"))?;

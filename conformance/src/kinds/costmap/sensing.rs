@@ -8,9 +8,9 @@ use serde_json::{Value, json};
 
 use super::super::Setting;
 use super::{compat_of, truth, values_among};
-use crate::{Case, Differences, Reader, Unreadable, numbers};
+use crate::{Case, CaseReader, Differences, Unreadable, numbers};
 
-fn nanoseconds(reader: &Reader<'_>) -> Result<i64, Unreadable> {
+fn nanoseconds(reader: &CaseReader<'_>) -> Result<i64, Unreadable> {
     Ok((reader.number()? * 1e9).round() as i64)
 }
 

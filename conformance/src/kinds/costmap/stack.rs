@@ -22,7 +22,7 @@ use super::{
     cell_named, cells_where, compat_of, counts_of, map_of, number, points_of, pose_of, rows_of,
     truth, values_of, window_of,
 };
-use crate::{Case, Differences, Expected, Reader, Unreadable, numbers};
+use crate::{Case, CaseReader, Differences, Expected, Unreadable, numbers};
 
 /// The parameter of the costmap that obstacle and voxel layers read as well.
 static UNKNOWN_SPACE: Table = Table {
@@ -206,7 +206,7 @@ struct Stack {
 impl Stack {
     /// All steps done.
     fn after(
-        given: &Reader<'_>,
+        given: &CaseReader<'_>,
         compat: Nav2Release,
         distances: Nav2Release,
     ) -> Result<Self, Unreadable> {
@@ -218,7 +218,7 @@ impl Stack {
     }
 
     fn new(
-        given: &Reader<'_>,
+        given: &CaseReader<'_>,
         compat: Nav2Release,
         distances: Nav2Release,
     ) -> Result<Self, Unreadable> {
@@ -299,7 +299,7 @@ impl Stack {
 
     fn layer(
         &mut self,
-        about: &Reader<'_>,
+        about: &CaseReader<'_>,
         compat: Nav2Release,
     ) -> Result<Box<dyn Layer>, Unreadable> {
         let name = about.get("name")?.text()?.to_owned();
@@ -348,7 +348,7 @@ impl Stack {
     }
 
     /// Initial costs of the layers.
-    fn fill(&mut self, layers: &[Reader<'_>]) -> Result<(), Unreadable> {
+    fn fill(&mut self, layers: &[CaseReader<'_>]) -> Result<(), Unreadable> {
         for about in layers {
             if let Some(children) = about.find("plugins") {
                 self.fill(&children.list()?)?;
@@ -377,7 +377,7 @@ impl Stack {
         Ok(())
     }
 
-    fn step(&mut self, step: &Reader<'_>) -> Result<(), Unreadable> {
+    fn step(&mut self, step: &CaseReader<'_>) -> Result<(), Unreadable> {
         if let Some(pose) = step.find("update") {
             self.update(pose_of(&pose)?);
             return Ok(());
@@ -457,7 +457,7 @@ impl Stack {
     }
 
     /// Calls a clear service: which one, where, how far, and for which layers.
-    fn clear(&mut self, about: &Reader<'_>) -> Result<(), Unreadable> {
+    fn clear(&mut self, about: &CaseReader<'_>) -> Result<(), Unreadable> {
         let place = about.find_any(&["pose", "robot"]);
         let place = place.map_or(Ok(Pose2::IDENTITY), |it| pose_of(&it))?;
         let side_m = number(about, "reset_distance", 0.0)?;
@@ -471,7 +471,11 @@ impl Stack {
     }
 
     /// Takes a part of a map that has changed: its lower left cell, its size and its cells.
-    fn update_map(&mut self, named: &Reader<'_>, part: &Reader<'_>) -> Result<(), Unreadable> {
+    fn update_map(
+        &mut self,
+        named: &CaseReader<'_>,
+        part: &CaseReader<'_>,
+    ) -> Result<(), Unreadable> {
         let count = |name: &str| part.get(name)?.count();
         let (x0, y0) = (count("x")?, count("y")?);
         let window = CellWindow { x0, y0, xn: x0 + count("width")?, yn: y0 + count("height")? };
@@ -485,8 +489,12 @@ impl Stack {
         Ok(())
     }
 
-    fn observe(&mut self, named: &Reader<'_>, observed: &Reader<'_>) -> Result<(), Unreadable> {
-        let points = observed.get("points")?.each(Reader::array::<3>)?;
+    fn observe(
+        &mut self,
+        named: &CaseReader<'_>,
+        observed: &CaseReader<'_>,
+    ) -> Result<(), Unreadable> {
+        let points = observed.get("points")?.each(CaseReader::array::<3>)?;
         let range = |name: &str, usual: f64| number(observed, name, usual);
         if let [point] = points[..] {
             self.last_point = Some(point.map(|at| at as f32));
@@ -519,9 +527,9 @@ impl Stack {
     }
 
     /// Sets parameters of a layer, as `{name: value}`, as `[name, value]`, or with both named.
-    fn set(&mut self, named: &Reader<'_>, set: &Reader<'_>) -> Result<(), Unreadable> {
+    fn set(&mut self, named: &CaseReader<'_>, set: &CaseReader<'_>) -> Result<(), Unreadable> {
         let layer_name = named.text()?;
-        let changes: Vec<(&str, Reader<'_>)> = match set.raw() {
+        let changes: Vec<(&str, CaseReader<'_>)> = match set.raw() {
             Value::Array(_) => match set.list()?.as_slice() {
                 [param, value] => vec![(param.text()?, value.clone())],
                 _ => return Err(set.unreadable("a name and a value")),
@@ -564,7 +572,7 @@ impl Stack {
 }
 
 /// A reading, in single precision as messages have it.
-fn reading_of(step: &Reader<'_>, range: &Reader<'_>) -> Result<RangeReading, Unreadable> {
+fn reading_of(step: &CaseReader<'_>, range: &CaseReader<'_>) -> Result<RangeReading, Unreadable> {
     let single = |name: &str| Ok(f64::from(range.get(name)?.number()? as f32));
     Ok(RangeReading {
         global_from_sensor: Pose::from(pose_of(&step.get("sensor_pose")?)?),
@@ -575,8 +583,8 @@ fn reading_of(step: &Reader<'_>, range: &Reader<'_>) -> Result<RangeReading, Unr
     })
 }
 
-fn set_cell(grid: &mut Costmap, cell: &Reader<'_>) -> Result<(), Unreadable> {
-    match *cell.each(Reader::count)?.as_slice() {
+fn set_cell(grid: &mut Costmap, cell: &CaseReader<'_>) -> Result<(), Unreadable> {
+    match *cell.each(CaseReader::count)?.as_slice() {
         [x, y, cost @ 0..=255] if grid.info().contains((x, y)) => {
             grid.set((x, y), cost as u8);
             Ok(())

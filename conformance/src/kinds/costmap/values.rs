@@ -7,14 +7,14 @@ use serde_json::json;
 
 use super::super::Setting;
 use super::{compat_of, points_of, values_of};
-use crate::{Case, Differences, Reader, Unreadable, number};
+use crate::{Case, CaseReader, Differences, Unreadable, number};
 
-fn occupancy(it: &Reader<'_>) -> Result<i8, Unreadable> {
+fn occupancy(it: &CaseReader<'_>) -> Result<i8, Unreadable> {
     i8::try_from(it.integer()?).map_err(|_| it.unreadable("a number from -128 to 127"))
 }
 
 /// A list under the first of some names that is there.
-fn list<'v>(reader: &Reader<'v>, names: &[&str]) -> Result<Reader<'v>, Unreadable> {
+fn list<'v>(reader: &CaseReader<'v>, names: &[&str]) -> Result<CaseReader<'v>, Unreadable> {
     reader.get_any(names)
 }
 
@@ -57,7 +57,7 @@ pub(in super::super) fn check_to_occupancy(
     differences: &mut Differences,
 ) -> Result<(), Unreadable> {
     let (given, expect) = (case.given(), case.expect());
-    let costs = list(&given, &["cost", "costs", "values", "data"])?.each(Reader::byte)?;
+    let costs = list(&given, &["cost", "costs", "values", "data"])?.each(CaseReader::byte)?;
     let got: Vec<i8> = costs.iter().map(|cost| cost::occupancy_of(*cost)).collect();
     differences.compare_members(&[(&["occupancy", "values", "data"], json!(got))], &expect);
     Ok(())

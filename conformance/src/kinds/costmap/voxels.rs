@@ -6,7 +6,7 @@ use periplus_grid::GridInfo;
 use serde_json::{Value, json};
 
 use super::super::Setting;
-use crate::{Case, Differences, Expected, Reader, Unreadable};
+use crate::{Case, CaseReader, Differences, Expected, Unreadable};
 
 /// Kind `voxel_grid`: marks, then clears, then what is left.
 pub(in super::super) fn check(
@@ -17,7 +17,7 @@ pub(in super::super) fn check(
 ) -> Result<(), Unreadable> {
     let (given, expect) = (case.given(), case.expect());
     let size = given.get("size")?;
-    let (width, height, depth) = match *size.each(Reader::count)?.as_slice() {
+    let (width, height, depth) = match *size.each(CaseReader::count)?.as_slice() {
         [width, height, depth] => (width, height, depth),
         _ => return Err(size.unreadable("three counts")),
     };
@@ -144,7 +144,7 @@ fn name_of(voxel: Voxel) -> &'static str {
 /// Statuses of the columns that are asked for, by thresholds that are 0 unless given.
 fn columns_of(
     grid: &VoxelGrid,
-    given: &Reader<'_>,
+    given: &CaseReader<'_>,
 ) -> Result<Option<Vec<&'static str>>, Unreadable> {
     let threshold = |name: &str| -> Result<u32, Unreadable> {
         let count = given.find(name).map_or(Ok(0), |it| it.count())?;
@@ -153,7 +153,7 @@ fn columns_of(
     let unknown = threshold("unknown_threshold")?;
     let marked = threshold("marked_threshold")?.max(threshold("mark_threshold")?);
     let Some(columns) = given.find("columns") else { return Ok(None) };
-    let columns = columns.each(Reader::cell)?.into_iter();
+    let columns = columns.each(CaseReader::cell)?.into_iter();
     Ok(Some(columns.map(|cell| name_of(grid.column(cell, unknown, marked))).collect()))
 }
 
@@ -187,11 +187,11 @@ fn compare_rays(
 type Ends = ([f64; 3], [f64; 3]);
 
 /// Lines from voxel to voxel, under any of some names.
-fn lines(given: &Reader<'_>, names: &[&str]) -> Result<Vec<Ends>, Unreadable> {
+fn lines(given: &CaseReader<'_>, names: &[&str]) -> Result<Vec<Ends>, Unreadable> {
     let mut lines = Vec::new();
     for name in names {
         for line in given.find(name).map_or(Ok(Vec::new()), |it| it.list())? {
-            match line.each(Reader::array::<3>)?.as_slice() {
+            match line.each(CaseReader::array::<3>)?.as_slice() {
                 [start, end] => lines.push((*start, *end)),
                 _ => return Err(line.unreadable("two voxels")),
             }
@@ -200,8 +200,8 @@ fn lines(given: &Reader<'_>, names: &[&str]) -> Result<Vec<Ends>, Unreadable> {
     Ok(lines)
 }
 
-fn voxel_of(voxel: &Reader<'_>) -> Result<((usize, usize), u32), Unreadable> {
-    match *voxel.each(Reader::count)?.as_slice() {
+fn voxel_of(voxel: &CaseReader<'_>) -> Result<((usize, usize), u32), Unreadable> {
+    match *voxel.each(CaseReader::count)?.as_slice() {
         [x, y, z] => Ok(((x, y), u32::try_from(z).unwrap_or(MAX_VOXEL_COUNT))),
         _ => Err(voxel.unreadable("three counts")),
     }

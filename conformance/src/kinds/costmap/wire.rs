@@ -6,7 +6,7 @@ use serde_json::{Value, json};
 
 use super::super::Setting;
 use super::costmap_of;
-use crate::{Case, Differences, Reader, Unreadable};
+use crate::{Case, CaseReader, Differences, Unreadable};
 
 /// Kind `costmap_publisher`: full grids or parts of them.
 pub(in super::super) fn check(
@@ -16,7 +16,7 @@ pub(in super::super) fn check(
     differences: &mut Differences,
 ) -> Result<(), Unreadable> {
     let (given, expect) = (case.given(), case.expect());
-    let always = given.get("always_send_full_costmap")?.each(Reader::truth)?;
+    let always = given.get("always_send_full_costmap")?.each(CaseReader::truth)?;
     let (mut full, mut parts, mut payloads) = (Vec::new(), Vec::new(), Vec::new());
     for always_full in always {
         let mut costmap = costmap_of(&given, "initial_cost")?;
@@ -25,7 +25,7 @@ pub(in super::super) fn check(
         let mut updates = Vec::new();
         for change in given.get("changes")?.list()? {
             for cell in change.get("set")?.list()? {
-                match *cell.each(Reader::count)?.as_slice() {
+                match *cell.each(CaseReader::count)?.as_slice() {
                     [x, y, cost @ 0..=255] if costmap.info().contains((x, y)) => {
                         costmap.set((x, y), cost as u8);
                     }

@@ -15,7 +15,7 @@ use std::time::Duration;
 use clap::Args;
 use periplus_diagnostics::{Diagnostics, Severity, SourceMap};
 use periplus_launch::{
-    MissingInput, Plan, Request, ShutdownHandlers, Step, What, dialect, plan_with_ending,
+    LaunchPlan, MissingInput, PlanStep, Request, ShutdownHandlers, What, dialect, plan_with_ending,
 };
 use periplus_os::{Machine, Stopwatch};
 use periplus_resources::Resolver;
@@ -217,21 +217,21 @@ fn strict(found: Diagnostics) -> Diagnostics {
 const MAX_EVALUATION_S: f64 = 86_400.0;
 
 /// Plan that includes one launch file that is missing here.
-fn only(file: &str, arguments: Vec<(String, String)>) -> Plan {
+fn only(file: &str, arguments: Vec<(String, String)>) -> LaunchPlan {
     let what = What::Include { file: file.to_owned(), arguments: arguments.into_iter().collect() };
-    Plan {
-        steps: vec![Step {
+    LaunchPlan {
+        steps: vec![PlanStep {
             id: 0,
             after: Vec::new(),
             what,
             written: None,
             environment: std::collections::BTreeMap::new(),
         }],
-        ..Plan::default()
+        ..LaunchPlan::default()
     }
 }
 
-fn print(out: &mut dyn io::Write, plan: &Plan) -> io::Result<()> {
+fn print(out: &mut dyn io::Write, plan: &LaunchPlan) -> io::Result<()> {
     let text = serde_json::to_string_pretty(plan).map_err(io::Error::other)?;
     writeln!(out, "{text}")
 }

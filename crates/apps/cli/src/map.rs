@@ -6,7 +6,7 @@ mod serve;
 use std::process::ExitCode;
 use std::time::Duration;
 
-use periplus_maps::{Options, Wish};
+use periplus_maps::{CompareOptions, Wish};
 use periplus_ros2cli::map::{self, Convert, Diff, SaverCommand};
 
 use crate::error::CliError;
@@ -74,7 +74,7 @@ fn difference(options: &DiffOptions) -> Diff {
         first: options.first.clone(),
         other: options.other.clone(),
         distro: options.distro,
-        options: Options {
+        options: CompareOptions {
             align: !options.no_align,
             window_m: options.window,
             window_rad: options.turn.to_radians(),

@@ -7,7 +7,7 @@ use periplus_resources::Host;
 use serde::{Deserialize, Serialize};
 
 use crate::dialect::Dialect;
-use crate::plan::{Parameters, Variable};
+use crate::plan::{PlanParameters, PlanVariable};
 use crate::tree::Names;
 
 /// State that a scoped group restores at its end.
@@ -24,7 +24,7 @@ pub(crate) struct Context {
     pub(crate) command_line: Vec<String>,
     /// Absolute namespace of nodes; empty if none was pushed.
     pub(crate) namespace: String,
-    pub(crate) parameters: Vec<Parameters>,
+    pub(crate) parameters: Vec<PlanParameters>,
     pub(crate) remaps: Vec<(String, String)>,
     /// Current launch file.
     pub(crate) file: PathBuf,
@@ -40,10 +40,10 @@ impl Context {
     }
 
     /// Changes of the environment, for a step.
-    pub(crate) fn changes(&self) -> BTreeMap<String, Variable> {
+    pub(crate) fn changes(&self) -> BTreeMap<String, PlanVariable> {
         let change = |(name, value): (&String, &Option<String>)| {
             let written = self.changed_at.get(name).cloned();
-            (name.clone(), Variable { value: value.clone(), written })
+            (name.clone(), PlanVariable { value: value.clone(), written })
         };
         self.environment.iter().map(change).collect()
     }

@@ -15,7 +15,7 @@ use crate::context::{Context, within};
 use crate::ending::ShutdownHandlers;
 use crate::front;
 use crate::outside::{Interpreter, MissingInput, Outside};
-use crate::plan::{Argument, Parameters, Plan, Step, Trigger, What};
+use crate::plan::{Argument, LaunchPlan, PlanParameters, PlanStep, Trigger, What};
 use crate::python;
 use crate::suggest::Suggest as _;
 use crate::tree::{Action, ActionKind, Condition, Event, Given, Names, Place, Text};
@@ -40,7 +40,7 @@ pub(crate) struct Evaluation<'a> {
     pub(crate) outside: &'a mut dyn Outside,
     pub(crate) sources: &'a mut SourceMap,
     pub(crate) found: Diagnostics,
-    pub(crate) plan: Plan,
+    pub(crate) plan: LaunchPlan,
     pub(crate) context: Context,
     pub(crate) missing_packages: BTreeSet<String>,
     python: Option<Box<dyn Interpreter>>,
@@ -87,7 +87,7 @@ impl<'a> Evaluation<'a> {
             outside,
             sources,
             found: Diagnostics::new(),
-            plan: Plan::default(),
+            plan: LaunchPlan::default(),
             context: Context::default(),
             missing_packages: BTreeSet::new(),
             python: None,
@@ -331,11 +331,13 @@ impl<'a> Evaluation<'a> {
             }
             ActionKind::SetParameter { name, value } => {
                 let (name, value) = (self.perform(name)?, self.value(value)?);
-                self.context.parameters.push(Parameters::Values(BTreeMap::from([(name, value)])));
+                self.context
+                    .parameters
+                    .push(PlanParameters::Values(BTreeMap::from([(name, value)])));
             }
             ActionKind::SetParametersFromFile { file, node: _ } => {
                 let file = self.perform(file)?;
-                self.context.parameters.push(Parameters::File(file));
+                self.context.parameters.push(PlanParameters::File(file));
             }
             ActionKind::SetRemap { from, to } => {
                 let pair = (self.perform(from)?, self.perform(to)?);
@@ -639,7 +641,7 @@ impl<'a> Evaluation<'a> {
     }
 
     fn push(&mut self, id: usize, what: What) {
-        let step = Step {
+        let step = PlanStep {
             id,
             after: self.after.clone(),
             what,
@@ -657,8 +659,8 @@ impl<'a> Evaluation<'a> {
 
     pub(crate) fn parameter_for_all(&mut self, name: &str) -> Outcome<String> {
         let set = self.context.parameters.iter().rev().find_map(|parameters| match parameters {
-            Parameters::Values(values) => values.get(name),
-            Parameters::File(_) => None,
+            PlanParameters::Values(values) => values.get(name),
+            PlanParameters::File(_) => None,
         });
         match set {
             Some(Value::String(text)) => Ok(text.clone()),

@@ -35,8 +35,8 @@ pub use dialect::{Dialect, dialect};
 pub use ending::ShutdownHandlers;
 pub use outside::{Answer, Interpreter, LaunchError, MissingInput, Nothing, Outside, Printed};
 pub use plan::{
-    Argument, Component, Identity, Node, Parameters, Plan, Process, Running, Step, Trigger,
-    Variable, What,
+    Argument, Component, Identity, LaunchPlan, PlanNode, PlanParameters, PlanStep, PlanVariable,
+    Process, Running, Trigger, What,
 };
 pub use stand_in::{BOOT, MAX_MEMORY_BYTES, MODULES};
 
@@ -55,7 +55,7 @@ pub struct Request<'a> {
 }
 
 /// Evaluates a launch file into a plan. On an error the plan is complete up to that point.
-pub fn plan(request: Request<'_>, sources: &mut SourceMap) -> (Plan, Diagnostics) {
+pub fn plan(request: Request<'_>, sources: &mut SourceMap) -> (LaunchPlan, Diagnostics) {
     let (plan, found, _) = plan_with_ending(request, sources);
     (plan, found)
 }
@@ -64,7 +64,7 @@ pub fn plan(request: Request<'_>, sources: &mut SourceMap) -> (Plan, Diagnostics
 pub fn plan_with_ending(
     request: Request<'_>,
     sources: &mut SourceMap,
-) -> (Plan, Diagnostics, ShutdownHandlers) {
+) -> (LaunchPlan, Diagnostics, ShutdownHandlers) {
     let Request { file, arguments, host, resolver, outside } = request;
     let mut evaluation = evaluate::Evaluation::new(host, resolver, outside, sources);
     let dialect = dialect(host, &file);

@@ -7,14 +7,14 @@ use serde_json::Value;
 
 /// Evaluated launch file.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
-pub struct Plan {
+pub struct LaunchPlan {
     /// Arguments of the file and of included files, in order of appearance.
     pub arguments: Vec<Argument>,
     /// Parameters of the ROS 1 parameter server by full name, without those of nodes.
     #[serde(skip_serializing_if = "BTreeMap::is_empty")]
     pub parameters: BTreeMap<String, Value>,
     /// Steps, in the order of the files.
-    pub steps: Vec<Step>,
+    pub steps: Vec<PlanStep>,
 }
 
 /// Argument of a launch file.
@@ -38,7 +38,7 @@ pub struct Argument {
 
 /// One step of a plan.
 #[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Step {
+pub struct PlanStep {
     /// Index in the plan, by which others refer to it.
     pub id: usize,
     /// Triggers that must have occurred before, one after another; empty for immediate steps.
@@ -53,12 +53,12 @@ pub struct Step {
     /// Environment variables that the launch file changed before this step, with the position of
     /// each change. Scoped groups restore theirs at their end.
     #[serde(rename = "launch_environment", skip_serializing_if = "BTreeMap::is_empty")]
-    pub environment: BTreeMap<String, Variable>,
+    pub environment: BTreeMap<String, PlanVariable>,
 }
 
 /// Environment variable changed by a launch file.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
-pub struct Variable {
+pub struct PlanVariable {
     /// Value; `None` if unset.
     pub value: Option<String>,
     /// Position of the change: `file:line`.
@@ -96,7 +96,7 @@ pub enum Trigger {
 #[serde(tag = "kind", rename_all = "snake_case")]
 pub enum What {
     /// Start a node.
-    Node(Box<Node>),
+    Node(Box<PlanNode>),
     /// Load components into a container.
     Load {
         /// Full name of the container.
@@ -136,7 +136,7 @@ pub enum What {
 
 /// Node to start.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
-pub struct Node {
+pub struct PlanNode {
     /// Package of the program; `None` for a program given by its path.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub package: Option<String>,
@@ -173,7 +173,7 @@ pub struct Identity {
     pub namespace: Option<String>,
     /// Parameters; later ones override earlier ones.
     #[serde(skip_serializing_if = "Vec::is_empty")]
-    pub parameters: Vec<Parameters>,
+    pub parameters: Vec<PlanParameters>,
     /// Remappings: from, to.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub remaps: Vec<(String, String)>,
@@ -237,7 +237,7 @@ pub struct Running {
 /// Parameters of a node.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[serde(rename_all = "snake_case")]
-pub enum Parameters {
+pub enum PlanParameters {
     /// Values by name; members of groups are joined with dots.
     Values(BTreeMap<String, Value>),
     /// File in the format of `ros2 param dump`.

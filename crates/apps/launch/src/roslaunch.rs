@@ -15,7 +15,7 @@ use serde_json::Value;
 
 use crate::context::within;
 use crate::evaluate::{Evaluation, Outcome};
-use crate::plan::{Variable, What};
+use crate::plan::{PlanVariable, What};
 use crate::suggest::Suggest as _;
 use crate::truth::truth;
 
@@ -345,11 +345,11 @@ impl Loader<'_, '_> {
         self.next_step += 1;
         let change = |(name, value): (&String, &Option<String>)| {
             let written = scope.changed_at.get(name).cloned();
-            (name.clone(), Variable { value: value.clone(), written })
+            (name.clone(), PlanVariable { value: value.clone(), written })
         };
         let environment = scope.environment.iter().map(change).collect();
         let written = self.written(element);
-        let step = crate::plan::Step { id, after: Vec::new(), what, written, environment };
+        let step = crate::plan::PlanStep { id, after: Vec::new(), what, written, environment };
         self.evaluation.plan.steps.push(step);
     }
 }

@@ -2,11 +2,11 @@
 #![allow(clippy::unwrap_used, reason = "a test that fails may panic")]
 
 use periplus_diagnostics::{RenderStyle, SourceMap, render};
-use periplus_launch::{Nothing, Plan, Request, Trigger, What, plan};
+use periplus_launch::{LaunchPlan, Nothing, Request, Trigger, What, plan};
 use periplus_resources::{MemoryHost, Resolver};
 
 /// Plan of the first file, and its findings as text.
-fn planned(files: &[(&str, &str)], arguments: &[(&str, &str)]) -> (Plan, String) {
+fn planned(files: &[(&str, &str)], arguments: &[(&str, &str)]) -> (LaunchPlan, String) {
     let host = files.iter().fold(
         MemoryHost::new()
             .with_file("/ws/src/bot/package.xml", "<package><name>bot</name></package>"),

@@ -10,7 +10,7 @@ pub enum Failure {
     /// Usage error.
     Usage(String),
     /// Refusal by a node. `ros2` exits with 0 in this case.
-    Refused(Refusal),
+    Refused(NodeRefusal),
     /// Interrupted.
     Interrupted,
     /// The output cannot be written.
@@ -19,7 +19,7 @@ pub enum Failure {
 
 /// Refusal by a node, in words of Periplus and in those of `ros2`.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Refusal {
+pub struct NodeRefusal {
     /// Refused request and reason.
     pub message: String,
     /// Line that `ros2` prints in this case.

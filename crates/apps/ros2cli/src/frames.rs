@@ -25,5 +25,5 @@ mod pdf;
 mod svg;
 mod widths;
 
-pub use faults::Fault;
+pub use faults::TreeFault;
 pub use forest::{Edge, Forest, Frame};

@@ -34,7 +34,7 @@ pub mod topic;
 mod types;
 mod values;
 
-pub use failure::{Failure, Outcome, Refusal, Ros2Line};
+pub use failure::{Failure, NodeRefusal, Outcome, Ros2Line};
 pub use network::{InGraph, Network, Progress};
 pub use qos::QosRequest;
 pub use seen::{Seen, SeenNode, SeenService, SeenTopic, TopicEndpoint, is_hidden};

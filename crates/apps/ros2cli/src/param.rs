@@ -17,11 +17,11 @@ use serde_json::json;
 
 use crate::ask::ask;
 use crate::session::{advice, full_name};
-use crate::{Failure, Outcome, Refusal, Ros2Line, Seen, Session, is_hidden};
+use crate::{Failure, NodeRefusal, Outcome, Ros2Line, Seen, Session, is_hidden};
 
 /// Options of `param list`.
 #[derive(Clone, Debug, Default)]
-pub struct List {
+pub struct ParamListOptions {
     /// Node to list; all if `None`.
     pub node: Option<String>,
     /// Include hidden nodes.
@@ -104,7 +104,7 @@ fn values_of(
 ///
 /// # Errors
 /// When there is no such node, or the output cannot be written.
-pub fn list(session: &mut Session<'_>, options: &List) -> Outcome {
+pub fn list(session: &mut Session<'_>, options: &ParamListOptions) -> Outcome {
     let nodes = match &options.node {
         Some(name) => vec![look_up(session, name)?],
         None => {
@@ -204,7 +204,7 @@ fn set_one(
 
 /// `ros2 param` prints the same on standard error.
 fn refused(message: String) -> Failure {
-    Failure::Refused(Refusal { ros2: Ros2Line::Stderr(message.clone()), message })
+    Failure::Refused(NodeRefusal { ros2: Ros2Line::Stderr(message.clone()), message })
 }
 
 /// Prints the result of setting a parameter; returns true on success.

@@ -19,6 +19,6 @@ mod screen;
 mod settings;
 
 pub use bindings::{Direction, Factors, direction, factors};
-pub use keyboard::{Keyboard, Pressed, Velocity};
+pub use keyboard::{Keyboard, KeyboardVelocity, Pressed};
 pub use screen::{SCREEN, status};
 pub use settings::{Settings, TELEOP};

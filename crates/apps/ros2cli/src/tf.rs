@@ -8,7 +8,7 @@ mod monitor;
 mod tree;
 
 pub use broadcast::{Broadcast, broadcast, read_broadcast};
-pub use echo::{Echo, echo};
+pub use echo::{TfEchoOptions, echo};
 pub use listen::stamped;
 pub use monitor::{Monitor, monitor};
 pub use tree::{Pictures, Tree, put_tree, tree};

@@ -5,7 +5,7 @@ mod list;
 mod publish;
 mod rates;
 
-pub use echo::{Echo, echo};
-pub use list::{List, find, info, list, type_of};
+pub use echo::{TopicEchoOptions, echo};
+pub use list::{TopicListOptions, find, info, list, type_of};
 pub use publish::{Publish, publish};
 pub use rates::{Rate, bandwidth, delay, hz};

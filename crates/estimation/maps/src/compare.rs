@@ -10,7 +10,7 @@ use crate::align::{Alignment, align, is_wall};
 
 /// Options of a comparison.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Options {
+pub struct CompareOptions {
     /// True to align the other map first, false to use the origins in the files.
     pub align: bool,
     /// Maximum translation \[m\].
@@ -19,7 +19,7 @@ pub struct Options {
     pub window_rad: f64,
 }
 
-impl Default for Options {
+impl Default for CompareOptions {
     fn default() -> Self {
         Self { align: true, window_m: 1.5, window_rad: 0.175 }
     }
@@ -68,7 +68,7 @@ pub struct Walls {
 
 /// Result of a comparison.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Comparison {
+pub struct MapComparison {
     /// Pose of the other map relative to the first.
     pub alignment: Alignment,
     /// Grid of the first map, enlarged to contain both.
@@ -95,8 +95,8 @@ pub struct Comparison {
 pub fn compare(
     first: &OccupancyGrid,
     other: &OccupancyGrid,
-    options: Options,
-) -> Result<Comparison, GridInfoError> {
+    options: CompareOptions,
+) -> Result<MapComparison, GridInfoError> {
     let alignment = if options.align {
         align(first, other, options.window_m, options.window_rad)
     } else {
@@ -122,7 +122,7 @@ pub fn compare(
         free.count(is_free(a), is_free(b));
         known.count(a >= 0, b >= 0);
     }
-    Ok(Comparison {
+    Ok(MapComparison {
         alignment,
         info,
         walls,
@@ -215,7 +215,7 @@ fn statistics(map: &OccupancyGrid, squares: &Grid<u32>) -> Walls {
 /// black, of the first only blue, of the other only red; free in both is white, free in one only a
 /// light tint of its colour; unknown cells are grey.
 #[must_use]
-pub fn picture(comparison: &Comparison) -> (u32, u32, Vec<u8>) {
+pub fn picture(comparison: &MapComparison) -> (u32, u32, Vec<u8>) {
     let GridInfo { width, height, .. } = comparison.info;
     let rows = comparison.first.rows().rev().zip(comparison.other.rows().rev());
     let pixels = rows.flat_map(|(first, other)| first.iter().zip(other));
@@ -243,7 +243,8 @@ mod tests {
         Grid::from_cells(info, cells.to_vec()).unwrap()
     }
 
-    const AS_IT_LIES: Options = Options { align: false, window_m: 0.0, window_rad: 0.0 };
+    const AS_IT_LIES: CompareOptions =
+        CompareOptions { align: false, window_m: 0.0, window_rad: 0.0 };
 
     #[test]
     fn a_map_is_like_itself() {
@@ -278,7 +279,7 @@ mod tests {
     fn without_walls_nothing_is_measured() {
         let empty = map(2, 1, 0.0, &[FREE, FREE]);
         let found =
-            compare(&map(2, 1, 0.0, &[OCCUPIED, FREE]), &empty, Options::default()).unwrap();
+            compare(&map(2, 1, 0.0, &[OCCUPIED, FREE]), &empty, CompareOptions::default()).unwrap();
         assert_eq!(found.first_to_other.count, 1);
         assert!(found.first_to_other.mean_m.is_nan() && found.other_to_first.count == 0);
     }

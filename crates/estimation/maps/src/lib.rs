@@ -34,7 +34,7 @@ mod words;
 
 pub use align::{Alignment, align};
 pub use boxes::{MIN_WALL_PERCENT, WallBox, wall_boxes};
-pub use compare::{Comparison, Options, Overlap, Walls, compare, picture};
+pub use compare::{CompareOptions, MapComparison, Overlap, Walls, compare, picture};
 pub use description::{Description, read_description};
 pub use distro::{Distro, Mode};
 pub use load::{Loaded, Map, Status, expand_home, grid_of, load, load_image};

@@ -4,13 +4,13 @@ use periplus_grid::occupancy::UNKNOWN;
 use periplus_grid::{GridInfo, GridInfoError, OccupancyGrid};
 
 use crate::align::{Alignment, align, is_wall};
-use crate::compare::{Comparison, Options, compare};
+use crate::compare::{CompareOptions, MapComparison, compare};
 
 /// Comparison of a map with the ground truth.
 #[derive(Clone, Debug, PartialEq)]
 pub struct BesideTruth {
     /// The known part of the ground truth as the first map, the map as the other.
-    pub comparison: Comparison,
+    pub comparison: MapComparison,
     /// Transform that aligns the map with the ground truth.
     pub alignment: Alignment,
     /// Explored fraction of the free space, 0 to 1; none without free space.
@@ -68,7 +68,7 @@ pub fn beside_truth(
     };
     let cells = (0..truth.cells.len()).map(seen).collect();
     let seen = OccupancyGrid { info: truth.info, cells };
-    let as_it_lies = Options { align: false, window_m: 0.0, window_rad: 0.0 };
+    let as_it_lies = CompareOptions { align: false, window_m: 0.0, window_rad: 0.0 };
     let comparison = compare(&seen, &laid, as_it_lies)?;
     Ok(BesideTruth { comparison, alignment, explored })
 }

@@ -23,7 +23,7 @@ impl Default for FieldSettings {
 /// bound the score of every pose in a square (Olson 2009, "Real-time correlative scan matching";
 /// Hess et al. 2016).
 #[derive(Clone, Debug)]
-pub struct Field {
+pub struct ScoreField {
     pub(crate) resolution_m: f32,
     /// Corner of cell (0, 0) \[m\].
     pub(crate) corner: [f32; 2],
@@ -33,7 +33,7 @@ pub struct Field {
     pub(crate) levels: Vec<Vec<u8>>,
 }
 
-impl Field {
+impl ScoreField {
     /// Creates the field of points around a center \[m\].
     #[must_use]
     pub fn new(points: &[[f32; 2]], middle: [f32; 2], settings: &FieldSettings) -> Self {

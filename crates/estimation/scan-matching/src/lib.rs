@@ -4,7 +4,7 @@
 //!   and of the surface seen along a bearing.
 //! - [`register`]: local registration of clouds from a good initial pose, with the information
 //!   matrix of the result.
-//! - [`Field`]: the likelihood of points over a window; [`Field::search`] finds the best pose in a
+//! - [`ScoreField`]: the likelihood of points over a window; [`ScoreField::search`] finds the best pose in a
 //!   window with certainty, without an initial pose.
 //! - [`agreement`]: whether two scans can be of the same scene, since points of one must not be in
 //!   space that the other saw as free.
@@ -23,7 +23,7 @@ mod symmetric;
 
 pub use agreement::{Agreement, agreement};
 pub use cloud::{Cloud, CloudSettings, Point};
-pub use field::{Field, FieldSettings};
+pub use field::{FieldSettings, ScoreField};
 pub use packed::{PackedCloud, PackedPlaces};
 pub use register::{Comparison, Fit, Placed, Prior, RegisterSettings, compare, register};
 pub use search::{Peak, Wanted, Window};

@@ -2,7 +2,7 @@
 
 use periplus_geometry::{Pose2, normalize_angle};
 
-use crate::field::Field;
+use crate::field::ScoreField;
 
 /// Search window.
 #[derive(Clone, Copy, Debug)]
@@ -53,7 +53,7 @@ struct Node {
 /// Pose, and the distance \[m\] and angle \[rad\] within which others count as the same.
 pub(crate) type Zone = (Pose2, f64, f64);
 
-impl Field {
+impl ScoreField {
     /// Finds the pose in a window with the highest mean likelihood of the points, if any reaches
     /// `least`: the global maximum on the grid of cells and headings. Poses close to `avoid` (pose,
     /// distance \[m\], angle \[rad\]) do not count, so that a second peak can be found.
@@ -79,7 +79,7 @@ impl Field {
     }
 }
 
-impl Field {
+impl ScoreField {
     /// Finds all peaks in a window, best first, by the same search. The best one is found whatever
     /// the work. Also returns the number of lookups.
     #[must_use]
@@ -137,7 +137,7 @@ const OFFSET_CELL_COUNT: f32 = 16384.0;
 const CHECK_POINTS: usize = 12;
 
 struct Search<'a> {
-    field: &'a Field,
+    field: &'a ScoreField,
     window: &'a Window,
     avoid: Option<Zone>,
     count: usize,
@@ -155,7 +155,7 @@ struct Search<'a> {
 
 impl<'a> Search<'a> {
     fn new(
-        field: &'a Field,
+        field: &'a ScoreField,
         points: &[[f32; 2]],
         window: &'a Window,
         least: f64,
@@ -336,7 +336,7 @@ mod tests {
     fn the_best_pose_is_the_global_maximum() {
         for seed in 0..4 {
             let points = scattered(seed);
-            let field = Field::new(&points, [0.0, 0.0], &FieldSettings::default());
+            let field = ScoreField::new(&points, [0.0, 0.0], &FieldSettings::default());
             let truth = Pose2::new(1.23, -0.71, 0.3);
             let moved: Vec<[f32; 2]> = points
                 .iter()
@@ -392,7 +392,7 @@ mod tests {
         let copy: Vec<[f32; 2]> = points.iter().map(|p| [p[0] + 3.0, p[1]]).collect();
         let moving = points.clone();
         points.extend(copy);
-        let field = Field::new(&points, [0.0, 0.0], &FieldSettings::default());
+        let field = ScoreField::new(&points, [0.0, 0.0], &FieldSettings::default());
         let window = Window {
             middle: Pose2::new(1.5, 0.0, 0.0),
             half_m: [3.0; 2],

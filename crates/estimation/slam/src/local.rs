@@ -2,8 +2,8 @@
 
 use periplus_geometry::{Pose2, normalize_angle};
 use periplus_scan_matching::{
-    Agreement, Cloud, Field, Fit, Placed, Prior, RegisterSettings, Symmetric3, Window, agreement,
-    register,
+    Agreement, Cloud, Fit, Placed, Prior, RegisterSettings, ScoreField, Symmetric3, Window,
+    agreement, register,
 };
 
 use crate::graph::Graph;
@@ -171,7 +171,7 @@ pub(crate) fn match_locally(
         let points = sampled(cloud, SEARCH_POINTS);
         let step_rad = heading_step(&points, settings.local_field.resolution_m);
         let middle = [frame_from_base.x_m as f32, frame_from_base.y_m as f32];
-        let field = Field::new(&points_of(group), middle, &settings.local_field);
+        let field = ScoreField::new(&points_of(group), middle, &settings.local_field);
         let sigmas = [covariance.largest_shift().sqrt(), covariance.tt.sqrt()];
         let window = Window {
             middle: frame_from_base,

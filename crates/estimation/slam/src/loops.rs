@@ -17,7 +17,7 @@ use std::ops::Range;
 
 use periplus_geometry::{Pose2, normalize_angle};
 use periplus_scan_matching::{
-    Field, FieldSettings, Fit, Placed, Prior, Symmetric3, Window, register,
+    FieldSettings, Fit, Placed, Prior, ScoreField, Symmetric3, Window, register,
 };
 
 use crate::drift::{RelativeUncertainty, reversed, uncertainties_from};
@@ -207,7 +207,7 @@ struct Kept {
     /// Keyframes and poses that it was built from, relative to the middle of the stretch.
     of: Vec<(usize, Pose2)>,
     /// Made when it is asked for.
-    field: Option<Field>,
+    field: Option<ScoreField>,
 }
 
 /// All that is known and asked about loops.
@@ -478,7 +478,7 @@ impl Loops {
         keyframes: &[Keyframe],
         settings: &Settings,
         scale: f64,
-    ) -> &Field {
+    ) -> &ScoreField {
         let at = self.fields.iter().position(|kept| kept.place == place);
         let kept = at.and_then(|at| self.fields.remove(at));
         let kept = kept.unwrap_or_else(|| Kept { place, of: of.collect(), field: None });
@@ -488,7 +488,11 @@ impl Loops {
         field.get_or_insert_with(|| {
             let group =
                 Group::new(of.iter().map(|&(keyframe, pose)| (keyframes[keyframe].cloud(), pose)));
-            Field::new(&points_of(&group.placed()), [0.0, 0.0], &field_settings(settings, scale))
+            ScoreField::new(
+                &points_of(&group.placed()),
+                [0.0, 0.0],
+                &field_settings(settings, scale),
+            )
         })
     }
 
@@ -704,7 +708,7 @@ impl Loops {
 
     /// Bytes held.
     pub(crate) fn size(&self) -> usize {
-        self.fields.iter().filter_map(|kept| kept.field.as_ref()).map(Field::size).sum()
+        self.fields.iter().filter_map(|kept| kept.field.as_ref()).map(ScoreField::size).sum()
     }
 }
 

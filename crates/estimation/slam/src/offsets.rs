@@ -7,7 +7,7 @@
 use std::ops::Range;
 
 use periplus_geometry::{Pose2, normalize_angle};
-use periplus_scan_matching::{Field, Fit, Placed, Prior, Symmetric3, Window, register};
+use periplus_scan_matching::{Fit, Placed, Prior, ScoreField, Symmetric3, Window, register};
 
 use crate::audit::all_other_passes;
 use crate::graph::{ConstraintKind, Edge, Graph};
@@ -191,7 +191,7 @@ fn word(
         step_rad: heading_step(&points, settings.local_field.resolution_m),
     };
     let middle = [expected.x_m as f32, expected.y_m as f32];
-    let field = Field::new(&points_of(&target), middle, &settings.local_field);
+    let field = ScoreField::new(&points_of(&target), middle, &settings.local_field);
     let Some(best) = field.search(&points, &window, MIN_SCORE_RATIO, None).0 else {
         return Consistency::Uninformative;
     };

@@ -1,7 +1,7 @@
 //! Proximity constraints: direct matches with old keyframes whose relative pose is known well enough.
 
 use periplus_geometry::normalize_angle;
-use periplus_scan_matching::{Agreement, Field, Placed, Prior, Symmetric3, Window, register};
+use periplus_scan_matching::{Agreement, Placed, Prior, ScoreField, Symmetric3, Window, register};
 
 use crate::drift::{RelativeUncertainty, within};
 use crate::graph::{ConstraintKind, Edge, Graph};
@@ -129,7 +129,7 @@ pub(crate) fn tie(
             step_rad: heading_step(&points, settings.local_field.resolution_m),
         };
         let middle = [expected.x_m as f32, expected.y_m as f32];
-        let field = Field::new(&points_of(&group), middle, &settings.local_field);
+        let field = ScoreField::new(&points_of(&group), middle, &settings.local_field);
         if let (Some(peak), _) = field.search(&points, &window, 0.25, None) {
             let other = register(&moving, &group, peak.pose, Some(&prior), &how);
             if other.cost < fit.cost {

@@ -9,7 +9,7 @@ use std::io::{BufRead, BufReader, BufWriter, ErrorKind, Read as _, Write as _};
 use std::path::{Path, PathBuf};
 
 use periplus_diagnostics::plain_words;
-use periplus_resources::{EntryKind, FileReadError, Host, MAX_FILE_BYTES, Store, WriteError};
+use periplus_resources::{EntryKind, FileReadError, FileWriteError, Host, MAX_FILE_BYTES, Store};
 
 /// Machine on which this program runs.
 #[derive(Clone, Copy, Debug, Default)]
@@ -87,9 +87,9 @@ impl Machine {
         &self,
         path: &Path,
         write: impl FnOnce(&mut dyn std::io::Write) -> std::io::Result<()>,
-    ) -> Result<(), WriteError> {
-        let words = |error: std::io::Error| WriteError::Other(plain_words(&error));
-        let mut name = path.file_name().ok_or(WriteError::NoFileName)?.to_owned();
+    ) -> Result<(), FileWriteError> {
+        let words = |error: std::io::Error| FileWriteError::Other(plain_words(&error));
+        let mut name = path.file_name().ok_or(FileWriteError::NoFileName)?.to_owned();
         name.push(format!(".{}.part", std::process::id()));
         let beside = path.with_file_name(name);
         remove_stale(path);
@@ -103,7 +103,7 @@ impl Machine {
 }
 
 impl Store for Machine {
-    fn replace(&self, path: &Path, content: &[u8]) -> Result<(), WriteError> {
+    fn replace(&self, path: &Path, content: &[u8]) -> Result<(), FileWriteError> {
         self.replace_by(path, |file| file.write_all(content))
     }
 }

@@ -69,14 +69,14 @@ pub trait Host {
 
 /// Error of a file that cannot be written.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub enum WriteError {
+pub enum FileWriteError {
     /// The path has no file name.
     NoFileName,
     /// Message of the operating system.
     Other(String),
 }
 
-impl std::fmt::Display for WriteError {
+impl std::fmt::Display for FileWriteError {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         match self {
             Self::NoFileName => write!(f, "this names no file"),
@@ -85,10 +85,10 @@ impl std::fmt::Display for WriteError {
     }
 }
 
-impl std::error::Error for WriteError {}
+impl std::error::Error for FileWriteError {}
 
-impl From<WriteError> for String {
-    fn from(error: WriteError) -> Self {
+impl From<FileWriteError> for String {
+    fn from(error: FileWriteError) -> Self {
         error.to_string()
     }
 }
@@ -100,5 +100,5 @@ pub trait Store {
     ///
     /// # Errors
     /// If the file cannot be written.
-    fn replace(&self, path: &Path, content: &[u8]) -> Result<(), WriteError>;
+    fn replace(&self, path: &Path, content: &[u8]) -> Result<(), FileWriteError>;
 }

@@ -15,7 +15,7 @@ mod resolver;
 mod surroundings;
 mod uri;
 
-pub use host::{EntryKind, FileReadError, Host, MAX_FILE_BYTES, Store, WriteError};
+pub use host::{EntryKind, FileReadError, FileWriteError, Host, MAX_FILE_BYTES, Store};
 pub use layout::{in_sources, package_of};
 pub use manifest::package_name;
 pub use memory::MemoryHost;

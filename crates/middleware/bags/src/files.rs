@@ -27,12 +27,12 @@ mod stream;
 mod temporary;
 mod write;
 
-pub use bag::{Bag, Kind};
+pub use bag::{Bag, BagKind};
 pub use check::check;
 pub use convert::{Conversion, Report, convert};
 pub use error::BagError;
 pub use info::{Info, TopicSum, stamp_name};
 pub use play::{PlaySettings, Player};
-pub use record::{Now, Offered, RecordSettings, Recorder, Recording, Wanted};
+pub use record::{Now, Offered, RecordFilter, RecordSettings, Recorder, Recording};
 pub use stream::{BagMessage, BagMessages};
 pub use write::{BagWriter, ChunkPacking, Packing, PackingMode, Storage, WriteSettings};

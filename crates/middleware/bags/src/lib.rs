@@ -40,7 +40,7 @@ mod write;
 pub use carmen::{CarmenLog, CarmenOdometry, CarmenScan, is_carmen, read_carmen, read_carmen_from};
 pub use check::{Fault, check};
 pub use compression::Compression;
-pub use metadata::{BagInfo, FileInfo, Metadata, Stored, Style, TopicInfo, read_metadata};
+pub use metadata::{BagInfo, FileInfo, Metadata, Stored, Style, TopicInformation, read_metadata};
 pub use qos::{Durability, History, Liveliness, QosProfile, Reliability};
 pub use read::{BagTopic, Limits, Message, Messages, OwnMessages, ReadError, Reader, Selection};
 pub use repair::{RepairError, repair};

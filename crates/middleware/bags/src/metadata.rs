@@ -52,7 +52,7 @@ impl Default for Stored {
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct BagInfo {
     /// Topics in the order of their first appearance.
-    pub topics: Vec<TopicInfo>,
+    pub topics: Vec<TopicInformation>,
     /// Files in the order of their messages.
     pub files: Vec<FileInfo>,
     /// Name of the ROS distribution of the message definitions, such as `jazzy`; may be empty.
@@ -61,7 +61,7 @@ pub struct BagInfo {
 
 /// A topic of a bag.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct TopicInfo {
+pub struct TopicInformation {
     /// Full name, such as `/scan`.
     pub name: String,
     /// Full type name, such as `sensor_msgs/msg/LaserScan`.
@@ -149,7 +149,7 @@ impl BagInfo {
     }
 }
 
-impl TopicInfo {
+impl TopicInformation {
     /// Formats the QoS profiles as one text, as in a channel or database row.
     #[must_use]
     pub fn qos_text(&self, style: Style) -> String {

@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
-use periplus_bags::files::{Bag, Conversion, Kind, Storage, WriteSettings, convert};
+use periplus_bags::files::{Bag, BagKind, Conversion, Storage, WriteSettings, convert};
 
 use super::options::{ConvertOptions, CutOptions, SelectOptions};
 use super::outputs;
@@ -44,7 +44,7 @@ pub(super) fn cut(options: &CutOptions) -> Result<ExitCode, CliError> {
     }
     let bag = super::open(&options.bag)?;
     let settings = options.write.settings(&options.output, bag.storage());
-    let is_file = bag.kind() == Kind::Ros1 && Storage::of_path(&options.output).is_none();
+    let is_file = bag.kind() == BagKind::Ros1 && Storage::of_path(&options.output).is_none();
     let output =
         if is_file { options.output.with_extension("bag") } else { options.output.clone() };
     write(&[bag], &output, &options.select, settings)

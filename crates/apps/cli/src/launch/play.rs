@@ -11,7 +11,7 @@ use std::process::ExitCode;
 use clap::Args;
 use periplus_graph::Arguments;
 use periplus_launch::bringup::{LaunchRunner, Settings};
-use periplus_launch::{Dialect, Plan};
+use periplus_launch::{Dialect, LaunchPlan};
 use periplus_os::Stopwatch;
 use periplus_session::{PageContext, PageSettings};
 
@@ -63,7 +63,7 @@ pub(crate) struct PlayOptions {
 
 /// Launch plan with its context.
 pub(super) struct Launched {
-    pub(super) plan: Plan,
+    pub(super) plan: LaunchPlan,
     pub(super) dialect: Dialect,
     /// `--ros-args` for all nodes.
     pub(super) arguments: Arguments,

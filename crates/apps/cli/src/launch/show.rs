@@ -2,10 +2,10 @@
 
 use std::io;
 
-use periplus_launch::Plan;
+use periplus_launch::LaunchPlan;
 
 /// Prints the arguments of a launch file, as `ros2 launch --show-args` does.
-pub(super) fn arguments(out: &mut dyn io::Write, plan: &Plan) -> io::Result<()> {
+pub(super) fn arguments(out: &mut dyn io::Write, plan: &LaunchPlan) -> io::Result<()> {
     if plan.arguments.is_empty() {
         return writeln!(out, "No arguments.");
     }

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 use std::process::ExitCode;
 
 use clap::{Args, Subcommand};
-use periplus_ros2cli::param::{self, List};
+use periplus_ros2cli::param::{self, ParamListOptions};
 
 use super::common::Common;
 use super::with_session;
@@ -105,7 +105,7 @@ impl ParamOptions {
                 })
             }
             Verb::List { node_name, include_hidden_nodes, param_prefixes, param_type, common } => {
-                let options = List {
+                let options = ParamListOptions {
                     node: node_name.clone(),
                     include_hidden: *include_hidden_nodes,
                     prefixes: param_prefixes.clone(),

@@ -5,7 +5,7 @@ use std::process::ExitCode;
 
 use clap::{Args, Subcommand};
 use periplus_ros2cli::service;
-use periplus_ros2cli::topic::{self, Echo};
+use periplus_ros2cli::topic::{self, TopicEchoOptions};
 
 use super::common::{Common, rate};
 use super::{gazebo, with_session};
@@ -106,7 +106,7 @@ impl ServiceOptions {
             }
             Verb::Echo { service_name, common } => with_session(common, |session| {
                 let topic = format!("{}/_service_event", service_name.trim_end_matches('/'));
-                topic::echo(session, &topic, &Echo::default())
+                topic::echo(session, &topic, &TopicEchoOptions::default())
             }),
             Verb::Find { service_type, count_services, include_hidden_services, common } => {
                 let hidden = all || *include_hidden_services;

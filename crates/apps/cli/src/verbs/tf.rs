@@ -8,7 +8,7 @@ use std::time::Duration;
 
 use clap::{Args, Subcommand};
 use periplus_os::unix_ns;
-use periplus_ros2cli::tf::{self, Echo, Monitor, Pictures, Tree, read_broadcast};
+use periplus_ros2cli::tf::{self, Monitor, Pictures, TfEchoOptions, Tree, read_broadcast};
 
 use super::common::{Common, rate, seconds};
 use super::with_session;
@@ -127,7 +127,7 @@ impl TfOptions {
     pub(crate) fn run(&self) -> Result<ExitCode, CliError> {
         match &self.verb {
             Verb::Echo(options) => {
-                let echo = Echo {
+                let echo = TfEchoOptions {
                     source: options.source_frame.clone(),
                     target: options.target_frame.clone(),
                     period: Duration::from_secs_f64(1.0 / options.echo_rate),

@@ -6,7 +6,7 @@ use std::time::Duration;
 use clap::{Args, Subcommand};
 use periplus_msgs::YamlStyle;
 use periplus_ros2cli::show::{Form, Show};
-use periplus_ros2cli::topic::{self, Echo, List, Publish, Rate};
+use periplus_ros2cli::topic::{self, Publish, Rate, TopicEchoOptions, TopicListOptions};
 
 use super::common::{Common, QosOptions, count, rate, seconds};
 use super::{gazebo, with_session};
@@ -229,7 +229,7 @@ impl TopicOptions {
             Verb::List(options) => with_session(&options.common, |session| {
                 topic::list(
                     session,
-                    List {
+                    TopicListOptions {
                         show_types: options.show_types,
                         count: options.count_topics,
                         include_hidden: options.include_hidden || hidden,
@@ -273,7 +273,7 @@ impl TopicOptions {
 }
 
 impl EchoOptions {
-    fn echo(&self) -> Echo {
+    fn echo(&self) -> TopicEchoOptions {
         let form = match (self.csv, self.common.json) {
             (true, _) => Form::Csv,
             (_, true) => Form::Json,
@@ -281,7 +281,7 @@ impl EchoOptions {
         };
         let by_itself = YamlStyle::default().longest.filter(|_| form != Form::Json);
         let longest = self.truncate_length.or(by_itself).filter(|_| !self.full_length);
-        Echo {
+        TopicEchoOptions {
             type_name: self.message_type.clone(),
             show: Show {
                 form,

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use crate::{Running, Step};
+use crate::{PlanStep, Running};
 use periplus_resources::SEARCH_VARIABLES;
 
 use crate::bringup::world::WorldRequest;
@@ -22,7 +22,7 @@ pub(crate) struct VariableSetting {
 }
 
 /// Positions in the steps of a plan, without duplicates.
-pub(crate) fn settings(steps: &[Step]) -> Vec<VariableSetting> {
+pub(crate) fn settings(steps: &[PlanStep]) -> Vec<VariableSetting> {
     let mut settings = Vec::new();
     for (name, variable) in steps.iter().flat_map(|step| &step.environment) {
         let (name, value) = (name.clone(), variable.value.clone());
@@ -40,7 +40,7 @@ pub(crate) fn of_running(running: &Running) -> Environment {
 }
 
 /// Environment changes of a step.
-pub(crate) fn of_step(step: &Step) -> Environment {
+pub(crate) fn of_step(step: &PlanStep) -> Environment {
     let changes = step.environment.iter();
     changes.map(|(name, variable)| (name.clone(), variable.value.clone())).collect()
 }

@@ -5,7 +5,7 @@
 
 use std::collections::BTreeMap;
 
-use crate::{Identity, Node, Parameters, Process, What};
+use crate::{Identity, PlanNode, PlanParameters, Process, What};
 use serde_json::json;
 
 use crate::bringup::parts::{truth, values};
@@ -144,10 +144,10 @@ fn gz(arguments: &Arguments<'_>, name: &str) -> WorldRequest {
 }
 
 fn node(package: &str, executable: &str) -> What {
-    What::Node(Box::new(Node {
+    What::Node(Box::new(PlanNode {
         package: Some(package.to_owned()),
         executable: executable.to_owned(),
-        ..Node::default()
+        ..PlanNode::default()
     }))
 }
 
@@ -159,11 +159,11 @@ fn named(package: &str, executable: &str, name: &str, around: &CommonSettings) -
         parameters: around.parameters.clone(),
         remaps: around.remaps.clone(),
     };
-    What::Node(Box::new(Node {
+    What::Node(Box::new(PlanNode {
         package: Some(package.to_owned()),
         executable: executable.to_owned(),
         identity,
-        ..Node::default()
+        ..PlanNode::default()
     }))
 }
 
@@ -171,14 +171,15 @@ fn named(package: &str, executable: &str, name: &str, around: &CommonSettings) -
 #[derive(Clone, Debug, Default)]
 struct CommonSettings {
     namespace: Option<String>,
-    parameters: Vec<Parameters>,
+    parameters: Vec<PlanParameters>,
     remaps: Vec<(String, String)>,
 }
 
 impl CommonSettings {
     fn of_nav2(arguments: &Arguments<'_>) -> Self {
         let mut parameters = Vec::new();
-        parameters.extend(arguments.get("params_file").map(|file| Parameters::File(file.into())));
+        parameters
+            .extend(arguments.get("params_file").map(|file| PlanParameters::File(file.into())));
         if let Some(time) = arguments.get("use_sim_time") {
             parameters.push(values(&json!({ "use_sim_time": truth(time) })));
         }
@@ -264,7 +265,7 @@ fn slam(program: &str, arguments: &Arguments<'_>) -> What {
         ..CommonSettings::default()
     };
     if let Some(file) = arguments.get("slam_params_file").or(arguments.get("params_file")) {
-        around.parameters.insert(0, Parameters::File(file.to_owned()));
+        around.parameters.insert(0, PlanParameters::File(file.to_owned()));
     }
     named("slam_toolbox", program, "slam_toolbox", &around)
 }

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::path::Path;
 
-use crate::Parameters;
+use crate::PlanParameters;
 use periplus_diagnostics::{Diagnostics, RenderStyle, SourceMap, render};
 use periplus_graph::Arguments;
 use periplus_msgs::rcl_interfaces::{ParameterType as Type, ParameterValue};
@@ -18,22 +18,22 @@ pub(crate) type NamedParameters = BTreeMap<String, ParameterValue>;
 /// `notes`.
 pub(crate) fn of_node(
     full_name: &str,
-    given: &[Parameters],
+    given: &[PlanParameters],
     ros: &[String],
     notes: &mut Vec<String>,
 ) -> NamedParameters {
     let mut all = NamedParameters::new();
     for parameters in given {
         match parameters {
-            Parameters::Values(values) => {
+            PlanParameters::Values(values) => {
                 for (name, value) in values {
                     collect(name, value, &mut all, notes);
                 }
             }
-            Parameters::File(file) if file.starts_with("package://") => notes.push(format!(
+            PlanParameters::File(file) if file.starts_with("package://") => notes.push(format!(
                 "{file} is in a package that is not on this machine; using defaults"
             )),
-            Parameters::File(file) => {
+            PlanParameters::File(file) => {
                 let words = ["--params-file".to_owned(), file.clone()];
                 all.extend(arguments(&words, notes).parameters_of(full_name));
             }

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::path::Path;
 
-use crate::{Component, Identity, Node, Plan, Process, Running, Step, Trigger, What};
+use crate::{Component, Identity, LaunchPlan, PlanNode, PlanStep, Process, Running, Trigger, What};
 use serde_json::{Value, json};
 
 use crate::bringup::catalogue::{Entry, Role, of_plugin, of_program};
@@ -95,7 +95,7 @@ pub(crate) struct Program {
 }
 
 /// Parts of a plan, in its order.
-pub(crate) fn parts_of_plan(plan: &Plan) -> Vec<Part> {
+pub(crate) fn parts_of_plan(plan: &LaunchPlan) -> Vec<Part> {
     let mut parts = Vec::new();
     for step in &plan.steps {
         of_step(step, &step.what, &plan.parameters, &mut parts);
@@ -122,7 +122,7 @@ fn placed(work: Work, running: &Running) -> Work {
     }
 }
 
-fn of_step(step: &Step, what: &What, server: &BTreeMap<String, Value>, parts: &mut Vec<Part>) {
+fn of_step(step: &PlanStep, what: &What, server: &BTreeMap<String, Value>, parts: &mut Vec<Part>) {
     let mut add = |asked: String, is_required: bool, work: Work| {
         let after = step.after.clone();
         let work = match work {
@@ -192,7 +192,7 @@ fn of_step(step: &Step, what: &What, server: &BTreeMap<String, Value>, parts: &m
     }
 }
 
-fn of_node(node: &Node, server: &BTreeMap<String, Value>) -> Work {
+fn of_node(node: &PlanNode, server: &BTreeMap<String, Value>) -> Work {
     let told = words::read(&node.arguments, &node.ros_arguments);
     let Some(entry) = of_program(node.package.as_deref(), &node.executable) else {
         let mut words = vec![node.executable.clone()];
@@ -271,7 +271,7 @@ fn ours(
 fn server_wish(identity: &Identity) -> WorldRequest {
     let mut wish = WorldRequest::default();
     for values in &identity.parameters {
-        if let crate::Parameters::Values(values) = values
+        if let crate::PlanParameters::Values(values) = values
             && let Some(Value::String(file)) = values.get("world_sdf_file")
         {
             wish.file = Some(file.clone()).filter(|file| !file.is_empty());
@@ -303,12 +303,12 @@ fn of_process(process: &Process) -> Work {
     if let Some((package, program, rest)) = run
         && of_program(Some(package), program).is_some()
     {
-        let node = Node {
+        let node = PlanNode {
             package: Some(package.clone()),
             executable: program.clone(),
             arguments: rest.to_vec(),
             running: process.running.clone(),
-            ..Node::default()
+            ..PlanNode::default()
         };
         return of_node(&node, &BTreeMap::new());
     }
@@ -380,9 +380,11 @@ pub(crate) fn searched<'a>(
 }
 
 /// Parameters of one node, for replacements.
-pub(crate) fn values(value: &Value) -> crate::Parameters {
+pub(crate) fn values(value: &Value) -> crate::PlanParameters {
     let values = value.as_object().into_iter().flatten();
-    crate::Parameters::Values(values.map(|(name, value)| (name.clone(), value.clone())).collect())
+    crate::PlanParameters::Values(
+        values.map(|(name, value)| (name.clone(), value.clone())).collect(),
+    )
 }
 
 /// Boolean in launch file syntax.

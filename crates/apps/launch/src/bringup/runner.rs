@@ -3,7 +3,7 @@
 use std::any::Any;
 use std::path::PathBuf;
 
-use crate::{Dialect, Plan, Trigger};
+use crate::{Dialect, LaunchPlan, Trigger};
 use periplus_graph::{Graph, Mailbox, Node, NodeSettings, Qos};
 use periplus_msgs::lifecycle_msgs::TransitionEvent;
 use periplus_os::Machine;
@@ -83,7 +83,7 @@ pub struct LaunchRunner {
 impl LaunchRunner {
     /// Prepares a plan.
     #[must_use]
-    pub fn new(plan: &Plan, settings: Settings) -> Self {
+    pub fn new(plan: &LaunchPlan, settings: Settings) -> Self {
         let waiting = parts::parts_of_plan(plan).into_iter().map(|part| PartState {
             part,
             come: 0,
@@ -150,7 +150,7 @@ impl LaunchRunner {
         &self.world_search
     }
 
-    fn search_of_world(&self, plan: &Plan) -> Search {
+    fn search_of_world(&self, plan: &LaunchPlan) -> Search {
         let mut search = self.settings.search.clone();
         let Some(wish) = self.world() else { return search };
         search.variables.extend(wish.environment.clone());

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use super::{Evaluation, Outcome};
-use crate::plan::{Component, Identity, Node, Process, Running, What};
+use crate::plan::{Component, Identity, PlanNode, Process, Running, What};
 use crate::tree::{ComponentOf, IdentityOf, NodeOf, ProcessOf, RunningOf, Target, Text};
 use crate::truth::truth;
 use crate::words;
@@ -16,7 +16,7 @@ impl Evaluation<'_> {
             arguments = self.split(&arguments.join(" "))?;
             ros_arguments = self.split(&ros_arguments.join(" "))?;
         }
-        let mut made = Node {
+        let mut made = PlanNode {
             package: self.perform_some(node.package.as_ref())?,
             executable: self.perform(&node.executable)?,
             identity: self.identity(&node.identity)?,

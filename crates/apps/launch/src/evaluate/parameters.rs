@@ -7,7 +7,7 @@ use serde_json::Value;
 use super::{Evaluation, Outcome};
 use crate::front;
 use crate::perform::UNCHANGED;
-use crate::plan::Parameters;
+use crate::plan::PlanParameters;
 use crate::tree::{Given, ParametersOf};
 use crate::truth::{truth, typed};
 
@@ -76,7 +76,7 @@ fn of(evaluation: &Evaluation<'_>, text: &str, of_type: &str) -> Outcome<Value> 
 
 impl Evaluation<'_> {
     /// Parameters of a node: global ones first, overridden by its own.
-    pub(super) fn parameters(&mut self, own: &[ParametersOf]) -> Outcome<Vec<Parameters>> {
+    pub(super) fn parameters(&mut self, own: &[ParametersOf]) -> Outcome<Vec<PlanParameters>> {
         let mut all = self.context.parameters.clone();
         for parameters in own {
             all.push(match parameters {
@@ -86,7 +86,7 @@ impl Evaluation<'_> {
                         let name = self.perform(name)?;
                         by_name.insert(name, self.value(given)?);
                     }
-                    Parameters::Values(by_name)
+                    PlanParameters::Values(by_name)
                 }
                 ParametersOf::File { file, with_substitutions } => {
                     let file = self.perform(file)?;
@@ -95,7 +95,11 @@ impl Evaluation<'_> {
                         Value::String(text) => truth(&text).unwrap_or_default(),
                         _ => false,
                     };
-                    Parameters::File(if is_resolved { self.resolved_file(&file)? } else { file })
+                    PlanParameters::File(if is_resolved {
+                        self.resolved_file(&file)?
+                    } else {
+                        file
+                    })
                 }
             });
         }

@@ -9,7 +9,7 @@ use super::parameters::spread;
 use super::{Loader, Scope, wrong};
 use crate::context::within;
 use crate::evaluate::Outcome;
-use crate::plan::{Identity, Node, Parameters, Running, What};
+use crate::plan::{Identity, PlanNode, PlanParameters, Running, What};
 
 impl Loader<'_, '_> {
     pub(super) fn node(&mut self, element: &Element, scope: &Scope) -> Outcome<()> {
@@ -87,7 +87,7 @@ impl Loader<'_, '_> {
         let arguments = crate::words::split(&line)
             .ok_or_else(|| wrong("launch-words", "`args` has an unclosed quote", element))?;
         let running = self.running(element, &inner)?;
-        let what = What::Node(Box::new(Node {
+        let what = What::Node(Box::new(PlanNode {
             package: Some(package),
             executable,
             identity: Identity {
@@ -96,13 +96,13 @@ impl Loader<'_, '_> {
                 parameters: if values.is_empty() {
                     Vec::new()
                 } else {
-                    vec![Parameters::Values(values)]
+                    vec![PlanParameters::Values(values)]
                 },
                 remaps: std::mem::take(&mut inner.remaps),
             },
             arguments,
             running,
-            ..Node::default()
+            ..PlanNode::default()
         }));
         self.step(element, &inner, what);
         Ok(())

@@ -3,7 +3,7 @@
 use periplus_diagnostics::{Diagnostics, SourceMap};
 use periplus_graph::{Arguments, Graph, Level, Mailbox, NodeSettings, Qos};
 use periplus_launch::bringup::{LaunchRunner, Settings};
-use periplus_launch::{Dialect, Node, Plan, Step, What};
+use periplus_launch::{Dialect, LaunchPlan, PlanNode, PlanStep, What};
 use periplus_msgs::sensor_msgs::JointState;
 use periplus_msgs::tf2_msgs::TFMessage;
 use periplus_sim::Search;
@@ -13,15 +13,15 @@ const ARM: &str = "<robot name='arm'><link name='base'/><link name='upper'/>\
 
 #[test]
 fn a_description_behind_ros_args_moves_joints_of_links_without_inertia() {
-    let node = Node {
+    let node = PlanNode {
         package: Some("robot_state_publisher".into()),
         executable: "robot_state_publisher".into(),
-        ..Node::default()
+        ..PlanNode::default()
     };
     let what = What::Node(Box::new(node));
     let environment = Default::default();
-    let step = Step { id: 0, after: Vec::new(), what, environment, written: None };
-    let plan = Plan { steps: vec![step], ..Plan::default() };
+    let step = PlanStep { id: 0, after: Vec::new(), what, environment, written: None };
+    let plan = LaunchPlan { steps: vec![step], ..LaunchPlan::default() };
     let settings = Settings {
         search: Search { working_folder: "/".into(), ..Search::default() },
         dialect: Dialect::Ros2,

@@ -14,7 +14,7 @@ use serde_json::json;
 use crate::ask::{PendingRequest, RESPONSE_TIMEOUT, ServiceCaller, ask};
 use crate::session::full_name;
 use crate::types::full_type;
-use crate::{Failure, Outcome, Refusal, Ros2Line, Session, Values, clock};
+use crate::{Failure, NodeRefusal, Outcome, Ros2Line, Session, Values, clock};
 
 /// Polling period for feedback and the result.
 const POLL_PERIOD: Duration = Duration::from_millis(2);
@@ -65,7 +65,7 @@ impl Action<'_, '_> {
         if accepted.get("accepted") != Some(Value::Number(Number::Bool(true))) {
             let message = "Goal was rejected.".to_owned();
             let ros2 = Ros2Line::Stdout(message.clone());
-            return Err(Failure::Refused(Refusal { message, ros2 }));
+            return Err(Failure::Refused(NodeRefusal { message, ros2 }));
         }
         let hex: String = id.iter().map(|byte| format!("{byte:02x}")).collect();
         self.print("Goal accepted with ID: ", &hex, "\n\n")?;
@@ -143,7 +143,7 @@ impl Action<'_, '_> {
         }
         match status {
             GoalStatus::STATUS_SUCCEEDED => Ok(()),
-            _ => Err(Failure::Refused(Refusal {
+            _ => Err(Failure::Refused(NodeRefusal {
                 message: format!("the goal of {} ended as {word}", self.name),
                 ros2: Ros2Line::Nothing,
             })),

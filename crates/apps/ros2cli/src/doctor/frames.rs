@@ -1,6 +1,6 @@
 //! Checks of the transform tree, and of frames in messages.
 
-use crate::frames::{Fault, Forest};
+use crate::frames::{Forest, TreeFault};
 use periplus_diagnostics::{Diagnostic, Diagnostics, closest};
 use periplus_tf::TransformKind;
 
@@ -37,15 +37,15 @@ pub(super) fn examine(observation: &SystemObservation, found: &mut Diagnostics) 
     named(observation, &forest, found);
 }
 
-fn told(fault: &Fault, forest: &Forest) -> Diagnostic {
+fn told(fault: &TreeFault, forest: &Forest) -> Diagnostic {
     let finding = Diagnostic::error(
         match fault {
-            Fault::Circle(_) => "frame-circle",
-            Fault::SeveralTrees(_) => "frame-missing",
-            Fault::SeveralParents { .. } => "frame-two-parents",
+            TreeFault::Circle(_) => "frame-circle",
+            TreeFault::SeveralTrees(_) => "frame-missing",
+            TreeFault::SeveralParents { .. } => "frame-two-parents",
         },
         match fault {
-            Fault::SeveralTrees(roots) => match missing(forest, roots) {
+            TreeFault::SeveralTrees(roots) => match missing(forest, roots) {
                 Some((parent, child)) => {
                     format!("no transform from `{parent}` to `{child}` is published: {fault}")
                 }
@@ -55,8 +55,8 @@ fn told(fault: &Fault, forest: &Forest) -> Diagnostic {
         },
     );
     match fault {
-        Fault::Circle(_) => finding.help("one of these transforms has parent and child exchanged"),
-        Fault::SeveralParents { parents, .. } => finding.note(
+        TreeFault::Circle(_) => finding.help("one of these transforms has parent and child exchanged"),
+        TreeFault::SeveralParents { parents, .. } => finding.note(
             "the latest one applies, so the frame jumps between them",
         ).help(format!(
             "let only one node publish it: `publish_tf` of robot_localization, `publish_odom_tf` (Classic) or \
@@ -64,7 +64,7 @@ fn told(fault: &Fault, forest: &Forest) -> Diagnostic {
              the URDF besides",
             parents.first().map_or("", String::as_str)
         )),
-        Fault::SeveralTrees(roots) => {
+        TreeFault::SeveralTrees(roots) => {
             let advice = match missing(forest, roots) {
                 Some(("map", _)) => {
                     "start a mapper (`periplus slam --live`) or AMCL, and give AMCL an initial pose \

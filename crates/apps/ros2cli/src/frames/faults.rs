@@ -4,7 +4,7 @@ use std::fmt;
 
 /// Fault of a transform tree.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub enum Fault {
+pub enum TreeFault {
     /// Loop: each frame is a child of the next, and the last of the first.
     Circle(Vec<String>),
     /// More than one root: frames of different trees cannot be transformed into each other.
@@ -23,7 +23,7 @@ fn quoted(names: &[String], between: &str) -> String {
     names.join(between)
 }
 
-impl fmt::Display for Fault {
+impl fmt::Display for TreeFault {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Circle(frames) => {

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use periplus_tf::{TransformKind, TransformMonitor, display_time};
 
-use crate::frames::faults::Fault;
+use crate::frames::faults::TreeFault;
 
 /// Transform from a parent frame.
 #[derive(Clone, Debug, PartialEq)]
@@ -151,20 +151,20 @@ impl Forest {
 
     /// Faults of the tree.
     #[must_use]
-    pub fn faults(&self) -> Vec<Fault> {
+    pub fn faults(&self) -> Vec<TreeFault> {
         let name = |frame: &usize| self.frames[*frame].name.clone();
-        let mut faults: Vec<Fault> = self
+        let mut faults: Vec<TreeFault> = self
             .circles
             .iter()
-            .map(|circle| Fault::Circle(circle.iter().map(name).collect()))
+            .map(|circle| TreeFault::Circle(circle.iter().map(name).collect()))
             .collect();
         let roots: Vec<String> = self.roots().map(str::to_owned).collect();
         if roots.len() > 1 {
-            faults.push(Fault::SeveralTrees(roots));
+            faults.push(TreeFault::SeveralTrees(roots));
         }
         for frame in self.frames.iter().filter(|frame| !frame.other_parents.is_empty()) {
             let last = frame.edge.iter().map(|edge| edge.parent.clone());
-            faults.push(Fault::SeveralParents {
+            faults.push(TreeFault::SeveralParents {
                 child: frame.name.clone(),
                 parents: last.chain(frame.other_parents.iter().cloned()).collect(),
             });
@@ -250,7 +250,7 @@ mod tests {
     #[test]
     fn a_circle_is_told_and_still_drawn() {
         let ring = forest(&[("a", "b"), ("b", "c"), ("c", "a"), ("a", "leaf")]);
-        assert_eq!(ring.faults(), [Fault::Circle(vec!["a".into(), "c".into(), "b".into()])]);
+        assert_eq!(ring.faults(), [TreeFault::Circle(vec!["a".into(), "c".into(), "b".into()])]);
         assert_eq!(ring.downward().len(), 4);
     }
 
@@ -259,7 +259,7 @@ mod tests {
         let two = forest(&[("odom", "base"), ("map", "base"), ("map", "odom")]);
         assert_eq!(
             two.faults(),
-            [Fault::SeveralParents {
+            [TreeFault::SeveralParents {
                 child: "base".into(),
                 parents: vec!["map".into(), "odom".into()]
             }]

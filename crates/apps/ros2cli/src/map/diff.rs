@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use periplus_images::{Layout, write_png};
-use periplus_maps::{Comparison, Distro, Options, Overlap, Walls, compare, picture};
+use periplus_maps::{CompareOptions, Distro, MapComparison, Overlap, Walls, compare, picture};
 use periplus_os::Machine;
 use periplus_resources::Store as _;
 use serde_json::{Value, json};
@@ -21,7 +21,7 @@ pub struct Diff {
     /// Distribution whose rules apply to both.
     pub distro: Distro,
     /// Alignment options.
-    pub options: Options,
+    pub options: CompareOptions,
     /// Path of an image of both maps.
     pub picture: Option<PathBuf>,
 }
@@ -52,7 +52,7 @@ pub fn diff(session: &mut Session<'_>, diff: &Diff) -> Outcome {
     Ok(())
 }
 
-fn draw(comparison: &Comparison, path: &Path) -> Outcome {
+fn draw(comparison: &MapComparison, path: &Path) -> Outcome {
     let (width, height, rgb) = picture(comparison);
     let png = write_png(width, height, Layout::Rgb, &rgb);
     Machine
@@ -60,7 +60,7 @@ fn draw(comparison: &Comparison, path: &Path) -> Outcome {
         .map_err(|words| Failure::failed(format!("cannot write `{}`: {words}", path.display())))
 }
 
-fn tell(session: &mut Session<'_>, comparison: &Comparison, is_aligned: bool) -> Outcome {
+fn tell(session: &mut Session<'_>, comparison: &MapComparison, is_aligned: bool) -> Outcome {
     let out = &mut session.out;
     if is_aligned {
         let place = comparison.alignment.reference_from_other;
@@ -98,7 +98,7 @@ fn tell(session: &mut Session<'_>, comparison: &Comparison, is_aligned: bool) ->
     Ok(())
 }
 
-fn overlaps(comparison: &Comparison) -> [(&'static str, Overlap); 4] {
+fn overlaps(comparison: &MapComparison) -> [(&'static str, Overlap); 4] {
     [
         ("walls", comparison.walls),
         ("walls nearby", comparison.walls_nearby),
@@ -107,11 +107,11 @@ fn overlaps(comparison: &Comparison) -> [(&'static str, Overlap); 4] {
     ]
 }
 
-fn distances(comparison: &Comparison) -> [(&'static str, Walls); 2] {
+fn distances(comparison: &MapComparison) -> [(&'static str, Walls); 2] {
     [("first, other", comparison.first_to_other), ("other, first", comparison.other_to_first)]
 }
 
-fn to_json(comparison: &Comparison) -> Value {
+fn to_json(comparison: &MapComparison) -> Value {
     let overlap = |it: Overlap| {
         json!({
             "iou": it.iou(), "both": it.both, "first_only": it.first_only,

@@ -50,7 +50,7 @@ pub enum Pressed {
 
 /// Current velocity.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Velocity {
+pub struct KeyboardVelocity {
     /// Along x, y, z \[m/s\].
     pub linear_m_s: [f64; 3],
     /// About z \[rad/s\].
@@ -90,18 +90,18 @@ impl Keyboard {
 
     /// Returns the current velocity.
     #[must_use]
-    pub fn velocity(&self) -> Velocity {
+    pub fn velocity(&self) -> KeyboardVelocity {
         // Avoids negative zero in messages.
         let times = |part: f64, speed: f64| if part == 0.0 { 0.0 } else { part * speed };
-        Velocity {
+        KeyboardVelocity {
             linear_m_s: self.direction.linear.map(|part| times(part, self.speed_m_s)),
             angular_z_rad_s: times(self.direction.angular_z, self.turn_rad_s),
         }
     }
 }
 
-impl From<Velocity> for Twist {
-    fn from(velocity: Velocity) -> Self {
+impl From<KeyboardVelocity> for Twist {
+    fn from(velocity: KeyboardVelocity) -> Self {
         let [x, y, z] = velocity.linear_m_s;
         Self {
             linear: Vector3 { x, y, z },
@@ -123,7 +123,7 @@ mod tests {
             keyboard.press('u');
             assert_eq!(
                 (keyboard.press(key), keyboard.velocity()),
-                (Pressed::Stop, Velocity::default())
+                (Pressed::Stop, KeyboardVelocity::default())
             );
         }
     }
@@ -139,7 +139,7 @@ mod tests {
         assert!(!keyboard.stop(), "it stands already");
         keyboard.press('i');
         assert_eq!(keyboard.press('\u{3}'), Pressed::Quit);
-        assert_eq!(keyboard.velocity(), Velocity::default());
+        assert_eq!(keyboard.velocity(), KeyboardVelocity::default());
     }
 
     proptest! {

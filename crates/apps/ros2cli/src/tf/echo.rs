@@ -19,7 +19,7 @@ const WAIT_REPORT_PERIOD: Duration = Duration::from_secs(1);
 
 /// Options of `tf echo`.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Echo {
+pub struct TfEchoOptions {
     /// Reference frame.
     pub source: String,
     /// Frame whose pose is printed.
@@ -38,11 +38,11 @@ pub struct Echo {
 ///
 /// # Errors
 /// When the output cannot be written.
-pub fn echo(session: &mut Session<'_>, echo: &Echo) -> Outcome {
+pub fn echo(session: &mut Session<'_>, echo: &TfEchoOptions) -> Outcome {
     endless(run(session, echo))
 }
 
-fn run(session: &mut Session<'_>, echo: &Echo) -> Outcome {
+fn run(session: &mut Session<'_>, echo: &TfEchoOptions) -> Outcome {
     let mut frames = Frames::open(session)?;
     let clock = Stopwatch::start();
     let (mut due, mut complain) = (Duration::ZERO, WAIT_REPORT_PERIOD);

@@ -18,7 +18,7 @@ const POLL_PERIOD: Duration = Duration::from_millis(2);
 
 /// Options of `topic echo`.
 #[derive(Clone, Debug, Default)]
-pub struct Echo {
+pub struct TopicEchoOptions {
     /// Message type, overriding that of the topic.
     pub type_name: Option<String>,
     /// Format settings.
@@ -42,7 +42,7 @@ pub struct Echo {
 /// # Errors
 /// When there is no such topic or type, no message arrives in time, or the output cannot be
 /// written.
-pub fn echo(session: &mut Session<'_>, topic: &str, options: &Echo) -> Outcome {
+pub fn echo(session: &mut Session<'_>, topic: &str, options: &TopicEchoOptions) -> Outcome {
     let filter = options.filter.as_deref().map(Filter::read).transpose()?;
     let type_name = options.type_name.as_deref();
     if let (Some(name), false) = (type_name, options.raw) {
@@ -117,7 +117,7 @@ fn show(
     sample: &Sample,
     layout: Option<&Arc<Layout>>,
     filter: Option<&Filter>,
-    options: &Echo,
+    options: &TopicEchoOptions,
 ) -> Result<bool, Unshown> {
     let cdr = sample.cdr().map_err(|error| Unshown::Unread(error.to_string()))?;
     let (mut text, form) = match layout {

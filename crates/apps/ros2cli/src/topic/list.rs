@@ -9,7 +9,7 @@ use crate::{Failure, Outcome, SeenTopic, Session, TopicEndpoint, is_hidden, qos}
 
 /// Options of `topic list`.
 #[derive(Clone, Copy, Debug, Default)]
-pub struct List {
+pub struct TopicListOptions {
     /// `-t`.
     pub show_types: bool,
     /// `-c`.
@@ -24,7 +24,7 @@ pub struct List {
 ///
 /// # Errors
 /// When the output cannot be written.
-pub fn list(session: &mut Session<'_>, options: List) -> Outcome {
+pub fn list(session: &mut Session<'_>, options: TopicListOptions) -> Outcome {
     let seen = session.look();
     let topics = seen.topics.iter();
     let topics: Vec<&SeenTopic> =

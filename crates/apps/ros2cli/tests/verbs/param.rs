@@ -4,7 +4,7 @@ use std::path::Path;
 
 use expect_test::expect;
 use periplus_graph::{Node, NodeSettings, parameter_from_yaml};
-use periplus_ros2cli::param::{self, List};
+use periplus_ros2cli::param::{self, ParamListOptions};
 
 use crate::bench::Bench;
 
@@ -24,7 +24,7 @@ fn parameters_are_seen() {
     let bench = Bench { all: true, ..Bench::new() };
     let _lidar = lidar(&bench);
     bench.check(
-        |session| param::list(session, &List::default()),
+        |session| param::list(session, &ParamListOptions::default()),
         expect![[r#"
         /lidar:
           beams
@@ -33,7 +33,11 @@ fn parameters_are_seen() {
           use_sim_time
     "#]],
     );
-    let of_lidar = List { node: Some("/lidar".into()), show_types: true, ..List::default() };
+    let of_lidar = ParamListOptions {
+        node: Some("/lidar".into()),
+        show_types: true,
+        ..ParamListOptions::default()
+    };
     let typed = bench.run(|session| param::list(session, &of_lidar));
     assert!(
         typed.starts_with("  beams (type: integer)\n  frames (type: string array)\n"),

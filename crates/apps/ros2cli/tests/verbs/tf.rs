@@ -11,7 +11,7 @@ use periplus_msgs::geometry_msgs::{Quaternion, Transform, TransformStamped, Vect
 use periplus_msgs::std_msgs::Header;
 use periplus_msgs::tf2_msgs::TFMessage;
 use periplus_ros2cli::frames::Forest;
-use periplus_ros2cli::tf::{Echo, Monitor, Pictures, Tree, echo, monitor, put_tree, tree};
+use periplus_ros2cli::tf::{Monitor, Pictures, TfEchoOptions, Tree, echo, monitor, put_tree, tree};
 use periplus_tf::{StampedTransform, TransformKind, TransformMonitor};
 
 use crate::bench::Bench;
@@ -35,7 +35,7 @@ fn a_pose_is_shown() {
     let node = bench.node("robot_state_publisher");
     let publisher = node.publisher("/tf_static", Qos::latched(1)).unwrap();
     publisher.publish(transform("base_link", "laser", 0.25));
-    let options = Echo {
+    let options = TfEchoOptions {
         source: "base_link".into(),
         target: "laser".into(),
         period: Duration::from_secs(1),

@@ -7,7 +7,7 @@ use periplus_graph::{Publisher, Qos};
 use periplus_msgs::{geometry_msgs, sensor_msgs, std_msgs, tf2_msgs};
 use periplus_ros2cli::QosRequest;
 use periplus_ros2cli::show::Form;
-use periplus_ros2cli::topic::{self, Echo, List, Publish, Rate};
+use periplus_ros2cli::topic::{self, Publish, Rate, TopicEchoOptions, TopicListOptions};
 
 use crate::bench::Bench;
 
@@ -41,18 +41,18 @@ fn robot() -> Robot {
 #[test]
 fn topics_are_listed() {
     let robot = robot();
-    let check = |options: List, expected: Expect| {
+    let check = |options: TopicListOptions, expected: Expect| {
         robot.bench.check(|session| topic::list(session, options), expected);
     };
     check(
-        List::default(),
+        TopicListOptions::default(),
         expect![[r#"
         /cmd_vel
         /scan
     "#]],
     );
     check(
-        List { show_types: true, include_hidden: true, ..List::default() },
+        TopicListOptions { show_types: true, include_hidden: true, ..TopicListOptions::default() },
         expect![[r#"
         /_alive [std_msgs/msg/Empty]
         /cmd_vel [geometry_msgs/msg/Twist]
@@ -60,13 +60,13 @@ fn topics_are_listed() {
     "#]],
     );
     check(
-        List { count: true, ..List::default() },
+        TopicListOptions { count: true, ..TopicListOptions::default() },
         expect![[r#"
         2
     "#]],
     );
     check(
-        List { verbose: true, ..List::default() },
+        TopicListOptions { verbose: true, ..TopicListOptions::default() },
         expect![[r#"
         Published topics:
          * /scan [sensor_msgs/msg/LaserScan] 1 publisher
@@ -78,7 +78,7 @@ fn topics_are_listed() {
     "#]],
     );
     let json = Robot { bench: robot.bench.json(), ..robot };
-    json.bench.check(|session| topic::list(session, List::default()), expect![[r#"
+    json.bench.check(|session| topic::list(session, TopicListOptions::default()), expect![[r#"
         {"topics":[{"name":"/cmd_vel","publishers":0,"subscriptions":1,"types":["geometry_msgs/msg/Twist"]},{"name":"/scan","publishers":1,"subscriptions":1,"types":["sensor_msgs/msg/LaserScan"]}]}
     "#]]);
 }
@@ -188,7 +188,12 @@ fn types_and_topics_are_found() {
 }
 
 /// Echoes the messages that `publish` publishes periodically until the end.
-fn echo(bench: &Bench, topic: &str, options: &Echo, mut publish: impl FnMut() + Send) -> String {
+fn echo(
+    bench: &Bench,
+    topic: &str,
+    options: &TopicEchoOptions,
+    mut publish: impl FnMut() + Send,
+) -> String {
     let done = std::sync::atomic::AtomicBool::new(false);
     std::thread::scope(|scope| {
         scope.spawn(|| {
@@ -203,8 +208,8 @@ fn echo(bench: &Bench, topic: &str, options: &Echo, mut publish: impl FnMut() + 
     })
 }
 
-fn once() -> Echo {
-    Echo { once: true, ..Echo::default() }
+fn once() -> TopicEchoOptions {
+    TopicEchoOptions { once: true, ..TopicEchoOptions::default() }
 }
 
 #[test]
@@ -212,7 +217,7 @@ fn messages_are_shown_in_every_form() {
     let bench = Bench::new();
     let node = bench.node("tf");
     let publisher = node.publisher::<tf2_msgs::TFMessage>("/tf", Qos::reliable(10)).unwrap();
-    let check = |change: &dyn Fn(&mut Echo), expected: Expect| {
+    let check = |change: &dyn Fn(&mut TopicEchoOptions), expected: Expect| {
         let mut options = once();
         change(&mut options);
         let text = echo(&bench, "/tf", &options, || {
@@ -327,8 +332,9 @@ fn messages_are_shown_in_every_form() {
         {"transforms":[{"header":{"stamp":{"sec":0,"nanosec":0},"frame_id":"o..."},"child_frame_id":"i...","transform":{"translation":{"x":0.25,"y":0.0,"z":0.0},"rotation":{"x":0.0,"y":0.0,"z":0.0,"w":1.0}}}]}
     "#]],
     );
-    let field =
-        |path: &'static str| move |options: &mut Echo| options.show.field = Some(path.into());
+    let field = |path: &'static str| {
+        move |options: &mut TopicEchoOptions| options.show.field = Some(path.into())
+    };
     check(
         &field("transforms[1].transform.translation"),
         expect![[r#"
@@ -380,7 +386,7 @@ fn bytes_are_shown_raw() {
     let bench = Bench::new();
     let node = bench.node("talker");
     let publisher = node.publisher::<std_msgs::String>("/chatter", Qos::reliable(10)).unwrap();
-    let options = Echo { raw: true, ..once() };
+    let options = TopicEchoOptions { raw: true, ..once() };
     let text = echo(&bench, "chatter", &options, || {
         publisher.publish(std_msgs::String { data: "it's".into() });
     });
@@ -396,7 +402,7 @@ fn messages_are_filtered() {
     let bench = Bench::new();
     let node = bench.node("counter");
     let publisher = node.publisher::<std_msgs::Int32>("/count", Qos::reliable(10)).unwrap();
-    let filter = |filter: &str| Echo { filter: Some(filter.into()), ..once() };
+    let filter = |filter: &str| TopicEchoOptions { filter: Some(filter.into()), ..once() };
     let mut data = 0;
     let text = echo(&bench, "/count", &filter("m.data % 7 == 6 and m.data > 6"), || {
         data += 1;
@@ -431,7 +437,8 @@ fn who_comes_late_hears_latched_topics() {
     );
     // Explicit options take precedence.
     let volatile = QosRequest { durability: Some("volatile".into()), ..QosRequest::default() };
-    let options = Echo { qos: volatile, timeout: Some(Duration::from_millis(50)), ..once() };
+    let options =
+        TopicEchoOptions { qos: volatile, timeout: Some(Duration::from_millis(50)), ..once() };
     bench.check(
         |session| topic::echo(session, "/map_name", &options),
         expect![[r#"
@@ -439,7 +446,7 @@ fn who_comes_late_hears_latched_topics() {
     "#]],
     );
     let wrong = QosRequest { reliability: Some("relaible".into()), ..QosRequest::default() };
-    let options = Echo { qos: wrong, ..once() };
+    let options = TopicEchoOptions { qos: wrong, ..once() };
     bench.check(
         |session| topic::echo(session, "/map_name", &options),
         expect![[r#"
@@ -452,7 +459,8 @@ fn who_comes_late_hears_latched_topics() {
 fn publishers_that_do_not_fit_are_named() {
     let robot = robot();
     let reliable = QosRequest { reliability: Some("reliable".into()), ..QosRequest::default() };
-    let options = Echo { qos: reliable, timeout: Some(Duration::from_millis(30)), ..once() };
+    let options =
+        TopicEchoOptions { qos: reliable, timeout: Some(Duration::from_millis(30)), ..once() };
     robot.bench.check(|session| topic::echo(session, "/scan", &options), expect![[r#"
         | WARNING: /bot/lidar offers /scan with reliability best_effort, and reliable is requested: its messages are not received
         ! no message received on /scan in time
@@ -466,11 +474,11 @@ fn what_cannot_be_heard_is_told() {
         | WARNING: topic [/scn] does not appear to be published yet
         ! could not determine the type of /scn: it has no publisher and no subscriber; did you mean `/scan`? Give the type after the name to wait for it
     "#]]);
-    let options = Echo { type_name: Some("my_msgs/Thing".into()), ..once() };
+    let options = TopicEchoOptions { type_name: Some("my_msgs/Thing".into()), ..once() };
     robot.bench.check(|session| topic::echo(session, "/scan", &options), expect![[r#"
         ! the message type `my_msgs/msg/Thing` is unknown. If it is in a package of yours, give its folder with `--interfaces DIR`, or add the install prefix of `my_msgs` to AMENT_PREFIX_PATH
     "#]]);
-    let options = Echo { type_name: Some("sensor_msgs/msg/LaserScn".into()), ..once() };
+    let options = TopicEchoOptions { type_name: Some("sensor_msgs/msg/LaserScn".into()), ..once() };
     robot.bench.check(|session| topic::echo(session, "/scan", &options), expect![[r#"
         ! the message type `sensor_msgs/msg/LaserScn` is unknown. Did you mean `sensor_msgs/msg/LaserScan`? If it is in a package of yours, give its folder with `--interfaces DIR`, or add the install prefix of `sensor_msgs` to AMENT_PREFIX_PATH
     "#]]);

@@ -14,7 +14,7 @@ use crate::files::write::Storage;
 
 /// ROS version of a bag.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Kind {
+pub enum BagKind {
     /// A `ros2 bag` folder, or its files.
     Ros2,
     /// ROS 1 bags.
@@ -117,9 +117,9 @@ impl Bag {
 
     /// ROS version of the bag.
     #[must_use]
-    pub fn kind(&self) -> Kind {
+    pub fn kind(&self) -> BagKind {
         let is_ros1 = self.parts.iter().any(|part| part.storage == Storage::Ros1);
-        if is_ros1 { Kind::Ros1 } else { Kind::Ros2 }
+        if is_ros1 { BagKind::Ros1 } else { BagKind::Ros2 }
     }
 
     /// Storage format of its files.

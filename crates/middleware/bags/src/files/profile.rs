@@ -1,13 +1,13 @@
 //! Conversion of QoS between bags and graphs.
 
 use crate as bags;
-use crate::{BagTopic, QosProfile, TopicInfo};
+use crate::{BagTopic, QosProfile, TopicInformation};
 use periplus_graph::{Durability, History, Liveliness, Qos, Reliability};
 
 /// Metadata of a topic.
-pub(crate) fn topic_info(topic: &BagTopic) -> TopicInfo {
+pub(crate) fn topic_info(topic: &BagTopic) -> TopicInformation {
     let about = |key: &str| topic.metadata.get(key).map_or("", String::as_str);
-    TopicInfo {
+    TopicInformation {
         name: topic.name.clone(),
         type_name: topic.type_name.clone(),
         type_hash: about("topic_type_hash").into(),

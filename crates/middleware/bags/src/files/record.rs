@@ -13,14 +13,14 @@ use crate::files::profile::profile;
 use crate::files::{BagError, BagWriter, Storage, WriteSettings};
 
 /// Filter of topics to record.
-pub type Wanted = Box<dyn Fn(&TopicInfo) -> bool + Send + Sync>;
+pub type RecordFilter = Box<dyn Fn(&TopicInfo) -> bool + Send + Sync>;
 
 /// Settings of a recorder.
 pub struct RecordSettings {
     /// Settings of the bag.
     pub write: WriteSettings,
     /// Topics to record.
-    pub wanted: Wanted,
+    pub wanted: RecordFilter,
     /// Queue depth in live mode, while the disk is busy.
     pub depth: usize,
     /// Clock for the time of recording \[ns\]; none for the time of the graph.
@@ -225,7 +225,7 @@ fn describe(topic: &TopicInfo, offered: &[Qos]) -> BagTopic {
     let text = types.schema_text(&topic.type_name).unwrap_or_default();
     let hash = topic.type_hash.clone().or_else(|| types.hash(&topic.type_name));
     let profiles = offered.iter().map(profile).collect();
-    let info = crate::TopicInfo {
+    let info = crate::TopicInformation {
         name: topic.name.clone(),
         type_name: topic.type_name.clone(),
         type_hash: hash.clone().unwrap_or_default(),

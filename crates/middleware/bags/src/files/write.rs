@@ -7,7 +7,7 @@ use std::fs::{self, File};
 use std::io::{BufReader, BufWriter, Write as _};
 use std::path::{Path, PathBuf};
 
-use crate::{BagInfo, BagTopic, FileInfo, Stamp, Stored, TopicInfo};
+use crate::{BagInfo, BagTopic, FileInfo, Stamp, Stored, TopicInformation};
 
 use crate::files::BagError;
 use crate::files::bag::{METADATA, TopicIndex};
@@ -28,7 +28,7 @@ pub struct BagWriter {
     settings: WriteSettings,
     file: Option<FileWriter>,
     path: PathBuf,
-    topics: Vec<(BagTopic, TopicInfo)>,
+    topics: Vec<(BagTopic, TopicInformation)>,
     index: TopicIndex,
     /// Topic ids in the open file.
     ids: Vec<usize>,

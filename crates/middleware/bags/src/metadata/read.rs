@@ -3,7 +3,7 @@
 use periplus_diagnostics::{Diagnostic, Diagnostics, FileId, SourceMap};
 use periplus_yaml::YamlNode;
 
-use super::{BagInfo, FileInfo, TopicInfo};
+use super::{BagInfo, FileInfo, TopicInformation};
 use crate::qos;
 
 /// Content of `metadata.yaml`.
@@ -82,7 +82,7 @@ fn file_info(path: String, about: &[YamlNode]) -> FileInfo {
     FileInfo { path, span_ns, messages: node.map_or(0, count) }
 }
 
-fn topic_info(node: &YamlNode) -> TopicInfo {
+fn topic_info(node: &YamlNode) -> TopicInformation {
     let about = node.get("topic_metadata").unwrap_or(node);
     // A list since version 9, a string with YAML inside before.
     let profiles = about.get("offered_qos_profiles");
@@ -90,7 +90,7 @@ fn topic_info(node: &YamlNode) -> TopicInfo {
         Some(text) => qos::from_text(text),
         None => profiles.map(qos::from_yaml).unwrap_or_default(),
     };
-    TopicInfo {
+    TopicInformation {
         name: text(about, "name"),
         type_name: text(about, "type"),
         type_hash: text(about, "type_description_hash"),

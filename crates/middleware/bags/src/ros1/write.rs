@@ -5,7 +5,7 @@ use std::io::{self, Seek, SeekFrom, Write};
 
 use super::record::{put_data, put_header, put_u32, time_bytes};
 use super::{MAGIC, Ros1Compression, op};
-use crate::{BagInfo, BagTopic, FileInfo, Stamp, TopicInfo, WriteError};
+use crate::{BagInfo, BagTopic, FileInfo, Stamp, TopicInformation, WriteError};
 
 /// Settings of a ROS 1 bag.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -39,7 +39,7 @@ pub struct Ros1Writer<W> {
     sink: W,
     settings: Ros1Settings,
     at: u64,
-    topics: Vec<(BagTopic, TopicInfo)>,
+    topics: Vec<(BagTopic, TopicInformation)>,
     /// Topic ids by name and type.
     ids: BTreeMap<(String, String), u32>,
     chunk: Chunk,
@@ -101,7 +101,7 @@ impl<W: Write + Seek> Ros1Writer<W> {
         }
         let id = u32::try_from(self.topics.len()).map_err(|_| WriteError::TooManyTopics)?;
         put_connection(&mut self.chunk.records, id, topic);
-        let info = TopicInfo {
+        let info = TopicInformation {
             name: topic.name.clone(),
             type_name: topic.type_name.clone(),
             type_hash: String::new(),
@@ -234,7 +234,7 @@ impl<W: Write + Seek> Ros1Writer<W> {
         let spans = self.chunks.iter().filter_map(|chunk| chunk.span);
         let span = spans.reduce(|(start, end), (from, to)| (start.min(from), end.max(to)));
         let signed = |time: u64| i64::try_from(time).unwrap_or(i64::MAX);
-        let topics: Vec<TopicInfo> = self.topics.into_iter().map(|(_, info)| info).collect();
+        let topics: Vec<TopicInformation> = self.topics.into_iter().map(|(_, info)| info).collect();
         let file = FileInfo {
             path: self.settings.file_name.clone(),
             span_ns: span.map(|(start, end)| (signed(start), signed(end))),

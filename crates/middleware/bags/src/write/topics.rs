@@ -6,7 +6,7 @@ use periplus_msgs::Message;
 
 use super::WriteError;
 use crate::record::{Channel, Schema};
-use crate::{BagTopic, QosProfile, Style, TopicInfo, qos};
+use crate::{BagTopic, QosProfile, Style, TopicInformation, qos};
 
 /// A topic to record.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -51,7 +51,7 @@ pub(super) struct Counted {
 pub(super) struct Topics {
     pub(super) schemas: Vec<Schema>,
     pub(super) channels: Vec<Channel>,
-    pub(super) infos: Vec<TopicInfo>,
+    pub(super) infos: Vec<TopicInformation>,
     by_name: BTreeMap<(String, String), u16>,
 }
 
@@ -67,7 +67,7 @@ impl Topics {
                 return Err(WriteError::TooLong("a name or type".into()));
             }
         }
-        let info = TopicInfo {
+        let info = TopicInformation {
             name: topic.name,
             type_name: topic.type_name,
             type_hash: topic.type_hash,
@@ -89,7 +89,7 @@ impl Topics {
         preamble: &mut Vec<u8>,
     ) -> Result<TopicId, WriteError> {
         let about = |key: &str| topic.metadata.get(key).map_or("", String::as_str);
-        let info = TopicInfo {
+        let info = TopicInformation {
             name: topic.name.clone(),
             type_name: topic.type_name.clone(),
             type_hash: about("topic_type_hash").into(),
@@ -103,7 +103,7 @@ impl Topics {
 
     fn insert(
         &mut self,
-        info: TopicInfo,
+        info: TopicInformation,
         schema_encoding: &str,
         data: Vec<u8>,
         metadata: BTreeMap<String, String>,

@@ -5,7 +5,7 @@ use std::path::Path;
 
 use crate::common::{Folder, Row, numbers, rows, write_numbers};
 use periplus_bags::files::{
-    Bag, BagError, ChunkPacking, Conversion, Info, Kind, Packing, PackingMode, Storage,
+    Bag, BagError, BagKind, ChunkPacking, Conversion, Info, Packing, PackingMode, Storage,
     WriteSettings, convert,
 };
 use periplus_bags::{Selection, Style};
@@ -232,7 +232,7 @@ fn databases_of_older_releases_are_read() {
             Conversion { selection: Selection::default(), write: settings(Storage::Ros1) };
         convert(&[bag], &goal, conversion, &mut |_| {}).unwrap();
         let bag = Bag::open(&goal).unwrap();
-        assert_eq!(bag.kind(), Kind::Ros1);
+        assert_eq!(bag.kind(), BagKind::Ros1);
         assert_eq!(rows(&bag, Selection::default()), [(5, 7, "/odd".to_owned())]);
     }
 }

@@ -30,7 +30,7 @@ use periplus_msgs::tf2_msgs::TFMessage;
 use periplus_msgs::{Message, Service};
 use periplus_nav_nodes::amcl::AmclNode;
 use periplus_params::Given;
-use periplus_resources::{EntryKind, FileReadError, Host, MemoryHost, Store, WriteError};
+use periplus_resources::{EntryKind, FileReadError, FileWriteError, Host, MemoryHost, Store};
 
 /// A room of 6 by 4 metres with a pillar and a cut corner, without symmetries.
 fn room() -> Map {
@@ -54,7 +54,7 @@ fn room() -> Map {
     map
 }
 
-/// What a scanner in the middle of the robot sees.
+/// Ranges of a scanner at the center of the robot.
 fn look(map: &Map, map_from_laser: Pose2) -> Vec<f32> {
     const BEAMS: usize = 120;
     let finder = map.info.finder();
@@ -102,9 +102,9 @@ impl Host for Files {
 }
 
 impl Store for Files {
-    fn replace(&self, path: &Path, content: &[u8]) -> Result<(), WriteError> {
+    fn replace(&self, path: &Path, content: &[u8]) -> Result<(), FileWriteError> {
         if path.starts_with("/full") {
-            return Err(WriteError::Other("the disk is full".into()));
+            return Err(FileWriteError::Other("the disk is full".into()));
         }
         self.written.lock().unwrap().insert(path.to_owned(), content.to_vec());
         Ok(())
@@ -127,7 +127,7 @@ struct Stage {
     now_ns: i64,
 }
 
-/// Where odometry began, on the map.
+/// Start pose of odometry, on the map.
 const MAP_FROM_ODOM: Pose2 = Pose2::new(0.5, 0.25, 0.5);
 
 fn time(time_ns: i64) -> Time {

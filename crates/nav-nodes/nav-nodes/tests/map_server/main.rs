@@ -15,7 +15,7 @@ use periplus_msgs::Service;
 use periplus_msgs::nav_msgs::{GetMap, GetMapRequest, MapMetaData, OccupancyGrid};
 use periplus_msgs::nav2_msgs::{LoadMap, LoadMapRequest, SaveMap, SaveMapRequest};
 use periplus_nav_nodes::map_server::{MapSaver, MapServer, MapServerSettings};
-use periplus_resources::{EntryKind, FileReadError, Host, MemoryHost, Store, WriteError};
+use periplus_resources::{EntryKind, FileReadError, FileWriteError, Host, MemoryHost, Store};
 
 /// Files that are there, and files that are written.
 struct Files {
@@ -60,9 +60,9 @@ impl Host for Files {
 }
 
 impl Store for Files {
-    fn replace(&self, path: &Path, content: &[u8]) -> Result<(), WriteError> {
+    fn replace(&self, path: &Path, content: &[u8]) -> Result<(), FileWriteError> {
         if path.starts_with("/full") {
-            return Err(WriteError::Other("the disk is full".into()));
+            return Err(FileWriteError::Other("the disk is full".into()));
         }
         self.written.lock().unwrap().insert(path.to_owned(), content.to_vec());
         Ok(())

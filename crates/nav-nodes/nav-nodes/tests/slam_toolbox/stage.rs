@@ -18,7 +18,7 @@ use periplus_msgs::tf2_msgs::TFMessage;
 use periplus_msgs::{Message, Service};
 use periplus_nav_nodes::slam_toolbox::{Pace, Program, SlamNode};
 use periplus_params::Given;
-use periplus_resources::{EntryKind, FileReadError, Host, MemoryHost, Store, WriteError};
+use periplus_resources::{EntryKind, FileReadError, FileWriteError, Host, MemoryHost, Store};
 
 /// Walls of a room of 6 by 4 metres, with a pillar and a corner cut off.
 pub(crate) const WALLS: [[f64; 4]; 10] = [
@@ -106,9 +106,9 @@ impl Host for Files {
 }
 
 impl Store for Files {
-    fn replace(&self, path: &Path, content: &[u8]) -> Result<(), WriteError> {
+    fn replace(&self, path: &Path, content: &[u8]) -> Result<(), FileWriteError> {
         if path.starts_with("/full") {
-            return Err(WriteError::Other("the disk is full".into()));
+            return Err(FileWriteError::Other("the disk is full".into()));
         }
         self.written.lock().unwrap().insert(path.to_owned(), content.to_vec());
         Ok(())

@@ -6,7 +6,7 @@ use std::process::{Child as Running_, Command, Stdio};
 use std::sync::mpsc::{Receiver, channel};
 use std::time::Duration;
 
-use crate::{Dialect, Parameters, Running};
+use crate::{Dialect, PlanParameters, Running};
 use periplus_os::{Machine, Overlay, Stopwatch, sleep};
 use periplus_resources::{EntryKind, Host as _, Resolver};
 
@@ -339,8 +339,8 @@ fn ros_words(program: &Program) -> Vec<String> {
     }
     for parameters in &identity.parameters {
         match parameters {
-            Parameters::File(file) => add("--params-file", file.clone()),
-            Parameters::Values(values) => {
+            PlanParameters::File(file) => add("--params-file", file.clone()),
+            PlanParameters::Values(values) => {
                 for (name, value) in values.iter().filter(|(_, value)| parameter(value).is_some()) {
                     // JSON is valid YAML.
                     add("-p", format!("{name}:={value}"));

@@ -3,7 +3,7 @@
 
 use std::path::{Path, PathBuf};
 
-use crate::{BagInfo, BagTopic, FileInfo, Stamp, Stored, Style, TopicInfo, WriteError};
+use crate::{BagInfo, BagTopic, FileInfo, Stamp, Stored, Style, TopicInformation, WriteError};
 use rusqlite::Connection;
 
 use crate::files::BagError;
@@ -14,7 +14,7 @@ pub(crate) struct SqliteWriter {
     path: PathBuf,
     connection: Connection,
     style: Style,
-    topics: Vec<TopicInfo>,
+    topics: Vec<TopicInformation>,
     span_ns: Option<(i64, i64)>,
     /// Message time at which the open transaction started \[ns\].
     since_ns: Option<i64>,
@@ -78,7 +78,8 @@ impl SqliteWriter {
 
     pub(crate) fn topic(&mut self, topic: &BagTopic) -> Result<usize, BagError> {
         let info = topic_info(topic);
-        let same = |one: &TopicInfo| one.name == info.name && one.type_name == info.type_name;
+        let same =
+            |one: &TopicInformation| one.name == info.name && one.type_name == info.type_name;
         if let Some(at) = self.topics.iter().position(same) {
             return Ok(at);
         }
