@@ -2,6 +2,19 @@
 //!
 //! Readers use it through [`periplus_resources::Host`]. No other library crate accesses files or the
 //! environment.
+//!
+//! ```
+//! use std::path::Path;
+//!
+//! use periplus_os::{Machine, Overlay};
+//! use periplus_resources::Host;
+//!
+//! let bytes = Machine.read(Path::new("Cargo.toml")).expect("the manifest of this crate");
+//! assert!(bytes.starts_with(b"[package]"));
+//! let variables = [("ROS_DOMAIN_ID".to_owned(), Some("7".to_owned()))].into();
+//! let host = Overlay { variables };
+//! assert_eq!(host.variable("ROS_DOMAIN_ID").as_deref(), Some("7"));
+//! ```
 
 mod machine;
 mod memory;

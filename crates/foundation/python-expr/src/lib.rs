@@ -11,6 +11,18 @@
 //!
 //! Built-in names follow xacro 2.1.1 (`create_global_symbols` in its `__init__.py`) and, for `$(eval ...)`,
 //! its `substitution_args.py`.
+//!
+//! ```
+//! use periplus_python_expr::{Budget, EmptyScope, Expression, Value, evaluate};
+//!
+//! let expression = Expression::parse("max([2 * x for x in range(4)]) + int('1')")?;
+//! let value = evaluate(&expression, &EmptyScope, &mut Budget::default())?;
+//! assert!(matches!(value, Value::Int(7)));
+//!
+//! let endless = Expression::parse("sum(x for x in range(10 ** 12))")?;
+//! assert!(evaluate(&endless, &EmptyScope, &mut Budget::default()).is_err());
+//! # Ok::<(), periplus_python_expr::ExpressionError>(())
+//! ```
 
 mod arithmetic_functions;
 mod ast;

@@ -1,4 +1,17 @@
 //! Resolution of URIs to files. All access to the machine uses [`Host`].
+//!
+//! ```
+//! use std::path::Path;
+//!
+//! use periplus_resources::{MemoryHost, Resolver};
+//!
+//! let host = MemoryHost::new()
+//!     .with_file("/ws/cart/package.xml", "<package><name>cart</name></package>")
+//!     .with_file("/ws/cart/meshes/wheel.stl", "solid wheel");
+//! let resolver = Resolver::new(&host, &["/ws".into()]);
+//! let file = resolver.resolve("package://cart/meshes/wheel.stl", Path::new("/home"));
+//! assert_eq!(file.expect("the mesh"), Path::new("/ws/cart/meshes/wheel.stl"));
+//! ```
 
 mod crawl;
 mod data_files;

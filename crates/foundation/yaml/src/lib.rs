@@ -2,6 +2,17 @@
 //!
 //! The caller determines the type of a scalar: `1e5` is a number for [`Node::number`] and a text for
 //! [`Node::text`]. Anchors and aliases are supported; merge keys (`<<`) are not and are ordinary names.
+//!
+//! ```
+//! use periplus_diagnostics::SourceMap;
+//!
+//! let mut sources = SourceMap::new();
+//! let file = sources.add("nav2.yaml", "amcl:\n  max_particles: 2000\n");
+//! let tree = periplus_yaml::parse(file, &sources).expect("YAML").expect("a value");
+//! let value = tree.get("amcl").and_then(|amcl| amcl.get("max_particles")).expect("a parameter");
+//! assert_eq!(value.integer(), Some(2000));
+//! assert_eq!(sources.locate(value.span).1.line, 2);
+//! ```
 
 use std::collections::BTreeMap;
 

@@ -2,6 +2,21 @@
 //!
 //! [`load`] reads any robot, world or related file and returns a [`Loaded`]: the scene, the findings, and
 //! the texts that they refer to. It always returns; a broken file gives findings.
+//!
+//! ```
+//! use periplus_loader::{LoadContext, load};
+//! use periplus_resources::{MemoryHost, Resolver};
+//!
+//! let robot = "<robot name='cart'><link name='base_link'/></robot>";
+//! let host = MemoryHost::new().with_file("/cart.urdf", robot);
+//! let resolver = Resolver::new(&host, &[]);
+//! let (working_folder, arguments, open_meshes) = ("/".into(), Vec::new(), true);
+//! let context =
+//!     LoadContext { host: &host, resolver: &resolver, working_folder, arguments, open_meshes };
+//! let loaded = load("/cart.urdf".as_ref(), &context);
+//! assert!(!loaded.diagnostics.has_errors());
+//! assert_eq!(loaded.scene.expect("a robot").models[0].name, "cart");
+//! ```
 
 mod detect;
 mod documents;

@@ -5,6 +5,18 @@
 //! `extra` lists and in [`Plugin::content`], so writing a scene loses nothing.
 //!
 //! Two scenes are equal if they have the same meaning; [`Origin`]s are not compared.
+//!
+//! ```
+//! use periplus_scene::{Joint, JointKind, Link, Model, Pose, tf_tree};
+//!
+//! let mut cart = Model::new("cart");
+//! let model_from_link = Pose::from_xyz(0.2, 0.0, 0.3);
+//! cart.links = vec![Link::new("base"), Link { model_from_link, ..Link::new("lidar") }];
+//! cart.joints.push(Joint::new("mount", JointKind::Fixed, "base", "lidar"));
+//! let edges = tf_tree(&cart);
+//! assert_eq!((edges[0].parent.as_str(), edges[0].child.as_str()), ("base", "lidar"));
+//! assert_eq!(edges[0].parent_from_child.translation.x, 0.2);
+//! ```
 
 mod actor;
 mod joint;

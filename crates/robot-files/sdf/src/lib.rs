@@ -4,6 +4,23 @@
 //! Reading has three steps, each in its own module: `upgrade` converts old spellings, `read` turns elements
 //! into drafts whose poses are as written, `frames` resolves them. No content is dropped silently: unread
 //! content is kept verbatim (see `fields`).
+//!
+//! ```
+//! use periplus_diagnostics::{Diagnostics, SourceMap};
+//! use periplus_sdf::{NoIncludes, SdfContext, read_document};
+//!
+//! let text = "<sdf version='1.9'><model name='cart'>
+//!     <link name='base'><pose>1 0 0 0 0 0</pose></link>
+//!     <link name='lidar'><pose relative_to='base'>0 0 0.5 0 0 0</pose></link>
+//! </model></sdf>";
+//! let (mut sources, mut diagnostics) = (SourceMap::new(), Diagnostics::new());
+//! let file = sources.add("cart.sdf", text);
+//! let document = periplus_xml::parse(file, &sources, &mut diagnostics).expect("XML");
+//! let includes = &mut NoIncludes;
+//! let mut context = SdfContext { sources: &mut sources, diagnostics: &mut diagnostics, includes };
+//! let scene = read_document(&document, &mut context);
+//! assert_eq!(scene.models[0].links[1].model_from_link.translation.to_array(), [1.0, 0.0, 0.5]);
+//! ```
 
 mod builtin;
 mod draft;

@@ -6,6 +6,23 @@
 //! Written from the behaviour of the reference implementation (`ros/xacro` 2.1), not from its code. One
 //! deliberate difference: braces inside `${...}` and parentheses inside `$(eval ...)` may nest, which the
 //! regular expressions of the reference do not support.
+//!
+//! ```
+//! use periplus_diagnostics::{Diagnostics, SourceMap};
+//! use periplus_resources::{MemoryHost, Resolver};
+//! use periplus_xacro::{XacroContext, expand};
+//!
+//! let text = "<robot xmlns:xacro='http://www.ros.org/wiki/xacro'>
+//!     <xacro:property name='radius' value='0.1'/><wheel diameter='${2 * radius}'/></robot>";
+//! let (mut sources, mut diagnostics, host) = (SourceMap::new(), Diagnostics::new(), MemoryHost::new());
+//! let file = sources.add("/cart.xacro", text);
+//! let document = periplus_xml::parse(file, &sources, &mut diagnostics).expect("XML");
+//! let (resolver, folder) = (Resolver::new(&host, &[]), "/".into());
+//! let (path, arguments) = ("/cart.xacro".into(), Vec::new());
+//! let context = XacroContext { path, working_folder: folder, arguments, host: &host, resolver: &resolver };
+//! let robot = expand(&document, context, &mut sources, &mut diagnostics).expect("no errors");
+//! assert_eq!(robot.document.root.child("wheel").and_then(|it| it.value("diameter")), Some("0.2"));
+//! ```
 
 mod attributes;
 mod call;
