@@ -5,28 +5,23 @@
 //! layer, which writes costs into the window of cells over that area. The crate has no clock and no
 //! inputs: time, the pose of the robot, transforms and sensor readings are arguments.
 //!
+//! Parameters are names and texts; [`CostmapConfig::read_yaml`] reads them from a file.
+//!
 //! ```
-//! use periplus_geometry::{DVec3, Pose, Pose2};
 //! use periplus_costmap::{CostmapConfig, NoTransforms};
 //! use periplus_diagnostics::Diagnostics;
+//! use periplus_geometry::{Pose, Pose2};
 //! use periplus_params::Given;
 //!
-//! // Parameters as names and texts; `CostmapConfig::read_yaml` reads them from a file.
 //! let given = [
-//!     Given::new("plugins", "obstacle_layer inflation_layer"),
+//!     Given::new("plugins", "obstacle_layer"),
 //!     Given::new("obstacle_layer.plugin", "nav2_costmap_2d::ObstacleLayer"),
 //!     Given::new("obstacle_layer.observation_sources", "scan"),
-//!     Given::new("obstacle_layer.scan.max_obstacle_height", "2.0"),
-//!     Given::new("inflation_layer.plugin", "nav2_costmap_2d::InflationLayer"),
 //! ];
-//! let mut diagnostics = Diagnostics::new();
-//! let config = CostmapConfig::read(given, None, &mut diagnostics);
-//! assert!(diagnostics.is_empty());
-//!
-//! let mut costmap = config.build();
-//! let source = costmap.source_mut("obstacle_layer", "scan").unwrap();
-//! let global_from_sensor = Pose::from_xyz(1.0, 1.0, 0.2);
-//! source.insert(0, 0, global_from_sensor, global_from_sensor.translation, [[2.0, 0.0, 0.0]]);
+//! let mut costmap = CostmapConfig::read(given, None, &mut Diagnostics::new()).build();
+//! let sensor = Pose::from_xyz(1.0, 1.0, 0.0);
+//! let scan = costmap.source_mut("obstacle_layer", "scan").expect("the source");
+//! scan.insert(0, 0, sensor, sensor.translation, [[2.0, 0.0, 0.0]]);
 //! costmap.update(0, Pose2::new(1.0, 1.0, 0.0), &NoTransforms);
 //! assert_eq!(costmap.cost_at(Pose2::new(3.0, 1.0, 0.0), false), 254);
 //! ```

@@ -11,6 +11,25 @@
 //! - [`PackedCloud`]: a cloud in compressed form.
 //!
 //! Computation on one thread: the same input gives the same bits.
+//!
+//! ```
+//! use periplus_geometry::Pose2;
+//! use periplus_scan_matching::{Cloud, CloudSettings, Placed, RegisterSettings, register};
+//!
+//! // Two scans of a room of 6 m by 4 m; the second one is measured 0.2 m farther along x.
+//! let scan = |x_m: f32| {
+//!     let end = |beam: u16| {
+//!         let (sin, cos) = f32::from(beam).to_radians().sin_cos();
+//!         let range_m = ((3.0 * cos.signum() - x_m) / cos).min(2.0 / sin.abs());
+//!         Some([range_m * cos, range_m * sin])
+//!     };
+//!     Cloud::new((0..360).map(end), [0.0; 2], 1_f32.to_radians(), &CloudSettings::default())
+//! };
+//! let (first, second) = (scan(0.0), scan(0.2));
+//! let (target, moving) = ([Placed::alone(&first)], [Placed::alone(&second)]);
+//! let fit = register(&moving, &target, Pose2::IDENTITY, None, &RegisterSettings::default());
+//! assert!((fit.target_from_moving.x_m - 0.2).abs() < 0.01);
+//! ```
 
 mod agreement;
 mod cloud;

@@ -16,6 +16,25 @@
 //!
 //! [`Gmapping`] is a second method with the same interface, [`Mapper`]: a Rao-Blackwellized particle
 //! filter. Both accept the parameters of the corresponding ROS nodes ([`tables`]).
+//!
+//! ```
+//! use periplus_geometry::{LaserScan2, Pose2, ScannerMounting};
+//! use periplus_slam::{Settings, Slam};
+//!
+//! // A robot without odometry drives 1 m along a room of 6 m by 4 m.
+//! let mut slam = Slam::new(Settings::default());
+//! for step in 0..=10_u16 {
+//!     let ranges_m = (0..360_u16).map(|beam| {
+//!         let (sin, cos) = f32::from(beam).to_radians().sin_cos();
+//!         ((3.0 * cos.signum() - 0.1 * f32::from(step)) / cos).min(2.0 / sin.abs())
+//!     });
+//!     let scan = LaserScan2 { time_ns: 100_000_000 * i64::from(step), ranges_m: ranges_m.collect(),
+//!         mounting: ScannerMounting::upright(Pose2::IDENTITY), angle_min_rad: 0.0, range_min_m: 0.1,
+//!         angle_increment_rad: 0.0174533, time_increment_s: 0.0, range_max_m: 10.0 };
+//!     slam.add_scan(&scan, None);
+//! }
+//! assert!((slam.map_from_base().x_m - 1.0).abs() < 0.02);
+//! ```
 
 // Worlds of the tests are written for the crate as others see it.
 #[cfg(test)]
