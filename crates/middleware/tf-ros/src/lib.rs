@@ -3,6 +3,20 @@
 //! [`Frames`] is the buffer of `/tf` with a diagnosis of missing transforms. Messages wait for their
 //! transforms in a [`MessageFilter`], scans in a [`ScanQueue`]. [`transform`] and [`pose`] convert to
 //! messages. [`Told`] throttles log messages.
+//!
+//! ```
+//! use periplus_geometry::Pose;
+//! use periplus_tf::TransformKind;
+//! use periplus_tf_ros::{Frames, transform};
+//!
+//! let mut frames = Frames::default();
+//! let message = transform("odom", "base_link", Pose::from_xyz(1.0, 0.0, 0.0), 20_000_000);
+//! frames.take(&message, TransformKind::Moving);
+//! let (odom_from_base, time_ns) = frames.at("odom", "base_link", 0)?;
+//! assert_eq!((odom_from_base.translation.x, time_ns), (1.0, 20_000_000));
+//! assert!(frames.missing("map", "base_link").contains("`map` is not published"));
+//! # Ok::<(), periplus_tf::LookupError>(())
+//! ```
 
 mod frames;
 mod message_filter;

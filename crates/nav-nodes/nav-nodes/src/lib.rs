@@ -4,6 +4,22 @@
 //! and QoS: [`map_server`] (`nav2_map_server`), [`slam_toolbox`] (also `slam_gmapping`), [`amcl`]
 //! (of Nav2 and of ROS 1), [`costmap_2d`] (`nav2_costmap_2d`) and [`ekf_node`]
 //! (`robot_localization`). The estimators themselves are libraries without ROS.
+//!
+//! ```
+//! use periplus_diagnostics::Diagnostics;
+//! use periplus_ekf::Settings;
+//! use periplus_graph::{Graph, NodeSettings, Qos};
+//! use periplus_msgs::nav_msgs::Odometry;
+//! use periplus_nav_nodes::ekf_node::EkfNode;
+//! use periplus_params::Given;
+//!
+//! let graph = Graph::new();
+//! let wheels = [Given::new("odom0", "wheels"), Given::new("two_d_mode", "true")];
+//! let (settings, values) = Settings::read(wheels, &mut Diagnostics::new());
+//! let ekf = EkfNode::at(graph.node(NodeSettings::new("ekf_filter_node"))?, settings, values)?;
+//! assert!(graph.topics().iter().any(|topic| topic.name == "/odometry/filtered"));
+//! # Ok::<(), periplus_graph::GraphError>(())
+//! ```
 
 pub mod amcl;
 pub mod costmap_2d;

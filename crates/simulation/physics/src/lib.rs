@@ -32,6 +32,24 @@
 //! contacts, gravity or slip; joints that close a loop are not enforced, and efforts have no effect.
 //!
 //! [`drives`] contains the control laws of the drive plugins as plain functions.
+//!
+//! ```
+//! use periplus_geometry::{DVec3, Pose};
+//! use periplus_physics::{NoMeshes, PhysicsMode, PhysicsWorld};
+//! use periplus_scene::{Collision, Link, Model, Shape};
+//!
+//! let mut ball = Model::new("ball");
+//! let collisions = vec![Collision::new("sphere", Shape::Sphere { radius_m: 0.1 })];
+//! ball.links.push(Link { collisions, ..Link::new("ball") });
+//! let mut world = PhysicsWorld::empty(DVec3::new(0.0, 0.0, -9.8), PhysicsMode::Rigid);
+//! let model = world.add(&ball, Pose::IDENTITY, &NoMeshes).model.expect("a valid model");
+//! for _ in 0..1000 {
+//!     world.step(1_000_000)?;
+//! }
+//! let fallen_m = -world.model_pose(model).expect("a pose").translation.z;
+//! assert!((fallen_m - 4.9).abs() < 0.002);
+//! # Ok::<(), periplus_physics::Diverged>(())
+//! ```
 
 mod anisotropic_friction;
 mod build;

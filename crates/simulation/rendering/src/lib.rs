@@ -8,25 +8,20 @@
 //!
 //! ```
 //! use periplus_geometry::{DVec3, Pose};
-//! use periplus_rendering::{NoAssets, RenderScene, SensedGeometry};
 //! use periplus_raycast::{Filter, Ray};
+//! use periplus_rendering::{NoAssets, RenderScene, SensedGeometry};
 //! use periplus_scene::{Collision, Link, Model, Shape};
 //!
-//! let mut ball = Link::new("ball");
-//! ball.collisions.push(Collision::new("round", Shape::Sphere { radius_m: 0.1 }));
-//! let mut model = Model::new("toy");
-//! model.links.push(ball);
-//!
+//! let mut ball = Model::new("ball");
+//! let collisions = vec![Collision::new("sphere", Shape::Sphere { radius_m: 0.1 })];
+//! ball.links.push(Link { collisions, ..Link::new("link") });
 //! let mut scene = RenderScene::empty(SensedGeometry::Collision, 1);
-//! let parts = scene.add(&model, Pose::from_xyz(1.0, 0.0, 0.0), &NoAssets);
+//! let parts = scene.add(&ball, Pose::from_xyz(1.0, 0.0, 0.0), &NoAssets).parts;
+//! scene.set_link_poses(&[(parts[0], Pose::from_xyz(2.0, 0.0, 0.0))]);
 //! let ray = Ray::new(DVec3::ZERO, DVec3::X);
 //! let hit = scene.rays().cast(&ray, Filter::default()).expect("a hit");
-//! assert!((hit.distance_m - 0.9).abs() < 1e-12);
-//! assert_eq!(scene.surface(&hit).link, "ball");
-//!
-//! scene.set_link_poses(&[(parts.parts[0], Pose::from_xyz(2.0, 0.0, 0.0))]);
-//! let hit = scene.rays().cast(&ray, Filter::default()).expect("a hit");
 //! assert!((hit.distance_m - 1.9).abs() < 1e-12);
+//! assert_eq!(scene.surface(&hit).link, "link");
 //! ```
 
 mod asset_cache;

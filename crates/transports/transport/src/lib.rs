@@ -1,6 +1,16 @@
 //! Code shared by all transports: the node that represents remote programs in the graph, the
 //! graph's own endpoints, send queues, type names on networks, environment variables, and reports
 //! of incompatible endpoints.
+//!
+//! ```
+//! use periplus_diagnostics::Diagnostics;
+//! use periplus_resources::MemoryHost;
+//! use periplus_transport::{environment, names};
+//!
+//! let host = MemoryHost::new().with_variable("ROS_DOMAIN_ID", "7");
+//! assert_eq!(environment::domain_id(&host, &mut Diagnostics::new()), 7);
+//! assert_eq!(names::type_of("std_msgs/msg/String"), "std_msgs::msg::dds_::String_");
+//! ```
 
 mod clock;
 pub mod environment;
