@@ -4,7 +4,7 @@ use periplus_graph::{Graph, Mailbox, NodeSettings, Qos};
 use periplus_msgs::sensor_msgs::JointState;
 use periplus_msgs::std_msgs::Header;
 use periplus_msgs::tf2_msgs::TFMessage;
-use periplus_sim_nodes::states::{RobotStateOptions, RobotStatePublisher};
+use periplus_sim_nodes::states::{RobotStateParams, RobotStatePublisher};
 use serde_json::{Map, Value, json};
 
 use super::Setting;
@@ -33,13 +33,14 @@ pub(super) fn check(
     differences: &mut Differences,
 ) -> Result<(), Unreadable> {
     let (given, expect) = (case.given(), case.expect());
-    let usual = RobotStateOptions::default();
+    let usual = RobotStateParams::default();
     let given_number =
         |name: &str, usual: f64| given.find(name).map_or(Ok(usual), |it| it.number());
-    let options = RobotStateOptions {
+    let options = RobotStateParams {
         publish_frequency_hz: given_number("publish_frequency", usual.publish_frequency_hz)?,
         ignore_timestamp: given.find("ignore_timestamp").map_or(Ok(false), |it| it.truth())?,
         frame_prefix: given.find("frame_prefix").map_or(Ok(""), |it| it.text())?.to_owned(),
+        ..usual
     };
     let urdf = given.find_any(&["urdf", "robot_description"]);
     let urdf = urdf.map_or(Ok(ONE_JOINT), |it| it.text())?;
@@ -113,7 +114,7 @@ fn transforms(message: &TFMessage) -> Value {
 /// The fixed transforms, and those after each state; none where nothing was published.
 type Frames = (TFMessage, Vec<Option<TFMessage>>);
 
-fn run(urdf: &str, options: RobotStateOptions, states: &[Told]) -> Result<Frames, String> {
+fn run(urdf: &str, options: RobotStateParams, states: &[Told]) -> Result<Frames, String> {
     let words = |error: periplus_graph::GraphError| error.to_string();
     let graph = Graph::new();
     let node = graph.node(NodeSettings::new("robot_state_publisher")).map_err(words)?;

@@ -10,18 +10,19 @@ use periplus::bags::files::{Bag, PlaySettings, Player};
 use periplus::diagnostics::Diagnostics;
 use periplus::graph::{Graph, NodeSettings, Qos};
 use periplus::localization::AMCL;
+use periplus::maps::Distro;
 use periplus::msgs::geometry_msgs::PoseWithCovarianceStamped;
 use periplus::nav_nodes::amcl::AmclNode;
-use periplus::nav_nodes::map_server::{MapServer, MapServerSettings};
+use periplus::nav_nodes::map_server::{MapServer, MapServerParams};
 use periplus::os::Machine;
 
 pub(crate) fn main() -> Result<(), Box<dyn Error>> {
     let data = Path::new(env!("CARGO_MANIFEST_DIR")).join("examples/data");
     let graph = Graph::new();
     let yaml_filename = data.join("room.yaml").display().to_string();
-    let settings = MapServerSettings { yaml_filename, ..MapServerSettings::default() };
+    let params = MapServerParams { yaml_filename, ..MapServerParams::default() };
     let node = graph.node(NodeSettings::new("map_server"))?;
-    let map_server = MapServer::new(node, settings, Arc::new(Machine))?;
+    let map_server = MapServer::new(node, params, Distro::Jazzy, Arc::new(Machine))?;
     map_server.start();
     let parameters = AMCL.check([], None, &mut Diagnostics::new());
     let amcl = AmclNode::new(&graph, parameters, Arc::new(Machine))?;

@@ -15,7 +15,7 @@ use periplus_msgs::rosgraph_msgs::Clock;
 use periplus_msgs::std_msgs::Header;
 use periplus_os::{Stopwatch, unix_ns};
 use periplus_params::Given;
-use periplus_ros2cli::teleop::{Keyboard, Pressed, SCREEN, Settings, TELEOP, status};
+use periplus_ros2cli::teleop::{Keyboard, Pressed, SCREEN, TELEOP, TeleopParams, status};
 use periplus_session::LiveGraph;
 
 use crate::arguments;
@@ -92,7 +92,7 @@ pub(crate) fn run(options: &TeleopOptions, ros: Vec<String>) -> Result<ExitCode,
 /// Teleop node.
 struct Driving {
     keyboard: Keyboard,
-    settings: Settings,
+    settings: TeleopParams,
     outlet: Outlet,
     clock: Mailbox<Clock>,
     /// Simulated time, if `/clock` is published.
@@ -121,7 +121,7 @@ impl Driving {
 
     fn on(graph: &Graph, values: periplus_params::ParamValues) -> Result<Self, GraphError> {
         let node = graph.node(NodeSettings::new("teleop_twist_keyboard"))?;
-        let settings = Settings::read(&node.parameters(values)?.values());
+        let settings = TeleopParams::from_values(&node.parameters(values)?.values());
         let qos = Qos::reliable(10);
         let outlet = if settings.is_stamped {
             Outlet::Stamped(node.publisher("cmd_vel", qos)?)
@@ -129,7 +129,7 @@ impl Driving {
             Outlet::Plain(node.publisher("cmd_vel", qos)?)
         };
         let clock = node.mailbox("/clock", Qos::clock())?;
-        let keyboard = settings.keyboard.clone();
+        let keyboard = settings.keyboard();
         Ok(Self { keyboard, settings, outlet, clock, simulated: None, _node: node })
     }
 

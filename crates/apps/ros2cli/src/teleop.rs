@@ -21,4 +21,4 @@ mod settings;
 pub use bindings::{Direction, Factors, direction, factors};
 pub use keyboard::{Keyboard, KeyboardVelocity, Pressed};
 pub use screen::{SCREEN, status};
-pub use settings::{Settings, TELEOP};
+pub use settings::{TELEOP, TeleopParams};

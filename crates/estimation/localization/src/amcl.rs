@@ -22,11 +22,12 @@ use crate::hypotheses::Hypotheses;
 use crate::initial_pose::{InitialPose, check_position, scatter};
 use crate::kld_sampling::{Cluster, clusters};
 use crate::likelihood_map::LikelihoodMap;
+use crate::parameters::AmclCompat;
 use crate::particles::{Covariance2, Moments, Particles};
 use crate::recovery::LikelihoodAverages;
 use crate::scan::{Beams, MatchingScan};
 use crate::sensor_model::tables::SensorTables;
-use crate::settings::{AmclCompat, Settings};
+use crate::settings::Settings;
 use crate::status::{ConvergenceMonitor, LocalizationStatus};
 
 /// Estimated pose of the robot.

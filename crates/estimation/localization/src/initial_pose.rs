@@ -4,8 +4,8 @@ use periplus_diagnostics::Diagnostic;
 use periplus_geometry::{Pose2, Stream};
 
 use crate::likelihood_map::{CellState, LikelihoodMap};
+use crate::parameters::AmclCompat;
 use crate::particles::{Covariance2, Particles};
-use crate::settings::AmclCompat;
 
 /// Initial pose, as in `geometry_msgs/PoseWithCovarianceStamped`.
 #[derive(Clone, Debug, PartialEq)]

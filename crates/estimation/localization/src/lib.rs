@@ -60,7 +60,7 @@ pub use likelihood_map::{
 pub use motion_model::{
     MotionModel, MotionNoise, OmniMotion, OmniMotionNoise, RotTransRot, RotTransRotNoise,
 };
-pub use parameters::AMCL;
+pub use parameters::{AMCL, AmclCompat, AmclParams};
 pub use particles::{Covariance2, Particles};
 pub use periplus_scan_matching::Peak;
 pub use pose_file::{PoseFileError, SavedPose};
@@ -70,5 +70,5 @@ pub use scan::{BeamLimits, BeamStep};
 pub use sensor_model::{
     BeamMixture, BeamSkip, SensorModel, expected_range_m, product_weight, sum_of_cubes_weight,
 };
-pub use settings::{AmclCompat, Settings};
+pub use settings::Settings;
 pub use status::{LocalizationState, LocalizationStatus};

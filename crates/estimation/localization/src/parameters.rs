@@ -2,159 +2,236 @@
 //!
 //! Sources: `nav2_amcl/src/amcl_node.cpp` (main, 2026); `amcl/cfg/AMCL.cfg` and the ROS 1 wiki.
 
-use periplus_params::{NamedEntity, Table, choice, flag, integer, number, text};
+use periplus_params::{NamedEntity, ParamChoice, param_choice, params};
 
-/// Parameters of the node.
-pub static AMCL: Table = Table {
-    name: "AMCL",
-    doc: "Adaptive Monte Carlo localization on a known map.",
-    parameters: &[
-        number("alpha1", "", "Rotation noise from rotation.").or("0.2").min(0.0).also(&["odom_alpha1"]),
-        number("alpha2", "", "Rotation noise from translation.").or("0.2").min(0.0).also(&["odom_alpha2"]),
-        number("alpha3", "", "Translation noise from translation.").or("0.2").min(0.0).also(&["odom_alpha3"]),
-        number("alpha4", "", "Translation noise from rotation.").or("0.2").min(0.0).also(&["odom_alpha4"]),
-        number("alpha5", "", "Strafe noise of the omnidirectional model.")
-            .or("0.2")
-            .min(0.0)
-            .also(&["odom_alpha5"]),
-        text("base_frame_id", "Frame of the robot base.").or("base_footprint").naming(NamedEntity::Frame),
-        number("beam_skip_distance", "m", "Maximum distance to a wall for a beam that agrees.")
-            .or("0.5")
-            .min(0.0),
-        number("beam_skip_error_threshold", "", "Fraction of skipped beams from which on all are used.")
-            .or("0.9")
-            .within(0.0, 1.0),
-        number("beam_skip_threshold", "", "Minimum fraction of particles that agree with a beam.")
-            .or("0.3")
-            .within(0.0, 1.0),
-        flag("do_beamskip", "Enable beam skipping in `likelihood_field_prob`.").or("false"),
-        text("global_frame_id", "Frame of the map.").or("map").naming(NamedEntity::Frame),
-        number("lambda_short", "1/m", "Decay rate of short readings in the beam model.")
-            .or("0.1")
-            .min(0.0)
-            .also(&["laser_lambda_short"]),
-        number("laser_likelihood_max_dist", "m", "Maximum distance of the likelihood field.")
-            .or("2")
-            .above(0.0),
-        number("laser_max_range", "m", "Maximum range; -1 for the maximum range of the scan.")
-            .or("100"),
-        number("laser_min_range", "m", "Minimum range; -1 for the minimum range of the scan.")
-            .or("-1"),
-        choice(
-            "laser_model_type",
-            &["likelihood_field", "beam", "likelihood_field_prob"],
-            "Sensor model.",
-        )
-        .or("likelihood_field"),
-        flag("set_initial_pose", "Start at `initial_pose`.").or("false"),
-        number("initial_pose.x", "m", "Initial x in the map.").or("0").also(&["initial_pose_x"]),
-        number("initial_pose.y", "m", "Initial y in the map.").or("0").also(&["initial_pose_y"]),
-        number("initial_pose.z", "m", "Unused: poses are planar.").or("0"),
-        number("initial_pose.yaw", "rad", "Initial yaw in the map.").or("0").also(&["initial_pose_a"]),
-        number("initial_cov_xx", "m^2", "Variance of the initial x.").or("0.25").min(0.0),
-        number("initial_cov_yy", "m^2", "Variance of the initial y.").or("0.25").min(0.0),
-        number("initial_cov_aa", "rad^2", "Variance of the initial yaw.")
-            .or("0.06853891909122467")
-            .min(0.0),
-        flag("always_reset_initial_pose", "Reset to the initial pose at each activation.").or("false"),
-        integer("max_beams", "Approximate number of beams used per scan.")
-            .or("60")
-            .within(2.0, 100_000.0)
-            .also(&["laser_max_beams"]),
-        integer("max_particles", "Maximum number of particles.").or("2000").within(1.0, 10_000_000.0),
-        integer("min_particles", "Minimum number of particles.").or("500").within(1.0, 10_000_000.0),
-        text("odom_frame_id", "Frame of odometry.").or("odom").naming(NamedEntity::Frame),
-        number("pf_err", "", "Maximum error of the sampled distribution (KLD-sampling).")
-            .or("0.05")
-            .above(0.0)
-            .also(&["kld_err"]),
-        number("pf_z", "", "Standard normal quantile for `pf_err`.")
-            .or("0.99")
-            .min(0.0)
-            .also(&["kld_z"]),
-        number("recovery_alpha_fast", "", "Gain of the short-term likelihood average; 0 to disable.")
-            .or("0")
-            .within(0.0, 1.0),
-        number("recovery_alpha_slow", "", "Gain of the long-term likelihood average; 0 to disable.")
-            .or("0")
-            .within(0.0, 1.0),
-        integer("resample_interval", "Number of updates between resamplings.")
-            .or("1")
-            .within(1.0, 1_000_000.0),
-        choice(
-            "robot_model_type",
-            &[
-                "nav2_amcl::DifferentialMotionModel",
-                "nav2_amcl::OmniMotionModel",
-                "differential",
-                "omnidirectional",
-                "diff",
-                "omni",
-                "diff-corrected",
-                "omni-corrected",
-            ],
-            "Motion model.",
-        )
-        .or("nav2_amcl::DifferentialMotionModel")
-        .also(&["odom_model_type"]),
-        number("save_pose_rate", "Hz", "Rate at which the pose is saved; 0 to disable.").or("0.5"),
-        flag("initialize_at_saved_pose", "Start at the saved pose.").or("false"),
-        text("saved_pose_filepath", "File of the saved pose.").or(""),
-        number("sigma_hit", "m", "Standard deviation of hits.")
-            .or("0.2")
-            .above(0.0)
-            .also(&["laser_sigma_hit"]),
-        flag("tf_broadcast", "Publish the transform from `global_frame_id` to `odom_frame_id`.").or("true"),
-        number("transform_tolerance", "s", "Time by which the published transform is post-dated.").or("1").min(0.0),
-        number("update_min_a", "rad", "Minimum rotation between updates.")
-            .or("0.2")
-            .min(0.0),
-        number("update_min_d", "m", "Minimum translation between updates.")
-            .or("0.25")
-            .min(0.0),
-        number("z_hit", "", "Weight of hits of mapped obstacles.")
-            .or("0.5")
-            .within(0.0, 1.0)
-            .also(&["laser_z_hit"]),
-        number("z_max", "", "Weight of maximum range readings.")
-            .or("0.05")
-            .within(0.0, 1.0)
-            .also(&["laser_z_max"]),
-        number("z_rand", "", "Weight of random readings.")
-            .or("0.5")
-            .within(0.0, 1.0)
-            .also(&["laser_z_rand"]),
-        number("z_short", "", "Weight of short readings.")
-            .or("0.05")
-            .within(0.0, 1.0)
-            .also(&["laser_z_short"]),
-        flag("first_map_only", "Ignore maps after the first.").or("false"),
-        text("scan_topic", "Topic of scans.").or("scan").naming(NamedEntity::Topic),
-        text("map_topic", "Topic of the map.").or("map").naming(NamedEntity::Topic),
-        flag("freespace_downsampling", "Draw random poses from every second row and column of free cells.")
-            .or("false"),
-        integer("random_seed", "Seed of the random numbers; -1 for a default seed.")
-            .or("-1"),
-        flag("selective_resampling", "Resample only when the effective sample size is low.")
-            .or("false"),
-        flag("global_start", "Run global localization when no initial pose is set.")
-            .or("true"),
-        flag("scan_match", "Refine estimates by scan matching.")
-            .or("true"),
-        flag("search_when_lost", "Run global localization when the robot is lost.")
-            .or("true"),
-        flag("use_map_topic", "Receive the map on `map_topic`; otherwise call the service `static_map`.")
-            .or("true"),
-        flag("use_sim_time", "Use the time of `/clock`.").or("false"),
-        choice(
-            "compat",
-            &["none", "nav2"],
-            "Compatibility with defects of Nav2: a map half a cell off, averages that depend on the \
-             number of particles, initial poses far outside of the map.",
-        )
-        .or("none"),
-    ],
-};
+use crate::motion_model::MotionModel;
+use crate::sensor_model::SensorModel;
+
+param_choice! {
+    /// Compatibility: `compat`.
+    pub enum AmclCompat {
+        /// Correct behaviour.
+        #[default]
+        None = "none",
+        /// Behaviour of Nav2, including its defects.
+        Nav2 = "nav2",
+    }
+}
+
+/// Names of Nav2, its older names, and those of ROS 1.
+impl ParamChoice for MotionModel {
+    const WORDS: &'static [&'static str] = &[
+        "nav2_amcl::DifferentialMotionModel",
+        "nav2_amcl::OmniMotionModel",
+        "differential",
+        "omnidirectional",
+        "diff",
+        "omni",
+        "diff-corrected",
+        "omni-corrected",
+    ];
+
+    fn of_word(word: &str) -> Self {
+        match word {
+            "nav2_amcl::OmniMotionModel" | "omnidirectional" | "omni" | "omni-corrected" => {
+                Self::Omnidirectional
+            }
+            _ => Self::Differential,
+        }
+    }
+
+    fn word(self) -> &'static str {
+        match self {
+            Self::Differential => "nav2_amcl::DifferentialMotionModel",
+            Self::Omnidirectional => "nav2_amcl::OmniMotionModel",
+        }
+    }
+}
+
+params! {
+    /// Adaptive Monte Carlo localization on a known map.
+    #[table(AMCL, "AMCL")]
+    pub struct AmclParams {
+        /// Rotation noise from rotation.
+        #[param("alpha1", min(0.0), also(&["odom_alpha1"]))]
+        alpha1: f64 = 0.2,
+        /// Rotation noise from translation.
+        #[param("alpha2", min(0.0), also(&["odom_alpha2"]))]
+        alpha2: f64 = 0.2,
+        /// Translation noise from translation.
+        #[param("alpha3", min(0.0), also(&["odom_alpha3"]))]
+        alpha3: f64 = 0.2,
+        /// Translation noise from rotation.
+        #[param("alpha4", min(0.0), also(&["odom_alpha4"]))]
+        alpha4: f64 = 0.2,
+        /// Strafe noise of the omnidirectional model.
+        #[param("alpha5", min(0.0), also(&["odom_alpha5"]))]
+        alpha5: f64 = 0.2,
+        /// Frame of the robot base.
+        #[param("base_frame_id", naming(NamedEntity::Frame))]
+        base_frame_id: String = "base_footprint",
+        /// Maximum distance to a wall for a beam that agrees.
+        #[param("beam_skip_distance", unit("m"), min(0.0))]
+        beam_skip_distance_m: f64 = 0.5,
+        /// Fraction of skipped beams from which on all are used.
+        #[param("beam_skip_error_threshold", within(0.0, 1.0))]
+        beam_skip_error_threshold: f64 = 0.9,
+        /// Minimum fraction of particles that agree with a beam.
+        #[param("beam_skip_threshold", within(0.0, 1.0))]
+        beam_skip_threshold: f64 = 0.3,
+        /// Enable beam skipping in `likelihood_field_prob`.
+        #[param("do_beamskip")]
+        do_beamskip: bool = false,
+        /// Frame of the map.
+        #[param("global_frame_id", naming(NamedEntity::Frame))]
+        global_frame_id: String = "map",
+        /// Decay rate of short readings in the beam model.
+        #[param("lambda_short", unit("1/m"), min(0.0), also(&["laser_lambda_short"]))]
+        lambda_short_per_m: f64 = 0.1,
+        /// Maximum distance of the likelihood field.
+        #[param("laser_likelihood_max_dist", unit("m"), above(0.0))]
+        laser_likelihood_max_dist_m: f64 = 2,
+        /// Maximum range; -1 for the maximum range of the scan.
+        #[param("laser_max_range", unit("m"))]
+        laser_max_range_m: f64 = 100,
+        /// Minimum range; -1 for the minimum range of the scan.
+        #[param("laser_min_range", unit("m"))]
+        laser_min_range_m: f64 = -1,
+        /// Sensor model.
+        #[param("laser_model_type")]
+        laser_model_type: SensorModel = "likelihood_field",
+        /// Start at `initial_pose`.
+        #[param("set_initial_pose")]
+        set_initial_pose: bool = false,
+        /// Initial x in the map.
+        #[param("initial_pose.x", unit("m"), also(&["initial_pose_x"]))]
+        initial_pose_x_m: f64 = 0,
+        /// Initial y in the map.
+        #[param("initial_pose.y", unit("m"), also(&["initial_pose_y"]))]
+        initial_pose_y_m: f64 = 0,
+        /// Unused: poses are planar.
+        #[param("initial_pose.z", unit("m"))]
+        _: f64 = 0,
+        /// Initial yaw in the map.
+        #[param("initial_pose.yaw", unit("rad"), also(&["initial_pose_a"]))]
+        initial_pose_yaw_rad: f64 = 0,
+        /// Variance of the initial x.
+        #[param("initial_cov_xx", unit("m^2"), min(0.0))]
+        initial_cov_xx_m2: f64 = 0.25,
+        /// Variance of the initial y.
+        #[param("initial_cov_yy", unit("m^2"), min(0.0))]
+        initial_cov_yy_m2: f64 = 0.25,
+        /// Variance of the initial yaw.
+        #[param("initial_cov_aa", unit("rad^2"), min(0.0))]
+        initial_cov_aa_rad2: f64 = 0.06853891909122467,
+        /// Reset to the initial pose at each activation.
+        #[param("always_reset_initial_pose")]
+        always_reset_initial_pose: bool = false,
+        /// Approximate number of beams used per scan.
+        #[param("max_beams", within(2.0, 100_000.0), also(&["laser_max_beams"]))]
+        max_beams: usize = 60,
+        /// Maximum number of particles.
+        #[param("max_particles", within(1.0, 10_000_000.0))]
+        max_particles: usize = 2000,
+        /// Minimum number of particles.
+        #[param("min_particles", within(1.0, 10_000_000.0))]
+        min_particles: usize = 500,
+        /// Frame of odometry.
+        #[param("odom_frame_id", naming(NamedEntity::Frame))]
+        odom_frame_id: String = "odom",
+        /// Maximum error of the sampled distribution (KLD-sampling).
+        #[param("pf_err", above(0.0), also(&["kld_err"]))]
+        pf_err: f64 = 0.05,
+        /// Standard normal quantile for `pf_err`.
+        #[param("pf_z", min(0.0), also(&["kld_z"]))]
+        pf_z: f64 = 0.99,
+        /// Gain of the short-term likelihood average; 0 to disable.
+        #[param("recovery_alpha_fast", within(0.0, 1.0))]
+        recovery_alpha_fast: f64 = 0,
+        /// Gain of the long-term likelihood average; 0 to disable.
+        #[param("recovery_alpha_slow", within(0.0, 1.0))]
+        recovery_alpha_slow: f64 = 0,
+        /// Number of updates between resamplings.
+        #[param("resample_interval", within(1.0, 1_000_000.0))]
+        resample_interval: usize = 1,
+        /// Motion model.
+        #[param("robot_model_type", also(&["odom_model_type"]))]
+        robot_model_type: MotionModel = "nav2_amcl::DifferentialMotionModel",
+        /// Rate at which the pose is saved; 0 to disable.
+        #[param("save_pose_rate", unit("Hz"))]
+        save_pose_rate_hz: f64 = 0.5,
+        /// Start at the saved pose.
+        #[param("initialize_at_saved_pose")]
+        initialize_at_saved_pose: bool = false,
+        /// File of the saved pose.
+        #[param("saved_pose_filepath")]
+        saved_pose_filepath: String = "",
+        /// Standard deviation of hits.
+        #[param("sigma_hit", unit("m"), above(0.0), also(&["laser_sigma_hit"]))]
+        sigma_hit_m: f64 = 0.2,
+        /// Publish the transform from `global_frame_id` to `odom_frame_id`.
+        #[param("tf_broadcast")]
+        tf_broadcast: bool = true,
+        /// Time by which the published transform is post-dated.
+        #[param("transform_tolerance", unit("s"), min(0.0))]
+        transform_tolerance_s: f64 = 1,
+        /// Minimum rotation between updates.
+        #[param("update_min_a", unit("rad"), min(0.0))]
+        update_min_a_rad: f64 = 0.2,
+        /// Minimum translation between updates.
+        #[param("update_min_d", unit("m"), min(0.0))]
+        update_min_d_m: f64 = 0.25,
+        /// Weight of hits of mapped obstacles.
+        #[param("z_hit", within(0.0, 1.0), also(&["laser_z_hit"]))]
+        z_hit: f64 = 0.5,
+        /// Weight of maximum range readings.
+        #[param("z_max", within(0.0, 1.0), also(&["laser_z_max"]))]
+        z_max: f64 = 0.05,
+        /// Weight of random readings.
+        #[param("z_rand", within(0.0, 1.0), also(&["laser_z_rand"]))]
+        z_rand: f64 = 0.5,
+        /// Weight of short readings.
+        #[param("z_short", within(0.0, 1.0), also(&["laser_z_short"]))]
+        z_short: f64 = 0.05,
+        /// Ignore maps after the first.
+        #[param("first_map_only")]
+        first_map_only: bool = false,
+        /// Topic of scans.
+        #[param("scan_topic", naming(NamedEntity::Topic))]
+        scan_topic: String = "scan",
+        /// Topic of the map.
+        #[param("map_topic", naming(NamedEntity::Topic))]
+        map_topic: String = "map",
+        /// Draw random poses from every second row and column of free cells.
+        #[param("freespace_downsampling")]
+        freespace_downsampling: bool = false,
+        /// Seed of the random numbers; -1 for a default seed.
+        #[param("random_seed")]
+        random_seed: i64 = -1,
+        /// Resample only when the effective sample size is low.
+        #[param("selective_resampling")]
+        selective_resampling: bool = false,
+        /// Run global localization when no initial pose is set.
+        #[param("global_start")]
+        global_start: bool = true,
+        /// Refine estimates by scan matching.
+        #[param("scan_match")]
+        scan_match: bool = true,
+        /// Run global localization when the robot is lost.
+        #[param("search_when_lost")]
+        search_when_lost: bool = true,
+        /// Receive the map on `map_topic`; otherwise call the service `static_map`.
+        #[param("use_map_topic")]
+        use_map_topic: bool = true,
+        /// Use the time of `/clock`.
+        #[param("use_sim_time")]
+        use_sim_time: bool = false,
+        /// Compatibility with defects of Nav2: a map half a cell off, averages that depend on the number
+        /// of particles, initial poses far outside of the map.
+        #[param("compat")]
+        compat: AmclCompat = "none",
+    }
+}
 
 #[cfg(test)]
 mod tests {

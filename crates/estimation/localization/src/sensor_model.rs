@@ -6,6 +6,8 @@
 mod ray_casting;
 pub(crate) mod tables;
 
+use periplus_params::param_choice;
+
 use crate::likelihood_map::{CellState, LikelihoodMap};
 use crate::scan::BeamStep;
 
@@ -71,16 +73,17 @@ pub fn product_weight(likelihoods: impl IntoIterator<Item = f64>) -> f64 {
     libm::exp(likelihoods.into_iter().map(libm::log).sum())
 }
 
-/// Sensor model: `laser_model_type`.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum SensorModel {
-    /// Beam model: expected ranges by ray casting (*Probabilistic Robotics*, table 6.1).
-    Beam,
-    /// Likelihood field with summed cubes (*Probabilistic Robotics*, table 6.3).
-    #[default]
-    LikelihoodField,
-    /// Likelihood field with a product of likelihoods and optional beam skipping.
-    LikelihoodFieldProb,
+param_choice! {
+    /// Sensor model: `laser_model_type`.
+    pub enum SensorModel {
+        /// Likelihood field with summed cubes (*Probabilistic Robotics*, table 6.3).
+        #[default]
+        LikelihoodField = "likelihood_field",
+        /// Beam model: expected ranges by ray casting (*Probabilistic Robotics*, table 6.1).
+        Beam = "beam",
+        /// Likelihood field with a product of likelihoods and optional beam skipping.
+        LikelihoodFieldProb = "likelihood_field_prob",
+    }
 }
 
 impl SensorModel {

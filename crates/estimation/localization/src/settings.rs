@@ -7,21 +7,11 @@ use periplus_params::{Given, ParamValues};
 use crate::kld_sampling::KldSampling;
 use crate::likelihood_map::{CellAlignment, LikelihoodMapSettings};
 use crate::motion_model::{MotionModel, MotionNoise};
-use crate::parameters::AMCL;
+use crate::parameters::{AMCL, AmclCompat, AmclParams};
 use crate::particles::Covariance2;
 use crate::pose_threshold::PoseThreshold;
 use crate::scan::BeamLimits;
 use crate::sensor_model::{BeamMixture, BeamSkip, SensorModel};
-
-/// Compatibility: `compat`.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum AmclCompat {
-    /// Correct behaviour.
-    #[default]
-    None,
-    /// Behaviour of Nav2, including its defects.
-    Nav2,
-}
 
 /// Settings of [`Amcl`](crate::Amcl); [`Settings::from_values`] reads them from parameters.
 #[derive(Clone, Debug, PartialEq)]
@@ -72,7 +62,7 @@ pub struct Settings {
 
 impl Default for Settings {
     fn default() -> Self {
-        Self::from_values(&AMCL.check([], None, &mut Diagnostics::new()))
+        Self::from_values(&ParamValues::defaults(&AMCL))
     }
 }
 
@@ -102,8 +92,8 @@ impl Settings {
     #[must_use]
     pub fn conflicts(values: &ParamValues) -> Vec<Diagnostic> {
         let mut findings = Vec::new();
-        let integer = |name: &str| values.integer(name).unwrap_or_default();
-        let (min, max) = (integer("min_particles"), integer("max_particles"));
+        let params = AmclParams::from_values(values);
+        let (min, max) = (params.min_particles, params.max_particles);
         if min > max {
             findings.push(
                 Diagnostic::warning(
@@ -115,8 +105,7 @@ impl Settings {
                 .note(format!("`max_particles` is raised to {min}")),
             );
         }
-        let number = |name: &str| values.number(name).unwrap_or_default();
-        if number("z_hit") == 0.0 {
+        if params.z_hit == 0.0 {
             findings.push(
                 Diagnostic::warning(
                     "no-hits",
@@ -126,7 +115,7 @@ impl Settings {
                 .help("set a weight above 0, such as 0.5"),
             );
         }
-        let (fast, slow) = (number("recovery_alpha_fast"), number("recovery_alpha_slow"));
+        let (fast, slow) = (params.recovery_alpha_fast, params.recovery_alpha_slow);
         if slow > 0.0 && fast <= slow {
             findings.push(
                 Diagnostic::warning(
@@ -146,79 +135,72 @@ impl Settings {
     /// Converts values of [`AMCL`].
     #[must_use]
     pub fn from_values(values: &ParamValues) -> Self {
-        let number = |name: &str| values.number(name).unwrap_or_default();
-        let flag = |name: &str| values.flag(name).unwrap_or_default();
-        let count =
-            |name: &str| usize::try_from(values.integer(name).unwrap_or_default()).unwrap_or(0);
-        let text = |name: &str| values.text(name).unwrap_or_default();
-        let min_particles = count("min_particles");
+        let params = AmclParams::from_values(values);
         let initial_pose = Pose2::new(
-            number("initial_pose.x"),
-            number("initial_pose.y"),
-            number("initial_pose.yaw"),
+            params.initial_pose_x_m,
+            params.initial_pose_y_m,
+            params.initial_pose_yaw_rad,
         );
         let covariance = Covariance2 {
-            xx: number("initial_cov_xx"),
+            xx: params.initial_cov_xx_m2,
             xy: 0.0,
-            yy: number("initial_cov_yy"),
-            yaw: number("initial_cov_aa"),
+            yy: params.initial_cov_yy_m2,
+            yaw: params.initial_cov_aa_rad2,
         };
-        let compat = if text("compat") == "nav2" { AmclCompat::Nav2 } else { AmclCompat::None };
+        let compat = params.compat;
         // With Nav2 compatibility, extensions are off unless they are set.
-        let extension =
-            |name: &str| flag(name) && (compat == AmclCompat::None || values.is_given(name));
+        let extension = |is_on: bool, name: &str| {
+            is_on && (compat == AmclCompat::None || values.is_given(name))
+        };
         Self {
             compat,
-            global_frame: text("global_frame_id"),
-            motion_model: match text("robot_model_type").as_str() {
-                "nav2_amcl::OmniMotionModel" | "omnidirectional" | "omni" | "omni-corrected" => {
-                    MotionModel::Omnidirectional
-                }
-                _ => MotionModel::Differential,
-            },
-            motion_noise: ["alpha1", "alpha2", "alpha3", "alpha4", "alpha5"].map(number),
+            motion_model: params.robot_model_type,
+            motion_noise: [
+                params.alpha1,
+                params.alpha2,
+                params.alpha3,
+                params.alpha4,
+                params.alpha5,
+            ],
             beams: BeamLimits {
-                max_beams: count("max_beams"),
-                range_min_m: number("laser_min_range"),
-                range_max_m: number("laser_max_range"),
+                max_beams: params.max_beams,
+                range_min_m: params.laser_min_range_m,
+                range_max_m: params.laser_max_range_m,
             },
-            sensor_model: match text("laser_model_type").as_str() {
-                "beam" => SensorModel::Beam,
-                "likelihood_field_prob" => SensorModel::LikelihoodFieldProb,
-                _ => SensorModel::LikelihoodField,
-            },
+            sensor_model: params.laser_model_type,
             mixture: BeamMixture {
-                hit: number("z_hit"),
-                short: number("z_short"),
-                max: number("z_max"),
-                random: number("z_rand"),
-                sigma_hit_m: number("sigma_hit"),
-                lambda_short_per_m: number("lambda_short"),
+                hit: params.z_hit,
+                short: params.z_short,
+                max: params.z_max,
+                random: params.z_rand,
+                sigma_hit_m: params.sigma_hit_m,
+                lambda_short_per_m: params.lambda_short_per_m,
             },
-            beam_skip: flag("do_beamskip").then(|| BeamSkip {
-                distance_m: number("beam_skip_distance"),
-                threshold: number("beam_skip_threshold"),
-                error_threshold: number("beam_skip_error_threshold"),
+            beam_skip: params.do_beamskip.then_some(BeamSkip {
+                distance_m: params.beam_skip_distance_m,
+                threshold: params.beam_skip_threshold,
+                error_threshold: params.beam_skip_error_threshold,
             }),
-            distance_max_m: number("laser_likelihood_max_dist"),
+            distance_max_m: params.laser_likelihood_max_dist_m,
             kld_sampling: KldSampling {
-                max_error: number("pf_err"),
-                quantile: number("pf_z"),
-                min_particles,
-                max_particles: count("max_particles").max(min_particles),
+                max_error: params.pf_err,
+                quantile: params.pf_z,
+                min_particles: params.min_particles,
+                max_particles: params.max_particles.max(params.min_particles),
             },
-            recovery_alphas: [number("recovery_alpha_slow"), number("recovery_alpha_fast")],
-            resample_interval: count("resample_interval") as u64,
-            resamples_selectively: flag("selective_resampling"),
-            update_threshold: PoseThreshold::new(number("update_min_d"), number("update_min_a")),
-            first_map_only: flag("first_map_only"),
-            downsamples_free_space: flag("freespace_downsampling"),
-            localizes_globally: extension("global_start"),
-            refines_by_scan_matching: extension("scan_match"),
-            searches_when_lost: extension("search_when_lost"),
-            initial_pose: flag("set_initial_pose").then_some((initial_pose, covariance)),
+            recovery_alphas: [params.recovery_alpha_slow, params.recovery_alpha_fast],
+            resample_interval: params.resample_interval as u64,
+            resamples_selectively: params.selective_resampling,
+            update_threshold: PoseThreshold::new(params.update_min_d_m, params.update_min_a_rad),
+            first_map_only: params.first_map_only,
+            downsamples_free_space: params.freespace_downsampling,
+            localizes_globally: extension(params.global_start, "global_start"),
+            refines_by_scan_matching: extension(params.scan_match, "scan_match"),
+            searches_when_lost: extension(params.search_when_lost, "search_when_lost"),
+            initial_pose: params.set_initial_pose.then_some((initial_pose, covariance)),
             // -1 becomes the largest seed.
-            seed: values.integer("random_seed").unwrap_or(-1).cast_unsigned(),
+            seed: params.random_seed.cast_unsigned(),
+            global_frame: params.global_frame_id,
         }
     }
 

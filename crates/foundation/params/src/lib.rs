@@ -2,37 +2,45 @@
 //!
 //! A [`Table`] is a constant. It generates the reader of user input ([`Table::check`]), the file of
 //! defaults ([`Table::to_yaml`]) and the manual ([`Table::to_markdown`]), so that they always agree.
-//! Defaults are written as a user would write them and read by the same code.
+//! [`params!`] declares a table together with a structure that has a typed field for each parameter:
 //!
 //! ```
-//! use periplus_params::{Given, Table, flag, number};
+//! use periplus_params::{Given, params};
 //! use periplus_diagnostics::Diagnostics;
 //!
-//! static LAMP: Table = Table {
-//!     name: "lamp",
-//!     doc: "A lamp that blinks.",
-//!     parameters: &[
-//!         number("period", "s", "Time from flash to flash.").or("2").above(0.0),
-//!         flag("lit", "Whether it starts lit.").or("false"),
-//!     ],
-//! };
+//! params! {
+//!     /// A light that blinks.
+//!     #[table(BLINKER, "blinker")]
+//!     pub struct BlinkerParams {
+//!         /// Period of the flashes.
+//!         #[param("period", unit("s"), above(0.0))]
+//!         period_s: f64 = 2,
+//!         /// True if it starts lit.
+//!         #[param("lit")]
+//!         is_lit: bool = false,
+//!     }
+//! }
 //!
 //! let mut diagnostics = Diagnostics::new();
-//! let values = LAMP.check([Given::new("period", "0.5")], None, &mut diagnostics);
-//! assert_eq!(values.number("period"), Some(0.5));
-//! assert_eq!(values.flag("lit"), Some(false));
+//! let values = BLINKER.check([Given::new("period", "0.5")], None, &mut diagnostics);
+//! assert_eq!(BlinkerParams::from_values(&values), BlinkerParams { period_s: 0.5, is_lit: false });
 //! assert!(diagnostics.is_empty());
 //! ```
 
 mod check;
 mod document;
 mod error;
+mod field;
+mod macros;
 mod parameter;
 mod value;
 mod values;
 
 pub use check::Given;
 pub use error::ParamError;
+pub use field::{ParamChoice, ParamField, Params};
+#[doc(hidden)]
+pub use field::{checked, concat, count, declare};
 pub use parameter::{
     Default, NamedEntity, ParamRange, ParamType, Parameter, Table, choice, flag, group, integer,
     number, numbers, text, texts,

@@ -92,7 +92,7 @@ pub struct Table {
     pub parameters: &'static [Parameter],
 }
 
-const fn plain(name: &'static str, kind: ParamType, doc: &'static str) -> Parameter {
+pub(crate) const fn plain(name: &'static str, kind: ParamType, doc: &'static str) -> Parameter {
     Parameter {
         name,
         kind,
@@ -168,6 +168,12 @@ impl Parameter {
     #[must_use]
     pub const fn or(self, default: &'static str) -> Self {
         Self { default: Default::Value(default), ..self }
+    }
+
+    /// Sets the unit of its numbers.
+    #[must_use]
+    pub const fn unit(self, unit: &'static str) -> Self {
+        in_unit(self, unit)
     }
 
     /// Makes it required.

@@ -26,6 +26,12 @@ impl ParamValues {
         Self { table, given }
     }
 
+    /// Returns the defaults of a table.
+    #[must_use]
+    pub fn defaults(table: &'static Table) -> Self {
+        Self::new(table, BTreeMap::new())
+    }
+
     /// Sets a value that fits ([`ParamValue::fit`]) and replaces all given ones. Returns false if the
     /// table does not declare the name.
     pub fn set(&mut self, name: &str, value: ParamValue) -> bool {

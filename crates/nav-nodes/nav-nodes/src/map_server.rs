@@ -4,5 +4,5 @@
 mod saver;
 mod server;
 
-pub use saver::{MAP_SAVER, MapSaver, WAIT_NS};
-pub use server::{MAP_SERVER, MapServer, MapServerSettings};
+pub use saver::{MAP_SAVER, MapSaver, MapSaverParams};
+pub use server::{MAP_SERVER, MapServer, MapServerParams};

@@ -15,12 +15,14 @@ mod triggered;
 
 pub use clock::ClockPublisher;
 pub(crate) use geometry::{from_vector, planar_twist, transform, vector};
-pub use joint_state_publisher::{JOINT_STATE_PUBLISHER, JointStateOptions, JointStateSource};
+pub use joint_state_publisher::{
+    JOINT_STATE_PUBLISHER, JointStateOptions, JointStateParams, JointStateSource,
+};
 pub use joint_states::JointStatePublisher;
 pub(crate) use joint_states::JointStates;
 pub(crate) use odometry::{OdometryPublisher, TF_QOS, planar_covariance};
 pub(crate) use robot_state_publisher::RobotFrames;
-pub use robot_state_publisher::{ROBOT_STATE_PUBLISHER, RobotStateOptions, RobotStatePublisher};
+pub use robot_state_publisher::{ROBOT_STATE_PUBLISHER, RobotStateParams, RobotStatePublisher};
 pub(crate) use triggered::build as triggered;
 
 use periplus_diagnostics::Diagnostics;

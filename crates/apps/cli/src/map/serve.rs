@@ -6,7 +6,7 @@ use std::sync::Arc;
 use std::time::Duration;
 
 use periplus_graph::NodeSettings;
-use periplus_nav_nodes::map_server::{MapServer, MapServerSettings};
+use periplus_nav_nodes::map_server::{MapServer, MapServerParams};
 use periplus_os::Machine;
 use periplus_session::{LiveGraph, PollSleep, stop};
 
@@ -32,7 +32,7 @@ pub(super) fn run(options: &ServeOptions, ros: Vec<String>) -> Result<ExitCode, 
     let stop = stop::on_signal();
     let mut live = LiveGraph::open(arguments)?;
     let node = live.graph.node(NodeSettings::new("map_server"))?;
-    let server = MapServer::new(node, options.settings(), Arc::new(Machine))?;
+    let server = MapServer::new(node, options.params(), options.distro, Arc::new(Machine))?;
     live.print_start_findings()?;
     let monitor = live.monitor(server.node(), false)?;
     if !options.managed {
@@ -48,13 +48,12 @@ pub(super) fn run(options: &ServeOptions, ros: Vec<String>) -> Result<ExitCode, 
 }
 
 impl ServeOptions {
-    fn settings(&self) -> MapServerSettings {
-        let usual = MapServerSettings::default();
-        MapServerSettings {
+    fn params(&self) -> MapServerParams {
+        let usual = MapServerParams::default();
+        MapServerParams {
             yaml_filename: self.path.clone().unwrap_or_default(),
             topic_name: self.topic_name.clone().unwrap_or(usual.topic_name),
             frame_id: self.frame_id.clone().unwrap_or(usual.frame_id),
-            distro: self.distro,
         }
     }
 }

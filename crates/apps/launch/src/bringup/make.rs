@@ -10,14 +10,14 @@ use periplus_maps::Distro;
 use periplus_nav_nodes::amcl::AmclNode;
 use periplus_nav_nodes::costmap_2d::{VoxelCloud, VoxelMarkers};
 use periplus_nav_nodes::ekf_node::EkfNode;
-use periplus_nav_nodes::map_server::{MapSaver, MapServer, MapServerSettings};
+use periplus_nav_nodes::map_server::{MapSaver, MapServer, MapServerParams};
 use periplus_nav_nodes::slam_toolbox::{Pace, Program, SlamNode};
 use periplus_os::Machine;
 use periplus_params::Given;
 use periplus_resources::Host as _;
 use periplus_sim_nodes::gz_topic;
 use periplus_sim_nodes::states::{
-    JOINT_STATE_PUBLISHER, JointStateOptions, JointStateSource, RobotStateOptions,
+    JOINT_STATE_PUBLISHER, JointStateOptions, JointStateParams, JointStateSource, RobotStateParams,
     RobotStatePublisher,
 };
 use serde_json::Value;
@@ -92,7 +92,7 @@ pub(crate) fn make(
                 description(ask, &named, &settings.search.working_folder)?.ok_or_else(|| {
                     "the parameter `robot_description` is missing: set it to a URDF".to_owned()
                 })?;
-            let options = RobotStateOptions::default();
+            let options = RobotStateParams::default();
             if is_urdf(&text) {
                 made.keep(RobotStatePublisher::of_urdf(node, text, options)?);
             } else {
@@ -104,7 +104,8 @@ pub(crate) fn make(
             let mut values = JOINT_STATE_PUBLISHER.check([], None, &mut Diagnostics::new());
             let declared = node.parameters(values.clone()).map_err(failed)?;
             values.clone_from(&declared.values());
-            let mut options = JointStateOptions::read(&values);
+            let params = JointStateParams::from_values(&values);
+            let mut options = JointStateOptions { params, ..JointStateOptions::default() };
             for name in named.keys() {
                 let zero = name.strip_prefix("zeros.");
                 if let Some((joint, zero)) = zero.zip(parameters::number_of(&named, name)) {
@@ -384,7 +385,6 @@ fn maps(
         made.hand(Saver::new(&node, words, Distro::Noetic)?);
         return Ok(());
     }
-    let usual = MapServerSettings::default();
     let distro = if is_managed { Distro::Jazzy } else { Distro::Noetic };
     let file = words.iter().find(|word| !word.starts_with('-'));
     let parameter = || {
@@ -394,8 +394,9 @@ fn maps(
         })
     };
     let file_of_map = file.cloned().or_else(parameter).unwrap_or_default();
-    let settings = MapServerSettings { yaml_filename: file_of_map.clone(), distro, ..usual };
-    let server = MapServer::new(node, settings, Arc::new(Machine));
+    let params =
+        MapServerParams { yaml_filename: file_of_map.clone(), ..MapServerParams::default() };
+    let server = MapServer::new(node, params, distro, Arc::new(Machine));
     let server = server.map_err(|error| error.to_string())?;
     if !ask.is_managed {
         // The server logs errors of its map; a launch needs a separate message.

@@ -2,6 +2,7 @@
 
 use periplus_msgs::geometry_msgs::{Twist, Vector3};
 
+use crate::teleop::TeleopParams;
 use crate::teleop::bindings::{Direction, direction, factors};
 
 /// Speeds and current direction.
@@ -22,13 +23,7 @@ pub struct Keyboard {
 /// Initial state of `teleop_twist_keyboard`.
 impl Default for Keyboard {
     fn default() -> Self {
-        Self {
-            speed_m_s: 0.5,
-            turn_rad_s: 1.0,
-            speed_limit_m_s: 1000.0,
-            turn_limit_rad_s: 1000.0,
-            direction: Direction::default(),
-        }
+        TeleopParams::default().keyboard()
     }
 }
 

@@ -6,8 +6,10 @@ use std::sync::Arc;
 
 use periplus_diagnostics::{Diagnostics, SourceMap};
 use periplus_graph::{Graph, LifecycleNode, NodeSettings};
+use periplus_localization::AmclParams;
+use periplus_maps::Distro;
 use periplus_nav_nodes::amcl::{AmclNode, read_parameters};
-use periplus_nav_nodes::map_server::{MapServer, MapServerSettings};
+use periplus_nav_nodes::map_server::{MapServer, MapServerParams};
 use periplus_os::Machine;
 use periplus_params::ParamValues;
 use periplus_yaml::YamlNode;
@@ -69,14 +71,14 @@ impl Localization {
     /// When the graph refuses a node.
     pub fn new(graph: &Graph, map: Option<&Path>, values: ParamValues) -> Result<Self, RunError> {
         let server = map.map(|path| {
-            let settings = MapServerSettings {
+            let amcl = AmclParams::from_values(&values);
+            let params = MapServerParams {
                 yaml_filename: path.display().to_string(),
-                topic_name: values.text("map_topic").unwrap_or_else(|| "map".into()),
-                frame_id: values.text("global_frame_id").unwrap_or_else(|| "map".into()),
-                ..MapServerSettings::default()
+                topic_name: amcl.map_topic,
+                frame_id: amcl.global_frame_id,
             };
             let node = graph.node(NodeSettings::new("map_server"))?;
-            MapServer::new(node, settings, Arc::new(Machine))
+            MapServer::new(node, params, Distro::Jazzy, Arc::new(Machine))
         });
         let server = server.transpose()?;
         let amcl = AmclNode::new(graph, values, Arc::new(Machine))?;

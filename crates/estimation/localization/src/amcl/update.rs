@@ -8,13 +8,13 @@ use super::tracking::OdometrySlip;
 use super::{Amcl, AmclUpdate, PoseEstimate, fits_nowhere, no_initial_pose, no_map};
 use crate::kld_sampling::OccupiedBins;
 use crate::motion_model::sample_motion;
+use crate::parameters::AmclCompat;
 use crate::particles::Particles;
 use crate::pose_threshold::has_moved;
 use crate::recovery::LikelihoodAverages;
 use crate::scan::{Beams, MatchingScan};
 use crate::scan_likelihood::inlier_ratios;
 use crate::sensor_model::tables::ScanLikelihoods;
-use crate::settings::AmclCompat;
 use crate::status::LocalizationState;
 
 /// Distance of particles from their mean below which beams may be skipped \[m\], as in Nav2.

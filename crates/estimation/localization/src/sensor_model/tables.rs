@@ -1,13 +1,13 @@
 //! Vectorized evaluation of the sensor models at all particles.
 
 use crate::likelihood_map::LikelihoodMap;
+use crate::parameters::AmclCompat;
 use crate::particles::Particles;
 use crate::scan::Beams;
 use crate::sensor_model::ray_casting::RayCaster;
 use crate::sensor_model::{
     BeamMixture, BeamSkip, SensorModel, expected_range_m, sum_of_cubes_weight,
 };
-use crate::settings::AmclCompat;
 
 /// Number of beams per SIMD batch.
 const LANES: usize = 8;

@@ -3,8 +3,8 @@
 use std::sync::Arc;
 
 use periplus_graph::{Client, GraphError, Mailbox, Node, Pending, Qos};
+use periplus_localization::AmclParams;
 use periplus_msgs::nav_msgs::{GetMap, GetMapRequest, OccupancyGrid};
-use periplus_params::ParamValues;
 use periplus_tf_ros::{
     FilterOrder, FilterSettings, RobotFrames, SCAN_TRANSFORM_TIMEOUT_NS, ScanQueue,
 };
@@ -47,18 +47,17 @@ impl FrameNames {
 }
 
 impl Inputs {
-    pub(crate) fn new(node: &Node, values: &ParamValues) -> Result<Self, GraphError> {
-        let text = |name: &str| values.text(name).unwrap_or_default();
-        let uses_topic = values.flag("use_map_topic").unwrap_or(true);
-        let client = (!uses_topic).then(|| node.client::<GetMap>("static_map")).transpose()?;
+    pub(crate) fn new(node: &Node, params: &AmclParams) -> Result<Self, GraphError> {
+        let client =
+            (!params.use_map_topic).then(|| node.client::<GetMap>("static_map")).transpose()?;
         let settings = FilterSettings {
             max_waiting: MAX_WAITING_SCANS,
             timeout_ns: SCAN_TRANSFORM_TIMEOUT_NS,
             order: FilterOrder::InOrder,
         };
         Ok(Self {
-            scans: ScanQueue::new(node, &text("scan_topic"), settings)?,
-            map: node.mailbox(&text("map_topic"), Qos::latched(1))?,
+            scans: ScanQueue::new(node, &params.scan_topic, settings)?,
+            map: node.mailbox(&params.map_topic, Qos::latched(1))?,
             map_client: client.map(|client| MapClient { client, called_ns: None, pending: None }),
         })
     }

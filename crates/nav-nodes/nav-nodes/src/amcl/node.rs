@@ -9,7 +9,7 @@ use periplus_graph::{
     StepOutcome,
 };
 use periplus_localization::{
-    Amcl, AmclUpdate, Covariance2, InitialPose, LocalizationStatus, Settings,
+    Amcl, AmclParams, AmclUpdate, Covariance2, InitialPose, LocalizationStatus, Settings,
 };
 use periplus_maps::from_message;
 use periplus_msgs::geometry_msgs::PoseWithCovarianceStamped;
@@ -35,6 +35,7 @@ const MAX_POSE_AGE_NS: i64 = 500_000_000;
 
 /// AMCL as a lifecycle node.
 pub struct AmclNode {
+    params: AmclParams,
     values: ParamValues,
     settings: Settings,
     files: Arc<dyn Files>,
@@ -78,6 +79,7 @@ impl AmclNode {
     ) -> Result<LifecycleNode<Self>, GraphError> {
         let settings = Settings::from_values(&values);
         let state = Self {
+            params: AmclParams::from_values(&values),
             values: values.clone(),
             settings,
             files,
@@ -98,6 +100,7 @@ impl AmclNode {
         let given = parameters.values();
         actor.with(|state| {
             state.settings = Settings::from_values(&given);
+            state.params = AmclParams::from_values(&given);
             state.values = given;
         });
         actor.subscribe("initialpose", Qos::reliable(10), |state, message, io| {
@@ -136,7 +139,7 @@ impl LifecycleCallbacks for AmclNode {
         for finding in Settings::conflicts(&self.values) {
             node.log_finding(&finding);
         }
-        let ports = Inputs::new(node, &self.values).and_then(|it| Ok((it, Outputs::new(node)?)));
+        let ports = Inputs::new(node, &self.params).and_then(|it| Ok((it, Outputs::new(node)?)));
         match ports {
             Ok((inputs, outputs)) => {
                 self.inputs = Some(inputs);
@@ -150,7 +153,7 @@ impl LifecycleCallbacks for AmclNode {
         let mut settings = self.settings.clone();
         if !self.resets_on_activation() && self.last_pose.is_some() {
             settings.initial_pose = self.last_pose;
-        } else if self.values.flag("initialize_at_saved_pose").unwrap_or_default() {
+        } else if self.params.initialize_at_saved_pose {
             match saved_pose::read(&self.values, &*self.files, &settings.global_frame) {
                 Ok(Some(start)) => settings.initial_pose = Some(start),
                 Ok(None) => node.log(Level::Info, "there is no saved pose"),
@@ -166,7 +169,7 @@ impl LifecycleCallbacks for AmclNode {
         if std::mem::replace(&mut self.was_active, true) && self.resets_on_activation() {
             // Resets everything but the map, which is latched and arrives again.
             self.amcl = Some(Amcl::new(self.settings.clone()));
-            match Inputs::new(node, &self.values) {
+            match Inputs::new(node, &self.params) {
                 Ok(inputs) => self.inputs = Some(inputs),
                 Err(error) => node.log(Level::Error, error),
             }
@@ -202,7 +205,7 @@ impl LifecycleCallbacks for AmclNode {
 impl AmclNode {
     /// True if each activation resets the pose.
     fn resets_on_activation(&self) -> bool {
-        self.values.flag("always_reset_initial_pose").unwrap_or_default()
+        self.params.always_reset_initial_pose
     }
 
     /// Sets an initial pose, or keeps it until the node is active. True if it is valid.
@@ -278,8 +281,10 @@ impl AmclNode {
     }
 
     fn frame_names(&self) -> FrameNames {
-        let text = |name: &str| self.values.text(name).unwrap_or_default();
-        FrameNames { odom: text("odom_frame_id"), base: text("base_frame_id") }
+        FrameNames {
+            odom: self.params.odom_frame_id.clone(),
+            base: self.params.base_frame_id.clone(),
+        }
     }
 
     /// Sets the map. True if it is in use.
@@ -400,11 +405,11 @@ impl AmclNode {
         if updated.is_some() {
             outputs.publish_pose(amcl, time_ns, map);
         }
-        if self.values.flag("tf_broadcast").unwrap_or(true)
+        if self.params.tf_broadcast
             && let Some(map_from_odom) = amcl.map_from_odom()
         {
-            let tolerance_s = self.values.number("transform_tolerance").unwrap_or_default();
-            let until_ns = time_ns.saturating_add((tolerance_s * 1e9) as i64);
+            let tolerance_ns = (self.params.transform_tolerance_s * 1e9) as i64;
+            let until_ns = time_ns.saturating_add(tolerance_ns);
             outputs.publish_transform(map_from_odom, until_ns, (map, plain(&names.odom)));
         }
     }
@@ -429,7 +434,7 @@ impl AmclNode {
     }
 
     fn save_when_due(&mut self, node: &Node) {
-        let rate_hz = self.values.number("save_pose_rate").unwrap_or_default();
+        let rate_hz = self.params.save_pose_rate_hz;
         let now_ns = node.now_ns();
         let is_due = rate_hz > 0.0
             && self.saved_ns.is_none_or(|saved_ns| {
@@ -469,23 +474,22 @@ impl AmclNode {
                 *amcl = Amcl::new(settings.clone());
             }
         }
-        let differs = |name: &str| self.values.text(name) != values.text(name);
-        let (topics, frames) = (
-            ["scan_topic", "map_topic", "global_frame_id"].into_iter().any(differs),
-            ["odom_frame_id", "base_frame_id"].into_iter().any(differs),
-        );
-        let asks = self.values.flag("use_map_topic") != values.flag("use_map_topic");
-        if (topics || asks)
-            && let Some(inputs) = &mut self.inputs
-        {
-            *inputs = Inputs::new(node, values).map_err(|error| error.to_string())?;
+        let (old, new) = (&self.params, AmclParams::from_values(values));
+        let has_other_inputs = (&old.scan_topic, &old.map_topic, &old.global_frame_id)
+            != (&new.scan_topic, &new.map_topic, &new.global_frame_id)
+            || old.use_map_topic != new.use_map_topic;
+        let has_other_frames =
+            (&old.odom_frame_id, &old.base_frame_id) != (&new.odom_frame_id, &new.base_frame_id);
+        if has_other_inputs && let Some(inputs) = &mut self.inputs {
+            *inputs = Inputs::new(node, &new).map_err(|error| error.to_string())?;
         }
-        if frames && let Some(amcl) = &mut self.amcl {
+        if has_other_frames && let Some(amcl) = &mut self.amcl {
             amcl.reset_odometry();
         }
         for finding in &findings {
             node.log_finding(finding);
         }
+        self.params = new;
         self.values = values.clone();
         self.settings = settings;
         Ok(())

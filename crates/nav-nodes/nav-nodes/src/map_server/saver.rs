@@ -3,41 +3,37 @@
 use std::path::Path;
 use std::sync::Arc;
 
-use periplus_diagnostics::Diagnostics;
 use periplus_graph::{
     Call, Calls, GraphError, Io, Level, LifecycleCallbacks, LifecycleNode, Mailbox, Node, Qos,
 };
 use periplus_maps::{Distro, Wish, from_message, render};
 use periplus_msgs::nav_msgs::OccupancyGrid;
 use periplus_msgs::nav2_msgs::{SaveMap, SaveMapRequest, SaveMapResponse};
-use periplus_params::{ParamValues, Table, flag, number};
+use periplus_params::params;
 
 use crate::Files;
-
-/// Default time to wait for a map \[ns\].
-pub const WAIT_NS: i64 = 2_000_000_000;
 
 /// Polling period while waiting for a map \[ns\].
 const LOOK_NS: i64 = 20_000_000;
 
-/// Parameters of [`MapSaver`].
-pub static MAP_SAVER: Table = Table {
-    name: "map_saver",
-    doc: "Saves maps from topics to files.",
-    parameters: &[
-        number("save_map_timeout", "s", "Maximum time to wait for a map.")
-            .or("2.0")
-            .within(0.0, 1e6),
-        number("free_thresh_default", "", "Maximum occupancy of free cells, 0 to 1.").or("0.25"),
-        number("occupied_thresh_default", "", "Minimum occupancy of occupied cells, 0 to 1.")
-            .or("0.65"),
-        flag(
-            "map_subscribe_transient_local",
-            "Subscribes with transient-local durability, which delivers a map published earlier.",
-        )
-        .or("true"),
-    ],
-};
+params! {
+    /// Saves maps from topics to files.
+    #[table(MAP_SAVER, "map_saver")]
+    pub struct MapSaverParams {
+        /// Maximum time to wait for a map.
+        #[param("save_map_timeout", unit("s"), within(0.0, 1e6))]
+        save_map_timeout_s: f64 = 2.0,
+        /// Maximum occupancy of free cells, 0 to 1.
+        #[param("free_thresh_default")]
+        free_thresh_default: f64 = 0.25,
+        /// Minimum occupancy of occupied cells, 0 to 1.
+        #[param("occupied_thresh_default")]
+        occupied_thresh_default: f64 = 0.65,
+        /// Subscribes with transient-local durability, which delivers a map published earlier.
+        #[param("map_subscribe_transient_local")]
+        map_subscribe_transient_local: bool = true,
+    }
+}
 
 /// Lifecycle node that saves maps: the service `~/save_map` waits for the next map on the requested
 /// topic, and responds when the files are written or after a timeout.
@@ -46,7 +42,7 @@ pub static MAP_SAVER: Table = Table {
 pub struct MapSaver {
     files: Arc<dyn Files>,
     distro: Distro,
-    values: ParamValues,
+    params: MapSaverParams,
     calls: Option<Calls<SaveMap>>,
     waiting: Vec<Waiting>,
 }
@@ -69,15 +65,16 @@ impl MapSaver {
         distro: Distro,
         files: Arc<dyn Files>,
     ) -> Result<LifecycleNode<Self>, GraphError> {
-        let values = MAP_SAVER.check([], None, &mut Diagnostics::new());
+        let params = MapSaverParams::default();
+        let values = params.to_values();
         let calls = Some(node.server::<SaveMap>("~/save_map")?);
-        let state = Self { files, distro, values: values.clone(), calls, waiting: Vec::new() };
+        let state = Self { files, distro, params, calls, waiting: Vec::new() };
         let mut actor = node.actor(state);
         let parameters = actor.parameters(values, |state, values, _| {
-            state.values = values.clone();
+            state.params = MapSaverParams::from_values(values);
             Ok(())
         })?;
-        actor.with(|state| state.values = parameters.values());
+        actor.with(|state| state.params = MapSaverParams::from_values(&parameters.values()));
         actor.timer(LOOK_NS, Self::look)?;
         LifecycleNode::new(actor)
     }
@@ -122,12 +119,15 @@ impl MapSaver {
             return refuse(call, io, error.to_string());
         }
         let topic = if request.map_topic.is_empty() { "map" } else { &request.map_topic };
-        let latched = self.values.flag("map_subscribe_transient_local").unwrap_or(true);
-        let qos = if latched { Qos::latched(1) } else { Qos::reliable(1) };
+        let qos = if self.params.map_subscribe_transient_local {
+            Qos::latched(1)
+        } else {
+            Qos::reliable(1)
+        };
         match io.node().mailbox(topic, qos) {
             Ok(mailbox) => {
-                let wait_s = self.values.number("save_map_timeout").unwrap_or(2.0);
-                let until_ns = io.now_ns().saturating_add((wait_s * 1e9) as i64);
+                let wait_ns = (self.params.save_map_timeout_s * 1e9) as i64;
+                let until_ns = io.now_ns().saturating_add(wait_ns);
                 self.waiting.push(Waiting { request, call, mailbox, until_ns });
             }
             Err(error) => refuse(call, io, error.to_string()),
@@ -135,16 +135,19 @@ impl MapSaver {
     }
 
     fn wish(&self, request: &SaveMapRequest) -> Wish {
-        let usual = |name: &str, given: f32| match given {
-            0.0 => self.values.number(name).unwrap_or(0.0),
+        let or_default = |default: f64, given: f32| match given {
+            0.0 => default,
             given => decimal(given),
         };
         Wish {
             name: request.map_url.clone(),
             image_format: request.image_format.clone(),
             mode: request.map_mode.clone(),
-            occupied_thresh: usual("occupied_thresh_default", request.occupied_thresh),
-            free_thresh: usual("free_thresh_default", request.free_thresh),
+            occupied_thresh: or_default(
+                self.params.occupied_thresh_default,
+                request.occupied_thresh,
+            ),
+            free_thresh: or_default(self.params.free_thresh_default, request.free_thresh),
         }
     }
 

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use periplus_diagnostics::{Diagnostics, Severity};
+use periplus_diagnostics::Severity;
 use periplus_graph::{
     GraphError, Io, Level, LifecycleCallbacks, LifecycleNode, Node, Publisher, Qos, StepOutcome,
 };
@@ -10,69 +10,23 @@ use periplus_maps::{Distro, Loaded, load, to_message};
 use periplus_msgs::builtin_interfaces::Time;
 use periplus_msgs::nav_msgs::{GetMap, GetMapResponse, MapMetaData, OccupancyGrid};
 use periplus_msgs::nav2_msgs::{LoadMap, LoadMapResponse};
-use periplus_params::{ParamValue, ParamValues, Table, text};
+use periplus_params::params;
 
 use crate::Files;
 
-/// Parameters of [`MapServer`].
-pub static MAP_SERVER: Table = Table {
-    name: "map_server",
-    doc: "Serves a map from its files.",
-    parameters: &[
-        text(
-            "yaml_filename",
-            "YAML file of the map; if empty, a map is loaded by the service `load_map`.",
-        )
-        .or(""),
-        text("topic_name", "Topic of the map.").or("map"),
-        text("frame_id", "Frame of the map.").or("map"),
-    ],
-};
-
-/// Settings of a [`MapServer`].
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct MapServerSettings {
-    /// YAML file of the map; empty for none.
-    pub yaml_filename: String,
-    /// Topic of the map.
-    pub topic_name: String,
-    /// Frame of the map.
-    pub frame_id: String,
-    /// Distribution whose rules apply to the files.
-    pub distro: Distro,
-}
-
-impl Default for MapServerSettings {
-    fn default() -> Self {
-        Self {
-            yaml_filename: String::new(),
-            topic_name: "map".into(),
-            frame_id: "map".into(),
-            distro: Distro::Jazzy,
-        }
-    }
-}
-
-impl MapServerSettings {
-    /// Converts to parameters of [`MAP_SERVER`].
-    fn values(&self) -> ParamValues {
-        let mut values = MAP_SERVER.check([], None, &mut Diagnostics::new());
-        let texts = [
-            ("yaml_filename", &self.yaml_filename),
-            ("topic_name", &self.topic_name),
-            ("frame_id", &self.frame_id),
-        ];
-        for (name, text) in texts {
-            values.set(name, ParamValue::Text(text.clone()));
-        }
-        values
-    }
-
-    fn read(&mut self, values: &ParamValues) {
-        let text = |name: &str, usual: &str| values.text(name).unwrap_or_else(|| usual.to_owned());
-        self.yaml_filename = text("yaml_filename", "");
-        self.topic_name = text("topic_name", "map");
-        self.frame_id = text("frame_id", "map");
+params! {
+    /// Serves a map from its files.
+    #[table(MAP_SERVER, "map_server")]
+    pub struct MapServerParams {
+        /// YAML file of the map; if empty, a map is loaded by the service `load_map`.
+        #[param("yaml_filename")]
+        yaml_filename: String = "",
+        /// Topic of the map.
+        #[param("topic_name")]
+        topic_name: String = "map",
+        /// Frame of the map.
+        #[param("frame_id")]
+        frame_id: String = "map",
     }
 }
 
@@ -82,7 +36,8 @@ impl MapServerSettings {
 ///
 /// Source: `nav2_map_server/src/map_server/map_server.cpp`; `map_metadata` as in ROS 1.
 pub struct MapServer {
-    settings: MapServerSettings,
+    params: MapServerParams,
+    distro: Distro,
     files: Arc<dyn Files>,
     outputs: Option<Outputs>,
     map: Option<OccupancyGrid>,
@@ -94,23 +49,24 @@ struct Outputs {
 }
 
 impl MapServer {
-    /// Creates the server on a node. Arguments of the graph may change the settings, as may
-    /// parameters until it is configured.
+    /// Creates the server on a node; the rules of `distro` apply to the files. Arguments of the graph may
+    /// change the parameters, as may requests until it is configured.
     ///
     /// # Errors
     /// When a name is not valid or exists with another type.
     pub fn new(
         node: Node,
-        settings: MapServerSettings,
+        params: MapServerParams,
+        distro: Distro,
         files: Arc<dyn Files>,
     ) -> Result<LifecycleNode<Self>, GraphError> {
-        let values = settings.values();
-        let mut actor = node.actor(Self { settings, files, outputs: None, map: None });
+        let values = params.to_values();
+        let mut actor = node.actor(Self { params, distro, files, outputs: None, map: None });
         let parameters = actor.parameters(values, |state, values, _| {
-            state.settings.read(values);
+            state.params = MapServerParams::from_values(values);
             Ok(())
         })?;
-        actor.with(|state| state.settings.read(&parameters.values()));
+        actor.with(|state| state.params = MapServerParams::from_values(&parameters.values()));
         actor.serve::<GetMap>("~/map", |state, _, io| {
             if io.node().is_active() {
                 return GetMapResponse { map: state.map.clone().unwrap_or_default() };
@@ -127,7 +83,7 @@ impl MapServer {
 
 impl LifecycleCallbacks for MapServer {
     fn on_configure(&mut self, io: &mut Io<'_, Self>) -> StepOutcome {
-        let path = self.settings.yaml_filename.clone();
+        let path = self.params.yaml_filename.clone();
         if path.is_empty() {
             io.node().log(
                 Level::Info,
@@ -163,15 +119,15 @@ impl LifecycleCallbacks for MapServer {
 impl MapServer {
     fn advertise(&self, node: &Node) -> Result<Outputs, GraphError> {
         Ok(Outputs {
-            map: node.publisher(&self.settings.topic_name, Qos::latched(1))?,
+            map: node.publisher(&self.params.topic_name, Qos::latched(1))?,
             metadata: node
-                .publisher(&format!("{}_metadata", self.settings.topic_name), Qos::latched(1))?,
+                .publisher(&format!("{}_metadata", self.params.topic_name), Qos::latched(1))?,
         })
     }
 
     /// Loads a map and replaces the current one on success. Errors are logged.
     fn load(&mut self, path: &str, io: &mut Io<'_, Self>) -> Loaded {
-        let loaded = load(path, self.settings.distro, &*self.files);
+        let loaded = load(path, self.distro, &*self.files);
         for finding in loaded.diagnostics.iter() {
             let level = match finding.severity {
                 Severity::Error => Level::Error,
@@ -198,8 +154,7 @@ impl MapServer {
                     info.resolution_m
                 ),
             );
-            self.map =
-                Some(to_message(&map.grid, &self.settings.frame_id, Time::of_ns(io.now_ns())));
+            self.map = Some(to_message(&map.grid, &self.params.frame_id, Time::of_ns(io.now_ns())));
         }
         loaded
     }

@@ -14,7 +14,7 @@ use periplus_maps::{Distro, to_message};
 use periplus_msgs::Service;
 use periplus_msgs::nav_msgs::{GetMap, GetMapRequest, MapMetaData, OccupancyGrid};
 use periplus_msgs::nav2_msgs::{LoadMap, LoadMapRequest, SaveMap, SaveMapRequest};
-use periplus_nav_nodes::map_server::{MapSaver, MapServer, MapServerSettings};
+use periplus_nav_nodes::map_server::{MapSaver, MapServer, MapServerParams};
 use periplus_resources::{EntryKind, FileReadError, FileWriteError, Host, MemoryHost, Store};
 
 /// Files that are there, and files that are written.
@@ -85,11 +85,9 @@ impl Stage {
 
     fn server(&self, yaml_filename: &str) -> LifecycleNode<MapServer> {
         let node = self.graph.node(NodeSettings::new("map_server")).unwrap();
-        let settings = MapServerSettings {
-            yaml_filename: yaml_filename.into(),
-            ..MapServerSettings::default()
-        };
-        MapServer::new(node, settings, Files::new()).unwrap()
+        let params =
+            MapServerParams { yaml_filename: yaml_filename.into(), ..MapServerParams::default() };
+        MapServer::new(node, params, Distro::Jazzy, Files::new()).unwrap()
     }
 
     fn ask<S: Service>(&self, name: &str, request: S::Request) -> Arc<S::Response> {

@@ -6,71 +6,41 @@ use std::sync::Arc;
 use periplus_graph::{Actor, GraphError, Node, Publisher, Qos};
 use periplus_msgs::sensor_msgs;
 use periplus_msgs::std_msgs::Header;
-use periplus_params::{ParamValues, Table, flag, number, texts};
+use periplus_params::params;
 use periplus_scene::{JointKind, Mimic, Model};
 
-/// Parameters of [`JointStateSource`].
-pub static JOINT_STATE_PUBLISHER: Table = Table {
-    name: "joint_state_publisher",
-    doc: "Publishes joint states from default positions and from other topics.",
-    parameters: &[
-        number("rate", "Hz", "Messages per second.").or("10").within(1e-3, 1e6),
-        texts("source_list", "Topics of joint states that are merged (default none)."),
-        flag("use_mimic_tags", "Compute the positions of mimic joints (default true).").or("true"),
-        flag("publish_default_positions", "Publish positions (default true).").or("true"),
-        flag("publish_default_velocities", "Publish zero velocities (default false).").or("false"),
-        flag("publish_default_efforts", "Publish zero efforts (default false).").or("false"),
-    ],
-};
+params! {
+    /// Publishes joint states from default positions and from other topics.
+    #[table(JOINT_STATE_PUBLISHER, "joint_state_publisher")]
+    pub struct JointStateParams {
+        /// Messages per second.
+        #[param("rate", unit("Hz"), within(1e-3, 1e6))]
+        rate_hz: f64 = 10,
+        /// Topics of joint states that are merged (default none).
+        #[param("source_list")]
+        source_list: Vec<String>,
+        /// Compute the positions of mimic joints (default true).
+        #[param("use_mimic_tags")]
+        use_mimic_tags: bool = true,
+        /// Publish positions (default true).
+        #[param("publish_default_positions")]
+        publish_default_positions: bool = true,
+        /// Publish zero velocities (default false).
+        #[param("publish_default_velocities")]
+        publish_default_velocities: bool = false,
+        /// Publish zero efforts (default false).
+        #[param("publish_default_efforts")]
+        publish_default_efforts: bool = false,
+    }
+}
 
 /// Options of a [`JointStateSource`].
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct JointStateOptions {
-    /// Publishing rate \[Hz\].
-    pub rate_hz: f64,
-    /// Topics of joint states that are merged.
-    pub source_list: Vec<String>,
-    /// True if the positions of mimic joints are computed.
-    pub use_mimic_tags: bool,
-    /// True if positions are published.
-    pub publish_default_positions: bool,
-    /// True if zero velocities are published.
-    pub publish_default_velocities: bool,
-    /// True if zero efforts are published.
-    pub publish_default_efforts: bool,
+    /// Parameters.
+    pub params: JointStateParams,
     /// Initial positions by joint, instead of zero \[rad or m\].
     pub zeros: BTreeMap<String, f64>,
-}
-
-impl Default for JointStateOptions {
-    fn default() -> Self {
-        Self {
-            rate_hz: 10.0,
-            source_list: Vec::new(),
-            use_mimic_tags: true,
-            publish_default_positions: true,
-            publish_default_velocities: false,
-            publish_default_efforts: false,
-            zeros: BTreeMap::new(),
-        }
-    }
-}
-
-impl JointStateOptions {
-    /// Reads parameters of [`JOINT_STATE_PUBLISHER`].
-    #[must_use]
-    pub fn read(values: &ParamValues) -> Self {
-        let flag = |name: &str| values.flag(name).unwrap_or_default();
-        Self {
-            rate_hz: values.number("rate").unwrap_or(10.0),
-            source_list: values.texts("source_list"),
-            use_mimic_tags: flag("use_mimic_tags"),
-            publish_default_positions: flag("publish_default_positions"),
-            publish_default_velocities: flag("publish_default_velocities"),
-            publish_default_efforts: flag("publish_default_efforts"),
-            zeros: BTreeMap::new(),
-        }
-    }
 }
 
 /// Publishes the states of all joints of a robot on `joint_states` at a rate: zero (or the middle of
@@ -107,9 +77,9 @@ impl JointStateSource {
         let mut joints = Vec::new();
         collect(model, "", &options, &mut joints);
         let publisher = node.publisher("joint_states", Qos::reliable(10))?;
-        let (sources, rate_hz) = (options.source_list.clone(), options.rate_hz);
+        let (sources, rate_hz) = (options.params.source_list.clone(), options.params.rate_hz);
         let (has_velocities, has_efforts) =
-            (options.publish_default_velocities, options.publish_default_efforts);
+            (options.params.publish_default_velocities, options.params.publish_default_efforts);
         let state = PublisherState { joints, has_velocities, has_efforts, options, publisher };
         let mut actor = node.actor(state);
         for source in &sources {
@@ -147,7 +117,7 @@ fn collect(model: &Model, scope: &str, options: &JointStateOptions, joints: &mut
             (axis.lower + axis.upper) / 2.0
         };
         let position = options.zeros.get(&name).copied().unwrap_or(fallback);
-        let mimic = axis.mimic.clone().filter(|_| options.use_mimic_tags);
+        let mimic = axis.mimic.clone().filter(|_| options.params.use_mimic_tags);
         joints.push(JointEntry { name, mimic, position, velocity: 0.0, effort: 0.0 });
     }
     for inner in &model.models {
@@ -182,7 +152,8 @@ impl PublisherState {
                 continue;
             };
             message.name.push(joint.name.clone());
-            if self.options.publish_default_positions || !self.options.source_list.is_empty() {
+            let params = &self.options.params;
+            if params.publish_default_positions || !params.source_list.is_empty() {
                 message.position.push(position);
             }
             if self.has_velocities {

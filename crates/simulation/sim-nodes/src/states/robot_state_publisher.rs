@@ -6,7 +6,7 @@ use std::sync::Arc;
 use periplus_diagnostics::{Diagnostics, Severity, SourceMap};
 use periplus_graph::{Actor, GraphError, Node, Publisher, Qos};
 use periplus_msgs::{sensor_msgs, std_msgs, tf2_msgs};
-use periplus_params::{ParamValue, ParamValues, Table, flag, number, text};
+use periplus_params::{ParamValues, params};
 use periplus_scene::Model;
 
 use super::frame_tree::FrameTree;
@@ -14,64 +14,22 @@ use super::geometry::transform;
 use super::odometry::TF_QOS;
 use crate::{Device, DeviceContext, device_node};
 
-/// Parameters of [`RobotStatePublisher`].
-pub static ROBOT_STATE_PUBLISHER: Table = Table {
-    name: "robot_state_publisher",
-    doc: "Publishes the frames of a robot from its description and its joint states.",
-    parameters: &[
-        text("robot_description", "Robot description as URDF (required)."),
-        number(
-            "publish_frequency",
-            "Hz",
-            "Maximum rate of `/tf` for movable joints (default 20 Hz).",
-        )
-        .or("20")
-        .within(1e-3, 1000.0),
-        text("frame_prefix", "Prefix of all frame names (default empty).").or(""),
-        flag("ignore_timestamp", "Accept joint states of any time stamp (default false).")
-            .or("false"),
-    ],
-};
-
-/// Options of a [`RobotStatePublisher`].
-#[derive(Clone, Debug, PartialEq)]
-pub struct RobotStateOptions {
-    /// Maximum rate of messages on `/tf`, above 0 \[Hz\].
-    pub publish_frequency_hz: f64,
-    /// Prefix of all frame names.
-    pub frame_prefix: String,
-    /// True if joint states of any time stamp are accepted.
-    pub ignore_timestamp: bool,
-}
-
-impl Default for RobotStateOptions {
-    fn default() -> Self {
-        Self { publish_frequency_hz: 20.0, frame_prefix: String::new(), ignore_timestamp: false }
-    }
-}
-
-impl RobotStateOptions {
-    /// Converts to parameters of [`ROBOT_STATE_PUBLISHER`].
-    fn values(&self, description: &str) -> ParamValues {
-        let mut values = ROBOT_STATE_PUBLISHER.check([], None, &mut Diagnostics::new());
-        values.set("robot_description", ParamValue::Text(description.to_owned()));
-        values.set("publish_frequency", ParamValue::Number(self.publish_frequency_hz));
-        values.set("frame_prefix", ParamValue::Text(self.frame_prefix.clone()));
-        values.set("ignore_timestamp", ParamValue::Bool(self.ignore_timestamp));
-        values
-    }
-
-    /// Reads parameters of [`ROBOT_STATE_PUBLISHER`].
-    #[must_use]
-    pub fn read(values: &ParamValues) -> Self {
-        let fallback = Self::default();
-        Self {
-            publish_frequency_hz: values
-                .number("publish_frequency")
-                .unwrap_or(fallback.publish_frequency_hz),
-            frame_prefix: values.text("frame_prefix").unwrap_or_default(),
-            ignore_timestamp: values.flag("ignore_timestamp").unwrap_or_default(),
-        }
+params! {
+    /// Publishes the frames of a robot from its description and its joint states.
+    #[table(ROBOT_STATE_PUBLISHER, "robot_state_publisher")]
+    pub struct RobotStateParams {
+        /// Robot description as URDF (required).
+        #[param("robot_description")]
+        robot_description: Option<String>,
+        /// Maximum rate of `/tf` for movable joints (default 20 Hz).
+        #[param("publish_frequency", unit("Hz"), within(1e-3, 1000.0))]
+        publish_frequency_hz: f64 = 20,
+        /// Prefix of all frame names (default empty).
+        #[param("frame_prefix")]
+        frame_prefix: String = "",
+        /// Accept joint states of any time stamp (default false).
+        #[param("ignore_timestamp")]
+        ignore_timestamp: bool = false,
     }
 }
 
@@ -87,7 +45,8 @@ pub struct RobotStatePublisher {
 
 struct PublisherState {
     tree: FrameTree,
-    options: RobotStateOptions,
+    params: RobotStateParams,
+    /// Description that was published last.
     described: Option<String>,
     tf: Publisher<tf2_msgs::TFMessage>,
     description: Publisher<std_msgs::String>,
@@ -107,9 +66,9 @@ impl RobotStatePublisher {
         node: Node,
         description: impl Into<String>,
         model: &Model,
-        options: RobotStateOptions,
+        params: RobotStateParams,
     ) -> Result<Self, GraphError> {
-        Self::of_tree(node, description.into(), FrameTree::of(model), options)
+        Self::of_tree(node, description.into(), FrameTree::of(model), params)
     }
 
     /// Creates the publisher with the frames of the URDF itself: links without inertia can move.
@@ -119,29 +78,30 @@ impl RobotStatePublisher {
     pub fn of_urdf(
         node: Node,
         description: impl Into<String>,
-        options: RobotStateOptions,
+        params: RobotStateParams,
     ) -> Result<Self, String> {
         let description = description.into();
         let tree = tree_of(&description)?;
-        Self::of_tree(node, description, tree, options).map_err(|error| error.to_string())
+        Self::of_tree(node, description, tree, params).map_err(|error| error.to_string())
     }
 
     fn of_tree(
         node: Node,
         description: String,
         tree: FrameTree,
-        options: RobotStateOptions,
+        params: RobotStateParams,
     ) -> Result<Self, GraphError> {
         let described = node.publisher("robot_description", Qos::latched(1))?;
         let tf_static = node.publisher("/tf_static", Qos::latched(1))?;
         let tf = node.publisher("/tf", TF_QOS)?;
-        let values = options.values(&description);
+        let params = RobotStateParams { robot_description: Some(description.clone()), ..params };
+        let values = params.to_values();
         described.publish(std_msgs::String { data: description });
         let now_ns = node.now_ns();
         let state = PublisherState {
             tree,
-            options,
-            described: values.text("robot_description"),
+            described: params.robot_description.clone(),
+            params,
             tf,
             description: described,
             tf_static,
@@ -152,8 +112,8 @@ impl RobotStatePublisher {
         let parameters =
             actor.parameters(values, |state, values, io| state.change(values, io.now_ns()))?;
         actor.with(|state| {
-            state.options = RobotStateOptions::read(&parameters.values());
-            let prefix = &state.options.frame_prefix;
+            state.params = RobotStateParams::from_values(&parameters.values());
+            let prefix = &state.params.frame_prefix;
             state.tf_static.publish(fixed_transforms(&state.tree, prefix, now_ns));
         });
         actor.subscribe::<sensor_msgs::JointState>(
@@ -203,19 +163,20 @@ fn fixed_transforms(tree: &FrameTree, prefix: &str, now_ns: i64) -> tf2_msgs::TF
 impl PublisherState {
     /// Applies other parameters. A changed description is published again, with its fixed frames.
     fn change(&mut self, values: &ParamValues, now_ns: i64) -> Result<(), String> {
-        let description = values.text("robot_description");
+        let params = RobotStateParams::from_values(values);
+        let description = params.robot_description.clone();
         let tree = match &description {
             Some(text) if description != self.described => Some(tree_of(text)?),
             Some(_) => None,
             None => return Err("`robot_description` must not be empty".into()),
         };
-        self.options = RobotStateOptions::read(values);
+        self.params = params;
         if let Some(tree) = tree {
             self.tree = tree;
             self.description
                 .publish(std_msgs::String { data: description.clone().unwrap_or_default() });
             self.described = description;
-            let prefix = &self.options.frame_prefix;
+            let prefix = &self.params.frame_prefix;
             self.tf_static.publish(fixed_transforms(&self.tree, prefix, now_ns));
         }
         Ok(())
@@ -235,9 +196,9 @@ impl PublisherState {
         let Some(oldest_ns) = oldest_ns.map(|oldest_ns| oldest_ns.min(now_ns)) else { return };
         // In whole milliseconds, as in the original.
         #[expect(clippy::cast_possible_truncation, reason = "it saturates")]
-        let interval_ms = (1000.0 / self.options.publish_frequency_hz) as i64;
+        let interval_ms = (1000.0 / self.params.publish_frequency_hz) as i64;
         let due_ns = oldest_ns.saturating_add(interval_ms.saturating_mul(1_000_000));
-        if !self.options.ignore_timestamp && stamp_ns < due_ns {
+        if !self.params.ignore_timestamp && stamp_ns < due_ns {
             return;
         }
         let mut positions = BTreeMap::new();
@@ -246,7 +207,7 @@ impl PublisherState {
             positions.entry(name.clone()).or_insert(*position);
         }
         self.tree.complete(&mut positions);
-        let prefix = &self.options.frame_prefix;
+        let prefix = &self.params.frame_prefix;
         let transforms = positions.iter().filter(|(_, position)| position.is_finite());
         let transforms = transforms.filter_map(|(joint, position)| {
             let moving = self.tree.moving.get(joint)?;
@@ -273,8 +234,8 @@ pub(crate) struct RobotFrames {
 impl RobotFrames {
     pub(crate) fn new(setting: &DeviceContext<'_>, description: &str) -> Result<Self, GraphError> {
         let node = device_node(setting, "robot_state_publisher")?;
-        let options = RobotStateOptions::default();
-        let publisher = RobotStatePublisher::new(node, description, setting.root, options)?;
+        let params = RobotStateParams::default();
+        let publisher = RobotStatePublisher::new(node, description, setting.root, params)?;
         let name = format!("{}::robot_state_publisher", setting.model_name);
         Ok(Self { name, _publisher: publisher })
     }

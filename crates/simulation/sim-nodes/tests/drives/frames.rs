@@ -10,7 +10,7 @@ use periplus_msgs::rcl_interfaces::{
 use periplus_msgs::{sensor_msgs, std_msgs, tf2_msgs};
 use periplus_scene::{Axis, Joint, JointKind, Link, Mimic, Model, Pose};
 use periplus_sim_nodes::states::{
-    JointStateOptions, JointStateSource, RobotStateOptions, RobotStatePublisher,
+    JointStateOptions, JointStateParams, JointStateSource, RobotStateParams, RobotStatePublisher,
 };
 
 /// A gripper that slides, a finger that mimics it with a factor of -2, and a fixed light.
@@ -68,7 +68,7 @@ fn state(time_ms: i64, reach: f64) -> sensor_msgs::JointState {
 fn frames_come_with_joint_states_at_20_hertz_at_most() {
     let Ears { graph, tf, states, node } = ears();
     let publisher = graph.node(NodeSettings::new("robot_state_publisher")).unwrap();
-    let options = RobotStateOptions { frame_prefix: "r1/".into(), ..Default::default() };
+    let options = RobotStateParams { frame_prefix: "r1/".into(), ..Default::default() };
     let _publisher = RobotStatePublisher::new(publisher, "<robot/>", &model(), options).unwrap();
     // Late as we are, description and fixed frames are there.
     let fixed: Mailbox<tf2_msgs::TFMessage> = node.mailbox("/tf_static", Qos::latched(1)).unwrap();
@@ -111,7 +111,7 @@ fn frames_come_with_joint_states_at_20_hertz_at_most() {
 fn states_that_make_no_sense_are_passed_over() {
     let Ears { graph, tf, states, .. } = ears();
     let publisher = graph.node(NodeSettings::new("robot_state_publisher")).unwrap();
-    let options = RobotStateOptions::default();
+    let options = RobotStateParams::default();
     let _publisher = RobotStatePublisher::new(publisher, "", &model(), options).unwrap();
     graph.advance_to(1_000_000_000);
     states.publish(sensor_msgs::JointState { position: Vec::new(), ..state(1000, 0.0) });
@@ -142,7 +142,7 @@ const ARM: &str = r#"<robot name="arm">
 fn links_need_no_inertia_and_another_description_is_taken_at_run_time() {
     let Ears { graph, tf, states, node } = ears();
     let publisher = graph.node(NodeSettings::new("robot_state_publisher")).unwrap();
-    let options = RobotStateOptions::default();
+    let options = RobotStateParams::default();
     let _publisher = RobotStatePublisher::of_urdf(publisher, ARM, options).unwrap();
     let frames = |tf: &Mailbox<tf2_msgs::TFMessage>| -> Vec<String> {
         let last = tf.latest().unwrap();
@@ -191,7 +191,10 @@ fn links_need_no_inertia_and_another_description_is_taken_at_run_time() {
 #[test]
 fn default_joint_states_and_sources() {
     let Ears { graph, node, .. } = ears();
-    let options = JointStateOptions { source_list: vec!["gripper".into()], ..Default::default() };
+    let options = JointStateOptions {
+        params: JointStateParams { source_list: vec!["gripper".into()], ..Default::default() },
+        ..Default::default()
+    };
     let source = graph.node(NodeSettings::new("joint_state_publisher")).unwrap();
     let _source = JointStateSource::new(source, &model(), options).unwrap();
     let heard: Mailbox<sensor_msgs::JointState> =
