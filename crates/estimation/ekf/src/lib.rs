@@ -33,5 +33,5 @@ mod state;
 
 pub use ekf::{Ekf, Refusal};
 pub use intake::{ImuReading, Intake, PoseReading, TwistReading};
-pub use settings::{EKF, Kind, SOURCE, Settings, Source};
+pub use settings::{EKF, EkfParams, EkfSourceParams, Kind, SOURCE, Settings, Source};
 pub use state::{Covariance, Estimate, Measurement, STATE_DIMENSIONS, State, Variable};

@@ -3,85 +3,161 @@
 use std::collections::BTreeMap;
 
 use periplus_diagnostics::{Diagnostic, Diagnostics};
-use periplus_params::{Given, ParamValues, Table, flag, integer, number, numbers, text, texts};
+use periplus_params::{Given, ParamValues, params};
 
 use crate::state::{Covariance, STATE_DIMENSIONS, State};
 
-/// Parameters of the filter.
-pub static EKF: Table = Table {
-    name: "ekf_node",
-    doc: "Extended Kalman filter that fuses odometry, IMU and poses.",
-    parameters: &[
-        number("frequency", "Hz", "Publication rate of the estimate.").or("30").above(0.0),
-        number("sensor_timeout", "s", "Time without measurements after which the state is predicted; 1 / frequency unless set.")
-            .above(0.0),
-        flag("two_d_mode", "Estimates planar motion only: no height, roll or pitch.").or("false"),
-        number("transform_time_offset", "s", "Offset added to the stamps of published transforms.").or("0"),
-        number("transform_timeout", "s", "Maximum time that a message waits for its transform.").or("0").min(0.0),
-        flag("print_diagnostics", "Publishes the health of the filter on /diagnostics.").or("true"),
-        flag("publish_tf", "Publishes the transform of the estimate.").or("true"),
-        flag("publish_acceleration", "Publishes the acceleration on accel/filtered.").or("false"),
-        flag("permit_corrected_publication", "Publishes a stamp again after late measurements changed it.").or("false"),
-        flag("predict_to_current_time", "Predicts the published estimate to the current time.").or("false"),
-        text("map_frame", "Map frame.").or("map"),
-        text("odom_frame", "Odometry frame.").or("odom"),
-        text("base_link_frame", "Base frame of the robot.").or("base_link"),
-        text("base_link_frame_output", "Base frame in published messages; base_link_frame unless set."),
-        text("world_frame", "Frame of the estimate, map_frame or odom_frame; odom_frame unless set."),
-        number("gravitational_acceleration", "m/s^2", "Gravity removed from IMU accelerations.").or("9.80665"),
-        numbers("initial_state", "", "Initial values of the 15 variables."),
-        numbers("process_noise_covariance", "1/s", "Process noise covariance: 225 numbers in row-major order, or the 15 of the diagonal."),
-        numbers("initial_estimate_covariance", "", "Covariance of the initial state: 225 numbers in row-major order, or the 15 of the diagonal."),
-        flag("dynamic_process_noise_covariance", "Scales the process noise of the pose by the speed of the robot.").or("false"),
-        flag("disabled_at_startup", "Waits for the service `enable`.").or("false"),
-        flag("reset_on_time_jump", "Resets the filter after a jump back in time.").or("false"),
-        flag("use_sim_time", "Uses the time of /clock.").or("false"),
-        flag("smooth_lagged_data", "Not supported: late measurements are used on arrival.").or("false"),
-        number("history_length", "s", "Not supported, see smooth_lagged_data.").or("0"),
-        flag("use_control", "Not supported: commands are not used.").or("false"),
-        flag("stamped_control", "Not supported, see use_control.").or("false"),
-        number("control_timeout", "s", "Not supported, see use_control.").or("0"),
-        texts("control_config", "Not supported, see use_control."),
-        numbers("acceleration_limits", "", "Not supported, see use_control."),
-        numbers("deceleration_limits", "", "Not supported, see use_control."),
-        numbers("acceleration_gains", "", "Not supported, see use_control."),
-        numbers("deceleration_gains", "", "Not supported, see use_control."),
-        flag("debug", "Not there.").or("false"),
-        text("debug_out_file", "Not there."),
-    ],
-};
+params! {
+    /// Extended Kalman filter that fuses odometry, IMU and poses.
+    #[table(EKF, "ekf_node")]
+    pub struct EkfParams {
+        /// Publication rate of the estimate.
+        #[param("frequency", unit("Hz"), above(0.0))]
+        frequency_hz: f64 = 30,
+        /// Time without measurements after which the state is predicted; 1 / frequency unless set.
+        #[param("sensor_timeout", unit("s"), above(0.0))]
+        sensor_timeout_s: Option<f64>,
+        /// Estimates planar motion only: no height, roll or pitch.
+        #[param("two_d_mode")]
+        two_d_mode: bool = false,
+        /// Offset added to the stamps of published transforms.
+        #[param("transform_time_offset", unit("s"))]
+        transform_time_offset_s: f64 = 0,
+        /// Maximum time that a message waits for its transform.
+        #[param("transform_timeout", unit("s"), min(0.0))]
+        transform_timeout_s: f64 = 0,
+        /// Publishes the health of the filter on /diagnostics.
+        #[param("print_diagnostics")]
+        print_diagnostics: bool = true,
+        /// Publishes the transform of the estimate.
+        #[param("publish_tf")]
+        publish_tf: bool = true,
+        /// Publishes the acceleration on accel/filtered.
+        #[param("publish_acceleration")]
+        publish_acceleration: bool = false,
+        /// Publishes a stamp again after late measurements changed it.
+        #[param("permit_corrected_publication")]
+        _: bool = false,
+        /// Predicts the published estimate to the current time.
+        #[param("predict_to_current_time")]
+        predict_to_current_time: bool = false,
+        /// Map frame.
+        #[param("map_frame")]
+        map_frame: String = "map",
+        /// Odometry frame.
+        #[param("odom_frame")]
+        odom_frame: String = "odom",
+        /// Base frame of the robot.
+        #[param("base_link_frame")]
+        base_link_frame: String = "base_link",
+        /// Base frame in published messages; base_link_frame unless set.
+        #[param("base_link_frame_output")]
+        base_link_frame_output: Option<String>,
+        /// Frame of the estimate, map_frame or odom_frame; odom_frame unless set.
+        #[param("world_frame")]
+        world_frame: Option<String>,
+        /// Gravity removed from IMU accelerations.
+        #[param("gravitational_acceleration", unit("m/s^2"))]
+        gravitational_acceleration_m_s2: f64 = 9.80665,
+        /// Initial values of the 15 variables.
+        #[param("initial_state")]
+        initial_state: Vec<f64>,
+        /// Process noise covariance: 225 numbers in row-major order, or the 15 of the diagonal.
+        #[param("process_noise_covariance", unit("1/s"))]
+        process_noise_covariance_per_s: Vec<f64>,
+        /// Covariance of the initial state: 225 numbers in row-major order, or the 15 of the diagonal.
+        #[param("initial_estimate_covariance")]
+        initial_estimate_covariance: Vec<f64>,
+        /// Scales the process noise of the pose by the speed of the robot.
+        #[param("dynamic_process_noise_covariance")]
+        dynamic_process_noise_covariance: bool = false,
+        /// Waits for the service `enable`.
+        #[param("disabled_at_startup")]
+        disabled_at_startup: bool = false,
+        /// Resets the filter after a jump back in time.
+        #[param("reset_on_time_jump")]
+        reset_on_time_jump: bool = false,
+        /// Uses the time of /clock.
+        #[param("use_sim_time")]
+        use_sim_time: bool = false,
+        /// Not supported: late measurements are used on arrival.
+        #[param("smooth_lagged_data")]
+        _: bool = false,
+        /// Not supported, see smooth_lagged_data.
+        #[param("history_length", unit("s"))]
+        _: f64 = 0,
+        /// Not supported: commands are not used.
+        #[param("use_control")]
+        _: bool = false,
+        /// Not supported, see use_control.
+        #[param("stamped_control")]
+        _: bool = false,
+        /// Not supported, see use_control.
+        #[param("control_timeout", unit("s"))]
+        _: f64 = 0,
+        /// Not supported, see use_control.
+        #[param("control_config")]
+        _: Vec<String>,
+        /// Not supported, see use_control.
+        #[param("acceleration_limits")]
+        _: Vec<f64>,
+        /// Not supported, see use_control.
+        #[param("deceleration_limits")]
+        _: Vec<f64>,
+        /// Not supported, see use_control.
+        #[param("acceleration_gains")]
+        _: Vec<f64>,
+        /// Not supported, see use_control.
+        #[param("deceleration_gains")]
+        _: Vec<f64>,
+        /// Not there.
+        #[param("debug")]
+        _: bool = false,
+        /// Not there.
+        #[param("debug_out_file")]
+        _: Option<String>,
+    }
+}
 
-/// Parameters of one input, prefixed with its name, as in `odom0_config`.
-pub static SOURCE: Table = Table {
-    name: "ekf_node input",
-    doc: "An input topic, and the variables used from it.",
-    parameters: &[
-        text("topic", "Topic; set by the name of the input alone: odom0, pose0, twist0, imu0.")
-            .required(),
-        texts(
-            "config",
-            "Variables used: x y z, roll pitch yaw, their velocities, and accelerations along x y z.",
-        ),
-        integer("queue_size", "Maximum number of queued messages.").or("10").min(1.0),
-        flag("differential", "Converts poses to the velocities between them.").or("false"),
-        flag("relative", "Poses are relative to the first one.").or("false"),
-        number("pose_rejection_threshold", "", "Maximum Mahalanobis distance of poses.")
-            .above(0.0)
-            .also(&["rejection_threshold"]),
-        number("twist_rejection_threshold", "", "Maximum Mahalanobis distance of velocities.")
-            .above(0.0),
-        number(
-            "linear_acceleration_rejection_threshold",
-            "",
-            "Maximum Mahalanobis distance of accelerations.",
-        )
-        .above(0.0),
-        flag("remove_gravitational_acceleration", "Removes gravity from IMU accelerations.")
-            .or("false"),
-        flag("nodelay", "Option of TCPROS; no effect.").or("false"),
-        flag("pose_use_child_frame", "Not supported: poses are of base_link.").or("false"),
-    ],
-};
+params! {
+    /// An input topic, and the variables used from it.
+    #[table(SOURCE, "ekf_node input")]
+    pub struct EkfSourceParams {
+        /// Topic; set by the name of the input alone: odom0, pose0, twist0, imu0.
+        #[param("topic", required())]
+        topic: String,
+        /// Variables used: x y z, roll pitch yaw, their velocities, and accelerations along x y z.
+        #[param("config")]
+        config: Vec<String>,
+        /// Maximum number of queued messages.
+        #[param("queue_size", min(1.0))]
+        queue_size: usize = 10,
+        /// Converts poses to the velocities between them.
+        #[param("differential")]
+        differential: bool = false,
+        /// Poses are relative to the first one.
+        #[param("relative")]
+        relative: bool = false,
+        /// Maximum Mahalanobis distance of poses.
+        #[param("pose_rejection_threshold", above(0.0), also(&["rejection_threshold"]))]
+        pose_rejection_threshold: Option<f64>,
+        /// Maximum Mahalanobis distance of velocities.
+        #[param("twist_rejection_threshold", above(0.0))]
+        twist_rejection_threshold: Option<f64>,
+        /// Maximum Mahalanobis distance of accelerations.
+        #[param("linear_acceleration_rejection_threshold", above(0.0))]
+        linear_acceleration_rejection_threshold: Option<f64>,
+        /// Removes gravity from IMU accelerations.
+        #[param("remove_gravitational_acceleration")]
+        remove_gravitational_acceleration: bool = false,
+        /// Option of TCPROS; no effect.
+        #[param("nodelay")]
+        _: bool = false,
+        /// Not supported: poses are of base_link.
+        #[param("pose_use_child_frame")]
+        _: bool = false,
+    }
+}
 
 /// Parameters without effect, with the behaviour instead.
 const IDLE: [(&str, &str); 4] = [
@@ -161,7 +237,7 @@ pub struct Settings {
 
 impl Default for Settings {
     fn default() -> Self {
-        Self::of(&EKF.check([], None, &mut Diagnostics::new()), Vec::new(), &mut Diagnostics::new())
+        Self::of(&ParamValues::defaults(&EKF), Vec::new(), &mut Diagnostics::new())
     }
 }
 
@@ -201,21 +277,20 @@ impl Settings {
 
     /// Converts parameters of [`EKF`] with these inputs.
     pub fn of(values: &ParamValues, sources: Vec<Source>, diagnostics: &mut Diagnostics) -> Self {
-        let number = |name: &str| values.number(name).unwrap_or_default();
-        let flag = |name: &str| values.flag(name).unwrap_or_default();
-        let frequency_hz = number("frequency");
+        let params = EkfParams::from_values(values);
+        let frequency_hz = params.frequency_hz;
         let start = numbers_of(values, "initial_state", &[STATE_DIMENSIONS], diagnostics);
         Self {
             frequency_hz,
-            sensor_timeout_s: values.number("sensor_timeout").unwrap_or(1.0 / frequency_hz),
-            is_flat: flag("two_d_mode"),
+            sensor_timeout_s: params.sensor_timeout_s.unwrap_or(1.0 / frequency_hz),
+            is_flat: params.two_d_mode,
             noise_per_s: matrix(
                 values,
                 "process_noise_covariance",
                 PROCESS_NOISE_PER_VARIABLE,
                 diagnostics,
             ),
-            scales_noise: flag("dynamic_process_noise_covariance"),
+            scales_noise: params.dynamic_process_noise_covariance,
             start: start.map(|numbers| State::from_row_slice(&numbers)),
             start_covariance: matrix(
                 values,
@@ -223,7 +298,7 @@ impl Settings {
                 [1e-9; STATE_DIMENSIONS],
                 diagnostics,
             ),
-            gravity_mps2: number("gravitational_acceleration"),
+            gravity_mps2: params.gravitational_acceleration_m_s2,
             sources,
         }
     }
@@ -266,11 +341,10 @@ fn source(
         return None;
     }
     let values = SOURCE.check(given, None, diagnostics);
-    let flag = |name: &str| values.flag(name).unwrap_or_default();
-    let threshold = |name: &str| values.number(name).unwrap_or(f64::INFINITY);
-    let config = values.texts("config");
+    let params = EkfSourceParams::from_values(&values);
+    let or_any = |threshold: Option<f64>| threshold.unwrap_or(f64::INFINITY);
     let mut mask = [false; STATE_DIMENSIONS];
-    let truths: Option<Vec<bool>> = config.iter().map(|word| truth(word)).collect();
+    let truths: Option<Vec<bool>> = params.config.iter().map(|word| truth(word)).collect();
     match truths {
         Some(truths) if truths.len() == STATE_DIMENSIONS => mask.copy_from_slice(&truths),
         Some(truths) if truths.is_empty() => {
@@ -296,20 +370,20 @@ fn source(
             diagnostics.push(bad);
         }
     }
-    let pose = threshold("pose_rejection_threshold");
+    let pose = or_any(params.pose_rejection_threshold);
     Some(Source {
         kind,
-        topic: values.text("topic").unwrap_or_default(),
+        topic: params.topic,
         mask,
-        queue: values.integer("queue_size").and_then(|it| usize::try_from(it).ok()).unwrap_or(10),
-        is_differential: flag("differential"),
-        is_relative: flag("relative"),
-        removes_gravity: flag("remove_gravitational_acceleration"),
+        queue: params.queue_size,
+        is_differential: params.differential,
+        is_relative: params.relative,
+        removes_gravity: params.remove_gravitational_acceleration,
         most_deviations: [
             pose,
             // `twist0_rejection_threshold` has no "twist" in its middle.
-            if kind == Kind::Twist { pose } else { threshold("twist_rejection_threshold") },
-            threshold("linear_acceleration_rejection_threshold"),
+            if kind == Kind::Twist { pose } else { or_any(params.twist_rejection_threshold) },
+            or_any(params.linear_acceleration_rejection_threshold),
         ],
         name,
     })
@@ -373,6 +447,14 @@ mod tests {
         let given = given.iter().map(|(name, text)| Given::new(name, *text));
         let (settings, _) = Settings::read(given, &mut diagnostics);
         (settings, diagnostics.iter().map(|it| it.code).collect())
+    }
+
+    #[test]
+    fn default_settings_are_those_of_the_table() {
+        let (settings, codes) = read(&[]);
+        assert!(codes.is_empty(), "{codes:?}");
+        assert_eq!(settings, Settings::default());
+        assert_eq!([EKF.faults(), SOURCE.faults()], [vec![], vec![]] as [Vec<String>; 2]);
     }
 
     const YAW: &str = "0 0 0 0 0 0 0 0 0 0 0 true false false false";

@@ -2,7 +2,9 @@
 
 use periplus_diagnostics::{Diagnostic, Diagnostics};
 use periplus_ekf::Variable;
-use periplus_ekf::{Covariance, Ekf, Estimate, Intake, Refusal, Settings, State as Numbers};
+use periplus_ekf::{
+    Covariance, Ekf, EkfParams, Estimate, Intake, Refusal, Settings, State as Numbers,
+};
 use periplus_geometry::Pose;
 use periplus_graph::{Actor, GraphError, Level, Node, Qos};
 use periplus_msgs::geometry_msgs::PoseWithCovarianceStamped;
@@ -25,7 +27,7 @@ pub struct EkfNode {
 }
 
 pub(crate) struct State {
-    values: ParamValues,
+    params: EkfParams,
     ekf: Ekf,
     intakes: Vec<Intake>,
     /// Reason for which each input is dropped.
@@ -45,7 +47,7 @@ impl EkfNode {
     /// # Errors
     /// When a topic or service exists with another type.
     pub fn at(node: Node, settings: Settings, values: ParamValues) -> Result<Self, GraphError> {
-        let flag = |name: &str| values.flag(name).unwrap_or_default();
+        let params = EkfParams::from_values(&values);
         if settings.sources.is_empty() {
             let missing =
                 Diagnostic::error("no-inputs", "the filter has no inputs, and publishes nothing")
@@ -53,12 +55,12 @@ impl EkfNode {
             node.log_finding(&missing);
         }
         let state = State {
-            outputs: Outputs::new(&node, flag("publish_acceleration"))?,
+            outputs: Outputs::new(&node, params.publish_acceleration)?,
             intakes: settings.sources.iter().cloned().map(Intake::new).collect(),
             troubles: vec![None; settings.sources.len()],
-            is_enabled: !flag("disabled_at_startup"),
+            is_enabled: !params.disabled_at_startup,
             ekf: Ekf::new(settings.clone()),
-            values: values.clone(),
+            params,
             frames: Frames::default(),
             told: Told::default(),
             published_ns: None,
@@ -68,7 +70,13 @@ impl EkfNode {
         let mut actor = node.actor(state);
         let parameters = actor.parameters(values, |state, values, _| state.change(values))?;
         let given = parameters.values();
-        actor.with(|state| state.change(&given)).map_err(|reason| GraphError::Value { reason })?;
+        actor.with(|state| state.apply(&given)).map_err(|reason| GraphError::Value { reason })?;
+        let params = EkfParams::from_values(&given);
+        let node = actor.node().clone();
+        actor.with(|state| {
+            state.is_enabled = !params.disabled_at_startup;
+            state.outputs.set_acceleration(&node, params.publish_acceleration)
+        })?;
         actor.subscribe::<TFMessage>("/tf_static", Qos::latched(100), |state, message, _| {
             state.frames.take(&message, TransformKind::Fixed);
         })?;
@@ -91,7 +99,8 @@ impl EkfNode {
             io.node().log(Level::Info, "the filter was reset");
             EmptyResponse::default()
         })?;
-        let period_ns = (1e9 / settings.frequency_hz).max(1.0) as i64;
+        let frequency_hz = params.frequency_hz;
+        let period_ns = (1e9 / frequency_hz).max(1.0) as i64;
         actor.timer(period_ns, |state, io| state.tick(io.node()))?;
         actor.timer(HEALTH_NS, |state, io| state.show(io.node()))?;
         actor.on_jump(|state, io| state.jump(io.node()));
@@ -112,13 +121,9 @@ impl EkfNode {
 }
 
 impl State {
-    fn text(&self, name: &str) -> String {
-        self.values.text(name).unwrap_or_default()
-    }
-
     /// Returns the frame of the estimate.
     fn world(&self) -> String {
-        self.values.text("world_frame").unwrap_or_else(|| self.text("odom_frame"))
+        self.params.world_frame.clone().unwrap_or_else(|| self.params.odom_frame.clone())
     }
 
     /// Processes a message of an input.
@@ -131,7 +136,7 @@ impl State {
         if !self.is_enabled {
             return;
         }
-        let (world, base) = (self.world(), self.text("base_link_frame"));
+        let (world, base) = (self.world(), self.params.base_link_frame.clone());
         let Some(intake) = self.intakes.get_mut(number) else { return };
         let mut desk =
             Desk { intake, ekf: &mut self.ekf, frames: &self.frames, world: &world, base: &base };
@@ -151,8 +156,7 @@ impl State {
         for refusal in self.ekf.take_refusals() {
             self.count(refusal, node);
         }
-        let flag = |name: &str| self.values.flag(name).unwrap_or_default();
-        let estimate = match flag("predict_to_current_time") {
+        let estimate = match self.params.predict_to_current_time {
             true => self.ekf.predicted(now_ns),
             false => self.ekf.estimate().cloned(),
         };
@@ -163,19 +167,19 @@ impl State {
             return;
         };
         self.published_ns = Some(estimate.time_ns);
-        let (world, base) = (self.world(), self.text("base_link_frame"));
-        let output = self.values.text("base_link_frame_output");
+        let (world, base) = (self.world(), self.params.base_link_frame.clone());
+        let output = self.params.base_link_frame_output.clone();
         self.outputs.publish(&estimate, plain(&world), plain(output.as_ref().unwrap_or(&base)));
-        if flag("publish_tf") {
+        if self.params.publish_tf {
             let output = output.unwrap_or_else(|| base.clone());
             self.publish_transform(&estimate, &world, &output, node);
         }
     }
 
     fn publish_transform(&mut self, estimate: &Estimate, world: &str, base: &str, node: &Node) {
-        let offset_s = self.values.number("transform_time_offset").unwrap_or_default();
-        let time_ns = estimate.time_ns.saturating_add((offset_s * 1e9) as i64);
-        let (map, odom) = (self.text("map_frame"), self.text("odom_frame"));
+        let offset_ns = (self.params.transform_time_offset_s * 1e9) as i64;
+        let time_ns = estimate.time_ns.saturating_add(offset_ns);
+        let (map, odom) = (self.params.map_frame.clone(), self.params.odom_frame.clone());
         let world_from_base = estimate.world_from_base();
         if plain(world) != plain(&map) || plain(world) == plain(&odom) {
             self.outputs.tf.publish(transform(plain(world), plain(base), world_from_base, time_ns));
@@ -231,7 +235,7 @@ impl State {
     }
 
     fn show(&mut self, node: &Node) {
-        if self.values.flag("print_diagnostics") != Some(true) {
+        if !self.params.print_diagnostics {
             return;
         }
         let health = Health {
@@ -283,12 +287,20 @@ impl State {
         self.refused.clear();
     }
 
+    /// Applies parameters that change while the node runs.
     fn change(&mut self, values: &ParamValues) -> Result<(), String> {
-        let differs = |name: &str| self.values.text(name) != values.text(name);
-        if let Some(name) = ["frequency", "publish_acceleration"].into_iter().find(|it| differs(it))
-        {
+        let (old, new) = (&self.params, EkfParams::from_values(values));
+        let fixed = [
+            ("frequency", old.frequency_hz != new.frequency_hz),
+            ("publish_acceleration", old.publish_acceleration != new.publish_acceleration),
+        ];
+        if let Some((name, _)) = fixed.into_iter().find(|(_, differs)| *differs) {
             return Err(format!("`{name}` is read when the node starts; restart the node"));
         }
+        self.apply(values)
+    }
+
+    fn apply(&mut self, values: &ParamValues) -> Result<(), String> {
         let mut findings = Diagnostics::new();
         let sources = self.ekf.settings().sources.clone();
         let settings = Settings::of(values, sources, &mut findings);
@@ -296,7 +308,7 @@ impl State {
             return Err(bad.message.clone());
         }
         self.ekf.set_settings(settings);
-        self.values = values.clone();
+        self.params = EkfParams::from_values(values);
         Ok(())
     }
 
@@ -308,7 +320,7 @@ impl State {
         self.frames.forget();
         self.published_ns = None;
         // The state has a stamp in the future; without a reset it would not be updated until then.
-        if went_back || self.values.flag("reset_on_time_jump") == Some(true) {
+        if went_back || self.params.reset_on_time_jump {
             self.reset();
             node.log(
                 Level::Warn,

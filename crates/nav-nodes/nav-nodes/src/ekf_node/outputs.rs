@@ -22,15 +22,25 @@ pub(crate) struct Outputs {
 }
 
 impl Outputs {
-    pub(crate) fn new(node: &Node, tells_acceleration: bool) -> Result<Self, GraphError> {
-        let acceleration =
-            tells_acceleration.then(|| node.publisher("accel/filtered", Qos::reliable(10)));
+    pub(crate) fn new(node: &Node, publishes_acceleration: bool) -> Result<Self, GraphError> {
         Ok(Self {
+            acceleration: acceleration(node, publishes_acceleration)?,
             odometry: node.publisher("odometry/filtered", Qos::reliable(10))?,
-            acceleration: acceleration.transpose()?,
             tf: node.publisher("/tf", Qos::reliable(100))?,
             diagnostics: node.publisher("/diagnostics", Qos::reliable(10))?,
         })
+    }
+
+    /// Advertises `accel/filtered`, or removes it.
+    pub(crate) fn set_acceleration(
+        &mut self,
+        node: &Node,
+        publishes_acceleration: bool,
+    ) -> Result<(), GraphError> {
+        if self.acceleration.is_some() != publishes_acceleration {
+            self.acceleration = acceleration(node, publishes_acceleration)?;
+        }
+        Ok(())
     }
 
     pub(crate) fn publish(&self, estimate: &Estimate, world: &str, base: &str) {
@@ -68,6 +78,13 @@ impl Outputs {
         let status = vec![health.to_message()];
         self.diagnostics.publish(DiagnosticArray { header: Header::at(time_ns, ""), status });
     }
+}
+
+fn acceleration(
+    node: &Node,
+    is_published: bool,
+) -> Result<Option<Publisher<AccelWithCovarianceStamped>>, GraphError> {
+    is_published.then(|| node.publisher("accel/filtered", Qos::reliable(10))).transpose()
 }
 
 /// Health of the filter.

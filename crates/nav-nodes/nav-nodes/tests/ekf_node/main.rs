@@ -4,14 +4,17 @@
 use std::f64::consts::PI;
 use std::sync::Arc;
 
-use periplus_diagnostics::Diagnostics;
+use periplus_diagnostics::{Diagnostics, SourceMap};
 use periplus_ekf::Settings;
 use periplus_geometry::{Pose, Rpy};
-use periplus_graph::{Graph, Mailbox, Node, NodeSettings, Publisher, Qos};
+use periplus_graph::{Arguments, Graph, Mailbox, Node, NodeSettings, Publisher, Qos};
 use periplus_msgs::builtin_interfaces::Time;
 use periplus_msgs::diagnostic_msgs::{DiagnosticArray, DiagnosticStatus};
-use periplus_msgs::geometry_msgs::PoseWithCovarianceStamped;
+use periplus_msgs::geometry_msgs::{AccelWithCovarianceStamped, PoseWithCovarianceStamped};
 use periplus_msgs::nav_msgs::Odometry;
+use periplus_msgs::rcl_interfaces::{
+    Parameter, ParameterType, ParameterValue, SetParameters, SetParametersRequest,
+};
 use periplus_msgs::sensor_msgs::Imu;
 use periplus_msgs::std_msgs::Header;
 use periplus_msgs::tf2_msgs::TFMessage;
@@ -42,11 +45,15 @@ struct Scene {
     heard: Mailbox<TFMessage>,
     health: Mailbox<DiagnosticArray>,
     start: Publisher<PoseWithCovarianceStamped>,
-    _node: Node,
+    acceleration: Mailbox<AccelWithCovarianceStamped>,
+    node: Node,
 }
 
 fn scene(more: &[(&str, &str)], with_imu_frame: bool) -> Scene {
-    let graph = Graph::new();
+    scene_in(Graph::new(), more, with_imu_frame)
+}
+
+fn scene_in(graph: Graph, more: &[(&str, &str)], with_imu_frame: bool) -> Scene {
     let mut given = vec![
         ("odom0", "wheels"),
         ("odom0_config", VX),
@@ -76,7 +83,8 @@ fn scene(more: &[(&str, &str)], with_imu_frame: bool) -> Scene {
         heard: node.mailbox("/tf", Qos::reliable(100)).unwrap(),
         health: node.mailbox("/diagnostics", Qos::reliable(10)).unwrap(),
         start: node.publisher("set_pose", Qos::reliable(1)).unwrap(),
-        _node: node,
+        acceleration: node.mailbox("accel/filtered", Qos::reliable(10)).unwrap(),
+        node,
         graph,
         _ekf: ekf,
     }
@@ -181,4 +189,65 @@ fn in_the_map_it_tells_what_is_left_to_odometry() {
     let of_map = all.iter().flat_map(|it| &it.transforms).find(|it| it.child_frame_id == "odom");
     let tf = of_map.expect("map -> odom");
     assert_eq!((tf.header.frame_id.as_str(), tf.transform.translation.x), ("map", -3.0));
+}
+
+#[test]
+fn parameters_that_are_read_at_startup_are_refused_later() {
+    let scene = scene(&[], true);
+    let double = |name: &str, double_value: f64| Parameter {
+        name: name.into(),
+        value: ParameterValue {
+            r#type: ParameterType::PARAMETER_DOUBLE,
+            double_value,
+            ..ParameterValue::default()
+        },
+    };
+    let flag = |name: &str, bool_value: bool| Parameter {
+        name: name.into(),
+        value: ParameterValue {
+            r#type: ParameterType::PARAMETER_BOOL,
+            bool_value,
+            ..ParameterValue::default()
+        },
+    };
+    let parameters = vec![
+        double("frequency", 5.0),
+        flag("publish_acceleration", true),
+        double("frequency", 30.0),
+        flag("publish_tf", false),
+    ];
+    let client = scene.node.client::<SetParameters>("/ekf_filter_node/set_parameters").unwrap();
+    let pending = client.call(SetParametersRequest { parameters });
+    scene.graph.settle();
+    let response = pending.take().unwrap().unwrap();
+    let reasons: Vec<&str> = response.results.iter().map(|it| it.reason.as_str()).collect();
+    assert_eq!(
+        reasons,
+        [
+            "`frequency` is read when the node starts; restart the node",
+            "`publish_acceleration` is read when the node starts; restart the node",
+            "",
+            "",
+        ]
+    );
+    drop(scene.heard.drain());
+    scene.drive(1.0);
+    assert!(scene.heard.drain().is_empty(), "`publish_tf` is false");
+}
+
+#[test]
+fn arguments_apply_to_parameters_that_are_read_at_startup() {
+    let words = "-p frequency:=5.0 -p publish_acceleration:=true".split(' ').map(str::to_owned);
+    let words: Vec<String> = words.collect();
+    let mut findings = Diagnostics::new();
+    let no_file = &mut |_: &std::path::Path| Err(String::new());
+    let arguments = Arguments::read(&words, &mut SourceMap::new(), &mut findings, no_file);
+    assert!(findings.is_empty(), "{findings:?}");
+    let graph = Graph::new();
+    graph.set_arguments(arguments);
+    let scene = scene_in(graph, &[], true);
+    scene.drive(1.0);
+    let estimates = scene.odometry.drain().len();
+    assert!((4..=6).contains(&estimates), "{estimates} estimates in a second at 5 Hz");
+    assert!(scene.acceleration.latest().is_some(), "accelerations on accel/filtered");
 }
