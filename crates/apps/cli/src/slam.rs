@@ -12,7 +12,9 @@ use std::process::ExitCode;
 use periplus_geometry::Pose2;
 use periplus_maps::{Distro, PgmRows, Saving, render_yaml};
 use periplus_os::Stopwatch;
+use periplus_params::Params as _;
 use periplus_session::picture::draw_by;
+use periplus_slam::tables::MountingParams;
 use periplus_slam::{CorrectedInput, Mapper, MountingCorrection};
 
 use crate::error::CliError;
@@ -44,7 +46,7 @@ fn from_log(options: &SlamOptions) -> Result<ExitCode, CliError> {
     }
     let input = parameters.input(&options.input);
     let mut run = map(options, &parameters, &input, None)?;
-    let is_corrected = parameters.values.flag("correct_mounting").unwrap_or(false);
+    let is_corrected = MountingParams::from_values(&parameters.values).correct_mounting;
     let remedy = MountingCorrection::of(run.selected.mapper().remarks())
         .filter(|_| options.session.is_none() && is_corrected);
     if remedy.is_some() {

@@ -2,6 +2,8 @@
 
 use periplus_scan_matching::{CloudSettings, FieldSettings, RegisterSettings};
 
+use crate::tables::SlamToolboxParams;
+
 /// Settings of graph SLAM. The defaults suit every scanner and building.
 #[derive(Clone, Debug)]
 pub struct Settings {
@@ -59,11 +61,20 @@ impl Settings {
 
 impl Default for Settings {
     fn default() -> Self {
+        Self::from(&SlamToolboxParams::default())
+    }
+}
+
+impl From<&SlamToolboxParams> for Settings {
+    fn from(params: &SlamToolboxParams) -> Self {
         Self {
-            keyframe_distance_m: 0.35,
-            keyframe_rotation_rad: 0.26,
-            range_min_m: 0.0,
-            range_max_m: 60.0,
+            keyframe_distance_m: params.minimum_travel_distance_m,
+            keyframe_rotation_rad: params.minimum_travel_heading_rad,
+            range_min_m: params.min_laser_range_m as f32,
+            range_max_m: params.max_laser_range_m as f32,
+            local_scans: params.scan_buffer_size,
+            closes_loops: params.do_loop_closing,
+            resolution_m: params.resolution_m,
             cloud: CloudSettings::default(),
             register: RegisterSettings::default(),
             local_field: FieldSettings {
@@ -78,9 +89,6 @@ impl Default for Settings {
                 levels: 5,
                 resolution_m: 0.1,
             },
-            local_scans: 8,
-            closes_loops: true,
-            resolution_m: 0.05,
             drawn_beams: 720,
             refine_sweeps: 4,
             refine_neighbours: 10,

@@ -8,19 +8,24 @@ mod gmapping;
 mod toolbox;
 
 use periplus_diagnostics::Diagnostic;
-use periplus_params::{Default, Given, ParamValue, ParamValues};
+use periplus_params::{Default, Given, ParamValue, ParamValues, params};
 
 use crate::settings::Settings;
 
-pub use gmapping::GMAPPING;
-pub use toolbox::SLAM_TOOLBOX;
+pub use gmapping::{GMAPPING, GmappingParams};
+pub use toolbox::{SLAM_TOOLBOX, SlamToolboxParams, ToolboxMode};
 
 use crate::method::Method;
 
-/// Meaning of `correct_mounting`, which neither program of ROS has.
-const CORRECT_MOUNTING: &str = "If true, an error of the scanner's mounting or of the odometry axes is \
-                                corrected once it is certain, and the map is restarted (offline: the log \
-                                is mapped again).";
+params! {
+    /// Correction of the mounting, which neither program of ROS has.
+    pub struct MountingParams {
+        /// If true, an error of the scanner's mounting or of the odometry axes is corrected once it is
+        /// certain, and the map is restarted (offline: the log is mapped again).
+        #[param("correct_mounting")]
+        correct_mounting: bool = true,
+    }
+}
 
 /// Parameters that change nothing here.
 struct Idle {
@@ -92,11 +97,10 @@ fn is_changed(values: &ParamValues, name: &str) -> bool {
 }
 
 impl Settings {
-    /// Applies values of [`SLAM_TOOLBOX`] to the settings. Only given values count: the defaults here are
-    /// the mapper's own.
+    /// Converts values of [`SLAM_TOOLBOX`].
     #[must_use]
     pub fn of(values: &ParamValues) -> Self {
-        toolbox::settings(values)
+        Self::from(&SlamToolboxParams::from_values(values))
     }
 }
 
@@ -181,5 +185,11 @@ mod tests {
         assert_eq!(of(&["map_frame", "maxUrange"]), Some(Method::Gmapping));
         assert_eq!(of(&["map_frame", "odom_frame"]), None);
         assert_eq!(of(&["resolution", "delta"]), None);
+    }
+
+    #[test]
+    fn default_settings_are_those_of_the_table() {
+        let of_table = Settings::of(&ParamValues::defaults(&SLAM_TOOLBOX));
+        assert_eq!(format!("{:?}", Settings::default()), format!("{of_table:?}"));
     }
 }

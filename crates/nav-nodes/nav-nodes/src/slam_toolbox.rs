@@ -18,9 +18,9 @@ mod markers;
 mod messages;
 mod node;
 mod outputs;
+mod parameters;
 mod program;
 mod services;
-mod values;
 
 pub use file::{InFile, MapperParameters, Written, in_file, read};
 pub use node::{Pace, SlamNode, SlamStatus};

@@ -4,7 +4,8 @@
 use periplus_diagnostics::{Diagnostic, Diagnostics, Origin, SourceMap};
 use periplus_nav_nodes::slam_toolbox::{Written, in_file};
 use periplus_params::{Given, ParamValues};
-use periplus_slam::{Method, tables};
+use periplus_slam::Method;
+use periplus_slam::tables::{self, GmappingParams, SlamToolboxParams};
 
 use super::options::SlamOptions;
 use crate::log::LogOptions;
@@ -93,8 +94,10 @@ impl Parameters {
 
     /// Scan interval: every Nth scan is used.
     pub(super) fn every(&self) -> usize {
-        let every = self.values.integer("throttle_scans").unwrap_or(1);
-        usize::try_from(every).unwrap_or(1).max(1)
+        match self.method {
+            Method::Graph => SlamToolboxParams::from_values(&self.values).throttle_scans,
+            Method::Gmapping => GmappingParams::from_values(&self.values).throttle_scans,
+        }
     }
 }
 

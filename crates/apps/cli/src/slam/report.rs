@@ -3,6 +3,7 @@
 use std::io::{self, Write};
 
 use periplus_os::peak_memory_bytes;
+use periplus_slam::tables::GmappingParams;
 use periplus_slam::{ConstraintKind, Mapper, Method, MountingCorrection, Remark, RemarkKind};
 use serde_json::{Value, json};
 
@@ -142,7 +143,7 @@ impl Report<'_> {
             Method::Graph => format!("{} loops closed, {} ties", self.accepted(), counts.proximity),
             Method::Gmapping => format!(
                 "{} particles, resampled {} times",
-                self.parameters.values.integer("particles").unwrap_or_default(),
+                GmappingParams::from_values(&self.parameters.values).particles,
                 self.slam.resamplings()
             ),
         };

@@ -4,124 +4,154 @@
 //! The wiki has `srt` and `str` the other way round than the program: what it does counts.
 
 use periplus_diagnostics::Diagnostic;
-use periplus_params::{NamedEntity, ParamValues, Table, flag, integer, number, text};
+use periplus_params::{NamedEntity, ParamValues, params};
 
-use super::{CORRECT_MOUNTING, Idle};
+use super::{Idle, MountingParams};
 use crate::gmapping::{GmappingSettings, Noise};
 
-/// Parameters of the node `slam_gmapping`.
-pub static GMAPPING: Table = Table {
-    name: "slam_gmapping",
-    doc: "Particle filter SLAM from laser scans and odometry, with one map per particle.",
-    parameters: &[
+params! {
+    /// Particle filter SLAM from laser scans and odometry, with one map per particle.
+    #[table(GMAPPING, "slam_gmapping")]
+    pub struct GmappingParams {
         // Frames, topics, time.
-        text("base_frame", "Frame of the robot base.").or("base_link").naming(NamedEntity::Frame),
-        text("map_frame", "Frame of the map.").or("map").naming(NamedEntity::Frame),
-        text("odom_frame", "Frame of odometry.").or("odom").naming(NamedEntity::Frame),
-        integer("throttle_scans", "Use every Nth scan.").or("1").min(1.0),
-        number("map_update_interval", "s", "Period of the published map.").or("5").min(0.0),
-        number("transform_publish_period", "s", "Period of the transform `map -> odom`; 0: never published.")
-            .or("0.05")
-            .min(0.0),
-        number(
-            "tf_delay",
-            "s",
-            "Time by which the stamp of `map -> odom` is ahead (default: the publication period).",
-        )
-        .min(0.0),
-        flag("inverted_laser", "If true, the scanner is mounted upside down.").or("false"),
-        flag("use_sim_time", "If true, use simulated time (`/clock`).").or("false"),
+        /// Frame of the robot base.
+        #[param("base_frame", naming(NamedEntity::Frame))]
+        base_frame: String = "base_link",
+        /// Frame of the map.
+        #[param("map_frame", naming(NamedEntity::Frame))]
+        map_frame: String = "map",
+        /// Frame of odometry.
+        #[param("odom_frame", naming(NamedEntity::Frame))]
+        odom_frame: String = "odom",
+        /// Use every Nth scan.
+        #[param("throttle_scans", min(1.0))]
+        throttle_scans: usize = 1,
+        /// Period of the published map.
+        #[param("map_update_interval", unit("s"), min(0.0))]
+        map_update_interval_s: f64 = 5,
+        /// Period of the transform `map -> odom`; 0: never published.
+        #[param("transform_publish_period", unit("s"), min(0.0))]
+        transform_publish_period_s: f64 = 0.05,
+        /// Time by which the stamp of `map -> odom` is ahead (default: the publication period).
+        #[param("tf_delay", unit("s"), min(0.0))]
+        tf_delay_s: Option<f64>,
+        /// If true, the scanner is mounted upside down.
+        #[param("inverted_laser")]
+        _: bool = false,
+        /// If true, use simulated time (`/clock`).
+        #[param("use_sim_time")]
+        use_sim_time: bool = false,
         // What is used of scans.
-        number(
-            "maxUrange",
-            "m",
-            "Maximum range for drawing the map and for scan matching (default: `maxRange`).",
-        )
-        .above(0.0),
-        number(
-            "maxRange",
-            "m",
-            "Maximum range of valid readings (default: that of the scans minus 0.01 m).",
-        )
-        .above(0.0),
-        number("minUrange", "m", "Minimum range of readings that are used.").or("0").min(0.0),
-        integer(
-            "lskip",
-            "Number of beams skipped after each beam in scan matching.",
-        )
-        .or("0")
-        .within(0.0, 10_000.0),
-        flag("correct_mounting", CORRECT_MOUNTING).or("true"),
+        /// Maximum range for drawing the map and for scan matching (default: `maxRange`).
+        #[param("maxUrange", unit("m"), above(0.0))]
+        max_urange_m: Option<f64>,
+        /// Maximum range of valid readings (default: that of the scans minus 0.01 m).
+        #[param("maxRange", unit("m"), above(0.0))]
+        max_range_m: Option<f64>,
+        /// Minimum range of readings that are used.
+        #[param("minUrange", unit("m"), min(0.0))]
+        min_urange_m: f64 = 0,
+        /// Number of beams skipped after each beam in scan matching.
+        #[param("lskip", within(0.0, 10_000.0))]
+        lskip: usize = 0,
+        /// Correction of the mounting.
+        #[shared]
+        mounting: MountingParams,
         // When scans are used.
-        number("linearUpdate", "m", "Minimum distance between scans that are used ...").or("1").min(0.0),
-        number("angularUpdate", "rad", "... or minimum rotation ...").or("0.5").min(0.0),
-        number("temporalUpdate", "s", "... or minimum time; negative: never.")
-            .or("-1"),
+        /// Minimum distance between scans that are used ...
+        #[param("linearUpdate", unit("m"), min(0.0))]
+        linear_update_m: f64 = 1,
+        /// ... or minimum rotation ...
+        #[param("angularUpdate", unit("rad"), min(0.0))]
+        angular_update_rad: f64 = 0.5,
+        /// ... or minimum time; negative: never.
+        #[param("temporalUpdate", unit("s"))]
+        temporal_update_s: f64 = -1,
         // How scans are laid onto maps.
-        number(
-            "sigma",
-            "m^2",
-            "Scan matching: a beam that ends at distance d from an occupied cell counts exp(-d^2 / sigma).",
-        )
-        .or("0.05")
-        .above(0.0),
-        integer("kernelSize", "Number of cells around the end of a beam that are searched.")
-            .or("1")
-            .within(1.0, 8.0),
-        number("lstep", "m", "Initial step of the position search.").or("0.05"),
-        number("astep", "rad", "Initial step of the heading search.").or("0.05"),
-        integer("iterations", "Number of steps of the search for the best match.").or("5").within(1.0, 100.0),
-        number("minimumScore", "", "Minimum sum of the beam scores of a match.")
-            .or("0")
-            .min(0.0),
+        /// Scan matching: a beam that ends at distance d from an occupied cell counts exp(-d^2 / sigma).
+        #[param("sigma", unit("m^2"), above(0.0))]
+        sigma_m2: f64 = 0.05,
+        /// Number of cells around the end of a beam that are searched.
+        #[param("kernelSize", within(1.0, 8.0))]
+        kernel_size: usize = 1,
+        /// Initial step of the position search.
+        #[param("lstep", unit("m"))]
+        _: f64 = 0.05,
+        /// Initial step of the heading search.
+        #[param("astep", unit("rad"))]
+        _: f64 = 0.05,
+        /// Number of steps of the search for the best match.
+        #[param("iterations", within(1.0, 100.0))]
+        iterations: usize = 5,
+        /// Minimum sum of the beam scores of a match.
+        #[param("minimumScore", min(0.0))]
+        minimum_score: f64 = 0,
         // How likely a scan is.
-        number("lsigma", "m^2", "Variance of the beam likelihood exp(-d^2 / lsigma).").or("0.075").above(0.0),
-        number(
-            "ogain",
-            "",
-            "Factor by which likelihoods are flattened for weights, because beams are not independent.",
-        )
-        .or("3")
-        .above(0.0),
-        number("llsamplerange", "m", "Half-width of the position sampling around the best match ...")
-            .or("0.01")
-            .within(0.0, 1.0),
-        number("llsamplestep", "m", "... and its step.").or("0.01").above(0.0),
-        number("lasamplerange", "rad", "Half-width of the heading sampling around the best match ...")
-            .or("0.005")
-            .within(0.0, 1.0),
-        number("lasamplestep", "rad", "... and its step.").or("0.005").above(0.0),
+        /// Variance of the beam likelihood exp(-d^2 / lsigma).
+        #[param("lsigma", unit("m^2"), above(0.0))]
+        lsigma_m2: f64 = 0.075,
+        /// Factor by which likelihoods are flattened for weights, because beams are not independent.
+        #[param("ogain", above(0.0))]
+        ogain: f64 = 3,
+        /// Half-width of the position sampling around the best match ...
+        #[param("llsamplerange", unit("m"), within(0.0, 1.0))]
+        llsamplerange_m: f64 = 0.01,
+        /// ... and its step.
+        #[param("llsamplestep", unit("m"), above(0.0))]
+        llsamplestep_m: f64 = 0.01,
+        /// Half-width of the heading sampling around the best match ...
+        #[param("lasamplerange", unit("rad"), within(0.0, 1.0))]
+        lasamplerange_rad: f64 = 0.005,
+        /// ... and its step.
+        #[param("lasamplestep", unit("rad"), above(0.0))]
+        lasamplestep_rad: f64 = 0.005,
         // How odometry errs.
-        number("srr", "", "Odometry noise: standard deviation of position per metre of distance.")
-            .or("0.1")
-            .min(0.0),
-        number("srt", "rad/m", "Odometry noise: standard deviation of heading per metre of distance.").or("0.2").min(0.0),
-        number("str", "m/rad", "Odometry noise: standard deviation of position per radian of rotation.").or("0.1").min(0.0),
-        number("stt", "", "Odometry noise: standard deviation of heading per radian of rotation.").or("0.2").min(0.0),
+        /// Odometry noise: standard deviation of position per metre of distance.
+        #[param("srr", min(0.0))]
+        srr: f64 = 0.1,
+        /// Odometry noise: standard deviation of heading per metre of distance.
+        #[param("srt", unit("rad/m"), min(0.0))]
+        srt_rad_per_m: f64 = 0.2,
+        /// Odometry noise: standard deviation of position per radian of rotation.
+        #[param("str", unit("m/rad"), min(0.0))]
+        str_m_per_rad: f64 = 0.1,
+        /// Odometry noise: standard deviation of heading per radian of rotation.
+        #[param("stt", min(0.0))]
+        stt: f64 = 0.2,
         // Particles.
-        integer("particles", "Number of particles.").or("30").within(1.0, 10_000.0),
-        number(
-            "resampleThreshold",
-            "",
-            "Effective fraction of particles below which they are resampled.",
-        )
-        .or("0.5")
-        .within(0.0, 1.0),
-        integer("random_seed", "Seed of the random numbers.").or("0"),
-        integer("threads", "Number of threads; results do not depend on it.")
-            .or("1")
-            .within(1.0, 256.0),
+        /// Number of particles.
+        #[param("particles", within(1.0, 10_000.0))]
+        particles: usize = 30,
+        /// Effective fraction of particles below which they are resampled.
+        #[param("resampleThreshold", within(0.0, 1.0))]
+        resample_threshold: f64 = 0.5,
+        /// Seed of the random numbers.
+        #[param("random_seed")]
+        random_seed: i64 = 0,
+        /// Number of threads; results do not depend on it.
+        #[param("threads", within(1.0, 256.0))]
+        threads: usize = 1,
         // The map.
-        number("delta", "m", "Cell size of the map.").or("0.05").within(0.005, 2.0),
-        number("occ_thresh", "", "Minimum fraction of hits of an occupied cell.")
-            .or("0.25")
-            .within(0.0, 1.0),
-        number("xmin", "m", "Initial bounds of the map; it grows as needed.").or("-100"),
-        number("ymin", "m", "Initial bounds of the map; it grows as needed.").or("-100"),
-        number("xmax", "m", "Initial bounds of the map; it grows as needed.").or("100"),
-        number("ymax", "m", "Initial bounds of the map; it grows as needed.").or("100"),
-    ],
-};
+        /// Cell size of the map.
+        #[param("delta", unit("m"), within(0.005, 2.0))]
+        delta_m: f64 = 0.05,
+        /// Minimum fraction of hits of an occupied cell.
+        #[param("occ_thresh", within(0.0, 1.0))]
+        occ_thresh: f64 = 0.25,
+        /// Initial bounds of the map; it grows as needed.
+        #[param("xmin", unit("m"))]
+        xmin_m: f64 = -100,
+        /// Initial bounds of the map; it grows as needed.
+        #[param("ymin", unit("m"))]
+        ymin_m: f64 = -100,
+        /// Initial bounds of the map; it grows as needed.
+        #[param("xmax", unit("m"))]
+        xmax_m: f64 = 100,
+        /// Initial bounds of the map; it grows as needed.
+        #[param("ymax", unit("m"))]
+        ymax_m: f64 = 100,
+    }
+}
 
 pub(super) const IDLE: &[Idle] = &[
     Idle {
@@ -137,8 +167,8 @@ pub(super) const IDLE: &[Idle] = &[
 
 pub(super) fn conflicts(values: &ParamValues) -> Vec<Diagnostic> {
     let mut findings = Vec::new();
-    let number = |name: &str| values.number(name);
-    if let (Some(used), Some(most)) = (number("maxUrange"), number("maxRange"))
+    let params = GmappingParams::from_values(values);
+    if let (Some(used), Some(most)) = (params.max_urange_m, params.max_range_m)
         && used > most
     {
         findings.push(
@@ -151,8 +181,10 @@ pub(super) fn conflicts(values: &ParamValues) -> Vec<Diagnostic> {
             .note(format!("readings are used up to {most} m")),
         );
     }
-    for (low, high) in [("xmin", "xmax"), ("ymin", "ymax")] {
-        let (from, to) = (number(low).unwrap_or_default(), number(high).unwrap_or_default());
+    for (low, from, high, to) in [
+        ("xmin", params.xmin_m, "xmax", params.xmax_m),
+        ("ymin", params.ymin_m, "ymax", params.ymax_m),
+    ] {
         if from >= to {
             findings.push(
                 Diagnostic::warning(
@@ -173,40 +205,43 @@ impl GmappingSettings {
     /// everything observed.
     #[must_use]
     pub fn of(values: &ParamValues) -> Self {
-        let number = |name: &str| values.number(name).unwrap_or_default();
-        let count = |name: &str| usize::try_from(values.integer(name).unwrap_or(1)).unwrap_or(1);
-        let range_max_m = values.number("maxRange");
-        let used_m = values.number("maxUrange").or(range_max_m);
-        let given = |name: &str| values.number(name).filter(|_| values.is_given(name));
+        let params = GmappingParams::from_values(values);
+        let used_m = params.max_urange_m.or(params.max_range_m);
+        let given = |bound_m: f64, name: &str| values.is_given(name).then_some(bound_m);
         Self {
-            particles: count("particles"),
-            seed: values.integer("random_seed").unwrap_or(0).cast_unsigned(),
-            threads: count("threads"),
-            range_min_m: number("minUrange") as f32,
+            particles: params.particles,
+            seed: params.random_seed.cast_unsigned(),
+            threads: params.threads,
+            range_min_m: params.min_urange_m as f32,
             range_used_m: used_m.map_or(f32::INFINITY, |it| it as f32),
-            range_max_m: range_max_m.map(|it| it as f32),
-            skipped_beams: count("lskip"),
-            update_shift_m: number("linearUpdate"),
-            update_turn_rad: number("angularUpdate"),
-            update_time_s: Some(number("temporalUpdate")).filter(|it| *it >= 0.0),
-            match_sigma_m2: number("sigma"),
-            kernel_cells: count("kernelSize"),
-            steps: count("iterations"),
-            least_score: number("minimumScore"),
-            likelihood_sigma_m2: number("lsigma"),
-            gain: number("ogain"),
-            sample_range: [number("llsamplerange"), number("lasamplerange")],
-            sample_step: [number("llsamplestep"), number("lasamplestep")],
+            range_max_m: params.max_range_m.map(|it| it as f32),
+            skipped_beams: params.lskip,
+            update_shift_m: params.linear_update_m,
+            update_turn_rad: params.angular_update_rad,
+            update_time_s: Some(params.temporal_update_s).filter(|it| *it >= 0.0),
+            match_sigma_m2: params.sigma_m2,
+            kernel_cells: params.kernel_size,
+            steps: params.iterations,
+            least_score: params.minimum_score,
+            likelihood_sigma_m2: params.lsigma_m2,
+            gain: params.ogain,
+            sample_range: [params.llsamplerange_m, params.lasamplerange_rad],
+            sample_step: [params.llsamplestep_m, params.lasamplestep_rad],
             noise: Noise {
-                place_by_way: number("srr"),
-                place_by_turn: number("str"),
-                heading_by_way: number("srt"),
-                heading_by_turn: number("stt"),
+                place_by_way: params.srr,
+                place_by_turn: params.str_m_per_rad,
+                heading_by_way: params.srt_rad_per_m,
+                heading_by_turn: params.stt,
             },
-            resample_share: number("resampleThreshold"),
-            resolution_m: number("delta"),
-            occupied_share: number("occ_thresh"),
-            bounds_m: [given("xmin"), given("ymin"), given("xmax"), given("ymax")],
+            resample_share: params.resample_threshold,
+            resolution_m: params.delta_m,
+            occupied_share: params.occ_thresh,
+            bounds_m: [
+                given(params.xmin_m, "xmin"),
+                given(params.ymin_m, "ymin"),
+                given(params.xmax_m, "xmax"),
+                given(params.ymax_m, "ymax"),
+            ],
             slices_per_scan: usize::MAX,
             keeps_each_pose: true,
         }

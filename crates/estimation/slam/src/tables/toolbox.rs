@@ -3,211 +3,267 @@
 //! Sources of names and defaults: its README and the files in its `config` folder (humble to
 //! rolling, 2026).
 
-use periplus_params::{
-    NamedEntity, ParamValues, Table, choice, flag, integer, number, numbers, text,
-};
+use periplus_params::{NamedEntity, param_choice, params};
 
-use super::{CORRECT_MOUNTING, Idle};
-use crate::settings::Settings;
+use super::{Idle, MountingParams};
 
-/// Parameters of the node `slam_toolbox`.
-pub static SLAM_TOOLBOX: Table = Table {
-    name: "slam_toolbox",
-    doc: "Pose graph SLAM from laser scans and odometry.",
-    parameters: &[
+param_choice! {
+    /// Mode of the node.
+    pub enum ToolboxMode {
+        /// The map grows.
+        #[default]
+        Mapping = "mapping",
+        /// The robot is localized on a stored map.
+        Localization = "localization",
+    }
+}
+
+params! {
+    /// Pose graph SLAM from laser scans and odometry.
+    #[table(SLAM_TOOLBOX, "slam_toolbox")]
+    pub struct SlamToolboxParams {
         // Frames, topics, time.
-        text("odom_frame", "Frame of odometry.").or("odom").naming(NamedEntity::Frame),
-        text("map_frame", "Frame of the map.").or("map").naming(NamedEntity::Frame),
-        text("base_frame", "Frame of the robot base.")
-            .or("base_footprint")
-            .naming(NamedEntity::Frame),
-        text("scan_topic", "Topic of the laser scans.").or("/scan").naming(NamedEntity::Topic),
-        text("map_name", "Topic of the map.").or("/map").naming(NamedEntity::Topic),
-        choice(
-            "mode",
-            &["mapping", "localization"],
-            "`mapping`: the map grows; `localization`: the robot is localized on a stored map.",
-        )
-        .or("mapping"),
-        flag("use_sim_time", "If true, use simulated time (`/clock`).").or("false"),
-        flag("debug_logging", "If true, log debug messages.").or("false"),
-        integer("throttle_scans", "Use every Nth scan.").or("1").min(1.0),
-        integer("scan_queue_size", "Maximum number of scans that wait for their transforms.")
-            .or("1")
-            .within(1.0, 100_000.0),
-        number("minimum_time_interval", "s", "Minimum time between two scans that are used.")
-            .or("0.5")
-            .min(0.0),
-        number(
-            "transform_publish_period",
-            "s",
-            "Period of the transform `map -> odom`; 0: never published.",
-        )
-        .or("0.02")
-        .min(0.0),
-        number("transform_timeout", "s", "Maximum time to wait for a transform.")
-            .or("0.2")
-            .min(0.0),
-        number("tf_buffer_duration", "s", "Duration of the transform buffer.").or("30").above(0.0),
-        flag("restamp_tf", "If true, `map -> odom` is stamped with the time of publication.")
-            .or("false"),
-        number("map_update_interval", "s", "Period of the published map.").or("5").min(0.0),
-        flag("use_map_saver", "If true, the service `save_map` is offered.").or("true"),
-        flag(
-            "use_lifecycle_manager",
-            "If true, a lifecycle manager configures and activates the node.",
-        )
-        .or("false"),
-        flag("enable_interactive_mode", "If true, poses can be moved manually.").or("true"),
-        flag("interactive_mode", "State: true while poses can be moved manually.").or("false"),
-        flag("paused_new_measurements", "If true, new scans are ignored.").or("false"),
-        flag("paused_processing", "State: true while waiting scans are not processed.").or("false"),
-        text("map_file_name", "Stored pose graph to load at the start.").or(""),
-        numbers("map_start_pose", "m, rad", "Pose of the robot on the stored map: x, y, yaw."),
-        flag("map_start_at_dock", "If true, the robot is at the first pose of the stored graph."),
-        number(
-            "position_covariance_scale",
-            "",
-            "Scale applied to the position covariance published in `pose`.",
-        )
-        .or("1")
-        .min(0.0),
-        number(
-            "yaw_covariance_scale",
-            "",
-            "Scale applied to the yaw covariance published in `pose`.",
-        )
-        .or("1")
-        .min(0.0),
-        integer("stack_size_to_use", "Stack size for storing maps [bytes].")
-            .or("40000000")
-            .min(0.0),
+        /// Frame of odometry.
+        #[param("odom_frame", naming(NamedEntity::Frame))]
+        odom_frame: String = "odom",
+        /// Frame of the map.
+        #[param("map_frame", naming(NamedEntity::Frame))]
+        map_frame: String = "map",
+        /// Frame of the robot base.
+        #[param("base_frame", naming(NamedEntity::Frame))]
+        base_frame: String = "base_footprint",
+        /// Topic of the laser scans.
+        #[param("scan_topic", naming(NamedEntity::Topic))]
+        scan_topic: String = "/scan",
+        /// Topic of the map.
+        #[param("map_name", naming(NamedEntity::Topic))]
+        map_name: String = "/map",
+        /// `mapping`: the map grows; `localization`: the robot is localized on a stored map.
+        #[param("mode")]
+        mode: ToolboxMode = "mapping",
+        /// If true, use simulated time (`/clock`).
+        #[param("use_sim_time")]
+        use_sim_time: bool = false,
+        /// If true, log debug messages.
+        #[param("debug_logging")]
+        debug_logging: bool = false,
+        /// Use every Nth scan.
+        #[param("throttle_scans", min(1.0))]
+        throttle_scans: usize = 1,
+        /// Maximum number of scans that wait for their transforms.
+        #[param("scan_queue_size", within(1.0, 100_000.0))]
+        scan_queue_size: usize = 1,
+        /// Minimum time between two scans that are used.
+        #[param("minimum_time_interval", unit("s"), min(0.0))]
+        minimum_time_interval_s: f64 = 0.5,
+        /// Period of the transform `map -> odom`; 0: never published.
+        #[param("transform_publish_period", unit("s"), min(0.0))]
+        transform_publish_period_s: f64 = 0.02,
+        /// Maximum time to wait for a transform.
+        #[param("transform_timeout", unit("s"), min(0.0))]
+        transform_timeout_s: f64 = 0.2,
+        /// Duration of the transform buffer.
+        #[param("tf_buffer_duration", unit("s"), above(0.0))]
+        tf_buffer_duration_s: f64 = 30,
+        /// If true, `map -> odom` is stamped with the time of publication.
+        #[param("restamp_tf")]
+        restamp_tf: bool = false,
+        /// Period of the published map.
+        #[param("map_update_interval", unit("s"), min(0.0))]
+        map_update_interval_s: f64 = 5,
+        /// If true, the service `save_map` is offered.
+        #[param("use_map_saver")]
+        use_map_saver: bool = true,
+        /// If true, a lifecycle manager configures and activates the node.
+        #[param("use_lifecycle_manager")]
+        use_lifecycle_manager: bool = false,
+        /// If true, poses can be moved manually.
+        #[param("enable_interactive_mode")]
+        enable_interactive_mode: bool = true,
+        /// State: true while poses can be moved manually.
+        #[param("interactive_mode")]
+        _: bool = false,
+        /// If true, new scans are ignored.
+        #[param("paused_new_measurements")]
+        paused_new_measurements: bool = false,
+        /// State: true while waiting scans are not processed.
+        #[param("paused_processing")]
+        _: bool = false,
+        /// Stored pose graph to load at the start.
+        #[param("map_file_name")]
+        map_file_name: String = "",
+        /// Pose of the robot on the stored map: x, y, yaw.
+        #[param("map_start_pose", unit("m, rad"))]
+        map_start_pose: Vec<f64>,
+        /// If true, the robot is at the first pose of the stored graph.
+        #[param("map_start_at_dock")]
+        map_start_at_dock: Option<bool>,
+        /// Scale applied to the position covariance published in `pose`.
+        #[param("position_covariance_scale", min(0.0))]
+        position_covariance_scale: f64 = 1,
+        /// Scale applied to the yaw covariance published in `pose`.
+        #[param("yaw_covariance_scale", min(0.0))]
+        yaw_covariance_scale: f64 = 1,
+        /// Stack size for storing maps [bytes].
+        #[param("stack_size_to_use", min(0.0))]
+        _: usize = 40000000,
         // The map and what is used of scans.
-        number("resolution", "m", "Cell size of the map.").or("0.05").within(0.005, 2.0),
-        number("max_laser_range", "m", "Maximum range of readings that are used.")
-            .or("60")
-            .above(0.0),
-        number("min_laser_range", "m", "Minimum range of readings that are used.").or("0").min(0.0),
-        number("occupancy_threshold", "", "Minimum fraction of hits of an occupied cell.")
-            .or("0.1")
-            .within(0.0, 1.0),
-        integer("min_pass_through", "Minimum number of beams through a known cell.")
-            .or("2")
-            .min(0.0),
-        flag("use_scan_matching", "If true, scans are matched with each other.").or("true"),
-        flag(
-            "use_scan_barycenter",
-            "If true, distances are measured between the centres of scans.",
-        )
-        .or("true"),
-        number("minimum_travel_distance", "m", "Minimum distance between keyframes.")
-            .or("0.35")
-            .within(0.0, 1000.0),
-        number("minimum_travel_heading", "rad", "Minimum rotation between keyframes.")
-            .or("0.26")
-            .within(0.0, 1000.0),
-        flag(
-            "check_min_dist_and_heading_precisely",
-            "If true, motion is measured by scan matching instead of odometry.",
-        )
-        .or("true"),
-        integer("scan_buffer_size", "Number of previous scans that a new scan is matched with.")
-            .or("8")
-            .within(1.0, 1000.0),
-        number(
-            "scan_buffer_maximum_scan_distance",
-            "m",
-            "Maximum distance of scans in the buffer.",
-        )
-        .or("10")
-        .min(0.0),
-        number("link_match_minimum_response_fine", "", "Minimum response of a link between scans.")
-            .or("0.1"),
-        number("link_scan_maximum_distance", "m", "Maximum distance between linked scans.")
-            .or("1.5")
-            .min(0.0),
-        flag("correct_mounting", CORRECT_MOUNTING).or("true"),
+        /// Cell size of the map.
+        #[param("resolution", unit("m"), within(0.005, 2.0))]
+        resolution_m: f64 = 0.05,
+        /// Maximum range of readings that are used.
+        #[param("max_laser_range", unit("m"), above(0.0))]
+        max_laser_range_m: f64 = 60,
+        /// Minimum range of readings that are used.
+        #[param("min_laser_range", unit("m"), min(0.0))]
+        min_laser_range_m: f64 = 0,
+        /// Minimum fraction of hits of an occupied cell.
+        #[param("occupancy_threshold", within(0.0, 1.0))]
+        _: f64 = 0.1,
+        /// Minimum number of beams through a known cell.
+        #[param("min_pass_through", min(0.0))]
+        _: usize = 2,
+        /// If true, scans are matched with each other.
+        #[param("use_scan_matching")]
+        _: bool = true,
+        /// If true, distances are measured between the centres of scans.
+        #[param("use_scan_barycenter")]
+        _: bool = true,
+        /// Minimum distance between keyframes.
+        #[param("minimum_travel_distance", unit("m"), within(0.0, 1000.0))]
+        minimum_travel_distance_m: f64 = 0.35,
+        /// Minimum rotation between keyframes.
+        #[param("minimum_travel_heading", unit("rad"), within(0.0, 1000.0))]
+        minimum_travel_heading_rad: f64 = 0.26,
+        /// If true, motion is measured by scan matching instead of odometry.
+        #[param("check_min_dist_and_heading_precisely")]
+        _: bool = true,
+        /// Number of previous scans that a new scan is matched with.
+        #[param("scan_buffer_size", within(1.0, 1000.0))]
+        scan_buffer_size: usize = 8,
+        /// Maximum distance of scans in the buffer.
+        #[param("scan_buffer_maximum_scan_distance", unit("m"), min(0.0))]
+        _: f64 = 10,
+        /// Minimum response of a link between scans.
+        #[param("link_match_minimum_response_fine")]
+        _: f64 = 0.1,
+        /// Maximum distance between linked scans.
+        #[param("link_scan_maximum_distance", unit("m"), min(0.0))]
+        _: f64 = 1.5,
+        /// Correction of the mounting.
+        #[shared]
+        mounting: MountingParams,
         // Loops.
-        flag("do_loop_closing", "If true, loops are closed.").or("true"),
-        number("loop_search_maximum_distance", "m", "Maximum distance of loop candidates.")
-            .or("3")
-            .min(0.0),
-        integer(
-            "loop_match_minimum_chain_size",
-            "Minimum number of consecutive scans of a loop candidate.",
-        )
-        .or("10")
-        .min(0.0),
-        number(
-            "loop_match_maximum_variance_coarse",
-            "",
-            "Maximum variance of a coarse loop match that is refined.",
-        )
-        .or("3"),
-        number(
-            "loop_match_minimum_response_coarse",
-            "",
-            "Minimum response of a coarse loop match that is refined.",
-        )
-        .or("0.35"),
-        number("loop_match_minimum_response_fine", "", "Minimum response of a loop closure.")
-            .or("0.45"),
+        /// If true, loops are closed.
+        #[param("do_loop_closing")]
+        do_loop_closing: bool = true,
+        /// Maximum distance of loop candidates.
+        #[param("loop_search_maximum_distance", unit("m"), min(0.0))]
+        _: f64 = 3,
+        /// Minimum number of consecutive scans of a loop candidate.
+        #[param("loop_match_minimum_chain_size", min(0.0))]
+        _: usize = 10,
+        /// Maximum variance of a coarse loop match that is refined.
+        #[param("loop_match_maximum_variance_coarse")]
+        _: f64 = 3,
+        /// Minimum response of a coarse loop match that is refined.
+        #[param("loop_match_minimum_response_coarse")]
+        _: f64 = 0.35,
+        /// Minimum response of a loop closure.
+        #[param("loop_match_minimum_response_fine")]
+        _: f64 = 0.45,
         // How scans are searched.
-        number("correlation_search_space_dimension", "m", "Size of the search window.").or("0.5"),
-        number("correlation_search_space_resolution", "m", "Resolution of the search.").or("0.01"),
-        number("correlation_search_space_smear_deviation", "m", "Blur of the search.").or("0.1"),
-        number("loop_search_space_dimension", "m", "Size of the search window of loops.").or("8"),
-        number("loop_search_space_resolution", "m", "Resolution of the loop search.").or("0.05"),
-        number("loop_search_space_smear_deviation", "m", "Blur of the loop search.").or("0.03"),
-        number(
-            "distance_variance_penalty",
-            "",
-            "Penalty of deviations from the odometry position.",
-        )
-        .or("0.5"),
-        number("angle_variance_penalty", "", "Penalty of deviations from the odometry heading.")
-            .or("1"),
-        number("fine_search_angle_offset", "rad", "Angular range of the fine search.")
-            .or("0.00349"),
-        number("coarse_search_angle_offset", "rad", "Angular range of the coarse search.")
-            .or("0.349"),
-        number("coarse_angle_resolution", "rad", "Angular resolution of the coarse search.")
-            .or("0.0349"),
-        number("minimum_angle_penalty", "", "Minimum penalty factor of the heading.").or("0.9"),
-        number("minimum_distance_penalty", "", "Minimum penalty factor of the position.").or("0.5"),
-        flag(
-            "use_response_expansion",
-            "If true, the search window is enlarged when no match is found.",
-        )
-        .or("true"),
+        /// Size of the search window.
+        #[param("correlation_search_space_dimension", unit("m"))]
+        _: f64 = 0.5,
+        /// Resolution of the search.
+        #[param("correlation_search_space_resolution", unit("m"))]
+        _: f64 = 0.01,
+        /// Blur of the search.
+        #[param("correlation_search_space_smear_deviation", unit("m"))]
+        _: f64 = 0.1,
+        /// Size of the search window of loops.
+        #[param("loop_search_space_dimension", unit("m"))]
+        _: f64 = 8,
+        /// Resolution of the loop search.
+        #[param("loop_search_space_resolution", unit("m"))]
+        _: f64 = 0.05,
+        /// Blur of the loop search.
+        #[param("loop_search_space_smear_deviation", unit("m"))]
+        _: f64 = 0.03,
+        /// Penalty of deviations from the odometry position.
+        #[param("distance_variance_penalty")]
+        _: f64 = 0.5,
+        /// Penalty of deviations from the odometry heading.
+        #[param("angle_variance_penalty")]
+        _: f64 = 1,
+        /// Angular range of the fine search.
+        #[param("fine_search_angle_offset", unit("rad"))]
+        _: f64 = 0.00349,
+        /// Angular range of the coarse search.
+        #[param("coarse_search_angle_offset", unit("rad"))]
+        _: f64 = 0.349,
+        /// Angular resolution of the coarse search.
+        #[param("coarse_angle_resolution", unit("rad"))]
+        _: f64 = 0.0349,
+        /// Minimum penalty factor of the heading.
+        #[param("minimum_angle_penalty")]
+        _: f64 = 0.9,
+        /// Minimum penalty factor of the position.
+        #[param("minimum_distance_penalty")]
+        _: f64 = 0.5,
+        /// If true, the search window is enlarged when no match is found.
+        #[param("use_response_expansion")]
+        _: bool = true,
         // The solver.
-        text("solver_plugin", "Solver of the pose graph.").or("solver_plugins::CeresSolver"),
-        text("ceres_linear_solver", "Setting of Ceres.").or("SPARSE_NORMAL_CHOLESKY"),
-        text("ceres_preconditioner", "Setting of Ceres.").or("SCHUR_JACOBI"),
-        text("ceres_trust_strategy", "Setting of Ceres.").or("LEVENBERG_MARQUARDT"),
-        text("ceres_dogleg_type", "Setting of Ceres.").or("TRADITIONAL_DOGLEG"),
-        text("ceres_loss_function", "Setting of Ceres.").or("None"),
+        /// Solver of the pose graph.
+        #[param("solver_plugin")]
+        _: String = "solver_plugins::CeresSolver",
+        /// Setting of Ceres.
+        #[param("ceres_linear_solver")]
+        _: String = "SPARSE_NORMAL_CHOLESKY",
+        /// Setting of Ceres.
+        #[param("ceres_preconditioner")]
+        _: String = "SCHUR_JACOBI",
+        /// Setting of Ceres.
+        #[param("ceres_trust_strategy")]
+        _: String = "LEVENBERG_MARQUARDT",
+        /// Setting of Ceres.
+        #[param("ceres_dogleg_type")]
+        _: String = "TRADITIONAL_DOGLEG",
+        /// Setting of Ceres.
+        #[param("ceres_loss_function")]
+        _: String = "None",
         // Lifelong mapping.
-        flag("lifelong_search_use_tree", "If true, nearby poses are found with a tree.")
-            .or("false"),
-        number("lifelong_minimum_score", "", "Minimum score of a match.").or("0.1"),
-        number("lifelong_iou_match", "", "Minimum overlap of scans that show the same area.")
-            .or("0.85"),
-        number("lifelong_node_removal_score", "", "Score below which a pose is removed.")
-            .or("0.04"),
-        number("lifelong_overlap_score_scale", "", "Weight of overlap in the score.").or("0.06"),
-        number("lifelong_constraint_multiplier", "", "Weight of constraints in the score.")
-            .or("0.08"),
-        number("lifelong_nearby_penalty", "", "Weight of nearby poses in the score.").or("0.001"),
-        number("lifelong_candidates_scale", "", "Weight of the number of candidates in the score.")
-            .or("0.03"),
-        flag(
-            "localization_on_configure",
-            "If true, localization starts when the node is configured.",
-        )
-        .or("false"),
-    ],
-};
+        /// If true, nearby poses are found with a tree.
+        #[param("lifelong_search_use_tree")]
+        lifelong_search_use_tree: bool = false,
+        /// Minimum score of a match.
+        #[param("lifelong_minimum_score")]
+        lifelong_minimum_score: f64 = 0.1,
+        /// Minimum overlap of scans that show the same area.
+        #[param("lifelong_iou_match")]
+        lifelong_iou_match: f64 = 0.85,
+        /// Score below which a pose is removed.
+        #[param("lifelong_node_removal_score")]
+        lifelong_node_removal_score: f64 = 0.04,
+        /// Weight of overlap in the score.
+        #[param("lifelong_overlap_score_scale")]
+        lifelong_overlap_score_scale: f64 = 0.06,
+        /// Weight of constraints in the score.
+        #[param("lifelong_constraint_multiplier")]
+        lifelong_constraint_multiplier: f64 = 0.08,
+        /// Weight of nearby poses in the score.
+        #[param("lifelong_nearby_penalty")]
+        lifelong_nearby_penalty: f64 = 0.001,
+        /// Weight of the number of candidates in the score.
+        #[param("lifelong_candidates_scale")]
+        lifelong_candidates_scale: f64 = 0.03,
+        /// If true, localization starts when the node is configured.
+        #[param("localization_on_configure")]
+        localization_on_configure: bool = false,
+    }
+}
 
 pub(super) const IDLE: &[Idle] = &[
     Idle {
@@ -284,32 +340,3 @@ pub(super) const IDLE: &[Idle] = &[
     },
     Idle { names: &["stack_size_to_use"], because: "storing a map needs no large stack" },
 ];
-
-pub(super) fn settings(values: &ParamValues) -> Settings {
-    let mut settings = Settings::default();
-    let number = |name: &str| values.number(name).filter(|_| values.is_given(name));
-    if let Some(resolution_m) = number("resolution") {
-        settings.resolution_m = resolution_m;
-    }
-    if let Some(range_m) = number("max_laser_range") {
-        settings.range_max_m = range_m as f32;
-    }
-    if let Some(range_m) = number("min_laser_range") {
-        settings.range_min_m = range_m as f32;
-    }
-    if let Some(shift_m) = number("minimum_travel_distance") {
-        settings.keyframe_distance_m = shift_m;
-    }
-    if let Some(turn_rad) = number("minimum_travel_heading") {
-        settings.keyframe_rotation_rad = turn_rad;
-    }
-    if let Some(scans) =
-        values.integer("scan_buffer_size").filter(|_| values.is_given("scan_buffer_size"))
-    {
-        settings.local_scans = usize::try_from(scans).unwrap_or(1).max(1);
-    }
-    if let Some(closes_loops) = values.flag("do_loop_closing") {
-        settings.closes_loops = closes_loops;
-    }
-    settings
-}

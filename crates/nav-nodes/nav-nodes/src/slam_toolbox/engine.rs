@@ -10,10 +10,6 @@ use periplus_slam::{
 };
 
 use crate::slam_toolbox::Program;
-use crate::slam_toolbox::values::{integer, is_given};
-
-/// Default number of own scans kept in localization mode.
-const OWN_SCANS: usize = 3;
 
 /// Mapping or localization engine of the node.
 pub(crate) enum Engine {
@@ -98,13 +94,6 @@ impl Engine {
         };
         engine.place(pose, SURE);
         Ok(engine)
-    }
-
-    /// Number of own scans kept in localization mode.
-    pub(crate) fn own_scans(values: &ParamValues) -> usize {
-        let asked =
-            integer(values, "scan_buffer_size").filter(|_| is_given(values, "scan_buffer_size"));
-        asked.and_then(|size| usize::try_from(size).ok()).unwrap_or(OWN_SCANS)
     }
 
     pub(crate) fn mapper(&self) -> &dyn Mapper {

@@ -1,12 +1,11 @@
 //! Subscription to scans, which wait for their transforms.
 
 use periplus_graph::{GraphError, Node};
-use periplus_params::ParamValues;
 use periplus_tf_ros::{
     FilterOrder, FilterSettings, RobotFrames, SCAN_TRANSFORM_TIMEOUT_NS, ScanQueue,
 };
 
-use crate::slam_toolbox::values::integer;
+use crate::slam_toolbox::parameters::NodeParams;
 
 /// Maximum number of waiting scans where every scan counts.
 const MAX_WAITING_SCANS: usize = 200;
@@ -36,16 +35,14 @@ impl Names {
 /// Subscribes to scans. `is_newest_first` skips older scans for the newest usable one.
 pub(crate) fn scan_queue(
     node: &Node,
-    topic: &str,
-    values: &ParamValues,
+    params: &NodeParams,
     is_newest_first: bool,
 ) -> Result<ScanQueue, GraphError> {
-    let queue_size = integer(values, "scan_queue_size").and_then(|it| usize::try_from(it).ok());
     let (order, min_waiting) = match is_newest_first {
         true => (FilterOrder::NewestReady, MAX_WAITING_SCANS_NEWEST_FIRST),
         false => (FilterOrder::OldestReady, MAX_WAITING_SCANS),
     };
-    let max_waiting = queue_size.unwrap_or(1).max(min_waiting);
+    let max_waiting = params.scan_queue_size.max(min_waiting);
     let timeout_ns = SCAN_TRANSFORM_TIMEOUT_NS;
-    ScanQueue::new(node, topic, FilterSettings { max_waiting, timeout_ns, order })
+    ScanQueue::new(node, &params.scan_topic, FilterSettings { max_waiting, timeout_ns, order })
 }

@@ -31,8 +31,8 @@ use crate::slam_toolbox::inputs::{Names, scan_queue};
 use crate::slam_toolbox::markers;
 use crate::slam_toolbox::messages::{covariance, pose2};
 use crate::slam_toolbox::outputs::Outputs;
+use crate::slam_toolbox::parameters::NodeParams;
 use crate::slam_toolbox::services;
-use crate::slam_toolbox::values::{flag, integer, is_given, number, numbers, text};
 
 /// Period of checking the queue \[ns\]; new transforms trigger it too.
 const LOOK_NS: i64 = 20_000_000;
@@ -92,6 +92,8 @@ pub struct SlamNode {
     node: Node,
     pub(crate) program: Program,
     pub(crate) values: ParamValues,
+    /// Typed `values`.
+    pub(crate) params: NodeParams,
     /// Handle for states that are published as parameters.
     parameters: Option<Parameters>,
     pub(crate) files: Arc<dyn Files>,
@@ -182,6 +184,7 @@ impl SlamNode {
         let state = Self {
             node: node.clone(),
             program,
+            params: NodeParams::new(program, &values),
             values: values.clone(),
             parameters: None,
             files,
@@ -220,16 +223,18 @@ impl SlamNode {
         let parameters = actor.parameters(values, |state, values, _| state.change(values))?;
         for name in ["interactive_mode", "paused_processing"] {
             // States: they begin as false, whatever a file has.
-            if flag(&parameters.values(), name) == Some(true) {
+            if program.is_toolbox() && parameters.values().flag(name) == Some(true) {
                 let _ = parameters.set(name, ParamValue::Bool(false));
             }
         }
         let values = parameters.values();
+        let params = NodeParams::new(program, &values);
         actor.with(|state| {
-            state.values = values.clone();
+            state.values = values;
+            state.params = params.clone();
             state.parameters = Some(parameters);
-            if let Some(span_s) = number(&values, BUFFER).filter(|_| program.is_toolbox()) {
-                state.frames = Frames::kept_for(seconds_ns(span_s));
+            if let Some(buffer_ns) = params.transform_buffer_ns {
+                state.frames = Frames::kept_for(buffer_ns);
             }
         });
         actor.subscribe::<TFMessage>("/tf_static", Qos::latched(100), |state, message, _| {
@@ -249,9 +254,10 @@ impl SlamNode {
                 }
             })?;
         }
-        let period_ns = seconds_ns(number(&values, "transform_publish_period").unwrap_or(0.0));
-        if period_ns > 0 {
-            actor.timer(period_ns, |state, io| state.publish_transform(io.now_ns()))?;
+        if params.transform_period_ns > 0 {
+            actor.timer(params.transform_period_ns, |state, io| {
+                state.publish_transform(io.now_ns());
+            })?;
         }
         actor.on_jump(|state, io| {
             state.frames.forget();
@@ -276,7 +282,7 @@ impl SlamNode {
                 state.drag(&message, io.node());
             })?;
         }
-        services::serve(&mut actor, program, &values)?;
+        services::serve(&mut actor, program, &params)?;
         LifecycleNode::new(actor)
     }
 
@@ -296,15 +302,13 @@ impl SlamNode {
 impl LifecycleCallbacks for SlamNode {
     fn on_configure(&mut self, io: &mut Io<'_, Self>) -> StepOutcome {
         let node = io.node();
-        let values = &self.values;
-        for finding in tables::conflicts(values) {
+        for finding in tables::conflicts(&self.values) {
             node.log_finding(&finding);
         }
-        self.is_paused = flag(values, "paused_new_measurements").unwrap_or(false);
-        let topic = text(values, "scan_topic").unwrap_or_else(|| "scan".to_owned());
+        self.is_paused = self.params.is_paused;
         let is_newest_first = self.is_live && self.program != Program::Sync;
-        let ports = scan_queue(node, &topic, values, is_newest_first)
-            .and_then(|it| Ok((it, Outputs::new(node, self.program, values)?)));
+        let ports = scan_queue(node, &self.params, is_newest_first)
+            .and_then(|it| Ok((it, Outputs::new(node, self.program, &self.params)?)));
         match ports {
             Ok((scans, outputs)) => {
                 self.scans = Some(scans);
@@ -316,7 +320,7 @@ impl LifecycleCallbacks for SlamNode {
             }
         }
         self.begin(Engine::empty(self.program, &self.values, self.slices));
-        let file = text(&self.values, "map_file_name").unwrap_or_default();
+        let file = self.params.map_file_name.clone();
         if !file.is_empty() {
             let start = self.map_start(node);
             if !self.load(&file, self.program == Program::Localization, start, node) {
@@ -347,8 +351,8 @@ impl SlamNode {
     /// Initial pose on the stored graph, by the rules of `slam_toolbox`: a given pose takes
     /// precedence over the dock, and an invalid one is replaced by the origin.
     fn map_start(&self, node: &Node) -> Start {
-        let dock = flag(&self.values, "map_start_at_dock");
-        match numbers(&self.values, "map_start_pose").as_slice() {
+        let dock = self.params.map_start_at_dock;
+        match self.params.map_start_pose.as_slice() {
             [x_m, y_m, yaw_rad] => {
                 if dock == Some(true) {
                     let words = "`map_start_at_dock` has no effect beside `map_start_pose`: take one \
@@ -376,7 +380,7 @@ impl SlamNode {
         if let Some(parameters) = self.parameters.as_ref().filter(|_| self.program.is_toolbox())
             && parameters.set(name, ParamValue::Bool(is_so)).is_ok()
         {
-            self.values = parameters.values();
+            self.set_values(parameters.values());
         }
     }
 
@@ -400,16 +404,17 @@ impl SlamNode {
 
     /// Names of the frames.
     pub(crate) fn names(&self) -> Names {
-        let text = |name: &str| plain(&text(&self.values, name).unwrap_or_default()).to_owned();
-        let (odom, told) = (text("odom_frame"), text("base_frame"));
+        let params = &self.params;
+        let [map, odom, told] = [&params.map_frame, &params.odom_frame, &params.base_frame]
+            .map(|name| plain(name).to_owned());
         // By default the frame among the usual ones that is connected to odometry.
         let leads = |base: &str| self.frames.at(&odom, base, 0).is_ok();
-        let base = if is_given(&self.values, "base_frame") || leads(&told) {
+        let base = if params.is_base_frame_given || leads(&told) {
             told
         } else {
             BASES.into_iter().find(|base| leads(base)).map_or(told, str::to_owned)
         };
-        Names { map: text("map_frame"), odom, base }
+        Names { map, odom, base }
     }
 
     fn work(&mut self, node: &Node) {
@@ -451,15 +456,11 @@ impl SlamNode {
     fn take(&mut self, scan: &TransformedScan, names: &Names, node: &Node) {
         let TransformedScan { message, transforms } = scan;
         self.scan_count += 1;
-        let every = integer(&self.values, "throttle_scans").unwrap_or(1).max(1);
-        if !(self.scan_count - 1).is_multiple_of(u64::try_from(every).unwrap_or(1)) {
+        if !(self.scan_count - 1).is_multiple_of(self.params.throttle_scans.max(1) as u64) {
             return;
         }
         let time_ns = message.header.stamp.ns();
-        // Only if set: by default the engine benefits from every scan.
-        let interval_ns = number(&self.values, "minimum_time_interval")
-            .filter(|_| is_given(&self.values, "minimum_time_interval"))
-            .map_or(0, seconds_ns);
+        let interval_ns = self.params.min_scan_interval_ns;
         let is_early = |last: &Last| (0..interval_ns).contains(&(time_ns - last.time_ns));
         if self.last.as_ref().is_some_and(is_early) {
             return;
@@ -470,9 +471,7 @@ impl SlamNode {
             self.told.tell(&Diagnostic::error("no-graph", words).help(help), node);
             return;
         }
-        let is_inverted = flag(&self.values, "inverted_laser").unwrap_or(false);
-        let mut scan = laser_scan(message, transforms.base_from_laser);
-        scan.mounting.is_upside_down ^= is_inverted;
+        let scan = laser_scan(message, transforms.base_from_laser);
         let odom_from_base = transforms.odom_from_base;
         let Some((mut update, mut corrected)) = self.add(&scan, odom_from_base) else { return };
         self.log_remarks(node);
@@ -557,7 +556,7 @@ impl SlamNode {
     ) -> Option<(Update, Pose2)> {
         let remarks = self.engine.as_ref().map_or(&[][..], |engine| engine.mapper().remarks());
         let remedy = MountingCorrection::of(remarks)?;
-        let is_wanted = flag(&self.values, "correct_mounting").unwrap_or(false);
+        let is_wanted = self.params.corrects_mounting;
         if !is_wanted || self.is_continued || self.correction.is_some() {
             if !std::mem::replace(&mut self.is_refused, true) {
                 let why = if !is_wanted {
@@ -605,8 +604,8 @@ impl SlamNode {
         &self,
         covariance: &periplus_scan_matching::Symmetric3,
     ) -> periplus_scan_matching::Symmetric3 {
-        let scale = |name: &str| number(&self.values, name).unwrap_or(1.0);
-        let (place, heading) = (scale("position_covariance_scale"), scale("yaw_covariance_scale"));
+        let place = self.params.position_covariance_scale;
+        let heading = self.params.yaw_covariance_scale;
         let both = (place * heading).sqrt();
         let periplus_scan_matching::Symmetric3 { xx, xy, xt, yy, yt, tt } = *covariance;
         periplus_scan_matching::Symmetric3 {
@@ -628,16 +627,9 @@ impl SlamNode {
         if !self.node.is_active() || self.is_back_in_time {
             return;
         }
-        let number = |name: &str| number(&self.values, name);
-        let time_ns = if self.program.is_toolbox() {
-            let timeout_ns = seconds_ns(number("transform_timeout").unwrap_or(0.2));
-            let from_ns =
-                if flag(&self.values, "restamp_tf") == Some(true) { now_ns } else { last.time_ns };
-            from_ns.saturating_add(timeout_ns)
-        } else {
-            let delay_s = number("tf_delay").or_else(|| number("transform_publish_period"));
-            now_ns.saturating_add(seconds_ns(delay_s.unwrap_or(0.05)))
-        };
+        let stamp = self.params.transform_stamp;
+        let from_ns = if stamp.is_of_publication { now_ns } else { last.time_ns };
+        let time_ns = from_ns.saturating_add(stamp.ahead_ns);
         // The map may have been revised since the scan arrived.
         let map_from_odom =
             (engine.mapper().map_from_base() * last.odom_from_base.inverse()).normalized();
@@ -662,7 +654,7 @@ impl SlamNode {
                 }
             }
         }
-        let interval_ns = seconds_ns(number(&self.values, "map_update_interval").unwrap_or(5.0));
+        let interval_ns = self.params.map_interval_ns;
         let is_stored = matches!(engine, Engine::Localizer(_));
         let is_due =
             self.published_ns.is_none_or(|last_ns| !(0..interval_ns).contains(&(now_ns - last_ns)));
@@ -820,12 +812,17 @@ impl SlamNode {
                  and configure it again"
             ));
         }
-        let is_paused = flag(values, "paused_new_measurements");
-        if is_paused != flag(&self.values, "paused_new_measurements") {
-            self.is_paused = is_paused.unwrap_or(false);
+        let is_paused = self.params.is_paused;
+        self.set_values(values.clone());
+        if self.params.is_paused != is_paused {
+            self.is_paused = self.params.is_paused;
         }
-        self.values = values.clone();
         Ok(())
+    }
+
+    fn set_values(&mut self, values: ParamValues) {
+        self.params = NodeParams::new(self.program, &values);
+        self.values = values;
     }
 
     /// Returns the current state.
@@ -847,8 +844,4 @@ impl SlamNode {
             correction: self.correction.as_ref().map(|it| it.cure.remedy()),
         }
     }
-}
-
-fn seconds_ns(seconds: f64) -> i64 {
-    (seconds * 1e9) as i64
 }

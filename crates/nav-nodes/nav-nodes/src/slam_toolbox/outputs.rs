@@ -13,13 +13,12 @@ use periplus_msgs::sensor_msgs::LaserScan;
 use periplus_msgs::std_msgs::Float64;
 use periplus_msgs::tf2_msgs::TFMessage;
 use periplus_msgs::visualization_msgs::{InteractiveMarker, InteractiveMarkerUpdate, MarkerArray};
-use periplus_params::ParamValues;
 use periplus_scan_matching::Symmetric3;
 use periplus_tf_ros::transform;
 
 use crate::slam_toolbox::Program;
 use crate::slam_toolbox::messages::{pose_with_covariance, published};
-use crate::slam_toolbox::values::text;
+use crate::slam_toolbox::parameters::NodeParams;
 
 /// Topics that are published.
 pub(crate) struct Outputs {
@@ -44,9 +43,9 @@ impl Outputs {
     pub(crate) fn new(
         node: &Node,
         program: Program,
-        values: &ParamValues,
+        params: &NodeParams,
     ) -> Result<Self, GraphError> {
-        let map = text(values, "map_name").unwrap_or_else(|| "map".to_owned());
+        let map = &params.map_topic;
         let toolbox = || -> Result<Toolbox, GraphError> {
             Ok(Toolbox {
                 pose: node.publisher("pose", Qos::reliable(10))?,
@@ -57,7 +56,7 @@ impl Outputs {
             })
         };
         Ok(Self {
-            map: node.publisher(&map, Qos::latched(1))?,
+            map: node.publisher(map, Qos::latched(1))?,
             metadata: node.publisher(&format!("{map}_metadata"), Qos::latched(1))?,
             tf: node.publisher("/tf", Qos::reliable(100))?,
             toolbox: program.is_toolbox().then(toolbox).transpose()?,

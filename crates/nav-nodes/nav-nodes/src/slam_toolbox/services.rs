@@ -16,13 +16,12 @@ use periplus_msgs::slam_toolbox::{
 };
 use periplus_msgs::std_srvs::{Empty, EmptyResponse};
 use periplus_msgs::visualization_msgs::{GetInteractiveMarkers, GetInteractiveMarkersResponse};
-use periplus_params::ParamValues;
 
 use crate::slam_toolbox::Program;
 use crate::slam_toolbox::engine::{Engine, Start, settings};
 use crate::slam_toolbox::messages::published;
 use crate::slam_toolbox::node::SlamNode;
-use crate::slam_toolbox::values::{flag, text};
+use crate::slam_toolbox::parameters::NodeParams;
 
 /// Extension of session files.
 const ENDING: &str = "session";
@@ -30,13 +29,13 @@ const ENDING: &str = "session";
 pub(crate) fn serve(
     actor: &mut Actor<SlamNode>,
     program: Program,
-    values: &ParamValues,
+    params: &NodeParams,
 ) -> Result<(), GraphError> {
     if !program.is_toolbox() {
         return actor.serve::<GetMap>("dynamic_map", |state, _, io| state.map_now(io.node()));
     }
     actor.serve::<GetMap>("slam_toolbox/dynamic_map", |state, _, io| state.map_now(io.node()))?;
-    if flag(values, "use_map_saver") != Some(false) {
+    if params.offers_map_saver {
         actor.serve::<SaveMap>("slam_toolbox/save_map", |state, request, io| SaveMapResponse {
             result: state.save_map(&request.name.data, io.node()),
         })?;
@@ -103,9 +102,9 @@ pub(crate) fn serve(
 
 impl SlamNode {
     fn map_now(&self, node: &Node) -> GetMapResponse {
-        let frame = text(&self.values, "map_frame").unwrap_or_default();
+        let frame = &self.params.map_frame;
         let now = Time::of_ns(node.now_ns());
-        let map = self.map.as_ref().map(|map| to_message(&published(map), &frame, now));
+        let map = self.map.as_ref().map(|map| to_message(&published(map), frame, now));
         if map.is_none() {
             node.log(Level::Warn, "a client requests the map, and there is none yet");
         }
@@ -192,7 +191,7 @@ impl SlamNode {
     pub(crate) fn load(&mut self, name: &str, localizes: bool, start: Start, node: &Node) -> bool {
         let path = session_path(name);
         let settings = settings(self.program, &self.values, self.slices);
-        let own_scans = localizes.then(|| Engine::own_scans(&self.values));
+        let own_scans = localizes.then_some(self.params.own_scans);
         let read = self
             .files
             .read(&path)
@@ -235,7 +234,7 @@ impl SlamNode {
     }
 
     fn toggle_interactive(&mut self, node: &Node) {
-        if flag(&self.values, "enable_interactive_mode") == Some(false) {
+        if !self.params.allows_interactive_mode {
             let words = "interactive mode is not allowed: set `enable_interactive_mode`";
             node.log(Level::Warn, words);
             return;

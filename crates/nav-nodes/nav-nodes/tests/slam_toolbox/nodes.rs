@@ -367,3 +367,16 @@ fn a_life_is_lived_and_ros_1_is_heard() {
     stage.advance(10);
     assert!(stage.said().contains("the initial pose is ignored: each particle"));
 }
+
+#[test]
+fn the_orientation_of_the_scanner_is_read_from_its_transform() {
+    let map = |inverted_laser: &'static str| {
+        let given = [("particles", "3"), ("inverted_laser", inverted_laser)];
+        let mut stage = Stage::new(Program::Gmapping, &given);
+        stage.drive(&round()[..8]);
+        stage.slam.with(|slam| slam.map()).map(|map| map.cells)
+    };
+    let expected = map("false");
+    assert!(expected.is_some());
+    assert!(map("true") == expected, "`inverted_laser` has no effect, as documented");
+}
