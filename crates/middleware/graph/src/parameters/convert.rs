@@ -64,11 +64,11 @@ pub(super) fn from_message(value: &ParameterValue) -> Result<ParamValue, String>
     })
 }
 
-/// Descriptor of a parameter.
-pub(super) fn describe(parameter: &Parameter) -> ParameterDescriptor {
+/// Descriptor of a parameter of this name.
+pub(super) fn describe(name: &str, parameter: &Parameter) -> ParameterDescriptor {
     let unit = parameter.unit.map(|unit| format!(" [{unit}]")).unwrap_or_default();
     let mut descriptor = ParameterDescriptor {
-        name: parameter.name.to_owned(),
+        name: name.to_owned(),
         r#type: type_of(parameter.kind),
         description: format!("{}{unit}", parameter.doc),
         ..Default::default()

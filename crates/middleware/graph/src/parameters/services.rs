@@ -61,7 +61,7 @@ fn set(node: &NodeCore, parameters: &[Named]) -> SetParametersResult {
 }
 
 /// Names below the prefixes, at most `depth` levels deep (0 for no limit), and their groups.
-fn list(names: &[&str], request: &ListParametersRequest) -> ListParametersResult {
+fn list(names: &[String], request: &ListParametersRequest) -> ListParametersResult {
     let is_near = |rest: &str| {
         let levels = rest.matches('.').count() as u64;
         request.depth == ListParametersRequest::DEPTH_RECURSIVE || levels < request.depth
@@ -70,11 +70,11 @@ fn list(names: &[&str], request: &ListParametersRequest) -> ListParametersResult
         let rest = name.strip_prefix(prefix).and_then(|rest| rest.strip_prefix('.'));
         name == prefix || rest.is_some_and(is_near)
     };
-    let is_asked = |name: &&&str| {
+    let is_asked = |name: &str| {
         let prefixes = &request.prefixes;
         (prefixes.is_empty() && is_near(name)) || prefixes.iter().any(|p| is_below(name, p))
     };
-    let names: Vec<String> = names.iter().filter(is_asked).map(|name| (*name).to_owned()).collect();
+    let names: Vec<String> = names.iter().filter(|name| is_asked(name)).cloned().collect();
     let groups: BTreeSet<String> = names
         .iter()
         .filter_map(|name| name.rsplit_once('.'))
@@ -89,14 +89,14 @@ mod tests {
 
     #[test]
     fn names_are_listed_by_prefix_and_depth() {
-        let names = ["a", "b.c", "b.d.e", "bc"];
+        let names = ["a", "b.c", "b.d.e", "bc"].map(str::to_owned);
         let check = |prefixes: &[&str], depth, expected: &[&str]| {
             let prefixes = prefixes.iter().map(|one| (*one).to_owned()).collect();
             let listed = list(&names, &ListParametersRequest { prefixes, depth });
             assert_eq!(listed.names, expected);
             listed.prefixes
         };
-        assert_eq!(check(&[], 0, &names), ["b", "b.d"]);
+        assert_eq!(check(&[], 0, &["a", "b.c", "b.d.e", "bc"]), ["b", "b.d"]);
         check(&[], 1, &["a", "bc"]);
         check(&[], 2, &["a", "b.c", "bc"]);
         check(&["b"], 1, &["b.c"]);

@@ -62,16 +62,13 @@ impl Store {
     pub(crate) fn declare(&mut self, mut values: ParamValues) -> Vec<String> {
         let mut unfit = Vec::new();
         for (name, value) in &self.given {
-            let table = values.table();
-            let Some(parameter) = table.find(name).filter(|one| one.kind != ParamType::Group)
-            else {
-                continue;
-            };
+            let parameter = values.find(name).filter(|one| one.kind != ParamType::Group);
+            let Some(parameter) = parameter else { continue };
             match convert::from_message(value)
                 .and_then(|value| value.fit(parameter).map_err(|error| error.to_string()))
             {
                 Ok(value) => {
-                    values.set(parameter.name, value);
+                    values.set(name, value);
                 }
                 Err(reason) => unfit.push(format!("`{name}`: the value {reason}")),
             }
@@ -112,14 +109,14 @@ impl Store {
         })
     }
 
-    fn table(&self) -> impl Iterator<Item = &'static str> + use<> {
-        let parameters = self.values.as_ref().map_or(&[][..], |values| values.table().parameters);
-        parameters.iter().filter(|one| one.kind != ParamType::Group).map(|one| one.name)
+    /// Names of the declared parameters, sorted.
+    fn declared_names(&self) -> BTreeSet<String> {
+        self.values.iter().flat_map(ParamValues::names).collect()
     }
 
     pub(crate) fn has(&self, name: &str) -> bool {
         let is_declared = |values: &ParamValues| {
-            values.table().find(name).is_some_and(|parameter| parameter.kind != ParamType::Group)
+            values.find(name).is_some_and(|parameter| parameter.kind != ParamType::Group)
         };
         name == USE_SIM_TIME
             || self.is_managed && name == BOND_PERIOD
@@ -128,16 +125,13 @@ impl Store {
     }
 
     /// Names of all parameters, sorted.
-    pub(super) fn names(&self) -> Vec<&str> {
-        let mut names: BTreeSet<&str> = BTreeSet::new();
-        names.insert(USE_SIM_TIME);
+    pub(super) fn names(&self) -> Vec<String> {
+        let mut names = self.declared_names();
+        names.insert(USE_SIM_TIME.to_owned());
         if self.is_managed {
-            names.insert(BOND_PERIOD);
+            names.insert(BOND_PERIOD.to_owned());
         }
-        for name in self.table() {
-            names.insert(name);
-        }
-        names.extend(self.free.iter().flat_map(BTreeMap::keys).map(String::as_str));
+        names.extend(self.free.iter().flat_map(BTreeMap::keys).cloned());
         names.into_iter().collect()
     }
 
@@ -146,8 +140,8 @@ impl Store {
             return Some(convert::to_message(ParamValue::Bool(self.common.clock.is_simulated())));
         }
         let declared = self.values.as_ref().and_then(|values| {
-            let parameter = values.table().find(name)?;
-            values.get(parameter.name).map(convert::to_message)
+            values.find(name)?;
+            values.get(name).map(convert::to_message)
         });
         declared.or_else(|| self.free.as_ref()?.get(name).cloned()).or_else(|| self.bond(name))
     }
@@ -158,14 +152,12 @@ impl Store {
 
     /// All parameters with their values.
     pub(crate) fn all(&self) -> Vec<Named> {
-        self.names().into_iter().map(|name| self.named(name)).collect()
+        self.names().iter().map(|name| self.named(name)).collect()
     }
 
     /// Parameters of the table.
     pub(super) fn declared(&self) -> Vec<Named> {
-        let mut names: Vec<&str> = self.table().collect();
-        names.sort_unstable();
-        names.into_iter().map(|name| self.named(name)).collect()
+        self.declared_names().iter().map(|name| self.named(name)).collect()
     }
 
     /// Returns the values of the table with all of these set. The error is for the caller of the
@@ -177,14 +169,13 @@ impl Store {
                 self.check_sim_time(value)?;
                 continue;
             }
-            let table = self.values.as_ref().map(|values| values.table());
-            let parameter = table.and_then(|table| table.find(name));
+            let parameter = self.values.as_ref().and_then(|values| values.find(name));
             match (parameter.filter(|one| one.kind != ParamType::Group), &mut values) {
                 (Some(parameter), Some(values)) => {
                     let value = convert::from_message(value)
                         .and_then(|value| value.fit(parameter).map_err(|error| error.to_string()));
                     let value = value.map_err(|reason| format!("`{name}`: the value {reason}"))?;
-                    values.set(parameter.name, value);
+                    values.set(name, value);
                 }
                 _ if self.free.is_some() => self.check_free(name, value)?,
                 _ if self.is_managed && name == BOND_PERIOD => {
@@ -197,7 +188,8 @@ impl Store {
     }
 
     fn unknown(&self, name: &str) -> String {
-        let near = periplus_diagnostics::closest(name, self.names());
+        let names = self.names();
+        let near = periplus_diagnostics::closest(name, names.iter().map(String::as_str));
         let near = near.map(|near| format!(", did you mean `{near}`?")).unwrap_or_default();
         format!("{} has no parameter `{name}`{near}", self.node)
     }
@@ -233,9 +225,9 @@ impl Store {
         let had: Vec<bool> = set.iter().map(|one| self.has(&one.name)).collect();
         self.values = values;
         self.generation += 1;
-        let table: BTreeSet<&str> = self.table().collect();
+        let declared = self.declared_names();
         for Named { name, value } in set {
-            let is_free = name != USE_SIM_TIME && !table.contains(name.as_str());
+            let is_free = name != USE_SIM_TIME && !declared.contains(name);
             if let Some(free) = self.free.as_mut().filter(|_| is_free) {
                 if value.r#type == ParameterType::PARAMETER_NOT_SET {
                     free.remove(name);
@@ -265,8 +257,8 @@ impl Store {
                 ..blank
             };
         }
-        if let Some(parameter) = self.values.as_ref().and_then(|values| values.table().find(name)) {
-            return convert::describe(parameter);
+        if let Some(parameter) = self.values.as_ref().and_then(|values| values.find(name)) {
+            return convert::describe(name, parameter);
         }
         if self.is_managed && name == BOND_PERIOD {
             return ParameterDescriptor {

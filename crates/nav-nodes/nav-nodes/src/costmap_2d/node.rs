@@ -14,7 +14,7 @@ use crate::costmap_2d::frames::Listener;
 use crate::costmap_2d::health::{EVERY_NS, Health, Patient};
 use crate::costmap_2d::inputs::{Inputs, Scene};
 use crate::costmap_2d::outputs::Outputs;
-use crate::costmap_2d::parameters::{node_values, split};
+use crate::costmap_2d::parameters::{node_values, source_group, split};
 use crate::costmap_2d::services;
 
 /// Time during which an identical message is not logged again \[ns\].
@@ -334,10 +334,10 @@ impl CostmapNode {
     fn adopt(&mut self, all: &ParamValues) {
         fn layers(list: &mut [LayerConfig], all: &ParamValues) {
             for layer in list {
-                layer.values = split(all, &format!("{}.", layer.name), &layer.values);
+                layer.values = split(all, &layer.name, &layer.values);
                 for source in &mut layer.sources {
-                    let prefix = format!("{}.{}.", layer.name, source.name);
-                    source.values = split(all, &prefix, &source.values);
+                    let group = source_group(&layer.name, &source.name);
+                    source.values = split(all, &group, &source.values);
                 }
                 layers(&mut layer.children, all);
             }
@@ -390,13 +390,12 @@ fn change_layer(
     if let Some(running) = costmap.find_mut(&layer.name)
         && let Some(usual) = running.values().cloned()
     {
-        let wanted = split(all, &format!("{}.", layer.name), &usual);
+        let wanted = split(all, &layer.name, &usual);
         if wanted != usual {
             running.configure(wanted)?;
         }
         for source in running.sources_mut() {
-            let prefix = format!("{}.{}.", layer.name, source.name);
-            let wanted = split(all, &prefix, &source.values);
+            let wanted = split(all, &source_group(&layer.name, &source.name), &source.values);
             if wanted != source.values {
                 source.configure(wanted);
             }
