@@ -6,6 +6,8 @@
 use std::fmt;
 use std::str::FromStr;
 
+use periplus_params::ParamChoice;
+
 /// Release of Nav2.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Nav2Release {
@@ -192,15 +194,27 @@ impl Nav2Release {
     }
 }
 
-impl fmt::Display for Nav2Release {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(match self {
+impl ParamChoice for Nav2Release {
+    const WORDS: &'static [&'static str] = &Self::NAMES;
+
+    fn of_word(word: &str) -> Self {
+        word.parse().unwrap_or_default()
+    }
+
+    fn word(self) -> &'static str {
+        match self {
             Self::Humble => "humble",
             Self::EarlyJazzy => "jazzy-1.3.10",
             Self::Jazzy => "jazzy",
             Self::Kilted => "kilted",
             Self::Main => "main",
-        })
+        }
+    }
+}
+
+impl fmt::Display for Nav2Release {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.word())
     }
 }
 

@@ -9,9 +9,11 @@ pub use kind::LayerKind;
 use std::collections::BTreeMap;
 
 use periplus_diagnostics::{Diagnostic, Diagnostics, Origin, Span};
+use periplus_geometry::Pose2;
 use periplus_grid::GridInfo;
 use periplus_params::{Given, ParamType, ParamValues, Table};
 
+use crate::tables::{CostmapParams, RangeLayerParams, SourceParams};
 use crate::{CostmapSettings, Footprint, Nav2Release, SourceSettings, tables};
 
 /// Configuration of a costmap.
@@ -88,8 +90,8 @@ impl CostmapConfig {
         }
         let node = reading.values(&tables::COSTMAP, "", Origin::default());
         reading.check_size(&node);
-        let given = || node.text("compat").filter(|_| node.is_given("compat"));
-        let told = compat.or_else(|| given().and_then(|text| text.parse().ok()));
+        let given = || CostmapParams::from_values(&node).compat;
+        let told = compat.or_else(|| node.is_given("compat").then(given));
         let (compat, forms) = (told.unwrap_or_default(), told.unwrap_or(Nav2Release::Jazzy));
         let names = reading.names(&node, "plugins");
         let is_usual = names.iter().map(String::as_str).eq(DEFAULT_LAYERS.map(|(name, _)| name));
@@ -107,30 +109,30 @@ impl CostmapConfig {
     /// Returns the settings shared by all layers.
     #[must_use]
     pub fn frame(&self) -> CostmapSettings {
-        CostmapSettings {
-            global_frame: self.node.text("global_frame").unwrap_or_default(),
-            is_rolling: self.node.flag("rolling_window").unwrap_or_default(),
-            tracks_unknown: self.node.flag("track_unknown_space").unwrap_or_default(),
-            compat: self.compat,
-        }
+        CostmapSettings::new(&self.params(), self.compat)
+    }
+
+    /// Converts the parameters of the node.
+    #[must_use]
+    pub fn params(&self) -> CostmapParams {
+        CostmapParams::from_values(&self.node)
     }
 
     /// Returns resolution, size and origin; a map may override them.
     #[must_use]
     pub fn info(&self) -> GridInfo {
-        grid_info_of(&self.node)
+        grid_info_of(&self.params())
     }
 }
 
 /// Returns the grid of parameters of [`tables::COSTMAP`]; a grid that is too large becomes empty.
 #[must_use]
-pub(crate) fn grid_info_of(node: &ParamValues) -> GridInfo {
-    let number = |name: &str| node.number(name).unwrap_or_default();
-    let resolution_m = number("resolution");
-    let count = |name: &str| (number(name) / resolution_m) as usize;
-    let origin = periplus_geometry::Pose2::new(number("origin_x"), number("origin_y"), 0.0);
+pub(crate) fn grid_info_of(params: &CostmapParams) -> GridInfo {
+    let resolution_m = params.resolution_m;
+    let count = |size_m: usize| (size_m as f64 / resolution_m) as usize;
+    let origin = Pose2::new(params.origin_x_m, params.origin_y_m, 0.0);
     let empty = GridInfo { resolution_m, width: 0, height: 0, origin };
-    GridInfo::new(resolution_m, count("width"), count("height"), origin).unwrap_or(empty)
+    GridInfo::new(resolution_m, count(params.width), count(params.height), origin).unwrap_or(empty)
 }
 
 /// Names and texts, by parameter group.
@@ -325,7 +327,7 @@ impl<'a> Reading<'a, '_> {
                 );
             }
         }
-        if kind == LayerKind::Range && values.texts("topics").is_empty() {
+        if kind == LayerKind::Range && RangeLayerParams::from_values(&values).topics.is_empty() {
             self.diagnostics.push(
                 Diagnostic::error("no-topics", format!("layer `{name}` has no topics"))
                     .at(place("topics"))
@@ -352,8 +354,8 @@ impl<'a> Reading<'a, '_> {
         let group = format!("{layer}.{name}");
         let is_described = self.tree.groups.contains_key(&group);
         let values = self.values(&tables::SOURCE, &group, named_at);
-        let tall = values.number("max_obstacle_height").unwrap_or_default();
-        let low = values.number("min_obstacle_height").unwrap_or_default();
+        let params = SourceParams::from_values(&values);
+        let (low, tall) = (params.min_obstacle_height_m, params.max_obstacle_height_m);
         if tall <= low {
             // The most frequent mistake: all points are dropped without a message.
             let origin = if values.is_given("max_obstacle_height") {
@@ -381,9 +383,7 @@ impl<'a> Reading<'a, '_> {
                 .note(format!("it subscribes to the topic `{name}`")),
             );
         }
-        if values.number("raytrace_max_range") < values.number("obstacle_max_range")
-            && values.flag("clearing") == Some(true)
-        {
+        if params.raytrace_max_range_m < params.obstacle_max_range_m && params.clearing {
             self.diagnostics.push(
                 Diagnostic::hint(
                     "marks-beyond-clearing",
@@ -394,7 +394,7 @@ impl<'a> Reading<'a, '_> {
                 .help("set `raytrace_max_range` above `obstacle_max_range`"),
             );
         }
-        if values.text("transport_type").is_some_and(|text| text != "raw") {
+        if params.transport_type != "raw" {
             self.diagnostics.push(
                 Diagnostic::warning("transport", format!("`{group}.transport_type` must be `raw`"))
                     .at(values.origin("transport_type"))
@@ -436,18 +436,18 @@ impl<'a> Reading<'a, '_> {
 
     /// A costmap that would be too large has no cells.
     fn check_size(&mut self, node: &ParamValues) {
-        if !grid_info_of(node).is_empty() {
+        let params = CostmapParams::from_values(node);
+        if !grid_info_of(&params).is_empty() {
             return;
         }
-        let number = |name: &str| node.number(name).unwrap_or_default();
-        let (width, height, resolution) = (number("width"), number("height"), number("resolution"));
+        let CostmapParams { width, height, resolution_m, .. } = params;
         let biggest = ["width", "height", "resolution"].into_iter().find(|it| node.is_given(it));
         self.diagnostics.push(
             Diagnostic::error(
                 "bad-size",
                 format!(
                     "`width`, `height` and `resolution`: {width} x {height} m in cells of \
-                     {resolution} m are too many cells, or none"
+                     {resolution_m} m are too many cells, or none"
                 ),
             )
             .at(node.origin(biggest.unwrap_or("width")))
@@ -456,7 +456,7 @@ impl<'a> Reading<'a, '_> {
     }
 
     fn footprint(&mut self, node: &ParamValues) -> Footprint {
-        let padding_m = node.number("footprint_padding").unwrap_or_default();
+        let padding_m = CostmapParams::from_values(node).footprint_padding_m;
         let (footprint, complaint) = footprint_of(node);
         if complaint.is_none() && footprint.points().iter().all(|point| *point == [0.0, 0.0]) {
             self.diagnostics.push(
@@ -514,8 +514,8 @@ fn is_common(name: &str) -> bool {
 
 /// Returns the footprint without padding, and an error in it.
 pub(crate) fn footprint_of(node: &ParamValues) -> (Footprint, Option<Diagnostic>) {
-    let circle = Footprint::circle(node.number("robot_radius").unwrap_or_default());
-    let text = node.text("footprint").unwrap_or_default();
+    let params = CostmapParams::from_values(node);
+    let (circle, text) = (Footprint::circle(params.robot_radius_m), params.footprint);
     if text.trim().is_empty() || text.trim() == "[]" {
         return (circle, None);
     }

@@ -10,6 +10,7 @@ use periplus_grid::{Cell, GridInfo};
 
 use crate::cost::{FREE, UNKNOWN};
 use crate::layer::is_settled;
+use crate::tables::CostmapParams;
 use crate::{
     CellWindow, Costmap, Footprint, Layer, Nav2Release, TransformSource, UpdateBounds,
     UpdateContext,
@@ -30,11 +31,20 @@ pub struct CostmapSettings {
 
 impl Default for CostmapSettings {
     fn default() -> Self {
+        let params = CostmapParams::default();
+        Self::new(&params, params.compat)
+    }
+}
+
+impl CostmapSettings {
+    /// Converts the parameters of a costmap; `compat` overrides theirs.
+    #[must_use]
+    pub fn new(params: &CostmapParams, compat: Nav2Release) -> Self {
         Self {
-            global_frame: "map".to_owned(),
-            is_rolling: false,
-            tracks_unknown: false,
-            compat: Nav2Release::Main,
+            global_frame: params.global_frame.clone(),
+            is_rolling: params.rolling_window,
+            tracks_unknown: params.track_unknown_space,
+            compat,
         }
     }
 }

@@ -6,9 +6,10 @@ use std::collections::VecDeque;
 
 use periplus_diagnostics::Diagnostics;
 use periplus_geometry::{DVec3, Pose};
-use periplus_params::ParamValues;
+use periplus_params::{ParamValues, param_choice};
 
 use crate::Nav2Release;
+use crate::tables::SourceParams;
 
 /// A point cloud with the ranges for marking and clearing.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -35,13 +36,15 @@ pub struct RangeLimits {
     pub max_m: f64,
 }
 
-/// Message type of a source.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum DataType {
-    /// `sensor_msgs/LaserScan`.
-    LaserScan,
-    /// `sensor_msgs/PointCloud2`.
-    PointCloud2,
+param_choice! {
+    /// Message type of a source.
+    pub enum DataType {
+        /// `sensor_msgs/LaserScan`.
+        #[default]
+        LaserScan = "LaserScan",
+        /// `sensor_msgs/PointCloud2`.
+        PointCloud2 = "PointCloud2",
+    }
 }
 
 /// Settings of a source.
@@ -79,33 +82,27 @@ impl SourceSettings {
     /// Converts parameters of [`crate::tables::SOURCE`].
     #[must_use]
     pub fn read(name: &str, values: &ParamValues) -> Self {
-        let number = |name: &str| values.number(name).unwrap_or_default();
-        let flag = |name: &str| values.flag(name).unwrap_or_default();
-        let text = |name: &str| values.text(name).unwrap_or_default();
-        let topic = text("topic");
+        let params = SourceParams::from_values(values);
         Self {
-            topic: if topic.is_empty() { name.to_owned() } else { topic },
-            sensor_frame: text("sensor_frame"),
-            persistence_ns: nanoseconds(number("observation_persistence")),
-            expected_every_ns: nanoseconds(number("expected_update_rate")),
-            data_type: match text("data_type").as_str() {
-                "PointCloud2" => DataType::PointCloud2,
-                _ => DataType::LaserScan,
-            },
+            topic: if params.topic.is_empty() { name.to_owned() } else { params.topic },
+            sensor_frame: params.sensor_frame,
+            persistence_ns: nanoseconds(params.observation_persistence_s),
+            expected_every_ns: nanoseconds(params.expected_update_rate_s),
+            data_type: params.data_type,
             heights: RangeLimits {
-                min_m: number("min_obstacle_height"),
-                max_m: number("max_obstacle_height"),
+                min_m: params.min_obstacle_height_m,
+                max_m: params.max_obstacle_height_m,
             },
-            inf_is_valid: flag("inf_is_valid"),
-            is_marking: flag("marking"),
-            is_clearing: flag("clearing"),
+            inf_is_valid: params.inf_is_valid,
+            is_marking: params.marking,
+            is_clearing: params.clearing,
             marks: RangeLimits {
-                min_m: number("obstacle_min_range"),
-                max_m: number("obstacle_max_range"),
+                min_m: params.obstacle_min_range_m,
+                max_m: params.obstacle_max_range_m,
             },
             rays: RangeLimits {
-                min_m: number("raytrace_min_range"),
-                max_m: number("raytrace_max_range"),
+                min_m: params.raytrace_min_range_m,
+                max_m: params.raytrace_max_range_m,
             },
         }
     }

@@ -2,328 +2,462 @@
 //!
 //! Sources: `nav2_costmap_2d/src/costmap_2d_ros.cpp` and `plugins/*.cpp` (main, 2026-08).
 
-use periplus_params::{NamedEntity, Parameter, Table, choice, flag, integer, number, text, texts};
+use periplus_params::{NamedEntity, params};
 
-// Parameters shared by several layers or filters.
-const LAYER_ENABLED: Parameter = flag("enabled", "Enables the layer.").or("true");
-const FILTER_ENABLED: Parameter = flag("enabled", "Enables the filter.").or("true");
-const FILTER_INFO_TOPIC: Parameter =
-    text("filter_info_topic", "Topic of the filter info, which contains the topic of the mask.")
-        .required()
-        .naming(NamedEntity::Topic);
-const MASK_TOLERANCE: Parameter =
-    number("transform_tolerance", "s", "Maximum age of the transform of the mask.")
-        .or("0.1")
-        .min(0.0);
-const COMBINATION_METHOD: Parameter =
-    integer("combination_method", "0 overwrite, 1 maximum, 2 maximum of known costs.").or("1");
-const FOOTPRINT_CLEARING: Parameter =
-    flag("footprint_clearing_enabled", "Sets cells under the robot to free.").or("true");
-const MIN_HEIGHT: Parameter =
-    number("min_obstacle_height", "m", "Minimum height of points that mark.").or("0");
-const MAX_HEIGHT: Parameter =
-    number("max_obstacle_height", "m", "Maximum height of points that mark.").or("2");
-const OBSERVATION_SOURCES: Parameter =
-    text("observation_sources", "Names of the sources, separated by blanks.").or("");
-const TF_FILTER_TOLERANCE: Parameter =
-    number("tf_filter_tolerance", "s", "Maximum delay of transforms.").or("0.05");
+use crate::{DataType, Nav2Release};
 
-/// Parameters of the node.
-pub static COSTMAP: Table = Table {
-    name: "the costmap",
-    doc: "A costmap of layers.",
-    parameters: &[
-        flag("always_send_full_costmap", "Publishes the whole grid each time, instead of updates.").or("false"),
-        number("map_vis_z", "m", "Height of the published grid.").or("0"),
-        number("footprint_padding", "m", "Padding added to the footprint.")
-            .or("0.01")
-            .min(0.0),
-        text("footprint", "Corners of the robot, `[[x, y], ...]`; overrides `robot_radius`.")
-            .or("[]"),
-        number("robot_radius", "m", "Radius of a round robot.").or("0.1").min(0.0),
-        text("global_frame", "Frame of the costmap.").or("map").naming(NamedEntity::Frame),
-        text("robot_base_frame", "Base frame of the robot.").or("base_link").naming(NamedEntity::Frame),
-        integer("width", "Length along x, in whole metres.").or("5").within(1.0, 1_000_000.0),
-        integer("height", "Length along y, in whole metres.").or("5").within(1.0, 1_000_000.0),
-        number("resolution", "m", "Side length of a cell.").or("0.1").above(0.0),
-        number("origin_x", "m", "Lower left corner, x.").or("0"),
-        number("origin_y", "m", "Lower left corner, y.").or("0"),
-        flag("rolling_window", "Centres the costmap on the robot.").or("false"),
-        flag("track_unknown_space", "Keeps unobserved cells unknown instead of free.")
-            .or("false"),
-        number("update_frequency", "Hz", "Rate of updates; 0 for none.")
-            .or("5")
-            .min(0.0),
-        number("publish_frequency", "Hz", "Rate of publication; 0 or less for none.")
-            .or("1"),
-        number("transform_tolerance", "s", "Maximum age of the pose of the robot.")
-            .or("0.3")
-            .min(0.0),
-        number("initial_transform_timeout", "s", "Maximum time that activation waits for the pose of the robot.")
-            .or("60")
-            .min(0.0),
-        texts("plugins", "Names of the layers, lowest first.")
-            .or("static_layer obstacle_layer inflation_layer"),
-        texts("filters", "Names of the filters, lowest first.").or(""),
-        flag("subscribe_to_stamped_footprint", "Subscribes to `footprint` as PolygonStamped instead of Polygon.")
-            .or("false"),
-        integer("lethal_cost_threshold", "Minimum map value of lethal cells.").or("100"),
-        integer("unknown_cost_value", "Map value of unknown cells; 255 represents -1.")
-            .or("255"),
-        flag("trinary_costmap", "Converts a map to free, lethal and unknown cells only.")
-            .or("true"),
-        integer("inscribed_obstacle_cost_value", "Map value of inscribed cells.").or("99"),
-        flag("use_maximum", "Combines maps by maximum, so that they only raise costs.").or("false"),
-        flag("allow_parameter_qos_overrides", "Allows parameters to set QoS.").or("true"),
-        text("observation_sources", "Unused; each layer has this parameter.").or(""),
-        text("map_topic", "Default topic of the map for static layers.").or(""),
-        flag("use_sim_time", "Uses the time of `/clock`.").or("false"),
-        number(
-            "bond_heartbeat_period",
-            "s",
-            "Period of the heartbeats to a lifecycle manager; no bond if not positive.",
-        )
-        .or("0.1"),
-        text("service_introspection_mode", "Unused; service introspection is not supported.").or("disabled"),
-        choice(
-            "compat",
-            &crate::Nav2Release::NAMES,
-            "Release of Nav2 whose behaviour is used where releases differ; `jazzy-1.3.10` is Jazzy up to \
-             Nav2 1.3.10.",
-        )
-        .or("main"),
-    ],
-};
+params! {
+    /// Parameters of every layer.
+    pub struct LayerParams {
+        /// Enables the layer.
+        #[param("enabled")]
+        is_enabled: bool = true,
+    }
+}
 
-/// Parameters of a static layer.
-pub static STATIC: Table = Table {
-    name: "a static layer",
-    doc: "A layer with a map.",
-    parameters: &[
-        LAYER_ENABLED,
-        flag("subscribe_to_updates", "Subscribes to `<map_topic>_updates`.").or("false"),
-        flag(
-            "map_subscribe_transient_local",
-            "Subscribes with transient-local durability, which delivers a map published earlier.",
-        )
-        .or("true"),
-        text("map_topic", "Topic of the map.").or("").naming(NamedEntity::Topic),
-        flag("footprint_clearing_enabled", "Sets cells under the robot to free.").or("false"),
-        flag("restore_cleared_footprint", "Restores the cleared costs after the robot has left.")
-            .or("true"),
-        number("transform_tolerance", "s", "Maximum age of the transform of the map.")
-            .or("0")
-            .min(0.0),
-    ],
-};
+params! {
+    /// Combination of a layer's costs with those of the layers below.
+    pub struct CombinationParams {
+        /// 0 overwrite, 1 maximum, 2 maximum of known costs.
+        #[param("combination_method")]
+        method: i64 = 1,
+    }
+}
 
-/// Parameters of an obstacle layer.
-pub static OBSTACLE: Table = Table {
-    name: "an obstacle layer",
-    doc: "Obstacles seen by sensors, in the plane.",
-    parameters: &[
-        LAYER_ENABLED,
-        FOOTPRINT_CLEARING,
-        MIN_HEIGHT,
-        MAX_HEIGHT,
-        COMBINATION_METHOD,
-        OBSERVATION_SOURCES,
-        TF_FILTER_TOLERANCE,
-    ],
-};
+params! {
+    /// Parameters of obstacle and voxel layers.
+    pub struct ObservationLayerParams {
+        /// Parameters of every layer.
+        #[shared]
+        layer: LayerParams,
+        /// Sets cells under the robot to free.
+        #[param("footprint_clearing_enabled")]
+        footprint_clearing_enabled: bool = true,
+        /// Minimum height of points that mark.
+        #[param("min_obstacle_height", unit("m"))]
+        min_obstacle_height_m: f64 = 0,
+        /// Maximum height of points that mark.
+        #[param("max_obstacle_height", unit("m"))]
+        max_obstacle_height_m: f64 = 2,
+        /// Combination with the costs of the layers below.
+        #[shared]
+        combination: CombinationParams,
+        /// Names of the sources, separated by blanks.
+        #[param("observation_sources")]
+        observation_sources: String = "",
+        /// Maximum delay of transforms.
+        #[param("tf_filter_tolerance", unit("s"))]
+        tf_filter_tolerance_s: f64 = 0.05,
+    }
+}
 
-/// Parameters of a voxel layer.
-pub static VOXEL: Table = Table {
-    name: "a voxel layer",
-    doc: "Obstacles seen by sensors, in columns of voxels.",
-    parameters: &[
-        LAYER_ENABLED,
-        FOOTPRINT_CLEARING,
-        MIN_HEIGHT,
-        MAX_HEIGHT,
-        COMBINATION_METHOD,
-        OBSERVATION_SOURCES,
-        TF_FILTER_TOLERANCE,
-        number("origin_z", "m", "Height of the lowest voxels.").or("0"),
-        number("z_resolution", "m", "Height of a voxel.").or("0.2").above(0.0),
-        integer("z_voxels", "Number of voxels in a column, at most 16.")
-            .or("10")
-            .within(0.0, 1000.0),
-        integer("unknown_threshold", "Maximum number of unknown voxels in a known column.")
-            .or("15")
-            .min(0.0),
-        integer("mark_threshold", "Maximum number of marked voxels in a free column.")
-            .or("0")
-            .min(0.0),
-        flag("publish_voxel_map", "Publishes the voxels.").or("false"),
-    ],
-};
+params! {
+    /// Parameters of every filter.
+    pub struct FilterParams {
+        /// Enables the filter.
+        #[param("enabled")]
+        is_enabled: bool = true,
+        /// Topic of the filter info, which contains the topic of the mask.
+        #[param("filter_info_topic", required(), naming(NamedEntity::Topic))]
+        filter_info_topic: String,
+        /// Maximum age of the transform of the mask.
+        #[param("transform_tolerance", unit("s"), min(0.0))]
+        transform_tolerance_s: f64 = 0.1,
+    }
+}
 
-/// Parameters of a source of an obstacle or voxel layer.
-pub static SOURCE: Table = Table {
-    name: "an observation source",
-    doc: "A sensor that marks and clears obstacles.",
-    parameters: &[
-        text("topic", "Topic; default: the name of the source.").or("").naming(NamedEntity::Topic),
-        text("sensor_frame", "Frame of the sensor origin; default: the frame of the message.")
-            .or("")
-            .naming(NamedEntity::Frame),
-        number(
-            "observation_persistence",
-            "s",
-            "Duration for which readings are kept; 0 for the newest only.",
-        )
-        .or("0")
-        .min(0.0),
-        number("expected_update_rate", "s", "Maximum interval between messages; 0 for no limit.")
-            .or("0")
-            .min(0.0),
-        choice("data_type", &["LaserScan", "PointCloud2"], "Message type.").or("LaserScan"),
-        number("min_obstacle_height", "m", "Minimum height of points, for marking and clearing.")
-            .or("0"),
-        number("max_obstacle_height", "m", "Maximum height of points, for marking and clearing.")
-            .or("0"),
-        flag("inf_is_valid", "Clears up to the maximum range for infinite ranges.").or("false"),
-        flag("marking", "Marks obstacles.").or("true"),
-        flag("clearing", "Clears cells along rays.").or("false"),
-        number("obstacle_max_range", "m", "Maximum distance of points that mark.")
-            .or("2.5")
-            .also(&["obstacle_range"]),
-        number("obstacle_min_range", "m", "Minimum distance of points that mark.").or("0"),
-        number("raytrace_max_range", "m", "Maximum distance at which rays clear.")
-            .or("3")
-            .also(&["raytrace_range"]),
-        number("raytrace_min_range", "m", "Minimum distance at which rays clear.").or("0"),
-        text("transport_type", "Transport of clouds; only `raw` is supported.").or("raw"),
-    ],
-};
+params! {
+    /// A costmap of layers.
+    #[table(COSTMAP, "the costmap")]
+    pub struct CostmapParams {
+        /// Publishes the whole grid each time, instead of updates.
+        #[param("always_send_full_costmap")]
+        always_send_full_costmap: bool = false,
+        /// Height of the published grid.
+        #[param("map_vis_z", unit("m"))]
+        map_vis_z_m: f64 = 0,
+        /// Padding added to the footprint.
+        #[param("footprint_padding", unit("m"), min(0.0))]
+        footprint_padding_m: f64 = 0.01,
+        /// Corners of the robot, `[[x, y], ...]`; overrides `robot_radius`.
+        #[param("footprint")]
+        footprint: String = "[]",
+        /// Radius of a round robot.
+        #[param("robot_radius", unit("m"), min(0.0))]
+        robot_radius_m: f64 = 0.1,
+        /// Frame of the costmap.
+        #[param("global_frame", naming(NamedEntity::Frame))]
+        global_frame: String = "map",
+        /// Base frame of the robot.
+        #[param("robot_base_frame", naming(NamedEntity::Frame))]
+        robot_base_frame: String = "base_link",
+        /// Length along x, in whole metres.
+        #[param("width", within(1.0, 1_000_000.0))]
+        width: usize = 5,
+        /// Length along y, in whole metres.
+        #[param("height", within(1.0, 1_000_000.0))]
+        height: usize = 5,
+        /// Side length of a cell.
+        #[param("resolution", unit("m"), above(0.0))]
+        resolution_m: f64 = 0.1,
+        /// Lower left corner, x.
+        #[param("origin_x", unit("m"))]
+        origin_x_m: f64 = 0,
+        /// Lower left corner, y.
+        #[param("origin_y", unit("m"))]
+        origin_y_m: f64 = 0,
+        /// Centres the costmap on the robot.
+        #[param("rolling_window")]
+        rolling_window: bool = false,
+        /// Keeps unobserved cells unknown instead of free.
+        #[param("track_unknown_space")]
+        track_unknown_space: bool = false,
+        /// Rate of updates; 0 for none.
+        #[param("update_frequency", unit("Hz"), min(0.0))]
+        update_frequency_hz: f64 = 5,
+        /// Rate of publication; 0 or less for none.
+        #[param("publish_frequency", unit("Hz"))]
+        publish_frequency_hz: f64 = 1,
+        /// Maximum age of the pose of the robot.
+        #[param("transform_tolerance", unit("s"), min(0.0))]
+        transform_tolerance_s: f64 = 0.3,
+        /// Maximum time that activation waits for the pose of the robot.
+        #[param("initial_transform_timeout", unit("s"), min(0.0))]
+        initial_transform_timeout_s: f64 = 60,
+        /// Names of the layers, lowest first.
+        #[param("plugins")]
+        plugins: Vec<String> = "static_layer obstacle_layer inflation_layer",
+        /// Names of the filters, lowest first.
+        #[param("filters")]
+        filters: Vec<String> = "",
+        /// Subscribes to `footprint` as PolygonStamped instead of Polygon.
+        #[param("subscribe_to_stamped_footprint")]
+        subscribe_to_stamped_footprint: bool = false,
+        /// Minimum map value of lethal cells.
+        #[param("lethal_cost_threshold")]
+        lethal_cost_threshold: i64 = 100,
+        /// Map value of unknown cells; 255 represents -1.
+        #[param("unknown_cost_value")]
+        unknown_cost_value: i64 = 255,
+        /// Converts a map to free, lethal and unknown cells only.
+        #[param("trinary_costmap")]
+        trinary_costmap: bool = true,
+        /// Map value of inscribed cells.
+        #[param("inscribed_obstacle_cost_value")]
+        inscribed_obstacle_cost_value: i64 = 99,
+        /// Combines maps by maximum, so that they only raise costs.
+        #[param("use_maximum")]
+        use_maximum: bool = false,
+        /// Allows parameters to set QoS.
+        #[param("allow_parameter_qos_overrides")]
+        _: bool = true,
+        /// Unused; each layer has this parameter.
+        #[param("observation_sources")]
+        _: String = "",
+        /// Default topic of the map for static layers.
+        #[param("map_topic")]
+        map_topic: String = "",
+        /// Uses the time of `/clock`.
+        #[param("use_sim_time")]
+        use_sim_time: bool = false,
+        /// Period of the heartbeats to a lifecycle manager; no bond if not positive.
+        #[param("bond_heartbeat_period", unit("s"))]
+        bond_heartbeat_period_s: f64 = 0.1,
+        /// Unused; service introspection is not supported.
+        #[param("service_introspection_mode")]
+        _: String = "disabled",
+        /// Release of Nav2 whose behaviour is used where releases differ; `jazzy-1.3.10` is Jazzy up to
+        /// Nav2 1.3.10.
+        #[param("compat")]
+        compat: Nav2Release = "main",
+    }
+}
 
-/// Parameters of a range sensor layer.
-pub static RANGE: Table = Table {
-    name: "a range layer",
-    doc: "Sonars and other sensors with one wide beam.",
-    parameters: &[
-        LAYER_ENABLED,
-        number("phi", "m", "Distance at which the weight of a reading is one half.").or("1.2"),
-        number(
-            "inflate_cone",
-            "",
-            "Width of the margin around the cone that is updated, as a fraction of the cone.",
-        )
-        .or("1")
-        .within(0.0, 1.0),
-        number("no_readings_timeout", "s", "Maximum interval between messages; 0 for no limit.")
-            .or("0")
-            .min(0.0),
-        number("clear_threshold", "", "Maximum probability of free cells.")
-            .or("0.2")
-            .within(0.0, 1.0),
-        number("mark_threshold", "", "Minimum probability of lethal cells.")
-            .or("0.8")
-            .within(0.0, 1.0),
-        flag("clear_on_max_reading", "Clears the cone of a reading at the maximum range.")
-            .or("false"),
-        texts("topics", "Topics of the sensors.").or(""),
-        text("input_sensor_type", "Accepted sensors: VARIABLE, FIXED or ALL.").or("ALL"),
-    ],
-};
+params! {
+    /// A layer with a map.
+    #[table(STATIC, "a static layer")]
+    pub struct StaticLayerParams {
+        /// Parameters of every layer.
+        #[shared]
+        layer: LayerParams,
+        /// Subscribes to `<map_topic>_updates`.
+        #[param("subscribe_to_updates")]
+        subscribe_to_updates: bool = false,
+        /// Subscribes with transient-local durability, which delivers a map published earlier.
+        #[param("map_subscribe_transient_local")]
+        map_subscribe_transient_local: bool = true,
+        /// Topic of the map.
+        #[param("map_topic", naming(NamedEntity::Topic))]
+        map_topic: String = "",
+        /// Sets cells under the robot to free.
+        #[param("footprint_clearing_enabled")]
+        footprint_clearing_enabled: bool = false,
+        /// Restores the cleared costs after the robot has left.
+        #[param("restore_cleared_footprint")]
+        restore_cleared_footprint: bool = true,
+        /// Maximum age of the transform of the map.
+        #[param("transform_tolerance", unit("s"), min(0.0))]
+        transform_tolerance_s: f64 = 0,
+    }
+}
 
-/// Parameters of an inflation layer.
-pub static INFLATION: Table = Table {
-    name: "an inflation layer",
-    doc: "Costs that decrease with the distance from obstacles.",
-    parameters: &[
-        LAYER_ENABLED,
-        number("inflation_radius", "m", "Distance up to which costs are set; 0 for none.")
-            .or("0.55")
-            .min(0.0),
-        number("cost_scaling_factor", "", "Exponential decay rate of the cost, in 1/m.")
-            .or("10")
-            .min(0.0),
-        flag("inflate_unknown", "Sets costs in unknown cells.").or("false"),
-        flag("inflate_around_unknown", "Inflates unknown cells like obstacles.").or("false"),
-        integer("num_threads", "Unused; a single thread is used.").or("-1"),
-        number(
-            "custom_inscribed_radius",
-            "m",
-            "Overrides the inscribed radius of the footprint, if not negative.",
-        )
-        .or("-1"),
-    ],
-};
+params! {
+    /// Obstacles seen by sensors, in the plane.
+    #[table(OBSTACLE, "an obstacle layer")]
+    pub struct ObstacleLayerParams {
+        /// Parameters of obstacle and voxel layers.
+        #[shared]
+        observed: ObservationLayerParams,
+    }
+}
 
-/// Parameters of a denoise layer.
-pub static DENOISE: Table = Table {
-    name: "a denoise layer",
-    doc: "Removes small obstacles.",
-    parameters: &[
-        LAYER_ENABLED,
-        integer("minimal_group_size", "Minimum number of cells of a group; 1 keeps all.").or("2"),
-        integer("group_connectivity_type", "Number of neighbours of a cell: 4 or 8.").or("8"),
-    ],
-};
+params! {
+    /// Obstacles seen by sensors, in columns of voxels.
+    #[table(VOXEL, "a voxel layer")]
+    pub struct VoxelLayerParams {
+        /// Parameters of obstacle and voxel layers.
+        #[shared]
+        observed: ObservationLayerParams,
+        /// Height of the lowest voxels.
+        #[param("origin_z", unit("m"))]
+        origin_z_m: f64 = 0,
+        /// Height of a voxel.
+        #[param("z_resolution", unit("m"), above(0.0))]
+        z_resolution_m: f64 = 0.2,
+        /// Number of voxels in a column, at most 16.
+        #[param("z_voxels", within(0.0, 1000.0))]
+        z_voxels: usize = 10,
+        /// Maximum number of unknown voxels in a known column.
+        #[param("unknown_threshold", min(0.0))]
+        unknown_threshold: usize = 15,
+        /// Maximum number of marked voxels in a free column.
+        #[param("mark_threshold", min(0.0))]
+        mark_threshold: usize = 0,
+        /// Publishes the voxels.
+        #[param("publish_voxel_map")]
+        publish_voxel_map: bool = false,
+    }
+}
 
-/// Parameters of a container of layers.
-pub static CONTAINER: Table = Table {
-    name: "a container of layers",
-    doc: "Layers with a separate grid.",
-    parameters: &[
-        LAYER_ENABLED,
-        texts("plugins", "Names of the contained layers, lowest first.").or(""),
-        COMBINATION_METHOD,
-    ],
-};
+params! {
+    /// A sensor that marks and clears obstacles.
+    #[table(SOURCE, "an observation source")]
+    pub struct SourceParams {
+        /// Topic; default: the name of the source.
+        #[param("topic", naming(NamedEntity::Topic))]
+        topic: String = "",
+        /// Frame of the sensor origin; default: the frame of the message.
+        #[param("sensor_frame", naming(NamedEntity::Frame))]
+        sensor_frame: String = "",
+        /// Duration for which readings are kept; 0 for the newest only.
+        #[param("observation_persistence", unit("s"), min(0.0))]
+        observation_persistence_s: f64 = 0,
+        /// Maximum interval between messages; 0 for no limit.
+        #[param("expected_update_rate", unit("s"), min(0.0))]
+        expected_update_rate_s: f64 = 0,
+        /// Message type.
+        #[param("data_type")]
+        data_type: DataType = "LaserScan",
+        /// Minimum height of points, for marking and clearing.
+        #[param("min_obstacle_height", unit("m"))]
+        min_obstacle_height_m: f64 = 0,
+        /// Maximum height of points, for marking and clearing.
+        #[param("max_obstacle_height", unit("m"))]
+        max_obstacle_height_m: f64 = 0,
+        /// Clears up to the maximum range for infinite ranges.
+        #[param("inf_is_valid")]
+        inf_is_valid: bool = false,
+        /// Marks obstacles.
+        #[param("marking")]
+        marking: bool = true,
+        /// Clears cells along rays.
+        #[param("clearing")]
+        clearing: bool = false,
+        /// Maximum distance of points that mark.
+        #[param("obstacle_max_range", unit("m"), also(&["obstacle_range"]))]
+        obstacle_max_range_m: f64 = 2.5,
+        /// Minimum distance of points that mark.
+        #[param("obstacle_min_range", unit("m"))]
+        obstacle_min_range_m: f64 = 0,
+        /// Maximum distance at which rays clear.
+        #[param("raytrace_max_range", unit("m"), also(&["raytrace_range"]))]
+        raytrace_max_range_m: f64 = 3,
+        /// Minimum distance at which rays clear.
+        #[param("raytrace_min_range", unit("m"))]
+        raytrace_min_range_m: f64 = 0,
+        /// Transport of clouds; only `raw` is supported.
+        #[param("transport_type")]
+        transport_type: String = "raw",
+    }
+}
 
-/// Parameters of a keepout filter.
-pub static KEEPOUT: Table = Table {
-    name: "a keepout filter",
-    doc: "Zones that a robot must not enter.",
-    parameters: &[
-        FILTER_ENABLED,
-        FILTER_INFO_TOPIC,
-        MASK_TOLERANCE,
-        flag("override_lethal_cost", "Lets a robot inside a zone leave it.").or("false"),
-        integer("lethal_override_cost", "Cost of the zone in that case, at most 252.").or("252"),
-    ],
-};
+params! {
+    /// Sonars and other sensors with one wide beam.
+    #[table(RANGE, "a range layer")]
+    pub struct RangeLayerParams {
+        /// Parameters of every layer.
+        #[shared]
+        layer: LayerParams,
+        /// Distance at which the weight of a reading is one half.
+        #[param("phi", unit("m"))]
+        phi_m: f64 = 1.2,
+        /// Width of the margin around the cone that is updated, as a fraction of the cone.
+        #[param("inflate_cone", within(0.0, 1.0))]
+        inflate_cone: f64 = 1,
+        /// Maximum interval between messages; 0 for no limit.
+        #[param("no_readings_timeout", unit("s"), min(0.0))]
+        no_readings_timeout_s: f64 = 0,
+        /// Maximum probability of free cells.
+        #[param("clear_threshold", within(0.0, 1.0))]
+        clear_threshold: f64 = 0.2,
+        /// Minimum probability of lethal cells.
+        #[param("mark_threshold", within(0.0, 1.0))]
+        mark_threshold: f64 = 0.8,
+        /// Clears the cone of a reading at the maximum range.
+        #[param("clear_on_max_reading")]
+        clear_on_max_reading: bool = false,
+        /// Topics of the sensors.
+        #[param("topics")]
+        topics: Vec<String> = "",
+        /// Accepted sensors: VARIABLE, FIXED or ALL.
+        #[param("input_sensor_type")]
+        input_sensor_type: String = "ALL",
+    }
+}
 
-/// Parameters of a speed filter.
-pub static SPEED: Table = Table {
-    name: "a speed filter",
-    doc: "Zones with speed limits.",
-    parameters: &[
-        FILTER_ENABLED,
-        FILTER_INFO_TOPIC,
-        MASK_TOLERANCE,
-        text("speed_limit_topic", "Topic of the limits.").or("speed_limit"),
-        flag("enable_path_lookahead", "Applies limits ahead on the path.").or("false"),
-        number("max_decel", "m/s2", "Deceleration of the robot; negative.").or("-0.5"),
-        number("min_lookahead", "m", "Minimum lookahead distance.").or("0.3"),
-        number("max_lookahead", "m", "Maximum lookahead distance.").or("5"),
-        text("path_topic", "Topic of the path.").or("plan").naming(NamedEntity::Topic),
-        text("odom_topic", "Topic of the odometry, for the speed.")
-            .or("odom")
-            .naming(NamedEntity::Topic),
-    ],
-};
+params! {
+    /// Costs that decrease with the distance from obstacles.
+    #[table(INFLATION, "an inflation layer")]
+    pub struct InflationLayerParams {
+        /// Parameters of every layer.
+        #[shared]
+        layer: LayerParams,
+        /// Distance up to which costs are set; 0 for none.
+        #[param("inflation_radius", unit("m"), min(0.0))]
+        inflation_radius_m: f64 = 0.55,
+        /// Exponential decay rate of the cost, in 1/m.
+        #[param("cost_scaling_factor", min(0.0))]
+        cost_scaling_factor: f64 = 10,
+        /// Sets costs in unknown cells.
+        #[param("inflate_unknown")]
+        inflate_unknown: bool = false,
+        /// Inflates unknown cells like obstacles.
+        #[param("inflate_around_unknown")]
+        inflate_around_unknown: bool = false,
+        /// Unused; a single thread is used.
+        #[param("num_threads")]
+        _: i64 = -1,
+        /// Overrides the inscribed radius of the footprint, if not negative.
+        #[param("custom_inscribed_radius", unit("m"))]
+        custom_inscribed_radius_m: f64 = -1,
+    }
+}
 
-/// Parameters of a binary filter.
-pub static BINARY: Table = Table {
-    name: "a binary filter",
-    doc: "Zones that switch a state.",
-    parameters: &[
-        FILTER_ENABLED,
-        FILTER_INFO_TOPIC,
-        MASK_TOLERANCE,
-        flag("default_state", "State outside all zones.").or("false"),
-        text("binary_state_topic", "Topic of the state.").or("binary_state"),
-        number("flip_threshold", "", "Mask value above which the state is flipped.").or("50"),
-    ],
-};
+params! {
+    /// Removes small obstacles.
+    #[table(DENOISE, "a denoise layer")]
+    pub struct DenoiseLayerParams {
+        /// Parameters of every layer.
+        #[shared]
+        layer: LayerParams,
+        /// Minimum number of cells of a group; 1 keeps all.
+        #[param("minimal_group_size")]
+        minimal_group_size: i64 = 2,
+        /// Number of neighbours of a cell: 4 or 8.
+        #[param("group_connectivity_type")]
+        group_connectivity_type: i64 = 8,
+    }
+}
+
+params! {
+    /// Layers with a separate grid.
+    #[table(CONTAINER, "a container of layers")]
+    pub struct ContainerLayerParams {
+        /// Parameters of every layer.
+        #[shared]
+        layer: LayerParams,
+        /// Names of the contained layers, lowest first.
+        #[param("plugins")]
+        plugins: Vec<String> = "",
+        /// Combination with the costs of the layers below.
+        #[shared]
+        combination: CombinationParams,
+    }
+}
+
+params! {
+    /// Zones that a robot must not enter.
+    #[table(KEEPOUT, "a keepout filter")]
+    pub struct KeepoutFilterParams {
+        /// Parameters of every filter.
+        #[shared]
+        filter: FilterParams,
+        /// Lets a robot inside a zone leave it.
+        #[param("override_lethal_cost")]
+        override_lethal_cost: bool = false,
+        /// Cost of the zone in that case, at most 252.
+        #[param("lethal_override_cost")]
+        lethal_override_cost: i64 = 252,
+    }
+}
+
+params! {
+    /// Zones with speed limits.
+    #[table(SPEED, "a speed filter")]
+    pub struct SpeedFilterParams {
+        /// Parameters of every filter.
+        #[shared]
+        filter: FilterParams,
+        /// Topic of the limits.
+        #[param("speed_limit_topic")]
+        speed_limit_topic: String = "speed_limit",
+        /// Applies limits ahead on the path.
+        #[param("enable_path_lookahead")]
+        enable_path_lookahead: bool = false,
+        /// Deceleration of the robot; negative.
+        #[param("max_decel", unit("m/s2"))]
+        max_decel_m_s2: f64 = -0.5,
+        /// Minimum lookahead distance.
+        #[param("min_lookahead", unit("m"))]
+        min_lookahead_m: f64 = 0.3,
+        /// Maximum lookahead distance.
+        #[param("max_lookahead", unit("m"))]
+        max_lookahead_m: f64 = 5,
+        /// Topic of the path.
+        #[param("path_topic", naming(NamedEntity::Topic))]
+        path_topic: String = "plan",
+        /// Topic of the odometry, for the speed.
+        #[param("odom_topic", naming(NamedEntity::Topic))]
+        odom_topic: String = "odom",
+    }
+}
+
+params! {
+    /// Zones that switch a state.
+    #[table(BINARY, "a binary filter")]
+    pub struct BinaryFilterParams {
+        /// Parameters of every filter.
+        #[shared]
+        filter: FilterParams,
+        /// State outside all zones.
+        #[param("default_state")]
+        default_state: bool = false,
+        /// Topic of the state.
+        #[param("binary_state_topic")]
+        binary_state_topic: String = "binary_state",
+        /// Mask value above which the state is flipped.
+        #[param("flip_threshold")]
+        flip_threshold: f64 = 50,
+    }
+}
 
 #[cfg(test)]
 mod tests {
+    use periplus_diagnostics::Diagnostics;
+
     use super::*;
+    use crate::inflation::InflationSettings;
+    use crate::{CostmapConfig, CostmapSettings};
 
     #[test]
     fn no_table_has_slips() {
@@ -333,5 +467,17 @@ mod tests {
         ] {
             assert_eq!(table.faults(), [""; 0]);
         }
+    }
+
+    #[test]
+    fn default_settings_are_those_of_the_tables() {
+        let config = CostmapConfig::read([], None, &mut Diagnostics::new());
+        assert_eq!(CostmapSettings::default(), config.frame());
+        let params = InflationLayerParams::default();
+        let settings = InflationSettings {
+            into_unknown: params.inflate_unknown,
+            around_unknown: params.inflate_around_unknown,
+        };
+        assert_eq!(InflationSettings::default(), settings);
     }
 }

@@ -8,6 +8,7 @@ use crate::layers::{
     ContainerLayer, DenoiseLayer, InflationLayer, MapMeaning, ObstacleLayer, RangeLayer,
     StaticLayer, VoxelLayer,
 };
+use crate::tables::CostmapParams;
 use crate::{Layer, LayeredCostmap, Nav2Release, ObservationSource, TransformSource};
 
 impl CostmapConfig {
@@ -26,7 +27,7 @@ impl CostmapConfig {
     }
 
     fn layer(&self, config: &LayerConfig) -> Box<dyn Layer> {
-        let tracks_unknown = self.node.flag("track_unknown_space").unwrap_or_default();
+        let tracks_unknown = self.params().track_unknown_space;
         let name = config.name.clone();
         let values = config.values.clone();
         let sources = || {
@@ -81,11 +82,11 @@ impl CostmapConfig {
                 return Err(wrong.message);
             }
             self.footprint =
-                footprint.padded(values.number("footprint_padding").unwrap_or_default());
+                footprint.padded(CostmapParams::from_values(&values).footprint_padding_m);
             costmap.set_footprint(self.footprint.clone());
         }
         if has_size && !costmap.is_size_locked() {
-            costmap.resize(grid_info_of(&values), false);
+            costmap.resize(grid_info_of(&CostmapParams::from_values(&values)), false);
         }
         self.node = values;
         Ok(())
@@ -98,14 +99,12 @@ fn refuse_lost_robot(
     after: &ParamValues,
     frames: &dyn TransformSource,
 ) -> Result<(), String> {
-    let (base, global) = (after.text("robot_base_frame"), after.text("global_frame"));
-    let (base, global) = (base.unwrap_or_default(), global.unwrap_or_default());
-    if before.text("robot_base_frame").as_ref() == Some(&base)
-        || frames.latest(&global, &base).is_some()
-    {
+    let CostmapParams { robot_base_frame: base, global_frame: global, .. } =
+        CostmapParams::from_values(after);
+    let kept = CostmapParams::from_values(before).robot_base_frame;
+    if kept == base || frames.latest(&global, &base).is_some() {
         return Ok(());
     }
-    let kept = before.text("robot_base_frame").unwrap_or_default();
     Err(format!(
         "there is no transform from `{base}` to `{global}`; `robot_base_frame` stays `{kept}`"
     ))
@@ -131,9 +130,9 @@ fn refuse(before: &ParamValues, after: &ParamValues, compat: Nav2Release) -> Res
         }
     }
     // At startup any value is allowed; 0 or less means never.
-    let publish_hz = after.number("publish_frequency").unwrap_or_default();
+    let publish_hz = CostmapParams::from_values(after).publish_frequency_hz;
     if compat.refuses_to_stop_publishing()
-        && before.number("publish_frequency") != Some(publish_hz)
+        && CostmapParams::from_values(before).publish_frequency_hz != publish_hz
         && publish_hz <= 0.0
     {
         return Err("`publish_frequency` must be above 0 while the costmap runs".into());

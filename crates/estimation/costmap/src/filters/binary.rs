@@ -7,14 +7,14 @@ use periplus_params::ParamValues;
 
 use super::mask::filter_info_error;
 use super::{FilterInfo, FilterKind, FilterMask, MaskFilter};
+use crate::tables::BinaryFilterParams;
 use crate::{CellWindow, Costmap, Layer, UpdateBounds, UpdateContext};
 
 /// Filter that publishes a state by the mask value at the robot.
 pub struct BinaryFilter {
     name: String,
     values: ParamValues,
-    is_enabled: bool,
-    default_state: bool,
+    params: BinaryFilterParams,
     info: Option<FilterInfo>,
     mask: Option<FilterMask>,
     state: bool,
@@ -27,16 +27,15 @@ impl BinaryFilter {
     /// published at startup.
     #[must_use]
     pub fn new(name: impl Into<String>, values: ParamValues) -> Self {
-        let default_state = values.flag("default_state").unwrap_or_default();
+        let params = BinaryFilterParams::from_values(&values);
         Self {
             name: name.into(),
-            is_enabled: values.flag("enabled").unwrap_or_default(),
             values,
-            default_state,
             info: None,
             mask: None,
-            state: default_state,
-            outgoing: Some(default_state),
+            state: params.default_state,
+            outgoing: Some(params.default_state),
+            params,
             diagnostics: Vec::new(),
         }
     }
@@ -83,13 +82,13 @@ impl Layer for BinaryFilter {
 
     fn costs(&mut self, moment: &UpdateContext<'_>, _master: &mut Costmap, _window: CellWindow) {
         let (Some(mask), Some(info)) = (&self.mask, &self.info) else { return };
-        if !self.is_enabled {
+        if !self.params.filter.is_enabled {
             return;
         }
         let Some(mask_from_global) = mask.placed(moment) else { return };
         let Some(cell) = mask.cell_of(mask_from_global, moment.robot) else {
-            if self.state != self.default_state {
-                self.change(self.default_state);
+            if self.state != self.params.default_state {
+                self.change(self.params.default_state);
             }
             return;
         };
@@ -97,19 +96,19 @@ impl Layer for BinaryFilter {
         if number == periplus_grid::occupancy::UNKNOWN {
             return;
         }
-        let threshold = self.values.number("flip_threshold").unwrap_or_default();
-        let state = (info.value(number) > threshold) != self.default_state;
+        let threshold = self.params.flip_threshold;
+        let state = (info.value(number) > threshold) != self.params.default_state;
         if state != self.state {
             self.change(state);
         }
     }
 
     fn reset(&mut self) {
-        self.change(self.default_state);
+        self.change(self.params.default_state);
     }
 
     fn is_enabled(&self) -> bool {
-        self.is_enabled
+        self.params.filter.is_enabled
     }
 
     fn values(&self) -> Option<&ParamValues> {
@@ -117,8 +116,7 @@ impl Layer for BinaryFilter {
     }
 
     fn configure(&mut self, values: ParamValues) -> Result<(), String> {
-        self.is_enabled = values.flag("enabled").unwrap_or_default();
-        self.default_state = values.flag("default_state").unwrap_or_default();
+        self.params = BinaryFilterParams::from_values(&values);
         self.values = values;
         Ok(())
     }

@@ -10,6 +10,7 @@ use periplus_params::ParamValues;
 use super::mask::filter_info_error;
 use super::{FilterInfo, FilterKind, FilterMask, MaskFilter};
 use crate::cost::{INSCRIBED, LETHAL, UNKNOWN, cost_of};
+use crate::tables::KeepoutFilterParams;
 use crate::{CellWindow, Costmap, Explanation, Layer, UpdateBounds, UpdateContext};
 
 /// Filter that raises costs to those of a mask.
@@ -47,12 +48,12 @@ impl KeepoutFilter {
     }
 
     fn take(&mut self, values: ParamValues) {
-        let flag = |name: &str| values.flag(name).unwrap_or_default();
-        self.is_enabled = flag("enabled");
-        let cost = values.integer("lethal_override_cost").unwrap_or(252);
+        let params = KeepoutFilterParams::from_values(&values);
+        self.is_enabled = params.filter.is_enabled;
+        let cost = params.lethal_override_cost;
         // Negative values wrap to large unsigned ones before they are limited.
         let cost = if (0..=252).contains(&cost) { cost as u8 } else { 252 };
-        self.leaving_cost = flag("override_lethal_cost").then_some(cost);
+        self.leaving_cost = params.override_lethal_cost.then_some(cost);
         self.values = values;
         self.has_changed = true;
     }

@@ -8,6 +8,7 @@ use periplus_params::ParamValues;
 
 use super::mask::filter_info_error;
 use super::{FilterInfo, FilterKind, FilterMask, MaskFilter};
+use crate::tables::SpeedFilterParams;
 use crate::{CellWindow, Costmap, Layer, UpdateBounds, UpdateContext};
 
 /// Speed limit.
@@ -23,7 +24,7 @@ pub struct SpeedLimit {
 pub struct SpeedFilter {
     name: String,
     values: ParamValues,
-    is_enabled: bool,
+    params: SpeedFilterParams,
     info: Option<FilterInfo>,
     mask: Option<FilterMask>,
     /// Path of the robot in the global frame \[m\], and the index of the nearest segment.
@@ -45,7 +46,7 @@ impl SpeedFilter {
     pub fn new(name: impl Into<String>, values: ParamValues) -> Self {
         Self {
             name: name.into(),
-            is_enabled: values.flag("enabled").unwrap_or_default(),
+            params: SpeedFilterParams::from_values(&values),
             values,
             info: None,
             mask: None,
@@ -100,10 +101,9 @@ impl SpeedFilter {
     /// Returns the lowest limit from the robot along the path, or the reason for which the mask has
     /// none at the robot.
     fn limit_ahead(&mut self, moment: &UpdateContext<'_>) -> Result<f64, &'static str> {
-        let number = |name: &str| self.values.number(name).unwrap_or_default();
-        let shortest_m = number("min_lookahead").max(0.0);
-        let longest_m = number("max_lookahead").max(shortest_m);
-        let slowing_m_s2 = number("max_decel");
+        let shortest_m = self.params.min_lookahead_m.max(0.0);
+        let longest_m = self.params.max_lookahead_m.max(shortest_m);
+        let slowing_m_s2 = self.params.max_decel_m_s2;
         let mut reach_m = longest_m;
         if slowing_m_s2 < 0.0 {
             let braking_m = self.speed_m_s * self.speed_m_s / (2.0 * -slowing_m_s2);
@@ -197,11 +197,10 @@ impl Layer for SpeedFilter {
     fn bounds(&mut self, _moment: &UpdateContext<'_>, _bounds: &mut UpdateBounds) {}
 
     fn costs(&mut self, moment: &UpdateContext<'_>, _master: &mut Costmap, _window: CellWindow) {
-        if !self.is_enabled || self.mask.is_none() || self.info.is_none() {
+        if !self.params.filter.is_enabled || self.mask.is_none() || self.info.is_none() {
             return;
         }
-        let looks_ahead = moment.compat.looks_ahead_on_paths()
-            && self.values.flag("enable_path_lookahead").unwrap_or_default();
+        let looks_ahead = moment.compat.looks_ahead_on_paths() && self.params.enable_path_lookahead;
         let limit = if looks_ahead && !self.path.is_empty() {
             self.limit_ahead(moment)
         } else {
@@ -220,7 +219,7 @@ impl Layer for SpeedFilter {
     }
 
     fn is_enabled(&self) -> bool {
-        self.is_enabled
+        self.params.filter.is_enabled
     }
 
     fn values(&self) -> Option<&ParamValues> {
@@ -228,7 +227,7 @@ impl Layer for SpeedFilter {
     }
 
     fn configure(&mut self, values: ParamValues) -> Result<(), String> {
-        self.is_enabled = values.flag("enabled").unwrap_or_default();
+        self.params = SpeedFilterParams::from_values(&values);
         self.values = values;
         Ok(())
     }

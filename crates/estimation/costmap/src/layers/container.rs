@@ -11,6 +11,7 @@ use periplus_params::ParamValues;
 use crate::clear::clear_cells;
 use crate::cost::UNKNOWN;
 use crate::layer::is_settled;
+use crate::tables::ContainerLayerParams;
 use crate::{
     CellWindow, Combination, Costmap, Explanation, Footprint, Layer, Nav2Release, UpdateBounds,
     UpdateContext,
@@ -50,9 +51,9 @@ impl ContainerLayer {
     }
 
     fn take(&mut self, values: ParamValues) {
-        self.is_enabled = values.flag("enabled").unwrap_or_default();
-        self.combination =
-            Combination::from_number(values.integer("combination_method").unwrap_or(1));
+        let params = ContainerLayerParams::from_values(&values);
+        self.is_enabled = params.layer.is_enabled;
+        self.combination = Combination::from_number(params.combination.method);
         self.values = values;
     }
 }

@@ -7,6 +7,7 @@ use periplus_grid::Cell;
 use periplus_params::ParamValues;
 
 use crate::cost::{FREE, INSCRIBED, LETHAL, UNKNOWN};
+use crate::tables::DenoiseLayerParams;
 use crate::{CellWindow, Costmap, Explanation, Layer, UpdateBounds, UpdateContext};
 
 /// Frees groups of obstacle cells with fewer than `smallest` cells. Neighbouring cells form a
@@ -104,26 +105,27 @@ impl DenoiseLayer {
     }
 
     fn take(&mut self, values: ParamValues) {
-        self.is_enabled = values.flag("enabled").unwrap_or_default();
-        let asked = values.integer("minimal_group_size").unwrap_or(2);
+        let params = DenoiseLayerParams::from_values(&values);
+        self.is_enabled = params.layer.is_enabled;
+        let asked = params.minimal_group_size;
         self.smallest = usize::try_from(asked).unwrap_or(1).max(1);
         if asked <= 1 {
             self.warn(
                 &values,
                 "minimal_group_size",
+                asked,
                 "keeps every obstacle, so the layer has no effect",
             );
         }
-        let ways = values.integer("group_connectivity_type").unwrap_or(8);
+        let ways = params.group_connectivity_type;
         self.diagonally = ways != 4;
         if ways != 4 && ways != 8 {
-            self.warn(&values, "group_connectivity_type", "is neither 4 nor 8; 8 is used");
+            self.warn(&values, "group_connectivity_type", ways, "is neither 4 nor 8; 8 is used");
         }
         self.values = values;
     }
 
-    fn warn(&mut self, values: &ParamValues, parameter: &str, what: &str) {
-        let value = values.integer(parameter).unwrap_or_default();
+    fn warn(&mut self, values: &ParamValues, parameter: &str, value: i64, what: &str) {
         self.diagnostics.push(
             Diagnostic::warning(
                 "bad-value",

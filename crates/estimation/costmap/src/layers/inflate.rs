@@ -8,6 +8,7 @@ use periplus_params::ParamValues;
 
 use crate::cost::{LETHAL, UNKNOWN};
 use crate::inflation::{CostTable, InflationBuffers, InflationSettings, inflate};
+use crate::tables::InflationLayerParams;
 use crate::{
     CellWindow, Costmap, Explanation, Footprint, Layer, Nav2Release, UpdateBounds, UpdateContext,
 };
@@ -16,8 +17,7 @@ use crate::{
 pub struct InflationLayer {
     name: String,
     values: ParamValues,
-    is_enabled: bool,
-    radius_m: f64,
+    params: InflationLayerParams,
     how: InflationSettings,
     /// Inscribed radius of the footprint, without `custom_inscribed_radius` \[m\].
     inscribed_radius_m: f64,
@@ -39,8 +39,7 @@ impl InflationLayer {
         let mut layer = Self {
             name: name.into(),
             values: values.clone(),
-            is_enabled: true,
-            radius_m: 0.0,
+            params: InflationLayerParams::from_values(&values),
             how: InflationSettings::default(),
             inscribed_radius_m: 0.0,
             resolution_m: 1.0,
@@ -58,30 +57,31 @@ impl InflationLayer {
     }
 
     fn take(&mut self, values: ParamValues) {
-        let flag = |name: &str| values.flag(name).unwrap_or_default();
-        self.is_enabled = flag("enabled");
-        self.radius_m = values.number("inflation_radius").unwrap_or_default();
+        self.params = InflationLayerParams::from_values(&values);
         self.how = InflationSettings {
-            into_unknown: flag("inflate_unknown"),
-            around_unknown: flag("inflate_around_unknown"),
+            into_unknown: self.params.inflate_unknown,
+            around_unknown: self.params.inflate_around_unknown,
         };
         self.values = values;
         self.rebuild_table();
     }
 
     fn rebuild_table(&mut self) {
-        let scaling = self.values.number("cost_scaling_factor").unwrap_or_default();
+        let scaling = self.params.cost_scaling_factor;
         let inscribed_m = self.inscribed_m();
-        self.table =
-            CostTable::new(self.resolution_m, self.radius_m, inscribed_m, scaling, self.compat);
+        self.table = CostTable::new(
+            self.resolution_m,
+            self.params.inflation_radius_m,
+            inscribed_m,
+            scaling,
+            self.compat,
+        );
         self.must_redo = true;
     }
 
     fn inscribed_m(&self) -> f64 {
-        match self.values.number("custom_inscribed_radius") {
-            Some(custom_m) if custom_m >= 0.0 => custom_m,
-            _ => self.inscribed_radius_m,
-        }
+        let custom_m = self.params.custom_inscribed_radius_m;
+        if custom_m >= 0.0 { custom_m } else { self.inscribed_radius_m }
     }
 
     /// Returns the table of costs.
@@ -107,12 +107,12 @@ impl Layer for InflationLayer {
         } else {
             // Costs around removed obstacles must be removed as well.
             bounds.include(&last);
-            *bounds = bounds.grown(self.radius_m);
+            *bounds = bounds.grown(self.params.inflation_radius_m);
         }
     }
 
     fn costs(&mut self, _moment: &UpdateContext<'_>, master: &mut Costmap, window: CellWindow) {
-        if self.is_enabled && self.table.radius_cells() > 0 {
+        if self.params.layer.is_enabled && self.table.radius_cells() > 0 {
             inflate(master, &window, &self.table, self.how, &mut self.scratch);
             self.is_waiting = false;
         }
@@ -128,21 +128,24 @@ impl Layer for InflationLayer {
     }
 
     fn is_enabled(&self) -> bool {
-        self.is_enabled
+        self.params.layer.is_enabled
     }
 
     fn footprint_changed(&mut self, footprint: &Footprint) {
         self.inscribed_radius_m = footprint.inscribed_radius_m;
         self.rebuild_table();
         let inscribed_m = self.inscribed_m();
-        if self.radius_m > 0.0 && self.radius_m < inscribed_m && inscribed_m < f64::MAX {
+        if self.params.inflation_radius_m > 0.0
+            && self.params.inflation_radius_m < inscribed_m
+            && inscribed_m < f64::MAX
+        {
             self.diagnostics.push(
                 Diagnostic::warning(
                     "inflation-too-small",
                     format!(
                         "`{}.inflation_radius` is {} m, less than the robot's inscribed radius of \
                          {inscribed_m:.3} m",
-                        self.name, self.radius_m
+                        self.name, self.params.inflation_radius_m
                     ),
                 )
                 .at(self.values.origin("inflation_radius"))

@@ -4,12 +4,13 @@
 
 use periplus_diagnostics::Diagnostic;
 use periplus_grid::{Cell, GridInfo};
-use periplus_params::ParamValues;
+use periplus_params::{ParamValues, Params as _};
 
 use crate::clear::clear_cells;
 use crate::cost::{FREE, LETHAL, UNKNOWN};
 use crate::observation::RangeLimits;
 use crate::polygon::PolygonColumns;
+use crate::tables::ObservationLayerParams;
 use crate::trace::ReadingTrace;
 use crate::{
     CellWindow, Combination, Costmap, Explanation, Nav2Release, ObservationSource, UpdateBounds,
@@ -64,15 +65,14 @@ impl ObservationLayer {
     }
 
     pub(crate) fn configure(&mut self, values: ParamValues) {
-        let number = |name: &str| values.number(name).unwrap_or_default();
-        let flag = |name: &str| values.flag(name).unwrap_or_default();
-        self.is_enabled = flag("enabled");
-        self.clears_footprint = flag("footprint_clearing_enabled");
+        let params = ObservationLayerParams::from_values(&values);
+        self.is_enabled = params.layer.is_enabled;
+        self.clears_footprint = params.footprint_clearing_enabled;
         self.heights = RangeLimits {
-            min_m: number("min_obstacle_height"),
-            max_m: number("max_obstacle_height"),
+            min_m: params.min_obstacle_height_m,
+            max_m: params.max_obstacle_height_m,
         };
-        let method = values.integer("combination_method").unwrap_or(1);
+        let method = params.combination.method;
         self.combination = Combination::from_number(method);
         self.is_late_combination = !(0..=1).contains(&method);
         if !(0..=2).contains(&method) {

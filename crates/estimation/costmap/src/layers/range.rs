@@ -12,6 +12,7 @@ use periplus_params::ParamValues;
 
 use crate::clear::clear_cells;
 use crate::cost::{FREE, LETHAL, UNKNOWN};
+use crate::tables::RangeLayerParams;
 use crate::{CellWindow, Costmap, Explanation, Layer, Nav2Release, UpdateBounds, UpdateContext};
 
 /// Cost of the cell of a reading from which the reading counts as seen.
@@ -97,11 +98,8 @@ fn as_cost(probability: f64) -> u8 {
 pub struct RangeLayer {
     name: String,
     values: ParamValues,
-    is_enabled: bool,
+    params: RangeLayerParams,
     kind: Kind,
-    phi_m: f64,
-    inflate_cone: f64,
-    clears_on_max: bool,
     silence_ns: i64,
     grid: Costmap,
     /// Counts of readings by result.
@@ -123,11 +121,8 @@ impl RangeLayer {
         let mut layer = Self {
             name: name.into(),
             values: values.clone(),
-            is_enabled: true,
+            params: RangeLayerParams::from_values(&values),
             kind: Kind::All,
-            phi_m: 0.0,
-            inflate_cone: 1.0,
-            clears_on_max: false,
             silence_ns: 0,
             grid: Costmap::empty(as_cost(0.5)),
             counters: RangeCounters::default(),
@@ -144,13 +139,9 @@ impl RangeLayer {
     }
 
     fn take(&mut self, values: ParamValues) {
-        let number = |name: &str| values.number(name).unwrap_or_default();
-        self.is_enabled = values.flag("enabled").unwrap_or_default();
-        self.phi_m = number("phi");
-        self.inflate_cone = number("inflate_cone");
-        self.clears_on_max = values.flag("clear_on_max_reading").unwrap_or_default();
-        self.silence_ns = libm::round(number("no_readings_timeout") * 1e9) as i64;
-        let kind = values.text("input_sensor_type").unwrap_or_default();
+        self.params = RangeLayerParams::from_values(&values);
+        self.silence_ns = libm::round(self.params.no_readings_timeout_s * 1e9) as i64;
+        let kind = &self.params.input_sensor_type;
         self.kind = match kind.to_ascii_uppercase().as_str() {
             "VARIABLE" => Kind::Variable,
             "FIXED" => Kind::Fixed,
@@ -196,7 +187,7 @@ impl RangeLayer {
                 return false;
             }
             is_clear = reading.range_m > 0.0;
-            if is_clear && !self.clears_on_max {
+            if is_clear && !self.params.clear_on_max_reading {
                 return false;
             }
             reading.range_m = reading.min_range_m;
@@ -207,7 +198,7 @@ impl RangeLayer {
             if !is_inside {
                 return false;
             }
-            is_clear = reading.range_m >= reading.max_range_m && self.clears_on_max;
+            is_clear = reading.range_m >= reading.max_range_m && self.params.clear_on_max_reading;
         }
         self.put(&reading, is_clear);
         true
@@ -256,7 +247,7 @@ impl RangeLayer {
         let window = cone.window(&info);
         for x in window.x0..window.xn {
             for y in window.y0..window.yn {
-                if self.inflate_cone < 1.0 && !cone.holds((x, y), self.inflate_cone) {
+                if self.params.inflate_cone < 1.0 && !cone.holds((x, y), self.params.inflate_cone) {
                     continue;
                 }
                 let (x_m, y_m) = info.centre_of((x, y));
@@ -272,7 +263,7 @@ impl RangeLayer {
                         distance_m,
                         angle_rad,
                         half_angle_rad,
-                        self.phi_m,
+                        self.params.phi_m,
                         info.resolution_m,
                     )
                 };
@@ -364,12 +355,12 @@ impl Layer for RangeLayer {
     }
 
     fn costs(&mut self, _moment: &UpdateContext<'_>, master: &mut Costmap, window: CellWindow) {
-        if !self.is_enabled {
+        if !self.params.layer.is_enabled {
             return;
         }
         self.is_waiting = false;
-        let threshold = |name: &str| as_cost(self.values.number(name).unwrap_or_default());
-        let (mark, clear) = (threshold("mark_threshold"), threshold("clear_threshold"));
+        let mark = as_cost(self.params.mark_threshold);
+        let clear = as_cost(self.params.clear_threshold);
         for span in window.spans(self.grid.info().width) {
             let olds = &mut master.costs_mut()[span.clone()];
             for (old, probability) in olds.iter_mut().zip(&self.grid.costs()[span]) {
@@ -418,7 +409,7 @@ impl Layer for RangeLayer {
     }
 
     fn is_enabled(&self) -> bool {
-        self.is_enabled
+        self.params.layer.is_enabled
     }
 
     fn is_current(&self, now_ns: i64) -> bool {
@@ -446,8 +437,7 @@ impl Layer for RangeLayer {
     fn explain(&self, _master: &Costmap, cell: Cell, _is_rolling: bool) -> Explanation {
         let Some(value) = self.grid.cost(cell) else { return Explanation::default() };
         let probability = f64::from(value) / f64::from(LETHAL);
-        let threshold = |name: &str| self.values.number(name).unwrap_or_default();
-        let (mark, clear) = (threshold("mark_threshold"), threshold("clear_threshold"));
+        let (mark, clear) = (self.params.mark_threshold, self.params.clear_threshold);
         let (value, parameter) = match value {
             value if value > as_cost(mark) => (Some(LETHAL), "mark_threshold"),
             value if value < as_cost(clear) => (Some(FREE), "clear_threshold"),

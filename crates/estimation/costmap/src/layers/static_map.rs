@@ -11,6 +11,7 @@ use periplus_params::ParamValues;
 use crate::cost::{FREE, INSCRIBED, LETHAL, UNKNOWN};
 use crate::costmap::half_size_m;
 use crate::polygon::PolygonColumns;
+use crate::tables::{CostmapParams, StaticLayerParams};
 use crate::{
     CellWindow, Combination, Costmap, Explanation, Layer, Nav2Release, UpdateBounds, UpdateContext,
 };
@@ -42,17 +43,16 @@ impl MapMeaning {
     /// Converts parameters of [`crate::tables::COSTMAP`].
     #[must_use]
     pub fn read(values: &ParamValues, compat: Nav2Release) -> Self {
-        let flag = |name: &str| values.flag(name).unwrap_or_default();
-        let integer = |name: &str| values.integer(name).unwrap_or_default();
+        let params = CostmapParams::from_values(values);
         Self {
-            tracks_unknown: flag("track_unknown_space"),
-            unknown_value: integer("unknown_cost_value"),
-            lethal_threshold: integer("lethal_cost_threshold").clamp(0, 100),
-            is_trinary: flag("trinary_costmap"),
+            tracks_unknown: params.track_unknown_space,
+            unknown_value: params.unknown_cost_value,
+            lethal_threshold: params.lethal_cost_threshold.clamp(0, 100),
+            is_trinary: params.trinary_costmap,
             inscribed_value: compat
                 .knows_inscribed_maps()
-                .then(|| integer("inscribed_obstacle_cost_value")),
-            uses_maximum: flag("use_maximum"),
+                .then_some(params.inscribed_obstacle_cost_value),
+            uses_maximum: params.use_maximum,
         }
     }
 
@@ -132,11 +132,11 @@ impl StaticLayer {
     }
 
     fn take(&mut self, values: ParamValues) {
-        let flag = |name: &str| values.flag(name).unwrap_or_default();
-        self.is_enabled = flag("enabled");
+        let params = StaticLayerParams::from_values(&values);
+        self.is_enabled = params.layer.is_enabled;
         self.restores_footprint =
-            self.compat.restores_cleared_footprint() && flag("restore_cleared_footprint");
-        self.clears_footprint = flag("footprint_clearing_enabled");
+            self.compat.restores_cleared_footprint() && params.restore_cleared_footprint;
+        self.clears_footprint = params.footprint_clearing_enabled;
         self.values = values;
         self.has_changed = true;
     }

@@ -11,6 +11,7 @@ use super::obstacle::touch_ray;
 use super::ray_dedup::RayDeduplicator;
 use crate::cost::{FREE, LETHAL, UNKNOWN};
 use crate::observation::{Counters, RangeLimits};
+use crate::tables::VoxelLayerParams;
 use crate::trace::TraceWriter;
 use crate::voxel_grid::{MAX_VOXEL_COUNT, Voxel, VoxelGrid, marked, unknown};
 use crate::{
@@ -35,19 +36,17 @@ struct VoxelColumns {
 }
 
 impl VoxelColumns {
-    fn read(values: &ParamValues) -> Self {
-        let number = |name: &str| values.number(name).unwrap_or_default();
-        let count = |name: &str| {
-            u32::try_from(values.integer(name).unwrap_or_default()).unwrap_or_default()
-        };
-        let height = count("z_voxels").min(MAX_VOXEL_COUNT);
+    fn new(params: &VoxelLayerParams) -> Self {
+        let count = |count: usize| u32::try_from(count).unwrap_or_default();
+        let height = count(params.z_voxels).min(MAX_VOXEL_COUNT);
         Self {
-            origin_z_m: number("origin_z"),
-            z_resolution_m: number("z_resolution"),
+            origin_z_m: params.origin_z_m,
+            z_resolution_m: params.z_resolution_m,
             height,
             // Voxels above the grid are always unknown and must not count.
-            unknown_threshold: count("unknown_threshold").saturating_add(MAX_VOXEL_COUNT - height),
-            mark_threshold: count("mark_threshold"),
+            unknown_threshold: count(params.unknown_threshold)
+                .saturating_add(MAX_VOXEL_COUNT - height),
+            mark_threshold: count(params.mark_threshold),
         }
     }
 
@@ -73,6 +72,7 @@ impl VoxelColumns {
 /// column.
 pub struct VoxelLayer {
     observed: ObservationLayer,
+    params: VoxelLayerParams,
     columns: VoxelColumns,
     voxels: VoxelGrid,
     ray_dedup: RayDeduplicator,
@@ -90,11 +90,13 @@ impl VoxelLayer {
         tracks_unknown: bool,
         sources: Vec<ObservationSource>,
     ) -> Self {
-        let columns = VoxelColumns::read(&values);
+        let params = VoxelLayerParams::from_values(&values);
+        let columns = VoxelColumns::new(&params);
         let observed = ObservationLayer::new(name.into(), values, tracks_unknown, sources);
         let voxels = VoxelGrid::new(*observed.grid.info(), columns.height);
         let mut layer = Self {
             observed,
+            params,
             columns,
             voxels,
             ray_dedup: RayDeduplicator::default(),
@@ -105,9 +107,8 @@ impl VoxelLayer {
     }
 
     fn warn_voxel_count(&mut self) {
-        let values = &self.observed.values;
-        let asked = values.integer("z_voxels").unwrap_or_default();
-        if asked > i64::from(MAX_VOXEL_COUNT) {
+        let asked = self.params.z_voxels;
+        if asked > MAX_VOXEL_COUNT as usize {
             self.observed.diagnostics.push(
                 Diagnostic::warning(
                     "too-many-voxels",
@@ -116,7 +117,7 @@ impl VoxelLayer {
                         self.observed.name
                     ),
                 )
-                .at(values.origin("z_voxels"))
+                .at(self.observed.values.origin("z_voxels"))
                 .help("to reach as high, raise `z_resolution`"),
             );
         }
@@ -153,7 +154,7 @@ impl VoxelLayer {
     /// Returns true if voxels are published.
     #[must_use]
     pub fn publishes_voxels(&self) -> bool {
-        self.observed.values.flag("publish_voxel_map").unwrap_or_default()
+        self.params.publish_voxel_map
     }
 
     /// Enables recording of ray ends.
@@ -249,13 +250,14 @@ impl Layer for VoxelLayer {
     }
 
     fn configure(&mut self, values: ParamValues) -> Result<(), String> {
-        if values.flag("publish_voxel_map") != self.observed.values.flag("publish_voxel_map") {
+        let params = VoxelLayerParams::from_values(&values);
+        if params.publish_voxel_map != self.params.publish_voxel_map {
             return Err("`publish_voxel_map` cannot be changed while the costmap runs".into());
         }
-        let columns = VoxelColumns::read(&values);
+        let columns = VoxelColumns::new(&params);
         let is_same = (columns.height, columns.origin_z_m, columns.z_resolution_m)
             == (self.columns.height, self.columns.origin_z_m, self.columns.z_resolution_m);
-        self.columns = columns;
+        (self.columns, self.params) = (columns, params);
         self.observed.configure(values);
         self.warn_voxel_count();
         if !is_same {

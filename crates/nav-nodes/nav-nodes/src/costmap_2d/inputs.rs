@@ -5,6 +5,9 @@ mod filters;
 use std::sync::Arc;
 
 use periplus_costmap::layers::{RangeLayer, RangeReading, StaticLayer};
+use periplus_costmap::tables::{
+    FilterParams, RangeLayerParams, SpeedFilterParams, StaticLayerParams,
+};
 use periplus_costmap::{
     CellWindow, CostmapConfig, DataType, Layer as _, LayerConfig, LayerKind, LayeredCostmap,
     Nav2Release, ObservationSource, Projector, ScanGeometry,
@@ -15,6 +18,7 @@ use periplus_graph::{GraphError, Mailbox, Node, Qos};
 use periplus_msgs::sensor_msgs::{LaserScan, PointCloud2, Range};
 use periplus_msgs::std_msgs::Header;
 use periplus_msgs::{map_msgs, nav_msgs};
+use periplus_params::Params as _;
 use periplus_tf_ros::{FilterOrder, FilterSettings, MessageFilter};
 
 use crate::costmap_2d::clouds;
@@ -78,7 +82,7 @@ impl Inputs {
         }
         let namespace = node.names().namespace().to_owned();
         let place = Place { node, namespace: &namespace, compat: config.compat };
-        let shared_map = config.node.text("map_topic").unwrap_or_default();
+        let shared_map = config.params().map_topic;
         for layer in layers {
             if let Err(error) = inputs.listen(&place, layer, &shared_map) {
                 errors.push(error);
@@ -93,17 +97,16 @@ impl Inputs {
         layer: &LayerConfig,
         shared_map: &str,
     ) -> Result<(), GraphError> {
-        let text = |name: &str| layer.values.text(name).unwrap_or_default();
-        let flag = |name: &str| layer.values.flag(name).unwrap_or_default();
         match layer.kind {
             LayerKind::Static => {
-                let own = text("map_topic");
-                let topic = [own.as_str(), shared_map, "map"];
+                let params = StaticLayerParams::from_values(&layer.values);
+                let topic = [params.map_topic.as_str(), shared_map, "map"];
                 let topic = topic.into_iter().find(|topic| !topic.is_empty()).unwrap_or("map");
                 let topic = place.resolve(topic);
-                let is_latched = flag("map_subscribe_transient_local");
+                let is_latched = params.map_subscribe_transient_local;
                 let qos = if is_latched { Qos::latched(3) } else { Qos::reliable(10) };
-                let updates = flag("subscribe_to_updates")
+                let updates = params
+                    .subscribe_to_updates
                     .then(|| place.node.mailbox(&format!("{topic}_updates"), Qos::reliable(50)));
                 self.maps.push(MapPort {
                     layer: layer.name.clone(),
@@ -113,7 +116,7 @@ impl Inputs {
             }
             LayerKind::Range => {
                 let mut ranges = Vec::new();
-                for topic in layer.values.texts("topics") {
+                for topic in RangeLayerParams::from_values(&layer.values).topics {
                     ranges.push(place.node.mailbox(&place.resolve(&topic), Qos::best_effort(50))?);
                 }
                 let (layer, waiting) = (layer.name.clone(), Waiting::default());
@@ -142,14 +145,18 @@ impl Inputs {
                 }
             }
             kind if kind.is_filter() => {
-                let topic = text("filter_info_topic");
+                let topic = FilterParams::from_values(&layer.values).filter_info_topic;
                 if topic.is_empty() {
                     return Ok(());
                 }
                 self.filters.push(FilterPort::new(place, &layer.name, &topic)?);
-                if kind == LayerKind::Speed && flag("enable_path_lookahead") {
-                    let (path, odom) = (text("path_topic"), text("odom_topic"));
-                    self.speeds.push(SpeedPort::new(place, &layer.name, &path, &odom)?);
+                if kind != LayerKind::Speed {
+                    return Ok(());
+                }
+                let params = SpeedFilterParams::from_values(&layer.values);
+                if params.enable_path_lookahead {
+                    let (path, odom) = (&params.path_topic, &params.odom_topic);
+                    self.speeds.push(SpeedPort::new(place, &layer.name, path, odom)?);
                 }
             }
             _ => {}

@@ -1,5 +1,6 @@
 //! Costmap node.
 
+use periplus_costmap::tables::CostmapParams;
 use periplus_costmap::{Advice, CellReport, CostmapConfig, Footprint, LayerConfig, LayeredCostmap};
 use periplus_diagnostics::{Diagnostic, SourceMap};
 use periplus_geometry::Pose2;
@@ -44,6 +45,8 @@ pub struct CostmapNode {
     node: Node,
     /// Parameters of the node and of all layers.
     config: CostmapConfig,
+    /// Parameters of the node.
+    params: CostmapParams,
     pub(crate) costmap: Option<LayeredCostmap>,
     pub(crate) tf: Listener,
     inputs: Inputs,
@@ -106,9 +109,10 @@ impl CostmapNode {
     /// When a topic of that name has another type.
     pub fn at(node: Node, config: CostmapConfig) -> Result<LifecycleNode<Self>, GraphError> {
         let name = node.names().name().to_owned();
-        let hertz = config.node.number("update_frequency").unwrap_or_default();
+        let params = config.params();
         let forms = config.forms;
-        let is_stamped = config.node.flag("subscribe_to_stamped_footprint").unwrap_or_default();
+        let (is_stamped, hertz) =
+            (params.subscribe_to_stamped_footprint, params.update_frequency_hz);
         let values = node_values(&config);
         let names =
             |layers: &[LayerConfig]| layers.iter().map(|layer| layer.name.clone()).collect();
@@ -116,6 +120,7 @@ impl CostmapNode {
         let state = Self {
             node: node.clone(),
             config,
+            params,
             costmap: None,
             tf: Listener::new(&node)?,
             inputs: Inputs::default(),
@@ -152,7 +157,7 @@ impl CostmapNode {
     /// Returns true if the parameters select the time of `/clock`.
     #[must_use]
     pub fn uses_simulated_time(&self) -> bool {
-        self.config.node.flag("use_sim_time").unwrap_or_default()
+        self.params.use_sim_time
     }
 
     /// The costmap, once it is configured.
@@ -219,7 +224,7 @@ impl CostmapNode {
         let scene = Scene { tf: &self.tf, global_frame: &global_frame, now_ns };
         let mut complaints = self.inputs.take(costmap, &scene, node, self.config.compat);
         if let Some(points) = self.outlines.latest() {
-            let padding_m = self.config.node.number("footprint_padding").unwrap_or_default();
+            let padding_m = self.params.footprint_padding_m;
             if points.len() >= 3 {
                 costmap.set_footprint(Footprint::new(points).padded(padding_m));
             } else {
@@ -231,7 +236,7 @@ impl CostmapNode {
         }
         // A received map sets the size even before the pose of the robot is known.
         costmap.apply_requested_size();
-        match robot(&self.tf, &self.config.node, now_ns) {
+        match robot(&self.tf, &self.params, &self.config.node, now_ns) {
             Ok(robot) => {
                 self.trouble = None;
                 self.robot = Some(robot);
@@ -242,14 +247,14 @@ impl CostmapNode {
                 self.updates += 1;
                 complaints.extend(costmap.diagnostics().iter().cloned());
                 outputs.publish_each(costmap, now_ns);
-                let hertz = self.config.node.number("publish_frequency").unwrap_or_default();
+                let hertz = self.params.publish_frequency_hz;
                 let is_due = self
                     .published_ns
                     .is_none_or(|last_ns| (now_ns - last_ns) as f64 * hertz >= 1e9 - 1.0);
                 if hertz > 0.0 && is_due {
                     self.published_ns = Some(now_ns);
                     let outline = costmap.footprint().placed(robot);
-                    outputs.publish_grids(costmap, &self.config, &outline, now_ns);
+                    outputs.publish_grids(costmap, &self.params, &outline, now_ns);
                 }
             }
             Err(trouble) => {
@@ -343,6 +348,7 @@ impl CostmapNode {
             }
         }
         self.config.node = split(all, "", &self.config.node);
+        self.params = self.config.params();
         layers(&mut self.config.layers, all);
         layers(&mut self.config.filters, all);
     }
@@ -408,12 +414,16 @@ fn change_layer(
 }
 
 /// Returns the current `global_from_base`.
-fn robot(tf: &Listener, node: &ParamValues, now_ns: i64) -> Result<Pose2, Box<Diagnostic>> {
-    let text = |name: &str| node.text(name).unwrap_or_default();
-    let (global, base) = (text("global_frame"), text("robot_base_frame"));
-    let (pose, time_ns) = tf.at(&global, &base, 0).map_err(|why| {
-        let missing = if tf.has(&base) { &global } else { &base };
-        let parameter = if tf.has(&base) { "global_frame" } else { "robot_base_frame" };
+fn robot(
+    tf: &Listener,
+    params: &CostmapParams,
+    node: &ParamValues,
+    now_ns: i64,
+) -> Result<Pose2, Box<Diagnostic>> {
+    let (global, base) = (&params.global_frame, &params.robot_base_frame);
+    let (pose, time_ns) = tf.at(global, base, 0).map_err(|why| {
+        let missing = if tf.has(base) { global } else { base };
+        let parameter = if tf.has(base) { "global_frame" } else { "robot_base_frame" };
         let missing_pose = Diagnostic::error(
             "no-robot-pose",
             format!("waiting for the transform from `{base}` to `{global}`: {why}"),
@@ -431,7 +441,7 @@ fn robot(tf: &Listener, node: &ParamValues, now_ns: i64) -> Result<Pose2, Box<Di
             }),
         )
     })?;
-    let tolerance_s = node.number("transform_tolerance").unwrap_or_default();
+    let tolerance_s = params.transform_tolerance_s;
     let age_s = (now_ns - time_ns) as f64 / 1e9;
     // Time zero is that of static transforms.
     if time_ns != 0 && age_s > tolerance_s {

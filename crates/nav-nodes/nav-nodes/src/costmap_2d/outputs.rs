@@ -4,6 +4,9 @@ use std::collections::BTreeMap;
 
 use periplus_costmap::filters::{BinaryFilter, SpeedFilter};
 use periplus_costmap::layers::VoxelLayer;
+use periplus_costmap::tables::{
+    BinaryFilterParams, CostmapParams, SpeedFilterParams, VoxelLayerParams,
+};
 use periplus_costmap::{
     CellWindow, Costmap, CostmapConfig, CostmapMessage, LayerKind, LayeredCostmap, PublicationState,
 };
@@ -109,10 +112,7 @@ impl Outputs {
         };
         for layer in config.layers.iter().chain(&config.filters) {
             let name = layer.name.clone();
-            let topic = |parameter: &str| {
-                let topic = layer.values.text(parameter).unwrap_or_default();
-                resolve(&topic, &namespace, config.compat)
-            };
+            let topic = |topic: &str| resolve(topic, &namespace, config.compat);
             let has_grid = matches!(
                 layer.kind,
                 LayerKind::Static
@@ -126,7 +126,7 @@ impl Outputs {
             }
             match layer.kind {
                 LayerKind::Voxel => {
-                    if layer.values.flag("publish_voxel_map").unwrap_or_default() {
+                    if VoxelLayerParams::from_values(&layer.values).publish_voxel_map {
                         let voxels = node.publisher("voxel_grid", Qos::latched(1))?;
                         outputs.voxels.insert(name.clone(), voxels);
                     }
@@ -134,11 +134,15 @@ impl Outputs {
                     outputs.ends.insert(name, ends);
                 }
                 LayerKind::Speed => {
-                    let limits = node.publisher(&topic("speed_limit_topic"), Qos::reliable(10))?;
+                    let params = SpeedFilterParams::from_values(&layer.values);
+                    let limits =
+                        node.publisher(&topic(&params.speed_limit_topic), Qos::reliable(10))?;
                     outputs.limits.insert(name, limits);
                 }
                 LayerKind::Binary => {
-                    let states = node.publisher(&topic("binary_state_topic"), Qos::reliable(10))?;
+                    let params = BinaryFilterParams::from_values(&layer.values);
+                    let states =
+                        node.publisher(&topic(&params.binary_state_topic), Qos::reliable(10))?;
                     outputs.states.insert(name, states);
                 }
                 _ => {}
@@ -201,15 +205,15 @@ impl Outputs {
     pub(crate) fn publish_grids(
         &mut self,
         costmap: &LayeredCostmap,
-        config: &CostmapConfig,
+        params: &CostmapParams,
         outline: &[[f64; 2]],
         now_ns: i64,
     ) {
         let about = About {
             frame: &costmap.frame().global_frame,
             now_ns,
-            always_full: config.node.flag("always_send_full_costmap").unwrap_or_default(),
-            z_m: config.node.number("map_vis_z").unwrap_or_default(),
+            always_full: params.always_send_full_costmap,
+            z_m: params.map_vis_z_m,
         };
         self.footprint.publish(polygon(outline, about.frame, now_ns));
         self.master.publish(costmap.costmap(), "master", &about);
