@@ -55,10 +55,9 @@ fn values_of(
     }
     let mut diagnostics = Diagnostics::new();
     let given = given.iter().map(|(name, text)| Given::new(name, text.as_str()));
-    let values = table.check(given, None, &mut diagnostics);
     // What is missing has a default; what is given must fit.
-    let wrong = diagnostics.iter().find(|it| it.code != "missing-parameter");
-    match (wrong, params) {
+    let values = table.check_given(given, &mut diagnostics);
+    match (diagnostics.iter().next(), params) {
         (Some(wrong), Some(params)) => Err(params.unreadable(&wrong.message)),
         _ => Ok(values),
     }
@@ -74,8 +73,8 @@ fn values_among(table: &'static Table, given: &CaseReader<'_>) -> Result<ParamVa
         }
     }
     let found = found.iter().map(|(name, text)| Given::new(name, text.as_str()));
-    let values = table.check(found, None, &mut diagnostics);
-    match diagnostics.iter().find(|it| it.code != "missing-parameter") {
+    let values = table.check_given(found, &mut diagnostics);
+    match diagnostics.iter().next() {
         Some(wrong) => Err(given.unreadable(&wrong.message)),
         None => Ok(values),
     }

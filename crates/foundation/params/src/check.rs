@@ -40,6 +40,26 @@ impl Table {
         whole: Option<Span>,
         diagnostics: &mut Diagnostics,
     ) -> ParamValues {
+        let (values, written) = self.read(given, diagnostics);
+        self.report_missing(&values, &written, whole, diagnostics);
+        values
+    }
+
+    /// Reads parameters like [`Table::check`], and leaves missing required parameters unset.
+    pub fn check_given<'a>(
+        &'static self,
+        given: impl IntoIterator<Item = Given<'a>>,
+        diagnostics: &mut Diagnostics,
+    ) -> ParamValues {
+        self.read(given, diagnostics).0
+    }
+
+    /// Values, and the names that were written, also those with unreadable values.
+    fn read<'a>(
+        &'static self,
+        given: impl IntoIterator<Item = Given<'a>>,
+        diagnostics: &mut Diagnostics,
+    ) -> (ParamValues, BTreeMap<&'static str, Origin>) {
         let mut values: BTreeMap<&'static str, Vec<Located>> = BTreeMap::new();
         let mut written: BTreeMap<&'static str, Origin> = BTreeMap::new();
         for given in given {
@@ -69,9 +89,20 @@ impl Table {
                 Err(error) => diagnostics.push(self.unreadable(&given, &error)),
             }
         }
+        (ParamValues::new(self, values), written)
+    }
+
+    fn report_missing(
+        &self,
+        values: &ParamValues,
+        written: &BTreeMap<&'static str, Origin>,
+        whole: Option<Span>,
+        diagnostics: &mut Diagnostics,
+    ) {
         let is_waived = |parameter: &Parameter| {
-            let flag = parameter.unless.and_then(|flag| values.get(flag)?.first());
-            flag.is_some_and(|flag| flag.value == ParamValue::Bool(true))
+            parameter
+                .unless
+                .is_some_and(|flag| values.is_given(flag) && values.flag(flag) == Some(true))
         };
         for parameter in self.parameters {
             if parameter.default == Default::Required
@@ -86,7 +117,6 @@ impl Table {
                 diagnostics.push(diagnostic.note(format!("{}: {}", parameter.name, parameter.doc)));
             }
         }
-        ParamValues::new(self, values)
     }
 
     /// Finding for an unknown name.
