@@ -82,8 +82,9 @@ pub(crate) fn body_of(
         }
         Shape::Heightmap(map) => {
             let unsupported =
-                |why| Unsupported(format!("has a heightmap (`{}`) that {why}", map.uri));
-            let samples = sample_heightmap(map, shapes).map_err(unsupported)?;
+                |why: String| Unsupported(format!("has a heightmap (`{}`) that {why}", map.uri));
+            let samples =
+                sample_heightmap(map, shapes).map_err(|error| unsupported(error.to_string()))?;
             let shape_from_body = samples.shape_from_heightmap;
             let body = RenderBody::Heightmap(samples.into_heightfield().map_err(unsupported)?);
             Ok(Some(PlacedBody { shape_from_body, body }))

@@ -1,9 +1,10 @@
 //! Heightmaps.
 
+use std::fmt;
 use std::sync::Arc;
 
 use periplus_geometry::Pose;
-use periplus_images::Grey;
+use periplus_images::{BadImage, Grey};
 use periplus_raycast::Heightfield;
 use periplus_scene::Heightmap;
 
@@ -33,22 +34,21 @@ pub struct HeightmapSamples {
 /// be square, nor have a side of 2^n + 1 pixels.
 ///
 /// # Errors
-/// The problem, as a clause that follows "the heightmap `uri`".
+/// When the image cannot be used.
 pub fn sample_heightmap(
     heightmap: &Heightmap,
     shapes: &dyn AssetLoader,
-) -> Result<HeightmapSamples, String> {
-    let bytes =
-        shapes.image(&heightmap.uri, heightmap.origin).ok_or_else(|| "was not read".to_owned())?;
-    let image = Grey::decode(&bytes).map_err(|error| format!("cannot be used: {error}"))?;
+) -> Result<HeightmapSamples, HeightmapError> {
+    let bytes = shapes.image(&heightmap.uri, heightmap.origin).ok_or(HeightmapError::NotRead)?;
+    let image = Grey::decode(&bytes).map_err(HeightmapError::Image)?;
     let (width, height) = (image.width as usize, image.height as usize);
     if width < 2 || height < 2 {
-        return Err("has fewer than two by two pixels".into());
+        return Err(HeightmapError::TooSmall);
     }
     let sampling = heightmap.sampling.clamp(1, 64) as usize;
     let (columns, rows) = ((width - 1) * sampling + 1, (height - 1) * sampling + 1);
     if columns.saturating_mul(rows) > MAX_SAMPLES {
-        return Err(format!("has {columns} by {rows} samples, too many; scale the image down"));
+        return Err(HeightmapError::TooLarge { columns, rows });
     }
     let brightest = image.values.iter().copied().max().unwrap_or(0).max(1);
     let scale = heightmap.size_m.z.abs() / f64::from(brightest);
@@ -76,6 +76,39 @@ pub fn sample_heightmap(
         shape_from_heightmap: Pose { translation: heightmap.position_m, ..Pose::IDENTITY },
     })
 }
+
+/// Reason for which a heightmap cannot be used. Its text completes the sentence "the heightmap ...".
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum HeightmapError {
+    /// The image was not read.
+    NotRead,
+    /// The image cannot be decoded.
+    Image(BadImage),
+    /// The image has fewer than two by two pixels.
+    TooSmall,
+    /// The image has too many samples.
+    TooLarge {
+        /// Samples along x.
+        columns: usize,
+        /// Samples along y.
+        rows: usize,
+    },
+}
+
+impl fmt::Display for HeightmapError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::NotRead => write!(f, "was not read"),
+            Self::Image(error) => write!(f, "cannot be used: {error}"),
+            Self::TooSmall => write!(f, "has fewer than two by two pixels"),
+            Self::TooLarge { columns, rows } => {
+                write!(f, "has {columns} by {rows} samples, too many; scale the image down")
+            }
+        }
+    }
+}
+
+impl std::error::Error for HeightmapError {}
 
 impl HeightmapSamples {
     pub(crate) fn into_heightfield(self) -> Result<Arc<Heightfield>, String> {

@@ -1,6 +1,7 @@
 //! Camera projections: from pixels to directions.
 
 use std::f64::consts::{FRAC_PI_2, PI};
+use std::fmt;
 
 use periplus_scene::{Camera, CameraKind, DVec3, Distortion, Element};
 
@@ -43,22 +44,83 @@ impl PinholeSlopes {
     }
 }
 
+/// Property of a camera that no lens can have.
+#[derive(Clone, Debug, PartialEq)]
+pub enum LensError {
+    /// An image without pixels, or with too many.
+    ImageSize {
+        /// Width \[px\].
+        width: u32,
+        /// Height \[px\].
+        height: u32,
+    },
+    /// A horizontal field of view \[rad\] that a pinhole cannot have.
+    PinholeFieldOfView(f64),
+    /// A field of view \[rad\] that no camera can have.
+    WideFieldOfView(f64),
+    /// A distortion with a number that is not finite.
+    Distortion,
+    /// A field of view that this type of lens cannot cover.
+    Coverage {
+        /// Type of the lens.
+        kind: String,
+        /// Field of view \[rad\].
+        fov_rad: f64,
+    },
+    /// An unknown type of lens.
+    Type(String),
+    /// An unknown function of a custom lens.
+    Function(String),
+    /// A constant of a custom lens that is not a number.
+    FunctionConstants,
+}
+
+impl fmt::Display for LensError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::ImageSize { width, height } => {
+                write!(f, "an image of {width} by {height} pixels is not supported")
+            }
+            Self::PinholeFieldOfView(fov_rad) => write!(
+                f,
+                "a horizontal field of view of {fov_rad} rad is not possible with a pinhole: it has to \
+                 be more than 0 and less than π"
+            ),
+            Self::WideFieldOfView(fov_rad) => {
+                write!(f, "a field of view of {fov_rad} rad is not possible")
+            }
+            Self::Coverage { kind, fov_rad } => {
+                write!(f, "a {kind} lens cannot cover {fov_rad} rad")
+            }
+            Self::Distortion => write!(f, "the distortion has a number that is not finite"),
+            Self::Type(kind) => write!(
+                f,
+                "lens type `{kind}` is not known here; use gnomonical, stereographic, equidistant, \
+                 equisolid_angle, orthographic or custom"
+            ),
+            Self::Function(function) => {
+                write!(f, "lens function `{function}` is not supported: use sin, tan or id")
+            }
+            Self::FunctionConstants => write!(f, "c2 or c3 of the lens is not a valid number"),
+        }
+    }
+}
+
+impl std::error::Error for LensError {}
+
 impl Lens {
     /// Returns an ideal pinhole: focal length `width / (2 tan(fov / 2))` pixels, principal point at
     /// the centre of the image.
     ///
     /// # Errors
     /// When the image has no pixels or too many, or the angle is not between 0 and π.
-    pub fn pinhole(width: u32, height: u32, horizontal_fov_rad: f64) -> Result<Self, String> {
+    pub fn pinhole(width: u32, height: u32, horizontal_fov_rad: f64) -> Result<Self, LensError> {
         let pixels = u64::from(width) * u64::from(height);
         if pixels == 0 || pixels > MAX_PIXELS {
-            return Err(format!("an image of {width} by {height} pixels is not supported"));
+            return Err(LensError::ImageSize { width, height });
         }
         if !(1e-6..PI - 1e-6).contains(&horizontal_fov_rad) {
-            return Err(format!(
-                "a horizontal field of view of {horizontal_fov_rad} rad is not possible with a pinhole: it has to \
-                 be more than 0 and less than π"
-            ));
+            return Err(LensError::PinholeFieldOfView(horizontal_fov_rad));
         }
         let focal_px = f64::from(width) / (2.0 * libm::tan(horizontal_fov_rad / 2.0));
         Ok(Self { width, height, kind: LensKind::Pinhole(focal_px) })
@@ -68,7 +130,7 @@ impl Lens {
     ///
     /// # Errors
     /// The invalid property of the camera.
-    pub fn of(camera: &Camera) -> Result<Self, String> {
+    pub fn of(camera: &Camera) -> Result<Self, LensError> {
         let (width, height, fov) = (camera.width, camera.height, camera.horizontal_fov_rad);
         if camera.kind == CameraKind::WideAngle {
             return wide_angle(camera);
@@ -90,7 +152,7 @@ impl Lens {
             center_y,
         ];
         if numbers.iter().any(|number| !number.is_finite()) {
-            return Err("the distortion has a number that is not finite".into());
+            return Err(LensError::Distortion);
         }
         let middle = [center_x * f64::from(width), center_y * f64::from(height)];
         let off = [
@@ -189,7 +251,7 @@ struct CustomProjection {
 }
 
 impl CustomProjection {
-    fn read(function: Option<&Element>) -> Result<Self, String> {
+    fn read(function: Option<&Element>) -> Result<Self, LensError> {
         let text = |name: &str| {
             let child = function.and_then(|it| it.elements().find(|e| e.name == name));
             child.map(|child| child.text().trim().to_owned())
@@ -204,14 +266,12 @@ impl CustomProjection {
                 Some("sin") => (libm::sin, libm::asin),
                 Some("id") => (|a| a, |r| r),
                 Some(other) => {
-                    return Err(format!(
-                        "lens function `{other}` is not supported: use sin, tan or id"
-                    ));
+                    return Err(LensError::Function(other.to_owned()));
                 }
             };
         match (number("c2", 1.0).filter(|c2| *c2 != 0.0), number("c3", 0.0)) {
             (Some(c2), Some(c3)) => Ok(Self { c2, c3, radius_of_angle, angle_of_radius }),
-            _ => Err("c2 or c3 of the lens is not a valid number".to_owned()),
+            _ => Err(LensError::FunctionConstants),
         }
     }
 
@@ -226,12 +286,12 @@ impl CustomProjection {
 
 /// Returns the projection of SDF's `<lens>` by its name, with the image radius of an angle θ in
 /// focal lengths.
-fn wide_angle(camera: &Camera) -> Result<Lens, String> {
+fn wide_angle(camera: &Camera) -> Result<Lens, LensError> {
     let (width, height, fov) = (camera.width, camera.height, camera.horizontal_fov_rad);
     // Also checks the number of pixels.
     let Lens { .. } = Lens::pinhole(width, height, 1.0)?;
     if !(1e-6..=2.0 * PI).contains(&fov) {
-        return Err(format!("a field of view of {fov} rad is not possible"));
+        return Err(LensError::WideFieldOfView(fov));
     }
     let lens = camera.extra.iter().find(|element| element.name == "lens");
     let child = |name: &str| lens.and_then(|lens| lens.elements().find(|e| e.name == name));
@@ -255,16 +315,11 @@ fn wide_angle(camera: &Camera) -> Result<Lens, String> {
             let custom = CustomProjection::read(child("custom_function"))?;
             (Box::new(move |a| custom.seen(a)), Box::new(move |r| custom.angle(r)))
         }
-        _ => {
-            return Err(format!(
-                "lens type `{kind}` is not known here; use gnomonical, stereographic, \
-                 equidistant, equisolid_angle, orthographic or custom"
-            ));
-        }
+        _ => return Err(LensError::Type(kind)),
     };
     let scale = seen(fov / 2.0);
     if !(scale.is_finite() && scale > 0.0) {
-        return Err(format!("a {kind} lens cannot cover {fov} rad"));
+        return Err(LensError::Coverage { kind, fov_rad: fov });
     }
     let focal_px = f64::from(width) / 2.0 / scale;
     let (middle_u, middle_v) = (f64::from(width) / 2.0, f64::from(height) / 2.0);

@@ -39,9 +39,9 @@ mod phong;
 mod render_scene;
 
 pub use assets::{AssetLoader, NoAssets};
-pub use heightmap::{HeightmapSamples, sample_heightmap};
+pub use heightmap::{HeightmapError, HeightmapSamples, sample_heightmap};
 pub use images::{ImageOutputs, RenderRequest, RenderedImages};
-pub use lens::Lens;
+pub use lens::{Lens, LensError};
 pub use mesh::{SelectedMesh, select_submesh};
 pub use periplus_images::{BadImage, Grey, Image};
 pub use render_scene::{

@@ -33,6 +33,6 @@ pub use record::{RecordError, RecordingSummary, SimulationRecorder, TopicFilter}
 pub use run::{Run, RunProgress, Tick};
 pub use services::{
     GazeboAnswer, GazeboPublisher, GazeboRequestQueue, GazeboService, GazeboTopic, InsertionResult,
-    InsertionSource, ModelInsertion, Search, Services, gazebo_topic,
+    InsertionSource, ModelInsertion, Search, Services, SpawnError, gazebo_topic,
 };
 pub use simulation::{Options, Simulation};

@@ -56,6 +56,7 @@ pub use self::gazebo::{
 };
 pub use self::insertion::{InsertionResult, InsertionSource, ModelInsertion};
 pub use self::reading::Search;
+pub use self::spawn::SpawnError;
 
 /// Services of a world, processed between steps.
 pub struct Services {

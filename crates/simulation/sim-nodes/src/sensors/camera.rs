@@ -9,7 +9,9 @@ use periplus_diagnostics::{Diagnostic, Diagnostics};
 use periplus_geometry::Pose;
 use periplus_graph::{Mailbox, Qos};
 use periplus_msgs::std_msgs::{Bool, Empty};
-use periplus_rendering::{ImageOutputs, Lens, RenderRequest, RenderedImages, SensedGeometry};
+use periplus_rendering::{
+    ImageOutputs, Lens, LensError, RenderRequest, RenderedImages, SensedGeometry,
+};
 use periplus_scene::{Camera, CameraKind};
 use periplus_sensors::{ImageNoise, Pinhole, Streams};
 
@@ -99,7 +101,8 @@ fn unit(
     name: Option<&str>,
     diagnostics: &mut Diagnostics,
 ) -> Result<CameraUnit, SensorBuildError> {
-    let impossible = |why: String| Box::new(Diagnostic::error("camera-impossible", why));
+    let impossible =
+        |error: LensError| Box::new(Diagnostic::error("camera-impossible", error.to_string()));
     // A wide-angle lens has no focal length; its camera info is the closest pinhole.
     let narrow =
         Camera { horizontal_fov_rad: camera.horizontal_fov_rad.min(3.1), ..camera.clone() };

@@ -122,7 +122,7 @@ impl Order<'_> {
             standing: SpawnPose::AsSeenFrom(world_from_frame * frame_from_here),
             with_frames: true,
         };
-        spawn(simulation, search, &wish)
+        spawn(simulation, search, &wish).map_err(|error| error.to_string())
     }
 }
 

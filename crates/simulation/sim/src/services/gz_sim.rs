@@ -145,7 +145,7 @@ pub(super) fn create(
         standing: SpawnPose::At(world_from_model),
     };
     if asked.clone_name.is_empty() {
-        spawn(simulation, search, &wish)
+        spawn(simulation, search, &wish).map_err(|error| error.to_string())
     } else {
         copy(simulation, &asked.clone_name, &wish, world_from_model)
     }

@@ -3,7 +3,7 @@
 use periplus_geometry::Pose;
 
 use super::reading::{Search, Source};
-use super::spawn::{SpawnPose, SpawnRequest, spawn};
+use super::spawn::{SpawnError, SpawnPose, SpawnRequest, spawn};
 use crate::Simulation;
 
 /// A model or light to insert.
@@ -45,12 +45,12 @@ impl ModelInsertion<'_> {
     /// Inserts the model or light.
     ///
     /// # Errors
-    /// The reason of a failure.
+    /// When the description cannot be read, the name is in use, or the model cannot be simulated.
     pub fn bring(
         &self,
         simulation: &mut Simulation,
         search: &Search,
-    ) -> Result<InsertionResult, String> {
+    ) -> Result<InsertionResult, SpawnError> {
         let source = match self.from {
             InsertionSource::Text(text, called) => Source::Text(text, called),
             InsertionSource::File(file) => Source::File(file),

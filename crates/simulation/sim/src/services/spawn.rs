@@ -1,5 +1,7 @@
 //! Insertion and removal of models and lights.
 
+use std::fmt;
+
 use periplus_geometry::Pose;
 use periplus_scene::Light;
 
@@ -36,6 +38,26 @@ pub(super) struct Spawned {
     pub(super) notes: String,
 }
 
+/// Reason for which a model or light was not inserted.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum SpawnError {
+    /// The description cannot be read.
+    Unreadable(String),
+    /// The name is in use or not valid.
+    Name(String),
+    /// The model cannot be simulated, with what was found.
+    Rejected(String),
+}
+
+impl fmt::Display for SpawnError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let (Self::Unreadable(reason) | Self::Name(reason) | Self::Rejected(reason)) = self;
+        f.write_str(reason)
+    }
+}
+
+impl std::error::Error for SpawnError {}
+
 /// Inserts a model or light into the world.
 ///
 /// # Errors
@@ -44,22 +66,23 @@ pub(super) fn spawn(
     simulation: &mut Simulation,
     search: &Search,
     wish: &SpawnRequest<'_>,
-) -> Result<Spawned, String> {
-    let Reading { found, mut findings, sources } = search.read(&wish.source)?;
+) -> Result<Spawned, SpawnError> {
+    let Reading { found, mut findings, sources } =
+        search.read(&wish.source).map_err(SpawnError::Unreadable)?;
     let place = |own: Pose| match wish.standing {
         SpawnPose::AsSeenFrom(world_from_here) => world_from_here * own,
         SpawnPose::At(pose) => pose,
     };
     match found {
         Found::Light(light) => {
-            let name = free_name(simulation, wish, &light.name)?;
+            let name = free_name(simulation, wish, &light.name).map_err(SpawnError::Name)?;
             let parent_from_light = place(light.parent_from_light);
             let light = Light { name: name.clone(), parent_from_light, ..*light };
             simulation.add_light(light);
             Ok(Spawned { name, notes: told(&findings, &sources) })
         }
         Found::Model { mut model, description } => {
-            let name = free_name(simulation, wish, &model.name)?;
+            let name = free_name(simulation, wish, &model.name).map_err(SpawnError::Name)?;
             let namespace = wish.namespace.trim_matches('/');
             if !namespace.is_empty() {
                 drop_namespaces(&mut model);
@@ -76,7 +99,7 @@ pub(super) fn spawn(
             let notes = told(&findings, &sources);
             match simulation.place_of(&name) {
                 Some(_) => Ok(Spawned { name, notes }),
-                None => Err(notes),
+                None => Err(SpawnError::Rejected(notes)),
             }
         }
     }
