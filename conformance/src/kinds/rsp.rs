@@ -118,7 +118,8 @@ fn run(urdf: &str, options: RobotStateParams, states: &[Told]) -> Result<Frames,
     let words = |error: periplus_graph::GraphError| error.to_string();
     let graph = Graph::new();
     let node = graph.node(NodeSettings::new("robot_state_publisher")).map_err(words)?;
-    let _publisher = RobotStatePublisher::of_urdf(node, urdf, options)?;
+    let _publisher =
+        RobotStatePublisher::of_urdf(node, urdf, options).map_err(|error| error.to_string())?;
     let user = graph.node(NodeSettings::new("user")).map_err(words)?;
     let publisher =
         user.publisher::<JointState>("/joint_states", Qos::reliable(10)).map_err(words)?;

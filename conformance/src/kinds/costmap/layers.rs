@@ -345,15 +345,15 @@ fn change(
             }
             let running = costmap.find_mut(&layer.name);
             let running = running.ok_or_else(|| value.unreadable("a layer that runs"))?;
-            if let Err(why) = running.configure(changed.clone()) {
-                return Ok(Err(why));
+            if let Err(error) = running.configure(changed.clone()) {
+                return Ok(Err(error.to_string()));
             }
             layer.values = changed;
         } else if let Err(why) = put(&mut values, name, parameter, &value)? {
             return Ok(Err(why));
         }
     }
-    Ok(config.change(costmap, values, frames))
+    Ok(config.change(costmap, values, frames).map_err(|error| error.to_string()))
 }
 
 /// Sets a parameter; the inner error is the reason why the value does not fit.

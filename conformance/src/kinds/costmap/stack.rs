@@ -319,7 +319,9 @@ impl Stack {
                 let values = of(&tables::STATIC, &[&tables::COSTMAP])?;
                 let mut layer = StaticLayer::new(name, values, meaning, compat);
                 if let Some(map) = about.find("map") {
-                    layer.set_map(map_of(&map)?, FRAME).map_err(|why| map.unreadable(&why))?;
+                    layer
+                        .set_map(map_of(&map)?, FRAME)
+                        .map_err(|error| map.unreadable(&error.to_string()))?;
                 }
                 Box::new(layer)
             }
@@ -397,7 +399,9 @@ impl Stack {
         if let Some(map) = step.find("set_map") {
             let layer = self.costmap.find_as::<StaticLayer>(name);
             let layer = layer.ok_or_else(|| named.unreadable("a static layer"))?;
-            return layer.set_map(map_of(&map)?, FRAME).map_err(|why| map.unreadable(&why));
+            return layer
+                .set_map(map_of(&map)?, FRAME)
+                .map_err(|error| map.unreadable(&error.to_string()));
         }
         if let Some(part) = step.find("map_update") {
             return self.update_map(&named, &part);
@@ -566,7 +570,7 @@ impl Stack {
         }
         let answer = layer.configure(values);
         self.accepted.push(answer.is_ok());
-        self.refusals.extend(answer.err());
+        self.refusals.extend(answer.err().map(|error| error.to_string()));
         Ok(())
     }
 }

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use periplus_diagnostics::{Diagnostics, SourceMap};
-use periplus_graph::Arguments;
+use periplus_graph::{Arguments, ParameterFileError};
 use periplus_os::Machine;
 use periplus_resources::{FileReadError, Host as _};
 
@@ -18,10 +18,10 @@ pub(crate) fn read(words: Vec<String>) -> Result<Arguments, CliError> {
     if diagnostics.has_errors() { Err(CliError::Reported(2)) } else { Ok(arguments) }
 }
 
-fn text(path: &Path) -> Result<String, String> {
+fn text(path: &Path) -> Result<String, ParameterFileError> {
     let bytes = Machine.read(path).map_err(|error| match error {
-        FileReadError::Missing => "does not exist".to_owned(),
-        error => format!("cannot be read: {error}"),
+        FileReadError::Missing => ParameterFileError::Missing,
+        error => ParameterFileError::Unreadable(error.to_string()),
     })?;
-    String::from_utf8(bytes).map_err(|_| "is not UTF-8 text".into())
+    String::from_utf8(bytes).map_err(|_| ParameterFileError::NotText)
 }

@@ -6,7 +6,7 @@ use periplus_grid::GridInfo;
 
 use crate::cost::UNKNOWN;
 use crate::costmap::cell_clamped;
-use crate::{CellWindow, Costmap, LayeredCostmap, Nav2Release};
+use crate::{CellWindow, ClearError, Costmap, LayeredCostmap, Nav2Release, UnclearableLayer};
 
 /// Area that a clear service clears.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -37,7 +37,11 @@ pub enum Region {
 /// grids of the layers change; the next update copies the change into the costmap.
 /// # Errors
 /// The reason for which no layer was cleared: at least one layer is unknown or not clearable.
-pub fn clear(costmap: &mut LayeredCostmap, region: Region, names: &[String]) -> Result<(), String> {
+pub fn clear(
+    costmap: &mut LayeredCostmap,
+    region: Region,
+    names: &[String],
+) -> Result<(), ClearError> {
     refuse_unfit(costmap, names)?;
     if names.is_empty() && region == Region::Everything {
         costmap.reset();
@@ -89,13 +93,13 @@ fn corners(
     (cell(x_m, y_m), cell(x_m + side_m, y_m + side_m))
 }
 
-fn refuse_unfit(costmap: &LayeredCostmap, names: &[String]) -> Result<(), String> {
+fn refuse_unfit(costmap: &LayeredCostmap, names: &[String]) -> Result<(), ClearError> {
     let mut unfit = Vec::new();
     for name in names {
         match costmap.layers().iter().find(|layer| layer.name() == name) {
-            None => unfit.push(format!("there is no layer `{name}`")),
+            None => unfit.push(UnclearableLayer::Unknown(name.clone())),
             Some(layer) if !layer.is_clearable() => {
-                unfit.push(format!("layer `{name}` is not clearable"));
+                unfit.push(UnclearableLayer::NotClearable(name.clone()));
             }
             Some(_) => {}
         }
@@ -103,14 +107,13 @@ fn refuse_unfit(costmap: &LayeredCostmap, names: &[String]) -> Result<(), String
     if unfit.is_empty() {
         return Ok(());
     }
-    let clearable: Vec<&str> = costmap
+    let clearable = costmap
         .layers()
         .iter()
         .filter(|layer| layer.is_clearable())
-        .map(|layer| layer.name())
+        .map(|layer| layer.name().to_owned())
         .collect();
-    let offer = if clearable.is_empty() { "none".to_owned() } else { clearable.join(", ") };
-    Err(format!("nothing was cleared: {}; clearable layers: {offer}", unfit.join(", ")))
+    Err(ClearError { layers: unfit, clearable })
 }
 
 /// Sets the cells strictly between two corners to unknown, or with `invert` all other cells.

@@ -14,7 +14,7 @@ use periplus_grid::GridInfo;
 use periplus_params::{Given, ParamType, ParamValues, Table};
 
 use crate::tables::{CostmapParams, RangeLayerParams, SourceParams};
-use crate::{CostmapSettings, Footprint, Nav2Release, SourceSettings, tables};
+use crate::{CostmapSettings, Footprint, FootprintError, Nav2Release, SourceSettings, tables};
 
 /// Configuration of a costmap.
 #[derive(Clone, Debug, PartialEq)]
@@ -456,23 +456,32 @@ impl<'a> Reading<'a, '_> {
     }
 
     fn footprint(&mut self, node: &ParamValues) -> Footprint {
-        let padding_m = CostmapParams::from_values(node).footprint_padding_m;
-        let (footprint, complaint) = footprint_of(node);
-        if complaint.is_none() && footprint.points().iter().all(|point| *point == [0.0, 0.0]) {
-            self.diagnostics.push(
-                Diagnostic::warning(
-                    "empty-footprint",
-                    "`footprint` is empty and `robot_radius` is 0: the robot is a point",
-                )
-                .at(node.origin("robot_radius"))
-                .note("the inscribed radius is 0, so plans may lead along every wall")
-                .help("set `footprint`, or `robot_radius` to half the robot's width"),
-            );
-        }
-        if let Some(complaint) = complaint {
-            self.diagnostics.push(complaint);
-        }
-        footprint.padded(padding_m)
+        let params = CostmapParams::from_values(node);
+        let footprint = match footprint_of(&params) {
+            Ok(footprint) if footprint.points().iter().all(|point| *point == [0.0, 0.0]) => {
+                self.diagnostics.push(
+                    Diagnostic::warning(
+                        "empty-footprint",
+                        "`footprint` is empty and `robot_radius` is 0: the robot is a point",
+                    )
+                    .at(node.origin("robot_radius"))
+                    .note("the inscribed radius is 0, so plans may lead along every wall")
+                    .help("set `footprint`, or `robot_radius` to half the robot's width"),
+                );
+                footprint
+            }
+            Ok(footprint) => footprint,
+            Err(error) => {
+                self.diagnostics.push(
+                    Diagnostic::error("bad-footprint", format!("`footprint`: {error}"))
+                        .at(node.origin("footprint"))
+                        .note("`robot_radius` is used instead")
+                        .help("write corners in order, such as \"[[0.2, 0.1], [0.2, -0.1], [-0.2, -0.1], [-0.2, 0.1]]\""),
+                );
+                Footprint::circle(params.robot_radius_m)
+            }
+        };
+        footprint.padded(params.footprint_padding_m)
     }
 
     /// Drops the messages about a layer that is left out.
@@ -512,21 +521,11 @@ fn is_common(name: &str) -> bool {
         .any(|common| name.starts_with(common))
 }
 
-/// Returns the footprint without padding, and an error in it.
-pub(crate) fn footprint_of(node: &ParamValues) -> (Footprint, Option<Diagnostic>) {
-    let params = CostmapParams::from_values(node);
-    let (circle, text) = (Footprint::circle(params.robot_radius_m), params.footprint);
-    if text.trim().is_empty() || text.trim() == "[]" {
-        return (circle, None);
+/// Returns the footprint without padding.
+pub(crate) fn footprint_of(params: &CostmapParams) -> Result<Footprint, FootprintError> {
+    let text = params.footprint.trim();
+    if text.is_empty() || text == "[]" {
+        return Ok(Footprint::circle(params.robot_radius_m));
     }
-    match Footprint::read(&text) {
-        Ok(footprint) => (footprint, None),
-        Err(why) => {
-            let complaint = Diagnostic::error("bad-footprint", format!("`footprint`: {why}"))
-                .at(node.origin("footprint"))
-                .note("`robot_radius` is used instead")
-                .help("write corners in order, such as \"[[0.2, 0.1], [0.2, -0.1], [-0.2, -0.1], [-0.2, 0.1]]\"");
-            (circle, Some(complaint))
-        }
-    }
+    Footprint::read(text)
 }

@@ -7,7 +7,7 @@ use std::f64::consts::PI;
 use periplus_geometry::Pose2;
 use periplus_grid::{Cell, Line};
 
-use crate::{Costmap, cost};
+use crate::{Costmap, FootprintError, cost};
 
 /// Number of corners of a circle; the value of Nav2.
 const CIRCLE_CORNERS: usize = 16;
@@ -50,12 +50,12 @@ impl Footprint {
     /// Parses a text such as `[[0.2, 0.1], [0.2, -0.1], [-0.2, 0]]`. As in Nav2, numbers are
     /// rounded to single precision.
     /// # Errors
-    /// A description of the mistake.
-    pub fn read(text: &str) -> Result<Self, String> {
+    /// The first mistake.
+    pub fn read(text: &str) -> Result<Self, FootprintError> {
         let points = read_points(text)?;
         match points.len() {
             3.. => Ok(Self::new(points)),
-            count => Err(format!("it has {count} corners, and a footprint needs at least three")),
+            count => Err(FootprintError::TooFewCorners(count)),
         }
     }
 
@@ -156,7 +156,7 @@ fn distance_to_side(start: [f64; 2], end: [f64; 2]) -> f64 {
 }
 
 /// Parses lists of numbers in brackets, separated by commas, blanks and tabs.
-fn read_points(text: &str) -> Result<Vec<[f64; 2]>, String> {
+fn read_points(text: &str) -> Result<Vec<[f64; 2]>, FootprintError> {
     let mut points = Vec::new();
     let mut numbers: Vec<f64> = Vec::new();
     let mut depth = 0;
@@ -164,28 +164,28 @@ fn read_points(text: &str) -> Result<Vec<[f64; 2]>, String> {
     while let Some(first) = rest.chars().next() {
         match first {
             '[' if depth < 2 => depth += 1,
-            '[' => return Err("brackets nest deeper than two".into()),
+            '[' => return Err(FootprintError::TooDeep),
             ']' if depth == 2 => {
                 let [x, y] = numbers[..] else {
-                    let count = numbers.len();
-                    return Err(format!("a corner needs x and y, and one has {count} numbers"));
+                    return Err(FootprintError::CornerLength(numbers.len()));
                 };
                 points.push([x, y]);
                 numbers.clear();
                 depth = 1;
             }
             ']' if depth == 1 => depth = 0,
-            ']' => return Err("a bracket closes that was not opened".into()),
+            ']' => return Err(FootprintError::UnopenedBracket),
             ',' | ' ' | '\t' | '\n' | '\r' => {}
             _ => {
                 let end = rest.find([',', ' ', '\t', '\n', '\r', '[', ']']).unwrap_or(rest.len());
                 let (word, after) = rest.split_at(end);
                 if depth < 2 {
-                    return Err(format!("`{word}` is outside the brackets of a corner"));
+                    return Err(FootprintError::OutsideCorner(word.to_owned()));
                 }
-                let number: f32 = word.parse().map_err(|_| format!("`{word}` is not a number"))?;
+                let number: f32 =
+                    word.parse().map_err(|_| FootprintError::NotNumber(word.to_owned()))?;
                 if !number.is_finite() {
-                    return Err(format!("`{word}` is not a finite number"));
+                    return Err(FootprintError::NotFinite(word.to_owned()));
                 }
                 numbers.push(f64::from(number));
                 rest = after;
@@ -194,7 +194,7 @@ fn read_points(text: &str) -> Result<Vec<[f64; 2]>, String> {
         }
         rest = &rest[first.len_utf8()..];
     }
-    if depth == 0 { Ok(points) } else { Err("a bracket is not closed".into()) }
+    if depth == 0 { Ok(points) } else { Err(FootprintError::UnclosedBracket) }
 }
 
 #[cfg(test)]
@@ -214,7 +214,7 @@ mod tests {
 
     #[test]
     fn mistakes_in_a_footprint_are_reported() {
-        let wrong = |text: &str| Footprint::read(text).unwrap_err();
+        let wrong = |text: &str| Footprint::read(text).unwrap_err().to_string();
         assert_eq!(wrong("[]"), "it has 0 corners, and a footprint needs at least three");
         assert_eq!(wrong("[[1, 2, 3]]"), "a corner needs x and y, and one has 3 numbers");
         assert_eq!(wrong("[[1, a]]"), "`a` is not a number");

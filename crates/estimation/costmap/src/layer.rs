@@ -9,7 +9,8 @@ use periplus_params::ParamValues;
 
 use crate::filters::MaskFilter;
 use crate::{
-    CellWindow, Costmap, Explanation, Footprint, Nav2Release, ObservationSource, UpdateBounds,
+    CellWindow, ChangeError, Costmap, Explanation, Footprint, Nav2Release, ObservationSource,
+    UpdateBounds,
 };
 
 /// Source of transforms.
@@ -123,7 +124,7 @@ pub trait Layer: Any + Send {
     /// Sets parameters of valid types and ranges.
     /// # Errors
     /// The reason for which they cannot be set; no change is made then.
-    fn configure(&mut self, _values: ParamValues) -> Result<(), String> {
+    fn configure(&mut self, _values: ParamValues) -> Result<(), ChangeError> {
         Ok(())
     }
 

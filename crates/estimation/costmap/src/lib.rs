@@ -37,6 +37,7 @@ mod compat;
 mod config;
 pub mod cost;
 mod costmap;
+mod error;
 pub mod filters;
 pub mod footprint;
 pub mod inflation;
@@ -58,6 +59,9 @@ pub use combine::Combination;
 pub use compat::{Nav2Release, RangeMeasure};
 pub use config::{CostmapConfig, LayerConfig, LayerKind, SourceConfig};
 pub use costmap::Costmap;
+pub use error::{
+    ChangeError, ClearError, FootprintError, MapError, UnclearableLayer, UnknownPlugin,
+};
 pub use footprint::Footprint;
 pub use inspect::{CellReport, Explanation, LayerReport};
 pub use layer::{Layer, NoTransforms, TransformSource, UpdateContext};

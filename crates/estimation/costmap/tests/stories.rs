@@ -4,7 +4,7 @@ use expect_test::{Expect, expect};
 use periplus_costmap::clear::{Region, clear};
 use periplus_costmap::filters::{FilterMask, KeepoutFilter, MaskFilter};
 use periplus_costmap::layers::{RangeLayer, RangeReading, StaticLayer};
-use periplus_costmap::{CostmapConfig, LayeredCostmap, Nav2Release, NoTransforms};
+use periplus_costmap::{CostmapConfig, LayeredCostmap, MapError, Nav2Release, NoTransforms};
 use periplus_diagnostics::{Diagnostics, RenderStyle, SourceMap, render};
 use periplus_geometry::{DVec3, Pose, Pose2};
 use periplus_grid::{Grid, GridInfo, OccupancyGrid};
@@ -322,7 +322,7 @@ fn malformed_maps_are_rejected() {
     short.cells.pop();
     assert_eq!(
         layer.set_map(short, "map"),
-        Err("the map has 3 cells and should have 2 x 2".to_owned())
+        Err(MapError::CellCount { count: 3, width: 2, height: 2 })
     );
     assert!(layer.set_map(good.clone(), "").is_err());
     let mut fine = good.clone();
@@ -435,7 +435,7 @@ fn parameters_change_while_it_runs() {
     assert_eq!(costmap.cost_at(Pose2::new(1.75, 1.55, 0.0), false), 253, "now within the robot");
     values.set("rolling_window", periplus_params::ParamValue::Bool(true));
     let refused = config.change(&mut costmap, values, &NoTransforms).unwrap_err();
-    assert_eq!(refused, "`rolling_window` cannot be changed while the costmap runs");
+    assert_eq!(refused.to_string(), "`rolling_window` cannot be changed while the costmap runs");
     assert_eq!(config.compat, Nav2Release::Main);
 }
 

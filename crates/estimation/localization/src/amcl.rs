@@ -231,6 +231,12 @@ impl Amcl {
         Ok(())
     }
 
+    /// True if there is a map.
+    #[must_use]
+    pub fn has_map(&self) -> bool {
+        self.map.is_some()
+    }
+
     /// Sets the map. A known pose stays. False if `first_map_only` is set and there is a map
     /// already.
     ///

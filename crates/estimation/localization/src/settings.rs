@@ -87,24 +87,28 @@ impl Settings {
         (values, settings)
     }
 
+    /// Reports a minimum number of particles above the maximum.
+    #[must_use]
+    pub fn particle_conflict(values: &ParamValues) -> Option<Diagnostic> {
+        let AmclParams { min_particles: min, max_particles: max, .. } =
+            AmclParams::from_values(values);
+        (min > max).then(|| {
+            Diagnostic::warning(
+                "more-least-than-most",
+                format!("`min_particles` is {min}, more than `max_particles`, {max}"),
+            )
+            .at(values.origin("min_particles"))
+            .related(values.origin("max_particles"), "set here")
+            .note(format!("`max_particles` is raised to {min}"))
+        })
+    }
+
     /// Reports combinations of values that are valid one by one but make no sense together.
     /// [`Settings::from_values`] corrects them.
     #[must_use]
     pub fn conflicts(values: &ParamValues) -> Vec<Diagnostic> {
-        let mut findings = Vec::new();
+        let mut findings: Vec<Diagnostic> = Self::particle_conflict(values).into_iter().collect();
         let params = AmclParams::from_values(values);
-        let (min, max) = (params.min_particles, params.max_particles);
-        if min > max {
-            findings.push(
-                Diagnostic::warning(
-                    "more-least-than-most",
-                    format!("`min_particles` is {min}, more than `max_particles`, {max}"),
-                )
-                .at(values.origin("min_particles"))
-                .related(values.origin("max_particles"), "set here")
-                .note(format!("`max_particles` is raised to {min}")),
-            );
-        }
         if params.z_hit == 0.0 {
             findings.push(
                 Diagnostic::warning(

@@ -17,8 +17,8 @@ use crate::log::Level;
 use crate::remap::Rule;
 
 pub use file::parameters_to_yaml;
-pub use read::{ROS_ARGS, split_arguments};
-pub use scalar::{parameter_from_yaml, parameter_to_yaml};
+pub use read::{ParameterFileError, ROS_ARGS, split_arguments};
+pub use scalar::{InvalidParameter, parameter_from_yaml, parameter_to_yaml};
 
 use pattern::Pattern;
 

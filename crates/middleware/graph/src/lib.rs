@@ -64,8 +64,8 @@ pub use action::{
 };
 pub use actor::{Actor, Io};
 pub use arguments::{
-    Arguments, ROS_ARGS, parameter_from_yaml, parameter_to_yaml, parameters_to_yaml,
-    split_arguments,
+    Arguments, InvalidParameter, ParameterFileError, ROS_ARGS, parameter_from_yaml,
+    parameter_to_yaml, parameters_to_yaml, split_arguments,
 };
 pub use error::{GraphError, TypeClash};
 pub use executor::MAX_REACTIONS;
@@ -85,7 +85,7 @@ pub use name::{
     check_topic, valid_node_name, valid_topic_name,
 };
 pub use node::Node;
-pub use parameters::Parameters;
+pub use parameters::{ParameterRejection, Parameters};
 pub use publisher::{Publisher, RawPublisher};
 pub use qos::{Durability, History, KEEP_ALL_MAX_MESSAGES, Liveliness, Policy, Qos, Reliability};
 pub use qos_event::{IncompatiblePolicy, QosEvent};

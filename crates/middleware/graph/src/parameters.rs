@@ -7,6 +7,7 @@ pub(crate) mod convert;
 pub(crate) mod services;
 mod store;
 
+use std::fmt;
 use std::sync::Arc;
 
 use periplus_diagnostics::Diagnostic;
@@ -21,6 +22,27 @@ use crate::standard::{Apply, Change};
 use crate::{Actor, GraphError};
 
 pub(crate) use store::Store;
+
+/// Reason for which a parameter was not set, as the caller of the service gets it.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct ParameterRejection {
+    reason: String,
+}
+
+impl ParameterRejection {
+    /// Creates a rejection with the text of an error.
+    pub fn new(reason: impl fmt::Display) -> Self {
+        Self { reason: reason.to_string() }
+    }
+}
+
+impl fmt::Display for ParameterRejection {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.reason)
+    }
+}
+
+impl std::error::Error for ParameterRejection {}
 
 /// The parameters of a node. This is a handle: clones refer to the same parameters.
 #[derive(Clone)]
@@ -51,10 +73,13 @@ impl Parameters {
     /// not called.
     ///
     /// # Errors
-    /// When there is no such parameter or the value is not valid, as text.
-    pub fn set(&self, name: &str, value: ParamValue) -> Result<(), String> {
+    /// When there is no such parameter or the value is not valid.
+    pub fn set(&self, name: &str, value: ParamValue) -> Result<(), ParameterRejection> {
         let named = Named { name: name.to_owned(), value: convert::to_message(value) };
-        self.node.0.set_parameters(std::slice::from_ref(&named), None)
+        self.node
+            .0
+            .set_parameters(std::slice::from_ref(&named), None)
+            .map_err(ParameterRejection::new)
     }
 }
 
@@ -87,14 +112,18 @@ impl<S: Send + 'static> Actor<S> {
     pub fn parameters(
         &mut self,
         values: ParamValues,
-        change: impl FnMut(&mut S, &ParamValues, &mut Io<'_, S>) -> Result<(), String> + Send + 'static,
+        change: impl FnMut(&mut S, &ParamValues, &mut Io<'_, S>) -> Result<(), ParameterRejection>
+        + Send
+        + 'static,
     ) -> Result<Parameters, GraphError> {
         let node = self.node().clone();
         node.0.declare(values)?;
         let act = self.act(change);
         let apply: Arc<Apply> = Arc::new(move |values| {
             let mut outcome = Err("the node is shutting down".to_owned());
-            act(&mut |change, state, io| outcome = change(state, values, io));
+            act(&mut |change, state, io| {
+                outcome = change(state, values, io).map_err(|rejection| rejection.reason);
+            });
             outcome
         });
         let ordinal = node.0.next_ordinal();

@@ -2,7 +2,7 @@
 #![allow(clippy::unwrap_used, reason = "tests unwrap values that must exist")]
 
 use periplus_diagnostics::{Diagnostics, SourceMap};
-use periplus_graph::{Arguments, Graph, Level, NodeSettings, Qos};
+use periplus_graph::{Arguments, Graph, Level, NodeSettings, ParameterFileError, Qos};
 use periplus_msgs::rcl_interfaces::Log;
 
 #[test]
@@ -40,7 +40,7 @@ fn what_is_not_logged_is_not_put_together() {
     }
     let read = |line: &str| {
         let words: Vec<String> = line.split(' ').map(str::to_owned).collect();
-        let none = &mut |_: &std::path::Path| Err(String::new());
+        let none = &mut |_: &std::path::Path| Err(ParameterFileError::Missing);
         Arguments::read(&words, &mut SourceMap::new(), &mut Diagnostics::new(), none)
     };
     let graph = Graph::new();

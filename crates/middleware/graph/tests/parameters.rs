@@ -5,7 +5,8 @@ use std::sync::Arc;
 
 use periplus_diagnostics::{Diagnostics, SourceMap};
 use periplus_graph::{
-    Arguments, Graph, Node, NodeSettings, Qos, parameter_from_yaml, parameter_to_yaml,
+    Arguments, Graph, Node, NodeSettings, ParameterFileError, ParameterRejection, Qos,
+    parameter_from_yaml, parameter_to_yaml,
 };
 use periplus_msgs::Service;
 use periplus_msgs::rcl_interfaces::{
@@ -87,7 +88,7 @@ fn others_set_them_and_the_node_may_refuse() {
         .parameters(values(), |period, values, _| {
             let wanted = values.number("blink.period").unwrap();
             if wanted > 10.0 {
-                return Err("the period is too long".into());
+                return Err(ParameterRejection::new("the period is too long"));
             }
             *period = wanted;
             Ok(())
@@ -160,7 +161,7 @@ fn one_program_has_one_time() {
 fn arguments(line: &str) -> Arguments {
     let words: Vec<String> = line.split(' ').map(str::to_owned).collect();
     let (mut sources, mut diagnostics) = (SourceMap::new(), Diagnostics::new());
-    let none = &mut |_: &std::path::Path| Err("is not there".into());
+    let none = &mut |_: &std::path::Path| Err(ParameterFileError::Missing);
     let arguments = Arguments::read(&words, &mut sources, &mut diagnostics, none);
     assert!(diagnostics.is_empty(), "{diagnostics:?}");
     arguments
@@ -266,7 +267,8 @@ fn who_goes_is_asked_no_more() {
     let graph = Graph::new();
     let node = graph.node(NodeSettings::new("lamp")).unwrap();
     let mut actor = node.actor(());
-    let parameters = actor.parameters(values(), |(), _, _| Err("never".into())).unwrap();
+    let parameters =
+        actor.parameters(values(), |(), _, _| Err(ParameterRejection::new("never"))).unwrap();
     let request = SetParametersRequest { parameters: vec![double("height", 2.0)] };
     let set = |request: &SetParametersRequest| {
         let name = "/lamp/set_parameters";

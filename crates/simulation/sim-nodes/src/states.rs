@@ -22,7 +22,9 @@ pub use joint_states::JointStatePublisher;
 pub(crate) use joint_states::JointStates;
 pub(crate) use odometry::{OdometryPublisher, TF_QOS, planar_covariance};
 pub(crate) use robot_state_publisher::RobotFrames;
-pub use robot_state_publisher::{ROBOT_STATE_PUBLISHER, RobotStateParams, RobotStatePublisher};
+pub use robot_state_publisher::{
+    DescriptionError, ROBOT_STATE_PUBLISHER, RobotStateError, RobotStateParams, RobotStatePublisher,
+};
 pub(crate) use triggered::build as triggered;
 
 use periplus_diagnostics::Diagnostics;

@@ -94,7 +94,10 @@ pub(crate) fn make(
                 })?;
             let options = RobotStateParams::default();
             if is_urdf(&text) {
-                made.keep(RobotStatePublisher::of_urdf(node, text, options)?);
+                made.keep(
+                    RobotStatePublisher::of_urdf(node, text, options)
+                        .map_err(|error| error.to_string())?,
+                );
             } else {
                 let model = robot(&text, &settings.search)?;
                 made.keep(RobotStatePublisher::new(node, text, &model, options).map_err(failed)?);

@@ -5,10 +5,10 @@ use std::path::Path;
 
 use crate::PlanParameters;
 use periplus_diagnostics::{Diagnostics, RenderStyle, SourceMap, render};
-use periplus_graph::Arguments;
+use periplus_graph::{Arguments, ParameterFileError};
 use periplus_msgs::rcl_interfaces::{ParameterType as Type, ParameterValue};
 use periplus_os::Machine;
-use periplus_resources::Host as _;
+use periplus_resources::{FileReadError, Host as _};
 use serde_json::Value;
 
 /// Parameters by name.
@@ -53,9 +53,10 @@ pub(crate) fn arguments(words: &[String], notes: &mut Vec<String>) -> Arguments 
     arguments
 }
 
-fn text(path: &Path) -> Result<String, String> {
-    let bytes = Machine.read(path).map_err(|error| format!("cannot be read: {error}"))?;
-    String::from_utf8(bytes).map_err(|_| "is not a text file".into())
+fn text(path: &Path) -> Result<String, ParameterFileError> {
+    let unreadable = |error: FileReadError| ParameterFileError::Unreadable(error.to_string());
+    let bytes = Machine.read(path).map_err(unreadable)?;
+    String::from_utf8(bytes).map_err(|_| ParameterFileError::NotText)
 }
 
 /// Adds a value, or its members with dotted names.

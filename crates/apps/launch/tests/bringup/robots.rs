@@ -1,7 +1,7 @@
 //! Robots of `robot_state_publisher`, from a launch file or a command.
 
 use periplus_diagnostics::{Diagnostics, SourceMap};
-use periplus_graph::{Arguments, Graph, Level, Mailbox, NodeSettings, Qos};
+use periplus_graph::{Arguments, Graph, Level, Mailbox, NodeSettings, ParameterFileError, Qos};
 use periplus_launch::bringup::{LaunchRunner, Settings};
 use periplus_launch::{Dialect, LaunchPlan, PlanNode, PlanStep, What};
 use periplus_msgs::sensor_msgs::JointState;
@@ -33,7 +33,7 @@ fn a_description_behind_ros_args_moves_joints_of_links_without_inertia() {
     let words = ["-p".to_owned(), format!("robot_description:={ARM}")];
     let (mut sources, mut findings) = (SourceMap::new(), Diagnostics::new());
     let arguments = Arguments::read(&words, &mut sources, &mut findings, &mut |_| {
-        Err("there are no files".into())
+        Err(ParameterFileError::Missing)
     });
     assert!(!findings.has_errors());
     let graph = Graph::new();

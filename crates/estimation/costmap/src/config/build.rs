@@ -9,7 +9,7 @@ use crate::layers::{
     StaticLayer, VoxelLayer,
 };
 use crate::tables::CostmapParams;
-use crate::{Layer, LayeredCostmap, Nav2Release, ObservationSource, TransformSource};
+use crate::{ChangeError, Layer, LayeredCostmap, Nav2Release, ObservationSource, TransformSource};
 
 impl CostmapConfig {
     /// Creates the costmap.
@@ -69,7 +69,7 @@ impl CostmapConfig {
         costmap: &mut LayeredCostmap,
         values: ParamValues,
         frames: &dyn TransformSource,
-    ) -> Result<(), String> {
+    ) -> Result<(), ChangeError> {
         refuse(&self.node, &values, self.compat)?;
         refuse_lost_robot(&self.node, &values, frames)?;
         let is_other =
@@ -77,10 +77,8 @@ impl CostmapConfig {
         let has_outline = is_other(&["footprint", "robot_radius", "footprint_padding"]);
         let has_size = is_other(&["resolution", "width", "height", "origin_x", "origin_y"]);
         if has_outline {
-            let (footprint, wrong) = footprint_of(&values);
-            if let Some(wrong) = wrong {
-                return Err(wrong.message);
-            }
+            let footprint = footprint_of(&CostmapParams::from_values(&values))
+                .map_err(ChangeError::Footprint)?;
             self.footprint =
                 footprint.padded(CostmapParams::from_values(&values).footprint_padding_m);
             costmap.set_footprint(self.footprint.clone());
@@ -98,16 +96,14 @@ fn refuse_lost_robot(
     before: &ParamValues,
     after: &ParamValues,
     frames: &dyn TransformSource,
-) -> Result<(), String> {
+) -> Result<(), ChangeError> {
     let CostmapParams { robot_base_frame: base, global_frame: global, .. } =
         CostmapParams::from_values(after);
     let kept = CostmapParams::from_values(before).robot_base_frame;
     if kept == base || frames.latest(&global, &base).is_some() {
         return Ok(());
     }
-    Err(format!(
-        "there is no transform from `{base}` to `{global}`; `robot_base_frame` stays `{kept}`"
-    ))
+    Err(ChangeError::NoRobotTransform { base, global, kept })
 }
 
 /// Parameters that cannot change while the costmap runs.
@@ -123,10 +119,14 @@ const FIXED_PARAMETERS: [&str; 8] = [
 ];
 
 /// Rejects changes that are not possible while the costmap runs.
-fn refuse(before: &ParamValues, after: &ParamValues, compat: Nav2Release) -> Result<(), String> {
+fn refuse(
+    before: &ParamValues,
+    after: &ParamValues,
+    compat: Nav2Release,
+) -> Result<(), ChangeError> {
     for name in FIXED_PARAMETERS {
         if before.get(name) != after.get(name) {
-            return Err(format!("`{name}` cannot be changed while the costmap runs"));
+            return Err(ChangeError::Fixed(name));
         }
     }
     // At startup any value is allowed; 0 or less means never.
@@ -135,7 +135,7 @@ fn refuse(before: &ParamValues, after: &ParamValues, compat: Nav2Release) -> Res
         && CostmapParams::from_values(before).publish_frequency_hz != publish_hz
         && publish_hz <= 0.0
     {
-        return Err("`publish_frequency` must be above 0 while the costmap runs".into());
+        return Err(ChangeError::PublishFrequency);
     }
     Ok(())
 }

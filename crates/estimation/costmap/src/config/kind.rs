@@ -2,7 +2,7 @@
 
 use periplus_params::Table;
 
-use crate::tables;
+use crate::{UnknownPlugin, tables};
 
 /// Type of a layer or filter.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -57,8 +57,8 @@ impl LayerKind {
     /// Returns the layer type of a plugin, and the current name of a plugin that is given by an old
     /// one.
     /// # Errors
-    /// The reason, for an unknown plugin.
-    pub fn of_plugin(plugin: &str) -> Result<(Self, Option<&'static str>), String> {
+    /// When the plugin is unknown.
+    pub fn of_plugin(plugin: &str) -> Result<(Self, Option<&'static str>), UnknownPlugin> {
         let plugin = plugin.trim();
         let find = |name: &str| PLUGINS.iter().find(|(plugin, _)| *plugin == name);
         if let Some((_, kind)) = find(plugin) {
@@ -71,7 +71,7 @@ impl LayerKind {
         let modern = modern.or_else(|| find(&spelled).map(|(name, _)| *name));
         match modern.and_then(find) {
             Some((name, kind)) => Ok((*kind, Some(name))),
-            None => Err(format!("`{plugin}` is not a supported layer")),
+            None => Err(UnknownPlugin(plugin.to_owned())),
         }
     }
 

@@ -8,7 +8,7 @@ use periplus_params::ParamValues;
 use super::mask::filter_info_error;
 use super::{FilterInfo, FilterKind, FilterMask, MaskFilter};
 use crate::tables::BinaryFilterParams;
-use crate::{CellWindow, Costmap, Layer, UpdateBounds, UpdateContext};
+use crate::{CellWindow, ChangeError, Costmap, Layer, UpdateBounds, UpdateContext};
 
 /// Filter that publishes a state by the mask value at the robot.
 pub struct BinaryFilter {
@@ -115,7 +115,7 @@ impl Layer for BinaryFilter {
         Some(&self.values)
     }
 
-    fn configure(&mut self, values: ParamValues) -> Result<(), String> {
+    fn configure(&mut self, values: ParamValues) -> Result<(), ChangeError> {
         self.params = BinaryFilterParams::from_values(&values);
         self.values = values;
         Ok(())

@@ -11,7 +11,7 @@ use super::mask::filter_info_error;
 use super::{FilterInfo, FilterKind, FilterMask, MaskFilter};
 use crate::cost::{INSCRIBED, LETHAL, UNKNOWN, cost_of};
 use crate::tables::KeepoutFilterParams;
-use crate::{CellWindow, Costmap, Explanation, Layer, UpdateBounds, UpdateContext};
+use crate::{CellWindow, ChangeError, Costmap, Explanation, Layer, UpdateBounds, UpdateContext};
 
 /// Filter that raises costs to those of a mask.
 pub struct KeepoutFilter {
@@ -191,7 +191,7 @@ impl Layer for KeepoutFilter {
         Some(&self.values)
     }
 
-    fn configure(&mut self, values: ParamValues) -> Result<(), String> {
+    fn configure(&mut self, values: ParamValues) -> Result<(), ChangeError> {
         self.take(values);
         Ok(())
     }

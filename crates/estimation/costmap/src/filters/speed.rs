@@ -9,7 +9,7 @@ use periplus_params::ParamValues;
 use super::mask::filter_info_error;
 use super::{FilterInfo, FilterKind, FilterMask, MaskFilter};
 use crate::tables::SpeedFilterParams;
-use crate::{CellWindow, Costmap, Layer, UpdateBounds, UpdateContext};
+use crate::{CellWindow, ChangeError, Costmap, Layer, UpdateBounds, UpdateContext};
 
 /// Speed limit.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -226,7 +226,7 @@ impl Layer for SpeedFilter {
         Some(&self.values)
     }
 
-    fn configure(&mut self, values: ParamValues) -> Result<(), String> {
+    fn configure(&mut self, values: ParamValues) -> Result<(), ChangeError> {
         self.params = SpeedFilterParams::from_values(&values);
         self.values = values;
         Ok(())

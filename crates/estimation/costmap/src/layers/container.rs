@@ -13,8 +13,8 @@ use crate::cost::UNKNOWN;
 use crate::layer::is_settled;
 use crate::tables::ContainerLayerParams;
 use crate::{
-    CellWindow, Combination, Costmap, Explanation, Footprint, Layer, Nav2Release, UpdateBounds,
-    UpdateContext,
+    CellWindow, ChangeError, Combination, Costmap, Explanation, Footprint, Layer, Nav2Release,
+    UpdateBounds, UpdateContext,
 };
 
 /// Layers with a separate grid, combined into the costmap together.
@@ -142,9 +142,9 @@ impl Layer for ContainerLayer {
         Some(&self.values)
     }
 
-    fn configure(&mut self, values: ParamValues) -> Result<(), String> {
+    fn configure(&mut self, values: ParamValues) -> Result<(), ChangeError> {
         if values.get("plugins") != self.values.get("plugins") {
-            return Err("`plugins` cannot be changed while the costmap runs".into());
+            return Err(ChangeError::Fixed("plugins"));
         }
         self.take(values);
         Ok(())

@@ -8,7 +8,7 @@ use periplus_params::ParamValues;
 
 use crate::cost::{FREE, INSCRIBED, LETHAL, UNKNOWN};
 use crate::tables::DenoiseLayerParams;
-use crate::{CellWindow, Costmap, Explanation, Layer, UpdateBounds, UpdateContext};
+use crate::{CellWindow, ChangeError, Costmap, Explanation, Layer, UpdateBounds, UpdateContext};
 
 /// Frees groups of obstacle cells with fewer than `smallest` cells. Neighbouring cells form a
 /// group, with `diagonally` also across a corner. Cells outside the window are ignored.
@@ -180,7 +180,7 @@ impl Layer for DenoiseLayer {
         Some(&self.values)
     }
 
-    fn configure(&mut self, values: ParamValues) -> Result<(), String> {
+    fn configure(&mut self, values: ParamValues) -> Result<(), ChangeError> {
         self.take(values);
         Ok(())
     }

@@ -10,7 +10,8 @@ use crate::cost::{LETHAL, UNKNOWN};
 use crate::inflation::{CostTable, InflationBuffers, InflationSettings, inflate};
 use crate::tables::InflationLayerParams;
 use crate::{
-    CellWindow, Costmap, Explanation, Footprint, Layer, Nav2Release, UpdateBounds, UpdateContext,
+    CellWindow, ChangeError, Costmap, Explanation, Footprint, Layer, Nav2Release, UpdateBounds,
+    UpdateContext,
 };
 
 /// Layer that inflates obstacles.
@@ -166,7 +167,7 @@ impl Layer for InflationLayer {
         Some(&self.values)
     }
 
-    fn configure(&mut self, values: ParamValues) -> Result<(), String> {
+    fn configure(&mut self, values: ParamValues) -> Result<(), ChangeError> {
         self.take(values);
         Ok(())
     }

@@ -13,8 +13,8 @@ use crate::cost::{FREE, LETHAL};
 use crate::observation::{Counters, RangeLimits};
 use crate::trace::TraceWriter;
 use crate::{
-    CellWindow, Costmap, Explanation, Layer, Nav2Release, Observation, ObservationSource,
-    UpdateBounds, UpdateContext,
+    CellWindow, ChangeError, Costmap, Explanation, Layer, Nav2Release, Observation,
+    ObservationSource, UpdateBounds, UpdateContext,
 };
 
 /// Distance inside the upper edges at which rays are cut \[m\].
@@ -96,7 +96,7 @@ impl Layer for ObstacleLayer {
         self.observed.resized(info);
     }
 
-    fn configure(&mut self, values: ParamValues) -> Result<(), String> {
+    fn configure(&mut self, values: ParamValues) -> Result<(), ChangeError> {
         self.observed.configure(values);
         Ok(())
     }

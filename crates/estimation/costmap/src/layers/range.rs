@@ -13,7 +13,9 @@ use periplus_params::ParamValues;
 use crate::clear::clear_cells;
 use crate::cost::{FREE, LETHAL, UNKNOWN};
 use crate::tables::RangeLayerParams;
-use crate::{CellWindow, Costmap, Explanation, Layer, Nav2Release, UpdateBounds, UpdateContext};
+use crate::{
+    CellWindow, ChangeError, Costmap, Explanation, Layer, Nav2Release, UpdateBounds, UpdateContext,
+};
 
 /// Cost of the cell of a reading from which the reading counts as seen.
 const SEEN_COST: u8 = 233;
@@ -426,9 +428,9 @@ impl Layer for RangeLayer {
         Some(&self.values)
     }
 
-    fn configure(&mut self, values: ParamValues) -> Result<(), String> {
+    fn configure(&mut self, values: ParamValues) -> Result<(), ChangeError> {
         if values.get("topics") != self.values.get("topics") {
-            return Err("`topics` cannot be changed while the costmap runs".into());
+            return Err(ChangeError::Fixed("topics"));
         }
         self.take(values);
         Ok(())

@@ -13,7 +13,8 @@ use crate::costmap::half_size_m;
 use crate::polygon::PolygonColumns;
 use crate::tables::{CostmapParams, StaticLayerParams};
 use crate::{
-    CellWindow, Combination, Costmap, Explanation, Layer, Nav2Release, UpdateBounds, UpdateContext,
+    CellWindow, ChangeError, Combination, Costmap, Explanation, Layer, MapError, Nav2Release,
+    UpdateBounds, UpdateContext,
 };
 
 /// Tolerance between equal lengths \[m\].
@@ -144,23 +145,23 @@ impl StaticLayer {
     /// Sets the map, which is used from the next update on.
     /// # Errors
     /// The reason, for a malformed map; the layer keeps the previous one.
-    pub fn set_map(&mut self, map: OccupancyGrid, frame: &str) -> Result<(), String> {
+    pub fn set_map(&mut self, map: OccupancyGrid, frame: &str) -> Result<(), MapError> {
         let GridInfo { resolution_m, width, height, origin } = map.info;
         if frame.is_empty() {
-            return Err("the map has no frame (`header.frame_id`)".into());
+            return Err(MapError::NoFrame);
         }
         if !(resolution_m.is_finite() && resolution_m >= MIN_RESOLUTION_M) {
-            return Err(format!("the resolution of the map is {resolution_m} m"));
+            return Err(MapError::Resolution(resolution_m));
         }
         if !origin.is_finite() {
-            return Err("the origin of the map is not finite".into());
+            return Err(MapError::Origin);
         }
         if map.cells.len() != width * height {
             let count = map.cells.len();
-            return Err(format!("the map has {count} cells and should have {width} x {height}"));
+            return Err(MapError::CellCount { count, width, height });
         }
         if width == 0 || height == 0 {
-            return Err("the map has no cells".into());
+            return Err(MapError::NoCells);
         }
         frame.clone_into(&mut self.map_frame);
         self.map = Some(upright(map));
@@ -177,28 +178,27 @@ impl StaticLayer {
         window: CellWindow,
         cells: &[i8],
         frame: &str,
-    ) -> Result<(), String> {
-        let Some(map) = &mut self.map else { return Err("there is no map yet".into()) };
+    ) -> Result<(), MapError> {
+        let Some(map) = &mut self.map else { return Err(MapError::NoMap) };
         let info = map.info;
         if window.xn > info.width || window.yn > info.height {
-            return Err(format!(
-                "the update extends to ({}, {}), and the map has {} x {} cells",
-                window.xn, window.yn, info.width, info.height
-            ));
+            return Err(MapError::BeyondMap {
+                end: (window.xn, window.yn),
+                size: (info.width, info.height),
+            });
         }
         if frame != self.map_frame {
-            return Err(format!(
-                "the update is in frame `{frame}`, and the map in `{}`",
-                self.map_frame
-            ));
+            return Err(MapError::OtherFrame {
+                update: frame.to_owned(),
+                map: self.map_frame.clone(),
+            });
         }
         if cells.len() != window.width() * window.height() {
-            return Err(format!(
-                "the update has {} cells and should have {} x {}",
-                cells.len(),
-                window.width(),
-                window.height()
-            ));
+            return Err(MapError::UpdateCellCount {
+                count: cells.len(),
+                width: window.width(),
+                height: window.height(),
+            });
         }
         if window.is_empty() {
             return Ok(());
@@ -408,10 +408,10 @@ impl Layer for StaticLayer {
         Some(&self.values)
     }
 
-    fn configure(&mut self, values: ParamValues) -> Result<(), String> {
+    fn configure(&mut self, values: ParamValues) -> Result<(), ChangeError> {
         for fixed in ["map_topic", "subscribe_to_updates", "map_subscribe_transient_local"] {
             if values.get(fixed) != self.values.get(fixed) {
-                return Err(format!("`{fixed}` cannot be changed while the costmap runs"));
+                return Err(ChangeError::Fixed(fixed));
             }
         }
         let restores = values.get("restore_cleared_footprint");
@@ -419,9 +419,7 @@ impl Layer for StaticLayer {
             && !self.clears_footprint
             && restores != self.values.get("restore_cleared_footprint")
         {
-            return Err("`restore_cleared_footprint` cannot be changed while \
-                 `footprint_clearing_enabled` is false; set that first"
-                .into());
+            return Err(ChangeError::RestoreWithoutClearing);
         }
         self.take(values);
         Ok(())

@@ -15,8 +15,8 @@ use crate::tables::VoxelLayerParams;
 use crate::trace::TraceWriter;
 use crate::voxel_grid::{MAX_VOXEL_COUNT, Voxel, VoxelGrid, marked, unknown};
 use crate::{
-    CellWindow, Costmap, Explanation, Layer, Nav2Release, Observation, ObservationSource,
-    UpdateBounds, UpdateContext,
+    CellWindow, ChangeError, Costmap, Explanation, Layer, Nav2Release, Observation,
+    ObservationSource, UpdateBounds, UpdateContext,
 };
 
 /// Fraction of a ray by which it is shortened at the edge of the grid.
@@ -249,10 +249,10 @@ impl Layer for VoxelLayer {
         self.voxels = VoxelGrid::new(*self.observed.grid.info(), self.columns.height);
     }
 
-    fn configure(&mut self, values: ParamValues) -> Result<(), String> {
+    fn configure(&mut self, values: ParamValues) -> Result<(), ChangeError> {
         let params = VoxelLayerParams::from_values(&values);
         if params.publish_voxel_map != self.params.publish_voxel_map {
-            return Err("`publish_voxel_map` cannot be changed while the costmap runs".into());
+            return Err(ChangeError::Fixed("publish_voxel_map"));
         }
         let columns = VoxelColumns::new(&params);
         let is_same = (columns.height, columns.origin_z_m, columns.z_resolution_m)

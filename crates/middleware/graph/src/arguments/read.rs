@@ -1,5 +1,6 @@
 //! Parser for `--ros-args`.
 
+use std::fmt;
 use std::path::Path;
 
 use periplus_diagnostics::{Diagnostic, Diagnostics, SourceMap, Span, closest};
@@ -59,9 +60,31 @@ pub fn split_arguments(words: impl IntoIterator<Item = String>) -> (Vec<String>,
     (own, ros)
 }
 
+/// Reason for which a parameter file was not read. Its text completes the sentence "the file ...".
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum ParameterFileError {
+    /// There is no such file.
+    Missing,
+    /// The file cannot be read, with the reason.
+    Unreadable(String),
+    /// The file is not UTF-8 text.
+    NotText,
+}
+
+impl fmt::Display for ParameterFileError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Missing => write!(f, "does not exist"),
+            Self::Unreadable(reason) => write!(f, "cannot be read: {reason}"),
+            Self::NotText => write!(f, "is not UTF-8 text"),
+        }
+    }
+}
+
+impl std::error::Error for ParameterFileError {}
+
 impl Arguments {
-    /// Parses the arguments after `--ros-args`. Parameter files are read with `read`; its error is
-    /// the rest of the sentence "the file ...".
+    /// Parses the arguments after `--ros-args`. Parameter files are read with `read`.
     ///
     /// Invalid arguments give findings; the rest is used.
     #[must_use]
@@ -69,7 +92,7 @@ impl Arguments {
         words: &[String],
         sources: &mut SourceMap,
         diagnostics: &mut Diagnostics,
-        read: &mut dyn FnMut(&Path) -> Result<String, String>,
+        read: &mut dyn FnMut(&Path) -> Result<String, ParameterFileError>,
     ) -> Self {
         let mut arguments = Self::default();
         let mut words = words.iter();
@@ -263,7 +286,7 @@ demo:
                 &mut |path| match path.to_str() {
                     Some("p.yaml") => Ok(FILE.into()),
                     Some("wrong.yaml") => Ok(WRONG.into()),
-                    _ => Err("does not exist".into()),
+                    _ => Err(ParameterFileError::Missing),
                 },
             );
         let text =

@@ -2,25 +2,45 @@
 //!
 //! Source of the type of a scalar: `get_value` in `rcl_yaml_param_parser/parse.c`.
 
-use std::fmt::Write as _;
+use std::fmt::{self, Write as _};
 
 use periplus_diagnostics::{Diagnostic, SourceMap};
 use periplus_geometry::{decode_base64, encode_base64};
 use periplus_msgs::rcl_interfaces::{ParameterType as Type, ParameterValue};
 use periplus_yaml::{YamlNode, YamlValue};
 
+/// Text that is not the value of a parameter. Its text completes the sentence "the value ...".
+#[derive(Clone, Debug, PartialEq)]
+pub enum InvalidParameter {
+    /// The text is not YAML.
+    Syntax(Box<Diagnostic>),
+    /// The YAML is not a value of a parameter.
+    Value(Box<Diagnostic>),
+}
+
+impl fmt::Display for InvalidParameter {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Syntax(finding) => write!(f, "cannot be read: {}", finding.message),
+            Self::Value(finding) => f.write_str(&finding.message),
+        }
+    }
+}
+
+impl std::error::Error for InvalidParameter {}
+
 /// Parses a parameter value as written after `-p name:=` or for `ros2 param set`.
 ///
 /// # Errors
-/// The rest of the sentence "the value ...".
-pub fn parameter_from_yaml(text: &str) -> Result<ParameterValue, String> {
+/// When the text is not a value.
+pub fn parameter_from_yaml(text: &str) -> Result<ParameterValue, InvalidParameter> {
     let mut sources = SourceMap::new();
     let file = sources.add("value", text);
     match periplus_yaml::parse(file, &sources) {
-        Ok(Some(node)) => value(&node).map_err(|wrong| wrong.message),
+        Ok(Some(node)) => value(&node).map_err(InvalidParameter::Value),
         // An empty text, quoted or not, is an empty string.
         Ok(None) => Ok(of_text(String::new())),
-        Err(wrong) => Err(format!("cannot be read: {}", wrong.message)),
+        Err(wrong) => Err(InvalidParameter::Syntax(wrong)),
     }
 }
 
@@ -277,7 +297,7 @@ mod tests {
         let check = |text: &str, expected: &str| {
             let read = parameter_from_yaml(text);
             let shown = read.map(|value| format!("{} {}", value.r#type, parameter_to_yaml(&value)));
-            assert_eq!(shown.unwrap_or_else(|wrong| wrong), expected, "{text}");
+            assert_eq!(shown.unwrap_or_else(|wrong| wrong.to_string()), expected, "{text}");
         };
         check("5", "2 5");
         check("-0x10", "2 -16");

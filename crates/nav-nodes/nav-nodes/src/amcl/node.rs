@@ -5,8 +5,8 @@ use std::sync::Arc;
 use periplus_diagnostics::Diagnostic;
 use periplus_geometry::Pose2;
 use periplus_graph::{
-    Graph, GraphError, Io, Level, LifecycleCallbacks, LifecycleNode, Node, NodeSettings, Qos,
-    StepOutcome,
+    Graph, GraphError, Io, Level, LifecycleCallbacks, LifecycleNode, Node, NodeSettings,
+    ParameterRejection, Qos, StepOutcome,
 };
 use periplus_localization::{
     Amcl, AmclParams, AmclUpdate, Covariance2, InitialPose, LocalizationStatus, Settings,
@@ -362,10 +362,8 @@ impl AmclNode {
                 updated
             }
             Err(why) => {
-                let why = match why.code {
-                    "no-map" => self.no_map(),
-                    _ => *why,
-                };
+                let has_map = self.amcl.as_ref().is_some_and(Amcl::has_map);
+                let why = if has_map { *why } else { self.no_map() };
                 self.told.tell(&why, node);
                 return;
             }
@@ -460,15 +458,19 @@ impl AmclNode {
     }
 
     /// Applies changed parameters at run time.
-    fn set_parameters(&mut self, values: &ParamValues, node: &Node) -> Result<(), String> {
-        let findings = Settings::conflicts(values);
-        if let Some(conflict) = findings.iter().find(|it| it.code == "more-least-than-most") {
-            return Err(conflict.message.clone());
+    fn set_parameters(
+        &mut self,
+        values: &ParamValues,
+        node: &Node,
+    ) -> Result<(), ParameterRejection> {
+        if let Some(conflict) = Settings::particle_conflict(values) {
+            return Err(ParameterRejection::new(conflict.message));
         }
         let settings = Settings::from_values(values);
         if let Some(amcl) = &mut self.amcl {
             if settings.global_frame == self.settings.global_frame {
-                amcl.set_settings(settings.clone()).map_err(|why| why.message)?;
+                amcl.set_settings(settings.clone())
+                    .map_err(|why| ParameterRejection::new(why.message))?;
             } else {
                 // The map is in another frame, so it is another map.
                 *amcl = Amcl::new(settings.clone());
@@ -481,13 +483,13 @@ impl AmclNode {
         let has_other_frames =
             (&old.odom_frame_id, &old.base_frame_id) != (&new.odom_frame_id, &new.base_frame_id);
         if has_other_inputs && let Some(inputs) = &mut self.inputs {
-            *inputs = Inputs::new(node, &new).map_err(|error| error.to_string())?;
+            *inputs = Inputs::new(node, &new).map_err(ParameterRejection::new)?;
         }
         if has_other_frames && let Some(amcl) = &mut self.amcl {
             amcl.reset_odometry();
         }
-        for finding in &findings {
-            node.log_finding(finding);
+        for finding in Settings::conflicts(values) {
+            node.log_finding(&finding);
         }
         self.params = new;
         self.values = values.clone();

@@ -534,8 +534,9 @@ impl MapPort {
             );
         };
         if let Some(message) = self.map.latest() {
-            let taken = map(&message).and_then(|map| layer.set_map(map, &message.header.frame_id));
-            if let Err(why) = taken {
+            let frame = &message.header.frame_id;
+            let set = |map| layer.set_map(map, frame).map_err(|error| error.to_string());
+            if let Err(why) = map(&message).and_then(set) {
                 refuse(why);
             }
         }

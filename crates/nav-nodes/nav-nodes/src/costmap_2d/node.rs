@@ -6,7 +6,7 @@ use periplus_diagnostics::{Diagnostic, SourceMap};
 use periplus_geometry::Pose2;
 use periplus_graph::{
     Graph, GraphError, Io, Level, LifecycleCallbacks, LifecycleNode, Mailbox, Node, NodeSettings,
-    Qos, StepOutcome,
+    ParameterRejection, Qos, StepOutcome,
 };
 use periplus_msgs::geometry_msgs;
 use periplus_params::ParamValues;
@@ -318,7 +318,7 @@ impl CostmapNode {
     }
 
     /// Applies changed parameters.
-    fn change(&mut self, all: &ParamValues) -> Result<(), String> {
+    fn change(&mut self, all: &ParamValues) -> Result<(), ParameterRejection> {
         let node = split(all, "", &self.config.node);
         let tf = &self.tf;
         let frames = |target: &str, source: &str| Some(tf.at(target, source, 0).ok()?.0);
@@ -327,7 +327,7 @@ impl CostmapNode {
                 for layer in self.config.layers.iter().chain(&self.config.filters) {
                     change_layer(costmap, layer, all)?;
                 }
-                self.config.change(costmap, node, &frames)?;
+                self.config.change(costmap, node, &frames).map_err(ParameterRejection::new)?;
             }
             None => self.config.node = node,
         }
@@ -392,13 +392,13 @@ fn change_layer(
     costmap: &mut LayeredCostmap,
     layer: &LayerConfig,
     all: &ParamValues,
-) -> Result<(), String> {
+) -> Result<(), ParameterRejection> {
     if let Some(running) = costmap.find_mut(&layer.name)
         && let Some(usual) = running.values().cloned()
     {
         let wanted = split(all, &layer.name, &usual);
         if wanted != usual {
-            running.configure(wanted)?;
+            running.configure(wanted).map_err(ParameterRejection::new)?;
         }
         for source in running.sources_mut() {
             let wanted = split(all, &source_group(&layer.name, &source.name), &source.values);

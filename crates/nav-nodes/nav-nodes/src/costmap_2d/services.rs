@@ -93,7 +93,7 @@ impl CostmapNode {
                 let message = if is_on { "Enabled" } else { "Disabled" };
                 SetBoolResponse { success: true, message: message.to_owned() }
             }
-            Err(message) => SetBoolResponse { success: false, message },
+            Err(error) => SetBoolResponse { success: false, message: error.to_string() },
         }
     }
 

@@ -6,7 +6,7 @@ use periplus_ekf::{
     Covariance, Ekf, EkfParams, Estimate, Intake, Refusal, Settings, State as Numbers,
 };
 use periplus_geometry::Pose;
-use periplus_graph::{Actor, GraphError, Level, Node, Qos};
+use periplus_graph::{Actor, GraphError, Level, Node, ParameterRejection, Qos};
 use periplus_msgs::geometry_msgs::PoseWithCovarianceStamped;
 use periplus_msgs::std_srvs::{Empty, EmptyResponse};
 use periplus_msgs::tf2_msgs::TFMessage;
@@ -70,7 +70,9 @@ impl EkfNode {
         let mut actor = node.actor(state);
         let parameters = actor.parameters(values, |state, values, _| state.change(values))?;
         let given = parameters.values();
-        actor.with(|state| state.apply(&given)).map_err(|reason| GraphError::Value { reason })?;
+        actor
+            .with(|state| state.apply(&given))
+            .map_err(|why| GraphError::Value { reason: why.to_string() })?;
         let params = EkfParams::from_values(&given);
         let node = actor.node().clone();
         actor.with(|state| {
@@ -288,24 +290,26 @@ impl State {
     }
 
     /// Applies parameters that change while the node runs.
-    fn change(&mut self, values: &ParamValues) -> Result<(), String> {
+    fn change(&mut self, values: &ParamValues) -> Result<(), ParameterRejection> {
         let (old, new) = (&self.params, EkfParams::from_values(values));
         let fixed = [
             ("frequency", old.frequency_hz != new.frequency_hz),
             ("publish_acceleration", old.publish_acceleration != new.publish_acceleration),
         ];
         if let Some((name, _)) = fixed.into_iter().find(|(_, differs)| *differs) {
-            return Err(format!("`{name}` is read when the node starts; restart the node"));
+            return Err(ParameterRejection::new(format_args!(
+                "`{name}` is read when the node starts; restart the node"
+            )));
         }
         self.apply(values)
     }
 
-    fn apply(&mut self, values: &ParamValues) -> Result<(), String> {
+    fn apply(&mut self, values: &ParamValues) -> Result<(), ParameterRejection> {
         let mut findings = Diagnostics::new();
         let sources = self.ekf.settings().sources.clone();
         let settings = Settings::of(values, sources, &mut findings);
         if let Some(bad) = findings.iter().next() {
-            return Err(bad.message.clone());
+            return Err(ParameterRejection::new(&bad.message));
         }
         self.ekf.set_settings(settings);
         self.params = EkfParams::from_values(values);

@@ -7,7 +7,7 @@ use periplus_diagnostics::Diagnostic;
 use periplus_geometry::{LaserScan2, Pose2};
 use periplus_graph::{
     Graph, GraphError, Io, Level, LifecycleCallbacks, LifecycleNode, Node, NodeSettings,
-    Parameters, Qos, StepOutcome,
+    ParameterRejection, Parameters, Qos, StepOutcome,
 };
 use periplus_grid::OccupancyGrid;
 use periplus_msgs::geometry_msgs::PoseWithCovarianceStamped;
@@ -775,7 +775,7 @@ impl SlamNode {
     }
 
     /// Applies parameter changes at runtime.
-    fn change(&mut self, values: &ParamValues) -> Result<(), String> {
+    fn change(&mut self, values: &ParamValues) -> Result<(), ParameterRejection> {
         const STATES: [&str; 2] = ["interactive_mode", "paused_processing"];
         const AT_ANY_TIME: [&str; 11] = [
             "paused_new_measurements",
@@ -791,26 +791,28 @@ impl SlamNode {
             "debug_logging",
         ];
         if values.table().find(BUFFER).is_some() && values.get(BUFFER) != self.values.get(BUFFER) {
-            return Err(format!("`{BUFFER}` is read when the node is made; set it in its file"));
+            return Err(ParameterRejection::new(format_args!(
+                "`{BUFFER}` is read when the node is made; set it in its file"
+            )));
         }
         let is_changed = |name: &&str| {
             values.table().find(name).is_some() && values.get(name) != self.values.get(name)
         };
         if let Some(name) = STATES.iter().find(|name| is_changed(name)) {
-            return Err(format!(
+            return Err(ParameterRejection::new(format_args!(
                 "`{name}` shows a state; the service `slam_toolbox/toggle_interactive_mode` changes \
                  it"
-            ));
+            )));
         }
         let changed =
             values.table().parameters.iter().map(|parameter| parameter.name).find(|name| {
                 !AT_ANY_TIME.contains(name) && values.get(name) != self.values.get(name)
             });
         if let Some(name) = changed.filter(|_| self.scans.is_some()) {
-            return Err(format!(
+            return Err(ParameterRejection::new(format_args!(
                 "`{name}` is read when the node is configured; set it before, or clean the node up \
                  and configure it again"
-            ));
+            )));
         }
         let is_paused = self.params.is_paused;
         self.set_values(values.clone());

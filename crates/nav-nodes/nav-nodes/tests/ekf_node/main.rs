@@ -7,7 +7,9 @@ use std::sync::Arc;
 use periplus_diagnostics::{Diagnostics, SourceMap};
 use periplus_ekf::Settings;
 use periplus_geometry::{Pose, Rpy};
-use periplus_graph::{Arguments, Graph, Mailbox, Node, NodeSettings, Publisher, Qos};
+use periplus_graph::{
+    Arguments, Graph, Mailbox, Node, NodeSettings, ParameterFileError, Publisher, Qos,
+};
 use periplus_msgs::builtin_interfaces::Time;
 use periplus_msgs::diagnostic_msgs::{DiagnosticArray, DiagnosticStatus};
 use periplus_msgs::geometry_msgs::{AccelWithCovarianceStamped, PoseWithCovarianceStamped};
@@ -240,7 +242,7 @@ fn arguments_apply_to_parameters_that_are_read_at_startup() {
     let words = "-p frequency:=5.0 -p publish_acceleration:=true".split(' ').map(str::to_owned);
     let words: Vec<String> = words.collect();
     let mut findings = Diagnostics::new();
-    let no_file = &mut |_: &std::path::Path| Err(String::new());
+    let no_file = &mut |_: &std::path::Path| Err(ParameterFileError::Missing);
     let arguments = Arguments::read(&words, &mut SourceMap::new(), &mut findings, no_file);
     assert!(findings.is_empty(), "{findings:?}");
     let graph = Graph::new();

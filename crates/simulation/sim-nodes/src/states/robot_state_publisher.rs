@@ -1,10 +1,11 @@
 //! `robot_state_publisher`.
 
 use std::collections::BTreeMap;
+use std::fmt;
 use std::sync::Arc;
 
 use periplus_diagnostics::{Diagnostics, Severity, SourceMap};
-use periplus_graph::{Actor, GraphError, Node, Publisher, Qos};
+use periplus_graph::{Actor, GraphError, Node, ParameterRejection, Publisher, Qos};
 use periplus_msgs::{sensor_msgs, std_msgs, tf2_msgs};
 use periplus_params::{ParamValues, params};
 use periplus_scene::Model;
@@ -79,10 +80,10 @@ impl RobotStatePublisher {
         node: Node,
         description: impl Into<String>,
         params: RobotStateParams,
-    ) -> Result<Self, String> {
+    ) -> Result<Self, RobotStateError> {
         let description = description.into();
-        let tree = tree_of(&description)?;
-        Self::of_tree(node, description, tree, params).map_err(|error| error.to_string())
+        let tree = tree_of(&description).map_err(RobotStateError::Description)?;
+        Self::of_tree(node, description, tree, params).map_err(RobotStateError::Graph)
     }
 
     fn of_tree(
@@ -131,10 +132,50 @@ impl RobotStatePublisher {
     }
 }
 
-/// Returns the frames of a URDF, or the problem.
-fn tree_of(description: &str) -> Result<FrameTree, String> {
+/// Reason for which a text is not a robot description.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum DescriptionError {
+    /// The text is empty.
+    Empty,
+    /// The text is not a URDF with links, with the first error.
+    NotRobot(String),
+}
+
+impl fmt::Display for DescriptionError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Empty => write!(f, "`robot_description` must not be empty"),
+            Self::NotRobot(why) => write!(f, "`robot_description` is not a robot: {why}"),
+        }
+    }
+}
+
+impl std::error::Error for DescriptionError {}
+
+/// Reason for which a publisher was not created.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum RobotStateError {
+    /// The description is not a URDF.
+    Description(DescriptionError),
+    /// A topic or parameter of the node has another type.
+    Graph(GraphError),
+}
+
+impl fmt::Display for RobotStateError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Description(error) => error.fmt(f),
+            Self::Graph(error) => error.fmt(f),
+        }
+    }
+}
+
+impl std::error::Error for RobotStateError {}
+
+/// Returns the frames of a URDF.
+fn tree_of(description: &str) -> Result<FrameTree, DescriptionError> {
     if description.trim().is_empty() {
-        return Err("`robot_description` must not be empty".into());
+        return Err(DescriptionError::Empty);
     }
     let mut sources = SourceMap::new();
     let file = sources.add("robot_description", description);
@@ -146,7 +187,7 @@ fn tree_of(description: &str) -> Result<FrameTree, String> {
         None => {
             let wrong = diagnostics.iter().find(|it| it.severity == Severity::Error);
             let why = wrong.map_or("it has no links", |wrong| wrong.message.as_str());
-            Err(format!("`robot_description` is not a robot: {why}"))
+            Err(DescriptionError::NotRobot(why.to_owned()))
         }
     }
 }
@@ -162,13 +203,15 @@ fn fixed_transforms(tree: &FrameTree, prefix: &str, now_ns: i64) -> tf2_msgs::TF
 
 impl PublisherState {
     /// Applies other parameters. A changed description is published again, with its fixed frames.
-    fn change(&mut self, values: &ParamValues, now_ns: i64) -> Result<(), String> {
+    fn change(&mut self, values: &ParamValues, now_ns: i64) -> Result<(), ParameterRejection> {
         let params = RobotStateParams::from_values(values);
         let description = params.robot_description.clone();
         let tree = match &description {
-            Some(text) if description != self.described => Some(tree_of(text)?),
+            Some(text) if description != self.described => {
+                Some(tree_of(text).map_err(ParameterRejection::new)?)
+            }
             Some(_) => None,
-            None => return Err("`robot_description` must not be empty".into()),
+            None => return Err(ParameterRejection::new(DescriptionError::Empty)),
         };
         self.params = params;
         if let Some(tree) = tree {

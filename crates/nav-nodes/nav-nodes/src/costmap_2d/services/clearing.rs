@@ -143,7 +143,9 @@ impl CostmapNode {
         let done = match (&mut self.costmap, wish.region) {
             (None, _) => Err("the costmap is not configured".to_owned()),
             (_, None) => Err("the position is unknown: a transform is missing".to_owned()),
-            (Some(costmap), Some(region)) => clear(costmap, region, wish.plugins),
+            (Some(costmap), Some(region)) => {
+                clear(costmap, region, wish.plugins).map_err(|error| error.to_string())
+            }
         };
         if wish.region == Some(Region::Everything)
             && let Some(outputs) = &mut self.outputs
