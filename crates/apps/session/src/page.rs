@@ -19,7 +19,7 @@ use periplus_os::{Machine, unix_ns};
 use periplus_resources::Host as _;
 use periplus_sim::Composition;
 use periplus_web::foxglove::{Hub, Settings};
-use periplus_web::server::{WebServer, WebServerSettings, token};
+use periplus_web::server::{TokenError, WebServer, WebServerSettings, token};
 
 use crate::terminal;
 
@@ -104,7 +104,7 @@ impl PageSettings {
 #[derive(Debug)]
 pub enum PageError {
     /// No token can be generated.
-    Token(String),
+    Token(TokenError),
     /// The graph refused the node of the page.
     Graph(GraphError),
     /// The address cannot be used.
@@ -114,7 +114,7 @@ pub enum PageError {
 impl fmt::Display for PageError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::Token(message) => f.write_str(message),
+            Self::Token(error) => error.fmt(f),
             Self::Graph(error) => error.fmt(f),
             Self::Address(address, error) => {
                 write!(f, "no page at {address}: {}", plain_words(error))?;

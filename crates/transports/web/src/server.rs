@@ -19,4 +19,4 @@ mod token_rate_limit;
 
 pub use authorization::{AdmissionError, Authorization};
 pub use listener::{WebServer, WebServerSettings};
-pub use token::{MIN_TOKEN_CHARACTERS, token};
+pub use token::{MIN_TOKEN_CHARACTERS, TokenError, token};

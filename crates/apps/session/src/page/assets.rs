@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 
 use periplus_os::Machine;
 use periplus_resources::{Host as _, Resolver};
+use periplus_web::foxglove::protocol::AssetError;
 
 use crate::terminal;
 
@@ -20,7 +21,7 @@ const MISSING_FILE: &str = "/.periplus/no/file/was/loaded/so/nothing/is/around/i
 pub(super) fn fetch(
     files: &[PathBuf],
     resource_path: &[PathBuf],
-) -> impl Fn(&str) -> Result<Vec<u8>, String> + Send + Sync + use<> {
+) -> impl Fn(&str) -> Result<Vec<u8>, AssetError> + Send + Sync + use<> {
     let here = terminal::working_folder();
     let folders: Vec<PathBuf> = resource_path.iter().map(|folder| here.join(folder)).collect();
     let mut from: Vec<PathBuf> = files.iter().map(|file| here.join(file)).collect();
@@ -40,18 +41,17 @@ pub(super) fn fetch(
                 Err(miss) => missed = missed.or(Some(miss.to_string())),
             }
         }
-        Err(missed.unwrap_or_default())
+        Err(missed.unwrap_or_default().into())
     }
 }
 
-fn read(uri: &str, path: &Path) -> Result<Vec<u8>, String> {
+fn read(uri: &str, path: &Path) -> Result<Vec<u8>, AssetError> {
     let kind = path.extension().map(|kind| kind.to_string_lossy().to_ascii_lowercase());
     if !kind.as_deref().is_some_and(|kind| KINDS.contains(&kind)) {
-        return Err(format!(
-            "access to `{uri}` denied: only meshes, images and descriptions are served"
-        ));
+        let reason = "only meshes, images and descriptions are served";
+        return Err(format!("access to `{uri}` denied: {reason}").into());
     }
-    Machine.read(path).map_err(|error| format!("`{uri}`: {error}"))
+    Machine.read(path).map_err(|error| format!("`{uri}`: {error}").into())
 }
 
 #[cfg(test)]

@@ -7,10 +7,10 @@ pub use client::{
     ChannelSubscription, ClientBinary, ClientChannel, ClientText, Malformed, ParameterText,
 };
 pub use server::{
-    AssetAnswer, ChannelText, ConnectionGraph, MismatchText, PartyText, PolicyText, ServiceText,
-    StatusLevel, advertise, advertise_services, asset, connection_graph, message_head, parameters,
-    remove_status, repair_result, schema_of, server_info, service_answer, service_failure, status,
-    time, unadvertise, unadvertise_services,
+    AssetAnswer, AssetError, ChannelText, ConnectionGraph, MismatchText, PartyText, PolicyText,
+    QosRepairError, ServiceText, StatusLevel, advertise, advertise_services, asset,
+    connection_graph, message_head, parameters, remove_status, repair_result, schema_of,
+    server_info, service_answer, service_failure, status, time, unadvertise, unadvertise_services,
 };
 
 /// WebSocket subprotocols in order of preference: the name in the protocol's document, and that of

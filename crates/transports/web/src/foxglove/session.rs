@@ -170,7 +170,7 @@ impl ClientSession {
         let assets = lock(&self.shared.assets).clone();
         let answer = match assets {
             Some(assets) => assets(uri),
-            None => Err("this server has no files".to_owned()),
+            None => Err("this server has no files".into()),
         };
         self.say(protocol::asset(request_id, &answer));
     }

@@ -1,19 +1,32 @@
 //! Access tokens of the server.
 
+use std::fmt;
+
 use sha2::{Digest as _, Sha256};
 
 /// Minimum length of a token for access from other machines \[characters\], so that it cannot be
 /// guessed.
 pub const MIN_TOKEN_CHARACTERS: usize = 16;
 
+/// Reason for which no token was generated: the system has no random numbers.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct TokenError(getrandom::Error);
+
+impl fmt::Display for TokenError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "the system has no random numbers: {}", self.0)
+    }
+}
+
+impl std::error::Error for TokenError {}
+
 /// Generates a random token: 128 bits as 32 hexadecimal digits.
 ///
 /// # Errors
 /// When the system has no random numbers.
-pub fn token() -> Result<String, String> {
+pub fn token() -> Result<String, TokenError> {
     let mut bytes = [0_u8; 16];
-    getrandom::fill(&mut bytes)
-        .map_err(|error| format!("the system has no random numbers: {error}"))?;
+    getrandom::fill(&mut bytes).map_err(TokenError)?;
     Ok(bytes.iter().map(|byte| format!("{byte:02x}")).collect())
 }
 

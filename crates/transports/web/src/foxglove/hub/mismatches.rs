@@ -6,7 +6,7 @@ use periplus_graph::{EndpointId, IncompatiblePolicy, Policy, Qos, TopicInfo};
 
 use super::{Shared, State};
 use crate::foxglove::network_endpoints::NetworkEndpoints;
-use crate::foxglove::protocol::{MismatchText, PartyText, PolicyText};
+use crate::foxglove::protocol::{MismatchText, PartyText, PolicyText, QosRepairError};
 
 pub(super) type Mismatch = MismatchText;
 
@@ -172,7 +172,7 @@ impl State {
         topic: &str,
         publisher: &str,
         subscription: &str,
-    ) -> Result<String, String> {
+    ) -> Result<String, QosRepairError> {
         let next = || {
             let all = find(&shared.graph.topics(), &self.network);
             all.into_iter().find(|Found { text, .. }| {
@@ -181,12 +181,14 @@ impl State {
             })
         };
         let Some(first) = next() else {
-            return Err(format!(
-                "`{publisher}` and `{subscription}` are compatible on `{topic}`, or one of them was removed"
-            ));
+            return Err(QosRepairError::Compatible {
+                topic: topic.to_owned(),
+                publisher: publisher.to_owned(),
+                subscription: subscription.to_owned(),
+            });
         };
         if first.change.is_none() {
-            return Err(format!("neither end is part of this program: {}", first.text.advice));
+            return Err(QosRepairError::Foreign(first.text.advice));
         }
         // A node may have several endpoints on one topic; all of them are changed.
         let changes = std::iter::from_fn(|| next().and_then(|found| found.change));

@@ -1,6 +1,7 @@
 //! Messages to clients.
 
 use std::collections::{BTreeMap, BTreeSet};
+use std::fmt;
 
 use periplus_msgs::TypeRegistry;
 use serde::Serialize;
@@ -246,12 +247,46 @@ pub fn connection_graph(graph: &ConnectionGraph<'_>) -> WebSocketFrame {
     text(&value)
 }
 
+/// Reason for which endpoints with incompatible QoS were not repaired.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum QosRepairError {
+    /// The endpoints are compatible, or one of them was removed.
+    Compatible {
+        /// Topic.
+        topic: String,
+        /// Node of the publisher.
+        publisher: String,
+        /// Node of the subscription.
+        subscription: String,
+    },
+    /// Neither endpoint is part of this program; with advice.
+    Foreign(String),
+}
+
+impl fmt::Display for QosRepairError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Compatible { topic, publisher, subscription } => write!(
+                f,
+                "`{publisher}` and `{subscription}` are compatible on `{topic}`, or one of them was \
+                 removed"
+            ),
+            Self::Foreign(advice) => write!(f, "neither end is part of this program: {advice}"),
+        }
+    }
+}
+
+impl std::error::Error for QosRepairError {}
+
 /// Result of [`ClientText::RepairQos`](super::ClientText::RepairQos), sent to the requesting client
 /// only. Extension of Foxglove's protocol.
 #[must_use]
-pub fn repair_result(id: u32, outcome: &Result<String, String>) -> WebSocketFrame {
-    let (Ok(message) | Err(message)) = outcome;
+pub fn repair_result(id: u32, outcome: &Result<String, QosRepairError>) -> WebSocketFrame {
     let is_repaired = outcome.is_ok();
+    let message = match outcome {
+        Ok(message) => message.clone(),
+        Err(error) => error.to_string(),
+    };
     text(&json!({
         "op": "repairQosResult", "id": id, "isRepaired": is_repaired, "message": message,
     }))
@@ -297,15 +332,41 @@ pub fn service_failure(service_id: u32, call_id: u32, why: &str) -> WebSocketFra
     }))
 }
 
+/// Reason for which a file cannot be read.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct AssetError {
+    reason: String,
+}
+
+impl From<String> for AssetError {
+    fn from(reason: String) -> Self {
+        Self { reason }
+    }
+}
+
+impl From<&str> for AssetError {
+    fn from(reason: &str) -> Self {
+        Self { reason: reason.to_owned() }
+    }
+}
+
+impl fmt::Display for AssetError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.reason)
+    }
+}
+
+impl std::error::Error for AssetError {}
+
 /// A file, or the reason for which it cannot be read.
-pub type AssetAnswer = Result<Vec<u8>, String>;
+pub type AssetAnswer = Result<Vec<u8>, AssetError>;
 
 /// Encodes a file or the reason of failure.
 #[must_use]
 pub fn asset(request_id: u32, answer: &AssetAnswer) -> WebSocketFrame {
     let (status, why, data) = match answer {
         Ok(data) => (0, "", data.as_slice()),
-        Err(why) => (1, why.as_str(), &[][..]),
+        Err(error) => (1, error.reason.as_str(), &[][..]),
     };
     let mut bytes = Vec::with_capacity(10 + why.len() + data.len());
     bytes.push(4);
