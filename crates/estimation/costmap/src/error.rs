@@ -55,7 +55,7 @@ pub enum MapError {
     Resolution(f64),
     /// The origin is not finite.
     Origin,
-    /// The map has another number of cells than its size says.
+    /// The map has another number of cells than its size requires.
     CellCount {
         /// Number of cells.
         count: usize,

@@ -7,7 +7,7 @@ pub trait ParamField: Sized {
     /// Type of the values.
     const TYPE: ParamType;
 
-    /// True if the field has a value of its own for a parameter that is not set, so that it needs no
+    /// True if the field has a separate value for a parameter that is not set, so that it needs no
     /// default.
     const IS_OPTIONAL: bool = false;
 
