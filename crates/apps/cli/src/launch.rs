@@ -70,14 +70,10 @@ pub(crate) fn run(options: &LaunchOptions, ros: Vec<String>) -> Result<ExitCode,
     let resolver = Resolver::new(&host, &folders);
     let mut sources = SourceMap::new();
     // Generated files exist as long as the run.
-    let limits = outside::Limits {
-        is_kept: options.print,
-        runs_code: !options.no_code,
-        longest: Duration::from_secs_f64(options.evaluation_limit.min(MAX_EVALUATION_S)),
-    };
+    let limits = options.limits();
     let tools = limits.runs_code.then(|| Tools::make(&options.search.resource_path)).flatten();
     let mut outside = outside::Programs::new(&resolver, &here, limits, tools.as_ref());
-    let (plan, found, ending, file) = match named::file(&words, &resolver, &here) {
+    let evaluated = match named::file(&words, &resolver, &here) {
         Ok(Found::File(file)) => {
             let request = Request {
                 file: file.clone(),
@@ -86,62 +82,27 @@ pub(crate) fn run(options: &LaunchOptions, ros: Vec<String>) -> Result<ExitCode,
                 resolver: &resolver,
                 outside: &mut outside,
             };
-            let (plan, found, ending) = plan_with_ending(request, &mut sources);
-            (plan, found, ending, file)
+            let (plan, findings, ending) = plan_with_ending(request, &mut sources);
+            Evaluated { plan, findings, ending, file }
         }
-        Ok(Found::Replacement(file)) => {
-            let plan = only(&file, arguments);
-            (plan, Diagnostics::new(), ShutdownHandlers::default(), PathBuf::from(file))
-        }
+        Ok(Found::Replacement(file)) => Evaluated {
+            plan: only(&file, arguments),
+            findings: Diagnostics::new(),
+            ending: ShutdownHandlers::default(),
+            file: PathBuf::from(file),
+        },
         Err(wrong) => {
-            let mut found = Diagnostics::new();
-            found.push(*wrong);
-            terminal::diagnostics(&mut anstream::stderr().lock(), &found, &sources)?;
+            let mut findings = Diagnostics::new();
+            findings.push(*wrong);
+            terminal::diagnostics(&mut anstream::stderr().lock(), &findings, &sources)?;
             return Ok(ExitCode::FAILURE);
         }
     };
-    // Missing packages matter when a plan is printed; a run reports them for each node.
-    let mut told = Diagnostics::new();
-    let is_read = options.print || options.show_args;
-    for finding in found.iter().filter(|one| is_read || one.severity != Severity::Hint) {
-        let mut finding = finding.clone();
-        if !is_read && MissingInput::of(finding.code).is_some() {
-            finding.severity = Severity::Error;
-        }
-        told.push(finding);
+    options.print_findings(&evaluated.findings, &sources)?;
+    if let Some(code) = options.show(&evaluated)? {
+        return Ok(code);
     }
-    let missing = if is_read { 0 } else { missing_inputs(&found) };
-    if !options.play.quiet || told.has_errors() {
-        terminal::diagnostics(&mut anstream::stderr().lock(), &told, &sources)?;
-    }
-    let mut out = anstream::AutoStream::auto(io::stdout().lock());
-    if options.show_args {
-        // A launch file with missing arguments has findings only up to that point.
-        show::arguments(&mut out, &plan)?;
-        let is_told = found.iter().all(|finding| {
-            finding.code == "launch-argument"
-                || finding.severity != periplus_diagnostics::Severity::Error
-        });
-        return Ok(if is_told { ExitCode::SUCCESS } else { ExitCode::FAILURE });
-    }
-    if found.has_errors() {
-        return Ok(ExitCode::FAILURE);
-    }
-    if options.print {
-        print(&mut out, &plan)?;
-        return Ok(ExitCode::SUCCESS);
-    }
-    drop(out);
-    if missing > 0 {
-        // As with ROS: without its description or parameters a robot or node would run in a
-        // different configuration than intended.
-        return Err(CliError::failed(format!(
-            "the launch was not started: {missing} of its inputs {} not on this machine; `--print` \
-             shows the plan without {}",
-            if missing == 1 { "is" } else { "are" },
-            if missing == 1 { "it" } else { "them" },
-        )));
-    }
+    let Evaluated { plan, ending, file, .. } = evaluated;
     let launched = play::Launched {
         plan,
         dialect: dialect(&host, &file),
@@ -150,14 +111,94 @@ pub(crate) fn run(options: &LaunchOptions, ros: Vec<String>) -> Result<ExitCode,
         start,
     };
     let outcome = play::play(launched, &options.play, &options.search);
-    for complaint in ending.run() {
-        let line = complaint.line.map(|line| format!("{line}: ")).unwrap_or_default();
-        terminal::complain(&format!(
-            "error at shutdown of the launch: {line}{}",
-            complaint.message
-        ));
-    }
+    shut_down(ending);
     outcome
+}
+
+/// Launch file after its evaluation.
+struct Evaluated {
+    plan: LaunchPlan,
+    findings: Diagnostics,
+    ending: ShutdownHandlers,
+    file: PathBuf,
+}
+
+impl LaunchOptions {
+    fn limits(&self) -> outside::Limits {
+        outside::Limits {
+            is_kept: self.print,
+            runs_code: !self.no_code,
+            longest: Duration::from_secs_f64(self.evaluation_limit.min(MAX_EVALUATION_S)),
+        }
+    }
+
+    /// Returns true if the plan or its arguments are printed and nothing starts.
+    fn is_read_only(&self) -> bool {
+        self.print || self.show_args
+    }
+
+    /// Prints the findings of the evaluation. Missing packages matter when a plan is printed; a
+    /// run reports them for each node.
+    fn print_findings(&self, findings: &Diagnostics, sources: &SourceMap) -> Result<(), CliError> {
+        let is_read_only = self.is_read_only();
+        let mut printed = Diagnostics::new();
+        for finding in findings.iter().filter(|one| is_read_only || one.severity != Severity::Hint)
+        {
+            let mut finding = finding.clone();
+            if !is_read_only && MissingInput::of(finding.code).is_some() {
+                finding.severity = Severity::Error;
+            }
+            printed.push(finding);
+        }
+        if !self.play.quiet || printed.has_errors() {
+            terminal::diagnostics(&mut anstream::stderr().lock(), &printed, sources)?;
+        }
+        Ok(())
+    }
+
+    /// Prints the arguments or the plan, if requested. Returns the exit code of the command if
+    /// nothing is to be started.
+    ///
+    /// # Errors
+    /// When inputs of the launch are missing on this machine, or a write fails.
+    fn show(&self, evaluated: &Evaluated) -> Result<Option<ExitCode>, CliError> {
+        let Evaluated { plan, findings, .. } = evaluated;
+        let mut out = anstream::AutoStream::auto(io::stdout().lock());
+        if self.show_args {
+            // A launch file with missing arguments has findings only up to that point.
+            show::arguments(&mut out, plan)?;
+            let is_complete = findings.iter().all(|finding| {
+                finding.code == "launch-argument" || finding.severity != Severity::Error
+            });
+            return Ok(Some(if is_complete { ExitCode::SUCCESS } else { ExitCode::FAILURE }));
+        }
+        if findings.has_errors() {
+            return Ok(Some(ExitCode::FAILURE));
+        }
+        if self.print {
+            print(&mut out, plan)?;
+            return Ok(Some(ExitCode::SUCCESS));
+        }
+        match missing_inputs(findings) {
+            0 => Ok(None),
+            // As with ROS: without its description or parameters a robot or node would run in a
+            // different configuration than intended.
+            missing => Err(CliError::failed(format!(
+                "the launch was not started: {missing} of its inputs {} not on this machine; \
+                 `--print` shows the plan without {}",
+                if missing == 1 { "is" } else { "are" },
+                if missing == 1 { "it" } else { "them" },
+            ))),
+        }
+    }
+}
+
+/// Calls the shutdown handlers of the launch file and prints their errors.
+fn shut_down(ending: ShutdownHandlers) {
+    for error in ending.run() {
+        let line = error.line.map(|line| format!("{line}: ")).unwrap_or_default();
+        terminal::complain(&format!("error at shutdown of the launch: {line}{}", error.message));
+    }
 }
 
 /// Number of missing inputs of a plan.

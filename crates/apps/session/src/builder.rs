@@ -12,7 +12,7 @@ use periplus_sim::{
 
 use crate::error::RunError;
 use crate::network::{GazeboConnection, GazeboSettings, Ros2Connection, Ros2Reach};
-use crate::nodes::{EstimatorRequest, Estimators};
+use crate::nodes::{EstimatorRequest, Estimators, RobotProfile};
 use crate::page::{Page, PageSettings};
 use crate::session::{SessionParts, SimulationSession};
 use crate::terminal;
@@ -168,22 +168,9 @@ impl SessionBuilder {
             .map_err(RunError::Services)?;
         let warnings = self.driver.join(&simulation).map_err(RunError::Script)?;
         terminal::print_findings(&warnings)?;
-        let pace = if self.factor.is_some() { Pace::Sliced } else { Pace::Whole };
-        let estimators = match request {
-            Some(request) => {
-                let estimators = request.start(&simulation, profile.as_ref(), pace)?;
-                if !self.is_quiet {
-                    terminal::print_findings(&simulation.graph().unused_arguments())?;
-                }
-                estimators
-            }
-            None => Estimators::default(),
-        };
+        let estimators = self.start_estimators(&simulation, request, profile.as_ref())?;
         let ros2 = self.connect_ros2(&simulation)?;
-        let gazebo = self.gazebo.map(|settings| {
-            GazeboConnection::join(&simulation, &mut services, settings, self.is_quiet)
-        });
-        let gazebo = gazebo.transpose()?;
+        let gazebo = self.connect_gazebo(&simulation, &mut services)?;
         let page = self.open_page(&simulation, &mut services)?;
         Ok(SimulationSession::new(SessionParts {
             page,
@@ -213,6 +200,32 @@ impl SessionBuilder {
             }
         }
         Ok(is_whole)
+    }
+
+    fn start_estimators(
+        &self,
+        simulation: &Simulation,
+        request: Option<EstimatorRequest>,
+        profile: Option<&RobotProfile>,
+    ) -> Result<Estimators, RunError> {
+        let Some(request) = request else { return Ok(Estimators::default()) };
+        let pace = if self.factor.is_some() { Pace::Sliced } else { Pace::Whole };
+        let estimators = request.start(simulation, profile, pace)?;
+        if !self.is_quiet {
+            terminal::print_findings(&simulation.graph().unused_arguments())?;
+        }
+        Ok(estimators)
+    }
+
+    fn connect_gazebo(
+        &mut self,
+        simulation: &Simulation,
+        services: &mut Services,
+    ) -> Result<Option<GazeboConnection>, RunError> {
+        let settings = self.gazebo.take();
+        let joined = settings
+            .map(|settings| GazeboConnection::join(simulation, services, settings, self.is_quiet));
+        joined.transpose()
     }
 
     fn connect_ros2(&self, simulation: &Simulation) -> Result<Ros2Connection, RunError> {
