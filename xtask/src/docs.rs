@@ -22,6 +22,7 @@ pub(crate) enum Part {
     /// Documentation of the code, with every warning as an error
     Code,
     /// Links and anchors of every Markdown page, the table of contents, the list of dependencies
+    /// with the tests that it names
     Links,
     /// Site in `target/site`, built by mdbook if it is installed
     Site,
@@ -64,7 +65,10 @@ fn findings(pages: &[Page]) -> Vec<String> {
     findings.extend(book::check(pages));
     let manifest = fs::read_to_string(root().join("Cargo.toml")).unwrap_or_default();
     let list = pages.iter().find(|page| page.path == dependencies::PAGE);
-    findings.extend(dependencies::check(&manifest, list.map_or("", |page| &page.text)));
+    let list = list.map_or("", |page| &page.text);
+    findings.extend(dependencies::check(&manifest, list));
+    let read = |path: &str| fs::read_to_string(root().join(path)).ok();
+    findings.extend(dependencies::check_tests(list, &read));
     findings
 }
 

@@ -1,7 +1,14 @@
-//! DEPENDENCIES.md: every library that the workspace takes from elsewhere is named there.
+//! DEPENDENCIES.md: every library that the workspace takes from elsewhere is named there, and every part that is
+//! written by hand names the tests of its reason.
 
 /// The page with the list.
 pub(crate) const PAGE: &str = "DEPENDENCIES.md";
+
+/// Heading of the parts for which a library exists.
+const BY_HAND: &str = "## Written by hand";
+
+/// Number of columns of that table; the last one names tests.
+const COLUMNS: usize = 4;
 
 /// Checks the list against the manifest of the workspace, both ways.
 pub(crate) fn check(manifest: &str, list: &str) -> Vec<String> {
@@ -16,6 +23,36 @@ pub(crate) fn check(manifest: &str, list: &str) -> Vec<String> {
     let gone = named.iter().filter(|name| !used.contains(name));
     findings
         .extend(gone.map(|name| format!("{PAGE}: `{name}` is not in Cargo.toml: remove its row")));
+    findings
+}
+
+/// Checks that each part written by hand names tests that exist; `read` is the text of a file of this tree.
+pub(crate) fn check_tests(list: &str, read: &dyn Fn(&str) -> Option<String>) -> Vec<String> {
+    let lines = list.lines().enumerate().skip_while(|(_, line)| !line.starts_with(BY_HAND)).skip(1);
+    let rows = lines
+        .take_while(|(_, line)| !line.starts_with("## "))
+        .filter(|(_, line)| line.starts_with('|'))
+        // The head of the table and the line below it.
+        .skip(2);
+    let mut findings = Vec::new();
+    for (index, row) in rows {
+        let line = index + 1;
+        let cells: Vec<&str> = row.trim_matches('|').split(" | ").collect();
+        let [.., tests] = cells.as_slice() else { continue };
+        let mut names: Vec<&str> = tests.split('`').skip(1).step_by(2).collect();
+        let path = names.pop().filter(|path| path.ends_with(".rs"));
+        let (Some(path), true, COLUMNS) = (path, !names.is_empty(), cells.len()) else {
+            findings.push(format!(
+                "{PAGE}:{line}: the row names no test: end it with `name` in `path.rs`"
+            ));
+            continue;
+        };
+        let text = read(path).unwrap_or_default();
+        let missing = names.iter().filter(|name| !text.contains(&format!("fn {name}(")));
+        findings.extend(missing.map(|name| {
+            format!("{PAGE}:{line}: {path} has no test `{name}`: name the test of this requirement")
+        }));
+    }
     findings
 }
 
@@ -51,6 +88,30 @@ mod tests {
                 "DEPENDENCIES.md: `two` of Cargo.toml has no row: add its licence and its reason",
                 "DEPENDENCIES.md: `four` is not in Cargo.toml: remove its row",
             ]
+        );
+    }
+    #[test]
+    fn parts_written_by_hand_name_their_tests() {
+        let page = |rows: &str| {
+            format!(
+                "| `x` | MIT | why |\n\n## Written by hand, though\n\n| Part | Library | Reason | Test |\n\
+                 |---|---|---|---|\n{rows}\n## Other\n| a | b | c | d |\n"
+            )
+        };
+        let read = |path: &str| (path == "a.rs").then(|| "fn one() {}\nfn two() {}".to_owned());
+        let check = |rows: &str| check_tests(&page(rows), &read);
+        assert_eq!(check("| P | `x` | why | `one` and `two` in `a.rs` |\n"), Vec::<String>::new());
+        assert_eq!(
+            check("| P | `x` | why | `one` in `a.rs` |\n| | | why | `three` in `a.rs` |\n"),
+            ["DEPENDENCIES.md:8: a.rs has no test `three`: name the test of this requirement"]
+        );
+        for row in ["| P | `x` | why | none |\n", "| P | `x` | `one` in `a.rs` |\n"] {
+            let finding =
+                "DEPENDENCIES.md:7: the row names no test: end it with `name` in `path.rs`";
+            assert_eq!(check(row), [finding], "{row}");
+        }
+        assert!(
+            check("| P | `x` | why | `one` in `gone.rs` |\n")[0].contains("gone.rs has no test")
         );
     }
 }

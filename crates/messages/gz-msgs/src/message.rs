@@ -210,3 +210,45 @@ macro_rules! kinds {
     )*};
 }
 pub(crate) use kinds;
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::messages::{Model, PoseV};
+    use crate::protobuf::put_inside;
+
+    /// A message whose field `number` is a list of `count` messages without content, two bytes each.
+    fn empty_elements(number: u32, count: usize) -> Vec<u8> {
+        let mut bytes = Vec::new();
+        for _ in 0..count {
+            put_inside(number, &mut bytes, |_| {});
+        }
+        assert_eq!(bytes.len(), 2 * count);
+        bytes
+    }
+
+    #[test]
+    fn a_few_bytes_cannot_claim_much_memory() {
+        let small = PoseV::decode(&empty_elements(2, 1000)).map(|it| it.pose.len());
+        assert_eq!(small, Ok(1000));
+        // One megabyte whose elements would take more than a hundred.
+        let bytes = empty_elements(2, 1 << 19);
+        assert!(size_of::<crate::messages::Pose>() << 19 > 100 << 20);
+        assert_eq!(PoseV::decode(&bytes), Err(DecodeError::Memory));
+    }
+
+    #[test]
+    fn messages_cannot_be_nested_without_limit() {
+        let nested = |depth: u32| {
+            let mut bytes = Vec::new();
+            for _ in 0..depth {
+                let mut outer = Vec::new();
+                put_inside(12, &mut outer, |out| out.extend_from_slice(&bytes));
+                bytes = outer;
+            }
+            bytes
+        };
+        assert!(Model::decode(&nested(12)).is_ok());
+        assert_eq!(Model::decode(&nested(10_000)), Err(DecodeError::Deep));
+    }
+}

@@ -334,7 +334,7 @@ mod tests {
     use crate::{Header, Image, LaserScan, Map, PixelFormat, StringMsg, Time, Twist};
 
     #[test]
-    fn a_message_is_a_field_a_line() {
+    fn text_has_one_field_per_line_and_is_read_back() {
         let header = Header {
             stamp: Some(Time { sec: 3, nsec: 5 }),
             data: vec![Map { key: "frame_id".into(), value: vec!["a\n\"b\"".into()] }],
@@ -357,7 +357,7 @@ mod tests {
     }
 
     #[test]
-    fn what_people_type_is_understood() {
+    fn text_as_typed_for_gz_topic_is_read() {
         let text = "linear: {x: 1.0, y: -2}, angular {z: 0.5f} # turn";
         let twist = Twist::from_text(text).expect("a twist");
         assert_eq!(twist.linear.map(|it| (it.x, it.y)), Some((1.0, -2.0)));

@@ -159,6 +159,22 @@ fn a_damaged_chunk_takes_only_its_own_messages() {
     }
 }
 
+#[test]
+fn a_damaged_first_chunk_of_a_cut_file_does_not_lose_topics() {
+    for compression in [Compression::None, Compression::Zstd] {
+        let (mut bytes, all) = numbers(compression);
+        // The record Data End precedes the summary, which would repeat types and topics.
+        bytes.truncate(find_record(&bytes, 0x0f));
+        let at = find_record(&bytes, 0x07) - 1;
+        bytes[at] ^= 0xff;
+        let mut reader = Reader::open(Cursor::new(&*bytes)).unwrap();
+        assert!(!reader.has_summary());
+        let rows = rows(&mut reader, Selection::default());
+        let left: Vec<Row> = all.into_iter().filter(|row| row.0 >= 10).collect();
+        assert_eq!(rows, left, "{compression:?}");
+    }
+}
+
 /// The first record with an opcode.
 fn find_record(bytes: &[u8], opcode: u8) -> usize {
     let mut at = 8;

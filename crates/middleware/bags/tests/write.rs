@@ -58,7 +58,7 @@ fn an_empty_bag_is_a_bag() {
 }
 
 #[test]
-fn threads_change_no_byte() {
+fn compression_threads_do_not_change_the_bytes() {
     for compression in [Compression::None, Compression::Lz4, Compression::Zstd] {
         let straight = drive(settings(compression), 5);
         for threads in [1, 3] {
@@ -120,7 +120,7 @@ impl std::io::Write for Disk {
 }
 
 #[test]
-fn a_second_is_on_the_disk_when_the_next_begins() {
+fn each_second_is_flushed_when_the_next_begins() {
     let disk = Disk::default();
     let mut bag = Writer::new(disk.clone(), settings(Compression::None)).unwrap();
     let topic = bag.topic(Topic::of::<Clock>("/clock", &[])).unwrap();

@@ -119,7 +119,7 @@ fn eventually(what: &str, mut holds: impl FnMut() -> bool) {
 }
 
 #[test]
-fn foreign_pages_and_wrong_tokens_stay_out() {
+fn foreign_origins_and_wrong_tokens_are_refused() {
     let fixture = ServerFixture::new();
     assert_eq!(fixture.ask("/", None), 101);
     assert_eq!(fixture.ask("/any/path", Some("http://localhost:5173")), 101);
@@ -391,7 +391,7 @@ fn malformed_messages_are_answered_in_words() {
 }
 
 #[test]
-fn nobody_waits_for_who_does_not_read() {
+fn a_client_that_does_not_read_delays_nobody_and_gets_the_last_map() {
     let fixture = ServerFixture::new();
     let node = fixture.graph.node(NodeSettings::new("camera")).unwrap();
     let pictures: Publisher<UInt8MultiArray> =

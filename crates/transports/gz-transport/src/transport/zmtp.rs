@@ -312,15 +312,43 @@ mod tests {
         assert_eq!(property(told, "Other"), None);
     }
 
+    /// A stream that ends after some bytes, and the largest buffer that it was asked to fill.
+    struct Measured<'a> {
+        bytes: &'a [u8],
+        largest: usize,
+    }
+
+    impl Read for Measured<'_> {
+        fn read(&mut self, buffer: &mut [u8]) -> io::Result<usize> {
+            self.largest = self.largest.max(buffer.len());
+            self.bytes.read(buffer)
+        }
+    }
+
+    fn header_of_long_frame(length: u64) -> Vec<u8> {
+        let mut bytes = vec![LONG];
+        bytes.extend(length.to_be_bytes());
+        bytes
+    }
+
     #[test]
-    fn a_frame_that_says_it_is_huge_is_refused() {
-        let mut bytes = vec![LONG];
-        bytes.extend(u64::MAX.to_be_bytes());
-        assert!(read(&mut bytes.as_slice(), 1 << 30).is_err());
-        let mut bytes = vec![LONG];
-        bytes.extend((1_u64 << 29).to_be_bytes());
-        // The body is missing, so nothing is allocated for it.
-        assert!(read(&mut bytes.as_slice(), 1 << 30).is_err());
+    fn a_frame_of_excessive_length_is_refused_at_its_header() {
+        for length in [(1 << 30) + 1, 1 << 40, u64::MAX] {
+            let bytes = header_of_long_frame(length);
+            let mut stream = Measured { bytes: &bytes, largest: 0 };
+            let error = read(&mut stream, 1 << 30).err().map(|error| error.to_string());
+            assert_eq!(error.as_deref(), Some("a frame exceeds the maximum size"), "{length}");
+            assert!(stream.largest < 10, "{length}: {}", stream.largest);
+        }
+    }
+
+    #[test]
+    fn a_length_alone_allocates_no_memory() {
+        // Half a gigabyte is announced, and none of it follows.
+        let bytes = header_of_long_frame(1 << 29);
+        let mut stream = Measured { bytes: &bytes, largest: 0 };
+        assert!(read(&mut stream, 1 << 30).is_err());
+        assert_eq!(stream.largest, PIECE);
     }
 
     #[test]
