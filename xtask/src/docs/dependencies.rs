@@ -37,7 +37,7 @@ pub(crate) fn check_tests(list: &str, read: &dyn Fn(&str) -> Option<String>) -> 
     let mut findings = Vec::new();
     for (index, row) in rows {
         let line = index + 1;
-        let cells: Vec<&str> = row.trim_matches('|').split(" | ").collect();
+        let cells: Vec<&str> = row.trim().trim_matches('|').split('|').map(str::trim).collect();
         let [.., tests] = cells.as_slice() else { continue };
         let mut names: Vec<&str> = tests.split('`').skip(1).step_by(2).collect();
         let path = names.pop().filter(|path| path.ends_with(".rs"));
