@@ -199,7 +199,7 @@ mod tests {
             libgazebo_ros_diff_drive.so:
               # Namespace, remappings, parameters and QoS of the plugin's node.
               # ros:
-              # Number of left and right pairs. (at least 1)
+              # Number of pairs of left and right wheels. (at least 1)
               num_wheel_pairs: 1
               # The joint of a left wheel, once for each pair. (required)
               # left_joint:
@@ -219,7 +219,7 @@ mod tests {
               odometry_source: 1
               # Frame of the odometry.
               odometry_frame: odom
-              # Frame that the odometry moves.
+              # Child frame of the odometry.
               robot_base_frame: base_footprint
               # If true, odometry is published.
               publish_odom: false
@@ -261,7 +261,7 @@ mod tests {
               odometryFrame: odom
               # Wheel turns, or the true pose. One of encoder, world.
               odometrySource: world
-              # Frame that the odometry moves.
+              # Child frame of the odometry.
               robotBaseFrame: base_footprint
               # If true, the transforms of the wheels are published.
               publishWheelTF: false
@@ -295,7 +295,7 @@ mod tests {
               # tf_topic:
               # Frame of the odometry (default: `<model>/odom`).
               # frame_id:
-              # Frame that the odometry moves (default: `<model>/<link>`).
+              # Child frame of the odometry (default: `<model>/<link>`).
               # child_frame_id:
               # Limit of commands (default: none). [m/s]
               # min_velocity:

@@ -145,7 +145,9 @@ pub(super) static PLUGINS: &[PluginSpec] = &[
         [
             text("dev", "The device.").or("/dev/input/js0"),
             flag("sticky_buttons", "If true, the button is a toggle.").or("false"),
-            number("dead_zone", "", "Deflections below are ignored.").or("0.05").min(0.0),
+            number("dead_zone", "", "Deflections below this value are ignored.")
+                .or("0.05")
+                .min(0.0),
             number("rate", "Hz", "Messages per second.").or("1").min(0.0),
             number("accumulation_rate", "Hz", "Rate at which deflections are read.")
                 .or("1000")

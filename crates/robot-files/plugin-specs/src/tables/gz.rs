@@ -136,7 +136,7 @@ pub(super) static PLUGINS: &[PluginSpec] = &[
             text("odom_frame", "Frame of the odometry (default: `<model>/odom`)."),
             text(
                 "robot_base_frame",
-                "Frame that the odometry moves (default: `<model>/base_footprint`).",
+                "Child frame of the odometry (default: `<model>/base_footprint`).",
             ),
             number("odom_publish_frequency", "Hz", "Messages per second; 0: one per step.")
                 .or("50")
@@ -146,7 +146,7 @@ pub(super) static PLUGINS: &[PluginSpec] = &[
             topic("tf_topic", "Topic of the transform."),
             integer("dimensions", "2 or 3.").or("2").within(2.0, 3.0),
             numbers("xyz_offset", "m", "Added to the position.").or("0 0 0"),
-            numbers("rpy_offset", "rad", "Added to the orientation.").or("0 0 0"),
+            numbers("rpy_offset", "rad", "Offset that is added to the orientation.").or("0 0 0"),
             number("gaussian_noise", "m/s", "Standard deviation of the noise of the velocity.")
                 .or("0")
                 .min(0.0),
@@ -216,7 +216,8 @@ pub(super) static PLUGINS: &[PluginSpec] = &[
         Simulated,
         "Publishes a message when a model has been in contact for some time.",
         [
-            text("target", "Name, or part of it, of what must be touched.").required(),
+            text("target", "Name, or part of the name, of the model or link that must be touched.")
+                .required(),
             text("collision", "A collision that must touch (default: all).").repeated(),
             flag(
                 "create_contact_sensor_for_collision",

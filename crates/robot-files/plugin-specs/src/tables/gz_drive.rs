@@ -29,7 +29,7 @@ const TF_TOPIC: Parameter =
 const FRAME_ID: Parameter = text("frame_id", "Frame of the odometry (default: `<model>/odom`).");
 
 const CHILD_FRAME_ID: Parameter =
-    text("child_frame_id", "Frame that the odometry moves (default: `<model>/<link>`).");
+    text("child_frame_id", "Child frame of the odometry (default: `<model>/<link>`).");
 
 const ODOM_FREQUENCY: Parameter =
     number("odom_publish_frequency", "Hz", "Odometry messages per second; 0: one per step.")
@@ -240,7 +240,8 @@ pub(super) static PLUGINS: &[PluginSpec] = &[
             numbers("track_orientation", "rad", "Orientation of the track on the link.")
                 .or("0 0 0"),
             text("velocity_topic", "Topic of speeds.").naming(NamedEntity::Topic),
-            text("center_of_rotation_topic", "Topic of turning points.").naming(NamedEntity::Topic),
+            text("center_of_rotation_topic", "Topic of the centers of rotation.")
+                .naming(NamedEntity::Topic),
             text("odometry_topic", "Topic of the distance run.").naming(NamedEntity::Topic),
             number("odometry_publish_frequency", "Hz", "Odometry messages per second.")
                 .or("50")
@@ -358,7 +359,7 @@ pub(super) static PLUGINS: &[PluginSpec] = &[
             group("ros", "Namespace and remappings of the controller manager."),
             text("robot_param", "Parameter that holds the robot description.")
                 .or("robot_description"),
-            text("robot_param_node", "Node that holds it.").or("robot_state_publisher"),
+            text("robot_param_node", "Node with that parameter.").or("robot_state_publisher"),
             text("controller_manager_name", "Name of the controller manager's node.")
                 .or("controller_manager"),
             flag("hold_joints", "If true, joints hold their position without a command.")
@@ -407,7 +408,7 @@ pub(super) static PLUGINS: &[PluginSpec] = &[
         ["MulticopterMotorModel"],
         Control,
         Kept,
-        "Turns thrust and drag of a rotor into forces.",
+        "Computes the forces of a rotor from thrust and drag.",
         [
             text("robotNamespace", "Prefix of every topic."),
             joint("jointName", "The rotor's joint.").required(),

@@ -31,7 +31,7 @@ pub(super) static PLUGINS: &[PluginSpec] = &[
                 .naming(NamedEntity::Frame),
             UPDATE_RATE,
             numbers("xyzOffset", "m", "Added to the position.").or("0 0 0").also(&["xyzOffsets"]),
-            numbers("rpyOffset", "rad", "Added to the orientation.")
+            numbers("rpyOffset", "rad", "Offset that is added to the orientation.")
                 .or("0 0 0")
                 .also(&["rpyOffsets"]),
             number("gaussianNoise", "m/s", "Standard deviation of the noise of the velocity.")
@@ -91,7 +91,7 @@ pub(super) static PLUGINS: &[PluginSpec] = &[
         Simulated,
         "Runs ros_control on the model's joints.",
         [
-            text("robotSimType", "Class that connects the joints.")
+            text("robotSimType", "Class of the hardware interface.")
                 .or("gazebo_ros_control/DefaultRobotHWSim"),
             text("robotParam", "Parameter that holds the robot description.")
                 .or("robot_description"),
@@ -130,7 +130,7 @@ pub(super) static PLUGINS: &[PluginSpec] = &[
         [
             number("init_vel", "m/s", "Speed of the rope at the start.").or("0"),
             group("joint", "A joint that holds the model.").repeated(),
-            group("winch", "Joint of the winch, and its gains."),
+            group("winch", "Joint of the winch and gains of its controller."),
             text("detach", "Joint that is detached."),
         ]
     ),
@@ -155,14 +155,14 @@ pub(super) static PLUGINS: &[PluginSpec] = &[
         "gazebo_ros_hand_of_god",
         Effect,
         Kept,
-        "Pulls a link to a frame.",
+        "Pulls a link to a frame by a spring.",
         [
             link("linkName", "The link.").required(),
             text("frameId", "The frame's parent.").or("hog"),
-            number("kl", "N/m", "Spring constant of the pull.").or("200"),
-            number("ka", "N m/rad", "Spring constant of the turn.").or("200"),
-            number("cl", "N s/m", "Damping of the pull (default: critical)."),
-            number("ca", "N m s/rad", "Damping of the turn (default: critical)."),
+            number("kl", "N/m", "Linear spring constant.").or("200"),
+            number("ka", "N m/rad", "Angular spring constant.").or("200"),
+            number("cl", "N s/m", "Linear damping (default: critical)."),
+            number("ca", "N m s/rad", "Angular damping (default: critical)."),
         ]
     ),
     of_ros1!(
@@ -171,7 +171,7 @@ pub(super) static PLUGINS: &[PluginSpec] = &[
         Kept,
         "Pulls nearby objects to a link.",
         [
-            link("bodyName", "Link that pulls.").required(),
+            link("bodyName", "Link of the gripper.").required(),
             topic("topicName", "Topic of the gripper's state.").required(),
         ]
     ),

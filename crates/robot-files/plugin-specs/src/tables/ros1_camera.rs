@@ -27,7 +27,7 @@ macro_rules! camera {
                 .or("0"),
             number("Cx", "px", "Column of the principal point; 0: the middle.").or("0"),
             number("Cy", "px", "Row of the principal point; 0: the middle.").or("0"),
-            number("focalLength", "px", "0 is from the field of view.").or("0").min(0.0),
+            number("focalLength", "px", "Focal length; 0: computed from the field of view.").or("0").min(0.0),
             number("hackBaseline", "m", "Distance from the left camera of a stereo pair.").or("0"),
             distortion("distortionK1", &["distortion_k1"]),
             distortion("distortionK2", &["distortion_k2"]),

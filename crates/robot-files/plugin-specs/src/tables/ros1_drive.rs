@@ -22,7 +22,7 @@ const ODOMETRY_FRAME: Parameter = text("odometryFrame", "Frame of the odometry."
 const ODOMETRY_SOURCE: Parameter =
     choice("odometrySource", &["encoder", "world"], "Wheel turns, or the true pose.").or("world");
 
-const ROBOT_BASE_FRAME: Parameter = text("robotBaseFrame", "Frame that the odometry moves.")
+const ROBOT_BASE_FRAME: Parameter = text("robotBaseFrame", "Child frame of the odometry.")
     .or("base_footprint")
     .naming(NamedEntity::Frame);
 
@@ -110,7 +110,7 @@ pub(super) static PLUGINS: &[PluginSpec] = &[
         "gazebo_ros_planar_move",
         Drive,
         Simulated,
-        "Slides the whole model over the plane.",
+        "Moves the whole model in the plane, without wheels.",
         [
             COMMAND_TOPIC,
             ODOMETRY_TOPIC,

@@ -17,7 +17,9 @@ const XYZ_OFFSET: Parameter =
     numbers("xyzOffset", "m", "Added to the position.").or("0 0 0").also(&["xyzOffsets"]);
 
 const RPY_OFFSET: Parameter =
-    numbers("rpyOffset", "rad", "Added to the orientation.").or("0 0 0").also(&["rpyOffsets"]);
+    numbers("rpyOffset", "rad", "Offset that is added to the orientation.")
+        .or("0 0 0")
+        .also(&["rpyOffsets"]);
 
 const BODY_NAME: Parameter =
     text("bodyName", "Link whose pose is published.").naming(NamedEntity::Link);

@@ -33,7 +33,7 @@ pub(super) static PLUGINS: &[PluginSpec] = &[
             .or("sensor_msgs/PointCloud2"),
             FRAME_NAME,
             number("min_intensity", "", "Intensities below are raised to this.").or("0"),
-            choice("radiation_type", &["infrared", "ultrasound"], "Of a Range message.")
+            choice("radiation_type", &["infrared", "ultrasound"], "Radiation type of the Range message.")
                 .or("infrared"),
         ]
     )
@@ -130,7 +130,7 @@ pub(super) static PLUGINS: &[PluginSpec] = &[
                 .or("0")
                 .min(0.0),
             numbers("xyz_offset", "m", "Added to the position.").or("0 0 0").also(&["xyz_offsets"]),
-            numbers("rpy_offset", "rad", "Added to the orientation.")
+            numbers("rpy_offset", "rad", "Offset that is added to the orientation.")
                 .or("0 0 0")
                 .also(&["rpy_offsets"]),
             number("gaussian_noise", "m/s", "Standard deviation of the noise of the velocity.")
@@ -196,7 +196,7 @@ pub(super) static PLUGINS: &[PluginSpec] = &[
         [
             number("init_vel", "m/s", "Speed of the rope at the start.").or("0"),
             periplus_params::group("joint", "A joint that holds the model.").repeated(),
-            periplus_params::group("winch", "Joint of the winch, and its gains."),
+            periplus_params::group("winch", "Joint of the winch and gains of its controller."),
             text("detach", "Joint that is detached."),
         ]
     ),
@@ -222,14 +222,14 @@ pub(super) static PLUGINS: &[PluginSpec] = &[
         "gazebo_ros_hand_of_god",
         Effect,
         Kept,
-        "Pulls a link to a frame.",
+        "Pulls a link to a frame by a spring.",
         [
             text("link_name", "The link.").required().naming(NamedEntity::Link),
             text("frame_id", "The frame's parent.").or("world"),
-            number("kl", "N/m", "Spring constant of the pull.").or("200"),
-            number("ka", "N m/rad", "Spring constant of the turn.").or("200"),
-            number("cl", "N s/m", "Damping of the pull (default: critical)."),
-            number("ca", "N m s/rad", "Damping of the turn (default: critical)."),
+            number("kl", "N/m", "Linear spring constant.").or("200"),
+            number("ka", "N m/rad", "Angular spring constant.").or("200"),
+            number("cl", "N s/m", "Linear damping (default: critical)."),
+            number("ca", "N m s/rad", "Angular damping (default: critical)."),
         ]
     ),
     of_ros2!(
@@ -246,9 +246,9 @@ pub(super) static PLUGINS: &[PluginSpec] = &[
         Kept,
         "Pulls nearby objects to a link.",
         [
-            text("link_name", "Link that pulls.").required().naming(NamedEntity::Link),
+            text("link_name", "Link of the gripper.").required().naming(NamedEntity::Link),
             text("fixed", "Object that is not pulled.").repeated(),
-            number("max_distance", "m", "Maximum distance of the effect.").or("0.05").min(0.0),
+            number("max_distance", "m", "Maximum distance of a link that is attracted.").or("0.05").min(0.0),
         ]
     )
     .topics(&[publishes("grasping")]),
@@ -292,9 +292,9 @@ pub(super) static PLUGINS: &[PluginSpec] = &[
             text("parameters", "Path of a parameter file.").repeated(),
             text("robot_param", "Parameter that holds the robot description.")
                 .or("robot_description"),
-            text("robot_param_node", "Node that holds it.").or("robot_state_publisher"),
+            text("robot_param_node", "Node with that parameter.").or("robot_state_publisher"),
             flag("hold_joints", "If true, joints hold their position without a command.").or("true"),
-            text("robot_sim_type", "Class that connects the joints, before ros2_control."),
+            text("robot_sim_type", "Class of the hardware interface, before ros2_control."),
             number("control_period", "s", "Step of the controllers.").above(0.0),
             text("e_stop_topic", "Topic of an emergency stop.").naming(NamedEntity::Topic),
         ]

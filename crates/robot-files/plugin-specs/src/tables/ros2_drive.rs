@@ -13,7 +13,7 @@ const UPDATE_RATE: Parameter =
 
 const ODOMETRY_FRAME: Parameter = text("odometry_frame", "Frame of the odometry.").or("odom");
 
-const ROBOT_BASE_FRAME: Parameter = text("robot_base_frame", "Frame that the odometry moves.")
+const ROBOT_BASE_FRAME: Parameter = text("robot_base_frame", "Child frame of the odometry.")
     .or("base_footprint")
     .naming(NamedEntity::Frame);
 
@@ -41,7 +41,9 @@ pub(super) static PLUGINS: &[PluginSpec] = &[
         Simulated,
         "Drives wheels on the left and on the right.",
         [
-            integer("num_wheel_pairs", "Number of left and right pairs.").or("1").min(1.0),
+            integer("num_wheel_pairs", "Number of pairs of left and right wheels.")
+                .or("1")
+                .min(1.0),
             joint("left_joint", "The joint of a left wheel, once for each pair.")
                 .required()
                 .repeated(),
@@ -83,7 +85,7 @@ pub(super) static PLUGINS: &[PluginSpec] = &[
         "gazebo_ros_planar_move",
         Drive,
         Simulated,
-        "Slides the whole model over the plane.",
+        "Moves the whole model in the plane, without wheels.",
         [
             number("update_rate", "Hz", "Steps of the controller per second; 0: each step.")
                 .or("20")
@@ -137,7 +139,7 @@ pub(super) static PLUGINS: &[PluginSpec] = &[
             PUBLISH_WHEEL_TF,
             flag("publish_distance", "If true, the distance driven is published.").or("false"),
             ODOMETRY_FRAME,
-            text("robot_base_frame", "Frame that the odometry moves.")
+            text("robot_base_frame", "Child frame of the odometry.")
                 .or("base_link")
                 .naming(NamedEntity::Frame),
             covariance("covariance_x", "m^2", "0.00001"),
@@ -192,7 +194,7 @@ pub(super) static PLUGINS: &[PluginSpec] = &[
             flag("publish_wheel_joint_state", "If true, the wheels' joint states are published.")
                 .or("false"),
             ODOMETRY_FRAME,
-            text("robot_base_frame", "Frame that the odometry moves.")
+            text("robot_base_frame", "Child frame of the odometry.")
                 .or("base_link")
                 .naming(NamedEntity::Frame),
         ]
