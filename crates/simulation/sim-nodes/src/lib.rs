@@ -3,6 +3,24 @@
 //! Each sensor and each plugin becomes a [`Device`]: it reads commands from topics, commands joints,
 //! measures, and publishes. The computations are in `physics` and `sensors`; this crate defines node
 //! names, topics, rates and messages.
+//!
+//! ```
+//! use periplus_diagnostics::{Diagnostics, Origin};
+//! use periplus_graph::Graph;
+//! use periplus_scene::{Element, Plugin, World};
+//! use periplus_sim_nodes::world_devices;
+//!
+//! let topic = |name| {
+//!     let element = Element::new(name).with_attribute("type", "gz.msgs.Empty");
+//!     element.with_attribute("topic", format!("/{name}"))
+//! };
+//! let (name, filename) = ("start".into(), "gz-sim-triggered-publisher-system".into());
+//! let content = vec![topic("input"), topic("output")];
+//! let mut world = World::empty("room");
+//! world.plugins.push(Plugin { name, filename, content, origin: Origin::default() });
+//! let devices = world_devices(&Graph::new(), &world, &mut Diagnostics::new());
+//! assert_eq!(devices.len(), 1);
+//! ```
 
 mod build;
 mod device;

@@ -3,6 +3,26 @@
 //! [`compose`] reads files, [`Simulation`] creates nodes for their contents and steps them, [`Run`]
 //! runs them at a real-time factor. A [`SimulationRecorder`] writes published messages to a bag, a [`Driver`]
 //! plays velocity commands, [`Services`] let clients change the world.
+//!
+//! ```
+//! use periplus_loader::LoadContext;
+//! use periplus_resources::{MemoryHost, Resolver};
+//! use periplus_sim::{Options, Simulation, compose};
+//!
+//! let world = "<sdf version='1.9'><world name='sky'><model name='ball'><link name='ball'>
+//!     <collision name='ball'><geometry><sphere><radius>0.1</radius></sphere></geometry></collision>
+//!     </link></model></world></sdf>";
+//! let host = MemoryHost::new().with_file("/sky.sdf", world);
+//! let (resolver, working_folder, open_meshes) = (Resolver::new(&host, &[]), "/".into(), true);
+//! let context = LoadContext { host: &host, resolver: &resolver, working_folder, arguments: vec![], open_meshes };
+//! let mut composition = compose("/sky.sdf".as_ref(), &[], &context);
+//! let mut simulation = Simulation::new(&mut composition, Default::default(), Options::default());
+//! while simulation.time_ns() < 1_000_000_000 {
+//!     simulation.step()?;
+//! }
+//! assert!(simulation.robot_pose().is_some_and(|it| (it.translation.z + 4.9).abs() < 0.01));
+//! # Ok::<(), periplus_sim::Diverged>(())
+//! ```
 
 mod compose;
 mod compute_topics;
