@@ -15,15 +15,12 @@
 //!         /// Period of the flashes.
 //!         #[param("period", unit("s"), above(0.0))]
 //!         period_s: f64 = 2,
-//!         /// True if it starts lit.
-//!         #[param("lit")]
-//!         is_lit: bool = false,
 //!     }
 //! }
 //!
 //! let mut diagnostics = Diagnostics::new();
 //! let values = BLINKER.check([Given::new("period", "0.5")], None, &mut diagnostics);
-//! assert_eq!(BlinkerParams::from_values(&values), BlinkerParams { period_s: 0.5, is_lit: false });
+//! assert_eq!(BlinkerParams::from_values(&values), BlinkerParams { period_s: 0.5 });
 //! assert!(diagnostics.is_empty());
 //! ```
 
