@@ -8,33 +8,23 @@
 //! ```no_run
 //! use std::time::Duration;
 //!
+//! use periplus_dds::{DdsTransport, Settings};
 //! use periplus_graph::{Graph, NodeSettings, Qos};
-//! use periplus_dds::{Settings, DdsTransport};
 //!
-//! // Read the environment with `Settings::from_environment(&host)`.
-//! let wire = DdsTransport::open(&Settings::default())?;
-//!
-//! // Endpoints of other programs, once discovery has run.
-//! wire.wait_for(Duration::from_secs(2), |remote| remote.topic("/scan").is_some());
-//! for topic in &wire.remote().topics {
-//!     println!("{} {:?}", topic.name, topic.type_names);
-//! }
-//!
-//! // Taking part: a short `ros2 topic echo`.
+//! let transport = DdsTransport::open(&Settings::default())?;
 //! let graph = Graph::live();
-//! wire.attach(&graph)?;
+//! transport.attach(&graph)?;
 //! let node = graph.node(NodeSettings::new("listener"))?;
-//! let scans =
-//!     node.raw_mailbox("/scan", "sensor_msgs/msg/LaserScan", None, Qos::sensor_data())?;
-//! loop {
-//!     for sample in scans.drain() {
-//!         println!("{} bytes", sample.cdr()?.len());
-//!     }
-//!     std::thread::sleep(Duration::from_millis(10));
+//! let qos = Qos::sensor_data();
+//! let scans = node.raw_mailbox("/scan", "sensor_msgs/msg/LaserScan", None, qos)?;
+//! transport.wait_for(Duration::from_secs(2), |remote| remote.topic("/scan").is_some());
+//! for sample in scans.drain() {
+//!     println!("{} bytes", sample.cdr()?.len());
 //! }
-//! # #[allow(unreachable_code)]
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
+//!
+//! `Settings::from_environment(&host)` reads `ROS_DOMAIN_ID` and the other variables of ROS 2.
 //!
 //! A program that publishes once and exits must call [`DdsTransport::flush`] first.
 
