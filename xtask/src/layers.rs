@@ -11,7 +11,7 @@ use std::fmt::Write as _;
 
 use serde_json::Value;
 
-use crate::step::{Failed, cargo};
+use crate::step::{Failed, metadata};
 
 /// Wings in their rows, the lowest row first.
 const ROWS: [&[&str]; 6] = [
@@ -45,15 +45,7 @@ const EXCEPTIONS: [(&str, &str, &str); 3] = [
 ];
 
 pub(crate) fn run() -> Result<(), Failed> {
-    let mut command = cargo();
-    command.args(["metadata", "--no-deps", "--format-version", "1"]);
-    let output = command.output().map_err(|error| Failed(format!("cargo metadata: {error}")))?;
-    if !output.status.success() {
-        let words = String::from_utf8_lossy(&output.stderr);
-        return Err(Failed(format!("cargo metadata failed: {words}")));
-    }
-    let metadata = serde_json::from_slice(&output.stdout)
-        .map_err(|error| Failed(format!("cargo metadata is not JSON: {error}")))?;
+    let metadata = metadata()?;
     let crates = crates(&metadata);
     print!("{}", table(&crates));
     let mut faults = faults(&crates, &EXCEPTIONS);

@@ -1,29 +1,29 @@
-//! `cargo xtask package`: whether every library can be packaged, with its README and its metadata,
-//! and with every file that its code includes.
+//! `cargo xtask package`: checks that every library can be packaged, with its README, its metadata
+//! and every file that its code includes, and that its front page has a short example.
 
 use std::fs;
 use std::path::{Component, Path, PathBuf};
 
 use serde_json::Value;
 
-use crate::step::{Failed, cargo, run};
+use crate::step::{Failed, cargo, metadata, run};
+
+/// Maximum number of lines of an example on the front page of a library, without blank and hidden ones.
+const MAX_EXAMPLE_LINES: usize = 15;
 
 /// Packages all libraries without building them.
 ///
 /// # Errors
 /// When a package is incomplete, or cargo refuses it.
 pub(crate) fn check() -> Result<(), Failed> {
-    let metadata = output(&["metadata", "--no-deps", "--format-version", "1"])?;
-    let metadata: Value = serde_json::from_str(&metadata)
-        .map_err(|error| Failed(format!("cargo metadata is not JSON: {error}")))?;
+    let metadata = metadata()?;
     let packages = metadata["packages"].as_array().map(Vec::as_slice).unwrap_or_default();
     let mut faults = Vec::new();
     let mut command = cargo();
     command.args(["package", "--workspace", "--no-verify", "--allow-dirty", "--quiet"]);
     for package in packages {
         let name = package["name"].as_str().unwrap_or_default();
-        // An empty list of registries is `publish = false`.
-        if package["publish"].as_array().is_some_and(Vec::is_empty) {
+        if !is_published(package) {
             command.args(["--exclude", name]);
             continue;
         }
@@ -32,6 +32,7 @@ pub(crate) fn check() -> Result<(), Failed> {
         let listed = output(&["package", "--list", "--allow-dirty", "--package", name])?;
         let listed: Vec<&str> = listed.lines().collect();
         let mut found = faults_of_metadata(package);
+        found.extend(faults_of_front_page(package));
         for file in listed.iter().filter(|file| file.ends_with(".rs")) {
             let text = fs::read_to_string(folder.join(file)).unwrap_or_default();
             found.extend(faults_of_includes(file, &text, &listed));
@@ -42,6 +43,86 @@ pub(crate) fn check() -> Result<(), Failed> {
         return Err(Failed(faults.join("\n       ")));
     }
     run(&mut command, "see the error of cargo above")
+}
+
+/// True if a package is a library for a registry.
+fn is_published(package: &Value) -> bool {
+    // An empty list of registries is `publish = false`.
+    package["publish"].as_array().is_none_or(|registries| !registries.is_empty())
+}
+
+/// A missing example on the front page of a library, and examples that are too long.
+fn faults_of_front_page(package: &Value) -> Vec<String> {
+    let targets = package["targets"].as_array().map(Vec::as_slice).unwrap_or_default();
+    let is_library = |target: &&Value| {
+        let kinds = target["kind"].as_array().map(Vec::as_slice).unwrap_or_default();
+        kinds.iter().any(|kind| kind == "lib" || kind == "proc-macro")
+    };
+    let Some(path) = targets.iter().find(is_library).and_then(|it| it["src_path"].as_str()) else {
+        return Vec::new();
+    };
+    match fs::read_to_string(path) {
+        Ok(text) => faults_of_examples(&text),
+        Err(error) => vec![format!("cannot read `{path}`: {error}")],
+    }
+}
+
+/// The faults of the examples in the documentation of a crate.
+fn faults_of_examples(text: &str) -> Vec<String> {
+    let examples = examples(text);
+    if examples.is_empty() {
+        return vec![format!(
+            "add an example of at most {MAX_EXAMPLE_LINES} lines, with a check of its result, to the \
+             documentation (`//!`) of src/lib.rs"
+        )];
+    }
+    let long = examples.into_iter().filter(|it| it.lines > MAX_EXAMPLE_LINES);
+    let fault = |it: Example| {
+        format!(
+            "src/lib.rs:{}: the example has {} lines: shorten it to {MAX_EXAMPLE_LINES}",
+            it.line, it.lines
+        )
+    };
+    long.map(fault).collect()
+}
+
+/// An example in the documentation of a crate.
+#[derive(Debug, PartialEq, Eq)]
+struct Example {
+    /// Line of its beginning, from 1.
+    line: usize,
+    /// Number of lines, without blank and hidden ones.
+    lines: usize,
+}
+
+/// The examples that rustdoc compiles. A fence may depend on a feature:
+/// `#![cfg_attr(feature = "x", doc = "```no_run")]`.
+fn examples(text: &str) -> Vec<Example> {
+    let mut found = Vec::new();
+    let mut open: Option<(bool, Example)> = None;
+    for (number, line) in text.lines().enumerate() {
+        let conditional =
+            line.strip_prefix("#![cfg_attr(").and_then(|it| it.split("doc = \"").nth(1));
+        let Some(line) = line.strip_prefix("//!").or(conditional).map(str::trim) else { continue };
+        let Some(tag) = line.strip_prefix("```") else {
+            if let Some((_, example)) = &mut open {
+                example.lines +=
+                    usize::from(!line.is_empty() && line != "#" && !line.starts_with("# "));
+            }
+            continue;
+        };
+        if conditional.is_none()
+            && let Some((is_compiled, example)) = open.take()
+        {
+            found.extend(is_compiled.then_some(example));
+            continue;
+        }
+        let tag = tag.trim_end_matches("\")]");
+        let is_compiled = matches!(tag, "" | "rust" | "no_run" | "should_panic");
+        let is_compiled = is_compiled || open.is_some_and(|it| it.0);
+        open = Some((is_compiled, Example { line: number + 1, lines: 0 }));
+    }
+    found
 }
 
 /// The standard output of cargo.
@@ -143,6 +224,43 @@ mod tests {
             faults("x\ninclude_str!(\"missing.txt\")")[0].starts_with("src/a/b.rs:2: `missing")
         );
         assert_eq!(faults("include_str!(concat!(\"../../../../\", $path))").len(), 1);
+    }
+
+    #[test]
+    fn examples_are_short() {
+        let of = |lines: usize| format!("//! ```\n{}//! ```\n", "//! let x = 1;\n".repeat(lines));
+        assert_eq!(faults_of_examples(&of(15)), Vec::<String>::new());
+        assert_eq!(
+            faults_of_examples(&format!("//! Text.\n//!\n{}", of(16))),
+            ["src/lib.rs:3: the example has 16 lines: shorten it to 15"]
+        );
+        // Blank and hidden lines do not count.
+        let hidden = of(15).replace("x = 1;\n", "x = 1;\n//!\n//! # fn hidden() {}\n");
+        assert_eq!(faults_of_examples(&hidden), Vec::<String>::new());
+    }
+
+    #[test]
+    fn examples_are_compiled() {
+        for tag in ["```text", "```console", "```ignore"] {
+            let text = format!("//! {tag}\n//! x\n//! ```\n");
+            assert_eq!(faults_of_examples(&text).len(), 1, "{tag}");
+        }
+        assert_eq!(faults_of_examples("//! Text.\n\nmod a;\n").len(), 1);
+        let conditional = "#![cfg_attr(feature = \"a\", doc = \"```no_run\")]\n\
+                           #![cfg_attr(not(feature = \"a\"), doc = \"```ignore\")]\n\
+                           //! let x = 1;\n//! ```\n";
+        assert_eq!(examples(conditional), [Example { line: 2, lines: 1 }]);
+    }
+
+    #[test]
+    fn every_library_has_a_short_example() {
+        let metadata = metadata().unwrap();
+        let packages = metadata["packages"].as_array().unwrap().iter();
+        let published: Vec<&Value> = packages.filter(|package| is_published(package)).collect();
+        assert!(published.len() > 30, "{} libraries found", published.len());
+        for package in published {
+            assert_eq!(faults_of_front_page(package), Vec::<String>::new(), "{}", package["name"]);
+        }
     }
 
     #[test]

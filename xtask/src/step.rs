@@ -4,6 +4,8 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::time::Instant;
 
+use serde_json::Value;
+
 /// Reason why a task failed.
 #[derive(Debug)]
 pub(crate) struct Failed(pub(crate) String);
@@ -20,6 +22,21 @@ pub(crate) fn cargo() -> Command {
     let mut command = Command::new(cargo);
     command.current_dir(root());
     command
+}
+
+/// The packages of the workspace and its folders, as `cargo metadata` prints them.
+///
+/// # Errors
+/// When cargo cannot read the workspace.
+pub(crate) fn metadata() -> Result<Value, Failed> {
+    let failed = |why: String| Failed(format!("cargo metadata failed: {why}"));
+    let mut command = cargo();
+    command.args(["metadata", "--no-deps", "--format-version", "1"]);
+    let output = command.output().map_err(|error| failed(error.to_string()))?;
+    if !output.status.success() {
+        return Err(failed(String::from_utf8_lossy(&output.stderr).into_owned()));
+    }
+    serde_json::from_slice(&output.stdout).map_err(|error| failed(error.to_string()))
 }
 
 /// Runs a program to its end.
