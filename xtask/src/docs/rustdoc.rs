@@ -2,11 +2,12 @@
 //! brackets, `[m]`, which rustdoc takes for links.
 
 use std::io::{BufRead, BufReader};
-use std::process::Stdio;
+use std::path::Path;
+use std::process::{Command, Stdio};
 
 use serde_json::Value;
 
-use crate::step::{Failed, cargo};
+use crate::step::{Failed, cargo, metadata};
 
 /// Units in brackets that look like links; `[m/s]` does not.
 const UNITS: [&str; 20] = [
@@ -14,9 +15,36 @@ const UNITS: [&str; 20] = [
     "px", "bytes", "MiB",
 ];
 
+/// Folder of the command's pages, beside `doc`.
+const COMMAND_FOLDER: &str = "command";
+
+/// Checks the documentation of all libraries and of the command.
 pub(crate) fn run() -> Result<(), Failed> {
+    let mut libraries = cargo();
+    libraries.args(["doc", "--workspace", "--no-deps", "--message-format=json"]);
+    let findings = findings(libraries)? + findings(command_docs()?)?;
+    match findings {
+        0 => Ok(()),
+        count => Err(Failed(format!("cargo doc failed: {count} findings, see above"))),
+    }
+}
+
+/// The documentation of the command `periplus`, which `cargo doc` leaves out: the library `periplus`
+/// has the same name. Its pages go to a separate folder; the build of its dependencies is shared.
+fn command_docs() -> Result<Command, Failed> {
+    let metadata = metadata()?;
+    let folder = metadata["target_directory"].as_str().unwrap_or("target");
     let mut command = cargo();
-    command.args(["doc", "--workspace", "--no-deps", "--message-format=json"]);
+    command.args(["rustdoc", "--package", "periplus-cli", "--bin", "periplus"]);
+    command
+        .args(["--message-format=json", "--target-dir"])
+        .arg(Path::new(folder).join(COMMAND_FOLDER));
+    command.env("CARGO_BUILD_BUILD_DIR", metadata["build_directory"].as_str().unwrap_or(folder));
+    Ok(command)
+}
+
+/// Runs cargo and returns the number of findings, which are printed.
+fn findings(mut command: Command) -> Result<usize, Failed> {
     let failed = |why: String| Failed(format!("cargo doc failed: {why}"));
     let mut child =
         command.stdout(Stdio::piped()).spawn().map_err(|error| failed(error.to_string()))?;
@@ -30,11 +58,7 @@ pub(crate) fn run() -> Result<(), Failed> {
         }
     }
     let status = child.wait().map_err(|error| failed(error.to_string()))?;
-    match (status.success(), findings) {
-        (true, 0) => Ok(()),
-        (true, _) => Err(failed(format!("{findings} findings, see above"))),
-        (false, _) => Err(failed("see above".into())),
-    }
+    if status.success() { Ok(findings) } else { Err(failed("see above".into())) }
 }
 
 /// The rendered warning or error of one line of cargo's JSON; none for any other line.
