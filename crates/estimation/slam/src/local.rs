@@ -225,14 +225,12 @@ pub(crate) fn match_locally(
         }
     }
     let fit = finish(&best, &Prior { information, ..prior });
-    let finds_partners = fit.matched > MIN_MATCHED_RATIO * 0.7;
-    let agreeing = match finds_partners {
+    let is_matched = fit.matched > MIN_MATCHED_RATIO * 0.7;
+    let agreeing = match is_matched {
         true if is_poor(&fit) => against(cloud, group, fit.target_from_moving).share(),
         true => 1.0,
         false => 0.0,
     };
-    // Clutter finds partners everywhere: once a scan of it is a keyframe, more of its kind match it.
-    let is_matched = finds_partners && agreeing > MIN_AGREEMENT_RATIO;
     if !is_matched {
         best.target_from_moving = frame_from_base;
         let doubted = doubted(&information, 0.0);
