@@ -97,14 +97,12 @@ pub fn register(
 ) -> Fit {
     let frames: Vec<Frame<'_>> = target.iter().map(Frame::new).collect();
     let mut pose = start;
-    let mut pairs = Pairs::default();
     let steps = settings.steps.max(1);
     for step in 0..steps {
         let (reach_m, scale_m) = schedule(settings, step, steps);
         // The first iterations need less accuracy.
         let every = if 2 * step < steps { 2 } else { 1 };
-        pairs.begin(pose, reach_m, every);
-        let mut sums = Sums::collect(moving, &frames, pose, reach_m, scale_m, every, &mut pairs);
+        let mut sums = Sums::collect(moving, &frames, pose, reach_m, scale_m, every);
         sums.weigh(settings);
         let mut information = sums.information;
         let mut gradient = sums.gradient;
@@ -132,8 +130,7 @@ pub fn register(
     }
     let [_, reach_m] = settings.reach_m;
     let [_, scale_m] = settings.scale_m;
-    pairs.begin(pose, reach_m, 1);
-    let mut sums = Sums::collect(moving, &frames, pose, reach_m, scale_m, 1, &mut pairs);
+    let mut sums = Sums::collect(moving, &frames, pose, reach_m, scale_m, 1);
     sums.probe(moving, &frames, pose, settings);
     sums.weigh(settings);
     let from_prior = prior.map_or(0.0, |prior| {
@@ -174,50 +171,6 @@ impl<'a> Frame<'a> {
         let (sine, cosine) = libm::sincos(placed.group_from_cloud.yaw_rad);
         let cloud_from_target = placed.group_from_cloud.inverse();
         Self { cloud: placed.cloud, cloud_from_target, sine, cosine }
-    }
-}
-
-/// Correspondences, kept while the pose hardly changes: their search dominates the cost of an
-/// iteration.
-#[derive(Default)]
-struct Pairs {
-    /// Per moving point, the index of the nearest point of each reference within reach.
-    nearest: Vec<Option<u32>>,
-    /// Pose, reach and point step of the search.
-    of: Option<(Pose2, f32, usize)>,
-    /// Next correspondence to use; none while searching.
-    next: Option<usize>,
-}
-
-/// Pose change above which correspondences are searched again.
-const MAX_REUSE_M: f64 = 2e-3;
-const MAX_REUSE_RAD: f64 = 1e-3;
-
-impl Pairs {
-    /// Starts an iteration over all points.
-    fn begin(&mut self, pose: Pose2, reach_m: f32, every: usize) {
-        let serve = |&(from, reach, step): &(Pose2, f32, usize)| {
-            let [x_m, y_m, rad] = difference(pose, from);
-            let is_near =
-                x_m.abs() < MAX_REUSE_M && y_m.abs() < MAX_REUSE_M && rad.abs() < MAX_REUSE_RAD;
-            is_near && reach == reach_m && step == every
-        };
-        if self.of.as_ref().is_some_and(serve) {
-            self.next = Some(0);
-        } else {
-            self.nearest.clear();
-            (self.next, self.of) = (None, Some((pose, reach_m, every)));
-        }
-    }
-
-    fn nearest(&mut self, cloud: &Cloud, x: f32, y: f32, reach_m: f32) -> Option<usize> {
-        if let Some(next) = &mut self.next {
-            *next += 1;
-            return self.nearest[*next - 1].map(|index| index as usize);
-        }
-        let index = cloud.nearest(x, y, reach_m).map(|it| it.0);
-        self.nearest.push(index.map(|index| index as u32));
-        index
     }
 }
 
@@ -263,11 +216,10 @@ impl Sums {
         reach_m: f32,
         scale_m: f32,
         every: usize,
-        pairs: &mut Pairs,
     ) -> Self {
         let mut sums = Self::default();
         for placed in moving {
-            sums.collect_one(placed, frames, pose, [reach_m, scale_m], every, pairs);
+            sums.collect_one(placed, frames, pose, [reach_m, scale_m], every);
         }
         sums
     }
@@ -279,7 +231,6 @@ impl Sums {
         target_from_group: Pose2,
         [reach_m, scale_m]: [f32; 2],
         every: usize,
-        pairs: &mut Pairs,
     ) {
         let sums = self;
         let pose = target_from_group * moving.group_from_cloud;
@@ -306,7 +257,7 @@ impl Sums {
             for (frame, &(x_m, y_m, sine, cosine)) in frames.iter().zip(&placed) {
                 let x = cosine * point.x - sine * point.y + x_m;
                 let y = sine * point.x + cosine * point.y + y_m;
-                let Some(index) = pairs.nearest(frame.cloud, x, y, reach_m) else { continue };
+                let Some((index, _)) = frame.cloud.nearest(x, y, reach_m) else { continue };
                 let correspondence = frame.cloud.points()[index];
                 let is_line = correspondence.is_on_line();
                 if is_line && point.is_on_line() {
@@ -390,8 +341,7 @@ impl Sums {
             let shifted =
                 Pose2::new(pose.x_m + side * u, pose.y_m + side * v, pose.yaw_rad + side * turn);
             let (reach_m, scale_m) = (settings.reach_m[1], settings.scale_m[1]);
-            let mut pairs = Pairs::default();
-            let there = Sums::collect(moving, frames, shifted, reach_m, scale_m, 1, &mut pairs);
+            let there = Sums::collect(moving, frames, shifted, reach_m, scale_m, 1);
             resistance = resistance.min(2.0 * (there.cost - self.cost) / (PROBE_M * PROBE_M));
         }
         let less = (low - resistance.max(0.0)).clamp(0.0, low);
@@ -455,26 +405,10 @@ pub fn compare(
 ) -> Comparison {
     let (moving, target) = (Placed::alone(moving), Placed::alone(target));
     let there = Frame::new(&target);
-    let mut sums = Sums::collect(
-        &[moving],
-        &[there],
-        target_from_moving,
-        reach_m,
-        scale_m,
-        every,
-        &mut Pairs::default(),
-    );
+    let mut sums = Sums::collect(&[moving], &[there], target_from_moving, reach_m, scale_m, every);
     let back = Frame::new(&moving);
     let moving_from_target = target_from_moving.inverse();
-    let other = Sums::collect(
-        &[target],
-        &[back],
-        moving_from_target,
-        reach_m,
-        scale_m,
-        every,
-        &mut Pairs::default(),
-    );
+    let other = Sums::collect(&[target], &[back], moving_from_target, reach_m, scale_m, every);
     // The reverse direction is in terms of `moving_from_target` q = (u, phi) with t = -R(-phi) u.
     // To first order, a change (du, dphi) of it is dt = -R du - perp(t) dphi and dtheta = -dphi.
     // Its information is transformed with the inverse of that: du = -R^T (dt - perp(t) dtheta).
