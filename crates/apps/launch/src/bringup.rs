@@ -1,6 +1,6 @@
 //! Execution of plans.
 //!
-//! [`LaunchRunner`] executes a [`crate::Plan`] step by step. Known ROS programs become built-in nodes on
+//! [`LaunchRunner`] executes a [`crate::LaunchPlan`] step by step. Known ROS programs become built-in nodes on
 //! one graph ([`table`] lists them); Gazebo becomes a [`periplus_sim::Simulation`] that the caller
 //! creates from [`LaunchRunner::world`]. Other programs run if the machine has them. Missing ones are
 //! reported, and the rest runs.

@@ -2,7 +2,7 @@
 //!
 //! Ctrl-C (`SIGINT`), `docker stop` and systemd (`SIGTERM`) and a closed terminal (`SIGHUP`) set one flag:
 //! the run ends after its step, and closes its bag, map and report. GNU `timeout` and shells signal a
-//! program and its group, so a second signal within [`SAME_REQUEST`] is the same request. A later signal ends the program at once.
+//! program and its group, so a second signal within a second is the same request. A later signal ends the program at once.
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicI32, Ordering};

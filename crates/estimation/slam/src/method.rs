@@ -13,7 +13,7 @@ use crate::remark::Remark;
 
 /// A map under construction by any method.
 ///
-/// [`Slam`] optimizes one pose graph; [`Gmapping`] keeps a map per particle. Functions of only one of them
+/// [`Slam`] optimizes one pose graph; [`Gmapping`](crate::Gmapping) keeps a map per particle. Functions of only one of them
 /// are on its own type.
 pub trait Mapper: Send {
     /// Returns the method.

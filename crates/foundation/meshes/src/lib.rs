@@ -52,7 +52,7 @@ pub use crate::notes::Note;
 /// or an absolute path may be opened.
 pub type SideFiles<'a> = dyn FnMut(&str) -> Option<Vec<u8>> + 'a;
 
-/// Reads a mesh with the default [`Limits`].
+/// Reads a mesh with the default [`MeshLimits`].
 ///
 /// # Errors
 /// If the bytes are not a mesh of this format, a vertex position is not finite, there is no triangle, or

@@ -57,7 +57,7 @@ impl ParamValue {
     /// range. An integer is accepted as a number.
     ///
     /// # Errors
-    /// The rest of the sentence "the value ...", as [`Value::read`].
+    /// The rest of the sentence "the value ...", as [`ParamValue::read`].
     pub fn fit(self, parameter: &Parameter) -> Result<Self, ParamError> {
         let value = match (parameter.kind, self) {
             (ParamType::Number, Self::Integer(integer)) => Self::Number(integer as f64),

@@ -19,7 +19,7 @@ pub enum EntryKind {
 pub enum FileReadError {
     /// No such file.
     Missing,
-    /// Larger than [`LARGEST_FILE`]; size [bytes].
+    /// Larger than [`MAX_FILE_BYTES`]; size [bytes].
     TooLarge(u64),
     /// Not a regular file: a folder, a device, a pipe.
     NotAFile,
@@ -48,7 +48,7 @@ impl std::error::Error for FileReadError {}
 /// Files and environment, as far as readers need them. All access in library crates uses this trait; tests
 /// and fuzzers pass a [`crate::MemoryHost`].
 pub trait Host {
-    /// Reads a regular file of at most [`LARGEST_FILE`] bytes.
+    /// Reads a regular file of at most [`MAX_FILE_BYTES`] bytes.
     ///
     /// # Errors
     /// If it cannot be read.

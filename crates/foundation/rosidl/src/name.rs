@@ -24,7 +24,7 @@ impl InterfaceKind {
         }
     }
 
-    /// Kind with this [`Kind::word`].
+    /// Kind with this [`InterfaceKind::word`].
     #[must_use]
     pub fn from_word(word: &str) -> Option<Self> {
         [Self::Action, Self::Message, Self::Service].into_iter().find(|kind| kind.word() == word)
@@ -36,7 +36,7 @@ impl InterfaceKind {
 pub struct TypeName {
     /// Such as `sensor_msgs`.
     pub package: String,
-    /// Such as [`Kind::Message`].
+    /// Such as [`InterfaceKind::Message`].
     pub kind: InterfaceKind,
     /// Such as `LaserScan`, or `Trigger_Request` for an implied type of a service.
     pub name: String,

@@ -1,7 +1,7 @@
 //! YAML trees with source locations.
 //!
-//! The caller determines the type of a scalar: `1e5` is a number for [`Node::number`] and a text for
-//! [`Node::text`]. Anchors and aliases are supported; merge keys (`<<`) are not and are ordinary names.
+//! The caller determines the type of a scalar: `1e5` is a number for [`YamlNode::number`] and a text for
+//! [`YamlNode::text`]. Anchors and aliases are supported; merge keys (`<<`) are not and are ordinary names.
 //!
 //! ```
 //! use periplus_diagnostics::SourceMap;

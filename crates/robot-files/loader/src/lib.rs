@@ -1,6 +1,6 @@
 //! Loader for all robot and world files: recognise, expand, read, check, summarise.
 //!
-//! [`load`] reads any robot, world or related file and returns a [`Loaded`]: the scene, the findings, and
+//! [`load`] reads any robot, world or related file and returns a [`LoadedFile`]: the scene, the findings, and
 //! the texts that they refer to. It always returns; a broken file gives findings.
 //!
 //! ```

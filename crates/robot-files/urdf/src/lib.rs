@@ -1,6 +1,6 @@
 //! URDF with Gazebo's extensions.
 //!
-//! [`read`] turns a document into a [`Robot`]: plain data close to the file, checked as
+//! [`read`] turns a document into a [`UrdfRobot`]: plain data close to the file, checked as
 //! `check_urdf` checks. [`write()`] goes back.
 //!
 //! ```

@@ -35,7 +35,7 @@ pub struct PhysicsContact {
 
 impl PhysicsWorld {
     /// Returns all contacts, in a fixed order. Shapes without overlap are not included. In
-    /// [`PhysicsMode::Kinematic`](crate::Mode) there are no contacts.
+    /// [`PhysicsMode::Kinematic`](crate::PhysicsMode) there are no contacts.
     #[must_use]
     pub fn contacts(&self) -> Vec<PhysicsContact> {
         let mut contacts = Vec::new();

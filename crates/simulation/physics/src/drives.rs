@@ -1,6 +1,6 @@
 //! Control laws of the drive plugins.
 //!
-//! A drive is independent of a [`PhysicsWorld`](crate::World): its inputs are the command and the wheel
+//! A drive is independent of a [`PhysicsWorld`](crate::PhysicsWorld): its inputs are the command and the wheel
 //! states, its outputs the wheel commands. Defaults are those of the plugin of the same name.
 
 mod ackermann;

@@ -18,7 +18,7 @@
 //! - Friction of a pair is the **smaller** of the two coefficients, as in ODE; if `mu` and `mu2` of
 //!   a surface differ, the smaller applies in all directions, with a warning.
 //! - A **wheel** (a cylinder or sphere that turns about its own axis) has a single contact point in
-//!   the middle of its tread: see [`wheel`](World#wheels). Slip and torsional friction are not
+//!   the middle of its tread: see [`wheel`](PhysicsWorld#wheels). Slip and torsional friction are not
 //!   modelled.
 //! - Contacts of a model with joints yield by 0.6 mm under a quarter of its weight, for all of its
 //!   links, so that wheels and casters share the load. A larger `min_depth` (1 mm to 5 mm) and a

@@ -56,7 +56,7 @@ pub struct AmclNode {
 
 impl AmclNode {
     /// Creates a node `amcl` with parameters of [`periplus_localization::AMCL`], see
-    /// [`read_parameters`]. Parameter overrides of the graph take precedence.
+    /// [`read_parameters`](crate::amcl::read_parameters). Parameter overrides of the graph take precedence.
     ///
     /// # Errors
     /// A topic or service of that name has another type.

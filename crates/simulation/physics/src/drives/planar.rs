@@ -6,7 +6,7 @@ use crate::kinematic::Twist;
 
 /// Returns the velocities of a body that follow a twist: along its own heading, with no vertical
 /// speed, as in Gazebo's plugin. Between two such commands it falls. Linear [m/s] and angular
-/// [rad/s], in world axes. See [`PhysicsWorld::set_model_velocity`](crate::World::set_model_velocity).
+/// [rad/s], in world axes. See [`PhysicsWorld::set_model_velocity`](crate::PhysicsWorld::set_model_velocity).
 #[must_use]
 pub fn planar_velocity(world_from_base: Pose, twist: Twist) -> (DVec3, DVec3) {
     let (sine, cosine) = libm::sincos(world_from_base.rpy().yaw);

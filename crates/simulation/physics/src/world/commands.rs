@@ -20,7 +20,7 @@ impl PhysicsWorld {
 
     /// Commands an axis of a joint. Returns false without such an axis, or for a non-finite number.
     ///
-    /// In [`PhysicsMode::Kinematic`](crate::Mode) speeds and positions are reached exactly (with any effort
+    /// In [`PhysicsMode::Kinematic`](crate::PhysicsMode) speeds and positions are reached exactly (with any effort
     /// but zero), and efforts have no effect.
     pub fn command_axis(&mut self, joint: JointId, axis: usize, command: JointCommand) -> bool {
         if !command.is_sound() || axis >= self.axes(joint).len() {
@@ -31,8 +31,8 @@ impl PhysicsWorld {
         true
     }
 
-    /// In [`PhysicsMode::Kinematic`](crate::Mode) moves a model along the arc of a twist in the model's frame,
-    /// in the plane, until the next command. In [`PhysicsMode::Rigid`](crate::Mode), where wheels move a
+    /// In [`PhysicsMode::Kinematic`](crate::PhysicsMode) moves a model along the arc of a twist in the model's frame,
+    /// in the plane, until the next command. In [`PhysicsMode::Rigid`](crate::PhysicsMode), where wheels move a
     /// robot, this does nothing. Returns true if the model moves: it must exist and be free, and the
     /// numbers must be finite.
     pub fn follow(&mut self, model: ModelId, twist: Twist) -> bool {
@@ -55,7 +55,7 @@ impl PhysicsWorld {
 
     /// Sets the velocities of all bodies of a model as one rigid piece: of its frame's origin [m/s]
     /// and about it [rad/s], in world axes. Planar drives and Gazebo's `VelocityControl` do this in
-    /// every step. In [`PhysicsMode::Kinematic`](crate::Mode) the model keeps it until the next command,
+    /// every step. In [`PhysicsMode::Kinematic`](crate::PhysicsMode) the model keeps it until the next command,
     /// here or by [`Self::follow`].
     pub fn set_model_velocity(
         &mut self,
