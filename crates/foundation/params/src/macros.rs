@@ -104,14 +104,9 @@ macro_rules! __params_fields {
             { $($structure)* }
             {
                 $($parts)*
-                &[$crate::checked::<$type>(
-                    $crate::declare::<$type>(
-                        $param,
-                        concat!($($doc),+).trim_ascii(),
-                        &[$(stringify!($default))?],
-                    )
-                    $(.$key($($argument),*))*
-                )],
+                $crate::__params_entry! {
+                    $type, $param, [$($doc)+] [$($default)?] [$(.$key($($argument),*))*]
+                },
             }
             { $($reads)* }
             { $($writes)* }
@@ -138,14 +133,9 @@ macro_rules! __params_fields {
             }
             {
                 $($parts)*
-                &[$crate::checked::<$type>(
-                    $crate::declare::<$type>(
-                        $param,
-                        concat!($($doc),+).trim_ascii(),
-                        &[$(stringify!($default))?],
-                    )
-                    $(.$key($($argument),*))*
-                )],
+                $crate::__params_entry! {
+                    $type, $param, [$($doc)+] [$($default)?] [$(.$key($($argument),*))*]
+                },
             }
             { $($reads)* $field = |values| $crate::ParamField::from_param(values.get($param)); }
             {
@@ -202,6 +192,25 @@ macro_rules! __params_fields {
                 $({ let ($it, $out) = (&self.$field, &mut *values); $write; })*
             }
         }
+    };
+}
+
+/// Part of a table with one parameter: its type, name, documentation, default, and further methods of
+/// [`Parameter`](crate::Parameter).
+#[doc(hidden)]
+#[macro_export]
+macro_rules! __params_entry {
+    (
+        $type:ty, $param:literal, [$($doc:literal)+] [$($default:literal)?] [$($methods:tt)*]
+    ) => {
+        &[$crate::checked::<$type>(
+            $crate::declare::<$type>(
+                $param,
+                concat!($($doc),+).trim_ascii(),
+                &[$(stringify!($default))?],
+            )
+            $($methods)*
+        )]
     };
 }
 
