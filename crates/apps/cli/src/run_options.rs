@@ -1,12 +1,13 @@
 //! Options and exit codes that all simulating commands share.
 
+use std::path::Path;
 use std::process::ExitCode;
 
 use clap::{Args, ValueEnum};
 use periplus_gz_msgs::Dialect;
 use periplus_gz_transport::DiscoveryReach;
-use periplus_session::{Ros2Reach, RunEnd};
-use periplus_sim::{Composition, TopicFilter};
+use periplus_session::{RecordingRequest, Ros2Reach, RunEnd};
+use periplus_sim::Composition;
 
 use crate::error::CliError;
 use crate::terminal;
@@ -23,12 +24,15 @@ pub(crate) struct TopicSelection {
 }
 
 impl TopicSelection {
-    pub(crate) fn filter(&self) -> TopicFilter {
+    /// Recording of the selected topics, if there is a file for it.
+    pub(crate) fn recording(&self, path: Option<&Path>) -> Option<RecordingRequest> {
+        let path = path?.to_owned();
         let (topics, exclude) = (self.topics.clone(), self.exclude.clone());
-        Box::new(move |name| {
+        let wanted = Box::new(move |name: &str| {
             topics.as_ref().is_none_or(|topics| topics.is_match(name))
                 && !exclude.as_ref().is_some_and(|exclude| exclude.is_match(name))
-        })
+        });
+        Some(RecordingRequest { path, wanted })
     }
 }
 

@@ -12,8 +12,8 @@ use periplus_loader::LoadContext;
 use periplus_os::Stopwatch;
 use periplus_session::nodes::EstimatorRequest;
 use periplus_session::{
-    GazeboSettings, NoTask, PageContext, PageSettings, RecordingRequest, RunSettings,
-    SessionBuilder, SimulationSession, stop,
+    GazeboSettings, NoTask, PageContext, PageSettings, RunSettings, SessionBuilder,
+    SimulationSession, stop,
 };
 use periplus_sim::{Composition, Driver, Options, PhysicsMode, Quirks, TopicFilter, compose};
 
@@ -167,7 +167,7 @@ pub(crate) fn run(options: &SimOptions, ros: Vec<String>) -> Result<ExitCode, Cl
         .progress(!options.quiet && !options.json)
         .factor(factor)
         .search(search)
-        .recording(options.recording())
+        .recording(options.recorded.recording(options.record.as_deref()))
         .computed(options.computed())
         .driver(driver)
         .estimators(options.estimators())
@@ -272,11 +272,6 @@ impl SimOptions {
             arguments,
             ..Options::default()
         }
-    }
-
-    fn recording(&self) -> Option<RecordingRequest> {
-        let path = self.record.clone()?;
-        Some(RecordingRequest { path, wanted: self.recorded.filter() })
     }
 
     fn computed(&self) -> Option<TopicFilter> {

@@ -9,8 +9,8 @@ use periplus_graph::{Arguments, Graph};
 use periplus_launch::bringup::{LaunchRunner, WorldRequest};
 use periplus_os::{Stopwatch, sleep};
 use periplus_session::{
-    PageContext, ProgressLine, RecordingRequest, RunEnd, RunSettings, SessionBuilder, SessionTask,
-    SimulationSession, stop,
+    PageContext, ProgressLine, RunEnd, RunSettings, SessionBuilder, SessionTask, SimulationSession,
+    stop,
 };
 use periplus_sim::{Options, Simulation, Tick};
 use serde_json::json;
@@ -63,7 +63,7 @@ pub(super) fn run(
         .progress(!options.quiet && !options.json)
         .factor(factor)
         .search(bringup.search().clone())
-        .recording(options.recording())
+        .recording(options.recorded.recording(options.record.as_deref()))
         .ros2(options.ros2.map(Into::into))
         .page(page)
         .build()?;
@@ -137,10 +137,5 @@ impl PlayOptions {
             publishes_joint_states: !bringup.publishes_joint_states(),
             ..Options::default()
         }
-    }
-
-    fn recording(&self) -> Option<RecordingRequest> {
-        let path = self.record.clone()?;
-        Some(RecordingRequest { path, wanted: self.recorded.filter() })
     }
 }
