@@ -7,12 +7,11 @@ use std::convert::Infallible;
 use http_body_util::Empty;
 use hyper::body::{Bytes, Incoming};
 use hyper::header::ORIGIN;
-use hyper::server::conn::http1;
 use hyper::service::service_fn;
 use hyper::{Request, Response};
 use hyper_util::rt::TokioIo;
 use libfuzzer_sys::fuzz_target;
-use periplus_web::server::Authorization;
+use periplus_web::server::{Authorization, bounded_http};
 
 fn check(request: &Request<Incoming>) {
     let (target, headers) = (request.uri(), request.headers());
@@ -39,8 +38,5 @@ fuzz_target!(|bytes: &[u8]| {
         check(&request);
         std::future::ready(Ok::<_, Infallible>(Response::new(Empty::<Bytes>::new())))
     });
-    // The limits of the server.
-    let mut server = http1::Builder::new();
-    server.max_header_size(16 << 10).max_headers(100).max_buf_size(16 << 10);
-    let _ = runtime.block_on(server.serve_connection(stream, service));
+    let _ = runtime.block_on(bounded_http().serve_connection(stream, service));
 });

@@ -18,5 +18,6 @@ mod token;
 mod token_rate_limit;
 
 pub use authorization::{AdmissionError, Authorization};
+pub use connection::bounded_http;
 pub use listener::{WebServer, WebServerSettings};
 pub use token::{MIN_TOKEN_CHARACTERS, TokenError, token};

@@ -54,18 +54,23 @@ pub(crate) async fn serve(
         std::future::ready(Ok::<_, Infallible>(answer))
     });
     let stream: Stream = Box::pin(stream);
-    http1::Builder::new()
+    bounded_http()
         .timer(TokioTimer::new())
         .header_read_timeout(limits.head_timeout)
-        .max_header_size(MAX_HEAD_BYTES)
-        .max_headers(MAX_HEADERS)
-        .max_buf_size(MAX_HEAD_BYTES)
         .title_case_headers(true)
         // The hub below has no clock of the day.
         .auto_date_header(false)
         .serve_connection(TokioIo::new(stream), service)
         .with_upgrades()
         .await
+}
+
+/// HTTP/1 with the limits of this server on the heads of requests.
+#[must_use]
+pub fn bounded_http() -> http1::Builder {
+    let mut http = http1::Builder::new();
+    http.max_header_size(MAX_HEAD_BYTES).max_headers(MAX_HEADERS).max_buf_size(MAX_HEAD_BYTES);
+    http
 }
 
 fn close_after(answer: &mut Answer) {
