@@ -52,7 +52,9 @@ pub(crate) trait V8: Copy {
     /// Prefetches into the cache.
     fn prefetch<T>(what: &T);
 
-    /// Runs a task with this type's instructions enabled throughout.
+    /// Runs a task with this type's instructions enabled throughout, as a function of its own. Everything
+    /// inside a task is inlined, so a part with several callers is a task of its own, or it is compiled once
+    /// for each of them.
     fn run<T: Task>(task: T) -> T::Output;
 }
 
@@ -77,12 +79,6 @@ pub(crate) fn dispatch<T: Task>(task: T) -> T::Output {
     if !force_portable() && has_avx2() {
         return Avx2::run(task);
     }
-    portable(task)
-}
-
-/// Separate from [`dispatch`], whose stack frame would otherwise include this one.
-#[inline(never)]
-fn portable<T: Task>(task: T) -> T::Output {
     Portable::run(task)
 }
 
@@ -218,7 +214,8 @@ impl V8 for Portable {
     }
     #[inline(always)]
     fn prefetch<T>(_: &T) {}
-    #[inline(always)]
+    // Not inlined into `dispatch`, whose stack frame would otherwise include this one.
+    #[inline(never)]
     fn run<T: Task>(task: T) -> T::Output {
         task.run::<Self>()
     }
@@ -334,6 +331,7 @@ mod avx2 {
         }
     }
 
+    #[inline(never)]
     #[target_feature(enable = "avx2,fma,bmi1,lzcnt")]
     fn run<T: Task>(task: T) -> T::Output {
         task.run::<Avx2>()

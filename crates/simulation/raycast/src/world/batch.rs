@@ -3,9 +3,9 @@
 use std::marker::PhantomData;
 use std::vec::Drain;
 
-use super::packet_group::PacketGroup;
+use super::packet_group::{PacketGroup, TraceGroup};
 use super::partition::for_each_chunk;
-use super::query::{NearestHit, Scratch, hit_of, single_above};
+use super::query::{Find, FindInstances, NearestHit, Scratch, hit_of, single_above};
 use super::{Filter, RaycastWorld};
 use crate::local_ray::LocalRay;
 use crate::mesh::{Nearest, RayQueue};
@@ -166,8 +166,28 @@ impl<V: V8, F: FnMut(usize, &NearestHit)> RayQueue for InterleavedRays<'_, '_, V
     fn done(&mut self, (index, mut found): Self::Ticket, nearest: Nearest) {
         let (world, rays, filter) = (self.many.world, self.many.rays, self.many.filter);
         world.keep_fixed(nearest, &mut found);
-        world.find_instances::<V, false>(&rays[index], filter, &mut found, self.scratch);
+        let (ray, scratch) = (&rays[index], &mut *self.scratch);
+        V::run(FindInstances { world, ray, filter, found: &mut found, scratch });
         (self.many.report)(index, &found);
+    }
+}
+
+/// Task of [`Many::trace_interleaved`].
+struct TraceInterleaved<'a, 'b, F> {
+    many: &'a mut Many<'b, F>,
+    slots: Drain<'a, usize>,
+    scratch: &'a mut Scratch,
+}
+
+impl<F: FnMut(usize, &NearestHit)> Task for TraceInterleaved<'_, '_, F> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<V: V8>(self) {
+        let Self { many, slots, scratch } = self;
+        let (world, vectors) = (many.world, PhantomData);
+        let mut rays = InterleavedRays::<V, _> { many, slots, scratch, vectors };
+        world.fixed.trace_interleaved::<V, _>(&mut rays);
     }
 }
 
@@ -252,7 +272,8 @@ impl<F: FnMut(usize, &NearestHit)> Many<'_, F> {
     #[inline(always)]
     fn trace_group<V: V8>(&mut self, group: &mut PacketGroup, scratch: &mut Scratch) {
         let (world, rays, filter) = (self.world, self.rays, self.filter);
-        group.trace::<V>(world, rays, filter, scratch, &mut self.report);
+        V::run(TraceGroup { group, world, rays, filter, scratch });
+        group.report(&mut self.report);
     }
 
     /// Traces and clears rays that could not form a packet.
@@ -264,19 +285,13 @@ impl<F: FnMut(usize, &NearestHit)> Many<'_, F> {
             }
             return;
         }
-        let world = self.world;
-        let (slots, vectors) = (loose.drain(..), PhantomData);
-        world.fixed.trace_interleaved::<V, _>(&mut InterleavedRays::<V, _> {
-            many: self,
-            slots,
-            scratch,
-            vectors,
-        });
+        V::run(TraceInterleaved { many: self, slots: loose.drain(..), scratch });
     }
 
     #[inline(always)]
     fn trace_single<V: V8>(&mut self, index: usize, scratch: &mut Scratch) {
-        let found = self.world.find::<V, false>(&self.rays[index], self.filter, scratch);
+        let (world, ray, filter) = (self.world, &self.rays[index], self.filter);
+        let found = V::run(Find::<false> { world, ray, filter, scratch });
         (self.report)(index, &found);
     }
 }

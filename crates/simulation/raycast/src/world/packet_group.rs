@@ -5,13 +5,13 @@ use std::marker::PhantomData;
 use periplus_geometry::DVec3;
 
 use super::lanes::Lanes;
-use super::query::{NearestHit, Scratch, single_above};
+use super::query::{FindInstance, NearestHit, Scratch, single_above};
 use super::{Filter, InstanceGeometry, RaycastWorld};
 use crate::bvh::leaf_range;
 use crate::mesh::{Best, TriangleMesh};
 use crate::packet::{Frustum, MAX_GROUP_COUNT, Packet, Pyramid};
 use crate::ray::Ray;
-use crate::simd::{Row, V8};
+use crate::simd::{Row, Task, V8};
 use crate::traversal::{Leaves, Stack, Step, traverse};
 
 /// Up to eight packets, and the pyramid around them.
@@ -21,6 +21,8 @@ pub(super) struct PacketGroup {
     members: Vec<Member>,
     /// Filled only in worlds with instances.
     lanes: Vec<Lanes>,
+    /// Nearest hits of the rays that were traced last.
+    found: [[NearestHit; 8]; MAX_GROUP_COUNT],
 }
 
 /// Indices of the rays of a packet; lanes beyond `count` repeat the first.
@@ -37,6 +39,7 @@ impl PacketGroup {
             packets: Vec::with_capacity(MAX_GROUP_COUNT),
             members: Vec::with_capacity(MAX_GROUP_COUNT),
             lanes: Vec::new(),
+            found: [[NearestHit::nothing(0.0); 8]; MAX_GROUP_COUNT],
         }
     }
 
@@ -56,21 +59,21 @@ impl PacketGroup {
         self.members.push(member);
     }
 
-    /// Traces all packets and clears the group.
+    /// Traces all packets.
     #[inline(always)]
-    pub(super) fn trace<V: V8>(
+    fn trace<V: V8>(
         &mut self,
         world: &RaycastWorld,
         rays: &[Ray],
         filter: Filter,
         scratch: &mut Scratch,
-        report: &mut impl FnMut(usize, &NearestHit),
     ) {
         let Some(pyramid) = self.pyramid.take() else { return };
         let instances = !world.resting.nodes.is_empty() || !world.moving.nodes.is_empty();
-        let mut found = [[NearestHit::nothing(0.0); 8]; MAX_GROUP_COUNT];
+        self.found = [[NearestHit::nothing(0.0); 8]; MAX_GROUP_COUNT];
+        let found = &mut self.found;
         let mut best = [Best::within(Row([0.0; 8])); MAX_GROUP_COUNT];
-        for ((member, found), best) in self.members.iter().zip(&mut found).zip(&mut best) {
+        for ((member, found), best) in self.members.iter().zip(&mut *found).zip(&mut best) {
             if instances || !world.endless.is_empty() {
                 let lanes = Lanes::new(&member.rays(rays));
                 *found = lanes.nothing();
@@ -100,13 +103,18 @@ impl PacketGroup {
         }
         if instances {
             let members = self.members.iter().zip(&self.packets).zip(&self.lanes);
-            for (((member, packet), lanes), found) in members.zip(&mut found) {
+            for (((member, packet), lanes), found) in members.zip(found) {
                 let all = member.rays(rays);
                 let rays = &all[..member.count];
                 world.find_instances_packet::<V>(rays, lanes, packet, filter, found, scratch);
             }
         }
-        for (member, found) in self.members.iter().zip(&found) {
+    }
+
+    /// Reports the nearest hit of each ray, and clears the group.
+    #[inline(always)]
+    pub(super) fn report(&mut self, report: &mut impl FnMut(usize, &NearestHit)) {
+        for (member, found) in self.members.iter().zip(&self.found) {
             for (&index, found) in member.slots[..member.count].iter().zip(found) {
                 report(index, found);
             }
@@ -114,6 +122,25 @@ impl PacketGroup {
         self.packets.clear();
         self.members.clear();
         self.lanes.clear();
+    }
+}
+
+/// Tracing of all packets of a group.
+pub(super) struct TraceGroup<'a> {
+    pub(super) group: &'a mut PacketGroup,
+    pub(super) world: &'a RaycastWorld,
+    pub(super) rays: &'a [Ray],
+    pub(super) filter: Filter,
+    pub(super) scratch: &'a mut Scratch,
+}
+
+impl Task for TraceGroup<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<V: V8>(self) {
+        let Self { group, world, rays, filter, scratch } = self;
+        group.trace::<V>(world, rays, filter, scratch);
     }
 }
 
@@ -270,7 +297,8 @@ impl<V: V8> Leaves for InstancePacketLeaves<'_, V> {
                 continue;
             }
             for (ray, found) in self.rays.iter().zip(&mut *self.found) {
-                self.world.find_instance::<V, false>(number, ray, self.filter, found, self.stack);
+                let (world, filter, stack) = (self.world, self.filter, &mut *self.stack);
+                V::run(FindInstance { world, number, ray, filter, found, stack });
             }
         }
         Step::Within(limit::<V>(self.packet, self.found, self.rays.len()))

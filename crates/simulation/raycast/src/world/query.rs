@@ -81,14 +81,16 @@ impl RaycastWorld {
     /// Returns the first hit of a ray.
     #[must_use]
     pub fn cast(&self, ray: &Ray, filter: Filter) -> Option<Hit> {
-        let found = dispatch(CastTask::<false> { world: self, ray, filter });
+        let found =
+            dispatch(Find::<false> { world: self, ray, filter, scratch: &mut Scratch::new() });
         found.is_hit().then(|| self.hit(ray, &found))
     }
 
     /// Returns true if anything is on a ray; cheaper than [`Self::cast`].
     #[must_use]
     pub fn occluded(&self, ray: &Ray, filter: Filter) -> bool {
-        dispatch(CastTask::<true> { world: self, ray, filter }).is_hit()
+        let scratch = &mut Scratch::new();
+        dispatch(Find::<true> { world: self, ray, filter, scratch }).is_hit()
     }
 
     /// Returns the full hit.
@@ -355,18 +357,59 @@ impl<V: V8, const ANY: bool> Leaves for InstanceLeaves<'_, V, ANY> {
     }
 }
 
-struct CastTask<'a, const ANY: bool> {
-    world: &'a RaycastWorld,
-    ray: &'a Ray,
-    filter: Filter,
+/// The nearest hit of one ray, or any with `ANY`.
+pub(super) struct Find<'a, const ANY: bool> {
+    pub(super) world: &'a RaycastWorld,
+    pub(super) ray: &'a Ray,
+    pub(super) filter: Filter,
+    pub(super) scratch: &'a mut Scratch,
 }
 
-impl<const ANY: bool> Task for CastTask<'_, ANY> {
+impl<const ANY: bool> Task for Find<'_, ANY> {
     type Output = NearestHit;
 
     #[inline(always)]
     fn run<V: V8>(self) -> NearestHit {
-        self.world.find::<V, ANY>(self.ray, self.filter, &mut Scratch::new())
+        self.world.find::<V, ANY>(self.ray, self.filter, self.scratch)
+    }
+}
+
+/// The nearest hit of one ray among instances, if it is nearer than one that is known.
+pub(super) struct FindInstances<'a> {
+    pub(super) world: &'a RaycastWorld,
+    pub(super) ray: &'a Ray,
+    pub(super) filter: Filter,
+    pub(super) found: &'a mut NearestHit,
+    pub(super) scratch: &'a mut Scratch,
+}
+
+impl Task for FindInstances<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<V: V8>(self) {
+        let Self { world, ray, filter, found, scratch } = self;
+        world.find_instances::<V, false>(ray, filter, found, scratch);
+    }
+}
+
+/// [`FindInstances`] for one instance.
+pub(super) struct FindInstance<'a> {
+    pub(super) world: &'a RaycastWorld,
+    pub(super) number: u32,
+    pub(super) ray: &'a Ray,
+    pub(super) filter: Filter,
+    pub(super) found: &'a mut NearestHit,
+    pub(super) stack: &'a mut Stack,
+}
+
+impl Task for FindInstance<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<V: V8>(self) {
+        let Self { world, number, ray, filter, found, stack } = self;
+        world.find_instance::<V, false>(number, ray, filter, found, stack);
     }
 }
 
