@@ -155,9 +155,10 @@ impl Counters {
     /// Counts a point outside the heights of its layer; returns true if it is inside.
     #[inline]
     pub(crate) fn is_in_layer(&mut self, z_m: f64, heights: &RangeLimits) -> bool {
-        self.layer_too_low += u64::from(z_m < heights.min_m);
-        self.layer_too_high += u64::from(z_m > heights.max_m);
-        !(z_m < heights.min_m || z_m > heights.max_m)
+        let (is_too_low, is_too_high) = (z_m < heights.min_m, z_m > heights.max_m);
+        self.layer_too_low += u64::from(is_too_low);
+        self.layer_too_high += u64::from(is_too_high);
+        !(is_too_low || is_too_high)
     }
 
     /// Returns the difference to earlier counts.

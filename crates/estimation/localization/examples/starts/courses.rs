@@ -100,7 +100,7 @@ impl<'a> Cover<'a> {
             if !(range > scan.range_min_m.into() && range < scan.range_max_m.into()) {
                 continue;
             }
-            let angle = scan.angle_min_rad + index as f64 * scan.angle_increment_rad;
+            let angle = scan.beam_angle_rad(index);
             let (x, y) = map_from_laser.transform_point(range * angle.cos(), range * angle.sin());
             count += 1;
             let cell = cell_transform.cell_of(x, y).map(|cell| info.index(cell));
