@@ -19,7 +19,7 @@ use periplus_scan_matching::{PackedPlaces, Symmetric3};
 
 use crate::graph::{Edge, Graph};
 use crate::keyframe::{Keyframe, TrajectoryNode};
-use crate::local::{MIN_AGREEMENT_RATIO, apart, floored};
+use crate::local::{apart, floored};
 use crate::loops::Loops;
 use crate::odometry_diagnostics::{OdometryDiagnostics, Step};
 use crate::odometry_monitor::{OdometryMonitor, OdometryTrust};
@@ -229,7 +229,7 @@ impl Slam {
         }
         // 4. Learn the odometry noise and the usual inlier ratio.
         self.learn(scan.time_ns, &found);
-        self.counts.lost += usize::from(found.is_matched && found.agreeing <= MIN_AGREEMENT_RATIO);
+        self.counts.lost += usize::from(found.is_matched && found.contradicts());
         // 5. After enough motion, insert a keyframe with a sequential constraint; queue the search for proximity
         //    constraints and loop closures.
         let is_keyframe = self.is_keyframe(&found);

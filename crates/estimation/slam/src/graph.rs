@@ -57,7 +57,7 @@ impl Edge {
         Self { from, to, from_from_to, information, covariances, kind, weight: 1.0 }
     }
 
-    /// A step of which nothing is known: a separate piece of map begins after it.
+    /// A step of which nothing is known: a separate component begins after it.
     pub(crate) fn gap((from, to): (usize, usize), from_from_to: Pose2) -> Self {
         let nothing = Symmetric3::diagonal(
             GAP_INFORMATION_FACTOR,

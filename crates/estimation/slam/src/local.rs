@@ -32,7 +32,7 @@ const DOUBTFUL_AGREEMENT_RATIO: f64 = 0.75;
 const SURE_AGREEMENT_RATIO: f64 = 0.9;
 /// Maximum agreement with the scans before of a scan that belongs elsewhere: half of the points that both can
 /// see contradict each other by chance.
-pub(crate) const MIN_AGREEMENT_RATIO: f64 = 0.6;
+pub(crate) const MAX_CONTRADICTING_AGREEMENT_RATIO: f64 = 0.6;
 /// Range over which the heading step is computed: with the range of most points, ends move by a cell per
 /// step \[m\].
 const ARM_M: std::ops::Range<f64> = 2.0..12.0;
@@ -53,7 +53,7 @@ pub(crate) struct LocalMatch {
     pub(crate) agreeing: f64,
 }
 
-/// The key scans that a new one is laid onto: the last ones, nearby, from the first of a piece of map on.
+/// Keyframes that a new scan is matched against: the last ones, nearby, from the first of a component on.
 pub(crate) fn neighbours(
     keyframes: &[Keyframe],
     graph: &Graph,

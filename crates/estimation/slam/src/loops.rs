@@ -9,26 +9,25 @@
 //!    paths between them, and more do so than with any competing hypothesis;
 //! 5. after optimization all newly overlapping scans still agree; else everything is undone.
 
+mod evidence;
 mod scale;
 mod state;
+mod verification;
 
 use std::collections::VecDeque;
 use std::ops::Range;
 
-use periplus_geometry::{Pose2, normalize_angle};
-use periplus_scan_matching::{
-    FieldSettings, Fit, Placed, Prior, ScoreField, Symmetric3, Window, register,
-};
+use periplus_geometry::Pose2;
+use periplus_scan_matching::{FieldSettings, ScoreField, Symmetric3, Window};
 
 use crate::drift::{RelativeUncertainty, reversed, uncertainties_from};
 use crate::graph::{ConstraintKind, Edge, Graph};
 use crate::keyframe::{Keyframe, between};
-use crate::local::{
-    Group, against_nearest, apart, close_by, floored, grouped, heading_step, points_of, spread,
-};
+use crate::local::{Group, apart, floored, grouped, heading_step, points_of, spread};
 use crate::settings::Settings;
 
 use scale::scale;
+use verification::{MIN_MATCHED_RATIO, verify};
 
 /// Length of a stretch that is searched for, and from one search to the next \[m\].
 const STRETCH_M: f64 = 9.0;
@@ -55,36 +54,8 @@ const SECOND_POSE_SCORE_RATIO: f64 = 0.8;
 /// Minimum distance of two different poses \[m, rad\].
 const OTHER_M: f64 = 0.8;
 const OTHER_RAD: f64 = 0.5;
-/// Part of judged points that must agree; points to judge; part of points with partners.
-const MIN_AGREEMENT_RATIO: f64 = 0.88;
-const MIN_JUDGED_POINTS: u32 = 400;
-const MIN_MATCHED_RATIO: f64 = 0.6;
-/// Number of scans of the old stretch that each of the new one is compared with.
-const COMPARED_SCANS: usize = 3;
-/// The same where two stretches were driven in opposite directions, and each shows a part that is
-/// hidden from the other: fewer partners, but more points that both can judge and that agree.
-const OPPOSITE_MIN_MATCHED_RATIO: f64 = 0.3;
-const OPPOSITE_MIN_JUDGED_POINTS: u32 = 800;
-const OPPOSITE_MIN_AGREEMENT_RATIO: f64 = 0.9;
 /// Peaks this near to the rim of what was searched are none \[m\].
 const RIM_M: f64 = 0.15;
-/// Squared Mahalanobis distance within which closures agree: 99 % for 3 degrees of freedom.
-const CONSISTENT_SQUARED_SIGMAS: f64 = 11.3;
-/// Regions (3 standard deviations) up to this need one witness, up to that two, else three \[m\].
-const ONE_WITNESS_M: f64 = 2.0;
-const PARTLY_ONE_WITNESS_M: f64 = 1.0;
-const TWO_WITNESSES_M: f64 = 12.0;
-/// A closure that others speak against is tried at the end when its scans agree on more than this.
-const TRIAL_MIN_AGREEMENT_RATIO: f64 = 0.93;
-/// Witnesses for each against, where those against would be enough for another closure.
-const MAJORITY_FACTOR: usize = 3;
-/// Minimum path between two witnesses, and maximum path over which they count \[m\].
-const APART_M: f64 = 4.0;
-const HEARD_M: f64 = 60.0;
-/// Two closures are uninformative about each other if three standard deviations of the paths between them
-/// exceed this fraction of the smaller region, and this distance: they would agree by chance.
-const UNINFORMATIVE_REGION_RATIO: f64 = 0.5;
-const UNINFORMATIVE_REGION_M: f64 = 2.0;
 /// Searches for one stretch, and searches that wait, at most.
 const MAX_SEARCHES_PER_STRETCH_COUNT: usize = 30;
 const MAX_WAITING_SEARCH_COUNT: usize = 300;
@@ -92,11 +63,10 @@ const MAX_WAITING_SEARCH_COUNT: usize = 300;
 const UNKNOWN_COVARIANCE: Symmetric3 =
     Symmetric3 { xx: 1e4, xy: 0.0, xt: 0.0, yy: 1e4, yt: 0.0, tt: 10.0 };
 /// Stricter limits for closures between components, where nothing is known of the relative pose: region,
-/// score, agreement, witnesses, searches per stretch, and their priority.
+/// score, agreement, searches per stretch, and their priority.
 const GLOBAL_REGION_M: f64 = 250.0;
 const GLOBAL_MIN_SCORE_RATIO: f64 = 0.5;
 const GLOBAL_MIN_AGREEMENT_RATIO: f64 = 0.95;
-const GLOBAL_MIN_WITNESS_COUNT: usize = 5;
 const MAX_GLOBAL_CANDIDATES: usize = 24;
 const GLOBAL_DISTANCE_FACTOR: f64 = 2.0;
 /// Fields that are kept; the larger, the fewer.
@@ -106,9 +76,6 @@ const FAR_M: f32 = 14.0;
 const SPACING_M: f32 = 0.15;
 /// Maximum factor of the cell size for long-range scanners.
 const MAX_CELL_SIZE_FACTOR: f64 = 2.0;
-/// Scans of a stretch that are laid onto others, and more where they have few points.
-const FEW_SCANS: usize = 8;
-const FEW_POINTS: usize = 800;
 
 /// A loop closure candidate with the decision on it.
 #[derive(Clone, Debug, PartialEq)]
@@ -174,33 +141,6 @@ impl Candidate {
     }
 }
 
-/// Evidence of the other closures about one.
-struct Evidence {
-    /// Closures that agree with it.
-    agreeing: Vec<usize>,
-    /// Independent stretches that confirm it, itself included.
-    witnesses: usize,
-    wanted: usize,
-    /// Independent stretches that contradict it.
-    rivals: usize,
-}
-
-impl Evidence {
-    fn is_enough(&self) -> bool {
-        // As many against it as would suffice for another closure: two areas look alike.
-        let is_clear = self.rivals < self.wanted || self.witnesses >= MAJORITY_FACTOR * self.rivals;
-        self.witnesses >= self.wanted + self.rivals && is_clear
-    }
-}
-
-/// Relation between two closures.
-enum Consistency {
-    Agrees,
-    Contradicts,
-    /// The paths between them are so uncertain that they would agree by chance.
-    Uninformative,
-}
-
 /// A cached likelihood field of an old stretch.
 struct Kept {
     place: usize,
@@ -256,7 +196,7 @@ impl Loops {
 
     /// Asks for all old stretches that the one up to a key may have met.
     ///
-    /// Where the map is torn, all that lies in other pieces of it is asked for as well.
+    /// Where the map has several components, keyframes of the others are searched as well.
     pub(crate) fn ask(
         &mut self,
         keyframes: &[Keyframe],
@@ -496,153 +436,6 @@ impl Loops {
         })
     }
 
-    /// Decides on a new candidate and those that agree with it; returns the edges of the accepted ones.
-    ///
-    /// Each is accepted by its own evidence: as many agreeing witnesses as its region requires. Ambiguous
-    /// candidates are never accepted, since proximity constraints are better once the pose is known; they
-    /// are dropped.
-    fn weigh(&mut self, new: Candidate, keyframes: &[Keyframe], graph: &Graph) -> Vec<Edge> {
-        self.closures.push(new.closure());
-        self.pending.push(new);
-        let newest = self.pending.len() - 1;
-        let evidence = self.evidence(newest, keyframes, graph);
-        self.tell(newest, &evidence, evidence.is_enough());
-        if !evidence.is_enough() || !self.pending[newest].is_unique {
-            return Vec::new();
-        }
-        let mut believed = Vec::new();
-        for &index in evidence.agreeing.iter().chain([&newest]) {
-            if !self.pending[index].is_unique {
-                continue;
-            }
-            let own = self.evidence(index, keyframes, graph);
-            if own.is_enough() {
-                self.tell(index, &own, true);
-                believed.push(index);
-            }
-        }
-        let edges = believed.iter().map(|&index| self.pending[index].edge()).collect();
-        // Others that agree may still find more witnesses.
-        let is_done = |index: usize, it: &Candidate| {
-            believed.contains(&index) || (evidence.agreeing.contains(&index) && !it.is_unique)
-        };
-        let mut index = 0;
-        self.pending.retain(|it| {
-            index += 1;
-            !is_done(index - 1, it)
-        });
-        edges
-    }
-
-    /// Evidence of the other closures about one.
-    fn evidence(&self, of: usize, keyframes: &[Keyframe], graph: &Graph) -> Evidence {
-        let it = &self.pending[of];
-        let from_anchor = uncertainties(graph, it.anchor);
-        let from_middle = uncertainties(graph, it.middle);
-        let here_m = keyframes[it.anchor].travel_m;
-        let mut agreeing: Vec<usize> = Vec::new();
-        let mut rivals: Vec<f64> = Vec::new();
-        // Witnesses: unique ones, far enough from each other.
-        let mut witnesses: Vec<f64> = Vec::new();
-        let is_apart = |ways: &[f64], way: f64| ways.iter().all(|it| (it - way).abs() >= APART_M);
-        if it.is_unique {
-            witnesses.push(here_m);
-        }
-        for (index, other) in self.pending.iter().enumerate().rev() {
-            let there_m = keyframes[other.anchor].travel_m;
-            // Distant closures are no evidence.
-            if index == of || (here_m - there_m).abs() > HEARD_M {
-                continue;
-            }
-            match consistency(it, other, graph, &from_anchor, &from_middle) {
-                Consistency::Agrees => {
-                    agreeing.push(index);
-                    if other.is_unique && is_apart(&witnesses, there_m) {
-                        witnesses.push(there_m);
-                    }
-                }
-                Consistency::Contradicts if other.is_unique && is_apart(&rivals, there_m) => {
-                    rivals.push(there_m);
-                }
-                _ => {}
-            }
-        }
-        let wanted = match it.region_m {
-            ..PARTLY_ONE_WITNESS_M => 1,
-            ..ONE_WITNESS_M if !it.is_partial => 1,
-            ..TWO_WITNESSES_M => 2,
-            ..GLOBAL_REGION_M => 3,
-            _ => GLOBAL_MIN_WITNESS_COUNT,
-        };
-        Evidence { agreeing, witnesses: witnesses.len(), wanted, rivals: rivals.len() }
-    }
-
-    /// Writes down what became of a closure.
-    fn tell(&mut self, index: usize, evidence: &Evidence, is_believed: bool) {
-        let it = &self.pending[index];
-        let (keyframes, pose) = ((it.middle, it.anchor), it.middle_from_anchor);
-        let words = match (it.is_unique, is_believed) {
-            (true, _) => "unique in the region",
-            (false, false) => "matches elsewhere too",
-            (false, true) => "matches elsewhere too, though others agree with it",
-        };
-        let is_accepted = is_believed && it.is_unique;
-        let told = self.closures.iter_mut().rev();
-        let Some(told) =
-            { told }.find(|told| told.keyframes == keyframes && told.old_from_new == pose)
-        else {
-            return;
-        };
-        told.is_accepted = is_accepted;
-        told.reason = format!(
-            "{} of {} independent witnesses, {} against; {words}",
-            evidence.witnesses, evidence.wanted, evidence.rivals,
-        );
-    }
-
-    /// Closures that lack a witness, that nothing speaks against, and that fit nowhere else: those with the
-    /// most witnesses first.
-    pub(crate) fn waiting(&self, keyframes: &[Keyframe], graph: &Graph) -> Vec<Edge> {
-        let mut waiting: Vec<(usize, f64, usize)> = (0..self.pending.len())
-            .filter(|&index| self.pending[index].is_unique && !self.pending[index].is_partial)
-            .filter_map(|index| {
-                let evidence = self.evidence(index, keyframes, graph);
-                let lacks = evidence.wanted.saturating_sub(evidence.witnesses);
-                let is_clear =
-                    evidence.rivals == 0 || self.pending[index].share > TRIAL_MIN_AGREEMENT_RATIO;
-                let is_near = lacks <= 1 && evidence.witnesses > evidence.rivals && is_clear;
-                is_near.then(|| (lacks, 1.0 - self.pending[index].share, index))
-            })
-            .collect();
-        waiting.sort_by(|a, b| a.0.cmp(&b.0).then(a.1.total_cmp(&b.1)).then(a.2.cmp(&b.2)));
-        waiting.into_iter().map(|it| self.pending[it.2].edge()).collect()
-    }
-
-    /// Returns the best supported closure that contradicts the given one.
-    pub(crate) fn rival_of(
-        &self,
-        edge: &Edge,
-        keyframes: &[Keyframe],
-        graph: &Graph,
-    ) -> Option<Edge> {
-        let keys_of = |it: &Candidate| (it.middle, it.anchor);
-        let it = self.pending.iter().find(|it| keys_of(it) == (edge.from, edge.to))?;
-        let from_anchor = uncertainties(graph, it.anchor);
-        let from_middle = uncertainties(graph, it.middle);
-        let here_m = keyframes[it.anchor].travel_m;
-        let opposes = |index: &usize| {
-            let other = &self.pending[*index];
-            let is_near = (here_m - keyframes[other.anchor].travel_m).abs() <= HEARD_M;
-            let word = || consistency(it, other, graph, &from_anchor, &from_middle);
-            other.is_unique && is_near && matches!(word(), Consistency::Contradicts)
-        };
-        let witnesses = |index: &usize| self.evidence(*index, keyframes, graph).witnesses;
-        let rivals = (0..self.pending.len()).filter(opposes);
-        rivals
-            .max_by_key(|index| (witnesses(index), *index))
-            .map(|index| self.pending[index].edge())
-    }
-
     /// A closure that waited is part of the map.
     pub(crate) fn accept(&mut self, edge: &Edge, reason: String) {
         self.pending.retain(|it| (it.middle, it.anchor) != (edge.from, edge.to));
@@ -721,94 +514,5 @@ fn field_settings(settings: &Settings, scale: f64) -> FieldSettings {
         sigma_m: coarse * indoors.sigma_m,
         most_half_m: scale * indoors.most_half_m,
         ..indoors
-    }
-}
-
-/// Result of a verification.
-struct Verdict {
-    fit: Fit,
-    share: f64,
-    fault: Option<String>,
-}
-
-/// Scans of a group, evenly, that have enough points together to be laid onto others.
-fn few<'a>(group: &[Placed<'a>]) -> Vec<Placed<'a>> {
-    let points: usize = group.iter().map(|it| it.cloud.points().len()).sum();
-    let least = FEW_POINTS * group.len() / points.max(1);
-    let every = group.len().div_ceil(least.max(FEW_SCANS)).max(1);
-    group.iter().step_by(every).copied().collect()
-}
-
-/// Registers two stretches from a start and holds them against each other both ways.
-fn verify(start: Pose2, new: &[Placed<'_>], old: &[Placed<'_>], settings: &Settings) -> Verdict {
-    // Far from the start it would be another hypothesis.
-    let prior =
-        Prior { target_from_moving: start, information: Symmetric3::diagonal(25.0, 25.0, 400.0) };
-    let (new_few, old_few) = (few(new), few(old));
-    let fit = register(&new_few, &old_few, start, Some(&prior), &close_by(&settings.register));
-    let sum = against_nearest(new, old, fit.target_from_moving, COMPARED_SCANS);
-    let share = sum.share();
-    // Seen from the other end, most points of one are hidden from the other.
-    let is_partial = fit.matched > OPPOSITE_MIN_MATCHED_RATIO
-        && share > OPPOSITE_MIN_AGREEMENT_RATIO
-        && sum.judged() > OPPOSITE_MIN_JUDGED_POINTS;
-    let fault = if fit.matched < MIN_MATCHED_RATIO && !is_partial {
-        Some(format!("only {:.0} % of the points find partners", 100.0 * fit.matched))
-    } else if sum.judged() < MIN_JUDGED_POINTS {
-        Some(format!("only {} points are seen from both", sum.judged()))
-    } else if share < MIN_AGREEMENT_RATIO {
-        Some(format!("{:.0} % of the points are seen through", 100.0 * (1.0 - share)))
-    } else {
-        None
-    };
-    Verdict { fit, share, fault }
-}
-
-fn uncertainties(graph: &Graph, keyframe: usize) -> Vec<Option<Symmetric3>> {
-    let mut found = vec![None; graph.poses.len()];
-    for uncertainty in uncertainties_from(graph, keyframe, MOST_M) {
-        found[uncertainty.keyframe] = Some(uncertainty.covariance);
-    }
-    found
-}
-
-/// Compares two closures over the paths between them by squared Mahalanobis distance: from the old keyframe
-/// of one along the old path to that of the other, through its closure to the new path, back along it, and
-/// through the first closure to the start. (Pairwise consistency: Mangelson et al. 2018.)
-fn consistency(
-    a: &Candidate,
-    b: &Candidate,
-    graph: &Graph,
-    from_anchor_a: &[Option<Symmetric3>],
-    from_middle_a: &[Option<Symmetric3>],
-) -> Consistency {
-    let (Some(new_way), Some(old_way)) = (from_anchor_a[b.anchor], from_middle_a[b.middle]) else {
-        return Consistency::Uninformative;
-    };
-    // Both paths from the old keyframe of `a` to the anchor of `b`.
-    let by_old = graph.between(a.middle, b.middle);
-    let by_new = graph.between(a.anchor, b.anchor);
-    let loose = Symmetric3::diagonal(0.01, 0.01, 0.0005);
-    let over_old = by_old * b.middle_from_anchor;
-    let old_covariance = old_way.compounded(by_old, b.middle_from_anchor, &loose);
-    let over_new = a.middle_from_anchor * by_new;
-    let new_covariance = loose.compounded(a.middle_from_anchor, by_new, &new_way);
-    let error = [
-        over_old.x_m - over_new.x_m,
-        over_old.y_m - over_new.y_m,
-        normalize_angle(over_old.yaw_rad - over_new.yaw_rad),
-    ];
-    let sum = old_covariance + new_covariance;
-    let Some(information) = sum.inverse() else { return Consistency::Uninformative };
-    if information.quadratic(error) >= CONSISTENT_SQUARED_SIGMAS {
-        return Consistency::Contradicts;
-    }
-    let by_chance_m = 3.0 * sum.largest_shift().sqrt();
-    if by_chance_m
-        < (UNINFORMATIVE_REGION_RATIO * a.region_m.min(b.region_m)).max(UNINFORMATIVE_REGION_M)
-    {
-        Consistency::Agrees
-    } else {
-        Consistency::Uninformative
     }
 }

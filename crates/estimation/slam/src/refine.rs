@@ -140,7 +140,7 @@ fn choose(keyframes: &[Keyframe], graph: &Graph, settings: &Settings) -> Vec<(us
             let edge = &graph.edges[edge as usize];
             edge.is_gap() && edge.to == keyframe
         };
-        // A piece of map that begins here is chained to nothing.
+        // A component that begins here is connected to nothing before.
         let begins = keyframe == 0 || graph.at[keyframe].iter().any(is_gap);
         let mut is_chained = begins;
         for (_, other) in near {

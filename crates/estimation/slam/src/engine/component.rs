@@ -1,5 +1,5 @@
-//! Pieces of map: when scans suddenly fit nothing that was seen before, the robot was carried, or a part
-//! of the log is missing. Then a new piece begins, and only closures join it to the rest.
+//! Components of the map: when scans suddenly fit nothing that was seen before, the robot was carried, or a part
+//! of the log is missing. Then a new component begins, and only closures connect it to the rest.
 
 use periplus_geometry::{LaserScan2, Pose2};
 use periplus_scan_matching::{Cloud, Symmetric3};
@@ -7,7 +7,7 @@ use periplus_scan_matching::{Cloud, Symmetric3};
 use super::{Last, OdometryStep, ROTATION_ARM_M, ScanMatch, ScanOutcome, Slam, drawn_ends};
 use crate::graph::{ConstraintKind, Edge};
 use crate::keyframe::{Keyframe, TrajectoryNode};
-use crate::local::{MIN_AGREEMENT_RATIO, apart};
+use crate::local::apart;
 use crate::remark::RemarkKind;
 use crate::scan::Ends;
 
@@ -17,7 +17,7 @@ const CARRIED_M: f64 = 30.0;
 /// Longest interruption of the scans across which matching is trusted \[s\].
 const GAP_S: f64 = 10.0;
 /// Maximum agreement with the scans before of a scan that belongs elsewhere, after an interruption or an
-/// odometry jump; [`MIN_AGREEMENT_RATIO`] otherwise.
+/// odometry jump; [`ScanMatch::contradicts`] otherwise.
 const MAX_INTERRUPTED_AGREEMENT_RATIO: f64 = 0.8;
 /// Minimum path and number of consecutive scans that belong elsewhere.
 const STRANGE_M: f64 = 1.5;
@@ -42,7 +42,7 @@ impl Slam {
         if is_interrupted && scan_match.agreeing < MAX_INTERRUPTED_AGREEMENT_RATIO {
             return true;
         }
-        if scan_match.agreeing > MIN_AGREEMENT_RATIO {
+        if !scan_match.contradicts() {
             self.unmatched = UnmatchedRun::default();
             return false;
         }
@@ -52,7 +52,7 @@ impl Slam {
         self.unmatched.scans >= STRANGE_SCANS && self.unmatched.way_m > STRANGE_M
     }
 
-    /// Begins a piece of map with a scan, where odometry has it.
+    /// Begins a component with a scan, at the pose by odometry.
     pub(super) fn begin_component(
         &mut self,
         scan: &LaserScan2,
@@ -101,7 +101,7 @@ impl Slam {
         new
     }
 
-    /// First scans of all pieces that no closure joins to those before.
+    /// First keyframes of all components that no closure connects to those before.
     pub(super) fn disconnected(&self) -> Vec<usize> {
         let edges = &self.graph.edges;
         let starts = edges.iter().filter(|edge| edge.is_gap()).map(|edge| edge.to);

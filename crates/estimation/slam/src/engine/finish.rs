@@ -36,6 +36,8 @@ impl Slam {
             self.join_offsets();
         }
         if self.keyframes.len() > 1 {
+            // The fields of the searches are not needed after this, and the equations need much memory.
+            self.loops.forget();
             refine(&self.keyframes, &mut self.graph, &self.settings);
         }
         self.conclude(end_ns, &undecided);

@@ -206,9 +206,9 @@ impl Slam {
         }
         match self.disconnected().len() {
             0 => {}
-            pieces => {
+            components => {
                 let time_ns = noticed_ns(&|it| matches!(it, RemarkKind::Kidnapped));
-                current.push(Remark { time_ns, kind: RemarkKind::Disconnected(pieces) });
+                current.push(Remark { time_ns, kind: RemarkKind::Disconnected(components) });
             }
         }
         current.extend(self.contradictions().iter().map(MapContradiction::remark));

@@ -4,7 +4,10 @@ use periplus_geometry::{LaserScan2, Pose2};
 use periplus_scan_matching::{Cloud, Symmetric3};
 
 use super::{MIN_POINTS_COUNT, Slam};
-use crate::local::{apart, grouped, is_better, match_locally, neighbours, reweighted, uncertain};
+use crate::local::{
+    MAX_CONTRADICTING_AGREEMENT_RATIO, apart, grouped, is_better, match_locally, neighbours,
+    reweighted, uncertain,
+};
 use crate::odometry_noise::OdometryNoise;
 use crate::scan::Ends;
 
@@ -44,6 +47,14 @@ pub(super) struct ScanMatch {
     pub(super) firmness: f64,
     /// Part of the points that found partners.
     pub(super) matched: f64,
+}
+
+impl ScanMatch {
+    /// True if most of what this scan and those before it can both see contradicts them, so that it may belong
+    /// elsewhere.
+    pub(super) fn contradicts(&self) -> bool {
+        self.agreeing <= MAX_CONTRADICTING_AGREEMENT_RATIO
+    }
 }
 
 /// A motion in a second, when it was short enough to be one.
