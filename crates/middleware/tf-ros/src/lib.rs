@@ -2,7 +2,7 @@
 //!
 //! [`Frames`] is the buffer of `/tf` with a diagnosis of missing transforms. Messages wait for their
 //! transforms in a [`MessageFilter`], scans in a [`ScanQueue`]. [`transform`] and [`pose`] convert to
-//! messages. [`Told`] throttles log messages.
+//! messages. [`LogThrottle`] throttles log messages.
 //!
 //! ```
 //! use periplus_geometry::Pose;
@@ -19,15 +19,15 @@
 //! ```
 
 mod frames;
+mod log_throttle;
 mod message_filter;
 mod poses;
 mod scan_queue;
 mod scans;
-mod told;
 
 pub use frames::{Frames, plain};
+pub use log_throttle::LogThrottle;
 pub use message_filter::{FilterOrder, FilterSettings, MessageFilter};
-pub use poses::{pose, transform};
+pub use poses::{InvalidPose, pose, pose_with_covariance, pose2, transform};
 pub use scan_queue::{NO_SCANS, SCAN_TRANSFORM_TIMEOUT_NS, ScanQueue, TransformedScan};
 pub use scans::{MissingTransform, RobotFrames, ScanTransforms, laser_scan, scan_transforms};
-pub use told::Told;

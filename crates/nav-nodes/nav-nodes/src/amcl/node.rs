@@ -17,11 +17,10 @@ use periplus_msgs::nav_msgs::OccupancyGrid;
 use periplus_msgs::tf2_msgs::TFMessage;
 use periplus_params::ParamValues;
 use periplus_tf::TransformKind;
-use periplus_tf_ros::{Frames, NO_SCANS, Told, TransformedScan, laser_scan, plain};
+use periplus_tf_ros::{Frames, LogThrottle, NO_SCANS, TransformedScan, laser_scan, plain, pose2};
 
 use crate::Files;
 use crate::amcl::inputs::{FrameNames, Inputs};
-use crate::amcl::messages::pose2;
 use crate::amcl::outputs::{Health, Outputs};
 use crate::amcl::saved_pose;
 use crate::amcl::services;
@@ -48,7 +47,7 @@ pub struct AmclNode {
     waiting_pose: Option<PoseWithCovarianceStamped>,
     /// Pose at the last cleanup.
     last_pose: Option<(Pose2, Covariance2)>,
-    pub(crate) told: Told,
+    pub(crate) log: LogThrottle,
     saved_ns: Option<i64>,
     /// Last published status: time, status, error.
     published_status: Option<(i64, LocalizationStatus, Option<String>)>,
@@ -90,7 +89,7 @@ impl AmclNode {
             was_active: false,
             waiting_pose: None,
             last_pose: None,
-            told: Told::default(),
+            log: LogThrottle::default(),
             saved_ns: None,
             published_status: None,
         };
@@ -129,7 +128,7 @@ impl AmclNode {
     /// Error that keeps the node from localizing.
     #[must_use]
     pub fn trouble(&self) -> Option<&str> {
-        self.told.trouble.as_deref()
+        self.log.error.as_deref()
     }
 }
 
@@ -197,7 +196,7 @@ impl LifecycleCallbacks for AmclNode {
         self.inputs = None;
         self.outputs = None;
         self.published_status = None;
-        self.told = Told::default();
+        self.log = LogThrottle::default();
         StepOutcome::Success
     }
 }
@@ -294,7 +293,7 @@ impl AmclNode {
             Ok(grid) => grid,
             Err(why) => {
                 let bad = Diagnostic::error("bad-map", format!("the map is invalid: {why}"));
-                self.told.tell(&bad, node);
+                self.log.report(&bad, node);
                 return false;
             }
         };
@@ -313,7 +312,7 @@ impl AmclNode {
                 false
             }
             Err(why) => {
-                self.told.tell(&why, node);
+                self.log.report(&why, node);
                 false
             }
         }
@@ -338,11 +337,11 @@ impl AmclNode {
             let Some(scan) = next else { break };
             self.use_scan(&scan, &names, node);
         }
-        if !self.told.has_said(NO_SCANS, now_ns) {
+        if !self.log.was_reported(NO_SCANS, now_ns) {
             reports.extend(self.inputs.as_ref().and_then(|inputs| inputs.scans.silence(node)));
         }
         for report in &reports {
-            self.told.tell(report, node);
+            self.log.report(report, node);
         }
         if let Some(notice) = self.outputs.as_mut().and_then(Outputs::old_topic_notice) {
             node.log_finding(&notice);
@@ -358,13 +357,13 @@ impl AmclNode {
         let scan = laser_scan(message, transforms.base_from_laser);
         let updated = match amcl.update(transforms.odom_from_base, &scan) {
             Ok(updated) => {
-                self.told.fine();
+                self.log.clear_error();
                 updated
             }
             Err(why) => {
                 let has_map = self.amcl.as_ref().is_some_and(Amcl::has_map);
                 let why = if has_map { *why } else { self.no_map() };
-                self.told.tell(&why, node);
+                self.log.report(&why, node);
                 return;
             }
         };
@@ -416,7 +415,7 @@ impl AmclNode {
     fn publish_status_when_due(&mut self, node: &Node) {
         let (Some(outputs), Some(amcl)) = (&self.outputs, &self.amcl) else { return };
         let now_ns = node.now_ns();
-        let (status, trouble) = (amcl.status(), self.told.trouble.as_deref());
+        let (status, trouble) = (amcl.status(), self.log.error.as_deref());
         let is_same =
             self.published_status.as_ref().is_some_and(|(published_ns, published, error)| {
                 (0..STATUS_INTERVAL_NS).contains(&(now_ns - published_ns))
@@ -453,7 +452,7 @@ impl AmclNode {
             saved_pose::write(&self.values, &*self.files, frame, estimate.pose, node.now_ns());
         if let Err(why) = done {
             let help = "set `saved_pose_filepath` to a writable path, or `save_pose_rate: 0.0`";
-            self.told.tell(&Diagnostic::warning("pose-not-saved", why).help(help), node);
+            self.log.report(&Diagnostic::warning("pose-not-saved", why).help(help), node);
         }
     }
 

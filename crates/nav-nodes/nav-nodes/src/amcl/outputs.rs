@@ -9,9 +9,9 @@ use periplus_msgs::geometry_msgs::{PoseArray, PoseWithCovarianceStamped};
 use periplus_msgs::nav2_msgs::ParticleCloud;
 use periplus_msgs::std_msgs::Header;
 use periplus_msgs::tf2_msgs::TFMessage;
-use periplus_tf_ros::transform;
+use periplus_tf_ros::{pose_with_covariance, transform};
 
-use crate::amcl::messages::{particle_cloud, pose_array, pose_with_covariance};
+use crate::amcl::messages::{particle_cloud, pose_array};
 
 /// Name of the topic `pose_hypotheses` in earlier releases; both are published for one release.
 const OLD_HYPOTHESES_TOPIC: &str = "localization_rivals";
@@ -74,7 +74,7 @@ impl Outputs {
     pub(crate) fn publish_pose(&self, amcl: &Amcl, time_ns: i64, frame: &str) {
         if let Some(estimate) = amcl.estimate() {
             let (pose, covariance) = (estimate.pose, estimate.covariance);
-            self.pose.publish(pose_with_covariance(pose, covariance, time_ns, frame));
+            self.pose.publish(pose_with_covariance(pose, covariance.to_rows(), time_ns, frame));
         }
     }
 

@@ -39,7 +39,7 @@ impl AmclNode {
                 Level::Info,
                 "global localization: particles are distributed over the whole map",
             ),
-            Err(why) => self.told.tell(&why, node),
+            Err(why) => self.log.report(&why, node),
         }
     }
 
@@ -57,7 +57,7 @@ impl AmclNode {
         let inactive =
             Diagnostic::warning("not-active", "a service was called, but the node is not active")
                 .help("configure and activate it first");
-        self.told.tell(&inactive, node);
+        self.log.report(&inactive, node);
         None
     }
 }

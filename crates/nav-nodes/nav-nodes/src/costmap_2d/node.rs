@@ -111,8 +111,7 @@ impl CostmapNode {
         let name = node.names().name().to_owned();
         let params = config.params();
         let forms = config.forms;
-        let (is_stamped, hertz) =
-            (params.subscribe_to_stamped_footprint, params.update_frequency_hz);
+        let is_stamped = params.subscribe_to_stamped_footprint;
         let values = node_values(&config);
         let names =
             |layers: &[LayerConfig]| layers.iter().map(|layer| layer.name.clone()).collect();
@@ -138,7 +137,13 @@ impl CostmapNode {
         let parameters = actor.parameters(values, |state, values, _| state.change(values))?;
         // Command-line arguments override the parameter file.
         let given = parameters.values();
-        actor.with(|state| state.adopt(&given));
+        let node = actor.node().clone();
+        let hertz = actor.with(|state| {
+            state.adopt(&given);
+            let is_stamped = state.params.subscribe_to_stamped_footprint;
+            state.outlines = Outlines::new(&node, is_stamped)?;
+            Ok::<f64, GraphError>(state.params.update_frequency_hz)
+        })?;
         services::serve(&mut actor, &name, &layers, &filters, forms)?;
         if hertz > 0.0 {
             let period_ns = ((1e9 / hertz) as i64).max(1);

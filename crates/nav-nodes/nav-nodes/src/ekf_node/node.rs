@@ -12,7 +12,7 @@ use periplus_msgs::std_srvs::{Empty, EmptyResponse};
 use periplus_msgs::tf2_msgs::TFMessage;
 use periplus_params::ParamValues;
 use periplus_tf::TransformKind;
-use periplus_tf_ros::{Frames, Told, plain, transform};
+use periplus_tf_ros::{Frames, LogThrottle, plain, transform};
 
 use crate::ekf_node::inputs::{Desk, hear};
 use crate::ekf_node::messages::pose;
@@ -34,7 +34,7 @@ pub(crate) struct State {
     troubles: Vec<Option<String>>,
     frames: Frames,
     outputs: Outputs,
-    told: Told,
+    log: LogThrottle,
     is_enabled: bool,
     published_ns: Option<i64>,
     refused: Vec<(String, u64)>,
@@ -62,7 +62,7 @@ impl EkfNode {
             ekf: Ekf::new(settings.clone()),
             params,
             frames: Frames::default(),
-            told: Told::default(),
+            log: LogThrottle::default(),
             published_ns: None,
             refused: Vec::new(),
             last_ns: node.now_ns(),
@@ -145,7 +145,7 @@ impl State {
         let trouble = read(&mut desk).err();
         self.troubles[number] = trouble.as_ref().map(|it| it.message.clone());
         if let Some(why) = trouble {
-            self.told.tell(&why, node);
+            self.log.report(&why, node);
         }
     }
 
@@ -212,7 +212,7 @@ impl State {
                     "start a node that publishes odometry, or set `world_frame` to the frame of \
                      odometry",
                 );
-                self.told.tell(&lost, node);
+                self.log.report(&lost, node);
             }
         }
     }
@@ -228,7 +228,7 @@ impl State {
             }
         };
         if let Some(finding) = finding {
-            self.told.tell(&finding, node);
+            self.log.report(&finding, node);
         }
         match self.refused.iter_mut().find(|(it, _)| *it == source) {
             Some((_, count)) => *count += 1,

@@ -25,7 +25,7 @@ enum Part {
     Scans,
     Odometry,
     Mounting,
-    Pieces,
+    Components,
     Contradictions,
 }
 
@@ -33,10 +33,16 @@ impl Part {
     /// Checks available for an engine.
     const fn of_engine(engine: &Engine) -> &'static [Self] {
         match engine {
-            Engine::Graph(_) => {
-                &[Self::Scans, Self::Odometry, Self::Mounting, Self::Pieces, Self::Contradictions]
+            Engine::Graph(_) => &[
+                Self::Scans,
+                Self::Odometry,
+                Self::Mounting,
+                Self::Components,
+                Self::Contradictions,
+            ],
+            Engine::Particles(_) => {
+                &[Self::Scans, Self::Odometry, Self::Mounting, Self::Components]
             }
-            Engine::Particles(_) => &[Self::Scans, Self::Odometry, Self::Mounting, Self::Pieces],
             Engine::Localizer(_) => &[Self::Scans],
         }
     }
@@ -60,7 +66,7 @@ impl Part {
             RemarkKind::Kidnapped
             | RemarkKind::Disconnected(_)
             | RemarkKind::ParticlesReduced(_)
-            | RemarkKind::GraphFollowed(_) => Self::Pieces,
+            | RemarkKind::GraphFollowed(_) => Self::Components,
             RemarkKind::Contradiction(..)
             | RemarkKind::DoubledWalls(..)
             | RemarkKind::AmbiguousClosure(..)
@@ -73,7 +79,7 @@ impl Part {
             Self::Scans => "scans",
             Self::Odometry => "odometry",
             Self::Mounting => "mounting",
-            Self::Pieces => "pieces",
+            Self::Components => "components",
             Self::Contradictions => "contradictions",
         }
     }
@@ -83,7 +89,7 @@ impl Part {
             Self::Scans => "scans fit the map",
             Self::Odometry => "odometry and scans agree",
             Self::Mounting => "nothing is wrong with the scanner's mounting and odometry's axes",
-            Self::Pieces => "the map is one piece",
+            Self::Components => "the map is one component",
             Self::Contradictions => "all passes through the same area agree",
         }
     }

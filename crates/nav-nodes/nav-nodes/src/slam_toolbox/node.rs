@@ -1,5 +1,8 @@
 //! The node.
 
+mod reconfigure;
+mod user_poses;
+
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
@@ -7,29 +10,26 @@ use periplus_diagnostics::Diagnostic;
 use periplus_geometry::{LaserScan2, Pose2};
 use periplus_graph::{
     Graph, GraphError, Io, Level, LifecycleCallbacks, LifecycleNode, Node, NodeSettings,
-    ParameterRejection, Parameters, Qos, StepOutcome,
+    Parameters, Qos, StepOutcome,
 };
 use periplus_grid::OccupancyGrid;
-use periplus_msgs::geometry_msgs::PoseWithCovarianceStamped;
 use periplus_msgs::tf2_msgs::TFMessage;
-use periplus_msgs::visualization_msgs::{InteractiveMarker, InteractiveMarkerFeedback};
 use periplus_params::{ParamValue, ParamValues};
 use periplus_scan_matching::Symmetric3;
 use periplus_slam::{
     Closure, CorrectedInput, Counts, MountingCorrection, ScanOutcome, Slam, Update, tables,
 };
 use periplus_tf::TransformKind;
-use periplus_tf_ros::{Frames, ScanQueue, Told, TransformedScan, laser_scan, plain};
+use periplus_tf_ros::{Frames, LogThrottle, ScanQueue, TransformedScan, laser_scan, plain};
 
 use crate::Files;
 use crate::slam_toolbox::Program;
 use crate::slam_toolbox::correction::Anchor;
 use crate::slam_toolbox::drawing::Drawer;
-use crate::slam_toolbox::engine::{Engine, SURE, Start};
+use crate::slam_toolbox::engine::{Engine, SURE};
 use crate::slam_toolbox::health::{self, SET_RIGHT, SlamHealth};
 use crate::slam_toolbox::inputs::{Names, scan_queue};
 use crate::slam_toolbox::markers;
-use crate::slam_toolbox::messages::{covariance, pose2};
 use crate::slam_toolbox::outputs::Outputs;
 use crate::slam_toolbox::parameters::NodeParams;
 use crate::slam_toolbox::services;
@@ -44,8 +44,6 @@ const AFTER_RESET_VARIANCES: (f64, f64) = (0.25, 0.03);
 const SLICE_NS: i64 = 4_000_000;
 /// Default names of the base frame, preferred first.
 const BASES: [&str; 2] = ["base_footprint", "base_link"];
-/// Parameter for the length of the transform buffer \[s\].
-const BUFFER: &str = "tf_buffer_duration";
 /// Slices of work after each scan in a run with a real time factor.
 const FEW_SLICES: usize = 4;
 
@@ -103,7 +101,7 @@ pub struct SlamNode {
     frames: Frames,
     pub(crate) scans: Option<ScanQueue>,
     pub(crate) outputs: Option<Outputs>,
-    pub(crate) told: Told,
+    pub(crate) log: LogThrottle,
     pub(crate) health: SlamHealth,
     pub(crate) is_paused: bool,
     pub(crate) is_interactive: bool,
@@ -198,7 +196,7 @@ impl SlamNode {
             frames: Frames::default(),
             scans: None,
             outputs: None,
-            told: Told::default(),
+            log: LogThrottle::default(),
             health,
             is_paused: false,
             is_interactive: false,
@@ -315,7 +313,7 @@ impl LifecycleCallbacks for SlamNode {
                 self.outputs = Some(outputs);
             }
             Err(error) => {
-                self.told.tell(&Diagnostic::error("no-topics", error.to_string()), node);
+                self.log.report(&Diagnostic::error("no-topics", error.to_string()), node);
                 return StepOutcome::Failure;
             }
         }
@@ -342,48 +340,12 @@ impl LifecycleCallbacks for SlamNode {
         self.outputs = None;
         self.begin(None);
         self.correction = None;
-        self.told = Told::default();
+        self.log = LogThrottle::default();
         StepOutcome::Success
     }
 }
 
 impl SlamNode {
-    /// Initial pose on the stored graph, by the rules of `slam_toolbox`: a given pose takes
-    /// precedence over the dock, and an invalid one is replaced by the origin.
-    fn map_start(&self, node: &Node) -> Start {
-        let dock = self.params.map_start_at_dock;
-        match self.params.map_start_pose.as_slice() {
-            [x_m, y_m, yaw_rad] => {
-                if dock == Some(true) {
-                    let words = "`map_start_at_dock` has no effect beside `map_start_pose`: take one \
-                                 of them away";
-                    node.log(Level::Warn, words);
-                }
-                Start::At(Pose2::new(*x_m, *y_m, *yaw_rad))
-            }
-            [] if dock == Some(false) => Start::At(Pose2::IDENTITY),
-            [] => Start::First,
-            others => {
-                let words = format!(
-                    "`map_start_pose` has {} numbers and needs three, [x, y, yaw] in m and rad; the \
-                     robot starts at the origin of the map",
-                    others.len()
-                );
-                node.log(Level::Error, words);
-                Start::At(Pose2::IDENTITY)
-            }
-        }
-    }
-
-    /// Publishes a state as a parameter.
-    pub(crate) fn show_state(&mut self, name: &'static str, is_so: bool) {
-        if let Some(parameters) = self.parameters.as_ref().filter(|_| self.program.is_toolbox())
-            && parameters.set(name, ParamValue::Bool(is_so)).is_ok()
-        {
-            self.set_values(parameters.values());
-        }
-    }
-
     /// Starts with another map, or with none.
     pub(crate) fn begin(&mut self, engine: Option<Engine>) {
         self.engine = engine;
@@ -426,7 +388,7 @@ impl SlamNode {
         }
         scans.receive(now_ns);
         if let Some(silence) = scans.silence(node).filter(|_| is_working) {
-            self.told.tell(&silence, node);
+            self.log.report(&silence, node);
         }
         // Scans wait meanwhile, as in `slam_toolbox`: what is moved by hand stays where it is put.
         if self.is_interactive && self.program == Program::Sync {
@@ -446,7 +408,7 @@ impl SlamNode {
             }
         }
         for complaint in complaints {
-            self.told.tell(&complaint, node);
+            self.log.report(&complaint, node);
         }
         if node.is_active() {
             self.publish_map(now_ns, &names, node);
@@ -468,7 +430,7 @@ impl SlamNode {
         if self.engine.is_none() {
             let words = "there is no stored graph to find the robot on";
             let help = "set `map_file_name` to a session, or call `slam_toolbox/deserialize_map`";
-            self.told.tell(&Diagnostic::error("no-graph", words).help(help), node);
+            self.log.report(&Diagnostic::error("no-graph", words).help(help), node);
             return;
         }
         let scan = laser_scan(message, transforms.base_from_laser);
@@ -483,16 +445,16 @@ impl SlamNode {
         match update.outcome {
             ScanOutcome::Rejected(reason) => {
                 let words = format!("scans are rejected: {reason}");
-                self.told.tell(&Diagnostic::error("bad-scan", words), node);
+                self.log.report(&Diagnostic::error("bad-scan", words), node);
                 return;
             }
             ScanOutcome::NoMatch => {
                 let words = "a scan does not match the map; the pose is that of odometry";
                 let help = "if this continues, the robot was carried or the wheels slip: set its \
                             pose with `initialpose`";
-                self.told.tell(&Diagnostic::warning("lost-scan", words).help(help), node);
+                self.log.report(&Diagnostic::warning("lost-scan", words).help(help), node);
             }
-            ScanOutcome::Inserted | ScanOutcome::BelowMotionThreshold => self.told.fine(),
+            ScanOutcome::Inserted | ScanOutcome::BelowMotionThreshold => self.log.clear_error(),
         }
         self.health.count(update.outcome);
         self.last = Some(Last { time_ns, odom_from_base, corrected });
@@ -650,7 +612,7 @@ impl SlamNode {
                 None => {
                     let words = "the map is too large to draw";
                     let help = "set a coarser `resolution` or a smaller `max_laser_range`";
-                    self.told.tell(&Diagnostic::error("large-map", words).help(help), node);
+                    self.log.report(&Diagnostic::error("large-map", words).help(help), node);
                 }
             }
         }
@@ -692,141 +654,6 @@ impl SlamNode {
         }
     }
 
-    /// Publishes the keyframes as handles while interactive mode is on.
-    pub(crate) fn handles(&self, now_ns: i64) -> Vec<InteractiveMarker> {
-        let graph = self.engine.as_ref().and_then(Engine::graph).filter(|_| self.is_interactive);
-        graph.map_or_else(Vec::new, |slam| {
-            markers::handles(slam, &self.moved, &self.names().map, now_ns)
-        })
-    }
-
-    /// Handles an initial pose.
-    fn set_pose(&mut self, message: &PoseWithCovarianceStamped, node: &Node) {
-        if !self.program.is_toolbox() {
-            node.log(
-                Level::Warn,
-                "the initial pose is ignored: each particle has its own map around its own pose, \
-                 and cannot be moved on it; to set the pose on an existing map, localize on it, or \
-                 run `slam_toolbox`",
-            );
-            return;
-        }
-        let names = self.names();
-        let frame = plain(&message.header.frame_id);
-        if !frame.is_empty() && frame != names.map {
-            node.log(
-                Level::Warn,
-                format!(
-                    "the initial pose is in `{frame}`, but must be in `{}`: it is ignored; select \
-                     that frame where you set it",
-                    names.map
-                ),
-            );
-            return;
-        }
-        match pose2(&message.pose.pose) {
-            Ok(pose) => {
-                let is_placed = self
-                    .engine
-                    .as_mut()
-                    .is_some_and(|it| it.place(pose, covariance(&message.pose.covariance)));
-                let said = format!("({:.2}, {:.2}, {:.2})", pose.x_m, pose.y_m, pose.yaw_rad);
-                if is_placed {
-                    self.said = Some(pose);
-                    let words =
-                        format!("the initial pose is {said}; the next scan is matched around it");
-                    node.log(Level::Info, words);
-                } else {
-                    let words = format!("there is no map yet for the initial pose {said}");
-                    node.log(Level::Warn, words);
-                }
-            }
-            Err(why) => node.log(Level::Warn, format!("the initial pose is refused: {why}")),
-        }
-    }
-
-    /// Handles a dragged keyframe.
-    fn drag(&mut self, message: &InteractiveMarkerFeedback, node: &Node) {
-        let is_move = [InteractiveMarkerFeedback::POSE_UPDATE, InteractiveMarkerFeedback::MOUSE_UP]
-            .contains(&message.event_type);
-        if !is_move {
-            return;
-        }
-        let kept =
-            self.engine.as_ref().and_then(Engine::graph).map_or(0, |slam| slam.poses().len());
-        let key = message.marker_name.parse::<usize>().ok().filter(|&key| key < kept);
-        let refusal = match (self.is_interactive, key, pose2(&message.pose)) {
-            (false, _, _) => {
-                "interactive mode is off: call `slam_toolbox/toggle_interactive_mode` \
-                              first"
-                    .to_owned()
-            }
-            (true, None, _) => format!(
-                "`{}` is not a stored scan; they are numbered from 0, and there are {kept}",
-                message.marker_name
-            ),
-            (true, Some(_), Err(why)) => why,
-            (true, Some(key), Ok(pose)) => {
-                self.moved.insert(key, pose);
-                return;
-            }
-        };
-        node.log(Level::Warn, format!("a scan is not moved: {refusal}"));
-    }
-
-    /// Applies parameter changes at runtime.
-    fn change(&mut self, values: &ParamValues) -> Result<(), ParameterRejection> {
-        const STATES: [&str; 2] = ["interactive_mode", "paused_processing"];
-        const AT_ANY_TIME: [&str; 11] = [
-            "paused_new_measurements",
-            "map_update_interval",
-            "minimum_time_interval",
-            "throttle_scans",
-            "transform_timeout",
-            "restamp_tf",
-            "tf_delay",
-            "position_covariance_scale",
-            "yaw_covariance_scale",
-            "use_sim_time",
-            "debug_logging",
-        ];
-        if values.table().find(BUFFER).is_some() && values.get(BUFFER) != self.values.get(BUFFER) {
-            return Err(ParameterRejection::new(format_args!(
-                "`{BUFFER}` is read when the node is made; set it in its file"
-            )));
-        }
-        let is_changed = |name: &&str| {
-            values.table().find(name).is_some() && values.get(name) != self.values.get(name)
-        };
-        if let Some(name) = STATES.iter().find(|name| is_changed(name)) {
-            return Err(ParameterRejection::new(format_args!(
-                "`{name}` shows a state; the service `slam_toolbox/toggle_interactive_mode` changes \
-                 it"
-            )));
-        }
-        let changed =
-            values.table().parameters.iter().map(|parameter| parameter.name).find(|name| {
-                !AT_ANY_TIME.contains(name) && values.get(name) != self.values.get(name)
-            });
-        if let Some(name) = changed.filter(|_| self.scans.is_some()) {
-            return Err(ParameterRejection::new(format_args!(
-                "`{name}` is read when the node is configured; set it before, or clean the node up \
-                 and configure it again"
-            )));
-        }
-        let is_paused = self.params.is_paused;
-        self.set_values(values.clone());
-        if self.params.is_paused != is_paused {
-            self.is_paused = self.params.is_paused;
-        }
-        Ok(())
-    }
-
-    fn set_values(&mut self, values: ParamValues) {
-        self.params = NodeParams::new(self.program, &values);
-        self.values = values;
-    }
-
     /// Returns the current state.
     #[must_use]
     pub fn status(&self) -> SlamStatus {
@@ -842,7 +669,7 @@ impl SlamNode {
             closures: mapper.map(|it| it.closures().to_vec()).unwrap_or_default(),
             map_from_base: mapper.map_or(Pose2::IDENTITY, periplus_slam::Mapper::map_from_base),
             size: mapper.map_or(0, periplus_slam::Mapper::size),
-            trouble: self.told.trouble.clone(),
+            trouble: self.log.error.clone(),
             correction: self.correction.as_ref().map(|it| it.cure.remedy()),
         }
     }

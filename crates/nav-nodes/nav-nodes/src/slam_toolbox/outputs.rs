@@ -14,10 +14,10 @@ use periplus_msgs::std_msgs::Float64;
 use periplus_msgs::tf2_msgs::TFMessage;
 use periplus_msgs::visualization_msgs::{InteractiveMarker, InteractiveMarkerUpdate, MarkerArray};
 use periplus_scan_matching::Symmetric3;
-use periplus_tf_ros::transform;
+use periplus_tf_ros::{pose_with_covariance, transform};
 
 use crate::slam_toolbox::Program;
-use crate::slam_toolbox::messages::{pose_with_covariance, published};
+use crate::slam_toolbox::messages::{covariance_rows, published};
 use crate::slam_toolbox::parameters::NodeParams;
 
 /// Topics that are published.
@@ -90,7 +90,8 @@ impl Outputs {
         frame: &str,
     ) {
         if let Some(toolbox) = &self.toolbox {
-            let pose = pose_with_covariance(map_from_base, covariance, time_ns, frame);
+            let pose =
+                pose_with_covariance(map_from_base, covariance_rows(covariance), time_ns, frame);
             toolbox.pose.publish(pose);
         }
     }

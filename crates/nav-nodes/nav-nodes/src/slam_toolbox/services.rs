@@ -210,7 +210,7 @@ impl SlamNode {
             }
             Err(why) => {
                 let words = format!("{why}. The map stays as it is");
-                self.told.tell(&Diagnostic::error("no-session", words), node);
+                self.log.report(&Diagnostic::error("no-session", words), node);
                 false
             }
         }

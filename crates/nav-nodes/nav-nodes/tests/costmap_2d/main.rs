@@ -5,7 +5,10 @@ use std::sync::Arc;
 
 use periplus_costmap::{CostmapConfig, LayeredCostmap, Nav2Release};
 use periplus_diagnostics::{Diagnostics, SourceMap};
-use periplus_graph::{Graph, LifecycleNode, Mailbox, Node, NodeSettings, Publisher, Qos};
+use periplus_graph::{
+    Arguments, Graph, LifecycleNode, Mailbox, Node, NodeSettings, ParameterFileError, Publisher,
+    Qos,
+};
 use periplus_msgs::builtin_interfaces::Time;
 use periplus_msgs::diagnostic_msgs::{DiagnosticArray, DiagnosticStatus};
 use periplus_msgs::geometry_msgs::{
@@ -80,7 +83,10 @@ struct Stage {
 
 impl Stage {
     fn new(text: &str, name: &str, compat: Nav2Release) -> Self {
-        let graph = Graph::new();
+        Self::on(Graph::new(), text, name, compat)
+    }
+
+    fn on(graph: Graph, text: &str, name: &str, compat: Nav2Release) -> Self {
         let costmap = CostmapNode::new(&graph, name, config(text, name, compat)).unwrap();
         let user = graph.node(NodeSettings::new("user")).unwrap();
         let tf = user.publisher("/tf", Qos::reliable(100)).unwrap();
@@ -719,4 +725,26 @@ fn a_map_sets_the_size_and_a_footprint_comes_by_topic() {
         .unwrap();
     assert_eq!(costs, [0, 254, 0, 0, 0, 0]);
     assert_eq!(corners, 3);
+}
+
+#[test]
+fn arguments_apply_to_the_update_frequency() {
+    let words = ["-p", "update_frequency:=2.0", "-p", "always_send_full_costmap:=true"];
+    let words = words.map(str::to_owned);
+    let mut findings = Diagnostics::new();
+    let no_file = &mut |_: &std::path::Path| Err(ParameterFileError::Missing);
+    let arguments = Arguments::read(&words, &mut SourceMap::new(), &mut findings, no_file);
+    assert!(findings.is_empty(), "{findings:?}");
+    let graph = Graph::new();
+    graph.set_arguments(arguments);
+    let mut stage = Stage::on(graph, LOCAL, "local_costmap", Nav2Release::Main);
+    stage.costmap.start();
+    let costmaps = stage.hear::<OccupancyGrid>("/local_costmap/costmap");
+    for _ in 0..20 {
+        stage.place("odom", 0.0);
+        stage.see([1.0; 4]);
+        stage.advance(50);
+    }
+    let count = costmaps.drain().len();
+    assert!((1..=3).contains(&count), "{count} costmaps in a second at 2 Hz");
 }

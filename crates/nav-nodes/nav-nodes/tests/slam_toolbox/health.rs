@@ -90,7 +90,7 @@ fn a_sound_drive_raises_nothing() {
     for _ in 0..2 {
         assert_eq!(it.drive(&rounds()), [""; 0], "{:?}", it.latest);
     }
-    let parts = ["mapping", "scans", "odometry", "mounting", "pieces", "contradictions"];
+    let parts = ["mapping", "scans", "odometry", "mounting", "components", "contradictions"];
     for part in parts {
         assert_eq!(it.status(part).level, DiagnosticStatus::OK, "{part}");
     }
@@ -193,9 +193,14 @@ fn a_separate_piece_is_reported_until_a_closure_joins_it() {
     it.stage.advance(30_000);
     it.stage.odometry = |moved| Pose2::new(moved.x_m - 6.0, moved.y_m, moved.yaw_rad);
     let raised = it.drive(&rounds()[40..]);
-    assert!(raised.contains(&"pieces".to_owned()), "{raised:?}");
+    assert!(raised.contains(&"components".to_owned()), "{raised:?}");
     it.drive(&rounds());
-    assert_eq!(it.status("pieces").level, DiagnosticStatus::OK, "{:?}", it.status("pieces"));
+    assert_eq!(
+        it.status("components").level,
+        DiagnosticStatus::OK,
+        "{:?}",
+        it.status("components")
+    );
 }
 
 #[test]
