@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use periplus_diagnostics::SourceMap;
 use periplus_msgs::builtin_interfaces::Time;
-use periplus_msgs::{DynamicMessage, Layout};
+use periplus_msgs::{DynamicMessage, Layout, Problem};
 use periplus_yaml::{YamlNode, YamlValue};
 use serde_json::{Map, json};
 
@@ -47,10 +47,11 @@ impl Values {
             Some(tree) => to_json(tree, Some(layout), now_ns),
         };
         DynamicMessage::from_json(layout, &json).map_err(|error| {
-            let quotes = if error.to_string().contains("expected a text") {
-                "; a string that looks like another type needs quotes"
-            } else {
-                ""
+            let quotes = match error.problem {
+                Problem::NotAString { .. } => {
+                    "; a string that looks like another type needs quotes"
+                }
+                _ => "",
             };
             Failure::failed(format!(
                 "the values do not match {}: {error}{quotes}",
@@ -192,7 +193,7 @@ mod tests {
             "std_msgs/msg/String",
             "data: 12",
             expect![
-                "the values do not match std_msgs/msg/String: expected a text, found 12 (at `data`); a string that looks like another type needs quotes"
+                "the values do not match std_msgs/msg/String: expected a string, found 12 (at `data`); a string that looks like another type needs quotes"
             ],
         );
         check(

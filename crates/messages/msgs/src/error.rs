@@ -51,6 +51,11 @@ pub enum Problem {
         /// Actual value.
         found: String,
     },
+    /// JSON of another type where a string is expected.
+    NotAString {
+        /// Actual value.
+        found: String,
+    },
     /// Unknown name.
     Unknown {
         /// The name.
@@ -105,6 +110,7 @@ impl fmt::Display for DecodeError {
             Problem::Truth(byte) => write!(f, "a truth value is {byte}, neither 0 nor 1")?,
             Problem::Text => write!(f, "a string is not valid UTF-8")?,
             Problem::Json { expected, found } => write!(f, "expected {expected}, found {found}")?,
+            Problem::NotAString { found } => write!(f, "expected a string, found {found}")?,
             Problem::Unknown { name, known } => {
                 write!(f, "there is no field `{name}`")?;
                 let known = known.iter().map(String::as_str);

@@ -143,15 +143,24 @@ impl<'a> Reader<'a> {
 }
 
 fn unexpected(expected: impl Into<String>, found: &Value) -> DecodeError {
-    let found = match found {
+    let problem = Problem::Json { expected: expected.into(), found: describe(found) };
+    DecodeError::new(problem, 0)
+}
+
+fn not_a_string(found: &Value) -> DecodeError {
+    DecodeError::new(Problem::NotAString { found: describe(found) }, 0)
+}
+
+/// Value as it is named in messages.
+fn describe(value: &Value) -> String {
+    match value {
         Value::Null => "null".into(),
         Value::Bool(value) => value.to_string(),
         Value::Number(value) => value.to_string(),
         Value::String(text) => format!("the text {:?}", text.chars().take(40).collect::<String>()),
         Value::Array(_) => "an array".into(),
         Value::Object(_) => "an object".into(),
-    };
-    DecodeError::new(Problem::Json { expected: expected.into(), found }, 0)
+    }
 }
 
 impl Source for Reader<'_> {
@@ -195,7 +204,7 @@ impl Source for Reader<'_> {
     }
 
     fn text(&mut self, limit: Option<u32>) -> Result<String, DecodeError> {
-        let text = self.here().as_str().ok_or_else(|| unexpected("a text", self.here()))?;
+        let text = self.here().as_str().ok_or_else(|| not_a_string(self.here()))?;
         bounded(text.len(), limit.map(|limit| limit as usize))?;
         Ok(text.into())
     }
