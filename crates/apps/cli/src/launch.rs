@@ -13,7 +13,7 @@ use std::process::ExitCode;
 use std::time::Duration;
 
 use clap::Args;
-use periplus_diagnostics::{Diagnostics, Severity, SourceMap};
+use periplus_diagnostics::{Cause, Diagnostics, Severity, SourceMap};
 use periplus_launch::{
     LaunchPlan, MissingInput, PlanStep, Request, ShutdownHandlers, What, dialect, plan_with_ending,
 };
@@ -145,7 +145,7 @@ impl LaunchOptions {
         for finding in findings.iter().filter(|one| is_read_only || one.severity != Severity::Hint)
         {
             let mut finding = finding.clone();
-            if !is_read_only && MissingInput::of(finding.code).is_some() {
+            if !is_read_only && MissingInput::of(&finding).is_some() {
                 finding.severity = Severity::Error;
             }
             printed.push(finding);
@@ -168,7 +168,7 @@ impl LaunchOptions {
             // A launch file with missing arguments has findings only up to that point.
             show::arguments(&mut out, plan)?;
             let is_complete = findings.iter().all(|finding| {
-                finding.code == "launch-argument" || finding.severity != Severity::Error
+                finding.cause == Some(Cause::MissingArgument) || finding.severity != Severity::Error
             });
             return Ok(Some(if is_complete { ExitCode::SUCCESS } else { ExitCode::FAILURE }));
         }
@@ -203,7 +203,7 @@ fn shut_down(ending: ShutdownHandlers) {
 
 /// Number of missing inputs of a plan.
 fn missing_inputs(found: &Diagnostics) -> usize {
-    found.iter().filter(|finding| MissingInput::of(finding.code).is_some()).count()
+    found.iter().filter(|finding| MissingInput::of(finding).is_some()).count()
 }
 
 /// Findings of planning a launch file; starts nothing.
@@ -246,7 +246,7 @@ fn strict(found: Diagnostics) -> Diagnostics {
     let mut strict = Diagnostics::new();
     for finding in found.iter() {
         let mut finding = finding.clone();
-        if MissingInput::of(finding.code) == Some(MissingInput::File) {
+        if MissingInput::of(&finding) == Some(MissingInput::File) {
             finding.severity = Severity::Error;
         }
         strict.push(finding);

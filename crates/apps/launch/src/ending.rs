@@ -16,7 +16,7 @@ impl ShutdownHandlers {
     /// Calls the functions in order; returns their errors.
     pub fn run(self) -> Vec<LaunchError> {
         let Some(mut interpreter) = self.interpreter else { return Vec::new() };
-        let refuse = |_| Err("this is not available at shutdown".to_owned());
+        let refuse = |_| Err("this is not available at shutdown".to_owned().into());
         let call = |call| interpreter.ask(call, &mut { refuse }).err();
         self.calls.into_iter().filter_map(call).collect()
     }

@@ -7,7 +7,7 @@ mod parameters;
 use std::collections::{BTreeMap, BTreeSet, VecDeque};
 use std::path::{Path, PathBuf};
 
-use periplus_diagnostics::{Diagnostic, Diagnostics, Origin, Severity, SourceMap};
+use periplus_diagnostics::{Cause, Diagnostic, Diagnostics, Origin, Severity, SourceMap};
 use periplus_resources::{Host, Resolver, in_sources, package_of};
 use serde_json::{Value, json};
 
@@ -188,6 +188,7 @@ impl<'a> Evaluation<'a> {
                 "launch-argument",
                 format!("{} requires the argument `{name}`", file.display()),
             );
+            wrong = wrong.caused_by(Cause::MissingArgument);
             if let Some(description) = description.filter(|text| !text.is_empty()) {
                 wrong = wrong.note(format!("description: {description}"));
             }
@@ -425,6 +426,7 @@ impl<'a> Evaluation<'a> {
         let Some(value) = given.or_else(|| default.clone()) else {
             return Err(self
                 .error("launch-argument", format!("the argument `{name}` was not given"))
+                .caused_by(Cause::MissingArgument)
                 .help(format!("add `{name}:=VALUE`"))
                 .into());
         };
@@ -530,7 +532,7 @@ impl<'a> Evaluation<'a> {
         origin: Option<Origin>,
         errors: &str,
     ) {
-        let mut finding = self.warning(input.code(), message);
+        let mut finding = self.warning(input.code(), message).caused_by(input.cause());
         if let Some(origin) = origin {
             finding = finding.at(origin);
         }
@@ -707,7 +709,10 @@ impl<'a> Evaluation<'a> {
         }
         let mut python = match self.python.take() {
             Some(python) => python,
-            None => self.outside.python().map_err(|why| self.error("launch-python", why))?,
+            None => self
+                .outside
+                .python()
+                .map_err(|error| self.error("launch-python", error.to_string()))?,
         };
         request["context"] = json!(self.context.snapshot());
         self.is_asking = true;

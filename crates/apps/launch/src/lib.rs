@@ -33,7 +33,9 @@ use periplus_resources::{Host, Resolver};
 use crate::suggest::Suggest as _;
 pub use dialect::{Dialect, dialect};
 pub use ending::ShutdownHandlers;
-pub use outside::{Answer, Interpreter, LaunchError, MissingInput, Nothing, Outside, Printed};
+pub use outside::{
+    Answer, Interpreter, LaunchError, MissingInput, Nothing, Outside, OutsideError, Printed,
+};
 pub use plan::{
     Argument, Component, Identity, LaunchPlan, PlanNode, PlanParameters, PlanStep, PlanVariable,
     Process, Running, Trigger, What,

@@ -1,7 +1,9 @@
 //! Interfaces to programs and interpreters.
 
 use std::path::PathBuf;
+use std::time::Duration;
 
+use periplus_diagnostics::{Cause, Diagnostic};
 use serde_json::Value;
 
 /// Result of a program.
@@ -36,10 +38,19 @@ impl MissingInput {
         }
     }
 
-    /// Kind of input of a finding's code; `None` for other findings.
+    /// Class of findings on this kind.
     #[must_use]
-    pub fn of(code: &str) -> Option<Self> {
-        [Self::File, Self::Package].into_iter().find(|input| input.code() == code)
+    pub const fn cause(self) -> Cause {
+        match self {
+            Self::File => Cause::MissingFile,
+            Self::Package => Cause::MissingPackage,
+        }
+    }
+
+    /// Input whose absence a finding reports; `None` for other findings.
+    #[must_use]
+    pub fn of(finding: &Diagnostic) -> Option<Self> {
+        [Self::File, Self::Package].into_iter().find(|input| finding.cause == Some(input.cause()))
     }
 }
 
@@ -60,29 +71,64 @@ impl From<String> for LaunchError {
     }
 }
 
+impl From<OutsideError> for LaunchError {
+    fn from(error: OutsideError) -> Self {
+        error.to_string().into()
+    }
+}
+
+/// Reason that the machine does not do what a launch file asks.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum OutsideError {
+    /// The command line is invalid, with the reason.
+    InvalidCommand(String),
+    /// The user forbids code of launch files, with the consequence.
+    Forbidden(&'static str),
+    /// A program or interpreter cannot be started, or a file cannot be written, with the reason.
+    Unavailable(String),
+    /// A program did not end within its time limit.
+    TimedOut(Duration),
+}
+
+impl std::fmt::Display for OutsideError {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Self::InvalidCommand(why) | Self::Unavailable(why) => f.write_str(why),
+            Self::Forbidden(consequence) => f.write_str(consequence),
+            Self::TimedOut(limit) => write!(
+                f,
+                "it did not end within {} s; `--evaluation-limit SECONDS` allows more",
+                limit.as_secs_f64()
+            ),
+        }
+    }
+}
+
+impl std::error::Error for OutsideError {}
+
 /// Programs and temporary files, for code without access to the machine.
 pub trait Outside {
     /// Runs a program to its end; `xacro` is always available.
     ///
     /// # Errors
-    /// A message when it cannot be started.
-    fn run(&mut self, words: &[String]) -> Result<Printed, String>;
+    /// When it cannot be started, or does not end.
+    fn run(&mut self, words: &[String]) -> Result<Printed, OutsideError>;
 
     /// Writes a text to a temporary file that exists as long as the launch. `name` is a suggestion.
     ///
     /// # Errors
-    /// A message when it cannot be written.
-    fn scratch(&mut self, name: &str, text: &str) -> Result<PathBuf, String>;
+    /// When it cannot be written.
+    fn scratch(&mut self, name: &str, text: &str) -> Result<PathBuf, OutsideError>;
 
     /// Starts an interpreter for launch files in Python.
     ///
     /// # Errors
-    /// A message when there is none.
-    fn python(&mut self) -> Result<Box<dyn Interpreter>, String>;
+    /// When there is none.
+    fn python(&mut self) -> Result<Box<dyn Interpreter>, OutsideError>;
 }
 
 /// Callback for questions of an interpreter.
-pub type Answer<'a> = dyn FnMut(Value) -> Result<Value, String> + 'a;
+pub type Answer<'a> = dyn FnMut(Value) -> Result<Value, LaunchError> + 'a;
 
 /// Interpreter of launch files in another process. The protocol is internal to this crate.
 pub trait Interpreter {
@@ -98,15 +144,16 @@ pub trait Interpreter {
 pub struct Nothing;
 
 impl Outside for Nothing {
-    fn run(&mut self, words: &[String]) -> Result<Printed, String> {
-        Err(format!("program `{}` does not exist", words.first().map_or("", String::as_str)))
+    fn run(&mut self, words: &[String]) -> Result<Printed, OutsideError> {
+        let program = words.first().map_or("", String::as_str);
+        Err(OutsideError::Unavailable(format!("program `{program}` does not exist")))
     }
 
-    fn scratch(&mut self, name: &str, _text: &str) -> Result<PathBuf, String> {
+    fn scratch(&mut self, name: &str, _text: &str) -> Result<PathBuf, OutsideError> {
         Ok(PathBuf::from("/scratch").join(name))
     }
 
-    fn python(&mut self) -> Result<Box<dyn Interpreter>, String> {
-        Err("Python is not available".into())
+    fn python(&mut self) -> Result<Box<dyn Interpreter>, OutsideError> {
+        Err(OutsideError::Unavailable("Python is not available".into()))
     }
 }

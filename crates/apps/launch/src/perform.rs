@@ -367,7 +367,7 @@ impl Evaluation<'_> {
         }
         let printed = match self.outside.run(&words) {
             Ok(printed) => printed,
-            Err(why) => return Ok(Err(NotRun::Refused(why))),
+            Err(error) => return Ok(Err(NotRun::Refused(error.to_string()))),
         };
         if let Some(missing) = printed.missing {
             let why = match missing {

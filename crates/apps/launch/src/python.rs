@@ -15,31 +15,33 @@ use crate::outside::LaunchError;
 use crate::tree::{Condition, Place, Text};
 
 /// Answers a question that a launch file asks during its evaluation.
-pub(crate) fn answer(evaluation: &mut Evaluation<'_>, question: &Value) -> Result<Value, String> {
+pub(crate) fn answer(
+    evaluation: &mut Evaluation<'_>,
+    question: &Value,
+) -> Result<Value, LaunchError> {
     let text = |name: &str| question[name].as_str().unwrap_or_default().to_owned();
     let before = evaluation.context.clone();
     let line = question["line"].as_str().map(str::to_owned);
     let place = evaluation.set_place(Place { line, span: None });
     if let Some(snapshot) = question.get("context") {
-        let snapshot: Snapshot =
-            serde_json::from_value(snapshot.clone()).map_err(|why| why.to_string())?;
+        let snapshot: Snapshot = serde_json::from_value(snapshot.clone()).map_err(invalid)?;
         evaluation.context.configurations = snapshot.configurations;
         evaluation.context.environment = snapshot.environment;
     }
     let answer = match question["question"].as_str().unwrap_or_default() {
         "package" => Ok(json!(evaluation.package(&text("name"), question["is_prefix"] == true))),
         "perform" => serde_json::from_value::<Text>(question["text"].clone())
-            .map_err(|why| why.to_string())
-            .and_then(|text| evaluation.perform(&text).map_err(|wrong| in_words(&wrong)))
+            .map_err(invalid)
+            .and_then(|text| evaluation.perform(&text).map_err(in_words))
             .map(Value::from),
         "holds" => serde_json::from_value::<Condition>(question["condition"].clone())
-            .map_err(|why| why.to_string())
-            .and_then(|condition| evaluation.holds(&condition).map_err(|wrong| in_words(&wrong)))
+            .map_err(invalid)
+            .and_then(|condition| evaluation.holds(&condition).map_err(in_words))
             .map(Value::from),
         "command" => evaluation
             .command(&text("line"), question["on_stderr"].as_str().unwrap_or("fail"))
             .map(Value::from)
-            .map_err(|wrong| in_words(&wrong)),
+            .map_err(in_words),
         "packages" => {
             let file = evaluation.context.file.clone();
             let packages = evaluation.resolver.packages(&file).into_iter();
@@ -54,12 +56,11 @@ pub(crate) fn answer(evaluation: &mut Evaluation<'_>, question: &Value) -> Resul
             evaluation.note_missing_file(&text("path"), instead, None);
             Ok(Value::Null)
         }
-        "scratch" => evaluation
-            .scratch(&text("name"), &text("text"))
-            .map(Value::from)
-            .map_err(|wrong| in_words(&wrong)),
-        "yaml" => evaluation.yaml("text", &text("text")).map_err(|wrong| in_words(&wrong)),
-        other => Err(format!("unknown question `{other}`")),
+        "scratch" => {
+            evaluation.scratch(&text("name"), &text("text")).map(Value::from).map_err(in_words)
+        }
+        "yaml" => evaluation.yaml("text", &text("text")).map_err(in_words),
+        other => Err(format!("unknown question `{other}`").into()),
     };
     evaluation.context = before;
     evaluation.set_place(place);
@@ -67,14 +68,20 @@ pub(crate) fn answer(evaluation: &mut Evaluation<'_>, question: &Value) -> Resul
 }
 
 /// Finding as one text, to be passed through Python.
-fn in_words(wrong: &Diagnostic) -> String {
+fn in_words(wrong: Box<Diagnostic>) -> LaunchError {
     let further = wrong.notes.iter().chain(&wrong.help);
-    std::iter::once(&wrong.message).chain(further).cloned().collect::<Vec<_>>().join("; ")
+    let words: Vec<String> = std::iter::once(&wrong.message).chain(further).cloned().collect();
+    words.join("; ").into()
+}
+
+/// Error of a question that does not follow the protocol.
+fn invalid(error: serde_json::Error) -> LaunchError {
+    error.to_string().into()
 }
 
 /// Text of an expanded file; null, with a warning, if files that it needs are missing on this
 /// machine.
-fn xacro(evaluation: &mut Evaluation<'_>, question: &Value) -> Result<Value, String> {
+fn xacro(evaluation: &mut Evaluation<'_>, question: &Value) -> Result<Value, LaunchError> {
     let file = question["file"].as_str().unwrap_or_default();
     let instead = "its output is left empty in the plan";
     if file.starts_with("package:/") {
@@ -82,7 +89,7 @@ fn xacro(evaluation: &mut Evaluation<'_>, question: &Value) -> Result<Value, Str
         return Ok(Value::Null);
     }
     let mappings: Vec<(String, String)> =
-        serde_json::from_value(question["mappings"].clone()).map_err(|why| why.to_string())?;
+        serde_json::from_value(question["mappings"].clone()).map_err(invalid)?;
     let mut words = vec!["xacro".to_owned(), evaluation.in_sources(file)];
     words.extend(mappings.iter().map(|(name, value)| format!("{name}:={value}")));
     let printed = evaluation.outside.run(&words)?;
@@ -92,7 +99,7 @@ fn xacro(evaluation: &mut Evaluation<'_>, question: &Value) -> Result<Value, Str
         return Ok(Value::Null);
     }
     if !printed.is_success {
-        return Err(format!("{file} cannot be expanded: {}", printed.errors.trim()));
+        return Err(format!("{file} cannot be expanded: {}", printed.errors.trim()).into());
     }
     Ok(printed.output.into())
 }

@@ -5,23 +5,23 @@ use std::path::{Path, PathBuf};
 
 use expect_test::{Expect, expect};
 use periplus_diagnostics::{RenderStyle, SourceMap, render};
-use periplus_launch::{Interpreter, Outside, Printed, Request, plan};
+use periplus_launch::{Interpreter, Outside, OutsideError, Printed, Request, plan};
 use periplus_resources::{MemoryHost, Resolver};
 
 /// A machine whose programs echo their arguments.
 struct Echo;
 
 impl Outside for Echo {
-    fn run(&mut self, words: &[String]) -> Result<Printed, String> {
+    fn run(&mut self, words: &[String]) -> Result<Printed, OutsideError> {
         Ok(Printed { output: words.join("|"), is_success: true, ..Printed::default() })
     }
 
-    fn scratch(&mut self, name: &str, _text: &str) -> Result<PathBuf, String> {
+    fn scratch(&mut self, name: &str, _text: &str) -> Result<PathBuf, OutsideError> {
         Ok(Path::new("/scratch").join(name))
     }
 
-    fn python(&mut self) -> Result<Box<dyn Interpreter>, String> {
-        Err("Python is not available".into())
+    fn python(&mut self) -> Result<Box<dyn Interpreter>, OutsideError> {
+        Err(OutsideError::Unavailable("Python is not available".into()))
     }
 }
 

@@ -25,6 +25,23 @@ impl Severity {
     }
 }
 
+/// Class of findings to which programs react, apart from their texts.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Cause {
+    /// A file does not exist.
+    MissingFile,
+    /// A package does not exist, with all its files.
+    MissingPackage,
+    /// Nothing defines a macro, property or argument that is used.
+    Undefined,
+    /// No value is given for an argument without a default.
+    MissingArgument,
+    /// The inertia of a link is absent or impossible.
+    Inertia,
+    /// A model has no links.
+    NoLinks,
+}
+
 /// Replacement text for a span.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Replacement {
@@ -43,6 +60,8 @@ pub struct Diagnostic {
     pub severity: Severity,
     /// Short stable name for scripts and searches, such as `unknown-element`.
     pub code: &'static str,
+    /// Class, if programs react to this finding.
+    pub cause: Option<Cause>,
     /// Description of the fault, in one sentence without a full stop.
     pub message: String,
     /// Location of the fault.
@@ -66,6 +85,7 @@ impl Diagnostic {
         Self {
             severity,
             code,
+            cause: None,
             message: message.into(),
             span: None,
             label: None,
@@ -92,6 +112,13 @@ impl Diagnostic {
     #[must_use]
     pub fn hint(code: &'static str, message: impl Into<String>) -> Self {
         Self::new(Severity::Hint, code, message)
+    }
+
+    /// Sets the class to which programs react.
+    #[must_use]
+    pub const fn caused_by(mut self, cause: Cause) -> Self {
+        self.cause = Some(cause);
+        self
     }
 
     /// Sets the location.

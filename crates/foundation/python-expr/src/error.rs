@@ -3,9 +3,22 @@
 use std::fmt;
 use std::ops::Range;
 
+/// Class of an error to which callers react.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum ExpressionErrorKind {
+    /// Any error that is in none of the other classes.
+    Invalid,
+    /// Nothing defines a name.
+    UndefinedName,
+    /// The [`Scope`](crate::Scope) has reported the error already.
+    Reported,
+}
+
 /// Error of an expression that cannot be parsed or evaluated.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct ExpressionError {
+    /// Class of the error.
+    pub kind: ExpressionErrorKind,
     /// Description of the fault, one sentence without a full stop.
     pub message: String,
     /// Location of the fault: byte range in the expression's text.
@@ -20,7 +33,14 @@ const UNPLACED: Range<usize> = usize::MAX..usize::MAX;
 impl ExpressionError {
     /// Error whose location the evaluator sets.
     pub fn new(message: impl Into<String>) -> Self {
-        Self { message: message.into(), range: UNPLACED, help: None }
+        let kind = ExpressionErrorKind::Invalid;
+        Self { kind, message: message.into(), range: UNPLACED, help: None }
+    }
+
+    /// Sets the class.
+    pub const fn with_kind(mut self, kind: ExpressionErrorKind) -> Self {
+        self.kind = kind;
+        self
     }
 
     /// Adds advice.

@@ -12,7 +12,7 @@ use super::ast::{
 use super::budget::Budget;
 use super::callable::{Bound, Callable};
 use super::compare;
-use super::error::{ExpressionError, Outcome, fail};
+use super::error::{ExpressionError, ExpressionErrorKind, Outcome, fail};
 use super::format_spec::format_value;
 use super::globals;
 use super::iterator::{Generator, IteratorHandle, State};
@@ -146,8 +146,12 @@ impl<'a> Interpreter<'a> {
         dialect: globals::ExpressionDialect,
         frames: &Frames,
     ) -> ExpressionError {
+        let undefined = |advice: &str| {
+            let message = format!("`{name}` is not defined{advice}");
+            ExpressionError::new(message).with_kind(ExpressionErrorKind::UndefinedName)
+        };
         if let Some(help) = globals::hint(dialect, name) {
-            return ExpressionError::new(format!("`{name}` is not defined")).with_help(help);
+            return undefined("").with_help(help);
         }
         let mut known = self.scope.names();
         let mut frame = frames;
@@ -159,9 +163,7 @@ impl<'a> Interpreter<'a> {
         let found = closest(name, known.iter().map(String::as_str))
             .or_else(|| closest(name, globals::names(dialect).into_iter()));
         match found {
-            Some(found) => {
-                ExpressionError::new(format!("`{name}` is not defined; did you mean `{found}`?"))
-            }
+            Some(found) => undefined(&format!("; did you mean `{found}`?")),
             None => {
                 let help = match dialect {
                     globals::ExpressionDialect::Xacro => {
@@ -173,7 +175,7 @@ impl<'a> Interpreter<'a> {
                         "`$(eval ...)` sees arguments only: declare it with <xacro:arg>, or put a property in as ${{{name}}}"
                     ),
                 };
-                ExpressionError::new(format!("`{name}` is not defined")).with_help(help)
+                undefined("").with_help(help)
             }
         }
     }

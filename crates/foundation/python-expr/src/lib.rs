@@ -56,7 +56,7 @@ use std::rc::Rc;
 
 pub use budget::Budget;
 pub use callable::Callable;
-pub use error::ExpressionError;
+pub use error::{ExpressionError, ExpressionErrorKind};
 pub use globals::{ExpressionDialect, Module};
 pub use iterator::IteratorHandle;
 pub use value::{

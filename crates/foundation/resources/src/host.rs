@@ -2,6 +2,8 @@
 
 use std::path::{Path, PathBuf};
 
+use periplus_diagnostics::Cause;
+
 /// Maximum size of a file that is read [bytes].
 pub const MAX_FILE_BYTES: u64 = 256 << 20;
 
@@ -44,6 +46,14 @@ impl std::fmt::Display for FileReadError {
 }
 
 impl std::error::Error for FileReadError {}
+
+impl FileReadError {
+    /// Class of a finding about this error.
+    #[must_use]
+    pub fn cause(&self) -> Option<Cause> {
+        matches!(self, Self::Missing).then_some(Cause::MissingFile)
+    }
+}
 
 /// Files and environment, as far as readers need them. All access in library crates uses this trait; tests
 /// and fuzzers pass a [`crate::MemoryHost`].

@@ -3,7 +3,7 @@
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
-use periplus_diagnostics::{Diagnostic, Origin};
+use periplus_diagnostics::{Cause, Diagnostic, Origin};
 
 /// Reason that a URI cannot be resolved.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -12,8 +12,18 @@ pub enum ResolveErrorKind {
     Malformed,
     /// No file or folder exists at any searched path.
     Missing,
+    /// There is no package of that name.
+    MissingPackage,
     /// The target exists, but is outside the folders that the file may refer to.
     Outside,
+}
+
+impl ResolveErrorKind {
+    /// True if the target does not exist.
+    #[must_use]
+    pub const fn is_missing(self) -> bool {
+        matches!(self, Self::Missing | Self::MissingPackage)
+    }
 }
 
 /// URI that cannot be resolved, with the searched paths.
@@ -39,6 +49,10 @@ impl ResolveError {
 
     pub(crate) fn missing(uri: &str, reason: impl Into<String>) -> Self {
         Self::new(uri, ResolveErrorKind::Missing, reason)
+    }
+
+    pub(crate) fn missing_package(uri: &str, reason: impl Into<String>) -> Self {
+        Self::new(uri, ResolveErrorKind::MissingPackage, reason)
     }
 
     pub(crate) fn outside(uri: &str, target: &Path) -> Self {
@@ -68,13 +82,14 @@ impl ResolveError {
     /// Converts to an error at the location of the URI, with the searched paths.
     #[must_use]
     pub fn into_diagnostic(self, origin: impl Into<Origin>) -> Diagnostic {
-        let code = match self.kind {
-            ResolveErrorKind::Malformed => "bad-uri",
-            ResolveErrorKind::Missing => "missing-resource",
-            ResolveErrorKind::Outside => "resource-outside",
+        let (code, cause) = match self.kind {
+            ResolveErrorKind::Malformed => ("bad-uri", None),
+            ResolveErrorKind::Missing => ("missing-resource", Some(Cause::MissingFile)),
+            ResolveErrorKind::MissingPackage => ("missing-resource", Some(Cause::MissingPackage)),
+            ResolveErrorKind::Outside => ("resource-outside", None),
         };
         let message = self.to_string();
-        let mut diagnostic = Diagnostic::error(code, message).at(origin);
+        let mut diagnostic = Diagnostic { cause, ..Diagnostic::error(code, message).at(origin) };
         if !self.tried.is_empty() {
             let mut note = String::from("tried");
             for place in &self.tried {
@@ -93,7 +108,7 @@ impl std::fmt::Display for ResolveError {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         let verdict = match self.kind {
             ResolveErrorKind::Malformed => "names nothing",
-            ResolveErrorKind::Missing => "cannot be found",
+            ResolveErrorKind::Missing | ResolveErrorKind::MissingPackage => "cannot be found",
             ResolveErrorKind::Outside => "may not be used",
         };
         write!(f, "`{}` {verdict}: {}", self.uri, self.reason)

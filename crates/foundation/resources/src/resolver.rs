@@ -126,7 +126,7 @@ impl<'h> Resolver<'h> {
             return Err(ResolveError::missing(uri, reason));
         }
         let answer = self.look_up(uri, &around).map_err(|miss| match &self.advice {
-            Some(advice) if miss.kind == ResolveErrorKind::Missing => miss.help(advice.clone()),
+            Some(advice) if miss.kind.is_missing() => miss.help(advice.clone()),
             _ => miss,
         });
         if answer.is_err() {

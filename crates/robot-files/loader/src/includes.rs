@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use periplus_diagnostics::{Diagnostic, Diagnostics, Expansion, Origin, SourceMap};
-use periplus_resources::{EntryKind, ResolveError, ResolveErrorKind, Resolver};
+use periplus_resources::{EntryKind, ResolveError, Resolver};
 use periplus_sdf::{IncludeResolver, IncludeTarget};
 
 use crate::documents::{model_of, read_xml};
@@ -39,13 +39,9 @@ impl<'s, 'a> Files<'s, 'a> {
             Ok(bytes) => bytes,
             Err(error) => {
                 let name = shown(path, &self.setting.working_folder);
-                diagnostics.push(
-                    Diagnostic::error(
-                        "unreadable-file",
-                        format!("`{name}` cannot be read: {error}"),
-                    )
-                    .at(from),
-                );
+                let message = format!("`{name}` cannot be read: {error}");
+                let finding = Diagnostic::error("unreadable-file", message).at(from);
+                diagnostics.push(Diagnostic { cause: error.cause(), ..finding });
                 return IncludeTarget::Broken;
             }
         };
@@ -76,7 +72,7 @@ fn resolve_model(resolver: &Resolver<'_>, uri: &str, from: &Path) -> Result<Path
     resolver.resolve(uri, from).or_else(|miss| {
         let bare = uri.trim().strip_prefix("file://").unwrap_or(uri.trim());
         let is_name = !bare.contains("://") && !bare.starts_with(['/', '.']);
-        if miss.kind != ResolveErrorKind::Missing || !is_name {
+        if !miss.kind.is_missing() || !is_name {
             return Err(miss);
         }
         resolver.resolve(&format!("model://{bare}"), from).map_err(|mut by_name| {

@@ -136,14 +136,11 @@ pub fn load(path: &Path, setting: &LoadContext<'_>) -> LoadedFile {
                 }
                 _ => None,
             };
-            let error = Diagnostic::error(
-                "unreadable-file",
-                format!(
-                    "`{}` cannot be read: {error}",
-                    shown(&loaded.path, &setting.working_folder)
-                ),
-            );
-            loaded.diagnostics.push(error.help(helped.unwrap_or_else(|| {
+            let name = shown(&loaded.path, &setting.working_folder);
+            let message = format!("`{name}` cannot be read: {error}");
+            let finding = Diagnostic::error("unreadable-file", message);
+            let finding = Diagnostic { cause: error.cause(), ..finding };
+            loaded.diagnostics.push(finding.help(helped.unwrap_or_else(|| {
                 "check the path; it is relative to the working folder".to_owned()
             })));
             loaded

@@ -3,15 +3,17 @@
 use std::ops::Range;
 use std::rc::Rc;
 
-use periplus_diagnostics::{Diagnostic, Origin, Span};
+use periplus_diagnostics::{Cause, Diagnostic, Origin, Span};
 use smol_str::SmolStr;
 
 use crate::literal::typed;
-use crate::names::{ALREADY_SAID, Names};
+use crate::names::Names;
 use crate::scopes::{LazyText, ScopeId, Symbol};
 use crate::state::{Failed, Resolving, State};
 use crate::text::{Piece, pieces};
-use periplus_python_expr::{Expression, ExpressionDialect, ExpressionError, Value, evaluate};
+use periplus_python_expr::{
+    Expression, ExpressionDialect, ExpressionError, ExpressionErrorKind, Value, evaluate,
+};
 
 /// Maximum number of properties listed in the error about a circular definition.
 const MAX_LISTED_PROPERTIES: usize = 5;
@@ -177,7 +179,7 @@ impl State<'_> {
     #[inline(never)]
     fn expression_failed(&self, error: ExpressionError, place: Origin, text: &str) -> Failed {
         // A property that failed while it was evaluated has reported the error.
-        if error.message == ALREADY_SAID {
+        if error.kind == ExpressionErrorKind::Reported {
             return Failed;
         }
         // No evaluation that costs a step can succeed after this.
@@ -185,6 +187,9 @@ impl State<'_> {
             self.given_up.set(true);
         }
         let mut diagnostic = Diagnostic::error("expression", error.message).at(place);
+        if error.kind == ExpressionErrorKind::UndefinedName {
+            diagnostic = diagnostic.caused_by(Cause::Undefined);
+        }
         if !text.is_empty() {
             diagnostic = diagnostic.note(format!("in the expression `{}`", shorten(text)));
         }

@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use periplus_diagnostics::{Diagnostic, Diagnostics, Expansion, Origin};
+use periplus_diagnostics::{Cause, Diagnostic, Diagnostics, Expansion, Origin};
 use periplus_resources::{EntryKind, ResolveErrorKind};
 use periplus_xml::{Element, decode, parse};
 
@@ -181,7 +181,7 @@ impl State<'_> {
         let from = self.files.borrow().first().cloned().unwrap_or_default();
         let found =
             self.setting.resolver.resolve(&path.to_string_lossy(), &from).map_err(|miss| {
-                let missing = miss.kind == ResolveErrorKind::Missing;
+                let missing = miss.kind.is_missing();
                 let mut diagnostic = miss.into_diagnostic(origin);
                 if missing {
                     // The name in the file is relative or starts with `$(find ...)`, so the advice about
@@ -193,11 +193,16 @@ impl State<'_> {
                 }
                 self.fail(diagnostic)
             })?;
-        let cannot = |why: String| {
+        let cannot = |why: String, cause: Option<Cause>| {
             let message = format!("`{}` cannot be read: {why}", self.setting.shown(path));
-            self.fail(Diagnostic::error("unreadable-file", message).at(origin))
+            let finding = Diagnostic::error("unreadable-file", message).at(origin);
+            self.fail(Diagnostic { cause, ..finding })
         };
-        let bytes = self.setting.host.read(&found).map_err(|error| cannot(error.to_string()))?;
+        let bytes = self
+            .setting
+            .host
+            .read(&found)
+            .map_err(|error| cannot(error.to_string(), error.cause()))?;
         self.read.set(self.read.get() + bytes.len());
         if self.read.get() > MAX_READ_BYTES {
             return Err(self.give_up(
@@ -209,7 +214,9 @@ impl State<'_> {
                 .help("is one of them included repeatedly?"),
             ));
         }
-        decode(&bytes).map(std::borrow::Cow::into_owned).map_err(|error| cannot(error.to_string()))
+        decode(&bytes)
+            .map(std::borrow::Cow::into_owned)
+            .map_err(|error| cannot(error.to_string(), None))
     }
 
     /// Files whose path matches a pattern of `*`, `?` and `[...]`, sorted.

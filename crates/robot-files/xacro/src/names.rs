@@ -8,13 +8,13 @@ use periplus_diagnostics::Diagnostic;
 use crate::literal::automatic;
 use crate::scopes::{ScopeId, Symbol};
 use crate::state::{Failed, State};
-use periplus_python_expr::{Budget, ExpressionDialect, ExpressionError, Scope, Value};
+use periplus_python_expr::{
+    Budget, ExpressionDialect, ExpressionError, ExpressionErrorKind, Scope, Value,
+};
 
-/// Message of an error that has been reported as a diagnostic.
-pub(crate) const ALREADY_SAID: &str = "\0";
-
-fn already_said(_: Failed) -> ExpressionError {
-    ExpressionError { message: ALREADY_SAID.into(), range: 0..0, help: None }
+/// Error that has been reported as a diagnostic.
+fn reported(_: Failed) -> ExpressionError {
+    ExpressionError::new(String::new()).with_kind(ExpressionErrorKind::Reported)
 }
 
 /// Functions that `$(eval ...)` has in addition to Python's.
@@ -45,7 +45,7 @@ impl Scope for Names<'_, '_> {
             return Ok(argument.map(|text| automatic(&text)));
         }
         let find = || self.state.property(self.scope, name);
-        self.state.with_budget(budget, find).map_err(already_said)
+        self.state.with_budget(budget, find).map_err(reported)
     }
 
     fn member(
@@ -62,7 +62,7 @@ impl Scope for Names<'_, '_> {
             }
             Some(symbol) => {
                 let value = || self.state.symbol_value(id, name, symbol);
-                self.state.with_budget(budget, value).map(Some).map_err(already_said)
+                self.state.with_budget(budget, value).map(Some).map_err(reported)
             }
             None => Ok(None),
         }
@@ -129,28 +129,29 @@ impl State<'_> {
     ) -> Option<Result<Value, ExpressionError>> {
         let name = function.strip_prefix("xacro.").unwrap_or(function);
         let place = self.place.get();
-        let plain = |message: String| ExpressionError { message, range: 0..0, help: None };
+        let plain =
+            |message: String| ExpressionError { range: 0..0, ..ExpressionError::new(message) };
         let words: Result<Vec<Rc<str>>, Failed> =
             arguments.iter().map(|argument| self.characters(argument, place)).collect();
         let words = match words {
             Ok(words) => words,
-            Err(failed) => return Some(Err(already_said(failed))),
+            Err(failed) => return Some(Err(reported(failed))),
         };
         let said = || words.join(" ");
         Some(match (name, words.as_slice()) {
-            ("load_yaml", [file]) => self.load_yaml(file, place).map_err(already_said),
+            ("load_yaml", [file]) => self.load_yaml(file, place).map_err(reported),
             ("abs_filename", [file]) => {
                 Ok(Value::text(self.folder().join(&**file).to_string_lossy()))
             }
             ("eval.arg", [name]) => {
-                self.argument(name, place).map(|text| automatic(&text)).map_err(already_said)
+                self.argument(name, place).map(|text| automatic(&text)).map_err(reported)
             }
             ("eval.env" | "eval.optenv" | "eval.find" | "eval.dirname", words) => {
                 let command = [&name[5..]].into_iter().chain(words.iter().map(|word| &**word));
                 let words = command.collect::<Vec<_>>();
-                self.substitution(&words, place).map(Value::text).map_err(already_said)
+                self.substitution(&words, place).map(Value::text).map_err(reported)
             }
-            ("arg", [name]) => self.argument(name, place).map(Value::text).map_err(already_said),
+            ("arg", [name]) => self.argument(name, place).map(Value::text).map_err(reported),
             ("message" | "print_location", _) => {
                 self.report(Diagnostic::hint("message", said()).at(place));
                 Ok(Value::text(""))
@@ -163,9 +164,7 @@ impl State<'_> {
                 self.report(Diagnostic::error("message", said()).at(place));
                 Ok(Value::text(""))
             }
-            ("fatal", _) => {
-                Err(already_said(self.fail(Diagnostic::error("fatal", said()).at(place))))
-            }
+            ("fatal", _) => Err(reported(self.fail(Diagnostic::error("fatal", said()).at(place)))),
             ("load_yaml" | "abs_filename" | "arg" | "eval.arg", _) => {
                 Err(plain(format!("`{function}` takes one argument, not {}", arguments.len())))
             }

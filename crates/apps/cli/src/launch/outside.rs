@@ -7,7 +7,7 @@ use std::sync::mpsc::{RecvTimeoutError, channel};
 use std::time::Duration;
 
 use periplus_launch::bringup::xacro;
-use periplus_launch::{Interpreter, Outside, Printed};
+use periplus_launch::{Interpreter, Outside, OutsideError, Printed};
 use periplus_loader::LoadContext;
 use periplus_os::{Machine, Stopwatch};
 use periplus_resources::{Resolver, Store as _};
@@ -66,7 +66,7 @@ impl<'a> Programs<'a> {
     }
 
     /// Runs the built-in `xacro FILE name:=value`.
-    fn xacro(&self, words: &[String]) -> Result<Printed, String> {
+    fn xacro(&self, words: &[String]) -> Result<Printed, OutsideError> {
         let setting = LoadContext {
             host: &Machine,
             resolver: self.resolver,
@@ -74,50 +74,56 @@ impl<'a> Programs<'a> {
             arguments: Vec::new(),
             open_meshes: false,
         };
-        Ok(xacro(words, &setting)?.into())
+        Ok(xacro(words, &setting)?.printed)
     }
 }
 
 impl Outside for Programs<'_> {
-    fn run(&mut self, words: &[String]) -> Result<Printed, String> {
-        let [program, rest @ ..] = words else { return Err("the command is empty".into()) };
+    fn run(&mut self, words: &[String]) -> Result<Printed, OutsideError> {
+        let [program, rest @ ..] = words else {
+            return Err(OutsideError::InvalidCommand("the command is empty".into()));
+        };
         let name = program.rsplit('/').next().unwrap_or_default();
         if matches!(name, "xacro" | "xacro.py") {
             return self.xacro(rest);
         }
         if !self.limits.runs_code {
-            return Err("`--no-code` forbids programs of the launch file".into());
+            return Err(OutsideError::Forbidden("`--no-code` forbids programs of the launch file"));
         }
         bounded(program, rest, self.limits.longest, self.tools)
     }
 
-    fn scratch(&mut self, name: &str, text: &str) -> Result<PathBuf, String> {
+    fn scratch(&mut self, name: &str, text: &str) -> Result<PathBuf, OutsideError> {
         let folder = match &self.scratch {
             Some(folder) => folder.clone(),
             None => {
                 let folder =
                     std::env::temp_dir().join(format!("periplus_launch_{}", std::process::id()));
                 std::fs::create_dir_all(&folder)
-                    .map_err(|error| periplus_diagnostics::plain_words(&error))?;
+                    .map_err(|error| unavailable(periplus_diagnostics::plain_words(&error)))?;
                 self.scratch.insert(folder).clone()
             }
         };
         self.files += 1;
         let path = folder.join(format!("{}_{name}", self.files));
-        Machine.replace(&path, text.as_bytes())?;
+        Machine.replace(&path, text.as_bytes()).map_err(unavailable)?;
         Ok(path)
     }
 
-    fn python(&mut self) -> Result<Box<dyn Interpreter>, String> {
+    fn python(&mut self) -> Result<Box<dyn Interpreter>, OutsideError> {
         if !self.limits.runs_code {
-            return Err(
-                "this launch file is written in Python, and with `--no-code` none of its code \
-                        is run; launch it without if you trust it"
-                    .into(),
-            );
+            return Err(OutsideError::Forbidden(
+                "this launch file is written in Python, and with `--no-code` none of its code is run; \
+                 launch it without if you trust it",
+            ));
         }
         Ok(Box::new(Python::start(self.limits.longest, self.tools)?))
     }
+}
+
+/// Error of the operating system.
+fn unavailable(why: impl std::fmt::Display) -> OutsideError {
+    OutsideError::Unavailable(why.to_string())
 }
 
 /// Runs a program to its end, with a time limit.
@@ -126,7 +132,7 @@ fn bounded(
     words: &[String],
     longest: Duration,
     tools: Option<&Tools>,
-) -> Result<Printed, String> {
+) -> Result<Printed, OutsideError> {
     let mut child = Command::new(program)
         .args(words)
         .envs(tools.map(|tools| ("PATH", tools.path())))
@@ -134,7 +140,7 @@ fn bounded(
         .stdout(Stdio::piped())
         .stderr(Stdio::piped())
         .spawn()
-        .map_err(|error| error.to_string())?;
+        .map_err(unavailable)?;
     let (send, texts) = channel();
     let pipes: [Option<Box<dyn Read + Send>>; 2] = [
         child.stdout.take().map(|pipe| Box::new(pipe) as _),
@@ -161,13 +167,10 @@ fn bounded(
             Err(RecvTimeoutError::Timeout) => {
                 let _ = child.kill();
                 let _ = child.wait();
-                return Err(format!(
-                    "it did not end within {} s; `--evaluation-limit SECONDS` allows more",
-                    longest.as_secs_f64()
-                ));
+                return Err(OutsideError::TimedOut(longest));
             }
         }
     }
-    printed.is_success = child.wait().map_err(|error| error.to_string())?.success();
+    printed.is_success = child.wait().map_err(unavailable)?.success();
     Ok(printed)
 }

@@ -6,7 +6,9 @@ use std::process::{Child, ChildStdin, ChildStdout, Command, Stdio};
 use std::sync::mpsc::{Receiver, RecvTimeoutError, channel};
 use std::time::Duration;
 
-use periplus_launch::{Answer, BOOT, Interpreter, LaunchError, MAX_MEMORY_BYTES, MODULES};
+use periplus_launch::{
+    Answer, BOOT, Interpreter, LaunchError, MAX_MEMORY_BYTES, MODULES, OutsideError,
+};
 use serde_json::{Map, Value, json};
 
 use super::tools::Tools;
@@ -25,7 +27,7 @@ pub(super) struct Python {
 
 impl Python {
     /// Starts the process.
-    pub(super) fn start(limit: Duration, tools: Option<&Tools>) -> Result<Self, String> {
+    pub(super) fn start(limit: Duration, tools: Option<&Tools>) -> Result<Self, OutsideError> {
         let mut child = Command::new("python3")
             // Our modules come first, before installed ones with the names of ROS packages.
             .args(["-c", BOOT])
@@ -35,13 +37,14 @@ impl Python {
             .stdout(Stdio::piped())
             .spawn()
             .map_err(|error| {
-                format!(
+                OutsideError::Unavailable(format!(
                     "this launch file is written in Python, and no python3 can be started: {error}; \
                      install one, or give a launch file in XML or YAML"
-                )
+                ))
             })?;
         let (Some(requests), Some(answers)) = (child.stdin.take(), child.stdout.take()) else {
-            return Err("python3 has no standard input or output".into());
+            let why = "python3 has no standard input or output".to_owned();
+            return Err(OutsideError::Unavailable(why));
         };
         let mut python = Self { child, requests, answers: lines(answers), limit };
         let modules: Map<String, Value> =
@@ -50,10 +53,12 @@ impl Python {
         Ok(python)
     }
 
-    fn send(&mut self, message: &Value) -> Result<(), String> {
+    fn send(&mut self, message: &Value) -> Result<(), OutsideError> {
         let mut line = message.to_string();
         line.push('\n');
-        self.requests.write_all(line.as_bytes()).map_err(|error| format!("python3 ended: {error}"))
+        self.requests
+            .write_all(line.as_bytes())
+            .map_err(|error| OutsideError::Unavailable(format!("python3 ended: {error}")))
     }
 
     fn message(&mut self) -> Result<Value, LaunchError> {
@@ -107,7 +112,7 @@ impl Interpreter for Python {
             if message.get("question").is_some() {
                 let reply = match answer(message) {
                     Ok(answer) => json!({ "answer": answer }),
-                    Err(why) => json!({ "error": why }),
+                    Err(why) => json!({ "error": why.message }),
                 };
                 self.send(&reply)?;
             } else if let Some(error) = message.get("error") {

@@ -109,8 +109,8 @@ pub(crate) fn run_xacro(words: &[String]) -> Result<ExitCode, CliError> {
     let folders: Vec<PathBuf> = folders.iter().map(PathBuf::from).collect();
     let search = terminal::search(&folders);
     let done = search.with_context(false, |context| xacro(words, context));
-    let done = done.map_err(CliError::usage)?;
-    std::io::Write::write_all(&mut std::io::stdout().lock(), done.output.as_bytes())?;
-    std::io::Write::write_all(&mut std::io::stderr().lock(), done.errors.as_bytes())?;
-    Ok(if done.is_success { ExitCode::SUCCESS } else { ExitCode::FAILURE })
+    let printed = done.map_err(|error| CliError::usage(error.to_string()))?.printed;
+    std::io::Write::write_all(&mut std::io::stdout().lock(), printed.output.as_bytes())?;
+    std::io::Write::write_all(&mut std::io::stderr().lock(), printed.errors.as_bytes())?;
+    Ok(if printed.is_success { ExitCode::SUCCESS } else { ExitCode::FAILURE })
 }

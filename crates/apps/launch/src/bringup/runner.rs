@@ -470,8 +470,8 @@ impl LaunchRunner {
         }
         let ran = search.with_context(false, |context| xacro(&program.words[1..], context));
         let (kind, told) = match ran {
-            Ok(ran) if ran.is_success => {
-                if let Some(text) = Some(ran.output).filter(|text| !text.is_empty()) {
+            Ok(ran) if ran.printed.is_success => {
+                if let Some(text) = Some(ran.printed.output).filter(|text| !text.is_empty()) {
                     self.said.push(LaunchLog::info(text));
                     self.events.push(Event::Printed(part.step));
                 }
@@ -482,13 +482,13 @@ impl LaunchRunner {
                 )
             }
             Ok(ran) => {
-                let why = ran.errors.trim_end();
+                let why = ran.printed.errors.trim_end();
                 self.said.push(LaunchLog::error(format!("`{}` failed: {why}", part.asked)));
                 (PartOutcomeKind::Missing, "xacro could not expand its file".to_owned())
             }
             Err(why) => {
                 self.said.push(LaunchLog::error(format!("`{}` failed: {why}", part.asked)));
-                (PartOutcomeKind::Missing, why)
+                (PartOutcomeKind::Missing, why.to_string())
             }
         };
         self.record_outcome(part, kind, None, told);

@@ -2,8 +2,8 @@
 
 use std::path::{Path, PathBuf};
 
-use crate::{MissingInput, Printed};
-use periplus_diagnostics::{Diagnostic, RenderStyle, Severity, SourceMap, render};
+use crate::{MissingInput, OutsideError, Printed};
+use periplus_diagnostics::{Cause, Diagnostic, RenderStyle, Severity, SourceMap, render};
 use periplus_loader::{LoadContext, load};
 use periplus_os::Machine;
 use periplus_resources::Store as _;
@@ -12,21 +12,38 @@ use periplus_xml::write_document;
 /// Result of `xacro`.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Xacro {
-    /// Expanded document; empty if written to a file (`-o`).
-    pub output: String,
-    /// Errors, with their positions.
-    pub errors: String,
-    /// False if expansion or writing failed.
-    pub is_success: bool,
-    /// Missing input that caused the failure, if that is the only cause.
-    pub missing: Option<MissingInput>,
+    /// Expanded document, empty if written to a file (`-o`); errors, with their positions.
+    pub printed: Printed,
     /// Written file.
     pub file: Option<PathBuf>,
 }
 
-impl From<Xacro> for Printed {
-    fn from(Xacro { output, errors, is_success, missing, file: _ }: Xacro) -> Self {
-        Self { output, errors, is_success, missing }
+/// Invalid argument of `xacro`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum XacroUsageError {
+    /// There is no file to expand.
+    NoFile,
+    /// The option `-o` has no value.
+    NoOutput,
+    /// The option `--deps` is not supported.
+    Dependencies,
+}
+
+impl std::fmt::Display for XacroUsageError {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(match self {
+            Self::NoFile => "no xacro file given",
+            Self::NoOutput => "`-o` needs the name of a file",
+            Self::Dependencies => "`--deps` is not built in",
+        })
+    }
+}
+
+impl std::error::Error for XacroUsageError {}
+
+impl From<XacroUsageError> for OutsideError {
+    fn from(error: XacroUsageError) -> Self {
+        Self::InvalidCommand(error.to_string())
     }
 }
 
@@ -42,10 +59,10 @@ struct XacroArguments<'a> {
 /// setting.
 ///
 /// # Errors
-/// A message with the invalid argument.
-pub fn xacro(words: &[String], setting: &LoadContext<'_>) -> Result<Xacro, String> {
+/// When an argument is invalid.
+pub fn xacro(words: &[String], setting: &LoadContext<'_>) -> Result<Xacro, XacroUsageError> {
     let asked = read(words)?;
-    let Some(file) = asked.file else { return Err("no xacro file given".into()) };
+    let Some(file) = asked.file else { return Err(XacroUsageError::NoFile) };
     let setting = LoadContext { arguments: asked.arguments, open_meshes: false, ..setting.clone() };
     let loaded = load(Path::new(file), &setting);
     // Only errors that prevent expansion: the rest is reported when the robot is loaded.
@@ -61,11 +78,13 @@ pub fn xacro(words: &[String], setting: &LoadContext<'_>) -> Result<Xacro, Strin
                 errors.iter().map(|one| render(one, &loaded.sources, RenderStyle::Plain)).collect()
             }
         };
-        return Ok(Xacro { errors, missing, ..Xacro::default() });
+        let printed = Printed { errors, missing, ..Printed::default() };
+        return Ok(Xacro { printed, file: None });
     };
     let output = write_document(document);
     let Some(target) = asked.output else {
-        return Ok(Xacro { output, is_success: true, ..Xacro::default() });
+        let printed = Printed { output, is_success: true, ..Printed::default() };
+        return Ok(Xacro { printed, file: None });
     };
     let target = setting.working_folder.join(target);
     if let Some(folder) = target.parent() {
@@ -73,54 +92,39 @@ pub fn xacro(words: &[String], setting: &LoadContext<'_>) -> Result<Xacro, Strin
         let _ = std::fs::create_dir_all(folder);
     }
     Ok(match Machine.replace(&target, output.as_bytes()) {
-        Ok(()) => Xacro { is_success: true, file: Some(target), ..Xacro::default() },
+        Ok(()) => Xacro {
+            printed: Printed { is_success: true, ..Printed::default() },
+            file: Some(target),
+        },
         Err(why) => {
             let errors = format!("{} cannot be written: {why}", target.display());
-            Xacro { errors, ..Xacro::default() }
+            Xacro { printed: Printed { errors, ..Printed::default() }, file: None }
         }
     })
-}
-
-/// Kind of missing input of an error; `None` for any other error.
-fn missing_input(error: &Diagnostic) -> Option<MissingInput> {
-    match error.code {
-        "missing-resource" if error.message.contains("there is no package") => {
-            Some(MissingInput::Package)
-        }
-        "missing-resource" => Some(MissingInput::File),
-        "unreadable-file" if error.message.ends_with("there is no such file") => {
-            Some(MissingInput::File)
-        }
-        _ => None,
-    }
 }
 
 /// Returns true if a missing include file can cause an error: macros, properties and arguments come
 /// from there.
 fn may_follow(error: &Diagnostic) -> bool {
-    match error.code {
-        "unknown-macro" | "undefined-argument" => true,
-        "expression" => error.message.ends_with("is not defined"),
-        _ => false,
-    }
+    error.cause == Some(Cause::Undefined)
 }
 
 /// Cause of errors that all come from missing files; `None` if there are other errors.
 fn missing(errors: &[&Diagnostic]) -> Option<MissingInput> {
-    let cause = errors.iter().filter_map(|error| missing_input(error)).max()?;
+    let cause = errors.iter().filter_map(|error| MissingInput::of(error)).max()?;
     errors.iter().all(|error| is_explained(error)).then_some(cause)
 }
 
 /// Returns true if an error reports a missing file, or may be caused by one.
 fn is_explained(error: &Diagnostic) -> bool {
-    missing_input(error).is_some() || may_follow(error)
+    MissingInput::of(error).is_some() || may_follow(error)
 }
 
 /// Missing files and packages, each with the first position that refers to it.
 fn summary(errors: &[&Diagnostic], sources: &SourceMap) -> String {
     let mut lines: Vec<String> = Vec::new();
     let mut known: Vec<&str> = Vec::new();
-    for error in errors.iter().filter(|error| missing_input(error).is_some()) {
+    for error in errors.iter().filter(|error| MissingInput::of(error).is_some()) {
         if known.contains(&error.message.as_str()) {
             continue;
         }
@@ -148,18 +152,18 @@ fn summary(errors: &[&Diagnostic], sources: &SourceMap) -> String {
 /// Maximum number of missing files in a message.
 const MAX_LISTED: usize = 8;
 
-fn read(words: &[String]) -> Result<XacroArguments<'_>, String> {
+fn read(words: &[String]) -> Result<XacroArguments<'_>, XacroUsageError> {
     let mut asked = XacroArguments::default();
     let mut words = words.iter();
     while let Some(word) = words.next() {
         match word.as_str() {
             "-o" | "--output" => {
-                asked.output = Some(words.next().ok_or("`-o` needs the name of a file")?);
+                asked.output = Some(words.next().ok_or(XacroUsageError::NoOutput)?);
             }
             "--verbosity" => {
                 words.next();
             }
-            "--deps" => return Err("`--deps` is not built in".into()),
+            "--deps" => return Err(XacroUsageError::Dependencies),
             word if word.starts_with("--output=") => asked.output = word.split('=').nth(1),
             word if word.starts_with("-o") => asked.output = Some(&word[2..]),
             // Obsolete options: `--inorder` is the default today.

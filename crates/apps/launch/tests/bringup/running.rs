@@ -6,7 +6,7 @@ use std::sync::Arc;
 use periplus_diagnostics::SourceMap;
 use periplus_graph::{Graph, Mailbox, NodeSettings, Publisher, Qos};
 use periplus_launch::bringup::{LaunchRunner, Settings, xacro};
-use periplus_launch::{Dialect, Interpreter, Outside, Printed, Request, plan};
+use periplus_launch::{Dialect, Interpreter, Outside, OutsideError, Printed, Request, plan};
 use periplus_loader::LoadContext;
 use periplus_msgs::geometry_msgs::{Twist, TwistStamped};
 use periplus_msgs::nav_msgs::{OccupancyGrid, Odometry};
@@ -23,16 +23,16 @@ const PART_NS: i64 = 6_000_000_000;
 struct Programs(Search);
 
 impl Outside for Programs {
-    fn run(&mut self, words: &[String]) -> Result<Printed, String> {
-        Ok(self.0.with_context(false, |context| xacro(&words[1..], context))?.into())
+    fn run(&mut self, words: &[String]) -> Result<Printed, OutsideError> {
+        Ok(self.0.with_context(false, |context| xacro(&words[1..], context))?.printed)
     }
 
-    fn scratch(&mut self, name: &str, _text: &str) -> Result<PathBuf, String> {
-        Err(format!("no file {name} is needed"))
+    fn scratch(&mut self, name: &str, _text: &str) -> Result<PathBuf, OutsideError> {
+        Err(OutsideError::Unavailable(format!("no file {name} is needed")))
     }
 
-    fn python(&mut self) -> Result<Box<dyn Interpreter>, String> {
-        Err("no Python is needed".into())
+    fn python(&mut self) -> Result<Box<dyn Interpreter>, OutsideError> {
+        Err(OutsideError::Unavailable("no Python is needed".into()))
     }
 }
 

@@ -44,7 +44,11 @@ impl Resolver<'_> {
         around: &Surroundings,
     ) -> ResolveError {
         let word = scheme.word();
-        let miss = ResolveError::missing(uri, format!("there is no {word} `{name}`"));
+        let reason = format!("there is no {word} `{name}`");
+        let miss = match scheme {
+            Scheme::Package => ResolveError::missing_package(uri, reason),
+            Scheme::Model => ResolveError::missing(uri, reason),
+        };
         let known = self.known(around);
         let near = closest(name, known.iter().map(String::as_str).take(MAX_NAMES));
         let miss = match near.filter(|_| self.misses(around) < MAX_SUGGESTIONS) {

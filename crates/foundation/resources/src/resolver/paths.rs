@@ -22,7 +22,7 @@ impl Resolver<'_> {
         if Path::new(path).is_absolute() {
             return self.first(uri, path, vec![PathBuf::from("/")], around).map_err(
                 |miss| match miss.kind {
-                    crate::ResolveErrorKind::Missing => miss.help(
+                    kind if kind.is_missing() => miss.help(
                         "absolute paths hold on one machine only; \
                          `package://NAME/path/in/it` holds on all",
                     ),

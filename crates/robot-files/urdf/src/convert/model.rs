@@ -2,7 +2,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use periplus_diagnostics::{Diagnostic, Diagnostics};
+use periplus_diagnostics::{Cause, Diagnostic, Diagnostics};
 use periplus_scene::{FrameRole, Joint as SceneJoint, Model, Sensor, SensorKind};
 use periplus_xml::Element;
 
@@ -120,9 +120,9 @@ impl ConversionState<'_> {
             .flat_map(|link| [link.inertial.as_ref().and_then(|one| one.origin.0), link.origin.0])
             .flatten()
             .collect();
-        let said = |one: &Diagnostic| match one.code {
-            "bad-inertia" => one.span.is_some_and(|span| inertials.contains(&span)),
-            "no-links" => !self.plan.massless.is_empty() || self.robot.links.is_empty(),
+        let said = |one: &Diagnostic| match one.cause {
+            Some(Cause::Inertia) => one.span.is_some_and(|span| inertials.contains(&span)),
+            Some(Cause::NoLinks) => !self.plan.massless.is_empty() || self.robot.links.is_empty(),
             _ => false,
         };
         let mut rest = Diagnostics::new();
