@@ -6,7 +6,7 @@ use std::io::BufRead as _;
 use std::path::Path;
 
 use clap::Args;
-use periplus_bags::{CarmenLog, CarmenScan, is_carmen, read_carmen_from};
+use periplus_bags::{CarmenLog, CarmenScan, CarmenScanKind, is_carmen, read_carmen_from};
 use periplus_diagnostics::plain_words;
 use periplus_geometry::{LaserScan2, Pose2};
 
@@ -34,10 +34,21 @@ pub(crate) struct LogOptions {
 
 /// Scan of a log.
 pub(crate) struct LoggedScan {
-    /// Stamp as written in the log, to the microsecond \[s\].
-    pub(crate) stamp: String,
     pub(crate) scan: LaserScan2,
     pub(crate) odom_from_base: Option<Pose2>,
+}
+
+impl LoggedScan {
+    /// Stamp as written in the log, to the microsecond \[s\].
+    pub(crate) fn stamp(&self) -> String {
+        stamp(self.scan.time_ns)
+    }
+}
+
+/// Text of a stamp, to the microsecond \[s\].
+pub(crate) fn stamp(time_ns: i64) -> String {
+    let time_us = time_ns.div_euclid(1000);
+    format!("{}.{:06}", time_us.div_euclid(1_000_000), time_us.rem_euclid(1_000_000))
 }
 
 /// Contents of a log.
@@ -84,18 +95,13 @@ impl Log {
 fn carmen(log: CarmenLog) -> Log {
     let faults = log.faults.iter().map(|(line, what)| format!("line {line}: {what}"));
     let faults = faults.collect();
-    let mut kinds: Vec<&str> = log.scans.iter().map(|scan| scan.kind.as_str()).collect();
-    kinds.dedup();
     // A log may contain the same scan in lines of two kinds; the first kind counts.
-    let kind = kinds.first().map_or(String::new(), |kind| (*kind).to_owned());
-    let scans = log.scans.into_iter().filter(|scan| scan.kind == kind).map(logged);
-    Log { kind: format!("CARMEN, {kind}"), scans: scans.collect(), faults, warnings: Vec::new() }
+    let kind = log.scans.first().map(|scan| scan.kind);
+    let scans = log.scans.into_iter().filter(|scan| Some(scan.kind) == kind).map(logged);
+    let name = kind.map_or("", CarmenScanKind::name);
+    Log { kind: format!("CARMEN, {name}"), scans: scans.collect(), faults, warnings: Vec::new() }
 }
 
 fn logged(scan: CarmenScan) -> LoggedScan {
-    LoggedScan {
-        stamp: format!("{:.6}", scan.time_s),
-        odom_from_base: scan.odom_from_base,
-        scan: scan.into(),
-    }
+    LoggedScan { odom_from_base: scan.odom_from_base, scan: scan.into() }
 }

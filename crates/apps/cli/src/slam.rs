@@ -56,7 +56,7 @@ fn from_log(options: &SlamOptions) -> Result<ExitCode, CliError> {
     }
     let Run { log, selected, before, spent_s, used, saved, loaded_s, finish_s } = run;
     let slam = selected.mapper();
-    let stamps: Vec<&str> = used.iter().map(|&number| log.scans[number].stamp.as_str()).collect();
+    let stamps: Vec<String> = used.iter().map(|&number| log.scans[number].stamp()).collect();
     let report = Report {
         options,
         slam,
@@ -174,7 +174,7 @@ fn put(path: &Path, bytes: &[u8]) -> Result<(), String> {
 fn write(
     out: &Path,
     slam: &dyn Mapper,
-    (stamps, before): (&[&str], usize),
+    (stamps, before): (&[String], usize),
     report: &Report<'_>,
 ) -> Result<(), String> {
     paths::make_folder(out).map_err(|error| error.to_string())?;
@@ -230,5 +230,5 @@ fn draw(out: &Path, slam: &dyn Mapper, trajectory: &[(i64, Pose2)]) -> Result<()
     put(&out.join("trajectory.png"), &png)
 }
 
-/// Number of cells drawn at once, about 12 MB.
-const CELLS_AT_ONCE: usize = 4 << 20;
+/// Number of cells drawn at once, about 3 MB.
+const CELLS_AT_ONCE: usize = 1 << 20;

@@ -30,11 +30,34 @@ pub struct CarmenOdometry {
     pub odom_from_base: Pose2,
 }
 
+/// Kind of line of a scan.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum CarmenScanKind {
+    /// `FLASER`.
+    FrontLaser,
+    /// `ROBOTLASER1`.
+    RobotLaser,
+    /// `RAWLASER1`, without poses.
+    RawLaser,
+}
+
+impl CarmenScanKind {
+    /// First word of the line.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::FrontLaser => "FLASER",
+            Self::RobotLaser => "ROBOTLASER1",
+            Self::RawLaser => "RAWLASER1",
+        }
+    }
+}
+
 /// A laser scan.
 #[derive(Clone, Debug, PartialEq)]
 pub struct CarmenScan {
-    /// Name of the line, such as `FLASER`.
-    pub kind: String,
+    /// Kind of line.
+    pub kind: CarmenScanKind,
     /// Time stamp of the sender \[s\].
     pub time_s: f64,
     /// Odometry pose of the robot; none if the line has none.
@@ -130,9 +153,9 @@ impl Reading {
         let rest: Vec<&str> = words.collect();
         let read = match kind {
             "ODOM" => odometry(&rest).map(|it| log.odometry.push(it)),
-            "FLASER" => old_laser(kind, &rest, *offset_m).map(|it| log.push(it)),
-            "ROBOTLASER1" => new_laser(kind, &rest, true).map(|it| log.push(it)),
-            "RAWLASER1" => new_laser(kind, &rest, false).map(|it| log.push(it)),
+            "FLASER" => old_laser(&rest, *offset_m).map(|it| log.push(it)),
+            "ROBOTLASER1" => new_laser(&rest, CarmenScanKind::RobotLaser).map(|it| log.push(it)),
+            "RAWLASER1" => new_laser(&rest, CarmenScanKind::RawLaser).map(|it| log.push(it)),
             "PARAM" => {
                 if let ["robot_frontlaser_offset" | "robot_front_laser_offset", value, ..] =
                     rest[..]
@@ -176,7 +199,7 @@ fn odometry(words: &[&str]) -> Result<CarmenOdometry, String> {
 }
 
 /// Parses `FLASER n ranges.. x y theta odom_x odom_y odom_theta stamp host stamp`.
-fn old_laser(kind: &str, words: &[&str], offset_m: f64) -> Result<CarmenScan, String> {
+fn old_laser(words: &[&str], offset_m: f64) -> Result<CarmenScan, String> {
     let (ranges_m, rest) = counted(words)?;
     let it = numbers(rest.get(..7).ok_or("it ends before its stamp")?)?;
     let (laser, odom) = (Pose2::new(it[0], it[1], it[2]), Pose2::new(it[3], it[4], it[5]));
@@ -188,7 +211,7 @@ fn old_laser(kind: &str, words: &[&str], offset_m: f64) -> Result<CarmenScan, St
     let count = ranges_m.len();
     let steps = if count % 2 == 0 { count } else { count - 1 };
     Ok(CarmenScan {
-        kind: kind.to_owned(),
+        kind: CarmenScanKind::FrontLaser,
         time_s: it[6],
         odom_from_base: Some(odom),
         base_from_laser: if is_offset { between } else { Pose2::IDENTITY },
@@ -199,20 +222,21 @@ fn old_laser(kind: &str, words: &[&str], offset_m: f64) -> Result<CarmenScan, St
     })
 }
 
-/// Parses `type start field resolution maximum accuracy mode n ranges.. n remissions..`, then with
-/// `poses` `laser (x y theta) robot (x y theta) tv rv forward side axis`, then `stamp host stamp`.
-fn new_laser(kind: &str, words: &[&str], poses: bool) -> Result<CarmenScan, String> {
+/// Parses `type start field resolution maximum accuracy mode n ranges.. n remissions..`, then for a
+/// robot laser `laser (x y theta) robot (x y theta) tv rv forward side axis`, then `stamp host stamp`.
+fn new_laser(words: &[&str], kind: CarmenScanKind) -> Result<CarmenScan, String> {
+    let has_poses = kind == CarmenScanKind::RobotLaser;
     let head = numbers(words.get(..7).ok_or("it ends in its header")?)?;
     let (ranges_m, rest) = counted(&words[7..])?;
     let (_, rest) = counted(rest)?;
-    let count = if poses { 12 } else { 1 };
+    let count = if has_poses { 12 } else { 1 };
     let it = numbers(rest.get(..count).ok_or("it ends before its stamp")?)?;
     let pose = |at: usize| Pose2::new(it[at], it[at + 1], it[at + 2]);
     Ok(CarmenScan {
-        kind: kind.to_owned(),
+        kind,
         time_s: it[count - 1],
-        odom_from_base: poses.then(|| pose(3)),
-        base_from_laser: if poses {
+        odom_from_base: has_poses.then(|| pose(3)),
+        base_from_laser: if has_poses {
             (pose(3).inverse() * pose(0)).normalized()
         } else {
             Pose2::IDENTITY
@@ -236,9 +260,12 @@ fn counted<'a, 'b>(words: &'a [&'b str]) -> Result<(Vec<f32>, &'a [&'b str]), St
         return Err(format!("{count} readings are declared, but {} words follow", rest.len()));
     }
     let (readings, rest) = rest.split_at(count);
-    let readings =
-        readings.iter().map(|it| it.parse().map_err(|_| format!("`{it}` is not a range")));
-    Ok((readings.collect::<Result<_, _>>()?, rest))
+    // A log has thousands of scans: not more memory for each than it needs.
+    let mut ranges_m = Vec::with_capacity(count);
+    for reading in readings {
+        ranges_m.push(reading.parse().map_err(|_| format!("`{reading}` is not a range"))?);
+    }
+    Ok((ranges_m, rest))
 }
 
 fn numbers(words: &[&str]) -> Result<Vec<f64>, String> {

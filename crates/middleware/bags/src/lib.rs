@@ -37,7 +37,9 @@ mod ros1;
 mod translate;
 mod write;
 
-pub use carmen::{CarmenLog, CarmenOdometry, CarmenScan, is_carmen, read_carmen, read_carmen_from};
+pub use carmen::{
+    CarmenLog, CarmenOdometry, CarmenScan, CarmenScanKind, is_carmen, read_carmen, read_carmen_from,
+};
 pub use check::{Fault, check};
 pub use compression::Compression;
 pub use metadata::{BagInfo, FileInfo, Metadata, Stored, Style, TopicInformation, read_metadata};

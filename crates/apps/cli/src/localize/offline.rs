@@ -134,13 +134,13 @@ fn localize(amcl: &mut Amcl, log: &Log) -> Outcome {
         let LocalizationStatus { state: now, reason, .. } = amcl.status();
         *outcome.states.entry(word(*now)).or_default() += 1;
         if std::mem::replace(&mut state, *now) != *now && outcome.changes.len() < MAX_CHANGES {
-            outcome.changes.push((logged.stamp.clone(), word(*now), reason.clone()));
+            outcome.changes.push((logged.stamp(), word(*now), reason.clone()));
         }
         if let Some(map_from_odom) = amcl.map_from_odom().filter(|_| amcl.has_pose()) {
             let after_s = (logged.scan.time_ns - begin_ns) as f64 * 1e-9;
             outcome.settled.get_or_insert((after_s, way_m));
             let map_from_base = (map_from_odom * odom_from_base).normalized();
-            outcome.trajectory.push((logged.stamp.clone(), map_from_base));
+            outcome.trajectory.push((logged.stamp(), map_from_base));
         }
     }
     outcome

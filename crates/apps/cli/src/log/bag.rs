@@ -69,12 +69,7 @@ fn scans(bag: &Bag, path: &Path, options: &LogOptions) -> Result<Log, String> {
             }
             Some(Pose2::from(found.ok()?.target_from_source))
         });
-        let stamp = &message.header.stamp;
-        log.scans.push(LoggedScan {
-            stamp: format!("{}.{:06}", stamp.sec, stamp.nanosec / 1000),
-            scan: laser_scan(&message, base_from_laser),
-            odom_from_base,
-        });
+        log.scans.push(LoggedScan { scan: laser_scan(&message, base_from_laser), odom_from_base });
     });
     log.faults.extend(faults.map_err(|why| why.to_string())?);
     for (edge, count) in missing {

@@ -9,7 +9,7 @@ use serde_json::{Value, json};
 
 use super::options::SlamOptions;
 use super::parameters::Parameters;
-use crate::log::Log;
+use crate::log::{Log, stamp};
 use crate::timing::{cpu_s, steps_ms};
 
 /// Report of a mapping run.
@@ -103,10 +103,6 @@ impl Report<'_> {
     /// agreement of the commonly seen area, and for both passes the keyframes and stamps of the
     /// stretch, as in the trajectory.
     fn contradictions(&self) -> Vec<Value> {
-        let stamp = |time_ns: i64| {
-            let logged = self.log.scans.iter().find(|it| it.scan.time_ns == time_ns);
-            logged.map_or_else(|| format!("{:.6}", time_ns as f64 * 1e-9), |it| it.stamp.clone())
-        };
         let pass = |keys: (usize, usize), times_ns: (i64, i64)| json!({ "keys": [keys.0, keys.1], "stamps": [stamp(times_ns.0), stamp(times_ns.1)] });
         let found = self.slam.contradictions().into_iter();
         let told = found.map(|it| {

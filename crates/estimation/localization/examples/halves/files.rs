@@ -43,8 +43,8 @@ pub(crate) struct Found {
 impl Half {
     pub(crate) fn read(folder: &Path) -> Result<Self, String> {
         let log = read_carmen(&bytes(&folder.join("second.clf"))?);
-        let kind = log.scans.first().map(|scan| scan.kind.clone());
-        let scans = log.scans.into_iter().filter(|scan| Some(&scan.kind) == kind.as_ref());
+        let kind = log.scans.first().map(|scan| scan.kind);
+        let scans = log.scans.into_iter().filter(|scan| Some(scan.kind) == kind);
         Ok(Self {
             map: map(&folder.join("map"))?,
             whole: way(&folder.join("whole/trajectory.txt"))?,

@@ -13,10 +13,10 @@ use crate::courses::{Course, Sight};
 pub(crate) fn course_of_log(name: &str, path: &Path, every: usize) -> Result<Course, String> {
     let bytes = std::fs::read(path).map_err(|why| format!("{}: {why}", path.display()))?;
     let log = read_carmen(&bytes);
-    let kind = log.scans.first().map(|scan| scan.kind.clone());
+    let kind = log.scans.first().map(|scan| scan.kind);
     let mut slam = Slam::new(periplus_slam::Settings::default());
     let mut taken = Vec::new();
-    let scans = log.scans.into_iter().filter(|scan| Some(&scan.kind) == kind.as_ref());
+    let scans = log.scans.into_iter().filter(|scan| Some(scan.kind) == kind);
     for (number, scan) in scans.step_by(every).enumerate() {
         let Some(odom_from_base) = scan.odom_from_base else { continue };
         let time_ns = number as i64 * 100_000_000;
