@@ -67,13 +67,16 @@ const UNKNOWN_COVARIANCE: Symmetric3 =
 const GLOBAL_REGION_M: f64 = 250.0;
 const GLOBAL_MIN_SCORE_RATIO: f64 = 0.5;
 const GLOBAL_MIN_AGREEMENT_RATIO: f64 = 0.95;
-const MAX_GLOBAL_CANDIDATES: usize = 24;
+const MAX_GLOBAL_CANDIDATES: usize = 32;
 const GLOBAL_DISTANCE_FACTOR: f64 = 2.0;
 /// Fields that are kept; the larger, the fewer.
 const CACHED_FIELD_COUNT: usize = 12;
 /// Points of a stretch are searched with when they are not farther away \[m\], one for each spacing.
 const FAR_M: f32 = 14.0;
 const SPACING_M: f32 = 0.15;
+/// The same between components, where every heading is searched: fewer points, and larger heading steps.
+const GLOBAL_SPACING_M: f32 = 0.4;
+const GLOBAL_FAR_M: f32 = 9.0;
 /// Maximum factor of the cell size for long-range scanners.
 const MAX_CELL_SIZE_FACTOR: f64 = 2.0;
 
@@ -332,7 +335,11 @@ impl Loops {
         };
         let (x_m, half_x_m) = part(expected.x_m, region[0])?;
         let (y_m, half_y_m) = part(expected.y_m, region[1])?;
-        let points = spread(&points_of(&new), scale as f32 * SPACING_M, scale as f32 * FAR_M);
+        let region_m = 3.0 * task.covariance.largest_shift().sqrt();
+        let is_anywhere = region_m > GLOBAL_REGION_M;
+        let (spacing_m, far_m) =
+            if is_anywhere { (GLOBAL_SPACING_M, GLOBAL_FAR_M) } else { (SPACING_M, FAR_M) };
+        let points = spread(&points_of(&new), scale as f32 * spacing_m, scale as f32 * far_m);
         if points.len() < 40 {
             return None;
         }
@@ -345,8 +352,6 @@ impl Loops {
         };
         let of = around.iter().map(|&keyframe| (keyframe, graph.between(middle, keyframe)));
         let field = self.field(task.place, of, keyframes, settings, scale);
-        let region_m = 3.0 * task.covariance.largest_shift().sqrt();
-        let is_anywhere = region_m > GLOBAL_REGION_M;
         let least_score = if is_anywhere { GLOBAL_MIN_SCORE_RATIO } else { MIN_SCORE_RATIO };
         let (best, _) = field.search(&points, &window, least_score, None);
         let best = best?;
