@@ -13,7 +13,7 @@ use std::process::ExitCode;
 use std::time::Duration;
 
 use clap::Args;
-use periplus_diagnostics::{Cause, Diagnostics, Severity, SourceMap};
+use periplus_diagnostics::{DiagnosticCause, Diagnostics, Severity, SourceMap};
 use periplus_launch::{
     LaunchPlan, MissingInput, PlanStep, Request, ShutdownHandlers, What, dialect, plan_with_ending,
 };
@@ -168,7 +168,8 @@ impl LaunchOptions {
             // A launch file with missing arguments has findings only up to that point.
             show::arguments(&mut out, plan)?;
             let is_complete = findings.iter().all(|finding| {
-                finding.cause == Some(Cause::MissingArgument) || finding.severity != Severity::Error
+                finding.cause == Some(DiagnosticCause::MissingArgument)
+                    || finding.severity != Severity::Error
             });
             return Ok(Some(if is_complete { ExitCode::SUCCESS } else { ExitCode::FAILURE }));
         }

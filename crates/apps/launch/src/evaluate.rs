@@ -7,7 +7,7 @@ mod parameters;
 use std::collections::{BTreeMap, BTreeSet, VecDeque};
 use std::path::{Path, PathBuf};
 
-use periplus_diagnostics::{Cause, Diagnostic, Diagnostics, Origin, Severity, SourceMap};
+use periplus_diagnostics::{Diagnostic, DiagnosticCause, Diagnostics, Origin, Severity, SourceMap};
 use periplus_resources::{Host, Resolver, in_sources, package_of};
 use serde_json::{Value, json};
 
@@ -188,7 +188,7 @@ impl<'a> Evaluation<'a> {
                 "launch-argument",
                 format!("{} requires the argument `{name}`", file.display()),
             );
-            wrong = wrong.caused_by(Cause::MissingArgument);
+            wrong = wrong.caused_by(DiagnosticCause::MissingArgument);
             if let Some(description) = description.filter(|text| !text.is_empty()) {
                 wrong = wrong.note(format!("description: {description}"));
             }
@@ -426,7 +426,7 @@ impl<'a> Evaluation<'a> {
         let Some(value) = given.or_else(|| default.clone()) else {
             return Err(self
                 .error("launch-argument", format!("the argument `{name}` was not given"))
-                .caused_by(Cause::MissingArgument)
+                .caused_by(DiagnosticCause::MissingArgument)
                 .help(format!("add `{name}:=VALUE`"))
                 .into());
         };

@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 use std::time::Duration;
 
-use periplus_diagnostics::{Cause, Diagnostic};
+use periplus_diagnostics::{Diagnostic, DiagnosticCause};
 use serde_json::Value;
 
 /// Result of a program.
@@ -40,10 +40,10 @@ impl MissingInput {
 
     /// Class of findings on this kind.
     #[must_use]
-    pub const fn cause(self) -> Cause {
+    pub const fn cause(self) -> DiagnosticCause {
         match self {
-            Self::File => Cause::MissingFile,
-            Self::Package => Cause::MissingPackage,
+            Self::File => DiagnosticCause::MissingFile,
+            Self::Package => DiagnosticCause::MissingPackage,
         }
     }
 

@@ -27,7 +27,7 @@ impl Severity {
 
 /// Class of findings to which programs react, apart from their texts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Cause {
+pub enum DiagnosticCause {
     /// A file does not exist.
     MissingFile,
     /// A package does not exist, with all its files.
@@ -61,7 +61,7 @@ pub struct Diagnostic {
     /// Short stable name for scripts and searches, such as `unknown-element`.
     pub code: &'static str,
     /// Class, if programs react to this finding.
-    pub cause: Option<Cause>,
+    pub cause: Option<DiagnosticCause>,
     /// Description of the fault, in one sentence without a full stop.
     pub message: String,
     /// Location of the fault.
@@ -116,7 +116,7 @@ impl Diagnostic {
 
     /// Sets the class to which programs react.
     #[must_use]
-    pub const fn caused_by(mut self, cause: Cause) -> Self {
+    pub const fn caused_by(mut self, cause: DiagnosticCause) -> Self {
         self.cause = Some(cause);
         self
     }

@@ -24,7 +24,7 @@ mod source;
 mod spelling;
 
 pub use collect::{Diagnostics, MAX_FINDINGS};
-pub use diagnostic::{Cause, Diagnostic, Replacement, Severity};
+pub use diagnostic::{Diagnostic, DiagnosticCause, Replacement, Severity};
 pub use json::to_json;
 pub use machine_words::plain_words;
 pub use render::{RenderStyle, render};

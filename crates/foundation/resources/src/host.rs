@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use periplus_diagnostics::Cause;
+use periplus_diagnostics::DiagnosticCause;
 
 /// Maximum size of a file that is read [bytes].
 pub const MAX_FILE_BYTES: u64 = 256 << 20;
@@ -50,8 +50,8 @@ impl std::error::Error for FileReadError {}
 impl FileReadError {
     /// Class of a finding about this error.
     #[must_use]
-    pub fn cause(&self) -> Option<Cause> {
-        matches!(self, Self::Missing).then_some(Cause::MissingFile)
+    pub fn cause(&self) -> Option<DiagnosticCause> {
+        matches!(self, Self::Missing).then_some(DiagnosticCause::MissingFile)
     }
 }
 

@@ -3,7 +3,7 @@
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
-use periplus_diagnostics::{Cause, Diagnostic, Origin};
+use periplus_diagnostics::{Diagnostic, DiagnosticCause, Origin};
 
 /// Reason that a URI cannot be resolved.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -84,8 +84,10 @@ impl ResolveError {
     pub fn into_diagnostic(self, origin: impl Into<Origin>) -> Diagnostic {
         let (code, cause) = match self.kind {
             ResolveErrorKind::Malformed => ("bad-uri", None),
-            ResolveErrorKind::Missing => ("missing-resource", Some(Cause::MissingFile)),
-            ResolveErrorKind::MissingPackage => ("missing-resource", Some(Cause::MissingPackage)),
+            ResolveErrorKind::Missing => ("missing-resource", Some(DiagnosticCause::MissingFile)),
+            ResolveErrorKind::MissingPackage => {
+                ("missing-resource", Some(DiagnosticCause::MissingPackage))
+            }
             ResolveErrorKind::Outside => ("resource-outside", None),
         };
         let message = self.to_string();

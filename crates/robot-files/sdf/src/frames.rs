@@ -10,7 +10,7 @@ mod graph;
 mod names;
 mod scope;
 
-use periplus_diagnostics::{Cause, Diagnostic, Diagnostics};
+use periplus_diagnostics::{Diagnostic, DiagnosticCause, Diagnostics};
 use periplus_geometry::Pose;
 use periplus_scene::{Actor, Joint, Light, Model, World};
 
@@ -220,7 +220,7 @@ fn canonical_link(
     } else if first.is_none() && !model.is_static {
         diagnostics.push(
             Diagnostic::warning("no-links", format!("model `{}` has no link", model.name))
-                .caused_by(Cause::NoLinks)
+                .caused_by(DiagnosticCause::NoLinks)
                 .at(model.origin)
                 .note("Gazebo refuses a model without links unless it is static"),
         );

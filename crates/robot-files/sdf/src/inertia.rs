@@ -1,6 +1,6 @@
 //! Physical validity of masses and inertias.
 
-use periplus_diagnostics::{Cause, Diagnostic, Diagnostics};
+use periplus_diagnostics::{Diagnostic, DiagnosticCause, Diagnostics};
 use periplus_scene::Inertial;
 use periplus_xml::Element;
 
@@ -13,7 +13,7 @@ pub fn check(inertial: &Inertial, link: &str, element: &Element, diagnostics: &m
         let place = element.child("mass").map_or(element.origin, Element::text_origin);
         diagnostics.push(
             Diagnostic::warning("bad-inertia", format!("link `{link}` has no mass"))
-                .caused_by(Cause::Inertia)
+                .caused_by(DiagnosticCause::Inertia)
                 .at(place)
                 .help("give a link that moves a mass above 0"),
         );
@@ -27,7 +27,7 @@ pub fn check(inertial: &Inertial, link: &str, element: &Element, diagnostics: &m
                 "bad-inertia",
                 format!("the inertia of link `{link}` is not positive definite"),
             )
-            .caused_by(Cause::Inertia)
+            .caused_by(DiagnosticCause::Inertia)
             .at(place)
             .note("every principal moment of inertia must be above 0")
             .help("for a box of mass m: ixx = m/12 (y² + z²), and so on"),
@@ -37,7 +37,7 @@ pub fn check(inertial: &Inertial, link: &str, element: &Element, diagnostics: &m
                 "bad-inertia",
                 format!("the inertia of link `{link}` breaks the triangle inequality"),
             )
-            .caused_by(Cause::Inertia)
+            .caused_by(DiagnosticCause::Inertia)
             .at(place)
             .note("the sum of any two principal moments must be at least the third")
             .help("for a box of mass m: ixx = m/12 (y² + z²), and so on"),

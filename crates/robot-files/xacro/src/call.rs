@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 use std::rc::Rc;
 
-use periplus_diagnostics::{Cause, Diagnostic, Expansion, Origin};
+use periplus_diagnostics::{Diagnostic, DiagnosticCause, Expansion, Origin};
 use periplus_xml::{Attribute, Element, XmlNode};
 use smol_str::SmolStr;
 
@@ -310,7 +310,7 @@ impl State<'_> {
         let known = names.iter().map(String::as_str).chain(directives);
         let mut diagnostic =
             Diagnostic::error("unknown-macro", format!("there is no macro `{name}`"))
-                .caused_by(Cause::Undefined)
+                .caused_by(DiagnosticCause::Undefined)
                 .at(frame.seen(call.origin));
         diagnostic = match periplus_diagnostics::closest(name, known) {
             Some(near) => diagnostic.replace(

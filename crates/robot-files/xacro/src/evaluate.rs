@@ -3,7 +3,7 @@
 use std::ops::Range;
 use std::rc::Rc;
 
-use periplus_diagnostics::{Cause, Diagnostic, Origin, Span};
+use periplus_diagnostics::{Diagnostic, DiagnosticCause, Origin, Span};
 use smol_str::SmolStr;
 
 use crate::literal::typed;
@@ -188,7 +188,7 @@ impl State<'_> {
         }
         let mut diagnostic = Diagnostic::error("expression", error.message).at(place);
         if error.kind == ExpressionErrorKind::UndefinedName {
-            diagnostic = diagnostic.caused_by(Cause::Undefined);
+            diagnostic = diagnostic.caused_by(DiagnosticCause::Undefined);
         }
         if !text.is_empty() {
             diagnostic = diagnostic.note(format!("in the expression `{}`", shorten(text)));

@@ -3,7 +3,7 @@
 
 use std::rc::Rc;
 
-use periplus_diagnostics::{Cause, Diagnostic, Origin, closest};
+use periplus_diagnostics::{Diagnostic, DiagnosticCause, Origin, closest};
 
 use crate::evaluate::part;
 use crate::scopes::ScopeId;
@@ -90,7 +90,7 @@ impl State<'_> {
         let arguments = self.arguments.borrow();
         let mut diagnostic =
             Diagnostic::error("undefined-argument", format!("the argument `{name}` has no value"))
-                .caused_by(Cause::Undefined)
+                .caused_by(DiagnosticCause::Undefined)
                 .at(origin)
                 .help(format!(
                     "give it on the command line as `{name}:=VALUE`, or declare a default: \

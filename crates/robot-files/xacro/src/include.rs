@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use periplus_diagnostics::{Cause, Diagnostic, Diagnostics, Expansion, Origin};
+use periplus_diagnostics::{Diagnostic, DiagnosticCause, Diagnostics, Expansion, Origin};
 use periplus_resources::{EntryKind, ResolveErrorKind};
 use periplus_xml::{Element, decode, parse};
 
@@ -193,7 +193,7 @@ impl State<'_> {
                 }
                 self.fail(diagnostic)
             })?;
-        let cannot = |why: String, cause: Option<Cause>| {
+        let cannot = |why: String, cause: Option<DiagnosticCause>| {
             let message = format!("`{}` cannot be read: {why}", self.setting.shown(path));
             let finding = Diagnostic::error("unreadable-file", message).at(origin);
             self.fail(Diagnostic { cause, ..finding })

@@ -52,8 +52,8 @@ pub(crate) trait V8: Copy {
     /// Prefetches into the cache.
     fn prefetch<T>(what: &T);
 
-    /// Runs a task with this type's instructions enabled throughout, as a function of its own. Everything
-    /// inside a task is inlined, so a part with several callers is a task of its own, or it is compiled once
+    /// Runs a task with this type's instructions enabled throughout, as a separate function. Everything
+    /// inside a task is inlined, so a part with several callers is a separate task, or it is compiled once
     /// for each of them.
     fn run<T: Task>(task: T) -> T::Output;
 }

@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use crate::{MissingInput, OutsideError, Printed};
-use periplus_diagnostics::{Cause, Diagnostic, RenderStyle, Severity, SourceMap, render};
+use periplus_diagnostics::{Diagnostic, DiagnosticCause, RenderStyle, Severity, SourceMap, render};
 use periplus_loader::{LoadContext, load};
 use periplus_os::Machine;
 use periplus_resources::Store as _;
@@ -106,7 +106,7 @@ pub fn xacro(words: &[String], setting: &LoadContext<'_>) -> Result<Xacro, Xacro
 /// Returns true if a missing include file can cause an error: macros, properties and arguments come
 /// from there.
 fn may_follow(error: &Diagnostic) -> bool {
-    error.cause == Some(Cause::Undefined)
+    error.cause == Some(DiagnosticCause::Undefined)
 }
 
 /// Cause of errors that all come from missing files; `None` if there are other errors.

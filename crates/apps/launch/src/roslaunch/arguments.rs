@@ -1,6 +1,6 @@
 //! `<arg>`.
 
-use periplus_diagnostics::Cause;
+use periplus_diagnostics::DiagnosticCause;
 use periplus_xml::Element;
 
 use super::{Loader, Scope, wrong};
@@ -34,7 +34,7 @@ impl Loader<'_, '_> {
         let Some(chosen) = value.or(given).or_else(|| default.clone()) else {
             let message = format!("the argument `{name}` was not given");
             let missing = *wrong("launch-argument", &message, element);
-            let mut missing = missing.caused_by(Cause::MissingArgument);
+            let mut missing = missing.caused_by(DiagnosticCause::MissingArgument);
             if let Some(doc) = element.value("doc") {
                 missing = missing.note(format!("description: {doc}"));
             }

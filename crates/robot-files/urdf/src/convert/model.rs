@@ -2,7 +2,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use periplus_diagnostics::{Cause, Diagnostic, Diagnostics};
+use periplus_diagnostics::{Diagnostic, DiagnosticCause, Diagnostics};
 use periplus_scene::{FrameRole, Joint as SceneJoint, Model, Sensor, SensorKind};
 use periplus_xml::Element;
 
@@ -121,8 +121,12 @@ impl ConversionState<'_> {
             .flatten()
             .collect();
         let said = |one: &Diagnostic| match one.cause {
-            Some(Cause::Inertia) => one.span.is_some_and(|span| inertials.contains(&span)),
-            Some(Cause::NoLinks) => !self.plan.massless.is_empty() || self.robot.links.is_empty(),
+            Some(DiagnosticCause::Inertia) => {
+                one.span.is_some_and(|span| inertials.contains(&span))
+            }
+            Some(DiagnosticCause::NoLinks) => {
+                !self.plan.massless.is_empty() || self.robot.links.is_empty()
+            }
             _ => false,
         };
         let mut rest = Diagnostics::new();
