@@ -51,7 +51,8 @@ pub struct CostmapNode {
     pub(crate) tf: Listener,
     inputs: Inputs,
     pub(crate) outputs: Option<Outputs>,
-    outlines: Outlines,
+    /// `None` until the parameters are known.
+    outlines: Option<Outlines>,
     health: Health,
     updates: u64,
     trouble: Option<String>,
@@ -111,7 +112,6 @@ impl CostmapNode {
         let name = node.names().name().to_owned();
         let params = config.params();
         let forms = config.forms;
-        let is_stamped = params.subscribe_to_stamped_footprint;
         let values = node_values(&config);
         let names =
             |layers: &[LayerConfig]| layers.iter().map(|layer| layer.name.clone()).collect();
@@ -124,7 +124,7 @@ impl CostmapNode {
             tf: Listener::new(&node)?,
             inputs: Inputs::default(),
             outputs: None,
-            outlines: Outlines::new(&node, is_stamped)?,
+            outlines: None,
             health: Health::new(&node)?,
             updates: 0,
             trouble: None,
@@ -141,7 +141,7 @@ impl CostmapNode {
         let hertz = actor.with(|state| {
             state.adopt(&given);
             let is_stamped = state.params.subscribe_to_stamped_footprint;
-            state.outlines = Outlines::new(&node, is_stamped)?;
+            state.outlines = Some(Outlines::new(&node, is_stamped)?);
             Ok::<f64, GraphError>(state.params.update_frequency_hz)
         })?;
         services::serve(&mut actor, &name, &layers, &filters, forms)?;
@@ -228,7 +228,7 @@ impl CostmapNode {
         let global_frame = costmap.frame().global_frame.clone();
         let scene = Scene { tf: &self.tf, global_frame: &global_frame, now_ns };
         let mut complaints = self.inputs.take(costmap, &scene, node, self.config.compat);
-        if let Some(points) = self.outlines.latest() {
+        if let Some(points) = self.outlines.as_ref().and_then(Outlines::latest) {
             let padding_m = self.params.footprint_padding_m;
             if points.len() >= 3 {
                 costmap.set_footprint(Footprint::new(points).padded(padding_m));

@@ -12,7 +12,7 @@ use periplus_graph::{
 use periplus_msgs::builtin_interfaces::Time;
 use periplus_msgs::diagnostic_msgs::{DiagnosticArray, DiagnosticStatus};
 use periplus_msgs::geometry_msgs::{
-    Polygon, PoseStamped, Quaternion, Transform, TransformStamped, Vector3,
+    Polygon, PolygonStamped, PoseStamped, Quaternion, Transform, TransformStamped, Vector3,
 };
 use periplus_msgs::nav_msgs::{MapMetaData, OccupancyGrid, Odometry, Path};
 use periplus_msgs::nav2_msgs::*;
@@ -727,16 +727,35 @@ fn a_map_sets_the_size_and_a_footprint_comes_by_topic() {
     assert_eq!(corners, 3);
 }
 
-#[test]
-fn arguments_apply_to_the_update_frequency() {
-    let words = ["-p", "update_frequency:=2.0", "-p", "always_send_full_costmap:=true"];
-    let words = words.map(str::to_owned);
+/// Graph with parameter overrides, as from `--ros-args`.
+fn overridden(words: &[&str]) -> Graph {
+    let words: Vec<String> = words.iter().map(|word| (*word).to_owned()).collect();
     let mut findings = Diagnostics::new();
     let no_file = &mut |_: &std::path::Path| Err(ParameterFileError::Missing);
     let arguments = Arguments::read(&words, &mut SourceMap::new(), &mut findings, no_file);
     assert!(findings.is_empty(), "{findings:?}");
     let graph = Graph::new();
     graph.set_arguments(arguments);
+    graph
+}
+
+#[test]
+fn arguments_select_the_type_of_the_footprint() {
+    let other = {
+        let config = config(LOCAL, "local_costmap", Nav2Release::Main);
+        !config.params().subscribe_to_stamped_footprint
+    };
+    let graph = overridden(&["-p", &format!("subscribe_to_stamped_footprint:={other}")]);
+    let stage = Stage::on(graph, LOCAL, "local_costmap", Nav2Release::Main);
+    let topic = "/local_costmap/footprint";
+    let is_stamped = stage.user.publisher::<PolygonStamped>(topic, Qos::reliable(1)).is_ok();
+    assert_eq!(is_stamped, other, "the node subscribes to the type that its argument selects");
+}
+
+#[test]
+fn arguments_apply_to_the_update_frequency() {
+    let overrides = ["-p", "update_frequency:=2.0", "-p", "always_send_full_costmap:=true"];
+    let graph = overridden(&overrides);
     let mut stage = Stage::on(graph, LOCAL, "local_costmap", Nav2Release::Main);
     stage.costmap.start();
     let costmaps = stage.hear::<OccupancyGrid>("/local_costmap/costmap");
