@@ -166,7 +166,7 @@ pub(crate) struct Loops {
 }
 
 impl Loops {
-    /// Takes note of a new key; asks for searches when it is time.
+    /// Adds a keyframe; queues searches when they are due.
     pub(crate) fn add_keyframe(
         &mut self,
         keyframes: &[Keyframe],
@@ -197,9 +197,8 @@ impl Loops {
         self.ask(keyframes, graph, last, is_torn);
     }
 
-    /// Asks for all old stretches that the one up to a key may have met.
-    ///
-    /// Where the map has several components, keyframes of the others are searched as well.
+    /// Queues searches in all old stretches that the stretch up to a keyframe may have met. If the map has
+    /// several components, a part of the stretches of the others is searched, too.
     pub(crate) fn ask(
         &mut self,
         keyframes: &[Keyframe],
@@ -441,21 +440,23 @@ impl Loops {
         })
     }
 
+    /// Newest report on a closure between two keyframes.
+    fn closure(&mut self, keyframes: (usize, usize), old_from_new: Pose2) -> Option<&mut Closure> {
+        let mut newest_first = self.closures.iter_mut().rev();
+        newest_first.find(|it| it.keyframes == keyframes && it.old_from_new == old_from_new)
+    }
+
     /// A closure that waited is part of the map.
     pub(crate) fn accept(&mut self, edge: &Edge, reason: String) {
         self.pending.retain(|it| (it.middle, it.anchor) != (edge.from, edge.to));
-        let told = self.closures.iter_mut().rev();
-        let mut told = told.filter(|it| it.keyframes == (edge.from, edge.to));
-        if let Some(told) = told.find(|it| it.old_from_new == edge.from_from_to) {
+        if let Some(told) = self.closure((edge.from, edge.to), edge.from_from_to) {
             (told.is_accepted, told.reason) = (true, reason);
         }
     }
 
     /// Another closure passes the same tests: neither is part of the map.
     pub(crate) fn leave_undecided(&mut self, edge: &Edge, apart_m: f64) {
-        let told = self.closures.iter_mut().rev();
-        let mut told = told.filter(|it| it.keyframes == (edge.from, edge.to));
-        if let Some(told) = told.find(|it| it.old_from_new == edge.from_from_to) {
+        if let Some(told) = self.closure((edge.from, edge.to), edge.from_from_to) {
             told.reason = format!(
                 "{}; on trial when the log had ended, a closure {apart_m:.1} m from it passed as well",
                 told.reason

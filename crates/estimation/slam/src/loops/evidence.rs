@@ -152,12 +152,7 @@ impl Loops {
             (false, true) => "matches elsewhere too, though others agree with it",
         };
         let is_accepted = is_believed && it.is_unique;
-        let told = self.closures.iter_mut().rev();
-        let Some(told) =
-            { told }.find(|told| told.keyframes == keyframes && told.old_from_new == pose)
-        else {
-            return;
-        };
+        let Some(told) = self.closure(keyframes, pose) else { return };
         told.is_accepted = is_accepted;
         told.reason = format!(
             "{} of {} independent witnesses, {} against; {words}",
