@@ -95,11 +95,10 @@ impl Log {
 fn carmen(log: CarmenLog) -> Log {
     let faults = log.faults.iter().map(|(line, what)| format!("line {line}: {what}"));
     let faults = faults.collect();
-    // A log may contain the same scan in lines of two kinds; the first kind counts.
-    let kind = log.scans.first().map(|scan| scan.kind);
-    let scans = log.scans.into_iter().filter(|scan| Some(scan.kind) == kind).map(logged);
+    let (kind, scans) = log.scans_of_first_kind();
+    let scans = scans.into_iter().map(logged).collect();
     let name = kind.map_or("", CarmenScanKind::name);
-    Log { kind: format!("CARMEN, {name}"), scans: scans.collect(), faults, warnings: Vec::new() }
+    Log { kind: format!("CARMEN, {name}"), scans, faults, warnings: Vec::new() }
 }
 
 fn logged(scan: CarmenScan) -> LoggedScan {

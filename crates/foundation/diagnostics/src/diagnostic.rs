@@ -114,10 +114,10 @@ impl Diagnostic {
         Self::new(Severity::Hint, code, message)
     }
 
-    /// Sets the class to which programs react.
+    /// Sets the class to which programs react, if any.
     #[must_use]
-    pub const fn caused_by(mut self, cause: DiagnosticCause) -> Self {
-        self.cause = Some(cause);
+    pub fn caused_by(mut self, cause: impl Into<Option<DiagnosticCause>>) -> Self {
+        self.cause = cause.into();
         self
     }
 

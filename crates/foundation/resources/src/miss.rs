@@ -91,7 +91,7 @@ impl ResolveError {
             ResolveErrorKind::Outside => ("resource-outside", None),
         };
         let message = self.to_string();
-        let mut diagnostic = Diagnostic { cause, ..Diagnostic::error(code, message).at(origin) };
+        let mut diagnostic = Diagnostic::error(code, message).caused_by(cause).at(origin);
         if !self.tried.is_empty() {
             let mut note = String::from("tried");
             for place in &self.tried {

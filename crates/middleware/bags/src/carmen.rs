@@ -96,6 +96,16 @@ impl From<CarmenScan> for LaserScan2 {
 }
 
 impl CarmenLog {
+    /// Kind of the first scan, and the scans of that kind: a log may contain each scan in lines of
+    /// two kinds.
+    #[must_use]
+    pub fn scans_of_first_kind(self) -> (Option<CarmenScanKind>, Vec<CarmenScan>) {
+        let kind = self.scans.first().map(|scan| scan.kind);
+        let mut scans = self.scans;
+        scans.retain(|scan| Some(scan.kind) == kind);
+        (kind, scans)
+    }
+
     fn push(&mut self, scan: CarmenScan) {
         if let Some(odom_from_base) = scan.odom_from_base {
             self.odometry.push(CarmenOdometry { time_s: scan.time_s, odom_from_base });

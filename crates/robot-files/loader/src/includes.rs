@@ -40,8 +40,8 @@ impl<'s, 'a> Files<'s, 'a> {
             Err(error) => {
                 let name = shown(path, &self.setting.working_folder);
                 let message = format!("`{name}` cannot be read: {error}");
-                let finding = Diagnostic::error("unreadable-file", message).at(from);
-                diagnostics.push(Diagnostic { cause: error.cause(), ..finding });
+                let finding = Diagnostic::error("unreadable-file", message);
+                diagnostics.push(finding.caused_by(error.cause()).at(from));
                 return IncludeTarget::Broken;
             }
         };

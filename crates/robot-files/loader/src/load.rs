@@ -138,8 +138,7 @@ pub fn load(path: &Path, setting: &LoadContext<'_>) -> LoadedFile {
             };
             let name = shown(&loaded.path, &setting.working_folder);
             let message = format!("`{name}` cannot be read: {error}");
-            let finding = Diagnostic::error("unreadable-file", message);
-            let finding = Diagnostic { cause: error.cause(), ..finding };
+            let finding = Diagnostic::error("unreadable-file", message).caused_by(error.cause());
             loaded.diagnostics.push(finding.help(helped.unwrap_or_else(|| {
                 "check the path; it is relative to the working folder".to_owned()
             })));

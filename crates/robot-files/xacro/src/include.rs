@@ -195,8 +195,7 @@ impl State<'_> {
             })?;
         let cannot = |why: String, cause: Option<DiagnosticCause>| {
             let message = format!("`{}` cannot be read: {why}", self.setting.shown(path));
-            let finding = Diagnostic::error("unreadable-file", message).at(origin);
-            self.fail(Diagnostic { cause, ..finding })
+            self.fail(Diagnostic::error("unreadable-file", message).caused_by(cause).at(origin))
         };
         let bytes = self
             .setting

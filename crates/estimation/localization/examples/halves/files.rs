@@ -43,13 +43,12 @@ pub(crate) struct Found {
 impl Half {
     pub(crate) fn read(folder: &Path) -> Result<Self, String> {
         let log = read_carmen(&bytes(&folder.join("second.clf"))?);
-        let kind = log.scans.first().map(|scan| scan.kind);
-        let scans = log.scans.into_iter().filter(|scan| Some(scan.kind) == kind);
+        let (_, scans) = log.scans_of_first_kind();
         Ok(Self {
             map: map(&folder.join("map"))?,
             whole: way(&folder.join("whole/trajectory.txt"))?,
             first: way(&folder.join("map/trajectory.txt"))?,
-            scans: scans.filter_map(seen).collect(),
+            scans: scans.into_iter().filter_map(seen).collect(),
         })
     }
 }

@@ -12,12 +12,10 @@ use crate::courses::{Course, Sight};
 /// CARMEN log: every `every`-th scan of its first scanner.
 pub(crate) fn course_of_log(name: &str, path: &Path, every: usize) -> Result<Course, String> {
     let bytes = std::fs::read(path).map_err(|why| format!("{}: {why}", path.display()))?;
-    let log = read_carmen(&bytes);
-    let kind = log.scans.first().map(|scan| scan.kind);
+    let (_, scans) = read_carmen(&bytes).scans_of_first_kind();
     let mut slam = Slam::new(periplus_slam::Settings::default());
     let mut taken = Vec::new();
-    let scans = log.scans.into_iter().filter(|scan| Some(scan.kind) == kind);
-    for (number, scan) in scans.step_by(every).enumerate() {
+    for (number, scan) in scans.into_iter().step_by(every).enumerate() {
         let Some(odom_from_base) = scan.odom_from_base else { continue };
         let time_ns = number as i64 * 100_000_000;
         let scan = LaserScan2 { time_ns, ..scan.into() };

@@ -18,7 +18,7 @@ const MIN_JUDGED_RATIO: f64 = 0.15;
 const MIN_AGREEMENT_RATIO: f64 = 0.9;
 /// Undecided closures nearer to each other than this get one remark \[m\].
 const SAME_STRETCH_M: f64 = 60.0;
-/// A closure that the map agrees with to this is not tried \[m, rad\].
+/// A closure that differs from the map by less is not tried \[m, rad\].
 const KNOWN_M: f64 = 0.3;
 const KNOWN_RAD: f64 = 0.1;
 /// A closure that is off by more is pulled at (squared Mahalanobis distance: 99.99 % for 3 degrees of
