@@ -35,9 +35,14 @@ struct Faults(Vec<Fault>);
 
 impl Faults {
     fn add(&mut self, offset: usize, message: impl Into<String>) {
-        if self.0.len() < MOST_FAULTS {
+        if !self.are_full() {
             self.0.push(Fault { offset: offset as u64, message: message.into() });
         }
+    }
+
+    /// True if no further violations are reported.
+    fn are_full(&self) -> bool {
+        self.0.len() >= MOST_FAULTS
     }
 
     fn unless(&mut self, is_right: bool, offset: usize, message: &str) {

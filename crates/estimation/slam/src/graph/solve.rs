@@ -156,8 +156,9 @@ impl Solver {
         self.stage = Some(Stage { columns: 0, tries, before });
     }
 
-    /// The sum that is made small. `robust` gives the weight of a squared distance; its loss is taken
-    /// as weight times square, which grows as the loss does for the weights in use.
+    /// Cost that is minimized: the sum of the losses of the edges. `robust` gives the weight of a squared
+    /// distance; the loss is taken as weight times square, which grows as the loss does for the weights in
+    /// use.
     fn cost(
         &self,
         graph: &Graph,
