@@ -71,11 +71,7 @@ const BINS_PER_UNIT_RATIO: f32 = BINS as f32 / 4.0;
 /// multiple of the reach over |x| + |y|, and the half-width up to which this is true. For points
 /// beside a ray the multiple is 1; across an axis it grows to 1.155 at 60 degrees.
 const WINDOW_FACTOR: f32 = 1.15;
-const MAX_HALF_WINDOW: f32 = 0.6;
-/// Sign bit of a number.
-const SIGN_BIT: u32 = 1 << 31;
-/// Pseudo-angle by the signs of x (twice) and y.
-const QUADRANT_STARTS: [f32; 4] = [0.0, 4.0, 2.0, 2.0];
+const MAX_HALF_WINDOW_RATIO: f32 = 0.6;
 
 /// Maximum number of points, which are counted in 16 bits.
 const MAX_POINTS: usize = 60_000;
@@ -208,7 +204,7 @@ impl Cloud {
         let per_sum = 1.0 / (dx.abs() + dy.abs()).max(f32::MIN_POSITIVE);
         let half = reach_m * per_sum * WINDOW_FACTOR;
         let mut best = (usize::MAX, reach_m * reach_m);
-        if half > MAX_HALF_WINDOW {
+        if half > MAX_HALF_WINDOW_RATIO {
             self.nearest_in(0, self.points.len(), x, y, &mut best);
         } else {
             let middle = turn_of(dx, dy, per_sum) * BINS_PER_UNIT_RATIO;
@@ -291,9 +287,10 @@ fn pseudo_angle(x: f32, y: f32) -> f32 {
 #[inline]
 fn turn_of(x: f32, y: f32, per_sum: f32) -> f32 {
     let part = y * per_sum;
-    let signed = f32::from_bits(part.to_bits() ^ (x.to_bits() & SIGN_BIT));
-    let quadrant = (x.to_bits() >> 31 << 1 | y.to_bits() >> 31) as usize;
-    let turn = QUADRANT_STARTS[quadrant] + signed;
+    let (x_sign, y_sign) = (x.to_bits() & (1 << 31), y.to_bits() & (1 << 31));
+    // The angle at which the half-plane of x, or the quadrant, begins.
+    let quadrant = (x_sign >> 30 | y_sign >> 31) as usize;
+    let turn = [0.0, 4.0, 2.0, 2.0][quadrant] + f32::from_bits(part.to_bits() ^ x_sign);
     // Rounding may reach 4.
     if turn >= 4.0 { 0.0 } else { turn }
 }

@@ -128,7 +128,7 @@ impl Data {
                 }
                 None => faults.add(at, "a message is truncated"),
             },
-            // A small file may unpack to 200 million records: no text is made that nobody reads.
+            // A small file may unpack to 200 million records: no text is made that is not reported.
             _ if faults.are_full() => {}
             _ => faults.add(at, format!("a record with opcode {opcode:#04x} is not allowed here")),
         }
