@@ -52,6 +52,13 @@ fn a_chunk_that_announces_a_gigabyte_is_not_unpacked() {
     assert!(told(reader.faults()), "{:?}", reader.faults());
 }
 
+#[test]
+fn the_first_empty_record_ends_the_check_of_a_chunk() {
+    let faults = check(&zeros(1 << 20));
+    let of_chunk = faults.iter().filter(|fault| fault.to_string().contains("opcode 0x00"));
+    assert_eq!(of_chunk.count(), 1, "{faults:?}");
+}
+
 /// A ROS 1 bag with some topics, one message each.
 fn topics(count: u32) -> Vec<u8> {
     let mut bag = Ros1Writer::new(Cursor::new(Vec::new()), Ros1Settings::new("n.bag")).unwrap();
