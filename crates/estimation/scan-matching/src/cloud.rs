@@ -201,7 +201,11 @@ impl Cloud {
     #[inline]
     pub fn nearest(&self, x: f32, y: f32, reach_m: f32) -> Option<(usize, f32)> {
         let (dx, dy) = (x - self.origin[0], y - self.origin[1]);
-        let per_sum = 1.0 / (dx.abs() + dy.abs()).max(f32::MIN_POSITIVE);
+        let sum = dx.abs() + dy.abs();
+        if !sum.is_finite() {
+            return None;
+        }
+        let per_sum = 1.0 / sum.max(f32::MIN_POSITIVE);
         let half = reach_m * per_sum * WINDOW_FACTOR;
         let mut best = (usize::MAX, reach_m * reach_m);
         if half > MAX_HALF_WINDOW_RATIO {
@@ -319,14 +323,10 @@ fn decimate(beams: &[Beam], settings: &CloudSettings) -> Vec<usize> {
 
 #[cfg(test)]
 mod tests {
-    use super::*;
+    use proptest::collection::vec;
+    use proptest::prelude::*;
 
-    /// Uniform numbers in [0, 1).
-    fn random(seed: &mut u64) -> f32 {
-        *seed =
-            seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-        (*seed >> 40) as f32 / (1 << 24) as f32
-    }
+    use super::*;
 
     #[test]
     fn pseudo_angle_is_a_quarter_per_axis() {
@@ -338,21 +338,29 @@ mod tests {
     }
 
     #[test]
-    fn windows_of_bearings_miss_no_nearest_point() {
-        let mut seed = 7;
-        for points in [0_u32, 1, 5, 400] {
-            let ends: Vec<[f32; 2]> = (0..points)
-                .map(|_| [8.0 * random(&mut seed) - 4.0, 8.0 * random(&mut seed) - 4.0])
-                .collect();
-            let flat = ends.iter().map(|&[x, y]| (Point { x, y, nx: 0.0, ny: 0.0 }, false));
+    fn no_point_is_near_a_position_that_is_not_finite() {
+        let points =
+            [[1.0, 0.0], [0.0, 1.0]].map(|[x, y]| (Point { x, y, nx: 0.0, ny: 0.0 }, false));
+        let cloud = Cloud::sorted(points.into_iter(), [0.0, 0.0]);
+        let values = [0.0, f32::INFINITY, f32::NEG_INFINITY, f32::NAN];
+        for (x, y) in values.into_iter().flat_map(|x| values.map(|y| (x, y))) {
+            assert_eq!(cloud.nearest(x, y, 0.5), None, "({x}, {y})");
+        }
+    }
+
+    proptest! {
+        #[test]
+        fn windows_of_bearings_miss_no_nearest_point(
+            ends in vec((-4.0_f32..4.0, -4.0_f32..4.0), 0..400),
+            queries in vec((-5.0_f32..5.0, -5.0_f32..5.0, 0.05_f32..2.0), 80),
+        ) {
+            let flat = ends.iter().map(|&(x, y)| (Point { x, y, nx: 0.0, ny: 0.0 }, false));
             let cloud = Cloud::sorted(flat, [0.5, -0.25]);
-            for _ in 0..5_000 {
-                let (x, y) = (10.0 * random(&mut seed) - 5.0, 10.0 * random(&mut seed) - 5.0);
-                let reach_m = 0.05 + 2.0 * random(&mut seed);
+            for (x, y, reach_m) in queries {
                 let squared = |p: &Point| (p.x - x) * (p.x - x) + (p.y - y) * (p.y - y);
                 let least = cloud.points().iter().map(squared).fold(reach_m * reach_m, f32::min);
                 let expected = (least < reach_m * reach_m).then_some(least);
-                assert_eq!(cloud.nearest(x, y, reach_m).map(|(_, squared)| squared), expected);
+                prop_assert_eq!(cloud.nearest(x, y, reach_m).map(|(_, squared)| squared), expected);
             }
         }
     }
