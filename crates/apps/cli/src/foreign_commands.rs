@@ -20,12 +20,16 @@ pub(crate) use tests::words as words_of_line;
 
 use std::io;
 use std::process::ExitCode;
+use std::sync::atomic::{AtomicBool, Ordering};
 
 use crate::terminal;
 
+/// True after a `ros2` command was translated.
+static IS_ROS2: AtomicBool = AtomicBool::new(false);
+
 /// Returns true for a `ros2` command behind `periplus`, whose exit codes are those of `ros2`.
 pub(crate) fn is_ros2() -> bool {
-    std::env::args().nth(1).is_some_and(|word| word == "ros2")
+    IS_ROS2.load(Ordering::Relaxed)
 }
 
 /// Result of translating a command line.
@@ -88,6 +92,7 @@ impl Reading {
 
 /// Prints the translation; returns the words to parse, or the exit code.
 pub(crate) fn translate(words: Vec<String>) -> io::Result<Result<Vec<String>, ExitCode>> {
+    IS_ROS2.store(words.get(1).is_some_and(|word| word == "ros2"), Ordering::Relaxed);
     match read(words.get(1..).unwrap_or_default()) {
         Reading::Ours => Ok(Ok(words)),
         Reading::Words { words: ours, notes } => {

@@ -3,6 +3,7 @@
 mod examples;
 
 use std::fmt::Write as _;
+use std::process::ExitCode;
 
 use clap::builder::StyledStr;
 use clap::{Command, CommandFactory as _, FromArgMatches as _};
@@ -48,10 +49,16 @@ pub(crate) fn command() -> Command {
     command.help_template(template)
 }
 
-/// Parses words; a usage error ends the program with exit code 2.
-pub(crate) fn parse(words: Vec<String>) -> Options {
-    let matches = command().get_matches_from(words);
-    Options::from_arg_matches(&matches).unwrap_or_else(|error| error.format(&mut command()).exit())
+/// Parses words. The error is the exit code after help (0) or a usage error (2) was printed.
+pub(crate) fn parse(words: Vec<String>) -> Result<Options, ExitCode> {
+    let parsed = command().try_get_matches_from(words);
+    let parsed = parsed.and_then(|matches| Options::from_arg_matches(&matches));
+    parsed.map_err(|error| {
+        let error = error.format(&mut command());
+        // A reader that has closed its end wants no more help.
+        let _ = error.print();
+        ExitCode::from(u8::try_from(error.exit_code()).unwrap_or(2))
+    })
 }
 
 /// Adds examples and full stops to a command and its subcommands.

@@ -84,7 +84,7 @@ pub(super) fn play(
         dialect: launched.dialect,
         is_wired: false,
         is_paced: !is_free && !matches!(options.rtf, Some(Factor::Max)),
-        guarding_program: std::env::current_exe().ok(),
+        guarding_command: crate::own_command::own_command().to_vec(),
         tools: launched.tools.clone(),
     };
     let bringup = LaunchRunner::new(&launched.plan, settings);

@@ -26,10 +26,14 @@ pub(super) struct Tools {
 impl Tools {
     /// Creates the folder; `None` where it cannot be created, or where scripts are not executable.
     pub(super) fn make(resource_path: &[PathBuf]) -> Option<Self> {
-        let own = std::env::current_exe().ok()?;
+        let own = crate::own_command::own_command();
+        if own.is_empty() {
+            return None;
+        }
         let here = terminal::working_folder();
         let folders = resource_path.iter().map(|folder| here.join(folder));
-        let mut words = vec![own.display().to_string(), XACRO_VERB.to_owned()];
+        let mut words = own.to_vec();
+        words.push(XACRO_VERB.to_owned());
         words.push(resource_path.len().to_string());
         words.extend(folders.map(|folder| folder.display().to_string()));
         let words: Vec<String> = words.iter().map(|word| quoted(word)).collect();

@@ -6,7 +6,6 @@
 
 use std::collections::BTreeSet;
 use std::io::{BufRead, Write as _};
-use std::path::Path;
 use std::process::{Child, ChildStdin, Command, Stdio};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Duration;
@@ -31,10 +30,10 @@ struct State {
 
 impl Guard {
     /// Reports a process group. The guard process, `program __guard`, starts with the first one.
-    pub(crate) fn watch(&self, program: Option<&Path>, group: u32) {
+    pub(crate) fn watch(&self, command: &[String], group: u32) {
         let mut state = self.0.lock().unwrap_or_else(PoisonError::into_inner);
         if state.process.is_none() && !state.has_failed {
-            state.process = program.and_then(start);
+            state.process = start(command);
             state.has_failed = state.process.is_none();
         }
         state.send('+', group);
@@ -64,9 +63,15 @@ impl Drop for State {
     }
 }
 
-fn start(program: &Path) -> Option<(Child, ChildStdin)> {
+fn start(words: &[String]) -> Option<(Child, ChildStdin)> {
+    let (program, words) = words.split_first()?;
     let mut command = Command::new(program);
-    command.arg(GUARD_VERB).stdin(Stdio::piped()).stdout(Stdio::null()).stderr(Stdio::null());
+    command
+        .args(words)
+        .arg(GUARD_VERB)
+        .stdin(Stdio::piped())
+        .stdout(Stdio::null())
+        .stderr(Stdio::null());
     own_group(&mut command);
     let mut process = command.spawn().ok()?;
     let pipe = process.stdin.take()?;

@@ -31,9 +31,9 @@ pub struct Settings {
     pub is_wired: bool,
     /// True if the run keeps pace with real time.
     pub is_paced: bool,
-    /// Program that ends remaining processes when this one is killed: this program itself, which
-    /// runs [`crate::bringup::guard`] when started with [`crate::bringup::GUARD_VERB`].
-    pub guarding_program: Option<PathBuf>,
+    /// Words that start a program which ends remaining processes when this one is killed: this program
+    /// itself, which runs [`crate::bringup::guard`] with [`crate::bringup::GUARD_VERB`]. Empty for none.
+    pub guarding_command: Vec<String>,
     /// Folder of built-in programs that its processes find at the end of the PATH.
     pub tools: Option<PathBuf>,
 }

@@ -27,7 +27,7 @@ fn a_description_behind_ros_args_moves_joints_of_links_without_inertia() {
         dialect: Dialect::Ros2,
         is_wired: false,
         is_paced: false,
-        guarding_program: None,
+        guarding_command: Vec::new(),
         tools: None,
     };
     let words = ["-p".to_owned(), format!("robot_description:={ARM}")];

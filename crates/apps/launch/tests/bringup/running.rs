@@ -59,7 +59,7 @@ fn bringup(file: &str, folder: &Path) -> LaunchRunner {
         dialect: Dialect::Ros2,
         is_wired: false,
         is_paced: false,
-        guarding_program: None,
+        guarding_command: Vec::new(),
         tools: None,
     };
     LaunchRunner::new(&plan, settings)

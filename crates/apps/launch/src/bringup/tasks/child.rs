@@ -35,7 +35,7 @@ pub(crate) struct Child {
     /// Base folder of relative paths.
     launch_folder: PathBuf,
     guard: Guard,
-    guarding_program: Option<PathBuf>,
+    guarding_command: Vec<String>,
     tools: Option<PathBuf>,
 }
 
@@ -90,7 +90,7 @@ impl Child {
             respawn_ns: None,
             launch_folder: settings.search.working_folder.clone(),
             guard: guard.clone(),
-            guarding_program: settings.guarding_program.clone(),
+            guarding_command: settings.guarding_command.clone(),
             tools: settings.tools.clone(),
         };
         child.spawn()?;
@@ -157,7 +157,7 @@ impl Child {
                 )
             }
         })?;
-        self.guard.watch(self.guarding_program.as_deref(), process.id());
+        self.guard.watch(&self.guarding_command, process.id());
         let (send, printed) = channel();
         let pipes: [Option<Box<dyn Read + Send>>; 2] = [
             process.stdout.take().map(|pipe| Box::new(pipe) as _),
