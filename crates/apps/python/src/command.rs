@@ -1,0 +1,19 @@
+//! The command `periplus` in this module, so that the package has no second copy of the program.
+
+use std::process::ExitCode;
+
+use pyo3::prelude::*;
+use pyo3::types::PyModule;
+
+pub(crate) fn register(module: &Bound<'_, PyModule>) -> PyResult<()> {
+    module.add_function(wrap_pyfunction!(run_command, module)?)
+}
+
+/// Runs the command line `arguments`, the first of which is the name of the program, and returns its exit code.
+/// `interpreter` is the Python that runs, to start this command in another process.
+#[pyfunction]
+fn run_command(py: Python<'_>, arguments: Vec<String>, interpreter: String) -> u8 {
+    let own_command = vec![interpreter, "-m".to_owned(), "periplus".to_owned()];
+    let code = py.detach(|| periplus_cli::run(arguments, own_command));
+    (0..=u8::MAX).find(|number| ExitCode::from(*number) == code).unwrap_or(1)
+}

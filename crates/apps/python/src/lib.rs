@@ -1,0 +1,53 @@
+//! The native module of the Python package `periplus`.
+//!
+//! One module for each part of the package. Python calls the crates; nothing is implemented a second time. Calls
+//! that take long release the interpreter and answer Ctrl-C; errors are exceptions with a file, line and column
+//! where there is one.
+
+mod amcl;
+mod arrays;
+mod bags;
+mod command;
+mod costmap;
+mod ekf;
+mod errors;
+mod exploration;
+mod maps;
+mod messages;
+mod poses;
+mod rays;
+mod robot_files;
+mod scan_matching;
+mod simulation;
+mod slam;
+mod transforms;
+mod work;
+
+use pyo3::prelude::*;
+
+/// The native module.
+#[pymodule(gil_used = false)]
+fn _native(module: &Bound<'_, PyModule>) -> PyResult<()> {
+    module.add("__version__", env!("CARGO_PKG_VERSION"))?;
+    for register in [
+        errors::register,
+        command::register,
+        poses::register,
+        rays::register,
+        maps::register,
+        scan_matching::register,
+        costmap::register,
+        exploration::register,
+        transforms::register,
+        ekf::register,
+        slam::register,
+        amcl::register,
+        messages::register,
+        bags::register,
+        robot_files::register,
+        simulation::register,
+    ] {
+        register(module)?;
+    }
+    Ok(())
+}

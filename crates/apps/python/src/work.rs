@@ -1,0 +1,45 @@
+//! Work of the crates without the interpreter: released, protected from panics.
+
+use std::any::Any;
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::sync::{Mutex, MutexGuard, PoisonError};
+
+use pyo3::prelude::*;
+
+use crate::errors::runtime_error;
+
+/// Runs `work` while other threads of Python run. A panic, which is a fault of Periplus, is a `RuntimeError` that
+/// names `what`.
+pub(crate) fn released<T: Send>(
+    py: Python<'_>,
+    what: &str,
+    work: impl FnOnce() -> T + Send,
+) -> PyResult<T> {
+    py.detach(|| catch_unwind(AssertUnwindSafe(work))).map_err(|panic| panicked(what, &*panic))
+}
+
+/// Runs short work with the interpreter held; a panic is a `RuntimeError` that names `what`.
+pub(crate) fn guarded<T>(what: &str, work: impl FnOnce() -> T) -> PyResult<T> {
+    catch_unwind(AssertUnwindSafe(work)).map_err(|panic| panicked(what, &*panic))
+}
+
+fn panicked(what: &str, panic: &(dyn Any + Send)) -> PyErr {
+    let text = panic.downcast_ref::<&str>().map(|text| (*text).to_owned());
+    let text = text.or_else(|| panic.downcast_ref::<String>().cloned()).unwrap_or_default();
+    runtime_error(format!("{what} failed, which is a fault of Periplus: {text}"))
+}
+
+/// Locks a mutex, also after a panic.
+pub(crate) fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
+    mutex.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+/// Locks a mutex and works with its value, without the interpreter: another thread of Python may hold the lock.
+pub(crate) fn with_locked<T: Send, R: Send>(
+    py: Python<'_>,
+    what: &str,
+    mutex: &Mutex<T>,
+    work: impl FnOnce(&mut T) -> R + Send,
+) -> PyResult<R> {
+    released(py, what, || work(&mut lock(mutex)))
+}
