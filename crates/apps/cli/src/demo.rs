@@ -31,6 +31,8 @@ use crate::{paths, terminal};
 use explorer::Explorer;
 use pictures::SnapshotRecorder;
 
+pub(crate) use stage::composition;
+
 /// Default duration of a run without a page \[s\].
 const DEFAULT_DURATION_S: f64 = 60.0;
 

@@ -41,6 +41,7 @@ use periplus_diagnostics::plain_words;
 use periplus_graph::split_arguments;
 use periplus_launch::bringup::{GUARD_VERB, guard};
 use periplus_session::stop;
+use periplus_sim::Composition;
 
 use demo::DemoOptions;
 use options::Command;
@@ -74,6 +75,12 @@ fn manual(folder: Option<&Path>) -> Result<ExitCode, CliError> {
     clap_mangen::Man::new(command).render(&mut page)?;
     std::io::stdout().lock().write_all(&page)?;
     Ok(ExitCode::SUCCESS)
+}
+
+/// World of the demo with its robot, which are part of the program.
+#[must_use]
+pub fn demo_composition() -> Composition {
+    demo::composition()
 }
 
 /// Runs the command `words`, whose first is the name of the program. `own_command` starts this program in

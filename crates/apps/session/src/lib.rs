@@ -17,6 +17,7 @@ mod progress;
 mod recording;
 mod report;
 mod session;
+mod steps;
 pub mod stop;
 pub mod terminal;
 
@@ -25,6 +26,7 @@ pub use error::RunError;
 pub use live::{LiveGraph, NodeMonitor, PollSleep};
 pub use network::{GazeboSettings, Ros2Reach};
 pub use page::{Page, PageContext, PageError, PageSettings};
+pub use periplus_gz_transport::DiscoveryReach as GazeboReach;
 pub use progress::ProgressLine;
 pub use report::RunReport;
 pub use session::{NoTask, RunEnd, RunSettings, SessionTask, SimulationSession};

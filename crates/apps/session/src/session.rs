@@ -88,7 +88,7 @@ pub(crate) struct SessionParts {
 
 /// Simulation with its recording, estimator nodes, networks and page.
 pub struct SimulationSession {
-    parts: SessionParts,
+    pub(crate) parts: SessionParts,
     start_up: Duration,
     wall: Duration,
     is_cut_short: bool,

@@ -100,10 +100,10 @@ pub fn compose(world: &Path, robots: &[RobotPlacement], setting: &LoadContext<'_
     compose_loaded(first, robots, setting)
 }
 
-/// Returns an empty plane with a sun.
+/// Returns an empty plane with a sun, and robots on it.
 #[must_use]
-pub fn compose_plain(setting: &LoadContext<'_>) -> Composition {
-    compose_loaded(plain_world(setting), &[], setting)
+pub fn compose_plain(robots: &[RobotPlacement], setting: &LoadContext<'_>) -> Composition {
+    compose_loaded(plain_world(setting), robots, setting)
 }
 
 fn compose_loaded(

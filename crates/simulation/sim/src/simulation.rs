@@ -1,6 +1,7 @@
 //! A running world.
 
 mod change;
+mod view;
 
 use std::sync::Arc;
 

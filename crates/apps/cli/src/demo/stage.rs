@@ -37,7 +37,7 @@ const FILES: [(&str, &str); 9] = [
 ];
 
 /// World with the robot.
-pub(super) fn composition() -> Composition {
+pub(crate) fn composition() -> Composition {
     let host =
         FILES.iter().fold(MemoryHost::new(), |host, (path, text)| host.with_file(path, *text));
     let resolver = Resolver::new(&host, &[]);

@@ -35,8 +35,17 @@ impl Simulation {
         all(&mut self.world_devices, &mut self.running).for_each(|device| device.reset(time_ns));
     }
 
+    /// Sets the velocities of a model as one rigid piece: of its frame's origin \[m/s\] and about it
+    /// \[rad/s\], in world axes. Returns false for an unknown or immovable model, or a number that is not
+    /// finite.
+    pub fn set_velocity(&mut self, name: &str, linear_m_s: DVec3, angular_rad_s: DVec3) -> bool {
+        let Some(place) = self.place_of(name) else { return false };
+        let model = self.running[place].model;
+        self.motion.set_model_velocity(model, linear_m_s, angular_rad_s)
+    }
+
     /// Sets another seed of all noise, from the next reset on.
-    pub(crate) fn set_seed(&mut self, seed: u64) {
+    pub fn set_seed(&mut self, seed: u64) {
         self.has_new_seed |= self.options.seed != seed;
         self.options.seed = seed;
     }

@@ -19,11 +19,11 @@ const PLANE_WORLDS: [&str; 4] = ["empty.world", "empty.sdf", "empty", "default.s
 /// When there is no such file.
 pub(super) fn compose(request: &WorldRequest, search: &Search) -> Result<Composition, CliError> {
     search.with_context(true, |context| {
-        let Some(file) = request.file.as_deref() else { return Ok(compose_plain(context)) };
+        let Some(file) = request.file.as_deref() else { return Ok(compose_plain(&[], context)) };
         match find(file, context) {
             Ok(path) => Ok(compose_file(&path, &[], context)),
             Err(_) if PLANE_WORLDS.contains(&file.rsplit('/').next().unwrap_or(file)) => {
-                Ok(compose_plain(context))
+                Ok(compose_plain(&[], context))
             }
             Err(why) => Err(CliError::Failed(match &request.written {
                 Some(written) => format!("{why}  = started at {written}"),

@@ -1,0 +1,98 @@
+//! Single steps of a session, for programs with a loop of their own.
+
+use std::path::PathBuf;
+
+use periplus_sim::{Diverged, RecordError, RecordingSummary, SimulationRecorder};
+
+use crate::builder::RecordingRequest;
+use crate::error::RunError;
+use crate::page::{Page, PageSettings};
+use crate::session::SimulationSession;
+
+impl SimulationSession {
+    /// Serves requests, then takes one step that ends at `end_ns` at the latest, also while the world is paused.
+    ///
+    /// # Errors
+    /// When the motion of a body outside of all models diverges.
+    pub fn step_until(&mut self, end_ns: i64) -> Result<(), Diverged> {
+        self.serve();
+        let parts = &mut self.parts;
+        parts.driver.play(&parts.simulation);
+        let mut next_ns = parts.driver.next_ns().unwrap_or(i64::MAX).min(end_ns);
+        if parts.services.may_step() {
+            next_ns = next_ns.min(parts.services.until_ns());
+        }
+        parts.simulation.step_until(next_ns)
+    }
+
+    /// Serves requests of clients to inspect and change the world.
+    pub fn serve(&mut self) {
+        let parts = &mut self.parts;
+        let before_ns = parts.simulation.time_ns();
+        parts.services.serve(&mut parts.simulation);
+        if parts.simulation.time_ns() < before_ns {
+            parts.driver.restart();
+        }
+    }
+
+    /// Pauses or continues the world.
+    pub fn set_paused(&mut self, is_paused: bool) {
+        self.parts.services.set_paused(is_paused);
+    }
+
+    /// Returns true while the world is paused and no requested steps are left.
+    #[must_use]
+    pub fn is_paused(&self) -> bool {
+        !self.parts.services.may_step()
+    }
+
+    /// Starts a recording of all messages from now on. A recording that runs is closed first.
+    ///
+    /// # Errors
+    /// When a recording cannot be closed, or the new one cannot be created.
+    pub fn start_recording(&mut self, request: RecordingRequest) -> Result<(), RunError> {
+        let RecordingRequest { path, wanted } = request;
+        let failed = |error| RunError::Recording { path: path.clone(), error };
+        self.stop_recording().map_err(failed)?;
+        let started = SimulationRecorder::start(&self.parts.simulation, &path, wanted);
+        self.parts.recorder = Some(started.map_err(failed)?);
+        Ok(())
+    }
+
+    /// Closes the recording that runs, if any.
+    ///
+    /// # Errors
+    /// When the recording is incomplete.
+    pub fn stop_recording(&mut self) -> Result<Option<RecordingSummary>, RecordError> {
+        let parts = &mut self.parts;
+        parts.recorder.take().map(|it| it.finish(&mut parts.simulation)).transpose()
+    }
+
+    /// File and reason of a recording that has failed; `None` without a failure.
+    #[must_use]
+    pub fn recording_failure(&self) -> Option<(PathBuf, String)> {
+        self.parts.recorder.as_ref().and_then(SimulationRecorder::failure)
+    }
+
+    /// Serves the page, and returns its URL. A page that is open stays.
+    ///
+    /// # Errors
+    /// When the page or its displays cannot start.
+    pub fn open_page(&mut self, settings: &PageSettings) -> Result<String, RunError> {
+        let parts = &mut self.parts;
+        if let Some(page) = &parts.page {
+            return Ok(page.url());
+        }
+        let folders = settings.context.folders();
+        parts.services.show(&parts.simulation, folders).map_err(RunError::Display)?;
+        let page = Page::serve(parts.simulation.graph(), settings)?;
+        let url = page.url();
+        parts.page = Some(page);
+        Ok(url)
+    }
+
+    /// Closes the page, if it is open.
+    pub fn close_page(&mut self) {
+        self.parts.page = None;
+    }
+}
