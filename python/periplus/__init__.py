@@ -22,6 +22,7 @@ from periplus._native import FileError, Pose, __version__
 # ---- amcl
 
 # ---- messages
+from periplus._native import deserialize, serialize
 
 # ---- bags
 
@@ -33,4 +34,6 @@ __all__ = [
     "FileError",
     "Pose",
     "__version__",
+    "deserialize",
+    "serialize",
 ]

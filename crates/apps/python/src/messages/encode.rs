@@ -1,0 +1,155 @@
+//! Serialization of Python objects.
+
+use std::cell::RefCell;
+use std::sync::Arc;
+
+use numpy::{PyArray1, PyArrayMethods as _};
+use periplus::msgs::{
+    Codec, Count, DecodeError, Format, Number, NumberKind, Numbers, Sink, Source, encode,
+};
+use periplus_rosidl::ArrayShape;
+use pyo3::exceptions::PyTypeError;
+use pyo3::intern;
+use pyo3::prelude::*;
+use pyo3::types::PyList;
+
+use super::TypeHandle;
+use super::plan::{Element, Plan, PlanField};
+use super::tape::count;
+use super::value::{
+    Fault, array_of, byte_of, each_kind, number_of, require_length, require_message, text_of,
+};
+use crate::errors::value_error;
+
+/// Type of a message object or of its class.
+///
+/// # Errors
+/// `TypeError` if it is no message.
+pub(crate) fn plan_of(message: &Bound<'_, PyAny>) -> PyResult<Arc<Plan>> {
+    let handle = message.getattr(intern!(message.py(), "__type_handle__"));
+    let handle = handle.ok().and_then(|it| it.cast_into::<TypeHandle>().ok());
+    handle.map(|handle| handle.get().0.clone()).ok_or_else(|| {
+        let name = message.get_type().name().map_or_else(|_| "?".into(), |it| it.to_string());
+        PyTypeError::new_err(format!("expected a message of periplus.msgs, not {name}"))
+    })
+}
+
+/// Appends the binary form of a message.
+///
+/// # Errors
+/// `TypeError` or `ValueError` that names the field whose value does not fit.
+pub(crate) fn encode_message(
+    plan: &Arc<Plan>,
+    message: &Bound<'_, PyAny>,
+    format: Format,
+    out: &mut Vec<u8>,
+) -> PyResult<()> {
+    let writing = Writing { message: Some((plan, message)), fault: RefCell::new(None) };
+    let encoded = encode(&writing, format, out);
+    if let Some(fault) = writing.fault.into_inner() {
+        return Err(fault.into_error(&plan.label));
+    }
+    encoded.map_err(|error| value_error(format!("{}: {error}", plan.label)))
+}
+
+/// Message that is being written.
+struct Writing<'a, 'py> {
+    message: Option<(&'a Arc<Plan>, &'a Bound<'py, PyAny>)>,
+    fault: RefCell<Option<Fault>>,
+}
+
+impl Codec for Writing<'_, '_> {
+    const MIN_BYTES: usize = 0;
+
+    fn blank() -> Self {
+        Self { message: None, fault: RefCell::new(None) }
+    }
+
+    fn write(&self, sink: &mut dyn Sink, _: Option<u32>) {
+        if let Some((plan, message)) = self.message {
+            *self.fault.borrow_mut() = write_message(plan, message, sink).err();
+        }
+    }
+
+    fn read(&mut self, _: &mut dyn Source, _: Option<u32>) -> Result<(), DecodeError> {
+        Ok(())
+    }
+}
+
+fn write_message(
+    plan: &Arc<Plan>,
+    message: &Bound<'_, PyAny>,
+    sink: &mut dyn Sink,
+) -> Result<(), Fault> {
+    sink.begin(&plan.type_name);
+    for field in &plan.fields {
+        sink.field(&field.name);
+        let value = message
+            .getattr(field.slot(message.py()))
+            .map_err(|_| Fault::from(super::missing(&plan.label, &field.name)))?;
+        write_field(field, &value, sink).map_err(|fault| fault.within(&field.name))?;
+    }
+    sink.end(plan.fields.is_empty());
+    Ok(())
+}
+
+fn write_field(
+    field: &PlanField,
+    value: &Bound<'_, PyAny>,
+    sink: &mut dyn Sink,
+) -> Result<(), Fault> {
+    let Some(count) = count(field.shape) else { return write_one(&field.element, value, sink) };
+    if let Some(kind) = field.element.number() {
+        return write_array(kind, field.shape, count, value, sink);
+    }
+    let list = value.cast::<PyList>().map_err(|_| Fault::of_type("must be a list"))?;
+    require_length(field.shape, list.len())?;
+    sink.list(list.len(), count);
+    for (index, item) in list.iter().enumerate() {
+        write_one(&field.element, &item, sink).map_err(|fault| fault.within_element(index))?;
+    }
+    sink.end_list();
+    Ok(())
+}
+
+fn write_array(
+    kind: NumberKind,
+    shape: ArrayShape,
+    count: Count,
+    value: &Bound<'_, PyAny>,
+    sink: &mut dyn Sink,
+) -> Result<(), Fault> {
+    let array = array_of(kind, shape, value)?;
+    macro_rules! write {
+        ($kind:ident $rust:ident) => {{
+            let array = array.cast::<PyArray1<$rust>>().map_err(PyErr::from)?;
+            let array = array
+                .try_readonly()
+                .map_err(|_| Fault::of_value("is being written by another thread"))?;
+            let values = array.as_slice().map_err(PyErr::from)?;
+            sink.list(values.len(), count);
+            sink.numbers(Numbers::$kind(values));
+            sink.end_list();
+        }};
+    }
+    each_kind!(kind, write);
+    Ok(())
+}
+
+fn write_one(
+    element: &Element,
+    value: &Bound<'_, PyAny>,
+    sink: &mut dyn Sink,
+) -> Result<(), Fault> {
+    match element {
+        Element::Number(kind) => sink.number(number_of(*kind, value)?),
+        Element::Byte => sink.number(Number::U8(byte_of(value)?)),
+        Element::Text(limit) => sink.text(&text_of(value, *limit, false)?, *limit),
+        Element::WideText(limit) => sink.wide_text(&text_of(value, *limit, true)?, *limit),
+        Element::Message(plan) => {
+            require_message(plan, value)?;
+            write_message(plan, value, sink)?;
+        }
+    }
+    Ok(())
+}
