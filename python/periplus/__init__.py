@@ -29,10 +29,30 @@ from periplus._native import deserialize, serialize
 # ---- robot files
 
 # ---- simulation
+from periplus._native import (
+    Contact,
+    Image,
+    Model,
+    PointCloud,
+    Scan,
+    Sensor,
+    Simulation,
+    Subscription,
+    World,
+)
 
 __all__ = [
+    "Contact",
     "FileError",
+    "Image",
+    "Model",
+    "PointCloud",
     "Pose",
+    "Scan",
+    "Sensor",
+    "Simulation",
+    "Subscription",
+    "World",
     "__version__",
     "deserialize",
     "serialize",

@@ -20,6 +20,7 @@ mod localization;
 mod package;
 mod physics;
 mod pictures;
+mod python;
 mod rays;
 mod ros2;
 mod runs;
@@ -158,6 +159,13 @@ enum Task {
     /// Check the optional transport for Zenoh, which no other task builds: clippy and tests with PyPI's
     /// eclipse-zenoh, installed into `.venv`
     Zenoh,
+    /// Build the Python wheel and check it as installed: types, tests, docstrings, examples, notebooks, and
+    /// the command in it. Environments are in `target/python`
+    Python {
+        /// Run only this part, on a wheel that is built
+        #[arg(long)]
+        only: Option<python::Part>,
+    },
     /// Run fuzz targets, starting from the seeds in `fuzz/seeds`
     Fuzz {
         /// Duration of each target [s]
@@ -282,6 +290,7 @@ fn perform(task: &Task) -> Result<(), Failed> {
         Task::Viewer(Page::Axe) => viewer::axe(),
         Task::Tutorials { only, pictures } => tutorials::run_all(only.as_deref(), *pictures),
         Task::Zenoh => zenoh::check(),
+        Task::Python { only } => python::check(*only),
         Task::Fuzz { seconds, targets } => fuzz::run_all(*seconds, targets),
     }
 }

@@ -154,7 +154,7 @@ fn busy(name: &str) -> PyErr {
     PyValueError::new_err(format!("another thread writes to `{name}`"))
 }
 
-/// Fails with `ValueError` if a value of an argument is NaN or infinite; names the argument and the place.
+/// Fails with `ValueError` if a value of an argument is NaN or infinite; names the argument and the index.
 pub(crate) fn require_finite(values: &[f64], name: &str) -> PyResult<()> {
     match values.iter().position(|value| !value.is_finite()) {
         None => Ok(()),

@@ -62,7 +62,7 @@ pub(crate) fn require_no_errors(
     }
 }
 
-/// A finding as a `FileError` with its place.
+/// A finding as a `FileError` with its location.
 pub(crate) fn finding_error(py: Python<'_>, finding: &Diagnostic, sources: &SourceMap) -> PyErr {
     let place = finding.span.filter(|span| sources.holds(*span)).map(|span| sources.locate(span));
     let hint = (!finding.help.is_empty()).then(|| finding.help.join("; "));

@@ -40,7 +40,7 @@ pub(crate) fn register(module: &Bound<'_, PyModule>) -> PyResult<()> {
 /// Parameters
 /// ----------
 /// world : World
-///     The world with its robots, read anew from its files.
+///     The world with its robots; its files are read again.
 /// seed : int
 ///     Seed of all noise. The same files, seed and calls give the same numbers, to the bit.
 /// physics : {"rigid", "kinematic"}

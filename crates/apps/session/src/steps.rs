@@ -1,4 +1,4 @@
-//! Single steps of a session, for programs with a loop of their own.
+//! Single steps of a session, for programs with a separate loop.
 
 use std::path::PathBuf;
 

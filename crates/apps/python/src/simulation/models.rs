@@ -223,7 +223,7 @@ impl PyModel {
         refusal: &str,
         change: impl FnOnce(&mut periplus::sim::Simulation) -> bool + Send,
     ) -> PyResult<()> {
-        // Tells an unknown model from a refused value.
+        // Distinguishes an unknown model from a refused value.
         self.ask(py, |world, model| world.model_pose(model))?;
         let is_done =
             self.simulation.get().with(py, |running| change(running.session.simulation_mut()))?;

@@ -34,7 +34,7 @@ pub(crate) enum SliceEnd {
     Pause,
 }
 
-/// What to advance to.
+/// End of a run.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Goal {
     /// A number of further steps.

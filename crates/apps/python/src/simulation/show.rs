@@ -83,7 +83,7 @@ impl PySimulation {
     /// >>> from periplus import Simulation, World
     /// >>> Simulation(World.demo()).picture(width=32, height=24).shape
     /// (24, 32, 3)
-    #[pyo3(signature = (pose=None, *, width=640, height=400, field_of_view_rad=FIELD_OF_VIEW_RAD))]
+    #[pyo3(signature = (pose=None, *, width=640, height=400, field_of_view_rad=1.1))]
     fn picture<'py>(
         &self,
         py: Python<'py>,

@@ -19,7 +19,7 @@ use super::PySimulation;
 use super::running::{Delivery, Running, Transforms};
 use super::watch::CallbackWatch;
 use crate::errors::{runtime_error, value_error};
-use crate::messages::{from_python, to_python, type_name_of};
+use crate::messages::{from_python, plan_of_type, to_python};
 use crate::poses::PyPose;
 use crate::work::lock;
 
@@ -115,7 +115,7 @@ fn get(
     Some((callback.function.clone_ref(py), callback.type_name.clone(), callback.name.clone()))
 }
 
-/// Name and place of a function: `on_scan (robot.py:12)`.
+/// Name, file and line of a function: `on_scan (robot.py:12)`.
 fn shown(function: &Bound<'_, PyAny>) -> String {
     let name = function.getattr("__qualname__").and_then(|it| it.extract::<String>());
     let name = name.unwrap_or_else(|_| function.to_string());
@@ -125,6 +125,15 @@ fn shown(function: &Bound<'_, PyAny>) -> String {
         Ok(format!("{name} ({file}:{line})"))
     });
     place.unwrap_or(name)
+}
+
+/// Name of the type of a service, from its class.
+fn service_name(class: &Bound<'_, PyAny>) -> PyResult<String> {
+    let request = class.getattr("Request").and_then(|request| plan_of_type(&request));
+    let name = request.ok().and_then(|it| it.type_name.strip_suffix("_Request").map(str::to_owned));
+    name.ok_or_else(|| {
+        PyTypeError::new_err("`service_type` must be the class of a service, such as Trigger")
+    })
 }
 
 /// `pkg/srv/Type_Request` to `pkg/srv/Type_Response`.
@@ -293,7 +302,7 @@ impl PySimulation {
         if !callback.is_callable() {
             return Err(PyTypeError::new_err("`callback` must be callable"));
         }
-        let type_name = type_name_of(service_type)?;
+        let type_name = service_name(service_type)?;
         let made = self.with(py, |running| {
             let calls = running.node.raw_server(name, &type_name, None)?;
             running.services.push(calls);
@@ -454,10 +463,7 @@ impl PySimulation {
         given: Option<&Bound<'_, PyAny>>,
     ) -> PyResult<String> {
         if let Some(given) = given {
-            return match given.extract::<String>() {
-                Ok(name) => Ok(name),
-                Err(_) => type_name_of(given),
-            };
+            return Ok(plan_of_type(given)?.type_name.clone());
         }
         let full = if topic.starts_with('/') { topic.to_owned() } else { format!("/{topic}") };
         let topics = self.topics(py)?;

@@ -26,7 +26,7 @@ use crate::work::{lock, released};
 #[pyclass(name = "World", module = "periplus", frozen)]
 pub(crate) struct PyWorld(Mutex<WorldFiles>);
 
-/// Where a world comes from.
+/// Origin of a world.
 #[derive(Clone)]
 enum Source {
     Plane,
@@ -144,7 +144,7 @@ impl PyWorld {
     ///     The file.
     /// pose : Pose or tuple, optional
     ///     ``(x, y, yaw)`` puts the robot on the plane z = 0; a ``Pose`` or six numbers put its frame there. Default:
-    ///     as its file says, or above the origin so that it touches the floor.
+    ///     that of its file, or above the origin so that it touches the floor.
     /// arguments : dict, optional
     ///     Arguments of its xacro, name to value.
     /// name : str, optional
@@ -210,7 +210,7 @@ fn pairs(arguments: Option<&Bound<'_, PyDict>>) -> PyResult<Vec<(String, String)
     arguments.iter().map(|(name, value)| Ok((name.extract()?, text(&value)?))).collect()
 }
 
-/// Pose argument of a robot: three numbers are a place on the ground.
+/// Pose argument of a robot: three numbers are a position and yaw on the floor.
 fn placement(pose: &Bound<'_, PyAny>) -> PyResult<PlacementPose> {
     if let Ok([x, y, yaw]) = pose.extract::<[f64; 3]>() {
         // Checks that the numbers are finite.

@@ -1,4 +1,4 @@
-//! Pictures of a simulation from any place.
+//! Pictures of a simulation from any pose.
 
 use periplus_geometry::Pose;
 use periplus_rendering::{ImageOutputs, Lens, RenderRequest, RenderedImages, SensedGeometry};
