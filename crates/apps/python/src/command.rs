@@ -1,5 +1,6 @@
 //! The command `periplus` in this module, so that the package has no second copy of the program.
 
+use std::io::Write as _;
 use std::process::ExitCode;
 
 use pyo3::prelude::*;
@@ -14,6 +15,11 @@ pub(crate) fn register(module: &Bound<'_, PyModule>) -> PyResult<()> {
 #[pyfunction]
 fn run_command(py: Python<'_>, arguments: Vec<String>, interpreter: String) -> u8 {
     let own_command = vec![interpreter, "-m".to_owned(), "periplus".to_owned()];
-    let code = py.detach(|| periplus_cli::run(arguments, own_command));
+    let code = py.detach(|| {
+        let code = periplus_cli::run(arguments, own_command);
+        // At the end of a Rust program this happens by itself. A closed pipe is nothing to report.
+        let _ = std::io::stdout().flush();
+        code
+    });
     (0..=u8::MAX).find(|number| ExitCode::from(*number) == code).unwrap_or(1)
 }
