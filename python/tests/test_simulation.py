@@ -115,6 +115,28 @@ def test_a_reading_stays_until_there_is_a_newer_one(sim: Simulation) -> None:
     assert lidar.read() is not first
 
 
+def test_a_scan_has_points_and_a_picture(sim: Simulation) -> None:
+    lidar = sim.sensor("/scan")
+    sim.run(0.5)
+    scan = lidar.read()
+    valid = np.isfinite(scan.ranges)
+    assert scan.points.shape == (valid.sum(), 2)
+    np.testing.assert_allclose(np.hypot(*scan.points.T), scan.ranges[valid], rtol=1e-6)
+    assert scan._repr_png_().startswith(b"\x89PNG")
+
+
+def test_the_run_is_seen_on_ros2() -> None:
+    import subprocess
+
+    sim = Simulation(World.demo(), ros2="loopback")
+    command = [sys.executable, "-m", "periplus", "topic", "list"]
+    with subprocess.Popen(command, stdout=subprocess.PIPE, text=True) as other:
+        while other.poll() is None:
+            sim.run(0.05, real_time_factor=1.0)
+        assert other.stdout is not None
+        assert "/scan" in other.stdout.read().split()
+
+
 def test_colours_are_rgb(sim: Simulation) -> None:
     camera = sim.sensor("/depth_camera/image_raw")
     sim.run(0.5)

@@ -237,6 +237,13 @@ impl PyScan {
         self.0.ranges.as_ptr().addr()
     }
 
+    /// Picture seen from above: x ahead is up, the lidar is in the middle.
+    fn _repr_png_<'py>(&self, py: Python<'py>) -> PyResult<Option<Bound<'py, PyBytes>>> {
+        let scan = Arc::clone(&self.0);
+        let png = released(py, "drawing a scan", move || scan_png(&scan))?;
+        Ok(png.map(|png| PyBytes::new(py, &png)))
+    }
+
     fn __len__(&self) -> usize {
         self.0.ranges.len()
     }
@@ -536,6 +543,45 @@ fn png(image: &Image) -> Option<Vec<u8>> {
         _ => return None,
     };
     pack_png(image.width, image.height, layout, |out| out.write_all(&samples)).ok()
+}
+
+/// Side of the picture of a scan \[px\].
+const SCAN_SIDE_PX: usize = 400;
+/// Brightness of the background, of points, and of the lidar.
+const BACKGROUND: u8 = 255;
+const POINT: u8 = 0;
+const LIDAR: u8 = 150;
+
+/// PNG of a scan, scaled to its farthest valid point.
+fn scan_png(scan: &LaserScan) -> Option<Vec<u8>> {
+    let valid = |range: &f32| (scan.range_min..=scan.range_max).contains(range);
+    let farthest = scan.ranges.iter().copied().filter(valid).fold(0.1, f32::max);
+    let half = SCAN_SIDE_PX as f64 / 2.0;
+    let pixels_per_m = 0.95 * half / f64::from(farthest);
+    let mut pixels = vec![BACKGROUND; SCAN_SIDE_PX * SCAN_SIDE_PX];
+    let mut dot = |x_m: f64, y_m: f64, radius_px: i32, brightness: u8| {
+        let column = half - y_m * pixels_per_m;
+        let row = half - x_m * pixels_per_m;
+        for (dx, dy) in
+            (-radius_px..=radius_px).flat_map(|dx| (-radius_px..=radius_px).map(move |dy| (dx, dy)))
+        {
+            let (column, row) = (column as i32 + dx, row as i32 + dy);
+            if let (Ok(column), Ok(row)) = (usize::try_from(column), usize::try_from(row))
+                && column < SCAN_SIDE_PX
+                && row < SCAN_SIDE_PX
+            {
+                pixels[row * SCAN_SIDE_PX + column] = brightness;
+            }
+        }
+    };
+    dot(0.0, 0.0, 3, LIDAR);
+    for (beam, range) in scan.ranges.iter().enumerate().filter(|(_, range)| valid(range)) {
+        let angle = f64::from(scan.angle_min) + f64::from(scan.angle_increment) * beam as f64;
+        let (sine, cosine) = angle.sin_cos();
+        dot(f64::from(*range) * cosine, f64::from(*range) * sine, 1, POINT);
+    }
+    let side = SCAN_SIDE_PX as u32;
+    pack_png(side, side, Layout::Grey, |out| out.write_all(&pixels)).ok()
 }
 
 /// Brightness of depths: white at the nearest, black at the farthest and without a return.
