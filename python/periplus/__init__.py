@@ -37,6 +37,7 @@ from periplus._native import (
     Scan,
     Sensor,
     Simulation,
+    Snapshot,
     Subscription,
     World,
 )
@@ -51,6 +52,7 @@ __all__ = [
     "Scan",
     "Sensor",
     "Simulation",
+    "Snapshot",
     "Subscription",
     "World",
     "__version__",

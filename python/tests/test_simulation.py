@@ -84,6 +84,25 @@ def test_a_reset_gives_the_numbers_of_a_new_simulation() -> None:
     assert run(used) == first
 
 
+def test_a_restored_snapshot_gives_the_same_numbers(sim: Simulation) -> None:
+    lidar = sim.sensor("/scan")
+    drive(sim, 0.2)
+    sim.run(0.7)
+    start = sim.snapshot()
+    assert start.time_s == pytest.approx(0.7)
+    outcomes = set()
+    for _ in range(3):
+        sim.insert(ROBOT.format(name="crate"), (2.0, 1.0, 0.5, 0.0, 0.0, 0.0))
+        sim.run(0.6)
+        outcomes.add(lidar.read().ranges.tobytes() + sim.model("sam_bot").pose.matrix.tobytes())
+        sim.restore(start)
+        assert sim.time_ns == 700_000_000
+        assert "crate" not in sim.models
+    assert len(outcomes) == 1
+    with pytest.raises(ValueError, match="another simulation"):
+        Simulation(World.demo()).restore(start)
+
+
 def test_readings_are_views_of_the_messages(sim: Simulation) -> None:
     depth = sim.sensor("/depth_camera/depth/image_raw")
     cloud = sim.sensor("/depth_camera/points")

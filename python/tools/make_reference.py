@@ -19,7 +19,7 @@ PARTS: list[tuple[str, str, list[str]]] = [
     (
         "Simulation",
         "Worlds and robots from files, stepped from Python.",
-        ["World", "Simulation", "Model", "Contact", "Sensor", "Scan", "PointCloud", "Image", "Subscription"],
+        ["World", "Simulation", "Snapshot", "Model", "Contact", "Sensor", "Scan", "PointCloud", "Image", "Subscription"],
     ),
     ("Poses and transforms", "", ["Pose", "TfBuffer", "Transform*"]),
     ("Rays", "Exact rays against meshes, shapes and worlds.", ["RayScene", "RayHits"]),

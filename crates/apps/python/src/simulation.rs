@@ -16,7 +16,9 @@ use periplus::graph::{GraphError, NodeSettings};
 use periplus::os::Stopwatch;
 use periplus::sim::{Options, PhysicsMode, Quirks, RealTimePacer};
 use periplus_session::terminal::processors;
-use periplus_session::{GazeboReach, GazeboSettings, RecordingRequest, Ros2Reach, SessionBuilder};
+use periplus_session::{
+    GazeboReach, GazeboSettings, RecordingRequest, Ros2Reach, SessionBuilder, SessionSnapshot,
+};
 use pyo3::exceptions::{PyFileExistsError, PyValueError};
 use pyo3::prelude::*;
 
@@ -24,11 +26,12 @@ use self::running::{Goal, Running, SliceEnd};
 use self::topics::Callbacks;
 use self::world::PyWorld;
 use crate::errors::{require_no_errors, runtime_error};
-use crate::work::{released, with_locked};
+use crate::work::{lock, released, with_locked};
 
 pub(crate) fn register(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_class::<PyWorld>()?;
     module.add_class::<PySimulation>()?;
+    module.add_class::<PySnapshot>()?;
     module.add_class::<models::PyModel>()?;
     module.add_class::<models::PyContact>()?;
     module.add_class::<topics::PySubscription>()?;
@@ -236,6 +239,36 @@ impl PySimulation {
         })
     }
 
+    /// Save the state: bodies, joints, contacts, sensors and drives with the commands that wait, models, lights, forces,
+    /// seed and time. Subscriptions, services of Python, recordings and networks are not part of it.
+    ///
+    /// >>> from periplus import Simulation, World
+    /// >>> sim = Simulation(World.demo())
+    /// >>> sim.run(0.1)
+    /// >>> start = sim.snapshot()
+    /// >>> sim.run(1.0)
+    /// >>> sim.restore(start)
+    /// >>> sim.time_s
+    /// 0.1
+    fn snapshot(slf: Bound<'_, Self>) -> PyResult<PySnapshot> {
+        let py = slf.py();
+        let state = slf.get().with(py, |running| running.session.snapshot())?;
+        Ok(PySnapshot { time_s: state.time_ns() as f64 * 1e-9, state: Mutex::new(state) })
+    }
+
+    /// Return to a snapshot of this simulation, any number of times. The same calls then give the same messages, to
+    /// the byte, as they did after the snapshot. Models that were inserted since are removed, removed ones return.
+    ///
+    /// Raises ``ValueError`` for a snapshot of another simulation.
+    fn restore(&self, py: Python<'_>, snapshot: &Bound<'_, PySnapshot>) -> PyResult<()> {
+        let state = &snapshot.get().state;
+        let restored = self.with(py, |running| {
+            running.due.clear();
+            running.session.restore(&lock(state)).map_err(|error| error.to_string())
+        })?;
+        restored.map_err(PyValueError::new_err)
+    }
+
     /// Record published messages from now on to a bag: a file ``.mcap``, or a folder in the format of ``ros2 bag``.
     /// A recording that runs is closed first.
     ///
@@ -287,6 +320,26 @@ impl PySimulation {
             let time_s = running.simulation().time_ns() as f64 * 1e-9;
             format!("<periplus.Simulation at {time_s} s: {}>", names.join(", "))
         })
+    }
+}
+
+/// State of a simulation, to which ``Simulation.restore`` returns.
+///
+/// >>> from periplus import Simulation, World
+/// >>> Simulation(World()).snapshot().time_s
+/// 0.0
+#[pyclass(name = "Snapshot", module = "periplus", frozen)]
+pub(crate) struct PySnapshot {
+    state: Mutex<SessionSnapshot>,
+    #[pyo3(get)]
+    /// Simulated time [s].
+    time_s: f64,
+}
+
+#[pymethods]
+impl PySnapshot {
+    fn __repr__(&self) -> String {
+        format!("<periplus.Snapshot at {} s>", self.time_s)
     }
 }
 

@@ -30,3 +30,4 @@ pub use periplus_gz_transport::DiscoveryReach as GazeboReach;
 pub use progress::ProgressLine;
 pub use report::RunReport;
 pub use session::{NoTask, RunEnd, RunSettings, SessionTask, SimulationSession};
+pub use steps::SessionSnapshot;

@@ -2,7 +2,10 @@
 
 use std::path::PathBuf;
 
-use periplus_sim::{Diverged, RecordError, RecordingSummary, SimulationRecorder};
+use periplus_sim::{
+    Diverged, RecordError, RecordingSummary, ServicesSnapshot, SimulationRecorder, Snapshot,
+    SnapshotError,
+};
 
 use crate::builder::RecordingRequest;
 use crate::error::RunError;
@@ -94,5 +97,40 @@ impl SimulationSession {
     /// Closes the page, if it is open.
     pub fn close_page(&mut self) {
         self.parts.page = None;
+    }
+}
+
+/// State of a session's simulation and services, from which it can continue any number of times.
+pub struct SessionSnapshot {
+    simulation: Snapshot,
+    services: ServicesSnapshot,
+}
+
+impl SessionSnapshot {
+    /// Simulated time of the snapshot \[ns\].
+    #[must_use]
+    pub fn time_ns(&self) -> i64 {
+        self.simulation.time_ns()
+    }
+}
+
+impl SimulationSession {
+    /// Saves the state of the simulation and its services; networks, recordings and estimators are not in it.
+    #[must_use]
+    pub fn snapshot(&self) -> SessionSnapshot {
+        SessionSnapshot {
+            simulation: self.parts.simulation.snapshot(),
+            services: self.parts.services.snapshot(),
+        }
+    }
+
+    /// Returns to a snapshot of this session; see [`periplus_sim::Simulation::restore`].
+    ///
+    /// # Errors
+    /// When another session made it, or a model cannot be inserted again as it was.
+    pub fn restore(&mut self, snapshot: &SessionSnapshot) -> Result<(), SnapshotError> {
+        self.parts.simulation.restore(&snapshot.simulation)?;
+        self.parts.services.restore(&snapshot.services);
+        Ok(())
     }
 }

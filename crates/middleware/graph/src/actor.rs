@@ -9,9 +9,10 @@ use periplus_msgs::{Message, Service};
 
 use crate::common::{Common, lock};
 use crate::event_queue::{Event, EventQueue, Key, Rank};
-use crate::node::{Node, NodeCore};
+use crate::node::{Node, NodeCore, OwnedSubscription};
 use crate::payload::Payload;
 use crate::registry::TypeOf;
+use crate::sample::Sample;
 use crate::service::{CallError, Client, Reply, Request, ServerReaction, read_answer};
 use crate::subscription_core::Reaction;
 use crate::{GraphError, Qos};
@@ -24,7 +25,9 @@ pub(crate) use jump::Jumps;
 pub struct Actor<S> {
     state: Arc<Mutex<S>>,
     node: Node,
-    /// Endpoints of topics and services, and timers.
+    /// Subscriptions in the order of [`Actor::subscribe`].
+    subscriptions: Vec<OwnedSubscription>,
+    /// Endpoints of services, and timers.
     parts: Vec<Box<dyn Send + Sync>>,
 }
 
@@ -86,7 +89,8 @@ impl<S: Send + 'static> Io<'_, S> {
 
 impl<S: Send + 'static> Actor<S> {
     pub(crate) fn new(node: Node, state: S) -> Self {
-        Self { state: Arc::new(Mutex::new(state)), node, parts: Vec::new() }
+        let state = Arc::new(Mutex::new(state));
+        Self { state, node, subscriptions: Vec::new(), parts: Vec::new() }
     }
 
     /// The node.
@@ -121,8 +125,23 @@ impl<S: Send + 'static> Actor<S> {
             }),
         };
         let own = self.node.0.subscription(topic, TypeOf::message::<T>(), qos, Some(reaction))?;
-        self.parts.push(Box::new(own));
+        self.subscriptions.push(own);
         Ok(())
+    }
+
+    /// Returns the messages that wait for the callbacks, oldest first, by subscription in the order
+    /// of [`Actor::subscribe`]. They stay.
+    #[must_use]
+    pub fn pending(&self) -> Vec<Vec<Sample>> {
+        self.subscriptions.iter().map(|own| own.subscription.pending()).collect()
+    }
+
+    /// Replaces the messages that wait for the callbacks, such as by those that [`Actor::pending`]
+    /// returned earlier. Subscriptions without an entry lose their messages.
+    pub fn set_pending(&self, samples: &[Vec<Sample>]) {
+        for (index, own) in self.subscriptions.iter().enumerate() {
+            own.subscription.set_pending(samples.get(index).map_or(&[], Vec::as_slice));
+        }
     }
 
     /// Creates a timer with a period of `period_ns` in the graph's time; it first fires after one

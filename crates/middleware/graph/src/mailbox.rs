@@ -45,6 +45,18 @@ impl<T: Message> Mailbox<T> {
         samples.filter_map(|sample| self.read(&sample).map(|message| (sample, message))).collect()
     }
 
+    /// Returns the messages that wait, oldest first, without taking them.
+    #[must_use]
+    pub fn pending(&self) -> Vec<Sample> {
+        self.own.subscription.pending()
+    }
+
+    /// Replaces the messages that wait, such as by those that [`Mailbox::pending`] returned earlier.
+    /// The counts do not change.
+    pub fn set_pending(&self, samples: &[Sample]) {
+        self.own.subscription.set_pending(samples);
+    }
+
     fn read(&self, sample: &Sample) -> Option<Arc<T>> {
         sample.message().map_err(|error| self.own.subscription.reject(&error)).ok()
     }

@@ -167,6 +167,22 @@ impl SubscriptionCore {
         }
     }
 
+    /// Returns the messages that wait, oldest first; they stay.
+    pub(crate) fn pending(&self) -> Vec<Sample> {
+        lock(&self.waiting).samples.iter().cloned().collect()
+    }
+
+    /// Replaces the messages that wait. The counts do not change.
+    pub(crate) fn set_pending(self: &Arc<Self>, samples: &[Sample]) {
+        self.withdraw();
+        lock(&self.waiting).samples = samples.iter().cloned().collect();
+        if let Some(reaction) = &self.reaction {
+            for sample in samples {
+                reaction.event_queue.add(self.key(reaction, sample), self.clone());
+            }
+        }
+    }
+
     /// Counts a message that cannot be decoded and warns the first time.
     pub(crate) fn reject(&self, error: &DecodeError) {
         let mut waiting = lock(&self.waiting);

@@ -44,7 +44,10 @@ impl PhysicsWorld {
         let step_s = solver.integration_parameters.dt;
         for pair in solver.narrow_phase.contact_pairs() {
             let PairContacts::Rigid(rigid) = &pair.contacts else { continue };
-            let (one, two) = (&solver.colliders[pair.collider1], &solver.colliders[pair.collider2]);
+            let [one, two] =
+                [pair.collider1, pair.collider2].map(|handle| solver.colliders.get(handle));
+            // The pair of a removed collider stays until the next step.
+            let (Some(one), Some(two)) = (one, two) else { continue };
             let touching = |bits: u128| {
                 let tag = ColliderTag::unpack(bits);
                 CollisionId { link: LinkId(tag.link), collision: usize::from(tag.collision) }

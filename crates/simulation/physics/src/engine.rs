@@ -27,6 +27,7 @@ impl BodyMotion {
     }
 }
 
+#[derive(Clone)]
 pub(crate) enum Engine {
     Rigid(Box<Rigid>),
     Exact(Exact),

@@ -14,7 +14,7 @@ use crate::kinematic::Twist;
 use crate::records::Records;
 
 /// Motions of all bodies, by their indices.
-#[derive(Default)]
+#[derive(Clone, Default)]
 pub(crate) struct Exact {
     motions: Vec<BodyMotion>,
     /// Bodies that changed since the end of the last step.

@@ -55,6 +55,7 @@ impl Body {
     }
 }
 
+#[derive(Clone)]
 pub(crate) struct LinkRecord {
     pub(crate) model: u32,
     pub(crate) name: String,
@@ -65,12 +66,14 @@ pub(crate) struct LinkRecord {
     pub(crate) stiffness_n_m: Vec<Option<f64>>,
 }
 
+#[derive(Clone)]
 pub(crate) struct JointRecord {
     pub(crate) model: u32,
     pub(crate) name: String,
     pub(crate) axes: Range<usize>,
 }
 
+#[derive(Clone)]
 pub(crate) struct ModelRecord {
     pub(crate) name: String,
     pub(crate) world_from_model: Pose,
@@ -82,6 +85,7 @@ pub(crate) struct ModelRecord {
 }
 
 /// All records, from which a reset starts. Records are never deleted, so indices stay valid.
+#[derive(Clone)]
 pub(crate) struct Records {
     pub(crate) models: Vec<ModelRecord>,
     pub(crate) bodies: Vec<Body>,

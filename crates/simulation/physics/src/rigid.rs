@@ -11,7 +11,8 @@ use periplus_geometry::{DVec3, Pose};
 use rapier3d_f64::dynamics::{
     FrictionModel, ImpulseJointHandle, RigidBody, RigidBodyBuilder, RigidBodyHandle, RigidBodyType,
 };
-use rapier3d_f64::prelude::{ColliderHandle, PhysicsWorld};
+use rapier3d_f64::pipeline::{CollisionPipeline, PhysicsPipeline};
+use rapier3d_f64::prelude::{CCDSolver, ColliderHandle, PhysicsWorld};
 
 use crate::anisotropic_friction::AnisotropicFriction;
 use crate::build::{rapier_pose, scene_pose};
@@ -44,6 +45,49 @@ pub(crate) struct Rigid {
     /// Colliders with anisotropic friction.
     pub(crate) anisotropic_colliders: Vec<(ColliderHandle, AnisotropicFriction)>,
     pub(crate) has_external_forces: bool,
+}
+
+impl Clone for Rigid {
+    /// Copies the state of the solver. Pipelines are buffers within a step, and the solver of
+    /// continuous collisions is off; both start empty.
+    fn clone(&self) -> Self {
+        let PhysicsWorld {
+            gravity,
+            integration_parameters,
+            physics_pipeline: _,
+            collision_pipeline: _,
+            islands,
+            broad_phase,
+            narrow_phase,
+            bodies,
+            colliders,
+            impulse_joints,
+            multibody_joints,
+            soft_bodies,
+            ccd_solver: _,
+        } = &self.solver;
+        Self {
+            solver: PhysicsWorld {
+                gravity: *gravity,
+                integration_parameters: *integration_parameters,
+                physics_pipeline: PhysicsPipeline::new(),
+                collision_pipeline: CollisionPipeline::new(),
+                islands: islands.clone(),
+                broad_phase: broad_phase.clone(),
+                narrow_phase: narrow_phase.clone(),
+                bodies: bodies.clone(),
+                colliders: colliders.clone(),
+                impulse_joints: impulse_joints.clone(),
+                multibody_joints: multibody_joints.clone(),
+                soft_bodies: soft_bodies.clone(),
+                ccd_solver: CCDSolver::new(),
+            },
+            bodies: self.bodies.clone(),
+            axes: self.axes.clone(),
+            anisotropic_colliders: self.anisotropic_colliders.clone(),
+            has_external_forces: self.has_external_forces,
+        }
+    }
 }
 
 impl Rigid {

@@ -42,6 +42,53 @@ fn a_skate_slides_one_way() {
     assert!(along_m_s.abs() < 1e-3, "{along_m_s}");
 }
 
+/// Regression test: the next step and the contacts before it panicked, since the solver kept the
+/// pair of the removed shape.
+#[test]
+fn what_a_skate_rests_on_is_removed() {
+    let mut plate = at(0.0, 0.0, 0.05, solid_box("plate", 2.0, DVec3::new(1.0, 1.0, 0.1)));
+    plate.collisions[0].surface.friction.mu = 0.5;
+    let mut runner = at(0.0, 0.0, 0.15, solid_box("runner", 2.0, DVec3::new(0.2, 0.2, 0.1)));
+    rough(&mut runner, DVec3::X, None);
+    let mut world = flat_world();
+    let plate = put(&mut world, &model("plate", vec![plate], Vec::new()), Pose::IDENTITY);
+    put(&mut world, &model("skate", vec![runner], Vec::new()), Pose::IDENTITY);
+    run(&mut world, 0.1);
+    let before = world.contacts().len();
+    world.remove(plate);
+    assert!(world.contacts().len() < before);
+    run(&mut world, 0.5);
+    let height_m = state(&world, "skate", "runner").world_from_link.translation.z;
+    assert!((height_m - 0.05).abs() < 0.002, "{height_m}");
+}
+
+/// The clone of a world in motion does the same, to the bit, also after the original went on.
+#[test]
+fn a_clone_does_the_same() {
+    let mut world = flat_world();
+    let robot = put(&mut world, &mecanum(), Pose::from_xyz(0.0, 0.0, 0.02));
+    let turn = |world: &mut PhysicsWorld, number: usize| {
+        for (index, joint) in world.joints(robot).enumerate().collect::<Vec<_>>() {
+            let target = 3.0 - (index * number % 5) as f64;
+            world.command(joint, JointCommand::Velocity { target, max_effort: 5.0 });
+        }
+        run(world, 0.1);
+    };
+    (0..3).for_each(|number| turn(&mut world, number));
+    let saved = world.clone();
+    (3..9).for_each(|number| turn(&mut world, number));
+    for _ in 0..2 {
+        let mut again = saved.clone();
+        (3..9).for_each(|number| turn(&mut again, number));
+        assert_eq!(again.snapshot(), world.snapshot());
+        assert_eq!(again.contacts(), world.contacts());
+    }
+    let mut other = saved.clone();
+    other.remove(robot);
+    run(&mut other, 0.1);
+    assert!(saved.model_pose(robot).is_some() && other.model_pose(robot).is_none());
+}
+
 /// Four balls as wheels, their rollers in the X of a mecanum drive.
 fn mecanum() -> Model {
     let mut links = vec![at(0.0, 0.0, 0.15, solid_box("chassis", 10.0, DVec3::new(0.5, 0.3, 0.1)))];

@@ -1,5 +1,7 @@
 //! Devices: drives, sensors and state publishers.
 
+use std::any::Any;
+
 use periplus_geometry::Pose;
 use periplus_physics::{LinkId, PhysicsWorld};
 use periplus_rendering::{PartId, RenderScene, SensedGeometry};
@@ -61,6 +63,47 @@ pub trait Device: Send {
 
     /// Resets to the initial state at this time \[ns\].
     fn reset(&mut self, time_ns: i64);
+
+    /// Saves all that decides the next actions: timers, counters, controllers, biases of noise, and
+    /// commands, including messages that wait. Results of a measurement that the next one
+    /// replaces are not part of it.
+    fn save(&self) -> DeviceState;
+
+    /// Restores a state; the next actions are those after it was saved. Returns false and changes
+    /// nothing if another kind of device saved it.
+    fn restore(&mut self, saved: &DeviceState) -> bool;
+}
+
+/// Saved state of a device, as [`Device::save`] returns it.
+pub struct DeviceState(Box<dyn Any + Send + Sync>);
+
+impl DeviceState {
+    /// Wraps the state of a device.
+    #[must_use]
+    pub fn new(state: impl Any + Send + Sync) -> Self {
+        Self(Box::new(state))
+    }
+
+    /// Returns the state if it is of this type.
+    #[must_use]
+    pub fn get<T: Any>(&self) -> Option<&T> {
+        self.0.downcast_ref()
+    }
+
+    /// Copies the state to a value of its type; returns false for another type.
+    pub fn copy_to<T: Any + Clone>(&self, to: &mut T) -> bool {
+        let state = self.get::<T>();
+        if let Some(state) = state {
+            to.clone_from(state);
+        }
+        state.is_some()
+    }
+}
+
+impl std::fmt::Debug for DeviceState {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("DeviceState").finish_non_exhaustive()
+    }
 }
 
 /// Mounting pose of the data on one topic.

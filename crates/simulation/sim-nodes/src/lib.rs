@@ -32,7 +32,7 @@ pub mod states;
 mod views;
 
 pub use build::{devices, world_devices};
-pub use device::{Device, SenseContext, SensorMount, StepInterval};
+pub use device::{Device, DeviceState, SenseContext, SensorMount, StepInterval};
 pub use device_context::DeviceContext;
 pub use naming::{device_node, gz_topic, plugin_node, publisher_qos, subscription_qos};
-pub use views::Views;
+pub use views::{Views, ViewsState};

@@ -16,10 +16,17 @@ pub struct Views {
     /// Models in the order of insertion.
     models: Vec<(ModelId, Arc<scene::Model>)>,
     /// Lights and background colours.
-    sky: scene::World,
+    sky: Arc<scene::World>,
     collision: Option<SceneView>,
     visual: Option<SceneView>,
     findings: Diagnostics,
+}
+
+/// Saved models and lights of [`Views`]; they are shared, not copied.
+#[derive(Clone)]
+pub struct ViewsState {
+    models: Vec<(ModelId, Arc<scene::Model>)>,
+    sky: Arc<scene::World>,
 }
 
 /// A scene with its links.
@@ -40,7 +47,7 @@ impl Views {
             shapes,
             threads,
             models: Vec::new(),
-            sky: scene::World::empty(""),
+            sky: Arc::new(scene::World::empty("")),
             collision: None,
             visual: None,
             findings: Diagnostics::new(),
@@ -57,13 +64,14 @@ impl Views {
             lights: world.lights.clone(),
             ..scene::World::empty("")
         };
-        Self { sky, ..self }
+        Self { sky: Arc::new(sky), ..self }
     }
 
     /// Adds a light to the world or replaces the light of the same name.
     pub fn set_light(&mut self, light: &scene::Light) {
-        self.sky.lights.retain(|known| known.name != light.name);
-        self.sky.lights.push(light.clone());
+        let lights = &mut Arc::make_mut(&mut self.sky).lights;
+        lights.retain(|known| known.name != light.name);
+        lights.push(light.clone());
         for view in [&mut self.collision, &mut self.visual].into_iter().flatten() {
             view.scene.set_light(light);
         }
@@ -71,7 +79,7 @@ impl Views {
 
     /// Removes a light of the world.
     pub fn remove_light(&mut self, name: &str) {
-        self.sky.lights.retain(|known| known.name != name);
+        Arc::make_mut(&mut self.sky).lights.retain(|known| known.name != name);
         for view in [&mut self.collision, &mut self.visual].into_iter().flatten() {
             view.scene.remove_light(name);
         }
@@ -124,6 +132,28 @@ impl Views {
         for view in [&mut self.collision, &mut self.visual].into_iter().flatten() {
             view.updated_ns = None;
         }
+    }
+
+    /// Saves models and lights. Poses are those of the physics world.
+    #[must_use]
+    pub fn save(&self) -> ViewsState {
+        ViewsState { models: self.models.clone(), sky: Arc::clone(&self.sky) }
+    }
+
+    /// Restores models and lights. Scenes are built again on the next use if they differ, and
+    /// otherwise updated.
+    pub fn restore(&mut self, saved: &ViewsState) {
+        let is_same = |((id, model), (saved_id, saved)): (&(_, Arc<_>), &(_, Arc<_>))| {
+            id == saved_id && Arc::ptr_eq(model, saved)
+        };
+        let has_same_models = self.models.len() == saved.models.len()
+            && self.models.iter().zip(&saved.models).all(is_same);
+        if has_same_models && Arc::ptr_eq(&self.sky, &saved.sky) {
+            return self.invalidate();
+        }
+        (self.collision, self.visual) = (None, None);
+        self.models.clone_from(&saved.models);
+        self.sky = Arc::clone(&saved.sky);
     }
 
     /// Returns a scene at a time \[ns\] with the current poses of `world`.

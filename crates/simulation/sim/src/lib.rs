@@ -2,7 +2,8 @@
 //!
 //! [`compose`] reads files, [`Simulation`] creates nodes for their contents and steps them, [`Run`]
 //! runs them at a real-time factor. A [`SimulationRecorder`] writes published messages to a bag, a [`Driver`]
-//! plays velocity commands, [`Services`] let clients change the world.
+//! plays velocity commands, [`Services`] let clients change the world. A [`Snapshot`] saves a state to
+//! which the simulation can return.
 //!
 //! ```
 //! use periplus_loader::LoadContext;
@@ -53,6 +54,6 @@ pub use record::{RecordError, RecordingSummary, SimulationRecorder, TopicFilter}
 pub use run::{Run, RunProgress, Tick};
 pub use services::{
     GazeboAnswer, GazeboPublisher, GazeboRequestQueue, GazeboService, GazeboTopic, InsertionResult,
-    InsertionSource, ModelInsertion, Search, Services, SpawnError, gazebo_topic,
+    InsertionSource, ModelInsertion, Search, Services, ServicesSnapshot, SpawnError, gazebo_topic,
 };
-pub use simulation::{Options, Simulation};
+pub use simulation::{Options, Simulation, Snapshot, SnapshotError};

@@ -36,7 +36,7 @@ use periplus_graph::{GraphError, Node, NodeSettings};
 use periplus_msgs::std_srvs::{Empty, EmptyResponse};
 
 use self::factory::Factory;
-use self::forces::Forces;
+use self::forces::{ActiveForces, Forces};
 use self::gazebo::Gazebo;
 use self::gz_sim::{GzSimServices, name_of};
 use self::metrics::Metrics;
@@ -46,7 +46,7 @@ use self::properties::Properties;
 use self::service_aliases::ServiceAliases;
 use self::state::State;
 use self::state_plugin::StatePlugin;
-use self::topics::StateTopics;
+use self::topics::{PeriodTimer, StateTopics};
 use self::viewer::ViewerTopics;
 use crate::Simulation;
 
@@ -225,6 +225,27 @@ impl Services {
         }
     }
 
+    /// Saves forces, pause state and the times of state topics. Requests that wait are not part of
+    /// it.
+    #[must_use]
+    pub fn snapshot(&self) -> ServicesSnapshot {
+        ServicesSnapshot {
+            pause: self.tempo,
+            forces: self.forces.save(),
+            topics: self.topics.save(),
+            last_ns: self.last_ns,
+        }
+    }
+
+    /// Returns to a snapshot of these services, taken together with one of their simulation. Call it
+    /// after [`Simulation::restore`].
+    pub fn restore(&mut self, snapshot: &ServicesSnapshot) {
+        self.tempo = snapshot.pause;
+        self.forces.restore(&snapshot.forces);
+        self.topics.restore(&snapshot.topics);
+        self.last_ns = snapshot.last_ns;
+    }
+
     fn publish(&mut self, simulation: &Simulation) {
         if let Err(error) = self.topics.publish(simulation) {
             self.log.refused("model_states", &error.to_string());
@@ -233,6 +254,15 @@ impl Services {
             self.log.refused("performance_metrics", &error.to_string());
         }
     }
+}
+
+/// State of [`Services`] at one time.
+#[derive(Clone)]
+pub struct ServicesSnapshot {
+    pause: PauseState,
+    forces: ActiveForces,
+    topics: Vec<PeriodTimer>,
+    last_ns: i64,
 }
 
 /// Rejected requests whose response has no reason field.

@@ -1,6 +1,7 @@
 //! A running world.
 
 mod change;
+mod snapshot;
 mod view;
 
 use std::sync::Arc;
@@ -10,7 +11,7 @@ use periplus_geometry::{DVec3, Pose, Pose2};
 use periplus_graph::{Arguments, Graph, Node, NodeSettings};
 use periplus_os::Stopwatch;
 use periplus_physics::limits::{MAX_GRAVITY_M_S2, STEP_RANGE_S, is_within};
-use periplus_physics::{Diverged, ModelId, PhysicsMode};
+use periplus_physics::{Diverged, ModelId, PhysicsMode, PhysicsWorld};
 use periplus_scene as scene;
 use periplus_sensors::Quirks;
 use periplus_sim_nodes::states::ClockPublisher;
@@ -19,6 +20,8 @@ use periplus_sim_nodes::{Device, DeviceContext, SenseContext, SensorMount, StepI
 use crate::compose::{Composition, ModelInstance};
 use crate::files::AssetFiles;
 use crate::profile::{Work, WorkProfile};
+
+pub use snapshot::{Snapshot, SnapshotError};
 
 /// Maximum step if motion needs no small steps \[ns\]: drives that check commands in each step must
 /// be called.
@@ -71,9 +74,13 @@ impl Default for Options {
 
 /// A model with its devices.
 pub(crate) struct RunningModel {
-    pub(crate) member: ModelInstance,
+    pub(crate) member: Arc<ModelInstance>,
     pub(crate) model: ModelId,
     devices: Vec<Box<dyn Device>>,
+    /// Number of the build of its devices, unique in the simulation.
+    build: u64,
+    /// Seed of its devices.
+    seed: u64,
 }
 
 /// A world with its robots, ready to run.
@@ -83,8 +90,8 @@ pub(crate) struct RunningModel {
 /// number of threads.
 pub struct Simulation {
     pub(crate) graph: Graph,
-    pub(crate) scene: scene::World,
-    pub(crate) motion: periplus_physics::PhysicsWorld,
+    pub(crate) scene: Arc<scene::World>,
+    pub(crate) motion: PhysicsWorld,
     pub(crate) running: Vec<RunningModel>,
     world_devices: Vec<Box<dyn Device>>,
     pub(crate) views: Views,
@@ -94,6 +101,10 @@ pub struct Simulation {
     has_new_seed: bool,
     /// Number of insertions and removals of models.
     changes: u64,
+    /// Number of builds of a model's devices.
+    builds: u64,
+    /// Token that its snapshots share.
+    identity: Arc<()>,
     step_ns: i64,
     pub(crate) time_ns: i64,
     shares: WorkProfile,
@@ -113,7 +124,7 @@ impl Simulation {
         let mut of_world = Diagnostics::new();
         let step_s = options.step_s.unwrap_or_else(|| step_of(&scene, &mut of_world));
         let gravity_m_s2 = gravity_of(&scene, &mut of_world);
-        let motion = periplus_physics::PhysicsWorld::empty(gravity_m_s2, options.mode);
+        let motion = PhysicsWorld::empty(gravity_m_s2, options.mode);
         let graph = Graph::new();
         graph.set_arguments(options.arguments.clone());
         let views = Views::new(Arc::clone(&files) as _, options.threads).with_lights_of(&scene);
@@ -123,13 +134,15 @@ impl Simulation {
             has_new_seed: false,
             running: Vec::new(),
             changes: 0,
+            builds: 0,
+            identity: Arc::new(()),
             time_ns: 0,
             shares: WorkProfile::default(),
             journal: graph.node(NodeSettings::new("periplus").keep_names()).ok(),
             found: Diagnostics::new(),
             diverged: Vec::new(),
             graph,
-            scene,
+            scene: Arc::new(scene),
             motion,
             views,
             files,
@@ -168,7 +181,7 @@ impl Simulation {
 
     /// Returns the physics world.
     #[must_use]
-    pub fn motion(&self) -> &periplus_physics::PhysicsWorld {
+    pub fn motion(&self) -> &PhysicsWorld {
         &self.motion
     }
 
@@ -285,29 +298,38 @@ impl Simulation {
         let mut findings = added.diagnostics;
         let Some(model) = added.model else { return findings };
         self.views.add(Arc::new(member.model.clone()), model, &self.motion);
-        let devices = self.devices_of(&member, model, &mut findings);
-        self.running.push(RunningModel { member, model, devices });
+        let seed = self.options.seed;
+        let devices = self.devices_of(&member, model, &self.motion, seed, &mut findings);
+        let (member, build) = (Arc::new(member), self.next_build());
+        self.running.push(RunningModel { member, model, devices, build, seed });
         self.changes += 1;
         findings
     }
 
-    /// Builds the devices of a model.
+    fn next_build(&mut self) -> u64 {
+        self.builds += 1;
+        self.builds
+    }
+
+    /// Builds the devices of a model in the state of `world`.
     fn devices_of(
         &self,
         member: &ModelInstance,
         model: ModelId,
+        world: &PhysicsWorld,
+        seed: u64,
         findings: &mut Diagnostics,
     ) -> Vec<Box<dyn Device>> {
         let setting = DeviceContext {
             graph: &self.graph,
-            world: &self.motion,
+            world,
             scene: &self.scene,
             root: &member.model,
             model,
             model_name: &member.name,
             namespace: &member.namespace,
             remaps: &self.options.remaps,
-            seed: self.options.seed,
+            seed,
             quirks: self.options.quirks,
             rolling_scans: self.options.rolling_scans,
             start_ns: self.time_ns,

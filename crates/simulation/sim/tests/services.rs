@@ -325,6 +325,27 @@ fn a_push_moves_a_ball() {
     assert!((state.twist.linear.x - 1.0).abs() < 0.02, "{:?}", state.twist);
 }
 
+/// 4 N on 2 kg for half a second; the snapshot is after the first tenth.
+#[test]
+fn a_force_goes_on_after_a_restore() {
+    let mut lab = Lab::new();
+    let request = ApplyLinkWrenchRequest {
+        link_name: "ball::body".into(),
+        wrench: Wrench { force: Vector3 { x: 4.0, y: 0.0, z: 0.0 }, torque: Vector3::default() },
+        duration: Duration { sec: 0, nanosec: 500_000_000 },
+        ..Default::default()
+    };
+    assert!(lab.call::<ApplyLinkWrench>("/apply_link_wrench", request).success);
+    lab.run(10);
+    let (world, services) = (lab.simulation.snapshot(), lab.services.snapshot());
+    lab.run(100);
+    let expected = lab.where_is("ball", "");
+    lab.simulation.restore(&world).unwrap();
+    lab.services.restore(&services);
+    lab.run(100);
+    assert_eq!(lab.where_is("ball", ""), expected);
+}
+
 #[test]
 fn lights_are_known_and_set() {
     let mut lab = Lab::new();

@@ -23,7 +23,7 @@ impl BaseMotion {
 }
 
 /// A moving frame and the bodies that it carries.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub(super) struct Base {
     pub(super) model: u32,
     centre_in_model_m: DVec3,

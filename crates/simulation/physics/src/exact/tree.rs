@@ -19,7 +19,7 @@ pub(crate) struct ChildBody {
 }
 
 /// Child bodies in topological order, parents first.
-#[derive(Debug, Default)]
+#[derive(Clone, Debug, Default)]
 pub(crate) struct Tree {
     pub(super) children: Vec<ChildBody>,
     /// Mimic axes, leaders first.

@@ -53,7 +53,8 @@ impl Rigid {
                 let PairContacts::Rigid(rigid) = &pair.contacts else { continue };
                 let is_first = pair.collider1 == *handle;
                 let other = if is_first { pair.collider2 } else { pair.collider1 };
-                let other = &solver.colliders[other];
+                // The pair of a removed collider stays until the next step.
+                let Some(other) = solver.colliders.get(other) else { continue };
                 let bodies = [Some(own), other.parent()];
                 for manifold in rigid.solver_manifolds() {
                     if manifold.data.solver_contacts.is_empty() {

@@ -10,13 +10,13 @@ use periplus_scene::{Shape, carrying_link};
 
 use super::body::Body;
 use super::build_context::BuildContext;
-use super::commands::Commands;
+use super::commands::{Commands, CommandsState};
 use super::encoders::{angle, speed};
 use super::pid::{Gains, Pid};
 use super::rate_timer::{RateTimer, earlier};
 use super::wheel_frames::WheelFrames;
 use crate::states::{OdometryPublisher, planar_twist};
-use crate::{Device, SenseContext, StepInterval, publisher_qos};
+use crate::{Device, DeviceState, SenseContext, StepInterval, publisher_qos};
 
 const JOINTS: [&str; 6] = [
     "front_right_joint",
@@ -46,14 +46,19 @@ pub(crate) struct AckermannDrive {
     controller: ClassicAckermann,
     /// Speed, left steering, right steering.
     gains: [Gains; 3],
-    controllers: [Pid; 3],
     commands: Commands,
-    control_timer: RateTimer,
-    publish_timer: RateTimer,
-    acted_ns: i64,
+    state: AckermannState,
     odometry_publisher: OdometryPublisher,
     wheel_frames: Option<WheelFrames>,
     distance: Option<Publisher<std_msgs::Float32>>,
+}
+
+#[derive(Clone)]
+struct AckermannState {
+    controllers: [Pid; 3],
+    control_timer: RateTimer,
+    publish_timer: RateTimer,
+    acted_ns: i64,
     distance_m: f64,
     last_m: Option<DVec3>,
 }
@@ -125,16 +130,18 @@ pub(crate) fn build(
         rear_middle_m,
         controller,
         gains,
-        controllers: Default::default(),
         commands: Commands::new(context, &node, "cmd_vel", diagnostics)?,
-        control_timer: RateTimer::for_controller(context.number("update_rate"), start_ns),
-        publish_timer: RateTimer::for_publisher(context.number("update_rate"), start_ns),
-        acted_ns: start_ns,
+        state: AckermannState {
+            controllers: Default::default(),
+            control_timer: RateTimer::for_controller(context.number("update_rate"), start_ns),
+            publish_timer: RateTimer::for_publisher(context.number("update_rate"), start_ns),
+            acted_ns: start_ns,
+            distance_m: 0.0,
+            last_m: None,
+        },
         odometry_publisher,
         wheel_frames,
         distance,
-        distance_m: 0.0,
-        last_m: None,
     })
 }
 
@@ -178,15 +185,17 @@ impl Device for AckermannDrive {
     }
 
     fn act(&mut self, world: &mut PhysicsWorld, span: StepInterval) {
-        if !self.control_timer.due(span.start_ns) {
+        if !self.state.control_timer.due(span.start_ns) {
             if world.mode() == PhysicsMode::Rigid {
                 self.push(world, [0.0; 3]);
             }
             return;
         }
-        let since =
-            StepInterval { start_ns: self.acted_ns, length_ns: span.start_ns - self.acted_ns };
-        self.acted_ns = span.start_ns;
+        let since = StepInterval {
+            start_ns: self.state.acted_ns,
+            length_ns: span.start_ns - self.state.acted_ns,
+        };
+        self.state.acted_ns = span.start_ns;
         let dt_s = since.seconds();
         let ClassicAckermannTarget { steering_rad, wheels_rad_s } =
             self.controller.target(self.commands.planar());
@@ -198,7 +207,7 @@ impl Device for AckermannDrive {
         ];
         let mut efforts = [0.0; 3];
         for (part, effort) in efforts.iter_mut().enumerate() {
-            *effort = self.controllers[part].update(&self.gains[part], errors[part], dt_s);
+            *effort = self.state.controllers[part].update(&self.gains[part], errors[part], dt_s);
         }
         self.push(world, efforts);
         let free = f64::INFINITY;
@@ -227,9 +236,9 @@ impl Device for AckermannDrive {
         let Some(state) = self.body.state(moment.world) else { return };
         let LinkState { world_from_link: pose, linear_m_s, angular_rad_s } = state;
         let at_m = DVec3 { z: 0.0, ..pose.translation };
-        self.distance_m += at_m.distance(self.last_m.replace(at_m).unwrap_or(at_m));
+        self.state.distance_m += at_m.distance(self.state.last_m.replace(at_m).unwrap_or(at_m));
         let now_ns = moment.time_ns();
-        if !self.publish_timer.due(now_ns) || !self.has_subscribers() {
+        if !self.state.publish_timer.due(now_ns) || !self.has_subscribers() {
             return;
         }
         self.odometry_publisher.publish(
@@ -242,22 +251,35 @@ impl Device for AckermannDrive {
         }
         if let Some(distance) = &self.distance {
             #[expect(clippy::cast_possible_truncation, reason = "the message has floats")]
-            distance.publish(std_msgs::Float32 { data: self.distance_m as f32 });
+            distance.publish(std_msgs::Float32 { data: self.state.distance_m as f32 });
         }
     }
 
     fn next_ns(&self) -> Option<i64> {
-        let for_publisher = self.publish_timer.next_ns().filter(|_| self.has_subscribers());
-        earlier(self.control_timer.next_ns(), for_publisher)
+        let for_publisher = self.state.publish_timer.next_ns().filter(|_| self.has_subscribers());
+        earlier(self.state.control_timer.next_ns(), for_publisher)
     }
 
     fn reset(&mut self, time_ns: i64) {
-        self.controllers = Default::default();
+        self.state.controllers = Default::default();
         self.commands.reset();
-        self.control_timer.restart(time_ns);
-        self.publish_timer.restart(time_ns);
-        self.acted_ns = time_ns;
-        self.distance_m = 0.0;
-        self.last_m = None;
+        self.state.control_timer.restart(time_ns);
+        self.state.publish_timer.restart(time_ns);
+        self.state.acted_ns = time_ns;
+        self.state.distance_m = 0.0;
+        self.state.last_m = None;
+    }
+
+    fn save(&self) -> DeviceState {
+        DeviceState::new((self.state.clone(), self.commands.save()))
+    }
+
+    fn restore(&mut self, saved: &DeviceState) -> bool {
+        let Some((state, commands)) = saved.get::<(AckermannState, CommandsState)>() else {
+            return false;
+        };
+        self.state = state.clone();
+        self.commands.restore(commands);
+        true
     }
 }

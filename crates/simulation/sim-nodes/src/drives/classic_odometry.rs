@@ -40,6 +40,12 @@ pub(crate) struct ClassicOdometry {
     pub(crate) timer: RateTimer,
 }
 
+#[derive(Clone)]
+pub(crate) struct ClassicOdometryState {
+    encoders: Option<Encoders>,
+    timer: RateTimer,
+}
+
 impl ClassicOdometry {
     /// Before a step: the first wheel angles are the zero of the odometry.
     pub(crate) fn begin(&mut self, world: &PhysicsWorld) {
@@ -86,6 +92,15 @@ impl ClassicOdometry {
         if let Some(encoders) = &mut self.encoders {
             encoders.reset();
         }
+    }
+
+    pub(crate) fn save(&self) -> ClassicOdometryState {
+        ClassicOdometryState { encoders: self.encoders.clone(), timer: self.timer.clone() }
+    }
+
+    pub(crate) fn restore(&mut self, saved: &ClassicOdometryState) {
+        self.encoders.clone_from(&saved.encoders);
+        self.timer.clone_from(&saved.timer);
     }
 
     fn has_subscribers(&self) -> bool {

@@ -1,7 +1,7 @@
 //! Velocity commands.
 
 use periplus_diagnostics::Diagnostics;
-use periplus_graph::{Mailbox, Node, Qos};
+use periplus_graph::{Mailbox, Node, Qos, Sample};
 use periplus_msgs::{Message, geometry_msgs};
 use periplus_physics::Twist;
 
@@ -12,6 +12,14 @@ use crate::subscription_qos;
 pub(crate) struct Commands {
     inbox: Inbox,
     first: geometry_msgs::Twist,
+    last: geometry_msgs::Twist,
+    has_new_command: bool,
+}
+
+/// The current command, and messages that wait.
+#[derive(Clone)]
+pub(crate) struct CommandsState {
+    pending: Vec<Sample>,
     last: geometry_msgs::Twist,
     has_new_command: bool,
 }
@@ -74,6 +82,25 @@ impl Commands {
             Inbox::Stamped(inbox) => drop(inbox.drain()),
         }
         self.last = self.first.clone();
+    }
+
+    pub(crate) fn save(&self) -> CommandsState {
+        let pending = match &self.inbox {
+            Inbox::Plain(inbox) => inbox.pending(),
+            Inbox::Stamped(inbox) => inbox.pending(),
+        };
+        let Self { last, has_new_command, .. } = self;
+        CommandsState { pending, last: last.clone(), has_new_command: *has_new_command }
+    }
+
+    pub(crate) fn restore(&mut self, saved: &CommandsState) {
+        let CommandsState { pending, last, has_new_command } = saved;
+        match &self.inbox {
+            Inbox::Plain(inbox) => inbox.set_pending(pending),
+            Inbox::Stamped(inbox) => inbox.set_pending(pending),
+        }
+        self.last = last.clone();
+        self.has_new_command = *has_new_command;
     }
 }
 

@@ -10,11 +10,11 @@ use periplus_plugin_specs::Family;
 
 use super::body::Body;
 use super::build_context::BuildContext;
-use super::classic_odometry::{ClassicOdometry, OdometrySource};
-use super::commands::Commands;
+use super::classic_odometry::{ClassicOdometry, ClassicOdometryState, OdometrySource};
+use super::commands::{Commands, CommandsState};
 use super::encoders::{Encoders, speed};
 use super::rate_timer::{RateTimer, earlier};
-use crate::{Device, SenseContext, StepInterval};
+use crate::{Device, DeviceState, SenseContext, StepInterval};
 
 /// `libgazebo_ros_diff_drive.so` of ROS 1 and ROS 2, and `libgazebo_ros_skid_steer_drive.so`.
 ///
@@ -27,12 +27,17 @@ pub(crate) struct WheelDrive {
     /// Midpoint of the wheels, in the model [m].
     centre_m: DVec3,
     drive: ClassicDiffDrive,
-    controller: ClassicDrive,
     pairs: Vec<[JointId; 2]>,
     commands: Commands,
+    state: WheelDriveState,
+    odometry: ClassicOdometry,
+}
+
+#[derive(Clone)]
+struct WheelDriveState {
+    controller: ClassicDrive,
     control_timer: RateTimer,
     acted_ns: i64,
-    odometry: ClassicOdometry,
 }
 
 pub(crate) fn build(
@@ -57,10 +62,12 @@ pub(crate) fn build(
         name: context.name(),
         model: context.setting.model,
         centre_m: context.middle(&parts.pairs.concat()),
-        controller: ClassicDrive::default(),
+        state: WheelDriveState {
+            controller: ClassicDrive::default(),
+            control_timer: RateTimer::for_controller(rate_hz, start_ns),
+            acted_ns: start_ns,
+        },
         commands,
-        control_timer: RateTimer::for_controller(rate_hz, start_ns),
-        acted_ns: start_ns,
         odometry: ClassicOdometry {
             source: OdometrySource::new(parts.counts_wheels),
             body,
@@ -82,16 +89,18 @@ impl Device for WheelDrive {
 
     fn act(&mut self, world: &mut PhysicsWorld, span: StepInterval) {
         self.odometry.begin(world);
-        if !self.control_timer.due(span.start_ns) {
+        if !self.state.control_timer.due(span.start_ns) {
             return;
         }
-        let since =
-            StepInterval { start_ns: self.acted_ns, length_ns: span.start_ns - self.acted_ns };
-        self.acted_ns = span.start_ns;
+        let since = StepInterval {
+            start_ns: self.state.acted_ns,
+            length_ns: span.start_ns - self.state.acted_ns,
+        };
+        self.state.acted_ns = span.start_ns;
         let wheels: Vec<[f64; 2]> =
             self.pairs.iter().map(|pair| pair.map(|joint| speed(world, joint))).collect();
         let wanted = self.commands.planar();
-        let answer = self.controller.update(&self.drive, wanted, &wheels, since.seconds());
+        let answer = self.state.controller.update(&self.drive, wanted, &wheels, since.seconds());
         let max_effort = self.drive.max_wheel_torque_n_m;
         for (pair, targets) in self.pairs.iter().zip(&answer) {
             for (&joint, &target) in pair.iter().zip(targets) {
@@ -106,14 +115,27 @@ impl Device for WheelDrive {
     }
 
     fn next_ns(&self) -> Option<i64> {
-        earlier(self.control_timer.next_ns(), self.odometry.next_ns())
+        earlier(self.state.control_timer.next_ns(), self.odometry.next_ns())
     }
 
     fn reset(&mut self, time_ns: i64) {
-        self.controller = ClassicDrive::default();
+        self.state.controller = ClassicDrive::default();
         self.commands.reset();
-        self.control_timer.restart(time_ns);
-        self.acted_ns = time_ns;
+        self.state.control_timer.restart(time_ns);
+        self.state.acted_ns = time_ns;
         self.odometry.reset(time_ns);
+    }
+
+    fn save(&self) -> DeviceState {
+        DeviceState::new((self.state.clone(), self.commands.save(), self.odometry.save()))
+    }
+
+    fn restore(&mut self, saved: &DeviceState) -> bool {
+        type Saved = (WheelDriveState, CommandsState, ClassicOdometryState);
+        let Some((state, commands, odometry)) = saved.get::<Saved>() else { return false };
+        self.state = state.clone();
+        self.commands.restore(commands);
+        self.odometry.restore(odometry);
+        true
     }
 }

@@ -2,18 +2,18 @@
 
 use periplus_diagnostics::Diagnostics;
 use periplus_geometry::DVec3;
-use periplus_graph::{Mailbox, Qos};
+use periplus_graph::{Mailbox, Qos, Sample};
 use periplus_msgs::std_msgs;
 use periplus_physics::drives::{Ackermann, AckermannCommand};
 use periplus_physics::{JointId, Kinematic, ModelId, PhysicsWorld, Twist};
 
 use super::build_context::BuildContext;
-use super::commands::Commands;
+use super::commands::{Commands, CommandsState};
 use super::encoders::angle;
 use super::gz_common::{Limiter, limits, next_ns, odometry_publisher, publish, turn};
 use super::rate_timer::RateTimer;
 use crate::states::OdometryPublisher;
-use crate::{Device, SenseContext, StepInterval, gz_topic};
+use crate::{Device, DeviceState, SenseContext, StepInterval, gz_topic};
 
 /// Two driven wheels and two steered ones. A steered wheel turns at `steer_p_gain` times its angle
 /// error. Odometry is computed from the driven wheels and the mean angle of the steered ones.
@@ -29,11 +29,16 @@ pub(crate) struct GzAckermann {
     steered: [JointId; 2],
     drive: Ackermann,
     gain: f64,
-    limiter: Limiter,
     command_source: CommandSource,
+    state: GzAckermannState,
+    odometry_publisher: Option<OdometryPublisher>,
+}
+
+#[derive(Clone)]
+struct GzAckermannState {
+    limiter: Limiter,
     before_rad: Option<[f64; 2]>,
     pose: Kinematic,
-    odometry_publisher: Option<OdometryPublisher>,
     publish_timer: RateTimer,
     now_ns: i64,
 }
@@ -46,6 +51,39 @@ enum CommandSource {
         inbox: Mailbox<std_msgs::Float64>,
         last_rad: f64,
     },
+}
+
+/// The current command, and messages that wait.
+enum CommandSourceState {
+    Twist(CommandsState),
+    Angle { pending: Vec<Sample>, last_rad: f64 },
+}
+
+impl CommandSource {
+    fn save(&self) -> CommandSourceState {
+        match self {
+            Self::Twist(commands) => CommandSourceState::Twist(commands.save()),
+            Self::Angle { inbox, last_rad } => {
+                CommandSourceState::Angle { pending: inbox.pending(), last_rad: *last_rad }
+            }
+        }
+    }
+
+    /// Returns false for the state of the other source.
+    fn restore(&mut self, saved: &CommandSourceState) -> bool {
+        match (self, saved) {
+            (Self::Twist(commands), CommandSourceState::Twist(saved)) => commands.restore(saved),
+            (
+                Self::Angle { inbox, last_rad },
+                CommandSourceState::Angle { pending, last_rad: saved_rad },
+            ) => {
+                inbox.set_pending(pending);
+                *last_rad = *saved_rad;
+            }
+            _ => return false,
+        }
+        true
+    }
 }
 
 pub(crate) fn build(
@@ -85,17 +123,22 @@ pub(crate) fn build(
         steered,
         drive,
         gain: context.number("steer_p_gain"),
-        limiter: Limiter::new(limits(context, false)),
         command_source,
-        before_rad: None,
-        pose: Kinematic::default(),
+        state: GzAckermannState {
+            limiter: Limiter::new(limits(context, false)),
+            before_rad: None,
+            pose: Kinematic::default(),
+            publish_timer: RateTimer::for_publisher(
+                context.number("odom_publish_frequency"),
+                start_ns,
+            ),
+            now_ns: start_ns,
+        },
         odometry_publisher: if steers_only {
             None
         } else {
             Some(odometry_publisher(context, &node, diagnostics)?)
         },
-        publish_timer: RateTimer::for_publisher(context.number("odom_publish_frequency"), start_ns),
-        now_ns: start_ns,
     })
 }
 
@@ -110,7 +153,7 @@ impl GzAckermann {
             CommandSource::Twist(commands) => {
                 let Twist { x_m_s, yaw_rad_s, .. } = commands.planar();
                 let twist = Twist { x_m_s, y_m_s: 0.0, yaw_rad_s };
-                let twist = self.limiter.limited(twist, span);
+                let twist = self.state.limiter.limited(twist, span);
                 let command = self.drive.command(twist);
                 // Feasible part for the wheels: no turning in place, no turn tighter than the
                 // steering limit.
@@ -140,8 +183,8 @@ impl Device for GzAckermann {
     }
 
     fn act(&mut self, world: &mut PhysicsWorld, span: StepInterval) {
-        if self.before_rad.is_none() {
-            self.before_rad = Some(self.driven_rad(world));
+        if self.state.before_rad.is_none() {
+            self.state.before_rad = Some(self.driven_rad(world));
         }
         let (command, twist) = self.wanted(span);
         for (joint, wanted_rad) in self.steered.into_iter().zip(command.steering_rad) {
@@ -159,34 +202,40 @@ impl Device for GzAckermann {
     }
 
     fn sense(&mut self, moment: &mut SenseContext<'_>) {
-        self.now_ns = moment.time_ns();
+        self.state.now_ns = moment.time_ns();
         let Some(odometry_publisher) = &self.odometry_publisher else { return };
         let now = self.driven_rad(moment.world);
-        let before = self.before_rad.replace(now).unwrap_or(now);
+        let before = self.state.before_rad.replace(now).unwrap_or(now);
         let way_rad = (now[0] - before[0] + now[1] - before[1]) / 2.0;
         let way_m = way_rad * self.drive.wheel_radius_m;
         let [left_rad, right_rad] = self.steered.map(|joint| angle(moment.world, joint));
         let middle_rad = (left_rad + right_rad) / 2.0;
         let turned_rad = way_m * libm::tan(middle_rad) / self.drive.wheel_base_m;
         let displacement = Twist { x_m_s: way_m, y_m_s: 0.0, yaw_rad_s: turned_rad };
-        self.pose = self.pose.advanced(displacement, 1.0);
+        self.state.pose = self.state.pose.advanced(displacement, 1.0);
         let dt_s = moment.span.seconds();
         let speed = |displacement: f64| if dt_s > 0.0 { displacement / dt_s } else { 0.0 };
         let twist = Twist { x_m_s: speed(way_m), y_m_s: 0.0, yaw_rad_s: speed(turned_rad) };
-        publish(odometry_publisher, &mut self.publish_timer, moment, self.pose.pose(), twist);
+        publish(
+            odometry_publisher,
+            &mut self.state.publish_timer,
+            moment,
+            self.state.pose.pose(),
+            twist,
+        );
     }
 
     fn next_ns(&self) -> Option<i64> {
         next_ns(
-            self.limiter.changes(),
-            self.now_ns,
-            &self.publish_timer,
+            self.state.limiter.changes(),
+            self.state.now_ns,
+            &self.state.publish_timer,
             self.odometry_publisher.as_ref()?,
         )
     }
 
     fn reset(&mut self, time_ns: i64) {
-        self.limiter.reset();
+        self.state.limiter.reset();
         match &mut self.command_source {
             CommandSource::Twist(commands) => commands.reset(),
             CommandSource::Angle { inbox, last_rad } => {
@@ -194,9 +243,21 @@ impl Device for GzAckermann {
                 *last_rad = 0.0;
             }
         }
-        self.before_rad = None;
-        self.pose = Kinematic::default();
-        self.publish_timer.restart(time_ns);
-        self.now_ns = time_ns;
+        self.state.before_rad = None;
+        self.state.pose = Kinematic::default();
+        self.state.publish_timer.restart(time_ns);
+        self.state.now_ns = time_ns;
+    }
+
+    fn save(&self) -> DeviceState {
+        DeviceState::new((self.state.clone(), self.command_source.save()))
+    }
+
+    fn restore(&mut self, saved: &DeviceState) -> bool {
+        let Some((state, commands)) = saved.get::<(GzAckermannState, CommandSourceState)>() else {
+            return false;
+        };
+        self.state = state.clone();
+        self.command_source.restore(commands)
     }
 }

@@ -6,12 +6,12 @@ use periplus_physics::drives::{Mecanum, MecanumWheels};
 use periplus_physics::{JointId, Kinematic, ModelId, PhysicsWorld, Twist};
 
 use super::build_context::BuildContext;
-use super::commands::Commands;
+use super::commands::{Commands, CommandsState};
 use super::encoders::angle;
 use super::gz_common::{Limiter, limits, next_ns, odometry_publisher, publish, turn};
 use super::rate_timer::RateTimer;
 use crate::states::OdometryPublisher;
-use crate::{Device, SenseContext, StepInterval};
+use crate::{Device, DeviceState, SenseContext, StepInterval};
 
 /// Four mecanum wheels. Gazebo models the rollers by friction directions, so with physics the robot
 /// moves sideways only as far as contacts allow.
@@ -24,11 +24,16 @@ pub(crate) struct GzMecanumDrive {
     /// Front left, front right, back left, back right.
     wheels: [Vec<JointId>; 4],
     drive: Mecanum,
-    limiter: Limiter,
     commands: Commands,
+    state: GzMecanumState,
+    odometry_publisher: OdometryPublisher,
+}
+
+#[derive(Clone)]
+struct GzMecanumState {
+    limiter: Limiter,
     before_rad: Option<[f64; 4]>,
     pose: Kinematic,
-    odometry_publisher: OdometryPublisher,
     publish_timer: RateTimer,
     now_ns: i64,
 }
@@ -53,18 +58,23 @@ pub(crate) fn build(
             wheel_separation_m: context.number("wheel_separation"),
             wheel_radius_m: context.number("wheel_radius"),
         },
-        limiter: Limiter::new(limits(context, true)),
         commands: Commands::new(
             context,
             &node,
             &context.gz_topic("topic", "cmd_vel"),
             diagnostics,
         )?,
-        before_rad: None,
-        pose: Kinematic::default(),
+        state: GzMecanumState {
+            limiter: Limiter::new(limits(context, true)),
+            before_rad: None,
+            pose: Kinematic::default(),
+            publish_timer: RateTimer::for_publisher(
+                context.number("odom_publish_frequency"),
+                start_ns,
+            ),
+            now_ns: start_ns,
+        },
         odometry_publisher: odometry_publisher(context, &node, diagnostics)?,
-        publish_timer: RateTimer::for_publisher(context.number("odom_publish_frequency"), start_ns),
-        now_ns: start_ns,
     })
 }
 
@@ -82,10 +92,10 @@ impl Device for GzMecanumDrive {
     }
 
     fn act(&mut self, world: &mut PhysicsWorld, span: StepInterval) {
-        if self.before_rad.is_none() {
-            self.before_rad = Some(self.angles_rad(world));
+        if self.state.before_rad.is_none() {
+            self.state.before_rad = Some(self.angles_rad(world));
         }
-        let twist = self.limiter.limited(self.commands.planar(), span);
+        let twist = self.state.limiter.limited(self.commands.planar(), span);
         let MecanumWheels { front_left, front_right, back_left, back_right } =
             self.drive.wheels(twist);
         let speeds = [front_left, front_right, back_left, back_right];
@@ -96,15 +106,15 @@ impl Device for GzMecanumDrive {
     }
 
     fn sense(&mut self, moment: &mut SenseContext<'_>) {
-        self.now_ns = moment.time_ns();
+        self.state.now_ns = moment.time_ns();
         let now = self.angles_rad(moment.world);
-        let before = self.before_rad.replace(now).unwrap_or(now);
+        let before = self.state.before_rad.replace(now).unwrap_or(now);
         let [front_left, front_right, back_left, back_right] =
             std::array::from_fn(|place| now[place] - before[place]);
         // Displacement of this step as a twist over one second.
         let displacement =
             self.drive.twist(MecanumWheels { front_left, front_right, back_left, back_right });
-        self.pose = self.pose.advanced(displacement, 1.0);
+        self.state.pose = self.state.pose.advanced(displacement, 1.0);
         let dt_s = moment.span.seconds();
         let speed = |displacement: f64| if dt_s > 0.0 { displacement / dt_s } else { 0.0 };
         let twist = Twist {
@@ -112,19 +122,43 @@ impl Device for GzMecanumDrive {
             y_m_s: speed(displacement.y_m_s),
             yaw_rad_s: speed(displacement.yaw_rad_s),
         };
-        publish(&self.odometry_publisher, &mut self.publish_timer, moment, self.pose.pose(), twist);
+        publish(
+            &self.odometry_publisher,
+            &mut self.state.publish_timer,
+            moment,
+            self.state.pose.pose(),
+            twist,
+        );
     }
 
     fn next_ns(&self) -> Option<i64> {
-        next_ns(self.limiter.changes(), self.now_ns, &self.publish_timer, &self.odometry_publisher)
+        next_ns(
+            self.state.limiter.changes(),
+            self.state.now_ns,
+            &self.state.publish_timer,
+            &self.odometry_publisher,
+        )
     }
 
     fn reset(&mut self, time_ns: i64) {
-        self.limiter.reset();
+        self.state.limiter.reset();
         self.commands.reset();
-        self.before_rad = None;
-        self.pose = Kinematic::default();
-        self.publish_timer.restart(time_ns);
-        self.now_ns = time_ns;
+        self.state.before_rad = None;
+        self.state.pose = Kinematic::default();
+        self.state.publish_timer.restart(time_ns);
+        self.state.now_ns = time_ns;
+    }
+
+    fn save(&self) -> DeviceState {
+        DeviceState::new((self.state.clone(), self.commands.save()))
+    }
+
+    fn restore(&mut self, saved: &DeviceState) -> bool {
+        let Some((state, commands)) = saved.get::<(GzMecanumState, CommandsState)>() else {
+            return false;
+        };
+        self.state = state.clone();
+        self.commands.restore(commands);
+        true
     }
 }

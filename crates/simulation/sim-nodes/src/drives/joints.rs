@@ -1,7 +1,7 @@
 //! Controllers of single joints: `JointController` and `JointPositionController` of gz-sim.
 
 use periplus_diagnostics::{Diagnostic, Diagnostics};
-use periplus_graph::{Mailbox, Qos};
+use periplus_graph::{Mailbox, Qos, Sample};
 use periplus_msgs::std_msgs;
 use periplus_params::ParamValue;
 use periplus_physics::{JointCommand, JointId, PhysicsWorld};
@@ -9,7 +9,7 @@ use periplus_physics::{JointCommand, JointId, PhysicsWorld};
 use super::build_context::BuildContext;
 use super::encoders::{angle, speed};
 use super::pid::{Gains, Pid};
-use crate::{Device, SenseContext, StepInterval, gz_topic};
+use crate::{Device, DeviceState, SenseContext, StepInterval, gz_topic};
 
 /// Interval of checks of a position that is not reached yet, in a world without physics [ns].
 const MOVING_STEP_NS: i64 = 1_000_000;
@@ -21,10 +21,15 @@ const MOVING_STEP_NS: i64 = 1_000_000;
 /// get the same command, each with its own controller.
 pub(crate) struct JointControl {
     name: String,
-    joints: Vec<(JointId, Pid)>,
     inbox: Mailbox<std_msgs::Float64>,
     mode: ControlMode,
     first: f64,
+    state: JointControlState,
+}
+
+#[derive(Clone)]
+struct JointControlState {
+    joints: Vec<(JointId, Pid)>,
     last: f64,
     now_ns: i64,
     is_moving: bool,
@@ -105,13 +110,15 @@ fn build(
     let topic = gz_topic(&context.gz_topic("topic", &fallback));
     Some(JointControl {
         name: context.name(),
-        joints: joints.into_iter().map(|joint| (joint, Pid::default())).collect(),
         inbox: context.accept(node.mailbox(&topic, Qos::reliable(1)), diagnostics)?,
         mode,
         first,
-        last: first,
-        now_ns: context.setting.start_ns,
-        is_moving: false,
+        state: JointControlState {
+            joints: joints.into_iter().map(|joint| (joint, Pid::default())).collect(),
+            last: first,
+            now_ns: context.setting.start_ns,
+            is_moving: false,
+        },
     })
 }
 
@@ -122,10 +129,10 @@ impl Device for JointControl {
 
     fn act(&mut self, world: &mut PhysicsWorld, span: StepInterval) {
         if let Some(command) = self.inbox.latest().filter(|command| command.data.is_finite()) {
-            self.last = command.data;
+            self.state.last = command.data;
         }
-        let (target, free) = (self.last, f64::INFINITY);
-        for (joint, pid) in &mut self.joints {
+        let (target, free) = (self.state.last, f64::INFINITY);
+        for (joint, pid) in &mut self.state.joints {
             let command = match &self.mode {
                 ControlMode::Speed => JointCommand::Velocity { target, max_effort: free },
                 ControlMode::SpeedByForce { gains } => {
@@ -145,23 +152,36 @@ impl Device for JointControl {
     }
 
     fn sense(&mut self, moment: &mut SenseContext<'_>) {
-        self.now_ns = moment.time_ns();
+        self.state.now_ns = moment.time_ns();
         let is_positional = matches!(self.mode, ControlMode::Position { .. });
-        self.is_moving = is_positional
-            && self.joints.iter().any(|(joint, _)| speed(moment.world, *joint).abs() > 1e-6);
+        self.state.is_moving = is_positional
+            && self.state.joints.iter().any(|(joint, _)| speed(moment.world, *joint).abs() > 1e-6);
     }
 
     fn next_ns(&self) -> Option<i64> {
-        self.is_moving.then_some(self.now_ns + MOVING_STEP_NS)
+        self.state.is_moving.then_some(self.state.now_ns + MOVING_STEP_NS)
     }
 
     fn reset(&mut self, time_ns: i64) {
         drop(self.inbox.drain());
-        self.last = self.first;
-        self.now_ns = time_ns;
-        self.is_moving = false;
-        for (_, pid) in &mut self.joints {
+        self.state.last = self.first;
+        self.state.now_ns = time_ns;
+        self.state.is_moving = false;
+        for (_, pid) in &mut self.state.joints {
             *pid = Pid::default();
         }
+    }
+
+    fn save(&self) -> DeviceState {
+        DeviceState::new((self.state.clone(), self.inbox.pending()))
+    }
+
+    fn restore(&mut self, saved: &DeviceState) -> bool {
+        let Some((state, commands)) = saved.get::<(JointControlState, Vec<Sample>)>() else {
+            return false;
+        };
+        self.state = state.clone();
+        self.inbox.set_pending(commands);
+        true
     }
 }

@@ -9,10 +9,10 @@ use periplus_plugin_specs::Family;
 
 use super::body::Body;
 use super::build_context::BuildContext;
-use super::commands::Commands;
+use super::commands::{Commands, CommandsState};
 use super::rate_timer::{RateTimer, earlier};
 use crate::states::{OdometryPublisher, from_vector, planar_covariance, planar_twist, vector};
-use crate::{Device, SenseContext, StepInterval};
+use crate::{Device, DeviceState, SenseContext, StepInterval};
 
 /// `libgazebo_ros_planar_move.so` of ROS 1 and ROS 2: sets the model's velocity in the plane to the
 /// command, in its own heading. Odometry is the true pose in the world.
@@ -26,10 +26,15 @@ pub(crate) struct PlanarMove {
     commands: Commands,
     /// Timeout of a command [ns]; `None` for no timeout.
     timeout_ns: Option<i64>,
+    state: PlanarMoveState,
+    odometry_publisher: OdometryPublisher,
+}
+
+#[derive(Clone)]
+struct PlanarMoveState {
     received_ns: i64,
     control_timer: RateTimer,
     publish_timer: RateTimer,
-    odometry_publisher: OdometryPublisher,
 }
 
 pub(crate) fn planar_move(
@@ -80,9 +85,11 @@ pub(crate) fn planar_move(
         body: Body::of_model(context)?,
         commands: Commands::new(context, &node, &command_topic, diagnostics)?,
         timeout_ns,
-        received_ns: start_ns,
-        control_timer: RateTimer::for_controller(act_hz, start_ns),
-        publish_timer: RateTimer::for_publisher(tell_hz, start_ns),
+        state: PlanarMoveState {
+            received_ns: start_ns,
+            control_timer: RateTimer::for_controller(act_hz, start_ns),
+            publish_timer: RateTimer::for_publisher(tell_hz, start_ns),
+        },
         odometry_publisher,
     })
 }
@@ -93,15 +100,15 @@ impl Device for PlanarMove {
     }
 
     fn act(&mut self, world: &mut PhysicsWorld, span: StepInterval) {
-        if !self.control_timer.due(span.start_ns) {
+        if !self.state.control_timer.due(span.start_ns) {
             return;
         }
         let twist = self.commands.planar();
         if self.commands.take_new_command() {
-            self.received_ns = span.start_ns;
+            self.state.received_ns = span.start_ns;
         }
         let twist = match self.timeout_ns {
-            Some(timeout_ns) if span.start_ns - self.received_ns > timeout_ns => {
+            Some(timeout_ns) if span.start_ns - self.state.received_ns > timeout_ns => {
                 self.commands.stop();
                 Default::default()
             }
@@ -116,7 +123,7 @@ impl Device for PlanarMove {
 
     fn sense(&mut self, moment: &mut SenseContext<'_>) {
         let now_ns = moment.time_ns();
-        if !self.publish_timer.due(now_ns) || !self.odometry_publisher.has_subscribers() {
+        if !self.state.publish_timer.due(now_ns) || !self.odometry_publisher.has_subscribers() {
             return;
         }
         if let Some(state) = self.body.state(moment.world) {
@@ -126,16 +133,32 @@ impl Device for PlanarMove {
     }
 
     fn next_ns(&self) -> Option<i64> {
-        let for_publisher =
-            self.publish_timer.next_ns().filter(|_| self.odometry_publisher.has_subscribers());
-        earlier(self.control_timer.next_ns(), for_publisher)
+        let for_publisher = self
+            .state
+            .publish_timer
+            .next_ns()
+            .filter(|_| self.odometry_publisher.has_subscribers());
+        earlier(self.state.control_timer.next_ns(), for_publisher)
     }
 
     fn reset(&mut self, time_ns: i64) {
         self.commands.reset();
-        self.received_ns = time_ns;
-        self.control_timer.restart(time_ns);
-        self.publish_timer.restart(time_ns);
+        self.state.received_ns = time_ns;
+        self.state.control_timer.restart(time_ns);
+        self.state.publish_timer.restart(time_ns);
+    }
+
+    fn save(&self) -> DeviceState {
+        DeviceState::new((self.state.clone(), self.commands.save()))
+    }
+
+    fn restore(&mut self, saved: &DeviceState) -> bool {
+        let Some((state, commands)) = saved.get::<(PlanarMoveState, CommandsState)>() else {
+            return false;
+        };
+        self.state = state.clone();
+        self.commands.restore(commands);
+        true
     }
 }
 
@@ -194,5 +217,15 @@ impl Device for VelocityControl {
 
     fn reset(&mut self, _time_ns: i64) {
         self.commands.reset();
+    }
+
+    fn save(&self) -> DeviceState {
+        DeviceState::new(self.commands.save())
+    }
+
+    fn restore(&mut self, saved: &DeviceState) -> bool {
+        let Some(commands) = saved.get() else { return false };
+        self.commands.restore(commands);
+        true
     }
 }

@@ -8,13 +8,13 @@ use periplus_plugin_specs::Family;
 
 use super::body::Body;
 use super::build_context::BuildContext;
-use super::classic_odometry::{ClassicOdometry, OdometrySource};
-use super::commands::Commands;
+use super::classic_odometry::{ClassicOdometry, ClassicOdometryState, OdometrySource};
+use super::commands::{Commands, CommandsState};
 use super::encoders::{Encoders, angle, speed};
 use super::rate_timer::{RateTimer, earlier};
 use super::wheel_frames::WheelFrames;
 use crate::states::{JointStates, OdometryPublisher, planar_covariance};
-use crate::{Device, SenseContext, StepInterval};
+use crate::{Device, DeviceState, SenseContext, StepInterval};
 
 /// A driven and steered wheel in front, two wheels with encoders behind. A command's `linear.x` is
 /// the rim speed of the driven wheel, its `angular.z` the steering **angle**.
@@ -32,9 +32,14 @@ pub(crate) struct Tricycle {
     driven: JointId,
     controller: drives::Tricycle,
     commands: Commands,
+    state: TricycleState,
+    odometry: ClassicOdometry,
+}
+
+#[derive(Clone)]
+struct TricycleState {
     control_timer: RateTimer,
     acted_ns: i64,
-    odometry: ClassicOdometry,
 }
 
 /// Parameter names of the plugin in ROS 1 or ROS 2.
@@ -167,8 +172,10 @@ pub(crate) fn build(context: &BuildContext<'_>, diagnostics: &mut Diagnostics) -
         steering,
         driven,
         commands: Commands::new(context, &node, &command_topic, diagnostics)?,
-        control_timer: RateTimer::for_controller(rate_hz, start_ns),
-        acted_ns: start_ns,
+        state: TricycleState {
+            control_timer: RateTimer::for_controller(rate_hz, start_ns),
+            acted_ns: start_ns,
+        },
         controller,
         odometry: ClassicOdometry {
             source: OdometrySource::new(counts_wheels),
@@ -189,12 +196,14 @@ impl Device for Tricycle {
 
     fn act(&mut self, world: &mut PhysicsWorld, span: StepInterval) {
         self.odometry.begin(world);
-        if !self.control_timer.due(span.start_ns) {
+        if !self.state.control_timer.due(span.start_ns) {
             return;
         }
-        let since =
-            StepInterval { start_ns: self.acted_ns, length_ns: span.start_ns - self.acted_ns };
-        self.acted_ns = span.start_ns;
+        let since = StepInterval {
+            start_ns: self.state.acted_ns,
+            length_ns: span.start_ns - self.state.acted_ns,
+        };
+        self.state.acted_ns = span.start_ns;
         let command = self.commands.planar();
         let at_rad = angle(world, self.steering);
         let rolls_rad_s = speed(world, self.driven);
@@ -225,13 +234,26 @@ impl Device for Tricycle {
     }
 
     fn next_ns(&self) -> Option<i64> {
-        earlier(self.control_timer.next_ns(), self.odometry.next_ns())
+        earlier(self.state.control_timer.next_ns(), self.odometry.next_ns())
     }
 
     fn reset(&mut self, time_ns: i64) {
         self.commands.reset();
-        self.control_timer.restart(time_ns);
-        self.acted_ns = time_ns;
+        self.state.control_timer.restart(time_ns);
+        self.state.acted_ns = time_ns;
         self.odometry.reset(time_ns);
+    }
+
+    fn save(&self) -> DeviceState {
+        DeviceState::new((self.state.clone(), self.commands.save(), self.odometry.save()))
+    }
+
+    fn restore(&mut self, saved: &DeviceState) -> bool {
+        type Saved = (TricycleState, CommandsState, ClassicOdometryState);
+        let Some((state, commands, odometry)) = saved.get::<Saved>() else { return false };
+        self.state = state.clone();
+        self.commands.restore(commands);
+        self.odometry.restore(odometry);
+        true
     }
 }

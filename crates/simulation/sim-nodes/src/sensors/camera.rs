@@ -7,7 +7,7 @@ mod points;
 
 use periplus_diagnostics::{Diagnostic, Diagnostics};
 use periplus_geometry::Pose;
-use periplus_graph::{Mailbox, Qos};
+use periplus_graph::{Mailbox, Qos, Sample};
 use periplus_msgs::std_msgs::{Bool, Empty};
 use periplus_rendering::{
     ImageOutputs, Lens, LensError, RenderRequest, RenderedImages, SensedGeometry,
@@ -18,14 +18,19 @@ use periplus_sensors::{ImageNoise, Pinhole, Streams};
 use self::outputs::{CameraOutput, outputs};
 use super::port::Convention;
 use super::{DeviceResult, Mount, SensorBuildContext, SensorBuildError, Timer};
-use crate::{Device, SenseContext, SensorMount};
+use crate::{Device, DeviceState, SenseContext, SensorMount};
 
 /// A camera sensor: one camera, or several.
 struct CameraDevice {
     mount: Mount,
-    timer: Timer,
     units: Vec<CameraUnit>,
     trigger: Option<Trigger>,
+    state: CameraState,
+}
+
+#[derive(Clone)]
+struct CameraState {
+    timer: Timer,
     /// Number of the last measurement that was due.
     last_tick: u64,
     /// True if that measurement had subscribers.
@@ -64,6 +69,20 @@ impl Trigger {
             Self::Gz(mailbox) => mailbox.latest().is_some_and(|message| message.data),
         }
     }
+
+    fn pending(&self) -> Vec<Sample> {
+        match self {
+            Self::Classic(mailbox) => mailbox.pending(),
+            Self::Gz(mailbox) => mailbox.pending(),
+        }
+    }
+
+    fn set_pending(&self, samples: &[Sample]) {
+        match self {
+            Self::Classic(mailbox) => mailbox.set_pending(samples),
+            Self::Gz(mailbox) => mailbox.set_pending(samples),
+        }
+    }
 }
 
 pub(super) fn device(
@@ -86,12 +105,14 @@ pub(super) fn device(
     }
     let trigger = trigger(&context, spec)?;
     Ok(Box::new(CameraDevice {
-        timer: Timer::new(context.sensor_context, &context.ports),
+        state: CameraState {
+            timer: Timer::new(context.sensor_context, &context.ports),
+            last_tick: 0,
+            had_subscribers: false,
+        },
         mount: context.mount,
         units,
         trigger,
-        last_tick: 0,
-        had_subscribers: false,
     }))
 }
 
@@ -165,20 +186,20 @@ impl Device for CameraDevice {
 
     fn sense(&mut self, moment: &mut SenseContext<'_>) {
         let time_ns = moment.time_ns();
-        let Some(tick) = self.timer.due(time_ns) else { return };
+        let Some(tick) = self.state.timer.due(time_ns) else { return };
         if self.trigger.as_ref().is_some_and(|trigger| !trigger.is_requested()) {
             return;
         }
-        self.last_tick = tick.number;
-        self.had_subscribers = self.has_subscribers();
+        self.state.last_tick = tick.number;
+        self.state.had_subscribers = self.has_subscribers();
         self.measure(moment, tick.number);
     }
 
     fn sense_paused(&mut self, moment: &mut SenseContext<'_>) {
         let has_subscribers = self.has_subscribers();
-        let had_subscribers = std::mem::replace(&mut self.had_subscribers, has_subscribers);
+        let had_subscribers = std::mem::replace(&mut self.state.had_subscribers, has_subscribers);
         if has_subscribers && !had_subscribers && self.trigger.is_none() {
-            self.measure(moment, self.last_tick);
+            self.measure(moment, self.state.last_tick);
         }
     }
 
@@ -197,11 +218,27 @@ impl Device for CameraDevice {
     }
 
     fn next_ns(&self) -> Option<i64> {
-        self.timer.next_ns().filter(|_| self.has_subscribers())
+        self.state.timer.next_ns().filter(|_| self.has_subscribers())
     }
 
     fn reset(&mut self, time_ns: i64) {
-        self.timer.reset(time_ns);
+        self.state.timer.reset(time_ns);
+    }
+
+    fn save(&self) -> DeviceState {
+        let requests = self.trigger.as_ref().map_or_else(Vec::new, Trigger::pending);
+        DeviceState::new((self.state.clone(), requests))
+    }
+
+    fn restore(&mut self, saved: &DeviceState) -> bool {
+        let Some((state, requests)) = saved.get::<(CameraState, Vec<Sample>)>() else {
+            return false;
+        };
+        self.state = state.clone();
+        if let Some(trigger) = &self.trigger {
+            trigger.set_pending(requests);
+        }
+        true
     }
 }
 

@@ -14,7 +14,7 @@ use periplus_sensors::contacts_of;
 use super::imu::vector;
 use super::port::Convention;
 use super::{DeviceResult, Mount, SensorBuildContext, Timer};
-use crate::{Device, SenseContext};
+use crate::{Device, DeviceState, SenseContext};
 
 struct ContactDevice {
     mount: Mount,
@@ -162,6 +162,14 @@ impl Device for ContactDevice {
 
     fn reset(&mut self, time_ns: i64) {
         self.timer.reset(time_ns);
+    }
+
+    fn save(&self) -> DeviceState {
+        DeviceState::new(self.timer)
+    }
+
+    fn restore(&mut self, saved: &DeviceState) -> bool {
+        saved.copy_to(&mut self.timer)
     }
 }
 

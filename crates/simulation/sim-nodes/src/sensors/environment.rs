@@ -11,7 +11,7 @@ use periplus_sensors::{Altimeter, Barometer, Magnetometer, Motion};
 use super::imu::{diagonal, vector};
 use super::timer::Tick;
 use super::{DeviceResult, Mount, SensorBuildContext, Timer};
-use crate::{Device, SenseContext};
+use crate::{Device, DeviceState, SenseContext};
 
 struct ScalarDevice {
     mount: Mount,
@@ -25,6 +25,20 @@ enum ScalarSensor {
     Magnetic(Magnetometer, Publisher<MagneticField>),
     Height(Altimeter, Publisher<ros_gz_interfaces::Altimeter>),
     Pressure(Barometer, Publisher<FluidPressure>),
+}
+
+#[derive(Clone)]
+struct ScalarState {
+    timer: Timer,
+    /// Sensors of the outputs, in their order.
+    models: Vec<ScalarModel>,
+}
+
+#[derive(Clone)]
+enum ScalarModel {
+    Magnetic(Magnetometer),
+    Height(Altimeter),
+    Pressure(Barometer),
 }
 
 pub(super) fn device(context: SensorBuildContext<'_, '_>) -> DeviceResult {
@@ -93,6 +107,24 @@ impl ScalarSensor {
         }
     }
 
+    fn model(&self) -> ScalarModel {
+        match self {
+            Self::Magnetic(sensor, _) => ScalarModel::Magnetic(sensor.clone()),
+            Self::Height(sensor, _) => ScalarModel::Height(sensor.clone()),
+            Self::Pressure(sensor, _) => ScalarModel::Pressure(sensor.clone()),
+        }
+    }
+
+    /// Restores the sensor; a device measures the same quantity on all of its outputs.
+    fn set_model(&mut self, model: &ScalarModel) {
+        match (self, model) {
+            (Self::Magnetic(sensor, _), ScalarModel::Magnetic(model)) => sensor.clone_from(model),
+            (Self::Height(sensor, _), ScalarModel::Height(model)) => sensor.clone_from(model),
+            (Self::Pressure(sensor, _), ScalarModel::Pressure(model)) => sensor.clone_from(model),
+            _ => {}
+        }
+    }
+
     fn reset(&mut self) {
         match self {
             Self::Magnetic(sensor, _) => sensor.reset(),
@@ -130,5 +162,19 @@ impl Device for ScalarDevice {
     fn reset(&mut self, time_ns: i64) {
         self.timer.reset(time_ns);
         self.outputs.iter_mut().for_each(|(_, kind)| kind.reset());
+    }
+
+    fn save(&self) -> DeviceState {
+        let models = self.outputs.iter().map(|(_, sensor)| sensor.model()).collect();
+        DeviceState::new(ScalarState { timer: self.timer, models })
+    }
+
+    fn restore(&mut self, saved: &DeviceState) -> bool {
+        let Some(ScalarState { timer, models }) = saved.get() else { return false };
+        self.timer = *timer;
+        for ((_, sensor), model) in self.outputs.iter_mut().zip(models) {
+            sensor.set_model(model);
+        }
+        true
     }
 }

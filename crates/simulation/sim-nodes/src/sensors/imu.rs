@@ -10,15 +10,20 @@ use periplus_sensors::{ImuSensor, Motion, OrientationReference};
 
 use super::port::{Convention, SensorPort};
 use super::{DeviceResult, Mount, SensorBuildContext, Timer};
-use crate::{Device, SenseContext};
+use crate::{Device, DeviceState, SenseContext};
 
 struct ImuDevice {
     mount: Mount,
-    timer: Timer,
-    imu: ImuSensor,
+    state: ImuState,
     /// Initial motion, restored by a reset.
     start: Option<Motion>,
     outputs: Vec<(String, Publisher<sensor_msgs::Imu>)>,
+}
+
+#[derive(Clone)]
+struct ImuState {
+    timer: Timer,
+    imu: ImuSensor,
 }
 
 pub(super) fn device(
@@ -48,9 +53,8 @@ pub(super) fn device(
         imu.skip(context.sensor_context.setting.start_ns, start);
     }
     Ok(Box::new(ImuDevice {
-        timer: Timer::new(context.sensor_context, &context.ports),
+        state: ImuState { timer: Timer::new(context.sensor_context, &context.ports), imu },
         mount: context.mount,
-        imu,
         start,
         outputs,
     }))
@@ -86,16 +90,16 @@ impl Device for ImuDevice {
 
     fn sense(&mut self, moment: &mut SenseContext<'_>) {
         let time_ns = moment.time_ns();
-        let Some(tick) = self.timer.due(time_ns) else { return };
+        let Some(tick) = self.state.timer.due(time_ns) else { return };
         let Some(motion) = self.mount.motion(moment.world) else { return };
         if !self.outputs.iter().any(|(_, out)| out.is_heard()) {
-            self.imu.skip(time_ns, &motion);
+            self.state.imu.skip(time_ns, &motion);
             return;
         }
         let mut stream = self.mount.streams().tick(tick.number);
         let gravity = moment.world.gravity_m_s2();
-        let reading = self.imu.measure(time_ns, &motion, gravity, &mut stream);
-        let [turn, force] = self.imu.variances().map(diagonal);
+        let reading = self.state.imu.measure(time_ns, &motion, gravity, &mut stream);
+        let [turn, force] = self.state.imu.variances().map(diagonal);
         let mut orientation_covariance = [0.0; 9];
         let mut orientation = Quaternion::default();
         match reading.orientation {
@@ -118,15 +122,23 @@ impl Device for ImuDevice {
 
     fn next_ns(&self) -> Option<i64> {
         let has_subscribers = self.outputs.iter().any(|(_, out)| out.is_heard());
-        self.timer.next_ns().filter(|_| has_subscribers)
+        self.state.timer.next_ns().filter(|_| has_subscribers)
     }
 
     fn reset(&mut self, time_ns: i64) {
-        self.timer.reset(time_ns);
-        self.imu.reset();
+        self.state.timer.reset(time_ns);
+        self.state.imu.reset();
         if let Some(start) = &self.start {
-            self.imu.skip(time_ns, start);
+            self.state.imu.skip(time_ns, start);
         }
+    }
+
+    fn save(&self) -> DeviceState {
+        DeviceState::new(self.state.clone())
+    }
+
+    fn restore(&mut self, saved: &DeviceState) -> bool {
+        saved.copy_to(&mut self.state)
     }
 }
 

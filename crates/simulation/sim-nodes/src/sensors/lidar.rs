@@ -12,7 +12,9 @@ use periplus_rendering::{SensedGeometry, filter};
 use periplus_sensors::{LidarSensor, RayView, Schedule, Streams, Sweep};
 
 use super::sensor_context::SensorContext;
-use crate::{Device, SenseContext, SensorMount, device_node, plugin_node, publisher_qos};
+use crate::{
+    Device, DeviceState, SenseContext, SensorMount, device_node, plugin_node, publisher_qos,
+};
 use message::PublishSettings;
 
 /// Maximum number of poses of a moving lidar per scan.
@@ -59,19 +61,24 @@ struct LidarDevice {
     name: String,
     lidar: LidarSensor,
     streams: Streams,
-    schedule: Schedule,
+    state: LidarState,
     link: LinkId,
     link_from_sensor: Pose,
     geometry: SensedGeometry,
     visibility_mask: u32,
     outputs: Vec<Output>,
+    rebuild: Box<dyn Fn(i64) -> Schedule + Send>,
+}
+
+#[derive(Clone)]
+struct LidarState {
+    schedule: Schedule,
     /// Number of the last due measurement.
     last_tick: u64,
     /// True if that measurement had subscribers.
     had_subscribers: bool,
     /// Poses of the sensor at the ends of this scan's steps; `None` without rolling scans.
     pose_history: Option<Vec<(i64, Pose)>>,
-    rebuild: Box<dyn Fn(i64) -> Schedule + Send>,
 }
 
 /// Builds the device of a lidar; reports an error and returns `None` for one that cannot measure.
@@ -125,7 +132,12 @@ pub(super) fn build(
         name: sensor_context.full_name(),
         lidar,
         streams,
-        schedule: sensor_context.schedule(Some(rate_hz)),
+        state: LidarState {
+            schedule: sensor_context.schedule(Some(rate_hz)),
+            last_tick: 0,
+            had_subscribers: false,
+            pose_history: sensor_context.setting.rolling_scans.then(Vec::new),
+        },
         link: sensor_context.id,
         link_from_sensor: sensor_context.link_from_sensor(),
         // As in Gazebo: GPU lidars sense visuals, others collisions.
@@ -136,9 +148,6 @@ pub(super) fn build(
         },
         visibility_mask: spec.visibility_mask,
         outputs,
-        last_tick: 0,
-        had_subscribers: false,
-        pose_history: sensor_context.setting.rolling_scans.then(Vec::new),
         rebuild: Box::new(move |time_ns| Schedule::new(rate_hz, time_ns, quirks)),
     }))
 }
@@ -251,18 +260,18 @@ impl Device for LidarDevice {
             .link_state(self.link)
             .map(|state| state.world_from_link * self.link_from_sensor);
         let Some(world_from_sensor) = world_from_sensor else { return };
-        if let Some(pose_history) = &mut self.pose_history
+        if let Some(pose_history) = &mut self.state.pose_history
             && pose_history.len() < MAX_POSE_COUNT
         {
             pose_history.push((now_ns, world_from_sensor));
         }
-        let Some(tick) = self.schedule.due(now_ns) else { return };
-        self.last_tick = tick;
-        self.had_subscribers = self.has_subscribers();
-        if self.had_subscribers {
+        let Some(tick) = self.state.schedule.due(now_ns) else { return };
+        self.state.last_tick = tick;
+        self.state.had_subscribers = self.has_subscribers();
+        if self.state.had_subscribers {
             self.measure(moment, tick, world_from_sensor);
         }
-        if let Some(pose_history) = &mut self.pose_history {
+        if let Some(pose_history) = &mut self.state.pose_history {
             pose_history.clear();
             pose_history.push((now_ns, world_from_sensor));
         }
@@ -270,11 +279,11 @@ impl Device for LidarDevice {
 
     fn sense_paused(&mut self, moment: &mut SenseContext<'_>) {
         let has_subscribers = self.has_subscribers();
-        let had_subscribers = std::mem::replace(&mut self.had_subscribers, has_subscribers);
+        let had_subscribers = std::mem::replace(&mut self.state.had_subscribers, has_subscribers);
         let state = moment.world.link_state(self.link);
         if let Some(state) = state.filter(|_| has_subscribers && !had_subscribers) {
             let world_from_sensor = state.world_from_link * self.link_from_sensor;
-            self.measure(moment, self.last_tick, world_from_sensor);
+            self.measure(moment, self.state.last_tick, world_from_sensor);
         }
     }
 
@@ -289,15 +298,23 @@ impl Device for LidarDevice {
     }
 
     fn next_ns(&self) -> Option<i64> {
-        self.schedule.next_ns().filter(|_| self.has_subscribers())
+        self.state.schedule.next_ns().filter(|_| self.has_subscribers())
     }
 
     fn reset(&mut self, time_ns: i64) {
         self.lidar.reset();
-        self.schedule = (self.rebuild)(time_ns);
-        if let Some(pose_history) = &mut self.pose_history {
+        self.state.schedule = (self.rebuild)(time_ns);
+        if let Some(pose_history) = &mut self.state.pose_history {
             pose_history.clear();
         }
+    }
+
+    fn save(&self) -> DeviceState {
+        DeviceState::new(self.state.clone())
+    }
+
+    fn restore(&mut self, saved: &DeviceState) -> bool {
+        saved.copy_to(&mut self.state)
     }
 }
 
@@ -357,7 +374,7 @@ impl LidarDevice {
     /// Returns the start of the scan, and the poses of the sensor since then with their fractions of
     /// the scan; `None` for a scan that is measured at once.
     fn scan_poses(&self, now_ns: i64) -> (i64, Option<Vec<(f64, Pose)>>) {
-        let Some(pose_history) = &self.pose_history else { return (now_ns, None) };
+        let Some(pose_history) = &self.state.pose_history else { return (now_ns, None) };
         let Some(&(start_ns, _)) = pose_history.first() else { return (now_ns, None) };
         if start_ns >= now_ns {
             return (now_ns, None);

@@ -9,7 +9,7 @@ use periplus_scene::SensorKind;
 use periplus_sensors::LogicalCamera;
 
 use super::{DeviceResult, Mount, SensorBuildContext, Timer};
-use crate::{Device, SenseContext};
+use crate::{Device, DeviceState, SenseContext};
 
 struct LogicalDevice {
     mount: Mount,
@@ -79,6 +79,14 @@ impl Device for LogicalDevice {
 
     fn reset(&mut self, time_ns: i64) {
         self.timer.reset(time_ns);
+    }
+
+    fn save(&self) -> DeviceState {
+        DeviceState::new(self.timer)
+    }
+
+    fn restore(&mut self, saved: &DeviceState) -> bool {
+        saved.copy_to(&mut self.timer)
     }
 }
 

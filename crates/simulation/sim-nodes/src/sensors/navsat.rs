@@ -11,13 +11,18 @@ use periplus_sensors::{LocalTangentFrame, NavSat, NavSatNoise};
 use super::imu::{diagonal, vector};
 use super::port::Convention;
 use super::{DeviceResult, Mount, SensorBuildContext, Timer};
-use crate::{Device, SenseContext};
+use crate::{Device, DeviceState, SenseContext};
 
 struct NavSatDevice {
     mount: Mount,
+    state: NavSatState,
+    outputs: Vec<NavSatOutput>,
+}
+
+#[derive(Clone)]
+struct NavSatState {
     timer: Timer,
     sensor: NavSat,
-    outputs: Vec<NavSatOutput>,
 }
 
 struct NavSatOutput {
@@ -69,8 +74,10 @@ pub(super) fn device(
         outputs.push(NavSatOutput { frame: port.frame.clone(), fix, velocity });
     }
     Ok(Box::new(NavSatDevice {
-        timer: Timer::new(context.sensor_context, &context.ports),
-        sensor: NavSat::new(frame, &noise, context.mount.streams()),
+        state: NavSatState {
+            timer: Timer::new(context.sensor_context, &context.ports),
+            sensor: NavSat::new(frame, &noise, context.mount.streams()),
+        },
         mount: context.mount,
         outputs,
     }))
@@ -100,13 +107,13 @@ impl Device for NavSatDevice {
 
     fn sense(&mut self, moment: &mut SenseContext<'_>) {
         let time_ns = moment.time_ns();
-        let Some(tick) = self.timer.due(time_ns) else { return };
+        let Some(tick) = self.state.timer.due(time_ns) else { return };
         if !self.outputs.iter().any(NavSatOutput::has_subscribers) {
             return;
         }
         let Some(motion) = self.mount.motion(moment.world) else { return };
         let mut stream = self.mount.streams().tick(tick.number);
-        let reading = self.sensor.measure(&motion, tick.dt_s, &mut stream);
+        let reading = self.state.sensor.measure(&motion, tick.dt_s, &mut stream);
         for out in &self.outputs {
             out.fix.publish(NavSatFix {
                 header: Header::at(time_ns, &out.frame),
@@ -117,7 +124,7 @@ impl Device for NavSatDevice {
                 latitude: reading.position.latitude_rad.to_degrees(),
                 longitude: reading.position.longitude_rad.to_degrees(),
                 altitude: reading.position.altitude_m,
-                position_covariance: diagonal(self.sensor.position_variances_m2()),
+                position_covariance: diagonal(self.state.sensor.position_variances_m2()),
                 position_covariance_type: NavSatFix::COVARIANCE_TYPE_DIAGONAL_KNOWN,
             });
             if let Some(velocity) = &out.velocity {
@@ -131,11 +138,19 @@ impl Device for NavSatDevice {
 
     fn next_ns(&self) -> Option<i64> {
         let has_subscribers = self.outputs.iter().any(NavSatOutput::has_subscribers);
-        self.timer.next_ns().filter(|_| has_subscribers)
+        self.state.timer.next_ns().filter(|_| has_subscribers)
     }
 
     fn reset(&mut self, time_ns: i64) {
-        self.timer.reset(time_ns);
-        self.sensor.reset();
+        self.state.timer.reset(time_ns);
+        self.state.sensor.reset();
+    }
+
+    fn save(&self) -> DeviceState {
+        DeviceState::new(self.state.clone())
+    }
+
+    fn restore(&mut self, saved: &DeviceState) -> bool {
+        saved.copy_to(&mut self.state)
     }
 }

@@ -8,7 +8,7 @@ use periplus_scene::SensorKind;
 use periplus_sensors::{RayView, Sonar};
 
 use super::{DeviceResult, Mount, SensorBuildContext, Timer};
-use crate::{Device, SenseContext};
+use crate::{Device, DeviceState, SenseContext};
 
 struct SonarDevice {
     mount: Mount,
@@ -83,5 +83,13 @@ impl Device for SonarDevice {
 
     fn reset(&mut self, time_ns: i64) {
         self.timer.reset(time_ns);
+    }
+
+    fn save(&self) -> DeviceState {
+        DeviceState::new(self.timer)
+    }
+
+    fn restore(&mut self, saved: &DeviceState) -> bool {
+        saved.copy_to(&mut self.timer)
     }
 }

@@ -5,7 +5,7 @@ use periplus_msgs::builtin_interfaces::Time;
 use periplus_msgs::rosgraph_msgs;
 
 use crate::drives::RateTimer;
-use crate::{Device, SenseContext};
+use crate::{Device, DeviceState, SenseContext};
 
 /// Publishes the simulated time on `/clock`, best effort with depth 1 as `rclcpp::ClockQoS` asks.
 pub struct ClockPublisher {
@@ -43,5 +43,13 @@ impl Device for ClockPublisher {
 
     fn reset(&mut self, time_ns: i64) {
         self.publish_timer.restart(time_ns);
+    }
+
+    fn save(&self) -> DeviceState {
+        DeviceState::new(self.publish_timer.clone())
+    }
+
+    fn restore(&mut self, saved: &DeviceState) -> bool {
+        saved.copy_to(&mut self.publish_timer)
     }
 }

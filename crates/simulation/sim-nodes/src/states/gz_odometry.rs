@@ -10,7 +10,7 @@ use super::geometry::vector;
 use super::noise::noisy;
 use super::odometry::{OdometryPublisher, diagonal};
 use crate::drives::{Body, BuildContext, RateTimer, RollingMean};
-use crate::{Device, SenseContext, StepInterval, gz_topic};
+use crate::{Device, DeviceState, SenseContext, StepInterval, gz_topic};
 
 /// The true pose of a model as odometry. Velocities are differences between steps: the linear one is
 /// averaged over ten, the angular one is not. Noise applies to the velocities only; on the topic
@@ -27,10 +27,15 @@ pub(crate) struct GzOdometry {
     is_flat: bool,
     noise: f64,
     streams: Streams,
-    before: Option<Pose>,
-    linear: RollingMean<3>,
+    state: GzOdometryState,
     odometry_publisher: OdometryPublisher,
     with_covariance: OdometryPublisher,
+}
+
+#[derive(Clone)]
+struct GzOdometryState {
+    before: Option<Pose>,
+    linear: RollingMean<3>,
     publish_timer: RateTimer,
 }
 
@@ -65,14 +70,16 @@ pub(crate) fn build(
         is_flat: context.plugin.values.integer("dimensions") != Some(3),
         noise,
         streams: Streams::new(context.setting.seed, context.name()),
-        before: None,
-        linear: RollingMean::default(),
+        state: GzOdometryState {
+            before: None,
+            linear: RollingMean::default(),
+            publish_timer: RateTimer::for_publisher(
+                context.number("odom_publish_frequency"),
+                context.setting.start_ns,
+            ),
+        },
         odometry_publisher,
         with_covariance,
-        publish_timer: RateTimer::for_publisher(
-            context.number("odom_publish_frequency"),
-            context.setting.start_ns,
-        ),
     })
 }
 
@@ -101,27 +108,28 @@ impl Device for GzOdometry {
     }
 
     fn act(&mut self, world: &mut periplus_physics::PhysicsWorld, _span: StepInterval) {
-        if self.before.is_none() {
-            self.before = self.body.state(world).map(|state| state.world_from_link * self.offset);
+        if self.state.before.is_none() {
+            self.state.before =
+                self.body.state(world).map(|state| state.world_from_link * self.offset);
         }
     }
 
     fn sense(&mut self, moment: &mut SenseContext<'_>) {
         let Some(state) = self.body.state(moment.world) else { return };
         let now = state.world_from_link * self.offset;
-        let before = self.before.replace(now).unwrap_or(now);
+        let before = self.state.before.replace(now).unwrap_or(now);
         if moment.span.length_ns <= 0 {
             return;
         }
         let (linear, angular) = self.velocities(before, now, moment.span);
-        self.linear.push(linear.to_array());
+        self.state.linear.push(linear.to_array());
         let now_ns = moment.time_ns();
-        let Some(number) = self.publish_timer.due_number(now_ns) else { return };
+        let Some(number) = self.state.publish_timer.due_number(now_ns) else { return };
         if !self.odometry_publisher.has_subscribers() && !self.with_covariance.has_subscribers() {
             return;
         }
         let mut stream = self.streams.tick(number);
-        let linear = DVec3::from_array(self.linear.mean());
+        let linear = DVec3::from_array(self.state.linear.mean());
         let twist = geometry_msgs::Twist {
             linear: vector(noisy(linear, self.noise, &mut stream)),
             angular: vector(noisy(angular, self.noise, &mut stream)),
@@ -137,12 +145,20 @@ impl Device for GzOdometry {
     fn next_ns(&self) -> Option<i64> {
         let heard =
             self.odometry_publisher.has_subscribers() || self.with_covariance.has_subscribers();
-        self.publish_timer.next_ns().filter(|_| heard)
+        self.state.publish_timer.next_ns().filter(|_| heard)
     }
 
     fn reset(&mut self, time_ns: i64) {
-        self.before = None;
-        self.linear.clear();
-        self.publish_timer.restart(time_ns);
+        self.state.before = None;
+        self.state.linear.clear();
+        self.state.publish_timer.restart(time_ns);
+    }
+
+    fn save(&self) -> DeviceState {
+        DeviceState::new(self.state.clone())
+    }
+
+    fn restore(&mut self, saved: &DeviceState) -> bool {
+        saved.copy_to(&mut self.state)
     }
 }

@@ -11,7 +11,7 @@ use periplus_scene::{JointKind, Model, carrying_link};
 
 use super::geometry::transform;
 use crate::drives::{Body, BuildContext, RateTimer, earlier};
-use crate::{Device, SenseContext, gz_topic};
+use crate::{Device, DeviceState, SenseContext, gz_topic};
 
 /// Poses of a model's parts relative to their parents: links in their model, shapes and sensors in
 /// their link. Frames are scoped names: `robot`, `robot::wheel`.
@@ -276,5 +276,21 @@ impl Device for GzPoses {
         if let Some(fixed) = &mut self.fixed {
             fixed.publish_timer.restart(time_ns);
         }
+    }
+
+    fn save(&self) -> DeviceState {
+        let fixed = self.fixed.as_ref().map(|fixed| fixed.publish_timer.clone());
+        DeviceState::new((self.moving.publish_timer.clone(), fixed))
+    }
+
+    fn restore(&mut self, saved: &DeviceState) -> bool {
+        let Some((moving, fixed)) = saved.get::<(RateTimer, Option<RateTimer>)>() else {
+            return false;
+        };
+        self.moving.publish_timer = moving.clone();
+        if let (Some(topic), Some(fixed)) = (&mut self.fixed, fixed) {
+            topic.publish_timer = fixed.clone();
+        }
+        true
     }
 }

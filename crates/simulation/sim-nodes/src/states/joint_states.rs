@@ -9,7 +9,9 @@ use periplus_physics::{JointId, PhysicsWorld};
 use periplus_plugin_specs::Family;
 
 use crate::drives::{BuildContext, RateTimer};
-use crate::{Device, DeviceContext, SenseContext, device_node, gz_topic, publisher_qos};
+use crate::{
+    Device, DeviceContext, DeviceState, SenseContext, device_node, gz_topic, publisher_qos,
+};
 
 /// Publishing rate of the joints of a robot without a publisher plugin \[Hz\].
 const DEFAULT_RATE_HZ: f64 = 50.0;
@@ -197,5 +199,13 @@ impl Device for JointStatePublisher {
 
     fn reset(&mut self, time_ns: i64) {
         self.publish_timer.restart(time_ns);
+    }
+
+    fn save(&self) -> DeviceState {
+        DeviceState::new(self.publish_timer.clone())
+    }
+
+    fn restore(&mut self, saved: &DeviceState) -> bool {
+        saved.copy_to(&mut self.publish_timer)
     }
 }

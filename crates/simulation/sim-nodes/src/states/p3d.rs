@@ -12,7 +12,7 @@ use super::geometry::vector;
 use super::noise::noisy;
 use super::odometry::{OdometryPublisher, diagonal};
 use crate::drives::{Body, BuildContext, RateTimer, unscoped};
-use crate::{Device, SenseContext, publisher_qos};
+use crate::{Device, DeviceState, SenseContext, publisher_qos};
 
 /// Frame names that denote the world.
 const WORLDS: [&str; 4] = ["world", "/world", "map", "/map"];
@@ -128,5 +128,13 @@ impl Device for P3d {
 
     fn reset(&mut self, time_ns: i64) {
         self.publish_timer.restart(time_ns);
+    }
+
+    fn save(&self) -> DeviceState {
+        DeviceState::new(self.publish_timer.clone())
+    }
+
+    fn restore(&mut self, saved: &DeviceState) -> bool {
+        saved.copy_to(&mut self.publish_timer)
     }
 }

@@ -5,7 +5,9 @@ use std::fmt;
 use std::sync::Arc;
 
 use periplus_diagnostics::{Diagnostics, Severity, SourceMap};
-use periplus_graph::{Actor, GraphError, Node, ParameterRejection, Publisher, Qos};
+use periplus_graph::{
+    Actor, GraphError, Node, ParameterRejection, Parameters, Publisher, Qos, Sample,
+};
 use periplus_msgs::{sensor_msgs, std_msgs, tf2_msgs};
 use periplus_params::{ParamValues, params};
 use periplus_scene::Model;
@@ -13,7 +15,7 @@ use periplus_scene::Model;
 use super::frame_tree::FrameTree;
 use super::geometry::transform;
 use super::odometry::TF_QOS;
-use crate::{Device, DeviceContext, device_node};
+use crate::{Device, DeviceContext, DeviceState, device_node};
 
 params! {
     /// Publishes the frames of a robot from its description and its joint states.
@@ -42,19 +44,40 @@ params! {
 /// published, mimic joints are computed, and a jump back in time resets the state.
 pub struct RobotStatePublisher {
     actor: Actor<PublisherState>,
+    parameters: Parameters,
 }
 
 struct PublisherState {
+    robot: Arc<PublishedRobot>,
+    progress: PublishProgress,
+    tf: Publisher<tf2_msgs::TFMessage>,
+    description: Publisher<std_msgs::String>,
+    tf_static: Publisher<tf2_msgs::TFMessage>,
+}
+
+/// Robot and parameters; replaced as a whole by a change.
+struct PublishedRobot {
     tree: FrameTree,
     params: RobotStateParams,
     /// Description that was published last.
     described: Option<String>,
-    tf: Publisher<tf2_msgs::TFMessage>,
-    description: Publisher<std_msgs::String>,
-    tf_static: Publisher<tf2_msgs::TFMessage>,
+    /// Prefix and time of the fixed frames that were published last [ns].
+    fixed: (String, i64),
+}
+
+#[derive(Clone, Debug, Default)]
+struct PublishProgress {
     /// Times of the last published states by joint [ns].
-    told_ns: BTreeMap<String, i64>,
+    published_ns: BTreeMap<String, i64>,
     last_ns: i64,
+}
+
+/// Saved state of a [`RobotStatePublisher`].
+struct SavedPublisher {
+    robot: Arc<PublishedRobot>,
+    progress: PublishProgress,
+    values: ParamValues,
+    pending: Vec<Vec<Sample>>,
 }
 
 impl RobotStatePublisher {
@@ -99,36 +122,72 @@ impl RobotStatePublisher {
         let values = params.to_values();
         described.publish(std_msgs::String { data: description });
         let now_ns = node.now_ns();
-        let state = PublisherState {
+        let robot = PublishedRobot {
             tree,
             described: params.robot_description.clone(),
+            fixed: (params.frame_prefix.clone(), now_ns),
             params,
+        };
+        let state = PublisherState {
+            robot: Arc::new(robot),
+            progress: PublishProgress { published_ns: BTreeMap::new(), last_ns: now_ns },
             tf,
             description: described,
             tf_static,
-            told_ns: BTreeMap::new(),
-            last_ns: now_ns,
         };
         let mut actor = node.actor(state);
         let parameters =
             actor.parameters(values, |state, values, io| state.change(values, io.now_ns()))?;
         actor.with(|state| {
-            state.params = RobotStateParams::from_values(&parameters.values());
-            let prefix = &state.params.frame_prefix;
-            state.tf_static.publish(fixed_transforms(&state.tree, prefix, now_ns));
+            if let Some(robot) = Arc::get_mut(&mut state.robot) {
+                robot.params = RobotStateParams::from_values(&parameters.values());
+                robot.fixed = (robot.params.frame_prefix.clone(), now_ns);
+            }
+            state.publish_fixed();
         });
         actor.subscribe::<sensor_msgs::JointState>(
             "joint_states",
             Qos::sensor_data(),
             |state, message, io| state.on_joint_states(&message, io.now_ns()),
         )?;
-        Ok(Self { actor })
+        Ok(Self { actor, parameters })
     }
 
     /// Returns the node.
     #[must_use]
     pub fn node(&self) -> &Node {
         self.actor.node()
+    }
+
+    fn save(&self) -> SavedPublisher {
+        let (robot, progress) =
+            self.actor.with(|state| (Arc::clone(&state.robot), state.progress.clone()));
+        let (values, pending) = (self.parameters.values(), self.actor.pending());
+        SavedPublisher { robot, progress, values, pending }
+    }
+
+    /// Restores a state. Description and fixed frames are published again if they differ, for late
+    /// subscribers.
+    fn restore(&self, saved: &SavedPublisher) {
+        let has_changed = self.actor.with(|state| {
+            state.progress = saved.progress.clone();
+            let has_changed = !Arc::ptr_eq(&state.robot, &saved.robot);
+            if has_changed {
+                state.robot = Arc::clone(&saved.robot);
+                state.publish_description();
+                state.publish_fixed();
+            }
+            has_changed
+        });
+        if has_changed {
+            for name in saved.values.names() {
+                if let Some(value) = saved.values.get(&name) {
+                    // The value was valid before.
+                    let _ = self.parameters.set(&name, value);
+                }
+            }
+        }
+        self.actor.set_pending(&saved.pending);
     }
 }
 
@@ -207,22 +266,33 @@ impl PublisherState {
         let params = RobotStateParams::from_values(values);
         let description = params.robot_description.clone();
         let tree = match &description {
-            Some(text) if description != self.described => {
+            Some(text) if description != self.robot.described => {
                 Some(tree_of(text).map_err(ParameterRejection::new)?)
             }
             Some(_) => None,
             None => return Err(ParameterRejection::new(DescriptionError::Empty)),
         };
-        self.params = params;
-        if let Some(tree) = tree {
-            self.tree = tree;
-            self.description
-                .publish(std_msgs::String { data: description.clone().unwrap_or_default() });
-            self.described = description;
-            let prefix = &self.params.frame_prefix;
-            self.tf_static.publish(fixed_transforms(&self.tree, prefix, now_ns));
+        let has_new_tree = tree.is_some();
+        let (fixed, tree) = match tree {
+            Some(tree) => ((params.frame_prefix.clone(), now_ns), tree),
+            None => (self.robot.fixed.clone(), self.robot.tree.clone()),
+        };
+        self.robot = Arc::new(PublishedRobot { tree, params, described: description, fixed });
+        if has_new_tree {
+            self.publish_description();
+            self.publish_fixed();
         }
         Ok(())
+    }
+
+    fn publish_description(&self) {
+        let data = self.robot.described.clone().unwrap_or_default();
+        self.description.publish(std_msgs::String { data });
+    }
+
+    fn publish_fixed(&self) {
+        let (prefix, time_ns) = &self.robot.fixed;
+        self.tf_static.publish(fixed_transforms(&self.robot.tree, prefix, *time_ns));
     }
 
     fn on_joint_states(&mut self, message: &Arc<sensor_msgs::JointState>, now_ns: i64) {
@@ -230,18 +300,20 @@ impl PublisherState {
         if name.len() != position.len() {
             return;
         }
-        if now_ns < self.last_ns {
-            self.told_ns.clear();
+        let PublishedRobot { tree, params, .. } = &*self.robot;
+        let PublishProgress { published_ns, last_ns } = &mut self.progress;
+        if now_ns < *last_ns {
+            published_ns.clear();
         }
-        self.last_ns = now_ns;
+        *last_ns = now_ns;
         let stamp_ns = header.stamp.ns();
-        let oldest_ns = name.iter().map(|name| self.told_ns.get(name).copied().unwrap_or(0)).min();
+        let oldest_ns = name.iter().map(|name| published_ns.get(name).copied().unwrap_or(0)).min();
         let Some(oldest_ns) = oldest_ns.map(|oldest_ns| oldest_ns.min(now_ns)) else { return };
         // In whole milliseconds, as in the original.
         #[expect(clippy::cast_possible_truncation, reason = "it saturates")]
-        let interval_ms = (1000.0 / self.params.publish_frequency_hz) as i64;
+        let interval_ms = (1000.0 / params.publish_frequency_hz) as i64;
         let due_ns = oldest_ns.saturating_add(interval_ms.saturating_mul(1_000_000));
-        if !self.params.ignore_timestamp && stamp_ns < due_ns {
+        if !params.ignore_timestamp && stamp_ns < due_ns {
             return;
         }
         let mut positions = BTreeMap::new();
@@ -249,11 +321,11 @@ impl PublisherState {
             // The first position of a duplicated joint counts.
             positions.entry(name.clone()).or_insert(*position);
         }
-        self.tree.complete(&mut positions);
-        let prefix = &self.params.frame_prefix;
+        tree.complete(&mut positions);
+        let prefix = &params.frame_prefix;
         let transforms = positions.iter().filter(|(_, position)| position.is_finite());
         let transforms = transforms.filter_map(|(joint, position)| {
-            let moving = self.tree.moving.get(joint)?;
+            let moving = tree.moving.get(joint)?;
             let (parent, child) = (
                 format!("{prefix}{}", moving.edge.parent),
                 format!("{prefix}{}", moving.edge.child),
@@ -262,7 +334,7 @@ impl PublisherState {
         });
         self.tf.publish(tf2_msgs::TFMessage { transforms: transforms.collect() });
         for name in name {
-            self.told_ns.insert(name.clone(), stamp_ns);
+            published_ns.insert(name.clone(), stamp_ns);
         }
     }
 }
@@ -270,8 +342,7 @@ impl PublisherState {
 /// A [`RobotStatePublisher`] of a simulated robot, in its namespace.
 pub(crate) struct RobotFrames {
     name: String,
-    /// Keeps the node alive.
-    _publisher: RobotStatePublisher,
+    publisher: RobotStatePublisher,
 }
 
 impl RobotFrames {
@@ -280,7 +351,7 @@ impl RobotFrames {
         let params = RobotStateParams::default();
         let publisher = RobotStatePublisher::new(node, description, setting.root, params)?;
         let name = format!("{}::robot_state_publisher", setting.model_name);
-        Ok(Self { name, _publisher: publisher })
+        Ok(Self { name, publisher })
     }
 }
 
@@ -291,4 +362,14 @@ impl Device for RobotFrames {
 
     /// The publisher itself detects a jump back in time.
     fn reset(&mut self, _time_ns: i64) {}
+
+    fn save(&self) -> DeviceState {
+        DeviceState::new(self.publisher.save())
+    }
+
+    fn restore(&mut self, saved: &DeviceState) -> bool {
+        let Some(saved) = saved.get() else { return false };
+        self.publisher.restore(saved);
+        true
+    }
 }

@@ -3,7 +3,7 @@
 use std::collections::VecDeque;
 
 use periplus_diagnostics::{Diagnostic, Diagnostics};
-use periplus_graph::{Graph, GraphError, Mailbox, Node, NodeSettings, Qos};
+use periplus_graph::{Graph, GraphError, Mailbox, Node, NodeSettings, Qos, Sample};
 use periplus_gz_msgs::{AsRos, Pairs, bare_name, each_pair};
 use periplus_msgs::{Message, to_json};
 use periplus_physics::PhysicsWorld;
@@ -11,7 +11,7 @@ use periplus_scene::Plugin;
 use periplus_xml::Element;
 use serde_json::Value;
 
-use crate::{Device, StepInterval, gz_topic};
+use crate::{Device, DeviceState, StepInterval, gz_topic};
 
 /// Default tolerance of number comparisons, as in Gazebo; `tol` overrides it.
 const NUMBER_TOLERANCE_FACTOR: f64 = 1e-8;
@@ -33,6 +33,12 @@ pub(crate) struct TriggeredPublisher {
 trait Input: Send {
     /// Returns the number of matching messages since the last call.
     fn take_matches(&mut self) -> usize;
+
+    /// Returns the messages that wait.
+    fn pending(&self) -> Vec<Sample>;
+
+    /// Replaces the messages that wait.
+    fn set_pending(&self, samples: &[Sample]);
 }
 
 /// Subscription of one type.
@@ -46,6 +52,14 @@ impl<R: Message> Input for MatchedSubscription<R> {
         let messages = self.mailbox.drain();
         let fits = |message: &Value| self.matches.iter().all(|one| one.holds(message));
         messages.iter().filter(|message| fits(&to_json(&***message))).count()
+    }
+
+    fn pending(&self) -> Vec<Sample> {
+        self.mailbox.pending()
+    }
+
+    fn set_pending(&self, samples: &[Sample]) {
+        self.mailbox.set_pending(samples);
     }
 }
 
@@ -297,5 +311,18 @@ impl Device for TriggeredPublisher {
 
     fn reset(&mut self, _time_ns: i64) {
         self.due_ns.clear();
+    }
+
+    fn save(&self) -> DeviceState {
+        DeviceState::new((self.due_ns.clone(), self.input.pending()))
+    }
+
+    fn restore(&mut self, saved: &DeviceState) -> bool {
+        let Some((due_ns, inputs)) = saved.get::<(VecDeque<i64>, Vec<Sample>)>() else {
+            return false;
+        };
+        self.due_ns.clone_from(due_ns);
+        self.input.set_pending(inputs);
+        true
     }
 }

@@ -24,6 +24,11 @@ pub(super) struct Forces {
     clear_body: ServiceAliases<BodyRequest>,
     clear_link: ServiceAliases<LinkRequest>,
     clear_joint: ServiceAliases<JointRequest>,
+    active: ActiveForces,
+}
+
+#[derive(Clone, Default)]
+pub(super) struct ActiveForces {
     /// Active and scheduled forces.
     pushes: Vec<Push>,
     /// Time of the last step in which forces were applied \[ns\].
@@ -31,6 +36,7 @@ pub(super) struct Forces {
 }
 
 /// A force with a duration.
+#[derive(Clone)]
 struct Push {
     on: On,
     start_ns: i64,
@@ -62,13 +68,12 @@ impl Forces {
                 node,
                 ["/clear_joint_efforts", "/gazebo/clear_joint_forces"],
             )?,
-            pushes: Vec::new(),
-            pushed_ns: None,
+            active: ActiveForces::default(),
         })
     }
 
     pub(super) fn serve(&mut self, simulation: &mut Simulation) {
-        let pushes = &mut self.pushes;
+        let pushes = &mut self.active.pushes;
         self.clear_body.answer(|asked| {
             clear_link(simulation, pushes, &asked.body_name);
             BodyRequestResponse::default()
@@ -111,10 +116,10 @@ impl Forces {
     /// step does nothing, since forces accumulate.
     pub(super) fn push(&mut self, simulation: &mut Simulation) {
         let now_ns = simulation.time_ns();
-        if self.pushed_ns.replace(now_ns) == Some(now_ns) {
+        if self.active.pushed_ns.replace(now_ns) == Some(now_ns) {
             return;
         }
-        self.pushes.retain(|push| {
+        self.active.pushes.retain(|push| {
             let is_over = now_ns >= push.end_ns;
             if now_ns < push.start_ns {
                 return true;
@@ -142,8 +147,15 @@ impl Forces {
 
     /// Removes all forces after a reset.
     pub(super) fn forget(&mut self) {
-        self.pushes.clear();
-        self.pushed_ns = None;
+        self.active = ActiveForces::default();
+    }
+
+    pub(super) fn save(&self) -> ActiveForces {
+        self.active.clone()
+    }
+
+    pub(super) fn restore(&mut self, saved: &ActiveForces) {
+        self.active.clone_from(saved);
     }
 }
 

@@ -1,5 +1,7 @@
 //! Services of lights.
 
+use std::sync::Arc;
+
 use periplus_geometry::DVec3;
 use periplus_msgs::ros_gz_interfaces;
 use periplus_scene::{Attenuation, Light, LightKind, Spot};
@@ -20,7 +22,7 @@ pub(super) fn light<'a>(
     let place = simulation.scene.lights.iter().position(|light| light.name == name);
     let unknown = || format!("there is no light `{name}`");
     if let Some(place) = place {
-        return Ok(&mut simulation.scene.lights[place]);
+        return Ok(&mut Arc::make_mut(&mut simulation.scene).lights[place]);
     }
     let known = format!(
         "{} ({}; one on a link is written model::link::light)",
@@ -35,7 +37,7 @@ pub(super) fn light<'a>(
         .running
         .iter_mut()
         .filter(|running| running.member.name == model)
-        .flat_map(|running| &mut running.member.model.links);
+        .flat_map(|running| &mut Arc::make_mut(&mut running.member).model.links);
     let mut lights = links.filter(|one| one.name == link).flat_map(|one| &mut one.lights);
     lights.find(|one| one.name == light).ok_or(known)
 }

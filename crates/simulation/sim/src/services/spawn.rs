@@ -118,7 +118,7 @@ pub(super) fn copy(
     let place =
         simulation.place_of(original).ok_or_else(|| entity::unknown(simulation, original))?;
     let name = free_name(simulation, wish, original)?;
-    let member = simulation.running[place].member.clone();
+    let member = (*simulation.running[place].member).clone();
     let findings =
         simulation.spawn(ModelInstance { name: name.clone(), world_from_model, ..member });
     // Its positions refer to a file that is no longer available.

@@ -156,6 +156,18 @@ impl StateTopics {
         Ok(Self { node: node.clone(), look, pairs })
     }
 
+    /// Returns its timers.
+    pub(super) fn save(&self) -> Vec<PeriodTimer> {
+        std::iter::once(self.look).chain(self.pairs.iter().map(|pair| pair.beat)).collect()
+    }
+
+    /// Restores its timers.
+    pub(super) fn restore(&mut self, saved: &[PeriodTimer]) {
+        let own = std::iter::once(&mut self.look);
+        let own = own.chain(self.pairs.iter_mut().map(|pair| &mut pair.beat));
+        own.zip(saved).for_each(|(own, saved)| *own = *saved);
+    }
+
     /// Publishes due states.
     ///
     /// # Errors

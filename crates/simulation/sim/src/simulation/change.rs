@@ -1,10 +1,12 @@
 //! Changes of a running world.
 
+use std::sync::Arc;
+
 use periplus_diagnostics::Diagnostics;
 use periplus_geometry::{DVec3, Pose};
 use periplus_scene as scene;
 
-use super::{Simulation, all};
+use super::{RunningModel, Simulation, all};
 use crate::services::Entity;
 
 impl Simulation {
@@ -54,10 +56,13 @@ impl Simulation {
         let mut running = std::mem::take(&mut self.running);
         // Remove their nodes first, so that the names are unused.
         running.iter_mut().for_each(|running| running.devices.clear());
+        let seed = self.options.seed;
         for running in &mut running {
             // Their problems were reported when they were built first.
-            let mut told = Diagnostics::new();
-            running.devices = self.devices_of(&running.member, running.model, &mut told);
+            let mut findings = Diagnostics::new();
+            let RunningModel { member, model, .. } = &*running;
+            running.devices = self.devices_of(member, *model, &self.motion, seed, &mut findings);
+            (running.build, running.seed) = (self.next_build(), seed);
         }
         self.running = running;
     }
@@ -71,7 +76,7 @@ impl Simulation {
     /// Sets gravity \[m/s²\].
     pub(crate) fn set_gravity(&mut self, gravity_m_s2: DVec3) {
         self.motion.set_gravity(gravity_m_s2);
-        self.scene.gravity_m_s2 = gravity_m_s2;
+        Arc::make_mut(&mut self.scene).gravity_m_s2 = gravity_m_s2;
     }
 
     /// Returns the physics settings.
@@ -83,7 +88,7 @@ impl Simulation {
 
     /// Returns the physics settings, mutably.
     pub(crate) fn physics_mut(&mut self) -> &mut scene::Physics {
-        let profiles = &mut self.scene.physics;
+        let profiles = &mut Arc::make_mut(&mut self.scene).physics;
         if profiles.is_empty() {
             profiles.push(scene::Physics::default());
         }
@@ -104,12 +109,12 @@ impl Simulation {
     /// Adds a light to the world.
     pub(crate) fn add_light(&mut self, light: scene::Light) {
         self.views.set_light(&light);
-        self.scene.lights.push(light);
+        Arc::make_mut(&mut self.scene).lights.push(light);
     }
 
     /// Removes a light. Returns false for an unknown name.
     pub(crate) fn delete_light(&mut self, name: &str) -> bool {
-        let lights = &mut self.scene.lights;
+        let lights = &mut Arc::make_mut(&mut self.scene).lights;
         let Some(place) = lights.iter().position(|light| light.name == name) else { return false };
         lights.remove(place);
         self.views.remove_light(name);

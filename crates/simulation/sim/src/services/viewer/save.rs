@@ -12,7 +12,7 @@ use crate::Simulation;
 /// # Errors
 /// The part of the world that SDF cannot represent.
 pub(in crate::services) fn text(simulation: &Simulation) -> Result<String, String> {
-    let mut world = simulation.scene.clone();
+    let mut world = (*simulation.scene).clone();
     let running = simulation.running.iter();
     world.models = running
         .map(|running| {
