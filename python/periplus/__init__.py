@@ -4,6 +4,7 @@
 from periplus._native import FileError, Pose, __version__
 
 # ---- rays
+from periplus._native import RayHits, RayScene
 
 # ---- maps
 
@@ -32,5 +33,7 @@ from periplus._native import FileError, Pose, __version__
 __all__ = [
     "FileError",
     "Pose",
+    "RayHits",
+    "RayScene",
     "__version__",
 ]

@@ -1,7 +1,8 @@
 """Types of the native module. One section for each part, in the order of the folders of the source."""
 
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from os import PathLike
-from typing import Any, TypeAlias, final
+from typing import Any, Literal, TypeAlias, final
 
 import numpy as np
 import numpy.typing as npt
@@ -58,6 +59,91 @@ class Pose:
     def __getnewargs__(self) -> tuple[float, float, float, float, float, float]: ...
 
 # ---- rays
+
+@final
+class RayHits:
+    @property
+    def distances(self) -> npt.NDArray[np.float64]: ...
+    @property
+    def normals(self) -> npt.NDArray[np.float64]: ...
+    @property
+    def ids(self) -> npt.NDArray[np.int64]: ...
+    @property
+    def primitives(self) -> npt.NDArray[np.int32]: ...
+    @property
+    def labels(self) -> npt.NDArray[np.int64]: ...
+    def __len__(self) -> int: ...
+    def __getitem__(self, index: int, /) -> npt.NDArray[Any]: ...
+    def __iter__(self) -> Iterator[npt.NDArray[Any]]: ...
+
+@final
+class RayScene:
+    def __new__(cls, meshes: Iterable[tuple[npt.ArrayLike, npt.ArrayLike]] | None = None) -> RayScene: ...
+    @staticmethod
+    def from_file(
+        path: StrPath,
+        geometry: Literal["visual", "collision"] = "visual",
+        arguments: dict[str, Any] | None = None,
+        search_paths: Sequence[StrPath] | None = None,
+    ) -> RayScene: ...
+    def add_mesh(
+        self,
+        vertices: npt.ArrayLike,
+        triangles: npt.ArrayLike,
+        pose: PoseLike | None = None,
+        label: int = 0,
+    ) -> int: ...
+    def add_box(self, size: npt.ArrayLike, pose: PoseLike | None = None, label: int = 0) -> int: ...
+    def add_sphere(self, radius: float, pose: PoseLike | None = None, label: int = 0) -> int: ...
+    def add_cylinder(
+        self, radius: float, length: float, pose: PoseLike | None = None, label: int = 0
+    ) -> int: ...
+    def add_capsule(
+        self, radius: float, length: float, pose: PoseLike | None = None, label: int = 0
+    ) -> int: ...
+    def add_cone(
+        self, radius: float, length: float, pose: PoseLike | None = None, label: int = 0
+    ) -> int: ...
+    def add_ellipsoid(
+        self, radii: npt.ArrayLike, pose: PoseLike | None = None, label: int = 0
+    ) -> int: ...
+    def add_plane(
+        self, size: tuple[float, float] | None = None, pose: PoseLike | None = None, label: int = 0
+    ) -> int: ...
+    def add_heightfield(
+        self,
+        heights: npt.ArrayLike,
+        size: tuple[float, float],
+        pose: PoseLike | None = None,
+        label: int = 0,
+    ) -> int: ...
+    def move(self, id: int, pose: PoseLike) -> None: ...
+    def remove(self, id: int) -> None: ...
+    def pose(self, id: int) -> Pose: ...
+    @property
+    def names(self) -> dict[int, str]: ...
+    def __len__(self) -> int: ...
+    def cast(
+        self,
+        origins: npt.ArrayLike,
+        directions: npt.ArrayLike,
+        max_distance_m: npt.ArrayLike | None = None,
+        threads: int | None = None,
+    ) -> RayHits: ...
+    def distances(
+        self,
+        origins: npt.ArrayLike,
+        directions: npt.ArrayLike,
+        max_distance_m: npt.ArrayLike | None = None,
+        threads: int | None = None,
+    ) -> npt.NDArray[np.float32]: ...
+    def occluded(
+        self,
+        origins: npt.ArrayLike,
+        directions: npt.ArrayLike,
+        max_distance_m: npt.ArrayLike | None = None,
+        threads: int | None = None,
+    ) -> npt.NDArray[np.bool_]: ...
 
 # ---- maps
 
