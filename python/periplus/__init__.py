@@ -7,12 +7,15 @@ from periplus._native import FileError, Pose, __version__
 from periplus._native import RayHits, RayScene
 
 # ---- maps
+from periplus._native import MapComparison, OccupancyGrid, inflate
 
 # ---- scan matching
+from periplus._native import ScanMatch, scan_match, scan_search
 
 # ---- costmap
 
 # ---- exploration
+from periplus._native import Frontier, frontiers
 
 # ---- transforms
 
@@ -32,8 +35,16 @@ from periplus._native import RayHits, RayScene
 
 __all__ = [
     "FileError",
+    "Frontier",
+    "MapComparison",
+    "OccupancyGrid",
     "Pose",
     "RayHits",
     "RayScene",
+    "ScanMatch",
     "__version__",
+    "frontiers",
+    "inflate",
+    "scan_match",
+    "scan_search",
 ]

@@ -2,7 +2,8 @@
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from os import PathLike
-from typing import Any, Literal, TypeAlias, final
+from pathlib import Path
+from typing import Any, ClassVar, Literal, TypeAlias, final
 
 import numpy as np
 import numpy.typing as npt
@@ -147,11 +148,154 @@ class RayScene:
 
 # ---- maps
 
+@final
+class OccupancyGrid:
+    def __new__(
+        cls, cells: npt.ArrayLike, resolution_m: float, origin: PoseLike | None = None
+    ) -> OccupancyGrid: ...
+    @staticmethod
+    def load(
+        path: StrPath, distro: str = "jazzy", resolution_m: float | None = None
+    ) -> OccupancyGrid: ...
+    def save(
+        self,
+        path: StrPath,
+        distro: str = "jazzy",
+        mode: str = "trinary",
+        image_format: str | None = None,
+        occupied_thresh: float | None = None,
+        free_thresh: float | None = None,
+    ) -> Path: ...
+    @property
+    def cells(self) -> npt.NDArray[np.int8]: ...
+    @property
+    def resolution_m(self) -> float: ...
+    @property
+    def origin(self) -> tuple[float, float, float]: ...
+    @property
+    def width(self) -> int: ...
+    @property
+    def height(self) -> int: ...
+    def world_from_cell(self, cells: npt.ArrayLike) -> npt.NDArray[np.float64]: ...
+    def cell_from_world(self, points: npt.ArrayLike) -> npt.NDArray[np.int64]: ...
+    def distances(self, occupied_thresh: float = 0.65) -> npt.NDArray[np.float64]: ...
+    def diff(
+        self,
+        other: OccupancyGrid,
+        align: bool = True,
+        window_m: float | None = None,
+        window_rad: float | None = None,
+    ) -> MapComparison: ...
+    def _repr_png_(self) -> bytes | None: ...
+    def _repr_html_(self) -> str: ...
+    def __eq__(self, other: object, /) -> bool: ...
+    __hash__: ClassVar[None]  # type: ignore[assignment]
+
+@final
+class MapComparison:
+    @property
+    def alignment(self) -> tuple[float, float, float]: ...
+    @property
+    def score(self) -> float: ...
+    @property
+    def walls(self) -> dict[str, float]: ...
+    @property
+    def walls_nearby(self) -> dict[str, float]: ...
+    @property
+    def free(self) -> dict[str, float]: ...
+    @property
+    def known(self) -> dict[str, float]: ...
+    @property
+    def first_to_other(self) -> dict[str, float]: ...
+    @property
+    def other_to_first(self) -> dict[str, float]: ...
+    @property
+    def image(self) -> npt.NDArray[np.uint8]: ...
+    def _repr_png_(self) -> bytes | None: ...
+    def _repr_html_(self) -> str: ...
+
+def inflate(
+    costs: npt.ArrayLike,
+    resolution_m: float,
+    inscribed_radius_m: float,
+    inflation_radius: float | None = None,
+    cost_scaling_factor: float | None = None,
+    inflate_unknown: bool = False,
+    inflate_around_unknown: bool = False,
+) -> npt.NDArray[np.uint8]: ...
+
 # ---- scan matching
+
+@final
+class ScanMatch:
+    @property
+    def pose(self) -> Pose: ...
+    @property
+    def information(self) -> npt.NDArray[np.float64]: ...
+    @property
+    def covariance(self) -> npt.NDArray[np.float64]: ...
+    @property
+    def matched(self) -> float: ...
+    @property
+    def rms_m(self) -> float: ...
+    @property
+    def cost(self) -> float: ...
+    @property
+    def observability(self) -> float: ...
+
+def scan_match(
+    reference_points: npt.ArrayLike,
+    points: npt.ArrayLike,
+    guess: PoseLike | None = None,
+    *,
+    origin: Sequence[float] | None = None,
+    angle_increment: float | None = None,
+    reach_m: Sequence[float] | None = None,
+    scale_m: Sequence[float] | None = None,
+    steps: int | None = None,
+    sigma_m: float | None = None,
+    independent: float | None = None,
+    degenerate: float | None = None,
+    spacing_m: float | None = None,
+    max_points: int | None = None,
+) -> ScanMatch: ...
+def scan_search(
+    reference_points: npt.ArrayLike,
+    points: npt.ArrayLike,
+    guess: PoseLike | None = None,
+    *,
+    half_m: Sequence[float],
+    half_rad: float,
+    step_rad: float | None = None,
+    min_score: float = 0.3,
+    resolution_m: float | None = None,
+    sigma_m: float | None = None,
+) -> tuple[Pose, float] | None: ...
 
 # ---- costmap
 
 # ---- exploration
+
+@final
+class Frontier:
+    @property
+    def cell(self) -> tuple[int, int]: ...
+    @property
+    def position(self) -> tuple[float, float]: ...
+    @property
+    def cost_m(self) -> float: ...
+    @property
+    def length_m(self) -> float: ...
+    @property
+    def path(self) -> npt.NDArray[np.float64]: ...
+
+def frontiers(
+    grid: OccupancyGrid,
+    robot_pose: PoseLike,
+    radius_m: float | None = None,
+    comfort_m: float | None = None,
+    min_length_m: float | None = None,
+) -> list[Frontier]: ...
 
 # ---- transforms
 

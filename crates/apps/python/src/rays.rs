@@ -6,10 +6,10 @@ mod scene;
 
 use std::num::NonZeroUsize;
 use std::sync::{Arc, Mutex};
-use std::time::Instant;
 
 use numpy::PyUntypedArrayMethods as _;
 use periplus::geometry::{DVec3, Pose};
+use periplus::os::Stopwatch;
 use periplus::raycast::{Filter, Heightfield, InstanceError, RaycastShape};
 use pyo3::exceptions::{PyIndexError, PyKeyError, PyTypeError, PyValueError};
 use pyo3::prelude::*;
@@ -525,7 +525,6 @@ impl PyRayScene {
 
     /// Seconds that the batch functions of the crate need for these rays on one thread, the best of `turns`, with rays
     /// and results allocated before: the reference of the benchmark. `what` is `cast` or `distances`.
-    #[expect(clippy::disallowed_methods, reason = "a measurement of time")]
     fn _batch_time_s(
         &self,
         origins: &Bound<'_, PyAny>,
@@ -542,7 +541,7 @@ impl PyRayScene {
             let (mut hits, mut distances_m) = (vec![None; rays.len()], vec![0.0; rays.len()]);
             let mut best_s = f64::INFINITY;
             for _ in 0..turns {
-                let start = Instant::now();
+                let start = Stopwatch::start();
                 if is_cast {
                     scene.world.hits_grid(&rays, columns, Filter::default(), 1, &mut hits);
                 } else {
