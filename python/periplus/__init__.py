@@ -13,6 +13,7 @@ from periplus._native import MapComparison, OccupancyGrid, inflate
 from periplus._native import ScanMatch, scan_match, scan_search
 
 # ---- costmap
+from periplus._native import CellReport, Costmap, UpdateBounds
 
 # ---- exploration
 from periplus._native import Frontier, frontiers
@@ -34,6 +35,8 @@ from periplus._native import Frontier, frontiers
 # ---- simulation
 
 __all__ = [
+    "CellReport",
+    "Costmap",
     "FileError",
     "Frontier",
     "MapComparison",
@@ -42,6 +45,7 @@ __all__ = [
     "RayHits",
     "RayScene",
     "ScanMatch",
+    "UpdateBounds",
     "__version__",
     "frontiers",
     "inflate",

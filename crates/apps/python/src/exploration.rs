@@ -1,6 +1,7 @@
 //! Frontiers of a map and paths to them.
 
 use periplus::exploration::{Reach, Robot, Settings, frontiers as find_frontiers};
+use periplus::grid::GridInfo;
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
@@ -29,6 +30,8 @@ pub(crate) struct PyFrontier {
     position: [f64; 2],
     cost_m: f64,
     length_m: f64,
+    cells: Vec<[i64; 2]>,
+    centroid: (f64, f64),
     path: Vec<[f64; 2]>,
 }
 
@@ -56,6 +59,19 @@ impl PyFrontier {
     #[getter]
     fn length_m(&self) -> f64 {
         self.length_m
+    }
+
+    /// Columns and rows of all its cells: int64, shape (N, 2).
+    #[getter]
+    fn cells<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        let cells = self.cells.as_flattened().to_vec();
+        Ok(moved(py, cells, &[self.cells.len(), 2])?.into_any())
+    }
+
+    /// Mean of the centres of its cells in the map frame: x, y [m].
+    #[getter]
+    fn centroid(&self) -> (f64, f64) {
+        self.centroid
     }
 
     /// Path from the robot to it in the map frame [m]: float64, shape (N, 2), from cell to cell. Empty if the robot is
@@ -126,7 +142,15 @@ fn frontiers(
         let reach = Reach::new(map, &robot, pose.x_m, pose.y_m)?;
         let mut found = find_frontiers(&reach, shortest_m);
         found.sort_by(|a, b| a.cost_m.total_cmp(&b.cost_m));
+        let whole = |count: usize| i64::try_from(count).unwrap_or(i64::MAX);
         let with_path = found.into_iter().map(|one| PyFrontier {
+            cells: one
+                .cells
+                .iter()
+                .map(|index| map.info.cell(*index))
+                .map(|(column, row)| [whole(column), whole(row)])
+                .collect(),
+            centroid: centroid(&map.info, &one.cells),
             cell: map.info.cell(one.cell),
             position: one.place_m,
             cost_m: one.cost_m,
@@ -141,4 +165,12 @@ fn frontiers(
             pose.x_m, pose.y_m
         ))
     })
+}
+
+/// Mean of the centres of cells \[m\].
+fn centroid(info: &GridInfo, cells: &[usize]) -> (f64, f64) {
+    let count = cells.len().max(1) as f64;
+    let centres = cells.iter().map(|index| info.centre_of(info.cell(*index)));
+    let (x_m, y_m) = centres.fold((0.0, 0.0), |sum, (x_m, y_m)| (sum.0 + x_m, sum.1 + y_m));
+    (x_m / count, y_m / count)
 }
