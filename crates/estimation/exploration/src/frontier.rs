@@ -15,6 +15,8 @@ pub struct Frontier {
     pub cost_m: f64,
     /// Length of the frontier \[m\].
     pub length_m: f64,
+    /// All its cells, in ascending order.
+    pub cells: Vec<usize>,
 }
 
 /// Returns all reachable frontiers of at least a minimum length \[m\], ordered by cell.
@@ -42,10 +44,13 @@ pub fn frontiers(reach: &Reach<'_>, shortest_m: f64) -> Vec<Frontier> {
             continue;
         }
         let cost = |cell: &usize| reach.cost(*cell).unwrap_or(f64::INFINITY);
-        let nearest = group.into_iter().min_by(|a, b| cost(a).total_cmp(&cost(b)).then(a.cmp(b)));
+        group.sort_unstable();
+        let nearest =
+            group.iter().copied().min_by(|a, b| cost(a).total_cmp(&cost(b)).then(a.cmp(b)));
         let Some(cell) = nearest else { continue };
         let (x_m, y_m) = info.centre_of(info.cell(cell));
-        found.push(Frontier { cell, place_m: [x_m, y_m], cost_m: cost(&cell), length_m });
+        let (place_m, cost_m) = ([x_m, y_m], cost(&cell));
+        found.push(Frontier { cell, place_m, cost_m, length_m, cells: group });
     }
     found
 }

@@ -17,16 +17,18 @@ impl CostmapConfig {
     pub fn build(&self) -> LayeredCostmap {
         let mut costmap = LayeredCostmap::new(self.frame(), self.info());
         for layer in &self.layers {
-            costmap.add_layer(self.layer(layer));
+            costmap.add_layer(self.build_layer(layer));
         }
         for filter in &self.filters {
-            costmap.add_filter(self.layer(filter));
+            costmap.add_filter(self.build_layer(filter));
         }
         costmap.set_footprint(self.footprint.clone());
         costmap
     }
 
-    fn layer(&self, config: &LayerConfig) -> Box<dyn Layer> {
+    /// Creates one layer of the configuration, for a costmap that also has layers of other programs.
+    #[must_use]
+    pub fn build_layer(&self, config: &LayerConfig) -> Box<dyn Layer> {
         let tracks_unknown = self.params().track_unknown_space;
         let name = config.name.clone();
         let values = config.values.clone();
@@ -51,7 +53,8 @@ impl CostmapConfig {
             }
             LayerKind::Denoise => Box::new(DenoiseLayer::new(name, values)),
             LayerKind::Container => {
-                let children = config.children.iter().map(|child| self.layer(child)).collect();
+                let children =
+                    config.children.iter().map(|child| self.build_layer(child)).collect();
                 Box::new(ContainerLayer::new(name, values, children))
             }
             LayerKind::Keepout => Box::new(KeepoutFilter::new(name, values)),

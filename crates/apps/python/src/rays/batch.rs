@@ -1,0 +1,440 @@
+//! Batches of rays from arrays.
+
+use std::sync::Mutex;
+
+use numpy::{
+    Element, PyArrayDyn, PyArrayMethods as _, PyReadonlyArrayDyn, PyReadwriteArrayDyn,
+    PyUntypedArrayMethods as _,
+};
+use periplus::geometry::DVec3;
+use periplus::raycast::{Filter, Hit, Ray};
+use pyo3::exceptions::PyValueError;
+use pyo3::prelude::*;
+use pyo3::types::PyTuple;
+
+use super::scene::Snapshot;
+use crate::arrays::{contiguous, require_finite};
+use crate::work::{lock, released};
+
+/// Number of rays that are converted at a time: rays and hits of a chunk stay in the cache.
+const CHUNK_RAYS: usize = 4096;
+/// Rows of an image that are traced together, as in the crate.
+const BAND_ROWS: usize = 4;
+/// Number of chunks after which Ctrl-C is checked: some 0.1 s of work.
+const SLICE_CHUNKS: usize = 64;
+/// Minimum number of rays for which a second thread pays off.
+const MIN_PARALLEL_RAYS: usize = 8192;
+
+/// Rays of arrays that are broadcast against each other.
+pub(super) struct RayBatch<'py> {
+    shape: Vec<usize>,
+    count: usize,
+    columns: usize,
+    origins: Broadcast<'py>,
+    directions: Broadcast<'py>,
+    max_distances: Option<Broadcast<'py>>,
+}
+
+/// Array of vectors or numbers; one for all rays where `is_one`.
+struct Broadcast<'py> {
+    array: PyReadonlyArrayDyn<'py, f64>,
+    is_one: bool,
+}
+
+/// Hits of a batch as arrays.
+pub(super) struct HitArrays<'py> {
+    pub(super) distances: Bound<'py, PyAny>,
+    pub(super) normals: Bound<'py, PyAny>,
+    pub(super) ids: Bound<'py, PyAny>,
+    pub(super) primitives: Bound<'py, PyAny>,
+}
+
+/// Slices of the arrays.
+#[derive(Clone, Copy)]
+struct RayReader<'a> {
+    origins: Slots<'a, [f64; 3]>,
+    directions: Slots<'a, [f64; 3]>,
+    /// None for no limit.
+    max_distances: Option<Slots<'a, f64>>,
+}
+
+/// Values of all rays, or one for all.
+#[derive(Clone, Copy)]
+struct Slots<'a, T> {
+    values: &'a [T],
+    is_one: bool,
+}
+
+/// Values of some rays, or the one for all.
+#[derive(Clone, Copy)]
+enum Part<'a, T> {
+    One(&'a T),
+    Many(&'a [T]),
+}
+
+impl Broadcast<'_> {
+    fn numbers(&self) -> PyResult<Slots<'_, f64>> {
+        Ok(Slots { values: self.array.as_slice()?, is_one: self.is_one })
+    }
+
+    fn vectors(&self) -> PyResult<Slots<'_, [f64; 3]>> {
+        Ok(Slots { values: self.array.as_slice()?.as_chunks::<3>().0, is_one: self.is_one })
+    }
+}
+
+impl<'py> RayBatch<'py> {
+    pub(super) fn new(
+        origins: &Bound<'py, PyAny>,
+        directions: &Bound<'py, PyAny>,
+        max_distance_m: Option<&Bound<'py, PyAny>>,
+    ) -> PyResult<Self> {
+        let origins = vectors(origins, "origins")?;
+        let directions = vectors(directions, "directions")?;
+        let max_distances = max_distance_m
+            .map(|argument| contiguous::<f64>(argument, "max_distance_m"))
+            .transpose()?;
+        let lead = |array: &PyReadonlyArrayDyn<'py, f64>| {
+            let shape = array.shape();
+            shape[..shape.len() - 1].to_vec()
+        };
+        let named = [("origins", lead(&origins)), ("directions", lead(&directions))];
+        let limit = max_distances.as_ref().map(|array| ("max_distance_m", array.shape().to_vec()));
+        let shape = common_shape(named.into_iter().chain(limit))?;
+        let count = shape.iter().product();
+        let (origins, directions) =
+            (expand(origins, &shape, count, true)?, expand(directions, &shape, count, true)?);
+        let max_distances =
+            max_distances.map(|array| expand(array, &shape, count, false)).transpose()?;
+        if let Some(limits) = &max_distances
+            && limits.array.as_slice()?.iter().any(|limit| limit.is_nan())
+        {
+            return Err(PyValueError::new_err("`max_distance_m` must not be NaN"));
+        }
+        let columns = if shape.len() > 1 { shape[shape.len() - 1] } else { count };
+        Ok(Self { shape, count, columns, origins, directions, max_distances })
+    }
+
+    fn reader(&self) -> PyResult<RayReader<'_>> {
+        let max_distances = self.max_distances.as_ref();
+        Ok(RayReader {
+            origins: self.origins.vectors()?,
+            directions: self.directions.vectors()?,
+            max_distances: max_distances.map(Broadcast::numbers).transpose()?,
+        })
+    }
+
+    /// All rays at once, and the number of columns.
+    pub(super) fn rays(&self) -> PyResult<(Vec<Ray>, usize)> {
+        let mut rays = Vec::new();
+        self.reader()?.fill(0, self.count, &mut rays);
+        Ok((rays, self.columns))
+    }
+
+    fn not_finite(&self) -> PyErr {
+        let check = |array: &Broadcast<'_>, name| match array.array.as_slice() {
+            Ok(values) => require_finite(values, name).err(),
+            Err(error) => Some(error.into()),
+        };
+        check(&self.origins, "origins")
+            .or_else(|| check(&self.directions, "directions"))
+            .unwrap_or_else(|| PyValueError::new_err("the rays must be finite"))
+    }
+
+    /// Number of rays of a chunk, and the columns of its rays.
+    fn chunk(&self) -> (usize, usize) {
+        let columns = self.columns.max(1);
+        if columns >= self.count {
+            return (CHUNK_RAYS, CHUNK_RAYS);
+        }
+        let rows = CHUNK_RAYS.div_ceil(columns).next_multiple_of(BAND_ROWS);
+        (rows * columns, columns)
+    }
+
+    pub(super) fn cast(
+        &self,
+        py: Python<'py>,
+        scene: &Snapshot,
+        threads: usize,
+    ) -> PyResult<HitArrays<'py>> {
+        let vectors_shape: Vec<usize> = self.shape.iter().copied().chain([3]).collect();
+        let mut distances = empty::<f64>(py, &self.shape)?;
+        let mut normals = empty::<f64>(py, &vectors_shape)?;
+        let mut ids = empty::<i64>(py, &self.shape)?;
+        let mut primitives = empty::<i32>(py, &self.shape)?;
+        let (size, columns) = self.chunk();
+        let jobs = distances
+            .as_slice_mut()?
+            .chunks_mut(size)
+            .zip(normals.as_slice_mut()?.chunks_mut(3 * size))
+            .zip(ids.as_slice_mut()?.chunks_mut(size))
+            .zip(primitives.as_slice_mut()?.chunks_mut(size));
+        let ids_of = &*scene.ids;
+        self.run(py, threads, size, jobs, |rays, hits: &mut Vec<Option<Hit>>, job| {
+            let (((distances, normals), ids), primitives) = job;
+            hits.resize(rays.len(), None);
+            scene.world.hits_grid(rays, columns.min(rays.len()), Filter::default(), 1, hits);
+            let normals = normals.as_chunks_mut::<3>().0;
+            let slots = distances.iter_mut().zip(normals).zip(ids.iter_mut().zip(primitives));
+            let mut is_sound = true;
+            for ((hit, ray), ((distance, normal), (id, primitive))) in
+                hits.iter().zip(rays).zip(slots)
+            {
+                match hit {
+                    Some(hit) => {
+                        *distance = hit.distance_m;
+                        *normal = hit.normal.to_array();
+                        *id = ids_of.get(hit.instance.0 as usize).copied().unwrap_or(-1);
+                        *primitive = hit.primitive.cast_signed();
+                    }
+                    None => {
+                        (*distance, *normal) = (f64::INFINITY, [0.0; 3]);
+                        (*id, *primitive) = (-1, -1);
+                        is_sound &= is_finite(ray);
+                    }
+                }
+            }
+            is_sound
+        })?;
+        Ok(HitArrays {
+            distances: object(&distances),
+            normals: object(&normals),
+            ids: object(&ids),
+            primitives: object(&primitives),
+        })
+    }
+
+    pub(super) fn distances(
+        &self,
+        py: Python<'py>,
+        scene: &Snapshot,
+        threads: usize,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        let mut found = empty::<f32>(py, &self.shape)?;
+        let (size, columns) = self.chunk();
+        let jobs = found.as_slice_mut()?.chunks_mut(size);
+        self.run(py, threads, size, jobs, |rays, (): &mut (), distances| {
+            scene.world.cast_grid(rays, columns.min(rays.len()), Filter::default(), 1, distances);
+            let mut pairs = rays.iter().zip(distances);
+            pairs.all(|(ray, distance)| distance.is_finite() || is_finite(ray))
+        })?;
+        Ok(object(&found))
+    }
+
+    pub(super) fn occluded(
+        &self,
+        py: Python<'py>,
+        scene: &Snapshot,
+        threads: usize,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        let mut found = empty::<bool>(py, &self.shape)?;
+        let (size, columns) = self.chunk();
+        let jobs = found.as_slice_mut()?.chunks_mut(size);
+        self.run(py, threads, size, jobs, |rays, (): &mut (), occluded| {
+            scene.world.occluded_grid(
+                rays,
+                columns.min(rays.len()),
+                Filter::default(),
+                1,
+                occluded,
+            );
+            rays.iter().zip(occluded).all(|(ray, is_occluded)| *is_occluded || is_finite(ray))
+        })?;
+        Ok(object(&found))
+    }
+
+    /// Calls `work` with the rays and slots of each chunk, on several threads, and checks for Ctrl-C in between.
+    /// `work` returns false for a ray that is not finite. Such rays hit nothing in the crate, so only those without a
+    /// hit need a check.
+    fn run<J: Send, B: Default>(
+        &self,
+        py: Python<'_>,
+        threads: usize,
+        size: usize,
+        jobs: impl Iterator<Item = J>,
+        work: impl Fn(&[Ray], &mut B, J) -> bool + Sync,
+    ) -> PyResult<()> {
+        let reader = self.reader()?;
+        let count = self.count;
+        let threads = if count < MIN_PARALLEL_RAYS { 1 } else { threads };
+        let mut jobs = jobs.enumerate();
+        loop {
+            let slice: Vec<(usize, J)> = jobs.by_ref().take(SLICE_CHUNKS * threads).collect();
+            if slice.is_empty() {
+                return Ok(());
+            }
+            let done = released(py, "ray casting", || {
+                let workers = threads.min(slice.len());
+                let queue = Mutex::new(slice.into_iter());
+                let failed = Mutex::new(false);
+                let next = || lock(&queue).next();
+                let help = || {
+                    let (mut rays, mut buffer) = (Vec::new(), B::default());
+                    while let Some((number, job)) = next() {
+                        let start = number * size;
+                        let end = (start + size).min(count);
+                        reader.fill(start, end, &mut rays);
+                        if !work(&rays, &mut buffer, job) {
+                            *lock(&failed) = true;
+                            return;
+                        }
+                    }
+                };
+                std::thread::scope(|scope| {
+                    for _ in 1..workers {
+                        scope.spawn(help);
+                    }
+                    help();
+                });
+                !*lock(&failed)
+            })?;
+            if !done {
+                return Err(self.not_finite());
+            }
+            py.check_signals()?;
+        }
+    }
+}
+
+impl RayReader<'_> {
+    /// Replaces `rays` by those from `start` to `end`.
+    fn fill(&self, start: usize, end: usize, rays: &mut Vec<Ray>) {
+        rays.clear();
+        let ray = |origin: [f64; 3], direction: [f64; 3], max_m: f64| Ray {
+            origin_m: DVec3::from_array(origin),
+            direction: DVec3::from_array(direction),
+            min_m: 0.0,
+            max_m,
+        };
+        let (origins, directions) =
+            (self.origins.part(start, end), self.directions.part(start, end));
+        let limits = self.max_distances.map(|limits| limits.part(start, end));
+        // One loop for each frequent case, so that nothing is decided for every ray.
+        match (origins, directions, limits) {
+            (Part::One(origin), Part::Many(directions), None) => {
+                rays.extend(directions.iter().map(|it| ray(*origin, *it, f64::INFINITY)));
+            }
+            (Part::Many(origins), Part::Many(directions), None) => {
+                let pairs = origins.iter().zip(directions);
+                rays.extend(
+                    pairs.map(|(origin, direction)| ray(*origin, *direction, f64::INFINITY)),
+                );
+            }
+            (origins, directions, limits) => rays.extend((0..end - start).map(|index| {
+                let limit = limits.map_or(f64::INFINITY, |limits| *limits.at(index));
+                ray(*origins.at(index), *directions.at(index), limit)
+            })),
+        }
+    }
+}
+
+impl<'a, T> Slots<'a, T> {
+    fn part(&self, start: usize, end: usize) -> Part<'a, T> {
+        match self.is_one {
+            true => Part::One(&self.values[0]),
+            false => Part::Many(&self.values[start..end]),
+        }
+    }
+}
+
+impl<'a, T> Part<'a, T> {
+    #[inline(always)]
+    fn at(&self, index: usize) -> &'a T {
+        match self {
+            Self::One(value) => value,
+            Self::Many(values) => &values[index],
+        }
+    }
+}
+
+fn is_finite(ray: &Ray) -> bool {
+    ray.origin_m.is_finite() && ray.direction.is_finite()
+}
+
+/// Array without values, to be filled; a vector of zeros would be written twice.
+fn empty<'py, T: Element>(
+    py: Python<'py>,
+    shape: &[usize],
+) -> PyResult<PyReadwriteArrayDyn<'py, T>> {
+    let numpy = py.import(pyo3::intern!(py, "numpy"))?;
+    let array = numpy
+        .getattr(pyo3::intern!(py, "empty"))?
+        .call1((PyTuple::new(py, shape)?, T::get_dtype(py)))?;
+    Ok(array.cast_into::<PyArrayDyn<T>>()?.try_readwrite()?)
+}
+
+fn object<'py, T: Element>(array: &PyReadwriteArrayDyn<'py, T>) -> Bound<'py, PyAny> {
+    (***array).clone().into_any()
+}
+
+fn vectors<'py>(
+    argument: &Bound<'py, PyAny>,
+    name: &str,
+) -> PyResult<PyReadonlyArrayDyn<'py, f64>> {
+    let array = contiguous::<f64>(argument, name)?;
+    if array.shape().last() == Some(&3) {
+        return Ok(array);
+    }
+    Err(PyValueError::new_err(format!(
+        "`{name}` must have the shape (..., 3), not {:?}",
+        array.shape()
+    )))
+}
+
+/// Shape to which shapes broadcast.
+fn common_shape(shapes: impl Iterator<Item = (&'static str, Vec<usize>)>) -> PyResult<Vec<usize>> {
+    let mut common: Vec<usize> = Vec::new();
+    for (name, shape) in shapes {
+        let axes = common.len().max(shape.len());
+        let at = |shape: &[usize], axis: usize| {
+            (axis + shape.len()).checked_sub(axes).map_or(1, |axis| shape[axis])
+        };
+        let mut joined = Vec::with_capacity(axes);
+        for axis in 0..axes {
+            match (at(&common, axis), at(&shape, axis)) {
+                (1, other) | (other, 1) => joined.push(other),
+                (a, b) if a == b => joined.push(a),
+                _ => {
+                    return Err(PyValueError::new_err(format!(
+                        "`{name}` of {shape:?} rays does not broadcast to {common:?} rays"
+                    )));
+                }
+            }
+        }
+        common = joined;
+    }
+    if common
+        .iter()
+        .try_fold(1_usize, |count, side| count.checked_mul(*side))
+        .is_none_or(|it| it > MAX_RAYS)
+    {
+        return Err(PyValueError::new_err(format!("{common:?} are more than {MAX_RAYS} rays")));
+    }
+    Ok(common)
+}
+
+/// Largest batch: its results would fill 100 GB.
+const MAX_RAYS: usize = 1 << 31;
+
+/// Fits an array to the shape of the batch: as it is, one for all, or copied by numpy.
+fn expand<'py>(
+    array: PyReadonlyArrayDyn<'py, f64>,
+    shape: &[usize],
+    count: usize,
+    is_vector: bool,
+) -> PyResult<Broadcast<'py>> {
+    let found = array.shape();
+    let lead = if is_vector { &found[..found.len() - 1] } else { found };
+    let own: usize = lead.iter().product();
+    if own == 1 && count > 0 {
+        return Ok(Broadcast { array, is_one: true });
+    }
+    if own == count {
+        return Ok(Broadcast { array, is_one: false });
+    }
+    let py = array.py();
+    let numpy = py.import(pyo3::intern!(py, "numpy"))?;
+    let wanted: Vec<usize> = shape.iter().copied().chain(is_vector.then_some(3)).collect();
+    let wide =
+        numpy.getattr("broadcast_to")?.call1(((*array).clone(), PyTuple::new(py, wanted)?))?;
+    Ok(Broadcast { array: contiguous::<f64>(&wide, "the rays")?, is_one: false })
+}
