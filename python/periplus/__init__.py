@@ -14,12 +14,23 @@ from periplus._native import FileError, Pose, __version__
 # ---- exploration
 
 # ---- transforms
+from periplus._native import (
+    TfBuffer,
+    TransformArgumentError,
+    TransformConnectivityError,
+    TransformError,
+    TransformExtrapolationError,
+    TransformLookupError,
+)
 
 # ---- ekf
+from periplus._native import Ekf, EkfEstimate
 
 # ---- slam
+from periplus._native import LaserScanner, PoseGraph, Slam, SlamRemark, SlamUpdate
 
 # ---- amcl
+from periplus._native import Amcl, AmclEstimate
 
 # ---- messages
 
@@ -30,7 +41,22 @@ from periplus._native import FileError, Pose, __version__
 # ---- simulation
 
 __all__ = [
+    "Amcl",
+    "AmclEstimate",
+    "Ekf",
+    "EkfEstimate",
     "FileError",
+    "LaserScanner",
     "Pose",
+    "PoseGraph",
+    "Slam",
+    "SlamRemark",
+    "SlamUpdate",
+    "TfBuffer",
+    "TransformArgumentError",
+    "TransformConnectivityError",
+    "TransformError",
+    "TransformExtrapolationError",
+    "TransformLookupError",
     "__version__",
 ]
