@@ -3,6 +3,7 @@
 import math
 from pathlib import Path
 from types import SimpleNamespace
+from typing import Any
 
 import numpy as np
 import pytest
@@ -33,10 +34,11 @@ def scan(x: float, y: float, yaw: float) -> np.ndarray:
     columns = ((x + np.outer(np.cos(ANGLES + yaw), distances)) / RESOLUTION).astype(int)
     rows = ((y + np.outer(np.sin(ANGLES + yaw), distances)) / RESOLUTION).astype(int)
     hit = cells[rows.clip(0, 99), columns.clip(0, 159)] == 100
-    return distances[hit.argmax(axis=1)]
+    ranges: np.ndarray = distances[hit.argmax(axis=1)]
+    return ranges
 
 
-def localizer(**parameters: object) -> Amcl:
+def localizer(**parameters: Any) -> Amcl:
     return Amcl((room(), RESOLUTION, (0.0, 0.0, 0.0)), scanner=SCANNER, **parameters)
 
 
@@ -210,12 +212,16 @@ def test_parameters(tmp_path: Path) -> None:
     with pytest.raises(FileError, match="alpha1") as error:
         Amcl(yaml=path)
     assert (error.value.line, error.value.column) == (3, 5)
+    path.write_text("amcl:\n  ros__parameters:\n    introspection_mode: disabled\n    alpha1: 0.4\n")
+    with pytest.warns(UserWarning, match="nav2.yaml:3:5: AMCL has no parameter `introspection_mode`"):
+        assert Amcl(yaml=path).settings()["alpha1"] == 0.4
     path.write_text("amcl:\n  ros__parameters:\n    max_particles: many\n")
     with pytest.raises(FileError) as error:
         Amcl(yaml=path)
     assert (error.value.line, error.value.column) == (3, 20)
 
 
+@pytest.mark.filterwarnings("ignore:overflow encountered in cast")
 @settings(deadline=None, max_examples=40)
 @given(
     hnp.arrays(
@@ -233,6 +239,7 @@ def test_any_array_is_used_or_an_error(ranges: np.ndarray) -> None:
     assert estimate.pose is None or np.isfinite(estimate.pose.matrix).all()
 
 
+@pytest.mark.filterwarnings("ignore:overflow encountered in cast")
 @settings(deadline=None)
 @given(st.one_of(st.none(), st.text(max_size=3), st.floats(), st.lists(st.floats(), max_size=9)))
 def test_anything_as_an_argument_never_crashes(anything: object) -> None:

@@ -2,6 +2,7 @@
 
 import math
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -40,11 +41,7 @@ def test_wheels_drive_an_arc() -> None:
         ekf.add_twist("odom0", (1.0, 0, 0), (0, 0, 1.0), SMALL, time_s=step * math.pi / 200)
     assert ekf.update(math.pi / 2)
     pose = ekf.pose
-    assert (pose.x, pose.y, pose.yaw) == (
-        pytest.approx(1.0, abs=0.02),
-        pytest.approx(1.0, abs=0.02),
-        pytest.approx(math.pi / 2, abs=0.01),
-    )
+    assert (pose.x, pose.y, pose.yaw) == pytest.approx((1.0, 1.0, math.pi / 2), abs=0.02)
     estimate = ekf.estimate
     assert estimate is not None and estimate.time_s == pytest.approx(math.pi / 2)
     assert estimate.linear_velocity[0] == pytest.approx(1.0, abs=1e-3)
@@ -70,7 +67,7 @@ def test_order_of_arrival_does_not_matter() -> None:
             ekf.add_measurement({"vx": float(tick)}, 0.1, time_s=0.01 * tick)
         ekf.update(0.02)
         states.append(ekf.state)
-    np.testing.assert_array_equal(*states)
+    np.testing.assert_array_equal(states[0], states[1])
 
 
 def test_imu_upside_down_with_gravity() -> None:
@@ -93,7 +90,7 @@ def test_imu_upside_down_with_gravity() -> None:
 
 def test_missing_parts_of_an_imu() -> None:
     ekf = Ekf(imu0_config=use("yaw", "vyaw"))
-    rates = {"angular_velocity": (0, 0, 1), "angular_velocity_covariance": [1e-4] * 3, "time_s": 0.0}
+    rates: dict[str, Any] = {"angular_velocity": (0, 0, 1), "angular_velocity_covariance": [1e-4] * 3, "time_s": 0.0}
     with pytest.raises(ValueError, match="selects the orientation, which is missing"):
         ekf.add_imu("imu0", **rates)
     with pytest.raises(ValueError, match="orientation, which is missing"):

@@ -26,7 +26,8 @@ def room(x: float, y: float = 0.0, yaw: float = 0.0) -> np.ndarray:
     """Ranges in a room of 6 m by 4 m around the origin."""
     c, s = np.cos(ANGLES + yaw), np.sin(ANGLES + yaw)
     with np.errstate(divide="ignore", invalid="ignore"):
-        return np.fmin((3.0 * np.sign(c) - x) / c, (2.0 * np.sign(s) - y) / s)
+        ranges: np.ndarray = np.fmin((3.0 * np.sign(c) - x) / c, (2.0 * np.sign(s) - y) / s)
+    return ranges
 
 
 def drive(slam: Slam, count: int = 11) -> list[str]:
@@ -93,6 +94,7 @@ def test_graph_and_g2o() -> None:
     assert graph.edges.shape == graph.residuals.shape == (len(graph.kinds), 2)
     assert graph.kinds.count("sequential") == count - 1
     assert graph.chi2 >= 0.0
+    assert slam.covariance.shape == (3, 3) and (np.diag(slam.covariance) > 0.0).all()
     lines = slam.g2o().splitlines()
     assert sum(line.startswith("VERTEX_SE2") for line in lines) == count
     # The text has all digits of the poses.
@@ -103,7 +105,7 @@ def test_graph_and_g2o() -> None:
 def test_gmapping_has_no_graph(tmp_path: Path) -> None:
     slam = Slam("gmapping", scanner=SCANNER, particles=2)
     drive(slam, 2)
-    for call in (slam.graph, slam.g2o, slam.to_bytes, lambda: slam.save(tmp_path / "x"), lambda: slam.set_pose((0, 0, 0))):
+    for call in (slam.graph, slam.g2o, slam.to_bytes, lambda: slam.save(tmp_path / "x"), lambda: slam.set_pose((0, 0, 0)), lambda: slam.covariance):
         with pytest.raises(ValueError, match="gmapping has no graph"):
             call()
 
@@ -274,6 +276,7 @@ def test_wrong_scans() -> None:
     assert slam.counts["scans"] == 0
 
 
+@pytest.mark.filterwarnings("ignore:overflow encountered in cast")
 @settings(deadline=None, max_examples=50)
 @given(
     hnp.arrays(

@@ -2,6 +2,7 @@
 
 import math
 import threading
+from typing import Any
 
 import numpy as np
 import pytest
@@ -173,8 +174,8 @@ finite = st.floats(-1e6, 1e6)
     dtype=st.sampled_from([np.float64, np.float32]),
     step=st.sampled_from([1, 2]),
 )
-def test_rows_come_back(poses: list[tuple[float, float, float]], dtype: type, step: int) -> None:
-    array = np.repeat(np.array(poses, dtype), step, axis=0)[::step]
+def test_rows_come_back(poses: list[tuple[float, float, float]], dtype: Any, step: int) -> None:
+    array: np.ndarray[Any, Any] = np.repeat(np.array(poses, dtype), step, axis=0)[::step]
     times = np.arange(1, len(poses) + 1) * 0.1
     tf = TfBuffer()
     tf.set_transforms("odom", "base", array, times)

@@ -187,7 +187,7 @@ const fn state_word(state: LocalizationState) -> &'static str {
 /// it was carried away (``search_when_lost``). The same calls give the same bits (``random_seed``).
 ///
 /// Raises ``TypeError`` for an unknown parameter, ``ValueError`` for a wrong value, ``FileError`` with line and column
-/// for a file.
+/// for a wrong value or a misspelled name in a file; other unknown names in a file are warnings.
 ///
 /// >>> import numpy as np
 /// >>> from periplus import Amcl, LaserScanner

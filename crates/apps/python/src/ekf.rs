@@ -165,7 +165,7 @@ impl Filter {
 /// Implementation for the Robot Operating System" (2014).
 ///
 /// Raises ``TypeError`` for an unknown parameter, ``ValueError`` for a wrong value, ``FileError`` with line and column
-/// for a file.
+/// for a wrong value or a misspelled name in a file; other unknown names in a file are warnings.
 ///
 /// >>> from periplus import Ekf
 /// >>> use = [name in ("vx", "vyaw") for name in Ekf.VARIABLES]

@@ -83,8 +83,9 @@ pub(crate) fn read_yaml(
     periplus::yaml::parse(file, sources).map_err(|fault| finding_error(py, &fault, sources))
 }
 
-/// Raises the first fault of parameters: `FileError` for those of a file, `TypeError` for an unknown keyword and
-/// `ValueError` for a wrong value of one. Warnings are warnings of Python.
+/// Raises the first fault of parameters: `FileError` for a wrong value or a misspelled name in a file, `TypeError` for
+/// an unknown keyword and `ValueError` for a wrong value of one. Warnings are warnings of Python, also unknown names in
+/// a file that are similar to none.
 pub(crate) fn require_valid(
     py: Python<'_>,
     findings: &Diagnostics,
@@ -93,10 +94,12 @@ pub(crate) fn require_valid(
     for finding in findings.iter() {
         let is_unknown = finding.code == "unknown-parameter";
         let is_in_file = finding.span.is_some_and(|span| sources.holds(span));
-        if is_in_file && (is_unknown || finding.severity == Severity::Error) {
+        // One of a newer release has no similar name: its file still loads, with a warning.
+        let is_misspelled = is_unknown && finding.replacement.is_some();
+        if is_in_file && (is_misspelled || finding.severity == Severity::Error) {
             return Err(finding_error(py, &advised(finding), sources));
         }
-        if is_unknown {
+        if is_unknown && !is_in_file {
             return Err(PyTypeError::new_err(sentence(finding)));
         }
         if finding.severity == Severity::Error {

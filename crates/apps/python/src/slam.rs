@@ -62,7 +62,7 @@ const MAP_CELLS_PER_SLICE: usize = 1 << 20;
 /// work is done by the next call.
 ///
 /// Raises ``TypeError`` for an unknown parameter, ``ValueError`` for a wrong value, ``FileError`` with line and column
-/// for a file.
+/// for a wrong value or a misspelled name in a file; other unknown names in a file are warnings.
 ///
 /// >>> import numpy as np
 /// >>> from periplus import LaserScanner, Slam
@@ -127,6 +127,16 @@ impl PySlam {
     /// finish : bool
     ///     Run ``finish`` at the end. If an error of the scanner's mounting or of the odometry axes is certain then
     ///     and ``correct_mounting`` is set, the log is mapped again without it; see ``mounting_correction``.
+    ///
+    /// >>> import pathlib, tempfile
+    /// >>> from periplus import Slam
+    /// >>> scan = " ".join(["2.0"] * 180)
+    /// >>> with tempfile.TemporaryDirectory() as folder:
+    /// ...     path = pathlib.Path(folder, "run.log")
+    /// ...     _ = path.write_text(f"FLASER 180 {scan} 0 0 0 0 0 0 1.5 host 0\n")
+    /// ...     slam = Slam.from_log(path, resolution=0.1)
+    /// >>> slam.trajectory().tolist()
+    /// [[1.5, 0.0, 0.0, 0.0]]
     ///
     /// Malformed lines are warnings. Raises ``FileNotFoundError``, and ``FileError`` for a file without scans or of
     /// another kind: recordings (``.bag``, ``.mcap``, ``.db3``) are mapped by ``periplus slam``, or scan by scan.
@@ -260,6 +270,16 @@ impl PySlam {
         Ok(PyPose(pose.into()))
     }
 
+    /// Covariance of the last pose relative to the surrounding scans, along the axes of the map, shape (3, 3): x, y [m],
+    /// yaw [rad]. Raises ``ValueError`` for ``gmapping``.
+    #[getter]
+    fn covariance<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        let covariance = self.read(py, |mapping| mapping.mapper.graph().map(Slam::covariance))?;
+        let Symmetric3 { xx, xy, xt, yy, yt, tt } =
+            covariance.ok_or_else(|| no_graph("covariance"))?;
+        Ok(moved(py, vec![xx, xy, xt, xy, yy, yt, xt, yt, tt], &[3, 3])?.into_any())
+    }
+
     /// Sets the pose of the robot in the map, as ``/initialpose`` does: the next scan is matched around it. Before
     /// the first scan it defines the origin of the map. Only with ``method="graph"``.
     ///
@@ -293,7 +313,14 @@ impl PySlam {
     /// Returns the map as it is now: cells of shape (height, width), int8, the row of lowest y first (-1 unknown, 0
     /// free to 100 occupied), the size of a cell [m], and the pose of the lower left corner in the map.
     ///
-    /// Raises ``ValueError`` before the first scan, and ``MemoryError`` for a map that is too large to hold.
+    /// >>> from periplus import LaserScanner, Slam
+    /// >>> slam = Slam(scanner=LaserScanner(-1.5, 0.1, range_max=10.0), resolution=0.1)
+    /// >>> _ = slam.process([2.0] * 31, (0.0, 0.0, 0.0), time_s=0.0)
+    /// >>> cells, resolution, origin = slam.map()
+    /// >>> cells.dtype.name, resolution, bool(cells.max() > 50)
+    /// ('int8', 0.1, True)
+    ///
+    /// Raises ``RuntimeError`` before the first scan, and ``MemoryError`` for a map that is too large to hold.
     fn map<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         let drawing = self.read(py, Mapping::drawing)?;
         let grid = drawing.draw(py, MAP_CELLS_PER_SLICE)?;

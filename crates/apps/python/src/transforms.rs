@@ -261,6 +261,13 @@ impl TfBuffer {
     /// times_s : array of shape (N,), optional
     ///     Times [s]; or ``times_ns`` [ns], whole numbers.
     ///
+    /// >>> import numpy as np
+    /// >>> from periplus import TfBuffer
+    /// >>> buffer = TfBuffer()
+    /// >>> buffer.set_transforms("odom", "base", np.array([[0.0, 0.0, 0.0], [1.0, 0.0, 0.0]]), [1.0, 2.0])
+    /// >>> buffer.lookup_many("odom", "base", [1.0, 1.25, 1.5])[:, 0].tolist()
+    /// [0.0, 0.25, 0.5]
+    ///
     /// Raises ``ValueError`` with the row that is rejected; the rows before it are in the buffer.
     #[pyo3(signature = (parent, child, poses, times_s=None, *, times_ns=None, authority="python"))]
     #[allow(clippy::too_many_arguments, reason = "keywords of Python")]
