@@ -19,12 +19,23 @@ from periplus._native import CellReport, Costmap, UpdateBounds
 from periplus._native import Frontier, frontiers
 
 # ---- transforms
+from periplus._native import (
+    TfBuffer,
+    TransformArgumentError,
+    TransformConnectivityError,
+    TransformError,
+    TransformExtrapolationError,
+    TransformLookupError,
+)
 
 # ---- ekf
+from periplus._native import Ekf, EkfEstimate
 
 # ---- slam
+from periplus._native import LaserScanner, PoseGraph, Slam, SlamRemark, SlamUpdate
 
 # ---- amcl
+from periplus._native import Amcl, AmclEstimate
 
 # ---- messages
 from periplus._native import deserialize, serialize
@@ -48,25 +59,40 @@ from periplus._native import (
 )
 
 __all__ = [
+    "Amcl",
+    "AmclEstimate",
     "CellReport",
     "Contact",
     "Costmap",
+    "Ekf",
+    "EkfEstimate",
     "FileError",
     "Frontier",
     "Image",
+    "LaserScanner",
     "MapComparison",
     "Model",
     "OccupancyGrid",
     "PointCloud",
     "Pose",
+    "PoseGraph",
     "RayHits",
     "RayScene",
     "Scan",
     "ScanMatch",
     "Sensor",
     "Simulation",
+    "Slam",
+    "SlamRemark",
+    "SlamUpdate",
     "Snapshot",
     "Subscription",
+    "TfBuffer",
+    "TransformArgumentError",
+    "TransformConnectivityError",
+    "TransformError",
+    "TransformExtrapolationError",
+    "TransformLookupError",
     "UpdateBounds",
     "World",
     "__version__",

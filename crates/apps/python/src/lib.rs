@@ -6,12 +6,15 @@
 
 mod amcl;
 mod arrays;
+mod background;
 mod bags;
 mod command;
 mod costmap;
 mod ekf;
 mod errors;
+mod estimator_parameters;
 mod exploration;
+mod laser_scanner;
 mod maps;
 mod messages;
 mod poses;
@@ -40,6 +43,7 @@ fn _native(module: &Bound<'_, PyModule>) -> PyResult<()> {
         exploration::register,
         transforms::register,
         ekf::register,
+        laser_scanner::register,
         slam::register,
         amcl::register,
         messages::register,

@@ -157,7 +157,7 @@ impl PyPose {
         values.fold(0, |hash, value| hash.rotate_left(7) ^ (value + 0.0).to_bits())
     }
 
-    fn __repr__(&self) -> String {
+    pub(crate) fn __repr__(&self) -> String {
         let (p, r) = (self.0.translation, self.0.rpy());
         format!(
             "Pose(x={:?}, y={:?}, z={:?}, roll={:?}, pitch={:?}, yaw={:?})",
@@ -193,8 +193,13 @@ pub(crate) fn pose_argument(argument: &Bound<'_, PyAny>, name: &str) -> PyResult
     Ok(finite(pose)?.0)
 }
 
-/// Argument that is a planar pose: a `Pose`, or (x, y, yaw).
+/// Argument that is a planar pose: a `Pose`, or (x, y, yaw), whose yaw keeps all its digits.
 pub(crate) fn pose2_argument(argument: &Bound<'_, PyAny>, name: &str) -> PyResult<Pose2> {
+    if let Ok([x_m, y_m, yaw_rad]) = argument.extract::<[f64; 3]>() {
+        let pose = Pose2::new(x_m, y_m, yaw_rad);
+        finite(Pose::from(pose))?;
+        return Ok(pose);
+    }
     Ok(Pose2::from(pose_argument(argument, name)?))
 }
 
