@@ -25,15 +25,33 @@ from periplus._native import FileError, Pose, __version__
 from periplus._native import deserialize, serialize
 
 # ---- bags
+from periplus._native import (
+    Bag,
+    BagMessages,
+    BagTopic,
+    BagWriter,
+    check_bag,
+    convert_bag,
+    open_bag,
+)
 
 # ---- robot files
+from periplus._native import Finding
 
 # ---- simulation
 
 __all__ = [
+    "Bag",
+    "BagMessages",
+    "BagTopic",
+    "BagWriter",
     "FileError",
+    "Finding",
     "Pose",
     "__version__",
+    "check_bag",
+    "convert_bag",
     "deserialize",
+    "open_bag",
     "serialize",
 ]

@@ -18,9 +18,9 @@ use pyo3::exceptions::{PyAttributeError, PyTypeError};
 use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyDict, PyList, PyString, PyType};
 
-pub(crate) use build::build;
+pub(crate) use build::{array, build};
 pub(crate) use encode::{encode_message, plan_of};
-pub(crate) use plan::{Plan, plan, plan_in};
+pub(crate) use plan::{Element, Plan, PlanField, plan, plan_in};
 pub(crate) use tape::{Tape, TapeReader};
 
 use crate::errors::{self, value_error};
