@@ -36,7 +36,7 @@ from periplus._native import (
 )
 
 # ---- robot files
-from periplus._native import Finding
+from periplus._native import Finding, check, convert, expand_xacro, load_robot
 
 # ---- simulation
 
@@ -49,9 +49,13 @@ __all__ = [
     "Finding",
     "Pose",
     "__version__",
+    "check",
     "check_bag",
+    "convert",
     "convert_bag",
     "deserialize",
+    "expand_xacro",
+    "load_robot",
     "open_bag",
     "serialize",
 ]

@@ -10,7 +10,7 @@ import numpy as np
 def require_pandas() -> None:
     """Fail early if pandas is not installed."""
     try:
-        import pandas  # noqa: F401
+        import pandas  # type: ignore[import-untyped, unused-ignore]  # noqa: F401
     except ImportError as error:
         raise ImportError("to_pandas needs the package pandas: pip install pandas") from error
 
@@ -25,7 +25,7 @@ def require_polars() -> None:
 
 def to_pandas(columns: dict[str, Any]) -> Any:
     """DataFrame of pandas. An array for each message becomes one object."""
-    import pandas
+    import pandas  # type: ignore[import-untyped, unused-ignore]
 
     return pandas.DataFrame(
         {name: list(column) if column.ndim > 1 else column for name, column in columns.items()}
