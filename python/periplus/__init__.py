@@ -41,8 +41,18 @@ from periplus._native import Amcl, AmclEstimate
 from periplus._native import deserialize, serialize
 
 # ---- bags
+from periplus._native import (
+    Bag,
+    BagMessages,
+    BagTopic,
+    BagWriter,
+    check_bag,
+    convert_bag,
+    open_bag,
+)
 
 # ---- robot files
+from periplus._native import Finding, check, convert, expand_xacro, load_robot
 
 # ---- simulation
 from periplus._native import (
@@ -61,12 +71,17 @@ from periplus._native import (
 __all__ = [
     "Amcl",
     "AmclEstimate",
+    "Bag",
+    "BagMessages",
+    "BagTopic",
+    "BagWriter",
     "CellReport",
     "Contact",
     "Costmap",
     "Ekf",
     "EkfEstimate",
     "FileError",
+    "Finding",
     "Frontier",
     "Image",
     "LaserScanner",
@@ -96,9 +111,16 @@ __all__ = [
     "UpdateBounds",
     "World",
     "__version__",
+    "check",
+    "check_bag",
+    "convert",
+    "convert_bag",
     "deserialize",
+    "expand_xacro",
     "frontiers",
     "inflate",
+    "load_robot",
+    "open_bag",
     "scan_match",
     "scan_search",
     "serialize",

@@ -19,7 +19,6 @@ TypeError: LaserScan.ranges must be an array of float32, not str
 
 from __future__ import annotations
 
-import json
 import os
 from typing import Any, TypeVar
 
@@ -115,19 +114,26 @@ def to_dict(message: Message) -> dict[str, Any]:
 def from_dict(type: type[_M] | str, fields: dict[str, Any]) -> _M:
     """Message of a dictionary of its fields, as :func:`to_dict` makes it; fields that are missing have defaults.
 
-    Raises ``ValueError`` if a value does not fit its field.
+    Raises ``TypeError`` or ``ValueError`` if a value does not fit its field, and ``TypeError`` for an unknown field.
 
     >>> from periplus.msgs import from_dict
     >>> from_dict("geometry_msgs/msg/Point", {"x": 1})
     geometry_msgs.msg.Point(x=1.0, y=0.0, z=0.0)
     """
 
-    def plain(value: Any) -> Any:
-        if isinstance(value, bytes):
-            return value[0] if len(value) == 1 else list(value)
-        return value.tolist()
+    cls: Any = _native.message_class(type) if isinstance(type, str) else type
+    types: dict[str, str] = cls.get_fields_and_field_types()
 
-    return from_json(type, json.dumps(fields, default=plain))
+    def convert(name: str, value: Any) -> Any:
+        if not isinstance(value, (dict, list)) or "/" not in types.get(name, ""):
+            return value
+        element = types[name].removeprefix("sequence<").split(",")[0].split("[")[0].rstrip(">")
+        if isinstance(value, dict):
+            return from_dict(element, value)
+        return [from_dict(element, one) if isinstance(one, dict) else one for one in value]
+
+    message: _M = cls(**{name: convert(name, value) for name, value in fields.items()})
+    return message
 
 
 def to_json(message: Message, *, indent: bool = False) -> str:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from operator import attrgetter
-from typing import Any, ClassVar, NoReturn
+from typing import Any, ClassVar, cast
 
 import numpy as np
 
@@ -30,7 +30,7 @@ class Message(metaclass=MessageType):
     True
     """
 
-    __slots__ = ()
+    __slots__: tuple[str, ...] = ()
     __hash__ = None  # type: ignore[assignment]
 
     __type_handle__: ClassVar[_native.TypeHandle]
@@ -59,7 +59,7 @@ class Message(metaclass=MessageType):
     def __eq__(self, other: object) -> bool:
         if type(self) is not type(other):
             return NotImplemented
-        for name in self.__slots__:
+        for name in type(self).__field_types__:
             mine, theirs = getattr(self, name), getattr(other, name)
             if isinstance(mine, np.ndarray):
                 if not np.array_equal(mine, theirs):
@@ -81,7 +81,7 @@ class Service:
     Response: ClassVar[type[Message]]
     Event: ClassVar[type[Message]]
 
-    def __init__(self) -> NoReturn:
+    def __init__(self) -> None:
         raise NotImplementedError("Service classes can not be instantiated")
 
 
@@ -98,7 +98,7 @@ class Action:
     Feedback: ClassVar[type[Message]]
     Impl: ClassVar[type[Any]]
 
-    def __init__(self) -> NoReturn:
+    def __init__(self) -> None:
         raise NotImplementedError("Action classes can not be instantiated")
 
 
@@ -126,8 +126,8 @@ def make_class(handle: _native.TypeHandle) -> type[Message]:
         **constants,
     }
     for index, (field, type_text) in enumerate(fields.items()):
-        body[field] = property(attrgetter("_" + field), handle.setter(index), doc=type_text)  # type: ignore[arg-type]
-    return MessageType(name, (Message,), body)
+        body[field] = property(attrgetter("_" + field), handle.setter(index), doc=type_text)
+    return cast(type[Message], MessageType(name, (Message,), body))
 
 
 def make_service(package: str, kind: str, name: str) -> type[Service]:

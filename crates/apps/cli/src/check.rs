@@ -97,7 +97,7 @@ fn show(out: &mut dyn Write, name: &str, loaded: &LoadedFile, quiet: bool) -> io
 }
 
 /// Findings of parameter files, from the nodes that read them.
-fn beyond(file: &Path, loaded: &mut LoadedFile) -> Vec<(Diagnostics, SourceMap)> {
+pub(crate) fn beyond(file: &Path, loaded: &mut LoadedFile) -> Vec<(Diagnostics, SourceMap)> {
     if loaded.language != FileFormat::Parameters || loaded.diagnostics.has_errors() {
         return Vec::new();
     }

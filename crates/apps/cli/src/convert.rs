@@ -20,35 +20,12 @@ pub(crate) fn run(options: &ConvertOptions) -> Result<ExitCode, CliError> {
     let [file] = files.as_slice() else {
         return Err(CliError::usage("convert takes one file; see `periplus convert --help`"));
     };
-    let mut loaded =
-        with_setting(&options.search.resource_path, arguments, |setting| load(file, setting));
-    if matches!(loaded.language, FileFormat::Map | FileFormat::Picture) {
-        loaded = match with_setting(&options.search.resource_path, Vec::new(), |setting| {
-            walls(&loaded, options, setting)
-        }) {
-            Ok(world) => world,
-            Err(why) => {
-                return Err(CliError::usage(why));
-            }
-        };
+    let (loaded, text, boxes) = convert_file(file, arguments, options).map_err(CliError::usage)?;
+    if let Some(boxes) = boxes {
+        terminal::say(&format!("the walls consist of {boxes} boxes"));
     }
-    if let Some(name) = &options.model {
-        keep_model(&mut loaded, name);
-    }
-    let target = folder_of(options.output.as_deref().unwrap_or(file));
-    if let Some(scene) = &mut loaded.scene {
-        rebase(scene, &loaded.sources, &working_folder(), &target);
-    }
-    // A partial conversion would pass for a complete one. An xacro expansion is complete whatever
-    // it describes, as with the program `xacro`.
-    let is_expansion = options.to == Format::Urdf
-        && options.model.is_none()
-        && matches!(loaded.language, FileFormat::Xacro | FileFormat::Urdf)
-        && loaded.is_expanded;
-    let may_write = |loaded: &LoadedFile| is_expansion || !loaded.diagnostics.has_errors();
-    let text = if may_write(&loaded) { convert(&mut loaded, options.to) } else { None };
     terminal::findings(&mut anstream::stderr().lock(), &loaded)?;
-    let Some(text) = text.filter(|_| may_write(&loaded)) else {
+    let Some(text) = text else {
         return Err(CliError::failed(format!("{} is not converted", file.display())));
     };
     match &options.output {
@@ -69,6 +46,48 @@ pub(crate) fn run(options: &ConvertOptions) -> Result<ExitCode, CliError> {
     Ok(ExitCode::SUCCESS)
 }
 
+/// Loaded file, its converted text if it can be converted, and the number of boxes of the walls of a map.
+pub(crate) type Converted = (LoadedFile, Option<String>, Option<usize>);
+
+/// Reads and converts a file. `Err` for wrong usage.
+pub(crate) fn convert_file(
+    file: &Path,
+    arguments: Vec<(String, String)>,
+    options: &ConvertOptions,
+) -> Result<Converted, String> {
+    let mut boxes = None;
+    let mut loaded =
+        with_setting(&options.search.resource_path, arguments, |setting| load(file, setting));
+    if matches!(loaded.language, FileFormat::Map | FileFormat::Picture) {
+        loaded = match with_setting(&options.search.resource_path, Vec::new(), |setting| {
+            walls(&loaded, options, setting)
+        }) {
+            Ok((world, count)) => {
+                boxes = count;
+                world
+            }
+            Err(why) => return Err(why),
+        };
+    }
+    if let Some(name) = &options.model {
+        keep_model(&mut loaded, name);
+    }
+    let target = folder_of(options.output.as_deref().unwrap_or(file));
+    if let Some(scene) = &mut loaded.scene {
+        rebase(scene, &loaded.sources, &working_folder(), &target);
+    }
+    // A partial conversion would pass for a complete one. An xacro expansion is complete whatever
+    // it describes, as with the program `xacro`.
+    let is_expansion = options.to == Format::Urdf
+        && options.model.is_none()
+        && matches!(loaded.language, FileFormat::Xacro | FileFormat::Urdf)
+        && loaded.is_expanded;
+    let may_write = |loaded: &LoadedFile| is_expansion || !loaded.diagnostics.has_errors();
+    let text = if may_write(&loaded) { convert(&mut loaded, options.to) } else { None };
+    let text = text.filter(|_| may_write(&loaded));
+    Ok((loaded, text, boxes))
+}
+
 /// Number of boxes above which a world loads and renders slowly.
 const MANY_BOXES: usize = 20_000;
 
@@ -77,7 +96,7 @@ fn walls(
     loaded: &LoadedFile,
     options: &ConvertOptions,
     setting: &LoadContext<'_>,
-) -> Result<LoadedFile, String> {
+) -> Result<(LoadedFile, Option<usize>), String> {
     let path = loaded.path.to_string_lossy();
     let read = match (loaded.language, options.resolution) {
         (FileFormat::Map, None) => periplus_maps::load(&path, Distro::Jazzy, setting.host),
@@ -92,11 +111,9 @@ fn walls(
         }
     };
     let Some(map) = read.map else {
-        return Ok(LoadedFile {
-            diagnostics: read.diagnostics,
-            sources: read.sources,
-            ..loaded.clone()
-        });
+        let unread =
+            LoadedFile { diagnostics: read.diagnostics, sources: read.sources, ..loaded.clone() };
+        return Ok((unread, None));
     };
     let name = loaded.path.file_stem().unwrap_or_default().to_string_lossy();
     let (text, boxes) = map_world(&map.grid, &name, options.wall_height);
@@ -117,8 +134,7 @@ fn walls(
                 .help("clean the image in an editor, or use a coarser resolution"),
         );
     }
-    terminal::say(&format!("the walls consist of {boxes} boxes"));
-    Ok(world)
+    Ok((world, Some(boxes)))
 }
 
 /// Folder of a file; output to stdout resolves paths like its input file.

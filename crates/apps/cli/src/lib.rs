@@ -11,6 +11,7 @@ mod costmap;
 mod demo;
 mod doctor;
 mod error;
+pub mod files;
 mod foreign_commands;
 mod help;
 mod launch;

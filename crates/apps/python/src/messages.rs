@@ -18,9 +18,9 @@ use pyo3::exceptions::{PyAttributeError, PyTypeError};
 use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyDict, PyList, PyString, PyType};
 
-pub(crate) use build::build;
+pub(crate) use build::{array, build};
 pub(crate) use encode::{encode_message, plan_of};
-pub(crate) use plan::{Plan, plan, plan_in};
+pub(crate) use plan::{Element, Plan, PlanField, plan, plan_in};
 pub(crate) use tape::{Tape, TapeReader};
 
 use crate::errors::{self, value_error};
@@ -152,10 +152,15 @@ impl FieldSetter {
     }
 }
 
-/// Names of all message types, sorted.
+/// Names of all message types, sorted. Services and actions as a whole are none.
 #[pyfunction]
 fn message_types() -> Vec<String> {
-    plan::all_types(|types| types.type_names().map(str::to_owned).collect())
+    plan::all_types(|types| {
+        let has = |name: &str, part: &str| types.layout(&format!("{name}_{part}")).is_some();
+        let is_whole =
+            |name: &str| !name.contains("/msg/") && (has(name, "Request") || has(name, "Goal"));
+        types.type_names().filter(|name| !is_whole(name)).map(str::to_owned).collect()
+    })
 }
 
 /// Names of all services and actions, sorted.

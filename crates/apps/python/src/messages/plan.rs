@@ -227,13 +227,26 @@ pub(crate) fn plan_in(types: &TypeRegistry, type_name: &str) -> Option<Arc<Plan>
     make_equal(types, type_name, &mut own)
 }
 
+/// Returns true if two types have the same fields with the same bytes. Bounds and default values may differ, as
+/// between ROS 1 and ROS 2.
+fn is_same(a: &Layout, b: &Layout) -> bool {
+    fn same_names(a: &Layout, b: &Layout) -> bool {
+        a.fields().eq(b.fields())
+            && a.fields().all(|field| match (a.nested(field), b.nested(field)) {
+                (Some(a), Some(b)) => same_names(a, b),
+                (a, b) => a.is_none() && b.is_none(),
+            })
+    }
+    a == b || a.has_bytes_of(b) && same_names(a, b)
+}
+
 fn make_equal(
     types: &TypeRegistry,
     type_name: &str,
     own: &mut HashMap<String, Arc<Plan>>,
 ) -> Option<Arc<Plan>> {
     let layout = types.layout(type_name)?;
-    if let Some(known) = plan(type_name).filter(|known| known.layout == *layout) {
+    if let Some(known) = plan(type_name).filter(|known| is_same(&known.layout, layout)) {
         return Some(known);
     }
     if let Some(known) = own.get(type_name) {

@@ -283,7 +283,7 @@ fn float_of(value: &Bound<'_, PyAny>) -> Result<f64, Fault> {
             wrong()
         }
     })?;
-    if value.is_instance_of::<PyInt>() && float.abs() > MAX_EXACT_INTEGER {
+    if value.is_instance_of::<PyInt>() && float.abs() >= MAX_EXACT_INTEGER {
         let back = value.eq(PyFloat::new(py, float))?;
         if !back {
             return Err(Fault::of_value("is an int that float64 cannot hold exactly"));
@@ -385,20 +385,14 @@ fn converted<'py>(kind: NumberKind, value: &Bound<'py, PyAny>) -> Result<Bound<'
         };
     }
     let target = each_kind!(kind, dtype);
-    if size > 0 {
-        match kind {
-            NumberKind::F32 | NumberKind::F64 => {
-                if !matches!(group, 'f' | 'i' | 'u') {
-                    return Err(wrong(elements(&found)));
-                }
-            }
-            _ => {
-                if !matches!(group, 'i' | 'u' | 'b') {
-                    return Err(wrong(elements(&found)));
-                }
-                require_range(kind, &array)?;
-            }
-        }
+    if size == 0 {
+        return Ok(super::build::array(py, kind.zeros(0)));
+    }
+    match kind {
+        NumberKind::F32 | NumberKind::F64 if matches!(group, 'f' | 'i' | 'u') => {}
+        NumberKind::F32 | NumberKind::F64 => return Err(wrong(elements(&found))),
+        _ if matches!(group, 'i' | 'u' | 'b') => require_range(kind, &array)?,
+        _ => return Err(wrong(elements(&found))),
     }
     let narrow = || -> PyResult<Bound<'py, PyAny>> {
         let settings = PyDict::new(py);
@@ -412,7 +406,7 @@ fn converted<'py>(kind: NumberKind, value: &Bound<'py, PyAny>) -> Result<Bound<'
         narrow
     };
     let result = narrow()?;
-    if kind == NumberKind::F32 && group == 'f' && size > 0 {
+    if kind == NumberKind::F32 && group == 'f' {
         let finite = |array: &Bound<'py, PyAny>| -> PyResult<usize> {
             numpy.call_method1("isfinite", (array,))?.call_method0("sum")?.extract()
         };

@@ -1,0 +1,3 @@
+from periplus.msgs.bond import msg as msg
+
+__all__ = ["msg"]

@@ -1,0 +1,3 @@
+from periplus.msgs.slam_toolbox import srv as srv
+
+__all__ = ["srv"]

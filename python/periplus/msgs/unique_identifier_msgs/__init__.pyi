@@ -1,0 +1,3 @@
+from periplus.msgs.unique_identifier_msgs import msg as msg
+
+__all__ = ["msg"]
