@@ -1,15 +1,16 @@
 """Types of arguments."""
 
 from os import PathLike
-from typing import TYPE_CHECKING, TypeAlias, Union
+from typing import TypeAlias, Union
 
-if TYPE_CHECKING:
-    from periplus._native import Pose
+from periplus._native import Pose
 
 StrPath: TypeAlias = Union[str, "PathLike[str]"]
 """Path of a file."""
 
-PoseLike: TypeAlias = "Union[Pose, tuple[float, float, float], tuple[float, float, float, float, float, float]]"
+PoseLike: TypeAlias = Union[
+    Pose, tuple[float, float, float], tuple[float, float, float, float, float, float]
+]
 """A pose, ``(x, y, yaw)``, or ``(x, y, z, roll, pitch, yaw)`` [m, rad]."""
 
 ParameterValue: TypeAlias = Union[

@@ -271,11 +271,11 @@ def test_localizes_on_the_map_of_a_log() -> None:
     beams = ranges.shape[1]
     largest = np.float32(0.99) * ranges.astype(np.float32).max()
     scanner = LaserScanner(-np.pi / 2, np.pi / (beams - beams % 2), range_min=0.02, range_max=float(largest))
-    cells, resolution, origin = mapped.map()
-    with pytest.raises(ValueError, match="np.where"):
+    grid = mapped.map()
+    cells, resolution, origin = grid.cells, grid.resolution_m, grid.origin
+    with pytest.raises(ValueError, match="trinary"):
         Amcl((cells, resolution, origin))
-    walls = np.where(cells >= 65, 100, np.where((cells >= 0) & (cells <= 25), 0, -1))
-    amcl = Amcl((walls, resolution, origin), scanner=scanner)
+    amcl = Amcl(grid.trinary(), scanner=scanner)
     start = mapped.trajectory()[0, 1:]
     amcl.set_initial_pose(tuple(start))
     errors = []

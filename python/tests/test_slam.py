@@ -57,13 +57,14 @@ def test_a_room(method: str) -> None:
     assert rows.shape == (11, 4) and rows[:, 0] == pytest.approx(np.arange(11) * 0.1)
     assert rows[:, 1] == pytest.approx(np.arange(11) * 0.1, abs=0.05)
     assert slam.trajectory_times_ns().tolist() == [100_000_000 * step for step in range(11)]
-    cells, resolution, origin = slam.map()
+    grid = slam.map()
+    cells, resolution, origin = grid.cells, grid.resolution_m, grid.origin
     assert cells.dtype == np.int8 and set(np.unique(cells)) <= set(range(-1, 101))
     # Around the room's walls, as far apart as they are.
     rows_occupied, columns_occupied = np.nonzero(cells > 65)
     assert np.ptp(columns_occupied) * resolution == pytest.approx(6.0, abs=0.15)
     assert np.ptp(rows_occupied) * resolution == pytest.approx(4.0, abs=0.15)
-    centre = round(-origin.y / resolution), round(-origin.x / resolution)
+    centre = round(-origin[1] / resolution), round(-origin[0] / resolution)
     assert 0 <= cells[centre] < 50
 
 
@@ -122,7 +123,7 @@ def test_sessions_go_on_to_the_bit(tmp_path: Path) -> None:
             slam.process(room(0.1 * step), time_s=0.1 * step)
         slam.finish()
     assert whole.to_bytes() == second.to_bytes() == third.to_bytes()
-    np.testing.assert_array_equal(whole.map()[0], second.map()[0])
+    np.testing.assert_array_equal(whole.map().cells, second.map().cells)
     damaged = bytearray(first.to_bytes())
     damaged[100] ^= 1
     with pytest.raises(FileError, match="checksum"):
@@ -353,7 +354,7 @@ def test_a_log_gives_what_the_command_gives(method: str, tmp_path: Path) -> None
         command(path, tmp_path, "--method", "gmapping", "-p", "particles:=8")
     written = np.loadtxt(tmp_path / "trajectory.txt")
     np.testing.assert_array_equal(np.char.mod("%.6f", slam.trajectory()), np.char.mod("%.6f", written))
-    cells, _, _ = slam.map()
+    cells = slam.map().cells
     header, image = (tmp_path / "map.pgm").read_bytes().split(b"255\n", 1)
     width, height = (int(it) for it in header.split()[-2:])
     picture = np.frombuffer(image, np.uint8).reshape(height, width)[::-1]
@@ -435,4 +436,4 @@ def test_ctrl_c_in_finish_of_particles() -> None:
         time.sleep(5.0)
     timer.join()
     # The next call waits for the map that the thread finishes.
-    assert slam.counts["keyframes"] > 10 and slam.map()[0].size > 0
+    assert slam.counts["keyframes"] > 10 and slam.map().cells.size > 0

@@ -169,11 +169,10 @@ const fn state_word(state: LocalizationState) -> &'static str {
 ///
 /// Parameters
 /// ----------
-/// map : (cells, resolution, origin), optional
+/// map : OccupancyGrid or (cells, resolution, origin), optional
 ///     Cells of shape (height, width), the row of lowest y first: 100 occupied, 0 free, anything else unknown; size
 ///     of a cell [m]; pose of the lower left corner. Also an object with the attributes ``cells``, ``resolution_m``
-///     and ``origin``. The cells of ``Slam.map`` are percents: apply thresholds first, such as
-///     ``np.where(cells >= 65, 100, np.where((cells >= 0) & (cells <= 25), 0, -1))``, those of Nav2's map saver.
+///     and ``origin``. The cells of ``Slam.map`` are percents: use ``slam.map().trinary()``.
 /// yaml : path, optional
 ///     Parameter file of ROS 2 (``amcl: ros__parameters:``) or ROS 1, or a plain mapping.
 /// scanner : LaserScanner, optional
@@ -508,7 +507,7 @@ fn raised(finding: &Diagnostic) -> PyErr {
             "no initial pose is set: call `set_initial_pose` or `localize_globally`, or set `global_start=True`",
         ),
         "map-without-walls" => PyValueError::new_err(format!(
-            "{}; cells of a `Slam` are percents: np.where(cells >= 65, 100, np.where((cells >= 0) & (cells <= 25), 0, -1))",
+            "{}; the cells of `Slam.map` are percents: use `slam.map().trinary()`",
             finding.message
         )),
         "nothing-free" | "fits-nowhere" => PyRuntimeError::new_err(sentence(finding)),

@@ -53,5 +53,6 @@ fn _native(module: &Bound<'_, PyModule>) -> PyResult<()> {
     ] {
         register(module)?;
     }
-    Ok(())
+    // The names for users are those of the package, not of this module.
+    module.delattr("__all__")
 }

@@ -222,6 +222,31 @@ impl PyOccupancyGrid {
         self.0.info.height
     }
 
+    /// The grid with cells free (0), occupied (100) and unknown (-1) only, by Nav2's thresholds of a probability.
+    ///
+    /// >>> import periplus
+    /// >>> periplus.OccupancyGrid([[10, 40, 90, -1]], 0.5).trinary().cells.tolist()
+    /// [[0, -1, 100, -1]]
+    #[pyo3(signature = (*, occupied_thresh=0.65, free_thresh=0.25))]
+    fn trinary(&self, occupied_thresh: f64, free_thresh: f64) -> PyResult<Self> {
+        if !(0.0 <= free_thresh && free_thresh < occupied_thresh && occupied_thresh <= 1.0) {
+            return Err(PyValueError::new_err(
+                "the thresholds must be 0 <= `free_thresh` < `occupied_thresh` <= 1",
+            ));
+        }
+        let mut grid = OccupancyGrid::clone(&self.0);
+        for cell in &mut grid.cells {
+            let probability = f64::from(*cell) / 100.0;
+            *cell = match *cell {
+                ..0 => -1,
+                _ if probability >= occupied_thresh => 100,
+                _ if probability <= free_thresh => 0,
+                _ => -1,
+            };
+        }
+        Ok(Self(Arc::new(grid)))
+    }
+
     /// Centres of cells in the map frame [m]: shape (..., 2) of x, y for (..., 2) of column, row. Fractions and cells
     /// outside the grid are allowed.
     ///

@@ -7,6 +7,7 @@ mod parameters;
 mod records;
 
 use std::path::PathBuf;
+use std::sync::Arc;
 
 use periplus::diagnostics::plain_words;
 use periplus::geometry::{LaserScan2, Pose2};
@@ -23,9 +24,9 @@ use crate::background::{Restore, SharedState};
 use crate::errors::{FileError, file_error, require_file, runtime_error, value_error};
 use crate::estimator_parameters::{parameter_list, values_dict};
 use crate::laser_scanner::{LaserScanner, scan_argument};
+use crate::maps::PyOccupancyGrid;
 use crate::poses::{PyPose, pose2_argument};
 use crate::transforms::{seconds, time_argument, times_argument};
-use grid::grid_to_python;
 use mapper::{AnyMapper, Mapping};
 use records::{PoseGraph, SlamRemark, SlamUpdate};
 
@@ -310,21 +311,19 @@ impl PySlam {
         if is_set { Ok(()) } else { Err(no_graph("set_pose")) }
     }
 
-    /// Returns the map as it is now: cells of shape (height, width), int8, the row of lowest y first (-1 unknown, 0
-    /// free to 100 occupied), the size of a cell [m], and the pose of the lower left corner in the map.
+    /// Returns the map as it is now. Its cells are percents: -1 unknown, 0 free to 100 occupied.
     ///
     /// >>> from periplus import LaserScanner, Slam
     /// >>> slam = Slam(scanner=LaserScanner(-1.5, 0.1, range_max=10.0), resolution=0.1)
     /// >>> _ = slam.process([2.0] * 31, (0.0, 0.0, 0.0), time_s=0.0)
-    /// >>> cells, resolution, origin = slam.map()
-    /// >>> cells.dtype.name, resolution, bool(cells.max() > 50)
-    /// ('int8', 0.1, True)
+    /// >>> grid = slam.map()
+    /// >>> grid.resolution_m, bool(grid.cells.max() > 50)
+    /// (0.1, True)
     ///
     /// Raises ``RuntimeError`` before the first scan, and ``MemoryError`` for a map that is too large to hold.
-    fn map<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+    fn map(&self, py: Python<'_>) -> PyResult<PyOccupancyGrid> {
         let drawing = self.read(py, Mapping::drawing)?;
-        let grid = drawing.draw(py, MAP_CELLS_PER_SLICE)?;
-        grid_to_python(py, grid)
+        Ok(PyOccupancyGrid(Arc::new(drawing.draw(py, MAP_CELLS_PER_SLICE)?)))
     }
 
     /// Returns the pose at each scan that was not rejected, shape (N, 4): time [s], x, y [m], yaw [rad].

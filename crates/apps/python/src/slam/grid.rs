@@ -1,22 +1,13 @@
 //! Occupancy grids as arrays.
 
-use periplus::geometry::{Pose, Pose2};
+use periplus::geometry::Pose2;
 use periplus::grid::{Grid, GridInfo, OccupancyGrid};
 use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::prelude::*;
 
-use crate::arrays::moved;
 use crate::errors::value_error;
-use crate::poses::{PyPose, pose2_argument};
+use crate::poses::pose2_argument;
 use crate::transforms::whole_numbers;
-
-/// Returns a grid as cells (height, width) int8, size of a cell \[m\], and pose of the lower left corner.
-pub(crate) fn grid_to_python(py: Python<'_>, grid: OccupancyGrid) -> PyResult<Bound<'_, PyAny>> {
-    let Grid { info, cells } = grid;
-    let cells = moved(py, cells, &[info.height, info.width])?;
-    let origin = PyPose(Pose::from(info.origin));
-    Ok((cells, info.resolution_m, origin).into_pyobject(py)?.into_any())
-}
 
 /// Reads a map: (cells, resolution, origin), or an object with these attributes.
 ///
