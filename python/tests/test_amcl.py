@@ -1,9 +1,11 @@
 """Localization on rooms made with numpy, and on the map of a real log."""
 
 import math
+import subprocess
+import sys
 from pathlib import Path
 from types import SimpleNamespace
-from typing import Any
+from typing import Any, TypeAlias
 
 import numpy as np
 import pytest
@@ -13,6 +15,7 @@ from hypothesis.extra import numpy as hnp
 
 from periplus import Amcl, FileError, LaserScanner, Pose, Slam
 
+StrPath: TypeAlias = str | Path
 SHARED = Path(__file__).parents[2].parent / "shared" / "datasets"
 RESOLUTION = 0.05
 ANGLES = np.radians(np.arange(0.0, 360.0, 2.0))
@@ -256,32 +259,42 @@ def test_anything_as_an_argument_never_crashes(anything: object) -> None:
             pass
 
 
-def test_localizes_on_the_map_of_a_log() -> None:
-    path = SHARED / "fr101" / "raw.clf"
-    if not path.exists():
-        pytest.skip(f"NOT TESTED: {path} is missing")
-    mapped = Slam.from_log(path)
+def test_localizes_a_log_as_the_command_does(tmp_path: Path) -> None:
+    log = SHARED / "fr101" / "raw.clf"
+    if not log.exists():
+        pytest.skip(f"NOT TESTED: {log} is missing")
+    scans = [line for line in log.read_text().splitlines() if line.startswith("FLASER")][:90]
+    path = tmp_path / "raw.clf"
+    path.write_text("\n".join(scans))
+    command: list[StrPath] = [sys.executable, "-m", "periplus"]
+    mapping = [*command, "slam", path, "-o", tmp_path, "--quiet", "--no-loops"]
+    subprocess.run(mapping, check=True, stdout=subprocess.DEVNULL)
+    # No cell is occupied before thresholds are applied.
+    cells, resolution, origin = Slam.from_log(path, do_loop_closing=False).map()
+    with pytest.raises(ValueError, match="np.where"):
+        Amcl((cells, resolution, origin))
+    walls = np.where(cells >= 65, 100, np.where((cells >= 0) & (cells <= 25), 0, -1))
+    # The file has its origin in millimetres.
+    corner = (round(origin.x, 3), round(origin.y, 3), 0.0)
+
     numbers = []
-    for line in path.read_text().splitlines():
+    for line in scans:
         words = line.split()
-        if words and words[0] == "FLASER":
-            numbers.append([float(it) for it in words[2 : 2 + int(words[1]) + 7]])
+        numbers.append([float(it) for it in words[2 : 2 + int(words[1]) + 7]])
     rows = np.array(numbers)
     ranges, odometry = rows[:, :-7], rows[:, -4:-1]
     beams = ranges.shape[1]
     largest = np.float32(0.99) * ranges.astype(np.float32).max()
     scanner = LaserScanner(-np.pi / 2, np.pi / (beams - beams % 2), range_min=0.02, range_max=float(largest))
-    cells, resolution, origin = mapped.map()
-    with pytest.raises(ValueError, match="np.where"):
-        Amcl((cells, resolution, origin))
-    walls = np.where(cells >= 65, 100, np.where((cells >= 0) & (cells <= 25), 0, -1))
-    amcl = Amcl((walls, resolution, origin), scanner=scanner)
-    start = mapped.trajectory()[0, 1:]
-    amcl.set_initial_pose(tuple(start))
-    errors = []
-    for row in range(60):
-        estimate = amcl.update(ranges[row], odometry[row])
-        assert estimate.pose is not None
-        truth = mapped.trajectory()[row, 1:3]
-        errors.append(math.hypot(estimate.pose.x - truth[0], estimate.pose.y - truth[1]))
-    assert np.median(errors) < 0.1 and max(errors) < 0.5
+
+    localizing = [*command, "localize", path, "--map", tmp_path / "map.yaml", "-o", tmp_path / "out", "--quiet"]
+    subprocess.run(localizing, check=True, stdout=subprocess.DEVNULL)
+    written = np.loadtxt(tmp_path / "out" / "trajectory.txt")
+    amcl = Amcl((walls, resolution, corner), scanner=scanner)
+    poses = []
+    for row, odom in zip(ranges, odometry):
+        estimate = amcl.update(row, odom)
+        if estimate.has_pose and estimate.pose is not None:
+            poses.append([estimate.pose.x, estimate.pose.y])
+    assert len(poses) > 50
+    np.testing.assert_array_equal(np.char.mod("%.6f", poses), np.char.mod("%.6f", written[:, 1:3]))
