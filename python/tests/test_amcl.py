@@ -1,9 +1,11 @@
 """Localization on rooms made with numpy, and on the map of a real log."""
 
 import math
+import subprocess
+import sys
 from pathlib import Path
 from types import SimpleNamespace
-from typing import Any
+from typing import Any, TypeAlias
 
 import numpy as np
 import pytest
@@ -13,6 +15,7 @@ from hypothesis.extra import numpy as hnp
 
 from periplus import Amcl, FileError, LaserScanner, Pose, Slam
 
+StrPath: TypeAlias = str | Path
 SHARED = Path(__file__).parents[2].parent / "shared" / "datasets"
 RESOLUTION = 0.05
 ANGLES = np.radians(np.arange(0.0, 360.0, 2.0))
@@ -256,16 +259,28 @@ def test_anything_as_an_argument_never_crashes(anything: object) -> None:
             pass
 
 
-def test_localizes_on_the_map_of_a_log() -> None:
-    path = SHARED / "fr101" / "raw.clf"
-    if not path.exists():
-        pytest.skip(f"NOT TESTED: {path} is missing")
-    mapped = Slam.from_log(path)
+def test_localizes_a_log_as_the_command_does(tmp_path: Path) -> None:
+    log = SHARED / "fr101" / "raw.clf"
+    if not log.exists():
+        pytest.skip(f"NOT TESTED: {log} is missing")
+    scans = [line for line in log.read_text().splitlines() if line.startswith("FLASER")][:90]
+    path = tmp_path / "raw.clf"
+    path.write_text("\n".join(scans))
+    command: list[StrPath] = [sys.executable, "-m", "periplus"]
+    mapping = [*command, "slam", path, "-o", tmp_path, "--quiet", "--no-loops"]
+    subprocess.run(mapping, check=True, stdout=subprocess.DEVNULL)
+    # No cell is occupied before thresholds are applied.
+    cells, resolution, origin = Slam.from_log(path, do_loop_closing=False).map()
+    with pytest.raises(ValueError, match="np.where"):
+        Amcl((cells, resolution, origin))
+    walls = np.where(cells >= 65, 100, np.where((cells >= 0) & (cells <= 25), 0, -1))
+    # The file has its origin in millimetres.
+    corner = (round(origin.x, 3), round(origin.y, 3), 0.0)
+
     numbers = []
-    for line in path.read_text().splitlines():
+    for line in scans:
         words = line.split()
-        if words and words[0] == "FLASER":
-            numbers.append([float(it) for it in words[2 : 2 + int(words[1]) + 7]])
+        numbers.append([float(it) for it in words[2 : 2 + int(words[1]) + 7]])
     rows = np.array(numbers)
     ranges, odometry = rows[:, :-7], rows[:, -4:-1]
     beams = ranges.shape[1]

@@ -1,5 +1,7 @@
 //! Localization on a known map, with the parameters of Nav2's AMCL.
 
+mod estimate;
+
 use std::path::PathBuf;
 
 use numpy::PyArray1;
@@ -7,8 +9,7 @@ use periplus::diagnostics::{Diagnostic, Diagnostics, SourceMap};
 use periplus::geometry::Pose2;
 use periplus::grid::OccupancyGrid;
 use periplus::localization::{
-    AMCL, Amcl, AmclParams, AmclUpdate, Covariance2, InitialPose, LocalizationState,
-    LocalizationStatus, Settings,
+    AMCL, Amcl, AmclParams, AmclUpdate, Covariance2, InitialPose, Settings,
 };
 use periplus::nav_nodes::amcl::read_parameters;
 use periplus::params::ParamValues;
@@ -23,146 +24,14 @@ use crate::estimator_parameters::{
     keyword_texts, parameter_list, read_yaml, require_valid, sentence, values_dict, warn,
 };
 use crate::laser_scanner::{LaserScanner, scan_argument};
-use crate::poses::{PyPose, pose2_argument};
+use crate::poses::pose2_argument;
 use crate::slam::grid_argument;
 use crate::transforms::time_argument;
+use estimate::{AmclEstimate, PLANAR, state_word};
 
 pub(crate) fn register(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_class::<PyAmcl>()?;
     module.add_class::<AmclEstimate>()
-}
-
-/// Indices of x, y and yaw among x, y, z, roll, pitch, yaw.
-const PLANAR: [usize; 3] = [0, 1, 5];
-
-/// Localization of a robot on a map, after a scan.
-///
-/// >>> from periplus import Amcl
-/// >>> amcl = Amcl()
-/// >>> amcl.estimate.state, amcl.estimate.pose
-/// ('unset', None)
-#[pyclass(frozen, module = "periplus")]
-pub(crate) struct AmclEstimate {
-    map_from_base: Option<Pose2>,
-    map_from_odom: Option<Pose2>,
-    covariance: Option<Covariance2>,
-    has_pose: bool,
-    status: LocalizationStatus,
-    update: Option<AmclUpdate>,
-}
-
-#[pymethods]
-impl AmclEstimate {
-    /// Pose of the robot in the map: that of the last update moved by odometry since. None before the first update
-    /// of the filter. Before ``has_pose`` it is one hypothesis among others.
-    #[getter]
-    fn pose(&self) -> Option<PyPose> {
-        self.map_from_base.map(|it| PyPose(it.into()))
-    }
-
-    /// Correction of odometry, or None before the first update.
-    #[getter]
-    fn map_from_odom(&self) -> Option<PyPose> {
-        self.map_from_odom.map(|it| PyPose(it.into()))
-    }
-
-    /// Covariance of x, y [m] and yaw [rad] at the last update, shape (3, 3), or None.
-    #[getter]
-    fn covariance<'py>(&self, py: Python<'py>) -> PyResult<Option<Bound<'py, PyAny>>> {
-        let Some(rows) = self.covariance.map(Covariance2::to_rows) else { return Ok(None) };
-        let planar =
-            PLANAR.iter().flat_map(|row| PLANAR.iter().map(move |column| rows[row * 6 + column]));
-        Ok(Some(moved(py, planar.collect::<Vec<f64>>(), &[3, 3])?.into_any()))
-    }
-
-    /// Covariance of x, y, z, roll, pitch, yaw, shape (6, 6), as in ``geometry_msgs/PoseWithCovariance``, or None.
-    #[getter]
-    fn pose_covariance<'py>(&self, py: Python<'py>) -> PyResult<Option<Bound<'py, PyAny>>> {
-        let rows = self.covariance.map(Covariance2::to_rows);
-        rows.map(|rows| Ok(moved(py, rows.to_vec(), &[6, 6])?.into_any())).transpose()
-    }
-
-    /// Confidence: ``"unset"`` (no initial pose, or no scan since), ``"tracking"`` (the pose is known),
-    /// ``"ambiguous"`` (several poses are possible, or the covariance is large) or ``"lost"`` (scans contradict it).
-    #[getter]
-    fn state(&self) -> &'static str {
-        state_word(self.status.state)
-    }
-
-    /// Reason of the state, as a sentence.
-    #[getter]
-    fn reason(&self) -> &str {
-        &self.status.reason
-    }
-
-    /// True once an initial pose was set or global localization converged.
-    #[getter]
-    fn has_pose(&self) -> bool {
-        self.has_pose
-    }
-
-    /// Fraction of the hits of the last scan at walls of the map, or None without hits.
-    #[getter]
-    fn inlier_ratio(&self) -> Option<f64> {
-        self.status.inlier_ratio
-    }
-
-    /// Other poses that are possible, most likely first, shape (K, 4): x, y [m], yaw [rad], weight.
-    #[getter]
-    fn hypotheses<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
-        let hypotheses = &self.status.hypotheses;
-        let rows: Vec<f64> = hypotheses
-            .iter()
-            .flat_map(|it| [it.mean.x_m, it.mean.y_m, it.mean.yaw_rad, it.weight])
-            .collect();
-        Ok(moved(py, rows, &[hypotheses.len(), 4])?.into_any())
-    }
-
-    /// True if this scan updated the filter; False if the robot hardly moved since the last update, or while global
-    /// localization runs.
-    #[getter]
-    fn is_updated(&self) -> bool {
-        self.update.is_some()
-    }
-
-    /// True if the particles were resampled.
-    #[getter]
-    fn is_resampled(&self) -> bool {
-        self.update.as_ref().is_some_and(|it| it.is_resampled)
-    }
-
-    /// Mean likelihood of the scan over the particles, or None without an update.
-    #[getter]
-    fn likelihood(&self) -> Option<f64> {
-        self.update.as_ref().map(|it| it.likelihood)
-    }
-
-    /// Probability with which particles were drawn from the whole map, or None without an update.
-    #[getter]
-    fn random_fraction(&self) -> Option<f64> {
-        self.update.as_ref().map(|it| it.random_fraction)
-    }
-
-    fn __repr__(&self) -> String {
-        let pose = self.map_from_base.map_or_else(
-            || "None".to_owned(),
-            |it| format!("({:?}, {:?}, {:?})", it.x_m, it.y_m, it.yaw_rad),
-        );
-        format!(
-            "AmclEstimate(state={:?}, pose={pose}, reason={:?})",
-            self.state(),
-            self.status.reason
-        )
-    }
-}
-
-const fn state_word(state: LocalizationState) -> &'static str {
-    match state {
-        LocalizationState::Unset => "unset",
-        LocalizationState::Tracking => "tracking",
-        LocalizationState::Ambiguous => "ambiguous",
-        LocalizationState::Lost => "lost",
-    }
 }
 
 /// Adaptive Monte Carlo localization on a known map, with the parameters of Nav2.

@@ -15,6 +15,9 @@ use crate::work::{lock, released};
 /// Time between two checks for Ctrl-C.
 const POLL_PERIOD: Duration = Duration::from_millis(10);
 
+/// Stack of a thread: that of the main thread of a program.
+const STACK_BYTES: usize = 8 << 20;
+
 /// Makes the value again that a cancelled call works with.
 pub(crate) type Restore<T> = Box<dyn FnOnce() -> Option<T> + Send>;
 
@@ -58,12 +61,16 @@ impl<T: Send + 'static> SharedState<T> {
         backup: impl FnOnce(&T) -> Option<Restore<T>> + Send,
         work: impl FnOnce(&mut T) -> R + Send + 'static,
     ) -> PyResult<R> {
-        let (mut value, restore) = self.take(py, what, backup)?;
+        let (value, restore) = self.take(py, what, backup)?;
+        // Taken by the thread, or back if there is none.
+        let handover = Arc::new(Mutex::new(Some(value)));
         let is_cancelled = Arc::new(AtomicBool::new(false));
         let (sender, receiver) = mpsc::channel();
         let receiver = Mutex::new(receiver);
         let (slot, cancelled) = (Arc::clone(&self.0), Arc::clone(&is_cancelled));
+        let taken = Arc::clone(&handover);
         let job = move || {
+            let Some(mut value) = lock(&taken).take() else { return };
             let result = catch_unwind(AssertUnwindSafe(|| work(&mut value)));
             let mut slot = lock(&slot);
             if !cancelled.load(Ordering::Relaxed) {
@@ -73,8 +80,11 @@ impl<T: Send + 'static> SharedState<T> {
             // Nobody receives it after Ctrl-C.
             let _ = sender.send(result);
         };
-        let thread = thread::Builder::new().name(what.to_owned());
-        thread.spawn(job).map_err(|error| runtime_error(format!("{what}: {error}")))?;
+        let thread = thread::Builder::new().name(what.to_owned()).stack_size(STACK_BYTES);
+        if let Err(error) = thread.spawn(job) {
+            *lock(&self.0) = lock(&handover).take();
+            return Err(runtime_error(format!("{what}: {error}")));
+        }
         loop {
             let received = py.detach(|| lock(&receiver).recv_timeout(POLL_PERIOD));
             match received {

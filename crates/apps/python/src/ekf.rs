@@ -1,5 +1,6 @@
 //! Extended Kalman filter with the parameters of `robot_localization`.
 
+mod estimate;
 mod parameters;
 mod readings;
 
@@ -9,17 +10,18 @@ use std::sync::Mutex;
 use numpy::PyArray1;
 use periplus::ekf::{
     Covariance, Ekf, Estimate, ImuReading, Intake, Kind, Measurement, PoseReading, Refusal,
-    STATE_DIMENSIONS, State, TwistReading, Variable,
+    STATE_DIMENSIONS, State, TwistReading,
 };
 use periplus::geometry::Pose;
 use pyo3::exceptions::{PyRuntimeError, PyTypeError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList, PyTuple};
 
-use crate::arrays::{input, moved, require_finite};
+use crate::arrays::{input, require_finite};
 use crate::poses::{PyPose, pose_argument};
-use crate::transforms::{seconds, time_argument};
+use crate::transforms::time_argument;
 use crate::work::{lock, with_locked};
+use estimate::EkfEstimate;
 use readings::{NAMES, covariance_argument, rotation_argument, variable, vector_argument};
 
 pub(crate) fn register(module: &Bound<'_, PyModule>) -> PyResult<()> {
@@ -29,90 +31,6 @@ pub(crate) fn register(module: &Bound<'_, PyModule>) -> PyResult<()> {
 
 /// Number of measurements that the filter queues.
 const MAX_QUEUED_COUNT: usize = 10_000;
-
-/// State estimated by an ``Ekf`` at a time.
-///
-/// >>> from periplus import Ekf
-/// >>> ekf = Ekf()
-/// >>> ekf.add_measurement({"x": 1.5, "yaw": 0.0}, 0.01, time_s=0.0)
-/// >>> ekf.update(0.0)
-/// True
-/// >>> ekf.estimate.pose.x
-/// 1.5
-#[pyclass(frozen, module = "periplus")]
-pub(crate) struct EkfEstimate(Estimate);
-
-#[pymethods]
-impl EkfEstimate {
-    /// Time of the estimate [s].
-    #[getter]
-    fn time_s(&self) -> f64 {
-        seconds(self.0.time_ns)
-    }
-
-    /// Time of the estimate [ns].
-    #[getter]
-    fn time_ns(&self) -> i64 {
-        self.0.time_ns
-    }
-
-    /// Mean of the variables ``Ekf.VARIABLES``, shape (15,): x, y, z [m], roll, pitch, yaw [rad] in the world frame;
-    /// vx, vy, vz [m/s], vroll, vpitch, vyaw [rad/s], ax, ay, az [m/s^2] in the base frame.
-    #[getter]
-    fn state<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {
-        PyArray1::from_slice(py, self.0.state.as_slice())
-    }
-
-    /// Covariance of the state, shape (15, 15).
-    #[getter]
-    fn covariance<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
-        square(py, self.0.covariance.transpose().as_slice().to_vec(), STATE_DIMENSIONS)
-    }
-
-    /// Pose of the base in the world frame.
-    #[getter]
-    fn pose(&self) -> PyPose {
-        PyPose(self.0.world_from_base())
-    }
-
-    /// Linear velocity in the base frame, shape (3,) [m/s].
-    #[getter]
-    fn linear_velocity<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {
-        PyArray1::from_slice(py, &self.0.twist().0.to_array())
-    }
-
-    /// Angular velocity in the base frame, shape (3,) [rad/s].
-    #[getter]
-    fn angular_velocity<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {
-        PyArray1::from_slice(py, &self.0.twist().1.to_array())
-    }
-
-    /// Linear acceleration in the base frame, shape (3,) [m/s^2].
-    #[getter]
-    fn acceleration<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {
-        PyArray1::from_slice(py, &self.0.acceleration().to_array())
-    }
-
-    /// Covariance of x, y, z, roll, pitch, yaw, shape (6, 6), as in ``geometry_msgs/PoseWithCovariance``.
-    #[getter]
-    fn pose_covariance<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
-        square(py, self.0.covariance_of(Variable::X).to_vec(), 6)
-    }
-
-    /// Covariance of the velocities, shape (6, 6), as in ``geometry_msgs/TwistWithCovariance``.
-    #[getter]
-    fn twist_covariance<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
-        square(py, self.0.covariance_of(Variable::Vx).to_vec(), 6)
-    }
-
-    fn __repr__(&self) -> String {
-        format!("EkfEstimate(time_s={:?}, pose={})", self.time_s(), self.pose().__repr__())
-    }
-}
-
-fn square(py: Python<'_>, values: Vec<f64>, size: usize) -> PyResult<Bound<'_, PyAny>> {
-    Ok(moved(py, values, &[size, size])?.into_any())
-}
 
 /// The filter and its inputs.
 struct Filter {

@@ -1,171 +1,35 @@
 //! Transforms between frames over time, with the behaviour and the messages of tf2.
 
+mod errors;
+mod times;
+
 use std::fmt::Write as _;
 use std::sync::Mutex;
 
 use numpy::PyUntypedArrayMethods as _;
 use periplus::geometry::{DQuat, DVec3, Pose, Pose2};
 use periplus::tf::{
-    Buffer, FrameStatus, LookupError, LookupErrorKind, ResolvedTransform, StampedTransform,
-    TransformKind, TransformLookup,
+    Buffer, FrameStatus, ResolvedTransform, StampedTransform, TransformKind, TransformLookup,
 };
-use pyo3::create_exception;
-use pyo3::exceptions::{PyLookupError, PyTypeError, PyValueError};
+use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList};
 
-use crate::arrays::{contiguous, input, moved, require_finite};
+use crate::arrays::{contiguous, moved, require_finite};
 use crate::errors::value_error;
 use crate::poses::{PyPose, pose_argument};
 use crate::work::{guarded, lock, with_locked};
+use errors::transform_error;
 
-create_exception!(
-    periplus,
-    TransformError,
-    PyLookupError,
-    "There is no such transform. The text is that of tf2.\n\n\
-     >>> import periplus\n\
-     >>> issubclass(periplus.TransformError, LookupError)\n\
-     True"
-);
-create_exception!(
-    periplus,
-    TransformLookupError,
-    TransformError,
-    "A frame does not exist (``LookupException`` of tf2).\n\n\
-     >>> import periplus\n\
-     >>> issubclass(periplus.TransformLookupError, periplus.TransformError)\n\
-     True"
-);
-create_exception!(
-    periplus,
-    TransformConnectivityError,
-    TransformError,
-    "Two frames are in different trees (``ConnectivityException`` of tf2).\n\n\
-     >>> import periplus\n\
-     >>> issubclass(periplus.TransformConnectivityError, periplus.TransformError)\n\
-     True"
-);
-create_exception!(
-    periplus,
-    TransformExtrapolationError,
-    TransformError,
-    "There are no samples at that time (``ExtrapolationException`` of tf2).\n\n\
-     >>> import periplus\n\
-     >>> issubclass(periplus.TransformExtrapolationError, periplus.TransformError)\n\
-     True"
-);
-create_exception!(
-    periplus,
-    TransformArgumentError,
-    TransformError,
-    "The name of a frame is empty or begins with a slash (``InvalidArgumentException`` of tf2).\n\n\
-     >>> import periplus\n\
-     >>> issubclass(periplus.TransformArgumentError, periplus.TransformError)\n\
-     True"
-);
+pub(crate) use times::{nanoseconds, seconds, time_argument, times_argument, whole_numbers};
 
 pub(crate) fn register(module: &Bound<'_, PyModule>) -> PyResult<()> {
-    let py = module.py();
-    module.add("TransformError", py.get_type::<TransformError>())?;
-    module.add("TransformLookupError", py.get_type::<TransformLookupError>())?;
-    module.add("TransformConnectivityError", py.get_type::<TransformConnectivityError>())?;
-    module.add("TransformExtrapolationError", py.get_type::<TransformExtrapolationError>())?;
-    module.add("TransformArgumentError", py.get_type::<TransformArgumentError>())?;
+    errors::register(module)?;
     module.add_class::<TfBuffer>()
 }
 
-/// Number of nanoseconds in a second.
-const SECOND_NS: i64 = 1_000_000_000;
-/// Largest time \[s\]: that of 64 bits of nanoseconds, 292 years.
-const MAX_TIME_S: f64 = 9.2e9;
 /// Number of lookups between two checks for Ctrl-C.
 const LOOKUPS_PER_SLICE: usize = 4096;
-
-/// Time in nanoseconds, rounded.
-///
-/// # Errors
-/// `ValueError` that names the argument if the time is not finite or too large.
-pub(crate) fn nanoseconds(time_s: f64, name: &str) -> PyResult<i64> {
-    if time_s.is_nan() || time_s.abs() > MAX_TIME_S {
-        return Err(PyValueError::new_err(format!(
-            "`{name}` must be a time in seconds within 292 years of 0, not {time_s}"
-        )));
-    }
-    // Whole seconds apart, which keeps the digits of late times.
-    let whole_s = time_s.floor();
-    Ok(whole_s as i64 * SECOND_NS + ((time_s - whole_s) * 1e9).round() as i64)
-}
-
-/// Time in seconds.
-pub(crate) fn seconds(time_ns: i64) -> f64 {
-    let rest_ns = time_ns.rem_euclid(SECOND_NS);
-    time_ns.div_euclid(SECOND_NS) as f64 + rest_ns as f64 * 1e-9
-}
-
-/// Time that is given in seconds or, exactly, in nanoseconds.
-///
-/// # Errors
-/// `TypeError` if both are given, `ValueError` for seconds out of range.
-pub(crate) fn time_argument(time_s: Option<f64>, time_ns: Option<i64>) -> PyResult<Option<i64>> {
-    match (time_s, time_ns) {
-        (Some(_), Some(_)) => Err(PyTypeError::new_err("give `time_s` or `time_ns`, not both")),
-        (Some(time_s), None) => nanoseconds(time_s, "time_s").map(Some),
-        (None, time_ns) => Ok(time_ns),
-    }
-}
-
-/// Times that are given in seconds or, exactly, in nanoseconds.
-///
-/// # Errors
-/// `TypeError` unless one of both is given or for fractions of nanoseconds, `ValueError` for seconds out of range.
-pub(crate) fn times_argument(
-    times_s: Option<&Bound<'_, PyAny>>,
-    times_ns: Option<&Bound<'_, PyAny>>,
-) -> PyResult<Vec<i64>> {
-    match (times_s, times_ns) {
-        (Some(times_s), None) => {
-            let times = input::<f64>(times_s, "times_s", &[None])?;
-            times.as_slice()?.iter().map(|it| nanoseconds(*it, "times_s")).collect()
-        }
-        (None, Some(times_ns)) => Ok(whole_numbers(times_ns, "times_ns", &[None])?.0),
-        _ => Err(PyTypeError::new_err("give either `times_s` or `times_ns`")),
-    }
-}
-
-/// Array of whole numbers and its shape; fractions are a `TypeError`. `None` in `shape` is any length.
-pub(crate) fn whole_numbers(
-    argument: &Bound<'_, PyAny>,
-    name: &str,
-    shape: &[Option<usize>],
-) -> PyResult<(Vec<i64>, Vec<usize>)> {
-    let numpy = argument.py().import(pyo3::intern!(argument.py(), "numpy"))?;
-    let array = numpy
-        .call_method1("asarray", (argument,))
-        .map_err(|_| PyTypeError::new_err(format!("`{name}` is not an array of whole numbers")))?;
-    let is_empty = array.getattr("size")?.extract::<usize>()? == 0;
-    let fits = numpy.call_method1("can_cast", (array.getattr("dtype")?, "int64"))?;
-    if !is_empty && !fits.extract::<bool>()? {
-        return Err(PyTypeError::new_err(format!(
-            "`{name}` must be whole numbers of at most 64 bits, not {}",
-            array.getattr("dtype")?.str()?
-        )));
-    }
-    let array = input::<i64>(&array, name, shape)?;
-    Ok((array.as_slice()?.to_vec(), array.shape().to_vec()))
-}
-
-fn transform_error(error: &LookupError) -> PyErr {
-    let text = error.message.clone();
-    match error.kind {
-        LookupErrorKind::Lookup => TransformLookupError::new_err(text),
-        LookupErrorKind::Connectivity => TransformConnectivityError::new_err(text),
-        LookupErrorKind::NoDataForExtrapolation
-        | LookupErrorKind::Forward
-        | LookupErrorKind::Backward => TransformExtrapolationError::new_err(text),
-        LookupErrorKind::InvalidArgument => TransformArgumentError::new_err(text),
-    }
-}
 
 /// Buffer of transforms between frames over time, as in tf2.
 ///

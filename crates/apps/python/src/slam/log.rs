@@ -27,7 +27,11 @@ pub(super) fn read(py: Python<'_>, path: &Path) -> PyResult<Vec<(LaserScan2, Opt
     if scans.is_empty() {
         return Err(file_error(py, path, "the log has no scans"));
     }
-    Ok(scans.into_iter().map(|scan| (scan.clone().into(), scan.odom_from_base)).collect())
+    let both = scans.into_iter().map(|scan| {
+        let odom_from_base = scan.odom_from_base;
+        (scan.into(), odom_from_base)
+    });
+    Ok(both.collect())
 }
 
 fn open(path: &Path) -> Result<CarmenLog, String> {

@@ -41,7 +41,7 @@ pub(super) fn read(
         .or_else(|| given(&file.written))
         .unwrap_or_default();
     let table = method.table();
-    for one in keywords.iter().filter(|one| table.find(&one.name).is_none()) {
+    if let Some(one) = keywords.iter().find(|one| table.find(&one.name).is_none()) {
         return Err(unknown(method, &one.given()));
     }
     let canonical = |name: &str| table.find(name).map(|it| it.name);
