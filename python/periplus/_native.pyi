@@ -135,6 +135,7 @@ class RayScene:
         directions: npt.ArrayLike,
         max_distance_m: npt.ArrayLike | None = None,
         threads: int | None = None,
+        out: RayHits | None = None,
     ) -> RayHits: ...
     def distances(
         self,
@@ -142,6 +143,7 @@ class RayScene:
         directions: npt.ArrayLike,
         max_distance_m: npt.ArrayLike | None = None,
         threads: int | None = None,
+        out: npt.NDArray[np.float32] | None = None,
     ) -> npt.NDArray[np.float32]: ...
     def occluded(
         self,
@@ -149,6 +151,7 @@ class RayScene:
         directions: npt.ArrayLike,
         max_distance_m: npt.ArrayLike | None = None,
         threads: int | None = None,
+        out: npt.NDArray[np.bool_] | None = None,
     ) -> npt.NDArray[np.bool_]: ...
 
 # ---- maps
