@@ -84,6 +84,11 @@ impl Packer {
 /// # Errors
 /// When the bytes are damaged, or the size differs from the declared one.
 pub(crate) fn unpack(compression: Compression, packed: &[u8], length: u64) -> io::Result<Vec<u8>> {
+    if compression == Compression::Zstd
+        && let Some(bytes) = unpack_zstd(packed, length)
+    {
+        return Ok(bytes);
+    }
     let damaged = |why: String| io::Error::new(io::ErrorKind::InvalidData, why);
     let (bytes, outcome) = unpack_some(compression, packed, length);
     outcome.map_err(|error| damaged(format!("a chunk cannot be decompressed: {error}")))?;
@@ -92,6 +97,19 @@ pub(crate) fn unpack(compression: Compression, packed: &[u8], length: u64) -> io
         return Err(damaged(format!("a chunk declares {length} bytes but has {many}")));
     }
     Ok(bytes)
+}
+
+/// Maximum length of chunks that are decompressed in one step [bytes].
+const MAX_ONE_STEP_BYTES: u64 = 64 << 20;
+
+/// Decompresses complete Zstandard data of this length in one step, which saves a copy. None if it is anything
+/// else.
+fn unpack_zstd(packed: &[u8], length: u64) -> Option<Vec<u8>> {
+    let most = usize::try_from(length).ok().filter(|_| length <= MAX_ONE_STEP_BYTES)?;
+    let mut bytes = Vec::new();
+    bytes.try_reserve_exact(most).ok()?;
+    zstd::bulk::Decompressor::new().ok()?.decompress_to_buffer(packed, &mut bytes).ok()?;
+    (bytes.len() == most).then_some(bytes)
 }
 
 /// Decompresses as much as possible, at most one byte more than `length`; returns the error that

@@ -226,6 +226,9 @@ impl Producer<'_> {
 
     fn add(&mut self, topic: usize, time_ns: i64, data: &[u8]) -> Result<(), Gone> {
         if self.raw {
+            if self.batch.bytes.capacity() == 0 {
+                self.batch.bytes.reserve(BATCH_BYTES.max(data.len()));
+            }
             self.batch.bytes.extend_from_slice(data);
         } else {
             let Some(known) = self.source.topics().get(topic) else { return Ok(()) };

@@ -8,7 +8,7 @@ use periplus_rosidl::{ArrayShape, ElementType, Literal, Scalar, TypeName};
 use pyo3::exceptions::PyKeyError;
 use pyo3::prelude::*;
 use pyo3::sync::PyOnceLock;
-use pyo3::types::{PyBytes, PyList, PyString, PyType};
+use pyo3::types::{PyBytes, PyList, PyString, PyTuple, PyType};
 
 use super::TypeHandle;
 use crate::work::lock;
@@ -34,8 +34,8 @@ pub(crate) struct Plan {
 /// Class of a message type.
 pub(crate) struct MessageClass {
     pub(crate) class: Py<PyType>,
-    /// `object.__new__`.
-    pub(crate) new: Py<PyAny>,
+    /// `object.__new__`, and its arguments.
+    new: (Py<PyAny>, Py<PyTuple>),
 }
 
 /// Field of a message type.
@@ -74,7 +74,8 @@ impl Plan {
             let base = py.import("periplus.msgs._base")?;
             let class = base.getattr("make_class")?.call1((handle,))?.cast_into::<PyType>()?;
             let new = py.import("builtins")?.getattr("object")?.getattr("__new__")?;
-            Ok(MessageClass { class: class.unbind(), new: new.unbind() })
+            let arguments = PyTuple::new(py, [&class])?;
+            Ok(MessageClass { class: class.unbind(), new: (new.unbind(), arguments.unbind()) })
         })
     }
 }
@@ -82,7 +83,8 @@ impl Plan {
 impl MessageClass {
     /// New message without values.
     pub(crate) fn new_object<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
-        self.new.bind(py).call1((self.class.bind(py),))
+        let (new, arguments) = &self.new;
+        new.bind(py).call1(arguments.bind(py))
     }
 }
 

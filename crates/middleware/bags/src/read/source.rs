@@ -2,6 +2,9 @@
 
 use std::io::{self, BufReader, Read, Seek, SeekFrom};
 
+/// Maximum size of the memory that is reserved before data arrives [bytes].
+const MAX_RESERVED_BYTES: u64 = 16 << 20;
+
 pub(crate) struct Source<R> {
     inner: BufReader<R>,
     at: u64,
@@ -15,8 +18,8 @@ impl<R: Read + Seek> Source<R> {
         Ok(Self { inner: BufReader::with_capacity(1 << 16, inner), at: 0, length })
     }
 
-    /// Reads bytes from `offset`; fewer at the end of the file. Memory is allocated as data
-    /// arrives.
+    /// Reads bytes from `offset`; fewer at the end of the file. Memory of large blocks is allocated as
+    /// data arrives.
     pub(crate) fn bytes(&mut self, offset: u64, length: u64) -> io::Result<Vec<u8>> {
         let length = length.min(self.length.saturating_sub(offset));
         // Small steps stay in the buffer.
@@ -28,6 +31,7 @@ impl<R: Read + Seek> Source<R> {
             }
         }
         let mut bytes = Vec::new();
+        bytes.try_reserve_exact(usize::try_from(length.min(MAX_RESERVED_BYTES)).unwrap_or(0))?;
         self.inner.by_ref().take(length).read_to_end(&mut bytes)?;
         self.at = offset + bytes.len() as u64;
         Ok(bytes)
