@@ -293,8 +293,11 @@ fn ranges(argument: &Bound<'_, PyAny>) -> PyResult<Vec<f32>> {
     Ok(ranges.as_slice()?.to_vec())
 }
 
-/// Stamp of a message \[ns\].
+/// Stamp of a message \[ns\], or time of a reading.
 fn message_time(message: &Bound<'_, PyAny>) -> PyResult<i64> {
+    if message.hasattr("time_ns")? {
+        return message.getattr("time_ns")?.extract();
+    }
     let stamp = message.getattr("header")?.getattr("stamp")?;
     let (seconds, rest_ns): (i64, i64) =
         (stamp.getattr("sec")?.extract()?, stamp.getattr("nanosec")?.extract()?);

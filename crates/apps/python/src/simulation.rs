@@ -22,7 +22,7 @@ use periplus_session::{
 use pyo3::exceptions::{PyFileExistsError, PyValueError};
 use pyo3::prelude::*;
 
-use self::running::{Goal, Running, SliceEnd};
+use self::running::{Goal, Running, SliceEnd, Transforms};
 use self::topics::Callbacks;
 use self::world::PyWorld;
 use crate::errors::{require_no_errors, runtime_error};
@@ -139,10 +139,13 @@ impl PySimulation {
             .gazebo(gazebo);
         let built = released(py, "starting the simulation", || {
             let session = builder.build().map_err(|error| error.to_string())?;
+            let told = |error: GraphError| error.to_string();
             let node = session.graph().node(NodeSettings::new("python").keep_names());
-            Ok((session, node.map_err(|error: GraphError| error.to_string())?))
+            let node = node.map_err(told)?;
+            let transforms = Transforms::new(&node).map_err(told)?;
+            Ok((session, node, transforms))
         })?;
-        let (session, node) = built.map_err(|error: String| runtime_error(error))?;
+        let (session, node, transforms) = built.map_err(|error: String| runtime_error(error))?;
         Ok(Self {
             running: Mutex::new(Running {
                 session,
@@ -151,7 +154,7 @@ impl PySimulation {
                 subscriptions: Vec::new(),
                 services: Vec::new(),
                 due: std::collections::VecDeque::new(),
-                transforms: None,
+                transforms,
                 pacer: None,
             }),
             callbacks: Callbacks::default(),
@@ -235,7 +238,7 @@ impl PySimulation {
                 simulation.set_seed(seed);
             }
             simulation.reset();
-            running.due.clear();
+            running.forget();
         })
     }
 
@@ -263,8 +266,9 @@ impl PySimulation {
     fn restore(&self, py: Python<'_>, snapshot: &Bound<'_, PySnapshot>) -> PyResult<()> {
         let state = &snapshot.get().state;
         let restored = self.with(py, |running| {
-            running.due.clear();
-            running.session.restore(&lock(state)).map_err(|error| error.to_string())
+            let restored = running.session.restore(&lock(state));
+            running.forget();
+            restored.map_err(|error| error.to_string())
         })?;
         restored.map_err(PyValueError::new_err)
     }

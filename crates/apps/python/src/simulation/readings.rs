@@ -207,6 +207,12 @@ impl PyScan {
         self.0.angle_increment.into()
     }
 
+    /// Time between beams [s].
+    #[getter]
+    fn time_increment(&self) -> f64 {
+        self.0.time_increment.into()
+    }
+
     /// Smallest valid range [m].
     #[getter]
     fn range_min(&self) -> f64 {
@@ -217,6 +223,13 @@ impl PyScan {
     #[getter]
     fn range_max(&self) -> f64 {
         self.0.range_max.into()
+    }
+
+    /// Time of the scan [ns].
+    #[getter]
+    fn time_ns(&self) -> i64 {
+        let stamp = &self.0.header.stamp;
+        i64::from(stamp.sec) * 1_000_000_000 + i64::from(stamp.nanosec)
     }
 
     /// Time of the scan [s].

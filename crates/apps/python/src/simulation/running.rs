@@ -3,7 +3,9 @@
 use std::collections::VecDeque;
 use std::time::Duration;
 
-use periplus::graph::{Graph, Mailbox, Node, RawCall, RawCalls, RawMailbox, Sample};
+use periplus::graph::{
+    Graph, GraphError, Mailbox, Node, Qos, RawCall, RawCalls, RawMailbox, Sample,
+};
 use periplus::msgs::tf2_msgs::TFMessage;
 use periplus::os::Stopwatch;
 use periplus::sim::{Diverged, RealTimePacer, Search, Simulation};
@@ -52,18 +54,30 @@ pub(crate) struct Running {
     pub(crate) subscriptions: Vec<Option<RawMailbox>>,
     pub(crate) services: Vec<RawCalls>,
     pub(crate) due: VecDeque<Delivery>,
-    pub(crate) transforms: Option<Transforms>,
+    pub(crate) transforms: Transforms,
     pub(crate) pacer: Option<RealTimePacer>,
 }
 
 /// Transforms of `/tf` and `/tf_static`.
 pub(crate) struct Transforms {
-    pub(crate) moving: Mailbox<TFMessage>,
-    pub(crate) fixed: Mailbox<TFMessage>,
+    moving: Mailbox<TFMessage>,
+    fixed: Mailbox<TFMessage>,
     pub(crate) frames: Frames,
 }
 
+/// Messages with transforms that wait between two steps.
+const TRANSFORM_DEPTH: usize = 100;
+
 impl Transforms {
+    /// Subscribes to the transforms.
+    pub(crate) fn new(node: &Node) -> Result<Self, GraphError> {
+        Ok(Self {
+            moving: node.mailbox("/tf", Qos::best_effort(TRANSFORM_DEPTH))?,
+            fixed: node.mailbox("/tf_static", Qos::latched(TRANSFORM_DEPTH))?,
+            frames: Frames::default(),
+        })
+    }
+
     pub(crate) fn receive(&mut self) {
         for message in self.fixed.drain() {
             self.frames.take(&message, TransformKind::Fixed);
@@ -124,6 +138,13 @@ impl Running {
         }
     }
 
+    /// Drops what was received, after a jump in time.
+    pub(crate) fn forget(&mut self) {
+        self.receive();
+        self.due.clear();
+        self.transforms.frames.forget();
+    }
+
     /// Serves requests and delivers messages at the present time, without a step.
     pub(crate) fn settle(&mut self) {
         self.session.serve();
@@ -143,8 +164,6 @@ impl Running {
                 self.due.push_back(Delivery::Request(number, call));
             }
         }
-        if let Some(transforms) = &mut self.transforms {
-            transforms.receive();
-        }
+        self.transforms.receive();
     }
 }

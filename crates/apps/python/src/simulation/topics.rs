@@ -10,13 +10,12 @@ use periplus::msgs::rcl_interfaces::{
     GetParameters, GetParametersRequest, ListParameters, ListParametersRequest, Parameter,
     ParameterValue, SetParameters, SetParametersRequest,
 };
-use periplus::tf_ros::Frames;
 use pyo3::exceptions::{PyKeyError, PyTimeoutError, PyTypeError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::PyType;
 
 use super::PySimulation;
-use super::running::{Delivery, Running, Transforms};
+use super::running::{Delivery, Running};
 use super::watch::CallbackWatch;
 use crate::errors::{runtime_error, value_error};
 use crate::messages::{from_python, plan_of_type, to_python};
@@ -362,7 +361,7 @@ impl PySimulation {
     }
 
     /// Transform between two frames of ``/tf``: the pose of ``source`` in ``target``, at a time [s] or the latest.
-    /// The first call starts to listen; transforms from before it are known only if they are static.
+    /// Those of the last 10 s are known.
     ///
     /// Raises ``LookupError`` with the reason.
     #[pyo3(signature = (target, source, time_s=None))]
@@ -375,20 +374,7 @@ impl PySimulation {
     ) -> PyResult<PyPose> {
         let time_ns = time_s.map_or(0, |time_s| (time_s * 1e9).round() as i64);
         let found = self.with(py, |running| {
-            let transforms = match &mut running.transforms {
-                Some(transforms) => transforms,
-                None => {
-                    let node = &running.node;
-                    let moving = node.mailbox("/tf", Qos::reliable(SUBSCRIPTION_DEPTH));
-                    let fixed = node.mailbox("/tf_static", Qos::latched(SUBSCRIPTION_DEPTH));
-                    let (moving, fixed) = (
-                        moving.map_err(|error| error.to_string())?,
-                        fixed.map_err(|error| error.to_string())?,
-                    );
-                    let made = Transforms { moving, fixed, frames: Frames::default() };
-                    running.transforms.insert(made)
-                }
-            };
+            let transforms = &mut running.transforms;
             transforms.receive();
             let found = transforms.frames.at(target, source, time_ns);
             found.map(|(pose, _)| pose).map_err(|error| error.to_string())
