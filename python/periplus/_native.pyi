@@ -130,6 +130,7 @@ class RayScene:
         directions: npt.ArrayLike,
         max_distance_m: npt.ArrayLike | None = None,
         threads: int | None = None,
+        out: RayHits | None = None,
     ) -> RayHits: ...
     def distances(
         self,
@@ -137,6 +138,7 @@ class RayScene:
         directions: npt.ArrayLike,
         max_distance_m: npt.ArrayLike | None = None,
         threads: int | None = None,
+        out: npt.NDArray[np.float32] | None = None,
     ) -> npt.NDArray[np.float32]: ...
     def occluded(
         self,
@@ -144,6 +146,7 @@ class RayScene:
         directions: npt.ArrayLike,
         max_distance_m: npt.ArrayLike | None = None,
         threads: int | None = None,
+        out: npt.NDArray[np.bool_] | None = None,
     ) -> npt.NDArray[np.bool_]: ...
 
 # ---- maps

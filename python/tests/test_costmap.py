@@ -319,14 +319,14 @@ def test_pictures() -> None:
         (lambda: Costmap(plugins=["x"], x={"plugin": "nav2_costmap_2d::StaticLayr"}), ValueError, "plugin"),
         (lambda: Costmap(plugins=["x"]), ValueError, "plugin"),
         (lambda: Costmap(plugins="static_layer"), TypeError, "plugins"),
-        (lambda: Costmap(plugins=[3]), TypeError, "update_costs"),
-        (lambda: Costmap(plugins=[Ramp]), TypeError, "update_costs"),
+        (lambda: Costmap(plugins=[3]), TypeError, "update_costs"),  # type: ignore[list-item]
+        (lambda: Costmap(plugins=[Ramp]), TypeError, "update_costs"),  # type: ignore[list-item]
         (lambda: Costmap(footprint="[[1, 2]"), ValueError, "footprint"),
         (lambda: Costmap(width=None), TypeError, "width"),
-        (lambda: Costmap({3: 4}), TypeError, "names"),
+        (lambda: Costmap({3: 4}), TypeError, "names"),  # type: ignore[dict-item]
         (lambda: local().observe("obstacle_layer", "laser", [[0, 0, 0]], (0, 0, 0)), KeyError, "obstacle_layer.scan"),
         (lambda: local().observe("obstacle_layer", "scan", [0, 0, 0], (0, 0, 0)), ValueError, "points"),
-        (lambda: local().observe("obstacle_layer", "scan", [[0, 0, 0]], (0, 0)), TypeError, "sensor_pose"),
+        (lambda: local().observe("obstacle_layer", "scan", [[0, 0, 0]], (0, 0)), TypeError, "sensor_pose"),  # type: ignore[arg-type]
         (lambda: local().update(math.nan), ValueError, "time_s"),
         (lambda: local().update(1e30), ValueError, "time_s"),
         (lambda: local().update(0.0, (math.inf, 0, 0)), ValueError, "finite"),

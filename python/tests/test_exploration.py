@@ -54,8 +54,8 @@ def test_the_cheapest_comes_first() -> None:
         (lambda: frontiers(half_room(), (99, 0, 0)), ValueError, "outside"),
         (lambda: frontiers(half_room(), (math.nan, 0, 0)), ValueError, "finite"),
         (lambda: frontiers(half_room(), (1.5, 0.5, 0), radius_m=-1.0), ValueError, "radius_m"),
-        (lambda: frontiers(np.zeros((3, 3)), (0, 0, 0)), TypeError, "grid"),
-        (lambda: frontiers(half_room(), "here"), TypeError, "robot_pose"),
+        (lambda: frontiers(np.zeros((3, 3)), (0, 0, 0)), TypeError, "grid"),  # type: ignore[arg-type]
+        (lambda: frontiers(half_room(), "here"), TypeError, "robot_pose"),  # type: ignore[arg-type]
     ],
 )
 def test_wrong_arguments(run, error, words) -> None:  # type: ignore[no-untyped-def]

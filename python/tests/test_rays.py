@@ -2,6 +2,7 @@
 
 import math
 import threading
+from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
@@ -17,7 +18,7 @@ SQUARE = ([[2, -1, -1], [2, 1, -1], [2, 1, 1], [2, -1, 1]], [[0, 1, 2], [0, 2, 3
 
 
 def test_primitives_have_closed_forms() -> None:
-    shapes = [
+    shapes: list[tuple[Callable[[RayScene], int], list[float]]] = [
         (lambda s: s.add_box((2, 4, 6)), [4, 3, 2]),
         (lambda s: s.add_sphere(1.5), [3.5, 3.5, 3.5]),
         (lambda s: s.add_cylinder(1, 4), [4, 4, 3]),
@@ -83,6 +84,22 @@ def test_shapes_broadcast() -> None:
     assert scene.cast(np.zeros((0, 3)), [1, 0, 0]).normals.shape == (0, 3)
 
 
+def test_results_are_overwritten_on_request() -> None:
+    scene = RayScene()
+    ball = scene.add_sphere(1.0)
+    first = scene.cast([[5, 0, 0]], [-1, 0, 0])
+    scene.move(ball, (1, 0, 0))
+    again = scene.cast([[5, 0, 0]], [-1, 0, 0], out=first)
+    assert again.distances is first.distances and first.distances.tolist() == [3.0]
+    out = np.zeros(1, np.float32)
+    assert scene.distances([[5, 0, 0]], [-1, 0, 0], out=out) is out and out[0] == 3
+    for wrong in (np.zeros(1), np.zeros(2, np.float32), "out"):
+        with pytest.raises(ValueError, match="out"):
+            scene.distances([[5, 0, 0]], [-1, 0, 0], out=wrong)  # type: ignore[arg-type]
+    with pytest.raises(ValueError, match="out"):
+        scene.cast([5, 0, 0], [-1, 0, 0], out=first)
+
+
 def test_shapes_move_and_go() -> None:
     scene = RayScene([SQUARE])
     assert scene.distances([0, 0, 0], [1, 0, 0]) == 2
@@ -94,7 +111,7 @@ def test_shapes_move_and_go() -> None:
     late = scene.add_mesh(*SQUARE)
     scene.move(late, Pose(-1))
     hits = scene.cast([0, 0, 0], [1, 0, 0])
-    assert (hits.distances, hits.ids) == (1, late)
+    assert hits.distances == 1 and hits.ids == late
     scene.remove(late)
     assert scene.cast([0, 0, 0], [1, 0, 0]).ids == 0
     with pytest.raises(KeyError):
@@ -190,7 +207,7 @@ def test_broken_files(tmp_path: Path) -> None:
         (lambda s: s.add_mesh([[math.nan, 0, 0]], [[0, 0, 0]]), ValueError, "vertices"),
         (lambda s: s.add_heightfield([[1, 2]], (1, 1)), ValueError, "two"),
         (lambda s: s.add_sphere(1.0, pose=(1, 2)), TypeError, "pose"),
-        (lambda s: RayScene([1]), TypeError, "meshes"),
+        (lambda s: RayScene([1]), TypeError, "meshes"),  # type: ignore[list-item]
     ],
 )
 def test_wrong_arguments(wrong, error, words) -> None:  # type: ignore[no-untyped-def]

@@ -66,7 +66,7 @@ def test_a_search_needs_no_guess() -> None:
     assert abs(refined.x - 1.3) < 0.01 and abs(refined.yaw - 0.5) < 0.005
 
 
-def test_a_search_in_vain_returns_none() -> None:
+def test_a_search_without_a_match_returns_none() -> None:
     assert scan_search([[50.0, 50.0]], scan(), half_m=(0.1, 0.1), half_rad=0.1, min_score=0.9) is None
     assert scan_search(np.zeros((0, 2)), np.zeros((0, 2)), half_m=(1, 1), half_rad=0.1) is None
 
@@ -88,7 +88,7 @@ def test_empty_scans() -> None:
         (lambda: scan_match(scan(), scan(), reach_m=(1.0, math.nan)), ValueError, "reach_m"),
         (lambda: scan_match(scan(), scan(), angle_increment=0.0), ValueError, "angle_increment"),
         (lambda: scan_match(scan(), scan(), origin=(0, math.inf)), ValueError, "origin"),
-        (lambda: scan_match(scan(), scan(), sigma=1.0), TypeError, "sigma"),
+        (lambda: scan_match(scan(), scan(), sigma=1.0), TypeError, "sigma"),  # type: ignore[call-arg]
         (lambda: scan_search(scan(), scan(), half_m=(-1, 1), half_rad=1), ValueError, "half_m"),
         (lambda: scan_search(scan(), scan(), half_m=(1e9, 1), half_rad=1), ValueError, "window"),
         (lambda: scan_search(scan(), scan(), half_m=(1, 1), half_rad=math.nan), ValueError, "half_rad"),

@@ -391,7 +391,6 @@ impl PyCostmap {
     /// ...     sonar={"plugin": "nav2_costmap_2d::RangeSensorLayer", "topics": ["/sonar"]})
     /// >>> costmap.observe_range("sonar", 1.0, 0.1, 2.0, 0.4, (0, 0, 0))
     #[pyo3(signature = (layer, range_m, min_range_m, max_range_m, field_of_view, sensor_pose))]
-    #[expect(clippy::too_many_arguments, reason = "fields of a message")]
     fn observe_range(
         &self,
         layer: &str,

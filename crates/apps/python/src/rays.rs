@@ -448,6 +448,9 @@ impl PyRayScene {
     ///     length 1.
     /// threads : int, optional
     ///     Number of threads (default: all cores). Results are the same for any number.
+    /// out : RayHits, optional
+    ///     Result of an earlier call with rays of the same shape, whose arrays are overwritten: saves the time for new
+    ///     memory in a loop.
     ///
     /// Faces are hit from both sides; a ray that starts inside a solid hits its far wall. A direction of length zero
     /// hits nothing. Raises ``ValueError`` for NaN, infinite values, and shapes that do not broadcast.
@@ -458,18 +461,23 @@ impl PyRayScene {
     /// >>> hits = scene.cast([[-3, 0, 0], [0, 0, 5]], [[1, 0, 0], [0, 0, -1]])
     /// >>> hits.distances.tolist(), hits.primitives.tolist()
     /// ([2.0, 4.0], [0, 5])
-    #[pyo3(signature = (origins, directions, max_distance_m=None, threads=None))]
+    #[pyo3(signature = (origins, directions, max_distance_m=None, threads=None, out=None))]
     fn cast(
         &self,
         origins: &Bound<'_, PyAny>,
         directions: &Bound<'_, PyAny>,
         max_distance_m: Option<&Bound<'_, PyAny>>,
         threads: Option<usize>,
+        out: Option<&Bound<'_, PyRayHits>>,
     ) -> PyResult<PyRayHits> {
         let py = origins.py();
         let rays = RayBatch::new(origins, directions, max_distance_m)?;
         let scene = self.snapshot(py)?;
-        let found = rays.cast(py, &scene, thread_count(threads)?)?;
+        let out = out.map(|out| {
+            let PyRayHits { distances, normals, ids, primitives, .. } = out.get();
+            [distances, normals, ids, primitives].map(|array| array.bind(py).clone())
+        });
+        let found = rays.cast(py, &scene, thread_count(threads)?, out)?;
         Ok(PyRayHits {
             distances: found.distances.unbind(),
             normals: found.normals.unbind(),
@@ -480,47 +488,49 @@ impl PyRayScene {
     }
 
     /// Casts rays and returns only distances, as float32, inf for a miss: cheaper than ``cast``. Parameters and errors
-    /// as ``cast``. Single precision as in laser scans; ``cast`` has double precision.
+    /// as ``cast``; ``out`` is a float32 array that is overwritten. Single precision as in laser scans; ``cast`` has double precision.
     ///
     /// >>> import periplus
     /// >>> scene = periplus.RayScene()
     /// >>> _ = scene.add_sphere(1.0)
     /// >>> scene.distances([3, 0, 0], [[-1, 0, 0], [1, 0, 0]]).tolist()
     /// [2.0, inf]
-    #[pyo3(signature = (origins, directions, max_distance_m=None, threads=None))]
+    #[pyo3(signature = (origins, directions, max_distance_m=None, threads=None, out=None))]
     fn distances<'py>(
         &self,
         origins: &Bound<'py, PyAny>,
         directions: &Bound<'py, PyAny>,
         max_distance_m: Option<&Bound<'py, PyAny>>,
         threads: Option<usize>,
+        out: Option<Bound<'py, PyAny>>,
     ) -> PyResult<Bound<'py, PyAny>> {
         let py = origins.py();
         let rays = RayBatch::new(origins, directions, max_distance_m)?;
         let scene = self.snapshot(py)?;
-        rays.distances(py, &scene, thread_count(threads)?)
+        rays.distances(py, &scene, thread_count(threads)?, out)
     }
 
     /// Returns whether each ray hits anything, as a bool array: the cheapest query, for shadows and lines of sight.
-    /// Parameters and errors as ``cast``.
+    /// Parameters and errors as ``cast``; ``out`` is a bool array that is overwritten.
     ///
     /// >>> import periplus
     /// >>> scene = periplus.RayScene()
     /// >>> _ = scene.add_sphere(1.0)
     /// >>> scene.occluded([3, 0, 0], [-1, 0, 0], max_distance_m=[1.0, 2.5]).tolist()
     /// [False, True]
-    #[pyo3(signature = (origins, directions, max_distance_m=None, threads=None))]
+    #[pyo3(signature = (origins, directions, max_distance_m=None, threads=None, out=None))]
     fn occluded<'py>(
         &self,
         origins: &Bound<'py, PyAny>,
         directions: &Bound<'py, PyAny>,
         max_distance_m: Option<&Bound<'py, PyAny>>,
         threads: Option<usize>,
+        out: Option<Bound<'py, PyAny>>,
     ) -> PyResult<Bound<'py, PyAny>> {
         let py = origins.py();
         let rays = RayBatch::new(origins, directions, max_distance_m)?;
         let scene = self.snapshot(py)?;
-        rays.occluded(py, &scene, thread_count(threads)?)
+        rays.occluded(py, &scene, thread_count(threads)?, out)
     }
 
     /// Seconds that the batch functions of the crate need for these rays on one thread, the best of `turns`, with rays

@@ -1,5 +1,6 @@
 //! Batches of rays from arrays.
 
+use std::cell::Cell;
 use std::sync::Mutex;
 
 use numpy::{
@@ -24,6 +25,18 @@ const BAND_ROWS: usize = 4;
 const SLICE_CHUNKS: usize = 64;
 /// Minimum number of rays for which a second thread pays off.
 const MIN_PARALLEL_RAYS: usize = 8192;
+
+/// Rays and hits of a chunk.
+#[derive(Default)]
+struct Buffers {
+    rays: Vec<Ray>,
+    hits: Vec<Option<Hit>>,
+}
+
+thread_local! {
+    /// Buffers of the last batch of this thread.
+    static BUFFERS: Cell<Buffers> = Cell::default();
+}
 
 /// Rays of arrays that are broadcast against each other.
 pub(super) struct RayBatch<'py> {
@@ -63,13 +76,6 @@ struct RayReader<'a> {
 struct Slots<'a, T> {
     values: &'a [T],
     is_one: bool,
-}
-
-/// Values of some rays, or the one for all.
-#[derive(Clone, Copy)]
-enum Part<'a, T> {
-    One(&'a T),
-    Many(&'a [T]),
 }
 
 impl Broadcast<'_> {
@@ -155,12 +161,17 @@ impl<'py> RayBatch<'py> {
         py: Python<'py>,
         scene: &Snapshot,
         threads: usize,
+        out: Option<[Bound<'py, PyAny>; 4]>,
     ) -> PyResult<HitArrays<'py>> {
         let vectors_shape: Vec<usize> = self.shape.iter().copied().chain([3]).collect();
-        let mut distances = empty::<f64>(py, &self.shape)?;
-        let mut normals = empty::<f64>(py, &vectors_shape)?;
-        let mut ids = empty::<i64>(py, &self.shape)?;
-        let mut primitives = empty::<i32>(py, &self.shape)?;
+        let [distances, normals, ids, primitives] = match out {
+            Some(arrays) => arrays.map(Some),
+            None => [const { None }; 4],
+        };
+        let mut distances = result::<f64>(py, distances, &self.shape)?;
+        let mut normals = result::<f64>(py, normals, &vectors_shape)?;
+        let mut ids = result::<i64>(py, ids, &self.shape)?;
+        let mut primitives = result::<i32>(py, primitives, &self.shape)?;
         let (size, columns) = self.chunk();
         let jobs = distances
             .as_slice_mut()?
@@ -169,31 +180,32 @@ impl<'py> RayBatch<'py> {
             .zip(ids.as_slice_mut()?.chunks_mut(size))
             .zip(primitives.as_slice_mut()?.chunks_mut(size));
         let ids_of = &*scene.ids;
-        self.run(py, threads, size, jobs, |rays, hits: &mut Vec<Option<Hit>>, job| {
+        self.run(py, threads, size, jobs, |rays, hits, job| {
             let (((distances, normals), ids), primitives) = job;
             hits.resize(rays.len(), None);
             scene.world.hits_grid(rays, columns.min(rays.len()), Filter::default(), 1, hits);
             let normals = normals.as_chunks_mut::<3>().0;
             let slots = distances.iter_mut().zip(normals).zip(ids.iter_mut().zip(primitives));
-            let mut is_sound = true;
-            for ((hit, ray), ((distance, normal), (id, primitive))) in
-                hits.iter().zip(rays).zip(slots)
-            {
+            let mut has_miss = false;
+            for (hit, ((distance, normal), (id, primitive))) in hits.iter().zip(slots) {
                 match hit {
                     Some(hit) => {
                         *distance = hit.distance_m;
-                        *normal = hit.normal.to_array();
+                        // One by one: an array would be copied over the stack.
+                        let [x, y, z] = normal;
+                        (*x, *y, *z) = (hit.normal.x, hit.normal.y, hit.normal.z);
                         *id = ids_of.get(hit.instance.0 as usize).copied().unwrap_or(-1);
                         *primitive = hit.primitive.cast_signed();
                     }
                     None => {
-                        (*distance, *normal) = (f64::INFINITY, [0.0; 3]);
+                        *distance = f64::INFINITY;
+                        normal.fill(0.0);
                         (*id, *primitive) = (-1, -1);
-                        is_sound &= is_finite(ray);
+                        has_miss = true;
                     }
                 }
             }
-            is_sound
+            has_miss
         })?;
         Ok(HitArrays {
             distances: object(&distances),
@@ -208,14 +220,14 @@ impl<'py> RayBatch<'py> {
         py: Python<'py>,
         scene: &Snapshot,
         threads: usize,
+        out: Option<Bound<'py, PyAny>>,
     ) -> PyResult<Bound<'py, PyAny>> {
-        let mut found = empty::<f32>(py, &self.shape)?;
+        let mut found = result::<f32>(py, out, &self.shape)?;
         let (size, columns) = self.chunk();
         let jobs = found.as_slice_mut()?.chunks_mut(size);
-        self.run(py, threads, size, jobs, |rays, (): &mut (), distances| {
+        self.run(py, threads, size, jobs, |rays, _, distances| {
             scene.world.cast_grid(rays, columns.min(rays.len()), Filter::default(), 1, distances);
-            let mut pairs = rays.iter().zip(distances);
-            pairs.all(|(ray, distance)| distance.is_finite() || is_finite(ray))
+            distances.iter().fold(false, |has_miss, distance| has_miss | !distance.is_finite())
         })?;
         Ok(object(&found))
     }
@@ -225,11 +237,12 @@ impl<'py> RayBatch<'py> {
         py: Python<'py>,
         scene: &Snapshot,
         threads: usize,
+        out: Option<Bound<'py, PyAny>>,
     ) -> PyResult<Bound<'py, PyAny>> {
-        let mut found = empty::<bool>(py, &self.shape)?;
+        let mut found = result::<bool>(py, out, &self.shape)?;
         let (size, columns) = self.chunk();
         let jobs = found.as_slice_mut()?.chunks_mut(size);
-        self.run(py, threads, size, jobs, |rays, (): &mut (), occluded| {
+        self.run(py, threads, size, jobs, |rays, _, occluded| {
             scene.world.occluded_grid(
                 rays,
                 columns.min(rays.len()),
@@ -237,21 +250,21 @@ impl<'py> RayBatch<'py> {
                 1,
                 occluded,
             );
-            rays.iter().zip(occluded).all(|(ray, is_occluded)| *is_occluded || is_finite(ray))
+            occluded.iter().any(|is_occluded| !is_occluded)
         })?;
         Ok(object(&found))
     }
 
     /// Calls `work` with the rays and slots of each chunk, on several threads, and checks for Ctrl-C in between.
-    /// `work` returns false for a ray that is not finite. Such rays hit nothing in the crate, so only those without a
-    /// hit need a check.
-    fn run<J: Send, B: Default>(
+    /// `work` returns true if a ray has no hit: only then values may not be finite, since such rays hit nothing in the
+    /// crate.
+    fn run<J: Send>(
         &self,
         py: Python<'_>,
         threads: usize,
         size: usize,
         jobs: impl Iterator<Item = J>,
-        work: impl Fn(&[Ray], &mut B, J) -> bool + Sync,
+        work: impl Fn(&[Ray], &mut Vec<Option<Hit>>, J) -> bool + Sync,
     ) -> PyResult<()> {
         let reader = self.reader()?;
         let count = self.count;
@@ -268,16 +281,18 @@ impl<'py> RayBatch<'py> {
                 let failed = Mutex::new(false);
                 let next = || lock(&queue).next();
                 let help = || {
-                    let (mut rays, mut buffer) = (Vec::new(), B::default());
+                    let Buffers { mut rays, mut hits } = BUFFERS.take();
+                    rays.clear();
                     while let Some((number, job)) = next() {
                         let start = number * size;
                         let end = (start + size).min(count);
                         reader.fill(start, end, &mut rays);
-                        if !work(&rays, &mut buffer, job) {
+                        if work(&rays, &mut hits, job) && !reader.is_finite(start, end) {
                             *lock(&failed) = true;
                             return;
                         }
                     }
+                    BUFFERS.set(Buffers { rays, hits });
                 };
                 std::thread::scope(|scope| {
                     for _ in 1..workers {
@@ -296,70 +311,91 @@ impl<'py> RayBatch<'py> {
 }
 
 impl RayReader<'_> {
-    /// Replaces `rays` by those from `start` to `end`.
+    /// Makes `rays` those from `start` to `end`. All rays in it are of this batch, so that values that are the same for
+    /// all rays are written only once.
     fn fill(&self, start: usize, end: usize, rays: &mut Vec<Ray>) {
-        rays.clear();
-        let ray = |origin: [f64; 3], direction: [f64; 3], max_m: f64| Ray {
-            origin_m: DVec3::from_array(origin),
-            direction: DVec3::from_array(direction),
-            min_m: 0.0,
-            max_m,
-        };
-        let (origins, directions) =
-            (self.origins.part(start, end), self.directions.part(start, end));
-        let limits = self.max_distances.map(|limits| limits.part(start, end));
-        // One loop for each frequent case, so that nothing is decided for every ray.
-        match (origins, directions, limits) {
-            (Part::One(origin), Part::Many(directions), None) => {
-                rays.extend(directions.iter().map(|it| ray(*origin, *it, f64::INFINITY)));
+        let first = |slots: Slots<'_, [f64; 3]>| slots.values.first().copied().unwrap_or_default();
+        let limit = self.max_distances.and_then(|limits| limits.values.first());
+        rays.resize(
+            end - start,
+            Ray {
+                origin_m: DVec3::from_array(first(self.origins)),
+                direction: DVec3::from_array(first(self.directions)),
+                min_m: 0.0,
+                max_m: limit.copied().unwrap_or(f64::INFINITY),
+            },
+        );
+        match (self.origins.part(start, end), self.directions.part(start, end)) {
+            (None, None) => {}
+            (None, Some(directions)) => {
+                for (ray, direction) in rays.iter_mut().zip(directions) {
+                    ray.direction = DVec3::from_array(*direction);
+                }
             }
-            (Part::Many(origins), Part::Many(directions), None) => {
-                let pairs = origins.iter().zip(directions);
-                rays.extend(
-                    pairs.map(|(origin, direction)| ray(*origin, *direction, f64::INFINITY)),
-                );
+            (Some(origins), None) => {
+                for (ray, origin) in rays.iter_mut().zip(origins) {
+                    ray.origin_m = DVec3::from_array(*origin);
+                }
             }
-            (origins, directions, limits) => rays.extend((0..end - start).map(|index| {
-                let limit = limits.map_or(f64::INFINITY, |limits| *limits.at(index));
-                ray(*origins.at(index), *directions.at(index), limit)
-            })),
+            (Some(origins), Some(directions)) => {
+                for (ray, (origin, direction)) in
+                    rays.iter_mut().zip(origins.iter().zip(directions))
+                {
+                    ray.origin_m = DVec3::from_array(*origin);
+                    ray.direction = DVec3::from_array(*direction);
+                }
+            }
         }
+        if let Some(limits) = self.max_distances.and_then(|limits| limits.part(start, end)) {
+            for (ray, limit) in rays.iter_mut().zip(limits) {
+                ray.max_m = *limit;
+            }
+        }
+    }
+
+    /// True if the rays from `start` to `end` are finite.
+    fn is_finite(&self, start: usize, end: usize) -> bool {
+        let is_finite = |slots: Slots<'_, [f64; 3]>| {
+            let values = slots.part(start, end).unwrap_or(&slots.values[..1]).as_flattened();
+            // No short circuit, so that several are compared at a time.
+            values.iter().fold(true, |is_finite, value| is_finite & value.is_finite())
+        };
+        is_finite(self.origins) && is_finite(self.directions)
     }
 }
 
 impl<'a, T> Slots<'a, T> {
-    fn part(&self, start: usize, end: usize) -> Part<'a, T> {
-        match self.is_one {
-            true => Part::One(&self.values[0]),
-            false => Part::Many(&self.values[start..end]),
-        }
+    /// Values of some rays; none if there is one for all.
+    fn part(&self, start: usize, end: usize) -> Option<&'a [T]> {
+        (!self.is_one).then(|| &self.values[start..end])
     }
 }
 
-impl<'a, T> Part<'a, T> {
-    #[inline(always)]
-    fn at(&self, index: usize) -> &'a T {
-        match self {
-            Self::One(value) => value,
-            Self::Many(values) => &values[index],
-        }
-    }
-}
-
-fn is_finite(ray: &Ray) -> bool {
-    ray.origin_m.is_finite() && ray.direction.is_finite()
-}
-
-/// Array without values, to be filled; a vector of zeros would be written twice.
-fn empty<'py, T: Element>(
+/// Array for results: the given one, or a new one without values. A vector of zeros would be written twice.
+fn result<'py, T: Element>(
     py: Python<'py>,
+    out: Option<Bound<'py, PyAny>>,
     shape: &[usize],
 ) -> PyResult<PyReadwriteArrayDyn<'py, T>> {
-    let numpy = py.import(pyo3::intern!(py, "numpy"))?;
-    let array = numpy
-        .getattr(pyo3::intern!(py, "empty"))?
-        .call1((PyTuple::new(py, shape)?, T::get_dtype(py)))?;
-    Ok(array.cast_into::<PyArrayDyn<T>>()?.try_readwrite()?)
+    let array = match out {
+        Some(out) => out,
+        None => {
+            let numpy = py.import(pyo3::intern!(py, "numpy"))?;
+            let empty = numpy.getattr(pyo3::intern!(py, "empty"))?;
+            empty.call1((PyTuple::new(py, shape)?, T::get_dtype(py)))?
+        }
+    };
+    let wrong = || {
+        PyValueError::new_err(format!(
+            "`out` must be a contiguous, writable array of {} of the shape {shape:?}",
+            T::get_dtype(py)
+        ))
+    };
+    let array = array.cast_into::<PyArrayDyn<T>>().map_err(|_| wrong())?;
+    if array.shape() != shape || !array.is_c_contiguous() {
+        return Err(wrong());
+    }
+    array.try_readwrite().map_err(|_| wrong())
 }
 
 fn object<'py, T: Element>(array: &PyReadwriteArrayDyn<'py, T>) -> Bound<'py, PyAny> {
