@@ -441,7 +441,7 @@ impl PyRayScene {
     /// ----------
     /// origins, directions : array_like, shape (..., 3)
     ///     Origins [m] and directions of any length, broadcast against each other: one origin for many directions,
-    ///     or the other way. Pass the rays of scans and images in order, since neighbours with a common origin are
+    ///     or one direction for many origins. Pass the rays of scans and images in order, since neighbours with a common origin are
     ///     traced together; arrays of shape (rows, columns, 3) are traced as images.
     /// max_distance_m : float or array_like of shape (...)
     ///     Maximum distance. A distance is a multiple of the length of its direction: metres for directions of

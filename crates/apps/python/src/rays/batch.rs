@@ -179,33 +179,12 @@ impl<'py> RayBatch<'py> {
             .zip(normals.as_slice_mut()?.chunks_mut(3 * size))
             .zip(ids.as_slice_mut()?.chunks_mut(size))
             .zip(primitives.as_slice_mut()?.chunks_mut(size));
-        let ids_of = &*scene.ids;
         self.run(py, threads, size, jobs, |rays, hits, job| {
             let (((distances, normals), ids), primitives) = job;
             hits.resize(rays.len(), None);
             scene.world.hits_grid(rays, columns.min(rays.len()), Filter::default(), 1, hits);
             let normals = normals.as_chunks_mut::<3>().0;
-            let slots = distances.iter_mut().zip(normals).zip(ids.iter_mut().zip(primitives));
-            let mut has_miss = false;
-            for (hit, ((distance, normal), (id, primitive))) in hits.iter().zip(slots) {
-                match hit {
-                    Some(hit) => {
-                        *distance = hit.distance_m;
-                        // One by one: an array would be copied over the stack.
-                        let [x, y, z] = normal;
-                        (*x, *y, *z) = (hit.normal.x, hit.normal.y, hit.normal.z);
-                        *id = ids_of.get(hit.instance.0 as usize).copied().unwrap_or(-1);
-                        *primitive = hit.primitive.cast_signed();
-                    }
-                    None => {
-                        *distance = f64::INFINITY;
-                        normal.fill(0.0);
-                        (*id, *primitive) = (-1, -1);
-                        has_miss = true;
-                    }
-                }
-            }
-            has_miss
+            write_hits(hits, &scene.ids, distances, normals, ids, primitives)
         })?;
         Ok(HitArrays {
             distances: object(&distances),
@@ -400,6 +379,43 @@ fn result<'py, T: Element>(
 
 fn object<'py, T: Element>(array: &PyReadwriteArrayDyn<'py, T>) -> Bound<'py, PyAny> {
     (***array).clone().into_any()
+}
+
+/// Writes hits to their arrays. Returns true if a ray has none.
+#[inline(never)]
+fn write_hits(
+    hits: &[Option<Hit>],
+    ids_of_instances: &[i64],
+    distances: &mut [f64],
+    normals: &mut [[f64; 3]],
+    ids: &mut [i64],
+    primitives: &mut [i32],
+) -> bool {
+    // One length for all, so that one check of bounds is enough.
+    let count = hits.len();
+    let (distances, normals) = (&mut distances[..count], &mut normals[..count]);
+    let (ids, primitives) = (&mut ids[..count], &mut primitives[..count]);
+    let mut has_miss = false;
+    for index in 0..count {
+        let [x, y, z] = &mut normals[index];
+        match &hits[index] {
+            Some(hit) => {
+                let instance = hit.instance.0 as usize;
+                distances[index] = hit.distance_m;
+                // One by one: an array would be copied over the stack.
+                (*x, *y, *z) = (hit.normal.x, hit.normal.y, hit.normal.z);
+                ids[index] = ids_of_instances.get(instance).copied().unwrap_or(-1);
+                primitives[index] = hit.primitive.cast_signed();
+            }
+            None => {
+                distances[index] = f64::INFINITY;
+                (*x, *y, *z) = (0.0, 0.0, 0.0);
+                (ids[index], primitives[index]) = (-1, -1);
+                has_miss = true;
+            }
+        }
+    }
+    has_miss
 }
 
 fn vectors<'py>(
