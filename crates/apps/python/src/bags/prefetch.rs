@@ -170,6 +170,10 @@ fn windows(source: &Source, wanted: &Wanted) -> Vec<(i64, i64)> {
     windows
 }
 
+/// Size of free memory that the allocator of glibc keeps for each thread at least [bytes]. Otherwise it returns the
+/// memory of every chunk and image to the system, and asks for it again.
+const KEPT_BYTES: usize = 24 << 20;
+
 /// Sends the messages of time windows.
 fn produce(
     source: &Source,
@@ -179,6 +183,8 @@ fn produce(
     sender: &SyncSender<Note>,
     spare: &Spare,
 ) {
+    // Freeing a block raises the limits of glibc (`mallopt`, M_MMAP_THRESHOLD) to its size. It is not touched.
+    drop(std::hint::black_box(Vec::<u8>::with_capacity(KEPT_BYTES)));
     for (start, end) in windows {
         let mut producer = Producer {
             source,
