@@ -515,6 +515,7 @@ fn convert_bag(
 }
 
 /// Runs work that reports progress, and ends it by an unwinding if the user presses Ctrl-C.
+#[allow(clippy::disallowed_methods, reason = "only limits how often signals are checked")]
 fn interruptible<T: Send>(
     py: Python<'_>,
     what: &str,

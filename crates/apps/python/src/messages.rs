@@ -27,6 +27,10 @@ use crate::errors::{self, value_error};
 use crate::work::released;
 
 pub(crate) fn register(module: &Bound<'_, PyModule>) -> PyResult<()> {
+    // The first array loads the C interface of numpy. Ctrl-C at that moment would be a panic, so it is loaded with
+    // this module.
+    module.py().import("numpy")?;
+    numpy::PyArray1::<f64>::zeros(module.py(), 0, false);
     module.add_class::<TypeHandle>()?;
     module.add_class::<FieldSetter>()?;
     module.add_function(wrap_pyfunction!(message_types, module)?)?;

@@ -94,7 +94,9 @@ impl PyBagMessages {
             {
                 return self.item(py, current, entry).map(Some);
             }
-            state.current = None;
+            if let Some(current) = state.current.take() {
+                state.prefetch.recycle(current.bytes);
+            }
             let batch = state.prefetch.next(py)?;
             if !state.prefetch.faults.is_empty() {
                 let mut faults = lock(&self.faults);

@@ -1,8 +1,8 @@
 //! Reading ahead: threads decompress and decode messages while Python works with earlier ones.
 
 use std::collections::BTreeMap;
-use std::sync::Arc;
 use std::sync::mpsc::{Receiver, RecvTimeoutError, SyncSender, sync_channel};
+use std::sync::{Arc, Mutex};
 use std::time::Duration;
 
 use periplus::bags::Selection;
@@ -12,6 +12,7 @@ use pyo3::prelude::*;
 use super::source::{Source, SourceKind, Wanted};
 use crate::errors::runtime_error;
 use crate::messages::Tape;
+use crate::work::lock;
 
 /// Messages that were read together.
 #[derive(Default)]
@@ -47,7 +48,11 @@ pub(super) struct Prefetch {
     window: usize,
     windows: usize,
     pub(super) faults: Vec<String>,
+    /// Memory of batches of raw messages, for the next ones.
+    spare: Spare,
 }
+
+type Spare = Arc<Mutex<Vec<Vec<u8>>>>;
 
 /// Size of a batch [bytes of messages].
 const BATCH_BYTES: usize = 512 << 10;
@@ -66,17 +71,26 @@ impl Prefetch {
         let cores = std::thread::available_parallelism().map_or(1, std::num::NonZero::get);
         let threads = cores.clamp(1, MAX_THREADS).min(windows.len());
         let mut workers = Vec::new();
+        let spare = Spare::default();
         for worker in 0..threads {
             let (sender, receiver) = sync_channel(BATCHES_AHEAD);
             let own: Vec<(i64, i64)> =
                 windows.iter().skip(worker).step_by(threads).copied().collect();
-            let (source, wanted) = (source.clone(), wanted.clone());
+            let (source, wanted, spare) = (source.clone(), wanted.clone(), spare.clone());
             std::thread::Builder::new()
                 .name("periplus-bag".into())
-                .spawn(move || produce(&source, &wanted, &own, raw, &sender))?;
+                .spawn(move || produce(&source, &wanted, &own, raw, &sender, &spare))?;
             workers.push(receiver);
         }
-        Ok(Self { workers, window: 0, windows: windows.len(), faults: Vec::new() })
+        Ok(Self { workers, window: 0, windows: windows.len(), faults: Vec::new(), spare })
+    }
+
+    /// Returns the memory of a batch that was read.
+    pub(super) fn recycle(&self, mut bytes: Vec<u8>) {
+        bytes.clear();
+        if bytes.capacity() > 0 {
+            lock(&self.spare).push(bytes);
+        }
     }
 
     /// Next batch; none at the end. Waits without the interpreter.
@@ -156,6 +170,10 @@ fn windows(source: &Source, wanted: &Wanted) -> Vec<(i64, i64)> {
     windows
 }
 
+/// Size of free memory that the allocator of glibc keeps for each thread at least [bytes]. Otherwise it returns the
+/// memory of every chunk and image to the system, and asks for it again.
+const KEPT_BYTES: usize = 24 << 20;
+
 /// Sends the messages of time windows.
 fn produce(
     source: &Source,
@@ -163,12 +181,16 @@ fn produce(
     windows: &[(i64, i64)],
     raw: bool,
     sender: &SyncSender<Note>,
+    spare: &Spare,
 ) {
+    // Freeing a block raises the limits of glibc (`mallopt`, M_MMAP_THRESHOLD) to its size. It is not touched.
+    drop(std::hint::black_box(Vec::<u8>::with_capacity(KEPT_BYTES)));
     for (start, end) in windows {
         let mut producer = Producer {
             source,
             raw,
             sender,
+            spare,
             batch: Batch::default(),
             bad: BTreeMap::new(),
             size: 0,
@@ -198,6 +220,7 @@ struct Producer<'a> {
     source: &'a Source,
     raw: bool,
     sender: &'a SyncSender<Note>,
+    spare: &'a Spare,
     batch: Batch,
     size: usize,
     /// Number of messages of a topic that cannot be decoded, with the first error.
@@ -227,6 +250,7 @@ impl Producer<'_> {
     fn add(&mut self, topic: usize, time_ns: i64, data: &[u8]) -> Result<(), Gone> {
         if self.raw {
             if self.batch.bytes.capacity() == 0 {
+                self.batch.bytes = lock(self.spare).pop().unwrap_or_default();
                 self.batch.bytes.reserve(BATCH_BYTES.max(data.len()));
             }
             self.batch.bytes.extend_from_slice(data);

@@ -53,6 +53,15 @@ impl Block {
         let content = stored.get(PREFIX..).unwrap_or_default();
         let (head, packed) =
             ChunkHead::parse(content).ok_or_else(|| wrong("a chunk is truncated"))?;
+        let length = packed.len() as u64;
+        let is_plain = Compression::from_name(&head.compression) == Some(Compression::None);
+        if is_plain && self.kind == Kind::Chunk && head.length == length && length <= most {
+            require_checksum(&head, packed)?;
+            let start = stored.len() - packed.len();
+            let mut records = stored;
+            records.drain(..start);
+            return Ok(records);
+        }
         unpack_chunk(&head, packed, self.kind == Kind::CutChunk, most)
     }
 }
@@ -131,8 +140,13 @@ pub(super) fn unpack_chunk(
         return Ok(unpack_some(compression, packed, head.length).0);
     }
     let records = unpack(compression, packed, head.length)?;
-    if head.crc != 0 && crc32fast::hash(&records) != head.crc {
+    require_checksum(head, &records)?;
+    Ok(records)
+}
+
+fn require_checksum(head: &ChunkHead, records: &[u8]) -> io::Result<()> {
+    if head.crc != 0 && crc32fast::hash(records) != head.crc {
         return Err(wrong("the checksum of a chunk is wrong"));
     }
-    Ok(records)
+    Ok(())
 }
