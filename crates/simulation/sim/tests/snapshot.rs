@@ -21,12 +21,17 @@ use periplus_sim::{
 /// Not a multiple of [`COMMAND_NS`], so that commands wait in the snapshot.
 const BEFORE_NS: i64 = 710_000_000;
 const AFTER_NS: i64 = 800_000_000;
+/// Length of another future, between a snapshot and the return to it.
+const BRANCH_NS: i64 = 150_000_000;
 /// Commands come as from a joystick \[ns\].
 const COMMAND_NS: i64 = 50_000_000;
 
-/// Topic, time and bytes of all messages since the last look.
+/// Topic, time and bytes of a message.
+type Record = (String, i64, Vec<u8>);
+
+/// All messages since it was cleared.
 #[derive(Clone, Default)]
-struct Recording(Arc<Mutex<Vec<(String, i64, Vec<u8>)>>>);
+struct Recording(Arc<Mutex<Vec<Record>>>);
 
 impl Sink for Recording {
     fn wants(&self, topic: &TopicInfo) -> bool {
@@ -104,7 +109,7 @@ struct Run {
 
 #[derive(PartialEq)]
 struct Future {
-    messages: Vec<(String, i64, Vec<u8>)>,
+    messages: Vec<Record>,
     poses: Vec<u64>,
     time_ns: i64,
 }
@@ -181,12 +186,12 @@ fn check(name: &str, make: impl Fn() -> (Simulation, Vec<ModelInstance>)) {
         ..copied
     };
     let _ = run.simulation.spawn(copy);
-    run.future();
+    advance(&mut run.simulation, &run.commands, BRANCH_NS);
     for member in members.iter().rev().take(2) {
         assert!(run.simulation.delete(&member.name), "{}", member.name);
     }
     run.simulation.set_step(0.002);
-    run.future();
+    advance(&mut run.simulation, &run.commands, BRANCH_NS);
     run.simulation.restore(&snapshot).unwrap();
     assert!(run.simulation.models().all(|model| model != "copy"));
     assert_same(&format!("{name}: other models before"), &expected, &run.future());
@@ -504,6 +509,7 @@ fn a_snapshot_of_another_simulation() {
 
 #[test]
 fn the_cost_in_the_tutorial_world() {
+    const COUNT: u32 = 500;
     let root = root();
     let robots = [RobotPlacement {
         file: root.join("robots/kbot/urdf/kbot.urdf.xacro"),
@@ -512,7 +518,6 @@ fn the_cost_in_the_tutorial_world() {
     let world = root.join("worlds/demo_room.sdf");
     let mut composition = composed(&Machine, &world, &robots, &root);
     let mut run = Run::new(simulated(&mut composition, PhysicsMode::Rigid).0);
-    const COUNT: u32 = 500;
     let memory = || {
         let text = std::fs::read_to_string("/proc/self/statm").unwrap_or_default();
         text.split(' ').nth(1).and_then(|pages| pages.parse::<usize>().ok()).unwrap_or(0) * 4096
