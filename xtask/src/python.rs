@@ -40,9 +40,12 @@ pub(crate) enum Part {
     Command,
 }
 
+/// One of the checks.
+type Check = fn() -> Result<(), Failed>;
+
 /// Checks the package, or one part of it after a build.
 pub(crate) fn check(only: Option<Part>) -> Result<(), Failed> {
-    let parts: [(Part, &str, fn() -> Result<(), Failed>); 5] = [
+    let parts: [(Part, &str, Check); 5] = [
         (Part::Build, "wheel", build),
         (Part::Types, "types", types),
         (Part::Test, "tests", test),

@@ -1,5 +1,6 @@
 //! Robot and world files, checked and converted as by the commands `periplus check` and `periplus convert`.
 
+use std::fmt;
 use std::path::{Path, PathBuf};
 
 use periplus_diagnostics::{Diagnostics, Severity, SourceMap};
@@ -58,6 +59,28 @@ impl ConversionTarget {
     }
 }
 
+/// Reason that a conversion did not start.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum ConversionError {
+    /// The target has a format that does not exist.
+    UnknownFormat(String),
+    /// The settings do not fit the file.
+    Settings(String),
+}
+
+impl fmt::Display for ConversionError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::UnknownFormat(name) => {
+                write!(f, "the format is `urdf`, `sdf` or `json`, not `{name}`")
+            }
+            Self::Settings(reason) => f.write_str(reason),
+        }
+    }
+}
+
+impl std::error::Error for ConversionError {}
+
 /// Reads and converts a file. Without a text the findings have an error.
 ///
 /// # Errors
@@ -67,12 +90,12 @@ pub fn convert_file(
     arguments: Vec<(String, String)>,
     target: &ConversionTarget,
     resource_path: &[PathBuf],
-) -> Result<(LoadedFile, Option<String>), String> {
+) -> Result<(LoadedFile, Option<String>), ConversionError> {
     let to = match target.format.as_str() {
         "urdf" => Format::Urdf,
         "sdf" => Format::Sdf,
         "json" => Format::Json,
-        other => return Err(format!("the format is `urdf`, `sdf` or `json`, not `{other}`")),
+        other => return Err(ConversionError::UnknownFormat(other.to_owned())),
     };
     let options = ConvertOptions {
         words: Vec::new(),
@@ -83,7 +106,8 @@ pub fn convert_file(
         wall_height: target.wall_height_m,
         search: SearchOptions { resource_path: resource_path.to_vec() },
     };
-    let (mut loaded, text, _) = crate::convert::convert_file(file, arguments.clone(), &options)?;
+    let (mut loaded, text, _) = crate::convert::convert_file(file, arguments.clone(), &options)
+        .map_err(ConversionError::Settings)?;
     let unknown: Vec<String> =
         loaded.unknown_arguments(&arguments).into_iter().map(str::to_owned).collect();
     unknown.iter().for_each(|name| loaded.warn_of_argument(name));

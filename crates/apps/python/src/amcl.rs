@@ -5,7 +5,7 @@ mod estimate;
 use std::path::PathBuf;
 
 use numpy::PyArray1;
-use periplus::diagnostics::{Diagnostic, Diagnostics, SourceMap};
+use periplus::diagnostics::{Diagnostic, DiagnosticCause, Diagnostics, SourceMap};
 use periplus::geometry::Pose2;
 use periplus::grid::OccupancyGrid;
 use periplus::localization::{
@@ -191,7 +191,9 @@ impl PyAmcl {
             it.amcl.set_pose(&InitialPose { frame, pose, covariance, then_from_now })
         })?;
         match result.map_err(|finding| raised(&finding))? {
-            Some(warning) if warning.code != "no-map" => warn(py, &sentence(&warning)),
+            Some(warning) if warning.cause != Some(DiagnosticCause::MissingMap) => {
+                warn(py, &sentence(&warning))
+            }
             _ => Ok(()),
         }
     }
@@ -370,16 +372,18 @@ fn covariance_argument(argument: &Bound<'_, PyAny>) -> PyResult<[f64; 36]> {
 
 /// Error of the filter: a missing map or pose is a `RuntimeError`, anything else a `ValueError`.
 fn raised(finding: &Diagnostic) -> PyErr {
-    match finding.code {
-        "no-map" => PyRuntimeError::new_err("there is no map: give `map`, or call `set_map`"),
-        "no-initial-pose" => PyRuntimeError::new_err(
+    match finding.cause {
+        Some(DiagnosticCause::MissingMap) => {
+            PyRuntimeError::new_err("there is no map: give `map`, or call `set_map`")
+        }
+        Some(DiagnosticCause::MissingInitialPose) => PyRuntimeError::new_err(
             "no initial pose is set: call `set_initial_pose` or `localize_globally`, or set `global_start=True`",
         ),
-        "map-without-walls" => PyValueError::new_err(format!(
+        Some(DiagnosticCause::MapWithoutWalls) => PyValueError::new_err(format!(
             "{}; the cells of `Slam.map` are percents: use `slam.map().trinary()`",
             finding.message
         )),
-        "nothing-free" | "fits-nowhere" => PyRuntimeError::new_err(sentence(finding)),
+        Some(DiagnosticCause::NoPossiblePose) => PyRuntimeError::new_err(sentence(finding)),
         _ => value_error(sentence(finding)),
     }
 }

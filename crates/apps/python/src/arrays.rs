@@ -128,10 +128,10 @@ pub(crate) fn contiguous<'py, T: Element>(
     name: &str,
 ) -> PyResult<PyReadonlyArrayDyn<'py, T>> {
     let py = argument.py();
-    if let Ok(array) = argument.cast::<PyArrayDyn<T>>() {
-        if array.is_c_contiguous() {
-            return array.try_readonly().map_err(|_| busy(name));
-        }
+    if let Ok(array) = argument.cast::<PyArrayDyn<T>>()
+        && array.is_c_contiguous()
+    {
+        return array.try_readonly().map_err(|_| busy(name));
     }
     let numpy = py.import(pyo3::intern!(py, "numpy"))?;
     let settings = PyDict::new(py);

@@ -1,4 +1,4 @@
-//! Values that one call at a time works with, in slices or on a thread of its own, so that Ctrl-C works.
+//! Values that one call at a time works with, in slices or on a separate thread, so that Ctrl-C works.
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -77,7 +77,7 @@ impl<T: Send + 'static> SharedState<T> {
                 *slot = Some(value);
             }
             drop(slot);
-            // Nobody receives it after Ctrl-C.
+            // No call receives it after Ctrl-C.
             let _ = sender.send(result);
         };
         let thread = thread::Builder::new().name(what.to_owned()).stack_size(STACK_BYTES);

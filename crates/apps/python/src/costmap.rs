@@ -15,7 +15,9 @@ use periplus::costmap::layers::{RangeLayer, RangeReading, StaticLayer};
 use periplus::costmap::{
     CostmapConfig, Footprint, LayeredCostmap, NoTransforms, Projector, ScanGeometry, cost,
 };
-use periplus::diagnostics::{Diagnostic, Diagnostics, Severity, SourceMap, closest};
+use periplus::diagnostics::{
+    Diagnostic, DiagnosticCause, Diagnostics, Severity, SourceMap, closest,
+};
 use periplus::geometry::Pose2;
 use periplus::grid::{Grid, GridInfo};
 use periplus::images::{Layout, write_png};
@@ -132,7 +134,7 @@ impl PyCostmap {
         let mut findings = Diagnostics::new();
         let config = CostmapConfig::read(given, None, &mut findings);
         for finding in findings.iter() {
-            let is_unknown = finding.code == "unknown-parameter";
+            let is_unknown = finding.cause == Some(DiagnosticCause::UnknownParameter);
             if is_unknown || finding.severity == Severity::Error {
                 let text = described(finding);
                 return Err(if is_unknown {

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use periplus::diagnostics::{Diagnostic, Diagnostics, Severity, SourceMap};
+use periplus::diagnostics::{Diagnostic, DiagnosticCause, Diagnostics, Severity, SourceMap};
 use periplus::params::{Default, ParamType, ParamValue, ParamValues, Parameter, Table};
 use periplus::yaml::YamlNode;
 use periplus_session::files;
@@ -71,7 +71,7 @@ fn text(name: &str, value: &Bound<'_, PyAny>) -> PyResult<String> {
 /// Reads a YAML file. None if it is empty.
 ///
 /// # Errors
-/// `FileNotFoundError`, or `FileError` with the place of a fault.
+/// `FileNotFoundError`, or `FileError` with the location of a fault.
 pub(crate) fn read_yaml(
     py: Python<'_>,
     path: &Path,
@@ -92,7 +92,7 @@ pub(crate) fn require_valid(
     sources: &SourceMap,
 ) -> PyResult<()> {
     for finding in findings.iter() {
-        let is_unknown = finding.code == "unknown-parameter";
+        let is_unknown = finding.cause == Some(DiagnosticCause::UnknownParameter);
         let is_in_file = finding.span.is_some_and(|span| sources.holds(span));
         // One of a newer release has no similar name: its file still loads, with a warning.
         let is_misspelled = is_unknown && finding.replacement.is_some();

@@ -271,9 +271,9 @@ pub(crate) struct PyFinding {
     severity: String,
     /// Short stable name, such as ``unknown-element``.
     code: String,
-    /// What is wrong.
+    /// Description of the fault.
     message: String,
-    /// Path of the file; None if it concerns no place in a file.
+    /// Path of the file; None if it concerns no line of a file.
     file: Option<String>,
     /// Line, from 1.
     line: Option<usize>,
@@ -310,7 +310,7 @@ impl std::fmt::Display for PyFinding {
 }
 
 impl PyFinding {
-    /// Warning without a place.
+    /// Warning without a location.
     pub(crate) fn warning(code: &str, message: &str) -> Self {
         Self {
             severity: Severity::Warning.name().to_owned(),
@@ -335,7 +335,7 @@ impl PyFinding {
     }
 }
 
-/// Findings with their places.
+/// Findings with their locations.
 pub(crate) fn findings_of(found: &Diagnostics, sources: &SourceMap) -> Vec<PyFinding> {
     let one = |finding: &periplus::diagnostics::Diagnostic| {
         let place =

@@ -1,6 +1,6 @@
 //! Adaptive Monte Carlo localization.
 
-use periplus_diagnostics::Diagnostic;
+use periplus_diagnostics::{Diagnostic, DiagnosticCause};
 use periplus_geometry::{LaserScan2, Pose2, Stream};
 use periplus_grid::OccupancyGrid;
 use periplus_scan_matching::Peak;
@@ -295,6 +295,7 @@ impl Amcl {
             self.mode = Mode::Uninitialized { initial_pose: Some((pose, covariance)) };
             return Ok(Some(
                 Diagnostic::warning("no-map", "the initial pose waits for a map")
+                    .caused_by(DiagnosticCause::MissingMap)
                     .help("start a map server, and check `map_topic`"),
             ));
         }
@@ -427,12 +428,14 @@ impl Amcl {
 
 fn no_map() -> Box<Diagnostic> {
     Diagnostic::error("no-map", "there is no map yet")
+        .caused_by(DiagnosticCause::MissingMap)
         .help("start a map server, and check `map_topic`")
         .into()
 }
 
 fn no_initial_pose() -> Box<Diagnostic> {
     Diagnostic::error("no-initial-pose", "no initial pose is set")
+        .caused_by(DiagnosticCause::MissingInitialPose)
         .help(
             "set the initial pose: in RViz with `2D Pose Estimate`, by parameter with \
              `set_initial_pose: true`, or enable global localization with `global_start: true`",
@@ -442,6 +445,7 @@ fn no_initial_pose() -> Box<Diagnostic> {
 
 fn no_free_cell() -> Box<Diagnostic> {
     Diagnostic::error("nothing-free", "no cell of the map is free, so no pose is possible")
+        .caused_by(DiagnosticCause::NoPossiblePose)
         .help("check `free_thresh` and `negate` in the map's YAML")
         .into()
 }
@@ -449,6 +453,7 @@ fn no_free_cell() -> Box<Diagnostic> {
 fn fits_nowhere(scan: &MatchingScan) -> Box<Diagnostic> {
     let (hit_count, beam_count) = (scan.ends.len(), scan.beams.beams.len());
     Diagnostic::error("fits-nowhere", "the scan fits nowhere on the map")
+        .caused_by(DiagnosticCause::NoPossiblePose)
         .note(format!("{hit_count} of its {beam_count} beams hit anything"))
         .help("move the robot to where it sees walls, or check that this is the right map")
         .into()

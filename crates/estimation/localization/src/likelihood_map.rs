@@ -1,7 +1,7 @@
 //! Likelihood field of an occupancy grid: distances to the nearest obstacle (*Probabilistic
 //! Robotics*, section 6.4).
 
-use periplus_diagnostics::Diagnostic;
+use periplus_diagnostics::{Diagnostic, DiagnosticCause};
 use periplus_geometry::{Pose2, Stream};
 use periplus_grid::{Grid, GridInfo, OccupancyGrid, occupancy, squared_distances};
 
@@ -108,6 +108,7 @@ impl LikelihoodMap {
                 "map-without-walls",
                 "no cell of the map is occupied, so scans cannot be matched",
             )
+            .caused_by(DiagnosticCause::MapWithoutWalls)
             .note("only cells of value 100 are occupied; 1 to 99 count as unknown")
             .help("load the map in `trinary` mode, or lower its `occupied_thresh`")
             .into());

@@ -40,6 +40,16 @@ pub enum DiagnosticCause {
     Inertia,
     /// A model has no links.
     NoLinks,
+    /// No table has a parameter of this name.
+    UnknownParameter,
+    /// A map has not been given yet.
+    MissingMap,
+    /// No initial pose has been given.
+    MissingInitialPose,
+    /// A map has no occupied cells.
+    MapWithoutWalls,
+    /// No pose on a map is possible.
+    NoPossiblePose,
 }
 
 /// Replacement text for a span.

@@ -3,7 +3,7 @@
 use std::borrow::Cow;
 use std::collections::BTreeMap;
 
-use periplus_diagnostics::{Diagnostic, Diagnostics, Origin, Span};
+use periplus_diagnostics::{Diagnostic, DiagnosticCause, Diagnostics, Origin, Span};
 
 use crate::value::quote;
 use crate::values::Located;
@@ -124,6 +124,7 @@ impl Table {
     pub fn unknown(&self, given: &Given<'_>) -> Diagnostic {
         let message = format!("{} has no parameter `{}`", self.name, given.name);
         Diagnostic::warning("unknown-parameter", message)
+            .caused_by(DiagnosticCause::UnknownParameter)
             .at(given.name_origin)
             .label("this is ignored")
             .did_you_mean(given.name_origin, given.name, self.names())

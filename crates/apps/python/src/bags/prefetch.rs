@@ -213,7 +213,7 @@ fn produce(
     }
 }
 
-/// Marks that nobody receives any more.
+/// Marks that no reader receives any more.
 struct Gone;
 
 struct Producer<'a> {

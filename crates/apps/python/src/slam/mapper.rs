@@ -176,7 +176,7 @@ pub(super) enum Drawing {
 }
 
 impl Drawing {
-    /// Draws about so many cells at a time, so that Ctrl-C works.
+    /// Draws about `cells_at_once` cells at a time, so that Ctrl-C works.
     pub(super) fn draw(self, py: Python<'_>, cells_at_once: usize) -> PyResult<OccupancyGrid> {
         let snapshot = match self {
             Self::Empty => return Err(no_scan()),
