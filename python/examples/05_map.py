@@ -1,4 +1,4 @@
-"""Maps two rooms while a robot drives through them, and saves the map."""
+"""Maps a room while a robot drives through it, and saves the map."""
 
 from periplus import OccupancyGrid, Simulation, Slam, World
 from periplus.msgs.geometry_msgs.msg import Twist, Vector3

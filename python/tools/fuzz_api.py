@@ -112,6 +112,41 @@ def array(rng: random.Random) -> Any:
     return made
 
 
+# Values that fit, by the names of parameters.
+FITTING: dict[str, list[Any]] = {
+    "pose": [(0.5, 0.2, 0.1), (0.5, 0.2, 0.1, 0.0, 0.0, 0.3), periplus.Pose(1.0, 2.0, yaw=0.4)],
+    "robot_pose": [(0.0, 0.0, 0.0)],
+    "sensor_pose": [(0.0, 0.0, 0.2, 0.0, 0.0, 0.0)],
+    "odom_from_base": [(0.0, 0.0, 0.0), (0.1, 0.0, 0.01), None],
+    "guess": [(0.1, 0.0, 0.0)],
+    "topic": ["/scan", "/cmd_vel", "/depth_camera/points", "/chatter"],
+    "name": ["sam_bot", "box", "cube"],
+    "path": ["box.sdf", "m.yaml", "out.mcap"],
+    "source": ["box.sdf", BOX],
+    "size": [[1.0, 2.0, 0.5]],
+    "radius": [0.3],
+    "origins": [[0.0, 0.0, 0.5], np.zeros((5, 3))],
+    "directions": [[1.0, 0.0, 0.0], np.eye(3), np.random.default_rng(1).normal(size=(50, 3))],
+    "vertices": [np.random.default_rng(2).normal(size=(8, 3))],
+    "triangles": [[[0, 1, 2], [2, 3, 4]], np.array([[5, 6, 7]])],
+    "scan": [[1.0] * 40, np.linspace(1.0, 3.0, 40)],
+    "scanner": [periplus.LaserScanner(-1.0, 0.05, range_max=10.0)],
+    "map": [periplus.OccupancyGrid(np.pad(np.zeros((20, 30), np.int8), 1, constant_values=100), 0.1)],
+    "grid": [periplus.OccupancyGrid(np.pad(np.zeros((20, 30), np.int8), 1, constant_values=100), 0.1)],
+    "points": [[[1.0, 0.0], [1.0, 0.5], [2.0, 1.0]], np.zeros((4, 3))],
+    "time_s": [0.0, 0.1, 1.0],
+    "time_ns": [0, 100_000_000],
+    "target": ["map", "odom"],
+    "parent": ["map", "odom"],
+    "child": ["odom", "base_link"],
+    "covariance": [np.eye(3), np.eye(6)],
+    "world": [periplus.World.demo(), periplus.World()],
+    "force": [[10.0, 0.0, 0.0]],
+    "linear": [[0.5, 0.0, 0.0]],
+    "angular": [[0.0, 0.0, 0.3]],
+}
+
+
 class Fuzzer:
     """Objects that were made, and calls on them."""
 
@@ -142,6 +177,8 @@ class Fuzzer:
             if parameter.name in ("self", "cls") or (not is_needed and self.rng.random() < 0.6):
                 continue
             value = self.value()
+            if parameter.name in FITTING and self.rng.random() < 0.6:
+                value = self.rng.choice(FITTING[parameter.name])
             if parameter.name in ("seconds", "n", "real_time_factor", "timeout_s", "count"):
                 value = self.rng.choice([0, 1, 2, 0.01, -1, math.nan, None, "x"])
             if parameter.name in ("width", "height", "threads") and isinstance(value, (int, float)):

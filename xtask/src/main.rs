@@ -165,6 +165,9 @@ enum Task {
         /// Run only this part, on a wheel that is built
         #[arg(long)]
         only: Option<python::Part>,
+        /// Write the reference page and the types of the messages instead
+        #[arg(long, conflicts_with = "only")]
+        update: bool,
     },
     /// Run fuzz targets, starting from the seeds in `fuzz/seeds`
     Fuzz {
@@ -290,7 +293,8 @@ fn perform(task: &Task) -> Result<(), Failed> {
         Task::Viewer(Page::Axe) => viewer::axe(),
         Task::Tutorials { only, pictures } => tutorials::run_all(only.as_deref(), *pictures),
         Task::Zenoh => zenoh::check(),
-        Task::Python { only } => python::check(*only),
+        Task::Python { update: true, .. } => python::update(),
+        Task::Python { only, .. } => python::check(*only),
         Task::Fuzz { seconds, targets } => fuzz::run_all(*seconds, targets),
     }
 }

@@ -43,6 +43,24 @@ pub(crate) enum Part {
 /// One of the checks.
 type Check = fn() -> Result<(), Failed>;
 
+/// Page of the documentation that is made from the docstrings.
+const REFERENCE: &str = "docs/python-reference.md";
+
+/// Writes the page that is made from the docstrings, and the types of the messages.
+pub(crate) fn update() -> Result<(), Failed> {
+    timed("wheel", build)?;
+    reference(&[])?;
+    let mut stubs = Command::new(python("tools")?);
+    stubs.arg(root().join("python/tools/make_msgs_stubs.py")).current_dir(root());
+    run(&mut stubs, "see the errors above")
+}
+
+fn reference(options: &[&str]) -> Result<(), Failed> {
+    let mut making = Command::new(python("tools")?);
+    making.arg(root().join("python/tools/make_reference.py")).arg(root().join(REFERENCE));
+    run(making.args(options), "run `cargo xtask python --update`, and commit the page")
+}
+
 /// Checks the package, or one part of it after a build.
 pub(crate) fn check(only: Option<Part>) -> Result<(), Failed> {
     let parts: [(Part, &str, Check); 5] = [
@@ -122,8 +140,9 @@ fn types() -> Result<(), Failed> {
     let help = "correct the types, or the stubs in python/periplus";
     let settings = root().join("pyproject.toml").display().to_string();
     let mut own = Command::new(python("tools")?);
-    own.args(["-m", "mypy", "--strict"]).current_dir(root());
+    own.args(["-m", "mypy", "--strict"]).current_dir(root()).env("MYPYPATH", "python");
     run(own.args(["python/periplus", "python/examples"]), help)?;
+    reference(&["--check"])?;
     run(&mut module(&["mypy.stubtest", "periplus", "--mypy-config-file", &settings])?, help)
 }
 
