@@ -10,13 +10,14 @@ use crate::step::{Failed, cargo, root, run, timed};
 const FOLDER: &str = "target/python";
 
 /// Programs that build the wheel and test it.
-const TOOLS: [&str; 9] = [
+const TOOLS: [&str; 10] = [
     "maturin>=1.9,<2",
     "numpy",
     "pytest",
     "hypothesis",
     "mypy",
     "pandas",
+    "polars",
     "matplotlib",
     "nbclient",
     "ipykernel",
