@@ -179,7 +179,10 @@ class Fuzzer:
             value = self.value()
             if parameter.name in FITTING and self.rng.random() < 0.6:
                 value = self.rng.choice(FITTING[parameter.name])
-            if parameter.name in ("seconds", "n", "real_time_factor", "timeout_s", "count"):
+            if parameter.name == "real_time_factor":
+                # A small factor is a long wait.
+                value = self.rng.choice([100.0, -1.0, math.nan, None, "x"])
+            if parameter.name in ("seconds", "n", "timeout_s", "count"):
                 value = self.rng.choice([0, 1, 2, 0.01, -1, math.nan, None, "x"])
             if parameter.name in ("width", "height", "threads") and isinstance(value, (int, float)):
                 value = min(value, 64) if value == value else value

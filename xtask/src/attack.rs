@@ -16,7 +16,7 @@ use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::Instant;
 
-use crate::step::{Failed, cargo, root, run, timed};
+use crate::step::{Failed, build_program, root, timed};
 use kinds::{KINDS, Kind};
 use runner::{Fault, ONE, SEVERAL};
 
@@ -56,9 +56,7 @@ pub(crate) fn attack(wish: &Wish) -> Result<(), Failed> {
     let program = match &wish.program {
         Some(program) => program.canonicalize().map_err(|error| words("the program", &error))?,
         None => {
-            let mut build = cargo();
-            build.args(["build", "--quiet", "--release", "-p", "periplus-cli"]);
-            timed("attack: periplus", || run(&mut build, "see above"))?;
+            timed("attack: periplus", build_program)?;
             root().join("target/release/periplus")
         }
     };

@@ -4,7 +4,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use crate::step::{Failed, cargo, root, run, timed};
+use crate::step::{Failed, build_program, root, run, timed};
 
 /// Folder of environments and wheels.
 const FOLDER: &str = "target/python";
@@ -165,7 +165,7 @@ fn pytest(folders: &[&str]) -> Result<(), Failed> {
 /// The demo by the wheel writes the same bytes as by the native program.
 fn command() -> Result<(), Failed> {
     let native = root().join("target/release/periplus");
-    run(cargo().args(["build", "--release", "-p", "periplus-cli"]), "see the errors above")?;
+    build_program()?;
     let mut outputs = Vec::new();
     for (name, mut command) in [
         ("native", Command::new(native)),

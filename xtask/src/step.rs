@@ -52,6 +52,16 @@ pub(crate) fn run(command: &mut Command, help: &str) -> Result<(), Failed> {
     }
 }
 
+/// Builds the release program. The native module of Python is built with it, so that libraries get the same
+/// features as for the wheel and are compiled once for both.
+///
+/// # Errors
+/// When it cannot be built.
+pub(crate) fn build_program() -> Result<(), Failed> {
+    let packages = ["-p", "periplus-cli", "-p", "periplus-python"];
+    run(cargo().args(["build", "--quiet", "--release"]).args(packages), "see the errors above")
+}
+
 /// The command as one would type it.
 fn shown(command: &Command) -> String {
     let program = Path::new(command.get_program()).file_name().unwrap_or_default();

@@ -18,13 +18,11 @@ mod play;
 
 use std::path::{Path, PathBuf};
 
-use crate::step::{Failed, cargo, root, run, timed};
+use crate::step::{Failed, build_program, root, timed};
 
 /// Runs all tutorials, or those whose names contain a word; takes their pictures if that is wished.
 pub(crate) fn run_all(only: Option<&str>, pictures: bool) -> Result<(), Failed> {
-    let mut release = cargo();
-    release.args(["build", "--quiet", "--release", "-p", "periplus-cli"]);
-    timed("tutorials: periplus", || run(&mut release, "see above"))?;
+    timed("tutorials: periplus", build_program)?;
     let files = files()?;
     let chosen = |file: &PathBuf| only.is_none_or(|word| name(file).contains(word));
     for file in files.into_iter().filter(chosen) {

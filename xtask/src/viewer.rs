@@ -4,7 +4,7 @@
 use std::path::PathBuf;
 use std::process::Command;
 
-use crate::step::{Failed, cargo, root, run, timed};
+use crate::step::{Failed, build_program, root, run, timed};
 
 /// Advice of every failure for want of Node.
 const NEEDS_NODE: &str = "it needs Node 20 or newer with npm; see viewer/README.md";
@@ -53,9 +53,7 @@ fn with_browser(name: &str, words: &[&str]) -> Result<(), Failed> {
         println!("SKIPPED: no Chromium to drive the page with; apt-get install chromium");
         return Ok(());
     }
-    let mut release = cargo();
-    release.args(["build", "--quiet", "--release", "-p", "periplus-cli"]);
-    timed("page: periplus", || run(&mut release, "see above"))?;
+    timed("page: periplus", build_program)?;
     timed(name, || npm(words, "see above"))
 }
 
