@@ -49,7 +49,7 @@ use options::Command;
 
 use crate::error::CliError;
 
-/// Prints the completion script in one write, so that a closed pipe is an error that [`main`] handles.
+/// Prints the completion script in one write, so that a closed pipe is an error that [`run`] handles.
 fn completions(shell: clap_complete::Shell) -> Result<ExitCode, CliError> {
     let mut script = Vec::new();
     clap_complete::generate(shell, &mut help::command(), "periplus", &mut script);
