@@ -77,7 +77,7 @@ impl Reader {
     ///
     /// # Errors
     /// `UnexpectedEof` at the end of the connection, `InvalidData` for garbage, and what the socket says. After a
-    /// timeout the call can be repeated.
+    /// timeout or a signal the call can be repeated ([`is_pause`]).
     pub(crate) fn next(&mut self, source: &mut impl Read) -> io::Result<(Kind, &[u8])> {
         self.fill(source, HEADER_BYTES)?;
         let header = &self.buffer[self.start..self.start + HEADER_BYTES];
@@ -108,12 +108,17 @@ impl Reader {
             match source.read(&mut self.buffer[self.end..]) {
                 Ok(0) => return Err(io::ErrorKind::UnexpectedEof.into()),
                 Ok(count) => self.end += count,
-                Err(error) if error.kind() == io::ErrorKind::Interrupted => {}
                 Err(error) => return Err(error),
             }
         }
         Ok(())
     }
+}
+
+/// True for a timeout or a signal.
+pub(crate) fn is_pause(error: &io::Error) -> bool {
+    use io::ErrorKind::{Interrupted, TimedOut, WouldBlock};
+    matches!(error.kind(), Interrupted | TimedOut | WouldBlock)
 }
 
 /// Takes numbers from the start of a body.
