@@ -30,12 +30,9 @@ use crate::errors::{self, value_error};
 use crate::work::released;
 
 pub(crate) fn register(module: &Bound<'_, PyModule>) -> PyResult<()> {
-    // The first array loads the C interface of numpy. Ctrl-C at that moment would be a panic, so it is loaded with
-    // this module.
-    module.py().import("numpy")?;
-    numpy::PyArray1::<f64>::zeros(module.py(), 0, false);
     module.add_class::<TypeHandle>()?;
     module.add_class::<FieldSetter>()?;
+    module.add_function(wrap_pyfunction!(load_numpy, module)?)?;
     module.add_function(wrap_pyfunction!(message_types, module)?)?;
     module.add_function(wrap_pyfunction!(message_services, module)?)?;
     module.add_function(wrap_pyfunction!(message_class, module)?)?;
@@ -181,6 +178,15 @@ impl FieldSetter {
             .map_err(|fault| fault.within(&field.name).into_error(&self.plan.label))?;
         message.setattr(field.slot(message.py()), value)
     }
+}
+
+/// Loads the C interface of numpy. The first array would load it, too, but an interruption at that moment would be a
+/// panic.
+#[pyfunction]
+fn load_numpy(py: Python<'_>) -> PyResult<()> {
+    py.import("numpy")?;
+    numpy::PyArray1::<f64>::zeros(py, 0, false);
+    Ok(())
 }
 
 /// Names of all message types, sorted. Services and actions as a whole are none.
