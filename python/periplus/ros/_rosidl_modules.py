@@ -1,0 +1,1 @@
+def install(generation=2): pass
