@@ -288,6 +288,7 @@ def _initializer(label: str, specs: dict[str, FieldType], defaults: dict[str, An
     source = f"def __init__({this}, {star}{', '.join([*signature, '**_more'])}):\n    " + "\n    ".join(lines)
     exec(compile(source, f"<{label} of periplus.ros>", "exec"), names)
     made: Callable[..., None] = names["__init__"]
+    made.__qualname__ = f"{label}.__init__"
     return made
 
 
