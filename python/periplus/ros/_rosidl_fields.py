@@ -111,6 +111,8 @@ def given_default(field: FieldType, value: Any) -> tuple[str, dict[str, Any]]:
 
             return "{name}()", {"{name}": np.array(value, DTYPES[field.element]).copy}
         return f"_array({TYPECODES[field.element]!r}, {list(value)!r})", {}
+    if field.element == "octet":
+        value = [bytes([one]) if isinstance(one, int) else one for one in value]
     return repr(list(value)), {}
 
 

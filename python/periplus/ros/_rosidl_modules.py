@@ -39,16 +39,24 @@ def packages() -> dict[str, dict[str, list[str]]]:
     return _index
 
 
+_is_loading = False
+
+
 def _load(name: str) -> bool:
     """Loads a package of the source trees; True if there is one."""
-    global _index
-    from periplus.ros import _rosidl_sources
-
-    if name in _rosidl_sources._loaded:
-        return True
-    if not _rosidl_sources.load(name):
+    global _index, _is_loading
+    if _is_loading:
         return False
-    _index = None
+    _is_loading = True
+    try:
+        from periplus.ros import _rosidl_sources
+
+        if not _rosidl_sources.is_loaded(name):
+            if not _rosidl_sources.load(name):
+                return False
+            _index = None
+    finally:
+        _is_loading = False
     return True
 
 
@@ -117,7 +125,7 @@ class _LastFinder(MetaPathFinder):
     def find_spec(
         self, fullname: str, path: Sequence[str] | None, target: ModuleType | None = None
     ) -> ModuleSpec | None:
-        if "." in fullname or fullname.startswith("_"):
+        if "." in fullname or fullname.startswith("_") or fullname in sys.stdlib_module_names:
             return None
         if _load(fullname) and fullname in packages():
             return _spec(fullname, True)

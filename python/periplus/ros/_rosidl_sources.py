@@ -32,6 +32,11 @@ def has_interfaces(folder: str) -> bool:
     return os.path.isdir(os.path.join(folder, "idl"))
 
 
+def is_loaded(name: str) -> bool:
+    """True for a package that `load` has read."""
+    return name in _loaded
+
+
 def load(name: str) -> bool:
     """Loads the package `name` of the source trees, and those that it needs. False if there is none with definitions.
 
@@ -89,7 +94,7 @@ def _refuse_idl(folder: str, name: str) -> None:
         path = os.path.join(folder, kind)
         names = sorted(os.listdir(path)) if os.path.isdir(path) else []
         for file in names:
-            if file.endswith(".idl"):
+            if file.endswith(".idl") and (kind == "idl" or f"{file[:-4]}.{kind}" not in names):
                 raise MessageDefinitionError(
                     f"{os.path.join(path, file)}:1: message package {name!r} has a definition in IDL. Periplus reads .msg, .srv "
                     "and .action files: write the definition as one of these",
