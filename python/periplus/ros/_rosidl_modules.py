@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import sys
 from collections.abc import Sequence
 from importlib.abc import Loader, MetaPathFinder
@@ -21,9 +22,22 @@ _CORE = frozenset((
     "trajectory_msgs", "type_description_interfaces", "unique_identifier_msgs", "visualization_msgs",
 ))  # fmt: skip
 
+#: Folder of the packages whose definitions come with Periplus as files.
+BUNDLED_FOLDER = os.path.join(os.path.dirname(os.path.abspath(__file__)), "interfaces")
+
+_bundled: frozenset[str] | None = None
+
 # Packages with the names of their classes by kind; None until it is needed.
 _index: dict[str, dict[str, list[str]]] | None = None
 _wholes: frozenset[str] = frozenset()
+
+
+def bundled() -> frozenset[str]:
+    """Names of the packages in `BUNDLED_FOLDER`."""
+    global _bundled
+    if _bundled is None:
+        _bundled = frozenset(entry.name for entry in os.scandir(BUNDLED_FOLDER) if entry.is_dir())
+    return _bundled
 
 
 def packages() -> dict[str, dict[str, list[str]]]:
@@ -43,7 +57,7 @@ _is_loading = False
 
 
 def _load(name: str) -> bool:
-    """Loads a package of the source trees; True if there is one."""
+    """Loads a package of the source trees, or one that comes with Periplus as files; True if there is one."""
     global _index, _is_loading
     if _is_loading:
         return False
@@ -52,7 +66,7 @@ def _load(name: str) -> bool:
         from periplus.ros import _rosidl_sources
 
         if not _rosidl_sources.is_loaded(name):
-            if not _rosidl_sources.load(name):
+            if not _rosidl_sources.load(name, search=name not in _CORE):
                 return False
             _index = None
     finally:
@@ -83,9 +97,9 @@ class _Finder(MetaPathFinder):
     ) -> ModuleSpec | None:
         package, _, rest = fullname.partition(".")
         if not rest:
-            if package not in packages() or _is_users_module(package):
+            if package not in packages() and package not in bundled() or _is_users_module(package):
                 return None
-            if package not in _CORE:
+            if package not in _CORE or package in bundled():
                 _load(package)
             return _spec(fullname, True)
         kind, _, module = rest.partition(".")
@@ -112,8 +126,6 @@ def _is_users_module(name: str) -> bool:
     found = PathFinder.find_spec(name)
     if found is None or found.origin is None or found.loader is None:
         return False
-    import os
-
     folder = os.path.dirname(found.origin)
     is_package = os.path.basename(found.origin) == "__init__.py"
     return not (is_package and any(os.path.isfile(os.path.join(folder, kind, "__init__.py")) for kind in _KINDS))
@@ -138,7 +150,7 @@ def _missing(name: str) -> str:
     from difflib import get_close_matches
 
     text = f"No module named {name!r}: Periplus has no message package of this name, and no folder with its package.xml was found"
-    near = get_close_matches(name, list(packages()), 1, 0.75)
+    near = get_close_matches(name, [*packages(), *bundled()], 1, 0.75)
     if near:
         return f"{text}. Did you mean {near[0]!r}?"
     return f"{text}. Put the package beside your own, or name its folder in PERIPLUS_PACKAGES"

@@ -9,6 +9,7 @@ import tempfile
 
 from periplus import _native
 from periplus.ros import _packages, _rosidl
+from periplus.ros._rosidl_modules import BUNDLED_FOLDER, bundled
 
 _KINDS = ("action", "msg", "srv")
 
@@ -37,32 +38,40 @@ def is_loaded(name: str) -> bool:
     return name in _loaded
 
 
-def load(name: str) -> bool:
-    """Loads the package `name` of the source trees, and those that it needs. False if there is none with definitions.
+def load(name: str, *, search: bool = True) -> bool:
+    """Loads the package `name` and those that it needs: of the source trees, or of those that come with Periplus.
+
+    False if there is none with definitions. `search=False` leaves out the source trees.
 
     Raises:
         MessageDefinitionError: A definition cannot be read.
     """
     if name in _loaded:
         return True
-    package = _packages.find_package(name)
-    if package is None or not has_interfaces(package.folder):
-        return False
     wanted: dict[str, str] = {}
-    _collect(package, wanted)
+    _collect(name, wanted, search)
+    if name not in wanted:
+        return False
     _load_folders({**_loaded, **wanted}, name)
     _loaded.update(wanted)
     return True
 
 
-def _collect(package: _packages.Package, wanted: dict[str, str]) -> None:
-    wanted[package.name] = package.folder
-    for needed in _dependencies(package.folder):
-        if needed in wanted or needed in _loaded:
-            continue
-        other = _packages.find_package(needed)
-        if other is not None and has_interfaces(other.folder):
-            _collect(other, wanted)
+def _folder(name: str, search: bool) -> str | None:
+    package = _packages.find_package(name) if search else None
+    if package is not None and has_interfaces(package.folder):
+        return package.folder
+    return os.path.join(BUNDLED_FOLDER, name) if name in bundled() else None
+
+
+def _collect(name: str, wanted: dict[str, str], search: bool) -> None:
+    folder = _folder(name, search)
+    if folder is None:
+        return
+    wanted[name] = folder
+    for needed in _dependencies(folder):
+        if needed not in wanted and needed not in _loaded:
+            _collect(needed, wanted, search)
 
 
 def _dependencies(folder: str) -> list[str]:
@@ -77,7 +86,7 @@ def _load_folders(folders: dict[str, str], name: str) -> None:
     stage = os.path.realpath(tempfile.mkdtemp(prefix="periplus-messages-"))
     try:
         for package, folder in folders.items():
-            os.symlink(folder, os.path.join(stage, package), target_is_directory=True)
+            _link(folder, os.path.join(stage, package))
         loaded = _native.load_messages(stage)
     except _native.FileError as error:
         text = str(error)
@@ -87,6 +96,18 @@ def _load_folders(folders: dict[str, str], name: str) -> None:
     finally:
         shutil.rmtree(stage, ignore_errors=True)
     _rosidl.forget(loaded)
+
+
+def _link(folder: str, target: str) -> None:
+    try:
+        os.symlink(folder, target, target_is_directory=True)
+    except OSError:
+        # Windows without the right to make links.
+        os.mkdir(target)
+        shutil.copy(os.path.join(folder, "package.xml"), target)
+        for kind in _KINDS:
+            if os.path.isdir(os.path.join(folder, kind)):
+                shutil.copytree(os.path.join(folder, kind), os.path.join(target, kind))
 
 
 def _refuse_idl(folder: str, name: str) -> None:

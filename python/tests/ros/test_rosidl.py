@@ -210,3 +210,29 @@ def test_users_module_with_the_name_of_a_package(tmp_path: Path) -> None:
     (tmp_path / "bond.py").write_text("VALUE = 3\n")
     done = run("import bond\nprint(bond.VALUE)", tmp_path)
     assert done.stdout == "3\n", done.stderr
+
+
+def test_packages_that_come_as_files(tmp_path: Path) -> None:
+    done = run(
+        """
+        from ackermann_msgs.msg import AckermannDriveStamped
+        from example_interfaces.srv import AddTwoInts
+        from nav2_msgs.action import NavigateToPose
+        from nav2_msgs.srv import SetInitialPose
+        print(AddTwoInts.Request(a=1), NavigateToPose.Goal().behavior_tree == "", AckermannDriveStamped().drive.speed)
+        """,
+        tmp_path,
+    )
+    assert done.stdout == "example_interfaces.srv.AddTwoInts_Request(a=1, b=0) True 0.0\n", done.stderr
+
+
+def test_native_messages_are_of_these_classes() -> None:
+    from periplus import deserialize, serialize
+    from sensor_msgs.msg import LaserScan
+
+    scan = LaserScan(ranges=[1.0, 2.0])
+    scan.header.frame_id = "laser"
+    made = deserialize(LaserScan, serialize(scan))
+    assert made == scan and type(made) is LaserScan and type(made.ranges) is array
+    with pytest.raises(TypeError, match="LaserScan.angle_min must be a float, not str"):
+        serialize(LaserScan(angle_min="a"))
