@@ -22,6 +22,9 @@ _TIME_TYPES = {"builtin_interfaces/msg/Time": genpy.Time, "builtin_interfaces/ms
 _FLOATS = frozenset(("float32", "float64"))
 _OCTETS = frozenset(("uint8", "char"))
 
+# Attributes of the classes that a field's slot may collide with.
+_CLASS_NAMES = frozenset(("_type", "_md5sum", "_slot_types", "_has_header", "_full_text"))
+
 # Classes by native type name.
 _classes: dict[str, Any] = {}
 # Definitions of texts, by native type name; the registry has the others.
@@ -88,11 +91,11 @@ def _make(definition: Definition) -> Any:
     name = definition.type.split("/")[1]
     slots = [one.slot for one in (*definition.fields, *definition.hidden)]
     body: dict[str, Any] = {
-        "__slots__": tuple(slots),
+        "__slots__": tuple(slot + "_" if slot in _CLASS_NAMES else slot for slot in slots),
         "__module__": f"{package}.{kind}",
         "__doc__": _doc(definition),
         "_type": definition.type,
-        "_definition": definition,
+        "__definition__": definition,
         "_has_header": bool(definition.fields) and definition.fields[0].type == "std_msgs/Header",
         "_slot_types": [one.type for one in definition.fields],
         "__type_handle__": definition.handle,
@@ -101,11 +104,14 @@ def _make(definition: Definition) -> Any:
     cls = type(name, (Message,), body)
     if definition.handle is None:
         cls.__type_handle__ = rosidl_handle(definition.native)
+    for slot in slots:
+        if slot in _CLASS_NAMES:
+            setattr(cls, slot, _SharedName(getattr(cls, slot + "_"), body.get(slot)))
     for one in definition.fields:
         setattr(cls, one.name, _property(cls, one))
     # Programs read the names of the fields here; the storage exists already.
     cls.__slots__ = [one.name for one in definition.fields]
-    cls._defaults = _Defaults(definition)  # type: ignore[attr-defined]
+    cls.__first_values__ = _Defaults(definition)  # type: ignore[attr-defined]
     _classes[definition.native] = cls
     return cls
 
@@ -119,12 +125,12 @@ class _Defaults:
     """Pairs of slot and maker of its first value, found at the first use: a nested class may not exist before."""
 
     def __init__(self, definition: Definition) -> None:
-        self._definition = definition
+        self.__definition__ = definition
 
     def __get__(self, message: object, cls: Any) -> tuple[tuple[str, Any], ...]:
-        definition = self._definition
+        definition = self.__definition__
         made = tuple((one.slot, _maker(one.type)) for one in (*definition.fields, *definition.hidden))
-        cls._defaults = made
+        cls.__first_values__ = made
         return made
 
 
@@ -161,7 +167,7 @@ def _zero(base: str) -> Any:
 
 def _property(cls: Any, one: Field) -> Any:
     """Access to a slot under the name and with the values of ROS 1."""
-    slot = getattr(cls, one.slot)
+    slot = cls.__dict__[one.slot]
     base, bracket, rest = one.type.partition("[")
     if one.slot == "_seq" and one.type == "uint32":
         return _seq_property(slot)
@@ -174,6 +180,20 @@ def _property(cls: Any, one: Field) -> Any:
     if rest != "]":
         return _fixed_property(slot, base in _OCTETS)
     return slot if base == "bool" else _array_property(slot, base in _OCTETS)
+
+
+class _SharedName:
+    """A slot whose name is that of a class attribute too: `Marker._type` is a name, `marker._type` a value."""
+
+    def __init__(self, slot: Any, class_value: Any) -> None:
+        self._slot = slot
+        self._class_value = class_value
+
+    def __get__(self, message: object, cls: Any = None) -> Any:
+        return self._class_value if message is None else self._slot.__get__(message, cls)
+
+    def __set__(self, message: object, value: Any) -> None:
+        self._slot.__set__(message, value)
 
 
 def _is_octet(handle: Any, one: Field) -> bool:
@@ -252,7 +272,7 @@ def as_class(message: Any, cls: Any) -> Any:
         made.secs, made.nsecs = message._sec, message._nanosec
         return made
     made = cls()
-    definition = cls._definition
+    definition = cls.__definition__
     for one in (*definition.fields, *definition.hidden):
         try:
             value = getattr(message, one.slot)
@@ -306,7 +326,7 @@ class _ServiceMd5:
     def __get__(self, service: object, cls: Any) -> str:
         import hashlib
 
-        texts = [_genpy_types.md5_text(part._definition) for part in (cls._request_class, cls._response_class)]
+        texts = [_genpy_types.md5_text(part.__definition__) for part in (cls._request_class, cls._response_class)]
         if None in texts:
             return "*"
         return hashlib.md5("".join(str(text) for text in texts).encode()).hexdigest()

@@ -211,7 +211,7 @@ def md5_text(definition: Definition) -> str | None:
         if base in PRIMITIVES:
             lines.append(f"{one.type} {one.name}")
         else:
-            nested = md5sum(element_class(base)._definition)
+            nested = md5sum(element_class(base).__definition__)
             if nested == "*":
                 return None
             lines.append(f"{nested} {one.name}")
@@ -238,7 +238,7 @@ def full_text(definition: Definition) -> str:
         for each in one.fields:
             base = base_type(each.type)
             if base not in PRIMITIVES and base not in done:
-                visit(element_class(base)._definition)
+                visit(element_class(base).__definition__)
 
     visit(definition)
     return "\n".join(parts)

@@ -27,7 +27,7 @@ class _Md5:
     def __get__(self, message: object, cls: Any) -> str:
         from periplus.ros._genpy_types import md5sum
 
-        value = md5sum(cls._definition) if getattr(cls, "_definition", None) is not None else "*"
+        value = md5sum(cls.__definition__) if getattr(cls, "__definition__", None) is not None else "*"
         cls._md5sum = value
         return value
 
@@ -38,7 +38,7 @@ class _FullText:
     def __get__(self, message: object, cls: Any) -> str:
         from periplus.ros._genpy_types import full_text
 
-        value = full_text(cls._definition) if getattr(cls, "_definition", None) is not None else ""
+        value = full_text(cls.__definition__) if getattr(cls, "__definition__", None) is not None else ""
         cls._full_text = value
         return value
 
@@ -46,19 +46,19 @@ class _FullText:
 class Message:
     """Base of all messages. Fields are given all by position, or some by keyword."""
 
-    __slots__: Any = ()
+    __slots__: Any = ("_connection_header",)
 
     _type: ClassVar[str] = ""
     _slot_types: ClassVar[list[str]] = []
     _has_header: ClassVar[bool] = False
-    _definition: ClassVar[Any] = None
-    _defaults: ClassVar[tuple[tuple[str, Any], ...]] = ()
+    __definition__: ClassVar[Any] = None
+    __first_values__: ClassVar[tuple[tuple[str, Any], ...]] = ()
     _md5sum: ClassVar[Any] = _Md5()
     _full_text: ClassVar[Any] = _FullText()
     __type_handle__: ClassVar[Any] = None
 
     def __init__(self, *args: Any, **kwds: Any) -> None:
-        for slot, make in self._defaults:
+        for slot, make in self.__first_values__:
             setattr(self, slot, make())
         if args:
             names = type(self).__slots__
@@ -106,7 +106,7 @@ class Message:
         return [getattr(self, name) for name in type(self).__slots__]
 
     def __setstate__(self, state: list[Any]) -> None:
-        for slot, make in self._defaults:
+        for slot, make in self.__first_values__:
             setattr(self, slot, make())
         for name, value in zip(type(self).__slots__, state, strict=True):
             setattr(self, name, value)
