@@ -5,6 +5,7 @@ use std::process::ExitCode;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
 
+use periplus_diagnostics::plain_words;
 use periplus_graph::{Arguments, Graph};
 use periplus_launch::bringup::{LaunchRunner, WorldRequest};
 use periplus_os::{Stopwatch, sleep};
@@ -15,11 +16,12 @@ use periplus_session::{
 use periplus_sim::{Options, Simulation, Tick};
 use serde_json::json;
 
+use super::lockstep::{self, LockstepRun};
 use super::log::LogPrinter;
 use super::{Launched, PlayOptions, world};
 use crate::error::CliError;
 use crate::options::SearchOptions;
-use crate::run_options::{Factor, exit_code};
+use crate::run_options::{Factor, Reach, exit_code};
 use crate::terminal;
 
 /// Polling period of programs that must end before the world is loaded.
@@ -58,16 +60,29 @@ pub(super) fn run(
     let context = || PageContext::of(&composition, &search.resource_path);
     let page = options.page(&bringup, factor.is_some(), context);
     let to_simulation = options.simulation(launched.arguments, &request, &bringup);
+    let seed = to_simulation.seed;
+    let has_lockstep = options.is_alone() && bringup.has_python_nodes();
+    let reach = options.reach(has_lockstep);
     let mut session = SessionBuilder::new(composition, to_simulation, launched.start)
         .quiet(options.quiet)
         .progress(!options.quiet && !options.json)
         .factor(factor)
         .search(bringup.search().clone())
         .recording(options.recorded.recording(options.record.as_deref()))
-        .ros2(options.ros2.map(Into::into))
+        .ros2(reach.map(Into::into))
         .page(page)
         .build()?;
     bringup.set_wired(session.is_on_ros2());
+    let lockstep = if has_lockstep { LockstepRun::start(session.graph(), seed) } else { Ok(None) };
+    let lockstep = lockstep.map_err(|error| {
+        CliError::failed(format!(
+            "the nodes in Python cannot be connected: {}",
+            plain_words(&error)
+        ))
+    })?;
+    if let Some(lockstep) = &lockstep {
+        bringup.set_lockstep(lockstep.host.clone());
+    }
     let is_paused = starts_paused(&request, &session, options.quiet);
     let settings = RunSettings { duration_s: options.duration, stop: &stop, is_paused };
     let mut task = LaunchTask { bringup, log };
@@ -124,6 +139,18 @@ fn starts_paused(request: &WorldRequest, session: &SimulationSession, is_quiet: 
 }
 
 impl PlayOptions {
+    /// Visibility of the run on ROS 2. Without lockstep, nodes in Python need a network.
+    fn reach(&self, needs_lockstep: bool) -> Option<Reach> {
+        if !needs_lockstep || lockstep::IS_AVAILABLE || self.ros2.is_some() {
+            return self.ros2;
+        }
+        terminal::say(
+            "warning: the nodes in Python are not in step with the simulation, which is faster than real time: \
+             they join it over ROS 2 on this machine, and two runs differ; `--rtf 1` runs at real time",
+        );
+        Some(Reach::Loopback)
+    }
+
     fn simulation(
         &self,
         arguments: Arguments,
