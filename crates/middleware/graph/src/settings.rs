@@ -19,6 +19,7 @@ pub struct NodeSettings {
     takes_any_parameter: bool,
     is_bare: bool,
     keeps_names: bool,
+    shares_name: bool,
 }
 
 impl NodeSettings {
@@ -33,6 +34,7 @@ impl NodeSettings {
             takes_any_parameter: false,
             is_bare: false,
             keeps_names: false,
+            shares_name: false,
         }
     }
 
@@ -92,6 +94,17 @@ impl NodeSettings {
     pub fn keep_names(mut self) -> Self {
         self.keeps_names = true;
         self
+    }
+
+    /// Allows another node of the same name, as ROS 2 does. Only the first one is listed.
+    #[must_use]
+    pub fn share_name(mut self) -> Self {
+        self.shares_name = true;
+        self
+    }
+
+    pub(crate) fn shares_name(&self) -> bool {
+        self.shares_name
     }
 
     pub(crate) fn takes_any_parameter(&self) -> bool {
