@@ -340,6 +340,7 @@ impl LaunchRunner {
         while self.begin(graph, now_ns) {}
         self.work_hands(graph, now_ns, simulation);
         while self.begin(graph, now_ns) {}
+        self.lockstep.admit();
     }
 
     fn work_hands(&mut self, graph: &Graph, now_ns: i64, mut simulation: Option<&mut Simulation>) {
@@ -372,6 +373,7 @@ impl LaunchRunner {
     pub fn end_all(&mut self, graph: &Graph, now_ns: i64) {
         self.events.push(Event::Shutdown);
         while self.begin(graph, now_ns) {}
+        self.lockstep.close();
         // All are asked first, so that they end in parallel.
         self.tasks.iter_mut().for_each(|(_, hand)| hand.ask_to_stop());
         self.tasks.iter_mut().for_each(|(_, hand)| hand.stop());

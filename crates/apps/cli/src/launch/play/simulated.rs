@@ -2,6 +2,7 @@
 
 use std::io::{self, Write as _};
 use std::process::ExitCode;
+use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
 
@@ -16,12 +17,12 @@ use periplus_session::{
 use periplus_sim::{Options, Simulation, Tick};
 use serde_json::json;
 
-use super::lockstep::{self, LockstepRun};
+use super::lockstep::RunLockstep;
 use super::log::LogPrinter;
 use super::{Launched, PlayOptions, world};
 use crate::error::CliError;
 use crate::options::SearchOptions;
-use crate::run_options::{Factor, Reach, exit_code};
+use crate::run_options::{Factor, exit_code};
 use crate::terminal;
 
 /// Polling period of programs that must end before the world is loaded.
@@ -61,27 +62,25 @@ pub(super) fn run(
     let page = options.page(&bringup, factor.is_some(), context);
     let to_simulation = options.simulation(launched.arguments, &request, &bringup);
     let seed = to_simulation.seed;
-    let has_lockstep = options.is_alone() && bringup.has_python_nodes();
-    let reach = options.reach(has_lockstep);
     let mut session = SessionBuilder::new(composition, to_simulation, launched.start)
         .quiet(options.quiet)
         .progress(!options.quiet && !options.json)
         .factor(factor)
         .search(bringup.search().clone())
         .recording(options.recorded.recording(options.record.as_deref()))
-        .ros2(reach.map(Into::into))
+        .ros2(options.ros2.map(Into::into))
         .page(page)
         .build()?;
     bringup.set_wired(session.is_on_ros2());
-    let lockstep = if has_lockstep { LockstepRun::start(session.graph(), seed) } else { Ok(None) };
+    let is_in_step = bringup.has_python_nodes() && !session.is_on_ros2();
+    let lockstep = is_in_step.then(|| RunLockstep::start(session.graph(), seed, stop.clone()));
+    let lockstep = lockstep.transpose().map(|lockstep| lockstep.map(Arc::new));
     let lockstep = lockstep.map_err(|error| {
-        CliError::failed(format!(
-            "the nodes in Python cannot be connected: {}",
-            plain_words(&error)
-        ))
+        let why = plain_words(&error);
+        CliError::failed(format!("the nodes in Python cannot be connected: {why}"))
     })?;
     if let Some(lockstep) = &lockstep {
-        bringup.set_lockstep(lockstep.host.clone());
+        bringup.set_lockstep(lockstep.clone());
     }
     let is_paused = starts_paused(&request, &session, options.quiet);
     let settings = RunSettings { duration_s: options.duration, stop: &stop, is_paused };
@@ -91,6 +90,9 @@ pub(super) fn run(
     bringup.end_all(session.graph(), session.simulation().time_ns());
     log.print(&mut bringup, None);
     session.print_findings()?;
+    if let Some(lockstep) = lockstep {
+        terminal::print_findings(&lockstep.take_findings())?;
+    }
     // Messages that nodes publish at shutdown belong into the bag.
     let lines = bringup.lines().to_vec();
     drop(bringup);
@@ -139,18 +141,6 @@ fn starts_paused(request: &WorldRequest, session: &SimulationSession, is_quiet: 
 }
 
 impl PlayOptions {
-    /// Visibility of the run on ROS 2. Without lockstep, nodes in Python need a network.
-    fn reach(&self, needs_lockstep: bool) -> Option<Reach> {
-        if !needs_lockstep || lockstep::IS_AVAILABLE || self.ros2.is_some() {
-            return self.ros2;
-        }
-        terminal::say(
-            "warning: the nodes in Python are not in step with the simulation, which is faster than real time: \
-             they join it over ROS 2 on this machine, and two runs differ; `--rtf 1` runs at real time",
-        );
-        Some(Reach::Loopback)
-    }
-
     fn simulation(
         &self,
         arguments: Arguments,

@@ -3,7 +3,6 @@
 use std::io::{BufRead as _, BufReader, Read};
 use std::path::{Path, PathBuf};
 use std::process::{Child as Running_, Command, Stdio};
-use std::sync::Arc;
 use std::sync::mpsc::{Receiver, channel};
 use std::time::Duration;
 
@@ -15,7 +14,7 @@ use super::node_arguments::{NodeArguments, node_arguments};
 use super::{Done, Task, TaskContext};
 use crate::bringup::environment;
 use crate::bringup::guard::{self, EndSignal, Guard, own_group};
-use crate::bringup::lockstep::{Joined, JoinedWatch, LockstepNodes};
+use crate::bringup::lockstep::{LockstepNodes, Membership, MembershipWatch};
 use crate::bringup::parts::{Program, own_folder};
 use crate::bringup::python::PythonNode;
 use crate::bringup::report::LaunchLog;
@@ -51,7 +50,8 @@ pub(crate) struct Child {
     /// Label in lockstep, before its start number.
     label: String,
     lockstep: LockstepNodes,
-    joined: Option<JoinedWatch>,
+    /// Its membership in the simulation; `None` for other processes.
+    member: Option<MembershipWatch>,
 }
 
 /// Connection of a program with the graph.
@@ -136,7 +136,7 @@ impl Child {
             description,
             label: program.label(),
             lockstep: if is_in_step { lockstep.clone() } else { LockstepNodes::default() },
-            joined: None,
+            member: None,
         };
         child.spawn()?;
         Ok(child)
@@ -191,11 +191,9 @@ impl Child {
             command.env("PATH", path);
         }
         command.envs(self.variables.iter().map(|(name, value)| (name, value)));
-        // Withdrawn again if the process does not start.
-        let joined: Option<Arc<Joined>> = self.lockstep.expect(&self.label);
-        if let Some(joined) = &joined {
-            command.envs(joined.environment());
-        }
+        let membership = self.lockstep.expect(&self.label);
+        let variables = membership.iter().flat_map(|membership| membership.variables());
+        command.envs(variables.map(|(name, value)| (name, value)));
         let mut process = command.spawn().map_err(|error| {
             let missing = error.kind() == std::io::ErrorKind::NotFound;
             let program = &self.words[0];
@@ -215,10 +213,10 @@ impl Child {
             process.stderr.take().map(|pipe| Box::new(pipe) as _),
         ];
         for pipe in pipes.into_iter().flatten() {
-            let (send, joined) = (send.clone(), joined.clone());
+            let (send, membership) = (send.clone(), membership.clone());
             // The thread ends with the pipe.
             std::thread::spawn(move || {
-                let _joined = joined;
+                let _membership = membership;
                 for line in BufReader::new(pipe).lines().map_while(Result::ok) {
                     if send.send(line).is_err() {
                         break;
@@ -228,7 +226,7 @@ impl Child {
         }
         self.process = Some(process);
         self.printed = Some(printed);
-        self.joined = joined.as_deref().map(Joined::watch);
+        self.member = membership.as_ref().map(Membership::watch);
         Ok(())
     }
 
@@ -257,12 +255,12 @@ impl Task for Child {
         };
         // In lockstep, simulated time does not depend on how long a process takes to end.
         let mut timeout = Duration::ZERO;
-        if let Some(joined) = &self.joined {
-            if !joined.is_gone() {
+        if let Some(member) = &self.member {
+            if !member.is_gone() {
                 return Done::No;
             }
             timeout = LEAVING_TIMEOUT;
-            self.joined = None;
+            self.member = None;
         }
         let since = Stopwatch::start();
         while timeout > since.elapsed() && matches!(process.try_wait(), Ok(None)) {
@@ -303,7 +301,11 @@ impl Task for Child {
     }
 
     fn ask_to_stop(&mut self) {
-        if let Some(process) = &self.process {
+        // The end of its connection interrupts a process in lockstep; a second interrupt would disturb its
+        // shutdown.
+        if let Some(process) = &self.process
+            && self.member.is_none()
+        {
             guard::send(process.id(), EndSignal::Interrupt);
         }
     }
@@ -311,8 +313,11 @@ impl Task for Child {
     fn stop(&mut self) {
         let Some(process) = &mut self.process else { return };
         let group = process.id();
-        // SIGINT was sent already; now stronger signals to the whole process group.
-        for ending in [None, Some(EndSignal::Terminate), Some(EndSignal::Kill)] {
+        // SIGINT was sent already, or the connection was closed; now stronger signals to the whole process
+        // group.
+        let interrupt = self.member.as_ref().map(|_| Some(EndSignal::Interrupt));
+        let stronger = [Some(EndSignal::Terminate), Some(EndSignal::Kill)];
+        for ending in [None].into_iter().chain(interrupt).chain(stronger) {
             if let Some(ending) = ending {
                 guard::send(group, ending);
             }
@@ -327,9 +332,6 @@ impl Task for Child {
                     self.guard.forget(group);
                     self.process = None;
                     return;
-                }
-                if let Some(joined) = &self.joined {
-                    joined.serve();
                 }
                 sleep(Duration::from_millis(10));
             }
