@@ -77,6 +77,14 @@ pub(crate) fn run(options: &RunOptions, ros: Vec<String>) -> Result<ExitCode, Cl
         let from = search.working_folder.join("launch");
         let environment = Environment::new();
         let node = PythonNode::of_package(package, program, &search, &from, &environment);
+        // In a package of Python alone, the module names the programs that there are.
+        let is_file = |file: PathBuf| Machine.kind(&file) == Some(EntryKind::File);
+        let node = node.or_else(|| {
+            PythonNode::in_package(package, program, &search, &from, &environment).filter(|node| {
+                is_file(node.path().join("setup.py"))
+                    && !is_file(node.path().join("CMakeLists.txt"))
+            })
+        });
         if let Some(node) = node {
             return options.run_python(&node, words, &ros);
         }
@@ -126,9 +134,8 @@ fn launched(options: &RunOptions, text: &str, ros: Vec<String>) -> Result<ExitCo
     let folder = std::env::temp_dir().join(format!("periplus_run_{}", std::process::id()));
     let file = folder.join("run.launch.xml");
     let written = std::fs::create_dir_all(&folder).map_err(|error| plain_words(&error));
-    let written = written.and_then(|()| {
-        Machine.replace(&file, text.as_bytes()).map_err(String::from)
-    });
+    let written =
+        written.and_then(|()| Machine.replace(&file, text.as_bytes()).map_err(String::from));
     if let Err(why) = written {
         return Err(CliError::failed(format!("cannot write {}: {why}", file.display())));
     }
@@ -201,8 +208,7 @@ mod tests {
         };
         let options = read("periplus run --real-ros a.py --real-ros -h --color never");
         assert!(options.real_ros);
-        let words: Vec<String> =
-            ["--real-ros", "-h", "--color", "never"].map(String::from).into();
+        let words: Vec<String> = ["--real-ros", "-h", "--color", "never"].map(String::from).into();
         assert_eq!(options.wanted().unwrap(), Wanted::File { file: "a.py", words: &words });
         let options = read("periplus run pkg node -x");
         let words = ["-x".to_owned()];

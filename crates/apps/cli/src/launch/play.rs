@@ -111,11 +111,7 @@ pub(super) fn preview(
     Ok(ExitCode::SUCCESS)
 }
 
-fn runner(
-    launched: &Launched,
-    options: &PlayOptions,
-    search: &SearchOptions,
-) -> LaunchRunner {
+fn runner(launched: &Launched, options: &PlayOptions, search: &SearchOptions) -> LaunchRunner {
     let settings = Settings {
         search: terminal::search(&search.resource_path),
         dialect: launched.dialect,

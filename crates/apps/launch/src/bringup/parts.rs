@@ -213,6 +213,10 @@ fn of_step(step: &PlanStep, what: &What, server: &BTreeMap<String, Value>, parts
                 let work = of_component(component, server, &node.running);
                 add(component.plugin.clone(), false, placed(work, &node.running));
             }
+            let is_program = parts.last().is_some_and(|part| matches!(part.work, Work::Program(_)));
+            if is_program && node.is_lifecycle && activates_itself(node) {
+                parts.extend(activation(step));
+            }
         }
         What::Load { components, .. } => {
             for component in components {
@@ -286,10 +290,27 @@ fn of_node(node: &PlanNode, server: &BTreeMap<String, Value>) -> Work {
         let has_window = wish.has_window && !node.executable.contains("server");
         return Work::World(WorldRequest { has_window, ..wish });
     }
-    let starts_itself = told.own.iter().any(|word| word == "--autostart")
-        || node.ros_arguments.iter().any(|word| word == "--autostart");
-    let is_lifecycle = node.is_lifecycle && !starts_itself;
+    let is_lifecycle = node.is_lifecycle && !activates_itself(node);
     ours(entry, &node.identity, told, is_lifecycle, server, &node.running)
+}
+
+/// Returns true for a node that `autostart` configures and activates.
+fn activates_itself(node: &PlanNode) -> bool {
+    node.arguments.iter().chain(&node.ros_arguments).any(|word| word == "--autostart")
+}
+
+/// Transitions of a lifecycle node in another process that is to activate itself.
+fn activation(step: &PlanStep) -> [Part; 2] {
+    let part = |trigger: Trigger, transition: &str| Part {
+        step: step.id,
+        after: step.after.iter().cloned().chain([trigger]).collect(),
+        work: Work::Transition { step: Some(step.id), transition: transition.to_owned() },
+        asked: transition.to_owned(),
+        is_required: false,
+    };
+    let to = Some("inactive".to_owned());
+    let inactive = Trigger::Reached { step: Some(step.id), from: None, to };
+    [part(Trigger::Started(Some(step.id)), "configure"), part(inactive, "activate")]
 }
 
 fn of_component(

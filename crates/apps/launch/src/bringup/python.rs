@@ -12,7 +12,7 @@ use periplus_os::{Machine, Overlay};
 use periplus_resources::{EntryKind, Host as _, Resolver};
 use periplus_sim::Search;
 
-use crate::bringup::catalogue::of_program;
+use crate::bringup::catalogue::{Role, of_program};
 use crate::bringup::environment::Environment;
 
 /// Module of the package `periplus` that runs a node.
@@ -127,16 +127,26 @@ impl PythonNode {
         from: &Path,
         environment: &Environment,
     ) -> Option<Self> {
+        let node = Self::in_package(package, program, search, from, environment)?;
+        has_python_program(&node.path, package, program).then_some(node)
+    }
+
+    /// Program of a package as [`PythonNode::of_package`], whether or not the package seems to have it: the
+    /// module that runs it then lists those that it has.
+    #[must_use]
+    pub fn in_package(
+        package: &str,
+        program: &str,
+        search: &Search,
+        from: &Path,
+        environment: &Environment,
+    ) -> Option<Self> {
         let host = Overlay { variables: environment.clone() };
         let resolver = Resolver::new(&host, &search.folders);
-        let folder = resolver.find_package(package, from).ok()?;
-        let is_source = Machine.kind(&folder.join("package.xml")) == Some(EntryKind::File)
-            && !folder.parent().is_some_and(|above| above.ends_with("share"));
-        let is_python = is_source && has_python_program(&folder, package, program);
-        is_python.then(|| Self {
-            program: Some((package.to_owned(), program.to_owned())),
-            path: folder,
-        })
+        let path = resolver.find_package(package, from).ok()?;
+        let is_source = Machine.kind(&path.join("package.xml")) == Some(EntryKind::File)
+            && !path.parent().is_some_and(|above| above.ends_with("share"));
+        is_source.then(|| Self { program: Some((package.to_owned(), program.to_owned())), path })
     }
 
     /// Package folder or file.
@@ -181,7 +191,8 @@ impl PythonNode {
 /// Returns true for programs that a built-in node replaces.
 #[must_use]
 pub fn is_built_in(package: &str, program: &str) -> bool {
-    of_program(Some(package), program).is_some()
+    let entry = of_program(Some(package), program);
+    entry.is_some_and(|entry| !matches!(entry.role, Role::Lacking | Role::Needless))
 }
 
 /// Returns true if a file is a Python script, by its name or its first line.
@@ -215,9 +226,10 @@ fn has_python_program(folder: &Path, package: &str, program: &str) -> bool {
     }
     let names = [program.to_owned(), format!("{name}.py"), name.to_owned()];
     let inner = [package];
-    let usual = FOLDERS.iter().chain(&inner).flat_map(|inside| {
-        names.iter().map(move |name| folder.join(inside).join(name))
-    });
+    let usual = FOLDERS
+        .iter()
+        .chain(&inner)
+        .flat_map(|inside| names.iter().map(move |name| folder.join(inside).join(name)));
     let mut usual = usual.filter(|path| Machine.kind(path) == Some(EntryKind::File)).peekable();
     if usual.peek().is_some() {
         return usual.any(|path| is_python_file(&path));
@@ -285,7 +297,6 @@ pub(crate) fn ros1_names(name: Option<&str>, remaps: &[(String, String)]) -> Vec
     let name = name.map(|name| format!("__name:={name}"));
     name.into_iter().chain(remaps.iter().map(|(from, to)| format!("{from}:={to}"))).collect()
 }
-
 
 #[cfg(test)]
 mod tests {

@@ -53,7 +53,10 @@ impl LogPrinter {
 }
 
 /// Writes the outcome of a part on a line: `+` it runs, `=` nothing to do, `-` it is missing.
-pub(in crate::launch) fn write_outcome(out: &mut dyn io::Write, line: &PartReport) -> io::Result<()> {
+pub(in crate::launch) fn write_outcome(
+    out: &mut dyn io::Write,
+    line: &PartReport,
+) -> io::Result<()> {
     let sign = match line.outcome.kind {
         PartOutcomeKind::World
         | PartOutcomeKind::BuiltIn

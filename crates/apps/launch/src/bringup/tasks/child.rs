@@ -321,8 +321,10 @@ impl Task for Child {
             if let Some(ending) = ending {
                 guard::send(group, ending);
             }
+            let is_leaving = ending.is_none() && self.member.is_some();
+            let timeout = if is_leaving { LEAVING_TIMEOUT } else { SHUTDOWN_TIMEOUT };
             let since = Stopwatch::start();
-            while since.elapsed() < SHUTDOWN_TIMEOUT {
+            while since.elapsed() < timeout {
                 let has_ended = !matches!(process.try_wait(), Ok(None));
                 if has_ended && ending.is_none() && guard::has_members(group) {
                     // A shell ends on SIGINT, its background processes do not.
@@ -367,16 +369,21 @@ fn connection(
         return Ok(Connection::None);
     }
     if !is_python && settings.dialect == Dialect::Ros1 {
-        return Err("it is a ROS 1 program, which needs a master; there is no built-in replacement"
-            .into());
+        return Err(
+            "it is a ROS 1 program, which needs a master; there is no built-in replacement".into(),
+        );
     }
     if settings.is_wired {
         return Ok(Connection::Network);
     }
-    if is_python && lockstep.is_active() {
+    if is_python && lockstep.is_active() && !settings.uses_real_ros {
         return Ok(Connection::Lockstep);
     }
-    let kind = if is_python { "node in Python" } else { "ROS 2 program" };
+    let kind = match (is_python, settings.uses_real_ros) {
+        (false, _) => "ROS 2 program",
+        (true, false) => "node in Python",
+        (true, true) => "node of the installed ROS (`--real-ros`)",
+    };
     Err(format!("it is a {kind}, and this run is not on a network; use `--ros2 loopback`"))
 }
 

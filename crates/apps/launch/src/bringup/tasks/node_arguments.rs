@@ -57,10 +57,7 @@ impl NodeArguments {
 ///
 /// # Errors
 /// When its parameters cannot be written to a file.
-pub(super) fn node_arguments(
-    program: &Program,
-    dialect: Dialect,
-) -> Result<NodeArguments, String> {
+pub(super) fn node_arguments(program: &Program, dialect: Dialect) -> Result<NodeArguments, String> {
     match dialect {
         Dialect::Ros1 => of_ros1(program),
         Dialect::Ros2 => of_ros2(program),
@@ -73,7 +70,8 @@ fn of_ros2(program: &Program) -> Result<NodeArguments, String> {
     let mut words = vec!["--ros-args".to_owned()];
     // `--autostart` is a request to the launch, not to the node.
     let own = program.ros_arguments.iter();
-    words.extend(own.filter(|word| !matches!(word.as_str(), "--ros-args" | "--autostart")).cloned());
+    words
+        .extend(own.filter(|word| !matches!(word.as_str(), "--ros-args" | "--autostart")).cloned());
     let mut add = |flag: &str, word: String| words.extend([flag.to_owned(), word]);
     if let Some(name) = &identity.name {
         add("-r", format!("__node:={name}"));
