@@ -1,8 +1,8 @@
 //! A program of nodes.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use std::io;
-use std::sync::{Arc, Mutex};
+use std::sync::{Arc, Mutex, Weak};
 use std::time::{Duration, Instant};
 
 use periplus::graph::{Arguments, Graph};
@@ -26,7 +26,7 @@ const SLICE: Duration = Duration::from_millis(100);
 /// Where the nodes of a program live.
 pub(crate) enum Backend {
     Live { graph: Graph, wire: Mutex<Option<DdsTransport>> },
-    Lockstep(Box<LockstepClient>),
+    Lockstep(Arc<LockstepClient>),
 }
 
 /// What all objects of a program share.
@@ -34,6 +34,7 @@ pub(crate) struct Shared {
     pub(crate) backend: Backend,
     pub(crate) arrivals: Arc<Arrivals>,
     pub(crate) arguments: Arguments,
+    domain_id: u32,
     start: Instant,
 }
 
@@ -95,15 +96,23 @@ impl RosGraph {
         let arguments = arguments::read(py, &arguments)?;
         let backend = match link {
             Some(link) => {
-                let pause = || Python::attach(|py| py.check_signals()).map_err(io::Error::other);
-                let connect = move || LockstepClient::connect_with(&link, pause);
+                let connect = move || connect(link);
                 let client = released(py, "joining the simulation", connect)?;
-                Backend::Lockstep(Box::new(client.map_err(link_error)?))
+                Backend::Lockstep(client.map_err(link_error)?)
             }
             None => released(py, "joining the network", || live(domain_id, network))??,
         };
         let arrivals = Arc::new(Arrivals::default());
-        Ok(Self(Arc::new(Shared { backend, arrivals, arguments, start: Instant::now() })))
+        let (settings, _) = Settings::from_environment(&Machine);
+        let domain_id = domain_id.unwrap_or(settings.domain_id);
+        let start = Instant::now();
+        Ok(Self(Arc::new(Shared { backend, arrivals, arguments, domain_id, start })))
+    }
+
+    /// ROS 2 domain.
+    #[getter]
+    fn domain_id(&self) -> u32 {
+        self.0.domain_id
     }
 
     /// True in step with a simulation.
@@ -384,7 +393,7 @@ fn live_names(
     wire: &Mutex<Option<DdsTransport>>,
     which: Names,
 ) -> Vec<(String, Vec<String>)> {
-    let mut all: std::collections::BTreeMap<String, BTreeSet<String>> = Default::default();
+    let mut all: BTreeMap<String, BTreeSet<String>> = BTreeMap::new();
     let remote = remote(wire);
     match which {
         Names::Topics => {
@@ -471,6 +480,20 @@ pub(crate) fn endpoints(backend: &Backend, topic: &str, publishers: bool) -> io:
                 .collect())
         }
     }
+}
+
+/// Connections of this process: programs join a simulation once, and may have several graphs.
+static LINKS: Mutex<BTreeMap<String, Weak<LockstepClient>>> = Mutex::new(BTreeMap::new());
+
+fn connect(link: String) -> io::Result<Arc<LockstepClient>> {
+    let mut links = lock(&LINKS);
+    if let Some(client) = links.get(&link).and_then(Weak::upgrade) {
+        return Ok(client);
+    }
+    let pause = || Python::attach(|py| py.check_signals()).map_err(io::Error::other);
+    let client = Arc::new(LockstepClient::connect_with(&link, pause)?);
+    links.insert(link, Arc::downgrade(&client));
+    Ok(client)
 }
 
 fn live(domain_id: Option<u32>, network: bool) -> PyResult<Backend> {
