@@ -14,7 +14,6 @@ from rclpy._rclpy_pybind11 import RCLError, RCLInvalidROSArgsError, UnknownROSAr
 from rclpy.exceptions import NotInitializedException
 
 if TYPE_CHECKING:
-    import weakref
     from collections.abc import Callable
     from types import TracebackType
 
@@ -34,7 +33,6 @@ class Context:
         self._graph: RosGraph | None = None
         self._valid = False
         self._callbacks: list[Callable[[], Any]] = []
-        self._nodes: weakref.WeakSet[Any] | None = None
         self._logs = False
 
     # ---- life
