@@ -78,7 +78,7 @@ class PyCostmap2D:
         """Cell of a position [m]; (None, None) outside of the costmap."""
         if wx < self.origin_x or wy < self.origin_y:
             return None, None
-        mx, my = int((wx - self.origin_x) // self.resolution), int((wy - self.origin_y) // self.resolution)
+        mx, my = int((wx - self.origin_x) / self.resolution), int((wy - self.origin_y) / self.resolution)
         return (mx, my) if mx < self.size_x and my < self.size_y else (None, None)
 
     def getIndex(self, mx: int, my: int) -> int:  # noqa: N802
