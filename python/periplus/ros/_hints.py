@@ -101,6 +101,13 @@ def _missing_module(error: ModuleNotFoundError) -> str | None:
     package = _packages.find_package(top)
     if package is not None:
         return f"{start}package {top} is at {package.folder}, but has no Python module {name}"
+    import difflib
+
+    from . import _rosidl_modules
+
+    near = difflib.get_close_matches(top, [*_rosidl_modules.packages(), *_packages.known_packages()], 1, 0.8)
+    if near:
+        return f"{start}Did you mean {near[0]!r}?"
     if top in ("gazebo_ros", "moveit_commander", "PyKDL", "smach", "smach_ros", "py_trees_ros", "rosgraph", "rosnode", "xacro"):
         return f"{start}{top} is a ROS package that Periplus does not have; clone its source into your workspace"
     return f"{start}`{sys.executable} -m pip install {_PIP_NAMES.get(top, top)}` installs it, if it is a package of PyPI; a package of your workspace needs a package.xml"

@@ -21,7 +21,7 @@ import threading
 import time
 from typing import TYPE_CHECKING, Any
 
-from . import _faults, _lockstep_threads, _lockstep_time, _waiting
+from . import _faults, _lockstep_signals, _lockstep_threads, _lockstep_time, _waiting
 from ._lockstep_report import Report
 from ._scheduler import LockstepGraph, Scheduler
 
@@ -59,6 +59,7 @@ def start(link: str, *, graph: LockstepGraph | None = None) -> Scheduler:
     if hasattr(os, "register_at_fork"):
         os.register_at_fork(after_in_child=_leave)
     places = _lockstep_threads.replacements(scheduler) + _lockstep_time.replacements(scheduler)
+    places += _lockstep_signals.replacements(scheduler, _report.note)
     seed = os.environ.get("PERIPLUS_SEED", "") or "0"
     process = os.environ.get("PERIPLUS_PROCESS") or os.path.basename(sys.argv[0] if sys.argv else "")
     places.append((os, "urandom", _entropy(f"{seed}/{process}")))
@@ -69,7 +70,6 @@ def start(link: str, *, graph: LockstepGraph | None = None) -> Scheduler:
     _after_import("select", lambda module: _lockstep_time.patch_select(module, scheduler))
     _after_import("selectors", lambda module: _lockstep_time.patch_selectors(module, scheduler))
     _after_import("queue", _patch_queue)
-    _after_import("signal", _patch_signal)
     _after_import("uuid", _patch_uuid)
     sys.addaudithook(_report.audit)
     _waiting._scheduler, _waiting._link = scheduler, link
@@ -138,19 +138,6 @@ def _seed_random(module: ModuleType, key: str) -> list[tuple[Any, str, Any]]:
 def _patch_queue(module: ModuleType) -> list[tuple[Any, str, Any]]:
     """`queue.SimpleQueue` in Python: the one in C blocks where no other thread can get the turn."""
     return [(module, "SimpleQueue", module._PySimpleQueue)] if hasattr(module, "_PySimpleQueue") else []
-
-
-def _patch_signal(module: ModuleType) -> list[tuple[Any, str, Any]]:
-    def noting(name: str) -> Any:
-        real = getattr(module, name)
-
-        def function(*arguments: Any) -> Any:
-            _report.note("signal", f"signal.{name}", sys._getframe(1))
-            return real(*arguments)
-
-        return function
-
-    return [(module, name, noting(name)) for name in ("alarm", "setitimer") if hasattr(module, name)]
 
 
 def _patch_uuid(module: ModuleType) -> list[tuple[Any, str, Any]]:

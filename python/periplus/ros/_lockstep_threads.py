@@ -43,7 +43,7 @@ def _wait_for(waiters: deque[Task], timeout: float, is_free: Callable[[], bool],
     try:
         was_woken = scheduler.block(None if timeout < 0 else scheduler.now_ns() + int(timeout * 1e9))
     except BaseException:
-        # A signal handler has raised: the lock may have been handed over in the meantime.
+        # A signal handler has raised; the lock may have been handed over before.
         if task in waiters:
             waiters.remove(task)
         else:

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import sys
 import time
+from types import ModuleType
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from collections.abc import Callable
-    from types import ModuleType
 
     from ._scheduler import Scheduler
 
@@ -177,9 +177,9 @@ def replace_everywhere(places: list[tuple[Any, str, Any]]) -> list[tuple[Any, st
     for module_name, module in list(sys.modules.items()):
         if module_name.startswith("periplus.ros.") or module_name == "__main__":
             continue
-        members = getattr(module, "__dict__", None)
-        if not isinstance(members, dict):
+        if not isinstance(module, ModuleType):
             continue
+        members = module.__dict__
         for name, value in list(members.items()):
             found = by_identity.get(id(value))
             if found is not None and found[0] is value:

@@ -31,6 +31,10 @@ _STEP_NS = 1_000_000
 _SELECT_STEP_NS = 20_000_000
 #: Wall time after the end of the simulation until a program that does not end is ended [s].
 _GRACE_S = 5.0
+#: Wall time that the signal handler of the main thread gets at the end of the simulation [s].
+_HANDLER_S = 0.5
+#: Wall time between two looks of a waiting main thread at signals [s].
+_SIGNAL_CHECK_S = 0.05
 
 _real_allocate_lock = _thread.allocate_lock
 _real_get_ident = _thread.get_ident
@@ -69,7 +73,7 @@ class Task:
 
 
 class Scheduler:
-    """Hands the turn from thread to thread. All methods but `wake` and `interrupt` are called by the thread that has it."""
+    """Hands the turn from thread to thread. All methods but `wake` and `handle_signal` are called by the thread that has it."""
 
     def __init__(self, graph: LockstepGraph, note: Callable[[str, str], None] = lambda kind, text: None) -> None:
         self.graph = graph
@@ -83,7 +87,9 @@ class Scheduler:
         self.sleepers: list[tuple[int, int, Task, int]] = []
         self.receivers: dict[Task, tuple[Any, int]] = {}
         self.selecting: dict[Task, Callable[[], Any]] = {}
-        self.interrupted: deque[Task] = deque()
+        #: Handlers of signals that came while the main thread was in a wait, with their numbers.
+        self.pending_signals: deque[tuple[Callable[[int, Any], Any], int]] = deque()
+        self.is_main_in_wait = False
         self.sequence = 0
         self.switches = 0
         self.is_exchanging = False
@@ -122,7 +128,7 @@ class Scheduler:
         task.polls = task.empty_polls = 0
         if not self.ready and not self.sleepers and not self.selecting and not self.receivers:
             # The only thread: no switch can happen.
-            while not self.ready and not self.interrupted and not self.has_ended:
+            while not self.ready and not self.has_ended:
                 self._exchange(wake_ns, True)
                 if graph.events != seen or (wake_ns is not None and self.now_ns() >= wake_ns):
                     return int(graph.events)
@@ -189,6 +195,8 @@ class Scheduler:
     def block(self, wake_ns: int | None) -> bool:
         """Gives the turn up until `wake` or the time `wake_ns` [ns]. True if it was `wake`."""
         task = self.current
+        if task is self.main:
+            self.is_main_in_wait = True
         task.token += 1
         task.waits, task.was_woken = True, False
         if wake_ns is not None:
@@ -199,6 +207,10 @@ class Scheduler:
         finally:
             task.waits = False
             task.token += 1
+        if task is self.main:
+            self.is_main_in_wait = False
+            if self.pending_signals:
+                self._run_handlers()
         return task.was_woken
 
     def wake(self, task: Task) -> bool:
@@ -234,9 +246,30 @@ class Scheduler:
         following.gate.release()
 
     def _yield(self, task: Task) -> None:
-        task.waits = False
+        """Lets the other threads that can run go first."""
+        if task is self.main:
+            self.is_main_in_wait = True
         self.ready.append(task)
         self._switch(task)
+        if task is self.main:
+            self.is_main_in_wait = False
+            if self.pending_signals:
+                self._run_handlers()
+
+    # ---- signals
+
+    def handle_signal(self, handler: Callable[[int, Any], Any], number: int, frame: Any) -> None:
+        """Runs a signal handler in the main thread: at once, or when the main thread has the turn again."""
+        if self.current is self.main and not self.is_main_in_wait:
+            handler(number, frame)
+            return
+        self.pending_signals.append((handler, number))
+        self.graph.wake()
+
+    def _run_handlers(self) -> None:
+        while self.pending_signals:
+            handler, number = self.pending_signals.popleft()
+            handler(number, sys._getframe(2))
 
     def _switch(self, task: Task) -> None:
         following = self._next()
@@ -245,26 +278,19 @@ class Scheduler:
         self.current = following
         self.switches += 1
         following.gate.release()
-        error = None
-        while True:
-            try:
-                task.gate.acquire()
-                break
-            except BaseException as raised:  # noqa: BLE001 - of a signal handler, in the main thread
-                error = raised
-                self.interrupted.append(task)
-                self.graph.wake()
-        if error is not None:
-            raise error
+        if task is self.main:
+            # A signal that comes between the last instruction and the wait is seen only after the wait.
+            while not task.gate.acquire(True, _SIGNAL_CHECK_S):
+                pass
+        else:
+            task.gate.acquire()
 
     def _next(self) -> Task:
         """The thread whose turn it is; advances simulated time until there is one."""
         while True:
-            while self.interrupted:
-                task = self.interrupted.popleft()
-                if task.waits:
-                    task.waits = False
-                    self.ready.appendleft(task)
+            if self.pending_signals and self.main.waits:
+                self.main.waits = False
+                self.ready.appendleft(self.main)
             if self.receivers:
                 for task, (graph, seen) in list(self.receivers.items()):
                     if task.waits and graph.events != seen:
@@ -336,6 +362,11 @@ class Scheduler:
             signal.pthread_kill(self.main.ident, signal.SIGINT)
         else:
             _thread.interrupt_main()
+        if self.current is not self.main:
+            # The handler runs in the main thread; other threads must not run ahead of it.
+            seen, limit_s = self.graph.events, _real_monotonic() + _HANDLER_S
+            while not self.pending_signals and self.graph.events == seen and _real_monotonic() < limit_s:
+                _real_sleep(0.0005)
 
     def _after_end(self, wake_ns: int | None) -> None:
         if _real_monotonic() - self._end_wall_s > _GRACE_S:
@@ -359,7 +390,7 @@ class Scheduler:
     def _empty_poll(self, task: Task) -> None:
         task.empty_polls += 1
         if task.empty_polls >= _EMPTY_POLLS_PER_STEP:
-            task.empty_polls = 0
+            task.polls = task.empty_polls = 0
             self.block(self.now_ns() + _STEP_NS)
         elif self.ready or self.receivers or self.selecting:
             self._yield(task)

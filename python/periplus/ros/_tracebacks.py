@@ -11,13 +11,14 @@ if TYPE_CHECKING:
     from types import FrameType, TracebackType
 
 _FOLDER = os.path.dirname(os.path.abspath(__file__)) + os.sep
+_IMPORTLIB = os.path.join(os.path.dirname(os.__file__), "importlib") + os.sep
 #: Set to 1 to see the frames of Periplus too.
 FULL_VARIABLE = "PERIPLUS_FULL_TRACEBACK"
 
 
 def is_own_file(path: str) -> bool:
     """True for files of these modules and of Python's import machinery."""
-    return path.startswith(_FOLDER) or path.startswith("<frozen ")
+    return path.startswith((_FOLDER, "<frozen ", _IMPORTLIB))
 
 
 def is_library_file(path: str) -> bool:
@@ -80,9 +81,7 @@ def _strip(made: traceback.TracebackException) -> None:
         seen.add(id(one))
         kept = [frame for frame in one.stack if not is_own_file(frame.filename)]
         if kept or one.exc_type in (SyntaxError, IndentationError, TabError):
-            one.stack = traceback.StackSummary.from_list(kept)  # type: ignore[arg-type]
-            if kept and sys.version_info < (3, 11):
-                pass
+            one.stack = traceback.StackSummary.from_list(kept)
         waiting += [other for other in (one.__cause__, one.__context__) if other is not None]
         waiting += list(getattr(one, "exceptions", None) or [])
 

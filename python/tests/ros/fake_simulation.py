@@ -6,7 +6,7 @@ commas; FAKE_END, end of the simulation [ns].
 
 import os
 import sys
-import threading
+import time
 
 
 class FakeSimulation:
@@ -19,7 +19,9 @@ class FakeSimulation:
         self.arrivals = sorted(messages)
         self.end_ns = end_ns
         self._now_ns = 0
-        self._wake = threading.Event()
+        self._was_woken = False
+        # The true clock: lockstep replaces it.
+        self._sleep = time.sleep
 
     def now_ns(self) -> int:
         return self._now_ns
@@ -28,12 +30,12 @@ class FakeSimulation:
 
     def wake(self) -> None:
         self.events += 1
-        self._wake.set()
+        self._was_woken = True
 
     def exchange(self, wake_ns: int | None, wants_messages: bool) -> None:
         self.exchanges += 1
-        if self._wake.is_set():
-            self._wake.clear()
+        if self._was_woken:
+            self._was_woken = False
             return
         times = [] if wake_ns is None else [wake_ns]
         if wants_messages and self.arrivals:
@@ -43,10 +45,12 @@ class FakeSimulation:
             raise ConnectionResetError("the simulation has ended")
         if not times:
             # Nothing will ever happen: only a signal can go on.
-            if not self._wake.wait(20.0):
-                sys.stderr.write("hangs\n")
-                os._exit(70)
-            return
+            for _ in range(2000):
+                if self._was_woken:
+                    return
+                self._sleep(0.01)
+            sys.stderr.write("hangs\n")
+            os._exit(70)
         self._now_ns = max(self._now_ns, min(times))
         while self.arrivals and self.arrivals[0] <= self._now_ns:
             self.arrivals.pop(0)
