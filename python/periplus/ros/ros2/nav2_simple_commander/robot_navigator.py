@@ -91,7 +91,7 @@ _SERVICES: dict[str, tuple[Any, str]] = {
 }
 
 
-class BasicNavigator(Node):  # type: ignore[misc]
+class BasicNavigator(Node):
     """Sends goals to Nav2 and follows them.
 
     A task (`goToPose`, `followWaypoints`, `spin`, ...) returns True once it is accepted. Poll `isTaskComplete`, then ask
@@ -252,7 +252,7 @@ class BasicNavigator(Node):  # type: ignore[misc]
 
     def getResult(self) -> TaskResult:  # noqa: N802
         """Outcome of the task that has ended."""
-        return _RESULTS.get(self.status, TaskResult.UNKNOWN)  # type: ignore[arg-type]
+        return _RESULTS.get(self.status, TaskResult.UNKNOWN)
 
     # ---- paths
 
