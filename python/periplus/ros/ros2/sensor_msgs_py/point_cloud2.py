@@ -106,7 +106,8 @@ def dtype_from_fields(fields: Iterable[PointField], point_step: int | None = Non
     made: dict[str, Any] = {"names": names, "formats": formats, "offsets": offsets}
     if point_step is not None:
         made["itemsize"] = point_step
-    return np.dtype(made)
+    spec: Any = made
+    return np.dtype(spec)
 
 
 def create_cloud(

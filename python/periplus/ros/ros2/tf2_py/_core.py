@@ -39,13 +39,13 @@ class BufferCore:
 
     # ---- transforms in
 
-    def set_transform(self, transform: Any, authority: str) -> bool | None:
+    def set_transform(self, transform: Any, authority: str) -> None:
         """Adds a transform; one that is not valid is logged and ignored."""
-        return self._add(transform, authority, False)
+        self._add(transform, authority, False)
 
-    def set_transform_static(self, transform: Any, authority: str) -> bool | None:
+    def set_transform_static(self, transform: Any, authority: str) -> None:
         """Adds a transform that holds at all times."""
-        return self._add(transform, authority, True)
+        self._add(transform, authority, True)
 
     def _add(self, transform: Any, authority: str, is_static: bool) -> None:
         header = transform.header
