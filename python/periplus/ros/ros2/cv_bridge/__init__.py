@@ -1,0 +1,5 @@
+"""Image messages as numpy arrays. OpenCV is used where it is installed, and is not needed."""
+
+from cv_bridge.core import CvBridge as CvBridge, CvBridgeError as CvBridgeError
+
+__all__ = ["CvBridge", "CvBridgeError"]
