@@ -267,6 +267,16 @@ compute()
     assert "in compute" in errors
 
 
+def test_sigusr1_prints_the_stacks(tmp_path: Path) -> None:
+    process = start(tmp_path, "import sys\ndef spin():\n    print('spins', flush=True)\n    while True:\n        pass\nspin()\n")
+    assert process.stdout is not None
+    assert process.stdout.readline() == "spins\n"
+    process.send_signal(signal.SIGUSR1)
+    time.sleep(0.3)
+    process.kill()
+    assert 'script.py", line 5 in spin' in process.communicate(timeout=30)[1]
+
+
 @pytest.mark.skipif(not hasattr(os, "fork"), reason="needs os.fork")
 def test_a_forked_child_is_not_in_step(tmp_path: Path) -> None:
     program = """
