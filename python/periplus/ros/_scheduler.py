@@ -117,6 +117,7 @@ class Scheduler:
             return self._wait_outside(graph, seen, timeout_ns)
         task = self.current
         if graph.events != seen:
+            task.polls = task.empty_polls = 0
             self._count_instant()
             if self.ready:
                 self._yield(task)
@@ -158,7 +159,7 @@ class Scheduler:
         task.polls += 1
         if task.polls > _FREE_POLLS and self.has_turn():
             task.polls = _FREE_POLLS - _POLLS_PER_STEP
-            self.note("busy loop", "a loop looks at the time or a flag without waiting: it costs 1 ms of simulated time per 100 looks")
+            self.note("busy loop", "a loop never waits: it costs 1 ms of simulated time per 100 looks at a clock or a flag")
             self.block(self.now_ns() + _STEP_NS)
 
     def select(self, look: Callable[[], Any], timeout_ns: int | None) -> Any:

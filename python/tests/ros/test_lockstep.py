@@ -2,6 +2,7 @@
 
 import json
 import os
+import re
 import signal
 import subprocess
 import sys
@@ -265,6 +266,16 @@ compute()
     _, errors = run(tmp_path, program, PERIPLUS_CALLBACK_TIMEOUT_S="0.3")
     assert "thread MainThread has not come back for 0 s of wall time; the simulation waits for it at 0.000 s" in errors
     assert "in compute" in errors
+
+
+def test_sigusr1_prints_the_stacks(tmp_path: Path) -> None:
+    process = start(tmp_path, "import sys\ndef spin():\n    print('spins', flush=True)\n    while True:\n        pass\nspin()\n")
+    assert process.stdout is not None
+    assert process.stdout.readline() == "spins\n"
+    process.send_signal(signal.SIGUSR1)
+    time.sleep(0.3)
+    process.kill()
+    assert re.search(r'script.py", line \d in spin', process.communicate(timeout=30)[1])
 
 
 @pytest.mark.skipif(not hasattr(os, "fork"), reason="needs os.fork")
