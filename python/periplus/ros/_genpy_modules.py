@@ -141,39 +141,27 @@ class KindModule(ModuleType):
 
 
 def _class_of(package: str, kind: str, name: str) -> Any:
-    from periplus.ros import _genpy_classes, _genpy_sources
+    from periplus.ros import _genpy, _genpy_sources
 
     if kind == "msg":
-        return _genpy_classes.message_class(f"{package}/msg/{name}")
+        return _genpy.message_class(f"{package}/msg/{name}")
     services = _genpy_sources.names(package, "srv")
     if name in services:
-        return _genpy_classes.service_class(package, name)
+        return _genpy.service_class(package, name)
     for ending in ("Request", "Response"):
         if name.endswith(ending) and name[: -len(ending)] in services:
-            return _genpy_classes.message_class(f"{package}/srv/{name[: -len(ending)]}_{ending}")
+            return _genpy.message_class(f"{package}/srv/{name[: -len(ending)]}_{ending}")
     raise AttributeError(name)
 
 
 def install() -> None:
-    """Lets Python import message packages with the conventions of ROS 1, and the native module make such objects."""
+    """Lets Python import message packages with the conventions of ROS 1."""
     if any(isinstance(finder, _Finder) for finder in sys.meta_path):
         return
     sys.meta_path.insert(0, _Finder())
     sys.meta_path.append(_LastFinder())
-    from periplus.ros import _rosidl
-
-    _rosidl.CLASS_FACTORY = _factory
-
-
-def _factory(handle: Any) -> Any:
-    from periplus.ros import _genpy_classes
-
-    return _genpy_classes.make_class(handle)
 
 
 def uninstall() -> None:
     """Takes the import hook away; modules that were imported stay."""
     sys.meta_path[:] = [one for one in sys.meta_path if not isinstance(one, (_Finder, _LastFinder))]
-    from periplus.ros import _rosidl
-
-    _rosidl.CLASS_FACTORY = None

@@ -8,11 +8,13 @@ import tempfile
 from functools import cache
 
 from periplus import _native
-from periplus.ros import _genpy_classes
+from periplus.ros import _genpy
 from periplus.ros._genpy_types import Definition, DefinitionError, native_text, parse
 
-#: Packages that ROS 1 has and ROS 2 has not.
-FOLDER = os.path.join(os.path.dirname(os.path.abspath(__file__)), "ros1", "interfaces")
+#: Packages that come with Periplus: those that only ROS 1 has, then the others.
+FOLDERS = tuple(
+    os.path.join(os.path.dirname(os.path.abspath(__file__)), *parts) for parts in (("ros1", "interfaces"), ("interfaces",))
+)
 _KINDS = ("msg", "srv", "action")
 # Suffixes of the messages that an action stands for, with their texts.
 _ACTION_PARTS = {
@@ -81,15 +83,16 @@ def load(package: str) -> None:
                 if "/" in field.type and needed != package:
                     load(needed)
         for one in definitions:
-            _, kind, name = one.native.split("/")
-            _loaded.setdefault(package, {}).setdefault(kind, []).append(name)
-            _stage[f"{package}/{kind}/{name}"] = native_text(one)
+            kind = one.native.split("/")[1]
+            name = one.type.split("/")[1]
+            if kind == "srv":
+                name = name.removesuffix("Request").removesuffix("Response")
+            if name not in _loaded.setdefault(package, {}).setdefault(kind, []):
+                _loaded[package][kind].append(name)
+            _stage[one.native] = native_text(one)
         _native_load(package)
         for one in definitions:
-            _genpy_classes.add_definition(one)
-        kinds = _loaded[package]
-        if "srv" in kinds:
-            kinds["srv"] = sorted({name.rpartition("_")[0] for name in kinds["srv"]})
+            _genpy.add_definition(one)
     finally:
         _loading.discard(package)
 
@@ -102,14 +105,14 @@ def _folders(package: str) -> list[str]:
     tree = _packages.find_package(package)
     if tree is not None:
         found.append(tree.folder)
-    elif os.path.isdir(os.path.join(FOLDER, package)):
-        found.append(os.path.join(FOLDER, package))
+    found += [os.path.join(folder, package) for folder in FOLDERS]
     return [one for one in found if any(os.path.isdir(os.path.join(one, kind)) for kind in _KINDS)]
 
 
 def _read(package: str) -> list[Definition]:
     made: list[Definition] = []
     known = _registry().get(package, {})
+    read: set[tuple[str, str]] = set()
     for folder in _folders(package):
         for kind in _KINDS:
             path = os.path.join(folder, kind)
@@ -117,11 +120,13 @@ def _read(package: str) -> list[Definition]:
                 if not file.endswith("." + kind):
                     continue
                 name = file[: -len(kind) - 1]
-                if name in known.get(kind, ()) and kind != "action":
+                if (kind, name) in read or name in known.get(kind, ()) and kind != "action":
                     continue
+                read.add((kind, name))
                 made += _read_file(os.path.join(path, file), package, kind, name)
     for name in known.get("action", ()):
-        made += _registry_action(package, name)
+        if ("action", name) not in read:
+            made += _registry_action(package, name)
     return made
 
 
@@ -180,7 +185,7 @@ def _registry_action(package: str, name: str) -> list[Definition]:
 
     made = []
     for ending in ("Goal", "Result", "Feedback"):
-        definition = from_handle(_genpy_classes.rosidl_handle(f"{package}/action/{name}_{ending}"))
+        definition = from_handle(_genpy.genpy_handle(f"{package}/action/{name}_{ending}"))
         definition.type = f"{package}/{name}{ending}"
         definition.native = f"{package}/msg/{name}{ending}"
         definition.handle = None

@@ -32,7 +32,7 @@ _HIDDEN = {
 }
 # Fields that ROS 2 renamed: name in ROS 2 -> name in ROS 1.
 _RENAMED = {"sensor_msgs/CameraInfo": {"d": "D", "k": "K", "r": "R", "p": "P"}}
-_FIELD = re.compile(r"^\s*([A-Za-z][\w/]*)\s*(\[\s*\d*\s*\])?\s+([A-Za-z]\w*)\s*$")
+_FIELD = re.compile(r"^([A-Za-z][\w/]*)(<=\d+)?\s*(\[\s*(?:<=)?\s*\d*\s*\])?\s+([A-Za-z]\w*)(\s+\S.*)?$")
 _CONSTANT = re.compile(r"^\s*([a-z]+\d*)\s+([A-Za-z]\w*)\s*=(.*)$")
 
 
@@ -60,6 +60,20 @@ class Definition:
     #: Fields that only ROS 2 has.
     hidden: list[Field] = field(default_factory=list)
     handle: Any = None
+    #: Text with bounds or defaults, which only ROS 2 has and the registry is to have as it is; None for others.
+    ros2_text: str | None = None
+
+
+def native_type_name(name: str) -> str:
+    """Name that ROS 2 permits for a type: words that begin with a capital letter.
+
+    >>> native_type_name("tfMessage"), native_type_name("my_Type"), native_type_name("add_two_Request")
+    ('TfMessage', 'MyType', 'AddTwo_Request')
+    """
+    for ending in ("_Request", "_Response"):
+        if name.endswith(ending):
+            return native_type_name(name[: -len(ending)]) + ending
+    return "".join(word[:1].upper() + word[1:] for word in name.split("_"))
 
 
 def type_in_ros1(native: str) -> str:
@@ -69,7 +83,13 @@ def type_in_ros1(native: str) -> str:
     'std_srvs/SetBoolRequest'
     """
     package, _, name = native.split("/")
-    return f"{package}/{name.replace('_', '') if name.endswith(('_Request', '_Response')) else name}"
+    return f"{package}/{_without_separator(name)}"
+
+
+def _without_separator(name: str) -> str:
+    """Name of a part of a service in ROS 1: `SetBoolRequest` for `SetBool_Request`."""
+    whole, _, ending = name.rpartition("_")
+    return whole + ending if whole and ending in ("Request", "Response") else name
 
 
 def _ros1_type(text: str) -> str:
@@ -118,6 +138,7 @@ def parse(text: str, package: str, name: str, kind: str = "msg", file: str = "")
     constants: dict[str, Any] = {}
     lines: list[str] = []
     used: set[str] = set()
+    is_ros2 = False
     for number, line in enumerate(text.splitlines(), 1):
         constant = _CONSTANT.match(line)
         if constant is not None:
@@ -135,15 +156,22 @@ def parse(text: str, package: str, name: str, kind: str = "msg", file: str = "")
         if match is None:
             at = f"{file or package + '/' + name}:{number}"
             raise DefinitionError(f"{at}: `{line}` is neither `type name` nor `type NAME=value`")
-        base, array, field_name = match.groups()
+        base, bound, array, field_name, default = match.groups()
+        array = (array or "").replace(" ", "")
+        if bound or default or "<=" in array or base in ("wstring", "builtin_interfaces/Time", "builtin_interfaces/Duration"):
+            is_ros2 = True
+        array = "[]" if "<=" in array else array
+        base = _BASIC.get(base, base)
         if base in ("Header", "roslib/Header"):
             base = "std_msgs/Header"
         elif "/" not in base and base not in PRIMITIVES:
             base = f"{package}/{base}"
         slot = _native_name(field_name, used)
-        fields.append(Field(field_name, base + (array or "").replace(" ", ""), "_" + slot))
-    ros1_name = f"{package}/{name.replace('_', '') if kind == 'srv' else name}"
-    return Definition(ros1_name, f"{package}/{kind}/{name}", fields, constants, lines)
+        fields.append(Field(field_name, base + array, "_" + slot))
+    ros1_name = f"{package}/{_without_separator(name) if kind == 'srv' else name}"
+    made = Definition(ros1_name, f"{package}/{kind}/{native_type_name(name)}", fields, constants, lines)
+    made.ros2_text = text if is_ros2 else None
+    return made
 
 
 def _native_name(name: str, used: set[str]) -> str:
@@ -170,6 +198,8 @@ def _constant(type_text: str, value: str, where: str) -> Any:
 
 def native_text(definition: Definition) -> str:
     """Text of the same type for the native registry."""
+    if definition.ros2_text is not None:
+        return definition.ros2_text.rstrip("\n") + "\n"
     lines = []
     for one in definition.fields:
         if one.slot == "_seq" and definition.type == "std_msgs/Header":
@@ -178,6 +208,9 @@ def native_text(definition: Definition) -> str:
         base = {"time": "builtin_interfaces/Time", "duration": "builtin_interfaces/Duration"}.get(base, base)
         # `byte` and `char` are numbers in ROS 1.
         base = {"byte": "int8", "char": "uint8"}.get(base, base)
+        if "/" in base:
+            package, _, name = base.partition("/")
+            base = f"{package}/{native_type_name(name)}"
         lines.append(f"{base}{bracket}{rest} {one.slot[1:]}")
     return "\n".join(lines) + "\n"
 
@@ -196,7 +229,7 @@ def element_class(type_text: str) -> Any:
         return genpy.Time if base == "time" else genpy.Duration
     if base in PRIMITIVES:
         return None
-    from periplus.ros._genpy_classes import message_class
+    from periplus.ros._genpy import message_class
 
     return message_class(base)
 

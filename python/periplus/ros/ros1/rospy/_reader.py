@@ -47,7 +47,8 @@ class Reader:
         self._check()
 
     def _open(self, reliability: str, durability: str) -> Any:
-        return core.state.node.subscription(self.topic, self.type_name, qos(self._depth, reliability, durability))
+        settings = qos(self._depth, reliability, durability)
+        return core.state.node.subscription(self.topic, self.type_name, settings, style="genpy")
 
     @property
     def publisher_count(self) -> int:

@@ -70,7 +70,7 @@ def ready_to_publish(message: Any) -> Any:
 def received(message: Any, data_class: Any, header: dict[str, str]) -> Any:
     """The native message as an object of the class that the subscriber asked for."""
     if type(message) is not data_class:
-        from periplus.ros._genpy_classes import as_class
+        from periplus.ros._genpy import as_class
 
         if issubclass(data_class, AnyMsg):
             found = data_class()

@@ -78,7 +78,7 @@ class Service(Source):
             if self.resolved_name in _servers:
                 raise ServiceException(f"service [{self.resolved_name}] already registered")
             _servers[self.resolved_name] = self
-        self._native = core.state.node.server(self.resolved_name, self.service_class._native_type)
+        self._native = core.state.node.server(self.resolved_name, self.service_class._native_type, style="genpy")
         self._monitor = _faults.CallbackMonitor(
             self.handler, node=core.get_name(), kind="service", name=self.resolved_name
         )
@@ -211,7 +211,7 @@ class ServiceProxy:
     def _start(self) -> None:
         if not self._closed:
             self.resolved_name = self.name = core.state.node.resolve(names.remap_name(self._given_name), service=True)
-            self._client = core.state.node.client(self.resolved_name, self.service_class._native_type)
+            self._client = core.state.node.client(self.resolved_name, self.service_class._native_type, style="genpy")
 
     def wait_for_service(self, timeout: Any = None) -> None:
         """Waits until the service is there. Raises `ROSException` at the timeout [s]."""

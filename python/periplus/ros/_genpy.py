@@ -1,12 +1,11 @@
 """Message classes with the conventions of ROS 1, over the native types.
 
 The native module reads and makes objects through their slots (``_x`` for ``x``). The properties give the values the form
-that programs of ROS 1 know: tuples and bytes for arrays, integers for bytes, `genpy.Time` for stamps.
+that programs of ROS 1 know: integers for bytes, `genpy.Time` for stamps. Arrays that arrive are tuples, or bytes.
 """
 
 from __future__ import annotations
 
-from array import array
 from collections.abc import Callable
 from copy import deepcopy
 from typing import Any
@@ -16,7 +15,7 @@ from genpy import Message
 
 from periplus import _native
 from periplus.ros import _genpy_types
-from periplus.ros._genpy_types import PRIMITIVES, Definition, Field
+from periplus.ros._genpy_types import PRIMITIVES, Definition, Field, native_type_name
 
 _TIME_TYPES = {"builtin_interfaces/msg/Time": genpy.Time, "builtin_interfaces/msg/Duration": genpy.Duration}
 _FLOATS = frozenset(("float32", "float64"))
@@ -31,9 +30,9 @@ _classes: dict[str, Any] = {}
 _texts: dict[str, Definition] = {}
 
 
-def rosidl_handle(native_name: str) -> Any:
+def genpy_handle(native_name: str) -> Any:
     """Handle of a native type. Raises `KeyError` for an unknown one."""
-    return _native.rosidl_handle(native_name)
+    return _native.genpy_handle(native_name)
 
 
 def message_class(name: str) -> Any:
@@ -41,14 +40,15 @@ def message_class(name: str) -> Any:
     if name.count("/") == 1:
         package, short = name.split("/")
         return message_class(_native_name(package, short))
+    package, kind, short = name.split("/")
+    name = f"{package}/{kind}/{native_type_name(short)}" if kind != "action" else name
     found = _classes.get(name)
     if found is None:
         from periplus.ros import _genpy_sources
 
-        package = name.split("/")[0]
         _genpy_sources.load(package)
         definition = _texts.get(name)
-        found = _make(definition) if definition is not None else make_class(rosidl_handle(name))
+        found = _make(definition) if definition is not None else make_class(genpy_handle(name))
     return found
 
 
@@ -103,7 +103,7 @@ def _make(definition: Definition) -> Any:
     }
     cls = type(name, (Message,), body)
     if definition.handle is None:
-        cls.__type_handle__ = rosidl_handle(definition.native)
+        cls.__type_handle__ = genpy_handle(definition.native)
     for slot in slots:
         if slot in _CLASS_NAMES:
             setattr(cls, slot, _SharedName(getattr(cls, slot + "_"), body.get(slot)))
@@ -168,18 +168,12 @@ def _zero(base: str) -> Any:
 def _property(cls: Any, one: Field) -> Any:
     """Access to a slot under the name and with the values of ROS 1."""
     slot = cls.__dict__[one.slot]
-    base, bracket, rest = one.type.partition("[")
+    base, bracket, _ = one.type.partition("[")
     if one.slot == "_seq" and one.type == "uint32":
         return _seq_property(slot)
     if base == "byte" and cls.__type_handle__ is not None and _is_octet(cls.__type_handle__, one):
         return _octets_property(slot) if bracket else _octet_property(slot)
-    if not bracket:
-        return slot
-    if base in ("time", "duration", "string") or base not in PRIMITIVES:
-        return slot
-    if rest != "]":
-        return _fixed_property(slot, base in _OCTETS)
-    return slot if base == "bool" else _array_property(slot, base in _OCTETS)
+    return slot
 
 
 class _SharedName:
@@ -233,36 +227,6 @@ def _octets_property(slot: Any) -> property:
     return property(get, put)
 
 
-def _array_property(slot: Any, is_bytes: bool) -> property:
-    """Arrays that the native module made become tuples, or bytes; those of the program stay what they are."""
-    read = slot.__get__
-
-    def get(message: Any) -> Any:
-        value = read(message)
-        if type(value) is array:
-            value = value.tobytes() if is_bytes else tuple(value)
-            slot.__set__(message, value)
-        return value
-
-    return property(get, slot.__set__)
-
-
-def _fixed_property(slot: Any, is_bytes: bool) -> property:
-    read = slot.__get__
-
-    def get(message: Any) -> Any:
-        value = read(message)
-        if hasattr(value, "dtype"):
-            value = value.tobytes() if is_bytes else tuple(value.tolist())
-            slot.__set__(message, value)
-        return value
-
-    def put(message: Any, value: Any) -> None:
-        slot.__set__(message, value.ravel().tolist() if hasattr(value, "dtype") else value)
-
-    return property(get, put)
-
-
 def as_class(message: Any, cls: Any) -> Any:
     """The message as an object of `cls`, a class of the same type; itself if it is one already."""
     if type(message) is cls:
@@ -280,7 +244,10 @@ def as_class(message: Any, cls: Any) -> Any:
             continue
         element = _genpy_types.element_class(one.type)
         if element is None:
-            value = deepcopy(value) if isinstance(value, list) else value
+            if hasattr(value, "typecode") or hasattr(value, "dtype"):
+                value = value.tobytes() if _genpy_types.base_type(one.type) in _OCTETS else tuple(value.tolist())
+            elif isinstance(value, list):
+                value = deepcopy(value)
         elif one.type.endswith("]"):
             value = [as_class(each, element) for each in value]
         else:
@@ -311,7 +278,7 @@ def service_class(package: str, name: str) -> Any:
             "__module__": f"{package}.srv",
             "__doc__": f"Service {key}.",
             "_type": key,
-            "_native_type": f"{package}/srv/{name}",
+            "_native_type": f"{package}/srv/{native_type_name(name)}",
             "_request_class": request,
             "_response_class": response,
             "_md5sum": _ServiceMd5(),
