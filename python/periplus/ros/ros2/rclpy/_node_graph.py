@@ -160,7 +160,7 @@ class NodeGraph:
         return self._rcl_resolve(service, True, only_expand)
 
     def _rcl_resolve(self, name: str, is_service: bool, only_expand: bool) -> str:
-        from rclpy._names import full_topic_problem, topic_problem
+        from rclpy._names import expand, full_topic_problem, topic_problem
         from rclpy._native import RosNameError
 
         if self._rcl_destroyed:
@@ -169,7 +169,7 @@ class NodeGraph:
         if problem is not None:
             raise RCLError(f"failed to resolve name: {problem[0]}")
         try:
-            full = self._rcl_expanded(name)
+            full = expand(name, self._rcl_native.name, self._rcl_native.namespace)
             problem = full_topic_problem(full)
             if problem is None:
                 return self._rcl_native.resolve(name, service=is_service, remap=not only_expand)

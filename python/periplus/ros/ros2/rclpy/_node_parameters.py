@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-import warnings
 from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING, Any
 
+from rclpy._warnings import warn
 from rclpy._ranges import REL_TOL, range_problem
 from rclpy.exceptions import (
     InvalidParameterTypeException,
@@ -91,7 +91,7 @@ class NodeParameters:
         entry = (name, value) if descriptor is None else (name, value, descriptor)
         if value is None and descriptor is None:
             entry = (name,)  # type: ignore[assignment]
-        return self._rcl_declare("", [entry], ignore_override, stacklevel=4)[0]
+        return self._rcl_declare("", [entry], ignore_override)[0]
 
     def declare_parameters(
         self, namespace: str, parameters: Sequence[Any], ignore_override: bool = False
@@ -100,10 +100,10 @@ class NodeParameters:
 
         `namespace` and a dot stand before the names. Value and descriptor may be left out; see `declare_parameter`.
         """
-        return self._rcl_declare(namespace, parameters, ignore_override, stacklevel=4)
+        return self._rcl_declare(namespace, parameters, ignore_override)
 
     def _rcl_declare(
-        self, namespace: str, entries: Sequence[Any], ignore_override: bool, stacklevel: int
+        self, namespace: str, entries: Sequence[Any], ignore_override: bool
     ) -> list[Parameter]:
         from rcl_interfaces.msg import ParameterDescriptor
 
@@ -122,7 +122,7 @@ class NodeParameters:
             if descriptor is None:
                 descriptor = ParameterDescriptor()
                 if value is None:
-                    warnings.warn(_NAME_ONLY.format(name=name), stacklevel=stacklevel - 1)
+                    warn(_NAME_ONLY.format(name=name))
                     descriptor.dynamic_typing = True
             elif not isinstance(descriptor, ParameterDescriptor):
                 raise TypeError(
@@ -313,9 +313,7 @@ class NodeParameters:
         for callback in self._on_set_parameters_callbacks:
             result = callback(parameters)
             if not isinstance(result, SetParametersResult):
-                warnings.warn(
-                    "Callback returned an invalid type, it should return SetParameterResult.", stacklevel=4
-                )
+                warn("Callback returned an invalid type, it should return SetParameterResult.")
                 return SetParametersResult(successful=False, reason="Callback returned an invalid type")
             if not result.successful:
                 return result
@@ -421,8 +419,6 @@ class NodeParameters:
 
             parameter = Parameter(name, value=parameter_value_to_python(alternative_value))
         descriptor.name = name
-        if descriptor.type == Parameter.Type.NOT_SET.value:
-            descriptor.type = self._descriptors[name].type
         reason = self._rcl_problem(parameter, descriptor, True)
         if reason:
             raise InvalidParameterValueException(name, parameter.value, reason)

@@ -102,7 +102,7 @@ class Node(NodeEntities, NodeParameters, NodeGraph):
         Args:
             node_name: Name; the argument `-r __node:=...` replaces it.
             context: Context (default: that of `rclpy.init()`).
-            cli_args: ROS arguments of this node alone.
+            cli_args: Arguments of this node alone; those after `--ros-args` count.
             namespace: Namespace (default `/`).
             use_global_arguments: Apply the arguments of `init` too (default True).
             enable_rosout: Publish log messages on `/rosout` (default True).
@@ -172,8 +172,7 @@ class Node(NodeEntities, NodeParameters, NodeGraph):
         if not namespace.startswith("/"):
             namespace = "/" + namespace
         validate_namespace(namespace)
-        words = list(cli_args or ())
-        ros = ros_split_arguments(words if "--ros-args" in words else ["--ros-args", *words])[1]
+        ros = ros_split_arguments(list(cli_args or ()))[1]
         try:
             return self._rcl_graph.node(name, namespace, use_global_arguments=use_global_arguments, arguments=ros)
         except RosArgumentsError as error:
@@ -311,3 +310,10 @@ class Node(NodeEntities, NodeParameters, NodeGraph):
     def waitables(self) -> Iterator[Any]:
         """The waitables: actions and events."""
         yield from self._rcl_waitables
+
+
+# Errors about arguments name the class that programs know.
+for _part in (NodeEntities, NodeParameters, NodeGraph):
+    for _name, _method in vars(_part).items():
+        if callable(_method) and hasattr(_method, "__qualname__"):
+            _method.__qualname__ = f"Node.{_name}"
