@@ -139,7 +139,7 @@ class MultiThreadedExecutor(Executor):
     ) -> None:
         """Starts one callback unless the future gets done before."""
         future._add_wake(self._graph.wake)
-        self._spin_once(timeout_sec, future.done)
+        self._spin_once(timeout_sec, future._is_done)
 
     def shutdown(self, timeout_sec: float | None = None) -> bool:
         """Ends spinning and the threads. Returns False if callbacks still run after `timeout_sec`."""

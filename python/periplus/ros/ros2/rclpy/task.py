@@ -10,6 +10,8 @@ from enum import Enum
 from types import CoroutineType
 from typing import TYPE_CHECKING, Any
 
+from rclpy._clock_source import source
+
 if TYPE_CHECKING:
     from collections.abc import Callable, Generator
 
@@ -80,6 +82,13 @@ class Future:
 
     def done(self) -> bool:
         """True once there is a result or an exception."""
+        if source.lockstep_graph is not None:
+            from periplus.ros import _waiting
+
+            _waiting.poll()
+        return self._state is _FINISHED
+
+    def _is_done(self) -> bool:
         return self._state is _FINISHED
 
     def result(self) -> Any:
