@@ -104,7 +104,7 @@ def _from_yuv(image: Any, order: str) -> Any:
     made = np.empty((image.shape[0], pairs.shape[1] * 2, 3), np.uint8)
     first = order.index("y")
     for index, position in enumerate((first, first + 2)):
-        y = 1.164 * (pairs[..., position] - 16.0)
+        y = 1.164 * np.maximum(pairs[..., position] - 16.0, 0.0)
         rgb = np.stack((y + 1.596 * v, y - 0.391 * u - 0.813 * v, y + 2.018 * u), axis=-1)
         made[:, index::2] = np.clip(np.rint(rgb), 0, 255)
     return made
