@@ -64,7 +64,7 @@ class Client:
         deadline_ns = None if timeout_sec is None or timeout_sec < 0 else source.steady_ns() + int(timeout_sec * S_TO_NS)
         while True:
             seen = graph.events
-            if future.done() or future.cancelled() or not self.context._valid:
+            if future._is_done() or future.cancelled() or not self.context._valid:
                 break
             left_ns = None
             if deadline_ns is not None:
@@ -72,7 +72,7 @@ class Client:
                 if left_ns <= 0:
                     break
             _waiting.wait(graph, seen, left_ns)
-        if not future.done():
+        if not future._is_done():
             self.remove_pending_request(future)
             return None
         return future.result()

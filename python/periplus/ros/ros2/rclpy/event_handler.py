@@ -231,7 +231,7 @@ class NodeEvents(Waitable):
     def __init__(self, node: Node, callback_group: CallbackGroup) -> None:
         super().__init__(callback_group)
         self._node = node
-        self._graph = node._graph
+        self._graph = node._rcl_graph
         self._seen = -1
         self._next_poll_ns = 0
         self._ready: list[EventHandler] = []

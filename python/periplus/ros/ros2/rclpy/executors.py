@@ -159,7 +159,7 @@ class Executor:
         next_ns: int | None = None
         for node in self._nodes:
             found: list[Any] = []
-            for waitable in node._waitables:
+            for waitable in node._rcl_waitables:
                 if waitable._has_work():
                     found.append(waitable)
                 else:
@@ -278,7 +278,7 @@ class Executor:
         """Runs callbacks until the future is done, or for `timeout_sec` (default: no limit)."""
         future._add_wake(self._graph.wake)
         deadline_ns = self._deadline(timeout_sec)
-        while self._context.ok() and not future.done() and not self._is_shutdown:
+        while self._context.ok() and not future._is_done() and not self._is_shutdown:
             left: float | None = None
             if deadline_ns is not None:
                 left = (deadline_ns - source.steady_ns()) / S_TO_NS
@@ -343,7 +343,7 @@ class SingleThreadedExecutor(Executor):
     ) -> None:
         """Runs one callback unless the future gets done before."""
         future._add_wake(self._graph.wake)
-        self._spin_once(timeout_sec, future.done)
+        self._spin_once(timeout_sec, future._is_done)
 
 
 def __getattr__(name: str) -> Any:

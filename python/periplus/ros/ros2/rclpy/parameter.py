@@ -72,7 +72,7 @@ class _Type(Enum):
         if self is _Type.BOOL:
             return isinstance(value, bool)
         if self is _Type.INTEGER:
-            return isinstance(value, int) and not isinstance(value, bool)
+            return isinstance(value, int)
         if self is _Type.DOUBLE:
             return isinstance(value, float)
         if self is _Type.STRING:

@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import sys
-import warnings
 import weakref
 from _thread import allocate_lock, get_ident
 from enum import Enum
 from types import CoroutineType
 from typing import TYPE_CHECKING, Any
+
+from rclpy._warnings import warn
+from rclpy._clock_source import source
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Generator
@@ -80,6 +82,13 @@ class Future:
 
     def done(self) -> bool:
         """True once there is a result or an exception."""
+        if source.lockstep_graph is not None:
+            from periplus.ros import _waiting
+
+            _waiting.poll()
+        return self._state is _FINISHED
+
+    def _is_done(self) -> bool:
         return self._state is _FINISHED
 
     def result(self) -> Any:
@@ -127,7 +136,7 @@ class Future:
         try:
             callback(self)
         except Exception as error:
-            warnings.warn(f"Unhandled exception in done callback: {error}", stacklevel=2)
+            warn(f"Unhandled exception in done callback: {error}")
 
     def _set_executor(self, executor: Executor | None) -> None:
         self._executor = _no_executor if executor is None else weakref.ref(executor)

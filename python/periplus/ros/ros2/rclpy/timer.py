@@ -159,8 +159,8 @@ class Timer:
         period_ns = self._period_ns
         self._last_call_ns = now_ns
         next_ns += period_ns
-        if next_ns < now_ns:
-            next_ns = now_ns if period_ns == 0 else next_ns + (now_ns - next_ns + period_ns - 1) // period_ns * period_ns
+        if next_ns <= now_ns:
+            next_ns = now_ns if period_ns == 0 else next_ns + ((now_ns - next_ns) // period_ns + 1) * period_ns
         self._next_call_ns = next_ns
         return ()
 
