@@ -46,6 +46,8 @@ class FootprintCollisionChecker:
 
     def lineCost(self, x0: float, x1: float, y0: float, y1: float, step_size: float = 0.5) -> float:  # noqa: N802
         """Highest cost on a line between cells."""
+        if x0 == x1 and y0 == y1:
+            return self.pointCost(int(x0), int(y0))
         cost = 0.0
         line = LineIterator(x0, y0, x1, y1, step_size)
         while line.isValid():

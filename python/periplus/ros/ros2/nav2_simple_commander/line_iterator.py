@@ -14,6 +14,8 @@ class LineIterator:
                 raise TypeError(f"{name} must be a number, not {type(value).__name__}")
         if step_size <= 0:
             raise ValueError(f"step_size must be greater than 0, not {step_size}")
+        if x0 == x1 and y0 == y1:
+            raise ValueError(f"the line has no length: both ends are at ({x0}, {y0})")
         self.x0_, self.y0_, self.x1_, self.y1_ = x0, y0, x1, y1
         self.x_, self.y_ = x0, y0
         self.step_size_ = step_size
@@ -35,7 +37,7 @@ class LineIterator:
             self.y_ = round(self.slope_ * (self.x_ - self.x0_) + self.y0_, 5)
 
     def _next(self, now: float, first: float, last: float) -> tuple[float, bool]:
-        if now == last or first == last:
+        if now == last:
             return now, False
         step = self.step_size_ if last > first else -self.step_size_
         return round(self.clamp(now + step, min(first, last), max(first, last)), 5), True

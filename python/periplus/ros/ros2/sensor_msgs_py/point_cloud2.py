@@ -114,7 +114,6 @@ def create_cloud(
     header: Header,
     fields: Iterable[PointField],
     points: Any,
-    step: int | None = None,
     point_step: int | None = None,
 ) -> PointCloud2:
     """Cloud of points: a structured array, a plain array (N, number of fields) or a list of tuples."""
@@ -152,9 +151,9 @@ def create_cloud(
     return cloud
 
 
-def create_cloud_xyz32(header: Header, points: Any, step: int | None = None, point_step: int | None = None) -> PointCloud2:
+def create_cloud_xyz32(header: Header, points: Any) -> PointCloud2:
     """Cloud with the fields x, y and z (float32)."""
     fields = [
         PointField(name=name, offset=4 * index, datatype=PointField.FLOAT32, count=1) for index, name in enumerate("xyz")
     ]
-    return create_cloud(header, fields, points, step, point_step)
+    return create_cloud(header, fields, points)

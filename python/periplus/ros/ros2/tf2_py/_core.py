@@ -57,9 +57,8 @@ class BufferCore:
         if problem is not None:
             _log("error", problem)
             return
-        stamp = header.stamp
         pose = _native.Pose.from_quaternion(position, quaternion)
-        nanoseconds = stamp.sec * 1_000_000_000 + stamp.nanosec
+        nanoseconds = time_ns(header.stamp)
         try:
             self._buffer.set_transform(
                 parent, child, pose, time_ns=nanoseconds, is_static=is_static, authority=authority
@@ -133,14 +132,13 @@ class BufferCore:
 
     def get_latest_common_time(self, target_frame: str, source_frame: str) -> Any:
         """Latest time at which there is a transform."""
-        from rclpy.clock import ClockType
         from rclpy.time import Time
 
         try:
             nanoseconds = self._buffer.latest_time_ns(target_frame, source_frame)
         except _native.TransformError as error:
             raise exception_of(error) from None
-        return Time(nanoseconds=nanoseconds, clock_type=ClockType.ROS_TIME)
+        return Time(nanoseconds=nanoseconds)
 
     # ---- frames
 
