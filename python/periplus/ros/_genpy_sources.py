@@ -103,6 +103,23 @@ def load(package: str) -> None:
         _loading.discard(package)
 
 
+def add_texts(texts: dict[str, str]) -> None:
+    """Adds types by their text, such as those of a recording, unless they are known."""
+    made = []
+    for name, text in texts.items():
+        package, _, short = name.partition("/")
+        if short not in names(package, "msg"):
+            made.append(parse(text, package, short, "msg", name))
+    for one in made:
+        package, short = one.type.split("/")
+        _loaded.setdefault(package, {}).setdefault("msg", []).append(short)
+        _stage[one.native] = native_text(one)
+    if made:
+        _native_load(made[0].type.split("/")[0])
+    for one in made:
+        _genpy.add_definition(one)
+
+
 def _folders(package: str) -> list[str]:
     """Folders with texts of a package: the user's own first."""
     found = []
