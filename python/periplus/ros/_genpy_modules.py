@@ -10,6 +10,8 @@ from types import ModuleType
 from typing import Any
 
 _KINDS = ("msg", "srv")
+#: Packages with a module `msg` or `service` of their own.
+_PYTHON_ONLY = frozenset(("genpy", "rospy"))
 
 
 class _Loader(Loader):
@@ -46,6 +48,8 @@ class _Finder(MetaPathFinder):
         self, fullname: str, path: Sequence[str] | None, target: ModuleType | None = None
     ) -> ModuleSpec | None:
         package, _, rest = fullname.partition(".")
+        if package in _PYTHON_ONLY:
+            return None
         if rest in _KINDS:
             from periplus.ros import _genpy_sources
 

@@ -16,6 +16,12 @@ FOLDERS = tuple(
     os.path.join(os.path.dirname(os.path.abspath(__file__)), *parts) for parts in (("ros1", "interfaces"), ("interfaces",))
 )
 _KINDS = ("msg", "srv", "action")
+#: Packages that are the same everywhere: no source tree is searched for them.
+_CORE = frozenset((
+    "actionlib", "actionlib_msgs", "builtin_interfaces", "diagnostic_msgs", "dynamic_reconfigure", "geometry_msgs", "move_base_msgs",
+    "nav_msgs", "rcl_interfaces", "rosgraph_msgs", "sensor_msgs", "shape_msgs", "std_msgs", "std_srvs", "tf2_msgs", "trajectory_msgs",
+    "visualization_msgs",
+))  # fmt: skip
 # Suffixes of the messages that an action stands for, with their texts.
 _ACTION_PARTS = {
     "Action": "{0}ActionGoal action_goal\n{0}ActionResult action_result\n{0}ActionFeedback action_feedback\n",
@@ -97,14 +103,32 @@ def load(package: str) -> None:
         _loading.discard(package)
 
 
+def add_texts(texts: dict[str, str]) -> None:
+    """Adds types by their text, such as those of a recording, unless they are known."""
+    made = []
+    for name, text in texts.items():
+        package, _, short = name.partition("/")
+        if short not in names(package, "msg"):
+            made.append(parse(text, package, short, "msg", name))
+    for one in made:
+        package, short = one.type.split("/")
+        _loaded.setdefault(package, {}).setdefault("msg", []).append(short)
+        _stage[one.native] = native_text(one)
+    if made:
+        _native_load(made[0].type.split("/")[0])
+    for one in made:
+        _genpy.add_definition(one)
+
+
 def _folders(package: str) -> list[str]:
     """Folders with texts of a package: the user's own first."""
     found = []
-    from periplus.ros import _packages
+    if package not in _CORE:
+        from periplus.ros import _packages
 
-    tree = _packages.find_package(package)
-    if tree is not None:
-        found.append(tree.folder)
+        tree = _packages.find_package(package)
+        if tree is not None:
+            found.append(tree.folder)
     found += [os.path.join(folder, package) for folder in FOLDERS]
     return [one for one in found if any(os.path.isdir(os.path.join(one, kind)) for kind in _KINDS)]
 

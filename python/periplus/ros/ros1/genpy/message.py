@@ -254,7 +254,7 @@ def _class_of(type_name: str, kind: str) -> Any:
     package, _, name = type_name.partition("/")
     try:
         return getattr(importlib.import_module(f"{package}.{kind}"), name.rpartition("/")[2], None)
-    except ImportError:
+    except ModuleNotFoundError:
         return None
 
 

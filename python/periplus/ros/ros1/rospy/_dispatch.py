@@ -122,6 +122,11 @@ class Dispatcher:
                     condition.release()
                     try:
                         self._watch()
+                    except Exception:
+                        # The node may close while this thread reads its topics.
+                        if not (self._closed or core.is_shutdown_requested()):
+                            raise
+                        return
                     finally:
                         condition.acquire()
                         self._watcher = None
