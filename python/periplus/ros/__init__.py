@@ -112,7 +112,11 @@ def _refuse_mixture(own_folders: list[str]) -> None:
 
 
 def _install_messages(generation: int) -> None:
-    """Installs the import hook of the message packages."""
-    from . import _rosidl_modules
+    """Installs the import hook of the message packages of a generation, instead of the other one."""
+    import importlib
 
-    _rosidl_modules.install(generation=generation)
+    for name, wanted in (("_rosidl_modules", 2), ("_genpy_modules", 1)):
+        if wanted == generation:
+            importlib.import_module(f".{name}", __name__).install()
+        elif f"{__name__}.{name}" in sys.modules:
+            sys.modules[f"{__name__}.{name}"].uninstall()

@@ -21,7 +21,7 @@ import threading
 import time
 from typing import TYPE_CHECKING, Any
 
-from . import _faults, _lockstep_signals, _lockstep_threads, _lockstep_time, _waiting
+from . import _faults, _lockstep_signals, _lockstep_threads, _lockstep_time, _tracebacks, _waiting
 from ._lockstep_report import Report
 from ._scheduler import LockstepGraph, Scheduler
 
@@ -131,7 +131,7 @@ def _seed_random(module: ModuleType, key: str) -> list[tuple[Any, str, Any]]:
 
     module.Random.seed = seed
     module._inst.seed(key)
-    module.seed = module._inst.seed
+    module.__dict__["seed"] = module._inst.seed
     return [(module.Random, "seed", seed)]
 
 
@@ -156,10 +156,10 @@ class _ImportHook(importlib.abc.MetaPathFinder):
         if fullname != self.name:
             return None
         sys.meta_path.remove(self)
-        spec = importlib.util.find_spec(fullname)  # type: ignore[attr-defined]
+        spec = importlib.util.find_spec(fullname)
         if spec is not None and spec.loader is not None:
             spec.loader = _Loader(spec.loader, self.function)
-        return spec  # type: ignore[no-any-return]
+        return spec
 
 
 class _Loader(importlib.abc.Loader):
@@ -210,5 +210,5 @@ def _watch(scheduler: Scheduler) -> None:
             frame = sys._current_frames().get(task.ident)
             _faults._report(
                 f"{who} has not come back for {limit_s:.0f} s of wall time; the simulation waits for it at "
-                f"{state[1] / 1e9:.3f} s. It is here:\n{_faults._tracebacks.format_stack(frame)}"
+                f"{state[1] / 1e9:.3f} s. It is here:\n{_tracebacks.format_stack(frame)}"
             )

@@ -210,10 +210,11 @@ def _as_task(function: Callable[..., Any], arguments: tuple[Any, ...], keywords:
     assert _scheduler is not None
     scheduler = _scheduler
     thread = getattr(function, "__self__", None)
-    is_thread = isinstance(thread, threading.Thread)
-    task = Task(thread.name if is_thread else getattr(function, "__name__", "thread"), is_daemon=not is_thread or thread.daemon)
-    if is_thread:
-        thread._lockstep_task = task
+    if isinstance(thread, threading.Thread):
+        task = Task(thread.name, is_daemon=thread.daemon)
+        thread._lockstep_task = task  # type: ignore[attr-defined]
+    else:
+        task = Task(getattr(function, "__name__", "thread"))
 
     def run() -> None:
         scheduler.begin(task)
@@ -266,7 +267,7 @@ def _is_alive(self: threading.Thread) -> bool:
     if task is None or _scheduler is None:
         return _real_is_alive(self)
     _scheduler.poll()
-    return self._started.is_set() and not task.done  # type: ignore[attr-defined,no-any-return]
+    return self._started.is_set() and not task.done  # type: ignore[attr-defined]
 
 
 def join_all() -> None:

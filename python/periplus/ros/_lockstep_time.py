@@ -36,8 +36,7 @@ def replacements(scheduler: Scheduler) -> list[tuple[Any, str, Any]]:
 
     def sleep(seconds: float, /) -> None:
         if not isinstance(seconds, int):
-            # Rounded up: a sleep of 0.1 s from 0.2 s on ends at 0.3 s.
-            seconds = seconds.__float__() if hasattr(seconds, "__float__") else seconds.__index__()
+            seconds = float(seconds)
         if seconds < 0:
             raise ValueError("sleep length must be non-negative")
         scheduler.sleep_ns(round(seconds * 1_000_000_000))

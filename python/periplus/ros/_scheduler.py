@@ -42,6 +42,10 @@ _real_sleep = time.sleep
 _real_monotonic = time.monotonic
 
 
+class _Interrupted(BaseException):
+    """Ends a wait for the simulation after a signal handler that has not raised anything."""
+
+
 class LockstepGraph(Protocol):
     """The part of `RosGraph` that the scheduler needs."""
 
@@ -117,6 +121,7 @@ class Scheduler:
             return self._wait_outside(graph, seen, timeout_ns)
         task = self.current
         if graph.events != seen:
+            task.polls = task.empty_polls = 0
             self._count_instant()
             if self.ready:
                 self._yield(task)
@@ -158,7 +163,7 @@ class Scheduler:
         task.polls += 1
         if task.polls > _FREE_POLLS and self.has_turn():
             task.polls = _FREE_POLLS - _POLLS_PER_STEP
-            self.note("busy loop", "a loop looks at the time or a flag without waiting: it costs 1 ms of simulated time per 100 looks")
+            self.note("busy loop", "a loop never waits: it costs 1 ms of simulated time per 100 looks at a clock or a flag")
             self.block(self.now_ns() + _STEP_NS)
 
     def select(self, look: Callable[[], Any], timeout_ns: int | None) -> Any:
@@ -262,9 +267,11 @@ class Scheduler:
         """Runs a signal handler in the main thread: at once, or when the main thread has the turn again."""
         if self.current is self.main and not self.is_main_in_wait:
             handler(number, frame)
-            return
-        self.pending_signals.append((handler, number))
-        self.graph.wake()
+        else:
+            self.pending_signals.append((handler, number))
+            self.graph.wake()
+        if self.is_exchanging and self.current is self.main:
+            raise _Interrupted
 
     def _run_handlers(self) -> None:
         while self.pending_signals:
@@ -340,13 +347,16 @@ class Scheduler:
         if wake_ns is None and not wants_messages and not self._named_deadlock:
             self._named_deadlock = True
             self.note("deadlock", "every thread waits for another one")
-        self.is_exchanging = True
         try:
-            self.graph.exchange(wake_ns, wants_messages)
+            self.is_exchanging = True
+            try:
+                self.graph.exchange(wake_ns, wants_messages)
+            finally:
+                self.is_exchanging = False
+        except _Interrupted:
+            pass
         except (ConnectionError, EOFError):
             self._end()
-        finally:
-            self.is_exchanging = False
 
     # ---- end of the simulation
 

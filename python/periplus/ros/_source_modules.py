@@ -52,4 +52,4 @@ def install() -> None:
     if any(isinstance(finder, SourceModuleFinder) for finder in sys.meta_path):
         return
     after = [number for number, finder in enumerate(sys.meta_path) if finder is importlib.machinery.PathFinder]
-    sys.meta_path.insert(after[-1] + 1 if after else len(sys.meta_path), SourceModuleFinder())  # type: ignore[arg-type]
+    sys.meta_path.insert(after[-1] + 1 if after else len(sys.meta_path), SourceModuleFinder())

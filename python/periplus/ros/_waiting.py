@@ -97,7 +97,7 @@ def Lock() -> threading.Lock:  # noqa: N802
     return threading.Lock()
 
 
-def RLock() -> threading.RLock:  # type: ignore[valid-type]  # noqa: N802
+def RLock() -> threading.RLock:  # noqa: N802
     """A reentrant lock that other threads may wait for, also in lockstep."""
     return threading.RLock()
 

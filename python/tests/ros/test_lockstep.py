@@ -2,6 +2,7 @@
 
 import json
 import os
+import re
 import signal
 import subprocess
 import sys
@@ -84,7 +85,9 @@ print(*log, sep="\\n")
 
 def start(tmp_path: Path, program: str, **variables: str) -> "subprocess.Popen[str]":
     script = tmp_path / "script.py"
-    script.write_text(program)
+    # A process that was started before may be reading it.
+    if not script.exists() or script.read_text() != program:
+        script.write_text(program)
     return subprocess.Popen(
         [sys.executable, str(FOLDER / "fake_simulation.py"), str(script)],
         env=environment(**variables), cwd=tmp_path, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
@@ -104,7 +107,8 @@ def test_the_same_trace_in_each_run(tmp_path: Path) -> None:
     assert errors == ""
     # Two at once, so that the machine orders their threads in another way.
     processes = [start(tmp_path, PROGRAM) for _ in range(2)]
-    assert [process.communicate(timeout=60)[0] for process in processes] == [first, first]
+    answers = [process.communicate(timeout=60) for process in processes]
+    assert answers == [(first, ""), (first, "")]
 
 
 def test_seed_and_name_of_the_process_choose_the_random_numbers(tmp_path: Path) -> None:
@@ -265,6 +269,34 @@ compute()
     _, errors = run(tmp_path, program, PERIPLUS_CALLBACK_TIMEOUT_S="0.3")
     assert "thread MainThread has not come back for 0 s of wall time; the simulation waits for it at 0.000 s" in errors
     assert "in compute" in errors
+
+
+def test_a_signal_handler_that_sets_an_event(tmp_path: Path) -> None:
+    program = """
+import signal, sys, threading, time
+stop = threading.Event()
+signal.signal(signal.SIGTERM, lambda number, frame: stop.set())
+print(signal.getsignal(signal.SIGTERM) is not signal.SIG_DFL, flush=True)
+stop.wait()
+print("stopped", time.time())
+"""
+    process = start(tmp_path, program)
+    assert process.stdout is not None
+    assert process.stdout.readline() == "True\n"
+    time.sleep(0.3)
+    process.send_signal(signal.SIGTERM)
+    out, errors = process.communicate(timeout=30)
+    assert out == "stopped 0.0\n", errors
+
+
+def test_sigusr1_prints_the_stacks(tmp_path: Path) -> None:
+    process = start(tmp_path, "import sys\ndef spin():\n    print('spins', flush=True)\n    while True:\n        pass\nspin()\n")
+    assert process.stdout is not None
+    assert process.stdout.readline() == "spins\n"
+    process.send_signal(signal.SIGUSR1)
+    time.sleep(0.3)
+    process.kill()
+    assert re.search(r'script.py", line \d in spin', process.communicate(timeout=30)[1])
 
 
 @pytest.mark.skipif(not hasattr(os, "fork"), reason="needs os.fork")

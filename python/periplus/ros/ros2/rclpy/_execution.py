@@ -63,14 +63,14 @@ async def finish(entity: Any, node: Node, coroutine: Coroutine[Any, Any, Any]) -
         raise
     finally:
         entity.callback_group.ending_execution(entity)
-        node._graph.wake()
+        node._rcl_graph.wake()
 
 
 def _make_monitor(entity: Any, node: Node) -> _faults.CallbackMonitor:
     callback = getattr(entity, "callback", None)
     return _faults.CallbackMonitor(
         entity._call if callback is None else callback,
-        node=node._full_name,
+        node=node._rcl_full_name,
         kind=entity._kind,
         name=entity._full_name(),
         period_ns=getattr(entity, "_period_ns", None),
@@ -80,5 +80,5 @@ def _make_monitor(entity: Any, node: Node) -> _faults.CallbackMonitor:
 def _note(error: Exception, entity: Any, node: Node) -> None:
     """Adds the node, the topic or timer, and the time to an exception."""
     _faults.callback_failed(
-        error, node=node._full_name, kind=entity._kind, name=entity._full_name(), time_ns=source.system_ns()
+        error, node=node._rcl_full_name, kind=entity._kind, name=entity._full_name(), time_ns=source.system_ns()
     )

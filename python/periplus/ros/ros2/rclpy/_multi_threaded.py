@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import os
-import warnings
 from collections import deque
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
 from periplus.ros import _waiting
 
+from rclpy._warnings import warn
 from rclpy._execution import finish, run_entity
 from rclpy.executors import (
     ConditionReachedException,
@@ -38,10 +38,7 @@ class MultiThreadedExecutor(Executor):
         super().__init__(context=context)
         self._num_threads = _cpu_count() if num_threads is None else int(num_threads)
         if self._num_threads == 1:
-            warnings.warn(
-                "MultiThreadedExecutor is used with a single thread.\nUse the SingleThreadedExecutor instead.",
-                stacklevel=2,
-            )
+            warn("MultiThreadedExecutor is used with a single thread.\nUse the SingleThreadedExecutor instead.")
         self._condition = _waiting.Condition()
         self._work: deque[tuple[Any, Any]] = deque()
         self._threads: list[Any] = []

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 from rclpy._names import full_topic_problem, topic_problem
 from rclpy._native import RosNameError
-from rclpy._rclpy_pybind11 import InvalidHandle
+from rclpy._rclpy_pybind11 import InvalidHandle, RCLError
 from rclpy.client import Client
 from rclpy.constants import S_TO_NS
 from rclpy.event_handler import NodeEvents, PublisherEventCallbacks, SubscriptionEventCallbacks
@@ -51,10 +51,10 @@ class NodeEntities:
     The lists are replaced, never changed, so that executors can go through them while callbacks add and remove.
     """
 
-    _graph: RosGraph
-    _native: RosNode
+    _rcl_graph: RosGraph
+    _rcl_native: RosNode
     _context: Context
-    _destroyed: bool
+    _rcl_destroyed: bool
     _clock: Clock
     _logger: Any
     _default_callback_group: CallbackGroup
@@ -62,20 +62,20 @@ class NodeEntities:
 
     if TYPE_CHECKING:
 
-        def _expanded(self, name: str) -> str: ...
+        def _rcl_expanded(self, name: str) -> str: ...
 
-    def _init_entities(self) -> None:
+    def _rcl_init_entities(self) -> None:
         self._publishers: list[Publisher] = []
         self._subscriptions: list[Subscription] = []
         self._clients: list[Client] = []
         self._services: list[Service] = []
         self._timers: list[Timer] = []
         self._guards: list[GuardCondition] = []
-        self._waitables: list[Waitable] = []
-        self._events: NodeEvents | None = None
+        self._rcl_waitables: list[Waitable] = []
+        self._rcl_events: NodeEvents | None = None
 
-    def _destroy_entities(self) -> None:
-        for waitable in self._waitables:
+    def _rcl_destroy_entities(self) -> None:
+        for waitable in self._rcl_waitables:
             destroy = getattr(waitable, "destroy", None)
             if destroy is not None:
                 destroy()
@@ -83,17 +83,18 @@ class NodeEntities:
             for entity in getattr(self, name):
                 entity.destroy()
             setattr(self, name, [])
-        self._waitables = []
+        self._rcl_waitables = []
 
-    def _group(self, group: CallbackGroup | None) -> CallbackGroup:
+    def _rcl_group(self, group: CallbackGroup | None) -> CallbackGroup:
         return self._default_callback_group if group is None else group
 
-    def _check(self) -> None:
-        if self._destroyed:
+    def _rcl_check(self, what: str) -> None:
+        if self._rcl_destroyed:
             raise InvalidHandle
-        self._context._use("cannot create an entity of the node")
+        if not self._context._valid:
+            raise RCLError(f"Failed to create a {what}: rcl node's context is invalid")
 
-    def _full(self, name: str, is_service: bool) -> str:
+    def _rcl_full(self, name: str, is_service: bool) -> str:
         """Full, remapped name of a topic or a service."""
         error = InvalidServiceNameException if is_service else InvalidTopicNameException
         if not isinstance(name, str):
@@ -101,27 +102,27 @@ class NodeEntities:
         problem = topic_problem(name)
         if problem is not None:
             raise error(name, *problem)
-        expanded = self._expanded(name)
+        expanded = self._rcl_expanded(name)
         problem = full_topic_problem(expanded)
         if problem is not None:
             raise error(expanded, *problem)
         try:
-            return self._native.resolve(name, service=is_service)
+            return self._rcl_native.resolve(name, service=is_service)
         except RosNameError as text:
             raise ValueError(f"{'service' if is_service else 'topic'} name {name!r} is invalid: {text}") from None
 
-    def _add(self, which: str, entity: Any, group: CallbackGroup | None) -> None:
+    def _rcl_add(self, which: str, entity: Any, group: CallbackGroup | None) -> None:
         setattr(self, which, [*getattr(self, which), entity])
         if group is not None:
             group.add_entity(entity)
-        self._graph.wake()
+        self._rcl_graph.wake()
 
-    def _add_event_handlers(self, entity: Any) -> None:
-        if entity.event_handlers and self._events is None:
+    def _rcl_add_event_handlers(self, entity: Any) -> None:
+        if entity.event_handlers and self._rcl_events is None:
             from rclpy.callback_groups import ReentrantCallbackGroup
 
-            self._events = NodeEvents(self, ReentrantCallbackGroup())  # type: ignore[arg-type]
-            self._waitables = [*self._waitables, self._events]
+            self._rcl_events = NodeEvents(self, ReentrantCallbackGroup())  # type: ignore[arg-type]
+            self._rcl_waitables = [*self._rcl_waitables, self._rcl_events]
 
     # ---- making
 
@@ -152,18 +153,18 @@ class NodeEntities:
         """
         qos = qos_or_depth(qos_profile)
         check_is_valid_msg_type(msg_type)
-        self._check()
-        full = self._full(topic, False)
-        qos = self._overridden(Publisher, full, qos, qos_overriding_options)
-        group = self._group(callback_group)
-        native = self._native.publisher(full, type_name(msg_type), qos._to_native())
+        self._rcl_check("publisher")
+        full = self._rcl_full(topic, False)
+        qos = self._rcl_overridden(Publisher, full, qos, qos_overriding_options)
+        group = self._rcl_group(callback_group)
+        native = self._rcl_native.publisher(full, type_name(msg_type), qos._to_native())
         publisher = publisher_class(
             native, msg_type, topic, qos, event_callbacks=event_callbacks or PublisherEventCallbacks(), callback_group=group
         )
         publisher._context = self._context
         publisher._logger_name = self._logger.name  # type: ignore[attr-defined]
         self._publishers = [*self._publishers, publisher]
-        self._add_event_handlers(publisher)
+        self._rcl_add_event_handlers(publisher)
         return publisher
 
     def create_subscription(
@@ -195,11 +196,11 @@ class NodeEntities:
         """
         qos = qos_or_depth(qos_profile)
         check_is_valid_msg_type(msg_type)
-        self._check()
-        full = self._full(topic, False)
-        qos = self._overridden(Subscription, full, qos, qos_overriding_options)
-        group = self._group(callback_group)
-        native = self._native.subscription(full, type_name(msg_type), qos._to_native())
+        self._rcl_check("subscription")
+        full = self._rcl_full(topic, False)
+        qos = self._rcl_overridden(Subscription, full, qos, qos_overriding_options)
+        group = self._rcl_group(callback_group)
+        native = self._rcl_native.subscription(full, type_name(msg_type), qos._to_native())
         try:
             subscription = Subscription(
                 native, msg_type, topic, callback, group, qos, raw, event_callbacks or SubscriptionEventCallbacks()
@@ -208,11 +209,11 @@ class NodeEntities:
             native.close()
             raise
         subscription._logger_name = self._logger.name  # type: ignore[attr-defined]
-        self._add("_subscriptions", subscription, group)
-        self._add_event_handlers(subscription)
+        self._rcl_add("_subscriptions", subscription, group)
+        self._rcl_add_event_handlers(subscription)
         return subscription
 
-    def _overridden(self, kind: Any, topic: str, qos: QoSProfile, options: QoSOverridingOptions | None) -> QoSProfile:
+    def _rcl_overridden(self, kind: Any, topic: str, qos: QoSProfile, options: QoSOverridingOptions | None) -> QoSProfile:
         if options is None:
             return qos
         from rclpy.qos_overriding_options import _declare_qos_parameters, copy_profile
@@ -231,12 +232,12 @@ class NodeEntities:
     ) -> Client:
         """Makes a client of a service."""
         check_is_valid_srv_type(srv_type)
-        self._check()
-        group = self._group(callback_group)
-        native = self._native.client(self._full(srv_name, True), type_name(srv_type))
+        self._rcl_check("client")
+        group = self._rcl_group(callback_group)
+        native = self._rcl_native.client(self._rcl_full(srv_name, True), type_name(srv_type))
         client = Client(self._context, native, srv_type, srv_name, qos_profile, group)
         client._logger_name = self._logger.name  # type: ignore[attr-defined]
-        self._add("_clients", client, group)
+        self._rcl_add("_clients", client, group)
         return client
 
     def create_service(
@@ -250,12 +251,12 @@ class NodeEntities:
     ) -> Service:
         """Makes a service. The callback gets the request and an empty response, and must return the response."""
         check_is_valid_srv_type(srv_type)
-        self._check()
-        group = self._group(callback_group)
-        native = self._native.server(self._full(srv_name, True), type_name(srv_type))
+        self._rcl_check("service")
+        group = self._rcl_group(callback_group)
+        native = self._rcl_native.server(self._rcl_full(srv_name, True), type_name(srv_type))
         service = Service(native, srv_type, srv_name, callback, group, qos_profile)
         service._logger_name = self._logger.name  # type: ignore[attr-defined]
-        self._add("_services", service, group)
+        self._rcl_add("_services", service, group)
         return service
 
     def create_timer(
@@ -268,19 +269,19 @@ class NodeEntities:
     ) -> Timer:
         """Makes a timer that calls a function each `timer_period_sec` of a clock (default: the node's clock)."""
         timer_period_ns = int(float(timer_period_sec) * S_TO_NS)
-        group = self._group(callback_group)
+        group = self._rcl_group(callback_group)
         clock = self._clock if clock is None else clock
         timer = Timer(callback, group, timer_period_ns, clock, context=self._context, autostart=autostart)
-        self._add("_timers", timer, group)
+        self._rcl_add("_timers", timer, group)
         return timer
 
     def create_guard_condition(
         self, callback: Callable[[], Any], callback_group: CallbackGroup | None = None
     ) -> GuardCondition:
         """Makes a guard condition: `trigger()` asks for one call of the function."""
-        group = self._group(callback_group)
+        group = self._rcl_group(callback_group)
         guard = GuardCondition(callback, group, context=self._context)
-        self._add("_guards", guard, group)
+        self._rcl_add("_guards", guard, group)
         return guard
 
     def create_rate(self, frequency: float, clock: Clock | None = None) -> Rate:
@@ -292,50 +293,50 @@ class NodeEntities:
 
     def add_waitable(self, waitable: Waitable) -> None:
         """Lets executors ask a waitable."""
-        self._waitables = [*self._waitables, waitable]
-        self._graph.wake()
+        self._rcl_waitables = [*self._rcl_waitables, waitable]
+        self._rcl_graph.wake()
 
     def remove_waitable(self, waitable: Waitable) -> None:
         """Undoes `add_waitable`."""
-        self._waitables = _without(self._waitables, waitable)
-        self._graph.wake()
+        self._rcl_waitables = _without(self._rcl_waitables, waitable)
+        self._rcl_graph.wake()
 
     # ---- destroying
 
-    def _remove(self, which: str, entity: Any) -> bool:
+    def _rcl_remove(self, which: str, entity: Any) -> bool:
         entities = getattr(self, which)
         if not any(one is entity for one in entities):
             return False
         setattr(self, which, _without(entities, entity))
         entity.destroy()
-        self._graph.wake()
+        self._rcl_graph.wake()
         return True
 
     def destroy_publisher(self, publisher: Publisher) -> bool:
         """Ends a publisher. Returns False if it is not one of the node."""
-        return self._remove("_publishers", publisher)
+        return self._rcl_remove("_publishers", publisher)
 
     def destroy_subscription(self, subscription: Subscription) -> bool:
         """Ends a subscription. Returns False if it is not one of the node."""
-        return self._remove("_subscriptions", subscription)
+        return self._rcl_remove("_subscriptions", subscription)
 
     def destroy_client(self, client: Client) -> bool:
         """Ends a client. Returns False if it is not one of the node."""
-        return self._remove("_clients", client)
+        return self._rcl_remove("_clients", client)
 
     def destroy_service(self, service: Service) -> bool:
         """Ends a service. Returns False if it is not one of the node."""
-        return self._remove("_services", service)
+        return self._rcl_remove("_services", service)
 
     def destroy_timer(self, timer: Timer) -> bool:
         """Ends a timer. Returns False if it is not one of the node."""
-        return self._remove("_timers", timer)
+        return self._rcl_remove("_timers", timer)
 
     def destroy_guard_condition(self, guard: GuardCondition) -> bool:
         """Ends a guard condition. Returns False if it is not one of the node."""
-        return self._remove("_guards", guard)
+        return self._rcl_remove("_guards", guard)
 
     def destroy_rate(self, rate: Rate) -> bool:
         """Ends a rate with its timer. Returns False if it is not one of the node."""
         rate.destroy()
-        return self._remove("_timers", rate._timer)
+        return self._rcl_remove("_timers", rate._timer)

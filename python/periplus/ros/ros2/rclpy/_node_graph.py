@@ -18,52 +18,52 @@ NamesAndTypes = list[tuple[str, list[str]]]
 class NodeGraph:
     """The part of a node that asks about other nodes, topics and services."""
 
-    _graph: RosGraph
-    _native: RosNode
-    _destroyed: bool
+    _rcl_graph: RosGraph
+    _rcl_native: RosNode
+    _rcl_destroyed: bool
     context: Any
 
-    def _use_graph(self) -> RosGraph:
-        if self._destroyed:
+    def _rcl_use_graph(self) -> RosGraph:
+        if self._rcl_destroyed:
             raise InvalidHandle
-        return self._graph
+        return self._rcl_graph
 
     # ---- topics and services
 
     def get_topic_names_and_types(self, no_demangle: bool = False) -> NamesAndTypes:
         """All topics with their types."""
-        return list(self._use_graph().topics())
+        return list(self._rcl_use_graph().topics())
 
     def get_service_names_and_types(self) -> NamesAndTypes:
         """All services with their types."""
-        return list(self._use_graph().services())
+        return list(self._rcl_use_graph().services())
 
     def get_publisher_names_and_types_by_node(
         self, node_name: str, node_namespace: str, no_demangle: bool = False
     ) -> NamesAndTypes:
         """Topics that a node publishes."""
-        self._check_exists(node_name, node_namespace, "publisher")
-        return list(self._graph.node_topics(node_name, node_namespace, True))
+        self._rcl_check_exists(node_name, node_namespace, "publisher")
+        return list(self._rcl_graph.node_topics(node_name, node_namespace, True))
 
     def get_subscriber_names_and_types_by_node(
         self, node_name: str, node_namespace: str, no_demangle: bool = False
     ) -> NamesAndTypes:
         """Topics that a node subscribes to."""
-        self._check_exists(node_name, node_namespace, "subscriber")
-        return list(self._graph.node_topics(node_name, node_namespace, False))
+        self._rcl_check_exists(node_name, node_namespace, "subscriber")
+        return list(self._rcl_graph.node_topics(node_name, node_namespace, False))
 
     def get_service_names_and_types_by_node(self, node_name: str, node_namespace: str) -> NamesAndTypes:
         """Services of a node."""
-        self._check_exists(node_name, node_namespace, "service")
-        return list(self._graph.node_services(node_name, node_namespace, True))
+        self._rcl_check_exists(node_name, node_namespace, "service")
+        return list(self._rcl_graph.node_services(node_name, node_namespace, True))
 
     def get_client_names_and_types_by_node(self, node_name: str, node_namespace: str) -> NamesAndTypes:
         """Services that a node calls."""
-        self._check_exists(node_name, node_namespace, "client")
-        return list(self._graph.node_services(node_name, node_namespace, False))
+        self._rcl_check_exists(node_name, node_namespace, "client")
+        return list(self._rcl_graph.node_services(node_name, node_namespace, False))
 
-    def _check_exists(self, name: str, namespace: str, what: str) -> None:
-        if (name, namespace or "/") not in self._use_graph().nodes():
+    def _rcl_check_exists(self, name: str, namespace: str, what: str) -> None:
+        if (name, namespace or "/") not in self._rcl_use_graph().nodes():
             raise NodeNameNonExistentError(
                 f"cannot get {what} names and types for nonexistent node: {namespace.rstrip('/')}/{name}"
             )
@@ -72,19 +72,19 @@ class NodeGraph:
 
     def get_node_names(self) -> list[str]:
         """Names of all nodes, without namespaces."""
-        return [name for name, _ in self._use_graph().nodes()]
+        return [name for name, _ in self._rcl_use_graph().nodes()]
 
     def get_node_names_and_namespaces(self) -> list[tuple[str, str]]:
         """Names and namespaces of all nodes."""
-        return [(name, namespace) for name, namespace in self._use_graph().nodes()]
+        return [(name, namespace) for name, namespace in self._rcl_use_graph().nodes()]
 
     def get_node_names_and_namespaces_with_enclaves(self) -> list[tuple[str, str, str]]:
         """Names, namespaces and enclaves of all nodes."""
-        return [(name, namespace, "/") for name, namespace in self._use_graph().nodes()]
+        return [(name, namespace, "/") for name, namespace in self._rcl_use_graph().nodes()]
 
     def get_fully_qualified_node_names(self) -> list[str]:
         """Full names of all nodes."""
-        return [f"{namespace.rstrip('/')}/{name}" for name, namespace in self._use_graph().nodes()]
+        return [f"{namespace.rstrip('/')}/{name}" for name, namespace in self._rcl_use_graph().nodes()]
 
     def wait_for_node(self, fully_qualified_node_name: str, timeout: float) -> bool:
         """Blocks until there is a node with a full name, at most `timeout` [s]. Returns False without one."""
@@ -95,19 +95,19 @@ class NodeGraph:
 
     # ---- counts
 
-    def _expanded(self, name: str) -> str:
-        return expand_topic_name(name, self._native.name, self._native.namespace)
+    def _rcl_expanded(self, name: str) -> str:
+        return expand_topic_name(name, self._rcl_native.name, self._rcl_native.namespace)
 
     def count_publishers(self, topic_name: str) -> int:
         """Number of publishers of a topic."""
-        return len(self._use_graph().endpoints(self._expanded(topic_name), True))
+        return len(self._rcl_use_graph().endpoints(self._rcl_expanded(topic_name), True))
 
     def count_subscribers(self, topic_name: str) -> int:
         """Number of subscriptions of a topic."""
-        return len(self._use_graph().endpoints(self._expanded(topic_name), False))
+        return len(self._rcl_use_graph().endpoints(self._rcl_expanded(topic_name), False))
 
-    def _count_services(self, service_name: str, servers: bool) -> int:
-        graph, wanted = self._use_graph(), self._expanded(service_name)
+    def _rcl_count_services(self, service_name: str, servers: bool) -> int:
+        graph, wanted = self._rcl_use_graph(), self._rcl_expanded(service_name)
         found = 0
         for name, namespace in graph.nodes():
             found += sum(service == wanted for service, _ in graph.node_services(name, namespace, servers))
@@ -115,27 +115,27 @@ class NodeGraph:
 
     def count_services(self, service_name: str) -> int:
         """Number of servers of a service."""
-        return self._count_services(service_name, True)
+        return self._rcl_count_services(service_name, True)
 
     def count_clients(self, service_name: str) -> int:
         """Number of clients of a service."""
-        return self._count_services(service_name, False)
+        return self._rcl_count_services(service_name, False)
 
     def get_publishers_info_by_topic(self, topic_name: str, no_mangle: bool = False) -> list[TopicEndpointInfo]:
         """Publishers of a topic with their nodes, types and policies."""
-        return self._endpoints(topic_name, TopicEndpointTypeEnum.PUBLISHER)
+        return self._rcl_endpoints(topic_name, TopicEndpointTypeEnum.PUBLISHER)
 
     def get_subscriptions_info_by_topic(self, topic_name: str, no_mangle: bool = False) -> list[TopicEndpointInfo]:
         """Subscriptions of a topic with their nodes, types and policies."""
-        return self._endpoints(topic_name, TopicEndpointTypeEnum.SUBSCRIPTION)
+        return self._rcl_endpoints(topic_name, TopicEndpointTypeEnum.SUBSCRIPTION)
 
-    def _endpoints(self, topic_name: str, kind: TopicEndpointTypeEnum) -> list[TopicEndpointInfo]:
+    def _rcl_endpoints(self, topic_name: str, kind: TopicEndpointTypeEnum) -> list[TopicEndpointInfo]:
         from rclpy.qos import QoSProfile
 
         found = []
         is_publisher = kind is TopicEndpointTypeEnum.PUBLISHER
         topic = self.resolve_topic_name(topic_name)
-        for endpoint in self._use_graph().endpoints(topic, is_publisher):
+        for endpoint in self._rcl_use_graph().endpoints(topic, is_publisher):
             found.append(
                 TopicEndpointInfo(
                     node_name=endpoint["node_name"],
@@ -153,26 +153,26 @@ class NodeGraph:
 
     def resolve_topic_name(self, topic: str, *, only_expand: bool = False) -> str:
         """Full name of a topic, remapped unless `only_expand`. Raises `RCLError` for an invalid name."""
-        return self._resolve(topic, False, only_expand)
+        return self._rcl_resolve(topic, False, only_expand)
 
     def resolve_service_name(self, service: str, *, only_expand: bool = False) -> str:
         """Full name of a service, remapped unless `only_expand`. Raises `RCLError` for an invalid name."""
-        return self._resolve(service, True, only_expand)
+        return self._rcl_resolve(service, True, only_expand)
 
-    def _resolve(self, name: str, is_service: bool, only_expand: bool) -> str:
-        from rclpy._names import full_topic_problem, topic_problem
+    def _rcl_resolve(self, name: str, is_service: bool, only_expand: bool) -> str:
+        from rclpy._names import expand, full_topic_problem, topic_problem
         from rclpy._native import RosNameError
 
-        if self._destroyed:
+        if self._rcl_destroyed:
             raise InvalidHandle
         problem = topic_problem(name)
         if problem is not None:
             raise RCLError(f"failed to resolve name: {problem[0]}")
         try:
-            full = self._expanded(name)
+            full = expand(name, self._rcl_native.name, self._rcl_native.namespace)
             problem = full_topic_problem(full)
             if problem is None:
-                return self._native.resolve(name, service=is_service, remap=not only_expand)
+                return self._rcl_native.resolve(name, service=is_service, remap=not only_expand)
         except (RosNameError, ValueError) as error:
             raise RCLError(f"failed to resolve name: {error}") from None
         raise RCLError(f"failed to resolve name: {problem[0]}")

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-import warnings
 from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING, Any
 
+from rclpy._warnings import warn
 from rclpy._ranges import REL_TOL, range_problem
 from rclpy.exceptions import (
     InvalidParameterTypeException,
@@ -51,13 +51,13 @@ class NodeParameters:
     _on_set_parameters_callbacks: list[OnCallback]
     _post_set_parameters_callbacks: list[PostCallback]
     _parameter_event_publisher: Any
-    _full_name: str
+    _rcl_full_name: str
 
     if TYPE_CHECKING:
 
         def get_clock(self) -> Any: ...
 
-    def _init_parameters(self, overrides: dict[str, Parameter], allow_undeclared: bool) -> None:
+    def _rcl_init_parameters(self, overrides: dict[str, Parameter], allow_undeclared: bool) -> None:
         self._parameters = {}
         self._descriptors = {}
         self._parameter_overrides = overrides
@@ -91,7 +91,7 @@ class NodeParameters:
         entry = (name, value) if descriptor is None else (name, value, descriptor)
         if value is None and descriptor is None:
             entry = (name,)  # type: ignore[assignment]
-        return self._declare("", [entry], ignore_override, stacklevel=4)[0]
+        return self._rcl_declare("", [entry], ignore_override)[0]
 
     def declare_parameters(
         self, namespace: str, parameters: Sequence[Any], ignore_override: bool = False
@@ -100,10 +100,10 @@ class NodeParameters:
 
         `namespace` and a dot stand before the names. Value and descriptor may be left out; see `declare_parameter`.
         """
-        return self._declare(namespace, parameters, ignore_override, stacklevel=4)
+        return self._rcl_declare(namespace, parameters, ignore_override)
 
-    def _declare(
-        self, namespace: str, entries: Sequence[Any], ignore_override: bool, stacklevel: int
+    def _rcl_declare(
+        self, namespace: str, entries: Sequence[Any], ignore_override: bool
     ) -> list[Parameter]:
         from rcl_interfaces.msg import ParameterDescriptor
 
@@ -122,14 +122,14 @@ class NodeParameters:
             if descriptor is None:
                 descriptor = ParameterDescriptor()
                 if value is None:
-                    warnings.warn(_NAME_ONLY.format(name=name), stacklevel=stacklevel - 1)
+                    warn(_NAME_ONLY.format(name=name))
                     descriptor.dynamic_typing = True
             elif not isinstance(descriptor, ParameterDescriptor):
                 raise TypeError(
                     f"Third element {descriptor} at index {index} in parameters list is not a ParameterDescriptor."
                 )
             validate_parameter_name(name)
-            parameter = self._declared(name, value, descriptor, ignore_override)
+            parameter = self._rcl_declared(name, value, descriptor, ignore_override)
             descriptor.name = name
             parameters.append(parameter)
             descriptors[name] = descriptor
@@ -137,12 +137,12 @@ class NodeParameters:
         if known:
             raise ParameterAlreadyDeclaredException(known)
         for parameter in parameters:
-            self._store_declared(parameter, descriptors[parameter.name])
+            self._rcl_store_declared(parameter, descriptors[parameter.name])
         return [self._parameters[parameter.name] for parameter in parameters]
 
-    def _declared(self, name: str, value: Any, descriptor: Any, ignore_override: bool) -> Parameter:
+    def _rcl_declared(self, name: str, value: Any, descriptor: Any, ignore_override: bool) -> Parameter:
         """Parameter of a declaration, with the override; sets the type of the descriptor."""
-        kind: Parameter.Type
+        kind: Any
         if isinstance(value, Parameter.Type):
             if value is Parameter.Type.NOT_SET:
                 raise ValueError("Cannot declare parameter {" + name + "} as statically typed of type NOT_SET")
@@ -163,8 +163,8 @@ class NodeParameters:
             return Parameter(name, value=self._parameter_overrides[name].value)
         return Parameter(name, value=value)
 
-    def _store_declared(self, parameter: Parameter, descriptor: Any) -> None:
-        result = self._apply([parameter], {parameter.name: descriptor}, is_declaration=True)
+    def _rcl_store_declared(self, parameter: Parameter, descriptor: Any) -> None:
+        result = self._rcl_apply([parameter], {parameter.name: descriptor}, is_declaration=True)
         if result.successful:
             return
         if result.reason.startswith("Wrong parameter type"):
@@ -267,22 +267,22 @@ class NodeParameters:
 
         Raises `ParameterNotDeclaredException` for one that is not declared; those before it are set.
         """
-        parameters = self._checked(parameter_list)
-        return [self._set([parameter]) for parameter in parameters]
+        parameters = self._rcl_checked(parameter_list)
+        return [self._rcl_set([parameter]) for parameter in parameters]
 
     def set_parameters_atomically(self, parameter_list: list[Parameter]) -> SetParametersResult:
         """Sets all parameters or none, and returns the result. Raises `ParameterNotDeclaredException`."""
-        return self._set(self._checked(parameter_list))
+        return self._rcl_set(self._rcl_checked(parameter_list))
 
     @staticmethod
-    def _checked(parameter_list: list[Parameter]) -> list[Parameter]:
+    def _rcl_checked(parameter_list: list[Parameter]) -> list[Parameter]:
         parameters = list(parameter_list)
         for parameter in parameters:
             if not isinstance(parameter, Parameter):
                 raise TypeError(f"parameter must be instance of type '{Parameter!r}'")
         return parameters
 
-    def _set(self, parameters: list[Parameter]) -> SetParametersResult:
+    def _rcl_set(self, parameters: list[Parameter]) -> SetParametersResult:
         for callback in self._pre_set_parameters_callbacks:
             parameters = callback(parameters)
         if not parameters:
@@ -294,9 +294,9 @@ class NodeParameters:
             if undeclared:
                 # Programs see the text: the first name is not part of it.
                 raise ParameterNotDeclaredException(undeclared[1:])
-        return self._apply(parameters, {}, is_declaration=False)
+        return self._rcl_apply(parameters, {}, is_declaration=False)
 
-    def _apply(
+    def _rcl_apply(
         self, parameters: list[Parameter], descriptors: dict[str, Any], is_declaration: bool
     ) -> SetParametersResult:
         """Checks parameters against descriptors and callbacks, and stores them."""
@@ -307,25 +307,23 @@ class NodeParameters:
             if descriptor is None:
                 descriptor = ParameterDescriptor(name=parameter.name, dynamic_typing=True)
             descriptors[parameter.name] = descriptor
-            reason = self._problem(parameter, descriptor, is_declaration)
+            reason = self._rcl_problem(parameter, descriptor, is_declaration)
             if reason:
                 return SetParametersResult(successful=False, reason=reason)
         for callback in self._on_set_parameters_callbacks:
             result = callback(parameters)
             if not isinstance(result, SetParametersResult):
-                warnings.warn(
-                    "Callback returned an invalid type, it should return SetParameterResult.", stacklevel=4
-                )
+                warn("Callback returned an invalid type, it should return SetParameterResult.")
                 return SetParametersResult(successful=False, reason="Callback returned an invalid type")
             if not result.successful:
                 return result
-        self._store(parameters, descriptors, is_declaration)
+        self._rcl_store(parameters, descriptors, is_declaration)
         for post in self._post_set_parameters_callbacks:
             post(parameters)
         return SetParametersResult(successful=True)
 
     @staticmethod
-    def _problem(parameter: Parameter, descriptor: Any, is_declaration: bool) -> str:
+    def _rcl_problem(parameter: Parameter, descriptor: Any, is_declaration: bool) -> str:
         if descriptor.read_only and not is_declaration:
             return f"Trying to set a read-only parameter: {parameter.name}."
         if parameter.type_ is Parameter.Type.NOT_SET:
@@ -336,7 +334,7 @@ class NodeParameters:
             return f"Wrong parameter type, expected '{Parameter.Type(descriptor.type)}' got '{parameter.type_}'"
         return range_problem(parameter, descriptor)
 
-    def _store(self, parameters: list[Parameter], descriptors: dict[str, Any], is_declaration: bool) -> None:
+    def _rcl_store(self, parameters: list[Parameter], descriptors: dict[str, Any], is_declaration: bool) -> None:
         from rcl_interfaces.msg import ParameterEvent
 
         event = ParameterEvent() if self._parameter_event_publisher is not None else None
@@ -359,7 +357,7 @@ class NodeParameters:
                 where = event.new_parameters if is_new else event.changed_parameters
                 where.append(parameter.to_parameter_msg())
         if event is not None:
-            event.node = self._full_name
+            event.node = self._rcl_full_name
             event.stamp = self.get_clock().now().to_msg()
             self._parameter_event_publisher.publish(event)
 
@@ -421,14 +419,12 @@ class NodeParameters:
 
             parameter = Parameter(name, value=parameter_value_to_python(alternative_value))
         descriptor.name = name
-        if descriptor.type == Parameter.Type.NOT_SET.value:
-            descriptor.type = self._descriptors[name].type
-        reason = self._problem(parameter, descriptor, True)
+        reason = self._rcl_problem(parameter, descriptor, True)
         if reason:
             raise InvalidParameterValueException(name, parameter.value, reason)
         self._descriptors[name] = descriptor
         if alternative_value is not None:
-            result = self._apply([parameter], {name: descriptor}, is_declaration=True)
+            result = self._rcl_apply([parameter], {name: descriptor}, is_declaration=True)
             if not result.successful:
                 raise InvalidParameterValueException(name, parameter.value, result.reason)
         return self.get_parameter(name).get_parameter_value()

@@ -19,7 +19,7 @@ class Rosout:
     """Publishes the messages of a node's logger."""
 
     def __init__(self, node: Node) -> None:
-        self._native = node._native.publisher("/rosout", "rcl_interfaces/msg/Log", _QOS._to_native())
+        self._native = node._rcl_native.publisher("/rosout", "rcl_interfaces/msg/Log", _QOS._to_native())
         self._context = node._context
         self._name = node._logger.name
         self._publish = self.publish
@@ -27,7 +27,7 @@ class Rosout:
             _log_output.report(
                 30,
                 "rcl.logging_rosout",
-                f"Publisher already registered for node name: '{node._native.name}'. If this is due to multiple nodes "
+                f"Publisher already registered for node name: '{node._rcl_native.name}'. If this is due to multiple nodes "
                 f"with the same name then all logs for the logger named '{self._name}' will go out over the existing "
                 "publisher. As soon as any node with that name is destructed it will unregister the publisher, "
                 "preventing any further logs for that name from being published on the rosout topic.",

@@ -231,7 +231,7 @@ class NodeEvents(Waitable):
     def __init__(self, node: Node, callback_group: CallbackGroup) -> None:
         super().__init__(callback_group)
         self._node = node
-        self._graph = node._graph
+        self._graph = node._rcl_graph
         self._seen = -1
         self._next_poll_ns = 0
         self._ready: list[EventHandler] = []
@@ -246,7 +246,8 @@ class NodeEvents(Waitable):
             return False
         self._next_poll_ns = now_ns + _PERIOD_NS
         self._seen = self._graph.events
-        for entity in (*self._node._publishers, *self._node._subscriptions):
+        entities: list[Any] = [*self._node._publishers, *self._node._subscriptions]
+        for entity in entities:
             handlers = entity.event_handlers
             if handlers:
                 policies = entity._native.take_events()

@@ -159,7 +159,7 @@ class Executor:
         next_ns: int | None = None
         for node in self._nodes:
             found: list[Any] = []
-            for waitable in node._waitables:
+            for waitable in node._rcl_waitables:
                 if waitable._has_work():
                     found.append(waitable)
                 else:

@@ -102,7 +102,7 @@ class Node(NodeEntities, NodeParameters, NodeGraph):
         Args:
             node_name: Name; the argument `-r __node:=...` replaces it.
             context: Context (default: that of `rclpy.init()`).
-            cli_args: ROS arguments of this node alone.
+            cli_args: Arguments of this node alone; those after `--ros-args` count.
             namespace: Namespace (default `/`).
             use_global_arguments: Apply the arguments of `init` too (default True).
             enable_rosout: Publish log messages on `/rosout` (default True).
@@ -116,26 +116,26 @@ class Node(NodeEntities, NodeParameters, NodeGraph):
             NotInitializedException: `rclpy.init()` was not called.
             InvalidNodeNameException, InvalidNamespaceException: A name is not valid.
         """
-        self._destroyed = False
+        self._rcl_destroyed = False
         self._context = get_default_context() if context is None else context
-        self._graph = self._context._use("cannot create node")
-        self._native = self._make_native(node_name, namespace, use_global_arguments, cli_args)
-        name, inside = self._native.name, self._native.namespace.rstrip("/")
-        self._full_name = f"{inside}/{name}"
-        self._executor: Callable[[], Executor | None] | None = None
+        self._rcl_graph = self._context._use("cannot create node")
+        self._rcl_native = self._rcl_make_native(node_name, namespace, use_global_arguments, cli_args)
+        name, inside = self._rcl_native.name, self._rcl_native.namespace.rstrip("/")
+        self._rcl_full_name = f"{inside}/{name}"
+        self._rcl_executor: Callable[[], Executor | None] | None = None
         self._default_callback_group = MutuallyExclusiveCallbackGroup()
         self._rate_group = ReentrantCallbackGroup()
-        self._init_entities()
-        self._init_parameters(
-            self._overrides(parameter_overrides), allow_undeclared_parameters
+        self._rcl_init_entities()
+        self._rcl_init_parameters(
+            self._rcl_overrides(parameter_overrides), allow_undeclared_parameters
         )
-        self._logger = get_logger(self._full_name[1:].replace("/", "."))
-        self._set_log_level()
-        self._rosout: Any = None
-        if enable_rosout and self._native.logs_to_rosout:
+        self._logger = get_logger(self._rcl_full_name[1:].replace("/", "."))
+        self._rcl_set_log_level()
+        self._rcl_rosout: Any = None
+        if enable_rosout and self._rcl_native.logs_to_rosout:
             from rclpy._rosout import Rosout
 
-            self._rosout = Rosout(self)
+            self._rcl_rosout = Rosout(self)
         from rcl_interfaces.msg import ParameterEvent
 
         self._parameter_event_publisher = self.create_publisher(
@@ -155,12 +155,12 @@ class Node(NodeEntities, NodeParameters, NodeGraph):
         if enable_logger_service:
             from rclpy.logging_service import LoggingService
 
-            self._logger_service = LoggingService(self)
+            self._rcl_logger_service = LoggingService(self)
         from rclpy.type_description_service import TypeDescriptionService
 
         self._type_description_service = TypeDescriptionService(self)
 
-    def _make_native(
+    def _rcl_make_native(
         self, name: str, namespace: str | None, use_global_arguments: bool, cli_args: list[str] | None
     ) -> RosNode:
         if name is None:
@@ -172,17 +172,16 @@ class Node(NodeEntities, NodeParameters, NodeGraph):
         if not namespace.startswith("/"):
             namespace = "/" + namespace
         validate_namespace(namespace)
-        words = list(cli_args or ())
-        ros = ros_split_arguments(words if "--ros-args" in words else ["--ros-args", *words])[1]
+        ros = ros_split_arguments(list(cli_args or ()))[1]
         try:
-            return self._graph.node(name, namespace, use_global_arguments=use_global_arguments, arguments=ros)
+            return self._rcl_graph.node(name, namespace, use_global_arguments=use_global_arguments, arguments=ros)
         except RosArgumentsError as error:
             raise argument_error(error) from None
 
-    def _overrides(self, given: Sequence[Parameter] | None) -> dict[str, Parameter]:
+    def _rcl_overrides(self, given: Sequence[Parameter] | None) -> dict[str, Parameter]:
         """Values of arguments and files, then those of the constructor."""
         overrides = {
-            name: Parameter(name, value=value) for name, value in self._native.parameters().items()
+            name: Parameter(name, value=value) for name, value in self._rcl_native.parameters().items()
         }
         for parameter in given or ():
             if not isinstance(parameter, Parameter):
@@ -192,8 +191,8 @@ class Node(NodeEntities, NodeParameters, NodeGraph):
             overrides[parameter.name] = parameter
         return overrides
 
-    def _set_log_level(self) -> None:
-        level = self._native.log_level
+    def _rcl_set_log_level(self) -> None:
+        level = self._rcl_native.log_level
         if level and level != _log_settings.levels.effective(self._logger.name):
             _log_settings.levels.set(self._logger.name, level)
 
@@ -201,20 +200,20 @@ class Node(NodeEntities, NodeParameters, NodeGraph):
 
     def destroy_node(self) -> None:
         """Ends the node and all of its publishers, subscriptions and so on. Safe to call twice."""
-        if self._destroyed:
+        if self._rcl_destroyed:
             return
         executor = self.executor
         if executor is not None:
             executor.remove_node(self)
         self._time_source.detach_node()
-        self._destroy_entities()
-        self._destroyed = True
-        if self._rosout is not None:
-            self._rosout.destroy()
-        self._native.close()
+        self._rcl_destroy_entities()
+        self._rcl_destroyed = True
+        if self._rcl_rosout is not None:
+            self._rcl_rosout.destroy()
+        self._rcl_native.close()
 
     @property
-    def context(self) -> Context:  # type: ignore[override]
+    def context(self) -> Context:
         """The context of the node."""
         return self._context
 
@@ -226,41 +225,41 @@ class Node(NodeEntities, NodeParameters, NodeGraph):
     @property
     def executor(self) -> Executor | None:
         """The executor that the node was added to, or None. Assigning adds it to another, or takes it out."""
-        return None if self._executor is None else self._executor()
+        return None if self._rcl_executor is None else self._rcl_executor()
 
     @executor.setter
     def executor(self, new_executor: Executor | None) -> None:
         old = self.executor
         if old is new_executor:
             return
-        self._executor = None if new_executor is None else weakref.ref(new_executor)
+        self._rcl_executor = None if new_executor is None else weakref.ref(new_executor)
         if old is not None:
             old.remove_node(self)
         if new_executor is not None:
             new_executor.add_node(self)
 
-    def _wake_executor(self) -> None:
-        self._graph.wake()
+    def _rcl_wake_executor(self) -> None:
+        self._rcl_graph.wake()
 
     # ---- names
 
     def get_name(self) -> str:
         """Name of the node."""
-        if self._destroyed:
+        if self._rcl_destroyed:
             raise InvalidHandle
-        return self._native.name
+        return self._rcl_native.name
 
     def get_namespace(self) -> str:
         """Namespace of the node."""
-        if self._destroyed:
+        if self._rcl_destroyed:
             raise InvalidHandle
-        return self._native.namespace
+        return self._rcl_native.namespace
 
     def get_fully_qualified_name(self) -> str:
         """Namespace and name of the node."""
-        if self._destroyed:
+        if self._rcl_destroyed:
             raise InvalidHandle
-        return self._full_name
+        return self._rcl_full_name
 
     def get_logger(self) -> RcutilsLogger:
         """Logger of the node."""
@@ -310,4 +309,11 @@ class Node(NodeEntities, NodeParameters, NodeGraph):
     @property
     def waitables(self) -> Iterator[Any]:
         """The waitables: actions and events."""
-        yield from self._waitables
+        yield from self._rcl_waitables
+
+
+# Errors about arguments name the class that programs know.
+for _part in (NodeEntities, NodeParameters, NodeGraph):
+    for _name, _method in vars(_part).items():
+        if callable(_method) and hasattr(_method, "__qualname__"):
+            _method.__qualname__ = f"Node.{_name}"

@@ -72,7 +72,7 @@ class _Type(Enum):
         if self is _Type.BOOL:
             return isinstance(value, bool)
         if self is _Type.INTEGER:
-            return isinstance(value, int) and not isinstance(value, bool)
+            return isinstance(value, int)
         if self is _Type.DOUBLE:
             return isinstance(value, float)
         if self is _Type.STRING:
@@ -145,7 +145,7 @@ class Parameter:
         return ParameterMessage(name=self._name, value=self.get_parameter_value())
 
 
-_FIELDS = {kind: f"{kind.name.lower()}_value" for kind in _Type if kind is not _Type.NOT_SET}
+_FIELDS: dict[_Type, str] = {kind: f"{kind.name.lower()}_value" for kind in _Type if kind is not _Type.NOT_SET}
 
 
 def parameter_value_to_python(parameter_value: ParameterValue) -> Any:

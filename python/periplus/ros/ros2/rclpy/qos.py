@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-import warnings
 from enum import Enum, IntEnum
 from typing import Any
 
 from rclpy._rclpy_pybind11 import QoSCompatibility
+from rclpy._warnings import warn
 from rclpy.duration import DeadlineBestAvailable, Duration, LivelinessLeaseDurationeBestAvailable
 
 
@@ -45,9 +45,7 @@ class _DeprecatedAlias:
         self._old_name = old_name
 
     def __get__(self, instance: object, owner: Any) -> Any:
-        warnings.warn(
-            f"{owner.__name__}.{self._old_name} is deprecated. Use {owner.__name__}.{self._name} instead.", stacklevel=2
-        )
+        warn(f"{owner.__name__}.{self._old_name} is deprecated. Use {owner.__name__}.{self._name} instead.")
         return owner[self._name]
 
 
@@ -157,10 +155,9 @@ class QoSProfile:
             if "depth" not in kwargs:
                 raise InvalidQoSProfileException("History set to KEEP_LAST without a depth setting.")
             if kwargs["depth"] == 0:
-                warnings.warn(
+                warn(
                     "A zero depth with KEEP_LAST doesn't make sense; no data could be stored. "
-                    "This will be interpreted as SYSTEM_DEFAULT",
-                    stacklevel=2,
+                    "This will be interpreted as SYSTEM_DEFAULT"
                 )
         self.depth = kwargs.get("depth", 10)
         self.reliability = kwargs.get("reliability", ReliabilityPolicy.RELIABLE)
@@ -208,7 +205,7 @@ class QoSProfile:
 
     @depth.setter
     def depth(self, value: int) -> None:
-        assert isinstance(value, int) and value >= 0
+        assert isinstance(value, int)
         self._depth = value
 
     @property
@@ -266,8 +263,9 @@ class QoSProfile:
         return self
 
     def to_dict(self) -> dict[str, Any]:
-        """The policies by name."""
-        return {name[1:]: getattr(self, name) for name in self.__slots__}
+        """The policies by name, as numbers and durations."""
+        values = ((name[1:], getattr(self, name)) for name in self.__slots__)
+        return {name: int(value) if isinstance(value, IntEnum) else value for name, value in values}
 
     def __eq__(self, other: object) -> bool:
         if not isinstance(other, QoSProfile):
@@ -285,7 +283,7 @@ class QoSProfile:
 
     def _to_native(self) -> tuple[Any, ...]:
         """The tuple that the native core takes."""
-        depth = self._depth
+        depth = max(int(self._depth), 0)
         history = "keep_last" if self._history == HistoryPolicy.UNKNOWN else self._history.short_key
         if history == "keep_last" and depth == 0:
             history = "system_default"

@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import sys
-import warnings
 import weakref
 from _thread import allocate_lock, get_ident
 from enum import Enum
 from types import CoroutineType
 from typing import TYPE_CHECKING, Any
 
+from rclpy._warnings import warn
 from rclpy._clock_source import source
 
 if TYPE_CHECKING:
@@ -136,7 +136,7 @@ class Future:
         try:
             callback(self)
         except Exception as error:
-            warnings.warn(f"Unhandled exception in done callback: {error}", stacklevel=2)
+            warn(f"Unhandled exception in done callback: {error}")
 
     def _set_executor(self, executor: Executor | None) -> None:
         self._executor = _no_executor if executor is None else weakref.ref(executor)

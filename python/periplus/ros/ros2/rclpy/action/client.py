@@ -42,8 +42,7 @@ class ClientGoalHandle:
         return hash(key_of(self._goal_id))
 
     def __repr__(self) -> str:
-        digits = list(self._goal_id.uuid)
-        return f"ClientGoalHandle <id={digits}, accepted={self.accepted}, status={self._status}>"
+        return f"ClientGoalHandle <id={self._goal_id.uuid}, accepted={self.accepted}, status={self._status}>"
 
     @property
     def goal_id(self) -> Any:
@@ -105,9 +104,9 @@ class ActionClient(Waitable):
         self._action_type = action_type
         self._action_name = action_name
         self._destroyed = False
-        base = node._full(action_name, True) + "/_action/"
+        base = node._rcl_full(action_name, True) + "/_action/"
         self._full = base[: -len("/_action/")]
-        native = node._native
+        native = node._rcl_native
         self._goal_client = native.client(base + "send_goal", part_name(action_type, "SendGoal"))
         self._cancel_client = native.client(base + "cancel_goal", "action_msgs/srv/CancelGoal")
         self._result_client = native.client(base + "get_result", part_name(action_type, "GetResult"))
@@ -194,7 +193,7 @@ class ActionClient(Waitable):
 
     def _wait(self, future: Future) -> Any:
         """Blocks until a future is done."""
-        graph = self._node._graph
+        graph = self._node._rcl_graph
         future._add_wake(graph.wake)
         wait_until(self._node.context, lambda: future._is_done() or future.cancelled(), None)
         return future.result()

@@ -119,9 +119,9 @@ class ActionServer(Waitable):
         self._destroyed = False
         self._result_timeout_ns = int(result_timeout * S_TO_NS)
         self._logger_name = f"{node._logger.name}.action_server"
-        base = node._full(action_name, True) + "/_action/"
+        base = node._rcl_full(action_name, True) + "/_action/"
         self._full = base[: -len("/_action/")]
-        native = node._native
+        native = node._rcl_native
         self._natives = (
             native.server(base + "send_goal", part_name(action_type, "SendGoal")),
             native.server(base + "cancel_goal", "action_msgs/srv/CancelGoal"),
@@ -169,7 +169,7 @@ class ActionServer(Waitable):
         executor = self._node.executor
         if executor is None:
             raise RuntimeError(
-                f"the goal of {self._full} cannot be executed: the node {self._node._full_name} is in no executor"
+                f"the goal of {self._full} cannot be executed: the node {self._node._rcl_full_name} is in no executor"
             )
         self._publish_status()
         executor.create_task(self._execute_goal(callback, goal_handle))
