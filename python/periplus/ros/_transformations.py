@@ -256,6 +256,35 @@ def reflection_matrix(point: Any, normal: Any) -> Any:
     return made
 
 
+def reflection_from_matrix(matrix: Any) -> tuple[Any, Any]:
+    """Point and normal of the plane of a reflection."""
+    m = np.asarray(matrix, dtype=np.float64)
+    normal = _eigenvector(m[:3, :3], -1.0, "a reflection")
+    # The plane is half way to where the origin goes.
+    return np.append(m[:3, 3] / (2.0 * m[3, 3]), 1.0), normal
+
+
+def _eigenvector(matrix: Any, value: float, what: str) -> Any:
+    values, vectors = np.linalg.eig(matrix)
+    index = int(np.argmin(np.abs(values - value)))
+    if abs(values[index] - value) > 1e-6:
+        raise ValueError(f"the matrix is not that of {what}")
+    return np.real(vectors[:, index])
+
+
+def scale_from_matrix(matrix: Any) -> tuple[float, Any, Any]:
+    """Factor, origin and direction (None for all directions) of a scale."""
+    m = np.asarray(matrix, dtype=np.float64)
+    linear, factor = m[:3, :3], float(np.trace(m[:3, :3]) - 2.0)
+    direction = None
+    if np.allclose(linear, linear[0, 0] * np.identity(3)):
+        factor = float(linear[0, 0])
+    else:
+        direction = _eigenvector(linear, factor, "a scale")
+    origin = np.linalg.pinv(np.identity(3) - linear) @ m[:3, 3]
+    return factor, np.append(origin, 1.0), direction
+
+
 def scale_matrix(factor: float, origin: Any = None, direction: Any = None) -> Any:
     """Scale by a factor, about an origin, along a direction if one is given."""
     made = np.identity(4)
@@ -281,6 +310,52 @@ def shear_matrix(angle: float, direction: Any, point: Any, normal: Any) -> Any:
     return made
 
 
+def shear_from_matrix(matrix: Any) -> tuple[float, Any, Any, Any]:
+    """Angle, direction, point and normal of a shear."""
+    m = np.asarray(matrix, dtype=np.float64)
+    change = m[:3, :3] - np.identity(3)
+    u, sizes, vt = np.linalg.svd(change)
+    direction, normal = u[:, 0], vt[0]
+    if sizes[0] < 1e-12 or sizes[1] > 1e-6 * sizes[0] or abs(np.dot(direction, normal)) > 1e-6:
+        raise ValueError("the matrix is not that of a shear")
+    point = np.append(-normal * np.dot(direction, m[:3, 3]) / sizes[0], 1.0)
+    return math.atan(sizes[0]), direction, point, normal
+
+
+def projection_from_matrix(matrix: Any, pseudo: bool = False) -> tuple[Any, Any, Any, Any, bool]:
+    """Point, normal, direction, perspective and `pseudo` of a projection."""
+    m = np.asarray(matrix, dtype=np.float64)
+    values, vectors = np.linalg.eig(m)
+    fixed = np.flatnonzero(np.abs(values - 1.0) < 1e-8)
+    if not pseudo and len(fixed) and np.abs(m[3, :3]).max() < 1e-12:
+        point = np.real(vectors[:, fixed[-1]])
+        direction = _eigenvector(m[:3, :3], 0.0, "a projection")
+        rows, columns = np.linalg.eig(m[:3, :3].T)
+        index = int(np.argmin(np.abs(rows)))
+        return point / point[3], np.real(columns[:, index]), direction, None, False
+    solid = np.flatnonzero(np.abs(values) > 1e-8)
+    if not len(solid):
+        raise ValueError("the matrix is not that of a projection")
+    point = np.real(vectors[:, solid[-1]])
+    normal = -m[3, :3]
+    perspective = m[:3, 3] / np.dot(point[:3] / point[3], normal)
+    if pseudo:
+        perspective = perspective - normal
+    return point / point[3], normal, None, perspective, pseudo
+
+
+def orthogonalization_matrix(lengths: Any, angles: Any) -> Any:
+    """Matrix from the axes of a crystal (lengths, angles in degrees) to right-angled ones."""
+    a, b, c = lengths
+    cosines, sines = np.cos(np.radians(angles)), np.sin(np.radians(angles))
+    shared = (cosines[0] * cosines[1] - cosines[2]) / (sines[0] * sines[1])
+    made = np.identity(4)
+    made[0, 0] = a * sines[1] * math.sqrt(1.0 - shared * shared)
+    made[1, 0], made[1, 1] = -a * sines[1] * shared, b * sines[0]
+    made[2, :3] = a * cosines[1], b * cosines[0], c
+    return made
+
+
 def projection_matrix(point: Any, normal: Any, direction: Any = None, perspective: Any = None, pseudo: bool = False) -> Any:
     """Projection on a plane: orthogonal, along a direction, or from a point."""
     made = np.identity(4)
@@ -293,7 +368,7 @@ def projection_matrix(point: Any, normal: Any, direction: Any = None, perspectiv
         made[:3, 3] = np.dot(center, normal) * eye
         if pseudo:
             made[:3, :3] -= np.outer(normal, normal)
-            made[:3, 3] += np.dot(center, normal) * normal + np.dot(eye, normal) * normal
+            made[:3, 3] += np.dot(center, normal) * normal
         made[3, :3] = -normal
         made[3, 3] = np.dot(eye, normal)
         return made

@@ -91,7 +91,8 @@ def stamp_of(msg: Any, allow_headerless: bool) -> Any:
 
     header = getattr(msg, "header", None)
     if header is not None and hasattr(header, "stamp"):
-        return Time.from_msg(header.stamp)
+        stamp = header.stamp
+        return stamp if hasattr(stamp, "nanoseconds") else Time.from_msg(stamp)
     if allow_headerless:
         return ROSClock().now()
     from rclpy.logging import get_logger

@@ -31,9 +31,9 @@ class TimeSynchronizer(SimpleFilter):
 
     def add(self, msg: Any, my_queue: _Queue, my_queue_index: int | None = None) -> None:
         """Adds a message to the queue of its input."""
-        stamp = msg.header.stamp
+        stamp: Any = stamp_of(msg, True)
         with self.lock:
-            self._insert(my_queue, stamp.sec * 1_000_000_000 + stamp.nanosec, msg)
+            self._insert(my_queue, stamp.nanoseconds, msg)
             for time in sorted(set.intersection(*(set(queue) for queue in self.queues))):
                 messages = [queue.pop(time) for queue in self.queues]
                 self.signalMessage(*messages)

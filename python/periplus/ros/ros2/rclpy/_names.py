@@ -110,8 +110,6 @@ def topic_problem(name: str) -> Problem | None:
             return "substitution name must not start with a number", index
     if open_at >= 0:
         return _unbalanced(open_at)
-    if name[0] == "~" and len(name) > 1 and name[1] != "/":
-        return "tilde '~' must be followed by a '/'", 1
     number = re.search(r"/[0-9]", name)
     if number is not None:
         return "topic name token must not start with a number", number.start() + 1

@@ -1,10 +1,20 @@
 """The native core of the ROS modules."""
 
-import os
+from typing import TYPE_CHECKING
 
-if os.environ.get("PERIPLUS_FAKE_ROS"):  # development aid
-    from fake_ros import RosArgumentsError, RosGraph, RosNameError, ros_split_arguments
-else:
-    from periplus._native import RosArgumentsError, RosGraph, RosNameError, ros_split_arguments
+from periplus._native import RosArgumentsError, RosGraph, RosNameError, ros_split_arguments
 
-__all__ = ["RosArgumentsError", "RosGraph", "RosNameError", "ros_split_arguments"]
+if TYPE_CHECKING:
+    from periplus._native import RosClient, RosNode, RosPublisher, RosServer, RosSubscription
+
+__all__ = [
+    "RosArgumentsError",
+    "RosClient",
+    "RosGraph",
+    "RosNameError",
+    "RosNode",
+    "RosPublisher",
+    "RosServer",
+    "RosSubscription",
+    "ros_split_arguments",
+]

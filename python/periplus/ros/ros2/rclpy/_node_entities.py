@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 from rclpy._names import full_topic_problem, topic_problem
 from rclpy._native import RosNameError
-from rclpy._rclpy_pybind11 import InvalidHandle
+from rclpy._rclpy_pybind11 import InvalidHandle, RCLError
 from rclpy.client import Client
 from rclpy.constants import S_TO_NS
 from rclpy.event_handler import NodeEvents, PublisherEventCallbacks, SubscriptionEventCallbacks
@@ -88,10 +88,11 @@ class NodeEntities:
     def _rcl_group(self, group: CallbackGroup | None) -> CallbackGroup:
         return self._default_callback_group if group is None else group
 
-    def _rcl_check(self) -> None:
+    def _rcl_check(self, what: str) -> None:
         if self._rcl_destroyed:
             raise InvalidHandle
-        self._context._use("cannot create an entity of the node")
+        if not self._context._valid:
+            raise RCLError(f"Failed to create a {what}: rcl node's context is invalid")
 
     def _rcl_full(self, name: str, is_service: bool) -> str:
         """Full, remapped name of a topic or a service."""
@@ -152,7 +153,7 @@ class NodeEntities:
         """
         qos = qos_or_depth(qos_profile)
         check_is_valid_msg_type(msg_type)
-        self._rcl_check()
+        self._rcl_check("publisher")
         full = self._rcl_full(topic, False)
         qos = self._rcl_overridden(Publisher, full, qos, qos_overriding_options)
         group = self._rcl_group(callback_group)
@@ -195,7 +196,7 @@ class NodeEntities:
         """
         qos = qos_or_depth(qos_profile)
         check_is_valid_msg_type(msg_type)
-        self._rcl_check()
+        self._rcl_check("subscription")
         full = self._rcl_full(topic, False)
         qos = self._rcl_overridden(Subscription, full, qos, qos_overriding_options)
         group = self._rcl_group(callback_group)
@@ -231,7 +232,7 @@ class NodeEntities:
     ) -> Client:
         """Makes a client of a service."""
         check_is_valid_srv_type(srv_type)
-        self._rcl_check()
+        self._rcl_check("client")
         group = self._rcl_group(callback_group)
         native = self._rcl_native.client(self._rcl_full(srv_name, True), type_name(srv_type))
         client = Client(self._context, native, srv_type, srv_name, qos_profile, group)
@@ -250,7 +251,7 @@ class NodeEntities:
     ) -> Service:
         """Makes a service. The callback gets the request and an empty response, and must return the response."""
         check_is_valid_srv_type(srv_type)
-        self._rcl_check()
+        self._rcl_check("service")
         group = self._rcl_group(callback_group)
         native = self._rcl_native.server(self._rcl_full(srv_name, True), type_name(srv_type))
         service = Service(native, srv_type, srv_name, callback, group, qos_profile)

@@ -142,7 +142,7 @@ class NodeParameters:
 
     def _rcl_declared(self, name: str, value: Any, descriptor: Any, ignore_override: bool) -> Parameter:
         """Parameter of a declaration, with the override; sets the type of the descriptor."""
-        kind: Parameter.Type
+        kind: Any
         if isinstance(value, Parameter.Type):
             if value is Parameter.Type.NOT_SET:
                 raise ValueError("Cannot declare parameter {" + name + "} as statically typed of type NOT_SET")

@@ -107,7 +107,7 @@ class _Flow:
 
     def _quoted(self, quote: str) -> str:
         self._at += 1
-        found = []
+        found: list[str] = []
         while self._at < len(self._text):
             one = self._text[self._at]
             self._at += 1

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import sys
 from _thread import allocate_lock
 from typing import TYPE_CHECKING, Any
@@ -32,6 +33,7 @@ class Context:
         self._lock = allocate_lock()
         self._graph: RosGraph | None = None
         self._valid = False
+        self._domain_id = 0
         self._callbacks: list[Callable[[], Any]] = []
         self._logs = False
 
@@ -64,6 +66,7 @@ class Context:
                 raise argument_error(error) from None
             _clock_source.follow(graph)
             self._graph = graph
+            self._domain_id = int(os.environ.get("ROS_DOMAIN_ID") or 0) if domain_id is None else domain_id
             self._valid = True
             _valid_contexts.append(self)
         if initialize_logging:
@@ -124,7 +127,7 @@ class Context:
         """Domain of the context."""
         if self._graph is None or not self._valid:
             raise RCLError("Failed to get domain id: the context is not initialized")
-        return int(self._graph.domain_id)
+        return self._domain_id
 
     @property
     def handle(self) -> RosGraph | None:

@@ -246,7 +246,8 @@ class NodeEvents(Waitable):
             return False
         self._next_poll_ns = now_ns + _PERIOD_NS
         self._seen = self._graph.events
-        for entity in (*self._node._publishers, *self._node._subscriptions):
+        entities: list[Any] = [*self._node._publishers, *self._node._subscriptions]
+        for entity in entities:
             handlers = entity.event_handlers
             if handlers:
                 policies = entity._native.take_events()

@@ -115,7 +115,7 @@ class InvalidParameterException(ParameterException):
 class InvalidParameterTypeException(ParameterException):
     """Value of a parameter with another type than its declaration."""
 
-    def __init__(self, desired_parameter: Parameter, expected_type: Parameter.Type) -> None:
+    def __init__(self, desired_parameter: Parameter, expected_type: Any) -> None:
         super().__init__(
             f"Trying to set parameter '{desired_parameter.name}' to '{desired_parameter.value}' "
             f"of type '{desired_parameter.type_.name}', expecting type '{getattr(expected_type, 'name', expected_type)}'",

@@ -213,7 +213,7 @@ class Node(NodeEntities, NodeParameters, NodeGraph):
         self._rcl_native.close()
 
     @property
-    def context(self) -> Context:  # type: ignore[override]
+    def context(self) -> Context:
         """The context of the node."""
         return self._context
 

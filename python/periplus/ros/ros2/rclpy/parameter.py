@@ -145,7 +145,7 @@ class Parameter:
         return ParameterMessage(name=self._name, value=self.get_parameter_value())
 
 
-_FIELDS = {kind: f"{kind.name.lower()}_value" for kind in _Type if kind is not _Type.NOT_SET}
+_FIELDS: dict[_Type, str] = {kind: f"{kind.name.lower()}_value" for kind in _Type if kind is not _Type.NOT_SET}
 
 
 def parameter_value_to_python(parameter_value: ParameterValue) -> Any:

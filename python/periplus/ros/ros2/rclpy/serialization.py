@@ -15,7 +15,8 @@ _M = TypeVar("_M")
 def serialize_message(message: Any) -> bytes:
     """Bytes of a message, with the header of 4 bytes."""
     check_for_type_support(type(message))
-    return _native.serialize(message)
+    data: bytes = _native.serialize(message)
+    return data
 
 
 def deserialize_message(serialized_message: bytes, message_type: type[_M]) -> _M:
@@ -25,7 +26,7 @@ def deserialize_message(serialized_message: bytes, message_type: type[_M]) -> _M
         raise TypeError(f"serialized_message must be bytes, not {type(serialized_message).__name__}")
     made: Any
     try:
-        made = _native.deserialize(message_type, serialized_message)  # type: ignore[type-var]
+        made = _native.deserialize(message_type, serialized_message)
     except ValueError as error:
         raise RMWError(f"failed to deserialize ROS message: {error}") from None
     result: _M = made

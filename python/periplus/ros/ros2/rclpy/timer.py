@@ -205,7 +205,10 @@ class Rate:
         used = self._used
         while True:
             seen = self._graph.events
-            self._check()
+            if not self._context._valid:
+                raise ROSInterruptException
+            if self._is_destroyed or self._timer._destroyed:
+                return
             if self._fired != used:
                 self._used = self._fired
                 return

@@ -106,14 +106,14 @@ def dtype_from_fields(fields: Iterable[PointField], point_step: int | None = Non
     made: dict[str, Any] = {"names": names, "formats": formats, "offsets": offsets}
     if point_step is not None:
         made["itemsize"] = point_step
-    return np.dtype(made)
+    spec: Any = made
+    return np.dtype(spec)
 
 
 def create_cloud(
     header: Header,
     fields: Iterable[PointField],
     points: Any,
-    step: int | None = None,
     point_step: int | None = None,
 ) -> PointCloud2:
     """Cloud of points: a structured array, a plain array (N, number of fields) or a list of tuples."""
@@ -151,9 +151,9 @@ def create_cloud(
     return cloud
 
 
-def create_cloud_xyz32(header: Header, points: Any, step: int | None = None, point_step: int | None = None) -> PointCloud2:
+def create_cloud_xyz32(header: Header, points: Any) -> PointCloud2:
     """Cloud with the fields x, y and z (float32)."""
     fields = [
         PointField(name=name, offset=4 * index, datatype=PointField.FLOAT32, count=1) for index, name in enumerate("xyz")
     ]
-    return create_cloud(header, fields, points, step, point_step)
+    return create_cloud(header, fields, points)

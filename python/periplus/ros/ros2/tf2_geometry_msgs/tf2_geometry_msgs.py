@@ -92,6 +92,8 @@ def do_transform_pose(pose: Pose, transform: TransformStamped) -> Pose:
     made.position.x, made.position.y, made.position.z = _move(rotation, translation, pose.position)
     given = pose.orientation
     turned = _multiply(rotation, (given.x, given.y, given.z, given.w))
+    if turned[3] < 0.0:
+        turned = (-turned[0], -turned[1], -turned[2], -turned[3])
     made.orientation.x, made.orientation.y, made.orientation.z, made.orientation.w = turned
     return made
 

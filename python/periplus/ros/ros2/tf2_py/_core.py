@@ -39,13 +39,13 @@ class BufferCore:
 
     # ---- transforms in
 
-    def set_transform(self, transform: Any, authority: str) -> bool | None:
+    def set_transform(self, transform: Any, authority: str) -> None:
         """Adds a transform; one that is not valid is logged and ignored."""
-        return self._add(transform, authority, False)
+        self._add(transform, authority, False)
 
-    def set_transform_static(self, transform: Any, authority: str) -> bool | None:
+    def set_transform_static(self, transform: Any, authority: str) -> None:
         """Adds a transform that holds at all times."""
-        return self._add(transform, authority, True)
+        self._add(transform, authority, True)
 
     def _add(self, transform: Any, authority: str, is_static: bool) -> None:
         header = transform.header
@@ -57,9 +57,8 @@ class BufferCore:
         if problem is not None:
             _log("error", problem)
             return
-        stamp = header.stamp
         pose = _native.Pose.from_quaternion(position, quaternion)
-        nanoseconds = stamp.sec * 1_000_000_000 + stamp.nanosec
+        nanoseconds = time_ns(header.stamp)
         try:
             self._buffer.set_transform(
                 parent, child, pose, time_ns=nanoseconds, is_static=is_static, authority=authority
@@ -133,14 +132,13 @@ class BufferCore:
 
     def get_latest_common_time(self, target_frame: str, source_frame: str) -> Any:
         """Latest time at which there is a transform."""
-        from rclpy.clock import ClockType
         from rclpy.time import Time
 
         try:
             nanoseconds = self._buffer.latest_time_ns(target_frame, source_frame)
         except _native.TransformError as error:
             raise exception_of(error) from None
-        return Time(nanoseconds=nanoseconds, clock_type=ClockType.ROS_TIME)
+        return Time(nanoseconds=nanoseconds)
 
     # ---- frames
 

@@ -42,6 +42,10 @@ class BufferClient(BufferInterface):
         self.check_frequency = check_frequency
         self.timeout_padding = Duration(seconds=2.0) if timeout_padding is None else timeout_padding
 
+    def destroy(self) -> None:
+        """Ends the action client."""
+        self.action_client.destroy()
+
     def wait_for_server(self, timeout: Any = None) -> bool:
         """True once the server is there, False after `timeout`."""
         seconds = None if timeout is None else time_ns(timeout) * 1e-9

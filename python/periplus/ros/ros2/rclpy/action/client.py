@@ -42,8 +42,7 @@ class ClientGoalHandle:
         return hash(key_of(self._goal_id))
 
     def __repr__(self) -> str:
-        digits = list(self._goal_id.uuid)
-        return f"ClientGoalHandle <id={digits}, accepted={self.accepted}, status={self._status}>"
+        return f"ClientGoalHandle <id={self._goal_id.uuid}, accepted={self.accepted}, status={self._status}>"
 
     @property
     def goal_id(self) -> Any:

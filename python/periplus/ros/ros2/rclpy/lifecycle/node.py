@@ -119,14 +119,11 @@ class LifecycleNodeMixin(ManagedEntity):
             traceback.print_exc()
             return TransitionCallbackReturn.ERROR
         if not isinstance(result, TransitionCallbackReturn):
-            name: Any = self
-            _log_output.report(
-                40,
-                name._logger.name,
-                f"on_{label} returned {type(result).__name__}, which counts as an error: it must return a "
-                "TransitionCallbackReturn",
+            node: Any = self
+            raise AttributeError(
+                f"{type(result).__name__!r} object has no attribute 'to_label': on_{label} of the node "
+                f"{node._rcl_full_name} must return a TransitionCallbackReturn"
             )
-            return TransitionCallbackReturn.ERROR
         return result
 
     def register_callback(self, label: str, callback: Callable[[LifecycleState], Any]) -> None:
