@@ -25,7 +25,7 @@ _SETUP_TIMEOUT_S = 30
 
 
 class PackageError(ValueError):
-    """A package, or a program of it, that cannot be found or read; the text says what to do."""
+    """A package, or a program of it, that cannot be found or read; the text has the remedy."""
 
 
 @dataclass(frozen=True)
@@ -45,7 +45,7 @@ class Package:
 
     name: str
     folder: str
-    #: `ament_python`, `ament_cmake`, `catkin`, ... as `package.xml` says.
+    #: `ament_python`, `ament_cmake`, `catkin`, ... of `package.xml`.
     build_type: str
 
     @cached_property
@@ -71,9 +71,9 @@ class Package:
         roots = self.setup.get("package_dir") or {}
         if "" in roots:
             paths.append(os.path.normpath(os.path.join(self.folder, roots[""])))
-        for name, place in roots.items():
+        for name, root in roots.items():
             if name:
-                paths.append(os.path.dirname(os.path.normpath(os.path.join(self.folder, place))))
+                paths.append(os.path.dirname(os.path.normpath(os.path.join(self.folder, root))))
         paths += self.cmake.python_paths
         if self.build_type == "catkin" and os.path.isdir(os.path.join(self.folder, "src")):
             paths.append(os.path.join(self.folder, "src"))
@@ -122,7 +122,7 @@ class Package:
 
     @property
     def share_folder(self) -> str:
-        """Folder that stands for `share/<package>`: the source folder, or links to it where a build changes the layout."""
+        """Folder used as `share/<package>`: the source folder, or links to it where a build changes the layout."""
         from ._share import share_folder
 
         return share_folder(self)

@@ -1,4 +1,4 @@
-"""Imports of Python packages that lie unbuilt in the same workspace."""
+"""Imports of Python packages of the same workspace that are not built."""
 
 from __future__ import annotations
 
