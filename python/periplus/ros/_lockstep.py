@@ -12,7 +12,6 @@ variables:
 from __future__ import annotations
 
 import _thread
-import importlib.abc
 import importlib.machinery
 import importlib.util
 import os
@@ -146,7 +145,7 @@ def _patch_uuid(module: ModuleType) -> list[tuple[Any, str, Any]]:
     return [(module, name, None) for name in ("_generate_time_safe", "_UuidCreate") if hasattr(module, name)]
 
 
-class _ImportHook(importlib.abc.MetaPathFinder):
+class _ImportHook:
     """Calls a function after the first import of a module."""
 
     def __init__(self, name: str, function: Callable[[ModuleType], list[tuple[Any, str, Any]]]) -> None:
@@ -158,11 +157,11 @@ class _ImportHook(importlib.abc.MetaPathFinder):
         sys.meta_path.remove(self)
         spec = importlib.util.find_spec(fullname)
         if spec is not None and spec.loader is not None:
-            spec.loader = _Loader(spec.loader, self.function)
+            spec.loader = _Loader(spec.loader, self.function)  # type: ignore[assignment]
         return spec
 
 
-class _Loader(importlib.abc.Loader):
+class _Loader:
     def __init__(self, loader: Any, function: Callable[[ModuleType], list[tuple[Any, str, Any]]]) -> None:
         self.loader, self.function = loader, function
 

@@ -2,10 +2,8 @@
 
 from __future__ import annotations
 
-import json
 import os
 import re
-import subprocess
 import sys
 from collections import deque
 from dataclasses import dataclass
@@ -277,6 +275,9 @@ def find_package(name: str) -> Package | None:
 
 
 def _run_setup(folder: str) -> dict[str, Any]:
+    import json
+    import subprocess
+
     reader = os.path.join(os.path.dirname(os.path.abspath(__file__)), "_setup_reader.py")
     environment = {key: value for key, value in os.environ.items() if key != "PERIPLUS_LOCKSTEP"}
     setup_py = os.path.join(folder, "setup.py")
