@@ -63,10 +63,15 @@ class Package:
         return read_cmake(self.folder, self.name)
 
     @property
+    def _has_cmake(self) -> bool:
+        return self.build_type in ("ament_cmake", "catkin", "cmake")
+
+    @property
     def python_paths(self) -> list[str]:
         """Folders that a build would put the Python modules of, in the order of the search."""
         paths = []
-        roots = self.setup.get("package_dir") or {}
+        # ament_cmake does not run `setup.py`.
+        roots = (self.setup.get("package_dir") or {}) if self.build_type != "ament_cmake" else {}
         if "" in roots:
             paths.append(os.path.normpath(os.path.join(self.folder, roots[""])))
         for name, root in roots.items():
@@ -82,11 +87,16 @@ class Package:
     def executables(self) -> dict[str, Executable]:
         """Programs by the name that `ros2 run` (or `rosrun`) takes."""
         found: dict[str, Executable] = {}
-        for name, target in {**self._console_scripts(), **_setup_cfg_scripts(self.folder)}.items():
+        # CMake installs what `setup.cfg` names together with the Python modules; it does not run `setup.py`.
+        points = _setup_cfg_scripts(self.folder) if not self._has_cmake or self.cmake.python_paths else {}
+        if not self._has_cmake:
+            points = {**self._console_scripts(), **points}
+        for name, target in points.items():
             found[name] = Executable(name, entry_point=target)
-        for script in self.setup.get("scripts") or []:
-            path = os.path.normpath(os.path.join(self.folder, script))
-            found.setdefault(os.path.basename(path), Executable(os.path.basename(path), script=path))
+        if not self._has_cmake or self.build_type == "catkin":
+            for script in self.setup.get("scripts") or []:
+                path = os.path.normpath(os.path.join(self.folder, script))
+                found.setdefault(os.path.basename(path), Executable(os.path.basename(path), script=path))
         for name, path in self.cmake.programs.items():
             if os.path.isfile(path):
                 found.setdefault(name, Executable(name, script=path))
@@ -107,7 +117,7 @@ class Package:
         """Pairs (path below `share/<package>`, source file or folder) that a build would install."""
         share = os.path.join("share", self.name)
         pairs = list(self.cmake.shared)
-        for entry in self.setup.get("data_files") or []:
+        for entry in [] if self._has_cmake else self.setup.get("data_files") or []:
             if not isinstance(entry, list) or len(entry) != 2:
                 continue
             destination = os.path.normpath(str(entry[0]))
