@@ -186,7 +186,7 @@ def find_packages(roots: list[str]) -> dict[str, Package]:
             names = {entry.name for entry in entries}
             if names & _IGNORE_MARKERS and depth > 0:
                 continue
-            if "package.xml" in names:
+            if "package.xml" in names or "manifest.xml" in names:
                 package = read_package(folder)
                 if package is not None:
                     found.setdefault(package.name, package)
@@ -201,12 +201,15 @@ def find_packages(roots: list[str]) -> dict[str, Package]:
 
 
 def read_package(folder: str) -> Package | None:
-    """The package of a folder with `package.xml`, or None if the file has no name."""
-    try:
-        with open(os.path.join(folder, "package.xml"), encoding="utf-8", errors="replace") as file:
-            text = re.sub(r"<!--.*?-->", "", file.read(), flags=re.S)
-    except OSError:
-        return None
+    """The package of a folder with `package.xml` (or rosbuild's `manifest.xml`), or None if the file is not of ROS."""
+    text = _read_xml(os.path.join(folder, "package.xml"))
+    if text is None:
+        text = _read_xml(os.path.join(folder, "manifest.xml"))
+        if text is None or "<package" not in text:
+            return None
+        # rosbuild: the name is that of the folder.
+        folder = os.path.abspath(folder)
+        return Package(os.path.basename(folder), folder, "catkin")
     name = re.search(r"<name>\s*([A-Za-z][\w.-]*)\s*</name>", text)
     if name is None:
         return None
@@ -221,12 +224,23 @@ def read_package(folder: str) -> Package | None:
     return Package(name.group(1), os.path.abspath(folder), build_type)
 
 
+def _read_xml(path: str) -> str | None:
+    """Text of a file without its comments, or None without the file."""
+    try:
+        with open(path, encoding="utf-8", errors="replace") as file:
+            return re.sub(r"<!--.*?-->", "", file.read(), flags=re.S)
+    except OSError:
+        return None
+
+
 def package_of(path: str) -> Package | None:
-    """The package that a file or folder belongs to: the nearest folder above it with a `package.xml`."""
+    """The package that a file or folder belongs to: the nearest folder above it with one."""
     folder = os.path.abspath(path)
     while True:
-        if os.path.isfile(os.path.join(folder, "package.xml")):
-            return read_package(folder)
+        if any(os.path.isfile(os.path.join(folder, name)) for name in ("package.xml", "manifest.xml")):
+            package = read_package(folder)
+            if package is not None:
+                return package
         parent = os.path.dirname(folder)
         if parent == folder:
             return None

@@ -17,7 +17,7 @@ class SourceModuleFinder:
     def find_spec(
         self, fullname: str, path: Sequence[str] | None = None, target: Any = None
     ) -> importlib.machinery.ModuleSpec | None:
-        if "." in fullname or path is not None:
+        if "." in fullname or path is not None or fullname in sys.stdlib_module_names:
             return None
         for folder in python_folders(fullname):
             spec = importlib.machinery.PathFinder.find_spec(fullname, [folder])
