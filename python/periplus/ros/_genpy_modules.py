@@ -89,19 +89,20 @@ class _LastFinder(MetaPathFinder):
     ) -> ModuleSpec | None:
         if "." in fullname or fullname.startswith("_") or fullname in sys.stdlib_module_names:
             return None
-        from periplus.ros import _genpy_sources, _packages
+        from periplus.ros import _genpy_sources
 
         if _genpy_sources.is_known(fullname):
             return ModuleSpec(fullname, _loader, origin="periplus", is_package=True)
-        package = _packages.find_package(fullname)
-        if package is not None:
-            import os
+        folder = _genpy_sources.package_folder(fullname)
+        if folder is None:
+            return None
+        import os
 
-            found = PathFinder.find_spec(fullname, [os.path.join(package.folder, "src")])
-            if found is not None and found.origin is not None:
-                return found
-            if os.path.isdir(os.path.join(package.folder, "cfg")):
-                return ModuleSpec(fullname, _loader, origin="periplus", is_package=True)
+        found = PathFinder.find_spec(fullname, [os.path.join(folder, "src")])
+        if found is not None and found.origin is not None:
+            return found
+        if os.path.isdir(os.path.join(folder, "cfg")):
+            return ModuleSpec(fullname, _loader, origin="periplus", is_package=True)
         return None
 
 
