@@ -107,6 +107,13 @@ impl NodeSettings {
         self.shares_name
     }
 
+    /// Adds the names and remappings of a command line, after those that were added before.
+    #[must_use]
+    pub fn with_arguments(mut self, arguments: &Arguments) -> Self {
+        self.rules.extend(arguments.rules.iter().cloned().map(Ok));
+        self
+    }
+
     pub(crate) fn takes_any_parameter(&self) -> bool {
         self.takes_any_parameter
     }
@@ -221,6 +228,22 @@ impl NodeNames {
         let full = self.expand("service", written)?;
         let rule = self.rules.iter().find(|rule| rule.services && rule.from == full);
         Ok(rule.map_or(full, |rule| rule.to.clone()))
+    }
+
+    /// Full name of a topic as written by the node, without remappings.
+    ///
+    /// # Errors
+    /// When ROS 2 would refuse it.
+    pub fn expanded_topic(&self, written: &str) -> Result<String, GraphError> {
+        self.expand("topic", written)
+    }
+
+    /// Full name of a service as written by the node, without remappings.
+    ///
+    /// # Errors
+    /// When ROS 2 would refuse it.
+    pub fn expanded_service(&self, written: &str) -> Result<String, GraphError> {
+        self.expand("service", written)
     }
 
     fn expand(&self, what: &'static str, written: &str) -> Result<String, GraphError> {

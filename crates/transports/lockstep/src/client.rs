@@ -4,10 +4,11 @@ use std::collections::HashMap;
 use std::io::{self, Write as _};
 use std::sync::atomic::{AtomicI64, AtomicU32, AtomicU64, Ordering};
 use std::sync::{Arc, Mutex};
+use std::time::Duration;
 
 use periplus_graph::{History, KEEP_ALL_MAX_MESSAGES, Qos};
 
-use crate::frame::{Body, Kind, Reader, append};
+use crate::frame::{Body, Kind, Reader, append, is_pause};
 use crate::inbox::{Inbox, Received};
 use crate::lock;
 use crate::query::{EndpointWords, NewEndpoint, NodeWords, Query, Reply};
@@ -24,7 +25,14 @@ pub struct LockstepClient {
     now_ns: AtomicI64,
     /// Number of things that have arrived.
     arrivals: AtomicU64,
+    pause: Pause,
 }
+
+/// Called while a call waits for the graph; an error ends the call.
+type Pause = Box<dyn Fn() -> io::Result<()> + Send + Sync>;
+
+/// Period at which it is called.
+const PAUSE_PERIOD: Duration = Duration::from_millis(100);
 
 struct Line {
     stream: Stream,
@@ -42,13 +50,24 @@ impl LockstepClient {
     /// # Errors
     /// When the graph is not there or refuses the process.
     pub fn connect(link: &str) -> io::Result<Self> {
+        Self::connect_with(link, || Ok(()))
+    }
+
+    /// Same as [`LockstepClient::connect`], for a process that has signals to look at: `pause` is called again and
+    /// again while a call waits for the graph, and its error ends the call.
+    ///
+    /// # Errors
+    /// As [`LockstepClient::connect`].
+    pub fn connect_with(
+        link: &str,
+        pause: impl Fn() -> io::Result<()> + Send + Sync + 'static,
+    ) -> io::Result<Self> {
         let (address, token) = link.rsplit_once('#').ok_or(io::ErrorKind::InvalidInput)?;
+        let stream = connect(address)?;
+        stream.set_read_timeout(Some(PAUSE_PERIOD))?;
         let client = Self {
-            line: Mutex::new(Line {
-                stream: connect(address)?,
-                reader: Reader::default(),
-                out: Vec::new(),
-            }),
+            pause: Box::new(pause),
+            line: Mutex::new(Line { stream, reader: Reader::default(), out: Vec::new() }),
             inboxes: Mutex::default(),
             last_id: 0.into(),
             last_call: 0.into(),
@@ -310,7 +329,19 @@ impl LockstepClient {
         line.send()?;
         loop {
             let Line { stream, reader, .. } = &mut *line;
-            let (kind, body) = reader.next(stream)?;
+            let (kind, body) = match reader.next(stream) {
+                Ok(frame) => frame,
+                Err(error) if is_pause(&error) => {
+                    (self.pause)()?;
+                    continue;
+                }
+                Err(error) => return Err(error),
+            };
+            if kind == Kind::Go {
+                // The call that waited for it was ended.
+                self.now_ns.store(Body(body).i64()?, Ordering::Release);
+                continue;
+            }
             if kind == Kind::Reply {
                 return match serde_json::from_slice(body)? {
                     Reply::Failed(reason) => Err(io::Error::other(reason)),
@@ -324,7 +355,14 @@ impl LockstepClient {
     fn wait_go(&self, line: &mut Line) -> io::Result<()> {
         let Line { stream, reader, .. } = line;
         loop {
-            let (kind, body) = reader.next(stream)?;
+            let (kind, body) = match reader.next(stream) {
+                Ok(frame) => frame,
+                Err(error) if is_pause(&error) => {
+                    (self.pause)()?;
+                    continue;
+                }
+                Err(error) => return Err(error),
+            };
             if kind == Kind::Go {
                 self.now_ns.store(Body(body).i64()?, Ordering::Release);
                 return Ok(());

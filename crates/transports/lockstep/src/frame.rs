@@ -1,6 +1,8 @@
 //! Frames of the protocol: a length of four bytes, a kind, and a body, all numbers little endian.
 
-use std::io::{self, Read};
+use std::io;
+
+use crate::socket::Source;
 
 /// Kinds of frames.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -77,8 +79,8 @@ impl Reader {
     ///
     /// # Errors
     /// `UnexpectedEof` at the end of the connection, `InvalidData` for garbage, and what the socket says. After a
-    /// timeout the call can be repeated.
-    pub(crate) fn next(&mut self, source: &mut impl Read) -> io::Result<(Kind, &[u8])> {
+    /// timeout or a signal the call can be repeated ([`is_pause`]).
+    pub(crate) fn next(&mut self, source: &mut impl Source) -> io::Result<(Kind, &[u8])> {
         self.fill(source, HEADER_BYTES)?;
         let header = &self.buffer[self.start..self.start + HEADER_BYTES];
         let length = u32::from_le_bytes([header[0], header[1], header[2], header[3]]);
@@ -92,7 +94,7 @@ impl Reader {
     }
 
     /// Reads until there are `wanted` bytes.
-    fn fill(&mut self, source: &mut impl Read, wanted: usize) -> io::Result<()> {
+    fn fill(&mut self, source: &mut impl Source, wanted: usize) -> io::Result<()> {
         while self.end - self.start < wanted {
             if self.start == self.end {
                 (self.start, self.end) = (0, 0);
@@ -105,15 +107,20 @@ impl Reader {
                     self.buffer.resize(size, 0);
                 }
             }
-            match source.read(&mut self.buffer[self.end..]) {
+            match source.receive(&mut self.buffer[self.end..]) {
                 Ok(0) => return Err(io::ErrorKind::UnexpectedEof.into()),
                 Ok(count) => self.end += count,
-                Err(error) if error.kind() == io::ErrorKind::Interrupted => {}
                 Err(error) => return Err(error),
             }
         }
         Ok(())
     }
+}
+
+/// True for a timeout or a signal.
+pub(crate) fn is_pause(error: &io::Error) -> bool {
+    use io::ErrorKind::{Interrupted, TimedOut, WouldBlock};
+    matches!(error.kind(), Interrupted | TimedOut | WouldBlock)
 }
 
 /// Takes numbers from the start of a body.
@@ -155,8 +162,8 @@ mod tests {
     /// Gives one byte at a time.
     struct Slow<'a>(&'a [u8]);
 
-    impl Read for Slow<'_> {
-        fn read(&mut self, buffer: &mut [u8]) -> io::Result<usize> {
+    impl Source for Slow<'_> {
+        fn receive(&mut self, buffer: &mut [u8]) -> io::Result<usize> {
             let Some((first, rest)) = self.0.split_first() else { return Ok(0) };
             buffer[0] = *first;
             self.0 = rest;
@@ -185,7 +192,7 @@ mod tests {
     #[test]
     fn garbage_is_refused() {
         for bytes in [&[0xff; 16][..], &[1, 0, 0, 0, b'?', 0]] {
-            let error = Reader::default().next(&mut &bytes[..]).expect_err("no frame");
+            let error = Reader::default().next(&mut Slow(bytes)).expect_err("no frame");
             assert_eq!(error.kind(), io::ErrorKind::InvalidData);
         }
     }

@@ -11,7 +11,7 @@ use periplus_graph::{
     RawMailbox, RawPublisher,
 };
 
-use crate::frame::{Body, Kind, Reader, append};
+use crate::frame::{Body, Kind, Reader, append, is_pause};
 use crate::lock;
 use crate::query::{EndpointWords, NewEndpoint, NodeWords, Query, Reply};
 use crate::socket::Stream;
@@ -223,7 +223,7 @@ impl Peer {
             let Some(stream) = stream else { return Err(io::ErrorKind::UnexpectedEof.into()) };
             match reader.next(stream) {
                 Ok((kind, body)) => return Ok((kind, body.to_vec())),
-                Err(error) if is_timeout(&error) => {}
+                Err(error) if is_pause(&error) => {}
                 Err(error) => return Err(error),
             }
             let waited = since.get_or_insert_with(Instant::now).elapsed();
@@ -436,10 +436,6 @@ impl State {
         self.out.clear();
         (std::mem::take(&mut self.entities), std::mem::take(&mut self.calls))
     }
-}
-
-fn is_timeout(error: &io::Error) -> bool {
-    matches!(error.kind(), io::ErrorKind::WouldBlock | io::ErrorKind::TimedOut)
 }
 
 fn is_reset(error: &io::Error) -> bool {

@@ -1,6 +1,7 @@
 //! The socket between a graph and a process: of the Unix domain where there is one, else TCP on the loopback.
 
 use std::io;
+use std::time::{Duration, Instant};
 
 #[cfg(unix)]
 pub(crate) use unix::{Listener, Stream};
@@ -97,6 +98,35 @@ mod tcp {
         let stream = TcpStream::connect(address)?;
         stream.set_nodelay(true)?;
         Ok(stream)
+    }
+}
+
+/// Time for which a read looks again and again before it sleeps: a process that answers at once costs no change of
+/// threads.
+const SPIN: Duration = Duration::from_micros(50);
+
+/// Something that bytes come from.
+pub(crate) trait Source {
+    /// Reads at least one byte; none at the end.
+    fn receive(&mut self, buffer: &mut [u8]) -> io::Result<usize>;
+}
+
+impl Source for Stream {
+    /// Reads, at first without sleeping.
+    fn receive(&mut self, buffer: &mut [u8]) -> io::Result<usize> {
+        #[cfg(unix)]
+        {
+            use rustix::net::{RecvFlags, recv};
+            let start = Instant::now();
+            while start.elapsed() < SPIN {
+                match recv(&*self, &mut *buffer, RecvFlags::DONTWAIT) {
+                    Ok((count, _)) => return Ok(count),
+                    Err(rustix::io::Errno::AGAIN) => std::thread::yield_now(),
+                    Err(error) => return Err(error.into()),
+                }
+            }
+        }
+        io::Read::read(self, buffer)
     }
 }
 

@@ -1,0 +1,138 @@
+"""Advice for errors that users of ROS nodes meet: Python 2 files, missing packages, wrong names."""
+
+from __future__ import annotations
+
+import re
+import sys
+
+from ._tracebacks import is_library_file, short_path
+
+#: Module and what `pip install` calls it.
+_PIP_NAMES = {
+    "cv2": "opencv-python-headless",
+    "yaml": "pyyaml",
+    "PIL": "pillow",
+    "sklearn": "scikit-learn",
+    "skimage": "scikit-image",
+    "serial": "pyserial",
+    "usb": "pyusb",
+    "zmq": "pyzmq",
+    "pykdl_utils": "pykdl-utils",
+}
+_PYTHON_2 = (
+    (re.compile(r"Missing parentheses in call to '(print|exec)'"), "the {0} statement"),
+    (re.compile(r"multiple exception types must be parenthesized"), "`except Type, name:`"),
+    (re.compile(r"invalid hexadecimal literal|leading zeros in decimal integer literals|invalid decimal literal"), ""),
+)
+_PYTHON_2_LINES = (
+    (re.compile(r"^\s*print\s+[^=(\s]|^\s*print\s*>>"), "the print statement"),
+    (re.compile(r"^\s*except\s+[\w.()\s,]+,\s*\w+\s*:"), "`except Type, name:`"),
+    (re.compile(r"^\s*raise\s+[\w.]+\s*,"), "`raise Type, text`"),
+    (re.compile(r"<>"), "the operator `<>`"),
+    (re.compile(r"`[^`]+`"), "backquotes"),
+    (re.compile(r"^\s*exec\s+['\"\w]"), "the exec statement"),
+    (re.compile(r"\b\d+L\b|\b0[0-7]+\b"), "a number such as 10L or 0755"),
+    (re.compile(r"\bur['\"]"), "a string such as ur''"),
+)
+
+
+def hint(error: BaseException) -> str | None:
+    """Advice for an error that ended a program, or None."""
+    if isinstance(error, TabError):
+        return f"hint: {_where(error)} mixes tabs and spaces, which Python 2 allowed: use spaces alone"
+    if isinstance(error, SyntaxError):
+        return _syntax(error)
+    if isinstance(error, ModuleNotFoundError):
+        return _missing_module(error)
+    if isinstance(error, ImportError):
+        return _missing_name(error)
+    if isinstance(error, (NameError, AttributeError)):
+        return _python_2_name(error)
+    return None
+
+
+def _where(error: SyntaxError) -> str:
+    return f"{short_path(error.filename or '?')}:{error.lineno or '?'}"
+
+
+def _syntax(error: SyntaxError) -> str | None:
+    construct = None
+    for pattern, text in _PYTHON_2:
+        match = pattern.search(error.msg or "")
+        if match and text:
+            construct = text.format(*match.groups())
+    line = error.text or ""
+    if construct is None:
+        construct = next((text for pattern, text in _PYTHON_2_LINES if pattern.search(line)), None)
+    if construct is None:
+        return None
+    return (
+        f"hint: {_where(error)} is Python 2 ({construct}); this is Python {sys.version_info.major}.{sys.version_info.minor}. "
+        f"Convert the file: `2to3 -w {short_path(error.filename or 'FILE')}` (of Python 3.12 or older)"
+    )
+
+
+def _line_of(error: BaseException) -> str:
+    """`file:line: ` of the user's innermost frame."""
+    trace, found = error.__traceback__, ""
+    while trace is not None:
+        path = trace.tb_frame.f_code.co_filename
+        if not is_library_file(path):
+            found = f"{short_path(path)}:{trace.tb_lineno}: "
+        trace = trace.tb_next
+    return found
+
+
+def _missing_module(error: ModuleNotFoundError) -> str | None:
+    name = error.name or ""
+    top = name.split(".")[0]
+    # Message packages: the import hook has said it all.
+    if not top or "PERIPLUS_PACKAGES" in str(error):
+        return None
+    start = f"hint: {_line_of(error)}"
+    if top in ("Tkinter", "ConfigParser", "Queue", "urllib2", "StringIO", "cPickle", "commands", "exceptions", "thread", "httplib"):
+        return f"{start}the module {top} is Python 2's; convert the file with `2to3 -w` (of Python 3.12 or older)"
+    if top == "tkinter":
+        return f"{start}tkinter comes with the system's Python: `apt install python3-tk`"
+    from . import _packages
+
+    if top in sys.modules and "." in name:
+        return None
+    package = _packages.find_package(top)
+    if package is not None:
+        return f"{start}package {top} is at {package.folder}, but has no Python module {name}"
+    import difflib
+
+    from . import _rosidl_modules
+
+    near = difflib.get_close_matches(top, [*_rosidl_modules.packages(), *_packages.known_packages()], 1, 0.8)
+    if near:
+        return f"{start}Did you mean {near[0]!r}?"
+    if top in ("gazebo_ros", "moveit_commander", "PyKDL", "smach", "smach_ros", "py_trees_ros", "rosgraph", "rosnode", "xacro"):
+        return f"{start}{top} is a ROS package that Periplus does not have; clone its source into your workspace"
+    return f"{start}`{sys.executable} -m pip install {_PIP_NAMES.get(top, top)}` installs it, if it is a package of PyPI; a package of your workspace needs a package.xml"
+
+
+def _missing_name(error: ImportError) -> str | None:
+    match = re.match(r"cannot import name '(\w+)' from '([\w.]+)'", str(error))
+    if match is None:
+        return None
+    import difflib
+
+    wanted, module_name = match.groups()
+    module = sys.modules.get(module_name)
+    if module is None or "Did you mean" in str(error):
+        return None
+    near = difflib.get_close_matches(wanted, [name for name in dir(module) if not name.startswith("_")], 1, 0.7)
+    return f"hint: {_line_of(error)}{module_name} has {near[0]!r}" if near else None
+
+
+def _python_2_name(error: NameError | AttributeError) -> str | None:
+    name = getattr(error, "name", None)
+    if isinstance(error, NameError) and name in ("raw_input", "unicode", "xrange", "long", "reduce", "basestring", "unichr", "file"):
+        modern = {"raw_input": "input", "unicode": "str", "xrange": "range", "long": "int", "reduce": "functools.reduce",
+                  "basestring": "str", "unichr": "chr", "file": "open"}[name]  # fmt: skip
+        return f"hint: {_line_of(error)}{name} is Python 2's; write {modern}, or convert the file with `2to3 -w` (of Python 3.12 or older)"
+    if isinstance(error, AttributeError) and name in ("has_key", "iteritems", "itervalues", "iterkeys"):
+        return f"hint: {_line_of(error)}{name} is Python 2's; convert the file with `2to3 -w` (of Python 3.12 or older)"
+    return None

@@ -1,0 +1,119 @@
+"""Tracebacks that begin at the user's code and name what to do."""
+
+from __future__ import annotations
+
+import os
+import sys
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    import traceback
+    from types import FrameType, TracebackType
+
+_FOLDER = os.path.dirname(os.path.abspath(__file__)) + os.sep
+_IMPORTLIB = os.path.join(os.path.dirname(os.__file__), "importlib") + os.sep
+#: Set to 1 to see the frames of Periplus too.
+FULL_VARIABLE = "PERIPLUS_FULL_TRACEBACK"
+
+
+def is_own_file(path: str) -> bool:
+    """True for files of these modules and of Python's import machinery."""
+    return path.startswith((_FOLDER, "<frozen ", _IMPORTLIB))
+
+
+def is_library_file(path: str) -> bool:
+    """True for files of Python, of installed packages and of Periplus: not the user's own code."""
+    if is_own_file(path) or path.startswith("<"):
+        return True
+    return os.sep + "site-packages" + os.sep in path or path.startswith(os.path.dirname(os.__file__) + os.sep)
+
+
+def user_frame(frame: FrameType | None) -> FrameType | None:
+    """The innermost frame of the user's code at or above `frame`, or None."""
+    while frame is not None and is_library_file(frame.f_code.co_filename):
+        frame = frame.f_back
+    return frame
+
+
+def place(frame: FrameType | None) -> str:
+    """`file:line (function)` of a frame; a path below the current folder is relative."""
+    if frame is None:
+        return "?"
+    return f"{short_path(frame.f_code.co_filename)}:{frame.f_lineno} ({frame.f_code.co_name})"
+
+
+def short_path(path: str) -> str:
+    """`path` relative to the current folder if it lies in it."""
+    try:
+        folder = os.getcwd() + os.sep
+    except OSError:
+        return path
+    return path[len(folder) :] if path.startswith(folder) else path
+
+
+def format_exception(error: BaseException, trace: TracebackType | None = None) -> str:
+    """The traceback as Python prints it, without frames of Periplus, and with a hint if there is one."""
+    import traceback
+
+    trace = trace if trace is not None else error.__traceback__
+    made = traceback.TracebackException(type(error), error, trace)
+    if os.environ.get(FULL_VARIABLE, "") in ("", "0"):
+        _strip(made)
+    text = "".join(made.format())
+    if sys.version_info < (3, 11):
+        text += "".join(f"{note}\n" for note in getattr(error, "__notes__", ()))
+    from ._hints import hint
+
+    advice = hint(error)
+    return text + (f"{advice}\n" if advice else "")
+
+
+def _strip(made: traceback.TracebackException) -> None:
+    """Removes frames of Periplus, unless no other is left."""
+    import traceback
+
+    seen: set[int] = set()
+    waiting = [made]
+    while waiting:
+        one = waiting.pop()
+        if id(one) in seen:
+            continue
+        seen.add(id(one))
+        kept = [frame for frame in one.stack if not is_own_file(frame.filename)]
+        if kept or one.exc_type in (SyntaxError, IndentationError, TabError):
+            one.stack = traceback.StackSummary.from_list(kept)
+        waiting += [other for other in (one.__cause__, one.__context__) if other is not None]
+        waiting += list(getattr(one, "exceptions", None) or [])
+
+
+def print_exception(error: BaseException, trace: TracebackType | None = None) -> None:
+    """Prints `format_exception` on stderr in one piece."""
+    sys.stderr.write(format_exception(error, trace))
+    sys.stderr.flush()
+
+
+def format_stack(frame: FrameType | None) -> str:
+    """The stack of a thread, without frames of Periplus above the user's outermost one."""
+    import traceback
+
+    lines = traceback.extract_stack(frame)
+    kept = [line for line in lines if not is_own_file(line.filename)]
+    return "".join(traceback.StackSummary.from_list(kept or list(lines)).format())
+
+
+def install() -> None:
+    """Makes Python print uncaught errors of the main thread and of other threads in this way."""
+    import threading
+
+    def hook(kind: type[BaseException], error: BaseException, trace: TracebackType | None) -> None:
+        print_exception(error, trace)
+
+    def thread_hook(arguments: threading.ExceptHookArgs) -> None:
+        if arguments.exc_value is None or isinstance(arguments.exc_value, SystemExit):
+            return
+        name = arguments.thread.name if arguments.thread is not None else "?"
+        sys.stderr.write(f"Exception in thread {name}:\n{format_exception(arguments.exc_value, arguments.exc_traceback)}")
+        sys.stderr.flush()
+
+    sys.excepthook = hook
+    threading.excepthook = thread_hook

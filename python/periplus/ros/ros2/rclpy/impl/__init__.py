@@ -1,0 +1,1 @@
+"""Logging behind `rclpy.logging`."""

@@ -1,0 +1,10 @@
+"""Old name of `rclpy.event_handler`."""
+
+import warnings
+
+from rclpy.event_handler import *  # noqa: F403
+from rclpy.event_handler import QoSEventHandler
+
+__all__ = ["QoSEventHandler"]
+
+warnings.warn("importing 'qos_event' is deprecated; import 'event_handler' instead", stacklevel=2)

@@ -1,0 +1,5 @@
+"""What services publish about their calls."""
+
+from rclpy._rclpy_pybind11 import ServiceIntrospectionState
+
+__all__ = ["ServiceIntrospectionState"]

@@ -1,0 +1,8 @@
+"""Hidden topics and services."""
+
+HIDDEN_TOPIC_PREFIX = "_"
+
+
+def topic_or_service_is_hidden(name: str) -> bool:
+    """True if a part of the name begins with an underscore."""
+    return any(part.startswith(HIDDEN_TOPIC_PREFIX) for part in name.split("/"))

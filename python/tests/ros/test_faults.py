@@ -1,0 +1,102 @@
+"""Faults of callbacks are the user's to see: errors with their context, slow callbacks, executors that hang."""
+
+import subprocess
+import sys
+import time
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+from periplus.ros import _faults
+from ros_programs import environment
+
+
+@pytest.fixture
+def clock(monkeypatch: pytest.MonkeyPatch) -> Callable[[float], None]:
+    """Function that advances the clock of the monitors by seconds."""
+    now_ns = [0]
+    monkeypatch.setattr(_faults, "_steady_ns", lambda: now_ns[0])
+    monkeypatch.setattr(_faults, "_monitors", [])
+    monkeypatch.setattr(_faults, "_watching", True)
+
+    def advance(seconds: float) -> None:
+        now_ns[0] += round(seconds * 1e9)
+
+    return advance
+
+
+def call(monitor: _faults.CallbackMonitor, work: Callable[[], object]) -> None:
+    before = monitor.start()
+    try:
+        work()
+    finally:
+        monitor.end(before)
+
+
+def on_timer() -> None:
+    pass
+
+
+def test_a_timer_slower_than_its_period_is_named_once_with_figures(clock: Callable[[float], None], capsys: pytest.CaptureFixture[str]) -> None:
+    monitor = _faults.CallbackMonitor(on_timer, node="/wall", kind="timer", period_ns=50_000_000)
+    for taken_s in (0.04, 0.08, 0.02, 0.1):
+        call(monitor, lambda taken_s=taken_s: clock(taken_s))
+    lines = capsys.readouterr().err.splitlines()
+    assert len(lines) == 1
+    assert lines[0].startswith("periplus: callback on_timer (")
+    assert lines[0].endswith(" of the timer of node /wall took 80.0 ms, longer than its period of 50.0 ms: calls are skipped")
+    _faults._print_summary()
+    assert "2 of 4 calls took longer than the period, 90.0 ms on average, 100.0 ms at most" in capsys.readouterr().err
+
+
+def test_a_subscription_that_is_always_behind_is_named(clock: Callable[[float], None], capsys: pytest.CaptureFixture[str]) -> None:
+    monitor = _faults.CallbackMonitor(on_timer, node="/eye", kind="subscription", name="/image")
+    for _ in range(30):
+        call(monitor, lambda: clock(0.03))
+        clock(0.07)
+    assert capsys.readouterr().err == ""
+    for _ in range(30):
+        call(monitor, lambda: clock(0.03))
+    lines = capsys.readouterr().err.splitlines()
+    assert len(lines) == 1
+    assert "of the subscription /image of node /eye took 30.0 ms, and messages come faster than that" in lines[0]
+
+
+def test_nested_spins_are_timed_on_their_own(clock: Callable[[float], None], capsys: pytest.CaptureFixture[str]) -> None:
+    outer = _faults.CallbackMonitor(on_timer, node="/n", kind="timer", period_ns=10_000_000)
+    inner = _faults.CallbackMonitor(on_timer, node="/n", kind="timer", period_ns=10_000_000)
+    call(outer, lambda: call(inner, lambda: clock(0.004)))
+    assert (outer.calls, inner.calls, _faults._running) == (1, 1, {})
+    assert capsys.readouterr().err == ""
+
+
+def test_an_error_carries_node_topic_and_time() -> None:
+    error = ValueError("no")
+    _faults.callback_failed(error, node="/guard", kind="subscription", name="/scan", time_ns=12_340_000_000)
+    text = _faults.format_exception(error)
+    assert text.endswith("ValueError: no\nin a callback of the subscription /scan of node /guard at 12.340 s\n")
+
+
+def test_a_callback_that_does_not_return_is_named_with_its_stack(tmp_path: Path) -> None:
+    script = tmp_path / "stuck.py"
+    script.write_text(
+        "import time\nfrom periplus.ros import _faults\n"
+        "def on_scan():\n    time.sleep(0.8)\n"
+        "monitor = _faults.CallbackMonitor(on_scan, node='/n', kind='subscription', name='/scan')\n"
+        "before = monitor.start()\non_scan()\nmonitor.end(before)\n"
+    )
+    done = subprocess.run(
+        [sys.executable, str(script)], env=environment(PERIPLUS_CALLBACK_TIMEOUT_S="0.2"), cwd=tmp_path,
+        capture_output=True, text=True, timeout=60, check=True,
+    )  # fmt: skip
+    assert done.stderr.startswith("periplus: callback on_scan (stuck.py:3) of the subscription /scan of node /n has not returned for 0.")
+    assert done.stderr.count("has not returned") == 1
+    assert '/stuck.py", line 4, in on_scan' in done.stderr
+
+
+def test_a_monitored_call_costs_little() -> None:
+    monitor = _faults.CallbackMonitor(on_timer, node="/n", kind="timer", period_ns=10**9)
+    begin = time.process_time()
+    for _ in range(20_000):
+        call(monitor, on_timer)
+    assert (time.process_time() - begin) / 20_000 < 20e-6
