@@ -60,7 +60,7 @@ def test_failures_of_a_service_reach_the_client(tmp_path: Path) -> None:
         """,
         "service [/fails] responded with an error: b'error processing request: no po\n"
         "service [/nothing] responded with an error: b'service handler returned None\n"
-        "service [/wrong] responded with an error: b'handler returned invalid value:\n"
+        "service [/wrong] responded with an error: b\"handler returned invalid value:\n"
         "service [/missing] unavailable\n"
         "timeout exceeded while waiting for service /missing\nTrue",
     )
