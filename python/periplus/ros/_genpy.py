@@ -209,7 +209,7 @@ def _octet_property(slot: Any) -> property:
 
     def get(message: Any) -> int:
         value = slot.__get__(message)
-        return value[0] if isinstance(value, bytes) else value  # type: ignore[no-any-return]
+        return value[0] if isinstance(value, bytes) else value
 
     def put(message: Any, value: Any) -> None:
         slot.__set__(message, bytes((int(value) & 0xFF,)) if hasattr(value, "__index__") else value)

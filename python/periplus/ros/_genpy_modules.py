@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import sys
 from collections.abc import Sequence
-from importlib.abc import Loader, MetaPathFinder
 from importlib.machinery import ModuleSpec, PathFinder
 from types import ModuleType
 from typing import Any
@@ -14,7 +13,7 @@ _KINDS = ("msg", "srv")
 _PYTHON_ONLY = frozenset(("genpy", "rospy"))
 
 
-class _Loader(Loader):
+class _Loader:
     def create_module(self, spec: ModuleSpec) -> ModuleType:
         if "." not in spec.name:
             return ModuleType(spec.name, f"Message package {spec.name}.")
@@ -24,7 +23,7 @@ class _Loader(Loader):
         pass
 
 
-class _ConfigLoader(Loader):
+class _ConfigLoader:
     """Runs a `.cfg` file of dynamic_reconfigure and gives its module the names that programs use."""
 
     def create_module(self, spec: ModuleSpec) -> None:
@@ -37,11 +36,20 @@ class _ConfigLoader(Loader):
         module.__dict__.update(_cfg_files.config_module(package, name))
 
 
-_loader = _Loader()
-_config_loader = _ConfigLoader()
+class _EmptyLoader:
+    def create_module(self, spec: ModuleSpec) -> None:
+        return None
+
+    def exec_module(self, module: ModuleType) -> None:
+        pass
 
 
-class _Finder(MetaPathFinder):
+_loader: Any = _Loader()
+_empty_loader: Any = _EmptyLoader()
+_config_loader: Any = _ConfigLoader()
+
+
+class _Finder:
     """Finds the message modules of all packages, before any folder of that name."""
 
     def find_spec(
@@ -67,21 +75,13 @@ def _config_spec(fullname: str, package: str, rest: str) -> ModuleSpec | None:
     if rest == "cfg":
         if not _cfg_files.files(package):
             return None
-        return ModuleSpec(fullname, _EmptyLoader(), origin="periplus", is_package=True)
+        return ModuleSpec(fullname, _empty_loader, origin="periplus", is_package=True)
     if rest[4:] not in _cfg_files.modules(package):
         return None
     return ModuleSpec(fullname, _config_loader, origin=_cfg_files.modules(package)[rest[4:]])
 
 
-class _EmptyLoader(Loader):
-    def create_module(self, spec: ModuleSpec) -> None:
-        return None
-
-    def exec_module(self, module: ModuleType) -> None:
-        pass
-
-
-class _LastFinder(MetaPathFinder):
+class _LastFinder:
     """Finds packages that have nothing but messages."""
 
     def find_spec(
@@ -89,19 +89,19 @@ class _LastFinder(MetaPathFinder):
     ) -> ModuleSpec | None:
         if "." in fullname or fullname.startswith("_") or fullname in sys.stdlib_module_names:
             return None
-        from periplus.ros import _genpy_sources, _packages
+        from periplus.ros import _genpy_sources
 
-        if _genpy_sources.is_known(fullname):
-            return ModuleSpec(fullname, _loader, origin="periplus", is_package=True)
-        package = _packages.find_package(fullname)
-        if package is not None:
+        folder = _genpy_sources.package_folder(fullname)
+        if folder is not None:
             import os
 
-            found = PathFinder.find_spec(fullname, [os.path.join(package.folder, "src")])
+            found = PathFinder.find_spec(fullname, [os.path.join(folder, "src"), folder])
             if found is not None and found.origin is not None:
                 return found
-            if os.path.isdir(os.path.join(package.folder, "cfg")):
+            if os.path.isdir(os.path.join(folder, "cfg")):
                 return ModuleSpec(fullname, _loader, origin="periplus", is_package=True)
+        if _genpy_sources.is_known(fullname):
+            return ModuleSpec(fullname, _loader, origin="periplus", is_package=True)
         return None
 
 

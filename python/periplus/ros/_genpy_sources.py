@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import shutil
+import sys
 import tempfile
 from functools import cache
 
@@ -22,6 +23,8 @@ _CORE = frozenset((
     "nav_msgs", "rcl_interfaces", "rosgraph_msgs", "sensor_msgs", "shape_msgs", "std_msgs", "std_srvs", "tf2_msgs", "trajectory_msgs",
     "visualization_msgs",
 ))  # fmt: skip
+#: Number of folders above the program that may hold a package of rosbuild.
+_MAX_LEVELS = 5
 # Suffixes of the messages that an action stands for, with their texts.
 _ACTION_PARTS = {
     "Action": "{0}ActionGoal action_goal\n{0}ActionResult action_result\n{0}ActionFeedback action_feedback\n",
@@ -103,6 +106,29 @@ def load(package: str) -> None:
         _loading.discard(package)
 
 
+def package_folder(package: str) -> str | None:
+    """Folder of a package of the source trees, or None. Packages of rosbuild, which have a manifest.xml, count too."""
+    from periplus.ros import _packages
+
+    tree = _packages.find_package(package)
+    if tree is not None:
+        return tree.folder
+    paths = [one for one in os.environ.get("ROS_PACKAGE_PATH", "").split(os.pathsep) if one]
+    if paths:
+        tree = _packages.find_packages(paths).get(package)
+        if tree is not None:
+            return tree.folder
+    script = getattr(sys.modules.get("__main__"), "__file__", None) or (sys.argv[0] if sys.argv else "")
+    for start in (*paths, os.path.dirname(os.path.abspath(script)), os.getcwd()):
+        folder = os.path.abspath(start)
+        for _ in range(_MAX_LEVELS):
+            for one in (folder, os.path.join(folder, package)):
+                if os.path.basename(one) == package and os.path.isfile(os.path.join(one, "manifest.xml")):
+                    return one
+            folder = os.path.dirname(folder)
+    return None
+
+
 def add_texts(texts: dict[str, str]) -> None:
     """Adds types by their text, such as those of a recording, unless they are known."""
     made = []
@@ -123,12 +149,9 @@ def add_texts(texts: dict[str, str]) -> None:
 def _folders(package: str) -> list[str]:
     """Folders with texts of a package: the user's own first."""
     found = []
-    if package not in _CORE:
-        from periplus.ros import _packages
-
-        tree = _packages.find_package(package)
-        if tree is not None:
-            found.append(tree.folder)
+    own = package_folder(package) if package not in _CORE else None
+    if own is not None:
+        found.append(own)
     found += [os.path.join(folder, package) for folder in FOLDERS]
     return [one for one in found if any(os.path.isdir(os.path.join(one, kind)) for kind in _KINDS)]
 

@@ -15,7 +15,7 @@ class StatusTracker:
 
     def __init__(self, goal_id: Any = None, status: int | None = None, goal: Any = None) -> None:
         self.goal = goal
-        self.handle_tracker = None
+        self.handle_tracker: Any = None
         self.handle_destruction_time = rospy.Time()
         self.id_generator = GoalIDGenerator()
         self.status = GoalStatus()

@@ -10,12 +10,12 @@ from typing import Any
 @cache
 def files(package: str) -> tuple[str, ...]:
     """Paths of the `.cfg` files of a package."""
-    from periplus.ros import _packages
+    from periplus.ros import _genpy_sources
 
-    found = _packages.find_package(package)
+    found = _genpy_sources.package_folder(package)
     if found is None:
         return ()
-    folder = os.path.join(found.folder, "cfg")
+    folder = os.path.join(found, "cfg")
     if not os.path.isdir(folder):
         return ()
     return tuple(os.path.join(folder, one) for one in sorted(os.listdir(folder)) if one.endswith(".cfg"))

@@ -14,6 +14,8 @@ class TVal:
     __slots__ = ("_nanosec", "_sec")
     __type_handle__: ClassVar[Any] = None
 
+    _sec: int
+    _nanosec: int
     secs: int
     nsecs: int
 
@@ -32,8 +34,8 @@ class TVal:
         if not 0 <= nsecs < _NS_PER_S:
             carry, nsecs = divmod(nsecs, _NS_PER_S)
             secs += carry
-        self.secs = secs
-        self.nsecs = nsecs
+        self._sec = secs
+        self._nanosec = nsecs
 
     @classmethod
     def from_sec(cls, float_secs: float) -> Any:
@@ -49,8 +51,8 @@ class TVal:
 
     def set(self, secs: int, nsecs: int) -> None:
         """Sets both parts as they are; `canon` brings them into range."""
-        self.secs = secs
-        self.nsecs = nsecs
+        self._sec = secs
+        self._nanosec = nsecs
 
     def canon(self) -> None:
         """Brings `nsecs` into 0 to 10**9 - 1."""

@@ -20,6 +20,7 @@ BagMessageWithConnectionHeader = namedtuple(
 )
 TypesAndTopicsTuple = namedtuple("TypesAndTopicsTuple", ["msg_types", "topics"])
 TopicTuple = namedtuple("TopicTuple", ["msg_type", "message_count", "connections", "frequency"])
+CompressionTuple = namedtuple("CompressionTuple", ["compression", "uncompressed", "compressed"])
 _NS = 10**9
 
 
@@ -264,9 +265,7 @@ class Bag:
 
     def get_compression_info(self) -> Any:
         size = self.size
-        return namedtuple("CompressionTuple", ["compression", "uncompressed", "compressed"])(
-            self._compression, size, size
-        )
+        return CompressionTuple(self._compression, size, size)
 
     def __str__(self) -> str:
         lines = [f"path:        {self.filename}"]
@@ -298,7 +297,7 @@ class Bag:
             t = genpy.Time.from_sec(time.time())
         native = type(msg).__type_handle__.type_name
         try:
-            data = _native.serialize(msg)
+            data = _native.serialize(msg)  # type: ignore[arg-type]
         except (TypeError, ValueError) as error:
             msg._check_types()
             raise genpy.SerializationError(str(error)) from error
@@ -334,7 +333,8 @@ def _class_of_text(type_name: str, schema: Any) -> Any:
     from periplus.ros import _genpy_sources
 
     parts: dict[str, str] = {}
-    name, lines = type_name, []
+    name = type_name
+    lines: list[str] = []
     for line in text.splitlines():
         if line.startswith("====="):
             parts[name] = "\n".join(lines)

@@ -19,7 +19,14 @@ from rospy.names import (
 )
 
 get_ros_namespace = namespace
-make_global_ns = lambda name: name if name.endswith("/") else f"/{name.strip('/')}/"  # noqa: E731
+
+
+def make_global_ns(name: str) -> str:
+    """Namespace with slashes at both ends."""
+    inner = name.strip("/")
+    return f"/{inner}/" if inner else "/"
+
+
 
 __all__ = [
     "PRIV_NAME",

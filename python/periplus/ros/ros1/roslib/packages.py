@@ -26,3 +26,31 @@ def get_dir_pkg(d: str) -> tuple[str | None, str | None]:
 def list_pkgs() -> list[str]:
     """Names of all packages."""
     return RosPack().list()
+
+
+class ROSPkgException(Exception):
+    """A package or a file of it that cannot be found."""
+
+
+def find_node(pkg: str, node_type: str, rospack: object = None) -> list[str]:
+    """Paths of the programs of a package with a name."""
+    return _find(pkg, node_type, needs_execution=True)
+
+
+def find_resource(pkg: str, resource_name: str, filter_fn: object = None, rospack: object = None) -> list[str]:
+    """Paths of the files of a package with a name."""
+    return _find(pkg, resource_name, needs_execution=False)
+
+
+def _find(pkg: str, name: str, *, needs_execution: bool) -> list[str]:
+    import os
+
+    folder = get_pkg_dir(pkg)
+    assert folder is not None
+    found = []
+    for place, folders, files in os.walk(folder):
+        folders[:] = sorted(one for one in folders if not one.startswith("."))
+        path = os.path.join(place, name)
+        if name in files and (not needs_execution or os.access(path, os.X_OK)):
+            found.append(path)
+    return found

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 import re
-from typing import Any
+from typing import Any, List
 
 from periplus.ros import _packages
 
@@ -45,7 +45,7 @@ class Manifest:
             set(re.findall(r"<(?:build_|exec_|run_|build_export_)?depend\b[^>]*>\s*([^<\s]+)\s*<", text))
         )
 
-    def get_export(self, tag: str, attr: str) -> list[str]:
+    def get_export(self, tag: str, attr: str) -> List[str]:
         with open(self.filename, encoding="utf-8", errors="replace") as file:
             return re.findall(rf"<{re.escape(tag)}\b[^>]*\b{re.escape(attr)}=\"([^\"]*)\"", file.read())
 
@@ -66,7 +66,7 @@ class RosPack:
         return RosPack(ros_paths)
 
     @property
-    def ros_paths(self) -> list[str]:
+    def ros_paths(self) -> List[str]:
         return list(self._paths) if self._paths else get_ros_paths()
 
     def _known(self) -> dict[str, Any]:
@@ -75,7 +75,7 @@ class RosPack:
         more = _packages.find_packages(list(self._paths) if self._paths else paths)
         return {**more, **found} if not self._paths else more
 
-    def list(self) -> list[str]:
+    def list(self) -> List[str]:
         """Names of all packages."""
         return sorted(self._known())
 
@@ -92,9 +92,9 @@ class RosPack:
         """What the package.xml of a package says."""
         return Manifest(name, self.get_path(name))
 
-    def get_depends(self, name: str, implicit: bool = True) -> list[str]:
+    def get_depends(self, name: str, implicit: bool = True) -> List[str]:
         """Names of the packages that a package needs."""
-        found: list[str] = []
+        found: List[str] = []
         wanted = list(self.get_manifest(name).depends)
         while wanted:
             one = wanted.pop(0)
@@ -105,7 +105,7 @@ class RosPack:
                 wanted += self.get_manifest(one).depends
         return found
 
-    def get_depends_on(self, name: str, implicit: bool = True) -> list[str]:
+    def get_depends_on(self, name: str, implicit: bool = True) -> List[str]:
         """Names of the packages that need a package."""
         return [one for one in self.list() if name in self.get_depends(one, implicit)]
 
@@ -114,7 +114,7 @@ class RosStack(RosPack):
     """Finds metapackages by their names."""
 
 
-def get_ros_paths(env: Any = None) -> list[str]:
+def get_ros_paths(env: Any = None) -> List[str]:
     """Folders that are searched for packages."""
     given = (env or os.environ).get("ROS_PACKAGE_PATH", "").split(os.pathsep)
     return [*_packages.search_roots(), *(one for one in given if one)]

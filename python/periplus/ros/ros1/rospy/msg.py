@@ -34,7 +34,7 @@ class AnyMsg(Message):
         return f"<{len(self._buff)} bytes>"
 
 
-AnyMsg.__slots__ = ()
+AnyMsg.__slots__ = ()  # type: ignore[assignment]
 
 
 def args_kwds_to_message(data_class: Any, args: tuple[Any, ...], kwds: dict[str, Any]) -> Any:

@@ -16,7 +16,8 @@ class MasterProxy:
     def getSystemState(self) -> tuple[int, str, list[Any]]:  # noqa: N802
         """Publishers, subscribers and services by name."""
         graph = core.state.graph
-        publishers, subscribers = [], []
+        publishers: list[Any] = []
+        subscribers: list[Any] = []
         for name, _ in graph.topics():
             for found, is_publisher in ((publishers, True), (subscribers, False)):
                 nodes = [_full_name(one) for one in graph.endpoints(name, is_publisher)]

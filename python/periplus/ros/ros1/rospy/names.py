@@ -77,8 +77,14 @@ def global_name(name: str) -> str:
     return canonicalize_name(name if name.startswith(SEP) else SEP + name)
 
 
-is_global = lambda name: name.startswith(SEP)  # noqa: E731
-is_private = lambda name: name.startswith(PRIV_NAME)  # noqa: E731
+def is_global(name: str) -> bool:
+    """True for a name that begins with a slash."""
+    return name.startswith(SEP)
+
+
+def is_private(name: str) -> bool:
+    """True for a name that begins with a tilde."""
+    return name.startswith(PRIV_NAME)
 
 
 def is_legal_name(name: str) -> bool:

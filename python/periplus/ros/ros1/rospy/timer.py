@@ -69,7 +69,7 @@ class Rate:
 
     def __init__(self, hz: float, reset: bool = False) -> None:
         self.last_time = rostime.get_rostime()
-        self.sleep_dur = Duration(0, int(_NS / hz))
+        self.sleep_dur: genpy.Duration = Duration(0, int(_NS / hz))
         self._reset = reset
         self._is_stopped: Callable[[], bool] | None = None
 

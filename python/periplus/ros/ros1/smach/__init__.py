@@ -12,8 +12,10 @@ from smach._core import (
     State,
     UserData,
     cb_interface,
-    get_shutdown_check,
     has_smach_interface,
+)
+from smach._log import (
+    get_shutdown_check,
     is_shutdown,
     logdebug,
     logerr,

@@ -13,10 +13,9 @@ from smach._core import (
     InvalidUserCodeError,
     UserData,
     has_smach_interface,
-    is_shutdown,
-    logerr,
     run_state,
 )
+from smach._log import is_shutdown, logerr
 
 
 class Concurrence(Container):

@@ -14,10 +14,9 @@ from smach._core import (
     InvalidTransitionError,
     UserData,
     has_smach_interface,
-    is_shutdown,
-    loginfo,
     run_state,
 )
+from smach._log import is_shutdown, loginfo
 
 
 class StateMachine(Container):
