@@ -159,6 +159,11 @@ fn pytest(folders: &[&str]) -> Result<(), Failed> {
     let words = ["pytest", "-q", "-p", "no:cacheprovider", "--import-mode=importlib"];
     let mut command = module(&words)?;
     command.args(folders.iter().map(|folder| root().join(folder)));
+    // Real ROS 2, for the tests of both.
+    let peer = root().join("target/peers/ros2/bin/python");
+    if peer.exists() {
+        command.env("PERIPLUS_REAL_RCLPY", peer);
+    }
     run(&mut command, "see the failures above")
 }
 
