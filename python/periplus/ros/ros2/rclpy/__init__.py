@@ -62,7 +62,7 @@ class InitContextManager:
     def __exit__(
         self, exc_type: type[BaseException] | None, exc_val: BaseException | None, exc_tb: TracebackType | None
     ) -> None:
-        self.context.try_shutdown()
+        try_shutdown(context=None if self.context is get_default_context() else self.context)
         if self.installed_signal_handlers:
             uninstall_signal_handlers()
 

@@ -11,6 +11,7 @@ from rclpy._native import RosArgumentsError, ros_split_arguments
 from rclpy._node_entities import NodeEntities
 from rclpy._node_graph import NodeGraph
 from rclpy._node_parameters import NodeParameters
+from rclpy._parameter_callbacks import ParameterCallbacks
 from rclpy._rclpy_pybind11 import InvalidHandle, RCLError
 from rclpy.callback_groups import CallbackGroup, MutuallyExclusiveCallbackGroup, ReentrantCallbackGroup
 from rclpy.clock import Clock, ROSClock
@@ -313,7 +314,7 @@ class Node(NodeEntities, NodeParameters, NodeGraph):
 
 
 # Errors about arguments name the class that programs know.
-for _part in (NodeEntities, NodeParameters, NodeGraph):
+for _part in (NodeEntities, NodeParameters, ParameterCallbacks, NodeGraph):
     for _name, _method in vars(_part).items():
         if callable(_method) and hasattr(_method, "__qualname__"):
             _method.__qualname__ = f"Node.{_name}"
