@@ -62,7 +62,7 @@ class InitContextManager:
     def __exit__(
         self, exc_type: type[BaseException] | None, exc_val: BaseException | None, exc_tb: TracebackType | None
     ) -> None:
-        self.context.try_shutdown()
+        try_shutdown(context=None if self.context is get_default_context() else self.context)
         if self.installed_signal_handlers:
             uninstall_signal_handlers()
 
@@ -98,7 +98,7 @@ def get_global_executor() -> Executor:
 
         _global_executor = SingleThreadedExecutor()
         get_default_context().on_shutdown(_reset_global_executor)
-    elif not _global_executor.context.ok() and get_default_context() is not _global_executor.context:
+    elif not _global_executor.context._valid and get_default_context() is not _global_executor.context:
         _reset_global_executor()
         return get_global_executor()
     return _global_executor
@@ -135,14 +135,14 @@ class _Membership:
         self._executor = executor
         self._node = node
         self._before = node.executor
-        self._is_new = executor.add_node(node)
+        self._is_new = executor._join(node)
 
     def __enter__(self) -> None:
         return None
 
     def __exit__(self, *error: object) -> None:
         if self._is_new:
-            self._executor.remove_node(self._node)
+            self._executor._leave(self._node)
             if self._before is not None and not self._before._is_shutdown:
                 self._before.add_node(self._node)
 
@@ -164,7 +164,7 @@ def spin(node: Node, executor: Executor | None = None) -> None:
     """Runs the callbacks of a node until shutdown."""
     executor = _executor_of(node, executor)
     with _Membership(executor, node):
-        while executor.context.ok() and not executor._is_shutdown:
+        while executor.context._valid and not executor._is_shutdown:
             executor.spin_once()
 
 

@@ -28,8 +28,14 @@ source = _Source()
 def follow(graph: RosGraph) -> None:
     """Takes the time of `graph` if it is in lockstep."""
     if graph.is_lockstep:
+        source.lockstep_graph = graph
+        source.system_ns = graph.now_ns
+        source.steady_ns = graph.steady_ns
+
+
+def look() -> None:
+    """Marks one look of the program at a clock or a flag: in lockstep, a loop of nothing else must not stop time."""
+    if source.lockstep_graph is not None:
         from periplus.ros import _waiting
 
-        source.lockstep_graph = graph
-        source.system_ns = lambda: _waiting.now_ns(graph)
-        source.steady_ns = lambda: _waiting.steady_ns(graph)
+        _waiting.poll()

@@ -125,13 +125,16 @@ class _File:
 
     @staticmethod
     def _open() -> Any:
+        import atexit
         import time
 
         folder = logging_directory()
         os.makedirs(folder, exist_ok=True)
         prefix = outputs.file_prefix or os.path.basename(sys.executable) or "python3"
         name = f"{prefix}_{os.getpid()}_{time.time_ns() // 10**6}.log"
-        return open(os.path.join(folder, name), "a", encoding="utf-8", errors="replace")
+        file = open(os.path.join(folder, name), "a", encoding="utf-8", errors="replace")  # noqa: SIM115
+        atexit.register(file.close)
+        return file
 
 
 def logging_directory() -> str:

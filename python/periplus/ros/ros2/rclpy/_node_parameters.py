@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
 from rclpy._warnings import warn
+from rclpy._parameter_callbacks import ParameterCallbacks
 from rclpy._ranges import REL_TOL, range_problem
 from rclpy.exceptions import (
     InvalidParameterTypeException,
@@ -33,12 +34,8 @@ _NAME_ONLY = (
     "\t- Pass a name and a descriptor with `dynamic_typing=True"
 )
 
-PreCallback = Callable[[list[Parameter]], list[Parameter]]
-OnCallback = Callable[[list[Parameter]], Any]
-PostCallback = Callable[[list[Parameter]], None]
 
-
-class NodeParameters:
+class NodeParameters(ParameterCallbacks):
     """The part of a node that has to do with parameters."""
 
     PARAM_REL_TOL = REL_TOL
@@ -47,9 +44,6 @@ class NodeParameters:
     _descriptors: dict[str, Any]
     _parameter_overrides: dict[str, Parameter]
     _allow_undeclared_parameters: bool
-    _pre_set_parameters_callbacks: list[PreCallback]
-    _on_set_parameters_callbacks: list[OnCallback]
-    _post_set_parameters_callbacks: list[PostCallback]
     _parameter_event_publisher: Any
     _rcl_full_name: str
 
@@ -62,9 +56,7 @@ class NodeParameters:
         self._descriptors = {}
         self._parameter_overrides = overrides
         self._allow_undeclared_parameters = allow_undeclared
-        self._pre_set_parameters_callbacks = []
-        self._on_set_parameters_callbacks = []
-        self._post_set_parameters_callbacks = []
+        self._rcl_init_callbacks()
         self._parameter_event_publisher = None
 
     # ---- declaring
@@ -361,32 +353,6 @@ class NodeParameters:
             event.stamp = self.get_clock().now().to_msg()
             self._parameter_event_publisher.publish(event)
 
-    # ---- callbacks
-
-    def add_pre_set_parameters_callback(self, callback: PreCallback) -> None:
-        """Calls a function before parameters are set; it returns the list that is set instead."""
-        self._pre_set_parameters_callbacks.insert(0, _callable(callback))
-
-    def add_on_set_parameters_callback(self, callback: OnCallback) -> None:
-        """Asks a function whether parameters may be set; the newest is asked first, the first refusal counts."""
-        self._on_set_parameters_callbacks.insert(0, _callable(callback))
-
-    def add_post_set_parameters_callback(self, callback: PostCallback) -> None:
-        """Calls a function after parameters were set."""
-        self._post_set_parameters_callbacks.insert(0, _callable(callback))
-
-    def remove_pre_set_parameters_callback(self, callback: PreCallback) -> None:
-        """Undoes `add_pre_set_parameters_callback`. Raises `ValueError` if it was not added."""
-        self._pre_set_parameters_callbacks.remove(callback)
-
-    def remove_on_set_parameters_callback(self, callback: OnCallback) -> None:
-        """Undoes `add_on_set_parameters_callback`. Raises `ValueError` if it was not added."""
-        self._on_set_parameters_callbacks.remove(callback)
-
-    def remove_post_set_parameters_callback(self, callback: PostCallback) -> None:
-        """Undoes `add_post_set_parameters_callback`. Raises `ValueError` if it was not added."""
-        self._post_set_parameters_callbacks.remove(callback)
-
     # ---- descriptors
 
     def describe_parameter(self, name: str) -> ParameterDescriptor:
@@ -428,9 +394,3 @@ class NodeParameters:
             if not result.successful:
                 raise InvalidParameterValueException(name, parameter.value, result.reason)
         return self.get_parameter(name).get_parameter_value()
-
-
-def _callable(callback: Any) -> Any:
-    if not callable(callback):
-        raise TypeError("Callback must be callable, got {}", type(callback))
-    return callback

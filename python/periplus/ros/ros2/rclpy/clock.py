@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 from periplus.ros import _waiting
 
-from rclpy._clock_source import source
+from rclpy._clock_source import look, source
 from rclpy.clock_type import ClockType
 from rclpy.duration import Duration
 from rclpy.exceptions import NotInitializedException
@@ -160,6 +160,8 @@ class Clock:
 
     def now(self) -> Time:
         """The current time."""
+        if source.lockstep_graph is not None:
+            look()
         return _make(self._now_ns(), self._clock_type)
 
     def create_jump_callback(

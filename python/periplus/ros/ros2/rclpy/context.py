@@ -76,7 +76,7 @@ class Context:
     def ok(self) -> bool:
         """True between `init` and shutdown."""
         if self._valid and _clock_source.source.lockstep_graph is not None:
-            _waiting.poll()
+            _clock_source.look()
         return self._valid
 
     def _invalidate(self) -> None:

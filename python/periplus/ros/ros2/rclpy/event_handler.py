@@ -234,15 +234,18 @@ class NodeEvents(Waitable):
         self._graph = node._rcl_graph
         self._seen = -1
         self._next_poll_ns = 0
+        self._delay_ns: int | None = None
         self._ready: list[EventHandler] = []
 
     def _has_work(self) -> bool:
         if self._ready:
             return True
+        self._delay_ns = None
         if self._graph.events == self._seen:
             return False
         now_ns = source.steady_ns()
         if now_ns < self._next_poll_ns:
+            self._delay_ns = self._next_poll_ns - now_ns
             return False
         self._next_poll_ns = now_ns + _PERIOD_NS
         self._seen = self._graph.events
@@ -258,9 +261,7 @@ class NodeEvents(Waitable):
         return bool(self._ready)
 
     def _next_ns(self) -> int | None:
-        if self._graph.events == self._seen:
-            return None
-        return max(self._next_poll_ns - source.steady_ns(), 0)
+        return self._delay_ns
 
     def _take(self) -> Any:
         return (self._ready.pop(0),) if self._ready else None

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 
 from periplus.ros import _waiting
 
-from rclpy._clock_source import source
+from rclpy._clock_source import look, source
 from rclpy._execution import finish, run_entity
 from rclpy._rclpy_pybind11 import InvalidHandle
 from rclpy.constants import S_TO_NS
@@ -92,18 +92,29 @@ class Executor:
 
     def add_node(self, node: Node) -> bool:
         """Adds a node, which leaves its executor. Returns False if the node is here already."""
-        if node in self._nodes:
+        if not self._join(node):
             return False
-        self._nodes = {**self._nodes, node: None}
-        node.executor = self
         self._graph.wake()
         return True
 
     def remove_node(self, node: Node) -> None:
         """Takes a node out."""
         if node in self._nodes:
-            self._nodes = {one: None for one in self._nodes if one is not node}
+            self._leave(node)
             self._graph.wake()
+
+    def _join(self, node: Node) -> bool:
+        """Adds a node without a wake-up of threads that spin."""
+        if node in self._nodes:
+            return False
+        self._nodes = {**self._nodes, node: None}
+        node.executor = self
+        return True
+
+    def _leave(self, node: Node) -> None:
+        """Takes a node out without a wake-up."""
+        if node in self._nodes:
+            self._nodes = {one: None for one in self._nodes if one is not node}
             if node.executor is self:
                 node.executor = None
 
@@ -228,6 +239,7 @@ class Executor:
             if deadline_ns is not None:
                 left = deadline_ns - source.steady_ns()
                 if left <= 0:
+                    look()
                     raise TimeoutException
                 if next_ns is None or left < next_ns:
                     next_ns = left
@@ -271,14 +283,14 @@ class Executor:
 
     def spin(self) -> None:
         """Runs callbacks until shutdown."""
-        while self._context.ok() and not self._is_shutdown:
+        while self._context._valid and not self._is_shutdown:
             self.spin_once()
 
     def spin_until_future_complete(self, future: Future, timeout_sec: float | None = None) -> None:
         """Runs callbacks until the future is done, or for `timeout_sec` (default: no limit)."""
         future._add_wake(self._graph.wake)
         deadline_ns = self._deadline(timeout_sec)
-        while self._context.ok() and not future._is_done() and not self._is_shutdown:
+        while self._context._valid and not future._is_done() and not self._is_shutdown:
             left: float | None = None
             if deadline_ns is not None:
                 left = (deadline_ns - source.steady_ns()) / S_TO_NS

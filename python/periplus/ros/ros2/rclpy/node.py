@@ -11,6 +11,7 @@ from rclpy._native import RosArgumentsError, ros_split_arguments
 from rclpy._node_entities import NodeEntities
 from rclpy._node_graph import NodeGraph
 from rclpy._node_parameters import NodeParameters
+from rclpy._parameter_callbacks import ParameterCallbacks
 from rclpy._rclpy_pybind11 import InvalidHandle, RCLError
 from rclpy.callback_groups import CallbackGroup, MutuallyExclusiveCallbackGroup, ReentrantCallbackGroup
 from rclpy.clock import Clock, ROSClock
@@ -120,6 +121,29 @@ class Node(NodeEntities, NodeParameters, NodeGraph):
         self._context = get_default_context() if context is None else context
         self._rcl_graph = self._context._use("cannot create node")
         self._rcl_native = self._rcl_make_native(node_name, namespace, use_global_arguments, cli_args)
+        try:
+            self._rcl_set_up(
+                enable_rosout,
+                start_parameter_services,
+                parameter_overrides,
+                allow_undeclared_parameters,
+                automatically_declare_parameters_from_overrides,
+                enable_logger_service,
+            )
+        except BaseException:
+            self._rcl_native.close()
+            raise
+
+    def _rcl_set_up(
+        self,
+        enable_rosout: bool,
+        start_parameter_services: bool,
+        parameter_overrides: Sequence[Parameter] | None,
+        allow_undeclared_parameters: bool,
+        automatically_declare_parameters_from_overrides: bool,
+        enable_logger_service: bool,
+    ) -> None:
+        """Makes what each node has."""
         name, inside = self._rcl_native.name, self._rcl_native.namespace.rstrip("/")
         self._rcl_full_name = f"{inside}/{name}"
         self._rcl_executor: Callable[[], Executor | None] | None = None
@@ -313,7 +337,7 @@ class Node(NodeEntities, NodeParameters, NodeGraph):
 
 
 # Errors about arguments name the class that programs know.
-for _part in (NodeEntities, NodeParameters, NodeGraph):
+for _part in (NodeEntities, NodeParameters, ParameterCallbacks, NodeGraph):
     for _name, _method in vars(_part).items():
         if callable(_method) and hasattr(_method, "__qualname__"):
             _method.__qualname__ = f"Node.{_name}"

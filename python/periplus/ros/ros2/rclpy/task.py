@@ -10,7 +10,7 @@ from types import CoroutineType
 from typing import TYPE_CHECKING, Any
 
 from rclpy._warnings import warn
-from rclpy._clock_source import source
+from rclpy._clock_source import look, source
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Generator
@@ -83,9 +83,7 @@ class Future:
     def done(self) -> bool:
         """True once there is a result or an exception."""
         if source.lockstep_graph is not None:
-            from periplus.ros import _waiting
-
-            _waiting.poll()
+            look()
         return self._state is _FINISHED
 
     def _is_done(self) -> bool:

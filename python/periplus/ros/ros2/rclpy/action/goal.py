@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from rclpy._clock_source import source
+from rclpy._clock_source import look, source
 from rclpy._rclpy_pybind11 import RCLError
 from rclpy.action._names import (
     ABORTED,
@@ -82,9 +82,7 @@ class ServerGoalHandle:
     def is_cancel_requested(self) -> bool:
         """True once a request to cancel the goal was accepted."""
         if source.lockstep_graph is not None:
-            from periplus.ros import _waiting
-
-            _waiting.poll()
+            look()
         return self._status == CANCELING
 
     def _update(self, event: str) -> None:
