@@ -157,6 +157,7 @@ def _tests(module: ModuleType, context: dict[str, Any]) -> tuple[unittest.TestSu
             for name, one in context.items():
                 setattr(value, name, one)
             for test in unittest.defaultTestLoader.loadTestsFromTestCase(value):
+                assert isinstance(test, unittest.TestCase)
                 name = test.id().rpartition(".")[2]
                 setattr(test, name, _bound(getattr(test, name), context))
                 suites[bool(getattr(value, "__post_shutdown_test__", False))].addTest(test)
