@@ -5,7 +5,7 @@ variables:
 
 - `PERIPLUS_LOCKSTEP`: address of the simulation. It is removed, so that processes which the program starts are not in step.
 - `PERIPLUS_SEED`: seed of the run (default 0). `PERIPLUS_PROCESS`: name of the process in the launch file, so that two
-  processes have different random numbers (default: the name of the program).
+  processes have different random numbers (default: the program with its node name and namespace).
 - `PYTHONHASHSEED`: set by the parent, since Python reads it at its start.
 """
 
@@ -60,7 +60,7 @@ def start(link: str, *, graph: LockstepGraph | None = None) -> Scheduler:
     patches = _lockstep_threads.replacements(scheduler) + _lockstep_time.replacements(scheduler)
     patches += _lockstep_signals.replacements(scheduler, _report.note)
     seed = os.environ.get("PERIPLUS_SEED", "") or "0"
-    process = os.environ.get("PERIPLUS_PROCESS") or os.path.basename(sys.argv[0] if sys.argv else "")
+    process = os.environ.get("PERIPLUS_PROCESS") or _process_name(sys.argv)
     patches.append((os, "urandom", _entropy(f"{seed}/{process}")))
     _undo.extend(_lockstep_time.replace_everywhere(patches))
     # Random numbers are seeded, clocks replaced, in modules that may never be imported.
@@ -75,6 +75,12 @@ def start(link: str, *, graph: LockstepGraph | None = None) -> Scheduler:
     _faults.dump_on_signal()
     _real_start_thread(_watch, (scheduler,))
     return scheduler
+
+
+def _process_name(words: list[str]) -> str:
+    """Name of the program with the words that rename its node: the same in each run, unlike paths of parameter files."""
+    renames = [word for word in words[1:] if word.startswith(("__node:=", "__name:=", "__ns:="))]
+    return " ".join([os.path.basename(words[0]) if words else "", *renames])
 
 
 def _at_exit() -> None:

@@ -270,8 +270,8 @@ def square(check: Check) -> None:
     assert (cancelled.status, cancelled.result.blocked) == (5, False), cancelled
     handle = send(length=50.0)
     clearance = check.node.create_publisher(Clearance, "clearance", 1)
-    until(lambda: clearance.get_subscription_count() > 0, "a subscription to clearance")
-    clearance.publish(Clearance(state=Clearance.BLOCKED))
+    # More than once: the other side may discover this publisher later than the publisher its subscription.
+    check.repeat(lambda: clearance.publish(Clearance(state=Clearance.BLOCKED)), 0.1)
     blocked = result(handle)
     assert (blocked.status, blocked.result.blocked) == (6, True), blocked
     print([round(value, 6) for value in pose] if TOGETHER else "")

@@ -3,6 +3,8 @@
 import signal
 import subprocess
 import sys
+from collections.abc import Iterator
+from concurrent.futures import Future, ThreadPoolExecutor
 from pathlib import Path
 
 import pytest
@@ -10,23 +12,24 @@ from ros_programs import environment
 
 FOLDER = Path(__file__).parent
 NODES = {"guard": [], "wall": [], "beacon": ["1.5"], "follower": [], "lamp": [], "square": []}
+#: The first of the domains; each node has its own.
+FIRST_DOMAIN = 140
 
 
-@pytest.mark.parametrize("name", NODES)
-def test_live(name: str, tmp_path: Path) -> None:
-    domain = str(140 + list(NODES).index(name))
+def run_live(name: str, folder: Path) -> tuple[str, str]:
+    """Runs a node and its check in two processes; returns what the check printed, and both outputs."""
     variables = environment(
-        ROS_DOMAIN_ID=domain, ROS_AUTOMATIC_DISCOVERY_RANGE="LOCALHOST", ROS_LOG_DIR=str(tmp_path),
-        PERIPLUS_PACKAGES=str(FOLDER / "own_nodes"),
+        ROS_DOMAIN_ID=str(FIRST_DOMAIN + list(NODES).index(name)), ROS_AUTOMATIC_DISCOVERY_RANGE="LOCALHOST",
+        ROS_LOG_DIR=str(folder), PERIPLUS_PACKAGES=str(FOLDER / "own_nodes"),
     )  # fmt: skip
     node = subprocess.Popen(
         [sys.executable, "-m", "periplus.ros.run", "trail_nodes", name, *NODES[name]],
-        cwd=tmp_path, env=variables, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,
+        cwd=folder, env=variables, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,
     )  # fmt: skip
     try:
         check = subprocess.run(
             [sys.executable, str(FOLDER / "own_node_checks.py"), name],
-            cwd=tmp_path, env=variables, capture_output=True, text=True, timeout=150, check=False,
+            cwd=folder, env=variables, capture_output=True, text=True, timeout=150, check=False,
         )  # fmt: skip
     finally:
         node.send_signal(signal.SIGINT)
@@ -35,8 +38,21 @@ def test_live(name: str, tmp_path: Path) -> None:
         except subprocess.TimeoutExpired:
             node.kill()
             out = node.communicate()[0] + "\nit did not end after Ctrl-C"
-    assert (check.returncode, check.stdout.strip()) == (0, "ok"), f"{check.stdout}{check.stderr}\n--- the node:\n{out}"
-    assert "did not end" not in out
+    return check.stdout.strip(), f"{check.stdout}{check.stderr}\n--- the node:\n{out}"
+
+
+@pytest.fixture(scope="module")
+def live_runs(tmp_path_factory: pytest.TempPathFactory) -> Iterator[dict[str, "Future[tuple[str, str]]"]]:
+    """The live runs of all nodes, several at once: most of their time is waiting."""
+    with ThreadPoolExecutor(3) as pool:
+        yield {name: pool.submit(run_live, name, tmp_path_factory.mktemp(name)) for name in NODES}
+
+
+@pytest.mark.parametrize("name", NODES)
+def test_live(name: str, live_runs: dict[str, "Future[tuple[str, str]]"]) -> None:
+    answer, outputs = live_runs[name].result()
+    assert answer == "ok", outputs
+    assert "did not end" not in outputs
 
 
 @pytest.mark.parametrize("name", NODES)
