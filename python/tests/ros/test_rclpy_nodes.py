@@ -227,3 +227,33 @@ def test_a_managed_node_refuses_what_is_not_possible(ros: Nodes, capfd: pytest.C
     node.on_activate = lambda state: None
     with pytest.raises(AttributeError, match="on_activate of the node /managed must return a TransitionCallbackReturn"):
         node.trigger_activate()
+
+
+def test_a_missed_deadline_is_told_to_both_sides(ros: Nodes) -> None:
+    from rclpy.duration import Duration
+    from rclpy.event_handler import PublisherEventCallbacks, SubscriptionEventCallbacks
+
+    node, missed = ros.make("n"), []
+    qos = QoSProfile(depth=1, deadline=Duration(seconds=0.05))
+    publisher = node.create_publisher(
+        String, "t", qos, event_callbacks=PublisherEventCallbacks(deadline=lambda event: missed.append("offered"))
+    )
+    node.create_subscription(
+        String, "t", lambda message: None, qos,
+        event_callbacks=SubscriptionEventCallbacks(deadline=lambda event: missed.append("requested")),
+    )  # fmt: skip
+    publisher.publish(String())
+    ros.until(lambda: {"offered", "requested"} <= set(missed))
+
+
+def test_matched_peers_are_counted(ros: Nodes) -> None:
+    from rclpy.event_handler import PublisherEventCallbacks
+
+    node, counts = ros.make("n"), []
+    node.create_publisher(
+        String, "t", 1, event_callbacks=PublisherEventCallbacks(matched=lambda event: counts.append(event.current_count))
+    )
+    subscription = node.create_subscription(String, "t", print, 1)
+    ros.until(lambda: counts == [1])
+    node.destroy_subscription(subscription)
+    ros.until(lambda: counts == [1, 0])

@@ -123,6 +123,8 @@ class NodeEntities:
 
             self._rcl_events = NodeEvents(self, ReentrantCallbackGroup())  # type: ignore[arg-type]
             self._rcl_waitables = [*self._rcl_waitables, self._rcl_events]
+        if self._rcl_events is not None:
+            self._rcl_events.refresh()
 
     # ---- making
 

@@ -179,6 +179,12 @@ class rmw_qos_policy_kind_t(IntEnum):  # noqa: N801
     RMW_QOS_POLICY_LIVELINESS_LEASE_DURATION = 256
     RMW_QOS_POLICY_AVOID_ROS_NAMESPACE_CONVENTIONS = 512
 
+    def __str__(self) -> str:
+        return f"{type(self).__name__}.{self.name}"
+
+    def __format__(self, form: str) -> str:
+        return format(str(self), form)
+
 
 def rclpy_get_rmw_implementation_identifier() -> str:
     """Name of the middleware."""

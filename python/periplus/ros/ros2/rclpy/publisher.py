@@ -80,6 +80,10 @@ class Publisher:
     def assert_liveliness(self) -> None:
         """Shows that the publisher is alive, for the liveliness `MANUAL_BY_TOPIC`."""
         self._check()
+        for handler in self.event_handlers:
+            note = getattr(handler, "note", None)
+            if note is not None and handler.event_type.name.endswith("LIVELINESS_LOST"):
+                note()
         self._native.assert_liveliness()
 
     def wait_for_all_acked(self, timeout: Duration = Duration(seconds=-1)) -> bool:  # noqa: B008

@@ -145,3 +145,11 @@ def _override_qos_policy_with_param(qos: QoSProfile, policy: QoSPolicyKind, para
     elif policy in _DURATIONS:
         value = Duration(nanoseconds=value)
     setattr(qos, policy.name.lower(), value)
+
+
+def __getattr__(name: str) -> Any:
+    if name == "QosCallbackResult":
+        from rcl_interfaces.msg import SetParametersResult
+
+        return SetParametersResult
+    raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
