@@ -241,7 +241,7 @@ def square(check: Check) -> None:
 
     check.repeat(move, 0.02)
     refused = check.call(SetSpeed, "/square/set_speed", speed=2.0)
-    assert (refused.accepted, refused.previous, refused.reason) == (False, 0.3, "between 0 and 1 m/s")
+    assert (refused.accepted, refused.previous, refused.reason) == (False, 0.3, "between 0 and 1 m/s"), refused
     assert check.call(SetSpeed, "/square/set_speed", speed=0.5).accepted
     client = ActionClient(check.node, DriveSide, "drive_side")
     assert client.wait_for_server(timeout_sec=25.0)

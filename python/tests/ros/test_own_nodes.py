@@ -8,36 +8,31 @@ from concurrent.futures import Future, ThreadPoolExecutor
 from pathlib import Path
 
 import pytest
-from ros_programs import environment
+from ros_programs import environment, own_domain
 
 FOLDER = Path(__file__).parent
 NODES = {"guard": [], "wall": [], "beacon": ["1.5"], "follower": [], "lamp": [], "square": []}
-#: The first of the domains; each node has its own.
-FIRST_DOMAIN = 140
-
 
 def run_live(name: str, folder: Path) -> tuple[str, str]:
     """Runs a node and its check in two processes; returns what the check printed, and both outputs."""
-    variables = environment(
-        ROS_DOMAIN_ID=str(FIRST_DOMAIN + list(NODES).index(name)), ROS_AUTOMATIC_DISCOVERY_RANGE="LOCALHOST",
-        ROS_LOG_DIR=str(folder), PERIPLUS_PACKAGES=str(FOLDER / "own_nodes"),
-    )  # fmt: skip
-    node = subprocess.Popen(
-        [sys.executable, "-m", "periplus.ros.run", "trail_nodes", name, *NODES[name]],
-        cwd=folder, env=variables, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,
-    )  # fmt: skip
-    try:
-        check = subprocess.run(
-            [sys.executable, str(FOLDER / "own_node_checks.py"), name],
-            cwd=folder, env=variables, capture_output=True, text=True, timeout=150, check=False,
+    with own_domain() as domain:
+        variables = environment(**domain, ROS_LOG_DIR=str(folder), PERIPLUS_PACKAGES=str(FOLDER / "own_nodes"))
+        node = subprocess.Popen(
+            [sys.executable, "-m", "periplus.ros.run", "trail_nodes", name, *NODES[name]],
+            cwd=folder, env=variables, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,
         )  # fmt: skip
-    finally:
-        node.send_signal(signal.SIGINT)
         try:
-            out = node.communicate(timeout=20)[0]
-        except subprocess.TimeoutExpired:
-            node.kill()
-            out = node.communicate()[0] + "\nit did not end after Ctrl-C"
+            check = subprocess.run(
+                [sys.executable, str(FOLDER / "own_node_checks.py"), name],
+                cwd=folder, env=variables, capture_output=True, text=True, timeout=150, check=False,
+            )  # fmt: skip
+        finally:
+            node.send_signal(signal.SIGINT)
+            try:
+                out = node.communicate(timeout=20)[0]
+            except subprocess.TimeoutExpired:
+                node.kill()
+                out = node.communicate()[0] + "\nit did not end after Ctrl-C"
     return check.stdout.strip(), f"{check.stdout}{check.stderr}\n--- the node:\n{out}"
 
 
