@@ -33,7 +33,7 @@ class Outcome:
     err: str
 
     def differences(self, expect: dict[str, Any]) -> list[str]:
-        """What is not as the case says."""
+        """Differences from what the case expects."""
         found = []
         if self.exit_code != expect.get("exit", 0):
             found.append(f"exit code {self.exit_code}, not {expect.get('exit', 0)}")

@@ -1,4 +1,4 @@
-"""The packages of `own_nodes` run from their source tree, each node doing what it says: live, and in lockstep twice alike."""
+"""The packages of `own_nodes` run from their source tree, each node with its documented effect: live, and in lockstep twice alike."""
 
 import signal
 import subprocess

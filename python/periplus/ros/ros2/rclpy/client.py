@@ -22,6 +22,9 @@ SrvType = TypeVar("SrvType")
 SrvTypeRequest = TypeVar("SrvTypeRequest")
 SrvTypeResponse = TypeVar("SrvTypeResponse")
 
+# Longest time [ns] between two looks for a server: not each change of the graph is an arrival.
+_LOOK_NS = 50_000_000
+
 
 class Client:
     """Calls a service. `Node.create_client` makes it."""
@@ -175,9 +178,9 @@ def wait_until(context: Context, is_ready: Any, timeout_sec: float | None) -> bo
             return True
         if not context._valid:
             return False
-        left_ns = None
+        left_ns = _LOOK_NS
         if deadline_ns is not None:
-            left_ns = deadline_ns - source.steady_ns()
+            left_ns = min(left_ns, deadline_ns - source.steady_ns())
             if left_ns <= 0:
                 return False
         _waiting.wait(graph, seen, left_ns)

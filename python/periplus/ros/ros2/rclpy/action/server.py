@@ -226,7 +226,7 @@ class ActionServer(Waitable):
             self._log(40, f"Error raised in execute callback: {error}")
             traceback.print_exc()
         if handle.is_active:
-            self._log(30, f"Goal state not set, assuming aborted. Goal ID: {list(handle.goal_id.uuid)}")
+            self._log(30, f"Goal state not set, assuming aborted. Goal ID: {handle.goal_id.uuid}")
             if handle._status == 1:
                 handle._update("EXECUTE")
             handle.abort()
