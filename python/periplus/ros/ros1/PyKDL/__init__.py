@@ -13,7 +13,7 @@ class Vector:
     __slots__ = ("_v",)
 
     def __init__(self, x: Any = 0.0, y: float = 0.0, z: float = 0.0) -> None:
-        self._v = list(x._v) if isinstance(x, Vector) else [float(x), float(y), float(z)]
+        self._v: list[float] = list(x._v) if isinstance(x, Vector) else [float(x), float(y), float(z)]
 
     @staticmethod
     def Zero() -> Vector:  # noqa: N802

@@ -19,7 +19,14 @@ class MenuHandler:
         self._entries: dict[int, dict[str, Any]] = {}
         self._markers: set[str] = set()
 
-    def insert(self, title: str, parent: int | None = None, command_type: int = MenuEntry.FEEDBACK, command: str = "", callback: Callable[[Any], Any] | None = None) -> int:  # fmt: skip
+    def insert(
+        self,
+        title: str,
+        parent: int | None = None,
+        command_type: int = MenuEntry.FEEDBACK,
+        command: str = "",
+        callback: Callable[[Any], Any] | None = None,
+    ) -> int:
         """Adds an entry; returns its number."""
         number = len(self._entries) + 1
         self._entries[number] = {

@@ -32,7 +32,8 @@ def toMsg(f: Frame) -> Any:  # noqa: N802
 
 def fromMatrix(m: Any) -> Frame:  # noqa: N802
     """Frame of a 4x4 matrix."""
-    return Frame(Rotation(*(m[row][column] for row in range(3) for column in range(3))), Vector(*(m[row][3] for row in range(3))))
+    turn = Rotation(*(m[row][column] for row in range(3) for column in range(3)))
+    return Frame(turn, Vector(*(m[row][3] for row in range(3))))
 
 
 def toMatrix(f: Frame) -> Any:  # noqa: N802
