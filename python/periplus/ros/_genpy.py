@@ -101,7 +101,7 @@ def _make(definition: Definition) -> Any:
         "__type_handle__": definition.handle,
         **definition.constants,
     }
-    cls = type(name, (Message,), body)
+    cls: Any = type(name, (Message,), body)
     if definition.handle is None:
         cls.__type_handle__ = genpy_handle(definition.native)
     for slot in slots:
@@ -111,7 +111,7 @@ def _make(definition: Definition) -> Any:
         setattr(cls, one.name, _property(cls, one))
     # Programs read the names of the fields here; the storage exists already.
     cls.__slots__ = [one.name for one in definition.fields]
-    cls.__first_values__ = _Defaults(definition)  # type: ignore[attr-defined]
+    cls.__first_values__ = _Defaults(definition)
     _classes[definition.native] = cls
     return cls
 

@@ -19,9 +19,9 @@ FOLDERS = tuple(
 _KINDS = ("msg", "srv", "action")
 #: Packages that are the same everywhere: no source tree is searched for them.
 _CORE = frozenset((
-    "actionlib", "actionlib_msgs", "builtin_interfaces", "diagnostic_msgs", "dynamic_reconfigure", "geometry_msgs", "move_base_msgs",
-    "nav_msgs", "rcl_interfaces", "rosgraph_msgs", "sensor_msgs", "shape_msgs", "std_msgs", "std_srvs", "tf2_msgs", "trajectory_msgs",
-    "visualization_msgs",
+    "actionlib", "actionlib_msgs", "builtin_interfaces", "diagnostic_msgs", "dynamic_reconfigure", "geometry_msgs",
+    "move_base_msgs", "nav_msgs", "rcl_interfaces", "rosgraph_msgs", "sensor_msgs", "shape_msgs", "std_msgs", "std_srvs",
+    "tf2_msgs", "trajectory_msgs", "visualization_msgs",
 ))  # fmt: skip
 #: Number of folders above the program that may hold a package of rosbuild.
 _MAX_LEVELS = 5

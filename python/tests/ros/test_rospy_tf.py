@@ -106,3 +106,30 @@ def test_transformations_are_those_of_the_classic_module(tmp_path: Path) -> None
         """,
         "True [0.0343, 0.106, 0.1436, 0.9833]\nTrue [1.0, 2.0, 3.0]\nTrue True\nTrue True\nTrue",
     )
+
+
+def test_frames_of_kdl_and_points_of_scans(tmp_path: Path) -> None:
+    check(
+        tmp_path,
+        """
+        import math
+        import numpy as np
+        import PyKDL
+        import sensor_msgs.point_cloud2 as points
+        from laser_geometry import LaserProjection
+        from sensor_msgs.msg import LaserScan
+        from tf_conversions import posemath, transformations
+        frame = PyKDL.Frame(PyKDL.Rotation.RPY(0.1, 0.2, 0.3), PyKDL.Vector(1, 2, 3))
+        matrix = transformations.euler_matrix(0.1, 0.2, 0.3)
+        matrix[:3, 3] = 1, 2, 3
+        print(np.allclose(posemath.toMatrix(frame), matrix), np.allclose(frame.M.GetRPY(), (0.1, 0.2, 0.3)))
+        print(np.allclose(posemath.toMatrix(posemath.fromMsg(posemath.toMsg(frame)) * frame.Inverse()), np.eye(4)))
+        print([round(one, 3) for one in frame * PyKDL.Vector(1, 0, 0)], np.allclose(matrix @ (1, 0, 0, 1), [*(frame * PyKDL.Vector(1, 0, 0)), 1]))
+        scan = LaserScan(angle_increment=math.pi / 2, range_min=0.1, range_max=10, ranges=[1, math.inf, 2, math.nan])
+        cloud = LaserProjection().projectLaser(scan)
+        print([(round(one.x, 3), one.index) for one in points.read_points_list(cloud)])
+        made = points.create_cloud_xyz32(cloud.header, [(1, 2, 3), (4, 5, math.nan)])
+        print(made.width, list(points.read_points(made, skip_nans=True)), list(points.read_points(made, ["y"])))
+        """,
+        "True True\nTrue\n[1.936, 2.29, 2.801] True\n[(1.0, 0), (-2.0, 2)]\n2 [(1.0, 2.0, 3.0)] [(2.0,), (5.0,)]",
+    )

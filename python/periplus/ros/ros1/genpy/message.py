@@ -238,7 +238,7 @@ def get_printable_message_args(msg: Message, buff: Any = None, prefix: str = "")
     return " ".join(f"{prefix}{name}" for name in type(msg).__slots__)
 
 
-def get_message_class(message_type: str, reload_on_error: bool = False) -> type[Message] | None:
+def get_message_class(message_type: str, reload_on_error: bool = False) -> Any:
     """Class of a type such as ``std_msgs/String``, or None."""
     return _class_of(message_type, "msg")
 

@@ -200,7 +200,9 @@ class Bag:
         if found is None:
             found = _class_of_text(type_name, info.schema)
         if found is None:
-            raise ROSBagException(f"{self.filename}: type {type_name} of {topic} is not known and its definition cannot be read")
+            raise ROSBagException(
+                f"{self.filename}: type {type_name} of {topic} is not known and its definition cannot be read"
+            )
         return found
 
     def _message(self, topic: str, cls: Any, data: bytes, raw: bool) -> Any:

@@ -15,7 +15,7 @@ def numpy_msg(msg_type: Any) -> Any:
 
     >>> rospy.Subscriber("floats", numpy_msg(Floats), callback)  # doctest: +SKIP
     """
-    found = _made.get(msg_type)
+    found: Any = _made.get(msg_type)
     if found is None:
         names = msg_type.__slots__
         found = type(f"Numpy_{msg_type._type.replace('/', '__')}", (msg_type,), {"__slots__": ()})

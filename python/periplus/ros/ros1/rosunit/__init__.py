@@ -12,7 +12,8 @@ def unitrun(package: str, test_name: str, test: Any, sysargs: list[str] | None =
     case = unittest.defaultTestLoader.loadTestsFromName(test) if isinstance(test, str) else _suite(test)
     result = unittest.TextTestRunner(stream=sys.stderr, verbosity=2).run(case)
     ok = result.wasSuccessful()
-    print(f"[ROSUNIT] {package}/{test_name}: {result.testsRun} tests, {len(result.failures)} failures, {len(result.errors)} errors")
+    counts = f"{result.testsRun} tests, {len(result.failures)} failures, {len(result.errors)} errors"
+    print(f"[ROSUNIT] {package}/{test_name}: {counts}")
     if not ok:
         sys.exit(1)
 

@@ -59,7 +59,9 @@ class StateMachine(Container):
                 raise InvalidStateError(f"State '{label}' is neither a state nor callable: {state!r}")
             state = CBState(state)
         if label in self._states:
-            raise InvalidStateError(f"Attempting to add state with label '{label}' to state machine, but this label is already being used.")
+            raise InvalidStateError(
+                f"Attempting to add state with label '{label}' to state machine, but this label is already being used."
+            )
         outcomes = state.get_registered_outcomes()
         for outcome in transitions:
             if outcome not in outcomes:

@@ -1,0 +1,1 @@
+"""Markers that a user moves in a viewer."""
