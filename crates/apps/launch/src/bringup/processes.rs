@@ -6,9 +6,12 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError, Weak};
 use std::time::Duration;
 
-use periplus_os::Stopwatch;
+use periplus_os::{Stopwatch, sleep};
 
 use crate::bringup::guard::{self, EndSignal};
+
+/// Time for the last output of a process that has ended.
+const LAST_OUTPUT_TIMEOUT: Duration = Duration::from_millis(200);
 
 /// Processes of a launch; clones share them.
 ///
@@ -98,6 +101,15 @@ impl ProcessOutput {
                 output.push(format!("[{}] {}", output.name, line.trim_end_matches('\r')));
             }
         });
+    }
+
+    /// Waits shortly for the last output of a process that has ended. Its descendants may keep the pipe open.
+    pub(crate) fn wait_for_end(self: &Arc<Self>) {
+        let since = Stopwatch::start();
+        // The threads that read share ownership.
+        while Arc::strong_count(self) > 1 && since.elapsed() < LAST_OUTPUT_TIMEOUT {
+            sleep(Duration::from_millis(1));
+        }
     }
 
     fn push(&self, line: String) {

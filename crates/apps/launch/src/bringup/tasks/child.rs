@@ -277,7 +277,7 @@ impl Task for Child {
         // Its last output is still in the pipe.
         let group = process.id();
         self.forget(group);
-        sleep(Duration::from_millis(5));
+        self.output.wait_for_end();
         self.pass_on(stage.said);
         let text = format!("[{}] has ended: {status}", self.name);
         stage.said.push(if status.success() {
@@ -313,8 +313,7 @@ impl Task for Child {
 
     fn stop(&mut self, said: &mut Vec<LaunchLog>) {
         self.end();
-        // Its last output is still in the pipe.
-        sleep(Duration::from_millis(5));
+        self.output.wait_for_end();
         self.pass_on(said);
     }
 }
