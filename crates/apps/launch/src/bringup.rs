@@ -18,6 +18,7 @@ mod parameters;
 mod parts;
 mod preparation;
 mod preview;
+mod processes;
 mod python;
 mod report;
 mod runner;
@@ -32,6 +33,7 @@ pub use environment::Environment;
 pub use guard::{GUARD_VERB, guard};
 pub use includes::{REPLACED_LAUNCH_FILES, has_replacement};
 pub use lockstep::Lockstep;
+pub use processes::LaunchProcesses;
 pub use python::{
     INTERPRETER_VARIABLE, PythonInterpreter, PythonNode, is_built_in, is_python_file,
 };

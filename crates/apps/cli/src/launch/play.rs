@@ -4,6 +4,7 @@ mod lockstep;
 mod log;
 mod network;
 mod simulated;
+mod watch;
 mod world;
 
 use std::io::{self, Write as _};

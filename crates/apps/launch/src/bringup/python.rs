@@ -1,6 +1,6 @@
 //! Users' own nodes in Python, and the interpreter that runs them.
 //!
-//! A node runs in a process of its own, `PYTHON -m periplus.ros.run PACKAGE PROGRAM`, in which the module of
+//! Each node runs in a separate process, `PYTHON -m periplus.ros.run PACKAGE PROGRAM`, in which the module of
 //! the package `periplus` provides `rclpy`, `rospy` and the messages. Programs are found in source trees, as
 //! `ros2 run` finds them in a workspace that was built.
 

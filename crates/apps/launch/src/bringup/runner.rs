@@ -17,6 +17,7 @@ use crate::bringup::lockstep::{Lockstep, LockstepNodes};
 use crate::bringup::make::{BuiltIn, make};
 use crate::bringup::parts::{self, BuiltInRequest, Part, Program, Work, own_folder};
 use crate::bringup::preparation::{self, MAX_WAIT_NS};
+use crate::bringup::processes::LaunchProcesses;
 use crate::bringup::python::PythonInterpreter;
 use crate::bringup::report::{LaunchLog, PartOutcome, PartOutcomeKind, PartReport};
 use crate::bringup::tasks::{Child, Done, Task, TaskContext, TransitionTask};
@@ -94,6 +95,7 @@ pub struct LaunchRunner {
     world_search: Search,
     guard: Guard,
     lockstep: LockstepNodes,
+    processes: LaunchProcesses,
     is_over: bool,
     /// Time of the last call \[ns\].
     last_ns: i64,
@@ -123,6 +125,7 @@ impl LaunchRunner {
             world_search: Search::default(),
             guard: Guard::default(),
             lockstep: LockstepNodes::default(),
+            processes: LaunchProcesses::default(),
             is_over: false,
             last_ns: 0,
         };
@@ -143,6 +146,12 @@ impl LaunchRunner {
     /// Runs nodes in Python in step with the simulation, unless ROS programs can reach the graph.
     pub fn set_lockstep(&mut self, host: Arc<dyn Lockstep>) {
         self.lockstep = LockstepNodes::new(host);
+    }
+
+    /// Processes of the launch, for a thread that watches them while the run waits.
+    #[must_use]
+    pub fn processes(&self) -> LaunchProcesses {
+        self.processes.clone()
     }
 
     /// World to simulate, if any; of several the first with a file.
@@ -376,7 +385,7 @@ impl LaunchRunner {
         self.lockstep.close();
         // All are asked first, so that they end in parallel.
         self.tasks.iter_mut().for_each(|(_, hand)| hand.ask_to_stop());
-        self.tasks.iter_mut().for_each(|(_, hand)| hand.stop());
+        self.tasks.iter_mut().for_each(|(_, hand)| hand.stop(&mut self.said));
         self.tasks.clear();
     }
 
@@ -504,7 +513,8 @@ impl LaunchRunner {
             Some(_) => PartOutcomeKind::Python,
             None => PartOutcomeKind::Program,
         };
-        match Child::start(program, &self.settings, &self.guard, &self.lockstep) {
+        let (settings, processes) = (&self.settings, &self.processes);
+        match Child::start(program, settings, &self.guard, &self.lockstep, processes) {
             Ok(child) => {
                 self.record_outcome(part, kind, program.full_name(), child.told());
                 self.tasks.push((index, Box::new(child)));

@@ -59,6 +59,6 @@ pub(crate) trait Task: Send {
     /// Asks the task to end, without waiting.
     fn ask_to_stop(&mut self) {}
 
-    /// Waits for the end.
-    fn stop(&mut self) {}
+    /// Waits for the end; adds the last output to the log.
+    fn stop(&mut self, _said: &mut Vec<LaunchLog>) {}
 }

@@ -70,7 +70,7 @@ pub(super) fn run(
     drop(bringup);
     live.end(FLUSH_TIMEOUT);
     if log.has_failed {
-        return Err(CliError::failed("parts of the launch have errors and were not started"));
+        return Err(CliError::failed("parts of the launch have failed: see the errors above"));
     }
     Ok(ExitCode::SUCCESS)
 }

@@ -19,6 +19,7 @@ use serde_json::json;
 
 use super::lockstep::RunLockstep;
 use super::log::LogPrinter;
+use super::watch::ProcessWatch;
 use super::{Launched, PlayOptions, world};
 use crate::error::CliError;
 use crate::options::SearchOptions;
@@ -72,7 +73,7 @@ pub(super) fn run(
         .page(page)
         .build()?;
     bringup.set_wired(session.is_on_ros2());
-    let is_in_step = bringup.has_python_nodes() && !session.is_on_ros2();
+    let is_in_step = bringup.has_python_nodes() && !session.is_on_ros2() && !options.real_ros;
     let lockstep = is_in_step.then(|| RunLockstep::start(session.graph(), seed, stop.clone()));
     let lockstep = lockstep.transpose().map(|lockstep| lockstep.map(Arc::new));
     let lockstep = lockstep.map_err(|error| {
@@ -84,8 +85,12 @@ pub(super) fn run(
     }
     let is_paused = starts_paused(&request, &session, options.quiet);
     let settings = RunSettings { duration_s: options.duration, stop: &stop, is_paused };
+    let watch = lockstep
+        .as_ref()
+        .map(|_| ProcessWatch::start(bringup.processes(), stop.clone(), options.quiet));
     let mut task = LaunchTask { bringup, log };
     session.run(settings, &mut task);
+    drop(watch);
     let LaunchTask { mut bringup, mut log } = task;
     bringup.end_all(session.graph(), session.simulation().time_ns());
     log.print(&mut bringup, None);
@@ -106,7 +111,7 @@ pub(super) fn run(
     }
     match session.end() {
         RunEnd::Complete if log.has_failed || !session.is_whole() => {
-            Err(CliError::failed("parts of the launch have errors and were not started"))
+            Err(CliError::failed("parts of the launch have failed: see the errors above"))
         }
         end => exit_code(end),
     }

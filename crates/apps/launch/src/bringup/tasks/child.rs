@@ -1,9 +1,9 @@
 //! Child processes.
 
-use std::io::{BufRead as _, BufReader, Read};
+use std::io::Read;
 use std::path::{Path, PathBuf};
 use std::process::{Child as Running_, Command, Stdio};
-use std::sync::mpsc::{Receiver, channel};
+use std::sync::Arc;
 use std::time::Duration;
 
 use crate::{Dialect, Running};
@@ -16,6 +16,7 @@ use crate::bringup::environment;
 use crate::bringup::guard::{self, EndSignal, Guard, own_group};
 use crate::bringup::lockstep::{LockstepNodes, Membership, MembershipWatch};
 use crate::bringup::parts::{Program, own_folder};
+use crate::bringup::processes::{LaunchProcesses, ProcessOutput};
 use crate::bringup::python::PythonNode;
 use crate::bringup::report::LaunchLog;
 use crate::bringup::runner::Settings;
@@ -35,7 +36,8 @@ pub(crate) struct Child {
     words: Vec<String>,
     running: Running,
     process: Option<Running_>,
-    printed: Option<Receiver<String>>,
+    output: Arc<ProcessOutput>,
+    processes: LaunchProcesses,
     respawn_ns: Option<i64>,
     /// Base folder of relative paths.
     launch_folder: PathBuf,
@@ -74,6 +76,7 @@ impl Child {
         settings: &Settings,
         guard: &Guard,
         lockstep: &LockstepNodes,
+        processes: &LaunchProcesses,
     ) -> Result<Self, String> {
         let running = &program.running;
         let connection = connection(program, settings, lockstep)?;
@@ -120,12 +123,14 @@ impl Child {
         };
         let is_in_step = matches!(connection, Connection::Lockstep);
         let name = program.identity.name.clone().unwrap_or_else(|| program.words[0].clone());
+        let output = processes.add(&name);
         let mut child = Self {
             name,
             words,
             running: running.clone(),
             process: None,
-            printed: None,
+            output,
+            processes: processes.clone(),
             respawn_ns: None,
             launch_folder: settings.search.working_folder.clone(),
             guard: guard.clone(),
@@ -207,42 +212,37 @@ impl Child {
             }
         })?;
         self.guard.watch(&self.guarding_command, process.id());
-        let (send, printed) = channel();
         let pipes: [Option<Box<dyn Read + Send>>; 2] = [
             process.stdout.take().map(|pipe| Box::new(pipe) as _),
             process.stderr.take().map(|pipe| Box::new(pipe) as _),
         ];
         for pipe in pipes.into_iter().flatten() {
-            let (send, membership) = (send.clone(), membership.clone());
-            // The thread ends with the pipe.
-            std::thread::spawn(move || {
-                let _membership = membership;
-                for line in BufReader::new(pipe).lines().map_while(Result::ok) {
-                    if send.send(line).is_err() {
-                        break;
-                    }
-                }
-            });
+            self.output.read(pipe, membership.clone());
+        }
+        if membership.is_some() {
+            self.processes.add_group(process.id());
         }
         self.process = Some(process);
-        self.printed = Some(printed);
         self.member = membership.as_ref().map(Membership::watch);
         Ok(())
     }
 
     /// Forwards new output.
-    fn pass_on(&self, stage: &mut TaskContext<'_>) {
-        let Some(printed) = &self.printed else { return };
-        for line in printed.try_iter() {
-            stage.has_printed = true;
-            stage.said.push(LaunchLog::info(format!("[{}] {line}", self.name)));
-        }
+    fn pass_on(&self, said: &mut Vec<LaunchLog>) {
+        said.extend(self.output.take(Duration::ZERO).into_iter().map(LaunchLog::info));
+    }
+
+    /// Removes a process that has ended from the lists of those that run.
+    fn forget(&self, group: u32) {
+        self.guard.forget(group);
+        self.processes.remove_group(group);
     }
 }
 
 impl Task for Child {
     fn work(&mut self, stage: &mut TaskContext<'_>) -> Done {
-        self.pass_on(stage);
+        self.pass_on(stage.said);
+        stage.has_printed |= self.output.take_has_printed();
         let Some(process) = &mut self.process else {
             if self.respawn_ns.is_some_and(|at_ns| stage.now_ns >= at_ns) {
                 self.respawn_ns = None;
@@ -275,9 +275,10 @@ impl Task for Child {
             }
         };
         // Its last output is still in the pipe.
-        self.guard.forget(process.id());
-        sleep(Duration::from_millis(5));
-        self.pass_on(stage);
+        let group = process.id();
+        self.forget(group);
+        self.output.wait_for_end();
+        self.pass_on(stage.said);
         let text = format!("[{}] has ended: {status}", self.name);
         stage.said.push(if status.success() {
             LaunchLog::info(text)
@@ -310,7 +311,16 @@ impl Task for Child {
         }
     }
 
-    fn stop(&mut self) {
+    fn stop(&mut self, said: &mut Vec<LaunchLog>) {
+        self.end();
+        self.output.wait_for_end();
+        self.pass_on(said);
+    }
+}
+
+impl Child {
+    /// Waits for the end of the process, with stronger signals.
+    fn end(&mut self) {
         let Some(process) = &mut self.process else { return };
         let group = process.id();
         // SIGINT was sent already, or the connection was closed; now stronger signals to the whole process
@@ -331,7 +341,7 @@ impl Task for Child {
                     break;
                 }
                 if has_ended && !guard::has_members(group) {
-                    self.guard.forget(group);
+                    self.forget(group);
                     self.process = None;
                     return;
                 }
@@ -350,7 +360,8 @@ impl Drop for Child {
             guard::send(process.id(), EndSignal::Kill);
             let _ = process.kill();
             let _ = process.wait();
-            self.guard.forget(process.id());
+            let group = process.id();
+            self.forget(group);
         }
     }
 }
