@@ -79,6 +79,15 @@ fn folder(name: &str) -> PathBuf {
     root().join(FOLDER).join(name)
 }
 
+/// Python with the package; the wheel is built if it has not been.
+pub(crate) fn with_package() -> Result<PathBuf, Failed> {
+    let python = folder("clean").join("bin/python");
+    if !python.exists() {
+        timed("wheel", build)?;
+    }
+    Ok(python)
+}
+
 /// Python of an environment, which is made if it is missing.
 fn python(name: &str) -> Result<PathBuf, Failed> {
     let python = folder(name).join("bin/python");

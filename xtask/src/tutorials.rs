@@ -18,15 +18,17 @@ mod play;
 
 use std::path::{Path, PathBuf};
 
+use crate::python;
 use crate::step::{Failed, build_program, root, timed};
 
 /// Runs all tutorials, or those whose names contain a word; takes their pictures if that is wished.
 pub(crate) fn run_all(only: Option<&str>, pictures: bool) -> Result<(), Failed> {
     timed("tutorials: periplus", build_program)?;
+    let python = python::with_package()?;
     let files = files()?;
     let chosen = |file: &PathBuf| only.is_none_or(|word| name(file).contains(word));
     for file in files.into_iter().filter(chosen) {
-        timed(&format!("tutorial {}", name(&file)), || follow(&file, pictures))?;
+        timed(&format!("tutorial {}", name(&file)), || follow(&file, &python, pictures))?;
     }
     Ok(())
 }
@@ -46,14 +48,14 @@ fn name(file: &Path) -> String {
     file.file_stem().unwrap_or_default().to_string_lossy().into_owned()
 }
 
-fn follow(file: &Path, pictures: bool) -> Result<(), Failed> {
+fn follow(file: &Path, python: &Path, pictures: bool) -> Result<(), Failed> {
     let text = std::fs::read_to_string(file)
         .map_err(|error| Failed(format!("cannot read {}: {error}", file.display())))?;
     let steps = page::steps(&text).map_err(|why| Failed(format!("{}:{why}", file.display())))?;
     if steps.is_empty() {
         return Ok(());
     }
-    let terminals = play::Terminals::new(&name(file), pictures)?;
+    let terminals = play::Terminals::new(&name(file), python, pictures)?;
     play::play(&steps, terminals).map_err(|why| Failed(format!("{}:{why}", file.display())))
 }
 

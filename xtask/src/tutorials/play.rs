@@ -27,6 +27,8 @@ pub(crate) struct Terminals {
     last: Option<(PathBuf, Ended)>,
     blocks: usize,
     domain_id: u32,
+    /// Python with the package, for the reader's own nodes.
+    python: PathBuf,
     pictures: bool,
 }
 
@@ -38,7 +40,7 @@ enum Ended {
 }
 
 impl Terminals {
-    pub(crate) fn new(name: &str, pictures: bool) -> Result<Self, Failed> {
+    pub(crate) fn new(name: &str, python: &Path, pictures: bool) -> Result<Self, Failed> {
         let folder = root().join("target/tutorials").join(name);
         if folder.exists() {
             std::fs::remove_dir_all(&folder)
@@ -53,7 +55,8 @@ impl Terminals {
         // A domain that no other program uses.
         let domain_id = 20 + std::process::id() % 80;
         let children = BTreeMap::new();
-        Ok(Self { folder, children, last: None, blocks: 0, domain_id, pictures })
+        let python = python.to_owned();
+        Ok(Self { folder, children, last: None, blocks: 0, domain_id, python, pictures })
     }
 
     fn log(&mut self) -> Result<(PathBuf, File), String> {
@@ -75,6 +78,7 @@ impl Terminals {
             .args(["bash", "-euo", "pipefail", "-c", commands])
             .current_dir(&self.folder)
             .env("PATH", path)
+            .env("PERIPLUS_PYTHON", &self.python)
             .env("CHECKS", root().join("docs/tutorials/checks"))
             .env("ROS_DOMAIN_ID", self.domain_id.to_string())
             .env("IGN_PARTITION", format!("tutorials{}", self.domain_id))
