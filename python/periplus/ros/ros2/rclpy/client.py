@@ -184,3 +184,9 @@ def wait_until(context: Context, is_ready: Any, timeout_sec: float | None) -> bo
             if left_ns <= 0:
                 return False
         _waiting.wait(graph, seen, left_ns)
+
+
+def __getattr__(name: str) -> Any:
+    from rclpy._homes import find
+
+    return find(__name__, name)

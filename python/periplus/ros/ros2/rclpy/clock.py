@@ -289,3 +289,9 @@ __all__ = [
     "Time",
     "TimeJump",
 ]
+
+
+def __getattr__(name: str) -> Any:
+    from rclpy._homes import find
+
+    return find(__name__, name)

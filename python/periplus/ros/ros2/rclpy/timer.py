@@ -213,3 +213,9 @@ class Rate:
                 self._used = self._fired
                 return
             _waiting.wait(self._graph, seen, None)
+
+
+def __getattr__(name: str) -> Any:
+    from rclpy._homes import find
+
+    return find(__name__, name)
