@@ -9,6 +9,8 @@ import numpy as np
 
 from periplus import _native
 
+_native.load_numpy()
+
 
 class MessageType(type):
     """Type of the message classes: constants cannot be assigned."""

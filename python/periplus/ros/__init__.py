@@ -13,7 +13,7 @@ from dataclasses import dataclass
 __all__ = ["Activation", "activate", "installed_ros"]
 
 _FOLDER = os.path.dirname(os.path.abspath(__file__))
-# Modules that tell whose ROS a process uses: each is the root of its family.
+# Root module of each ROS generation.
 _ROOTS = {1: "rospy", 2: "rclpy"}
 
 

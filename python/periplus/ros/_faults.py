@@ -118,10 +118,10 @@ class CallbackMonitor:
 
     def __str__(self) -> str:
         what = f"{self.kind} {self.name}".rstrip()
-        return f"callback {callback_place(self.callback)} of the {what} of node {self.node}"
+        return f"callback {callback_location(self.callback)} of the {what} of node {self.node}"
 
 
-def callback_place(callback: Any) -> str:
+def callback_location(callback: Any) -> str:
     """`name (file:line)` of a callback."""
     function = callback
     for attribute in ("__wrapped__", "func", "__func__"):

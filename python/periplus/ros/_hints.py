@@ -86,7 +86,7 @@ def _line_of(error: BaseException) -> str:
 def _missing_module(error: ModuleNotFoundError) -> str | None:
     name = error.name or ""
     top = name.split(".")[0]
-    # Message packages: the import hook has said it all.
+    # Message packages: the error of the import hook is complete.
     if not top or "PERIPLUS_PACKAGES" in str(error):
         return None
     start = f"hint: {_line_of(error)}"

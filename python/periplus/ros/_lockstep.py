@@ -5,14 +5,13 @@ variables:
 
 - `PERIPLUS_LOCKSTEP`: address of the simulation. It is removed, so that processes which the program starts are not in step.
 - `PERIPLUS_SEED`: seed of the run (default 0). `PERIPLUS_PROCESS`: name of the process in the launch file, so that two
-  processes have different random numbers (default: the name of the program).
+  processes have different random numbers (default: the program with its node name and namespace).
 - `PYTHONHASHSEED`: set by the parent, since Python reads it at its start.
 """
 
 from __future__ import annotations
 
 import _thread
-import importlib.abc
 import importlib.machinery
 import importlib.util
 import os
@@ -39,7 +38,7 @@ _undo: list[tuple[Any, str, Any]] = []
 
 
 def start(link: str, *, graph: LockstepGraph | None = None) -> Scheduler:
-    """Puts this process in step with the simulation at `link`; `graph` stands in for the connection in tests."""
+    """Puts this process in step with the simulation at `link`; `graph` replaces the connection in tests."""
     global _scheduler
     if _scheduler is not None:
         return _scheduler
@@ -58,12 +57,12 @@ def start(link: str, *, graph: LockstepGraph | None = None) -> Scheduler:
     threading._register_atexit(_lockstep_threads.join_all)  # type: ignore[attr-defined]
     if hasattr(os, "register_at_fork"):
         os.register_at_fork(after_in_child=_leave)
-    places = _lockstep_threads.replacements(scheduler) + _lockstep_time.replacements(scheduler)
-    places += _lockstep_signals.replacements(scheduler, _report.note)
+    patches = _lockstep_threads.replacements(scheduler) + _lockstep_time.replacements(scheduler)
+    patches += _lockstep_signals.replacements(scheduler, _report.note)
     seed = os.environ.get("PERIPLUS_SEED", "") or "0"
-    process = os.environ.get("PERIPLUS_PROCESS") or os.path.basename(sys.argv[0] if sys.argv else "")
-    places.append((os, "urandom", _entropy(f"{seed}/{process}")))
-    _undo.extend(_lockstep_time.replace_everywhere(places))
+    process = os.environ.get("PERIPLUS_PROCESS") or _process_name(sys.argv)
+    patches.append((os, "urandom", _entropy(f"{seed}/{process}")))
+    _undo.extend(_lockstep_time.replace_everywhere(patches))
     # Random numbers are seeded, clocks replaced, in modules that may never be imported.
     _after_import("random", lambda module: _seed_random(module, f"{seed}/{process}"))
     _after_import("datetime", lambda module: _lockstep_time.patch_datetime(module, scheduler))
@@ -76,6 +75,12 @@ def start(link: str, *, graph: LockstepGraph | None = None) -> Scheduler:
     _faults.dump_on_signal()
     _real_start_thread(_watch, (scheduler,))
     return scheduler
+
+
+def _process_name(words: list[str]) -> str:
+    """Name of the program with the words that rename its node: the same in each run, unlike paths of parameter files."""
+    renames = [word for word in words[1:] if word.startswith(("__node:=", "__name:=", "__ns:="))]
+    return " ".join([os.path.basename(words[0]) if words else "", *renames])
 
 
 def _at_exit() -> None:
@@ -146,7 +151,7 @@ def _patch_uuid(module: ModuleType) -> list[tuple[Any, str, Any]]:
     return [(module, name, None) for name in ("_generate_time_safe", "_UuidCreate") if hasattr(module, name)]
 
 
-class _ImportHook(importlib.abc.MetaPathFinder):
+class _ImportHook:
     """Calls a function after the first import of a module."""
 
     def __init__(self, name: str, function: Callable[[ModuleType], list[tuple[Any, str, Any]]]) -> None:
@@ -158,11 +163,11 @@ class _ImportHook(importlib.abc.MetaPathFinder):
         sys.meta_path.remove(self)
         spec = importlib.util.find_spec(fullname)
         if spec is not None and spec.loader is not None:
-            spec.loader = _Loader(spec.loader, self.function)
+            spec.loader = _Loader(spec.loader, self.function)  # type: ignore[assignment]
         return spec
 
 
-class _Loader(importlib.abc.Loader):
+class _Loader:
     def __init__(self, loader: Any, function: Callable[[ModuleType], list[tuple[Any, str, Any]]]) -> None:
         self.loader, self.function = loader, function
 
@@ -206,9 +211,9 @@ def _watch(scheduler: Scheduler) -> None:
             named = True
             task = scheduler.current
             running = _faults._running.get(task.ident)
-            who = f"{running[0]}" if running is not None else f"thread {task.name}"
+            name = f"{running[0]}" if running is not None else f"thread {task.name}"
             frame = sys._current_frames().get(task.ident)
             _faults._report(
-                f"{who} has not come back for {limit_s:.0f} s of wall time; the simulation waits for it at "
+                f"{name} has not come back for {limit_s:.0f} s of wall time; the simulation waits for it at "
                 f"{state[1] / 1e9:.3f} s. It is here:\n{_tracebacks.format_stack(frame)}"
             )

@@ -37,7 +37,7 @@ class Report:
     def note(self, kind: str, text: str, frame: FrameType | None = None) -> None:
         """Adds a finding at the user's line that is being executed; each line counts once for a kind."""
         user = _tracebacks.user_frame(frame if frame is not None else sys._getframe(1))
-        where = _tracebacks.place(user)
+        where = _tracebacks.location(user)
         if (kind, where) not in self.findings:
             self.findings[(kind, where)] = {"kind": kind, "text": text, "where": where}
             if kind == "deadlock":

@@ -51,5 +51,5 @@ def replacements(scheduler: Scheduler, note: Callable[..., None]) -> list[tuple[
         handler = _real_getsignal(number)
         if callable(handler):
             set_signal(number, handler)
-    places: list[tuple[Any, str, Any]] = [(signal, "signal", set_signal), (signal, "getsignal", get_signal)]
-    return places + [(signal, name, noting(name)) for name in ("alarm", "setitimer") if hasattr(signal, name)]
+    patches: list[tuple[Any, str, Any]] = [(signal, "signal", set_signal), (signal, "getsignal", get_signal)]
+    return patches + [(signal, name, noting(name)) for name in ("alarm", "setitimer") if hasattr(signal, name)]

@@ -166,7 +166,7 @@ class RLock:
         while self._waiters and _scheduler is not None:
             task = self._waiters.popleft()
             if _scheduler.wake(task):
-                # Nobody else may take it before the next owner runs.
+                # No other thread may take it before the next owner runs.
                 self._owner, self._count = task.ident, 1
                 return
 
@@ -282,10 +282,10 @@ def join_all() -> None:
 
 
 def replacements(scheduler: Scheduler) -> list[tuple[Any, str, Any]]:
-    """What `_lockstep` puts in place: (module or class, name, new value)."""
+    """Replacements of threads and locks: (module or class, name, new value)."""
     global _scheduler
     _scheduler = scheduler
-    places: list[tuple[Any, str, Any]] = [
+    patches: list[tuple[Any, str, Any]] = [
         (_thread, "allocate_lock", Lock),
         (_thread, "allocate", Lock),
         (_thread, "RLock", RLock),
@@ -300,11 +300,11 @@ def replacements(scheduler: Scheduler) -> list[tuple[Any, str, Any]]:
         (threading.Thread, "is_alive", _is_alive),
     ]
     if _real_start_joinable is not None:
-        places += [
+        patches += [
             (threading, "_start_joinable_thread", start_joinable_thread),
             (_thread, "start_joinable_thread", start_joinable_thread),
         ]
-    return [(owner, name, value) for owner, name, value in places if hasattr(owner, name)]
+    return [(owner, name, value) for owner, name, value in patches if hasattr(owner, name)]
 
 
 def uninstall() -> None:

@@ -146,13 +146,13 @@ def patch_select(module: ModuleType, scheduler: Scheduler) -> list[tuple[Any, st
 
 def patch_selectors(module: ModuleType, scheduler: Scheduler) -> list[tuple[Any, str, Any]]:
     """The selectors that `asyncio` and socket servers wait with."""
-    places: list[tuple[Any, str, Any]] = []
+    patches: list[tuple[Any, str, Any]] = []
     for name in ("SelectSelector", "PollSelector", "EpollSelector", "KqueueSelector", "DevpollSelector"):
         selector: Any = getattr(module, name, None)
         if selector is None:
             continue
-        places.append((selector, "select", _selector_method(selector.select, scheduler)))
-    return places
+        patches.append((selector, "select", _selector_method(selector.select, scheduler)))
+    return patches
 
 
 def _selector_method(real: Any, scheduler: Scheduler) -> Any:
@@ -163,11 +163,11 @@ def _selector_method(real: Any, scheduler: Scheduler) -> Any:
     return select
 
 
-def replace_everywhere(places: list[tuple[Any, str, Any]]) -> list[tuple[Any, str, Any]]:
+def replace_everywhere(patches: list[tuple[Any, str, Any]]) -> list[tuple[Any, str, Any]]:
     """Sets attributes, also where a module has imported the old value by name. Returns what undoes it."""
     undo: list[tuple[Any, str, Any]] = []
     by_identity: dict[int, tuple[Any, Any]] = {}
-    for owner, name, value in places:
+    for owner, name, value in patches:
         old = getattr(owner, name)
         undo.append((owner, name, old))
         if not isinstance(owner, type):

@@ -2,10 +2,8 @@
 
 from __future__ import annotations
 
-import json
 import os
 import re
-import subprocess
 import sys
 from collections import deque
 from dataclasses import dataclass
@@ -25,7 +23,7 @@ _SETUP_TIMEOUT_S = 30
 
 
 class PackageError(ValueError):
-    """A package, or a program of it, that cannot be found or read; the text says what to do."""
+    """A package, or a program of it, that cannot be found or read; the text has the remedy."""
 
 
 @dataclass(frozen=True)
@@ -45,7 +43,7 @@ class Package:
 
     name: str
     folder: str
-    #: `ament_python`, `ament_cmake`, `catkin`, ... as `package.xml` says.
+    #: `ament_python`, `ament_cmake`, `catkin`, ... of `package.xml`.
     build_type: str
 
     @cached_property
@@ -65,15 +63,20 @@ class Package:
         return read_cmake(self.folder, self.name)
 
     @property
+    def _has_cmake(self) -> bool:
+        return self.build_type in ("ament_cmake", "catkin", "cmake")
+
+    @property
     def python_paths(self) -> list[str]:
         """Folders that a build would put the Python modules of, in the order of the search."""
         paths = []
-        roots = self.setup.get("package_dir") or {}
+        # ament_cmake does not run `setup.py`.
+        roots = (self.setup.get("package_dir") or {}) if self.build_type != "ament_cmake" else {}
         if "" in roots:
             paths.append(os.path.normpath(os.path.join(self.folder, roots[""])))
-        for name, place in roots.items():
+        for name, root in roots.items():
             if name:
-                paths.append(os.path.dirname(os.path.normpath(os.path.join(self.folder, place))))
+                paths.append(os.path.dirname(os.path.normpath(os.path.join(self.folder, root))))
         paths += self.cmake.python_paths
         if self.build_type == "catkin" and os.path.isdir(os.path.join(self.folder, "src")):
             paths.append(os.path.join(self.folder, "src"))
@@ -84,11 +87,16 @@ class Package:
     def executables(self) -> dict[str, Executable]:
         """Programs by the name that `ros2 run` (or `rosrun`) takes."""
         found: dict[str, Executable] = {}
-        for name, target in {**self._console_scripts(), **_setup_cfg_scripts(self.folder)}.items():
+        # CMake installs what `setup.cfg` names together with the Python modules; it does not run `setup.py`.
+        points = _setup_cfg_scripts(self.folder) if not self._has_cmake or self.cmake.python_paths else {}
+        if not self._has_cmake:
+            points = {**self._console_scripts(), **points}
+        for name, target in points.items():
             found[name] = Executable(name, entry_point=target)
-        for script in self.setup.get("scripts") or []:
-            path = os.path.normpath(os.path.join(self.folder, script))
-            found.setdefault(os.path.basename(path), Executable(os.path.basename(path), script=path))
+        if not self._has_cmake or self.build_type == "catkin":
+            for script in self.setup.get("scripts") or []:
+                path = os.path.normpath(os.path.join(self.folder, script))
+                found.setdefault(os.path.basename(path), Executable(os.path.basename(path), script=path))
         for name, path in self.cmake.programs.items():
             if os.path.isfile(path):
                 found.setdefault(name, Executable(name, script=path))
@@ -109,7 +117,7 @@ class Package:
         """Pairs (path below `share/<package>`, source file or folder) that a build would install."""
         share = os.path.join("share", self.name)
         pairs = list(self.cmake.shared)
-        for entry in self.setup.get("data_files") or []:
+        for entry in [] if self._has_cmake else self.setup.get("data_files") or []:
             if not isinstance(entry, list) or len(entry) != 2:
                 continue
             destination = os.path.normpath(str(entry[0]))
@@ -122,7 +130,7 @@ class Package:
 
     @property
     def share_folder(self) -> str:
-        """Folder that stands for `share/<package>`: the source folder, or links to it where a build changes the layout."""
+        """Folder used as `share/<package>`: the source folder, or links to it where a build changes the layout."""
         from ._share import share_folder
 
         return share_folder(self)
@@ -178,7 +186,7 @@ def find_packages(roots: list[str]) -> dict[str, Package]:
             names = {entry.name for entry in entries}
             if names & _IGNORE_MARKERS and depth > 0:
                 continue
-            if "package.xml" in names:
+            if "package.xml" in names or "manifest.xml" in names:
                 package = read_package(folder)
                 if package is not None:
                     found.setdefault(package.name, package)
@@ -193,12 +201,15 @@ def find_packages(roots: list[str]) -> dict[str, Package]:
 
 
 def read_package(folder: str) -> Package | None:
-    """The package of a folder with `package.xml`, or None if the file has no name."""
-    try:
-        with open(os.path.join(folder, "package.xml"), encoding="utf-8", errors="replace") as file:
-            text = re.sub(r"<!--.*?-->", "", file.read(), flags=re.S)
-    except OSError:
-        return None
+    """The package of a folder with `package.xml` (or rosbuild's `manifest.xml`), or None if the file is not of ROS."""
+    text = _read_xml(os.path.join(folder, "package.xml"))
+    if text is None:
+        text = _read_xml(os.path.join(folder, "manifest.xml"))
+        if text is None or "<package" not in text:
+            return None
+        # rosbuild: the name is that of the folder.
+        folder = os.path.abspath(folder)
+        return Package(os.path.basename(folder), folder, "catkin")
     name = re.search(r"<name>\s*([A-Za-z][\w.-]*)\s*</name>", text)
     if name is None:
         return None
@@ -213,12 +224,23 @@ def read_package(folder: str) -> Package | None:
     return Package(name.group(1), os.path.abspath(folder), build_type)
 
 
+def _read_xml(path: str) -> str | None:
+    """Text of a file without its comments, or None without the file."""
+    try:
+        with open(path, encoding="utf-8", errors="replace") as file:
+            return re.sub(r"<!--.*?-->", "", file.read(), flags=re.S)
+    except OSError:
+        return None
+
+
 def package_of(path: str) -> Package | None:
-    """The package that a file or folder belongs to: the nearest folder above it with a `package.xml`."""
+    """The package that a file or folder belongs to: the nearest folder above it with one."""
     folder = os.path.abspath(path)
     while True:
-        if os.path.isfile(os.path.join(folder, "package.xml")):
-            return read_package(folder)
+        if any(os.path.isfile(os.path.join(folder, name)) for name in ("package.xml", "manifest.xml")):
+            package = read_package(folder)
+            if package is not None:
+                return package
         parent = os.path.dirname(folder)
         if parent == folder:
             return None
@@ -277,6 +299,9 @@ def find_package(name: str) -> Package | None:
 
 
 def _run_setup(folder: str) -> dict[str, Any]:
+    import json
+    import subprocess
+
     reader = os.path.join(os.path.dirname(os.path.abspath(__file__)), "_setup_reader.py")
     environment = {key: value for key, value in os.environ.items() if key != "PERIPLUS_LOCKSTEP"}
     setup_py = os.path.join(folder, "setup.py")

@@ -23,7 +23,7 @@ _ROS2_IMPORT = re.compile(rb"^[ \t]*(?:import|from)[ \t]+(?:rclpy|ament_index_py
 class Program:
     """What is to be run."""
 
-    #: The file that says which ROS generation it is; of an entry point, the file of its module (None if there is none).
+    #: The file whose imports decide the ROS generation; of an entry point, the file of its module (None without one).
     file: str | None
     package: _packages.Package | None
     #: `module:function`, or None for a script.
@@ -78,7 +78,7 @@ def resolve(words: list[str]) -> tuple[Program, list[str]]:
     """The program and its arguments.
 
     Raises:
-        PackageError: There is no such file, package or program; the text says what there is.
+        PackageError: There is no such file, package or program; the text lists what there is.
     """
     first = words[0]
     if os.path.isfile(first):

@@ -1,4 +1,4 @@
-"""What a package's `setup.py` hands to `setup()`, read by running the file with a `setup()` that only records.
+"""Keywords that a package's `setup.py` passes to `setup()`, read by running the file with a `setup()` that only records.
 
 Run as a program: `python _setup_reader.py FOLDER` prints JSON. The file runs in a process of its own with its folder as current
 folder, so that `glob`, `os.path.join` and helper functions in it work. Nothing is built or installed.
@@ -39,7 +39,7 @@ def find_packages(where: str = ".", exclude: Any = (), include: Any = ("*",)) ->
 
 
 class _Anything:
-    """A stand-in for whatever a missing module has: callable, has every attribute, is empty."""
+    """Substitute for any member of a missing module: callable, has every attribute, is empty."""
 
     def __call__(self, *_: Any, **__: Any) -> _Anything:
         return self

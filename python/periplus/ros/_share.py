@@ -1,4 +1,4 @@
-"""Folders that stand for `share/<package>` of packages that are not installed."""
+"""Share directories of packages that are not installed."""
 
 from __future__ import annotations
 

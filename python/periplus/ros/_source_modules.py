@@ -1,4 +1,4 @@
-"""Imports of Python packages that lie unbuilt in the same workspace."""
+"""Imports of Python packages of the same workspace that are not built."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ class SourceModuleFinder:
     def find_spec(
         self, fullname: str, path: Sequence[str] | None = None, target: Any = None
     ) -> importlib.machinery.ModuleSpec | None:
-        if "." in fullname or path is not None:
+        if "." in fullname or path is not None or fullname in sys.stdlib_module_names:
             return None
         for folder in python_folders(fullname):
             spec = importlib.machinery.PathFinder.find_spec(fullname, [folder])

@@ -35,7 +35,7 @@ def user_frame(frame: FrameType | None) -> FrameType | None:
     return frame
 
 
-def place(frame: FrameType | None) -> str:
+def location(frame: FrameType | None) -> str:
     """`file:line (function)` of a frame; a path below the current folder is relative."""
     if frame is None:
         return "?"
@@ -43,7 +43,7 @@ def place(frame: FrameType | None) -> str:
 
 
 def short_path(path: str) -> str:
-    """`path` relative to the current folder if it lies in it."""
+    """`path` relative to the current folder if it is in it."""
     try:
         folder = os.getcwd() + os.sep
     except OSError:
@@ -102,7 +102,7 @@ def format_stack(frame: FrameType | None) -> str:
 
 
 def install() -> None:
-    """Makes Python print uncaught errors of the main thread and of other threads in this way."""
+    """Makes Python print uncaught errors of the main thread and of other threads like that."""
     import threading
 
     def hook(kind: type[BaseException], error: BaseException, trace: TracebackType | None) -> None:

@@ -1,4 +1,4 @@
-"""The one place where ROS modules read the clock and block a thread.
+"""Clock readings and waits of the ROS modules: they block a thread nowhere else.
 
 Live, each function is the plain operation. In lockstep, the same call hands the turn to the scheduler
 (`periplus.ros._lockstep`), which lets simulated time advance once every thread of the process is blocked here.

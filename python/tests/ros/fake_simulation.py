@@ -1,4 +1,4 @@
-"""A stand-in for the simulation that a program in lockstep is connected to, and a program that runs scripts with it.
+"""A substitute for the simulation that a program in lockstep is connected to, and a program that runs scripts with it.
 
 `python fake_simulation.py FILE [ARGUMENTS]`: runs FILE in step with it. Variables: FAKE_MESSAGES, times of arrivals [ns] separated by
 commas; FAKE_END, end of the simulation [ns].

@@ -47,7 +47,7 @@ class LoneGraph:
         raise AssertionError("in lockstep, waits go through periplus.ros._waiting")
 
     def exchange(self, wake_ns: int | None, wants_messages: bool) -> None:
-        # A wake-up by a signal handler comes as an event; nothing else arrives while nobody runs.
+        # A wake-up by a signal handler comes as an event; nothing else arrives while no thread runs.
         before = [graph.events for graph in self._simulation.graphs]
         if wake_ns is None:
             for _ in range(100):

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 import os
-import queue
 import re
 import subprocess
 import sys
@@ -14,11 +13,9 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from ros_programs import environment
+from ros_programs import environment, own_domain
 
 FOLDER = Path(os.environ.get("PERIPLUS_RCLPY_CASES") or Path(__file__).parents[4] / "shared" / "python" / "rclpy_cases")
-#: Domains that the programs may use, each by one program at a time.
-_DOMAINS = range(130, 140)
 _WORKERS = 4
 #: Factor on the time limit of a case: the tests share the machine.
 _PATIENCE = 3
@@ -33,7 +30,7 @@ class Outcome:
     err: str
 
     def differences(self, expect: dict[str, Any]) -> list[str]:
-        """What is not as the case says."""
+        """Differences from what the case expects."""
         found = []
         if self.exit_code != expect.get("exit", 0):
             found.append(f"exit code {self.exit_code}, not {expect.get('exit', 0)}")
@@ -57,9 +54,6 @@ class Runner:
 
     def __init__(self, cases: list[dict[str, Any]], mode: str) -> None:
         self.mode = mode
-        self._domains: queue.Queue[int] = queue.Queue()
-        for domain in _DOMAINS:
-            self._domains.put(domain)
         self._pool = ThreadPoolExecutor(_WORKERS)
         self._outcomes: dict[str, Future[Outcome]] = {case["id"]: self._pool.submit(self.run, case) for case in cases}
 
@@ -73,25 +67,21 @@ class Runner:
 
     def run(self, case: dict[str, Any]) -> Outcome:
         """Runs one case in an empty folder."""
-        domain = self._domains.get()
-        try:
-            with tempfile.TemporaryDirectory(prefix="rclpy-case-") as folder:
-                script = Path(folder, "script.py")
-                script.write_text("\n".join(case["script"]) + "\n")
-                for name, text in case.get("files", {}).items():
-                    Path(folder, name).write_text(text if isinstance(text, str) else "\n".join(text))
-                variables = {"ROS_DOMAIN_ID": str(domain), "ROS_AUTOMATIC_DISCOVERY_RANGE": "LOCALHOST", **case.get("env", {})}
-                command = [*self._command(), script.name, *case.get("args", [])]
-                try:
-                    done = subprocess.run(
-                        command, cwd=folder, env=self._environment(folder, variables), stdin=subprocess.DEVNULL,
-                        capture_output=True, text=True, timeout=case.get("timeout_s", 20) * _PATIENCE, check=False,
-                    )  # fmt: skip
-                except subprocess.TimeoutExpired as error:
-                    return Outcome(None, _text(error.stdout), _text(error.stderr))
-                return Outcome(done.returncode, done.stdout, done.stderr)
-        finally:
-            self._domains.put(domain)
+        with own_domain() as domain, tempfile.TemporaryDirectory(prefix="rclpy-case-") as folder:
+            script = Path(folder, "script.py")
+            script.write_text("\n".join(case["script"]) + "\n")
+            for name, text in case.get("files", {}).items():
+                Path(folder, name).write_text(text if isinstance(text, str) else "\n".join(text))
+            command = [*self._command(), script.name, *case.get("args", [])]
+            try:
+                done = subprocess.run(
+                    command, cwd=folder, env=self._environment(folder, {**domain, **case.get("env", {})}),
+                    stdin=subprocess.DEVNULL, capture_output=True, text=True,
+                    timeout=case.get("timeout_s", 20) * _PATIENCE, check=False,
+                )  # fmt: skip
+            except subprocess.TimeoutExpired as error:
+                return Outcome(None, _text(error.stdout), _text(error.stderr))
+            return Outcome(done.returncode, done.stdout, done.stderr)
 
     def _command(self) -> list[str]:
         if self.mode == "real":

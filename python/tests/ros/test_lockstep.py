@@ -105,7 +105,7 @@ def test_the_same_trace_in_each_run(tmp_path: Path) -> None:
     first, errors = run(tmp_path, PROGRAM)
     assert len(first.splitlines()) > 20
     assert errors == ""
-    # Two at once, so that the machine orders their threads in another way.
+    # Two at once, so that the machine orders their threads differently.
     processes = [start(tmp_path, PROGRAM) for _ in range(2)]
     answers = [process.communicate(timeout=60) for process in processes]
     assert answers == [(first, ""), (first, "")]

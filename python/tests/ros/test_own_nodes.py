@@ -1,42 +1,53 @@
-"""The packages of `own_nodes` run from their source tree, each node doing what it says: live, and in lockstep twice alike."""
+"""The packages of `own_nodes` run from their source tree, each node with its documented effect: live, and in lockstep twice alike."""
 
 import signal
 import subprocess
 import sys
+from collections.abc import Iterator
+from concurrent.futures import Future, ThreadPoolExecutor
 from pathlib import Path
 
 import pytest
-from ros_programs import environment
+from ros_programs import environment, own_domain
 
 FOLDER = Path(__file__).parent
 NODES = {"guard": [], "wall": [], "beacon": ["1.5"], "follower": [], "lamp": [], "square": []}
 
+def run_live(name: str, folder: Path) -> tuple[str, str]:
+    """Runs a node and its check in two processes; returns what the check printed, and both outputs."""
+    with own_domain() as domain:
+        variables = environment(**domain, ROS_LOG_DIR=str(folder), PERIPLUS_PACKAGES=str(FOLDER / "own_nodes"))
+        node = subprocess.Popen(
+            [sys.executable, "-m", "periplus.ros.run", "trail_nodes", name, *NODES[name]],
+            cwd=folder, env=variables, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,
+        )  # fmt: skip
+        try:
+            check = subprocess.run(
+                [sys.executable, str(FOLDER / "own_node_checks.py"), name],
+                cwd=folder, env=variables, capture_output=True, text=True, timeout=150, check=False,
+            )  # fmt: skip
+        finally:
+            node.send_signal(signal.SIGINT)
+            try:
+                out = node.communicate(timeout=20)[0]
+            except subprocess.TimeoutExpired:
+                node.kill()
+                out = node.communicate()[0] + "\nit did not end after Ctrl-C"
+    return check.stdout.strip(), f"{check.stdout}{check.stderr}\n--- the node:\n{out}"
+
+
+@pytest.fixture(scope="module")
+def live_runs(tmp_path_factory: pytest.TempPathFactory) -> Iterator[dict[str, "Future[tuple[str, str]]"]]:
+    """The live runs of all nodes, several at once: most of their time is waiting."""
+    with ThreadPoolExecutor(3) as pool:
+        yield {name: pool.submit(run_live, name, tmp_path_factory.mktemp(name)) for name in NODES}
+
 
 @pytest.mark.parametrize("name", NODES)
-def test_live(name: str, tmp_path: Path) -> None:
-    domain = str(140 + list(NODES).index(name))
-    variables = environment(
-        ROS_DOMAIN_ID=domain, ROS_AUTOMATIC_DISCOVERY_RANGE="LOCALHOST", ROS_LOG_DIR=str(tmp_path),
-        PERIPLUS_PACKAGES=str(FOLDER / "own_nodes"),
-    )  # fmt: skip
-    node = subprocess.Popen(
-        [sys.executable, "-m", "periplus.ros.run", "trail_nodes", name, *NODES[name]],
-        cwd=tmp_path, env=variables, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,
-    )  # fmt: skip
-    try:
-        check = subprocess.run(
-            [sys.executable, str(FOLDER / "own_node_checks.py"), name],
-            cwd=tmp_path, env=variables, capture_output=True, text=True, timeout=150, check=False,
-        )  # fmt: skip
-    finally:
-        node.send_signal(signal.SIGINT)
-        try:
-            out = node.communicate(timeout=20)[0]
-        except subprocess.TimeoutExpired:
-            node.kill()
-            out = node.communicate()[0] + "\nit did not end after Ctrl-C"
-    assert (check.returncode, check.stdout.strip()) == (0, "ok"), f"{check.stdout}{check.stderr}\n--- the node:\n{out}"
-    assert "did not end" not in out
+def test_live(name: str, live_runs: dict[str, "Future[tuple[str, str]]"]) -> None:
+    answer, outputs = live_runs[name].result()
+    assert answer == "ok", outputs
+    assert "did not end" not in outputs
 
 
 @pytest.mark.parametrize("name", NODES)

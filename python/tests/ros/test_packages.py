@@ -123,6 +123,15 @@ def test_scripts_of_a_catkin_package(tmp_path: Path) -> None:
     assert package.python_paths[0] == str(tmp_path / "src")
 
 
+def test_a_package_of_rosbuild_has_the_name_of_its_folder(tmp_path: Path) -> None:
+    write(tmp_path / "old", {"manifest.xml": "<package><depend package='rospy'/></package>", "nodes/run.py": ""})
+    write(tmp_path / "other", {"manifest.xml": "<manifest package='org.android'/>"})
+    assert list(_packages.find_packages([str(tmp_path)])) == ["old"]
+    package = _packages.package_of(str(tmp_path / "old" / "nodes"))
+    assert package is not None
+    assert package.executable("run").script == str(tmp_path / "old" / "nodes" / "run.py")
+
+
 def test_siblings_in_a_workspace_are_found(bot: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     workspace = bot.parent.parent
     write(workspace, {

@@ -33,9 +33,10 @@ use crate::terminal::{self, working_folder};
 ///
 /// Runs XML of roslaunch, and XML, YAML and Python of ROS 2, without a ROS installation; Python files are
 /// evaluated by the python3 on the PATH. Gazebo becomes the simulation, and known nodes become built-in
-/// ones; other programs run if they are installed, and missing ones are reported. With `--duration` it runs
-/// as fast as possible, and the same files, options and seed give the same bag, byte for byte; without it
-/// at the world's real-time factor until Ctrl-C, on ROS 2 on this machine.
+/// ones; your own nodes in Python run from their sources, without a build. Other programs run if they are
+/// installed, and missing ones are reported. With `--duration` it runs as fast as possible, and the same
+/// files, options and seed give the same bag, byte for byte; without it at the world's real-time factor
+/// until Ctrl-C, on ROS 2 on this machine.
 #[derive(Debug, Args)]
 pub(crate) struct LaunchOptions {
     /// Launch file, or a package and the name of a launch file in it; then `name:=value`
@@ -47,6 +48,9 @@ pub(crate) struct LaunchOptions {
     /// Print the plan as JSON without starting anything
     #[arg(short, long, conflicts_with = "show_args")]
     print: bool,
+    /// Print what each node and program of the file becomes without starting anything
+    #[arg(long, conflicts_with_all = ["show_args", "print"])]
+    dry_run: bool,
     /// Run no code of the launch file: no Python, and no program that it calls; xacro is built in
     #[arg(long)]
     no_code: bool,
@@ -110,6 +114,9 @@ pub(crate) fn run(options: &LaunchOptions, ros: Vec<String>) -> Result<ExitCode,
         tools: tools.as_ref().map(|tools| tools.folder().to_owned()),
         start,
     };
+    if options.dry_run {
+        return play::preview(&launched, &options.play, &options.search);
+    }
     let outcome = play::play(launched, &options.play, &options.search);
     shut_down(ending);
     outcome
@@ -134,7 +141,7 @@ impl LaunchOptions {
 
     /// Returns true if the plan or its arguments are printed and nothing starts.
     fn is_read_only(&self) -> bool {
-        self.print || self.show_args
+        self.print || self.show_args || self.dry_run
     }
 
     /// Prints the findings of the evaluation. Missing packages matter when a plan is printed; a
@@ -179,6 +186,9 @@ impl LaunchOptions {
         if self.print {
             print(&mut out, plan)?;
             return Ok(Some(ExitCode::SUCCESS));
+        }
+        if self.dry_run {
+            return Ok(None);
         }
         match missing_inputs(findings) {
             0 => Ok(None),

@@ -86,10 +86,12 @@ pub fn demo_composition() -> Composition {
 
 /// Runs the command `words`, whose first is the name of the program. `own_command` starts this program in
 /// another process, such as `/usr/bin/periplus` or `python3 -m periplus`; without it the programs of a
-/// launch file have no guard and no `xacro`.
+/// launch file have no guard and no `xacro`. `interpreter` is the Python in which this program runs, if any;
+/// it also runs users' own nodes.
 #[must_use]
-pub fn run(words: Vec<String>, own_command: Vec<String>) -> ExitCode {
+pub fn run(words: Vec<String>, own_command: Vec<String>, interpreter: Option<String>) -> ExitCode {
     own_command::set_own_command(own_command);
+    own_command::set_interpreter(interpreter);
     if words.get(1).is_some_and(|word| word == GUARD_VERB) {
         guard(std::io::stdin().lock());
         return ExitCode::SUCCESS;

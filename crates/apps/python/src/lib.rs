@@ -20,6 +20,7 @@ mod messages;
 mod poses;
 mod rays;
 mod robot_files;
+mod ros;
 mod scan_matching;
 mod simulation;
 mod slam;
@@ -49,6 +50,7 @@ fn _native(module: &Bound<'_, PyModule>) -> PyResult<()> {
         messages::register,
         bags::register,
         robot_files::register,
+        ros::register,
         simulation::register,
     ] {
         register(module)?;

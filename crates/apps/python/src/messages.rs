@@ -14,28 +14,30 @@ use std::path::PathBuf;
 use std::sync::Arc;
 
 use periplus::msgs::{DynamicMessage, Format, YamlStyle};
+use periplus_rosidl::ArrayShape;
 use pyo3::exceptions::{PyAttributeError, PyTypeError};
 use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyDict, PyList, PyString, PyType};
 
 pub(crate) use build::{array, build};
 pub(crate) use encode::{encode_message, plan_of};
-pub(crate) use plan::{Element, Plan, PlanField, plan, plan_in};
+pub(crate) use plan::unknown_type;
+pub(crate) use plan::{Element, Plan, PlanField, Style, plan, plan_in, plan_of_style};
 pub(crate) use tape::{Tape, TapeReader};
+pub(crate) use value::bytes_of;
 
 use crate::errors::{self, value_error};
 use crate::work::released;
 
 pub(crate) fn register(module: &Bound<'_, PyModule>) -> PyResult<()> {
-    // The first array loads the C interface of numpy. Ctrl-C at that moment would be a panic, so it is loaded with
-    // this module.
-    module.py().import("numpy")?;
-    numpy::PyArray1::<f64>::zeros(module.py(), 0, false);
     module.add_class::<TypeHandle>()?;
     module.add_class::<FieldSetter>()?;
+    module.add_function(wrap_pyfunction!(load_numpy, module)?)?;
     module.add_function(wrap_pyfunction!(message_types, module)?)?;
     module.add_function(wrap_pyfunction!(message_services, module)?)?;
     module.add_function(wrap_pyfunction!(message_class, module)?)?;
+    module.add_function(wrap_pyfunction!(rosidl_handle, module)?)?;
+    module.add_function(wrap_pyfunction!(genpy_handle, module)?)?;
     module.add_function(wrap_pyfunction!(init_message, module)?)?;
     module.add_function(wrap_pyfunction!(load_messages, module)?)?;
     module.add_function(wrap_pyfunction!(serialize, module)?)?;
@@ -127,6 +129,28 @@ impl TypeHandle {
         Ok(constants)
     }
 
+    /// Values of the fields that have a default in the definition.
+    #[getter]
+    fn defaults<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
+        let defaults = PyDict::new(py);
+        for field in &self.0.fields {
+            if let Some(default) = &field.default {
+                let value = match field.shape {
+                    ArrayShape::One => default.to_object(py)?,
+                    _ => default.to_list(py)?.into_any(),
+                };
+                defaults.set_item(&field.name, value)?;
+            }
+        }
+        Ok(defaults)
+    }
+
+    /// Class of the type.
+    #[getter]
+    fn message_class<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyType>> {
+        Ok(self.0.class(py)?.class.bind(py).clone())
+    }
+
     /// Comments of the definition.
     #[getter]
     fn doc(&self) -> &str {
@@ -156,6 +180,15 @@ impl FieldSetter {
     }
 }
 
+/// Loads the C interface of numpy. The first array would load it, too, but an interruption at that moment would be a
+/// panic.
+#[pyfunction]
+fn load_numpy(py: Python<'_>) -> PyResult<()> {
+    py.import("numpy")?;
+    numpy::PyArray1::<f64>::zeros(py, 0, false);
+    Ok(())
+}
+
 /// Names of all message types, sorted. Services and actions as a whole are none.
 #[pyfunction]
 fn message_types() -> Vec<String> {
@@ -182,6 +215,20 @@ fn message_services() -> Vec<String> {
 fn message_class<'py>(py: Python<'py>, type_name: &str) -> PyResult<Bound<'py, PyType>> {
     let plan = plan(type_name).ok_or_else(|| plan::unknown_type(type_name))?;
     Ok(plan.class(py)?.class.bind(py).clone())
+}
+
+/// Type whose class has the conventions of rosidl. Raises ``KeyError`` for an unknown type.
+#[pyfunction]
+fn rosidl_handle(type_name: &str) -> PyResult<TypeHandle> {
+    let plan = plan_of_style(type_name, Style::Rosidl);
+    plan.map(TypeHandle).ok_or_else(|| plan::unknown_type(type_name))
+}
+
+/// Type whose class has the conventions of ROS 1. Raises ``KeyError`` for an unknown type.
+#[pyfunction]
+fn genpy_handle(type_name: &str) -> PyResult<TypeHandle> {
+    let plan = plan_of_style(type_name, Style::Genpy);
+    plan.map(TypeHandle).ok_or_else(|| plan::unknown_type(type_name))
 }
 
 /// Sets all fields of a new message to given or default values.
@@ -288,6 +335,11 @@ fn deserialize<'py>(
     let array = value::bytes_of(data)
         .ok_or_else(|| PyTypeError::new_err("`data` must be bytes, a bytearray or a buffer"))?;
     decode_message(py, &plan, Format::CDR, &array)
+}
+
+/// Type hash of a message, service or action.
+pub(crate) fn type_hash(type_name: &str) -> Option<String> {
+    plan::all_types(|types| types.hash(type_name))
 }
 
 /// Type given as a class or as a name.

@@ -49,6 +49,28 @@ impl Costmap {
         &mut self.grid.cells
     }
 
+    /// Hands the costs to a function and keeps what it returns, without a copy of its own. Costs of another length are
+    /// replaced by the default cost.
+    ///
+    /// ```
+    /// use periplus_costmap::Costmap;
+    /// use periplus_geometry::Pose2;
+    /// use periplus_grid::GridInfo;
+    ///
+    /// let info = GridInfo { width: 2, height: 1, resolution_m: 1.0, origin: Pose2::IDENTITY };
+    /// let mut costmap = Costmap::new(info, 7);
+    /// costmap.replace_costs(|costs| costs.iter().map(|cost| cost + 1).collect());
+    /// assert_eq!(costmap.costs(), [8, 8]);
+    /// ```
+    pub fn replace_costs(&mut self, change: impl FnOnce(Vec<u8>) -> Vec<u8>) {
+        let cells = &mut self.grid.cells;
+        let count = cells.len();
+        *cells = change(std::mem::take(cells));
+        if cells.len() != count {
+            *cells = vec![self.default_cost; count];
+        }
+    }
+
     /// Returns the side length of a cell \[m\].
     #[must_use]
     pub fn resolution_m(&self) -> f64 {

@@ -50,14 +50,20 @@ impl Arguments {
     #[must_use]
     pub fn level_of(&self, node: &str) -> Level {
         let logger = node.trim_start_matches('/').replace('/', ".");
-        let mut name = logger.as_str();
+        self.given_level_of(&logger).unwrap_or_default()
+    }
+
+    /// Minimum log level that is given for a logger: its own, that of the nearest parent, or the global one.
+    #[must_use]
+    pub fn given_level_of(&self, logger: &str) -> Option<Level> {
+        let mut name = logger;
         loop {
             if let Some(level) = self.levels.get(name) {
-                return *level;
+                return Some(*level);
             }
             match name.rsplit_once('.') {
                 Some((above, _)) => name = above,
-                None => return self.level.unwrap_or_default(),
+                None => return self.level,
             }
         }
     }

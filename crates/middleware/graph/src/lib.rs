@@ -48,6 +48,7 @@ mod publisher;
 mod publisher_core;
 mod qos;
 mod qos_event;
+mod reactions;
 mod registry;
 mod remap;
 mod sample;
@@ -89,6 +90,7 @@ pub use parameters::{ParameterRejection, Parameters};
 pub use publisher::{Publisher, RawPublisher};
 pub use qos::{Durability, History, KEEP_ALL_MAX_MESSAGES, Liveliness, Policy, Qos, Reliability};
 pub use qos_event::{IncompatiblePolicy, QosEvent};
+pub use reactions::Alarm;
 pub use sample::{EndpointId, Sample};
 pub use service::{
     Call, CallError, Calls, Client, Pending, RawCall, RawCalls, RawClient, RawMessage,

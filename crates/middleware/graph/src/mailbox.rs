@@ -100,6 +100,24 @@ impl RawMailbox {
         self.own.subscription.id
     }
 
+    /// Removes and returns the oldest message.
+    #[must_use]
+    pub fn take(&self) -> Option<Sample> {
+        self.own.subscription.take_oldest()
+    }
+
+    /// True if a message waits.
+    #[must_use]
+    pub fn has_messages(&self) -> bool {
+        self.own.subscription.has_messages()
+    }
+
+    /// Sets a callback that runs once for each new message, on the thread of the publisher; it must
+    /// not block. Only the first callback is kept.
+    pub fn on_message(&self, wake: impl Fn() + Send + Sync + 'static) {
+        let _ = self.own.subscription.wake.set(Box::new(wake));
+    }
+
     /// Returns all messages since the last call, oldest first.
     #[must_use]
     pub fn drain(&self) -> Vec<Sample> {

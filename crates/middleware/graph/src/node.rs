@@ -43,17 +43,21 @@ impl Node {
     pub(crate) fn new(graph: &Graph, settings: NodeSettings) -> Result<Self, GraphError> {
         let arguments = graph.arguments();
         let (any, is_bare) = (settings.takes_any_parameter(), settings.is_bare());
+        let is_shared = settings.shares_name();
         let (names, own) = settings.resolve(&arguments)?;
         let full_name: Arc<str> = names.full_name().into();
         let mut given = arguments.parameters_of(&full_name);
         given.extend(own);
 
         let mut registry = lock(&graph.0.registry);
-        if registry.nodes.contains_key(&full_name) {
+        let is_taken = registry.nodes.contains_key(&full_name);
+        if is_taken && !is_shared {
             return Err(GraphError::NodeExists { node: full_name.to_string() });
         }
-        // The name is reserved now; the node itself is added below.
-        registry.nodes.insert(full_name.clone(), Weak::new());
+        if !is_taken {
+            // The name is reserved now; the node itself is added below.
+            registry.nodes.insert(full_name.clone(), Weak::new());
+        }
         registry.changes += 1;
         drop(registry);
         let core = graph.0.clone();
@@ -68,8 +72,10 @@ impl Node {
             lifecycle: OnceLock::new(),
         });
         Standard::join(&node, store, is_bare, &arguments)?;
-        let itself = Arc::downgrade(&node);
-        lock(&graph.0.registry).nodes.insert(node.full_name.clone(), itself);
+        if !is_taken {
+            let itself = Arc::downgrade(&node);
+            lock(&graph.0.registry).nodes.insert(node.full_name.clone(), itself);
+        }
         Ok(Self(node))
     }
 
@@ -182,7 +188,13 @@ impl std::fmt::Debug for Node {
 impl Drop for NodeCore {
     fn drop(&mut self) {
         let mut registry = lock(&self.core.registry);
-        registry.nodes.remove(&self.full_name);
+        // Another node of the same name may be the one that is listed.
+        let listed = registry.nodes.get(&self.full_name);
+        if listed
+            .is_some_and(|listed| std::ptr::eq(listed.as_ptr(), self) || listed.strong_count() == 0)
+        {
+            registry.nodes.remove(&self.full_name);
+        }
         registry.changes += 1;
         drop(registry);
         if let Some(standard) = self.standard.get() {
@@ -302,6 +314,7 @@ impl NodeCore {
             common,
             reaction,
             waiting: Mutex::new(Waiting::new(qos)),
+            wake: OnceLock::new(),
             reported: Default::default(),
         };
         let subscription = lock(&core.registry).add_subscription(

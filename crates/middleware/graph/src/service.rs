@@ -113,6 +113,10 @@ impl Server {
         lock(&self.waiting).requests.pop_front().map(|(_, request)| request)
     }
 
+    fn has_requests(&self) -> bool {
+        !lock(&self.waiting).requests.is_empty()
+    }
+
     fn take_number(&self, number: u64) -> Option<Request> {
         let mut waiting = lock(&self.waiting);
         let place = waiting.requests.iter().position(|(other, _)| *other == number)?;

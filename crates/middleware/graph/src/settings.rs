@@ -19,6 +19,7 @@ pub struct NodeSettings {
     takes_any_parameter: bool,
     is_bare: bool,
     keeps_names: bool,
+    shares_name: bool,
 }
 
 impl NodeSettings {
@@ -33,6 +34,7 @@ impl NodeSettings {
             takes_any_parameter: false,
             is_bare: false,
             keeps_names: false,
+            shares_name: false,
         }
     }
 
@@ -91,6 +93,24 @@ impl NodeSettings {
     #[must_use]
     pub fn keep_names(mut self) -> Self {
         self.keeps_names = true;
+        self
+    }
+
+    /// Allows another node of the same name, as ROS 2 does. Only the first one is listed.
+    #[must_use]
+    pub fn share_name(mut self) -> Self {
+        self.shares_name = true;
+        self
+    }
+
+    pub(crate) fn shares_name(&self) -> bool {
+        self.shares_name
+    }
+
+    /// Adds the names and remappings of a command line, after those that were added before.
+    #[must_use]
+    pub fn with_arguments(mut self, arguments: &Arguments) -> Self {
+        self.rules.extend(arguments.rules.iter().cloned().map(Ok));
         self
     }
 
@@ -208,6 +228,22 @@ impl NodeNames {
         let full = self.expand("service", written)?;
         let rule = self.rules.iter().find(|rule| rule.services && rule.from == full);
         Ok(rule.map_or(full, |rule| rule.to.clone()))
+    }
+
+    /// Full name of a topic as written by the node, without remappings.
+    ///
+    /// # Errors
+    /// When ROS 2 would refuse it.
+    pub fn expanded_topic(&self, written: &str) -> Result<String, GraphError> {
+        self.expand("topic", written)
+    }
+
+    /// Full name of a service as written by the node, without remappings.
+    ///
+    /// # Errors
+    /// When ROS 2 would refuse it.
+    pub fn expanded_service(&self, written: &str) -> Result<String, GraphError> {
+        self.expand("service", written)
     }
 
     fn expand(&self, what: &'static str, written: &str) -> Result<String, GraphError> {

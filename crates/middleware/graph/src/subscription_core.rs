@@ -1,7 +1,7 @@
 //! Queue of received messages behind a subscription.
 
 use std::collections::VecDeque;
-use std::sync::{Arc, Mutex};
+use std::sync::{Arc, Mutex, OnceLock};
 
 use periplus_diagnostics::Diagnostic;
 use periplus_msgs::DecodeError;
@@ -21,6 +21,8 @@ pub(crate) struct SubscriptionCore {
     /// Callback for messages; none if the subscription is polled.
     pub(crate) reaction: Option<Reaction>,
     pub(crate) waiting: Mutex<Waiting>,
+    /// Called from the thread of the publisher when a message arrives.
+    pub(crate) wake: OnceLock<Box<dyn Fn() + Send + Sync>>,
     /// QoS events already reported.
     pub(crate) reported: Mutex<ReportedEvents>,
 }
@@ -120,6 +122,10 @@ impl SubscriptionCore {
             }
             reaction.event_queue.add(self.key(reaction, sample), self.clone());
         }
+        drop(waiting);
+        if let Some(wake) = self.wake.get() {
+            wake();
+        }
     }
 
     fn key(&self, reaction: &Reaction, sample: &Sample) -> Key {
@@ -142,6 +148,24 @@ impl SubscriptionCore {
         samples.retain(|sample| !sample.is_stale(now_ns));
         waiting.counts.stale += (before - samples.len()) as u64;
         samples
+    }
+
+    /// Removes and returns the oldest message.
+    pub(crate) fn take_oldest(&self) -> Option<Sample> {
+        let now_ns = self.common.clock.now_ns();
+        let mut waiting = lock(&self.waiting);
+        while let Some(sample) = waiting.samples.pop_front() {
+            if !sample.is_stale(now_ns) {
+                return Some(sample);
+            }
+            waiting.counts.stale += 1;
+        }
+        None
+    }
+
+    /// True if a message waits.
+    pub(crate) fn has_messages(&self) -> bool {
+        !lock(&self.waiting).samples.is_empty()
     }
 
     /// Removes and returns the message with this sequence number.

@@ -171,6 +171,11 @@ pub(super) fn run(package: &str, program: &str, rest: &[String], dialect: Dialec
         .find(|known| known.packages.contains(&package) && known.names.contains(&program));
     match known {
         Some(known) => known.reading(words),
+        // A program of ROS 1 reads its own names and parameters.
+        None if dialect == Dialect::Ros1 => {
+            let told = [package.to_owned(), program.to_owned()];
+            become_words(&["run"], told.into_iter().chain(rest.iter().cloned()).collect())
+        }
         None => {
             let told = [package.to_owned(), program.to_owned()];
             let rest = told.into_iter().chain(words.own.clone()).chain(words.ros());

@@ -69,6 +69,7 @@ pub(super) const EXAMPLES: &[(&str, &[Example])] = &[
         ("periplus launch sam_bot display.launch.py", "A launch file of a package"),
         ("periplus launch robot.launch.xml use_sim_time:=true", "A launch file by its path, with an argument"),
         ("periplus launch robot.launch.py --show-args", "Its arguments; nothing is started"),
+        ("periplus launch robot.launch.py --dry-run", "What each of its nodes becomes; nothing is started"),
         ("periplus launch robot.launch.py --duration 10 --record run.mcap", "Ten simulated seconds, recorded"),
     ]),
     ("lifecycle get", &[("periplus lifecycle get /map_server", "State of a node")]),
@@ -106,7 +107,9 @@ pub(super) const EXAMPLES: &[(&str, &[Example])] = &[
     ("param load", &[("periplus param load /amcl amcl.yaml", "Set the parameters of a file")]),
     ("param set", &[("periplus param set /amcl max_particles 1000", "Set a parameter")]),
     ("run", &[
-        ("periplus run nav2_costmap_2d nav2_costmap_2d_markers", "One program of a package"),
+        ("periplus run wall_follower.py --ros-args -p speed:=0.3", "A node of a file, with a parameter"),
+        ("periplus run my_package wall_follower", "A node of a package in this workspace, without a build"),
+        ("periplus run nav2_costmap_2d nav2_costmap_2d_markers", "A built-in program of a package"),
     ]),
     ("service call", &[
         ("periplus service call /reset_simulation std_srvs/srv/Empty", "A call without values"),

@@ -1,10 +1,12 @@
 //! Execution of launch plans.
 
+mod lockstep;
 mod log;
 mod network;
 mod simulated;
 mod world;
 
+use std::io::{self, Write as _};
 use std::path::PathBuf;
 use std::process::ExitCode;
 
@@ -14,12 +16,13 @@ use periplus_launch::bringup::{LaunchRunner, Settings};
 use periplus_launch::{Dialect, LaunchPlan};
 use periplus_os::Stopwatch;
 use periplus_session::{PageContext, PageSettings};
+use serde_json::json;
 
 use crate::error::CliError;
 use crate::options::SearchOptions;
 use crate::page::PageOptions;
 use crate::run_options::{Factor, Reach, TopicSelection, factor, positive};
-use crate::terminal;
+use crate::{own_command, terminal};
 
 /// Options of running a plan.
 #[derive(Debug, Args)]
@@ -50,6 +53,9 @@ pub(crate) struct PlayOptions {
     /// Serve the page, but do not open a browser
     #[arg(long)]
     no_browser: bool,
+    /// Run nodes in Python with the installed ROS instead of the modules of Periplus
+    #[arg(long)]
+    real_ros: bool,
     /// Number of threads for rays; results do not depend on it
     #[arg(long, value_name = "NUMBER")]
     threads: Option<usize>,
@@ -78,29 +84,69 @@ pub(super) fn play(
     options: &PlayOptions,
     search: &SearchOptions,
 ) -> Result<ExitCode, CliError> {
-    let is_free = options.duration.is_some() && options.rtf.is_none();
-    let settings = Settings {
-        search: terminal::search(&search.resource_path),
-        dialect: launched.dialect,
-        is_wired: false,
-        is_paced: !is_free && !matches!(options.rtf, Some(Factor::Max)),
-        guarding_command: crate::own_command::own_command().to_vec(),
-        tools: launched.tools.clone(),
-    };
-    let bringup = LaunchRunner::new(&launched.plan, settings);
-    let is_alone = match options.ros2 {
-        Some(reach) => reach == Reach::Off,
-        None => is_free,
-    };
+    let bringup = runner(&launched, options, search);
     // Without a network, an empty world provides the time.
-    if bringup.world().is_some() || is_alone {
+    if bringup.world().is_some() || options.is_alone() {
         simulated::run(launched, bringup, options, search)
     } else {
         network::run(launched, bringup, options, search)
     }
 }
 
+/// Prints the outcome of each part of the plan; starts nothing.
+pub(super) fn preview(
+    launched: &Launched,
+    options: &PlayOptions,
+    search: &SearchOptions,
+) -> Result<ExitCode, CliError> {
+    let outcomes = runner(launched, options, search).preview();
+    let mut out = anstream::AutoStream::auto(io::stdout().lock());
+    if options.json {
+        writeln!(out, "{:#}", json!({ "launch": outcomes }))?;
+    } else {
+        for outcome in &outcomes {
+            log::write_outcome(&mut out, outcome)?;
+        }
+    }
+    Ok(ExitCode::SUCCESS)
+}
+
+fn runner(launched: &Launched, options: &PlayOptions, search: &SearchOptions) -> LaunchRunner {
+    let settings = Settings {
+        search: terminal::search(&search.resource_path),
+        dialect: launched.dialect,
+        is_wired: false,
+        is_paced: !options.is_free() && !matches!(options.rtf, Some(Factor::Max)),
+        guarding_command: own_command::own_command().to_vec(),
+        tools: launched.tools.clone(),
+        python: own_command::interpreter(),
+        uses_real_ros: options.real_ros,
+        node_environment: options.node_environment(),
+    };
+    LaunchRunner::new(&launched.plan, settings)
+}
+
 impl PlayOptions {
+    /// Returns true if the run is as fast as possible.
+    fn is_free(&self) -> bool {
+        self.duration.is_some() && self.rtf.is_none()
+    }
+
+    /// Returns true if the run has no network.
+    fn is_alone(&self) -> bool {
+        self.ros2.map_or_else(|| self.is_free(), |reach| reach == Reach::Off)
+    }
+
+    /// Environment variables with which nodes in other processes join the network of the run.
+    fn node_environment(&self) -> Vec<(String, String)> {
+        let range = match self.ros2 {
+            Some(Reach::Loopback) => "LOCALHOST",
+            Some(Reach::Network) => "SUBNET",
+            Some(Reach::Off | Reach::Zenoh) | None => return Vec::new(),
+        };
+        vec![("ROS_AUTOMATIC_DISCOVERY_RANGE".to_owned(), range.to_owned())]
+    }
+
     /// Page that is requested, or that replaces a window of the launch file. The latter is
     /// optional. A browser opens if the launch file opens a window.
     fn page(

@@ -1,14 +1,16 @@
 //! Parts of a plan: each step with its built-in replacement.
 
 use std::collections::BTreeMap;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use crate::{Component, Identity, LaunchPlan, PlanNode, PlanStep, Process, Running, Trigger, What};
+use periplus_sim::Search;
 use serde_json::{Value, json};
 
 use crate::bringup::catalogue::{Entry, Role, of_plugin, of_program};
 use crate::bringup::environment;
 use crate::bringup::includes;
+use crate::bringup::python::{self, PythonNode, is_python_file};
 use crate::bringup::words::{self, ProgramArguments};
 use crate::bringup::world::{self, WorldRequest};
 
@@ -82,16 +84,77 @@ impl BuiltInRequest {
 }
 
 /// External program.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub(crate) struct Program {
-    /// Package; `None` for a command.
+    /// Package; `None` for a command and for a node given by its path.
     pub(crate) package: Option<String>,
     /// Command line, starting with the program.
     pub(crate) words: Vec<String>,
     pub(crate) is_shell: bool,
+    /// True for a node, false for a command.
+    pub(crate) is_node: bool,
+    pub(crate) is_lifecycle: bool,
     /// Name, parameters and remappings, if it is a node.
     pub(crate) identity: Identity,
+    /// Arguments after `--ros-args` other than names and parameters.
+    pub(crate) ros_arguments: Vec<String>,
     pub(crate) running: Running,
+    /// ROS 1 parameter server.
+    pub(crate) server: BTreeMap<String, Value>,
+    /// Launch file line: `FILE:LINE`.
+    pub(crate) written: Option<String>,
+    /// Node in Python, which the interpreter runs.
+    pub(crate) python: Option<PythonNode>,
+    /// Number of words that name the program; the others are its arguments.
+    pub(crate) program_words: usize,
+}
+
+impl Program {
+    /// Full name of its node; `None` if only the program knows it.
+    pub(crate) fn full_name(&self) -> Option<String> {
+        let told = words::read(&[], &self.ros_arguments);
+        let name = told.name.as_deref().or(self.identity.name.as_deref())?;
+        Some(words::full_name(&self.identity, &told, name))
+    }
+
+    /// Name in messages: that of its node, or of the program.
+    pub(crate) fn label(&self) -> String {
+        self.full_name().unwrap_or_else(|| {
+            let program = self.words.get(self.program_words.saturating_sub(1));
+            let program = program.map(String::as_str).unwrap_or_default();
+            program.rsplit('/').next().unwrap_or_default().to_owned()
+        })
+    }
+
+    /// Finds its node in Python: in the package around the launch file, or around the working folder.
+    pub(crate) fn find_python(&mut self, search: &Search) {
+        let environment = environment::of_running(&self.running);
+        if let Some(package) = &self.package {
+            let program = self.words.first().map(String::as_str).unwrap_or_default();
+            self.python = self.package_search_starts(search).iter().find_map(|from| {
+                PythonNode::of_package(package, program, search, from, &environment)
+            });
+            return;
+        }
+        if self.is_shell {
+            return;
+        }
+        let folder = own_folder(&self.running)
+            .map_or_else(|| search.working_folder.clone(), |own| search.working_folder.join(own));
+        if self.is_node {
+            let path = folder.join(self.words.first().map(String::as_str).unwrap_or_default());
+            self.python = is_python_file(&path).then(|| PythonNode::of_file(path));
+        } else if let Some((node, words)) = python::of_command(&self.words, &folder) {
+            (self.python, self.program_words) = (Some(node), words);
+        }
+    }
+
+    /// Files around which its package is searched: the launch file, and one in the working folder.
+    pub(crate) fn package_search_starts(&self, search: &Search) -> Vec<PathBuf> {
+        let written = self.written.as_deref().and_then(|written| written.rsplit_once(':'));
+        let launch_file = written.map(|(file, _line)| PathBuf::from(file));
+        launch_file.into_iter().chain([search.working_folder.join("launch")]).collect()
+    }
 }
 
 /// Parts of a plan, in its order.
@@ -132,6 +195,9 @@ fn of_step(step: &PlanStep, what: &What, server: &BTreeMap<String, Value>, parts
             Work::Ours(ask) => {
                 Work::Ours(Box::new(BuiltInRequest { written: step.written.clone(), ..*ask }))
             }
+            Work::Program(program) => {
+                Work::Program(Box::new(Program { written: step.written.clone(), ..*program }))
+            }
             work => work,
         };
         parts.push(Part { step: step.id, after, work, asked, is_required });
@@ -146,6 +212,10 @@ fn of_step(step: &PlanStep, what: &What, server: &BTreeMap<String, Value>, parts
             for component in &node.components {
                 let work = of_component(component, server, &node.running);
                 add(component.plugin.clone(), false, placed(work, &node.running));
+            }
+            let is_program = parts.last().is_some_and(|part| matches!(part.work, Work::Program(_)));
+            if is_program && node.is_lifecycle && activates_itself(node) {
+                parts.extend(activation(step));
             }
         }
         What::Load { components, .. } => {
@@ -197,13 +267,17 @@ fn of_node(node: &PlanNode, server: &BTreeMap<String, Value>) -> Work {
     let Some(entry) = of_program(node.package.as_deref(), &node.executable) else {
         let mut words = vec![node.executable.clone()];
         words.extend(node.arguments.iter().cloned());
-        words.extend(node.ros_arguments.iter().cloned());
         let program = Box::new(Program {
             package: node.package.clone(),
             words,
-            is_shell: false,
+            is_node: true,
+            is_lifecycle: node.is_lifecycle,
             identity: node.identity.clone(),
+            ros_arguments: node.ros_arguments.clone(),
             running: node.running.clone(),
+            server: server.clone(),
+            program_words: 1,
+            ..Program::default()
         });
         return match node.package.as_deref() {
             Some("xacro") => Work::Xacro(program),
@@ -216,10 +290,27 @@ fn of_node(node: &PlanNode, server: &BTreeMap<String, Value>) -> Work {
         let has_window = wish.has_window && !node.executable.contains("server");
         return Work::World(WorldRequest { has_window, ..wish });
     }
-    let starts_itself = told.own.iter().any(|word| word == "--autostart")
-        || node.ros_arguments.iter().any(|word| word == "--autostart");
-    let is_lifecycle = node.is_lifecycle && !starts_itself;
+    let is_lifecycle = node.is_lifecycle && !activates_itself(node);
     ours(entry, &node.identity, told, is_lifecycle, server, &node.running)
+}
+
+/// Returns true for a node that `autostart` configures and activates.
+fn activates_itself(node: &PlanNode) -> bool {
+    node.arguments.iter().chain(&node.ros_arguments).any(|word| word == "--autostart")
+}
+
+/// Transitions of a lifecycle node in another process that is to activate itself.
+fn activation(step: &PlanStep) -> [Part; 2] {
+    let part = |trigger: Trigger, transition: &str| Part {
+        step: step.id,
+        after: step.after.iter().cloned().chain([trigger]).collect(),
+        work: Work::Transition { step: Some(step.id), transition: transition.to_owned() },
+        asked: transition.to_owned(),
+        is_required: false,
+    };
+    let to = Some("inactive".to_owned());
+    let inactive = Trigger::Reached { step: Some(step.id), from: None, to };
+    [part(Trigger::Started(Some(step.id)), "configure"), part(inactive, "activate")]
 }
 
 fn of_component(
@@ -300,8 +391,11 @@ fn of_process(process: &Process) -> Work {
         }
         _ => None,
     };
+    // Shell syntax (pipes, redirections) is left to the shell.
+    let is_plain = |word: &String| !word.contains(['|', '>', '<', '&', ';', '$', '`']);
+    let is_plain = !process.is_shell || words.iter().all(is_plain);
     if let Some((package, program, rest)) = run
-        && of_program(Some(package), program).is_some()
+        && (is_plain || of_program(Some(package), program).is_some())
     {
         let node = PlanNode {
             package: Some(package.clone()),
@@ -328,15 +422,15 @@ fn of_process(process: &Process) -> Work {
     let is_xacro = words
         .first()
         .is_some_and(|program| is_program(program, "xacro") || is_program(program, "xacro.py"));
-    // Shell syntax (pipes, redirections) is left to the shell.
-    let is_plain = |word: &String| !word.contains(['|', '>', '<', '&', ';', '$', '`']);
-    let is_ours = is_xacro && (!process.is_shell || words.iter().all(is_plain));
+    let is_ours = is_xacro && is_plain;
     let program = Box::new(Program {
         package: None,
         words: if is_ours { words.clone() } else { process.command.clone() },
         is_shell: process.is_shell,
         identity: Identity { name: process.name.clone(), ..Identity::default() },
         running: process.running.clone(),
+        program_words: 1,
+        ..Program::default()
     });
     if is_ours { Work::Xacro(program) } else { Work::Program(program) }
 }

@@ -70,7 +70,7 @@ fn waited_for(parts: &[&Part], part: &Part) -> Vec<usize> {
 
 fn is_command(part: &Part) -> bool {
     match &part.work {
-        Work::Program(program) => program.package.is_none(),
+        Work::Program(program) => !program.is_node && program.python.is_none(),
         Work::Xacro(_) => true,
         _ => false,
     }

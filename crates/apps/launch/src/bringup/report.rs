@@ -36,6 +36,8 @@ pub enum PartOutcomeKind {
     /// Built-in node or task.
     #[default]
     BuiltIn,
+    /// User's own node in Python, in a process.
+    Python,
     /// External program.
     Program,
     /// Nothing needed.

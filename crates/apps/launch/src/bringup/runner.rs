@@ -2,6 +2,7 @@
 
 use std::any::Any;
 use std::path::PathBuf;
+use std::sync::Arc;
 
 use crate::{Dialect, LaunchPlan, Trigger};
 use periplus_graph::{Graph, Mailbox, Node, NodeSettings, Qos};
@@ -12,9 +13,11 @@ use periplus_sim::{Search, Simulation};
 
 use crate::bringup::environment;
 use crate::bringup::guard::Guard;
+use crate::bringup::lockstep::{Lockstep, LockstepNodes};
 use crate::bringup::make::{BuiltIn, make};
 use crate::bringup::parts::{self, BuiltInRequest, Part, Program, Work, own_folder};
 use crate::bringup::preparation::{self, MAX_WAIT_NS};
+use crate::bringup::python::PythonInterpreter;
 use crate::bringup::report::{LaunchLog, PartOutcome, PartOutcomeKind, PartReport};
 use crate::bringup::tasks::{Child, Done, Task, TaskContext, TransitionTask};
 use crate::bringup::world::WorldRequest;
@@ -36,6 +39,12 @@ pub struct Settings {
     pub guarding_command: Vec<String>,
     /// Folder of built-in programs that its processes find at the end of the PATH.
     pub tools: Option<PathBuf>,
+    /// Interpreter of nodes in Python.
+    pub python: PythonInterpreter,
+    /// True if nodes in Python use the ROS that is installed.
+    pub uses_real_ros: bool,
+    /// Environment variables of nodes in Python, which join the network of this run.
+    pub node_environment: Vec<(String, String)>,
 }
 
 /// Event.
@@ -60,6 +69,15 @@ struct PartState {
     is_begun: bool,
 }
 
+/// Node of a plan with a lifecycle.
+struct LifecycleNodeOfPlan {
+    step: usize,
+    /// Full name.
+    name: String,
+    /// True if it waits for transitions.
+    is_managed: bool,
+}
+
 /// Execution of a plan on a graph. The caller calls [`LaunchRunner::work`] periodically.
 pub struct LaunchRunner {
     waiting: Vec<PartState>,
@@ -75,6 +93,7 @@ pub struct LaunchRunner {
     /// Search paths of files that the world and spawned models refer to.
     world_search: Search,
     guard: Guard,
+    lockstep: LockstepNodes,
     is_over: bool,
     /// Time of the last call \[ns\].
     last_ns: i64,
@@ -84,15 +103,15 @@ impl LaunchRunner {
     /// Prepares a plan.
     #[must_use]
     pub fn new(plan: &LaunchPlan, settings: Settings) -> Self {
-        let waiting = parts::parts_of_plan(plan).into_iter().map(|part| PartState {
-            part,
-            come: 0,
-            cursor: 0,
-            since_ns: 0,
-            is_begun: false,
+        let waiting = parts::parts_of_plan(plan).into_iter().map(|mut part| {
+            if let Work::Program(program) = &mut part.work {
+                program.find_python(&settings.search);
+            }
+            PartState { part, come: 0, cursor: 0, since_ns: 0, is_begun: false }
         });
+        let waiting = waiting.collect();
         let mut bringup = Self {
-            waiting: waiting.collect(),
+            waiting,
             events: Vec::new(),
             tasks: Vec::new(),
             kept: Vec::new(),
@@ -103,6 +122,7 @@ impl LaunchRunner {
             lacking: Vec::new(),
             world_search: Search::default(),
             guard: Guard::default(),
+            lockstep: LockstepNodes::default(),
             is_over: false,
             last_ns: 0,
         };
@@ -118,6 +138,11 @@ impl LaunchRunner {
     /// Sets whether ROS programs can reach the graph, once that is known.
     pub fn set_wired(&mut self, is_wired: bool) {
         self.settings.is_wired = is_wired;
+    }
+
+    /// Runs nodes in Python in step with the simulation, unless ROS programs can reach the graph.
+    pub fn set_lockstep(&mut self, host: Arc<dyn Lockstep>) {
+        self.lockstep = LockstepNodes::new(host);
     }
 
     /// World to simulate, if any; of several the first with a file.
@@ -189,7 +214,16 @@ impl LaunchRunner {
     }
 
     fn waiting_parts(&self) -> Vec<&Part> {
-        self.waiting.iter().map(|waiting| &waiting.part).collect()
+        self.parts().collect()
+    }
+
+    /// Parts of the plan, in its order.
+    pub(crate) fn parts(&self) -> impl Iterator<Item = &Part> {
+        self.waiting.iter().map(|waiting| &waiting.part)
+    }
+
+    pub(crate) fn settings(&self) -> &Settings {
+        &self.settings
     }
 
     /// Path of the world file.
@@ -253,6 +287,18 @@ impl LaunchRunner {
         })
     }
 
+    /// Lifecycle nodes, and built-in nodes that may be one.
+    fn lifecycle_nodes(&self) -> impl Iterator<Item = LifecycleNodeOfPlan> {
+        self.waiting.iter().filter_map(|waiting| {
+            let (name, is_managed) = match &waiting.part.work {
+                Work::Ours(ask) => (ask.full_name(), ask.is_managed),
+                Work::Program(program) if program.is_lifecycle => (program.full_name()?, true),
+                _ => return None,
+            };
+            Some(LifecycleNodeOfPlan { step: waiting.part.step, name, is_managed })
+        })
+    }
+
     /// Outcomes of the parts that were started, in their order.
     #[must_use]
     pub fn lines(&self) -> &[PartReport] {
@@ -294,6 +340,7 @@ impl LaunchRunner {
         while self.begin(graph, now_ns) {}
         self.work_hands(graph, now_ns, simulation);
         while self.begin(graph, now_ns) {}
+        self.lockstep.admit();
     }
 
     fn work_hands(&mut self, graph: &Graph, now_ns: i64, mut simulation: Option<&mut Simulation>) {
@@ -326,6 +373,7 @@ impl LaunchRunner {
     pub fn end_all(&mut self, graph: &Graph, now_ns: i64) {
         self.events.push(Event::Shutdown);
         while self.begin(graph, now_ns) {}
+        self.lockstep.close();
         // All are asked first, so that they end in parallel.
         self.tasks.iter_mut().for_each(|(_, hand)| hand.ask_to_stop());
         self.tasks.iter_mut().for_each(|(_, hand)| hand.stop());
@@ -382,9 +430,9 @@ impl LaunchRunner {
             })
         };
         let wanted: Vec<(usize, String)> = self
-            .asks()
-            .filter(|(step, _)| waits_for(*step))
-            .map(|(step, ask)| (step, ask.full_name()))
+            .lifecycle_nodes()
+            .filter(|node| waits_for(node.step))
+            .map(|node| (node.step, node.name))
             .collect();
         if wanted.is_empty() {
             return;
@@ -418,23 +466,12 @@ impl LaunchRunner {
                 self.take(index, &part, ask, made);
             }
             Work::Xacro(program) => self.xacro(index, &part, program),
-            Work::Program(program) => match Child::start(program, &self.settings, &self.guard) {
-                Ok(child) => {
-                    self.record_outcome(&part, PartOutcomeKind::Program, None, child.told());
-                    self.tasks.push((index, Box::new(child)));
-                }
-                Err(why) => {
-                    self.said
-                        .push(LaunchLog::error(format!("`{}` does not run: {why}", part.asked)));
-                    self.record_outcome(&part, PartOutcomeKind::Missing, None, why);
-                    self.end(index);
-                }
-            },
+            Work::Program(program) => self.program(index, &part, program),
             Work::Transition { step, transition } => {
                 let targets: Vec<String> = self
-                    .asks()
-                    .filter(|(of, ask)| step.map_or(ask.is_managed, |step| step == *of))
-                    .map(|(_, ask)| ask.full_name())
+                    .lifecycle_nodes()
+                    .filter(|node| step.map_or(node.is_managed, |step| step == node.step))
+                    .map(|node| node.name)
                     .collect();
                 for name in targets {
                     match TransitionTask::new(graph, &name, transition) {
@@ -457,6 +494,25 @@ impl LaunchRunner {
             Work::Nothing(why) => {
                 self.said.push(LaunchLog::warning(why.clone()));
                 self.record_outcome(&part, PartOutcomeKind::Missing, None, why.clone());
+            }
+        }
+    }
+
+    /// Starts a program.
+    fn program(&mut self, index: usize, part: &Part, program: &Program) {
+        let kind = match program.python {
+            Some(_) => PartOutcomeKind::Python,
+            None => PartOutcomeKind::Program,
+        };
+        match Child::start(program, &self.settings, &self.guard, &self.lockstep) {
+            Ok(child) => {
+                self.record_outcome(part, kind, program.full_name(), child.told());
+                self.tasks.push((index, Box::new(child)));
+            }
+            Err(why) => {
+                self.said.push(LaunchLog::error(format!("`{}` does not run: {why}", part.asked)));
+                self.record_outcome(part, PartOutcomeKind::Missing, None, why);
+                self.end(index);
             }
         }
     }

@@ -5,6 +5,7 @@ mod changer;
 mod child;
 mod described;
 mod manager;
+mod node_arguments;
 mod relay;
 mod respawn;
 mod saver;
@@ -15,7 +16,7 @@ use periplus_graph::Graph;
 use periplus_sim::{Search, Simulation};
 
 pub(crate) use changer::TransitionTask;
-pub(crate) use child::Child;
+pub(crate) use child::{Child, installed_program};
 pub(crate) use described::JointStateTask;
 pub(crate) use described::robot;
 pub(crate) use manager::{Manager, ManagerSettings};

@@ -2,7 +2,7 @@
 
 use periplus_diagnostics::{Diagnostics, SourceMap};
 use periplus_graph::{Arguments, Graph, Level, Mailbox, NodeSettings, ParameterFileError, Qos};
-use periplus_launch::bringup::{LaunchRunner, Settings};
+use periplus_launch::bringup::{LaunchRunner, PythonInterpreter, Settings};
 use periplus_launch::{Dialect, LaunchPlan, PlanNode, PlanStep, What};
 use periplus_msgs::sensor_msgs::JointState;
 use periplus_msgs::tf2_msgs::TFMessage;
@@ -29,6 +29,9 @@ fn a_description_behind_ros_args_moves_joints_of_links_without_inertia() {
         is_paced: false,
         guarding_command: Vec::new(),
         tools: None,
+        python: PythonInterpreter::default(),
+        uses_real_ros: false,
+        node_environment: Vec::new(),
     };
     let words = ["-p".to_owned(), format!("robot_description:={ARM}")];
     let (mut sources, mut findings) = (SourceMap::new(), Diagnostics::new());

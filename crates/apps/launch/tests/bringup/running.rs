@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use periplus_diagnostics::SourceMap;
 use periplus_graph::{Graph, Mailbox, NodeSettings, Publisher, Qos};
-use periplus_launch::bringup::{LaunchRunner, Settings, xacro};
+use periplus_launch::bringup::{LaunchRunner, PythonInterpreter, Settings, xacro};
 use periplus_launch::{Dialect, Interpreter, Outside, OutsideError, Printed, Request, plan};
 use periplus_loader::LoadContext;
 use periplus_msgs::geometry_msgs::{Twist, TwistStamped};
@@ -61,6 +61,9 @@ fn bringup(file: &str, folder: &Path) -> LaunchRunner {
         is_paced: false,
         guarding_command: Vec::new(),
         tools: None,
+        python: PythonInterpreter::default(),
+        uses_real_ros: false,
+        node_environment: Vec::new(),
     };
     LaunchRunner::new(&plan, settings)
 }

@@ -2,7 +2,7 @@
 
 use std::sync::{Arc, Mutex};
 
-use numpy::{PyArray2, PyArrayMethods as _, PyUntypedArrayMethods as _};
+use numpy::{PyArray1, PyArray2, PyArrayMethods as _, PyUntypedArrayMethods as _};
 use periplus::costmap::{CellWindow, Costmap, Explanation, Layer, UpdateBounds, UpdateContext};
 use periplus::grid::{Cell, GridInfo};
 use pyo3::exceptions::{PyTypeError, PyValueError};
@@ -81,8 +81,8 @@ pub(super) struct PythonLayer {
     has_bounds: bool,
     is_enabled: bool,
     failure: Failure,
-    /// Array that the object sees, of the size of the costmap. The cells are copied in and out, so that an array that
-    /// the object keeps is never memory of the costmap.
+    /// Array that the object sees in an update of a part, of the size of the costmap. The cells are copied in and out,
+    /// so that an array that the object keeps is never memory of the costmap.
     costs: Option<Py<PyArray2<u8>>>,
 }
 
@@ -133,6 +133,10 @@ impl PythonLayer {
         window: CellWindow,
     ) -> PyResult<()> {
         let GridInfo { width, height, .. } = *master.info();
+        let CellWindow { x0, y0, xn, yn } = window;
+        if (x0, y0, xn, yn) == (0, 0, width, height) {
+            return self.update_all(py, master);
+        }
         let known = self.costs.as_ref().map(|array| array.bind(py).clone());
         let array = match known.filter(|array| array.shape() == [height, width]) {
             Some(array) => array,
@@ -143,7 +147,6 @@ impl PythonLayer {
             }
         };
         array.try_readwrite()?.as_slice_mut()?.copy_from_slice(master.costs());
-        let CellWindow { x0, y0, xn, yn } = window;
         self.object
             .bind(py)
             .call_method1(pyo3::intern!(py, "update_costs"), (&array, x0, y0, xn, yn))?;
@@ -159,6 +162,27 @@ impl PythonLayer {
             costs[span.clone()].copy_from_slice(&changed[span]);
         }
         Ok(())
+    }
+}
+
+impl PythonLayer {
+    /// Updates all cells: the memory of the costmap becomes that of the array, and the costmap gets a copy of what the
+    /// object has made of it.
+    fn update_all(&mut self, py: Python<'_>, master: &mut Costmap) -> PyResult<()> {
+        let GridInfo { width, height, .. } = *master.info();
+        let mut called = Ok(());
+        master.replace_costs(|costs| {
+            let array = PyArray1::from_vec(py, costs);
+            let call = || -> PyResult<()> {
+                let costs = array.reshape([height, width])?;
+                let name = pyo3::intern!(py, "update_costs");
+                let arguments = (costs, 0, 0, width, height);
+                self.object.bind(py).call_method1(name, arguments).map(drop)
+            };
+            called = call();
+            array.try_readonly().ok().and_then(|it| it.to_vec().ok()).unwrap_or_default()
+        });
+        called
     }
 }
 

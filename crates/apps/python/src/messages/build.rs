@@ -6,9 +6,10 @@ use numpy::PyArray1;
 use periplus::msgs::{Number, NumberKind, NumberVec};
 use periplus_rosidl::ArrayShape;
 use pyo3::prelude::*;
-use pyo3::types::{PyBool, PyBytes, PyFloat, PyString};
+use pyo3::sync::PyOnceLock;
+use pyo3::types::{PyBool, PyBytes, PyFloat, PyList, PyString, PyTuple};
 
-use super::plan::{Element, Plan, PlanField};
+use super::plan::{Element, Plan, PlanField, Style};
 use super::{TapeReader, list};
 use crate::errors::runtime_error;
 
@@ -22,8 +23,13 @@ pub(crate) fn build<'py>(
     for field in &plan.fields {
         let value = match field.shape {
             ArrayShape::One => element(py, &field.element, tape)?,
-            _ if field.element.number().is_some() => {
-                array(py, tape.arrays.next().ok_or_else(short)?)
+            shape if field.element.number().is_some() => {
+                let numbers = tape.arrays.next().ok_or_else(short)?;
+                match plan.style {
+                    Style::Numpy => array(py, numbers),
+                    Style::Rosidl => rosidl_array(py, field, shape, numbers)?,
+                    Style::Genpy => genpy_array(py, numbers)?,
+                }
             }
             _ => {
                 let length = tape.lengths.next().ok_or_else(short)?;
@@ -57,6 +63,86 @@ fn element<'py>(
         }
         Element::Message(plan) => build(py, plan, tape),
     }
+}
+
+/// Array as rosidl has it.
+fn rosidl_array<'py>(
+    py: Python<'py>,
+    field: &PlanField,
+    shape: ArrayShape,
+    numbers: NumberVec,
+) -> PyResult<Bound<'py, PyAny>> {
+    if matches!(field.element, Element::Byte)
+        && let NumberVec::U8(bytes) = &numbers
+    {
+        let bytes = bytes.iter().map(|byte| PyBytes::new(py, &[*byte]));
+        return Ok(PyList::new(py, bytes)?.into_any());
+    }
+    if let NumberVec::Bool(values) = &numbers {
+        return Ok(PyList::new(py, values)?.into_any());
+    }
+    if matches!(shape, ArrayShape::Fixed(_)) {
+        return Ok(array(py, numbers));
+    }
+    let class = array_class(py)?;
+    let (code, bytes) = with_bytes(py, &numbers);
+    class.call1((code, bytes))
+}
+
+/// `array.array`.
+pub(super) fn array_class(py: Python<'_>) -> PyResult<&Bound<'_, PyAny>> {
+    static CLASS: PyOnceLock<Py<PyAny>> = PyOnceLock::new();
+    let import = || Ok::<_, PyErr>(py.import("array")?.getattr("array")?.unbind());
+    Ok(CLASS.get_or_try_init(py, import)?.bind(py))
+}
+
+/// Type code of `array.array` of a kind of numbers.
+pub(super) fn type_code(kind: NumberKind) -> &'static str {
+    match kind {
+        NumberKind::I8 => "b",
+        NumberKind::Bool | NumberKind::U8 => "B",
+        NumberKind::I16 => "h",
+        NumberKind::U16 => "H",
+        NumberKind::I32 => "i",
+        NumberKind::U32 => "I",
+        NumberKind::I64 => "q",
+        NumberKind::U64 => "Q",
+        NumberKind::F32 => "f",
+        NumberKind::F64 => "d",
+    }
+}
+
+/// Type code and bytes of numbers.
+fn with_bytes<'py>(py: Python<'py>, numbers: &NumberVec) -> (&'static str, Bound<'py, PyBytes>) {
+    macro_rules! bytes {
+        ($($kind:ident)*) => {
+            match numbers {
+                NumberVec::Bool(values) => {
+                    let bytes: Vec<u8> = values.iter().map(|it| u8::from(*it)).collect();
+                    ("B", PyBytes::new(py, &bytes))
+                }
+                NumberVec::U8(values) => ("B", PyBytes::new(py, values)),
+                $(NumberVec::$kind(values) => {
+                    let bytes: Vec<u8> = values.iter().flat_map(|it| it.to_ne_bytes()).collect();
+                    (type_code(NumberKind::$kind), PyBytes::new(py, &bytes))
+                })*
+            }
+        };
+    }
+    bytes!(I8 I16 U16 I32 U32 I64 U64 F32 F64)
+}
+
+/// Array as genpy has it.
+fn genpy_array(py: Python<'_>, numbers: NumberVec) -> PyResult<Bound<'_, PyAny>> {
+    macro_rules! tuple {
+        ($($kind:ident)*) => {
+            match numbers {
+                NumberVec::U8(values) => PyBytes::new(py, &values).into_any(),
+                $(NumberVec::$kind(values) => PyTuple::new(py, values)?.into_any(),)*
+            }
+        };
+    }
+    Ok(tuple!(Bool I8 I16 U16 I32 U32 I64 U64 F32 F64))
 }
 
 pub(super) fn number(py: Python<'_>, number: Number) -> PyResult<Bound<'_, PyAny>> {

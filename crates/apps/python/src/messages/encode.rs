@@ -11,7 +11,7 @@ use periplus_rosidl::ArrayShape;
 use pyo3::exceptions::PyTypeError;
 use pyo3::intern;
 use pyo3::prelude::*;
-use pyo3::types::PyList;
+use pyo3::types::{PyBytes, PyList, PyString};
 
 use super::TypeHandle;
 use super::plan::{Element, Plan, PlanField};
@@ -119,6 +119,9 @@ fn write_array(
     value: &Bound<'_, PyAny>,
     sink: &mut dyn Sink,
 ) -> Result<(), Fault> {
+    if let Some(bytes) = array_bytes(kind, value)? {
+        return write_array_bytes(kind, shape, count, bytes.as_bytes(), sink);
+    }
     let array = array_of(kind, shape, value)?;
     macro_rules! write {
         ($kind:ident $rust:ident) => {{
@@ -133,6 +136,60 @@ fn write_array(
         }};
     }
     each_kind!(kind, write);
+    Ok(())
+}
+
+/// Bytes of an `array.array` of exactly this kind.
+fn array_bytes<'py>(
+    kind: NumberKind,
+    value: &Bound<'py, PyAny>,
+) -> PyResult<Option<Bound<'py, PyBytes>>> {
+    let py = value.py();
+    if !value.get_type().is(super::build::array_class(py)?) {
+        return Ok(None);
+    }
+    let code = value.getattr(intern!(py, "typecode"))?;
+    if code.cast::<PyString>()?.to_str()? != super::build::type_code(kind) {
+        return Ok(None);
+    }
+    Ok(Some(value.call_method0(intern!(py, "tobytes"))?.cast_into()?))
+}
+
+fn write_array_bytes(
+    kind: NumberKind,
+    shape: ArrayShape,
+    count: Count,
+    bytes: &[u8],
+    sink: &mut dyn Sink,
+) -> Result<(), Fault> {
+    macro_rules! write {
+        (Bool bool) => {{
+            let values: Vec<bool> = bytes.iter().map(|byte| *byte != 0).collect();
+            write_numbers(Numbers::Bool(&values), values.len(), shape, count, sink)
+        }};
+        (U8 u8) => {
+            write_numbers(Numbers::U8(bytes), bytes.len(), shape, count, sink)
+        };
+        ($kind:ident $rust:ident) => {{
+            let chunks = bytes.as_chunks::<{ size_of::<$rust>() }>().0.iter();
+            let values: Vec<$rust> = chunks.map(|chunk| $rust::from_ne_bytes(*chunk)).collect();
+            write_numbers(Numbers::$kind(&values), values.len(), shape, count, sink)
+        }};
+    }
+    each_kind!(kind, write)
+}
+
+fn write_numbers(
+    numbers: Numbers<'_>,
+    length: usize,
+    shape: ArrayShape,
+    count: Count,
+    sink: &mut dyn Sink,
+) -> Result<(), Fault> {
+    require_length(shape, length)?;
+    sink.list(length, count);
+    sink.numbers(numbers);
+    sink.end_list();
     Ok(())
 }
 

@@ -13,8 +13,34 @@ use pyo3::types::{PyBytes, PyList, PyString, PyTuple, PyType};
 use super::TypeHandle;
 use crate::work::lock;
 
+/// Conventions of the classes of messages.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Style {
+    /// Arrays of numbers are numpy arrays: `periplus.msgs`.
+    Numpy,
+    /// Those of rosidl: arrays of numbers are `array.array`, and numpy arrays if their length is fixed.
+    Rosidl,
+    /// Those of genpy, of ROS 1: arrays of numbers are tuples, of bytes `bytes`.
+    Genpy,
+}
+
+impl Style {
+    /// All, in the order of their numbers.
+    const ALL: [Self; 3] = [Self::Numpy, Self::Rosidl, Self::Genpy];
+
+    /// Module that makes the classes.
+    fn module(self) -> &'static str {
+        match self {
+            Self::Numpy => "periplus.msgs._base",
+            Self::Rosidl => "periplus.ros._rosidl",
+            Self::Genpy => "periplus.ros._genpy",
+        }
+    }
+}
+
 /// Message type: its fields, and its class once it is needed.
 pub(crate) struct Plan {
+    pub(crate) style: Style,
     /// Full name, such as `geometry_msgs/msg/Point`.
     pub(crate) type_name: String,
     /// Name of the class, such as `Point`.
@@ -71,7 +97,7 @@ impl Plan {
     pub(crate) fn class(self: &Arc<Self>, py: Python<'_>) -> PyResult<&MessageClass> {
         self.class.get_or_try_init(py, || {
             let handle = Bound::new(py, TypeHandle(self.clone()))?;
-            let base = py.import("periplus.msgs._base")?;
+            let base = py.import(self.style.module())?;
             let class = base.getattr("make_class")?.call1((handle,))?.cast_into::<PyType>()?;
             let new = py.import("builtins")?.getattr("object")?.getattr("__new__")?;
             let arguments = PyTuple::new(py, [&class])?;
@@ -204,22 +230,28 @@ fn scalar_object<'py>(
 struct Known {
     /// Added types, which replace built-in ones.
     added: Option<Arc<TypeRegistry>>,
-    plans: HashMap<String, Arc<Plan>>,
+    /// By style.
+    plans: [HashMap<String, Arc<Plan>>; Style::ALL.len()],
 }
 
 static KNOWN: LazyLock<Mutex<Known>> =
-    LazyLock::new(|| Mutex::new(Known { added: None, plans: HashMap::new() }));
+    LazyLock::new(|| Mutex::new(Known { added: None, plans: Default::default() }));
 
 /// Type of this name, as programs import it.
 pub(crate) fn plan(type_name: &str) -> Option<Arc<Plan>> {
+    plan_of_style(type_name, Style::Numpy)
+}
+
+/// Type of this name with the classes of a style.
+pub(crate) fn plan_of_style(type_name: &str, style: Style) -> Option<Arc<Plan>> {
     let mut known = lock(&KNOWN);
-    if let Some(plan) = known.plans.get(type_name) {
+    if let Some(plan) = known.plans[style as usize].get(type_name) {
         return Some(plan.clone());
     }
     let full_name = TypeName::read(type_name)?.to_string();
     let added = known.added.clone();
     let types = added.as_deref().unwrap_or_else(|| TypeRegistry::builtin());
-    make(types, &full_name, &mut known.plans)
+    make(types, &full_name, style, &mut known.plans[style as usize])
 }
 
 /// Type of this name in a registry, such as that of the schemas of a bag. Types that are equal to known ones
@@ -262,14 +294,16 @@ fn make_equal(
             own.insert(nested, plan);
         }
     }
-    make(types, type_name, own)
+    make(types, type_name, Style::Numpy, own)
 }
 
 /// Adds the types of a registry, which includes the built-in ones. Classes of types that have changed are
 /// created again.
 pub(crate) fn add_types(types: TypeRegistry) {
     let mut known = lock(&KNOWN);
-    known.plans.retain(|name, plan| types.layout(name) == Some(&plan.layout));
+    for plans in &mut known.plans {
+        plans.retain(|name, plan| types.layout(name) == Some(&plan.layout));
+    }
     known.added = Some(Arc::new(types));
 }
 
@@ -293,6 +327,7 @@ pub(crate) fn unknown_type(type_name: &str) -> PyErr {
 fn make(
     types: &TypeRegistry,
     type_name: &str,
+    style: Style,
     made: &mut HashMap<String, Arc<Plan>>,
 ) -> Option<Arc<Plan>> {
     if let Some(known) = made.get(type_name) {
@@ -303,7 +338,7 @@ fn make(
     let definition = types.registry().get(&name)?;
     let mut fields = Vec::new();
     for field in &definition.fields {
-        let element = element(types, &field.r#type.element, made)?;
+        let element = element(types, &field.r#type.element, style, made)?;
         let default = field
             .default
             .as_ref()
@@ -319,11 +354,12 @@ fn make(
     }
     let mut constants = Vec::new();
     for constant in &definition.constants {
-        let element = element(types, &constant.element, made)?;
+        let element = element(types, &constant.element, style, made)?;
         let value = Constant { literal: constant.value.clone(), element };
         constants.push((constant.name.clone(), value));
     }
     let plan = Arc::new(Plan {
+        style,
         type_name: type_name.to_owned(),
         label: name.name.clone(),
         min_bytes: fields.iter().map(PlanField::min_bytes).fold(0, usize::saturating_add),
@@ -342,6 +378,7 @@ fn make(
 fn element(
     types: &TypeRegistry,
     element: &ElementType,
+    style: Style,
     made: &mut HashMap<String, Arc<Plan>>,
 ) -> Option<Element> {
     let narrow = |limit: &u64| u32::try_from(*limit).unwrap_or(u32::MAX);
@@ -350,7 +387,9 @@ fn element(
         ElementType::Scalar(scalar) => Element::Number(kind(*scalar)),
         ElementType::String(limit) => Element::Text(limit.as_ref().map(narrow)),
         ElementType::WString(limit) => Element::WideText(limit.as_ref().map(narrow)),
-        ElementType::Nested(nested) => Element::Message(make(types, &nested.to_string(), made)?),
+        ElementType::Nested(nested) => {
+            Element::Message(make(types, &nested.to_string(), style, made)?)
+        }
     })
 }
 

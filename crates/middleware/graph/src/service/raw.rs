@@ -4,8 +4,10 @@ use std::sync::Arc;
 
 use periplus_msgs::EncodeError;
 
-use super::{CallError, Caller, OwnServer, Reply, Request};
+use super::{CallError, Caller, OwnServer, Reply, Request, ServerReaction};
 use crate::GraphError;
+use crate::actor::Once;
+use crate::event_queue::{Key, Rank};
 use crate::node::Node;
 use crate::payload::Payload;
 use crate::registry::TypeOf;
@@ -40,6 +42,34 @@ impl RawClient {
         self.caller.call(Payload::raw(cdr), reply);
     }
 
+    /// Same as [`RawClient::call`], but `answered` runs as a callback of the client's node, in the
+    /// order of the graph's events.
+    pub fn call_in_order(
+        &self,
+        cdr: Vec<u8>,
+        answered: impl FnOnce(Result<RawMessage, CallError>) + Send + 'static,
+    ) {
+        let name = self.caller.name.clone();
+        let node = Arc::downgrade(&self.caller.node);
+        let ordinal = self.caller.node.next_ordinal();
+        let event_queue = self.caller.node.event_queue();
+        let reply = Reply::new(name.clone(), move |answer| {
+            // The node may have been dropped.
+            let Some(node) = node.upgrade() else { return };
+            let key = Key {
+                time_ns: node.core.common.clock.now_ns(),
+                node: node.full_name.clone(),
+                rank: Rank::Answer,
+                name,
+                sequence: ordinal,
+                ordinal: 0,
+            };
+            let event = Once::new(move || answered(answer.map(RawMessage)));
+            event_queue.add(key, Arc::new(event));
+        });
+        self.caller.call(Payload::raw(cdr), reply);
+    }
+
     /// True if a server is available.
     #[must_use]
     pub fn is_ready(&self) -> bool {
@@ -58,6 +88,12 @@ impl RawCalls {
     pub fn take(&self) -> Option<RawCall> {
         let Request { payload, reply } = self.own.server.take()?;
         Some(RawCall { request: RawMessage(payload), reply })
+    }
+
+    /// True if a request waits.
+    #[must_use]
+    pub fn has_requests(&self) -> bool {
+        self.own.server.has_requests()
     }
 
     /// Sets a callback that runs once for each new request, on the thread of the client; it must
@@ -107,5 +143,26 @@ impl Node {
         type_hash: Option<&str>,
     ) -> Result<RawCalls, GraphError> {
         Ok(RawCalls { own: self.0.server(name, TypeOf::new(type_name, type_hash), None)? })
+    }
+
+    /// Same as [`Node::raw_server`], with a callback for the requests, in the order of the graph's
+    /// events. The server leaves the graph when the result is dropped.
+    ///
+    /// # Errors
+    /// As [`Node::server`].
+    pub fn raw_server_with(
+        &self,
+        name: &str,
+        type_name: &str,
+        type_hash: Option<&str>,
+        react: impl Fn(RawCall) + Send + Sync + 'static,
+    ) -> Result<RawCalls, GraphError> {
+        let react = move |Request { payload, reply }: Request| {
+            react(RawCall { request: RawMessage(payload), reply });
+        };
+        let node = Arc::downgrade(&self.0);
+        let reaction = ServerReaction { node, react: Box::new(react) };
+        let type_of = TypeOf::new(type_name, type_hash);
+        Ok(RawCalls { own: self.0.server(name, type_of, Some(reaction))? })
     }
 }

@@ -3,7 +3,7 @@
 use std::io::{self, Write as _};
 
 use periplus_graph::Level;
-use periplus_launch::bringup::{LaunchRunner, PartOutcomeKind};
+use periplus_launch::bringup::{LaunchRunner, PartOutcomeKind, PartReport};
 use periplus_session::ProgressLine;
 
 /// Prints the log of a launch.
@@ -33,16 +33,7 @@ impl LogPrinter {
         let write = || -> io::Result<()> {
             let mut err = anstream::stderr().lock();
             for line in lines.iter().filter(|_| !is_quiet) {
-                let sign = match line.outcome.kind {
-                    PartOutcomeKind::World
-                    | PartOutcomeKind::BuiltIn
-                    | PartOutcomeKind::Program => "+",
-                    PartOutcomeKind::Needless => "=",
-                    PartOutcomeKind::Missing => "-",
-                };
-                let node = line.outcome.node.as_deref();
-                let node = node.map(|node| format!("{node}: ")).unwrap_or_default();
-                writeln!(err, "{sign} {}: {node}{}", short(&line.asked), line.outcome.told)?;
+                write_outcome(&mut err, line)?;
             }
             for one in log.iter().filter(|one| !is_quiet || one.level >= Level::Error) {
                 match one.level {
@@ -59,6 +50,24 @@ impl LogPrinter {
             None => drop(write()),
         }
     }
+}
+
+/// Writes the outcome of a part on a line: `+` it runs, `=` nothing to do, `-` it is missing.
+pub(in crate::launch) fn write_outcome(
+    out: &mut dyn io::Write,
+    line: &PartReport,
+) -> io::Result<()> {
+    let sign = match line.outcome.kind {
+        PartOutcomeKind::World
+        | PartOutcomeKind::BuiltIn
+        | PartOutcomeKind::Python
+        | PartOutcomeKind::Program => "+",
+        PartOutcomeKind::Needless => "=",
+        PartOutcomeKind::Missing => "-",
+    };
+    let node = line.outcome.node.as_deref();
+    let node = node.map(|node| format!("{node}: ")).unwrap_or_default();
+    writeln!(out, "{sign} {}: {node}{}", short(&line.asked), line.outcome.told)
 }
 
 /// Truncates a long text.

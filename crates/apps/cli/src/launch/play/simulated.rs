@@ -2,9 +2,11 @@
 
 use std::io::{self, Write as _};
 use std::process::ExitCode;
+use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
 
+use periplus_diagnostics::plain_words;
 use periplus_graph::{Arguments, Graph};
 use periplus_launch::bringup::{LaunchRunner, WorldRequest};
 use periplus_os::{Stopwatch, sleep};
@@ -15,6 +17,7 @@ use periplus_session::{
 use periplus_sim::{Options, Simulation, Tick};
 use serde_json::json;
 
+use super::lockstep::RunLockstep;
 use super::log::LogPrinter;
 use super::{Launched, PlayOptions, world};
 use crate::error::CliError;
@@ -58,6 +61,7 @@ pub(super) fn run(
     let context = || PageContext::of(&composition, &search.resource_path);
     let page = options.page(&bringup, factor.is_some(), context);
     let to_simulation = options.simulation(launched.arguments, &request, &bringup);
+    let seed = to_simulation.seed;
     let mut session = SessionBuilder::new(composition, to_simulation, launched.start)
         .quiet(options.quiet)
         .progress(!options.quiet && !options.json)
@@ -68,6 +72,16 @@ pub(super) fn run(
         .page(page)
         .build()?;
     bringup.set_wired(session.is_on_ros2());
+    let is_in_step = bringup.has_python_nodes() && !session.is_on_ros2();
+    let lockstep = is_in_step.then(|| RunLockstep::start(session.graph(), seed, stop.clone()));
+    let lockstep = lockstep.transpose().map(|lockstep| lockstep.map(Arc::new));
+    let lockstep = lockstep.map_err(|error| {
+        let why = plain_words(&error);
+        CliError::failed(format!("the nodes in Python cannot be connected: {why}"))
+    })?;
+    if let Some(lockstep) = &lockstep {
+        bringup.set_lockstep(lockstep.clone());
+    }
     let is_paused = starts_paused(&request, &session, options.quiet);
     let settings = RunSettings { duration_s: options.duration, stop: &stop, is_paused };
     let mut task = LaunchTask { bringup, log };
@@ -76,6 +90,9 @@ pub(super) fn run(
     bringup.end_all(session.graph(), session.simulation().time_ns());
     log.print(&mut bringup, None);
     session.print_findings()?;
+    if let Some(lockstep) = lockstep {
+        terminal::print_findings(&lockstep.take_findings())?;
+    }
     // Messages that nodes publish at shutdown belong into the bag.
     let lines = bringup.lines().to_vec();
     drop(bringup);

@@ -6,20 +6,25 @@ use std::process::{Child as Running_, Command, Stdio};
 use std::sync::mpsc::{Receiver, channel};
 use std::time::Duration;
 
-use crate::{Dialect, PlanParameters, Running};
+use crate::{Dialect, Running};
 use periplus_os::{Machine, Overlay, Stopwatch, sleep};
 use periplus_resources::{EntryKind, Host as _, Resolver};
 
+use super::node_arguments::{NodeArguments, node_arguments};
 use super::{Done, Task, TaskContext};
 use crate::bringup::environment;
 use crate::bringup::guard::{self, EndSignal, Guard, own_group};
-use crate::bringup::parameters::parameter;
+use crate::bringup::lockstep::{LockstepNodes, Membership, MembershipWatch};
 use crate::bringup::parts::{Program, own_folder};
+use crate::bringup::python::PythonNode;
 use crate::bringup::report::LaunchLog;
 use crate::bringup::runner::Settings;
 
 /// Time that a program has to end after SIGINT.
 const SHUTDOWN_TIMEOUT: Duration = Duration::from_secs(5);
+
+/// Time that a process has to end after it has left the simulation.
+const LEAVING_TIMEOUT: Duration = Duration::from_secs(2);
 
 /// Folders of a package's sources that may contain programs.
 const FOLDERS: [&str; 5] = ["scripts", "nodes", "bin", "src", ""];
@@ -37,6 +42,26 @@ pub(crate) struct Child {
     guard: Guard,
     guarding_command: Vec<String>,
     tools: Option<PathBuf>,
+    /// Environment variables besides those of the launch file.
+    variables: Vec<(String, String)>,
+    /// Files with its parameters, which exist as long as it runs.
+    _arguments: NodeArguments,
+    description: String,
+    /// Label in lockstep, before its start number.
+    label: String,
+    lockstep: LockstepNodes,
+    /// Its membership in the simulation; `None` for other processes.
+    member: Option<MembershipWatch>,
+}
+
+/// Connection of a program with the graph.
+enum Connection {
+    /// None: a command, not a node.
+    None,
+    /// The ROS 2 network.
+    Network,
+    /// In step with the simulation.
+    Lockstep,
 }
 
 impl Child {
@@ -48,38 +73,52 @@ impl Child {
         program: &Program,
         settings: &Settings,
         guard: &Guard,
+        lockstep: &LockstepNodes,
     ) -> Result<Self, String> {
         let running = &program.running;
-        let is_node = program.package.is_some();
-        let mut words = if program.is_shell {
-            vec!["sh".to_owned(), "-c".into(), program.words.join(" ")]
-        } else {
-            program.words.clone()
+        let connection = connection(program, settings, lockstep)?;
+        let mut variables = match &program.python {
+            Some(python) => python.environment(&settings.search, settings.uses_real_ros),
+            None => Vec::new(),
         };
-        if is_node {
-            if settings.dialect == Dialect::Ros1 {
-                return Err("it is a ROS 1 program, which needs a master; \
-                            there is no built-in replacement"
-                    .into());
+        let mut arguments = NodeArguments::default();
+        let mut words = match &program.python {
+            Some(python) => {
+                variables.extend(settings.node_environment.iter().cloned());
+                let mut words = python.command(settings.python.command()?);
+                words.extend(program.words[program.program_words..].iter().cloned());
+                words
             }
-            if !settings.is_wired {
-                return Err("it is a ROS 2 program, and this run is not on a network; \
-                            use `--ros2 loopback`"
-                    .into());
+            None if program.is_shell => {
+                vec!["sh".to_owned(), "-c".into(), program.words.join(" ")]
             }
-            let package = program.package.as_deref().unwrap_or_default();
+            None => program.words.clone(),
+        };
+        if let (None, Some(package)) = (&program.python, program.package.as_deref()) {
             let (first, rest) = words.split_first().ok_or("it has no name")?;
-            let path = find(package, first, settings, running)?;
+            let path = find(package, first, settings, program)?;
             let mut found = by_path(&path);
             found.extend(rest.iter().cloned());
-            found.extend(ros_words(program));
             words = found;
+        }
+        if program.is_node {
+            arguments = node_arguments(program, settings.dialect)?;
+            words.extend(arguments.words.iter().cloned());
+            variables.extend(arguments.variables.iter().cloned());
         }
         if let Some(prefix) = running.prefix.as_deref() {
             let mut before: Vec<String> = prefix.split_whitespace().map(str::to_owned).collect();
             before.append(&mut words);
             words = before;
         }
+        let description = match (&program.python, &connection) {
+            (Some(python), Connection::Lockstep) => {
+                format!("{}, in step with the simulation", described(python))
+            }
+            (Some(python), _) => described(python),
+            (None, _) => format!("the program {}", words[0]),
+        };
+        let is_in_step = matches!(connection, Connection::Lockstep);
         let name = program.identity.name.clone().unwrap_or_else(|| program.words[0].clone());
         let mut child = Self {
             name,
@@ -92,6 +131,12 @@ impl Child {
             guard: guard.clone(),
             guarding_command: settings.guarding_command.clone(),
             tools: settings.tools.clone(),
+            variables,
+            _arguments: arguments,
+            description,
+            label: program.label(),
+            lockstep: if is_in_step { lockstep.clone() } else { LockstepNodes::default() },
+            member: None,
         };
         child.spawn()?;
         Ok(child)
@@ -99,7 +144,7 @@ impl Child {
 
     /// Description.
     pub(crate) fn told(&self) -> String {
-        format!("the program {}", self.words[0])
+        self.description.clone()
     }
 
     /// PATH of the program, with the built-in tools at its end.
@@ -145,6 +190,10 @@ impl Child {
         if let Some(path) = self.path() {
             command.env("PATH", path);
         }
+        command.envs(self.variables.iter().map(|(name, value)| (name, value)));
+        let membership = self.lockstep.expect(&self.label);
+        let variables = membership.iter().flat_map(|membership| membership.variables());
+        command.envs(variables.map(|(name, value)| (name, value)));
         let mut process = command.spawn().map_err(|error| {
             let missing = error.kind() == std::io::ErrorKind::NotFound;
             let program = &self.words[0];
@@ -164,9 +213,10 @@ impl Child {
             process.stderr.take().map(|pipe| Box::new(pipe) as _),
         ];
         for pipe in pipes.into_iter().flatten() {
-            let send = send.clone();
+            let (send, membership) = (send.clone(), membership.clone());
             // The thread ends with the pipe.
             std::thread::spawn(move || {
+                let _membership = membership;
                 for line in BufReader::new(pipe).lines().map_while(Result::ok) {
                     if send.send(line).is_err() {
                         break;
@@ -176,6 +226,7 @@ impl Child {
         }
         self.process = Some(process);
         self.printed = Some(printed);
+        self.member = membership.as_ref().map(Membership::watch);
         Ok(())
     }
 
@@ -202,6 +253,19 @@ impl Task for Child {
             }
             return Done::No;
         };
+        // In lockstep, simulated time does not depend on how long a process takes to end.
+        let mut timeout = Duration::ZERO;
+        if let Some(member) = &self.member {
+            if !member.is_gone() {
+                return Done::No;
+            }
+            timeout = LEAVING_TIMEOUT;
+            self.member = None;
+        }
+        let since = Stopwatch::start();
+        while timeout > since.elapsed() && matches!(process.try_wait(), Ok(None)) {
+            sleep(Duration::from_millis(1));
+        }
         let status = match process.try_wait() {
             Ok(None) => return Done::No,
             Ok(Some(status)) => status,
@@ -237,7 +301,11 @@ impl Task for Child {
     }
 
     fn ask_to_stop(&mut self) {
-        if let Some(process) = &self.process {
+        // The end of its connection interrupts a process in lockstep; a second interrupt would disturb its
+        // shutdown.
+        if let Some(process) = &self.process
+            && self.member.is_none()
+        {
             guard::send(process.id(), EndSignal::Interrupt);
         }
     }
@@ -245,13 +313,18 @@ impl Task for Child {
     fn stop(&mut self) {
         let Some(process) = &mut self.process else { return };
         let group = process.id();
-        // SIGINT was sent already; now stronger signals to the whole process group.
-        for ending in [None, Some(EndSignal::Terminate), Some(EndSignal::Kill)] {
+        // SIGINT was sent already, or the connection was closed; now stronger signals to the whole process
+        // group.
+        let interrupt = self.member.as_ref().map(|_| Some(EndSignal::Interrupt));
+        let stronger = [Some(EndSignal::Terminate), Some(EndSignal::Kill)];
+        for ending in [None].into_iter().chain(interrupt).chain(stronger) {
             if let Some(ending) = ending {
                 guard::send(group, ending);
             }
+            let is_leaving = ending.is_none() && self.member.is_some();
+            let timeout = if is_leaving { LEAVING_TIMEOUT } else { SHUTDOWN_TIMEOUT };
             let since = Stopwatch::start();
-            while since.elapsed() < SHUTDOWN_TIMEOUT {
+            while since.elapsed() < timeout {
                 let has_ended = !matches!(process.try_wait(), Ok(None));
                 if has_ended && ending.is_none() && guard::has_members(group) {
                     // A shell ends on SIGINT, its background processes do not.
@@ -282,6 +355,70 @@ impl Drop for Child {
     }
 }
 
+/// Connection of a program with the graph of this run.
+///
+/// # Errors
+/// A message with the remedy if a node has none.
+fn connection(
+    program: &Program,
+    settings: &Settings,
+    lockstep: &LockstepNodes,
+) -> Result<Connection, String> {
+    let is_python = program.python.is_some();
+    if !is_python && program.package.is_none() {
+        return Ok(Connection::None);
+    }
+    if !is_python && settings.dialect == Dialect::Ros1 {
+        return Err(
+            "it is a ROS 1 program, which needs a master; there is no built-in replacement".into(),
+        );
+    }
+    if settings.is_wired {
+        return Ok(Connection::Network);
+    }
+    if is_python && lockstep.is_active() && !settings.uses_real_ros {
+        return Ok(Connection::Lockstep);
+    }
+    let kind = match (is_python, settings.uses_real_ros) {
+        (false, _) => "ROS 2 program",
+        (true, false) => "node in Python",
+        (true, true) => "node of the installed ROS (`--real-ros`)",
+    };
+    Err(format!("it is a {kind}, and this run is not on a network; use `--ros2 loopback`"))
+}
+
+fn described(python: &PythonNode) -> String {
+    format!("the Python node of {}", python.path().display())
+}
+
+/// Path of a program on this machine, or its name on the PATH.
+///
+/// # Errors
+/// A message when it is missing.
+pub(crate) fn installed_program(program: &Program, settings: &Settings) -> Result<String, String> {
+    let name = program.words.first().map(String::as_str).unwrap_or_default();
+    if let Some(package) = program.package.as_deref() {
+        let path = find(package, name, settings, program)?;
+        return Ok(path.display().to_string());
+    }
+    let name = name.split_whitespace().next().unwrap_or_default();
+    let folder = own_folder(&program.running).unwrap_or_default();
+    let folder = settings.search.working_folder.join(folder);
+    let host = Overlay { variables: environment::of_running(&program.running) };
+    let path = host.variable("PATH").unwrap_or_default();
+    let is_file = |path: &Path| Machine.kind(path) == Some(EntryKind::File);
+    let is_found = program.is_shell
+        || if name.contains('/') {
+            is_file(&folder.join(name))
+        } else {
+            path.split(':').any(|folder| is_file(&Path::new(folder).join(name)))
+        };
+    if is_found {
+        return Ok(name.to_owned());
+    }
+    Err(format!("program `{name}` is not on the PATH and has no built-in replacement"))
+}
+
 /// Command of a file: Python files that are not executable need the interpreter.
 fn by_path(path: &Path) -> Vec<String> {
     let is_python = path.extension().is_some_and(|extension| extension == "py");
@@ -294,13 +431,13 @@ fn find(
     package: &str,
     name: &str,
     settings: &Settings,
-    running: &Running,
+    program: &Program,
 ) -> Result<PathBuf, String> {
-    let host = Overlay { variables: environment::of_running(running) };
+    let host = Overlay { variables: environment::of_running(&program.running) };
     let resolver = Resolver::new(&host, &settings.search.folders);
-    let from = settings.search.working_folder.join("launch");
     let mut tried = Vec::new();
-    if let Ok(folder) = resolver.find_package(package, &from) {
+    for from in program.package_search_starts(&settings.search) {
+        let Ok(folder) = resolver.find_package(package, &from) else { continue };
         let prefix = folder.parent().filter(|above| above.ends_with("share"));
         if let Some(prefix) = prefix.and_then(Path::parent) {
             tried.push(prefix.join("lib").join(package).join(name));
@@ -321,32 +458,4 @@ fn find(
              such program on this machine"
         )
     })
-}
-
-/// Arguments of a ROS 2 node.
-fn ros_words(program: &Program) -> Vec<String> {
-    let identity = &program.identity;
-    let mut words = vec!["--ros-args".to_owned()];
-    let mut add = |flag: &str, word: String| words.extend([flag.to_owned(), word]);
-    if let Some(name) = &identity.name {
-        add("-r", format!("__node:={name}"));
-    }
-    if let Some(namespace) = &identity.namespace {
-        add("-r", format!("__ns:={namespace}"));
-    }
-    for (from, to) in &identity.remaps {
-        add("-r", format!("{from}:={to}"));
-    }
-    for parameters in &identity.parameters {
-        match parameters {
-            PlanParameters::File(file) => add("--params-file", file.clone()),
-            PlanParameters::Values(values) => {
-                for (name, value) in values.iter().filter(|(_, value)| parameter(value).is_some()) {
-                    // JSON is valid YAML.
-                    add("-p", format!("{name}:={value}"));
-                }
-            }
-        }
-    }
-    words
 }

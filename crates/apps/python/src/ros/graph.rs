@@ -1,0 +1,517 @@
+//! A program of nodes.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::io;
+use std::sync::{Arc, Mutex, Weak};
+use std::time::{Duration, Instant};
+
+use periplus::graph::{Arguments, Graph};
+use periplus::os::{Machine, unix_ns};
+use periplus_dds::{DdsTransport, DiscoveryRange, Settings};
+use periplus_lockstep::LockstepClient;
+use pyo3::exceptions::PyConnectionError;
+use pyo3::prelude::*;
+use pyo3::types::{PyDict, PyString};
+
+use super::arguments;
+use super::arrivals::Arrivals;
+use super::node::{RosNode, new_node};
+use super::qos;
+use crate::errors::runtime_error;
+use crate::work::{lock, released};
+
+/// Slice of a wait, after which signals are handled.
+const SLICE: Duration = Duration::from_millis(100);
+
+/// Where the nodes of a program live.
+pub(crate) enum Backend {
+    Live { graph: Graph, wire: Mutex<Option<DdsTransport>> },
+    Lockstep(Arc<LockstepClient>),
+}
+
+/// What all objects of a program share.
+pub(crate) struct Shared {
+    pub(crate) backend: Backend,
+    pub(crate) arrivals: Arc<Arrivals>,
+    pub(crate) arguments: Arguments,
+    domain_id: u32,
+    start: Instant,
+}
+
+impl Shared {
+    /// Sets the clock of a live graph, which stamps messages.
+    pub(crate) fn tick(&self) {
+        if let Backend::Live { graph, .. } = &self.backend {
+            graph.advance_to(unix_ns());
+        }
+    }
+}
+
+/// Error of a simulation in step; the exception of a signal that ended the call stays as it is.
+pub(crate) fn link_error(error: io::Error) -> PyErr {
+    let kind = error.kind();
+    match error.downcast::<PyErr>() {
+        Ok(raised) => raised,
+        Err(error) => match kind {
+            io::ErrorKind::Other => runtime_error(error),
+            _ => PyConnectionError::new_err(format!("the simulation has ended ({error})")),
+        },
+    }
+}
+
+/// A program of nodes: live on the ROS 2 network, or in step with a simulation.
+///
+/// Parameters
+/// ----------
+/// arguments : list of str
+///     Words after ``--ros-args``, for all nodes.
+/// domain_id : int, optional
+///     ROS 2 domain, instead of ``ROS_DOMAIN_ID``.
+/// network : bool
+///     False: other programs do not see the nodes.
+/// link : str, optional
+///     Link to a simulation to run in step with.
+///
+/// Raises ``RosArgumentsError`` for arguments that cannot be used, and ``RuntimeError`` when there is no network.
+///
+/// >>> import periplus
+/// >>> from periplus._native import RosGraph
+/// >>> graph = RosGraph(network=False)
+/// >>> graph.node("talker", "demo").name
+/// 'talker'
+#[pyclass(frozen, module = "periplus._native")]
+pub(crate) struct RosGraph(Arc<Shared>);
+
+#[pymethods]
+impl RosGraph {
+    #[new]
+    #[pyo3(signature = (arguments=Vec::new(), *, domain_id=None, network=true, link=None))]
+    fn new(
+        py: Python<'_>,
+        arguments: Vec<String>,
+        domain_id: Option<u32>,
+        network: bool,
+        link: Option<String>,
+    ) -> PyResult<Self> {
+        let arguments = arguments::read(py, &arguments)?;
+        let backend = match link {
+            Some(link) => {
+                let connect = move || connect(link);
+                let client = released(py, "joining the simulation", connect)?;
+                Backend::Lockstep(client.map_err(link_error)?)
+            }
+            None => released(py, "joining the network", || live(domain_id, network))??,
+        };
+        let arrivals = Arc::new(Arrivals::default());
+        let (settings, _) = Settings::from_environment(&Machine);
+        let domain_id = domain_id.unwrap_or(settings.domain_id);
+        let start = Instant::now();
+        Ok(Self(Arc::new(Shared { backend, arrivals, arguments, domain_id, start })))
+    }
+
+    /// ROS 2 domain.
+    #[getter]
+    fn domain_id(&self) -> u32 {
+        self.0.domain_id
+    }
+
+    /// True in step with a simulation.
+    #[getter]
+    fn is_lockstep(&self) -> bool {
+        matches!(self.0.backend, Backend::Lockstep(_))
+    }
+
+    /// System time, or the time of the simulation in step [ns].
+    fn now_ns(&self) -> i64 {
+        match &self.0.backend {
+            Backend::Live { .. } => unix_ns(),
+            Backend::Lockstep(client) => client.now_ns(),
+        }
+    }
+
+    /// Monotonic time, or the time of the simulation in step [ns].
+    fn steady_ns(&self) -> i64 {
+        match &self.0.backend {
+            Backend::Live { .. } => {
+                i64::try_from(self.0.start.elapsed().as_nanos()).unwrap_or(i64::MAX)
+            }
+            Backend::Lockstep(client) => client.now_ns(),
+        }
+    }
+
+    /// Number of messages, requests, responses and wake-ups so far.
+    #[getter]
+    fn events(&self) -> u64 {
+        let arrived = match &self.0.backend {
+            Backend::Live { .. } => 0,
+            Backend::Lockstep(client) => client.arrivals(),
+        };
+        self.0.arrivals.count() + arrived
+    }
+
+    /// Waits until `events` differs from `seen`, at most for a time [ns]; returns it.
+    #[pyo3(signature = (seen, timeout_ns=None))]
+    fn wait(&self, py: Python<'_>, seen: u64, timeout_ns: Option<i64>) -> PyResult<u64> {
+        if let Backend::Lockstep(client) = &self.0.backend {
+            if self.events() != seen {
+                return Ok(self.events());
+            }
+            let wake_ns = timeout_ns.map(|timeout_ns| client.now_ns().saturating_add(timeout_ns));
+            self.exchange(py, wake_ns, true)?;
+            return Ok(self.events());
+        }
+        let timeout = timeout_ns.map(|it| Duration::from_nanos(it.max(0).unsigned_abs()));
+        let start = Instant::now();
+        loop {
+            let rest = timeout.map_or(SLICE, |timeout| timeout.saturating_sub(start.elapsed()));
+            let arrivals = &self.0.arrivals;
+            let count = py.detach(|| arrivals.wait(seen, Instant::now() + rest.min(SLICE)));
+            if count != seen || rest == Duration::ZERO {
+                return Ok(count);
+            }
+            py.check_signals()?;
+        }
+    }
+
+    /// Wakes everything that waits.
+    fn wake(&self) {
+        self.0.arrivals.add();
+    }
+
+    /// In step: waits until the simulation has come to a time [ns], or, if asked, until something has arrived.
+    #[pyo3(signature = (wake_ns, wants_messages))]
+    fn exchange(&self, py: Python<'_>, wake_ns: Option<i64>, wants_messages: bool) -> PyResult<()> {
+        let Backend::Lockstep(client) = &self.0.backend else { return Ok(()) };
+        let waited = py.detach(|| client.wait(wake_ns, wants_messages));
+        waited.map_err(link_error)
+    }
+
+    /// Creates a node.
+    #[pyo3(signature = (name, namespace="", *, use_global_arguments=true, arguments=Vec::new()))]
+    fn node(
+        &self,
+        py: Python<'_>,
+        name: &str,
+        namespace: &str,
+        use_global_arguments: bool,
+        arguments: Vec<String>,
+    ) -> PyResult<RosNode> {
+        new_node(py, &self.0, name, namespace, use_global_arguments, &arguments)
+    }
+
+    /// Number of the log level that the arguments give to a logger; 0 for none.
+    fn log_level(&self, logger: &str) -> u8 {
+        self.0.arguments.given_level_of(logger).map_or(0, |level| level.number())
+    }
+
+    /// Topics of all programs with their types.
+    fn topics(&self, py: Python<'_>) -> PyResult<Vec<(String, Vec<String>)>> {
+        self.names(py, Names::Topics)
+    }
+
+    /// Services of all programs with their types.
+    fn services(&self, py: Python<'_>) -> PyResult<Vec<(String, Vec<String>)>> {
+        self.names(py, Names::Services)
+    }
+
+    /// Names and namespaces of the nodes of all programs.
+    fn nodes(&self, py: Python<'_>) -> PyResult<Vec<(String, String)>> {
+        let shared = &self.0;
+        released(py, "nodes", || match &shared.backend {
+            Backend::Live { graph, wire } => {
+                let own = graph.nodes().into_iter().map(|node| node.name);
+                let remote = remote(wire).nodes.into_iter().map(|node| node.name);
+                let own = own.filter(|name| !name.starts_with("/_wire_"));
+                let split = own.chain(remote).filter_map(|full| {
+                    let (namespace, name) = full.rsplit_once('/')?;
+                    Some((name.to_owned(), format!("/{}", namespace.trim_start_matches('/'))))
+                });
+                Ok(split.collect())
+            }
+            Backend::Lockstep(client) => {
+                let nodes = client.nodes()?.into_iter();
+                let hidden = |name: &str| name.starts_with("_process_");
+                Ok(nodes
+                    .filter(|node| !hidden(&node.name))
+                    .map(|node| (node.name, format!("/{}", node.namespace.trim_start_matches('/'))))
+                    .collect())
+            }
+        })?
+        .map_err(link_error)
+    }
+
+    /// Publishers or subscriptions of a topic.
+    fn endpoints<'py>(
+        &self,
+        py: Python<'py>,
+        topic: &str,
+        publishers: bool,
+    ) -> PyResult<Vec<Bound<'py, PyDict>>> {
+        let shared = &self.0;
+        let found = released(py, "endpoints", || endpoints(&shared.backend, topic, publishers))?;
+        let mut list = Vec::new();
+        for end in found.map_err(link_error)? {
+            let words = PyDict::new(py);
+            let full = end.node.unwrap_or_else(|| "/_NODE_NAME_UNKNOWN_".to_owned());
+            let (namespace, name) = full.rsplit_once('/').unwrap_or(("", &full));
+            words.set_item("node_name", name)?;
+            words.set_item("node_namespace", format!("/{}", namespace.trim_start_matches('/')))?;
+            words.set_item("topic_type", end.type_name)?;
+            words.set_item("topic_type_hash", end.type_hash)?;
+            words.set_item("endpoint_gid", end.gid)?;
+            words.set_item("qos", qos::words(&end.qos))?;
+            list.push(words);
+        }
+        Ok(list)
+    }
+
+    /// Topics that a node publishes or subscribes to, with their types.
+    fn node_topics(
+        &self,
+        py: Python<'_>,
+        name: &str,
+        namespace: &str,
+        publishers: bool,
+    ) -> PyResult<Vec<(String, Vec<String>)>> {
+        let full = format!("{}/{name}", namespace.trim_end_matches('/'));
+        let shared = &self.0;
+        let mut found = Vec::new();
+        for (topic, _) in self.topics(py)? {
+            let ends =
+                released(py, "endpoints", || endpoints(&shared.backend, &topic, publishers))?;
+            let ends = ends.map_err(link_error)?;
+            let mine = ends.into_iter().filter(|end| end.node.as_deref() == Some(&full));
+            let types: BTreeSet<String> = mine.map(|end| end.type_name).collect();
+            if !types.is_empty() {
+                found.push((topic, types.into_iter().collect()));
+            }
+        }
+        Ok(found)
+    }
+
+    /// Services that a node serves or calls, with their types.
+    fn node_services(
+        &self,
+        py: Python<'_>,
+        name: &str,
+        namespace: &str,
+        servers: bool,
+    ) -> PyResult<Vec<(String, Vec<String>)>> {
+        let full = format!("{}/{name}", namespace.trim_end_matches('/'));
+        let shared = &self.0;
+        released(py, "services", || {
+            let Backend::Live { graph, wire } = &shared.backend else { return Vec::new() };
+            let mut found: Vec<(String, Vec<String>)> = Vec::new();
+            for service in graph.services() {
+                let is_its = match servers {
+                    true => service.server.as_deref() == Some(&full),
+                    false => service.clients.contains(&full),
+                };
+                if is_its {
+                    found.push((service.name, vec![service.type_name]));
+                }
+            }
+            for service in remote(wire).services {
+                let nodes = if servers { &service.servers } else { &service.clients };
+                if nodes.contains(&full) {
+                    found.push((service.name, service.type_names));
+                }
+            }
+            found
+        })
+    }
+
+    /// Texts of what went wrong on the network since the last call.
+    fn findings(&self, py: Python<'_>) -> PyResult<Vec<String>> {
+        let shared = &self.0;
+        released(py, "findings", || {
+            let Backend::Live { graph, wire } = &shared.backend else { return Vec::new() };
+            let wire = lock(wire).as_ref().map(DdsTransport::take_findings).unwrap_or_default();
+            let own = graph.take_findings();
+            wire.iter().chain(own.iter()).map(|finding| finding.message.clone()).collect()
+        })
+    }
+
+    /// Waits until others have got everything that was published, at most for a time [ns].
+    fn flush(&self, py: Python<'_>, timeout_ns: i64) -> PyResult<bool> {
+        let shared = &self.0;
+        released(py, "flush", || match &shared.backend {
+            Backend::Live { wire, .. } => {
+                let timeout = Duration::from_nanos(timeout_ns.max(0).unsigned_abs());
+                lock(wire).as_ref().is_none_or(|wire| wire.flush(timeout))
+            }
+            Backend::Lockstep(_) => true,
+        })
+    }
+
+    /// Leaves the network.
+    fn close(&self, py: Python<'_>) -> PyResult<()> {
+        let shared = &self.0;
+        released(py, "leaving the network", || {
+            if let Backend::Live { wire, .. } = &shared.backend {
+                let left = lock(wire).take();
+                drop(left);
+            }
+            shared.arrivals.add();
+        })
+    }
+
+    fn __repr__(&self) -> PyResult<String> {
+        Python::attach(|py| {
+            let kind = if self.is_lockstep() { "in step" } else { "live" };
+            Ok(PyString::new(py, &format!("RosGraph({kind})")).to_string())
+        })
+    }
+}
+
+/// What [`RosGraph::names`] lists.
+#[derive(Clone, Copy)]
+enum Names {
+    Topics,
+    Services,
+}
+
+impl RosGraph {
+    fn names(&self, py: Python<'_>, which: Names) -> PyResult<Vec<(String, Vec<String>)>> {
+        let shared = &self.0;
+        let listed = released(py, "names", || match &shared.backend {
+            Backend::Live { graph, wire } => Ok(live_names(graph, wire, which)),
+            Backend::Lockstep(client) => {
+                let names = match which {
+                    Names::Topics => client.topics()?,
+                    Names::Services => client.services()?,
+                };
+                Ok(names.into_iter().map(|(name, of)| (name, vec![of])).collect())
+            }
+        })?;
+        listed.map_err(link_error)
+    }
+}
+
+fn live_names(
+    graph: &Graph,
+    wire: &Mutex<Option<DdsTransport>>,
+    which: Names,
+) -> Vec<(String, Vec<String>)> {
+    let mut all: BTreeMap<String, BTreeSet<String>> = BTreeMap::new();
+    let remote = remote(wire);
+    match which {
+        Names::Topics => {
+            for topic in graph.topics() {
+                if !topic.publishers.is_empty() || !topic.subscriptions.is_empty() {
+                    all.entry(topic.name).or_default().insert(topic.type_name);
+                }
+            }
+            for topic in remote.topics {
+                all.entry(topic.name).or_default().extend(topic.type_names);
+            }
+        }
+        Names::Services => {
+            for service in graph.services() {
+                if service.server.is_some() {
+                    all.entry(service.name).or_default().insert(service.type_name);
+                }
+            }
+            for service in remote.services {
+                if !service.servers.is_empty() {
+                    all.entry(service.name).or_default().extend(service.type_names);
+                }
+            }
+        }
+    }
+    all.into_iter().map(|(name, types)| (name, types.into_iter().collect())).collect()
+}
+
+/// What other programs have.
+pub(crate) fn remote(wire: &Mutex<Option<DdsTransport>>) -> periplus_dds::Remote {
+    lock(wire).as_ref().map(DdsTransport::remote).unwrap_or_default()
+}
+
+/// A publisher or subscription of any program.
+pub(crate) struct End {
+    node: Option<String>,
+    pub(crate) type_name: String,
+    type_hash: Option<String>,
+    gid: Vec<u8>,
+    pub(crate) qos: periplus::graph::Qos,
+}
+
+/// Publishers or subscriptions of a topic.
+///
+/// # Errors
+/// When the simulation has gone.
+pub(crate) fn endpoints(backend: &Backend, topic: &str, publishers: bool) -> io::Result<Vec<End>> {
+    match backend {
+        Backend::Live { graph, wire } => {
+            let mut all = Vec::new();
+            if let Some(found) = graph.topics().into_iter().find(|it| it.name == topic) {
+                let ends = if publishers { found.publishers } else { found.subscriptions };
+                let own = ends.into_iter().filter(|end| !end.node.starts_with("/_wire_"));
+                all.extend(own.map(|end| End {
+                    node: Some(end.node),
+                    type_name: found.type_name.clone(),
+                    type_hash: found.type_hash.clone(),
+                    gid: vec![0; 16],
+                    qos: end.qos,
+                }));
+            }
+            if let Some(found) = remote(wire).topic(topic) {
+                let ends = if publishers { &found.publishers } else { &found.subscriptions };
+                all.extend(ends.iter().map(|end| End {
+                    node: end.node.clone(),
+                    type_name: end.type_name.clone(),
+                    type_hash: end.type_hash.clone(),
+                    gid: end.guid.0.to_vec(),
+                    qos: end.qos,
+                }));
+            }
+            Ok(all)
+        }
+        Backend::Lockstep(client) => {
+            let ends = client.endpoints(topic, publishers)?.into_iter();
+            Ok(ends
+                .map(|end| End {
+                    node: Some(end.node),
+                    type_name: end.type_name,
+                    type_hash: end.type_hash,
+                    gid: vec![0; 16],
+                    qos: end.qos,
+                })
+                .collect())
+        }
+    }
+}
+
+/// Connections of this process: programs join a simulation once, and may have several graphs.
+static LINKS: Mutex<BTreeMap<String, Weak<LockstepClient>>> = Mutex::new(BTreeMap::new());
+
+fn connect(link: String) -> io::Result<Arc<LockstepClient>> {
+    let mut links = lock(&LINKS);
+    if let Some(client) = links.get(&link).and_then(Weak::upgrade) {
+        return Ok(client);
+    }
+    let pause = || Python::attach(|py| py.check_signals()).map_err(io::Error::other);
+    let client = Arc::new(LockstepClient::connect_with(&link, pause)?);
+    links.insert(link, Arc::downgrade(&client));
+    Ok(client)
+}
+
+fn live(domain_id: Option<u32>, network: bool) -> PyResult<Backend> {
+    let graph = Graph::live();
+    graph.set_simulated_time(false);
+    graph.advance_to(unix_ns());
+    let mut wire = None;
+    if network {
+        let (mut settings, findings) = Settings::from_environment(&Machine);
+        for finding in findings.iter() {
+            eprintln!("warning: {}", finding.message);
+        }
+        settings.domain_id = domain_id.unwrap_or(settings.domain_id);
+        if settings.range != DiscoveryRange::Off {
+            let joined = DdsTransport::open(&settings).map_err(runtime_error)?;
+            joined.attach(&graph).map_err(runtime_error)?;
+            wire = Some(joined);
+        }
+    }
+    Ok(Backend::Live { graph, wire: Mutex::new(wire) })
+}

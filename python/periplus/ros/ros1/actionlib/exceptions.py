@@ -1,0 +1,5 @@
+"""Exceptions of actionlib."""
+
+
+class ActionException(Exception):
+    """Wrong use of an action."""

@@ -1,0 +1,5 @@
+"""Container, under the module name of smach."""
+
+from smach import Container
+
+__all__ = ["Container"]

@@ -1,0 +1,5 @@
+"""Sequence, under the module name of smach."""
+
+from smach import Sequence
+
+__all__ = ["Sequence"]

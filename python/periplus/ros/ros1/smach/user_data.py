@@ -1,0 +1,5 @@
+"""UserData and Remapper, under the module name of smach."""
+
+from smach import UserData, Remapper
+
+__all__ = ["UserData", "Remapper"]
