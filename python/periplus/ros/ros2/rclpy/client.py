@@ -169,7 +169,7 @@ class Client:
 
 
 def wait_until(context: Context, is_ready: Any, timeout_sec: float | None) -> bool:
-    """Blocks until `is_ready()`, the shutdown or the timeout. Returns what `is_ready()` says."""
+    """Blocks until `is_ready()`, the shutdown or the timeout. Returns the last result of `is_ready()`."""
     graph = context._use()
     deadline_ns = None if timeout_sec is None or timeout_sec < 0 else source.steady_ns() + int(timeout_sec * S_TO_NS)
     while True:
