@@ -127,7 +127,7 @@ class Client:
     def service_name(self) -> str:
         """Full name of the service."""
         self._check()
-        return str(getattr(self._native, "service", getattr(self._native, "topic", self.srv_name)))
+        return self._full_name()
 
     @property
     def logger_name(self) -> str:
@@ -154,7 +154,7 @@ class Client:
     # ---- for the executor
 
     def _full_name(self) -> str:
-        return self.srv_name
+        return str(getattr(self._native, "service", self.srv_name))
 
     def _take(self) -> Any:
         return None if self._destroyed else self._native.take()
