@@ -127,7 +127,7 @@ class Client:
     def service_name(self) -> str:
         """Full name of the service."""
         self._check()
-        return str(getattr(self._native, "service", getattr(self._native, "topic", self.srv_name)))
+        return self._full_name()
 
     @property
     def logger_name(self) -> str:
@@ -154,7 +154,7 @@ class Client:
     # ---- for the executor
 
     def _full_name(self) -> str:
-        return self.srv_name
+        return str(getattr(self._native, "service", self.srv_name))
 
     def _take(self) -> Any:
         return None if self._destroyed else self._native.take()
@@ -169,7 +169,7 @@ class Client:
 
 
 def wait_until(context: Context, is_ready: Any, timeout_sec: float | None) -> bool:
-    """Blocks until `is_ready()`, the shutdown or the timeout. Returns what `is_ready()` says."""
+    """Blocks until `is_ready()`, the shutdown or the timeout. Returns the last result of `is_ready()`."""
     graph = context._use()
     deadline_ns = None if timeout_sec is None or timeout_sec < 0 else source.steady_ns() + int(timeout_sec * S_TO_NS)
     while True:
@@ -184,3 +184,9 @@ def wait_until(context: Context, is_ready: Any, timeout_sec: float | None) -> bo
             if left_ns <= 0:
                 return False
         _waiting.wait(graph, seen, left_ns)
+
+
+def __getattr__(name: str) -> Any:
+    from rclpy._homes import find
+
+    return find(__name__, name)

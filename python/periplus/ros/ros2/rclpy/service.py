@@ -67,7 +67,7 @@ class Service:
     def service_name(self) -> str:
         """Full name of the service."""
         self._check()
-        return str(getattr(self._native, "service", getattr(self._native, "topic", self.srv_name)))
+        return self._full_name()
 
     @property
     def logger_name(self) -> str:
@@ -94,7 +94,7 @@ class Service:
     # ---- for the executor
 
     def _full_name(self) -> str:
-        return self.srv_name
+        return str(getattr(self._native, "service", self.srv_name))
 
     def _take(self) -> Any:
         return None if self._destroyed else self._native.take()
@@ -109,3 +109,9 @@ class Service:
 
     async def _answer_later(self, call: Any, coroutine: Any) -> None:
         self.send_response(await coroutine, call)
+
+
+def __getattr__(name: str) -> Any:
+    from rclpy._homes import find
+
+    return find(__name__, name)
