@@ -25,8 +25,6 @@ from periplus.ros._rosidl_fields import (
 )
 from periplus.ros._rosidl_types import AbstractType, FieldType
 
-CHECKS_FIELDS = os.environ.get("ROS_PYTHON_CHECK_FIELDS", "") == "1"
-
 _KINDS = {"msg": "Message", "srv": "Service", "action": "Action"}
 _ATOMIC = frozenset((int, float, str, bool, bytes))
 
@@ -74,12 +72,13 @@ class Message(metaclass=MessageType):
     __type_name__: str
     __field_specs__: dict[str, FieldType]
     __value_slots__: tuple[str, ...]
+    __checks_fields__ = False
     _fields_and_field_types: dict[str, str]
     SLOT_TYPES: Any = _SlotTypes()
 
     @property
     def _check_fields(self) -> bool:
-        return CHECKS_FIELDS
+        return self.__checks_fields__
 
     @_check_fields.setter
     def _check_fields(self, value: bool) -> None:
@@ -138,17 +137,9 @@ def _same_array(mine: Any, theirs: Any) -> bool:
 # ---- messages
 
 
-def _handle(type_name: str) -> Any:
-    get = getattr(_native, "rosidl_handle", None)
-    if get is not None:
-        return get(type_name)
-    handle: Any = _native.message_class(type_name).__type_handle__
-    return handle
-
-
 def message_class(type_name: str) -> type:
     """Class of a message type, such as ``std_msgs/msg/String`` or ``std_srvs/srv/SetBool_Request``."""
-    return make_class(_handle(type_name))
+    return make_class(_native.rosidl_handle(type_name))
 
 
 def make_class(handle: Any) -> type:
@@ -170,25 +161,6 @@ def forget(packages: list[str]) -> None:
         del _wholes[name]
 
 
-def _defaults(handle: Any, specs: dict[str, FieldType]) -> dict[str, Any]:
-    """Default values that the definition of a message gives."""
-    try:
-        return dict(handle.defaults)
-    except AttributeError:
-        pass
-    fresh = _native.message_class(handle.type_name)()
-    made = {}
-    for name, spec in specs.items():
-        value = getattr(fresh, name)
-        if spec.is_message:
-            continue
-        values = value.tolist() if hasattr(value, "tolist") else value
-        is_zero = not values or (isinstance(values, list) and spec.shape == "fixed" and not any(values))
-        if not is_zero and values != b"\x00":
-            made[name] = values
-    return made
-
-
 def _metaclass(label: str, constants: dict[str, Any]) -> type[MessageType]:
     if not constants:
         return MessageType
@@ -205,7 +177,8 @@ def _make_class(handle: Any) -> type:
     type_name: str = handle.type_name
     package, kind, label = type_name.split("/")
     specs = {name: FieldType(text) for name, text in handle.fields}
-    defaults = _defaults(handle, specs)
+    defaults: dict[str, Any] = dict(handle.defaults)
+    checks = os.environ.get("ROS_PYTHON_CHECK_FIELDS", "") == "1"
     constants: dict[str, Any] = dict(handle.constants)
     constants.update({f"{name.upper()}__DEFAULT": value for name, value in defaults.items()})
     slots = tuple("_" + name for name in specs)
@@ -217,14 +190,15 @@ def _make_class(handle: Any) -> type:
         "__type_name__": type_name,
         "__field_specs__": specs,
         "__value_slots__": slots,
+        "__checks_fields__": checks,
         "_fields_and_field_types": {name: spec.text for name, spec in specs.items()},
-        "__init__": _initializer(label, specs, defaults),
+        "__init__": _initializer(label, specs, defaults, checks),
         **constants,
     }
     cls: Any = _metaclass(label, constants)(label, (Message,), body)
     for name, spec in specs.items():
         slot = cls.__dict__["_" + name]
-        if CHECKS_FIELDS:
+        if checks:
             setter = checked_setter(name, slot.__set__, spec, message_class)
         elif converts(spec):
             setter = unchecked_setter(slot.__set__, spec)
@@ -251,14 +225,13 @@ def _whole(label: str, kind: str) -> str:
 _UNSET: Any = type("Unset", (), {"__slots__": (), "__repr__": lambda self: "default"})()
 
 
-def _refuse(label: str, unknown: dict[str, Any]) -> None:
-    """Refuses unknown names of fields if fields are checked."""
+def _refuse(unknown: dict[str, Any]) -> None:
+    """Refuses unknown names of fields."""
     unknown.pop("check_fields", None)
-    if CHECKS_FIELDS:
-        assert not unknown, f"Invalid arguments passed to constructor: {', '.join(sorted(unknown))}"
+    assert not unknown, f"Invalid arguments passed to constructor: {', '.join(sorted(unknown))}"
 
 
-def _initializer(label: str, specs: dict[str, FieldType], defaults: dict[str, Any]) -> Callable[..., None]:
+def _initializer(label: str, specs: dict[str, FieldType], defaults: dict[str, Any], checks: bool) -> Callable[..., None]:
     """Initializer with one keyword for each field."""
     names: dict[str, Any] = {"_unset": _UNSET, "_array": array, "_refuse": _refuse}
     this = "self" if "self" not in specs else "_self"
@@ -268,7 +241,7 @@ def _initializer(label: str, specs: dict[str, FieldType], defaults: dict[str, An
         expression, objects = used[0].replace("{name}", f"_n{index}"), used[1]
         names.update({key.replace("{name}", f"_n{index}"): value for key, value in objects.items()})
         is_constant = spec.shape == "one" and not objects
-        target = f"{this}.{name}" if CHECKS_FIELDS and not iskeyword(name) else f"{this}._{name}"
+        target = f"{this}.{name}" if checks and not iskeyword(name) else f"{this}._{name}"
         given = name
         if iskeyword(name):
             lines.append(f"_given{index} = _more.pop({name!r}, {expression if is_constant else '_unset'})")
@@ -279,13 +252,14 @@ def _initializer(label: str, specs: dict[str, FieldType], defaults: dict[str, An
             lines.append(f"{target} = {given}")
             continue
         value = given
-        if converts(spec) and (spec.shape != "fixed" or not CHECKS_FIELDS):
+        if converts(spec) and (spec.shape != "fixed" or not checks):
             names[f"_c{index}"] = converter(spec)
             value = f"_c{index}({given})"
         lines.append(f"{target} = {expression} if {given} is _unset else {value}")
-    lines.append(f"if _more: _refuse({label!r}, _more)")
+    if checks:
+        lines.append("if _more: _refuse(_more)")
     star = "*, " if signature else ""
-    source = f"def __init__({this}, {star}{', '.join([*signature, '**_more'])}):\n    " + "\n    ".join(lines)
+    source = f"def __init__({this}, {star}{', '.join([*signature, '**_more'])}):\n    " + "\n    ".join(lines or ["pass"])
     exec(compile(source, f"<{label} of periplus.ros>", "exec"), names)
     made: Callable[..., None] = names["__init__"]
     made.__qualname__ = f"{label}.__init__"

@@ -31,12 +31,12 @@ class TestTalker(unittest.TestCase):
     def test_topic(self):
         rclpy.init(args=[])
         node = rclpy.create_node("listener")
-        heard = []
-        node.create_subscription(String, "chatter", heard.append, 10)
+        received = []
+        node.create_subscription(String, "chatter", received.append, 10)
         end = time.time() + 20
-        while not heard and time.time() < end:
+        while not received and time.time() < end:
             rclpy.spin_once(node, timeout_sec=0.1)
-        self.assertTrue(heard)
+        self.assertTrue(received)
         rclpy.shutdown()
 
     def test_end(self, proc_info):

@@ -74,7 +74,7 @@ def test_cache() -> None:
 def test_chain() -> None:
     source, cache = message_filters.SimpleFilter(), message_filters.Cache(cache_size=2)
     chain = message_filters.Chain(source, cache)
-    heard = []
-    chain.registerCallback(heard.append)
+    received = []
+    chain.registerCallback(received.append)
     source.signalMessage(image(1))
-    assert len(heard) == 1 and chain.getFilter(1) is cache
+    assert len(received) == 1 and chain.getFilter(1) is cache
