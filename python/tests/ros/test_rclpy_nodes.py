@@ -1,4 +1,4 @@
-"""Nodes: names, arguments, parameters, publishers and what errors say."""
+"""Nodes: names, arguments, parameters, publishers, and the texts of errors."""
 
 from collections.abc import Iterator
 
@@ -229,7 +229,7 @@ def test_a_managed_node_refuses_what_is_not_possible(ros: Nodes, capfd: pytest.C
         node.trigger_activate()
 
 
-def test_a_missed_deadline_is_told_to_both_sides(ros: Nodes) -> None:
+def test_a_missed_deadline_reaches_both_sides(ros: Nodes) -> None:
     from rclpy.duration import Duration
     from rclpy.event_handler import PublisherEventCallbacks, SubscriptionEventCallbacks
 

@@ -89,7 +89,7 @@ def test_future_is_done_once_the_transform_is_there(buffer: tf2_ros.Buffer) -> N
     future = buffer.wait_for_transform_async("map", "late", Time())
     assert not future.done()
     buffer.set_transform(transform("base", "late", 1.0, 2.0), "me")
-    assert future.done() and future.result() is True
+    assert future.done() and future.result().transform.translation.x == 14.0
 
 
 def test_clear_keeps_static_transforms(buffer: tf2_ros.Buffer) -> None:

@@ -50,7 +50,7 @@ _global_executor: Executor | None = None
 
 
 class InitContextManager:
-    """What `init` returns: `with rclpy.init():` shuts the context down at the end."""
+    """Result of `init`: `with rclpy.init():` shuts the context down at the end."""
 
     def __init__(self, context: Context, installed_handlers: bool) -> None:
         self.context = context
@@ -114,7 +114,7 @@ def _reset_global_executor() -> None:
 def shutdown(*, context: Context | None = None, uninstall_handlers: bool | None = None) -> None:
     """Leaves the ROS graph. Raises if the context (default: the default context) is not valid.
 
-    Signal handlers are removed with the default context, or as `uninstall_handlers` says.
+    Signal handlers are removed with the default context, or as `uninstall_handlers` asks.
     """
     _shutdown(context=context)
     if uninstall_handlers or (uninstall_handlers is None and context is None):

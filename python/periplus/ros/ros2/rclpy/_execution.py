@@ -1,4 +1,4 @@
-"""One callback: taking its data, the callback group, and what is told about an exception.
+"""One callback: taking its data, the callback group, and the notes of an exception.
 
 Entities have `callback_group`, `_has_work()`, `_take()` (None: nothing after all), `_call(taken, executor)`, `_kind`,
 `_full_name()` and `_monitor`, which times the calls.

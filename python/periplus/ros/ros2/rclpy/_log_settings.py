@@ -48,7 +48,7 @@ class Levels:
 
 
 class Outputs:
-    """Where log messages go."""
+    """Outputs of log messages."""
 
     def __init__(self) -> None:
         self.console = True

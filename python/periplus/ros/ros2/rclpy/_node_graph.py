@@ -1,4 +1,4 @@
-"""What a node knows of the ROS graph."""
+"""Queries of a node about the ROS graph."""
 
 from __future__ import annotations
 

@@ -152,7 +152,7 @@ class TransitionCallbackReturnType(Enum):
 
 
 class ServiceIntrospectionState(IntEnum):
-    """What a service publishes about its calls."""
+    """Content of the events that a service publishes about its calls."""
 
     OFF = 0
     METADATA = 1

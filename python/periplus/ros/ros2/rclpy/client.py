@@ -169,7 +169,7 @@ class Client:
 
 
 def wait_until(context: Context, is_ready: Any, timeout_sec: float | None) -> bool:
-    """Blocks until `is_ready()`, the shutdown or the timeout. Returns what `is_ready()` says."""
+    """Blocks until `is_ready()`, the shutdown or the timeout. Returns the last result of `is_ready()`."""
     graph = context._use()
     deadline_ns = None if timeout_sec is None or timeout_sec < 0 else source.steady_ns() + int(timeout_sec * S_TO_NS)
     while True:
@@ -184,3 +184,9 @@ def wait_until(context: Context, is_ready: Any, timeout_sec: float | None) -> bo
             if left_ns <= 0:
                 return False
         _waiting.wait(graph, seen, left_ns)
+
+
+def __getattr__(name: str) -> Any:
+    from rclpy._homes import find
+
+    return find(__name__, name)

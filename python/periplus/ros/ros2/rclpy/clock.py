@@ -68,7 +68,7 @@ class TimeJump:
 
     @property
     def clock_change(self) -> ClockChange:
-        """What changed."""
+        """Kind of the change."""
         return self._clock_change
 
     @property
@@ -116,7 +116,7 @@ class JumpHandle:
 class Clock:
     """Clock of one kind. `Clock(clock_type=ClockType.ROS_TIME)` makes a `ROSClock`."""
 
-    # False while the clock only moves when it is told to, so that no timeout can be computed from it.
+    # False while only its setter moves the clock, so that no timeout can be computed from it.
     _runs_by_itself = True
     _clock_type: ClockType
     _now_ns: Callable[[], int]
@@ -289,3 +289,9 @@ __all__ = [
     "Time",
     "TimeJump",
 ]
+
+
+def __getattr__(name: str) -> Any:
+    from rclpy._homes import find
+
+    return find(__name__, name)

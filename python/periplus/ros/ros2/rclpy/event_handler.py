@@ -309,6 +309,10 @@ class NodeEvents(Waitable):
         self._ready: list[EventHandler] = []
         self._timed: list[EventHandler] = []
 
+    @property
+    def _kind(self) -> str:
+        return "QoS event"
+
     def refresh(self) -> None:
         """Looks at all handlers soon: there is a new one."""
         self._seen = -1
@@ -336,7 +340,7 @@ class NodeEvents(Waitable):
     def _poll_all(self, now_ns: int) -> None:
         self._next_poll_ns = now_ns + _PERIOD_NS
         self._seen = self._graph.events
-        timed = []
+        timed: list[EventHandler] = []
         entities: list[Any] = [*self._node._publishers, *self._node._subscriptions]
         for entity in entities:
             handlers = entity.event_handlers
@@ -372,3 +376,9 @@ class NodeEvents(Waitable):
     def _call(self, taken: Any, executor: Any) -> Any:
         handler = taken[0]
         return handler.callback(handler.take_data())
+
+
+def __getattr__(name: str) -> Any:
+    from rclpy._homes import find
+
+    return find(__name__, name)

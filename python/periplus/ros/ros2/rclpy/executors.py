@@ -359,11 +359,9 @@ class SingleThreadedExecutor(Executor):
 
 
 def __getattr__(name: str) -> Any:
-    if name == "MultiThreadedExecutor":
-        from rclpy._multi_threaded import MultiThreadedExecutor
+    from rclpy._homes import find
 
-        return MultiThreadedExecutor
-    raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    return find(__name__, name)
 
 
 __all__ = [

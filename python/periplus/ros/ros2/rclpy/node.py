@@ -51,10 +51,12 @@ SrvTypeResponse = TypeVar("SrvTypeResponse")
 
 __all__ = [
     "CallbackGroup",
+    "Client",
     "Clock",
     "Context",
     "Duration",
     "Executor",
+    "GuardCondition",
     "HIDDEN_NODE_PREFIX",
     "InvalidHandle",
     "InvalidParameterTypeException",
@@ -69,9 +71,14 @@ __all__ = [
     "ParameterImmutableException",
     "ParameterNotDeclaredException",
     "ParameterUninitializedException",
+    "Publisher",
     "QoSProfile",
+    "Rate",
     "ReentrantCallbackGroup",
     "S_TO_NS",
+    "Service",
+    "Subscription",
+    "Timer",
     "Time",
     "TimeSource",
     "get_logger",
@@ -341,3 +348,9 @@ for _part in (NodeEntities, NodeParameters, ParameterCallbacks, NodeGraph):
     for _name, _method in vars(_part).items():
         if callable(_method) and hasattr(_method, "__qualname__"):
             _method.__qualname__ = f"Node.{_name}"
+
+
+def __getattr__(name: str) -> Any:
+    from rclpy._homes import find
+
+    return find(__name__, name)

@@ -169,3 +169,9 @@ class AsyncParameterClient:
 
 def _messages(parameters: Sequence[Any]) -> list[Any]:
     return [one.to_parameter_msg() if isinstance(one, Parameter) else one for one in parameters]
+
+
+def __getattr__(name: str) -> Any:
+    from rclpy._homes import find
+
+    return find(__name__, name)

@@ -122,3 +122,9 @@ def _remove(handles: list[Any], handle: Any) -> None:
     if handle not in handles:
         raise RuntimeError("Callback doesn't exist")
     handles.remove(handle)
+
+
+def __getattr__(name: str) -> Any:
+    from rclpy._homes import find
+
+    return find(__name__, name)

@@ -107,3 +107,9 @@ class Publisher:
 
     def __exit__(self, t: Any, v: Any, tb: Any) -> None:
         self.destroy()
+
+
+def __getattr__(name: str) -> Any:
+    from rclpy._homes import find
+
+    return find(__name__, name)

@@ -69,7 +69,7 @@ class QoSPolicyEnum(IntEnum):
 
 
 class HistoryPolicy(QoSPolicyEnum):
-    """Which messages are kept."""
+    """Rule for the messages that are kept."""
 
     SYSTEM_DEFAULT = 0
     KEEP_LAST = 1
@@ -78,7 +78,7 @@ class HistoryPolicy(QoSPolicyEnum):
 
 
 class ReliabilityPolicy(QoSPolicyEnum):
-    """Whether lost messages are sent again."""
+    """Delivery: lost messages are resent (RELIABLE) or not (BEST_EFFORT)."""
 
     SYSTEM_DEFAULT = 0
     RELIABLE = 1
@@ -88,7 +88,7 @@ class ReliabilityPolicy(QoSPolicyEnum):
 
 
 class DurabilityPolicy(QoSPolicyEnum):
-    """Whether late subscriptions get earlier messages."""
+    """Storage of messages for subscriptions that come later."""
 
     SYSTEM_DEFAULT = 0
     TRANSIENT_LOCAL = 1
@@ -98,7 +98,7 @@ class DurabilityPolicy(QoSPolicyEnum):
 
 
 class LivelinessPolicy(QoSPolicyEnum):
-    """How a publisher shows that it is alive."""
+    """Signs of life of a publisher."""
 
     SYSTEM_DEFAULT = 0
     AUTOMATIC = 1
@@ -170,7 +170,7 @@ class QoSProfile:
 
     @property
     def history(self) -> HistoryPolicy:
-        """Which messages are kept."""
+        """Rule for the messages that are kept."""
         return self._history
 
     @history.setter
@@ -180,7 +180,7 @@ class QoSProfile:
 
     @property
     def reliability(self) -> ReliabilityPolicy:
-        """Whether lost messages are sent again."""
+        """Delivery: lost messages are resent (RELIABLE) or not (BEST_EFFORT)."""
         return self._reliability
 
     @reliability.setter
@@ -190,7 +190,7 @@ class QoSProfile:
 
     @property
     def durability(self) -> DurabilityPolicy:
-        """Whether late subscriptions get earlier messages."""
+        """Storage of messages for subscriptions that come later."""
         return self._durability
 
     @durability.setter
@@ -230,7 +230,7 @@ class QoSProfile:
 
     @property
     def liveliness(self) -> LivelinessPolicy:
-        """How a publisher shows that it is alive."""
+        """Signs of life of a publisher."""
         return self._liveliness
 
     @liveliness.setter

@@ -36,7 +36,7 @@ class InvalidQosOverridesError(Exception):
 
 
 class QoSOverridingOptions:
-    """Which policies of a publisher or subscription parameters may replace.
+    """Policies of a publisher or subscription that parameters may replace.
 
     The parameters are called `qos_overrides.<topic>.<publisher|subscription>[_<entity_id>].<policy>`.
     """
@@ -64,7 +64,7 @@ class QoSOverridingOptions:
 
     @property
     def entity_id(self) -> str | None:
-        """Suffix that tells several publishers or subscriptions of a topic apart."""
+        """Suffix that distinguishes several publishers or subscriptions of a topic."""
         return self._entity_id
 
     @classmethod

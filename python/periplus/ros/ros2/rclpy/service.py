@@ -109,3 +109,9 @@ class Service:
 
     async def _answer_later(self, call: Any, coroutine: Any) -> None:
         self.send_response(await coroutine, call)
+
+
+def __getattr__(name: str) -> Any:
+    from rclpy._homes import find
+
+    return find(__name__, name)

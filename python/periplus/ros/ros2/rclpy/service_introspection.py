@@ -1,4 +1,4 @@
-"""What services publish about their calls."""
+"""Events that services publish about their calls."""
 
 from rclpy._rclpy_pybind11 import ServiceIntrospectionState
 

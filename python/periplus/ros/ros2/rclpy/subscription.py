@@ -168,3 +168,9 @@ def _takes_info(callback: Any) -> bool:
             continue
         return count == 2
     raise RuntimeError(_FORMS)
+
+
+def __getattr__(name: str) -> Any:
+    from rclpy._homes import find
+
+    return find(__name__, name)

@@ -123,3 +123,9 @@ class TimeSource:
         for parameter in parameters:
             if parameter.name == USE_SIM_TIME_NAME:
                 self.ros_time_is_active = parameter.value
+
+
+def __getattr__(name: str) -> Any:
+    from rclpy._homes import find
+
+    return find(__name__, name)

@@ -132,7 +132,7 @@ class Timer:
             graph.wake()
 
     def _on_jump(self, change: ClockChange, before_ns: int) -> None:
-        """Keeps the time until the next call when the clock's source changes, and starts anew after a jump back."""
+        """Keeps the time until the next call when the clock's source changes, and restarts the period after a jump back."""
         now_ns = self._clock._now_ns()
         if change is not ClockChange.ROS_TIME_NO_CHANGE:
             if now_ns == 0:
@@ -213,3 +213,9 @@ class Rate:
                 self._used = self._fired
                 return
             _waiting.wait(self._graph, seen, None)
+
+
+def __getattr__(name: str) -> Any:
+    from rclpy._homes import find
+
+    return find(__name__, name)

@@ -80,3 +80,9 @@ class TopicEndpointInfo:
                 f"  Liveliness lease duration: {qos.liveliness_lease_duration}",
             ]
         )
+
+
+def __getattr__(name: str) -> Any:
+    from rclpy._homes import find
+
+    return find(__name__, name)

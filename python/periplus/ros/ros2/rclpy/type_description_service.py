@@ -46,3 +46,9 @@ class TypeDescriptionService:
         if self._service is not None:
             self._node.destroy_service(self._service)
             self._service = None
+
+
+def __getattr__(name: str) -> Any:
+    from rclpy._homes import find
+
+    return find(__name__, name)

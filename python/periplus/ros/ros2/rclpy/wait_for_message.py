@@ -31,3 +31,9 @@ def wait_for_message(
         return False, None
     finally:
         subscription.destroy()
+
+
+def __getattr__(name: str) -> Any:
+    from rclpy._homes import find
+
+    return find(__name__, name)

@@ -31,6 +31,8 @@ class Buffer(BufferCore, BufferInterface):
         self._new_data_callbacks: list[Callable[[], None]] = []
         self._callbacks_lock = threading.RLock()
         self._jump_handle: Any = None
+        # Node of the listener that fills this buffer.
+        self._listener_node: Any = None
         self.srv: Any = None
         if node is not None:
             self._serve(node)
@@ -143,37 +145,43 @@ class Buffer(BufferCore, BufferInterface):
         return self.lookup_transform_full_core(*arguments)
 
     def wait_for_transform_async(self, target_frame: str, source_frame: str, time: Any) -> Any:
-        """Future that is done, with the result True, once there is a transform."""
-        return self._future(lambda: self.can_transform_core(target_frame, source_frame, time)[0])
+        """Future that is done, with the transform, once there is one."""
+        return self._future(
+            lambda: self.can_transform_core(target_frame, source_frame, time)[0],
+            lambda: self.lookup_transform_core(target_frame, source_frame, time),
+        )
 
     def wait_for_transform_full_async(
         self, target_frame: str, target_time: Any, source_frame: str, source_time: Any, fixed_frame: str
     ) -> Any:
-        """Future that is done, with the result True, once there is a transform between two times."""
+        """Future that is done, with the transform, once there is one between two times."""
         arguments = (target_frame, target_time, source_frame, source_time, fixed_frame)
-        return self._future(lambda: self.can_transform_full_core(*arguments)[0])
+        return self._future(
+            lambda: self.can_transform_full_core(*arguments)[0], lambda: self.lookup_transform_full_core(*arguments)
+        )
 
-    def _future(self, is_there: Callable[[], Any]) -> Any:
+    def _future(self, is_there: Callable[[], Any], lookup: Callable[[], Any]) -> Any:
         from rclpy.task import Future
 
-        future: Any = Future()
+        # With an executor, callbacks of the future run after the callback that asked: they may need its locks.
+        executor = None if self._listener_node is None else self._listener_node.executor
+        future: Any = Future(executor=executor)
         if is_there():
-            future.set_result(True)
+            future.set_result(lookup())
             return future
 
         def on_new_data() -> None:
             try:
-                if is_there():
-                    future.set_result(True)
+                if not future.cancelled():
+                    if not is_there():
+                        return
+                    future.set_result(lookup())
             except BaseException as error:
                 future.set_exception(error)
-
-        def forget(done: Any) -> None:
             with self._callbacks_lock:
                 if on_new_data in self._new_data_callbacks:
                     self._new_data_callbacks.remove(on_new_data)
 
         with self._callbacks_lock:
             self._new_data_callbacks.append(on_new_data)
-        future.add_done_callback(forget)
         return future

@@ -38,6 +38,7 @@ class TransformListener:
             )
         self.buffer = buffer
         self.node = node
+        buffer._listener_node = node
         # Lookups that wait in another callback must not block these.
         self.group = ReentrantCallbackGroup()
         self.tf_sub = node.create_subscription(TFMessage, tf_topic, self.callback, qos, callback_group=self.group)

@@ -16,21 +16,21 @@ def _tuple(quaternion: Any) -> _Quaternion:
     return x, y, z, w
 
 
-def quaternion_from_euler(ai: float, aj: float, ak: float, axes: str = "sxyz") -> _Quaternion:
+def quaternion_from_euler(ai: float, aj: float, ak: float, axes: str = "sxyz") -> _Quaternion:  # type: ignore[no-redef]
     """Quaternion (x, y, z, w) of Euler angles."""
     return _tuple(_all.quaternion_from_euler(ai, aj, ak, axes))
 
 
-def quaternion_about_axis(angle: float, axis: Any) -> _Quaternion:
+def quaternion_about_axis(angle: float, axis: Any) -> _Quaternion:  # type: ignore[no-redef]
     """Rotation by an angle about an axis."""
     return _tuple(_all.quaternion_about_axis(angle, axis))
 
 
-def quaternion_from_matrix(matrix: Any) -> _Quaternion:
+def quaternion_from_matrix(matrix: Any) -> _Quaternion:  # type: ignore[no-redef]
     """Quaternion (x, y, z, w) of a rotation matrix (3 x 3 or homogeneous)."""
     return _tuple(_all.quaternion_from_matrix(matrix))
 
 
-def quaternion_multiply(quaternion1: Any, quaternion0: Any) -> _Quaternion:
+def quaternion_multiply(quaternion1: Any, quaternion0: Any) -> _Quaternion:  # type: ignore[no-redef]
     """Rotation by `quaternion0`, then by `quaternion1`."""
     return _tuple(_all.quaternion_multiply(quaternion1, quaternion0))

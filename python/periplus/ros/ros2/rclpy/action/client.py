@@ -342,3 +342,9 @@ class ActionClient(Waitable):
 async def _run_all(coroutines: list[Any]) -> None:
     for coroutine in coroutines:
         await coroutine
+
+
+def __getattr__(name: str) -> Any:
+    from rclpy._homes import find
+
+    return find(__name__, name)

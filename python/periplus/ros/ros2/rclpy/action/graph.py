@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from rclpy.node import Node
@@ -39,3 +39,9 @@ def get_action_client_names_and_types_by_node(
 ) -> NamesAndTypes:
     """Actions that a node uses."""
     return _actions(node.get_subscriber_names_and_types_by_node(remote_node_name, remote_node_namespace))
+
+
+def __getattr__(name: str) -> Any:
+    from rclpy._homes import find
+
+    return find(__name__, name)

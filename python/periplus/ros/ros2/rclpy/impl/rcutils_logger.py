@@ -17,7 +17,7 @@ _getframe = sys._getframe
 
 
 class _CallSite:
-    """What a logger remembers about one call in the program: severity and filters must stay the same."""
+    """State of a logger for one call in the program: severity and filters must stay the same."""
 
     __slots__ = ("code", "severity", "filters", "given", "throttle_ns", "clock", "last_ns", "was_skipped", "was_logged")
 
