@@ -22,7 +22,8 @@ from typing import TYPE_CHECKING, Any
 
 from . import _faults, _lockstep_signals, _lockstep_threads, _lockstep_time, _tracebacks, _waiting
 from ._lockstep_report import Report
-from ._scheduler import LockstepGraph, Scheduler
+from ._lockstep_task import LockstepGraph
+from ._scheduler import Scheduler
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -45,7 +46,7 @@ def start(link: str, *, graph: LockstepGraph | None = None) -> Scheduler:
     if graph is None:
         from periplus import _native
 
-        graph = _native.RosGraph([], link=link)  # type: ignore[attr-defined]
+        graph = _native.RosGraph([], link=link)
     assert graph is not None
     os.environ.pop("PERIPLUS_LOCKSTEP", None)
     scheduler = _scheduler = Scheduler(graph, _report.note)

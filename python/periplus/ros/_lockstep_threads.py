@@ -8,7 +8,8 @@ import time
 from collections import deque
 from typing import TYPE_CHECKING, Any
 
-from ._scheduler import Scheduler, Task
+from ._lockstep_task import Task
+from ._scheduler import Scheduler
 
 if TYPE_CHECKING:
     from collections.abc import Callable

@@ -13,7 +13,9 @@ import sys
 import time
 from collections import deque
 from heapq import heappop, heappush
-from typing import TYPE_CHECKING, Any, Protocol
+from typing import TYPE_CHECKING, Any
+
+from ._lockstep_task import LockstepGraph, Task
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -36,7 +38,6 @@ _HANDLER_S = 0.5
 #: Wall time between two looks of a waiting main thread at signals [s].
 _SIGNAL_CHECK_S = 0.05
 
-_real_allocate_lock = _thread.allocate_lock
 _real_get_ident = _thread.get_ident
 _real_sleep = time.sleep
 _real_monotonic = time.monotonic
@@ -44,36 +45,6 @@ _real_monotonic = time.monotonic
 
 class _Interrupted(BaseException):
     """Ends a wait for the simulation after a signal handler that has not raised anything."""
-
-
-class LockstepGraph(Protocol):
-    """The part of `RosGraph` that the scheduler needs."""
-
-    @property
-    def events(self) -> int: ...
-    def now_ns(self) -> int: ...
-    def wake(self) -> None: ...
-    def exchange(self, wake_ns: int | None, wants_messages: bool) -> None: ...
-
-
-class Task:
-    """One thread of the program."""
-
-    __slots__ = ("done", "empty_polls", "gate", "ident", "is_daemon", "joiners", "name", "polls", "result", "token", "waits", "was_woken")
-
-    def __init__(self, name: str, *, is_daemon: bool = True) -> None:
-        self.name = name
-        self.is_daemon = is_daemon
-        self.ident = 0
-        #: Held while the thread does not have the turn.
-        self.gate = _real_allocate_lock()
-        self.gate.acquire()
-        self.waits = self.was_woken = self.done = False
-        #: Number of the current wait; older entries among the sleepers are void.
-        self.token = 0
-        self.polls = self.empty_polls = 0
-        self.joiners: list[Task] = []
-        self.result: Any = None
 
 
 class Scheduler:

@@ -61,7 +61,8 @@ def format_exception(error: BaseException, trace: TracebackType | None = None) -
         _strip(made)
     text = "".join(made.format())
     if sys.version_info < (3, 11):
-        text += "".join(f"{note}\n" for note in getattr(error, "__notes__", ()))
+        # Packages such as `exceptiongroup` print them for Python 3.10.
+        text += "".join(f"{note}\n" for note in getattr(error, "__notes__", ()) if f"\n{note}\n" not in text)
     from ._hints import hint
 
     advice = hint(error)
