@@ -204,6 +204,7 @@ class ParameterService(Source):
 
     def has(self, name: str) -> bool:
         """True if there is a value or a subtree."""
+        _waiting.poll()
         return self._discover(lambda: self.has_now(name))
 
     def get(self, name: str) -> Any:
