@@ -132,6 +132,18 @@ def test_a_launch_file_gives_parameters(tmp_path: Path) -> None:
         PERIPLUS_ROS1_PARAMS='{"map": {"size": 5}, "n": {"rate": 10}}',
     )
     assert output == "5 20\n"
+    file = tmp_path / "parameters.json"
+    file.write_text('{"/global": 3, "/n/rate": 20, "/n/pid/gain": [1, 2.5]}')
+    output = run_in_lockstep(
+        tmp_path,
+        """
+        import rospy
+        rospy.init_node("n")
+        print(rospy.get_param("/global"), rospy.get_param("~"))
+        """,
+        PERIPLUS_ROS1_PARAMETERS=str(file),
+    )
+    assert output == "3 {'rate': 20, 'pid': {'gain': [1, 2.5]}}\n"
 
 
 ACTION_SERVER = """

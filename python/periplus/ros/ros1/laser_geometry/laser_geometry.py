@@ -54,8 +54,23 @@ class LaserProjection:
         for name, values in columns.items():
             points[name] = values
         fields = [
-            PointField(name, 4 * index, PointField.INT32 if kind == "<i4" else PointField.FLOAT32, 1)
+            PointField(
+                name=name,
+                offset=4 * index,
+                datatype=PointField.INT32 if kind == "<i4" else PointField.FLOAT32,
+                count=1,
+            )
             for index, (name, kind) in enumerate(dtype)
         ]
         step = points.dtype.itemsize
-        return PointCloud2(scan_in.header, 1, len(points), fields, False, step, step * len(points), points.tobytes(), False)
+        return PointCloud2(
+            header=scan_in.header,
+            height=1,
+            width=len(points),
+            fields=fields,
+            is_bigendian=False,
+            point_step=step,
+            row_step=step * len(points),
+            data=points.tobytes(),
+            is_dense=False,
+        )

@@ -1,7 +1,8 @@
 """The parameter tree of ROS 1 without a master: every node keeps it, changes go to all.
 
 Values are the leaves of one tree of dicts. A change has a number, so that of two changes of one key all nodes keep the
-later one. The values that a launch file sets come in the environment variable PERIPLUS_ROS1_PARAMS (JSON).
+later one. The values that a launch file sets come in a JSON file that the environment variable
+PERIPLUS_ROS1_PARAMETERS names, or as JSON in PERIPLUS_ROS1_PARAMS: values by full name, or trees of them.
 """
 
 from __future__ import annotations
@@ -19,7 +20,8 @@ from rospy import core
 from rospy._dispatch import Source
 from rospy._reader import Reader, qos
 
-VARIABLE = "PERIPLUS_ROS1_PARAMS"
+FILE_VARIABLE = "PERIPLUS_ROS1_PARAMETERS"
+TEXT_VARIABLE = "PERIPLUS_ROS1_PARAMS"
 _TOPIC = "/_rosparam"
 _TYPE = "std_msgs/msg/String"
 #: Time after the start in which a missing value may still arrive from another node [ns].
@@ -36,16 +38,20 @@ class ParameterTree:
 
     def load_environment(self) -> None:
         """Takes the values of the launch file."""
-        text = os.environ.get(VARIABLE)
-        if not text:
-            return
-        try:
-            values = json.loads(text)
-        except ValueError as error:
-            sys.stderr.write(f"{VARIABLE} is not JSON ({error}); its parameters are missing\n")
-            return
-        for name, value in _flat("", values):
-            self.leaves.setdefault(name, (0, "", value))
+        for variable in (TEXT_VARIABLE, FILE_VARIABLE):
+            text = os.environ.get(variable)
+            if not text:
+                continue
+            try:
+                if variable == FILE_VARIABLE:
+                    with open(text, encoding="utf-8") as file:
+                        text = file.read()
+                values = json.loads(text)
+            except (OSError, ValueError) as error:
+                sys.stderr.write(f"{variable} cannot be read ({error}); its parameters are missing\n")
+                continue
+            for name, value in _flat("", values):
+                self.leaves.setdefault(name, (0, "", value))
 
     def set(self, name: str, value: Any, author: str) -> None:
         """Sets a value; a dict replaces the subtree."""
@@ -204,6 +210,7 @@ class ParameterService(Source):
 
     def has(self, name: str) -> bool:
         """True if there is a value or a subtree."""
+        _waiting.poll()
         return self._discover(lambda: self.has_now(name))
 
     def get(self, name: str) -> Any:

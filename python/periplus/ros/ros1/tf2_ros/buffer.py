@@ -7,6 +7,7 @@ from typing import Any
 
 import genpy
 import rospy
+from periplus.ros import _waiting
 from rospy import core, rostime
 from rospy.timer import _sleep_until
 from tf2_py import BufferCore
@@ -81,6 +82,8 @@ class Buffer(BufferCore, BufferInterface):
 
     def _wait(self, function: Callable[[], tuple[int, str]], timeout: Any) -> tuple[int, str]:
         nanoseconds = 0 if timeout is None else _nanoseconds(timeout)
+        # Programs repeat a lookup until it succeeds.
+        _waiting.poll()
         result = function()
         if result[0] or nanoseconds <= 0 or not core.is_initialized():
             return result

@@ -27,7 +27,8 @@ def fromMsg(p: Any) -> Frame:  # noqa: N802
 
 def toMsg(f: Frame) -> Any:  # noqa: N802
     """`Pose` of a frame."""
-    return Pose(Point(*f.p), Quaternion(*f.M.GetQuaternion()))
+    x, y, z, w = f.M.GetQuaternion()
+    return Pose(position=Point(x=f.p[0], y=f.p[1], z=f.p[2]), orientation=Quaternion(x=x, y=y, z=z, w=w))
 
 
 def fromMatrix(m: Any) -> Frame:  # noqa: N802
