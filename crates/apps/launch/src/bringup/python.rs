@@ -217,11 +217,11 @@ fn has_python_shebang(path: &Path) -> bool {
 /// Returns true if a package in a source tree has this program, and it is Python.
 fn has_python_program(folder: &Path, package: &str, program: &str) -> bool {
     let name = program.strip_suffix(".py").unwrap_or(program);
-    let declares = |file: &&str| {
+    let declares = |file: &str| {
         let bytes = Machine.read(&folder.join(file)).unwrap_or_default();
         has_word(&String::from_utf8_lossy(&bytes), name)
     };
-    if ENTRY_POINT_FILES.iter().any(|file| declares(&file)) {
+    if ENTRY_POINT_FILES.iter().any(|file| declares(file)) {
         return true;
     }
     let names = [program.to_owned(), format!("{name}.py"), name.to_owned()];
