@@ -3,10 +3,11 @@
 use std::collections::BTreeMap;
 use std::io;
 use std::sync::{Arc, Mutex};
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 use periplus_diagnostics::{Diagnostic, Diagnostics};
 use periplus_graph::Graph;
+use periplus_transport::Since;
 
 use crate::frame::{Kind, Reader, append};
 use crate::lock;
@@ -63,7 +64,7 @@ impl LockstepHost {
     /// The time of the graph stands meanwhile; call this before it advances.
     pub fn admit(&self, is_running: &mut dyn FnMut(&str) -> bool) {
         let mut arrived: BTreeMap<usize, (String, Stream, Reader, u32)> = BTreeMap::new();
-        let start = Instant::now();
+        let start = Since::now();
         while !lock(&self.state).expected.is_empty() {
             match self.listener.accept() {
                 Ok(stream) => {

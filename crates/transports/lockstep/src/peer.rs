@@ -3,13 +3,15 @@
 use std::collections::HashMap;
 use std::io::{self, Write as _};
 use std::sync::{Arc, Mutex, Weak};
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 use periplus_diagnostics::{Diagnostic, Diagnostics};
 use periplus_graph::{
-    Alarm, EndpointInfo, Graph, Node, NodeSettings, QosEvent, RawCall, RawCalls, RawClient,
-    RawMailbox, RawPublisher,
+    Alarm, EndpointInfo, Graph, GraphError, Node, NodeSettings, QosEvent, RawCall, RawCalls,
+    RawClient, RawMailbox, RawPublisher,
 };
+
+use periplus_transport::Since;
 
 use crate::frame::{Body, Kind, Reader, append, is_pause};
 use crate::lock;
@@ -216,7 +218,7 @@ impl Peer {
 
     /// Reads the next frame; a process that does not answer for long is reported, and then given up.
     fn next_frame(&self, state: &mut State) -> io::Result<(Kind, Vec<u8>)> {
-        let mut since: Option<Instant> = None;
+        let mut since: Option<Since> = None;
         let mut is_reported = false;
         loop {
             let State { stream, reader, pid, .. } = state;
@@ -226,7 +228,7 @@ impl Peer {
                 Err(error) if is_pause(&error) => {}
                 Err(error) => return Err(error),
             }
-            let waited = since.get_or_insert_with(Instant::now).elapsed();
+            let waited = since.get_or_insert_with(Since::now).elapsed();
             if waited > PATIENCE && !is_reported {
                 is_reported = true;
                 let message = format!(
@@ -270,14 +272,10 @@ impl Peer {
         self.try_answer(state, query).unwrap_or_else(|error| Reply::Failed(error.to_string()))
     }
 
-    fn try_answer(
-        self: &Arc<Self>,
-        state: &mut State,
-        query: Query,
-    ) -> Result<Reply, periplus_graph::GraphError> {
+    fn try_answer(self: &Arc<Self>, state: &mut State, query: Query) -> Result<Reply, GraphError> {
         let node_of = |state: &State, new: &NewEndpoint| match state.entities.get(&new.node) {
             Some(Entity::Node(node)) => Ok(node.clone()),
-            _ => Err(periplus_graph::GraphError::Value { reason: "the node was destroyed".into() }),
+            _ => Err(GraphError::Value { reason: "the node was destroyed".into() }),
         };
         let (id, entity) = match query {
             Query::Hello { .. } => return Ok(Reply::Done),
@@ -325,8 +323,12 @@ impl Peer {
                 };
                 let hash = new.type_hash.as_deref();
                 let node = node_of(state, &new)?;
-                let calls = node.raw_server_with(&new.name, &new.type_name, hash, react)?;
-                (new.id, Entity::Server { _calls: calls })
+                match node.raw_server_with(&new.name, &new.type_name, hash, react) {
+                    Ok(calls) => (new.id, Entity::Server { _calls: calls }),
+                    // Two nodes of one name have the same services, as in ROS 2; the first answers.
+                    Err(GraphError::ServerExists { .. }) => return Ok(Reply::Done),
+                    Err(error) => return Err(error),
+                }
             }
             Query::Matched { id } => return Ok(Reply::Count(self.matched(state, id))),
             Query::Topics => {

@@ -1,7 +1,9 @@
 //! The socket between a graph and a process: of the Unix domain where there is one, else TCP on the loopback.
 
 use std::io;
-use std::time::{Duration, Instant};
+use std::time::Duration;
+
+use periplus_transport::Since;
 
 #[cfg(unix)]
 pub(crate) use unix::{Listener, Stream};
@@ -117,7 +119,7 @@ impl Source for Stream {
         #[cfg(unix)]
         {
             use rustix::net::{RecvFlags, recv};
-            let start = Instant::now();
+            let start = Since::now();
             while start.elapsed() < SPIN {
                 match recv(&*self, &mut *buffer, RecvFlags::DONTWAIT) {
                     Ok((count, _)) => return Ok(count),

@@ -119,6 +119,12 @@ fn write_array(
     value: &Bound<'_, PyAny>,
     sink: &mut dyn Sink,
 ) -> Result<(), Fault> {
+    // Without numpy, which short lists do not need.
+    if let Ok(list) = value.cast_exact::<PyList>()
+        && (kind == NumberKind::Bool || list.is_empty() || is_of_bytes(list))
+    {
+        return write_list(kind, list, shape, count, sink);
+    }
     if let Some(bytes) = array_bytes(kind, value)? {
         return write_array_bytes(kind, shape, count, bytes.as_bytes(), sink);
     }
@@ -137,6 +143,38 @@ fn write_array(
     }
     each_kind!(kind, write);
     Ok(())
+}
+
+/// True for a list of bytes of length 1.
+fn is_of_bytes(list: &Bound<'_, PyList>) -> bool {
+    list.get_item(0).is_ok_and(|first| first.is_instance_of::<PyBytes>())
+}
+
+fn write_list(
+    kind: NumberKind,
+    list: &Bound<'_, PyList>,
+    shape: ArrayShape,
+    count: Count,
+    sink: &mut dyn Sink,
+) -> Result<(), Fault> {
+    if kind == NumberKind::Bool {
+        let mut values = Vec::with_capacity(list.len());
+        for (index, item) in list.iter().enumerate() {
+            match number_of(kind, &item).map_err(|fault| fault.within_element(index))? {
+                Number::Bool(value) => values.push(value),
+                _ => values.push(false),
+            }
+        }
+        return write_numbers(Numbers::Bool(&values), values.len(), shape, count, sink);
+    }
+    let mut values = Vec::with_capacity(list.len());
+    for (index, item) in list.iter().enumerate() {
+        values.push(byte_of(&item).map_err(|fault| fault.within_element(index))?);
+    }
+    if values.is_empty() {
+        return write_array_bytes(kind, shape, count, &values, sink);
+    }
+    write_numbers(Numbers::U8(&values), values.len(), shape, count, sink)
 }
 
 /// Bytes of an `array.array` of exactly this kind.

@@ -3,7 +3,9 @@
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Arc, Mutex};
 
-use periplus::graph::{Qos, QosEvent, RawCall, RawCalls, RawClient, RawMailbox, RawPublisher};
+use periplus::graph::{
+    GraphError, Policy, Qos, QosEvent, RawCall, RawCalls, RawClient, RawMailbox, RawPublisher,
+};
 use periplus::msgs::Format;
 use periplus::os::unix_ns;
 use periplus_lockstep::{Inbox, LockstepClient};
@@ -172,7 +174,11 @@ fn matched(
 
 fn incompatible(events: Vec<QosEvent>) -> Vec<String> {
     let events = events.into_iter().filter_map(|event| match event {
-        QosEvent::Incompatible { policies, .. } => Some(policies.last()?.policy.to_string()),
+        QosEvent::Incompatible { policies, .. } => {
+            // As Fast DDS, which names the reliability first.
+            let reliability = policies.iter().find(|one| one.policy == Policy::Reliability);
+            Some(reliability.or(policies.last())?.policy.to_string())
+        }
         _ => None,
     });
     events.collect()
@@ -454,6 +460,8 @@ impl RosClient {
 
 enum ServerEnd {
     Live(RawCalls),
+    /// Another server of the service answers.
+    Second,
     Lockstep(u32, Arc<Inbox>),
 }
 
@@ -478,10 +486,16 @@ impl RosServer {
         let hash = hash.as_deref();
         let end = match place {
             Place::Live(node) => {
-                let calls = node.raw_server(service, type_name, hash).map_err(value_error)?;
-                let arrivals = shared.arrivals.clone();
-                calls.on_call(move || arrivals.add());
-                ServerEnd::Live(calls)
+                match node.raw_server(service, type_name, hash) {
+                    Ok(calls) => {
+                        let arrivals = shared.arrivals.clone();
+                        calls.on_call(move || arrivals.add());
+                        ServerEnd::Live(calls)
+                    }
+                    // Two nodes of one name have the same services, as in ROS 2.
+                    Err(GraphError::ServerExists { .. }) => ServerEnd::Second,
+                    Err(error) => return Err(value_error(error)),
+                }
             }
             Place::Lockstep(node) => {
                 let client = link(shared)?;
@@ -516,7 +530,7 @@ impl RosServer {
         match lock(&self.end).as_ref() {
             Some(ServerEnd::Live(calls)) => calls.has_requests(),
             Some(ServerEnd::Lockstep(_, inbox)) => !inbox.is_empty(),
-            None => false,
+            Some(ServerEnd::Second) | None => false,
         }
     }
 
@@ -533,7 +547,7 @@ impl RosServer {
                 let Some(received) = inbox.take() else { return Ok(None) };
                 (CallEnd::Lockstep(received.number), received.cdr)
             }
-            None => return Ok(None),
+            Some(ServerEnd::Second) | None => return Ok(None),
         };
         let call = RosCall { shared, end: Mutex::new(Some(call)) };
         Ok(Some((call, decode_message(py, &self.request.0, Format::CDR, &cdr)?)))

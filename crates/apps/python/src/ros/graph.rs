@@ -444,7 +444,10 @@ pub(crate) fn endpoints(backend: &Backend, topic: &str, publishers: bool) -> io:
     match backend {
         Backend::Live { graph, wire } => {
             let mut all = Vec::new();
+            let mut is_sent = publishers;
             if let Some(found) = graph.topics().into_iter().find(|it| it.name == topic) {
+                // A message before the tap is there would be lost: such subscriptions do not count yet.
+                is_sent |= found.taps > 0 || found.publishers.is_empty();
                 let ends = if publishers { found.publishers } else { found.subscriptions };
                 let own = ends.into_iter().filter(|end| !end.node.starts_with("/_wire_"));
                 all.extend(own.map(|end| End {
@@ -455,7 +458,7 @@ pub(crate) fn endpoints(backend: &Backend, topic: &str, publishers: bool) -> io:
                     qos: end.qos,
                 }));
             }
-            if let Some(found) = remote(wire).topic(topic) {
+            if let Some(found) = remote(wire).topic(topic).filter(|_| is_sent) {
                 let ends = if publishers { &found.publishers } else { &found.subscriptions };
                 all.extend(ends.iter().map(|end| End {
                     node: end.node.clone(),

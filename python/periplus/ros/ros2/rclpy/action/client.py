@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import threading
 import weakref
 from types import CoroutineType
 from typing import TYPE_CHECKING, Any
@@ -128,6 +129,8 @@ class ActionClient(Waitable):
         self._pending_goals: dict[int, tuple[Future, Any]] = {}
         self._pending_cancels: dict[int, Future] = {}
         self._pending_results: dict[int, tuple[Future, bytes]] = {}
+        # Held from a request until its number is known: another thread may take the response at once.
+        self._pending_lock = threading.Lock()
         self._feedback_callbacks: dict[bytes, Callable[[Any], Any]] = {}
         node.add_waitable(self)
 
@@ -151,7 +154,8 @@ class ActionClient(Waitable):
         if feedback_callback is not None:
             self._feedback_callbacks[key_of(goal_id)] = feedback_callback
         future = Future()
-        self._pending_goals[self._goal_client.call(request)] = (future, goal_id)
+        with self._pending_lock:
+            self._pending_goals[self._goal_client.call(request)] = (future, goal_id)
         return future
 
     def send_goal(self, goal: Any, **kwargs: Any) -> Any:
@@ -207,7 +211,8 @@ class ActionClient(Waitable):
         request = CancelGoal.Request()
         request.goal_info.goal_id = handle.goal_id
         future = Future()
-        self._pending_cancels[self._cancel_client.call(request)] = future
+        with self._pending_lock:
+            self._pending_cancels[self._cancel_client.call(request)] = future
         return future
 
     def _cancel_goal(self, handle: ClientGoalHandle) -> Any:
@@ -219,7 +224,8 @@ class ActionClient(Waitable):
             raise TypeError(f"Expected type ClientGoalHandle but received {type(handle)}")
         request = self._action_type.Impl.GetResultService.Request(goal_id=handle.goal_id)
         future = Future()
-        self._pending_results[self._result_client.call(request)] = (future, key_of(handle.goal_id))
+        with self._pending_lock:
+            self._pending_results[self._result_client.call(request)] = (future, key_of(handle.goal_id))
         return future
 
     def _get_result(self, handle: ClientGoalHandle) -> Any:
@@ -282,7 +288,8 @@ class ActionClient(Waitable):
 
     def _on_goal(self, data: Any, executor: Any) -> None:
         sequence, response = data
-        future, goal_id = self._pending_goals.pop(sequence, (None, None))
+        with self._pending_lock:
+            future, goal_id = self._pending_goals.pop(sequence, (None, None))
         if future is None:
             return
         handle = ClientGoalHandle(self, goal_id, response)
@@ -296,14 +303,16 @@ class ActionClient(Waitable):
 
     def _on_cancel(self, data: Any, executor: Any) -> None:
         sequence, response = data
-        future = self._pending_cancels.pop(sequence, None)
+        with self._pending_lock:
+            future = self._pending_cancels.pop(sequence, None)
         if future is not None:
             future._set_executor(executor)
             future.set_result(response)
 
     def _on_result(self, data: Any, executor: Any) -> None:
         sequence, response = data
-        future, key = self._pending_results.pop(sequence, (None, b""))
+        with self._pending_lock:
+            future, key = self._pending_results.pop(sequence, (None, b""))
         if future is None:
             return
         reference = self._goal_handles.pop(key, None)
