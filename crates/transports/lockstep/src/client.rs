@@ -39,6 +39,8 @@ struct Line {
     reader: Reader,
     /// Frames that are sent with the next question or wait.
     out: Vec<u8>,
+    /// True from a wait to the turn that ends it. A wait that `pause` has ended leaves it true.
+    is_idle: bool,
 }
 
 /// Size above which frames are sent at once [bytes].
@@ -67,7 +69,12 @@ impl LockstepClient {
         stream.set_read_timeout(Some(PAUSE_PERIOD))?;
         let client = Self {
             pause: Box::new(pause),
-            line: Mutex::new(Line { stream, reader: Reader::default(), out: Vec::new() }),
+            line: Mutex::new(Line {
+                stream,
+                reader: Reader::default(),
+                out: Vec::new(),
+                is_idle: false,
+            }),
             inboxes: Mutex::default(),
             last_id: 0.into(),
             last_call: 0.into(),
@@ -75,7 +82,10 @@ impl LockstepClient {
             arrivals: 0.into(),
         };
         client.ask(&Query::Hello { token: token.to_owned(), pid: std::process::id() })?;
-        client.wait_go(&mut lock(&client.line))?;
+        let mut line = lock(&client.line);
+        line.is_idle = true;
+        client.wait_go(&mut line)?;
+        drop(line);
         Ok(client)
     }
 
@@ -91,15 +101,20 @@ impl LockstepClient {
         self.arrivals.load(Ordering::Acquire)
     }
 
-    /// Waits until the graph has come to `wake_ns`, or, if `wants_messages`, until something has arrived.
+    /// Waits until the graph has come to `wake_ns`, or, if `wants_messages`, until something has arrived. After an
+    /// error of `pause` the process may go on, and a later wait continues this one.
     ///
     /// # Errors
     /// When the graph has gone.
     pub fn wait(&self, wake_ns: Option<i64>, wants_messages: bool) -> io::Result<()> {
         let mut line = lock(&self.line);
-        let wake = wake_ns.unwrap_or(i64::MAX).to_le_bytes();
-        append(&mut line.out, Kind::Idle, &[&wake, &[u8::from(wants_messages)]]);
-        line.send()?;
+        // A wait that was ended early still stands at the graph.
+        if !line.is_idle {
+            let wake = wake_ns.unwrap_or(i64::MAX).to_le_bytes();
+            append(&mut line.out, Kind::Idle, &[&wake, &[u8::from(wants_messages)]]);
+            line.send()?;
+            line.is_idle = true;
+        }
         self.wait_go(&mut line)
     }
 
@@ -324,6 +339,9 @@ impl LockstepClient {
 
     fn ask(&self, query: &Query) -> io::Result<Reply> {
         let mut line = lock(&self.line);
+        if line.is_idle {
+            return Err(io::Error::other("the simulation answers only in the turn of the process"));
+        }
         let json = serde_json::to_vec(query)?;
         append(&mut line.out, Kind::Query, &[&json]);
         line.send()?;
@@ -331,17 +349,10 @@ impl LockstepClient {
             let Line { stream, reader, .. } = &mut *line;
             let (kind, body) = match reader.next(stream) {
                 Ok(frame) => frame,
-                Err(error) if is_pause(&error) => {
-                    (self.pause)()?;
-                    continue;
-                }
+                // The graph answers at once, or is gone.
+                Err(error) if is_pause(&error) => continue,
                 Err(error) => return Err(error),
             };
-            if kind == Kind::Go {
-                // The call that waited for it was ended.
-                self.now_ns.store(Body(body).i64()?, Ordering::Release);
-                continue;
-            }
             if kind == Kind::Reply {
                 return match serde_json::from_slice(body)? {
                     Reply::Failed(reason) => Err(io::Error::other(reason)),
@@ -353,7 +364,7 @@ impl LockstepClient {
     }
 
     fn wait_go(&self, line: &mut Line) -> io::Result<()> {
-        let Line { stream, reader, .. } = line;
+        let Line { stream, reader, is_idle, .. } = line;
         loop {
             let (kind, body) = match reader.next(stream) {
                 Ok(frame) => frame,
@@ -365,6 +376,7 @@ impl LockstepClient {
             };
             if kind == Kind::Go {
                 self.now_ns.store(Body(body).i64()?, Ordering::Release);
+                *is_idle = false;
                 return Ok(());
             }
             self.receive(kind, body)?;

@@ -2,6 +2,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::io;
+use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Arc, Mutex, Weak};
 use std::time::{Duration, Instant};
 
@@ -175,6 +176,7 @@ impl RosGraph {
 
     /// Wakes everything that waits.
     fn wake(&self) {
+        WAKES.fetch_add(1, Ordering::AcqRel);
         self.0.arrivals.add();
     }
 
@@ -182,8 +184,11 @@ impl RosGraph {
     #[pyo3(signature = (wake_ns, wants_messages))]
     fn exchange(&self, py: Python<'_>, wake_ns: Option<i64>, wants_messages: bool) -> PyResult<()> {
         let Backend::Lockstep(client) = &self.0.backend else { return Ok(()) };
-        let waited = py.detach(|| client.wait(wake_ns, wants_messages));
-        waited.map_err(link_error)
+        SEEN_WAKES.store(WAKES.load(Ordering::Acquire), Ordering::Release);
+        match py.detach(|| client.wait(wake_ns, wants_messages)) {
+            Err(error) if error.kind() == io::ErrorKind::Interrupted => Ok(()),
+            waited => waited.map_err(link_error),
+        }
     }
 
     /// Creates a node.
@@ -485,6 +490,10 @@ pub(crate) fn endpoints(backend: &Backend, topic: &str, publishers: bool) -> io:
     }
 }
 
+/// Number of wake-ups of all graphs, and that at the start of the wait for the simulation.
+static WAKES: AtomicU64 = AtomicU64::new(0);
+static SEEN_WAKES: AtomicU64 = AtomicU64::new(0);
+
 /// Connections of this process: programs join a simulation once, and may have several graphs.
 static LINKS: Mutex<BTreeMap<String, Weak<LockstepClient>>> = Mutex::new(BTreeMap::new());
 
@@ -493,7 +502,13 @@ fn connect(link: String) -> io::Result<Arc<LockstepClient>> {
     if let Some(client) = links.get(&link).and_then(Weak::upgrade) {
         return Ok(client);
     }
-    let pause = || Python::attach(|py| py.check_signals()).map_err(io::Error::other);
+    let pause = || {
+        Python::attach(|py| py.check_signals()).map_err(io::Error::other)?;
+        match WAKES.load(Ordering::Acquire) == SEEN_WAKES.load(Ordering::Acquire) {
+            true => Ok(()),
+            false => Err(io::ErrorKind::Interrupted.into()),
+        }
+    };
     let client = Arc::new(LockstepClient::connect_with(&link, pause)?);
     links.insert(link, Arc::downgrade(&client));
     Ok(client)
