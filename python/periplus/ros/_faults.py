@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import _thread
+import linecache
 import os
+import re
 import sys
 import time
 from typing import TYPE_CHECKING, Any
@@ -19,6 +21,10 @@ __all__ = ["CallbackMonitor", "callback_failed", "format_exception", "install", 
 #: Wall time [s] after which a callback that has not returned is reported (0: never). Default of the variable
 #: PERIPLUS_CALLBACK_TIMEOUT_S.
 DEFAULT_TIMEOUT_S = 10.0
+#: A line that polls a future in a loop.
+_FUTURE_LOOP = re.compile(r"^\s*while\b.*\.done\(\)")
+_RCLPY = f"{os.sep}rclpy{os.sep}"
+_NO_ADVICE = "It is here:"
 #: Share of the time between two calls that a subscription's callback may take before it counts as saturated.
 _SATURATION_RATIO = 0.95
 #: Number of saturated calls in a row after which a subscription is reported.
@@ -33,6 +39,8 @@ _sleep = time.sleep
 # The callback that each thread is in, and when it began.
 _running: dict[int, tuple[CallbackMonitor, int]] = {}
 _monitors: list[CallbackMonitor] = []
+# The reported ones of them in lockstep.
+_stalled: set[tuple[int, int]] = set()
 _watching = False
 _timeout_ns = -1
 
@@ -187,11 +195,44 @@ def _watch_loop() -> None:
                 _report(f"{monitor} has not returned for {(now_ns - start_ns) / 1e9:.1f} s. {blocked_call(frame)}\n{_tracebacks.format_stack(frame)}")
 
 
+def report_stalled(now_ns: int, *, at_end: bool = False) -> None:
+    """Names callbacks in lockstep that have not returned for the timeout in simulated time, once each.
+
+    `at_end`: the simulation has ended; those that would never have returned are named whatever their time.
+    """
+    for thread, (monitor, start_ns) in list(_running.items()):
+        taken_ns = now_ns - start_ns
+        if (thread, start_ns) in _stalled or not (at_end or taken_ns > _timeout_ns > 0):
+            continue
+        frame = sys._current_frames().get(thread)
+        advice = blocked_call(frame)
+        if at_end and (advice == _NO_ADVICE or not _is_only_thread(frame)):
+            continue
+        _stalled.add((thread, start_ns))
+        when = "has not returned until the end" if at_end else f"has not returned for {taken_ns / 1e9:.1f} s"
+        _report(f"{monitor}, called at {start_ns / 1e9:.3f} s, {when}. {advice}\n{_tracebacks.format_stack(frame)}")
+
+
+def _is_only_thread(frame: Any) -> bool:
+    """True for a callback of a SingleThreadedExecutor: nothing else can complete what it waits for."""
+    while frame is not None:
+        if type(frame.f_locals.get("self")).__name__ == "SingleThreadedExecutor":
+            return True
+        frame = frame.f_back
+    return False
+
+
 def blocked_call(frame: Any) -> str:
     """Advice for a thread that waits inside a callback."""
+    user = _tracebacks.user_frame(frame)
+    if user is not None and _FUTURE_LOOP.search(linecache.getline(user.f_code.co_filename, user.f_lineno)):
+        return (
+            "It waits for a future that its own executor would have to complete: use add_done_callback, or await it in an "
+            "async callback."
+        )
     while frame is not None:
         file, function = os.path.basename(frame.f_code.co_filename), frame.f_code.co_name
-        own = _tracebacks.is_own_file(frame.f_code.co_filename)
+        own = _tracebacks.is_own_file(frame.f_code.co_filename) and _RCLPY in frame.f_code.co_filename
         if own and file == "client.py" and function == "call":
             return (
                 "It waits for a response that its own executor would have to deliver: use call_async, or a "
@@ -200,7 +241,7 @@ def blocked_call(frame: Any) -> str:
         if own and function == "sleep" and file in ("timer.py", "rate.py"):
             return "Rate.sleep() needs another thread that spins: a rate cannot be used in the only thread of the executor."
         frame = frame.f_back
-    return "It is here:"
+    return _NO_ADVICE
 
 
 def _report(text: str) -> None:

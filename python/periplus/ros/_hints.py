@@ -47,8 +47,34 @@ def hint(error: BaseException) -> str | None:
     if isinstance(error, ImportError):
         return _missing_name(error)
     if isinstance(error, (NameError, AttributeError)):
-        return _python_2_name(error)
+        return _python_2_name(error) or (_attribute(error) if isinstance(error, AttributeError) else None)
+    if isinstance(error, TypeError) and str(error).startswith("Expected QoSProfile or int, but received <class 'function'>"):
+        return f"hint: {_line_of(error)}the callback comes before the QoS: create_subscription(Type, topic, callback, qos)"
     return None
+
+
+def _attribute(error: AttributeError) -> str | None:
+    """Advice for a missing attribute: fields of messages, members of enumerations, nodes without a constructor."""
+    import difflib
+    from enum import EnumMeta
+
+    owner, name = getattr(error, "obj", None), getattr(error, "name", None) or ""
+    kind = type(owner)
+    if any(base.__module__ == "rclpy.node" for base in kind.__mro__) and "_rcl_destroyed" not in vars(owner):
+        return f"hint: {_line_of(error)}{kind.__name__}.__init__ must call super().__init__('NODE_NAME') before it uses the node"
+    if isinstance(owner, EnumMeta):
+        what, names = owner.__name__, list(owner.__members__)
+    elif hasattr(kind, "get_fields_and_field_types"):
+        what, names = kind.__name__, list(kind.get_fields_and_field_types())
+    elif hasattr(kind, "_slot_types"):
+        what, names = kind.__name__, list(kind.__slots__)
+    else:
+        return None
+    near = difflib.get_close_matches(name.lower(), [one.lower() for one in names], 1, 0.6)
+    meant = [one for one in names if near and one.lower() == near[0]]
+    if meant:
+        return f"hint: {_line_of(error)}{what} has {meant[0]!r}"
+    return f"hint: {_line_of(error)}{what} has {', '.join(names[:12]) or 'no fields'}" + (" ..." if len(names) > 12 else "")
 
 
 def _where(error: SyntaxError) -> str:
@@ -97,7 +123,7 @@ def _missing_module(error: ModuleNotFoundError) -> str | None:
     from . import _packages
 
     if top in sys.modules and "." in name:
-        return None
+        return _missing_submodule(start, name)
     package = _packages.find_package(top)
     if package is not None:
         return f"{start}package {top} is at {package.folder}, but has no Python module {name}"
@@ -111,6 +137,17 @@ def _missing_module(error: ModuleNotFoundError) -> str | None:
     if top in ("gazebo_ros", "moveit_commander", "PyKDL", "smach", "smach_ros", "py_trees_ros", "rosgraph", "rosnode", "xacro"):
         return f"{start}{top} is a ROS package that Periplus does not have; clone its source into your workspace"
     return f"{start}`{sys.executable} -m pip install {_PIP_NAMES.get(top, top)}` installs it, if it is a package of PyPI; a package of your workspace needs a package.xml"
+
+
+def _missing_submodule(start: str, name: str) -> str | None:
+    """Advice for a module that its package lacks."""
+    import difflib
+    import pkgutil
+
+    parent, _, last = name.rpartition(".")
+    names = [module.name for module in pkgutil.iter_modules(getattr(sys.modules.get(parent), "__path__", None) or [])]
+    near = difflib.get_close_matches(last, [one for one in names if not one.startswith("_")], 1, 0.7)
+    return f"{start}{parent} has the module {near[0]!r}" if near else None
 
 
 def _missing_name(error: ImportError) -> str | None:

@@ -12,13 +12,15 @@ if TYPE_CHECKING:
 
 _FOLDER = os.path.dirname(os.path.abspath(__file__)) + os.sep
 _IMPORTLIB = os.path.join(os.path.dirname(os.__file__), "importlib") + os.sep
+#: End of the file names of code that these modules generate.
+_GENERATED = " of periplus.ros>"
 #: Set to 1 to see the frames of Periplus too.
 FULL_VARIABLE = "PERIPLUS_FULL_TRACEBACK"
 
 
 def is_own_file(path: str) -> bool:
     """True for files of these modules and of Python's import machinery."""
-    return path.startswith((_FOLDER, "<frozen ", _IMPORTLIB))
+    return path.startswith((_FOLDER, "<frozen ", _IMPORTLIB)) or path.endswith(_GENERATED)
 
 
 def is_library_file(path: str) -> bool:

@@ -100,3 +100,45 @@ def test_a_monitored_call_costs_little() -> None:
     for _ in range(20_000):
         call(monitor, on_timer)
     assert (time.process_time() - begin) / 20_000 < 20e-6
+
+
+@pytest.mark.parametrize(
+    ("call", "advice"),
+    [
+        ("client.call(SetBool.Request())", "It waits for a response that its own executor would have to deliver"),
+        ("node.create_rate(10).sleep()", "Rate.sleep() needs another thread that spins"),
+        ("\n    future = client.call_async(SetBool.Request())\n    while not future.done(): pass", "It waits for a future"),
+    ],
+)
+def test_a_callback_that_blocks_its_executor_is_named_in_lockstep(tmp_path: Path, call: str, advice: str) -> None:
+    (tmp_path / "stuck.py").write_text(
+        "import rclpy\nfrom std_srvs.srv import SetBool\nrclpy.init()\nnode = rclpy.create_node('n')\n"
+        "client = node.create_client(SetBool, 'missing')\n"
+        f"def on_timer():\n    {call}\nnode.create_timer(0.5, on_timer)\nnode.create_timer(30, lambda: None)\nrclpy.spin(node)\n"
+    )
+    done = subprocess.run(
+        [sys.executable, str(Path(__file__).with_name("lone_simulation.py")), "stuck.py"], env=environment(LONE_END="1003"),
+        cwd=tmp_path, capture_output=True, text=True, timeout=60, check=False,
+    )  # fmt: skip
+    errors = done.stderr
+    assert "periplus: callback on_timer (stuck.py:6) of the timer of node /n, called at 1000.500 s, has not returned" in errors
+    assert advice in errors
+
+
+def test_an_error_of_a_goal_has_its_context_and_no_frames_of_periplus(tmp_path: Path) -> None:
+    (tmp_path / "goal.py").write_text(
+        "import rclpy\nfrom example_interfaces.action import Fibonacci\nfrom rclpy.action import ActionClient, ActionServer\n"
+        "rclpy.init()\nnode = rclpy.create_node('n')\n"
+        "server = ActionServer(node, Fibonacci, 'fib', lambda handle: handle.request.ordr)\n"
+        "goal = ActionClient(node, Fibonacci, 'fib').send_goal_async(Fibonacci.Goal())\n"
+        "rclpy.spin_until_future_complete(node, goal)\n"
+        "rclpy.spin_until_future_complete(node, goal.result().get_result_async())\n"
+    )
+    done = subprocess.run(
+        [sys.executable, str(Path(__file__).with_name("lone_simulation.py")), "goal.py"], env=environment(),
+        cwd=tmp_path, capture_output=True, text=True, timeout=60, check=True,
+    )  # fmt: skip
+    assert 'goal.py", line 6, in <lambda>' in done.stderr
+    assert "in a callback of the action /fib of node /n at 1000." in done.stderr
+    assert "Fibonacci_Goal has 'order'" in done.stderr
+    assert "periplus/ros" not in done.stderr
