@@ -147,14 +147,30 @@ def _steady_ns() -> int:
     return _perf_counter_ns() if scheduler is None else scheduler.now_ns()  # type: ignore[attr-defined]
 
 
-def callback_failed(error: BaseException, *, node: str, kind: str, name: str = "", time_ns: int | None = None) -> None:
-    """Adds the callback's node, topic and time [ns] to an error as a note, which every printed traceback shows."""
+def callback_failed(
+    error: BaseException, *, node: str, kind: str, name: str = "", time_ns: int | None = None, callback: Any = None
+) -> None:
+    """Adds the callback's node, topic and time [ns] to an error as a note, which every printed traceback shows.
+
+    A callback that is not in the traceback, since it could not be called, is named with its line.
+    """
     what = f"{kind} {name}".rstrip()
     when = f" at {time_ns / 1e9:.3f} s" if time_ns is not None else ""
     note = f"in a callback of the {what} of node {node}{when}"
+    if callback is not None and not _was_entered(error):
+        note += f": {callback_location(callback)}"
     notes = list(getattr(error, "__notes__", ()))
     # The innermost callback of nested spins comes first.
     error.__notes__ = [*notes, note]  # type: ignore[attr-defined]
+
+
+def _was_entered(error: BaseException) -> bool:
+    """True if the user's code was called: its frames follow those of the executor."""
+    trace, last = error.__traceback__, ""
+    while trace is not None:
+        last = trace.tb_frame.f_code.co_filename
+        trace = trace.tb_next
+    return not _tracebacks.is_own_file(last)
 
 
 def install() -> None:

@@ -19,6 +19,7 @@ _PIP_NAMES = {
     "zmq": "pyzmq",
     "pykdl_utils": "pykdl-utils",
 }
+_IMPORTS_MESSAGES = re.compile(r"^\s*(?:from|import)\s+\w+\.(?:msg|srv|action)\b")
 _PYTHON_2 = (
     (re.compile(r"Missing parentheses in call to '(print|exec)'"), "the {0} statement"),
     (re.compile(r"multiple exception types must be parenthesized"), "`except Type, name:`"),
@@ -109,6 +110,19 @@ def _line_of(error: BaseException) -> str:
     return found
 
 
+def _source_line(error: BaseException) -> str:
+    """The line of the user's innermost frame."""
+    import linecache
+
+    trace, line = error.__traceback__, ""
+    while trace is not None:
+        path = trace.tb_frame.f_code.co_filename
+        if not is_library_file(path):
+            line = linecache.getline(path, trace.tb_lineno)
+        trace = trace.tb_next
+    return line
+
+
 def _missing_module(error: ModuleNotFoundError) -> str | None:
     name = error.name or ""
     top = name.split(".")[0]
@@ -118,6 +132,11 @@ def _missing_module(error: ModuleNotFoundError) -> str | None:
     start = f"hint: {_line_of(error)}"
     if top in ("Tkinter", "ConfigParser", "Queue", "urllib2", "StringIO", "cPickle", "commands", "exceptions", "thread", "httplib"):
         return f"{start}the module {top} is Python 2's; convert the file with `2to3 -w` (of Python 3.12 or older)"
+    if _IMPORTS_MESSAGES.search(_source_line(error)):
+        return (
+            f"{start}no message package {top} is known, and no folder with its package.xml was found. Put the package "
+            "beside your own, or name its folder in PERIPLUS_PACKAGES"
+        )
     if top == "tkinter":
         return f"{start}tkinter comes with the system's Python: `apt install python3-tk`"
     from . import _packages
