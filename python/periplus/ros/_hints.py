@@ -132,11 +132,6 @@ def _missing_module(error: ModuleNotFoundError) -> str | None:
     start = f"hint: {_line_of(error)}"
     if top in ("Tkinter", "ConfigParser", "Queue", "urllib2", "StringIO", "cPickle", "commands", "exceptions", "thread", "httplib"):
         return f"{start}the module {top} is Python 2's; convert the file with `2to3 -w` (of Python 3.12 or older)"
-    if _IMPORTS_MESSAGES.search(_source_line(error)):
-        return (
-            f"{start}no message package {top} is known, and no folder with its package.xml was found. Put the package "
-            "beside your own, or name its folder in PERIPLUS_PACKAGES"
-        )
     if top == "tkinter":
         return f"{start}tkinter comes with the system's Python: `apt install python3-tk`"
     from . import _packages
@@ -153,6 +148,11 @@ def _missing_module(error: ModuleNotFoundError) -> str | None:
     near = difflib.get_close_matches(top, [*_rosidl_modules.packages(), *_packages.known_packages()], 1, 0.8)
     if near:
         return f"{start}Did you mean {near[0]!r}?"
+    if _IMPORTS_MESSAGES.search(_source_line(error)):
+        return (
+            f"{start}no message package {top} is known, and no folder with its package.xml was found. Put the package "
+            "beside your own, or name its folder in PERIPLUS_PACKAGES"
+        )
     if top in ("gazebo_ros", "moveit_commander", "PyKDL", "smach", "smach_ros", "py_trees_ros", "rosgraph", "rosnode", "xacro"):
         return f"{start}{top} is a ROS package that Periplus does not have; clone its source into your workspace"
     return f"{start}`{sys.executable} -m pip install {_PIP_NAMES.get(top, top)}` installs it, if it is a package of PyPI; a package of your workspace needs a package.xml"

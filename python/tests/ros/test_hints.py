@@ -1,9 +1,13 @@
 """Errors of users' programs name what to do."""
 
+import subprocess
+import sys
 from collections.abc import Callable
+from pathlib import Path
 
 import pytest
 from periplus.ros import _hints, activate
+from ros_programs import environment
 
 activate()
 
@@ -68,3 +72,12 @@ def test_a_message_in_place_of_its_class_is_refused() -> None:
 
     with pytest.raises(AttributeError, match="Pass the class"):
         check_is_valid_msg_type(Twist())
+
+
+def test_a_missing_message_package_names_the_remedy(tmp_path: Path) -> None:
+    (tmp_path / "reader.py").write_text("import rospy\nfrom wheel_state.msg import Wheel\n")
+    command = [sys.executable, "-m", "periplus.ros.run", "reader.py"]
+    done = subprocess.run(command, cwd=tmp_path, env=environment(), capture_output=True, text=True, timeout=60, check=False)
+    assert done.returncode == 1
+    assert "hint: reader.py:2: no message package wheel_state is known" in done.stderr
+    assert "PERIPLUS_PACKAGES" in done.stderr
