@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import _thread
+import linecache
 import os
+import re
 import sys
 import time
 from typing import TYPE_CHECKING, Any
@@ -19,6 +21,10 @@ __all__ = ["CallbackMonitor", "callback_failed", "format_exception", "install", 
 #: Wall time [s] after which a callback that has not returned is reported (0: never). Default of the variable
 #: PERIPLUS_CALLBACK_TIMEOUT_S.
 DEFAULT_TIMEOUT_S = 10.0
+#: A line that polls a future in a loop.
+_FUTURE_LOOP = re.compile(r"^\s*while\b.*\.done\(\)")
+_RCLPY = f"{os.sep}rclpy{os.sep}"
+_NO_ADVICE = "It is here:"
 #: Share of the time between two calls that a subscription's callback may take before it counts as saturated.
 _SATURATION_RATIO = 0.95
 #: Number of saturated calls in a row after which a subscription is reported.
@@ -33,6 +39,8 @@ _sleep = time.sleep
 # The callback that each thread is in, and when it began.
 _running: dict[int, tuple[CallbackMonitor, int]] = {}
 _monitors: list[CallbackMonitor] = []
+# The reported ones of them in lockstep.
+_stalled: set[tuple[int, int]] = set()
 _watching = False
 _timeout_ns = -1
 
@@ -139,14 +147,30 @@ def _steady_ns() -> int:
     return _perf_counter_ns() if scheduler is None else scheduler.now_ns()  # type: ignore[attr-defined]
 
 
-def callback_failed(error: BaseException, *, node: str, kind: str, name: str = "", time_ns: int | None = None) -> None:
-    """Adds the callback's node, topic and time [ns] to an error as a note, which every printed traceback shows."""
+def callback_failed(
+    error: BaseException, *, node: str, kind: str, name: str = "", time_ns: int | None = None, callback: Any = None
+) -> None:
+    """Adds the callback's node, topic and time [ns] to an error as a note, which every printed traceback shows.
+
+    A callback that is not in the traceback, since it could not be called, is named with its line.
+    """
     what = f"{kind} {name}".rstrip()
     when = f" at {time_ns / 1e9:.3f} s" if time_ns is not None else ""
     note = f"in a callback of the {what} of node {node}{when}"
+    if callback is not None and not _was_entered(error):
+        note += f": {callback_location(callback)}"
     notes = list(getattr(error, "__notes__", ()))
     # The innermost callback of nested spins comes first.
     error.__notes__ = [*notes, note]  # type: ignore[attr-defined]
+
+
+def _was_entered(error: BaseException) -> bool:
+    """True if the user's code was called: its frames follow those of the executor."""
+    trace, last = error.__traceback__, ""
+    while trace is not None:
+        last = trace.tb_frame.f_code.co_filename
+        trace = trace.tb_next
+    return not _tracebacks.is_own_file(last)
 
 
 def install() -> None:
@@ -187,11 +211,44 @@ def _watch_loop() -> None:
                 _report(f"{monitor} has not returned for {(now_ns - start_ns) / 1e9:.1f} s. {blocked_call(frame)}\n{_tracebacks.format_stack(frame)}")
 
 
+def report_stalled(now_ns: int, *, at_end: bool = False) -> None:
+    """Names callbacks in lockstep that have not returned for the timeout in simulated time, once each.
+
+    `at_end`: the simulation has ended; those that would never have returned are named whatever their time.
+    """
+    for thread, (monitor, start_ns) in list(_running.items()):
+        taken_ns = now_ns - start_ns
+        if (thread, start_ns) in _stalled or not (at_end or taken_ns > _timeout_ns > 0):
+            continue
+        frame = sys._current_frames().get(thread)
+        advice = blocked_call(frame)
+        if at_end and (advice == _NO_ADVICE or not _is_only_thread(frame)):
+            continue
+        _stalled.add((thread, start_ns))
+        when = "has not returned until the end" if at_end else f"has not returned for {taken_ns / 1e9:.1f} s"
+        _report(f"{monitor}, called at {start_ns / 1e9:.3f} s, {when}. {advice}\n{_tracebacks.format_stack(frame)}")
+
+
+def _is_only_thread(frame: Any) -> bool:
+    """True for a callback of a SingleThreadedExecutor: nothing else can complete what it waits for."""
+    while frame is not None:
+        if type(frame.f_locals.get("self")).__name__ == "SingleThreadedExecutor":
+            return True
+        frame = frame.f_back
+    return False
+
+
 def blocked_call(frame: Any) -> str:
     """Advice for a thread that waits inside a callback."""
+    user = _tracebacks.user_frame(frame)
+    if user is not None and _FUTURE_LOOP.search(linecache.getline(user.f_code.co_filename, user.f_lineno)):
+        return (
+            "It waits for a future that its own executor would have to complete: use add_done_callback, or await it in an "
+            "async callback."
+        )
     while frame is not None:
         file, function = os.path.basename(frame.f_code.co_filename), frame.f_code.co_name
-        own = _tracebacks.is_own_file(frame.f_code.co_filename)
+        own = _tracebacks.is_own_file(frame.f_code.co_filename) and _RCLPY in frame.f_code.co_filename
         if own and file == "client.py" and function == "call":
             return (
                 "It waits for a response that its own executor would have to deliver: use call_async, or a "
@@ -200,7 +257,7 @@ def blocked_call(frame: Any) -> str:
         if own and function == "sleep" and file in ("timer.py", "rate.py"):
             return "Rate.sleep() needs another thread that spins: a rate cannot be used in the only thread of the executor."
         frame = frame.f_back
-    return "It is here:"
+    return _NO_ADVICE
 
 
 def _report(text: str) -> None:

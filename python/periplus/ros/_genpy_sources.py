@@ -6,11 +6,21 @@ import os
 import shutil
 import sys
 import tempfile
+from difflib import get_close_matches
 from functools import cache
 
 from periplus import _native
 from periplus.ros import _genpy
-from periplus.ros._genpy_types import Definition, DefinitionError, native_text, parse
+from periplus.ros._genpy_types import (
+    PRIMITIVES,
+    Definition,
+    DefinitionError,
+    Field,
+    base_type,
+    native_text,
+    native_type_name,
+    parse,
+)
 
 #: Packages that come with Periplus: those that only ROS 1 has, then the others.
 FOLDERS = tuple(
@@ -91,6 +101,7 @@ def load(package: str) -> None:
                 needed = field.type.split("/")[0]
                 if "/" in field.type and needed != package:
                     load(needed)
+        _check_types(definitions, package)
         for one in definitions:
             kind = one.native.split("/")[1]
             name = one.type.split("/")[1]
@@ -104,6 +115,48 @@ def load(package: str) -> None:
             _genpy.add_definition(one)
     finally:
         _loading.discard(package)
+
+
+def _check_types(definitions: list[Definition], package: str) -> None:
+    """Refuses fields of types that do not exist, and messages that contain themselves."""
+    own = {one.type: one for one in definitions}
+    known = set(own) | {f"{package}/{name}" for name in _registry().get(package, {}).get("msg", ())}
+    for one in definitions:
+        for field in one.fields:
+            base = base_type(field.type)
+            owner = base.split("/")[0]
+            if not field.place or base in PRIMITIVES or base in known or owner != package and owner in _loading:
+                continue
+            others = {f"{owner}/{name}" for name in names(owner, "msg")} if owner != package else known
+            if base in others or f"{owner}/{native_type_name(base.split('/')[1])}" in others:
+                continue
+            written = base.removeprefix(package + "/")
+            near = get_close_matches(written, [one.removeprefix(package + "/") for one in others | PRIMITIVES], 1, 0.7)
+            if near:
+                advice = f"did you mean `{near[0]}`?"
+            else:
+                advice = f"{owner!r} has no such message" if others else f"there is no message package {owner!r}"
+            raise _unreadable(package, f"{field.place}: the type `{written}` is unknown: {advice}")
+        circle = _circle(one, own, [])
+        if circle:
+            raise _unreadable(package, f"{circle[-1].place}: `{one.type}` contains itself through the field `{circle[-1].name}`")
+
+
+def _circle(start: Definition, own: dict[str, Definition], path: list[Field]) -> list[Field] | None:
+    """Fields that lead from a type of the package back to it, or None."""
+    for field in (path and own[base_type(path[-1].type)] or start).fields:
+        base = base_type(field.type)
+        if base == start.type:
+            return [*path, field]
+        if base in own and all(base != base_type(one.type) for one in path):
+            found = _circle(start, own, [*path, field])
+            if found:
+                return found
+    return None
+
+
+def _unreadable(package: str, text: str) -> MessageDefinitionError:
+    return MessageDefinitionError(f"message package {package!r} cannot be read:\n{text}", name=package)
 
 
 def package_folder(package: str) -> str | None:

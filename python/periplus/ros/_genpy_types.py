@@ -24,6 +24,9 @@ _BASIC = {
 PRIMITIVES = frozenset(
     "bool byte char int8 uint8 int16 uint16 int32 uint32 int64 uint64 float32 float64 string time duration".split()
 )
+_INTEGER_RANGES = {f"int{bits}": (-(2 ** (bits - 1)), 2 ** (bits - 1) - 1) for bits in (8, 16, 32, 64)} | {
+    f"uint{bits}": (0, 2**bits - 1) for bits in (8, 16, 32, 64)
+}
 # Fields that ROS 2 added to types of ROS 1.
 _HIDDEN = {
     "visualization_msgs/Marker": {"texture_resource", "texture", "uv_coordinates", "mesh_file"},
@@ -43,6 +46,8 @@ class Field:
     name: str
     type: str
     slot: str
+    #: `FILE:LINE` of its definition; empty for a type of the registry.
+    place: str = ""
 
 
 @dataclass
@@ -166,8 +171,11 @@ def parse(text: str, package: str, name: str, kind: str = "msg", file: str = "")
             base = "std_msgs/Header"
         elif "/" not in base and base not in PRIMITIVES:
             base = f"{package}/{base}"
+        place = f"{file}:{number}" if file else ""
+        if any(one.name == field_name for one in fields):
+            raise DefinitionError(f"{place or package + '/' + name}: `{field_name}` is already defined")
         slot = _native_name(field_name, used)
-        fields.append(Field(field_name, base + array, "_" + slot))
+        fields.append(Field(field_name, base + array, "_" + slot, place))
     ros1_name = f"{package}/{_without_separator(name) if kind == 'srv' else name}"
     made = Definition(ros1_name, f"{package}/{kind}/{native_type_name(name)}", fields, constants, lines)
     made.ros2_text = text if is_ros2 else None
@@ -191,7 +199,13 @@ def _constant(type_text: str, value: str, where: str) -> Any:
             return float(value)
         if type_text == "bool":
             return {"true": True, "1": True, "false": False, "0": False}[value.lower()]
-        return int(value, 0) if not re.fullmatch(r"-?0\d+", value) else int(value)
+        number = int(value, 0) if not re.fullmatch(r"-?0\d+", value) else int(value)
+        low, high = _INTEGER_RANGES.get(type_text, (number, number))
+        if not low <= number <= high:
+            raise DefinitionError(f"{where}: `{value}` is not a value of {type_text}: it has {low} to {high}")
+        return number
+    except DefinitionError:
+        raise
     except (ValueError, KeyError):
         raise DefinitionError(f"{where}: `{value}` is not a value of {type_text}") from None
 

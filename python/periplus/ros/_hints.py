@@ -19,6 +19,7 @@ _PIP_NAMES = {
     "zmq": "pyzmq",
     "pykdl_utils": "pykdl-utils",
 }
+_IMPORTS_MESSAGES = re.compile(r"^\s*(?:from|import)\s+\w+\.(?:msg|srv|action)\b")
 _PYTHON_2 = (
     (re.compile(r"Missing parentheses in call to '(print|exec)'"), "the {0} statement"),
     (re.compile(r"multiple exception types must be parenthesized"), "`except Type, name:`"),
@@ -47,8 +48,34 @@ def hint(error: BaseException) -> str | None:
     if isinstance(error, ImportError):
         return _missing_name(error)
     if isinstance(error, (NameError, AttributeError)):
-        return _python_2_name(error)
+        return _python_2_name(error) or (_attribute(error) if isinstance(error, AttributeError) else None)
+    if isinstance(error, TypeError) and str(error).startswith("Expected QoSProfile or int, but received <class 'function'>"):
+        return f"hint: {_line_of(error)}the callback comes before the QoS: create_subscription(Type, topic, callback, qos)"
     return None
+
+
+def _attribute(error: AttributeError) -> str | None:
+    """Advice for a missing attribute: fields of messages, members of enumerations, nodes without a constructor."""
+    import difflib
+    from enum import EnumMeta
+
+    owner, name = getattr(error, "obj", None), getattr(error, "name", None) or ""
+    kind = type(owner)
+    if any(base.__module__ == "rclpy.node" for base in kind.__mro__) and "_rcl_destroyed" not in vars(owner):
+        return f"hint: {_line_of(error)}{kind.__name__}.__init__ must call super().__init__('NODE_NAME') before it uses the node"
+    if isinstance(owner, EnumMeta):
+        what, names = owner.__name__, list(owner.__members__)
+    elif hasattr(kind, "get_fields_and_field_types"):
+        what, names = kind.__name__, list(kind.get_fields_and_field_types())
+    elif hasattr(kind, "_slot_types"):
+        what, names = kind.__name__, list(kind.__slots__)
+    else:
+        return None
+    near = difflib.get_close_matches(name.lower(), [one.lower() for one in names], 1, 0.6)
+    meant = [one for one in names if near and one.lower() == near[0]]
+    if meant:
+        return f"hint: {_line_of(error)}{what} has {meant[0]!r}"
+    return f"hint: {_line_of(error)}{what} has {', '.join(names[:12]) or 'no fields'}" + (" ..." if len(names) > 12 else "")
 
 
 def _where(error: SyntaxError) -> str:
@@ -83,6 +110,19 @@ def _line_of(error: BaseException) -> str:
     return found
 
 
+def _source_line(error: BaseException) -> str:
+    """The line of the user's innermost frame."""
+    import linecache
+
+    trace, line = error.__traceback__, ""
+    while trace is not None:
+        path = trace.tb_frame.f_code.co_filename
+        if not is_library_file(path):
+            line = linecache.getline(path, trace.tb_lineno)
+        trace = trace.tb_next
+    return line
+
+
 def _missing_module(error: ModuleNotFoundError) -> str | None:
     name = error.name or ""
     top = name.split(".")[0]
@@ -92,12 +132,17 @@ def _missing_module(error: ModuleNotFoundError) -> str | None:
     start = f"hint: {_line_of(error)}"
     if top in ("Tkinter", "ConfigParser", "Queue", "urllib2", "StringIO", "cPickle", "commands", "exceptions", "thread", "httplib"):
         return f"{start}the module {top} is Python 2's; convert the file with `2to3 -w` (of Python 3.12 or older)"
+    if _IMPORTS_MESSAGES.search(_source_line(error)):
+        return (
+            f"{start}no message package {top} is known, and no folder with its package.xml was found. Put the package "
+            "beside your own, or name its folder in PERIPLUS_PACKAGES"
+        )
     if top == "tkinter":
         return f"{start}tkinter comes with the system's Python: `apt install python3-tk`"
     from . import _packages
 
     if top in sys.modules and "." in name:
-        return None
+        return _missing_submodule(start, name)
     package = _packages.find_package(top)
     if package is not None:
         return f"{start}package {top} is at {package.folder}, but has no Python module {name}"
@@ -111,6 +156,17 @@ def _missing_module(error: ModuleNotFoundError) -> str | None:
     if top in ("gazebo_ros", "moveit_commander", "PyKDL", "smach", "smach_ros", "py_trees_ros", "rosgraph", "rosnode", "xacro"):
         return f"{start}{top} is a ROS package that Periplus does not have; clone its source into your workspace"
     return f"{start}`{sys.executable} -m pip install {_PIP_NAMES.get(top, top)}` installs it, if it is a package of PyPI; a package of your workspace needs a package.xml"
+
+
+def _missing_submodule(start: str, name: str) -> str | None:
+    """Advice for a module that its package lacks."""
+    import difflib
+    import pkgutil
+
+    parent, _, last = name.rpartition(".")
+    names = [module.name for module in pkgutil.iter_modules(getattr(sys.modules.get(parent), "__path__", None) or [])]
+    near = difflib.get_close_matches(last, [one for one in names if not one.startswith("_")], 1, 0.7)
+    return f"{start}{parent} has the module {near[0]!r}" if near else None
 
 
 def _missing_name(error: ImportError) -> str | None:

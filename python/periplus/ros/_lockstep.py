@@ -20,7 +20,7 @@ import threading
 import time
 from typing import TYPE_CHECKING, Any
 
-from . import _faults, _lockstep_signals, _lockstep_threads, _lockstep_time, _tracebacks, _waiting
+from . import _busy_loops, _faults, _lockstep_signals, _lockstep_threads, _lockstep_time, _tracebacks, _waiting
 from ._lockstep_report import Report
 from ._lockstep_task import LockstepGraph
 from ._scheduler import Scheduler
@@ -59,7 +59,7 @@ def start(link: str, *, graph: LockstepGraph | None = None) -> Scheduler:
     if hasattr(os, "register_at_fork"):
         os.register_at_fork(after_in_child=_leave)
     patches = _lockstep_threads.replacements(scheduler) + _lockstep_time.replacements(scheduler)
-    patches += _lockstep_signals.replacements(scheduler, _report.note)
+    patches += _lockstep_signals.replacements(scheduler, _report.note) + _busy_loops.install()
     seed = os.environ.get("PERIPLUS_SEED", "") or "0"
     process = os.environ.get("PERIPLUS_PROCESS") or _process_name(sys.argv)
     patches.append((os, "urandom", _entropy(f"{seed}/{process}")))

@@ -15,6 +15,8 @@ from ._cmake_installs import CmakeInstalls, read_cmake
 #: Environment variable with folders to search first, separated as in PATH.
 SEARCH_VARIABLE = "PERIPLUS_PACKAGES"
 _IGNORE_MARKERS = {"COLCON_IGNORE", "AMENT_IGNORE", "CATKIN_IGNORE"}
+#: The only one of them that catkin reads. Branches of both generations of ROS hide their packages of ROS 1 from colcon.
+_CATKIN_MARKER = "CATKIN_IGNORE"
 _SKIPPED = {"build", "install", "log", "devel", "logs", "__pycache__", "node_modules", "venv", "site-packages"}
 #: Limits of one search; a current folder such as / must not take seconds.
 _MAX_DEPTH = 6
@@ -184,13 +186,15 @@ def find_packages(roots: list[str]) -> dict[str, Package]:
             except OSError:
                 continue
             names = {entry.name for entry in entries}
-            if names & _IGNORE_MARKERS and depth > 0:
-                continue
+            is_ignored = bool(names & _IGNORE_MARKERS) and depth > 0
             if "package.xml" in names or "manifest.xml" in names:
                 package = read_package(folder)
                 if package is not None:
-                    found.setdefault(package.name, package)
+                    if not is_ignored or (package.build_type == "catkin" and _CATKIN_MARKER not in names):
+                        found.setdefault(package.name, package)
                     continue
+            if is_ignored:
+                continue
             if depth < _MAX_DEPTH:
                 for entry in entries:
                     if entry.name.startswith(".") or entry.name in _SKIPPED:

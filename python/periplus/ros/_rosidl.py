@@ -201,7 +201,7 @@ def _make_class(handle: Any) -> type:
         if checks:
             setter = checked_setter(name, slot.__set__, spec, message_class)
         elif converts(spec):
-            setter = unchecked_setter(slot.__set__, spec)
+            setter = unchecked_setter(slot.__set__, spec, f"{label}.{name}")
         else:
             type.__setattr__(cls, name, slot)
             continue
@@ -253,7 +253,7 @@ def _initializer(label: str, specs: dict[str, FieldType], defaults: dict[str, An
             continue
         value = given
         if converts(spec) and (spec.shape != "fixed" or not checks):
-            names[f"_c{index}"] = converter(spec)
+            names[f"_c{index}"] = converter(spec, f"{label}.{name}")
             value = f"_c{index}({given})"
         lines.append(f"{target} = {expression} if {given} is _unset else {value}")
     if checks:

@@ -60,25 +60,33 @@ def converts(field: FieldType) -> bool:
     return field.shape != "one" and field.element in TYPECODES
 
 
-def converter(field: FieldType) -> Callable[[Any], Any]:
-    """Conversion of the values given to an array of numbers."""
+def converter(field: FieldType, name: str) -> Callable[[Any], Any]:
+    """Conversion of the values given to an array of numbers; `name` is the field in errors."""
+    convert: Callable[[Any], Any]
     if field.shape == "fixed":
         import numpy as np
 
         dtype = np.dtype(DTYPES[field.element])
         make = np.array
-        return lambda value: make(value, dtype=dtype)
-    typecode = TYPECODES[field.element]
-    return lambda value: to_array(typecode, value)
+        convert = lambda value: make(value, dtype=dtype)  # noqa: E731
+    else:
+        typecode = TYPECODES[field.element]
+        convert = lambda value: to_array(typecode, value)  # noqa: E731
+
+    def converted(value: Any) -> Any:
+        try:
+            return convert(value)
+        except (TypeError, OverflowError, ValueError) as error:
+            kind = next(one for one in (TypeError, OverflowError, ValueError) if isinstance(error, one))
+            raise kind(f"{name} of type {field.text}: {error}") from None
+
+    return converted
 
 
-def unchecked_setter(slot: Setter, field: FieldType) -> Setter:
-    """Setter of an array of numbers."""
-    if field.shape == "fixed":
-        convert = converter(field)
-        return lambda message, value: slot(message, convert(value))
-    typecode = TYPECODES[field.element]
-    return lambda message, value: slot(message, to_array(typecode, value))
+def unchecked_setter(slot: Setter, field: FieldType, name: str) -> Setter:
+    """Setter of an array of numbers; `name` is the field in errors."""
+    convert = converter(field, name)
+    return lambda message, value: slot(message, convert(value))
 
 
 def zero(field: FieldType, nested: Callable[[str], type]) -> tuple[str, dict[str, Any]]:

@@ -189,9 +189,19 @@ def run_script(path: str) -> None:
     sys.modules["__main__"] = module
 
     def run() -> None:
-        exec(compile(source, path, "exec", dont_inherit=True), namespace)
+        exec(_compile(source, path), namespace)
 
     _guarded(run)
+
+
+def _compile(source: bytes, path: str) -> types.CodeType:
+    from . import _waiting
+
+    if _waiting.in_lockstep():
+        from . import _busy_loops
+
+        return _busy_loops.compile_source(source, path)
+    return compile(source, path, "exec", dont_inherit=True)
 
 
 def _is_python(path: str, source: bytes) -> bool:

@@ -15,6 +15,7 @@ from collections import deque
 from heapq import heappop, heappush
 from typing import TYPE_CHECKING, Any
 
+from . import _faults
 from ._lockstep_task import LockstepGraph, Task
 
 if TYPE_CHECKING:
@@ -31,6 +32,8 @@ _WAITS_PER_INSTANT = 10_000
 _STEP_NS = 1_000_000
 #: Simulated time between two looks at sockets and files that a thread waits for [ns].
 _SELECT_STEP_NS = 20_000_000
+#: Simulated time between two looks at callbacks that do not return [ns].
+_LOOK_NS = 1_000_000_000
 #: Wall time after the end of the simulation until a program that does not end is ended [s].
 _GRACE_S = 5.0
 #: Wall time that the signal handler of the main thread gets at the end of the simulation [s].
@@ -73,6 +76,7 @@ class Scheduler:
         self._end_wall_s = 0.0
         self._instant_ns, self._instant_waits = -1, 0
         self._named_deadlock = False
+        self._look_ns = 0
 
     # ---- clock
 
@@ -328,6 +332,11 @@ class Scheduler:
             pass
         except (ConnectionError, EOFError):
             self._end()
+            return
+        now_ns = self.graph.now_ns()
+        if now_ns >= self._look_ns:
+            self._look_ns = now_ns + _LOOK_NS
+            _faults.report_stalled(now_ns)
 
     # ---- end of the simulation
 
@@ -336,6 +345,7 @@ class Scheduler:
         import signal
 
         self._end_ns = self.graph.now_ns()
+        _faults.report_stalled(self._end_ns, at_end=True)
         self.has_ended = True
         self._end_wall_s = _real_monotonic()
         if hasattr(signal, "pthread_kill"):

@@ -12,13 +12,15 @@ if TYPE_CHECKING:
 
 _FOLDER = os.path.dirname(os.path.abspath(__file__)) + os.sep
 _IMPORTLIB = os.path.join(os.path.dirname(os.__file__), "importlib") + os.sep
+#: End of the file names of code that these modules generate.
+_GENERATED = " of periplus.ros>"
 #: Set to 1 to see the frames of Periplus too.
 FULL_VARIABLE = "PERIPLUS_FULL_TRACEBACK"
 
 
 def is_own_file(path: str) -> bool:
     """True for files of these modules and of Python's import machinery."""
-    return path.startswith((_FOLDER, "<frozen ", _IMPORTLIB))
+    return path.startswith((_FOLDER, "<frozen ", _IMPORTLIB)) or path.endswith(_GENERATED)
 
 
 def is_library_file(path: str) -> bool:
@@ -58,7 +60,8 @@ def format_exception(error: BaseException, trace: TracebackType | None = None) -
     trace = trace if trace is not None else error.__traceback__
     made = traceback.TracebackException(type(error), error, trace)
     if os.environ.get(FULL_VARIABLE, "") in ("", "0"):
-        _strip(made)
+        # The note of a callback that could not be called names its line.
+        _strip(made, has_place=bool(getattr(error, "__notes__", ())))
     text = "".join(made.format())
     if sys.version_info < (3, 11):
         # Packages such as `exceptiongroup` print them for Python 3.10.
@@ -69,8 +72,8 @@ def format_exception(error: BaseException, trace: TracebackType | None = None) -
     return text + (f"{advice}\n" if advice else "")
 
 
-def _strip(made: traceback.TracebackException) -> None:
-    """Removes frames of Periplus, unless no other is left."""
+def _strip(made: traceback.TracebackException, *, has_place: bool) -> None:
+    """Removes frames of Periplus, unless no other is left and the error has no other place."""
     import traceback
 
     seen: set[int] = set()
@@ -81,7 +84,7 @@ def _strip(made: traceback.TracebackException) -> None:
             continue
         seen.add(id(one))
         kept = [frame for frame in one.stack if not is_own_file(frame.filename)]
-        if kept or one.exc_type in (SyntaxError, IndentationError, TabError):
+        if kept or (has_place and one is made) or one.exc_type in (SyntaxError, IndentationError, TabError):
             one.stack = traceback.StackSummary.from_list(kept)
         waiting += [other for other in (one.__cause__, one.__context__) if other is not None]
         waiting += list(getattr(one, "exceptions", None) or [])

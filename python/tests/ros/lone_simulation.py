@@ -1,6 +1,7 @@
 """Runs a script in lockstep with a simulation that has nothing but this process: `python lone_simulation.py FILE [ARGUMENTS]`.
 
-Topics and services are those of a graph without a network; time jumps to the next wake-up.
+Topics and services are those of a graph without a network; time jumps to the next wake-up. `LONE_END` is the simulated time
+at which the simulation ends [s].
 """
 
 import os
@@ -18,6 +19,7 @@ class LoneSimulation:
     def __init__(self) -> None:
         # Not zero, so that programs can ask for times before.
         self.time_ns = 1000 * 10**9
+        self.end_ns = round(float(os.environ["LONE_END"]) * 1e9) if "LONE_END" in os.environ else None
         self.graphs: list[Any] = []
 
     def graph(self, arguments: list[str] | None = None, **_: Any) -> "LoneGraph":
@@ -48,6 +50,10 @@ class LoneGraph:
 
     def exchange(self, wake_ns: int | None, wants_messages: bool) -> None:
         # A wake-up by a signal handler comes as an event; nothing else arrives while no thread runs.
+        end_ns = self._simulation.end_ns
+        if end_ns is not None and (wake_ns is None or wake_ns > end_ns):
+            self._simulation.time_ns = end_ns
+            raise ConnectionError("the simulation has ended")
         before = [graph.events for graph in self._simulation.graphs]
         if wake_ns is None:
             for _ in range(100):

@@ -37,6 +37,15 @@ def on_timer() -> None:
     pass
 
 
+def lone(script: Path) -> str:
+    """Standard error of a program in lockstep with a simulation that begins at 1000 s and ends at 1003 s."""
+    command = [sys.executable, str(Path(__file__).with_name("lone_simulation.py")), script.name]
+    done = subprocess.run(
+        command, env=environment(LONE_END="1003"), cwd=script.parent, capture_output=True, text=True, timeout=60, check=False
+    )
+    return done.stderr
+
+
 def test_a_timer_slower_than_its_period_is_named_once_with_figures(clock: Callable[[float], None], capsys: pytest.CaptureFixture[str]) -> None:
     monitor = _faults.CallbackMonitor(on_timer, node="/wall", kind="timer", period_ns=50_000_000)
     for taken_s in (0.04, 0.08, 0.02, 0.1):
@@ -100,3 +109,69 @@ def test_a_monitored_call_costs_little() -> None:
     for _ in range(20_000):
         call(monitor, on_timer)
     assert (time.process_time() - begin) / 20_000 < 20e-6
+
+
+@pytest.mark.parametrize(
+    ("call", "advice"),
+    [
+        ("client.call(SetBool.Request())", "It waits for a response that its own executor would have to deliver"),
+        ("node.create_rate(10).sleep()", "Rate.sleep() needs another thread that spins"),
+        ("\n    future = client.call_async(SetBool.Request())\n    while not future.done(): pass", "It waits for a future"),
+    ],
+)
+def test_a_callback_that_blocks_its_executor_is_named_in_lockstep(tmp_path: Path, call: str, advice: str) -> None:
+    (tmp_path / "stuck.py").write_text(
+        "import rclpy\nfrom std_srvs.srv import SetBool\nrclpy.init()\nnode = rclpy.create_node('n')\n"
+        "client = node.create_client(SetBool, 'missing')\n"
+        f"def on_timer():\n    {call}\nnode.create_timer(0.5, on_timer)\nnode.create_timer(30, lambda: None)\nrclpy.spin(node)\n"
+    )
+    errors = lone(tmp_path / "stuck.py")
+    assert "periplus: callback on_timer (stuck.py:6) of the timer of node /n, called at 1000.500 s, has not returned" in errors
+    assert advice in errors
+
+
+def test_an_error_of_a_goal_has_its_context_and_no_frames_of_periplus(tmp_path: Path) -> None:
+    (tmp_path / "goal.py").write_text(
+        "import rclpy\nfrom example_interfaces.action import Fibonacci\nfrom rclpy.action import ActionClient, ActionServer\n"
+        "rclpy.init()\nnode = rclpy.create_node('n')\n"
+        "server = ActionServer(node, Fibonacci, 'fib', lambda handle: handle.request.ordr)\n"
+        "goal = ActionClient(node, Fibonacci, 'fib').send_goal_async(Fibonacci.Goal())\n"
+        "rclpy.spin_until_future_complete(node, goal)\n"
+        "rclpy.spin_until_future_complete(node, goal.result().get_result_async())\n"
+    )
+    errors = lone(tmp_path / "goal.py")
+    assert 'goal.py", line 6, in <lambda>' in errors
+    assert "in a callback of the action /fib of node /n at 1000." in errors
+    assert "Fibonacci_Goal has 'order'" in errors
+    assert "periplus/ros" not in errors
+
+
+def test_a_callback_with_wrong_arguments_is_named_with_its_line(tmp_path: Path) -> None:
+    (tmp_path / "tick.py").write_text(
+        "import rclpy\nrclpy.init()\nnode = rclpy.create_node('n')\n"
+        "def tick(event):\n    pass\nnode.create_timer(0.5, tick)\nrclpy.spin(node)\n"
+    )
+    errors = lone(tmp_path / "tick.py")
+    assert "in a callback of the timer of node /n at 1000.500 s: tick (tick.py:4)\n" in errors
+
+
+def test_a_slow_or_wrong_timer_of_rospy_is_named(tmp_path: Path) -> None:
+    (tmp_path / "timers.py").write_text(
+        "import periplus.ros; periplus.ros.activate(generation=1, quiet=True)\n"
+        "import rospy\nrospy.init_node('n')\ndef slow(event):\n    rospy.sleep(0.3)\ndef wrong():\n    pass\n"
+        "rospy.Timer(rospy.Duration(0.1), slow)\nrospy.Timer(rospy.Duration(0.1), wrong)\nrospy.sleep(2)\n"
+    )
+    errors = lone(tmp_path / "timers.py")
+    assert "callback slow (timers.py:4) of the timer of node /n took 300.0 ms, longer than its period of 100.0 ms" in errors
+    assert "in a callback of the timer of node /n at 1000.100 s: wrong (timers.py:6)\n" in errors
+    assert "periplus/ros" not in errors
+
+
+def test_an_error_of_a_done_callback_names_the_client(tmp_path: Path) -> None:
+    (tmp_path / "done.py").write_text(
+        "import rclpy\nfrom std_srvs.srv import Trigger\nrclpy.init()\nnode = rclpy.create_node('n')\n"
+        "node.create_service(Trigger, 'set', lambda request, response: response)\n"
+        "future = node.create_client(Trigger, 'set').call_async(Trigger.Request())\n"
+        "future.add_done_callback(lambda future: 1 / 0)\nrclpy.spin(node)\n"
+    )
+    assert "ZeroDivisionError: division by zero\nin a callback of the client /set of node /n at 1000." in lone(tmp_path / "done.py")

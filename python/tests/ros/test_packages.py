@@ -132,6 +132,14 @@ def test_a_package_of_rosbuild_has_the_name_of_its_folder(tmp_path: Path) -> Non
     assert package.executable("run").script == str(tmp_path / "old" / "nodes" / "run.py")
 
 
+def test_catkin_reads_its_own_marker_alone(tmp_path: Path) -> None:
+    marks = {"shown": "COLCON_IGNORE", "hidden": "CATKIN_IGNORE"}
+    for name, mark in marks.items():
+        write(tmp_path / name, {"package.xml": package_xml(name, "catkin"), mark: ""})
+    write(tmp_path / "new", {"package.xml": package_xml("new"), "COLCON_IGNORE": ""})
+    assert list(_packages.find_packages([str(tmp_path)])) == ["shown"]
+
+
 def test_siblings_in_a_workspace_are_found(bot: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     workspace = bot.parent.parent
     write(workspace, {

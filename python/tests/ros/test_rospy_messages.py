@@ -2,6 +2,7 @@
 
 from pathlib import Path
 
+import pytest
 from rospy_programs import run_in_lockstep
 
 
@@ -173,6 +174,29 @@ def test_a_wrong_definition_is_named_with_its_line(tmp_path: Path) -> None:
         "bad_msgs/msg/A.msg:2: `float64` is neither `type name` nor `type NAME=value`\n"
         "cannot import name 'Strin' from 'std_msgs.msg' (unknown loca",
     )
+
+
+@pytest.mark.parametrize(
+    ("files", "text"),
+    [
+        ({"msg/A.msg": "B b\n", "msg/B.msg": "# back\nA a\n"}, "msg/B.msg:2: `bad_msgs/A` contains itself through the field `a`"),
+        ({"msg/A.msg": "A[] all\n"}, "msg/A.msg:1: `bad_msgs/A` contains itself through the field `all`"),
+        ({"msg/A.msg": "\nfloat65 y\n"}, "msg/A.msg:2: the type `float65` is unknown: did you mean `float64`?"),
+        ({"msg/A.msg": "nav_msgs/Odometri o\n"}, "msg/A.msg:1: the type `nav_msgs/Odometri` is unknown: did you mean `nav_msgs/Odometry`?"),
+        ({"msg/A.msg": "geo_msgs/Point p\n"}, "msg/A.msg:1: the type `geo_msgs/Point` is unknown: there is no message package 'geo_msgs'"),
+        ({"msg/A.msg": "int8 x\nint8 x\n"}, "msg/A.msg:2: `x` is already defined"),
+        ({"msg/A.msg": "uint8 K=300\n"}, "msg/A.msg:1: `300` is not a value of uint8: it has 0 to 255"),
+    ],
+)
+def test_types_that_cannot_be_are_named_with_their_line(tmp_path: Path, files: dict[str, str], text: str) -> None:
+    package(tmp_path, "bad_msgs", files)
+    program = """
+    try:
+        from bad_msgs.msg import A
+    except ImportError as error:
+        print(str(error).split("bad_msgs/", 1)[1])
+    """
+    check(tmp_path, program, text + "\n")
 
 
 def test_bags_are_written_and_read(tmp_path: Path) -> None:

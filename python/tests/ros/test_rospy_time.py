@@ -117,3 +117,20 @@ def test_log_functions_write_to_stdout_and_stderr(tmp_path: Path) -> None:
         "[DEBUG] /n <module>: a\n[INFO] /n <module>: b and 5\n[WARN] /n <module>: {'c': 1}\n[ERROR] /n <module>: 100%\n"
         "[FATAL] /n <module>: e\n[INFO] /n <module>: once 0\n[INFO] /n <module>: throttled 0\n[INFO] /n <module>: throttled 2",
     )
+
+
+def test_a_sleep_of_a_string_is_refused(tmp_path: Path) -> None:
+    check(
+        tmp_path,
+        """
+        import rospy
+        rospy.init_node("n")
+        for sleep in (lambda: rospy.sleep("1"), lambda: rospy.Duration.from_sec("1")):
+            try:
+                sleep()
+            except TypeError as error:
+                print(error)
+        """,
+        "rospy.sleep() needs a number of seconds or a rospy.Duration, not '1'\n"
+        "Duration.from_sec() needs a number of seconds, not '1'\n",
+    )

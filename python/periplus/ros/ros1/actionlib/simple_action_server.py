@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 import threading
-import traceback
 from collections.abc import Callable
 from typing import Any
 
 import rospy
 from actionlib_msgs.msg import GoalStatus
 from periplus.ros import _waiting
-from rospy import core
+from rospy import _dispatch, core
 
 from actionlib.action_server import ActionServer
 from actionlib.server_goal_handle import ServerGoalHandle
@@ -48,6 +47,7 @@ class SimpleActionServer:
         self.current_goal = ServerGoalHandle()
         self.next_goal = ServerGoalHandle()
         self.execute_thread: threading.Thread | None = None
+        self._name = rospy.resolve_name(name)
         self.action_server = ActionServer(
             name, ActionSpec, self.internal_goal_callback, self.internal_preempt_callback, False
         )
@@ -204,6 +204,7 @@ class SimpleActionServer:
             if not core.is_shutdown_requested():
                 raise
         except Exception as error:
-            rospy.logerr("Exception in your execute callback: %s\n%s", error, traceback.format_exc())
+            rospy.logerr("Exception in your execute callback: %s", error)
+            _dispatch.print_fault(error, "action", self._name)
             if self.is_active():
                 self.set_aborted(None, f"Exception in execute callback: {error}")

@@ -40,6 +40,8 @@ class TVal:
     @classmethod
     def from_sec(cls, float_secs: float) -> Any:
         """Value of a number of seconds."""
+        if isinstance(float_secs, (str, bytes)):
+            raise TypeError(f"{cls.__name__}.from_sec() needs a number of seconds, not {float_secs!r}")
         whole = int(float_secs)
         return cls(whole, int((float_secs - whole) * 1e9))
 

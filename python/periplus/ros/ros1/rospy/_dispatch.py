@@ -171,7 +171,12 @@ def report_fault(callback: Any, kind: str, name: str = "") -> None:
 
     error = sys.exc_info()[1]
     assert error is not None
-    time_ns = rostime.now_ns() if rostime.is_rostime_initialized() else None
-    _faults.callback_failed(error, node=core.get_name(), kind=kind, name=name, time_ns=time_ns)
     core.logerr("bad callback: %s", callback)
+    print_fault(error, kind, name, callback)
+
+
+def print_fault(error: BaseException, kind: str, name: str = "", callback: Any = None) -> None:
+    """Prints an error with the node, the topic and the time."""
+    time_ns = rostime.now_ns() if rostime.is_rostime_initialized() else None
+    _faults.callback_failed(error, node=core.get_name(), kind=kind, name=name, time_ns=time_ns, callback=callback)
     _faults.print_exception(error)

@@ -119,7 +119,8 @@ class Service(Source):
         elif not isinstance(error, _BadResponse):
             report_fault(self.handler, "service", self.resolved_name)
         else:
-            core.logerr("service [%s]: %s", self.resolved_name, text)
+            where = _faults.callback_location(self.handler)
+            core.logerr("service [%s]: %s: %s", self.resolved_name, text, where)
         report = {"service": self.resolved_name, "request": _digest(request), "error": text}
         report["time"] = core.state.graph.now_ns()
         if self._errors is None:

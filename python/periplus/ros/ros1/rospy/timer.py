@@ -7,7 +7,7 @@ from collections.abc import Callable
 from typing import Any
 
 import genpy
-from periplus.ros import _waiting
+from periplus.ros import _faults, _waiting
 
 from rospy import core, rostime
 from rospy.exceptions import ROSInterruptException, ROSTimeMovedBackwardsException
@@ -49,6 +49,8 @@ def sleep(duration: Any) -> None:
         ROSTimeMovedBackwardsException: The clock went back.
     """
     rostime.get_rostime()
+    if isinstance(duration, (str, bytes)):
+        raise TypeError(f"rospy.sleep() needs a number of seconds or a rospy.Duration, not {duration!r}")
     nanoseconds = duration.to_nsec() if isinstance(duration, genpy.Duration) else int(duration * _NS)
     _wait_for_clock()
     begin = rostime.now_ns()
@@ -152,6 +154,8 @@ class Timer(threading.Thread):
         rate = Rate(1.0 / max(self._period.to_sec(), 1e-9), reset=self._reset)
         rate.sleep_dur = self._period
         rate._is_stopped = lambda: self._shutdown
+        period_ns = None if self._oneshot else self._period.to_nsec()
+        monitor = _faults.CallbackMonitor(self._callback, node=core.get_name(), kind="timer", period_ns=period_ns)
         current_expected = rostime.get_rostime() + self._period
         last_expected = last_real = last_duration = None
         while not core.state.is_shutdown and not self._shutdown:
@@ -164,6 +168,7 @@ class Timer(threading.Thread):
             current_real = rostime.get_rostime()
             begin = rostime.now_ns()
             event = TimerEvent(last_expected, last_real, current_expected, current_real, last_duration)
+            before = monitor.start()
             try:
                 self._callback(event)
             except ROSInterruptException:
@@ -173,8 +178,10 @@ class Timer(threading.Thread):
             except Exception:
                 from rospy._dispatch import report_fault
 
-                report_fault(self._callback, "a timer")
+                report_fault(self._callback, "timer")
                 return
+            finally:
+                monitor.end(before)
             if self._oneshot:
                 return
             last_duration = (rostime.now_ns() - begin) / _NS

@@ -14,7 +14,7 @@ from periplus.ros import _faults
 from rclpy._clock_source import source
 
 if TYPE_CHECKING:
-    from collections.abc import Coroutine
+    from collections.abc import Coroutine, Iterable
 
     from rclpy.executors import Executor
     from rclpy.node import Node
@@ -77,8 +77,20 @@ def _make_monitor(entity: Any, node: Node) -> _faults.CallbackMonitor:
     )
 
 
-def _note(error: Exception, entity: Any, node: Node) -> None:
+def note_origin(error: BaseException, entity: Any, nodes: Iterable[Node]) -> None:
+    """Adds the node and the client to an exception of a done callback."""
+    for node in nodes:
+        if any(own is entity for own in (*node.clients, *node.waitables)):
+            _note(error, entity, node)
+
+
+def _note(error: BaseException, entity: Any, node: Node) -> None:
     """Adds the node, the topic or timer, and the time to an exception."""
     _faults.callback_failed(
-        error, node=node._rcl_full_name, kind=entity._kind, name=entity._full_name(), time_ns=source.system_ns()
+        error,
+        node=node._rcl_full_name,
+        kind=entity._kind,
+        name=entity._full_name(),
+        time_ns=source.system_ns(),
+        callback=getattr(entity, "callback", None),
     )

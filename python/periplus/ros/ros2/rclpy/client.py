@@ -86,6 +86,7 @@ class Client:
         if not isinstance(request, self.srv_type.Request):
             raise TypeError(self._wrong_type(request))
         future = Future()
+        future._origin = self
         with self._lock:
             self._pending_requests[self._native.call(request)] = future
         return future

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 from periplus.ros import _waiting
 
 from rclpy._clock_source import look, source
-from rclpy._execution import finish, run_entity
+from rclpy._execution import finish, note_origin, run_entity
 from rclpy._rclpy_pybind11 import InvalidHandle
 from rclpy.constants import S_TO_NS
 from rclpy.task import Future, Task
@@ -150,6 +150,8 @@ class Executor:
             return
         if task._exception is not None:
             task._exception_fetched = True
+            if task._origin is not None:
+                note_origin(task._exception, task._origin, self._nodes)
             raise task._exception
 
     # ---- work

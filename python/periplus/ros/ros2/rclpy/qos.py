@@ -123,6 +123,14 @@ for _enum, _prefix in (
             type.__setattr__(_enum, _prefix + _name, _DeprecatedAlias(_name, _prefix + _name))
 
 
+def _expected(policy: str, kind: type, value: object) -> str:
+    """Text for a value of the wrong type."""
+    names = ""
+    if issubclass(kind, IntEnum):
+        names = ": " + ", ".join(f"{kind.__name__}.{name}" for name, one in kind.__members__.items() if name == one.name)
+    return f"{policy} must be a {kind.__name__}, not {value!r}{names}"
+
+
 class QoSProfile:
     """Policies of a publisher, a subscription, a client or a service.
 
@@ -175,7 +183,7 @@ class QoSProfile:
 
     @history.setter
     def history(self, value: int) -> None:
-        assert isinstance(value, int)
+        assert isinstance(value, int), _expected("history", HistoryPolicy, value)
         self._history = HistoryPolicy(value)
 
     @property
@@ -185,7 +193,7 @@ class QoSProfile:
 
     @reliability.setter
     def reliability(self, value: int) -> None:
-        assert isinstance(value, int)
+        assert isinstance(value, int), _expected("reliability", ReliabilityPolicy, value)
         self._reliability = ReliabilityPolicy(value)
 
     @property
@@ -195,7 +203,7 @@ class QoSProfile:
 
     @durability.setter
     def durability(self, value: int) -> None:
-        assert isinstance(value, int)
+        assert isinstance(value, int), _expected("durability", DurabilityPolicy, value)
         self._durability = DurabilityPolicy(value)
 
     @property
@@ -205,7 +213,7 @@ class QoSProfile:
 
     @depth.setter
     def depth(self, value: int) -> None:
-        assert isinstance(value, int)
+        assert isinstance(value, int), _expected("depth", int, value)
         self._depth = value
 
     @property
@@ -215,7 +223,7 @@ class QoSProfile:
 
     @lifespan.setter
     def lifespan(self, value: Duration) -> None:
-        assert isinstance(value, Duration)
+        assert isinstance(value, Duration), _expected("lifespan", Duration, value)
         self._lifespan = value
 
     @property
@@ -225,7 +233,7 @@ class QoSProfile:
 
     @deadline.setter
     def deadline(self, value: Duration) -> None:
-        assert isinstance(value, Duration)
+        assert isinstance(value, Duration), _expected("deadline", Duration, value)
         self._deadline = value
 
     @property
@@ -235,7 +243,7 @@ class QoSProfile:
 
     @liveliness.setter
     def liveliness(self, value: int) -> None:
-        assert isinstance(value, int)
+        assert isinstance(value, int), _expected("liveliness", LivelinessPolicy, value)
         self._liveliness = LivelinessPolicy(value)
 
     @property
@@ -245,7 +253,7 @@ class QoSProfile:
 
     @liveliness_lease_duration.setter
     def liveliness_lease_duration(self, value: Duration) -> None:
-        assert isinstance(value, Duration)
+        assert isinstance(value, Duration), _expected("liveliness_lease_duration", Duration, value)
         self._liveliness_lease_duration = value
 
     @property

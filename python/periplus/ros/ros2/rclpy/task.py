@@ -49,6 +49,8 @@ class Future:
         self._wakes: list[Callable[[], Any]] = []
         self._lock = allocate_lock()
         self._executor: Callable[[], Executor | None] = _no_executor
+        # The client that completes the future; errors of done callbacks name it.
+        self._origin: Any = None
         if executor is not None:
             self._set_executor(executor)
 
@@ -129,7 +131,7 @@ class Future:
     def _invoke(self, callback: Callable[[Future], Any]) -> None:
         executor = self._executor()
         if executor is not None and not executor._is_shutdown:
-            executor.create_task(callback, self)
+            executor.create_task(callback, self)._origin = self._origin
             return
         try:
             callback(self)

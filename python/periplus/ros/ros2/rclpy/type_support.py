@@ -17,7 +17,7 @@ __all__ = [
 
 def check_for_type_support(msg_or_srv_type: Any) -> None:
     """Raises `AttributeError` for anything but a message, service or action class."""
-    if hasattr(msg_or_srv_type, "__type_name__"):
+    if isinstance(msg_or_srv_type, type) and hasattr(msg_or_srv_type, "__type_name__"):
         return
     if hasattr(msg_or_srv_type, "_md5sum"):
         raise AttributeError(

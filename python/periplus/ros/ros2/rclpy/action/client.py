@@ -154,6 +154,7 @@ class ActionClient(Waitable):
         if feedback_callback is not None:
             self._feedback_callbacks[key_of(goal_id)] = feedback_callback
         future = Future()
+        future._origin = self
         with self._pending_lock:
             self._pending_goals[self._goal_client.call(request)] = (future, goal_id)
         return future
@@ -211,6 +212,7 @@ class ActionClient(Waitable):
         request = CancelGoal.Request()
         request.goal_info.goal_id = handle.goal_id
         future = Future()
+        future._origin = self
         with self._pending_lock:
             self._pending_cancels[self._cancel_client.call(request)] = future
         return future
@@ -224,6 +226,7 @@ class ActionClient(Waitable):
             raise TypeError(f"Expected type ClientGoalHandle but received {type(handle)}")
         request = self._action_type.Impl.GetResultService.Request(goal_id=handle.goal_id)
         future = Future()
+        future._origin = self
         with self._pending_lock:
             self._pending_results[self._result_client.call(request)] = (future, key_of(handle.goal_id))
         return future

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-import traceback
 from enum import Enum
 from types import CoroutineType
 from typing import TYPE_CHECKING, Any
+
+from periplus.ros import _faults
 
 from rclpy import _log_output
 from rclpy._clock_source import source
@@ -224,7 +225,10 @@ class ActionServer(Waitable):
         except Exception as error:
             result = self._action_type.Result()
             self._log(40, f"Error raised in execute callback: {error}")
-            traceback.print_exc()
+            _faults.callback_failed(
+                error, node=self._node._rcl_full_name, kind="action", name=self._full, time_ns=source.system_ns()
+            )
+            _faults.print_exception(error)
         if handle.is_active:
             self._log(30, f"Goal state not set, assuming aborted. Goal ID: {handle.goal_id.uuid}")
             if handle._status == 1:

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
-import traceback
 from collections.abc import Callable
 from typing import Any, NamedTuple
 
+from periplus.ros import _faults
+
 from rclpy import _log_output
+from rclpy._clock_source import source
 from rclpy._rclpy_pybind11 import TransitionCallbackReturnType as TransitionCallbackReturn
 from rclpy.callback_groups import CallbackGroup
 from rclpy.lifecycle._machine import STATES, LifecycleStateMachine, Transition
@@ -115,8 +117,12 @@ class LifecycleNodeMixin(ManagedEntity):
         callback = self._rcl_callbacks.get(label) or getattr(self, f"on_{label}")
         try:
             result = callback(before)
-        except Exception:
-            traceback.print_exc()
+        except Exception as error:
+            owner: Any = self
+            _faults.callback_failed(
+                error, node=owner._rcl_full_name, kind="transition", name=label, time_ns=source.system_ns()
+            )
+            _faults.print_exception(error)
             return TransitionCallbackReturn.ERROR
         if not isinstance(result, TransitionCallbackReturn):
             node: Any = self
