@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 import sys
+from typing import Any
 
 from ._tracebacks import is_library_file, short_path
 
@@ -60,7 +61,7 @@ def _attribute(error: AttributeError) -> str | None:
     from enum import EnumMeta
 
     owner, name = getattr(error, "obj", None), getattr(error, "name", None) or ""
-    kind = type(owner)
+    kind: Any = type(owner)
     if any(base.__module__ == "rclpy.node" for base in kind.__mro__) and "_rcl_destroyed" not in vars(owner):
         return f"hint: {_line_of(error)}{kind.__name__}.__init__ must call super().__init__('NODE_NAME') before it uses the node"
     if isinstance(owner, EnumMeta):
