@@ -28,6 +28,9 @@ class Graph(Protocol):
 class Scheduler(Protocol):
     """The lockstep scheduler as this module sees it."""
 
+    has_ended: bool
+
+    def now_ns(self) -> int: ...
     def wait(self, graph: Graph, seen: int, timeout_ns: int | None) -> int: ...
     def sleep_ns(self, duration_ns: int) -> None: ...
     def poll(self) -> None: ...
@@ -40,6 +43,11 @@ _link: str | None = None
 def in_lockstep() -> bool:
     """True while this process runs in step with a simulation."""
     return _scheduler is not None
+
+
+def has_ended() -> bool:
+    """True once the simulation has ended: its time stands, and the program's own sleeps advance a time of its own."""
+    return _scheduler is not None and _scheduler.has_ended
 
 
 def link() -> str | None:
@@ -82,6 +90,8 @@ def now_ns(graph: Graph) -> int:
     """System time [ns] for user code; counts as one look (see `poll`)."""
     if _scheduler is not None:
         _scheduler.poll()
+        if _scheduler.has_ended:
+            return _scheduler.now_ns()
     return graph.now_ns()
 
 
@@ -89,6 +99,8 @@ def steady_ns(graph: Graph) -> int:
     """Steady time [ns] for user code; counts as one look (see `poll`)."""
     if _scheduler is not None:
         _scheduler.poll()
+        if _scheduler.has_ended:
+            return _scheduler.now_ns()
     return graph.steady_ns()
 
 

@@ -5,8 +5,8 @@ from pathlib import Path
 from rospy_programs import run_in_lockstep
 
 
-def check(folder: Path, source: str, expected: str) -> None:
-    assert run_in_lockstep(folder, source).splitlines() == expected.splitlines()
+def check(folder: Path, source: str, expected: str, **variables: str) -> None:
+    assert run_in_lockstep(folder, source, **variables).splitlines() == expected.splitlines()
 
 
 def test_arithmetic_of_times_and_durations(tmp_path: Path) -> None:
@@ -133,4 +133,37 @@ def test_a_sleep_of_a_string_is_refused(tmp_path: Path) -> None:
         """,
         "rospy.sleep() needs a number of seconds or a rospy.Duration, not '1'\n"
         "Duration.from_sec() needs a number of seconds, not '1'\n",
+    )
+
+
+def test_a_shutdown_hook_may_sleep_after_the_end_of_the_simulation(tmp_path: Path) -> None:
+    check(
+        tmp_path,
+        """
+        import rospy
+        rospy.init_node("n")
+        rospy.on_shutdown(lambda: (rospy.sleep(1), rospy.Rate(2).sleep(), print("stopped", rospy.get_time())))
+        rospy.spin()
+        try:
+            rospy.Publisher("late", rospy.AnyMsg, queue_size=1)
+        except rospy.ROSInterruptException as error:
+            print(error)
+        """,
+        "stopped 1011.5\nrospy shutdown\n",
+        LONE_END="1010",
+    )
+
+
+def test_a_client_of_an_action_needs_a_node(tmp_path: Path) -> None:
+    check(
+        tmp_path,
+        """
+        import actionlib, rospy
+        from actionlib_tutorials.msg import FibonacciAction
+        try:
+            actionlib.SimpleActionClient("fib", FibonacciAction).wait_for_server()
+        except rospy.ROSInitException as error:
+            print(error)
+        """,
+        "ROS node has not been initialized yet. Please call init_node() first\n",
     )

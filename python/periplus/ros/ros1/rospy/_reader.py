@@ -48,7 +48,7 @@ class Reader:
 
     def _open(self, reliability: str, durability: str) -> Any:
         settings = qos(self._depth, reliability, durability)
-        return core.state.node.subscription(self.topic, self.type_name, settings, style="genpy")
+        return core.live_node().subscription(self.topic, self.type_name, settings, style="genpy")
 
     @property
     def publisher_count(self) -> int:

@@ -55,7 +55,7 @@ def wait_for_message(topic: str, topic_type: Any, timeout: Any = None) -> Any:
     core.require_init()
     if isinstance(timeout, genpy.Duration):
         timeout = timeout.to_sec()
-    name = core.state.node.resolve(names.remap_name(topic))
+    name = core.live_node().resolve(names.remap_name(topic))
     native_type = topic_type.__type_handle__.type_name
     with core.state.lock:
         kept = _kept.pop((name, native_type), None)

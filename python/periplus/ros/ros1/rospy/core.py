@@ -45,6 +45,8 @@ if TYPE_CHECKING:
 #: Time for the messages of the last hooks to leave this process.
 _FLUSH_NS = 200_000_000
 
+_NOT_INITIALIZED = "ROS node has not been initialized yet. Please call init_node() first"
+
 
 class State:
     """The node of this process."""
@@ -72,7 +74,7 @@ state = State()
 def require_init(what: str = "") -> None:
     """Raises `ROSInitException` before `init_node()`."""
     if not state.is_initialized:
-        raise ROSInitException("ROS node has not been initialized yet. Please call init_node() first")
+        raise ROSInitException(_NOT_INITIALIZED)
 
 
 def when_initialized(function: Callable[[], None]) -> None:
@@ -190,6 +192,20 @@ def register_exit() -> None:
     atexit.register(_at_exit)
 
 
+def live_node() -> Any:
+    """The node, for a new topic or service.
+
+    Raises:
+        ROSInitException: `init_node()` has not been called.
+        ROSInterruptException: The node has shut down.
+    """
+    if state.node is None:
+        raise ROSInitException(_NOT_INITIALIZED)
+    if state.is_shutdown:
+        raise ROSInterruptException("rospy shutdown")
+    return state.node
+
+
 def wait_events(done: Callable[[], bool], timeout_ns: int | None = None) -> bool:
     """Blocks until `done()` is true (True), or for the timeout [ns of steady time] (False).
 
@@ -197,6 +213,8 @@ def wait_events(done: Callable[[], bool], timeout_ns: int | None = None) -> bool
         ROSInterruptException: The node shut down meanwhile.
     """
     graph = state.graph
+    if graph is None:
+        raise ROSInitException(_NOT_INITIALIZED)
     end = None if timeout_ns is None else _waiting.steady_ns(graph) + timeout_ns
     while True:
         seen = graph.events

@@ -56,7 +56,7 @@ class Time(genpy.Time):
 
 def now_ns() -> int:
     """Current time of the node [ns]. The wall clock before `init_node()`."""
-    if clock.sim_ns is not None:
+    if clock.sim_ns is not None and not _waiting.has_ended():
         _waiting.poll()
         return clock.sim_ns
     from rospy.core import state

@@ -73,12 +73,12 @@ class Service(Source):
         return f"rosrpc:/{self.resolved_name}"
 
     def _start(self) -> None:
-        self.resolved_name = self.name = core.state.node.resolve(names.remap_name(self._given_name), service=True)
+        self.resolved_name = self.name = core.live_node().resolve(names.remap_name(self._given_name), service=True)
         with core.state.lock:
             if self.resolved_name in _servers:
                 raise ServiceException(f"service [{self.resolved_name}] already registered")
             _servers[self.resolved_name] = self
-        self._native = core.state.node.server(self.resolved_name, self.service_class._native_type, style="genpy")
+        self._native = core.live_node().server(self.resolved_name, self.service_class._native_type, style="genpy")
         self._monitor = _faults.CallbackMonitor(
             self.handler, node=core.get_name(), kind="service", name=self.resolved_name
         )
@@ -211,8 +211,8 @@ class ServiceProxy:
 
     def _start(self) -> None:
         if not self._closed:
-            self.resolved_name = self.name = core.state.node.resolve(names.remap_name(self._given_name), service=True)
-            self._client = core.state.node.client(self.resolved_name, self.service_class._native_type, style="genpy")
+            self.resolved_name = self.name = core.live_node().resolve(names.remap_name(self._given_name), service=True)
+            self._client = core.live_node().client(self.resolved_name, self.service_class._native_type, style="genpy")
 
     def wait_for_service(self, timeout: Any = None) -> None:
         """Waits until the service is there. Raises `ROSException` at the timeout [s]."""
@@ -347,7 +347,7 @@ def wait_for_service(service: str, timeout: Any = None) -> None:
         raise ROSException(
             f"wait_for_service({service!r}) needs the graph: call rospy.init_node() first"
         )
-    name = core.state.node.resolve(names.remap_name(service), service=True)
+    name = core.live_node().resolve(names.remap_name(service), service=True)
     graph = core.state.graph
 
     def is_there() -> bool:

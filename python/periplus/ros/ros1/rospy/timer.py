@@ -33,7 +33,8 @@ def _sleep_until(end_ns: int, begin_ns: int, is_stopped: Callable[[], bool] | No
             raise ROSTimeMovedBackwardsException(Time(*divmod(now, _NS)))
         last = now
         # With /clock, an arrival ends the wait; the wall clock says nothing.
-        _waiting.wait(graph, seen, None if rostime.clock.sim_ns is not None else end_ns - now)
+        follows_clock = rostime.clock.sim_ns is not None and not _waiting.has_ended()
+        _waiting.wait(graph, seen, None if follows_clock else end_ns - now)
 
 
 def _wait_for_clock() -> None:

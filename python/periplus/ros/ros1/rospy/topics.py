@@ -44,7 +44,7 @@ class Topic:
 
     def _resolve(self) -> None:
         """Resolves the name for the node, which may not have had its own when this object was made."""
-        self.name = self.resolved_name = core.state.node.resolve(names.remap_name(self._given_name))
+        self.name = self.resolved_name = core.live_node().resolve(names.remap_name(self._given_name))
 
     @property
     def impl(self) -> Topic:
@@ -119,7 +119,7 @@ class Publisher(Topic):
         depth = 1 if self.is_latch else self.queue_size or DEFAULT_DEPTH
         durability = "transient_local" if self.is_latch else "volatile"
         native_type = self.data_class.__type_handle__.type_name
-        self._native = core.state.node.publisher(
+        self._native = core.live_node().publisher(
             self.resolved_name, native_type, qos(depth, durability=durability)
         )
 
