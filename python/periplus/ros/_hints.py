@@ -134,6 +134,9 @@ def _missing_module(error: ModuleNotFoundError) -> str | None:
     if top in ("Tkinter", "ConfigParser", "Queue", "urllib2", "StringIO", "cPickle", "commands", "exceptions", "thread", "httplib"):
         return f"{start}the module {top} is Python 2's; convert the file with `2to3 -w` (of Python 3.12 or older)"
     if _IMPORTS_MESSAGES.search(_source_line(error)):
+        near = _near_package(top)
+        if near:
+            return f"{start}Did you mean {near!r}?"
         return (
             f"{start}no message package {top} is known, and no folder with its package.xml was found. Put the package "
             "beside your own, or name its folder in PERIPLUS_PACKAGES"
@@ -147,16 +150,22 @@ def _missing_module(error: ModuleNotFoundError) -> str | None:
     package = _packages.find_package(top)
     if package is not None:
         return f"{start}package {top} is at {package.folder}, but has no Python module {name}"
-    import difflib
-
-    from . import _rosidl_modules
-
-    near = difflib.get_close_matches(top, [*_rosidl_modules.packages(), *_packages.known_packages()], 1, 0.8)
+    near = _near_package(top)
     if near:
-        return f"{start}Did you mean {near[0]!r}?"
+        return f"{start}Did you mean {near!r}?"
     if top in ("gazebo_ros", "moveit_commander", "PyKDL", "smach", "smach_ros", "py_trees_ros", "rosgraph", "rosnode", "xacro"):
         return f"{start}{top} is a ROS package that Periplus does not have; clone its source into your workspace"
     return f"{start}`{sys.executable} -m pip install {_PIP_NAMES.get(top, top)}` installs it, if it is a package of PyPI; a package of your workspace needs a package.xml"
+
+
+def _near_package(name: str) -> str | None:
+    """The package with nearly this name."""
+    import difflib
+
+    from . import _packages, _rosidl_modules
+
+    near = difflib.get_close_matches(name, [*_rosidl_modules.packages(), *_packages.known_packages()], 1, 0.8)
+    return near[0] if near else None
 
 
 def _missing_submodule(start: str, name: str) -> str | None:
