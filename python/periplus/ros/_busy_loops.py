@@ -10,7 +10,7 @@ import ast
 import builtins
 import re
 from importlib.machinery import SourceFileLoader
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, cast
 
 from . import _tracebacks, _waiting
 
@@ -47,10 +47,11 @@ def install() -> list[tuple[Any, str, Any]]:
             try:
                 source = self.get_data(path)
                 if _CANDIDATE.search(source):
-                    tree = compile(source, path, "exec", ast.PyCF_ONLY_AST, dont_inherit=True)
+                    tree = ast.parse(source, path)
                     if _add_polls(tree):
                         # Not through the cache of Python, which live runs read.
-                        return compile(tree, path, "exec", dont_inherit=True)
+                        code: CodeType = compile(cast(Any, tree), path, "exec", dont_inherit=True)
+                        return code
             except (OSError, SyntaxError, ValueError):
                 pass  # Python names the fault.
         return real_get_code(self, fullname)  # type: ignore[no-any-return]

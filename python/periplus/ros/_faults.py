@@ -144,7 +144,7 @@ def callback_location(callback: Any) -> str:
 
 def _steady_ns() -> int:
     scheduler = _waiting._scheduler
-    return _perf_counter_ns() if scheduler is None else scheduler.now_ns()  # type: ignore[attr-defined]
+    return _perf_counter_ns() if scheduler is None else scheduler.now_ns()
 
 
 def callback_failed(

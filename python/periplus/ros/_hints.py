@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 import sys
+from typing import Any
 
 from ._tracebacks import is_library_file, short_path
 
@@ -60,7 +61,7 @@ def _attribute(error: AttributeError) -> str | None:
     from enum import EnumMeta
 
     owner, name = getattr(error, "obj", None), getattr(error, "name", None) or ""
-    kind = type(owner)
+    kind: Any = type(owner)
     if any(base.__module__ == "rclpy.node" for base in kind.__mro__) and "_rcl_destroyed" not in vars(owner):
         return f"hint: {_line_of(error)}{kind.__name__}.__init__ must call super().__init__('NODE_NAME') before it uses the node"
     if isinstance(owner, EnumMeta):
@@ -132,6 +133,14 @@ def _missing_module(error: ModuleNotFoundError) -> str | None:
     start = f"hint: {_line_of(error)}"
     if top in ("Tkinter", "ConfigParser", "Queue", "urllib2", "StringIO", "cPickle", "commands", "exceptions", "thread", "httplib"):
         return f"{start}the module {top} is Python 2's; convert the file with `2to3 -w` (of Python 3.12 or older)"
+    if _IMPORTS_MESSAGES.search(_source_line(error)):
+        near = _near_package(top)
+        if near:
+            return f"{start}Did you mean {near!r}?"
+        return (
+            f"{start}no message package {top} is known, and no folder with its package.xml was found. Put the package "
+            "beside your own, or name its folder in PERIPLUS_PACKAGES"
+        )
     if top == "tkinter":
         return f"{start}tkinter comes with the system's Python: `apt install python3-tk`"
     from . import _packages
@@ -141,21 +150,22 @@ def _missing_module(error: ModuleNotFoundError) -> str | None:
     package = _packages.find_package(top)
     if package is not None:
         return f"{start}package {top} is at {package.folder}, but has no Python module {name}"
-    import difflib
-
-    from . import _rosidl_modules
-
-    near = difflib.get_close_matches(top, [*_rosidl_modules.packages(), *_packages.known_packages()], 1, 0.8)
+    near = _near_package(top)
     if near:
-        return f"{start}Did you mean {near[0]!r}?"
-    if _IMPORTS_MESSAGES.search(_source_line(error)):
-        return (
-            f"{start}no message package {top} is known, and no folder with its package.xml was found. Put the package "
-            "beside your own, or name its folder in PERIPLUS_PACKAGES"
-        )
+        return f"{start}Did you mean {near!r}?"
     if top in ("gazebo_ros", "moveit_commander", "PyKDL", "smach", "smach_ros", "py_trees_ros", "rosgraph", "rosnode", "xacro"):
         return f"{start}{top} is a ROS package that Periplus does not have; clone its source into your workspace"
     return f"{start}`{sys.executable} -m pip install {_PIP_NAMES.get(top, top)}` installs it, if it is a package of PyPI; a package of your workspace needs a package.xml"
+
+
+def _near_package(name: str) -> str | None:
+    """The package with nearly this name."""
+    import difflib
+
+    from . import _packages, _rosidl_modules
+
+    near = difflib.get_close_matches(name, [*_rosidl_modules.packages(), *_packages.known_packages()], 1, 0.8)
+    return near[0] if near else None
 
 
 def _missing_submodule(start: str, name: str) -> str | None:

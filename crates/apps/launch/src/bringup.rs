@@ -35,7 +35,7 @@ pub use includes::{REPLACED_LAUNCH_FILES, has_replacement};
 pub use lockstep::Lockstep;
 pub use processes::LaunchProcesses;
 pub use python::{
-    INTERPRETER_VARIABLE, PythonInterpreter, PythonNode, is_built_in, is_python_file,
+    INTERPRETER_VARIABLE, NoInterpreter, PythonInterpreter, PythonNode, is_built_in, is_python_file,
 };
 pub use report::{LaunchLog, PartOutcome, PartOutcomeKind, PartReport};
 pub use runner::{LaunchRunner, Settings};

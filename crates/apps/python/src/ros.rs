@@ -5,6 +5,8 @@
 
 mod arguments;
 mod arrivals;
+mod backend;
+mod discovery;
 mod endpoints;
 mod graph;
 mod node;

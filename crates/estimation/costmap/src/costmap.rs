@@ -49,7 +49,7 @@ impl Costmap {
         &mut self.grid.cells
     }
 
-    /// Hands the costs to a function and keeps what it returns, without a copy of its own. Costs of another length are
+    /// Hands the costs to a function and keeps what it returns, without a copy. Costs of another length are
     /// replaced by the default cost.
     ///
     /// ```

@@ -33,9 +33,16 @@ pub struct Arguments {
     levels: BTreeMap<String, Level>,
     enclave: Option<String>,
     no_rosout: bool,
+    unknown: Vec<String>,
 }
 
 impl Arguments {
+    /// Words that are no flag and belong to none.
+    #[must_use]
+    pub fn unknown_words(&self) -> &[String] {
+        &self.unknown
+    }
+
     /// Parameters of a node by its full name. Later ones take precedence; a pattern ranks by its
     /// first appearance, as in `rcl`.
     #[must_use]

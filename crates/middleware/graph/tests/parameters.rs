@@ -228,7 +228,7 @@ fn parameters_come_change_and_go() {
 fn arguments_come_before_what_a_node_declares() {
     let graph = Graph::new();
     graph.set_arguments(arguments(
-        "-p blink.period:=4 -p lamp:colour:=grean -p lmap:height:=1 -p hight:=2 -r lamp:__ns:=/hall",
+        "-p blink.period:=4 -p /hall/lamp:colour:=grean -p lmap:height:=1 -p hight:=2 -r lamp:__ns:=/hall",
     ));
     let lamp = graph.node(NodeSettings::new("lamp")).unwrap();
     assert_eq!(lamp.full_name(), "/hall/lamp");
@@ -250,7 +250,7 @@ fn arguments_come_before_what_a_node_declares() {
         messages(graph.unused_arguments()),
         [
             "no node that matches `/**` has a parameter `hight`",
-            "there are parameters for `/**/lmap`, but no such node"
+            "there are parameters for `/lmap`, but no such node"
         ]
     );
     // Arguments for one node take precedence over those for all.

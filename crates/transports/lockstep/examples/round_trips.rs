@@ -4,6 +4,8 @@
 //!
 //! `cargo run --release -p periplus-lockstep --example round_trips -- 20000 python3 echo.py`
 
+#![allow(clippy::disallowed_methods, clippy::print_stdout, reason = "a benchmark")]
+
 use std::process::Command;
 use std::time::Instant;
 

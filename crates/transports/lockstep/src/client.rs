@@ -55,8 +55,8 @@ impl LockstepClient {
         Self::connect_with(link, || Ok(()))
     }
 
-    /// Same as [`LockstepClient::connect`], for a process that has signals to look at: `pause` is called again and
-    /// again while a call waits for the graph, and its error ends the call.
+    /// Same as [`LockstepClient::connect`], for a process that has signals to look at: `pause` is called
+    /// repeatedly while a call waits for the graph, and its error ends the call.
     ///
     /// # Errors
     /// As [`LockstepClient::connect`].
@@ -108,7 +108,7 @@ impl LockstepClient {
     /// When the graph has gone.
     pub fn wait(&self, wake_ns: Option<i64>, wants_messages: bool) -> io::Result<()> {
         let mut line = lock(&self.line);
-        // A wait that was ended early still stands at the graph.
+        // A wait that was ended early is still registered at the graph.
         if !line.is_idle {
             let wake = wake_ns.unwrap_or(i64::MAX).to_le_bytes();
             append(&mut line.out, Kind::Idle, &[&wake, &[u8::from(wants_messages)]]);

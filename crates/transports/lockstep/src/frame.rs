@@ -78,7 +78,7 @@ impl Reader {
     /// Next frame: its kind and its body.
     ///
     /// # Errors
-    /// `UnexpectedEof` at the end of the connection, `InvalidData` for garbage, and what the socket says. After a
+    /// `UnexpectedEof` at the end of the connection, `InvalidData` for garbage, and the errors of the socket. After a
     /// timeout or a signal the call can be repeated ([`is_pause`]).
     pub(crate) fn next(&mut self, source: &mut impl Source) -> io::Result<(Kind, &[u8])> {
         self.fill(source, HEADER_BYTES)?;
@@ -149,7 +149,7 @@ impl<'a> Body<'a> {
         Ok(i64::from_le_bytes(self.bytes()?))
     }
 
-    /// What is left.
+    /// Returns the remaining bytes.
     pub(crate) fn rest(self) -> &'a [u8] {
         self.0
     }

@@ -15,7 +15,7 @@ use crate::peer::Peer;
 use crate::query::{Query, Reply};
 use crate::socket::{Listener, Stream};
 
-/// The processes that run in step with a graph. They are let go when this is dropped.
+/// The processes that run in step with a graph. They are released when this is dropped.
 pub struct LockstepHost {
     graph: Graph,
     listener: Listener,
@@ -58,10 +58,10 @@ impl LockstepHost {
     }
 
     /// Waits until the announced processes have connected, and lets each of them, in the order in which they were
-    /// announced, work until it waits. `is_running` tells by its label if a process runs: one that has ended is not
+    /// announced, work until it waits. `is_running` returns by its label if a process runs: one that has ended is not
     /// waited for.
     ///
-    /// The time of the graph stands meanwhile; call this before it advances.
+    /// The time of the graph does not advance meanwhile; call this before it advances.
     pub fn admit(&self, is_running: &mut dyn FnMut(&str) -> bool) {
         let mut arrived: BTreeMap<usize, (String, Stream, Reader, u32)> = BTreeMap::new();
         let start = Since::now();
@@ -89,7 +89,7 @@ impl LockstepHost {
                 if is_late {
                     let seconds = START_TIMEOUT.as_secs();
                     let text = format!("`{label}` did not call `rclpy.init` or `rospy.init_node` within {seconds} s");
-                    let help = "it runs on its own, not in step with the simulation";
+                    let help = "the program runs freely, not in step with the simulation";
                     findings.push(Diagnostic::warning("lockstep", text).help(help));
                 }
                 !is_late
@@ -111,7 +111,7 @@ impl LockstepHost {
         }
     }
 
-    /// Reads who has connected.
+    /// Reads the greeting of a process that has connected.
     fn greet(&self, mut stream: Stream) -> Option<(usize, (String, Stream, Reader, u32))> {
         stream.set_read_timeout(Some(Duration::from_secs(5))).ok()?;
         let mut reader = Reader::default();

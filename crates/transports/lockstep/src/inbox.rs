@@ -1,4 +1,4 @@
-//! What has arrived for an endpoint of a process.
+//! Messages, requests and responses that have arrived for an endpoint of a process.
 
 use std::collections::VecDeque;
 use std::sync::Mutex;

@@ -181,7 +181,7 @@ impl Peer {
                         let peer = Arc::downgrade(self);
                         client.clone().call_in_order(body.rest().to_vec(), move |answer| {
                             let Some(peer) = Weak::upgrade(&peer) else { return };
-                            // As in ROS 2, a client never hears of a call that failed.
+                            // As in ROS 2, a client gets no answer to a call that failed.
                             let Ok(answer) = answer else { return };
                             let Ok(cdr) = answer.cdr() else { return };
                             let (id, number) = (id.to_le_bytes(), number.to_le_bytes());

@@ -103,7 +103,7 @@ mod tcp {
     }
 }
 
-/// Time for which a read looks again and again before it sleeps: a process that answers at once costs no change of
+/// Time for which a read polls before it sleeps: a process that answers at once costs no change of
 /// threads.
 const SPIN: Duration = Duration::from_micros(50);
 

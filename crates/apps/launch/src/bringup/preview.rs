@@ -44,7 +44,9 @@ impl LaunchRunner {
                         program.full_name(),
                         format!("the Python node of {}, by {interpreter}", python.path().display()),
                     ),
-                    Err(why) => outcome(PartOutcomeKind::Missing, program.full_name(), why),
+                    Err(why) => {
+                        outcome(PartOutcomeKind::Missing, program.full_name(), why.to_string())
+                    }
                 },
                 None => match installed_program(program, self.settings()) {
                     Ok(path) => outcome(

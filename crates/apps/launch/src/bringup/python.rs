@@ -4,6 +4,7 @@
 //! the package `periplus` provides `rclpy`, `rospy` and the messages. Programs are found in source trees, as
 //! `ros2 run` finds them in a workspace that was built.
 
+use std::fmt;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 use std::sync::{Arc, OnceLock};
@@ -49,8 +50,36 @@ const MAX_SHEBANG_BYTES: usize = 120;
 #[derive(Clone, Debug, Default)]
 pub struct PythonInterpreter {
     own: Option<String>,
-    found: Arc<OnceLock<Result<String, String>>>,
+    found: Arc<OnceLock<Result<String, NoInterpreter>>>,
 }
+
+/// Reason why there is no interpreter for Python nodes.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum NoInterpreter {
+    /// The given interpreter cannot import the package.
+    WithoutPackage(String),
+    /// No interpreter on the PATH has the package.
+    NotFound,
+}
+
+impl fmt::Display for NoInterpreter {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::WithoutPackage(given) => write!(
+                f,
+                "`{INTERPRETER_VARIABLE}` is `{given}`, which cannot import `periplus.ros`; install the package \
+                 there: `{given} -m pip install periplus`"
+            ),
+            Self::NotFound => write!(
+                f,
+                "nodes in Python need the Python package of Periplus, and no `python3` on the PATH has it: \
+                 `pip install periplus`, or set `{INTERPRETER_VARIABLE}` to an interpreter that has it"
+            ),
+        }
+    }
+}
+
+impl std::error::Error for NoInterpreter {}
 
 impl PythonInterpreter {
     /// Interpreter `own`, in whose package this program is; otherwise that of `PERIPLUS_PYTHON`, or a
@@ -63,34 +92,26 @@ impl PythonInterpreter {
     /// Path or name of the interpreter.
     ///
     /// # Errors
-    /// A message with the remedy if there is none with the package `periplus`.
-    pub fn command(&self) -> Result<&str, String> {
+    /// [`NoInterpreter`] if there is none with the package `periplus`.
+    pub fn command(&self) -> Result<&str, &NoInterpreter> {
         let found = self.found.get_or_init(|| match &self.own {
             Some(own) => Ok(own.clone()),
             None => search(Machine.variable(INTERPRETER_VARIABLE)),
         });
-        found.as_deref().map_err(Clone::clone)
+        found.as_deref()
     }
 }
 
-fn search(given: Option<String>) -> Result<String, String> {
+fn search(given: Option<String>) -> Result<String, NoInterpreter> {
     if let Some(given) = given.filter(|given| !given.is_empty()) {
         return if can_import(&given) {
             Ok(given)
         } else {
-            Err(format!(
-                "`{INTERPRETER_VARIABLE}` is `{given}`, which cannot import `periplus.ros`; install the package \
-                 there: `{given} -m pip install periplus`"
-            ))
+            Err(NoInterpreter::WithoutPackage(given))
         };
     }
     let found = INTERPRETERS.into_iter().find(|name| can_import(name));
-    found.map(str::to_owned).ok_or_else(|| {
-        format!(
-            "nodes in Python need the Python package of Periplus, and no `python3` on the PATH has it: \
-             `pip install periplus`, or set `{INTERPRETER_VARIABLE}` to an interpreter that has it"
-        )
-    })
+    found.map(str::to_owned).ok_or(NoInterpreter::NotFound)
 }
 
 /// Returns true if an interpreter exists and has the module.
@@ -312,7 +333,10 @@ mod tests {
     #[test]
     fn a_given_interpreter_must_have_the_package() {
         let error = search(Some("periplus-has-no-such-python".into())).unwrap_err();
-        assert!(error.contains("periplus-has-no-such-python -m pip install periplus"), "{error}");
+        assert!(
+            error.to_string().contains("periplus-has-no-such-python -m pip install periplus"),
+            "{error}"
+        );
         let own = PythonInterpreter::new(Some("/wheel/python".into()));
         assert_eq!(own.command(), Ok("/wheel/python"));
     }

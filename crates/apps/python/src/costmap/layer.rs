@@ -173,13 +173,10 @@ impl PythonLayer {
         let mut called = Ok(());
         master.replace_costs(|costs| {
             let array = PyArray1::from_vec(py, costs);
-            let call = || -> PyResult<()> {
-                let costs = array.reshape([height, width])?;
+            called = array.reshape([height, width]).and_then(|costs| {
                 let name = pyo3::intern!(py, "update_costs");
-                let arguments = (costs, 0, 0, width, height);
-                self.object.bind(py).call_method1(name, arguments).map(drop)
-            };
-            called = call();
+                self.object.bind(py).call_method1(name, (costs, 0, 0, width, height)).map(drop)
+            });
             array.try_readonly().ok().and_then(|it| it.to_vec().ok()).unwrap_or_default()
         });
         called

@@ -39,19 +39,14 @@ pub(crate) fn read(py: Python<'_>, words: &[String]) -> PyResult<Arguments> {
     let arguments = Arguments::read(words, &mut sources, &mut findings, &mut open);
     let wrong = findings.iter().filter(|finding| finding.severity == Severity::Error);
     let mut text = String::new();
-    let mut unknown = Vec::new();
     for finding in wrong {
         text.push_str(&render(finding, &sources, RenderStyle::Plain));
-        let message = &finding.message;
-        if message.contains("is not a flag of") || message.contains("has no flag before it") {
-            unknown.extend(message.split('`').nth(1).map(str::to_owned));
-        }
     }
     if text.is_empty() {
         return Ok(arguments);
     }
     let error = RosArgumentsError::new_err(text.trim_end().to_owned());
-    error.value(py).setattr("unknown", unknown)?;
+    error.value(py).setattr("unknown", arguments.unknown_words().to_vec())?;
     Err(error)
 }
 

@@ -1,5 +1,10 @@
 //! Counter of what has arrived for a program, on which its threads wait.
 
+#![allow(
+    clippy::disallowed_methods,
+    reason = "an edge: time of the machine for waits without a simulation"
+)]
+
 use std::sync::{Condvar, Mutex, PoisonError};
 use std::time::{Duration, Instant};
 

@@ -1,65 +1,31 @@
 //! A program of nodes.
 
-use std::collections::{BTreeMap, BTreeSet};
+#![allow(
+    clippy::disallowed_methods,
+    reason = "an edge: time of the machine for waits without a simulation"
+)]
+
+use std::collections::BTreeSet;
 use std::io;
-use std::sync::atomic::{AtomicU64, Ordering};
-use std::sync::{Arc, Mutex, Weak};
+use std::sync::Arc;
+use std::sync::atomic::Ordering;
 use std::time::{Duration, Instant};
 
-use periplus::graph::{Arguments, Graph};
 use periplus::os::{Machine, unix_ns};
-use periplus_dds::{DdsTransport, DiscoveryRange, Settings};
-use periplus_lockstep::LockstepClient;
-use pyo3::exceptions::PyConnectionError;
+use periplus_dds::{DdsTransport, Settings};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyString};
 
 use super::arguments;
 use super::arrivals::Arrivals;
+use super::backend::{Backend, SEEN_WAKES, Shared, WAKES, connect, link_error, live};
+use super::discovery::{Names, endpoints, live_names, remote};
 use super::node::{RosNode, new_node};
 use super::qos;
-use crate::errors::runtime_error;
 use crate::work::{lock, released};
 
 /// Slice of a wait, after which signals are handled.
 const SLICE: Duration = Duration::from_millis(100);
-
-/// Where the nodes of a program live.
-pub(crate) enum Backend {
-    Live { graph: Graph, wire: Mutex<Option<DdsTransport>> },
-    Lockstep(Arc<LockstepClient>),
-}
-
-/// What all objects of a program share.
-pub(crate) struct Shared {
-    pub(crate) backend: Backend,
-    pub(crate) arrivals: Arc<Arrivals>,
-    pub(crate) arguments: Arguments,
-    domain_id: u32,
-    start: Instant,
-}
-
-impl Shared {
-    /// Sets the clock of a live graph, which stamps messages.
-    pub(crate) fn tick(&self) {
-        if let Backend::Live { graph, .. } = &self.backend {
-            graph.advance_to(unix_ns());
-        }
-    }
-}
-
-/// Error of a simulation in step; the exception of a signal that ended the call stays as it is.
-pub(crate) fn link_error(error: io::Error) -> PyErr {
-    let kind = error.kind();
-    match error.downcast::<PyErr>() {
-        Ok(raised) => raised,
-        Err(error) => match kind {
-            io::ErrorKind::Other => runtime_error(error),
-            _ => PyConnectionError::new_err(format!("the simulation has ended ({error})")),
-        },
-    }
-}
-
 /// A program of nodes: live on the ROS 2 network, or in step with a simulation.
 ///
 /// Parameters
@@ -369,13 +335,6 @@ impl RosGraph {
     }
 }
 
-/// What [`RosGraph::names`] lists.
-#[derive(Clone, Copy)]
-enum Names {
-    Topics,
-    Services,
-}
-
 impl RosGraph {
     fn names(&self, py: Python<'_>, which: Names) -> PyResult<Vec<(String, Vec<String>)>> {
         let shared = &self.0;
@@ -391,145 +350,4 @@ impl RosGraph {
         })?;
         listed.map_err(link_error)
     }
-}
-
-fn live_names(
-    graph: &Graph,
-    wire: &Mutex<Option<DdsTransport>>,
-    which: Names,
-) -> Vec<(String, Vec<String>)> {
-    let mut all: BTreeMap<String, BTreeSet<String>> = BTreeMap::new();
-    let remote = remote(wire);
-    match which {
-        Names::Topics => {
-            for topic in graph.topics() {
-                if !topic.publishers.is_empty() || !topic.subscriptions.is_empty() {
-                    all.entry(topic.name).or_default().insert(topic.type_name);
-                }
-            }
-            for topic in remote.topics {
-                all.entry(topic.name).or_default().extend(topic.type_names);
-            }
-        }
-        Names::Services => {
-            for service in graph.services() {
-                if service.server.is_some() {
-                    all.entry(service.name).or_default().insert(service.type_name);
-                }
-            }
-            for service in remote.services {
-                if !service.servers.is_empty() {
-                    all.entry(service.name).or_default().extend(service.type_names);
-                }
-            }
-        }
-    }
-    all.into_iter().map(|(name, types)| (name, types.into_iter().collect())).collect()
-}
-
-/// What other programs have.
-pub(crate) fn remote(wire: &Mutex<Option<DdsTransport>>) -> periplus_dds::Remote {
-    lock(wire).as_ref().map(DdsTransport::remote).unwrap_or_default()
-}
-
-/// A publisher or subscription of any program.
-pub(crate) struct End {
-    node: Option<String>,
-    pub(crate) type_name: String,
-    type_hash: Option<String>,
-    gid: Vec<u8>,
-    pub(crate) qos: periplus::graph::Qos,
-}
-
-/// Publishers or subscriptions of a topic.
-///
-/// # Errors
-/// When the simulation has gone.
-pub(crate) fn endpoints(backend: &Backend, topic: &str, publishers: bool) -> io::Result<Vec<End>> {
-    match backend {
-        Backend::Live { graph, wire } => {
-            let mut all = Vec::new();
-            let mut is_sent = publishers;
-            if let Some(found) = graph.topics().into_iter().find(|it| it.name == topic) {
-                // A message before the tap is there would be lost: such subscriptions do not count yet.
-                is_sent |= found.taps > 0 || found.publishers.is_empty();
-                let ends = if publishers { found.publishers } else { found.subscriptions };
-                let own = ends.into_iter().filter(|end| !end.node.starts_with("/_wire_"));
-                all.extend(own.map(|end| End {
-                    node: Some(end.node),
-                    type_name: found.type_name.clone(),
-                    type_hash: found.type_hash.clone(),
-                    gid: vec![0; 16],
-                    qos: end.qos,
-                }));
-            }
-            if let Some(found) = remote(wire).topic(topic).filter(|_| is_sent) {
-                let ends = if publishers { &found.publishers } else { &found.subscriptions };
-                all.extend(ends.iter().map(|end| End {
-                    node: end.node.clone(),
-                    type_name: end.type_name.clone(),
-                    type_hash: end.type_hash.clone(),
-                    gid: end.guid.0.to_vec(),
-                    qos: end.qos,
-                }));
-            }
-            Ok(all)
-        }
-        Backend::Lockstep(client) => {
-            let ends = client.endpoints(topic, publishers)?.into_iter();
-            Ok(ends
-                .map(|end| End {
-                    node: Some(end.node),
-                    type_name: end.type_name,
-                    type_hash: end.type_hash,
-                    gid: vec![0; 16],
-                    qos: end.qos,
-                })
-                .collect())
-        }
-    }
-}
-
-/// Number of wake-ups of all graphs, and that at the start of the wait for the simulation.
-static WAKES: AtomicU64 = AtomicU64::new(0);
-static SEEN_WAKES: AtomicU64 = AtomicU64::new(0);
-
-/// Connections of this process: programs join a simulation once, and may have several graphs.
-static LINKS: Mutex<BTreeMap<String, Weak<LockstepClient>>> = Mutex::new(BTreeMap::new());
-
-fn connect(link: String) -> io::Result<Arc<LockstepClient>> {
-    let mut links = lock(&LINKS);
-    if let Some(client) = links.get(&link).and_then(Weak::upgrade) {
-        return Ok(client);
-    }
-    let pause = || {
-        Python::attach(|py| py.check_signals()).map_err(io::Error::other)?;
-        match WAKES.load(Ordering::Acquire) == SEEN_WAKES.load(Ordering::Acquire) {
-            true => Ok(()),
-            false => Err(io::ErrorKind::Interrupted.into()),
-        }
-    };
-    let client = Arc::new(LockstepClient::connect_with(&link, pause)?);
-    links.insert(link, Arc::downgrade(&client));
-    Ok(client)
-}
-
-fn live(domain_id: Option<u32>, network: bool) -> PyResult<Backend> {
-    let graph = Graph::live();
-    graph.set_simulated_time(false);
-    graph.advance_to(unix_ns());
-    let mut wire = None;
-    if network {
-        let (mut settings, findings) = Settings::from_environment(&Machine);
-        for finding in findings.iter() {
-            eprintln!("warning: {}", finding.message);
-        }
-        settings.domain_id = domain_id.unwrap_or(settings.domain_id);
-        if settings.range != DiscoveryRange::Off {
-            let joined = DdsTransport::open(&settings).map_err(runtime_error)?;
-            joined.attach(&graph).map_err(runtime_error)?;
-            wire = Some(joined);
-        }
-    }
-    Ok(Backend::Live { graph, wire: Mutex::new(wire) })
 }

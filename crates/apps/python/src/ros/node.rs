@@ -10,8 +10,8 @@ use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
 use super::arguments::{self, parameter_object};
+use super::backend::{Backend, Shared, link_error};
 use super::endpoints::{RosClient, RosPublisher, RosServer, RosSubscription};
-use super::graph::{Backend, Shared, link_error};
 use super::qos::{self, QosWords, Side};
 use crate::errors::{runtime_error, value_error};
 use crate::messages::{Style, TypeHandle, plan_of_style};

@@ -38,11 +38,6 @@ impl Pattern {
         Self { written: "/**".into() }
     }
 
-    /// Matches nodes of this name in any namespace.
-    pub(super) fn named(node: &str) -> Self {
-        Self { written: format!("/**/{node}") }
-    }
-
     pub(super) fn written(&self) -> &str {
         &self.written
     }

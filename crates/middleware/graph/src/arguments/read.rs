@@ -152,7 +152,10 @@ impl Arguments {
                 | "--disable-stdout-logs"
                 | "--enable-external-lib-logs"
                 | "--disable-external-lib-logs" => diagnostics.push(ignored(flag)),
-                _ => diagnostics.push(unknown(flag)),
+                _ => {
+                    arguments.unknown.push(flag.clone());
+                    diagnostics.push(unknown(flag));
+                }
             }
         }
         arguments
@@ -178,7 +181,7 @@ impl Arguments {
             None => Ok(Pattern::all()),
             Some(node) if node.contains('/') => Pattern::read(node),
             // A bare name matches the node in any namespace.
-            Some(node) => Pattern::read(node).map(|_| Pattern::named(node)),
+            Some(node) => Pattern::read(node),
         };
         let pattern = match pattern {
             Ok(pattern) => pattern,
@@ -311,9 +314,11 @@ demo:
         assert_eq!(summary(&arguments, "/scan"), "plugin.radius=0.5 rate=9");
         assert_eq!(summary(&arguments, "/demo/scan"), "frames=[a, b] plugin.radius=0.5 rate=3");
         let (arguments, _) = read("--params-file p.yaml -p scan:rate:=9 -p /demo/scan:on:=yes");
+        assert_eq!(summary(&arguments, "/scan"), "plugin.radius=0.5 rate=9");
+        // The name of a node without a slash is that of a node without a namespace, as in `rcl`.
         assert_eq!(
             summary(&arguments, "/demo/scan"),
-            "frames=[a, b] on=true plugin.radius=0.5 rate=9"
+            "frames=[a, b] on=true plugin.radius=0.5 rate=3"
         );
     }
 

@@ -160,7 +160,7 @@ class Node(NodeEntities, NodeParameters, NodeGraph):
         self._rcl_init_parameters(
             self._rcl_overrides(parameter_overrides), allow_undeclared_parameters
         )
-        self._logger = get_logger(self._rcl_full_name[1:].replace("/", "."))
+        self._logger: RcutilsLogger = get_logger(self._rcl_full_name[1:].replace("/", "."))
         self._rcl_set_log_level()
         self._rcl_rosout: Any = None
         if enable_rosout and self._rcl_native.logs_to_rosout:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any, TypeVar
+from typing import Any, TypeVar, cast
 
 from periplus import _native
 
@@ -26,7 +26,7 @@ def deserialize_message(serialized_message: bytes, message_type: type[_M]) -> _M
         raise TypeError(f"serialized_message must be bytes, not {type(serialized_message).__name__}")
     made: Any
     try:
-        made = _native.deserialize(message_type, serialized_message)
+        made = _native.deserialize(cast(Any, message_type), serialized_message)
     except ValueError as error:
         raise RMWError(f"failed to deserialize ROS message: {error}") from None
     result: _M = made

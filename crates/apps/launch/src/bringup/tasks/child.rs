@@ -88,7 +88,8 @@ impl Child {
         let mut words = match &program.python {
             Some(python) => {
                 variables.extend(settings.node_environment.iter().cloned());
-                let mut words = python.command(settings.python.command()?);
+                let mut words =
+                    python.command(settings.python.command().map_err(|why| why.to_string())?);
                 words.extend(program.words[program.program_words..].iter().cloned());
                 words
             }
