@@ -211,6 +211,12 @@ def _watch_loop() -> None:
                 _report(f"{monitor} has not returned for {(now_ns - start_ns) / 1e9:.1f} s. {blocked_call(frame)}\n{_tracebacks.format_stack(frame)}")
 
 
+def next_stall_ns() -> int | None:
+    """Simulated time at which `report_stalled` is to look at the callbacks that run now, or None."""
+    starts = [start_ns for thread, (_, start_ns) in list(_running.items()) if (thread, start_ns) not in _stalled]
+    return min(starts) + _timeout_ns + 1 if starts and _timeout_ns > 0 else None
+
+
 def report_stalled(now_ns: int, *, at_end: bool = False) -> None:
     """Names callbacks in lockstep that have not returned for the timeout in simulated time, once each.
 

@@ -32,8 +32,6 @@ _WAITS_PER_INSTANT = 10_000
 _STEP_NS = 1_000_000
 #: Simulated time between two looks at sockets and files that a thread waits for [ns].
 _SELECT_STEP_NS = 20_000_000
-#: Simulated time between two looks at callbacks that do not return [ns].
-_LOOK_NS = 1_000_000_000
 #: Wall time after the end of the simulation until a program that does not end is ended [s].
 _GRACE_S = 5.0
 #: Wall time that the signal handler of the main thread gets at the end of the simulation [s].
@@ -76,7 +74,6 @@ class Scheduler:
         self._end_wall_s = 0.0
         self._instant_ns, self._instant_waits = -1, 0
         self._named_deadlock = False
-        self._look_ns = 0
 
     # ---- clock
 
@@ -322,6 +319,9 @@ class Scheduler:
         if wake_ns is None and not wants_messages and not self._named_deadlock:
             self._named_deadlock = True
             self.note("deadlock", "every thread waits for another one")
+        stall_ns = _faults.next_stall_ns()
+        if stall_ns is not None and (wake_ns is None or stall_ns < wake_ns):
+            wake_ns = stall_ns
         try:
             self.is_exchanging = True
             try:
@@ -333,10 +333,8 @@ class Scheduler:
         except (ConnectionError, EOFError):
             self._end()
             return
-        now_ns = self.graph.now_ns()
-        if now_ns >= self._look_ns:
-            self._look_ns = now_ns + _LOOK_NS
-            _faults.report_stalled(now_ns)
+        if stall_ns is not None and self.graph.now_ns() >= stall_ns:
+            _faults.report_stalled(stall_ns)
 
     # ---- end of the simulation
 

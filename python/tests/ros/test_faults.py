@@ -37,11 +37,11 @@ def on_timer() -> None:
     pass
 
 
-def lone(script: Path) -> str:
+def lone(script: Path, **variables: str) -> str:
     """Standard error of a program in lockstep with a simulation that begins at 1000 s and ends at 1003 s."""
     command = [sys.executable, str(Path(__file__).with_name("lone_simulation.py")), script.name]
     done = subprocess.run(
-        command, env=environment(LONE_END="1003"), cwd=script.parent, capture_output=True, text=True, timeout=60, check=False
+        command, env=environment(LONE_END="1003", **variables), cwd=script.parent, capture_output=True, text=True, timeout=60
     )
     return done.stderr
 
@@ -175,3 +175,17 @@ def test_an_error_of_a_done_callback_names_the_client(tmp_path: Path) -> None:
         "future.add_done_callback(lambda future: 1 / 0)\nrclpy.spin(node)\n"
     )
     assert "ZeroDivisionError: division by zero\nin a callback of the client /set of node /n at 1000." in lone(tmp_path / "done.py")
+
+
+def test_a_callback_that_waits_for_its_own_lock_is_named_in_lockstep(tmp_path: Path) -> None:
+    (tmp_path / "locks.py").write_text(
+        "import periplus.ros; periplus.ros.activate(generation=1, quiet=True)\n"
+        "import rospy, threading\nfrom std_msgs.msg import String\nrospy.init_node('n')\nlock = threading.Lock()\n"
+        "def got(message):\n    with lock:\n        again()\ndef again():\n    with lock:\n        pass\n"
+        "rospy.Subscriber('chatter', String, got)\n"
+        "rospy.Publisher('chatter', String, queue_size=1, latch=True).publish('x')\nrospy.spin()\n"
+    )
+    errors = lone(tmp_path / "locks.py", PERIPLUS_CALLBACK_TIMEOUT_S="2")
+    assert "callback got (locks.py:6) of the subscription /chatter of node /n, called at 1000." in errors
+    assert "has not returned for 2.0 s. It is here:" in errors
+    assert 'locks.py", line 10, in again' in errors

@@ -110,6 +110,8 @@ def init_node(
         namespace = mappings.get("__ns", os.environ.get("ROS_NAMESPACE", "/"))
         _make_node(name, namespace, words)
         if log_level is not None:
+            if not isinstance(log_level, int):
+                raise TypeError(f"log_level must be rospy.DEBUG, INFO, WARN, ERROR or FATAL, not {log_level!r}")
             set_level(log_level)
         _load_parameters(words)
         state.dispatcher = Dispatcher(state.graph)
