@@ -138,6 +138,8 @@ def patch_select(module: ModuleType, scheduler: Scheduler) -> list[tuple[Any, st
             found = real_select(rlist, wlist, xlist, 0)
             return found if any(found) else None
 
+        if any(one is sys.stdin or one == 0 for one in rlist):
+            scheduler.note("input", "waits for the keyboard by select()")
         limit_ns = None if timeout is None else round(timeout * 1e9)
         return scheduler.select(look, limit_ns) or ([], [], [])
 

@@ -315,3 +315,9 @@ print(os.waitstatus_to_exitcode(os.waitpid(pid, 0)[1]), time.time())
     out, errors = run(tmp_path, program)
     assert out == "5 0.0\n"
     assert "os.fork() at script.py:4" in errors
+
+
+def test_a_look_at_the_keyboard_is_named(tmp_path: Path) -> None:
+    program = "import select, sys\ndef key():\n    return select.select([sys.stdin], [], [], 0.1)[0]\nkey()\n"
+    _, errors = run(tmp_path, program)
+    assert "runs may differ: waits for the keyboard by select() at script.py:3 (key)" in errors
