@@ -15,7 +15,11 @@ const MAX_NAMES: usize = 50_000;
 /// Folders without sources.
 const SKIPPED: [&str; 5] = ["build", "install", "log", "node_modules", "target"];
 /// Files that exclude a folder from ROS's own tools.
-const IGNORE_MARKS: [&str; 3] = ["COLCON_IGNORE", "CATKIN_IGNORE", "AMENT_IGNORE"];
+const IGNORE_MARKS: [&str; 3] = ["COLCON_IGNORE", CATKIN_MARK, "AMENT_IGNORE"];
+/// The only one of them that catkin reads. Branches of both generations hide their packages of ROS 1 from colcon.
+const CATKIN_MARK: &str = "CATKIN_IGNORE";
+/// Files that make a folder a package: of catkin, ament and colcon, and of rosbuild.
+const MANIFESTS: [&str; 2] = ["package.xml", "manifest.xml"];
 
 /// Packages below a folder.
 #[derive(Debug, Default)]
@@ -44,11 +48,17 @@ pub(crate) fn crawl(host: &dyn Host, top: &Path, depth: usize) -> Crawl {
         }
         let holds = |wanted: &str| names.iter().any(|name| name == wanted);
         if level > 0 {
-            if IGNORE_MARKS.into_iter().any(holds) {
+            let is_ignored = IGNORE_MARKS.into_iter().any(holds);
+            let manifest =
+                MANIFESTS.into_iter().any(holds).then(|| manifest::in_folder(host, &folder));
+            if let Some(manifest) = manifest.flatten() {
+                // As in colcon and catkin, a package contains no other packages.
+                if !is_ignored || (manifest.is_ros1 && !holds(CATKIN_MARK)) {
+                    note_package(host, &folder, manifest, &mut found);
+                }
                 continue;
             }
-            // As in colcon and catkin, a package contains no other packages.
-            if holds("package.xml") && note_package(host, &folder, &mut found) {
+            if is_ignored {
                 continue;
             }
         }
@@ -65,19 +75,13 @@ pub(crate) fn crawl(host: &dyn Host, top: &Path, depth: usize) -> Crawl {
     found
 }
 
-/// Returns true for a folder whose `package.xml` has a name.
-fn note_package(host: &dyn Host, folder: &Path, found: &mut Crawl) -> bool {
-    let Ok(bytes) = host.read(&folder.join("package.xml")) else { return false };
-    let mut manifest = manifest::package(&bytes);
-    if manifest.name.is_empty() {
-        return false;
-    }
+/// Adds a package.
+fn note_package(host: &dyn Host, folder: &Path, mut manifest: PackageManifest, found: &mut Crawl) {
     manifest.gazebo_paths.extend(hooks::paths(host, folder, &manifest.name));
     found.packages.entry(manifest.name.clone()).or_default().push(folder.to_path_buf());
     if !manifest.gazebo_paths.is_empty() {
         found.exports.push((folder.to_path_buf(), manifest));
     }
-    true
 }
 
 #[cfg(test)]
@@ -99,5 +103,30 @@ mod tests {
         let found = crawl(&host, Path::new("/w"), 3);
         assert_eq!(found.packages["bot"], [Path::new("/w/z"), Path::new("/w/a/b")]);
         assert!(!found.cut_short);
+    }
+
+    #[test]
+    fn catkin_reads_its_own_marker_alone() {
+        let ros1 = |name: &str| {
+            format!(
+                "<package><name>{name}</name><buildtool_depend>catkin</buildtool_depend></package>"
+            )
+        };
+        let host = MemoryHost::new()
+            .with_file("/w/shown/package.xml", ros1("shown"))
+            .with_file("/w/shown/COLCON_IGNORE", "")
+            .with_file("/w/hidden/package.xml", ros1("hidden"))
+            .with_file("/w/hidden/CATKIN_IGNORE", "");
+        let found = crawl(&host, Path::new("/w"), 3);
+        assert_eq!(found.packages.keys().collect::<Vec<_>>(), ["shown"]);
+    }
+
+    #[test]
+    fn a_package_of_rosbuild_has_the_name_of_its_folder() {
+        let host = MemoryHost::new()
+            .with_file("/w/basics/manifest.xml", "<package><description>x</description></package>")
+            .with_file("/w/models/manifest.xml", "<gazebo><models/></gazebo>");
+        let found = crawl(&host, Path::new("/w"), 3);
+        assert_eq!(found.packages.keys().collect::<Vec<_>>(), ["basics"]);
     }
 }

@@ -26,7 +26,10 @@ pub fn package_of(host: &dyn Host, path: &Path) -> Option<(String, String)> {
 
 fn folder_of<'p>(host: &dyn Host, path: &'p Path) -> Option<&'p Path> {
     let mut above = path.ancestors().skip(1).take(MAX_DEPTH);
-    above.find(|up| up.parent().is_some() && host.kind(&up.join("package.xml")).is_some())
+    above.find(|up| {
+        let holds = |manifest| host.kind(&up.join(manifest)).is_some();
+        up.parent().is_some() && (holds("package.xml") || holds("manifest.xml"))
+    })
 }
 
 /// Source file that the build of a package would install at a missing path.

@@ -30,13 +30,27 @@ pub(crate) struct PackageManifest {
     /// Model and resource paths of `<export><gazebo_ros/>`, entries of colon-separated lists with
     /// `${prefix}` for the package's own folder, and those of the package's environment hooks.
     pub(crate) gazebo_paths: Vec<String>,
+    /// True for packages of ROS 1, which catkin or rosbuild builds.
+    pub(crate) is_ros1: bool,
 }
 
-/// Name of the package in a folder, from its `package.xml`.
+/// Name of the package in a folder, from its `package.xml`, or from rosbuild's `manifest.xml`.
 #[must_use]
 pub fn package_name(host: &dyn Host, folder: &Path) -> Option<String> {
-    let manifest = host.read(&folder.join("package.xml")).ok()?;
-    Some(package(&manifest).name).filter(|name| !name.is_empty())
+    in_folder(host, folder).map(|manifest| manifest.name)
+}
+
+/// Manifest of the package in a folder. A package of rosbuild has a `manifest.xml` and the name of its folder.
+pub(crate) fn in_folder(host: &dyn Host, folder: &Path) -> Option<PackageManifest> {
+    if let Ok(bytes) = host.read(&folder.join("package.xml")) {
+        return Some(package(&bytes)).filter(|manifest| !manifest.name.is_empty());
+    }
+    let bytes = host.read(&folder.join("manifest.xml")).ok()?;
+    // Gazebo's model database has manifests of that name too.
+    let mut is_package = false;
+    walk(&bytes, |path, _, _| is_package |= path.first() == Some(&"package"));
+    let name = folder.file_name()?.to_str()?.to_owned();
+    is_package.then(|| PackageManifest { name, is_ros1: true, ..package(&bytes) })
 }
 
 pub(crate) fn package(bytes: &[u8]) -> PackageManifest {
@@ -44,6 +58,9 @@ pub(crate) fn package(bytes: &[u8]) -> PackageManifest {
     walk(bytes, |path, attributes, text| match (path, text) {
         (["package", "name"], Some(text)) if manifest.name.is_empty() => {
             manifest.name = text.trim().to_owned();
+        }
+        (["package", "buildtool_depend"], Some(text)) if text.trim() == "catkin" => {
+            manifest.is_ros1 = true;
         }
         (["package", "export", tag], None) if EXPORT_TAGS.contains(tag) => {
             let paths = attributes

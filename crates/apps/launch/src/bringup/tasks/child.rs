@@ -381,9 +381,9 @@ fn connection(
         return Ok(Connection::None);
     }
     if !is_python && settings.dialect == Dialect::Ros1 {
-        return Err(
-            "it is a ROS 1 program, which needs a master; there is no built-in replacement".into(),
-        );
+        return Err("no built-in program replaces it, no package in the sources has it as a Python program, and \
+             compiled ROS 1 programs need a master; name the folder of the package with `--resource-path`"
+            .into());
     }
     if settings.is_wired {
         return Ok(Connection::Network);
