@@ -14,10 +14,11 @@ use serde_json::Value;
 use crate::step::{Failed, metadata};
 
 /// Wings in their rows, the lowest row first.
-const ROWS: [&[&str]; 6] = [
+const ROWS: [&[&str]; 7] = [
     &["foundation"],
     &["messages"],
     &["robot-files", "estimation"],
+    &["navigation"],
     &["middleware"],
     &["simulation", "nav-nodes", "transports"],
     &["apps", FACADE],
@@ -29,9 +30,9 @@ const FACADE: &str = "periplus";
 /// Wings that must not reach other wings through any chain of crates, and the reason.
 const NEVERS: [(&[&str], &[&str], &str); 3] = [
     (
-        &["estimation", "nav-nodes"],
+        &["estimation", "navigation", "nav-nodes"],
         &["robot-files", "simulation"],
-        "an estimator gets messages only, never the truth",
+        "an estimator or navigator gets messages only, never the truth",
     ),
     (&["middleware", "transports"], &["simulation"], "a network does not know the simulator"),
     (&["foundation"], &["messages"], "the foundation serves programs without ROS"),

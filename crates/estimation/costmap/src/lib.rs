@@ -51,6 +51,7 @@ mod projection;
 mod publication;
 pub mod tables;
 mod trace;
+mod view;
 mod voxel_grid;
 
 pub use advice::Advice;
@@ -72,4 +73,5 @@ pub use observation::{
 pub use projection::{Projector, ScanGeometry};
 pub use publication::{CostmapMessage, PublicationState};
 pub use trace::Cause;
+pub use view::{CostmapView, InflationLaw};
 pub use voxel_grid::{MAX_VOXEL_COUNT, Voxel, VoxelGrid, VoxelLine};

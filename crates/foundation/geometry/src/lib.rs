@@ -20,6 +20,7 @@ mod number;
 mod pose;
 mod pose2;
 mod stream;
+mod twist2;
 
 pub use base64::{decode_base64, encode_base64};
 pub use glam::{DQuat, DVec3};
@@ -28,3 +29,4 @@ pub use number::{format_number, parse_number, parse_numbers};
 pub use pose::{Pose, Rpy, quaternion_from_rpy, rpy_from_quaternion};
 pub use pose2::{Pose2, normalize_angle};
 pub use stream::Stream;
+pub use twist2::Twist2;

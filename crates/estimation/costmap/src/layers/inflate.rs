@@ -10,8 +10,8 @@ use crate::cost::{LETHAL, UNKNOWN};
 use crate::inflation::{CostTable, InflationBuffers, InflationSettings, inflate};
 use crate::tables::InflationLayerParams;
 use crate::{
-    CellWindow, ChangeError, Costmap, Explanation, Footprint, Layer, Nav2Release, UpdateBounds,
-    UpdateContext,
+    CellWindow, ChangeError, Costmap, Explanation, Footprint, InflationLaw, Layer, Nav2Release,
+    UpdateBounds, UpdateContext,
 };
 
 /// Layer that inflates obstacles.
@@ -83,6 +83,15 @@ impl InflationLayer {
     fn inscribed_m(&self) -> f64 {
         let custom_m = self.params.custom_inscribed_radius_m;
         if custom_m >= 0.0 { custom_m } else { self.inscribed_radius_m }
+    }
+
+    /// Returns the law by which costs fall.
+    #[must_use]
+    pub fn law(&self) -> InflationLaw {
+        InflationLaw {
+            radius_m: self.params.inflation_radius_m,
+            scaling_per_m: self.params.cost_scaling_factor,
+        }
     }
 
     /// Returns the table of costs.

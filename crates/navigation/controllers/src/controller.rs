@@ -1,0 +1,79 @@
+//! Interface of all controllers.
+
+use std::fmt;
+
+use periplus_costmap::CostmapView;
+use periplus_geometry::{Pose2, Twist2};
+
+/// Tolerances of the goal checker in use; none where the checker has no such tolerance.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct GoalTolerance {
+    /// Maximum distance to the goal \[m\].
+    pub xy_m: Option<f64>,
+    /// Maximum difference to the goal's heading \[rad\].
+    pub yaw_rad: Option<f64>,
+}
+
+/// Inputs of one control cycle. All poses are in the frame of the local costmap.
+#[derive(Clone, Copy, Debug)]
+pub struct ControlInput<'a> {
+    /// Stamp of the robot's pose \[ns\].
+    pub time_ns: i64,
+    /// Pose of the robot.
+    pub pose: Pose2,
+    /// Measured velocity of the robot, in the base frame.
+    pub velocity: Twist2,
+    /// Local costmap.
+    pub costmap: CostmapView<'a>,
+    /// Part of the plan ahead of the robot that lies in the costmap; at least one pose.
+    pub plan: &'a [Pose2],
+    /// Last pose of the whole plan.
+    pub goal: Pose2,
+    /// Tolerances of the goal checker.
+    pub tolerance: GoalTolerance,
+    /// True if the goal checker is content with the position, so that only the heading counts.
+    pub is_position_reached: bool,
+}
+
+/// Reason why a controller has no velocity. The server's error code follows from it.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum ControlError {
+    /// The plan cannot be followed at all (`INVALID_PATH`).
+    InvalidPath(String),
+    /// A transform is missing (`TF_ERROR`).
+    Transform(String),
+    /// No velocity is safe or valid in this cycle (`NO_VALID_CONTROL`).
+    NoValidControl(String),
+    /// A parameter makes control impossible (`INVALID_CONTROLLER`).
+    InvalidController(String),
+}
+
+impl fmt::Display for ControlError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let (Self::InvalidPath(text)
+        | Self::Transform(text)
+        | Self::NoValidControl(text)
+        | Self::InvalidController(text)) = self;
+        f.write_str(text)
+    }
+}
+
+impl std::error::Error for ControlError {}
+
+/// A controller: follows a plan within the local costmap.
+pub trait Controller: Send {
+    /// Returns the velocity command of a cycle, in the base frame.
+    ///
+    /// # Errors
+    /// The reason why there is none. The server decides whether it waits or gives up.
+    fn compute_velocity(&mut self, input: &ControlInput<'_>) -> Result<Twist2, ControlError>;
+
+    /// Reports a new plan, in the frame of the plan. State that belongs to the old one ends.
+    fn set_plan(&mut self, plan: &[Pose2]);
+
+    /// Limits the speed: a percentage of the maximum, or metres a second; 0 removes the limit.
+    fn set_speed_limit(&mut self, limit: f64, is_percentage: bool);
+
+    /// Forgets the state of the motion, as between two goals.
+    fn reset(&mut self) {}
+}

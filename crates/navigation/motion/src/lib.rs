@@ -1,0 +1,1 @@
+//! Velocity smoother, collision monitor and recovery motions with the behaviour of Nav2.

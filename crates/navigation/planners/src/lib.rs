@@ -1,0 +1,1 @@
+//! Global path planners and path smoothers with the behaviour of Nav2.
