@@ -269,6 +269,13 @@ impl Simulation {
         crate::default_world::radius_m(&self.robot()?.member.model, Pose::IDENTITY)
     }
 
+    /// Returns the convex polygon around the first robot's collisions, seen from above, in its frame \[m\]; `None` if
+    /// they do not define one.
+    #[must_use]
+    pub fn robot_footprint_m(&self) -> Option<Vec<[f64; 2]>> {
+        crate::footprint::footprint_m(&self.robot()?.member.model, &*self.files)
+    }
+
     pub(crate) fn robot(&self) -> Option<&RunningModel> {
         let described = |running: &&RunningModel| running.member.description.is_some();
         let moves = |running: &&RunningModel| !running.member.model.is_static;
