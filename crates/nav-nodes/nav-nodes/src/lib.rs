@@ -25,7 +25,10 @@ pub mod amcl;
 pub mod costmap_2d;
 pub mod ekf_node;
 pub mod map_server;
+mod node_parameters;
 pub mod slam_toolbox;
+
+pub use node_parameters::NodeParameters;
 
 /// File access for nodes that load and save maps, sessions and poses.
 pub trait Files: periplus_resources::Host + periplus_resources::Store + Send + Sync {}
