@@ -107,13 +107,14 @@ mod tests {
     use super::*;
 
     fn check(shapes: &[(Shape, Pose)]) -> Vec<[f64; 2]> {
-        let collision = |(shape, pose): &(Shape, Pose)| Collision {
-            shape: shape.clone(),
-            link_from_collision: *pose,
-            ..Collision::default()
-        };
-        let link = Link { collisions: shapes.iter().map(collision).collect(), ..Link::default() };
-        let model = Model { links: vec![link], ..Model::default() };
+        let mut link = Link::new("base");
+        for (shape, link_from_collision) in shapes {
+            let mut collision = Collision::new("part", shape.clone());
+            collision.link_from_collision = *link_from_collision;
+            link.collisions.push(collision);
+        }
+        let mut model = Model::new("robot");
+        model.links.push(link);
         footprint_m(&model, &NoMeshes).unwrap_or_default()
     }
 
