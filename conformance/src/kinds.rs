@@ -13,6 +13,7 @@ mod grid_coords;
 mod map_load;
 mod map_pixel;
 mod map_save;
+mod motion;
 mod path_expand;
 mod raytrace_2d;
 mod rsp;
@@ -55,10 +56,12 @@ pub const KINDS: &[(&str, Check)] = &[
     ("amcl_motion", amcl::check_motion),
     ("amcl_pose_file", amcl::check_pose_file),
     ("amcl_update", amcl::check_update),
+    ("behavior_velocity", motion::check_behavior),
     ("binary_filter", costmap::check_binary),
     ("clear_area", costmap::check_clear_area),
     ("clear_service", costmap::check_clear_service),
     ("collision_checker_topic", costmap::check_footprint_cost),
+    ("collision_monitor", motion::check_monitor),
     ("costmap_publisher", costmap::check_publisher),
     ("costmap_to_occgrid", costmap::check_to_occupancy),
     ("declare_params", costmap::check_parameters),
@@ -70,6 +73,7 @@ pub const KINDS: &[(&str, Check)] = &[
     ("keepout_filter", costmap::check_keepout),
     ("laser_projection", costmap::check_projection),
     ("layered_costmap", costmap::check_layered),
+    ("lifecycle_order", motion::check_lifecycle),
     ("map_load", map_load::check),
     ("map_pixel", map_pixel::check),
     ("map_save", map_save::check),
@@ -93,5 +97,6 @@ pub const KINDS: &[(&str, Check)] = &[
     ("tf2_lookup", tf2::check_lookup),
     ("tf2_set", tf2::check_set),
     ("tf2_static", tf2::check_lookup),
+    ("velocity_smoother", motion::check_smoother),
     ("voxel_grid", costmap::check_voxels),
 ];
