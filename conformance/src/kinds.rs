@@ -15,6 +15,7 @@ mod map_pixel;
 mod map_save;
 mod motion;
 mod path_expand;
+mod planning;
 mod raytrace_2d;
 mod rsp;
 mod rviz_palette;
@@ -79,10 +80,12 @@ pub const KINDS: &[(&str, Check)] = &[
     ("map_save", map_save::check),
     ("map_save_pixel", map_save::check_pixels),
     ("mask_cost", costmap::check_to_cost),
+    ("navfn", planning::check_navfn),
     ("observation_buffer", costmap::check_buffer),
     ("obstacle_layer", costmap::check_obstacle),
     ("occgrid_to_costmap", costmap::check_to_cost),
     ("path_expand", path_expand::check),
+    ("planner_grid_coords", planning::check_grid_coords),
     ("range_sensor_layer", costmap::check_layered),
     ("range_sensor_model", costmap::check_range_model),
     ("raytrace_2d", raytrace_2d::check),
