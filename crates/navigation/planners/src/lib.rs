@@ -22,23 +22,37 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+mod cell_index;
 mod error;
 mod factory;
 mod navfn;
 mod obstruction;
+mod open_list;
 mod outside;
 mod parameters;
 mod planner;
 mod poses;
+mod smac;
+mod smoothing;
 pub mod tables;
+mod theta_star;
 
 pub use error::{
     BlockedPart, BlockingCell, ParameterRejected, PlanError, PlanErrorKind, PlanObstruction,
     ReachablePose,
 };
-pub use factory::{PlannerKind, UnknownClass};
+pub use factory::{PlannerKind, SmootherKind, UnknownClass};
 pub use navfn::{
     NavFnMethod, NavFnPlanner, PotentialField, Propagation, PropagationCancelled, navfn_cell_of,
     navfn_point_of,
 };
 pub use planner::{Plan, PlanRequest, Planner};
+pub use smac::{
+    GoalHeadingMode, MotionPrimitive, PrimitiveSet, Smac2dPlanner, SmacHybridPlanner,
+    SmacMotionModel, StepPenalties, TurnDirection,
+};
+pub use smoothing::{
+    SavitzkyGolaySmoother, SimpleSmoother, SmoothError, SmoothErrorKind, SmoothRequest, Smoother,
+    first_collision,
+};
+pub use theta_star::ThetaStarPlanner;
