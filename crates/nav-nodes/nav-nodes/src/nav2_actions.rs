@@ -8,7 +8,7 @@ mod client;
 mod server;
 
 pub use client::{Nav2ActionClient, Nav2SentGoal};
-pub use server::{Nav2GoalHandle, NewNav2Goal, serve_nav2_action};
+pub use server::{Nav2GoalHandle, NewNav2Goal, serve_nav2_action, serve_nav2_service};
 
 use periplus_costmap::Nav2Release;
 use periplus_msgs::Nav2Action;

@@ -7,7 +7,7 @@ use periplus_costmap::Nav2Release;
 use periplus_graph::{
     ActionSettings, Actor, GoalHandle, GoalId, GoalState, GraphError, Io, NewGoal,
 };
-use periplus_msgs::{Action, Nav2Action, ReleaseForm};
+use periplus_msgs::{Action, Nav2Action, Nav2Service, ReleaseForm};
 
 use super::{WithForm, with_form};
 
@@ -203,4 +203,23 @@ impl<A: Action, F: ReleaseForm<A>> Handle<A> for GoalHandle<F> {
     fn canceled(&self, result: A::Result) -> bool {
         GoalHandle::canceled(self, F::result_of_full(result))
     }
+}
+
+/// Serves a service of Nav2 in the form of a release. `react` gets the request in the form of main.
+///
+/// # Errors
+/// As [`Actor::serve`].
+pub fn serve_nav2_service<V: Nav2Service, S: Send + 'static>(
+    actor: &mut Actor<S>,
+    release: Nav2Release,
+    name: &str,
+    mut react: impl FnMut(&mut S, V::Request, &mut Io<'_, S>) -> V::Response + Send + 'static,
+) -> Result<(), GraphError> {
+    if release == Nav2Release::Main {
+        return actor
+            .serve::<V>(name, move |state, request, io| react(state, (*request).clone(), io));
+    }
+    actor.serve::<V::Jazzy>(name, move |state, request, io| {
+        V::response_of_full(react(state, V::full_request((*request).clone()), io))
+    })
 }
