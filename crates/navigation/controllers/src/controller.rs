@@ -6,6 +6,7 @@ use periplus_costmap::CostmapView;
 use periplus_geometry::{Pose2, Twist2};
 use periplus_params::ParamValue;
 
+use crate::dwb::LocalPlanEvaluation;
 use crate::graceful::GracefulReport;
 use crate::parameters::{ParameterChange, ParameterGroup, ParameterRefusal};
 use crate::rpp::PurePursuitReport;
@@ -78,6 +79,8 @@ pub enum ControlReport<'a> {
     PurePursuit(&'a PurePursuitReport),
     /// Results of Graceful.
     Graceful(&'a GracefulReport),
+    /// Trajectories of DWB, DWAPlannerROS or TrajectoryPlannerROS.
+    Trajectories(&'a LocalPlanEvaluation),
 }
 
 impl ControlReport<'_> {
@@ -88,6 +91,7 @@ impl ControlReport<'_> {
             Self::None => None,
             Self::PurePursuit(report) => report.blocked,
             Self::Graceful(report) => report.blocked,
+            Self::Trajectories(evaluation) => evaluation.blocked(),
         }
     }
 }

@@ -18,6 +18,7 @@ const CONTROLLERS: &[(&str, CreateController)] = &[
     ("nav2_regulated_pure_pursuit_controller::RegulatedPurePursuitController", crate::rpp::create),
     ("nav2_graceful_controller::GracefulController", crate::graceful::create),
     ("nav2_rotation_shim_controller::RotationShimController", crate::rotation_shim::create),
+    ("dwb_core::DWBLocalPlanner", crate::dwb::create),
 ];
 
 /// Function that creates a goal checker.

@@ -7,6 +7,7 @@
 
 mod collision;
 mod controller;
+pub mod dwb;
 mod factory;
 pub mod goal_checker;
 pub mod graceful;

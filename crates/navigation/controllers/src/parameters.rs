@@ -126,6 +126,22 @@ pub(crate) fn change(
     Ok(if is_fixed { ParameterChange::AfterRestart } else { ParameterChange::Applied })
 }
 
+/// Sets a parameter to a value of its type and range.
+pub(crate) fn store(
+    values: &mut ParamValues,
+    name: &str,
+    value: ParamValue,
+) -> Result<(), ParameterRefusal> {
+    let Some(parameter) = values.find(name) else {
+        return Err(ParameterRefusal::Unknown(name.to_owned()));
+    };
+    let value = value
+        .fit(parameter)
+        .map_err(|error| ParameterRefusal::Unfit { name: name.to_owned(), error })?;
+    values.set(name, value);
+    Ok(())
+}
+
 /// Parameters of a group as written, each name without that of the group.
 #[derive(Clone, Debug, Default)]
 pub struct GivenParameters<'a> {
