@@ -4,9 +4,11 @@ use std::fmt;
 
 use periplus_costmap::CostmapView;
 use periplus_geometry::{Pose2, Twist2};
-use periplus_params::{ParamValue, ParamValues};
+use periplus_params::ParamValue;
 
-use crate::parameters::{ParameterChange, ParameterRefusal};
+use crate::dwb::LocalPlanEvaluation;
+use crate::graceful::GracefulReport;
+use crate::parameters::{ParameterChange, ParameterGroup, ParameterRefusal};
 use crate::rpp::PurePursuitReport;
 use crate::{BlockedCell, PathRules};
 
@@ -75,6 +77,10 @@ pub enum ControlReport<'a> {
     None,
     /// Results of RegulatedPurePursuit.
     PurePursuit(&'a PurePursuitReport),
+    /// Results of Graceful.
+    Graceful(&'a GracefulReport),
+    /// Trajectories of DWB, DWAPlannerROS or TrajectoryPlannerROS.
+    Trajectories(&'a LocalPlanEvaluation),
 }
 
 impl ControlReport<'_> {
@@ -84,6 +90,8 @@ impl ControlReport<'_> {
         match self {
             Self::None => None,
             Self::PurePursuit(report) => report.blocked,
+            Self::Graceful(report) => report.blocked,
+            Self::Trajectories(evaluation) => evaluation.blocked(),
         }
     }
 }
@@ -111,9 +119,9 @@ pub trait Controller: Send {
         true
     }
 
-    /// Returns the parameters with their values, named without the group of the controller.
-    fn parameters(&self) -> Option<&ParamValues> {
-        None
+    /// Returns the parameters with their values.
+    fn parameters(&self) -> Vec<ParameterGroup<'_>> {
+        Vec::new()
     }
 
     /// Changes a parameter, named without the group of the controller.

@@ -14,10 +14,12 @@ use crate::{Controller, PluginSetup};
 type CreateController = fn(&PluginSetup<'_>, &mut Diagnostics) -> Option<Box<dyn Controller>>;
 
 /// Classes of controllers.
-const CONTROLLERS: &[(&str, CreateController)] = &[(
-    "nav2_regulated_pure_pursuit_controller::RegulatedPurePursuitController",
-    crate::rpp::create,
-)];
+const CONTROLLERS: &[(&str, CreateController)] = &[
+    ("nav2_regulated_pure_pursuit_controller::RegulatedPurePursuitController", crate::rpp::create),
+    ("nav2_graceful_controller::GracefulController", crate::graceful::create),
+    ("nav2_rotation_shim_controller::RotationShimController", crate::rotation_shim::create),
+    ("dwb_core::DWBLocalPlanner", crate::dwb::create),
+];
 
 /// Function that creates a goal checker.
 type CreateGoalChecker = fn(&PluginSetup<'_>, &mut Diagnostics) -> Box<dyn GoalChecker>;

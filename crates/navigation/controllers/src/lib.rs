@@ -7,12 +7,15 @@
 
 mod collision;
 mod controller;
+pub mod dwb;
 mod factory;
 pub mod goal_checker;
+pub mod graceful;
 mod parameters;
 pub mod path;
 mod path_handler;
 mod progress_checker;
+mod rotation_shim;
 pub mod rpp;
 mod setup;
 
@@ -22,10 +25,11 @@ pub use factory::{
     controller_classes, create_controller, create_goal_checker, create_path_handler,
 };
 pub use goal_checker::{GoalChecker, GoalQuery, GoalStatus};
-pub use parameters::{GivenParameters, ParameterChange, ParameterRefusal};
+pub use parameters::{GivenParameters, ParameterChange, ParameterGroup, ParameterRefusal};
 pub use path_handler::{FEASIBLE_PATH_HANDLER, FeasiblePathParams, PathHandler, PathRules};
 pub use progress_checker::{
     POSE_PROGRESS_CHECKER, PoseProgressParams, ProgressChecker, ProgressFailure,
     SIMPLE_PROGRESS_CHECKER, SimpleProgressParams,
 };
+pub use rotation_shim::{ROTATION_SHIM, RotationShim, RotationShimParams};
 pub use setup::PluginSetup;

@@ -14,6 +14,42 @@ pub enum ParameterChange {
     AfterRestart,
 }
 
+/// Parameters of a controller.
+#[derive(Clone, Debug)]
+pub struct ParameterGroup<'a> {
+    /// Group within that of the controller; empty for its own parameters.
+    pub group: String,
+    /// Parameters with their values.
+    pub values: &'a ParamValues,
+}
+
+impl<'a> ParameterGroup<'a> {
+    /// Returns the own parameters of a controller.
+    #[must_use]
+    pub fn own(values: &'a ParamValues) -> Self {
+        Self { group: String::new(), values }
+    }
+
+    /// Returns the same parameters within another group; an empty name is for none.
+    #[must_use]
+    pub fn within(mut self, outer: &str) -> Self {
+        self.group = match (outer, self.group.as_str()) {
+            ("", inner) => inner.to_owned(),
+            (outer, "") => outer.to_owned(),
+            (outer, inner) => format!("{outer}.{inner}"),
+        };
+        self
+    }
+
+    /// Returns the names of the parameters within the group of the controller.
+    pub fn names(&self) -> impl Iterator<Item = String> {
+        self.values.names().map(|name| match self.group.as_str() {
+            "" => name,
+            group => format!("{group}.{name}"),
+        })
+    }
+}
+
 /// Reason for which a parameter cannot have a value.
 #[derive(Clone, Debug, PartialEq)]
 pub enum ParameterRefusal {
@@ -90,6 +126,22 @@ pub(crate) fn change(
     Ok(if is_fixed { ParameterChange::AfterRestart } else { ParameterChange::Applied })
 }
 
+/// Sets a parameter to a value of its type and range.
+pub(crate) fn store(
+    values: &mut ParamValues,
+    name: &str,
+    value: ParamValue,
+) -> Result<(), ParameterRefusal> {
+    let Some(parameter) = values.find(name) else {
+        return Err(ParameterRefusal::Unknown(name.to_owned()));
+    };
+    let value = value
+        .fit(parameter)
+        .map_err(|error| ParameterRefusal::Unfit { name: name.to_owned(), error })?;
+    values.set(name, value);
+    Ok(())
+}
+
 /// Parameters of a group as written, each name without that of the group.
 #[derive(Clone, Debug, Default)]
 pub struct GivenParameters<'a> {
@@ -97,12 +149,11 @@ pub struct GivenParameters<'a> {
 }
 
 impl<'a> GivenParameters<'a> {
-    /// Collects parameters. As in ROS 2 the last value of a name applies; `plugin` is dropped, since it names the
-    /// class and not a parameter of it.
+    /// Collects parameters. As in ROS 2 the last value of a name applies.
     #[must_use]
     pub fn new(given: impl IntoIterator<Item = Given<'a>>) -> Self {
         let mut entries: Vec<Given<'a>> = Vec::new();
-        for given in given.into_iter().filter(|given| given.name != "plugin") {
+        for given in given {
             match entries.iter_mut().find(|entry| entry.name == given.name) {
                 Some(earlier) => *earlier = given,
                 None => entries.push(given),
@@ -143,13 +194,19 @@ impl<'a> GivenParameters<'a> {
         taken
     }
 
+    /// Keeps the parameters with such names.
+    pub fn retain(&mut self, keeps: impl Fn(&str) -> bool) {
+        self.entries.retain(|entry| keeps(entry.name));
+    }
+
     /// Removes and returns a parameter.
     pub fn take(&mut self, name: &str) -> Option<Given<'a>> {
         let index = self.entries.iter().position(|entry| entry.name == name)?;
         Some(self.entries.remove(index))
     }
 
-    /// Reads the parameters by a table. Parameters of `neighbours`, which are in the same group, are no findings.
+    /// Reads the parameters by a table. Parameters of `neighbours`, which are in the same group, are no findings;
+    /// `plugin` names the class.
     pub fn read(
         &self,
         table: &'static Table,
@@ -157,7 +214,8 @@ impl<'a> GivenParameters<'a> {
         diagnostics: &mut Diagnostics,
     ) -> ParamValues {
         let is_foreign = |name: &str| {
-            table.find(name).is_none() && neighbours.iter().any(|other| other.find(name).is_some())
+            let is_known = |table: &&'static Table| table.find(name).is_some();
+            !is_known(&table) && (name == "plugin" || neighbours.iter().any(is_known))
         };
         let own = self.entries.iter().filter(|entry| !is_foreign(entry.name));
         let own = own.map(|entry| whole(table, entry.clone(), diagnostics)).collect::<Vec<_>>();

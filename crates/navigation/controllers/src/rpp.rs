@@ -27,7 +27,8 @@ pub use regulation::{
 use crate::parameters::{ChangeRules, ParameterChange, ParameterRefusal, change};
 use crate::path::{cusp_distance_m, plan_length_m};
 use crate::{
-    BlockedCell, ControlError, ControlInput, ControlReport, Controller, PathRules, PluginSetup,
+    BlockedCell, ControlError, ControlInput, ControlReport, Controller, ParameterGroup, PathRules,
+    PluginSetup,
 };
 
 /// Intermediate results of a cycle, which the server publishes.
@@ -300,8 +301,8 @@ impl Controller for RegulatedPurePursuit {
         false
     }
 
-    fn parameters(&self) -> Option<&ParamValues> {
-        Some(&self.values)
+    fn parameters(&self) -> Vec<ParameterGroup<'_>> {
+        vec![ParameterGroup::own(&self.values)]
     }
 
     fn change_parameter(
@@ -322,7 +323,7 @@ impl Controller for RegulatedPurePursuit {
     }
 
     fn path_rules(&self) -> Option<PathRules> {
-        (self.release < Nav2Release::Main).then(|| PathRules::WithinCostmap {
+        (self.release < Nav2Release::Main).then_some(PathRules::WithinCostmap {
             max_search_m: self.params.max_robot_pose_search_dist_m,
             rejects_single_pose: self.params.interpolate_curvature_after_goal,
             keeps_two_poses: self.release > Nav2Release::Humble,
