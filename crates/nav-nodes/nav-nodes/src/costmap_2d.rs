@@ -9,10 +9,10 @@
 
 mod blame;
 mod clouds;
-mod frames;
+pub(crate) mod frames;
 mod health;
 mod inputs;
-mod messages;
+pub(crate) mod messages;
 mod node;
 mod outputs;
 mod parameters;

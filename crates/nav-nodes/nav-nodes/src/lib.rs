@@ -23,7 +23,9 @@
 
 pub mod amcl;
 pub mod costmap_2d;
+mod costmap_subscriber;
 pub mod ekf_node;
+mod loop_rate;
 pub mod map_server;
 pub mod nav2_actions;
 pub mod parameter_groups;
@@ -31,6 +33,7 @@ pub mod planner_server;
 mod server_plugins;
 pub mod simple_action_server;
 pub mod slam_toolbox;
+pub mod smoother_server;
 pub mod velocity_topics;
 
 /// File access for nodes that load and save maps, sessions and poses.
