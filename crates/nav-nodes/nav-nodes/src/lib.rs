@@ -26,7 +26,10 @@ pub mod costmap_2d;
 pub mod ekf_node;
 pub mod map_server;
 pub mod nav2_actions;
+pub mod parameter_groups;
+pub mod simple_action_server;
 pub mod slam_toolbox;
+pub mod velocity_topics;
 
 /// File access for nodes that load and save maps, sessions and poses.
 pub trait Files: periplus_resources::Host + periplus_resources::Store + Send + Sync {}
