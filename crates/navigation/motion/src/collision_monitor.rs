@@ -13,7 +13,7 @@ pub mod sources;
 mod velocity_polygon;
 mod zone;
 
-pub use decision::{MonitorAction, MonitorDecision, decide, detect};
+pub use decision::{MonitorAction, MonitorDecision, ZoneDetection, decide, detect};
 pub use exclusion::{ExclusionMask, exclude};
 pub use shape::{MonitorShape, PointsError, read_corners};
 pub use velocity_polygon::{VelocityPart, VelocityParts};

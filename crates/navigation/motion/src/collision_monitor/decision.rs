@@ -152,18 +152,25 @@ fn energy(velocity: Twist2) -> f64 {
     vx_m_s * vx_m_s + vy_m_s * vy_m_s + wz_rad_s * wz_rad_s
 }
 
-/// Reports for each enabled zone whether points trigger it, and those points: index of the zone,
-/// triggered, points with the index of their source.
+/// State of a zone, as a collision detector reports it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ZoneDetection {
+    /// Index of the zone.
+    pub zone: usize,
+    /// True if it is triggered.
+    pub is_triggered: bool,
+    /// Points inside, with the index of their source.
+    pub points: Vec<(usize, CollisionPoint)>,
+}
+
+/// Reports for each enabled zone whether points trigger it.
 #[must_use]
-pub fn detect(
-    zones: &mut [MonitorZone],
-    points: &[SourcePoints],
-) -> Vec<(usize, bool, Vec<(usize, CollisionPoint)>)> {
+pub fn detect(zones: &mut [MonitorZone], points: &[SourcePoints]) -> Vec<ZoneDetection> {
     let enabled = zones.iter_mut().enumerate().filter(|(_, zone)| zone.is_enabled);
     enabled
         .map(|(index, zone)| {
             let (is_triggered, inside) = zone.trigger(points);
-            (index, is_triggered, inside)
+            ZoneDetection { zone: index, is_triggered, points: inside }
         })
         .collect()
 }
@@ -250,9 +257,12 @@ mod tests {
             circle("far", 2.0, ZoneAction::None),
             MonitorZone { is_enabled: false, ..circle("off", 9.0, ZoneAction::None) },
         ];
-        let found = detect(&mut zones, &seen(&[(1.5, 0.0)]));
-        let point = vec![(0, CollisionPoint::planar(1.5, 0.0))];
-        assert_eq!(found, [(0, false, vec![]), (1, true, point)]);
+        let points = vec![(0, CollisionPoint::planar(1.5, 0.0))];
+        let expected = [
+            ZoneDetection { zone: 0, is_triggered: false, points: Vec::new() },
+            ZoneDetection { zone: 1, is_triggered: true, points },
+        ];
+        assert_eq!(detect(&mut zones, &seen(&[(1.5, 0.0)])), expected);
     }
 
     proptest! {
