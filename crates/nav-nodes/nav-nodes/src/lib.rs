@@ -22,6 +22,7 @@
 //! ```
 
 pub mod amcl;
+pub mod controller_server;
 pub mod costmap_2d;
 mod costmap_subscriber;
 pub mod ekf_node;
