@@ -4,5 +4,6 @@
 //! it has no clock and no inputs.
 
 mod controller;
+pub mod mppi;
 
 pub use controller::{ControlError, ControlInput, Controller, GoalTolerance};
