@@ -231,7 +231,7 @@ impl Mppi {
             command_speed: super::critics::length(command.vx, command.vy),
             samples: self.optimizer.samples.count,
             colliding: self.optimizer.evaluation.colliding(self.optimizer.samples.count),
-            reached: furthest.map(along),
+            blocked: context.valid().iter().position(|is_valid| !is_valid).map(along),
             follow_aim: furthest.zip(offset).map(|(furthest, offset)| along(furthest + offset)),
             path_length: path.length,
             path_turn_rad: normalize_angle(atan2(dy, dx) - context.start.yaw).abs(),

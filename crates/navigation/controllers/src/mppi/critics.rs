@@ -213,7 +213,7 @@ pub(crate) struct Weighting {
 }
 
 impl Weighting {
-    pub(crate) fn new(common: &params::CriticParams, weight: f64) -> Self {
+    pub(crate) fn new(common: &params::MppiCriticParams, weight: f64) -> Self {
         Self {
             is_enabled: common.is_enabled,
             weight: weight as f32,

@@ -25,10 +25,10 @@ pub(crate) struct CycleFacts {
     pub(crate) command_speed: f32,
     pub(crate) samples: usize,
     pub(crate) colliding: usize,
-    /// Distance along the path to the furthest point that a sample reaches \[m\].
-    pub(crate) reached: Option<f32>,
     /// Distance along the path to the point that `PathFollowCritic` drives to \[m\].
     pub(crate) follow_aim: Option<f32>,
+    /// Distance along the path to the first point in an obstacle \[m\].
+    pub(crate) blocked: Option<f32>,
     /// Length of the local path \[m\].
     pub(crate) path_length: f32,
     /// Angle to the path a little ahead \[rad\].
@@ -117,6 +117,10 @@ pub(crate) fn explain_speed(facts: &CycleFacts, grid: &CostGrid) -> Option<Strin
             "{begin}{} of {} samples collide; {nearest}",
             facts.colliding, facts.samples
         ));
+    }
+    if let Some(blocked) = facts.blocked {
+        let nearest = describe_nearest(grid, &facts.start).unwrap_or_default();
+        return Some(format!("{begin}the path is blocked {blocked:.2} m ahead; {nearest}"));
     }
     if facts.path_length < base.vx_max * facts.horizon_s {
         return Some(format!(

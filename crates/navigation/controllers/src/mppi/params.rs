@@ -176,7 +176,7 @@ params! {
 
 params! {
     /// Parameters of every critic.
-    pub struct CriticParams {
+    pub struct MppiCriticParams {
         /// Enables the critic.
         #[param("enabled")]
         is_enabled: bool = true,
@@ -192,7 +192,7 @@ params! {
     pub struct ConstraintParams {
         /// Parameters of every critic.
         #[shared]
-        common: CriticParams,
+        common: MppiCriticParams,
         /// Weight.
         #[param("cost_weight")]
         weight: f64 = 4,
@@ -205,7 +205,7 @@ params! {
     pub struct CostParams {
         /// Parameters of every critic.
         #[shared]
-        common: CriticParams,
+        common: MppiCriticParams,
         /// Weight.
         #[param("cost_weight")]
         weight: f64 = 3.81,
@@ -217,7 +217,7 @@ params! {
         near_collision_cost: usize = 253,
         /// Cost of a trajectory that touches an obstacle.
         #[param("collision_cost")]
-        collision_cost: f64 = 1_000_000,
+        collision_cost: f64 = 1000000,
         /// Distance to the goal below which costs without a collision are ignored.
         #[param("near_goal_distance", unit("m"))]
         near_goal_distance_m: f64 = 0.5,
@@ -239,7 +239,7 @@ params! {
     pub struct ObstaclesParams {
         /// Parameters of every critic.
         #[shared]
-        common: CriticParams,
+        common: MppiCriticParams,
         /// Weight of the distance to obstacles.
         #[param("repulsion_weight")]
         repulsion_weight: f64 = 1.5,
@@ -248,7 +248,7 @@ params! {
         critical_weight: f64 = 20,
         /// Cost of a trajectory that touches an obstacle; 10000 in Humble.
         #[param("collision_cost")]
-        collision_cost: f64 = 100_000,
+        collision_cost: f64 = 100000,
         /// Width of the margin around obstacles.
         #[param("collision_margin_distance", unit("m"))]
         margin_m: f64 = 0.1,
@@ -276,7 +276,7 @@ params! {
     pub struct GoalParams {
         /// Parameters of every critic.
         #[shared]
-        common: CriticParams,
+        common: MppiCriticParams,
         /// Weight.
         #[param("cost_weight")]
         weight: f64 = 5,
@@ -292,7 +292,7 @@ params! {
     pub struct GoalAngleParams {
         /// Parameters of every critic.
         #[shared]
-        common: CriticParams,
+        common: MppiCriticParams,
         /// Weight.
         #[param("cost_weight")]
         weight: f64 = 3,
@@ -311,7 +311,7 @@ params! {
     pub struct PathAlignParams {
         /// Parameters of every critic.
         #[shared]
-        common: CriticParams,
+        common: MppiCriticParams,
         /// Weight.
         #[param("cost_weight")]
         weight: f64 = 10,
@@ -339,7 +339,7 @@ params! {
     pub struct PathAngleParams {
         /// Parameters of every critic.
         #[shared]
-        common: CriticParams,
+        common: MppiCriticParams,
         /// Weight; 2.0 in Humble.
         #[param("cost_weight")]
         weight: f64 = 2.2,
@@ -367,7 +367,7 @@ params! {
     pub struct PathFollowParams {
         /// Parameters of every critic.
         #[shared]
-        common: CriticParams,
+        common: MppiCriticParams,
         /// Weight.
         #[param("cost_weight")]
         weight: f64 = 5,
@@ -386,7 +386,7 @@ params! {
     pub struct MppiPreferForwardParams {
         /// Parameters of every critic.
         #[shared]
-        common: CriticParams,
+        common: MppiCriticParams,
         /// Weight.
         #[param("cost_weight")]
         weight: f64 = 5,
@@ -402,7 +402,7 @@ params! {
     pub struct MppiTwirlingParams {
         /// Parameters of every critic.
         #[shared]
-        common: CriticParams,
+        common: MppiCriticParams,
         /// Weight.
         #[param("cost_weight")]
         weight: f64 = 10,
@@ -415,7 +415,7 @@ params! {
     pub struct VelocityDeadbandParams {
         /// Parameters of every critic.
         #[shared]
-        common: CriticParams,
+        common: MppiCriticParams,
         /// Weight.
         #[param("cost_weight")]
         weight: f64 = 35,
