@@ -14,11 +14,13 @@ mod map_load;
 mod map_pixel;
 mod map_save;
 mod motion;
+mod mppi;
 mod path_expand;
 mod planning;
 mod raytrace_2d;
 mod rsp;
 mod rviz_palette;
+mod speed_limit;
 mod teleop_keys;
 mod tf2;
 
@@ -81,6 +83,10 @@ pub const KINDS: &[(&str, Check)] = &[
     ("map_save_pixel", map_save::check_pixels),
     ("mask_cost", costmap::check_to_cost),
     ("navfn", planning::check_navfn),
+    ("mppi_critic", mppi::check_critic),
+    ("mppi_filter", mppi::check_filter),
+    ("mppi_rollout", mppi::check_rollout),
+    ("mppi_update", mppi::check_update),
     ("observation_buffer", costmap::check_buffer),
     ("obstacle_layer", costmap::check_obstacle),
     ("occgrid_to_costmap", costmap::check_to_cost),
@@ -92,6 +98,7 @@ pub const KINDS: &[(&str, Check)] = &[
     ("rsp", rsp::check),
     ("rviz_palette", rviz_palette::check),
     ("speed_filter", costmap::check_speed),
+    ("speed_limit", speed_limit::check),
     ("static_layer_value", costmap::check_static),
     ("teleop_keys", teleop_keys::check),
     ("tf2_advanced", tf2::check_lookup),

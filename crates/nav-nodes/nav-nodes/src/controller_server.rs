@@ -13,6 +13,7 @@ mod outputs;
 mod parameters;
 mod plugins;
 mod reports;
+mod samples;
 mod tracking;
 
 pub use node::ControllerServer;

@@ -8,6 +8,7 @@ use periplus_params::ParamValue;
 
 use crate::dwb::LocalPlanEvaluation;
 use crate::graceful::GracefulReport;
+use crate::mppi::Mppi;
 use crate::parameters::{ParameterChange, ParameterGroup, ParameterRefusal};
 use crate::rpp::PurePursuitReport;
 use crate::{BlockedCell, PathRules};
@@ -81,6 +82,19 @@ pub enum ControlReport<'a> {
     Graceful(&'a GracefulReport),
     /// Trajectories of DWB, DWAPlannerROS or TrajectoryPlannerROS.
     Trajectories(&'a LocalPlanEvaluation),
+    /// Samples of MPPI.
+    Samples(SamplingReport<'a>),
+}
+
+/// Results of a cycle of MPPI, which are computed when they are read.
+#[derive(Clone, Copy, Debug)]
+pub struct SamplingReport<'a>(pub &'a Mppi);
+
+/// Reports are equal if they are of the same controller.
+impl PartialEq for SamplingReport<'_> {
+    fn eq(&self, other: &Self) -> bool {
+        std::ptr::eq(self.0, other.0)
+    }
 }
 
 impl ControlReport<'_> {
@@ -88,7 +102,7 @@ impl ControlReport<'_> {
     #[must_use]
     pub fn blocked(&self) -> Option<BlockedCell> {
         match self {
-            Self::None => None,
+            Self::None | Self::Samples(_) => None,
             Self::PurePursuit(report) => report.blocked,
             Self::Graceful(report) => report.blocked,
             Self::Trajectories(evaluation) => evaluation.blocked(),

@@ -19,6 +19,7 @@ const CONTROLLERS: &[(&str, CreateController)] = &[
     ("nav2_graceful_controller::GracefulController", crate::graceful::create),
     ("nav2_rotation_shim_controller::RotationShimController", crate::rotation_shim::create),
     ("dwb_core::DWBLocalPlanner", crate::dwb::create),
+    ("nav2_mppi_controller::MPPIController", crate::mppi::create_plugin),
 ];
 
 /// Function that creates a goal checker.

@@ -11,6 +11,7 @@ pub mod dwb;
 mod factory;
 pub mod goal_checker;
 pub mod graceful;
+pub mod mppi;
 mod parameters;
 pub mod path;
 mod path_handler;
@@ -20,7 +21,9 @@ pub mod rpp;
 mod setup;
 
 pub use collision::{BlockedCell, footprint_collision};
-pub use controller::{ControlError, ControlInput, ControlReport, Controller, GoalTolerance};
+pub use controller::{
+    ControlError, ControlInput, ControlReport, Controller, GoalTolerance, SamplingReport,
+};
 pub use factory::{
     controller_classes, create_controller, create_goal_checker, create_path_handler,
 };

@@ -1,7 +1,7 @@
 //! Control loop: one goal at a time, cycle by cycle.
 
 use periplus_controllers::path::{distance_m, nearest_index, plan_length_m};
-use periplus_controllers::{ControlError, ControlInput, GoalQuery, GoalStatus};
+use periplus_controllers::{ControlError, ControlInput, ControlReport, GoalQuery, GoalStatus};
 use periplus_costmap::Nav2Release;
 use periplus_diagnostics::Diagnostic;
 use periplus_geometry::{Pose2, Twist2};
@@ -21,6 +21,9 @@ use crate::loop_rate::LoopRate;
 
 /// Interval at which a cycle looks if the costmap is current \[ns\] (`rclcpp::Rate r(100)`).
 const COSTMAP_POLL_NS: i64 = 10_000_000;
+
+/// Code of the message about a low speed.
+const SLOW: &str = "slow-control";
 
 /// Continuation after a cycle.
 enum CycleOutcome {
@@ -233,7 +236,7 @@ impl ControllerServer {
         let slot = &mut self.plugins.controllers[job.plugins.controller];
         let tolerance = self.plugins.goal_checkers[job.plugins.goal_checker].1.tolerance();
         let velocity = self.params.thresholded(self.odometry);
-        let outputs = &mut self.outputs;
+        let (outputs, log, node) = (&mut self.outputs, &mut self.log, io.node());
         let computed = self.costmap.with(|costmap: &mut CostmapNode| {
             let Some(view) = costmap.view() else {
                 return Err(ControlError::Unknown("the costmap is not configured".to_owned()));
@@ -256,6 +259,13 @@ impl ControllerServer {
                     global: Header::at(now_ns, &params.global_frame),
                 };
                 outputs.reports.publish(&report, &frames);
+            }
+            if let ControlReport::Samples(report) = report
+                && computed.is_ok()
+                && !log.was_reported(SLOW, now_ns)
+                && let Some(reason) = report.0.explain_speed()
+            {
+                log.report(&Diagnostic::hint(SLOW, reason), node);
             }
             let blocked = report.blocked().and_then(|blocked| blocked.cell);
             let layer = blocked.and_then(|cell| blame(costmap.costmap()?, cell));

@@ -4,17 +4,21 @@ use std::collections::BTreeMap;
 
 use periplus_controllers::ControlReport;
 use periplus_controllers::dwb::{LocalPlanEvaluation, TrajectoryScore};
+use periplus_controllers::mppi::Mppi;
 use periplus_costmap::Nav2Release;
 use periplus_geometry::{Pose2, Twist2};
 use periplus_graph::{GraphError, Level, Node, Publisher, Qos};
 use periplus_msgs::builtin_interfaces::Duration;
 use periplus_msgs::geometry_msgs::{Point, PointStamped, Pose2D};
 use periplus_msgs::nav_msgs::Path;
+use periplus_msgs::nav2_msgs::CriticsStats;
 use periplus_msgs::std_msgs::{Bool, Header};
+use periplus_msgs::visualization_msgs::MarkerArray;
 use periplus_msgs::{Message, dwb_msgs, dwb_msgs_main, nav_2d_msgs};
 use periplus_tf_ros::pose;
 
 use super::outputs::path;
+use super::samples;
 
 /// Publishers, created when a controller has a result for them.
 pub(super) struct ReportPublishers {
@@ -23,6 +27,8 @@ pub(super) struct ReportPublishers {
     points: BTreeMap<&'static str, Publisher<PointStamped>>,
     paths: BTreeMap<&'static str, Publisher<Path>>,
     flags: BTreeMap<&'static str, Publisher<Bool>>,
+    markers: BTreeMap<&'static str, Publisher<MarkerArray>>,
+    statistics: BTreeMap<&'static str, Publisher<CriticsStats>>,
     evaluation: BTreeMap<&'static str, Publisher<dwb_msgs::LocalPlanEvaluation>>,
     evaluation_main: BTreeMap<&'static str, Publisher<dwb_msgs_main::LocalPlanEvaluation>>,
 }
@@ -43,6 +49,8 @@ impl ReportPublishers {
             points: BTreeMap::new(),
             paths: BTreeMap::new(),
             flags: BTreeMap::new(),
+            markers: BTreeMap::new(),
+            statistics: BTreeMap::new(),
             evaluation: BTreeMap::new(),
             evaluation_main: BTreeMap::new(),
         }
@@ -77,7 +85,28 @@ impl ReportPublishers {
                     });
                 }
             }
-            _ => {}
+            ControlReport::Samples(report) => self.samples(report.0, &frames.global),
+            ControlReport::None => {}
+        }
+    }
+
+    /// Trajectories and statistics of MPPI if `visualize` is set.
+    fn samples(&mut self, mppi: &Mppi, header: &Header) {
+        let is_main = self.forms == Nav2Release::Main;
+        if mppi.values().flag("visualize") == Some(true) {
+            let (trajectories, optimal) = if is_main {
+                ("~/candidate_trajectories", "~/optimal_path")
+            } else {
+                ("/trajectories", "optimal_trajectory")
+            };
+            let node = &self.node;
+            publish(node, &mut self.markers, trajectories, || samples::markers(mppi, header));
+            publish(node, &mut self.paths, optimal, || path(header, &samples::optimal_path(mppi)));
+            if is_main {
+                publish(&self.node, &mut self.statistics, "~/critics_stats", || {
+                    samples::statistics(mppi, header)
+                });
+            }
         }
     }
 

@@ -63,11 +63,15 @@ struct Driving {
 
 impl Driving {
     fn new(release: Nav2Release, given: &[(&str, &str)]) -> Self {
+        Self::with(release, &[&[PURE_PURSUIT], given].concat())
+    }
+
+    /// With another controller.
+    fn with(release: Nav2Release, given: &[(&str, &str)]) -> Self {
         let stage = Stage::new();
         let costmap = costmap(&stage.graph, "local_costmap", LOCAL_COSTMAP, release);
         let node = stage.graph.node(NodeSettings::new("controller_server")).unwrap();
-        let given = given.iter().chain([&PURE_PURSUIT]);
-        let given = given.map(|(name, text)| Given::new(name, *text));
+        let given = given.iter().map(|(name, text)| Given::new(name, *text));
         let mut found = Diagnostics::new();
         let server = ControllerServer::new(&node, given, costmap, &mut found).unwrap();
         assert!(found.is_empty(), "{:?}", found.iter().next());
@@ -400,6 +404,69 @@ fn deactivation_stops_the_robot_and_the_costmap() {
     assert_eq!(state, LifecycleState::Inactive);
     let sent = driving.send(goal(path(1.0, 5.0)));
     assert_eq!(sent.look(), GoalProgress::Rejected);
+}
+
+/// Parameters of controllers that drive a robot without further tuning.
+const MPPI: &[(&str, &str)] = &[
+    ("FollowPath.plugin", "nav2_mppi_controller::MPPIController"),
+    ("FollowPath.batch_size", "300"),
+    (
+        "FollowPath.critics",
+        "ConstraintCritic CostCritic GoalCritic GoalAngleCritic PathAlignCritic PathFollowCritic PathAngleCritic PreferForwardCritic",
+    ),
+    ("FollowPath.visualize", "true"),
+];
+const DWB: &[(&str, &str)] = &[
+    ("FollowPath.plugin", "dwb_core::DWBLocalPlanner"),
+    (
+        "FollowPath.critics",
+        "RotateToGoal Oscillation BaseObstacle GoalAlign PathAlign PathDist GoalDist",
+    ),
+    ("FollowPath.max_vel_x", "0.4"),
+    ("FollowPath.max_speed_xy", "0.4"),
+    ("FollowPath.max_vel_theta", "1.0"),
+    ("FollowPath.min_speed_theta", "0.0"),
+    ("FollowPath.acc_lim_x", "2.5"),
+    ("FollowPath.acc_lim_theta", "3.2"),
+    ("FollowPath.decel_lim_x", "-2.5"),
+    ("FollowPath.decel_lim_theta", "-3.2"),
+    ("FollowPath.PathAlign.scale", "32.0"),
+    ("FollowPath.PathDist.scale", "32.0"),
+    ("FollowPath.GoalAlign.scale", "24.0"),
+    ("FollowPath.GoalDist.scale", "24.0"),
+    ("FollowPath.BaseObstacle.scale", "0.02"),
+    ("FollowPath.RotateToGoal.scale", "32.0"),
+];
+const GRACEFUL: &[(&str, &str)] =
+    &[("FollowPath.plugin", "nav2_graceful_controller::GracefulController")];
+
+#[test]
+fn every_controller_reaches_the_goal_in_every_release() {
+    for (name, given) in [("MPPI", MPPI), ("DWB", DWB), ("Graceful", GRACEFUL)] {
+        for release in [Nav2Release::Humble, Nav2Release::Jazzy, Nav2Release::Main] {
+            if name == "Graceful" && release == Nav2Release::Humble {
+                // Humble does not have it.
+                continue;
+            }
+            let mut driving = Driving::with(release, given);
+            driving.stage.map.publish(map(|_, _| false));
+            driving.advance(300);
+            let shown = match (name, release) {
+                ("MPPI", Nav2Release::Main) => "/controller_server/optimal_path",
+                ("MPPI", _) => "/optimal_trajectory",
+                _ => "/local_plan",
+            };
+            let shown = driving.stage.mailbox::<Path>(shown);
+            let sent = driving.send(goal(path(1.0, 3.5)));
+            let (state, result) = driving.finish(&sent, 40);
+            assert_eq!(state, GoalState::Succeeded, "{name} {release}: {}", result.error_msg);
+            let robot = driving.robot();
+            assert!((robot.x_m - 3.5).abs() < 0.3, "{name} {release}: {robot:?}");
+            assert!(shown.latest().is_some_and(|path| path.poses.len() > 1), "{name} {release}");
+            driving.advance(50);
+            assert_eq!(driving.command, Twist2::ZERO);
+        }
+    }
 }
 
 #[test]
