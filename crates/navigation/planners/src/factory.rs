@@ -181,12 +181,12 @@ mod tests {
             let kind = PlannerKind::of_class(class).unwrap();
             assert_eq!(PlannerKind::of_class(&class.replace("::", "/")), Ok(kind));
             assert!(kind.table().faults().is_empty(), "{:?}", kind.table().faults());
-            kind.build(ParamValues::defaults(kind.table()), Nav2Release::Humble);
+            let _ = kind.build(ParamValues::defaults(kind.table()), Nav2Release::Humble);
         }
         for class in SmootherKind::classes() {
             let kind = SmootherKind::of_class(class).unwrap();
             assert!(kind.table().faults().is_empty(), "{:?}", kind.table().faults());
-            kind.build(ParamValues::defaults(kind.table()));
+            let _ = kind.build(ParamValues::defaults(kind.table()));
         }
     }
 
