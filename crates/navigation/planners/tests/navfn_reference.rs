@@ -86,6 +86,14 @@ fn blocks(costs: &[u8]) -> Costmap {
     map
 }
 
+/// Map of random obstacles and free cells.
+fn obstacles(costs: &[u8]) -> Costmap {
+    let mut map = blocks(costs);
+    let lethal = |cost: &u8| if *cost == 254 { 254 } else { 0 };
+    map.replace_costs(|costs| costs.iter().map(lethal).collect());
+    map
+}
+
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(60))]
 
@@ -113,7 +121,7 @@ proptest! {
     fn the_goal_has_its_potential_when_the_propagation_ends(
         costs in proptest::collection::vec(cost(), 30 * 22), goal in (1..119_usize, 1..87_usize),
     ) {
-        let mut map = blocks(&costs);
+        let mut map = obstacles(&costs);
         let info = *map.info();
         map.set((60, 44), 0);
         let exact = reference(&map, (60, 44))[info.index(goal)];
@@ -122,10 +130,10 @@ proptest! {
                 Propagation { method, allow_unknown: true, robot: (60, 44), goal: Some(goal) };
             let got = field(&map, &how).potential(goal).map_or(f64::INFINITY, f64::from);
             prop_assert_eq!(got.is_finite(), exact.is_finite());
-            // NavFn ends with the block in which the goal is first reached. Cells below a threshold that
-            // grows by 100 are updated in any order, so that the excess is less than two costliest cells.
+            // Where free cells have one cost, the goal is first reached on the best path, within one cell.
+            // Where they differ, NavFn may reach it over costly cells first, and ends then.
             if method == NavFnMethod::Dijkstra && goal != (60, 44) {
-                let is_near = got == exact || got <= exact * 1.02 + 4.0 * HALF_CELL_COST;
+                let is_near = got == exact || got <= exact * 1.02 + 2.0 * HALF_CELL_COST;
                 prop_assert!(is_near, "{got}, reference {exact}");
             }
         }
