@@ -1,8 +1,12 @@
 //! Global planners and path smoothers.
 
 mod navfn;
+mod smac;
+mod smoothers;
 
 pub(super) use navfn::{check_grid_coords, check_navfn};
+pub(super) use smac::{check_primitives, check_traversal_cost};
+pub(super) use smoothers::check as check_smoother;
 
 use periplus_geometry::Pose2;
 use periplus_params::{Given, ParamValues, Table};

@@ -22,11 +22,24 @@ pub struct UnknownClass {
     pub near: Option<&'static str>,
     /// All known classes.
     pub known: Vec<&'static str>,
+    /// True for a class of Nav2 that is not supported.
+    pub is_missing: bool,
 }
+
+/// Classes of Nav2 that are not supported.
+const MISSING: [&str; 2] =
+    ["nav2_smac_planner::SmacPlannerLattice", "nav2_constrained_smoother::ConstrainedSmoother"];
 
 impl fmt::Display for UnknownClass {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Self { class, plugin_type, near, known } = self;
+        let Self { class, plugin_type, near, known, is_missing } = self;
+        if *is_missing {
+            let known = known.join("`, `");
+            return write!(
+                f,
+                "the {plugin_type} `{class}` of Nav2 is not supported; use one of `{known}`"
+            );
+        }
         write!(f, "there is no {plugin_type} `{class}`")?;
         match near {
             Some(near) => write!(f, "; did you mean `{near}`?"),
@@ -51,7 +64,8 @@ pub(crate) fn find_class<K: Copy>(
         let last = |name: &str| name.rsplit("::").next().map(str::to_ascii_lowercase);
         let same = known.iter().copied().find(|name| last(name) == last(&class));
         let near = same.or_else(|| closest(&class, known.iter().copied()));
-        UnknownClass { class: written.to_owned(), plugin_type, near, known }
+        let is_missing = MISSING.contains(&class.as_str());
+        UnknownClass { class: written.to_owned(), plugin_type, near, known, is_missing }
     })
 }
 
@@ -181,12 +195,12 @@ mod tests {
             let kind = PlannerKind::of_class(class).unwrap();
             assert_eq!(PlannerKind::of_class(&class.replace("::", "/")), Ok(kind));
             assert!(kind.table().faults().is_empty(), "{:?}", kind.table().faults());
-            kind.build(ParamValues::defaults(kind.table()), Nav2Release::Humble);
+            let _ = kind.build(ParamValues::defaults(kind.table()), Nav2Release::Humble);
         }
         for class in SmootherKind::classes() {
             let kind = SmootherKind::of_class(class).unwrap();
             assert!(kind.table().faults().is_empty(), "{:?}", kind.table().faults());
-            kind.build(ParamValues::defaults(kind.table()));
+            let _ = kind.build(ParamValues::defaults(kind.table()));
         }
     }
 
@@ -199,6 +213,7 @@ mod tests {
              `nav2_navfn_planner::NavfnPlanner`?"
         );
         assert!(words("SmacPlannerHybrid").ends_with("`nav2_smac_planner::SmacPlannerHybrid`?"));
+        assert!(words("nav2_smac_planner/SmacPlannerLattice").contains("is not supported; use one of"));
         assert!(words("x").contains("known: `nav2_navfn_planner::NavfnPlanner`, "));
         let smoother = SmootherKind::of_class("nav2_smoother::SimpleSmother").unwrap_err();
         assert!(smoother.to_string().ends_with("did you mean `nav2_smoother::SimpleSmoother`?"));

@@ -28,6 +28,9 @@ use crate::{
 /// Squared distance below which the last point of the gradient is the goal \[m²\].
 const SAME_POINT_M2: f64 = 1e-6;
 
+/// Number of cells from which only the part of the map around the path is computed.
+const MIN_DIRECTED_COUNT: usize = 250_000;
+
 const RULES: ChangeRules = ChangeRules { fixed: &[], allows_zero: false, unlimited: &[] };
 
 /// Returns the cell of a point as NavFn rounds it: the nearest lower left corner; none outside the grid.
@@ -176,10 +179,14 @@ impl Planner for NavFnPlanner {
             robot,
             goal: navfn_cell_of(info, goal.x_m, goal.y_m),
         };
-        let expansion_count = self
-            .field
-            .compute(map.costs(), info.width, &how, is_cancelled)
-            .map_err(|PropagationCancelled| PlanError::cancelled())?;
+        let is_directed = method == NavFnMethod::Dijkstra && info.len() >= MIN_DIRECTED_COUNT;
+        let field = &mut self.field;
+        let computed = if is_directed {
+            field.compute_towards_goal(map.costs(), info.width, &how, is_cancelled)
+        } else {
+            field.compute(map.costs(), info.width, &how, is_cancelled)
+        };
+        let expansion_count = computed.map_err(|PropagationCancelled| PlanError::cancelled())?;
         let path = self.reachable_goal(info, goal).and_then(|end| {
             let mut poses = self.path_to(info, robot, end)?;
             end_at(end, &mut poses);

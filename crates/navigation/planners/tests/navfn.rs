@@ -1,5 +1,7 @@
 //! NavFn on small maps.
 
+#![allow(clippy::unwrap_used, reason = "helpers of tests")]
+
 mod common;
 
 use common::{at, costmap, plan};

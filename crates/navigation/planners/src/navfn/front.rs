@@ -56,6 +56,13 @@ impl Front {
         self.current.is_empty() && self.next.len == 0
     }
 
+    /// Iterates over all cells that wait.
+    pub(crate) fn waiting(&self) -> impl Iterator<Item = u32> {
+        let queues = [&self.next, &self.over].into_iter();
+        let waiting = queues.flat_map(|queue| &queue.cells[..queue.len]);
+        waiting.chain(&self.current).copied()
+    }
+
     /// Takes the cells of the current block.
     pub(crate) fn begin_block(&mut self) -> Vec<u32> {
         std::mem::take(&mut self.current)

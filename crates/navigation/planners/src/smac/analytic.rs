@@ -16,6 +16,9 @@ pub(super) const EARLIER_START_STEP_COUNT: usize = 5;
 const MAX_RADIUS_FACTOR: f64 = 4.0;
 const RADIUS_STEP_CELLS: f64 = 0.5;
 
+/// Minimum distance of a sample from a cusp, in intervals.
+const CUSP_DISTANCE_RATIO: f64 = 0.25;
+
 /// Settings of analytic expansions.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct AnalyticSettings {
@@ -58,10 +61,11 @@ pub(super) fn expand(
         return None;
     }
     let interval_count = (length / SQRT_2) as usize;
-    let mut poses = Vec::with_capacity(interval_count);
-    let mut costs = Vec::with_capacity(interval_count);
-    for interval in 1..=interval_count {
-        let pose = curve.pose_at(from, interval as f64 / interval_count as f64);
+    let cusps: Vec<f64> = curve.cusps().collect();
+    let mut poses = Vec::with_capacity(interval_count + cusps.len());
+    let mut costs = Vec::with_capacity(interval_count + cusps.len());
+    for fraction in fractions(interval_count, &cusps) {
+        let pose = curve.pose_at(from, fraction);
         let bins = libm::round(pose.yaw_rad / (2.0 * PI) * settings.bin_count as f64) as i64;
         let bin = bins.rem_euclid(settings.bin_count as i64) as usize;
         costs.push(f64::from(checker.free_cost(pose.x_m, pose.y_m, bin)?));
@@ -79,7 +83,21 @@ pub(super) fn expand(
         _ => f64::INFINITY,
     };
     poses.pop();
-    Some(AnalyticPath { poses, score, reversal_count: curve.reversal_count() })
+    Some(AnalyticPath { poses, score, reversal_count: cusps.len() })
+}
+
+/// Returns the fractions of a curve at which it is sampled: in equal intervals, as in Nav2, and at its cusps,
+/// which Nav2 leaves out. Samples close to a cusp are left out.
+fn fractions(interval_count: usize, cusps: &[f64]) -> Vec<f64> {
+    let count = interval_count as f64;
+    let is_clear = |fraction: &f64| {
+        cusps.iter().all(|cusp| (fraction - cusp).abs() * count > CUSP_DISTANCE_RATIO)
+    };
+    let regular = (1..interval_count).map(|interval| interval as f64 / count).filter(is_clear);
+    let mut all: Vec<f64> = regular.chain(cusps.iter().copied()).collect();
+    all.sort_by(f64::total_cmp);
+    all.push(1.0);
+    all
 }
 
 /// Returns true if, seen from the goal, the cost leaves the region above a limit and enters it again.

@@ -72,11 +72,19 @@ impl Curve {
         self.radius * self.parts.iter().map(|part| part.length.abs()).sum::<f64>()
     }
 
-    /// Returns the number of changes between forwards and backwards.
-    pub(crate) fn reversal_count(&self) -> usize {
-        let lengths = self.parts.iter().map(|part| part.length).filter(|length| *length != 0.0);
-        let directions: Vec<bool> = lengths.map(|length| length > 0.0).collect();
-        directions.windows(2).filter(|pair| pair[0] != pair[1]).count()
+    /// Returns the fractions of the length at which the curve changes between forwards and backwards.
+    pub(crate) fn cusps(&self) -> impl Iterator<Item = f64> {
+        let total: f64 = self.parts.iter().map(|part| part.length.abs()).sum();
+        let parts = self.parts.iter().map(|part| part.length).filter(|length| *length != 0.0);
+        let mut travelled = 0.0;
+        let mut last = 0.0;
+        parts.filter_map(move |length| {
+            let before = travelled;
+            let is_cusp = last * length < 0.0;
+            travelled += length.abs();
+            last = length;
+            is_cusp.then_some(before / total)
+        })
     }
 
     /// Returns the pose at a fraction of the length of a curve that begins at a pose.

@@ -141,7 +141,7 @@ const NEIGHBOURS: [[isize; 2]; 8] =
     [[1, 0], [-1, 0], [0, 1], [0, -1], [1, 1], [-1, 1], [1, -1], [-1, -1]];
 
 fn is_inner(at: usize, count: usize) -> bool {
-    at > EDGE_COUNT && at + EDGE_COUNT < count
+    at > EDGE_COUNT && at < count.saturating_sub(EDGE_COUNT)
 }
 
 #[cfg(test)]

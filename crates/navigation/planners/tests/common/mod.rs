@@ -39,9 +39,19 @@ pub(crate) fn plan(
     start: Pose2,
     goal: Pose2,
 ) -> Result<Plan, PlanError> {
+    plan_with(planner, costs, [start, goal], [false, false])
+}
+
+/// Plans with hooks that return `is_cancelled` and `is_out_of_time`.
+pub(crate) fn plan_with(
+    planner: &mut dyn Planner,
+    costs: &Costmap,
+    [start, goal]: [Pose2; 2],
+    [is_cancelled, is_out_of_time]: [bool; 2],
+) -> Result<Plan, PlanError> {
     let footprint = Footprint::circle(0.05);
     let costmap = view(costs, &footprint);
-    let (is_cancelled, is_out_of_time) = (&mut || false, &mut || false);
+    let (is_cancelled, is_out_of_time) = (&mut || is_cancelled, &mut || is_out_of_time);
     planner.plan(PlanRequest { costmap, start, goal, is_cancelled, is_out_of_time })
 }
 
