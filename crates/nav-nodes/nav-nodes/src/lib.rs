@@ -22,11 +22,21 @@
 //! ```
 
 pub mod amcl;
+pub mod controller_server;
 pub mod costmap_2d;
+mod costmap_subscriber;
 pub mod ekf_node;
+mod loop_rate;
 pub mod map_server;
 mod node_parameters;
+pub mod nav2_actions;
+pub mod parameter_groups;
+pub mod planner_server;
+mod server_plugins;
+pub mod simple_action_server;
 pub mod slam_toolbox;
+pub mod smoother_server;
+pub mod velocity_topics;
 
 pub use node_parameters::NodeParameters;
 
