@@ -7,11 +7,11 @@
 //! Source of names and QoS: `nav2_costmap_2d/src/costmap_2d_ros.cpp`, `costmap_2d_publisher.cpp`,
 //! `clear_costmap_service.cpp`.
 
-mod clouds;
-mod frames;
+pub(crate) mod clouds;
+pub(crate) mod frames;
 mod health;
 mod inputs;
-mod messages;
+pub(crate) mod messages;
 mod node;
 mod outputs;
 mod parameters;

@@ -22,13 +22,17 @@
 //! ```
 
 pub mod amcl;
+pub mod behavior_server;
 pub mod costmap_2d;
+mod costmap_subscriber;
 pub mod ekf_node;
+mod loop_rate;
 pub mod map_server;
 pub mod nav2_actions;
 pub mod parameter_groups;
 pub mod simple_action_server;
 pub mod slam_toolbox;
+pub mod velocity_smoother;
 pub mod velocity_topics;
 
 /// File access for nodes that load and save maps, sessions and poses.
