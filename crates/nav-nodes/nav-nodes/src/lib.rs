@@ -23,6 +23,7 @@
 
 pub mod amcl;
 pub mod behavior_server;
+pub mod collision_monitor;
 pub mod costmap_2d;
 mod costmap_subscriber;
 pub mod ekf_node;
