@@ -35,6 +35,7 @@ pub mod simple_action_server;
 pub mod slam_toolbox;
 pub mod velocity_smoother;
 pub mod velocity_topics;
+pub mod waypoint_follower;
 
 /// File access for nodes that load and save maps, sessions and poses.
 pub trait Files: periplus_resources::Host + periplus_resources::Store + Send + Sync {}
