@@ -23,6 +23,8 @@
 
 pub mod amcl;
 pub mod controller_server;
+pub mod behavior_server;
+pub mod collision_monitor;
 pub mod costmap_2d;
 mod costmap_subscriber;
 pub mod ekf_node;
@@ -36,7 +38,9 @@ mod server_plugins;
 pub mod simple_action_server;
 pub mod slam_toolbox;
 pub mod smoother_server;
+pub mod velocity_smoother;
 pub mod velocity_topics;
+pub mod waypoint_follower;
 
 pub use node_parameters::NodeParameters;
 
