@@ -13,7 +13,9 @@ mod grid_coords;
 mod map_load;
 mod map_pixel;
 mod map_save;
+mod motion;
 mod path_expand;
+mod planning;
 mod raytrace_2d;
 mod rsp;
 mod rviz_palette;
@@ -55,10 +57,12 @@ pub const KINDS: &[(&str, Check)] = &[
     ("amcl_motion", amcl::check_motion),
     ("amcl_pose_file", amcl::check_pose_file),
     ("amcl_update", amcl::check_update),
+    ("behavior_velocity", motion::check_behavior),
     ("binary_filter", costmap::check_binary),
     ("clear_area", costmap::check_clear_area),
     ("clear_service", costmap::check_clear_service),
     ("collision_checker_topic", costmap::check_footprint_cost),
+    ("collision_monitor", motion::check_monitor),
     ("costmap_publisher", costmap::check_publisher),
     ("costmap_to_occgrid", costmap::check_to_occupancy),
     ("declare_params", costmap::check_parameters),
@@ -70,15 +74,18 @@ pub const KINDS: &[(&str, Check)] = &[
     ("keepout_filter", costmap::check_keepout),
     ("laser_projection", costmap::check_projection),
     ("layered_costmap", costmap::check_layered),
+    ("lifecycle_order", motion::check_lifecycle),
     ("map_load", map_load::check),
     ("map_pixel", map_pixel::check),
     ("map_save", map_save::check),
     ("map_save_pixel", map_save::check_pixels),
     ("mask_cost", costmap::check_to_cost),
+    ("navfn", planning::check_navfn),
     ("observation_buffer", costmap::check_buffer),
     ("obstacle_layer", costmap::check_obstacle),
     ("occgrid_to_costmap", costmap::check_to_cost),
     ("path_expand", path_expand::check),
+    ("planner_grid_coords", planning::check_grid_coords),
     ("range_sensor_layer", costmap::check_layered),
     ("range_sensor_model", costmap::check_range_model),
     ("raytrace_2d", raytrace_2d::check),
@@ -93,5 +100,6 @@ pub const KINDS: &[(&str, Check)] = &[
     ("tf2_lookup", tf2::check_lookup),
     ("tf2_set", tf2::check_set),
     ("tf2_static", tf2::check_lookup),
+    ("velocity_smoother", motion::check_smoother),
     ("voxel_grid", costmap::check_voxels),
 ];

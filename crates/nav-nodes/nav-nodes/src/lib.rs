@@ -25,6 +25,7 @@ pub mod amcl;
 pub mod costmap_2d;
 pub mod ekf_node;
 pub mod map_server;
+pub mod nav2_actions;
 pub mod slam_toolbox;
 
 /// File access for nodes that load and save maps, sessions and poses.
