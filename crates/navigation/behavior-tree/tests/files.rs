@@ -72,7 +72,7 @@ fn faults_have_a_line_and_a_column() {
     let named = two.replace("<root>", "<root main_tree_to_execute='C'>");
     check_file(&named, "1:29: there is no tree `C`");
     let recursive = "<root><BehaviorTree ID='A'><SubTree ID='A'/></BehaviorTree></root>";
-    check_file(recursive, "1:29: the tree `A` contains itself");
+    check_file(recursive, "1:28: the tree `A` contains itself");
 }
 
 #[test]
