@@ -22,10 +22,12 @@
 //! ```
 
 pub mod amcl;
+pub mod bt_navigator;
 pub mod costmap_2d;
 pub mod ekf_node;
 pub mod map_server;
 pub mod nav2_actions;
+pub mod simple_action_server;
 pub mod slam_toolbox;
 
 /// File access for nodes that load and save maps, sessions and poses.
