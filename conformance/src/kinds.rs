@@ -8,6 +8,7 @@ use periplus_resources::{EntryKind, Host};
 use crate::{Case, Differences, Unreadable};
 
 mod amcl;
+mod behavior_tree;
 mod costmap;
 mod grid_coords;
 mod map_load;
@@ -61,6 +62,7 @@ pub const KINDS: &[(&str, Check)] = &[
     ("amcl_update", amcl::check_update),
     ("behavior_velocity", motion::check_behavior),
     ("binary_filter", costmap::check_binary),
+    ("bt_control", behavior_tree::check_control),
     ("clear_area", costmap::check_clear_area),
     ("clear_service", costmap::check_clear_service),
     ("collision_checker_topic", costmap::check_footprint_cost),
@@ -96,6 +98,7 @@ pub const KINDS: &[(&str, Check)] = &[
     ("range_sensor_layer", costmap::check_layered),
     ("range_sensor_model", costmap::check_range_model),
     ("raytrace_2d", raytrace_2d::check),
+    ("recovery_helps", behavior_tree::check_recovery),
     ("rsp", rsp::check),
     ("rviz_palette", rviz_palette::check),
     ("smac_primitives", planning::check_primitives),

@@ -25,6 +25,7 @@ pub mod amcl;
 pub mod controller_server;
 pub mod behavior_server;
 pub mod collision_monitor;
+pub mod bt_navigator;
 pub mod costmap_2d;
 mod costmap_subscriber;
 pub mod ekf_node;
