@@ -17,7 +17,7 @@ pub struct Case {
     pub kind: String,
     /// The same in words.
     pub title: String,
-    /// The distributions of ROS that behave so.
+    /// The distributions of ROS that behave so: `applies_to`, or `distro` in cases of navigation.
     pub applies_to: Vec<String>,
     /// Tolerance of numbers; by default integers are exact and others have 1e-6.
     pub tolerance: Option<f64>,
@@ -44,7 +44,7 @@ impl Case {
                 about.skip();
             }
         }
-        let applies_to = match reader.find("applies_to") {
+        let applies_to = match reader.find_any(&["applies_to", "distro"]) {
             Some(list) => list.each(|it| Ok(it.text()?.to_owned()))?,
             None => Vec::new(),
         };

@@ -136,7 +136,7 @@ fn judge(case: &Case, setting: &Setting<'_>) -> CaseOutcome {
     };
     let (mut puzzles, mut words, mut is_empty) = (BTreeSet::new(), Vec::new(), true);
     if case.applies_to.is_empty() {
-        puzzles.insert("`applies_to` names no distribution".to_owned());
+        puzzles.insert("`applies_to` (or `distro`) names no distribution".to_owned());
     }
     for distro in &case.applies_to {
         if !DISTROS.contains(&distro.as_str()) {

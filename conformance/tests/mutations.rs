@@ -144,9 +144,9 @@ fn survivors(folder: &Path, sample: Option<usize>) -> (Vec<String>, usize) {
     (survivors, count)
 }
 
-fn folders() -> [PathBuf; 2] {
+fn folders() -> [PathBuf; 3] {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
-    [root.join("cases"), root.join("../../shared/cases")]
+    ["cases", "../../shared/cases", "../../shared/nav/cases"].map(|folder| root.join(folder))
 }
 
 fn check(sample: Option<usize>) {

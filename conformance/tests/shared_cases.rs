@@ -28,3 +28,17 @@ fn every_shared_case_passes() {
         println!("SKIPPED: there are no cases in {}", folder.display());
     }
 }
+
+/// Cases of navigation. Kinds without a check are only counted, until all of them have one.
+#[test]
+fn every_shared_navigation_case_passes() {
+    let folder = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../../shared/nav/cases"));
+    let Ok(report) = run(folder, &Machine) else {
+        println!("SKIPPED: there are no cases in {}", folder.display());
+        return;
+    };
+    let is_wrong = |verdict| matches!(verdict, Verdict::Failed | Verdict::Unreadable);
+    let wrong = report.results.iter().filter(|result| is_wrong(result.verdict));
+    assert_eq!(wrong.count(), 0, "\n{}", report.to_text());
+    println!("{}", report.to_text());
+}
