@@ -15,6 +15,7 @@ mod map_pixel;
 mod map_save;
 mod path_expand;
 mod raytrace_2d;
+mod ros2_control;
 mod rsp;
 mod rviz_palette;
 mod teleop_keys;
@@ -63,6 +64,7 @@ pub const KINDS: &[(&str, Check)] = &[
     ("costmap_to_occgrid", costmap::check_to_occupancy),
     ("declare_params", costmap::check_parameters),
     ("denoise", costmap::check_denoise),
+    ("diff_drive_odometry", ros2_control::check_odometry),
     ("footprint", costmap::check_footprint),
     ("footprint_cost", costmap::check_footprint_cost),
     ("grid_coords", grid_coords::check),
@@ -94,4 +96,5 @@ pub const KINDS: &[(&str, Check)] = &[
     ("tf2_set", tf2::check_set),
     ("tf2_static", tf2::check_lookup),
     ("voxel_grid", costmap::check_voxels),
+    ("wheel_commands", ros2_control::check_commands),
 ];

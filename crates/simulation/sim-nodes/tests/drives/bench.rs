@@ -1,9 +1,12 @@
 //! A small world in memory with one robot, its devices, and subscribers on the graph.
 
-use std::sync::Arc;
+use std::path::Path;
+use std::sync::{Arc, LazyLock};
 
 use periplus_diagnostics::{Diagnostics, RenderStyle, SourceMap, render};
-use periplus_graph::{Graph, Mailbox, Node, NodeSettings, Publisher, Qos};
+use periplus_graph::{
+    Graph, Mailbox, Node, NodeSettings, ParameterFileError, Publisher, Qos,
+};
 use periplus_msgs::geometry_msgs::{Twist, Vector3};
 use periplus_msgs::{Message, nav_msgs};
 use periplus_physics::{ModelId, NoMeshes, PhysicsMode, PhysicsWorld};
@@ -12,7 +15,9 @@ use periplus_rendering::NoAssets;
 use periplus_scene as scene;
 use periplus_sdf::{NoIncludes, SdfContext, read_document};
 use periplus_sensors::Quirks;
-use periplus_sim_nodes::{Device, DeviceContext, SenseContext, StepInterval, Views, drives};
+use periplus_sim_nodes::{
+    Device, DeviceContext, ParameterFiles, SenseContext, StepInterval, Views, drives,
+};
 
 pub(crate) const STEP_NS: i64 = 1_000_000;
 
@@ -50,6 +55,18 @@ const ROBOT: &str = r#"
     <axis><xyz>0 1 0</xyz></axis></joint>
   <joint name="caster_joint" type="fixed"><parent>base</parent><child>caster</child></joint>
 "#;
+
+/// Parameter files whose path is their text, on one line: `FILE:name: {...}`.
+struct InlineFiles;
+
+impl ParameterFiles for InlineFiles {
+    fn parameter_text(&self, path: &Path) -> Result<String, ParameterFileError> {
+        let path = path.to_str().ok_or(ParameterFileError::NotText)?;
+        path.strip_prefix("FILE:").map(str::to_owned).ok_or(ParameterFileError::Missing)
+    }
+}
+
+static FILES: LazyLock<Arc<dyn ParameterFiles>> = LazyLock::new(|| Arc::new(InlineFiles));
 
 /// The robot at a pose, with plugins.
 pub(crate) struct Bench {
@@ -212,6 +229,8 @@ fn setting<'a>(
         rolling_scans: false,
         start_ns: 0,
         publishes_joint_states: true,
+        starts_controllers: true,
+        parameter_files: &FILES,
     }
 }
 
