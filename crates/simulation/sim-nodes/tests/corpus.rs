@@ -20,7 +20,8 @@ use periplus_resources::Resolver;
 use periplus_scene as scene;
 use periplus_sensors::Quirks;
 use periplus_sim_nodes::{
-    Device, DeviceContext, NoParameterFiles, ParameterFiles, SenseContext, StepInterval, Views, drives,
+    Device, DeviceContext, NoParameterFiles, ParameterFiles, SenseContext, StepInterval, Views,
+    drives,
 };
 
 const STEP_NS: i64 = 10_000_000;

@@ -95,8 +95,7 @@ impl ControlDevice {
         self.state.moves_base = motion.is_some();
         let twist = motion.as_ref().map(|motion| motion.twist).unwrap_or_default();
         let centre_m = motion.map_or(DVec3::ZERO, |motion| self.centre_m(world, motion));
-        let twist =
-            Twist { x_m_s: twist.x_m_s, y_m_s: twist.y_m_s, yaw_rad_s: twist.yaw_rad_s };
+        let twist = Twist { x_m_s: twist.x_m_s, y_m_s: twist.y_m_s, yaw_rad_s: twist.yaw_rad_s };
         world.follow_about(self.model, centre_m, twist);
     }
 
@@ -109,10 +108,8 @@ impl ControlDevice {
         if let Some(&centre_m) = self.centres.get(&joints) {
             return centre_m;
         }
-        let ids: Vec<_> = joints
-            .iter()
-            .filter_map(|name| Some(self.core.joints.get(name)?.id))
-            .collect();
+        let ids: Vec<_> =
+            joints.iter().filter_map(|name| Some(self.core.joints.get(name)?.id)).collect();
         let middle_m = world.middle_of(self.model, &ids).unwrap_or_default();
         let centre_m = middle_m - DVec3::X * behind_m;
         self.centres.insert(joints, centre_m);

@@ -24,7 +24,10 @@ pub(super) struct ModelJoint {
 pub(super) fn joints_of(context: &BuildContext<'_>) -> BTreeMap<String, ModelJoint> {
     let (world, model) = (context.setting.world, context.model());
     let each = model.joints.iter().filter_map(|joint| {
-        let id = world.find_joint(context.setting.model, &context.setting.scoped(context.site, &joint.name))?;
+        let id = world.find_joint(
+            context.setting.model,
+            &context.setting.scoped(context.site, &joint.name),
+        )?;
         world.axis_state(id)?;
         let found = ModelJoint {
             id,

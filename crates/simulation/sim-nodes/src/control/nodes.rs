@@ -50,8 +50,6 @@ pub(super) fn make(part: ControllerNode, joints: &KnownJoints) -> Box<dyn RosCon
         | ControllerKind::JointVelocityByEffort => {
             Box::new(single_joint::SingleJointNode::new(part))
         }
-        ControllerKind::JointTrajectory => {
-            Box::new(trajectory::TrajectoryNode::new(part, joints))
-        }
+        ControllerKind::JointTrajectory => Box::new(trajectory::TrajectoryNode::new(part, joints)),
     }
 }

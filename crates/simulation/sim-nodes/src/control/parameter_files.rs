@@ -29,8 +29,7 @@ pub(super) fn arguments(words: &[String], files: &dyn ParameterFiles) -> (Argume
     let (mut sources, mut found) = (SourceMap::new(), Diagnostics::new());
     let mut read = |path: &Path| files.parameter_text(path);
     let arguments = Arguments::read(words, &mut sources, &mut found, &mut read);
-    let text = |finding: &Diagnostic| {
-        render(finding, &sources, RenderStyle::Plain).trim_end().to_owned()
-    };
+    let text =
+        |finding: &Diagnostic| render(finding, &sources, RenderStyle::Plain).trim_end().to_owned();
     (arguments, found.iter().map(text).collect())
 }

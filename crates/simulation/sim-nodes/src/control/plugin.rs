@@ -84,7 +84,8 @@ impl ControlPlugin {
         let (arguments, problems) = arguments(&words, &**setting.parameter_files);
         for problem in problems {
             let message = format!("plugin `{}`: {problem}", written.name);
-            diagnostics.push(Diagnostic::error("controller-parameters", message).at(context.origin()));
+            diagnostics
+                .push(Diagnostic::error("controller-parameters", message).at(context.origin()));
         }
         let manager_name = match context.plugin.known.id {
             "gz_ros2_control-system" => context.text("controller_manager_name"),
@@ -147,8 +148,7 @@ impl ControlPlugin {
     ) -> Result<Node, GraphError> {
         let mut number = 1;
         loop {
-            let numbered =
-                if number == 1 { name.to_owned() } else { format!("{name}_{number}") };
+            let numbered = if number == 1 { name.to_owned() } else { format!("{name}_{number}") };
             let namespace = format!("{}{}", self.around, self.namespace);
             let mut settings = NodeSettings::new(valid_node_name(&numbered))
                 .namespace(&namespace)

@@ -115,12 +115,10 @@ impl ManagerServices {
             call.answer(jazzy::ReloadControllerLibrariesResponse { ok: true });
         }
         while let Some(call) = self.set_component.take() {
-            let is_known =
-                core.hardware.components.iter().any(|one| one.name == call.request.name);
+            let is_known = core.hardware.components.iter().any(|one| one.name == call.request.name);
             // Simulated hardware is always active.
-            let wants_active =
-                call.request.target_state.id == State::PRIMARY_STATE_ACTIVE
-                    || call.request.target_state.label == "active";
+            let wants_active = call.request.target_state.id == State::PRIMARY_STATE_ACTIVE
+                || call.request.target_state.label == "active";
             let state = State { id: State::PRIMARY_STATE_ACTIVE, label: "active".into() };
             let ok = is_known && wants_active;
             call.answer(jazzy::SetHardwareComponentStateResponse { ok, state });
@@ -155,7 +153,10 @@ impl ManagerServices {
                     let both = |new: &[String], old: &[String]| [new, old].concat();
                     let wish = SwitchRequest {
                         activate: both(&request.activate_controllers, &request.start_controllers),
-                        deactivate: both(&request.deactivate_controllers, &request.stop_controllers),
+                        deactivate: both(
+                            &request.deactivate_controllers,
+                            &request.stop_controllers,
+                        ),
                         strictness: strictness(request.strictness),
                     };
                     let ok = core.answer(|core| core.switch(&wish, cycle));

@@ -43,8 +43,9 @@ pub(super) fn start(
             }
             Err(reason) => {
                 let message = format!("the controller `{name}` is not started: {reason}");
-                diagnostics
-                    .push(Diagnostic::warning("controller-not-started", message).at(context.origin()));
+                diagnostics.push(
+                    Diagnostic::warning("controller-not-started", message).at(context.origin()),
+                );
             }
         }
     }

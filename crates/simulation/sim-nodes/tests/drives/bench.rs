@@ -4,9 +4,7 @@ use std::path::Path;
 use std::sync::{Arc, LazyLock};
 
 use periplus_diagnostics::{Diagnostics, RenderStyle, SourceMap, render};
-use periplus_graph::{
-    Graph, Mailbox, Node, NodeSettings, ParameterFileError, Publisher, Qos,
-};
+use periplus_graph::{Graph, Mailbox, Node, NodeSettings, ParameterFileError, Publisher, Qos};
 use periplus_msgs::geometry_msgs::{Twist, Vector3};
 use periplus_msgs::{Message, nav_msgs};
 use periplus_physics::{ModelId, NoMeshes, PhysicsMode, PhysicsWorld};
@@ -23,7 +21,7 @@ pub(crate) const STEP_NS: i64 = 1_000_000;
 
 /// A base with two wheels of 0.1 m, 0.4 m apart, and a caster ahead; the middle between the wheels
 /// is the model's origin.
-const ROBOT: &str = r#"
+pub(crate) const ROBOT: &str = r#"
   <link name="base">
     <pose>0.05 0 0.15 0 0 0</pose>
     <inertial><mass>10</mass><inertia><ixx>0.1</ixx><iyy>0.2</iyy><izz>0.2</izz></inertia></inertial>
@@ -169,6 +167,16 @@ impl Bench {
             }
             self.graph.settle();
         }
+    }
+
+    pub(crate) fn now_ns(&self) -> i64 {
+        self.now_ns
+    }
+
+    /// Sets the time back, as before a state of that time is restored.
+    pub(crate) fn go_back_to(&mut self, now_ns: i64) {
+        self.graph.jump_to(now_ns);
+        self.now_ns = now_ns;
     }
 
     /// Resets the world to its initial state.

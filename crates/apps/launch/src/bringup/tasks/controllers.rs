@@ -174,7 +174,11 @@ impl ControllerSpawner {
     }
 
     /// Processes the answer to a request.
-    fn receive(&mut self, stage: &mut TaskContext<'_>, answer: Result<Vec<String>, String>) -> Done {
+    fn receive(
+        &mut self,
+        stage: &mut TaskContext<'_>,
+        answer: Result<Vec<String>, String>,
+    ) -> Done {
         let Some(step) = self.steps.pop_front() else { return Done::No };
         match (step, answer) {
             (Step::List(name), Ok(loaded)) => {
@@ -299,7 +303,8 @@ mod tests {
         expected.extend(each(&b));
         expected.push(single(&b));
         assert_eq!(of("a b"), expected);
-        let group = [each(&a).to_vec(), each(&b).to_vec(), vec![Step::Activate(vec![a.clone(), b])];
+        let group =
+            [each(&a).to_vec(), each(&b).to_vec(), vec![Step::Activate(vec![a.clone(), b])]];
         assert_eq!(of("a b --activate-as-group"), group.concat());
         assert_eq!(of("a --inactive"), each(&a));
         assert_eq!(of("a --load-only"), each(&a)[..3]);

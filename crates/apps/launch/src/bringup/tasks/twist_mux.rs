@@ -221,7 +221,8 @@ mod tests {
         let node = graph.node(NodeSettings::new("twist_mux")).unwrap();
         let other = graph.node(NodeSettings::new("other")).unwrap();
         let lock = MuxTopic { timeout_s: 0.0, ..topic("stop", 255) };
-        let topics = MuxTopics { topics: vec![topic("joy", 10), topic("nav", 1)], locks: vec![lock] };
+        let topics =
+            MuxTopics { topics: vec![topic("joy", 10), topic("nav", 1)], locks: vec![lock] };
         let mut mux = TwistMux::new(&node, topics, false).unwrap();
         let qos = Qos::reliable(10);
         let joy = other.publisher::<Twist>("joy", qos).unwrap();

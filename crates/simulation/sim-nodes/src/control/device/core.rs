@@ -125,7 +125,9 @@ impl ControlCore {
         let mut words = Vec::new();
         let own: GivenParameters = ["params_file", "node_options_args", "params_text"]
             .into_iter()
-            .filter_map(|part| Some((part.to_owned(), self.node.parameter(&format!("{name}.{part}"))?)))
+            .filter_map(|part| {
+                Some((part.to_owned(), self.node.parameter(&format!("{name}.{part}"))?))
+            })
             .collect();
         for path in texts_of(&own, "params_file") {
             words.extend(["--params-file".to_owned(), path]);
@@ -177,7 +179,8 @@ impl ControlCore {
         };
         let activate = request.activate.iter().filter(|name| !is_done(name)).cloned().collect();
         let request = SwitchRequest { activate, ..request.clone() };
-        let problems = self.manager.switch(&request, cycle).map_err(|refused| refused.to_string())?;
+        let problems =
+            self.manager.switch(&request, cycle).map_err(|refused| refused.to_string())?;
         for problem in problems {
             self.node.log(Level::Warn, problem);
         }

@@ -7,8 +7,8 @@ use periplus_ros2_control::{
     ControlCycle, ControllerLifecycle, Hardware, SwitchRequest, SwitchStrictness,
 };
 
-use super::core::ControlCore;
 use super::ControlState;
+use super::core::ControlCore;
 use crate::DeviceState;
 use crate::control::hardware::JointHardware;
 use crate::control::plugin::GivenParameters;

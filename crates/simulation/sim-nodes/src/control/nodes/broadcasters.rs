@@ -115,7 +115,11 @@ impl ControllerInterface for JointStateNode {
         Ok(())
     }
 
-    fn activate(&mut self, _: &mut LoanedInterfaces<'_>, cycle: ControlCycle) -> Result<(), String> {
+    fn activate(
+        &mut self,
+        _: &mut LoanedInterfaces<'_>,
+        cycle: ControlCycle,
+    ) -> Result<(), String> {
         if let Some(running) = &mut self.running {
             running.timer.restart(cycle.time_ns);
         }
@@ -190,10 +194,8 @@ impl ControllerInterface for ImuNode {
         if params.frame_id.is_empty() {
             return Err("`frame_id` is empty".into());
         }
-        let mut broadcaster = ImuBroadcaster {
-            sensor_name: params.sensor_name.clone(),
-            ..ImuBroadcaster::default()
-        };
+        let mut broadcaster =
+            ImuBroadcaster { sensor_name: params.sensor_name.clone(), ..ImuBroadcaster::default() };
         broadcaster.configure()?;
         let publisher = self.part.node.publisher("~/imu", Qos::reliable(10));
         let publisher = publisher.map_err(|error| error.to_string())?;

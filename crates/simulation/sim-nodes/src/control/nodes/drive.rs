@@ -193,7 +193,9 @@ impl<D: VelocityDrive> RunningDrive<D> {
                 ReferenceOutcome::StampedNow if state.has_warned => {}
                 ReferenceOutcome::StampedNow => {
                     state.has_warned = true;
-                    part.warn("a velocity command has the time stamp zero; the current time is used");
+                    part.warn(
+                        "a velocity command has the time stamp zero; the current time is used",
+                    );
                 }
                 ReferenceOutcome::TooOld => {
                     part.warn("a velocity command is older than the timeout and ignored");

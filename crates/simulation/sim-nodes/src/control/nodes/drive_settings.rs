@@ -39,9 +39,8 @@ pub(super) fn diff_drive(
         linear: limiter_of(&values, "linear.x", part.release),
         angular: limiter_of(&values, "angular.z", part.release),
     };
-    let frame = |frame: &str| {
-        part.frame(frame, &params.tf_frame_prefix, params.tf_frame_prefix_enable)
-    };
+    let frame =
+        |frame: &str| part.frame(frame, &params.tf_frame_prefix, params.tf_frame_prefix_enable);
     let mut topics = DriveTopics {
         stamped: Some("~/cmd_vel"),
         plain: None,
@@ -246,7 +245,9 @@ pub(super) fn tricycle(
     let is_stamped = part.release > ControlRelease::Humble || params.use_stamped_vel;
     let mut notes = Vec::new();
     if params.publish_ackermann_command {
-        notes.push("`publish_ackermann_command` has no effect: `ackermann_msgs` is not built in".into());
+        notes.push(
+            "`publish_ackermann_command` has no effect: `ackermann_msgs` is not built in".into(),
+        );
     }
     let topics = DriveTopics {
         stamped: is_stamped.then_some("~/cmd_vel"),
@@ -271,9 +272,8 @@ pub(super) fn tricycle(
 /// Returns the range of a size; `{}` in the name stands for `min` and `max`. A missing minimum is
 /// zero, and a missing maximum is 1000.
 fn size_range(values: &ParamValues, name: &str) -> Option<[f64; 2]> {
-    let bound = |which: &str| {
-        values.number(&name.replace("{}", which)).filter(|number| number.is_finite())
-    };
+    let bound =
+        |which: &str| values.number(&name.replace("{}", which)).filter(|number| number.is_finite());
     match (bound("min"), bound("max")) {
         (None, None) => None,
         (min, max) => Some([min.unwrap_or(0.0), max.unwrap_or(1000.0)]),

@@ -55,8 +55,9 @@ impl TrajectoryNode {
         let params = JointTrajectoryParams::from_values(&values);
         let kinds = |names: &[String], parameter: &str| -> Result<Vec<InterfaceKind>, String> {
             let one = |name: &String| {
-                InterfaceKind::of_name(name)
-                    .ok_or_else(|| format!("`{parameter}` contains `{name}`, which is not supported"))
+                InterfaceKind::of_name(name).ok_or_else(|| {
+                    format!("`{parameter}` contains `{name}`, which is not supported")
+                })
             };
             names.iter().map(one).collect()
         };
@@ -131,8 +132,11 @@ impl TrajectoryNode {
         follower.configure()?;
         let node = &self.part.node;
         let is_ros1 = self.part.release.is_ros1();
-        let (input, output) =
-            if is_ros1 { ("~/command", "~/state") } else { ("~/joint_trajectory", "~/controller_state") };
+        let (input, output) = if is_ros1 {
+            ("~/command", "~/state")
+        } else {
+            ("~/joint_trajectory", "~/controller_state")
+        };
         let rate_hz = if self.part.release <= ControlRelease::Humble {
             params.state_publish_rate_hz
         } else {
@@ -142,7 +146,8 @@ impl TrajectoryNode {
         let made = || -> Result<RunningTrajectory, GraphError> {
             Ok(RunningTrajectory {
                 inbox: node.mailbox(input, Qos::reliable(10))?,
-                actions: node.action_server("~/follow_joint_trajectory", ActionSettings::default())?,
+                actions: node
+                    .action_server("~/follow_joint_trajectory", ActionSettings::default())?,
                 goal: None,
                 publisher: node.publisher(output, Qos::reliable(10))?,
                 state: TrajectoryState {

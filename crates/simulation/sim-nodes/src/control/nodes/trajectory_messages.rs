@@ -39,7 +39,10 @@ pub(super) fn point(point: &TrajectoryPoint) -> trajectory_msgs::JointTrajectory
     reason = "seconds of a trajectory, and a remainder below 1e9"
 )]
 fn duration(ns: i64) -> Duration {
-    Duration { sec: ns.div_euclid(1_000_000_000) as i32, nanosec: ns.rem_euclid(1_000_000_000) as u32 }
+    Duration {
+        sec: ns.div_euclid(1_000_000_000) as i32,
+        nanosec: ns.rem_euclid(1_000_000_000) as u32,
+    }
 }
 
 /// Returns the tolerances of a goal: positive values replace the defaults, negative ones remove them.

@@ -100,12 +100,14 @@ fn of_component(
     component: &HardwareComponent,
 ) -> [Vec<jazzy::HardwareInterface>; 2] {
     let names_of = |pick: fn(&DescribedInterface) -> &str, commands: bool| -> Vec<String> {
-        let joints = component.joints.iter().map(|joint| {
-            (&joint.name, if commands { &joint.commands } else { &joint.states })
-        });
-        let sensors = component.sensors.iter().map(|sensor| {
-            (&sensor.name, if commands { &sensor.commands } else { &sensor.states })
-        });
+        let joints = component
+            .joints
+            .iter()
+            .map(|joint| (&joint.name, if commands { &joint.commands } else { &joint.states }));
+        let sensors = component
+            .sensors
+            .iter()
+            .map(|sensor| (&sensor.name, if commands { &sensor.commands } else { &sensor.states }));
         let all = joints.chain(sensors);
         all.flat_map(|(owner, list)| list.iter().map(move |one| format!("{owner}/{}", pick(one))))
             .collect()

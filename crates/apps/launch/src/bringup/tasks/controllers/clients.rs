@@ -45,9 +45,12 @@ impl Reply {
 
     fn ok<S: Service>(pending: Pending<S>, is_ok: fn(&S::Response) -> bool) -> Self {
         let refused = "; the log of the controller manager has the reason";
-        Self::new(pending, move |response| {
-            if is_ok(response) { Ok(Vec::new()) } else { Err(refused.to_owned()) }
-        })
+        Self::new(
+            pending,
+            move |response| {
+                if is_ok(response) { Ok(Vec::new()) } else { Err(refused.to_owned()) }
+            },
+        )
     }
 }
 
@@ -63,9 +66,8 @@ impl Clients {
     ) -> Result<Option<Self>, String> {
         let switch = format!("{manager}/switch_controller");
         let services = graph.services();
-        let Some(found) = services
-            .iter()
-            .find(|service| service.name == switch && service.server.is_some())
+        let Some(found) =
+            services.iter().find(|service| service.name == switch && service.server.is_some())
         else {
             return Ok(None);
         };
@@ -150,7 +152,11 @@ impl Clients {
                     ..Default::default()
                 };
                 Reply::new(switch.call(request), |response| {
-                    if response.ok { Ok(Vec::new()) } else { Err(format!(": {}", response.message)) }
+                    if response.ok {
+                        Ok(Vec::new())
+                    } else {
+                        Err(format!(": {}", response.message))
+                    }
                 })
             }
         }
