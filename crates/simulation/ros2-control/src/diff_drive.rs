@@ -2,8 +2,8 @@
 
 use crate::velocity_reference::{ReferenceOutcome, VelocityReference};
 use crate::{
-    BaseMotion, ControlCycle, ControllerInterface, DiffDriveOdometry, InterfaceKind,
-    InterfaceSelection, LoanedInterfaces, MotionCentre, PlanarTwist, SpeedLimiter,
+    BaseMotion, ControlCycle, ControllerInterface, DiffDriveOdometry, InterfaceSelection,
+    JointInterfaceKind, LoanedInterfaces, MotionCentre, PlanarTwist, SpeedLimiter,
 };
 
 /// Wheels of a differential drive.
@@ -166,7 +166,7 @@ impl DiffDriveController {
         [mean(0), mean(count)]
     }
 
-    fn all(&self, kind: InterfaceKind) -> InterfaceSelection {
+    fn all(&self, kind: JointInterfaceKind) -> InterfaceSelection {
         let joints = self.settings.left_joints.iter().chain(&self.settings.right_joints);
         InterfaceSelection::Named(joints.map(|joint| kind.of(joint)).collect())
     }
@@ -174,7 +174,7 @@ impl DiffDriveController {
 
 impl ControllerInterface for DiffDriveController {
     fn command_interfaces(&self) -> InterfaceSelection {
-        self.all(InterfaceKind::Velocity)
+        self.all(JointInterfaceKind::Velocity)
     }
 
     fn state_interfaces(&self) -> InterfaceSelection {
@@ -182,9 +182,9 @@ impl ControllerInterface for DiffDriveController {
             return InterfaceSelection::Nothing;
         }
         self.all(if self.settings.position_feedback {
-            InterfaceKind::Position
+            JointInterfaceKind::Position
         } else {
-            InterfaceKind::Velocity
+            JointInterfaceKind::Velocity
         })
     }
 
@@ -276,8 +276,8 @@ mod tests {
     fn running(settings: DiffDriveSettings) -> ControllerManager<DiffDriveController> {
         let mut hardware = Hardware::default();
         for joint in ["left", "right"] {
-            hardware.add_command(InterfaceKind::Velocity.of(joint));
-            hardware.add_state(InterfaceKind::Position.of(joint), 2.0);
+            hardware.add_command(JointInterfaceKind::Velocity.of(joint));
+            hardware.add_state(JointInterfaceKind::Position.of(joint), 2.0);
         }
         let mut manager = ControllerManager::new(hardware);
         manager.load("drive", "DiffDrive", DiffDriveController::new(settings)).unwrap();
@@ -301,7 +301,7 @@ mod tests {
 
     fn commands(manager: &ControllerManager<DiffDriveController>) -> [f64; 2] {
         ["left", "right"].map(|joint| {
-            manager.hardware.claimed_command(&InterfaceKind::Velocity.of(joint)).unwrap()
+            manager.hardware.claimed_command(&JointInterfaceKind::Velocity.of(joint)).unwrap()
         })
     }
 

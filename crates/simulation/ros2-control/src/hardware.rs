@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 /// Kind of a joint's interface.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub enum InterfaceKind {
+pub enum JointInterfaceKind {
     /// Position [m or rad].
     Position,
     /// Velocity [m/s or rad/s].
@@ -13,7 +13,7 @@ pub enum InterfaceKind {
     Effort,
 }
 
-impl InterfaceKind {
+impl JointInterfaceKind {
     /// All kinds.
     pub const ALL: [Self; 3] = [Self::Position, Self::Velocity, Self::Effort];
 

@@ -18,7 +18,7 @@ const INTERFACES: [&str; 10] = [
 
 /// Reading of an inertial sensor.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct ImuReading {
+pub struct ImuInterfaceValues {
     /// Orientation x, y, z, w.
     pub orientation: [f64; 4],
     /// Angular velocity [rad/s].
@@ -35,7 +35,7 @@ pub struct ImuBroadcaster {
     /// Name of the sensor.
     pub sensor_name: String,
     /// Reading of the last update.
-    pub reading: ImuReading,
+    pub reading: ImuInterfaceValues,
 }
 
 impl ControllerInterface for ImuBroadcaster {
@@ -68,7 +68,7 @@ impl ControllerInterface for ImuBroadcaster {
         interfaces: &mut LoanedInterfaces<'_>,
         _: ControlCycle,
     ) -> Result<(), String> {
-        self.reading = ImuReading {
+        self.reading = ImuInterfaceValues {
             orientation: std::array::from_fn(|index| interfaces.state(index)),
             angular_rad_s: std::array::from_fn(|index| interfaces.state(4 + index)),
             linear_m_s2: std::array::from_fn(|index| interfaces.state(7 + index)),

@@ -5,7 +5,7 @@ mod accept;
 use std::f64::consts::PI;
 
 use crate::{
-    ControlCycle, ControllerInterface, InterfaceKind, InterfaceSelection, JointTrajectory,
+    ControlCycle, ControllerInterface, InterfaceSelection, JointInterfaceKind, JointTrajectory,
     LoanedInterfaces, PidController, PidGains, SamplePhase, TrajectoryPoint,
 };
 
@@ -50,9 +50,9 @@ pub struct JointTrajectorySettings {
     /// Joints that are commanded, in the same order.
     pub command_joints: Vec<String>,
     /// Commanded interfaces.
-    pub command_interfaces: Vec<InterfaceKind>,
+    pub command_interfaces: Vec<JointInterfaceKind>,
     /// Interfaces that are read.
-    pub state_interfaces: Vec<InterfaceKind>,
+    pub state_interfaces: Vec<JointInterfaceKind>,
     /// True for joints that turn without limits: the shorter direction is the error.
     pub is_continuous: Vec<bool>,
     /// Gains of velocity and effort commands, by joint.
@@ -196,9 +196,9 @@ impl JointTrajectoryController {
         for (place, kind) in self.settings.state_interfaces.iter().enumerate() {
             let values = (0..count).map(|joint| interfaces.state(place * count + joint)).collect();
             match kind {
-                InterfaceKind::Position => actual.positions = values,
-                InterfaceKind::Velocity => actual.velocities = values,
-                InterfaceKind::Effort => actual.efforts = values,
+                JointInterfaceKind::Position => actual.positions = values,
+                JointInterfaceKind::Velocity => actual.velocities = values,
+                JointInterfaceKind::Effort => actual.efforts = values,
             }
         }
         self.progress.actual = actual;
@@ -235,13 +235,13 @@ impl JointTrajectoryController {
     ) {
         let count = self.settings.joints.len();
         let mut output = TrajectoryPoint::default();
-        let has_position = self.settings.command_interfaces.contains(&InterfaceKind::Position);
+        let has_position = self.settings.command_interfaces.contains(&JointInterfaceKind::Position);
         for (place, kind) in self.settings.command_interfaces.clone().into_iter().enumerate() {
             let values: Vec<f64> = (0..count)
                 .map(|joint| match kind {
-                    InterfaceKind::Position => desired.positions[joint],
-                    InterfaceKind::Velocity if has_position => desired.velocities[joint],
-                    InterfaceKind::Velocity | InterfaceKind::Effort => {
+                    JointInterfaceKind::Position => desired.positions[joint],
+                    JointInterfaceKind::Velocity if has_position => desired.velocities[joint],
+                    JointInterfaceKind::Velocity | JointInterfaceKind::Effort => {
                         self.closed_loop(joint, desired, error, dt_s)
                     }
                 })
@@ -250,9 +250,9 @@ impl JointTrajectoryController {
                 interfaces.set_command(place * count + joint, value);
             }
             match kind {
-                InterfaceKind::Position => output.positions = values,
-                InterfaceKind::Velocity => output.velocities = values,
-                InterfaceKind::Effort => output.efforts = values,
+                JointInterfaceKind::Position => output.positions = values,
+                JointInterfaceKind::Velocity => output.velocities = values,
+                JointInterfaceKind::Effort => output.efforts = values,
             }
         }
         self.last_command = desired.clone();
@@ -335,7 +335,7 @@ impl ControllerInterface for JointTrajectoryController {
         if settings.command_interfaces.is_empty() {
             return Err("`command_interfaces` is empty".into());
         }
-        if !settings.state_interfaces.contains(&InterfaceKind::Position) {
+        if !settings.state_interfaces.contains(&JointInterfaceKind::Position) {
             return Err("`state_interfaces` must contain `position`".into());
         }
         Ok(())

@@ -47,8 +47,8 @@ pub use description::{
 };
 pub use diff_drive::{DiffDriveController, DiffDriveGeometry, DiffDriveSettings};
 pub use forward::ForwardController;
-pub use hardware::{Hardware, InterfaceKind, LoanedInterfaces};
-pub use imu::{ImuBroadcaster, ImuReading};
+pub use hardware::{Hardware, JointInterfaceKind, LoanedInterfaces};
+pub use imu::{ImuBroadcaster, ImuInterfaceValues};
 pub use joint_state::{JointStateBroadcaster, JointStateReading};
 pub use joint_trajectory::{
     GoalTolerances, JointTolerances, JointTrajectoryController, JointTrajectorySettings,

@@ -3,7 +3,7 @@
 use crate::odometry::MIN_INTERVAL_S;
 use crate::velocity_reference::{ReferenceOutcome, VelocityReference};
 use crate::{
-    BaseMotion, ControlCycle, ControllerInterface, InterfaceKind, InterfaceSelection,
+    BaseMotion, ControlCycle, ControllerInterface, InterfaceSelection, JointInterfaceKind,
     LoanedInterfaces, MotionCentre, PlanarPose, PlanarTwist, SpeedLimiter,
 };
 
@@ -135,13 +135,13 @@ impl MecanumController {
 
 impl ControllerInterface for MecanumController {
     fn command_interfaces(&self) -> InterfaceSelection {
-        let names = self.settings.joints.iter().map(|joint| InterfaceKind::Velocity.of(joint));
+        let names = self.settings.joints.iter().map(|joint| JointInterfaceKind::Velocity.of(joint));
         InterfaceSelection::Named(names.collect())
     }
 
     fn state_interfaces(&self) -> InterfaceSelection {
         let names =
-            self.settings.state_joints.iter().map(|joint| InterfaceKind::Velocity.of(joint));
+            self.settings.state_joints.iter().map(|joint| JointInterfaceKind::Velocity.of(joint));
         InterfaceSelection::Named(names.collect())
     }
 

@@ -1,7 +1,7 @@
 //! Controllers of one joint of ROS 1: `position_controllers/JointPositionController` and the like.
 
 use crate::{
-    ControlCycle, ControllerInterface, InterfaceKind, InterfaceSelection, LoanedInterfaces,
+    ControlCycle, ControllerInterface, InterfaceSelection, JointInterfaceKind, LoanedInterfaces,
     PidController, PidGains,
 };
 
@@ -9,7 +9,7 @@ use crate::{
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum JointTarget {
     /// The command is forwarded to the interface.
-    Forward(InterfaceKind),
+    Forward(JointInterfaceKind),
     /// A PID controller holds a position by efforts.
     PositionByEffort(PidGains),
     /// A PID controller holds a speed by efforts.
@@ -46,15 +46,15 @@ impl ControllerInterface for SingleJointController {
     fn command_interfaces(&self) -> InterfaceSelection {
         let kind = match self.target {
             JointTarget::Forward(kind) => kind,
-            _ => InterfaceKind::Effort,
+            _ => JointInterfaceKind::Effort,
         };
         InterfaceSelection::Named(vec![kind.of(&self.joint)])
     }
 
     fn state_interfaces(&self) -> InterfaceSelection {
         InterfaceSelection::Named(vec![
-            InterfaceKind::Position.of(&self.joint),
-            InterfaceKind::Velocity.of(&self.joint),
+            JointInterfaceKind::Position.of(&self.joint),
+            JointInterfaceKind::Velocity.of(&self.joint),
         ])
     }
 
@@ -73,7 +73,8 @@ impl ControllerInterface for SingleJointController {
         self.pid.reset();
         // A position is held from the start, as in ROS 1.
         self.command = match self.target {
-            JointTarget::Forward(InterfaceKind::Position) | JointTarget::PositionByEffort(_) => {
+            JointTarget::Forward(JointInterfaceKind::Position)
+            | JointTarget::PositionByEffort(_) => {
                 Some(interfaces.state(0)).filter(|position| position.is_finite())
             }
             _ => Some(0.0),

@@ -3,7 +3,7 @@
 
 use crate::velocity_reference::{ReferenceOutcome, VelocityReference};
 use crate::{
-    BaseMotion, ControlCycle, ControllerInterface, InterfaceKind, InterfaceSelection,
+    BaseMotion, ControlCycle, ControllerInterface, InterfaceSelection, JointInterfaceKind,
     LoanedInterfaces, MotionCentre, PlanarTwist, SteeringGeometry, SteeringOdometry,
 };
 
@@ -135,22 +135,28 @@ impl SteeringController {
 
 impl ControllerInterface for SteeringController {
     fn command_interfaces(&self) -> InterfaceSelection {
-        let traction =
-            self.settings.traction_joints.iter().map(|joint| InterfaceKind::Velocity.of(joint));
-        let steering =
-            self.settings.steering_joints.iter().map(|joint| InterfaceKind::Position.of(joint));
+        let traction = self
+            .settings
+            .traction_joints
+            .iter()
+            .map(|joint| JointInterfaceKind::Velocity.of(joint));
+        let steering = self
+            .settings
+            .steering_joints
+            .iter()
+            .map(|joint| JointInterfaceKind::Position.of(joint));
         InterfaceSelection::Named(traction.chain(steering).collect())
     }
 
     fn state_interfaces(&self) -> InterfaceSelection {
         let [traction, steering] = self.settings.states();
         let kind = if self.settings.position_feedback {
-            InterfaceKind::Position
+            JointInterfaceKind::Position
         } else {
-            InterfaceKind::Velocity
+            JointInterfaceKind::Velocity
         };
         let traction = traction.iter().map(|joint| kind.of(joint));
-        let steering = steering.iter().map(|joint| InterfaceKind::Position.of(joint));
+        let steering = steering.iter().map(|joint| JointInterfaceKind::Position.of(joint));
         InterfaceSelection::Named(traction.chain(steering).collect())
     }
 

@@ -4,7 +4,7 @@ use std::f64::consts::{FRAC_PI_2, FRAC_PI_6};
 
 use crate::velocity_reference::{ReferenceOutcome, VelocityReference};
 use crate::{
-    BaseMotion, ControlCycle, ControllerInterface, InterfaceKind, InterfaceSelection,
+    BaseMotion, ControlCycle, ControllerInterface, InterfaceSelection, JointInterfaceKind,
     LoanedInterfaces, MotionCentre, PlanarTwist, SteeringOdometry,
 };
 
@@ -197,8 +197,8 @@ fn sized(value: f64, range: Option<[f64; 2]>, factor: f64) -> f64 {
 impl ControllerInterface for TricycleController {
     fn command_interfaces(&self) -> InterfaceSelection {
         InterfaceSelection::Named(vec![
-            InterfaceKind::Velocity.of(&self.settings.traction_joint),
-            InterfaceKind::Position.of(&self.settings.steering_joint),
+            JointInterfaceKind::Velocity.of(&self.settings.traction_joint),
+            JointInterfaceKind::Position.of(&self.settings.steering_joint),
         ])
     }
 

@@ -3,13 +3,13 @@ use crate::{ControllerManager, Hardware, SwitchRequest};
 
 const MS: i64 = 1_000_000;
 
-fn settings(kind: InterfaceKind) -> JointTrajectorySettings {
+fn settings(kind: JointInterfaceKind) -> JointTrajectorySettings {
     let joints = vec!["one".to_owned(), "two".to_owned()];
     JointTrajectorySettings {
         command_joints: joints.clone(),
         joints,
         command_interfaces: vec![kind],
-        state_interfaces: vec![InterfaceKind::Position, InterfaceKind::Velocity],
+        state_interfaces: vec![JointInterfaceKind::Position, JointInterfaceKind::Velocity],
         is_continuous: vec![false; 2],
         gains: vec![PidGains { p: 10.0, ..PidGains::default() }; 2],
         feed_forward: vec![1.0; 2],
@@ -23,7 +23,7 @@ type Running = ControllerManager<JointTrajectoryController>;
 fn running(settings: JointTrajectorySettings) -> Running {
     let mut hardware = Hardware::default();
     for joint in ["one", "two"] {
-        for kind in InterfaceKind::ALL {
+        for kind in JointInterfaceKind::ALL {
             hardware.add_command(kind.of(joint));
             hardware.add_state(kind.of(joint), 0.0);
         }
@@ -58,7 +58,7 @@ fn to(two: f64, one: f64, time_ms: i64) -> JointTrajectory {
 fn step(manager: &mut Running, time_ms: i64) {
     assert!(manager.update(at(time_ms)).is_empty());
     for joint in ["one", "two"] {
-        let name = InterfaceKind::Position.of(joint);
+        let name = JointInterfaceKind::Position.of(joint);
         if let Some(position) = manager.hardware.claimed_command(&name) {
             manager.hardware.set_state(&name, position);
         }
@@ -66,12 +66,12 @@ fn step(manager: &mut Running, time_ms: i64) {
 }
 
 fn position(manager: &Running, joint: &str) -> f64 {
-    manager.hardware.state(&InterfaceKind::Position.of(joint)).unwrap()
+    manager.hardware.state(&JointInterfaceKind::Position.of(joint)).unwrap()
 }
 
 #[test]
 fn a_trajectory_reaches_its_points() {
-    let mut manager = running(settings(InterfaceKind::Position));
+    let mut manager = running(settings(JointInterfaceKind::Position));
     let mut trajectory = to(1.0, 2.0, 1000);
     trajectory.points.push(TrajectoryPoint {
         positions: vec![0.0, 4.0],
@@ -96,7 +96,7 @@ fn a_trajectory_reaches_its_points() {
 
 #[test]
 fn velocities_are_commanded_by_gain_and_feed_forward() {
-    let mut manager = running(settings(InterfaceKind::Velocity));
+    let mut manager = running(settings(JointInterfaceKind::Velocity));
     arm(&mut manager).start(&to(0.0, 2.0, 1000), None, 0).unwrap();
     manager.update(at(100));
     // The speed of the line is 2, and the position 0.2 behind: 10 * 0.2.
@@ -109,7 +109,7 @@ fn a_continuous_joint_takes_the_shorter_direction() {
     let free = JointTrajectorySettings {
         is_continuous: vec![true, false],
         feed_forward: vec![0.0; 2],
-        ..settings(InterfaceKind::Velocity)
+        ..settings(JointInterfaceKind::Velocity)
     };
     let mut manager = running(free);
     manager.hardware.set_state("one/position", 2.0 * PI);
@@ -128,7 +128,7 @@ fn tolerances_end_a_trajectory() {
         goal_time_s: 0.5,
     };
     // Effort commands do not move this hardware.
-    let stuck = JointTrajectorySettings { tolerances, ..settings(InterfaceKind::Effort) };
+    let stuck = JointTrajectorySettings { tolerances, ..settings(JointInterfaceKind::Effort) };
     let mut manager = running(stuck.clone());
     arm(&mut manager).start(&to(0.0, 1.0, 1000), None, 0).unwrap();
     manager.update(at(500));
@@ -149,7 +149,7 @@ fn tolerances_end_a_trajectory() {
 }
 
 fn refused(trajectory: &JointTrajectory, change: impl Fn(&mut JointTrajectorySettings)) -> String {
-    let mut settings = settings(InterfaceKind::Position);
+    let mut settings = settings(JointInterfaceKind::Position);
     change(&mut settings);
     let mut manager = running(settings);
     match arm(&mut manager).start(trajectory, None, 5000 * MS) {
@@ -190,7 +190,7 @@ fn wrong_trajectories_are_refused() {
 #[test]
 fn positions_are_integrated_from_velocities() {
     let integrating =
-        JointTrajectorySettings { integrates: true, ..settings(InterfaceKind::Position) };
+        JointTrajectorySettings { integrates: true, ..settings(JointInterfaceKind::Position) };
     let mut manager = running(integrating);
     let point = |ms: i64, speed: f64| TrajectoryPoint {
         velocities: vec![0.0, speed],

@@ -42,6 +42,8 @@ struct ControlState {
     updated_ns: Option<i64>,
     /// True while a controller moves the base.
     moves_base: bool,
+    /// True after a reset, until the controllers begin anew with the joints of the reset world.
+    restarts: bool,
 }
 
 /// Builds the controller manager of a plugin.
@@ -67,6 +69,7 @@ pub(super) fn build(
             timer: RateTimer::for_controller(core.update_rate_hz(), start_ns),
             updated_ns: None,
             moves_base: false,
+            restarts: false,
         },
         core,
         services,
@@ -124,6 +127,9 @@ impl Device for ControlDevice {
 
     fn act(&mut self, world: &mut PhysicsWorld, span: StepInterval) {
         let cycle = ControlCycle { time_ns: span.start_ns, period_s: span.seconds() };
+        if std::mem::take(&mut self.state.restarts) {
+            self.core.restart(world, cycle);
+        }
         self.services.serve(&mut self.core, cycle);
         if self.state.timer.due(span.start_ns) {
             self.update(world, span.start_ns);
@@ -139,9 +145,9 @@ impl Device for ControlDevice {
     }
 
     fn reset(&mut self, time_ns: i64) {
-        self.core.reset(time_ns);
         self.state.timer.restart(time_ns);
         (self.state.updated_ns, self.state.moves_base) = (None, false);
+        self.state.restarts = true;
     }
 
     fn save(&self) -> DeviceState {

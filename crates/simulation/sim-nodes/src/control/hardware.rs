@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use periplus_diagnostics::{Diagnostic, Diagnostics};
 use periplus_physics::{JointCommand, JointId, PhysicsWorld};
 use periplus_ros2_control::{
-    Hardware, HardwareComponent, InterfaceKind, hardware_of_model, hardware_of_transmissions,
+    Hardware, HardwareComponent, JointInterfaceKind, hardware_of_model, hardware_of_transmissions,
 };
 
 use super::inertial::InertialSensor;
@@ -80,7 +80,7 @@ impl JointHardware {
                 for state in &joint.states {
                     hardware.add_state(format!("{}/{}", joint.name, state.name), 0.0);
                 }
-                let names = InterfaceKind::ALL.map(|kind| kind.of(&joint.name));
+                let names = JointInterfaceKind::ALL.map(|kind| kind.of(&joint.name));
                 match joints.iter_mut().find(|one| one.id == found.id) {
                     Some(one) => one.is_commanded |= !joint.commands.is_empty(),
                     None => joints.push(HardwareJoint {

@@ -81,6 +81,7 @@ fn a_differential_drive_goes_a_metre_and_turns() {
         let odometry = bench.hear::<nav_msgs::Odometry>("/base/odom");
         drive(&mut bench, "/base/cmd_vel", twist(0.5, 0.0, 0.0), 2.0);
         near(&pose(&bench), &[1.0, 0.0, 0.0], error);
+        drive(&mut bench, "/base/cmd_vel", twist(0.0, 0.0, 0.0), 0.5);
         drive(&mut bench, "/base/cmd_vel", twist(0.0, 0.0, 0.5), 2.0);
         let pose = pose(&bench);
         near(&pose[2..], &[1.0], error);
@@ -247,6 +248,7 @@ fn a_joint_trajectory_reaches_its_points() {
         };
         let sent = action.send(goal);
         bench.run(1.0);
+        assert!(matches!(sent.look(), GoalProgress::Accepted));
         // The speed of a position error is 10/s: 0.5 rad/s lag by 0.05 rad.
         near(&[elbow(&bench)], &[0.45], 0.02);
         bench.run(3.5);

@@ -117,5 +117,22 @@ fn a_robot_without_controllers_is_told_what_to_do() {
         "<plugin filename='gz_ros2_control-system'
            name='gz_ros2_control::GazeboSimROS2ControlPlugin'/>",
     );
-    expect![[""]].assert_eq(&bench.said);
+    expect![[r#"
+        warning[no-hardware]: plugin `gz_ros2_control::GazeboSimROS2ControlPlugin` finds no `<ros2_control>` in the robot's description, so it controls no joints
+          --> robot.sdf:36:1
+           |
+        36 | <plugin filename='gz_ros2_control-system'
+           | ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^
+           |
+           = help: add `<ros2_control>` with the joints and their interfaces
+
+        warning[no-controllers]: plugin `gz_ros2_control::GazeboSimROS2ControlPlugin` has no controllers to start
+          --> robot.sdf:36:1
+           |
+        36 | <plugin filename='gz_ros2_control-system'
+           | ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^
+           |
+           = help: name a parameter file with controllers in `<parameters>`, or run the robot's launch file
+
+    "#]].assert_eq(&bench.said);
 }

@@ -25,7 +25,7 @@ use crate::ears::Ears;
 const SPEED_M_S: f64 = 0.3;
 const TURN_RAD_S: f64 = 0.3;
 /// Command of controllers of joints: a position, a speed or an effort.
-const JOINT_COMMAND: f64 = 0.5;
+const JOINT_COMMAND: f64 = 5.0;
 /// Commands come as from a joystick \[ns\].
 const COMMAND_NS: i64 = 100_000_000;
 

@@ -207,10 +207,11 @@ impl ControlCore {
             .find_map(|one| one.controller.base_motion())
     }
 
-    /// Resets all controllers: active ones begin anew with their parameters.
-    pub(super) fn reset(&mut self, time_ns: i64) {
+    /// Restarts all controllers after a reset of the world: active ones begin anew with their
+    /// parameters.
+    pub(super) fn restart(&mut self, world: &PhysicsWorld, cycle: ControlCycle) {
         self.hardware.reset();
-        let cycle = ControlCycle { time_ns, period_s: 0.0 };
+        self.hardware.read(world, &mut self.manager.hardware, 0.0);
         let active: Vec<String> = self
             .manager
             .controllers()

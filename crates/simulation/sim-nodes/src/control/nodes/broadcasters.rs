@@ -6,7 +6,7 @@ use periplus_msgs::geometry_msgs::{Quaternion, Vector3};
 use periplus_msgs::sensor_msgs::{Imu, JointState};
 use periplus_msgs::std_msgs::Header;
 use periplus_ros2_control::{
-    ControlCycle, ControllerInterface, ImuBroadcaster, ImuBroadcasterParams, ImuReading,
+    ControlCycle, ControllerInterface, ImuBroadcaster, ImuBroadcasterParams, ImuInterfaceValues,
     InterfaceSelection, JointStateBroadcaster, JointStateBroadcasterParams, LoanedInterfaces,
 };
 
@@ -217,7 +217,7 @@ impl ControllerInterface for ImuNode {
             return Ok(());
         }
         running.broadcaster.update(interfaces, cycle)?;
-        let ImuReading { orientation: [x, y, z, w], angular_rad_s, linear_m_s2 } =
+        let ImuInterfaceValues { orientation: [x, y, z, w], angular_rad_s, linear_m_s2 } =
             running.broadcaster.reading;
         let vector = |[x, y, z]: [f64; 3]| Vector3 { x, y, z };
         let covariance = |values: &[f64]| {

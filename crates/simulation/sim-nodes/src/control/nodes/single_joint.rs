@@ -3,7 +3,7 @@
 use periplus_graph::{Mailbox, Qos, Sample};
 use periplus_msgs::std_msgs::Float64;
 use periplus_ros2_control::{
-    ControlCycle, ControllerInterface, ControllerKind, InterfaceKind, InterfaceSelection,
+    ControlCycle, ControllerInterface, ControllerKind, InterfaceSelection, JointInterfaceKind,
     JointTarget, LoanedInterfaces, PidGains, SingleJointController, SingleJointParams,
 };
 
@@ -41,9 +41,9 @@ impl ControllerInterface for SingleJointNode {
         let target = match self.part.kind {
             ControllerKind::JointPositionByEffort => JointTarget::PositionByEffort(gains),
             ControllerKind::JointVelocityByEffort => JointTarget::VelocityByEffort(gains),
-            ControllerKind::JointVelocity => JointTarget::Forward(InterfaceKind::Velocity),
-            ControllerKind::JointEffort => JointTarget::Forward(InterfaceKind::Effort),
-            _ => JointTarget::Forward(InterfaceKind::Position),
+            ControllerKind::JointVelocity => JointTarget::Forward(JointInterfaceKind::Velocity),
+            ControllerKind::JointEffort => JointTarget::Forward(JointInterfaceKind::Effort),
+            _ => JointTarget::Forward(JointInterfaceKind::Position),
         };
         let mut controller = SingleJointController::new(joint, target);
         controller.configure()?;

@@ -10,8 +10,8 @@ use periplus_msgs::control_msgs::{
 use periplus_msgs::std_msgs::Header;
 use periplus_msgs::trajectory_msgs;
 use periplus_ros2_control::{
-    ControlCycle, ControlRelease, ControllerInterface, GoalTolerances, InterfaceKind,
-    InterfaceSelection, JointConstraintParams, JointGainParams, JointTolerances,
+    ControlCycle, ControlRelease, ControllerInterface, GoalTolerances, InterfaceSelection,
+    JointConstraintParams, JointGainParams, JointInterfaceKind, JointTolerances,
     JointTrajectoryController, JointTrajectoryParams, JointTrajectorySettings, LoanedInterfaces,
     PidGains, TrajectoryOutcome,
 };
@@ -53,16 +53,17 @@ impl TrajectoryNode {
     fn settings(&self) -> Result<(JointTrajectorySettings, JointTrajectoryParams), String> {
         let values = self.part.values();
         let params = JointTrajectoryParams::from_values(&values);
-        let kinds = |names: &[String], parameter: &str| -> Result<Vec<InterfaceKind>, String> {
-            let one = |name: &String| {
-                InterfaceKind::of_name(name).ok_or_else(|| {
-                    format!("`{parameter}` contains `{name}`, which is not supported")
-                })
+        let kinds =
+            |names: &[String], parameter: &str| -> Result<Vec<JointInterfaceKind>, String> {
+                let one = |name: &String| {
+                    JointInterfaceKind::of_name(name).ok_or_else(|| {
+                        format!("`{parameter}` contains `{name}`, which is not supported")
+                    })
+                };
+                names.iter().map(one).collect()
             };
-            names.iter().map(one).collect()
-        };
         let (command_interfaces, state_interfaces) = if self.part.release.is_ros1() {
-            let states = vec![InterfaceKind::Position, InterfaceKind::Velocity];
+            let states = vec![JointInterfaceKind::Position, JointInterfaceKind::Velocity];
             (vec![self.ros1_kind()], states)
         } else {
             (
@@ -117,12 +118,12 @@ impl TrajectoryNode {
     }
 
     /// Commanded interface of ROS 1, by the class.
-    fn ros1_kind(&self) -> InterfaceKind {
+    fn ros1_kind(&self) -> JointInterfaceKind {
         let class = super::super::plugin::text_of(&self.part.given, "type").unwrap_or_default();
         match class.split('/').next() {
-            Some("velocity_controllers") => InterfaceKind::Velocity,
-            Some("effort_controllers") => InterfaceKind::Effort,
-            _ => InterfaceKind::Position,
+            Some("velocity_controllers") => JointInterfaceKind::Velocity,
+            Some("effort_controllers") => JointInterfaceKind::Effort,
+            _ => JointInterfaceKind::Position,
         }
     }
 
