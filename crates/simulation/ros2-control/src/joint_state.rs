@@ -26,7 +26,7 @@ pub struct JointStateBroadcaster {
     pub extra_joints: Vec<String>,
     /// Joints that are published besides `extra_joints`; `None` for all components.
     pub known_joints: Option<Vec<String>>,
-    /// Interface names that stand for position, velocity and effort.
+    /// Interface names of the position, the velocity and the effort.
     pub mapped_names: [String; 3],
     /// States of the last update.
     pub reading: JointStateReading,

@@ -142,7 +142,7 @@ impl JointTrajectoryController {
         &self.settings
     }
 
-    /// Begins to follow a trajectory, in place of the present one.
+    /// Begins to follow a trajectory and ends the present one.
     ///
     /// # Errors
     /// The reason and its code, when the trajectory cannot be followed; the present one goes on.

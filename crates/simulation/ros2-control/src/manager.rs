@@ -329,7 +329,7 @@ impl<C: ControllerInterface> ControllerManager<C> {
         ends
     }
 
-    /// Returns the controllers that can be activated, with the places of their interfaces.
+    /// Returns the controllers that can be activated, with the indices of their interfaces.
     fn to_activate(
         &self,
         request: &SwitchRequest,
@@ -457,7 +457,7 @@ fn unknown(name: &str, loaded: &[String]) -> String {
     format!("no controller `{name}` is loaded; loaded controllers: {}", loaded.join(", "))
 }
 
-/// Returns the places of named interfaces.
+/// Returns the indices of named interfaces.
 fn places(
     names: &[String],
     place: impl Fn(&str) -> Option<usize>,

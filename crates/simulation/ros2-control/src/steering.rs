@@ -67,7 +67,7 @@ pub struct WheelCommands {
 
 impl SteeringGeometry {
     /// Returns the steering angle in the middle of the steered axle [rad]: `atan(w L / v)`, and zero
-    /// at a stand.
+    /// without a speed.
     #[must_use]
     pub fn steering_angle(&self, twist: PlanarTwist) -> f64 {
         if twist.x_m_s.abs() < MIN_STEERING_SPEED_M_S {

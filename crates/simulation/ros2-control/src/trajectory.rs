@@ -174,7 +174,7 @@ fn quintic([start, end]: [SplineEnd; 2], whole_s: f64) -> Polynomial {
     let mut spline = [start.position, start.velocity, 0.5 * start.acceleration, 0.0, 0.0, 0.0];
     if whole_s > 0.0 {
         let s2 = whole_s * whole_s;
-        // What is missing at the end, each scaled by the time.
+        // Missing position, velocity and acceleration at the end, each scaled by the time.
         let position = end.position
             - start.position
             - start.velocity * whole_s
@@ -235,7 +235,7 @@ mod tests {
     fn the_order_follows_from_the_points() {
         // Linear: one in two seconds.
         check(&[point(2000, &[1.0])], 500, [0.25, 0.5]);
-        // Cubic from rest to rest: half of the way in half of the time, at 1.5 times the mean speed.
+        // Cubic from rest to rest: half of the distance in half of the time, at 1.5 times the mean speed.
         check(&[point(2000, &[1.0, 0.0])], 1000, [0.5, 0.75]);
         // Quintic: at 1.875 times the mean speed.
         check(&[point(2000, &[1.0, 0.0, 0.0])], 1000, [0.5, 0.9375]);

@@ -20,8 +20,8 @@ pub struct TricycleCommand {
     pub steering_rad: f64,
 }
 
-/// Returns the command of a velocity for a wheelbase [m] and a wheel radius [m]. At a stand the wheel
-/// is steered by a quarter turn and turns the robot in place.
+/// Returns the command of a velocity for a wheelbase [m] and a wheel radius [m]. Without a forward speed
+/// the wheel is steered by a quarter turn, and the robot spins.
 ///
 /// Source: `TricycleController::twist_to_ackermann` of `ros2_controllers`.
 #[must_use]

@@ -85,7 +85,7 @@ pub(super) fn accepted(
     Ok(accepted)
 }
 
-/// Returns the place of each joint of the controller in the trajectory.
+/// Returns the index of each joint of the controller in the trajectory.
 fn order_of(
     settings: &JointTrajectorySettings,
     trajectory: &JointTrajectory,

@@ -142,7 +142,7 @@ params! {
         /// Maximum age of a command; no effect.
         #[param("cmd_timeout", unit("s"))]
         _: f64 = 0,
-        /// Largest speed that counts as a stand at the end (default 0.01).
+        /// Largest speed at the end that counts as zero (default 0.01).
         #[param("constraints.stopped_velocity_tolerance")]
         stopped_velocity_tolerance: f64 = 0.01,
         /// Time after the end within which the goal must be reached; 0 for none (default 0).

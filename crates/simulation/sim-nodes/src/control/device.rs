@@ -8,7 +8,9 @@ use std::collections::BTreeMap;
 use periplus_diagnostics::Diagnostics;
 use periplus_geometry::DVec3;
 use periplus_physics::{ModelId, PhysicsMode, PhysicsWorld, Twist};
-use periplus_ros2_control::{BaseMotion, ControlCycle, MotionCentre};
+use periplus_ros2_control::{
+    BaseMotion, ControlCycle, JointInterfaceKind, MotionCentre, RollingWheel, rolling_twist,
+};
 
 use self::saved::SavedControl;
 use super::services::ManagerServices;
@@ -42,7 +44,7 @@ struct ControlState {
     updated_ns: Option<i64>,
     /// True while a controller moves the base.
     moves_base: bool,
-    /// True after a reset, until the controllers begin anew with the joints of the reset world.
+    /// True after a reset, until the controllers restart with the joints of the reset world.
     restarts: bool,
 }
 
@@ -91,7 +93,7 @@ impl ControlDevice {
         if world.mode() != PhysicsMode::Kinematic {
             return;
         }
-        let motion = self.core.base_motion();
+        let motion = self.core.base_motion().or_else(|| self.rolling_motion(world));
         if motion.is_none() && !self.state.moves_base {
             return;
         }
@@ -100,6 +102,35 @@ impl ControlDevice {
         let centre_m = motion.map_or(DVec3::ZERO, |motion| self.centre_m(world, motion));
         let twist = Twist { x_m_s: twist.x_m_s, y_m_s: twist.y_m_s, yaw_rad_s: twist.yaw_rad_s };
         world.follow_about(self.model, centre_m, twist);
+    }
+
+    /// Returns the motion of the base by wheels that a controller of joints turns.
+    fn rolling_motion(&self, world: &PhysicsWorld) -> Option<BaseMotion> {
+        let hardware = &self.core.manager.hardware;
+        let commanded = |name: &String| {
+            let command = hardware.claimed_command(&JointInterfaceKind::Velocity.of(name));
+            command.map(|speed_rad_s| (name.clone(), speed_rad_s))
+        };
+        let turned: Vec<(String, f64)> = self
+            .core
+            .joints
+            .iter()
+            .filter(|(_, joint)| joint.is_wheel)
+            .filter_map(|(name, _)| commanded(name))
+            .collect();
+        let names: Vec<String> = turned.iter().map(|(name, _)| name.clone()).collect();
+        let ids: Vec<_> =
+            names.iter().filter_map(|name| Some(self.core.joints.get(name)?.id)).collect();
+        let centre_m = world.middle_of(self.model, &ids)?;
+        let wheel = |(name, speed_rad_s): &(String, f64)| {
+            let joint = self.core.joints.get(name)?;
+            joint.rolling_wheel(world, self.model, centre_m, *speed_rad_s)
+        };
+        let wheels: Vec<RollingWheel> = turned.iter().filter_map(wheel).collect();
+        (!wheels.is_empty() && wheels.len() == turned.len()).then(|| BaseMotion {
+            twist: rolling_twist(&wheels),
+            centre: MotionCentre::Joints(names),
+        })
     }
 
     /// Returns the centre of a motion in the model [m]; computed once, so that it stays the same.

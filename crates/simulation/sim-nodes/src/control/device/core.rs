@@ -21,7 +21,7 @@ use super::super::plugin::{ControlPlugin, GivenParameters, text_of, texts_of};
 use super::super::ros_controller::RosController;
 use crate::drives::BuildContext;
 
-/// Name by which a text of parameters is read in place of a file.
+/// Name of the text of parameters that is read like a file.
 const TEXT_FILE: &str = "parameters of the spawner";
 
 /// Controllers, hardware and names of a controller manager.
@@ -207,8 +207,8 @@ impl ControlCore {
             .find_map(|one| one.controller.base_motion())
     }
 
-    /// Restarts all controllers after a reset of the world: active ones begin anew with their
-    /// parameters.
+    /// Restarts all controllers after a reset of the world: active ones are configured and
+    /// activated again.
     pub(super) fn restart(&mut self, world: &PhysicsWorld, cycle: ControlCycle) {
         self.hardware.reset();
         self.hardware.read(world, &mut self.manager.hardware, 0.0);

@@ -269,7 +269,7 @@ pub(super) fn tricycle(
     Ok((TricycleController::new(settings), topics))
 }
 
-/// Returns the range of a size; `{}` in the name stands for `min` and `max`. A missing minimum is
+/// Returns the range of a size; `{}` in the name is replaced by `min` and `max`. A missing minimum is
 /// zero, and a missing maximum is 1000.
 fn size_range(values: &ParamValues, name: &str) -> Option<[f64; 2]> {
     let bound =
