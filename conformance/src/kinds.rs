@@ -19,6 +19,7 @@ mod mppi;
 mod path_expand;
 mod planning;
 mod raytrace_2d;
+mod ros2_control;
 mod rsp;
 mod rviz_palette;
 mod speed_limit;
@@ -71,6 +72,7 @@ pub const KINDS: &[(&str, Check)] = &[
     ("costmap_to_occgrid", costmap::check_to_occupancy),
     ("declare_params", costmap::check_parameters),
     ("denoise", costmap::check_denoise),
+    ("diff_drive_odometry", ros2_control::check_odometry),
     ("footprint", costmap::check_footprint),
     ("footprint_cost", costmap::check_footprint_cost),
     ("grid_coords", grid_coords::check),
@@ -115,4 +117,5 @@ pub const KINDS: &[(&str, Check)] = &[
     ("tf2_static", tf2::check_lookup),
     ("velocity_smoother", motion::check_smoother),
     ("voxel_grid", costmap::check_voxels),
+    ("wheel_commands", ros2_control::check_commands),
 ];
