@@ -22,17 +22,18 @@
 //! ```
 
 pub mod amcl;
-pub mod controller_server;
 pub mod behavior_server;
-pub mod collision_monitor;
 pub mod bt_navigator;
+pub mod collision_monitor;
+pub mod controller_server;
 pub mod costmap_2d;
 mod costmap_subscriber;
 pub mod ekf_node;
 mod loop_rate;
 pub mod map_server;
-mod node_parameters;
 pub mod nav2_actions;
+pub mod navigation;
+mod node_parameters;
 pub mod parameter_groups;
 pub mod planner_server;
 mod server_plugins;

@@ -213,7 +213,9 @@ mod tests {
              `nav2_navfn_planner::NavfnPlanner`?"
         );
         assert!(words("SmacPlannerHybrid").ends_with("`nav2_smac_planner::SmacPlannerHybrid`?"));
-        assert!(words("nav2_smac_planner/SmacPlannerLattice").contains("is not supported; use one of"));
+        assert!(
+            words("nav2_smac_planner/SmacPlannerLattice").contains("is not supported; use one of")
+        );
         assert!(words("x").contains("known: `nav2_navfn_planner::NavfnPlanner`, "));
         let smoother = SmootherKind::of_class("nav2_smoother::SimpleSmother").unwrap_err();
         assert!(smoother.to_string().ends_with("did you mean `nav2_smoother::SimpleSmoother`?"));

@@ -344,7 +344,7 @@ fn ours(
             Role::MapServer { is_managed: true }
                 | Role::Amcl { is_managed: true }
                 | Role::MapSaverServer
-                | Role::CostmapHost { .. }
+                | Role::Navigation(_)
                 | Role::Costmap
         );
     Work::Ours(Box::new(BuiltInRequest {
