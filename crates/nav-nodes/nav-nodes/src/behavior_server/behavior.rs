@@ -36,9 +36,9 @@ pub(super) struct MotionFailure {
 pub(super) enum CycleOutcome {
     /// The behavior goes on, with a velocity; none for behaviors that do not move the robot.
     Running(Option<Twist2>),
-    /// It is complete.
+    /// The behavior is complete.
     Succeeded,
-    /// It cannot go on.
+    /// The behavior cannot go on.
     Failed(MotionFailure),
 }
 
@@ -165,7 +165,7 @@ pub(super) fn begin<B: Behavior>(
     }
 }
 
-/// How a goal ends.
+/// End of a goal.
 enum GoalEnd {
     Preempted,
     Canceled,
