@@ -5,6 +5,9 @@
 //! (of Nav2 and of ROS 1), [`costmap_2d`] (`nav2_costmap_2d`) and [`ekf_node`]
 //! (`robot_localization`). The estimators themselves are libraries without ROS.
 //!
+//! The servers of Nav2 that move the robot: [`velocity_smoother`], [`collision_monitor`],
+//! [`behavior_server`] and [`waypoint_follower`], with [`simple_action_server`] for their actions.
+//!
 //! ```
 //! use periplus_diagnostics::Diagnostics;
 //! use periplus_ekf::Settings;
