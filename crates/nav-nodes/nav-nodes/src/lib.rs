@@ -1,9 +1,10 @@
-//! Map server, SLAM, localization, costmap and odometry filter nodes.
+//! Map server, SLAM, localization, costmap, odometry filter and navigation nodes.
 //!
 //! Each module has the nodes of one ROS package or program, with its topics, services, parameters
 //! and QoS: [`map_server`] (`nav2_map_server`), [`slam_toolbox`] (also `slam_gmapping`), [`amcl`]
-//! (of Nav2 and of ROS 1), [`costmap_2d`] (`nav2_costmap_2d`) and [`ekf_node`]
-//! (`robot_localization`). The estimators themselves are libraries without ROS.
+//! (of Nav2 and of ROS 1), [`costmap_2d`] (`nav2_costmap_2d`), [`ekf_node`]
+//! (`robot_localization`), [`planner_server`] (`nav2_planner`), [`smoother_server`]
+//! (`nav2_smoother`) and [`controller_server`] (`nav2_controller`). The estimators themselves are libraries without ROS.
 //!
 //! ```
 //! use periplus_diagnostics::Diagnostics;

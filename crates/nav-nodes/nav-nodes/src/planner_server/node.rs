@@ -132,6 +132,11 @@ impl PlannerServer {
         find_plugin(self.planners.iter().map(|slot| slot.id.as_str()), id, "planner")
     }
 
+    /// Name of the planner that a goal asks for, for messages.
+    pub(super) fn planner_name<'a>(&'a self, id: &'a str) -> &'a str {
+        self.find_planner(id).map_or(id, |index| &self.planners[index].id)
+    }
+
     fn follow(&self, transition: Transition) -> StepOutcome {
         if self.costmap.lifecycle().change_now(transition) {
             StepOutcome::Success

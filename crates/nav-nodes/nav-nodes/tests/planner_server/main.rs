@@ -60,7 +60,7 @@ impl Planning {
         sent.look()
     }
 
-    fn to_pose(&mut self, goal: ComputePathToPoseGoal) -> (GoalState, ComputePathToPoseResult) {
+    fn plan_to(&mut self, goal: ComputePathToPoseGoal) -> (GoalState, ComputePathToPoseResult) {
         let client = self.client::<ComputePathToPose>("compute_path_to_pose");
         let sent = client.send(goal);
         match self.finish(&sent, 100) {
@@ -70,7 +70,7 @@ impl Planning {
     }
 
     fn fails(&mut self, goal: ComputePathToPoseGoal, code: u16, words: &[&str]) {
-        let (state, result) = self.to_pose(goal);
+        let (state, result) = self.plan_to(goal);
         assert_eq!(state, GoalState::Aborted);
         assert_eq!(result.error_code, code, "{}", result.error_msg);
         for word in words {
@@ -100,7 +100,7 @@ fn length_m(path: &Path) -> f64 {
 fn a_path_leads_around_a_wall() {
     let mut planning = Planning::started(Nav2Release::Main, &[]);
     let plans = planning.stage.mailbox::<Path>("/plan");
-    let (state, result) = planning.to_pose(goal(5.0, 1.0));
+    let (state, result) = planning.plan_to(goal(5.0, 1.0));
     assert_eq!((state, result.error_code), (GoalState::Succeeded, 0), "{}", result.error_msg);
     assert_eq!(result.path.header.frame_id, "map");
     // Over the end of the wall at (3, 3): twice the hypotenuse of 2 m and 2 m.
@@ -119,7 +119,7 @@ fn a_given_start_replaces_the_robot() {
         use_start: true,
         ..goal(5.0, 1.0)
     };
-    let (state, result) = planning.to_pose(given);
+    let (state, result) = planning.plan_to(given);
     assert_eq!(state, GoalState::Succeeded);
     assert!(length_m(&result.path) < 1.2);
 }
@@ -153,7 +153,7 @@ fn failures_have_codes_and_reasons() {
 #[test]
 fn results_of_humble_have_no_codes() {
     let mut planning = Planning::started(Nav2Release::Humble, &[("GridBased.tolerance", "0.0")]);
-    let (state, result) = planning.to_pose(goal(3.0, 1.0));
+    let (state, result) = planning.plan_to(goal(3.0, 1.0));
     assert_eq!((state, result.error_code, result.error_msg.as_str()), (GoalState::Aborted, 0, ""));
     assert!(
         planning
@@ -343,10 +343,10 @@ fn parameters_of_planners_change_while_the_server_runs() {
         );
         answer.results[0].clone()
     };
-    assert_eq!(planning.to_pose(goal(3.0, 1.0)).0, GoalState::Succeeded, "0.5 m are tolerated");
+    assert_eq!(planning.plan_to(goal(3.0, 1.0)).0, GoalState::Succeeded, "0.5 m are tolerated");
     let changed = set(&planning, "GridBased.tolerance", 0.01);
     assert!(changed.successful, "{}", changed.reason);
-    assert_eq!(planning.to_pose(goal(3.0, 1.0)).0, GoalState::Aborted);
+    assert_eq!(planning.plan_to(goal(3.0, 1.0)).0, GoalState::Aborted);
     assert!(!set(&planning, "GridBased.tolerance", -1.0).successful);
     assert!(!set(&planning, "expected_planner_frequency", 0.0).successful);
 }

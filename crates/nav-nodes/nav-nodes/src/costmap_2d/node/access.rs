@@ -44,7 +44,12 @@ impl CostmapNode {
     ///
     /// # Errors
     /// The reason why there is no transform.
-    pub fn to_global(&mut self, frame: &str, pose: Pose2, time_ns: i64) -> Result<Pose2, String> {
+    pub(crate) fn global_pose_of(
+        &mut self,
+        frame: &str,
+        pose: Pose2,
+        time_ns: i64,
+    ) -> Result<Pose2, String> {
         self.tf.listen();
         let global = &self.params.global_frame;
         if frame == global {
@@ -81,11 +86,11 @@ impl CostmapNode {
         (!costmap.is_current(now_ns)).then(|| "the costmap is not current".to_owned())
     }
 
-    /// Transforms a pose message to the global frame; see [`Self::to_global`].
+    /// Transforms a pose message to the global frame; see [`Self::global_pose_of`].
     ///
     /// # Errors
-    /// As [`Self::to_global`].
-    pub fn pose_to_global(&mut self, pose: &PoseStamped) -> Result<Pose2, String> {
-        self.to_global(&pose.header.frame_id, pose2(&pose.pose), pose.header.stamp.ns())
+    /// As [`Self::global_pose_of`].
+    pub(crate) fn global_pose(&mut self, pose: &PoseStamped) -> Result<Pose2, String> {
+        self.global_pose_of(&pose.header.frame_id, pose2(&pose.pose), pose.header.stamp.ns())
     }
 }
