@@ -8,7 +8,7 @@
 //! `clear_costmap_service.cpp`.
 
 mod blame;
-mod clouds;
+pub(crate) mod clouds;
 pub(crate) mod frames;
 mod health;
 mod inputs;

@@ -2,9 +2,12 @@
 //!
 //! Each module has the nodes of one ROS package or program, with its topics, services, parameters
 //! and QoS: [`map_server`] (`nav2_map_server`), [`slam_toolbox`] (also `slam_gmapping`), [`amcl`]
-//! (of Nav2 and of ROS 1), [`costmap_2d`] (`nav2_costmap_2d`), [`ekf_node`]
-//! (`robot_localization`), [`planner_server`] (`nav2_planner`), [`smoother_server`]
-//! (`nav2_smoother`) and [`controller_server`] (`nav2_controller`). The estimators themselves are libraries without ROS.
+//! (of Nav2 and of ROS 1), [`costmap_2d`] (`nav2_costmap_2d`) and [`ekf_node`]
+//! (`robot_localization`). The estimators themselves are libraries without ROS.
+//!
+//! The servers of Nav2: [`planner_server`], [`smoother_server`], [`controller_server`],
+//! [`behavior_server`], [`velocity_smoother`], [`collision_monitor`] and [`waypoint_follower`], with
+//! [`simple_action_server`] for their actions and [`nav2_actions`] for the forms of the releases.
 //!
 //! ```
 //! use periplus_diagnostics::Diagnostics;
@@ -23,6 +26,8 @@
 //! ```
 
 pub mod amcl;
+pub mod behavior_server;
+pub mod collision_monitor;
 pub mod controller_server;
 pub mod costmap_2d;
 mod costmap_subscriber;
@@ -36,7 +41,9 @@ mod server_plugins;
 pub mod simple_action_server;
 pub mod slam_toolbox;
 pub mod smoother_server;
+pub mod velocity_smoother;
 pub mod velocity_topics;
+pub mod waypoint_follower;
 
 /// File access for nodes that load and save maps, sessions and poses.
 pub trait Files: periplus_resources::Host + periplus_resources::Store + Send + Sync {}
