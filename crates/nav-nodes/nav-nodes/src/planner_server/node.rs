@@ -201,8 +201,11 @@ impl LifecycleCallbacks for PlannerServer {
         StepOutcome::Success
     }
 
-    fn on_activate(&mut self, _: &mut Io<'_, Self>) -> StepOutcome {
+    fn on_activate(&mut self, io: &mut Io<'_, Self>) -> StepOutcome {
         let outcome = self.follow(Transition::Activate);
+        if let Some(advice) = self.costmap.with(|costmap| costmap.footprint_advice()) {
+            io.node().log_finding(&advice);
+        }
         if outcome == StepOutcome::Success {
             self.to_pose.activate();
             self.through_poses.activate();

@@ -6,10 +6,13 @@ mod common;
 
 use std::sync::Arc;
 
-use common::{GLOBAL_COSTMAP, Stage, costmap, map, pose_in};
+use common::{GLOBAL_COSTMAP, Stage, costmap, map, pose_in, transforms};
 use periplus_costmap::Nav2Release;
 use periplus_diagnostics::Diagnostics;
-use periplus_graph::{GoalProgress, GoalState, LifecycleNode, LifecycleState, NodeSettings};
+use periplus_geometry::Pose2;
+use periplus_graph::{
+    GoalProgress, GoalState, Graph, LifecycleNode, LifecycleState, NodeSettings, Qos,
+};
 use periplus_msgs::nav_msgs::{Goals, Path};
 use periplus_msgs::nav2_msgs_main::*;
 use periplus_msgs::rcl_interfaces::{
@@ -277,6 +280,52 @@ fn waiting_goals_are_preempted_and_canceled() {
     let _answer = client.cancel(sent.id());
     planning.stage.advance(50);
     assert!(matches!(sent.look(), GoalProgress::Over(GoalState::Canceled, _)), "{:?}", sent.look());
+}
+
+/// The same server with a thread for each node.
+#[test]
+fn a_live_server_plans_beside_its_costmap() {
+    let graph = Graph::live();
+    let costmap = costmap(&graph, "global_costmap", GLOBAL_COSTMAP, Nav2Release::Jazzy);
+    let node = graph.node(NodeSettings::new("planner_server")).unwrap();
+    let server = PlannerServer::new(&node, [], costmap, &mut Diagnostics::new()).unwrap();
+    let user = graph.node(NodeSettings::new("user")).unwrap();
+    let maps = user.publisher("/map", Qos::latched(1)).unwrap();
+    maps.publish(map(|_, _| false));
+    server.start();
+    let client = Nav2ActionClient::<ComputePathToPose>::new(
+        &user,
+        Nav2Release::Jazzy,
+        "compute_path_to_pose",
+    )
+    .unwrap();
+    let start = pose_in("map", 1.0, 1.0, 0.0);
+    let (mut sent, mut succeeded) = (None, false);
+    let tf = user.publisher("/tf", Qos::reliable(10)).unwrap();
+    for step in 1..2000 {
+        graph.advance_to(step * 10_000_000);
+        tf.publish(transforms(graph.now_ns(), Pose2::new(1.0, 1.0, 0.0)));
+        std::thread::sleep(std::time::Duration::from_millis(2));
+        let asked = sent.get_or_insert_with(|| {
+            client.send(ComputePathToPoseGoal {
+                start: start.clone(),
+                use_start: true,
+                ..goal(5.0, 3.0)
+            })
+        });
+        match asked.look() {
+            GoalProgress::Over(GoalState::Succeeded, _) => {
+                succeeded = true;
+                break;
+            }
+            // The server or its costmap is not active yet.
+            GoalProgress::Rejected | GoalProgress::Failed(_) | GoalProgress::Over(..) => {
+                sent = None
+            }
+            GoalProgress::Sent | GoalProgress::Accepted => {}
+        }
+    }
+    assert!(succeeded);
 }
 
 #[test]

@@ -66,6 +66,24 @@ impl CostmapNode {
         }
     }
 
+    /// Returns a warning if the inflation ends before the corners of the footprint: its costs then say nothing
+    /// about the space that the robot needs, so that planners and controllers keep too little distance.
+    #[must_use]
+    pub fn footprint_advice(&self) -> Option<Diagnostic> {
+        let view = self.view().filter(|view| !view.is_circular)?;
+        let (inflation, corner_m) = (view.inflation?, view.footprint.circumscribed_radius_m);
+        if inflation.radius_m >= corner_m {
+            return None;
+        }
+        let message = format!(
+            "the inflation radius of {:.2} m is smaller than the circumscribed radius of the footprint, {corner_m:.2} m",
+            inflation.radius_m
+        );
+        let help =
+            format!("set `inflation_radius` of the inflation layer to at least {corner_m:.2}");
+        Some(Diagnostic::warning("small-inflation", message).help(help))
+    }
+
     /// Returns the reason why the costs are not up to date; none if they are.
     #[must_use]
     pub fn delay(&self, now_ns: i64) -> Option<String> {
