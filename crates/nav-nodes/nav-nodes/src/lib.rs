@@ -1,12 +1,13 @@
-//! Map server, SLAM, localization, costmap and odometry filter nodes.
+//! Map server, SLAM, localization, costmap, odometry filter and navigation nodes.
 //!
 //! Each module has the nodes of one ROS package or program, with its topics, services, parameters
 //! and QoS: [`map_server`] (`nav2_map_server`), [`slam_toolbox`] (also `slam_gmapping`), [`amcl`]
 //! (of Nav2 and of ROS 1), [`costmap_2d`] (`nav2_costmap_2d`) and [`ekf_node`]
 //! (`robot_localization`). The estimators themselves are libraries without ROS.
 //!
-//! The servers of Nav2 that move the robot: [`velocity_smoother`], [`collision_monitor`],
-//! [`behavior_server`] and [`waypoint_follower`], with [`simple_action_server`] for their actions.
+//! The servers of Nav2: [`planner_server`], [`smoother_server`], [`controller_server`],
+//! [`behavior_server`], [`velocity_smoother`], [`collision_monitor`] and [`waypoint_follower`], with
+//! [`simple_action_server`] for their actions and [`nav2_actions`] for the forms of the releases.
 //!
 //! ```
 //! use periplus_diagnostics::Diagnostics;

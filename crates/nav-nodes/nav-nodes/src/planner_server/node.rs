@@ -132,6 +132,11 @@ impl PlannerServer {
         find_plugin(self.planners.iter().map(|slot| slot.id.as_str()), id, "planner")
     }
 
+    /// Name of the planner that a goal asks for, for messages.
+    pub(super) fn planner_name<'a>(&'a self, id: &'a str) -> &'a str {
+        self.find_planner(id).map_or(id, |index| &self.planners[index].id)
+    }
+
     fn follow(&self, transition: Transition) -> StepOutcome {
         if self.costmap.lifecycle().change_now(transition) {
             StepOutcome::Success
@@ -196,8 +201,11 @@ impl LifecycleCallbacks for PlannerServer {
         StepOutcome::Success
     }
 
-    fn on_activate(&mut self, _: &mut Io<'_, Self>) -> StepOutcome {
+    fn on_activate(&mut self, io: &mut Io<'_, Self>) -> StepOutcome {
         let outcome = self.follow(Transition::Activate);
+        if let Some(advice) = self.costmap.with(|costmap| costmap.footprint_advice()) {
+            io.node().log_finding(&advice);
+        }
         if outcome == StepOutcome::Success {
             self.to_pose.activate();
             self.through_poses.activate();
