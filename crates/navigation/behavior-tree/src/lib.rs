@@ -46,15 +46,17 @@ mod value;
 pub use blackboard::{Blackboard, MAX_BLACKBOARD_ENTRIES};
 pub use build::{MAX_TREE_DEPTH, MAX_TREE_NODES};
 pub use document::{
-    IncludedTree, MAX_INCLUDE_DEPTH, MAX_INCLUDES, TreeFiles, TreeFormat, TreeInclude,
+    IncludedTree, MAX_INCLUDE_COUNT, MAX_INCLUDE_DEPTH, TreeFiles, TreeFormat, TreeInclude,
 };
 pub use model::{NodeKind, NodeModel, PortDirection, PortModel};
 pub use node::{BehaviorNode, NodeRun, PathGeometry, TreeContext, TreeError};
 pub use registry::NodeRegistry;
 pub use script::{
-    MAX_SCRIPT_BYTES, MAX_SCRIPT_DEPTH, MAX_SCRIPT_TEXT_BYTES, MAX_SCRIPT_TOKENS, Script,
+    MAX_SCRIPT_BYTES, MAX_SCRIPT_DEPTH, MAX_SCRIPT_TEXT_BYTES, MAX_SCRIPT_TOKEN_COUNT, Script,
     ScriptEnums, ScriptError,
 };
 pub use status::NodeStatus;
-pub use tree::{BehaviorTree, MAX_STATUS_CHANGES, MAX_WAKE_UPS, NodeInfo, StatusChange};
+pub use tree::{
+    BehaviorTree, MAX_STATUS_CHANGE_COUNT, MAX_WAKE_UP_COUNT, StatusChange, TreeNodeInfo,
+};
 pub use value::{PortType, TreeObject, TreeValue, parse_bool};

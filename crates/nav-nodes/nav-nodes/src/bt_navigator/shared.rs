@@ -187,9 +187,11 @@ impl Shared {
         Ok(PoseStamped { header, pose: pose(frame_from_source * source_from_goal) })
     }
 
-    /// Keeps a canceled goal until it is over.
-    pub(super) fn add_canceling(&self, goal: impl CancelingGoal + 'static) {
-        lock(&self.canceling).push(Box::new(goal));
+    /// Cancels a goal, and keeps it until it is over.
+    pub(super) fn add_canceling(&self, mut goal: impl CancelingGoal + 'static) {
+        if !goal.is_over() {
+            lock(&self.canceling).push(Box::new(goal));
+        }
     }
 
     /// True while a canceled goal is not over.
