@@ -7,20 +7,17 @@
 //! ```
 //! use periplus_behavior_tree::{Blackboard, NodeRegistry, NodeStatus, TreeFiles, nav2};
 //!
-//! let xml = r#"<root BTCPP_format="4" main_tree_to_execute="Main">
-//!   <BehaviorTree ID="Main">
-//!     <RecoveryNode number_of_retries="2">
-//!       <ScriptCondition code="attempts >= 2"/>
-//!       <Script code="attempts += 1"/>
-//!     </RecoveryNode>
-//!   </BehaviorTree>
-//! </root>"#;
+//! let xml = r#"<root BTCPP_format="4"><BehaviorTree ID="Main">
+//!   <RecoveryNode number_of_retries="2">
+//!     <ScriptCondition code="attempts >= 2"/>
+//!     <Script code="attempts += 1"/>
+//!   </RecoveryNode>
+//! </BehaviorTree></root>"#;
 //! let mut registry = NodeRegistry::new();
 //! nav2::register(&mut registry, nav2::Nav2NodeRules::MAIN);
 //! let files = TreeFiles::parse("main.xml", xml, &registry);
-//! let mut blackboard = Blackboard::new();
-//! blackboard.set("attempts", 0_i64).unwrap();
-//! let mut tree = files.tree("", &registry, blackboard).unwrap();
+//! let mut tree = files.tree("", &registry, Blackboard::new()).unwrap();
+//! tree.blackboard_mut().set("attempts", 0_i64).unwrap();
 //! assert_eq!(tree.tick(0, &mut ()), Ok(NodeStatus::Success));
 //! assert_eq!(tree.blackboard().get("attempts").unwrap().as_i64(), Some(2));
 //! ```

@@ -5,14 +5,12 @@ use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex};
 
 use periplus_behavior_tree::{
-    Blackboard, NodeModel, NodeRegistry, NodeStatus, PortType, TreeFiles, nav2,
+    Blackboard, NodeModel, NodeRegistry, NodeStatus, PortType, TreeContext, TreeFiles, nav2,
 };
 use periplus_costmap::Nav2Release;
 use periplus_diagnostics::{Diagnostics, SourceMap};
 use periplus_geometry::Stream;
-use periplus_nav_nodes::bt_navigator::{
-    NAVIGATE_THROUGH_POSES_FILE, NAVIGATE_TO_POSE_FILE, built_in_tree,
-};
+use periplus_nav_nodes::bt_navigator::{built_in_tree, built_in_tree_files};
 use periplus_resources::MemoryHost;
 
 use crate::world::World;
@@ -33,6 +31,19 @@ fn trees() -> Option<PathBuf> {
     Some(path)
 }
 
+/// Robot at a distance from its start \[m\].
+struct Moving(f64);
+
+impl TreeContext for Moving {
+    fn robot_position_m(&mut self, _: Option<&str>, _: Option<&str>) -> Option<[f64; 2]> {
+        Some([self.0, 0.0])
+    }
+
+    fn speed_m_s(&mut self) -> f64 {
+        0.1
+    }
+}
+
 /// Calls of leaves in each tick, by type, when their results are random by seed, type and number of the call.
 fn calls(xml: &str, models: &[NodeModel], release: Nav2Release, seed: u64) -> Vec<String> {
     let calls: Arc<Mutex<Vec<String>>> = Arc::default();
@@ -40,9 +51,13 @@ fn calls(xml: &str, models: &[NodeModel], release: Nav2Release, seed: u64) -> Ve
     let is_main = release == Nav2Release::Main;
     let rules = if is_main { nav2::Nav2NodeRules::MAIN } else { nav2::Nav2NodeRules::JAZZY };
     nav2::register(&mut registry, rules);
+    // It needs a topic; without a message it ticks its child.
+    let updater = models.iter().find(|model| model.name == "GoalUpdater").unwrap();
+    registry.register_leaf(updater.clone(), |run| run.tick_child(0));
     for model in models.iter().filter(|model| model.kind.is_leaf()) {
         let mut model = model.clone();
-        for port in ["error_code_id", "error_msg", "input_path"] {
+        for port in ["error_code_id", "error_msg", "input_path", "tracking_feedback", "is_recovery"]
+        {
             if model.find(port).is_none() {
                 model = model.input(port, PortType::Any);
             }
@@ -68,7 +83,8 @@ fn calls(xml: &str, models: &[NodeModel], release: Nav2Release, seed: u64) -> Ve
     let mut tree =
         files.tree("", &registry, Blackboard::new()).unwrap_or_else(|it| panic!("{it:#?}"));
     for tick in 0..TICKS {
-        let status = tree.tick(tick * 100_000_000, &mut ()).unwrap();
+        let mut robot = Moving(tick as f64 * 0.3);
+        let status = tree.tick(tick * 100_000_000, &mut robot).unwrap();
         calls.lock().unwrap().push(status.name().to_owned());
     }
     let calls = calls.lock().unwrap();
@@ -84,16 +100,16 @@ fn built_in_trees_are_equal_to_those_of_nav2_tick_for_tick() {
         let id = sources.add("nav2_tree_nodes.xml", text);
         let document = periplus_xml::parse(id, &sources, &mut Diagnostics::new()).unwrap();
         let models = NodeModel::read_all(&document.root);
-        for file in [NAVIGATE_TO_POSE_FILE, NAVIGATE_THROUGH_POSES_FILE] {
+        for file in built_in_tree_files() {
             let theirs = fs::read_to_string(folder.join(distro).join(file)).unwrap();
             let ours = built_in_tree(release, file).unwrap();
             let mut longest = 0;
             for seed in 0..SEEDS {
-                let ours = calls(ours, &models, release, seed);
+                let ours = calls(&ours, &models, release, seed);
                 assert_eq!(ours, calls(&theirs, &models, release, seed), "{distro} {file} {seed}");
                 longest = longest.max(ours.len());
             }
-            assert!(longest > 500, "{longest}");
+            assert!(longest > 250, "{distro} {file} {longest}");
         }
     }
 }

@@ -278,6 +278,20 @@ fn a_broken_tree_names_its_line() {
 }
 
 #[test]
+fn a_finished_action_is_not_repeated_until_its_parent_resets_it() {
+    let tree = r#"<root BTCPP_format="4"><BehaviorTree ID="T"><PipelineSequence>
+      <ComputePathToPose goal="{goal}" path="{path}"/><FollowPath path="{path}"/>
+    </PipelineSequence></BehaviorTree></root>"#;
+    let files = MemoryHost::new().with_file("/t/tree.xml", tree);
+    let world = World::with(Nav2Release::Main, files, &[]);
+    world.controller.with(|controller| controller.answers = [Answer::Succeed(500)].into());
+    let sent = Client::new(&world).send_with_tree(10.0, "/t/tree.xml");
+    world.run_ms(1_000);
+    assert_eq!(end(&world, &sent).0, GoalState::Succeeded);
+    assert_eq!(world.log.names(), ["compute_path_to_pose", "follow_path"]);
+}
+
+#[test]
 fn trees_are_found_by_id_in_folders() {
     let uses = r#"<root BTCPP_format="4"><BehaviorTree ID="Uses"><SubTree ID="Other"/></BehaviorTree></root>"#;
     let files =
