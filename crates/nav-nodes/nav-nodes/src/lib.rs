@@ -2,8 +2,8 @@
 //!
 //! Each module has the nodes of one ROS package or program, with its topics, services, parameters
 //! and QoS: [`map_server`] (`nav2_map_server`), [`slam_toolbox`] (also `slam_gmapping`), [`amcl`]
-//! (of Nav2 and of ROS 1), [`costmap_2d`] (`nav2_costmap_2d`) and [`ekf_node`]
-//! (`robot_localization`). The estimators themselves are libraries without ROS.
+//! (of Nav2 and of ROS 1), [`costmap_2d`] (`nav2_costmap_2d`), [`ekf_node`] (`robot_localization`)
+//! and [`bt_navigator`] (`nav2_bt_navigator`). The estimators themselves are libraries without ROS.
 //!
 //! The servers of Nav2: [`planner_server`], [`smoother_server`], [`controller_server`],
 //! [`behavior_server`], [`velocity_smoother`], [`collision_monitor`] and [`waypoint_follower`], with

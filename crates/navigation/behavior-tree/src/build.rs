@@ -36,6 +36,7 @@ pub(crate) fn build(
         parsers: registry.parsers.clone(),
         changes: VecDeque::new(),
         is_woken: false,
+        tick_count: 0,
     };
     let mut build = Build { files, registry, core, findings, open: Vec::new() };
     build.tree(tree, Scope { board: ROOT, prefix: "", depth: 0 })?;

@@ -12,7 +12,7 @@ use crate::{BehaviorTree, NodeRegistry};
 use crate::{build, check};
 
 /// Maximum number of files that a file of trees includes, directly and through others.
-pub const MAX_INCLUDES: usize = 100;
+pub const MAX_INCLUDE_COUNT: usize = 100;
 /// Maximum nesting of included files.
 pub const MAX_INCLUDE_DEPTH: usize = 16;
 
@@ -248,9 +248,9 @@ impl Reader<'_> {
             return;
         };
         self.count += 1;
-        if self.count > MAX_INCLUDES || self.open.len() >= MAX_INCLUDE_DEPTH {
+        if self.count > MAX_INCLUDE_COUNT || self.open.len() >= MAX_INCLUDE_DEPTH {
             self.report(fault(format!(
-                "too many included files: at most {MAX_INCLUDES}, nested at most {MAX_INCLUDE_DEPTH} deep"
+                "too many included files: at most {MAX_INCLUDE_COUNT}, nested at most {MAX_INCLUDE_DEPTH} deep"
             )));
             return;
         }

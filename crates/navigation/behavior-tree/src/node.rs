@@ -96,6 +96,12 @@ impl NodeRun<'_> {
         self.now_ns
     }
 
+    /// Number of ticks of the tree up to this one. A node that is ticked each time sees consecutive numbers.
+    #[must_use]
+    pub fn tick_count(&self) -> u64 {
+        self.core.tick_count
+    }
+
     /// Data about the robot.
     pub fn context(&mut self) -> &mut dyn TreeContext {
         self.context

@@ -199,7 +199,7 @@ fn includes_are_resolved_by_the_caller() {
     assert!(listed(&files.sources, &files.diagnostics)[0].contains("too many included files"));
 }
 
-/// Trees that Nav2 has, with leaves by the models of its own file: no findings.
+/// Trees that Nav2 has, with leaves by the models of Nav2's file: no findings.
 #[test]
 fn stock_trees_of_nav2_load_without_findings() {
     let Some(folder) = shared("nav/behavior_trees") else { return };

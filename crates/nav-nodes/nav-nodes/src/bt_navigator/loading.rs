@@ -49,7 +49,7 @@ impl TreeLoader {
         let text = match self.files.read(path) {
             Ok(bytes) => String::from_utf8_lossy(&bytes).into_owned(),
             Err(error) => match built_in_tree(shared.release, file_name) {
-                Some(text) => text.to_owned(),
+                Some(text) => text.into_owned(),
                 None => return Err(vec![format!("cannot read `{name}`: {error}")]),
             },
         };
