@@ -14,6 +14,8 @@
 //! Sources: range reduction in parts by Cody and Waite, *Software Manual for the Elementary Functions*
 //! (1980); coefficients are those of minimax polynomials in the Cephes library (Moshier 1989).
 
+#![allow(clippy::excessive_precision, reason = "coefficients are written as published")]
+
 use std::f32::consts::{FRAC_2_PI, FRAC_PI_2, FRAC_PI_4, LN_2, LOG2_E, PI};
 
 /// Number that rounds to an integer when it is added and subtracted: 1.5 times 2^23.
