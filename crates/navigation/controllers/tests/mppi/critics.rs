@@ -158,8 +158,8 @@ fn costs_along_a_trajectory_count() {
 
 #[test]
 fn the_outline_of_the_robot_collides_where_its_centre_does_not() {
-    let mut scene = Scene::default();
-    scene.footprint = Footprint::new(vec![[0.5, 0.1], [0.5, -0.1], [-0.1, -0.1], [-0.1, 0.1]]);
+    let footprint = Footprint::new(vec![[0.5, 0.1], [0.5, -0.1], [-0.1, -0.1], [-0.1, 0.1]]);
+    let mut scene = Scene { footprint, ..Scene::default() };
     scene.costmap.fill(1);
     scene.costmap.set((34, 31), 254);
     // Ahead of a robot at (0.05, 0.05) along x, beside one along y.
