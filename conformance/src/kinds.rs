@@ -8,14 +8,18 @@ use periplus_resources::{EntryKind, Host};
 use crate::{Case, Differences, Unreadable};
 
 mod amcl;
+mod behavior_tree;
 mod costmap;
 mod grid_coords;
 mod map_load;
 mod map_pixel;
 mod map_save;
+mod motion;
 mod mppi;
 mod path_expand;
+mod planning;
 mod raytrace_2d;
+mod ros2_control;
 mod rsp;
 mod rviz_palette;
 mod speed_limit;
@@ -57,14 +61,18 @@ pub const KINDS: &[(&str, Check)] = &[
     ("amcl_motion", amcl::check_motion),
     ("amcl_pose_file", amcl::check_pose_file),
     ("amcl_update", amcl::check_update),
+    ("behavior_velocity", motion::check_behavior),
     ("binary_filter", costmap::check_binary),
+    ("bt_control", behavior_tree::check_control),
     ("clear_area", costmap::check_clear_area),
     ("clear_service", costmap::check_clear_service),
     ("collision_checker_topic", costmap::check_footprint_cost),
+    ("collision_monitor", motion::check_monitor),
     ("costmap_publisher", costmap::check_publisher),
     ("costmap_to_occgrid", costmap::check_to_occupancy),
     ("declare_params", costmap::check_parameters),
     ("denoise", costmap::check_denoise),
+    ("diff_drive_odometry", ros2_control::check_odometry),
     ("footprint", costmap::check_footprint),
     ("footprint_cost", costmap::check_footprint_cost),
     ("grid_coords", grid_coords::check),
@@ -72,11 +80,13 @@ pub const KINDS: &[(&str, Check)] = &[
     ("keepout_filter", costmap::check_keepout),
     ("laser_projection", costmap::check_projection),
     ("layered_costmap", costmap::check_layered),
+    ("lifecycle_order", motion::check_lifecycle),
     ("map_load", map_load::check),
     ("map_pixel", map_pixel::check),
     ("map_save", map_save::check),
     ("map_save_pixel", map_save::check_pixels),
     ("mask_cost", costmap::check_to_cost),
+    ("navfn", planning::check_navfn),
     ("mppi_critic", mppi::check_critic),
     ("mppi_filter", mppi::check_filter),
     ("mppi_rollout", mppi::check_rollout),
@@ -85,11 +95,16 @@ pub const KINDS: &[(&str, Check)] = &[
     ("obstacle_layer", costmap::check_obstacle),
     ("occgrid_to_costmap", costmap::check_to_cost),
     ("path_expand", path_expand::check),
+    ("path_smoother", planning::check_smoother),
+    ("planner_grid_coords", planning::check_grid_coords),
     ("range_sensor_layer", costmap::check_layered),
     ("range_sensor_model", costmap::check_range_model),
     ("raytrace_2d", raytrace_2d::check),
+    ("recovery_helps", behavior_tree::check_recovery),
     ("rsp", rsp::check),
     ("rviz_palette", rviz_palette::check),
+    ("smac_primitives", planning::check_primitives),
+    ("smac_traversal_cost", planning::check_traversal_cost),
     ("speed_filter", costmap::check_speed),
     ("speed_limit", speed_limit::check),
     ("static_layer_value", costmap::check_static),
@@ -100,5 +115,7 @@ pub const KINDS: &[(&str, Check)] = &[
     ("tf2_lookup", tf2::check_lookup),
     ("tf2_set", tf2::check_set),
     ("tf2_static", tf2::check_lookup),
+    ("velocity_smoother", motion::check_smoother),
     ("voxel_grid", costmap::check_voxels),
+    ("wheel_commands", ros2_control::check_commands),
 ];

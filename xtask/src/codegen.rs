@@ -53,34 +53,50 @@ pub(crate) fn run(check: bool) -> Result<(), Failed> {
 /// The texts of all types, as ROS 2 Jazzy has them.
 const ALL: &str = "interfaces";
 
-/// Texts of types that have another form in Nav2's main branch, and the module of these.
-const NAV2_MAIN: (&str, &str) = ("interfaces_nav2_main", "nav2_msgs_main");
+/// Folders with the texts of types that have other fields in another distribution, and the suffix of
+/// the modules of these: `nav2_msgs_humble` has all of `nav2_msgs`, with its own form of some types.
+const VARIANTS: [(&str, &str); 2] = [("interfaces_humble", "humble"), ("interfaces_main", "main")];
 
 /// The files of the crate's `src` that the texts ask for.
 fn generate() -> Result<BTreeMap<PathBuf, String>, Failed> {
     let mut registry = Registry::new();
     let paths = read(ALL, &mut registry)?;
-    let packages: BTreeSet<&str> =
-        registry.interfaces().map(|interface| interface.name.package.as_str()).collect();
+    let packages: BTreeSet<String> =
+        registry.interfaces().map(|interface| interface.name.package.clone()).collect();
     let mut wanted = BTreeMap::new();
     for package in &packages {
         let code = rust::package(&registry, package).map_err(|error| Failed(error.to_string()))?;
         wanted.insert(PathBuf::from(format!("generated/{package}.rs")), code);
     }
-    let modules: BTreeSet<&str> = packages.iter().copied().chain([NAV2_MAIN.1]).collect();
+    let mut modules = packages;
+    for (folder, suffix) in VARIANTS {
+        for (package, code) in variants(&registry, folder)? {
+            let module = format!("{package}_{suffix}");
+            wanted.insert(PathBuf::from(format!("generated/{module}.rs")), code);
+            modules.insert(module);
+        }
+    }
     wanted.insert("generated.rs".into(), index(&registry, &modules, &paths));
-    let (folder, module) = NAV2_MAIN;
-    let mut registry = registry.clone();
-    let others = read(folder, &mut registry)?;
-    let is_other =
-        |name: &TypeName| others.iter().any(|path| path.starts_with(&format!("{name}.")));
-    let code = rust::some(&registry, &format!("{folder}/nav2_msgs"), is_other)
-        .map_err(|error| Failed(error.to_string()))?;
-    wanted.insert(PathBuf::from(format!("generated/{module}.rs")), code);
     Ok(wanted)
 }
 
-fn index(registry: &Registry, modules: &BTreeSet<&str>, paths: &[String]) -> String {
+/// Packages with types of another form, and the code of these.
+fn variants(common: &Registry, folder: &str) -> Result<Vec<(String, String)>, Failed> {
+    let mut registry = common.clone();
+    let paths = read(folder, &mut registry)?;
+    let packages: BTreeSet<&str> = paths.iter().filter_map(|path| path.split('/').next()).collect();
+    let code = |package: &str| {
+        let is_variant = |name: &TypeName| {
+            name.package == package
+                && paths.iter().any(|path| path.starts_with(&format!("{name}.")))
+        };
+        rust::variants(&registry, &format!("{folder}/{package}"), is_variant)
+            .map_err(|error| Failed(error.to_string()))
+    };
+    packages.iter().map(|package| Ok(((*package).to_owned(), code(package)?))).collect()
+}
+
+fn index(registry: &Registry, modules: &BTreeSet<String>, paths: &[String]) -> String {
     let mut code =
         String::from("//! All packages and their texts. Made by `cargo xtask codegen`.\n\n");
     for module in modules {

@@ -8,11 +8,11 @@
 //!
 //! | task | modules |
 //! |---|---|
-//! | simulate a robot | [`sim`], [`physics`], [`sensors`], [`raycast`], [`rendering`] |
+//! | simulate a robot | [`sim`], [`physics`], [`ros2_control`], [`sensors`], [`raycast`], [`rendering`] |
 //! | read robots and worlds | [`loader`], [`xacro`], [`urdf`], [`sdf`], [`scene`], [`meshes`], [`resources`] |
 //! | build a map | [`slam`], [`scan_matching`], [`exploration`] |
 //! | localize | [`localization`], [`ekf`], [`maps`] |
-//! | decide where to drive | [`costmap`], [`grid`] |
+//! | decide where to drive | [`costmap`], [`planners`], [`grid`] |
 //! | nodes, topics, time | [`graph`], [`msgs`], [`tf`], [`tf_ros`], [`nav_nodes`] |
 //! | recordings | [`bags`] |
 //!
@@ -142,9 +142,11 @@ pub use periplus_nav_nodes as nav_nodes;
 pub use periplus_os as os;
 pub use periplus_params as params;
 pub use periplus_physics as physics;
+pub use periplus_planners as planners;
 pub use periplus_raycast as raycast;
 pub use periplus_rendering as rendering;
 pub use periplus_resources as resources;
+pub use periplus_ros2_control as ros2_control;
 pub use periplus_scan_matching as scan_matching;
 pub use periplus_scene as scene;
 pub use periplus_sdf as sdf;

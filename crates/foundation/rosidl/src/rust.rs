@@ -50,23 +50,44 @@ impl std::error::Error for CodegenError {}
 /// # Errors
 /// If a type cannot be expressed in this form.
 pub fn package(registry: &Registry, package: &str) -> Result<String, CodegenError> {
-    some(registry, &format!("interfaces/{package}"), |name| name.package == package)
+    let types = some(registry, |name| name.package == package)?;
+    Ok(head(&format!("interfaces/{package}")) + &types)
 }
 
-/// Generates the code of the wanted types of one package, whose texts are in `folder`.
+/// Generates the code of a module that has all types of a package, with the form of `folder` of those that
+/// are variants.
 ///
 /// # Errors
 /// As [`package`].
-pub fn some(
+pub fn variants(
     registry: &Registry,
     folder: &str,
+    is_variant: impl Fn(&TypeName) -> bool,
+) -> Result<String, CodegenError> {
+    let mut code = head(folder);
+    let _ = writeln!(code, "\npub use super::{}::*;", package_of(folder));
+    code.push_str(&some(registry, is_variant)?);
+    Ok(code)
+}
+
+fn package_of(folder: &str) -> &str {
+    folder.rsplit('/').next().unwrap_or_default()
+}
+
+fn head(folder: &str) -> String {
+    format!(
+        "//! `{}`. Made by `cargo xtask codegen`; edit the texts in `{folder}`\n\
+         //! instead.\n",
+        package_of(folder)
+    )
+}
+
+/// Code of the wanted types.
+fn some(
+    registry: &Registry,
     is_wanted: impl Fn(&TypeName) -> bool,
 ) -> Result<String, CodegenError> {
-    let package = folder.rsplit('/').next().unwrap_or_default();
-    let mut code = format!(
-        "//! `{package}`. Made by `cargo xtask codegen`; edit the texts in `{folder}`\n\
-         //! instead.\n"
-    );
+    let mut code = String::new();
     let mut taken = BTreeMap::new();
     for interface in registry.interfaces().filter(|one| is_wanted(&one.name)) {
         for definition in structs(registry, interface) {

@@ -1,19 +1,33 @@
 //! All packages and their texts. Made by `cargo xtask codegen`.
 
 pub mod action_msgs;
+pub mod actionlib_msgs;
 pub mod bond;
 pub mod builtin_interfaces;
+pub mod control_msgs;
+pub mod control_msgs_humble;
+pub mod control_msgs_main;
+pub mod controller_manager_msgs;
+pub mod controller_manager_msgs_humble;
+pub mod controller_manager_msgs_main;
 pub mod diagnostic_msgs;
+pub mod dwb_msgs;
+pub mod dwb_msgs_main;
 pub mod example_interfaces;
 pub mod gazebo_msgs;
+pub mod geographic_msgs;
 pub mod geometry_msgs;
 pub mod lifecycle_msgs;
 pub mod map_msgs;
+pub mod move_base_msgs;
 pub mod nav2_msgs;
+pub mod nav2_msgs_humble;
 pub mod nav2_msgs_main;
+pub mod nav_2d_msgs;
 pub mod nav_msgs;
 pub mod radar_msgs;
 pub mod rcl_interfaces;
+pub mod robot_localization;
 pub mod ros_gz_interfaces;
 pub mod rosgraph_msgs;
 pub mod sensor_msgs;
@@ -34,14 +48,59 @@ crate::sources! {
     "action_msgs/msg/GoalStatus.msg"
     "action_msgs/msg/GoalStatusArray.msg"
     "action_msgs/srv/CancelGoal.srv"
+    "actionlib_msgs/msg/GoalID.msg"
+    "actionlib_msgs/msg/GoalStatus.msg"
+    "actionlib_msgs/msg/GoalStatusArray.msg"
+    "bond/msg/Constants.msg"
     "bond/msg/Status.msg"
     "builtin_interfaces/msg/Duration.msg"
     "builtin_interfaces/msg/Time.msg"
+    "control_msgs/action/FollowJointTrajectory.action"
+    "control_msgs/msg/DynamicJointState.msg"
+    "control_msgs/msg/InterfaceValue.msg"
+    "control_msgs/msg/JointComponentTolerance.msg"
+    "control_msgs/msg/JointJog.msg"
+    "control_msgs/msg/JointTolerance.msg"
+    "control_msgs/msg/JointTrajectoryControllerState.msg"
+    "control_msgs/msg/MecanumDriveControllerState.msg"
+    "control_msgs/msg/PidState.msg"
+    "control_msgs/msg/SingleDOFState.msg"
+    "control_msgs/msg/SpeedScalingFactor.msg"
+    "control_msgs/msg/SteeringControllerCommand.msg"
+    "control_msgs/msg/SteeringControllerStatus.msg"
+    "control_msgs/srv/QueryTrajectoryState.srv"
+    "control_msgs/srv/SetOdometry.srv"
+    "controller_manager_msgs/msg/ChainConnection.msg"
+    "controller_manager_msgs/msg/ControllerManagerActivity.msg"
+    "controller_manager_msgs/msg/ControllerState.msg"
+    "controller_manager_msgs/msg/HardwareComponentState.msg"
+    "controller_manager_msgs/msg/HardwareInterface.msg"
+    "controller_manager_msgs/msg/NamedLifecycleState.msg"
+    "controller_manager_msgs/srv/CleanupController.srv"
+    "controller_manager_msgs/srv/ConfigureController.srv"
+    "controller_manager_msgs/srv/ListControllerTypes.srv"
+    "controller_manager_msgs/srv/ListControllers.srv"
+    "controller_manager_msgs/srv/ListHardwareComponents.srv"
+    "controller_manager_msgs/srv/ListHardwareInterfaces.srv"
+    "controller_manager_msgs/srv/LoadController.srv"
+    "controller_manager_msgs/srv/ReloadControllerLibraries.srv"
+    "controller_manager_msgs/srv/SetHardwareComponentState.srv"
+    "controller_manager_msgs/srv/SwitchController.srv"
+    "controller_manager_msgs/srv/UnloadController.srv"
     "diagnostic_msgs/msg/DiagnosticArray.msg"
     "diagnostic_msgs/msg/DiagnosticStatus.msg"
     "diagnostic_msgs/msg/KeyValue.msg"
     "diagnostic_msgs/srv/AddDiagnostics.srv"
     "diagnostic_msgs/srv/SelfTest.srv"
+    "dwb_msgs/msg/CriticScore.msg"
+    "dwb_msgs/msg/LocalPlanEvaluation.msg"
+    "dwb_msgs/msg/Trajectory2D.msg"
+    "dwb_msgs/msg/TrajectoryScore.msg"
+    "dwb_msgs/srv/DebugLocalPlan.srv"
+    "dwb_msgs/srv/GenerateTrajectory.srv"
+    "dwb_msgs/srv/GenerateTwists.srv"
+    "dwb_msgs/srv/GetCriticScore.srv"
+    "dwb_msgs/srv/ScoreTrajectory.srv"
     "example_interfaces/action/Fibonacci.action"
     "gazebo_msgs/msg/ContactState.msg"
     "gazebo_msgs/msg/ContactsState.msg"
@@ -86,6 +145,10 @@ crate::sources! {
     "gazebo_msgs/srv/SetPhysicsProperties.srv"
     "gazebo_msgs/srv/SpawnEntity.srv"
     "gazebo_msgs/srv/SpawnModel.srv"
+    "geographic_msgs/msg/GeoPoint.msg"
+    "geographic_msgs/msg/GeoPointStamped.msg"
+    "geographic_msgs/msg/GeoPose.msg"
+    "geographic_msgs/msg/GeoPoseStamped.msg"
     "geometry_msgs/msg/Accel.msg"
     "geometry_msgs/msg/AccelStamped.msg"
     "geometry_msgs/msg/AccelWithCovariance.msg"
@@ -136,32 +199,82 @@ crate::sources! {
     "map_msgs/srv/ProjectedMapsInfo.srv"
     "map_msgs/srv/SaveMap.srv"
     "map_msgs/srv/SetMapProjections.srv"
+    "move_base_msgs/msg/MoveBaseAction.msg"
+    "move_base_msgs/msg/MoveBaseActionFeedback.msg"
+    "move_base_msgs/msg/MoveBaseActionGoal.msg"
+    "move_base_msgs/msg/MoveBaseActionResult.msg"
+    "move_base_msgs/msg/MoveBaseFeedback.msg"
+    "move_base_msgs/msg/MoveBaseGoal.msg"
+    "move_base_msgs/msg/MoveBaseResult.msg"
+    "move_base_msgs/msg/RecoveryStatus.msg"
+    "nav2_msgs/action/AssistedTeleop.action"
+    "nav2_msgs/action/BackUp.action"
+    "nav2_msgs/action/ComputeAndTrackRoute.action"
+    "nav2_msgs/action/ComputePathThroughPoses.action"
+    "nav2_msgs/action/ComputePathToPose.action"
+    "nav2_msgs/action/ComputeRoute.action"
+    "nav2_msgs/action/DockRobot.action"
+    "nav2_msgs/action/DriveOnHeading.action"
+    "nav2_msgs/action/FollowGPSWaypoints.action"
+    "nav2_msgs/action/FollowObject.action"
+    "nav2_msgs/action/FollowPath.action"
+    "nav2_msgs/action/FollowWaypoints.action"
+    "nav2_msgs/action/NavigateThroughPoses.action"
+    "nav2_msgs/action/NavigateToPose.action"
+    "nav2_msgs/action/SmoothPath.action"
+    "nav2_msgs/action/Spin.action"
+    "nav2_msgs/action/UndockRobot.action"
+    "nav2_msgs/action/Wait.action"
     "nav2_msgs/msg/BehaviorTreeLog.msg"
     "nav2_msgs/msg/BehaviorTreeStatusChange.msg"
+    "nav2_msgs/msg/CircleObject.msg"
     "nav2_msgs/msg/CollisionDetectorState.msg"
     "nav2_msgs/msg/CollisionMonitorState.msg"
     "nav2_msgs/msg/Costmap.msg"
     "nav2_msgs/msg/CostmapFilterInfo.msg"
     "nav2_msgs/msg/CostmapMetaData.msg"
     "nav2_msgs/msg/CostmapUpdate.msg"
+    "nav2_msgs/msg/CriticsStats.msg"
+    "nav2_msgs/msg/EdgeCost.msg"
+    "nav2_msgs/msg/ExclusionZoneDescription.msg"
     "nav2_msgs/msg/MissedWaypoint.msg"
     "nav2_msgs/msg/Particle.msg"
     "nav2_msgs/msg/ParticleCloud.msg"
+    "nav2_msgs/msg/PolygonObject.msg"
+    "nav2_msgs/msg/Route.msg"
+    "nav2_msgs/msg/RouteEdge.msg"
+    "nav2_msgs/msg/RouteNode.msg"
     "nav2_msgs/msg/SpeedLimit.msg"
+    "nav2_msgs/msg/TrackingFeedback.msg"
     "nav2_msgs/msg/VoxelGrid.msg"
+    "nav2_msgs/msg/WaypointStatus.msg"
+    "nav2_msgs/srv/AddExclusionZone.srv"
+    "nav2_msgs/srv/AddShapes.srv"
     "nav2_msgs/srv/ClearCostmapAroundPose.srv"
     "nav2_msgs/srv/ClearCostmapAroundRobot.srv"
     "nav2_msgs/srv/ClearCostmapExceptRegion.srv"
     "nav2_msgs/srv/ClearEntireCostmap.srv"
+    "nav2_msgs/srv/DynamicEdges.srv"
     "nav2_msgs/srv/GetCost.srv"
     "nav2_msgs/srv/GetCostmap.srv"
     "nav2_msgs/srv/GetCosts.srv"
+    "nav2_msgs/srv/GetShapes.srv"
     "nav2_msgs/srv/IsPathValid.srv"
     "nav2_msgs/srv/LoadMap.srv"
     "nav2_msgs/srv/ManageLifecycleNodes.srv"
     "nav2_msgs/srv/ReloadDockDatabase.srv"
+    "nav2_msgs/srv/RemoveExclusionZone.srv"
+    "nav2_msgs/srv/RemoveShapes.srv"
     "nav2_msgs/srv/SaveMap.srv"
     "nav2_msgs/srv/SetInitialPose.srv"
+    "nav2_msgs/srv/SetRouteGraph.srv"
+    "nav2_msgs/srv/Toggle.srv"
+    "nav_2d_msgs/msg/Path2D.msg"
+    "nav_2d_msgs/msg/Pose2D32.msg"
+    "nav_2d_msgs/msg/Pose2DStamped.msg"
+    "nav_2d_msgs/msg/Twist2D.msg"
+    "nav_2d_msgs/msg/Twist2D32.msg"
+    "nav_2d_msgs/msg/Twist2DStamped.msg"
     "nav_msgs/msg/Goals.msg"
     "nav_msgs/msg/GridCells.msg"
     "nav_msgs/msg/MapMetaData.msg"
@@ -197,6 +310,10 @@ crate::sources! {
     "rcl_interfaces/srv/SetLoggerLevels.srv"
     "rcl_interfaces/srv/SetParameters.srv"
     "rcl_interfaces/srv/SetParametersAtomically.srv"
+    "robot_localization/srv/FromLL.srv"
+    "robot_localization/srv/FromLLArray.srv"
+    "robot_localization/srv/SetDatum.srv"
+    "robot_localization/srv/ToLL.srv"
     "ros_gz_interfaces/msg/AirSpeed.msg"
     "ros_gz_interfaces/msg/Altimeter.msg"
     "ros_gz_interfaces/msg/Clock.msg"
@@ -358,9 +475,65 @@ crate::list_messages! {
     action_msgs::GoalStatusArray
     action_msgs::CancelGoalRequest
     action_msgs::CancelGoalResponse
+    actionlib_msgs::GoalID
+    actionlib_msgs::GoalStatus
+    actionlib_msgs::GoalStatusArray
+    bond::Constants
     bond::Status
     builtin_interfaces::Duration
     builtin_interfaces::Time
+    control_msgs::FollowJointTrajectoryGoal
+    control_msgs::FollowJointTrajectoryResult
+    control_msgs::FollowJointTrajectoryFeedback
+    control_msgs::FollowJointTrajectorySendGoalRequest
+    control_msgs::FollowJointTrajectorySendGoalResponse
+    control_msgs::FollowJointTrajectoryGetResultRequest
+    control_msgs::FollowJointTrajectoryGetResultResponse
+    control_msgs::FollowJointTrajectoryFeedbackMessage
+    control_msgs::DynamicJointState
+    control_msgs::InterfaceValue
+    control_msgs::JointComponentTolerance
+    control_msgs::JointJog
+    control_msgs::JointTolerance
+    control_msgs::JointTrajectoryControllerState
+    control_msgs::MecanumDriveControllerState
+    control_msgs::PidState
+    control_msgs::SingleDOFState
+    control_msgs::SpeedScalingFactor
+    control_msgs::SteeringControllerCommand
+    control_msgs::SteeringControllerStatus
+    control_msgs::QueryTrajectoryStateRequest
+    control_msgs::QueryTrajectoryStateResponse
+    control_msgs::SetOdometryRequest
+    control_msgs::SetOdometryResponse
+    controller_manager_msgs::ChainConnection
+    controller_manager_msgs::ControllerManagerActivity
+    controller_manager_msgs::ControllerState
+    controller_manager_msgs::HardwareComponentState
+    controller_manager_msgs::HardwareInterface
+    controller_manager_msgs::NamedLifecycleState
+    controller_manager_msgs::CleanupControllerRequest
+    controller_manager_msgs::CleanupControllerResponse
+    controller_manager_msgs::ConfigureControllerRequest
+    controller_manager_msgs::ConfigureControllerResponse
+    controller_manager_msgs::ListControllerTypesRequest
+    controller_manager_msgs::ListControllerTypesResponse
+    controller_manager_msgs::ListControllersRequest
+    controller_manager_msgs::ListControllersResponse
+    controller_manager_msgs::ListHardwareComponentsRequest
+    controller_manager_msgs::ListHardwareComponentsResponse
+    controller_manager_msgs::ListHardwareInterfacesRequest
+    controller_manager_msgs::ListHardwareInterfacesResponse
+    controller_manager_msgs::LoadControllerRequest
+    controller_manager_msgs::LoadControllerResponse
+    controller_manager_msgs::ReloadControllerLibrariesRequest
+    controller_manager_msgs::ReloadControllerLibrariesResponse
+    controller_manager_msgs::SetHardwareComponentStateRequest
+    controller_manager_msgs::SetHardwareComponentStateResponse
+    controller_manager_msgs::SwitchControllerRequest
+    controller_manager_msgs::SwitchControllerResponse
+    controller_manager_msgs::UnloadControllerRequest
+    controller_manager_msgs::UnloadControllerResponse
     diagnostic_msgs::DiagnosticArray
     diagnostic_msgs::DiagnosticStatus
     diagnostic_msgs::KeyValue
@@ -368,6 +541,20 @@ crate::list_messages! {
     diagnostic_msgs::AddDiagnosticsResponse
     diagnostic_msgs::SelfTestRequest
     diagnostic_msgs::SelfTestResponse
+    dwb_msgs::CriticScore
+    dwb_msgs::LocalPlanEvaluation
+    dwb_msgs::Trajectory2D
+    dwb_msgs::TrajectoryScore
+    dwb_msgs::DebugLocalPlanRequest
+    dwb_msgs::DebugLocalPlanResponse
+    dwb_msgs::GenerateTrajectoryRequest
+    dwb_msgs::GenerateTrajectoryResponse
+    dwb_msgs::GenerateTwistsRequest
+    dwb_msgs::GenerateTwistsResponse
+    dwb_msgs::GetCriticScoreRequest
+    dwb_msgs::GetCriticScoreResponse
+    dwb_msgs::ScoreTrajectoryRequest
+    dwb_msgs::ScoreTrajectoryResponse
     example_interfaces::FibonacciGoal
     example_interfaces::FibonacciResult
     example_interfaces::FibonacciFeedback
@@ -449,6 +636,10 @@ crate::list_messages! {
     gazebo_msgs::SpawnEntityResponse
     gazebo_msgs::SpawnModelRequest
     gazebo_msgs::SpawnModelResponse
+    geographic_msgs::GeoPoint
+    geographic_msgs::GeoPointStamped
+    geographic_msgs::GeoPose
+    geographic_msgs::GeoPoseStamped
     geometry_msgs::Accel
     geometry_msgs::AccelStamped
     geometry_msgs::AccelWithCovariance
@@ -509,19 +700,185 @@ crate::list_messages! {
     map_msgs::SaveMapResponse
     map_msgs::SetMapProjectionsRequest
     map_msgs::SetMapProjectionsResponse
+    move_base_msgs::MoveBaseAction
+    move_base_msgs::MoveBaseActionFeedback
+    move_base_msgs::MoveBaseActionGoal
+    move_base_msgs::MoveBaseActionResult
+    move_base_msgs::MoveBaseFeedback
+    move_base_msgs::MoveBaseGoal
+    move_base_msgs::MoveBaseResult
+    move_base_msgs::RecoveryStatus
+    nav2_msgs::AssistedTeleopGoal
+    nav2_msgs::AssistedTeleopResult
+    nav2_msgs::AssistedTeleopFeedback
+    nav2_msgs::AssistedTeleopSendGoalRequest
+    nav2_msgs::AssistedTeleopSendGoalResponse
+    nav2_msgs::AssistedTeleopGetResultRequest
+    nav2_msgs::AssistedTeleopGetResultResponse
+    nav2_msgs::AssistedTeleopFeedbackMessage
+    nav2_msgs::BackUpGoal
+    nav2_msgs::BackUpResult
+    nav2_msgs::BackUpFeedback
+    nav2_msgs::BackUpSendGoalRequest
+    nav2_msgs::BackUpSendGoalResponse
+    nav2_msgs::BackUpGetResultRequest
+    nav2_msgs::BackUpGetResultResponse
+    nav2_msgs::BackUpFeedbackMessage
+    nav2_msgs::ComputeAndTrackRouteGoal
+    nav2_msgs::ComputeAndTrackRouteResult
+    nav2_msgs::ComputeAndTrackRouteFeedback
+    nav2_msgs::ComputeAndTrackRouteSendGoalRequest
+    nav2_msgs::ComputeAndTrackRouteSendGoalResponse
+    nav2_msgs::ComputeAndTrackRouteGetResultRequest
+    nav2_msgs::ComputeAndTrackRouteGetResultResponse
+    nav2_msgs::ComputeAndTrackRouteFeedbackMessage
+    nav2_msgs::ComputePathThroughPosesGoal
+    nav2_msgs::ComputePathThroughPosesResult
+    nav2_msgs::ComputePathThroughPosesFeedback
+    nav2_msgs::ComputePathThroughPosesSendGoalRequest
+    nav2_msgs::ComputePathThroughPosesSendGoalResponse
+    nav2_msgs::ComputePathThroughPosesGetResultRequest
+    nav2_msgs::ComputePathThroughPosesGetResultResponse
+    nav2_msgs::ComputePathThroughPosesFeedbackMessage
+    nav2_msgs::ComputePathToPoseGoal
+    nav2_msgs::ComputePathToPoseResult
+    nav2_msgs::ComputePathToPoseFeedback
+    nav2_msgs::ComputePathToPoseSendGoalRequest
+    nav2_msgs::ComputePathToPoseSendGoalResponse
+    nav2_msgs::ComputePathToPoseGetResultRequest
+    nav2_msgs::ComputePathToPoseGetResultResponse
+    nav2_msgs::ComputePathToPoseFeedbackMessage
+    nav2_msgs::ComputeRouteGoal
+    nav2_msgs::ComputeRouteResult
+    nav2_msgs::ComputeRouteFeedback
+    nav2_msgs::ComputeRouteSendGoalRequest
+    nav2_msgs::ComputeRouteSendGoalResponse
+    nav2_msgs::ComputeRouteGetResultRequest
+    nav2_msgs::ComputeRouteGetResultResponse
+    nav2_msgs::ComputeRouteFeedbackMessage
+    nav2_msgs::DockRobotGoal
+    nav2_msgs::DockRobotResult
+    nav2_msgs::DockRobotFeedback
+    nav2_msgs::DockRobotSendGoalRequest
+    nav2_msgs::DockRobotSendGoalResponse
+    nav2_msgs::DockRobotGetResultRequest
+    nav2_msgs::DockRobotGetResultResponse
+    nav2_msgs::DockRobotFeedbackMessage
+    nav2_msgs::DriveOnHeadingGoal
+    nav2_msgs::DriveOnHeadingResult
+    nav2_msgs::DriveOnHeadingFeedback
+    nav2_msgs::DriveOnHeadingSendGoalRequest
+    nav2_msgs::DriveOnHeadingSendGoalResponse
+    nav2_msgs::DriveOnHeadingGetResultRequest
+    nav2_msgs::DriveOnHeadingGetResultResponse
+    nav2_msgs::DriveOnHeadingFeedbackMessage
+    nav2_msgs::FollowGPSWaypointsGoal
+    nav2_msgs::FollowGPSWaypointsResult
+    nav2_msgs::FollowGPSWaypointsFeedback
+    nav2_msgs::FollowGPSWaypointsSendGoalRequest
+    nav2_msgs::FollowGPSWaypointsSendGoalResponse
+    nav2_msgs::FollowGPSWaypointsGetResultRequest
+    nav2_msgs::FollowGPSWaypointsGetResultResponse
+    nav2_msgs::FollowGPSWaypointsFeedbackMessage
+    nav2_msgs::FollowObjectGoal
+    nav2_msgs::FollowObjectResult
+    nav2_msgs::FollowObjectFeedback
+    nav2_msgs::FollowObjectSendGoalRequest
+    nav2_msgs::FollowObjectSendGoalResponse
+    nav2_msgs::FollowObjectGetResultRequest
+    nav2_msgs::FollowObjectGetResultResponse
+    nav2_msgs::FollowObjectFeedbackMessage
+    nav2_msgs::FollowPathGoal
+    nav2_msgs::FollowPathResult
+    nav2_msgs::FollowPathFeedback
+    nav2_msgs::FollowPathSendGoalRequest
+    nav2_msgs::FollowPathSendGoalResponse
+    nav2_msgs::FollowPathGetResultRequest
+    nav2_msgs::FollowPathGetResultResponse
+    nav2_msgs::FollowPathFeedbackMessage
+    nav2_msgs::FollowWaypointsGoal
+    nav2_msgs::FollowWaypointsResult
+    nav2_msgs::FollowWaypointsFeedback
+    nav2_msgs::FollowWaypointsSendGoalRequest
+    nav2_msgs::FollowWaypointsSendGoalResponse
+    nav2_msgs::FollowWaypointsGetResultRequest
+    nav2_msgs::FollowWaypointsGetResultResponse
+    nav2_msgs::FollowWaypointsFeedbackMessage
+    nav2_msgs::NavigateThroughPosesGoal
+    nav2_msgs::NavigateThroughPosesResult
+    nav2_msgs::NavigateThroughPosesFeedback
+    nav2_msgs::NavigateThroughPosesSendGoalRequest
+    nav2_msgs::NavigateThroughPosesSendGoalResponse
+    nav2_msgs::NavigateThroughPosesGetResultRequest
+    nav2_msgs::NavigateThroughPosesGetResultResponse
+    nav2_msgs::NavigateThroughPosesFeedbackMessage
+    nav2_msgs::NavigateToPoseGoal
+    nav2_msgs::NavigateToPoseResult
+    nav2_msgs::NavigateToPoseFeedback
+    nav2_msgs::NavigateToPoseSendGoalRequest
+    nav2_msgs::NavigateToPoseSendGoalResponse
+    nav2_msgs::NavigateToPoseGetResultRequest
+    nav2_msgs::NavigateToPoseGetResultResponse
+    nav2_msgs::NavigateToPoseFeedbackMessage
+    nav2_msgs::SmoothPathGoal
+    nav2_msgs::SmoothPathResult
+    nav2_msgs::SmoothPathFeedback
+    nav2_msgs::SmoothPathSendGoalRequest
+    nav2_msgs::SmoothPathSendGoalResponse
+    nav2_msgs::SmoothPathGetResultRequest
+    nav2_msgs::SmoothPathGetResultResponse
+    nav2_msgs::SmoothPathFeedbackMessage
+    nav2_msgs::SpinGoal
+    nav2_msgs::SpinResult
+    nav2_msgs::SpinFeedback
+    nav2_msgs::SpinSendGoalRequest
+    nav2_msgs::SpinSendGoalResponse
+    nav2_msgs::SpinGetResultRequest
+    nav2_msgs::SpinGetResultResponse
+    nav2_msgs::SpinFeedbackMessage
+    nav2_msgs::UndockRobotGoal
+    nav2_msgs::UndockRobotResult
+    nav2_msgs::UndockRobotFeedback
+    nav2_msgs::UndockRobotSendGoalRequest
+    nav2_msgs::UndockRobotSendGoalResponse
+    nav2_msgs::UndockRobotGetResultRequest
+    nav2_msgs::UndockRobotGetResultResponse
+    nav2_msgs::UndockRobotFeedbackMessage
+    nav2_msgs::WaitGoal
+    nav2_msgs::WaitResult
+    nav2_msgs::WaitFeedback
+    nav2_msgs::WaitSendGoalRequest
+    nav2_msgs::WaitSendGoalResponse
+    nav2_msgs::WaitGetResultRequest
+    nav2_msgs::WaitGetResultResponse
+    nav2_msgs::WaitFeedbackMessage
     nav2_msgs::BehaviorTreeLog
     nav2_msgs::BehaviorTreeStatusChange
+    nav2_msgs::CircleObject
     nav2_msgs::CollisionDetectorState
     nav2_msgs::CollisionMonitorState
     nav2_msgs::Costmap
     nav2_msgs::CostmapFilterInfo
     nav2_msgs::CostmapMetaData
     nav2_msgs::CostmapUpdate
+    nav2_msgs::CriticsStats
+    nav2_msgs::EdgeCost
+    nav2_msgs::ExclusionZoneDescription
     nav2_msgs::MissedWaypoint
     nav2_msgs::Particle
     nav2_msgs::ParticleCloud
+    nav2_msgs::PolygonObject
+    nav2_msgs::Route
+    nav2_msgs::RouteEdge
+    nav2_msgs::RouteNode
     nav2_msgs::SpeedLimit
+    nav2_msgs::TrackingFeedback
     nav2_msgs::VoxelGrid
+    nav2_msgs::WaypointStatus
+    nav2_msgs::AddExclusionZoneRequest
+    nav2_msgs::AddExclusionZoneResponse
+    nav2_msgs::AddShapesRequest
+    nav2_msgs::AddShapesResponse
     nav2_msgs::ClearCostmapAroundPoseRequest
     nav2_msgs::ClearCostmapAroundPoseResponse
     nav2_msgs::ClearCostmapAroundRobotRequest
@@ -530,12 +887,16 @@ crate::list_messages! {
     nav2_msgs::ClearCostmapExceptRegionResponse
     nav2_msgs::ClearEntireCostmapRequest
     nav2_msgs::ClearEntireCostmapResponse
+    nav2_msgs::DynamicEdgesRequest
+    nav2_msgs::DynamicEdgesResponse
     nav2_msgs::GetCostRequest
     nav2_msgs::GetCostResponse
     nav2_msgs::GetCostmapRequest
     nav2_msgs::GetCostmapResponse
     nav2_msgs::GetCostsRequest
     nav2_msgs::GetCostsResponse
+    nav2_msgs::GetShapesRequest
+    nav2_msgs::GetShapesResponse
     nav2_msgs::IsPathValidRequest
     nav2_msgs::IsPathValidResponse
     nav2_msgs::LoadMapRequest
@@ -544,10 +905,24 @@ crate::list_messages! {
     nav2_msgs::ManageLifecycleNodesResponse
     nav2_msgs::ReloadDockDatabaseRequest
     nav2_msgs::ReloadDockDatabaseResponse
+    nav2_msgs::RemoveExclusionZoneRequest
+    nav2_msgs::RemoveExclusionZoneResponse
+    nav2_msgs::RemoveShapesRequest
+    nav2_msgs::RemoveShapesResponse
     nav2_msgs::SaveMapRequest
     nav2_msgs::SaveMapResponse
     nav2_msgs::SetInitialPoseRequest
     nav2_msgs::SetInitialPoseResponse
+    nav2_msgs::SetRouteGraphRequest
+    nav2_msgs::SetRouteGraphResponse
+    nav2_msgs::ToggleRequest
+    nav2_msgs::ToggleResponse
+    nav_2d_msgs::Path2D
+    nav_2d_msgs::Pose2D32
+    nav_2d_msgs::Pose2DStamped
+    nav_2d_msgs::Twist2D
+    nav_2d_msgs::Twist2D32
+    nav_2d_msgs::Twist2DStamped
     nav_msgs::Goals
     nav_msgs::GridCells
     nav_msgs::MapMetaData
@@ -595,6 +970,14 @@ crate::list_messages! {
     rcl_interfaces::SetParametersResponse
     rcl_interfaces::SetParametersAtomicallyRequest
     rcl_interfaces::SetParametersAtomicallyResponse
+    robot_localization::FromLLRequest
+    robot_localization::FromLLResponse
+    robot_localization::FromLLArrayRequest
+    robot_localization::FromLLArrayResponse
+    robot_localization::SetDatumRequest
+    robot_localization::SetDatumResponse
+    robot_localization::ToLLRequest
+    robot_localization::ToLLResponse
     ros_gz_interfaces::AirSpeed
     ros_gz_interfaces::Altimeter
     ros_gz_interfaces::Clock
@@ -782,8 +1165,26 @@ crate::list_messages! {
 
 crate::list_services! {
     action_msgs::CancelGoal
+    control_msgs::QueryTrajectoryState
+    control_msgs::SetOdometry
+    controller_manager_msgs::CleanupController
+    controller_manager_msgs::ConfigureController
+    controller_manager_msgs::ListControllerTypes
+    controller_manager_msgs::ListControllers
+    controller_manager_msgs::ListHardwareComponents
+    controller_manager_msgs::ListHardwareInterfaces
+    controller_manager_msgs::LoadController
+    controller_manager_msgs::ReloadControllerLibraries
+    controller_manager_msgs::SetHardwareComponentState
+    controller_manager_msgs::SwitchController
+    controller_manager_msgs::UnloadController
     diagnostic_msgs::AddDiagnostics
     diagnostic_msgs::SelfTest
+    dwb_msgs::DebugLocalPlan
+    dwb_msgs::GenerateTrajectory
+    dwb_msgs::GenerateTwists
+    dwb_msgs::GetCriticScore
+    dwb_msgs::ScoreTrajectory
     gazebo_msgs::ApplyBodyWrench
     gazebo_msgs::ApplyJointEffort
     gazebo_msgs::ApplyLinkWrench
@@ -824,19 +1225,27 @@ crate::list_services! {
     map_msgs::ProjectedMapsInfo
     map_msgs::SaveMap
     map_msgs::SetMapProjections
+    nav2_msgs::AddExclusionZone
+    nav2_msgs::AddShapes
     nav2_msgs::ClearCostmapAroundPose
     nav2_msgs::ClearCostmapAroundRobot
     nav2_msgs::ClearCostmapExceptRegion
     nav2_msgs::ClearEntireCostmap
+    nav2_msgs::DynamicEdges
     nav2_msgs::GetCost
     nav2_msgs::GetCostmap
     nav2_msgs::GetCosts
+    nav2_msgs::GetShapes
     nav2_msgs::IsPathValid
     nav2_msgs::LoadMap
     nav2_msgs::ManageLifecycleNodes
     nav2_msgs::ReloadDockDatabase
+    nav2_msgs::RemoveExclusionZone
+    nav2_msgs::RemoveShapes
     nav2_msgs::SaveMap
     nav2_msgs::SetInitialPose
+    nav2_msgs::SetRouteGraph
+    nav2_msgs::Toggle
     nav_msgs::GetMap
     nav_msgs::GetPlan
     nav_msgs::LoadMap
@@ -849,6 +1258,10 @@ crate::list_services! {
     rcl_interfaces::SetLoggerLevels
     rcl_interfaces::SetParameters
     rcl_interfaces::SetParametersAtomically
+    robot_localization::FromLL
+    robot_localization::FromLLArray
+    robot_localization::SetDatum
+    robot_localization::ToLL
     ros_gz_interfaces::AttachDetach
     ros_gz_interfaces::ControlWorld
     ros_gz_interfaces::DeleteEntity

@@ -29,6 +29,7 @@ mod json;
 mod macros;
 mod message;
 mod number;
+mod releases;
 mod time;
 mod wire;
 mod yaml;
@@ -41,6 +42,7 @@ pub use generated::*;
 pub use json::{from_json, to_json};
 pub use message::{Action, Message, Service};
 pub use number::{Number, NumberKind, NumberVec, Numbers, NumbersMut};
+pub use releases::{Nav2Action, Nav2Service, ReleaseForm};
 pub use wire::{Count, Sink, Source};
 pub use yaml::YamlStyle;
 

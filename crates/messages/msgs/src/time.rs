@@ -21,6 +21,13 @@ impl Time {
 }
 
 impl Duration {
+    /// Message of a duration \[ns\].
+    #[must_use]
+    pub fn of_ns(duration_ns: i64) -> Self {
+        let Time { sec, nanosec } = Time::of_ns(duration_ns);
+        Self { sec, nanosec }
+    }
+
     /// Duration \[ns\].
     #[must_use]
     pub fn ns(&self) -> i64 {
@@ -40,6 +47,7 @@ impl Header {
 fn times_go_there_and_back() {
     for time_ns in [0, 1, -1, 999_999_999, 1_000_000_000, -1_000_000_001] {
         assert_eq!(Time::of_ns(time_ns).ns(), time_ns);
+        assert_eq!(Duration::of_ns(time_ns).ns(), time_ns);
     }
     assert_eq!(Time::of_ns(-1), Time { sec: -1, nanosec: 999_999_999 });
     assert_eq!(Time::of_ns(i64::MAX).sec, i32::MAX);

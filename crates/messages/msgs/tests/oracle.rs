@@ -139,6 +139,59 @@ fn type_hashes_are_the_published_ones() {
     periplus_msgs::every_service!(services);
 }
 
+/// Hashes of the types that have another form in another distribution.
+#[test]
+fn type_hashes_of_other_releases_are_those_of_rosbags() {
+    let mut compared = 0;
+    for release in ["humble", "main"] {
+        let mut registry = TypeRegistry::builtin_texts();
+        let (mut sources, mut diagnostics) = (SourceMap::new(), Diagnostics::new());
+        let folder = format!("{}/interfaces_{release}", env!("CARGO_MANIFEST_DIR"));
+        for line in include_str!("data/variants.tsv").lines() {
+            let [of, name, _] = line.split('\t').collect::<Vec<_>>()[..] else { panic!("{line}") };
+            if of != release {
+                continue;
+            }
+            let kind = name.split('/').nth(1).unwrap();
+            // A part of a service or action is in the text of the whole.
+            let part = name.rsplit_once('_').filter(|_| kind != "msg");
+            let stem = part.map_or(name, |(stem, _)| stem);
+            let text = std::fs::read_to_string(format!("{folder}/{stem}.{kind}")).unwrap();
+            let file = sources.add(stem, text);
+            let stem = TypeName::read(stem).unwrap();
+            let form =
+                parse(&stem, file, &sources, InterfaceDialect::Ros2, &mut diagnostics).unwrap();
+            registry.add(form);
+        }
+        for line in include_str!("data/variants.tsv").lines() {
+            let [of, name, hash] = line.split('\t').collect::<Vec<_>>()[..] else {
+                panic!("{line}")
+            };
+            if of == release {
+                let ours = registry.hash(&TypeName::read(name).unwrap());
+                assert_eq!(ours.as_deref(), Some(hash), "{name} of {release}");
+                compared += 1;
+            }
+        }
+        assert!(diagnostics.is_empty(), "{diagnostics:?}");
+    }
+    assert!(compared > 100, "{compared}");
+    // The compiled constants come from the same texts.
+    let line = |release: &str, name: &str| {
+        let start = format!("{release}\t{name}\t");
+        include_str!("data/variants.tsv").lines().find_map(|line| line.strip_prefix(&start))
+    };
+    use periplus_msgs::{nav2_msgs_humble, nav2_msgs_main};
+    for (release, name, hash) in [
+        ("humble", "Goal", nav2_msgs_humble::FollowPathGoal::TYPE_HASH),
+        ("humble", "Result", nav2_msgs_humble::FollowPathResult::TYPE_HASH),
+        ("main", "Goal", nav2_msgs_main::FollowPathGoal::TYPE_HASH),
+        ("main", "Feedback", nav2_msgs_main::FollowPathFeedback::TYPE_HASH),
+    ] {
+        assert_eq!(line(release, &format!("nav2_msgs/action/FollowPath_{name}")), Some(hash));
+    }
+}
+
 /// Read off a running ROS 2 Jazzy (`ros2 topic info -v`), and off code that rosidl made for Iron and
 /// later, as found in public workspaces (`*__description.c`).
 #[test]

@@ -15,7 +15,7 @@ use crate::registry::TypeOf;
 use crate::sample::Sample;
 use crate::service::{CallError, Client, Reply, Request, ServerReaction, read_answer};
 use crate::subscription_core::Reaction;
-use crate::{GraphError, Qos};
+use crate::{Alarm, GraphError, Qos};
 
 pub(crate) use jump::Jumps;
 
@@ -84,6 +84,23 @@ impl<S: Send + 'static> Io<'_, S> {
             event_queue.add(key, Arc::new(event));
         });
         client.caller.call(Payload::typed(Arc::new(request)), reply);
+    }
+
+    /// Runs a callback once at a time of the graph \[ns\], or now if that has passed. It does not run
+    /// if the result is dropped before.
+    pub fn alarm(
+        &self,
+        time_ns: i64,
+        react: impl FnOnce(&mut S, &mut Io<'_, S>) + Send + 'static,
+    ) -> Alarm {
+        // The state may hold the alarm, so the alarm must not hold the state.
+        let (node, state) = (Arc::downgrade(&self.node.0), Arc::downgrade(self.state));
+        self.node.alarm(time_ns, move || {
+            let (Some(node), Some(state)) = (node.upgrade(), state.upgrade()) else { return };
+            let node = Node(node);
+            let mut io = Io { node: &node, state: &state };
+            react(&mut lock(&state), &mut io);
+        })
     }
 }
 

@@ -74,6 +74,13 @@ impl Lifecycle {
         node.event_queue().add(key, Arc::new(act));
     }
 
+    /// Changes the state at once, for a node that owns this one and whose own transition depends on
+    /// it. Returns true if the transition succeeded; false without effect if the state does not allow
+    /// it. Callbacks of this node must not wait for the caller.
+    pub fn change_now(&self, transition: Transition) -> bool {
+        self.0.change(|state| transition.at(state))
+    }
+
     /// Configures and activates the node, as a lifecycle manager would.
     pub fn start(&self) {
         self.change(Transition::Configure);

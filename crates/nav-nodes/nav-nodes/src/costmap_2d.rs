@@ -7,11 +7,12 @@
 //! Source of names and QoS: `nav2_costmap_2d/src/costmap_2d_ros.cpp`, `costmap_2d_publisher.cpp`,
 //! `clear_costmap_service.cpp`.
 
-mod clouds;
-mod frames;
+mod blame;
+pub(crate) mod clouds;
+pub(crate) mod frames;
 mod health;
 mod inputs;
-mod messages;
+pub(crate) mod messages;
 mod node;
 mod outputs;
 mod parameters;
@@ -19,6 +20,8 @@ mod services;
 mod topics;
 mod voxels;
 
+pub use blame::blame;
+pub(crate) use messages::pose2 as pose2_of;
 pub use node::{CostmapNode, CostmapStatus};
 pub use parameters::{node_values, split};
 pub use voxels::{VoxelCloud, VoxelMarkers};

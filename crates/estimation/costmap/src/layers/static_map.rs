@@ -96,6 +96,8 @@ pub struct StaticLayer {
     takes_part: bool,
     is_waiting: bool,
     was_lost: bool,
+    /// Transform of the last update of a rolling costmap.
+    map_from_global: Option<Pose>,
     outline: Vec<[f64; 2]>,
     diagnostics: Vec<Diagnostic>,
 }
@@ -125,6 +127,7 @@ impl StaticLayer {
             takes_part: false,
             is_waiting: false,
             was_lost: false,
+            map_from_global: None,
             outline: Vec::new(),
             diagnostics: Vec::new(),
         };
@@ -362,6 +365,7 @@ impl Layer for StaticLayer {
                 None => {}
             }
             self.was_lost = map_from_global.is_none();
+            self.map_from_global = map_from_global.or(self.map_from_global);
         } else if is_same(self.grid.info(), master.info()) {
             let how = if self.meaning.uses_maximum { Combination::Max } else { Combination::Copy };
             how.apply(master, &self.grid, &window);
@@ -433,11 +437,21 @@ impl Layer for StaticLayer {
                 ..Explanation::default()
             };
         };
-        if is_rolling {
-            let reason = "the map is in another frame; updates look the cell up".to_owned();
-            return Explanation { reason: Some(reason), ..Explanation::default() };
-        }
-        debug_assert!(is_same(master.info(), self.grid.info()) || self.is_new);
+        debug_assert!(is_rolling || is_same(master.info(), self.grid.info()) || self.is_new);
+        let cell = if is_rolling {
+            // The map is in another frame, from which updates look the cell up.
+            let (x_m, y_m) = master.info().centre_of(cell);
+            let at = self
+                .map_from_global
+                .map(|map_from_global| map_from_global.transform_point(DVec3::new(x_m, y_m, 0.0)));
+            let Some(cell) = at.and_then(|at| self.grid.finder().cell_of(at.x, at.y)) else {
+                let reason = "the map, which is in another frame, does not have the cell";
+                return Explanation { reason: Some(reason.to_owned()), ..Explanation::default() };
+            };
+            cell
+        } else {
+            cell
+        };
         let value = self.grid.cost(cell);
         let reason =
             map.get(cell).map(|occupancy| format!("the map has the value {occupancy} here"));

@@ -6,7 +6,7 @@
         ros-nav-msgs==5.3.6 ros-rcl-interfaces==2.0.3 ros-rosgraph-msgs==2.0.3 \
         ros-sensor-msgs==5.3.6 ros-service-msgs==2.0.3 ros-shape-msgs==5.3.6 ros-std-msgs==5.3.6 \
         ros-std-srvs==5.3.6 ros-trajectory-msgs==5.3.6 ros-type-description-interfaces==2.0.3 \
-        ros-unique-identifier-msgs==2.5.0 ros-visualization-msgs==5.3.6
+        ros-unique-identifier-msgs==2.5.0 ros-visualization-msgs==5.3.6 ros-actionlib-msgs==5.5.1
     venv/bin/python make.py wheels
 
 oracle.jsonl: for every message of ours that rosbags can serialize, random values as JSON and the
@@ -16,6 +16,8 @@ not the texts.
 hashes.tsv: type hashes, and who says so. `jazzy` is the build of ROS 2 Jazzy that the wheels on PyPI
 hold (`share/<package>/*/<Name>.json`, written by rosidl); `rosbags-jazzy` is the type as rosbags
 knows it; `rosbags` is its calculation over our text, which judges our calculation, not the text.
+
+variants.tsv: the hashes of `rosbags` for the types that have another form in another distribution.
 
 published.tsv is not made here: its hashes were read one by one, `running` off `ros2 topic info -v` of
 a ROS 2 Jazzy, `rosidl` off code that rosidl made (`*__description.c`) in public workspaces.
@@ -40,8 +42,8 @@ RANDOM = random.Random(7)
 KNOWN_WRONG = {'std_msgs/msg/Char', 'service_msgs/msg/ServiceEventInfo'}
 
 
-def texts():
-    folder = HERE.parent.parent / 'interfaces'
+def texts(folder):
+    folder = HERE.parent.parent / folder
     for path in sorted(folder.glob('*/*/*')):
         package, kind, file = path.relative_to(folder).parts
         name = file.split('.')[0]
@@ -121,14 +123,19 @@ def message(store, name):
     return made, {field: one for field, (_, one) in pairs.items()}
 
 
-def main():
-    store = get_typestore(Stores.EMPTY)
+def read(folder):
     types = {}
-    for name, source in texts():
+    for name, source in texts(folder):
         # rosbags knows messages only, and takes the folder for a part of the package.
         package, _, short = name.split('/')
         (made,) = get_types_from_msg(source, f'{package}/msg/{short}').values()
         types[name] = made
+    return types
+
+
+def main():
+    store = get_typestore(Stores.EMPTY)
+    types = read('interfaces')
     store.register(types)
 
     def base(raw):
@@ -162,6 +169,13 @@ def main():
         for name in sorted(hashes):
             if name.split('/')[0] in packages:
                 out.write('\t'.join([name, *hashes[name]]) + '\n')
+    with (HERE / 'variants.tsv').open('w') as out:
+        for release in ('humble', 'main'):
+            forms = read(f'interfaces_{release}')
+            store = get_typestore(Stores.EMPTY)
+            store.register({**types, **forms})
+            for name in sorted(forms):
+                out.write('\t'.join([release, name, store.hash_rihs01(name)]) + '\n')
 
 
 main()

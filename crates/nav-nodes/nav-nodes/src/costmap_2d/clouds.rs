@@ -17,6 +17,16 @@ struct Place {
 /// # Errors
 /// The reason, for a malformed cloud.
 pub(crate) fn points(cloud: &PointCloud2) -> Result<impl Iterator<Item = [f32; 3]> + '_, String> {
+    fields(cloud, ["x", "y", "z"])
+}
+
+/// Iterates over the values of fields in the points of a cloud without copying it.
+/// # Errors
+/// The reason, for a malformed cloud.
+pub(crate) fn fields<'a, const N: usize>(
+    cloud: &'a PointCloud2,
+    names: [&str; N],
+) -> Result<impl Iterator<Item = [f32; N]> + use<'a, N>, String> {
     let step = cloud.point_step as usize;
     let row_step = cloud.row_step as usize;
     let (width, height) = (cloud.width as usize, cloud.height as usize);
@@ -33,7 +43,10 @@ pub(crate) fn points(cloud: &PointCloud2) -> Result<impl Iterator<Item = [f32; 3
         }
         Ok(Place { offset, is_double })
     };
-    let places = [place("x")?, place("y")?, place("z")?];
+    let mut places = [Place { offset: 0, is_double: false }; N];
+    for (field, name) in places.iter_mut().zip(names) {
+        *field = place(name)?;
+    }
     let is_long_enough = width
         .checked_mul(step)
         .is_some_and(|row| row_step >= row && height.checked_mul(row_step).is_some())

@@ -100,9 +100,11 @@ impl Inputs {
         match layer.kind {
             LayerKind::Static => {
                 let params = StaticLayerParams::from_values(&layer.values);
-                let topic = [params.map_topic.as_str(), shared_map, "map"];
-                let topic = topic.into_iter().find(|topic| !topic.is_empty()).unwrap_or("map");
-                let topic = place.resolve(topic);
+                let topic = [params.map_topic.as_str(), shared_map];
+                let topic = match topic.into_iter().find(|topic| !topic.is_empty()) {
+                    Some(topic) => place.resolve(topic),
+                    None => place.default_map_topic(),
+                };
                 let is_latched = params.map_subscribe_transient_local;
                 let qos = if is_latched { Qos::latched(3) } else { Qos::reliable(10) };
                 let updates = params
@@ -236,6 +238,14 @@ struct Place<'a> {
 impl Place<'_> {
     fn resolve(&self, topic: &str) -> String {
         resolve(topic, self.namespace, self.compat)
+    }
+
+    /// Topic of the map if no parameter names it: in every release beside the costmap of a server,
+    /// `map` of `/robot/global_costmap` is `/robot/map`.
+    fn default_map_topic(&self) -> String {
+        let own = self.namespace.rsplit('/').next();
+        let is_of_server = own == Some(self.node.names().name());
+        resolve("map", self.namespace, if is_of_server { Nav2Release::Main } else { self.compat })
     }
 }
 

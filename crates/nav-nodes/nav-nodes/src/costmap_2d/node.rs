@@ -1,5 +1,7 @@
 //! Costmap node.
 
+mod access;
+
 use periplus_costmap::tables::CostmapParams;
 use periplus_costmap::{Advice, CellReport, CostmapConfig, Footprint, LayerConfig, LayeredCostmap};
 use periplus_diagnostics::{Diagnostic, SourceMap};

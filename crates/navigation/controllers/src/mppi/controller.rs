@@ -18,7 +18,10 @@ use super::rollout::Start;
 use super::sequence::{ControlSequence, MppiControl};
 use super::statistics::{CandidateTrajectory, CriticStatistics, MppiTrajectoryPoint};
 use super::surroundings::Surroundings;
-use crate::{ControlError, ControlInput, Controller};
+use crate::{
+    ControlError, ControlInput, ControlReport, Controller, ParameterChange, ParameterGroup,
+    ParameterRefusal, PathRules, SamplingReport,
+};
 
 /// Distance ahead on the path at which its direction is compared with the heading, in points.
 const LOOK_AHEAD_POINTS: usize = 8;
@@ -302,6 +305,26 @@ impl Controller for Mppi {
         if self.config.release == Nav2Release::Humble {
             self.set_speed_limit(0.0, false);
         }
+    }
+
+    fn parameters(&self) -> Vec<ParameterGroup<'_>> {
+        self.groups()
+    }
+
+    fn change_parameter(
+        &mut self,
+        name: &str,
+        value: ParamValue,
+    ) -> Result<ParameterChange, ParameterRefusal> {
+        self.change(name, value)
+    }
+
+    fn path_rules(&self) -> Option<PathRules> {
+        self.own_path_rules()
+    }
+
+    fn report(&self) -> ControlReport<'_> {
+        ControlReport::Samples(SamplingReport(self))
     }
 }
 

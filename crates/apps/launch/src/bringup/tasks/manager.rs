@@ -1,24 +1,22 @@
 //! `nav2_lifecycle_manager`.
 //!
 //! Source: `nav2_lifecycle_manager/src/lifecycle_manager.cpp`: nodes are configured in the order of
-//! `node_names`, then activated in that order; shutdown is in reverse. Each active node has a bond,
+//! `node_names`, then activated in that order; shutdown is in reverse ([`CommandExecution`]). Each active node has a bond,
 //! unless `bond_timeout` is 0. After a bond broke, the other nodes are reset; once all respond
 //! again, the system is restarted (`attempt_respawn_reconnection`).
 
-use std::collections::{BTreeMap, VecDeque};
+use std::collections::BTreeMap;
 
-use periplus_graph::{Calls, Client, Level, Node, Pending, Publisher, Qos};
+use periplus_graph::{Call, Calls, Client, Level, Node, Pending, Publisher, Qos};
+use periplus_motion::{CommandExecution, ManagedState, ManagedTransition, ManagerCommand};
 use periplus_msgs::lifecycle_msgs::{ChangeState, ChangeStateRequest, State};
-use periplus_msgs::nav2_msgs::{
-    ManageLifecycleNodes, ManageLifecycleNodesRequest as Command, ManageLifecycleNodesResponse,
-};
+use periplus_msgs::nav2_msgs::{ManageLifecycleNodes, ManageLifecycleNodesResponse};
 use periplus_msgs::std_msgs;
 use periplus_msgs::std_srvs::{Trigger, TriggerResponse};
 
 use super::bonds::{Bonds, BrokenBond};
-use super::changer::transition;
 use super::respawn::{Respawn, RespawnStatus, SERVICE_TIMEOUT_NS};
-use super::{Done, Task, TaskContext};
+use super::{Done, Task, TaskContext, changer};
 use crate::bringup::report::LaunchLog;
 
 /// Time after which a missing node is logged \[ns\].
@@ -42,20 +40,20 @@ pub(crate) struct Manager {
     manage: Calls<ManageLifecycleNodes>,
     is_active: Calls<Trigger>,
     state: Publisher<std_msgs::Bool>,
-    to_do: VecDeque<(String, &'static str)>,
+    /// Command that is being executed.
+    execution: Option<CommandExecution>,
+    /// Caller of that command, which waits for the result.
+    caller: Option<Call<ManageLifecycleNodes>>,
     pending: Option<Pending<ChangeState>>,
     /// Steady time at which `pending` was sent \[ns\].
     pending_since_ns: i64,
     bonds: Option<Bonds>,
     respawn: Option<Respawn>,
-    /// After a bond broke all nodes are reset, even if single ones fail.
-    is_hard_reset: bool,
     waits_since_ns: i64,
     has_complained: bool,
     /// All nodes are active; the last bond may not be formed yet.
     is_rising: bool,
     is_up: bool,
-    has_failed: bool,
 }
 
 impl Manager {
@@ -91,49 +89,44 @@ impl Manager {
             manage,
             is_active,
             state,
-            to_do: VecDeque::new(),
+            execution: None,
+            caller: None,
             pending: None,
             pending_since_ns: 0,
             bonds,
             respawn,
-            is_hard_reset: false,
             waits_since_ns: now_ns,
             has_complained: false,
             is_rising: false,
             is_up: false,
-            has_failed: false,
         };
         if settings.autostart {
-            manager.order(Command::STARTUP);
+            manager.start(ManagerCommand::Startup);
         }
         Ok(manager)
     }
 
-    /// Queues the transitions of a command. False for an unknown command.
-    fn order(&mut self, command: u8) -> bool {
-        let labels: &[&'static str] = match command {
-            Command::STARTUP => &["configure", "activate"],
-            Command::CONFIGURE => &["configure"],
-            Command::RESUME => &["activate"],
-            Command::PAUSE => &["deactivate"],
-            Command::CLEANUP => &["cleanup"],
-            Command::RESET => &["deactivate", "cleanup"],
-            Command::SHUTDOWN => &["deactivate", "cleanup", "unconfigured_shutdown"],
-            _ => return false,
-        };
-        (self.has_failed, self.is_hard_reset) = (false, false);
+    /// Starts a command.
+    fn start(&mut self, command: ManagerCommand) {
         if let Some(respawn) = &mut self.respawn {
             respawn.cancel();
         }
-        for label in labels {
-            let is_up = matches!(*label, "configure" | "activate");
-            let mut names = self.names.clone();
-            if !is_up {
-                names.reverse();
-            }
-            self.to_do.extend(names.into_iter().map(|name| (name, *label)));
+        self.execution = Some(CommandExecution::new(command, &self.names));
+    }
+
+    /// Starts the command of a call. Calls are executed one after the other.
+    fn start_next_call(&mut self) {
+        if self.execution.is_some() || self.is_rising {
+            return;
         }
-        true
+        let Some(call) = self.manage.take() else { return };
+        match ManagerCommand::of_number(call.request.command) {
+            Some(command) => {
+                self.start(command);
+                self.caller = Some(call);
+            }
+            None => call.answer(ManageLifecycleNodesResponse { success: false }),
+        }
     }
 
     fn say(&self, stage: &mut TaskContext<'_>, level: Level, text: &str) {
@@ -141,47 +134,39 @@ impl Manager {
         stage.said.push(LaunchLog { level, text: format!("{}: {text}", self.node.full_name()) });
     }
 
-    /// Processes the queue; returns true on progress.
-    fn process_queue(&mut self, stage: &mut TaskContext<'_>) -> bool {
-        let Some((name, label)) = self.to_do.front().cloned() else {
-            self.is_hard_reset = false;
-            return false;
-        };
+    /// Executes the command; returns true on progress.
+    fn proceed(&mut self, stage: &mut TaskContext<'_>) -> bool {
+        let Some(execution) = &mut self.execution else { return false };
+        if let Some((succeeded, state)) = execution.outcome() {
+            let was_hard = execution.is_hard();
+            self.execution = None;
+            self.is_rising = succeeded && state == ManagedState::Active;
+            if !self.is_rising && !was_hard {
+                self.set_up(false);
+                self.answer(succeeded);
+            }
+            return true;
+        }
+        let Some((name, transition)) = execution.next_step() else { return false };
+        let (name, is_hard) = (name.to_owned(), execution.is_hard());
         let steady_ns = stage.graph.steady_now_ns();
         if let Some(pending) = &self.pending {
             let succeeded = match pending.take() {
                 Some(answer) => answer.is_ok_and(|answer| answer.success),
                 // It may have ended together with the node whose bond broke.
-                None if self.is_hard_reset
-                    && steady_ns - self.pending_since_ns > SERVICE_TIMEOUT_NS =>
-                {
-                    false
-                }
+                None if is_hard && steady_ns - self.pending_since_ns > SERVICE_TIMEOUT_NS => false,
                 None => return false,
             };
             self.pending = None;
-            self.to_do.pop_front();
-            if self.is_hard_reset {
-                return true;
-            }
-            if succeeded {
-                if label == "activate"
-                    && let Some(bonds) = &mut self.bonds
-                {
+            execution.finish_step(succeeded);
+            if succeeded && transition == ManagedTransition::Activate {
+                if let Some(bonds) = &mut self.bonds {
                     bonds.begin(&name, steady_ns);
                 }
-                if self.to_do.is_empty() {
-                    self.is_rising = label == "activate";
-                    if !self.is_rising {
-                        self.is_up = false;
-                        self.state.publish(std_msgs::Bool { data: false });
-                    }
-                }
-            } else {
+            } else if !succeeded && !is_hard {
+                let label = transition.label();
                 let text = format!("failed to {label} `{name}`; later nodes are left unchanged");
                 self.say(stage, Level::Error, &text);
-                self.has_failed = true;
-                self.to_do.clear();
             }
             return true;
         }
@@ -189,15 +174,15 @@ impl Manager {
         if self.bonds.as_ref().is_some_and(Bonds::is_forming) {
             return false;
         }
-        if label == "deactivate"
+        if transition == ManagedTransition::Deactivate
             && let Some(bonds) = &mut self.bonds
         {
             bonds.end(&name, steady_ns);
         }
         let Some(client) = self.clients.get(&name) else { return false };
         if !client.is_ready() {
-            if self.is_hard_reset {
-                self.to_do.pop_front();
+            if is_hard {
+                execution.finish_step(false);
                 return true;
             }
             if stage.now_ns - self.waits_since_ns > WARNING_DELAY_NS && !self.has_complained {
@@ -208,11 +193,31 @@ impl Manager {
             return false;
         }
         self.waits_since_ns = stage.now_ns;
-        let Some(transition) = transition(label) else { return false };
+        let Some(transition) = changer::transition(service_label(transition)) else { return false };
         self.pending = Some(client.call(ChangeStateRequest { transition }));
         self.pending_since_ns = steady_ns;
         stage.graph.settle();
         true
+    }
+
+    /// Reports the result of a command to its caller.
+    fn answer(&mut self, success: bool) {
+        if let Some(call) = self.caller.take() {
+            call.answer(ManageLifecycleNodesResponse { success });
+        }
+    }
+
+    fn set_up(&mut self, is_up: bool) {
+        self.is_up = is_up;
+        self.state.publish(std_msgs::Bool { data: is_up });
+    }
+}
+
+/// Name of a transition in `lifecycle_msgs/Transition`.
+fn service_label(transition: ManagedTransition) -> &'static str {
+    match transition {
+        ManagedTransition::Shutdown => "unconfigured_shutdown",
+        other => other.label(),
     }
 }
 
@@ -223,28 +228,22 @@ impl Manager {
         let steady_ns = stage.graph.steady_now_ns();
         let Some(BrokenBond { name, reason, was_formed }) = bonds.keep(steady_ns) else { return };
         self.say(stage, Level::Error, &format!("{reason}; resetting the other nodes"));
-        self.is_hard_reset = true;
         if let Some(respawn) = self.respawn.as_mut().filter(|_| was_formed) {
             respawn.begin(steady_ns);
         }
-        self.has_failed = true;
-        (self.is_rising, self.is_up) = (false, false);
-        self.state.publish(std_msgs::Bool { data: false });
-        self.to_do.clear();
+        self.is_rising = false;
+        self.set_up(false);
+        self.answer(false);
         self.pending = None;
-        let others = self.names.iter().rev().filter(|other| **other != name);
+        let others = self.names.iter().filter(|other| **other != name);
         let others: Vec<String> = others.cloned().collect();
-        for label in ["deactivate", "cleanup"] {
-            self.to_do.extend(others.iter().map(|other| (other.clone(), label)));
-        }
+        self.execution = Some(CommandExecution::hard_reset(&others));
     }
-}
 
-impl Manager {
     /// Restarts the system once all nodes are back.
     fn await_respawn(&mut self, stage: &mut TaskContext<'_>) {
         let Some(respawn) = &mut self.respawn else { return };
-        if !self.to_do.is_empty() || self.pending.is_some() {
+        if self.execution.is_some() {
             return;
         }
         match respawn.look(stage.graph.steady_now_ns()) {
@@ -254,21 +253,21 @@ impl Manager {
                 let text = "all nodes respond again after a bond broke; restarting the system";
                 self.say(stage, Level::Info, text);
                 // A node that ended its bond by itself may be in any state.
-                let mut resets = VecDeque::new();
+                let mut resets = Vec::new();
                 for name in self.names.iter().rev() {
-                    match states.get(name) {
+                    let transitions: &[ManagedTransition] = match states.get(name) {
                         Some(&State::PRIMARY_STATE_ACTIVE) => {
-                            resets.push_back((name.clone(), "deactivate"));
-                            resets.push_back((name.clone(), "cleanup"));
+                            &[ManagedTransition::Deactivate, ManagedTransition::Cleanup]
                         }
-                        Some(&State::PRIMARY_STATE_INACTIVE) => {
-                            resets.push_back((name.clone(), "cleanup"));
-                        }
-                        _ => {}
-                    }
+                        Some(&State::PRIMARY_STATE_INACTIVE) => &[ManagedTransition::Cleanup],
+                        _ => &[],
+                    };
+                    resets.extend(transitions.iter().map(|it| (name.clone(), *it)));
                 }
-                self.to_do = resets;
-                self.order(Command::STARTUP);
+                self.start(ManagerCommand::Startup);
+                if let Some(execution) = &mut self.execution {
+                    execution.prepend(resets);
+                }
             }
             RespawnStatus::GivenUp => {
                 let text = "not all nodes came back after a bond broke \
@@ -286,18 +285,18 @@ impl Task for Manager {
 
     fn work(&mut self, stage: &mut TaskContext<'_>) -> Done {
         self.keep_bonds(stage);
-        while let Some(call) = self.manage.take() {
-            let success = self.order(call.request.command);
-            call.answer(ManageLifecycleNodesResponse { success });
-        }
         while let Some(call) = self.is_active.take() {
             call.answer(TriggerResponse { success: self.is_up, ..TriggerResponse::default() });
         }
-        while self.process_queue(stage) {}
+        self.start_next_call();
+        while self.proceed(stage) {
+            self.start_next_call();
+        }
         self.await_respawn(stage);
         if self.is_rising && !self.bonds.as_ref().is_some_and(Bonds::is_forming) {
-            (self.is_rising, self.is_up) = (false, true);
-            self.state.publish(std_msgs::Bool { data: true });
+            self.is_rising = false;
+            self.set_up(true);
+            self.answer(true);
             self.say(stage, Level::Info, "managed nodes are active");
         }
         Done::No

@@ -1,0 +1,128 @@
+//! Inputs and outputs that all behaviors share.
+
+use periplus_costmap::Nav2Release;
+use periplus_diagnostics::Diagnostic;
+use periplus_geometry::{Pose2, Twist2};
+use periplus_graph::{GraphError, Node};
+use periplus_motion::tables::BehaviorServerParams;
+use periplus_msgs::std_msgs::Header;
+use periplus_tf_ros::LogThrottle;
+
+use crate::costmap_2d::frames::Listener;
+use crate::costmap_subscriber::CollisionChecker;
+use crate::velocity_topics::{VelocityPublisher, uses_stamped_velocity};
+
+use super::behavior::{FailureReason, MotionFailure};
+
+/// Input of an assisted teleoperation.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct TeleopInput {
+    /// Last command.
+    pub(super) command: Twist2,
+    /// True once `preempt_teleop` was received.
+    pub(super) is_preempted: bool,
+}
+
+/// Robot as the behaviors see and move it.
+pub(super) struct BehaviorWorld {
+    pub(super) params: BehaviorServerParams,
+    pub(super) teleop: TeleopInput,
+    pub(super) tf: Listener,
+    /// Topics that exist while the node is configured.
+    ports: Option<Ports>,
+    log: LogThrottle,
+}
+
+struct Ports {
+    checker: CollisionChecker,
+    velocity: VelocityPublisher,
+}
+
+impl BehaviorWorld {
+    pub(super) fn new(node: &Node, params: BehaviorServerParams) -> Result<Self, GraphError> {
+        let (teleop, tf) = (TeleopInput::default(), Listener::new(node)?);
+        Ok(Self { params, teleop, tf, ports: None, log: LogThrottle::default() })
+    }
+
+    pub(super) fn release(&self) -> Nav2Release {
+        self.params.node.compat
+    }
+
+    pub(super) fn uses_stamped_velocity(&self) -> bool {
+        uses_stamped_velocity(self.params.node.enable_stamped_cmd_vel, self.release())
+    }
+
+    pub(super) fn open(&mut self, node: &Node) -> Result<(), GraphError> {
+        let params = &self.params;
+        self.ports = Some(Ports {
+            checker: CollisionChecker::new(
+                node,
+                &params.local_costmap_topic,
+                &params.local_footprint_topic,
+            )?,
+            velocity: VelocityPublisher::new(node, "cmd_vel", self.uses_stamped_velocity())?,
+        });
+        Ok(())
+    }
+
+    pub(super) fn close(&mut self) {
+        self.ports = None;
+    }
+
+    /// Frame in which motions are measured: Humble has one frame for all.
+    pub(super) fn frame(&self) -> &str {
+        match self.release() {
+            Nav2Release::Humble => self.params.global_frame.as_deref().unwrap_or("odom"),
+            _ => &self.params.local_frame,
+        }
+    }
+
+    /// Processes received transforms, costmaps and footprints.
+    pub(super) fn receive(&mut self, node: &Node) {
+        self.tf.listen();
+        let Some(ports) = &mut self.ports else { return };
+        if let Err(why) = ports.checker.receive(&self.tf, &self.params.robot_base_frame) {
+            self.report("bad-costmap", &why, node);
+        }
+    }
+
+    /// Newest pose of the robot in [`Self::frame`].
+    pub(super) fn pose(&self) -> Result<Pose2, MotionFailure> {
+        let base = &self.params.robot_base_frame;
+        let found = self.tf.at(self.frame(), base, 0);
+        found.map(|(pose, _)| Pose2::from(pose)).map_err(|why| MotionFailure {
+            reason: FailureReason::Transform,
+            text: format!("the pose of the robot is not available: {why}"),
+        })
+    }
+
+    /// Returns true if the robot collides at none of these poses. Without costmap and footprint it
+    /// collides everywhere.
+    pub(super) fn are_free(&mut self, poses: impl IntoIterator<Item = Pose2>, node: &Node) -> bool {
+        let Some(ports) = &self.ports else { return false };
+        let checked = ports.checker.check(&self.tf, self.frame());
+        let are_free = checked.map(|is_free| poses.into_iter().all(is_free));
+        are_free.unwrap_or_else(|why| {
+            let text = format!("collisions cannot be checked, so the robot stops: {why}");
+            self.report("no-collision-check", &text, node);
+            false
+        })
+    }
+
+    fn report(&mut self, code: &'static str, text: &str, node: &Node) {
+        self.log.report(&Diagnostic::error(code, text), node);
+    }
+
+    /// Publishes a velocity.
+    pub(super) fn drive(&self, velocity: Twist2, now_ns: i64) {
+        let Some(ports) = &self.ports else { return };
+        let header = Header::at(now_ns, &self.params.robot_base_frame);
+        let Twist2 { vx_m_s, vy_m_s, wz_rad_s } = velocity;
+        ports.velocity.publish_planar(header, [vx_m_s, vy_m_s, wz_rad_s]);
+    }
+
+    /// Forgets transforms after a jump of time.
+    pub(super) fn forget(&mut self) {
+        self.tf.forget();
+    }
+}

@@ -1,0 +1,329 @@
+//! Hybrid-A*.
+//!
+//! Source of the rules: `nav2_smac_planner/smac_planner_hybrid_impl.hpp`.
+
+use std::f64::consts::PI;
+
+use periplus_costmap::cost::{INSCRIBED, MAX_NON_OBSTACLE};
+use periplus_costmap::{Costmap, Nav2Release};
+use periplus_geometry::Pose2;
+use periplus_grid::{Cell, GridInfo};
+use periplus_params::{ParamValue, ParamValues, param_choice};
+
+use super::analytic::AnalyticSettings;
+use super::collision::{CollisionChecker, downsampled};
+use super::distance_table::{BinPose, DistanceTable};
+use super::path_smoothing::{SmacSmoother, smooth};
+use super::primitives::{PrimitiveSet, StepPenalties};
+use super::search::{
+    Hooks, MotionTables, SearchBuffers, SearchLimits, SmacGoal, SmacOutcome, SmacSearch,
+};
+use crate::obstruction::{Passable, explain};
+use crate::parameters::{ChangeRules, ParameterStore};
+use crate::tables::{SMAC_HYBRID, SmacHybridParams};
+use crate::{ParameterRejected, Plan, PlanError, PlanErrorKind, PlanRequest, Planner, outside};
+
+param_choice! {
+    /// Headings at the goal that a plan may end with: `goal_heading_mode`.
+    pub enum GoalHeadingMode {
+        /// The heading of the goal.
+        #[default]
+        Default = "DEFAULT",
+        /// The heading of the goal, or the opposite one.
+        Bidirectional = "BIDIRECTIONAL",
+        /// Any heading.
+        AllDirection = "ALL_DIRECTION",
+    }
+}
+
+const RULES: ChangeRules = ChangeRules {
+    fixed: &[
+        "debug_visualizations",
+        "downsample_obstacle_heuristic",
+        "retrospective_penalty",
+        "use_quadratic_cost_penalty",
+        "smoother.do_refinement",
+        "smoother.refinement_num",
+        "smoother.w_data",
+        "smoother.w_smooth",
+    ],
+    allows_zero: true,
+    unlimited: &["max_iterations", "max_on_approach_iterations"],
+};
+
+/// The Hybrid-A* planner.
+#[derive(Debug)]
+pub struct SmacHybridPlanner {
+    store: ParameterStore,
+    params: SmacHybridParams,
+    release: Nav2Release,
+    /// Tables for a resolution \[m\]; rebuilt when it or a parameter changes.
+    tables: Option<(f64, MotionTables)>,
+    buffers: SearchBuffers,
+}
+
+impl Default for SmacHybridPlanner {
+    fn default() -> Self {
+        Self::new(ParamValues::defaults(&SMAC_HYBRID), Nav2Release::Main)
+    }
+}
+
+/// Returns the parameters with the defaults of a release.
+fn params_of(values: &ParamValues, release: Nav2Release) -> SmacHybridParams {
+    let mut params = SmacHybridParams::from_values(values);
+    if release < Nav2Release::Main && !values.is_given("allow_primitive_interpolation") {
+        params.allow_primitive_interpolation = false;
+    }
+    params
+}
+
+impl SmacHybridPlanner {
+    /// Creates a planner with values of [`crate::tables::SMAC_HYBRID`]; those that were not given have the
+    /// defaults of the release.
+    #[must_use]
+    pub fn new(values: ParamValues, release: Nav2Release) -> Self {
+        let params = params_of(&values, release);
+        let store = ParameterStore::new(values, &RULES);
+        Self { store, params, release, tables: None, buffers: SearchBuffers::default() }
+    }
+
+    fn bin_count(&self) -> usize {
+        self.params.angle_quantization_bins
+    }
+
+    /// Returns the turning radius \[m\]: at least one cell.
+    fn radius_m(&self, resolution_m: f64) -> f64 {
+        self.params.minimum_turning_radius_m.max(resolution_m)
+    }
+
+    fn build_tables(&self, resolution_m: f64) -> MotionTables {
+        let params = &self.params;
+        let model = params.motion_model_for_search;
+        let radius = self.radius_m(resolution_m) / resolution_m;
+        let bin_count = self.bin_count();
+        let interpolates = params.allow_primitive_interpolation;
+        let set = PrimitiveSet::new(model, radius, bin_count, interpolates);
+        let penalties = StepPenalties {
+            retrospective: params.retrospective_penalty,
+            cost: params.cost_penalty,
+            non_straight: params.non_straight_penalty,
+            change: params.change_penalty,
+            reverse: params.reverse_penalty,
+            is_quadratic: params.use_quadratic_cost_penalty,
+        };
+        // The side of the table is odd, so that the goal is in its middle.
+        let side = (params.lookup_table_size_m / resolution_m) as usize | 1;
+        let lengths = DistanceTable::new(model.curves(), radius, bin_count, side);
+        let analytic = AnalyticSettings {
+            family: model.curves(),
+            radius,
+            max_length: params.analytic_expansion_max_length_m / resolution_m,
+            max_cost: params.analytic_expansion_max_cost,
+            overrides_max_cost: params.analytic_expansion_max_cost_override,
+            cost_penalty: params.cost_penalty,
+            bin_count,
+        };
+        let ratio = params.analytic_expansion_ratio.max(f64::MIN_POSITIVE);
+        MotionTables::new(set, penalties, lengths, analytic, ratio)
+    }
+
+    /// Returns the goals that are valid: in a free cell, or within the tolerance of one.
+    fn goals(
+        &self,
+        goal: BinPose,
+        tolerance: f64,
+        checker: &CollisionChecker<'_>,
+        map: &Costmap,
+    ) -> Vec<SmacGoal> {
+        let bins = self.bin_count();
+        let coarse = self.params.coarse_search_resolution.max(1);
+        let headings: Vec<(usize, bool)> = match self.params.goal_heading_mode {
+            GoalHeadingMode::Default => vec![(goal.bin, true)],
+            GoalHeadingMode::Bidirectional => {
+                vec![(goal.bin, true), ((goal.bin + bins / 2) % bins, true)]
+            }
+            GoalHeadingMode::AllDirection => {
+                (0..bins).map(|bin| (bin, bin % coarse == 0)).collect()
+            }
+        };
+        let goals = headings
+            .into_iter()
+            .map(|(bin, is_coarse)| SmacGoal { pose: BinPose { bin, ..goal }, is_coarse });
+        let is_valid = |goal: &SmacGoal| {
+            let BinPose { x, y, bin } = goal.pose;
+            checker.free_cost(x, y, bin).is_some()
+                || has_free_zone(goal.pose, tolerance, checker, map)
+        };
+        goals.filter(is_valid).collect()
+    }
+
+    fn smoother(&self, resolution_m: f64) -> SmacSmoother {
+        SmacSmoother {
+            relaxation: self.params.smoother.relaxation(),
+            radius_m: Some(self.radius_m(resolution_m)),
+        }
+    }
+}
+
+/// Returns true if a cell within a radius around a pose \[cells\] is free.
+fn has_free_zone(at: BinPose, radius: f64, checker: &CollisionChecker<'_>, map: &Costmap) -> bool {
+    if radius < 1.0 {
+        return false;
+    }
+    let range = |centre: f64, count: usize| {
+        let low = libm::floor(centre - radius).max(0.0) as usize;
+        let high = (libm::ceil(centre + radius) as usize).min(count.saturating_sub(1));
+        low..=high
+    };
+    let (columns, rows) = (range(at.x, map.info().width), range(at.y, map.info().height));
+    columns.into_iter().any(|column| {
+        rows.clone().any(|row| {
+            let (dx, dy) = (column as f64 - at.x, row as f64 - at.y);
+            dx * dx + dy * dy <= radius * radius
+                && checker.free_cost(column as f64 + 0.5, row as f64 + 0.5, at.bin).is_some()
+        })
+    })
+}
+
+/// Returns the bin nearest to a yaw.
+fn bin_of(yaw_rad: f64, bin_count: usize) -> usize {
+    let bin = libm::round(yaw_rad / (2.0 * PI) * bin_count as f64) as i64;
+    bin.rem_euclid(bin_count as i64) as usize
+}
+
+fn bin_pose(info: &GridInfo, pose: Pose2, bin_count: usize) -> BinPose {
+    let (x, y) = info.finder().cells_to(pose.x_m, pose.y_m);
+    BinPose { x, y, bin: bin_of(pose.yaw_rad, bin_count) }
+}
+
+/// Returns the error of a search that found no path.
+pub(super) fn failure(iterations: usize, max_iterations: usize, is_out_of_time: bool) -> PlanError {
+    if is_out_of_time {
+        PlanError::new(PlanErrorKind::Timeout, "exceeded maximum planning time")
+    } else if iterations == 1 {
+        PlanError::new(PlanErrorKind::StartOccupied, "Start occupied")
+    } else if iterations < max_iterations {
+        PlanError::new(PlanErrorKind::NoValidPath, "no valid path found")
+    } else {
+        PlanError::new(PlanErrorKind::Timeout, "exceeded maximum iterations")
+    }
+}
+
+/// Returns a limit, of which 0 and negative numbers mean none.
+pub(super) fn limit(count: i64) -> usize {
+    if count <= 0 { usize::MAX } else { usize::try_from(count).unwrap_or(usize::MAX) }
+}
+
+/// Returns true if two cells are the same.
+pub(super) fn is_same_cell(info: &GridInfo, a: Pose2, b: Pose2) -> bool {
+    let cell = |pose: Pose2| -> Option<Cell> { info.cell_of(pose.x_m, pose.y_m) };
+    cell(a) == cell(b)
+}
+
+impl Planner for SmacHybridPlanner {
+    fn plan(&mut self, request: PlanRequest<'_>) -> Result<Plan, PlanError> {
+        let PlanRequest { costmap: view, start, goal, is_cancelled, is_out_of_time } = request;
+        let start_cell = outside::start_cell(view.costs.info(), start)?;
+        outside::goal_cell(view.costs.info(), goal)?;
+        let factor =
+            if self.params.downsample_costmap { self.params.downsampling_factor } else { 1 };
+        let coarse = (factor > 1).then(|| downsampled(view.costs, factor));
+        let map = coarse.as_ref().unwrap_or(view.costs);
+        let (info, resolution_m, bin_count) = (map.info(), map.resolution_m(), self.bin_count());
+        let start_bins = bin_pose(info, start, bin_count);
+        let goal_bins = bin_pose(info, goal, bin_count);
+        if is_same_cell(info, start, goal) && start_bins.bin == goal_bins.bin {
+            let pose = Pose2 { yaw_rad: goal.yaw_rad, ..start };
+            return Ok(Plan { poses: vec![pose], unsmoothed: vec![pose], ..Plan::default() });
+        }
+        let allow_unknown = self.params.search.allow_unknown;
+        let checker = CollisionChecker::new(&view, map, bin_count, allow_unknown);
+        let tolerance = self.params.tolerance_m / resolution_m;
+        let goals = self.goals(goal_bins, tolerance, &checker, map);
+        let explanation = || {
+            let passable =
+                Passable { max_cost: MAX_NON_OBSTACLE.min(INSCRIBED - 1), unknown: allow_unknown };
+            explain(view.costs, start_cell, goal, passable)
+        };
+        if goals.is_empty() {
+            let error = PlanError::new(PlanErrorKind::GoalOccupied, "Goal was in lethal cost");
+            return Err(error.with(explanation()));
+        }
+        if self.tables.as_ref().is_none_or(|(built_m, _)| *built_m != resolution_m) {
+            self.tables = Some((resolution_m, self.build_tables(resolution_m)));
+        }
+        let smoother = self.smoother(resolution_m);
+        let params = &self.params;
+        let Some((_, tables)) = &mut self.tables else {
+            return Err(PlanError::new(PlanErrorKind::Unknown, "there are no motion tables"));
+        };
+        let is_quadratic = params.use_quadratic_cost_penalty;
+        let goal_cells = [goal_bins.x, goal_bins.y];
+        self.buffers.obstacles.reset(map, goal_cells, params.cost_penalty, is_quadratic);
+        let limits = SearchLimits {
+            max_iterations: limit(params.search.max_iterations),
+            max_on_approach: limit(params.search.max_on_approach_iterations),
+            check_interval: params.search.terminal_checking_interval,
+            tolerance,
+        };
+        let buffers = &mut self.buffers;
+        let search = SmacSearch { map, checker: &checker, tables, buffers, limits, goals: &goals };
+        let mut hooks = Hooks { is_cancelled, is_out_of_time };
+        let (outcome, expansion_count) = search.run(start_bins, &mut hooks);
+        let path = match outcome {
+            SmacOutcome::Found(path) => path,
+            SmacOutcome::Cancelled => return Err(PlanError::cancelled()),
+            outcome @ (SmacOutcome::OutOfTime | SmacOutcome::Exhausted) => {
+                let is_out_of_time = matches!(outcome, SmacOutcome::OutOfTime);
+                let error = failure(expansion_count, limits.max_iterations, is_out_of_time);
+                return Err(error.with(explanation()));
+            }
+        };
+        let in_map = |pose: &Pose2| {
+            let (x_m, y_m) = info.point_at(pose.x_m, pose.y_m);
+            Pose2::new(x_m, y_m, pose.yaw_rad).normalized()
+        };
+        let mut poses: Vec<Pose2> = path.iter().map(in_map).collect();
+        let unsmoothed = poses.clone();
+        if params.smooth_path && expansion_count > 1 {
+            smooth(&mut poses, &smoother, &view, map, hooks.is_out_of_time);
+        }
+        Ok(Plan { poses, cleared_cell: None, unsmoothed, expansion_count })
+    }
+
+    fn set_parameter(&mut self, name: &str, value: &ParamValue) -> Result<(), ParameterRejected> {
+        let bins = self.params.angle_quantization_bins as i64;
+        let coarse = self.params.coarse_search_resolution as i64;
+        match (name, value) {
+            ("angle_quantization_bins", ParamValue::Integer(new))
+                if *new > 0 && new % coarse != 0 =>
+            {
+                let reason =
+                    format!("{new} is not a multiple of `coarse_search_resolution` {coarse}");
+                return Err(ParameterRejected::Value("angle_quantization_bins", reason));
+            }
+            ("coarse_search_resolution", ParamValue::Integer(new))
+                if *new > 0 && bins % new != 0 =>
+            {
+                let reason = format!("{new} does not divide `angle_quantization_bins` {bins}");
+                return Err(ParameterRejected::Value("coarse_search_resolution", reason));
+            }
+            ("minimum_turning_radius", ParamValue::Number(new)) => {
+                let cell_m = self.tables.as_ref().map_or(0.0, |(resolution_m, _)| *resolution_m);
+                if *new < cell_m {
+                    let reason = format!("{new} m is below the side of a cell, {cell_m} m");
+                    return Err(ParameterRejected::Value("minimum_turning_radius", reason));
+                }
+            }
+            _ => {}
+        }
+        self.store.change(name, value)?;
+        self.params = params_of(self.store.values(), self.release);
+        self.tables = None;
+        Ok(())
+    }
+
+    fn max_planning_time_s(&self) -> Option<f64> {
+        Some(self.params.max_planning_time_s)
+    }
+}
