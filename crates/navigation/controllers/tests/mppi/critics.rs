@@ -1,7 +1,7 @@
 //! Costs of single critics that one can compute by hand.
 
 use periplus_controllers::mppi::probe::{CriticScene, SampleTable, score};
-use periplus_controllers::mppi::{CriticKind, MppiModel, VelocityLimits};
+use periplus_controllers::mppi::{CriticKind, MppiModel, MppiVelocityLimits};
 use periplus_costmap::{Costmap, CostmapView, Footprint, InflationLaw, Nav2Release};
 use periplus_diagnostics::Diagnostics;
 use periplus_geometry::Pose2;
@@ -66,7 +66,7 @@ impl Scene {
             release: self.release,
             model: self.model,
             step_s: 0.1,
-            limits: VelocityLimits { vx_max: 0.5, vx_min: -0.4, vy_max: 0.3, wz_max: 1.9 },
+            limits: MppiVelocityLimits { vx_max: 0.5, vx_min: -0.4, vy_max: 0.3, wz_max: 1.9 },
             robot: self.robot,
             path: self.path.clone(),
             path_length: self.path_length,
