@@ -214,7 +214,7 @@ impl Setting {
 /// Name, class, and parameters that differ from the defaults.
 type Row = (&'static str, &'static str, &'static [(&'static str, Setting)]);
 
-const PLANNERS: [Row; 6] = [
+const PLANNERS: [Row; 7] = [
     ("NavFn", "nav2_navfn_planner::NavfnPlanner", &[]),
     ("NavFn A*", "nav2_navfn_planner::NavfnPlanner", &[("use_astar", Setting::Flag(true))]),
     ("Theta*", "nav2_theta_star_planner::ThetaStarPlanner", &[]),
@@ -225,4 +225,5 @@ const PLANNERS: [Row; 6] = [
         "nav2_smac_planner::SmacPlannerHybrid",
         &[("motion_model_for_search", Setting::Text("REEDS_SHEPP"))],
     ),
+    ("State Lattice", "nav2_smac_planner::SmacPlannerLattice", &[]),
 ];

@@ -48,8 +48,8 @@ pub use navfn::{
 };
 pub use planner::{Plan, PlanRequest, Planner};
 pub use smac::{
-    GoalHeadingMode, MotionPrimitive, PrimitiveSet, Smac2dPlanner, SmacHybridPlanner,
-    SmacMotionModel, StepPenalties, TurnDirection,
+    GoalHeadingMode, Lattice, LatticeError, LatticePrimitive, MotionPrimitive, PrimitiveSet,
+    Smac2dPlanner, SmacHybridPlanner, SmacMotionModel, StepPenalties, TurnDirection,
 };
 pub use smoothing::{
     SavitzkyGolaySmoother, SimpleSmoother, SmoothError, SmoothErrorKind, SmoothRequest, Smoother,
