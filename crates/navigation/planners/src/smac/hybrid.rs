@@ -22,7 +22,9 @@ use super::search::{
 use crate::obstruction::{Passable, explain};
 use crate::parameters::{ChangeRules, ParameterStore};
 use crate::tables::{SMAC_HYBRID, SmacHybridParams, SmacLatticeParams};
-use crate::{ParameterRejected, Plan, PlanError, PlanErrorKind, PlanRequest, Planner, outside};
+use crate::{
+    ParameterRejected, PlanError, PlanErrorKind, PlanRequest, PlannedPath, Planner, outside,
+};
 
 param_choice! {
     /// Headings at the goal that a plan may end with: `goal_heading_mode`.
@@ -269,7 +271,7 @@ pub(super) fn is_same_cell(info: &GridInfo, a: Pose2, b: Pose2) -> bool {
 }
 
 impl Planner for SmacHybridPlanner {
-    fn plan(&mut self, request: PlanRequest<'_>) -> Result<Plan, PlanError> {
+    fn plan(&mut self, request: PlanRequest<'_>) -> Result<PlannedPath, PlanError> {
         let PlanRequest { costmap: view, start, goal, is_cancelled, is_out_of_time } = request;
         let start_cell = outside::start_cell(view.costs.info(), start)?;
         outside::goal_cell(view.costs.info(), goal)?;
@@ -282,7 +284,11 @@ impl Planner for SmacHybridPlanner {
         let goal_bins = bin_pose(info, goal, &self.headings);
         if is_same_cell(info, start, goal) && start_bins.bin == goal_bins.bin {
             let pose = Pose2 { yaw_rad: goal.yaw_rad, ..start };
-            return Ok(Plan { poses: vec![pose], unsmoothed: vec![pose], ..Plan::default() });
+            return Ok(PlannedPath {
+                poses: vec![pose],
+                unsmoothed: vec![pose],
+                ..PlannedPath::default()
+            });
         }
         let headings = self.headings.clone();
         let allow_unknown = self.params.common.search.allow_unknown;
@@ -337,7 +343,7 @@ impl Planner for SmacHybridPlanner {
         if params.common.smooth_path && expansion_count > 1 {
             smooth(&mut poses, &smoother, &view, map, hooks.is_out_of_time);
         }
-        Ok(Plan { poses, cleared_cell: None, unsmoothed, expansion_count })
+        Ok(PlannedPath { poses, cleared_cell: None, unsmoothed, expansion_count })
     }
 
     fn set_parameter(&mut self, name: &str, value: &ParamValue) -> Result<(), ParameterRejected> {
