@@ -63,8 +63,8 @@ impl SpawnerOptions {
                 _ => (word.as_str(), None),
             };
             let mut value = || {
-                let value = attached.or_else(|| words.next().map(String::as_str));
-                value.map(str::to_owned).ok_or_else(|| format!("`{option}` needs a value"))
+                let value = attached.map(str::to_owned).or_else(|| words.next().cloned());
+                value.ok_or_else(|| format!("`{option}` needs a value"))
             };
             match option {
                 "-c" | "--controller-manager" => options.manager = value()?,
