@@ -322,6 +322,7 @@ class Scheduler:
         stall_ns = _faults.next_stall_ns()
         if stall_ns is not None and (wake_ns is None or stall_ns < wake_ns):
             wake_ns = stall_ns
+        is_over = False
         try:
             self.is_exchanging = True
             try:
@@ -331,6 +332,9 @@ class Scheduler:
         except _Interrupted:
             pass
         except (ConnectionError, EOFError):
+            is_over = True
+        if is_over:
+            # Not in the handler: the interrupt would show the lost connection as its cause.
             self._end()
             return
         if stall_ns is not None and self.graph.now_ns() >= stall_ns:
