@@ -219,6 +219,28 @@ fn nodes_of_ros_1_get_the_parameter_server() {
 }
 
 #[test]
+fn a_package_of_rosbuild_is_a_source_tree_too() {
+    let tree = Tree::new("launch_rosbuild");
+    tree.write("ws/src/basics/manifest.xml", "<package><depend package='rospy'/></package>");
+    tree.write("ws/src/basics/src/server.py", "#! /usr/bin/env python\nimport rospy\n");
+    let file = r#"<launch><node pkg="basics" type="server.py" name="server"/></launch>"#;
+    let (is_success, told) = tree.launch("a.launch", file, &["--duration", "0.1"]);
+    assert!(is_success, "{told}");
+    has(&told, &["[server] args: -m periplus.ros.run basics server.py __name:=server"]);
+    let output = tree.run(&["rosrun", "basics", "server.py"]);
+    has(&text_of(&output), &["args: -m periplus.ros.run basics server.py"]);
+}
+
+#[test]
+fn a_command_gets_no_more_than_its_own_arguments() {
+    let tree = Tree::new("launch_ros2_run");
+    let file = r#"<launch><executable cmd="ros2 run walls wall a 1" output="screen"/></launch>"#;
+    let (is_success, told) = tree.launch("a.launch.xml", file, &["--duration", "0.1"]);
+    assert!(is_success, "{told}");
+    has(&told, &["args: -m periplus.ros.run walls wall a 1\n"]);
+}
+
+#[test]
 fn nodes_respawn_and_required_ones_end_the_launch() {
     let tree = Tree::new("respawn");
     let file = r#"<launch>

@@ -165,7 +165,9 @@ impl PythonNode {
         let host = Overlay { variables: environment.clone() };
         let resolver = Resolver::new(&host, &search.folders);
         let path = resolver.find_package(package, from).ok()?;
-        let is_source = Machine.kind(&path.join("package.xml")) == Some(EntryKind::File)
+        // A package of rosbuild has a manifest.xml.
+        let mut manifests = ["package.xml", "manifest.xml"].into_iter().map(|name| path.join(name));
+        let is_source = manifests.any(|file| Machine.kind(&file) == Some(EntryKind::File))
             && !path.parent().is_some_and(|above| above.ends_with("share"));
         is_source.then(|| Self { program: Some((package.to_owned(), program.to_owned())), path })
     }

@@ -105,7 +105,7 @@ impl Child {
             found.extend(rest.iter().cloned());
             words = found;
         }
-        if program.is_node {
+        if program.is_node && !program.is_complete {
             arguments = node_arguments(program, settings.dialect)?;
             words.extend(arguments.words.iter().cloned());
             variables.extend(arguments.variables.iter().cloned());
