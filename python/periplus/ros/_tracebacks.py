@@ -101,6 +101,8 @@ def is_end_of_simulation(error: BaseException | None) -> bool:
         # Wrapped, as by SMACH.
         return is_end_of_simulation(error.__cause__)
     name = type(error).__name__
+    if name == "ROSException":
+        return "closed topic" in str(error)
     if name == "RCLError":
         return any(text in str(error) for text in ("context is invalid", "rcl_shutdown already called"))
     return name in ("KeyboardInterrupt", "ROSInterruptException", "ExternalShutdownException")
