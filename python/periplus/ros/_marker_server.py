@@ -36,6 +36,7 @@ class MarkerServer:
         with self.mutex:
             self._pending[marker.name] = copy.deepcopy(marker)
             self._changed.add(marker.name)
+            self._moved.discard(marker.name)
             self._erased.discard(marker.name)
 
     def setPose(self, name: str, pose: Any, header: Any = None) -> bool:  # noqa: N802

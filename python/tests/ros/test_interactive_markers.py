@@ -52,6 +52,10 @@ print(updates[-1].seq_num, [(one.name, one.pose.position.x) for one in updates[-
 answer = viewer.call_async(GetInteractiveMarkers.Request())
 spin()
 print(answer.result().sequence_number, answer.result().markers[0].pose.position.x)
+# A program that answers a move with the marker itself.
+server.setPose("red", Pose())
+server.insert(marker)
+server.applyChanges()
 print(server.erase("red"), server.erase("blue"), server.setPose("blue", Pose()))
 server.shutdown()
 spin()
