@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import importlib
 from collections.abc import Callable
 from typing import Any
 
-from visualization_msgs.msg import InteractiveMarkerFeedback, MenuEntry
+# Of the generation that the program uses.
+_messages: Any = importlib.import_module("visualization_msgs.msg")
 
 
 class MenuHandler:
@@ -23,7 +25,7 @@ class MenuHandler:
         self,
         title: str,
         parent: int | None = None,
-        command_type: int = MenuEntry.FEEDBACK,
+        command_type: int = _messages.MenuEntry.FEEDBACK,
         command: str = "",
         callback: Callable[[Any], Any] | None = None,
     ) -> int:
@@ -67,7 +69,7 @@ class MenuHandler:
         for number, one in self._entries.items():
             if one["visible"]:
                 mark = {self.CHECKED: "[x] ", self.UNCHECKED: "[ ] "}.get(one["check"], "")
-                entry = MenuEntry(
+                entry = _messages.MenuEntry(
                     id=number,
                     parent_id=one["parent"],
                     title=mark + one["title"],
@@ -76,7 +78,7 @@ class MenuHandler:
                 )
                 marker.menu_entries.append(entry)
         server.insert(marker)
-        server.setCallback(marker_name, self._selected, InteractiveMarkerFeedback.MENU_SELECT)
+        server.setCallback(marker_name, self._selected, _messages.InteractiveMarkerFeedback.MENU_SELECT)
         self._markers.add(marker_name)
         return True
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import copy
+import importlib
 import threading
 from collections.abc import Callable
 from typing import Any
@@ -16,9 +17,7 @@ class MarkerServer:
 
     def __init__(self) -> None:
         # Of the generation that the program uses.
-        from visualization_msgs import msg as messages
-
-        self._messages: Any = messages
+        self._messages: Any = importlib.import_module("visualization_msgs.msg")
         self.seq_num = 0
         self.mutex = threading.RLock()
         self._markers: dict[str, Any] = {}
