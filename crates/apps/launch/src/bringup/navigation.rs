@@ -4,12 +4,12 @@ use std::path::Path;
 use std::sync::Arc;
 
 use periplus_costmap::CostmapConfig;
-use periplus_diagnostics::Diagnostics;
+use periplus_diagnostics::{Diagnostics, plain_words};
 use periplus_graph::{Graph, GraphError, LifecycleNode, Node};
 use periplus_nav_nodes::costmap_2d::CostmapNode;
 use periplus_nav_nodes::navigation::{NavigationNode, NavigationServer, NavigationSetup};
 use periplus_os::Machine;
-use periplus_resources::Store as _;
+use periplus_resources::{FileWriteError, Store as _};
 
 use crate::bringup::make::{self, ParameterFile};
 use crate::bringup::parameters::NamedParameters;
@@ -55,8 +55,12 @@ pub(crate) fn server(
 }
 
 /// Saves the photo of a waypoint, in a folder that may not exist yet.
-fn save(path: &Path, bytes: &[u8]) -> Result<(), String> {
-    Machine.replace(path, bytes).map_err(|error| error.to_string())
+fn save(path: &Path, bytes: &[u8]) -> Result<(), FileWriteError> {
+    if let Some(folder) = path.parent() {
+        std::fs::create_dir_all(folder)
+            .map_err(|error| FileWriteError::Other(plain_words(&error).to_string()))?;
+    }
+    Machine.replace(path, bytes)
 }
 
 /// Creates a stand-alone costmap.

@@ -13,7 +13,7 @@ use periplus_nav_nodes::NodeParameters;
 use periplus_nav_nodes::bt_navigator::NavigatorStatus;
 use periplus_nav_nodes::navigation::{NavigationNode, NavigationServer, NavigationSetup};
 use periplus_os::Machine;
-use periplus_resources::Store as _;
+use periplus_resources::{FileWriteError, Store as _};
 use periplus_yaml::YamlNode;
 
 pub use defaults::{NavigationDefaults, RobotBase};
@@ -196,11 +196,11 @@ fn has_section(at: &YamlNode, node: &str, depth: usize) -> bool {
 }
 
 /// Saves the photo of a waypoint.
-fn save_photo(path: &Path, bytes: &[u8]) -> Result<(), String> {
+fn save_photo(path: &Path, bytes: &[u8]) -> Result<(), FileWriteError> {
     if let Some(folder) = path.parent() {
-        files::make_folder(folder).map_err(|error| error.to_string())?;
+        files::make_folder(folder).map_err(|error| FileWriteError::Other(error.to_string()))?;
     }
-    Machine.replace(path, bytes).map_err(|error| error.to_string())
+    Machine.replace(path, bytes)
 }
 
 /// Pose in the text form `X,Y,YAW`.
