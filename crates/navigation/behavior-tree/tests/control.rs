@@ -1,4 +1,10 @@
 //! Control nodes and decorators, tick by tick.
+#![allow(
+    clippy::unwrap_used,
+    clippy::print_stderr,
+    clippy::disallowed_methods,
+    reason = "helpers of tests, which read shared files"
+)]
 
 mod support;
 

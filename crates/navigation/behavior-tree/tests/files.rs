@@ -1,4 +1,10 @@
 //! Reading and checking of files.
+#![allow(
+    clippy::unwrap_used,
+    clippy::print_stderr,
+    clippy::disallowed_methods,
+    reason = "helpers of tests, which read shared files"
+)]
 
 mod support;
 

@@ -1,4 +1,10 @@
 //! Any text: a tree or located findings, in bounded time; no panic, and nothing runs after a halt.
+#![allow(
+    clippy::unwrap_used,
+    clippy::print_stderr,
+    clippy::disallowed_methods,
+    reason = "helpers of tests, which read shared files"
+)]
 
 mod support;
 

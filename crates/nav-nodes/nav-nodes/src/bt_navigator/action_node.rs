@@ -73,11 +73,14 @@ pub(super) trait TreeAction: Default + Send + 'static {
     }
 }
 
+/// Name of a server, and its client.
+type NamedClient<T> = (String, Arc<Nav2ActionClient<<T as TreeAction>::Action>>);
+
 /// Tree node with its client.
 pub(super) struct ActionNode<T: TreeAction> {
     shared: Arc<Shared>,
     action: T,
-    client: Option<(String, Arc<Nav2ActionClient<T::Action>>)>,
+    client: Option<NamedClient<T>>,
     goal: Goal<T>,
     sent: Option<Nav2SentGoal<T::Action>>,
     /// End of the last goal. A node whose parent does not reset it returns its status again.
@@ -93,10 +96,7 @@ impl<T: TreeAction> ActionNode<T> {
     }
 
     /// Name of the server and its client, which is created at first use.
-    fn client(
-        &mut self,
-        run: &NodeRun<'_>,
-    ) -> Result<(String, Arc<Nav2ActionClient<T::Action>>), TreeError> {
+    fn client(&mut self, run: &NodeRun<'_>) -> Result<NamedClient<T>, TreeError> {
         let name = run.input_text("server_name").filter(|name| !name.is_empty());
         let name = name.unwrap_or_else(|| T::SERVER.to_owned());
         if let Some((known, client)) = &self.client

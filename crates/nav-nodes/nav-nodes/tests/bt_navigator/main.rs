@@ -1,5 +1,10 @@
 //! Navigator with scripted servers, in lockstep.
-#![allow(clippy::unwrap_used, reason = "a test asserts what must exist")]
+#![allow(
+    clippy::unwrap_used,
+    clippy::print_stderr,
+    clippy::disallowed_methods,
+    reason = "helpers of tests, which read shared files"
+)]
 
 mod equal_trees;
 mod world;

@@ -28,7 +28,6 @@ use periplus_params::Given;
 use periplus_resources::{EntryKind, FileReadError, FileWriteError, Host, MemoryHost, Store};
 
 pub(crate) const MS: i64 = 1_000_000;
-pub(crate) const SECOND: i64 = 1_000 * MS;
 
 /// Files in memory.
 pub(crate) struct Files(pub(crate) MemoryHost);
@@ -161,7 +160,7 @@ pub(crate) struct Fake<A: Action> {
 }
 
 fn serve<A: FakeAction>(graph: &Graph, release: Nav2Release, log: &Log) -> Actor<Fake<A>> {
-    let node = graph.node(NodeSettings::new(&format!("{}_server", A::NAME))).unwrap();
+    let node = graph.node(NodeSettings::new(format!("{}_server", A::NAME))).unwrap();
     let mut actor = node.actor(Fake::<A> {
         answers: [Answer::Succeed(0)].into(),
         goals: Vec::new(),
@@ -220,7 +219,7 @@ pub(crate) struct World {
     pub(crate) navigator: LifecycleNode<BtNavigator>,
     pub(crate) log: Log,
     pub(crate) planner: Actor<Fake<ComputePathToPose>>,
-    pub(crate) through: Actor<Fake<ComputePathThroughPoses>>,
+    _through: Actor<Fake<ComputePathThroughPoses>>,
     pub(crate) controller: Actor<Fake<FollowPath>>,
     pub(crate) spin: Actor<Fake<Spin>>,
     pub(crate) wait: Actor<Fake<Wait>>,
@@ -282,7 +281,7 @@ impl World {
             valid,
         );
         let node = graph.node(NodeSettings::new("tester")).unwrap();
-        let given = params.iter().map(|(name, value)| Given::new(*name, *value));
+        let given = params.iter().map(|(name, value)| Given::new(name, *value));
         let mut findings = Diagnostics::new();
         let values = BtNavigatorParams::read(given, release, &mut findings);
         assert!(findings.is_empty(), "{findings:?}");
@@ -290,7 +289,7 @@ impl World {
         let navigator = BtNavigator::new(&own, values, release, Arc::new(Files(files))).unwrap();
         let world = Self {
             planner: serve(&graph, release, &log),
-            through: serve(&graph, release, &log),
+            _through: serve(&graph, release, &log),
             controller: serve(&graph, release, &log),
             spin: serve(&graph, release, &log),
             wait: serve(&graph, release, &log),
