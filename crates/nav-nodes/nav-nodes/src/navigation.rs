@@ -162,7 +162,8 @@ impl NavigationSetup<'_> {
         let name = node.names().name().to_owned();
         let parameters =
             self.file.map(|file| NodeParameters::of_node(file, &name)).unwrap_or_default();
-        let (given, release) = (parameters.given(), self.release);
+        let given = parameters.given().filter(|one| !is_common(one.name));
+        let release = self.release;
         let forms = release.unwrap_or(Nav2Release::Jazzy);
         Ok(match server {
             NavigationServer::Controller => {
@@ -223,4 +224,11 @@ impl NavigationSetup<'_> {
         };
         CostmapNode::at(costmap_node(settings)?, config)
     }
+}
+
+/// Returns true for a parameter that every node of ROS 2 has, which no table of a server lists.
+fn is_common(name: &str) -> bool {
+    const COMMON: [&str; 4] =
+        ["use_sim_time", "qos_overrides", "diagnostic_updater", "start_type_description_service"];
+    COMMON.iter().any(|common| name.starts_with(common))
 }
