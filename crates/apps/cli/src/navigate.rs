@@ -53,6 +53,9 @@ pub(crate) struct NavigateOptions {
     /// Map to localize on with AMCL [default: SLAM builds one while the robot drives]
     #[arg(long, value_name = "MAP.yaml", conflicts_with = "no_map")]
     map: Option<PathBuf>,
+    /// At the end write the map that SLAM built to a folder: map.yaml, map.pgm, map.session, map.png
+    #[arg(long, value_name = "DIR", conflicts_with_all = ["map", "no_map"])]
+    slam_out: Option<PathBuf>,
     /// Drive without a map, in the odometry frame: goals are relative to the start
     #[arg(long)]
     no_map: bool,
@@ -154,6 +157,7 @@ pub(crate) fn run(options: &NavigateOptions, ros: Vec<String>) -> Result<ExitCod
     session.finish()?;
     task.goals.finish(session.simulation().time_ns());
     options.print(&session, &task)?;
+    session.estimators().write_map(options.quiet)?;
     exit_code(session.end())?;
     let is_reached =
         |report: &periplus_session::nodes::GoalReport| report.outcome == GoalOutcome::Reached;
@@ -211,7 +215,7 @@ impl NavigateOptions {
             }
         };
         let is_mapped = self.map.is_none() && !self.no_map;
-        let mapping = is_mapped.then(|| mapping(start)).transpose()?;
+        let mapping = is_mapped.then(|| mapping(start, self.slam_out.clone())).transpose()?;
         Ok(EstimatorRequest {
             detects_robot: true,
             localization: self.map.iter().cloned().collect(),
@@ -252,11 +256,11 @@ impl NavigateOptions {
 }
 
 /// SLAM in a map whose frame is that of the world, as far as the user knows where the robot starts.
-fn mapping(start: Pose2) -> Result<MappingRequest, CliError> {
+fn mapping(start: Pose2, out: Option<PathBuf>) -> Result<MappingRequest, CliError> {
     let (program, mut values) = slam_parameters(None, Some(Program::Async))?;
     let pose = vec![start.x_m, start.y_m, start.yaw_rad];
     values.set("map_start_pose", ParamValue::Numbers(pose));
-    Ok(MappingRequest { source: MappingSource::Values(program, values), out: None })
+    Ok(MappingRequest { source: MappingSource::Values(program, values), out })
 }
 
 /// Navigation of a run: sends the goals, and keeps the score.
