@@ -5,7 +5,7 @@
 use periplus_controllers::ros1::create_local_goal_checker;
 use periplus_controllers::{
     ControlError, ControlInput, Controller, GivenParameters, GoalChecker, GoalQuery, GoalStatus,
-    PathHandler, PathRules, PluginSetup, create_controller, create_goal_checker,
+    PathHandler, PluginSetup, create_controller, create_goal_checker,
 };
 use periplus_costmap::{Costmap, CostmapView, Footprint, InflationLaw, Nav2Release};
 use periplus_diagnostics::Diagnostics;
@@ -120,7 +120,7 @@ fn robot(class: &str, given: &[(&str, &str)], release: Nav2Release) -> Robot {
         let setup = PluginSetup { release, ..PluginSetup::new("goal_checker") };
         create_goal_checker("nav2_controller::SimpleGoalChecker", &setup, &mut diagnostics).unwrap()
     });
-    let rules = controller.path_rules().unwrap_or_else(PathRules::default);
+    let rules = controller.path_rules().unwrap_or_default();
     Robot { controller, goal_checker, path_handler: PathHandler::new(rules) }
 }
 
@@ -241,17 +241,27 @@ fn dwb() {
 }
 
 #[test]
-fn local_planners_of_ros_1() {
-    let release = Nav2Release::Main;
+fn dwa_planner() {
     let dwa = [
         ("max_vel_y", "0.0"),
         ("min_vel_y", "0.0"),
         ("path_distance_bias", "32.0"),
         ("goal_distance_bias", "24.0"),
     ];
-    check(DWA, &dwa, release, 0.4, 0.1);
-    check(ROLLOUT, &[("holonomic_robot", "false"), ("meter_scoring", "true")], release, 0.5, 0.1);
-    check(TEB, &[], release, 0.5, 0.2);
+    check(DWA, &dwa, Nav2Release::Main, 0.4, 0.1);
+}
+
+#[test]
+fn trajectory_planner() {
+    let given = [("holonomic_robot", "false"), ("meter_scoring", "true")];
+    check(ROLLOUT, &given, Nav2Release::Main, 0.5, 0.1);
+}
+
+#[test]
+fn replacement_of_teb() {
+    check(TEB, &[], Nav2Release::Main, 0.5, 0.2);
+    let car = [("min_turning_radius", "0.2"), ("yaw_goal_tolerance", "0.25")];
+    check(TEB, &car, Nav2Release::Main, 0.5, 0.2);
 }
 
 /// A wall ahead ends the control with a reason that names the cell.

@@ -83,7 +83,7 @@ fn mistakes_are_explained() {
     assert_eq!(
         teb,
         [
-            "`FollowPath`: TebLocalPlannerROS is not supported, and DWAPlannerROS drives in place of it"
+            "`FollowPath`: TebLocalPlannerROS is not supported, and DWBLocalPlanner drives in place of it"
         ]
     );
 }
