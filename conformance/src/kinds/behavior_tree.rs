@@ -118,7 +118,7 @@ pub(super) fn check_control(
     let (mut returns, mut ticks, mut halts) = (Vec::new(), Vec::new(), Vec::new());
     for (time_s, reset) in times.into_iter().zip(resets) {
         let failed = |message: String| Unreadable(format!("{node}: {message}"));
-        tree.blackboard_mut().set("reset", reset).map_err(failed)?;
+        tree.blackboard_mut().set("reset", reset).map_err(|error| failed(error.to_string()))?;
         #[allow(clippy::cast_possible_truncation, reason = "saturates")]
         let now_ns = (time_s * 1e9).round() as i64;
         tree.tick(now_ns, &mut ()).map_err(|error| failed(error.to_string()))?;

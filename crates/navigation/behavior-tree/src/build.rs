@@ -259,9 +259,9 @@ impl Build<'_> {
         for (port, text, _) in literals {
             // A literal belongs to the subtree, also with autoremap.
             self.core.blackboard.own(board, &port);
-            if let Err(message) = self.core.blackboard.set_in(board, &port, literal(&text)) {
+            if let Err(error) = self.core.blackboard.set_in(board, &port, literal(&text)) {
                 let at = element.attribute(&port).map_or(element.origin, |a| a.value_origin);
-                self.findings.push(Diagnostic::error("port-value", message).at(at));
+                self.findings.push(Diagnostic::error("port-value", error.to_string()).at(at));
             }
         }
         board

@@ -40,10 +40,11 @@ mod status;
 mod tree;
 mod value;
 
-pub use blackboard::{Blackboard, MAX_BLACKBOARD_ENTRIES};
+pub use blackboard::{Blackboard, EntryError, MAX_BLACKBOARD_ENTRIES};
 pub use build::{MAX_TREE_DEPTH, MAX_TREE_NODES};
 pub use document::{
     IncludedTree, MAX_INCLUDE_COUNT, MAX_INCLUDE_DEPTH, TreeFiles, TreeFormat, TreeInclude,
+    TreeIncludeError,
 };
 pub use model::{NodeKind, NodeModel, PortDirection, PortModel};
 pub use node::{BehaviorNode, NodeRun, PathGeometry, TreeContext, TreeError};

@@ -307,7 +307,7 @@ impl NodeRun<'_> {
     pub fn set_entry(&mut self, key: &str, value: impl Into<TreeValue>) -> Result<(), TreeError> {
         let board = self.core.config(self.id).board;
         let set = self.core.blackboard.set_in(board, key, value.into());
-        set.map_err(|message| self.error(message))
+        set.map_err(|error| self.error(error.to_string()))
     }
 
     /// Removes a blackboard entry.

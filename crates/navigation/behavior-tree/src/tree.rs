@@ -140,7 +140,14 @@ impl BehaviorTree {
     /// # Errors
     /// When a node or its script `_onHalted` cannot go on.
     pub fn halt(&mut self, now_ns: i64, context: &mut dyn TreeContext) -> Result<(), TreeError> {
-        self.core.halt_node(0, now_ns, context)
+        let mut outcome = self.core.halt_node(0, now_ns, context);
+        // After an error a child can be running below a node that is not.
+        for id in 0..self.core.nodes.len() {
+            if self.core.status(id) == NodeStatus::Running {
+                outcome = outcome.and(self.core.halt_node(id, now_ns, context));
+            }
+        }
+        outcome
     }
 
     /// ID of the main tree.

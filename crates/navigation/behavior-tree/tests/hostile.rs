@@ -111,6 +111,13 @@ fn nodes() -> impl Strategy<Value = String> {
     })
 }
 
+/// Regression test: below a node that had not become running, a child went on after an error of its sibling.
+#[test]
+fn nothing_runs_after_an_error_and_a_halt() {
+    let root = "<Parallel><NonblockingSequence><Leaf/><Sleep/></NonblockingSequence></Parallel>";
+    check_tree(&format!("<root><BehaviorTree ID='T'>{root}</BehaviorTree></root>"));
+}
+
 proptest! {
     #[test]
     fn any_tree_ends_and_halts(root in nodes(), other in nodes()) {
