@@ -8,6 +8,7 @@ use periplus_resources::{EntryKind, Host};
 use crate::{Case, Differences, Unreadable};
 
 mod amcl;
+mod controllers;
 mod costmap;
 mod grid_coords;
 mod map_load;
@@ -69,8 +70,13 @@ pub const KINDS: &[(&str, Check)] = &[
     ("costmap_to_occgrid", costmap::check_to_occupancy),
     ("declare_params", costmap::check_parameters),
     ("denoise", costmap::check_denoise),
+    ("dwb_critic", controllers::check_critic),
+    ("dwb_trajectory", controllers::check_trajectory),
+    ("dwb_velocity_samples", controllers::check_samples),
     ("footprint", costmap::check_footprint),
     ("footprint_cost", costmap::check_footprint_cost),
+    ("goal_checker", controllers::check_goal),
+    ("graceful_control_law", controllers::check_law),
     ("grid_coords", grid_coords::check),
     ("inflation_cost", costmap::check_inflation),
     ("keepout_filter", costmap::check_keepout),
@@ -93,9 +99,13 @@ pub const KINDS: &[(&str, Check)] = &[
     ("path_expand", path_expand::check),
     ("path_smoother", planning::check_smoother),
     ("planner_grid_coords", planning::check_grid_coords),
+    ("progress_checker", controllers::check_progress),
     ("range_sensor_layer", costmap::check_layered),
     ("range_sensor_model", costmap::check_range_model),
     ("raytrace_2d", raytrace_2d::check),
+    ("rotate_to_heading", controllers::check_rotation),
+    ("rpp_lookahead", controllers::check_lookahead),
+    ("rpp_regulation", controllers::check_regulation),
     ("rsp", rsp::check),
     ("rviz_palette", rviz_palette::check),
     ("smac_primitives", planning::check_primitives),
