@@ -340,7 +340,7 @@ fn a_live_server_plans_beside_its_costmap() {
             }
             // The server or its costmap is not active yet.
             GoalProgress::Rejected | GoalProgress::Failed(_) | GoalProgress::Over(..) => {
-                sent = None
+                sent = None;
             }
             GoalProgress::Sent | GoalProgress::Accepted => {}
         }
