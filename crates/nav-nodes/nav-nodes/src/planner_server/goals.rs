@@ -2,7 +2,7 @@
 
 use periplus_costmap::Nav2Release;
 use periplus_geometry::Pose2;
-use periplus_graph::{Io, Level};
+use periplus_graph::{Io, Level, Node, Qos};
 use periplus_msgs::Nav2Action;
 use periplus_msgs::builtin_interfaces::Duration;
 use periplus_msgs::geometry_msgs::PoseStamped;
@@ -267,10 +267,9 @@ impl PlannerServer {
             let is_doubled = outcome.reached > 0 && self.release > Nav2Release::Humble;
             let poses = plan.poses.iter().skip(usize::from(is_doubled));
             let header = outcome.path.header.clone();
-            outcome
-                .path
-                .poses
-                .extend(poses.map(|it| PoseStamped { header: header.clone(), pose: pose(*it) }));
+            self.show_unsmoothed(&header, &plan.unsmoothed, io.node());
+            let stamped = |it: &Pose2| PoseStamped { header: header.clone(), pose: pose(*it) };
+            outcome.path.poses.extend(poses.map(stamped));
             outcome.reached += 1;
         }
         Ok(())
@@ -292,6 +291,24 @@ impl PlannerServer {
                 PlanError::new(PlanErrorKind::Transform, text).into()
             }),
         })
+    }
+
+    /// Publishes the path before smoothing, for planners that smooth.
+    fn show_unsmoothed(&mut self, header: &Header, poses: &[Pose2], node: &Node) {
+        if poses.is_empty() {
+            return;
+        }
+        if self.unsmoothed.is_none() {
+            match node.publisher("unsmoothed_plan", Qos::reliable(1)) {
+                Ok(publisher) => self.unsmoothed = Some(publisher),
+                Err(error) => node.log(Level::Error, error),
+            }
+        }
+        if let Some(publisher) = self.unsmoothed.as_ref().filter(|publisher| publisher.is_heard()) {
+            let stamped = |it: &Pose2| PoseStamped { header: header.clone(), pose: pose(*it) };
+            let poses = poses.iter().map(stamped).collect();
+            publisher.publish(Path { header: header.clone(), poses });
+        }
     }
 
     /// Plans one leg.

@@ -27,6 +27,8 @@ pub struct PlannerServer {
     pub(super) planners: Vec<PlannerSlot>,
     pub(super) costmap: LifecycleNode<CostmapNode>,
     pub(super) plan: Option<Publisher<Path>>,
+    /// Path before smoothing, once a planner has one.
+    pub(super) unsmoothed: Option<Publisher<Path>>,
     pub(super) to_pose: SimpleActionServer<ComputePathToPose>,
     pub(super) through_poses: SimpleActionServer<ComputePathThroughPoses>,
     /// By action, the alarm of a goal that waits for the costmap.
@@ -62,6 +64,7 @@ impl PlannerServer {
             planners,
             costmap,
             plan: None,
+            unsmoothed: None,
             to_pose: SimpleActionServer::default(),
             through_poses: SimpleActionServer::default(),
             waiting: BTreeMap::new(),
@@ -147,6 +150,7 @@ impl PlannerServer {
 
     fn release_all(&mut self) {
         self.plan = None;
+        self.unsmoothed = None;
         self.planners.iter_mut().for_each(|slot| slot.planner = None);
     }
 }

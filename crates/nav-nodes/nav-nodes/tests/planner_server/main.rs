@@ -282,6 +282,26 @@ fn waiting_goals_are_preempted_and_canceled() {
     assert!(matches!(sent.look(), GoalProgress::Over(GoalState::Canceled, _)), "{:?}", sent.look());
 }
 
+#[test]
+fn every_planner_leads_around_the_wall() {
+    for class in [
+        "nav2_navfn_planner/NavfnPlanner",
+        "nav2_theta_star_planner::ThetaStarPlanner",
+        "nav2_smac_planner::SmacPlanner2D",
+        "nav2_smac_planner::SmacPlannerHybrid",
+    ] {
+        let mut planning = Planning::started(Nav2Release::Main, &[("GridBased.plugin", class)]);
+        let unsmoothed = planning.stage.mailbox::<Path>("/unsmoothed_plan");
+        let (state, result) = planning.plan_to(goal(5.0, 1.0));
+        assert_eq!(state, GoalState::Succeeded, "{class}: {}", result.error_msg);
+        let length_m = length_m(&result.path);
+        assert!((5.5..8.5).contains(&length_m), "{class}: {length_m}");
+        let end = &result.path.poses.last().unwrap().pose.position;
+        assert!(libm::hypot(end.x - 5.0, end.y - 1.0) < 0.2, "{class}: {end:?}");
+        assert_eq!(unsmoothed.latest().is_some(), class.contains("Smac"), "{class}");
+    }
+}
+
 /// The same server with a thread for each node.
 #[test]
 fn a_live_server_plans_beside_its_costmap() {
@@ -320,7 +340,7 @@ fn a_live_server_plans_beside_its_costmap() {
             }
             // The server or its costmap is not active yet.
             GoalProgress::Rejected | GoalProgress::Failed(_) | GoalProgress::Over(..) => {
-                sent = None
+                sent = None;
             }
             GoalProgress::Sent | GoalProgress::Accepted => {}
         }

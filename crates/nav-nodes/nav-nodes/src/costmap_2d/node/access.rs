@@ -66,8 +66,8 @@ impl CostmapNode {
         }
     }
 
-    /// Returns a warning if the inflation ends before the corners of the footprint: its costs then say nothing
-    /// about the space that the robot needs, so that planners and controllers keep too little distance.
+    /// Returns a warning if the inflation ends before the corners of the footprint. Planners and controllers
+    /// then keep too little distance, because cells near a corner are free.
     #[must_use]
     pub fn footprint_advice(&self) -> Option<Diagnostic> {
         let view = self.view().filter(|view| !view.is_circular)?;
