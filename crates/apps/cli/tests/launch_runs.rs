@@ -283,7 +283,7 @@ fn programs_of_the_machine_and_what_is_missing() {
     assert!(ran.topics().contains("/tf_static tf2_msgs/msg/TFMessage 1"), "{}", ran.told);
     for words in [
         "program `periplus_has_no_such_program` is not on the PATH",
-        "a ROS 2 program, and this run is not on a network",
+        "`driver` of the package `nobody_has_this` has no built-in replacement, and there is no such package",
         "a quarter is over",
         "shutdown: half is over",
         "0.500 s simulated",
