@@ -14,10 +14,9 @@ use periplus_loader::LoadContext;
 use periplus_msgs::geometry_msgs::PoseWithCovarianceStamped;
 use periplus_nav_nodes::slam_toolbox::Program;
 use periplus_os::Stopwatch;
-use periplus_params::ParamValue;
 use periplus_session::nodes::{
     EstimatorRequest, GoalDriver, GoalOutcome, MappingRequest, MappingSource, Navigation,
-    NavigationDefaults, NavigationRequest, RobotBase, slam_parameters,
+    NavigationDefaults, NavigationRequest, PlanningMap, RobotBase, slam_parameters,
 };
 use periplus_session::{
     PageContext, PageSettings, ProgressLine, RunSettings, SessionBuilder, SessionTask,
@@ -46,8 +45,8 @@ pub(crate) struct NavigateOptions {
     words: Vec<String>,
     #[command(flatten)]
     robots: Robots,
-    /// Goal in the frame of the map [m, rad]: X,Y or X,Y,YAW; repeatable, in their order. Without a map file the frame
-    /// of the map is that of the world, if the robot stands where `--pose` says
+    /// Goal [m, rad]: X,Y or X,Y,YAW; repeatable, in their order. In the frame of the map with `--map`; with SLAM in the
+    /// frame of the world, if the robot stands where `--pose` says; without a map relative to the start
     #[arg(long = "goal", value_name = "X,Y,YAW", value_parser = pose, allow_hyphen_values = true, required = true)]
     goals: Vec<Pose2>,
     /// Map to localize on with AMCL [default: SLAM builds one while the robot drives]
@@ -146,7 +145,7 @@ pub(crate) fn run(options: &NavigateOptions, ros: Vec<String>) -> Result<ExitCod
         .factor(factor)
         .search(search)
         .recording(options.recorded.recording(options.record.as_deref()))
-        .estimators(options.estimators(pose)?)
+        .estimators(options.estimators()?)
         .ros2(options.ros2.map(Into::into))
         .page(page)
         .build()?;
@@ -206,7 +205,7 @@ impl NavigateOptions {
         Factor::of_run(self.rtf, duration_s, composition)
     }
 
-    fn estimators(&self, start: Pose2) -> Result<EstimatorRequest, CliError> {
+    fn estimators(&self) -> Result<EstimatorRequest, CliError> {
         let base = match self.base {
             Base::Differential => RobotBase::Differential,
             Base::Omni => RobotBase::Omnidirectional,
@@ -215,7 +214,7 @@ impl NavigateOptions {
             }
         };
         let is_mapped = self.map.is_none() && !self.no_map;
-        let mapping = is_mapped.then(|| mapping(start, self.slam_out.clone())).transpose()?;
+        let mapping = is_mapped.then(|| mapping(self.slam_out.clone())).transpose()?;
         Ok(EstimatorRequest {
             detects_robot: true,
             localization: self.map.iter().cloned().collect(),
@@ -226,11 +225,19 @@ impl NavigateOptions {
                     base,
                     max_speed_m_s: self.max_speed,
                     max_turn_rate_rad_s: self.max_turn_rate,
-                    is_without_map: self.no_map,
+                    map: self.planning_map(),
                 },
             }),
             ..EstimatorRequest::default()
         })
+    }
+
+    fn planning_map(&self) -> PlanningMap {
+        match (&self.map, self.no_map) {
+            (Some(_), _) => PlanningMap::Known,
+            (None, true) => PlanningMap::Absent,
+            (None, false) => PlanningMap::Growing,
+        }
     }
 
     fn page(&self, composition: &Composition) -> Option<PageSettings> {
@@ -246,20 +253,18 @@ impl NavigateOptions {
     /// Prints the report of the run.
     fn print(&self, session: &SimulationSession, task: &NavigateTask) -> Result<(), CliError> {
         if self.json {
-            let report = report::to_json(session, task);
+            let report = report::to_json(session, task, &self.goals);
             writeln!(io::stdout().lock(), "{report:#}")?;
         } else if !self.quiet {
-            report::print(session, task, &mut anstream::stderr().lock())?;
+            report::print(session, task, &self.goals, &mut anstream::stderr().lock())?;
         }
         Ok(())
     }
 }
 
-/// SLAM in a map whose frame is that of the world, as far as the user knows where the robot starts.
-fn mapping(start: Pose2, out: Option<PathBuf>) -> Result<MappingRequest, CliError> {
-    let (program, mut values) = slam_parameters(None, Some(Program::Async))?;
-    let pose = vec![start.x_m, start.y_m, start.yaw_rad];
-    values.set("map_start_pose", ParamValue::Numbers(pose));
+/// SLAM with default parameters.
+fn mapping(out: Option<PathBuf>) -> Result<MappingRequest, CliError> {
+    let (program, values) = slam_parameters(None, Some(Program::Async))?;
     Ok(MappingRequest { source: MappingSource::Values(program, values), out })
 }
 
@@ -280,8 +285,13 @@ impl NavigateTask {
     ) -> Result<Self, CliError> {
         let navigation = session.take_navigation();
         let frame = navigation.global_frame();
-        let goals = GoalDriver::new(session.graph(), &frame, options.goals.clone())
-            .map_err(CliError::failed)?;
+        // The map of SLAM begins at the robot.
+        let in_frame = |goal: &Pose2| match options.planning_map() {
+            PlanningMap::Growing => start.inverse() * *goal,
+            PlanningMap::Known | PlanningMap::Absent => *goal,
+        };
+        let poses = options.goals.iter().map(in_frame).collect();
+        let goals = GoalDriver::new(session.graph(), &frame, poses).map_err(CliError::failed)?;
         let initial_pose = options.map.as_ref().map(|_| {
             let publisher = goals.node().publisher("/initialpose", Qos::reliable(1));
             publisher.map(|publisher| (publisher, start))

@@ -2,21 +2,22 @@
 
 use std::io::{self, Write};
 
+use periplus_geometry::Pose2;
 use periplus_session::SimulationSession;
 use periplus_session::nodes::{GoalOutcome, GoalReport, pose_text};
 use serde_json::{Value, json};
 
 use super::NavigateTask;
 
-/// The report as JSON.
-pub(super) fn to_json(session: &SimulationSession, task: &NavigateTask) -> Value {
-    let goal = |report: &GoalReport| {
+/// The report as JSON; `goals` are the goals as given.
+pub(super) fn to_json(session: &SimulationSession, task: &NavigateTask, goals: &[Pose2]) -> Value {
+    let goal = |(report, goal): (&GoalReport, &Pose2)| {
         let (code, message) = match &report.outcome {
             GoalOutcome::Aborted { code, message } => (*code, message.as_str()),
             _ => (0, ""),
         };
         json!({
-            "goal": [report.goal.x_m, report.goal.y_m, report.goal.yaw_rad],
+            "goal": [goal.x_m, goal.y_m, goal.yaw_rad],
             "is_reached": report.outcome == GoalOutcome::Reached,
             "outcome": report.outcome.to_string(),
             "error_code": code,
@@ -25,7 +26,7 @@ pub(super) fn to_json(session: &SimulationSession, task: &NavigateTask) -> Value
             "recoveries": report.recoveries,
         })
     };
-    let goals: Vec<Value> = task.goals.reports().iter().map(goal).collect();
+    let goals: Vec<Value> = task.goals.reports().iter().zip(goals).map(goal).collect();
     let score = task.score.as_ref().map(|score| {
         json!({
             "length_m": score.length_m,
@@ -43,16 +44,17 @@ pub(super) fn to_json(session: &SimulationSession, task: &NavigateTask) -> Value
 pub(super) fn print(
     session: &SimulationSession,
     task: &NavigateTask,
+    goals: &[Pose2],
     out: &mut dyn Write,
 ) -> io::Result<()> {
     session.report().write_text(out)?;
-    for (index, report) in task.goals.reports().iter().enumerate() {
+    for (index, (report, goal)) in task.goals.reports().iter().zip(goals).enumerate() {
         write!(
             out,
             "  goal {} of {} at {}: {}",
             index + 1,
             task.goals.goal_count(),
-            pose_text(report.goal),
+            pose_text(*goal),
             report.outcome
         )?;
         write!(out, " after {:.1} s", report.time_s)?;

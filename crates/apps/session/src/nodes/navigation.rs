@@ -16,7 +16,7 @@ use periplus_os::Machine;
 use periplus_resources::{FileWriteError, Store as _};
 use periplus_yaml::YamlNode;
 
-pub use defaults::{NavigationDefaults, RobotBase};
+pub use defaults::{NavigationDefaults, PlanningMap, RobotBase};
 pub use goals::{GoalDriver, GoalOutcome, GoalReport};
 
 use super::profile::RobotProfile;

@@ -28,8 +28,20 @@ pub struct NavigationDefaults {
     pub max_speed_m_s: f64,
     /// Maximum turn rate \[rad/s\].
     pub max_turn_rate_rad_s: f64,
-    /// True to navigate in the odometry frame, with obstacles only and without a map.
-    pub is_without_map: bool,
+    /// Map on which paths are planned.
+    pub map: PlanningMap,
+}
+
+/// Map on which paths are planned.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum PlanningMap {
+    /// A whole map: goals outside of it are refused.
+    Known,
+    /// A map that SLAM builds while the robot drives: paths lead through unknown space.
+    #[default]
+    Growing,
+    /// None: obstacles only, in the odometry frame.
+    Absent,
 }
 
 impl Default for NavigationDefaults {
@@ -38,7 +50,7 @@ impl Default for NavigationDefaults {
             base: RobotBase::default(),
             max_speed_m_s: 0.5,
             max_turn_rate_rad_s: 1.9,
-            is_without_map: false,
+            map: PlanningMap::default(),
         }
     }
 }
@@ -46,8 +58,8 @@ impl Default for NavigationDefaults {
 /// Time over which the controller predicts the motion \[s\]: 56 steps of 0.05 s.
 const HORIZON_S: f64 = 2.8;
 
-/// Side of the costmap around the robot where there is no map \[m\].
-const UNMAPPED_SIDE_M: usize = 30;
+/// Side of the costmap around the robot where there is no whole map \[m\].
+const UNMAPPED_SIDE_M: usize = 50;
 
 impl NavigationDefaults {
     /// Returns the parameter file for a robot.
@@ -62,7 +74,7 @@ impl NavigationDefaults {
     }
 
     fn global_frame<'a>(&self, profile: &'a RobotProfile) -> &'a str {
-        if self.is_without_map { profile.odom() } else { "map" }
+        if self.map == PlanningMap::Absent { profile.odom() } else { "map" }
     }
 
     fn write_controller(&self, profile: &RobotProfile, text: &mut String) {
@@ -219,19 +231,20 @@ impl NavigationDefaults {
             common(profile.odom(), 10.0),
             common(self.global_frame(profile), 2.0),
         );
-        if self.is_without_map {
-            let _ = write!(
-                text,
-                "      rolling_window: true\n      width: {UNMAPPED_SIDE_M}\n      height: {UNMAPPED_SIDE_M}\n\
-                 \x20     track_unknown_space: false\n      plugins: [obstacle_layer, inflation_layer]\n{layers}"
-            );
-        } else {
-            let _ = write!(
-                text,
-                "      track_unknown_space: true\n      plugins: [static_layer, obstacle_layer, inflation_layer]\n\
-                 \x20     static_layer:\n        plugin: nav2_costmap_2d::StaticLayer\n\
-                 \x20       map_subscribe_transient_local: true\n{layers}"
-            );
-        }
+        let rolling = format!(
+            "      rolling_window: true\n      width: {UNMAPPED_SIDE_M}\n      height: {UNMAPPED_SIDE_M}\n"
+        );
+        let static_layer = "      track_unknown_space: true\n\
+             \x20     plugins: [static_layer, obstacle_layer, inflation_layer]\n\
+             \x20     static_layer:\n        plugin: nav2_costmap_2d::StaticLayer\n\
+             \x20       map_subscribe_transient_local: true\n";
+        text.push_str(&match self.map {
+            PlanningMap::Known => format!("{static_layer}{layers}"),
+            PlanningMap::Growing => format!("{rolling}{static_layer}{layers}"),
+            PlanningMap::Absent => format!(
+                "{rolling}      track_unknown_space: false\n\
+                 \x20     plugins: [obstacle_layer, inflation_layer]\n{layers}"
+            ),
+        });
     }
 }
