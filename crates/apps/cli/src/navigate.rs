@@ -56,10 +56,6 @@ pub(crate) struct NavigateOptions {
     /// Drive without a map, in the odometry frame: goals are relative to the start
     #[arg(long)]
     no_map: bool,
-    /// At the end write map.yaml, map.pgm, map.session, and map.png with the poses of the graph and red rings at
-    /// contradictions to a folder
-    #[arg(long, value_name = "DIR", conflicts_with_all = ["map", "no_map"])]
-    slam_out: Option<PathBuf>,
     /// Parameter file of Nav2 [default: parameters for the detected robot]
     #[arg(long, value_name = "FILE.yaml")]
     params_file: Option<PathBuf>,
@@ -158,7 +154,6 @@ pub(crate) fn run(options: &NavigateOptions, ros: Vec<String>) -> Result<ExitCod
     session.finish()?;
     task.goals.finish(session.simulation().time_ns());
     options.print(&session, &task)?;
-    session.estimators().write_map(options.quiet)?;
     exit_code(session.end())?;
     let is_reached =
         |report: &periplus_session::nodes::GoalReport| report.outcome == GoalOutcome::Reached;
@@ -216,7 +211,7 @@ impl NavigateOptions {
             }
         };
         let is_mapped = self.map.is_none() && !self.no_map;
-        let mapping = is_mapped.then(|| self.mapping(start)).transpose()?;
+        let mapping = is_mapped.then(|| mapping(start)).transpose()?;
         Ok(EstimatorRequest {
             detects_robot: true,
             localization: self.map.iter().cloned().collect(),
@@ -231,17 +226,6 @@ impl NavigateOptions {
                 },
             }),
             ..EstimatorRequest::default()
-        })
-    }
-
-    /// SLAM in a map whose frame is that of the world, as far as the user knows where the robot starts.
-    fn mapping(&self, start: Pose2) -> Result<MappingRequest, CliError> {
-        let (program, mut values) = slam_parameters(None, Some(Program::Async))?;
-        let pose = vec![start.x_m, start.y_m, start.yaw_rad];
-        values.set("map_start_pose", ParamValue::Numbers(pose));
-        Ok(MappingRequest {
-            source: MappingSource::Values(program, values),
-            out: self.slam_out.clone(),
         })
     }
 
@@ -265,6 +249,14 @@ impl NavigateOptions {
         }
         Ok(())
     }
+}
+
+/// SLAM in a map whose frame is that of the world, as far as the user knows where the robot starts.
+fn mapping(start: Pose2) -> Result<MappingRequest, CliError> {
+    let (program, mut values) = slam_parameters(None, Some(Program::Async))?;
+    let pose = vec![start.x_m, start.y_m, start.yaw_rad];
+    values.set("map_start_pose", ParamValue::Numbers(pose));
+    Ok(MappingRequest { source: MappingSource::Values(program, values), out: None })
 }
 
 /// Navigation of a run: sends the goals, and keeps the score.
