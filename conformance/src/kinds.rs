@@ -8,6 +8,7 @@ use periplus_resources::{EntryKind, Host};
 use crate::{Case, Differences, Unreadable};
 
 mod amcl;
+mod behavior_tree;
 mod controllers;
 mod costmap;
 mod grid_coords;
@@ -19,6 +20,7 @@ mod mppi;
 mod path_expand;
 mod planning;
 mod raytrace_2d;
+mod ros2_control;
 mod rsp;
 mod rviz_palette;
 mod speed_limit;
@@ -62,6 +64,7 @@ pub const KINDS: &[(&str, Check)] = &[
     ("amcl_update", amcl::check_update),
     ("behavior_velocity", motion::check_behavior),
     ("binary_filter", costmap::check_binary),
+    ("bt_control", behavior_tree::check_control),
     ("clear_area", costmap::check_clear_area),
     ("clear_service", costmap::check_clear_service),
     ("collision_checker_topic", costmap::check_footprint_cost),
@@ -70,6 +73,7 @@ pub const KINDS: &[(&str, Check)] = &[
     ("costmap_to_occgrid", costmap::check_to_occupancy),
     ("declare_params", costmap::check_parameters),
     ("denoise", costmap::check_denoise),
+    ("diff_drive_odometry", ros2_control::check_odometry),
     ("dwb_critic", controllers::check_critic),
     ("dwb_trajectory", controllers::check_trajectory),
     ("dwb_velocity_samples", controllers::check_samples),
@@ -103,6 +107,7 @@ pub const KINDS: &[(&str, Check)] = &[
     ("range_sensor_layer", costmap::check_layered),
     ("range_sensor_model", costmap::check_range_model),
     ("raytrace_2d", raytrace_2d::check),
+    ("recovery_helps", behavior_tree::check_recovery),
     ("rotate_to_heading", controllers::check_rotation),
     ("rpp_lookahead", controllers::check_lookahead),
     ("rpp_regulation", controllers::check_regulation),
@@ -122,4 +127,5 @@ pub const KINDS: &[(&str, Check)] = &[
     ("tf2_static", tf2::check_lookup),
     ("velocity_smoother", motion::check_smoother),
     ("voxel_grid", costmap::check_voxels),
+    ("wheel_commands", ros2_control::check_commands),
 ];

@@ -8,7 +8,7 @@
 //!
 //! | task | modules |
 //! |---|---|
-//! | simulate a robot | [`sim`], [`physics`], [`sensors`], [`raycast`], [`rendering`] |
+//! | simulate a robot | [`sim`], [`physics`], [`ros2_control`], [`sensors`], [`raycast`], [`rendering`] |
 //! | read robots and worlds | [`loader`], [`xacro`], [`urdf`], [`sdf`], [`scene`], [`meshes`], [`resources`] |
 //! | build a map | [`slam`], [`scan_matching`], [`exploration`] |
 //! | localize | [`localization`], [`ekf`], [`maps`] |
@@ -147,6 +147,7 @@ pub use periplus_planners as planners;
 pub use periplus_raycast as raycast;
 pub use periplus_rendering as rendering;
 pub use periplus_resources as resources;
+pub use periplus_ros2_control as ros2_control;
 pub use periplus_scan_matching as scan_matching;
 pub use periplus_scene as scene;
 pub use periplus_sdf as sdf;

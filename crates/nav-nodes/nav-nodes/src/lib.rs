@@ -27,6 +27,7 @@
 
 pub mod amcl;
 pub mod behavior_server;
+pub mod bt_navigator;
 pub mod collision_monitor;
 pub mod controller_server;
 pub mod costmap_2d;
@@ -34,6 +35,7 @@ mod costmap_subscriber;
 pub mod ekf_node;
 mod loop_rate;
 pub mod map_server;
+mod node_parameters;
 pub mod nav2_actions;
 pub mod parameter_groups;
 pub mod planner_server;
@@ -44,6 +46,8 @@ pub mod smoother_server;
 pub mod velocity_smoother;
 pub mod velocity_topics;
 pub mod waypoint_follower;
+
+pub use node_parameters::NodeParameters;
 
 /// File access for nodes that load and save maps, sessions and poses.
 pub trait Files: periplus_resources::Host + periplus_resources::Store + Send + Sync {}

@@ -257,6 +257,12 @@ fn benchmark() {
 }
 
 fn main() {
+    // With the argument `profile` only the stock controller runs, for a profiler.
+    if std::env::args().nth(1).as_deref() == Some("profile") {
+        let mut controller = controller(Nav2Release::Jazzy, &STOCK, &STOCK_CRITICS);
+        let ms = measure(&mut controller, &World::turtlebot(true));
+        return println!("{ms:.3} ms");
+    }
     stock();
     stages();
     benchmark();

@@ -20,15 +20,19 @@ pub fn devices(
     let sites = model_sites(setting.scene, setting.root);
     let others = joint_state_publishers(setting);
     let mut devices: Vec<Box<dyn Device>> = Vec::new();
+    let mut has_controllers = false;
     for site in &sites {
         // Problems of parameters were reported when the file was checked.
         let plugin = interpret(site.plugin, &site.context, &mut Diagnostics::new());
+        has_controllers |= plugin.as_ref().is_some_and(|plugin| is_controlled(plugin.known.id));
         let driven = plugin.and_then(|plugin| drives::build(setting, site, &plugin, diagnostics));
         devices.extend(driven);
     }
     devices.extend(sensors::build(setting, &sites, diagnostics));
     let publishes_joint_states = joint_state_publishers(setting) > others;
-    if setting.publishes_joint_states && !publishes_joint_states {
+    // A spawner may start a broadcaster later.
+    let may_publish_later = has_controllers && !setting.starts_controllers;
+    if setting.publishes_joint_states && !publishes_joint_states && !may_publish_later {
         match JointStatePublisher::fallback(setting) {
             Ok(Some(publisher)) => devices.push(Box::new(publisher)),
             Ok(None) => {}
@@ -74,4 +78,9 @@ fn refused(setting: &DeviceContext<'_>, error: &GraphError) -> Diagnostic {
     let message =
         format!("the joint states of `{}` are not published: {error}", setting.model_name);
     Diagnostic::error("states-refused", message).at(setting.root.origin)
+}
+
+/// Returns true for a plugin whose controllers can publish joint states.
+fn is_controlled(id: &str) -> bool {
+    id.contains("ros2_control") || id == "gazebo_ros_control"
 }

@@ -1,10 +1,14 @@
 //! Inputs for building a device.
 
+use std::sync::Arc;
+
 use periplus_graph::Graph;
 use periplus_physics::{LinkId, ModelId, PhysicsWorld};
 use periplus_plugin_specs::PluginSite;
 use periplus_scene as scene;
 use periplus_sensors::Quirks;
+
+use crate::ParameterFiles;
 
 /// Environment of a device: graph, world, model and run options.
 #[derive(Clone, Copy)]
@@ -35,6 +39,10 @@ pub struct DeviceContext<'a> {
     pub start_ns: i64,
     /// True if joint states are published when no plugin does.
     pub publishes_joint_states: bool,
+    /// True if controllers of `ros2_control` start without a spawner.
+    pub starts_controllers: bool,
+    /// Parameter files of controllers.
+    pub parameter_files: &'a Arc<dyn ParameterFiles>,
 }
 
 impl DeviceContext<'_> {

@@ -30,7 +30,7 @@ pub(crate) use rolling_mean::RollingMean;
 use periplus_diagnostics::{Diagnostic, Diagnostics};
 use periplus_plugin_specs::{InterpretedPlugin, PluginSite, Role, Support};
 
-use crate::{Device, DeviceContext, states};
+use crate::{Device, DeviceContext, control, states};
 
 /// Builds the device of a plugin that drives, controls joints or publishes states. Returns `None`
 /// for other kinds of plugins, for a plugin that cannot work (with located errors), and for a known
@@ -68,6 +68,9 @@ pub fn build(
         "gz-sim-joint-position-controller-system" => {
             boxed(joints::position_controller(context, diagnostics))
         }
+        "gz_ros2_control-system" | "gazebo_ros2_control" | "gazebo_ros_control" => {
+            boxed(control::build(context, diagnostics))
+        }
         _ => states::build(context, diagnostics).unwrap_or_else(|()| {
             diagnostics.push(unsupported_plugin(context));
             None
@@ -85,12 +88,6 @@ fn unsupported_plugin(context: &BuildContext<'_>) -> Diagnostic {
         "gazebo_ros_wheel_slip" | "WheelSlipPlugin" | "gz-sim-wheel-slip-system" => {
             finding.note("wheels have friction with the floor but no configurable slip")
         }
-        "gz_ros2_control-system" | "gazebo_ros2_control" | "gazebo_ros_control" => finding
-            .note("controllers of ros2_control are not loaded, so its joints move freely")
-            .help(
-                "add a drive plugin of Gazebo for the same joints, such as \
-                 `gz-sim-diff-drive-system` or `libgazebo_ros_diff_drive.so`",
-            ),
         "gz-sim-joint-trajectory-controller-system" => {
             finding.help("use one `gz-sim-joint-position-controller-system` for each joint")
         }

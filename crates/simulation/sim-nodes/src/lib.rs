@@ -23,6 +23,7 @@
 //! ```
 
 mod build;
+mod control;
 mod device;
 mod device_context;
 pub mod drives;
@@ -32,6 +33,7 @@ pub mod states;
 mod views;
 
 pub use build::{devices, world_devices};
+pub use control::{NoParameterFiles, ParameterFiles};
 pub use device::{Device, DeviceState, SenseContext, SensorMount, StepInterval};
 pub use device_context::DeviceContext;
 pub use naming::{device_node, gz_topic, plugin_node, publisher_qos, subscription_qos};

@@ -14,13 +14,13 @@ mod robot_state_publisher;
 mod triggered;
 
 pub use clock::ClockPublisher;
-pub(crate) use geometry::{from_vector, planar_twist, transform, vector};
+pub(crate) use geometry::{from_vector, planar_twist, pose, transform, vector};
 pub use joint_state_publisher::{
     JOINT_STATE_PUBLISHER, JointStateOptions, JointStateParams, JointStateSource,
 };
 pub use joint_states::JointStatePublisher;
 pub(crate) use joint_states::JointStates;
-pub(crate) use odometry::{OdometryPublisher, TF_QOS, planar_covariance};
+pub(crate) use odometry::{OdometryPublisher, TF_QOS, diagonal, planar_covariance};
 pub(crate) use robot_state_publisher::RobotFrames;
 pub use robot_state_publisher::{
     DescriptionError, ROBOT_STATE_PUBLISHER, RobotStateError, RobotStateParams, RobotStatePublisher,

@@ -19,7 +19,10 @@ use periplus_rendering::NoAssets;
 use periplus_resources::Resolver;
 use periplus_scene as scene;
 use periplus_sensors::Quirks;
-use periplus_sim_nodes::{Device, DeviceContext, SenseContext, StepInterval, Views, drives};
+use periplus_sim_nodes::{
+    Device, DeviceContext, NoParameterFiles, ParameterFiles, SenseContext, StepInterval, Views,
+    drives,
+};
 
 const STEP_NS: i64 = 10_000_000;
 
@@ -81,6 +84,7 @@ fn try_out(model: &scene::Model) -> Option<(String, Vec<f64>)> {
     let (id, _) = world.models().next()?;
     let graph = Graph::new();
     let root = &file.models[0];
+    let files: Arc<dyn ParameterFiles> = Arc::new(NoParameterFiles);
     let setting = DeviceContext {
         graph: &graph,
         world: &world,
@@ -95,6 +99,8 @@ fn try_out(model: &scene::Model) -> Option<(String, Vec<f64>)> {
         rolling_scans: false,
         start_ns: 0,
         publishes_joint_states: true,
+        starts_controllers: true,
+        parameter_files: &files,
     };
     let mut diagnostics = Diagnostics::new();
     let mut devices: Vec<Box<dyn Device>> = Vec::new();

@@ -4,7 +4,9 @@ use std::path::{Path, PathBuf};
 
 use periplus_diagnostics::Diagnostic;
 use periplus_geometry::Pose;
-use periplus_loader::{LoadContext, LoadedFile, load, load_bytes, settle_images};
+use periplus_loader::{
+    LoadContext, LoadedFile, load, load_bytes, settle_images, settle_parameter_files,
+};
 use periplus_scene::{Model, Scene, World};
 use periplus_xml::write_document;
 
@@ -228,6 +230,7 @@ struct Placed<'a> {
 fn settle(loaded: &mut LoadedFile, setting: &LoadContext<'_>) {
     if let Some(scene) = &mut loaded.scene {
         settle_images(scene, &loaded.sources, setting, &mut loaded.diagnostics);
+        settle_parameter_files(scene, &loaded.sources, setting, &mut loaded.diagnostics);
     }
 }
 

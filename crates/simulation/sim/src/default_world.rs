@@ -71,8 +71,12 @@ fn turn_up(axis: DVec3) -> periplus_geometry::DQuat {
 
 /// Returns the extent of a shape below its centre \[m\].
 fn reach_down_m(shape: &Shape, up_from_shape: Pose) -> Option<f64> {
-    // The z axis in the frame of the shape.
-    let up = up_from_shape.rotation.conjugate() * DVec3::Z;
+    reach_m(shape, up_from_shape.rotation.conjugate() * DVec3::Z)
+}
+
+/// Returns the extent of a shape from its centre along a unit vector in the frame of the shape \[m\]; `None` for a
+/// shape without an analytic extent.
+pub(crate) fn reach_m(shape: &Shape, up: DVec3) -> Option<f64> {
     let round = (1.0 - up.z * up.z).max(0.0).sqrt();
     match *shape {
         Shape::Box { size_m } => Some((up.abs() * size_m * 0.5).element_sum()),

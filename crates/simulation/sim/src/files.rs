@@ -6,14 +6,16 @@ use std::sync::{Arc, Mutex, PoisonError};
 
 use periplus_diagnostics::Origin;
 use periplus_geometry::DVec3;
+use periplus_graph::ParameterFileError;
 use periplus_loader::read_mesh;
 use periplus_os::Machine;
 use periplus_physics::{Heights, Meshes, Triangles};
 use periplus_rendering::{AssetLoader, sample_heightmap, select_submesh};
-use periplus_resources::Host;
+use periplus_resources::{FileReadError, Host};
 use periplus_scene::{Heightmap, MeshShape};
+use periplus_sim_nodes::ParameterFiles;
 
-/// Reads the files of a scene, for physics and rendering.
+/// Reads the files of a scene, for physics and rendering, and parameter files of controllers.
 #[derive(Debug, Default)]
 pub struct AssetFiles {
     meshes: Mutex<BTreeMap<PathBuf, Option<Arc<periplus_meshes::Mesh>>>>,
@@ -59,5 +61,16 @@ impl Meshes for AssetFiles {
             heights_m: samples.heights_m,
             size_m: samples.size_m,
         })
+    }
+}
+
+impl ParameterFiles for AssetFiles {
+    fn parameter_text(&self, path: &Path) -> Result<String, ParameterFileError> {
+        let unreadable = |error: FileReadError| match Machine.kind(path) {
+            None => ParameterFileError::Missing,
+            Some(_) => ParameterFileError::Unreadable(error.to_string()),
+        };
+        let bytes = Machine.read(path).map_err(unreadable)?;
+        String::from_utf8(bytes).map_err(|_| ParameterFileError::NotText)
     }
 }

@@ -30,6 +30,7 @@ mod compute_topics;
 mod default_world;
 mod drive;
 mod files;
+mod footprint;
 mod pace;
 mod profile;
 mod record;

@@ -15,7 +15,9 @@ use periplus_physics::{Diverged, ModelId, PhysicsMode, PhysicsWorld};
 use periplus_scene as scene;
 use periplus_sensors::Quirks;
 use periplus_sim_nodes::states::ClockPublisher;
-use periplus_sim_nodes::{Device, DeviceContext, SenseContext, SensorMount, StepInterval, Views};
+use periplus_sim_nodes::{
+    Device, DeviceContext, ParameterFiles, SenseContext, SensorMount, StepInterval, Views,
+};
 
 use crate::compose::{Composition, ModelInstance};
 use crate::files::AssetFiles;
@@ -53,6 +55,9 @@ pub struct Options {
     pub clock_rate_hz: f64,
     /// True if joint states of robots are published when no plugin does.
     pub publishes_joint_states: bool,
+    /// True if controllers of `ros2_control` start as their parameter files declare them, without a
+    /// spawner.
+    pub starts_controllers: bool,
 }
 
 impl Default for Options {
@@ -68,6 +73,7 @@ impl Default for Options {
             arguments: Arguments::default(),
             clock_rate_hz: 100.0,
             publishes_joint_states: true,
+            starts_controllers: true,
         }
     }
 }
@@ -269,6 +275,13 @@ impl Simulation {
         crate::default_world::radius_m(&self.robot()?.member.model, Pose::IDENTITY)
     }
 
+    /// Returns the convex polygon around the first robot's collisions, seen from above, in its frame \[m\]; `None` if
+    /// they do not define one.
+    #[must_use]
+    pub fn robot_footprint_m(&self) -> Option<Vec<[f64; 2]>> {
+        crate::footprint::footprint_m(&self.robot()?.member.model, &*self.files)
+    }
+
     pub(crate) fn robot(&self) -> Option<&RunningModel> {
         let described = |running: &&RunningModel| running.member.description.is_some();
         let moves = |running: &&RunningModel| !running.member.model.is_static;
@@ -320,6 +333,7 @@ impl Simulation {
         seed: u64,
         findings: &mut Diagnostics,
     ) -> Vec<Box<dyn Device>> {
+        let parameter_files: Arc<dyn ParameterFiles> = Arc::clone(&self.files) as _;
         let setting = DeviceContext {
             graph: &self.graph,
             world,
@@ -334,6 +348,8 @@ impl Simulation {
             rolling_scans: self.options.rolling_scans,
             start_ns: self.time_ns,
             publishes_joint_states: self.options.publishes_joint_states,
+            starts_controllers: self.options.starts_controllers,
+            parameter_files: &parameter_files,
         };
         periplus_sim_nodes::devices(&setting, member.description.as_deref(), findings)
     }

@@ -44,10 +44,11 @@ fn a_topic_is_found_heard_and_gone() {
     drop(publisher);
     until("it is gone", || b.topics().is_empty());
     drop(ear);
-    // Messages without subscribers are not sent.
+    // Messages without subscribers are not sent. The end of a subscription arrives on a connection of its own,
+    // so it may come after the advertisement.
     let again = a.advertise("/lamp", "gz.msgs.Boolean").unwrap();
     until("it is there again", || b.topics().len() == 1);
-    assert!(!again.is_heard());
+    until("nobody subscribes", || !again.is_heard());
 }
 
 #[test]

@@ -49,7 +49,8 @@ pub(super) fn read(words: &[String]) -> Reading {
         ),
         "control" => lacking(
             "ros2 control",
-            "the simulation drives robots with Gazebo's drive plugins, not with ros2_control",
+            "controllers start with the robot or by spawners in launch files; the services of \
+             `/controller_manager` answer `periplus service call`",
         ),
         "security" => lacking("ros2 security", "DDS Security is not supported"),
         "test" => lacking("ros2 test", "run tests of launch files where ROS 2 is installed"),

@@ -44,6 +44,14 @@ pub(crate) enum Role {
     LifecycleManager,
     /// EKF.
     Ekf,
+    /// Spawner of controllers; true for its opposite.
+    Controllers { unloads: bool },
+    /// Command of `ros2 control` that loads a controller.
+    ControlCommand,
+    /// Multiplexer of velocity commands.
+    TwistMux,
+    /// Velocities with a time stamp.
+    TwistStamper,
     /// Topic relay.
     Relay,
     /// Component container; each component has a separate entry.
@@ -393,12 +401,60 @@ pub(crate) static CATALOGUE: &[Entry] = &[
         "nothing: Periplus has no planners; costmaps run with `periplus costmap FILE`",
     ),
     entry(
+        &["controller_manager"],
+        &["spawner", "spawner.py"],
+        NONE,
+        "controller_spawner",
+        Role::Controllers { unloads: false },
+        "loads, configures and activates controllers in the simulation, then ends",
+    ),
+    entry(
+        &["controller_manager"],
+        &["unspawner", "unspawner.py"],
+        NONE,
+        "controller_unspawner",
+        Role::Controllers { unloads: true },
+        "deactivates and unloads controllers in the simulation, then ends",
+    ),
+    entry(
+        &["ros2controlcli"],
+        &["load_controller"],
+        NONE,
+        "ros2_control",
+        Role::ControlCommand,
+        "`ros2 control load_controller` with the built-in spawner",
+    ),
+    entry(
+        &["controller_manager"],
+        &["hardware_spawner", "ros2_control_node"],
+        NONE,
+        "ros2_control_node",
+        Role::Needless,
+        "nothing: the plugin of the simulated robot has the controller manager, and its hardware is active",
+    ),
+    entry(
         &["controller_manager", "gazebo_ros2_control", "gz_ros2_control"],
         &["*"],
         NONE,
         "controller_manager",
         Role::Lacking,
-        "nothing: the simulation drives robots with Gazebo's drive plugins, not with ros2_control",
+        "nothing: only `spawner`, `unspawner` and `hardware_spawner` are built in",
+    ),
+    entry(
+        &["twist_mux"],
+        &["twist_mux"],
+        NONE,
+        "twist_mux",
+        Role::TwistMux,
+        "the built-in multiplexer of velocity commands, with locks",
+    ),
+    entry(
+        &["twist_stamper"],
+        &["twist_stamper", "twist_stamper.py"],
+        NONE,
+        "twist_stamper",
+        Role::TwistStamper,
+        "the built-in node: `Twist` becomes `TwistStamped`",
     ),
     entry(
         &[

@@ -30,7 +30,8 @@ use crate::bringup::parts::{BuiltInRequest, searched};
 use crate::bringup::report::PartOutcomeKind;
 use crate::bringup::runner::Settings;
 use crate::bringup::tasks::{
-    JointStateTask, Manager, ManagerSettings, Relay, Saver, Spawner, Task, Unstamp, robot,
+    ControllerSpawner, JointStateTask, Manager, ManagerSettings, MuxTopics, Relay, Saver, Spawner,
+    SpawnerKind, SpawnerOptions, Task, TwistMux, TwistStamper, Unstamp, robot,
 };
 use crate::bringup::transform::FixedFrame;
 
@@ -215,6 +216,30 @@ pub(crate) fn make(
             };
             made.hand(Manager::new(node, settings, now_ns)?);
         }
+        Role::Controllers { .. } | Role::ControlCommand => {
+            let spawner = spawner(ask, node, settings, &mut made.notes, now_ns)?;
+            made.told = spawner.told();
+            made.hand(spawner);
+        }
+        Role::TwistMux => {
+            let mut topics = MuxTopics::of_server(&ask.server, node.full_name());
+            if topics.topics.is_empty() {
+                topics = MuxTopics::of_parameters(&named);
+            }
+            if topics.topics.is_empty() {
+                return Err("the parameter `topics` is missing: set the sources of commands".into());
+            }
+            let is_stamped = truth_of(&named, "use_stamped").unwrap_or(false);
+            let names: Vec<&str> = topics.topics.iter().map(|one| one.topic.as_str()).collect();
+            made.told = format!("selects one of {}", names.join(", "));
+            made.hand(TwistMux::new(&node, topics, is_stamped)?);
+            made.keep(node);
+        }
+        Role::TwistStamper => {
+            let frame = text_of(&named, "frame_id").unwrap_or_default();
+            made.hand(TwistStamper::new(&node, frame)?);
+            made.keep(node);
+        }
         Role::Relay => {
             let topic = |index: usize, name: &str| {
                 words.get(index).cloned().or_else(|| text_of(&named, name))
@@ -230,6 +255,50 @@ pub(crate) fn make(
         Role::Gazebo | Role::Viewer | Role::Container | Role::Needless | Role::Lacking => {}
     }
     Ok(made)
+}
+
+/// Creates the spawner of controllers.
+fn spawner(
+    ask: &BuiltInRequest,
+    node: Node,
+    settings: &Settings,
+    notes: &mut Vec<String>,
+    now_ns: i64,
+) -> Result<ControllerSpawner, String> {
+    let folder = &settings.search.working_folder;
+    let path = |file: &str| folder.join(ask.path(folder, file)).display().to_string();
+    let words = &ask.told.own;
+    let options = match ask.entry.role {
+        Role::ControlCommand => SpawnerOptions::of_command(words, &path)?,
+        Role::Controllers { unloads: true } => {
+            SpawnerOptions::read(SpawnerKind::Unspawner, words, &path)?
+        }
+        _ => SpawnerOptions::read(SpawnerKind::Spawner, words, &path)?,
+    };
+    for file in &options.parameter_files {
+        if Machine.kind(Path::new(file)).is_none() {
+            notes.push(format!("the parameter file {file} does not exist"));
+        }
+    }
+    // ROS 1: the parameters of a controller are in the parameter server.
+    let namespace = node.names().namespace().trim_end_matches('/').to_owned();
+    let mut texts = Vec::new();
+    for name in &options.names {
+        let full_name = format!("{namespace}/{name}");
+        let prefix = format!("{full_name}/");
+        let given: Vec<_> = ask
+            .server
+            .iter()
+            .filter_map(|(key, value)| {
+                let key = key.strip_prefix(&prefix)?.replace('/', ".");
+                Some((key, parameters::parameter(value)?))
+            })
+            .collect();
+        if !given.is_empty() {
+            texts.push((name.clone(), parameters_to_yaml(&full_name, &given)));
+        }
+    }
+    Ok(ControllerSpawner::new(node, options, texts, now_ns))
 }
 
 /// Parameters of the node of a program.

@@ -382,6 +382,15 @@ fn of_process(process: &Process) -> Work {
     if let Some(wish) = world::of_command(words) {
         return Work::World(wish);
     }
+    if let [ros, control, load, rest @ ..] = words.as_slice()
+        && is_program(ros, "ros2")
+        && control == "control"
+        && load == "load_controller"
+        && let Some(entry) = of_program(Some("ros2controlcli"), load)
+    {
+        let told = words::read(rest, &[]);
+        return ours(entry, &Identity::default(), told, false, &BTreeMap::new(), &process.running);
+    }
     let run = match words.as_slice() {
         [ros, run, package, program, rest @ ..] if (is_program(ros, "ros2") && run == "run") => {
             Some((package, program, rest))

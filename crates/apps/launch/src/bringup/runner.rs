@@ -248,6 +248,14 @@ impl LaunchRunner {
         self.has(crate::bringup::catalogue::Role::JointStatePublisher)
     }
 
+    /// Returns true if the plan starts controllers of `ros2_control`, so that the simulation leaves
+    /// that to it.
+    #[must_use]
+    pub fn spawns_controllers(&self) -> bool {
+        use crate::bringup::catalogue::Role;
+        self.has(Role::Controllers { unloads: false }) || self.has(Role::ControlCommand)
+    }
+
     /// Returns true if the plan starts RViz or a Gazebo window.
     #[must_use]
     pub fn wants_page(&self) -> bool {

@@ -3,6 +3,7 @@
 mod bonds;
 mod changer;
 mod child;
+mod controllers;
 mod described;
 mod manager;
 mod node_arguments;
@@ -10,6 +11,8 @@ mod relay;
 mod respawn;
 mod saver;
 mod spawner;
+mod stamp;
+mod twist_mux;
 mod unstamp;
 
 use periplus_graph::Graph;
@@ -17,12 +20,15 @@ use periplus_sim::{Search, Simulation};
 
 pub(crate) use changer::TransitionTask;
 pub(crate) use child::{Child, installed_program};
+pub(crate) use controllers::{ControllerSpawner, SpawnerKind, SpawnerOptions};
 pub(crate) use described::JointStateTask;
 pub(crate) use described::robot;
 pub(crate) use manager::{Manager, ManagerSettings};
 pub(crate) use relay::Relay;
 pub(crate) use saver::Saver;
 pub(crate) use spawner::Spawner;
+pub(crate) use stamp::TwistStamper;
+pub(crate) use twist_mux::{MuxTopics, TwistMux};
 pub(crate) use unstamp::Unstamp;
 
 use crate::bringup::report::LaunchLog;

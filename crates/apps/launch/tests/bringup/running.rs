@@ -14,7 +14,9 @@ use periplus_msgs::std_srvs::{Empty, EmptyRequest};
 use periplus_msgs::tf2_msgs::TFMessage;
 use periplus_os::Machine;
 use periplus_resources::Resolver;
-use periplus_sim::{AssetFiles, Options, Search, Services, Simulation, compose};
+use periplus_sim::{
+    AssetFiles, Options, Search, Services, Simulation, compose, compose_plain,
+};
 
 /// Simulated duration of a part of the test \[ns\].
 const PART_NS: i64 = 6_000_000_000;
@@ -42,6 +44,10 @@ fn top() -> PathBuf {
 
 /// A launch file of these tests.
 fn bringup(file: &str, folder: &Path) -> LaunchRunner {
+    bringup_as(file, folder, Dialect::Ros2)
+}
+
+fn bringup_as(file: &str, folder: &Path, dialect: Dialect) -> LaunchRunner {
     let search = Search { working_folder: folder.to_owned(), ..Search::default() };
     let own = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/bringup/running").join(file);
     let resolver = Resolver::new(&Machine, &[]);
@@ -56,7 +62,7 @@ fn bringup(file: &str, folder: &Path) -> LaunchRunner {
     assert!(!found.has_errors(), "{found:?}");
     let settings = Settings {
         search,
-        dialect: Dialect::Ros2,
+        dialect,
         is_wired: false,
         is_paced: false,
         guarding_command: Vec::new(),
@@ -219,4 +225,51 @@ fn a_filter_mapping_and_costmaps_go_on_after_a_reset() {
     let _ = (stack.filtered.drain(), stack.tf.drain(), stack.costs.drain());
     stack.run(0.25);
     stack.has_run_from_zero("after");
+}
+
+/// Runs a launch file on a plane for six seconds, with a velocity on `/cmd_vel` from the third one on.
+/// Returns the distance of the robot and the log.
+fn driven_m(file: &str, dialect: Dialect) -> (f64, Vec<String>) {
+    let folder = top().canonicalize().unwrap();
+    let resolver = Resolver::new(&Machine, &[]);
+    let setting = LoadContext {
+        host: &Machine,
+        resolver: &resolver,
+        working_folder: folder.clone(),
+        arguments: Vec::new(),
+        open_meshes: false,
+    };
+    let mut bringup = bringup_as(file, &folder, dialect);
+    assert!(bringup.spawns_controllers());
+    let mut composition = compose_plain(&[], &setting);
+    let options = Options { starts_controllers: false, ..Options::default() };
+    let mut simulation = Simulation::new(&mut composition, Arc::default(), options);
+    let node = simulation.graph().node(NodeSettings::new("watch").bare()).unwrap();
+    let command: Publisher<Twist> = node.publisher("/cmd_vel", Qos::reliable(10)).unwrap();
+    while simulation.time_ns() < 6_000_000_000 {
+        let graph = simulation.graph().clone();
+        let now_ns = simulation.time_ns();
+        bringup.work(&graph, now_ns, Some(&mut simulation));
+        if now_ns >= 3_000_000_000 && now_ns % 100_000_000 == 0 {
+            let mut twist = Twist::default();
+            twist.linear.x = 0.4;
+            command.publish(twist);
+        }
+        simulation.step().unwrap();
+    }
+    let said: Vec<String> = bringup.take_log().into_iter().map(|said| said.text).collect();
+    let robot = simulation.motion().models().find(|(_, name)| *name == "two_wheels");
+    let pose = robot.and_then(|(id, _)| simulation.motion().model_pose(id));
+    (pose.map_or(f64::NAN, |pose| pose.translation.x), said)
+}
+
+#[test]
+fn spawners_of_both_generations_start_controllers() {
+    let ros2 = ("controllers.launch.xml", Dialect::Ros2);
+    for (file, dialect) in [ros2, ("controllers.launch", Dialect::Ros1)] {
+        let (way_m, said) = driven_m(file, dialect);
+        assert!((way_m - 1.2).abs() < 0.03, "{file}: {way_m} m, {said:#?}");
+        let started = said.iter().filter(|text| text.contains("configured and activated"));
+        assert_eq!(started.count(), 2, "{file}: {said:#?}");
+    }
 }

@@ -184,7 +184,8 @@ impl<'py> RayBatch<'py> {
             hits.resize(rays.len(), None);
             scene.world.hits_grid(rays, columns.min(rays.len()), Filter::default(), 1, hits);
             let normals = normals.as_chunks_mut::<3>().0;
-            write_hits(hits, &scene.ids, distances, normals, ids, primitives)
+            write_hits(hits, &scene.ids, distances, normals, ids, primitives);
+            has_unsound(rays, hits.iter().map(Option::is_none))
         })?;
         Ok(HitArrays {
             distances: object(&distances),
@@ -206,7 +207,7 @@ impl<'py> RayBatch<'py> {
         let jobs = found.as_slice_mut()?.chunks_mut(size);
         self.run(py, threads, size, jobs, |rays, _, distances| {
             scene.world.cast_grid(rays, columns.min(rays.len()), Filter::default(), 1, distances);
-            distances.iter().fold(false, |has_miss, distance| has_miss | !distance.is_finite())
+            has_unsound(rays, distances.iter().map(|distance| !distance.is_finite()))
         })?;
         Ok(object(&found))
     }
@@ -229,14 +230,13 @@ impl<'py> RayBatch<'py> {
                 1,
                 occluded,
             );
-            occluded.iter().any(|is_occluded| !is_occluded)
+            has_unsound(rays, occluded.iter().map(|is_occluded| !is_occluded))
         })?;
         Ok(object(&found))
     }
 
     /// Calls `work` with the rays and slots of each chunk, on several threads, and checks for Ctrl-C in between.
-    /// `work` returns true if a ray has no hit: only then values may not be finite, since such rays hit nothing in the
-    /// crate.
+    /// `work` returns true if a ray is not finite.
     fn run<J: Send>(
         &self,
         py: Python<'_>,
@@ -266,7 +266,7 @@ impl<'py> RayBatch<'py> {
                         let start = number * size;
                         let end = (start + size).min(count);
                         reader.fill(start, end, &mut rays);
-                        if work(&rays, &mut hits, job) && !reader.is_finite(start, end) {
+                        if work(&rays, &mut hits, job) {
                             *lock(&failed) = true;
                             return;
                         }
@@ -331,16 +331,12 @@ impl RayReader<'_> {
             }
         }
     }
+}
 
-    /// True if the rays from `start` to `end` are finite.
-    fn is_finite(&self, start: usize, end: usize) -> bool {
-        let is_finite = |slots: Slots<'_, [f64; 3]>| {
-            let values = slots.part(start, end).unwrap_or(&slots.values[..1]).as_flattened();
-            // No short circuit, so that several are compared at a time.
-            values.iter().fold(true, |is_finite, value| is_finite & value.is_finite())
-        };
-        is_finite(self.origins) && is_finite(self.directions)
-    }
+/// Returns true if a ray without a hit is not finite. Those with a hit are: others hit nothing in the crate.
+fn has_unsound(rays: &[Ray], misses: impl Iterator<Item = bool>) -> bool {
+    let is_finite = |ray: &Ray| ray.origin_m.is_finite() && ray.direction.is_finite();
+    rays.iter().zip(misses).any(|(ray, is_miss)| is_miss && !is_finite(ray))
 }
 
 impl<'a, T> Slots<'a, T> {
@@ -381,7 +377,7 @@ fn object<'py, T: Element>(array: &PyReadwriteArrayDyn<'py, T>) -> Bound<'py, Py
     (***array).clone().into_any()
 }
 
-/// Writes hits to their arrays. Returns true if a ray has none.
+/// Writes hits to their arrays.
 #[inline(never)]
 fn write_hits(
     hits: &[Option<Hit>],
@@ -390,12 +386,11 @@ fn write_hits(
     normals: &mut [[f64; 3]],
     ids: &mut [i64],
     primitives: &mut [i32],
-) -> bool {
+) {
     // One length for all, so that one check of bounds is enough.
     let count = hits.len();
     let (distances, normals) = (&mut distances[..count], &mut normals[..count]);
     let (ids, primitives) = (&mut ids[..count], &mut primitives[..count]);
-    let mut has_miss = false;
     for index in 0..count {
         let [x, y, z] = &mut normals[index];
         match &hits[index] {
@@ -411,11 +406,9 @@ fn write_hits(
                 distances[index] = f64::INFINITY;
                 (*x, *y, *z) = (0.0, 0.0, 0.0);
                 (ids[index], primitives[index]) = (-1, -1);
-                has_miss = true;
             }
         }
     }
-    has_miss
 }
 
 fn vectors<'py>(

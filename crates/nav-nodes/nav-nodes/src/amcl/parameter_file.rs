@@ -1,12 +1,11 @@
 //! Parameters from YAML files of ROS 2 (`amcl: ros__parameters:`) and ROS 1.
 
-use periplus_diagnostics::{Diagnostics, Origin};
+use periplus_diagnostics::Diagnostics;
 use periplus_localization::{AMCL, Settings};
 use periplus_params::{Given, ParamValues};
-use periplus_yaml::{YamlNode, YamlValue};
+use periplus_yaml::YamlNode;
 
-/// Maximum depth of nested namespaces.
-const MAX_NAMESPACE_DEPTH: usize = 4;
+use crate::node_parameters::{NodeParameters, collect};
 
 /// Reads the parameters of a node from a file and from overrides `(name, value)`. For `amcl`, the
 /// sections `amcl: ros__parameters:` and `/**:` apply; in files of ROS 1, `amcl:`, or the whole
@@ -29,79 +28,19 @@ pub fn read_parameters(
         let is_plain = !file.entries().unwrap_or_default().iter().all(is_of_others);
         sections.extend(file.get(node).or(is_plain.then_some(file)));
     }
-    let mut flat = Vec::new();
-    for section in sections {
-        flatten(section, "", &mut flat);
+    let mut written = NodeParameters::of_sections(sections);
+    for (name, text) in overrides {
+        written.push(name, text);
     }
-    flat.extend(overrides.iter().map(|(name, text)| FlatParameter {
-        name: name.clone(),
-        text: text.clone(),
-        name_origin: Origin::default(),
-        origin: Origin::default(),
-    }));
-    // The last value of a parameter applies; earlier ones are not reported.
-    let parameter = |one: &FlatParameter| AMCL.find(&one.name).map(|it| it.name);
-    let flat: Vec<&FlatParameter> = flat
-        .iter()
-        .enumerate()
-        .filter(|(index, one)| {
-            flat[index + 1..]
-                .iter()
-                .all(|later| parameter(later).is_none_or(|name| parameter(one) != Some(name)))
-        })
-        .map(|(_, one)| one)
-        .collect();
-    let given = flat.iter().map(|one| Given {
-        name: &one.name,
-        text: one.text.as_str().into(),
-        name_origin: one.name_origin,
-        origin: one.origin,
-    });
-    Settings::read(given, diagnostics).0
-}
-
-fn collect<'a>(at: &'a YamlNode, node: &str, depth: usize, found: &mut Vec<&'a YamlNode>) {
-    for (key, value) in at.entries().filter(|_| depth < MAX_NAMESPACE_DEPTH).unwrap_or_default() {
-        let Some(key) = key.text() else { continue };
-        let name = key.trim_start_matches('/').rsplit('/').next().unwrap_or(key);
-        match value.get("ros__parameters") {
-            Some(parameters) if [node, "**", "*"].contains(&name) => found.push(parameters),
-            Some(_) => {}
-            None => collect(value, node, depth + 1, found),
-        }
-    }
-}
-
-struct FlatParameter {
-    name: String,
-    text: String,
-    name_origin: Origin,
-    origin: Origin,
-}
-
-/// Flattens a mapping to dotted names. No parameter is a list: lists are reported with their first
-/// element.
-fn flatten(at: &YamlNode, prefix: &str, flat: &mut Vec<FlatParameter>) {
-    for (key, value) in at.entries().unwrap_or_default() {
-        let Some(last) = key.text() else { continue };
-        let name = if prefix.is_empty() { last.to_owned() } else { format!("{prefix}.{last}") };
-        let text = match &value.value {
-            YamlValue::Map(_) => {
-                flatten(value, &name, flat);
-                continue;
-            }
-            YamlValue::Scalar { text, .. } => text.clone(),
-            YamlValue::List(list) => {
-                list.first().and_then(YamlNode::text).unwrap_or_default().to_owned()
-            }
-        };
-        flat.push(FlatParameter {
-            name,
-            text,
-            name_origin: key.span.into(),
-            origin: value.span.into(),
-        });
-    }
+    let given: Vec<Given<'_>> = written.given().collect();
+    // The last value of a parameter applies, also one by its name of ROS 1; earlier ones are not reported.
+    let parameter = |one: &Given<'_>| AMCL.find(one.name).map(|it| it.name);
+    let is_last = |(index, one): &(usize, &Given<'_>)| {
+        let mut later = given[index + 1..].iter();
+        later.all(|later| parameter(later).is_none_or(|name| parameter(one) != Some(name)))
+    };
+    let last = given.iter().enumerate().filter(is_last).map(|(_, one)| one.clone());
+    Settings::read(last, diagnostics).0
 }
 
 #[cfg(test)]

@@ -1,9 +1,10 @@
 //! A small world in memory with one robot, its devices, and subscribers on the graph.
 
-use std::sync::Arc;
+use std::path::Path;
+use std::sync::{Arc, LazyLock};
 
 use periplus_diagnostics::{Diagnostics, RenderStyle, SourceMap, render};
-use periplus_graph::{Graph, Mailbox, Node, NodeSettings, Publisher, Qos};
+use periplus_graph::{Graph, Mailbox, Node, NodeSettings, ParameterFileError, Publisher, Qos};
 use periplus_msgs::geometry_msgs::{Twist, Vector3};
 use periplus_msgs::{Message, nav_msgs};
 use periplus_physics::{ModelId, NoMeshes, PhysicsMode, PhysicsWorld};
@@ -12,13 +13,15 @@ use periplus_rendering::NoAssets;
 use periplus_scene as scene;
 use periplus_sdf::{NoIncludes, SdfContext, read_document};
 use periplus_sensors::Quirks;
-use periplus_sim_nodes::{Device, DeviceContext, SenseContext, StepInterval, Views, drives};
+use periplus_sim_nodes::{
+    Device, DeviceContext, ParameterFiles, SenseContext, StepInterval, Views, drives,
+};
 
 pub(crate) const STEP_NS: i64 = 1_000_000;
 
 /// A base with two wheels of 0.1 m, 0.4 m apart, and a caster ahead; the middle between the wheels
 /// is the model's origin.
-const ROBOT: &str = r#"
+pub(crate) const ROBOT: &str = r#"
   <link name="base">
     <pose>0.05 0 0.15 0 0 0</pose>
     <inertial><mass>10</mass><inertia><ixx>0.1</ixx><iyy>0.2</iyy><izz>0.2</izz></inertia></inertial>
@@ -50,6 +53,18 @@ const ROBOT: &str = r#"
     <axis><xyz>0 1 0</xyz></axis></joint>
   <joint name="caster_joint" type="fixed"><parent>base</parent><child>caster</child></joint>
 "#;
+
+/// Parameter files whose path is their text, on one line: `FILE:name: {...}`.
+struct InlineFiles;
+
+impl ParameterFiles for InlineFiles {
+    fn parameter_text(&self, path: &Path) -> Result<String, ParameterFileError> {
+        let path = path.to_str().ok_or(ParameterFileError::NotText)?;
+        path.strip_prefix("FILE:").map(str::to_owned).ok_or(ParameterFileError::Missing)
+    }
+}
+
+static FILES: LazyLock<Arc<dyn ParameterFiles>> = LazyLock::new(|| Arc::new(InlineFiles));
 
 /// The robot at a pose, with plugins.
 pub(crate) struct Bench {
@@ -154,6 +169,16 @@ impl Bench {
         }
     }
 
+    pub(crate) fn now_ns(&self) -> i64 {
+        self.now_ns
+    }
+
+    /// Sets the time back, as before a state of that time is restored.
+    pub(crate) fn go_back_to(&mut self, now_ns: i64) {
+        self.graph.jump_to(now_ns);
+        self.now_ns = now_ns;
+    }
+
     /// Resets the world to its initial state.
     pub(crate) fn reset(&mut self) {
         self.world.reset();
@@ -212,6 +237,8 @@ fn setting<'a>(
         rolling_scans: false,
         start_ns: 0,
         publishes_joint_states: true,
+        starts_controllers: true,
+        parameter_files: &FILES,
     }
 }
 

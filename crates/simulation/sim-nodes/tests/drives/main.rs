@@ -4,6 +4,7 @@
 
 mod bench;
 mod classic;
+mod control;
 mod controllers;
 mod frames;
 mod gz;

@@ -112,20 +112,27 @@ fn a_link_that_is_not_there() {
 }
 
 #[test]
-fn what_is_not_run_yet_is_told() {
+fn a_robot_without_controllers_is_told_what_to_do() {
     let bench = Bench::exact(
         "<plugin filename='gz_ros2_control-system'
            name='gz_ros2_control::GazeboSimROS2ControlPlugin'/>",
     );
     expect![[r#"
-        warning[plugin-not-run]: plugin `gz_ros2_control::GazeboSimROS2ControlPlugin` is not supported
+        warning[no-hardware]: plugin `gz_ros2_control::GazeboSimROS2ControlPlugin` finds no `<ros2_control>` in the robot's description, so it controls no joints
           --> robot.sdf:36:1
            |
         36 | <plugin filename='gz_ros2_control-system'
            | ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^
            |
-           = note: controllers of ros2_control are not loaded, so its joints move freely
-           = help: add a drive plugin of Gazebo for the same joints, such as `gz-sim-diff-drive-system` or `libgazebo_ros_diff_drive.so`
+           = help: add `<ros2_control>` with the joints and their interfaces
+
+        warning[no-controllers]: plugin `gz_ros2_control::GazeboSimROS2ControlPlugin` has no controllers to start
+          --> robot.sdf:36:1
+           |
+        36 | <plugin filename='gz_ros2_control-system'
+           | ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^
+           |
+           = help: name a parameter file with controllers in `<parameters>`, or run the robot's launch file
 
     "#]].assert_eq(&bench.said);
 }

@@ -9,7 +9,10 @@ use periplus_physics::{NoMeshes, PhysicsMode, PhysicsWorld};
 use periplus_rendering::NoAssets;
 use periplus_sdf::{NoIncludes, SdfContext, read_document};
 use periplus_sensors::Quirks;
-use periplus_sim_nodes::{Device, DeviceContext, SenseContext, StepInterval, Views, devices};
+use periplus_sim_nodes::{
+    Device, DeviceContext, NoParameterFiles, ParameterFiles, SenseContext, StepInterval, Views,
+    devices,
+};
 
 const STEP_NS: i64 = 1_000_000;
 
@@ -75,6 +78,7 @@ impl Bench {
             views.add(Arc::new(model.clone()), id, &world);
         }
         let (model, name) = world.models().last().unwrap();
+        let files: Arc<dyn ParameterFiles> = Arc::new(NoParameterFiles);
         let setting = DeviceContext {
             graph: &graph,
             world: &world,
@@ -89,6 +93,8 @@ impl Bench {
             rolling_scans: false,
             start_ns: 0,
             publishes_joint_states: true,
+            starts_controllers: true,
+            parameter_files: &files,
         };
         let mut diagnostics = Diagnostics::new();
         let devices = devices(&setting, None, &mut diagnostics);

@@ -4,7 +4,9 @@ use std::collections::BTreeMap;
 use std::path::PathBuf;
 
 use periplus_diagnostics::{Diagnostics, Origin, RenderStyle, Severity, SourceMap, render};
-use periplus_loader::{LoadContext, LoadedFile, load, load_bytes, settle_images};
+use periplus_loader::{
+    LoadContext, LoadedFile, load, load_bytes, settle_images, settle_parameter_files,
+};
 use periplus_os::Overlay;
 use periplus_resources::Resolver;
 use periplus_scene::{Light, Model, Plugin};
@@ -89,6 +91,7 @@ impl Search {
         };
         if let Some(scene) = &mut loaded.scene {
             settle_images(scene, &loaded.sources, context, &mut loaded.diagnostics);
+            settle_parameter_files(scene, &loaded.sources, context, &mut loaded.diagnostics);
         }
         let scene = loaded.scene.take().unwrap_or_default();
         let description = description_of(&loaded);

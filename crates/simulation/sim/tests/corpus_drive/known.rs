@@ -1,6 +1,6 @@
 //! Robots that do not follow their commands, with the reasons.
 
-/// Part of the robot's name in the table, part of the fault, and the reason.
+/// Part of the robot's name in the table, part of the fault or end of that name, and the reason.
 pub(crate) type Known = (&'static str, &'static str, &'static str);
 
 pub(crate) const KNOWN: &[Known] = &[
@@ -11,7 +11,11 @@ pub(crate) const KNOWN: &[Known] = &[
     ),
     ("set_model_state_test_p2dx", "", "the same pioneer2dx"),
     ("conveyor.sdf::conveyor", "", "a belt, not a robot; it takes no Twist and is not run yet"),
-    ("gz_ros2_control/", "", "its joints are for controllers of ros2_control, which are not run"),
+    (
+        "_effort.xacro.urdf::",
+        "(Kinematic)",
+        "its controller commands efforts, which have no effect without physics",
+    ),
     (
         "tunnel.sdf::vehicle (Rigid)",
         "falls",
@@ -27,5 +31,8 @@ pub(crate) const KNOWN: &[Known] = &[
 
 /// The reason for a fault of a robot, if it is known.
 pub(crate) fn reason(robot: &str, fault: &str) -> Option<Known> {
-    KNOWN.iter().find(|(who, what, _)| robot.contains(who) && fault.contains(what)).copied()
+    let fits = |who: &str, what: &str| {
+        robot.contains(who) && (fault.contains(what) || !what.is_empty() && robot.ends_with(what))
+    };
+    KNOWN.iter().find(|(who, what, _)| fits(who, what)).copied()
 }

@@ -1,5 +1,6 @@
 //! Test of one file: its robots are spawned and driven, and their messages checked.
 
+use std::cell::Cell;
 use std::path::Path;
 use std::sync::Arc;
 
@@ -8,7 +9,10 @@ use periplus_geometry::{DVec3, Pose};
 use periplus_graph::{Node, NodeSettings, Publisher, Qos};
 use periplus_loader::LoadContext;
 use periplus_msgs::Message as _;
+use periplus_msgs::builtin_interfaces::Duration;
 use periplus_msgs::geometry_msgs::{Twist, TwistStamped};
+use periplus_msgs::std_msgs::Float64MultiArray;
+use periplus_msgs::trajectory_msgs::{JointTrajectory, JointTrajectoryPoint};
 use periplus_plugin_specs::{Role, interpret, model_sites};
 use periplus_scene::{Model, World};
 use periplus_sim::{
@@ -20,6 +24,8 @@ use crate::ears::Ears;
 
 const SPEED_M_S: f64 = 0.3;
 const TURN_RAD_S: f64 = 0.3;
+/// Command of controllers of joints: a position, a speed or an effort.
+const JOINT_COMMAND: f64 = 5.0;
 /// Commands come as from a joystick \[ns\].
 const COMMAND_NS: i64 = 100_000_000;
 
@@ -98,6 +104,8 @@ pub(crate) fn drive(
         .collect();
     let starts: Vec<Option<Pose>> =
         driven.iter().map(|(member, _)| pose_of(&simulation, &member.name)).collect();
+    let parts: Vec<Vec<Pose>> =
+        driven.iter().map(|(member, _)| links_of(&simulation, &member.name)).collect();
     let mut broken = None;
     let (end_ns, mut next_ns) = (seconds * 1_000_000_000, 0);
     let mut late = Vec::new();
@@ -120,7 +128,12 @@ pub(crate) fn drive(
         faults.extend(wrong.iter().cloned());
         let end = pose_of(&simulation, &member.name);
         let late = late.get(index).copied().flatten();
+        // A robot on the world moves its links.
+        let parts_m = moved_parts_m(&parts[index], &links_of(&simulation, &member.name));
         let (moved_m, turned_rad) = match (starts[index], late.or(end), end) {
+            (Some(start), Some(_), Some(end)) if start == end && parts_m > MOVED_M => {
+                (parts_m, 0.0)
+            }
             (Some(start), Some(late), Some(end)) => motion([start, late, end], &mut faults),
             _ => {
                 faults.push("not in the world".into());
@@ -172,6 +185,21 @@ fn pose_of(simulation: &Simulation, name: &str) -> Option<Pose> {
     motion.model_pose(id)
 }
 
+/// Poses of the links of a model.
+fn links_of(simulation: &Simulation, name: &str) -> Vec<Pose> {
+    let motion = simulation.motion();
+    let found = motion.models().find(|(_, known)| *known == name);
+    let links = found.into_iter().flat_map(|(id, _)| motion.links(id));
+    links.filter_map(|link| Some(motion.link_state(link)?.world_from_link)).collect()
+}
+
+/// Distance of the link that moved farthest [m].
+fn moved_parts_m(before: &[Pose], after: &[Pose]) -> f64 {
+    let ways = before.iter().zip(after);
+    ways.map(|(before, after)| (after.translation - before.translation).length())
+        .fold(0.0, f64::max)
+}
+
 /// The drives among the plugins of a model.
 fn drives(world: &World, model: &Model) -> Vec<&'static str> {
     let sites = model_sites(world, model);
@@ -203,15 +231,32 @@ fn findings(composition: &Composition) -> Vec<(Severity, &'static str, String)> 
     found
 }
 
-/// Publisher of velocities to all topics with subscribers.
+/// Publisher of commands to all topics with subscribers.
 struct Pedals {
     plain: Vec<Publisher<Twist>>,
     stamped: Vec<Publisher<TwistStamped>>,
+    joints: Vec<Publisher<Float64MultiArray>>,
+    trajectories: Vec<Publisher<JointTrajectory>>,
+    /// Names of the movable joints.
+    names: Vec<String>,
+    presses: Cell<u32>,
 }
 
 impl Pedals {
     fn of(simulation: &Simulation, node: &Node) -> Self {
-        let mut pedals = Self { plain: Vec::new(), stamped: Vec::new() };
+        let motion = simulation.motion();
+        let joints = motion.models().flat_map(|(id, _)| motion.joints(id));
+        let names = joints
+            .filter(|joint| motion.axis_state(*joint).is_some())
+            .filter_map(|joint| motion.joint_name(joint).map(str::to_owned));
+        let mut pedals = Self {
+            plain: Vec::new(),
+            stamped: Vec::new(),
+            joints: Vec::new(),
+            trajectories: Vec::new(),
+            names: names.collect(),
+            presses: Cell::new(0),
+        };
         let topics = simulation.graph().topics();
         for topic in topics.iter().filter(|topic| !topic.subscriptions.is_empty()) {
             let (name, qos) = (&topic.name, Qos::reliable(10));
@@ -219,13 +264,17 @@ impl Pedals {
                 pedals.plain.push(node.publisher(name, qos).unwrap());
             } else if topic.type_name == TwistStamped::TYPE_NAME {
                 pedals.stamped.push(node.publisher(name, qos).unwrap());
+            } else if topic.type_name == Float64MultiArray::TYPE_NAME {
+                pedals.joints.push(node.publisher(name, qos).unwrap());
+            } else if topic.type_name == JointTrajectory::TYPE_NAME {
+                pedals.trajectories.push(node.publisher(name, qos).unwrap());
             }
         }
         pedals
     }
 
     fn count(&self) -> usize {
-        self.plain.len() + self.stamped.len()
+        self.plain.len() + self.stamped.len() + self.joints.len() + self.trajectories.len()
     }
 
     fn press(&self) {
@@ -235,5 +284,20 @@ impl Pedals {
         self.plain.iter().for_each(|pedal| pedal.publish(twist.clone()));
         let stamped = TwistStamped { twist, ..TwistStamped::default() };
         self.stamped.iter().for_each(|pedal| pedal.publish(stamped.clone()));
+        // All of these robots have one joint with a command.
+        let data = vec![JOINT_COMMAND];
+        let command = Float64MultiArray { data, ..Float64MultiArray::default() };
+        self.joints.iter().for_each(|pedal| pedal.publish(command.clone()));
+        if self.presses.replace(self.presses.get() + 1) == 0 {
+            let point = JointTrajectoryPoint {
+                positions: vec![1.0],
+                time_from_start: Duration { sec: 3, nanosec: 0 },
+                ..JointTrajectoryPoint::default()
+            };
+            let joint_names = self.names.iter().take(1).cloned().collect();
+            let points = vec![point];
+            let way = JointTrajectory { joint_names, points, ..JointTrajectory::default() };
+            self.trajectories.iter().for_each(|pedal| pedal.publish(way.clone()));
+        }
     }
 }

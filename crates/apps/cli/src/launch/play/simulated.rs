@@ -157,6 +157,7 @@ impl PlayOptions {
             threads: self.threads.unwrap_or_else(terminal::processors),
             arguments,
             publishes_joint_states: !bringup.publishes_joint_states(),
+            starts_controllers: !bringup.spawns_controllers(),
             ..Options::default()
         }
     }

@@ -1,0 +1,32 @@
+//! Built-in trees, under the names of Nav2's files.
+
+use periplus_costmap::Nav2Release;
+
+/// File name of the default tree of `navigate_to_pose`.
+pub const NAVIGATE_TO_POSE_FILE: &str = "navigate_to_pose_w_replanning_and_recovery.xml";
+/// File name of the default tree of `navigate_through_poses`.
+pub const NAVIGATE_THROUGH_POSES_FILE: &str =
+    "navigate_through_poses_w_replanning_and_recovery.xml";
+
+/// Text of a built-in tree by its file name; none for other names. Kilted has the trees of Jazzy.
+#[must_use]
+pub fn built_in_tree(release: Nav2Release, file_name: &str) -> Option<&'static str> {
+    let [humble, jazzy, main] = match file_name {
+        NAVIGATE_TO_POSE_FILE => [
+            include_str!("trees/humble/navigate_to_pose.xml"),
+            include_str!("trees/jazzy/navigate_to_pose.xml"),
+            include_str!("trees/main/navigate_to_pose.xml"),
+        ],
+        NAVIGATE_THROUGH_POSES_FILE => [
+            include_str!("trees/humble/navigate_through_poses.xml"),
+            include_str!("trees/jazzy/navigate_through_poses.xml"),
+            include_str!("trees/main/navigate_through_poses.xml"),
+        ],
+        _ => return None,
+    };
+    Some(match release {
+        Nav2Release::Humble => humble,
+        Nav2Release::EarlyJazzy | Nav2Release::Jazzy | Nav2Release::Kilted => jazzy,
+        Nav2Release::Main => main,
+    })
+}
