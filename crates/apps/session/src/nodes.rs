@@ -20,7 +20,7 @@ pub use localization::{Localization, ParameterFile, amcl_parameters};
 pub use mapping::{MappingNode, MappingRequest, MappingSource, slam_parameters};
 pub use navigation::{
     GoalDriver, GoalOutcome, GoalReport, Navigation, NavigationDefaults, NavigationRequest,
-    RobotBase, pose_text,
+    PlanningMap, RobotBase, pose_text,
 };
 pub use profile::RobotProfile;
 
