@@ -46,7 +46,7 @@ pub(crate) struct NavigateOptions {
     #[command(flatten)]
     robots: Robots,
     /// Goal [m, rad]: X,Y or X,Y,YAW; repeatable, in their order. In the frame of the map with `--map`; with SLAM in the
-    /// frame of the world, if the robot stands where `--pose` says; without a map relative to the start
+    /// frame of the world, if the robot stands at `--pose`; without a map relative to the start
     #[arg(long = "goal", value_name = "X,Y,YAW", value_parser = pose, allow_hyphen_values = true, required = true)]
     goals: Vec<Pose2>,
     /// Map to localize on with AMCL [default: SLAM builds one while the robot drives]

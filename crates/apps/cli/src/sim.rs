@@ -301,7 +301,7 @@ impl SimOptions {
             defaults: NavigationDefaults::default(),
         });
         EstimatorRequest {
-            // The servers have costmaps of their own.
+            // The servers own both costmaps.
             has_stack: self.stack && navigation.is_none(),
             detects_robot: needs_topics && self.robots.placements.len() <= 1,
             costmaps: self.costmaps.request(),

@@ -1,7 +1,7 @@
 //! Score of a drive, from the truth: length, clearance, collisions.
 //!
-//! Nothing that drives may read it. Clearance is measured at the height of the robot's lidar, to what stood there when
-//! the score began.
+//! Nothing that drives may read it. Clearance is measured at the height of the robot's lidar, to the walls
+//! at the beginning.
 
 use std::collections::BTreeSet;
 
@@ -32,7 +32,7 @@ pub struct DriveScore {
     last: Option<Pose2>,
     next_ns: i64,
     touches: bool,
-    /// Length of the way \[m\].
+    /// Distance driven \[m\].
     pub length_m: f64,
     /// Smallest distance from the footprint to a wall \[m\]; infinite without walls.
     pub min_clearance_m: f64,

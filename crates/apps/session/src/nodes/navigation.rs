@@ -28,7 +28,7 @@ use crate::{files, terminal};
 pub struct NavigationRequest {
     /// Parameter file of Nav2; default parameters for the robot without one.
     pub parameters: Option<PathBuf>,
-    /// What the default parameters follow from.
+    /// Inputs of the default parameters.
     pub defaults: NavigationDefaults,
 }
 

@@ -19,7 +19,7 @@ pub enum RobotBase {
     },
 }
 
-/// What the default parameters follow from.
+/// Inputs of the default parameters.
 #[derive(Clone, Debug, PartialEq)]
 pub struct NavigationDefaults {
     /// Motion that the wheels allow.

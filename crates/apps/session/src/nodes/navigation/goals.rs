@@ -1,4 +1,4 @@
-//! A client that sends goals one after the other and keeps a record of the way.
+//! Client that sends goals one after the other and records their outcomes.
 
 use std::fmt;
 
