@@ -4,7 +4,7 @@ use periplus_controllers::mppi::probe::{
     CriticScene, SampleTable, rollout, score, smooth_sequence, update_sequence,
 };
 use periplus_controllers::mppi::{
-    AccelerationLimits, ControlHistory, ControlSequence, CriticKind, MppiControl, MppiModel,
+    ControlHistory, ControlSequence, CriticKind, MppiAccelerationLimits, MppiControl, MppiModel,
     MppiVelocityLimits,
 };
 use periplus_costmap::{Costmap, CostmapView, Footprint, Nav2Release};
@@ -217,7 +217,7 @@ pub(super) fn check_rollout(
     let (given, expect) = (case.given(), case.expect());
     let constraints = given.get("constraints")?;
     let limit = |name: &str| single(&constraints.get(name)?);
-    let limits = AccelerationLimits {
+    let limits = MppiAccelerationLimits {
         ax_max: limit("ax_max")?,
         ax_min: limit("ax_min")?,
         ay_max: 0.0,
