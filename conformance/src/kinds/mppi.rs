@@ -5,7 +5,7 @@ use periplus_controllers::mppi::probe::{
 };
 use periplus_controllers::mppi::{
     AccelerationLimits, ControlHistory, ControlSequence, CriticKind, MppiControl, MppiModel,
-    VelocityLimits,
+    MppiVelocityLimits,
 };
 use periplus_costmap::{Costmap, CostmapView, Footprint, Nav2Release};
 use periplus_diagnostics::Diagnostics;
@@ -121,7 +121,7 @@ pub(super) fn check_critic(
         release: release_of(distro)?,
         model,
         step_s: single(&given.get("model_dt")?)?,
-        limits: VelocityLimits {
+        limits: MppiVelocityLimits {
             vx_max: parameter("vx_max")?,
             vx_min: parameter("vx_min")?,
             vy_max: parameter("vy_max")?,

@@ -1,9 +1,11 @@
 //! Speed limits of controllers.
 
-use periplus_controllers::mppi::VelocityLimits;
+use periplus_controllers::dwb::{DwbParams, VelocityLimits};
+use periplus_controllers::mppi::MppiVelocityLimits;
+use periplus_controllers::rpp::limited_speed_m_s;
 
 use super::Setting;
-use crate::{Case, CaseReader, Differences, Unreadable, number};
+use crate::{Case, Differences, Unreadable, number};
 
 /// Limits of a controller: highest and lowest velocity forwards \[m/s\], highest turn rate \[rad/s\].
 type Limits = [f64; 3];
@@ -24,8 +26,8 @@ pub(super) fn check(
     let controller = given.get("controller")?;
     let [fastest, slowest, turn] = match controller.text()? {
         "mppi" => mppi(base, limit, is_percentage),
-        "dwb" => dwb(base, limit, is_percentage, &controller)?,
-        "rpp" => rpp(base, limit, is_percentage, &controller)?,
+        "dwb" => dwb(base, limit, is_percentage),
+        "rpp" => rpp(base, limit, is_percentage),
         _ => return Err(controller.unreadable("`mppi`, `dwb` or `rpp`")),
     };
     differences.compare_members(
@@ -40,7 +42,7 @@ pub(super) fn check(
 }
 
 fn mppi([fastest, slowest, turn]: Limits, limit: f64, is_percentage: bool) -> Limits {
-    let base = VelocityLimits {
+    let base = MppiVelocityLimits {
         vx_max: fastest as f32,
         vx_min: slowest as f32,
         vy_max: 0.0,
@@ -50,20 +52,16 @@ fn mppi([fastest, slowest, turn]: Limits, limit: f64, is_percentage: bool) -> Li
     [limited.vx_max, limited.vx_min, limited.wz_max].map(f64::from)
 }
 
-fn dwb(
-    _base: Limits,
-    _limit: f64,
-    _is_percentage: bool,
-    controller: &CaseReader<'_>,
-) -> Result<Limits, Unreadable> {
-    Err(controller.unreadable("a controller whose speed limit has a check"))
+fn dwb([fastest, slowest, turn]: Limits, limit: f64, is_percentage: bool) -> Limits {
+    let mut params = DwbParams::default().kinematics;
+    params.max_vel_x_m_s = fastest;
+    params.min_vel_x_m_s = slowest;
+    params.max_speed_xy_m_s = fastest;
+    params.max_vel_theta_rad_s = turn;
+    let limited = VelocityLimits::new(&params).limited(limit, is_percentage);
+    [limited.x.max, limited.x.min, limited.theta.max]
 }
 
-fn rpp(
-    _base: Limits,
-    _limit: f64,
-    _is_percentage: bool,
-    controller: &CaseReader<'_>,
-) -> Result<Limits, Unreadable> {
-    Err(controller.unreadable("a controller whose speed limit has a check"))
+fn rpp([fastest, slowest, turn]: Limits, limit: f64, is_percentage: bool) -> Limits {
+    [limited_speed_m_s(fastest, limit, is_percentage), slowest, turn]
 }

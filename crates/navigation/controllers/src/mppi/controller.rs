@@ -82,24 +82,26 @@ impl Mppi {
     /// The reason for a refusal: the name is unknown, the value does not fit, the parameter is fixed
     /// (`critics`, `motion_model`, `plugin`), or a speed limit is active (main: `vx_max`, `vx_min`, `vy_max`,
     /// `wz_max`).
-    pub fn set_parameter(&mut self, name: &str, value: ParamValue) -> Result<(), String> {
+    pub fn set_parameter(&mut self, name: &str, value: ParamValue) -> Result<(), ParameterRefusal> {
         const FIXED: [&str; 3] = ["critics", "motion_model", "plugin"];
         const KINEMATIC: [&str; 4] = ["vx_max", "vx_min", "vy_max", "wz_max"];
         let Some(parameter) = self.config.values.find(name) else {
-            return Err(format!("MPPI has no parameter `{name}`"));
+            return Err(ParameterRefusal::Unknown(name.to_owned()));
         };
         if FIXED.contains(&parameter.name) {
-            return Err(format!(
+            return Err(ParameterRefusal::Conflict(format!(
                 "`{name}` is read at the start only; restart the controller server"
-            ));
+            )));
         }
         let is_guarded = self.config.release == Nav2Release::Main && KINEMATIC.contains(&name);
         if is_guarded && self.has_speed_limit {
-            return Err(format!(
+            return Err(ParameterRefusal::Conflict(format!(
                 "Rejected dynamic update to '{name}': speed limit is active. Clear the speed limit first."
-            ));
+            )));
         }
-        let value = value.fit(parameter).map_err(|error| format!("`{name}`: the value {error}"))?;
+        let value = value
+            .fit(parameter)
+            .map_err(|error| ParameterRefusal::Unfit { name: name.to_owned(), error })?;
         self.config.values.set(name, value);
         if let super::MppiModel::Ackermann { min_turning_radius_m } = &mut self.config.model {
             let radius = format!("{}.min_turning_r", self.config.model_group);
@@ -316,7 +318,7 @@ impl Controller for Mppi {
         name: &str,
         value: ParamValue,
     ) -> Result<ParameterChange, ParameterRefusal> {
-        self.change(name, value)
+        self.set_parameter(name, value).map(|()| ParameterChange::Applied)
     }
 
     fn path_rules(&self) -> Option<PathRules> {

@@ -6,7 +6,7 @@ use periplus_costmap::cost;
 use periplus_geometry::{Pose2, normalize_angle};
 
 use super::cost_grid::CostGrid;
-use super::limits::VelocityLimits;
+use super::limits::MppiVelocityLimits;
 use super::optimizer::AttemptFailure;
 use super::rollout::Start;
 
@@ -37,8 +37,8 @@ pub(crate) struct CycleFacts {
     pub(crate) horizon_s: f32,
     pub(crate) acceleration: f32,
     pub(crate) period_s: f32,
-    pub(crate) base: VelocityLimits,
-    pub(crate) limits: VelocityLimits,
+    pub(crate) base: MppiVelocityLimits,
+    pub(crate) limits: MppiVelocityLimits,
     pub(crate) vx_std: f32,
 }
 

@@ -38,7 +38,7 @@ impl MppiModel {
 
 /// Limits of the velocities.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct VelocityLimits {
+pub struct MppiVelocityLimits {
     /// Maximum velocity forwards \[m/s\].
     pub vx_max: f32,
     /// Minimum velocity forwards, negative if the robot may reverse \[m/s\].
@@ -49,7 +49,7 @@ pub struct VelocityLimits {
     pub wz_max: f32,
 }
 
-impl VelocityLimits {
+impl MppiVelocityLimits {
     /// Returns the limits under a speed limit: a percentage of the maximum speed, or a speed \[m/s\] that
     /// replaces `vx_max`. All limits are scaled by the same ratio. A limit of 0 is none.
     #[must_use]
@@ -144,7 +144,7 @@ mod tests {
     use super::*;
 
     fn check_limit(limit: f64, is_percentage: bool, expected: [f32; 4]) {
-        let base = VelocityLimits { vx_max: 0.5, vx_min: -0.35, vy_max: 0.5, wz_max: 1.9 };
+        let base = MppiVelocityLimits { vx_max: 0.5, vx_min: -0.35, vy_max: 0.5, wz_max: 1.9 };
         let limited = base.limited(limit, is_percentage);
         let values = [limited.vx_max, limited.vx_min, limited.vy_max, limited.wz_max];
         for (value, expected) in values.into_iter().zip(expected) {

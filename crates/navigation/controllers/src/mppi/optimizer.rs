@@ -12,7 +12,7 @@ use super::context::{CriticContext, Evaluation};
 use super::critics::{Critic, CriticKind, CriticLimits};
 use super::filter::{ControlHistory, smooth};
 use super::lanes::Row;
-use super::limits::{AccelerationLimits, Changes, VelocityLimits};
+use super::limits::{AccelerationLimits, Changes, MppiVelocityLimits};
 use super::params::{MppiParams, ValidatorParams};
 use super::rollout::{Delays, Motion, NoiseScale, add_sequence, draw_noise, predict, trajectory};
 use super::samples::Samples;
@@ -29,7 +29,7 @@ pub(crate) struct OptimizerSettings {
     pub(crate) step_s: f32,
     pub(crate) iterations: usize,
     pub(crate) retries: usize,
-    pub(crate) velocity: VelocityLimits,
+    pub(crate) velocity: MppiVelocityLimits,
     pub(crate) acceleration: AccelerationLimits,
     pub(crate) scale: NoiseScale,
     temperature: f32,
@@ -59,7 +59,7 @@ impl OptimizerSettings {
             step_s,
             iterations: params.iteration_count,
             retries: params.retry_attempt_limit,
-            velocity: VelocityLimits {
+            velocity: MppiVelocityLimits {
                 vx_max: params.vx_max_m_s as f32,
                 vx_min: params.vx_min_m_s as f32,
                 vy_max: params.vy_max_m_s as f32,
@@ -116,7 +116,7 @@ pub(crate) struct Optimizer {
     model: super::limits::MppiModel,
     critics: Vec<(CriticKind, Critic)>,
     /// Limits of the velocity under the speed limit.
-    pub(crate) limits: VelocityLimits,
+    pub(crate) limits: MppiVelocityLimits,
     pub(crate) sequence: ControlSequence,
     history: ControlHistory,
     delays: Delays,
@@ -141,7 +141,7 @@ pub(crate) struct Optimizer {
 impl Optimizer {
     pub(crate) fn new(config: &MppiConfig) -> Self {
         let settings = OptimizerSettings::new(config);
-        let VelocityLimits { vx_max, vx_min, vy_max, .. } = settings.velocity;
+        let MppiVelocityLimits { vx_max, vx_min, vy_max, .. } = settings.velocity;
         let limits = CriticLimits { vx_max, vx_min, vy_max };
         let critic = |kind: &CriticKind| {
             (*kind, Critic::new(*kind, &config.critic(*kind), limits, config.release))

@@ -153,8 +153,7 @@ fn lengths(samples: &Samples, block: usize, step_s: f32) -> Row {
     let vx = samples.vx.velocities.block(block);
     let vy = samples.vy.velocities.block(block);
     let mut total = ZEROS;
-    for step in 1..samples.steps {
-        let forwards = &vx[step];
+    for (step, forwards) in vx.iter().enumerate().skip(1) {
         if let Some(sideways) = vy.get(step) {
             for lane in 0..LANES {
                 let square = forwards[lane] * forwards[lane] + sideways[lane] * sideways[lane];

@@ -2,14 +2,11 @@
 
 use periplus_costmap::Nav2Release;
 use periplus_diagnostics::Diagnostics;
-use periplus_params::{Given, ParamValue};
+use periplus_params::Given;
 
 use super::config::MppiSetup;
 use super::controller::{Mppi, create};
-use crate::{
-    Controller, FeasiblePathParams, ParameterChange, ParameterGroup, ParameterRefusal, PathRules,
-    PluginSetup,
-};
+use crate::{Controller, FeasiblePathParams, ParameterGroup, PathRules, PluginSetup};
 
 /// Seed of the noise of a controller.
 const NOISE_SEED: u64 = 0;
@@ -48,19 +45,6 @@ impl Mppi {
             Some(ParameterGroup::own(values).within(name))
         }));
         groups
-    }
-
-    /// Changes a parameter as a request to the server does.
-    pub(super) fn change(
-        &mut self,
-        name: &str,
-        value: ParamValue,
-    ) -> Result<ParameterChange, ParameterRefusal> {
-        if self.config().values.find(name).is_none() {
-            return Err(ParameterRefusal::Unknown(name.to_owned()));
-        }
-        self.set_parameter(name, value).map_err(ParameterRefusal::Conflict)?;
-        Ok(ParameterChange::Applied)
     }
 
     /// Rules of the path handler that MPPI had before main.

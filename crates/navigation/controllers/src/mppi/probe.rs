@@ -10,7 +10,7 @@ use super::cost_grid::CostGrid;
 use super::critics::{Critic, CriticKind, CriticLimits};
 use super::filter::{ControlHistory, smooth};
 use super::lanes::{Row, ZEROS};
-use super::limits::{AccelerationLimits, MppiModel, VelocityLimits};
+use super::limits::{AccelerationLimits, MppiModel, MppiVelocityLimits};
 use super::path::LocalPath;
 use super::rollout::{Delays, Motion, NoiseScale, Start, predict};
 use super::samples::Samples;
@@ -67,7 +67,7 @@ pub struct CriticScene<'a> {
     /// Duration of a time step \[s\].
     pub step_s: f32,
     /// Limits of the velocity.
-    pub limits: VelocityLimits,
+    pub limits: MppiVelocityLimits,
     /// Pose of the robot: x \[m\], y \[m\], yaw \[rad\].
     pub robot: [f32; 3],
     /// Poses of the path.
@@ -94,7 +94,7 @@ pub fn score(
     scene: &CriticScene<'_>,
     table: &SampleTable,
 ) -> (Vec<f32>, bool) {
-    let VelocityLimits { vx_max, vx_min, vy_max, .. } = scene.limits;
+    let MppiVelocityLimits { vx_max, vx_min, vy_max, .. } = scene.limits;
     let critic = Critic::new(kind, values, CriticLimits { vx_max, vx_min, vy_max }, scene.release);
     let samples = table.samples(scene.model.is_holonomic());
     let path = LocalPath::new(scene.path.iter().copied());

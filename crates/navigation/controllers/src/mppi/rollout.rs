@@ -22,7 +22,7 @@ pub(crate) struct Start {
     pub(crate) speed: MppiControl,
 }
 
-/// Delays of the robot's response to commands, in time steps, with the commands that are under way, oldest
+/// Delays of the robot's response to commands, in time steps, with the commands that are in flight, oldest
 /// first (main).
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct Delays {
@@ -52,7 +52,7 @@ impl Delays {
         }
     }
 
-    /// Sets all commands under way to zero.
+    /// Sets all commands in flight to zero.
     pub(crate) fn clear(&mut self) {
         for buffer in [&mut self.vx, &mut self.vy, &mut self.wz] {
             buffer.fill(0.0);
@@ -189,9 +189,9 @@ fn predict_turns(
     delay(velocities, &motion.delays.wz);
 }
 
-/// Moves velocities back by a delay; the commands under way fill the gap.
-fn delay(velocities: &mut [Row], under_way: &[f32]) {
-    let offset = under_way.len();
+/// Moves velocities back by a delay; the commands in flight fill the gap.
+fn delay(velocities: &mut [Row], in_flight: &[f32]) {
+    let offset = in_flight.len();
     if offset == 0 {
         return;
     }
@@ -199,7 +199,7 @@ fn delay(velocities: &mut [Row], under_way: &[f32]) {
     for step in (1..=steps.saturating_sub(offset)).rev() {
         velocities[offset + step - 1] = velocities[step];
     }
-    for (row, command) in velocities.iter_mut().zip(under_way).skip(1) {
+    for (row, command) in velocities.iter_mut().zip(in_flight).skip(1) {
         *row = [*command; LANES];
     }
 }
@@ -314,7 +314,7 @@ mod tests {
     }
 
     #[test]
-    fn a_delayed_robot_first_follows_the_commands_under_way() {
+    fn a_delayed_robot_first_follows_the_commands_in_flight() {
         let mut delays = Delays::new([0.2, 0.0, 0.0], 0.1);
         delays.push(MppiControl { vx: 0.1, ..MppiControl::default() });
         delays.push(MppiControl { vx: 0.2, ..MppiControl::default() });

@@ -3,7 +3,7 @@
 use periplus_costmap::Nav2Release;
 
 use super::lanes::clamp;
-use super::limits::{AccelerationLimits, Changes, MppiModel, VelocityLimits};
+use super::limits::{AccelerationLimits, Changes, MppiModel, MppiVelocityLimits};
 
 /// One control of all axes.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -32,7 +32,7 @@ pub struct ControlSequence {
 pub(crate) struct SequenceLimits {
     pub(crate) release: Nav2Release,
     pub(crate) model: MppiModel,
-    pub(crate) velocity: VelocityLimits,
+    pub(crate) velocity: MppiVelocityLimits,
     pub(crate) acceleration: AccelerationLimits,
     /// Duration of a time step \[s\].
     pub(crate) step_s: f32,
@@ -153,7 +153,7 @@ impl ControlSequence {
 }
 
 /// Control within the limits of the velocity.
-fn within(control: MppiControl, limits: &VelocityLimits) -> MppiControl {
+fn within(control: MppiControl, limits: &MppiVelocityLimits) -> MppiControl {
     MppiControl {
         vx: clamp(control.vx, limits.vx_min, limits.vx_max),
         vy: clamp(control.vy, -limits.vy_max, limits.vy_max),
@@ -183,7 +183,7 @@ mod tests {
         SequenceLimits {
             release,
             model: MppiModel::DiffDrive,
-            velocity: VelocityLimits { vx_max: 0.5, vx_min: -0.35, vy_max: 0.5, wz_max: 1.9 },
+            velocity: MppiVelocityLimits { vx_max: 0.5, vx_min: -0.35, vy_max: 0.5, wz_max: 1.9 },
             acceleration: AccelerationLimits {
                 ax_max: 2.0,
                 ax_min: -4.0,

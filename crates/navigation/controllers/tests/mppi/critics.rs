@@ -1,7 +1,7 @@
 //! Costs of single critics that one can compute by hand.
 
 use periplus_controllers::mppi::probe::{CriticScene, SampleTable, score};
-use periplus_controllers::mppi::{CriticKind, MppiModel, VelocityLimits};
+use periplus_controllers::mppi::{CriticKind, MppiModel, MppiVelocityLimits};
 use periplus_costmap::{Costmap, CostmapView, Footprint, InflationLaw, Nav2Release};
 use periplus_diagnostics::Diagnostics;
 use periplus_geometry::Pose2;
@@ -66,7 +66,7 @@ impl Scene {
             release: self.release,
             model: self.model,
             step_s: 0.1,
-            limits: VelocityLimits { vx_max: 0.5, vx_min: -0.4, vy_max: 0.3, wz_max: 1.9 },
+            limits: MppiVelocityLimits { vx_max: 0.5, vx_min: -0.4, vy_max: 0.3, wz_max: 1.9 },
             robot: self.robot,
             path: self.path.clone(),
             path_length: self.path_length,
@@ -158,8 +158,8 @@ fn costs_along_a_trajectory_count() {
 
 #[test]
 fn the_outline_of_the_robot_collides_where_its_centre_does_not() {
-    let mut scene = Scene::default();
-    scene.footprint = Footprint::new(vec![[0.5, 0.1], [0.5, -0.1], [-0.1, -0.1], [-0.1, 0.1]]);
+    let footprint = Footprint::new(vec![[0.5, 0.1], [0.5, -0.1], [-0.1, -0.1], [-0.1, 0.1]]);
+    let mut scene = Scene { footprint, ..Scene::default() };
     scene.costmap.fill(1);
     scene.costmap.set((34, 31), 254);
     // Ahead of a robot at (0.05, 0.05) along x, beside one along y.

@@ -63,7 +63,8 @@ impl ObstaclesCritic {
             if is_within {
                 table.margin[cost] = self.margin - distance;
             }
-            if !is_near_goal && !(given && is_within) {
+            let is_covered_by_margin = given && is_within;
+            if !(is_near_goal || is_covered_by_margin) {
                 table.repulsion[cost] = law.radius_m as f32 - distance;
             }
         }

@@ -64,62 +64,97 @@ impl PathAlignCritic {
 
     pub(crate) fn score(&self, context: &CriticContext<'_>, samples: &Samples, costs: &mut [Row]) {
         let Some(reached) = self.reached(context, samples) else { return };
-        let find =
-            if context.release == Nav2Release::Humble { find_point_humble } else { find_point };
-        let path = context.path;
-        let travelled = &path.travelled[..reached];
-        // A point in an obstacle counts neither as distance nor as point.
-        let points: Vec<PathPoint> = (0..reached)
-            .map(|index| PathPoint {
-                x: path.x[index],
-                y: path.y[index],
-                yaw: path.yaw[index],
-                weight: if context.is_valid(index) { 1.0 } else { 0.0 },
-            })
-            .collect();
+        let path = ReachedPath::new(context, reached);
+        let travelled = &context.path.travelled[..reached];
         for (block, costs) in costs.iter_mut().enumerate() {
-            let (x, y) = (samples.x.block(block), samples.y.block(block));
-            let yaw = samples.yaw.block(block);
-            let (mut total, mut count, mut driven) = (ZEROS, ZEROS, ZEROS);
-            let mut nearest = [0; LANES];
-            for at in (self.point_step..samples.steps).step_by(self.point_step) {
-                let before = at - self.point_step;
-                for lane in 0..LANES {
-                    let (dx, dy) = (x[at][lane] - x[before][lane], y[at][lane] - y[before][lane]);
-                    driven[lane] += length(dx, dy);
-                }
-                let mut aims = [PathPoint::default(); LANES];
-                for lane in 0..LANES {
-                    nearest[lane] = find(travelled, driven[lane], nearest[lane]);
-                    aims[lane] = points.get(nearest[lane]).copied().unwrap_or_default();
-                }
-                for lane in 0..LANES {
-                    let (dx, dy) = (aims[lane].x - x[at][lane], aims[lane].y - y[at][lane]);
-                    let mut square = dx * dx + dy * dy;
-                    if self.uses_headings {
-                        let turn = normalize_angle(yaw[at][lane] - aims[lane].yaw);
-                        square += turn * turn;
-                    }
-                    total[lane] += aims[lane].weight * square.sqrt();
-                    count[lane] += aims[lane].weight;
-                }
-            }
-            let mut measures = ZEROS;
-            for lane in 0..LANES {
-                let count = count[lane];
-                measures[lane] = total[lane] / if count > 0.0 { count } else { 1.0 };
-            }
-            self.weighting.add(costs, &measures);
+            let distances = if context.release == Nav2Release::Humble {
+                let find = |driven, from| find_point_humble(travelled, driven, from);
+                self.distances(samples, block, &path, find)
+            } else {
+                let find = |driven, from| path.find(driven, from);
+                self.distances(samples, block, &path, find)
+            };
+            self.weighting.add(costs, &distances);
         }
+    }
+
+    /// Mean distances of a block's samples to the points of the path. `find` returns the index of the point at a
+    /// distance from the start, from the index before.
+    #[inline(always)]
+    fn distances(
+        &self,
+        samples: &Samples,
+        block: usize,
+        path: &ReachedPath<'_>,
+        find: impl Fn(f32, usize) -> usize,
+    ) -> Row {
+        let (x, y) = (samples.x.block(block), samples.y.block(block));
+        let yaw = samples.yaw.block(block);
+        let (mut total, mut count, mut driven) = (ZEROS, ZEROS, ZEROS);
+        let mut nearest = [0; LANES];
+        for at in (self.point_step..samples.steps).step_by(self.point_step) {
+            let (last_x, last_y) = (&x[at - self.point_step], &y[at - self.point_step]);
+            let (x, y, yaw) = (&x[at], &y[at], &yaw[at]);
+            for lane in 0..LANES {
+                driven[lane] += length(x[lane] - last_x[lane], y[lane] - last_y[lane]);
+            }
+            let (mut aim_x, mut aim_y, mut aim_yaw, mut weight) = (ZEROS, ZEROS, ZEROS, ZEROS);
+            for lane in 0..LANES {
+                let index = find(driven[lane], nearest[lane]).min(path.weight.len() - 1);
+                nearest[lane] = index;
+                (aim_x[lane], aim_y[lane]) = (path.x[index], path.y[index]);
+                (aim_yaw[lane], weight[lane]) = (path.yaw[index], path.weight[index]);
+            }
+            let turn_factor = if self.uses_headings { 1.0 } else { 0.0 };
+            for lane in 0..LANES {
+                let (dx, dy) = (aim_x[lane] - x[lane], aim_y[lane] - y[lane]);
+                let turn = turn_factor * normalize_angle(yaw[lane] - aim_yaw[lane]);
+                total[lane] += weight[lane] * (dx * dx + dy * dy + turn * turn).sqrt();
+                count[lane] += weight[lane];
+            }
+        }
+        let mut means = ZEROS;
+        for lane in 0..LANES {
+            means[lane] = total[lane] / if count[lane] > 0.0 { count[lane] } else { 1.0 };
+        }
+        means
     }
 }
 
-#[derive(Clone, Copy, Default)]
-struct PathPoint {
-    x: f32,
-    y: f32,
-    yaw: f32,
-    weight: f32,
+/// The part of the path that samples reach.
+struct ReachedPath<'a> {
+    x: &'a [f32],
+    y: &'a [f32],
+    yaw: &'a [f32],
+    /// 1 for free points, and 0 for points in an obstacle, which do not count.
+    weight: Vec<f32>,
+    /// Distances from the start halfway to the next point \[m\]; infinite for the last point.
+    halfway: Vec<f32>,
+}
+
+impl<'a> ReachedPath<'a> {
+    fn new(context: &CriticContext<'a>, reached: usize) -> Self {
+        let path = context.path;
+        let travelled = &path.travelled[..reached];
+        let middles = travelled.windows(2).map(|pair| 0.5 * (pair[0] + pair[1]));
+        Self {
+            x: &path.x[..reached],
+            y: &path.y[..reached],
+            yaw: &path.yaw[..reached],
+            weight: (0..reached).map(|index| f32::from(context.is_valid(index))).collect(),
+            halfway: middles.chain([f32::INFINITY]).collect(),
+        }
+    }
+
+    /// Index of the point nearest to a distance from the start, not before `from`.
+    #[inline(always)]
+    fn find(&self, driven: f32, from: usize) -> usize {
+        let mut index = from;
+        while self.halfway.get(index).is_some_and(|halfway| *halfway <= driven) {
+            index += 1;
+        }
+        index
+    }
 }
 
 /// Index of the path point nearest to the first points of the samples (Humble).
@@ -130,19 +165,6 @@ fn nearest(context: &CriticContext<'_>, samples: &Samples) -> usize {
         dx * dx + dy * dy
     };
     (0..context.path.len()).min_by(|a, b| square(a).total_cmp(&square(b))).unwrap_or(0)
-}
-
-/// Index of the point nearest to a distance from the start, not before `from`.
-#[inline(always)]
-fn find_point(travelled: &[f32], distance: f32, from: usize) -> usize {
-    let mut before = travelled.get(from).copied().unwrap_or(0.0);
-    for (index, at) in travelled.iter().enumerate().skip(from + 1) {
-        if *at > distance {
-            return if distance - before < at - distance { index - 1 } else { index };
-        }
-        before = *at;
-    }
-    travelled.len().saturating_sub(1)
 }
 
 /// Index of the point as Humble finds it: back at the start where the point before has not been passed yet.
@@ -165,8 +187,15 @@ mod tests {
     #[test]
     fn path_points_are_found_by_distance() {
         let travelled = [0.0, 1.0, 2.0, 4.0];
+        let path = ReachedPath {
+            x: &travelled,
+            y: &travelled,
+            yaw: &travelled,
+            weight: vec![1.0; 4],
+            halfway: vec![0.5, 1.5, 3.0, f32::INFINITY],
+        };
         let check = |distance, from, expected| {
-            assert_eq!(find_point(&travelled, distance, from), expected, "{distance} from {from}");
+            assert_eq!(path.find(distance, from), expected, "{distance} from {from}");
         };
         check(0.0, 0, 0);
         check(0.4, 0, 0);
