@@ -9,6 +9,7 @@ use crate::{Case, Differences, Unreadable};
 
 mod amcl;
 mod behavior_tree;
+mod controllers;
 mod costmap;
 mod grid_coords;
 mod map_load;
@@ -73,8 +74,13 @@ pub const KINDS: &[(&str, Check)] = &[
     ("declare_params", costmap::check_parameters),
     ("denoise", costmap::check_denoise),
     ("diff_drive_odometry", ros2_control::check_odometry),
+    ("dwb_critic", controllers::check_critic),
+    ("dwb_trajectory", controllers::check_trajectory),
+    ("dwb_velocity_samples", controllers::check_samples),
     ("footprint", costmap::check_footprint),
     ("footprint_cost", costmap::check_footprint_cost),
+    ("goal_checker", controllers::check_goal),
+    ("graceful_control_law", controllers::check_law),
     ("grid_coords", grid_coords::check),
     ("inflation_cost", costmap::check_inflation),
     ("keepout_filter", costmap::check_keepout),
@@ -86,21 +92,25 @@ pub const KINDS: &[(&str, Check)] = &[
     ("map_save", map_save::check),
     ("map_save_pixel", map_save::check_pixels),
     ("mask_cost", costmap::check_to_cost),
-    ("navfn", planning::check_navfn),
     ("mppi_critic", mppi::check_critic),
     ("mppi_filter", mppi::check_filter),
     ("mppi_rollout", mppi::check_rollout),
     ("mppi_update", mppi::check_update),
+    ("navfn", planning::check_navfn),
     ("observation_buffer", costmap::check_buffer),
     ("obstacle_layer", costmap::check_obstacle),
     ("occgrid_to_costmap", costmap::check_to_cost),
     ("path_expand", path_expand::check),
     ("path_smoother", planning::check_smoother),
     ("planner_grid_coords", planning::check_grid_coords),
+    ("progress_checker", controllers::check_progress),
     ("range_sensor_layer", costmap::check_layered),
     ("range_sensor_model", costmap::check_range_model),
     ("raytrace_2d", raytrace_2d::check),
     ("recovery_helps", behavior_tree::check_recovery),
+    ("rotate_to_heading", controllers::check_rotation),
+    ("rpp_lookahead", controllers::check_lookahead),
+    ("rpp_regulation", controllers::check_regulation),
     ("rsp", rsp::check),
     ("rviz_palette", rviz_palette::check),
     ("smac_primitives", planning::check_primitives),

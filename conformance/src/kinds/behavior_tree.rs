@@ -118,7 +118,7 @@ pub(super) fn check_control(
     let (mut returns, mut ticks, mut halts) = (Vec::new(), Vec::new(), Vec::new());
     for (time_s, reset) in times.into_iter().zip(resets) {
         let failed = |message: String| Unreadable(format!("{node}: {message}"));
-        tree.blackboard_mut().set("reset", reset).map_err(failed)?;
+        tree.blackboard_mut().set("reset", reset).map_err(|error| failed(error.to_string()))?;
         #[allow(clippy::cast_possible_truncation, reason = "saturates")]
         let now_ns = (time_s * 1e9).round() as i64;
         tree.tick(now_ns, &mut ()).map_err(|error| failed(error.to_string()))?;
@@ -144,7 +144,8 @@ fn registry(distro: &str, shared: &Shared) -> NodeRegistry {
     let wraps = matches!(distro, "humble" | "jazzy" | "kilted");
     nav2::register(&mut registry, if wraps { Nav2NodeRules::JAZZY } else { Nav2NodeRules::MAIN });
     let parent = shared.clone();
-    registry.register(NodeModel::new("CaseParent", NodeKind::Control), move || Parent(parent.clone()));
+    registry
+        .register(NodeModel::new("CaseParent", NodeKind::Control), move || Parent(parent.clone()));
     let child = shared.clone();
     registry.register(NodeModel::new("CaseChild", NodeKind::Action), move || Child(child.clone()));
     registry
@@ -161,7 +162,8 @@ fn xml(node: &str, attributes: &CaseReader<'_>, count: usize) -> String {
             value.skip();
         }
     }
-    let children: String = (0..count).map(|child| format!("<CaseChild name=\"{child}\"/>")).collect();
+    let children: String =
+        (0..count).map(|child| format!("<CaseChild name=\"{child}\"/>")).collect();
     format!(
         "<root BTCPP_format=\"4\"><BehaviorTree ID=\"Case\"><CaseParent>\
          <{node}{written}>{children}</{node}></CaseParent></BehaviorTree></root>"
@@ -185,7 +187,8 @@ pub(super) fn check_recovery(
         _ => return Err(server.unreadable("controller, planner, smoother or route")),
     };
     let help = given.get("error_codes")?.each(|code| {
-        let number = u16::try_from(code.integer()?).map_err(|_| code.unreadable("an error code"))?;
+        let number =
+            u16::try_from(code.integer()?).map_err(|_| code.unreadable("an error code"))?;
         Ok(would_recovery_help(server, number))
     })?;
     differences.compare_members(&[(&["help"], json!(help))], &case.expect());

@@ -1,6 +1,6 @@
 //! Speed limits of controllers.
 
-use periplus_controllers::dwb::{DwbParams, VelocityLimits};
+use periplus_controllers::dwb::{DwbParams, KinematicLimits};
 use periplus_controllers::mppi::MppiVelocityLimits;
 use periplus_controllers::rpp::limited_speed_m_s;
 
@@ -58,7 +58,7 @@ fn dwb([fastest, slowest, turn]: Limits, limit: f64, is_percentage: bool) -> Lim
     params.min_vel_x_m_s = slowest;
     params.max_speed_xy_m_s = fastest;
     params.max_vel_theta_rad_s = turn;
-    let limited = VelocityLimits::new(&params).limited(limit, is_percentage);
+    let limited = KinematicLimits::new(&params).limited(limit, is_percentage);
     [limited.x.max, limited.x.min, limited.theta.max]
 }
 

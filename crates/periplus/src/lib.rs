@@ -12,7 +12,7 @@
 //! | read robots and worlds | [`loader`], [`xacro`], [`urdf`], [`sdf`], [`scene`], [`meshes`], [`resources`] |
 //! | build a map | [`slam`], [`scan_matching`], [`exploration`] |
 //! | localize | [`localization`], [`ekf`], [`maps`] |
-//! | decide where to drive | [`costmap`], [`planners`], [`grid`] |
+//! | decide where to drive | [`costmap`], [`planners`], [`controllers`], [`grid`] |
 //! | nodes, topics, time | [`graph`], [`msgs`], [`tf`], [`tf_ros`], [`nav_nodes`] |
 //! | recordings | [`bags`] |
 //!
@@ -124,6 +124,7 @@
 //! `periplus-cli`) has all of them.
 
 pub use periplus_bags as bags;
+pub use periplus_controllers as controllers;
 pub use periplus_costmap as costmap;
 pub use periplus_diagnostics as diagnostics;
 pub use periplus_ekf as ekf;

@@ -1,7 +1,8 @@
 """Loops that wait for a variable: `while not self.scan: pass`.
 
 Live, another thread sets the variable. In lockstep, no other thread can run before the loop gives its turn up, so each such
-loop of the user's code gets a call of `_waiting.poll` when it is compiled. Files and line numbers stay as they are.
+loop of the user's code gets a call of `_waiting.poll` when it is compiled, and one that may wait gets a call that counts
+less. Files and line numbers stay as they are.
 """
 
 from __future__ import annotations
@@ -13,12 +14,13 @@ from importlib.machinery import SourceFileLoader
 from typing import TYPE_CHECKING, Any, cast
 
 from . import _tracebacks, _waiting
+from ._loop_kinds import LoopKind, loop_kind
 
 if TYPE_CHECKING:
     from types import CodeType
 
-#: Name of the call among the builtins. It ends with underscores, so that classes do not mangle it.
-_POLL = "__periplus_poll__"
+#: Names of the calls among the builtins. They end with underscores, so that classes do not mangle them.
+_CALLS = {LoopKind.WAITS: "__periplus_poll__", LoopKind.UNKNOWN: "__periplus_round__"}
 #: Sources without a match have no such loop; most files are not parsed twice.
 _CANDIDATE = re.compile(rb"\bwhile\b")
 
@@ -38,7 +40,8 @@ def compile_source(source: bytes, path: str) -> CodeType:
 
 def install() -> list[tuple[Any, str, Any]]:
     """Makes imported modules of the user's give their turn up too. Returns (owner, name, replacement) of the patches."""
-    setattr(builtins, _POLL, _waiting.poll)
+    setattr(builtins, _CALLS[LoopKind.WAITS], _waiting.poll)
+    setattr(builtins, _CALLS[LoopKind.UNKNOWN], _waiting.round_of_loop)
     real_get_code: Any = SourceFileLoader.get_code
 
     def get_code(self: SourceFileLoader, fullname: str) -> CodeType | None:
@@ -60,28 +63,15 @@ def install() -> list[tuple[Any, str, Any]]:
 
 
 def _add_polls(tree: Any) -> bool:
-    """Adds a call to each loop that only waits; True if there is one."""
+    """Adds a call to each loop that waits, or may do so; True if there is one."""
     found = False
     for node in ast.walk(tree):
-        if isinstance(node, ast.While) and all(_only_looks(statement) for statement in node.body):
-            call = ast.Expr(ast.Call(ast.Name(_POLL, ast.Load()), [], []))
-            node.body.insert(0, call)
-            ast.copy_location(call, node)
-            ast.fix_missing_locations(call)
-            found = True
+        if isinstance(node, ast.While):
+            name = _CALLS.get(loop_kind(node))
+            if name is not None:
+                call = ast.Expr(ast.Call(ast.Name(name, ast.Load()), [], []))
+                node.body.insert(0, call)
+                ast.copy_location(call, node)
+                ast.fix_missing_locations(call)
+                found = True
     return found
-
-
-def _only_looks(statement: ast.stmt) -> bool:
-    """True for a statement of a loop that changes nothing while the loop goes on."""
-    if isinstance(statement, (ast.Pass, ast.Continue, ast.Break, ast.Return, ast.Raise)):
-        return True
-    if isinstance(statement, ast.Expr):
-        return isinstance(statement.value, ast.Constant)
-    if isinstance(statement, ast.If):
-        return all(_only_looks(one) or _leaves(branch) for branch in (statement.body, statement.orelse) for one in branch)
-    return False
-
-
-def _leaves(branch: list[ast.stmt]) -> bool:
-    return bool(branch) and isinstance(branch[-1], (ast.Break, ast.Return, ast.Raise))

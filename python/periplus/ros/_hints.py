@@ -50,8 +50,19 @@ def hint(error: BaseException) -> str | None:
         return _missing_name(error)
     if isinstance(error, (NameError, AttributeError)):
         return _python_2_name(error) or (_attribute(error) if isinstance(error, AttributeError) else None)
-    if isinstance(error, TypeError) and str(error).startswith("Expected QoSProfile or int, but received <class 'function'>"):
+    return _qos(error) if isinstance(error, TypeError) else None
+
+
+def _qos(error: TypeError) -> str | None:
+    """Advice for a QoS that is none, or is missing."""
+    text = str(error)
+    if text.startswith(("Expected QoSProfile or int, but received <class 'function'>", "Expected QoSProfile or int, but received <class 'method'>")):
         return f"hint: {_line_of(error)}the callback comes before the QoS: create_subscription(Type, topic, callback, qos)"
+    if text.startswith("Expected QoSProfile or int") or "missing 1 required positional argument: 'qos_profile'" in text:
+        return (
+            f"hint: {_line_of(error)}the QoS is a depth such as 10, a QoSProfile, or one of rclpy.qos, such as "
+            "qos_profile_sensor_data for sensors"
+        )
     return None
 
 
@@ -62,6 +73,9 @@ def _attribute(error: AttributeError) -> str | None:
 
     owner, name = getattr(error, "obj", None), getattr(error, "name", None) or ""
     kind: Any = type(owner)
+    if owner is None:
+        # Python keeps no object for an attribute that cannot be set.
+        kind, name = _message_of(str(error))
     if any(base.__module__ == "rclpy.node" for base in kind.__mro__) and "_rcl_destroyed" not in vars(owner):
         return f"hint: {_line_of(error)}{kind.__name__}.__init__ must call super().__init__('NODE_NAME') before it uses the node"
     if isinstance(owner, EnumMeta):
@@ -77,6 +91,19 @@ def _attribute(error: AttributeError) -> str | None:
     if meant:
         return f"hint: {_line_of(error)}{what} has {meant[0]!r}"
     return f"hint: {_line_of(error)}{what} has {', '.join(names[:12]) or 'no fields'}" + (" ..." if len(names) > 12 else "")
+
+
+def _message_of(text: str) -> tuple[Any, str]:
+    """Message class and attribute of `'Vector3' object has no attribute 'X'`."""
+    match = re.match(r"'(\w+)' object has no attribute '(\w+)'", text)
+    if match is None:
+        return type(None), ""
+    for name, module in list(sys.modules.items()):
+        if name.endswith((".msg", ".srv", ".action")) and match.group(1) in dir(module):
+            found = getattr(module, match.group(1), None)
+            if hasattr(found, "get_fields_and_field_types") or hasattr(found, "_slot_types"):
+                return found, match.group(2)
+    return type(None), ""
 
 
 def _where(error: SyntaxError) -> str:

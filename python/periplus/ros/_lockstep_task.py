@@ -21,7 +21,7 @@ class LockstepGraph(Protocol):
 class Task:
     """One thread of the program."""
 
-    __slots__ = ("done", "empty_polls", "gate", "ident", "is_daemon", "joiners", "name", "polls", "result", "token", "waits", "was_woken")
+    __slots__ = ("done", "empty_polls", "gate", "ident", "is_daemon", "joiners", "name", "polls", "result", "rounds", "token", "waits", "was_woken")
 
     def __init__(self, name: str, *, is_daemon: bool = True) -> None:
         self.name = name
@@ -33,6 +33,6 @@ class Task:
         self.waits = self.was_woken = self.done = False
         #: Number of the current wait; older entries among the sleepers are void.
         self.token = 0
-        self.polls = self.empty_polls = 0
+        self.polls = self.empty_polls = self.rounds = 0
         self.joiners: list[Task] = []
         self.result: Any = None

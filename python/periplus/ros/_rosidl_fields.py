@@ -78,9 +78,24 @@ def converter(field: FieldType, name: str) -> Callable[[Any], Any]:
             return convert(value)
         except (TypeError, OverflowError, ValueError) as error:
             kind = next(one for one in (TypeError, OverflowError, ValueError) if isinstance(error, one))
-            raise kind(f"{name} of type {field.text}: {error}") from None
+            raise kind(f"{name} of type {field.text}: {error}{_wrong_values(convert, value)}") from None
 
     return converted
+
+
+def _wrong_values(convert: Callable[[Any], Any], value: Any) -> str:
+    """The values that cannot be converted, for an error: an array by its type and shape, a list by its first wrong item."""
+    dtype, shape = getattr(value, "dtype", None), getattr(value, "shape", None)
+    if dtype is not None and shape is not None:
+        remedy = "; ravel() makes it flat, astype() changes its type"
+        return f" (the value is a numpy array of {dtype} with shape {shape}{remedy})"
+    if isinstance(value, (list, tuple)):
+        for index, item in enumerate(value):
+            try:
+                convert([item])
+            except (TypeError, OverflowError, ValueError):
+                return f" (item {index} is {item!r:.60})"
+    return ""
 
 
 def unchecked_setter(slot: Setter, field: FieldType, name: str) -> Setter:

@@ -225,7 +225,12 @@ def run_entry_point(program: Program) -> NoReturn:
     def run() -> None:
         import importlib
 
-        function: Any = importlib.import_module(module_name)
+        try:
+            function: Any = importlib.import_module(module_name)
+        except ModuleNotFoundError as error:
+            if error.name is None or not f"{module_name}.".startswith(f"{error.name}."):
+                raise
+            _no_entry_module(program, error.name)
         for name in attribute.split("."):
             try:
                 function = getattr(function, name)
@@ -235,6 +240,24 @@ def run_entry_point(program: Program) -> NoReturn:
 
     _guarded(run)
     sys.exit(result[0] if result else None)
+
+
+def _no_entry_module(program: Program, name: str) -> NoReturn:
+    """Ends the process: the module of an entry point, or a package above it, does not exist."""
+    import difflib
+    import pkgutil
+
+    parent, _, last = name.rpartition(".")
+    # A folder without an `__init__.py` is a package too.
+    module = sys.modules.get(parent)
+    paths = sys.path if module is None else list(getattr(module, "__path__", ()))
+    close = difflib.get_close_matches(last, [one.name for one in pkgutil.iter_modules(paths)], 1)
+    folder = program.package.folder if program.package else "?"
+    text = f"there is no Python module {name}, in which setup.py of {folder} has the program ({program.entry_point})."
+    if close:
+        text += f" Did you mean {parent + '.' if parent else ''}{close[0]}?"
+    print(f"periplus run: {text}", file=sys.stderr)
+    sys.exit(_NOT_STARTED)
 
 
 def _no_entry_point(program: Program, module: Any, name: str) -> NoReturn:

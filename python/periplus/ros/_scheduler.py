@@ -26,6 +26,8 @@ _FREE_POLLS = 1000
 #: Looks, and empty polls of the executor, that cost one step of simulated time in a busy loop.
 _POLLS_PER_STEP = 100
 _EMPTY_POLLS_PER_STEP = 10
+#: Rounds of a loop that may be waiting, which count as one look.
+_ROUNDS_PER_POLL = 100
 #: Waits that end without any advance of time, after which a loop of messages is assumed.
 _WAITS_PER_INSTANT = 10_000
 #: Simulated time that a busy loop advances by [ns].
@@ -137,6 +139,14 @@ class Scheduler:
             task.polls = _FREE_POLLS - _POLLS_PER_STEP
             self.note("busy loop", "a loop never waits: it costs 1 ms of simulated time per 100 looks at a clock or a flag")
             self.block(self.now_ns() + _STEP_NS)
+
+    def round_of_loop(self) -> None:
+        """The operation `_waiting.round_of_loop`."""
+        task = self.current
+        task.rounds += 1
+        if task.rounds >= _ROUNDS_PER_POLL:
+            task.rounds = 0
+            self.poll()
 
     def select(self, look: Callable[[], Any], timeout_ns: int | None) -> Any:
         """Waits until `look()` gives something true; for sockets and files. Returns the last result."""
@@ -322,6 +332,7 @@ class Scheduler:
         stall_ns = _faults.next_stall_ns()
         if stall_ns is not None and (wake_ns is None or stall_ns < wake_ns):
             wake_ns = stall_ns
+        is_over = False
         try:
             self.is_exchanging = True
             try:
@@ -331,6 +342,9 @@ class Scheduler:
         except _Interrupted:
             pass
         except (ConnectionError, EOFError):
+            is_over = True
+        if is_over:
+            # Not in the handler: the interrupt would show the lost connection as its cause.
             self._end()
             return
         if stall_ns is not None and self.graph.now_ns() >= stall_ns:

@@ -90,6 +90,24 @@ def _strip(made: traceback.TracebackException, *, has_place: bool) -> None:
         waiting += list(getattr(one, "exceptions", None) or [])
 
 
+def is_end_of_simulation(error: BaseException | None) -> bool:
+    """True for the error by which a program notices that its simulation has ended: the interrupt that nothing caught, or
+    the call of a node whose context is gone. There is nothing to tell about it."""
+    from . import _waiting
+
+    if error is None or not _waiting.has_ended():
+        return False
+    if error.__cause__ is not None:
+        # Wrapped, as by SMACH.
+        return is_end_of_simulation(error.__cause__)
+    name = type(error).__name__
+    if name == "ROSException":
+        return "closed topic" in str(error)
+    if name == "RCLError":
+        return any(text in str(error) for text in ("context is invalid", "rcl_shutdown already called"))
+    return name in ("KeyboardInterrupt", "ROSInterruptException", "ExternalShutdownException")
+
+
 def print_exception(error: BaseException, trace: TracebackType | None = None) -> None:
     """Prints `format_exception` on stderr in one piece."""
     sys.stderr.write(format_exception(error, trace))
@@ -110,10 +128,13 @@ def install() -> None:
     import threading
 
     def hook(kind: type[BaseException], error: BaseException, trace: TracebackType | None) -> None:
-        print_exception(error, trace)
+        if not is_end_of_simulation(error):
+            print_exception(error, trace)
 
     def thread_hook(arguments: threading.ExceptHookArgs) -> None:
         if arguments.exc_value is None or isinstance(arguments.exc_value, SystemExit):
+            return
+        if is_end_of_simulation(arguments.exc_value):
             return
         name = arguments.thread.name if arguments.thread is not None else "?"
         sys.stderr.write(f"Exception in thread {name}:\n{format_exception(arguments.exc_value, arguments.exc_traceback)}")

@@ -34,6 +34,7 @@ class Scheduler(Protocol):
     def wait(self, graph: Graph, seen: int, timeout_ns: int | None) -> int: ...
     def sleep_ns(self, duration_ns: int) -> None: ...
     def poll(self) -> None: ...
+    def round_of_loop(self) -> None: ...
 
 
 _scheduler: Scheduler | None = None
@@ -84,6 +85,12 @@ def poll() -> None:
     """
     if _scheduler is not None:
         _scheduler.poll()
+
+
+def round_of_loop() -> None:
+    """Marks one round of a loop that may wait for another thread: 100 of them count as one look (see `poll`)."""
+    if _scheduler is not None:
+        _scheduler.round_of_loop()
 
 
 def now_ns(graph: Graph) -> int:

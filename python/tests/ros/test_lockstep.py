@@ -180,10 +180,22 @@ finally:
     assert out.splitlines() == ["interrupted 5.0", "cleaned up 8.0"]
 
 
-def test_an_uncaught_ctrl_c_ends_with_130(tmp_path: Path) -> None:
+def test_an_uncaught_end_of_the_simulation_is_silent(tmp_path: Path) -> None:
     _, errors = run(tmp_path, "import time\ntime.sleep(100)", 130, FAKE_END="5000000000")
-    assert errors.rstrip().endswith("KeyboardInterrupt")
-    assert "periplus/ros" not in errors
+    assert errors == ""
+
+
+def test_errors_after_the_end_of_the_simulation_name_the_program_alone(tmp_path: Path) -> None:
+    program = """
+import time
+try:
+    time.sleep(100)
+finally:
+    1 / 0
+"""
+    _, errors = run(tmp_path, program, 1, FAKE_END="5000000000")
+    assert "script.py" in errors and "ZeroDivisionError" in errors
+    assert "ConnectionError" not in errors and "periplus/ros" not in errors
 
 
 def test_ctrl_c_reaches_a_main_thread_that_waits_for_a_lock(tmp_path: Path) -> None:

@@ -70,6 +70,19 @@ def test_what_is_not_there(bot: Path, words: list[str], text: str) -> None:
     assert done.returncode == 2
 
 
+def test_a_module_of_an_entry_point_that_is_not_there(bot: Path) -> None:
+    setup = bot / "bot/setup.py"
+    setup.write_text(setup.read_text().replace("bot.drive:run", "bot.drove:main"))
+    done = run(bot, "bot", "gone")
+    assert done.stderr == (
+        f"periplus run: there is no Python module bot.drove, in which setup.py of {bot}/bot has the program (bot.drove:main). "
+        "Did you mean bot.drive?\n"
+    )
+    (bot / "bot/bot/drive.py").write_text("import bot.wheel\n")
+    done = run(bot, "bot", "drive")
+    assert f'File "{bot}/bot/bot/drive.py", line 1' in done.stderr and "No module named 'bot.wheel'" in done.stderr
+
+
 @pytest.mark.parametrize(
     ("script", "lines"),
     [

@@ -15,7 +15,7 @@ use examples::{EXAMPLES, Example};
 const GROUPS: [(&str, &[&str]); 6] = [
     ("Start here", &["demo", "new", "doctor"]),
     ("Simulate", &["sim", "launch", "run", "teleop", "view"]),
-    ("Maps, localization, costmaps", &["slam", "localize", "map", "costmap"]),
+    ("Maps, localization, navigation", &["slam", "localize", "map", "costmap", "navigate"]),
     ("Robots and worlds", &["check", "convert"]),
     (
         "ROS 2 and Gazebo",

@@ -19,6 +19,7 @@ mod localize;
 mod log;
 mod map;
 mod mapping;
+mod navigate;
 mod new;
 mod options;
 mod own_command;
@@ -117,13 +118,14 @@ pub fn run(words: Vec<String>, own_command: Vec<String>, interpreter: Option<Str
         Command::Teleop(options) => teleop::run(&options, ros),
         Command::View(options) => view::run(&options, ros),
         Command::Localize(options) => localize::run(&options, ros),
+        Command::Navigate(options) => navigate::run(&options, ros),
         Command::Map(command) => map::run(&command, ros),
         Command::Slam(options) => slam::run(&options, ros),
         Command::Costmap(options) => costmap::serve::run(&options, ros),
         Command::Run(options) => program::run(&options, ros),
         Command::Bridge(options) => bridge::run(&options, ros),
         _ if !ros.is_empty() => Err(CliError::usage(
-            "`--ros-args` require a command that runs nodes: `periplus sim`, `launch`, `localize`, `teleop`, \
+            "`--ros-args` require a command that runs nodes: `periplus sim`, `launch`, `navigate`, `localize`, `teleop`, \
              `view`, `map`, `costmap` and `slam --live`",
         )),
         Command::Bag(command) => bag::run(&command),

@@ -14,6 +14,7 @@ use crate::doctor::DoctorOptions;
 use crate::launch::LaunchOptions;
 use crate::localize::LocalizeOptions;
 use crate::map::MapCommand;
+use crate::navigate::NavigateOptions;
 use crate::new::NewCommand;
 use crate::program::RunOptions;
 use crate::sim::SimOptions;
@@ -54,6 +55,7 @@ pub(crate) enum Command {
     Sim(Box<SimOptions>),
     Slam(SlamOptions),
     Localize(LocalizeOptions),
+    Navigate(Box<NavigateOptions>),
     Topic(TopicOptions),
     Node(NodeOptions),
     Service(ServiceOptions),

@@ -77,14 +77,6 @@ pub(crate) fn run(options: &RunOptions, ros: Vec<String>) -> Result<ExitCode, Cl
         let from = search.working_folder.join("launch");
         let environment = Environment::new();
         let node = PythonNode::of_package(package, program, &search, &from, &environment);
-        // In a package of Python alone, the module names the programs that there are.
-        let is_file = |file: PathBuf| Machine.kind(&file) == Some(EntryKind::File);
-        let node = node.or_else(|| {
-            PythonNode::in_package(package, program, &search, &from, &environment).filter(|node| {
-                is_file(node.path().join("setup.py"))
-                    && !is_file(node.path().join("CMakeLists.txt"))
-            })
-        });
         if let Some(node) = node {
             return options.run_python(&node, words, &ros);
         }

@@ -10,7 +10,7 @@ use clap::{Args, ValueEnum};
 use periplus_graph::Arguments;
 use periplus_loader::LoadContext;
 use periplus_os::Stopwatch;
-use periplus_session::nodes::EstimatorRequest;
+use periplus_session::nodes::{EstimatorRequest, NavigationDefaults, NavigationRequest};
 use periplus_session::{
     GazeboSettings, NoTask, PageContext, PageSettings, RunSettings, SessionBuilder,
     SimulationSession, stop,
@@ -115,6 +115,11 @@ pub(crate) struct SimOptions {
     /// Topics and frames are those of the robot
     #[arg(long)]
     stack: bool,
+    /// Run the servers of Nav2 beside the robot, with a parameter file of Nav2 [default: parameters for the robot],
+    /// and SLAM (or localization with `--localize MAP.yaml`). Goals come from the page, from RViz, or from
+    /// clients of `navigate_to_pose`
+    #[arg(long, value_name = "FILE.yaml", num_args = 0..=1, conflicts_with = "costmaps")]
+    navigation: Option<Option<PathBuf>>,
     #[command(flatten)]
     costmaps: CostmapOptions,
     #[command(flatten)]
@@ -237,9 +242,9 @@ impl SimOptions {
                 path.display()
             )));
         }
-        if self.stack && self.robots.placements.len() > 1 {
+        if (self.stack || self.navigation.is_some()) && self.robots.placements.len() > 1 {
             return Err(CliError::usage(
-                "--stack supports one robot; start the nodes of several robots with a launch file",
+                "--stack and --navigation support one robot; start the nodes of several robots with a launch file",
             ));
         }
         if self.mapping.needs_mapping() && !self.runs_mapping() {
@@ -281,18 +286,28 @@ impl SimOptions {
 
     /// Returns true if a mapping node runs, requested or as a part of the stack.
     fn runs_mapping(&self) -> bool {
-        self.mapping.is_wanted() || (self.stack && !self.localization.is_wanted())
+        let is_usual = self.stack || self.navigation.is_some();
+        self.mapping.is_wanted() || (is_usual && !self.localization.is_wanted())
     }
 
     /// Estimator nodes. For several robots their topics are set by the user.
     fn estimators(&self) -> EstimatorRequest {
-        let needs_topics = self.stack || self.mapping.is_wanted() || self.localization.is_wanted();
+        let needs_topics = self.stack
+            || self.navigation.is_some()
+            || self.mapping.is_wanted()
+            || self.localization.is_wanted();
+        let navigation = self.navigation.clone().map(|parameters| NavigationRequest {
+            parameters,
+            defaults: NavigationDefaults::default(),
+        });
         EstimatorRequest {
-            has_stack: self.stack,
+            // The servers own both costmaps.
+            has_stack: self.stack && navigation.is_none(),
             detects_robot: needs_topics && self.robots.placements.len() <= 1,
             costmaps: self.costmaps.request(),
             localization: self.localization.files(),
             mapping: self.mapping.request(self.runs_mapping()),
+            navigation,
         }
     }
 

@@ -182,7 +182,7 @@ fn a_map_server_and_amcl_of_ros_1() {
         + robot_state_publisher robot_state_publisher: /robot_state_publisher: the built-in node: `/tf`, `/tf_static`, `robot_description`
         + map_server map_server: /map_server: the built-in node; `-f NAME` saves the map, as `map_saver` does
         + amcl amcl: /amcl: the built-in node
-        - move_base move_base: nothing: Periplus has no planners; costmaps run with `periplus costmap FILE`
+        - move_base move_base: nothing: navigation is that of ROS 2; `periplus navigate WORLD --robot FILE --goal X,Y,YAW` drives this robot
     "#]].assert_eq(&ran.became());
 }
 
@@ -222,14 +222,14 @@ fn the_robot_maps_and_has_costmaps() {
         + robot_localization ekf_node: /ekf_filter_node: the built-in extended Kalman filter
         = rviz2 rviz2: the page (`--page`), which opens files of RViz
         + slam_toolbox async_slam_toolbox_node: /slam_toolbox: the built-in SLAM node
-        + nav2_controller controller_server: /controller_server: its `local_costmap`, in the same lifecycle state; controllers are missing
-        - nav2_smoother smoother_server: nothing: Periplus has Nav2's map server, AMCL and costmaps, no planners and controllers
-        + nav2_planner planner_server: /planner_server: its `global_costmap`, in the same lifecycle state; planners are missing
-        - nav2_behaviors behavior_server: nothing: Periplus has Nav2's map server, AMCL and costmaps, no planners and controllers
-        - nav2_velocity_smoother velocity_smoother: nothing: Periplus has Nav2's map server, AMCL and costmaps, no planners and controllers
-        - nav2_bt_navigator bt_navigator: nothing: Periplus has Nav2's map server, AMCL and costmaps, no planners and controllers
-        - nav2_waypoint_follower waypoint_follower: nothing: Periplus has Nav2's map server, AMCL and costmaps, no planners and controllers
-        + nav2_lifecycle_manager lifecycle_manager: /lifecycle_manager_navigation: manages controller_server, planner_server
+        + nav2_controller controller_server: /controller_server: the built-in server with its `local_costmap`: MPPI, DWB, RegulatedPurePursuit, Graceful, RotationShim
+        + nav2_smoother smoother_server: /smoother_server: the built-in server
+        + nav2_planner planner_server: /planner_server: the built-in server with its `global_costmap`: NavFn, Smac, Theta*
+        + nav2_behaviors behavior_server: /behavior_server: the built-in server: spin, back up, drive on heading, wait, assisted teleoperation
+        + nav2_velocity_smoother velocity_smoother: /velocity_smoother: the built-in smoother
+        + nav2_bt_navigator bt_navigator: /bt_navigator: the built-in navigator: behavior trees with all nodes of Nav2's default trees
+        + nav2_waypoint_follower waypoint_follower: /waypoint_follower: the built-in follower
+        + nav2_lifecycle_manager lifecycle_manager: /lifecycle_manager_navigation: manages controller_server, smoother_server, planner_server, behavior_server, velocity_smoother, bt_navigator, waypoint_follower
         + nav2_costmap_2d nav2_costmap_2d_markers: /costmap_2d_marker: voxels as cubes on `visualization_marker`
         + tf2_ros static_transform_publisher: /static_transform_publisher: `table` in `map`
     "#]].assert_eq(&ran.became());
@@ -283,7 +283,7 @@ fn programs_of_the_machine_and_what_is_missing() {
     assert!(ran.topics().contains("/tf_static tf2_msgs/msg/TFMessage 1"), "{}", ran.told);
     for words in [
         "program `periplus_has_no_such_program` is not on the PATH",
-        "a ROS 2 program, and this run is not on a network",
+        "`driver` of the package `nobody_has_this` has no built-in replacement, and there is no such package",
         "a quarter is over",
         "shutdown: half is over",
         "0.500 s simulated",

@@ -143,6 +143,7 @@ const NODES: &str = r#"<launch>
   <executable cmd="python3 src/mixed/tools/talk.py x"/>
   <node pkg="tf2_ros" exec="static_transform_publisher" args="0 0 1 0 0 0 map lamp"/>
   <node pkg="walls" exec="wal"/>
+  <node pkg="nowhere" exec="wall"/>
   <node pkg="rviz2" exec="rviz2"/>
 </launch>"#;
 
@@ -151,7 +152,7 @@ fn nodes_of_a_launch_file_run_in_step_with_the_simulation() {
     let tree = Tree::new("launch_python");
     let (is_success, told) =
         tree.launch("a.launch.xml", NODES, &["--duration", "0.1", "--seed", "4294967301"]);
-    // One program is missing.
+    // A package is missing.
     assert!(!is_success, "{told}");
     has(
         &told,
@@ -166,7 +167,9 @@ fn nodes_of_a_launch_file_run_in_step_with_the_simulation() {
             r#"[wall] file: {"/**":{"ros__parameters":{"text":"5 m"}}}"#,
             "args: -m periplus.ros.run ",
             "src/mixed/tools/talk.py x",
-            "- walls wal: ",
+            // The module of the package names the programs that there are.
+            "[wal] args: -m periplus.ros.run walls wal ",
+            "- nowhere wall: `wall` of the package `nowhere` has no built-in replacement, and there is no such package",
         ],
     );
     let files = told.split("--params-file ").skip(1).filter_map(|rest| rest.lines().next());
@@ -187,7 +190,7 @@ fn a_dry_run_lists_what_each_node_becomes() {
             &interpreter,
             "+ python3 ...: the Python node of ",
             "+ tf2_ros static_transform_publisher: /static_transform_publisher: ",
-            "- walls wal: ",
+            "- nowhere wall: ",
             "= rviz2 rviz2: ",
         ],
     );
@@ -216,6 +219,28 @@ fn nodes_of_ros_1_get_the_parameter_server() {
             r#"[talk] server: {"/robot/talk/pid/p":1,"/use_sim_time":true}"#,
         ],
     );
+}
+
+#[test]
+fn a_package_of_rosbuild_is_a_source_tree_too() {
+    let tree = Tree::new("launch_rosbuild");
+    tree.write("ws/src/basics/manifest.xml", "<package><depend package='rospy'/></package>");
+    tree.write("ws/src/basics/src/server.py", "#! /usr/bin/env python\nimport rospy\n");
+    let file = r#"<launch><node pkg="basics" type="server.py" name="server"/></launch>"#;
+    let (is_success, told) = tree.launch("a.launch", file, &["--duration", "0.1"]);
+    assert!(is_success, "{told}");
+    has(&told, &["[server] args: -m periplus.ros.run basics server.py __name:=server"]);
+    let output = tree.run(&["rosrun", "basics", "server.py"]);
+    has(&text_of(&output), &["args: -m periplus.ros.run basics server.py"]);
+}
+
+#[test]
+fn a_command_gets_no_more_than_its_own_arguments() {
+    let tree = Tree::new("launch_ros2_run");
+    let file = r#"<launch><executable cmd="ros2 run walls wall a 1" output="screen"/></launch>"#;
+    let (is_success, told) = tree.launch("a.launch.xml", file, &["--duration", "0.1"]);
+    assert!(is_success, "{told}");
+    has(&told, &["args: -m periplus.ros.run walls wall a 1\n"]);
 }
 
 #[test]

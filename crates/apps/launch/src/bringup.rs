@@ -8,12 +8,12 @@
 
 mod bridge;
 mod catalogue;
-mod costmaps;
 mod environment;
 mod guard;
 mod includes;
 mod lockstep;
 mod make;
+mod navigation;
 mod parameters;
 mod parts;
 mod preparation;

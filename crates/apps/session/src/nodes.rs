@@ -4,6 +4,7 @@ mod costmap_file;
 mod costmaps;
 mod localization;
 mod mapping;
+mod navigation;
 mod profile;
 
 use std::io::{self, Write};
@@ -17,6 +18,10 @@ pub use costmap_file::{CostmapFile, read as read_costmaps, read_text as read_cos
 pub use costmaps::{CostmapRequest, CostmapSource, Costmaps, FloorPoint};
 pub use localization::{Localization, ParameterFile, amcl_parameters};
 pub use mapping::{MappingNode, MappingRequest, MappingSource, slam_parameters};
+pub use navigation::{
+    GoalDriver, GoalOutcome, GoalReport, Navigation, NavigationDefaults, NavigationRequest,
+    PlanningMap, RobotBase, pose_text,
+};
 pub use profile::RobotProfile;
 
 use crate::error::RunError;
@@ -37,6 +42,8 @@ pub struct EstimatorRequest {
     pub localization: Vec<PathBuf>,
     /// Mapping.
     pub mapping: Option<MappingRequest>,
+    /// Navigation; needs `detects_robot`.
+    pub navigation: Option<NavigationRequest>,
 }
 
 /// Running estimator nodes.
@@ -48,6 +55,8 @@ pub struct Estimators {
     pub localization: Option<Localization>,
     /// Costmaps; empty if there are none.
     pub costmaps: Costmaps,
+    /// Servers of navigation; empty if there are none.
+    pub navigation: Navigation,
     _filter: Option<EkfNode>,
 }
 
@@ -107,7 +116,12 @@ impl EstimatorRequest {
             is_localized.then(|| Localization::from_files(graph, &self.localization, profile));
         let localization = localization.transpose()?;
         let mapping = self.mapping.map(|it| MappingNode::in_simulation(graph, it, pace, profile));
-        Ok(Estimators { mapping: mapping.transpose()?, localization, costmaps, _filter: filter })
+        let mapping = mapping.transpose()?;
+        let navigation = self.navigation.zip(profile);
+        let navigation =
+            navigation.map(|(request, profile)| Navigation::start(graph, &request, profile));
+        let navigation = navigation.transpose()?.unwrap_or_default();
+        Ok(Estimators { mapping, localization, costmaps, navigation, _filter: filter })
     }
 }
 

@@ -13,7 +13,7 @@ use periplus_sim::{
 
 use crate::error::RunError;
 use crate::network::{GazeboConnection, Ros2Connection};
-use crate::nodes::Estimators;
+use crate::nodes::{Estimators, Navigation};
 use crate::page::Page;
 use crate::progress::ProgressLine;
 use crate::recording::RecordingWatch;
@@ -131,6 +131,11 @@ impl SimulationSession {
     #[must_use]
     pub fn estimators(&self) -> &Estimators {
         &self.parts.estimators
+    }
+
+    /// Servers of navigation; the caller keeps them alive.
+    pub fn take_navigation(&mut self) -> Navigation {
+        std::mem::take(&mut self.parts.estimators.navigation)
     }
 
     /// Returns true if the session is on a ROS 2 network.

@@ -1,4 +1,4 @@
-//! What planners and controllers read of a costmap.
+//! Read access to a costmap for planners and controllers.
 
 use std::any::Any;
 

@@ -155,7 +155,7 @@ impl Recast<Vec<i32>> for Vec<WaypointStatus> {
     }
 }
 
-/// Actions with their forms: `humble jazzy Spin` has a form of its own in both.
+/// Actions with their forms: `humble jazzy Spin` has its own form in both.
 macro_rules! actions {
     ($($name:ident: $humble:ident $jazzy:ident;)*) => {$(
         impl Nav2Action for main::$name {

@@ -36,7 +36,7 @@ type hashes, for each type in `crates/messages/msgs/tests/data/hashes.tsv` and `
   that the text is that of the release: without a stronger source a difference from it would not show here.
 
 Where another distribution has other fields under the same name, its form is in `interfaces_humble` or
-`interfaces_main`, with a module of its own such as `nav2_msgs_humble`. `variants.tsv` has their hashes over our text.
+`interfaces_main`, with a separate module such as `nav2_msgs_humble`. `variants.tsv` has their hashes over our text.
 
 The table counts types by package and strongest source. A service counts as itself, and by its request, response and
 event if they have a source.

@@ -1,6 +1,6 @@
 //! Node of `nav2_behaviors`: spin, back up, drive on heading, assisted teleoperation, wait.
 //!
-//! Each behavior is an action of its own name. The costmap and the footprint are received as messages
+//! The name of a behavior is that of its action. The costmap and the footprint are received as messages
 //! of another node. A motion publishes one velocity per cycle; every end of it publishes zero.
 //!
 //! Source: `nav2_behaviors/timed_behavior.hpp` and `plugins/` (humble to main).

@@ -21,11 +21,14 @@ mod paths;
 mod service_node;
 mod services;
 mod shared;
+mod simple_trees;
 mod status;
 mod topic_nodes;
 mod tree_nodes;
 
-pub use default_trees::{NAVIGATE_THROUGH_POSES_FILE, NAVIGATE_TO_POSE_FILE, built_in_tree};
+pub use default_trees::{
+    NAVIGATE_THROUGH_POSES_FILE, NAVIGATE_TO_POSE_FILE, built_in_tree, built_in_tree_files,
+};
 pub use node::BtNavigator;
 pub use parameters::{BT_NAVIGATOR, BtNavigatorParams};
 pub use status::{NavigatorStatus, ServerError};

@@ -1,9 +1,13 @@
-//! Map server, SLAM, localization, costmap and odometry filter nodes.
+//! Map server, SLAM, localization, costmap, odometry filter and navigation nodes.
 //!
 //! Each module has the nodes of one ROS package or program, with its topics, services, parameters
 //! and QoS: [`map_server`] (`nav2_map_server`), [`slam_toolbox`] (also `slam_gmapping`), [`amcl`]
-//! (of Nav2 and of ROS 1), [`costmap_2d`] (`nav2_costmap_2d`) and [`ekf_node`]
-//! (`robot_localization`). The estimators themselves are libraries without ROS.
+//! (of Nav2 and of ROS 1), [`costmap_2d`] (`nav2_costmap_2d`), [`ekf_node`] (`robot_localization`)
+//! and [`bt_navigator`] (`nav2_bt_navigator`). The estimators themselves are libraries without ROS.
+//!
+//! The servers of Nav2: [`planner_server`], [`smoother_server`], [`controller_server`],
+//! [`behavior_server`], [`velocity_smoother`], [`collision_monitor`] and [`waypoint_follower`], with
+//! [`simple_action_server`] for their actions and [`nav2_actions`] for the forms of the releases.
 //!
 //! ```
 //! use periplus_diagnostics::Diagnostics;
@@ -22,17 +26,18 @@
 //! ```
 
 pub mod amcl;
-pub mod controller_server;
 pub mod behavior_server;
-pub mod collision_monitor;
 pub mod bt_navigator;
+pub mod collision_monitor;
+pub mod controller_server;
 pub mod costmap_2d;
 mod costmap_subscriber;
 pub mod ekf_node;
 mod loop_rate;
 pub mod map_server;
-mod node_parameters;
 pub mod nav2_actions;
+pub mod navigation;
+mod node_parameters;
 pub mod parameter_groups;
 pub mod planner_server;
 mod server_plugins;

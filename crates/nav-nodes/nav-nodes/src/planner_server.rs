@@ -7,6 +7,7 @@
 //!
 //! Source of names, rules and texts: `nav2_planner` (main, jazzy, humble).
 
+mod failure;
 mod goals;
 mod node;
 mod parameters;

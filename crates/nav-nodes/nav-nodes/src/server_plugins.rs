@@ -190,7 +190,8 @@ pub(crate) fn changed<'a>(
     let mut changes = Vec::new();
     for (index, (id, current)) in plugins.enumerate() {
         let Some(wanted) = all.group(id) else { continue };
-        for name in current.names() {
+        // Two tables may share a group, of which the node has declared the first.
+        for name in current.names().filter(|name| wanted.find(name).is_some()) {
             if let Some(value) = wanted.get(&name)
                 && current.get(&name).as_ref() != Some(&value)
             {

@@ -45,11 +45,11 @@ impl<A: Action> Default for SimpleActionServer<A> {
 /// Effect of a new goal.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum GoalArrival {
-    /// It was rejected.
+    /// The goal was rejected.
     Rejected,
-    /// It waits for the running one.
+    /// The goal waits for the running one.
     Pending,
-    /// It is the current goal; its work has to start.
+    /// The goal is the current one; its work has to start.
     Started,
 }
 
@@ -205,6 +205,9 @@ impl<A: Action> SimpleActionServer<A> {
     }
 }
 
+/// Reason why a node rejects a goal: a text for the log, since a client only learns of the rejection.
+pub type RejectionReason = String;
+
 /// Serves an action with a [`SimpleActionServer`] in the state of a node, in the form of a release.
 ///
 /// `server` finds it in the state. `validate` decides if a goal is acceptable, or returns the reason why
@@ -218,7 +221,9 @@ pub fn serve_simple_action<A: Nav2Action, S: Send + 'static>(
     name: &str,
     settings: ActionSettings,
     server: impl Fn(&mut S) -> Option<&mut SimpleActionServer<A>> + Clone + Send + 'static,
-    mut validate: impl FnMut(&mut S, &A::Goal, &mut Io<'_, S>) -> Result<(), String> + Send + 'static,
+    mut validate: impl FnMut(&mut S, &A::Goal, &mut Io<'_, S>) -> Result<(), RejectionReason>
+    + Send
+    + 'static,
     mut start: impl FnMut(&mut S, &mut Io<'_, S>) + Send + 'static,
 ) -> Result<(), GraphError> {
     let (of_goal, of_cancel, action) = (server.clone(), server, name.to_owned());

@@ -1,12 +1,45 @@
 //! Blackboards: named entries of a tree and its subtrees.
 
 use std::collections::BTreeMap;
+use std::fmt;
 
 use crate::TreeValue;
 use crate::value::PortType;
 
 /// Maximum number of entries of one blackboard. A script in a loop could create any number.
 pub const MAX_BLACKBOARD_ENTRIES: usize = 10_000;
+
+/// Reason for which an entry cannot be set.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum EntryError {
+    /// The value cannot be converted to the type of the entry.
+    Type {
+        /// Name of the entry.
+        key: String,
+        /// Type of the entry.
+        expected: String,
+        /// Type of the value.
+        actual: &'static str,
+    },
+    /// The blackboard has [`MAX_BLACKBOARD_ENTRIES`] entries.
+    TooManyEntries,
+}
+
+impl fmt::Display for EntryError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Type { key, expected, actual } => write!(
+                f,
+                "entry `{key}` has the type {expected}, and a {actual} cannot be converted to it"
+            ),
+            Self::TooManyEntries => {
+                write!(f, "the blackboard has {MAX_BLACKBOARD_ENTRIES} entries already")
+            }
+        }
+    }
+}
+
+impl std::error::Error for EntryError {}
 
 /// Entry of a blackboard.
 #[derive(Clone, Debug)]
@@ -71,8 +104,8 @@ impl Blackboard {
     /// Sets an entry of the root; it is created if needed.
     ///
     /// # Errors
-    /// When the entry has another type, with both types; or when there are too many entries.
-    pub fn set(&mut self, key: &str, value: impl Into<TreeValue>) -> Result<(), String> {
+    /// When the entry has another type, or there are too many entries.
+    pub fn set(&mut self, key: &str, value: impl Into<TreeValue>) -> Result<(), EntryError> {
         self.set_in(ROOT, key, value.into())
     }
 
@@ -188,25 +221,22 @@ impl Blackboard {
         board: usize,
         key: &str,
         value: TreeValue,
-    ) -> Result<(), String> {
+    ) -> Result<(), EntryError> {
         let (home, name) = self.home(board, key);
         let name = name.to_owned();
         let entries = &mut self.boards[home].entries;
         let is_full = entries.len() >= MAX_BLACKBOARD_ENTRIES;
         match entries.get_mut(&name) {
             Some(entry) => {
+                let expected = entry.port_type.name().to_owned();
                 let value = converted(value, &entry.port_type).map_err(|value| {
-                    format!(
-                        "entry `{name}` has the type {}, and a {} cannot be converted to it",
-                        entry.port_type.name(),
-                        value.type_name()
-                    )
+                    EntryError::Type { key: name, expected, actual: value.type_name() }
                 })?;
                 entry.value = Some(value);
                 entry.sequence += 1;
             }
             None if is_full => {
-                return Err(format!("the blackboard has {MAX_BLACKBOARD_ENTRIES} entries already"));
+                return Err(EntryError::TooManyEntries);
             }
             None => {
                 let entry = Entry { value: Some(value), port_type: PortType::Any, sequence: 1 };

@@ -36,6 +36,7 @@ pub(crate) fn build(
         parsers: registry.parsers.clone(),
         changes: VecDeque::new(),
         is_woken: false,
+        tick_count: 0,
     };
     let mut build = Build { files, registry, core, findings, open: Vec::new() };
     build.tree(tree, Scope { board: ROOT, prefix: "", depth: 0 })?;
@@ -258,9 +259,9 @@ impl Build<'_> {
         for (port, text, _) in literals {
             // A literal belongs to the subtree, also with autoremap.
             self.core.blackboard.own(board, &port);
-            if let Err(message) = self.core.blackboard.set_in(board, &port, literal(&text)) {
+            if let Err(error) = self.core.blackboard.set_in(board, &port, literal(&text)) {
                 let at = element.attribute(&port).map_or(element.origin, |a| a.value_origin);
-                self.findings.push(Diagnostic::error("port-value", message).at(at));
+                self.findings.push(Diagnostic::error("port-value", error.to_string()).at(at));
             }
         }
         board

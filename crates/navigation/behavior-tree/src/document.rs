@@ -1,6 +1,7 @@
 //! Files of trees: the main file, its includes, and the trees that they define.
 
 use std::collections::BTreeMap;
+use std::fmt;
 
 use periplus_diagnostics::{
     ContextId, Diagnostic, Diagnostics, Expansion, Origin, SourceMap, Span,
@@ -12,7 +13,7 @@ use crate::{BehaviorTree, NodeRegistry};
 use crate::{build, check};
 
 /// Maximum number of files that a file of trees includes, directly and through others.
-pub const MAX_INCLUDES: usize = 100;
+pub const MAX_INCLUDE_COUNT: usize = 100;
 /// Maximum nesting of included files.
 pub const MAX_INCLUDE_DEPTH: usize = 16;
 
@@ -45,6 +46,26 @@ pub struct IncludedTree {
     pub text: String,
 }
 
+/// Reason for which a file cannot be included.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum TreeIncludeError {
+    /// Files are not available, as in [`TreeFiles::parse`].
+    Unavailable,
+    /// The file or its package does not exist or cannot be read; the reason, in words.
+    Unreadable(String),
+}
+
+impl fmt::Display for TreeIncludeError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Unavailable => f.write_str("includes are not available here"),
+            Self::Unreadable(reason) => f.write_str(reason),
+        }
+    }
+}
+
+impl std::error::Error for TreeIncludeError {}
+
 /// Definition of one tree.
 #[derive(Clone, Debug)]
 pub(crate) struct TreeDefinition {
@@ -75,7 +96,7 @@ impl TreeFiles {
     /// Reads and checks a file without includes.
     #[must_use]
     pub fn parse(name: &str, text: &str, registry: &NodeRegistry) -> Self {
-        Self::load(name, text, registry, &mut |_| Err("includes are not available here".to_owned()))
+        Self::load(name, text, registry, &mut |_| Err(TreeIncludeError::Unavailable))
     }
 
     /// Reads and checks a file with its includes. `include` returns the file, or the reason why there is
@@ -84,7 +105,7 @@ impl TreeFiles {
         name: &str,
         text: &str,
         registry: &NodeRegistry,
-        include: &mut dyn FnMut(&TreeInclude<'_>) -> Result<IncludedTree, String>,
+        include: &mut dyn FnMut(&TreeInclude<'_>) -> Result<IncludedTree, TreeIncludeError>,
     ) -> Self {
         let files = Self {
             sources: SourceMap::new(),
@@ -175,7 +196,7 @@ impl TreeFiles {
 
 struct Reader<'a> {
     files: TreeFiles,
-    include: &'a mut dyn FnMut(&TreeInclude<'_>) -> Result<IncludedTree, String>,
+    include: &'a mut dyn FnMut(&TreeInclude<'_>) -> Result<IncludedTree, TreeIncludeError>,
     count: usize,
     /// Names of the files that are being read, outermost first.
     open: Vec<String>,
@@ -248,9 +269,9 @@ impl Reader<'_> {
             return;
         };
         self.count += 1;
-        if self.count > MAX_INCLUDES || self.open.len() >= MAX_INCLUDE_DEPTH {
+        if self.count > MAX_INCLUDE_COUNT || self.open.len() >= MAX_INCLUDE_DEPTH {
             self.report(fault(format!(
-                "too many included files: at most {MAX_INCLUDES}, nested at most {MAX_INCLUDE_DEPTH} deep"
+                "too many included files: at most {MAX_INCLUDE_COUNT}, nested at most {MAX_INCLUDE_DEPTH} deep"
             )));
             return;
         }

@@ -7,20 +7,17 @@
 //! ```
 //! use periplus_behavior_tree::{Blackboard, NodeRegistry, NodeStatus, TreeFiles, nav2};
 //!
-//! let xml = r#"<root BTCPP_format="4" main_tree_to_execute="Main">
-//!   <BehaviorTree ID="Main">
-//!     <RecoveryNode number_of_retries="2">
-//!       <ScriptCondition code="attempts >= 2"/>
-//!       <Script code="attempts += 1"/>
-//!     </RecoveryNode>
-//!   </BehaviorTree>
-//! </root>"#;
+//! let xml = r#"<root BTCPP_format="4"><BehaviorTree ID="Main">
+//!   <RecoveryNode number_of_retries="2">
+//!     <ScriptCondition code="attempts >= 2"/>
+//!     <Script code="attempts += 1"/>
+//!   </RecoveryNode>
+//! </BehaviorTree></root>"#;
 //! let mut registry = NodeRegistry::new();
 //! nav2::register(&mut registry, nav2::Nav2NodeRules::MAIN);
 //! let files = TreeFiles::parse("main.xml", xml, &registry);
-//! let mut blackboard = Blackboard::new();
-//! blackboard.set("attempts", 0_i64).unwrap();
-//! let mut tree = files.tree("", &registry, blackboard).unwrap();
+//! let mut tree = files.tree("", &registry, Blackboard::new()).unwrap();
+//! tree.blackboard_mut().set("attempts", 0_i64).unwrap();
 //! assert_eq!(tree.tick(0, &mut ()), Ok(NodeStatus::Success));
 //! assert_eq!(tree.blackboard().get("attempts").unwrap().as_i64(), Some(2));
 //! ```
@@ -43,18 +40,21 @@ mod status;
 mod tree;
 mod value;
 
-pub use blackboard::{Blackboard, MAX_BLACKBOARD_ENTRIES};
+pub use blackboard::{Blackboard, EntryError, MAX_BLACKBOARD_ENTRIES};
 pub use build::{MAX_TREE_DEPTH, MAX_TREE_NODES};
 pub use document::{
-    IncludedTree, MAX_INCLUDE_DEPTH, MAX_INCLUDES, TreeFiles, TreeFormat, TreeInclude,
+    IncludedTree, MAX_INCLUDE_COUNT, MAX_INCLUDE_DEPTH, TreeFiles, TreeFormat, TreeInclude,
+    TreeIncludeError,
 };
 pub use model::{NodeKind, NodeModel, PortDirection, PortModel};
 pub use node::{BehaviorNode, NodeRun, PathGeometry, TreeContext, TreeError};
 pub use registry::NodeRegistry;
 pub use script::{
-    MAX_SCRIPT_BYTES, MAX_SCRIPT_DEPTH, MAX_SCRIPT_TEXT_BYTES, MAX_SCRIPT_TOKENS, Script,
+    MAX_SCRIPT_BYTES, MAX_SCRIPT_DEPTH, MAX_SCRIPT_TEXT_BYTES, MAX_SCRIPT_TOKEN_COUNT, Script,
     ScriptEnums, ScriptError,
 };
 pub use status::NodeStatus;
-pub use tree::{BehaviorTree, MAX_STATUS_CHANGES, MAX_WAKE_UPS, NodeInfo, StatusChange};
+pub use tree::{
+    BehaviorTree, MAX_STATUS_CHANGE_COUNT, MAX_WAKE_UP_COUNT, StatusChange, TreeNodeInfo,
+};
 pub use value::{PortType, TreeObject, TreeValue, parse_bool};

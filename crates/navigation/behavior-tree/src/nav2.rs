@@ -11,7 +11,10 @@ mod timing;
 use crate::value::PortType;
 use crate::{NodeKind, NodeModel, NodeRegistry};
 
-use conditions::{GoalChanged, HasErrorCode, InitialPoseReceived, PathExpiringTimer, TimeExpired};
+use conditions::{
+    GlobalUpdatedGoal, GoalUpdated, HasErrorCode, InitialPoseReceived, PathExpiringTimer,
+    TimeExpired,
+};
 pub use conditions::{RecoveryServer, would_recovery_help};
 use motion::{DistanceController, DistanceTraveled, PathLongerOnApproach, SpeedController};
 use recovery::{RecoveryNode, RoundRobin};
@@ -92,8 +95,8 @@ pub fn register(registry: &mut NodeRegistry, rules: Nav2NodeRules) {
 
     fn register_conditions(registry: &mut NodeRegistry) {
         let condition = |name: &str| NodeModel::new(name, NodeKind::Condition);
-        registry.register(goal(condition("GoalUpdated")), GoalChanged::since_activation);
-        registry.register(goal(condition("GlobalUpdatedGoal")), GoalChanged::since_creation);
+        registry.register(goal(condition("GoalUpdated")), GoalUpdated::default);
+        registry.register(goal(condition("GlobalUpdatedGoal")), GlobalUpdatedGoal::default);
         let codes = |name: &str| {
             condition(name)
                 .input("error_code", PortType::uint16())

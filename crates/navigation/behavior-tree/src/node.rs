@@ -96,6 +96,12 @@ impl NodeRun<'_> {
         self.now_ns
     }
 
+    /// Number of ticks of the tree up to this one. A node that is ticked each time sees consecutive numbers.
+    #[must_use]
+    pub fn tick_count(&self) -> u64 {
+        self.core.tick_count
+    }
+
     /// Data about the robot.
     pub fn context(&mut self) -> &mut dyn TreeContext {
         self.context
@@ -301,7 +307,7 @@ impl NodeRun<'_> {
     pub fn set_entry(&mut self, key: &str, value: impl Into<TreeValue>) -> Result<(), TreeError> {
         let board = self.core.config(self.id).board;
         let set = self.core.blackboard.set_in(board, key, value.into());
-        set.map_err(|message| self.error(message))
+        set.map_err(|error| self.error(error.to_string()))
     }
 
     /// Removes a blackboard entry.

@@ -19,7 +19,7 @@ use crate::blackboard::Blackboard;
 /// Maximum length of a script \[bytes\].
 pub const MAX_SCRIPT_BYTES: usize = 16_384;
 /// Maximum number of tokens of a script.
-pub const MAX_SCRIPT_TOKENS: usize = 1_000;
+pub const MAX_SCRIPT_TOKEN_COUNT: usize = 1_000;
 /// Maximum nesting of expressions.
 pub const MAX_SCRIPT_DEPTH: usize = 64;
 /// Maximum length of a text that a script makes \[bytes\].

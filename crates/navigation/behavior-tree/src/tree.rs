@@ -14,9 +14,9 @@ use crate::{NodeKind, NodeStatus, TreeValue};
 
 /// Maximum number of ticks in one call of [`BehaviorTree::tick`] that nodes request by a wake-up. A loop of
 /// children that finish at once continues in the next call.
-pub const MAX_WAKE_UPS: usize = 1_000;
+pub const MAX_WAKE_UP_COUNT: usize = 1_000;
 /// Maximum number of status changes that are kept until they are fetched; older ones are dropped.
-pub const MAX_STATUS_CHANGES: usize = 10_000;
+pub const MAX_STATUS_CHANGE_COUNT: usize = 10_000;
 
 /// Index of a node in its tree.
 pub(crate) type NodeId = usize;
@@ -38,7 +38,7 @@ pub struct StatusChange {
 
 /// Node of a tree as users see it.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct NodeInfo {
+pub struct TreeNodeInfo {
     /// Number in the tree, from 1 in depth-first order.
     pub uid: u16,
     /// Name: the attribute `name`, or else the type.
@@ -97,6 +97,8 @@ pub(crate) struct TreeCore {
     pub(crate) parsers: Arc<Parsers>,
     pub(crate) changes: std::collections::VecDeque<StatusChange>,
     pub(crate) is_woken: bool,
+    /// Number of ticks of the root.
+    pub(crate) tick_count: u64,
 }
 
 /// Executable tree.
@@ -119,8 +121,9 @@ impl BehaviorTree {
     ) -> Result<NodeStatus, TreeError> {
         let core = &mut self.core;
         let mut status = NodeStatus::Idle;
-        for _ in 0..MAX_WAKE_UPS {
+        for _ in 0..MAX_WAKE_UP_COUNT {
             core.is_woken = false;
+            core.tick_count += 1;
             status = core.execute(0, now_ns, context)?;
             if status != NodeStatus::Running || !core.is_woken {
                 break;
@@ -137,7 +140,14 @@ impl BehaviorTree {
     /// # Errors
     /// When a node or its script `_onHalted` cannot go on.
     pub fn halt(&mut self, now_ns: i64, context: &mut dyn TreeContext) -> Result<(), TreeError> {
-        self.core.halt_node(0, now_ns, context)
+        let mut outcome = self.core.halt_node(0, now_ns, context);
+        // After an error a child can be running below a node that is not.
+        for id in 0..self.core.nodes.len() {
+            if self.core.status(id) == NodeStatus::Running {
+                outcome = outcome.and(self.core.halt_node(id, now_ns, context));
+            }
+        }
+        outcome
     }
 
     /// ID of the main tree.
@@ -158,8 +168,8 @@ impl BehaviorTree {
     }
 
     /// All nodes with their status, in depth-first order.
-    pub fn nodes(&self) -> impl Iterator<Item = NodeInfo> + '_ {
-        self.core.nodes.iter().enumerate().map(|(id, slot)| NodeInfo {
+    pub fn nodes(&self) -> impl Iterator<Item = TreeNodeInfo> + '_ {
+        self.core.nodes.iter().enumerate().map(|(id, slot)| TreeNodeInfo {
             uid: uid(id),
             name: slot.config.name.clone(),
             type_name: slot.config.type_name.clone(),
@@ -170,11 +180,11 @@ impl BehaviorTree {
     }
 
     /// Leaves that are running, in depth-first order.
-    pub fn running_leaves(&self) -> impl Iterator<Item = NodeInfo> + '_ {
+    pub fn running_leaves(&self) -> impl Iterator<Item = TreeNodeInfo> + '_ {
         self.nodes().filter(|node| node.status == NodeStatus::Running && node.kind.is_leaf())
     }
 
-    /// Returns the status changes since the last call, oldest first; at most [`MAX_STATUS_CHANGES`].
+    /// Returns the status changes since the last call, oldest first; at most [`MAX_STATUS_CHANGE_COUNT`].
     pub fn take_status_changes(&mut self) -> Vec<StatusChange> {
         self.core.changes.drain(..).collect()
     }
@@ -224,7 +234,7 @@ impl TreeCore {
         if previous == current {
             return;
         }
-        if self.changes.len() >= MAX_STATUS_CHANGES {
+        if self.changes.len() >= MAX_STATUS_CHANGE_COUNT {
             self.changes.pop_front();
         }
         let node = slot.config.name.clone();

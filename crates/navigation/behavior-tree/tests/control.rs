@@ -1,4 +1,10 @@
 //! Control nodes and decorators, tick by tick.
+#![allow(
+    clippy::unwrap_used,
+    clippy::print_stderr,
+    clippy::disallowed_methods,
+    reason = "helpers of tests, which read shared files"
+)]
 
 mod support;
 
@@ -172,11 +178,28 @@ fn rates_count_the_time_of_ticks() {
 }
 
 #[test]
+fn a_new_goal_ends_what_a_reactive_fallback_does() {
+    let scripted = Scripted::default();
+    scripted.set("a", "R");
+    let root = "<ReactiveFallback><GoalUpdated/><Leaf name='a'/></ReactiveFallback>";
+    let mut tree = tree(root, &scripted);
+    let mut tick = |goal: i64| {
+        tree.blackboard_mut().set("goal", TreeValue::object(goal)).unwrap();
+        tree.tick(0, &mut ()).unwrap()
+    };
+    // The first tick only remembers the goal.
+    let statuses = [tick(1), tick(1), tick(2), tick(2), tick(2)];
+    let [running, success] = [NodeStatus::Running, NodeStatus::Success];
+    assert_eq!(statuses, [running, running, success, running, running]);
+    assert_eq!(scripted.calls().concat(), "aa!aaa");
+}
+
+#[test]
 fn endless_loops_return_after_a_bounded_number_of_ticks() {
     let scripted = Scripted::default();
     let mut tree = tree("<Repeat num_cycles='-1'><Leaf name='a'/></Repeat>", &scripted);
     assert_eq!(tree.tick(0, &mut ()), Ok(NodeStatus::Running));
-    assert_eq!(scripted.ticks("a"), periplus_behavior_tree::MAX_WAKE_UPS);
+    assert_eq!(scripted.ticks("a"), periplus_behavior_tree::MAX_WAKE_UP_COUNT);
 }
 
 /// Robot at a position, with paths that are lists of lengths.

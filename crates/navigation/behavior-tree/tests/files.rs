@@ -1,11 +1,18 @@
 //! Reading and checking of files.
+#![allow(
+    clippy::unwrap_used,
+    clippy::print_stderr,
+    clippy::disallowed_methods,
+    reason = "helpers of tests, which read shared files"
+)]
 
 mod support;
 
 use std::fs;
 
 use periplus_behavior_tree::{
-    Blackboard, IncludedTree, NodeModel, NodeRegistry, NodeStatus, TreeFiles, TreeValue, nav2,
+    Blackboard, IncludedTree, NodeModel, NodeRegistry, NodeStatus, TreeFiles, TreeIncludeError,
+    TreeValue, nav2,
 };
 use periplus_diagnostics::{Diagnostics, SourceMap};
 use support::{Scripted, file, registry, shared};
@@ -171,7 +178,7 @@ fn includes_are_resolved_by_the_caller() {
             format!("<root BTCPP_format='4'><BehaviorTree ID='S'>{node}</BehaviorTree></root>");
         IncludedTree { name: "/x/sub.xml".into(), text: xml }
     };
-    let load = |included: Result<IncludedTree, String>| {
+    let load = |included: Result<IncludedTree, TreeIncludeError>| {
         TreeFiles::load("/x/main.xml", main, &registry, &mut |include| {
             assert_eq!((include.path, include.from), ("sub.xml", "/x/main.xml"));
             included.clone()
@@ -181,7 +188,7 @@ fn includes_are_resolved_by_the_caller() {
     let files = load(Ok(sub("<Leav/>")));
     let finding = files.diagnostics.iter().next().unwrap();
     assert_eq!(files.sources.locate(finding.span.unwrap()).0, "/x/sub.xml");
-    let files = load(Err("there is no such file".into()));
+    let files = load(Err(TreeIncludeError::Unreadable("there is no such file".into())));
     assert_eq!(
         listed(&files.sources, &files.diagnostics)[0],
         "1:49: cannot include `sub.xml`: there is no such file"
@@ -199,7 +206,7 @@ fn includes_are_resolved_by_the_caller() {
     assert!(listed(&files.sources, &files.diagnostics)[0].contains("too many included files"));
 }
 
-/// Trees that Nav2 has, with leaves by the models of its own file: no findings.
+/// Trees that Nav2 has, with leaves by the models of Nav2's file: no findings.
 #[test]
 fn stock_trees_of_nav2_load_without_findings() {
     let Some(folder) = shared("nav/behavior_trees") else { return };

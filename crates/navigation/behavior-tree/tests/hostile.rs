@@ -1,4 +1,10 @@
 //! Any text: a tree or located findings, in bounded time; no panic, and nothing runs after a halt.
+#![allow(
+    clippy::unwrap_used,
+    clippy::print_stderr,
+    clippy::disallowed_methods,
+    reason = "helpers of tests, which read shared files"
+)]
 
 mod support;
 
@@ -103,6 +109,13 @@ fn nodes() -> impl Strategy<Value = String> {
             format!("<{parent} {attributes}>{children}</{name}>")
         })
     })
+}
+
+/// Regression test: below a node that had not become running, a child went on after an error of its sibling.
+#[test]
+fn nothing_runs_after_an_error_and_a_halt() {
+    let root = "<Parallel><NonblockingSequence><Leaf/><Sleep/></NonblockingSequence></Parallel>";
+    check_tree(&format!("<root><BehaviorTree ID='T'>{root}</BehaviorTree></root>"));
 }
 
 proptest! {

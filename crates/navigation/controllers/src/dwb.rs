@@ -22,8 +22,9 @@ pub use params::{
     PLAIN_CRITIC, PREFER_FORWARD_CRITIC, PlainCriticParams, PreferForwardCriticParams,
     ROTATE_TO_GOAL_CRITIC, RotateToGoalCriticParams, ScoreAggregation, TrajectoryParams,
 };
+pub(crate) use trajectory::moved;
 pub use trajectory::{SampledTrajectory, TrajectoryGenerator, step_count};
-pub use velocities::{AxisLimits, VelocityLimits};
+pub use velocities::{AxisLimits, KinematicLimits};
 
 use crate::parameters::{ChangeRules, ParameterChange, ParameterRefusal, change, store};
 use crate::{
@@ -141,9 +142,9 @@ impl Dwb {
 
     /// Returns the limits with the speed limit.
     #[must_use]
-    pub fn limits(&self) -> VelocityLimits {
+    pub fn limits(&self) -> KinematicLimits {
         let SpeedLimit { limit, is_percentage } = self.speed_limit;
-        VelocityLimits::new(&self.params.kinematics).limited(limit, is_percentage)
+        KinematicLimits::new(&self.params.kinematics).limited(limit, is_percentage)
     }
 
     /// Returns the evaluation of the last cycle.

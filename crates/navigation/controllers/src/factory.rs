@@ -20,6 +20,9 @@ const CONTROLLERS: &[(&str, CreateController)] = &[
     ("nav2_rotation_shim_controller::RotationShimController", crate::rotation_shim::create),
     ("dwb_core::DWBLocalPlanner", crate::dwb::create),
     ("nav2_mppi_controller::MPPIController", crate::mppi::create_plugin),
+    ("dwa_local_planner::DWAPlannerROS", crate::ros1::create_dwa),
+    ("base_local_planner::TrajectoryPlannerROS", crate::ros1::create_trajectory_planner),
+    ("teb_local_planner::TebLocalPlannerROS", crate::ros1::create_teb),
 ];
 
 /// Function that creates a goal checker.

@@ -101,11 +101,15 @@ impl Graceful {
         SmoothControlLaw::new(&self.params, max_speed_m_s, self.max_rate_rad_s)
     }
 
+    /// Returns true if the robot is at the position of the goal. Before main Nav2 compares the rest of the plan only,
+    /// which may be shorter than the distance of the robot: it then rotates and never arrives. Here both must be short.
     fn is_at_goal(&mut self, input: &ControlInput<'_>, rest_m: f64) -> bool {
         if self.release == Nav2Release::Main {
             return input.is_position_reached;
         }
-        self.was_at_goal |= input.tolerance.xy_m.is_some_and(|tolerance_m| rest_m < tolerance_m);
+        let away_m = distance_m(input.pose, input.goal);
+        self.was_at_goal |=
+            input.tolerance.xy_m.is_some_and(|tolerance_m| rest_m.max(away_m) < tolerance_m);
         self.was_at_goal
     }
 

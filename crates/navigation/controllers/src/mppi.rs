@@ -41,7 +41,7 @@ pub use config::{MppiConfig, MppiSetup};
 pub use controller::{Mppi, create};
 pub use critics::CriticKind;
 pub use filter::ControlHistory;
-pub use limits::{AccelerationLimits, MppiModel, MppiVelocityLimits};
+pub use limits::{MppiAccelerationLimits, MppiModel, MppiVelocityLimits};
 pub(crate) use plugin::create_plugin;
 pub use sequence::{ControlSequence, MppiControl};
 pub use statistics::{CandidateTrajectory, CriticStatistics, MppiTrajectoryPoint};

@@ -218,9 +218,29 @@ impl<'a> GivenParameters<'a> {
             !is_known(&table) && (name == "plugin" || neighbours.iter().any(is_known))
         };
         let own = self.entries.iter().filter(|entry| !is_foreign(entry.name));
-        let own = own.map(|entry| whole(table, entry.clone(), diagnostics)).collect::<Vec<_>>();
+        let own = own.map(|entry| modern(table, entry.clone(), diagnostics)).collect::<Vec<_>>();
         table.check_given(own, diagnostics)
     }
+}
+
+/// Reports old names and integers that are written with a fraction, and accepts both.
+fn modern<'a>(table: &Table, given: Given<'a>, diagnostics: &mut Diagnostics) -> Given<'a> {
+    if let Some(parameter) = table.find(given.name).filter(|it| it.name != given.name) {
+        diagnostics.push(
+            Diagnostic::hint(
+                "old-name",
+                format!("`{}` is an old name of `{}`", given.name, parameter.name),
+            )
+            .at(given.name_origin)
+            .note("it is used here; ROS may ignore it")
+            .replace(
+                given.name_origin,
+                parameter.name,
+                format!("write `{}`", parameter.name),
+            ),
+        );
+    }
+    whole(table, given, diagnostics)
 }
 
 /// Rounds an integer that is written with a fraction, and reports it: Nav2 would not start.

@@ -78,7 +78,16 @@ pub enum PathRules {
         /// Limits the plan to the forward distance.
         shortens: bool,
     },
+    /// The local planners of ROS 1: up to half of the longer side of the costmap from the robot.
+    MoveBase {
+        /// Removes poses that are farther than 1 m behind the robot.
+        prunes: bool,
+    },
 }
+
+/// Distance to the robot at which the local planners of ROS 1 keep poses that were passed \[m\]; `prunePlan` of
+/// `goal_functions.cpp`.
+const MOVE_BASE_PRUNE_M: f64 = 1.0;
 
 impl Default for PathRules {
     /// Main's path handler with its defaults.
@@ -187,7 +196,7 @@ impl PathHandler {
         self.plan.last().copied()
     }
 
-    /// Returns the part of the plan ahead of the robot that lies in the costmap, in the frame of the costmap. Poses
+    /// Returns the part of the plan ahead of the robot within the costmap, in the frame of the costmap. Poses
     /// that were passed are removed.
     ///
     /// # Errors
@@ -262,12 +271,12 @@ impl PathRules {
         match self {
             Self::Feasible { params, .. } => params.reject_unit_path,
             Self::WithinCostmap { rejects_single_pose, .. } => *rejects_single_pose,
-            Self::Dwb { .. } => false,
+            Self::Dwb { .. } | Self::MoveBase { .. } => false,
         }
     }
 
     fn prunes(&self) -> bool {
-        !matches!(self, Self::Dwb { prunes: false, .. })
+        !matches!(self, Self::Dwb { prunes: false, .. } | Self::MoveBase { prunes: false })
     }
 
     /// Returns first and end index of the local part of a plan; `robot` is in the frame of the plan.
@@ -308,6 +317,18 @@ impl PathRules {
                 let near = plan[..end].iter().position(|pose| distance_m(*pose, robot) < behind_m);
                 let first = near.unwrap_or(end);
                 (first, first_farther(first, limit_m(*shortens, *forward_prune_distance_m)))
+            }
+            Self::MoveBase { prunes } => {
+                let first_nearer = |from: usize, to: usize, than_m: f64| {
+                    let near = plan[from..to].iter().position(|it| distance_m(*it, robot) < than_m);
+                    near.map_or(to, |index| from + index)
+                };
+                let first = first_nearer(0, plan.len(), extent_m);
+                // The first pose beyond is the last one.
+                let end = (first_farther(first, extent_m) + 1).min(plan.len());
+                let kept =
+                    if *prunes { first_nearer(first, end, MOVE_BASE_PRUNE_M) } else { first };
+                (kept, end)
             }
         }
     }

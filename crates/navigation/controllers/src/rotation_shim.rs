@@ -5,7 +5,7 @@
 use periplus_costmap::{CostmapView, Nav2Release, cost};
 use periplus_diagnostics::{Diagnostic, Diagnostics};
 use periplus_geometry::{Pose2, Twist2, normalize_angle};
-use periplus_params::{ParamValue, ParamValues, params};
+use periplus_params::{Given, ParamValue, ParamValues, params};
 
 use crate::collision::blocking_cell;
 use crate::parameters::{ChangeRules, ParameterChange, ParameterRefusal, change, set_default};
@@ -86,14 +86,20 @@ pub(crate) fn create(
 ) -> Option<Box<dyn Controller>> {
     let mut own = setup.clone();
     let mut nested = own.given.take_group(PRIMARY_GROUP);
-    let class = match nested.take("plugin").or_else(|| own.given.take(PRIMARY_GROUP)) {
+    let nested_class = nested.take("plugin");
+    let is_nested = nested_class.is_some();
+    let class = match nested_class.or_else(|| own.given.take(PRIMARY_GROUP)) {
         Some(class) if !class.text.trim().is_empty() => class,
         _ => {
             diagnostics.push(missing_primary(setup));
             return None;
         }
     };
-    let primary_group = if nested.entries().is_empty() { "" } else { PRIMARY_GROUP };
+    if !is_nested && setup.release >= Nav2Release::Kilted {
+        diagnostics.push(old_form(setup, &class));
+    }
+    // Before Kilted the parameters of the primary controller are beside those of the shim.
+    let primary_group = if is_nested { PRIMARY_GROUP } else { "" };
     let mut primary_setup = setup.clone().at(class.origin);
     if primary_group.is_empty() {
         primary_setup.given = own.given.clone();
@@ -113,6 +119,19 @@ pub(crate) fn create(
     shim.primary_group = primary_group;
     shim.values.set(PRIMARY_GROUP, ParamValue::Text(class.text.trim().to_owned()));
     Some(Box::new(shim))
+}
+
+fn old_form(setup: &PluginSetup<'_>, class: &Given<'_>) -> Diagnostic {
+    let name = setup.name;
+    Diagnostic::warning(
+        "old-form",
+        format!("`{name}.primary_controller` is a class, as before Kilted; it is accepted here, and Nav2 refuses it"),
+    )
+    .at(class.origin)
+    .help(format!(
+        "write under `primary_controller:` the line `plugin: \"{}\"`, and the parameters of that controller",
+        class.text.trim()
+    ))
 }
 
 fn missing_primary(setup: &PluginSetup<'_>) -> Diagnostic {

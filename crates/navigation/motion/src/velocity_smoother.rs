@@ -225,7 +225,7 @@ impl VelocitySmoother {
 
     /// Returns the velocity to publish at a time \[ns\]; none before the first command, and once the
     /// robot stands because the command timed out. `measured` is the velocity by odometry, used in
-    /// closed loop; without one the robot counts as standing.
+    /// closed loop; without one the robot is assumed at rest.
     pub fn update(&mut self, now_ns: i64, measured: Option<Velocity6>) -> Option<Velocity6> {
         let mut command = self.command?;
         if now_ns - self.command_ns > self.settings.timeout_ns {

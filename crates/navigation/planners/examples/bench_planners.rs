@@ -19,7 +19,7 @@ use periplus_costmap::{CellWindow, Costmap, CostmapView, Footprint, InflationLaw
 use periplus_geometry::Pose2;
 use periplus_grid::GridInfo;
 use periplus_params::{ParamValue, ParamValues};
-use periplus_planners::{Plan, PlanRequest, Planner, PlannerKind};
+use periplus_planners::{PlanRequest, PlannedPath, Planner, PlannerKind};
 
 /// Radius of the robot, and the inflation around obstacles.
 const ROBOT_RADIUS_M: f64 = 0.22;
@@ -111,7 +111,7 @@ fn nearest_free(map: &Costmap, near: Pose2) -> Pose2 {
     nearest.map_or(near, |(x_m, y_m)| Pose2 { x_m, y_m, ..near })
 }
 
-/// Time that this thread has run \[ms\], or the time of the clock where the system does not tell.
+/// Time that this thread has run \[ms\], or the time of the clock where the system has no such counter.
 fn processor_ms(clock: Instant) -> f64 {
     let text = std::fs::read_to_string("/proc/thread-self/schedstat").unwrap_or_default();
     let ran_ns = text.split(' ').next().and_then(|word| word.parse::<f64>().ok());
@@ -124,7 +124,7 @@ fn measure(
     map: &Costmap,
     [start, goal]: [Pose2; 2],
     repetitions: usize,
-) -> (f64, f64, Result<Plan, String>) {
+) -> (f64, f64, Result<PlannedPath, String>) {
     let footprint = Footprint::circle(ROBOT_RADIUS_M);
     let costmap = CostmapView {
         costs: map,
@@ -149,7 +149,7 @@ fn measure(
     (mean_ms, marks_ms[1] - marks_ms[0], last)
 }
 
-fn row(map: &str, name: &str, result: &(f64, f64, Result<Plan, String>)) {
+fn row(map: &str, name: &str, result: &(f64, f64, Result<PlannedPath, String>)) {
     let (mean_ms, first_ms, plan) = result;
     match plan {
         Ok(plan) => println!(
@@ -214,7 +214,7 @@ impl Setting {
 /// Name, class, and parameters that differ from the defaults.
 type Row = (&'static str, &'static str, &'static [(&'static str, Setting)]);
 
-const PLANNERS: [Row; 6] = [
+const PLANNERS: [Row; 7] = [
     ("NavFn", "nav2_navfn_planner::NavfnPlanner", &[]),
     ("NavFn A*", "nav2_navfn_planner::NavfnPlanner", &[("use_astar", Setting::Flag(true))]),
     ("Theta*", "nav2_theta_star_planner::ThetaStarPlanner", &[]),
@@ -225,4 +225,5 @@ const PLANNERS: [Row; 6] = [
         "nav2_smac_planner::SmacPlannerHybrid",
         &[("motion_model_for_search", Setting::Text("REEDS_SHEPP"))],
     ),
+    ("State Lattice", "nav2_smac_planner::SmacPlannerLattice", &[]),
 ];

@@ -7,8 +7,8 @@ use periplus_diagnostics::closest;
 use periplus_params::{ParamValues, Table};
 
 use crate::{
-    NavFnPlanner, Planner, SavitzkyGolaySmoother, SimpleSmoother, Smac2dPlanner, SmacHybridPlanner,
-    Smoother, ThetaStarPlanner, tables,
+    Lattice, NavFnPlanner, Planner, SavitzkyGolaySmoother, SimpleSmoother, Smac2dPlanner,
+    SmacHybridPlanner, Smoother, ThetaStarPlanner, tables,
 };
 
 /// Class of a plugin that is not known.
@@ -27,8 +27,11 @@ pub struct UnknownClass {
 }
 
 /// Classes of Nav2 that are not supported.
-const MISSING: [&str; 2] =
-    ["nav2_smac_planner::SmacPlannerLattice", "nav2_constrained_smoother::ConstrainedSmoother"];
+const MISSING: [&str; 1] = ["nav2_constrained_smoother::ConstrainedSmoother"];
+
+/// Cells and turning radius of the lattice that Nav2 uses by default.
+const LATTICE_RESOLUTION_M: f64 = 0.05;
+const LATTICE_RADIUS_M: f64 = 0.5;
 
 impl fmt::Display for UnknownClass {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
@@ -80,13 +83,16 @@ pub enum PlannerKind {
     Smac2d,
     /// `nav2_smac_planner::SmacPlannerHybrid`.
     SmacHybrid,
+    /// `nav2_smac_planner::SmacPlannerLattice`.
+    SmacLattice,
 }
 
-const PLANNERS: [(&str, PlannerKind); 4] = [
+const PLANNERS: [(&str, PlannerKind); 5] = [
     ("nav2_navfn_planner::NavfnPlanner", PlannerKind::NavFn),
     ("nav2_theta_star_planner::ThetaStarPlanner", PlannerKind::ThetaStar),
     ("nav2_smac_planner::SmacPlanner2D", PlannerKind::Smac2d),
     ("nav2_smac_planner::SmacPlannerHybrid", PlannerKind::SmacHybrid),
+    ("nav2_smac_planner::SmacPlannerLattice", PlannerKind::SmacLattice),
 ];
 
 impl PlannerKind {
@@ -111,10 +117,12 @@ impl PlannerKind {
             Self::ThetaStar => &tables::THETA_STAR,
             Self::Smac2d => &tables::SMAC_2D,
             Self::SmacHybrid => &tables::SMAC_HYBRID,
+            Self::SmacLattice => &tables::SMAC_LATTICE,
         }
     }
 
-    /// Creates a planner with values of [`Self::table`]. Parameters that were not given have the defaults of
+    /// Creates a planner with values of [`Self::table`]. A State Lattice planner gets the default lattice; for
+    /// the file of its parameter `lattice_filepath` use [`SmacHybridPlanner::with_lattice`]. Parameters that were not given have the defaults of
     /// the release.
     ///
     /// ```
@@ -134,6 +142,10 @@ impl PlannerKind {
             Self::ThetaStar => Box::new(ThetaStarPlanner::new(values)),
             Self::Smac2d => Box::new(Smac2dPlanner::new(values)),
             Self::SmacHybrid => Box::new(SmacHybridPlanner::new(values, release)),
+            Self::SmacLattice => {
+                let lattice = Lattice::ackermann(LATTICE_RESOLUTION_M, LATTICE_RADIUS_M);
+                Box::new(SmacHybridPlanner::with_lattice(values, lattice))
+            }
         }
     }
 }
@@ -213,7 +225,8 @@ mod tests {
              `nav2_navfn_planner::NavfnPlanner`?"
         );
         assert!(words("SmacPlannerHybrid").ends_with("`nav2_smac_planner::SmacPlannerHybrid`?"));
-        assert!(words("nav2_smac_planner/SmacPlannerLattice").contains("is not supported; use one of"));
+        let missing = SmootherKind::of_class("nav2_constrained_smoother/ConstrainedSmoother");
+        assert!(missing.unwrap_err().to_string().contains("is not supported; use one of"));
         assert!(words("x").contains("known: `nav2_navfn_planner::NavfnPlanner`, "));
         let smoother = SmootherKind::of_class("nav2_smoother::SimpleSmother").unwrap_err();
         assert!(smoother.to_string().ends_with("did you mean `nav2_smoother::SimpleSmoother`?"));

@@ -46,10 +46,13 @@ pub use navfn::{
     NavFnMethod, NavFnPlanner, PotentialField, Propagation, PropagationCancelled, navfn_cell_of,
     navfn_point_of,
 };
-pub use planner::{Plan, PlanRequest, Planner};
+/// Short name of [`PlannedPath`].
+#[doc(no_inline)]
+pub use planner::PlannedPath as Plan;
+pub use planner::{PlanRequest, PlannedPath, Planner};
 pub use smac::{
-    GoalHeadingMode, MotionPrimitive, PrimitiveSet, Smac2dPlanner, SmacHybridPlanner,
-    SmacMotionModel, StepPenalties, TurnDirection,
+    GoalHeadingMode, Lattice, LatticeError, LatticePrimitive, MotionPrimitive, PrimitiveSet,
+    Smac2dPlanner, SmacHybridPlanner, SmacMotionModel, StepPenalties, TurnDirection,
 };
 pub use smoothing::{
     SavitzkyGolaySmoother, SimpleSmoother, SmoothError, SmoothErrorKind, SmoothRequest, Smoother,

@@ -21,8 +21,8 @@ use crate::parameters::{ChangeRules, ParameterStore};
 use crate::poses::{approach_yaw_rad, single_pose};
 use crate::tables::{NAVFN, NavFnParams};
 use crate::{
-    BlockedPart, ParameterRejected, Plan, PlanError, PlanErrorKind, PlanObstruction, PlanRequest,
-    Planner, outside,
+    BlockedPart, ParameterRejected, PlanError, PlanErrorKind, PlanObstruction, PlanRequest,
+    PlannedPath, Planner, outside,
 };
 
 /// Squared distance below which the last point of the gradient is the goal \[m²\].
@@ -149,7 +149,7 @@ fn end_at(goal: Pose2, poses: &mut Vec<Pose2>) {
 }
 
 impl Planner for NavFnPlanner {
-    fn plan(&mut self, request: PlanRequest<'_>) -> Result<Plan, PlanError> {
+    fn plan(&mut self, request: PlanRequest<'_>) -> Result<PlannedPath, PlanError> {
         let PlanRequest { costmap, start, goal, is_cancelled, .. } = request;
         let (map, info) = (costmap.costs, costmap.costs.info());
         let start_cell = outside::start_cell(info, start)?;
@@ -163,7 +163,7 @@ impl Planner for NavFnPlanner {
         }
         if start.x_m == goal.x_m && start.y_m == goal.y_m {
             let pose = single_pose(start, goal, self.params.use_final_approach_orientation);
-            return Ok(Plan { poses: vec![pose], ..Plan::default() });
+            return Ok(PlannedPath { poses: vec![pose], ..PlannedPath::default() });
         }
         // A point beyond the middle of the last cell rounds to one outside the grid.
         let last = (info.width - 1, info.height - 1);
@@ -207,7 +207,12 @@ impl Planner for NavFnPlanner {
                 last.yaw_rad = yaw_rad;
             }
         }
-        Ok(Plan { poses, cleared_cell: Some(robot), expansion_count, ..Plan::default() })
+        Ok(PlannedPath {
+            poses,
+            cleared_cell: Some(robot),
+            expansion_count,
+            ..PlannedPath::default()
+        })
     }
 
     fn set_parameter(&mut self, name: &str, value: &ParamValue) -> Result<(), ParameterRejected> {

@@ -35,7 +35,7 @@ impl fmt::Debug for PlanRequest<'_> {
 
 /// A path from start to goal, and facts about its search.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Plan {
+pub struct PlannedPath {
     /// Poses in the frame of the costmap, from the start to the goal or to the nearest pose within the
     /// tolerance. NavFn and Theta* leave the yaw of all but the last at 0, as Nav2 does.
     pub poses: Vec<Pose2>,
@@ -47,7 +47,7 @@ pub struct Plan {
     pub expansion_count: usize,
 }
 
-impl Plan {
+impl PlannedPath {
     /// Returns the length of the path \[m\].
     #[must_use]
     pub fn length_m(&self) -> f64 {
@@ -63,7 +63,7 @@ pub trait Planner: Send {
     ///
     /// # Errors
     /// The reason why there is none, with the error code of Nav2.
-    fn plan(&mut self, request: PlanRequest<'_>) -> Result<Plan, PlanError>;
+    fn plan(&mut self, request: PlanRequest<'_>) -> Result<PlannedPath, PlanError>;
 
     /// Changes a parameter between two plans. The name is the one in the planner's table, without the id
     /// of the plugin.

@@ -9,7 +9,10 @@ mod curve;
 mod distance_table;
 mod dubins;
 mod graph;
+mod headings;
 mod hybrid;
+mod lattice;
+mod motions;
 mod obstacle_heuristic;
 mod path_smoothing;
 mod plane;
@@ -18,6 +21,7 @@ mod reeds_shepp;
 mod search;
 
 pub use hybrid::{GoalHeadingMode, SmacHybridPlanner};
+pub use lattice::{Lattice, LatticeError, LatticePrimitive};
 pub use plane::Smac2dPlanner;
 pub use primitives::{
     MotionPrimitive, PrimitiveSet, SmacMotionModel, StepPenalties, TurnDirection,

@@ -191,9 +191,8 @@ params! {
 }
 
 params! {
-    /// Hybrid-A*: A* on cells and headings, with the motions of a car.
-    #[table(SMAC_HYBRID, "SmacPlannerHybrid")]
-    pub struct SmacHybridParams {
+    /// Parameters of the Smac planners on cells and headings.
+    pub struct SmacHeadingParams {
         /// Parameters of all Smac planners.
         #[shared]
         search: SmacParams,
@@ -203,36 +202,12 @@ params! {
         /// Maximum duration of a plan.
         #[param("max_planning_time", unit("s"), min(0.0))]
         max_planning_time_s: f64 = 5,
-        /// Plans on larger cells.
-        #[param("downsample_costmap")]
-        downsample_costmap: bool = false,
-        /// Size of the larger cells, in cells.
-        #[param("downsampling_factor", within(1.0, 1000.0))]
-        downsampling_factor: usize = 1,
-        /// Number of headings.
-        #[param("angle_quantization_bins", within(1.0, 1000.0))]
-        angle_quantization_bins: usize = 72,
-        /// Motions of the robot.
-        #[param("motion_model_for_search")]
-        motion_model_for_search: SmacMotionModel = "DUBIN",
-        /// Radius of the tightest turn.
-        #[param("minimum_turning_radius", unit("m"), min(0.0))]
-        minimum_turning_radius_m: f64 = 0.4,
-        /// Uses turns of all numbers of bins, not only the tightest (before main: false).
-        #[param("allow_primitive_interpolation")]
-        allow_primitive_interpolation: bool = true,
         /// Unused; the heuristic of a goal is always computed again, which is fast.
         #[param("cache_obstacle_heuristic")]
         _: bool = false,
         /// Factor of the cost of motions backwards.
         #[param("reverse_penalty", min(0.0))]
         reverse_penalty: f64 = 2,
-        /// Addition to `non_straight_penalty` where a turn changes its direction.
-        #[param("change_penalty", min(0.0))]
-        change_penalty: f64 = 0,
-        /// Factor of the cost of turns.
-        #[param("non_straight_penalty", min(0.0))]
-        non_straight_penalty: f64 = 1.2,
         /// Weight of the costs of cells.
         #[param("cost_penalty", min(0.0))]
         cost_penalty: f64 = 2,
@@ -275,5 +250,64 @@ params! {
         /// Smoother of the path.
         #[shared]
         smoother: SmacSmootherParams,
+    }
+}
+
+params! {
+    /// Hybrid-A*: A* on cells and headings, with the motions of a car.
+    #[table(SMAC_HYBRID, "SmacPlannerHybrid")]
+    pub struct SmacHybridParams {
+        /// Parameters of planners on cells and headings.
+        #[shared]
+        common: SmacHeadingParams,
+        /// Plans on larger cells.
+        #[param("downsample_costmap")]
+        downsample_costmap: bool = false,
+        /// Size of the larger cells, in cells.
+        #[param("downsampling_factor", within(1.0, 1000.0))]
+        downsampling_factor: usize = 1,
+        /// Number of headings.
+        #[param("angle_quantization_bins", within(1.0, 1000.0))]
+        angle_quantization_bins: usize = 72,
+        /// Motions of the robot.
+        #[param("motion_model_for_search")]
+        motion_model_for_search: SmacMotionModel = "DUBIN",
+        /// Radius of the tightest turn.
+        #[param("minimum_turning_radius", unit("m"), min(0.0))]
+        minimum_turning_radius_m: f64 = 0.4,
+        /// Uses turns of all numbers of bins, not only the tightest (before main: false).
+        #[param("allow_primitive_interpolation")]
+        allow_primitive_interpolation: bool = true,
+        /// Addition to `non_straight_penalty` where a turn changes its direction.
+        #[param("change_penalty", min(0.0))]
+        change_penalty: f64 = 0,
+        /// Factor of the cost of turns.
+        #[param("non_straight_penalty", min(0.0))]
+        non_straight_penalty: f64 = 1.2,
+    }
+}
+
+params! {
+    /// State Lattice: A* on cells and headings, with the motions of a file.
+    #[table(SMAC_LATTICE, "SmacPlannerLattice")]
+    pub struct SmacLatticeParams {
+        /// Parameters of planners on cells and headings.
+        #[shared]
+        common: SmacHeadingParams,
+        /// File of the motions, in JSON; empty for a car with a radius of 0.5 m on cells of 0.05 m.
+        #[param("lattice_filepath")]
+        lattice_filepath: String = "",
+        /// Drives also backwards.
+        #[param("allow_reverse_expansion")]
+        allow_reverse_expansion: bool = false,
+        /// Addition to `non_straight_penalty` where a turn changes its direction.
+        #[param("change_penalty", min(0.0))]
+        change_penalty: f64 = 0.05,
+        /// Factor of the cost of turns.
+        #[param("non_straight_penalty", min(0.0))]
+        non_straight_penalty: f64 = 1.05,
+        /// Cost of a rotation in place.
+        #[param("rotation_penalty", min(0.0))]
+        rotation_penalty: f64 = 5,
     }
 }

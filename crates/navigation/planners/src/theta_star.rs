@@ -15,7 +15,9 @@ use crate::obstruction::{Passable, explain};
 use crate::parameters::{ChangeRules, ParameterStore};
 use crate::poses::{approach_yaw_rad, single_pose};
 use crate::tables::{THETA_STAR, ThetaStarParams};
-use crate::{ParameterRejected, Plan, PlanError, PlanErrorKind, PlanRequest, Planner, outside};
+use crate::{
+    ParameterRejected, PlanError, PlanErrorKind, PlanRequest, PlannedPath, Planner, outside,
+};
 
 use search::{SearchEnd, ThetaStarSearch};
 
@@ -64,7 +66,7 @@ fn interpolate(info: &GridInfo, corners: &[Cell], goal: Pose2) -> Vec<Pose2> {
 }
 
 impl Planner for ThetaStarPlanner {
-    fn plan(&mut self, request: PlanRequest<'_>) -> Result<Plan, PlanError> {
+    fn plan(&mut self, request: PlanRequest<'_>) -> Result<PlannedPath, PlanError> {
         let PlanRequest { costmap, start, goal, is_cancelled, .. } = request;
         let (map, info) = (costmap.costs, costmap.costs.info());
         let start_cell = outside::start_cell(info, start)?;
@@ -77,7 +79,7 @@ impl Planner for ThetaStarPlanner {
         let keeps_direction = self.params.use_final_approach_orientation;
         if start_cell == goal_cell {
             let pose = single_pose(start, goal, keeps_direction);
-            return Ok(Plan { poses: vec![pose], ..Plan::default() });
+            return Ok(PlannedPath { poses: vec![pose], ..PlannedPath::default() });
         }
         let is_safe = |cell| map.cost(cell).is_some_and(|cost| passable.contains(cost));
         if !is_safe(start_cell) || !is_safe(goal_cell) {
@@ -100,7 +102,7 @@ impl Planner for ThetaStarPlanner {
                 last.yaw_rad = yaw_rad;
             }
         }
-        Ok(Plan { poses, expansion_count, ..Plan::default() })
+        Ok(PlannedPath { poses, expansion_count, ..PlannedPath::default() })
     }
 
     fn set_parameter(&mut self, name: &str, value: &ParamValue) -> Result<(), ParameterRejected> {

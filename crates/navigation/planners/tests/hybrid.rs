@@ -11,7 +11,7 @@ use periplus_costmap::Costmap;
 use periplus_geometry::{Pose2, normalize_angle};
 use periplus_grid::GridInfo;
 use periplus_params::{ParamValue, ParamValues};
-use periplus_planners::{PlanErrorKind, Planner, SmacHybridPlanner, tables};
+use periplus_planners::{Lattice, PlanErrorKind, Planner, SmacHybridPlanner, tables};
 use proptest::prelude::*;
 
 const RADIUS_M: f64 = 0.4;
@@ -152,6 +152,35 @@ fn a_long_robot_needs_a_wide_door() {
         planner(&[("max_iterations", ParamValue::Integer(20_000))]).plan(request).is_ok()
     };
     assert!(found(0.25) && !found(0.5), "the door is 0.4 m wide");
+}
+
+/// State Lattice planner with the default lattice, whose cells are those of the map.
+fn lattice(reverses: bool) -> SmacHybridPlanner {
+    let values = ParamValues::defaults(&tables::SMAC_LATTICE);
+    let mut planner = SmacHybridPlanner::with_lattice(values, Lattice::ackermann(0.05, 0.5));
+    planner.set_parameter("allow_reverse_expansion", &ParamValue::Bool(reverses)).unwrap();
+    planner
+}
+
+#[test]
+fn a_lattice_plans_as_a_car_drives() {
+    let goal = Pose2::new(2.0, 6.0, PI / 2.0);
+    let plan = plan(&mut lattice(false), &open_map(), at(5.0, 2.0), goal).unwrap();
+    let last = plan.poses.last().unwrap();
+    assert!(libm_hypot((last.x_m - goal.x_m, last.y_m - goal.y_m)) < 1e-6, "{last:?}");
+    assert!(normalize_angle(last.yaw_rad - goal.yaw_rad).abs() < 1e-6, "{last:?}");
+    assert!(plan.length_m() > 5.0 && plan.length_m() < 9.0, "{}", plan.length_m());
+    let curvature = max_curvature(&plan.unsmoothed);
+    assert!(curvature < 1.05 / 0.5, "{curvature}");
+}
+
+#[test]
+fn a_lattice_reverses_only_where_allowed() {
+    let (start, goal) = (at(4.0, 4.0), at(3.0, 4.0));
+    let reversing = plan(&mut lattice(true), &open_map(), start, goal).unwrap();
+    assert!((reversing.length_m() - 1.0).abs() < 0.1, "{}", reversing.length_m());
+    let forwards = plan(&mut lattice(false), &open_map(), start, goal).unwrap();
+    assert!(forwards.length_m() > 2.0, "{}", forwards.length_m());
 }
 
 proptest! {

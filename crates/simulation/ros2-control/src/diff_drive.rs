@@ -2,8 +2,9 @@
 
 use crate::velocity_reference::{ReferenceOutcome, VelocityReference};
 use crate::{
-    BaseMotion, ControlCycle, ControllerInterface, DiffDriveOdometry, InterfaceSelection,
-    JointInterfaceKind, LoanedInterfaces, MotionCentre, PlanarTwist, SpeedLimiter,
+    BaseMotion, ControlCycle, ControllerError, ControllerInterface, DiffDriveOdometry,
+    InterfaceSelection, JointInterfaceKind, LoanedInterfaces, MotionCentre, PlanarTwist,
+    SpeedLimiter,
 };
 
 /// Wheels of a differential drive.
@@ -70,7 +71,7 @@ impl DiffDriveSettings {
     ///
     /// # Errors
     /// The reason, when they cannot drive.
-    pub fn check(&self) -> Result<(), String> {
+    pub fn check(&self) -> Result<(), ControllerError> {
         let (left, right) = (self.left_joints.len(), self.right_joints.len());
         if left == 0 || right == 0 {
             return Err("the names of the left or right wheels are empty: set `left_wheel_names` \
@@ -78,7 +79,7 @@ impl DiffDriveSettings {
                 .into());
         }
         if left != right {
-            return Err(format!("{left} left wheels and {right} right wheels are given"));
+            return Err(format!("{left} left wheels and {right} right wheels are given").into());
         }
         let DiffDriveGeometry { separation_m, left_radius_m, right_radius_m } = self.geometry;
         for (name, value) in [
@@ -87,7 +88,7 @@ impl DiffDriveSettings {
             ("wheel_radius", right_radius_m),
         ] {
             if !(value.is_finite() && value > 0.0) {
-                return Err(format!("`{name}` is {value}: it must be positive"));
+                return Err(format!("`{name}` is {value}: it must be positive").into());
             }
         }
         Ok(())
@@ -188,7 +189,7 @@ impl ControllerInterface for DiffDriveController {
         })
     }
 
-    fn configure(&mut self) -> Result<(), String> {
+    fn configure(&mut self) -> Result<(), ControllerError> {
         self.settings.check()
     }
 
@@ -196,7 +197,7 @@ impl ControllerInterface for DiffDriveController {
         &mut self,
         interfaces: &mut LoanedInterfaces<'_>,
         _: ControlCycle,
-    ) -> Result<(), String> {
+    ) -> Result<(), ControllerError> {
         self.reference.clear();
         (self.last, self.before_last) = Default::default();
         let feedback = self.feedback(interfaces);
@@ -210,14 +211,16 @@ impl ControllerInterface for DiffDriveController {
         &mut self,
         interfaces: &mut LoanedInterfaces<'_>,
         cycle: ControlCycle,
-    ) -> Result<(), String> {
+    ) -> Result<(), ControllerError> {
         let wanted = self.reference.current(cycle);
         if self.settings.open_loop {
             self.odometry.update_open_loop(wanted, cycle.period_s);
         } else {
             let feedback = self.feedback(interfaces);
             if !feedback.iter().all(|value| value.is_finite()) {
-                return Err("the state of a wheel is not a number".into());
+                return Err(ControllerError::Unmeasured(
+                    "the state of a wheel is not a number".into(),
+                ));
             }
             if self.settings.position_feedback {
                 self.odometry.update(feedback, cycle.period_s);
@@ -348,9 +351,12 @@ mod tests {
     #[test]
     fn wheels_are_checked() {
         let wrong = DiffDriveSettings { right_joints: Vec::new(), ..settings() };
-        assert!(wrong.check().unwrap_err().contains("right_wheel_names"));
+        assert!(wrong.check().unwrap_err().to_string().contains("right_wheel_names"));
         let geometry = DiffDriveGeometry { separation_m: 0.0, ..settings().geometry };
         let wrong = DiffDriveSettings { geometry, ..settings() };
-        assert_eq!(wrong.check().unwrap_err(), "`wheel_separation` is 0: it must be positive");
+        assert_eq!(
+            wrong.check().unwrap_err().to_string(),
+            "`wheel_separation` is 0: it must be positive"
+        );
     }
 }

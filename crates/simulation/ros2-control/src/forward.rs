@@ -1,7 +1,9 @@
 //! Commands that are forwarded to interfaces: `forward_command_controller` and the groups of
 //! `position_controllers`, `velocity_controllers` and `effort_controllers`.
 
-use crate::{ControlCycle, ControllerInterface, InterfaceSelection, LoanedInterfaces};
+use crate::{
+    ControlCycle, ControllerError, ControllerInterface, InterfaceSelection, LoanedInterfaces,
+};
 
 /// Forwards one number to each interface.
 ///
@@ -24,10 +26,10 @@ impl ForwardController {
     ///
     /// # Errors
     /// The reason, when their number or a value is wrong; the last commands then stay.
-    pub fn receive(&mut self, commands: &[f64]) -> Result<(), String> {
+    pub fn receive(&mut self, commands: &[f64]) -> Result<(), ControllerError> {
         if commands.len() != self.interfaces.len() {
             let (given, wanted) = (commands.len(), self.interfaces.len());
-            return Err(format!("{given} commands for {wanted} interfaces are ignored"));
+            return Err(format!("{given} commands for {wanted} interfaces are ignored").into());
         }
         if !commands.iter().all(|command| command.is_finite()) {
             return Err("a command is not a number; all are ignored".into());
@@ -46,14 +48,18 @@ impl ControllerInterface for ForwardController {
         InterfaceSelection::Nothing
     }
 
-    fn configure(&mut self) -> Result<(), String> {
+    fn configure(&mut self) -> Result<(), ControllerError> {
         if self.interfaces.is_empty() {
             return Err("`joints` is empty".into());
         }
         Ok(())
     }
 
-    fn activate(&mut self, _: &mut LoanedInterfaces<'_>, _: ControlCycle) -> Result<(), String> {
+    fn activate(
+        &mut self,
+        _: &mut LoanedInterfaces<'_>,
+        _: ControlCycle,
+    ) -> Result<(), ControllerError> {
         self.commands = None;
         Ok(())
     }
@@ -62,7 +68,7 @@ impl ControllerInterface for ForwardController {
         &mut self,
         interfaces: &mut LoanedInterfaces<'_>,
         _: ControlCycle,
-    ) -> Result<(), String> {
+    ) -> Result<(), ControllerError> {
         for (index, &command) in self.commands.iter().flatten().enumerate() {
             interfaces.set_command(index, command);
         }

@@ -1,6 +1,8 @@
 //! Publisher of an inertial sensor: `imu_sensor_broadcaster`.
 
-use crate::{ControlCycle, ControllerInterface, InterfaceSelection, LoanedInterfaces};
+use crate::{
+    ControlCycle, ControllerError, ControllerInterface, InterfaceSelection, LoanedInterfaces,
+};
 
 /// State interfaces of an inertial sensor, in order.
 const INTERFACES: [&str; 10] = [
@@ -48,7 +50,7 @@ impl ControllerInterface for ImuBroadcaster {
         InterfaceSelection::Named(names.collect())
     }
 
-    fn configure(&mut self) -> Result<(), String> {
+    fn configure(&mut self) -> Result<(), ControllerError> {
         if self.sensor_name.is_empty() {
             return Err("`sensor_name` is empty".into());
         }
@@ -59,7 +61,7 @@ impl ControllerInterface for ImuBroadcaster {
         &mut self,
         interfaces: &mut LoanedInterfaces<'_>,
         cycle: ControlCycle,
-    ) -> Result<(), String> {
+    ) -> Result<(), ControllerError> {
         self.update(interfaces, cycle)
     }
 
@@ -67,7 +69,7 @@ impl ControllerInterface for ImuBroadcaster {
         &mut self,
         interfaces: &mut LoanedInterfaces<'_>,
         _: ControlCycle,
-    ) -> Result<(), String> {
+    ) -> Result<(), ControllerError> {
         self.reading = ImuInterfaceValues {
             orientation: std::array::from_fn(|index| interfaces.state(index)),
             angular_rad_s: std::array::from_fn(|index| interfaces.state(4 + index)),

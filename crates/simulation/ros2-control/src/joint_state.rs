@@ -2,7 +2,9 @@
 
 use std::collections::BTreeMap;
 
-use crate::{ControlCycle, ControllerInterface, InterfaceSelection, LoanedInterfaces};
+use crate::{
+    ControlCycle, ControllerError, ControllerInterface, InterfaceSelection, LoanedInterfaces,
+};
 
 /// States of all joints.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -51,7 +53,7 @@ impl ControllerInterface for JointStateBroadcaster {
         &mut self,
         interfaces: &mut LoanedInterfaces<'_>,
         cycle: ControlCycle,
-    ) -> Result<(), String> {
+    ) -> Result<(), ControllerError> {
         self.update(interfaces, cycle)
     }
 
@@ -59,7 +61,7 @@ impl ControllerInterface for JointStateBroadcaster {
         &mut self,
         interfaces: &mut LoanedInterfaces<'_>,
         _: ControlCycle,
-    ) -> Result<(), String> {
+    ) -> Result<(), ControllerError> {
         let mut order: Vec<String> = Vec::new();
         let mut all: BTreeMap<String, Vec<(String, f64)>> = BTreeMap::new();
         for index in 0..interfaces.state_count() {

@@ -5,8 +5,8 @@ mod accept;
 use std::f64::consts::PI;
 
 use crate::{
-    ControlCycle, ControllerInterface, InterfaceSelection, JointInterfaceKind, JointTrajectory,
-    LoanedInterfaces, PidController, PidGains, SamplePhase, TrajectoryPoint,
+    ControlCycle, ControllerError, ControllerInterface, InterfaceSelection, JointInterfaceKind,
+    JointTrajectory, LoanedInterfaces, PidController, PidGains, SamplePhase, TrajectoryPoint,
 };
 
 pub use accept::{TrajectoryErrorCode, TrajectoryRejection};
@@ -324,7 +324,7 @@ impl ControllerInterface for JointTrajectoryController {
         InterfaceSelection::Named(names.collect())
     }
 
-    fn configure(&mut self) -> Result<(), String> {
+    fn configure(&mut self) -> Result<(), ControllerError> {
         let settings = &self.settings;
         if settings.joints.is_empty() {
             return Err("`joints` is empty".into());
@@ -345,10 +345,12 @@ impl ControllerInterface for JointTrajectoryController {
         &mut self,
         interfaces: &mut LoanedInterfaces<'_>,
         cycle: ControlCycle,
-    ) -> Result<(), String> {
+    ) -> Result<(), ControllerError> {
         self.read(interfaces);
         if !self.progress.actual.positions.iter().all(|position| position.is_finite()) {
-            return Err("the position of a joint is not a number".into());
+            return Err(ControllerError::Unmeasured(
+                "the position of a joint is not a number".into(),
+            ));
         }
         self.pids.iter_mut().for_each(PidController::reset);
         self.last_command = TrajectoryPoint::default();
@@ -361,7 +363,7 @@ impl ControllerInterface for JointTrajectoryController {
         &mut self,
         interfaces: &mut LoanedInterfaces<'_>,
         cycle: ControlCycle,
-    ) -> Result<(), String> {
+    ) -> Result<(), ControllerError> {
         self.read(interfaces);
         let Some(followed) = self.followed.take() else { return Ok(()) };
         let Followed { trajectory, before, before_ns, .. } = &followed;

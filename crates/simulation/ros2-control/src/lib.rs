@@ -19,6 +19,7 @@ mod base_motion;
 mod cycle;
 mod description;
 mod diff_drive;
+mod error;
 mod forward;
 mod hardware;
 mod imu;
@@ -47,6 +48,7 @@ pub use description::{
     hardware_of_model, hardware_of_transmissions,
 };
 pub use diff_drive::{DiffDriveController, DiffDriveGeometry, DiffDriveSettings};
+pub use error::ControllerError;
 pub use forward::ForwardController;
 pub use hardware::{Hardware, JointInterfaceKind, LoanedInterfaces};
 pub use imu::{ImuBroadcaster, ImuInterfaceValues};

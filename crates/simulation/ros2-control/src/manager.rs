@@ -1,6 +1,6 @@
 //! Loading, switching and updating of controllers.
 
-use crate::{ControlCycle, Hardware, LoanedInterfaces};
+use crate::{ControlCycle, ControllerError, Hardware, LoanedInterfaces};
 
 /// Interfaces that a controller needs.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -28,7 +28,7 @@ pub trait ControllerInterface {
     ///
     /// # Errors
     /// The reason, when a parameter is not usable.
-    fn configure(&mut self) -> Result<(), String> {
+    fn configure(&mut self) -> Result<(), ControllerError> {
         Ok(())
     }
 
@@ -40,7 +40,7 @@ pub trait ControllerInterface {
         &mut self,
         interfaces: &mut LoanedInterfaces<'_>,
         cycle: ControlCycle,
-    ) -> Result<(), String>;
+    ) -> Result<(), ControllerError>;
 
     /// Computes the commands of a cycle.
     ///
@@ -50,7 +50,7 @@ pub trait ControllerInterface {
         &mut self,
         interfaces: &mut LoanedInterfaces<'_>,
         cycle: ControlCycle,
-    ) -> Result<(), String>;
+    ) -> Result<(), ControllerError>;
 
     /// Ends to control; the interfaces are free afterwards.
     fn deactivate(&mut self, _interfaces: &mut LoanedInterfaces<'_>) {}
@@ -438,6 +438,7 @@ impl<C: ControllerInterface> ControllerManager<C> {
             let mut interfaces =
                 LoanedInterfaces::new(&mut self.hardware, &one.commands, &one.states);
             if let Err(reason) = one.controller.update(&mut interfaces, cycle) {
+                let reason = reason.to_string();
                 failures.push(UpdateFailure { controller: one.name.clone(), reason });
                 self.end(place);
             }
@@ -500,7 +501,7 @@ mod tests {
             &mut self,
             _: &mut LoanedInterfaces<'_>,
             _: ControlCycle,
-        ) -> Result<(), String> {
+        ) -> Result<(), ControllerError> {
             Ok(())
         }
 
@@ -508,7 +509,7 @@ mod tests {
             &mut self,
             interfaces: &mut LoanedInterfaces<'_>,
             cycle: ControlCycle,
-        ) -> Result<(), String> {
+        ) -> Result<(), ControllerError> {
             if cycle.time_ns < 0 {
                 return Err("before the start".into());
             }

@@ -3,8 +3,8 @@
 use crate::odometry::MIN_INTERVAL_S;
 use crate::velocity_reference::{ReferenceOutcome, VelocityReference};
 use crate::{
-    BaseMotion, ControlCycle, ControllerInterface, InterfaceSelection, JointInterfaceKind,
-    LoanedInterfaces, MotionCentre, PlanarPose, PlanarTwist, SpeedLimiter,
+    BaseMotion, ControlCycle, ControllerError, ControllerInterface, InterfaceSelection,
+    JointInterfaceKind, LoanedInterfaces, MotionCentre, PlanarPose, PlanarTwist, SpeedLimiter,
 };
 
 /// Dimensions of a robot with mecanum wheels.
@@ -145,10 +145,10 @@ impl ControllerInterface for MecanumController {
         InterfaceSelection::Named(names.collect())
     }
 
-    fn configure(&mut self) -> Result<(), String> {
+    fn configure(&mut self) -> Result<(), ControllerError> {
         if let Some(place) = self.settings.joints.iter().position(String::is_empty) {
             let wheel = ["front_left", "front_right", "rear_right", "rear_left"][place];
-            return Err(format!("`{wheel}_wheel_command_joint_name` is empty"));
+            return Err(format!("`{wheel}_wheel_command_joint_name` is empty").into());
         }
         let MecanumGeometry { radius_m, sum_of_projections_m, .. } = self.settings.geometry;
         for (parameter, value) in [
@@ -156,13 +156,17 @@ impl ControllerInterface for MecanumController {
             ("kinematics.sum_of_robot_center_projection_on_X_Y_axis", sum_of_projections_m),
         ] {
             if !(value.is_finite() && value > 0.0) {
-                return Err(format!("`{parameter}` is {value}: it must be positive"));
+                return Err(format!("`{parameter}` is {value}: it must be positive").into());
             }
         }
         Ok(())
     }
 
-    fn activate(&mut self, _: &mut LoanedInterfaces<'_>, _: ControlCycle) -> Result<(), String> {
+    fn activate(
+        &mut self,
+        _: &mut LoanedInterfaces<'_>,
+        _: ControlCycle,
+    ) -> Result<(), ControllerError> {
         self.reference.clear();
         (self.last, self.before_last) = Default::default();
         Ok(())
@@ -172,7 +176,7 @@ impl ControllerInterface for MecanumController {
         &mut self,
         interfaces: &mut LoanedInterfaces<'_>,
         cycle: ControlCycle,
-    ) -> Result<(), String> {
+    ) -> Result<(), ControllerError> {
         self.wheels_rad_s = std::array::from_fn(|index| interfaces.state(index));
         let is_measured = self.wheels_rad_s.iter().all(|speed| speed.is_finite());
         if is_measured && cycle.period_s >= MIN_INTERVAL_S {

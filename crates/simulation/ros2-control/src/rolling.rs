@@ -39,8 +39,8 @@ pub fn rolling_twist(wheels: &[RollingWheel]) -> PlanarTwist {
         add([axis_y, -axis_x, -axis_y * y_m - axis_x * x_m], wheel.speed_m_s, 1.0);
         add([axis_x, axis_y, axis_y * x_m - axis_x * y_m], 0.0, LATERAL_WEIGHT_RATIO);
     }
-    for unit in 0..3 {
-        rows[unit][unit] += SMALLEST_WEIGHT_RATIO;
+    for (unit, row) in rows.iter_mut().enumerate() {
+        row[unit] += SMALLEST_WEIGHT_RATIO;
     }
     let [x_m_s, y_m_s, yaw_rad_s] = solved(rows);
     PlanarTwist { x_m_s, y_m_s, yaw_rad_s }

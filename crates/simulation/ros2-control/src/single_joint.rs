@@ -1,8 +1,8 @@
 //! Controllers of one joint of ROS 1: `position_controllers/JointPositionController` and the like.
 
 use crate::{
-    ControlCycle, ControllerInterface, InterfaceSelection, JointInterfaceKind, LoanedInterfaces,
-    PidController, PidGains,
+    ControlCycle, ControllerError, ControllerInterface, InterfaceSelection, JointInterfaceKind,
+    LoanedInterfaces, PidController, PidGains,
 };
 
 /// Quantity that a [`SingleJointController`] controls.
@@ -58,7 +58,7 @@ impl ControllerInterface for SingleJointController {
         ])
     }
 
-    fn configure(&mut self) -> Result<(), String> {
+    fn configure(&mut self) -> Result<(), ControllerError> {
         if self.joint.is_empty() {
             return Err("`joint` is empty".into());
         }
@@ -69,7 +69,7 @@ impl ControllerInterface for SingleJointController {
         &mut self,
         interfaces: &mut LoanedInterfaces<'_>,
         _: ControlCycle,
-    ) -> Result<(), String> {
+    ) -> Result<(), ControllerError> {
         self.pid.reset();
         // A position is held from the start, as in ROS 1.
         self.command = match self.target {
@@ -86,7 +86,7 @@ impl ControllerInterface for SingleJointController {
         &mut self,
         interfaces: &mut LoanedInterfaces<'_>,
         cycle: ControlCycle,
-    ) -> Result<(), String> {
+    ) -> Result<(), ControllerError> {
         let Some(command) = self.command else { return Ok(()) };
         let (position, velocity) = (interfaces.state(0), interfaces.state(1));
         let value = match &self.target {

@@ -3,8 +3,9 @@
 
 use crate::velocity_reference::{ReferenceOutcome, VelocityReference};
 use crate::{
-    BaseMotion, ControlCycle, ControllerInterface, InterfaceSelection, JointInterfaceKind,
-    LoanedInterfaces, MotionCentre, PlanarTwist, SteeringGeometry, SteeringOdometry,
+    BaseMotion, ControlCycle, ControllerError, ControllerInterface, InterfaceSelection,
+    JointInterfaceKind, LoanedInterfaces, MotionCentre, PlanarTwist, SteeringGeometry,
+    SteeringOdometry,
 };
 
 /// Settings of a [`SteeringController`].
@@ -37,7 +38,7 @@ impl SteeringSettings {
     ///
     /// # Errors
     /// The reason, when they cannot drive.
-    pub fn check(&self) -> Result<(), String> {
+    pub fn check(&self) -> Result<(), ControllerError> {
         let [traction, steering] = self.geometry.kind.wheel_counts();
         for (parameter, joints, count) in [
             ("traction_joints_names", &self.traction_joints, traction),
@@ -45,7 +46,7 @@ impl SteeringSettings {
         ] {
             if joints.len() != count {
                 let given = joints.len();
-                return Err(format!("`{parameter}` has {given} joints; {count} are needed"));
+                return Err(format!("`{parameter}` has {given} joints; {count} are needed").into());
             }
         }
         let geometry = &self.geometry;
@@ -54,7 +55,7 @@ impl SteeringSettings {
             ("traction_wheels_radius", geometry.traction_radius_m),
         ] {
             if !(value.is_finite() && value > 0.0) {
-                return Err(format!("`{parameter}` is {value}: it must be positive"));
+                return Err(format!("`{parameter}` is {value}: it must be positive").into());
             }
         }
         Ok(())
@@ -160,7 +161,7 @@ impl ControllerInterface for SteeringController {
         InterfaceSelection::Named(traction.chain(steering).collect())
     }
 
-    fn configure(&mut self) -> Result<(), String> {
+    fn configure(&mut self) -> Result<(), ControllerError> {
         self.settings.check()
     }
 
@@ -168,7 +169,7 @@ impl ControllerInterface for SteeringController {
         &mut self,
         interfaces: &mut LoanedInterfaces<'_>,
         _: ControlCycle,
-    ) -> Result<(), String> {
+    ) -> Result<(), ControllerError> {
         self.reference.clear();
         (self.command, self.slow_ratio) = (PlanarTwist::default(), 1.0);
         let [traction, steering] = self.measured(interfaces);
@@ -183,10 +184,10 @@ impl ControllerInterface for SteeringController {
         &mut self,
         interfaces: &mut LoanedInterfaces<'_>,
         cycle: ControlCycle,
-    ) -> Result<(), String> {
+    ) -> Result<(), ControllerError> {
         let [traction, steering] = self.measured(interfaces);
         if !traction.iter().chain(&steering).all(|value| value.is_finite()) {
-            return Err("the state of a wheel is not a number".into());
+            return Err(ControllerError::Unmeasured("the state of a wheel is not a number".into()));
         }
         let geometry = self.settings.geometry;
         self.command = self.reference.current(cycle);

@@ -4,8 +4,8 @@ use std::f64::consts::{FRAC_PI_2, FRAC_PI_6};
 
 use crate::velocity_reference::{ReferenceOutcome, VelocityReference};
 use crate::{
-    BaseMotion, ControlCycle, ControllerInterface, InterfaceSelection, JointInterfaceKind,
-    LoanedInterfaces, MotionCentre, PlanarTwist, SteeringOdometry,
+    BaseMotion, ControlCycle, ControllerError, ControllerInterface, InterfaceSelection,
+    JointInterfaceKind, LoanedInterfaces, MotionCentre, PlanarTwist, SteeringOdometry,
 };
 
 /// Factor of the wheel speed while the steering is far off.
@@ -206,12 +206,12 @@ impl ControllerInterface for TricycleController {
         self.command_interfaces()
     }
 
-    fn configure(&mut self) -> Result<(), String> {
+    fn configure(&mut self) -> Result<(), ControllerError> {
         for (parameter, value) in
             [("wheelbase", self.settings.wheelbase_m), ("wheel_radius", self.settings.radius_m)]
         {
             if !(value.is_finite() && value > 0.0) {
-                return Err(format!("`{parameter}` is {value}: it must be positive"));
+                return Err(format!("`{parameter}` is {value}: it must be positive").into());
             }
         }
         Ok(())
@@ -221,7 +221,7 @@ impl ControllerInterface for TricycleController {
         &mut self,
         interfaces: &mut LoanedInterfaces<'_>,
         _: ControlCycle,
-    ) -> Result<(), String> {
+    ) -> Result<(), ControllerError> {
         self.reference.clear();
         (self.last, self.before_last) = Default::default();
         self.odometry.angle_rad = interfaces.state(1);
@@ -232,10 +232,12 @@ impl ControllerInterface for TricycleController {
         &mut self,
         interfaces: &mut LoanedInterfaces<'_>,
         cycle: ControlCycle,
-    ) -> Result<(), String> {
+    ) -> Result<(), ControllerError> {
         let (speed_rad_s, angle_rad) = (interfaces.state(0), interfaces.state(1));
         if !(speed_rad_s.is_finite() && angle_rad.is_finite()) {
-            return Err("the state of the wheel is not a number".into());
+            return Err(ControllerError::Unmeasured(
+                "the state of the wheel is not a number".into(),
+            ));
         }
         let wanted = self.reference.current(cycle);
         self.odometry.angle_rad = angle_rad;

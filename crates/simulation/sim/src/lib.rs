@@ -29,6 +29,7 @@ mod compose;
 mod compute_topics;
 mod default_world;
 mod drive;
+mod drive_score;
 mod files;
 mod footprint;
 mod pace;
@@ -45,6 +46,7 @@ pub use compose::{
 };
 pub use compute_topics::compute_topics;
 pub use drive::{DriveError, Driver, ScriptFindings, VelocityTopic, velocity_topics};
+pub use drive_score::DriveScore;
 pub use files::AssetFiles;
 pub use pace::RealTimePacer;
 pub use periplus_physics::limits::STEP_RANGE_S;

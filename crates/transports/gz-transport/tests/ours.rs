@@ -44,7 +44,7 @@ fn a_topic_is_found_heard_and_gone() {
     drop(publisher);
     until("it is gone", || b.topics().is_empty());
     drop(ear);
-    // Messages without subscribers are not sent. The end of a subscription arrives on a connection of its own,
+    // Messages without subscribers are not sent. The end of a subscription arrives on a separate connection,
     // so it may come after the advertisement.
     let again = a.advertise("/lamp", "gz.msgs.Boolean").unwrap();
     until("it is there again", || b.topics().len() == 1);

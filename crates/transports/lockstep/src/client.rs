@@ -41,6 +41,8 @@ struct Line {
     out: Vec<u8>,
     /// True from a wait to the turn that ends it. A wait that `pause` has ended leaves it true.
     is_idle: bool,
+    /// True once the graph has gone.
+    has_ended: bool,
 }
 
 /// Size above which frames are sent at once [bytes].
@@ -74,6 +76,7 @@ impl LockstepClient {
                 reader: Reader::default(),
                 out: Vec::new(),
                 is_idle: false,
+                has_ended: false,
             }),
             inboxes: Mutex::default(),
             last_id: 0.into(),
@@ -118,10 +121,11 @@ impl LockstepClient {
         self.wait_go(&mut line)
     }
 
-    /// Creates a node; returns its number.
+    /// Creates a node; returns its number. This and all that follows does nothing once a wait has found that the graph
+    /// has gone: a program then ends as if it were alone.
     ///
     /// # Errors
-    /// When the name is not valid, or the graph has gone.
+    /// When the name is not valid, or the graph goes meanwhile.
     pub fn node(&self, words: &NodeWords) -> io::Result<u32> {
         let id = self.next_id();
         self.ask(&Query::Node { id, words: words.clone() })?;
@@ -333,12 +337,18 @@ impl LockstepClient {
 
     fn post(&self, kind: Kind, parts: &[&[u8]]) -> io::Result<()> {
         let mut line = lock(&self.line);
+        if line.has_ended {
+            return Ok(());
+        }
         append(&mut line.out, kind, parts);
         if line.out.len() > SEND_ABOVE_BYTES { line.send() } else { Ok(()) }
     }
 
     fn ask(&self, query: &Query) -> io::Result<Reply> {
         let mut line = lock(&self.line);
+        if line.has_ended {
+            return Ok(query.reply_of_nobody());
+        }
         if line.is_idle {
             return Err(io::Error::other("the simulation answers only in the turn of the process"));
         }
@@ -364,7 +374,7 @@ impl LockstepClient {
     }
 
     fn wait_go(&self, line: &mut Line) -> io::Result<()> {
-        let Line { stream, reader, is_idle, .. } = line;
+        let Line { stream, reader, is_idle, has_ended, .. } = line;
         loop {
             let (kind, body) = match reader.next(stream) {
                 Ok(frame) => frame,
@@ -372,7 +382,10 @@ impl LockstepClient {
                     (self.pause)()?;
                     continue;
                 }
-                Err(error) => return Err(error),
+                Err(error) => {
+                    *has_ended = true;
+                    return Err(error);
+                }
             };
             if kind == Kind::Go {
                 self.now_ns.store(Body(body).i64()?, Ordering::Release);
@@ -401,6 +414,7 @@ impl LockstepClient {
 impl Line {
     fn send(&mut self) -> io::Result<()> {
         let sent = self.stream.write_all(&self.out);
+        self.has_ended |= sent.is_err();
         self.out.clear();
         sent
     }

@@ -67,6 +67,25 @@ pub(crate) enum Query {
     },
 }
 
+impl Query {
+    /// Reply of a graph with nothing in it.
+    pub(crate) fn reply_of_nobody(&self) -> Reply {
+        match self {
+            Self::Matched { .. } => Reply::Count(0),
+            Self::Topics | Self::Services => Reply::Names(Vec::new()),
+            Self::Nodes => Reply::Nodes(Vec::new()),
+            Self::Endpoints { .. } => Reply::Endpoints(Vec::new()),
+            Self::Events { .. } => Reply::Words(Vec::new()),
+            Self::Hello { .. }
+            | Self::Node { .. }
+            | Self::Publisher(..)
+            | Self::Subscription(..)
+            | Self::Client(_)
+            | Self::Server(_) => Reply::Done,
+        }
+    }
+}
+
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub(crate) enum Reply {
     Done,

@@ -172,3 +172,28 @@ fn wrong_names_and_types_are_errors_of_the_process() {
     assert!(name.contains("1 wrong"), "{name}");
     assert!(of.contains("std_msgs/msg/Bool") && of.contains("std_msgs/msg/String"), "{of}");
 }
+
+#[test]
+fn a_process_whose_graph_has_gone_is_alone() {
+    let graph = Graph::new();
+    let host = LockstepHost::new(&graph).expect("a socket");
+    let process = process(&host, "last", |client| {
+        let node = client.node(&words("last"))?;
+        let chatter = client.publisher(node, "/chatter", TEXT, None, Qos::reliable(1))?;
+        client.wait(None, true).expect_err("the graph goes");
+        assert_eq!(
+            (client.matched(chatter)?, client.topics()?, client.nodes()?),
+            (0, vec![], vec![])
+        );
+        assert!(
+            client.endpoints("/chatter", true)?.is_empty() && client.events(chatter)?.is_empty()
+        );
+        let (_, inbox) = client.subscription(node, "/late", TEXT, None, Qos::reliable(1))?;
+        client.publish(chatter, &vec![0; 1 << 20])?;
+        assert!(inbox.take().is_none());
+        client.wait(None, true).map(|()| unreachable!()).or(Ok(()))
+    });
+    host.admit(&mut |_| true);
+    drop((host, graph));
+    process.join().expect("a thread").expect("answers of nobody");
+}

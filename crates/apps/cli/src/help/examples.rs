@@ -88,6 +88,11 @@ pub(super) const EXAMPLES: &[(&str, &[Example])] = &[
     ("map info", &[("periplus map info room.yaml", "Size, origin, and fractions of free, occupied and unknown cells")]),
     ("map save", &[("periplus map save -f room", "Save /map as room.yaml and room.pgm")]),
     ("map serve", &[("periplus map serve room.yaml", "Publish /map and offer its services")]),
+    ("navigate", &[
+        ("periplus navigate worlds/house.sdf --robot robot.urdf.xacro --pose 0,0,0 --goal 3,0,1.57 --slam-out map", "Drive to a goal while SLAM builds a map, save it"),
+        ("periplus navigate worlds/house.sdf --robot robot.urdf.xacro --map map/map.yaml --goal 3,0 --goal 0,0", "Drive to two goals on a map"),
+        ("periplus navigate worlds/house.sdf --robot robot.urdf.xacro --goal 3,0 --page", "Watch it on a page in the browser"),
+    ]),
     ("new package", &[
         ("periplus new package my_bot", "A package with robot, room, launch file and parameters"),
         ("periplus new package my_bot --sim classic", "The same for Gazebo Classic 11"),
@@ -125,6 +130,7 @@ pub(super) const EXAMPLES: &[(&str, &[Example])] = &[
         ("periplus sim worlds/house.sdf --robot robot.urdf.xacro lidar:=true --pose 1,2,0", "With an argument of its xacro, at a pose"),
         ("periplus sim worlds/house.sdf --duration 60 --record run.mcap", "A minute at full speed, recorded"),
         ("periplus sim worlds/house.sdf --robot robot.urdf.xacro --cmd drive.yaml --slam --slam-out map", "Drive by a script, build a map, save it"),
+        ("periplus sim worlds/house.sdf --robot robot.urdf.xacro --navigation --page", "Send the robot to goals on the page"),
     ]),
     ("slam", &[
         ("periplus slam drive.mcap --out map", "A map of a recorded drive"),

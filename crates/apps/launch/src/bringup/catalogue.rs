@@ -3,6 +3,7 @@
 use std::fmt::Write as _;
 
 use periplus_maps::Distro;
+use periplus_nav_nodes::navigation::NavigationServer;
 use periplus_nav_nodes::slam_toolbox::Program;
 
 /// Role of a built-in replacement.
@@ -32,8 +33,8 @@ pub(crate) enum Role {
     MapSaver(Distro),
     /// AMCL; true if it waits for a lifecycle manager.
     Amcl { is_managed: bool },
-    /// Nav2 server with a built-in costmap but without its algorithms.
-    CostmapHost { costmap: &'static str, lacks: &'static str },
+    /// Server of Nav2's navigation.
+    Navigation(NavigationServer),
     /// Stand-alone costmap.
     Costmap,
     /// Voxels as cubes.
@@ -291,16 +292,72 @@ pub(crate) static CATALOGUE: &[Entry] = &[
         &["controller_server"],
         &["nav2_controller::ControllerServer"],
         "controller_server",
-        Role::CostmapHost { costmap: "local_costmap", lacks: "controllers" },
-        "its `local_costmap`, in the same lifecycle state; controllers are missing",
+        Role::Navigation(NavigationServer::Controller),
+        "the built-in server with its `local_costmap`: MPPI, DWB, RegulatedPurePursuit, Graceful, RotationShim",
     ),
     entry(
         &["nav2_planner"],
         &["planner_server"],
         &["nav2_planner::PlannerServer"],
         "planner_server",
-        Role::CostmapHost { costmap: "global_costmap", lacks: "planners" },
-        "its `global_costmap`, in the same lifecycle state; planners are missing",
+        Role::Navigation(NavigationServer::Planner),
+        "the built-in server with its `global_costmap`: NavFn, Smac, Theta*",
+    ),
+    entry(
+        &["nav2_smoother"],
+        &["smoother_server"],
+        &["nav2_smoother::SmootherServer"],
+        "smoother_server",
+        Role::Navigation(NavigationServer::Smoother),
+        "the built-in server",
+    ),
+    entry(
+        &["nav2_behaviors"],
+        &["behavior_server"],
+        &["behavior_server::BehaviorServer", "nav2_behaviors::BehaviorServer"],
+        "behavior_server",
+        Role::Navigation(NavigationServer::Behaviors),
+        "the built-in server: spin, back up, drive on heading, wait, assisted teleoperation",
+    ),
+    entry(
+        &["nav2_velocity_smoother"],
+        &["velocity_smoother"],
+        &["nav2_velocity_smoother::VelocitySmoother"],
+        "velocity_smoother",
+        Role::Navigation(NavigationServer::VelocitySmoother),
+        "the built-in smoother",
+    ),
+    entry(
+        &["nav2_collision_monitor"],
+        &["collision_monitor"],
+        &["nav2_collision_monitor::CollisionMonitor"],
+        "collision_monitor",
+        Role::Navigation(NavigationServer::CollisionMonitor),
+        "the built-in monitor",
+    ),
+    entry(
+        &["nav2_collision_monitor"],
+        &["collision_detector"],
+        &["nav2_collision_monitor::CollisionDetector"],
+        "collision_detector",
+        Role::Navigation(NavigationServer::CollisionDetector),
+        "the built-in detector",
+    ),
+    entry(
+        &["nav2_bt_navigator"],
+        &["bt_navigator"],
+        &["nav2_bt_navigator::BtNavigator"],
+        "bt_navigator",
+        Role::Navigation(NavigationServer::Navigator),
+        "the built-in navigator: behavior trees with all nodes of Nav2's default trees",
+    ),
+    entry(
+        &["nav2_waypoint_follower"],
+        &["waypoint_follower"],
+        &["nav2_waypoint_follower::WaypointFollower"],
+        "waypoint_follower",
+        Role::Navigation(NavigationServer::WaypointFollower),
+        "the built-in follower",
     ),
     entry(
         &["nav2_costmap_2d"],
@@ -374,23 +431,12 @@ pub(crate) static CATALOGUE: &[Entry] = &[
         "nothing: it needs a terminal; run `periplus teleop` in one",
     ),
     entry(
-        &[
-            "nav2_bt_navigator",
-            "nav2_behaviors",
-            "nav2_smoother",
-            "nav2_velocity_smoother",
-            "nav2_waypoint_follower",
-            "nav2_collision_monitor",
-            "opennav_docking",
-            "nav2_route",
-            "nav2_bringup",
-            "nav2_recoveries",
-        ],
+        &["opennav_docking", "nav2_route", "nav2_bringup", "nav2_recoveries"],
         &["*"],
         NONE,
         "nav2",
         Role::Lacking,
-        "nothing: Periplus has Nav2's map server, AMCL and costmaps, no planners and controllers",
+        "nothing: docking and routes are not built in; the lifecycle manager goes on without it",
     ),
     entry(
         &["move_base"],
@@ -398,7 +444,7 @@ pub(crate) static CATALOGUE: &[Entry] = &[
         NONE,
         "move_base",
         Role::Lacking,
-        "nothing: Periplus has no planners; costmaps run with `periplus costmap FILE`",
+        "nothing: navigation is that of ROS 2; `periplus navigate WORLD --robot FILE --goal X,Y,YAW` drives this robot",
     ),
     entry(
         &["controller_manager"],
@@ -542,7 +588,7 @@ mod tests {
         assert_eq!(role(None, "/opt/ros/lib/gazebo_ros/gzserver"), Some(Role::Gazebo));
         assert_eq!(role(Some("nav2_amcl"), "amcl"), Some(Role::Amcl { is_managed: true }));
         assert_eq!(role(Some("amcl"), "amcl"), Some(Role::Amcl { is_managed: false }));
-        assert_eq!(role(Some("nav2_behaviors"), "behavior_server"), Some(Role::Lacking));
+        assert_eq!(role(Some("nav2_route"), "route_server"), Some(Role::Lacking));
         assert_eq!(role(None, "behavior_server"), None);
         assert_eq!(role(Some("mine"), "amcl"), None);
         let class = of_plugin("nav2_map_server", "nav2_map_server::MapServer");

@@ -24,7 +24,7 @@ use serde_json::Value;
 
 use crate::bringup::bridge::{self, Direction};
 use crate::bringup::catalogue::Role;
-use crate::bringup::costmaps::{self, Host};
+use crate::bringup::navigation;
 use crate::bringup::parameters::{self, NamedParameters, text_of, texts_of, truth_of};
 use crate::bringup::parts::{BuiltInRequest, searched};
 use crate::bringup::report::PartOutcomeKind;
@@ -167,15 +167,15 @@ pub(crate) fn make(
             }
             made.keep(amcl);
         }
-        Role::CostmapHost { costmap, lacks } => {
-            let host = Host::new(ask, &node, graph, (costmap, lacks), &mut made.notes)?;
+        Role::Navigation(server) => {
+            let server = navigation::server(ask, (server, node), graph, &named, &mut made.notes)?;
             if !ask.is_managed {
-                host.start();
+                server.start();
             }
-            made.keep(host);
+            made.keep(server);
         }
         Role::Costmap => {
-            let costmap = costmaps::alone(ask, node, &mut made.notes)?;
+            let costmap = navigation::costmap_alone(ask, node, &mut made.notes)?;
             if !ask.is_managed {
                 costmap.start();
             }
@@ -573,8 +573,23 @@ impl ParameterFile {
     /// # Errors
     /// A message; unexpected, because the text is generated here.
     pub(crate) fn new(named: &NamedParameters, full_name: &str) -> Result<Self, String> {
-        let all: Vec<_> = named.iter().map(|(name, value)| (name.clone(), value.clone())).collect();
-        let text = if all.is_empty() { String::new() } else { parameters_to_yaml("/**", &all) };
+        Self::of_nodes(&[("/**".to_owned(), named.clone())], full_name)
+    }
+
+    /// Writes the parameters of several nodes, by their names in the file; `full_name` is the node in findings.
+    ///
+    /// # Errors
+    /// A message; unexpected, because the text is generated here.
+    pub(crate) fn of_nodes(
+        sections: &[(String, NamedParameters)],
+        full_name: &str,
+    ) -> Result<Self, String> {
+        let mut text = String::new();
+        for (node, named) in sections.iter().filter(|(_, named)| !named.is_empty()) {
+            let all: Vec<_> =
+                named.iter().map(|(name, value)| (name.clone(), value.clone())).collect();
+            text.push_str(&parameters_to_yaml(node, &all));
+        }
         let mut sources = SourceMap::new();
         let file = sources.add(format!("parameters of {full_name}"), text);
         let tree = periplus_yaml::parse(file, &sources).map_err(|error| error.message)?;

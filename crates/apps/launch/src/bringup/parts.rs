@@ -93,6 +93,8 @@ pub(crate) struct Program {
     pub(crate) is_shell: bool,
     /// True for a node, false for a command.
     pub(crate) is_node: bool,
+    /// True if its command line is complete: that of `ros2 run`, which adds no `--ros-args`.
+    pub(crate) is_complete: bool,
     pub(crate) is_lifecycle: bool,
     /// Name, parameters and remappings, if it is a node.
     pub(crate) identity: Identity,
@@ -344,7 +346,7 @@ fn ours(
             Role::MapServer { is_managed: true }
                 | Role::Amcl { is_managed: true }
                 | Role::MapSaverServer
-                | Role::CostmapHost { .. }
+                | Role::Navigation(_)
                 | Role::Costmap
         );
     Work::Ours(Box::new(BuiltInRequest {
@@ -413,7 +415,11 @@ fn of_process(process: &Process) -> Work {
             running: process.running.clone(),
             ..PlanNode::default()
         };
-        return of_node(&node, &BTreeMap::new());
+        let mut work = of_node(&node, &BTreeMap::new());
+        if let Work::Program(program) = &mut work {
+            program.is_complete = true;
+        }
+        return work;
     }
     let window =
         if world::is_window(words) { of_program(Some("gazebo_ros"), "gzclient") } else { None };

@@ -139,7 +139,8 @@ impl PythonNode {
     }
 
     /// Program of a package in a source tree that is visible from the file or folder `from`; `None` if there
-    /// is no such package, or its program is not Python.
+    /// is no such package, or its program is not Python. In a package of Python alone every program is: the module
+    /// that runs it evaluates `setup.py`, and names the programs that there are.
     #[must_use]
     pub fn of_package(
         package: &str,
@@ -149,13 +150,12 @@ impl PythonNode {
         environment: &Environment,
     ) -> Option<Self> {
         let node = Self::in_package(package, program, search, from, environment)?;
-        has_python_program(&node.path, package, program).then_some(node)
+        let is_python = has_python_program(&node.path, package, program)
+            || (is_python_package(&node.path) && !has_file(&node.path, package, program));
+        is_python.then_some(node)
     }
 
-    /// Program of a package as [`PythonNode::of_package`], whether or not the package seems to have it: the
-    /// module that runs it then lists those that it has.
-    #[must_use]
-    pub fn in_package(
+    fn in_package(
         package: &str,
         program: &str,
         search: &Search,
@@ -165,7 +165,9 @@ impl PythonNode {
         let host = Overlay { variables: environment.clone() };
         let resolver = Resolver::new(&host, &search.folders);
         let path = resolver.find_package(package, from).ok()?;
-        let is_source = Machine.kind(&path.join("package.xml")) == Some(EntryKind::File)
+        // A package of rosbuild has a manifest.xml.
+        let mut manifests = ["package.xml", "manifest.xml"].into_iter().map(|name| path.join(name));
+        let is_source = manifests.any(|file| Machine.kind(&file) == Some(EntryKind::File))
             && !path.parent().is_some_and(|above| above.ends_with("share"));
         is_source.then(|| Self { program: Some((package.to_owned(), program.to_owned())), path })
     }
@@ -246,18 +248,33 @@ fn has_python_program(folder: &Path, package: &str, program: &str) -> bool {
         return true;
     }
     let names = [program.to_owned(), format!("{name}.py"), name.to_owned()];
-    let inner = [package];
-    let usual = FOLDERS
-        .iter()
-        .chain(&inner)
-        .flat_map(|inside| names.iter().map(move |name| folder.join(inside).join(name)));
-    let mut usual = usual.filter(|path| Machine.kind(path) == Some(EntryKind::File)).peekable();
-    if usual.peek().is_some() {
-        return usual.any(|path| is_python_file(&path));
+    let usual = in_usual_folders(folder, package, &names);
+    if !usual.is_empty() {
+        return usual.iter().any(|path| is_python_file(path));
     }
     // CMake installs scripts of any folder, by names and patterns.
     let mut entries = 0;
     script_below(folder, &names, 0, &mut entries)
+}
+
+/// Files of these names in the folders that usually contain programs.
+fn in_usual_folders(folder: &Path, package: &str, names: &[String]) -> Vec<PathBuf> {
+    let paths = FOLDERS
+        .into_iter()
+        .chain([package])
+        .flat_map(|inside| names.iter().map(move |name| folder.join(inside).join(name)));
+    paths.filter(|path| Machine.kind(path) == Some(EntryKind::File)).collect()
+}
+
+/// Returns true if one of these folders has a file with the name of the program.
+fn has_file(folder: &Path, package: &str, program: &str) -> bool {
+    !in_usual_folders(folder, package, &[program.to_owned()]).is_empty()
+}
+
+/// Returns true for a package without anything to compile.
+fn is_python_package(folder: &Path) -> bool {
+    let has = |name: &str| Machine.kind(&folder.join(name)) == Some(EntryKind::File);
+    has("setup.py") && !has("CMakeLists.txt")
 }
 
 fn script_below(folder: &Path, names: &[String], depth: usize, entries: &mut usize) -> bool {

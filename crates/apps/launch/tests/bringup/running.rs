@@ -14,9 +14,7 @@ use periplus_msgs::std_srvs::{Empty, EmptyRequest};
 use periplus_msgs::tf2_msgs::TFMessage;
 use periplus_os::Machine;
 use periplus_resources::Resolver;
-use periplus_sim::{
-    AssetFiles, Options, Search, Services, Simulation, compose, compose_plain,
-};
+use periplus_sim::{AssetFiles, Options, Search, Services, Simulation, compose, compose_plain};
 
 /// Simulated duration of a part of the test \[ns\].
 const PART_NS: i64 = 6_000_000_000;

@@ -15,7 +15,7 @@ use periplus_msgs::sensor_msgs::{Imu, LaserScan};
 use periplus_msgs::tf2_msgs::TFMessage;
 use periplus_nav_nodes::ekf_node::EkfNode;
 use periplus_params::{Given, ParamValue, ParamValues};
-use periplus_sim::Simulation;
+use periplus_sim::{Simulation, VelocityTopic, velocity_topics};
 
 use crate::error::RunError;
 use crate::terminal;
@@ -49,6 +49,10 @@ pub struct RobotProfile {
     pub has_odom_transform: bool,
     /// Radius of a circle around the robot \[m\].
     pub radius_m: f64,
+    /// Convex outline of the robot in its base frame \[m\]; none if its collisions do not define one.
+    pub footprint: Option<Vec<[f64; 2]>>,
+    /// Topic of velocity commands, and whether they are stamped.
+    pub velocity: Option<VelocityTopic>,
 }
 
 /// Subscriptions of the detection phase.
@@ -78,6 +82,8 @@ impl RobotProfile {
         }
         let mut profile = look.finish();
         profile.radius_m = simulation.robot_radius_m().unwrap_or(DEFAULT_RADIUS_M);
+        profile.footprint = simulation.robot_footprint_m();
+        profile.velocity = velocity_topic(simulation.graph());
         simulation.reset();
         Ok(profile)
     }
@@ -154,6 +160,18 @@ impl RobotProfile {
                 values.set(name, ParamValue::Text(text.clone()));
             }
         }
+    }
+
+    /// Topic of velocity commands.
+    #[must_use]
+    pub fn velocity_topic(&self) -> Option<&str> {
+        self.velocity.as_ref().map(|topic| topic.name.as_str())
+    }
+
+    /// Returns true if velocity commands must be stamped.
+    #[must_use]
+    pub fn takes_stamped_velocities(&self) -> bool {
+        self.velocity.as_ref().is_some_and(|topic| topic.is_stamped)
     }
 
     /// Odometry frame, or its default name.
@@ -282,4 +300,11 @@ fn of_type<M: Message>(topics: &[TopicInfo], word: &str) -> Option<String> {
         topics.iter().filter(is_it).map(|it| it.name.as_str())
     };
     all().find(|name| name.ends_with(word)).or_else(|| all().next()).map(str::to_owned)
+}
+
+/// Returns the topic on which the robot takes velocity commands; of several that of a `cmd_vel` with the shortest name.
+fn velocity_topic(graph: &Graph) -> Option<VelocityTopic> {
+    let is_named = |topic: &VelocityTopic| topic.name.ends_with("/cmd_vel");
+    let topics = velocity_topics(graph).into_iter();
+    topics.min_by_key(|topic| (!is_named(topic), topic.name.len(), topic.name.clone()))
 }

@@ -36,9 +36,9 @@ pub(super) struct MotionFailure {
 pub(super) enum CycleOutcome {
     /// The behavior goes on, with a velocity; none for behaviors that do not move the robot.
     Running(Option<Twist2>),
-    /// It is complete.
+    /// The behavior is complete.
     Succeeded,
-    /// It cannot go on.
+    /// The behavior cannot go on.
     Failed(MotionFailure),
 }
 
@@ -101,7 +101,7 @@ pub(super) struct Slot<B: Behavior> {
     pub(super) server: SimpleActionServer<B::Action>,
     started_ns: i64,
     /// Next cycle of the running goal.
-    next: Option<(LoopRate, Alarm)>,
+    next: Option<Alarm>,
 }
 
 impl<B: Behavior> Slot<B> {
@@ -165,7 +165,7 @@ pub(super) fn begin<B: Behavior>(
     }
 }
 
-/// How a goal ends.
+/// End of a goal.
 enum GoalEnd {
     Preempted,
     Canceled,
@@ -201,7 +201,7 @@ fn cycle<B: Behavior>(
                     let next_ns = rate.next(now_ns);
                     let alarm =
                         io.alarm(next_ns, move |state, io| cycle::<B>(state, index, rate, io));
-                    slot.next = Some((rate, alarm));
+                    slot.next = Some(alarm);
                     return;
                 }
                 CycleOutcome::Succeeded => GoalEnd::Succeeded,

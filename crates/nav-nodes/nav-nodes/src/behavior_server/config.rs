@@ -177,7 +177,7 @@ mod tests {
             let read: Vec<_> =
                 config.behaviors.iter().map(|it| (it.name.as_str(), it.kind)).collect();
             assert_eq!(read, expected);
-            let codes: Vec<&str> = diagnostics.iter().map(|finding| &*finding.code).collect();
+            let codes: Vec<&str> = diagnostics.iter().map(|finding| finding.code).collect();
             assert_eq!(codes, found);
         };
         use BehaviorKind::{AssistedTeleop, BackUp, DriveOnHeading, Spin, Wait};

@@ -73,13 +73,18 @@ pub(super) trait TreeAction: Default + Send + 'static {
     }
 }
 
+/// Name of a server, and its client.
+type NamedClient<T> = (String, Arc<Nav2ActionClient<<T as TreeAction>::Action>>);
+
 /// Tree node with its client.
 pub(super) struct ActionNode<T: TreeAction> {
     shared: Arc<Shared>,
     action: T,
-    client: Option<(String, Arc<Nav2ActionClient<T::Action>>)>,
+    client: Option<NamedClient<T>>,
     goal: Goal<T>,
     sent: Option<Nav2SentGoal<T::Action>>,
+    /// End of the last goal. A node whose parent does not reset it returns its status again.
+    over: Option<(GoalState, Arc<ActionResult<T>>)>,
     /// Time at which the goal was sent, or at which the node began to wait for the server \[ns\].
     since_ns: i64,
 }
@@ -87,14 +92,11 @@ pub(super) struct ActionNode<T: TreeAction> {
 impl<T: TreeAction> ActionNode<T> {
     pub(super) fn new(shared: Arc<Shared>) -> Self {
         let (action, goal) = (T::default(), Goal::<T>::default());
-        Self { shared, action, client: None, goal, sent: None, since_ns: 0 }
+        Self { shared, action, client: None, goal, sent: None, over: None, since_ns: 0 }
     }
 
     /// Name of the server and its client, which is created at first use.
-    fn client(
-        &mut self,
-        run: &NodeRun<'_>,
-    ) -> Result<(String, Arc<Nav2ActionClient<T::Action>>), TreeError> {
+    fn client(&mut self, run: &NodeRun<'_>) -> Result<NamedClient<T>, TreeError> {
         let name = run.input_text("server_name").filter(|name| !name.is_empty());
         let name = name.unwrap_or_else(|| T::SERVER.to_owned());
         if let Some((known, client)) = &self.client
@@ -152,7 +154,7 @@ impl<T: TreeAction> ActionNode<T> {
 
     fn begin(&mut self, run: &mut NodeRun<'_>) -> Result<(), TreeError> {
         self.goal = self.action.goal(run)?;
-        self.sent = None;
+        (self.sent, self.over) = (None, None);
         self.since_ns = run.now_ns();
         run.set_running();
         Ok(())
@@ -199,11 +201,13 @@ fn set_error(run: &mut NodeRun<'_>, code: Option<u16>, message: &str) -> Result<
 impl<T: TreeAction> BehaviorNode for ActionNode<T> {
     fn tick(&mut self, run: &mut NodeRun<'_>) -> Result<NodeStatus, TreeError> {
         let now_ns = run.now_ns();
-        let is_new = !run.status().is_active();
-        if is_new {
+        let (server, client) = self.client(run)?;
+        if run.status() != NodeStatus::Running {
+            if let Some((state, result)) = self.over.clone().filter(|_| run.status().is_active()) {
+                return self.end(run, &server, state, &result);
+            }
             self.begin(run)?;
         }
-        let (server, client) = self.client(run)?;
         let Some(sent) = &self.sent else {
             if client.is_ready() {
                 self.send(&client, now_ns);
@@ -245,7 +249,10 @@ impl<T: TreeAction> BehaviorNode for ActionNode<T> {
                 }
                 Ok(NodeStatus::Running)
             }
-            GoalProgress::Over(state, result) => self.end(run, &server, state, &result),
+            GoalProgress::Over(state, result) => {
+                self.over = Some((state, result.clone()));
+                self.end(run, &server, state, &result)
+            }
         }
     }
 

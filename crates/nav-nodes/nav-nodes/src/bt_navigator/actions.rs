@@ -183,9 +183,10 @@ impl TreeAction for SmoothPath {
 pub(super) struct FollowPath;
 
 impl FollowPath {
-    fn goal_of(run: &NodeRun<'_>) -> FollowPathGoal {
+    /// Goal with the names of plugins, without a path.
+    fn plugins(run: &NodeRun<'_>) -> FollowPathGoal {
         FollowPathGoal {
-            path: object(run, "path"),
+            path: Path::default(),
             controller_id: text(run, "controller_id"),
             goal_checker_id: text(run, "goal_checker_id"),
             progress_checker_id: text(run, "progress_checker_id"),
@@ -198,16 +199,24 @@ impl TreeAction for FollowPath {
     action!(FollowPath, "follow_path", FollowPathResult::CONTROLLER_TIMED_OUT);
 
     fn goal(&mut self, run: &mut NodeRun<'_>) -> Result<Goal<Self>, TreeError> {
-        Ok(Self::goal_of(run))
+        Ok(FollowPathGoal { path: object(run, "path"), ..Self::plugins(run) })
     }
 
     fn update(&mut self, run: &mut NodeRun<'_>, goal: &mut Goal<Self>) -> bool {
-        let mut new = Self::goal_of(run);
-        if new.path.poses.is_empty() {
-            new.path = goal.path.clone();
-        }
-        let is_new = new != *goal;
+        let path = std::mem::take(&mut goal.path);
+        let new = Self::plugins(run);
+        let mut is_new = new != *goal;
         *goal = new;
+        // Paths are long: they are copied only when they have changed.
+        let value = run.input("path");
+        let other = value.as_ref().and_then(|value| value.get::<Path>());
+        goal.path = match other.filter(|other| !other.poses.is_empty() && **other != path) {
+            Some(other) => {
+                is_new = true;
+                other.clone()
+            }
+            None => path,
+        };
         is_new
     }
 

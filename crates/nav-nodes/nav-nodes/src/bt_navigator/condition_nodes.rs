@@ -54,12 +54,12 @@ pub(super) fn is_within_bounds(run: &mut NodeRun<'_>) -> Result<NodeStatus, Tree
     let Some(feedback) = run.input_object::<TrackingFeedback>("tracking_feedback") else {
         return Ok(NodeStatus::Success);
     };
-    let limit = |port: &str, usual: f64| run.input_f64(port).unwrap_or(usual).abs();
+    // All three have defaults.
+    let limit = |port: &str| run.input_f64(port).unwrap_or(f64::INFINITY).abs();
     let position = f64::from(feedback.position_tracking_error);
     let side = if position >= 0.0 { "max_error_left" } else { "max_error_right" };
     let heading = f64::from(feedback.heading_tracking_error).abs();
-    let is_within =
-        position.abs() <= limit(side, 0.5) && heading <= limit("max_error_heading", 3.14);
+    let is_within = position.abs() <= limit(side) && heading <= limit("max_error_heading");
     Ok(holds(is_within))
 }
 

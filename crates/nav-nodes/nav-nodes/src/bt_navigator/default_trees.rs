@@ -1,6 +1,10 @@
 //! Built-in trees, under the names of Nav2's files.
 
+use std::borrow::Cow;
+
 use periplus_costmap::Nav2Release;
+
+use super::simple_trees;
 
 /// File name of the default tree of `navigate_to_pose`.
 pub const NAVIGATE_TO_POSE_FILE: &str = "navigate_to_pose_w_replanning_and_recovery.xml";
@@ -8,9 +12,14 @@ pub const NAVIGATE_TO_POSE_FILE: &str = "navigate_to_pose_w_replanning_and_recov
 pub const NAVIGATE_THROUGH_POSES_FILE: &str =
     "navigate_through_poses_w_replanning_and_recovery.xml";
 
+/// File names of all built-in trees.
+pub fn built_in_tree_files() -> impl Iterator<Item = &'static str> {
+    [NAVIGATE_TO_POSE_FILE, NAVIGATE_THROUGH_POSES_FILE].into_iter().chain(simple_trees::FILES)
+}
+
 /// Text of a built-in tree by its file name; none for other names. Kilted has the trees of Jazzy.
 #[must_use]
-pub fn built_in_tree(release: Nav2Release, file_name: &str) -> Option<&'static str> {
+pub fn built_in_tree(release: Nav2Release, file_name: &str) -> Option<Cow<'static, str>> {
     let [humble, jazzy, main] = match file_name {
         NAVIGATE_TO_POSE_FILE => [
             include_str!("trees/humble/navigate_to_pose.xml"),
@@ -22,11 +31,11 @@ pub fn built_in_tree(release: Nav2Release, file_name: &str) -> Option<&'static s
             include_str!("trees/jazzy/navigate_through_poses.xml"),
             include_str!("trees/main/navigate_through_poses.xml"),
         ],
-        _ => return None,
+        other => return simple_trees::text(release, other).map(Cow::Owned),
     };
-    Some(match release {
+    Some(Cow::Borrowed(match release {
         Nav2Release::Humble => humble,
         Nav2Release::EarlyJazzy | Nav2Release::Jazzy | Nav2Release::Kilted => jazzy,
         Nav2Release::Main => main,
-    })
+    }))
 }

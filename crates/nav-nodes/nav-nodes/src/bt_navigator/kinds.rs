@@ -76,7 +76,7 @@ impl NavigatorKind for ToPose {
         _: Option<&Blackboard>,
         _: bool,
     ) -> NavigateToPoseResult {
-        NavigateToPoseResult { error_code, error_msg, ..NavigateToPoseResult::default() }
+        NavigateToPoseResult { error_code, error_msg }
     }
 }
 

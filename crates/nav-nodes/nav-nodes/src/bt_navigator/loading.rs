@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use periplus_behavior_tree::{
-    BehaviorTree, Blackboard, IncludedTree, NodeRegistry, TreeFiles, TreeInclude,
+    BehaviorTree, Blackboard, IncludedTree, NodeRegistry, TreeFiles, TreeInclude, TreeIncludeError,
 };
 use periplus_diagnostics::{Diagnostics, Severity, SourceMap};
 use periplus_resources::Resolver;
@@ -49,7 +49,7 @@ impl TreeLoader {
         let text = match self.files.read(path) {
             Ok(bytes) => String::from_utf8_lossy(&bytes).into_owned(),
             Err(error) => match built_in_tree(shared.release, file_name) {
-                Some(text) => text.to_owned(),
+                Some(text) => text.into_owned(),
                 None => return Err(vec![format!("cannot read `{name}`: {error}")]),
             },
         };
@@ -104,17 +104,18 @@ impl TreeLoader {
         })
     }
 
-    fn include(&self, include: &TreeInclude<'_>) -> Result<IncludedTree, String> {
+    fn include(&self, include: &TreeInclude<'_>) -> Result<IncludedTree, TreeIncludeError> {
+        let unreadable = TreeIncludeError::Unreadable;
         let from = Path::new(include.from);
         let path = match include.package.filter(|_| !Path::new(include.path).is_absolute()) {
             Some(package) => {
                 let resolver = Resolver::new(&*self.files, &[]);
                 let folder = resolver.find_package(package, from);
-                folder.map_err(|error| error.to_string())?.join(include.path)
+                folder.map_err(|error| unreadable(error.to_string()))?.join(include.path)
             }
             None => from.parent().unwrap_or(Path::new("")).join(include.path),
         };
-        let bytes = self.files.read(&path).map_err(|error| error.to_string())?;
+        let bytes = self.files.read(&path).map_err(|error| unreadable(error.to_string()))?;
         let text = String::from_utf8_lossy(&bytes).into_owned();
         Ok(IncludedTree { name: path.display().to_string(), text })
     }

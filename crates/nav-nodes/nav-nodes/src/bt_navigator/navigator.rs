@@ -131,7 +131,6 @@ pub(super) struct Navigator<K: NavigatorKind> {
     previous_path: Path,
     /// Index of the segment of the path at which the robot is.
     segment: usize,
-    last_outcome: String,
 }
 
 impl<K: NavigatorKind> Default for Navigator<K> {
@@ -144,7 +143,6 @@ impl<K: NavigatorKind> Default for Navigator<K> {
             start_ns: 0,
             previous_path: Path::default(),
             segment: 0,
-            last_outcome: String::new(),
         }
     }
 }
@@ -153,11 +151,6 @@ impl<K: NavigatorKind> Navigator<K> {
     /// True while a goal is being executed.
     pub(super) fn is_navigating(&self) -> bool {
         self.stage != Stage::Idle
-    }
-
-    /// Outcome of the last goal, in words.
-    pub(super) fn last_outcome(&self) -> &str {
-        &self.last_outcome
     }
 
     /// Status while a goal is being executed.
@@ -396,7 +389,7 @@ impl<K: NavigatorKind> Navigator<K> {
             }
         }
         let node = &env.shared.node;
-        self.last_outcome = match outcome {
+        let text = match outcome {
             TreeOutcome::Succeeded => "Goal succeeded".to_owned(),
             TreeOutcome::Canceled => "Goal canceled".to_owned(),
             TreeOutcome::Failed => {
@@ -404,7 +397,8 @@ impl<K: NavigatorKind> Navigator<K> {
             }
         };
         let level = if outcome == TreeOutcome::Failed { Level::Error } else { Level::Info };
-        node.log(level, &self.last_outcome);
+        node.log(level, &text);
+        env.shared.report_outcome(&text);
         let result = K::result(params, error, blackboard, is_success);
         match outcome {
             TreeOutcome::Succeeded => self.server.succeeded_current(result),

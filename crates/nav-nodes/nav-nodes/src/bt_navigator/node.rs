@@ -115,11 +115,9 @@ impl BtNavigator {
     #[must_use]
     pub fn status(&self) -> NavigatorStatus {
         let running = self.to_pose.status().or_else(|| self.through_poses.status());
-        let outcomes = [self.to_pose.last_outcome(), self.through_poses.last_outcome()];
         let mut status = running.unwrap_or_default();
         status.last_error = self.env.shared.last_error();
-        status.last_outcome =
-            outcomes.into_iter().find(|text| !text.is_empty()).unwrap_or_default().to_owned();
+        status.last_outcome = self.env.shared.last_outcome();
         status
     }
 
@@ -257,7 +255,9 @@ impl LifecycleCallbacks for BtNavigator {
         StepOutcome::Success
     }
 
-    fn on_cleanup(&mut self, _: &mut Io<'_, Self>) -> StepOutcome {
+    fn on_cleanup(&mut self, io: &mut Io<'_, Self>) -> StepOutcome {
+        // A node may be shut down while it is active.
+        self.on_deactivate(io);
         self.to_pose.cleanup();
         self.through_poses.cleanup();
         (self.client, self.sent, self.reason, self.env.log) = (None, None, None, None);

@@ -40,6 +40,7 @@ pub(super) struct Shared {
     inputs: Mutex<Inputs>,
     canceling: Mutex<Vec<Box<dyn CancelingGoal>>>,
     last_error: Mutex<Option<ServerError>>,
+    last_outcome: Mutex<String>,
 }
 
 struct Inputs {
@@ -76,6 +77,7 @@ impl Shared {
             inputs: Mutex::new(inputs),
             canceling: Mutex::default(),
             last_error: Mutex::default(),
+            last_outcome: Mutex::default(),
         })
     }
 
@@ -187,9 +189,11 @@ impl Shared {
         Ok(PoseStamped { header, pose: pose(frame_from_source * source_from_goal) })
     }
 
-    /// Keeps a canceled goal until it is over.
-    pub(super) fn add_canceling(&self, goal: impl CancelingGoal + 'static) {
-        lock(&self.canceling).push(Box::new(goal));
+    /// Cancels a goal, and keeps it until it is over.
+    pub(super) fn add_canceling(&self, mut goal: impl CancelingGoal + 'static) {
+        if !goal.is_over() {
+            lock(&self.canceling).push(Box::new(goal));
+        }
     }
 
     /// True while a canceled goal is not over.
@@ -218,6 +222,15 @@ impl Shared {
         if last.as_ref().is_some_and(|error| error.server == server) {
             *last = None;
         }
+    }
+
+    /// Outcome of the last goal, in words; empty before the first one.
+    pub(super) fn last_outcome(&self) -> String {
+        lock(&self.last_outcome).clone()
+    }
+
+    pub(super) fn report_outcome(&self, outcome: &str) {
+        outcome.clone_into(&mut lock(&self.last_outcome));
     }
 
     pub(super) fn clear_error(&self) {

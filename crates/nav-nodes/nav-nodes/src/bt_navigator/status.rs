@@ -47,7 +47,8 @@ pub struct NavigatorStatus {
 
 impl NavigatorStatus {
     pub(super) fn of_tree(action: &str, tree: &BehaviorTree) -> Self {
-        let name = |leaf: periplus_behavior_tree::NodeInfo| match *leaf.name == *leaf.type_name {
+        let name = |leaf: periplus_behavior_tree::TreeNodeInfo| match *leaf.name == *leaf.type_name
+        {
             true => leaf.name.to_string(),
             false => format!("{} ({})", leaf.type_name, leaf.name),
         };

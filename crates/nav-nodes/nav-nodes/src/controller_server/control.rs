@@ -197,7 +197,7 @@ impl ControllerServer {
             })?;
             let frame = &job.path.header.frame_id;
             let costmap_from_plan =
-                costmap.to_global(frame, Pose2::IDENTITY, 0).map_err(|why| {
+                costmap.global_pose_of(frame, Pose2::IDENTITY, 0).map_err(|why| {
                     failed(format!("Failed to transform end pose to global frame: {why}"))
                 })?;
             let end = job.plan.last().copied().unwrap_or_default();

@@ -1,5 +1,7 @@
 //! Node of the controller server.
 
+use periplus_controllers::ControlReport;
+use periplus_controllers::mppi::check_costmap;
 use periplus_costmap::Nav2Release;
 use periplus_diagnostics::Diagnostics;
 use periplus_geometry::Twist2;
@@ -153,6 +155,21 @@ impl ControllerServer {
         self.plugins.reset_controllers();
     }
 
+    /// Contradictions between the costmap and the parameters of the controllers.
+    fn costmap_advice(&self) -> Diagnostics {
+        let mut advice = Diagnostics::new();
+        self.costmap.with(|costmap| {
+            costmap.footprint_advice().into_iter().for_each(|one| advice.push(one));
+            let Some(view) = costmap.view() else { return };
+            for slot in &self.plugins.controllers {
+                if let ControlReport::Samples(report) = slot.controller.report() {
+                    check_costmap(report.0.config(), &slot.id, &view, &mut advice);
+                }
+            }
+        });
+        advice
+    }
+
     pub(super) fn publish_zero(&self, node: &Node) {
         if let Some(outputs) = &self.outputs {
             let base = self.costmap.with(|costmap| costmap.params().robot_base_frame.clone());
@@ -183,8 +200,9 @@ impl LifecycleCallbacks for ControllerServer {
         StepOutcome::Success
     }
 
-    fn on_activate(&mut self, _: &mut Io<'_, Self>) -> StepOutcome {
+    fn on_activate(&mut self, io: &mut Io<'_, Self>) -> StepOutcome {
         let outcome = self.follow(Transition::Activate);
+        self.costmap_advice().iter().for_each(|advice| io.node().log_finding(advice));
         if outcome == StepOutcome::Success {
             self.server.activate();
         }

@@ -10,13 +10,13 @@ params! {
         /// Rate of the control loop.
         #[param("controller_frequency", unit("Hz"), above(0.0))]
         controller_frequency_hz: f64 = 20,
-        /// Speed along x up to which the robot counts as standing.
+        /// Speed along x up to which the odometry counts as 0.
         #[param("min_x_velocity_threshold", unit("m/s"), min(0.0))]
         min_x_velocity_threshold_m_s: f64 = 0.0001,
-        /// Speed along y up to which the robot counts as standing.
+        /// Speed along y up to which the odometry counts as 0.
         #[param("min_y_velocity_threshold", unit("m/s"), min(0.0))]
         min_y_velocity_threshold_m_s: f64 = 0.0001,
-        /// Turn rate up to which the robot counts as standing.
+        /// Turn rate up to which the odometry counts as 0.
         #[param("min_theta_velocity_threshold", unit("rad/s"), min(0.0))]
         min_theta_velocity_threshold_rad_s: f64 = 0.0001,
         /// Topic of speed limits.

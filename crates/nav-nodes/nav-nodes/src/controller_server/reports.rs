@@ -124,7 +124,7 @@ impl ReportPublishers {
     }
 }
 
-/// Publishes a message if somebody subscribes to the topic.
+/// Publishes a message if the topic has subscribers.
 fn publish<T: Message>(
     node: &Node,
     publishers: &mut BTreeMap<&'static str, Publisher<T>>,

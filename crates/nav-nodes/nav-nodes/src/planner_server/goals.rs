@@ -2,7 +2,7 @@
 
 use periplus_costmap::Nav2Release;
 use periplus_geometry::Pose2;
-use periplus_graph::{Io, Level};
+use periplus_graph::{Io, Level, Node, Qos};
 use periplus_msgs::Nav2Action;
 use periplus_msgs::builtin_interfaces::Duration;
 use periplus_msgs::geometry_msgs::PoseStamped;
@@ -15,6 +15,7 @@ use periplus_msgs::std_msgs::Header;
 use periplus_planners::{Plan, PlanError, PlanErrorKind, PlanRequest};
 use periplus_tf_ros::pose;
 
+use super::failure::LegFailure;
 use super::node::PlannerServer;
 use crate::costmap_2d::{CostmapNode, blame};
 use crate::simple_action_server::SimpleActionServer;
@@ -130,21 +131,6 @@ enum CostmapState {
     TimedOut(String),
 }
 
-/// Plan that could not be made, with the poses of the leg that failed.
-struct LegFailure {
-    error: PlanError,
-    start: Option<Pose2>,
-    goal: Option<Pose2>,
-    /// Layers and sources that are responsible.
-    blame: Option<String>,
-}
-
-impl From<PlanError> for LegFailure {
-    fn from(error: PlanError) -> Self {
-        Self { error, start: None, goal: None, blame: None }
-    }
-}
-
 impl PlannerServer {
     /// Begins the work on a goal.
     pub(super) fn start<A: PathAction>(&mut self, io: &mut Io<'_, Self>) {
@@ -173,7 +159,8 @@ impl PlannerServer {
                     CostmapState::TimedOut(why) => {
                         let text = format!("Costmap timed out waiting for update: {why}");
                         let error = PlanError::new(PlanErrorKind::Timeout, text);
-                        self.fail::<A>(error.into(), io);
+                        let failure: Box<LegFailure> = error.into();
+                        self.fail::<A>(&failure, io);
                     }
                     CostmapState::Current => self.plan::<A>(start_ns, io),
                 }
@@ -222,9 +209,9 @@ impl PlannerServer {
                 return;
             }
             if !is_partial {
-                return self.fail::<A>(failure, io);
+                return self.fail::<A>(&failure, io);
             }
-            let text = self.failure_text(A::planner_id(&goal), &failure);
+            let text = failure.text(self.planner_name(A::planner_id(&goal)));
             io.node().log(Level::Warn, &text);
             let text =
                 "Planner server failed to compute full path. Outputting partial path instead.";
@@ -257,7 +244,7 @@ impl PlannerServer {
         goal: &A::Goal,
         outcome: &mut PathOutcome,
         io: &mut Io<'_, Self>,
-    ) -> Result<(), LegFailure> {
+    ) -> Result<(), Box<LegFailure>> {
         let now_ns = io.now_ns();
         if A::poses(goal).is_empty() {
             return Err(PlanError::new(PlanErrorKind::NoViapoints, "No viapoints given").into());
@@ -269,15 +256,10 @@ impl PlannerServer {
         outcome.path.header =
             self.costmap.with(|costmap| Header::at(now_ns, &costmap.params().global_frame));
         for wanted in A::poses(goal) {
-            let transformed = self.costmap.with(|costmap| costmap.pose_to_global(wanted));
-            let leg_goal = transformed.map_err(|why| LegFailure {
-                error: PlanError::new(
-                    PlanErrorKind::Transform,
-                    format!("Unable to transform poses to global frame: {why}"),
-                ),
-                start: Some(start),
-                goal: None,
-                blame: None,
+            let transformed = self.costmap.with(|costmap| costmap.global_pose(wanted));
+            let leg_goal = transformed.map_err(|why| {
+                let text = format!("Unable to transform poses to global frame: {why}");
+                PlanError::new(PlanErrorKind::Transform, text)
             })?;
             let plan = self.make_leg(planner, start, leg_goal, io)?;
             start = plan.poses.last().copied().unwrap_or(start);
@@ -285,27 +267,48 @@ impl PlannerServer {
             let is_doubled = outcome.reached > 0 && self.release > Nav2Release::Humble;
             let poses = plan.poses.iter().skip(usize::from(is_doubled));
             let header = outcome.path.header.clone();
-            outcome
-                .path
-                .poses
-                .extend(poses.map(|it| PoseStamped { header: header.clone(), pose: pose(*it) }));
+            self.show_unsmoothed(&header, &plan.unsmoothed, io.node());
+            let stamped = |it: &Pose2| PoseStamped { header: header.clone(), pose: pose(*it) };
+            outcome.path.poses.extend(poses.map(stamped));
             outcome.reached += 1;
         }
         Ok(())
     }
 
-    fn start_pose(&self, given: Option<&PoseStamped>, now_ns: i64) -> Result<Pose2, PlanError> {
+    fn start_pose(
+        &self,
+        given: Option<&PoseStamped>,
+        now_ns: i64,
+    ) -> Result<Pose2, Box<LegFailure>> {
         self.costmap.with(|costmap| match given {
-            Some(given) => costmap.pose_to_global(given).map_err(|why| {
+            Some(given) => costmap.global_pose(given).map_err(|why| {
                 let text = format!("Unable to transform poses to global frame: {why}");
-                PlanError::new(PlanErrorKind::Transform, text)
+                PlanError::new(PlanErrorKind::Transform, text).into()
             }),
             None => costmap.robot_pose(now_ns).map_err(|finding| {
                 let help: String = finding.help.iter().map(|help| format!("; {help}")).collect();
                 let text = format!("Unable to get start pose: {}{help}", finding.message);
-                PlanError::new(PlanErrorKind::Transform, text)
+                PlanError::new(PlanErrorKind::Transform, text).into()
             }),
         })
+    }
+
+    /// Publishes the path before smoothing, for planners that smooth.
+    fn show_unsmoothed(&mut self, header: &Header, poses: &[Pose2], node: &Node) {
+        if poses.is_empty() {
+            return;
+        }
+        if self.unsmoothed.is_none() {
+            match node.publisher("unsmoothed_plan", Qos::reliable(1)) {
+                Ok(publisher) => self.unsmoothed = Some(publisher),
+                Err(error) => node.log(Level::Error, error),
+            }
+        }
+        if let Some(publisher) = self.unsmoothed.as_ref().filter(|publisher| publisher.is_heard()) {
+            let stamped = |it: &Pose2| PoseStamped { header: header.clone(), pose: pose(*it) };
+            let poses = poses.iter().map(stamped).collect();
+            publisher.publish(Path { header: header.clone(), poses });
+        }
     }
 
     /// Plans one leg.
@@ -315,7 +318,7 @@ impl PlannerServer {
         start: Pose2,
         goal: Pose2,
         io: &mut Io<'_, Self>,
-    ) -> Result<Plan, LegFailure> {
+    ) -> Result<Plan, Box<LegFailure>> {
         let slot = &mut self.planners[planner];
         let id = slot.id.clone();
         let Some(planner) = &mut slot.planner else {
@@ -327,7 +330,7 @@ impl PlannerServer {
         let planned = self.costmap.with(|costmap: &mut CostmapNode| {
             let Some(view) = costmap.view() else {
                 let error = PlanError::new(PlanErrorKind::Unknown, "the costmap is not configured");
-                return Err((error, None));
+                return Err(error.into());
             };
             let planned = planner.plan(PlanRequest {
                 costmap: view,
@@ -339,66 +342,34 @@ impl PlannerServer {
                     max_s.is_some_and(|max_s| elapsed_s > max_s)
                 },
             });
-            match planned {
-                Ok(plan) => {
-                    if let (Some(cell), Some(layered)) = (plan.cleared_cell, &mut costmap.costmap) {
-                        layered.costmap_mut().set(cell, periplus_costmap::cost::FREE);
-                    }
-                    Ok(plan)
-                }
-                Err(error) => {
-                    let blame = error
-                        .obstruction
-                        .blocking
-                        .and_then(|blocking| blame(costmap.costmap.as_ref()?, blocking.cell));
-                    Err((error, blame))
-                }
+            let plan = planned.map_err(|error| {
+                let blame = error
+                    .obstruction
+                    .blocking
+                    .and_then(|blocking| blame(costmap.costmap.as_ref()?, blocking.cell));
+                Box::new(LegFailure { error, leg: Some((start, goal)), blame })
+            })?;
+            if let (Some(cell), Some(layered)) = (plan.cleared_cell, &mut costmap.costmap) {
+                layered.costmap_mut().set(cell, periplus_costmap::cost::FREE);
             }
-        });
-        let failed =
-            |error, blame| LegFailure { error, start: Some(start), goal: Some(goal), blame };
-        match planned {
-            Ok(plan) if plan.poses.is_empty() => {
-                let text = format!("{id} generated a empty path");
-                Err(failed(PlanError::new(PlanErrorKind::NoValidPath, text), None))
-            }
-            Ok(plan) => Ok(plan),
-            Err((error, blame)) => Err(failed(error, blame)),
+            Ok::<Plan, Box<LegFailure>>(plan)
+        })?;
+        if planned.poses.is_empty() {
+            let text = format!("{id} generated a empty path");
+            let error = PlanError::new(PlanErrorKind::NoValidPath, text);
+            return Err(Box::new(LegFailure { error, leg: Some((start, goal)), blame: None }));
         }
+        Ok(planned)
     }
 
     /// Ends the current goal with an error.
-    fn fail<A: PathAction>(&mut self, failure: LegFailure, io: &mut Io<'_, Self>) {
+    fn fail<A: PathAction>(&mut self, failure: &LegFailure, io: &mut Io<'_, Self>) {
         let goal = A::server(self).current_goal();
         let id = goal.as_ref().map(|goal| A::planner_id(goal)).unwrap_or_default();
-        let text = self.failure_text(id, &failure);
+        let text = failure.text(self.planner_name(id));
         io.node().log(Level::Warn, &text);
         let failure = Some((failure.error.kind, text));
         let result = A::result(PathOutcome { failure, ..Default::default() });
         A::server(self).terminate_current(result);
-    }
-
-    /// Sentence with the poses, the reason of the planner and the layer that is responsible.
-    fn failure_text(&self, id: &str, failure: &LegFailure) -> String {
-        let id = match self.find_planner(id) {
-            Ok(index) => &self.planners[index].id,
-            Err(_) => id,
-        };
-        let shown = |pose: Option<Pose2>| {
-            pose.map(|Pose2 { x_m, y_m, yaw_rad }| {
-                format!("({x_m:.2}, {y_m:.2}) (yaw: {yaw_rad:.2})")
-            })
-        };
-        let mut text = match (shown(failure.start), shown(failure.goal)) {
-            (Some(start), Some(goal)) => {
-                format!("{id} plugin failed to plan from {start} to {goal}: ")
-            }
-            _ => format!("{id} plugin failed to plan: "),
-        };
-        text += &failure.error.to_string();
-        if let Some(blame) = &failure.blame {
-            text += &format!("; the blocking cell comes from {blame}");
-        }
-        text
     }
 }

@@ -27,6 +27,8 @@ pub struct PlannerServer {
     pub(super) planners: Vec<PlannerSlot>,
     pub(super) costmap: LifecycleNode<CostmapNode>,
     pub(super) plan: Option<Publisher<Path>>,
+    /// Path before smoothing, once a planner has one.
+    pub(super) unsmoothed: Option<Publisher<Path>>,
     pub(super) to_pose: SimpleActionServer<ComputePathToPose>,
     pub(super) through_poses: SimpleActionServer<ComputePathThroughPoses>,
     /// By action, the alarm of a goal that waits for the costmap.
@@ -62,6 +64,7 @@ impl PlannerServer {
             planners,
             costmap,
             plan: None,
+            unsmoothed: None,
             to_pose: SimpleActionServer::default(),
             through_poses: SimpleActionServer::default(),
             waiting: BTreeMap::new(),
@@ -132,6 +135,11 @@ impl PlannerServer {
         find_plugin(self.planners.iter().map(|slot| slot.id.as_str()), id, "planner")
     }
 
+    /// Name of the planner that a goal asks for, for messages.
+    pub(super) fn planner_name<'a>(&'a self, id: &'a str) -> &'a str {
+        self.find_planner(id).map_or(id, |index| &self.planners[index].id)
+    }
+
     fn follow(&self, transition: Transition) -> StepOutcome {
         if self.costmap.lifecycle().change_now(transition) {
             StepOutcome::Success
@@ -142,6 +150,7 @@ impl PlannerServer {
 
     fn release_all(&mut self) {
         self.plan = None;
+        self.unsmoothed = None;
         self.planners.iter_mut().for_each(|slot| slot.planner = None);
     }
 }
@@ -196,8 +205,11 @@ impl LifecycleCallbacks for PlannerServer {
         StepOutcome::Success
     }
 
-    fn on_activate(&mut self, _: &mut Io<'_, Self>) -> StepOutcome {
+    fn on_activate(&mut self, io: &mut Io<'_, Self>) -> StepOutcome {
         let outcome = self.follow(Transition::Activate);
+        if let Some(advice) = self.costmap.with(|costmap| costmap.footprint_advice()) {
+            io.node().log_finding(&advice);
+        }
         if outcome == StepOutcome::Success {
             self.to_pose.activate();
             self.through_poses.activate();

@@ -80,7 +80,7 @@ struct GpsConversion {
     since_ns: i64,
 }
 
-/// How a goal ends.
+/// End of a goal.
 enum FollowEnd {
     Succeeded,
     Canceled,
@@ -234,11 +234,7 @@ fn step<A: FollowAction>(
     }
     A::follower(state).server.publish_feedback(A::feedback(run.index));
     if let FollowStage::Navigating(sent) = &run.stage {
-        let missed = match outcome(&sent.look())? {
-            Ok(()) => None,
-            Err(missed) => Some(missed),
-        };
-        let Some((code, text)) = missed else {
+        let Err((code, text)) = outcome(&sent.look())? else {
             state.task.start(now_ns);
             run.stage = FollowStage::Task;
             return work(state, run, now_ns, node);

@@ -6,11 +6,12 @@ use std::sync::Arc;
 use periplus_images::{Layout, write_png};
 use periplus_msgs::sensor_msgs::Image;
 use periplus_params::ParamValues;
+use periplus_resources::FileWriteError;
 
 use super::config::{InputAtWaypointParams, PhotoAtWaypointParams, TaskKind, WaitAtWaypointParams};
 
 /// Saves a photo as a file, and creates its folder if that is missing. An error is logged.
-pub type SavePhoto = Arc<dyn Fn(&Path, &[u8]) -> Result<(), String> + Send + Sync>;
+pub type SavePhoto = Arc<dyn Fn(&Path, &[u8]) -> Result<(), FileWriteError> + Send + Sync>;
 
 /// Task with its state.
 pub(super) struct WaypointTask {
@@ -27,11 +28,11 @@ pub(super) struct WaypointTask {
 /// Result of a task.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) enum TaskOutcome {
-    /// It goes on.
+    /// The task goes on.
     Running,
-    /// It is complete.
+    /// The task is complete.
     Done,
-    /// It failed.
+    /// The task failed.
     Failed(String),
 }
 
@@ -103,7 +104,8 @@ impl WaypointTask {
         }
         let content = png(image)?;
         let path = PathBuf::from(&params.save_dir).join(format!("{index}_{sent_s}.png"));
-        (self.save)(&path, &content)
+        let named = |error| format!("`{}`: {error}", path.display());
+        (self.save)(&path, &content).map_err(named)
     }
 }
 

@@ -78,6 +78,21 @@ pub(crate) fn map(is_wall: impl Fn(f64, f64) -> bool) -> OccupancyGrid {
     }
 }
 
+/// Transforms from `map` to `odom` and from there to a robot at a pose.
+pub(crate) fn transforms(time_ns: i64, robot: Pose2) -> TFMessage {
+    let transform = |parent: &str, child: &str, pose: Pose2| TransformStamped {
+        header: Header { stamp: Time::of_ns(time_ns), frame_id: parent.into() },
+        child_frame_id: child.into(),
+        transform: Transform {
+            translation: Vector3 { x: pose.x_m, y: pose.y_m, z: 0.0 },
+            rotation: quaternion(pose.yaw_rad),
+        },
+    };
+    let transforms =
+        vec![transform("map", "odom", Pose2::IDENTITY), transform("odom", "base_link", robot)];
+    TFMessage { transforms }
+}
+
 pub(crate) struct Stage {
     pub(crate) graph: Graph,
     pub(crate) user: Node,
@@ -99,17 +114,7 @@ impl Stage {
     /// Publishes `map` to `odom` and `odom` to `base_link`.
     pub(crate) fn publish_robot(&self) {
         let Some(robot) = self.robot else { return };
-        let transform = |parent: &str, child: &str, pose: Pose2| TransformStamped {
-            header: Header { stamp: Time::of_ns(self.now_ns), frame_id: parent.into() },
-            child_frame_id: child.into(),
-            transform: Transform {
-                translation: Vector3 { x: pose.x_m, y: pose.y_m, z: 0.0 },
-                rotation: quaternion(pose.yaw_rad),
-            },
-        };
-        let transforms =
-            vec![transform("map", "odom", Pose2::IDENTITY), transform("odom", "base_link", robot)];
-        self.tf.publish(TFMessage { transforms });
+        self.tf.publish(transforms(self.now_ns, robot));
     }
 
     /// Advances in steps of 10 ms, in each of which the pose of the robot is published.

@@ -437,6 +437,20 @@ const DWB: &[(&str, &str)] = &[
     ("FollowPath.BaseObstacle.scale", "0.02"),
     ("FollowPath.RotateToGoal.scale", "32.0"),
 ];
+const SHIM: &[(&str, &str)] = &[
+    ("FollowPath.plugin", "nav2_rotation_shim_controller::RotationShimController"),
+    (
+        "FollowPath.primary_controller",
+        "nav2_regulated_pure_pursuit_controller::RegulatedPurePursuitController",
+    ),
+];
+const SHIM_OF_MAIN: &[(&str, &str)] = &[
+    ("FollowPath.plugin", "nav2_rotation_shim_controller::RotationShimController"),
+    (
+        "FollowPath.primary_controller.plugin",
+        "nav2_regulated_pure_pursuit_controller::RegulatedPurePursuitController",
+    ),
+];
 const GRACEFUL: &[(&str, &str)] =
     &[("FollowPath.plugin", "nav2_graceful_controller::GracefulController")];
 
@@ -466,6 +480,25 @@ fn every_controller_reaches_the_goal_in_every_release() {
             driving.advance(50);
             assert_eq!(driving.command, Twist2::ZERO);
         }
+    }
+}
+
+#[test]
+fn a_rotation_shim_turns_to_the_path_first() {
+    for (release, given) in
+        [(Nav2Release::Humble, SHIM), (Nav2Release::Jazzy, SHIM), (Nav2Release::Main, SHIM_OF_MAIN)]
+    {
+        let mut driving = Driving::with(release, given);
+        driving.stage.map.publish(map(|_, _| false));
+        driving.stage.robot = Some(Pose2::new(1.0, 1.0, 2.0));
+        driving.advance(300);
+        let sent = driving.send(goal(path(1.0, 3.0)));
+        driving.advance(300);
+        assert!(driving.command.wz_rad_s < -0.1, "{release} {:?}", driving.command);
+        assert!(driving.fastest_m_s < 0.05, "{release} {}", driving.fastest_m_s);
+        let (state, result) = driving.finish(&sent, 30);
+        assert_eq!(state, GoalState::Succeeded, "{release} {}", result.error_msg);
+        assert!((2.7..3.3).contains(&driving.robot().x_m), "{release} {:?}", driving.robot());
     }
 }
 

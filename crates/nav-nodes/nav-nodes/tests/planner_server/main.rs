@@ -6,10 +6,13 @@ mod common;
 
 use std::sync::Arc;
 
-use common::{GLOBAL_COSTMAP, Stage, costmap, map, pose_in};
+use common::{GLOBAL_COSTMAP, Stage, costmap, map, pose_in, transforms};
 use periplus_costmap::Nav2Release;
 use periplus_diagnostics::Diagnostics;
-use periplus_graph::{GoalProgress, GoalState, LifecycleNode, LifecycleState, NodeSettings};
+use periplus_geometry::Pose2;
+use periplus_graph::{
+    GoalProgress, GoalState, Graph, LifecycleNode, LifecycleState, NodeSettings, Qos,
+};
 use periplus_msgs::nav_msgs::{Goals, Path};
 use periplus_msgs::nav2_msgs_main::*;
 use periplus_msgs::rcl_interfaces::{
@@ -60,7 +63,7 @@ impl Planning {
         sent.look()
     }
 
-    fn to_pose(&mut self, goal: ComputePathToPoseGoal) -> (GoalState, ComputePathToPoseResult) {
+    fn plan_to(&mut self, goal: ComputePathToPoseGoal) -> (GoalState, ComputePathToPoseResult) {
         let client = self.client::<ComputePathToPose>("compute_path_to_pose");
         let sent = client.send(goal);
         match self.finish(&sent, 100) {
@@ -70,7 +73,7 @@ impl Planning {
     }
 
     fn fails(&mut self, goal: ComputePathToPoseGoal, code: u16, words: &[&str]) {
-        let (state, result) = self.to_pose(goal);
+        let (state, result) = self.plan_to(goal);
         assert_eq!(state, GoalState::Aborted);
         assert_eq!(result.error_code, code, "{}", result.error_msg);
         for word in words {
@@ -100,7 +103,7 @@ fn length_m(path: &Path) -> f64 {
 fn a_path_leads_around_a_wall() {
     let mut planning = Planning::started(Nav2Release::Main, &[]);
     let plans = planning.stage.mailbox::<Path>("/plan");
-    let (state, result) = planning.to_pose(goal(5.0, 1.0));
+    let (state, result) = planning.plan_to(goal(5.0, 1.0));
     assert_eq!((state, result.error_code), (GoalState::Succeeded, 0), "{}", result.error_msg);
     assert_eq!(result.path.header.frame_id, "map");
     // Over the end of the wall at (3, 3): twice the hypotenuse of 2 m and 2 m.
@@ -119,7 +122,7 @@ fn a_given_start_replaces_the_robot() {
         use_start: true,
         ..goal(5.0, 1.0)
     };
-    let (state, result) = planning.to_pose(given);
+    let (state, result) = planning.plan_to(given);
     assert_eq!(state, GoalState::Succeeded);
     assert!(length_m(&result.path) < 1.2);
 }
@@ -153,7 +156,7 @@ fn failures_have_codes_and_reasons() {
 #[test]
 fn results_of_humble_have_no_codes() {
     let mut planning = Planning::started(Nav2Release::Humble, &[("GridBased.tolerance", "0.0")]);
-    let (state, result) = planning.to_pose(goal(3.0, 1.0));
+    let (state, result) = planning.plan_to(goal(3.0, 1.0));
     assert_eq!((state, result.error_code, result.error_msg.as_str()), (GoalState::Aborted, 0, ""));
     assert!(
         planning
@@ -280,6 +283,72 @@ fn waiting_goals_are_preempted_and_canceled() {
 }
 
 #[test]
+fn every_planner_leads_around_the_wall() {
+    for class in [
+        "nav2_navfn_planner/NavfnPlanner",
+        "nav2_theta_star_planner::ThetaStarPlanner",
+        "nav2_smac_planner::SmacPlanner2D",
+        "nav2_smac_planner::SmacPlannerHybrid",
+    ] {
+        let mut planning = Planning::started(Nav2Release::Main, &[("GridBased.plugin", class)]);
+        let unsmoothed = planning.stage.mailbox::<Path>("/unsmoothed_plan");
+        let (state, result) = planning.plan_to(goal(5.0, 1.0));
+        assert_eq!(state, GoalState::Succeeded, "{class}: {}", result.error_msg);
+        let length_m = length_m(&result.path);
+        assert!((5.5..8.5).contains(&length_m), "{class}: {length_m}");
+        let end = &result.path.poses.last().unwrap().pose.position;
+        assert!(libm::hypot(end.x - 5.0, end.y - 1.0) < 0.2, "{class}: {end:?}");
+        assert_eq!(unsmoothed.latest().is_some(), class.contains("Smac"), "{class}");
+    }
+}
+
+/// The same server with a thread for each node.
+#[test]
+fn a_live_server_plans_beside_its_costmap() {
+    let graph = Graph::live();
+    let costmap = costmap(&graph, "global_costmap", GLOBAL_COSTMAP, Nav2Release::Jazzy);
+    let node = graph.node(NodeSettings::new("planner_server")).unwrap();
+    let server = PlannerServer::new(&node, [], costmap, &mut Diagnostics::new()).unwrap();
+    let user = graph.node(NodeSettings::new("user")).unwrap();
+    let maps = user.publisher("/map", Qos::latched(1)).unwrap();
+    maps.publish(map(|_, _| false));
+    server.start();
+    let client = Nav2ActionClient::<ComputePathToPose>::new(
+        &user,
+        Nav2Release::Jazzy,
+        "compute_path_to_pose",
+    )
+    .unwrap();
+    let start = pose_in("map", 1.0, 1.0, 0.0);
+    let (mut sent, mut succeeded) = (None, false);
+    let tf = user.publisher("/tf", Qos::reliable(10)).unwrap();
+    for step in 1..2000 {
+        graph.advance_to(step * 10_000_000);
+        tf.publish(transforms(graph.now_ns(), Pose2::new(1.0, 1.0, 0.0)));
+        std::thread::sleep(std::time::Duration::from_millis(2));
+        let asked = sent.get_or_insert_with(|| {
+            client.send(ComputePathToPoseGoal {
+                start: start.clone(),
+                use_start: true,
+                ..goal(5.0, 3.0)
+            })
+        });
+        match asked.look() {
+            GoalProgress::Over(GoalState::Succeeded, _) => {
+                succeeded = true;
+                break;
+            }
+            // The server or its costmap is not active yet.
+            GoalProgress::Rejected | GoalProgress::Failed(_) | GoalProgress::Over(..) => {
+                sent = None;
+            }
+            GoalProgress::Sent | GoalProgress::Accepted => {}
+        }
+    }
+    assert!(succeeded);
+}
+
+#[test]
 fn the_costmap_follows_the_lifecycle() {
     let planning = Planning::started(Nav2Release::Main, &[]);
     let state =
@@ -343,10 +412,10 @@ fn parameters_of_planners_change_while_the_server_runs() {
         );
         answer.results[0].clone()
     };
-    assert_eq!(planning.to_pose(goal(3.0, 1.0)).0, GoalState::Succeeded, "0.5 m are tolerated");
+    assert_eq!(planning.plan_to(goal(3.0, 1.0)).0, GoalState::Succeeded, "0.5 m are tolerated");
     let changed = set(&planning, "GridBased.tolerance", 0.01);
     assert!(changed.successful, "{}", changed.reason);
-    assert_eq!(planning.to_pose(goal(3.0, 1.0)).0, GoalState::Aborted);
+    assert_eq!(planning.plan_to(goal(3.0, 1.0)).0, GoalState::Aborted);
     assert!(!set(&planning, "GridBased.tolerance", -1.0).successful);
     assert!(!set(&planning, "expected_planner_frequency", 0.0).successful);
 }

@@ -1,4 +1,5 @@
 //! One running goal, one pending: acceptance, preemption, cancellation and results.
+#![allow(clippy::unwrap_used, reason = "a test says what must be there")]
 
 use periplus_costmap::Nav2Release;
 use periplus_graph::{

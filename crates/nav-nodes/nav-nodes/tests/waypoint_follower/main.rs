@@ -135,13 +135,14 @@ fn a_photo_is_taken_at_each_pose() {
     let images = stage.user.publisher::<Image>("image", Qos::reliable(1)).unwrap();
     let (encoding, data) = ("rgb8".to_owned(), vec![1, 2, 3]);
     images.publish(Image { width: 1, height: 1, step: 3, encoding, data, ..Image::default() });
-    stage.run(3.0);
+    stage.graph.advance_to(5_500_000_000);
     let start_s = stage.graph.now_ns() / 1_000_000_000;
     let progress = stage.finish(&stage.send(&[1.0, 2.0]));
     assert_eq!(over(&progress), (GoalState::Succeeded, 0, vec![]));
+    // The files are named by the seconds at which the poses were sent, half a second apart.
     let photos = stage.photos.lock().unwrap().clone();
-    let second_s = start_s + i64::from(photos[1] != format!("/photos/1_{start_s}.png"));
-    assert_eq!(photos, [format!("/photos/0_{start_s}.png"), format!("/photos/1_{second_s}.png")]);
+    let expected = [(0, start_s), (1, start_s + 1)].map(|(i, s)| format!("/photos/{i}_{s}.png"));
+    assert_eq!(photos, expected);
 }
 
 #[test]

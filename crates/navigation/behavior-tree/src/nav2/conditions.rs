@@ -24,34 +24,44 @@ impl Goals {
     }
 }
 
-/// `GoalUpdated` and `GlobalUpdatedGoal`: succeed when the goal has changed since the last tick.
+/// `GlobalUpdatedGoal`: succeeds when the goal has changed since the last tick, however long ago that was,
+/// and at the first tick.
 ///
-/// Source: `goal_updated_condition.cpp`, `globally_updated_goal_condition.cpp`.
-pub(super) struct GoalChanged {
+/// Source: `globally_updated_goal_condition.cpp`.
+#[derive(Default)]
+pub(super) struct GlobalUpdatedGoal {
     goals: Goals,
-    /// Remembers the goal over halts, and the first tick succeeds.
-    is_global: bool,
-    is_first: bool,
+    was_ticked: bool,
 }
 
-impl GoalChanged {
-    pub(super) fn since_activation() -> Self {
-        Self { goals: Goals::default(), is_global: false, is_first: true }
-    }
-
-    pub(super) fn since_creation() -> Self {
-        Self { is_global: true, ..Self::since_activation() }
-    }
-}
-
-impl BehaviorNode for GoalChanged {
+impl BehaviorNode for GlobalUpdatedGoal {
     fn tick(&mut self, run: &mut NodeRun<'_>) -> Result<NodeStatus, TreeError> {
         let is_changed = self.goals.update(run);
-        let is_first = std::mem::replace(&mut self.is_first, false);
-        if self.is_global {
-            return Ok(holds(is_first || is_changed));
-        }
-        Ok(holds(run.status().is_active() && is_changed))
+        let is_first = !std::mem::replace(&mut self.was_ticked, true);
+        Ok(holds(is_first || is_changed))
+    }
+}
+
+/// `GoalUpdated`: succeeds when the goal has changed since the last tick of the tree.
+///
+/// Nav2's node begins again whenever its status is idle. A reactive parent resets it in each tick in which
+/// a sibling is running, so that there it never succeeds, and a new goal does not end a recovery
+/// (navigation2#6082). Here it begins again after a tick of the tree in which it was not ticked.
+///
+/// Source: `goal_updated_condition.cpp`.
+#[derive(Default)]
+pub(super) struct GoalUpdated {
+    goals: Goals,
+    last_tick: Option<u64>,
+}
+
+impl BehaviorNode for GoalUpdated {
+    fn tick(&mut self, run: &mut NodeRun<'_>) -> Result<NodeStatus, TreeError> {
+        let is_changed = self.goals.update(run);
+        let now = run.tick_count();
+        let last = self.last_tick.replace(now);
+        let goes_on = last.is_some_and(|last| now - last <= 1);
+        Ok(holds(goes_on && is_changed))
     }
 }
 

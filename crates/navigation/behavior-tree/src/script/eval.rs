@@ -57,7 +57,9 @@ impl Scope<'_> {
                         .ok_or_else(|| fault(inapplicable(mark, &[&left, &right])))?
                 };
                 let value = bounded(value).map_err(fault)?;
-                self.blackboard.set_in(self.board, name, value.clone()).map_err(fault)?;
+                self.blackboard
+                    .set_in(self.board, name, value.clone())
+                    .map_err(|error| fault(error.to_string()))?;
                 Ok(self.blackboard.get_in(self.board, name).cloned().unwrap_or(value))
             }
         }

@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use super::{MAX_SCRIPT_TOKENS, ScriptError};
+use super::{MAX_SCRIPT_TOKEN_COUNT, ScriptError};
 
 #[derive(Clone, Debug, PartialEq)]
 pub(super) enum TokenKind {
@@ -40,8 +40,8 @@ pub(super) fn tokenize(source: &str) -> Result<Vec<Token>, ScriptError> {
         let (kind, end) = token(source, at)?;
         tokens.push(Token { kind, range: at..end });
         at = end;
-        if tokens.len() > MAX_SCRIPT_TOKENS {
-            let message = format!("the script has more than {MAX_SCRIPT_TOKENS} tokens");
+        if tokens.len() > MAX_SCRIPT_TOKEN_COUNT {
+            let message = format!("the script has more than {MAX_SCRIPT_TOKEN_COUNT} tokens");
             return Err(ScriptError::new(message, at..source.len()));
         }
     }

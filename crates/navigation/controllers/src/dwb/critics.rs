@@ -15,6 +15,7 @@ use periplus_diagnostics::{Diagnostic, Diagnostics, closest};
 use periplus_geometry::{Pose2, Twist2};
 use periplus_params::{ParamValues, Table};
 
+pub(crate) use grid::plan_cells;
 pub use grid::{CellDistances, densified};
 pub use map_grid::{MapGridCritic, MapGridTarget};
 pub use motion::{OscillationCritic, PreferForwardCritic, TwirlingCritic};
@@ -168,6 +169,19 @@ pub(crate) fn create_critic(
     let values = given.read(table, &[], diagnostics);
     let critic = create(&CriticSetup { values: &values, planner, release });
     Some(NamedCritic { name: name.into(), values, critic })
+}
+
+/// Creates a critic of a class such as `dwb_critics::BaseObstacleCritic` or `BaseObstacle`, from parameters of its
+/// group; none after an error that it has reported.
+#[must_use]
+pub fn create_trajectory_critic(
+    class: &str,
+    given: &GivenParameters<'_>,
+    planner: &DwbParams,
+    release: Nav2Release,
+    diagnostics: &mut Diagnostics,
+) -> Option<Box<dyn TrajectoryCritic>> {
+    create_critic(class, given, planner, release, diagnostics).map(|critic| critic.critic)
 }
 
 /// Name of a class without its package, with `Critic` at its end.

@@ -4,7 +4,7 @@
 
 use periplus_geometry::{Pose2, Twist2, normalize_angle};
 
-use super::{TrajectoryParams, VelocityLimits};
+use super::{KinematicLimits, TrajectoryParams};
 
 /// Maximum number of steps of a trajectory.
 const MAX_STEP_COUNT: usize = 100_000;
@@ -66,7 +66,7 @@ impl TrajectoryGenerator {
     pub fn samples(
         self,
         params: &TrajectoryParams,
-        limits: &VelocityLimits,
+        limits: &KinematicLimits,
         present: Twist2,
         control_period_s: f64,
     ) -> Vec<Twist2> {
@@ -83,7 +83,7 @@ impl TrajectoryGenerator {
     pub fn simulate(
         self,
         params: &TrajectoryParams,
-        limits: &VelocityLimits,
+        limits: &KinematicLimits,
         start: Pose2,
         present: Twist2,
         command: Twist2,
@@ -162,8 +162,8 @@ mod tests {
         }
     }
 
-    fn limits() -> VelocityLimits {
-        let mut limits = VelocityLimits::new(&DwbParams::default().kinematics);
+    fn limits() -> KinematicLimits {
+        let mut limits = KinematicLimits::new(&DwbParams::default().kinematics);
         for axis in [&mut limits.x, &mut limits.y, &mut limits.theta] {
             (axis.acceleration, axis.deceleration) = (1.0, -1.0);
         }

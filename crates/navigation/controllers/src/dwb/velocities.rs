@@ -27,7 +27,7 @@ pub struct AxisLimits {
 }
 
 impl AxisLimits {
-    /// Returns the velocity after a time \[s\] on the way to a target.
+    /// Returns the velocity after a time \[s\] towards a target.
     #[must_use]
     pub fn approach(&self, present: f64, time_s: f64, target: f64) -> f64 {
         if present < target {
@@ -64,7 +64,7 @@ impl AxisLimits {
 
 /// Limits of a robot.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct VelocityLimits {
+pub struct KinematicLimits {
     /// Along x.
     pub x: AxisLimits,
     /// Along y.
@@ -79,7 +79,7 @@ pub struct VelocityLimits {
     pub min_turn_rate_rad_s: f64,
 }
 
-impl VelocityLimits {
+impl KinematicLimits {
     /// Returns the limits of parameters.
     #[must_use]
     pub fn new(params: &KinematicParams) -> Self {
@@ -202,13 +202,13 @@ mod tests {
             min_speed_theta_rad_s: 0.5,
             ..default_kinematics()
         };
-        let limits = VelocityLimits::new(&params);
+        let limits = KinematicLimits::new(&params);
         let is_valid = |x, y, theta| limits.is_valid(Twist2::new(x, y, theta));
         assert!(is_valid(0.3, 0.4, 0.0));
         assert!(!is_valid(0.4, 0.4, 0.0), "faster than 0.5 m/s");
         assert!(!is_valid(0.05, 0.0, 0.4), "too slow in both");
         assert!(is_valid(0.05, 0.0, 0.5) && is_valid(0.1, 0.0, 0.0));
-        assert!(!VelocityLimits::new(&default_kinematics()).is_valid(Twist2::ZERO));
+        assert!(!KinematicLimits::new(&default_kinematics()).is_valid(Twist2::ZERO));
         let limited = limits.limited(0.2, false);
         assert_eq!((limited.x.max, limited.theta.max, limited.theta.min), (0.2, 0.8, -0.8));
         assert_eq!(limits.limited(0.9, false), limits);

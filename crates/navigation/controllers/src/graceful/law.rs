@@ -36,7 +36,7 @@ impl EgoPolar {
 /// Control law with its gains and limits.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SmoothControlLaw {
-    /// Gain of the heading on the way.
+    /// Gain of the heading on the path to the target.
     pub k_phi: f64,
     /// Gain of the error of the heading.
     pub k_delta: f64,
@@ -73,14 +73,15 @@ impl SmoothControlLaw {
         }
     }
 
-    /// Returns the curvature of the path to the target \[1/m\].
+    /// Returns the curvature of the path to the target \[1/m\]; backwards that of the reversed line of sight.
     #[must_use]
-    pub fn curvature_per_m(&self, seen: EgoPolar) -> f64 {
+    pub fn curvature_per_m(&self, seen: EgoPolar, is_backward: bool) -> f64 {
         let EgoPolar { r_m, phi_rad, delta_rad } = seen;
         let scaled = self.k_phi * phi_rad;
         let proportional = self.k_delta * (delta_rad - libm::atan(-scaled));
         let feedback = (1.0 + self.k_phi / (1.0 + scaled * scaled)) * libm::sin(delta_rad);
-        -(proportional + feedback) / r_m
+        let curvature_per_m = -(proportional + feedback) / r_m;
+        if is_backward { -curvature_per_m } else { curvature_per_m }
     }
 
     /// Returns the velocity towards a target.
@@ -88,9 +89,9 @@ impl SmoothControlLaw {
     pub fn velocity(&self, target: Pose2, robot: Pose2, is_backward: bool) -> Twist2 {
         let seen = EgoPolar::new(target, robot, is_backward);
         let direction = if is_backward { -1.0 } else { 1.0 };
-        let curvature_per_m = direction * self.curvature_per_m(seen);
-        let bent = 1.0 + self.beta * libm::pow(curvature_per_m.abs(), self.lambda);
-        let speed_m_s = (self.max_speed_m_s / bent)
+        let curvature_per_m = self.curvature_per_m(seen, is_backward);
+        let slowing = 1.0 + self.beta * libm::pow(curvature_per_m.abs(), self.lambda);
+        let speed_m_s = (self.max_speed_m_s / slowing)
             .min(self.max_speed_m_s * seen.r_m / self.slowdown_radius_m)
             .min(libm::sqrt(2.0 * seen.r_m * self.deceleration_m_s2))
             .max(self.min_speed_m_s)
@@ -149,7 +150,7 @@ mod tests {
         assert_eq!((seen.r_m, seen.phi_rad), (1.0, -std::f64::consts::FRAC_PI_2));
         let pi = std::f64::consts::PI;
         let expected = pi / 2.0 + libm::atan(pi) + 1.0 + 2.0 / (1.0 + pi * pi);
-        assert!((law().curvature_per_m(seen) - expected).abs() < 1e-12);
+        assert!((law().curvature_per_m(seen, false) - expected).abs() < 1e-12);
     }
 
     proptest! {

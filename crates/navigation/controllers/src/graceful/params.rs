@@ -9,7 +9,7 @@ params! {
     /// The controller Graceful.
     #[table(GRACEFUL, "Graceful")]
     pub struct GracefulParams {
-        /// Gain of the heading that the robot takes on its way (Humble: 3).
+        /// Gain of the heading on the path to the target (Humble: 3).
         #[param("k_phi")]
         k_phi: f64 = 2,
         /// Gain of the error of the heading (Humble: 2).

@@ -73,7 +73,7 @@ impl MppiVelocityLimits {
 
 /// Limits of the accelerations.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct AccelerationLimits {
+pub struct MppiAccelerationLimits {
     /// Maximum acceleration forwards \[m/s²\].
     pub ax_max: f32,
     /// Strongest deceleration, negative \[m/s²\].
@@ -86,7 +86,7 @@ pub struct AccelerationLimits {
     pub az_max: f32,
 }
 
-impl AccelerationLimits {
+impl MppiAccelerationLimits {
     /// Returns the changes of the velocity that are possible within a time \[s\].
     pub(crate) fn within(&self, time_s: f32) -> Changes {
         Changes {

@@ -12,7 +12,7 @@ use super::context::{CriticContext, Evaluation};
 use super::critics::{Critic, CriticKind, CriticLimits};
 use super::filter::{ControlHistory, smooth};
 use super::lanes::Row;
-use super::limits::{AccelerationLimits, Changes, MppiVelocityLimits};
+use super::limits::{Changes, MppiAccelerationLimits, MppiVelocityLimits};
 use super::params::{MppiParams, ValidatorParams};
 use super::rollout::{Delays, Motion, NoiseScale, add_sequence, draw_noise, predict, trajectory};
 use super::samples::Samples;
@@ -30,7 +30,7 @@ pub(crate) struct OptimizerSettings {
     pub(crate) iterations: usize,
     pub(crate) retries: usize,
     pub(crate) velocity: MppiVelocityLimits,
-    pub(crate) acceleration: AccelerationLimits,
+    pub(crate) acceleration: MppiAccelerationLimits,
     pub(crate) scale: NoiseScale,
     temperature: f32,
     gamma: f32,
@@ -66,7 +66,7 @@ impl OptimizerSettings {
                 wz_max: params.wz_max_rad_s as f32,
             },
             // Wrong signs are corrected as in Nav2.
-            acceleration: AccelerationLimits {
+            acceleration: MppiAccelerationLimits {
                 ax_max: params.ax_max_m_s2.abs() as f32,
                 ax_min: -params.ax_min_m_s2.abs() as f32,
                 ay_max: params.ay_max_m_s2 as f32,

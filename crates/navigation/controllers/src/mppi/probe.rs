@@ -10,7 +10,7 @@ use super::cost_grid::CostGrid;
 use super::critics::{Critic, CriticKind, CriticLimits};
 use super::filter::{ControlHistory, smooth};
 use super::lanes::{Row, ZEROS};
-use super::limits::{AccelerationLimits, MppiModel, MppiVelocityLimits};
+use super::limits::{MppiAccelerationLimits, MppiModel, MppiVelocityLimits};
 use super::path::LocalPath;
 use super::rollout::{Delays, Motion, NoiseScale, Start, predict};
 use super::samples::Samples;
@@ -178,7 +178,7 @@ pub fn rollout(
     controls: &ControlSequence,
     pose: [f32; 3],
     speed: MppiControl,
-    limits: &AccelerationLimits,
+    limits: &MppiAccelerationLimits,
     step_s: f32,
 ) -> SampleTable {
     let steps = controls.len();

@@ -247,7 +247,7 @@ pub(crate) fn trajectory(sequence: &ControlSequence, start: &Start, step_s: f32)
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::mppi::limits::AccelerationLimits;
+    use crate::mppi::limits::MppiAccelerationLimits;
 
     fn near(values: impl IntoIterator<Item = f32>, expected: &[f32]) {
         let values: Vec<f32> = values.into_iter().collect();
@@ -264,7 +264,7 @@ mod tests {
             samples.vy.controls.set(0, step, *vy);
             samples.wz.controls.set(0, step, *wz);
         }
-        let limits = AccelerationLimits {
+        let limits = MppiAccelerationLimits {
             ax_max: 3.0,
             ax_min: -3.0,
             ay_max: 3.0,

@@ -3,7 +3,7 @@
 use periplus_costmap::Nav2Release;
 
 use super::lanes::clamp;
-use super::limits::{AccelerationLimits, Changes, MppiModel, MppiVelocityLimits};
+use super::limits::{Changes, MppiAccelerationLimits, MppiModel, MppiVelocityLimits};
 
 /// One control of all axes.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -33,7 +33,7 @@ pub(crate) struct SequenceLimits {
     pub(crate) release: Nav2Release,
     pub(crate) model: MppiModel,
     pub(crate) velocity: MppiVelocityLimits,
-    pub(crate) acceleration: AccelerationLimits,
+    pub(crate) acceleration: MppiAccelerationLimits,
     /// Duration of a time step \[s\].
     pub(crate) step_s: f32,
     /// Period of the controller \[s\].
@@ -184,7 +184,7 @@ mod tests {
             release,
             model: MppiModel::DiffDrive,
             velocity: MppiVelocityLimits { vx_max: 0.5, vx_min: -0.35, vy_max: 0.5, wz_max: 1.9 },
-            acceleration: AccelerationLimits {
+            acceleration: MppiAccelerationLimits {
                 ax_max: 2.0,
                 ax_min: -4.0,
                 ay_max: 2.0,

@@ -25,7 +25,7 @@ const UPDATE_RATIO: f64 = std::f64::consts::FRAC_1_SQRT_2;
 /// underestimates diagonal waves by 0.4 %.
 const LOWEST_SLOPE_COST: f32 = 0.99 * NEUTRAL_COST;
 /// Maximum share by which the potential of the goal may be higher with Dijkstra than with A*: updates that
-/// gain little are left out, and A* leaves out fewer on its straight way. It is up to 1.0 % on Nav2's
+/// gain little are left out, and A* leaves out fewer on its straight course. It is up to 1.0 % on Nav2's
 /// benchmark maps, and not above the share that costs and detours add to the straight line.
 const MAX_DIJKSTRA_EXCESS_RATIO: f32 = 0.015;
 /// Potential beyond that of the goal up to which cells are kept: the gradient of the path needs two cells

@@ -33,7 +33,6 @@ pub(crate) struct AnalyticSettings {
     pub(crate) overrides_max_cost: bool,
     /// Weight of the costs of cells.
     pub(crate) cost_penalty: f64,
-    pub(crate) bin_count: usize,
 }
 
 /// Collision-free curve to a goal.
@@ -66,9 +65,7 @@ pub(super) fn expand(
     let mut costs = Vec::with_capacity(interval_count + cusps.len());
     for fraction in fractions(interval_count, &cusps) {
         let pose = curve.pose_at(from, fraction);
-        let bins = libm::round(pose.yaw_rad / (2.0 * PI) * settings.bin_count as f64) as i64;
-        let bin = bins.rem_euclid(settings.bin_count as i64) as usize;
-        costs.push(f64::from(checker.free_cost(pose.x_m, pose.y_m, bin)?));
+        costs.push(f64::from(checker.free_cost_at(pose)?));
         poses.push(pose);
     }
     let is_short = length < 2.0 * PI * settings.radius && settings.overrides_max_cost;

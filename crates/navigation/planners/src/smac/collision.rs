@@ -3,17 +3,19 @@
 //! Source of the rules: `nav2_smac_planner/src/collision_checker.cpp`. Poses are checked in the cell that
 //! contains them; Nav2 looks half a cell further up and to the right.
 
-use std::f64::consts::PI;
-
 use periplus_costmap::cost::{INSCRIBED, LETHAL, UNKNOWN};
 use periplus_costmap::footprint::outline_cost;
 use periplus_costmap::{Costmap, CostmapView};
+use periplus_geometry::Pose2;
+
+use super::headings::Headings;
 
 /// Checker of poses.
 #[derive(Debug)]
 pub(crate) struct CollisionChecker<'a> {
     map: &'a Costmap,
     allow_unknown: bool,
+    headings: &'a Headings,
     shape: Shape,
 }
 
@@ -49,21 +51,21 @@ impl<'a> CollisionChecker<'a> {
     pub(crate) fn new(
         view: &CostmapView<'_>,
         map: &'a Costmap,
-        bin_count: usize,
+        headings: &'a Headings,
         allow_unknown: bool,
     ) -> Self {
         let shape = if view.is_circular || view.footprint.points().len() < 3 {
             Shape::Circle
         } else {
             let rotated = |bin: usize| {
-                let (sine, cosine) = libm::sincos(2.0 * PI * bin as f64 / bin_count as f64);
+                let (sine, cosine) = libm::sincos(headings.angle_rad(bin));
                 let rotate = |[x, y]: &[f64; 2]| [x * cosine - y * sine, x * sine + y * cosine];
                 view.footprint.points().iter().map(rotate).collect()
             };
-            let corners = (0..bin_count).map(rotated).collect();
+            let corners = (0..headings.count()).map(rotated).collect();
             Shape::Footprint { possible_cost: circumscribed_cost(view), corners }
         };
-        Self { map, allow_unknown, shape }
+        Self { map, allow_unknown, headings, shape }
     }
 
     /// Returns the cost at the centre of a robot at a pose \[cells, bins\]; none if it collides.
@@ -87,6 +89,11 @@ impl<'a> CollisionChecker<'a> {
         }
         let is_free = if cost == UNKNOWN { self.allow_unknown } else { cost < INSCRIBED };
         is_free.then_some(cost)
+    }
+
+    /// Like [`Self::free_cost`], with a yaw instead of a bin \[cells, rad\].
+    pub(crate) fn free_cost_at(&self, pose: Pose2) -> Option<u8> {
+        self.free_cost(pose.x_m, pose.y_m, self.headings.nearest(pose.yaw_rad))
     }
 
     fn is_outline_free(&self, corners: &[[f64; 2]], x: f64, y: f64) -> bool {
@@ -120,7 +127,6 @@ pub(crate) fn downsampled(map: &Costmap, factor: usize) -> Costmap {
 
 #[cfg(test)]
 mod tests {
-    use periplus_geometry::Pose2;
     use periplus_grid::GridInfo;
 
     use super::*;

@@ -2,11 +2,10 @@
 //!
 //! Source of the rules: `nav2_smac_planner/src/distance_heuristic.cpp`.
 
-use std::f64::consts::PI;
-
 use periplus_geometry::Pose2;
 
 use super::curve::CurveFamily;
+use super::headings::Headings;
 
 /// Length that was not computed yet; zeroed memory costs nothing until it is used.
 const UNSET_CELLS: f32 = 0.0;
@@ -17,7 +16,7 @@ const UNSET_CELLS: f32 = 0.0;
 pub(crate) struct DistanceTable {
     family: CurveFamily,
     radius: f64,
-    bin_count: usize,
+    headings: Headings,
     /// Half of the side length \[cells\], rounded down; the table covers `-half..half` along x and
     /// `0..half` along y, and mirrors the rest.
     half: i64,
@@ -35,13 +34,13 @@ pub(crate) struct BinPose {
 
 impl DistanceTable {
     /// Creates a table with an odd side length \[cells\].
-    pub(crate) fn new(family: CurveFamily, radius: f64, bin_count: usize, side: usize) -> Self {
-        Self { family, radius, bin_count, half: (side / 2) as i64, lengths: Vec::new() }
+    pub(crate) fn new(family: CurveFamily, radius: f64, headings: Headings, side: usize) -> Self {
+        Self { family, radius, headings, half: (side / 2) as i64, lengths: Vec::new() }
     }
 
     /// Returns the angle of a bin \[rad\].
     pub(crate) fn angle_rad(&self, bin: usize) -> f64 {
-        2.0 * PI * bin as f64 / self.bin_count as f64
+        self.headings.angle_rad(bin)
     }
 
     /// Returns the length of the shortest curve between two poses; none outside the table. The last argument
@@ -58,7 +57,7 @@ impl DistanceTable {
         if x.abs() >= self.half || y.abs() >= self.half {
             return None;
         }
-        let bins = self.bin_count;
+        let bins = self.headings.count();
         let turn = (from.bin + bins - goal.bin) % bins;
         let turn = if y < 0 { (bins - turn) % bins } else { turn };
         let (column, row) = ((x + self.half) as usize, y.unsigned_abs() as usize);
@@ -89,7 +88,7 @@ mod tests {
 
     #[test]
     fn lengths_are_those_of_curves_and_mirrored() {
-        let mut table = DistanceTable::new(CurveFamily::Dubins, 4.0, 72, 41);
+        let mut table = DistanceTable::new(CurveFamily::Dubins, 4.0, Headings::uniform(72), 41);
         let goal = BinPose { x: 30.0, y: 30.0, bin: 0 };
         let from = |x, y, bin| BinPose { x, y, bin };
         assert_eq!(table.length(from(20.0, 30.0, 0), goal, (0.0, 1.0)), Some(10.0));

@@ -13,8 +13,8 @@ pub(crate) struct SmacNode {
     pub(crate) y: f64,
     /// Heading \[bins\].
     pub(crate) bin: u16,
-    /// Primitive that leads here; none at the start and at goals.
-    pub(crate) primitive: Option<u8>,
+    /// Motion that leads here; none at the start and at goals.
+    pub(crate) motion: Option<u16>,
     pub(crate) is_visited: bool,
     /// Cost from the start.
     pub(crate) g: f32,
@@ -28,7 +28,7 @@ impl SmacNode {
             x,
             y,
             bin: bin as u16,
-            primitive: None,
+            motion: None,
             is_visited: false,
             g: f32::INFINITY,
             parent: NONE_INDEX,
@@ -40,9 +40,9 @@ impl SmacNode {
         (self.parent != NONE_INDEX).then_some(self.parent as usize)
     }
 
-    /// Returns the node as it is reached by a primitive.
-    pub(crate) fn reached(self, g: f32, primitive: usize, parent: usize) -> Self {
-        Self { g, primitive: Some(primitive as u8), parent: parent as u32, ..self }
+    /// Returns the node as it is reached by a motion.
+    pub(crate) fn reached(self, g: f32, motion: u16, parent: usize) -> Self {
+        Self { g, motion: Some(motion), parent: parent as u32, ..self }
     }
 }
 

@@ -2,8 +2,6 @@
 //!
 //! Source of the rules: `nav2_smac_planner/smac_planner_hybrid_impl.hpp`.
 
-use std::f64::consts::PI;
-
 use periplus_costmap::cost::{INSCRIBED, MAX_NON_OBSTACLE};
 use periplus_costmap::{Costmap, Nav2Release};
 use periplus_geometry::Pose2;
@@ -13,15 +11,20 @@ use periplus_params::{ParamValue, ParamValues, param_choice};
 use super::analytic::AnalyticSettings;
 use super::collision::{CollisionChecker, downsampled};
 use super::distance_table::{BinPose, DistanceTable};
+use super::headings::Headings;
+use super::lattice::Lattice;
+use super::motions::{CarMotions, LatticeMotions, Motions};
 use super::path_smoothing::{SmacSmoother, smooth};
-use super::primitives::{PrimitiveSet, StepPenalties};
+use super::primitives::{PrimitiveSet, SmacMotionModel, StepPenalties};
 use super::search::{
     Hooks, MotionTables, SearchBuffers, SearchLimits, SmacGoal, SmacOutcome, SmacSearch,
 };
 use crate::obstruction::{Passable, explain};
 use crate::parameters::{ChangeRules, ParameterStore};
-use crate::tables::{SMAC_HYBRID, SmacHybridParams};
-use crate::{ParameterRejected, Plan, PlanError, PlanErrorKind, PlanRequest, Planner, outside};
+use crate::tables::{SMAC_HYBRID, SmacHybridParams, SmacLatticeParams};
+use crate::{
+    ParameterRejected, PlanError, PlanErrorKind, PlanRequest, PlannedPath, Planner, outside,
+};
 
 param_choice! {
     /// Headings at the goal that a plan may end with: `goal_heading_mode`.
@@ -40,6 +43,7 @@ const RULES: ChangeRules = ChangeRules {
     fixed: &[
         "debug_visualizations",
         "downsample_obstacle_heuristic",
+        "lattice_filepath",
         "retrospective_penalty",
         "use_quadratic_cost_penalty",
         "smoother.do_refinement",
@@ -57,6 +61,9 @@ pub struct SmacHybridPlanner {
     store: ParameterStore,
     params: SmacHybridParams,
     release: Nav2Release,
+    headings: Headings,
+    /// Motions of the State Lattice planner; none for those of a car.
+    lattice: Option<(Lattice, LatticeSettings)>,
     /// Tables for a resolution \[m\]; rebuilt when it or a parameter changes.
     tables: Option<(f64, MotionTables)>,
     buffers: SearchBuffers,
@@ -68,6 +75,13 @@ impl Default for SmacHybridPlanner {
     }
 }
 
+/// Parameters that only the State Lattice planner has.
+#[derive(Clone, Copy, Debug)]
+struct LatticeSettings {
+    reverses: bool,
+    rotation_penalty: f64,
+}
+
 /// Returns the parameters with the defaults of a release.
 fn params_of(values: &ParamValues, release: Nav2Release) -> SmacHybridParams {
     let mut params = SmacHybridParams::from_values(values);
@@ -77,18 +91,54 @@ fn params_of(values: &ParamValues, release: Nav2Release) -> SmacHybridParams {
     params
 }
 
+/// Returns the parameters of the State Lattice planner in terms of Hybrid-A*.
+fn params_of_lattice(
+    values: &ParamValues,
+    lattice: &Lattice,
+) -> (SmacHybridParams, LatticeSettings) {
+    let params = SmacLatticeParams::from_values(values);
+    let reverses = params.allow_reverse_expansion;
+    let settings = LatticeSettings { reverses, rotation_penalty: params.rotation_penalty };
+    let model = if reverses { SmacMotionModel::ReedsShepp } else { SmacMotionModel::Dubin };
+    let hybrid = SmacHybridParams {
+        change_penalty: params.change_penalty,
+        non_straight_penalty: params.non_straight_penalty,
+        common: params.common,
+        angle_quantization_bins: lattice.headings_rad.len(),
+        motion_model_for_search: model,
+        minimum_turning_radius_m: lattice.radius_m,
+        ..SmacHybridParams::default()
+    };
+    (hybrid, settings)
+}
+
 impl SmacHybridPlanner {
     /// Creates a planner with values of [`crate::tables::SMAC_HYBRID`]; those that were not given have the
     /// defaults of the release.
     #[must_use]
     pub fn new(values: ParamValues, release: Nav2Release) -> Self {
         let params = params_of(&values, release);
+        let headings = Headings::uniform(params.angle_quantization_bins);
         let store = ParameterStore::new(values, &RULES);
-        Self { store, params, release, tables: None, buffers: SearchBuffers::default() }
+        let buffers = SearchBuffers::default();
+        Self { store, params, release, headings, lattice: None, tables: None, buffers }
+    }
+
+    /// Creates the State Lattice planner with values of [`crate::tables::SMAC_LATTICE`]. The caller reads the
+    /// file `lattice_filepath`; without one Nav2 uses a lattice as [`Lattice::ackermann`] generates it for
+    /// cells of 0.05 m and a radius of 0.5 m.
+    #[must_use]
+    pub fn with_lattice(values: ParamValues, lattice: Lattice) -> Self {
+        let (params, settings) = params_of_lattice(&values, &lattice);
+        let headings = Headings::listed(lattice.headings_rad.clone());
+        let store = ParameterStore::new(values, &RULES);
+        let (release, buffers) = (Nav2Release::Main, SearchBuffers::default());
+        let lattice = Some((lattice, settings));
+        Self { store, params, release, headings, lattice, tables: None, buffers }
     }
 
     fn bin_count(&self) -> usize {
-        self.params.angle_quantization_bins
+        self.headings.count()
     }
 
     /// Returns the turning radius \[m\]: at least one cell.
@@ -100,31 +150,37 @@ impl SmacHybridPlanner {
         let params = &self.params;
         let model = params.motion_model_for_search;
         let radius = self.radius_m(resolution_m) / resolution_m;
-        let bin_count = self.bin_count();
-        let interpolates = params.allow_primitive_interpolation;
-        let set = PrimitiveSet::new(model, radius, bin_count, interpolates);
         let penalties = StepPenalties {
-            retrospective: params.retrospective_penalty,
-            cost: params.cost_penalty,
+            retrospective: params.common.retrospective_penalty,
+            cost: params.common.cost_penalty,
             non_straight: params.non_straight_penalty,
             change: params.change_penalty,
-            reverse: params.reverse_penalty,
-            is_quadratic: params.use_quadratic_cost_penalty,
+            reverse: params.common.reverse_penalty,
+            is_quadratic: params.common.use_quadratic_cost_penalty,
+        };
+        let motions = match &self.lattice {
+            Some((lattice, LatticeSettings { reverses, rotation_penalty })) => Motions::Lattice(
+                LatticeMotions::new(lattice, penalties, *rotation_penalty, *reverses),
+            ),
+            None => {
+                let interpolates = params.allow_primitive_interpolation;
+                let set = PrimitiveSet::new(model, radius, self.bin_count(), interpolates);
+                Motions::Car(CarMotions::new(set, penalties, &self.headings))
+            }
         };
         // The side of the table is odd, so that the goal is in its middle.
-        let side = (params.lookup_table_size_m / resolution_m) as usize | 1;
-        let lengths = DistanceTable::new(model.curves(), radius, bin_count, side);
+        let side = (params.common.lookup_table_size_m / resolution_m) as usize | 1;
+        let lengths = DistanceTable::new(model.curves(), radius, self.headings.clone(), side);
         let analytic = AnalyticSettings {
             family: model.curves(),
             radius,
-            max_length: params.analytic_expansion_max_length_m / resolution_m,
-            max_cost: params.analytic_expansion_max_cost,
-            overrides_max_cost: params.analytic_expansion_max_cost_override,
-            cost_penalty: params.cost_penalty,
-            bin_count,
+            max_length: params.common.analytic_expansion_max_length_m / resolution_m,
+            max_cost: params.common.analytic_expansion_max_cost,
+            overrides_max_cost: params.common.analytic_expansion_max_cost_override,
+            cost_penalty: params.common.cost_penalty,
         };
-        let ratio = params.analytic_expansion_ratio.max(f64::MIN_POSITIVE);
-        MotionTables::new(set, penalties, lengths, analytic, ratio)
+        let analytic_ratio = params.common.analytic_expansion_ratio.max(f64::MIN_POSITIVE);
+        MotionTables { bin_count: self.bin_count(), motions, lengths, analytic, analytic_ratio }
     }
 
     /// Returns the goals that are valid: in a free cell, or within the tolerance of one.
@@ -136,8 +192,8 @@ impl SmacHybridPlanner {
         map: &Costmap,
     ) -> Vec<SmacGoal> {
         let bins = self.bin_count();
-        let coarse = self.params.coarse_search_resolution.max(1);
-        let headings: Vec<(usize, bool)> = match self.params.goal_heading_mode {
+        let coarse = self.params.common.coarse_search_resolution.max(1);
+        let headings: Vec<(usize, bool)> = match self.params.common.goal_heading_mode {
             GoalHeadingMode::Default => vec![(goal.bin, true)],
             GoalHeadingMode::Bidirectional => {
                 vec![(goal.bin, true), ((goal.bin + bins / 2) % bins, true)]
@@ -159,7 +215,7 @@ impl SmacHybridPlanner {
 
     fn smoother(&self, resolution_m: f64) -> SmacSmoother {
         SmacSmoother {
-            relaxation: self.params.smoother.relaxation(),
+            relaxation: self.params.common.smoother.relaxation(),
             radius_m: Some(self.radius_m(resolution_m)),
         }
     }
@@ -185,15 +241,9 @@ fn has_free_zone(at: BinPose, radius: f64, checker: &CollisionChecker<'_>, map: 
     })
 }
 
-/// Returns the bin nearest to a yaw.
-fn bin_of(yaw_rad: f64, bin_count: usize) -> usize {
-    let bin = libm::round(yaw_rad / (2.0 * PI) * bin_count as f64) as i64;
-    bin.rem_euclid(bin_count as i64) as usize
-}
-
-fn bin_pose(info: &GridInfo, pose: Pose2, bin_count: usize) -> BinPose {
+fn bin_pose(info: &GridInfo, pose: Pose2, headings: &Headings) -> BinPose {
     let (x, y) = info.finder().cells_to(pose.x_m, pose.y_m);
-    BinPose { x, y, bin: bin_of(pose.yaw_rad, bin_count) }
+    BinPose { x, y, bin: headings.nearest(pose.yaw_rad) }
 }
 
 /// Returns the error of a search that found no path.
@@ -221,7 +271,7 @@ pub(super) fn is_same_cell(info: &GridInfo, a: Pose2, b: Pose2) -> bool {
 }
 
 impl Planner for SmacHybridPlanner {
-    fn plan(&mut self, request: PlanRequest<'_>) -> Result<Plan, PlanError> {
+    fn plan(&mut self, request: PlanRequest<'_>) -> Result<PlannedPath, PlanError> {
         let PlanRequest { costmap: view, start, goal, is_cancelled, is_out_of_time } = request;
         let start_cell = outside::start_cell(view.costs.info(), start)?;
         outside::goal_cell(view.costs.info(), goal)?;
@@ -229,16 +279,21 @@ impl Planner for SmacHybridPlanner {
             if self.params.downsample_costmap { self.params.downsampling_factor } else { 1 };
         let coarse = (factor > 1).then(|| downsampled(view.costs, factor));
         let map = coarse.as_ref().unwrap_or(view.costs);
-        let (info, resolution_m, bin_count) = (map.info(), map.resolution_m(), self.bin_count());
-        let start_bins = bin_pose(info, start, bin_count);
-        let goal_bins = bin_pose(info, goal, bin_count);
+        let (info, resolution_m) = (map.info(), map.resolution_m());
+        let start_bins = bin_pose(info, start, &self.headings);
+        let goal_bins = bin_pose(info, goal, &self.headings);
         if is_same_cell(info, start, goal) && start_bins.bin == goal_bins.bin {
             let pose = Pose2 { yaw_rad: goal.yaw_rad, ..start };
-            return Ok(Plan { poses: vec![pose], unsmoothed: vec![pose], ..Plan::default() });
+            return Ok(PlannedPath {
+                poses: vec![pose],
+                unsmoothed: vec![pose],
+                ..PlannedPath::default()
+            });
         }
-        let allow_unknown = self.params.search.allow_unknown;
-        let checker = CollisionChecker::new(&view, map, bin_count, allow_unknown);
-        let tolerance = self.params.tolerance_m / resolution_m;
+        let headings = self.headings.clone();
+        let allow_unknown = self.params.common.search.allow_unknown;
+        let checker = CollisionChecker::new(&view, map, &headings, allow_unknown);
+        let tolerance = self.params.common.tolerance_m / resolution_m;
         let goals = self.goals(goal_bins, tolerance, &checker, map);
         let explanation = || {
             let passable =
@@ -257,13 +312,13 @@ impl Planner for SmacHybridPlanner {
         let Some((_, tables)) = &mut self.tables else {
             return Err(PlanError::new(PlanErrorKind::Unknown, "there are no motion tables"));
         };
-        let is_quadratic = params.use_quadratic_cost_penalty;
+        let is_quadratic = params.common.use_quadratic_cost_penalty;
         let goal_cells = [goal_bins.x, goal_bins.y];
-        self.buffers.obstacles.reset(map, goal_cells, params.cost_penalty, is_quadratic);
+        self.buffers.obstacles.reset(map, goal_cells, params.common.cost_penalty, is_quadratic);
         let limits = SearchLimits {
-            max_iterations: limit(params.search.max_iterations),
-            max_on_approach: limit(params.search.max_on_approach_iterations),
-            check_interval: params.search.terminal_checking_interval,
+            max_iterations: limit(params.common.search.max_iterations),
+            max_on_approach: limit(params.common.search.max_on_approach_iterations),
+            check_interval: params.common.search.terminal_checking_interval,
             tolerance,
         };
         let buffers = &mut self.buffers;
@@ -285,15 +340,15 @@ impl Planner for SmacHybridPlanner {
         };
         let mut poses: Vec<Pose2> = path.iter().map(in_map).collect();
         let unsmoothed = poses.clone();
-        if params.smooth_path && expansion_count > 1 {
+        if params.common.smooth_path && expansion_count > 1 {
             smooth(&mut poses, &smoother, &view, map, hooks.is_out_of_time);
         }
-        Ok(Plan { poses, cleared_cell: None, unsmoothed, expansion_count })
+        Ok(PlannedPath { poses, cleared_cell: None, unsmoothed, expansion_count })
     }
 
     fn set_parameter(&mut self, name: &str, value: &ParamValue) -> Result<(), ParameterRejected> {
         let bins = self.params.angle_quantization_bins as i64;
-        let coarse = self.params.coarse_search_resolution as i64;
+        let coarse = self.params.common.coarse_search_resolution as i64;
         match (name, value) {
             ("angle_quantization_bins", ParamValue::Integer(new))
                 if *new > 0 && new % coarse != 0 =>
@@ -318,12 +373,21 @@ impl Planner for SmacHybridPlanner {
             _ => {}
         }
         self.store.change(name, value)?;
-        self.params = params_of(self.store.values(), self.release);
+        let values = self.store.values();
+        match &mut self.lattice {
+            Some((lattice, settings)) => {
+                (self.params, *settings) = params_of_lattice(values, lattice);
+            }
+            None => {
+                self.params = params_of(values, self.release);
+                self.headings = Headings::uniform(self.params.angle_quantization_bins);
+            }
+        }
         self.tables = None;
         Ok(())
     }
 
     fn max_planning_time_s(&self) -> Option<f64> {
-        Some(self.params.max_planning_time_s)
+        Some(self.params.common.max_planning_time_s)
     }
 }

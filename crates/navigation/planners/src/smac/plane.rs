@@ -21,7 +21,9 @@ use crate::open_list::OpenList;
 use crate::parameters::{ChangeRules, ParameterStore};
 use crate::poses::approach_yaw_rad;
 use crate::tables::{SMAC_2D, Smac2dParams};
-use crate::{ParameterRejected, Plan, PlanError, PlanErrorKind, PlanRequest, Planner, outside};
+use crate::{
+    ParameterRejected, PlanError, PlanErrorKind, PlanRequest, PlannedPath, Planner, outside,
+};
 
 const RULES: ChangeRules = ChangeRules {
     fixed: &[
@@ -220,7 +222,7 @@ impl Smac2dPlanner {
 }
 
 impl Planner for Smac2dPlanner {
-    fn plan(&mut self, request: PlanRequest<'_>) -> Result<Plan, PlanError> {
+    fn plan(&mut self, request: PlanRequest<'_>) -> Result<PlannedPath, PlanError> {
         let PlanRequest { costmap: view, start, goal, is_cancelled, is_out_of_time } = request;
         let full_start_cell = outside::start_cell(view.costs.info(), start)?;
         outside::goal_cell(view.costs.info(), goal)?;
@@ -235,7 +237,11 @@ impl Planner for Smac2dPlanner {
         if is_same_cell(info, start, goal) {
             let yaw_rad = if keeps_direction { start.yaw_rad } else { goal.yaw_rad };
             let pose = Pose2 { yaw_rad, ..goal };
-            return Ok(Plan { poses: vec![pose], unsmoothed: vec![pose], ..Plan::default() });
+            return Ok(PlannedPath {
+                poses: vec![pose],
+                unsmoothed: vec![pose],
+                ..PlannedPath::default()
+            });
         }
         let steps = step_costs(params);
         let tolerance = params.tolerance_m / info.resolution_m;
@@ -288,7 +294,7 @@ impl Planner for Smac2dPlanner {
                 last.yaw_rad = yaw_rad;
             }
         }
-        Ok(Plan { poses, cleared_cell: None, unsmoothed, expansion_count })
+        Ok(PlannedPath { poses, cleared_cell: None, unsmoothed, expansion_count })
     }
 
     fn set_parameter(&mut self, name: &str, value: &ParamValue) -> Result<(), ParameterRejected> {

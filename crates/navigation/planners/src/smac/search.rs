@@ -2,8 +2,6 @@
 //!
 //! Source of the rules: `nav2_smac_planner/a_star_impl.hpp`, `node_hybrid.cpp`.
 
-use std::f64::consts::PI;
-
 use periplus_costmap::Costmap;
 use periplus_geometry::Pose2;
 
@@ -11,8 +9,8 @@ use super::analytic::{AnalyticSettings, EARLIER_START_STEP_COUNT, expand, refine
 use super::collision::CollisionChecker;
 use super::distance_table::{BinPose, DistanceTable};
 use super::graph::{SmacGraph, SmacNode};
+use super::motions::Motions;
 use super::obstacle_heuristic::ObstacleHeuristic;
-use super::primitives::{PrimitiveSet, StepPenalties};
 use crate::open_list::OpenList;
 
 /// Limits of a search.
@@ -51,36 +49,11 @@ pub(crate) enum SmacOutcome {
 #[derive(Debug)]
 pub(crate) struct MotionTables {
     pub(crate) bin_count: usize,
-    set: PrimitiveSet,
-    /// Displacement by heading and primitive \[cells\].
-    offsets: Vec<Vec<[f64; 2]>>,
-    penalties: StepPenalties,
-    /// Factor of the length of a step by the cost of its cell.
-    cell_factors: Vec<f32>,
+    pub(crate) motions: Motions,
     pub(crate) lengths: DistanceTable,
     pub(crate) analytic: AnalyticSettings,
-    analytic_ratio: f64,
-}
-
-impl MotionTables {
-    pub(crate) fn new(
-        set: PrimitiveSet,
-        penalties: StepPenalties,
-        lengths: DistanceTable,
-        analytic: AnalyticSettings,
-        analytic_ratio: f64,
-    ) -> Self {
-        let bin_count = analytic.bin_count;
-        let rotated = |bin: usize| {
-            let (sine, cosine) = libm::sincos(lengths.angle_rad(bin));
-            let rotate = |x: f64, y: f64| [x * cosine - y * sine, x * sine + y * cosine];
-            set.primitives.iter().map(|primitive| rotate(primitive.x, primitive.y)).collect()
-        };
-        let offsets = (0..bin_count).map(rotated).collect();
-        let factor = |cost: u8| penalties.cell_factor(f64::from(cost)) as f32;
-        let cell_factors = (0..=u8::MAX).map(factor).collect();
-        Self { bin_count, set, offsets, penalties, cell_factors, lengths, analytic, analytic_ratio }
-    }
+    /// Ratio of the distance to the goal to the number of nodes between two analytic expansions.
+    pub(crate) analytic_ratio: f64,
 }
 
 /// Goal of a search.
@@ -198,29 +171,20 @@ impl SmacSearch<'_> {
 
     fn expand_node(&mut self, current: usize, rotations: &[(f64, f64)], nearest: &mut Nearest) {
         let from = self.buffers.graph.nodes[current];
-        let bin_count = self.tables.bin_count as i32;
-        let before = from.primitive.map(|at| self.tables.set.primitives[usize::from(at)].turn);
-        for index in 0..self.tables.set.primitives.len() {
-            let primitive = self.tables.set.primitives[index];
-            let [dx, dy] = self.tables.offsets[usize::from(from.bin)][index];
-            let (x, y) = (from.x + dx, from.y + dy);
-            let bin = (i32::from(from.bin) + primitive.bins).rem_euclid(bin_count) as usize;
-            let Some(cell) = self.cell_of(x, y) else { continue };
-            let new = SmacNode::new(x, y, bin);
-            let at = self.buffers.graph.node_at(cell, bin, new);
+        for index in 0..self.tables.motions.count(usize::from(from.bin)) {
+            let to = self.tables.motions.candidate(&from, index);
+            let Some(cell) = self.cell_of(to.x, to.y) else { continue };
+            let new = SmacNode::new(to.x, to.y, to.bin);
+            let at = self.buffers.graph.node_at(cell, to.bin, new);
             if self.buffers.graph.nodes[at].is_visited {
                 continue;
             }
-            let Some(cell_cost) = self.checker.free_cost(x, y, bin) else { continue };
-            let turn_factor = self.tables.penalties.turn_factor(before, primitive.turn) as f32;
-            let step = primitive.travel as f32
-                * self.tables.cell_factors[usize::from(cell_cost)]
-                * turn_factor;
+            let Some(step) = self.tables.motions.cost(&from, &to, self.checker) else { continue };
             let g = from.g + step;
             if g >= self.buffers.graph.nodes[at].g {
                 continue;
             }
-            let node = new.reached(g, index, current);
+            let node = new.reached(g, to.motion, current);
             self.buffers.graph.nodes[at] = node;
             let heuristic = self.heuristic(&node, rotations);
             if heuristic < nearest.heuristic {
@@ -257,9 +221,15 @@ impl SmacSearch<'_> {
     }
 
     fn path_to(&self, node: usize) -> Vec<Pose2> {
-        let back = self.buffers.graph.backtrace(node);
-        let mut path: Vec<Pose2> = back.map(|at| self.pose_of(at)).collect();
-        path.reverse();
+        let mut nodes: Vec<usize> = self.buffers.graph.backtrace(node).collect();
+        nodes.reverse();
+        let mut path: Vec<Pose2> = Vec::with_capacity(nodes.len());
+        for at in nodes {
+            if let (Some(motion), Some(last)) = (self.buffers.graph.nodes[at].motion, path.last()) {
+                self.tables.motions.add_inner_poses(*last, motion, &mut path);
+            }
+            path.push(self.pose_of(at));
+        }
         path
     }
 
@@ -290,7 +260,7 @@ impl SmacSearch<'_> {
             }
             for goal in self.goals.iter().filter(|goal| goal.is_coarse == is_coarse) {
                 let BinPose { x, y, bin } = goal.pose;
-                let goal = Pose2::new(x, y, 2.0 * PI * bin as f64 / settings.bin_count as f64);
+                let goal = Pose2::new(x, y, self.tables.lengths.angle_rad(bin));
                 let first = expand(start.1, goal, settings.radius, &settings, self.checker);
                 let Some(first) = first else { continue };
                 let back = self.buffers.graph.backtrace(current);

@@ -5,7 +5,7 @@
 use periplus_costmap::{Costmap, CostmapView, Footprint};
 use periplus_geometry::Pose2;
 use periplus_grid::GridInfo;
-use periplus_planners::{Plan, PlanError, PlanRequest, Planner};
+use periplus_planners::{PlanError, PlanRequest, PlannedPath, Planner};
 
 /// Costmap of cells of 0.1 m from rows of characters, the highest row first: `.` free, `#` lethal,
 /// `i` inscribed, `?` unknown, a digit d the cost 25 d.
@@ -38,7 +38,7 @@ pub(crate) fn plan(
     costs: &Costmap,
     start: Pose2,
     goal: Pose2,
-) -> Result<Plan, PlanError> {
+) -> Result<PlannedPath, PlanError> {
     plan_with(planner, costs, [start, goal], [false, false])
 }
 
@@ -48,7 +48,7 @@ pub(crate) fn plan_with(
     costs: &Costmap,
     [start, goal]: [Pose2; 2],
     [is_cancelled, is_out_of_time]: [bool; 2],
-) -> Result<Plan, PlanError> {
+) -> Result<PlannedPath, PlanError> {
     let footprint = Footprint::circle(0.05);
     let costmap = view(costs, &footprint);
     let (is_cancelled, is_out_of_time) = (&mut || is_cancelled, &mut || is_out_of_time);

@@ -3,7 +3,7 @@
 use periplus_graph::{Level, Node, Parameters};
 use periplus_params::ParamValues;
 use periplus_ros2_control::{
-    BaseMotion, ControlCycle, ControlRelease, ControllerInterface, ControllerKind,
+    BaseMotion, ControlCycle, ControlRelease, ControllerError, ControllerInterface, ControllerKind,
     InterfaceSelection, LoanedInterfaces,
 };
 
@@ -71,7 +71,7 @@ impl ControllerInterface for Box<dyn RosController> {
         (**self).state_interfaces()
     }
 
-    fn configure(&mut self) -> Result<(), String> {
+    fn configure(&mut self) -> Result<(), ControllerError> {
         (**self).configure()
     }
 
@@ -79,7 +79,7 @@ impl ControllerInterface for Box<dyn RosController> {
         &mut self,
         interfaces: &mut LoanedInterfaces<'_>,
         cycle: ControlCycle,
-    ) -> Result<(), String> {
+    ) -> Result<(), ControllerError> {
         (**self).activate(interfaces, cycle)
     }
 
@@ -87,7 +87,7 @@ impl ControllerInterface for Box<dyn RosController> {
         &mut self,
         interfaces: &mut LoanedInterfaces<'_>,
         cycle: ControlCycle,
-    ) -> Result<(), String> {
+    ) -> Result<(), ControllerError> {
         (**self).update(interfaces, cycle)
     }
 

@@ -127,11 +127,13 @@ def _add_hook(hooks: list[Any], hook: Any) -> None:
 
 
 def _run_hooks(hooks: list[Any], arguments: tuple[Any, ...]) -> None:
+    from periplus.ros import _faults
+
     for hook in list(hooks):
         try:
             hook(*arguments)
-        except Exception:
-            sys.stderr.write(f"shutdown hook {hook!r} of node {get_name()} failed:\n{traceback.format_exc()}")
+        except Exception as error:
+            sys.stderr.write(f"shutdown hook {hook!r} of node {get_name()} failed:\n{_faults.format_exception(error)}")
     hooks.clear()
 
 

@@ -337,7 +337,7 @@ class Container(State):
 
 def run_state(label: str, state: Any, ud: Any, remapping: dict[str, str]) -> Any:
     """Executes a state; an exception of its code becomes `InvalidUserCodeError`."""
-    import traceback
+    from periplus.ros import _faults
 
     view = Remapper(ud, state.get_registered_input_keys(), state.get_registered_output_keys(), remapping)
     try:
@@ -347,5 +347,5 @@ def run_state(label: str, state: Any, ud: Any, remapping: dict[str, str]) -> Any
         raise error
     except Exception as error:
         raise InvalidUserCodeError(
-            f"Could not execute state '{label}' of type '{state}': {traceback.format_exc()}"
+            f"Could not execute state '{label}' of type '{state}': {_faults.format_exception(error)}"
         ) from error

@@ -11,6 +11,7 @@ from rclpy._clock_source import source
 from rclpy._rclpy_pybind11 import InvalidHandle
 from rclpy.constants import S_TO_NS
 from rclpy.task import Future
+from rclpy.type_support import wrong_type
 
 if TYPE_CHECKING:
     from rclpy._native import RosClient
@@ -92,7 +93,7 @@ class Client:
         return future
 
     def _wrong_type(self, request: Any) -> str:
-        return f"Expected {self.srv_type.Request}, got {type(request)}"
+        return wrong_type(self.srv_type.Request, request)
 
     def get_pending_request(self, sequence_number: int) -> Future:
         """The future of a call. Raises `KeyError` for an unknown number."""

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 
 from rclpy._rclpy_pybind11 import InvalidHandle, RCLError
 from rclpy.duration import Duration
+from rclpy.type_support import wrong_type
 
 if TYPE_CHECKING:
     from rclpy._native import RosPublisher
@@ -53,7 +54,7 @@ class Publisher:
         elif isinstance(msg, bytes):
             self._native.publish_raw(msg)
         else:
-            raise TypeError(f"Expected {self.msg_type}, got {type(msg)}")
+            raise TypeError(wrong_type(self.msg_type, msg))
 
     def get_subscription_count(self) -> int:
         """Number of subscriptions that the publisher is connected to."""

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+import sys
 from typing import TYPE_CHECKING, Any
 
-from periplus.ros import _waiting
+from periplus.ros import _tracebacks, _waiting
 
 from rclpy._rclpy_pybind11 import InvalidHandle
 from rclpy.clock import ClockChange
@@ -45,6 +46,8 @@ class Timer:
             raise RCLError("failed to create timer: timer period must be non-negative")
         self.callback = callback
         self.callback_group = callback_group
+        #: Line that has made a timer without a callback, for the error of its first call.
+        self._maker = "" if callback is not None else _tracebacks.location(_tracebacks.user_frame(sys._getframe(1)))
         self._clock = clock
         self._period_ns = int(timer_period_ns)
         self._canceled = not autostart
@@ -166,7 +169,9 @@ class Timer:
 
     def _call(self, taken: Any, executor: Any) -> Any:
         callback = self.callback
-        return None if callback is None else callback()
+        if callback is None:
+            raise TypeError(f"'NoneType' object is not callable: the timer of {self._maker} has no callback")
+        return callback()
 
 
 class Rate:

@@ -30,6 +30,13 @@ def check_for_type_support(msg_or_srv_type: Any) -> None:
     )
 
 
+def wrong_type(expected: type, given: Any) -> str:
+    """Text of the `TypeError` for something in place of a message of the class `expected`."""
+    if isinstance(given, type):
+        return f"Expected {expected}, got a class: a message is made by a call, as in {expected.__name__.replace('_', '.')}()"
+    return f"Expected {expected}, got {type(given)}"
+
+
 def check_is_valid_msg_type(msg_type: Any) -> None:
     """Raises for anything but a message class."""
     check_for_type_support(msg_type)

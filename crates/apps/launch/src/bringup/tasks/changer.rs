@@ -15,7 +15,7 @@ pub(crate) struct TransitionTask {
 }
 
 /// Number and label of a transition, as in `lifecycle_msgs/Transition`.
-pub(crate) fn transition(label: &str) -> Option<Transition> {
+fn transition(label: &str) -> Option<Transition> {
     let id = match label {
         "configure" => Transition::TRANSITION_CONFIGURE,
         "cleanup" => Transition::TRANSITION_CLEANUP,
@@ -59,7 +59,11 @@ impl Task for TransitionTask {
     fn work(&mut self, stage: &mut TaskContext<'_>) -> Done {
         let Some(pending) = &self.pending else {
             if self.client.is_ready() {
-                let transition = self.transition.clone();
+                let mut transition = self.transition.clone();
+                // Nodes select by the label if there is one, and all shutdowns have the same label.
+                if transition.label.ends_with("_shutdown") {
+                    transition.label.clear();
+                }
                 self.pending = Some(self.client.call(ChangeStateRequest { transition }));
             }
             return Done::No;

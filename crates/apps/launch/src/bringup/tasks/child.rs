@@ -105,7 +105,7 @@ impl Child {
             found.extend(rest.iter().cloned());
             words = found;
         }
-        if program.is_node {
+        if program.is_node && !program.is_complete {
             arguments = node_arguments(program, settings.dialect)?;
             words.extend(arguments.words.iter().cloned());
             variables.extend(arguments.variables.iter().cloned());
@@ -391,6 +391,10 @@ fn connection(
     if is_python && lockstep.is_active() && !settings.uses_real_ros {
         return Ok(Connection::Lockstep);
     }
+    if !is_python && let (Some(package), Some(name)) = (&program.package, program.words.first()) {
+        // A program that is missing needs no network.
+        find(package, name, settings, program)?;
+    }
     let kind = match (is_python, settings.uses_real_ros) {
         (false, _) => "ROS 2 program",
         (true, false) => "node in Python",
@@ -447,9 +451,10 @@ fn find(
 ) -> Result<PathBuf, String> {
     let host = Overlay { variables: environment::of_running(&program.running) };
     let resolver = Resolver::new(&host, &settings.search.folders);
-    let mut tried = Vec::new();
+    let (mut tried, mut is_there) = (Vec::new(), false);
     for from in program.package_search_starts(&settings.search) {
         let Ok(folder) = resolver.find_package(package, &from) else { continue };
+        is_there = true;
         let prefix = folder.parent().filter(|above| above.ends_with("share"));
         if let Some(prefix) = prefix.and_then(Path::parent) {
             tried.push(prefix.join("lib").join(package).join(name));
@@ -464,10 +469,13 @@ fn find(
         tried.push(Path::new(prefix).join("lib").join(package).join(name));
     }
     let found = tried.into_iter().find(|path| Machine.kind(path) == Some(EntryKind::File));
+    let lacks = if is_there {
+        "the package has no such program on this machine"
+    } else {
+        "there is no such package around the launch file and the working folder, in `--resource-path` or in a sourced \
+         workspace"
+    };
     found.ok_or_else(|| {
-        format!(
-            "`{name}` of the package `{package}` has no built-in replacement, and the package has no \
-             such program on this machine"
-        )
+        format!("`{name}` of the package `{package}` has no built-in replacement, and {lacks}")
     })
 }

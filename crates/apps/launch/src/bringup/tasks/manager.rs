@@ -9,14 +9,14 @@ use std::collections::BTreeMap;
 
 use periplus_graph::{Call, Calls, Client, Level, Node, Pending, Publisher, Qos};
 use periplus_motion::{CommandExecution, ManagedState, ManagedTransition, ManagerCommand};
-use periplus_msgs::lifecycle_msgs::{ChangeState, ChangeStateRequest, State};
+use periplus_msgs::lifecycle_msgs::{ChangeState, ChangeStateRequest, State, Transition};
 use periplus_msgs::nav2_msgs::{ManageLifecycleNodes, ManageLifecycleNodesResponse};
 use periplus_msgs::std_msgs;
 use periplus_msgs::std_srvs::{Trigger, TriggerResponse};
 
 use super::bonds::{Bonds, BrokenBond};
 use super::respawn::{Respawn, RespawnStatus, SERVICE_TIMEOUT_NS};
-use super::{Done, Task, TaskContext, changer};
+use super::{Done, Task, TaskContext};
 use crate::bringup::report::LaunchLog;
 
 /// Time after which a missing node is logged \[ns\].
@@ -193,7 +193,7 @@ impl Manager {
             return false;
         }
         self.waits_since_ns = stage.now_ns;
-        let Some(transition) = changer::transition(service_label(transition)) else { return false };
+        let transition = request_of(transition);
         self.pending = Some(client.call(ChangeStateRequest { transition }));
         self.pending_since_ns = steady_ns;
         stage.graph.settle();
@@ -213,12 +213,17 @@ impl Manager {
     }
 }
 
-/// Name of a transition in `lifecycle_msgs/Transition`.
-fn service_label(transition: ManagedTransition) -> &'static str {
-    match transition {
-        ManagedTransition::Shutdown => "unconfigured_shutdown",
-        other => other.label(),
-    }
+/// Transition of a request. It has no label, as in Nav2: nodes would select by it, and all shutdowns have
+/// the same.
+fn request_of(transition: ManagedTransition) -> Transition {
+    let id = match transition {
+        ManagedTransition::Configure => Transition::TRANSITION_CONFIGURE,
+        ManagedTransition::Activate => Transition::TRANSITION_ACTIVATE,
+        ManagedTransition::Deactivate => Transition::TRANSITION_DEACTIVATE,
+        ManagedTransition::Cleanup => Transition::TRANSITION_CLEANUP,
+        ManagedTransition::Shutdown => Transition::TRANSITION_UNCONFIGURED_SHUTDOWN,
+    };
+    Transition { id, ..Transition::default() }
 }
 
 impl Manager {
@@ -302,3 +307,6 @@ impl Task for Manager {
         Done::No
     }
 }
+
+#[cfg(test)]
+mod tests;

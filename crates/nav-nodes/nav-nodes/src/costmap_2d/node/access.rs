@@ -44,7 +44,12 @@ impl CostmapNode {
     ///
     /// # Errors
     /// The reason why there is no transform.
-    pub fn to_global(&mut self, frame: &str, pose: Pose2, time_ns: i64) -> Result<Pose2, String> {
+    pub(crate) fn global_pose_of(
+        &mut self,
+        frame: &str,
+        pose: Pose2,
+        time_ns: i64,
+    ) -> Result<Pose2, String> {
         self.tf.listen();
         let global = &self.params.global_frame;
         if frame == global {
@@ -59,6 +64,24 @@ impl CostmapNode {
             Ok((global_from_frame, _)) => Ok(Pose2::from(global_from_frame) * pose),
             Err(why) => Err(format!("there is no transform from `{frame}` to `{global}`: {why}")),
         }
+    }
+
+    /// Returns a warning if the inflation ends before the corners of the footprint. Planners and controllers
+    /// then keep too little distance, because cells near a corner are free.
+    #[must_use]
+    pub fn footprint_advice(&self) -> Option<Diagnostic> {
+        let view = self.view().filter(|view| !view.is_circular)?;
+        let (inflation, corner_m) = (view.inflation?, view.footprint.circumscribed_radius_m);
+        if inflation.radius_m >= corner_m {
+            return None;
+        }
+        let message = format!(
+            "the inflation radius of {:.2} m is smaller than the circumscribed radius of the footprint, {corner_m:.2} m",
+            inflation.radius_m
+        );
+        let help =
+            format!("set `inflation_radius` of the inflation layer to at least {corner_m:.2}");
+        Some(Diagnostic::warning("small-inflation", message).help(help))
     }
 
     /// Returns the reason why the costs are not up to date; none if they are.
@@ -81,11 +104,11 @@ impl CostmapNode {
         (!costmap.is_current(now_ns)).then(|| "the costmap is not current".to_owned())
     }
 
-    /// Transforms a pose message to the global frame; see [`Self::to_global`].
+    /// Transforms a pose message to the global frame; see [`Self::global_pose_of`].
     ///
     /// # Errors
-    /// As [`Self::to_global`].
-    pub fn pose_to_global(&mut self, pose: &PoseStamped) -> Result<Pose2, String> {
-        self.to_global(&pose.header.frame_id, pose2(&pose.pose), pose.header.stamp.ns())
+    /// As [`Self::global_pose_of`].
+    pub(crate) fn global_pose(&mut self, pose: &PoseStamped) -> Result<Pose2, String> {
+        self.global_pose_of(&pose.header.frame_id, pose2(&pose.pose), pose.header.stamp.ns())
     }
 }

@@ -6,8 +6,9 @@ use periplus_msgs::geometry_msgs::{Quaternion, Vector3};
 use periplus_msgs::sensor_msgs::{Imu, JointState};
 use periplus_msgs::std_msgs::Header;
 use periplus_ros2_control::{
-    ControlCycle, ControllerInterface, ImuBroadcaster, ImuBroadcasterParams, ImuInterfaceValues,
-    InterfaceSelection, JointStateBroadcaster, JointStateBroadcasterParams, LoanedInterfaces,
+    ControlCycle, ControllerError, ControllerInterface, ImuBroadcaster, ImuBroadcasterParams,
+    ImuInterfaceValues, InterfaceSelection, JointStateBroadcaster, JointStateBroadcasterParams,
+    LoanedInterfaces,
 };
 
 use crate::DeviceState;
@@ -109,7 +110,7 @@ impl ControllerInterface for JointStateNode {
         running.map(|running| running.broadcaster.state_interfaces()).unwrap_or_default()
     }
 
-    fn configure(&mut self) -> Result<(), String> {
+    fn configure(&mut self) -> Result<(), ControllerError> {
         self.running = None;
         self.running = Some(self.open()?);
         Ok(())
@@ -119,7 +120,7 @@ impl ControllerInterface for JointStateNode {
         &mut self,
         _: &mut LoanedInterfaces<'_>,
         cycle: ControlCycle,
-    ) -> Result<(), String> {
+    ) -> Result<(), ControllerError> {
         if let Some(running) = &mut self.running {
             running.timer.restart(cycle.time_ns);
         }
@@ -130,7 +131,7 @@ impl ControllerInterface for JointStateNode {
         &mut self,
         interfaces: &mut LoanedInterfaces<'_>,
         cycle: ControlCycle,
-    ) -> Result<(), String> {
+    ) -> Result<(), ControllerError> {
         let Some(running) = &mut self.running else { return Ok(()) };
         let is_heard =
             running.states.is_heard() || running.dynamic.as_ref().is_some_and(Publisher::is_heard);
@@ -188,7 +189,7 @@ impl ControllerInterface for ImuNode {
         running.map(|running| running.broadcaster.state_interfaces()).unwrap_or_default()
     }
 
-    fn configure(&mut self) -> Result<(), String> {
+    fn configure(&mut self) -> Result<(), ControllerError> {
         self.running = None;
         let params = ImuBroadcasterParams::from_values(&self.part.values());
         if params.frame_id.is_empty() {
@@ -203,7 +204,11 @@ impl ControllerInterface for ImuNode {
         Ok(())
     }
 
-    fn activate(&mut self, _: &mut LoanedInterfaces<'_>, _: ControlCycle) -> Result<(), String> {
+    fn activate(
+        &mut self,
+        _: &mut LoanedInterfaces<'_>,
+        _: ControlCycle,
+    ) -> Result<(), ControllerError> {
         Ok(())
     }
 
@@ -211,7 +216,7 @@ impl ControllerInterface for ImuNode {
         &mut self,
         interfaces: &mut LoanedInterfaces<'_>,
         cycle: ControlCycle,
-    ) -> Result<(), String> {
+    ) -> Result<(), ControllerError> {
         let Some(running) = &mut self.running else { return Ok(()) };
         if !running.publisher.is_heard() {
             return Ok(());

@@ -5,9 +5,9 @@ use periplus_msgs::geometry_msgs::{Twist, TwistStamped};
 use periplus_msgs::std_msgs::Header;
 use periplus_msgs::std_srvs::{Empty, EmptyResponse};
 use periplus_ros2_control::{
-    BaseMotion, ControlCycle, ControllerInterface, DiffDriveController, InterfaceSelection,
-    LoanedInterfaces, MecanumController, PlanarPose, PlanarTwist, ReferenceOutcome,
-    SteeringController, TricycleController,
+    BaseMotion, ControlCycle, ControllerError, ControllerInterface, DiffDriveController,
+    InterfaceSelection, LoanedInterfaces, MecanumController, PlanarPose, PlanarTwist,
+    ReferenceOutcome, SteeringController, TricycleController,
 };
 
 use super::odometry_output::{OdometryOutput, OdometryTopics, twist_message};
@@ -160,7 +160,7 @@ impl<D: VelocityDrive> DriveNode<D> {
 
     fn open(&self) -> Result<RunningDrive<D>, String> {
         let (mut drive, topics) = (self.configure)(&self.part, &self.joints)?;
-        drive.configure()?;
+        drive.configure().map_err(|error| error.to_string())?;
         topics.notes.iter().for_each(|note| self.part.warn(note));
         let node = &self.part.node;
         let qos = Qos::reliable(10);
@@ -243,7 +243,7 @@ impl<D: VelocityDrive> ControllerInterface for DriveNode<D> {
         running.map(|running| running.state.drive.state_interfaces()).unwrap_or_default()
     }
 
-    fn configure(&mut self) -> Result<(), String> {
+    fn configure(&mut self) -> Result<(), ControllerError> {
         // The old topics end first, so that the new ones can have other types.
         self.running = None;
         self.running = Some(self.open()?);
@@ -254,7 +254,7 @@ impl<D: VelocityDrive> ControllerInterface for DriveNode<D> {
         &mut self,
         interfaces: &mut LoanedInterfaces<'_>,
         cycle: ControlCycle,
-    ) -> Result<(), String> {
+    ) -> Result<(), ControllerError> {
         let Some(running) = &mut self.running else { return Err("it is not configured".into()) };
         // Commands to an inactive controller are ignored.
         running.stamped.iter().for_each(|inbox| drop(inbox.drain()));
@@ -267,7 +267,7 @@ impl<D: VelocityDrive> ControllerInterface for DriveNode<D> {
         &mut self,
         interfaces: &mut LoanedInterfaces<'_>,
         cycle: ControlCycle,
-    ) -> Result<(), String> {
+    ) -> Result<(), ControllerError> {
         let Some(running) = &mut self.running else { return Ok(()) };
         running.receive(cycle.time_ns, &self.part);
         running.state.drive.update(interfaces, cycle)?;

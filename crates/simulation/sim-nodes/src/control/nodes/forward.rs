@@ -3,8 +3,8 @@
 use periplus_graph::{Mailbox, Qos, Sample};
 use periplus_msgs::std_msgs::Float64MultiArray;
 use periplus_ros2_control::{
-    ControlCycle, ControllerInterface, ControllerKind, ForwardCommandParams, ForwardController,
-    InterfaceSelection, LoanedInterfaces,
+    ControlCycle, ControllerError, ControllerInterface, ControllerKind, ForwardCommandParams,
+    ForwardController, InterfaceSelection, LoanedInterfaces,
 };
 
 use crate::DeviceState;
@@ -32,7 +32,7 @@ impl ControllerInterface for ForwardNode {
         InterfaceSelection::Nothing
     }
 
-    fn configure(&mut self) -> Result<(), String> {
+    fn configure(&mut self) -> Result<(), ControllerError> {
         self.running = None;
         let params = ForwardCommandParams::from_values(&self.part.values());
         let interface = match self.part.kind {
@@ -56,7 +56,7 @@ impl ControllerInterface for ForwardNode {
         &mut self,
         interfaces: &mut LoanedInterfaces<'_>,
         cycle: ControlCycle,
-    ) -> Result<(), String> {
+    ) -> Result<(), ControllerError> {
         let Some((forward, inbox)) = &mut self.running else {
             return Err("it is not configured".into());
         };
@@ -68,7 +68,7 @@ impl ControllerInterface for ForwardNode {
         &mut self,
         interfaces: &mut LoanedInterfaces<'_>,
         cycle: ControlCycle,
-    ) -> Result<(), String> {
+    ) -> Result<(), ControllerError> {
         let Some((forward, inbox)) = &mut self.running else { return Ok(()) };
         if let Some(message) = inbox.latest()
             && let Err(reason) = forward.receive(&message.data)

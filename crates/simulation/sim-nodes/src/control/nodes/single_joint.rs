@@ -3,8 +3,9 @@
 use periplus_graph::{Mailbox, Qos, Sample};
 use periplus_msgs::std_msgs::Float64;
 use periplus_ros2_control::{
-    ControlCycle, ControllerInterface, ControllerKind, InterfaceSelection, JointInterfaceKind,
-    JointTarget, LoanedInterfaces, PidGains, SingleJointController, SingleJointParams,
+    ControlCycle, ControllerError, ControllerInterface, ControllerKind, InterfaceSelection,
+    JointInterfaceKind, JointTarget, LoanedInterfaces, PidGains, SingleJointController,
+    SingleJointParams,
 };
 
 use crate::DeviceState;
@@ -33,7 +34,7 @@ impl ControllerInterface for SingleJointNode {
         running.map(|(joint, _)| joint.state_interfaces()).unwrap_or_default()
     }
 
-    fn configure(&mut self) -> Result<(), String> {
+    fn configure(&mut self) -> Result<(), ControllerError> {
         self.running = None;
         let SingleJointParams { joint, p, i, d, i_clamp } =
             SingleJointParams::from_values(&self.part.values());
@@ -56,7 +57,7 @@ impl ControllerInterface for SingleJointNode {
         &mut self,
         interfaces: &mut LoanedInterfaces<'_>,
         cycle: ControlCycle,
-    ) -> Result<(), String> {
+    ) -> Result<(), ControllerError> {
         let Some((joint, inbox)) = &mut self.running else {
             return Err("it is not configured".into());
         };
@@ -68,7 +69,7 @@ impl ControllerInterface for SingleJointNode {
         &mut self,
         interfaces: &mut LoanedInterfaces<'_>,
         cycle: ControlCycle,
-    ) -> Result<(), String> {
+    ) -> Result<(), ControllerError> {
         let Some((joint, inbox)) = &mut self.running else { return Ok(()) };
         if let Some(message) = inbox.latest() {
             joint.receive(message.data);

@@ -10,10 +10,10 @@ use periplus_msgs::control_msgs::{
 use periplus_msgs::std_msgs::Header;
 use periplus_msgs::trajectory_msgs;
 use periplus_ros2_control::{
-    ControlCycle, ControlRelease, ControllerInterface, GoalTolerances, InterfaceSelection,
-    JointConstraintParams, JointGainParams, JointInterfaceKind, JointTolerances,
-    JointTrajectoryController, JointTrajectoryParams, JointTrajectorySettings, LoanedInterfaces,
-    PidGains, TrajectoryOutcome,
+    ControlCycle, ControlRelease, ControllerError, ControllerInterface, GoalTolerances,
+    InterfaceSelection, JointConstraintParams, JointGainParams, JointInterfaceKind,
+    JointTolerances, JointTrajectoryController, JointTrajectoryParams, JointTrajectorySettings,
+    LoanedInterfaces, PidGains, TrajectoryOutcome,
 };
 
 use super::trajectory_messages::{point, tolerances, trajectory};
@@ -130,7 +130,7 @@ impl TrajectoryNode {
     fn open(&self) -> Result<RunningTrajectory, String> {
         let (settings, params) = self.settings()?;
         let mut follower = JointTrajectoryController::new(settings);
-        follower.configure()?;
+        follower.configure().map_err(|error| error.to_string())?;
         let node = &self.part.node;
         let is_ros1 = self.part.release.is_ros1();
         let (input, output) = if is_ros1 {
@@ -262,7 +262,7 @@ impl ControllerInterface for TrajectoryNode {
         running.map(|running| running.state.follower.state_interfaces()).unwrap_or_default()
     }
 
-    fn configure(&mut self) -> Result<(), String> {
+    fn configure(&mut self) -> Result<(), ControllerError> {
         self.running = None;
         self.running = Some(self.open()?);
         Ok(())
@@ -272,7 +272,7 @@ impl ControllerInterface for TrajectoryNode {
         &mut self,
         interfaces: &mut LoanedInterfaces<'_>,
         cycle: ControlCycle,
-    ) -> Result<(), String> {
+    ) -> Result<(), ControllerError> {
         let Some(running) = &mut self.running else { return Err("it is not configured".into()) };
         drop(running.inbox.drain());
         running.state.feedback_timer.restart(cycle.time_ns);
@@ -284,7 +284,7 @@ impl ControllerInterface for TrajectoryNode {
         &mut self,
         interfaces: &mut LoanedInterfaces<'_>,
         cycle: ControlCycle,
-    ) -> Result<(), String> {
+    ) -> Result<(), ControllerError> {
         let Some(running) = &mut self.running else { return Ok(()) };
         running.receive(&self.part, cycle.time_ns);
         running.state.follower.update(interfaces, cycle)?;

@@ -35,7 +35,6 @@ pub(super) fn point(point: &TrajectoryPoint) -> trajectory_msgs::JointTrajectory
 
 #[expect(
     clippy::cast_possible_truncation,
-    clippy::cast_sign_loss,
     reason = "seconds of a trajectory, and a remainder below 1e9"
 )]
 fn duration(ns: i64) -> Duration {

@@ -63,8 +63,7 @@ impl SpawnerOptions {
                 _ => (word.as_str(), None),
             };
             let mut value = || {
-                let next = || words.next().map(String::as_str);
-                let value = attached.map(str::to_owned).or_else(|| next().map(str::to_owned));
+                let value = attached.map(str::to_owned).or_else(|| words.next().cloned());
                 value.ok_or_else(|| format!("`{option}` needs a value"))
             };
             match option {

@@ -1,0 +1,375 @@
+//! `periplus navigate`.
+
+mod report;
+
+use std::io::{self, Write};
+use std::path::PathBuf;
+use std::process::ExitCode;
+
+use clap::{Args, ValueEnum};
+use periplus_geometry::Pose2;
+use periplus_graph::{Arguments, Publisher, Qos};
+use periplus_grid::GridInfo;
+use periplus_loader::LoadContext;
+use periplus_msgs::geometry_msgs::PoseWithCovarianceStamped;
+use periplus_nav_nodes::slam_toolbox::Program;
+use periplus_os::Stopwatch;
+use periplus_session::nodes::{
+    EstimatorRequest, GoalDriver, GoalOutcome, MappingRequest, MappingSource, Navigation,
+    NavigationDefaults, NavigationRequest, PlanningMap, RobotBase, slam_parameters,
+};
+use periplus_session::{
+    PageContext, PageSettings, ProgressLine, RunSettings, SessionBuilder, SessionTask,
+    SimulationSession, stop,
+};
+use periplus_sim::{
+    Composition, DriveScore, Options, PlacementPose, RunProgress, Simulation, Tick, compose,
+};
+
+use crate::error::CliError;
+use crate::options::{SearchOptions, split};
+use crate::page::PageOptions;
+use crate::run_options::{Factor, Reach, TopicSelection, exit_code, factor, positive};
+use crate::sim::Robots;
+use crate::terminal;
+
+/// Drive a robot to goals in a simulated world, as Nav2 does
+///
+/// Runs the servers of Nav2 (planner, controller, behaviors, navigator) beside the robot, with SLAM, or on a map with
+/// `--map`, and sends the goals one after the other. The robot knows its sensors only; the report compares with the
+/// truth. Exit code 1: a goal was not reached.
+#[derive(Debug, Args)]
+pub(crate) struct NavigateOptions {
+    /// World, and `name:=value` for its xacro
+    #[arg(value_name = "WORLD|NAME:=VALUE")]
+    words: Vec<String>,
+    #[command(flatten)]
+    robots: Robots,
+    /// Goal [m, rad]: X,Y or X,Y,YAW; repeatable, in their order. In the frame of the map with `--map`; with SLAM in the
+    /// frame of the world, if the robot stands at `--pose`; without a map relative to the start
+    #[arg(long = "goal", value_name = "X,Y,YAW", value_parser = pose, allow_hyphen_values = true, required = true)]
+    goals: Vec<Pose2>,
+    /// Map to localize on with AMCL [default: SLAM builds one while the robot drives]
+    #[arg(long, value_name = "MAP.yaml", conflicts_with = "no_map")]
+    map: Option<PathBuf>,
+    /// At the end write the map that SLAM built to a folder: map.yaml, map.pgm, map.session, map.png
+    #[arg(long, value_name = "DIR", conflicts_with_all = ["map", "no_map"])]
+    slam_out: Option<PathBuf>,
+    /// Drive without a map, in the odometry frame: goals are relative to the start
+    #[arg(long)]
+    no_map: bool,
+    /// Parameter file of Nav2 [default: parameters for the detected robot]
+    #[arg(long, value_name = "FILE.yaml")]
+    params_file: Option<PathBuf>,
+    /// Motion that the wheels allow, for the default parameters
+    #[arg(long, value_enum, default_value_t = Base::Differential, value_name = "BASE")]
+    base: Base,
+    /// Smallest radius of a turn, for `--base ackermann` [m]
+    #[arg(long, default_value_t = 0.5, value_name = "METRES", value_parser = positive)]
+    min_turning_radius: f64,
+    /// Maximum speed, for the default parameters [m/s]
+    #[arg(long, default_value_t = 0.5, value_name = "SPEED", value_parser = positive)]
+    max_speed: f64,
+    /// Maximum turn rate, for the default parameters [rad/s]
+    #[arg(long, default_value_t = 1.9, value_name = "RATE", value_parser = positive)]
+    max_turn_rate: f64,
+    /// Maximum duration of the run in simulated seconds
+    #[arg(long, default_value_t = 600.0, value_name = "SECONDS", value_parser = positive)]
+    timeout: f64,
+    /// Record published topics to a bag: FILE.mcap, or a folder in the format of `ros2 bag`
+    #[arg(long, value_name = "FILE.mcap|FOLDER")]
+    record: Option<PathBuf>,
+    #[command(flatten)]
+    recorded: TopicSelection,
+    /// Seed of all noise
+    #[arg(long, default_value_t = 0, value_name = "NUMBER")]
+    seed: u64,
+    /// Real-time factor, or `max` for full speed [default: max, with `--page` that of the world]
+    #[arg(long, value_name = "FACTOR|max", value_parser = factor)]
+    rtf: Option<Factor>,
+    /// Number of threads for rays; results do not depend on it
+    #[arg(long, value_name = "NUMBER")]
+    threads: Option<usize>,
+    /// Visibility of the run on ROS 2 [default: off at full speed]
+    #[arg(long, value_enum, value_name = "off|loopback|network|zenoh")]
+    ros2: Option<Reach>,
+    #[command(flatten)]
+    page: PageOptions,
+    /// Do not open a browser
+    #[arg(long, requires = "page")]
+    no_browser: bool,
+    /// Print the report as JSON
+    #[arg(long)]
+    json: bool,
+    /// Print only errors
+    #[arg(long, short)]
+    quiet: bool,
+    #[command(flatten)]
+    search: SearchOptions,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum Base {
+    /// Two driven wheels, tracks, or four wheels that slip
+    Differential,
+    /// In all directions: mecanum or omni wheels
+    Omni,
+    /// As a car
+    Ackermann,
+}
+
+/// Region around start and goals in which the report looks for walls \[m\].
+const SCORE_MARGIN_M: f64 = 8.0;
+
+/// Cells of the walls of the report \[m\].
+const SCORE_RESOLUTION_M: f64 = 0.05;
+
+/// Largest side of that region \[m\]: larger worlds get larger cells.
+const MAX_SCORE_CELLS: f64 = 3000.0;
+
+pub(crate) fn run(options: &NavigateOptions, ros: Vec<String>) -> Result<ExitCode, CliError> {
+    let start = Stopwatch::start();
+    let to_nodes = crate::arguments::read(ros)?;
+    let (world, arguments) = options.world()?;
+    let search = terminal::search(&options.search.resource_path);
+    let composition = search.with_context(true, |context| {
+        let context = LoadContext { arguments, ..context.clone() };
+        compose(&world, &options.robots.placements, &context)
+    });
+    let pose = options.start_pose();
+    let factor = options.factor(&composition);
+    let page = options.page(&composition);
+    let mut session = SessionBuilder::new(composition, options.simulation(to_nodes), start)
+        .quiet(options.quiet)
+        .progress(!options.quiet && !options.json)
+        .factor(factor)
+        .search(search)
+        .recording(options.recorded.recording(options.record.as_deref()))
+        .estimators(options.estimators()?)
+        .ros2(options.ros2.map(Into::into))
+        .page(page)
+        .build()?;
+    let mut task = NavigateTask::new(&mut session, options, pose)?;
+    let stop = stop::on_signal();
+    let settings = RunSettings { duration_s: Some(options.timeout), stop: &stop, is_paused: false };
+    session.run(settings, &mut task);
+    session.finish()?;
+    task.goals.finish(session.simulation().time_ns());
+    options.print(&session, &task)?;
+    session.estimators().write_map(options.quiet)?;
+    exit_code(session.end())?;
+    let is_reached =
+        |report: &periplus_session::nodes::GoalReport| report.outcome == GoalOutcome::Reached;
+    if task.goals.reports().iter().all(is_reached) {
+        Ok(ExitCode::SUCCESS)
+    } else {
+        Ok(ExitCode::FAILURE)
+    }
+}
+
+impl NavigateOptions {
+    fn world(&self) -> Result<(PathBuf, Vec<(String, String)>), CliError> {
+        let (mut files, arguments) = split(&self.words);
+        // `--robot FILE WORLD`: a word that is not an argument of the robot is the world.
+        files.extend(self.robots.others.iter().map(PathBuf::from));
+        match (files.as_slice(), self.robots.placements.len()) {
+            ([world], 0 | 1) => Ok((world.clone(), arguments)),
+            ([_], _) => Err(CliError::usage("navigate drives one robot; give one `--robot`")),
+            (several, _) => Err(CliError::Usage(format!(
+                "expected one world, got {}; see `periplus navigate --help`",
+                several.len()
+            ))),
+        }
+    }
+
+    /// Pose at which the user has put the robot.
+    fn start_pose(&self) -> Pose2 {
+        match self.robots.placements.first().map(|placement| &placement.pose) {
+            Some(PlacementPose::OnGround([x_m, y_m, yaw_rad])) => Pose2::new(*x_m, *y_m, *yaw_rad),
+            Some(PlacementPose::At(pose)) => Pose2::from(*pose),
+            Some(PlacementPose::AsWritten) | None => Pose2::IDENTITY,
+        }
+    }
+
+    fn simulation(&self, arguments: Arguments) -> Options {
+        Options {
+            seed: self.seed,
+            threads: self.threads.unwrap_or_else(terminal::processors),
+            arguments,
+            ..Options::default()
+        }
+    }
+
+    fn factor(&self, composition: &Composition) -> Option<f64> {
+        let duration_s = self.page.page.is_none().then_some(self.timeout);
+        Factor::of_run(self.rtf, duration_s, composition)
+    }
+
+    fn estimators(&self) -> Result<EstimatorRequest, CliError> {
+        let base = match self.base {
+            Base::Differential => RobotBase::Differential,
+            Base::Omni => RobotBase::Omnidirectional,
+            Base::Ackermann => {
+                RobotBase::Ackermann { min_turning_radius_m: self.min_turning_radius }
+            }
+        };
+        let is_mapped = self.map.is_none() && !self.no_map;
+        let mapping = is_mapped.then(|| mapping(self.slam_out.clone())).transpose()?;
+        Ok(EstimatorRequest {
+            detects_robot: true,
+            localization: self.map.iter().cloned().collect(),
+            mapping,
+            navigation: Some(NavigationRequest {
+                parameters: self.params_file.clone(),
+                defaults: NavigationDefaults {
+                    base,
+                    max_speed_m_s: self.max_speed,
+                    max_turn_rate_rad_s: self.max_turn_rate,
+                    map: self.planning_map(),
+                },
+            }),
+            ..EstimatorRequest::default()
+        })
+    }
+
+    fn planning_map(&self) -> PlanningMap {
+        match (&self.map, self.no_map) {
+            (Some(_), _) => PlanningMap::Known,
+            (None, true) => PlanningMap::Absent,
+            (None, false) => PlanningMap::Growing,
+        }
+    }
+
+    fn page(&self, composition: &Composition) -> Option<PageSettings> {
+        self.page.page?;
+        let context = PageContext::of(composition, &self.search.resource_path);
+        Some(PageSettings {
+            is_quiet: self.quiet,
+            opens_browser: !self.no_browser,
+            ..self.page.settings(context)
+        })
+    }
+
+    /// Prints the report of the run.
+    fn print(&self, session: &SimulationSession, task: &NavigateTask) -> Result<(), CliError> {
+        if self.json {
+            let report = report::to_json(session, task, &self.goals);
+            writeln!(io::stdout().lock(), "{report:#}")?;
+        } else if !self.quiet {
+            report::print(session, task, &self.goals, &mut anstream::stderr().lock())?;
+        }
+        Ok(())
+    }
+}
+
+/// SLAM with default parameters.
+fn mapping(out: Option<PathBuf>) -> Result<MappingRequest, CliError> {
+    let (program, values) = slam_parameters(None, Some(Program::Async))?;
+    Ok(MappingRequest { source: MappingSource::Values(program, values), out })
+}
+
+/// Navigation of a run: sends the goals, and keeps the score.
+struct NavigateTask {
+    navigation: Navigation,
+    goals: GoalDriver,
+    /// Pose that AMCL starts from, until it is published.
+    initial_pose: Option<(Publisher<PoseWithCovarianceStamped>, Pose2)>,
+    score: Option<DriveScore>,
+}
+
+impl NavigateTask {
+    fn new(
+        session: &mut SimulationSession,
+        options: &NavigateOptions,
+        start: Pose2,
+    ) -> Result<Self, CliError> {
+        let navigation = session.take_navigation();
+        let frame = navigation.global_frame();
+        // The map of SLAM begins at the robot.
+        let in_frame = |goal: &Pose2| match options.planning_map() {
+            PlanningMap::Growing => start.inverse() * *goal,
+            PlanningMap::Known | PlanningMap::Absent => *goal,
+        };
+        let poses = options.goals.iter().map(in_frame).collect();
+        let goals = GoalDriver::new(session.graph(), &frame, poses).map_err(CliError::failed)?;
+        let initial_pose = options.map.as_ref().map(|_| {
+            let publisher = goals.node().publisher("/initialpose", Qos::reliable(1));
+            publisher.map(|publisher| (publisher, start))
+        });
+        let initial_pose = initial_pose.transpose().map_err(CliError::failed)?;
+        let region = region(start, &options.goals, options.no_map);
+        let score = DriveScore::new(session.simulation_mut(), region);
+        Ok(Self { navigation, goals, initial_pose, score })
+    }
+}
+
+impl SessionTask for NavigateTask {
+    fn before_step(&mut self, simulation: &mut Simulation, _line: &ProgressLine) -> Tick {
+        if let Some((publisher, pose)) = self.initial_pose.take() {
+            let mut message = PoseWithCovarianceStamped::default();
+            message.header.frame_id = "map".into();
+            message.pose.pose = periplus_tf_ros::pose(pose);
+            // As RViz publishes it: 0.5 m and 15 degrees.
+            for (index, variance) in [(0, 0.25), (7, 0.25), (35, 0.068_538_9)] {
+                message.pose.covariance[index] = variance;
+            }
+            publisher.publish(message);
+        }
+        if let Some(score) = &mut self.score {
+            score.sample(simulation);
+        }
+        self.goals.spin_once(simulation.time_ns(), self.navigation.is_ready());
+        if self.goals.is_done() { Tick::End } else { Tick::Go }
+    }
+
+    fn after_step(&mut self, _progress: RunProgress) {}
+}
+
+/// Region of the world around start and goals.
+fn region(start: Pose2, goals: &[Pose2], is_relative: bool) -> GridInfo {
+    let in_world = |goal: &Pose2| if is_relative { start * *goal } else { *goal };
+    let mut poses: Vec<Pose2> = goals.iter().map(in_world).collect();
+    poses.push(start);
+    let bounds = |value: fn(&Pose2) -> f64| {
+        let low = poses.iter().map(value).fold(f64::INFINITY, f64::min) - SCORE_MARGIN_M;
+        let high = poses.iter().map(value).fold(f64::NEG_INFINITY, f64::max) + SCORE_MARGIN_M;
+        (low, high - low)
+    };
+    let ((x_m, width_m), (y_m, height_m)) = (bounds(|pose| pose.x_m), bounds(|pose| pose.y_m));
+    let resolution_m = (width_m.max(height_m) / MAX_SCORE_CELLS).max(SCORE_RESOLUTION_M);
+    GridInfo {
+        resolution_m,
+        width: (width_m / resolution_m).ceil() as usize,
+        height: (height_m / resolution_m).ceil() as usize,
+        origin: Pose2::new(x_m, y_m, 0.0),
+    }
+}
+
+fn pose(word: &str) -> Result<Pose2, String> {
+    let number = |word: &str| word.trim().parse().ok().filter(|it: &f64| it.is_finite());
+    let numbers: Option<Vec<f64>> = word.split(',').map(number).collect();
+    match numbers.as_deref() {
+        Some(&[x_m, y_m]) => Ok(Pose2::new(x_m, y_m, 0.0)),
+        Some(&[x_m, y_m, yaw_rad]) => Ok(Pose2::new(x_m, y_m, yaw_rad)),
+        _ => Err(format!("`{word}` is not a pose; write X,Y or X,Y,YAW")),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn goals_are_poses() {
+        assert_eq!(pose("1,2"), Ok(Pose2::new(1.0, 2.0, 0.0)));
+        assert_eq!(pose("-1, 2.5,1.57"), Ok(Pose2::new(-1.0, 2.5, 1.57)));
+        assert!(pose("1").is_err() && pose("1,x").is_err() && pose("inf,0").is_err());
+    }
+
+    #[test]
+    fn the_region_has_a_margin_around_start_and_goals() {
+        let region = region(Pose2::new(1.0, 0.0, 0.0), &[Pose2::new(3.0, 0.0, 0.0)], false);
+        assert_eq!((region.origin.x_m, region.origin.y_m), (-7.0, -8.0));
+        assert_eq!((region.width, region.height), (360, 320));
+    }
+}

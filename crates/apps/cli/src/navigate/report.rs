@@ -1,0 +1,82 @@
+//! Report of a navigated run.
+
+use std::io::{self, Write};
+
+use periplus_geometry::Pose2;
+use periplus_session::SimulationSession;
+use periplus_session::nodes::{GoalOutcome, GoalReport, pose_text};
+use serde_json::{Value, json};
+
+use super::NavigateTask;
+
+/// The report as JSON; `goals` are the goals as given.
+pub(super) fn to_json(session: &SimulationSession, task: &NavigateTask, goals: &[Pose2]) -> Value {
+    let goal = |(report, goal): (&GoalReport, &Pose2)| {
+        let (code, message) = match &report.outcome {
+            GoalOutcome::Aborted { code, message } => (*code, message.as_str()),
+            _ => (0, ""),
+        };
+        json!({
+            "goal": [goal.x_m, goal.y_m, goal.yaw_rad],
+            "is_reached": report.outcome == GoalOutcome::Reached,
+            "outcome": report.outcome.to_string(),
+            "error_code": code,
+            "error_msg": message,
+            "time_s": report.time_s,
+            "recoveries": report.recoveries,
+        })
+    };
+    let goals: Vec<Value> = task.goals.reports().iter().zip(goals).map(goal).collect();
+    let score = task.score.as_ref().map(|score| {
+        json!({
+            "length_m": score.length_m,
+            "min_clearance_m": score.min_clearance_m.is_finite().then_some(score.min_clearance_m),
+            "collisions": score.collision_count,
+        })
+    });
+    json!({ "goals": goals, "truth": score, "run": session.report().to_json() })
+}
+
+/// Prints the report.
+///
+/// # Errors
+/// A failed write.
+pub(super) fn print(
+    session: &SimulationSession,
+    task: &NavigateTask,
+    goals: &[Pose2],
+    out: &mut dyn Write,
+) -> io::Result<()> {
+    session.report().write_text(out)?;
+    for (index, (report, goal)) in task.goals.reports().iter().zip(goals).enumerate() {
+        write!(
+            out,
+            "  goal {} of {} at {}: {}",
+            index + 1,
+            task.goals.goal_count(),
+            pose_text(*goal),
+            report.outcome
+        )?;
+        write!(out, " after {:.1} s", report.time_s)?;
+        match report.recoveries {
+            0 => writeln!(out)?,
+            1 => writeln!(out, ", 1 recovery")?,
+            several => writeln!(out, ", {several} recoveries")?,
+        }
+    }
+    if let Some(score) = &task.score {
+        let clearance = match score.min_clearance_m {
+            distance_m if distance_m.is_finite() => format!("at least {distance_m:.2} m"),
+            _ => "unlimited".to_owned(),
+        };
+        writeln!(
+            out,
+            "  drove {:.2} m, clearance {clearance}, {} collisions",
+            score.length_m, score.collision_count
+        )?;
+    }
+    if let Some(error) = task.navigation.status().and_then(|status| status.last_error) {
+        writeln!(out, "  last error of a server: {error}")?;
+    }
+    Ok(())
+}

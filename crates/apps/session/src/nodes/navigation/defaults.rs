@@ -1,0 +1,250 @@
+//! Default parameters of navigation, from what is known of the robot.
+
+use std::fmt::Write as _;
+
+use super::RobotProfile;
+
+/// Motion that the wheels of a robot allow.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub enum RobotBase {
+    /// Forwards, backwards, turning on the spot.
+    #[default]
+    Differential,
+    /// In all directions.
+    Omnidirectional,
+    /// As a car.
+    Ackermann {
+        /// Smallest radius of a turn \[m\].
+        min_turning_radius_m: f64,
+    },
+}
+
+/// Inputs of the default parameters.
+#[derive(Clone, Debug, PartialEq)]
+pub struct NavigationDefaults {
+    /// Motion that the wheels allow.
+    pub base: RobotBase,
+    /// Maximum speed \[m/s\].
+    pub max_speed_m_s: f64,
+    /// Maximum turn rate \[rad/s\].
+    pub max_turn_rate_rad_s: f64,
+    /// Map on which paths are planned.
+    pub map: PlanningMap,
+}
+
+/// Map on which paths are planned.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum PlanningMap {
+    /// A whole map: goals outside of it are refused.
+    Known,
+    /// A map that SLAM builds while the robot drives: paths lead through unknown space.
+    #[default]
+    Growing,
+    /// None: obstacles only, in the odometry frame.
+    Absent,
+}
+
+impl Default for NavigationDefaults {
+    fn default() -> Self {
+        Self {
+            base: RobotBase::default(),
+            max_speed_m_s: 0.5,
+            max_turn_rate_rad_s: 1.9,
+            map: PlanningMap::default(),
+        }
+    }
+}
+
+/// Time over which the controller predicts the motion \[s\]: 56 steps of 0.05 s.
+const HORIZON_S: f64 = 2.8;
+
+/// Side of the costmap around the robot where there is no whole map \[m\].
+const UNMAPPED_SIDE_M: usize = 50;
+
+impl NavigationDefaults {
+    /// Returns the parameter file for a robot.
+    #[must_use]
+    pub fn yaml(&self, profile: &RobotProfile) -> String {
+        let mut text = String::new();
+        self.write_controller(profile, &mut text);
+        self.write_planner(profile, &mut text);
+        self.write_behaviors(profile, &mut text);
+        self.write_costmaps(profile, &mut text);
+        text
+    }
+
+    fn global_frame<'a>(&self, profile: &'a RobotProfile) -> &'a str {
+        if self.map == PlanningMap::Absent { profile.odom() } else { "map" }
+    }
+
+    fn write_controller(&self, profile: &RobotProfile, text: &mut String) {
+        let (speed, turn) = (self.max_speed_m_s, self.max_turn_rate_rad_s);
+        let stamped = profile.takes_stamped_velocities();
+        let (model, side_speed, least_speed) = match self.base {
+            RobotBase::Differential => ("DiffDrive", 0.0, -0.35 * speed),
+            RobotBase::Omnidirectional => ("Omni", speed, -0.35 * speed),
+            RobotBase::Ackermann { .. } => ("Ackermann", 0.0, -0.5 * speed),
+        };
+        let _ = write!(
+            text,
+            "controller_server:\n  ros__parameters:\n    use_sim_time: true\n\
+             \x20   controller_frequency: 20.0\n    enable_stamped_cmd_vel: {stamped}\n\
+             \x20   odom_topic: {odom}\n    costmap_update_timeout: 0.3\n\
+             \x20   min_x_velocity_threshold: 0.001\n    min_y_velocity_threshold: 0.001\n\
+             \x20   min_theta_velocity_threshold: 0.001\n    failure_tolerance: 0.5\n\
+             \x20   progress_checker_plugins: [progress_checker]\n\
+             \x20   goal_checker_plugins: [goal_checker]\n    controller_plugins: [FollowPath]\n\
+             \x20   progress_checker:\n      plugin: nav2_controller::PoseProgressChecker\n\
+             \x20     required_movement_radius: 0.3\n      required_movement_angle: 0.5\n\
+             \x20     movement_time_allowance: 10.0\n\
+             \x20   goal_checker:\n      plugin: nav2_controller::SimpleGoalChecker\n\
+             \x20     xy_goal_tolerance: 0.25\n      yaw_goal_tolerance: 0.25\n      stateful: true\n\
+             \x20   FollowPath:\n      plugin: nav2_mppi_controller::MPPIController\n\
+             \x20     time_steps: 56\n      model_dt: 0.05\n      batch_size: 1000\n\
+             \x20     vx_std: {vx_std:.3}\n      vy_std: {vy_std:.3}\n      wz_std: 0.4\n\
+             \x20     vx_max: {speed}\n      vx_min: {least_speed}\n      vy_max: {side_speed}\n\
+             \x20     wz_max: {turn}\n      ax_max: 3.0\n      ax_min: -3.0\n      ay_max: 3.0\n      az_max: 3.5\n\
+             \x20     iteration_count: 1\n      prune_distance: {prune:.2}\n      transform_tolerance: 0.1\n\
+             \x20     temperature: 0.3\n      gamma: 0.015\n      motion_model: {model}\n",
+            odom = profile.odometry.as_deref().unwrap_or("odom"),
+            vx_std = (0.4 * speed).max(0.2),
+            vy_std = (0.4 * speed).max(0.2),
+            prune = (1.2 * HORIZON_S * speed).max(1.5),
+        );
+        if let RobotBase::Ackermann { min_turning_radius_m } = self.base {
+            let _ = write!(
+                text,
+                "      AckermannConstraints:\n        min_turning_r: {min_turning_radius_m}\n"
+            );
+        }
+        let critics = "ConstraintCritic, CostCritic, GoalCritic, GoalAngleCritic, PathAlignCritic, \
+                       PathFollowCritic, PathAngleCritic, PreferForwardCritic";
+        let _ = write!(
+            text,
+            "      critics: [{critics}]\n\
+             \x20     ConstraintCritic: {{enabled: true, cost_power: 1, cost_weight: 4.0}}\n\
+             \x20     GoalCritic: {{enabled: true, cost_power: 1, cost_weight: 5.0, threshold_to_consider: 1.4}}\n\
+             \x20     GoalAngleCritic: {{enabled: true, cost_power: 1, cost_weight: 3.0, threshold_to_consider: 0.5}}\n\
+             \x20     PreferForwardCritic: {{enabled: true, cost_power: 1, cost_weight: 5.0, threshold_to_consider: 0.5}}\n\
+             \x20     CostCritic: {{enabled: true, cost_power: 1, cost_weight: 3.81, critical_cost: 300.0, \
+             consider_footprint: {shaped}, collision_cost: 1000000.0, near_goal_distance: 1.0, trajectory_point_step: 2}}\n\
+             \x20     PathAlignCritic: {{enabled: true, cost_power: 1, cost_weight: 14.0, max_path_occupancy_ratio: 0.05, \
+             trajectory_point_step: 4, threshold_to_consider: 0.5, offset_from_furthest: 20, use_path_orientations: false}}\n\
+             \x20     PathFollowCritic: {{enabled: true, cost_power: 1, cost_weight: 5.0, offset_from_furthest: 5, threshold_to_consider: 1.4}}\n\
+             \x20     PathAngleCritic: {{enabled: true, cost_power: 1, cost_weight: 2.0, offset_from_furthest: 4, \
+             threshold_to_consider: 0.5, max_angle_to_furthest: 1.0, mode: 0}}\n",
+            shaped = profile.footprint.is_some(),
+        );
+    }
+
+    fn write_planner(&self, profile: &RobotProfile, text: &mut String) {
+        let _ = write!(
+            text,
+            "planner_server:\n  ros__parameters:\n    use_sim_time: true\n\
+             \x20   expected_planner_frequency: 1.0\n    planner_plugins: [GridBased]\n\
+             \x20   costmap_update_timeout: 1.0\n    GridBased:\n"
+        );
+        match self.base {
+            RobotBase::Ackermann { min_turning_radius_m } => {
+                let _ = write!(
+                    text,
+                    "      plugin: nav2_smac_planner::SmacPlannerHybrid\n      tolerance: 0.25\n\
+                     \x20     allow_unknown: true\n      motion_model_for_search: REEDS_SHEPP\n\
+                     \x20     minimum_turning_radius: {:.3}\n      angle_quantization_bins: 72\n",
+                    // The controller needs some room to correct.
+                    1.1 * min_turning_radius_m
+                );
+            }
+            RobotBase::Differential | RobotBase::Omnidirectional => text.push_str(
+                "      plugin: nav2_navfn_planner::NavfnPlanner\n      tolerance: 0.25\n\
+                 \x20     use_astar: false\n      allow_unknown: true\n",
+            ),
+        }
+        let _ = write!(
+            text,
+            "bt_navigator:\n  ros__parameters:\n    use_sim_time: true\n    global_frame: {}\n\
+             \x20   robot_base_frame: {}\n    odom_topic: {}\n\
+             waypoint_follower:\n  ros__parameters:\n    use_sim_time: true\n    stop_on_failure: false\n\
+             smoother_server:\n  ros__parameters:\n    use_sim_time: true\n",
+            self.global_frame(profile),
+            profile.base(),
+            profile.odometry.as_deref().unwrap_or("odom"),
+        );
+    }
+
+    fn write_behaviors(&self, profile: &RobotProfile, text: &mut String) {
+        let _ = write!(
+            text,
+            "behavior_server:\n  ros__parameters:\n    use_sim_time: true\n\
+             \x20   behavior_plugins: [spin, backup, drive_on_heading, assisted_teleop, wait]\n\
+             \x20   spin: {{plugin: \"nav2_behaviors::Spin\"}}\n    backup: {{plugin: \"nav2_behaviors::BackUp\"}}\n\
+             \x20   drive_on_heading: {{plugin: \"nav2_behaviors::DriveOnHeading\"}}\n\
+             \x20   assisted_teleop: {{plugin: \"nav2_behaviors::AssistedTeleop\"}}\n\
+             \x20   wait: {{plugin: \"nav2_behaviors::Wait\"}}\n\
+             \x20   local_frame: {odom}\n    global_frame: {global}\n    robot_base_frame: {base}\n\
+             \x20   enable_stamped_cmd_vel: {stamped}\n    max_rotational_vel: {turn:.2}\n\
+             \x20   min_rotational_vel: 0.4\n    rotational_acc_lim: 3.2\n",
+            odom = profile.odom(),
+            global = self.global_frame(profile),
+            base = profile.base(),
+            stamped = profile.takes_stamped_velocities(),
+            turn = self.max_turn_rate_rad_s.min(1.0),
+        );
+    }
+
+    fn write_costmaps(&self, profile: &RobotProfile, text: &mut String) {
+        let radius_m = profile.radius_m;
+        let shape = match &profile.footprint {
+            Some(corners) => {
+                let corners: Vec<String> =
+                    corners.iter().map(|[x, y]| format!("[{x:.4}, {y:.4}]")).collect();
+                format!("footprint: \"[{}]\"", corners.join(", "))
+            }
+            None => format!("robot_radius: {radius_m:.3}"),
+        };
+        let scan = profile.scan.as_deref().unwrap_or("/scan");
+        // Paths keep this distance where there is room for it.
+        let inflation_m = (radius_m + 0.35).max(0.5);
+        let layers = format!(
+            "      obstacle_layer:\n        plugin: nav2_costmap_2d::ObstacleLayer\n\
+             \x20       observation_sources: scan\n\
+             \x20       scan: {{topic: {scan}, data_type: LaserScan, marking: true, clearing: true, \
+             max_obstacle_height: 2.0, obstacle_max_range: 5.0, raytrace_max_range: 6.0, inf_is_valid: true}}\n\
+             \x20     inflation_layer:\n        plugin: nav2_costmap_2d::InflationLayer\n\
+             \x20       cost_scaling_factor: 3.0\n        inflation_radius: {inflation_m:.3}\n"
+        );
+        let common = |frame: &str, rate_hz: f64| {
+            format!(
+                "      use_sim_time: true\n      global_frame: {frame}\n      robot_base_frame: {}\n\
+                 \x20     {shape}\n      footprint_padding: 0.01\n      resolution: 0.05\n\
+                 \x20     update_frequency: {rate_hz:.1}\n      publish_frequency: 2.0\n",
+                profile.base()
+            )
+        };
+        let side_m = (2.0 * (HORIZON_S * self.max_speed_m_s + 1.0)).max(4.0).ceil() as usize;
+        let _ = write!(
+            text,
+            "local_costmap:\n  local_costmap:\n    ros__parameters:\n{}\
+             \x20     rolling_window: true\n      width: {side_m}\n      height: {side_m}\n\
+             \x20     plugins: [obstacle_layer, inflation_layer]\n{layers}\
+             global_costmap:\n  global_costmap:\n    ros__parameters:\n{}",
+            common(profile.odom(), 10.0),
+            common(self.global_frame(profile), 2.0),
+        );
+        let rolling = format!(
+            "      rolling_window: true\n      width: {UNMAPPED_SIDE_M}\n      height: {UNMAPPED_SIDE_M}\n"
+        );
+        let static_layer = "      track_unknown_space: true\n\
+             \x20     plugins: [static_layer, obstacle_layer, inflation_layer]\n\
+             \x20     static_layer:\n        plugin: nav2_costmap_2d::StaticLayer\n\
+             \x20       map_subscribe_transient_local: true\n";
+        text.push_str(&match self.map {
+            PlanningMap::Known => format!("{static_layer}{layers}"),
+            PlanningMap::Growing => format!("{rolling}{static_layer}{layers}"),
+            PlanningMap::Absent => format!(
+                "{rolling}      track_unknown_space: false\n\
+                 \x20     plugins: [obstacle_layer, inflation_layer]\n{layers}"
+            ),
+        });
+    }
+}

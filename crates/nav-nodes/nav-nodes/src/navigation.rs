@@ -1,0 +1,234 @@
+//! All servers of Nav2's navigation, created by the names of their nodes from one parameter file.
+
+use std::sync::Arc;
+
+use periplus_costmap::{CostmapConfig, Nav2Release};
+use periplus_diagnostics::Diagnostics;
+use periplus_graph::{Graph, GraphError, Lifecycle, LifecycleNode, Node, NodeSettings};
+use periplus_yaml::YamlNode;
+
+use crate::behavior_server::{BehaviorServerConfig, BehaviorServerNode};
+use crate::bt_navigator::{BtNavigator, BtNavigatorParams};
+use crate::collision_monitor::{CollisionDetectorNode, CollisionMonitorNode, MonitorConfig};
+use crate::controller_server::ControllerServer;
+use crate::costmap_2d::CostmapNode;
+use crate::planner_server::PlannerServer;
+use crate::smoother_server::SmootherServer;
+use crate::velocity_smoother::{VELOCITY_SMOOTHER, VelocitySmootherNode};
+use crate::waypoint_follower::{SavePhoto, WaypointFollowerConfig, WaypointFollowerNode};
+use crate::{Files, NodeParameters};
+
+/// Server of Nav2's navigation.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum NavigationServer {
+    /// `controller_server` with the local costmap.
+    Controller,
+    /// `smoother_server`.
+    Smoother,
+    /// `planner_server` with the global costmap.
+    Planner,
+    /// `behavior_server` (`recoveries_server` before Humble).
+    Behaviors,
+    /// `velocity_smoother`.
+    VelocitySmoother,
+    /// `collision_monitor`.
+    CollisionMonitor,
+    /// `collision_detector`.
+    CollisionDetector,
+    /// `bt_navigator`.
+    Navigator,
+    /// `waypoint_follower`.
+    WaypointFollower,
+}
+
+impl NavigationServer {
+    /// The servers of `navigation_launch.py` of Jazzy, in the order in which its lifecycle manager starts them.
+    pub const STACK: [Self; 8] = [
+        Self::Controller,
+        Self::Smoother,
+        Self::Planner,
+        Self::Behaviors,
+        Self::VelocitySmoother,
+        Self::CollisionMonitor,
+        Self::Navigator,
+        Self::WaypointFollower,
+    ];
+
+    /// Name of its node in Nav2's launch and parameter files.
+    #[must_use]
+    pub fn node_name(self) -> &'static str {
+        match self {
+            Self::Controller => "controller_server",
+            Self::Smoother => "smoother_server",
+            Self::Planner => "planner_server",
+            Self::Behaviors => "behavior_server",
+            Self::VelocitySmoother => "velocity_smoother",
+            Self::CollisionMonitor => "collision_monitor",
+            Self::CollisionDetector => "collision_detector",
+            Self::Navigator => "bt_navigator",
+            Self::WaypointFollower => "waypoint_follower",
+        }
+    }
+}
+
+/// A running server.
+pub enum NavigationNode {
+    /// `controller_server`.
+    Controller(LifecycleNode<ControllerServer>),
+    /// `smoother_server`.
+    Smoother(LifecycleNode<SmootherServer>),
+    /// `planner_server`.
+    Planner(LifecycleNode<PlannerServer>),
+    /// `behavior_server`.
+    Behaviors(LifecycleNode<BehaviorServerNode>),
+    /// `velocity_smoother`.
+    VelocitySmoother(LifecycleNode<VelocitySmootherNode>),
+    /// `collision_monitor`.
+    CollisionMonitor(LifecycleNode<CollisionMonitorNode>),
+    /// `collision_detector`.
+    CollisionDetector(LifecycleNode<CollisionDetectorNode>),
+    /// `bt_navigator`.
+    Navigator(LifecycleNode<BtNavigator>),
+    /// `waypoint_follower`.
+    WaypointFollower(LifecycleNode<WaypointFollowerNode>),
+}
+
+/// Calls a method of the node of every server.
+macro_rules! of_each {
+    ($node:expr, $lifecycle:ident => $value:expr) => {
+        match $node {
+            NavigationNode::Controller($lifecycle) => $value,
+            NavigationNode::Smoother($lifecycle) => $value,
+            NavigationNode::Planner($lifecycle) => $value,
+            NavigationNode::Behaviors($lifecycle) => $value,
+            NavigationNode::VelocitySmoother($lifecycle) => $value,
+            NavigationNode::CollisionMonitor($lifecycle) => $value,
+            NavigationNode::CollisionDetector($lifecycle) => $value,
+            NavigationNode::Navigator($lifecycle) => $value,
+            NavigationNode::WaypointFollower($lifecycle) => $value,
+        }
+    };
+}
+
+impl NavigationNode {
+    /// Configures and activates the node, as a lifecycle manager would.
+    pub fn start(&self) {
+        of_each!(self, node => node.start());
+    }
+
+    /// Lifecycle of the node.
+    #[must_use]
+    pub fn lifecycle(&self) -> &Lifecycle {
+        of_each!(self, node => node.lifecycle())
+    }
+
+    /// Calls a function with the costmap that the server owns.
+    pub fn with_costmap<R>(&self, read: impl FnOnce(&mut CostmapNode) -> R) -> Option<R> {
+        match self {
+            Self::Controller(node) => Some(node.with(|server| server.costmap().with(read))),
+            Self::Planner(node) => Some(node.with(|server| server.costmap().with(read))),
+            _ => None,
+        }
+    }
+}
+
+/// Creation of servers from one parameter file.
+pub struct NavigationSetup<'a> {
+    /// Graph of the nodes.
+    pub graph: &'a Graph,
+    /// Tree of the parameter file; none for defaults.
+    pub file: Option<&'a YamlNode>,
+    /// Release whose messages and behaviour are used; none for the newest behaviour with the messages of Jazzy.
+    pub release: Option<Nav2Release>,
+    /// Files of behavior trees.
+    pub files: Arc<dyn Files>,
+    /// Function that saves photos of waypoints.
+    pub save_photo: SavePhoto,
+}
+
+impl NavigationSetup<'_> {
+    /// Creates a server, not yet configured, on a node that has its name. `costmap_node` makes the node of its costmap
+    /// from settings with name and namespace.
+    ///
+    /// # Errors
+    /// When a name is not valid or exists with another type.
+    pub fn create(
+        &self,
+        server: NavigationServer,
+        node: Node,
+        costmap_node: impl FnOnce(NodeSettings) -> Result<Node, GraphError>,
+        diagnostics: &mut Diagnostics,
+    ) -> Result<NavigationNode, GraphError> {
+        let name = node.names().name().to_owned();
+        let parameters =
+            self.file.map(|file| NodeParameters::of_node(file, &name)).unwrap_or_default();
+        let given = parameters.given().filter(|one| !is_common(one.name));
+        let release = self.release;
+        let forms = release.unwrap_or(Nav2Release::Jazzy);
+        Ok(match server {
+            NavigationServer::Controller => {
+                let costmap = self.costmap("local_costmap", &node, costmap_node, diagnostics)?;
+                let server = ControllerServer::new(&node, given, costmap, diagnostics)?;
+                NavigationNode::Controller(server)
+            }
+            NavigationServer::Planner => {
+                let costmap = self.costmap("global_costmap", &node, costmap_node, diagnostics)?;
+                NavigationNode::Planner(PlannerServer::new(&node, given, costmap, diagnostics)?)
+            }
+            NavigationServer::Smoother => {
+                let releases = (release.unwrap_or_default(), forms);
+                NavigationNode::Smoother(SmootherServer::new(&node, given, releases, diagnostics)?)
+            }
+            NavigationServer::Behaviors => {
+                let config = BehaviorServerConfig::read(given, Some(forms), diagnostics);
+                NavigationNode::Behaviors(BehaviorServerNode::at(node, config)?)
+            }
+            NavigationServer::VelocitySmoother => {
+                let values = VELOCITY_SMOOTHER.check(given, None, diagnostics);
+                NavigationNode::VelocitySmoother(VelocitySmootherNode::at(node, values)?)
+            }
+            NavigationServer::CollisionMonitor => {
+                let config = MonitorConfig::read_monitor(given, Some(forms), diagnostics);
+                NavigationNode::CollisionMonitor(CollisionMonitorNode::at(node, config)?)
+            }
+            NavigationServer::CollisionDetector => {
+                let config = MonitorConfig::read_detector(given, Some(forms), diagnostics);
+                NavigationNode::CollisionDetector(CollisionDetectorNode::at(node, config)?)
+            }
+            NavigationServer::Navigator => {
+                let values = BtNavigatorParams::read(given, forms, diagnostics);
+                let files = Arc::clone(&self.files);
+                NavigationNode::Navigator(BtNavigator::new(&node, values, forms, files)?)
+            }
+            NavigationServer::WaypointFollower => {
+                let config = WaypointFollowerConfig::read(given, Some(forms), diagnostics);
+                let save = Arc::clone(&self.save_photo);
+                NavigationNode::WaypointFollower(WaypointFollowerNode::at(node, config, save)?)
+            }
+        })
+    }
+
+    /// Creates the costmap that a server owns, in the namespace of its name.
+    fn costmap(
+        &self,
+        name: &str,
+        server: &Node,
+        costmap_node: impl FnOnce(NodeSettings) -> Result<Node, GraphError>,
+        diagnostics: &mut Diagnostics,
+    ) -> Result<LifecycleNode<CostmapNode>, GraphError> {
+        let around = server.names().namespace().trim_end_matches('/');
+        let settings = NodeSettings::new(name).namespace(&format!("{around}/{name}"));
+        let config = match self.file {
+            Some(file) => CostmapConfig::read_yaml(file, name, self.release, diagnostics),
+            None => CostmapConfig::read([], self.release, diagnostics),
+        };
+        CostmapNode::at(costmap_node(settings)?, config)
+    }
+}
+
+/// Returns true for a parameter that every node of ROS 2 has, which no table of a server lists.
+fn is_common(name: &str) -> bool {
+    const COMMON: [&str; 4] =
+        ["use_sim_time", "qos_overrides", "diagnostic_updater", "start_type_description_service"];
+    COMMON.iter().any(|common| name.starts_with(common))
+}

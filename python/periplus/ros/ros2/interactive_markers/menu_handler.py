@@ -1,0 +1,5 @@
+"""Menus of interactive markers."""
+
+from periplus.ros._marker_menus import MenuHandler
+
+__all__ = ["MenuHandler"]
