@@ -10,8 +10,6 @@ pub(super) use dwb::{check_critic, check_samples, check_trajectory};
 pub(super) use graceful::check_law;
 pub(super) use pure_pursuit::{check_lookahead, check_regulation, check_rotation};
 
-use periplus_controllers::dwb::{AxisLimits, KinematicLimits};
-use periplus_controllers::rpp::limited_speed_m_s;
 use periplus_costmap::{Costmap, Nav2Release};
 use periplus_diagnostics::Diagnostics;
 use periplus_geometry::{Pose2, Twist2};
@@ -83,38 +81,4 @@ fn values_of(
         Some(wrong) => Err(params.unreadable(&wrong.message)),
         None => Ok(values),
     }
-}
-
-/// Maximum velocities: linear, and minimum linear, and angular.
-pub(super) struct SpeedLimits {
-    pub max_linear_m_s: f64,
-    pub min_linear_m_s: f64,
-    pub max_angular_rad_s: f64,
-}
-
-/// Limits of DWB under a speed limit, for the kind `speed_limit`.
-#[allow(dead_code, reason = "the kind `speed_limit` is in the module of MPPI")]
-pub(super) fn dwb_speed_limit(base: SpeedLimits, limit: f64, is_percentage: bool) -> SpeedLimits {
-    let axis = |min, max| AxisLimits { min, max, acceleration: 0.0, deceleration: 0.0 };
-    let limits = KinematicLimits {
-        x: axis(base.min_linear_m_s, base.max_linear_m_s),
-        y: axis(0.0, 0.0),
-        theta: axis(-base.max_angular_rad_s, base.max_angular_rad_s),
-        min_speed_m_s: 0.0,
-        max_speed_m_s: base.max_linear_m_s,
-        min_turn_rate_rad_s: 0.0,
-    }
-    .limited(limit, is_percentage);
-    SpeedLimits {
-        max_linear_m_s: limits.x.max,
-        min_linear_m_s: limits.x.min,
-        max_angular_rad_s: limits.theta.max,
-    }
-}
-
-/// Limits of RegulatedPurePursuit under a speed limit, for the kind `speed_limit`.
-#[allow(dead_code, reason = "the kind `speed_limit` is in the module of MPPI")]
-pub(super) fn rpp_speed_limit(base: SpeedLimits, limit: f64, is_percentage: bool) -> SpeedLimits {
-    let max_linear_m_s = limited_speed_m_s(base.max_linear_m_s, limit, is_percentage);
-    SpeedLimits { max_linear_m_s, ..base }
 }
