@@ -118,7 +118,7 @@ pub(crate) struct SimOptions {
     /// Run the servers of Nav2 beside the robot, with a parameter file of Nav2 [default: parameters for the robot],
     /// and SLAM (or localization with `--localize MAP.yaml`). Goals come from the page, from RViz, or from
     /// clients of `navigate_to_pose`
-    #[arg(long, value_name = "FILE.yaml", num_args = 0..=1, conflicts_with = "costmaps")]
+    #[arg(long, value_name = "FILE.yaml", num_args = 0..=1, conflicts_with = "costmap")]
     navigation: Option<Option<PathBuf>>,
     #[command(flatten)]
     costmaps: CostmapOptions,
