@@ -257,7 +257,7 @@ mod tests {
         check(house, &[]);
         let expected = "beside the product\n  xtask          cli\napps\n  \
             cli            geometry launch\n  launch         geometry\nperiplus\nsimulation\nnav-nodes\n\
-            transports\nmiddleware\nrobot-files\nestimation\nmessages\nfoundation\n  geometry\n";
+            transports\nmiddleware\nnavigation\nrobot-files\nestimation\nmessages\nfoundation\n  geometry\n";
         assert_eq!(table(&crates(&workspace(house))), expected);
     }
 
@@ -326,9 +326,9 @@ mod tests {
             faults(&crates(&workspace(house)), &exceptions),
             [
                 "estimation reaches robot-files: periplus-maps uses periplus-scene; \
-                 an estimator gets messages only, never the truth",
+                 an estimator or navigator gets messages only, never the truth",
                 "nav-nodes reaches robot-files: periplus-nav-nodes uses periplus-maps uses \
-                 periplus-scene; an estimator gets messages only, never the truth",
+                 periplus-scene; an estimator or navigator gets messages only, never the truth",
             ]
         );
     }

@@ -31,7 +31,8 @@ fn check_unknown(class: &str, expected: &str) {
 fn classes_have_two_forms() {
     for class in controller_classes() {
         for class in [class.to_owned(), class.replace("::", "/")] {
-            let given = [("critics", "[BaseObstacle]"), ("primary_controller", RPP)];
+            let critic = if class.contains("mppi") { "[CostCritic]" } else { "[BaseObstacle]" };
+            let given = [("critics", critic), ("primary_controller", RPP)];
             let setup = setup(&given, Nav2Release::Jazzy);
             let created = create_controller(&class, &setup, &mut Diagnostics::new());
             assert!(created.is_some(), "{class}");

@@ -589,7 +589,7 @@ mod tests {
         assert_eq!(role(Some("nav2_amcl"), "amcl"), Some(Role::Amcl { is_managed: true }));
         assert_eq!(role(Some("amcl"), "amcl"), Some(Role::Amcl { is_managed: false }));
         assert_eq!(role(Some("nav2_route"), "route_server"), Some(Role::Lacking));
-        assert_eq!(role(None, "behavior_server"), None);
+        assert_eq!(role(None, "route_server"), None);
         assert_eq!(role(Some("mine"), "amcl"), None);
         let class = of_plugin("nav2_map_server", "nav2_map_server::MapServer");
         assert_eq!(class.map(|entry| entry.role), Some(Role::MapServer { is_managed: true }));
