@@ -58,7 +58,7 @@ pub(crate) fn server(
 fn save(path: &Path, bytes: &[u8]) -> Result<(), FileWriteError> {
     if let Some(folder) = path.parent() {
         std::fs::create_dir_all(folder)
-            .map_err(|error| FileWriteError::Other(plain_words(&error).to_string()))?;
+            .map_err(|error| FileWriteError::Other(plain_words(&error)))?;
     }
     Machine.replace(path, bytes)
 }

@@ -163,11 +163,11 @@ impl Navigation {
 }
 
 /// Topic to which a node's `cmd_vel` is remapped, as in `navigation_launch.py`.
-fn velocity_topic<'a>(
+fn velocity_topic(
     server: NavigationServer,
     is_smoothed: bool,
-    profile: &'a RobotProfile,
-) -> Option<&'a str> {
+    profile: &RobotProfile,
+) -> Option<&str> {
     match server {
         NavigationServer::Controller | NavigationServer::Behaviors if is_smoothed => {
             Some(UNSMOOTHED_TOPIC)
