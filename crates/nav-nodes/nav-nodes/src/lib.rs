@@ -29,6 +29,7 @@ pub mod amcl;
 pub mod behavior_server;
 pub mod bt_navigator;
 pub mod collision_monitor;
+mod common_parameters;
 pub mod controller_server;
 pub mod costmap_2d;
 mod costmap_subscriber;

@@ -8,8 +8,9 @@ use periplus_graph::{Graph, GraphError, Lifecycle, LifecycleNode, Node, NodeSett
 use periplus_yaml::YamlNode;
 
 use crate::behavior_server::{BehaviorServerConfig, BehaviorServerNode};
-use crate::bt_navigator::{BtNavigator, BtNavigatorParams};
+use crate::bt_navigator::{BT_NAVIGATOR, BtNavigator, BtNavigatorParams};
 use crate::collision_monitor::{CollisionDetectorNode, CollisionMonitorNode, MonitorConfig};
+use crate::common_parameters::is_for_table;
 use crate::controller_server::ControllerServer;
 use crate::costmap_2d::CostmapNode;
 use crate::planner_server::PlannerServer;
@@ -162,7 +163,7 @@ impl NavigationSetup<'_> {
         let name = node.names().name().to_owned();
         let parameters =
             self.file.map(|file| NodeParameters::of_node(file, &name)).unwrap_or_default();
-        let given = parameters.given().filter(|one| !is_common(one.name));
+        let given = parameters.given();
         let release = self.release;
         let forms = release.unwrap_or(Nav2Release::Jazzy);
         Ok(match server {
@@ -184,6 +185,7 @@ impl NavigationSetup<'_> {
                 NavigationNode::Behaviors(BehaviorServerNode::at(node, config)?)
             }
             NavigationServer::VelocitySmoother => {
+                let given = given.filter(|one| is_for_table(one, &VELOCITY_SMOOTHER));
                 let values = VELOCITY_SMOOTHER.check(given, None, diagnostics);
                 NavigationNode::VelocitySmoother(VelocitySmootherNode::at(node, values)?)
             }
@@ -196,6 +198,7 @@ impl NavigationSetup<'_> {
                 NavigationNode::CollisionDetector(CollisionDetectorNode::at(node, config)?)
             }
             NavigationServer::Navigator => {
+                let given = given.filter(|one| is_for_table(one, &BT_NAVIGATOR));
                 let values = BtNavigatorParams::read(given, forms, diagnostics);
                 let files = Arc::clone(&self.files);
                 NavigationNode::Navigator(BtNavigator::new(&node, values, forms, files)?)
@@ -224,11 +227,4 @@ impl NavigationSetup<'_> {
         };
         CostmapNode::at(costmap_node(settings)?, config)
     }
-}
-
-/// Returns true for a parameter that every node of ROS 2 has, which no table of a server lists.
-fn is_common(name: &str) -> bool {
-    const COMMON: [&str; 4] =
-        ["use_sim_time", "qos_overrides", "diagnostic_updater", "start_type_description_service"];
-    COMMON.iter().any(|common| name.starts_with(common))
 }

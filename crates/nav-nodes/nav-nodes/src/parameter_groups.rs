@@ -6,8 +6,7 @@ use std::collections::BTreeMap;
 use periplus_diagnostics::{Diagnostic, Diagnostics, Origin};
 use periplus_params::{Given, ParamValues, Table};
 
-/// Parameters every node of ROS 2 may be given, which have no effect here.
-const COMMON: [&str; 3] = ["qos_overrides", "diagnostic_updater", "start_type_description_service"];
+use crate::common_parameters::is_common;
 
 /// Given parameters by group: the name before the last dot, empty for those of the node.
 pub struct ParameterGroups<'a, 'd> {
@@ -37,8 +36,7 @@ impl<'a, 'd> ParameterGroups<'a, 'd> {
         let entries = self.groups.remove("").unwrap_or_default();
         let (known, rest): (Vec<_>, Vec<_>) =
             entries.into_iter().partition(|entry| table.find(entry.name).is_some());
-        for entry in rest.iter().filter(|entry| !COMMON.iter().any(|it| entry.name.starts_with(it)))
-        {
+        for entry in rest.iter().filter(|entry| !is_common(entry.name)) {
             self.diagnostics.push(table.unknown(entry));
         }
         table.check(known, None, self.diagnostics)
@@ -60,7 +58,7 @@ impl<'a, 'd> ParameterGroups<'a, 'd> {
     pub fn finish(self) {
         for (group, entries) in &self.groups {
             let Some(entry) = entries.first() else { continue };
-            if COMMON.iter().any(|common| group.starts_with(common)) {
+            if is_common(group) {
                 continue;
             }
             let mut hint = Diagnostic::hint(

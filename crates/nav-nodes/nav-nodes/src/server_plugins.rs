@@ -5,14 +5,7 @@ use periplus_controllers::GivenParameters;
 use periplus_diagnostics::{Diagnostic, Diagnostics, Origin};
 use periplus_params::{Given, ParamValues, Table};
 
-/// Parameters of every node, which have no effect here.
-const COMMON: [&str; 5] = [
-    "use_sim_time",
-    "qos_overrides",
-    "diagnostic_updater",
-    "start_type_description_service",
-    "bond_heartbeat_period",
-];
+use crate::common_parameters::{is_common, is_for_table};
 
 /// Parameters of a server as written, with the plugins that were read.
 pub(crate) struct ServerParameters<'a, 'd> {
@@ -51,13 +44,10 @@ impl<'a, 'd> ServerParameters<'a, 'd> {
             last.retain(|entry| entry.name != one.name);
             last.push(one);
         }
-        let is_common = |name: &str| COMMON.iter().any(|common| name.starts_with(common));
         let (own, given): (Vec<_>, Vec<_>) = last
             .into_iter()
             .partition(|entry| table.find(entry.name).is_some() || !entry.name.contains('.'));
-        let own = own
-            .into_iter()
-            .filter(|entry| table.find(entry.name).is_some() || !is_common(entry.name));
+        let own = own.into_iter().filter(|entry| is_for_table(entry, table));
         let node = table.check(own, None, diagnostics);
         let given = given.into_iter().filter(|entry| !is_common(entry.name)).collect();
         Self { given, node, groups: Vec::new(), diagnostics, failures: Vec::new() }

@@ -46,9 +46,6 @@ pub use navfn::{
     NavFnMethod, NavFnPlanner, PotentialField, Propagation, PropagationCancelled, navfn_cell_of,
     navfn_point_of,
 };
-/// Short name of [`PlannedPath`].
-#[doc(no_inline)]
-pub use planner::PlannedPath as Plan;
 pub use planner::{PlanRequest, PlannedPath, Planner};
 pub use smac::{
     GoalHeadingMode, Lattice, LatticeError, LatticePrimitive, MotionPrimitive, PrimitiveSet,

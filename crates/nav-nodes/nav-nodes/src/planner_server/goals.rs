@@ -12,7 +12,7 @@ use periplus_msgs::nav2_msgs_main::{
     ComputePathToPose, ComputePathToPoseGoal, ComputePathToPoseResult,
 };
 use periplus_msgs::std_msgs::Header;
-use periplus_planners::{Plan, PlanError, PlanErrorKind, PlanRequest};
+use periplus_planners::{PlanError, PlanErrorKind, PlanRequest, PlannedPath};
 use periplus_tf_ros::pose;
 
 use super::failure::LegFailure;
@@ -318,7 +318,7 @@ impl PlannerServer {
         start: Pose2,
         goal: Pose2,
         io: &mut Io<'_, Self>,
-    ) -> Result<Plan, Box<LegFailure>> {
+    ) -> Result<PlannedPath, Box<LegFailure>> {
         let slot = &mut self.planners[planner];
         let id = slot.id.clone();
         let Some(planner) = &mut slot.planner else {
@@ -352,7 +352,7 @@ impl PlannerServer {
             if let (Some(cell), Some(layered)) = (plan.cleared_cell, &mut costmap.costmap) {
                 layered.costmap_mut().set(cell, periplus_costmap::cost::FREE);
             }
-            Ok::<Plan, Box<LegFailure>>(plan)
+            Ok::<PlannedPath, Box<LegFailure>>(plan)
         })?;
         if planned.poses.is_empty() {
             let text = format!("{id} generated a empty path");
