@@ -19,15 +19,14 @@ use periplus_session::nodes::{
     NavigationDefaults, NavigationRequest, PlanningMap, RobotBase, slam_parameters,
 };
 use periplus_session::{
-    PageContext, PageSettings, ProgressLine, RunSettings, SessionBuilder, SessionTask,
-    SimulationSession, stop,
+    PageContext, ProgressLine, RunSettings, SessionBuilder, SessionTask, SimulationSession, stop,
 };
 use periplus_sim::{
     Composition, DriveScore, Options, PlacementPose, RunProgress, Simulation, Tick, compose,
 };
 
 use crate::error::CliError;
-use crate::options::{SearchOptions, split};
+use crate::options::SearchOptions;
 use crate::page::PageOptions;
 use crate::run_options::{Factor, Reach, TopicSelection, exit_code, factor, positive};
 use crate::sim::Robots;
@@ -130,7 +129,10 @@ const MAX_SCORE_CELLS: f64 = 3000.0;
 pub(crate) fn run(options: &NavigateOptions, ros: Vec<String>) -> Result<ExitCode, CliError> {
     let start = Stopwatch::start();
     let to_nodes = crate::arguments::read(ros)?;
-    let (world, arguments) = options.world()?;
+    let (world, arguments) = options.robots.world(&options.words, "navigate")?;
+    if options.robots.placements.len() > 1 {
+        return Err(CliError::usage("navigate drives one robot; give one `--robot`"));
+    }
     let search = terminal::search(&options.search.resource_path);
     let composition = search.with_context(true, |context| {
         let context = LoadContext { arguments, ..context.clone() };
@@ -138,7 +140,11 @@ pub(crate) fn run(options: &NavigateOptions, ros: Vec<String>) -> Result<ExitCod
     });
     let pose = options.start_pose();
     let factor = options.factor(&composition);
-    let page = options.page(&composition);
+    let page = options.page.of_run(
+        PageContext::of(&composition, &options.search.resource_path),
+        options.quiet,
+        !options.no_browser,
+    );
     let mut session = SessionBuilder::new(composition, options.simulation(to_nodes), start)
         .quiet(options.quiet)
         .progress(!options.quiet && !options.json)
@@ -168,20 +174,6 @@ pub(crate) fn run(options: &NavigateOptions, ros: Vec<String>) -> Result<ExitCod
 }
 
 impl NavigateOptions {
-    fn world(&self) -> Result<(PathBuf, Vec<(String, String)>), CliError> {
-        let (mut files, arguments) = split(&self.words);
-        // `--robot FILE WORLD`: a word that is not an argument of the robot is the world.
-        files.extend(self.robots.others.iter().map(PathBuf::from));
-        match (files.as_slice(), self.robots.placements.len()) {
-            ([world], 0 | 1) => Ok((world.clone(), arguments)),
-            ([_], _) => Err(CliError::usage("navigate drives one robot; give one `--robot`")),
-            (several, _) => Err(CliError::Usage(format!(
-                "expected one world, got {}; see `periplus navigate --help`",
-                several.len()
-            ))),
-        }
-    }
-
     /// Pose at which the user has put the robot.
     fn start_pose(&self) -> Pose2 {
         match self.robots.placements.first().map(|placement| &placement.pose) {
@@ -238,16 +230,6 @@ impl NavigateOptions {
             (None, true) => PlanningMap::Absent,
             (None, false) => PlanningMap::Growing,
         }
-    }
-
-    fn page(&self, composition: &Composition) -> Option<PageSettings> {
-        self.page.page?;
-        let context = PageContext::of(composition, &self.search.resource_path);
-        Some(PageSettings {
-            is_quiet: self.quiet,
-            opens_browser: !self.no_browser,
-            ..self.page.settings(context)
-        })
     }
 
     /// Prints the report of the run.

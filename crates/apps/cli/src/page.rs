@@ -32,6 +32,17 @@ impl PageOptions {
         let address = self.page.unwrap_or_else(default_address);
         PageSettings::at(address, self.token.clone(), context)
     }
+
+    /// Settings of the page of a run; none unless it is requested.
+    pub(crate) fn of_run(
+        &self,
+        context: PageContext,
+        is_quiet: bool,
+        opens_browser: bool,
+    ) -> Option<PageSettings> {
+        self.page?;
+        Some(PageSettings { is_quiet, opens_browser, ..self.settings(context) })
+    }
 }
 
 /// Parses `ADDRESS:PORT`, one of them, or `localhost`.

@@ -12,17 +12,16 @@ use periplus_loader::LoadContext;
 use periplus_os::Stopwatch;
 use periplus_session::nodes::{EstimatorRequest, NavigationDefaults, NavigationRequest};
 use periplus_session::{
-    GazeboSettings, NoTask, PageContext, PageSettings, RunSettings, SessionBuilder,
-    SimulationSession, stop,
+    GazeboSettings, NoTask, PageContext, RunSettings, SessionBuilder, SimulationSession, stop,
 };
-use periplus_sim::{Composition, Driver, Options, PhysicsMode, Quirks, TopicFilter, compose};
+use periplus_sim::{Driver, Options, PhysicsMode, Quirks, TopicFilter, compose};
 
 use crate::arguments;
 use crate::costmap::CostmapOptions;
 use crate::error::CliError;
 use crate::localize::BesideOptions;
 use crate::mapping::MappingOptions;
-use crate::options::{SearchOptions, split};
+use crate::options::SearchOptions;
 use crate::page::PageOptions;
 use crate::run_options::{
     Factor, GzReach, GzTypes, Reach, TopicSelection, exit_code, factor, positive,
@@ -157,7 +156,7 @@ pub(crate) fn run(options: &SimOptions, ros: Vec<String>) -> Result<ExitCode, Cl
             "`--hear` is deprecated: use `--compute`; the next release has only that option",
         );
     }
-    let (world, arguments) = options.world()?;
+    let (world, arguments) = options.robots.world(&options.words, "sim")?;
     options.check()?;
     let driver = options.driver()?;
     let search = terminal::search(&options.search.resource_path);
@@ -166,7 +165,11 @@ pub(crate) fn run(options: &SimOptions, ros: Vec<String>) -> Result<ExitCode, Cl
         compose(&world, &options.robots.placements, &context)
     });
     let factor = Factor::of_run(options.rtf, options.duration, &composition);
-    let page = options.page(&composition);
+    let page = options.page.of_run(
+        PageContext::of(&composition, &options.search.resource_path),
+        options.quiet,
+        !options.no_browser,
+    );
     let mut session = SessionBuilder::new(composition, options.simulation(to_nodes), start)
         .quiet(options.quiet)
         .progress(!options.quiet && !options.json)
@@ -206,27 +209,6 @@ impl SimOptions {
             values.iter().flat_map(move |value| [flag.to_owned(), value.clone()])
         });
         own.chain(ros).collect()
-    }
-
-    /// The world and its xacro arguments.
-    fn world(&self) -> Result<(PathBuf, Vec<(String, String)>), CliError> {
-        let (mut files, arguments) = split(&self.words);
-        // `--robot FILE WORLD`: a word that is not an argument of the robot is the world.
-        files.extend(self.robots.others.iter().map(PathBuf::from));
-        match files.as_slice() {
-            [world] => Ok((world.clone(), arguments)),
-            [] => Err(CliError::usage(
-                "no world given; add robots with --robot; see `periplus sim --help`",
-            )),
-            several => {
-                let names: Vec<_> = several.iter().map(|it| it.display().to_string()).collect();
-                Err(CliError::Usage(format!(
-                    "expected one world, got {}: {}; give each robot a separate --robot",
-                    names.len(),
-                    names.join(", ")
-                )))
-            }
-        }
     }
 
     /// Checks combinations of options.
@@ -313,16 +295,6 @@ impl SimOptions {
 
     fn gazebo(&self) -> Option<GazeboSettings> {
         Some(GazeboSettings { reach: self.gz?.into(), dialect: self.gz_types.into() })
-    }
-
-    fn page(&self, composition: &Composition) -> Option<PageSettings> {
-        self.page.page?;
-        let context = PageContext::of(composition, &self.search.resource_path);
-        Some(PageSettings {
-            is_quiet: self.quiet,
-            opens_browser: !self.no_browser,
-            ..self.page.settings(context)
-        })
     }
 
     /// Prints the reports of the run and of its nodes.

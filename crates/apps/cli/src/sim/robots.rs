@@ -6,12 +6,45 @@ use clap::{Arg, ArgAction, ArgMatches, Args, Command, Error, FromArgMatches, err
 use periplus_geometry::{Pose, Rpy};
 use periplus_sim::{PlacementPose, RobotPlacement};
 
+use crate::error::CliError;
+use crate::options::split;
+
 /// Robots of a command line, in order.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Robots {
     pub(crate) placements: Vec<RobotPlacement>,
     /// Words after a robot that are not its arguments: one may be the world.
     pub(crate) others: Vec<String>,
+}
+
+impl Robots {
+    /// Returns the only world among the words of a command and those after a robot, and its xacro arguments.
+    ///
+    /// # Errors
+    /// Without a world, or with several.
+    pub(crate) fn world(
+        &self,
+        words: &[String],
+        command: &str,
+    ) -> Result<(PathBuf, Vec<(String, String)>), CliError> {
+        let (mut files, arguments) = split(words);
+        // `--robot FILE WORLD`: a word that is not an argument of the robot is the world.
+        files.extend(self.others.iter().map(PathBuf::from));
+        match files.as_slice() {
+            [world] => Ok((world.clone(), arguments)),
+            [] => Err(CliError::Usage(format!(
+                "no world given; add robots with --robot; see `periplus {command} --help`"
+            ))),
+            several => {
+                let names: Vec<_> = several.iter().map(|it| it.display().to_string()).collect();
+                Err(CliError::Usage(format!(
+                    "expected one world, got {}: {}; give each robot a separate --robot",
+                    names.len(),
+                    names.join(", ")
+                )))
+            }
+        }
+    }
 }
 
 const ROBOT: &str = "robot";
