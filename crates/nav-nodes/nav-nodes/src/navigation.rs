@@ -70,7 +70,23 @@ impl NavigationServer {
             Self::WaypointFollower => "waypoint_follower",
         }
     }
+
+    /// Name of the costmap that it owns, and of its namespace.
+    #[must_use]
+    pub fn costmap_name(self) -> Option<&'static str> {
+        match self {
+            Self::Controller => Some(LOCAL_COSTMAP),
+            Self::Planner => Some(GLOBAL_COSTMAP),
+            _ => None,
+        }
+    }
 }
+
+/// Costmap of the controller server.
+const LOCAL_COSTMAP: &str = "local_costmap";
+
+/// Costmap of the planner server.
+const GLOBAL_COSTMAP: &str = "global_costmap";
 
 /// A running server.
 pub enum NavigationNode {
@@ -168,12 +184,12 @@ impl NavigationSetup<'_> {
         let forms = release.unwrap_or(Nav2Release::Jazzy);
         Ok(match server {
             NavigationServer::Controller => {
-                let costmap = self.costmap("local_costmap", &node, costmap_node, diagnostics)?;
+                let costmap = self.costmap(LOCAL_COSTMAP, &node, costmap_node, diagnostics)?;
                 let server = ControllerServer::new(&node, given, costmap, diagnostics)?;
                 NavigationNode::Controller(server)
             }
             NavigationServer::Planner => {
-                let costmap = self.costmap("global_costmap", &node, costmap_node, diagnostics)?;
+                let costmap = self.costmap(GLOBAL_COSTMAP, &node, costmap_node, diagnostics)?;
                 NavigationNode::Planner(PlannerServer::new(&node, given, costmap, diagnostics)?)
             }
             NavigationServer::Smoother => {

@@ -5,21 +5,39 @@ use periplus_params::Given;
 use periplus_yaml::{YamlNode, YamlValue};
 
 /// Maximum depth of nested namespaces.
-const MAX_NAMESPACE_DEPTH: usize = 4;
+pub(crate) const MAX_NAMESPACE_DEPTH: usize = 4;
 
 /// Parameters with dotted names, as written for one node. Values of a list are separated by blanks, those of a list
 /// in a list have brackets.
 #[derive(Clone, Debug, Default)]
 pub struct NodeParameters {
-    entries: Vec<NodeParameter>,
+    entries: Vec<Written>,
 }
 
+/// A parameter as written in a file.
 #[derive(Clone, Debug)]
-struct NodeParameter {
-    name: String,
-    text: String,
-    name_origin: Origin,
-    origin: Origin,
+pub struct Written {
+    /// Name, with dots.
+    pub name: String,
+    /// Value; for a list, its values joined.
+    pub text: String,
+    /// Location of the name in the file.
+    pub name_origin: Origin,
+    /// Location of the value in the file.
+    pub origin: Origin,
+}
+
+impl Written {
+    /// For a table to check.
+    #[must_use]
+    pub fn given(&self) -> Given<'_> {
+        Given {
+            name: &self.name,
+            text: self.text.as_str().into(),
+            name_origin: self.name_origin,
+            origin: self.origin,
+        }
+    }
 }
 
 impl NodeParameters {
@@ -37,14 +55,14 @@ impl NodeParameters {
     pub fn of_sections<'a>(sections: impl IntoIterator<Item = &'a YamlNode>) -> Self {
         let mut read = Self::default();
         for section in sections {
-            read.add(section, "");
+            flatten(section, "", &mut read.entries);
         }
         read
     }
 
     /// Adds a parameter without a source location; it overrides those of the file.
     pub fn push(&mut self, name: impl Into<String>, text: impl Into<String>) {
-        self.entries.push(NodeParameter {
+        self.entries.push(Written {
             name: name.into(),
             text: text.into(),
             name_origin: Origin::default(),
@@ -71,33 +89,24 @@ impl NodeParameters {
         };
         let last = self.entries.iter().enumerate();
         let last = last.filter(move |(index, entry)| is_last(*index, &entry.name));
-        last.map(|(_, entry)| Given {
-            name: &entry.name,
-            text: entry.text.as_str().into(),
-            name_origin: entry.name_origin,
-            origin: entry.origin,
-        })
+        last.map(|(_, entry)| entry.given())
     }
+}
 
-    fn add(&mut self, at: &YamlNode, prefix: &str) {
-        for (key, value) in at.entries().unwrap_or_default() {
-            let Some(last) = key.text() else { continue };
-            let name = if prefix.is_empty() { last.to_owned() } else { format!("{prefix}.{last}") };
-            let text = match &value.value {
-                YamlValue::Map(_) => {
-                    self.add(value, &name);
-                    continue;
-                }
-                YamlValue::Scalar { text, .. } => text.clone(),
-                YamlValue::List(list) => items(list),
-            };
-            self.entries.push(NodeParameter {
-                name,
-                text,
-                name_origin: key.span.into(),
-                origin: value.span.into(),
-            });
-        }
+/// Adds the values of a mapping with dotted names; values of a list are separated by blanks.
+pub(crate) fn flatten(at: &YamlNode, prefix: &str, flat: &mut Vec<Written>) {
+    for (key, value) in at.entries().unwrap_or_default() {
+        let Some(last) = key.text() else { continue };
+        let name = if prefix.is_empty() { last.to_owned() } else { format!("{prefix}.{last}") };
+        let text = match &value.value {
+            YamlValue::Map(_) => {
+                flatten(value, &name, flat);
+                continue;
+            }
+            YamlValue::Scalar { text, .. } => text.clone(),
+            YamlValue::List(list) => items(list),
+        };
+        flat.push(Written { name, text, name_origin: key.span.into(), origin: value.span.into() });
     }
 }
 

@@ -22,6 +22,7 @@ mod parameters;
 mod program;
 mod services;
 
-pub use file::{InFile, MapperParameters, Written, in_file, read};
+pub use crate::node_parameters::Written;
+pub use file::{InFile, MapperParameters, in_file, read};
 pub use node::{Pace, SlamNode, SlamStatus};
 pub use program::Program;

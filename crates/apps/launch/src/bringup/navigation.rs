@@ -26,13 +26,8 @@ pub(crate) fn server(
     named: &NamedParameters,
     notes: &mut Vec<String>,
 ) -> Result<NavigationNode, String> {
-    let costmap = match server {
-        NavigationServer::Controller => Some("local_costmap"),
-        NavigationServer::Planner => Some("global_costmap"),
-        _ => None,
-    };
     let mut sections = vec![(node.names().name().to_owned(), named.clone())];
-    if let Some(costmap) = costmap {
+    if let Some(costmap) = server.costmap_name() {
         let around = node.names().namespace().trim_end_matches('/');
         let full_name = format!("{around}/{costmap}/{costmap}");
         sections.push((costmap.to_owned(), make::parameters_as(ask, &full_name, notes)));

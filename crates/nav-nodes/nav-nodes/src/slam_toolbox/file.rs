@@ -1,14 +1,12 @@
 //! Parameters from files: those of ROS 2 (`slam_toolbox: ros__parameters:`), and those of ROS 1.
 
-use periplus_diagnostics::{Diagnostic, Diagnostics, Origin};
+use periplus_diagnostics::{Diagnostic, Diagnostics};
 use periplus_params::{Given, ParamValues};
 use periplus_slam::{Method, tables};
-use periplus_yaml::{YamlNode, YamlValue};
+use periplus_yaml::YamlNode;
 
+use crate::node_parameters::{MAX_NAMESPACE_DEPTH, Written, flatten};
 use crate::slam_toolbox::Program;
-
-/// Maximum nesting of namespaces around a node.
-const DEEPEST: usize = 4;
 
 /// Names under which nodes that make maps have their parameters, with the method that each stands for.
 const NODES: [(&str, Option<Method>); 5] = [
@@ -18,32 +16,6 @@ const NODES: [(&str, Option<Method>); 5] = [
     ("turtlebot3_slam_gmapping", Some(Method::Gmapping)),
     ("slam", None),
 ];
-
-/// A parameter as written in a file.
-#[derive(Clone, Debug)]
-pub struct Written {
-    /// Name, with dots.
-    pub name: String,
-    /// Value; for a list, its values joined.
-    pub text: String,
-    /// Location of the name in the file.
-    pub name_origin: Origin,
-    /// Location of the value in the file.
-    pub origin: Origin,
-}
-
-impl Written {
-    /// For a table to check.
-    #[must_use]
-    pub fn given(&self) -> Given<'_> {
-        Given {
-            name: &self.name,
-            text: self.text.as_str().into(),
-            name_origin: self.name_origin,
-            origin: self.origin,
-        }
-    }
-}
 
 /// Parameters of a file for a mapper.
 #[derive(Clone, Debug, Default)]
@@ -148,7 +120,8 @@ struct Sections<'a> {
 
 impl<'a> Sections<'a> {
     fn collect(&mut self, at: &'a YamlNode, node: &str, depth: usize) {
-        for (key, value) in at.entries().filter(|_| depth < DEEPEST).unwrap_or_default() {
+        for (key, value) in at.entries().filter(|_| depth < MAX_NAMESPACE_DEPTH).unwrap_or_default()
+        {
             let Some(key) = key.text() else { continue };
             let name = key.trim_start_matches('/').rsplit('/').next().unwrap_or(key);
             match value.get("ros__parameters") {
@@ -160,25 +133,6 @@ impl<'a> Sections<'a> {
                 None => self.collect(value, node, depth + 1),
             }
         }
-    }
-}
-
-/// Parameters with dotted names; the values of a list are joined.
-fn flatten(at: &YamlNode, prefix: &str, flat: &mut Vec<Written>) {
-    for (key, value) in at.entries().unwrap_or_default() {
-        let Some(last) = key.text() else { continue };
-        let name = if prefix.is_empty() { last.to_owned() } else { format!("{prefix}.{last}") };
-        let text = match &value.value {
-            YamlValue::Map(_) => {
-                flatten(value, &name, flat);
-                continue;
-            }
-            YamlValue::Scalar { text, .. } => text.clone(),
-            YamlValue::List(list) => {
-                list.iter().filter_map(YamlNode::text).collect::<Vec<_>>().join(" ")
-            }
-        };
-        flat.push(Written { name, text, name_origin: key.span.into(), origin: value.span.into() });
     }
 }
 
