@@ -300,7 +300,7 @@ impl SessionTask for NavigateTask {
         if let Some(score) = &mut self.score {
             score.sample(simulation);
         }
-        self.goals.spin_once(simulation.time_ns(), self.navigation.is_ready());
+        self.goals.spin_once(simulation.time_ns(), || self.navigation.is_ready());
         if self.goals.is_done() { Tick::End } else { Tick::Go }
     }
 

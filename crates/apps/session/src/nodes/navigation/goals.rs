@@ -132,8 +132,9 @@ impl GoalDriver {
         self.goals.len()
     }
 
-    /// Works on the goals at a simulated time \[ns\]; `is_ready` is true once the navigator can plan.
-    pub fn spin_once(&mut self, now_ns: i64, is_ready: bool) {
+    /// Works on the goals at a simulated time \[ns\]; `is_ready` returns true once the navigator can plan, and is
+    /// called only when a goal is due.
+    pub fn spin_once(&mut self, now_ns: i64, is_ready: impl FnOnce() -> bool) {
         for (_, feedback) in self.client.feedback() {
             self.recoveries = i64::from(feedback.number_of_recoveries);
         }
@@ -172,9 +173,9 @@ impl GoalDriver {
         }
     }
 
-    fn send(&mut self, goal: Pose2, now_ns: i64, is_ready: bool) {
+    fn send(&mut self, goal: Pose2, now_ns: i64, is_ready: impl FnOnce() -> bool) {
         self.first_attempt_ns.get_or_insert(now_ns);
-        if !self.client.is_ready() || !is_ready {
+        if !self.client.is_ready() || !is_ready() {
             self.was_rejected(goal, now_ns);
             return;
         }
