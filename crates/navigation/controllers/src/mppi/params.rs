@@ -1,7 +1,7 @@
 //! Parameters of MPPI and of its critics, with the names and defaults of Nav2.
 //!
 //! Source: `nav2_mppi_controller/src/*.cpp`, `src/critics/*.cpp` (main, 2026-08). Defaults of Humble that
-//! differ are set by [`super::config`].
+//! differ are set by [`super::MppiConfig::read`].
 
 use periplus_params::params;
 
