@@ -7,22 +7,33 @@ import numpy.typing as npt
 import periplus.msgs.builtin_interfaces.msg as _builtin_interfaces_msg
 import periplus.msgs.geometry_msgs.msg as _geometry_msgs_msg
 import periplus.msgs.std_msgs.msg as _std_msgs_msg
+import periplus.msgs.unique_identifier_msgs.msg as _unique_identifier_msgs_msg
 from periplus.msgs import Message
 
 __all__ = [
     "BehaviorTreeLog",
     "BehaviorTreeStatusChange",
+    "CircleObject",
     "CollisionDetectorState",
     "CollisionMonitorState",
     "Costmap",
     "CostmapFilterInfo",
     "CostmapMetaData",
     "CostmapUpdate",
+    "CriticsStats",
+    "EdgeCost",
+    "ExclusionZoneDescription",
     "MissedWaypoint",
     "Particle",
     "ParticleCloud",
+    "PolygonObject",
+    "Route",
+    "RouteEdge",
+    "RouteNode",
     "SpeedLimit",
+    "TrackingFeedback",
     "VoxelGrid",
+    "WaypointStatus",
 ]
 
 class BehaviorTreeLog(Message):
@@ -40,6 +51,15 @@ class BehaviorTreeStatusChange(Message):
     previous_status: str
     current_status: str
     def __init__(self, *, timestamp: _builtin_interfaces_msg.Time = ..., node_name: str = ..., uid: int = ..., previous_status: str = ..., current_status: str = ...) -> None: ...
+
+class CircleObject(Message):
+    header: _std_msgs_msg.Header
+    uuid: _unique_identifier_msgs_msg.UUID
+    center: _geometry_msgs_msg.Point32
+    radius: float
+    fill: bool
+    value: int
+    def __init__(self, *, header: _std_msgs_msg.Header = ..., uuid: _unique_identifier_msgs_msg.UUID = ..., center: _geometry_msgs_msg.Point32 = ..., radius: float = ..., fill: bool = ..., value: int = ...) -> None: ...
 
 class CollisionDetectorState(Message):
     @property
@@ -101,6 +121,43 @@ class CostmapUpdate(Message):
     def data(self, value: npt.ArrayLike) -> None: ...
     def __init__(self, *, header: _std_msgs_msg.Header = ..., x: int = ..., y: int = ..., size_x: int = ..., size_y: int = ..., data: npt.ArrayLike = ...) -> None: ...
 
+class CriticsStats(Message):
+    stamp: _builtin_interfaces_msg.Time
+    @property
+    def critics(self) -> list[str]: ...
+    @critics.setter
+    def critics(self, value: Iterable[str]) -> None: ...
+    @property
+    def changed(self) -> npt.NDArray[np.bool_]: ...
+    @changed.setter
+    def changed(self, value: npt.ArrayLike) -> None: ...
+    @property
+    def costs_sum(self) -> npt.NDArray[np.float32]: ...
+    @costs_sum.setter
+    def costs_sum(self, value: npt.ArrayLike) -> None: ...
+    def __init__(self, *, stamp: _builtin_interfaces_msg.Time = ..., critics: Iterable[str] = ..., changed: npt.ArrayLike = ..., costs_sum: npt.ArrayLike = ...) -> None: ...
+
+class EdgeCost(Message):
+    edgeid: int
+    cost: float
+    def __init__(self, *, edgeid: int = ..., cost: float = ...) -> None: ...
+
+class ExclusionZoneDescription(Message):
+    zone_name: str
+    type: str
+    frame_id: str
+    @property
+    def points(self) -> list[_geometry_msgs_msg.Point32]: ...
+    @points.setter
+    def points(self, value: Iterable[_geometry_msgs_msg.Point32]) -> None: ...
+    radius: float
+    min_height: float
+    max_height: float
+    enabled: bool
+    visualize: bool
+    frame_hold_timeout: float
+    def __init__(self, *, zone_name: str = ..., type: str = ..., frame_id: str = ..., points: Iterable[_geometry_msgs_msg.Point32] = ..., radius: float = ..., min_height: float = ..., max_height: float = ..., enabled: bool = ..., visualize: bool = ..., frame_hold_timeout: float = ...) -> None: ...
+
 class MissedWaypoint(Message):
     index: int
     goal: _geometry_msgs_msg.PoseStamped
@@ -120,11 +177,57 @@ class ParticleCloud(Message):
     def particles(self, value: Iterable[Particle]) -> None: ...
     def __init__(self, *, header: _std_msgs_msg.Header = ..., particles: Iterable[Particle] = ...) -> None: ...
 
+class PolygonObject(Message):
+    header: _std_msgs_msg.Header
+    uuid: _unique_identifier_msgs_msg.UUID
+    @property
+    def points(self) -> list[_geometry_msgs_msg.Point32]: ...
+    @points.setter
+    def points(self, value: Iterable[_geometry_msgs_msg.Point32]) -> None: ...
+    closed: bool
+    value: int
+    def __init__(self, *, header: _std_msgs_msg.Header = ..., uuid: _unique_identifier_msgs_msg.UUID = ..., points: Iterable[_geometry_msgs_msg.Point32] = ..., closed: bool = ..., value: int = ...) -> None: ...
+
+class Route(Message):
+    header: _std_msgs_msg.Header
+    route_cost: float
+    @property
+    def nodes(self) -> list[RouteNode]: ...
+    @nodes.setter
+    def nodes(self, value: Iterable[RouteNode]) -> None: ...
+    @property
+    def edges(self) -> list[RouteEdge]: ...
+    @edges.setter
+    def edges(self, value: Iterable[RouteEdge]) -> None: ...
+    def __init__(self, *, header: _std_msgs_msg.Header = ..., route_cost: float = ..., nodes: Iterable[RouteNode] = ..., edges: Iterable[RouteEdge] = ...) -> None: ...
+
+class RouteEdge(Message):
+    edgeid: int
+    start: _geometry_msgs_msg.Point
+    end: _geometry_msgs_msg.Point
+    def __init__(self, *, edgeid: int = ..., start: _geometry_msgs_msg.Point = ..., end: _geometry_msgs_msg.Point = ...) -> None: ...
+
+class RouteNode(Message):
+    nodeid: int
+    position: _geometry_msgs_msg.Point
+    def __init__(self, *, nodeid: int = ..., position: _geometry_msgs_msg.Point = ...) -> None: ...
+
 class SpeedLimit(Message):
     header: _std_msgs_msg.Header
     percentage: bool
     speed_limit: float
     def __init__(self, *, header: _std_msgs_msg.Header = ..., percentage: bool = ..., speed_limit: float = ...) -> None: ...
+
+class TrackingFeedback(Message):
+    header: _std_msgs_msg.Header
+    position_tracking_error: float
+    heading_tracking_error: float
+    current_path_index: int
+    robot_pose: _geometry_msgs_msg.PoseStamped
+    distance_to_goal: float
+    speed: float
+    remaining_path_length: float
+    def __init__(self, *, header: _std_msgs_msg.Header = ..., position_tracking_error: float = ..., heading_tracking_error: float = ..., current_path_index: int = ..., robot_pose: _geometry_msgs_msg.PoseStamped = ..., distance_to_goal: float = ..., speed: float = ..., remaining_path_length: float = ...) -> None: ...
 
 class VoxelGrid(Message):
     header: _std_msgs_msg.Header
@@ -138,3 +241,15 @@ class VoxelGrid(Message):
     size_y: int
     size_z: int
     def __init__(self, *, header: _std_msgs_msg.Header = ..., data: npt.ArrayLike = ..., origin: _geometry_msgs_msg.Point32 = ..., resolutions: _geometry_msgs_msg.Vector3 = ..., size_x: int = ..., size_y: int = ..., size_z: int = ...) -> None: ...
+
+class WaypointStatus(Message):
+    PENDING: ClassVar[int]
+    COMPLETED: ClassVar[int]
+    SKIPPED: ClassVar[int]
+    FAILED: ClassVar[int]
+    waypoint_status: int
+    waypoint_index: int
+    waypoint_pose: _geometry_msgs_msg.PoseStamped
+    error_code: int
+    error_msg: str
+    def __init__(self, *, waypoint_status: int = ..., waypoint_index: int = ..., waypoint_pose: _geometry_msgs_msg.PoseStamped = ..., error_code: int = ..., error_msg: str = ...) -> None: ...

@@ -9,9 +9,18 @@ import periplus.msgs.nav2_msgs.msg as _nav2_msgs_msg
 import periplus.msgs.nav_msgs.msg as _nav_msgs_msg
 import periplus.msgs.service_msgs.msg as _service_msgs_msg
 import periplus.msgs.std_msgs.msg as _std_msgs_msg
+import periplus.msgs.unique_identifier_msgs.msg as _unique_identifier_msgs_msg
 from periplus.msgs import Message, Service
 
 __all__ = [
+    "AddExclusionZone",
+    "AddExclusionZone_Event",
+    "AddExclusionZone_Request",
+    "AddExclusionZone_Response",
+    "AddShapes",
+    "AddShapes_Event",
+    "AddShapes_Request",
+    "AddShapes_Response",
     "ClearCostmapAroundPose",
     "ClearCostmapAroundPose_Event",
     "ClearCostmapAroundPose_Request",
@@ -28,6 +37,10 @@ __all__ = [
     "ClearEntireCostmap_Event",
     "ClearEntireCostmap_Request",
     "ClearEntireCostmap_Response",
+    "DynamicEdges",
+    "DynamicEdges_Event",
+    "DynamicEdges_Request",
+    "DynamicEdges_Response",
     "GetCost",
     "GetCost_Event",
     "GetCost_Request",
@@ -40,6 +53,10 @@ __all__ = [
     "GetCosts_Event",
     "GetCosts_Request",
     "GetCosts_Response",
+    "GetShapes",
+    "GetShapes_Event",
+    "GetShapes_Request",
+    "GetShapes_Response",
     "IsPathValid",
     "IsPathValid_Event",
     "IsPathValid_Request",
@@ -56,6 +73,14 @@ __all__ = [
     "ReloadDockDatabase_Event",
     "ReloadDockDatabase_Request",
     "ReloadDockDatabase_Response",
+    "RemoveExclusionZone",
+    "RemoveExclusionZone_Event",
+    "RemoveExclusionZone_Request",
+    "RemoveExclusionZone_Response",
+    "RemoveShapes",
+    "RemoveShapes_Event",
+    "RemoveShapes_Request",
+    "RemoveShapes_Response",
     "SaveMap",
     "SaveMap_Event",
     "SaveMap_Request",
@@ -64,7 +89,63 @@ __all__ = [
     "SetInitialPose_Event",
     "SetInitialPose_Request",
     "SetInitialPose_Response",
+    "SetRouteGraph",
+    "SetRouteGraph_Event",
+    "SetRouteGraph_Request",
+    "SetRouteGraph_Response",
+    "Toggle",
+    "Toggle_Event",
+    "Toggle_Request",
+    "Toggle_Response",
 ]
+
+class AddExclusionZone_Event(Message):
+    info: _service_msgs_msg.ServiceEventInfo
+    @property
+    def request(self) -> list[AddExclusionZone_Request]: ...
+    @request.setter
+    def request(self, value: Iterable[AddExclusionZone_Request]) -> None: ...
+    @property
+    def response(self) -> list[AddExclusionZone_Response]: ...
+    @response.setter
+    def response(self, value: Iterable[AddExclusionZone_Response]) -> None: ...
+    def __init__(self, *, info: _service_msgs_msg.ServiceEventInfo = ..., request: Iterable[AddExclusionZone_Request] = ..., response: Iterable[AddExclusionZone_Response] = ...) -> None: ...
+
+class AddExclusionZone_Request(Message):
+    zone: _nav2_msgs_msg.ExclusionZoneDescription
+    def __init__(self, *, zone: _nav2_msgs_msg.ExclusionZoneDescription = ...) -> None: ...
+
+class AddExclusionZone_Response(Message):
+    success: bool
+    message: str
+    def __init__(self, *, success: bool = ..., message: str = ...) -> None: ...
+
+class AddShapes_Event(Message):
+    info: _service_msgs_msg.ServiceEventInfo
+    @property
+    def request(self) -> list[AddShapes_Request]: ...
+    @request.setter
+    def request(self, value: Iterable[AddShapes_Request]) -> None: ...
+    @property
+    def response(self) -> list[AddShapes_Response]: ...
+    @response.setter
+    def response(self, value: Iterable[AddShapes_Response]) -> None: ...
+    def __init__(self, *, info: _service_msgs_msg.ServiceEventInfo = ..., request: Iterable[AddShapes_Request] = ..., response: Iterable[AddShapes_Response] = ...) -> None: ...
+
+class AddShapes_Request(Message):
+    @property
+    def circles(self) -> list[_nav2_msgs_msg.CircleObject]: ...
+    @circles.setter
+    def circles(self, value: Iterable[_nav2_msgs_msg.CircleObject]) -> None: ...
+    @property
+    def polygons(self) -> list[_nav2_msgs_msg.PolygonObject]: ...
+    @polygons.setter
+    def polygons(self, value: Iterable[_nav2_msgs_msg.PolygonObject]) -> None: ...
+    def __init__(self, *, circles: Iterable[_nav2_msgs_msg.CircleObject] = ..., polygons: Iterable[_nav2_msgs_msg.PolygonObject] = ...) -> None: ...
+
+class AddShapes_Response(Message):
+    success: bool
+    def __init__(self, *, success: bool = ...) -> None: ...
 
 class ClearCostmapAroundPose_Event(Message):
     info: _service_msgs_msg.ServiceEventInfo
@@ -147,6 +228,37 @@ class ClearEntireCostmap_Response(Message):
     response: _std_msgs_msg.Empty
     def __init__(self, *, response: _std_msgs_msg.Empty = ...) -> None: ...
 
+class DynamicEdges_Event(Message):
+    info: _service_msgs_msg.ServiceEventInfo
+    @property
+    def request(self) -> list[DynamicEdges_Request]: ...
+    @request.setter
+    def request(self, value: Iterable[DynamicEdges_Request]) -> None: ...
+    @property
+    def response(self) -> list[DynamicEdges_Response]: ...
+    @response.setter
+    def response(self, value: Iterable[DynamicEdges_Response]) -> None: ...
+    def __init__(self, *, info: _service_msgs_msg.ServiceEventInfo = ..., request: Iterable[DynamicEdges_Request] = ..., response: Iterable[DynamicEdges_Response] = ...) -> None: ...
+
+class DynamicEdges_Request(Message):
+    @property
+    def closed_edges(self) -> npt.NDArray[np.uint16]: ...
+    @closed_edges.setter
+    def closed_edges(self, value: npt.ArrayLike) -> None: ...
+    @property
+    def opened_edges(self) -> npt.NDArray[np.uint16]: ...
+    @opened_edges.setter
+    def opened_edges(self, value: npt.ArrayLike) -> None: ...
+    @property
+    def adjust_edges(self) -> list[_nav2_msgs_msg.EdgeCost]: ...
+    @adjust_edges.setter
+    def adjust_edges(self, value: Iterable[_nav2_msgs_msg.EdgeCost]) -> None: ...
+    def __init__(self, *, closed_edges: npt.ArrayLike = ..., opened_edges: npt.ArrayLike = ..., adjust_edges: Iterable[_nav2_msgs_msg.EdgeCost] = ...) -> None: ...
+
+class DynamicEdges_Response(Message):
+    success: bool
+    def __init__(self, *, success: bool = ...) -> None: ...
+
 class GetCost_Event(Message):
     info: _service_msgs_msg.ServiceEventInfo
     @property
@@ -217,6 +329,32 @@ class GetCosts_Response(Message):
     def costs(self, value: npt.ArrayLike) -> None: ...
     success: bool
     def __init__(self, *, costs: npt.ArrayLike = ..., success: bool = ...) -> None: ...
+
+class GetShapes_Event(Message):
+    info: _service_msgs_msg.ServiceEventInfo
+    @property
+    def request(self) -> list[GetShapes_Request]: ...
+    @request.setter
+    def request(self, value: Iterable[GetShapes_Request]) -> None: ...
+    @property
+    def response(self) -> list[GetShapes_Response]: ...
+    @response.setter
+    def response(self, value: Iterable[GetShapes_Response]) -> None: ...
+    def __init__(self, *, info: _service_msgs_msg.ServiceEventInfo = ..., request: Iterable[GetShapes_Request] = ..., response: Iterable[GetShapes_Response] = ...) -> None: ...
+
+class GetShapes_Request(Message):
+    def __init__(self) -> None: ...
+
+class GetShapes_Response(Message):
+    @property
+    def circles(self) -> list[_nav2_msgs_msg.CircleObject]: ...
+    @circles.setter
+    def circles(self, value: Iterable[_nav2_msgs_msg.CircleObject]) -> None: ...
+    @property
+    def polygons(self) -> list[_nav2_msgs_msg.PolygonObject]: ...
+    @polygons.setter
+    def polygons(self, value: Iterable[_nav2_msgs_msg.PolygonObject]) -> None: ...
+    def __init__(self, *, circles: Iterable[_nav2_msgs_msg.CircleObject] = ..., polygons: Iterable[_nav2_msgs_msg.PolygonObject] = ...) -> None: ...
 
 class IsPathValid_Event(Message):
     info: _service_msgs_msg.ServiceEventInfo
@@ -315,6 +453,52 @@ class ReloadDockDatabase_Response(Message):
     success: bool
     def __init__(self, *, success: bool = ...) -> None: ...
 
+class RemoveExclusionZone_Event(Message):
+    info: _service_msgs_msg.ServiceEventInfo
+    @property
+    def request(self) -> list[RemoveExclusionZone_Request]: ...
+    @request.setter
+    def request(self, value: Iterable[RemoveExclusionZone_Request]) -> None: ...
+    @property
+    def response(self) -> list[RemoveExclusionZone_Response]: ...
+    @response.setter
+    def response(self, value: Iterable[RemoveExclusionZone_Response]) -> None: ...
+    def __init__(self, *, info: _service_msgs_msg.ServiceEventInfo = ..., request: Iterable[RemoveExclusionZone_Request] = ..., response: Iterable[RemoveExclusionZone_Response] = ...) -> None: ...
+
+class RemoveExclusionZone_Request(Message):
+    zone_name: str
+    remove_all: bool
+    def __init__(self, *, zone_name: str = ..., remove_all: bool = ...) -> None: ...
+
+class RemoveExclusionZone_Response(Message):
+    success: bool
+    message: str
+    def __init__(self, *, success: bool = ..., message: str = ...) -> None: ...
+
+class RemoveShapes_Event(Message):
+    info: _service_msgs_msg.ServiceEventInfo
+    @property
+    def request(self) -> list[RemoveShapes_Request]: ...
+    @request.setter
+    def request(self, value: Iterable[RemoveShapes_Request]) -> None: ...
+    @property
+    def response(self) -> list[RemoveShapes_Response]: ...
+    @response.setter
+    def response(self, value: Iterable[RemoveShapes_Response]) -> None: ...
+    def __init__(self, *, info: _service_msgs_msg.ServiceEventInfo = ..., request: Iterable[RemoveShapes_Request] = ..., response: Iterable[RemoveShapes_Response] = ...) -> None: ...
+
+class RemoveShapes_Request(Message):
+    all_objects: bool
+    @property
+    def uuids(self) -> list[_unique_identifier_msgs_msg.UUID]: ...
+    @uuids.setter
+    def uuids(self, value: Iterable[_unique_identifier_msgs_msg.UUID]) -> None: ...
+    def __init__(self, *, all_objects: bool = ..., uuids: Iterable[_unique_identifier_msgs_msg.UUID] = ...) -> None: ...
+
+class RemoveShapes_Response(Message):
+    success: bool
+    def __init__(self, *, success: bool = ...) -> None: ...
+
 class SaveMap_Event(Message):
     info: _service_msgs_msg.ServiceEventInfo
     @property
@@ -359,6 +543,57 @@ class SetInitialPose_Request(Message):
 class SetInitialPose_Response(Message):
     def __init__(self) -> None: ...
 
+class SetRouteGraph_Event(Message):
+    info: _service_msgs_msg.ServiceEventInfo
+    @property
+    def request(self) -> list[SetRouteGraph_Request]: ...
+    @request.setter
+    def request(self, value: Iterable[SetRouteGraph_Request]) -> None: ...
+    @property
+    def response(self) -> list[SetRouteGraph_Response]: ...
+    @response.setter
+    def response(self, value: Iterable[SetRouteGraph_Response]) -> None: ...
+    def __init__(self, *, info: _service_msgs_msg.ServiceEventInfo = ..., request: Iterable[SetRouteGraph_Request] = ..., response: Iterable[SetRouteGraph_Response] = ...) -> None: ...
+
+class SetRouteGraph_Request(Message):
+    graph_filepath: str
+    def __init__(self, *, graph_filepath: str = ...) -> None: ...
+
+class SetRouteGraph_Response(Message):
+    success: bool
+    def __init__(self, *, success: bool = ...) -> None: ...
+
+class Toggle_Event(Message):
+    info: _service_msgs_msg.ServiceEventInfo
+    @property
+    def request(self) -> list[Toggle_Request]: ...
+    @request.setter
+    def request(self, value: Iterable[Toggle_Request]) -> None: ...
+    @property
+    def response(self) -> list[Toggle_Response]: ...
+    @response.setter
+    def response(self, value: Iterable[Toggle_Response]) -> None: ...
+    def __init__(self, *, info: _service_msgs_msg.ServiceEventInfo = ..., request: Iterable[Toggle_Request] = ..., response: Iterable[Toggle_Response] = ...) -> None: ...
+
+class Toggle_Request(Message):
+    enable: bool
+    def __init__(self, *, enable: bool = ...) -> None: ...
+
+class Toggle_Response(Message):
+    success: bool
+    message: str
+    def __init__(self, *, success: bool = ..., message: str = ...) -> None: ...
+
+class AddExclusionZone(Service):
+    Request = AddExclusionZone_Request
+    Response = AddExclusionZone_Response
+    Event = AddExclusionZone_Event
+
+class AddShapes(Service):
+    Request = AddShapes_Request
+    Response = AddShapes_Response
+    Event = AddShapes_Event
+
 class ClearCostmapAroundPose(Service):
     Request = ClearCostmapAroundPose_Request
     Response = ClearCostmapAroundPose_Response
@@ -379,6 +614,11 @@ class ClearEntireCostmap(Service):
     Response = ClearEntireCostmap_Response
     Event = ClearEntireCostmap_Event
 
+class DynamicEdges(Service):
+    Request = DynamicEdges_Request
+    Response = DynamicEdges_Response
+    Event = DynamicEdges_Event
+
 class GetCost(Service):
     Request = GetCost_Request
     Response = GetCost_Response
@@ -393,6 +633,11 @@ class GetCosts(Service):
     Request = GetCosts_Request
     Response = GetCosts_Response
     Event = GetCosts_Event
+
+class GetShapes(Service):
+    Request = GetShapes_Request
+    Response = GetShapes_Response
+    Event = GetShapes_Event
 
 class IsPathValid(Service):
     Request = IsPathValid_Request
@@ -414,6 +659,16 @@ class ReloadDockDatabase(Service):
     Response = ReloadDockDatabase_Response
     Event = ReloadDockDatabase_Event
 
+class RemoveExclusionZone(Service):
+    Request = RemoveExclusionZone_Request
+    Response = RemoveExclusionZone_Response
+    Event = RemoveExclusionZone_Event
+
+class RemoveShapes(Service):
+    Request = RemoveShapes_Request
+    Response = RemoveShapes_Response
+    Event = RemoveShapes_Event
+
 class SaveMap(Service):
     Request = SaveMap_Request
     Response = SaveMap_Response
@@ -423,3 +678,13 @@ class SetInitialPose(Service):
     Request = SetInitialPose_Request
     Response = SetInitialPose_Response
     Event = SetInitialPose_Event
+
+class SetRouteGraph(Service):
+    Request = SetRouteGraph_Request
+    Response = SetRouteGraph_Response
+    Event = SetRouteGraph_Event
+
+class Toggle(Service):
+    Request = Toggle_Request
+    Response = Toggle_Response
+    Event = Toggle_Event
