@@ -17,6 +17,7 @@ from periplus.ros._genpy_types import (
     DefinitionError,
     Field,
     base_type,
+    from_handle,
     native_text,
     native_type_name,
     parse,
@@ -90,6 +91,8 @@ def load(package: str) -> None:
         return
     _loading.add(package)
     try:
+        for one in _with_constants(package):
+            _genpy.add_definition(one)
         definitions = _read(package)
         if package in _registry() and not definitions:
             _loaded.setdefault(package, {})
@@ -209,6 +212,27 @@ def _folders(package: str) -> list[str]:
     return [one for one in found if any(os.path.isdir(os.path.join(one, kind)) for kind in _KINDS)]
 
 
+def _with_constants(package: str) -> list[Definition]:
+    """Types of the registry with constants, for which Periplus ships a text, too: it has the types of the constants.
+
+    The registry has the values only, and the checksum of ROS 1 needs both.
+    """
+    made = []
+    for name in _registry().get(package, {}).get("msg", ()):
+        paths = [os.path.join(folder, package, "msg", f"{name}.msg") for folder in FOLDERS]
+        path = next((one for one in paths if os.path.isfile(one)), None)
+        if path is None:
+            continue
+        known = from_handle(_genpy.genpy_handle(f"{package}/msg/{name}"))
+        (text,) = _read_file(path, package, "msg", name)
+        if known.constant_lines is None and [(one.name, one.type) for one in known.fields] == [
+            (one.name, one.type) for one in text.fields
+        ]:
+            known.constant_lines = text.constant_lines
+            made.append(known)
+    return made
+
+
 def _read(package: str) -> list[Definition]:
     made: list[Definition] = []
     known = _registry().get(package, {})
@@ -281,8 +305,6 @@ def _action_topics(package: str, name: str) -> list[Definition]:
 
 def _registry_action(package: str, name: str) -> list[Definition]:
     """Messages of ROS 1 for an action that the registry has as one of ROS 2."""
-    from periplus.ros._genpy_types import from_handle
-
     made = []
     for ending in ("Goal", "Result", "Feedback"):
         definition = from_handle(_genpy.genpy_handle(f"{package}/action/{name}_{ending}"))

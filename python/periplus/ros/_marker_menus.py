@@ -6,8 +6,14 @@ import importlib
 from collections.abc import Callable
 from typing import Any
 
-# Of the generation that the program uses.
-_messages: Any = importlib.import_module("visualization_msgs.msg")
+
+def _messages() -> Any:
+    """Messages of the generation that the program uses, whose modules are on the path of users' programs only."""
+    return importlib.import_module("visualization_msgs.msg")
+
+
+# `MenuEntry.FEEDBACK` of both generations.
+_FEEDBACK = 0
 
 
 class MenuHandler:
@@ -25,7 +31,7 @@ class MenuHandler:
         self,
         title: str,
         parent: int | None = None,
-        command_type: int = _messages.MenuEntry.FEEDBACK,
+        command_type: int = _FEEDBACK,
         command: str = "",
         callback: Callable[[Any], Any] | None = None,
     ) -> int:
@@ -69,7 +75,7 @@ class MenuHandler:
         for number, one in self._entries.items():
             if one["visible"]:
                 mark = {self.CHECKED: "[x] ", self.UNCHECKED: "[ ] "}.get(one["check"], "")
-                entry = _messages.MenuEntry(
+                entry = _messages().MenuEntry(
                     id=number,
                     parent_id=one["parent"],
                     title=mark + one["title"],
@@ -78,7 +84,7 @@ class MenuHandler:
                 )
                 marker.menu_entries.append(entry)
         server.insert(marker)
-        server.setCallback(marker_name, self._selected, _messages.InteractiveMarkerFeedback.MENU_SELECT)
+        server.setCallback(marker_name, self._selected, _messages().InteractiveMarkerFeedback.MENU_SELECT)
         self._markers.add(marker_name)
         return True
 
