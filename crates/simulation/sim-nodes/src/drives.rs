@@ -46,7 +46,9 @@ pub fn build(
         device.map(|device| Box::new(device) as Box<dyn Device>)
     }
     let context = &BuildContext { setting, site, plugin };
-    let moves = matches!(plugin.known.role, Role::Drive | Role::Control | Role::State);
+    // Sensors are built with the sensor of their plugin; a plugin of a model brings its own.
+    let senses = plugin.known.role == Role::Sensor && site.context.sensor.is_none();
+    let moves = senses || matches!(plugin.known.role, Role::Drive | Role::Control | Role::State);
     if plugin.known.support == Support::Kept && (moves || plugin.known.role == Role::Effect) {
         diagnostics.push(unsupported_plugin(context));
     }

@@ -1,5 +1,6 @@
 //! Publishers of states: odometry, joints, poses, frames and the clock.
 
+mod body_imu;
 mod clock;
 mod frame_tree;
 mod geometry;
@@ -44,6 +45,7 @@ pub(crate) fn build(
         "gazebo_ros_joint_state_publisher" | "gz-sim-joint-state-publisher-system" => {
             boxed(joint_states::plugin(context, diagnostics))
         }
+        "gazebo_ros_imu" | "hector_gazebo_ros_imu" => boxed(body_imu::build(context, diagnostics)),
         "gazebo_ros_p3d" => boxed(p3d::build(context, diagnostics)),
         "gz-sim-odometry-publisher-system" => boxed(gz_odometry::build(context, diagnostics)),
         "gz-sim-pose-publisher-system" => boxed(gz_poses::build(context, diagnostics)),

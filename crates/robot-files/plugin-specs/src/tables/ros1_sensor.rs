@@ -35,6 +35,14 @@ const fn topic(default: &'static str) -> Parameter {
 const REQUIRED_TOPIC: Parameter =
     text("topicName", "Topic of the messages.").required().naming(NamedEntity::Topic);
 
+const DRIFT_FREQUENCY_OF_ACCELERATION: Parameter =
+    numbers("accelDriftFrequency", "Hz", "Inverse of the time of the drift.")
+        .or("0.000277778 0.000277778 0.000277778");
+
+const DRIFT_FREQUENCY_OF_RATE: Parameter =
+    numbers("rateDriftFrequency", "Hz", "Inverse of the time of the drift.")
+        .or("0.000277778 0.000277778 0.000277778");
+
 pub(super) static PLUGINS: &[PluginSpec] = &[
     of_ros1!(
         "gazebo_ros_laser",
@@ -163,14 +171,35 @@ pub(super) static PLUGINS: &[PluginSpec] = &[
         "hector_gazebo_ros_imu",
         Sensor,
         Simulated,
-        "Publishes angular velocity and acceleration of a link, with drift.",
-        []
+        "Publishes angular velocity, acceleration and orientation of a link, with drift.",
+        [
+            BODY_NAME,
+            text("frameId", "Frame of the messages (default: the link).").naming(NamedEntity::Frame),
+            topic("imu"),
+            text("serviceName", "Service that calibrates.").naming(NamedEntity::Topic),
+            UPDATE_RATE,
+            NOISE,
+            RPY_OFFSET,
+            numbers("accelOffset", "m/s²", "Constant error of the acceleration.").or("0 0 0"),
+            numbers("accelDrift", "m/s²", "Deviation of the drift of the acceleration.").or("0 0 0"),
+            DRIFT_FREQUENCY_OF_ACCELERATION,
+            numbers("accelGaussianNoise", "m/s²", "Noise of the acceleration.").or("0 0 0"),
+            numbers("rateOffset", "rad/s", "Constant error of the angular velocity.").or("0 0 0"),
+            numbers("rateDrift", "rad/s", "Deviation of the drift of the angular velocity.").or("0 0 0"),
+            DRIFT_FREQUENCY_OF_RATE,
+            numbers("rateGaussianNoise", "rad/s", "Noise of the angular velocity.").or("0 0 0"),
+            number("headingOffset", "rad", "Constant error of the heading.").or("0"),
+            number("headingDrift", "rad", "Deviation of the drift of the heading.").or("0"),
+            number("headingDriftFrequency", "Hz", "Inverse of the time of the drift.").or("0.000277778"),
+            number("headingGaussianNoise", "rad", "Noise of the heading.").or("0"),
+        ]
     )
-    .open(),
+    .open()
+    .topics(&[publishes("imu").set_by("topicName")]),
     of_ros1!(
         "hector_gazebo_ros_gps",
         Sensor,
-        Simulated,
+        Kept,
         "Publishes the geographic position of a link, with drift.",
         []
     )
