@@ -22,7 +22,8 @@ use periplus_session::{
     PageContext, ProgressLine, RunSettings, SessionBuilder, SessionTask, SimulationSession, stop,
 };
 use periplus_sim::{
-    Composition, DriveScore, Options, PlacementPose, RunProgress, Simulation, Tick, compose,
+    ArrivalClock, Composition, DriveScore, Options, PlacementPose, RunProgress, Simulation, Tick,
+    compose,
 };
 
 use crate::error::CliError;
@@ -75,6 +76,13 @@ pub(crate) struct NavigateOptions {
     /// Maximum duration of the run in simulated seconds
     #[arg(long, default_value_t = 600.0, value_name = "SECONDS", value_parser = positive)]
     timeout: f64,
+    /// End the run when the robot is within this distance of the last goal [m]; the report has the time since it
+    /// moved, as in the BARN challenge
+    #[arg(long, value_name = "METRES", value_parser = positive)]
+    arrival_radius: Option<f64>,
+    /// End the run at the first collision
+    #[arg(long)]
+    end_at_collision: bool,
     /// Record published topics to a bag: FILE.mcap, or a folder in the format of `ros2 bag`
     #[arg(long, value_name = "FILE.mcap|FOLDER")]
     record: Option<PathBuf>,
@@ -166,11 +174,10 @@ pub(crate) fn run(options: &NavigateOptions, ros: Vec<String>) -> Result<ExitCod
     exit_code(session.end())?;
     let is_reached =
         |report: &periplus_session::nodes::GoalReport| report.outcome == GoalOutcome::Reached;
-    if task.goals.reports().iter().all(is_reached) {
-        Ok(ExitCode::SUCCESS)
-    } else {
-        Ok(ExitCode::FAILURE)
-    }
+    let has_arrived = task.arrival.as_ref().is_some_and(|clock| clock.time_s().is_some());
+    let has_failed = options.end_at_collision && task.collisions() > 0;
+    let is_done = has_arrived || task.goals.reports().iter().all(is_reached);
+    if is_done && !has_failed { Ok(ExitCode::SUCCESS) } else { Ok(ExitCode::FAILURE) }
 }
 
 impl NavigateOptions {
@@ -257,6 +264,8 @@ struct NavigateTask {
     /// Pose that AMCL starts from, until it is published.
     initial_pose: Option<(Publisher<PoseWithCovarianceStamped>, Pose2)>,
     score: Option<DriveScore>,
+    arrival: Option<ArrivalClock>,
+    ends_at_collision: bool,
 }
 
 impl NavigateTask {
@@ -281,7 +290,23 @@ impl NavigateTask {
         let initial_pose = initial_pose.transpose().map_err(CliError::failed)?;
         let region = region(start, &options.goals, options.no_map);
         let score = DriveScore::new(session.simulation_mut(), region);
-        Ok(Self { navigation, goals, initial_pose, score })
+        let arrival = options.arrival_radius.zip(options.goals.last()).map(|(radius_m, goal)| {
+            let goal = if options.no_map { start * *goal } else { *goal };
+            ArrivalClock::new([goal.x_m, goal.y_m], radius_m)
+        });
+        let ends_at_collision = options.end_at_collision;
+        Ok(Self { navigation, goals, initial_pose, score, arrival, ends_at_collision })
+    }
+
+    fn collisions(&self) -> usize {
+        self.score.as_ref().map_or(0, |score| score.collision_count)
+    }
+
+    /// Returns true if the truth ends the run.
+    fn is_over(&self) -> bool {
+        let is_at_last_goal = self.goals.reports().len() + 1 == self.goals.goal_count();
+        let has_arrived = self.arrival.as_ref().is_some_and(|clock| clock.time_s().is_some());
+        has_arrived && is_at_last_goal || self.ends_at_collision && self.collisions() > 0
     }
 }
 
@@ -300,8 +325,13 @@ impl SessionTask for NavigateTask {
         if let Some(score) = &mut self.score {
             score.sample(simulation);
         }
+        if self.goals.reports().len() + 1 == self.goals.goal_count()
+            && let Some(clock) = &mut self.arrival
+        {
+            clock.sample(simulation);
+        }
         self.goals.spin_once(simulation.time_ns(), || self.navigation.is_ready());
-        if self.goals.is_done() { Tick::End } else { Tick::Go }
+        if self.goals.is_done() || self.is_over() { Tick::End } else { Tick::Go }
     }
 
     fn after_step(&mut self, _progress: RunProgress) {}

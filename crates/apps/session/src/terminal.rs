@@ -1,5 +1,6 @@
 //! Output to the terminal.
 
+use std::collections::BTreeMap;
 use std::io::{self, Write};
 use std::path::PathBuf;
 
@@ -30,6 +31,9 @@ pub fn findings(out: &mut dyn Write, loaded: &LoadedFile) -> io::Result<()> {
     diagnostics(out, &loaded.diagnostics, &loaded.sources)
 }
 
+/// Findings with the same message that are written one by one.
+const MAX_EQUAL_FINDINGS: usize = 5;
+
 /// Writes findings with the source texts that they refer to.
 ///
 /// # Errors
@@ -39,8 +43,20 @@ pub fn diagnostics(
     diagnostics: &Diagnostics,
     sources: &SourceMap,
 ) -> io::Result<()> {
+    let mut counts: BTreeMap<(&str, &str), usize> = BTreeMap::new();
     for diagnostic in diagnostics.iter() {
-        writeln!(out, "{}", render(diagnostic, sources, RenderStyle::Colour))?;
+        let count = counts.entry((diagnostic.code, &*diagnostic.message)).or_default();
+        *count += 1;
+        if *count <= MAX_EQUAL_FINDINGS {
+            writeln!(out, "{}", render(diagnostic, sources, RenderStyle::Colour))?;
+        }
+    }
+    for ((code, message), count) in
+        counts.into_iter().filter(|(_, count)| *count > MAX_EQUAL_FINDINGS)
+    {
+        let text = format!("{} more findings are equal: {message}", count - MAX_EQUAL_FINDINGS);
+        let more = Diagnostic::hint("more", text).note(format!("all have the code `{code}`"));
+        writeln!(out, "{}", render(&more, sources, RenderStyle::Colour))?;
     }
     let unkept = diagnostics.unkept();
     if unkept > 0 {

@@ -101,11 +101,13 @@ impl Graph {
         let nodes: Vec<Arc<NodeCore>> = nodes.iter().filter_map(Weak::upgrade).collect();
         let names: Vec<&str> = nodes.iter().map(|node| &*node.full_name).collect();
         self.arguments().unused(&names, &|node, parameter| {
-            nodes[node].standard.get().is_some_and(|own| lock(&own.store).has(parameter))
+            nodes[node].standard.get().is_some_and(|own| lock(&own.store).uses(parameter))
         })
     }
 
-    pub(crate) fn arguments(&self) -> Arc<Arguments> {
+    /// Names, parameters and log levels for all nodes.
+    #[must_use]
+    pub fn arguments(&self) -> Arc<Arguments> {
         lock(&self.0.arguments).clone()
     }
 

@@ -44,6 +44,7 @@ impl Node {
         let arguments = graph.arguments();
         let (any, is_bare) = (settings.takes_any_parameter(), settings.is_bare());
         let is_shared = settings.shares_name();
+        let read = settings.read_parameters();
         let (names, own) = settings.resolve(&arguments)?;
         let full_name: Arc<str> = names.full_name().into();
         let mut given = arguments.parameters_of(&full_name);
@@ -61,7 +62,7 @@ impl Node {
         registry.changes += 1;
         drop(registry);
         let core = graph.0.clone();
-        let store = Store::new(full_name.clone(), core.common.clone(), given, any);
+        let store = Store::new(full_name.clone(), core.common.clone(), given, any).reading(read);
         let node = Arc::new(NodeCore {
             names,
             full_name,

@@ -17,6 +17,7 @@ pub struct NodeSettings {
     rules: Vec<Result<Rule, GraphError>>,
     parameters: BTreeMap<String, ParameterValue>,
     takes_any_parameter: bool,
+    read_parameters: Vec<String>,
     is_bare: bool,
     keeps_names: bool,
     shares_name: bool,
@@ -32,6 +33,7 @@ impl NodeSettings {
             rules: Vec::new(),
             parameters: BTreeMap::new(),
             takes_any_parameter: false,
+            read_parameters: Vec::new(),
             is_bare: false,
             keeps_names: false,
             shares_name: false,
@@ -78,6 +80,18 @@ impl NodeSettings {
     pub fn any_parameters(mut self) -> Self {
         self.takes_any_parameter = true;
         self
+    }
+
+    /// Names a parameter that the program reads from the arguments, and that the node does not declare:
+    /// [`Graph::unused_arguments`](crate::Graph::unused_arguments) does not report it.
+    #[must_use]
+    pub fn reads(mut self, parameter: &str) -> Self {
+        self.read_parameters.push(parameter.to_owned());
+        self
+    }
+
+    pub(crate) fn read_parameters(&self) -> Vec<String> {
+        self.read_parameters.clone()
     }
 
     /// Omits the parameter services and the publishers of `/parameter_events` and `/rosout`, for

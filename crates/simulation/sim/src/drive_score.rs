@@ -29,7 +29,8 @@ pub struct DriveScore {
     /// Points on the footprint, in the robot's frame \[m\].
     outline_m: Vec<[f64; 2]>,
     links: BTreeSet<LinkId>,
-    last: Option<Pose2>,
+    /// Pose of the robot at the last sample, in the frame of the world.
+    pub pose: Option<Pose2>,
     next_ns: i64,
     touches: bool,
     /// Distance driven \[m\].
@@ -53,7 +54,7 @@ impl DriveScore {
             distances_m: squared.cells.iter().map(to_m).collect(),
             outline_m: outline(&footprint),
             links: simulation.motion().links(robot).collect(),
-            last: None,
+            pose: None,
             next_ns: simulation.time_ns(),
             touches: false,
             length_m: 0.0,
@@ -64,18 +65,23 @@ impl DriveScore {
 
     /// Takes a sample if one is due. Call it after each step.
     pub fn sample(&mut self, simulation: &Simulation) {
+        let touches = self.is_in_contact(simulation);
+        if touches && !self.touches {
+            self.collision_count += 1;
+            self.touches = true;
+        }
         if simulation.time_ns() < self.next_ns {
             return;
         }
         self.next_ns = simulation.time_ns() + SAMPLE_PERIOD_NS;
         let Some(pose) = simulation.robot_pose().map(Pose2::from) else { return };
-        if let Some(last) = self.last {
+        if let Some(last) = self.pose {
             self.length_m += libm::hypot(pose.x_m - last.x_m, pose.y_m - last.y_m);
         }
-        self.last = Some(pose);
+        self.pose = Some(pose);
         let clearance_m = self.clearance_m(pose);
         self.min_clearance_m = self.min_clearance_m.min(clearance_m);
-        let touches = self.is_in_contact(simulation) || clearance_m == 0.0;
+        let touches = touches || clearance_m == 0.0;
         self.collision_count += usize::from(touches && !self.touches);
         self.touches = touches;
     }

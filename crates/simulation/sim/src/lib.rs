@@ -25,6 +25,7 @@
 //! # Ok::<(), periplus_sim::Diverged>(())
 //! ```
 
+mod arrival;
 mod compose;
 mod compute_topics;
 mod default_world;
@@ -41,6 +42,7 @@ mod services;
 mod simulation;
 mod truth_map;
 
+pub use arrival::ArrivalClock;
 pub use compose::{
     Composition, ModelInstance, PlacementPose, RobotPlacement, compose, compose_plain,
 };

@@ -5,6 +5,7 @@ use std::io::{self, Write};
 use periplus_geometry::Pose2;
 use periplus_session::SimulationSession;
 use periplus_session::nodes::{GoalOutcome, GoalReport, pose_text};
+use periplus_sim::ArrivalClock;
 use serde_json::{Value, json};
 
 use super::NavigateTask;
@@ -32,6 +33,8 @@ pub(super) fn to_json(session: &SimulationSession, task: &NavigateTask, goals: &
             "length_m": score.length_m,
             "min_clearance_m": score.min_clearance_m.is_finite().then_some(score.min_clearance_m),
             "collisions": score.collision_count,
+            "end_pose": score.pose.map(|pose| [pose.x_m, pose.y_m, pose.yaw_rad]),
+            "arrival_s": task.arrival.as_ref().map(ArrivalClock::time_s),
         })
     });
     json!({ "goals": goals, "truth": score, "run": session.report().to_json() })
@@ -74,6 +77,14 @@ pub(super) fn print(
             "  drove {:.2} m, clearance {clearance}, {} collisions",
             score.length_m, score.collision_count
         )?;
+    }
+    if let Some(clock) = &task.arrival {
+        match clock.time_s() {
+            Some(time_s) => {
+                writeln!(out, "  arrived at the last goal {time_s:.2} s after the first motion")?
+            }
+            None => writeln!(out, "  did not arrive at the last goal")?,
+        }
     }
     if let Some(error) = task.navigation.status().and_then(|status| status.last_error) {
         writeln!(out, "  last error of a server: {error}")?;

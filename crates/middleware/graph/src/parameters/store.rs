@@ -29,6 +29,8 @@ pub(crate) struct Store {
     values: Option<ParamValues>,
     /// Undeclared parameters, for nodes that allow them.
     free: Option<BTreeMap<String, ParameterValue>>,
+    /// Undeclared parameters that the program has read from the arguments.
+    read: Vec<String>,
     generation: u64,
     /// True for a managed node.
     is_managed: bool,
@@ -46,7 +48,13 @@ impl Store {
             let given = given.iter().filter(|(name, _)| *name != USE_SIM_TIME);
             given.map(|(name, value)| (name.clone(), value.clone())).collect()
         });
-        Self { node, common, given, values: None, free, generation: 0, is_managed: false }
+        let (values, read) = (None, Vec::new());
+        Self { node, common, given, values, free, read, generation: 0, is_managed: false }
+    }
+
+    /// With undeclared parameters that the program has read from the arguments.
+    pub(crate) fn reading(self, read: Vec<String>) -> Self {
+        Self { read, ..self }
     }
 
     pub(crate) fn values(&self) -> Option<&ParamValues> {
@@ -114,6 +122,7 @@ impl Store {
         self.values.iter().flat_map(ParamValues::names).collect()
     }
 
+    /// Returns true for a declared parameter.
     pub(crate) fn has(&self, name: &str) -> bool {
         let is_declared = |values: &ParamValues| {
             values.find(name).is_some_and(|parameter| parameter.kind != ParamType::Group)
@@ -122,6 +131,11 @@ impl Store {
             || self.is_managed && name == BOND_PERIOD
             || self.values.as_ref().is_some_and(is_declared)
             || self.free.as_ref().is_some_and(|free| free.contains_key(name))
+    }
+
+    /// Returns true for a parameter that is used: declared, or read by the program.
+    pub(crate) fn uses(&self, name: &str) -> bool {
+        self.has(name) || self.read.iter().any(|read| read == name)
     }
 
     /// Names of all parameters, sorted.

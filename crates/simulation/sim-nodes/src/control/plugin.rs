@@ -109,16 +109,17 @@ impl ControlPlugin {
         format!("{}{}/{node}", self.around, self.namespace)
     }
 
-    /// Returns the parameters that the plugin's files give to a node.
+    /// Returns the parameters that the plugin's files and the arguments of the run give to a node.
     pub(super) fn parameters_of(&self, node: &str) -> GivenParameters {
-        let mut given = self.arguments.parameters_of(&format!("{}/{node}", self.namespace));
+        let mut given = self.graph.parameters_given_to(&self.full_name(node));
+        given.extend(self.arguments.parameters_of(&format!("{}/{node}", self.namespace)));
         if !self.around.is_empty() {
             given.extend(self.arguments.parameters_of(&self.full_name(node)));
         }
         given
     }
 
-    /// Returns the controllers of the plugin's files with their classes, by name.
+    /// Returns the controllers of the plugin's files, and of the arguments of the run, with their classes, by name.
     pub(super) fn declared_controllers(&self) -> BTreeMap<String, String> {
         let mut found = BTreeMap::new();
         for (name, value) in self.parameters_of(&self.manager_name) {
@@ -126,7 +127,8 @@ impl ControlPlugin {
                 found.insert(controller.to_owned(), value.string_value.trim().to_owned());
             }
         }
-        for (pattern, _) in self.arguments.parameters() {
+        let of_run = self.graph.arguments();
+        for (pattern, _) in self.arguments.parameters().chain(of_run.parameters()) {
             let node = pattern.rsplit('/').next().unwrap_or_default();
             if node.contains('*') || node.is_empty() {
                 continue;
@@ -151,6 +153,7 @@ impl ControlPlugin {
             let numbered = if number == 1 { name.to_owned() } else { format!("{name}_{number}") };
             let namespace = format!("{}{}", self.around, self.namespace);
             let mut settings = NodeSettings::new(valid_node_name(&numbered))
+                .reads("type")
                 .namespace(&namespace)
                 .with_arguments(extra)
                 .with_arguments(&self.arguments);

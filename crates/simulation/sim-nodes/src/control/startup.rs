@@ -6,7 +6,7 @@ use periplus_ros2_control::{ControlCycle, ControllerKind, SwitchRequest, SwitchS
 use super::device::ControlCore;
 use crate::drives::BuildContext;
 
-/// Starts the controllers of the plugin's parameter files as a spawner would: first the
+/// Starts the controllers of the plugin's parameter files, and of the run's, as a spawner would: first the
 /// broadcasters, then the drives, then the others whose interfaces are still free.
 pub(super) fn start(
     core: &mut ControlCore,
@@ -54,7 +54,7 @@ pub(super) fn start(
     }
     let names: Vec<String> = started.iter().map(|name| format!("`{name}`")).collect();
     let message = format!(
-        "plugin `{plugin}`: no spawner is run, so these controllers of its parameter files are \
+        "plugin `{plugin}`: no spawner is run, so these controllers of the parameter files are \
          started: {}",
         names.join(", ")
     );
@@ -100,9 +100,13 @@ fn no_controllers(context: &BuildContext<'_>, core: &ControlCore) -> Diagnostic 
     if core.plugin.release.is_ros1() {
         return finding
             .note("controllers of ROS 1 are in the parameter server, which launch files fill")
-            .help("run the robot's launch file: `periplus launch PACKAGE FILE`");
+            .help(
+                "run the robot's launch file: `periplus launch PACKAGE FILE`, or give their parameters in the form \
+                 of ROS 2: `--ros-args --params-file FILE.yaml`",
+            );
     }
     finding.help(
-        "name a parameter file with controllers in `<parameters>`, or run the robot's launch file",
+        "name a parameter file with controllers in `<parameters>` or by `--ros-args --params-file FILE.yaml`, or \
+         run the robot's launch file",
     )
 }

@@ -109,7 +109,7 @@ fn topics_and_services_of_jazzy() {
         /base -> /tf tf2_msgs/msg/TFMessage reliable volatile 100
     "#]].assert_eq(&bench.topics());
     expect![[r#"
-        hint[controllers-started]: plugin `gz_ros2_control::GazeboSimROS2ControlPlugin`: no spawner is run, so these controllers of its parameter files are started: `joint_state_broadcaster`, `base`
+        hint[controllers-started]: plugin `gz_ros2_control::GazeboSimROS2ControlPlugin`: no spawner is run, so these controllers of the parameter files are started: `joint_state_broadcaster`, `base`
           --> robot.sdf:40:25
            |
         40 |          </ros2_control><plugin filename='gz_ros2_control-system' name='gz_ros2_control::GazeboSimROS2ControlPlugin'>

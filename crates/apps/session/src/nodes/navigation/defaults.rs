@@ -58,6 +58,9 @@ impl Default for NavigationDefaults {
 /// Time over which the controller predicts the motion \[s\]: 56 steps of 0.05 s.
 const HORIZON_S: f64 = 2.8;
 
+/// Cells of the costmaps, and distance of the points of a path \[m\].
+const RESOLUTION_M: f64 = 0.05;
+
 /// Side of the costmap around the robot where there is no whole map \[m\].
 const UNMAPPED_SIDE_M: usize = 50;
 
@@ -130,10 +133,12 @@ impl NavigationDefaults {
              consider_footprint: {shaped}, collision_cost: 1000000.0, near_goal_distance: 1.0, trajectory_point_step: 2}}\n\
              \x20     PathAlignCritic: {{enabled: true, cost_power: 1, cost_weight: 14.0, max_path_occupancy_ratio: 0.05, \
              trajectory_point_step: 4, threshold_to_consider: 0.5, offset_from_furthest: 20, use_path_orientations: false}}\n\
-             \x20     PathFollowCritic: {{enabled: true, cost_power: 1, cost_weight: 5.0, offset_from_furthest: 5, threshold_to_consider: 1.4}}\n\
+             \x20     PathFollowCritic: {{enabled: true, cost_power: 1, cost_weight: 5.0, offset_from_furthest: {aim}, threshold_to_consider: 1.4}}\n\
              \x20     PathAngleCritic: {{enabled: true, cost_power: 1, cost_weight: 2.0, offset_from_furthest: 4, \
              threshold_to_consider: 0.5, max_angle_to_furthest: 1.0, mode: 0}}\n",
             shaped = profile.footprint.is_some(),
+            // A tenth of what the fastest sample drives, in points of the path.
+            aim = (0.1 * HORIZON_S * speed / RESOLUTION_M).ceil().max(5.0) as usize,
         );
     }
 
@@ -216,7 +221,7 @@ impl NavigationDefaults {
         let common = |frame: &str, rate_hz: f64| {
             format!(
                 "      use_sim_time: true\n      global_frame: {frame}\n      robot_base_frame: {}\n\
-                 \x20     {shape}\n      footprint_padding: 0.01\n      resolution: 0.05\n\
+                 \x20     {shape}\n      footprint_padding: 0.01\n      resolution: {RESOLUTION_M}\n\
                  \x20     update_frequency: {rate_hz:.1}\n      publish_frequency: 2.0\n",
                 profile.base()
             )
