@@ -8,6 +8,7 @@
 
 mod attack;
 mod bags;
+mod barn;
 mod codegen;
 mod corpus;
 mod costmap;
@@ -119,6 +120,25 @@ enum Task {
     },
     /// Drive every robot of the corpus with a drive for five simulated seconds
     Drive,
+    /// Run the BARN challenge: a Jackal drives through fields of cylinders without a map; prints success, collisions
+    /// and scores, beside the published runs of DWA
+    Barn {
+        /// Folder with `index.json` and `worlds/`
+        #[arg(long, value_name = "DIR")]
+        worlds: Option<std::path::PathBuf>,
+        /// Runs of each world
+        #[arg(long, default_value_t = 5)]
+        seeds: u64,
+        /// Run only every Nth world
+        #[arg(long, default_value_t = 1, value_name = "N")]
+        every: usize,
+        /// Run everything twice and compare the bags
+        #[arg(long)]
+        twice: bool,
+        /// Runs at a time
+        #[arg(long, default_value_t = 2)]
+        jobs: usize,
+    },
     /// Compare the bags of different builds and numbers of threads
     Determinism,
     /// Run all commands on hostile inputs, generated from a fixed seed: crashes, time-outs over 10 s and memory
@@ -285,6 +305,16 @@ fn perform(task: &Task) -> Result<(), Failed> {
         }),
         Task::Soak { hours: Some(hours) } => soak::kbot(Some(*hours)),
         Task::Soak { hours: None } => costmap::soak().and_then(|()| soak::kbot(None)),
+        Task::Barn { worlds, seeds, every, twice, jobs } => {
+            let worlds = worlds.clone();
+            barn::evaluate(&barn::Plan {
+                worlds,
+                seeds: *seeds,
+                every: *every,
+                twice: *twice,
+                jobs: *jobs,
+            })
+        }
         Task::Determinism => determinism::check(),
         Task::Pictures => pictures::draw(),
         Task::Viewer(Page::Build) => viewer::build(),

@@ -11,7 +11,7 @@ use std::process::ExitCode;
 use crate::error::CliError;
 
 pub(crate) use beside::BesideOptions;
-pub(crate) use options::LocalizeOptions;
+pub(crate) use options::{LocalizeOptions, map_grid};
 
 pub(crate) fn run(options: &LocalizeOptions, ros: Vec<String>) -> Result<ExitCode, CliError> {
     match (&options.log, &options.map, &options.out) {

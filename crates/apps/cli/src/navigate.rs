@@ -1,5 +1,6 @@
 //! `periplus navigate`.
 
+mod random_goals;
 mod report;
 
 use std::io::{self, Write};
@@ -26,6 +27,7 @@ use periplus_sim::{
     compose,
 };
 
+use self::random_goals::random_goals;
 use crate::error::CliError;
 use crate::options::SearchOptions;
 use crate::page::PageOptions;
@@ -47,8 +49,12 @@ pub(crate) struct NavigateOptions {
     robots: Robots,
     /// Goal [m, rad]: X,Y or X,Y,YAW; repeatable, in their order. In the frame of the map with `--map`; with SLAM in the
     /// frame of the world, if the robot stands at `--pose`; without a map relative to the start
-    #[arg(long = "goal", value_name = "X,Y,YAW", value_parser = pose, allow_hyphen_values = true, required = true)]
+    #[arg(long = "goal", value_name = "X,Y,YAW", value_parser = pose, allow_hyphen_values = true,
+        required_unless_present = "random_goals")]
     goals: Vec<Pose2>,
+    /// Number of random goals that the robot can reach on the map, after those of `--goal`; they depend on `--seed`
+    #[arg(long, value_name = "NUMBER", requires = "map")]
+    random_goals: Option<usize>,
     /// Map to localize on with AMCL [default: SLAM builds one while the robot drives]
     #[arg(long, value_name = "MAP.yaml", conflicts_with = "no_map")]
     map: Option<PathBuf>,
@@ -125,6 +131,9 @@ enum Base {
     Ackermann,
 }
 
+/// Radius of a robot without collisions, for random goals \[m\].
+const UNKNOWN_RADIUS_M: f64 = 0.3;
+
 /// Region around start and goals in which the report looks for walls \[m\].
 const SCORE_MARGIN_M: f64 = 8.0;
 
@@ -190,6 +199,24 @@ impl NavigateOptions {
         }
     }
 
+    /// Goals of the user, and random ones.
+    fn all_goals(&self, simulation: &Simulation, start: Pose2) -> Result<Vec<Pose2>, CliError> {
+        let mut goals = self.goals.clone();
+        if let (Some(count), Some(path)) = (self.random_goals, &self.map) {
+            let map = crate::localize::map_grid(path)?;
+            let radius_m = simulation.robot_radius_m().unwrap_or(UNKNOWN_RADIUS_M);
+            let found = random_goals(&map, start, radius_m, count, self.seed);
+            if found.len() < count {
+                return Err(CliError::failed(format!(
+                    "{}: no place near the start has {radius_m:.2} m of room for the robot",
+                    path.display()
+                )));
+            }
+            goals.extend(found);
+        }
+        Ok(goals)
+    }
+
     fn simulation(&self, arguments: Arguments) -> Options {
         Options {
             seed: self.seed,
@@ -242,10 +269,10 @@ impl NavigateOptions {
     /// Prints the report of the run.
     fn print(&self, session: &SimulationSession, task: &NavigateTask) -> Result<(), CliError> {
         if self.json {
-            let report = report::to_json(session, task, &self.goals);
+            let report = report::to_json(session, task);
             writeln!(io::stdout().lock(), "{report:#}")?;
         } else if !self.quiet {
-            report::print(session, task, &self.goals, &mut anstream::stderr().lock())?;
+            report::print(session, task, &mut anstream::stderr().lock())?;
         }
         Ok(())
     }
@@ -260,6 +287,8 @@ fn mapping(out: Option<PathBuf>) -> Result<MappingRequest, CliError> {
 /// Navigation of a run: sends the goals, and keeps the score.
 struct NavigateTask {
     navigation: Navigation,
+    /// Goals as the user has given them.
+    given: Vec<Pose2>,
     goals: GoalDriver,
     /// Pose that AMCL starts from, until it is published.
     initial_pose: Option<(Publisher<PoseWithCovarianceStamped>, Pose2)>,
@@ -274,6 +303,7 @@ impl NavigateTask {
         options: &NavigateOptions,
         start: Pose2,
     ) -> Result<Self, CliError> {
+        let given = options.all_goals(session.simulation(), start)?;
         let navigation = session.take_navigation();
         let frame = navigation.global_frame();
         // The map of SLAM begins at the robot.
@@ -281,21 +311,21 @@ impl NavigateTask {
             PlanningMap::Growing => start.inverse() * *goal,
             PlanningMap::Known | PlanningMap::Absent => *goal,
         };
-        let poses = options.goals.iter().map(in_frame).collect();
+        let poses = given.iter().map(in_frame).collect();
         let goals = GoalDriver::new(session.graph(), &frame, poses).map_err(CliError::failed)?;
         let initial_pose = options.map.as_ref().map(|_| {
             let publisher = goals.node().publisher("/initialpose", Qos::reliable(1));
             publisher.map(|publisher| (publisher, start))
         });
         let initial_pose = initial_pose.transpose().map_err(CliError::failed)?;
-        let region = region(start, &options.goals, options.no_map);
+        let region = region(start, &given, options.no_map);
         let score = DriveScore::new(session.simulation_mut(), region);
-        let arrival = options.arrival_radius.zip(options.goals.last()).map(|(radius_m, goal)| {
+        let arrival = options.arrival_radius.zip(given.last()).map(|(radius_m, goal)| {
             let goal = if options.no_map { start * *goal } else { *goal };
             ArrivalClock::new([goal.x_m, goal.y_m], radius_m)
         });
         let ends_at_collision = options.end_at_collision;
-        Ok(Self { navigation, goals, initial_pose, score, arrival, ends_at_collision })
+        Ok(Self { navigation, given, goals, initial_pose, score, arrival, ends_at_collision })
     }
 
     fn collisions(&self) -> usize {

@@ -239,6 +239,11 @@ const fn default_text(kind: ParamType, literal: &'static str) -> &'static str {
                 matches!(bytes, [b'0'..=b'9' | b'-', ..]),
                 "the default of a number is a number"
             );
+            let mut index = 0;
+            while index < bytes.len() {
+                assert!(bytes[index] != b'_', "the default of a number is written without `_`, as in YAML");
+                index += 1;
+            }
         }
         _ => assert!(is_text, "the default of a text, choice or list is written in quotes"),
     }

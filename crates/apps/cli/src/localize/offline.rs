@@ -50,7 +50,7 @@ pub(super) fn run(
 ) -> Result<ExitCode, CliError> {
     let watch = Stopwatch::start();
     let values = options.values()?;
-    let map = options::map(map_path)?;
+    let map = options::map_grid(map_path)?;
     let frame = |name: &str| values.is_given(name).then(|| values.text(name)).flatten();
     let input = LogOptions {
         odom_frame: frame("odom_frame_id").unwrap_or_else(|| options.input.odom_frame.clone()),

@@ -95,7 +95,7 @@ impl LocalizeOptions {
 }
 
 /// Reads a map and prints its findings.
-pub(super) fn map(path: &Path) -> Result<OccupancyGrid, CliError> {
+pub(crate) fn map_grid(path: &Path) -> Result<OccupancyGrid, CliError> {
     let loaded = load(&path.to_string_lossy(), Distro::Jazzy, &periplus_os::Machine);
     let mut err = anstream::stderr().lock();
     terminal::diagnostics(&mut err, &loaded.diagnostics, &loaded.sources)?;

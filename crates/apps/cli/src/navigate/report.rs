@@ -10,8 +10,8 @@ use serde_json::{Value, json};
 
 use super::NavigateTask;
 
-/// The report as JSON; `goals` are the goals as given.
-pub(super) fn to_json(session: &SimulationSession, task: &NavigateTask, goals: &[Pose2]) -> Value {
+/// The report as JSON.
+pub(super) fn to_json(session: &SimulationSession, task: &NavigateTask) -> Value {
     let goal = |(report, goal): (&GoalReport, &Pose2)| {
         let (code, message) = match &report.outcome {
             GoalOutcome::Aborted { code, message } => (*code, message.as_str()),
@@ -27,7 +27,7 @@ pub(super) fn to_json(session: &SimulationSession, task: &NavigateTask, goals: &
             "recoveries": report.recoveries,
         })
     };
-    let goals: Vec<Value> = task.goals.reports().iter().zip(goals).map(goal).collect();
+    let goals: Vec<Value> = task.goals.reports().iter().zip(&task.given).map(goal).collect();
     let score = task.score.as_ref().map(|score| {
         json!({
             "length_m": score.length_m,
@@ -47,11 +47,10 @@ pub(super) fn to_json(session: &SimulationSession, task: &NavigateTask, goals: &
 pub(super) fn print(
     session: &SimulationSession,
     task: &NavigateTask,
-    goals: &[Pose2],
     out: &mut dyn Write,
 ) -> io::Result<()> {
     session.report().write_text(out)?;
-    for (index, (report, goal)) in task.goals.reports().iter().zip(goals).enumerate() {
+    for (index, (report, goal)) in task.goals.reports().iter().zip(&task.given).enumerate() {
         write!(
             out,
             "  goal {} of {} at {}: {}",

@@ -127,7 +127,7 @@ impl NavigationDefaults {
             "      critics: [{critics}]\n\
              \x20     ConstraintCritic: {{enabled: true, cost_power: 1, cost_weight: 4.0}}\n\
              \x20     GoalCritic: {{enabled: true, cost_power: 1, cost_weight: 5.0, threshold_to_consider: 1.4}}\n\
-             \x20     GoalAngleCritic: {{enabled: true, cost_power: 1, cost_weight: 3.0, threshold_to_consider: 0.5}}\n\
+             \x20     GoalAngleCritic: {{enabled: true, cost_power: 1, cost_weight: 3.0, threshold_to_consider: 0.25}}\n\
              \x20     PreferForwardCritic: {{enabled: true, cost_power: 1, cost_weight: 5.0, threshold_to_consider: 0.5}}\n\
              \x20     CostCritic: {{enabled: true, cost_power: 1, cost_weight: 3.81, critical_cost: 300.0, \
              consider_footprint: {shaped}, collision_cost: 1000000.0, near_goal_distance: 1.0, trajectory_point_step: 2}}\n\
