@@ -241,7 +241,10 @@ const fn default_text(kind: ParamType, literal: &'static str) -> &'static str {
             );
             let mut index = 0;
             while index < bytes.len() {
-                assert!(bytes[index] != b'_', "the default of a number is written without `_`, as in YAML");
+                assert!(
+                    bytes[index] != b'_',
+                    "the default of a number is written without `_`, as in YAML"
+                );
                 index += 1;
             }
         }

@@ -37,6 +37,8 @@ const MAX_DEPTH: usize = 100;
 pub struct RobotProfile {
     /// Topic of laser scans.
     pub scan: Option<String>,
+    /// Largest range of the scans \[m\].
+    pub scan_range_max_m: Option<f64>,
     /// Topic of odometry.
     pub odometry: Option<String>,
     /// Topic of an IMU.
@@ -255,7 +257,8 @@ impl DetectionSubscriptions {
             self.profile.base_frame = plain(&odometry.child_frame_id);
             self.odometry = None;
         }
-        if self.scan.as_ref().is_some_and(|scan| scan.latest().is_some()) {
+        if let Some(scan) = self.scan.as_ref().and_then(Mailbox::latest) {
+            self.profile.scan_range_max_m = Some(f64::from(scan.range_max));
             self.scan = None;
         }
     }

@@ -58,6 +58,9 @@ impl Default for NavigationDefaults {
 /// Time over which the controller predicts the motion \[s\]: 56 steps of 0.05 s.
 const HORIZON_S: f64 = 2.8;
 
+/// Part of the range of a lidar at its end that marks no obstacles \[m\].
+const RANGE_MARGIN_M: f64 = 0.1;
+
 /// Cells of the costmaps, and distance of the points of a path \[m\].
 const RESOLUTION_M: f64 = 0.05;
 
@@ -208,13 +211,17 @@ impl NavigationDefaults {
             None => format!("robot_radius: {radius_m:.3}"),
         };
         let scan = profile.scan.as_deref().unwrap_or("/scan");
+        // A beam that hits nothing clears up to the largest range, and would mark an obstacle there.
+        let marked_m = profile
+            .scan_range_max_m
+            .map_or(5.0, |range_m| (range_m - RANGE_MARGIN_M).clamp(0.1, 5.0));
         // Paths keep this distance where there is room for it.
         let inflation_m = (radius_m + 0.35).max(0.5);
         let layers = format!(
             "      obstacle_layer:\n        plugin: nav2_costmap_2d::ObstacleLayer\n\
              \x20       observation_sources: scan\n\
              \x20       scan: {{topic: {scan}, data_type: LaserScan, marking: true, clearing: true, \
-             max_obstacle_height: 2.0, obstacle_max_range: 5.0, raytrace_max_range: 6.0, inf_is_valid: true}}\n\
+             max_obstacle_height: 2.0, obstacle_max_range: {marked_m:.2}, raytrace_max_range: 6.0, inf_is_valid: true}}\n\
              \x20     inflation_layer:\n        plugin: nav2_costmap_2d::InflationLayer\n\
              \x20       cost_scaling_factor: 3.0\n        inflation_radius: {inflation_m:.3}\n"
         );
