@@ -360,7 +360,7 @@ impl SessionTask for NavigateTask {
         {
             clock.sample(simulation);
         }
-        self.goals.spin_once(simulation.time_ns(), || self.navigation.is_ready());
+        self.goals.spin_once(simulation.time_ns(), || self.navigation.obstacle());
         if self.goals.is_done() || self.is_over() { Tick::End } else { Tick::Go }
     }
 

@@ -139,6 +139,22 @@ impl NavigationNode {
         of_each!(self, node => node.lifecycle())
     }
 
+    /// Kind of server.
+    #[must_use]
+    pub fn server(&self) -> NavigationServer {
+        match self {
+            Self::Controller(_) => NavigationServer::Controller,
+            Self::Smoother(_) => NavigationServer::Smoother,
+            Self::Planner(_) => NavigationServer::Planner,
+            Self::Behaviors(_) => NavigationServer::Behaviors,
+            Self::VelocitySmoother(_) => NavigationServer::VelocitySmoother,
+            Self::CollisionMonitor(_) => NavigationServer::CollisionMonitor,
+            Self::CollisionDetector(_) => NavigationServer::CollisionDetector,
+            Self::Navigator(_) => NavigationServer::Navigator,
+            Self::WaypointFollower(_) => NavigationServer::WaypointFollower,
+        }
+    }
+
     /// Calls a function with the costmap that the server owns.
     pub fn with_costmap<R>(&self, read: impl FnOnce(&mut CostmapNode) -> R) -> Option<R> {
         match self {

@@ -134,16 +134,24 @@ impl Navigation {
         self.nodes.iter().all(|node| node.lifecycle().is_active())
     }
 
-    /// Returns true once all servers are active and both costmaps have their data.
+    /// Returns why it cannot plan: a server that is not active, or a costmap without its data. `None` once it can.
     #[must_use]
-    pub fn is_ready(&self) -> bool {
-        let has_data = |node: &NavigationNode| {
+    pub fn obstacle(&self) -> Option<String> {
+        self.nodes.iter().find_map(|node| {
+            if !node.lifecycle().is_active() {
+                return Some(format!("{} is not active", node.server().node_name()));
+            }
             node.with_costmap(|costmap| {
                 let status = costmap.status();
-                status.updates > 0 && status.trouble.is_none()
+                let name = node.server().costmap_name().unwrap_or_default();
+                match status.trouble {
+                    Some(trouble) => Some(format!("{name}: {trouble}")),
+                    None if status.updates == 0 => Some(format!("{name} was not updated yet")),
+                    None => None,
+                }
             })
-        };
-        self.is_active() && self.nodes.iter().filter_map(has_data).all(|has_data| has_data)
+            .flatten()
+        })
     }
 
     /// Frame in which the navigator plans, and in which goals are given by default.

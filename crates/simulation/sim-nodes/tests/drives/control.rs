@@ -395,7 +395,7 @@ fn a_robot_of_ros_1_without_parameters_is_told_what_to_do() {
            |          ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^
            |
            = note: controllers of ROS 1 are in the parameter server, which launch files fill
-           = help: run the robot's launch file: `periplus launch PACKAGE FILE`
+           = help: run the robot's launch file: `periplus launch PACKAGE FILE`, or give their parameters in the form of ROS 2: `--ros-args --params-file FILE.yaml`
 
     "#]].assert_eq(&bench.said);
 }

@@ -132,7 +132,7 @@ fn a_robot_without_controllers_is_told_what_to_do() {
         36 | <plugin filename='gz_ros2_control-system'
            | ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^
            |
-           = help: name a parameter file with controllers in `<parameters>`, or run the robot's launch file
+           = help: name a parameter file with controllers in `<parameters>` or by `--ros-args --params-file FILE.yaml`, or run the robot's launch file
 
     "#]].assert_eq(&bench.said);
 }

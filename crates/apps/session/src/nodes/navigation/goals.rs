@@ -31,6 +31,8 @@ pub enum GoalOutcome {
     Canceled,
     /// The navigator did not accept it.
     Rejected,
+    /// It was not sent: navigation was not ready, for this reason.
+    NotReady(String),
     /// The run ended before.
     Unfinished,
 }
@@ -49,6 +51,7 @@ impl fmt::Display for GoalOutcome {
             }
             Self::Canceled => f.write_str("canceled"),
             Self::Rejected => f.write_str("rejected by the navigator"),
+            Self::NotReady(reason) => write!(f, "not sent, navigation is not ready: {reason}"),
             Self::Unfinished => f.write_str("not finished when the run ended"),
         }
     }
@@ -132,9 +135,9 @@ impl GoalDriver {
         self.goals.len()
     }
 
-    /// Works on the goals at a simulated time \[ns\]; `is_ready` returns true once the navigator can plan, and is
+    /// Works on the goals at a simulated time \[ns\]; `obstacle` returns why the navigator cannot plan yet, and is
     /// called only when a goal is due.
-    pub fn spin_once(&mut self, now_ns: i64, is_ready: impl FnOnce() -> bool) {
+    pub fn spin_once(&mut self, now_ns: i64, obstacle: impl FnOnce() -> Option<String>) {
         for (_, feedback) in self.client.feedback() {
             self.recoveries = i64::from(feedback.number_of_recoveries);
         }
@@ -146,11 +149,11 @@ impl GoalDriver {
         match &self.progress {
             Progress::Done => {}
             Progress::Due(due_ns) if now_ns < *due_ns => {}
-            Progress::Due(_) => self.send(goal, now_ns, is_ready),
+            Progress::Due(_) => self.send(goal, now_ns, obstacle),
             Progress::Sent(sent, since_ns) => {
                 let since_ns = *since_ns;
                 match sent.look() {
-                    GoalProgress::Rejected => self.was_rejected(goal, now_ns),
+                    GoalProgress::Rejected => self.wait(goal, now_ns, GoalOutcome::Rejected),
                     GoalProgress::Over(state, result) => {
                         let outcome = match state {
                             GoalState::Succeeded => GoalOutcome::Reached,
@@ -173,10 +176,12 @@ impl GoalDriver {
         }
     }
 
-    fn send(&mut self, goal: Pose2, now_ns: i64, is_ready: impl FnOnce() -> bool) {
+    fn send(&mut self, goal: Pose2, now_ns: i64, obstacle: impl FnOnce() -> Option<String>) {
         self.first_attempt_ns.get_or_insert(now_ns);
-        if !self.client.is_ready() || !is_ready() {
-            self.was_rejected(goal, now_ns);
+        let no_server = || Some("there is no action `navigate_to_pose`".to_owned());
+        let obstacle = if self.client.is_ready() { obstacle() } else { no_server() };
+        if let Some(reason) = obstacle {
+            self.wait(goal, now_ns, GoalOutcome::NotReady(reason));
             return;
         }
         let mut pose = PoseStamped::default();
@@ -187,13 +192,13 @@ impl GoalDriver {
         self.progress = Progress::Sent(self.client.send(message), now_ns);
     }
 
-    /// Tries again for a while: at the start the map or a transform is missing.
-    fn was_rejected(&mut self, goal: Pose2, now_ns: i64) {
+    /// Tries again for a while, as at the start the map or a transform is missing; then the goal ends with an outcome.
+    fn wait(&mut self, goal: Pose2, now_ns: i64, outcome: GoalOutcome) {
         let first_ns = self.first_attempt_ns.unwrap_or(now_ns);
         if now_ns - first_ns < PATIENCE_NS {
             self.progress = Progress::Due(now_ns + RETRY_NS);
         } else {
-            self.end(goal, GoalOutcome::Rejected, first_ns, now_ns);
+            self.end(goal, outcome, first_ns, now_ns);
         }
     }
 
