@@ -16,6 +16,7 @@ use crate::costmap_2d::CostmapNode;
 use crate::planner_server::PlannerServer;
 use crate::smoother_server::SmootherServer;
 use crate::velocity_smoother::{VELOCITY_SMOOTHER, VelocitySmootherNode};
+use crate::velocity_topics::uses_stamped_velocity;
 use crate::waypoint_follower::{SavePhoto, WaypointFollowerConfig, WaypointFollowerNode};
 use crate::{Files, NodeParameters};
 
@@ -71,6 +72,13 @@ impl NavigationServer {
         }
     }
 
+    fn sends_velocities(self) -> bool {
+        matches!(
+            self,
+            Self::Controller | Self::Behaviors | Self::VelocitySmoother | Self::CollisionMonitor
+        )
+    }
+
     /// Name of the costmap that it owns, and of its namespace.
     #[must_use]
     pub fn costmap_name(self) -> Option<&'static str> {
@@ -81,6 +89,9 @@ impl NavigationServer {
         }
     }
 }
+
+/// Parameter of nodes that send velocities.
+const STAMPED: &str = "enable_stamped_cmd_vel";
 
 /// Costmap of the controller server.
 const LOCAL_COSTMAP: &str = "local_costmap";
@@ -173,6 +184,8 @@ pub struct NavigationSetup<'a> {
     pub file: Option<&'a YamlNode>,
     /// Release whose messages and behaviour are used; none for the newest behaviour with the messages of Jazzy.
     pub release: Option<Nav2Release>,
+    /// True for stamped velocities in nodes for which the file does not say it; none for those of the release.
+    pub stamped_velocities: Option<bool>,
     /// Files of behavior trees.
     pub files: Arc<dyn Files>,
     /// Function that saves photos of waypoints.
@@ -193,11 +206,17 @@ impl NavigationSetup<'_> {
         diagnostics: &mut Diagnostics,
     ) -> Result<NavigationNode, GraphError> {
         let name = node.names().name().to_owned();
-        let parameters =
+        let mut parameters =
             self.file.map(|file| NodeParameters::of_node(file, &name)).unwrap_or_default();
-        let given = parameters.given();
         let release = self.release;
         let forms = release.unwrap_or(Nav2Release::Jazzy);
+        if server.sends_velocities() && parameters.text(STAMPED).is_none() {
+            // The messages of all nodes are those of one release.
+            let is_stamped =
+                self.stamped_velocities.unwrap_or_else(|| uses_stamped_velocity(None, forms));
+            parameters.push(STAMPED, is_stamped.to_string());
+        }
+        let given = parameters.given();
         Ok(match server {
             NavigationServer::Controller => {
                 let costmap = self.costmap(LOCAL_COSTMAP, &node, costmap_node, diagnostics)?;

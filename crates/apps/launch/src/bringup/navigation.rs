@@ -38,6 +38,7 @@ pub(crate) fn server(
             graph,
             file,
             release: None,
+            stamped_velocities: None,
             files: Arc::new(Machine),
             save_photo: Arc::new(save),
         };

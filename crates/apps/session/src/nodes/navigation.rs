@@ -89,6 +89,7 @@ impl Navigation {
             graph,
             file,
             release: None,
+            stamped_velocities: Some(profile.takes_stamped_velocities()),
             files: Arc::new(Machine),
             save_photo: Arc::new(save_photo),
         };
