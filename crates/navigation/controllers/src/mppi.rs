@@ -31,6 +31,7 @@ pub mod probe;
 mod rollout;
 mod samples;
 mod sequence;
+mod stall;
 mod statistics;
 mod surroundings;
 mod update;

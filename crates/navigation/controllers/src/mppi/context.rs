@@ -23,6 +23,8 @@ pub(crate) struct CriticContext<'a> {
     pub(crate) path: &'a LocalPath,
     /// Last pose of the plan: x \[m\], y \[m\], yaw \[rad\].
     pub(crate) goal: [f32; 3],
+    /// True if `GoalAngleCritic` does not apply: the robot stands near the goal.
+    pub(crate) ignores_goal_heading: bool,
     /// Tolerance of the goal checker \[m\].
     pub(crate) goal_tolerance: Option<f32>,
     pub(crate) grid: &'a CostGrid,

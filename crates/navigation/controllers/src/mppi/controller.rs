@@ -16,6 +16,7 @@ use super::optimizer::Optimizer;
 use super::params::{PathFollowParams, VisualizerParams};
 use super::rollout::Start;
 use super::sequence::{ControlSequence, MppiControl};
+use super::stall::{Stall, StallWatch, seed};
 use super::statistics::{CandidateTrajectory, CriticStatistics, MppiTrajectoryPoint};
 use super::surroundings::Surroundings;
 use crate::{
@@ -35,6 +36,7 @@ pub struct Mppi {
     facts: Option<CycleFacts>,
     last_time_ns: Option<i64>,
     has_speed_limit: bool,
+    stall: StallWatch,
 }
 
 /// Creates a controller from the parameters of the controller server. Returns none if Nav2 would not start
@@ -59,6 +61,7 @@ impl Mppi {
             facts: None,
             last_time_ns: None,
             has_speed_limit: false,
+            stall: StallWatch::default(),
             config,
         }
     }
@@ -258,6 +261,16 @@ impl Controller for Mppi {
         let [x, y, yaw] = self.surroundings.near(input.pose);
         let speed = self.optimizer.start_speed(control(input.velocity));
         let start = Start { x, y, yaw, speed };
+        let stall = self.stall.look(input);
+        if stall == Stall::Begins {
+            let [goal_x, goal_y, _] = self.surroundings.near(input.goal);
+            let (dx, dy) = (goal_x - x, goal_y - y);
+            let (bearing, distance) =
+                (normalize_angle(atan2(dy, dx) - yaw), super::critics::length(dx, dy));
+            let step_s = self.optimizer.settings.step_s;
+            let limits = self.optimizer.limits;
+            seed(&mut self.optimizer.sequence, bearing, distance, &limits, step_s);
+        }
         // The context refers to the surroundings while the optimizer changes.
         let surroundings = std::mem::take(&mut self.surroundings);
         let context = CriticContext {
@@ -267,6 +280,7 @@ impl Controller for Mppi {
             start,
             path: &surroundings.path,
             goal: surroundings.near(input.goal),
+            ignores_goal_heading: stall != Stall::None,
             goal_tolerance: input.tolerance.xy_m.map(|tolerance_m| tolerance_m as f32),
             grid: &surroundings.grid,
             path_length: surroundings.path.length,
@@ -303,6 +317,7 @@ impl Controller for Mppi {
 
     fn reset(&mut self) {
         self.optimizer.reset();
+        self.stall = StallWatch::default();
         self.facts = None;
         if self.config.release == Nav2Release::Humble {
             self.set_speed_limit(0.0, false);

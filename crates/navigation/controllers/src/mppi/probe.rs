@@ -108,6 +108,7 @@ pub fn score(
         start: Start { x, y, yaw, speed: MppiControl::default() },
         path: &path,
         goal: scene.goal,
+        ignores_goal_heading: false,
         goal_tolerance: scene.goal_tolerance,
         grid: &grid,
         path_length: scene.path_length,

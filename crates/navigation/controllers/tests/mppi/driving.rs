@@ -32,6 +32,29 @@ fn a_free_path_is_followed_at_nearly_the_highest_speed() {
     }
 }
 
+/// Beside the goal, with its heading: it must turn away from it to come nearer.
+#[test]
+fn a_robot_does_not_stand_just_outside_of_the_tolerance() {
+    let world = World::new(&[]);
+    for release in Nav2Release::ALL {
+        for offset_m in [0.27, 0.35] {
+            let mut controller = controller(release, &model_params("DiffDrive"));
+            let mut plan = straight([0.0, 0.0], [offset_m, 0.0]);
+            let quarter = std::f64::consts::FRAC_PI_2;
+            plan.last_mut().unwrap().yaw_rad = quarter;
+            let mut robot = Robot { pose: Pose2::new(0.0, 0.0, quarter), ..Robot::default() };
+            let goal = plan[plan.len() - 1];
+            let distance_m = |pose: Pose2| libm::hypot(pose.x_m - goal.x_m, pose.y_m - goal.y_m);
+            while distance_m(robot.pose) > 0.25 {
+                assert!(robot.time_ns < 8_000_000_000, "{release} {offset_m}: {:?}", robot.pose);
+                let local = pruned(&plan, robot.pose, &mut 0);
+                let input = world.input(&robot, &local, goal);
+                robot.apply(controller.compute_velocity(&input).unwrap());
+            }
+        }
+    }
+}
+
 #[test]
 fn obstacles_are_avoided_on_the_path_to_the_goal() {
     // Two boxes that the plan avoids, and one that reaches to 0.05 m from it.

@@ -57,7 +57,8 @@ impl GoalAngleCritic {
     }
 
     pub(crate) fn score(&self, context: &CriticContext<'_>, samples: &Samples, costs: &mut [Row]) {
-        if !self.weighting.is_enabled || !context.is_goal_near(self.threshold) {
+        let applies = self.weighting.is_enabled && !context.ignores_goal_heading;
+        if !applies || !context.is_goal_near(self.threshold) {
             return;
         }
         let [_, _, goal_yaw] = context.goal();
