@@ -43,7 +43,7 @@ const DRIVE: [&str; 10] = [
     "--quiet",
 ];
 
-/// What to run.
+/// Worlds and number of the runs.
 pub(crate) struct Plan {
     /// Folder of the worlds, with `index.json`; that of the shared data without one.
     pub(crate) worlds: Option<PathBuf>,
@@ -56,6 +56,9 @@ pub(crate) struct Plan {
     /// Runs at a time.
     pub(crate) jobs: usize,
 }
+
+/// Outcome of a run, and the checksum of its bag if that is compared.
+type Recorded = (Outcome, Option<Vec<u8>>);
 
 /// A run of a world with a seed.
 struct Run<'a> {
@@ -102,10 +105,7 @@ pub(crate) fn evaluate(plan: &Plan) -> Result<(), Failed> {
     Ok(())
 }
 
-fn runs_by_world<'a>(
-    runs: &[Run<'_>],
-    results: &'a [(Outcome, Option<Vec<u8>>)],
-) -> BTreeMap<u64, Vec<&'a Outcome>> {
+fn runs_by_world<'a>(runs: &[Run<'_>], results: &'a [Recorded]) -> BTreeMap<u64, Vec<&'a Outcome>> {
     let mut found: BTreeMap<u64, Vec<&Outcome>> = BTreeMap::new();
     for (run, (outcome, _)) in runs.iter().zip(results) {
         found.entry(run.course.world).or_default().push(outcome);
@@ -141,11 +141,7 @@ impl Setup {
     }
 
     /// Runs all, several at a time; the results are in the order of the runs.
-    fn all(
-        &self,
-        runs: &[Run<'_>],
-        plan: &Plan,
-    ) -> Result<Vec<(Outcome, Option<Vec<u8>>)>, Failed> {
+    fn all(&self, runs: &[Run<'_>], plan: &Plan) -> Result<Vec<Recorded>, Failed> {
         let next = AtomicUsize::new(0);
         let results = Mutex::new(BTreeMap::new());
         thread::scope(|scope| {
@@ -164,7 +160,7 @@ impl Setup {
     }
 
     /// Runs one, with its bag if asked.
-    fn one(&self, one: &Run<'_>, keeps_bag: bool) -> Result<(Outcome, Option<Vec<u8>>), Failed> {
+    fn one(&self, one: &Run<'_>, keeps_bag: bool) -> Result<Recorded, Failed> {
         let Run { course, seed } = one;
         let bag = self.folder.join(format!("world_{}-{seed}.mcap", course.world));
         let mut command = Command::new(&self.program);

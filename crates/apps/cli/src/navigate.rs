@@ -208,7 +208,7 @@ impl NavigateOptions {
             let found = random_goals(&map, start, radius_m, count, self.seed);
             if found.len() < count {
                 return Err(CliError::failed(format!(
-                    "{}: no place near the start has {radius_m:.2} m of room for the robot",
+                    "{}: no position near the start has {radius_m:.2} m of room for the robot",
                     path.display()
                 )));
             }

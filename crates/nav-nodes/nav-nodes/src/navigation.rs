@@ -184,7 +184,7 @@ pub struct NavigationSetup<'a> {
     pub file: Option<&'a YamlNode>,
     /// Release whose messages and behaviour are used; none for the newest behaviour with the messages of Jazzy.
     pub release: Option<Nav2Release>,
-    /// True for stamped velocities in nodes for which the file does not say it; none for those of the release.
+    /// True for stamped velocities in nodes for which the file does not define it; none for those of the release.
     pub stamped_velocities: Option<bool>,
     /// Files of behavior trees.
     pub files: Arc<dyn Files>,

@@ -11,8 +11,8 @@ const MARGIN_M: f64 = 0.1;
 /// Farthest cell from the start at which the search begins \[m\].
 const MAX_START_DISTANCE_M: f64 = 1.0;
 
-/// Draws poses on a map that a robot of a radius can reach from its start: where it has room in every heading, and gets
-/// by a way with that room. Empty without such a place.
+/// Draws poses on a map that a robot of a radius can reach from its start: where it has room in every heading, over a
+/// path with that room. Empty if there are none.
 pub(super) fn random_goals(
     map: &OccupancyGrid,
     start: Pose2,

@@ -80,7 +80,7 @@ pub(super) fn print(
     if let Some(clock) = &task.arrival {
         match clock.time_s() {
             Some(time_s) => {
-                writeln!(out, "  arrived at the last goal {time_s:.2} s after the first motion")?
+                writeln!(out, "  arrived at the last goal {time_s:.2} s after the first motion")?;
             }
             None => writeln!(out, "  did not arrive at the last goal")?,
         }

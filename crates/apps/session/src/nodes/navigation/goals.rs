@@ -31,7 +31,7 @@ pub enum GoalOutcome {
     Canceled,
     /// The navigator did not accept it.
     Rejected,
-    /// It was not sent: navigation was not ready, for this reason.
+    /// Not sent: navigation was not ready, for this reason.
     NotReady(String),
     /// The run ended before.
     Unfinished,
