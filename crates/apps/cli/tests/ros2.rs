@@ -643,3 +643,98 @@ fn a_manager_that_runs_alone_knows_its_nodes() {
         manager.tells("manages alpha, beta");
     }
 }
+
+/// Parameters of navigation whose controller is cheap: these tests may run without optimization.
+const CHEAP_NAVIGATION: &str = "\
+controller_server:
+  ros__parameters:
+    controller_frequency: 10.0
+    odom_topic: /demo/odom
+    costmap_update_timeout: 5.0
+    progress_checker_plugins: [progress_checker]
+    goal_checker_plugins: [goal_checker]
+    controller_plugins: [FollowPath]
+    progress_checker: {plugin: \"nav2_controller::SimpleProgressChecker\", movement_time_allowance: 30.0}
+    goal_checker: {plugin: \"nav2_controller::SimpleGoalChecker\", yaw_goal_tolerance: 3.2}
+    FollowPath:
+      plugin: nav2_regulated_pure_pursuit_controller::RegulatedPurePursuitController
+      desired_linear_vel: 0.3
+planner_server:
+  ros__parameters:
+    planner_plugins: [GridBased]
+    GridBased: {plugin: \"nav2_navfn_planner::NavfnPlanner\", allow_unknown: true}
+bt_navigator:
+  ros__parameters: {default_server_timeout: 2000, default_cancel_timeout: 2000, odom_topic: /demo/odom}
+local_costmap:
+  local_costmap:
+    ros__parameters:
+      global_frame: odom
+      rolling_window: true
+      width: 4
+      height: 4
+      plugins: [obstacle_layer, inflation_layer]
+      obstacle_layer:
+        plugin: nav2_costmap_2d::ObstacleLayer
+        observation_sources: scan
+        scan: {topic: /scan, data_type: LaserScan, marking: true, clearing: true}
+      inflation_layer: {plugin: \"nav2_costmap_2d::InflationLayer\", inflation_radius: 0.5}
+global_costmap:
+  global_costmap:
+    ros__parameters:
+      global_frame: map
+      rolling_window: true
+      width: 20
+      height: 20
+      plugins: [static_layer, inflation_layer]
+      static_layer: {plugin: \"nav2_costmap_2d::StaticLayer\", map_subscribe_transient_local: true}
+      inflation_layer: {plugin: \"nav2_costmap_2d::InflationLayer\", inflation_radius: 0.5}
+";
+
+/// Goals of a client of ROS: sent, followed, preempted, canceled, reached.
+#[test]
+fn a_client_of_ros_drives_the_robot_to_goals() {
+    let Some(python) = ros() else { return };
+    let domain = Domain(119);
+    let folder = Folder::new("navigation-client");
+    let parameters = folder.path("navigation.yaml");
+    std::fs::write(&parameters, CHEAP_NAVIGATION).unwrap();
+    let root = here().join("../../..");
+    let world = root.join("worlds/closed_room.world");
+    let robot = root.join("robots/sam_bot/urdf/sam_bot.urdf.xacro");
+    let navigation = format!("--navigation={}", parameters.display());
+    let (world, robot) = (world.to_string_lossy(), robot.to_string_lossy());
+    let words = ["sim", &*world, "--robot", &*robot, &*navigation, "--rtf", "1"];
+    let _simulation = Running::start(&mut domain.periplus(None, &words));
+    let mut client = Command::new(python);
+    client.arg(here().join("tests/peers/navigation.py")).arg("/demo/odom");
+    let client = Running::start(&mut domain.set(client, None));
+    for step in [
+        "ready",
+        "executing",
+        "planned",
+        "moving",
+        "preempted",
+        "canceled",
+        "stopped",
+        "reached",
+        "done",
+    ] {
+        client.step(step);
+    }
+}
+
+impl Running {
+    /// Waits for a line; a line `FAILED ...` ends the test.
+    #[track_caller]
+    fn step(&self, wanted: &str) {
+        let end = Instant::now() + 2 * LONG;
+        loop {
+            let rest = end.saturating_duration_since(Instant::now());
+            let line = self.lines.recv_timeout(rest).unwrap_or_else(|_| panic!("no `{wanted}`"));
+            assert!(!line.starts_with("FAILED"), "{line}");
+            if line == wanted {
+                return;
+            }
+        }
+    }
+}

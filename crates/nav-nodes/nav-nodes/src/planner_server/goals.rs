@@ -173,16 +173,23 @@ impl PlannerServer {
     }
 
     /// Returns the state of the costmap for a goal that has waited since `start_ns`. A costmap without the pose of
-    /// the robot counts as current, so that the goal fails with that reason.
+    /// the robot counts as current after the same time, so that the goal fails with that reason.
     fn costmap_state(&self, start_ns: i64, now_ns: i64) -> CostmapState {
-        let delay = self.costmap.with(|costmap| {
-            let delay = costmap.delay(now_ns)?;
-            let has_robot = costmap.robot_pose(now_ns).is_ok();
-            has_robot.then_some(delay)
-        });
+        let (delay, has_robot) = self
+            .costmap
+            .with(|costmap| (costmap.delay(now_ns), costmap.robot_pose(now_ns).is_ok()));
         let timeout_s = self.params.costmap_update_timeout_s;
         let waited_s = (now_ns - start_ns) as f64 / 1e9;
+        let waits = self.release > Nav2Release::Humble && waited_s <= timeout_s && timeout_s > 0.0;
         match delay {
+            // The first transform of a localization is a moment younger than the odometry.
+            _ if !has_robot => {
+                if waits {
+                    CostmapState::Late
+                } else {
+                    CostmapState::Current
+                }
+            }
             None => CostmapState::Current,
             // Main does not wait at all then.
             Some(_) if timeout_s <= 0.0 && self.release == Nav2Release::Main => {

@@ -66,7 +66,11 @@ impl Planning {
     fn plan_to(&mut self, goal: ComputePathToPoseGoal) -> (GoalState, ComputePathToPoseResult) {
         let client = self.client::<ComputePathToPose>("compute_path_to_pose");
         let sent = client.send(goal);
-        match self.finish(&sent, 100) {
+        let progress = match self.finish(&sent, 100) {
+            GoalProgress::Accepted => self.finish(&sent, 1200),
+            other => other,
+        };
+        match progress {
             GoalProgress::Over(state, result) => (state, Arc::unwrap_or_clone(result)),
             other => panic!("{other:?}"),
         }
@@ -144,13 +148,20 @@ fn failures_have_codes_and_reasons() {
         ComputePathToPoseGoal { goal: pose_in("kitchen", 1.0, 1.0, 0.0), ..Default::default() };
     planning.fails(elsewhere, ComputePathToPoseResult::TF_ERROR, &["`kitchen` to `map`"]);
     // The pose of the robot is no longer published.
-    planning.stage.robot = None;
+    let robot = planning.stage.robot.take();
     planning.stage.advance(1000);
     planning.fails(
         goal(2.0, 1.0),
         ComputePathToPoseResult::TF_ERROR,
         &["Unable to get start pose"],
     );
+    // It is published again while a goal waits.
+    let client = planning.client::<ComputePathToPose>("compute_path_to_pose");
+    let sent = client.send(goal(2.0, 1.0));
+    assert!(matches!(planning.finish(&sent, 100), GoalProgress::Accepted));
+    planning.stage.robot = robot;
+    let progress = planning.finish(&sent, 800);
+    assert!(matches!(progress, GoalProgress::Over(GoalState::Succeeded, _)), "{progress:?}");
 }
 
 #[test]
