@@ -229,3 +229,37 @@ fn a_whole_robot_tells_its_frames() {
     let names: Vec<String> = bench.graph.nodes().into_iter().map(|node| node.name).collect();
     assert!(names.contains(&"/robot_state_publisher".to_owned()), "{names:?}");
 }
+
+/// Regression test: IMUs of ROS 1 that are plugins of a model published nothing, and no finding reported it.
+#[test]
+fn imus_that_are_plugins_of_a_model() {
+    let of = |library: &str, settings: &str| {
+        let mut bench = Bench::exact(&format!(
+            "<plugin filename='gz-sim-velocity-control-system' name='gz::sim::systems::VelocityControl'>
+               <initial_angular>0 0 0.5</initial_angular></plugin>
+             <plugin name='imu' filename='{library}'><bodyName>base</bodyName>
+               <topicName>imu/data</topicName><updateRate>50</updateRate>{settings}</plugin>"
+        ));
+        assert_eq!(bench.said, "");
+        let heard = bench.hear::<sensor_msgs::Imu>("/imu/data");
+        bench.run(1.0);
+        let heard = heard.drain();
+        assert!((50..=51).contains(&heard.len()), "{}", heard.len());
+        let mean = heard.iter().map(|it| it.angular_velocity.z).sum::<f64>() / heard.len() as f64;
+        (heard.last().unwrap().clone(), mean)
+    };
+    let (last, _) = of("libgazebo_ros_imu.so", "");
+    assert_eq!(last.header.frame_id, "base");
+    near(&[last.angular_velocity.z, last.linear_acceleration.z], &[0.5, 0.0], 1e-6);
+    near(&[2.0 * libm::atan2(last.orientation.z, last.orientation.w)], &[0.5], 0.02);
+
+    let noise =
+        "<rateGaussianNoise>0.005 0.005 0.005</rateGaussianNoise><rateOffset>0 0 0.1</rateOffset>
+      <frameId>imu_link</frameId>";
+    let (last, mean) = of("libhector_gazebo_ros_imu.so", noise);
+    assert_eq!(last.header.frame_id, "imu_link");
+    // The offset is an error of the measurement; gravity is felt.
+    near(&[mean, last.linear_acceleration.z], &[0.6, 9.8], 0.003);
+    assert!(last.angular_velocity.z != 0.6);
+    near(&last.angular_velocity_covariance[8..], &[2.5e-5], 1e-12);
+}
