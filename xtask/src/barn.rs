@@ -8,8 +8,8 @@ mod score;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::process::Command;
-use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::{Mutex, PoisonError};
 use std::time::Instant;
 use std::{fs, thread};
 
@@ -147,16 +147,19 @@ impl Setup {
         thread::scope(|scope| {
             for _ in 0..plan.jobs.max(1) {
                 scope.spawn(|| {
-                    while let Some((index, one)) = Some(next.fetch_add(1, Ordering::Relaxed))
-                        .and_then(|index| runs.get(index).map(|one| (index, one)))
-                    {
+                    loop {
+                        let index = next.fetch_add(1, Ordering::Relaxed);
+                        let Some(one) = runs.get(index) else { break };
                         let result = self.one(one, plan.twice);
-                        results.lock().expect("no thread panics").insert(index, result);
+                        results
+                            .lock()
+                            .unwrap_or_else(PoisonError::into_inner)
+                            .insert(index, result);
                     }
                 });
             }
         });
-        results.into_inner().expect("no thread panics").into_values().collect()
+        results.into_inner().unwrap_or_else(PoisonError::into_inner).into_values().collect()
     }
 
     /// Runs one, with its bag if asked.

@@ -183,9 +183,8 @@ pub(crate) fn run(options: &NavigateOptions, ros: Vec<String>) -> Result<ExitCod
     exit_code(session.end())?;
     let is_reached =
         |report: &periplus_session::nodes::GoalReport| report.outcome == GoalOutcome::Reached;
-    let has_arrived = task.arrival.as_ref().is_some_and(|clock| clock.time_s().is_some());
     let has_failed = options.end_at_collision && task.collisions() > 0;
-    let is_done = has_arrived || task.goals.reports().iter().all(is_reached);
+    let is_done = task.has_arrived() || task.goals.reports().iter().all(is_reached);
     if is_done && !has_failed { Ok(ExitCode::SUCCESS) } else { Ok(ExitCode::FAILURE) }
 }
 
@@ -332,11 +331,13 @@ impl NavigateTask {
         self.score.as_ref().map_or(0, |score| score.collision_count)
     }
 
+    fn has_arrived(&self) -> bool {
+        self.arrival.as_ref().is_some_and(|clock| clock.time_s().is_some())
+    }
+
     /// Returns true if the truth ends the run.
     fn is_over(&self) -> bool {
-        let is_at_last_goal = self.goals.reports().len() + 1 == self.goals.goal_count();
-        let has_arrived = self.arrival.as_ref().is_some_and(|clock| clock.time_s().is_some());
-        has_arrived && is_at_last_goal || self.ends_at_collision && self.collisions() > 0
+        self.has_arrived() || self.ends_at_collision && self.collisions() > 0
     }
 }
 

@@ -24,6 +24,7 @@ use periplus_scene::{Model, SensorKind};
 
 use crate::{Device, DeviceContext};
 use build_context::{DeviceResult, SensorBuildContext, SensorBuildError};
+pub(crate) use imu::diagonal;
 use mount::Mount;
 use sensor_context::SensorContext;
 use timer::Timer;

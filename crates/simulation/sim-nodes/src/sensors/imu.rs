@@ -143,7 +143,7 @@ impl Device for ImuDevice {
 }
 
 /// Returns the covariance matrix of independent axes.
-pub(super) fn diagonal(variances: [f64; 3]) -> [f64; 9] {
+pub(crate) fn diagonal(variances: [f64; 3]) -> [f64; 9] {
     let [x, y, z] = variances;
     [x, 0.0, 0.0, 0.0, y, 0.0, 0.0, 0.0, z]
 }

@@ -11,12 +11,10 @@ use periplus_sensors::{ImuSensor, Motion, NoiseModel, OrientationReference, Stre
 
 use super::geometry::vector;
 use crate::drives::{Body, BuildContext, RateTimer, unscoped};
+use crate::sensors::diagonal;
 use crate::{Device, DeviceState, SenseContext};
 
 const HECTOR: &str = "hector_gazebo_ros_imu";
-
-/// Frequency of the drift where the file gives none \[Hz\].
-const DRIFT_FREQUENCY_HZ: f64 = 1.0 / 3600.0;
 
 /// An IMU on a link. Its orientation is that in the world.
 ///
@@ -122,11 +120,7 @@ impl Noises {
         let common = context.number("gaussianNoise");
         if !is_hector {
             let white = gaussian(common, 0.0, 0.0, 0.0, 0.0);
-            return Self {
-                turn: [white; 3],
-                force: [white; 3],
-                heading: gaussian(0.0, 0.0, 0.0, 0.0, 0.0),
-            };
+            return Self { turn: [white; 3], force: [white; 3], heading: NoiseSpec::default() };
         }
         let period_s = match context.number("updateRate") {
             rate_hz if rate_hz > 0.0 => 1.0 / rate_hz,
@@ -191,17 +185,9 @@ fn gaussian(stddev: f64, mean: f64, drift: f64, frequency_hz: f64, period_s: f64
         mean,
         // One step of the original has the deviation dt sqrt(2 f) drift; that of the model has sqrt(dt) times this.
         dynamic_bias_stddev: drift * libm::sqrt(2.0 * frequency_hz * period_s),
-        dynamic_bias_correlation_time_s: if frequency_hz > 0.0 {
-            1.0 / frequency_hz
-        } else {
-            1.0 / DRIFT_FREQUENCY_HZ
-        },
+        dynamic_bias_correlation_time_s: if frequency_hz > 0.0 { 1.0 / frequency_hz } else { 0.0 },
         ..NoiseSpec::default()
     }
-}
-
-fn diagonal([x, y, z]: [f64; 3]) -> [f64; 9] {
-    [x, 0.0, 0.0, 0.0, y, 0.0, 0.0, 0.0, z]
 }
 
 impl BodyImu {
