@@ -60,7 +60,8 @@ pub(crate) fn build(context: &BuildContext<'_>, diagnostics: &mut Diagnostics) -
         }
         None => (Body::of_model(context)?, context.model().links.first()?.name.clone()),
     };
-    let frame = context.given_text(if is_hector { "frameId" } else { "frameName" });
+    // The IMU of `gazebo_plugins` always has its link's frame.
+    let frame = if is_hector { context.given_text("frameId") } else { None };
     let noises = Noises::read(context, is_hector);
     let streams = Streams::new(context.setting.seed, context.name());
     let spec = ImuSpec {
