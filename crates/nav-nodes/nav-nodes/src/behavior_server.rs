@@ -10,7 +10,10 @@ mod config;
 mod motions;
 mod node;
 mod others;
+mod plugin;
 mod world;
 
+pub use behavior::{CycleOutcome, FailureReason, MotionFailure};
 pub use config::{BehaviorConfig, BehaviorKind, BehaviorServerConfig};
 pub use node::BehaviorServerNode;
+pub use plugin::{BehaviorAction, BehaviorGoal, BehaviorInput, BehaviorPlugin, RegisteredBehavior};

@@ -38,6 +38,7 @@ mod loop_rate;
 pub mod map_server;
 pub mod nav2_actions;
 pub mod navigation;
+pub mod navigation_plugins;
 mod node_parameters;
 pub mod parameter_groups;
 pub mod planner_server;

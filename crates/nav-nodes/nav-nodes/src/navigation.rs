@@ -13,6 +13,7 @@ use crate::collision_monitor::{CollisionDetectorNode, CollisionMonitorNode, Moni
 use crate::common_parameters::is_for_table;
 use crate::controller_server::ControllerServer;
 use crate::costmap_2d::CostmapNode;
+use crate::navigation_plugins::NavigationPlugins;
 use crate::planner_server::PlannerServer;
 use crate::smoother_server::SmootherServer;
 use crate::velocity_smoother::{VELOCITY_SMOOTHER, VelocitySmootherNode};
@@ -190,6 +191,8 @@ pub struct NavigationSetup<'a> {
     pub files: Arc<dyn Files>,
     /// Function that saves photos of waypoints.
     pub save_photo: SavePhoto,
+    /// Plugins of other authors.
+    pub plugins: NavigationPlugins,
 }
 
 impl NavigationSetup<'_> {
@@ -216,24 +219,29 @@ impl NavigationSetup<'_> {
                 self.stamped_velocities.unwrap_or_else(|| uses_stamped_velocity(None, forms));
             parameters.push(STAMPED, is_stamped.to_string());
         }
-        let given = parameters.given();
+        let (given, plugins) = (parameters.given(), &self.plugins);
         Ok(match server {
             NavigationServer::Controller => {
                 let costmap = self.costmap(LOCAL_COSTMAP, &node, costmap_node, diagnostics)?;
-                let server = ControllerServer::new(&node, given, costmap, diagnostics)?;
+                let server =
+                    ControllerServer::with_plugins(&node, given, costmap, plugins, diagnostics)?;
                 NavigationNode::Controller(server)
             }
             NavigationServer::Planner => {
                 let costmap = self.costmap(GLOBAL_COSTMAP, &node, costmap_node, diagnostics)?;
-                NavigationNode::Planner(PlannerServer::new(&node, given, costmap, diagnostics)?)
+                let server =
+                    PlannerServer::with_plugins(&node, given, costmap, plugins, diagnostics)?;
+                NavigationNode::Planner(server)
             }
             NavigationServer::Smoother => {
                 let releases = (release.unwrap_or_default(), forms);
                 NavigationNode::Smoother(SmootherServer::new(&node, given, releases, diagnostics)?)
             }
             NavigationServer::Behaviors => {
-                let config = BehaviorServerConfig::read(given, Some(forms), diagnostics);
-                NavigationNode::Behaviors(BehaviorServerNode::at(node, config)?)
+                let (config, registered) =
+                    BehaviorServerConfig::read_with(given, Some(forms), plugins, diagnostics);
+                let server = BehaviorServerNode::with_plugins(node, config, registered)?;
+                NavigationNode::Behaviors(server)
             }
             NavigationServer::VelocitySmoother => {
                 let given = given.filter(|one| is_for_table(one, &VELOCITY_SMOOTHER));
@@ -252,7 +260,8 @@ impl NavigationSetup<'_> {
                 let given = given.filter(|one| is_for_table(one, &BT_NAVIGATOR));
                 let values = BtNavigatorParams::read(given, forms, diagnostics);
                 let files = Arc::clone(&self.files);
-                NavigationNode::Navigator(BtNavigator::new(&node, values, forms, files)?)
+                let server = BtNavigator::with_plugins(&node, values, forms, files, plugins)?;
+                NavigationNode::Navigator(server)
             }
             NavigationServer::WaypointFollower => {
                 let config = WaypointFollowerConfig::read(given, Some(forms), diagnostics);

@@ -54,6 +54,13 @@ impl<'a, 'd> ParameterGroups<'a, 'd> {
         self.groups.contains_key(group)
     }
 
+    /// Removes a group and those in it, which a component reads by itself.
+    pub fn discard(&mut self, group: &str) {
+        self.groups.retain(|name, _| {
+            name.strip_prefix(group).is_none_or(|rest| !rest.is_empty() && !rest.starts_with('.'))
+        });
+    }
+
     /// Reports groups that no component has read.
     pub fn finish(self) {
         for (group, entries) in &self.groups {

@@ -1,11 +1,12 @@
 //! Plugins of a server: their names are in a list parameter, their classes and parameters in groups of
 //! these names.
 
-use periplus_controllers::GivenParameters;
+use periplus_controllers::{GivenParameters, PluginSetup};
 use periplus_diagnostics::{Diagnostic, Diagnostics, Origin};
 use periplus_params::{Given, ParamValues, Table};
 
 use crate::common_parameters::{is_common, is_for_table};
+use crate::navigation_plugins::{CreatePlugin, not_created};
 
 /// Parameters of a server as written, with the plugins that were read.
 pub(crate) struct ServerParameters<'a, 'd> {
@@ -118,6 +119,21 @@ impl<'a, 'd> ServerParameters<'a, 'd> {
             }
         }
         result
+    }
+
+    /// Creates a plugin of a registered class; its errors are failures of the server.
+    pub(crate) fn create<P: ?Sized>(
+        &mut self,
+        setup: &PluginSetup<'_>,
+        class: &str,
+        create: &CreatePlugin<P>,
+    ) -> Option<Box<P>> {
+        let failure_count = self.failures.len();
+        let created = self.reading(|found| create(setup, found));
+        if created.is_none() && self.failures.len() == failure_count {
+            self.fail(not_created(setup, class));
+        }
+        created
     }
 
     /// Reports groups of which no plugin has the name, and returns the values of the node and the failures.

@@ -5,7 +5,7 @@ use std::fmt;
 use periplus_costmap::CostmapView;
 use periplus_geometry::Pose2;
 use periplus_grid::Cell;
-use periplus_params::ParamValue;
+use periplus_params::{ParamValue, ParamValues};
 
 use crate::{ParameterRejected, PlanError};
 
@@ -71,6 +71,12 @@ pub trait Planner: Send {
     /// # Errors
     /// When there is no such parameter, or Nav2 rejects the change. The planner is unchanged then.
     fn set_parameter(&mut self, name: &str, value: &ParamValue) -> Result<(), ParameterRejected>;
+
+    /// Returns the parameters with their values, which the server declares; none for planners of Nav2, whose table
+    /// is known by their class.
+    fn parameters(&self) -> Option<&ParamValues> {
+        None
+    }
 
     /// Returns the maximum duration of one plan \[s\]; none without a limit.
     fn max_planning_time_s(&self) -> Option<f64> {

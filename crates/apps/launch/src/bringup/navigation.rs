@@ -8,6 +8,7 @@ use periplus_diagnostics::{Diagnostics, plain_words};
 use periplus_graph::{Graph, GraphError, LifecycleNode, Node};
 use periplus_nav_nodes::costmap_2d::CostmapNode;
 use periplus_nav_nodes::navigation::{NavigationNode, NavigationServer, NavigationSetup};
+use periplus_nav_nodes::navigation_plugins::NavigationPlugins;
 use periplus_os::Machine;
 use periplus_resources::{FileWriteError, Store as _};
 
@@ -41,6 +42,7 @@ pub(crate) fn server(
             stamped_velocities: None,
             files: Arc::new(Machine),
             save_photo: Arc::new(save),
+            plugins: NavigationPlugins::new(),
         };
         let costmap_node = |settings| graph.node(make::remapped(settings, ask));
         setup.create(server, node, costmap_node, found)

@@ -6,12 +6,13 @@ mod goals;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use periplus_diagnostics::{Diagnostics, SourceMap};
+use periplus_diagnostics::{Diagnostics, FileId, SourceMap};
 use periplus_geometry::Pose2;
 use periplus_graph::{Graph, GraphError, NodeSettings};
 use periplus_nav_nodes::NodeParameters;
 use periplus_nav_nodes::bt_navigator::NavigatorStatus;
 use periplus_nav_nodes::navigation::{NavigationNode, NavigationServer, NavigationSetup};
+use periplus_nav_nodes::navigation_plugins::NavigationPlugins;
 use periplus_os::Machine;
 use periplus_resources::{FileWriteError, Store as _};
 use periplus_yaml::YamlNode;
@@ -59,15 +60,33 @@ impl Navigation {
         };
         let (mut sources, mut diagnostics) = (SourceMap::new(), Diagnostics::new());
         let file = sources.add(name, text);
-        let tree = match periplus_yaml::parse(file, &sources) {
+        let none = NavigationPlugins::new();
+        let started = Self::start_from(graph, file, profile, &none, &sources, &mut diagnostics);
+        terminal::diagnostics(&mut anstream::stderr().lock(), &diagnostics, &sources)?;
+        started
+    }
+
+    /// Adds the servers as [`Self::start`] does, with the parameters of a file that has been read, and with plugins of
+    /// other authors. The caller shows the findings.
+    ///
+    /// # Errors
+    /// [`RunError::Reported`] when a finding is an error; when a node cannot start.
+    pub fn start_from(
+        graph: &Graph,
+        file: FileId,
+        profile: &RobotProfile,
+        plugins: &NavigationPlugins,
+        sources: &SourceMap,
+        diagnostics: &mut Diagnostics,
+    ) -> Result<Self, RunError> {
+        let tree = match periplus_yaml::parse(file, sources) {
             Ok(tree) => tree,
             Err(error) => {
                 diagnostics.push(*error);
                 None
             }
         };
-        let created = Self::create(graph, tree.as_ref(), profile, &mut diagnostics);
-        terminal::diagnostics(&mut anstream::stderr().lock(), &diagnostics, &sources)?;
+        let created = Self::create(graph, tree.as_ref(), profile, plugins, diagnostics);
         if diagnostics.has_errors() {
             return Err(RunError::Reported);
         }
@@ -83,6 +102,7 @@ impl Navigation {
         graph: &Graph,
         file: Option<&YamlNode>,
         profile: &RobotProfile,
+        plugins: &NavigationPlugins,
         diagnostics: &mut Diagnostics,
     ) -> Result<Self, GraphError> {
         let setup = NavigationSetup {
@@ -92,6 +112,7 @@ impl Navigation {
             stamped_velocities: Some(profile.takes_stamped_velocities()),
             files: Arc::new(Machine),
             save_photo: Arc::new(save_photo),
+            plugins: plugins.clone(),
         };
         let has = |server: NavigationServer| {
             file.is_some_and(|file| has_section(file, server.node_name(), 0))

@@ -14,7 +14,7 @@ use super::world::BehaviorWorld;
 
 /// Reason of a failure; each action has its own code for it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum FailureReason {
+pub enum FailureReason {
     /// The time allowance is over.
     Timeout,
     /// The pose of the robot is not available.
@@ -27,13 +27,16 @@ pub(super) enum FailureReason {
 
 /// Failure of a behavior.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub(super) struct MotionFailure {
-    pub(super) reason: FailureReason,
-    pub(super) text: String,
+pub struct MotionFailure {
+    /// Reason, from which the error code of the action follows.
+    pub reason: FailureReason,
+    /// Description for users.
+    pub text: String,
 }
 
-/// Result of a cycle.
-pub(super) enum CycleOutcome {
+/// Result of a cycle of a behavior.
+#[derive(Clone, Debug, PartialEq)]
+pub enum CycleOutcome {
     /// The behavior goes on, with a velocity; none for behaviors that do not move the robot.
     Running(Option<Twist2>),
     /// The behavior is complete.

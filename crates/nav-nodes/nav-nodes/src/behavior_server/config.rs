@@ -1,12 +1,15 @@
 //! Behaviors and their parameters.
 
+use periplus_controllers::{GivenParameters, PluginSetup};
 use periplus_costmap::Nav2Release;
 use periplus_diagnostics::{Diagnostic, Diagnostics};
 use periplus_motion::behaviors::DriveLimits;
 use periplus_motion::tables::{BEHAVIOR, BEHAVIOR_SERVER, BehaviorParams, BehaviorServerParams};
 use periplus_params::{Given, ParamChoice, ParamValue, ParamValues};
 
+use super::plugin::RegisteredBehavior;
 use crate::costmap_2d::split;
+use crate::navigation_plugins::{NavigationPlugins, not_created};
 use crate::parameter_groups::ParameterGroups;
 
 /// Motion of a behavior.
@@ -88,6 +91,11 @@ pub struct BehaviorServerConfig {
     pub behaviors: Vec<BehaviorConfig>,
 }
 
+/// Release whose behaviour is used.
+fn node_release(node: &ParamValues) -> Nav2Release {
+    BehaviorServerParams::from_values(node).node.compat
+}
+
 impl BehaviorServerConfig {
     /// Reads parameters given as names with dots, such as `spin.plugin`, and texts. Errors are reported
     /// with their positions, and the rest is built; `compat` overrides the parameter of that name.
@@ -96,7 +104,19 @@ impl BehaviorServerConfig {
         compat: Option<Nav2Release>,
         diagnostics: &mut Diagnostics,
     ) -> Self {
-        let mut groups = ParameterGroups::new(given, diagnostics);
+        Self::read_with(given, compat, &NavigationPlugins::new(), diagnostics).0
+    }
+
+    /// Reads parameters as [`Self::read`] does, and creates the behaviors of registered classes.
+    pub fn read_with<'a>(
+        given: impl IntoIterator<Item = Given<'a>>,
+        compat: Option<Nav2Release>,
+        plugins: &NavigationPlugins,
+        diagnostics: &mut Diagnostics,
+    ) -> (Self, Vec<RegisteredBehavior>) {
+        let given: Vec<Given<'a>> = given.into_iter().collect();
+        let mut registered = Vec::new();
+        let mut groups = ParameterGroups::new(given.iter().cloned(), diagnostics);
         let mut node = groups.node_values(&BEHAVIOR_SERVER);
         if let Some(compat) = compat {
             node.set("compat", ParamValue::Text(compat.word().to_owned()));
@@ -105,6 +125,26 @@ impl BehaviorServerConfig {
         let mut behaviors: Vec<BehaviorConfig> = Vec::new();
         for name in node.texts("behavior_plugins") {
             if behaviors.iter().any(|known| known.name == name) {
+                continue;
+            }
+            let own = GivenParameters::of_group(&given, &name);
+            if let Some((class, (action, create))) =
+                own.text("plugin").and_then(|class| Some((class, plugins.behaviors.find(class)?)))
+            {
+                let release = node_release(&node);
+                let setup = PluginSetup { release, given: own.clone(), ..PluginSetup::new(&name) };
+                let setup = setup.at(origin);
+                groups.discard(&name);
+                let created = create(&setup, groups.diagnostics);
+                if created.is_none() {
+                    groups.diagnostics.push(not_created(&setup, class));
+                }
+                let action = *action;
+                registered.extend(created.map(|plugin| RegisteredBehavior {
+                    name,
+                    action,
+                    plugin,
+                }));
                 continue;
             }
             let values = groups.group_values(&BEHAVIOR, &name, origin);
@@ -130,13 +170,14 @@ impl BehaviorServerConfig {
                             known.iter().map(String::as_str),
                         )
                     };
+                    let finding = plugins.behaviors.advise(&plugin, finding);
                     let note = "the behavior is left out, the others are served";
                     groups.diagnostics.push(finding.note(note));
                 }
             }
         }
         groups.finish();
-        Self { node, behaviors }
+        (Self { node, behaviors }, registered)
     }
 
     /// Parameters of the node.

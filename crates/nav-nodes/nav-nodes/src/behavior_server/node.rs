@@ -16,6 +16,7 @@ use super::behavior::{Behavior, Slot, begin};
 use super::config::{BehaviorKind, BehaviorServerConfig};
 use super::motions::{BackUpBehavior, DriveOnHeadingBehavior, SpinBehavior};
 use super::others::{AssistedTeleopBehavior, WaitBehavior};
+use super::plugin::{BehaviorAction, PluginBehavior, PluginSlots, RegisteredBehavior};
 use super::world::BehaviorWorld;
 
 /// Behaviors of all kinds.
@@ -26,6 +27,8 @@ pub(super) struct Slots {
     pub(super) drives: Vec<Slot<DriveOnHeadingBehavior>>,
     pub(super) teleops: Vec<Slot<AssistedTeleopBehavior>>,
     pub(super) waits: Vec<Slot<WaitBehavior>>,
+    /// Behaviors of other authors.
+    pub(super) plugins: PluginSlots,
 }
 
 impl Slots {
@@ -35,6 +38,10 @@ impl Slots {
         self.drives.iter_mut().for_each(|slot| slot.server.activate());
         self.teleops.iter_mut().for_each(|slot| slot.server.activate());
         self.waits.iter_mut().for_each(|slot| slot.server.activate());
+        self.plugins.spins.iter_mut().for_each(|slot| slot.server.activate());
+        self.plugins.backups.iter_mut().for_each(|slot| slot.server.activate());
+        self.plugins.drives.iter_mut().for_each(|slot| slot.server.activate());
+        self.plugins.waits.iter_mut().for_each(|slot| slot.server.activate());
     }
 
     /// Ends all goals. Returns true if the robot has to be stopped.
@@ -48,6 +55,10 @@ impl Slots {
             all(&mut self.drives, world),
             all(&mut self.teleops, world),
             all(&mut self.waits, world),
+            all(&mut self.plugins.spins, world),
+            all(&mut self.plugins.backups, world),
+            all(&mut self.plugins.drives, world),
+            all(&mut self.plugins.waits, world),
         ];
         moving.contains(&true)
     }
@@ -77,6 +88,18 @@ impl BehaviorServerNode {
     /// # Errors
     /// When a topic or action of that name has another type.
     pub fn at(node: Node, config: BehaviorServerConfig) -> Result<LifecycleNode<Self>, GraphError> {
+        Self::with_plugins(node, config, Vec::new())
+    }
+
+    /// Runs the behavior server as [`Self::at`] does, with behaviors of other authors.
+    ///
+    /// # Errors
+    /// When a topic or action of that name has another type.
+    pub fn with_plugins(
+        node: Node,
+        config: BehaviorServerConfig,
+        registered: Vec<RegisteredBehavior>,
+    ) -> Result<LifecycleNode<Self>, GraphError> {
         let values = config.values();
         let world = BehaviorWorld::new(&node, config.params())?;
         let mut actor = node.actor(Self { config, slots: Slots::default(), world });
@@ -104,6 +127,24 @@ impl BehaviorServerNode {
                     serve(&mut actor, name, AssistedTeleopBehavior::default(), &params)?;
                 }
                 BehaviorKind::Wait => serve(&mut actor, name, WaitBehavior::default(), &params)?,
+            }
+        }
+        for RegisteredBehavior { name, action, plugin } in registered {
+            let actor = &mut actor;
+            match action {
+                BehaviorAction::Spin => {
+                    serve(actor, &name, PluginBehavior::<SpinBehavior>::new(plugin), &params)?;
+                }
+                BehaviorAction::BackUp => {
+                    serve(actor, &name, PluginBehavior::<BackUpBehavior>::new(plugin), &params)?;
+                }
+                BehaviorAction::DriveOnHeading => {
+                    let behavior = PluginBehavior::<DriveOnHeadingBehavior>::new(plugin);
+                    serve(actor, &name, behavior, &params)?;
+                }
+                BehaviorAction::Wait => {
+                    serve(actor, &name, PluginBehavior::<WaitBehavior>::new(plugin), &params)?;
+                }
             }
         }
         if behaviors.iter().any(|it| it.kind == BehaviorKind::AssistedTeleop) {

@@ -21,6 +21,7 @@ use super::status::NavigatorStatus;
 use super::tree_nodes::registry;
 use crate::Files;
 use crate::nav2_actions::{Nav2ActionClient, Nav2SentGoal};
+use crate::navigation_plugins::NavigationPlugins;
 use crate::simple_action_server::serve_simple_action;
 
 /// Navigator as a lifecycle node: it executes behavior trees for goals.
@@ -80,13 +81,29 @@ impl BtNavigator {
         release: Nav2Release,
         files: Arc<dyn Files>,
     ) -> Result<LifecycleNode<Self>, GraphError> {
+        Self::with_plugins(node, values, release, files, &NavigationPlugins::new())
+    }
+
+    /// Creates the navigator as [`Self::new`] does, with tree nodes of other authors.
+    ///
+    /// # Errors
+    /// When a name is not valid or exists with another type.
+    pub fn with_plugins(
+        node: &Node,
+        values: ParamValues,
+        release: Nav2Release,
+        files: Arc<dyn Files>,
+        plugins: &NavigationPlugins,
+    ) -> Result<LifecycleNode<Self>, GraphError> {
         let parameters = node.parameters(values)?;
         let params = BtNavigatorParams::from_values(&parameters.values());
         let (period_ns, result_timeout_ns) =
             (params.loop_duration_ns(), params.result_timeout_ns());
         let names = params.navigators.clone();
         let shared = Arc::new(Shared::new(node, release, params)?);
-        let loader = Arc::new(TreeLoader { files, registry: registry(&shared) });
+        let mut registry = registry(&shared);
+        plugins.register_nodes(&mut registry);
+        let loader = Arc::new(TreeLoader { files, registry });
         let mut actor = node.actor(Self {
             env: Environment { shared, loader, log: None },
             to_pose: Navigator::default(),

@@ -21,6 +21,7 @@ use super::parameters::{CONTROLLER_SERVER, ControllerServerParams};
 use super::plugins::{ControllerPlugins, plugins};
 use crate::costmap_2d::CostmapNode;
 use crate::loop_rate::LoopRate;
+use crate::navigation_plugins::NavigationPlugins;
 use crate::server_plugins::ServerParameters;
 use crate::simple_action_server::{SimpleActionServer, serve_simple_action};
 
@@ -57,11 +58,25 @@ impl ControllerServer {
         costmap: LifecycleNode<CostmapNode>,
         diagnostics: &mut Diagnostics,
     ) -> Result<LifecycleNode<Self>, GraphError> {
+        Self::with_plugins(node, given, costmap, &NavigationPlugins::new(), diagnostics)
+    }
+
+    /// Creates the server as [`Self::new`] does, with controllers of other authors.
+    ///
+    /// # Errors
+    /// When a name is not valid or exists with another type.
+    pub fn with_plugins<'a>(
+        node: &Node,
+        given: impl IntoIterator<Item = Given<'a>>,
+        costmap: LifecycleNode<CostmapNode>,
+        registered: &NavigationPlugins,
+        diagnostics: &mut Diagnostics,
+    ) -> Result<LifecycleNode<Self>, GraphError> {
         let (release, forms) = costmap.with(|costmap| costmap.releases());
         let mut server = ServerParameters::new(&CONTROLLER_SERVER, given, diagnostics);
         let frequency_hz =
             ControllerServerParams::from_values(&server.node).controller_frequency_hz;
-        let plugins = plugins(&mut server, release, frequency_hz);
+        let plugins = plugins(&mut server, &registered.controllers, release, frequency_hz);
         let (mut values, failures) = server.finish();
         plugins.add_groups(&mut values);
         let mut actor = node.actor(Self {

@@ -5,9 +5,11 @@ use periplus_controllers::{
     create_controller, create_goal_checker, create_path_handler,
 };
 use periplus_costmap::Nav2Release;
+use periplus_diagnostics::Diagnostics;
 use periplus_graph::ParameterRejection;
 use periplus_params::{ParamValue, ParamValues};
 
+use crate::navigation_plugins::{CreatePlugin, PluginClasses};
 use crate::server_plugins::{PluginEntry, ServerParameters, changed};
 
 const DEFAULT_CONTROLLERS: [(&str, &str); 1] = [("FollowPath", "dwb_core::DWBLocalPlanner")];
@@ -57,6 +59,7 @@ struct PluginGroup {
 /// Reads the plugins. Unknown classes are failures.
 pub(super) fn plugins(
     server: &mut ServerParameters<'_, '_>,
+    classes: &ControllerClasses,
     release: Nav2Release,
     frequency_hz: f64,
 ) -> ControllerPlugins {
@@ -92,14 +95,36 @@ pub(super) fn plugins(
     }
     for entry in server.plugins("controller_plugins", &DEFAULT_CONTROLLERS) {
         let about = setup(&entry);
-        let made =
-            server.reading(|found| create_controller(&about.class, &about.setup(&entry), found));
+        let made = match classes.find(&about.class) {
+            Some(create) => server.create(&about.setup(&entry), &about.class, create),
+            None => server.reading(|found| nav2_controller(&about, &entry, classes, found)),
+        };
         plugins.controllers.extend(made.map(|controller| {
             let own_handler = controller.path_rules().map(PathHandler::new);
             ControllerSlot { id: about.id, controller, own_handler }
         }));
     }
     plugins
+}
+
+/// Registered classes of controllers.
+type ControllerClasses = PluginClasses<CreatePlugin<dyn Controller>>;
+
+/// Creates a controller of Nav2. The error about an unknown class names the registered ones, too.
+fn nav2_controller(
+    about: &PluginEntrySetup,
+    entry: &PluginEntry<'_>,
+    classes: &ControllerClasses,
+    diagnostics: &mut Diagnostics,
+) -> Option<Box<dyn Controller>> {
+    let mut found = Diagnostics::new();
+    let made = create_controller(&about.class, &about.setup(entry), &mut found);
+    for finding in found.iter() {
+        let is_unknown = finding.code == "unknown-plugin";
+        let finding = finding.clone();
+        diagnostics.push(if is_unknown { classes.advise(&about.class, finding) } else { finding });
+    }
+    made
 }
 
 struct PluginEntrySetup {

@@ -16,6 +16,7 @@ use super::goals::PathAction;
 use super::parameters::{PLANNER_SERVER, PlannerServerParams, PlannerSlot, planners};
 use crate::costmap_2d::CostmapNode;
 use crate::nav2_actions::serve_nav2_service;
+use crate::navigation_plugins::NavigationPlugins;
 use crate::server_plugins::{ServerParameters, changed, find_plugin};
 use crate::simple_action_server::{SimpleActionServer, serve_simple_action};
 
@@ -49,14 +50,28 @@ impl PlannerServer {
         costmap: LifecycleNode<CostmapNode>,
         diagnostics: &mut Diagnostics,
     ) -> Result<LifecycleNode<Self>, GraphError> {
+        Self::with_plugins(node, given, costmap, &NavigationPlugins::new(), diagnostics)
+    }
+
+    /// Creates the server as [`Self::new`] does, with planners of other authors.
+    ///
+    /// # Errors
+    /// When a name is not valid or exists with another type.
+    pub fn with_plugins<'a>(
+        node: &Node,
+        given: impl IntoIterator<Item = Given<'a>>,
+        costmap: LifecycleNode<CostmapNode>,
+        plugins: &NavigationPlugins,
+        diagnostics: &mut Diagnostics,
+    ) -> Result<LifecycleNode<Self>, GraphError> {
+        let (release, forms) = costmap.with(|costmap| costmap.releases());
         let mut server = ServerParameters::new(&PLANNER_SERVER, given, diagnostics);
-        let planners = planners(&mut server);
+        let planners = planners(&mut server, &plugins.planners, release);
         let (mut values, failures) = server.finish();
         let params = PlannerServerParams::from_values(&values);
         for slot in &planners {
             values.add_group(slot.id.clone(), slot.values.clone());
         }
-        let (release, forms) = costmap.with(|costmap| costmap.releases());
         let result_timeout_s = params.action_server_result_timeout_s;
         let mut actor = node.actor(Self {
             params,
@@ -151,7 +166,7 @@ impl PlannerServer {
     fn release_all(&mut self) {
         self.plan = None;
         self.unsmoothed = None;
-        self.planners.iter_mut().for_each(|slot| slot.planner = None);
+        self.planners.iter_mut().for_each(PlannerSlot::cleanup);
     }
 }
 
@@ -226,7 +241,10 @@ impl LifecycleCallbacks for PlannerServer {
     }
 
     fn on_cleanup(&mut self, _: &mut Io<'_, Self>) -> StepOutcome {
+        // A node may be shut down while it is active.
         self.waiting.clear();
+        self.to_pose.deactivate();
+        self.through_poses.deactivate();
         self.release_all();
         if self.costmap.lifecycle().state() == LifecycleState::Active {
             self.follow(Transition::Deactivate);

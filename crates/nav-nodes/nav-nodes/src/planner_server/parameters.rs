@@ -1,10 +1,12 @@
 //! Parameters of the planner server.
 
+use periplus_controllers::PluginSetup;
 use periplus_costmap::Nav2Release;
 use periplus_diagnostics::Diagnostic;
-use periplus_params::{ParamValues, params};
+use periplus_params::{ParamValues, Table, params};
 use periplus_planners::{Planner, PlannerKind};
 
+use crate::navigation_plugins::{CreatePlugin, PluginClasses};
 use crate::server_plugins::{PluginEntry, ServerParameters};
 
 params! {
@@ -32,36 +34,97 @@ params! {
 /// Planners of the default list.
 const DEFAULT_PLANNERS: [(&str, &str); 1] = [("GridBased", "nav2_navfn_planner::NavfnPlanner")];
 
+/// Parameters of a planner that declares none.
+static UNDECLARED: Table =
+    Table { name: "planner", doc: "A planner without declared parameters.", parameters: &[] };
+
+/// Origin of a planner.
+enum PlannerSource {
+    /// A planner of Nav2, which is created when the server is configured.
+    BuiltIn(PlannerKind),
+    /// A registered class. Its planner is created once, and kept here while the server is not configured.
+    Registered(Option<Box<dyn Planner>>),
+}
+
 /// Planner with its parameters; it exists while the server is configured.
 pub(super) struct PlannerSlot {
     pub(super) id: String,
-    kind: PlannerKind,
+    source: PlannerSource,
     pub(super) values: ParamValues,
     pub(super) planner: Option<Box<dyn Planner>>,
 }
 
 impl PlannerSlot {
     pub(super) fn configure(&mut self, release: Nav2Release) {
-        self.planner = Some(self.kind.build(self.values.clone(), release));
+        match &mut self.source {
+            PlannerSource::BuiltIn(kind) => {
+                self.planner = Some(kind.build(self.values.clone(), release));
+            }
+            PlannerSource::Registered(kept) => {
+                self.planner = kept.take().or(self.planner.take());
+                self.update_parameters();
+            }
+        }
+    }
+
+    /// Passes values to a registered planner that were set while it was not in use.
+    fn update_parameters(&mut self) {
+        let Some(planner) = &mut self.planner else { return };
+        for name in self.values.names() {
+            let Some(value) = self.values.get(&name) else { continue };
+            let known = planner.parameters().and_then(|values| values.get(&name));
+            if known.as_ref() != Some(&value) {
+                // A parameter that is read once keeps its value.
+                let _ = planner.set_parameter(&name, &value);
+            }
+        }
+    }
+
+    pub(super) fn cleanup(&mut self) {
+        match &mut self.source {
+            PlannerSource::BuiltIn(_) => self.planner = None,
+            PlannerSource::Registered(kept) => *kept = self.planner.take().or(kept.take()),
+        }
     }
 }
 
+/// Registered classes of planners.
+type PlannerClasses = PluginClasses<CreatePlugin<dyn Planner>>;
+
 /// Reads the planners. Unknown classes are failures.
-pub(super) fn planners(server: &mut ServerParameters<'_, '_>) -> Vec<PlannerSlot> {
+pub(super) fn planners(
+    server: &mut ServerParameters<'_, '_>,
+    classes: &PlannerClasses,
+    release: Nav2Release,
+) -> Vec<PlannerSlot> {
     let entries = server.plugins("planner_plugins", &DEFAULT_PLANNERS);
-    entries.into_iter().filter_map(|entry| planner(server, entry)).collect()
+    entries.into_iter().filter_map(|entry| planner(server, entry, classes, release)).collect()
 }
 
-fn planner(server: &mut ServerParameters<'_, '_>, entry: PluginEntry<'_>) -> Option<PlannerSlot> {
+fn planner(
+    server: &mut ServerParameters<'_, '_>,
+    entry: PluginEntry<'_>,
+    classes: &PlannerClasses,
+    release: Nav2Release,
+) -> Option<PlannerSlot> {
     let PluginEntry { id, class, class_origin, given } = entry;
+    if let Some(create) = classes.find(&class) {
+        let setup = PluginSetup { release, given, ..PluginSetup::new(&id) }.at(class_origin);
+        let planner = server.create(&setup, &class, create)?;
+        let values = planner.parameters().cloned();
+        let values = values.unwrap_or_else(|| ParamValues::defaults(&UNDECLARED));
+        let source = PlannerSource::Registered(Some(planner));
+        return Some(PlannerSlot { id, source, values, planner: None });
+    }
     let kind = match PlannerKind::of_class(&class) {
         Ok(kind) => kind,
         Err(error) => {
             let message = format!("`{id}.plugin`: {error}");
-            server.fail(Diagnostic::error("unknown-plugin", message).at(class_origin));
+            let error = Diagnostic::error("unknown-plugin", message).at(class_origin);
+            server.fail(classes.advise(&class, error));
             return None;
         }
     };
     let values = given.read(kind.table(), &[], server.diagnostics);
-    Some(PlannerSlot { id, kind, values, planner: None })
+    Some(PlannerSlot { id, source: PlannerSource::BuiltIn(kind), values, planner: None })
 }
