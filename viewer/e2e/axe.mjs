@@ -8,11 +8,21 @@ import { open, periplus, sim, until } from './lib.mjs';
 const PORT = 8826;
 const SAM_BOT = 'robots/sam_bot/urdf/sam_bot.urdf.xacro';
 const AXE = readFileSync(createRequire(import.meta.url).resolve('axe-core/axe.min.js'), 'utf8');
-const PANELS = ['Drive', 'World', 'Topics', 'Nodes', 'Parameters', 'Services', 'Plot', 'Log'];
-const PHONE = { viewport: { width: 390, height: 844 }, hasTouch: true, isMobile: true };
+const PANELS = [
+  'Drive',
+  'Navigate',
+  'World',
+  'Topics',
+  'Nodes',
+  'Parameters',
+  'Services',
+  'Plot',
+  'Log',
+];
+export const PHONE = { viewport: { width: 390, height: 844 }, hasTouch: true, isMobile: true };
 
 /** Violations found by axe that keep people from using the page. */
-async function wrong(page, state) {
+export async function wrong(page, state) {
   if (!(await page.evaluate('!!window.axe'))) await page.evaluate(AXE);
   const found = await page.evaluate(async () => {
     // Includes landmarks, headings and names that differ from the visible text.

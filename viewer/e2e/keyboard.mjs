@@ -84,6 +84,7 @@ export async function keyboard(chrome, url) {
     // Arrow keys select each panel.
     await page.getByRole('tab', { name: 'Drive' }).focus();
     for (const tab of [
+      'Navigate',
       'World',
       'Topics',
       'Nodes',

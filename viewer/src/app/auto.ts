@@ -18,6 +18,13 @@ const HIDDEN = new Set([
   'geometry_msgs/msg/PoseWithCovarianceStamped',
 ]);
 
+/**
+ * Paths that repeat others: the path before it is smoothed, the one a controller received, and the optimal
+ * trajectory of MPPI, which is also one of its markers.
+ */
+const HIDDEN_PATHS =
+  /(unsmoothed_plan|received_global_plan|optimal_trajectory|optimal_path|lookahead_collision_arc)$/;
+
 /** Display for a topic; `undefined` for topics without one. */
 export function suggestionFor(topic: string, type: string): Suggestion | undefined {
   const name = topic.replace(/^\//, '');
@@ -59,6 +66,15 @@ export function suggestionFor(topic: string, type: string): Suggestion | undefin
       if (isCost) Object.assign(values, { 'Color Scheme': 'costmap', Alpha: isLocal ? 0.7 : 0.35 });
       else values.Alpha = 1;
       return suggestion(kind.class, values);
+    }
+    case 'nav_msgs/msg/Path': {
+      // Plans of Nav2, as lines that are seen from afar: the local one over the global one.
+      const isLocal = /local_plan$|transformed_global_plan$/.test(topic);
+      const isGlobal = /(^|\/)plan$/.test(topic);
+      if (isLocal) Object.assign(values, { Color: '0; 170; 255', 'Offset/Z': 0.02 });
+      if (isLocal || isGlobal)
+        Object.assign(values, { 'Line Style': 'Billboards', 'Line Width': 0.04 });
+      return suggestion(kind.class, values, !HIDDEN_PATHS.test(topic));
     }
     case 'sensor_msgs/msg/LaserScan':
       // One flat-coloured point per beam, visible from afar.

@@ -14,6 +14,8 @@ import { arrowGeometry, label, polyline, surface } from '../scene/shapes';
 import { dispose } from '../scene/stage';
 import { Color, Group, Mesh } from 'three';
 import type { App } from './app.svelte';
+import type { Navigation } from './navigation.svelte';
+import { waypointArrow, type Waypoints } from './waypoints.svelte';
 
 export type ToolName =
   | 'move'
@@ -22,6 +24,7 @@ export type ToolName =
   | 'measure'
   | 'pose'
   | 'goal'
+  | 'waypoints'
   | 'point'
   | 'translate'
   | 'rotate'
@@ -35,6 +38,7 @@ export const SHORTCUTS: Record<string, ToolName> = {
   n: 'measure',
   p: 'pose',
   g: 'goal',
+  y: 'waypoints',
   u: 'point',
 };
 
@@ -44,6 +48,10 @@ const PINK = new Color('#ff5ad2');
 const ARROW_HEIGHT_M = 0.05;
 /** Node name under which all pages appear. */
 const OWN_NODE = '/viewers';
+/** Topic of goals unless an opened file names another. */
+const GOAL_TOPIC = 'goal_pose';
+/** Topic of the goals of move_base of ROS 1. */
+const ROS1_GOAL_TOPIC = '/move_base_simple/goal';
 /** Shortest drag that sets a heading [m]. */
 const MIN_DRAG_M = 0.05;
 
@@ -80,12 +88,17 @@ export class Tools {
   private fading?: ReturnType<typeof setTimeout>;
   private points: Vector3[] = [];
 
-  constructor(private app: App) {}
+  constructor(
+    private app: App,
+    readonly navigation: Navigation,
+    readonly waypoints: Waypoints,
+  ) {}
 
   attach(canvas: HTMLCanvasElement): void {
     const { stage } = this.app;
     stage!.scene.add(this.marks, this.poses);
     stage!.ticks.add(() => this.placeArrows());
+    this.waypoints.attach();
     // Capture: before the camera controls receive the event.
     canvas.addEventListener(
       'pointerdown',
@@ -134,6 +147,7 @@ export class Tools {
     this.clear();
     this.cross = undefined;
     if (this.active !== 'select') this.found = undefined;
+    if (this.active === 'waypoints') this.navigation.attention++;
     this.app.stage!.view.isHeld = this.active !== 'move';
   }
 
@@ -162,6 +176,7 @@ export class Tools {
     switch (this.active) {
       case 'pose':
       case 'goal':
+      case 'waypoints':
         this.start = ground;
         break;
       case 'translate':
@@ -191,7 +206,7 @@ export class Tools {
   private moved(event: PagePoint): void {
     const now = this.start && this.app.stage!.view.ground(event.clientX, event.clientY);
     if (!this.start || !now) return;
-    if (this.active === 'pose' || this.active === 'goal') this.arrow(this.start, now);
+    if (isArrowTool(this.active)) this.arrow(this.start, now);
     if (this.active === 'translate' || this.active === 'rotate') this.preview(now);
   }
 
@@ -199,7 +214,9 @@ export class Tools {
     const { start } = this;
     const now = this.app.stage!.view.ground(event.clientX, event.clientY);
     if (!start || !now) return;
-    if (this.active === 'pose' || this.active === 'goal') {
+    if (this.active === 'waypoints') {
+      this.addWaypoint(start, now);
+    } else if (this.active === 'pose' || this.active === 'goal') {
       const drag = now.clone().sub(start);
       const yaw = drag.length() > MIN_DRAG_M ? Math.atan2(drag.y, drag.x) : 0;
       this.publishPose(this.active, fromYaw(yaw, [start.x, start.y, 0]), drag.length());
@@ -221,16 +238,41 @@ export class Tools {
   private arrow(from: Vector3, to: Vector3): void {
     for (const child of [...this.marks.children]) dispose(child);
     const drag = to.clone().sub(from);
-    const arrow = arrowOf(this.active === 'pose' ? 'pose' : 'goal', drag.length());
+    const arrow =
+      this.active === 'waypoints'
+        ? waypointArrow(drag.length())
+        : arrowOf(this.active === 'pose' ? 'pose' : 'goal', drag.length());
     arrow.position.copy(from).setZ(ARROW_HEIGHT_M);
     arrow.rotation.z = Math.atan2(drag.y, drag.x);
     this.marks.add(arrow);
     this.app.stage!.invalidate();
   }
 
+  /** Adds a waypoint, with a heading if the mouse was dragged. The tool stays active. */
+  private addWaypoint(start: Vector3, end: Vector3): void {
+    for (const child of [...this.marks.children]) dispose(child);
+    const drag = end.clone().sub(start);
+    const yaw = drag.length() > MIN_DRAG_M ? Math.atan2(drag.y, drag.x) : undefined;
+    if (this.canPlace()) this.waypoints.add(start.x, start.y, yaw);
+    this.app.stage!.invalidate();
+  }
+
+  /** Sends the waypoints to an action, and ends the tool. */
+  drive(action: 'follow_waypoints' | 'navigate_through_poses'): void {
+    if (this.active === 'waypoints') this.choose('move');
+    this.dropArrow('goal');
+    void this.navigation.send(action, this.waypoints.stamped());
+  }
+
+  private dropArrow(tool: 'pose' | 'goal'): void {
+    const arrow = this.arrows.get(tool);
+    if (arrow) dispose(arrow.mesh);
+    this.arrows.delete(tool);
+    this.app.stage!.invalidate();
+  }
+
   private keepArrow(tool: 'pose' | 'goal', pose: Pose, lengthM: number): void {
-    const old = this.arrows.get(tool);
-    if (old) dispose(old.mesh);
+    this.dropArrow(tool);
     const mesh = arrowOf(tool, lengthM);
     this.poses.add(mesh);
     this.arrows.set(tool, { frame: this.app.fixedFrame, pose, mesh });
@@ -268,11 +310,15 @@ export class Tools {
     return false;
   }
 
+  /** True if another node subscribes to a topic. */
+  private hasSubscriber(topic: string): boolean {
+    const row = this.app.topics.find((one) => one.name === topic);
+    return !!row?.subscribers.some((node) => node !== OWN_NODE);
+  }
+
   /** Warns if the topic just published to has no subscriber. */
   private warnOfSilence(topic: string, advice: string): void {
-    const row = this.app.topics.find((one) => one.name === topic);
-    const others = row?.subscribers.filter((node) => node !== OWN_NODE) ?? [];
-    if (others.length === 0) {
+    if (!this.hasSubscriber(topic)) {
       this.app.notice(
         'warn',
         `No node subscribes to ${topic}: the message has no effect. ${advice}`,
@@ -288,7 +334,15 @@ export class Tools {
     const { t } = pose;
     const where = `x ${t[0].toFixed(2)}, y ${t[1].toFixed(2)} m, ${((yawOf(pose.q) * 180) / Math.PI).toFixed(0)}°`;
     if (tool === 'goal') {
-      const topic = absolute(app.toolValue('SetGoal', 'Topic', 'goal_pose'));
+      const named = absolute(app.toolValue('SetGoal', 'Topic', GOAL_TOPIC));
+      const isRos1 = !this.hasSubscriber(named) && this.hasSubscriber(ROS1_GOAL_TOPIC);
+      const topic = isRos1 ? ROS1_GOAL_TOPIC : named;
+      if (topic === `/${GOAL_TOPIC}` && this.navigation.can('navigate_to_pose')) {
+        // The action answers if the navigator accepts the goal; the topic does not.
+        const goal = { frame: app.fixedFrame, pose: messageOf(pose) };
+        void this.navigation.send('navigate_to_pose', [goal]);
+        return;
+      }
       app.publish(topic, 'geometry_msgs/msg/PoseStamped', { header, pose: messageOf(pose) });
       app.notice('info', `2D goal pose in ${app.fixedFrame}: ${where}`);
       this.warnOfSilence(topic, 'Start a navigator, such as bt_navigator of Nav2 on ROS 2.');
@@ -556,6 +610,11 @@ function arrowOf(tool: 'pose' | 'goal', lengthM: number): Mesh {
   const length = Math.max(0.4, lengthM);
   const geometry = arrowGeometry(length - 0.2, 0.04, 0.2, 0.12);
   return new Mesh(geometry, surface(tool === 'pose' ? GREEN : PINK));
+}
+
+/** True for tools that draw an arrow while the mouse is dragged. */
+function isArrowTool(tool: ToolName): boolean {
+  return tool === 'pose' || tool === 'goal' || tool === 'waypoints';
 }
 
 function absolute(topic: string): string {

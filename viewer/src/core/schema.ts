@@ -59,7 +59,8 @@ export function parseSchema(name: string, text: string): Schema {
   for (const part of text.split(/^={3,}\s*$/m)) {
     const header = /^\s*MSG:\s*(\S+)\s*$/m.exec(part);
     const own = shortName(header?.[1] ?? name);
-    const definition = parseOne(own, header ? part.replace(header[0], '') : part);
+    const written = header ? part.replace(header[0], '') : part;
+    const definition = parseOne(own, root || written.trim() ? written : impliedText(own));
     types.set(own, definition);
     root ??= definition;
   }
@@ -68,6 +69,33 @@ export function parseSchema(name: string, text: string): Schema {
     if (!types.has(own)) types.set(own, parseOne(own, 'int32 sec\nuint32 nanosec'));
   }
   return { root: root!, types };
+}
+
+const UUID = 'unique_identifier_msgs/UUID goal_id';
+
+/**
+ * Definition of a type that an action implies. No file contains it, and servers may send an empty text. Source: ROS 2's
+ * design article "Actions".
+ */
+function impliedText(name: string): string {
+  const [, action, end] =
+    /\/(\w+?)_(SendGoal_Request|SendGoal_Response|GetResult_Request|GetResult_Response|FeedbackMessage)$/.exec(
+      name,
+    ) ?? [];
+  switch (end) {
+    case 'SendGoal_Request':
+      return `${UUID}\n${action}_Goal goal`;
+    case 'SendGoal_Response':
+      return 'bool accepted\nbuiltin_interfaces/Time stamp';
+    case 'GetResult_Request':
+      return UUID;
+    case 'GetResult_Response':
+      return `int8 status\n${action}_Result result`;
+    case 'FeedbackMessage':
+      return `${UUID}\n${action}_Feedback feedback`;
+    default:
+      return '';
+  }
 }
 
 function parseOne(name: string, text: string): Definition {

@@ -27,6 +27,12 @@ import {
 } from '../scene/shapes';
 import { Quaternion, Vector3 } from 'three';
 
+/**
+ * Width up to which a line is drawn one pixel wide [m]: a controller publishes hundreds of such lines, which would
+ * otherwise take longer than a frame.
+ */
+const THIN_M = 0.015;
+
 const paintOf = (c: ColorMessage) => new Color().setRGB(c.r, c.g, c.b, 'srgb');
 const flat = (points: Point[]) => points.flatMap((p) => [p.x, p.y, p.z]);
 
@@ -56,7 +62,11 @@ export function markerObject(
     case 3:
       return solid(UNIT_CYLINDER);
     case 4:
-      return lines(marker, flat(marker.points), polyline(flat(marker.points), paint, c.a, s.x));
+      return lines(
+        marker,
+        flat(marker.points),
+        polyline(flat(marker.points), paint, c.a, s.x > THIN_M ? s.x : 0),
+      );
     case 5:
       return lines(marker, flat(marker.points), segments(flat(marker.points), paint, c.a));
     case 6:

@@ -1,7 +1,7 @@
 /** Marker and MarkerArray: shapes published by nodes. */
 import { Group } from 'three';
 import type { Message } from '../core/cdr';
-import { multiply } from '../core/pose';
+import { multiply, type Pose } from '../core/pose';
 import { poseOf, seconds, type Marker } from '../core/types';
 import { MeshLibrary } from '../scene/meshes';
 import { dispose } from '../scene/stage';
@@ -25,65 +25,86 @@ const DELETE_ALL = 3;
 
 export class MarkerDisplay extends Display {
   protected entries = new Map<string, Entry>();
+  /** Markers received since the last frame; a newer one replaces an older one with the same name. */
+  private received = new Map<string, Marker>();
   private library = new MeshLibrary((uri) => this.context.asset(uri));
   private fixed = '';
 
   protected override receive(message: Message): void {
     const all =
       'markers' in message ? (message.markers as Marker[]) : [message as unknown as Marker];
-    for (const marker of all) this.update(marker);
-    const names = [...new Set([...this.entries.values()].map((e) => e.marker.ns))];
+    for (const marker of all) this.take(marker);
+    this.context.stage.invalidate();
+  }
+
+  private take(marker: Marker): void {
+    const key = `${marker.ns}\n${marker.id}`;
+    if (marker.action === DELETE_ALL) {
+      for (const name of [...this.entries.keys(), ...this.received.keys()]) {
+        if (!marker.ns || name.startsWith(`${marker.ns}\n`)) this.drop(name);
+      }
+    } else if (marker.action === DELETE) this.drop(key);
+    else if (marker.action === ADD) this.received.set(key, marker);
+  }
+
+  /** Builds the markers received since the last frame. */
+  private build(): void {
+    const received = [...this.received];
+    this.received.clear();
+    for (const [key, marker] of received) this.add(key, marker);
+    const names = new Set(received.map(([, marker]) => marker.ns));
     for (const ns of names) {
       if (!(`Namespaces/${ns}` in this.values)) this.host.note(`Namespaces/${ns}`, true);
     }
     this.host.status('Markers', 'ok', `${this.entries.size} markers`);
-    this.context.stage.invalidate();
   }
 
-  private update(marker: Marker): void {
-    const key = `${marker.ns}\n${marker.id}`;
-    if (marker.action === DELETE_ALL) {
-      for (const name of [...this.entries.keys()]) {
-        if (!marker.ns || name.startsWith(`${marker.ns}\n`)) this.drop(name);
-      }
-    } else if (marker.action === DELETE) this.drop(key);
-    else if (marker.action === ADD) {
-      const wasVisible = this.entries.get(key)?.isPlaced;
-      this.drop(key);
-      const object = new Group();
-      object.matrixAutoUpdate = true;
-      object.visible = false;
-      object.userData.inspect = () => ({
-        Marker: `${marker.ns || '(no namespace)'} ${marker.id}`,
-        Frame: marker.header.frame_id,
-        ...(marker.text ? { Text: marker.text } : {}),
-      });
-      object.add(
-        markerObject(marker, this.library, (why) => {
-          if (why) this.host.status('Meshes', 'error', why);
-          this.context.stage.invalidate();
-        }),
-      );
-      this.root.add(object);
-      const life = seconds(marker.lifetime);
-      this.entries.set(key, {
-        marker,
-        object,
-        isPlaced: false,
-        sinceMs: performance.now(),
-        untilS: life > 0 ? this.context.nowS() + life : Infinity,
-      });
-      if (wasVisible) this.place(this.entries.get(key)!, performance.now());
+  private add(key: string, marker: Marker): void {
+    const isReplaced = this.entries.has(key);
+    this.drop(key);
+    const object = new Group();
+    object.matrixAutoUpdate = true;
+    object.visible = false;
+    object.userData.inspect = () => ({
+      Marker: `${marker.ns || '(no namespace)'} ${marker.id}`,
+      Frame: marker.header.frame_id,
+      ...(marker.text ? { Text: marker.text } : {}),
+    });
+    const done = (why?: string) => {
+      if (why) this.host.status('Meshes', 'error', why);
+      this.context.stage.invalidate();
+    };
+    try {
+      object.add(markerObject(marker, this.library, done));
+    } catch (error) {
+      this.host.status('Message', 'error', (error as Error).message);
+      return;
     }
+    this.root.add(object);
+    const life = seconds(marker.lifetime);
+    const entry = {
+      marker,
+      object,
+      isPlaced: false,
+      sinceMs: performance.now(),
+      untilS: life > 0 ? this.context.nowS() + life : Infinity,
+    };
+    this.entries.set(key, entry);
+    if (isReplaced) this.place(entry, performance.now(), true);
   }
 
   private drop(key: string): void {
     const entry = this.entries.get(key);
     if (entry) dispose(entry.object);
     this.entries.delete(key);
+    this.received.delete(key);
   }
 
-  private place(entry: Entry, nowMs: number): void {
+  /**
+   * Places a marker by the transform at its time. `isReplaced`: it takes the place of another one, and is shown by
+   * the newest transform until that at its time arrives. Otherwise frequent markers would never be visible.
+   */
+  private place(entry: Entry, nowMs: number, isReplaced = false): void {
     const { marker } = entry;
     const { tf } = this.context;
     const isLate = nowMs - entry.sinceMs > PATIENCE_MS;
@@ -92,6 +113,8 @@ export class MarkerDisplay extends Display {
     const found = tf.lookup(this.context.fixedFrame(), marker.header.frame_id, at);
     if (found.kind === 'later') {
       if (isLate) this.host.status('Transform', 'error', found.why);
+      const newest = tf.lookup(this.context.fixedFrame(), marker.header.frame_id);
+      if (isReplaced && newest.kind === 'found') this.show(entry, newest.pose);
       return;
     }
     if (found.kind === 'never') {
@@ -100,7 +123,12 @@ export class MarkerDisplay extends Display {
     }
     this.host.status('Transform', 'ok');
     entry.isPlaced = true;
-    const pose = multiply(found.pose, poseOf(marker.pose));
+    this.show(entry, found.pose);
+  }
+
+  private show(entry: Entry, fixedFromFrame: Pose): void {
+    const { marker } = entry;
+    const pose = multiply(fixedFromFrame, poseOf(marker.pose));
     entry.object.position.set(...pose.t);
     entry.object.quaternion.set(...pose.q);
     entry.object.visible = this.values[`Namespaces/${marker.ns}`] !== false;
@@ -108,6 +136,7 @@ export class MarkerDisplay extends Display {
   }
 
   override tick(nowMs: number): void {
+    if (this.received.size > 0) this.build();
     const fixed = this.context.fixedFrame();
     const isMoved = fixed !== this.fixed;
     this.fixed = fixed;
@@ -131,6 +160,7 @@ export class MarkerDisplay extends Display {
   }
 
   override clear(): void {
+    this.received.clear();
     for (const key of [...this.entries.keys()]) this.drop(key);
   }
 }

@@ -1,0 +1,41 @@
+/** Reason why the robot stands. */
+
+/** Time without motion after which a robot with a goal counts as standing [s]. */
+export const STANDING_AFTER_S = 3;
+
+export interface Standing {
+  hasGoal: boolean;
+  isPaused: boolean;
+  /** Time since the robot last moved [s]. */
+  stillS: number;
+  /** Reason why the navigator did not accept the last goal. */
+  refusal: string;
+  /** Error of the last goal, if it failed. */
+  failure: string;
+  /** Error that a server answered last while it drives. */
+  lastError: string;
+  /** Polygon by which the collision monitor stops the robot. */
+  stoppedBy: string;
+  running: readonly string[];
+}
+
+/** Reason in one or two sentences; empty while the robot drives, and if it has nothing to do. */
+export function whyStanding(now: Standing): string {
+  if (!now.hasGoal) {
+    if (now.refusal) return `The navigator refused the goal: ${now.refusal}`;
+    return now.failure;
+  }
+  if (now.isPaused) return 'The simulation is paused.';
+  if (now.stoppedBy) {
+    return `The collision monitor stops the robot: there are obstacles in the polygon ${now.stoppedBy}.`;
+  }
+  // The error stays until the same server succeeds: it is no reason while the robot follows a new path.
+  const follows = now.running.some((node) => /^FollowPath\b/.test(node));
+  const isStill = now.stillS >= STANDING_AFTER_S;
+  if (now.lastError && (isStill || !follows)) return now.lastError;
+  if (!isStill) return '';
+  const nodes = now.running.join(', ');
+  // Without the time: a text that changes every second would be read aloud every second.
+  const text = 'The robot does not move';
+  return nodes ? `${text}; running: ${nodes}.` : `${text}.`;
+}
