@@ -7,7 +7,8 @@
 //!
 //! The servers of Nav2: [`planner_server`], [`smoother_server`], [`controller_server`],
 //! [`behavior_server`], [`velocity_smoother`], [`collision_monitor`] and [`waypoint_follower`], with
-//! [`simple_action_server`] for their actions and [`nav2_actions`] for the forms of the releases.
+//! [`simple_action_server`] for their actions and [`nav2_actions`] for the forms of the releases. The navigation of
+//! ROS 1 is [`move_base`].
 //!
 //! ```
 //! use periplus_diagnostics::Diagnostics;
@@ -36,6 +37,7 @@ mod costmap_subscriber;
 pub mod ekf_node;
 mod loop_rate;
 pub mod map_server;
+pub mod move_base;
 pub mod nav2_actions;
 pub mod navigation;
 pub mod navigation_plugins;
