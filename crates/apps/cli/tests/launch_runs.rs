@@ -182,7 +182,7 @@ fn a_map_server_and_amcl_of_ros_1() {
         + robot_state_publisher robot_state_publisher: /robot_state_publisher: the built-in node: `/tf`, `/tf_static`, `robot_description`
         + map_server map_server: /map_server: the built-in node; `-f NAME` saves the map, as `map_saver` does
         + amcl amcl: /amcl: the built-in node
-        - move_base move_base: nothing: navigation is that of ROS 2; `periplus navigate WORLD --robot FILE --goal X,Y,YAW` drives this robot
+        + move_base move_base: /move_base: the built-in node with its costmaps: NavfnROS, GlobalPlanner; TrajectoryPlannerROS, DWAPlannerROS, and a controller in place of TebLocalPlannerROS
     "#]].assert_eq(&ran.became());
 }
 

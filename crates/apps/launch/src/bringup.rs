@@ -13,6 +13,7 @@ mod guard;
 mod includes;
 mod lockstep;
 mod make;
+mod move_base;
 mod navigation;
 mod parameters;
 mod parts;

@@ -35,6 +35,8 @@ pub(crate) enum Role {
     Amcl { is_managed: bool },
     /// Server of Nav2's navigation.
     Navigation(NavigationServer),
+    /// Navigation of ROS 1.
+    MoveBase,
     /// Stand-alone costmap.
     Costmap,
     /// Voxels as cubes.
@@ -440,11 +442,12 @@ pub(crate) static CATALOGUE: &[Entry] = &[
     ),
     entry(
         &["move_base"],
-        &["*"],
+        &["move_base"],
         NONE,
         "move_base",
-        Role::Lacking,
-        "nothing: navigation is that of ROS 2; `periplus navigate WORLD --robot FILE --goal X,Y,YAW` drives this robot",
+        Role::MoveBase,
+        "the built-in node with its costmaps: NavfnROS, GlobalPlanner; TrajectoryPlannerROS, DWAPlannerROS, and a \
+         controller in place of TebLocalPlannerROS",
     ),
     entry(
         &["controller_manager"],

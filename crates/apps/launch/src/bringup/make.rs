@@ -24,6 +24,7 @@ use serde_json::Value;
 
 use crate::bringup::bridge::{self, Direction};
 use crate::bringup::catalogue::Role;
+use crate::bringup::move_base::move_base;
 use crate::bringup::navigation;
 use crate::bringup::parameters::{self, NamedParameters, text_of, texts_of, truth_of};
 use crate::bringup::parts::{BuiltInRequest, searched};
@@ -173,6 +174,10 @@ pub(crate) fn make(
                 server.start();
             }
             made.keep(server);
+        }
+        Role::MoveBase => {
+            let servers = move_base(ask, &node, graph, &mut made.notes)?;
+            made.keep(servers);
         }
         Role::Costmap => {
             let costmap = navigation::costmap_alone(ask, node, &mut made.notes)?;
@@ -590,6 +595,14 @@ impl ParameterFile {
                 named.iter().map(|(name, value)| (name.clone(), value.clone())).collect();
             text.push_str(&parameters_to_yaml(node, &all));
         }
+        Self::of_text(text, full_name)
+    }
+
+    /// Parses parameters; `full_name` is the node in findings.
+    ///
+    /// # Errors
+    /// A message; unexpected, because the text is generated here.
+    pub(crate) fn of_text(text: String, full_name: &str) -> Result<Self, String> {
         let mut sources = SourceMap::new();
         let file = sources.add(format!("parameters of {full_name}"), text);
         let tree = periplus_yaml::parse(file, &sources).map_err(|error| error.message)?;

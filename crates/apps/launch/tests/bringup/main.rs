@@ -3,5 +3,6 @@
 #![allow(clippy::disallowed_methods, reason = "one of them reads the documentation")]
 
 mod document;
+mod move_base;
 mod robots;
 mod running;

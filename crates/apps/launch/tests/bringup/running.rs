@@ -36,7 +36,7 @@ impl Outside for Programs {
     }
 }
 
-fn top() -> PathBuf {
+pub(crate) fn top() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../../..")
 }
 
@@ -46,12 +46,23 @@ fn bringup(file: &str, folder: &Path) -> LaunchRunner {
 }
 
 fn bringup_as(file: &str, folder: &Path, dialect: Dialect) -> LaunchRunner {
+    bringup_with(file, folder, dialect, Vec::new())
+}
+
+/// A launch file of these tests with more arguments than `top`.
+pub(crate) fn bringup_with(
+    file: &str,
+    folder: &Path,
+    dialect: Dialect,
+    mut arguments: Vec<(String, String)>,
+) -> LaunchRunner {
+    arguments.push(("top".into(), folder.display().to_string()));
     let search = Search { working_folder: folder.to_owned(), ..Search::default() };
     let own = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/bringup/running").join(file);
     let resolver = Resolver::new(&Machine, &[]);
     let request = Request {
         file: own,
-        arguments: vec![("top".into(), folder.display().to_string())],
+        arguments,
         host: &Machine,
         resolver: &resolver,
         outside: &mut Programs(search.clone()),
