@@ -10,6 +10,7 @@ import { building, foreignBuildings } from './building.mjs';
 import { demo } from './demo.mjs';
 import { keyboard } from './keyboard.mjs';
 import { browser, next, open, periplus, servePage, until } from './lib.mjs';
+import { navigate } from './navigate.mjs';
 import { tutorials } from './tutorials.mjs';
 import { use } from './use.mjs';
 
@@ -174,6 +175,7 @@ try {
   await attempt('keyboard', () => keyboard(chrome, pages.url));
   await use(chrome, pages.url, attempt);
   await axe(chrome, pages.url, attempt);
+  await navigate(chrome, pages.url, attempt);
   await tutorials(chrome, pages.url, out, attempt);
   await demo(chrome, pages.url, attempt);
 } finally {

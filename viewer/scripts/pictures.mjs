@@ -1,11 +1,12 @@
 // Pictures of the page for the documentation, from running examples: docs/pictures/viewer-*.png, and docs/displays.md
 // with its own.
 //
-//   npm run pictures [demo] [house] [building] [displays] [tutorials]     PERIPLUS=path/to/periplus
+//   npm run pictures [demo] [house] [navigation] [building] [displays] [tutorials]     PERIPLUS=path/to/periplus
 import { mkdirSync, mkdtempSync, rmSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { browser, open, periplus, ROOT, servePage, sim } from '../e2e/lib.mjs';
+import { goal, pixel, ready } from '../e2e/navigate.mjs';
 import { tutorials } from '../e2e/tutorials.mjs';
 import { displays } from './show.mjs';
 
@@ -49,10 +50,44 @@ const PICTURES = {
       },
       { colorScheme: 'light' },
     ),
+  navigation: () =>
+    scene([...sim('worlds/house.sdf', SAM_BOT), '--pose', '0,0,0', '--navigation'], navigation),
   building,
   displays: () => displays(chrome, pages.url, OUT),
   tutorials: ofTutorials,
 };
+
+/** A goal that is blocked, and then a drive to waypoints with the trajectories of the controller. */
+async function navigation(page) {
+  const side = page.getByRole('complementary', { name: 'Panels' });
+  await ready(page);
+  await page.evaluate(() => {
+    const { periplus } = window;
+    // With the default tolerance the planner takes a free cell beside the wall.
+    const name = '/planner_server.GridBased.tolerance';
+    periplus.client.setParameter({ name, value: 0.05 });
+    periplus.setView({ kind: 'TopDownOrtho', scale: 95, x: 1.2, y: 0.2 });
+  });
+  await goal(page, [1.6, 0.8], [1.6, 1.4]);
+  await page.getByTestId('navigation-reason').filter({ hasText: 'layer' }).waitFor();
+  await page.waitForTimeout(1000);
+  await side.screenshot({ path: join(OUT, 'viewer-navigation-reason.png') });
+  await page.getByRole('button', { name: 'Cancel the goal' }).click();
+  await page.getByRole('checkbox', { name: 'Show the trajectories of MPPI' }).check();
+  await page.getByRole('button', { name: 'Waypoints', exact: true }).first().click();
+  for (const [x, y] of [
+    [2.6, 0.1],
+    [3.5, -0.1],
+    [4.3, 0],
+  ])
+    await page.mouse.click(...(await pixel(page, x, y)));
+  await page.getByRole('button', { name: 'Go', exact: true }).click();
+  await page.mouse.move(640, 5);
+  const visible = `periplus.displays.find((d) => d.name === 'trajectories')?.display?.entries.size > 100`;
+  await page.waitForFunction(visible, undefined, { timeout: 60_000 });
+  await page.waitForTimeout(500);
+  await whole(page, 'navigation');
+}
 
 async function building() {
   const { page } = await open(chrome, `${pages.url}#building`);

@@ -7,6 +7,8 @@ import {
   isActive,
   namespacesOf,
   newestGoal,
+  positionText,
+  poseText,
   readStatus,
   resultError,
   TreeLog,
@@ -97,6 +99,22 @@ describe('requests', () => {
       ['map', 3],
       ['map', 4],
     ]);
+  });
+});
+
+describe('poses in words', () => {
+  const pose = (x: number, y: number, z: number, w: number) => ({
+    position: { x, y, z: 0 },
+    orientation: { x: 0, y: 0, z, w },
+  });
+  test('have no sign of zero', () => {
+    expect(poseText(pose(1.2, -0.001, -0.001, 1))).toBe('1.20, 0.00 m, 0°');
+    expect(positionText(pose(-1.2, -0.5, 0, 1))).toBe('-1.20, -0.50 m');
+  });
+  test('have a heading of at most half a turn', () => {
+    const half = Math.SQRT1_2;
+    expect(poseText(pose(0, 0, half, half))).toBe('0.00, 0.00 m, 90°');
+    expect(poseText(pose(0, 0, half, -half))).toBe('0.00, 0.00 m, -90°');
   });
 });
 

@@ -7,6 +7,8 @@ import {
   isActive,
   namespacesOf,
   newestGoal,
+  positionText,
+  poseText,
   readStatus,
   resultError,
   TreeLog,
@@ -167,7 +169,7 @@ export class Navigation {
     this.refusal = this.failure = '';
     this.isSending = true;
     const uuid = crypto.getRandomValues(new Uint8Array(16));
-    const target = describe(poses[poses.length - 1]!);
+    const target = poseText(poses[poses.length - 1]!.pose);
     this.sent = { id: hexadecimal(uuid), target, count: poses.length };
     this.flush();
     const sentMs = performance.now();
@@ -325,7 +327,8 @@ export class Navigation {
           ? Math.min(count, count - left + 1)
           : undefined;
     return {
-      distanceM: now && Number(now.distance_remaining),
+      // Without a path the distance is 0.
+      distanceM: Number(now?.distance_remaining) || undefined,
       timeS: now && seconds(now.navigation_time as unknown as Stamp),
       remainingS: now && seconds(now.estimated_time_remaining as unknown as Stamp),
       recoveries: now && Number(now.number_of_recoveries),
@@ -367,13 +370,5 @@ function isApart(a: PoseMessage, b: PoseMessage): boolean {
 function endOf(message: Message): string {
   const poses = (message.poses ?? []) as unknown as { pose: PoseMessage }[];
   const last = poses[poses.length - 1];
-  return last ? at(last.pose) : '';
-}
-
-function describe({ pose }: StampedPose): string {
-  return `${at(pose)}, ${((yawOf(poseOf(pose).q) * 180) / Math.PI).toFixed(0)}°`;
-}
-
-function at({ position: { x, y } }: PoseMessage): string {
-  return `${x.toFixed(2)}, ${y.toFixed(2)} m`;
+  return last ? positionText(last.pose) : '';
 }

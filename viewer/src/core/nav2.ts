@@ -80,6 +80,23 @@ export function goalRequest(schema: Schema, uuid: Uint8Array, poses: StampedPose
   return { goal_id: { uuid }, goal: content } as unknown as Message;
 }
 
+/** Position and heading of a pose in words: "1.20, -0.50 m, 90°". */
+export function poseText({ position: { x, y }, orientation: { z, w } }: PoseMessage): string {
+  const yawDeg = (2 * Math.atan2(z, w) * 180) / Math.PI;
+  const around = yawDeg - 360 * Math.round(yawDeg / 360);
+  return `${fixed(x, 2)}, ${fixed(y, 2)} m, ${fixed(around, 0)}°`;
+}
+
+/** Position of a pose in words: "1.20, -0.50 m". */
+export function positionText({ position: { x, y } }: PoseMessage): string {
+  return `${fixed(x, 2)}, ${fixed(y, 2)} m`;
+}
+
+/** Number with some decimals, without the sign of a zero. */
+function fixed(value: number, decimals: number): string {
+  return value.toFixed(decimals).replace(/^-(0(\.0+)?)$/, '$1');
+}
+
 /** Content of the sentence on `bt_navigator/status_reason`. */
 export interface NavigatorStatus {
   /** Action that is executed; empty without a goal. */
