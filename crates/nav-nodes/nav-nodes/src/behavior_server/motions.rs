@@ -95,6 +95,10 @@ impl Behavior for SpinBehavior {
         world: &mut BehaviorWorld,
         _: i64,
     ) -> Result<(), MotionFailure> {
+        if !goal.target_yaw.is_finite() {
+            let text = "`target_yaw` must be a finite number".to_owned();
+            return Err(MotionFailure { reason: FailureReason::InvalidInput, text });
+        }
         let yaw_rad = normalize_angle(world.pose()?.yaw_rad);
         self.running = Some(Spin::new(f64::from(goal.target_yaw), yaw_rad));
         self.allowance = TimeAllowance::new(&goal.time_allowance);

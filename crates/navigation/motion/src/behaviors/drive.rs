@@ -61,6 +61,8 @@ pub enum InvalidDrive {
     NotAhead,
     /// Target and speed have different signs.
     Signs,
+    /// A component of the target or the speed is not a finite number.
+    NotFinite,
 }
 
 impl fmt::Display for InvalidDrive {
@@ -68,6 +70,7 @@ impl fmt::Display for InvalidDrive {
         f.write_str(match self {
             Self::NotAhead => "the target must be along x: set `target.y` and `target.z` to 0",
             Self::Signs => "`target.x` and `speed` must have the same sign",
+            Self::NotFinite => "`target` and `speed` must be finite numbers",
         })
     }
 }
@@ -95,7 +98,7 @@ impl StraightDrive {
     /// # Errors
     /// The mistake in the command.
     pub fn on_heading(target_m: [f64; 3], speed_m_s: f64) -> Result<Self, InvalidDrive> {
-        let distance_m = along_x(target_m)?;
+        let distance_m = along_x(target_m, speed_m_s)?;
         if (distance_m > 0.0) != (speed_m_s > 0.0) {
             return Err(InvalidDrive::Signs);
         }
@@ -107,7 +110,8 @@ impl StraightDrive {
     /// # Errors
     /// The mistake in the command.
     pub fn backward(target_m: [f64; 3], speed_m_s: f64) -> Result<Self, InvalidDrive> {
-        Ok(Self { distance_m: -along_x(target_m)?.abs(), speed_m_s: -speed_m_s.abs() })
+        let distance_m = -along_x(target_m, speed_m_s)?.abs();
+        Ok(Self { distance_m, speed_m_s: -speed_m_s.abs() })
     }
 
     /// Velocity of the next cycle after a distance \[m\], if the last one was `last_m_s`; none once
@@ -167,7 +171,11 @@ impl StraightDrive {
     }
 }
 
-fn along_x([x, y, z]: [f64; 3]) -> Result<f64, InvalidDrive> {
+/// Distance of a target that is along x \[m\].
+fn along_x([x, y, z]: [f64; 3], speed_m_s: f64) -> Result<f64, InvalidDrive> {
+    if ![x, y, z, speed_m_s].iter().all(|number| number.is_finite()) {
+        return Err(InvalidDrive::NotFinite);
+    }
     if y == 0.0 && z == 0.0 { Ok(x) } else { Err(InvalidDrive::NotAhead) }
 }
 
@@ -225,6 +233,11 @@ mod tests {
         assert!(heading([-1.0, 0.0, 0.0], -0.1).is_ok());
         let back = StraightDrive::backward([0.0, 1.0, 0.0], 0.1);
         assert_eq!(back, Err(InvalidDrive::NotAhead));
+        for number in [f64::NAN, f64::INFINITY] {
+            assert_eq!(heading([number, 0.0, 0.0], 0.1), Err(InvalidDrive::NotFinite));
+            let back = StraightDrive::backward([1.0, 0.0, 0.0], number);
+            assert_eq!(back, Err(InvalidDrive::NotFinite));
+        }
     }
 
     #[test]
