@@ -14,6 +14,10 @@ use crate::velocity_topics::{VelocityPublisher, uses_stamped_velocity};
 
 use super::behavior::{FailureReason, MotionFailure};
 
+/// Age of the pose of the robot \[s\] that is allowed in any case, in spite of `transform_tolerance`: five periods of
+/// a slow odometry of 10 Hz.
+const MIN_POSE_TOLERANCE_S: f64 = 0.5;
+
 /// Input of an assisted teleoperation.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct TeleopInput {
@@ -31,6 +35,8 @@ pub(super) struct BehaviorWorld {
     /// Topics that exist while the node is configured.
     ports: Option<Ports>,
     log: LogThrottle,
+    /// Time of the last cycle \[ns\].
+    now_ns: i64,
 }
 
 struct Ports {
@@ -41,7 +47,7 @@ struct Ports {
 impl BehaviorWorld {
     pub(super) fn new(node: &Node, params: BehaviorServerParams) -> Result<Self, GraphError> {
         let (teleop, tf) = (TeleopInput::default(), Listener::new(node)?);
-        Ok(Self { params, teleop, tf, ports: None, log: LogThrottle::default() })
+        Ok(Self { params, teleop, tf, ports: None, log: LogThrottle::default(), now_ns: 0 })
     }
 
     pub(super) fn release(&self) -> Nav2Release {
@@ -80,6 +86,7 @@ impl BehaviorWorld {
     /// Processes received transforms, costmaps and footprints.
     pub(super) fn receive(&mut self, node: &Node) {
         self.tf.listen();
+        self.now_ns = node.now_ns();
         let Some(ports) = &mut self.ports else { return };
         if let Err(why) = ports.checker.receive(&self.tf, &self.params.robot_base_frame) {
             self.report("bad-costmap", &why, node);
@@ -87,13 +94,28 @@ impl BehaviorWorld {
     }
 
     /// Newest pose of the robot in [`Self::frame`].
+    ///
+    /// # Errors
+    /// When there is none, or it is older than `transform_tolerance` and 0.5 s: the robot would move blindly.
     pub(super) fn pose(&self) -> Result<Pose2, MotionFailure> {
         let base = &self.params.robot_base_frame;
-        let found = self.tf.at(self.frame(), base, 0);
-        found.map(|(pose, _)| Pose2::from(pose)).map_err(|why| MotionFailure {
+        let failed = |why: String| MotionFailure {
             reason: FailureReason::Transform,
             text: format!("the pose of the robot is not available: {why}"),
-        })
+        };
+        let found = self.tf.at(self.frame(), base, 0);
+        let (pose, time_ns) = found.map_err(|why| failed(why.to_string()))?;
+        let tolerance_s = self.params.transform_tolerance_s.max(MIN_POSE_TOLERANCE_S);
+        let age_s = (self.now_ns - time_ns) as f64 * 1e-9;
+        // Time zero is that of static transforms.
+        if time_ns != 0 && age_s > tolerance_s {
+            let frame = self.frame();
+            return Err(failed(format!(
+                "the transform from `{base}` to `{frame}` is {age_s:.2} s old; at most {tolerance_s} s are allowed \
+                 (`transform_tolerance`): check the node that publishes it"
+            )));
+        }
+        Ok(Pose2::from(pose))
     }
 
     /// Returns true if the robot collides at none of these poses. Without costmap and footprint it
