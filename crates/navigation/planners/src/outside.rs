@@ -22,8 +22,16 @@ pub(crate) fn goal_cell(info: &GridInfo, goal: Pose2) -> Result<Cell, PlanError>
 }
 
 fn cell(info: &GridInfo, pose: Pose2, name: &str, kind: PlanErrorKind) -> Result<Cell, PlanError> {
-    info.cell_of(pose.x_m, pose.y_m).filter(|_| pose.is_finite()).ok_or_else(|| {
-        let (x_m, y_m) = (pose.x_m, pose.y_m);
+    let (x_m, y_m) = (pose.x_m, pose.y_m);
+    if !pose.is_finite() {
+        let message = format!(
+            "{name} Coordinates of({x_m:.6}, {y_m:.6}) was outside bounds; its position and its heading of {} rad \
+             must be finite numbers",
+            pose.yaw_rad
+        );
+        return Err(PlanError::new(kind, message));
+    }
+    info.cell_of(x_m, y_m).ok_or_else(|| {
         let GridInfo { origin, .. } = *info;
         let (width_m, height_m) = info.size_m();
         let bounds = format!(
