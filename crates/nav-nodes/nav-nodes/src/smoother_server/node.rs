@@ -120,6 +120,12 @@ impl SmootherServer {
             let text = "Requested path to smooth is empty";
             return Err(SmoothError::new(SmoothErrorKind::InvalidPath, text));
         }
+        let mut poses = goal.path.poses.iter().map(|pose| pose2_of(&pose.pose));
+        if let Some(wrong) = poses.position(|pose| !pose.is_finite()) {
+            let text =
+                format!("pose {wrong} of the path has a component that is not a finite number");
+            return Err(SmoothError::new(SmoothErrorKind::InvalidPath, text));
+        }
         Ok(index)
     }
 
