@@ -31,6 +31,8 @@ pub struct VelocitySmootherNode {
     output: Option<VelocityPublisher>,
     /// Header of the last command.
     header: Header,
+    /// True if the last output was not zero.
+    is_moving: bool,
     /// Loop while the node is active.
     running: Option<(LoopRate, Alarm)>,
 }
@@ -55,6 +57,7 @@ impl VelocitySmootherNode {
             measured: MeanVelocity::new(0),
             output: None,
             header: Header::default(),
+            is_moving: false,
             running: None,
         };
         let mut actor = node.actor(state);
@@ -131,6 +134,7 @@ impl VelocitySmootherNode {
             let header =
                 Header { stamp: self.stamp(now_ns), frame_id: self.header.frame_id.clone() };
             output.publish(TwistStamped { header, twist: twist(velocity) });
+            self.is_moving = velocity.iter().any(|component| *component != 0.0);
         }
     }
 
@@ -140,6 +144,20 @@ impl VelocitySmootherNode {
             || self.params.stamps_present_time
             || self.header.stamp.ns() == 0;
         if is_present { Time::of_ns(now_ns) } else { self.header.stamp.clone() }
+    }
+
+    /// Ends the output with a velocity of zero if the robot moves: it obeys its last command.
+    fn stop(&mut self, now_ns: i64) {
+        self.running = None;
+        if std::mem::take(&mut self.is_moving)
+            && let Some(output) = &self.output
+        {
+            let header =
+                Header { stamp: Time::of_ns(now_ns), frame_id: self.header.frame_id.clone() };
+            output.publish(TwistStamped { header, ..TwistStamped::default() });
+        }
+        // The robot starts from rest the next time.
+        self.smoother = self.smoother.take().map(|it| VelocitySmoother::new(it.settings().clone()));
     }
 
     /// Forgets commands and odometry after a jump of time.
@@ -183,13 +201,14 @@ impl LifecycleCallbacks for VelocitySmootherNode {
         StepOutcome::Success
     }
 
-    fn on_deactivate(&mut self, _: &mut Io<'_, Self>) -> StepOutcome {
-        self.running = None;
+    fn on_deactivate(&mut self, io: &mut Io<'_, Self>) -> StepOutcome {
+        self.stop(io.now_ns());
         StepOutcome::Success
     }
 
-    fn on_cleanup(&mut self, _: &mut Io<'_, Self>) -> StepOutcome {
-        self.running = None;
+    fn on_cleanup(&mut self, io: &mut Io<'_, Self>) -> StepOutcome {
+        // A node may be shut down while it is active.
+        self.stop(io.now_ns());
         self.smoother = None;
         self.output = None;
         self.measured.clear();
