@@ -41,11 +41,14 @@ struct LastAction {
     action: MonitorAction,
     name: String,
     was_zero: bool,
+    /// True if a velocity was published that is not zero.
+    is_moving: bool,
 }
 
 impl Default for LastAction {
     fn default() -> Self {
-        Self { action: MonitorAction::DoNothing, name: String::new(), was_zero: false }
+        let action = MonitorAction::DoNothing;
+        Self { action, name: String::new(), was_zero: false, is_moving: false }
     }
 }
 
@@ -199,7 +202,8 @@ impl CollisionMonitorNode {
             outputs.velocity.publish_planar(header.clone(), [vx_m_s, vy_m_s, wz_rad_s]);
         }
         perception.publish_shapes(now_ns, self.is_enabled);
-        self.last = LastAction { action: decision.action, name, was_zero: is_zero };
+        let action = decision.action;
+        self.last = LastAction { action, name, was_zero: is_zero, is_moving: !is_zero };
     }
 }
 
@@ -266,12 +270,14 @@ impl LifecycleCallbacks for CollisionMonitorNode {
         StepOutcome::Success
     }
 
-    fn on_deactivate(&mut self, _: &mut Io<'_, Self>) -> StepOutcome {
-        self.last = LastAction::default();
+    fn on_deactivate(&mut self, io: &mut Io<'_, Self>) -> StepOutcome {
+        self.stop(io.now_ns());
         StepOutcome::Success
     }
 
-    fn on_cleanup(&mut self, _: &mut Io<'_, Self>) -> StepOutcome {
+    fn on_cleanup(&mut self, io: &mut Io<'_, Self>) -> StepOutcome {
+        // A node may be shut down while it is active.
+        self.stop(io.now_ns());
         self.perception = None;
         self.outputs = None;
         StepOutcome::Success
@@ -291,6 +297,15 @@ impl Outputs {
 }
 
 impl CollisionMonitorNode {
+    /// Stops a robot that moves: it obeys its last command.
+    fn stop(&mut self, now_ns: i64) {
+        let last = std::mem::take(&mut self.last);
+        if let Some(outputs) = self.outputs.as_ref().filter(|_| last.is_moving) {
+            let header = Header::at(now_ns, &self.params.common.base_frame_id);
+            outputs.velocity.publish_planar(header, [0.0; 3]);
+        }
+    }
+
     /// True while the zones are applied, see `~/toggle`.
     #[must_use]
     pub fn is_enabled(&self) -> bool {
