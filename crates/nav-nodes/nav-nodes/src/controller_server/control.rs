@@ -22,6 +22,10 @@ use crate::loop_rate::LoopRate;
 /// Interval at which a cycle looks if the costmap is current \[ns\] (`rclcpp::Rate r(100)`).
 const COSTMAP_POLL_NS: i64 = 10_000_000;
 
+/// Time for which the robot obeys its last velocity while a cycle waits for the costmap \[ns\], the usual
+/// `costmap_update_timeout`. Humble waits without a limit.
+const MAX_BLIND_NS: i64 = 300_000_000;
+
 /// Code of the message about a low speed.
 const SLOW: &str = "slow-control";
 
@@ -115,6 +119,10 @@ impl ControllerServer {
             self.log.report(&Diagnostic::hint("waits-for-cancel", text), io.node());
         }
         if self.waits_for_costmap(job, io.now_ns())? {
+            let is_blind = job.waits_since_ns.is_some_and(|it| io.now_ns() - it >= MAX_BLIND_NS);
+            if is_blind && !std::mem::replace(&mut job.is_stopped, true) {
+                self.publish_zero(io.node());
+            }
             return Ok(CycleOutcome::Wait);
         }
         self.take_pending(job, io)?;
@@ -162,7 +170,7 @@ impl ControllerServer {
         });
         let is_ignored = timeout_s <= 0.0 && self.release == Nav2Release::Main;
         let Some(why) = delay.filter(|_| !is_ignored) else {
-            job.waits_since_ns = None;
+            (job.waits_since_ns, job.is_stopped) = (None, false);
             return Ok(false);
         };
         let since_ns = *job.waits_since_ns.get_or_insert(now_ns);

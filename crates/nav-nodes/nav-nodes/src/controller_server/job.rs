@@ -44,6 +44,8 @@ pub(super) struct Job {
     pub(super) last_valid_ns: i64,
     /// Time since which a cycle waits for the costmap \[ns\].
     pub(super) waits_since_ns: Option<i64>,
+    /// True once the robot was stopped because it waits.
+    pub(super) is_stopped: bool,
     /// First segment in which the nearest one is searched for the feedback.
     pub(super) segment: usize,
 }
@@ -119,6 +121,7 @@ impl Job {
             plan: Vec::new(),
             last_valid_ns: now_ns,
             waits_since_ns: None,
+            is_stopped: false,
             segment: 0,
         };
         job.set_path(plugins, goal)?;
@@ -151,6 +154,12 @@ impl Job {
     ) -> Result<(), ControlFailure> {
         if goal.path.poses.is_empty() {
             let text = "Path is empty.";
+            return Err(ControlFailure::new(FollowPathResult::INVALID_PATH, text));
+        }
+        let mut poses = goal.path.poses.iter().map(|pose| pose2_of(&pose.pose));
+        if let Some(index) = poses.position(|pose| !pose.is_finite()) {
+            let text =
+                format!("pose {index} of the path has a component that is not a finite number");
             return Err(ControlFailure::new(FollowPathResult::INVALID_PATH, text));
         }
         self.plan = goal.path.poses.iter().map(|pose| pose2_of(&pose.pose)).collect();
