@@ -23,6 +23,9 @@ use super::status::ServerError;
 const TF_DEPTH: usize = 1000;
 /// Maximum number of odometry messages queued between two ticks.
 const ODOM_DEPTH: usize = 100;
+/// Maximum number of goals whose cancellation goes on after the end of the navigator's goal; a server that never
+/// answers leaves one for each call.
+const MAX_FORGOTTEN_COUNT: usize = 64;
 /// One second in nanoseconds.
 const SECOND_NS: f64 = 1e9;
 
@@ -39,6 +42,8 @@ pub(super) struct Shared {
     pub(super) params: BtNavigatorParams,
     inputs: Mutex<Inputs>,
     canceling: Mutex<Vec<Box<dyn CancelingGoal>>>,
+    /// Goals of which the navigator no longer awaits the end. One that its server accepts late is still canceled.
+    forgotten: Mutex<VecDeque<Box<dyn CancelingGoal>>>,
     last_error: Mutex<Option<ServerError>>,
     last_outcome: Mutex<String>,
 }
@@ -76,13 +81,15 @@ impl Shared {
             params,
             inputs: Mutex::new(inputs),
             canceling: Mutex::default(),
+            forgotten: Mutex::default(),
             last_error: Mutex::default(),
             last_outcome: Mutex::default(),
         })
     }
 
-    /// Processes received transforms and odometry.
+    /// Processes received transforms and odometry, and continues the cancellation of forgotten goals.
     pub(super) fn receive(&self) {
+        lock(&self.forgotten).retain_mut(|goal| !goal.is_over());
         let inputs = &mut *lock(&self.inputs);
         for (mailbox, kind) in
             [(&inputs.fixed, TransformKind::Fixed), (&inputs.moving, TransformKind::Moving)]
@@ -203,9 +210,12 @@ impl Shared {
         !canceling.is_empty()
     }
 
-    /// Stops waiting for canceled goals.
+    /// Stops waiting for canceled goals. Their cancellation goes on.
     pub(super) fn forget_canceling(&self) {
-        lock(&self.canceling).clear();
+        let mut forgotten = lock(&self.forgotten);
+        forgotten.extend(lock(&self.canceling).drain(..));
+        let surplus = forgotten.len().saturating_sub(MAX_FORGOTTEN_COUNT);
+        forgotten.drain(..surplus);
     }
 
     /// Error that a server answered last; none after a success of that server.

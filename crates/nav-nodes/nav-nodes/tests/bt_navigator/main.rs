@@ -419,3 +419,19 @@ fn runs_are_equal() {
     };
     assert_eq!(run(), run());
 }
+
+#[test]
+fn a_goal_that_is_accepted_too_late_is_canceled() {
+    for release in [Nav2Release::Jazzy, Nav2Release::Main] {
+        let world = World::new(release);
+        world.controller.with(|controller| controller.answers = [Answer::AcceptLate(500)].into());
+        let sent = Client::new(&world).send(10.0);
+        world.run_ms(200);
+        let (state, result) = end(&world, &sent);
+        assert_eq!(state, GoalState::Aborted, "{release}");
+        assert!(result.error_msg.contains("acknowledge"), "{release} {}", result.error_msg);
+        // The controller would drive for a client that is gone.
+        world.run_ms(400);
+        assert_eq!(world.log.times("follow_path canceled").len(), 1, "{release}");
+    }
+}

@@ -23,7 +23,7 @@ use periplus_msgs::std_msgs::Header;
 use periplus_msgs::tf2_msgs::TFMessage;
 use periplus_msgs::{Action, Nav2Action, Nav2Service};
 use periplus_nav_nodes::bt_navigator::{BtNavigator, BtNavigatorParams};
-use periplus_nav_nodes::nav2_actions::{Nav2GoalHandle, serve_nav2_action};
+use periplus_nav_nodes::nav2_actions::{Nav2GoalHandle, NewNav2Goal, serve_nav2_action};
 use periplus_params::Given;
 use periplus_resources::{EntryKind, FileReadError, FileWriteError, Host, MemoryHost, Store};
 
@@ -69,6 +69,8 @@ pub(crate) enum Answer {
     Abort(i64, u16),
     /// Runs until it is canceled.
     Run,
+    /// Accepts the goal after a time \[ms\], and runs until it is canceled.
+    AcceptLate(i64),
     /// Refuses the goal.
     Reject,
 }
@@ -156,6 +158,8 @@ pub(crate) struct Fake<A: Action> {
     pub(crate) answers: VecDeque<Answer>,
     pub(crate) goals: Vec<A::Goal>,
     running: Option<(Nav2GoalHandle<A>, i64, Answer)>,
+    /// Goal to accept later, and the time of it \[ns\].
+    held: Option<(NewNav2Goal<A>, i64)>,
     log: Log,
 }
 
@@ -165,6 +169,7 @@ fn serve<A: FakeAction>(graph: &Graph, release: Nav2Release, log: &Log) -> Actor
         answers: [Answer::Succeed(0)].into(),
         goals: Vec::new(),
         running: None,
+        held: None,
         log: log.clone(),
     });
     let settings = ActionSettings::default();
@@ -183,6 +188,10 @@ fn serve<A: FakeAction>(graph: &Graph, release: Nav2Release, log: &Log) -> Actor
             if matches!(answer, Answer::Reject) {
                 return new.reject();
             }
+            if let Answer::AcceptLate(ms) = answer {
+                state.held = Some((new, io.now_ns() + ms * MS));
+                return;
+            }
             let handle = new.accept().unwrap();
             handle.execute();
             if let Some((old, ..)) = state.running.take() {
@@ -194,6 +203,11 @@ fn serve<A: FakeAction>(graph: &Graph, release: Nav2Release, log: &Log) -> Actor
     )
     .unwrap();
     let work = |state: &mut Fake<A>, now_ns: i64| {
+        if let Some((new, _)) = state.held.take_if(|(_, due_ns)| now_ns >= *due_ns) {
+            let handle = new.accept().unwrap();
+            handle.execute();
+            state.running = Some((handle, now_ns, Answer::Run));
+        }
         let Some((handle, since_ns, answer)) = state.running.take() else { return };
         let elapsed_ms = (now_ns - since_ns) / MS;
         let result = |code| A::result(handle.goal(), code, now_ns);
