@@ -262,6 +262,12 @@ fn cancel(state: &WaypointFollowerNode, run: &mut FollowRun) -> Option<FollowEnd
     let Some(client) = state.navigator.as_ref().filter(|client| client.is_ready()) else {
         return Some(FollowEnd::Canceled);
     };
+    match sent.look() {
+        GoalProgress::Accepted => {}
+        // The navigator knows only a goal that it has answered.
+        GoalProgress::Sent => return None,
+        _ => return Some(FollowEnd::Canceled),
+    }
     let pending = run.cancellation.get_or_insert_with(|| client.cancel(sent.id()));
     pending.take().map(|_| FollowEnd::Canceled)
 }

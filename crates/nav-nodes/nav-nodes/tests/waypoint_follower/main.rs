@@ -223,3 +223,20 @@ fn deactivation_aborts_the_goal_and_cancels_the_navigator() {
     stage.run(0.1);
     assert_eq!(rejected.look(), GoalProgress::Rejected);
 }
+
+#[test]
+fn a_goal_is_canceled_once_the_navigator_has_accepted_it() {
+    let stage = Stage::new(&[], &[Arrival::AcceptedLate]);
+    let sent = stage.send(&[1.0, 2.0]);
+    stage.run(0.1);
+    let _ = sent.look();
+    let _ = stage.client.cancel(sent.id());
+    stage.run(0.2);
+    assert_eq!(sent.look(), GoalProgress::Accepted);
+    stage.run(0.4);
+    let progress = stage.finish(&sent);
+    assert_eq!(over(&progress), (GoalState::Canceled, 0, vec![]));
+    // The navigator ends it with its next goal.
+    stage.navigator.with(|navigator| navigator.end());
+    assert_eq!(stage.navigator.with(|navigator| navigator.canceled), 1);
+}

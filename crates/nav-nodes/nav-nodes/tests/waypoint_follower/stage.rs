@@ -15,7 +15,7 @@ use periplus_msgs::nav2_msgs_main::{
     FollowWaypoints, FollowWaypointsGoal, NavigateToPose, NavigateToPoseResult,
 };
 use periplus_nav_nodes::nav2_actions::{
-    Nav2ActionClient, Nav2GoalHandle, Nav2SentGoal, serve_nav2_action,
+    Nav2ActionClient, Nav2GoalHandle, Nav2SentGoal, NewNav2Goal, serve_nav2_action,
 };
 use periplus_nav_nodes::waypoint_follower::{WaypointFollowerConfig, WaypointFollowerNode};
 use periplus_params::Given;
@@ -29,6 +29,8 @@ pub(crate) enum Arrival {
     Reached,
     Aborted(u16),
     Refused,
+    /// The goal is accepted after [`DRIVE_NS`].
+    AcceptedLate,
 }
 
 /// Navigator that drives nowhere.
@@ -39,11 +41,22 @@ pub(crate) struct Navigator {
     pub(crate) goals: Vec<f64>,
     running: Vec<Nav2GoalHandle<NavigateToPose>>,
     pub(crate) canceled: usize,
+    late: Option<NewNav2Goal<NavigateToPose>>,
     alarm: Option<Alarm>,
 }
 
 impl Navigator {
+    /// Ends the running goals.
+    pub(crate) fn end(&mut self) {
+        self.arrive(Arrival::Reached);
+    }
+
     fn arrive(&mut self, arrival: Arrival) {
+        if let Some(goal) = self.late.take().and_then(NewNav2Goal::accept) {
+            goal.execute();
+            self.running.push(goal);
+            return;
+        }
         for goal in self.running.drain(..) {
             if goal.is_canceling() {
                 self.canceled += 1;
@@ -98,11 +111,13 @@ impl Stage {
                 }
                 // A new goal preempts the one before.
                 state.arrive(Arrival::Aborted(0));
-                if let Some(goal) = new.accept() {
+                let end_ns = io.now_ns() + DRIVE_NS;
+                if matches!(arrival, Arrival::AcceptedLate) {
+                    state.late = Some(new);
+                } else if let Some(goal) = new.accept() {
                     goal.execute();
                     state.running.push(goal);
                 }
-                let end_ns = io.now_ns() + DRIVE_NS;
                 state.alarm = Some(io.alarm(end_ns, move |state, _| state.arrive(arrival)));
             },
             |_, _, _| true,
