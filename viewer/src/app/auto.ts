@@ -68,7 +68,7 @@ export function suggestionFor(topic: string, type: string): Suggestion | undefin
       return suggestion(kind.class, values);
     }
     case 'nav_msgs/msg/Path': {
-      // Plans of Nav2, as lines that are seen from afar: the local one over the global one.
+      // Plans of Nav2, as lines that are visible from afar: the local one over the global one.
       const isLocal = /local_plan$|transformed_global_plan$/.test(topic);
       const isGlobal = /(^|\/)plan$/.test(topic);
       if (isLocal) Object.assign(values, { Color: '0; 170; 255', 'Offset/Z': 0.02 });

@@ -10,6 +10,7 @@ import {
   positionText,
   poseText,
   readStatus,
+  refusalText,
   resultError,
   TreeLog,
   GOAL,
@@ -192,8 +193,7 @@ export class Navigation {
   private async refused(sentMs: number): Promise<void> {
     await new Promise((resolve) => setTimeout(resolve, REFUSAL_LOG_MS));
     const { text, receivedMs } = this.lastLog;
-    const isAbout = receivedMs >= sentMs && text;
-    this.refusal = isAbout ? text : 'it gave no reason; the panel Log may have more.';
+    this.refusal = refusalText(receivedMs >= sentMs ? text : '');
   }
 
   /** Cancels the goals of actions and waits until they are over. */
@@ -298,7 +298,7 @@ export class Navigation {
     if (running.join() !== this.running.join()) this.running = running;
     this.reason = this.reasonNow(hasGoal);
     // Standing shows by the time that passes without a message.
-    if (hasGoal) this.flushSoon();
+    if (hasGoal || this.isSending) this.flushSoon();
   }
 
   private activityNow(): Activity {
@@ -347,7 +347,7 @@ export class Navigation {
     const isPaused = worldName !== '' && clock.isPaused(performance.now());
     const hasFailed = this.activity === 'failed';
     return whyStanding({
-      hasGoal,
+      hasGoal: hasGoal || this.isSending,
       isPaused,
       stillS: this.moved ? clock.nowS - this.moved.timeS : 0,
       refusal: this.refusal,

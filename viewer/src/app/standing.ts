@@ -8,7 +8,7 @@ export interface Standing {
   isPaused: boolean;
   /** Time since the robot last moved [s]. */
   stillS: number;
-  /** Reason why the navigator did not accept the last goal. */
+  /** Reason why the last goal was not accepted. */
   refusal: string;
   /** Error of the last goal, if it failed. */
   failure: string;
@@ -22,8 +22,7 @@ export interface Standing {
 /** Reason in one or two sentences; empty while the robot drives, and if it has nothing to do. */
 export function whyStanding(now: Standing): string {
   if (!now.hasGoal) {
-    if (now.refusal) return `The navigator refused the goal: ${now.refusal}`;
-    return now.failure;
+    return now.refusal || now.failure;
   }
   if (now.isPaused) return 'The simulation is paused.';
   if (now.stoppedBy) {

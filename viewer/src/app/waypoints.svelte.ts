@@ -34,7 +34,7 @@ export class Waypoints {
     stage!.ticks.add(() => this.draw());
   }
 
-  /** Adds a waypoint in the fixed frame; without a heading it looks away from the one before, or from the robot. */
+  /** Adds a waypoint in the fixed frame; without a heading it points away from the one before, or from the robot. */
   add(x: number, y: number, yaw?: number): void {
     const pose = fromYaw(yaw ?? this.arrivalYaw(x, y), [x, y, 0]);
     this.list = [...this.list, { id: ++this.lastId, frame: this.app.fixedFrame, pose }];

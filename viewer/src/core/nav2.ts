@@ -133,6 +133,12 @@ export function readStatus(text: string): NavigatorStatus {
   };
 }
 
+/** Reason of a refused goal, from the log message that reports it, which may be empty. */
+export function refusalText(logged: string): string {
+  const reason = logged.replace(/^rejected a goal of `\w+`: /, '');
+  return `The navigator refused the goal: ${reason || 'it gave no reason; the panel Log may have more.'}`;
+}
+
 /** Error of a finished goal in words; empty without one. */
 export function resultError(response: Message): string {
   const result = (response.result ?? {}) as Message;
