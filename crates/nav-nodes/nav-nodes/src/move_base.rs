@@ -1,7 +1,7 @@
 //! Navigation of ROS 1: the node `move_base`.
 //!
 //! A [`MoveBase`] has the action `move_base`, the topic `move_base_simple/goal`, the services `~/make_plan` and
-//! `~/clear_costmaps`, and two costmaps, each on a node of its own. It plans with [`periplus_planners`], follows the
+//! `~/clear_costmaps`, and two costmaps, each on a separate node. It plans with [`periplus_planners`], follows the
 //! plan with the local planners of [`periplus_controllers::ros1`], and recovers as `move_base` does.
 //!
 //! Source of names, rules and texts: `move_base`, `actionlib`, `navfn`, `clear_costmap_recovery`, `rotate_recovery`,
@@ -25,7 +25,7 @@ mod recovery;
 mod services;
 mod values;
 
-pub use config::MoveBaseConfig;
+pub use config::{MoveBaseConfig, UnknownMoveBaseClass};
 pub use global_planner::{GLOBAL_PLANNER, GlobalPlannerParams, NAVFN_ROS, NavfnRosParams};
 pub use node::MoveBase;
 pub use params::{MOVE_BASE, MoveBaseParams};

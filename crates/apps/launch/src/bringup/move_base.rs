@@ -8,7 +8,7 @@ use crate::PlanParameters;
 use crate::bringup::make::ParameterFile;
 use crate::bringup::parts::BuiltInRequest;
 
-/// Creates the node from its private parameters; its costmaps get nodes of their own below its name.
+/// Creates the node from its private parameters; its costmaps get separate nodes below its name.
 ///
 /// # Errors
 /// A message when it cannot be created.
@@ -21,13 +21,13 @@ pub(crate) fn move_base(
     let tree = private_parameters(ask, node.full_name());
     let text = serde_json::to_string_pretty(&tree).map_err(|error| error.to_string())?;
     let written = ParameterFile::of_text(text, node.full_name())?;
-    let config =
-        written.read(notes, |tree, found| MoveBaseConfig::read(tree, node.names(), found))?;
+    let config = written.read(notes, |tree, found| MoveBaseConfig::read(tree, node.names(), found));
+    let config = config.map_err(|error| error.to_string())?;
     let created = MoveBase::create(node, config, |settings| graph.node(settings));
     created.map_err(|error| error.to_string())
 }
 
-/// Private parameters of a node as a tree: of the parameter server, then of its own.
+/// Private parameters of a node as a tree: of the parameter server, then those of the launch file.
 fn private_parameters(ask: &BuiltInRequest, full_name: &str) -> Value {
     let mut tree = Map::new();
     let prefix = format!("{full_name}/");

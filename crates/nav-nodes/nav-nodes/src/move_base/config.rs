@@ -1,5 +1,7 @@
 //! Configuration of the node from the parameters of ROS 1.
 
+use std::fmt;
+
 use periplus_costmap::CostmapConfig;
 use periplus_diagnostics::Diagnostics;
 use periplus_graph::NodeNames;
@@ -17,6 +19,26 @@ use crate::common_parameters::is_common;
 /// Parameters of the node itself that its costmaps inherit.
 const INHERITED: [&str; 5] =
     ["footprint", "robot_radius", "obstacle_range", "raytrace_range", "footprint_padding"];
+
+/// Class that a parameter names and that does not exist, as a sentence with the known ones.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum UnknownMoveBaseClass {
+    /// Class of `base_global_planner`.
+    GlobalPlanner(String),
+    /// Class of `base_local_planner`.
+    LocalPlanner(String),
+    /// Type of one of `recovery_behaviors`.
+    Recovery(String),
+}
+
+impl fmt::Display for UnknownMoveBaseClass {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let (Self::GlobalPlanner(text) | Self::LocalPlanner(text) | Self::Recovery(text)) = self;
+        f.write_str(text)
+    }
+}
+
+impl std::error::Error for UnknownMoveBaseClass {}
 
 /// Configuration of the node.
 pub struct MoveBaseConfig {
@@ -36,12 +58,12 @@ impl MoveBaseConfig {
     /// the costmaps are resolved.
     ///
     /// # Errors
-    /// A sentence about a class that does not exist. Other errors are reported, and defaults apply.
+    /// When a class does not exist. Other errors are reported, and defaults apply.
     pub fn read(
         private: Option<&YamlNode>,
         names: &NodeNames,
         diagnostics: &mut Diagnostics,
-    ) -> Result<Self, String> {
+    ) -> Result<Self, UnknownMoveBaseClass> {
         let all = PrivateParameters::of_tree(private);
         let (own, other): (Vec<_>, Vec<_>) = all
             .given()
@@ -53,11 +75,14 @@ impl MoveBaseConfig {
         }
         let values = reading(diagnostics, |found| MOVE_BASE.check(own, None, found));
         let params = MoveBaseParams::from_values(&values);
-        let global_planner = GlobalPlanner::new(&params.base_global_planner, &all, diagnostics)?;
+        let global_planner = GlobalPlanner::new(&params.base_global_planner, &all, diagnostics)
+            .map_err(UnknownMoveBaseClass::GlobalPlanner)?;
         let period_s = 1.0 / params.controller_frequency_hz;
         let local_planner =
-            LocalPlanner::new(&params.base_local_planner, period_s, &all, diagnostics)?;
-        let recoveries = recoveries(&params, &all, diagnostics)?;
+            LocalPlanner::new(&params.base_local_planner, period_s, &all, diagnostics)
+                .map_err(UnknownMoveBaseClass::LocalPlanner)?;
+        let recoveries =
+            recoveries(&params, &all, diagnostics).map_err(UnknownMoveBaseClass::Recovery)?;
         Ok(Self {
             global_costmap: costmap_config("global_costmap", &all, names, diagnostics),
             local_costmap: costmap_config("local_costmap", &all, names, diagnostics),

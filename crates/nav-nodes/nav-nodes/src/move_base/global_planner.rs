@@ -231,7 +231,7 @@ fn orient(poses: &mut [Pose2], params: &GlobalPlannerParams) {
         from_rad + part * normalize_angle(last.yaw_rad - from_rad)
     };
     let end = straight_end(before_last, &direction);
-    for index in 0..before_last {
+    for (index, pose) in poses.iter_mut().enumerate().take(before_last) {
         let yaw_rad = match params.orientation_mode {
             1 => direction(index),
             2 => interpolated(index, (0, positions[0].yaw_rad)),
@@ -242,7 +242,7 @@ fn orient(poses: &mut [Pose2], params: &GlobalPlannerParams) {
             6 => direction(index) + FRAC_PI_2,
             _ => return,
         };
-        poses[index].yaw_rad = normalize_angle(yaw_rad);
+        pose.yaw_rad = normalize_angle(yaw_rad);
     }
 }
 

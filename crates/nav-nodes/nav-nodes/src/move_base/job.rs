@@ -8,11 +8,11 @@ use super::recovery::Rotation;
 /// State of the work.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum JobState {
-    /// It searches for a plan.
+    /// Searches for a plan.
     Planning,
-    /// It follows the plan.
+    /// Follows the plan.
     Controlling,
-    /// It recovers.
+    /// Recovers.
     Clearing,
 }
 

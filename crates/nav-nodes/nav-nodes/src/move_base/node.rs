@@ -114,13 +114,11 @@ impl MoveBase {
     }
 
     /// Node of the global costmap.
-    #[must_use]
     pub fn global_costmap(&self) -> &LifecycleNode<CostmapNode> {
         &self.global_costmap
     }
 
     /// Node of the local costmap.
-    #[must_use]
     pub fn local_costmap(&self) -> &LifecycleNode<CostmapNode> {
         &self.local_costmap
     }

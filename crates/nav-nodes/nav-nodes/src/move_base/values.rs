@@ -6,8 +6,8 @@ use periplus_yaml::{YamlNode, YamlValue};
 
 use crate::node_parameters::Written;
 
-/// Parameters by names with dots. A list of mappings with `name` and `type` is a list of names; the types are values
-/// of their own, `NAME.plugin`.
+/// Parameters by names with dots. A list of mappings with `name` and `type` is a list of names; the types are
+/// separate values, `NAME.plugin`.
 #[derive(Clone, Debug, Default)]
 pub(super) struct PrivateParameters {
     entries: Vec<Written>,
