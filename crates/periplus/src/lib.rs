@@ -12,7 +12,7 @@
 //! | read robots and worlds | [`loader`], [`xacro`], [`urdf`], [`sdf`], [`scene`], [`meshes`], [`resources`] |
 //! | build a map | [`slam`], [`scan_matching`], [`exploration`] |
 //! | localize | [`localization`], [`ekf`], [`maps`] |
-//! | decide where to drive | [`costmap`], [`planners`], [`controllers`], [`grid`] |
+//! | decide where to drive | [`costmap`], [`planners`], [`controllers`], [`behavior_tree`], [`grid`] |
 //! | nodes, topics, time | [`graph`], [`msgs`], [`tf`], [`tf_ros`], [`nav_nodes`] |
 //! | recordings | [`bags`] |
 //!
@@ -116,6 +116,13 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
+//! # Plugins for navigation
+//!
+//! The servers of [`nav_nodes`] use planners ([`planners::Planner`]), controllers ([`controllers::Controller`]), behaviors
+//! ([`nav_nodes::behavior_server::BehaviorPlugin`]) and tree nodes ([`behavior_tree::BehaviorNode`]) of other authors:
+//! [`nav_nodes::navigation_plugins::NavigationPlugins`] registers them by the class that a parameter file names. The
+//! example `09_own_planner` is complete.
+//!
 //! # Networks
 //!
 //! The crates `periplus-dds`, `periplus-rmw-zenoh` and `periplus-gz-transport` connect a graph to
@@ -124,6 +131,7 @@
 //! `periplus-cli`) has all of them.
 
 pub use periplus_bags as bags;
+pub use periplus_behavior_tree as behavior_tree;
 pub use periplus_controllers as controllers;
 pub use periplus_costmap as costmap;
 pub use periplus_diagnostics as diagnostics;

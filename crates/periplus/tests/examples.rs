@@ -31,6 +31,7 @@ examples! {
     tf: "../examples/06_tf.rs",
     bags: "../examples/07_bags.rs",
     node: "../examples/08_node.rs",
+    own_planner: "../examples/09_own_planner.rs",
 }
 
 #[test]
