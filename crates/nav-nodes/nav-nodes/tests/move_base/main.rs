@@ -165,6 +165,16 @@ fn a_cancelled_goal_stops_the_robot() {
 }
 
 #[test]
+fn a_goal_that_arrives_after_its_cancel_request_does_not_start() {
+    let mut driving = Driving::new("", free);
+    driving.cancel("late");
+    driving.send("late", (5.0, 1.0, 0.0));
+    driving.advance(500);
+    assert_eq!(driving.ended[0].status, GoalStatus::RECALLED);
+    assert_eq!(driving.command, Twist2::ZERO);
+}
+
+#[test]
 fn a_goal_is_cancelled_while_the_robot_recovers() {
     let mut driving = Driving::new("", door);
     driving.send("wall", (3.0, 1.0, 0.0));
@@ -216,6 +226,23 @@ fn a_stuck_robot_oscillates() {
     assert_eq!(driving.recoveries(), ["conservative_reset"]);
     driving.is_stuck = false;
     assert_eq!(driving.finish(60).status, GoalStatus::SUCCEEDED);
+}
+
+#[test]
+fn a_recovery_limits_the_speed_until_the_robot_has_moved() {
+    let more = "oscillation_timeout: 2.0\noscillation_distance: 0.1\n\
+                recovery_behaviors: [{name: slow, type: move_slow_and_clear/MoveSlowAndClear}]\n\
+                slow: {limited_trans_speed: 0.2, limited_distance: 0.3}";
+    let mut driving = Driving::new(more, free);
+    driving.is_stuck = true;
+    driving.send("a", (5.0, 1.0, 0.0));
+    driving.advance(2500);
+    assert_eq!(driving.recoveries(), ["slow"]);
+    driving.is_stuck = false;
+    driving.advance(1000);
+    assert!((0.1..0.21).contains(&driving.command.vx_m_s), "{:?}", driving.command);
+    driving.advance(2000);
+    assert!(driving.command.vx_m_s > 0.4, "{:?}", driving.command);
 }
 
 #[test]
