@@ -5,7 +5,7 @@ mod stage;
 
 use periplus_costmap::Nav2Release;
 use periplus_diagnostics::Diagnostics;
-use periplus_graph::{Graph, NodeSettings, Qos};
+use periplus_graph::{Graph, NodeSettings, Qos, Transition};
 use periplus_msgs::geometry_msgs::{Point32, PolygonInstanceStamped, PolygonStamped};
 use periplus_msgs::nav2_msgs::{
     AddExclusionZone, AddExclusionZoneRequest, CollisionDetectorState, CollisionMonitorState,
@@ -394,4 +394,20 @@ fn the_detector_reports_zones_with_points() {
     assert_eq!(all.len(), 10);
     assert_eq!(all[0].polygons, ["Near", "Far"]);
     assert_eq!(all[0].detections, [false, true]);
+}
+
+#[test]
+fn a_monitor_that_is_stopped_stops_the_robot() {
+    for transition in [Transition::Deactivate, Transition::Shutdown] {
+        for (range, stopped) in [(2.0, Some([0.0; 3])), (0.4, None)] {
+            let stage = Stage::new(&[&STOP, &SCAN]);
+            stage.scan(range);
+            // A robot that stands is left alone.
+            assert_eq!(stage.speed() > 0.0, stopped.is_some());
+            stage.monitor.lifecycle().change(transition);
+            stage.graph.settle();
+            assert_eq!(stage.command([1.0, 0.0, 0.0]), stopped, "{transition:?} {range}");
+            assert_eq!(stage.command([1.0, 0.0, 0.0]), None);
+        }
+    }
 }

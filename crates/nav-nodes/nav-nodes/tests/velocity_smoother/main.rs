@@ -2,7 +2,9 @@
 #![allow(clippy::unwrap_used, reason = "a test says what must be there")]
 
 use periplus_diagnostics::Diagnostics;
-use periplus_graph::{Graph, LifecycleNode, Mailbox, Node, NodeSettings, Publisher, Qos};
+use periplus_graph::{
+    Graph, LifecycleNode, Mailbox, Node, NodeSettings, Publisher, Qos, Transition,
+};
 use periplus_msgs::builtin_interfaces::Time;
 use periplus_msgs::geometry_msgs::{Twist, TwistStamped};
 use periplus_msgs::nav_msgs::Odometry;
@@ -148,4 +150,30 @@ fn wrong_limits_fail_to_configure_and_wrong_changes_are_refused() {
     stage.command(1.0, 0.0);
     assert_eq!(stage.run(0.1), [0.25, 0.5]);
     assert!(stage.smoother.lifecycle().is_active());
+}
+
+#[test]
+fn a_smoother_that_is_stopped_stops_the_robot() {
+    for transition in [Transition::Deactivate, Transition::Shutdown] {
+        let stage = Stage::new(&[]);
+        stage.command(0.5, 0.0);
+        assert_eq!(stage.run(0.2), [0.125, 0.25, 0.375, 0.5]);
+        stage.smoother.lifecycle().change(transition);
+        assert_eq!(stage.run(0.5), [0.0], "{transition:?}");
+    }
+    // It starts from rest the next time, and a robot that stands is left alone.
+    let stage = Stage::new(&[]);
+    stage.command(0.5, 0.0);
+    stage.run(0.2);
+    for transition in [Transition::Deactivate, Transition::Activate] {
+        stage.smoother.lifecycle().change(transition);
+        stage.graph.settle();
+    }
+    assert_eq!(stage.run(0.2), [0.0], "of the deactivation");
+    stage.command(0.5, 0.0);
+    assert_eq!(stage.run(0.1), [0.125, 0.25]);
+    stage.command(0.0, 0.0);
+    stage.run(0.5);
+    stage.smoother.lifecycle().change(Transition::Deactivate);
+    assert_eq!(stage.run(0.5), [0.0; 0]);
 }
