@@ -81,7 +81,12 @@ pub(crate) fn make(
         }
         _ => {}
     }
-    let mut named = parameters(ask, &mut made.notes);
+    let mut notes = Vec::new();
+    let mut named = parameters(ask, &mut notes);
+    // This node also reads values for which ROS 2 has no type, such as lists of mappings.
+    if ask.entry.role != Role::MoveBase {
+        made.notes.extend(notes);
+    }
     // Arguments of this command take precedence, as for programs started directly.
     named.extend(graph.parameters_given_to(&ask.full_name()));
     let node = node(ask, graph, &named, &mut made.notes)?;

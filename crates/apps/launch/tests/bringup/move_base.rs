@@ -111,6 +111,8 @@ fn a_launch_file_of_ros_1_drives_through_a_door() {
     let (ended, [x_m, y_m], log) = drive_to(1.9, 2.6, 60);
     let ended = ended.unwrap_or_else(|| panic!("the goal is not over at ({x_m}, {y_m}): {log:#?}"));
     assert_eq!(ended.status, GoalStatus::SUCCEEDED, "{}: {log:#?}", ended.text);
+    let complaints: Vec<&String> = log.iter().filter(|text| text.contains("ignored")).collect();
+    assert!(complaints.is_empty(), "{complaints:#?}");
     let away_m = ((x_m - 1.9).powi(2) + (y_m - 2.6).powi(2)).sqrt();
     assert!(away_m < 0.25, "{away_m} m from the goal, at ({x_m}, {y_m})");
 }

@@ -43,14 +43,20 @@ const OBSTACLE_PARAMETERS: [&str; 8] = [
     "footprint_clearing_enabled",
 ];
 
-/// Parameters of ROS 1 without an effect here.
-const WITHOUT_EFFECT: [&str; 6] = [
+/// Parameters of ROS 1 without an effect beside `plugins`, as in ROS; stock files have them in any case.
+const WITHOUT_EFFECT: [&str; 12] = [
     "static_map",
     "map_type",
     "obstacle_range",
     "raytrace_range",
     "inscribed_radius",
     "circumscribed_radius",
+    "meter_scoring",
+    "origin_z",
+    "z_resolution",
+    "z_voxels",
+    "publish_voxel_map",
+    "unknown_threshold",
 ];
 
 /// Reads a costmap from the private parameters of a node with such names: `names` resolves the topics.
@@ -295,6 +301,8 @@ local_costmap:
 obstacle_range: 4.0
 robot_radius: 0.3
 local_costmap:
+  origin_z: 0.0
+  z_voxels: 2
   plugins:
   - {name: walls, type: 'costmap_2d::ObstacleLayer'}
   walls: {observation_sources: a b, raytrace_range: 6.0, a: {obstacle_range: 2.0}}
