@@ -136,6 +136,11 @@ async function trajectories(page) {
   );
   await button(page, 'Cancel the goal').click();
   await shows(page, 'Goal canceled');
+  await until(
+    page,
+    'periplus.displays.find((d) => d.name === "trajectories").display.entries.size === 0',
+    'the end of the trajectories',
+  );
 }
 
 /** On a phone the tools fit into the toolbar, and the panel into its part of the screen. */

@@ -297,7 +297,7 @@ export class Navigation {
     const running = hasGoal ? leaves : [];
     if (running.join() !== this.running.join()) this.running = running;
     this.reason = this.reasonNow(hasGoal);
-    // Standing shows by the time that passes without a message.
+    // The time without motion grows also without messages.
     if (hasGoal || this.isSending) this.flushSoon();
   }
 

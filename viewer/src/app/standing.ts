@@ -1,6 +1,6 @@
 /** Reason why the robot stands. */
 
-/** Time without motion after which a robot with a goal counts as standing [s]. */
+/** Time without motion after which a robot with a goal counts as still [s]. */
 export const STANDING_AFTER_S = 3;
 
 export interface Standing {

@@ -4,6 +4,7 @@
 
 use periplus_controllers::mppi::{CandidateTrajectory, Mppi};
 use periplus_geometry::Pose2;
+use periplus_msgs::builtin_interfaces::Duration;
 use periplus_msgs::geometry_msgs::{Point, Quaternion, Vector3};
 use periplus_msgs::nav2_msgs::CriticsStats;
 use periplus_msgs::std_msgs::{ColorRGBA, Header};
@@ -17,6 +18,10 @@ const OPTIMAL_WIDTH_M: f64 = 0.03;
 
 /// Height of the lines above the map \[m\].
 const LINE_HEIGHT_M: f64 = 0.03;
+
+/// Time after which the lines disappear, unless a later cycle replaces them \[ns\]: after the end of a goal none is left.
+/// Those of Nav2 stay.
+const LIFETIME_NS: i64 = 500_000_000;
 
 /// Lines of the samples, green for low costs and red for high ones or a collision, and of the optimal trajectory.
 pub(super) fn markers(mppi: &Mppi, header: &Header) -> MarkerArray {
@@ -74,6 +79,7 @@ fn line(
         action: Marker::ADD,
         scale: Vector3 { x: width_m, y: 0.0, z: 0.0 },
         color,
+        lifetime: Duration::of_ns(LIFETIME_NS),
         points: poses
             .iter()
             .map(|pose| Point { x: pose.x_m, y: pose.y_m, z: LINE_HEIGHT_M })
