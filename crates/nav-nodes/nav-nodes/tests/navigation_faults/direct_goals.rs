@@ -77,7 +77,7 @@ fn goals_of_all_servers_are_canceled_and_preempted() {
     is_interrupted::<BackUp>("backup", &back_up(0.6, 0.05), true);
     is_interrupted::<DriveOnHeading>("drive_on_heading", &drive(2.0, 0.1), true);
     let time = Duration { sec: 20, nanosec: 0 };
-    is_interrupted::<Wait>("wait", &WaitGoal { time, ..WaitGoal::default() }, false);
+    is_interrupted::<Wait>("wait", &WaitGoal { time }, false);
     is_interrupted::<AssistedTeleop>("assisted_teleop", &AssistedTeleopGoal::default(), false);
 }
 
