@@ -50,7 +50,7 @@ pub struct ModelInstance {
     pub namespace: String,
     /// Pose of its frame in the world.
     pub world_from_model: Pose,
-    /// Text that `robot_description` publishes, for a URDF.
+    /// Text that `robot_description` publishes, for a URDF or for the SDF of one robot.
     pub description: Option<String>,
     /// Index of its file in [`Composition::files`].
     pub file: usize,
@@ -185,8 +185,14 @@ fn compose_loaded(
             loaded.warn_of_argument(name);
         }
         let scene = loaded.scene.take().unwrap_or_default();
-        let description = description_of(&loaded);
+        let is_urdf = loaded.robot.is_some();
         let models = models_of(scene);
+        // As with `sdformat_urdf`, the SDF of one robot describes it.
+        let description = match (is_urdf, models.len()) {
+            (true, _) => description_of(&loaded),
+            (false, 1) => loaded.document.as_ref().map(write_document),
+            (false, _) => None,
+        };
         if models.is_empty() && !loaded.diagnostics.has_errors() {
             loaded.diagnostics.push(
                 Diagnostic::error(
@@ -202,7 +208,7 @@ fn compose_loaded(
                 namespace: robot.namespace.as_deref(),
                 is_one_of_several: robots.len() > 1,
                 standing: robot.pose,
-                is_robot: description.is_some(),
+                is_robot: is_urdf,
                 description: description.clone(),
             };
             add(model, placed, files.len(), &mut members);
