@@ -58,6 +58,10 @@ pub(crate) struct NavigateOptions {
     /// Map to localize on with AMCL [default: SLAM builds one while the robot drives]
     #[arg(long, value_name = "MAP.yaml", conflicts_with = "no_map")]
     map: Option<PathBuf>,
+    /// Pose of the robot in the map at the start, from which AMCL starts [m, rad] [default: that of `--pose`]. Maps of SLAM
+    /// begin at the robot: 0,0,0 is where the map was begun
+    #[arg(long, value_name = "X,Y,YAW", value_parser = pose, allow_hyphen_values = true, requires = "map")]
+    initial_pose: Option<Pose2>,
     /// At the end write the map that SLAM built to a folder: map.yaml, map.pgm, map.session, map.png
     #[arg(long, value_name = "DIR", conflicts_with_all = ["map", "no_map"])]
     slam_out: Option<PathBuf>,
@@ -302,7 +306,8 @@ impl NavigateTask {
         options: &NavigateOptions,
         start: Pose2,
     ) -> Result<Self, CliError> {
-        let given = options.all_goals(session.simulation(), start)?;
+        let initial = options.initial_pose.unwrap_or(start);
+        let given = options.all_goals(session.simulation(), initial)?;
         let navigation = session.take_navigation();
         let frame = navigation.global_frame();
         // The map of SLAM begins at the robot.
@@ -314,15 +319,21 @@ impl NavigateTask {
         let goals = GoalDriver::new(session.graph(), &frame, poses).map_err(CliError::failed)?;
         let initial_pose = options.map.as_ref().map(|_| {
             let publisher = goals.node().publisher("/initialpose", Qos::reliable(1));
-            publisher.map(|publisher| (publisher, start))
+            publisher.map(|publisher| (publisher, initial))
         });
         let initial_pose = initial_pose.transpose().map_err(CliError::failed)?;
-        let region = region(start, &given, options.no_map);
+        let world_from_goals = match options.planning_map() {
+            PlanningMap::Growing => Pose2::IDENTITY,
+            PlanningMap::Known => start * initial.inverse(),
+            PlanningMap::Absent => start,
+        };
+        let in_world: Vec<Pose2> = given.iter().map(|goal| world_from_goals * *goal).collect();
+        let region = region(start, &in_world);
         let score = DriveScore::new(session.simulation_mut(), region);
-        let arrival = options.arrival_radius.zip(given.last()).map(|(radius_m, goal)| {
-            let goal = if options.no_map { start * *goal } else { *goal };
-            ArrivalClock::new([goal.x_m, goal.y_m], radius_m)
-        });
+        let arrival = options
+            .arrival_radius
+            .zip(in_world.last())
+            .map(|(radius_m, goal)| ArrivalClock::new([goal.x_m, goal.y_m], radius_m));
         let ends_at_collision = options.end_at_collision;
         Ok(Self { navigation, given, goals, initial_pose, score, arrival, ends_at_collision })
     }
@@ -369,13 +380,11 @@ impl SessionTask for NavigateTask {
 }
 
 /// Region of the world around start and goals.
-fn region(start: Pose2, goals: &[Pose2], is_relative: bool) -> GridInfo {
-    let in_world = |goal: &Pose2| if is_relative { start * *goal } else { *goal };
-    let mut poses: Vec<Pose2> = goals.iter().map(in_world).collect();
-    poses.push(start);
+fn region(start: Pose2, goals: &[Pose2]) -> GridInfo {
     let bounds = |value: fn(&Pose2) -> f64| {
-        let low = poses.iter().map(value).fold(f64::INFINITY, f64::min) - SCORE_MARGIN_M;
-        let high = poses.iter().map(value).fold(f64::NEG_INFINITY, f64::max) + SCORE_MARGIN_M;
+        let values = || goals.iter().chain([&start]).map(value);
+        let low = values().fold(f64::INFINITY, f64::min) - SCORE_MARGIN_M;
+        let high = values().fold(f64::NEG_INFINITY, f64::max) + SCORE_MARGIN_M;
         (low, high - low)
     };
     let ((x_m, width_m), (y_m, height_m)) = (bounds(|pose| pose.x_m), bounds(|pose| pose.y_m));
@@ -411,7 +420,7 @@ mod tests {
 
     #[test]
     fn the_region_has_a_margin_around_start_and_goals() {
-        let region = region(Pose2::new(1.0, 0.0, 0.0), &[Pose2::new(3.0, 0.0, 0.0)], false);
+        let region = region(Pose2::new(1.0, 0.0, 0.0), &[Pose2::new(3.0, 0.0, 0.0)]);
         assert_eq!((region.origin.x_m, region.origin.y_m), (-7.0, -8.0));
         assert_eq!((region.width, region.height), (360, 320));
     }
