@@ -123,23 +123,36 @@ impl NavigationDefaults {
                 "      AckermannConstraints:\n        min_turning_r: {min_turning_radius_m}\n"
             );
         }
+        self.write_critics(profile, text);
+    }
+
+    /// Writes the critics of MPPI. The path of a car has the heading of each of its points and leads forwards and
+    /// backwards: it is followed point by point up to the next change of direction.
+    fn write_critics(&self, profile: &RobotProfile, text: &mut String) {
+        let is_car = matches!(self.base, RobotBase::Ackermann { .. });
+        let speed = self.max_speed_m_s;
+        let forward = if is_car { "" } else { ", PreferForwardCritic" };
         let critics = "ConstraintCritic, CostCritic, GoalCritic, GoalAngleCritic, PathAlignCritic, \
-                       PathFollowCritic, PathAngleCritic, PreferForwardCritic";
+                       PathFollowCritic, PathAngleCritic";
         let _ = write!(
             text,
-            "      critics: [{critics}]\n\
+            "      critics: [{critics}{forward}]\n\
              \x20     ConstraintCritic: {{enabled: true, cost_power: 1, cost_weight: 4.0}}\n\
-             \x20     GoalCritic: {{enabled: true, cost_power: 1, cost_weight: 5.0, threshold_to_consider: 1.4}}\n\
-             \x20     GoalAngleCritic: {{enabled: true, cost_power: 1, cost_weight: 3.0, threshold_to_consider: 0.25}}\n\
+             \x20     GoalCritic: {{enabled: true, cost_power: 1, cost_weight: 5.0, threshold_to_consider: {near}}}\n\
+             \x20     GoalAngleCritic: {{enabled: true, cost_power: 1, cost_weight: 3.0, threshold_to_consider: {turns_within}}}\n\
              \x20     PreferForwardCritic: {{enabled: true, cost_power: 1, cost_weight: 5.0, threshold_to_consider: 0.5}}\n\
              \x20     CostCritic: {{enabled: true, cost_power: 1, cost_weight: 3.81, critical_cost: 300.0, \
              consider_footprint: {shaped}, collision_cost: 1000000.0, near_goal_distance: 1.0, trajectory_point_step: 2}}\n\
              \x20     PathAlignCritic: {{enabled: true, cost_power: 1, cost_weight: 14.0, max_path_occupancy_ratio: 0.05, \
-             trajectory_point_step: 4, threshold_to_consider: 0.5, offset_from_furthest: 20, use_path_orientations: false}}\n\
-             \x20     PathFollowCritic: {{enabled: true, cost_power: 1, cost_weight: 5.0, offset_from_furthest: {aim}, threshold_to_consider: 1.4}}\n\
+             trajectory_point_step: 4, threshold_to_consider: 0.5, offset_from_furthest: 20, use_path_orientations: {is_car}}}\n\
+             \x20     PathFollowCritic: {{enabled: true, cost_power: 1, cost_weight: 5.0, offset_from_furthest: {aim}, threshold_to_consider: {near}}}\n\
              \x20     PathAngleCritic: {{enabled: true, cost_power: 1, cost_weight: 2.0, offset_from_furthest: 4, \
-             threshold_to_consider: 0.5, max_angle_to_furthest: 1.0, mode: 0}}\n",
+             threshold_to_consider: 0.5, max_angle_to_furthest: 1.0, mode: {mode}}}\n\
+             \x20     enforce_path_inversion: {is_car}\n",
             shaped = profile.footprint.is_some(),
+            near = if is_car { 0.5 } else { 1.4 },
+            turns_within = if is_car { 0.5 } else { 0.25 },
+            mode = if is_car { 2 } else { 0 },
             // A tenth of what the fastest sample drives, in points of the path.
             aim = (0.1 * HORIZON_S * speed / RESOLUTION_M).ceil().max(5.0) as usize,
         );
