@@ -16,6 +16,7 @@ mod determinism;
 mod docs;
 mod drive;
 mod fuzz;
+mod goals;
 mod layers;
 mod localization;
 mod package;
@@ -120,6 +121,19 @@ enum Task {
     },
     /// Drive every robot of the corpus with a drive for five simulated seconds
     Drive,
+    /// Drive robots to random goals in several worlds, on maps that SLAM made, with Nav2's own parameters; prints goals
+    /// reached, collisions and speed
+    Goals {
+        /// Goals of each run
+        #[arg(long, default_value_t = 100)]
+        goals: usize,
+        /// Run only robots and worlds whose names contain this
+        #[arg(long, value_name = "TEXT")]
+        only: Option<String>,
+        /// Runs at a time
+        #[arg(long, default_value_t = 1)]
+        jobs: usize,
+    },
     /// Run the BARN challenge: a Jackal drives through fields of cylinders without a map; prints success, collisions
     /// and scores, beside the published runs of DWA
     Barn {
@@ -314,6 +328,9 @@ fn perform(task: &Task) -> Result<(), Failed> {
                 twice: *twice,
                 jobs: *jobs,
             })
+        }
+        Task::Goals { goals, only, jobs } => {
+            goals::evaluate(&goals::Plan { goals: *goals, only: only.clone(), jobs: *jobs })
         }
         Task::Determinism => determinism::check(),
         Task::Pictures => pictures::draw(),
