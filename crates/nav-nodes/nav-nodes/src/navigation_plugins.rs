@@ -159,7 +159,7 @@ impl<F: ?Sized> Default for PluginClasses<F> {
 }
 
 /// Class in the form `package::Class`.
-fn with_colons(class: &str) -> String {
+pub(crate) fn with_colons(class: &str) -> String {
     class.trim().replace('/', "::")
 }
 

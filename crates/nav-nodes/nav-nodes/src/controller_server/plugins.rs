@@ -2,14 +2,14 @@
 
 use periplus_controllers::{
     Controller, GoalChecker, ParameterRefusal, PathHandler, PluginSetup, ProgressChecker,
-    create_controller, create_goal_checker, create_path_handler,
+    controller_classes, create_controller, create_goal_checker, create_path_handler,
 };
 use periplus_costmap::Nav2Release;
 use periplus_diagnostics::Diagnostics;
 use periplus_graph::ParameterRejection;
 use periplus_params::{ParamValue, ParamValues};
 
-use crate::navigation_plugins::{CreatePlugin, PluginClasses};
+use crate::navigation_plugins::{CreatePlugin, PluginClasses, with_colons};
 use crate::server_plugins::{PluginEntry, ServerParameters, changed};
 
 const DEFAULT_CONTROLLERS: [(&str, &str); 1] = [("FollowPath", "dwb_core::DWBLocalPlanner")];
@@ -117,12 +117,12 @@ fn nav2_controller(
     classes: &ControllerClasses,
     diagnostics: &mut Diagnostics,
 ) -> Option<Box<dyn Controller>> {
+    let class = with_colons(&about.class);
+    let is_known = controller_classes().any(|known| known == class);
     let mut found = Diagnostics::new();
     let made = create_controller(&about.class, &about.setup(entry), &mut found);
-    for finding in found.iter() {
-        let is_unknown = finding.code == "unknown-plugin";
-        let finding = finding.clone();
-        diagnostics.push(if is_unknown { classes.advise(&about.class, finding) } else { finding });
+    for finding in found.iter().cloned() {
+        diagnostics.push(if is_known { finding } else { classes.advise(&about.class, finding) });
     }
     made
 }
