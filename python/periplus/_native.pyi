@@ -8,6 +8,7 @@ import numpy as np
 import numpy.typing as npt
 
 from periplus._types import ParameterValue, PoseLike, StrPath
+from periplus.navigation import Behavior, Controller, Planner, TreeNode
 from typing_extensions import Buffer
 
 from periplus.msgs import Message
@@ -1424,3 +1425,61 @@ class RosServer:
 @final
 class RosCall:
     def respond(self, response: Any) -> None: ...
+
+# ---- navigation
+
+@final
+class CostmapView:
+    @property
+    def costs(self) -> npt.NDArray[np.uint8]: ...
+    @property
+    def resolution(self) -> float: ...
+    @property
+    def origin(self) -> tuple[float, float]: ...
+    @property
+    def footprint(self) -> npt.NDArray[np.float64]: ...
+    def cost_at(self, poses: npt.ArrayLike, footprint: bool = False) -> npt.NDArray[np.uint8]: ...
+
+@final
+class GoalOutcome:
+    @property
+    def outcome(
+        self,
+    ) -> Literal["reached", "aborted", "canceled", "rejected", "not ready", "timeout"]: ...
+    @property
+    def reached(self) -> bool: ...
+    @property
+    def error_code(self) -> int: ...
+    @property
+    def message(self) -> str: ...
+    @property
+    def time_s(self) -> float: ...
+    @property
+    def recoveries(self) -> int: ...
+
+@final
+class Navigation:
+    def __new__(
+        cls,
+        simulation: Simulation,
+        *,
+        parameters: StrPath | dict[str, dict[str, Any]] | None = None,
+        map: StrPath | None = None,
+        slam: bool = True,
+        start_pose: PoseLike | None = None,
+        planners: dict[str, Callable[[], Planner]] | None = None,
+        controllers: dict[str, Callable[[], Controller]] | None = None,
+        behaviors: dict[str, Callable[[], Behavior]] | None = None,
+        tree_nodes: Sequence[type[TreeNode]] | None = None,
+        base: Literal["differential", "omni", "ackermann"] = "differential",
+        max_speed: float = 0.5,
+        max_turn_rate: float = 1.9,
+        min_turning_radius: float = 0.5,
+    ) -> Navigation: ...
+    def go_to(
+        self, goal: PoseLike, *, timeout_s: float = 120.0, behavior_tree: str = ""
+    ) -> GoalOutcome: ...
+    @property
+    def frame(self) -> str: ...
+    @property
+    def status(self) -> str: ...

@@ -9,8 +9,9 @@ from typing import Any
 import pytest
 
 import periplus
+import periplus.navigation
 
-MODULES: list[ModuleType] = [periplus]
+MODULES: list[ModuleType] = [periplus, periplus.navigation]
 
 
 def public() -> Iterator[tuple[str, Any]]:

@@ -13,6 +13,7 @@ from pathlib import Path
 from typing import Any
 
 import periplus
+import periplus.navigation
 
 # Parts of the page, in order: title, introduction, names. A name in none of them is an error.
 PARTS: list[tuple[str, str, list[str]]] = [
@@ -103,6 +104,19 @@ def member_lines(name: str, key: str, member: Any) -> list[str]:
     return [f"#### `{name}.{key}{call}`", "", markdown(text), ""]
 
 
+def object_lines(name: str, value: Any) -> list[str]:
+    """Lines of a class or function."""
+    call = signature(value) if not (inspect.isclass(value) and issubclass(value, Exception)) else ""
+    out = [f"### `{name}{call}`", "", markdown(inspect.getdoc(value) or ""), ""]
+    if inspect.isclass(value):
+        for key, member in sorted(vars(value).items()):
+            is_shown = callable(member) or isinstance(member, (property, staticmethod, classmethod))
+            if key.startswith("_") or not (is_shown or inspect.isdatadescriptor(member)):
+                continue
+            out.extend(member_lines(name, key, member))
+    return out
+
+
 def page() -> str:
     """The whole page."""
     out = [
@@ -125,17 +139,12 @@ def page() -> str:
         if introduction:
             out.extend([introduction, ""])
         for name in names:
-            value = getattr(periplus, name)
-            call = signature(value) if not (inspect.isclass(value) and issubclass(value, Exception)) else ""
-            out.extend([f"### `{name}{call}`", "", markdown(inspect.getdoc(value) or ""), ""])
-            if inspect.isclass(value):
-                for key, member in sorted(vars(value).items()):
-                    is_shown = callable(member) or isinstance(member, (property, staticmethod, classmethod))
-                    if key.startswith("_") or not (is_shown or inspect.isdatadescriptor(member)):
-                        continue
-                    out.extend(member_lines(name, key, member))
+            out.extend(object_lines(name, getattr(periplus, name)))
     if left:
         raise SystemExit(f"names in no part of the page: {left}")
+    out.extend(["## Navigation", "", markdown(inspect.getdoc(periplus.navigation) or ""), ""])
+    for name in periplus.navigation.__all__:
+        out.extend(object_lines(f"navigation.{name}", getattr(periplus.navigation, name)))
     return re.sub(r"\n{3,}", "\n\n", "\n".join(out)).rstrip() + "\n"
 
 

@@ -17,6 +17,7 @@ mod exploration;
 mod laser_scanner;
 mod maps;
 mod messages;
+mod navigation;
 mod poses;
 mod rays;
 mod robot_files;
@@ -52,6 +53,7 @@ fn _native(module: &Bound<'_, PyModule>) -> PyResult<()> {
         robot_files::register,
         ros::register,
         simulation::register,
+        navigation::register,
     ] {
         register(module)?;
     }

@@ -14,7 +14,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 
 use periplus::graph::{GraphError, NodeSettings};
 use periplus::os::Stopwatch;
-use periplus::sim::{Options, PhysicsMode, Quirks, RealTimePacer};
+use periplus::sim::{Diverged, Options, PhysicsMode, Quirks, RealTimePacer};
 use periplus_session::terminal::processors;
 use periplus_session::{
     GazeboReach, GazeboSettings, RecordingRequest, Ros2Reach, SessionBuilder, SessionSnapshot,
@@ -22,11 +22,12 @@ use periplus_session::{
 use pyo3::exceptions::{PyFileExistsError, PyValueError};
 use pyo3::prelude::*;
 
-use self::running::{Goal, Running, SliceEnd, Transforms};
+pub(crate) use self::running::Running;
+use self::running::{Goal, SLICE, SliceEnd, Transforms};
 use self::topics::Callbacks;
 use self::world::PyWorld;
 use crate::errors::{require_no_errors, runtime_error};
-use crate::work::{lock, released, with_locked};
+use crate::work::{is_in_plugin, lock, released, with_locked};
 
 pub(crate) fn register(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_class::<PyWorld>()?;
@@ -351,13 +352,48 @@ impl PySnapshot {
 const MAX_RUN_S: f64 = 1e9;
 
 impl PySimulation {
-    /// Works with the simulation, without the interpreter.
-    fn with<T: Send>(
+    /// Works with the simulation, without the interpreter. A plugin, which the simulation calls, cannot do so.
+    pub(crate) fn with<T: Send>(
         &self,
         py: Python<'_>,
         work: impl FnOnce(&mut Running) -> T + Send,
     ) -> PyResult<T> {
+        if is_in_plugin() {
+            return Err(runtime_error(
+                "a plugin of navigation cannot use the simulation while it is called: its \
+                 arguments are what it knows",
+            ));
+        }
         with_locked(py, "the simulation", &self.running, work)
+    }
+
+    /// Steps until a task ends the run.
+    pub(crate) fn advance_task(
+        &self,
+        py: Python<'_>,
+        task: &mut (dyn DriveTask + Send),
+    ) -> PyResult<()> {
+        loop {
+            self.callbacks.run_due(py, self)?;
+            let is_over = self.with(py, |running| -> Result<bool, Diverged> {
+                let stopwatch = Stopwatch::start();
+                while stopwatch.elapsed() < SLICE {
+                    if task.before_step(running) {
+                        return Ok(true);
+                    }
+                    if running.slice(&mut Goal::Steps(1))? == SliceEnd::Pause {
+                        break;
+                    }
+                }
+                Ok(false)
+            })?;
+            let is_over = is_over.map_err(runtime_error)?;
+            py.check_signals()?;
+            self.callbacks.run_due(py, self)?;
+            if is_over {
+                return Ok(());
+            }
+        }
     }
 
     fn advance(&self, py: Python<'_>, mut goal: Goal) -> PyResult<()> {
@@ -372,6 +408,12 @@ impl PySimulation {
             }
         }
     }
+}
+
+/// Work before each step of a run.
+pub(crate) trait DriveTask {
+    /// Returns true to end the run.
+    fn before_step(&mut self, running: &mut Running) -> bool;
 }
 
 fn recording(path: PathBuf) -> PyResult<RecordingRequest> {

@@ -1,6 +1,7 @@
 //! Work of the crates without the interpreter: released, protected from panics.
 
 use std::any::Any;
+use std::cell::Cell;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
@@ -42,4 +43,27 @@ pub(crate) fn with_locked<T: Send, R: Send>(
     work: impl FnOnce(&mut T) -> R + Send,
 ) -> PyResult<R> {
     released(py, what, || work(&mut lock(mutex)))
+}
+
+thread_local! {
+    /// True while this thread runs code of a plugin.
+    static IN_PLUGIN: Cell<bool> = const { Cell::new(false) };
+}
+
+/// Runs code of a plugin, which a locked simulation calls.
+pub(crate) fn in_plugin<T>(work: impl FnOnce() -> T) -> T {
+    /// Restores the mark, also after a panic.
+    struct Outer(bool);
+    impl Drop for Outer {
+        fn drop(&mut self) {
+            IN_PLUGIN.set(self.0);
+        }
+    }
+    let _outer = Outer(IN_PLUGIN.replace(true));
+    work()
+}
+
+/// Returns true within [`in_plugin`].
+pub(crate) fn is_in_plugin() -> bool {
+    IN_PLUGIN.get()
 }

@@ -14,7 +14,7 @@ use periplus::tf_ros::Frames;
 use periplus_session::SimulationSession;
 
 /// Longest time between two looks at signals and callbacks.
-const SLICE: Duration = Duration::from_millis(40);
+pub(crate) const SLICE: Duration = Duration::from_millis(40);
 
 /// Wait for requests of clients while the world is paused.
 const PAUSED_WAIT: Duration = Duration::from_millis(5);
