@@ -7,6 +7,8 @@
 )]
 
 mod equal_trees;
+#[path = "../common/files.rs"]
+mod files;
 mod world;
 
 use periplus_costmap::Nav2Release;

@@ -1,7 +1,6 @@
 //! Navigator with scripted servers.
 
 use std::collections::VecDeque;
-use std::path::Path;
 use std::sync::{Arc, Mutex};
 
 use periplus_costmap::Nav2Release;
@@ -25,40 +24,11 @@ use periplus_msgs::{Action, Nav2Action, Nav2Service};
 use periplus_nav_nodes::bt_navigator::{BtNavigator, BtNavigatorParams};
 use periplus_nav_nodes::nav2_actions::{Nav2GoalHandle, NewNav2Goal, serve_nav2_action};
 use periplus_params::Given;
-use periplus_resources::{EntryKind, FileReadError, FileWriteError, Host, MemoryHost, Store};
+use periplus_resources::MemoryHost;
+
+use crate::files::MemoryFiles;
 
 pub(crate) const MS: i64 = 1_000_000;
-
-/// Files in memory.
-pub(crate) struct Files(pub(crate) MemoryHost);
-
-impl Host for Files {
-    fn read(&self, path: &Path) -> Result<Vec<u8>, FileReadError> {
-        self.0.read(path)
-    }
-
-    fn kind(&self, path: &Path) -> Option<EntryKind> {
-        self.0.kind(path)
-    }
-
-    fn list(&self, folder: &Path) -> Vec<String> {
-        self.0.list(folder)
-    }
-
-    fn canonical(&self, path: &Path) -> Option<std::path::PathBuf> {
-        self.0.canonical(path)
-    }
-
-    fn variable(&self, name: &str) -> Option<String> {
-        self.0.variable(name)
-    }
-}
-
-impl Store for Files {
-    fn replace(&self, _: &Path, _: &[u8]) -> Result<(), FileWriteError> {
-        Ok(())
-    }
-}
 
 /// Answer of a server to a goal.
 #[derive(Clone, Debug)]
@@ -300,7 +270,8 @@ impl World {
         let values = BtNavigatorParams::read(given, release, &mut findings);
         assert!(findings.is_empty(), "{findings:?}");
         let own = graph.node(NodeSettings::new("bt_navigator")).unwrap();
-        let navigator = BtNavigator::new(&own, values, release, Arc::new(Files(files))).unwrap();
+        let navigator =
+            BtNavigator::new(&own, values, release, Arc::new(MemoryFiles(files))).unwrap();
         let world = Self {
             planner: serve(&graph, release, &log),
             _through: serve(&graph, release, &log),

@@ -12,6 +12,8 @@
 mod common;
 
 mod direct_goals;
+#[path = "../common/files.rs"]
+mod files;
 mod goals;
 mod inputs;
 mod interruptions;

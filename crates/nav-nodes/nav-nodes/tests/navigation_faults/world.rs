@@ -1,6 +1,6 @@
 //! All servers of navigation on a graph in lockstep, with a robot and a client.
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::sync::Arc;
 
 use periplus_costmap::Nav2Release;
@@ -15,42 +15,12 @@ use periplus_msgs::{Nav2Action, std_msgs};
 use periplus_nav_nodes::nav2_actions::{Nav2ActionClient, Nav2SentGoal};
 use periplus_nav_nodes::navigation::{NavigationNode, NavigationServer, NavigationSetup};
 use periplus_nav_nodes::navigation_plugins::NavigationPlugins;
-use periplus_resources::{EntryKind, FileReadError, FileWriteError, Host, MemoryHost, Store};
+use periplus_resources::MemoryHost;
 
 use crate::common::{map, pose_in};
+use crate::files::MemoryFiles;
 use crate::params::YAML;
 use crate::robot::{Robot, STEP_NS};
-
-/// Files of behavior trees, in memory.
-struct Files(MemoryHost);
-
-impl Host for Files {
-    fn read(&self, path: &Path) -> Result<Vec<u8>, FileReadError> {
-        self.0.read(path)
-    }
-
-    fn kind(&self, path: &Path) -> Option<EntryKind> {
-        self.0.kind(path)
-    }
-
-    fn list(&self, folder: &Path) -> Vec<String> {
-        self.0.list(folder)
-    }
-
-    fn canonical(&self, path: &Path) -> Option<PathBuf> {
-        self.0.canonical(path)
-    }
-
-    fn variable(&self, name: &str) -> Option<String> {
-        self.0.variable(name)
-    }
-}
-
-impl Store for Files {
-    fn replace(&self, _: &Path, _: &[u8]) -> Result<(), FileWriteError> {
-        Ok(())
-    }
-}
 
 /// Walls around 6 x 4 m, and a closed room of 1 m in the upper right corner.
 pub(crate) fn room(x: f64, y: f64) -> bool {
@@ -127,7 +97,7 @@ impl Setup {
             file: tree.as_ref(),
             release: Some(self.release),
             stamped_velocities: Some(false),
-            files: Arc::new(Files(self.files)),
+            files: Arc::new(MemoryFiles(self.files)),
             save_photo: Arc::new(|_: &Path, _: &[u8]| Ok(())),
             plugins: NavigationPlugins::default(),
         };

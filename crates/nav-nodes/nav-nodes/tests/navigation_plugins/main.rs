@@ -3,11 +3,14 @@
 
 #[path = "../common/mod.rs"]
 mod common;
+#[path = "../common/files.rs"]
+mod files;
 mod plugins;
 
 use std::sync::Arc;
 
 use common::{GLOBAL_COSTMAP, Stage, costmap, map, pose_in};
+use files::MemoryFiles;
 use periplus_costmap::Nav2Release;
 use periplus_diagnostics::Diagnostics;
 use periplus_graph::{GoalProgress, GoalState, LifecycleNode, NodeSettings, Qos, Transition};
@@ -25,7 +28,7 @@ use periplus_nav_nodes::nav2_actions::Nav2ActionClient;
 use periplus_nav_nodes::planner_server::PlannerServer;
 use periplus_params::Given;
 use periplus_resources::MemoryHost;
-use plugins::{MemoryFiles, plugins};
+use plugins::plugins;
 
 const MAIN: Nav2Release = Nav2Release::Main;
 

@@ -1,7 +1,5 @@
 //! Plugins as another package would have them.
 
-use std::path::{Path, PathBuf};
-
 use periplus_behavior_tree::{
     BehaviorNode, NodeKind, NodeModel, NodeRun, NodeStatus, PortType, TreeError,
 };
@@ -14,7 +12,6 @@ use periplus_nav_nodes::behavior_server::{
 use periplus_nav_nodes::navigation_plugins::NavigationPlugins;
 use periplus_params::{ParamValue, ParamValues, params};
 use periplus_planners::{ParameterRejected, PlanError, PlanRequest, PlannedPath, Planner};
-use periplus_resources::{EntryKind, FileReadError, FileWriteError, Host, MemoryHost, Store};
 
 params! {
     /// The planner of this test.
@@ -134,35 +131,4 @@ pub(crate) fn plugins() -> NavigationPlugins {
                 .output("count", PortType::int());
             registry.register(model, CountTo::default);
         })
-}
-
-/// Files in memory.
-pub(crate) struct MemoryFiles(pub(crate) MemoryHost);
-
-impl Host for MemoryFiles {
-    fn read(&self, path: &Path) -> Result<Vec<u8>, FileReadError> {
-        self.0.read(path)
-    }
-
-    fn kind(&self, path: &Path) -> Option<EntryKind> {
-        self.0.kind(path)
-    }
-
-    fn list(&self, folder: &Path) -> Vec<String> {
-        self.0.list(folder)
-    }
-
-    fn canonical(&self, path: &Path) -> Option<PathBuf> {
-        self.0.canonical(path)
-    }
-
-    fn variable(&self, name: &str) -> Option<String> {
-        self.0.variable(name)
-    }
-}
-
-impl Store for MemoryFiles {
-    fn replace(&self, _: &Path, _: &[u8]) -> Result<(), FileWriteError> {
-        Ok(())
-    }
 }
