@@ -6,17 +6,16 @@ mod course;
 mod score;
 
 use std::collections::BTreeMap;
+use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
-use std::sync::atomic::{AtomicUsize, Ordering};
-use std::sync::{Mutex, PoisonError};
 use std::time::Instant;
-use std::{fs, thread};
 
 use serde_json::Value;
 
 use self::course::Course;
 use self::score::{Outcome, Summary};
+use crate::parallel::for_all;
 use crate::step::{Failed, root, run};
 
 /// Robot of the challenge, in the corpus.
@@ -142,24 +141,8 @@ impl Setup {
 
     /// Runs all, several at a time; the results are in the order of the runs.
     fn all(&self, runs: &[Run<'_>], plan: &Plan) -> Result<Vec<Recorded>, Failed> {
-        let next = AtomicUsize::new(0);
-        let results = Mutex::new(BTreeMap::new());
-        thread::scope(|scope| {
-            for _ in 0..plan.jobs.max(1) {
-                scope.spawn(|| {
-                    loop {
-                        let index = next.fetch_add(1, Ordering::Relaxed);
-                        let Some(one) = runs.get(index) else { break };
-                        let result = self.one(one, plan.twice);
-                        results
-                            .lock()
-                            .unwrap_or_else(PoisonError::into_inner)
-                            .insert(index, result);
-                    }
-                });
-            }
-        });
-        results.into_inner().unwrap_or_else(PoisonError::into_inner).into_values().collect()
+        let results = for_all(runs, plan.jobs, |one| self.one(one, plan.twice));
+        results.into_iter().collect()
     }
 
     /// Runs one, with its bag if asked.

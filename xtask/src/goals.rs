@@ -4,17 +4,16 @@ mod courses;
 mod robots;
 
 use std::fmt;
+use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
-use std::sync::Mutex;
-use std::sync::PoisonError;
 use std::time::Instant;
-use std::{fs, thread};
 
 use serde_json::Value;
 
 use self::courses::Course;
 use self::robots::{PreparedRobot, Robot};
+use crate::parallel::for_all;
 use crate::step::{Failed, cargo, root, run};
 
 /// Runs of the command.
@@ -49,35 +48,21 @@ pub(crate) fn evaluate(plan: &Plan) -> Result<(), Failed> {
     let folder = root().join("target/goals");
     let setup = Setup::prepare(folder, shared)?;
     run(cargo().args(["build", "--release", "--package", "periplus-cli"]), "correct the errors")?;
-    let mut left = drives();
+    let mut chosen = drives();
     if let Some(only) = &plan.only {
-        left.retain(|(robot, course)| format!("{} {}", robot.name, course.name).contains(only));
+        chosen.retain(|(robot, course)| format!("{} {}", robot.name, course.name).contains(only));
     }
-    left.reverse();
-    let left = Mutex::new(left);
-    let failures = Mutex::new(Vec::new());
     println!("{}", Drive::HEAD);
-    thread::scope(|scope| {
-        for _ in 0..plan.jobs.max(1) {
-            scope.spawn(|| {
-                loop {
-                    let next = left.lock().unwrap_or_else(PoisonError::into_inner).pop();
-                    let Some((robot, course)) = next else { break };
-                    let what = match setup.drive(robot, course, plan.goals) {
-                        Ok(drive) => {
-                            println!("{drive}");
-                            drive.failure()
-                        }
-                        Err(Failed(why)) => {
-                            Some(format!("{} in {}: {why}", robot.name, course.name))
-                        }
-                    };
-                    failures.lock().unwrap_or_else(PoisonError::into_inner).extend(what);
-                }
-            });
+    let outcomes = for_all(&chosen, plan.jobs, |(robot, course)| {
+        match setup.drive(robot, course, plan.goals) {
+            Ok(drive) => {
+                println!("{drive}");
+                drive.failure()
+            }
+            Err(Failed(why)) => Some(format!("{} in {}: {why}", robot.name, course.name)),
         }
     });
-    let failures = failures.into_inner().unwrap_or_else(PoisonError::into_inner);
+    let failures: Vec<String> = outcomes.into_iter().flatten().collect();
     if failures.is_empty() { Ok(()) } else { Err(Failed(failures.join("\n"))) }
 }
 

@@ -20,6 +20,7 @@ mod goals;
 mod layers;
 mod localization;
 mod package;
+mod parallel;
 mod physics;
 mod pictures;
 mod python;
