@@ -37,6 +37,26 @@ use crate::work::{lock, released, with_locked};
 use layer::{Failure, PyUpdateBounds, PythonLayer};
 use report::PyCellReport;
 
+/// Costs of an array of points or poses, shape (..., 2) or (..., 3), as uint8 of shape (...); yaw is 0 without a third
+/// column.
+pub(crate) fn costs_at<'py>(
+    poses: &Bound<'py, PyAny>,
+    costs_of: impl FnOnce(&[Pose2]) -> PyResult<Vec<u8>>,
+) -> PyResult<Bound<'py, PyAny>> {
+    let array = contiguous::<f64>(poses, "poses")?;
+    let shape = array.shape();
+    let Some((axes @ (2 | 3), lead)) = shape.split_last() else {
+        return Err(PyValueError::new_err(format!(
+            "`poses` must have the shape (..., 2) or (..., 3), not {shape:?}"
+        )));
+    };
+    let values = array.as_slice()?;
+    require_finite(values, "poses")?;
+    let pose = |row: &[f64]| Pose2::new(row[0], row[1], row.get(2).copied().unwrap_or(0.0));
+    let all: Vec<Pose2> = values.chunks_exact(*axes).map(pose).collect();
+    Ok(moved(poses.py(), costs_of(&all)?, lead)?.into_any())
+}
+
 pub(crate) fn register(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_class::<PyCostmap>()?;
     module.add_class::<PyCellReport>()?;
@@ -506,23 +526,12 @@ impl PyCostmap {
         poses: &Bound<'py, PyAny>,
         footprint: bool,
     ) -> PyResult<Bound<'py, PyAny>> {
-        let array = contiguous::<f64>(poses, "poses")?;
-        let shape = array.shape();
-        let Some((axes @ (2 | 3), lead)) = shape.split_last() else {
-            return Err(PyValueError::new_err(format!(
-                "`poses` must have the shape (..., 2) or (..., 3), not {shape:?}"
-            )));
-        };
-        let values = array.as_slice()?;
-        require_finite(values, "poses")?;
-        let costs: Vec<u8> = self.with(poses.py(), |state| {
-            let at = |row: &[f64]| {
-                let yaw_rad = row.get(2).copied().unwrap_or(0.0);
-                state.costmap.cost_at(Pose2::new(row[0], row[1], yaw_rad), footprint)
-            };
-            values.chunks_exact(*axes).map(at).collect()
-        })?;
-        Ok(moved(poses.py(), costs, lead)?.into_any())
+        costs_at(poses, |all| {
+            self.with(poses.py(), |state| {
+                let at = |pose: &Pose2| state.costmap.cost_at(*pose, footprint);
+                all.iter().map(at).collect()
+            })
+        })
     }
 
     /// Explains the cost at a point of the global frame [m]: the contribution of each layer, with the reading or

@@ -1,12 +1,12 @@
 //! Costmaps as plugins get them.
 
-use numpy::{PyArray1, PyArray2, PyArrayMethods as _, PyUntypedArrayMethods as _};
+use numpy::{PyArray1, PyArray2, PyArrayMethods as _};
 use periplus::costmap::{Costmap, CostmapView, Footprint, cost};
 use periplus::geometry::Pose2;
-use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
-use crate::arrays::{contiguous, moved, require_finite};
+use crate::arrays::moved;
+use crate::costmap::costs_at;
 
 /// Costmap at the moment in which a planner or controller is called. It is a copy: changes of its array have no effect.
 ///
@@ -85,24 +85,13 @@ impl PyCostmapView {
         poses: &Bound<'py, PyAny>,
         footprint: bool,
     ) -> PyResult<Bound<'py, PyAny>> {
-        let array = contiguous::<f64>(poses, "poses")?;
-        let shape = array.shape();
-        let Some((axes @ (2 | 3), lead)) = shape.split_last() else {
-            return Err(PyValueError::new_err(format!(
-                "`poses` must have the shape (..., 2) or (..., 3), not {shape:?}"
-            )));
-        };
-        let values = array.as_slice()?;
-        require_finite(values, "poses")?;
-        let at = |row: &[f64]| {
+        let at = |pose: &Pose2| {
             if footprint && !self.is_circular {
-                let yaw_rad = row.get(2).copied().unwrap_or(0.0);
-                return self.footprint.cost(&self.costmap, Pose2::new(row[0], row[1], yaw_rad));
+                return self.footprint.cost(&self.costmap, *pose);
             }
-            self.costmap.cost_at(row[0], row[1]).unwrap_or(cost::LETHAL)
+            self.costmap.cost_at(pose.x_m, pose.y_m).unwrap_or(cost::LETHAL)
         };
-        let costs: Vec<u8> = values.chunks_exact(*axes).map(at).collect();
-        Ok(moved(poses.py(), costs, lead)?.into_any())
+        costs_at(poses, |poses| Ok(poses.iter().map(at).collect()))
     }
 
     fn __repr__(&self) -> String {
