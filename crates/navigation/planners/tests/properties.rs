@@ -107,6 +107,23 @@ impl PlanAgain for Box<dyn Planner> {
     }
 }
 
+/// Only every second pose of a motion was checked, as in Nav2.
+#[test]
+fn a_lattice_passes_through_no_obstacle_between_two_checks() {
+    let mut map = map(20, &[0; 20 * 22]);
+    for cell in [211, 271, 291, 293] {
+        map.costs_mut()[cell] = 254;
+    }
+    let start = placed(&map, [0.879_407_029_926_381_9, 0.959_539_387_002_326_4, -1.882_779]);
+    let goal = placed(&map, [0.843_914_594_269_059_6, 0.216_272_073_466_171_83, 0.0]);
+    let kind = PlannerKind::of_class("nav2_smac_planner::SmacPlannerLattice").unwrap();
+    let mut planner = kind.build(ParamValues::defaults(kind.table()), Nav2Release::Main);
+    // A car that only drives forwards has no other way.
+    for pose in plan(planner.as_mut(), &map, start, goal).map_or(Vec::new(), |plan| plan.poses) {
+        assert_ne!(map.cost_at(pose.x_m, pose.y_m), Some(254), "{pose:?}");
+    }
+}
+
 #[test]
 fn special_maps_do_not_panic() {
     for (width, height) in [(1, 1), (1, 9), (9, 1), (2, 2), (3, 3), (40, 40)] {

@@ -10,8 +10,6 @@ use super::headings::Headings;
 use super::lattice::Lattice;
 use super::primitives::{PrimitiveSet, StepPenalties};
 
-/// Distance between two collision checks along a motion \[cells\].
-const CHECK_DISTANCE_CELLS: f64 = 1.0;
 /// Length below which a motion is a rotation in place, and an arc is none \[m\].
 const NO_LENGTH_M: f64 = 1e-4;
 const NO_ARC_M: f64 = 1e-3;
@@ -68,6 +66,13 @@ struct LatticeMotion {
     poses: Vec<Pose2>,
 }
 
+impl LatticeMotion {
+    /// Returns the poses between the ends.
+    fn inner_poses(&self) -> &[Pose2] {
+        self.poses.get(1..self.poses.len().saturating_sub(1)).unwrap_or_default()
+    }
+}
+
 impl CarMotions {
     pub(crate) fn new(set: PrimitiveSet, penalties: StepPenalties, headings: &Headings) -> Self {
         let rotated = |bin: usize| {
@@ -118,7 +123,8 @@ impl LatticeMotions {
         Self { motions, by_bin, penalties, rotation_penalty }
     }
 
-    /// Returns the highest cost along a motion from a node; none if it collides.
+    /// Returns the highest cost along a motion from a node; none if it collides. Each pose that the path will
+    /// have is checked; Nav2 leaves out those within a cell of the last one.
     fn free_cost(
         &self,
         from: &SmacNode,
@@ -126,13 +132,9 @@ impl LatticeMotions {
         checker: &CollisionChecker<'_>,
     ) -> Option<u8> {
         let mut highest = checker.free_cost(to.x, to.y, to.bin)?;
-        let mut last = (0.0, 0.0);
-        for pose in &self.motions[usize::from(to.motion)].poses {
-            if libm::hypot(pose.x_m - last.0, pose.y_m - last.1) >= CHECK_DISTANCE_CELLS {
-                last = (pose.x_m, pose.y_m);
-                let (x_m, y_m) = (from.x + pose.x_m, from.y + pose.y_m);
-                highest = highest.max(checker.free_cost_at(Pose2 { x_m, y_m, ..*pose })?);
-            }
+        for pose in self.motions[usize::from(to.motion)].inner_poses() {
+            let (x_m, y_m) = (from.x + pose.x_m, from.y + pose.y_m);
+            highest = highest.max(checker.free_cost_at(Pose2 { x_m, y_m, ..*pose })?);
         }
         Some(highest)
     }
@@ -212,8 +214,7 @@ impl Motions {
     /// Adds the poses between the ends of a motion from a pose \[cells, rad\].
     pub(crate) fn add_inner_poses(&self, from: Pose2, motion: u16, path: &mut Vec<Pose2>) {
         let Self::Lattice(lattice) = self else { return };
-        let poses = &lattice.motions[usize::from(motion)].poses;
-        let inner = poses.get(1..poses.len().saturating_sub(1)).unwrap_or_default();
+        let inner = lattice.motions[usize::from(motion)].inner_poses();
         path.extend(inner.iter().map(|pose| Pose2 {
             x_m: from.x_m + pose.x_m,
             y_m: from.y_m + pose.y_m,
