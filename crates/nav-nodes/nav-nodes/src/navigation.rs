@@ -271,7 +271,8 @@ impl NavigationSetup<'_> {
         })
     }
 
-    /// Creates the costmap that a server owns, in the namespace of its name.
+    /// Creates the costmap that a server owns, in the namespace of its name. Its transforms are those of the
+    /// server: `/tf:=tf` of Nav2's launch files means the server's namespace, not the costmap's.
     fn costmap(
         &self,
         name: &str,
@@ -280,7 +281,10 @@ impl NavigationSetup<'_> {
         diagnostics: &mut Diagnostics,
     ) -> Result<LifecycleNode<CostmapNode>, GraphError> {
         let around = server.names().namespace().trim_end_matches('/');
-        let settings = NodeSettings::new(name).namespace(&format!("{around}/{name}"));
+        let mut settings = NodeSettings::new(name).namespace(&format!("{around}/{name}"));
+        for topic in ["/tf", "/tf_static"] {
+            settings = settings.remap(topic, &server.names().topic(topic)?);
+        }
         let config = match self.file {
             Some(file) => CostmapConfig::read_yaml(file, name, self.release, diagnostics),
             None => CostmapConfig::read([], self.release, diagnostics),

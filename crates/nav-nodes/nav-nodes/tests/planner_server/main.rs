@@ -3,10 +3,13 @@
 
 #[path = "../common/mod.rs"]
 mod common;
+#[path = "../common/files.rs"]
+mod files;
 
 use std::sync::Arc;
 
 use common::{GLOBAL_COSTMAP, Stage, costmap, map, pose_in, transforms};
+use files::MemoryFiles;
 use periplus_costmap::Nav2Release;
 use periplus_diagnostics::Diagnostics;
 use periplus_geometry::Pose2;
@@ -20,8 +23,11 @@ use periplus_msgs::rcl_interfaces::{
 };
 use periplus_msgs::{Nav2Action, nav2_msgs};
 use periplus_nav_nodes::nav2_actions::{Nav2ActionClient, Nav2SentGoal};
+use periplus_nav_nodes::navigation::{NavigationServer, NavigationSetup};
+use periplus_nav_nodes::navigation_plugins::NavigationPlugins;
 use periplus_nav_nodes::planner_server::PlannerServer;
 use periplus_params::Given;
+use periplus_resources::MemoryHost;
 
 struct Planning {
     stage: Stage,
@@ -429,4 +435,29 @@ fn parameters_of_planners_change_while_the_server_runs() {
     assert_eq!(planning.plan_to(goal(3.0, 1.0)).0, GoalState::Aborted);
     assert!(!set(&planning, "GridBased.tolerance", -1.0).successful);
     assert!(!set(&planning, "expected_planner_frequency", 0.0).successful);
+}
+
+/// Nav2's launch files remap `/tf` to `tf` for all nodes; the costmap heard `/global_costmap/tf`.
+#[test]
+fn the_costmap_hears_the_transforms_of_its_server() {
+    for (namespace, topic) in [("/", "/tf"), ("/robot1", "/robot1/tf")] {
+        let graph = Graph::new();
+        let remapped = |settings: NodeSettings| graph.node(settings.remap("/tf", "tf"));
+        let setup = NavigationSetup {
+            graph: &graph,
+            file: None,
+            release: None,
+            stamped_velocities: None,
+            files: Arc::new(MemoryFiles(MemoryHost::new())),
+            save_photo: Arc::new(|_, _| Ok(())),
+            plugins: NavigationPlugins::new(),
+        };
+        let node = remapped(NodeSettings::new("planner_server").namespace(namespace)).unwrap();
+        let found = &mut Diagnostics::new();
+        let server = setup.create(NavigationServer::Planner, node, remapped, found).unwrap();
+        let heard: Vec<String> = graph.topics().into_iter().map(|topic| topic.name).collect();
+        assert!(heard.iter().any(|name| name == topic), "{heard:?}");
+        assert!(!heard.iter().any(|name| name.ends_with("costmap/tf")), "{heard:?}");
+        drop(server);
+    }
 }
