@@ -8,11 +8,16 @@ use periplus_scene::{Model, Shape};
 const CLEARANCE_M: f64 = 1e-4;
 
 /// Returns the pose of a model whose lowest collision touches the plane z = 0, at x, y \[m\] and yaw
-/// \[rad\].
+/// \[rad\]. A model that is fixed to the world keeps its height.
 pub(crate) fn standing(model: &Model, x_m: f64, y_m: f64, yaw_rad: f64) -> Pose {
     let lowest = lowest_m(model, Pose::IDENTITY).filter(|lowest| lowest.is_finite());
-    let z_m = CLEARANCE_M - lowest.unwrap_or(CLEARANCE_M);
+    let z_m = if is_fixed(model) { 0.0 } else { CLEARANCE_M - lowest.unwrap_or(CLEARANCE_M) };
     Pose::from_xyz_rpy([x_m, y_m, z_m], Rpy { roll: 0.0, pitch: 0.0, yaw: yaw_rad })
+}
+
+/// Returns true if the world holds a model, as that of a description whose root is the link `world`.
+fn is_fixed(model: &Model) -> bool {
+    model.is_static || model.joints.iter().any(|joint| joint.parent == "world")
 }
 
 /// Returns the lowest point of all collisions of a model, in the frame of `up_from_model`. Shapes

@@ -1,4 +1,4 @@
-//! A robot described in SDF.
+//! Robots described in SDF or URDF, in a plain world.
 #![allow(clippy::unwrap_used, clippy::disallowed_methods, reason = "tests")]
 
 use std::sync::Arc;
@@ -9,16 +9,27 @@ use periplus_msgs::{std_msgs, tf2_msgs};
 use periplus_resources::{MemoryHost, Resolver};
 use periplus_sim::{AssetFiles, Options, RobotPlacement, Simulation, compose_plain};
 
+/// Robot whose arm reaches 0.5 m below its frame, and that hangs 2 m above it.
+const CRANE: &str = r#"<robot name="crane">
+  <link name="world"/>
+  <link name="arm">
+    <inertial><mass value="1"/><inertia ixx="1" iyy="1" izz="1" ixy="0" ixz="0" iyz="0"/></inertial>
+    <collision><geometry><box size="0.1 0.1 1"/></geometry></collision>
+  </link>
+  <joint name="slide" type="prismatic">
+    <parent link="world"/><child link="arm"/><origin xyz="0 0 2"/><axis xyz="1 0 0"/>
+    <limit effort="1" velocity="1" lower="-1" upper="1"/>
+  </joint>
+</robot>"#;
+
 const ROBOT: &str = r#"<sdf version="1.9"><model name="bot">
   <link name="base"><inertial><mass>1</mass></inertial></link>
   <link name="lidar"><pose>0.2 0 0.3 0 0 0</pose><inertial><mass>0.1</mass></inertial></link>
   <joint name="lidar_joint" type="fixed"><parent>base</parent><child>lidar</child></joint>
 </model></sdf>"#;
 
-/// Regression test: a robot given as SDF had no frames, so that its scans could not be used.
-#[test]
-fn the_frames_of_a_robot_in_sdf_are_published() {
-    let host = MemoryHost::new().with_file("/bot.sdf", ROBOT);
+fn simulate(file: &str, text: &str) -> Simulation {
+    let host = MemoryHost::new().with_file(file, text);
     let resolver = Resolver::new(&host, &[]);
     let setting = LoadContext {
         host: &host,
@@ -27,11 +38,31 @@ fn the_frames_of_a_robot_in_sdf_are_published() {
         arguments: Vec::new(),
         open_meshes: true,
     };
-    let robot = RobotPlacement { file: "/bot.sdf".into(), ..RobotPlacement::default() };
+    let robot = RobotPlacement { file: file.into(), ..RobotPlacement::default() };
     let mut composition = compose_plain(&[robot], &setting);
     let simulation =
         Simulation::new(&mut composition, Arc::new(AssetFiles::default()), Options::default());
     assert!(!composition.has_errors());
+    simulation
+}
+
+/// It was put on the floor like a robot with wheels, and its arm dragged along the floor.
+#[test]
+fn a_robot_that_the_world_holds_keeps_its_height() {
+    let simulation = simulate("/crane.urdf", CRANE);
+    let motion = simulation.motion();
+    let (id, _) = motion.models().find(|(_, name)| *name == "crane").unwrap();
+    let heights_m: Vec<f64> = motion
+        .links(id)
+        .filter_map(|link| Some(motion.link_state(link)?.world_from_link.translation.z))
+        .collect();
+    assert_eq!(heights_m, [2.0]);
+}
+
+/// Regression test: a robot given as SDF had no frames, so that its scans could not be used.
+#[test]
+fn the_frames_of_a_robot_in_sdf_are_published() {
+    let simulation = simulate("/bot.sdf", ROBOT);
     let node = simulation.graph().node(NodeSettings::new("user")).unwrap();
     let frames = node.mailbox::<tf2_msgs::TFMessage>("/tf_static", Qos::latched(1)).unwrap();
     let heard = frames.latest().expect("fixed frames");

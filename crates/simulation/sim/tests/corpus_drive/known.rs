@@ -17,12 +17,6 @@ pub(crate) const KNOWN: &[Known] = &[
         "its controller commands efforts, which have no effect without physics",
     ),
     (
-        "test_pendulum_effort.xacro.urdf::pendulum on cart (Rigid)",
-        "stood",
-        "an open fault: with physics its effort does not move the cart, as it moves that of the \
-         cart without a pendulum",
-    ),
-    (
         "tunnel.sdf::vehicle (Rigid)",
         "falls",
         "the tunnel is fetched from Fuel; without it there is nothing to stand on",
