@@ -41,6 +41,8 @@ pub struct DeviceContext<'a> {
     pub publishes_joint_states: bool,
     /// True if controllers of `ros2_control` start without a spawner.
     pub starts_controllers: bool,
+    /// True if `/tf` of Gazebo's plugins is that of ROS; false where the bridges of a launch file leave it out.
+    pub bridges_transforms: bool,
     /// Parameter files of controllers.
     pub parameter_files: &'a Arc<dyn ParameterFiles>,
 }

@@ -100,6 +100,7 @@ fn try_out(model: &scene::Model) -> Option<(String, Vec<f64>)> {
         start_ns: 0,
         publishes_joint_states: true,
         starts_controllers: true,
+        bridges_transforms: true,
         parameter_files: &files,
     };
     let mut diagnostics = Diagnostics::new();

@@ -58,6 +58,8 @@ pub struct Options {
     /// True if controllers of `ros2_control` start as their parameter files declare them, without a
     /// spawner.
     pub starts_controllers: bool,
+    /// True if `/tf` of Gazebo's plugins is that of ROS; false where the bridges of a launch file leave it out.
+    pub bridges_transforms: bool,
 }
 
 impl Default for Options {
@@ -74,6 +76,7 @@ impl Default for Options {
             clock_rate_hz: 100.0,
             publishes_joint_states: true,
             starts_controllers: true,
+            bridges_transforms: true,
         }
     }
 }
@@ -349,6 +352,7 @@ impl Simulation {
             start_ns: self.time_ns,
             publishes_joint_states: self.options.publishes_joint_states,
             starts_controllers: self.options.starts_controllers,
+            bridges_transforms: self.options.bridges_transforms,
             parameter_files: &parameter_files,
         };
         periplus_sim_nodes::devices(&setting, member.description.as_deref(), findings)

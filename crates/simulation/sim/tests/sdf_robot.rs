@@ -28,7 +28,22 @@ const ROBOT: &str = r#"<sdf version="1.9"><model name="bot">
   <joint name="lidar_joint" type="fixed"><parent>base</parent><child>lidar</child></joint>
 </model></sdf>"#;
 
+/// Robot whose odometry is on `/tf` of Gazebo.
+const DRIVEN: &str = r#"<sdf version="1.9"><model name="bot">
+  <link name="base"/><link name="left"/><link name="right"/>
+  <joint name="l" type="revolute"><parent>base</parent><child>left</child><axis/></joint>
+  <joint name="r" type="revolute"><parent>base</parent><child>right</child><axis/></joint>
+  <plugin filename="gz-sim-diff-drive-system" name="gz::sim::systems::DiffDrive">
+    <left_joint>l</left_joint><right_joint>r</right_joint><tf_topic>tf</tf_topic>
+  </plugin>
+</model></sdf>"#;
+
 fn simulate(file: &str, text: &str) -> Simulation {
+    simulate_with(file, text, Options::default()).0
+}
+
+/// Also returns the findings.
+fn simulate_with(file: &str, text: &str, options: Options) -> (Simulation, Vec<&'static str>) {
     let host = MemoryHost::new().with_file(file, text);
     let resolver = Resolver::new(&host, &[]);
     let setting = LoadContext {
@@ -40,10 +55,30 @@ fn simulate(file: &str, text: &str) -> Simulation {
     };
     let robot = RobotPlacement { file: file.into(), ..RobotPlacement::default() };
     let mut composition = compose_plain(&[robot], &setting);
-    let simulation =
-        Simulation::new(&mut composition, Arc::new(AssetFiles::default()), Options::default());
+    let simulation = Simulation::new(&mut composition, Arc::new(AssetFiles::default()), options);
     assert!(!composition.has_errors());
-    simulation
+    let files = composition.files.iter();
+    let found = files.flat_map(|file| file.diagnostics.iter().map(|finding| finding.code));
+    (simulation, found.collect())
+}
+
+/// Two nodes published the pose of the base: the robot and the odometry filter of a launch file whose bridge
+/// leaves out `/tf`.
+#[test]
+fn transforms_that_no_bridge_passes_on_stay_in_gazebo() {
+    for bridges_transforms in [true, false] {
+        let options = Options { bridges_transforms, ..Options::default() };
+        let (simulation, found) = simulate_with("/driven.sdf", DRIVEN, options);
+        let topics = simulation.graph().topics();
+        let publishers = |name: &str| {
+            let topic = topics.iter().find(|topic| topic.name == name);
+            topic.map_or(0, |topic| topic.publishers.len())
+        };
+        assert_eq!(publishers("/model/bot/odometry"), 1);
+        // The other publisher is that of the joints.
+        assert_eq!(publishers("/tf"), 1 + usize::from(bridges_transforms));
+        assert_eq!(found.contains(&"tf-not-bridged"), !bridges_transforms, "{found:?}");
+    }
 }
 
 /// It was put on the floor like a robot with wheels, and its arm dragged along the floor.

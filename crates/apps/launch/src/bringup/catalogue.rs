@@ -80,6 +80,13 @@ pub(crate) struct Entry {
     pub(crate) becomes: &'static str,
 }
 
+impl Entry {
+    /// Returns true for a bridge between topics of Gazebo and ROS of any type.
+    pub(crate) fn is_bridge_of_topics(&self) -> bool {
+        self.role == Role::Bridge && self.packages != ["ros_gz_image", "ros_ign_image"]
+    }
+}
+
 /// Constructor of a row.
 const fn entry(
     packages: &'static [&'static str],
@@ -175,7 +182,7 @@ pub(crate) static CATALOGUE: &[Entry] = &[
         &["ros_gz_bridge::RosGzBridge"],
         "ros_gz_bridge",
         Role::Bridge,
-        "simulated topics are ROS topics already; remapped ones are relayed",
+        "simulated topics are ROS topics already, but `/tf` only where a bridge passes it on; remapped ones are relayed",
     ),
     entry(
         &["ros_gz_image", "ros_ign_image"],

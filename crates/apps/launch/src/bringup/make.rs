@@ -518,14 +518,14 @@ fn with_paths(ask: &BuiltInRequest, launch_folder: &Path) -> Vec<String> {
     words.iter().enumerate().map(path).collect()
 }
 
-/// Gazebo topics have their names in the simulation already; remapped ones are relayed.
-fn bridged(
+/// Pairs of topics of a bridge, of its arguments and its file.
+///
+/// # Errors
+/// A message when an argument or the file is invalid.
+pub(crate) fn pairs_of_bridge(
     ask: &BuiltInRequest,
-    graph: &Graph,
-    node: Node,
     named: &NamedParameters,
-    made: &mut BuiltIn,
-) -> Result<(), String> {
+) -> Result<Vec<bridge::Pair>, String> {
     let is_image = ask.entry.executables == ["image_bridge"];
     let mut pairs = if is_image {
         let topics = ask.told.own.iter().filter(|word| !word.starts_with('-'));
@@ -542,6 +542,18 @@ fn bridged(
     if let Some(file) = text_of(named, "config_file").filter(|file| !file.is_empty()) {
         pairs.extend(bridge::of_file(Path::new(&file))?);
     }
+    Ok(pairs)
+}
+
+/// Gazebo topics have their names in the simulation already; remapped ones are relayed.
+fn bridged(
+    ask: &BuiltInRequest,
+    graph: &Graph,
+    node: Node,
+    named: &NamedParameters,
+    made: &mut BuiltIn,
+) -> Result<(), String> {
+    let pairs = pairs_of_bridge(ask, named)?;
     let mut passed_on = Vec::new();
     for pair in &pairs {
         let gz = gz_topic(&pair.gz);

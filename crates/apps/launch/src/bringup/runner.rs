@@ -10,11 +10,12 @@ use periplus_msgs::lifecycle_msgs::TransitionEvent;
 use periplus_os::Machine;
 use periplus_resources::Host as _;
 use periplus_sim::{Search, Simulation};
+use periplus_sim_nodes::gz_topic;
 
 use crate::bringup::environment;
 use crate::bringup::guard::Guard;
 use crate::bringup::lockstep::{Lockstep, LockstepNodes};
-use crate::bringup::make::{BuiltIn, make};
+use crate::bringup::make::{self, BuiltIn, make, pairs_of_bridge};
 use crate::bringup::parts::{self, BuiltInRequest, Part, Program, Work, own_folder};
 use crate::bringup::preparation::{self, MAX_WAIT_NS};
 use crate::bringup::processes::LaunchProcesses;
@@ -254,6 +255,22 @@ impl LaunchRunner {
     pub fn spawns_controllers(&self) -> bool {
         use crate::bringup::catalogue::Role;
         self.has(Role::Controllers { unloads: false }) || self.has(Role::ControlCommand)
+    }
+
+    /// Returns false if the plan bridges topics of Gazebo to ROS, but not `/tf`. Bridges whose arguments cannot be
+    /// read count as bridges of all topics.
+    #[must_use]
+    pub fn bridges_transforms(&self) -> bool {
+        let mut is_partial = false;
+        for (_, ask) in self.asks().filter(|(_, ask)| ask.entry.is_bridge_of_topics()) {
+            match pairs_of_bridge(ask, &make::parameters(ask, &mut Vec::new())) {
+                Ok(pairs) if pairs.iter().all(|pair| gz_topic(&pair.gz) != "/tf") => {
+                    is_partial |= !pairs.is_empty();
+                }
+                _ => return true,
+            }
+        }
+        !is_partial
     }
 
     /// Returns true if the plan starts RViz or a Gazebo window.

@@ -186,6 +186,7 @@ fn a_stamped_velocity_drives_a_robot_of_gazebo() {
     let node = graph.node(NodeSettings::new("robot").bare()).unwrap();
     let robot = node.mailbox::<Twist>("/model/robot/cmd_vel", Qos::reliable(10)).unwrap();
     let driver = node.publisher::<TwistStamped>("/drive", Qos::reliable(10)).unwrap();
+    assert!(!bringup.bridges_transforms(), "only the velocity is bridged");
     bringup.work(&graph, 0, None);
     let mut velocity = TwistStamped::default();
     velocity.twist.linear.x = 0.5;

@@ -28,7 +28,7 @@ pub(crate) fn odometry_publisher(
     });
     OdometryPublisher::between(parent, child)
         .on(context, node, &context.gz_topic("odom_topic", "odometry"), diagnostics)?
-        .with_tf(context, node, &context.gz_topic("tf_topic", "tf"), diagnostics)
+        .with_gz_tf(context, node, &context.gz_topic("tf_topic", "tf"), diagnostics)
 }
 
 /// Reads the limits of linear and angular velocity: `min_velocity` etc. for both, overridden by

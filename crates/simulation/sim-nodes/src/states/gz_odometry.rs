@@ -54,7 +54,7 @@ pub(crate) fn build(
     let topic = context.gz_topic("odom_topic", "odometry");
     let odometry_publisher = OdometryPublisher::between(parent.clone(), child.clone())
         .on(context, &node, &topic, diagnostics)?
-        .with_tf(context, &node, &context.gz_topic("tf_topic", "pose"), diagnostics)?;
+        .with_gz_tf(context, &node, &context.gz_topic("tf_topic", "pose"), diagnostics)?;
     let topic = context.gz_topic("odom_covariance_topic", "odometry_with_covariance");
     let mut with_covariance = OdometryPublisher::between(parent, child);
     with_covariance.pose_covariance = diagonal([noise * noise; 6]);

@@ -1,6 +1,6 @@
 //! Odometry messages and transforms.
 
-use periplus_diagnostics::Diagnostics;
+use periplus_diagnostics::{Diagnostic, Diagnostics};
 use periplus_geometry::Pose;
 use periplus_graph::{Node, Publisher, Qos};
 use periplus_msgs::std_msgs::Header;
@@ -97,6 +97,27 @@ impl OdometryPublisher {
         diagnostics: &mut Diagnostics,
     ) -> Option<Self> {
         self.tf = Some(context.accept(node.publisher(topic, TF_QOS), diagnostics)?);
+        Some(self)
+    }
+
+    /// Adds a topic of transforms of Gazebo, unless it is `/tf` and the launch file's bridges leave it out: then
+    /// another node, such as an odometry filter, publishes these transforms.
+    pub(crate) fn with_gz_tf(
+        self,
+        context: &BuildContext<'_>,
+        node: &Node,
+        topic: &str,
+        diagnostics: &mut Diagnostics,
+    ) -> Option<Self> {
+        if topic != "/tf" || context.setting.bridges_transforms {
+            return self.with_tf(context, node, topic, diagnostics);
+        }
+        let name = &context.site.plugin.name;
+        let message = format!("the transforms of plugin `{name}` on `/tf` are not bridged to ROS");
+        let hint = Diagnostic::hint("tf-not-bridged", message).at(context.origin());
+        let help = "another node must publish them, such as the `ekf_node` of robot_localization; or add `/tf` to \
+                    the bridge, of type `tf2_msgs/msg/TFMessage` and `gz.msgs.Pose_V`";
+        diagnostics.push(hint.help(help));
         Some(self)
     }
 

@@ -238,6 +238,7 @@ fn setting<'a>(
         start_ns: 0,
         publishes_joint_states: true,
         starts_controllers: true,
+        bridges_transforms: true,
         parameter_files: &FILES,
     }
 }

@@ -94,6 +94,7 @@ impl Bench {
             start_ns: 0,
             publishes_joint_states: true,
             starts_controllers: true,
+            bridges_transforms: true,
             parameter_files: &files,
         };
         let mut diagnostics = Diagnostics::new();

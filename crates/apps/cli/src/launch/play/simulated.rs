@@ -158,6 +158,7 @@ impl PlayOptions {
             arguments,
             publishes_joint_states: !bringup.publishes_joint_states(),
             starts_controllers: !bringup.spawns_controllers(),
+            bridges_transforms: bringup.bridges_transforms(),
             ..Options::default()
         }
     }
