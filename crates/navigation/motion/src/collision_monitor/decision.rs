@@ -243,6 +243,45 @@ mod tests {
     }
 
     #[test]
+    fn a_robot_leaves_the_points_that_are_in_its_outline() {
+        // A wall 0.45 m ahead, 0.05 m inside the circle of 0.5 m.
+        let wall: Vec<(f64, f64)> = (-10..=10).map(|y| (0.45, 0.02 * f64::from(y))).collect();
+        let speed = |command: Twist2, points: &[(f64, f64)]| {
+            let mut zones = [circle("a", 0.5, approach(1.0, 0.1))];
+            decide(&mut zones, &seen(points), command, MonitorDecision::pass(command)).velocity
+        };
+        let back = Twist2::new(-0.2, 0.0, 0.0);
+        let away = Twist2::new(-0.1, 0.1, 0.3);
+        let turn = Twist2::new(0.0, 0.0, 1.0);
+        for command in [back, away, turn] {
+            assert_eq!(speed(command, &wall), command, "{command:?}");
+        }
+        for command in [Twist2::new(0.2, 0.0, 0.0), Twist2::new(0.05, 0.0, 1.0)] {
+            assert_eq!(speed(command, &wall), Twist2::ZERO, "{command:?}");
+        }
+        // In front of another wall behind it, backing up is an approach: 0.25 m, less than 1.5 steps.
+        let between: Vec<_> = wall.into_iter().chain([(-0.525, 0.0)]).collect();
+        assert_eq!(speed(back, &between), back.scaled(0.1));
+    }
+
+    #[test]
+    fn a_polygon_does_not_turn_its_corners_into_points() {
+        let corners = vec![[0.4, 0.2], [0.4, -0.2], [-0.4, -0.2], [-0.4, 0.2]];
+        let mut zones = [MonitorZone {
+            shape: Some(MonitorShape::Polygon(corners)),
+            ..circle("a", 0.0, approach(1.0, 0.1))
+        }];
+        let mut passes = |command: Twist2| {
+            // To the left, ahead of the middle: the left turn brings the front corner nearer.
+            let decision =
+                decide(&mut zones, &seen(&[(0.3, 0.19)]), command, MonitorDecision::pass(command));
+            decision.velocity == command
+        };
+        assert!(passes(Twist2::new(0.0, -0.1, 0.0)) && passes(Twist2::new(0.0, 0.0, -0.5)));
+        assert!(!passes(Twist2::new(0.0, 0.1, 0.0)) && !passes(Twist2::new(0.0, 0.0, 0.5)));
+    }
+
+    #[test]
     fn a_stop_for_another_reason_is_final() {
         let mut zones = [circle("slow", 2.0, ZoneAction::Slowdown { ratio: 0.5 })];
         let command = Twist2::new(1.0, 0.0, 0.0);

@@ -31,6 +31,23 @@ impl MonitorShape {
         }
     }
 
+    /// Distance of a point inside from the outline \[m\]; 0 outside.
+    pub(super) fn depth_m(&self, x_m: f64, y_m: f64) -> f64 {
+        if !self.contains(x_m, y_m) {
+            return 0.0;
+        }
+        match self {
+            Self::Polygon(corners) => {
+                let starts = corners.iter().cycle().skip(corners.len().saturating_sub(1));
+                let sides = starts.zip(corners);
+                let distances =
+                    sides.map(|(start, end)| distance_to_side_m([x_m, y_m], *start, *end));
+                distances.fold(f64::INFINITY, f64::min)
+            }
+            Self::Circle { radius_m } => radius_m - libm::hypot(x_m, y_m),
+        }
+    }
+
     /// Corners for display \[m\].
     #[must_use]
     pub fn outline(&self) -> Vec<[f64; 2]> {
@@ -45,6 +62,19 @@ impl MonitorShape {
                 .collect(),
         }
     }
+}
+
+/// Distance of a point from the side between two corners \[m\].
+fn distance_to_side_m([x, y]: [f64; 2], start: [f64; 2], end: [f64; 2]) -> f64 {
+    let (side_x, side_y) = (end[0] - start[0], end[1] - start[1]);
+    let (from_x, from_y) = (x - start[0], y - start[1]);
+    let square_m2 = side_x * side_x + side_y * side_y;
+    let along_ratio = if square_m2 > 0.0 {
+        ((from_x * side_x + from_y * side_y) / square_m2).clamp(0.0, 1.0)
+    } else {
+        0.0
+    };
+    libm::hypot(from_x - along_ratio * side_x, from_y - along_ratio * side_y)
 }
 
 /// True if a ray along x from a point crosses the sides of a polygon an odd number of times
@@ -153,6 +183,23 @@ mod tests {
         assert!(!MonitorShape::Polygon(Vec::new()).contains(0.0, 0.0));
         let hollow = [[0.0, 0.0], [4.0, 0.0], [4.0, 4.0], [2.0, 1.0], [0.0, 4.0]];
         assert!(is_in_polygon(&hollow, 2.0, 0.5) && !is_in_polygon(&hollow, 2.0, 2.0));
+    }
+
+    #[test]
+    fn depths_are_distances_from_the_outline() {
+        let check = |shape: &MonitorShape, at: [f64; 2], expected_m: f64| {
+            let depth_m = shape.depth_m(at[0], at[1]);
+            assert!((depth_m - expected_m).abs() < 1e-12, "{depth_m}, expected {expected_m}");
+        };
+        let square =
+            MonitorShape::Polygon(vec![[1.0, 1.0], [1.0, -1.0], [-1.0, -1.0], [-1.0, 1.0]]);
+        let circle = MonitorShape::Circle { radius_m: 1.0 };
+        check(&square, [0.0, 0.0], 1.0);
+        check(&square, [0.9, 0.5], 0.1);
+        check(&square, [-0.3, -0.8], 0.2);
+        check(&square, [1.5, 0.0], 0.0);
+        check(&circle, [0.0, -0.7], 0.3);
+        check(&circle, [0.0, 2.0], 0.0);
     }
 
     #[test]

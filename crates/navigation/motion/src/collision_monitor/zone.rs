@@ -6,6 +6,9 @@ use super::shape::MonitorShape;
 use super::velocity_polygon::VelocityParts;
 use super::{CollisionPoint, SourcePoints};
 
+/// Growth of an overlap that rounding causes \[m\].
+const SAME_OVERLAP_M: f64 = 1e-6;
+
 /// Limits of [`ZoneAction::Approach`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ApproachLimits {
@@ -160,6 +163,10 @@ impl MonitorZone {
     /// Time until the robot, driving at a velocity, has points inside the shape \[s\], with those
     /// points as they are now; none within `limits`. The time is that before the step of the
     /// simulation in which the collision happens.
+    ///
+    /// A robot that has points inside already cannot move in Nav2: each command is reduced to zero,
+    /// those of recoveries too. Here a motion that leaves these points does not count as a collision
+    /// with them: their overlap must not grow in any step until they are outside.
     pub(super) fn time_to_collision(
         &self,
         all: &[SourcePoints],
@@ -167,24 +174,46 @@ impl MonitorZone {
         limits: ApproachLimits,
     ) -> Option<(f64, Vec<(usize, CollisionPoint)>)> {
         let shape = self.shape.as_ref()?;
-        let now = self.points_inside(all);
-        if now.len() >= self.min_points_at_once {
-            return Some((0.0, now));
-        }
         let points: Vec<(usize, CollisionPoint)> = self.points(all).collect();
+        let is_inside = |pose: &Pose2, point: &CollisionPoint| {
+            let [x_m, y_m] = seen_from(pose, point);
+            shape.contains(x_m, y_m)
+        };
+        let (now, mut outside): (Vec<_>, Vec<_>) =
+            points.iter().copied().partition(|(_, point)| is_inside(&Pose2::IDENTITY, point));
+        let overlap_m = |pose: &Pose2| -> f64 {
+            let depth_m = |(_, point): &(usize, CollisionPoint)| {
+                let [x_m, y_m] = seen_from(pose, point);
+                shape.depth_m(x_m, y_m)
+            };
+            now.iter().map(depth_m).sum()
+        };
+        let mut collides_now = now.len() >= self.min_points_at_once;
         let step_s = limits.simulation_time_step_s;
         if step_s <= 0.0 || points.len() < self.min_points {
-            return None;
+            return collides_now.then_some((0.0, now));
+        }
+        if !collides_now {
+            outside.clone_from(&points);
         }
         let (mut pose, mut velocity, mut time_s) = (Pose2::IDENTITY, velocity, 0.0);
+        let mut last_m = overlap_m(&pose);
         while time_s <= limits.time_before_collision_s {
             project(step_s, &mut pose, &mut velocity);
-            let (sine, cosine) = libm::sincos(pose.yaw_rad);
-            let is_inside = |point: &CollisionPoint| {
-                let (x, y) = (point.x_m - pose.x_m, point.y_m - pose.y_m);
-                shape.contains(x * cosine + y * sine, -x * sine + y * cosine)
-            };
-            let inside = || points.iter().filter(|(_, point)| is_inside(point));
+            if collides_now {
+                let next_m = overlap_m(&pose);
+                if next_m > last_m + SAME_OVERLAP_M {
+                    return Some((time_s, now));
+                }
+                last_m = next_m;
+                if now.iter().filter(|(_, point)| is_inside(&pose, point)).count()
+                    < self.min_points_at_once
+                {
+                    collides_now = false;
+                    outside.clone_from(&points);
+                }
+            }
+            let inside = || outside.iter().filter(|(_, point)| is_inside(&pose, point));
             if inside().count() >= self.min_points {
                 return Some((time_s, inside().copied().collect()));
             }
@@ -192,6 +221,13 @@ impl MonitorZone {
         }
         None
     }
+}
+
+/// Position of a point from a pose of the robot, which was at the origin when the point was seen \[m\].
+fn seen_from(pose: &Pose2, point: &CollisionPoint) -> [f64; 2] {
+    let (sine, cosine) = libm::sincos(pose.yaw_rad);
+    let (x, y) = (point.x_m - pose.x_m, point.y_m - pose.y_m);
+    [x * cosine + y * sine, -x * sine + y * cosine]
 }
 
 /// Moves a robot for a step along its velocity in the start frame, which then turns.
