@@ -3,11 +3,13 @@
 //! Source of the rules: `nav2_navfn_planner/src/navfn_planner.cpp`. Two defects of NavFn are kept, since
 //! paths depend on them: a cell is at its lower left corner, half a cell off the rest of Nav2, and the cell
 //! of the robot counts as free. Its queues of at most 10,000 cells, which lose cells on large open maps, are
-//! not kept.
+//! not kept. Where NavFn finds no path, as the robot is nearer to an obstacle than its inscribed radius, the path
+//! begins with the way out.
 
 mod descent;
 mod field;
 mod front;
+mod way_out;
 
 pub use field::{NavFnMethod, PotentialField, Propagation, PropagationCancelled};
 
@@ -172,6 +174,8 @@ impl Planner for NavFnPlanner {
             let nearest = |cells: f64, last: usize| (libm::round(cells) as usize).min(last);
             (nearest(columns, last.0), nearest(rows, last.1))
         });
+        let changed = way_out::with_way_out(map.costs(), info.width, robot);
+        let costs = changed.as_deref().unwrap_or(map.costs());
         let method = if self.params.use_astar { NavFnMethod::AStar } else { NavFnMethod::Dijkstra };
         let how = Propagation {
             method,
@@ -182,9 +186,9 @@ impl Planner for NavFnPlanner {
         let is_directed = method == NavFnMethod::Dijkstra && info.len() >= MIN_DIRECTED_COUNT;
         let field = &mut self.field;
         let computed = if is_directed {
-            field.compute_towards_goal(map.costs(), info.width, &how, is_cancelled)
+            field.compute_towards_goal(costs, info.width, &how, is_cancelled)
         } else {
-            field.compute(map.costs(), info.width, &how, is_cancelled)
+            field.compute(costs, info.width, &how, is_cancelled)
         };
         let expansion_count = computed.map_err(|PropagationCancelled| PlanError::cancelled())?;
         let path = self.reachable_goal(info, goal).and_then(|end| {

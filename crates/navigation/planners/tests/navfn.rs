@@ -54,6 +54,17 @@ fn a_goal_behind_walls_is_explained() {
 }
 
 #[test]
+fn a_robot_beside_a_wall_gets_a_way_out() {
+    let costs = costmap(&["#iiii.......", "#iiii.......", "#iiii.......", "#iiii......."]);
+    for (use_astar, start) in [(false, at(0.2, 0.2)), (true, at(0.3, 0.1))] {
+        let mut planner = NavFnPlanner::default();
+        planner.set_parameter("use_astar", &ParamValue::Bool(use_astar)).unwrap();
+        let plan = plan(&mut planner, &costs, start, at(0.9, 0.2)).unwrap();
+        assert!(plan.length_m() < 0.75, "{}", plan.length_m());
+    }
+}
+
+#[test]
 fn poses_outside_the_map_are_named() {
     let room = costmap(&ROOM);
     let mut planner = NavFnPlanner::default();
