@@ -15,6 +15,7 @@ mod lockstep;
 mod make;
 mod move_base;
 mod navigation;
+mod node_logs;
 mod parameters;
 mod parts;
 mod preparation;

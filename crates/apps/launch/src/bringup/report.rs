@@ -1,6 +1,7 @@
 //! Outcomes and log messages of a launch.
 
 use periplus_graph::Level;
+use periplus_msgs::rcl_interfaces::Log;
 use serde::Serialize;
 
 /// Outcome of a part of a plan.
@@ -53,18 +54,31 @@ pub struct LaunchLog {
     pub level: Level,
     /// Text.
     pub text: String,
+    /// True if a node wrote it, not the launch: its errors are not failures of the launch.
+    pub is_of_node: bool,
 }
 
 impl LaunchLog {
     pub(crate) fn info(text: impl Into<String>) -> Self {
-        Self { level: Level::Info, text: text.into() }
+        Self::of_launch(Level::Info, text)
     }
 
     pub(crate) fn warning(text: impl Into<String>) -> Self {
-        Self { level: Level::Warn, text: text.into() }
+        Self::of_launch(Level::Warn, text)
     }
 
     pub(crate) fn error(text: impl Into<String>) -> Self {
-        Self { level: Level::Error, text: text.into() }
+        Self::of_launch(Level::Error, text)
+    }
+
+    pub(crate) fn of_launch(level: Level, text: impl Into<String>) -> Self {
+        Self { level, text: text.into(), is_of_node: false }
+    }
+
+    /// Message of a node, written as the logger of ROS 2 writes it.
+    pub(crate) fn of_node(level: Level, log: &Log) -> Self {
+        let Log { stamp, name, msg, .. } = log;
+        let text = format!("[{name}] [{level}] [{}.{:09}]: {msg}", stamp.sec, stamp.nanosec);
+        Self { level, text, is_of_node: true }
     }
 }

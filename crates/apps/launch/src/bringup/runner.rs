@@ -16,6 +16,7 @@ use crate::bringup::environment;
 use crate::bringup::guard::Guard;
 use crate::bringup::lockstep::{Lockstep, LockstepNodes};
 use crate::bringup::make::{self, BuiltIn, make, pairs_of_bridge};
+use crate::bringup::node_logs::NodeLogs;
 use crate::bringup::parts::{self, BuiltInRequest, Part, Program, Work, own_folder};
 use crate::bringup::preparation::{self, MAX_WAIT_NS};
 use crate::bringup::processes::LaunchProcesses;
@@ -97,6 +98,7 @@ pub struct LaunchRunner {
     guard: Guard,
     lockstep: LockstepNodes,
     processes: LaunchProcesses,
+    node_logs: NodeLogs,
     is_over: bool,
     /// Time of the last call \[ns\].
     last_ns: i64,
@@ -127,6 +129,7 @@ impl LaunchRunner {
             guard: Guard::default(),
             lockstep: LockstepNodes::default(),
             processes: LaunchProcesses::default(),
+            node_logs: NodeLogs::default(),
             is_over: false,
             last_ns: 0,
         };
@@ -374,6 +377,7 @@ impl LaunchRunner {
         while self.begin(graph, now_ns) {}
         self.work_hands(graph, now_ns, simulation);
         while self.begin(graph, now_ns) {}
+        self.said.extend(self.node_logs.take(graph, &self.lines));
         self.lockstep.admit();
     }
 
@@ -517,7 +521,7 @@ impl LaunchRunner {
             Work::Log { level, text } => {
                 let level = periplus_graph::Level::named(level);
                 let level = level.unwrap_or(periplus_graph::Level::Info);
-                self.said.push(LaunchLog { level, text: text.clone() });
+                self.said.push(LaunchLog::of_launch(level, text));
             }
             Work::Shutdown { reason } => {
                 let reason =

@@ -28,7 +28,7 @@ impl LogPrinter {
             return;
         }
         self.printed = bringup.lines().len();
-        self.has_failed |= log.iter().any(|one| one.level >= Level::Error);
+        self.has_failed |= log.iter().any(|one| one.level >= Level::Error && !one.is_of_node);
         let is_quiet = self.is_quiet;
         let write = || -> io::Result<()> {
             let mut err = anstream::stderr().lock();
@@ -37,6 +37,7 @@ impl LogPrinter {
             }
             for one in log.iter().filter(|one| !is_quiet || one.level >= Level::Error) {
                 match one.level {
+                    _ if one.is_of_node => writeln!(err, "{}", one.text)?,
                     level if level >= Level::Error => writeln!(err, "error: {}", one.text)?,
                     Level::Warn => writeln!(err, "warning: {}", one.text)?,
                     _ => writeln!(err, "{}", one.text)?,

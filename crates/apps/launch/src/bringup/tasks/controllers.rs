@@ -82,7 +82,7 @@ impl ControllerSpawner {
 
     fn log(&self, stage: &mut TaskContext<'_>, level: Level, text: &str) {
         self.node.log(level, text);
-        stage.said.push(LaunchLog { level, text: format!("{}: {text}", self.node.full_name()) });
+        stage.said.push(LaunchLog::of_launch(level, format!("{}: {text}", self.node.full_name())));
     }
 
     /// Connects to the controller manager once it exists.

@@ -131,7 +131,7 @@ impl Manager {
 
     fn say(&self, stage: &mut TaskContext<'_>, level: Level, text: &str) {
         self.node.log(level, text);
-        stage.said.push(LaunchLog { level, text: format!("{}: {text}", self.node.full_name()) });
+        stage.said.push(LaunchLog::of_launch(level, format!("{}: {text}", self.node.full_name())));
     }
 
     /// Executes the command; returns true on progress.
