@@ -1,7 +1,7 @@
 //! Planning times on maps of Nav2's planner benchmark, inflated by the costmap crate. On Linux the times are
 //! those of the processor, so that other programs hardly disturb them.
 //!
-//! `cargo run --release -p periplus-planners --example bench_planners [-- FOLDER [REPETITIONS]]`
+//! `cargo run --release -p periplus-planners --example bench_planners [-- FOLDER [REPETITIONS [PLANNER]]]`
 
 #![allow(
     clippy::disallowed_methods,
@@ -166,6 +166,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let default = concat!(env!("CARGO_MANIFEST_DIR"), "/../../../../shared/nav/maps");
     let folder = arguments.next().unwrap_or_else(|| default.to_owned());
     let repetitions = arguments.next().map_or(Ok(20), |word| word.parse())?;
+    let only = arguments.next();
     println!("map            planner                 mean [ms] first [ms] path [m]  expanded");
     for task in &TASKS {
         let map = match read_map(Path::new(&folder), task) {
@@ -177,6 +178,9 @@ fn main() -> Result<(), Box<dyn Error>> {
         };
         let ends = [nearest_free(&map, task.start), nearest_free(&map, task.goal)];
         for (name, class, settings) in PLANNERS {
+            if only.as_ref().is_some_and(|only| only != name) {
+                continue;
+            }
             let kind = PlannerKind::of_class(class)?;
             let values = ParamValues::defaults(kind.table());
             let mut planner = kind.build(values, Nav2Release::Main);

@@ -2,9 +2,12 @@
 //!
 //! Source of the rules: `nav2_navfn_planner/src/navfn.cpp`.
 
+mod corridor;
+
 use periplus_costmap::cost::{INSCRIBED, UNKNOWN};
 use periplus_grid::Cell;
 
+use self::corridor::Corridor;
 use super::front::Front;
 
 /// Potential of a cell that was not reached (`POT_HIGH`).
@@ -21,17 +24,6 @@ const THRESHOLD_STEP_COST: f32 = 2.0 * NEUTRAL_COST;
 const CHECK_INTERVAL_COUNT: usize = 5000;
 /// Minimum potential difference, in costs of the neighbour, that makes it worth an update (`INVSQRT2`).
 const UPDATE_RATIO: f64 = std::f64::consts::FRAC_1_SQRT_2;
-/// Lower bound of the potential difference of free cells at a distance of one cell: the update
-/// underestimates diagonal waves by 0.4 %.
-const LOWEST_SLOPE_COST: f32 = 0.99 * NEUTRAL_COST;
-/// Maximum share by which the potential of the goal may be higher with Dijkstra than with A*: updates that
-/// gain little are left out, and A* leaves out fewer on its straight course. It is up to 1.0 % on Nav2's
-/// benchmark maps, and not above the share that costs and detours add to the straight line.
-const MAX_DIJKSTRA_EXCESS_RATIO: f32 = 0.015;
-/// Potential beyond that of the goal up to which cells are kept: the gradient of the path needs two cells
-/// beside it, each at most 251, and an update may come from a cell aside of the direct line.
-const KEPT_BEYOND_GOAL_COST: f32 = 600.0;
-
 /// Order in which cells are updated.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum NavFnMethod {
@@ -66,6 +58,9 @@ pub struct PotentialField {
     /// Cells whose potential or sign changed; only these are restored for the next propagation.
     touched: Vec<u32>,
     front: Front,
+    corridor: Corridor,
+    /// True if the potentials are those of the corridor.
+    has_corridor: bool,
 }
 
 /// Properties of the cells by their cost in the costmap.
@@ -87,21 +82,38 @@ struct CellTerms {
     bend: f32,
 }
 
+impl CellTerms {
+    fn new(cost: f64) -> Self {
+        let (base, bend) = ((0.7040 * cost) as f32, (-0.2301 / cost) as f32);
+        Self { cost: cost as f32, base, bend }
+    }
+
+    /// Returns the potential that a planar wave brings from the lower neighbours in both directions.
+    #[inline(always)]
+    fn wave(&self, across: f32, along: f32) -> f32 {
+        let (low, difference) = (across.min(along), (across - along).abs());
+        let far = low + self.cost;
+        let near = (low + self.base) + difference * (0.5307 + self.bend * difference);
+        std::hint::select_unpredictable(difference >= self.cost, far, near)
+    }
+}
+
+/// Returns the cost of a cell whose costmap has a cost.
+fn cell_cost(cost: u8, allow_unknown: bool) -> f32 {
+    match cost {
+        UNKNOWN if allow_unknown => OBSTACLE_COST - 1.0,
+        cost if cost < INSCRIBED => {
+            let whole = libm::trunc(f64::from(NEUTRAL_COST) + COST_FACTOR * f64::from(cost));
+            (whole as f32).min(OBSTACLE_COST - 1.0)
+        }
+        _ => OBSTACLE_COST,
+    }
+}
+
 impl CostTables {
     fn new(allow_unknown: bool) -> Self {
-        let cost_of = |cost: u8| match cost {
-            UNKNOWN if allow_unknown => OBSTACLE_COST - 1.0,
-            cost if cost < INSCRIBED => {
-                let whole = libm::trunc(f64::from(NEUTRAL_COST) + COST_FACTOR * f64::from(cost));
-                (whole as f32).min(OBSTACLE_COST - 1.0)
-            }
-            _ => OBSTACLE_COST,
-        };
-        let terms = |index: usize| {
-            let cost = cost_of(index as u8);
-            let exact = f64::from(cost);
-            CellTerms { cost, base: (0.7040 * exact) as f32, bend: (-0.2301 / exact) as f32 }
-        };
+        let cost_of = |cost: u8| cell_cost(cost, allow_unknown);
+        let terms = |index: usize| CellTerms::new(f64::from(cost_of(index as u8)));
         let margin = |index: usize| {
             let cost = cost_of(index as u8);
             let is_obstacle = cost >= OBSTACLE_COST;
@@ -123,9 +135,6 @@ pub struct PropagationCancelled;
 trait Guide {
     /// Returns the addition to the potential of a cell in the order of the updates.
     fn estimate(&self, index: u32) -> f32;
-
-    /// Returns true if a cell with this potential cannot be on the path to the goal.
-    fn is_beyond(&self, index: u32, potential: f32) -> bool;
 }
 
 /// No goal: in all directions.
@@ -134,10 +143,6 @@ struct Everywhere;
 impl Guide for Everywhere {
     fn estimate(&self, _: u32) -> f32 {
         0.0
-    }
-
-    fn is_beyond(&self, _: u32, _: f32) -> bool {
-        false
     }
 }
 
@@ -173,28 +178,6 @@ impl Guide for TowardsGoal {
     fn estimate(&self, index: u32) -> f32 {
         self.0.square(index).sqrt() * NEUTRAL_COST
     }
-
-    fn is_beyond(&self, _: u32, _: f32) -> bool {
-        false
-    }
-}
-
-/// In all directions, but only as far as a path of a limited potential could go.
-struct WithinReach {
-    offset: GoalOffset,
-    limit: f32,
-}
-
-impl Guide for WithinReach {
-    fn estimate(&self, _: u32) -> f32 {
-        0.0
-    }
-
-    #[inline(always)]
-    fn is_beyond(&self, index: u32, potential: f32) -> bool {
-        let rest = (self.limit - potential) / LOWEST_SLOPE_COST;
-        rest < 0.0 || rest * rest < self.offset.square(index)
-    }
 }
 
 impl PotentialField {
@@ -203,11 +186,17 @@ impl PotentialField {
     pub fn potential(&self, (column, row): Cell) -> Option<f32> {
         let is_inside = column < self.width && row < self.height;
         let potential = is_inside.then(|| self.at(row * self.width + column))?;
-        (potential < UNREACHED_COST).then_some(potential)
+        let is_known = !self.has_corridor || self.corridor.is_exact((column, row));
+        (potential < UNREACHED_COST && is_known).then_some(potential)
     }
 
     /// Returns the potential at an index, or [`UNREACHED_COST`].
     pub(super) fn at(&self, index: usize) -> f32 {
+        if self.has_corridor {
+            let is_inside = index < self.width * self.height;
+            let cell = || (index % self.width, index / self.width);
+            return if is_inside { self.corridor.at(cell()) } else { UNREACHED_COST };
+        }
         self.signed.get(index).map_or(UNREACHED_COST, |signed| signed.abs())
     }
 
@@ -241,9 +230,9 @@ impl PotentialField {
     }
 
     /// Computes potentials with Dijkstra in the part of the map through which the path to the goal may lead,
-    /// and leaves the rest unreached. A run of A* limits the potential of the goal first. Where the goal
-    /// cannot be reached, the whole map is computed. The potentials are those of [`Self::compute`] but for
-    /// the influence of the order of the updates, at most half the cost of a cell.
+    /// and leaves the rest unreached. Where the goal cannot be reached, the whole map is computed. The
+    /// potentials are those of [`Self::compute`] but for the influence of the order of the updates, at most
+    /// half the cost of a cell.
     ///
     /// # Errors
     /// When `is_cancelled` returns true.
@@ -255,25 +244,27 @@ impl PotentialField {
         is_cancelled: &mut dyn FnMut() -> bool,
     ) -> Result<usize, PropagationCancelled> {
         let tables = CostTables::new(how.allow_unknown);
-        let map = CostGrid { costs, tables: &tables };
         let everywhere = Propagation { method: NavFnMethod::Dijkstra, ..*how };
         let is_goal_free =
             |(x, y): &Cell| costs.get(y * width + x).is_some_and(|cost| !tables.is_obstacle(*cost));
         let Some(goal) = how.goal.filter(is_goal_free) else {
             return self.compute(costs, width, &everywhere, is_cancelled);
         };
-        let quick = Propagation { method: NavFnMethod::AStar, ..*how };
-        let mut update_count = self.compute(costs, width, &quick, is_cancelled)?;
-        if let Some(potential) = self.potential(goal) {
-            self.start(map, width, how.robot);
-            let offset = GoalOffset::new(width, goal);
-            let straight = NEUTRAL_COST * offset.square(self.index(how.robot) as u32).sqrt();
-            let excess = (potential / straight - 1.0).clamp(0.0, MAX_DIJKSTRA_EXCESS_RATIO);
-            let limit = potential + excess * potential + KEPT_BEYOND_GOAL_COST;
-            let guide = WithinReach { offset, limit };
-            update_count += self.propagate(map, how.goal, &guide, is_cancelled)?;
+        let height = costs.len().checked_div(width).unwrap_or(0);
+        let size = (width, height);
+        if how.robot.0 >= width || how.robot.1 >= height {
+            return self.compute(costs, width, &everywhere, is_cancelled);
         }
-        if self.potential(goal).is_none() {
+        self.has_corridor = false;
+        let (is_reached, mut update_count) =
+            self.corridor.compute(costs, size, goal, how, is_cancelled)?;
+        if is_reached {
+            self.has_corridor = true;
+            if (self.width, self.height) != size {
+                (self.width, self.height) = size;
+                self.signed.clear();
+            }
+        } else {
             update_count += self.compute(costs, width, &everywhere, is_cancelled)?;
         }
         Ok(update_count)
@@ -286,7 +277,9 @@ impl PotentialField {
     /// Restores the field and queues the neighbours of the robot.
     fn start(&mut self, map: CostGrid<'_>, width: usize, robot: Cell) {
         let height = map.costs.len().checked_div(width).unwrap_or(0);
-        if (self.width, self.height) != (width, height) {
+        self.has_corridor = false;
+        let is_filled = self.signed.len() == width * height;
+        if (self.width, self.height) != (width, height) || !is_filled {
             (self.width, self.height) = (width, height);
             self.fill();
         } else {
@@ -410,18 +403,12 @@ fn update<G: Guide>(
     let old = signed[at];
     let (l, r, u, d) = (signed[left], signed[right], signed[below], signed[above]);
     let (across, along) = (l.abs().min(r.abs()), u.abs().min(d.abs()));
-    let (low, difference) = (across.min(along), (across - along).abs());
     let terms = &map.tables.cell[usize::from(map.costs[at])];
-    let far = low + terms.cost;
-    let near = (low + terms.base) + difference * (0.5307 + terms.bend * difference);
-    let potential = if difference >= terms.cost { far } else { near };
+    let potential = terms.wave(across, along);
     if potential >= old.abs() {
         return;
     }
     signed[at] = potential.copysign(old);
-    if guide.is_beyond(index, potential) {
-        return;
-    }
     let priority = potential + guide.estimate(index);
     let queue = front.queue_for(priority);
     let mut offer = |neighbour: usize, value: f32| {
