@@ -284,6 +284,10 @@ params! {
         /// Factor of the cost of turns.
         #[param("non_straight_penalty", min(0.0))]
         non_straight_penalty: f64 = 1.2,
+        /// Length of path that a cusp costs, a change between forwards and backwards. Not in Nav2, where a car turns
+        /// around by many short strokes.
+        #[param("cusp_penalty", unit("m"), min(0.0))]
+        cusp_penalty_m: f64 = 0,
     }
 }
 

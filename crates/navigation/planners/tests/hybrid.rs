@@ -94,6 +94,43 @@ fn a_car_that_reverses_goes_back_a_short_distance() {
     assert!(forwards.length_m() > 2.0, "a loop: {}", forwards.length_m());
 }
 
+/// Number of changes between forwards and backwards.
+fn cusp_count(path: &[Pose2]) -> usize {
+    let is_cusp = |triple: &[Pose2]| {
+        let [a, b, c] = [triple[0], triple[1], triple[2]];
+        (b.x_m - a.x_m) * (c.x_m - b.x_m) + (b.y_m - a.y_m) * (c.y_m - b.y_m) < 0.0
+    };
+    path.windows(3).filter(|triple| is_cusp(triple)).count()
+}
+
+/// Regression test: a car left a pose across a corridor by many short strokes.
+#[test]
+fn a_car_drives_few_strokes_where_cusps_cost() {
+    // A corridor of 1.6 m around y = 4 m, whose costs fall from its walls.
+    let mut map = open_map();
+    for (column, row) in (0..160).flat_map(|x| (0..160).map(move |y| (x, y))) {
+        let room_m = 0.8 - (0.05 * row as f64 + 0.025 - 4.0).abs();
+        let cost = match room_m {
+            ..0.0 => 254,
+            ..0.14 => 253,
+            _ => (252.0 * (-3.0 * (room_m - 0.14)).exp()) as u8,
+        };
+        map.set((column, row), cost);
+    }
+    let across = |x_m: f64| Pose2::new(x_m, 4.2, PI / 2.0);
+    let cusps = |penalty_m: f64| {
+        let settings = [
+            reeds_shepp(),
+            ("minimum_turning_radius", ParamValue::Number(0.55)),
+            ("cusp_penalty", ParamValue::Number(penalty_m)),
+        ];
+        let path = plan(&mut planner(&settings), &map, across(2.5), across(6.0)).unwrap();
+        assert!(path.length_m() < 4.5, "{}", path.length_m());
+        cusp_count(&path.poses)
+    };
+    assert_eq!([cusps(0.0), cusps(0.5)], [4, 1]);
+}
+
 #[test]
 fn the_goal_may_have_any_heading() {
     let mode = |mode: &str| ("goal_heading_mode", ParamValue::Text(mode.to_owned()));

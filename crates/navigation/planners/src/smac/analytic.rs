@@ -33,6 +33,8 @@ pub(crate) struct AnalyticSettings {
     pub(crate) overrides_max_cost: bool,
     /// Weight of the costs of cells.
     pub(crate) cost_penalty: f64,
+    /// Length that a cusp costs \[cells\].
+    pub(crate) cusp_cost: f64,
 }
 
 /// Collision-free curve to a goal.
@@ -54,7 +56,7 @@ pub(super) fn expand(
     settings: &AnalyticSettings,
     checker: &CollisionChecker<'_>,
 ) -> Option<AnalyticPath> {
-    let curve = settings.family.shortest(from, goal, radius);
+    let curve = settings.family.cheapest(from, goal, radius, settings.cusp_cost);
     let length = curve.length();
     if length > settings.max_length || length < SQRT_2 {
         return None;

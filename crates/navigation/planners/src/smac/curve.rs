@@ -55,9 +55,14 @@ pub(crate) enum CurveFamily {
 impl CurveFamily {
     /// Returns the shortest curve between two poses, in any unit of length.
     pub(crate) fn shortest(self, from: Pose2, to: Pose2, radius: f64) -> Curve {
+        self.cheapest(from, to, radius, 0.0)
+    }
+
+    /// Returns the curve between two poses with the lowest sum of its length and a length for each cusp.
+    pub(crate) fn cheapest(self, from: Pose2, to: Pose2, radius: f64, cusp_cost: f64) -> Curve {
         let parts = match self {
             Self::Dubins => dubins::shortest(from, to, radius),
-            Self::ReedsShepp => reeds_shepp::shortest(from, to, radius),
+            Self::ReedsShepp => reeds_shepp::cheapest(from, to, radius, cusp_cost),
         };
         Curve { parts, radius }
     }
@@ -177,6 +182,10 @@ mod tests {
                 prop_assert!(curve.length() >= libm::hypot(x - 0.5, y + 0.25) - 1e-9);
             }
             prop_assert!(curves[1].length() <= curves[0].length() + 1e-6, "reversing never hurts");
+            let cost = |curve: Curve| curve.length() + 2.0 * curve.cusps().count() as f64;
+            let cheapest = CurveFamily::ReedsShepp.cheapest(from, to, radius, 2.0);
+            prop_assert!(cost(cheapest) <= cost(curves[1]) + 1e-6, "{cheapest:?}");
+            prop_assert!(cheapest.length() >= curves[1].length() - 1e-9);
         }
     }
 }

@@ -165,7 +165,8 @@ impl SmacHybridPlanner {
             None => {
                 let interpolates = params.allow_primitive_interpolation;
                 let set = PrimitiveSet::new(model, radius, self.bin_count(), interpolates);
-                Motions::Car(CarMotions::new(set, penalties, &self.headings))
+                let cusp_cost = params.cusp_penalty_m / resolution_m;
+                Motions::Car(CarMotions::new(set, penalties, cusp_cost, &self.headings))
             }
         };
         // The side of the table is odd, so that the goal is in its middle.
@@ -178,6 +179,7 @@ impl SmacHybridPlanner {
             max_cost: params.common.analytic_expansion_max_cost,
             overrides_max_cost: params.common.analytic_expansion_max_cost_override,
             cost_penalty: params.common.cost_penalty,
+            cusp_cost: params.cusp_penalty_m / resolution_m,
         };
         let analytic_ratio = params.common.analytic_expansion_ratio.max(f64::MIN_POSITIVE);
         MotionTables { bin_count: self.bin_count(), motions, lengths, analytic, analytic_ratio }

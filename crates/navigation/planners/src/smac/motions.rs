@@ -41,6 +41,8 @@ pub(crate) struct CarMotions {
     penalties: StepPenalties,
     /// Factor of the length of a step by the cost of its cell.
     cell_factors: Vec<f32>,
+    /// Cost of a change between forwards and backwards.
+    cusp_cost: f32,
 }
 
 /// Primitives of a lattice, forwards and perhaps backwards.
@@ -74,7 +76,12 @@ impl LatticeMotion {
 }
 
 impl CarMotions {
-    pub(crate) fn new(set: PrimitiveSet, penalties: StepPenalties, headings: &Headings) -> Self {
+    pub(crate) fn new(
+        set: PrimitiveSet,
+        penalties: StepPenalties,
+        cusp_cost: f64,
+        headings: &Headings,
+    ) -> Self {
         let rotated = |bin: usize| {
             let (sine, cosine) = libm::sincos(headings.angle_rad(bin));
             let rotate = |x: f64, y: f64| [x * cosine - y * sine, x * sine + y * cosine];
@@ -83,7 +90,7 @@ impl CarMotions {
         let offsets = (0..headings.count()).map(rotated).collect();
         let factor = |cost: u8| penalties.cell_factor(f64::from(cost)) as f32;
         let cell_factors = (0..=u8::MAX).map(factor).collect();
-        Self { set, offsets, penalties, cell_factors }
+        Self { set, offsets, penalties, cell_factors, cusp_cost: cusp_cost as f32 }
     }
 }
 
@@ -202,7 +209,10 @@ impl Motions {
                 let before = from.motion.map(|motion| primitive(motion).turn);
                 let to = primitive(to.motion);
                 let turn_factor = car.penalties.turn_factor(before, to.turn) as f32;
-                Some(to.travel as f32 * car.cell_factors[usize::from(cell_cost)] * turn_factor)
+                let is_cusp = before.is_some_and(|it| it.is_reverse() != to.turn.is_reverse());
+                let cusp_cost = if is_cusp { car.cusp_cost } else { 0.0 };
+                let factor = car.cell_factors[usize::from(cell_cost)] * turn_factor;
+                Some(to.travel as f32 * factor + cusp_cost)
             }
             Self::Lattice(lattice) => {
                 let cell_cost = lattice.free_cost(from, to, checker)?;

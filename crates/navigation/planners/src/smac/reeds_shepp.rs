@@ -51,11 +51,15 @@ impl Goal {
     }
 }
 
-/// Returns the parts of the shortest curve.
-pub(super) fn shortest(from: Pose2, to: Pose2, radius: f64) -> Parts {
+/// Returns the parts of the curve with the lowest sum of its length and a length for each cusp.
+pub(super) fn cheapest(from: Pose2, to: Pose2, radius: f64, cusp_cost: f64) -> Parts {
     let relative = from.inverse() * to;
     let goal = Goal::new(relative.x_m / radius, relative.y_m / radius, relative.yaw_rad);
-    let mut best = Best { length: f64::INFINITY, parts: [NO_PART; MAX_PART_COUNT] };
+    let mut best = Best {
+        cost: f64::INFINITY,
+        parts: [NO_PART; MAX_PART_COUNT],
+        cusp_cost: cusp_cost / radius,
+    };
     for is_time_flipped in [false, true] {
         for is_mirrored in [false, true] {
             let goal = if is_time_flipped { goal.time_flipped() } else { goal };
@@ -74,23 +78,38 @@ struct Symmetry {
 }
 
 struct Best {
-    length: f64,
+    cost: f64,
     parts: Parts,
+    /// Length that a cusp costs, in multiples of the radius.
+    cusp_cost: f64,
 }
 
 impl Best {
     fn offer(&mut self, parts: &[CurvePart], symmetry: Symmetry) {
-        let length = parts.iter().map(|part| part.length.abs()).sum();
-        if length >= self.length {
+        let length: f64 = parts.iter().map(|part| part.length.abs()).sum();
+        let cost = if self.cusp_cost > 0.0 {
+            length + self.cusp_cost * cusp_count(parts) as f64
+        } else {
+            length
+        };
+        if cost >= self.cost {
             return;
         }
-        self.length = length;
+        self.cost = cost;
         self.parts = [NO_PART; MAX_PART_COUNT];
         for (to, CurvePart { steer, length }) in self.parts.iter_mut().zip(parts) {
             to.steer = if symmetry.is_mirrored { steer.mirrored() } else { *steer };
             to.length = if symmetry.is_time_flipped { -length } else { *length };
         }
     }
+}
+
+/// Number of changes between forwards and backwards.
+fn cusp_count(parts: &[CurvePart]) -> usize {
+    let is_part = |length: &f64| length.abs() > ROUNDING_RATIO;
+    let mut lengths = parts.iter().map(|part| part.length).filter(is_part);
+    let Some(mut last) = lengths.next() else { return 0 };
+    lengths.filter(|length| std::mem::replace(&mut last, *length) * length < 0.0).count()
 }
 
 /// Offers all words that reach a goal.
