@@ -102,7 +102,10 @@ pub(super) fn check_critic(
     let model = match model.text()? {
         "diff_drive" => MppiModel::DiffDrive,
         "omni" => MppiModel::Omni,
-        "ackermann" => MppiModel::Ackermann { min_turning_radius_m: parameter("min_turning_r")? },
+        "ackermann" => MppiModel::Ackermann {
+            min_turning_radius_m: parameter("min_turning_r")?,
+            samples_curvatures: false,
+        },
         _ => return Err(model.unreadable("`diff_drive`, `omni` or `ackermann`")),
     };
     let table = SampleTable {

@@ -177,7 +177,7 @@ impl Advisor<'_, '_> {
 
     /// Curves that steered wheels can drive, and turn rates.
     fn steering(&mut self) {
-        let MppiModel::Ackermann { min_turning_radius_m } = self.config.model else { return };
+        let MppiModel::Ackermann { min_turning_radius_m, .. } = self.config.model else { return };
         let params = self.config.params();
         let needed_rad_s = params.vx_max_m_s / f64::from(min_turning_radius_m);
         if params.wz_max_rad_s < 0.5 * needed_rad_s {

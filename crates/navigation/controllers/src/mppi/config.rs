@@ -251,12 +251,13 @@ impl<'a> Reading<'a, '_, '_> {
             return None;
         };
         let group_values = self.values(&params::ACKERMANN, &group);
-        let min_turning_radius_m = AckermannParams::from_values(&group_values).min_turning_radius_m;
+        let steering = AckermannParams::from_values(&group_values);
         let model = match *word {
             "Omni" => MppiModel::Omni,
-            "Ackermann" => {
-                MppiModel::Ackermann { min_turning_radius_m: min_turning_radius_m as f32 }
-            }
+            "Ackermann" => MppiModel::Ackermann {
+                min_turning_radius_m: steering.min_turning_radius_m as f32,
+                samples_curvatures: steering.samples_curvatures,
+            },
             _ => MppiModel::DiffDrive,
         };
         if model != MppiModel::DiffDrive && model != MppiModel::Omni {

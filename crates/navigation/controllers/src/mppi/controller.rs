@@ -13,7 +13,7 @@ use super::critics::CriticKind;
 use super::explain::{CycleFacts, explain_failure, explain_speed};
 use super::lane_math::{atan2, normalize_angle};
 use super::optimizer::Optimizer;
-use super::params::{PathFollowParams, VisualizerParams};
+use super::params::{AckermannParams, PathFollowParams, VisualizerParams};
 use super::rollout::Start;
 use super::sequence::{ControlSequence, MppiControl};
 use super::stall::{Stall, StallWatch, seed};
@@ -106,11 +106,13 @@ impl Mppi {
             .fit(parameter)
             .map_err(|error| ParameterRefusal::Unfit { name: name.to_owned(), error })?;
         self.config.values.set(name, value);
-        if let super::MppiModel::Ackermann { min_turning_radius_m } = &mut self.config.model {
-            let radius = format!("{}.min_turning_r", self.config.model_group);
-            if let Some(radius_m) = self.config.values.number(&radius) {
-                *min_turning_radius_m = radius_m as f32;
-            }
+        if let super::MppiModel::Ackermann { min_turning_radius_m, samples_curvatures } =
+            &mut self.config.model
+            && let Some(steering) = self.config.values.group(&self.config.model_group)
+        {
+            let steering = AckermannParams::from_values(steering);
+            *min_turning_radius_m = steering.min_turning_radius_m as f32;
+            *samples_curvatures = steering.samples_curvatures;
         }
         self.has_speed_limit = false;
         self.optimizer = Optimizer::new(&self.config);

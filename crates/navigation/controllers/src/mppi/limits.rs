@@ -16,6 +16,8 @@ pub enum MppiModel {
     Ackermann {
         /// Minimum radius of a curve \[m\].
         min_turning_radius_m: f32,
+        /// True if samples keep the curvature of the sequence, and the limit.
+        samples_curvatures: bool,
     },
 }
 
@@ -26,9 +28,19 @@ impl MppiModel {
         self == Self::Omni
     }
 
+    /// Returns the highest curvature of samples \[1/m\]; none if samples may turn at any rate, as in Nav2.
+    pub(crate) fn max_sample_curvature(self) -> Option<f32> {
+        match self {
+            Self::Ackermann { min_turning_radius_m, samples_curvatures: true } => {
+                Some(1.0 / min_turning_radius_m)
+            }
+            _ => None,
+        }
+    }
+
     /// Limits turn rates to curves that the robot can drive.
     pub(crate) fn limit_turns(self, sequence: &mut ControlSequence) {
-        let Self::Ackermann { min_turning_radius_m } = self else { return };
+        let Self::Ackermann { min_turning_radius_m, .. } = self else { return };
         for (wz, vx) in sequence.wz.iter_mut().zip(&sequence.vx) {
             let limit = vx.abs() / min_turning_radius_m;
             *wz = clamp(*wz, -limit, limit);
@@ -176,7 +188,8 @@ mod tests {
         let mut sequence = ControlSequence::new(3);
         sequence.vx = vec![0.4, -0.4, 0.4];
         sequence.wz = vec![5.0, -5.0, 0.5];
-        MppiModel::Ackermann { min_turning_radius_m: 0.4 }.limit_turns(&mut sequence);
+        MppiModel::Ackermann { min_turning_radius_m: 0.4, samples_curvatures: false }
+            .limit_turns(&mut sequence);
         assert_eq!(sequence.wz, [1.0, -1.0, 0.5]);
     }
 }

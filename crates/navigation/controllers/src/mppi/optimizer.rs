@@ -291,6 +291,7 @@ impl Optimizer {
             step_s: settings.step_s,
             limits_controls: settings.limits_controls,
             delays: &self.delays,
+            sequence: &self.sequence,
         };
         predict(&mut self.samples, &context.start, &motion);
     }

@@ -197,6 +197,7 @@ pub fn rollout(
         step_s,
         limits_controls: false,
         delays: &Delays::default(),
+        sequence: controls,
     };
     predict(&mut samples, &Start { x, y, yaw, speed }, &motion);
     let row =

@@ -116,7 +116,7 @@ fn sideways_speeds_and_narrow_curves_cost() {
     scene.release = Nav2Release::Humble;
     let excess = 0.41_f32.sqrt() - 0.34_f32.sqrt();
     scene.check(CriticKind::Constraint, &[], [4.0 * 0.4 * excess, 0.0]);
-    scene.model = MppiModel::Ackermann { min_turning_radius_m: 0.4 };
+    scene.model = MppiModel::Ackermann { min_turning_radius_m: 0.4, samples_curvatures: false };
     scene.release = Nav2Release::Main;
     scene.table.wz = vec![vec![2.0; 4], vec![-1.0; 4]];
     scene.check(CriticKind::Constraint, &[], [4.0 * 0.4 * 0.2, 0.0]);

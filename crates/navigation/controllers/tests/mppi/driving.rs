@@ -5,7 +5,7 @@ use periplus_costmap::Nav2Release;
 use periplus_geometry::{Pose2, Twist2};
 use proptest::prelude::*;
 
-use crate::world::{Robot, World, controller, drive, pruned, straight};
+use crate::world::{Robot, STOCK_CRITICS, World, controller, drive, pruned, straight};
 
 const MODELS: [&str; 3] = ["DiffDrive", "Omni", "Ackermann"];
 
@@ -108,6 +108,42 @@ fn steered_wheels_get_curves_that_they_can_drive() {
             assert!(wz_rad_s.abs() <= vx_m_s.abs() / 0.4 + slack, "{release}: {vx_m_s} {wz_rad_s}");
         }
     }
+}
+
+/// Regression test: a car with a heading beside that of its path stood before a cusp, because samples turned in place.
+#[test]
+fn a_car_that_samples_curvatures_reaches_a_near_cusp() {
+    let world = World::new(&[]);
+    // Backwards along an arc of 0.45 m, up to the cusp.
+    let on_arc = |step: u32| {
+        let (sine, cosine) = libm::sincos(0.18 * f64::from(step));
+        Pose2::new(-0.5 * sine, 0.5 * (1.0 - cosine), -0.18 * f64::from(step))
+    };
+    let plan: Vec<Pose2> = (0..6).map(on_arc).collect();
+    let critics = STOCK_CRITICS.replace(" PreferForwardCritic", "");
+    let reaches = |samples_curvatures: &str| {
+        let params = [
+            ("critics", critics.as_str()),
+            ("motion_model", "Ackermann"),
+            ("AckermannConstraints.min_turning_r", "0.5"),
+            ("AckermannConstraints.sample_curvatures", samples_curvatures),
+            ("GoalCritic.threshold_to_consider", "0.3"),
+            ("PathFollowCritic.threshold_to_consider", "0.3"),
+            ("PathAlignCritic.threshold_to_consider", "0.1"),
+            ("PathAlignCritic.offset_from_furthest", "1"),
+            ("PathAlignCritic.use_path_orientations", "true"),
+            ("PathAngleCritic.mode", "2"),
+        ];
+        let mut controller = controller(Nav2Release::Main, &params);
+        let robot = Robot { pose: Pose2::new(0.0, 0.0, 0.35), ..Robot::default() };
+        let drive = drive(&world, &mut controller, robot, &plan, 150).unwrap();
+        for Twist2 { vx_m_s, wz_rad_s, .. } in &drive.commands {
+            assert!(wz_rad_s.abs() <= vx_m_s.abs() / 0.5 + 1e-3, "{vx_m_s} {wz_rad_s}");
+        }
+        drive.is_at_goal
+    };
+    assert!(reaches("true"));
+    assert!(!reaches("false"), "as in Nav2");
 }
 
 #[test]

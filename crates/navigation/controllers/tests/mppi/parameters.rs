@@ -200,7 +200,7 @@ fn defaults_follow_the_release() {
 #[test]
 fn motion_models_are_named_by_word_or_group() {
     let model = |release, params: &[(&str, &str)]| controller(release, params).config().model;
-    let steered = MppiModel::Ackermann { min_turning_radius_m: 0.7 };
+    let steered = MppiModel::Ackermann { min_turning_radius_m: 0.7, samples_curvatures: false };
     let group = [
         ("motion_model", "car"),
         ("car.plugin", "mppi::AckermannMotionModel"),

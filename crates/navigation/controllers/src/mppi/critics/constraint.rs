@@ -52,7 +52,7 @@ impl ConstraintCritic {
                     self.axes(samples, block)
                 }
                 MppiModel::Omni => self.total(samples, block),
-                MppiModel::Ackermann { min_turning_radius_m } => {
+                MppiModel::Ackermann { min_turning_radius_m, .. } => {
                     self.steered(samples, block, min_turning_radius_m)
                 }
             };
