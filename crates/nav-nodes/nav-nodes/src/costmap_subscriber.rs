@@ -7,7 +7,7 @@ use periplus_costmap::{Costmap, Footprint};
 use periplus_geometry::Pose2;
 use periplus_graph::{GraphError, Mailbox, Node, Qos};
 use periplus_grid::GridInfo;
-use periplus_motion::behaviors::is_pose_free;
+use periplus_motion::behaviors::{is_motion_free, is_pose_free};
 use periplus_msgs::geometry_msgs::PolygonStamped;
 use periplus_msgs::nav2_msgs;
 
@@ -185,6 +185,27 @@ impl CollisionChecker {
         tf: &Listener,
         frame: &str,
     ) -> Result<impl Fn(Pose2) -> bool + use<'a>, String> {
+        let (costmap, footprint, costmap_from_frame) = self.inputs(tf, frame)?;
+        Ok(move |pose| is_pose_free(costmap, footprint, costmap_from_frame * pose))
+    }
+
+    /// Returns true if the robot collides nowhere on a motion over poses in a frame, from the one at which it is.
+    ///
+    /// # Errors
+    /// The reason why poses cannot be checked. They then count as occupied.
+    pub(crate) fn is_motion_free(
+        &self,
+        tf: &Listener,
+        frame: &str,
+        poses: impl IntoIterator<Item = Pose2>,
+    ) -> Result<bool, String> {
+        let (costmap, footprint, costmap_from_frame) = self.inputs(tf, frame)?;
+        let poses: Vec<Pose2> = poses.into_iter().map(|pose| costmap_from_frame * pose).collect();
+        Ok(is_motion_free(costmap, footprint, &poses))
+    }
+
+    /// Costmap, footprint, and the pose of a frame in that of the costmap.
+    fn inputs(&self, tf: &Listener, frame: &str) -> Result<(&Costmap, &Footprint, Pose2), String> {
         let Some((costmap_frame, costmap)) = self.costmap.latest() else {
             return Err(format!("no costmap was received on `{}`", self.costmap.topic));
         };
@@ -198,7 +219,7 @@ impl CollisionChecker {
             let found = tf.at(costmap_frame, frame, 0);
             Pose2::from(found.map_err(|why| why.to_string())?.0)
         };
-        Ok(move |pose| is_pose_free(costmap, footprint, costmap_from_frame * pose))
+        Ok((costmap, footprint, costmap_from_frame))
     }
 }
 

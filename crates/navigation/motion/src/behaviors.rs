@@ -1,16 +1,18 @@
 //! Motions of the behavior server: spin, drive straight, teleoperation that avoids collisions.
 //!
 //! A motion is a velocity for each cycle, and the poses that the robot would reach with it, which
-//! [`is_pose_free`] checks on a costmap.
+//! [`is_motion_free`] checks on a costmap.
 //!
 //! Source: `nav2_behaviors` (humble 3c3db59d, jazzy f4108e5b, main a3a97043). Two mistakes there are
 //! not repeated: a spin checks the angle that is left instead of the angle behind it, and the
 //! projected pose of a teleoperated robot moves to the side that is commanded.
 
+mod clearance;
 mod drive;
 mod spin;
 mod teleop;
 
+pub use clearance::is_motion_free;
 pub use drive::{DriveLimits, InvalidDrive, StraightDrive};
 pub use spin::{Spin, SpinLimits};
 pub use teleop::{TeleopProjection, limit_teleop};

@@ -22,6 +22,7 @@ pub mod behaviors;
 pub mod collision_monitor;
 mod lifecycle;
 mod mean_velocity;
+mod outline;
 pub mod tables;
 mod velocity_smoother;
 

@@ -73,7 +73,7 @@ impl SpinBehavior {
         };
         let (hertz, ahead_s) = (params.cycle_frequency_hz, params.simulate_ahead_time_s);
         let poses = spin.poses_ahead(pose, velocity_rad_s, hertz, ahead_s);
-        if self.checks_collisions && !world.are_free(poses, node) {
+        if self.checks_collisions && !world.is_motion_free(poses, node) {
             return Ok((turned_rad, collision_ahead()));
         }
         let velocity = Twist2::new(0.0, 0.0, velocity_rad_s);
@@ -176,7 +176,7 @@ impl RunningDrive {
         };
         let ahead_s = world.params.simulate_ahead_time_s;
         let poses = self.drive.poses_ahead(pose, travelled_m, velocity_m_s, hertz, ahead_s);
-        if self.checks_collisions && !world.are_free(poses, node) {
+        if self.checks_collisions && !world.is_motion_free(poses, node) {
             return Ok((travelled_m, collision_ahead()));
         }
         self.last_m_s = velocity_m_s;

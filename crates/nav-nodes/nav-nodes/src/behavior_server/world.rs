@@ -124,7 +124,24 @@ impl BehaviorWorld {
         let Some(ports) = &self.ports else { return false };
         let checked = ports.checker.check(&self.tf, self.frame());
         let are_free = checked.map(|is_free| poses.into_iter().all(is_free));
-        are_free.unwrap_or_else(|why| {
+        self.checked(are_free, node)
+    }
+
+    /// Returns true if the robot collides nowhere on its motion over these poses, from the one at which it is; it may
+    /// leave obstacles that it touches. Without costmap and footprint it collides everywhere.
+    pub(super) fn is_motion_free(
+        &mut self,
+        poses: impl IntoIterator<Item = Pose2>,
+        node: &Node,
+    ) -> bool {
+        let Some(ports) = &self.ports else { return false };
+        let is_free = ports.checker.is_motion_free(&self.tf, self.frame(), poses);
+        self.checked(is_free, node)
+    }
+
+    /// Result of a check; false, and a report, if it was not possible.
+    fn checked(&mut self, result: Result<bool, String>, node: &Node) -> bool {
+        result.unwrap_or_else(|why| {
             let text = format!("collisions cannot be checked, so the robot stops: {why}");
             self.report("no-collision-check", &text, node);
             false

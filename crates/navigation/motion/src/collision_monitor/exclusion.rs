@@ -3,7 +3,8 @@
 use periplus_geometry::{DVec3, Pose};
 
 use super::CollisionPoint;
-use super::shape::{MonitorShape, is_in_polygon};
+use super::shape::MonitorShape;
+use crate::outline::is_in_polygon;
 
 /// Area in which points are ignored, such as a charger.
 #[derive(Clone, Debug, PartialEq)]

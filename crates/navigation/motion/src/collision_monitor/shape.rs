@@ -5,6 +5,8 @@ use std::fmt;
 
 use periplus_costmap::{Footprint, FootprintError};
 
+use crate::outline::{inside_m, is_in_polygon};
+
 /// Number of corners with which a circle is published; the value of Nav2.
 const CIRCLE_CORNER_COUNT: usize = 16;
 
@@ -33,19 +35,11 @@ impl MonitorShape {
 
     /// Distance of a point inside from the outline \[m\]; 0 outside.
     pub(super) fn depth_m(&self, x_m: f64, y_m: f64) -> f64 {
-        if !self.contains(x_m, y_m) {
-            return 0.0;
-        }
-        match self {
-            Self::Polygon(corners) => {
-                let starts = corners.iter().cycle().skip(corners.len().saturating_sub(1));
-                let sides = starts.zip(corners);
-                let distances =
-                    sides.map(|(start, end)| distance_to_side_m([x_m, y_m], *start, *end));
-                distances.fold(f64::INFINITY, f64::min)
-            }
+        let inside_m = match self {
+            Self::Polygon(corners) => inside_m(corners, x_m, y_m),
             Self::Circle { radius_m } => radius_m - libm::hypot(x_m, y_m),
-        }
+        };
+        inside_m.max(0.0)
     }
 
     /// Corners for display \[m\].
@@ -62,37 +56,6 @@ impl MonitorShape {
                 .collect(),
         }
     }
-}
-
-/// Distance of a point from the side between two corners \[m\].
-fn distance_to_side_m([x, y]: [f64; 2], start: [f64; 2], end: [f64; 2]) -> f64 {
-    let (side_x, side_y) = (end[0] - start[0], end[1] - start[1]);
-    let (from_x, from_y) = (x - start[0], y - start[1]);
-    let square_m2 = side_x * side_x + side_y * side_y;
-    let along_ratio = if square_m2 > 0.0 {
-        ((from_x * side_x + from_y * side_y) / square_m2).clamp(0.0, 1.0)
-    } else {
-        0.0
-    };
-    libm::hypot(from_x - along_ratio * side_x, from_y - along_ratio * side_y)
-}
-
-/// True if a ray along x from a point crosses the sides of a polygon an odd number of times
-/// (Shimrat, "Algorithm 112: position of point relative to polygon", 1962).
-pub(super) fn is_in_polygon(corners: &[[f64; 2]], x_m: f64, y_m: f64) -> bool {
-    let Some(mut start) = corners.last() else { return false };
-    let mut is_inside = false;
-    for end in corners {
-        if (y_m <= start[1]) == (y_m > end[1]) {
-            let crossing_x_m =
-                start[0] + (y_m - start[1]) * (end[0] - start[0]) / (end[1] - start[1]);
-            if crossing_x_m > x_m {
-                is_inside = !is_inside;
-            }
-        }
-        start = end;
-    }
-    is_inside
 }
 
 /// Mistake in a list of corners.
