@@ -5,6 +5,7 @@ use std::sync::Arc;
 use periplus_costmap::{CostmapConfig, Nav2Release};
 use periplus_diagnostics::Diagnostics;
 use periplus_graph::{Graph, GraphError, Lifecycle, LifecycleNode, Node, NodeSettings};
+use periplus_resources::Host;
 use periplus_yaml::YamlNode;
 
 use crate::behavior_server::{BehaviorServerConfig, BehaviorServerNode};
@@ -229,8 +230,8 @@ impl NavigationSetup<'_> {
             }
             NavigationServer::Planner => {
                 let costmap = self.costmap(GLOBAL_COSTMAP, &node, costmap_node, diagnostics)?;
-                let server =
-                    PlannerServer::with_plugins(&node, given, costmap, plugins, diagnostics)?;
+                let from = (plugins, &*self.files as &dyn Host);
+                let server = PlannerServer::with_plugins(&node, given, costmap, from, diagnostics)?;
                 NavigationNode::Planner(server)
             }
             NavigationServer::Smoother => {

@@ -11,6 +11,7 @@ use periplus_graph::{
 use periplus_msgs::nav_msgs::Path;
 use periplus_msgs::nav2_msgs_main::{ComputePathThroughPoses, ComputePathToPose, IsPathValid};
 use periplus_params::{Given, ParamValues};
+use periplus_resources::{Host, MemoryHost};
 
 use super::goals::PathAction;
 use super::parameters::{PLANNER_SERVER, PlannerServerParams, PlannerSlot, planners};
@@ -50,10 +51,12 @@ impl PlannerServer {
         costmap: LifecycleNode<CostmapNode>,
         diagnostics: &mut Diagnostics,
     ) -> Result<LifecycleNode<Self>, GraphError> {
-        Self::with_plugins(node, given, costmap, &NavigationPlugins::new(), diagnostics)
+        let (plugins, files) = (NavigationPlugins::new(), MemoryHost::new());
+        Self::with_plugins(node, given, costmap, (&plugins, &files), diagnostics)
     }
 
-    /// Creates the server as [`Self::new`] does, with planners of other authors.
+    /// Creates the server as [`Self::new`] does, with planners of other authors, and with the files that
+    /// parameters name.
     ///
     /// # Errors
     /// When a name is not valid or exists with another type.
@@ -61,12 +64,12 @@ impl PlannerServer {
         node: &Node,
         given: impl IntoIterator<Item = Given<'a>>,
         costmap: LifecycleNode<CostmapNode>,
-        plugins: &NavigationPlugins,
+        (plugins, files): (&NavigationPlugins, &dyn Host),
         diagnostics: &mut Diagnostics,
     ) -> Result<LifecycleNode<Self>, GraphError> {
         let (release, forms) = costmap.with(|costmap| costmap.releases());
         let mut server = ServerParameters::new(&PLANNER_SERVER, given, diagnostics);
-        let planners = planners(&mut server, &plugins.planners, release);
+        let planners = planners(&mut server, &plugins.planners, files, release);
         let (mut values, failures) = server.finish();
         let params = PlannerServerParams::from_values(&values);
         for slot in &planners {

@@ -1,10 +1,13 @@
 //! Parameters of the planner server.
 
+use std::path::Path;
+
 use periplus_controllers::PluginSetup;
 use periplus_costmap::Nav2Release;
-use periplus_diagnostics::Diagnostic;
+use periplus_diagnostics::{Diagnostic, Origin};
 use periplus_params::{ParamValues, Table, params};
-use periplus_planners::{Planner, PlannerKind};
+use periplus_planners::{Lattice, Planner, PlannerKind, SmacHybridPlanner};
+use periplus_resources::Host;
 
 use crate::navigation_plugins::{CreatePlugin, PluginClasses};
 use crate::server_plugins::{PluginEntry, ServerParameters};
@@ -31,6 +34,9 @@ params! {
     }
 }
 
+/// Parameter of the State Lattice planner.
+const LATTICE_FILE: &str = "lattice_filepath";
+
 /// Planners of the default list.
 const DEFAULT_PLANNERS: [(&str, &str); 1] = [("GridBased", "nav2_navfn_planner::NavfnPlanner")];
 
@@ -42,6 +48,8 @@ static UNDECLARED: Table =
 enum PlannerSource {
     /// A planner of Nav2, which is created when the server is configured.
     BuiltIn(PlannerKind),
+    /// The State Lattice planner with the motions of its file.
+    Lattice(Box<Lattice>),
     /// A registered class. Its planner is created once, and kept here while the server is not configured.
     Registered(Option<Box<dyn Planner>>),
 }
@@ -59,6 +67,11 @@ impl PlannerSlot {
         match &mut self.source {
             PlannerSource::BuiltIn(kind) => {
                 self.planner = Some(kind.build(self.values.clone(), release));
+            }
+            PlannerSource::Lattice(lattice) => {
+                let lattice = Lattice::clone(lattice);
+                let planner = SmacHybridPlanner::with_lattice(self.values.clone(), lattice);
+                self.planner = Some(Box::new(planner));
             }
             PlannerSource::Registered(kept) => {
                 self.planner = kept.take().or(self.planner.take());
@@ -82,7 +95,7 @@ impl PlannerSlot {
 
     pub(super) fn cleanup(&mut self) {
         match &mut self.source {
-            PlannerSource::BuiltIn(_) => self.planner = None,
+            PlannerSource::BuiltIn(_) | PlannerSource::Lattice(_) => self.planner = None,
             PlannerSource::Registered(kept) => *kept = self.planner.take().or(kept.take()),
         }
     }
@@ -95,16 +108,21 @@ type PlannerClasses = PluginClasses<CreatePlugin<dyn Planner>>;
 pub(super) fn planners(
     server: &mut ServerParameters<'_, '_>,
     classes: &PlannerClasses,
+    files: &dyn Host,
     release: Nav2Release,
 ) -> Vec<PlannerSlot> {
     let entries = server.plugins("planner_plugins", &DEFAULT_PLANNERS);
-    entries.into_iter().filter_map(|entry| planner(server, entry, classes, release)).collect()
+    let mut slots = Vec::new();
+    for entry in entries {
+        slots.extend(planner(server, entry, (classes, files), release));
+    }
+    slots
 }
 
 fn planner(
     server: &mut ServerParameters<'_, '_>,
     entry: PluginEntry<'_>,
-    classes: &PlannerClasses,
+    (classes, files): (&PlannerClasses, &dyn Host),
     release: Nav2Release,
 ) -> Option<PlannerSlot> {
     let PluginEntry { id, class, class_origin, given } = entry;
@@ -126,5 +144,34 @@ fn planner(
         }
     };
     let values = given.read(kind.table(), &[], server.diagnostics);
-    Some(PlannerSlot { id, source: PlannerSource::BuiltIn(kind), values, planner: None })
+    let mut source = PlannerSource::BuiltIn(kind);
+    let path = if kind == PlannerKind::SmacLattice { values.text(LATTICE_FILE) } else { None };
+    if let Some(path) = path.filter(|path| !path.trim().is_empty()) {
+        let lattice = lattice(server, &id, (&path, values.origin(LATTICE_FILE)), files)?;
+        source = PlannerSource::Lattice(Box::new(lattice));
+    }
+    Some(PlannerSlot { id, source, values, planner: None })
+}
+
+/// Reads the lattice file of a planner; a file that cannot be used is a failure.
+fn lattice(
+    server: &mut ServerParameters<'_, '_>,
+    id: &str,
+    (path, origin): (&str, Origin),
+    files: &dyn Host,
+) -> Option<Lattice> {
+    let read = || -> Result<Lattice, String> {
+        let bytes = files.read(Path::new(path.trim())).map_err(|error| error.to_string())?;
+        let text = String::from_utf8(bytes).map_err(|_| "it is not a text file".to_owned())?;
+        Lattice::read_json(&text).map_err(|error| error.to_string())
+    };
+    let found = read();
+    if let Err(why) = &found {
+        let message = format!("`{id}.{LATTICE_FILE}`: {path} cannot be used: {why}");
+        let help = "give the path of a file of nav2_smac_planner's `lattice_primitives`, or leave it out for a car \
+                    with a turning radius of 0.5 m on cells of 0.05 m";
+        let error = Diagnostic::error("lattice-file", message).at(origin);
+        server.fail(error.help(help));
+    }
+    found.ok()
 }

@@ -58,7 +58,9 @@ fn planner_server(
     let costmap = costmap(&stage.graph, "global_costmap", GLOBAL_COSTMAP, MAIN);
     let node = stage.graph.node(NodeSettings::new("planner_server")).unwrap();
     let given = given.iter().map(|(name, text)| Given::new(name, *text));
-    let server = PlannerServer::with_plugins(&node, given, costmap, &plugins(), found).unwrap();
+    let server =
+        PlannerServer::with_plugins(&node, given, costmap, (&plugins(), &MemoryHost::new()), found)
+            .unwrap();
     stage.map.publish(map(|_, _| false));
     server.start();
     stage.advance(300);

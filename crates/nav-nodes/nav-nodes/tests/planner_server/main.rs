@@ -5,6 +5,7 @@
 mod common;
 #[path = "../common/files.rs"]
 mod files;
+mod lattice_file;
 
 use std::sync::Arc;
 
