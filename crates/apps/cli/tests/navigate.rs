@@ -1,4 +1,4 @@
-//! `periplus navigate` with a map whose frame is not that of the world.
+//! `periplus navigate` with default parameters.
 #![allow(clippy::unwrap_used, clippy::disallowed_methods, reason = "tests look at files")]
 
 mod common;
@@ -12,12 +12,19 @@ use serde_json::Value;
 /// Runs `navigate` in the demo room with `sam_bot`, and returns its report.
 fn navigate(arguments: &[&str]) -> Value {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../..");
+    let robot = root.join("robots/sam_bot/urdf/sam_bot.urdf.xacro");
+    let pose = ["--pose=0,0.8,0.5"];
+    navigate_in(&root.join("worlds/demo_room.sdf"), &robot, &[&pose[..], arguments].concat())
+}
+
+/// Runs `navigate` in a world with a robot, and returns its report.
+fn navigate_in(world: &Path, robot: &Path, arguments: &[&str]) -> Value {
     let done = Command::new(env!("CARGO_BIN_EXE_periplus"))
         .arg("navigate")
-        .arg(root.join("worlds/demo_room.sdf"))
+        .arg(world)
         .arg("--robot")
-        .arg(root.join("robots/sam_bot/urdf/sam_bot.urdf.xacro"))
-        .args(["--pose=0,0.8,0.5", "--timeout=60", "--json", "--quiet"])
+        .arg(robot)
+        .args(["--timeout=60", "--json", "--quiet"])
         .args(arguments)
         .output()
         .unwrap();
@@ -40,4 +47,62 @@ fn a_map_of_slam_begins_where_the_robot_stood() {
     // 0.7 m along a heading of 0.5 rad from (0, 0.8), within the tolerance of the goal and of AMCL.
     let (dx_m, dy_m) = (at(0) - 0.7 * 0.5_f64.cos(), at(1) - 0.8 - 0.7 * 0.5_f64.sin());
     assert!(dx_m.hypot(dy_m) < 0.4, "{report}");
+}
+
+/// A robot of 0.5 m that moves in all directions.
+const SLIDER: &str = r#"<robot name="slider">
+  <link name="base_link">
+    <inertial><origin xyz="0 0 0.15"/><mass value="10"/><inertia ixx="0.3" ixy="0" ixz="0" iyy="0.3" iyz="0" izz="0.4"/></inertial>
+    <collision><origin xyz="0 0 0.15"/><geometry><box size="0.5 0.5 0.3"/></geometry></collision>
+  </link>
+  <link name="lidar">
+    <inertial><mass value="0.1"/><inertia ixx="1e-4" ixy="0" ixz="0" iyy="1e-4" iyz="0" izz="1e-4"/></inertial>
+  </link>
+  <joint name="lidar_joint" type="fixed"><parent link="base_link"/><child link="lidar"/><origin xyz="0 0 0.35"/></joint>
+  <gazebo><plugin name="slide" filename="libgazebo_ros_planar_move.so">
+    <robot_base_frame>base_link</robot_base_frame><update_rate>100</update_rate><publish_rate>50</publish_rate>
+  </plugin></gazebo>
+  <gazebo reference="lidar"><sensor name="lidar" type="gpu_lidar">
+    <topic>scan</topic><gz_frame_id>lidar</gz_frame_id><update_rate>10</update_rate>
+    <lidar>
+      <scan><horizontal><samples>360</samples><min_angle>-3.1416</min_angle><max_angle>3.1416</max_angle></horizontal></scan>
+      <range><min>0.1</min><max>10</max></range>
+    </lidar>
+  </sensor></gazebo>
+</robot>"#;
+
+/// Regression test: the path of an omnidirectional robot led through a gap in which it fits in some headings only, and
+/// the controller stood before it with another heading.
+#[test]
+fn an_omnidirectional_robot_drives_through_gaps_in_which_it_fits_with_any_heading() {
+    let wall = |[x, y]: [f64; 2], [length_x, length_y]: [f64; 2]| {
+        let shape = format!("<geometry><box><size>{length_x} {length_y} 1</size></box></geometry>");
+        format!(
+            "<collision name=\"{x} {y}\"><pose>{x} {y} 0.5 0 0 0</pose>{shape}</collision>\n\
+             <visual name=\"{x} {y}\"><pose>{x} {y} 0.5 0 0 0</pose>{shape}</visual>\n"
+        )
+    };
+    // A wall across the room with gaps of 0.65 m straight ahead and 1.2 m aside.
+    let walls = [
+        wall([1.5, -0.9125], [0.2, 1.175]),
+        wall([1.5, 0.8625], [0.2, 1.075]),
+        wall([1.5, 3.05], [0.2, 0.9]),
+        wall([1.5, -1.5], [5.0, 0.1]),
+        wall([1.5, 3.5], [5.0, 0.1]),
+        wall([-1.0, 1.0], [0.1, 5.0]),
+        wall([4.0, 1.0], [0.1, 5.0]),
+    ];
+    let floor = "<collision name=\"floor\"><geometry><plane><size>20 20</size></plane></geometry></collision>";
+    let text = format!(
+        "<sdf version=\"1.9\"><world name=\"gap\"><model name=\"walls\"><static>true</static>\n\
+         <link name=\"walls\">{floor}\n{}</link></model></world></sdf>",
+        walls.concat()
+    );
+    let folder = Folder::new("navigate-gap");
+    let (world, robot) = (folder.path("gap.sdf"), folder.path("slider.urdf"));
+    std::fs::write(&world, text).unwrap();
+    std::fs::write(&robot, SLIDER).unwrap();
+    let report = navigate_in(&world, &robot, &["--base=omni", "--no-map", "--goal=3,0,0"]);
+    assert_eq!(report["goals"][0]["recoveries"], 0, "{report}");
+    assert!(report["truth"]["length_m"].as_f64().unwrap() > 4.5, "{report}");
 }

@@ -215,13 +215,18 @@ impl NavigationDefaults {
 
     fn write_costmaps(&self, profile: &RobotProfile, text: &mut String) {
         let radius_m = profile.radius_m;
+        // Circle around the robot.
+        let corners = profile.footprint.iter().flatten();
+        let distances = corners.map(|[x_m, y_m]| (x_m * x_m + y_m * y_m).sqrt());
+        let circumscribed_m = distances.reduce(f64::max).unwrap_or(radius_m);
+        let circle = format!("robot_radius: {circumscribed_m:.3}");
         let shape = match &profile.footprint {
             Some(corners) => {
                 let corners: Vec<String> =
                     corners.iter().map(|[x, y]| format!("[{x:.4}, {y:.4}]")).collect();
                 format!("footprint: \"[{}]\"", corners.join(", "))
             }
-            None => format!("robot_radius: {radius_m:.3}"),
+            None => circle.clone(),
         };
         let scan = profile.scan.as_deref().unwrap_or("/scan");
         // A beam that hits nothing clears up to the largest range, and would mark an obstacle there.
@@ -238,7 +243,9 @@ impl NavigationDefaults {
              \x20     inflation_layer:\n        plugin: nav2_costmap_2d::InflationLayer\n\
              \x20       cost_scaling_factor: 3.0\n        inflation_radius: {inflation_m:.3}\n"
         );
-        let common = |frame: &str, rate_hz: f64| {
+        // A robot that drives in all directions comes to a gap with any heading, and MPPI does not turn it to fit.
+        let planned_shape = if self.base == RobotBase::Omnidirectional { &circle } else { &shape };
+        let common = |frame: &str, rate_hz: f64, shape: &str| {
             format!(
                 "      use_sim_time: true\n      global_frame: {frame}\n      robot_base_frame: {}\n\
                  \x20     {shape}\n      footprint_padding: 0.01\n      resolution: {RESOLUTION_M}\n\
@@ -253,8 +260,8 @@ impl NavigationDefaults {
              \x20     rolling_window: true\n      width: {side_m}\n      height: {side_m}\n\
              \x20     plugins: [obstacle_layer, inflation_layer]\n{layers}\
              global_costmap:\n  global_costmap:\n    ros__parameters:\n{}",
-            common(profile.odom(), 10.0),
-            common(self.global_frame(profile), 2.0),
+            common(profile.odom(), 10.0, &shape),
+            common(self.global_frame(profile), 2.0, planned_shape),
         );
         let rolling = format!(
             "      rolling_window: true\n      width: {UNMAPPED_SIDE_M}\n      height: {UNMAPPED_SIDE_M}\n"
