@@ -21,6 +21,7 @@ use periplus_msgs::nav2_msgs_main::{
     NavigateToPoseResult, WaypointStatus,
 };
 use periplus_msgs::std_msgs;
+use periplus_nav_nodes::bt_navigator::{NAVIGATE_CAR_TO_POSE_FILE, built_in_tree};
 use periplus_nav_nodes::nav2_actions::{Nav2ActionClient, Nav2SentGoal};
 use periplus_resources::MemoryHost;
 use world::{Answer, World, goal};
@@ -282,6 +283,22 @@ fn a_broken_tree_names_its_line() {
     let params = [("default_nav_to_pose_bt_xml", stock)];
     let world = World::with(Nav2Release::Jazzy, files(), &params);
     assert!(world.navigator.lifecycle().is_active());
+}
+
+#[test]
+fn the_tree_for_cars_keeps_its_path_and_never_spins() {
+    for release in [Nav2Release::Jazzy, Nav2Release::Main] {
+        let params = [("default_nav_to_pose_bt_xml", NAVIGATE_CAR_TO_POSE_FILE)];
+        let world = World::with(release, MemoryHost::new(), &params);
+        world.controller.with(|controller| controller.answers = [Answer::Succeed(5_000)].into());
+        let sent = Client::new(&world).send(3.0);
+        world.run_ms(8_000);
+        assert_eq!(end(&world, &sent).0, GoalState::Succeeded, "{release}");
+        assert_eq!(world.log.times("compute_path_to_pose").len(), 1, "{release}");
+        assert!(world.log.times("is_path_valid").len() >= 3, "{release}");
+    }
+    let tree = built_in_tree(Nav2Release::Main, NAVIGATE_CAR_TO_POSE_FILE).unwrap();
+    assert!(!tree.contains("<Spin"));
 }
 
 #[test]
