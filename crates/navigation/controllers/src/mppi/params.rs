@@ -143,8 +143,8 @@ params! {
         #[param("min_turning_r", unit("m"), above(0.0))]
         min_turning_radius_m: f64 = 0.2,
         /// Samples curvatures instead of turn rates: samples that are faster or slower than the sequence drive along
-        /// its curve, and none along a narrower one than the robot can. Not in Nav2, where a car does not get faster in
-        /// a curve, and stands where its samples turn in place.
+        /// its curve, and none along a narrower one than the robot can. Not in Nav2, where the samples of a car turn in
+        /// place, and it stops at cusps.
         #[param("sample_curvatures")]
         samples_curvatures: bool = false,
     }

@@ -387,7 +387,7 @@ mod tests {
         // The narrowest curve has 2 per metre, also backwards.
         check([0.2, 0.3], [0.1, 0.8], 0.2);
         check([0.2, 0.3], [-0.2, -0.5], -0.4);
-        // A sequence that stands has no curvature.
+        // A sequence without speed has no curvature.
         check([0.0, 0.0], [0.3, 0.2], 0.2);
     }
 

@@ -110,7 +110,7 @@ fn steered_wheels_get_curves_that_they_can_drive() {
     }
 }
 
-/// Regression test: a car with a heading beside that of its path stood before a cusp, because samples turned in place.
+/// Regression test: a car with a heading beside that of its path stopped before a cusp, because samples turned in place.
 #[test]
 fn a_car_that_samples_curvatures_reaches_a_near_cusp() {
     let world = World::new(&[]);
