@@ -10,6 +10,8 @@
     reason = "a tool that measures time and prints results"
 )]
 
+use std::time::Instant;
+
 use periplus_controllers::mppi::{Mppi, MppiSetup, create};
 use periplus_controllers::{ControlInput, Controller, GoalTolerance};
 use periplus_costmap::inflation::{CostTable, InflationBuffers, InflationSettings, inflate};
@@ -158,7 +160,10 @@ fn controller(release: Nav2Release, params: &[(&str, &str)], critics: &[&str]) -
     for finding in diagnostics.iter().filter(|it| it.severity.name() == "error") {
         println!("{}", finding.message);
     }
-    controller.unwrap()
+    let mut controller = controller.unwrap();
+    // The CPU time is that of one thread.
+    controller.set_threads(1);
+    controller
 }
 
 /// CPU time of this thread \[s\].
@@ -227,6 +232,28 @@ fn stages() {
     println!("| all | {all:.3} |");
 }
 
+/// Prints the time on the clock of a cycle by the number of threads: the tenth percentile, since other programs
+/// disturb it.
+fn threads() {
+    const CYCLES: i64 = 400;
+    println!("\n| threads, stock controller (Jazzy, DiffDrive) | ms a cycle on the clock |");
+    println!("|---|---|");
+    let world = World::turtlebot(true);
+    for threads in [1, 2] {
+        let mut controller = controller(Nav2Release::Jazzy, &STOCK, &STOCK_CRITICS);
+        controller.set_threads(threads);
+        let mut times_s: Vec<f64> = (0..CYCLES)
+            .map(|cycle| {
+                let begin = Instant::now();
+                let _ = controller.compute_velocity(&world.input(cycle * 50_000_000));
+                begin.elapsed().as_secs_f64()
+            })
+            .collect();
+        times_s.sort_by(f64::total_cmp);
+        println!("| {threads} | {:.3} |", times_s[times_s.len() / 10] * 1e3);
+    }
+}
+
 fn benchmark() {
     println!("\n| Nav2's benchmark, 300 x 12 x 2 | ms a cycle |");
     println!("|---|---|");
@@ -264,5 +291,6 @@ fn main() {
     }
     stock();
     stages();
+    threads();
     benchmark();
 }

@@ -23,6 +23,7 @@ mod lane_math;
 mod lanes;
 mod limits;
 mod noise;
+mod noise_thread;
 mod optimizer;
 pub mod params;
 mod path;

@@ -37,6 +37,8 @@ pub struct Mppi {
     last_time_ns: Option<i64>,
     has_speed_limit: bool,
     stall: StallWatch,
+    /// Number of threads; none for one for each processor.
+    threads: Option<usize>,
 }
 
 /// Creates a controller from the parameters of the controller server. Returns none if Nav2 would not start
@@ -62,8 +64,16 @@ impl Mppi {
             last_time_ns: None,
             has_speed_limit: false,
             stall: StallWatch::default(),
+            threads: None,
             config,
         }
+    }
+
+    /// Sets the number of threads: with two or more, another thread draws the noise of the next cycle (default:
+    /// one for each processor). Results do not depend on it.
+    pub fn set_threads(&mut self, threads: usize) {
+        self.threads = Some(threads);
+        self.optimizer.set_threads(threads);
     }
 
     /// Returns the configuration.
@@ -116,6 +126,9 @@ impl Mppi {
         }
         self.has_speed_limit = false;
         self.optimizer = Optimizer::new(&self.config);
+        if let Some(threads) = self.threads {
+            self.optimizer.set_threads(threads);
+        }
         Ok(())
     }
 

@@ -5,6 +5,8 @@
 //! One difference to Nav2: an attempt after a collision of all samples scores its samples again. In Nav2 the
 //! flag of the failure stays set, so that further attempts fail without a test.
 
+use std::num::NonZero;
+
 use periplus_costmap::Nav2Release;
 
 use super::config::MppiConfig;
@@ -13,6 +15,7 @@ use super::critics::{Critic, CriticKind, CriticLimits};
 use super::filter::{ControlHistory, smooth};
 use super::lanes::Row;
 use super::limits::{Changes, MppiAccelerationLimits, MppiVelocityLimits};
+use super::noise_thread::{NoiseKey, NoiseThread};
 use super::params::{MppiParams, ValidatorParams};
 use super::rollout::{Delays, Motion, NoiseScale, add_sequence, draw_noise, predict, trajectory};
 use super::samples::Samples;
@@ -127,6 +130,7 @@ pub(crate) struct Optimizer {
     weights: Vec<Row>,
     /// Number of the next draw of noise.
     draw: u64,
+    noise_thread: NoiseThread,
     pub(crate) last_command: MppiControl,
     /// Poses that follow from the sequence.
     pub(crate) optimal: Vec<[f32; 3]>,
@@ -159,6 +163,7 @@ impl Optimizer {
             evaluation: Evaluation::default(),
             weights: Vec::new(),
             draw: 0,
+            noise_thread: NoiseThread::new(processor_count()),
             last_command: MppiControl::default(),
             optimal: Vec::new(),
             optimal_sequence: ControlSequence::default(),
@@ -169,6 +174,11 @@ impl Optimizer {
         };
         optimizer.reset();
         optimizer
+    }
+
+    /// Sets the number of threads; results do not depend on it.
+    pub(crate) fn set_threads(&mut self, threads: usize) {
+        self.noise_thread = NoiseThread::new(threads);
     }
 
     /// Forgets the sequence and draws noise; the speed limit stays.
@@ -278,7 +288,8 @@ impl Optimizer {
         match &self.pool {
             Some(pool) => self.samples.copy_controls(pool),
             None => {
-                draw_noise(&mut self.samples, settings.seed, self.draw, settings.scale);
+                let key = NoiseKey { seed: settings.seed, draw: self.draw, scale: settings.scale };
+                self.noise_thread.draw(&mut self.samples, key);
                 self.draw += 1;
             }
         }
@@ -353,4 +364,8 @@ impl Optimizer {
             shifts: self.settings.shifts,
         }
     }
+}
+
+fn processor_count() -> usize {
+    std::thread::available_parallelism().map_or(1, NonZero::get)
 }

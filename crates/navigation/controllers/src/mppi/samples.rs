@@ -105,6 +105,18 @@ impl Samples {
         self.wz.controls.rows.clone_from(&from.wz.controls.rows);
     }
 
+    /// Returns true if the robot is omnidirectional.
+    pub(crate) fn is_holonomic(&self) -> bool {
+        !self.vy.controls.rows.is_empty()
+    }
+
+    /// Swaps the controls with those of samples of the same size.
+    pub(crate) fn swap_controls(&mut self, other: &mut Self) {
+        std::mem::swap(&mut self.vx.controls, &mut other.vx.controls);
+        std::mem::swap(&mut self.vy.controls, &mut other.vy.controls);
+        std::mem::swap(&mut self.wz.controls, &mut other.wz.controls);
+    }
+
     /// Number of blocks.
     pub(crate) fn blocks(&self) -> usize {
         rows_for(self.count)

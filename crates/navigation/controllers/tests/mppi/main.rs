@@ -11,4 +11,5 @@
 mod critics;
 mod driving;
 mod parameters;
+mod threads;
 mod world;
