@@ -161,6 +161,6 @@ pub(super) const ALL: [Robot; 4] = [
         packages: &[],
         parameters: Parameters::Default,
         options: &["--base=ackermann", "--min-turning-radius=0.5"],
-        courses: &["demo room"],
+        courses: &["house", "demo room"],
     },
 ];

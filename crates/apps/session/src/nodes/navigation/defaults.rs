@@ -2,6 +2,8 @@
 
 use std::fmt::Write as _;
 
+use periplus_nav_nodes::bt_navigator::NAVIGATE_CAR_TO_POSE_FILE;
+
 use super::RobotProfile;
 
 /// Motion that the wheels of a robot allow.
@@ -67,6 +69,13 @@ const RESOLUTION_M: f64 = 0.05;
 /// Side of the costmap around the robot where there is no whole map \[m\].
 const UNMAPPED_SIDE_M: usize = 50;
 
+/// Length of path that a cusp costs a car, about the length of the car \[m\]. At a cusp it stops, which takes as long.
+const CUSP_PENALTY_M: f64 = 0.5;
+
+/// Critic of robots other than cars, whose paths lead backwards as well.
+const PREFER_FORWARD: &str = "      PreferForwardCritic: {enabled: true, cost_power: 1, cost_weight: 5.0, \
+                              threshold_to_consider: 0.5}\n";
+
 impl NavigationDefaults {
     /// Returns the parameter file for a robot.
     #[must_use]
@@ -105,6 +114,7 @@ impl NavigationDefaults {
              \x20     movement_time_allowance: 10.0\n\
              \x20   goal_checker:\n      plugin: nav2_controller::SimpleGoalChecker\n\
              \x20     xy_goal_tolerance: 0.25\n      yaw_goal_tolerance: 0.25\n      stateful: true\n\
+             {path_handler}\
              \x20   FollowPath:\n      plugin: nav2_mppi_controller::MPPIController\n\
              \x20     time_steps: 56\n      model_dt: 0.05\n      batch_size: 1000\n\
              \x20     vx_std: {vx_std:.3}\n      vy_std: {vy_std:.3}\n      wz_std: 0.4\n\
@@ -112,24 +122,49 @@ impl NavigationDefaults {
              \x20     wz_max: {turn}\n      ax_max: 3.0\n      ax_min: -3.0\n      ay_max: 3.0\n      az_max: 3.5\n\
              \x20     iteration_count: 1\n      prune_distance: {prune:.2}\n      transform_tolerance: 0.1\n\
              \x20     temperature: 0.3\n      gamma: 0.015\n      motion_model: {model}\n",
+            path_handler = self.path_handler(),
             odom = profile.odometry.as_deref().unwrap_or("odom"),
             vx_std = (0.4 * speed).max(0.2),
             vy_std = (0.4 * speed).max(0.2),
-            prune = (1.2 * HORIZON_S * speed).max(1.5),
+            prune = self.prune_distance_m(),
         );
         if let RobotBase::Ackermann { min_turning_radius_m } = self.base {
             let _ = write!(
                 text,
-                "      AckermannConstraints:\n        min_turning_r: {min_turning_radius_m}\n"
+                "      AckermannConstraints:\n        min_turning_r: {min_turning_radius_m}\n\
+                 \x20       sample_curvatures: true\n"
             );
         }
         self.write_critics(profile, text);
     }
 
+    fn is_car(&self) -> bool {
+        matches!(self.base, RobotBase::Ackermann { .. })
+    }
+
+    /// Length of the path that the controller gets \[m\].
+    fn prune_distance_m(&self) -> f64 {
+        (1.2 * HORIZON_S * self.max_speed_m_s).max(1.5)
+    }
+
+    /// Parameters of the path handler: a car drives to each cusp of its path, and only then follows the rest. Other robots
+    /// have the defaults of Nav2. Before main the controller has `enforce_path_inversion`.
+    fn path_handler(&self) -> String {
+        if !self.is_car() {
+            return String::new();
+        }
+        format!(
+            "    PathHandler:\n      plugin: nav2_controller::FeasiblePathHandler\n\
+             \x20     prune_distance: {:.2}\n      enforce_path_inversion: true\n",
+            self.prune_distance_m()
+        )
+    }
+
     /// Writes the critics of MPPI. The path of a car has the heading of each of its points and leads forwards and
-    /// backwards: it is followed point by point up to the next change of direction.
+    /// backwards: it is followed point by point, also up to a cusp that is nearer than the 20 points from which
+    /// `PathAlignCritic` applies in Nav2.
     fn write_critics(&self, profile: &RobotProfile, text: &mut String) {
-        let is_car = matches!(self.base, RobotBase::Ackermann { .. });
+        let is_car = self.is_car();
         let speed = self.max_speed_m_s;
         let forward = if is_car { "" } else { ", PreferForwardCritic" };
         let critics = "ConstraintCritic, CostCritic, GoalCritic, GoalAngleCritic, PathAlignCritic, \
@@ -140,17 +175,21 @@ impl NavigationDefaults {
              \x20     ConstraintCritic: {{enabled: true, cost_power: 1, cost_weight: 4.0}}\n\
              \x20     GoalCritic: {{enabled: true, cost_power: 1, cost_weight: 5.0, threshold_to_consider: {near}}}\n\
              \x20     GoalAngleCritic: {{enabled: true, cost_power: 1, cost_weight: 3.0, threshold_to_consider: {turns_within}}}\n\
-             \x20     PreferForwardCritic: {{enabled: true, cost_power: 1, cost_weight: 5.0, threshold_to_consider: 0.5}}\n\
+             {prefers_forward}\
              \x20     CostCritic: {{enabled: true, cost_power: 1, cost_weight: 3.81, critical_cost: 300.0, \
              consider_footprint: {shaped}, collision_cost: 1000000.0, near_goal_distance: 1.0, trajectory_point_step: 2}}\n\
              \x20     PathAlignCritic: {{enabled: true, cost_power: 1, cost_weight: 14.0, max_path_occupancy_ratio: 0.05, \
-             trajectory_point_step: 4, threshold_to_consider: 0.5, offset_from_furthest: 20, use_path_orientations: {is_car}}}\n\
+             trajectory_point_step: 4, threshold_to_consider: {follows_until}, offset_from_furthest: {follows_from}, \
+             use_path_orientations: {is_car}}}\n\
              \x20     PathFollowCritic: {{enabled: true, cost_power: 1, cost_weight: 5.0, offset_from_furthest: {aim}, threshold_to_consider: {near}}}\n\
              \x20     PathAngleCritic: {{enabled: true, cost_power: 1, cost_weight: 2.0, offset_from_furthest: 4, \
              threshold_to_consider: 0.5, max_angle_to_furthest: 1.0, mode: {mode}}}\n\
              \x20     enforce_path_inversion: {is_car}\n",
+            prefers_forward = if is_car { "" } else { PREFER_FORWARD },
             shaped = profile.footprint.is_some(),
-            near = if is_car { 0.5 } else { 1.4 },
+            follows_until = if is_car { 0.1 } else { 0.5 },
+            follows_from = if is_car { 1 } else { 20 },
+            near = if is_car { 0.3 } else { 1.4 },
             turns_within = if is_car { 0.5 } else { 0.25 },
             mode = if is_car { 2 } else { 0 },
             // A tenth of what the fastest sample drives, in points of the path.
@@ -171,7 +210,8 @@ impl NavigationDefaults {
                     text,
                     "      plugin: nav2_smac_planner::SmacPlannerHybrid\n      tolerance: 0.25\n\
                      \x20     allow_unknown: true\n      motion_model_for_search: REEDS_SHEPP\n\
-                     \x20     minimum_turning_radius: {:.3}\n      angle_quantization_bins: 72\n",
+                     \x20     minimum_turning_radius: {:.3}\n      angle_quantization_bins: 72\n\
+                     \x20     cusp_penalty: {CUSP_PENALTY_M}\n",
                     // The controller needs some room to correct.
                     1.1 * min_turning_radius_m
                 );
@@ -184,13 +224,22 @@ impl NavigationDefaults {
         let _ = write!(
             text,
             "bt_navigator:\n  ros__parameters:\n    use_sim_time: true\n    global_frame: {}\n\
-             \x20   robot_base_frame: {}\n    odom_topic: {}\n\
+             \x20   robot_base_frame: {}\n    odom_topic: {}\n{}\
              waypoint_follower:\n  ros__parameters:\n    use_sim_time: true\n    stop_on_failure: false\n\
              smoother_server:\n  ros__parameters:\n    use_sim_time: true\n",
             self.global_frame(profile),
             profile.base(),
             profile.odometry.as_deref().unwrap_or("odom"),
+            self.tree(),
         );
+    }
+
+    /// Tree of a car; other robots have that of Nav2.
+    fn tree(&self) -> String {
+        if !self.is_car() {
+            return String::new();
+        }
+        format!("    default_nav_to_pose_bt_xml: {NAVIGATE_CAR_TO_POSE_FILE}\n")
     }
 
     fn write_behaviors(&self, profile: &RobotProfile, text: &mut String) {
@@ -278,5 +327,34 @@ impl NavigationDefaults {
                  \x20     plugins: [obstacle_layer, inflation_layer]\n{layers}"
             ),
         });
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn yaml(base: RobotBase) -> String {
+        NavigationDefaults { base, ..NavigationDefaults::default() }.yaml(&RobotProfile::default())
+    }
+
+    /// Regression test: the path of a car was not cut at its cusps, and was replanned each second.
+    #[test]
+    fn a_car_follows_its_path_from_cusp_to_cusp() {
+        let rules = [
+            "PathHandler:\n      plugin: nav2_controller::FeasiblePathHandler",
+            "      enforce_path_inversion: true",
+            "sample_curvatures: true",
+            "offset_from_furthest: 1,",
+            "cusp_penalty: 0.5",
+            "default_nav_to_pose_bt_xml: navigate_car_to_pose.xml",
+        ];
+        let car = yaml(RobotBase::Ackermann { min_turning_radius_m: 0.5 });
+        for base in [RobotBase::Differential, RobotBase::Omnidirectional] {
+            let other = yaml(base);
+            for rule in rules {
+                assert!(car.contains(rule) && !other.contains(rule), "{rule}");
+            }
+        }
     }
 }
