@@ -72,7 +72,7 @@ const SLIDER: &str = r#"<robot name="slider">
 </robot>"#;
 
 /// Regression test: the path of an omnidirectional robot led through a gap in which it fits in some headings only, and
-/// the controller stood before it with another heading.
+/// the controller stopped before it with another heading.
 #[test]
 fn an_omnidirectional_robot_drives_through_gaps_in_which_it_fits_with_any_heading() {
     let wall = |[x, y]: [f64; 2], [length_x, length_y]: [f64; 2]| {

@@ -4,12 +4,12 @@
 //! paths depend on them: a cell is at its lower left corner, half a cell off the rest of Nav2, and the cell
 //! of the robot counts as free. Its queues of at most 10,000 cells, which lose cells on large open maps, are
 //! not kept. Where NavFn finds no path, as the robot is nearer to an obstacle than its inscribed radius, the path
-//! begins with the way out.
+//! begins with the escape from there.
 
 mod descent;
+mod escape;
 mod field;
 mod front;
-mod way_out;
 
 pub use field::{NavFnMethod, PotentialField, Propagation, PropagationCancelled};
 
@@ -174,7 +174,7 @@ impl Planner for NavFnPlanner {
             let nearest = |cells: f64, last: usize| (libm::round(cells) as usize).min(last);
             (nearest(columns, last.0), nearest(rows, last.1))
         });
-        let changed = way_out::with_way_out(map.costs(), info.width, robot);
+        let changed = escape::with_escape(map.costs(), info.width, robot);
         let costs = changed.as_deref().unwrap_or(map.costs());
         let method = if self.params.use_astar { NavFnMethod::AStar } else { NavFnMethod::Dijkstra };
         let how = Propagation {

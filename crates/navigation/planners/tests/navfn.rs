@@ -54,7 +54,7 @@ fn a_goal_behind_walls_is_explained() {
 }
 
 #[test]
-fn a_robot_beside_a_wall_gets_a_way_out() {
+fn a_robot_beside_a_wall_gets_a_path_away() {
     let costs = costmap(&["#iiii.......", "#iiii.......", "#iiii.......", "#iiii......."]);
     for (use_astar, start) in [(false, at(0.2, 0.2)), (true, at(0.3, 0.1))] {
         let mut planner = NavFnPlanner::default();

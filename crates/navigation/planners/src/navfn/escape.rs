@@ -1,7 +1,7 @@
 //! Start of a robot that is nearer to an obstacle than its inscribed radius.
 //!
-//! All cells around it are obstacles then, and NavFn finds no path from them, also after recoveries: the robot stands
-//! until somebody moves it. It may be there because a sensor saw the obstacle late, or since the global costmap keeps
+//! All cells around it are obstacles then, and NavFn finds no path from them, also after recoveries: the robot stays
+//! until a user moves it. It may be there because a sensor saw the obstacle late, or since the global costmap keeps
 //! more distance than the controller.
 
 use std::collections::VecDeque;
@@ -9,10 +9,10 @@ use std::collections::VecDeque;
 use periplus_costmap::cost::{INSCRIBED, MAX_NON_OBSTACLE};
 use periplus_grid::Cell;
 
-/// Returns the costs with a way out for a robot whose cell and its four neighbours are inscribed or occupied: the inscribed
+/// Returns the costs with an escape for a robot whose cell and its four neighbours are inscribed or occupied: the inscribed
 /// cells around it are passable, at the highest cost, up to the distance of the nearest free cell. None if the robot needs
-/// no way out, or there is none.
-pub(super) fn with_way_out(costs: &[u8], width: usize, robot: Cell) -> Option<Vec<u8>> {
+/// no escape, or there is none.
+pub(super) fn with_escape(costs: &[u8], width: usize, robot: Cell) -> Option<Vec<u8>> {
     let height = costs.len().checked_div(width)?;
     let is_inside = |(column, row): Cell| {
         // The outermost cells count as obstacles.
@@ -79,7 +79,7 @@ mod tests {
 
     fn check(rows: &[&str], robot: Cell, expected: Option<&[&str]>) {
         let (given, width) = costs(rows);
-        let found = with_way_out(&given, width, robot);
+        let found = with_escape(&given, width, robot);
         assert_eq!(found, expected.map(|rows| costs(rows).0), "{robot:?}");
     }
 
