@@ -81,7 +81,7 @@ fn transforms_that_no_bridge_passes_on_stay_in_gazebo() {
     }
 }
 
-/// It was put on the floor like a robot with wheels, and its arm dragged along the floor.
+/// Regression test: such a robot was put on the floor like a robot with wheels, and its arm dragged along the floor.
 #[test]
 fn a_robot_that_the_world_holds_keeps_its_height() {
     let simulation = simulate("/crane.urdf", CRANE);

@@ -438,7 +438,7 @@ fn parameters_of_planners_change_while_the_server_runs() {
     assert!(!set(&planning, "expected_planner_frequency", 0.0).successful);
 }
 
-/// Nav2's launch files remap `/tf` to `tf` for all nodes; the costmap heard `/global_costmap/tf`.
+/// Nav2's launch files remap `/tf` to `tf` for all nodes; the costmap subscribed to `/global_costmap/tf`.
 #[test]
 fn the_costmap_hears_the_transforms_of_its_server() {
     for (namespace, topic) in [("/", "/tf"), ("/robot1", "/robot1/tf")] {
@@ -456,9 +456,9 @@ fn the_costmap_hears_the_transforms_of_its_server() {
         let node = remapped(NodeSettings::new("planner_server").namespace(namespace)).unwrap();
         let found = &mut Diagnostics::new();
         let server = setup.create(NavigationServer::Planner, node, remapped, found).unwrap();
-        let heard: Vec<String> = graph.topics().into_iter().map(|topic| topic.name).collect();
-        assert!(heard.iter().any(|name| name == topic), "{heard:?}");
-        assert!(!heard.iter().any(|name| name.ends_with("costmap/tf")), "{heard:?}");
+        let names: Vec<String> = graph.topics().into_iter().map(|topic| topic.name).collect();
+        assert!(names.iter().any(|name| name == topic), "{names:?}");
+        assert!(!names.iter().any(|name| name.ends_with("costmap/tf")), "{names:?}");
         drop(server);
     }
 }
