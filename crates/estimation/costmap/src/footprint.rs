@@ -139,20 +139,22 @@ pub fn radii(points: &[[f64; 2]]) -> (f64, f64) {
     for (index, &start) in points.iter().enumerate() {
         let end = points[(index + 1) % points.len()];
         let corner = libm::hypot(start[0], start[1]);
-        nearest = nearest.min(corner).min(distance_to_side(start, end));
+        nearest = nearest.min(corner).min(distance_to_side_m([0.0, 0.0], start, end));
         furthest = furthest.max(corner);
     }
     (nearest, furthest)
 }
 
-/// Returns the distance of the origin to the line between two points \[m\].
-fn distance_to_side(start: [f64; 2], end: [f64; 2]) -> f64 {
+/// Returns the distance of a point from the line between two corners \[m\].
+#[must_use]
+pub fn distance_to_side_m([x, y]: [f64; 2], start: [f64; 2], end: [f64; 2]) -> f64 {
     let (along_x, along_y) = (end[0] - start[0], end[1] - start[1]);
+    let (from_x, from_y) = (x - start[0], y - start[1]);
     let length_squared = along_x * along_x + along_y * along_y;
-    let part = -(start[0] * along_x + start[1] * along_y) / length_squared;
+    let part = (from_x * along_x + from_y * along_y) / length_squared;
     // For two equal corners the fraction is NaN, and the comparison below selects the first.
     let part = if part > 0.0 { part.min(1.0) } else { 0.0 };
-    libm::hypot(start[0] + part * along_x, start[1] + part * along_y)
+    libm::hypot(from_x - part * along_x, from_y - part * along_y)
 }
 
 /// Parses lists of numbers in brackets, separated by commas, blanks and tabs.

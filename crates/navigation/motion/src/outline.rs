@@ -1,5 +1,10 @@
 //! Points in polygons.
 
+use periplus_costmap::footprint::distance_to_side_m;
+
+/// Growth of an overlap of outline and obstacles that rounding causes \[m\].
+pub(crate) const SAME_OVERLAP_M: f64 = 1e-6;
+
 /// True if a ray along x from a point crosses the sides of a polygon an odd number of times
 /// (Shimrat, "Algorithm 112: position of point relative to polygon", 1962).
 pub(crate) fn is_in_polygon(corners: &[[f64; 2]], x_m: f64, y_m: f64) -> bool {
@@ -25,19 +30,6 @@ pub(crate) fn inside_m(corners: &[[f64; 2]], x_m: f64, y_m: f64) -> f64 {
         starts.zip(corners).map(|(start, end)| distance_to_side_m([x_m, y_m], *start, *end));
     let distance_m = distances.fold(f64::INFINITY, f64::min);
     if is_in_polygon(corners, x_m, y_m) { distance_m } else { -distance_m }
-}
-
-/// Distance of a point from the side between two corners \[m\].
-fn distance_to_side_m([x, y]: [f64; 2], start: [f64; 2], end: [f64; 2]) -> f64 {
-    let (side_x, side_y) = (end[0] - start[0], end[1] - start[1]);
-    let (from_x, from_y) = (x - start[0], y - start[1]);
-    let square_m2 = side_x * side_x + side_y * side_y;
-    let along_ratio = if square_m2 > 0.0 {
-        ((from_x * side_x + from_y * side_y) / square_m2).clamp(0.0, 1.0)
-    } else {
-        0.0
-    };
-    libm::hypot(from_x - along_ratio * side_x, from_y - along_ratio * side_y)
 }
 
 #[cfg(test)]

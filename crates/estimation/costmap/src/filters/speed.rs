@@ -8,6 +8,7 @@ use periplus_params::ParamValues;
 
 use super::mask::filter_info_error;
 use super::{FilterInfo, FilterKind, FilterMask, MaskFilter};
+use crate::footprint::distance_to_side_m;
 use crate::tables::SpeedFilterParams;
 use crate::{CellWindow, ChangeError, Costmap, Layer, UpdateBounds, UpdateContext};
 
@@ -140,7 +141,8 @@ impl SpeedFilter {
         let from = if self.reached < self.path.len() { self.reached } else { 0 };
         let mut found = (f64::INFINITY, from);
         for index in from..self.path.len().saturating_sub(1) {
-            let distance_m = distance_to_segment(robot, self.path[index], self.path[index + 1]);
+            let distance_m =
+                distance_to_side_m([robot.x_m, robot.y_m], self.path[index], self.path[index + 1]);
             if distance_m < found.0 {
                 found = (distance_m, index);
             }
@@ -158,19 +160,6 @@ impl SpeedFilter {
                 .note("the last limit still applies"),
         );
     }
-}
-
-/// Returns the distance of a robot from the line between two points \[m\].
-fn distance_to_segment(robot: Pose2, start: [f64; 2], end: [f64; 2]) -> f64 {
-    let (along_x, along_y) = (end[0] - start[0], end[1] - start[1]);
-    let (dx, dy) = (robot.x_m - start[0], robot.y_m - start[1]);
-    let length_squared = along_x * along_x + along_y * along_y;
-    let part = if length_squared > 0.0 {
-        ((dx * along_x + dy * along_y) / length_squared).clamp(0.0, 1.0)
-    } else {
-        0.0
-    };
-    libm::hypot(dx - part * along_x, dy - part * along_y)
 }
 
 impl MaskFilter for SpeedFilter {

@@ -4,13 +4,10 @@ use periplus_costmap::{Costmap, Footprint, cost};
 use periplus_geometry::Pose2;
 
 use super::is_pose_free;
-use crate::outline::inside_m;
+use crate::outline::{SAME_OVERLAP_M, inside_m};
 
 /// Distance between the centre of a cell and its corners, in sides of the cell.
 const HALF_DIAGONAL_RATIO: f64 = std::f64::consts::FRAC_1_SQRT_2;
-
-/// Growth of an overlap that rounding causes \[m\].
-const SAME_OVERLAP_M: f64 = 1e-6;
 
 /// True if a robot that moves over poses in the frame of the costmap, from the one at which it is, collides with no
 /// obstacle.

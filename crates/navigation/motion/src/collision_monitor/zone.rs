@@ -5,9 +5,7 @@ use periplus_geometry::{Pose2, Twist2};
 use super::shape::MonitorShape;
 use super::velocity_polygon::VelocityParts;
 use super::{CollisionPoint, SourcePoints};
-
-/// Growth of an overlap that rounding causes \[m\].
-const SAME_OVERLAP_M: f64 = 1e-6;
+use crate::outline::SAME_OVERLAP_M;
 
 /// Limits of [`ZoneAction::Approach`].
 #[derive(Clone, Copy, Debug, PartialEq)]

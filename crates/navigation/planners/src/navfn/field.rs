@@ -24,6 +24,7 @@ const THRESHOLD_STEP_COST: f32 = 2.0 * NEUTRAL_COST;
 const CHECK_INTERVAL_COUNT: usize = 5000;
 /// Minimum potential difference, in costs of the neighbour, that makes it worth an update (`INVSQRT2`).
 const UPDATE_RATIO: f64 = std::f64::consts::FRAC_1_SQRT_2;
+
 /// Order in which cells are updated.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum NavFnMethod {
