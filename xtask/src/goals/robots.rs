@@ -38,7 +38,8 @@ struct Lidar {
 pub(super) enum Parameters {
     /// Nav2's `nav2_params.yaml` of Jazzy as it is.
     Stock,
-    /// The same with the footprint of the robot instead of its radius.
+    /// The same with the footprint of the robot instead of its radius, which MPPI considers: Nav2 asks for both with
+    /// robots that are not round.
     StockWithFootprint(&'static str),
     /// The defaults of `periplus navigate`.
     Default,
@@ -82,7 +83,11 @@ impl Robot {
                     .map_err(|error| Failed(format!("{}: {error}", stock.display())))?;
                 let path = folder.join(format!("{}.yaml", self.name));
                 let shape = format!("footprint: \"{footprint}\"");
-                write(&path, &text.replace("robot_radius: 0.22", &shape))?;
+                let text = text.replace("robot_radius: 0.22", &shape);
+                write(
+                    &path,
+                    &text.replace("consider_footprint: false", "consider_footprint: true"),
+                )?;
                 Some(path)
             }
             Parameters::Default => None,
@@ -132,7 +137,7 @@ pub(super) const ALL: [Robot; 4] = [
             "[[0.21, 0.195], [0.21, -0.195], [-0.21, -0.195], [-0.21, 0.195]]",
         ),
         options: &[],
-        courses: &["house", "demo room"],
+        courses: &["house", "sandbox", "demo room"],
     },
     Robot {
         name: "waffle",

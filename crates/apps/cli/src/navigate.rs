@@ -339,7 +339,7 @@ impl NavigateTask {
     }
 
     fn collisions(&self) -> usize {
-        self.score.as_ref().map_or(0, |score| score.collision_count)
+        self.score.as_ref().map_or(0, |score| score.collisions.len())
     }
 
     fn has_arrived(&self) -> bool {

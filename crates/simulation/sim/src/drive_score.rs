@@ -1,7 +1,8 @@
 //! Score of a drive, from the truth: length, clearance, collisions.
 //!
-//! Nothing that drives may read it. Clearance is measured at the height of the robot's lidar, to the walls
-//! at the beginning.
+//! Nothing that drives may read it. Clearance is measured at the height of the robot's lidar; a collision is a contact
+//! of the physics, or a side of the footprint that meets a surface. Cells of the walls at the beginning tell where the
+//! surfaces need not be searched.
 
 use std::collections::BTreeSet;
 
@@ -20,6 +21,15 @@ const FLOOR_NORMAL_RATIO: f64 = 0.7;
 /// Time between two samples \[ns\].
 const SAMPLE_PERIOD_NS: i64 = 20_000_000;
 
+/// Beginning of a time in which the robot touches something that is not a floor.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Collision {
+    /// Time of the simulation \[s\].
+    pub time_s: f64,
+    /// Pose of the robot, in the frame of the world.
+    pub pose: Pose2,
+}
+
 /// Score of the first robot's drive.
 #[derive(Clone, Debug)]
 pub struct DriveScore {
@@ -37,8 +47,8 @@ pub struct DriveScore {
     pub length_m: f64,
     /// Smallest distance from the footprint to a wall \[m\]; infinite without walls.
     pub min_clearance_m: f64,
-    /// Number of times that the robot began to touch something that is not a floor.
-    pub collision_count: usize,
+    /// Times at which the robot began to touch something.
+    pub collisions: Vec<Collision>,
 }
 
 impl DriveScore {
@@ -59,41 +69,62 @@ impl DriveScore {
             touches: false,
             length_m: 0.0,
             min_clearance_m: f64::INFINITY,
-            collision_count: 0,
+            collisions: Vec::new(),
         })
     }
 
     /// Takes a sample if one is due. Call it after each step.
-    pub fn sample(&mut self, simulation: &Simulation) {
-        let touches = self.is_in_contact(simulation);
-        if touches && !self.touches {
-            self.collision_count += 1;
-            self.touches = true;
-        }
-        if simulation.time_ns() < self.next_ns {
+    pub fn sample(&mut self, simulation: &mut Simulation) {
+        let in_contact = self.is_in_contact(simulation);
+        let is_due = simulation.time_ns() >= self.next_ns;
+        if !is_due && (self.touches || !in_contact) {
             return;
         }
-        self.next_ns = simulation.time_ns() + SAMPLE_PERIOD_NS;
         let Some(pose) = simulation.robot_pose().map(Pose2::from) else { return };
-        if let Some(last) = self.pose {
-            self.length_m += libm::hypot(pose.x_m - last.x_m, pose.y_m - last.y_m);
+        let mut touches = in_contact;
+        if is_due {
+            self.next_ns = simulation.time_ns() + SAMPLE_PERIOD_NS;
+            if let Some(last) = self.pose {
+                self.length_m += libm::hypot(pose.x_m - last.x_m, pose.y_m - last.y_m);
+            }
+            self.pose = Some(pose);
+            touches = touches || self.sample_clearance(simulation, pose);
         }
-        self.pose = Some(pose);
-        let clearance_m = self.clearance_m(pose);
-        self.min_clearance_m = self.min_clearance_m.min(clearance_m);
-        let touches = touches || clearance_m == 0.0;
-        self.collision_count += usize::from(touches && !self.touches);
+        if touches && !self.touches {
+            let time_s = simulation.time_ns() as f64 * 1e-9;
+            self.collisions.push(Collision { time_s, pose });
+        }
         self.touches = touches;
     }
 
-    /// Distance from the footprint at a pose to the nearest wall \[m\].
-    fn clearance_m(&self, world_from_robot: Pose2) -> f64 {
+    /// Searches the surfaces if one can be nearer than any before. Returns true if the footprint meets one.
+    fn sample_clearance(&mut self, simulation: &mut Simulation, world_from_robot: Pose2) -> bool {
+        let margin_m = OUTLINE_STEP_M + std::f64::consts::SQRT_2 * self.info.resolution_m;
+        let cells_m = self.cell_clearance_m(world_from_robot);
+        if cells_m.is_infinite() || cells_m > self.min_clearance_m + margin_m {
+            return false;
+        }
+        let max_m = self.min_clearance_m.min(cells_m + margin_m);
+        let is_near = |x_m, y_m| self.wall_cell_m(x_m, y_m) <= max_m + margin_m;
+        let found_m = simulation.clearance_m(&self.outline_m, max_m, is_near);
+        self.min_clearance_m =
+            found_m.map_or(self.min_clearance_m, |it| it.min(self.min_clearance_m));
+        found_m == Some(0.0)
+    }
+
+    /// Distance from the footprint at a pose to the nearest cell with a wall \[m\].
+    fn cell_clearance_m(&self, world_from_robot: Pose2) -> f64 {
         let distance_m = |[x, y]: &[f64; 2]| {
             let (x_m, y_m) = world_from_robot.transform_point(*x, *y);
-            let cell = self.info.cell_of(x_m, y_m)?;
-            Some(self.distances_m[self.info.index(cell)])
+            self.wall_cell_m(x_m, y_m)
         };
-        self.outline_m.iter().filter_map(distance_m).fold(f64::INFINITY, f64::min)
+        self.outline_m.iter().map(distance_m).fold(f64::INFINITY, f64::min)
+    }
+
+    /// Distance from a point to the nearest cell with a wall \[m\]; infinite outside of the grid.
+    fn wall_cell_m(&self, x_m: f64, y_m: f64) -> f64 {
+        let cell = self.info.cell_of(x_m, y_m);
+        cell.map_or(f64::INFINITY, |cell| self.distances_m[self.info.index(cell)])
     }
 
     fn is_in_contact(&self, simulation: &Simulation) -> bool {

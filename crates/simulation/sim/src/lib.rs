@@ -48,7 +48,7 @@ pub use compose::{
 };
 pub use compute_topics::compute_topics;
 pub use drive::{DriveError, Driver, ScriptFindings, VelocityTopic, velocity_topics};
-pub use drive_score::DriveScore;
+pub use drive_score::{Collision, DriveScore};
 pub use files::AssetFiles;
 pub use pace::RealTimePacer;
 pub use periplus_physics::limits::STEP_RANGE_S;

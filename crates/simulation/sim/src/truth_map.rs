@@ -1,6 +1,7 @@
 //! True occupancy grid: a horizontal slice of the world at the height of a lidar.
 
 use std::collections::VecDeque;
+use std::f64::consts::TAU;
 
 use periplus_geometry::{DVec3, Pose, Pose2};
 use periplus_grid::occupancy::{FREE, OCCUPIED, UNKNOWN};
@@ -14,6 +15,12 @@ use crate::simulation::RunningModel;
 
 /// Offset of a wall's point behind its surface \[m\]: walls are often on the borders of cells.
 const INTO_WALL_M: f64 = 1e-3;
+
+/// Distance from a surface of the robot at which a ray goes on \[m\].
+const PAST_SURFACE_M: f64 = 1e-6;
+
+/// Number of directions in which each point of an outline looks for surfaces.
+const CLEARANCE_RAYS: usize = 64;
 
 /// Maximum number of surfaces that a ray hits.
 const MOST_SURFACES: usize = 1000;
@@ -45,6 +52,47 @@ impl Simulation {
             flood(&mut map, from);
         }
         Some(map)
+    }
+
+    /// Returns the distance from the outline of the first robot to the nearest surface of another model at the height of
+    /// the robot's lidar, if it is less than `max_m`: 0 if a side meets a surface, otherwise that of the points which
+    /// `is_near` keeps by their places in the world \[m\]. They look in `CLEARANCE_RAYS` directions, so that a flat
+    /// surface is up to 0.12 % further away. The outline is points in the frame of the robot \[m\].
+    pub(crate) fn clearance_m(
+        &mut self,
+        outline_m: &[[f64; 2]],
+        max_m: f64,
+        is_near: impl Fn(f64, f64) -> bool,
+    ) -> Option<f64> {
+        let robot = self.robot()?;
+        let (name, model) = (robot.member.name.clone(), robot.model);
+        let SliceView { height_m, geometry } = self.eye(robot);
+        let world_from_robot = Pose2::from(self.motion.model_pose(model)?);
+        let seen = self.views.at(geometry, self.time_ns, &self.motion);
+        let place = |[x_m, y_m]: &[f64; 2]| {
+            let (x_m, y_m) = world_from_robot.transform_point(*x_m, *y_m);
+            DVec3::new(x_m, y_m, height_m)
+        };
+        let points: Vec<DVec3> = outline_m.iter().map(place).collect();
+        let mut sides = points.iter().zip(points.iter().cycle().skip(1));
+        let is_met = sides.any(|(from, to)| {
+            let length_m = (to - from).length();
+            length_m > 0.0
+                && distance_m(seen, *from, (to - from) / length_m, length_m, &name).is_some()
+        });
+        if is_met {
+            return Some(0.0);
+        }
+        let mut nearest_m = None;
+        for point in points.iter().filter(|point| is_near(point.x, point.y)) {
+            for index in 0..CLEARANCE_RAYS {
+                let (y, x) = libm::sincos(TAU * index as f64 / CLEARANCE_RAYS as f64);
+                let limit_m = nearest_m.unwrap_or(max_m);
+                let found_m = distance_m(seen, *point, DVec3::new(x, y, 0.0), limit_m, &name);
+                nearest_m = found_m.or(nearest_m);
+            }
+        }
+        nearest_m
     }
 
     /// Returns height and geometry of a robot's first lidar.
@@ -141,6 +189,25 @@ fn mark_line(
             ray.min_m = hit.distance_m + INTO_WALL_M;
         }
     }
+}
+
+/// Distance to the first surface of another model than the robot, if it is at most `max_m`.
+fn distance_m(
+    seen: &RenderScene,
+    from: DVec3,
+    direction: DVec3,
+    max_m: f64,
+    robot: &str,
+) -> Option<f64> {
+    let mut ray = Ray { max_m, ..Ray::new(from, direction) };
+    for _ in 0..MOST_SURFACES {
+        let hit = seen.rays().cast(&ray, filter(u32::MAX, None))?;
+        if seen.surface(&hit).model != robot {
+            return Some(hit.distance_m);
+        }
+        ray.min_m = hit.distance_m + PAST_SURFACE_M;
+    }
+    None
 }
 
 /// Marks as free all cells reachable from a cell over edges.

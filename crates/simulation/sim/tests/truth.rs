@@ -16,7 +16,7 @@ use periplus_msgs::nav_msgs;
 use periplus_msgs::std_msgs::Header;
 use periplus_msgs::tf2_msgs::TFMessage;
 use periplus_resources::{MemoryHost, Resolver};
-use periplus_sim::{AssetFiles, Options, Search, Services, Simulation, compose};
+use periplus_sim::{AssetFiles, DriveScore, Options, Search, Services, Simulation, compose};
 
 /// A room of 4 by 4 m inside, its walls 0.1 m thick; in it a robot with a lidar 0.3 m above the
 /// floor, a box that it measures and one that is too low.
@@ -147,4 +147,24 @@ fn a_map_of_one_half_is_half_explored() {
     // 20 of 40 columns; the box is in the other half.
     assert!((value(&status, "explored") - 800.0 / 1575.0).abs() < 0.03, "{status:?}");
     assert!(value(&status, "free_iou") > 0.93, "{status:?}");
+}
+
+/// Collisions of a robot that is put at x \[m\], 0.1 m in front of the first of its sides.
+fn check_collisions(x_m: f64, expected: usize, clearance_m: f64) {
+    let mut simulation = room();
+    assert!(simulation.set_pose("robot", Pose2::new(x_m, 0.0, 0.0).into()));
+    // Its cells are centred on the face of the wall.
+    let mut score = DriveScore::new(&mut simulation, info(4.9)).unwrap();
+    score.sample(&mut simulation);
+    assert_eq!(score.collisions.len(), expected, "{x_m}");
+    let found_m = score.min_clearance_m;
+    assert!((found_m - clearance_m).abs() < 1e-3, "{x_m}: {found_m}");
+}
+
+#[test]
+fn a_robot_beside_a_wall_in_one_cell_with_it_does_not_collide() {
+    check_collisions(1.88, 0, 0.02);
+    check_collisions(1.91, 1, 0.0);
+    check_collisions(2.05, 1, 0.0);
+    check_collisions(1.5, 0, 0.4);
 }

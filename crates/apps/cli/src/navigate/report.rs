@@ -5,10 +5,13 @@ use std::io::{self, Write};
 use periplus_geometry::Pose2;
 use periplus_session::SimulationSession;
 use periplus_session::nodes::{GoalOutcome, GoalReport, pose_text};
-use periplus_sim::ArrivalClock;
+use periplus_sim::{ArrivalClock, Collision};
 use serde_json::{Value, json};
 
 use super::NavigateTask;
+
+/// Maximum number of collisions that the text lists; JSON has all.
+const MOST_COLLISIONS: usize = 20;
 
 /// The report as JSON.
 pub(super) fn to_json(session: &SimulationSession, task: &NavigateTask) -> Value {
@@ -32,7 +35,11 @@ pub(super) fn to_json(session: &SimulationSession, task: &NavigateTask) -> Value
         json!({
             "length_m": score.length_m,
             "min_clearance_m": score.min_clearance_m.is_finite().then_some(score.min_clearance_m),
-            "collisions": score.collision_count,
+            "collisions": score.collisions.len(),
+            "collided_at": score.collisions.iter().map(|at| json!({
+                "time_s": at.time_s,
+                "pose": [at.pose.x_m, at.pose.y_m, at.pose.yaw_rad],
+            })).collect::<Vec<Value>>(),
             "end_pose": score.pose.map(|pose| [pose.x_m, pose.y_m, pose.yaw_rad]),
             "arrival_s": task.arrival.as_ref().map(ArrivalClock::time_s),
         })
@@ -74,8 +81,16 @@ pub(super) fn print(
         writeln!(
             out,
             "  drove {:.2} m, clearance {clearance}, {} collisions",
-            score.length_m, score.collision_count
+            score.length_m,
+            score.collisions.len()
         )?;
+        for Collision { time_s, pose } in score.collisions.iter().take(MOST_COLLISIONS) {
+            writeln!(
+                out,
+                "  collision at {time_s:.1} s, robot at {} in the world",
+                pose_text(*pose)
+            )?;
+        }
     }
     if let Some(clock) = &task.arrival {
         match clock.time_s() {
