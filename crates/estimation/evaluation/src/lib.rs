@@ -3,7 +3,8 @@
 //! - [`associate`], [`Similarity`]: poses of two trajectories at equal times, and their alignment
 //! - [`ape`], [`rpe`]: absolute and relative pose errors, as the Python package `evo` computes them
 //! - [`score_map`]: intersection over union of walls at a tolerance, and distances of walls
-//! - [`Clearance`], [`GoalRun`], [`spl`]: quality of paths and of runs to goals
+//! - [`Clearance`], [`Smoothness`], [`GoalRun`], [`spl`]: quality of paths and of runs to goals
+//! - [`LocalizationScore`]: errors of an estimator compared with its covariance
 //!
 //! An undefined score is none or NaN, never 0.
 //!
@@ -20,22 +21,28 @@
 
 mod alignment;
 mod association;
+mod chi_square;
 mod clearance;
+mod consistency;
 mod goal;
 mod map;
 mod pairs;
 mod pose_error;
+mod smoothness;
 mod statistics;
 mod trajectory;
 mod tum;
 
 pub use alignment::{AlignmentMethod, Degenerate, Similarity, align};
 pub use association::{PosePair, associate, associate_interpolated};
+pub use chi_square::{chi_square_probability, chi_square_quantile};
 pub use clearance::Clearance;
+pub use consistency::{EstimateWithCovariance, LocalizationLimits, LocalizationScore};
 pub use goal::{GoalRun, barn_score, collision_count, spl};
 pub use map::{MapScore, score_map};
 pub use pairs::{PairSelection, RelativeDelta};
 pub use pose_error::{PoseRelation, ape, rpe};
+pub use smoothness::{Smoothness, SmoothnessSampling};
 pub use statistics::{ErrorStatistics, quantile};
 pub use trajectory::{StampedPose, Trajectory};
 pub use tum::{MAX_POSE_COUNT, TumError, TumFault};
