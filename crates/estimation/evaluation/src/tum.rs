@@ -3,7 +3,7 @@
 use std::fmt;
 use std::fmt::Write as _;
 
-use periplus_geometry::{DQuat, DVec3, Pose};
+use periplus_geometry::{DQuat, DVec3, Pose, Pose2};
 
 use crate::trajectory::{StampedPose, Trajectory};
 
@@ -12,6 +12,9 @@ pub const MAX_POSE_COUNT: usize = 10_000_000;
 
 /// Number of words of a line.
 const WORD_COUNT: usize = 8;
+
+/// Number of words of a line in the plane.
+const PLANAR_WORD_COUNT: usize = 4;
 
 /// Line that is not a pose.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -65,19 +68,16 @@ impl Trajectory {
     /// # Errors
     /// The first line that is not a pose.
     pub fn from_tum(text: &str) -> Result<Self, TumError> {
-        let mut poses = Vec::new();
-        for (index, line) in text.lines().enumerate() {
-            let line = line.split('#').next().unwrap_or_default();
-            if line.trim().is_empty() {
-                continue;
-            }
-            let error = |column, fault| TumError { line: index + 1, column, fault };
-            if poses.len() == MAX_POSE_COUNT {
-                return Err(error(1, TumFault::TooMany));
-            }
-            poses.push(pose(line).map_err(|(column, fault)| error(column, fault))?);
-        }
-        Ok(Self::new(poses))
+        read(text, false)
+    }
+
+    /// Reads a trajectory in TUM format, or with lines `stamp x y yaw` in seconds, metres and radians, as
+    /// `periplus slam` writes them. Both may be in one file.
+    ///
+    /// # Errors
+    /// The first line that is not a pose.
+    pub fn from_text(text: &str) -> Result<Self, TumError> {
+        read(text, true)
     }
 
     /// Returns the trajectory in TUM format. Numbers are written so that they read back exactly.
@@ -93,7 +93,23 @@ impl Trajectory {
     }
 }
 
-fn pose(line: &str) -> Result<StampedPose, (usize, TumFault)> {
+fn read(text: &str, allows_planar: bool) -> Result<Trajectory, TumError> {
+    let mut poses = Vec::new();
+    for (index, line) in text.lines().enumerate() {
+        let line = line.split('#').next().unwrap_or_default();
+        if line.trim().is_empty() {
+            continue;
+        }
+        let error = |column, fault| TumError { line: index + 1, column, fault };
+        if poses.len() == MAX_POSE_COUNT {
+            return Err(error(1, TumFault::TooMany));
+        }
+        poses.push(pose(line, allows_planar).map_err(|(column, fault)| error(column, fault))?);
+    }
+    Ok(Trajectory::new(poses))
+}
+
+fn pose(line: &str, allows_planar: bool) -> Result<StampedPose, (usize, TumFault)> {
     let mut numbers = [0.0; WORD_COUNT];
     let mut count = 0;
     for word in line.split_whitespace() {
@@ -106,6 +122,10 @@ fn pose(line: &str) -> Result<StampedPose, (usize, TumFault)> {
         count += 1;
     }
     let start = column(line, line.trim_start());
+    if allows_planar && count == PLANAR_WORD_COUNT {
+        let [stamp_s, x_m, y_m, yaw_rad, ..] = numbers;
+        return Ok(StampedPose::planar(stamp_s, Pose2::new(x_m, y_m, yaw_rad)));
+    }
     if count != WORD_COUNT {
         return Err((start, TumFault::WordCount(count)));
     }
@@ -163,6 +183,14 @@ mod tests {
         check("0 0 0 0 0 0 0 1e-200", 1, 1, TumFault::ZeroQuaternion);
         let message = Trajectory::from_tum("x").unwrap_err().to_string();
         assert_eq!(message, "1:1: `x` is not a finite number");
+    }
+
+    #[test]
+    fn planar_lines_are_read_where_they_are_allowed() {
+        let read = Trajectory::from_text("1 2 3 0\n2 0 0 0 0 0 0 1\n").unwrap();
+        assert_eq!(read.poses()[0].pose, Pose::from_xyz(2.0, 3.0, 0.0));
+        let error = Trajectory::from_tum("1 2 3 0").unwrap_err();
+        assert_eq!(error.fault, TumFault::WordCount(4));
     }
 
     proptest! {
