@@ -12,10 +12,11 @@ use crate::options::Options;
 use examples::{EXAMPLES, Example};
 
 /// Groups of commands, in the order of the help.
-const GROUPS: [(&str, &[&str]); 6] = [
+const GROUPS: [(&str, &[&str]); 7] = [
     ("Start here", &["demo", "new", "doctor"]),
     ("Simulate", &["sim", "launch", "run", "teleop", "view"]),
     ("Maps, localization, navigation", &["slam", "localize", "map", "costmap", "navigate"]),
+    ("Results", &["score", "compare"]),
     ("Robots and worlds", &["check", "convert"]),
     (
         "ROS 2 and Gazebo",

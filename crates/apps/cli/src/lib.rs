@@ -5,6 +5,7 @@ mod arguments;
 mod bag;
 mod bridge;
 mod check;
+mod compare;
 mod conformance;
 mod convert;
 mod costmap;
@@ -27,6 +28,7 @@ mod page;
 mod paths;
 mod program;
 mod run_options;
+mod score;
 mod sim;
 mod slam;
 mod teleop;
@@ -130,6 +132,8 @@ pub fn run(words: Vec<String>, own_command: Vec<String>, interpreter: Option<Str
         )),
         Command::Bag(command) => bag::run(&command),
         Command::Check(options) => check::run(&options),
+        Command::Compare(options) => compare::run(&options),
+        Command::Score(options) => score::run(&options),
         Command::Conformance(options) => conformance::run(&options),
         Command::Demo(options) => demo::run(&options),
         Command::Convert(options) => convert::run(&options),

@@ -172,6 +172,7 @@ pub(crate) fn run(options: &NavigateOptions, ros: Vec<String>) -> Result<ExitCod
         .factor(factor)
         .search(search)
         .recording(options.recorded.recording(options.record.as_deref()))
+        .recording_truth(options.recorded.records_truth())
         .estimators(options.estimators()?)
         .ros2(options.ros2.map(Into::into))
         .page(page)

@@ -7,6 +7,7 @@ use clap::{Args, Parser, Subcommand, ValueEnum};
 
 use crate::bag::BagCommand;
 use crate::bridge::BridgeOptions;
+use crate::compare::RunComparisonOptions;
 use crate::conformance::ConformanceOptions;
 use crate::costmap::serve::CostmapServeOptions;
 use crate::demo::DemoOptions;
@@ -17,6 +18,7 @@ use crate::map::MapCommand;
 use crate::navigate::NavigateOptions;
 use crate::new::NewCommand;
 use crate::program::RunOptions;
+use crate::score::ScoreOptions;
 use crate::sim::SimOptions;
 use crate::slam::SlamOptions;
 use crate::teleop::TeleopOptions;
@@ -46,6 +48,7 @@ pub(crate) enum Command {
     #[command(subcommand)]
     Bag(BagCommand),
     Check(CheckOptions),
+    Compare(RunComparisonOptions),
     Convert(ConvertOptions),
     Demo(DemoOptions),
     Launch(LaunchOptions),
@@ -53,6 +56,7 @@ pub(crate) enum Command {
     New(NewCommand),
     Run(RunOptions),
     Sim(Box<SimOptions>),
+    Score(ScoreOptions),
     Slam(SlamOptions),
     Localize(LocalizeOptions),
     Navigate(Box<NavigateOptions>),

@@ -21,9 +21,17 @@ pub(crate) struct TopicSelection {
     /// Do not record topics that match this regular expression
     #[arg(long, value_name = "REGEX")]
     exclude: Option<regex::Regex>,
+    /// Record the true poses of all models, too, on /gazebo/model_states: `periplus score` and `periplus compare` read them
+    #[arg(long, requires = "record")]
+    record_truth: bool,
 }
 
 impl TopicSelection {
+    /// Returns true if the true poses are recorded.
+    pub(crate) fn records_truth(&self) -> bool {
+        self.record_truth
+    }
+
     /// Recording of the selected topics, if there is a file for it.
     pub(crate) fn recording(&self, path: Option<&Path>) -> Option<RecordingRequest> {
         let path = path?.to_owned();

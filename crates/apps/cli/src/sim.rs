@@ -176,6 +176,7 @@ pub(crate) fn run(options: &SimOptions, ros: Vec<String>) -> Result<ExitCode, Cl
         .factor(factor)
         .search(search)
         .recording(options.recorded.recording(options.record.as_deref()))
+        .recording_truth(options.recorded.records_truth())
         .computed(options.computed())
         .driver(driver)
         .estimators(options.estimators())

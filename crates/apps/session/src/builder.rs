@@ -35,6 +35,7 @@ pub struct SessionBuilder {
     factor: Option<f64>,
     search: Search,
     recording: Option<RecordingRequest>,
+    records_truth: bool,
     computed: Option<TopicFilter>,
     driver: Driver,
     estimators: Option<EstimatorRequest>,
@@ -56,6 +57,7 @@ impl SessionBuilder {
             factor: None,
             search: Search::default(),
             recording: None,
+            records_truth: false,
             computed: None,
             driver: Driver::default(),
             estimators: None,
@@ -97,6 +99,13 @@ impl SessionBuilder {
     #[must_use]
     pub fn recording(mut self, recording: Option<RecordingRequest>) -> Self {
         self.recording = recording;
+        self
+    }
+
+    /// Records the true poses of all models, too.
+    #[must_use]
+    pub fn recording_truth(mut self, records_truth: bool) -> Self {
+        self.records_truth = records_truth;
         self
     }
 
@@ -159,7 +168,8 @@ impl SessionBuilder {
         let request = self.estimators.take();
         let profile = request.as_ref().map(|it| it.detect(&mut simulation, self.is_quiet));
         let profile = profile.transpose()?.flatten();
-        let recorder = self.recording.take().map(|request| record(&simulation, request));
+        let recorder =
+            self.recording.take().map(|request| record(&simulation, request, self.records_truth));
         let recorder = recorder.transpose()?;
         if let Some(topics) = self.computed.take() {
             compute_topics(&simulation, topics);
@@ -251,8 +261,14 @@ impl SessionBuilder {
 fn record(
     simulation: &Simulation,
     request: RecordingRequest,
+    records_truth: bool,
 ) -> Result<SimulationRecorder, RunError> {
     let RecordingRequest { path, wanted } = request;
-    SimulationRecorder::start(simulation, &path, wanted)
-        .map_err(|error| RunError::Recording { path, error })
+    let recorder = SimulationRecorder::start(simulation, &path, wanted)
+        .map_err(|error| RunError::Recording { path, error })?;
+    if records_truth {
+        recorder.with_truth(simulation).map_err(RunError::Services)
+    } else {
+        Ok(recorder)
+    }
 }

@@ -55,7 +55,7 @@ pub use periplus_physics::limits::STEP_RANGE_S;
 pub use periplus_physics::{Diverged, PhysicsMode};
 pub use periplus_sensors::Quirks;
 pub use profile::{Work, WorkProfile};
-pub use record::{RecordError, RecordingSummary, SimulationRecorder, TopicFilter};
+pub use record::{RecordError, RecordingSummary, SimulationRecorder, TRUTH_TOPIC, TopicFilter};
 pub use run::{Run, RunProgress, Tick};
 pub use services::{
     GazeboAnswer, GazeboPublisher, GazeboRequestQueue, GazeboService, GazeboTopic, InsertionResult,

@@ -13,9 +13,11 @@ use periplus_bags::{
 };
 use periplus_diagnostics::plain_words;
 use periplus_graph::{
-    Durability, History, Liveliness, Qos, Reliability, Sample, Sink, TapId, TopicInfo,
+    Durability, GraphError, History, Liveliness, Mailbox, NodeSettings, Qos, Reliability, Sample,
+    Sink, TapId, TopicInfo,
 };
 use periplus_msgs::TypeRegistry;
+use periplus_msgs::gazebo_msgs::ModelStates;
 use periplus_os::Stopwatch;
 
 use crate::Simulation;
@@ -31,7 +33,12 @@ pub struct SimulationRecorder {
     folder: Option<PathBuf>,
     tap: TapId,
     shared: Arc<Shared>,
+    /// Subscription that makes the simulation publish the true poses.
+    truth: Option<Mailbox<ModelStates>>,
 }
+
+/// Topic of the true poses of all models in the frame of the world, `gazebo_msgs/msg/ModelStates`.
+pub const TRUTH_TOPIC: &str = "/gazebo/model_states";
 
 /// Result of a recording.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -127,7 +134,17 @@ impl SimulationRecorder {
         };
         let shared = Arc::new(Shared { wanted, state: Mutex::new(state) });
         let tap = simulation.graph().tap(Box::new(BagSink(Arc::clone(&shared))));
-        Ok(Self { path: file, folder, tap, shared })
+        Ok(Self { path: file, folder, tap, shared, truth: None })
+    }
+
+    /// Records the true poses of all models on [`TRUTH_TOPIC`], too.
+    ///
+    /// # Errors
+    /// When the topic has another type.
+    pub fn with_truth(mut self, simulation: &Simulation) -> Result<Self, GraphError> {
+        let node = simulation.graph().node(NodeSettings::new("truth_recorder"))?;
+        self.truth = Some(node.mailbox(TRUTH_TOPIC, Qos::reliable(1))?);
+        Ok(self)
     }
 
     /// Returns the file of a failed recording and the reason; `None` without a failure.

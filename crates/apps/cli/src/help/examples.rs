@@ -41,6 +41,10 @@ pub(super) const EXAMPLES: &[(&str, &[Example])] = &[
         ("periplus check robot.urdf.xacro lidar:=true", "A robot, expanded with an argument"),
         ("periplus check --strict worlds/house.sdf", "A world; warnings fail too"),
     ]),
+    ("compare", &[
+        ("periplus compare before.mcap after.mcap --picture paths.png", "Scores of two runs, their differences and a picture"),
+        ("periplus compare before.tum after.tum --truth truth.tum", "Two estimates of one true trajectory"),
+    ]),
     ("completions", &[
         ("periplus completions bash", "Print the script; put it into ~/.local/share/bash-completion/completions/periplus"),
     ]),
@@ -115,6 +119,10 @@ pub(super) const EXAMPLES: &[(&str, &[Example])] = &[
         ("periplus run wall_follower.py --ros-args -p speed:=0.3", "A node of a file, with a parameter"),
         ("periplus run my_package wall_follower", "A node of a package in this workspace, without a build"),
         ("periplus run nav2_costmap_2d nav2_costmap_2d_markers", "A built-in program of a package"),
+    ]),
+    ("score", &[
+        ("periplus score run.mcap --map true_map.yaml --picture run.png", "A recording with its truth, on the true map"),
+        ("periplus score estimate.tum --truth truth.tum --align se3 --json", "A trajectory, as evo_ape --align"),
     ]),
     ("service call", &[
         ("periplus service call /reset_simulation std_srvs/srv/Empty", "A call without values"),

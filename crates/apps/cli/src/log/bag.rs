@@ -110,13 +110,14 @@ pub(crate) fn has_type(topic: &BagTopic, name: &str) -> bool {
 }
 
 /// Transforms of the whole recording.
-struct Frames {
-    buffer: Buffer,
-    faults: Vec<String>,
+pub(crate) struct Frames {
+    pub(crate) buffer: Buffer,
+    pub(crate) faults: Vec<String>,
 }
 
 impl Frames {
-    fn read(bag: &Bag) -> Result<Self, BagError> {
+    /// Reads all transforms, and odometry of frames without transforms.
+    pub(crate) fn read(bag: &Bag) -> Result<Self, BagError> {
         let mut buffer = Buffer::new(i64::MAX);
         let named = |name: &str| -> Vec<&str> {
             let topics = bag.topics().iter().filter(|topic| has_type(topic, name));
@@ -166,7 +167,7 @@ impl Frames {
     }
 
     /// Base frame that is connected to odometry: the given one, or one of the common names.
-    fn base(&self, odom: &str, told: Option<&str>) -> Option<String> {
+    pub(crate) fn base(&self, odom: &str, told: Option<&str>) -> Option<String> {
         let leads = |base: &&str| self.buffer.chain(odom, base).is_some();
         told.into_iter().chain(BASE_FRAMES).find(leads).map(str::to_owned)
     }
@@ -177,6 +178,15 @@ pub(crate) fn each<M: Message>(
     bag: &Bag,
     names: &[&str],
     mut take: impl FnMut(&str, M),
+) -> Result<Vec<String>, BagError> {
+    each_at(bag, names, |topic, _, message| take(topic, message))
+}
+
+/// As [`each`], with the time of recording \[ns\].
+pub(crate) fn each_at<M: Message>(
+    bag: &Bag,
+    names: &[&str],
+    mut take: impl FnMut(&str, i64, M),
 ) -> Result<Vec<String>, BagError> {
     if names.is_empty() {
         return Ok(Vec::new());
@@ -196,7 +206,7 @@ pub(crate) fn each<M: Message>(
         let Some(way) = &mut ways[message.topic] else { continue };
         let decoded = way.translate(message.data).ok().and_then(|data| M::decode_cdr(data).ok());
         match decoded {
-            Some(decoded) => take(&bag.topics()[message.topic].name, decoded),
+            Some(decoded) => take(&bag.topics()[message.topic].name, message.log_ns, decoded),
             None => broken += 1,
         }
     }

@@ -1,0 +1,40 @@
+//! `periplus score`.
+
+mod options;
+mod picture;
+mod recording;
+mod run;
+mod scores;
+mod table;
+
+use std::process::ExitCode;
+
+use crate::error::CliError;
+use crate::terminal::say;
+
+pub(crate) use options::{ScoreOptions, ScoreSettings};
+pub(crate) use picture::write_picture;
+pub(crate) use run::Run;
+pub(crate) use scores::RunScores;
+pub(crate) use table::{difference_table, names, put_json, table, value};
+
+pub(crate) fn run(options: &ScoreOptions) -> Result<ExitCode, CliError> {
+    let settings = &options.settings;
+    let run = Run::read(&options.run, settings)?;
+    let scores = RunScores::of(&run, settings)?;
+    if let Some(path) = &options.settings.picture {
+        write_picture(path, &[&scores])?;
+    }
+    if options.settings.json {
+        put_json(&scores.to_json())?;
+        return Ok(ExitCode::SUCCESS);
+    }
+    table(&mut anstream::stdout().lock(), &scores)?;
+    if let Some(path) = &settings.picture {
+        say(&format!(
+            "{} shows the true path in green, the estimated path in blue",
+            path.display()
+        ));
+    }
+    Ok(ExitCode::SUCCESS)
+}
