@@ -11,7 +11,7 @@ use crate::plane::{
 
 /// Outline of a robot on the floor, in its base frame.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Footprint {
+pub struct RobotFootprint {
     outline: Outline,
     circumscribed_radius_m: f64,
     inscribed_radius_m: f64,
@@ -25,7 +25,7 @@ enum Outline {
 
 /// Reasons that an outline is no footprint.
 #[derive(Clone, Debug, PartialEq)]
-pub enum FootprintError {
+pub enum RobotFootprintError {
     /// The radius is not a positive number.
     Radius(f64),
     /// Fewer than three corners.
@@ -36,7 +36,7 @@ pub enum FootprintError {
     OriginOutside,
 }
 
-impl fmt::Display for FootprintError {
+impl fmt::Display for RobotFootprintError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Radius(radius) => write!(f, "a footprint's radius must be above 0, not {radius}"),
@@ -51,16 +51,16 @@ impl fmt::Display for FootprintError {
     }
 }
 
-impl std::error::Error for FootprintError {}
+impl std::error::Error for RobotFootprintError {}
 
-impl Footprint {
+impl RobotFootprint {
     /// Creates a disc about the origin of the base frame.
     ///
     /// # Errors
     /// When the radius \[m\] is not a positive number.
-    pub fn circle(radius_m: f64) -> Result<Self, FootprintError> {
+    pub fn circle(radius_m: f64) -> Result<Self, RobotFootprintError> {
         if !(radius_m > 0.0 && radius_m.is_finite()) {
-            return Err(FootprintError::Radius(radius_m));
+            return Err(RobotFootprintError::Radius(radius_m));
         }
         let (circumscribed_radius_m, inscribed_radius_m) = (radius_m, radius_m);
         Ok(Self { outline: Outline::Circle, circumscribed_radius_m, inscribed_radius_m })
@@ -70,16 +70,16 @@ impl Footprint {
     ///
     /// # Errors
     /// When there are fewer than three corners, one is not finite, or the origin is outside.
-    pub fn polygon(corners: Vec<[f64; 2]>) -> Result<Self, FootprintError> {
+    pub fn polygon(corners: Vec<[f64; 2]>) -> Result<Self, RobotFootprintError> {
         if corners.len() < 3 {
-            return Err(FootprintError::TooFewCorners(corners.len()));
+            return Err(RobotFootprintError::TooFewCorners(corners.len()));
         }
         if let Some(at) = corners.iter().position(|corner| !corner.iter().all(|it| it.is_finite()))
         {
-            return Err(FootprintError::BadCorner(at));
+            return Err(RobotFootprintError::BadCorner(at));
         }
         if !contains(&corners, [0.0; 2]) {
-            return Err(FootprintError::OriginOutside);
+            return Err(RobotFootprintError::OriginOutside);
         }
         let radii = corners.iter().map(|[x, y]| libm::hypot(*x, *y));
         let circumscribed_radius_m = radii.fold(0.0, f64::max);
@@ -135,7 +135,7 @@ impl Footprint {
     }
 }
 
-/// Footprint at a pose in the world.
+/// RobotFootprint at a pose in the world.
 #[derive(Clone, Copy, Debug)]
 pub struct PlacedFootprint<'a> {
     centre: Point2,
@@ -227,30 +227,33 @@ mod tests {
     #[test]
     fn radii_of_a_rectangle() {
         let corners = vec![[0.4, 0.3], [-0.4, 0.3], [-0.4, -0.3], [0.4, -0.3]];
-        let footprint = Footprint::polygon(corners).expect("a footprint");
+        let footprint = RobotFootprint::polygon(corners).expect("a footprint");
         assert_eq!(footprint.circumscribed_radius_m(), 0.5);
         assert_eq!(footprint.inscribed_radius_m(), 0.3);
     }
 
     #[test]
     fn outlines_that_are_no_footprint() {
-        assert_eq!(Footprint::circle(0.0), Err(FootprintError::Radius(0.0)));
-        assert_eq!(Footprint::polygon(vec![[0.0; 2]; 2]), Err(FootprintError::TooFewCorners(2)));
+        assert_eq!(RobotFootprint::circle(0.0), Err(RobotFootprintError::Radius(0.0)));
+        assert_eq!(
+            RobotFootprint::polygon(vec![[0.0; 2]; 2]),
+            Err(RobotFootprintError::TooFewCorners(2))
+        );
         let beside = vec![[1.0, 1.0], [2.0, 1.0], [2.0, 2.0]];
-        assert_eq!(Footprint::polygon(beside), Err(FootprintError::OriginOutside));
+        assert_eq!(RobotFootprint::polygon(beside), Err(RobotFootprintError::OriginOutside));
     }
 
     #[test]
     fn ranges_to_other_robots() {
         let corners = vec![[0.5, 0.5], [-0.5, 0.5], [-0.5, -0.5], [0.5, -0.5]];
-        let check = |footprint: &Footprint, direction, expected: f64| {
+        let check = |footprint: &RobotFootprint, direction, expected: f64| {
             let mut storage = Vec::new();
             let placed = footprint.placed(Pose2::new(3.0, 0.0, 0.0), &mut storage);
             let found = placed.range_m([0.0; 2], direction);
             assert!(found == expected || (found - expected).abs() < 1e-12, "{found}");
         };
-        let square = Footprint::polygon(corners).expect("a footprint");
-        let circle = Footprint::circle(0.5).expect("a radius");
+        let square = RobotFootprint::polygon(corners).expect("a footprint");
+        let circle = RobotFootprint::circle(0.5).expect("a radius");
         check(&square, [1.0, 0.0], 2.5);
         check(&circle, [1.0, 0.0], 2.5);
         check(&square, [-1.0, 0.0], f64::INFINITY);

@@ -11,7 +11,7 @@ use crate::plane::squared_distance;
 /// Resolution of the grid of distances \[m\].
 const RESOLUTION_M: f64 = 0.1;
 /// Maximum number of cells; larger worlds get larger cells.
-const MAX_CELLS: f64 = 400_000.0;
+const MAX_CELL_COUNT: f64 = 400_000.0;
 /// Distance of the grid beyond all obstacles \[m\].
 const MARGIN_M: f64 = 1.0;
 /// Half of an open plane without obstacles \[m\].
@@ -21,7 +21,7 @@ const MAX_DISTANCE_M: f64 = 2.0;
 /// Minimum side of an area \[m\] that is inside walls for it to be preferred to the largest.
 const MIN_INNER_SIDE_M: f64 = 1.5;
 /// Number of goals that are drawn before the best of them is used.
-const MAX_GOAL_DRAWS: usize = 64;
+const MAX_GOAL_DRAW_COUNT: usize = 64;
 
 /// Grid of distances to obstacles, and the connected cells that are free.
 #[derive(Clone, Debug)]
@@ -54,7 +54,7 @@ impl FreeSpace {
         });
         let low = low.map(|it| it - MARGIN_M);
         let size = [high[0] + MARGIN_M - low[0], high[1] + MARGIN_M - low[1]];
-        let resolution_m = RESOLUTION_M.max((size[0] * size[1] / MAX_CELLS).sqrt());
+        let resolution_m = RESOLUTION_M.max((size[0] * size[1] / MAX_CELL_COUNT).sqrt());
         #[expect(
             clippy::cast_possible_truncation,
             clippy::cast_sign_loss,
@@ -72,7 +72,7 @@ impl FreeSpace {
             let distance = obstacles.distance_to_point_m([x, y], MAX_DISTANCE_M) as f32;
             distances_m.cells[index] = distance;
         }
-        // The distance falls by at most the way: a robot fits everywhere in a cell and on the way to a neighbour.
+        // The distance falls by at most the distance travelled: a robot fits everywhere in a cell and between it and a neighbour.
         let needed_m = radius_m + 0.75 * resolution_m;
         #[expect(clippy::cast_possible_truncation, reason = "single precision will do")]
         let is_free = distances_m.map(|distance| *distance > needed_m.min(MAX_DISTANCE_M) as f32);
@@ -138,7 +138,7 @@ impl FreeSpace {
         let yaw_rad = (stream.unit() * 2.0 - 1.0) * std::f64::consts::PI;
         let start_pose = Pose2::new(start[0], start[1], yaw_rad);
         let mut best = (f64::INFINITY, start);
-        for _ in 0..MAX_GOAL_DRAWS {
+        for _ in 0..MAX_GOAL_DRAW_COUNT {
             let goal = self.draw_point(stream)?;
             let distance_m = squared_distance(start, goal).sqrt();
             let error_m = (min_m - distance_m).max(distance_m - max_m).max(0.0);
@@ -203,10 +203,10 @@ impl FreeSpace {
 
 /// The eight neighbours of a cell, with their distances in cells.
 fn neighbours(info: &GridInfo, cell: usize) -> impl Iterator<Item = (usize, f64)> + '_ {
-    const STEPS: [(isize, isize); 8] =
-        [(1, 0), (-1, 0), (0, 1), (0, -1), (1, 1), (1, -1), (-1, 1), (-1, -1)];
+    const STEPS_CELLS: [[isize; 2]; 8] =
+        [[1, 0], [-1, 0], [0, 1], [0, -1], [1, 1], [1, -1], [-1, 1], [-1, -1]];
     let (column, row) = info.cell(cell);
-    STEPS.iter().filter_map(move |(dx, dy)| {
+    STEPS_CELLS.iter().filter_map(move |[dx, dy]| {
         let next = (column.checked_add_signed(*dx)?, row.checked_add_signed(*dy)?);
         let length = if *dx != 0 && *dy != 0 { std::f64::consts::SQRT_2 } else { 1.0 };
         info.contains(next).then(|| (info.index(next), length))

@@ -21,7 +21,7 @@ param_choice! {
         /// Rooms with doors and furniture, by recursive division of a rectangle.
         #[default]
         Rooms = "rooms",
-        /// Offices with desks on both sides of a corridor.
+        /// Offices with furniture on both sides of a corridor.
         Offices = "offices",
         /// Maze of corridors.
         Maze = "maze" | "mazes",

@@ -46,7 +46,7 @@ mod world;
 pub use batch::{
     Agent, BatchError, NavigationBatch, NavigationSettings, ResetRequest, StepOutputs,
 };
-pub use footprint::{Footprint, FootprintError, PlacedFootprint};
+pub use footprint::{PlacedFootprint, RobotFootprint, RobotFootprintError};
 pub use free_space::{FreeSpace, StartAndGoal};
 pub use generate::{WORLD_GENERATOR, WorldGeneratorParams, WorldKind, generate_world};
 pub use observation::{ObservationError, ObservationPart, ObservationSlice, observation_layout};

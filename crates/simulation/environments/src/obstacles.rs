@@ -156,7 +156,7 @@ mod tests {
     use periplus_geometry::{Pose2, Stream};
 
     use super::*;
-    use crate::footprint::Footprint;
+    use crate::footprint::RobotFootprint;
 
     fn room() -> Obstacles {
         let wall = |x: f64, y: f64, w: f64, h: f64| {
@@ -186,10 +186,11 @@ mod tests {
 
     #[test]
     fn distances_of_footprints() {
-        let circle = Footprint::circle(0.2).expect("a radius");
-        let square = Footprint::polygon(vec![[0.3, 0.2], [-0.3, 0.2], [-0.3, -0.2], [0.3, -0.2]])
-            .expect("4");
-        let check = |footprint: &Footprint, pose: Pose2, expected: f64| {
+        let circle = RobotFootprint::circle(0.2).expect("a radius");
+        let square =
+            RobotFootprint::polygon(vec![[0.3, 0.2], [-0.3, 0.2], [-0.3, -0.2], [0.3, -0.2]])
+                .expect("4");
+        let check = |footprint: &RobotFootprint, pose: Pose2, expected: f64| {
             let mut corners = Vec::new();
             let found = room().distance_to_footprint_m(&footprint.placed(pose, &mut corners), 10.0);
             assert!((found - expected).abs() < 1e-12, "{pose:?}: {found}");

@@ -12,7 +12,7 @@ pub const REWARD_TERMS: [&str; 6] =
 /// State of an agent within its episode.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum AgentState {
-    /// On its way.
+    /// Driving to its goal.
     #[default]
     Driving,
     /// At its goal.

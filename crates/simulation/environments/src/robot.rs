@@ -6,7 +6,7 @@ use std::fmt;
 use periplus_geometry::{Pose2, Stream, Twist2};
 use periplus_raycast::{Filter, Ray};
 
-use crate::footprint::{Footprint, FootprintError};
+use crate::footprint::{RobotFootprint, RobotFootprintError};
 use crate::parameters::{DriveKind, EnvironmentRobotParams};
 use crate::world::NavigationWorld;
 
@@ -17,7 +17,7 @@ const COLLISION_RESOLUTION_M: f64 = 0.01;
 #[derive(Clone, Debug)]
 pub struct EnvironmentRobot {
     params: EnvironmentRobotParams,
-    footprint: Footprint,
+    footprint: RobotFootprint,
     /// Directions of the beams in the base frame.
     beams: Vec<[f64; 2]>,
 }
@@ -26,7 +26,7 @@ pub struct EnvironmentRobot {
 #[derive(Clone, Debug, PartialEq)]
 pub enum RobotError {
     /// The footprint is invalid.
-    Footprint(FootprintError),
+    Footprint(RobotFootprintError),
     /// A parameter contradicts another: the name of both, and what is needed.
     Conflict(&'static str),
 }
@@ -50,12 +50,12 @@ impl EnvironmentRobot {
     pub fn new(params: EnvironmentRobotParams) -> Result<Self, RobotError> {
         let corners = &params.footprint_m;
         let footprint = if corners.is_empty() {
-            Footprint::circle(params.radius_m)
+            RobotFootprint::circle(params.radius_m)
         } else if corners.len() % 2 == 1 {
             let needed = "`footprint` needs pairs of numbers: x1 y1 x2 y2 x3 y3";
             return Err(RobotError::Conflict(needed));
         } else {
-            Footprint::polygon(corners.chunks_exact(2).map(|it| [it[0], it[1]]).collect())
+            RobotFootprint::polygon(corners.chunks_exact(2).map(|it| [it[0], it[1]]).collect())
         };
         let footprint = footprint.map_err(RobotError::Footprint)?;
         let span_rad = params.lidar_max_angle_rad - params.lidar_min_angle_rad;
@@ -67,7 +67,7 @@ impl EnvironmentRobot {
                 "`lidar_min_range` must be below `lidar_max_range`",
             ),
             (
-                !(span_rad >= 0.0 && span_rad < TAU + 1e-6),
+                !(0.0..TAU + 1e-6).contains(&span_rad),
                 "`lidar_max_angle` must be from `lidar_min_angle` to a full turn beyond it",
             ),
         ] {
@@ -92,7 +92,7 @@ impl EnvironmentRobot {
 
     /// Returns the footprint.
     #[must_use]
-    pub fn footprint(&self) -> &Footprint {
+    pub fn footprint(&self) -> &RobotFootprint {
         &self.footprint
     }
 

@@ -94,7 +94,7 @@ impl NavigationWorld {
 }
 
 /// Corners of a cube of two metres.
-const CUBE_CORNERS: [[f64; 3]; 8] = [
+const CUBE_CORNERS_M: [[f64; 3]; 8] = [
     [-1.0, -1.0, -1.0],
     [1.0, -1.0, -1.0],
     [-1.0, 1.0, -1.0],
@@ -132,7 +132,8 @@ fn plane_rays(
         match geometry {
             TracedGeometry::Shape(RaycastShape::Box { size_m }) => {
                 let half_m = *size_m / 2.0;
-                let corners = CUBE_CORNERS.map(|corner| (DVec3::from(corner) * half_m).to_array());
+                let corners =
+                    CUBE_CORNERS_M.map(|corner| (DVec3::from(corner) * half_m).to_array());
                 add_crossing(&mut builder, &corners, &CUBE_TRIANGLES, &world_from_body, height_m)?;
             }
             TracedGeometry::Triangles { positions_m, triangles } => {

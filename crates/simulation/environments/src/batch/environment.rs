@@ -9,7 +9,7 @@ use crate::reward::{AgentState, StepResult, reward_terms};
 use crate::world::NavigationWorld;
 
 /// Number of starts that are drawn for a robot until one is far from the robots before it.
-const MAX_START_DRAWS: usize = 256;
+const MAX_START_DRAW_COUNT: usize = 256;
 /// Minimum gap between two robots at the start \[m\].
 const MIN_START_GAP_M: f64 = 0.2;
 
@@ -144,7 +144,7 @@ pub(super) fn reset(
         let (min_m, max_m) = (settings.task.min_goal_distance_m, settings.task.max_goal_distance_m);
         let mut draw = || world.free_space().draw(&mut stream, min_m, max_m);
         let mut drawn = draw();
-        for _ in 0..MAX_START_DRAWS {
+        for _ in 0..MAX_START_DRAW_COUNT {
             if drawn.as_ref().is_none_or(is_apart) {
                 break;
             }
@@ -199,7 +199,8 @@ pub(super) fn step(
     let is_cut = record.steps >= settings.task.max_steps;
     for (at, agent) in agents.iter_mut().enumerate() {
         outputs.terminated[at] = agent.state != AgentState::Driving;
-        outputs.truncated[at] = is_cut && agent.state == AgentState::Driving;
+        // Also of an episode that ends in its last step, as gymnasium's `TimeLimit` does.
+        outputs.truncated[at] = is_cut;
         outputs.rewards[at] = agent.reward_terms.iter().sum();
     }
     if is_cut || agents.iter().all(|agent| agent.state != AgentState::Driving) {

@@ -18,7 +18,7 @@ const STEPS: usize = 5;
 /// Minimum fraction of the cells in the largest cave.
 const MIN_CAVE_FRACTION: f64 = 0.35;
 /// Number of caves that are drawn until one is large enough.
-const MAX_DRAWS: usize = 32;
+const MAX_DRAW_COUNT: usize = 32;
 
 pub(super) fn build(params: &WorldGeneratorParams, stream: &mut Stream, plan: &mut FloorPlan) {
     plan.add_outer_walls(params);
@@ -30,7 +30,7 @@ pub(super) fn build(params: &WorldGeneratorParams, stream: &mut Stream, plan: &m
         (0..STEPS).fold(random, |cells, _| cells.stepped(rule))
     };
     let mut cells = draw();
-    for _ in 0..MAX_DRAWS {
+    for _ in 0..MAX_DRAW_COUNT {
         if real(cells.largest_free_area()) > MIN_CAVE_FRACTION * real(columns * rows) {
             break;
         }

@@ -1,5 +1,5 @@
 //! Fields of cylinders, similar to the worlds of the BARN challenge: a cellular automaton decides which cells have a
-//! cylinder (Perille, Truong, Xiao, Stone 2020, "Benchmarking metric ground navigation"). The first and the last metre
+//! cylinder (Perille, Truong, Xiao, Stone 2020, `Benchmarking Metric Ground Navigation`). The first and the last metre
 //! along x are free.
 
 use periplus_geometry::Stream;

@@ -1,4 +1,4 @@
-//! Rooms: a rectangle is divided again and again by walls with doors; boxes are furniture.
+//! Rooms: a rectangle is divided by walls with doors; boxes are furniture.
 
 use std::f64::consts::FRAC_PI_2;
 
@@ -10,7 +10,7 @@ use super::{WorldGeneratorParams, below, between};
 /// Minimum side of a room \[m\].
 const MIN_ROOM_SIDE_M: f64 = 2.6;
 /// Number of positions that are tried for a wall or a box.
-const MAX_DRAWS: usize = 24;
+const MAX_DRAW_COUNT: usize = 24;
 /// Distance between boxes, and between a box and a door, beyond half of a door's width \[m\].
 const PASSAGE_M: f64 = 0.9;
 /// Floor area for each box with full clutter \[m²\].
@@ -72,7 +72,7 @@ fn divide(
         })
     };
     let mut draws =
-        (0..MAX_DRAWS).map(|_| between(stream, low[long] + side_m, high[long] - side_m));
+        (0..MAX_DRAW_COUNT).map(|_| between(stream, low[long] + side_m, high[long] - side_m));
     let at = draws.find(|at| is_beside_doors(*at))?;
     let edge_m = gap_m + 0.1;
     let door = between(stream, low[across] + edge_m, high[across] - edge_m);
@@ -86,7 +86,7 @@ fn divide(
     Some([[low, lower_high], [upper_low, high]])
 }
 
-/// Places boxes with passages between them and to the doors.
+/// Adds boxes with passages between them and to the doors.
 fn furnish(
     [low, high]: Rectangle,
     params: &WorldGeneratorParams,
@@ -99,7 +99,7 @@ fn furnish(
     let count = (params.clutter * area_m2 / BOX_AREA_M2).round() as usize;
     let mut placed: Vec<PlanBox> = Vec::new();
     for _ in 0..count {
-        for _ in 0..MAX_DRAWS {
+        for _ in 0..MAX_DRAW_COUNT {
             let size_m = [0; 2].map(|_| between(stream, BOX_SIDES_M[0], BOX_SIDES_M[1]));
             let radius_m = libm::hypot(size_m[0], size_m[1]) / 2.0;
             let margin_m = radius_m + params.wall_thickness_m / 2.0;

@@ -9,9 +9,9 @@ use super::ObstacleArea;
 use crate::plane::{Point2, convex_hull};
 
 /// Sides of the polyhedra that replace tilted cylinders, cones, capsules and ellipsoids.
-const POLYHEDRON_SIDES: u32 = 48;
+const POLYHEDRON_SIDE_COUNT: u32 = 48;
 /// Rings from pole to pole of a polyhedron that replaces a round shape.
-const POLYHEDRON_RINGS: u32 = 24;
+const POLYHEDRON_RING_COUNT: u32 = 24;
 /// Axes closer to vertical than this sine of their angle count as vertical.
 const MAX_UPRIGHT_SINE_RATIO: f64 = 1e-9;
 
@@ -103,21 +103,22 @@ pub(super) fn area_of_triangle(corners: [DVec3; 3], band: HeightBand) -> Option<
 
 /// Circumscribed polygon of a circle at a height.
 fn circle_ring(radius_m: f64, z_m: f64) -> Vec<DVec3> {
-    let outer_m = radius_m / libm::cos(PI / f64::from(POLYHEDRON_SIDES));
+    let outer_m = radius_m / libm::cos(PI / f64::from(POLYHEDRON_SIDE_COUNT));
     let corner = |at: u32| {
-        let (sine, cosine) = libm::sincos(2.0 * PI * f64::from(at) / f64::from(POLYHEDRON_SIDES));
+        let (sine, cosine) =
+            libm::sincos(2.0 * PI * f64::from(at) / f64::from(POLYHEDRON_SIDE_COUNT));
         DVec3::new(outer_m * cosine, outer_m * sine, z_m)
     };
-    (0..POLYHEDRON_SIDES).map(corner).collect()
+    (0..POLYHEDRON_SIDE_COUNT).map(corner).collect()
 }
 
 /// Rings of a unit sphere from pole to pole.
 fn latitude_rings() -> Vec<Vec<DVec3>> {
     let ring = |at: u32| {
-        let (sine, cosine) = libm::sincos(PI * f64::from(at) / f64::from(POLYHEDRON_RINGS));
+        let (sine, cosine) = libm::sincos(PI * f64::from(at) / f64::from(POLYHEDRON_RING_COUNT));
         circle_ring(sine, -cosine)
     };
-    (0..=POLYHEDRON_RINGS).map(ring).collect()
+    (0..=POLYHEDRON_RING_COUNT).map(ring).collect()
 }
 
 /// Convex polyhedron, or polygon, as corners and edges.

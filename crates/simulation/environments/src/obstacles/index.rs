@@ -5,7 +5,7 @@ use crate::plane::Point2;
 /// Side of a cell \[m\]: about the distance of queries.
 const CELL_M: f64 = 0.5;
 /// Maximum number of cells; larger worlds get larger cells.
-const MAX_CELLS: f64 = 1_000_000.0;
+const MAX_CELL_COUNT: f64 = 1_000_000.0;
 
 /// Areas by cell, one list after the other.
 #[derive(Clone, Debug)]
@@ -26,13 +26,13 @@ impl AreaIndex {
             low = [low[0].min(from[0]), low[1].min(from[1])];
             high = [high[0].max(to[0]), high[1].max(to[1])];
         }
-        if !(low[0] <= high[0]) {
+        if low[0] > high[0] {
             (low, high) = ([0.0; 2], [0.0; 2]);
         }
         let (width_m, height_m) = (high[0] - low[0], high[1] - low[1]);
-        let cell_m = CELL_M.max((width_m * height_m / MAX_CELLS).sqrt());
+        let cell_m = CELL_M.max((width_m * height_m / MAX_CELL_COUNT).sqrt());
         #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "limited")]
-        let cells = |length_m: f64| (length_m / cell_m).floor().min(MAX_CELLS) as usize + 1;
+        let cells = |length_m: f64| (length_m / cell_m).floor().min(MAX_CELL_COUNT) as usize + 1;
         let (columns, rows) = (cells(width_m), cells(height_m));
         let mut index = Self {
             low,
