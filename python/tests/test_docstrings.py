@@ -1,6 +1,7 @@
 """Documentation of the public names: every one has a text, and its examples run."""
 
 import doctest
+import importlib.util
 import inspect
 from collections.abc import Iterator
 from types import ModuleType
@@ -12,6 +13,10 @@ import periplus
 import periplus.navigation
 
 MODULES: list[ModuleType] = [periplus, periplus.navigation]
+if importlib.util.find_spec("gymnasium") and importlib.util.find_spec("pettingzoo"):
+    import periplus.gym
+
+    MODULES.append(periplus.gym)
 
 
 def public() -> Iterator[tuple[str, Any]]:

@@ -13,6 +13,7 @@ from pathlib import Path
 from typing import Any
 
 import periplus
+import periplus.gym
 import periplus.navigation
 
 # Parts of the page, in order: title, introduction, names. A name in none of them is an error.
@@ -145,6 +146,9 @@ def page() -> str:
     out.extend(["## Navigation", "", markdown(inspect.getdoc(periplus.navigation) or ""), ""])
     for name in periplus.navigation.__all__:
         out.extend(object_lines(f"navigation.{name}", getattr(periplus.navigation, name)))
+    out.extend(["## Environments", "", markdown(inspect.getdoc(periplus.gym) or ""), ""])
+    for name in periplus.gym.__all__:
+        out.extend(object_lines(f"gym.{name}", getattr(periplus.gym, name)))
     return re.sub(r"\n{3,}", "\n\n", "\n".join(out)).rstrip() + "\n"
 
 

@@ -10,7 +10,7 @@ use crate::step::{Failed, build_program, root, run, timed};
 const FOLDER: &str = "target/python";
 
 /// Programs that build the wheel and test it.
-const TOOLS: [&str; 10] = [
+const TOOLS: [&str; 12] = [
     "maturin>=1.9,<2",
     "numpy",
     "pytest",
@@ -21,6 +21,8 @@ const TOOLS: [&str; 10] = [
     "matplotlib",
     "nbclient",
     "ipykernel",
+    "gymnasium>=1.0",
+    "pettingzoo",
 ];
 
 /// Maximum size of the wheel [bytes].

@@ -137,6 +137,7 @@ pub use periplus_costmap as costmap;
 pub use periplus_diagnostics as diagnostics;
 pub use periplus_ekf as ekf;
 pub use periplus_evaluation as evaluation;
+pub use periplus_environments as environments;
 pub use periplus_exploration as exploration;
 pub use periplus_geometry as geometry;
 pub use periplus_graph as graph;

@@ -11,6 +11,7 @@ mod bags;
 mod command;
 mod costmap;
 mod ekf;
+mod environments;
 mod errors;
 mod estimator_parameters;
 mod exploration;
@@ -45,6 +46,7 @@ fn _native(module: &Bound<'_, PyModule>) -> PyResult<()> {
         exploration::register,
         transforms::register,
         ekf::register,
+        environments::register,
         laser_scanner::register,
         slam::register,
         amcl::register,

@@ -1,7 +1,7 @@
 //! Rays against meshes, primitives and worlds.
 
 mod batch;
-mod file;
+pub(crate) mod file;
 mod scene;
 
 use std::num::NonZeroUsize;

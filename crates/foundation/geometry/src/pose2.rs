@@ -3,7 +3,7 @@
 use glam::{DQuat, DVec3};
 use serde::{Deserialize, Serialize};
 
-use crate::Pose;
+use crate::{Pose, Twist2};
 
 /// Rigid transform `a_from_b` in the plane: transforms coordinates in `b` to coordinates in `a`, and is the
 /// pose of `b` in `a`.
@@ -45,6 +45,33 @@ impl Pose2 {
         let x_m = cosine * x_in_b_m - sine * y_in_b_m;
         let y_m = sine * x_in_b_m + cosine * y_in_b_m;
         (self.x_m + x_m, self.y_m + y_m)
+    }
+
+    /// Returns the pose after motion with a constant velocity of the body for a time \[s\]: along an arc, for any
+    /// duration.
+    ///
+    /// The position moves by the integral of the rotating velocity, `V(a) (x, y) dt` with the turned
+    /// angle `a` and `V(a) = [[sin a, cos a - 1], [1 - cos a, sin a]] / a` (the exponential map of
+    /// planar motions; Lynch & Park, "Modern Robotics", section 3.3).
+    #[must_use]
+    pub fn advanced(self, twist: Twist2, dt_s: f64) -> Self {
+        let angle = twist.wz_rad_s * dt_s;
+        let (sine_by_angle, one_less_cosine_by_angle) = if angle.abs() < 1e-4 {
+            // Terms beyond the second are below the precision of a double.
+            (1.0 - angle * angle / 6.0, angle / 2.0 - angle * angle * angle / 24.0)
+        } else {
+            let half = libm::sin(angle / 2.0);
+            (libm::sin(angle) / angle, 2.0 * half * half / angle)
+        };
+        let (ahead, left) = (twist.vx_m_s * dt_s, twist.vy_m_s * dt_s);
+        let along = sine_by_angle * ahead - one_less_cosine_by_angle * left;
+        let across = one_less_cosine_by_angle * ahead + sine_by_angle * left;
+        let (sine, cosine) = libm::sincos(self.yaw_rad);
+        Self {
+            x_m: self.x_m + cosine * along - sine * across,
+            y_m: self.y_m + sine * along + cosine * across,
+            yaw_rad: self.yaw_rad + angle,
+        }
     }
 
     /// Returns the same transform with the yaw in (-π, π].
@@ -123,6 +150,13 @@ mod tests {
         let map_from_base = Pose2::new(1.0, 2.0, FRAC_PI_2);
         let (x_m, y_m) = map_from_base.transform_point(3.0, 0.0);
         assert!((x_m - 1.0).abs() < 1e-12 && (y_m - 5.0).abs() < 1e-12);
+    }
+
+    #[test]
+    fn a_quarter_of_a_circle_with_a_radius_of_one_metre() {
+        let twist = Twist2::new(FRAC_PI_2, 0.0, FRAC_PI_2);
+        let end = Pose2::IDENTITY.advanced(twist, 1.0);
+        assert!(near(end, Pose2::new(1.0, 1.0, FRAC_PI_2)), "{end:?}");
     }
 
     #[test]

@@ -1,6 +1,6 @@
 //! Planar motion without physics.
 
-use periplus_geometry::{DQuat, DVec3, Pose};
+use periplus_geometry::{DQuat, DVec3, Pose, Pose2, Twist2};
 
 /// A velocity in a robot's own frame.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -29,28 +29,13 @@ pub struct Kinematic {
 impl Kinematic {
     /// Advances by a constant twist over a time [s].
     ///
-    /// The position moves by the integral of the rotating velocity, `V(a) (x, y) dt` with the turned
-    /// angle `a` and `V(a) = [[sin a, cos a - 1], [1 - cos a, sin a]] / a` (the exponential map of
-    /// planar motions; Lynch & Park, "Modern Robotics", section 3.3).
+    /// The formula is that of [`Pose2::advanced`].
     #[must_use]
     pub fn advanced(self, twist: Twist, dt_s: f64) -> Self {
-        let angle = twist.yaw_rad_s * dt_s;
-        let (sine_by_angle, one_less_cosine_by_angle) = if angle.abs() < 1e-4 {
-            // Terms beyond the second are below the precision of a double.
-            (1.0 - angle * angle / 6.0, angle / 2.0 - angle * angle * angle / 24.0)
-        } else {
-            let half = libm::sin(angle / 2.0);
-            (libm::sin(angle) / angle, 2.0 * half * half / angle)
-        };
-        let (ahead, left) = (twist.x_m_s * dt_s, twist.y_m_s * dt_s);
-        let along = sine_by_angle * ahead - one_less_cosine_by_angle * left;
-        let across = one_less_cosine_by_angle * ahead + sine_by_angle * left;
-        let (sine, cosine) = libm::sincos(self.yaw_rad);
-        Self {
-            x_m: self.x_m + cosine * along - sine * across,
-            y_m: self.y_m + sine * along + cosine * across,
-            yaw_rad: self.yaw_rad + angle,
-        }
+        let start = Pose2::new(self.x_m, self.y_m, self.yaw_rad);
+        let twist = Twist2::new(twist.x_m_s, twist.y_m_s, twist.yaw_rad_s);
+        let Pose2 { x_m, y_m, yaw_rad } = start.advanced(twist, dt_s);
+        Self { x_m, y_m, yaw_rad }
     }
 
     /// Returns the robot's pose at height zero.

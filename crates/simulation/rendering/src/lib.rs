@@ -46,5 +46,5 @@ pub use mesh::{SelectedMesh, select_submesh};
 pub use periplus_images::{BadImage, Grey, Image};
 pub use render_scene::{
     AddedModel, HitSurface, ModelGroup, PartId, RenderModelId, RenderScene, SHADOW_MASK,
-    SensedGeometry, filter,
+    SensedGeometry, TracedGeometry, TracedShape, filter,
 };

@@ -13,7 +13,7 @@ use periplus_raycast::{Filter, InstanceId, Tags};
 use periplus_scene::Model;
 
 pub(crate) use detail::HitMaterial;
-pub use lookup::HitSurface;
+pub use lookup::{HitSurface, TracedGeometry, TracedShape};
 
 use crate::asset_cache::AssetCache;
 use crate::assets::AssetLoader;

@@ -70,7 +70,11 @@ pub(super) fn read(
     Ok(state)
 }
 
-fn load_file(path: &Path, folders: Vec<PathBuf>, arguments: Vec<(String, String)>) -> LoadedFile {
+pub(crate) fn load_file(
+    path: &Path,
+    folders: Vec<PathBuf>,
+    arguments: Vec<(String, String)>,
+) -> LoadedFile {
     let working_folder = std::env::current_dir().unwrap_or_default();
     let search = Search { folders, working_folder, ..Search::default() };
     search.with_context(true, |context| {

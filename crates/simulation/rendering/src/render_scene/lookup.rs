@@ -1,7 +1,7 @@
 //! Lookup by name, and the surface of a hit.
 
 use periplus_geometry::Pose;
-use periplus_raycast::{Hit, InstanceId};
+use periplus_raycast::{Heightfield, Hit, InstanceId, RaycastShape};
 use periplus_scene::Colour;
 
 use super::{PartId, RenderModelId, RenderScene, ShapeRecord, range};
@@ -27,6 +27,37 @@ pub struct HitSurface<'a> {
     pub instance: u16,
     /// Colour under direct light, and opacity, without textures.
     pub colour: Colour,
+}
+
+/// Geometry of a shape, in the frame of its body.
+#[derive(Clone, Copy, Debug)]
+pub enum TracedGeometry<'a> {
+    /// Shape in closed form.
+    Shape(&'a RaycastShape),
+    /// Triangles.
+    Triangles {
+        /// Corners \[m\].
+        positions_m: &'a [[f64; 3]],
+        /// Three corner indices each.
+        triangles: &'a [[u32; 3]],
+    },
+    /// Height field.
+    Heightfield(&'a Heightfield),
+}
+
+/// Collision or visual of a scene with its pose.
+#[derive(Clone, Copy, Debug)]
+pub struct TracedShape<'a> {
+    /// Model.
+    pub model: &'a str,
+    /// Link, scoped within the model.
+    pub link: &'a str,
+    /// Collision or visual.
+    pub name: &'a str,
+    /// Pose of the geometry.
+    pub world_from_body: Pose,
+    /// Geometry.
+    pub geometry: TracedGeometry<'a>,
 }
 
 impl RenderScene {
@@ -69,6 +100,28 @@ impl RenderScene {
 
     pub(super) fn record(&self, InstanceId(number): InstanceId) -> &ShapeRecord {
         &self.shape_records[self.record_of_instance[number as usize] as usize]
+    }
+
+    /// Returns all shapes in the order of adding, with their last poses.
+    pub fn shapes(&self) -> impl Iterator<Item = TracedShape<'_>> {
+        self.shape_records.iter().filter_map(|record| {
+            let part = &self.parts[record.part as usize];
+            let geometry = match record.body.as_ref()? {
+                RenderBody::Shape(shape) => TracedGeometry::Shape(shape),
+                RenderBody::Mesh(mesh) => TracedGeometry::Triangles {
+                    positions_m: &mesh.selected.positions_m,
+                    triangles: &mesh.selected.triangles,
+                },
+                RenderBody::Heightmap(heights) => TracedGeometry::Heightfield(heights),
+            };
+            Some(TracedShape {
+                model: &self.models[part.model as usize].name,
+                link: &part.name,
+                name: &record.name,
+                world_from_body: part.world_from_link * record.link_from_body,
+                geometry,
+            })
+        })
     }
 
     /// Returns all models in the order of adding.
