@@ -14,7 +14,7 @@
 //! | localize | [`localization`], [`ekf`], [`maps`] |
 //! | decide where to drive | [`costmap`], [`planners`], [`controllers`], [`behavior_tree`], [`grid`] |
 //! | nodes, topics, time | [`graph`], [`msgs`], [`tf`], [`tf_ros`], [`nav_nodes`] |
-//! | recordings | [`bags`] |
+//! | recordings, scores | [`bags`], [`evaluation`] |
 //!
 //! # Tutorial
 //!
@@ -136,6 +136,7 @@ pub use periplus_controllers as controllers;
 pub use periplus_costmap as costmap;
 pub use periplus_diagnostics as diagnostics;
 pub use periplus_ekf as ekf;
+pub use periplus_evaluation as evaluation;
 pub use periplus_exploration as exploration;
 pub use periplus_geometry as geometry;
 pub use periplus_graph as graph;

@@ -108,25 +108,22 @@ pub fn compare(
     let (first, other) = (sampled(first, info), sampled(&laid, info));
     let (to_first, to_other) = (distances(&first), distances(&other));
 
-    let (mut walls, mut nearby) = (Overlap::default(), Overlap::default());
-    let (mut free, mut known) = (Overlap::default(), Overlap::default());
+    let (mut walls, mut free, mut known) =
+        (Overlap::default(), Overlap::default(), Overlap::default());
     for index in 0..info.len() {
         let (a, b) = (first.cells[index], other.cells[index]);
         walls.count(is_wall(a), is_wall(b));
-        // Diagonal neighbours are at a distance of the square root of two.
-        nearby.count(
-            is_wall(a) || is_wall(b) && to_first.cells[index] <= 2,
-            is_wall(b) || is_wall(a) && to_other.cells[index] <= 2,
-        );
         let is_free = |cell: i8| cell >= 0 && !is_wall(cell);
         free.count(is_free(a), is_free(b));
         known.count(a >= 0, b >= 0);
     }
+    // Diagonal neighbours are at a distance of the square root of two.
+    let walls_nearby = walls_within([&first, &other], [&to_first, &to_other], 2.0);
     Ok(MapComparison {
         alignment,
         info,
         walls,
-        walls_nearby: nearby,
+        walls_nearby,
         free,
         known,
         first_to_other: statistics(&first, &to_other),
@@ -134,6 +131,37 @@ pub fn compare(
         first,
         other,
     })
+}
+
+/// Counts wall cells; a wall cell of the other map within the root of `max_square_cells` counts as a match.
+fn walls_within(
+    [first, other]: [&OccupancyGrid; 2],
+    [to_first, to_other]: [&Grid<u32>; 2],
+    max_square_cells: f64,
+) -> Overlap {
+    let mut walls = Overlap::default();
+    let is_near = |square: u32| square != NO_SITE_CELLS && f64::from(square) <= max_square_cells;
+    for index in 0..first.cells.len() {
+        let (a, b) = (is_wall(first.cells[index]), is_wall(other.cells[index]));
+        walls.count(
+            a || b && is_near(to_first.cells[index]),
+            b || a && is_near(to_other.cells[index]),
+        );
+    }
+    walls
+}
+
+impl MapComparison {
+    /// Counts wall cells, where a wall cell of the other map within `tolerance_m` metres between the
+    /// centres counts as a match.
+    #[must_use]
+    pub fn walls_within(&self, tolerance_m: f64) -> Overlap {
+        let cells = tolerance_m.max(0.0) / self.info.resolution_m;
+        let distances = [distances(&self.first), distances(&self.other)];
+        // A tolerance of two cells of 0.05 m includes them in spite of rounding.
+        let max_square_cells = cells * cells * (1.0 + 1e-9);
+        walls_within([&self.first, &self.other], [&distances[0], &distances[1]], max_square_cells)
+    }
 }
 
 /// Returns the grid of the first map, enlarged to contain both.

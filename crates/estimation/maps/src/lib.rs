@@ -41,5 +41,5 @@ pub use load::{Loaded, Map, Status, expand_home, grid_of, load, load_image};
 pub use message::{BadMap, from_message, to_message};
 pub use rule::Rule;
 pub use save::{BadThresholds, Format, MapFiles, PgmRows, Saving, Wish, render, render_yaml};
-pub use truth::{BesideTruth, beside_truth};
+pub use truth::{BesideTruth, beside_truth, beside_truth_at};
 pub use words::{Words, WrongWords, read_words, usage};

@@ -50,7 +50,17 @@ pub fn beside_truth(
     window_m: f64,
     window_rad: f64,
 ) -> Result<BesideTruth, GridInfoError> {
-    let alignment = align(truth, map, window_m, window_rad);
+    beside_truth_at(truth, map, align(truth, map, window_m, window_rad))
+}
+
+/// Compares a map with the ground truth as [`beside_truth`] does, with a known alignment.
+/// # Errors
+/// When the common grid would have too many cells.
+pub fn beside_truth_at(
+    truth: &OccupancyGrid,
+    map: &OccupancyGrid,
+    alignment: Alignment,
+) -> Result<BesideTruth, GridInfoError> {
     let mut laid = map.clone();
     laid.info.origin = alignment.reference_from_other * map.info.origin;
     let is_known = known(&laid, &truth.info);

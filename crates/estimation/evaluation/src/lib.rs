@@ -1,0 +1,41 @@
+//! Scores of a run against the truth.
+//!
+//! - [`associate`], [`Similarity`]: poses of two trajectories at equal times, and their alignment
+//! - [`ape`], [`rpe`]: absolute and relative pose errors, as the Python package `evo` computes them
+//! - [`score_map`]: intersection over union of walls at a tolerance, and distances of walls
+//! - [`Clearance`], [`GoalRun`], [`spl`]: quality of paths and of runs to goals
+//!
+//! An undefined score is none or NaN, never 0.
+//!
+//! ```
+//! use periplus_evaluation::{ErrorStatistics, PoseRelation, Trajectory, ape, associate};
+//!
+//! let truth = Trajectory::from_tum("0 0 0 0 0 0 0 1\n1 1 0 0 0 0 0 1\n")?;
+//! let estimate = Trajectory::from_tum("0 0 0 0 0 0 0 1\n1 1 0.25 0 0 0 0 1\n")?;
+//! let pairs = associate(&truth, &estimate, 0.01);
+//! let errors_m = ape(&pairs, PoseRelation::TranslationM);
+//! assert_eq!(ErrorStatistics::of(&errors_m).unwrap().max, 0.25);
+//! # Ok::<(), periplus_evaluation::TumError>(())
+//! ```
+
+mod alignment;
+mod association;
+mod clearance;
+mod goal;
+mod map;
+mod pairs;
+mod pose_error;
+mod statistics;
+mod trajectory;
+mod tum;
+
+pub use alignment::{AlignmentMethod, Degenerate, Similarity, align};
+pub use association::{PosePair, associate, associate_interpolated};
+pub use clearance::Clearance;
+pub use goal::{GoalRun, barn_score, collision_count, spl};
+pub use map::{MapScore, score_map};
+pub use pairs::{PairSelection, RelativeDelta};
+pub use pose_error::{PoseRelation, ape, rpe};
+pub use statistics::{ErrorStatistics, quantile};
+pub use trajectory::{StampedPose, Trajectory};
+pub use tum::{MAX_POSE_COUNT, TumError, TumFault};
