@@ -177,6 +177,7 @@ impl SessionBuilder {
             gazebo,
             ros2,
             estimators,
+            profile,
             services,
             recorder,
             driver: self.driver,
