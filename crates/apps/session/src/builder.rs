@@ -187,6 +187,7 @@ impl SessionBuilder {
             gazebo,
             ros2,
             estimators,
+            profile,
             services,
             recorder,
             driver: self.driver,

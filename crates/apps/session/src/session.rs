@@ -13,7 +13,7 @@ use periplus_sim::{
 
 use crate::error::RunError;
 use crate::network::{GazeboConnection, Ros2Connection};
-use crate::nodes::{Estimators, Navigation};
+use crate::nodes::{Estimators, Navigation, RobotProfile};
 use crate::page::Page;
 use crate::progress::ProgressLine;
 use crate::recording::RecordingWatch;
@@ -73,6 +73,8 @@ pub(crate) struct SessionParts {
     pub(crate) gazebo: Option<GazeboConnection>,
     pub(crate) ros2: Ros2Connection,
     pub(crate) estimators: Estimators,
+    /// Detected topics and frames of the robot.
+    pub(crate) profile: Option<RobotProfile>,
     pub(crate) services: Services,
     pub(crate) recorder: Option<SimulationRecorder>,
     pub(crate) driver: Driver,
@@ -131,6 +133,12 @@ impl SimulationSession {
     #[must_use]
     pub fn estimators(&self) -> &Estimators {
         &self.parts.estimators
+    }
+
+    /// Topics and frames of the robot, if the estimators needed them.
+    #[must_use]
+    pub fn profile(&self) -> Option<&RobotProfile> {
+        self.parts.profile.as_ref()
     }
 
     /// Servers of navigation; the caller keeps them alive.

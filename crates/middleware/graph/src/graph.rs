@@ -10,6 +10,7 @@ use crate::arguments::Arguments;
 use crate::common::{Common, lock};
 use crate::event_queue::EventQueue;
 use crate::info::{NodeInfo, ServiceInfo, TopicInfo, Traffic};
+use crate::interceptor::Interceptor;
 use crate::live::Live;
 use crate::node::{Node, NodeCore};
 use crate::registry::Registry;
@@ -130,6 +131,12 @@ impl Graph {
         if let Some(tap) = gone {
             tap.close();
         }
+    }
+
+    /// Sets the interceptor of published messages, or removes it. It sees the topics that it wants, present and
+    /// future. Call this again with the same interceptor when its choice of topics has changed.
+    pub fn set_interceptor(&self, interceptor: Option<Arc<dyn Interceptor>>) {
+        lock(&self.0.registry).set_interceptor(interceptor, &self.0.common);
     }
 
     /// Number of messages that a tap lost because its sink is too slow; always 0 in lockstep.

@@ -36,6 +36,7 @@ mod event_queue;
 mod executor;
 mod graph;
 mod info;
+mod interceptor;
 mod lifecycle;
 mod live;
 mod log;
@@ -75,6 +76,7 @@ pub use info::{
     EndpointInfo, NodeInfo, PublisherTraffic, QosMismatch, ServiceInfo, SubscriptionTraffic,
     TopicInfo, Traffic,
 };
+pub use interceptor::{InterceptedMessage, Interceptor};
 pub use lifecycle::{
     Bond, BondSettings, Lifecycle, LifecycleCallbacks, LifecycleNode, LifecycleState, Step,
     StepOutcome, Transition,

@@ -6,6 +6,7 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use crate::common::Common;
 use crate::info::TopicInfo;
+use crate::interceptor::{InterceptedMessage, Interceptor};
 use crate::payload::Payload;
 use crate::qos_event::ReportedEvents;
 use crate::sample::{EndpointId, Sample};
@@ -30,6 +31,8 @@ pub(crate) struct PublisherCore {
     listeners: AtomicUsize,
     /// False if a message needs not be made into a sample.
     is_busy: AtomicBool,
+    /// True if an interceptor takes the messages.
+    is_intercepted: AtomicBool,
     pub(crate) published: AtomicU64,
     /// QoS events already reported.
     pub(crate) reported: Mutex<ReportedEvents>,
@@ -42,6 +45,7 @@ struct Flow {
     subscriptions: Vec<Arc<SubscriptionCore>>,
     taps: Arc<[Arc<Tap>]>,
     info: Arc<TopicInfo>,
+    interceptor: Option<Arc<dyn Interceptor>>,
     /// Messages retained for late subscribers.
     kept: VecDeque<Sample>,
     last_ns: Option<i64>,
@@ -65,6 +69,7 @@ impl PublisherCore {
             common,
             listeners: AtomicUsize::new(0),
             is_busy: AtomicBool::new(false),
+            is_intercepted: AtomicBool::new(false),
             published: AtomicU64::new(0),
             reported: Mutex::default(),
             flow: Mutex::new(Flow { qos, ..Flow::default() }),
@@ -115,30 +120,47 @@ impl PublisherCore {
         subscriptions: Vec<Arc<SubscriptionCore>>,
         taps: Arc<[Arc<Tap>]>,
         info: Arc<TopicInfo>,
+        interceptor: Option<Arc<dyn Interceptor>>,
     ) -> Vec<Sample> {
         let now_ns = self.common.clock.now_ns();
         let mut flow = self.lock();
         let listeners = subscriptions.len() + taps.len();
         self.listeners.store(listeners, Ordering::Relaxed);
         self.is_busy.store(listeners > 0 || keeps(&flow.qos), Ordering::Release);
+        self.is_intercepted.store(interceptor.is_some(), Ordering::Release);
         flow.subscriptions = subscriptions;
         flow.taps = taps;
         flow.info = info;
+        flow.interceptor = interceptor;
         flow.kept.iter().filter(|sample| !sample.is_stale(now_ns)).cloned().collect()
     }
 
     /// Publishes the result of `payload`, if it is needed.
     #[inline]
-    pub(crate) fn publish(&self, payload: impl FnOnce() -> Payload) {
+    pub(crate) fn publish(self: &Arc<Self>, payload: impl FnOnce() -> Payload) {
         self.published.fetch_add(1, Ordering::Relaxed);
-        if self.is_busy.load(Ordering::Acquire) {
-            self.send(Arc::new(payload()));
-        } else {
+        if !self.is_busy.load(Ordering::Acquire) {
             self.topic.sequence.fetch_add(1, Ordering::Relaxed);
+            return;
+        }
+        let payload = Arc::new(payload());
+        if !self.is_intercepted.load(Ordering::Acquire) {
+            self.send(payload);
+            return;
+        }
+        let flow = self.lock();
+        let interceptor = flow.interceptor.clone();
+        let message =
+            InterceptedMessage { publisher: self.clone(), info: flow.info.clone(), payload };
+        drop(flow);
+        match interceptor {
+            Some(interceptor) => interceptor.intercept(message),
+            None => message.forward(),
         }
     }
 
-    fn send(&self, payload: Arc<Payload>) {
+    /// Delivers a message to all subscribers.
+    pub(crate) fn send(&self, payload: Arc<Payload>) {
         let mut flow = self.lock();
         let time_ns = self.common.clock.now_ns();
         let sequence = self.topic.sequence.fetch_add(1, Ordering::Relaxed) + 1;

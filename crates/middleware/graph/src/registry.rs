@@ -9,6 +9,7 @@ use std::sync::{Arc, Weak};
 
 use crate::common::Common;
 use crate::info::{ServiceInfo, TopicInfo, Traffic};
+use crate::interceptor::Interceptor;
 use crate::node::NodeCore;
 use crate::publisher_core::{PublisherCore, Topic};
 use crate::sample::EndpointId;
@@ -27,6 +28,7 @@ pub(crate) struct Registry {
     pub(crate) topics: BTreeMap<Arc<str>, TopicEntry>,
     pub(crate) services: BTreeMap<Arc<str>, ServiceEntry>,
     pub(crate) taps: Vec<Arc<Tap>>,
+    pub(crate) interceptor: Option<Arc<dyn Interceptor>>,
     next_id: u64,
     /// Counts additions and removals.
     pub(crate) changes: u64,
@@ -48,7 +50,8 @@ impl Registry {
     ) -> Result<&mut TopicEntry, GraphError> {
         if !self.topics.contains_key(name) {
             let name: Arc<str> = name.into();
-            let entry = TopicEntry::new(name.clone(), type_of.clone(), node);
+            let mut entry = TopicEntry::new(name.clone(), type_of.clone(), node);
+            entry.interceptor.clone_from(&self.interceptor);
             self.topics.insert(name, entry);
         }
         let entry = self.topics.get_mut(name).expect("inserted above");
@@ -159,7 +162,7 @@ impl Registry {
         let index = entry.publishers.iter().position(|other| other.id == publisher.id)?;
         let gone = entry.publishers.remove(index);
         entry.connect(common);
-        gone.connect(Vec::new(), Arc::new([]), Arc::default());
+        gone.connect(Vec::new(), Arc::new([]), Arc::default(), None);
         Some(gone)
     }
 
@@ -206,6 +209,19 @@ impl Registry {
             tap.push(&info, &sample);
         }
         tap
+    }
+
+    /// Sets the interceptor of all topics, present and future.
+    pub(crate) fn set_interceptor(
+        &mut self,
+        interceptor: Option<Arc<dyn Interceptor>>,
+        common: &Common,
+    ) {
+        for entry in self.topics.values_mut() {
+            entry.interceptor.clone_from(&interceptor);
+            entry.connect(common);
+        }
+        self.interceptor = interceptor;
     }
 
     #[must_use]

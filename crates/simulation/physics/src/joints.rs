@@ -72,6 +72,8 @@ pub(crate) struct AxisRecord {
     pub(crate) mimics: Option<MimicCoupling>,
     pub(crate) data: GenericJoint,
     pub(crate) command: JointCommand,
+    /// True if it is held in place and ignores commands.
+    pub(crate) is_seized: bool,
     pub(crate) state: AxisState,
     /// True if the last exact step moved it.
     pub(crate) changed: bool,

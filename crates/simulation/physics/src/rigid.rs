@@ -1,10 +1,12 @@
 //! Physics by rapier, with its settings.
 
 mod anisotropic_friction;
+mod friction_limit;
 mod step;
 
 use std::ops::Range;
 
+pub(crate) use friction_limit::LimitedCollider;
 pub(crate) use step::DivergedBody;
 
 use periplus_geometry::{DVec3, Pose};
@@ -45,6 +47,8 @@ pub(crate) struct Rigid {
     /// Colliders with anisotropic friction.
     pub(crate) anisotropic_colliders: Vec<(ColliderHandle, AnisotropicFriction)>,
     pub(crate) has_external_forces: bool,
+    /// Colliders with limited friction.
+    pub(crate) limited_colliders: Vec<LimitedCollider>,
 }
 
 impl Clone for Rigid {
@@ -86,6 +90,7 @@ impl Clone for Rigid {
             axes: self.axes.clone(),
             anisotropic_colliders: self.anisotropic_colliders.clone(),
             has_external_forces: self.has_external_forces,
+            limited_colliders: self.limited_colliders.clone(),
         }
     }
 }
@@ -107,6 +112,7 @@ impl Rigid {
             axes: Vec::new(),
             anisotropic_colliders: Vec::new(),
             has_external_forces: false,
+            limited_colliders: Vec::new(),
         }
     }
 

@@ -1,6 +1,7 @@
 //! A simulated world.
 
 mod commands;
+mod faults;
 mod motion;
 mod names;
 
@@ -154,6 +155,7 @@ impl PhysicsWorld {
     pub fn reset(&mut self) {
         for axis in &mut self.records.axes {
             (axis.command, axis.state, axis.changed) = Default::default();
+            axis.is_seized = false;
         }
         let empty = Self::empty(self.gravity_m_s2, self.mode());
         self.time_ns = 0;

@@ -24,5 +24,5 @@ mod replay;
 
 pub use command::{CommandMessage, VelocityCommand};
 pub use goal_controller::{Goal, GoalController, PlanarVelocity};
-pub use read::{DriveScript, read};
+pub use read::{DriveScript, read, read_node};
 pub use replay::replay;

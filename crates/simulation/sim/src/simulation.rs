@@ -1,6 +1,7 @@
 //! A running world.
 
 mod change;
+mod faults;
 mod snapshot;
 mod view;
 

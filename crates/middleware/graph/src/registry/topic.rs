@@ -11,6 +11,7 @@ use crate::common::Common;
 use crate::info::{
     EndpointInfo, PublisherTraffic, QosMismatch, SubscriptionTraffic, TopicInfo, Traffic,
 };
+use crate::interceptor::Interceptor;
 use crate::publisher_core::{PublisherCore, Topic};
 use crate::sample::EndpointId;
 use crate::subscription_core::SubscriptionCore;
@@ -26,6 +27,7 @@ pub(crate) struct TopicEntry {
     pub(super) publishers: Vec<Arc<PublisherCore>>,
     pub(super) subscriptions: Vec<Arc<SubscriptionCore>>,
     pub(super) taps: Arc<[Arc<Tap>]>,
+    pub(super) interceptor: Option<Arc<dyn Interceptor>>,
     /// Incompatible pairs that were reported.
     reported: BTreeSet<(Arc<str>, Arc<str>)>,
 }
@@ -39,6 +41,7 @@ impl TopicEntry {
             publishers: Vec::new(),
             subscriptions: Vec::new(),
             taps: Arc::new([]),
+            interceptor: None,
             reported: BTreeSet::new(),
         }
     }
@@ -71,8 +74,10 @@ impl TopicEntry {
     pub(super) fn connect(&mut self, common: &Common) -> Vec<(Arc<PublisherCore>, Sample)> {
         self.publishers.sort_by(|a, b| (&a.node, a.id).cmp(&(&b.node, b.id)));
         self.subscriptions.sort_by(|a, b| (&a.node, a.id).cmp(&(&b.node, b.id)));
-        // Only taps need the description, and it is long on topics with many endpoints.
-        let info = if self.taps.is_empty() { Arc::default() } else { Arc::new(self.info()) };
+        // Only taps and interceptors need the description, and it is long on topics with many endpoints.
+        let needs_info = !self.taps.is_empty() || self.interceptor.is_some();
+        let info = if needs_info { Arc::new(self.info()) } else { Arc::default() };
+        let interceptor = self.interceptor.as_ref().filter(|it| it.wants(&info)).cloned();
         let mut kept = Vec::new();
         for publisher in &self.publishers {
             let offered = publisher.qos();
@@ -80,7 +85,8 @@ impl TopicEntry {
                 offered.incompatible_policies(&subscription.qos()).is_empty()
             };
             let subscriptions = self.subscriptions.iter().filter(fits).cloned().collect();
-            let samples = publisher.connect(subscriptions, self.taps.clone(), info.clone());
+            let taps = self.taps.clone();
+            let samples = publisher.connect(subscriptions, taps, info.clone(), interceptor.clone());
             kept.extend(samples.into_iter().map(|sample| (publisher.clone(), sample)));
         }
         self.report_mismatches(common);

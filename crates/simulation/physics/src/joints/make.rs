@@ -146,6 +146,7 @@ fn hinge(axis: &Axis, slides: bool, place: Axes, records: &mut Records) {
         mimics: None,
         data: between(mask),
         command: JointCommand::Free,
+        is_seized: false,
         state: AxisState::default(),
         changed: false,
     };

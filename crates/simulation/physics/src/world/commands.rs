@@ -27,7 +27,10 @@ impl PhysicsWorld {
             return false;
         }
         let first = self.records.joints[joint.0 as usize].axes.start;
-        self.records.axes[first + axis].command = command;
+        let axis = &mut self.records.axes[first + axis];
+        if !axis.is_seized {
+            axis.command = command;
+        }
         true
     }
 

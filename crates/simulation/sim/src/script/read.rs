@@ -52,15 +52,20 @@ const OF_GOAL: [&str; 10] = [
 
 /// Reads a script. Invalid entries are omitted and reported.
 pub fn read(file: FileId, sources: &SourceMap, diagnostics: &mut Diagnostics) -> DriveScript {
-    let mut script = DriveScript::default();
     let node = match periplus_yaml::parse(file, sources) {
         Ok(Some(node)) => node,
-        Ok(None) => return script,
+        Ok(None) => return DriveScript::default(),
         Err(wrong) => {
             diagnostics.push(*wrong);
-            return script;
+            return DriveScript::default();
         }
     };
+    read_node(&node, diagnostics)
+}
+
+/// Reads a script that is a part of another file. Invalid entries are omitted and reported.
+pub fn read_node(node: &YamlNode, diagnostics: &mut Diagnostics) -> DriveScript {
+    let mut script = DriveScript::default();
     let Some(entries) = node.list() else {
         if !node.is_null() {
             let wrong = format!("a script is a list of commands, not {}", node.kind());

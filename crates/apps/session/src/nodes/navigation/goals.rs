@@ -111,6 +111,14 @@ impl GoalDriver {
         })
     }
 
+    /// Adds a goal behind the others.
+    pub fn push(&mut self, goal: Pose2) {
+        self.goals.push(goal);
+        if self.is_done() {
+            self.progress = Progress::Due(0);
+        }
+    }
+
     /// Node of the client.
     #[must_use]
     pub fn node(&self) -> &Node {
