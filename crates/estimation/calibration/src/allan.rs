@@ -21,7 +21,7 @@ pub struct AllanPoint {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ImuNoise {
     /// Mean of the samples \[U\]. Its standard error is that of white noise: a bias that walks has no
-    /// value of its own, see `random_walk`.
+    /// single value, see `random_walk`.
     pub bias: Estimated,
     /// White noise \[U s½\]: the Allan deviation at 1 s on the slope of -1/2. The standard deviation of samples
     /// at a rate is this times the root of the rate.

@@ -14,9 +14,9 @@ pub struct MotionError {
 /// Root mean squares of errors.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RmsError {
-    /// Of the position \[m\].
+    /// Root mean square of the position error \[m\].
     pub rms_m: f64,
-    /// Of the heading \[rad\].
+    /// Root mean square of the heading error \[rad\].
     pub rms_rad: f64,
 }
 

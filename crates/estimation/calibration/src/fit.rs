@@ -12,13 +12,13 @@ const COUNT: usize = 7;
 /// Number of Gauss-Newton iterations.
 const STEP_COUNT: usize = 10;
 
-/// Differences for derivatives: 1e-6 of the parameters' unit. The delay's is longer, since the speed of the
+/// Differences for derivatives, relative to the parameters' units. The delay's is longer, since the speed of the
 /// wheels is constant between samples.
-const DIFFERENCES: [f64; COUNT] = [1e-6, 1e-6, 1e-6, 1e-6, 1e-6, 1e-6, 1e-3];
+const DIFFERENCE_RATIO: [f64; COUNT] = [1e-6, 1e-6, 1e-6, 1e-6, 1e-6, 1e-6, 1e-3];
 
 /// Median of the chi-square distribution with 3 degrees of freedom, and its 99.9 % quantile.
-const CHI_SQUARE_MEDIAN: f64 = 2.366;
-const CHI_SQUARE_LIMIT: f64 = 16.266;
+const MEDIAN_SQUARE_RATIO: f64 = 2.366;
+const LIMIT_SQUARE_RATIO: f64 = 16.266;
 
 /// Ratio of eigenvalues below which a direction is not determined.
 const MIN_EIGENVALUE_RATIO: f64 = 1e-12;
@@ -91,7 +91,7 @@ impl Refined {
         squares.sort_by(f64::total_cmp);
         let median = squares.get(squares.len() / 2).copied().unwrap_or(f64::INFINITY);
         // Exact data has residuals of rounding only.
-        (median / CHI_SQUARE_MEDIAN * CHI_SQUARE_LIMIT).max(1e-12)
+        (median / MEDIAN_SQUARE_RATIO * LIMIT_SQUARE_RATIO).max(1e-12)
     }
 }
 
@@ -131,10 +131,10 @@ pub(crate) fn refine(track: &WheelTrack, intervals: &[Interval], start: Paramete
 /// cancel: covariances of up to two intervals count, with the weights of Newey and West 1987, "A simple,
 /// positive semi-definite, heteroskedasticity and autocorrelation consistent covariance matrix".
 fn meat(scores: &[IntervalScore]) -> SMatrix<f64, COUNT, COUNT> {
-    const WEIGHTS: [f64; 3] = [1.0, 2.0 / 3.0, 1.0 / 3.0];
+    const LAG_WEIGHT_RATIO: [f64; 3] = [1.0, 2.0 / 3.0, 1.0 / 3.0];
     let mut sum = SMatrix::zeros();
     for (index, it) in scores.iter().enumerate() {
-        for (lag, weight) in WEIGHTS.into_iter().enumerate() {
+        for (lag, weight) in LAG_WEIGHT_RATIO.into_iter().enumerate() {
             let Some(later) = scores.get(index + lag) else { break };
             let product = weight * it.gradient * later.gradient.transpose();
             sum += if lag == 0 { product } else { product + product.transpose() };
@@ -170,7 +170,7 @@ fn scores(
     let score = |it: &Interval| {
         let error = SVector::<f64, 3>::from(parameters.error(track, it)?);
         let mut jacobian = SMatrix::<f64, 3, COUNT>::zeros();
-        for (index, difference) in DIFFERENCES.into_iter().enumerate() {
+        for (index, difference) in DIFFERENCE_RATIO.into_iter().enumerate() {
             let moved = |sign: f64| {
                 let mut values = values;
                 values[index] += sign * difference;

@@ -6,12 +6,12 @@ use periplus_geometry::LaserScan2;
 use crate::estimated::Estimated;
 
 /// Number of beams of a window that is fitted with a line.
-const WINDOW: usize = 12;
+const WINDOW_BEAM_COUNT: usize = 12;
 /// Largest step of range between neighbouring beams on a surface, relative to the range.
 const MAX_STEP_RATIO: f32 = 0.1;
 /// Minimum number of windows.
 const MIN_WINDOW_COUNT: usize = 50;
-/// Median and 99.9 % quantile of the chi-square distribution with `WINDOW` - 2 degrees of freedom, divided by
+/// Median and 99.9 % quantile of the chi-square distribution with `WINDOW_BEAM_COUNT` - 2 degrees of freedom, divided by
 /// these.
 const MEDIAN_RATIO: f64 = 9.341_818 / 10.0;
 const LIMIT_RATIO: f64 = 29.588 / 10.0;
@@ -43,7 +43,9 @@ pub fn lidar_noise(scans: &[LaserScan2]) -> Option<LidarNoise> {
     let (mut dropouts, mut between) = (0_usize, 0_usize);
     for scan in scans {
         let is_return = |range_m: f32| range_m >= scan.range_min_m && range_m < scan.range_max_m;
-        for (beam, ranges_m) in scan.ranges_m.windows(WINDOW).enumerate().step_by(WINDOW) {
+        for (beam, ranges_m) in
+            scan.ranges_m.windows(WINDOW_BEAM_COUNT).enumerate().step_by(WINDOW_BEAM_COUNT)
+        {
             let is_surface = ranges_m.iter().all(|it| is_return(*it))
                 && ranges_m.windows(2).all(|it| is_neighbour(it[0], it[1]));
             if is_surface {
@@ -69,7 +71,7 @@ pub fn lidar_noise(scans: &[LaserScan2]) -> Option<LidarNoise> {
     }
     let window_count = variances.len();
     let std_m = (variances.iter().sum::<f64>() / window_count as f64).sqrt();
-    let freedom = (WINDOW - 2) as f64;
+    let freedom = (WINDOW_BEAM_COUNT - 2) as f64;
     let dropout = dropouts as f64 / between.max(1) as f64;
     Some(LidarNoise {
         std_m: Estimated {
@@ -108,5 +110,5 @@ fn variance(ranges_m: &[f32], angle_rad: impl Fn(usize) -> f64) -> Option<f64> {
     let line = normal.cholesky()?.solve(&right);
     let residual = |(row, range_m): &(Vector2<f64>, f64)| range_m - 1.0 / row.dot(&line);
     let squares: f64 = rows.iter().map(residual).map(|it| it * it).sum();
-    Some(squares / (WINDOW - 2) as f64).filter(|it| it.is_finite())
+    Some(squares / (WINDOW_BEAM_COUNT - 2) as f64).filter(|it| it.is_finite())
 }
