@@ -14,7 +14,7 @@
 //! | localize | [`localization`], [`ekf`], [`maps`] |
 //! | decide where to drive | [`costmap`], [`planners`], [`controllers`], [`behavior_tree`], [`grid`] |
 //! | nodes, topics, time | [`graph`], [`msgs`], [`tf`], [`tf_ros`], [`nav_nodes`] |
-//! | recordings, scores | [`bags`], [`evaluation`] |
+//! | recordings, scores, calibration | [`bags`], [`evaluation`], [`calibration`] |
 //!
 //! # Tutorial
 //!
@@ -132,6 +132,7 @@
 
 pub use periplus_bags as bags;
 pub use periplus_behavior_tree as behavior_tree;
+pub use periplus_calibration as calibration;
 pub use periplus_controllers as controllers;
 pub use periplus_costmap as costmap;
 pub use periplus_diagnostics as diagnostics;

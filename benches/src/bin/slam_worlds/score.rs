@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 use std::path::Path;
 
+use periplus_evaluation::{AlignmentMethod, PosePair, align};
 use periplus_geometry::{Pose2, normalize_angle};
 use periplus_grid::{Grid, GridInfo, OccupancyGrid, squared_distances};
 use periplus_maps::{Distro, load};
@@ -69,7 +70,7 @@ pub(crate) fn score(stage: &Stage, drive: &Drive, out: &Path) -> Result<Score, S
     }
     let Some((first, _)) = pairs.split_first() else { return Err("no trajectory".into()) };
     let world_from_map = first.0 * first.1.inverse();
-    let best_from_map = aligned(&pairs);
+    let best_from_map = aligned(&pairs)?;
     let rms = |world_from_map: Pose2| {
         let squares = pairs.iter().map(|(truth, found)| {
             let (x, y) = world_from_map.transform_point(found.x_m, found.y_m);
@@ -110,27 +111,16 @@ pub(crate) fn score(stage: &Stage, drive: &Drive, out: &Path) -> Result<Score, S
     })
 }
 
-/// Rigid transform that best aligns the estimated positions with the true ones (Umeyama 1991, in the
-/// plane, without scale).
-fn aligned(pairs: &[(Pose2, Pose2)]) -> Pose2 {
-    let count = pairs.len() as f64;
-    let mean = |of: &dyn Fn(&(Pose2, Pose2)) -> f64| pairs.iter().map(of).sum::<f64>() / count;
-    let truth = [mean(&|it| it.0.x_m), mean(&|it| it.0.y_m)];
-    let found = [mean(&|it| it.1.x_m), mean(&|it| it.1.y_m)];
-    let (mut along, mut across) = (0.0, 0.0);
-    for (to, from) in pairs {
-        let (a, b) = (from.x_m - found[0], from.y_m - found[1]);
-        let (c, d) = (to.x_m - truth[0], to.y_m - truth[1]);
-        along += a * c + b * d;
-        across += a * d - b * c;
-    }
-    let yaw_rad = across.atan2(along);
-    let (s, c) = yaw_rad.sin_cos();
-    Pose2::new(
-        truth[0] - c * found[0] + s * found[1],
-        truth[1] - s * found[0] - c * found[1],
-        yaw_rad,
-    )
+/// Rigid transform in the plane that best aligns the estimated positions with the true ones.
+fn aligned(pairs: &[(Pose2, Pose2)]) -> Result<Pose2, String> {
+    let pair = |&(truth, found): &(Pose2, Pose2)| PosePair {
+        stamp_s: 0.0,
+        reference: truth.into(),
+        estimate: found.into(),
+    };
+    let pairs: Vec<PosePair> = pairs.iter().map(pair).collect();
+    let found = align(&pairs, AlignmentMethod::Se2).map_err(|why| why.to_string())?;
+    Ok(found.reference_from_estimate.into())
 }
 
 /// The walls that could be seen from where the robot was, in the plane of the laser.

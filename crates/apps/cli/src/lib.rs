@@ -4,6 +4,7 @@
 mod arguments;
 mod bag;
 mod bridge;
+mod calibrate;
 mod check;
 mod compare;
 mod conformance;
@@ -131,6 +132,7 @@ pub fn run(words: Vec<String>, own_command: Vec<String>, interpreter: Option<Str
              `view`, `map`, `costmap` and `slam --live`",
         )),
         Command::Bag(command) => bag::run(&command),
+        Command::Calibrate(options) => calibrate::run(&options),
         Command::Check(options) => check::run(&options),
         Command::Compare(options) => compare::run(&options),
         Command::Score(options) => score::run(&options),

@@ -7,6 +7,7 @@ use clap::{Args, Parser, Subcommand, ValueEnum};
 
 use crate::bag::BagCommand;
 use crate::bridge::BridgeOptions;
+use crate::calibrate::CalibrateOptions;
 use crate::compare::RunComparisonOptions;
 use crate::conformance::ConformanceOptions;
 use crate::costmap::serve::CostmapServeOptions;
@@ -47,6 +48,7 @@ pub(crate) struct Options {
 pub(crate) enum Command {
     #[command(subcommand)]
     Bag(BagCommand),
+    Calibrate(Box<CalibrateOptions>),
     Check(CheckOptions),
     Compare(RunComparisonOptions),
     Convert(ConvertOptions),

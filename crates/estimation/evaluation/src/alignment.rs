@@ -14,7 +14,7 @@ pub enum AlignmentMethod {
     None,
     /// First poses on each other (`--align_origin` of `evo`).
     Origin,
-    /// Translation and yaw in the plane, least squares over all positions.
+    /// Translation and yaw, least squares over all positions. A base frame above the floor is no error.
     #[default]
     Se2,
     /// Rigid transform in space, least squares over all positions (`--align` of `evo`).
@@ -100,7 +100,7 @@ fn means(pairs: &[PosePair]) -> (DVec3, DVec3) {
     (mean(|it| it.reference.translation), mean(|it| it.estimate.translation))
 }
 
-/// Rotation about z and translation in the plane: Umeyama 1991 in two dimensions. Heights are kept.
+/// Rotation about z and translation: Umeyama 1991 in two dimensions, and the mean difference of heights.
 fn planar(pairs: &[PosePair]) -> Result<Pose, Degenerate> {
     let (to, from) = means(pairs);
     let (mut dot, mut cross) = (0.0, 0.0);
@@ -114,7 +114,8 @@ fn planar(pairs: &[PosePair]) -> Result<Pose, Degenerate> {
     }
     let turn = Pose2::new(0.0, 0.0, libm::atan2(cross, dot));
     let (x_m, y_m) = turn.transform_point(from.x, from.y);
-    Ok(Pose2 { x_m: to.x - x_m, y_m: to.y - y_m, ..turn }.into())
+    let pose = Pose::from(Pose2 { x_m: to.x - x_m, y_m: to.y - y_m, ..turn });
+    Ok(Pose::from_xyz(0.0, 0.0, to.z - from.z) * pose)
 }
 
 struct Umeyama {
@@ -146,6 +147,10 @@ fn umeyama(pairs: &[PosePair]) -> Result<Umeyama, Degenerate> {
         let (a, b) = (pair.estimate.translation - from, pair.reference.translation - to);
         covariance += Vector3::from(b.to_array()) * Vector3::from(a.to_array()).transpose() / count;
         variance += a.length_squared() / count;
+    }
+    // The iteration does not end with numbers that are not finite.
+    if !covariance.iter().all(|it| it.is_finite()) {
+        return Err(degenerate);
     }
     let svd = covariance.svd(true, true);
     let (Some(u), Some(v_t)) = (svd.u, svd.v_t) else { return Err(degenerate) };
@@ -234,10 +239,21 @@ mod tests {
         assert_eq!(found.reference_from_estimate.translation, DVec3::Y);
     }
 
+    /// Regression test: a base frame 0.3 m above the origin of its model was an error of 0.3 m.
+    #[test]
+    fn heights_are_aligned_by_their_means() {
+        let raised = Pose::from_xyz(1.0, 0.0, 0.3);
+        let found = align(&pairs_of(raised, 1.0, &CORNERS), AlignmentMethod::Se2).unwrap();
+        assert!(found.reference_from_estimate.distance_to(raised).0 < 1e-12, "{found:?}");
+    }
+
     #[test]
     fn one_point_determines_nothing() {
         let point = pairs_of(Pose::IDENTITY, 1.0, &[[1.0, 0.0, 0.0]; 3]);
         assert_eq!(align(&point, AlignmentMethod::Se2), Err(Degenerate { pose_count: 3 }));
+        let far = [[1e300, 0.0, 0.0], [0.0, 1e300, 0.0], [0.0; 3]];
+        let far = pairs_of(Pose::IDENTITY, 1.0, &far);
+        assert_eq!(align(&far, AlignmentMethod::Se3), Err(Degenerate { pose_count: 3 }));
         assert_eq!(align(&[], AlignmentMethod::Origin), Err(Degenerate { pose_count: 0 }));
         assert_eq!(align(&[], AlignmentMethod::None), Ok(Similarity::IDENTITY));
     }

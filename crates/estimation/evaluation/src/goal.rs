@@ -35,16 +35,6 @@ pub fn spl(runs: &[GoalRun]) -> Option<f64> {
     (!runs.is_empty()).then(|| sum / runs.len() as f64)
 }
 
-/// Returns the score of a run of the BARN challenge: `optimal / clip(time, fastest × optimal, 8 × optimal)`
-/// of a run with success, 0 without a time. `fastest_ratio` is 2 by the present rules, 4 by those of 2022.
-///
-/// Xiao et al. 2022, "Autonomous ground navigation in highly constrained spaces".
-#[must_use]
-pub fn barn_score(optimal_s: f64, time_s: Option<f64>, fastest_ratio: f64) -> f64 {
-    time_s
-        .map_or(0.0, |time_s| optimal_s / time_s.clamp(fastest_ratio * optimal_s, 8.0 * optimal_s))
-}
-
 /// Counts collisions in readings of a contact, each a stamp \[s\] and true while in contact. Contacts with
 /// pauses shorter than `min_gap_s` are one collision.
 #[must_use]
@@ -75,17 +65,6 @@ mod tests {
         check(&[run(true, 0.0, 0.0)], Some(1.0));
         assert_eq!(run(true, 6.0, 4.0).length_ratio(), Some(1.5));
         assert_eq!(run(true, 6.0, 0.0).length_ratio(), None);
-    }
-
-    #[test]
-    fn times_of_barn_are_clipped() {
-        let check = |time_s: Option<f64>, expected: f64| {
-            assert_eq!(barn_score(5.0, time_s, 2.0), expected, "{time_s:?}");
-        };
-        check(None, 0.0);
-        check(Some(1.0), 0.5);
-        check(Some(20.0), 0.25);
-        check(Some(99.0), 0.125);
     }
 
     #[test]

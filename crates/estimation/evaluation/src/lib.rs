@@ -38,7 +38,7 @@ pub use association::{PosePair, associate, associate_interpolated};
 pub use chi_square::{chi_square_probability, chi_square_quantile};
 pub use clearance::Clearance;
 pub use consistency::{EstimateWithCovariance, LocalizationLimits, LocalizationScore};
-pub use goal::{GoalRun, barn_score, collision_count, spl};
+pub use goal::{GoalRun, collision_count, spl};
 pub use map::{MapScore, score_map};
 pub use pairs::{PairSelection, RelativeDelta};
 pub use pose_error::{PoseRelation, ape, rpe};

@@ -145,8 +145,8 @@ fn column(line: &str, part: &str) -> usize {
 }
 
 fn excerpt(word: &str) -> String {
-    const MAX_WORD_LENGTH: usize = 40;
-    word.chars().take(MAX_WORD_LENGTH).collect()
+    const MAX_CHAR_COUNT: usize = 40;
+    word.chars().take(MAX_CHAR_COUNT).collect()
 }
 
 #[cfg(test)]

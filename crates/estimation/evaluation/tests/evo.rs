@@ -39,7 +39,7 @@ fn trajectories(number: u64) -> [Trajectory; 2] {
     let mut estimate =
         Pose::from_xyz_rpy([3.0, -2.0, 1.0], Rpy { roll: 0.1, pitch: -0.2, yaw: 2.0 });
     let scale = 1.0 + 0.1 * number as f64;
-    let planar = if number % 2 == 0 { 1.0 } else { 0.1 };
+    let planar = if number.is_multiple_of(2) { 1.0 } else { 0.1 };
     let mut poses = [Vec::new(), Vec::new()];
     for tick in 0..250_u32 {
         let stamp_s = 1.7e9 + 0.1 * f64::from(tick);

@@ -37,6 +37,9 @@ pub(super) const EXAMPLES: &[(&str, &[Example])] = &[
         ("periplus bridge '/lidar@sensor_msgs/msg/LaserScan[gz.msgs.LaserScan'", "Scans from Gazebo to ROS 2"),
         ("periplus bridge --config bridge.yaml", "Bridge the topics of a file"),
     ]),
+    ("calibrate", &[
+        ("periplus calibrate drive.mcap --robot robot.urdf.xacro --plot residuals.png", "Wheels, scanner and delay, beside the robot's file"),
+    ]),
     ("check", &[
         ("periplus check robot.urdf.xacro lidar:=true", "A robot, expanded with an argument"),
         ("periplus check --strict worlds/house.sdf", "A world; warnings fail too"),

@@ -12,8 +12,8 @@ use crate::paths;
 
 /// Longest side of the picture \[px\].
 const MAX_SIDE_PX: f64 = 1600.0;
-/// Side of a pixel without a map \[m\], if the picture is not too large.
-const PIXEL_SIDE_M: f64 = 0.02;
+/// Shortest length of the longest side \[px\]; cells of small maps are several pixels wide.
+const MIN_SIDE_PX: f64 = 800.0;
 /// Border around the paths \[m\].
 const BORDER_M: f64 = 1.0;
 
@@ -62,8 +62,9 @@ impl Canvas {
         let low = points.iter().fold(first, |a, b| [a[0].min(b[0]), a[1].min(b[1])]);
         let high = points.iter().fold(first, |a, b| [a[0].max(b[0]), a[1].max(b[1])]);
         let size_m = [high[0] - low[0], high[1] - low[1]];
-        let finest_m = map.map_or(PIXEL_SIDE_M, |map| map.info.resolution_m);
-        let side_m = finest_m.max(size_m[0].max(size_m[1]) / MAX_SIDE_PX);
+        let longest_m = size_m[0].max(size_m[1]);
+        let finest_m = map.map_or(0.0, |map| map.info.resolution_m);
+        let side_m = finest_m.clamp(longest_m / MAX_SIDE_PX, longest_m / MIN_SIDE_PX);
         let [width, height] = size_m.map(|it| ((it / side_m).ceil() as usize).max(1));
         let origin = Pose2::new(low[0], low[1], 0.0);
         let info = GridInfo::new(side_m, width, height, origin).ok()?;
@@ -101,7 +102,7 @@ impl Canvas {
             }
             self.pixels[index] = match value {
                 ..0 => UNKNOWN_COLOUR,
-                value => [255 - (f64::from(value.min(100)) * 2.55) as u8; 3],
+                value => [(255 - i32::from(value.min(100)) * 255 / 100) as u8; 3],
             };
         }
     }
@@ -144,8 +145,11 @@ mod tests {
         let canvas = Canvas::around(run.map.as_ref(), &[&run]).unwrap();
         let png = canvas.draw(run.map.as_ref(), &[&run]);
         let picture = Raster::decode(&png).unwrap();
-        assert_eq!((picture.width, picture.height), (40, 30));
-        let at = |column: usize, row: usize| picture.sample((29 - row) * 40 + column).to_vec();
+        // 4 m by 3 m in pixels of 5 mm: a cell has a side of 20.
+        assert_eq!((picture.width, picture.height), (800, 600));
+        let at = |column: usize, row: usize| {
+            picture.sample((599 - 20 * row) * 800 + 20 * column).to_vec()
+        };
         assert_eq!(at(5, 5), [0; 3]);
         assert_eq!(at(20, 15), COLOURS[0][0]);
         assert_eq!(at(20, 20), COLOURS[0][1]);

@@ -21,7 +21,8 @@ const SHOWN_STATISTICS: [&str; 4] = ["rmse", "mean", "median", "max"];
 pub(crate) struct RunScores {
     /// Path of the run.
     pub(crate) name: String,
-    truth_source: String,
+    /// Source of its truth.
+    pub(crate) truth_source: String,
     /// Scores by name, in the order of the table; NaN where undefined.
     pub(crate) scores: Vec<Score>,
     /// True path \[m\].

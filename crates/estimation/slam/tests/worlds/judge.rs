@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 
+use periplus_evaluation::{AlignmentMethod, ErrorStatistics, PosePair, PoseRelation, align, ape};
 use periplus_geometry::Pose2;
 
 /// Error of a trajectory.
@@ -70,25 +71,14 @@ pub(crate) fn judge(truth: &[Pose2], found: &[Pose2]) -> Judgement {
 
 /// Root mean square and largest distance after the best rigid alignment \[m\].
 fn aligned(truth: &[Pose2], found: &[Pose2]) -> (f64, f64) {
-    let count = truth.len() as f64;
-    let mean = |poses: &[Pose2]| {
-        let sum = poses.iter().fold((0.0, 0.0), |sum, it| (sum.0 + it.x_m, sum.1 + it.y_m));
-        (sum.0 / count, sum.1 / count)
+    let pair = |(truth, found): (&Pose2, &Pose2)| PosePair {
+        stamp_s: 0.0,
+        reference: (*truth).into(),
+        estimate: (*found).into(),
     };
-    let (at, to) = (mean(found), mean(truth));
-    let (mut dot, mut cross) = (0.0, 0.0);
-    for (a, b) in found.iter().zip(truth) {
-        let (ax, ay, bx, by) = (a.x_m - at.0, a.y_m - at.1, b.x_m - to.0, b.y_m - to.1);
-        dot += ax * bx + ay * by;
-        cross += ax * by - ay * bx;
-    }
-    let (s, c) = libm::sincos(libm::atan2(cross, dot));
-    let (mut squares, mut most) = (0.0, 0.0_f64);
-    for (a, b) in found.iter().zip(truth) {
-        let (ax, ay) = (a.x_m - at.0, a.y_m - at.1);
-        let (dx, dy) = (c * ax - s * ay + to.0 - b.x_m, s * ax + c * ay + to.1 - b.y_m);
-        squares += dx * dx + dy * dy;
-        most = most.max(libm::hypot(dx, dy));
-    }
-    ((squares / count).sqrt(), most)
+    let pairs: Vec<PosePair> = truth.iter().zip(found).map(pair).collect();
+    let alignment = align(&pairs, AlignmentMethod::Se2).expect("the robot moves");
+    let errors_m = ape(&alignment.apply_to(&pairs), PoseRelation::TranslationM);
+    let errors = ErrorStatistics::of(&errors_m).expect("there are poses");
+    (errors.rmse, errors.max)
 }

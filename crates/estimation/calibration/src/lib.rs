@@ -1,0 +1,39 @@
+//! Calibration of a mobile robot from a drive.
+//!
+//! - [`calibrate_drive`]: wheel radii, wheel distance, pose of the scanner and delay of its stamps. The
+//!   scanner's displacements come from [`match_scans`].
+//! - [`OdometryErrorModel`]: errors of odometry in one drive, and their prediction for another
+//! - [`lidar_noise`]: noise and dropouts of a planar scanner
+//! - [`allan_deviation`], [`imu_noise`]: noise of a gyroscope or accelerometer at rest
+//!
+//! Each value is an [`Estimated`] with its standard error. Values that the data does not determine are
+//! refused with the reason, see [`NotObservable`].
+//!
+//! ```
+//! use periplus_calibration::imu_noise;
+//!
+//! // A gyroscope at rest with a bias of 0.01 rad/s and no noise, at 100 Hz.
+//! let noise = imu_noise(&[0.01; 1000], 0.01).unwrap();
+//! assert!((noise.bias.value - 0.01).abs() < 1e-12);
+//! assert!(noise.noise_density.value < 1e-12);
+//! ```
+
+mod allan;
+mod delay;
+mod drive;
+mod error_model;
+mod estimated;
+mod fit;
+mod lidar;
+mod scans;
+mod wheels;
+
+pub use allan::{AllanPoint, ImuNoise, allan_deviation, imu_noise};
+pub use drive::{
+    CalibrationError, DriveCalibration, DriveParameter, NotObservable, calibrate_drive,
+};
+pub use error_model::{MotionError, OdometryErrorModel, RmsError};
+pub use estimated::Estimated;
+pub use lidar::{LidarNoise, lidar_noise};
+pub use scans::{ScannerDisplacement, match_scans};
+pub use wheels::{DifferentialDrive, WheelSample, WheelTrack};
