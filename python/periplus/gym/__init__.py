@@ -4,7 +4,6 @@ Importing this module registers ``periplus/Navigate-v0``: a robot with a lidar d
 or from a generator. Many environments share one scene of exact rays and are stepped by native threads:
 
 >>> import gymnasium
->>> import numpy as np
 >>> import periplus.gym
 >>> envs = gymnasium.make_vec("periplus/Navigate-v0", num_envs=8, vectorization_mode="vector_entry_point", world="maze")
 >>> observations, infos = envs.reset(seed=0)
