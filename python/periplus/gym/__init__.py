@@ -34,10 +34,12 @@ from periplus.gym.vector import NavigateVectorEnv
 
 if TYPE_CHECKING:
     from periplus.gym.parallel import NavigateParallelEnv
+    from periplus.gym.simulated import NavigateSimulationEnv
 
 __all__ = [
     "NavigateEnv",
     "NavigateParallelEnv",
+    "NavigateSimulationEnv",
     "NavigateVectorEnv",
     "parameters",
     "world_sdf",
@@ -53,6 +55,12 @@ if ENVIRONMENT_ID not in gymnasium.registry:
         vector_entry_point="periplus.gym.vector:NavigateVectorEnv",
     )
 
+SIMULATION_ID = "periplus/NavigateSimulation-v0"
+"""Name of the environment whose robot is simulated with physics."""
+
+if SIMULATION_ID not in gymnasium.registry:
+    gymnasium.register(id=SIMULATION_ID, entry_point="periplus.gym.simulated:NavigateSimulationEnv")
+
 
 def __getattr__(name: str) -> object:
     # PettingZoo is needed for several robots only.
@@ -60,4 +68,8 @@ def __getattr__(name: str) -> object:
         from periplus.gym.parallel import NavigateParallelEnv
 
         return NavigateParallelEnv
+    if name == "NavigateSimulationEnv":
+        from periplus.gym.simulated import NavigateSimulationEnv
+
+        return NavigateSimulationEnv
     raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
