@@ -23,6 +23,7 @@ from periplus.gym import (  # noqa: E402
     WORLD_KINDS,
     NavigateEnv,
     NavigateParallelEnv,
+    NavigateSimulationEnv,
     NavigateVectorEnv,
     parameters,
     world_sdf,
@@ -31,7 +32,9 @@ from periplus.gym import (  # noqa: E402
 WORLDS = Path(__file__).resolve().parents[2] / "worlds"
 
 # A room of 8 x 4 m about the origin.
-ROOM = """<sdf version="1.9"><world name="room"><model name="walls"><static>true</static><link name="link">
+ROOM = """<sdf version="1.9"><world name="room"><model name="floor"><static>true</static><link name="link">
+<collision name="floor"><geometry><plane><normal>0 0 1</normal><size>20 20</size></plane></geometry></collision></link>
+</model><model name="walls"><static>true</static><link name="link">
 {}</link></model></world></sdf>"""
 WALL = """<{kind} name="{name}"><pose>{x} {y} 0.5 0 0 0</pose><geometry><box><size>{w} {h} 1</size></box></geometry>
 </{kind}>"""
@@ -185,6 +188,29 @@ def test_robots_meet(room: Path) -> None:
         _, rewards, ends, _, infos = env.step({agent: [1.0, 0.0] for agent in env.agents})
     assert ends == {"robot_0": True, "robot_1": True}
     assert all(info["is_collision"] for info in infos.values())
+
+
+def test_a_robot_with_physics(room: Path) -> None:
+    robot = WORLDS.parent / "robots" / "sam_bot" / "urdf" / "sam_bot.urdf.xacro"
+    env = NavigateSimulationEnv(robot, world=room, radius=0.3, limits={"max_speed": 0.5}, reward={"progress": 1.0})
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        check_env(env, skip_render_check=True)
+    start = {"start": (2.5, 0.0, 0.0), "goal": (-3.0, 0.0)}
+    runs = []
+    for _ in range(2):
+        observation, _ = env.reset(seed=4, options=start)
+        assert observation[env.observation_parts["goal"]] == pytest.approx([5.5, -1.0, 0.0], abs=0.02)
+        results = [observation.tobytes()]
+        terminated = truncated = False
+        while not (terminated or truncated):
+            observation, reward, terminated, truncated, info = env.step([1.0, 0.0])
+            results.append(observation.tobytes())
+        runs.append(results)
+        # 1.2 m to the wall at 0.5 m/s, after the acceleration.
+        assert info["is_collision"] and 20 < len(results) < 45 and reward < -9.0
+        assert sum(env.reward_terms().values()) == pytest.approx(reward)
+    assert runs[0] == runs[1]
 
 
 @pytest.mark.parametrize(

@@ -4,7 +4,6 @@ Importing this module registers ``periplus/Navigate-v0``: a robot with a lidar d
 or from a generator. Many environments share one scene of exact rays and are stepped by native threads:
 
 >>> import gymnasium
->>> import numpy as np
 >>> import periplus.gym
 >>> envs = gymnasium.make_vec("periplus/Navigate-v0", num_envs=8, vectorization_mode="vector_entry_point", world="maze")
 >>> observations, infos = envs.reset(seed=0)
@@ -35,10 +34,12 @@ from periplus.gym.vector import NavigateVectorEnv
 
 if TYPE_CHECKING:
     from periplus.gym.parallel import NavigateParallelEnv
+    from periplus.gym.simulated import NavigateSimulationEnv
 
 __all__ = [
     "NavigateEnv",
     "NavigateParallelEnv",
+    "NavigateSimulationEnv",
     "NavigateVectorEnv",
     "parameters",
     "world_sdf",
@@ -54,6 +55,12 @@ if ENVIRONMENT_ID not in gymnasium.registry:
         vector_entry_point="periplus.gym.vector:NavigateVectorEnv",
     )
 
+SIMULATION_ID = "periplus/NavigateSimulation-v0"
+"""Name of the environment whose robot is simulated with physics."""
+
+if SIMULATION_ID not in gymnasium.registry:
+    gymnasium.register(id=SIMULATION_ID, entry_point="periplus.gym.simulated:NavigateSimulationEnv")
+
 
 def __getattr__(name: str) -> object:
     # PettingZoo is needed for several robots only.
@@ -61,4 +68,8 @@ def __getattr__(name: str) -> object:
         from periplus.gym.parallel import NavigateParallelEnv
 
         return NavigateParallelEnv
+    if name == "NavigateSimulationEnv":
+        from periplus.gym.simulated import NavigateSimulationEnv
+
+        return NavigateSimulationEnv
     raise AttributeError(f"module {__name__!r} has no attribute {name!r}")

@@ -26,15 +26,22 @@ class Painter:
         self._batch = batch
         self._worlds: dict[str, tuple[Picture, list[float], float]] = {}
 
-    def paint(self, environment: int, rows: Sequence[int]) -> Picture:
-        """Picture of an environment with the robots of these rows and their goals."""
+    def paint(
+        self,
+        environment: int,
+        rows: Sequence[int],
+        poses: Sequence[Sequence[float]] | None = None,
+        goals: Sequence[Sequence[float]] | None = None,
+    ) -> Picture:
+        """Picture of an environment with the robots of these rows and their goals, or with others in their stead."""
         background, low, pixel_m = self._world(environment)
         picture: Picture = background.copy()
         height, width = picture.shape[:2]
         # Centres of the pixels in the world.
         xs = low[0] + (np.arange(width) + 0.5) * pixel_m
         ys = low[1] + (np.arange(height)[::-1] + 0.5) * pixel_m
-        poses, goals = self._batch.poses(), self._batch.goals()
+        poses = self._batch.poses().tolist() if poses is None else poses
+        goals = self._batch.goals().tolist() if goals is None else goals
         footprint = self._batch.footprint
         for index, row in enumerate(rows):
             colour = ROBOT_COLOURS[index % len(ROBOT_COLOURS)]

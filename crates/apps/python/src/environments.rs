@@ -13,9 +13,9 @@ use periplus::environments::{
     Agent, AgentState, BatchError, ENVIRONMENT_ROBOT, EnvironmentRobot, EnvironmentRobotParams,
     NAVIGATION_REWARD, NAVIGATION_TASK, NavigationBatch, NavigationRewardParams,
     NavigationSettings, NavigationTaskParams, ObstacleArea, REWARD_TERMS, ResetRequest,
-    StepOutputs,
+    StepOutputs, StepResult, reward_terms,
 };
-use periplus::geometry::Pose2;
+use periplus::geometry::{Pose2, Twist2};
 use pyo3::exceptions::{PyIndexError, PyRuntimeError, PyValueError};
 use pyo3::intern;
 use pyo3::prelude::*;
@@ -240,6 +240,48 @@ impl PyNavigationBatch {
         let batch = lock(&self.batch);
         let terms = batch.agents().iter().flat_map(|agent| agent.reward_terms).collect();
         moved(py, terms, &[batch.agents().len(), REWARD_TERMS.len()])
+    }
+
+    /// Distance between the footprint at a pose and the obstacles of an environment, at most the `clearance_distance`
+    /// of the reward [m]; zero in collision.
+    fn clearance(&self, environment: usize, x: f64, y: f64, yaw: f64) -> PyResult<f64> {
+        let batch = self.environment(environment)?;
+        let max_m = batch.settings().reward.clearance_distance_m;
+        Ok(batch.clearance_m(environment, Pose2::new(x, y, yaw), max_m))
+    }
+
+    /// Terms of the reward of a step that was simulated elsewhere, weighted.
+    fn reward_terms_of(
+        &self,
+        progress: f64,
+        is_success: bool,
+        is_collision: bool,
+        turn_rate: f64,
+        clearance: f64,
+    ) -> [f64; 6] {
+        let batch = lock(&self.batch);
+        let state = match (is_collision, is_success) {
+            (true, _) => AgentState::Collided,
+            (false, true) => AgentState::Reached,
+            (false, false) => AgentState::Driving,
+        };
+        let velocity = Twist2::new(0.0, 0.0, turn_rate);
+        let result = StepResult { progress_m: progress, state, velocity, clearance_m: clearance };
+        reward_terms(&result, &batch.settings().robot, &batch.settings().reward)
+    }
+
+    /// Velocity that an action commands: forwards, to the left [m/s], turn rate [rad/s].
+    #[expect(clippy::needless_pass_by_value, reason = "it is converted from a sequence")]
+    fn commanded(&self, action: Vec<f32>) -> [f64; 3] {
+        let Twist2 { vx_m_s, vy_m_s, wz_rad_s } =
+            lock(&self.batch).settings().robot.commanded(&action);
+        [vx_m_s, vy_m_s, wz_rad_s]
+    }
+
+    /// Distance from the goal at which it is reached [m].
+    #[getter]
+    fn goal_tolerance(&self) -> f64 {
+        lock(&self.batch).settings().task.goal_tolerance_m
     }
 
     /// Poses of all agents: x [m], y [m], yaw [rad], float64, shape (rows, 3).

@@ -189,6 +189,15 @@ impl NavigationBatch {
         self.environments[environment].steps
     }
 
+    /// Returns the distance between the footprint at a pose and the obstacles in the world of an environment, at most
+    /// `max_m` \[m\]; zero in collision.
+    #[must_use]
+    pub fn clearance_m(&self, environment: usize, world_from_base: Pose2, max_m: f64) -> f64 {
+        let mut corners = Vec::new();
+        let placed = self.settings.robot.footprint().placed(world_from_base, &mut corners);
+        self.world_of(environment).obstacles().distance_to_footprint_m(&placed, max_m)
+    }
+
     /// Resets environments and writes the first observations of their episodes; other rows keep their values.
     ///
     /// # Errors

@@ -8,25 +8,18 @@
 //! [`generate_world`] makes worlds for the environments and for the ordinary simulation.
 //!
 //! ```
-//! use std::sync::Arc;
-//! use periplus_environments::{
-//!     EnvironmentRobot, EnvironmentRobotParams, NavigationBatch, NavigationRewardParams, NavigationSettings,
-//!     NavigationTaskParams, NavigationWorld, ResetRequest, WorldGeneratorParams, generate_world,
-//! };
-//! use periplus_rendering::NoAssets;
+//! use periplus_environments::*;
 //!
 //! let robot = EnvironmentRobot::new(EnvironmentRobotParams::default())?;
 //! let rooms = generate_world(&WorldGeneratorParams::default(), 7);
-//! let (world, findings) = NavigationWorld::new(&rooms, &robot, &NoAssets, 1);
+//! let (world, findings) = NavigationWorld::new(&rooms, &robot, &periplus_rendering::NoAssets, 1);
 //! assert!(!findings.has_errors());
-//! let (worlds, task) = (vec![Arc::new(world)], NavigationTaskParams::default());
+//! let (worlds, task) = (vec![std::sync::Arc::new(world)], NavigationTaskParams::default());
 //! let reward = NavigationRewardParams::default();
-//! let settings =
-//!     NavigationSettings { worlds, robot, task, reward, agents: 1, resets_in_next_step: true };
+//! let settings = NavigationSettings { worlds, robot, task, reward, agents: 1, resets_in_next_step: true };
 //! let mut batch = NavigationBatch::new(settings, 8, 2)?;
 //! let mut observations = vec![0.0; 8 * batch.observation_size()];
-//! let seeds: Vec<u64> = (0..8).collect();
-//! batch.reset(ResetRequest { seeds: Some(&seeds), ..ResetRequest::default() }, &mut observations)?;
+//! batch.reset(ResetRequest::default(), &mut observations)?;
 //! assert!(observations[..360].iter().all(|range_m| (0.2..=10.0).contains(range_m)));
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
