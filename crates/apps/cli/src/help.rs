@@ -15,7 +15,10 @@ use examples::{EXAMPLES, Example};
 const GROUPS: [(&str, &[&str]); 6] = [
     ("Start here", &["demo", "new", "doctor"]),
     ("Simulate", &["sim", "launch", "run", "teleop", "view"]),
-    ("Maps, localization, navigation", &["slam", "localize", "map", "costmap", "navigate"]),
+    (
+        "Maps, localization, navigation",
+        &["slam", "localize", "map", "costmap", "navigate", "scenario"],
+    ),
     ("Robots and worlds", &["check", "convert"]),
     (
         "ROS 2 and Gazebo",

@@ -27,6 +27,7 @@ mod page;
 mod paths;
 mod program;
 mod run_options;
+mod scenario;
 mod sim;
 mod slam;
 mod teleop;
@@ -135,6 +136,7 @@ pub fn run(words: Vec<String>, own_command: Vec<String>, interpreter: Option<Str
         Command::Convert(options) => convert::run(&options),
         Command::Doctor(options) => doctor::run(&options),
         Command::New(command) => new::run(&command),
+        Command::Scenario(options) => scenario::run(&options),
         Command::Action(options) => options.run(),
         Command::Interface(options) => options.run(),
         Command::Lifecycle(options) => options.run(),

@@ -17,6 +17,7 @@ use crate::map::MapCommand;
 use crate::navigate::NavigateOptions;
 use crate::new::NewCommand;
 use crate::program::RunOptions;
+use crate::scenario::ScenarioOptions;
 use crate::sim::SimOptions;
 use crate::slam::SlamOptions;
 use crate::teleop::TeleopOptions;
@@ -56,6 +57,7 @@ pub(crate) enum Command {
     Slam(SlamOptions),
     Localize(LocalizeOptions),
     Navigate(Box<NavigateOptions>),
+    Scenario(Box<ScenarioOptions>),
     Topic(TopicOptions),
     Node(NodeOptions),
     Service(ServiceOptions),
