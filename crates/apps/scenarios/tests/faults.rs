@@ -1,5 +1,11 @@
 //! Each kind of fault makes the assertion fail that it should. Without the fault the same run passes.
-#![allow(clippy::unwrap_used, clippy::panic, reason = "a test may panic")]
+#![allow(
+    clippy::unwrap_used,
+    clippy::panic,
+    clippy::disallowed_methods,
+    clippy::print_stdout,
+    reason = "tests"
+)]
 
 mod common;
 

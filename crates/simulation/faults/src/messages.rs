@@ -199,14 +199,10 @@ impl State {
                 Effect::Nothing => {}
             }
         }
-        let latest_ns = self.latest_ns.get(&topic).copied();
         // Messages behind late ones wait for them.
-        if let Some(latest_ns) =
-            latest_ns.filter(|latest_ns| *latest_ns > now_ns && due_ns >= now_ns)
-        {
-            if in_order || due_ns == now_ns {
-                due_ns = due_ns.max(latest_ns);
-            }
+        let latest_ns = self.latest_ns.get(&topic).copied().unwrap_or(now_ns);
+        if in_order || due_ns == now_ns {
+            due_ns = due_ns.max(latest_ns);
         }
         if in_order {
             self.latest_ns.insert(topic, due_ns);
