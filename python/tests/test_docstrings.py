@@ -10,8 +10,9 @@ import pytest
 
 import periplus
 import periplus.navigation
+import periplus.scenarios
 
-MODULES: list[ModuleType] = [periplus, periplus.navigation]
+MODULES: list[ModuleType] = [periplus, periplus.navigation, periplus.scenarios]
 
 
 def public() -> Iterator[tuple[str, Any]]:
