@@ -19,6 +19,18 @@ __version__: str
 
 
 def run_command(arguments: list[str], interpreter: str) -> int: ...
+def scenario_schema() -> str: ...
+def run_scenario(
+    text: str,
+    path: StrPath,
+    *,
+    seed: int | None = None,
+    variables: Sequence[tuple[str, str]] = ...,
+    artifacts: StrPath | None = None,
+    keep: bool = False,
+    digest: bool = False,
+    threads: int = 1,
+) -> str: ...
 
 class FileError(ValueError):
     file: str | None

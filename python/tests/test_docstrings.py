@@ -11,12 +11,14 @@ import pytest
 
 import periplus
 import periplus.navigation
+import periplus.scenarios
 
 MODULES: list[ModuleType] = [periplus, periplus.navigation]
 if importlib.util.find_spec("gymnasium") and importlib.util.find_spec("pettingzoo"):
     import periplus.gym
 
     MODULES.append(periplus.gym)
+MODULES: list[ModuleType] = [periplus, periplus.navigation, periplus.scenarios]
 
 
 def public() -> Iterator[tuple[str, Any]]:

@@ -27,6 +27,7 @@ mod python;
 mod rays;
 mod ros2;
 mod runs;
+mod scenarios;
 mod slam;
 mod soak;
 mod step;
@@ -134,6 +135,15 @@ enum Task {
         /// Runs at a time
         #[arg(long, default_value_t = 1)]
         jobs: usize,
+    },
+    /// Run the scenarios of the folder `scenarios`
+    Scenarios {
+        /// Run five of them this many times, and fail if one byte differs
+        #[arg(long, default_value_t = 1)]
+        repeat: u32,
+        /// Run only those whose names contain this
+        #[arg(long, value_name = "TEXT")]
+        only: Option<String>,
     },
     /// Run the BARN challenge: a Jackal drives through fields of cylinders without a map; prints success, collisions
     /// and scores, beside the published runs of DWA
@@ -312,6 +322,7 @@ fn perform(task: &Task) -> Result<(), Failed> {
         }
         Task::Codegen { check } => codegen::run(*check),
         Task::Drive => drive::corpus(),
+        Task::Scenarios { repeat, only } => scenarios::suite(*repeat, only.as_deref()),
         Task::Attack { only, every, seed, program } => attack::attack(&attack::Wish {
             seed: *seed,
             only: only.clone(),

@@ -8,7 +8,7 @@
 //!
 //! | task | modules |
 //! |---|---|
-//! | simulate a robot | [`sim`], [`physics`], [`ros2_control`], [`sensors`], [`raycast`], [`rendering`] |
+//! | simulate a robot | [`sim`], [`physics`], [`ros2_control`], [`sensors`], [`raycast`], [`rendering`], [`faults`] |
 //! | read robots and worlds | [`loader`], [`xacro`], [`urdf`], [`sdf`], [`scene`], [`meshes`], [`resources`] |
 //! | build a map | [`slam`], [`scan_matching`], [`exploration`] |
 //! | localize | [`localization`], [`ekf`], [`maps`] |
@@ -140,6 +140,7 @@ pub use periplus_ekf as ekf;
 pub use periplus_evaluation as evaluation;
 pub use periplus_environments as environments;
 pub use periplus_exploration as exploration;
+pub use periplus_faults as faults;
 pub use periplus_geometry as geometry;
 pub use periplus_graph as graph;
 pub use periplus_grid as grid;

@@ -17,6 +17,10 @@ const GROUPS: [(&str, &[&str]); 7] = [
     ("Simulate", &["sim", "launch", "run", "teleop", "view"]),
     ("Maps, localization, navigation", &["slam", "localize", "map", "costmap", "navigate"]),
     ("Results", &["score", "compare", "calibrate"]),
+    (
+        "Maps, localization, navigation",
+        &["slam", "localize", "map", "costmap", "navigate", "scenario"],
+    ),
     ("Robots and worlds", &["check", "convert"]),
     (
         "ROS 2 and Gazebo",

@@ -30,6 +30,7 @@ mod paths;
 mod program;
 mod run_options;
 mod score;
+mod scenario;
 mod sim;
 mod slam;
 mod teleop;
@@ -141,6 +142,7 @@ pub fn run(words: Vec<String>, own_command: Vec<String>, interpreter: Option<Str
         Command::Convert(options) => convert::run(&options),
         Command::Doctor(options) => doctor::run(&options),
         Command::New(command) => new::run(&command),
+        Command::Scenario(options) => scenario::run(&options),
         Command::Action(options) => options.run(),
         Command::Interface(options) => options.run(),
         Command::Lifecycle(options) => options.run(),

@@ -20,6 +20,7 @@ use crate::navigate::NavigateOptions;
 use crate::new::NewCommand;
 use crate::program::RunOptions;
 use crate::score::ScoreOptions;
+use crate::scenario::ScenarioOptions;
 use crate::sim::SimOptions;
 use crate::slam::SlamOptions;
 use crate::teleop::TeleopOptions;
@@ -62,6 +63,7 @@ pub(crate) enum Command {
     Slam(SlamOptions),
     Localize(LocalizeOptions),
     Navigate(Box<NavigateOptions>),
+    Scenario(Box<ScenarioOptions>),
     Topic(TopicOptions),
     Node(NodeOptions),
     Service(ServiceOptions),

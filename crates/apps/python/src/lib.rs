@@ -24,6 +24,7 @@ mod rays;
 mod robot_files;
 mod ros;
 mod scan_matching;
+mod scenarios;
 mod simulation;
 mod slam;
 mod transforms;
@@ -56,6 +57,7 @@ fn _native(module: &Bound<'_, PyModule>) -> PyResult<()> {
         ros::register,
         simulation::register,
         navigation::register,
+        scenarios::register,
     ] {
         register(module)?;
     }

@@ -1,4 +1,4 @@
-//! Interceptors: messages on their way from a publisher to its subscribers.
+//! Interceptors of messages between a publisher and its subscribers.
 
 use std::sync::Arc;
 

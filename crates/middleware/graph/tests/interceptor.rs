@@ -1,4 +1,5 @@
 //! Messages that an interceptor changes, holds and drops.
+#![allow(clippy::unwrap_used, reason = "a test may panic")]
 
 use std::sync::{Arc, Mutex};
 

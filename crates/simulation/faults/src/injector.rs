@@ -9,7 +9,7 @@ use periplus_sim::Simulation;
 use serde_json::{Value, json};
 
 use crate::messages::MessageFaults;
-use crate::read::Fault;
+use crate::read::InjectedFault;
 use crate::world::WorldFault;
 
 /// Latched topic with the list of faults as JSON.
@@ -45,7 +45,7 @@ impl FaultInjector {
     ///
     /// # Errors
     /// When the graph refuses the publisher of the list.
-    pub fn add(&mut self, simulation: &Simulation, fault: Fault) -> Result<(), GraphError> {
+    pub fn add(&mut self, simulation: &Simulation, fault: InjectedFault) -> Result<(), GraphError> {
         let graph = simulation.graph();
         if self.publisher.is_none() {
             let node = graph.node(NodeSettings::new("periplus_faults").keep_names())?;
@@ -65,12 +65,15 @@ impl FaultInjector {
         Ok(())
     }
 
-    /// Starts and ends faults, and delivers the messages that were held back until now.
-    pub fn update(&mut self, simulation: &mut Simulation) {
+    /// Starts and ends faults, and delivers the messages that were held back until now. Returns true if a fault of
+    /// wheels or of the world has started or ended.
+    pub fn update(&mut self, simulation: &mut Simulation) -> bool {
+        let mut has_changed = false;
         for fault in &mut self.world {
-            fault.update(simulation, &mut self.findings);
+            has_changed |= fault.update(simulation, &mut self.findings);
         }
         self.messages.release(simulation);
+        has_changed
     }
 
     /// Faults that were added, as JSON.
@@ -89,7 +92,7 @@ impl FaultInjector {
 }
 
 /// JSON of a fault: kind, window and parameters as written.
-fn to_json(fault: &Fault) -> Value {
+fn to_json(fault: &InjectedFault) -> Value {
     let values = fault.kind.to_values();
     let is_window = |name: &str| matches!(name, "from" | "until");
     let parameters = values.table().names().filter(|name| !is_window(name));

@@ -348,7 +348,7 @@ params! {
 }
 
 params! {
-    /// A door is closed: a leaf stands between two points until the end of the window.
+    /// A door is closed: a leaf connects two points until the end of the window.
     #[table(CLOSED_DOOR, "closed_door")]
     pub struct ClosedDoorParams {
         /// Time window.

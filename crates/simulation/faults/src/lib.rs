@@ -2,7 +2,7 @@
 //!
 //! [`read_list`] reads faults from YAML, each with its parameters as [`FaultKind::tables`] declares them. A
 //! [`FaultInjector`] applies them to a running simulation: it intercepts messages between publishers and subscribers,
-//! and changes wheels, surfaces and models. Each fault has a random stream of its own, keyed by the seed, the fault and
+//! and changes wheels, surfaces and models. Each fault has a separate random stream, keyed by the seed, the fault and
 //! the time, so that the same run has the same faults, and one fault does not change the random numbers of another.
 //!
 //! ```
@@ -21,6 +21,7 @@ mod messages;
 pub mod models;
 mod read;
 mod section;
+mod stamps;
 mod world;
 
 pub use injector::{FAULT_TOPIC, FaultInjector};
@@ -30,5 +31,6 @@ pub use kinds::{
     LatencyParams, LowFrictionParams, MirrorParams, MovedModelParams, NoiseParams,
     PacketLossParams, ReorderParams, StuckReadingsParams, StuckWheelParams, WheelSlipParams,
 };
-pub use read::{Fault, read_fault, read_list};
+pub use read::{InjectedFault, read_fault, read_list};
 pub use section::{flat_text, read_section};
+pub use stamps::{has_header, header_stamp_ns};

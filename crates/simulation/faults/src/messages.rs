@@ -13,7 +13,7 @@ use periplus_sim::{OpticalSurface, Simulation};
 
 use crate::kinds::FaultKind;
 use crate::models::{ChannelState, GyroBias, delay_s, is_burst, reported_range_m};
-use crate::read::Fault;
+use crate::read::InjectedFault;
 use readings::{
     Unchanged, decoded, with_content_of, with_readings, with_sector, with_shifted_stamp,
 };
@@ -40,7 +40,7 @@ struct State {
 
 /// A fault of messages with its state.
 struct RunningFault {
-    fault: Fault,
+    fault: InjectedFault,
     topic: String,
     /// Name of its random streams.
     stream: String,
@@ -52,7 +52,7 @@ struct RunningFault {
     has_seen_any: bool,
 }
 
-/// What a fault knows of earlier messages.
+/// Memory of a fault of earlier messages.
 enum Memory {
     Nothing,
     Channel(ChannelState),
@@ -66,7 +66,7 @@ struct HeldMessage {
     optics: Vec<(String, OpticalSurface)>,
 }
 
-/// What a fault does to a message.
+/// Effect of a fault on a message.
 enum Effect {
     Drop,
     Change(InterceptedMessage),
@@ -95,8 +95,8 @@ impl MessageFaults {
         self.state.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// Adds a fault of messages; `number` is its place among all faults.
-    pub(crate) fn add(&self, number: usize, fault: &Fault) {
+    /// Adds a fault of messages; `number` is its number among all faults.
+    pub(crate) fn add(&self, number: usize, fault: &InjectedFault) {
         let Some(topic) = fault.kind.topic() else { return };
         let topic = format!("/{}", topic.trim_start_matches('/'));
         let memory = match fault.kind {
@@ -199,14 +199,10 @@ impl State {
                 Effect::Nothing => {}
             }
         }
-        let latest_ns = self.latest_ns.get(&topic).copied();
         // Messages behind late ones wait for them.
-        if let Some(latest_ns) =
-            latest_ns.filter(|latest_ns| *latest_ns > now_ns && due_ns >= now_ns)
-        {
-            if in_order || due_ns == now_ns {
-                due_ns = due_ns.max(latest_ns);
-            }
+        let latest_ns = self.latest_ns.get(&topic).copied().unwrap_or(now_ns);
+        if in_order || due_ns == now_ns {
+            due_ns = due_ns.max(latest_ns);
         }
         if in_order {
             self.latest_ns.insert(topic, due_ns);

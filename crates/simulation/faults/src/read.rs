@@ -9,7 +9,7 @@ use crate::section::read_section;
 
 /// A fault with its time window.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Fault {
+pub struct InjectedFault {
     /// Kind with its parameters.
     pub kind: FaultKind,
     /// Start in simulated time \[s\].
@@ -20,7 +20,7 @@ pub struct Fault {
     pub origin: Origin,
 }
 
-impl Fault {
+impl InjectedFault {
     /// Fault of a kind with the time window of its parameters.
     #[must_use]
     pub fn new(kind: FaultKind, origin: Origin) -> Self {
@@ -43,7 +43,7 @@ impl Fault {
 }
 
 /// Reads a list of faults, each `KIND: {PARAMETERS}`.
-pub fn read_list(node: &YamlNode, diagnostics: &mut Diagnostics) -> Vec<Fault> {
+pub fn read_list(node: &YamlNode, diagnostics: &mut Diagnostics) -> Vec<InjectedFault> {
     let Some(items) = node.list() else {
         if !node.is_null() {
             let message = format!("`faults` is {}; it must be a list", node.kind());
@@ -59,7 +59,7 @@ pub fn read_list(node: &YamlNode, diagnostics: &mut Diagnostics) -> Vec<Fault> {
 }
 
 /// Reads a fault `KIND: {PARAMETERS}`; `None` after an error.
-pub fn read_fault(node: &YamlNode, diagnostics: &mut Diagnostics) -> Option<Fault> {
+pub fn read_fault(node: &YamlNode, diagnostics: &mut Diagnostics) -> Option<InjectedFault> {
     let names = || FaultKind::tables().iter().map(|table| table.name);
     let entry = match &node.value {
         YamlValue::Map(entries) if entries.len() == 1 => entries.first(),
@@ -89,7 +89,7 @@ pub fn read_fault(node: &YamlNode, diagnostics: &mut Diagnostics) -> Option<Faul
     let values = read_section(table, value, diagnostics);
     let kind = FaultKind::from_values(&values)?;
     check(&kind, value, diagnostics);
-    (diagnostics.errors() == before).then(|| Fault::new(kind, key.span.into()))
+    (diagnostics.errors() == before).then(|| InjectedFault::new(kind, key.span.into()))
 }
 
 /// Checks what the table cannot: lengths of lists, and pairs of numbers.
@@ -145,7 +145,7 @@ mod tests {
 
     use super::*;
 
-    fn check(text: &str, expected: Expect) -> Vec<Fault> {
+    fn check(text: &str, expected: Expect) -> Vec<InjectedFault> {
         let (mut sources, mut diagnostics) = (SourceMap::new(), Diagnostics::new());
         let file = sources.add("faults.yaml", text);
         let tree = periplus_yaml::parse(file, &sources).unwrap().unwrap();

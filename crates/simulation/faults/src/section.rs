@@ -4,7 +4,7 @@ use periplus_diagnostics::{Diagnostic, Diagnostics, Severity};
 use periplus_params::{Given, ParamValues, Table};
 use periplus_yaml::{YamlNode, YamlValue};
 
-/// Reads a mapping with the parameters of a table. A scalar or a list in its place is the value of the first required
+/// Reads a mapping with the parameters of a table. A scalar or a list instead of it is the value of the first required
 /// parameter, or of the first one. Unknown names are errors.
 pub fn read_section(
     table: &'static Table,

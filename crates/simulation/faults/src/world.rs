@@ -5,11 +5,11 @@ use periplus_geometry::{Pose, Pose2};
 use periplus_sim::{InsertionSource, ModelInsertion, Search, Simulation};
 
 use crate::kinds::FaultKind;
-use crate::read::Fault;
+use crate::read::InjectedFault;
 
 /// A fault of the world and its state.
 pub(crate) struct WorldFault {
-    fault: Fault,
+    fault: InjectedFault,
     state: WorldFaultState,
 }
 
@@ -22,12 +22,17 @@ enum WorldFaultState {
 }
 
 impl WorldFault {
-    pub(crate) fn new(fault: Fault) -> Self {
+    pub(crate) fn new(fault: InjectedFault) -> Self {
         Self { fault, state: WorldFaultState::Waiting }
     }
 
-    /// Starts or ends the fault if its time has come.
-    pub(crate) fn update(&mut self, simulation: &mut Simulation, findings: &mut Diagnostics) {
+    /// Starts or ends the fault if its time has come; returns true if it has.
+    pub(crate) fn update(
+        &mut self,
+        simulation: &mut Simulation,
+        findings: &mut Diagnostics,
+    ) -> bool {
+        let before = self.state.clone();
         let now_s = simulation.time_ns() as f64 * 1e-9;
         match &self.state {
             WorldFaultState::Waiting if now_s >= self.fault.from_s => {
@@ -49,6 +54,7 @@ impl WorldFault {
             }
             _ => {}
         }
+        self.state != before
     }
 }
 

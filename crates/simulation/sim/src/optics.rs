@@ -17,14 +17,14 @@ const MAX_SURFACE_COUNT: usize = 16;
 /// Distance of the next surface from one that a beam passes \[m\].
 const NEXT_SURFACE_M: f64 = 1e-4;
 
-/// What a beam does at the surface of a model.
+/// Effect of the surface of a model on a beam.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum OpticalSurface {
-    /// It is measured.
+    /// The surface is measured.
     Diffuse,
-    /// It passes in the same direction.
+    /// The beam passes in the same direction.
     Glass,
-    /// It is reflected; the lidar measures the length of the whole path.
+    /// The beam is reflected; the lidar measures the length of the whole path.
     Mirror,
 }
 
