@@ -13,12 +13,11 @@ import periplus
 import periplus.navigation
 import periplus.scenarios
 
-MODULES: list[ModuleType] = [periplus, periplus.navigation]
+MODULES: list[ModuleType] = [periplus, periplus.navigation, periplus.scenarios]
 if importlib.util.find_spec("gymnasium") and importlib.util.find_spec("pettingzoo"):
     import periplus.gym
 
     MODULES.append(periplus.gym)
-MODULES: list[ModuleType] = [periplus, periplus.navigation, periplus.scenarios]
 
 
 def public() -> Iterator[tuple[str, Any]]:

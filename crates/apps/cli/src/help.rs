@@ -16,11 +16,7 @@ const GROUPS: [(&str, &[&str]); 7] = [
     ("Start here", &["demo", "new", "doctor"]),
     ("Simulate", &["sim", "launch", "run", "teleop", "view"]),
     ("Maps, localization, navigation", &["slam", "localize", "map", "costmap", "navigate"]),
-    ("Results", &["score", "compare", "calibrate"]),
-    (
-        "Maps, localization, navigation",
-        &["slam", "localize", "map", "costmap", "navigate", "scenario"],
-    ),
+    ("Tests and results", &["scenario", "score", "compare", "calibrate"]),
     ("Robots and worlds", &["check", "convert"]),
     (
         "ROS 2 and Gazebo",

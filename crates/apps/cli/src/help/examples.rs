@@ -123,14 +123,15 @@ pub(super) const EXAMPLES: &[(&str, &[Example])] = &[
         ("periplus run my_package wall_follower", "A node of a package in this workspace, without a build"),
         ("periplus run nav2_costmap_2d nav2_costmap_2d_markers", "A built-in program of a package"),
     ]),
-    ("score", &[
-        ("periplus score run.mcap --map true_map.yaml --picture run.png", "A recording with its truth, on the true map"),
-        ("periplus score estimate.tum --truth truth.tum --align se3 --json", "A trajectory, as evo_ape --align"),
     ("scenario", &[
         ("periplus scenario delivery.yaml", "Run a scenario and evaluate its assertions"),
         ("periplus scenario *.yaml --junit results.xml --artifacts results", "All of a folder, with results for a build server"),
         ("periplus scenario delivery.yaml --seed 7 --set speed=0.3 --keep", "With another seed and variable; keep recording and picture"),
         ("periplus scenario --schema", "Schema of the files, for completion in an editor"),
+    ]),
+    ("score", &[
+        ("periplus score run.mcap --map true_map.yaml --picture run.png", "A recording with its truth, on the true map"),
+        ("periplus score estimate.tum --truth truth.tum --align se3 --json", "A trajectory, as evo_ape --align"),
     ]),
     ("service call", &[
         ("periplus service call /reset_simulation std_srvs/srv/Empty", "A call without values"),

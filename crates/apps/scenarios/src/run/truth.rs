@@ -86,7 +86,7 @@ impl Truth {
         if let Some(score) = self.score.take() {
             self.length_m += score.length_m;
             self.min_clearance_m = self.min_clearance_m.min(score.min_clearance_m);
-            self.collision_count += score.collision_count;
+            self.collision_count += score.collisions.len();
         }
     }
 
