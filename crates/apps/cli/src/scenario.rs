@@ -9,6 +9,8 @@ use std::sync::atomic::Ordering;
 
 use clap::Args;
 use periplus_diagnostics::plain_words;
+use periplus_os::Machine;
+use periplus_resources::Host as _;
 use periplus_scenarios::{
     Scenario, ScenarioError, ScenarioReport, ScenarioRunOptions, github_summary, json_schema,
     junit_xml, run as run_scenario,
@@ -101,7 +103,7 @@ pub(crate) fn run(options: &ScenarioOptions) -> Result<ExitCode, CliError> {
     if let Some(path) = &options.junit {
         files::write(path, junit_xml(&reports).as_bytes())?;
     }
-    if let Some(path) = std::env::var_os(SUMMARY_VARIABLE).filter(|path| !path.is_empty()) {
+    if let Some(path) = Machine.variable(SUMMARY_VARIABLE).filter(|path| !path.is_empty()) {
         append(Path::new(&path), &github_summary(&reports))?;
     }
     if reports.iter().all(ScenarioReport::has_passed) && !has_differed {
