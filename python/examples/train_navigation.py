@@ -3,7 +3,7 @@
     pip install 'periplus[gym]'
     python train_navigation.py --minutes 15 --out policy
 
-Environments are generated worlds, a few hundred on one machine at a time. The policy sees 96 ranges, the goal and its
+Environments are generated worlds, a few hundred on one machine at a time. The policy sees 64 ranges, the goal and its
 velocity, and commands the velocity. Afterwards it drives in 100 worlds that it has never seen, and is written to
 ``policy.npz``, and to ``policy.onnx`` if the package ``onnx`` is installed.
 
@@ -27,9 +27,9 @@ from periplus.gym import NavigateVectorEnv
 
 Floats: TypeAlias = npt.NDArray[np.float32]
 
-ROBOT = {"lidar_beams": 96, "lidar_max_range": 3.0, "max_speed": 0.6, "max_turn_rate": 1.5}
+ROBOT = {"lidar_beams": 64, "lidar_max_range": 4.0, "max_speed": 0.8, "max_turn_rate": 1.5}
 TASK = {"min_goal_distance": 2.0, "max_goal_distance": 6.0}
-REWARD = {"progress": 2.0, "goal": 10.0, "collision": -15.0, "time": -0.01, "turning": -0.01, "clearance": -0.2}
+REWARD = {"progress": 2.0, "goal": 8.0, "collision": -8.0, "time": -0.02, "turning": -0.02, "clearance": -0.1}
 KINDS = ("caves", "cylinders")
 TRAINING_SEEDS = range(100)
 EVALUATION_SEEDS = range(10_000, 10_050)

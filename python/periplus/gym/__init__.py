@@ -20,17 +20,16 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-try:
-    import gymnasium
-except ModuleNotFoundError as error:
-    raise ModuleNotFoundError(
-        "periplus.gym needs gymnasium, version 1.0 or later: pip install 'periplus[gym]'", name="gymnasium"
-    ) from error
+from periplus.gym.requirements import require
 
-from periplus.gym.environment import NavigateEnv
-from periplus.gym.settings import WORLD_KINDS as WORLD_KINDS
-from periplus.gym.settings import parameters, world_sdf
-from periplus.gym.vector import NavigateVectorEnv
+require("gymnasium", "periplus.gym needs gymnasium, version 1.0 or later: pip install 'periplus[gym]'")
+
+import gymnasium  # noqa: E402
+
+from periplus.gym.environment import NavigateEnv  # noqa: E402
+from periplus.gym.settings import WORLD_KINDS as WORLD_KINDS  # noqa: E402
+from periplus.gym.settings import parameters, world_sdf  # noqa: E402
+from periplus.gym.vector import NavigateVectorEnv  # noqa: E402
 
 if TYPE_CHECKING:
     from periplus.gym.parallel import NavigateParallelEnv

@@ -8,15 +8,13 @@ from typing import Any, ClassVar
 import numpy as np
 import numpy.typing as npt
 
-try:
-    from pettingzoo import ParallelEnv
-except ModuleNotFoundError as error:
-    raise ModuleNotFoundError(
-        "environments with several robots need PettingZoo: pip install pettingzoo", name="pettingzoo"
-    ) from error
-
 from periplus.gym.picture import Painter
+from periplus.gym.requirements import require
 from periplus.gym.settings import Action, NavigationArguments, Spaces, World
+
+require("pettingzoo", "environments with several robots need PettingZoo: pip install pettingzoo")
+
+from pettingzoo import ParallelEnv  # noqa: E402
 
 
 class NavigateParallelEnv(ParallelEnv[str, Any, Any]):  # type: ignore[misc]
