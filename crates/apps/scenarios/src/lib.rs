@@ -1,6 +1,6 @@
 //! Scenarios: a world, a robot, nodes, events, faults and assertions in a YAML file.
 //!
-//! [`Scenario::read`] reads a file and reports mistakes with their positions; [`run`] runs it in lockstep, in one
+//! [`Scenario::read`] reads a file and reports mistakes with their positions; [`run()`] runs it in lockstep, in one
 //! process and without a wall clock, so that the same scenario gives the same [`ScenarioReport`] in every run. The
 //! declarations in [`tables`] are also the JSON schema ([`json_schema`]) and the documentation
 //! ([`reference_markdown`]).
