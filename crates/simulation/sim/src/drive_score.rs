@@ -1,7 +1,7 @@
 //! Score of a drive, from the truth: length, clearance, collisions.
 //!
 //! Nothing that drives may read it. Clearance is measured at the height of the robot's lidar; a collision is a contact
-//! of the physics, or a side of the footprint that meets a surface. Cells of the walls at the beginning tell where the
+//! of the physics, or a side of the footprint that meets a surface. Cells of the walls at the beginning show where the
 //! surfaces need not be searched.
 
 use std::collections::BTreeSet;
@@ -23,7 +23,7 @@ const SAMPLE_PERIOD_NS: i64 = 20_000_000;
 
 /// Beginning of a time in which the robot touches something that is not a floor.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Collision {
+pub struct DriveCollision {
     /// Time of the simulation \[s\].
     pub time_s: f64,
     /// Pose of the robot, in the frame of the world.
@@ -48,7 +48,7 @@ pub struct DriveScore {
     /// Smallest distance from the footprint to a wall \[m\]; infinite without walls.
     pub min_clearance_m: f64,
     /// Times at which the robot began to touch something.
-    pub collisions: Vec<Collision>,
+    pub collisions: Vec<DriveCollision>,
 }
 
 impl DriveScore {
@@ -92,7 +92,7 @@ impl DriveScore {
         }
         if touches && !self.touches {
             let time_s = simulation.time_ns() as f64 * 1e-9;
-            self.collisions.push(Collision { time_s, pose });
+            self.collisions.push(DriveCollision { time_s, pose });
         }
         self.touches = touches;
     }

@@ -49,7 +49,7 @@ pub use compose::{
 };
 pub use compute_topics::compute_topics;
 pub use drive::{DriveError, Driver, ScriptFindings, VelocityTopic, velocity_topics};
-pub use drive_score::{Collision, DriveScore};
+pub use drive_score::{DriveCollision, DriveScore};
 pub use files::AssetFiles;
 pub use optics::{OpticalRange, OpticalSurface};
 pub use pace::RealTimePacer;

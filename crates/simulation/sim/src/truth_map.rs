@@ -56,7 +56,7 @@ impl Simulation {
 
     /// Returns the distance from the outline of the first robot to the nearest surface of another model at the height of
     /// the robot's lidar, if it is less than `max_m`: 0 if a side meets a surface, otherwise that of the points which
-    /// `is_near` keeps by their places in the world \[m\]. They look in `CLEARANCE_RAYS` directions, so that a flat
+    /// `is_near` keeps by their positions in the world \[m\]. They look in `CLEARANCE_RAYS` directions, so that a flat
     /// surface is up to 0.12 % further away. The outline is points in the frame of the robot \[m\].
     pub(crate) fn clearance_m(
         &mut self,

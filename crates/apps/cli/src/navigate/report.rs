@@ -5,7 +5,7 @@ use std::io::{self, Write};
 use periplus_geometry::Pose2;
 use periplus_session::SimulationSession;
 use periplus_session::nodes::{GoalOutcome, GoalReport, pose_text};
-use periplus_sim::{ArrivalClock, Collision};
+use periplus_sim::{ArrivalClock, DriveCollision};
 use serde_json::{Value, json};
 
 use super::NavigateTask;
@@ -84,7 +84,7 @@ pub(super) fn print(
             score.length_m,
             score.collisions.len()
         )?;
-        for Collision { time_s, pose } in score.collisions.iter().take(MOST_COLLISIONS) {
+        for DriveCollision { time_s, pose } in score.collisions.iter().take(MOST_COLLISIONS) {
             writeln!(
                 out,
                 "  collision at {time_s:.1} s, robot at {} in the world",
