@@ -10,7 +10,6 @@ use std::process::ExitCode;
 use clap::{Args, ValueEnum};
 use periplus_geometry::Pose2;
 use periplus_graph::{Arguments, Publisher, Qos};
-use periplus_grid::GridInfo;
 use periplus_loader::LoadContext;
 use periplus_msgs::geometry_msgs::PoseWithCovarianceStamped;
 use periplus_nav_nodes::slam_toolbox::Program;
@@ -24,7 +23,7 @@ use periplus_session::{
 };
 use periplus_sim::{
     ArrivalClock, Composition, DriveScore, Options, PlacementPose, RunProgress, Simulation, Tick,
-    compose,
+    compose, wall_grid_around,
 };
 
 use self::random_goals::random_goals;
@@ -137,15 +136,6 @@ enum Base {
 
 /// Radius of a robot without collisions, for random goals \[m\].
 const UNKNOWN_RADIUS_M: f64 = 0.3;
-
-/// Region around start and goals in which the report looks for walls \[m\].
-const SCORE_MARGIN_M: f64 = 8.0;
-
-/// Cells of the walls of the report \[m\].
-const SCORE_RESOLUTION_M: f64 = 0.05;
-
-/// Largest side of that region \[m\]: larger worlds get larger cells.
-const MAX_SCORE_CELLS: f64 = 3000.0;
 
 pub(crate) fn run(options: &NavigateOptions, ros: Vec<String>) -> Result<ExitCode, CliError> {
     let start = Stopwatch::start();
@@ -329,8 +319,8 @@ impl NavigateTask {
             PlanningMap::Absent => start,
         };
         let in_world: Vec<Pose2> = given.iter().map(|goal| world_from_goals * *goal).collect();
-        let region = region(start, &in_world);
-        let score = DriveScore::new(session.simulation_mut(), region);
+        let cells = wall_grid_around(&[&[start], &in_world[..]].concat());
+        let score = DriveScore::new(session.simulation_mut(), cells);
         let arrival = options
             .arrival_radius
             .zip(in_world.last())
@@ -380,24 +370,6 @@ impl SessionTask for NavigateTask {
     fn after_step(&mut self, _progress: RunProgress) {}
 }
 
-/// Region of the world around start and goals.
-fn region(start: Pose2, goals: &[Pose2]) -> GridInfo {
-    let bounds = |value: fn(&Pose2) -> f64| {
-        let values = || goals.iter().chain([&start]).map(value);
-        let low = values().fold(f64::INFINITY, f64::min) - SCORE_MARGIN_M;
-        let high = values().fold(f64::NEG_INFINITY, f64::max) + SCORE_MARGIN_M;
-        (low, high - low)
-    };
-    let ((x_m, width_m), (y_m, height_m)) = (bounds(|pose| pose.x_m), bounds(|pose| pose.y_m));
-    let resolution_m = (width_m.max(height_m) / MAX_SCORE_CELLS).max(SCORE_RESOLUTION_M);
-    GridInfo {
-        resolution_m,
-        width: (width_m / resolution_m).ceil() as usize,
-        height: (height_m / resolution_m).ceil() as usize,
-        origin: Pose2::new(x_m, y_m, 0.0),
-    }
-}
-
 fn pose(word: &str) -> Result<Pose2, String> {
     let number = |word: &str| word.trim().parse().ok().filter(|it: &f64| it.is_finite());
     let numbers: Option<Vec<f64>> = word.split(',').map(number).collect();
@@ -417,12 +389,5 @@ mod tests {
         assert_eq!(pose("1,2"), Ok(Pose2::new(1.0, 2.0, 0.0)));
         assert_eq!(pose("-1, 2.5,1.57"), Ok(Pose2::new(-1.0, 2.5, 1.57)));
         assert!(pose("1").is_err() && pose("1,x").is_err() && pose("inf,0").is_err());
-    }
-
-    #[test]
-    fn the_region_has_a_margin_around_start_and_goals() {
-        let region = region(Pose2::new(1.0, 0.0, 0.0), &[Pose2::new(3.0, 0.0, 0.0)]);
-        assert_eq!((region.origin.x_m, region.origin.y_m), (-7.0, -8.0));
-        assert_eq!((region.width, region.height), (360, 320));
     }
 }

@@ -42,6 +42,7 @@ pub mod script;
 mod services;
 mod simulation;
 mod truth_map;
+mod wall_grid;
 
 pub use arrival::ArrivalClock;
 pub use compose::{
@@ -64,3 +65,4 @@ pub use services::{
     InsertionSource, ModelInsertion, Search, Services, ServicesSnapshot, SpawnError, gazebo_topic,
 };
 pub use simulation::{Options, Simulation, Snapshot, SnapshotError};
+pub use wall_grid::{wall_grid, wall_grid_around};

@@ -3,18 +3,9 @@
 use periplus_evaluation::{StampedPose, Trajectory};
 use periplus_geometry::Pose2;
 use periplus_grid::GridInfo;
-use periplus_sim::{DriveScore, Simulation};
+use periplus_sim::{DriveScore, Simulation, wall_grid, wall_grid_around};
 
 use crate::file::{EventAction, Scenario, planar_pose};
-
-/// Region around start and goals in which walls are looked for \[m\].
-const MARGIN_M: f64 = 8.0;
-
-/// Cells of the true map \[m\].
-const RESOLUTION_M: f64 = 0.05;
-
-/// Largest number of cells along a side of the true map: larger regions get larger cells.
-const MAX_SIDE_CELLS: f64 = 3000.0;
 
 /// Time between two poses of the trajectory \[ns\].
 const SAMPLE_PERIOD_NS: i64 = 10_000_000;
@@ -105,35 +96,20 @@ impl Truth {
 
 /// Grid of the true map: the region of the scenario, or that around start, goals and other positions of the events.
 pub(crate) fn grid_of(scenario: &Scenario) -> GridInfo {
-    let [low_x, low_y, high_x, high_y] = match scenario.params.region_m.as_slice() {
+    match scenario.params.region_m.as_slice() {
         &[low_x, low_y, high_x, high_y] if low_x < high_x && low_y < high_y => {
-            [low_x, low_y, high_x, high_y]
+            wall_grid(low_x, low_y, high_x, high_y)
         }
         _ => {
-            let mut points: Vec<Pose2> = vec![scenario.start()];
-            points.extend(scenario.events.iter().filter_map(|event| match &event.action {
+            let mut poses: Vec<Pose2> = vec![scenario.start()];
+            poses.extend(scenario.events.iter().filter_map(|event| match &event.action {
                 EventAction::Goal(goal) => Some(planar_pose(&goal.pose)),
                 EventAction::Teleport(teleport) => Some(planar_pose(&teleport.pose)),
                 _ => None,
             }));
             let drive = scenario.drive.iter().flat_map(|script| &script.goals);
-            points
-                .extend(drive.map(|goal| Pose2::new(goal.position_m[0], goal.position_m[1], 0.0)));
-            let low = |value: fn(&Pose2) -> f64| {
-                points.iter().map(value).fold(f64::INFINITY, f64::min) - MARGIN_M
-            };
-            let high = |value: fn(&Pose2) -> f64| {
-                points.iter().map(value).fold(f64::NEG_INFINITY, f64::max) + MARGIN_M
-            };
-            [low(|it| it.x_m), low(|it| it.y_m), high(|it| it.x_m), high(|it| it.y_m)]
+            poses.extend(drive.map(|goal| Pose2::new(goal.position_m[0], goal.position_m[1], 0.0)));
+            wall_grid_around(&poses)
         }
-    };
-    let (width_m, height_m) = (high_x - low_x, high_y - low_y);
-    let resolution_m = (width_m.max(height_m) / MAX_SIDE_CELLS).max(RESOLUTION_M);
-    GridInfo {
-        resolution_m,
-        width: libm::ceil(width_m / resolution_m) as usize,
-        height: libm::ceil(height_m / resolution_m) as usize,
-        origin: Pose2::new(low_x, low_y, 0.0),
     }
 }
