@@ -9,7 +9,7 @@ import gymnasium
 import numpy as np
 import numpy.typing as npt
 
-from periplus.gym.picture import Painter
+from periplus.gym.picture import Painter, checked_render_mode
 from periplus.gym.settings import Action, NavigationArguments, Spaces, World
 
 
@@ -80,9 +80,7 @@ class NavigateEnv(gymnasium.Env[Any, Any]):
             world, world_seeds, robot, observation, action, reward, task, normalize, dict_observation,
             max_episode_steps, threads=1,
         )  # fmt: skip
-        if render_mode not in (None, "rgb_array"):
-            raise ValueError(f'`render_mode` must be None or "rgb_array", not {render_mode!r}')
-        self.render_mode = render_mode
+        self.render_mode = checked_render_mode(render_mode)
         self._batch = arguments.batch(1, resets_in_next_step=False)
         self._spaces = Spaces.of(self._batch, arguments)
         self.observation_space = self._spaces.observation

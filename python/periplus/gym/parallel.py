@@ -8,7 +8,7 @@ from typing import Any, ClassVar
 import numpy as np
 import numpy.typing as npt
 
-from periplus.gym.picture import Painter
+from periplus.gym.picture import Painter, checked_render_mode
 from periplus.gym.requirements import require
 from periplus.gym.settings import Action, NavigationArguments, Spaces, World
 
@@ -60,9 +60,7 @@ class NavigateParallelEnv(ParallelEnv[str, Any, Any]):  # type: ignore[misc]
             world, world_seeds, robot, observation, action, reward, task, normalize, dict_observation,
             max_episode_steps, threads=1,
         )  # fmt: skip
-        if render_mode not in (None, "rgb_array"):
-            raise ValueError(f'`render_mode` must be None or "rgb_array", not {render_mode!r}')
-        self.render_mode = render_mode
+        self.render_mode = checked_render_mode(render_mode)
         self.possible_agents = [f"robot_{index}" for index in range(agents)]
         self.agents: list[str] = []
         self._batch = arguments.batch(1, agents=agents, resets_in_next_step=False)

@@ -19,6 +19,13 @@ GOAL_COLOUR = (60, 160, 90)
 ROBOT_COLOURS = ((40, 110, 200), (210, 110, 40), (140, 80, 180), (200, 60, 90), (60, 150, 160))
 
 
+def checked_render_mode(render_mode: str | None) -> str | None:
+    """The render mode, if environments have it."""
+    if render_mode not in (None, "rgb_array"):
+        raise ValueError(f'`render_mode` must be None or "rgb_array", not {render_mode!r}')
+    return render_mode
+
+
 class Painter:
     """Draws environments of a batch; the obstacles of each world are drawn once."""
 

@@ -18,7 +18,7 @@ import numpy.typing as npt
 from periplus import Pose, Simulation
 from periplus import World as SimulationWorld
 from periplus._native import generated_world_sdf
-from periplus.gym.picture import Painter
+from periplus.gym.picture import Painter, checked_render_mode
 from periplus.gym.settings import NavigationArguments, World, sources_of
 
 MAX_FLOOR_SLOPE = 0.5
@@ -89,9 +89,7 @@ class NavigateSimulationEnv(gymnasium.Env[Any, Any]):
         max_episode_steps: int = 500,
         render_mode: str | None = None,
     ) -> None:
-        if render_mode not in (None, "rgb_array"):
-            raise ValueError(f'`render_mode` must be None or "rgb_array", not {render_mode!r}')
-        self.render_mode = render_mode
+        self.render_mode = checked_render_mode(render_mode)
         # A generated world is a file as long as the simulation lives, which may read it again.
         folder = tempfile.mkdtemp()
         weakref.finalize(self, shutil.rmtree, folder, ignore_errors=True)

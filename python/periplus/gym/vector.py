@@ -10,7 +10,7 @@ import numpy as np
 import numpy.typing as npt
 from gymnasium.vector.utils import batch_space
 
-from periplus.gym.picture import Painter
+from periplus.gym.picture import Painter, checked_render_mode
 from periplus.gym.settings import Action, NavigationArguments, Spaces, World
 
 
@@ -70,9 +70,7 @@ class NavigateVectorEnv(gymnasium.vector.VectorEnv[Any, Any, Any]):
             world, world_seeds, robot, observation, action, reward, task, normalize, dict_observation,
             max_episode_steps, threads,
         )  # fmt: skip
-        if render_mode not in (None, "rgb_array"):
-            raise ValueError(f'`render_mode` must be None or "rgb_array", not {render_mode!r}')
-        self.render_mode = render_mode
+        self.render_mode = checked_render_mode(render_mode)
         self.num_envs = num_envs
         self._batch = arguments.batch(num_envs, resets_in_next_step=True)
         self._spaces = Spaces.of(self._batch, arguments)
