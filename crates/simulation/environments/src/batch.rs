@@ -54,6 +54,7 @@ pub struct NavigationBatch {
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Scratch {
     rays: Vec<Ray>,
+    ranges: Vec<f32>,
     corners: Vec<[f64; 2]>,
     other_corners: Vec<[f64; 2]>,
 }

@@ -15,6 +15,8 @@ pub(crate) const GOAL_SCALE_M: f64 = 10.0;
 pub enum ObservationPart {
     /// Ranges of the lidar \[m\].
     Ranges,
+    /// Minimum range of the beams in each sector of the lidar \[m\].
+    Sectors,
     /// Goal in polar coordinates of the robot: distance \[m\], cosine and sine of the bearing.
     Goal,
     /// Velocity of the robot: forwards, to the left (omnidirectional only), turn rate \[m/s, m/s, rad/s\].
@@ -26,8 +28,9 @@ pub enum ObservationPart {
 }
 
 /// All parts, by name.
-const PARTS: [(&str, ObservationPart); 5] = [
+const PARTS: [(&str, ObservationPart); 6] = [
     ("ranges", ObservationPart::Ranges),
+    ("sectors", ObservationPart::Sectors),
     ("goal", ObservationPart::Goal),
     ("velocity", ObservationPart::Velocity),
     ("pose", ObservationPart::Pose),
@@ -87,11 +90,28 @@ pub fn observation_layout(
         layout.push(ObservationSlice { part: *part, name, start, low, high });
         start += count;
     }
+    let (sectors, beams) = (task.lidar_sectors, robot.params().lidar_beams);
+    if sectors > beams && layout.iter().any(|slice| slice.part == ObservationPart::Sectors) {
+        let text = format!(
+            "`lidar_sectors` is {sectors}, but the lidar has only {beams} beams; a sector needs one"
+        );
+        return Err(ObservationError(text));
+    }
     if layout.is_empty() {
         let names = PARTS.map(|(name, _)| name).join(", ");
         return Err(ObservationError(format!("the observation is empty; its parts are {names}")));
     }
     Ok(layout)
+}
+
+/// Writes the minimum of the beams in each sector. Sector k of m has the beams from ⌊k n / m⌋ to before ⌊(k + 1) n / m⌋
+/// of n.
+pub(crate) fn write_sector_minimums(ranges: &[f32], sectors: &mut [f32]) {
+    let (beams, count) = (ranges.len(), sectors.len());
+    for (at, sector) in sectors.iter_mut().enumerate() {
+        let beams_inside = &ranges[at * beams / count..(at + 1) * beams / count];
+        *sector = beams_inside.iter().copied().fold(f32::INFINITY, f32::min);
+    }
 }
 
 /// Limit of positions and distances \[m\]: finite, since learning libraries warn about infinite bounds.
@@ -106,11 +126,15 @@ fn bounds(
     let (params, normalized) = (robot.params(), task.is_normalized);
     let is_omni = params.drive == DriveKind::Omni;
     match part {
-        ObservationPart::Ranges => {
+        ObservationPart::Ranges | ObservationPart::Sectors => {
+            let count = match part {
+                ObservationPart::Sectors => task.lidar_sectors,
+                _ => params.lidar_beams,
+            };
             let scale = if normalized { params.lidar_max_range_m } else { 1.0 };
             let low = (params.lidar_min_range_m / scale) as f32;
             let high = (params.lidar_max_range_m / scale) as f32;
-            (vec![low; params.lidar_beams], vec![high; params.lidar_beams])
+            (vec![low; count], vec![high; count])
         }
         ObservationPart::Goal => {
             let max = if normalized { 1.0 } else { MAX_POSITION_M };
@@ -155,6 +179,15 @@ mod tests {
     fn parts_follow_each_other() {
         let expected = vec![("goal", 0), ("ranges", 3), ("velocity", 363)];
         assert_eq!(layout("goal ranges velocity"), Ok(expected));
+    }
+
+    #[test]
+    fn a_sector_has_the_minimum_of_its_beams() {
+        let mut sectors = [0.0; 2];
+        // Beams 0 and 1, then 2 to 4.
+        write_sector_minimums(&[3.0, 1.0, 2.0, 5.0, 4.0], &mut sectors);
+        assert_eq!(sectors, [1.0, 2.0]);
+        assert_eq!(layout("sectors goal"), Ok(vec![("sectors", 0), ("goal", 72)]));
     }
 
     #[test]

@@ -116,7 +116,10 @@ params! {
         /// Maximum distance from the start to the goal.
         #[param("max_goal_distance", unit("m"), above(0.0))]
         max_goal_distance_m: f64 = 1000,
-        /// Parts of an observation, in order: `ranges`, `goal`, `velocity`, `pose`, `previous_action`.
+        /// Number of sectors of the observation `sectors`, each with the minimum range of its beams.
+        #[param("lidar_sectors", within(1.0, 100_000.0))]
+        lidar_sectors: usize = 72,
+        /// Parts of an observation, in order: `ranges`, `sectors`, `goal`, `velocity`, `pose`, `previous_action`.
         #[param("observation")]
         observation: Vec<String> = "ranges goal velocity",
         /// Scales all parts to -1..1: ranges by the maximum range, distances by 10 m, velocities by the limits.

@@ -5,7 +5,7 @@ use periplus_geometry::Twist2;
 use super::environment::{Agent, EnvironmentRecord};
 use super::{NavigationSettings, Scratch};
 use crate::footprint::bearing_rad;
-use crate::observation::{GOAL_SCALE_M, ObservationPart, ObservationSlice};
+use crate::observation::{GOAL_SCALE_M, ObservationPart, ObservationSlice, write_sector_minimums};
 use crate::parameters::DriveKind;
 use crate::reward::AgentState;
 
@@ -19,20 +19,27 @@ pub(super) fn write_all(
     observations: &mut [f32],
 ) {
     let columns = observations.len() / agents.len();
+    let is_of_lidar = |part| matches!(part, ObservationPart::Ranges | ObservationPart::Sectors);
+    let has_lidar = layout.iter().any(|slice| is_of_lidar(slice.part));
+    let mut ranges = std::mem::take(&mut scratch.ranges);
     for (at, row) in observations.chunks_mut(columns).enumerate() {
+        if has_lidar {
+            ranges.resize(settings.robot.params().lidar_beams, 0.0);
+            measure_ranges(record, agents, at, settings, scratch, &mut ranges);
+        }
         for slice in layout {
             let numbers = &mut row[slice.start..slice.start + slice.low.len()];
             match slice.part {
-                ObservationPart::Ranges => {
-                    write_ranges(record, agents, at, settings, scratch, numbers);
-                }
+                ObservationPart::Ranges => numbers.copy_from_slice(&ranges),
+                ObservationPart::Sectors => write_sector_minimums(&ranges, numbers),
                 part => write_state(part, &agents[at], settings, numbers),
             }
         }
     }
+    scratch.ranges = ranges;
 }
 
-fn write_ranges(
+fn measure_ranges(
     record: &EnvironmentRecord,
     agents: &[Agent],
     at: usize,
@@ -88,7 +95,7 @@ fn write_state(
         }
     };
     match part {
-        ObservationPart::Ranges => {}
+        ObservationPart::Ranges | ObservationPart::Sectors => {}
         ObservationPart::Goal => {
             let [cosine, sine] = polar(bearing_rad(agent.pose, agent.goal_m));
             let distance = if is_normalized {
