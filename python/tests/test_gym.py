@@ -1,5 +1,6 @@
 """Environments for learning: gymnasium's and PettingZoo's checks, seeds, episodes, errors."""
 
+import math
 import pickle
 import subprocess
 import sys
@@ -26,8 +27,10 @@ from periplus.gym import (  # noqa: E402
     NavigateSimulationEnv,
     NavigateVectorEnv,
     parameters,
+    sector_minimums,
     world_sdf,
 )
+from periplus.gym.wrappers import AmclObservation, CostmapObservation, LidarWrapper, SlamObservation  # noqa: E402
 
 WORLDS = Path(__file__).resolve().parents[2] / "worlds"
 
@@ -259,3 +262,78 @@ def test_without_gymnasium_the_error_says_what_to_install() -> None:
     result = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True)
     assert result.returncode == 1
     assert "pip install 'periplus[gym]'" in result.stderr
+
+
+WRAPPERS = [AmclObservation, SlamObservation, CostmapObservation]
+
+
+@pytest.mark.parametrize("wrapper", WRAPPERS)
+def test_gymnasium_finds_no_fault_in_wrappers(wrapper: type[LidarWrapper]) -> None:
+    env = wrapper(NavigateEnv(world="offices", robot={"lidar_beams": 90}, normalize=True))
+    with warnings.catch_warnings():
+        # The checker prefers environments without wrappers.
+        warnings.filterwarnings("ignore", message=".*is different from the unwrapped version")
+        check_env(env, skip_render_check=True)
+    assert env.observation_space.contains(env.reset(seed=1)[0])
+    flat = gymnasium.wrappers.FlattenObservation(env)
+    assert flat.observation_space.contains(flat.reset(seed=1)[0])
+
+
+def drive(env: LidarWrapper, steps: int = 30) -> dict[str, Any]:
+    """The last observation of an episode that turns on the spot and then curves, slowly."""
+    observation, _ = env.reset(seed=3)
+    for step in range(steps):
+        action = np.array([-1.0 if step < steps // 2 else -0.5, 0.4], np.float32)
+        observation, _, terminated, _, _ = env.step(action)
+        assert not terminated
+    return observation
+
+
+def test_amcl_finds_the_robot_in_spite_of_its_odometry() -> None:
+    env = AmclObservation(NavigateEnv(world="offices", robot={"lidar_beams": 180}), odometry_noise=0.2, laser_max_range=10.0)
+    observed = drive(env)
+    x, y, yaw = env.unwrapped.pose
+    assert np.abs(observed["estimated_pose"] - [x, y, math.cos(yaw), math.sin(yaw)]).max() < 0.06
+    assert (observed["pose_deviation"] < 0.5).all()
+    # Distance and bearing are those from the estimate, which is near the truth.
+    assert abs(observed["goal"][0] - math.hypot(env.unwrapped.goal[0] - x, env.unwrapped.goal[1] - y)) < 0.08
+
+
+def test_slam_maps_the_surroundings(room: Path) -> None:
+    env = SlamObservation(NavigateEnv(world=room, robot={"lidar_beams": 360}), size=6.0)
+    env.reset(seed=1, options={"start": (1.0, 0.5, 0.0), "goal": (-1.0, 0.5)})
+    observed = env.step(np.array([-1.0, 0.0], np.float32))[0]
+    assert observed["map"].shape == (120, 120)
+    # 3 m to each side of the robot: a wall 1.5 m to its left (30 cells), free in between, nothing seen behind it.
+    ahead = observed["map"][60]
+    assert ahead[28:32].max() > 50, "the wall"
+    assert (ahead[32:88] >= 0).all() and (ahead[32:88] < 50).all(), "the room"
+    assert (ahead[:27] == -1).all(), "behind the wall"
+    assert np.allclose(observed["estimated_pose"], [0.0, 0.0, 1.0, 0.0], atol=0.02)
+    assert np.allclose(observed["goal"], [2.0, -1.0, 0.0], atol=0.03), "behind the robot"
+
+
+def test_a_costmap_is_in_the_frame_of_the_robot(room: Path) -> None:
+    env = CostmapObservation(NavigateEnv(world=room), size=3.0, resolution=0.1, inflation_radius=0.3)
+    # The wall at x = 4 m is 1 m ahead of the robot, then 1 m to its right.
+    for yaw, wall in [(0.0, (slice(4, 6), slice(10, 20))), (math.pi / 2, (slice(10, 20), slice(24, 26)))]:
+        observed = env.reset(seed=1, options={"start": (3.0, 0.0, yaw), "goal": (-1.0, 0.0)})[0]
+        lethal = observed["costmap"] == 254
+        assert lethal[wall].any(axis=0 if yaw == 0.0 else 1).all(), yaw
+        assert not lethal[8:22, 8:22].any()
+
+
+def test_wrappers_say_what_they_need() -> None:
+    with pytest.raises(ValueError, match='needs "ranges" in the observation'):
+        AmclObservation(NavigateEnv(observation=["goal"]))
+    with pytest.raises(TypeError, match="before other wrappers"):
+        SlamObservation(gymnasium.wrappers.FrameStackObservation(NavigateEnv(), 2))
+
+
+def test_sectors_are_the_minima_of_the_ranges() -> None:
+    task = {"lidar_sectors": 7}
+    env = NavigateEnv(world="caves", observation=["ranges", "sectors"], robot={"lidar_noise": 0.01}, task=task)
+    for observed in (env.reset(seed=2)[0], env.step([0.0, 0.0])[0]):
+        assert np.array_equal(observed[360:], sector_minimums(observed[:360], 7))
+    with pytest.raises(ValueError, match="`lidar_sectors` is 400"):
+        NavigateEnv(observation=["sectors"], task={"lidar_sectors": 400})

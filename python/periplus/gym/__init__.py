@@ -28,7 +28,7 @@ import gymnasium  # noqa: E402
 
 from periplus.gym.environment import NavigateEnv  # noqa: E402
 from periplus.gym.settings import WORLD_KINDS as WORLD_KINDS  # noqa: E402
-from periplus.gym.settings import parameters, world_sdf  # noqa: E402
+from periplus.gym.settings import parameters, sector_minimums, world_sdf  # noqa: E402
 from periplus.gym.vector import NavigateVectorEnv  # noqa: E402
 
 if TYPE_CHECKING:
@@ -41,6 +41,7 @@ __all__ = [
     "NavigateSimulationEnv",
     "NavigateVectorEnv",
     "parameters",
+    "sector_minimums",
     "world_sdf",
 ]
 

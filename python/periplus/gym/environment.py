@@ -9,8 +9,9 @@ import gymnasium
 import numpy as np
 import numpy.typing as npt
 
+from periplus import LaserScanner, OccupancyGrid
 from periplus.gym.picture import Painter, checked_render_mode
-from periplus.gym.settings import Action, NavigationArguments, Spaces, World
+from periplus.gym.settings import Action, NavigationArguments, Spaces, World, grid_of
 
 
 class NavigateEnv(gymnasium.Env[Any, Any]):
@@ -27,7 +28,8 @@ class NavigateEnv(gymnasium.Env[Any, Any]):
     robot : dict, optional
         Parameters of the robot: footprint, drive, limits, lidar (``parameters("robot")``).
     observation : list of str
-        Parts of an observation, in order. ``"ranges"`` of the lidar [m]; ``"goal"``: its distance [m], cosine and sine
+        Parts of an observation, in order. ``"ranges"`` of the lidar [m]; ``"sectors"``: the minimum range in each of
+        ``lidar_sectors`` sectors (a parameter of the task) [m]; ``"goal"``: its distance [m], cosine and sine
         of its bearing; ``"velocity"``: forwards (and to the left, omnidirectional) [m/s] and turn rate [rad/s];
         ``"pose"``: x, y [m], cosine and sine of the yaw in the world (the truth); ``"previous_action"``.
     action : {"continuous", "discrete"} or table
@@ -91,6 +93,7 @@ class NavigateEnv(gymnasium.Env[Any, Any]):
         self._is_running = False
         self._has_seed = False
         self._painter = Painter(self._batch)
+        self._scanner, self._normalizes = arguments.laser_scanner(), normalize
         self._observed: npt.NDArray[np.float32] | None = None
 
     @property
@@ -146,6 +149,40 @@ class NavigateEnv(gymnasium.Env[Any, Any]):
         """Goal in the world: x, y [m]."""
         x, y = self._batch.goals()[0].tolist()
         return x, y
+
+    @property
+    def laser_scanner(self) -> LaserScanner:
+        """Geometry of the lidar."""
+        return self._scanner
+
+    @property
+    def is_normalized(self) -> bool:
+        """True if observations are scaled to -1..1."""
+        return self._normalizes
+
+    @property
+    def step_period(self) -> float:
+        """Time between two actions [s]."""
+        return self._batch.step_period
+
+    @property
+    def footprint(self) -> npt.NDArray[np.float64] | float:
+        """Corners of the footprint in the base frame [m], shape (N, 2), or the radius of a circle [m]."""
+        return self._batch.footprint
+
+    def map(self, resolution: float = 0.05) -> OccupancyGrid:
+        """Map of the obstacles of this episode's world; the inside of obstacles is unknown."""
+        return grid_of(self._batch, 0, resolution)
+
+    def ranges(self) -> npt.NDArray[np.float32]:
+        """Ranges of the last observation [m], infinite where nothing was hit; its parts must have ``"ranges"``."""
+        if self._observed is None:
+            raise RuntimeError("the environment has not been reset: call reset() first")
+        scale = self._scanner.range_max if self._normalizes else 1.0
+        ranges = self._observed[self._spaces.parts["ranges"]] * np.float32(scale)
+        far = np.float32(self._scanner.range_max) * np.float32(1.0 - 1e-6)
+        found: npt.NDArray[np.float32] = np.where(ranges < far, ranges, np.float32(np.inf))
+        return found
 
     def shortest_path_length(self) -> float:
         """Length of the shortest path from start to goal through free cells [m]; NaN if there is none."""

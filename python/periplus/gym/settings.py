@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import os
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
@@ -11,7 +12,7 @@ import gymnasium
 import numpy as np
 import numpy.typing as npt
 
-from periplus import _native
+from periplus import LaserScanner, OccupancyGrid, _native
 
 _native.load_numpy()
 
@@ -90,6 +91,25 @@ def sources_of(world: World | Sequence[World], seeds: Sequence[int] | None) -> l
     return sources
 
 
+def sector_minimums(ranges: npt.ArrayLike, count: int) -> npt.NDArray[Any]:
+    """Minimum range of the beams in each sector of the lidar: the part ``"sectors"`` of an observation.
+
+    ``ranges`` has the shape (..., beams), the result (..., count). Sector k has the beams from ``k * beams // count``
+    to before ``(k + 1) * beams // count``.
+
+    >>> from periplus.gym import sector_minimums
+    >>> sector_minimums([3.0, 1.0, 2.0, 5.0, 4.0], 2).tolist()
+    [1.0, 2.0]
+    """
+    array = np.asarray(ranges)
+    beams = array.shape[-1]
+    if not 0 < count <= beams:
+        raise ValueError(f"`count` must be from 1 to the number of beams, {beams}, not {count}")
+    starts = np.arange(count) * beams // count
+    found: npt.NDArray[Any] = np.minimum.reduceat(array, starts, axis=-1)
+    return found
+
+
 @dataclass
 class NavigationArguments:
     """Arguments of an environment."""
@@ -105,6 +125,25 @@ class NavigationArguments:
     dict_observation: bool = False
     max_episode_steps: int | None = None
     threads: int = 0
+
+    def robot_values(self) -> dict[str, Any]:
+        """All parameters of the robot by name."""
+        return {**{row["name"]: row["default"] for row in environment_parameters("robot")}, **(self.robot or {})}
+
+    def laser_scanner(self) -> LaserScanner:
+        """Geometry of the lidar."""
+        robot = self.robot_values()
+        first, last, beams = robot["lidar_min_angle"], robot["lidar_max_angle"], robot["lidar_beams"]
+        # Of a full turn the last beam is before the first.
+        steps = beams if last - first > math.tau - 1e-6 else max(beams - 1, 1)
+        mount = robot["lidar_x"], robot["lidar_y"], robot["lidar_height"], 0.0, 0.0, robot["lidar_yaw"]
+        return LaserScanner(
+            first,
+            (last - first) / steps,
+            range_min=robot["lidar_min_range"],
+            range_max=robot["lidar_max_range"],
+            base_from_laser=mount,
+        )
 
     def batch(self, count: int, *, agents: int = 1, resets_in_next_step: bool) -> NavigationBatch:
         """The native environments."""
@@ -125,6 +164,22 @@ class NavigationArguments:
             threads=self.threads,
             resets_in_next_step=resets_in_next_step,
         )
+
+
+def grid_of(batch: NavigationBatch, environment: int, resolution: float) -> OccupancyGrid:
+    """Map of the obstacles of an environment; the inside of obstacles is unknown."""
+    _, (x, y), width_m = batch.picture(environment, 1)
+    width = max(math.ceil(width_m / resolution), 1)
+    picture, _, _ = batch.picture(environment, width)
+    is_solid = np.pad(picture[::-1] > 0, 1, constant_values=True)
+    neighbours = [is_solid[1 + i : is_solid.shape[0] - 1 + i, 1 + j : is_solid.shape[1] - 1 + j] for i, j in NEIGHBOURS]
+    is_inside = np.logical_and.reduce(neighbours)
+    cells = np.where(is_inside, -1, np.where(is_solid[1:-1, 1:-1], 100, 0)).astype(np.int8)
+    return OccupancyGrid(cells, width_m / width, (x, y, 0.0))
+
+
+NEIGHBOURS = [(i, j) for i in (-1, 0, 1) for j in (-1, 0, 1)]
+"""Offsets of the cells around a cell, and its own."""
 
 
 @dataclass

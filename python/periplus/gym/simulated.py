@@ -15,11 +15,11 @@ import gymnasium
 import numpy as np
 import numpy.typing as npt
 
-from periplus import Pose, Simulation
+from periplus import LaserScanner, OccupancyGrid, Pose, Simulation
 from periplus import World as SimulationWorld
 from periplus._native import generated_world_sdf
 from periplus.gym.picture import Painter, checked_render_mode
-from periplus.gym.settings import NavigationArguments, World, sources_of
+from periplus.gym.settings import NavigationArguments, World, grid_of, sector_minimums, sources_of
 
 MAX_FLOOR_SLOPE = 0.5
 """Contacts whose normals have a larger vertical part are those of wheels on the floor."""
@@ -112,6 +112,7 @@ class NavigateSimulationEnv(gymnasium.Env[Any, Any]):
         lows, highs = (np.concatenate([row[index] for row in self._batch.layout]) for index in (2, 3))
         self.observation_space = gymnasium.spaces.Box(lows, highs, dtype=np.float32)
         self.action_space = gymnasium.spaces.Box(-1.0, 1.0, (self._batch.action_size,), np.float32)
+        self._scanner = LaserScanner.from_message(first, self._mount(first))
         self._range_max, self._limits = first.range_max, self._batch.commanded([1.0] * self._batch.action_size)
         self._goal = (0.0, 0.0)
         self._action = np.zeros(self._batch.action_size, np.float32)
@@ -140,6 +141,40 @@ class NavigateSimulationEnv(gymnasium.Env[Any, Any]):
     def goal(self) -> tuple[float, float]:
         """Goal in the world: x, y [m]."""
         return self._goal
+
+    @property
+    def laser_scanner(self) -> LaserScanner:
+        """Geometry of the lidar."""
+        return self._scanner
+
+    @property
+    def is_normalized(self) -> bool:
+        """True if observations are scaled to -1..1."""
+        return self._normalizes
+
+    @property
+    def step_period(self) -> float:
+        """Time between two actions [s]."""
+        return self._batch.step_period
+
+    @property
+    def footprint(self) -> npt.NDArray[np.float64] | float:
+        """Corners of the footprint in the base frame [m], shape (N, 2), or the radius of a circle [m]."""
+        return self._batch.footprint
+
+    def map(self, resolution: float = 0.05) -> OccupancyGrid:
+        """Map of the obstacles of this episode's world; the inside of obstacles is unknown."""
+        return grid_of(self._batch, 0, resolution)
+
+    def ranges(self) -> npt.NDArray[np.float32]:
+        """Ranges of the last scan [m], infinite where nothing was hit."""
+        ranges: npt.NDArray[np.float32] = self._lidar.read().ranges
+        return ranges
+
+    @property
+    def scan_time(self) -> float:
+        """Simulation time of the last scan [s]."""
+        return float(self._lidar.read().time_s)
 
     def reset(
         self, *, seed: int | None = None, options: dict[str, Any] | None = None
@@ -215,6 +250,15 @@ class NavigateSimulationEnv(gymnasium.Env[Any, Any]):
             raise ValueError(f"{self._scan_topic} has no scans of a planar lidar within a second")
         return scan
 
+    def _mount(self, scan: Any) -> Pose | None:
+        """Pose of the lidar on the robot, from its transforms; none if it publishes none."""
+        for frame in self._model.links:
+            try:
+                return self._simulation.lookup_transform(frame, scan.frame_id)
+            except LookupError:
+                continue
+        return None
+
     def _command(self, velocity: Sequence[float] | npt.NDArray[np.float64]) -> None:
         from periplus.msgs.geometry_msgs.msg import Twist
 
@@ -242,8 +286,10 @@ class NavigateSimulationEnv(gymnasium.Env[Any, Any]):
         x, y, yaw = self.pose
         observed = np.empty(self._batch.observation_size, np.float32)
         for name, part in self._parts.items():
-            if name == "ranges":
+            if name in {"ranges", "sectors"}:
                 ranges = np.nan_to_num(self._lidar.read().ranges, nan=self._range_max)
+                if name == "sectors":
+                    ranges = sector_minimums(ranges, part.stop - part.start)
                 observed[part] = ranges / self._range_max if self._normalizes else ranges
             elif name == "goal":
                 bearing = math.atan2(self._goal[1] - y, self._goal[0] - x) - yaw
