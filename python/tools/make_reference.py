@@ -14,7 +14,9 @@ from typing import Any
 
 import periplus
 import periplus.gym
+import periplus.gym.wrappers
 import periplus.navigation
+import periplus.scenarios
 
 # Parts of the page, in order: title, introduction, names. A name in none of them is an error.
 PARTS: list[tuple[str, str, list[str]]] = [
@@ -39,6 +41,14 @@ PARTS: list[tuple[str, str, list[str]]] = [
     ),
     ("Files of robots and worlds", "", ["*"]),
     ("Errors", "", ["FileError"]),
+]
+
+# Modules after them, each with its own introduction.
+MODULES = [
+    ("Navigation", periplus.navigation),
+    ("Environments", periplus.gym),
+    ("Observations of environments", periplus.gym.wrappers),
+    ("Scenarios", periplus.scenarios),
 ]
 
 
@@ -143,12 +153,11 @@ def page() -> str:
             out.extend(object_lines(name, getattr(periplus, name)))
     if left:
         raise SystemExit(f"names in no part of the page: {left}")
-    out.extend(["## Navigation", "", markdown(inspect.getdoc(periplus.navigation) or ""), ""])
-    for name in periplus.navigation.__all__:
-        out.extend(object_lines(f"navigation.{name}", getattr(periplus.navigation, name)))
-    out.extend(["## Environments", "", markdown(inspect.getdoc(periplus.gym) or ""), ""])
-    for name in periplus.gym.__all__:
-        out.extend(object_lines(f"gym.{name}", getattr(periplus.gym, name)))
+    for title, module in MODULES:
+        short = module.__name__.removeprefix("periplus.")
+        out.extend([f"## {title}", "", markdown(inspect.getdoc(module) or ""), ""])
+        for name in module.__all__:
+            out.extend(object_lines(f"{short}.{name}", getattr(module, name)))
     return re.sub(r"\n{3,}", "\n\n", "\n".join(out)).rstrip() + "\n"
 
 

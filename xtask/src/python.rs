@@ -10,7 +10,7 @@ use crate::step::{Failed, build_program, root, run, timed};
 const FOLDER: &str = "target/python";
 
 /// Programs that build the wheel and test it.
-const TOOLS: [&str; 12] = [
+const TOOLS: [&str; 13] = [
     "maturin>=1.9,<2",
     "numpy",
     "pytest",
@@ -23,6 +23,7 @@ const TOOLS: [&str; 12] = [
     "ipykernel",
     "gymnasium>=1.0",
     "pettingzoo",
+    "onnx",
 ];
 
 /// Maximum size of the wheel [bytes].
