@@ -337,3 +337,20 @@ def test_sectors_are_the_minima_of_the_ranges() -> None:
         assert np.array_equal(observed[360:], sector_minimums(observed[:360], 7))
     with pytest.raises(ValueError, match="`lidar_sectors` is 400"):
         NavigateEnv(observation=["sectors"], task={"lidar_sectors": 400})
+
+
+def test_a_robot_from_a_file() -> None:
+    file = WORLDS.parent / "robots" / "sam_bot" / "urdf" / "sam_bot.urdf.xacro"
+    env = NavigateEnv(world="rooms", robot={"file": file, "max_speed": 0.4}, normalize=False)
+    # Of its description: 360 beams of 0.12 m to 3.5 m, 0.12 m above a base that is 0.15 m above the floor.
+    scanner = env.laser_scanner
+    assert (scanner.range_min, scanner.range_max) == pytest.approx((0.12, 3.5))
+    assert scanner.base_from_laser.z == pytest.approx(0.27, abs=0.002)
+    outline = np.asarray(env.footprint)
+    # Wheels and body: 0.42 m long, 0.41 m wide.
+    assert outline.max(axis=0) == pytest.approx([0.21, 0.2], abs=0.015)
+    assert outline.min(axis=0) == pytest.approx([-0.21, -0.2], abs=0.015)
+    observed, _ = env.reset(seed=1)
+    assert observed[: env.observation_parts["ranges"].stop].max() <= np.float32(3.5)
+    with pytest.raises(FileNotFoundError, match=r"no_such_robot\.urdf"):
+        NavigateEnv(robot="no_such_robot.urdf")

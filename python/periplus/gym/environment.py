@@ -11,6 +11,7 @@ import numpy.typing as npt
 
 from periplus import LaserScanner, OccupancyGrid
 from periplus.gym.picture import Painter, checked_render_mode
+from periplus.gym.robots import Robot
 from periplus.gym.settings import Action, NavigationArguments, Spaces, World, grid_of
 
 
@@ -25,8 +26,9 @@ class NavigateEnv(gymnasium.Env[Any, Any]):
         (``parameters("world")``). Of several worlds each episode draws one.
     world_seeds : sequence of int, optional
         Seeds of the generated worlds: one world for each.
-    robot : dict, optional
-        Parameters of the robot: footprint, drive, limits, lidar (``parameters("robot")``).
+    robot : path or dict, optional
+        File of a robot (URDF, xacro, SDF), whose outline and planar lidar are used; or parameters of the robot: footprint,
+        drive, limits, lidar (``parameters("robot")``), with the key ``"file"`` for those that are not given.
     observation : list of str
         Parts of an observation, in order. ``"ranges"`` of the lidar [m]; ``"sectors"``: the minimum range in each of
         ``lidar_sectors`` sectors (a parameter of the task) [m]; ``"goal"``: its distance [m], cosine and sine
@@ -68,7 +70,7 @@ class NavigateEnv(gymnasium.Env[Any, Any]):
         self,
         world: World | Sequence[World] = "rooms",
         world_seeds: Sequence[int] | None = None,
-        robot: Mapping[str, Any] | None = None,
+        robot: Robot | None = None,
         observation: Sequence[str] = ("ranges", "goal", "velocity"),
         action: Action = "continuous",
         reward: Mapping[str, float] | None = None,

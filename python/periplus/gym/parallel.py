@@ -10,6 +10,7 @@ import numpy.typing as npt
 
 from periplus.gym.picture import Painter, checked_render_mode
 from periplus.gym.requirements import require
+from periplus.gym.robots import Robot
 from periplus.gym.settings import Action, NavigationArguments, Spaces, World
 
 require("pettingzoo", "environments with several robots need PettingZoo: pip install pettingzoo")
@@ -46,7 +47,7 @@ class NavigateParallelEnv(ParallelEnv[str, Any, Any]):  # type: ignore[misc]
         agents: int = 2,
         world: World | Sequence[World] = "rooms",
         world_seeds: Sequence[int] | None = None,
-        robot: Mapping[str, Any] | None = None,
+        robot: Robot | None = None,
         observation: Sequence[str] = ("ranges", "goal", "velocity"),
         action: Action = "continuous",
         reward: Mapping[str, float] | None = None,

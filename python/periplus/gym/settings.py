@@ -18,6 +18,8 @@ _native.load_numpy()
 
 from periplus._native import NavigationBatch, environment_parameters, generated_world_sdf  # noqa: E402
 
+from periplus.gym.robots import Robot, robot_values  # noqa: E402
+
 World: TypeAlias = Union[str, "os.PathLike[str]", Mapping[str, Any]]
 """A file, the kind of a generated world, or the parameters of a generated world."""
 Action: TypeAlias = Union[Literal["continuous", "discrete"], Sequence[Sequence[float]]]
@@ -116,7 +118,7 @@ class NavigationArguments:
 
     world: World | Sequence[World] = "rooms"
     world_seeds: Sequence[int] | None = None
-    robot: Mapping[str, Any] | None = None
+    robot: Robot | None = None
     observation: Sequence[str] = ("ranges", "goal", "velocity")
     action: Action = "continuous"
     reward: Mapping[str, float] | None = None
@@ -126,9 +128,13 @@ class NavigationArguments:
     max_episode_steps: int | None = None
     threads: int = 0
 
+    def __post_init__(self) -> None:
+        # Parameters of the robot that differ from the defaults.
+        self.given = robot_values(self.robot)
+
     def robot_values(self) -> dict[str, Any]:
         """All parameters of the robot by name."""
-        return {**{row["name"]: row["default"] for row in environment_parameters("robot")}, **(self.robot or {})}
+        return {**{row["name"]: row["default"] for row in environment_parameters("robot")}, **self.given}
 
     def laser_scanner(self) -> LaserScanner:
         """Geometry of the lidar."""
@@ -157,7 +163,7 @@ class NavigationArguments:
         return NavigationBatch(
             sources_of(self.world, self.world_seeds),
             count,
-            robot=dict(self.robot or {}),
+            robot=self.given,
             task=task,
             reward=dict(self.reward or {}),
             agents=agents,

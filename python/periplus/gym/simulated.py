@@ -19,6 +19,7 @@ from periplus import LaserScanner, OccupancyGrid, Pose, Simulation
 from periplus import World as SimulationWorld
 from periplus._native import generated_world_sdf
 from periplus.gym.picture import Painter, checked_render_mode
+from periplus.gym.robots import mount_of
 from periplus.gym.settings import NavigationArguments, World, grid_of, sector_minimums, sources_of
 
 MAX_FLOOR_SLOPE = 0.5
@@ -40,8 +41,8 @@ class NavigateSimulationEnv(gymnasium.Env[Any, Any]):
         File of the robot: URDF, xacro or SDF.
     world : path, str or dict
         A world (SDF), a kind of generated world, or a dict of a generator.
-    radius : float
-        Radius of a circle about the robot's origin that contains it [m].
+    radius : float, optional
+        Radius of a circle about the robot's origin that contains it [m]; the outline of its collision shapes if left out.
     limits : dict, optional
         Range of the commands: ``max_speed``, ``min_speed``, ``max_turn_rate`` and the like
         (``parameters("robot")``).
@@ -77,7 +78,7 @@ class NavigateSimulationEnv(gymnasium.Env[Any, Any]):
         self,
         robot: Union[str, os.PathLike[str]],
         world: World = "rooms",
-        radius: float = 0.2,
+        radius: float | None = None,
         limits: Mapping[str, float] | None = None,
         physics: Literal["rigid", "kinematic"] = "rigid",
         scan_topic: str = "/scan",
@@ -102,8 +103,12 @@ class NavigateSimulationEnv(gymnasium.Env[Any, Any]):
         angles = {"lidar_min_angle": first.angle_min, "lidar_max_angle": first.angle_max}
         ranges = {"lidar_min_range": first.range_min, "lidar_max_range": first.range_max}
         # Free space, spaces, reward and pictures are those of a kinematic robot with this lidar.
+        footprint = self._model.footprint
+        outline: dict[str, Any] = {"radius": 0.2 if radius is None else radius}
+        if radius is None and footprint is not None:
+            outline["footprint"] = footprint.tolist()
         arguments = NavigationArguments(
-            world, None, {"radius": radius, "lidar_beams": len(first), **angles, **ranges, **(limits or {})}, observation,
+            world, None, {**outline, "lidar_beams": len(first), **angles, **ranges, **(limits or {})}, observation,
             "continuous", reward, task, normalize, False, max_episode_steps, threads=1,
         )  # fmt: skip
         self._batch = arguments.batch(1, resets_in_next_step=False)
@@ -112,7 +117,7 @@ class NavigateSimulationEnv(gymnasium.Env[Any, Any]):
         lows, highs = (np.concatenate([row[index] for row in self._batch.layout]) for index in (2, 3))
         self.observation_space = gymnasium.spaces.Box(lows, highs, dtype=np.float32)
         self.action_space = gymnasium.spaces.Box(-1.0, 1.0, (self._batch.action_size,), np.float32)
-        self._scanner = LaserScanner.from_message(first, self._mount(first))
+        self._scanner = LaserScanner.from_message(first, mount_of(self._simulation, self._model, first))
         self._range_max, self._limits = first.range_max, self._batch.commanded([1.0] * self._batch.action_size)
         self._goal = (0.0, 0.0)
         self._action = np.zeros(self._batch.action_size, np.float32)
@@ -249,15 +254,6 @@ class NavigateSimulationEnv(gymnasium.Env[Any, Any]):
         if not hasattr(scan, "ranges"):
             raise ValueError(f"{self._scan_topic} has no scans of a planar lidar within a second")
         return scan
-
-    def _mount(self, scan: Any) -> Pose | None:
-        """Pose of the lidar on the robot, from its transforms; none if it publishes none."""
-        for frame in self._model.links:
-            try:
-                return self._simulation.lookup_transform(frame, scan.frame_id)
-            except LookupError:
-                continue
-        return None
 
     def _command(self, velocity: Sequence[float] | npt.NDArray[np.float64]) -> None:
         from periplus.msgs.geometry_msgs.msg import Twist

@@ -11,6 +11,7 @@ import numpy.typing as npt
 from gymnasium.vector.utils import batch_space
 
 from periplus.gym.picture import Painter, checked_render_mode
+from periplus.gym.robots import Robot
 from periplus.gym.settings import Action, NavigationArguments, Spaces, World
 
 
@@ -54,7 +55,7 @@ class NavigateVectorEnv(gymnasium.vector.VectorEnv[Any, Any, Any]):
         num_envs: int = 1,
         world: World | Sequence[World] = "rooms",
         world_seeds: Sequence[int] | None = None,
-        robot: Mapping[str, Any] | None = None,
+        robot: Robot | None = None,
         observation: Sequence[str] = ("ranges", "goal", "velocity"),
         action: Action = "continuous",
         reward: Mapping[str, float] | None = None,

@@ -286,6 +286,14 @@ impl Simulation {
         crate::footprint::footprint_m(&self.robot()?.member.model, &*self.files)
     }
 
+    /// Returns the convex polygon around the collisions of a model, seen from above, in its frame \[m\]; `None` if there is
+    /// no such model or its collisions do not define one.
+    #[must_use]
+    pub fn model_footprint_m(&self, name: &str) -> Option<Vec<[f64; 2]>> {
+        let running = self.running.iter().find(|running| running.member.name == name)?;
+        crate::footprint::footprint_m(&running.member.model, &*self.files)
+    }
+
     pub(crate) fn robot(&self) -> Option<&RunningModel> {
         let described = |running: &&RunningModel| running.member.description.is_some();
         let moves = |running: &&RunningModel| !running.member.model.is_static;

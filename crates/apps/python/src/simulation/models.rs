@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use numpy::PyArray1;
+use numpy::{PyArray1, PyArrayDyn};
 use periplus::geometry::{DVec3, Pose};
 use periplus::msgs::builtin_interfaces::Duration;
 use periplus::msgs::gazebo_msgs::{ApplyLinkWrench, ApplyLinkWrenchRequest};
@@ -65,6 +65,17 @@ impl PyModel {
             });
             Some(links.collect())
         })
+    }
+
+    /// Convex polygon around its collisions, seen from above, in its frame [m], shape (N, 2); none if they define none.
+    #[getter]
+    fn footprint<'py>(&self, py: Python<'py>) -> PyResult<Option<Bound<'py, PyArrayDyn<f64>>>> {
+        self.ask(py, |world, model| world.model_pose(model))?;
+        let corners = self
+            .simulation
+            .get()
+            .with(py, |running| running.simulation().model_footprint_m(&self.name))?;
+        corners.map(|corners| moved(py, corners.concat(), &[corners.len(), 2])).transpose()
     }
 
     /// Positions of its joints [m or rad], by name; joints that cannot move are left out.
