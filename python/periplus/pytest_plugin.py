@@ -24,6 +24,7 @@ from typing import TYPE_CHECKING, Any, Optional
 
 import pytest
 
+import periplus.ros
 from periplus.scenarios import Scenario, ScenarioFailed, ScenarioReport, load
 
 if TYPE_CHECKING:
@@ -53,7 +54,9 @@ def pytest_addoption(parser: pytest.Parser) -> None:
 
 
 def pytest_configure(config: pytest.Config) -> None:
-    """Add the marker."""
+    """Add the marker, and the modules of ROS where no ROS is installed, so that tests can import ``rclpy``."""
+    if periplus.ros.installed_ros() is None:
+        periplus.ros.activate(quiet=True)
     config.addinivalue_line(
         "markers",
         "periplus(world, robot, pose, arguments, physics, seed, slam): files and options of the fixtures `world`, "
@@ -250,13 +253,86 @@ def navigation(request: pytest.FixtureRequest, simulation: Simulation) -> Naviga
 
 
 class RosTopics:
-    """Topics of a simulation for a test."""
+    """Topics of a simulation for a test, and nodes of ``rclpy`` among those of the simulation."""
 
     def __init__(self, simulation: Simulation) -> None:
         """Take the simulation."""
         self._simulation = simulation
         self._messages: dict[str, list[Any]] = {}
         self._subscriptions: list[Any] = []
+        self._executor: Any = None
+
+    def node(self, name: str, **options: Any) -> Any:
+        """Return a node of ``rclpy`` on the clock of the simulation; ``options`` are those of ``rclpy.node.Node``.
+
+        Its messages stay in this process. ``spin`` calls what it subscribes to, its timers and its services.
+        """
+        return self.add_node(lambda context: self._node_class()(name, context=context, **options))
+
+    def add_node(self, make: Callable[[Any], Any]) -> Any:
+        """Add the node that ``make`` returns for a context, such as ``lambda context: MyNode(context=context)``."""
+        node = make(self._ros_executor().context)
+        self._executor.add_node(node)
+        return node
+
+    def spin(self, seconds: float) -> None:
+        """Run for a simulated time; after each step the nodes handle what has arrived."""
+        end_s = self._simulation.time_s + seconds
+        while self._simulation.time_s < end_s - 1e-9:
+            self._simulation.step()
+            self._handle()
+
+    def spin_until(self, condition: Callable[[], Any], *, timeout_s: float = 5.0) -> Any:
+        """Step the simulation until a condition gives something true, and return it."""
+        end_s = self._simulation.time_s + timeout_s
+        while True:
+            found = condition()
+            if found:
+                return found
+            if self._simulation.time_s >= end_s:
+                raise AssertionError(f"the condition did not hold within {timeout_s} s of simulated time")
+            self._simulation.step()
+            self._handle()
+
+    def _handle(self) -> None:
+        """Let the nodes handle everything that waits."""
+        if self._executor is None:
+            return
+        from rclpy.executors import TimeoutException
+
+        for _ in range(_MAX_CALLBACKS):
+            try:
+                callback, _, _ = self._executor.wait_for_ready_callbacks(timeout_sec=0.0)
+            except TimeoutException:
+                return
+            callback()
+
+    def _node_class(self) -> Any:
+        self._ros_executor()
+        from rclpy.node import Node
+
+        return Node
+
+    def _ros_executor(self) -> Any:
+        """Executor of a context in the graph of the simulation."""
+        if self._executor is None:
+            if not periplus.ros.activate(quiet=True).own:
+                raise RuntimeError("the nodes of `ros` need the rclpy of Periplus, but that of the installed ROS is in use")
+            import rclpy
+            from rclpy.executors import SingleThreadedExecutor
+
+            context = rclpy.Context()
+            context.init(["test", "--ros-args", "-p", "use_sim_time:=true"], graph_of=self._simulation.ros_graph)
+            self._executor = SingleThreadedExecutor(context=context)
+        return self._executor
+
+    def close(self) -> None:
+        """Remove the nodes."""
+        if self._executor is not None:
+            for node in self._executor.get_nodes():
+                node.destroy_node()
+            self._executor.context.try_shutdown()
+            self._executor = None
 
     def publish(self, topic: str, message: Any) -> None:
         """Publish a message of ``periplus.msgs``."""
@@ -288,7 +364,13 @@ class RosTopics:
         return (len(received) - count) / over_s
 
 
+_MAX_CALLBACKS = 10_000
+"""Callbacks of nodes in one step, after which the next begins."""
+
+
 @pytest.fixture
-def ros(simulation: Simulation) -> RosTopics:
-    """Topics of the simulation: publish, wait for messages, measure rates."""
-    return RosTopics(simulation)
+def ros(simulation: Simulation) -> Iterator[RosTopics]:
+    """Topics of the simulation, and nodes of ``rclpy``: publish, wait for messages, measure rates."""
+    topics = RosTopics(simulation)
+    yield topics
+    topics.close()

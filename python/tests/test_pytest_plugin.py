@@ -45,6 +45,34 @@ def suite(pytester: pytest.Pytester) -> pytest.Pytester:
                 assert ros.rate("/scan", over_s=1.0) == pytest.approx(5, abs=1)
                 assert simulation.time_s > 1.0
 
+            @pytest.mark.periplus(world=WORLD, robot=ROBOT, physics="kinematic")
+            def test_nodes(simulation, ros):
+                from geometry_msgs.msg import Twist
+                from sensor_msgs.msg import LaserScan
+
+                node = ros.node("wanderer")
+                ticks, scans = [], []
+                commands = node.create_publisher(Twist, "/cmd_vel", 1)
+
+                def tick():
+                    ticks.append(node.get_clock().now().nanoseconds)
+                    command = Twist()
+                    command.linear.x = 0.2
+                    commands.publish(command)
+
+                node.create_timer(0.25, tick)
+                node.create_subscription(LaserScan, "/scan", scans.append, 10)
+                x = simulation.model("sam_bot").pose.x
+                ros.spin(2.0)
+                # Simulated time: 2 s / 0.25 s ticks, and 0.2 m/s from the first of them on.
+                assert len(ticks) in (7, 8) and ticks[1] - ticks[0] == 250_000_000
+                assert len(scans) in (10, 11)
+                moved = simulation.model("sam_bot").pose.x - x
+                assert moved == pytest.approx(0.35, abs=0.06)
+                assert ros.spin_until(lambda: len(scans) > 14)
+                with pytest.raises(AssertionError, match="did not hold within 0.5 s of simulated time"):
+                    ros.spin_until(lambda: False, timeout_s=0.5)
+
             @pytest.mark.periplus(world=WORLD, robot=ROBOT, physics="kinematic", slam=False)
             def test_goal(navigation):
                 assert navigation.go_to((0.5, 0.0, 0.0)).reached
@@ -72,7 +100,7 @@ def suite(pytester: pytest.Pytester) -> pytest.Pytester:
 def test_tests_of_users(suite: pytest.Pytester) -> None:
     arguments = ["--periplus-seed=7", "--periplus-artifacts=kept", "--junitxml=results.xml"]
     result = suite.runpytest_subprocess(*arguments)
-    result.assert_outcomes(passed=5, failed=3)
+    result.assert_outcomes(passed=6, failed=3)
     output = result.stdout.str()
     assert "did you mean" in output or "min_clearance" in output
     assert "run it again: periplus scenario" in output

@@ -14,6 +14,8 @@ mod qos;
 
 use pyo3::prelude::*;
 
+pub(crate) use graph::RosGraph;
+
 pub(crate) fn register(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add("RosArgumentsError", module.py().get_type::<arguments::RosArgumentsError>())?;
     module.add("RosNameError", module.py().get_type::<node::RosNameError>())?;

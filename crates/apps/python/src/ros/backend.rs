@@ -21,7 +21,12 @@ use crate::work::lock;
 
 /// Graph of the nodes of a program.
 pub(crate) enum Backend {
-    Live { graph: Graph, wire: Mutex<Option<DdsTransport>> },
+    /// `keeps_time`: the program sets the clock of the graph; false beside a simulation, which sets it.
+    Live {
+        graph: Graph,
+        wire: Mutex<Option<DdsTransport>>,
+        keeps_time: bool,
+    },
     Lockstep(Arc<LockstepClient>),
 }
 
@@ -37,7 +42,7 @@ pub(crate) struct Shared {
 impl Shared {
     /// Sets the clock of a live graph, which stamps messages.
     pub(crate) fn tick(&self) {
-        if let Backend::Live { graph, .. } = &self.backend {
+        if let Backend::Live { graph, keeps_time: true, .. } = &self.backend {
             graph.advance_to(unix_ns());
         }
     }
@@ -80,6 +85,11 @@ pub(crate) fn connect(link: String) -> io::Result<Arc<LockstepClient>> {
     Ok(client)
 }
 
+/// Nodes among those of a simulation in this process.
+pub(crate) fn beside(graph: Graph) -> Backend {
+    Backend::Live { graph, wire: Mutex::new(None), keeps_time: false }
+}
+
 /// Joins the ROS 2 network.
 pub(crate) fn live(domain_id: Option<u32>, network: bool) -> PyResult<Backend> {
     let graph = Graph::live();
@@ -98,5 +108,5 @@ pub(crate) fn live(domain_id: Option<u32>, network: bool) -> PyResult<Backend> {
             wire = Some(joined);
         }
     }
-    Ok(Backend::Live { graph, wire: Mutex::new(wire) })
+    Ok(Backend::Live { graph, wire: Mutex::new(wire), keeps_time: true })
 }

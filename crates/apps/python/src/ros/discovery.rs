@@ -72,7 +72,7 @@ pub(crate) struct End {
 /// When the simulation has gone.
 pub(crate) fn endpoints(backend: &Backend, topic: &str, publishers: bool) -> io::Result<Vec<End>> {
     match backend {
-        Backend::Live { graph, wire } => {
+        Backend::Live { graph, wire, .. } => {
             let mut all = Vec::new();
             let mut is_sent = publishers;
             if let Some(found) = graph.topics().into_iter().find(|it| it.name == topic) {

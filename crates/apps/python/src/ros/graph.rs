@@ -11,6 +11,7 @@ use std::sync::Arc;
 use std::sync::atomic::Ordering;
 use std::time::{Duration, Instant};
 
+use periplus::graph::Arguments;
 use periplus::os::{Machine, unix_ns};
 use periplus_dds::{DdsTransport, Settings};
 use pyo3::prelude::*;
@@ -18,7 +19,7 @@ use pyo3::types::{PyDict, PyString};
 
 use super::arguments;
 use super::arrivals::Arrivals;
-use super::backend::{Backend, SEEN_WAKES, Shared, WAKES, connect, link_error, live};
+use super::backend::{Backend, SEEN_WAKES, Shared, WAKES, beside, connect, link_error, live};
 use super::discovery::{Names, endpoints, live_names, remote};
 use super::node::{RosNode, new_node};
 use super::qos;
@@ -69,11 +70,7 @@ impl RosGraph {
             }
             None => released(py, "joining the network", || live(domain_id, network))??,
         };
-        let arrivals = Arc::new(Arrivals::default());
-        let (settings, _) = Settings::from_environment(&Machine);
-        let domain_id = domain_id.unwrap_or(settings.domain_id);
-        let start = Instant::now();
-        Ok(Self(Arc::new(Shared { backend, arrivals, arguments, domain_id, start })))
+        Ok(Self::of(backend, arguments, domain_id))
     }
 
     /// ROS 2 domain.
@@ -91,7 +88,8 @@ impl RosGraph {
     /// System time, or the time of the simulation in step [ns].
     fn now_ns(&self) -> i64 {
         match &self.0.backend {
-            Backend::Live { .. } => unix_ns(),
+            Backend::Live { keeps_time: true, .. } => unix_ns(),
+            Backend::Live { graph, .. } => graph.now_ns(),
             Backend::Lockstep(client) => client.now_ns(),
         }
     }
@@ -189,7 +187,7 @@ impl RosGraph {
     fn nodes(&self, py: Python<'_>) -> PyResult<Vec<(String, String)>> {
         let shared = &self.0;
         released(py, "nodes", || match &shared.backend {
-            Backend::Live { graph, wire } => {
+            Backend::Live { graph, wire, .. } => {
                 let own = graph.nodes().into_iter().map(|node| node.name);
                 let remote = remote(wire).nodes.into_iter().map(|node| node.name);
                 let own = own.filter(|name| !name.starts_with("/_wire_"));
@@ -271,7 +269,7 @@ impl RosGraph {
         let full = format!("{}/{name}", namespace.trim_end_matches('/'));
         let shared = &self.0;
         released(py, "services", || {
-            let Backend::Live { graph, wire } = &shared.backend else { return Vec::new() };
+            let Backend::Live { graph, wire, .. } = &shared.backend else { return Vec::new() };
             let mut found: Vec<(String, Vec<String>)> = Vec::new();
             for service in graph.services() {
                 let is_its = match servers {
@@ -296,7 +294,7 @@ impl RosGraph {
     fn findings(&self, py: Python<'_>) -> PyResult<Vec<String>> {
         let shared = &self.0;
         released(py, "findings", || {
-            let Backend::Live { graph, wire } = &shared.backend else { return Vec::new() };
+            let Backend::Live { graph, wire, .. } = &shared.backend else { return Vec::new() };
             let wire = lock(wire).as_ref().map(DdsTransport::take_findings).unwrap_or_default();
             let own = graph.take_findings();
             wire.iter().chain(own.iter()).map(|finding| finding.message.clone()).collect()
@@ -336,10 +334,27 @@ impl RosGraph {
 }
 
 impl RosGraph {
+    /// Nodes among those of a simulation in this process.
+    pub(crate) fn beside(
+        py: Python<'_>,
+        graph: periplus::graph::Graph,
+        arguments: &[String],
+    ) -> PyResult<Self> {
+        Ok(Self::of(beside(graph), arguments::read(py, arguments)?, None))
+    }
+
+    fn of(backend: Backend, arguments: Arguments, domain_id: Option<u32>) -> Self {
+        let arrivals = Arc::new(Arrivals::default());
+        let (settings, _) = Settings::from_environment(&Machine);
+        let domain_id = domain_id.unwrap_or(settings.domain_id);
+        let start = Instant::now();
+        Self(Arc::new(Shared { backend, arrivals, arguments, domain_id, start }))
+    }
+
     fn names(&self, py: Python<'_>, which: Names) -> PyResult<Vec<(String, Vec<String>)>> {
         let shared = &self.0;
         let listed = released(py, "names", || match &shared.backend {
-            Backend::Live { graph, wire } => Ok(live_names(graph, wire, which)),
+            Backend::Live { graph, wire, .. } => Ok(live_names(graph, wire, which)),
             Backend::Lockstep(client) => {
                 let names = match which {
                     Names::Topics => client.topics()?,

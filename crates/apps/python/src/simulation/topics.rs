@@ -20,6 +20,7 @@ use super::watch::CallbackWatch;
 use crate::errors::{runtime_error, value_error};
 use crate::messages::{from_python, plan_of_type, to_python};
 use crate::poses::PyPose;
+use crate::ros::RosGraph;
 use crate::work::lock;
 
 /// Messages that wait for a subscription of Python: enough for any sensor between two looks.
@@ -187,6 +188,15 @@ impl PySimulation {
             let services = running.graph().services().into_iter();
             services.map(|service| (service.name, service.type_name)).collect()
         })
+    }
+
+    /// Graph of the simulation for nodes of ``rclpy`` in this process, which the fixture ``ros`` of pytest makes.
+    ///
+    /// ``arguments`` are words after ``--ros-args``, for all nodes.
+    #[pyo3(signature = (arguments=Vec::new()))]
+    fn ros_graph(&self, py: Python<'_>, arguments: Vec<String>) -> PyResult<RosGraph> {
+        let graph = self.with(py, |running| running.graph().clone())?;
+        RosGraph::beside(py, graph, &arguments)
     }
 
     /// Full names of the nodes.

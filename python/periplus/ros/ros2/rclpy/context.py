@@ -40,7 +40,12 @@ class Context:
     # ---- life
 
     def init(
-        self, args: list[str] | None = None, *, initialize_logging: bool = True, domain_id: int | None = None
+        self,
+        args: list[str] | None = None,
+        *,
+        initialize_logging: bool = True,
+        domain_id: int | None = None,
+        graph_of: Callable[[list[str]], RosGraph] | None = None,
     ) -> None:
         """Joins the ROS graph.
 
@@ -48,6 +53,8 @@ class Context:
             args: Arguments of the program (default: `sys.argv`). Those after `--ros-args` apply to all nodes.
             initialize_logging: Take the settings of logging from the arguments (default True).
             domain_id: Domain (default: the environment variable `ROS_DOMAIN_ID`, else 0).
+            graph_of: Not in ROS: makes the graph that is joined from the words after `--ros-args`, such as
+                `periplus.Simulation.ros_graph`.
 
         Raises:
             RuntimeError: The context was initialized before.
@@ -61,7 +68,10 @@ class Context:
                 raise RuntimeError("Context.init() must only be called once")
             ros = ros_split_arguments(words)[1]
             try:
-                graph = RosGraph(ros, domain_id=domain_id, link=_waiting.link())
+                if graph_of is not None:
+                    graph = graph_of(ros)
+                else:
+                    graph = RosGraph(ros, domain_id=domain_id, link=_waiting.link())
             except RosArgumentsError as error:
                 raise argument_error(error) from None
             _clock_source.follow(graph)
