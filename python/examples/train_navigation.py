@@ -1,11 +1,13 @@
 """Trains a policy that drives a robot with a lidar to goals, by proximal policy optimization in numpy.
 
-    pip install 'periplus[gym]'
+    pip install 'periplus[gym]' onnx
     python train_navigation.py --minutes 15 --out policy
 
-Environments are generated worlds, a few hundred on one machine at a time. The policy sees 64 ranges, the goal and its
-velocity, and commands the velocity. Afterwards it drives in 100 worlds that it has never seen, and is written to
-``policy.npz``, and to ``policy.onnx`` if the package ``onnx`` is installed.
+Environments are generated worlds, a few hundred on one machine at a time. The policy sees the nearest obstacle in each of
+72 sectors of a lidar of 360 beams, the goal and its velocity, and commands the velocity. The robot has the footprint and
+the limits of sam_bot (``robots/sam_bot``). Afterwards the policy drives in 100 worlds that it has never seen, and is
+written to ``policy.npz``, and to ``policy.onnx`` if the package ``onnx`` is installed. ``drive_policy.py`` drives a
+robot with it.
 
 The algorithm is PPO with clipped ratios (Schulman et al. 2017, "Proximal policy optimization algorithms") and
 generalized advantage estimation (Schulman et al. 2015, arXiv 1506.02438).
@@ -15,22 +17,33 @@ from __future__ import annotations
 
 import argparse
 import importlib.util
+import json
 import time
+from collections.abc import Callable
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any, TypeAlias
+from typing import Any, Literal, TypeAlias
 
 import numpy as np
 import numpy.typing as npt
 
-from periplus.gym import NavigateVectorEnv
+from periplus.gym import NavigateVectorEnv, parameters
 
 Floats: TypeAlias = npt.NDArray[np.float32]
 
-ROBOT = {"lidar_beams": 64, "lidar_max_range": 4.0, "max_speed": 0.8, "max_turn_rate": 1.5}
-TASK = {"min_goal_distance": 2.0, "max_goal_distance": 6.0}
+ROBOT = {
+    "footprint": [[0.21, 0.2], [-0.21, 0.2], [-0.21, -0.2], [0.21, -0.2]],
+    "max_speed": 0.6, "min_speed": -0.2, "max_turn_rate": 1.5, "max_acceleration": 1.0, "max_turn_acceleration": 4.0,
+    "lidar_beams": 360, "lidar_max_range": 4.0,
+}  # fmt: skip
+TASK = {"min_goal_distance": 2.0, "max_goal_distance": 6.0, "lidar_sectors": 72}
 REWARD = {"progress": 2.0, "goal": 8.0, "collision": -8.0, "time": -0.02, "turning": -0.02, "clearance": -0.1}
+NEAREST = np.float32(0.02)
+"""Range below which all obstacles are the same, as a fraction of the maximum range."""
+PARAMETERS: tuple[Literal["robot", "task"], ...] = "robot", "task"
 KINDS = ("caves", "cylinders")
+HIDDEN = 96, 96
+"""Sizes of the layers of policy and critic."""
 TRAINING_SEEDS = range(100)
 EVALUATION_SEEDS = range(10_000, 10_050)
 
@@ -39,8 +52,15 @@ def make_environments(count: int, worlds: list[dict[str, Any]]) -> NavigateVecto
     """Environments of the task in these worlds."""
     return NavigateVectorEnv(
         count, world=worlds, robot=ROBOT, task=TASK, reward=REWARD, normalize=True, max_episode_steps=300,
-        observation=["ranges", "goal", "velocity"],
+        observation=["sectors", "goal", "velocity"],
     )  # fmt: skip
+
+
+def features(observations: Floats) -> Floats:
+    """Inputs of the networks: logarithms of the ranges, so that near obstacles differ as much as far ones, and the rest."""
+    count = TASK["lidar_sectors"]
+    ranges = np.log(np.maximum(observations[:, :count], NEAREST)) / np.float32(-np.log(NEAREST))
+    return np.concatenate([ranges + 1.0, observations[:, count:]], axis=1)
 
 
 @dataclass
@@ -139,13 +159,13 @@ class Trainer:
         self.envs = envs
         self.random = np.random.default_rng(seed)
         (inputs,), (outputs,) = envs.single_observation_space.shape or (0,), envs.single_action_space.shape or (0,)
-        self.policy = Network.random([inputs, 64, 64, outputs], 0.01, self.random)
-        self.critic = Network.random([inputs, 64, 64, 1], 1.0, self.random)
+        self.policy = Network.random([inputs, *HIDDEN, outputs], 0.01, self.random)
+        self.critic = Network.random([inputs, *HIDDEN, 1], 1.0, self.random)
         self.log_deviations = np.full(outputs, -0.5, np.float32)
         self.policy_adam = Adam([*self.policy.parameters(), self.log_deviations])
         self.critic_adam = Adam(self.critic.parameters())
         self.steps = steps
-        self.observed: Floats = envs.reset(seed=seed)[0]
+        self.observed = features(envs.reset(seed=seed)[0])
         self.was_end = np.zeros(envs.num_envs, np.bool_)
         self.outcomes: list[bool] = []
 
@@ -164,7 +184,8 @@ class Trainer:
             actions[step] = means + np.exp(self.log_deviations) * noise
             log_probabilities[step] = log_probability(actions[step], means, self.log_deviations)
             values[step] = self.critic(self.observed)[:, 0]
-            self.observed, rewards[step], ends, cuts, infos = self.envs.step(np.clip(actions[step], -1.0, 1.0))
+            observed, rewards[step], ends, cuts, infos = self.envs.step(np.clip(actions[step], -1.0, 1.0))
+            self.observed = features(observed)
             # The step after an end resets: the observation here is still the last one of the episode.
             next_values[step] = self.critic(self.observed)[:, 0] * ~ends
             is_end[step] = self.was_end = ends | cuts
@@ -217,7 +238,7 @@ class Trainer:
         return sum(last) / max(len(last), 1)
 
 
-def evaluate(policy: Network, seeds: range, episodes: int = 5) -> tuple[float, float]:
+def evaluate(policy: Callable[[Floats], Floats], seeds: range, episodes: int = 5) -> tuple[float, float]:
     """Fraction of goals that the policy reaches, and its mean SPL, in worlds of these seeds, one after the other.
 
     SPL is the success weighted by path length (Anderson et al. 2018, arXiv 1807.06757).
@@ -231,7 +252,7 @@ def evaluate(policy: Network, seeds: range, episodes: int = 5) -> tuple[float, f
             shortest = envs.shortest_path_lengths()
             is_done = np.zeros(episodes, np.bool_)
             while not is_done.all():
-                observed, _, ends, cuts, infos = envs.step(np.clip(policy(observed), -1.0, 1.0))
+                observed, _, ends, cuts, infos = envs.step(np.clip(policy(features(observed)), -1.0, 1.0))
                 for index in np.flatnonzero((ends | cuts) & ~is_done):
                     is_done[index] = True
                     is_success = bool(infos["is_success"][index])
@@ -242,11 +263,31 @@ def evaluate(policy: Network, seeds: range, episodes: int = 5) -> tuple[float, f
 
 
 def write_onnx(policy: Network, path: Path) -> None:
-    """Writes the policy as ONNX: input ``observation``, output ``action`` from -1 to 1."""
+    """Writes the policy as ONNX: input ``observation`` as of the environments, output ``action`` from -1 to 1.
+
+    The metadata have the parameters of ``robot`` and ``task`` as JSON, so that a driver needs nothing else.
+    """
     import onnx
     from onnx import TensorProto, helper, numpy_helper
 
-    nodes, constants, last = [], [], "observation"
+    sectors = TASK["lidar_sectors"]
+    constants = [
+        numpy_helper.from_array(np.array(value), name)
+        for name, value in {
+            "start": [0], "middle": [sectors], "end": [2**31], "axis": [1], "nearest": NEAREST, "one": np.float32(1.0),
+            "log_scale": np.float32(-1.0 / np.log(NEAREST)), "low": np.float32(-1.0), "high": np.float32(1.0),
+        }.items()
+    ]  # fmt: skip
+    nodes = [
+        helper.make_node("Slice", ["observation", "start", "middle", "axis"], ["ranges"]),
+        helper.make_node("Slice", ["observation", "middle", "end", "axis"], ["others"]),
+        helper.make_node("Max", ["ranges", "nearest"], ["limited"]),
+        helper.make_node("Log", ["limited"], ["logarithm"]),
+        helper.make_node("Mul", ["logarithm", "log_scale"], ["scaled"]),
+        helper.make_node("Add", ["scaled", "one"], ["nearness"]),
+        helper.make_node("Concat", ["nearness", "others"], ["features"], axis=1),
+    ]
+    last = "features"
     for index, (weight, bias) in enumerate(zip(policy.weights, policy.biases)):
         constants += [numpy_helper.from_array(weight, f"w{index}"), numpy_helper.from_array(bias, f"b{index}")]
         nodes.append(helper.make_node("Gemm", [last, f"w{index}", f"b{index}"], [f"linear{index}"]))
@@ -254,7 +295,6 @@ def write_onnx(policy: Network, path: Path) -> None:
         if index < len(policy.weights) - 1:
             nodes.append(helper.make_node("Tanh", [last], [f"tanh{index}"]))
             last = f"tanh{index}"
-    constants += [numpy_helper.from_array(np.float32(limit), name) for name, limit in (("low", -1.0), ("high", 1.0))]
     nodes.append(helper.make_node("Clip", [last, "low", "high"], ["action"]))
     sizes = len(policy.weights[0]), policy.weights[-1].shape[1]
     values = [
@@ -263,8 +303,18 @@ def write_onnx(policy: Network, path: Path) -> None:
     ]
     graph = helper.make_graph(nodes, "navigation_policy", values[:1], values[1:], constants)
     model = helper.make_model(graph, opset_imports=[helper.make_opsetid("", 17)], ir_version=9)
+    defaults = {name: {row["name"]: row["default"] for row in parameters(name)} for name in PARAMETERS}
+    values_used = {"robot": {**defaults["robot"], **ROBOT}, "task": {**defaults["task"], **TASK}}
+    helper.set_model_props(model, {name: json.dumps(value) for name, value in values_used.items()})
     onnx.checker.check_model(model)
     onnx.save(model, str(path))
+
+
+def read_policy(path: Path) -> Network:
+    """Reads a policy that was written as ``.npz``."""
+    arrays = np.load(path)
+    count = len(arrays.files) // 2
+    return Network([arrays[f"weight{at}"] for at in range(count)], [arrays[f"bias{at}"] for at in range(count)])
 
 
 def main() -> None:

@@ -10,7 +10,7 @@ use crate::step::{Failed, build_program, root, run, timed};
 const FOLDER: &str = "target/python";
 
 /// Programs that build the wheel and test it.
-const TOOLS: [&str; 13] = [
+const TOOLS: [&str; 14] = [
     "maturin>=1.9,<2",
     "numpy",
     "pytest",
@@ -24,6 +24,7 @@ const TOOLS: [&str; 13] = [
     "gymnasium>=1.0",
     "pettingzoo",
     "onnx",
+    "onnxruntime",
 ];
 
 /// Maximum size of the wheel [bytes].
