@@ -105,7 +105,7 @@ pub(crate) fn run(options: &SweepOptions) -> Result<ExitCode, CliError> {
     if let Some(metric) = &options.search {
         return options.search_with_optuna(metric);
     }
-    let folder = SweepFolder::create(&options.folder()?).map_err(failed)?;
+    let folder = SweepFolder::at(&options.folder()?);
     let plan = options.plan(&folder)?;
     let plan_file = folder.write_plan(&plan).map_err(failed)?;
     options.announce(&plan);

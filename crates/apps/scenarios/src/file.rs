@@ -261,6 +261,7 @@ impl Scenario {
         for assertion in &self.assertions {
             match assertion.word {
                 "map_iou" => need(nodes.slam.is_some(), "`map_iou`", "slam", assertion.span),
+                "spl" => need(nodes.navigation.is_some(), "`spl`", "navigation", assertion.span),
                 "tracking_error" => {
                     need(
                         nodes.navigation.is_some(),

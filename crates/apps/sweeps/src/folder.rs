@@ -26,15 +26,17 @@ pub struct SweepFolder {
 }
 
 impl SweepFolder {
+    /// Folder at a path. It is created when a plan is made.
+    #[must_use]
+    pub fn at(path: &Path) -> Self {
+        Self { path: path.to_owned() }
+    }
+
     /// Creates the folder, unless it exists.
-    ///
-    /// # Errors
-    /// A folder that cannot be created.
-    pub fn create(path: &Path) -> Result<Self, SweepError> {
-        let folder = Self { path: path.to_owned() };
-        files::make_folder(&folder.path.join("results"))?;
-        files::make_folder(&folder.path.join("inputs"))?;
-        Ok(folder)
+    pub(crate) fn create(&self) -> Result<(), SweepError> {
+        files::make_folder(&self.path.join("results"))?;
+        files::make_folder(&self.path.join("inputs"))?;
+        Ok(())
     }
 
     /// Folder of a plan file.

@@ -108,6 +108,7 @@ impl SweepPlan {
         }
         let log = planner.whole_log();
         let (inputs, contents) = SweepInputs::of_log(log)?;
+        folder.create()?;
         inputs.write_tree(&folder.tree(&inputs), &contents)?;
         let (file_lists, list_of_point) = planner.file_lists(&settings, &inputs);
         let working_folder = terminal::working_folder();

@@ -1,10 +1,5 @@
 //! Sweeps of a short scenario: plan, runs, results, table.
-#![allow(
-    clippy::unwrap_used,
-    clippy::panic,
-    clippy::disallowed_methods,
-    reason = "tests"
-)]
+#![allow(clippy::unwrap_used, clippy::panic, clippy::disallowed_methods, reason = "tests")]
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -23,7 +18,8 @@ struct Folder(PathBuf);
 
 impl Folder {
     fn new(name: &str) -> Self {
-        let path = std::env::temp_dir().join(format!("periplus-sweep-{name}-{}", std::process::id()));
+        let path =
+            std::env::temp_dir().join(format!("periplus-sweep-{name}-{}", std::process::id()));
         fs::create_dir_all(&path).unwrap();
         Self(path.canonicalize().unwrap())
     }
@@ -106,12 +102,15 @@ fn a_sweep_continues_and_its_table_does_not_depend_on_the_order_of_the_runs() {
     let _one = ONE.lock();
     let place = Folder::new("order");
     let scenario = place.scenario();
-    let folder = SweepFolder::create(&place.0.join("a")).unwrap();
+    let folder = SweepFolder::at(&place.0.join("a"));
     let request = request(&scenario, &["loss=0,0.9"], 2);
     let plan = SweepPlan::make(&request, &folder).unwrap();
     assert_eq!(plan.jobs.iter().map(|job| job.seed).collect::<Vec<_>>(), [5, 6, 5, 6]);
     let (first, bytes) = table(&folder, &plan);
-    assert_eq!(first.column("loss").unwrap().values, ColumnValues::Double([0.0, 0.0, 0.9, 0.9].map(Some).into()));
+    assert_eq!(
+        first.column("loss").unwrap().values,
+        ColumnValues::Double([0.0, 0.0, 0.9, 0.9].map(Some).into())
+    );
     let passed = [true, true, false, false].map(Some).to_vec();
     assert_eq!(first.column("passed").unwrap().values, ColumnValues::Bool(passed));
     // 10 scans in 2 s: the last one of the 2 s may or may not count.
@@ -134,7 +133,7 @@ fn a_sweep_continues_and_its_table_does_not_depend_on_the_order_of_the_runs() {
     assert_eq!(table(&folder, &plan).1, bytes);
     assert_eq!(fs::read(&lost).unwrap(), before);
     // Another folder, the last job first.
-    let other = SweepFolder::create(&place.0.join("b")).unwrap();
+    let other = SweepFolder::at(&place.0.join("b"));
     let same = SweepPlan::make(&request, &other).unwrap();
     assert_eq!(keys(&same), keys(&plan));
     for index in (0..4).rev() {
@@ -142,7 +141,8 @@ fn a_sweep_continues_and_its_table_does_not_depend_on_the_order_of_the_runs() {
     }
     assert_eq!(table(&other, &same).1, bytes);
     let points = statistics(&plan, &first);
-    let share = |point: usize| points[point].metrics.iter().find(|it| it.name == "passed").unwrap().mean;
+    let share =
+        |point: usize| points[point].metrics.iter().find(|it| it.name == "passed").unwrap().mean;
     assert_eq!([points.len(), points[0].runs], [2, 2]);
     assert_eq!([share(0), share(1)], [1.0, 0.0]);
     assert!(overview_svg(&plan, &first).contains("passed (share of runs)"));
@@ -153,10 +153,9 @@ fn a_key_changes_with_files_values_and_seeds_only() {
     let _one = ONE.lock();
     let place = Folder::new("keys");
     let scenario = place.scenario();
-    let folder = SweepFolder::create(&place.0.join("a")).unwrap();
-    let plan = |parameters: &[&str]| {
-        SweepPlan::make(&request(&scenario, parameters, 2), &folder).unwrap()
-    };
+    let folder = SweepFolder::at(&place.0.join("a"));
+    let plan =
+        |parameters: &[&str]| SweepPlan::make(&request(&scenario, parameters, 2), &folder).unwrap();
     let base = plan(&["loss=0,0.5"]);
     let all: std::collections::BTreeSet<String> = keys(&base).into_iter().collect();
     assert_eq!(all.len(), 4);
@@ -179,7 +178,7 @@ fn names_and_values_are_checked_before_anything_runs() {
     let _one = ONE.lock();
     let place = Folder::new("names");
     let scenario = place.scenario();
-    let folder = SweepFolder::create(&place.0.join("a")).unwrap();
+    let folder = SweepFolder::at(&place.0.join("a"));
     let make = |parameters: &[&str]| SweepPlan::make(&request(&scenario, parameters, 1), &folder);
     let plan = make(&["minimum_travel_distance=1,2.5"]).unwrap();
     let set = plan.jobs.iter().map(|job| job.parameters[0][2].as_str());
@@ -200,7 +199,7 @@ fn a_copy_that_was_changed_is_refused() {
     let _one = ONE.lock();
     let place = Folder::new("copy");
     let scenario = place.scenario();
-    let folder = SweepFolder::create(&place.0.join("a")).unwrap();
+    let folder = SweepFolder::at(&place.0.join("a"));
     let plan = SweepPlan::make(&request(&scenario, &[], 1), &folder).unwrap();
     let tree = folder.tree(&plan.inputs);
     // Runs do not see later changes of the files themselves.
