@@ -12,6 +12,7 @@ from __future__ import annotations
 
 import json
 import os
+import socket
 import subprocess
 import sys
 import tempfile
@@ -125,7 +126,13 @@ def sweep(
     """Run a scenario file at all combinations of ``parameters``, or at these ``points``, with ``seeds`` seeds each.
 
     Runs in ``workers`` processes here, or on the Ray cluster at the address ``ray``. Runs whose results are in the folder
-    ``out`` are not repeated. Raises :class:`SweepFailed` if a run has no result; assertions that fail are results."""
+    ``out`` are not repeated. Raises :class:`SweepFailed` if a run has no result; assertions that fail are results.
+
+    >>> from periplus.sweeps import sweep
+    >>> sweep("missing.scenario.yaml", seeds=20)
+    Traceback (most recent call last):
+    periplus.sweeps.SweepFailed: cannot read missing.scenario.yaml: there is no such file
+    """
     words = [*_own_command(), "sweep", str(scenario), "--seeds", str(seeds), "--json"]
     for name, values in (parameters or {}).items():
         text = values if isinstance(values, str) else ",".join(_text(value) for value in values)
@@ -169,6 +176,9 @@ def _summary(words: Sequence[str]) -> dict[str, Any]:
 
 MAX_RETRIES = 3
 """Number of times that Ray repeats a run whose node or process is lost."""
+
+CONNECT_TIMEOUT_S = 10.0
+"""Time in which the head of a Ray cluster must accept a connection [s]."""
 
 WINDOW_FACTOR = 3
 """Number of tasks that wait for each processor of the cluster."""
@@ -233,6 +243,18 @@ def _tree_of(plan_file: Path) -> Path:
     return plan_file.parent / "inputs"
 
 
+def _answers(address: str) -> bool:
+    """True if something listens at HOST:PORT. Ray itself tries for minutes."""
+    host, _, port = address.rpartition("://")[2].rpartition(":")
+    if not host or not port.isdigit():
+        return True
+    try:
+        with socket.create_connection((host.strip("[]"), int(port)), timeout=CONNECT_TIMEOUT_S):
+            return True
+    except OSError:
+        return False
+
+
 def _run_on_ray(order: Mapping[str, Any]) -> int:
     """Run jobs on a Ray cluster. Writes a line of JSON for each end of a job, and one with the number of starts."""
     try:
@@ -249,6 +271,9 @@ def _run_on_ray(order: Mapping[str, Any]) -> int:
     files = {str(path.relative_to(tree)): path.read_bytes() for path in entries if path.is_file()}
     folders = [str(path.relative_to(tree)) for path in entries if path.is_dir()]
     address = order["address"]
+    if not _answers(address):
+        _complain(f"there is no Ray cluster at `{address}`; `ray start --head` prints the address of one")
+        return 1
     try:
         ray.init(address=address, log_to_driver=False, logging_level="ERROR")
     except (ConnectionError, ValueError, RuntimeError) as error:
@@ -410,7 +435,10 @@ def _main(words: Sequence[str]) -> int:
     if len(words) != 1 or words[0] not in parts:
         _complain("this module is started by `periplus sweep`")
         return 2
-    return parts[words[0]](json.load(sys.stdin))
+    try:
+        return parts[words[0]](json.load(sys.stdin))
+    except KeyboardInterrupt:
+        return 130
 
 
 if __name__ == "__main__":

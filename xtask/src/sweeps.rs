@@ -6,7 +6,8 @@ use crate::python;
 use crate::step::{Failed, root, run};
 
 /// Packages that the proof needs besides that of Periplus.
-const PACKAGES: [&str; 5] = ["ray", "optuna", "pyarrow", "polars", "pytest"];
+const PACKAGES: [&str; 7] =
+    ["ray", "optuna", "pyarrow", "polars", "pandas", "pytest", "hypothesis"];
 
 /// Runs the proof, or one part of it.
 pub(crate) fn prove(only: Option<&str>) -> Result<(), Failed> {

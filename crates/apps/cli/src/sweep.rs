@@ -24,7 +24,7 @@ pub(crate) use job::{JOB_VERB, run_jobs};
 
 /// Run a scenario over a grid of parameters and seeds, into one table
 ///
-/// Each run is a process of its own, in simulated time; its result is kept under the hash of everything that it depends on,
+/// Each run is a separate process, in simulated time; its result is kept under the hash of everything that it depends on,
 /// so that a sweep continues where it ended. The table (`sweep.parquet`) is the same to the byte whatever ran the runs:
 /// this machine, Ray (`--ray`) or SLURM (`--slurm`). NAME of a parameter is a variable of the scenario, or the end of
 /// `NODE.PARAMETER`. Exit code 1: a run could not start or end; assertions that do not hold are results.
@@ -96,7 +96,7 @@ struct Counts {
     reused: usize,
     /// Runs that got a result.
     ran: usize,
-    /// Starts of runs, with those that were lost; `None` where nobody counts them.
+    /// Starts of runs, with those that were lost; `None` where they are not counted.
     started: Option<usize>,
 }
 

@@ -65,7 +65,7 @@ pub struct ScenarioFolders {
 }
 
 impl ScenarioFolders {
-    /// Folders of a scenario file in its own place.
+    /// Folders of a scenario file that is not a copy.
     #[must_use]
     pub fn of_file(path: &Path) -> Self {
         let scenario = path.parent().unwrap_or(Path::new("")).to_owned();

@@ -78,7 +78,7 @@ pub fn overview_svg(plan: &SweepPlan, table: &SweepTable) -> String {
     out
 }
 
-/// Columns that tell nothing of their own: assertions that always agree with another one, and metrics without values.
+/// Returns false for assertions, whose measured values are shown, and for metrics without values.
 fn is_shown(name: &str, values: &ColumnValues) -> bool {
     let is_assertion = name.starts_with("assert") && matches!(values, ColumnValues::Bool(_));
     !is_assertion && values.numbers().iter().any(Option::is_some)
@@ -143,7 +143,7 @@ fn bands(axis: &Axis, values: &[Option<f64>]) -> Vec<Band> {
 }
 
 fn panel(out: &mut String, [left, top]: [f64; 2], name: &str, axis: &Axis, values: &[Option<f64>]) {
-    // `passed` is drawn as the share of runs, whose median says little.
+    // `passed` is drawn as the share of runs, whose median is 0 or 1.
     let is_share = values.iter().flatten().all(|it| *it == 0.0 || *it == 1.0) && name == "passed";
     let mut bands = bands(axis, values);
     if is_share {

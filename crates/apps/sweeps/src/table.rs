@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 
+use crate::job::JobFailure;
 use crate::plan::SweepPlan;
 use crate::result::JobResult;
 
@@ -74,7 +75,7 @@ impl SweepTable {
     /// Table of the results of all jobs. A job without a result has the outcome `not run: REASON`. Columns and rows depend
     /// on the plan and the results only.
     #[must_use]
-    pub fn assemble(plan: &SweepPlan, results: &[Result<JobResult, String>]) -> Self {
+    pub fn assemble(plan: &SweepPlan, results: &[Result<JobResult, JobFailure>]) -> Self {
         let mut table = Self { columns: Vec::new(), row_count: plan.jobs.len() };
         let done = |index: usize| results.get(index).and_then(|it| it.as_ref().ok());
         let rows = 0..plan.jobs.len();

@@ -54,7 +54,7 @@ pub fn shortest_path_m(
             continue;
         }
         for next in neighbours(&info, index).filter(|next| open[*next] && !is_closed[*next]) {
-            // The straight line from the parent is never longer than the way over this cell.
+            // The straight line from the parent is never longer than the path over this cell.
             let before = parent[index];
             let via = if is_visible(before, next) { before } else { index };
             let new_m = length_m[via] + distance_m(via, next);
@@ -157,10 +157,10 @@ mod tests {
 
     #[test]
     fn a_wall_is_passed_at_its_end() {
-        // Two sides of a triangle: from (1, 1) over (2, 2) to (3, 1).
-        check(2.0, 0.0, Some(2.0 * std::f64::consts::SQRT_2));
-        // A disc keeps its radius from the end: over (2, 2.3) at most, and with a rounded corner at least over (2, 2.2).
-        check(2.0, 0.3, Some(2.0 * libm::hypot(1.0, 1.25)));
+        // From (1, 1) to the corner (1.95, 2) of the wall, 0.1 m over it, and the same again.
+        check(2.0, 0.0, Some(2.0 * libm::hypot(0.95, 1.0) + 0.1));
+        // The centre of a disc follows tangents of 1.346 m, and arcs of 59 degrees around both corners.
+        check(2.0, 0.3, Some(2.0 * 1.346 + 2.0 * 0.3 * 59_f64.to_radians() + 0.1));
         check(4.0, 0.0, None);
         // The gap of 0.5 m is too narrow for a disc of 1.2 m: its centre does not fit.
         check(3.5, 0.6, None);

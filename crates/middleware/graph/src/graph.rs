@@ -13,6 +13,7 @@ use crate::info::{NodeInfo, ServiceInfo, TopicInfo, Traffic};
 use crate::interceptor::Interceptor;
 use crate::live::Live;
 use crate::node::{Node, NodeCore};
+use crate::parameters::ParameterRejection;
 use crate::registry::Registry;
 use crate::settings::NodeSettings;
 use crate::tap::{Sink, TapId};
@@ -120,12 +121,18 @@ impl Graph {
     ///
     /// # Errors
     /// The reason: no such node or parameter, another type, or a value out of its range.
-    pub fn check_parameter(&self, node: &str, parameter: Parameter) -> Result<(), String> {
+    pub fn check_parameter(
+        &self,
+        node: &str,
+        parameter: Parameter,
+    ) -> Result<(), ParameterRejection> {
         let nodes = self.living_nodes();
         let found = nodes.iter().find(|it| *it.full_name == *node);
         let own = found.and_then(|node| node.standard.get());
-        let own = own.ok_or_else(|| format!("there is no node `{node}`"))?;
-        lock(&own.store).propose(std::slice::from_ref(&parameter)).map(drop)
+        let missing = || ParameterRejection::new(format!("there is no node `{node}`"));
+        let own = own.ok_or_else(missing)?;
+        let proposed = lock(&own.store).propose(std::slice::from_ref(&parameter));
+        proposed.map(drop).map_err(ParameterRejection::new)
     }
 
     fn living_nodes(&self) -> Vec<Arc<NodeCore>> {

@@ -4,6 +4,9 @@ use std::io::{BufRead as _, BufReader, Write as _};
 use std::path::Path;
 use std::process::{Command, ExitCode, Stdio};
 use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::mpsc::{self, RecvTimeoutError};
+use std::thread;
+use std::time::Duration;
 
 use periplus_diagnostics::plain_words;
 use serde_json::{Value, json};
@@ -15,6 +18,9 @@ use crate::terminal;
 
 /// Module with Ray and Optuna.
 const MODULE: &str = "periplus.sweeps";
+
+/// Time between two looks at the request to stop.
+const POLL_PERIOD: Duration = Duration::from_millis(100);
 
 /// Jobs for a Ray cluster.
 pub(super) struct RayWork<'a> {
@@ -49,15 +55,31 @@ impl SweepOptions {
         }
         let bar = terminal::bar(work.missing.len() as u64, "runs", self.is_silent());
         let mut started = None;
-        let lines = child.stdout.take().map(|out| BufReader::new(out).lines());
-        for line in lines.into_iter().flatten().map_while(Result::ok) {
+        let (sender, lines) = mpsc::channel();
+        if let Some(out) = child.stdout.take() {
+            thread::spawn(move || {
+                let lines = BufReader::new(out).lines().map_while(Result::ok);
+                lines.take_while(|line| sender.send(line.clone()).is_ok()).for_each(drop);
+            });
+        }
+        loop {
+            let line = match lines.recv_timeout(POLL_PERIOD) {
+                Ok(line) => line,
+                Err(RecvTimeoutError::Disconnected) => break,
+                Err(RecvTimeoutError::Timeout) if stop.load(Ordering::Relaxed) => {
+                    // Ray ends the tasks of a driver that is gone.
+                    let _ = child.kill();
+                    break;
+                }
+                Err(RecvTimeoutError::Timeout) => continue,
+            };
             let Ok(event) = serde_json::from_str::<Value>(&line) else { continue };
             if let Some(index) = event["job"].as_u64() {
                 bar.inc(1);
                 let failure = event["failure"].as_str().map(str::to_owned);
-                if let Some(place) = usize::try_from(index).ok().and_then(|it| failures.get_mut(it))
+                if let Some(found) = usize::try_from(index).ok().and_then(|it| failures.get_mut(it))
                 {
-                    *place = failure;
+                    *found = failure;
                 }
             }
             if let Some(count) = event["started"].as_u64() {

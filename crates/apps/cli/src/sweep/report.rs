@@ -5,8 +5,8 @@ use std::process::ExitCode;
 
 use periplus_session::files;
 use periplus_sweeps::{
-    JobResult, PointStatistics, SweepFolder, SweepPlan, SweepTable, overview_svg, statistics,
-    write_parquet,
+    JobFailure, JobResult, PointStatistics, SweepFolder, SweepPlan, SweepTable, overview_svg,
+    statistics, write_parquet,
 };
 use serde_json::json;
 
@@ -33,10 +33,11 @@ impl SweepOptions {
         failures: &[Option<String>],
         counts: &Counts,
     ) -> Result<ExitCode, CliError> {
-        let mut results: Vec<Result<JobResult, String>> = Vec::with_capacity(plan.jobs.len());
+        let mut results: Vec<Result<JobResult, JobFailure>> = Vec::with_capacity(plan.jobs.len());
         for (job, failure) in plan.jobs.iter().zip(failures) {
             let result = folder.result(job).map_err(failed)?;
-            let reason = || failure.clone().unwrap_or_else(|| "it left no result".to_owned());
+            let reason =
+                || JobFailure(failure.clone().unwrap_or_else(|| "it left no result".to_owned()));
             results.push(result.ok_or_else(reason));
         }
         let table = SweepTable::assemble(plan, &results);
@@ -47,7 +48,7 @@ impl SweepOptions {
         files::write(&table_file, &bytes)?;
         files::write(&picture, overview_svg(plan, &table).as_bytes())?;
         let points = statistics(plan, &table);
-        let not_run: Vec<(usize, &String)> = results
+        let not_run: Vec<(usize, &JobFailure)> = results
             .iter()
             .enumerate()
             .filter_map(|(index, result)| Some((index, result.as_ref().err()?)))
@@ -62,7 +63,7 @@ impl SweepOptions {
                 })
             };
             let not_run =
-                not_run.iter().map(|(run, reason)| json!({ "run": run, "reason": reason }));
+                not_run.iter().map(|(run, reason)| json!({ "run": run, "reason": reason.0 }));
             let summary = json!({
                 "scenario": plan.name,
                 "runs": plan.jobs.len(),

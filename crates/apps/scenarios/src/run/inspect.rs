@@ -1,6 +1,6 @@
 //! Inspection of a scenario before it runs: the parameters of its nodes.
 
-use periplus_graph::parameter_from_yaml;
+use periplus_graph::{ParameterRejection, parameter_from_yaml};
 use periplus_msgs::rcl_interfaces::Parameter;
 use periplus_session::SimulationSession;
 
@@ -42,8 +42,14 @@ impl ScenarioInspection {
     ///
     /// # Errors
     /// The reason: the node or parameter does not exist, another type, or a value out of its range.
-    pub fn check(&self, node: &str, parameter: &str, value: &str) -> Result<(), String> {
-        let value = parameter_from_yaml(value).map_err(|error| error.to_string())?;
+    pub fn check(
+        &self,
+        node: &str,
+        parameter: &str,
+        value: &str,
+    ) -> Result<(), ParameterRejection> {
+        let value = parameter_from_yaml(value)
+            .map_err(|error| ParameterRejection::new(error.to_string()))?;
         let parameter = Parameter { name: parameter.to_owned(), value };
         self.session.graph().check_parameter(node, parameter)
     }
