@@ -32,8 +32,8 @@ NODE_CPUS = 2
 KILL_AFTER_RUNS = RUNS // 3
 """Number of results after which a node is killed."""
 
-SPEED_SEEDS = 2
-"""Seeds of each point in the measurement of the speed-up: 20 runs."""
+SPEED_SEEDS = 4
+"""Seeds of each point in the measurement of the speed-up: 40 runs."""
 
 
 def words(out: Path, seeds: int, *options: str) -> list[str]:

@@ -255,7 +255,7 @@ mod tests {
         let mut out = String::new();
         put(&mut out, 0.0, 0.0, "end", 10, "a<b&c");
         assert!(out.contains("a&lt;b&amp;c"), "{out}");
-        assert_eq!(shortened("package://robots/b.urdf"), "…obots/b.urdf");
+        assert_eq!(shortened("package://robots/b.urdf"), "…robots/b.urdf");
         assert_eq!(short_number(0.123_456), "0.1235");
     }
 }
