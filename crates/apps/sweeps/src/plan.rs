@@ -232,8 +232,8 @@ struct Planner<'a> {
     logs: Vec<FileLog>,
     /// Log of a value of a variable.
     log_of_value: BTreeMap<(String, String), usize>,
-    /// Text for a value of a parameter of a node that was checked.
-    checked: BTreeMap<(String, String, String), String>,
+    /// Values of parameters of nodes that were checked: node, parameter, value.
+    checked: BTreeSet<[String; 3]>,
 }
 
 impl<'a> Planner<'a> {
@@ -253,7 +253,7 @@ impl<'a> Planner<'a> {
             inspection,
             logs: vec![log],
             log_of_value: BTreeMap::new(),
-            checked: BTreeMap::new(),
+            checked: BTreeSet::new(),
         })
     }
 
@@ -285,8 +285,8 @@ impl<'a> Planner<'a> {
                 }
                 ParameterTarget::Parameters(all) => {
                     for (node, parameter) in all {
-                        let value = self.checked(node, parameter, value)?;
-                        setting.parameters.push([node.clone(), parameter.clone(), value]);
+                        self.check(node, parameter, value)?;
+                        setting.parameters.push([node.clone(), parameter.clone(), value.clone()]);
                     }
                 }
             }
@@ -319,28 +319,18 @@ impl<'a> Planner<'a> {
         Ok(number)
     }
 
-    /// Text of a value that a node accepts: a whole number becomes `1.0` where the parameter is a real number.
-    fn checked(&mut self, node: &str, parameter: &str, value: &str) -> Result<String, SweepError> {
-        let key = (node.to_owned(), parameter.to_owned(), value.to_owned());
-        if let Some(text) = self.checked.get(&key) {
-            return Ok(text.clone());
+    /// Checks a value for a parameter of a node, once.
+    fn check(&mut self, node: &str, parameter: &str, value: &str) -> Result<(), SweepError> {
+        let key = [node, parameter, value].map(str::to_owned);
+        if self.checked.contains(&key) {
+            return Ok(());
         }
-        let text = match self.inspection.check(node, parameter, value) {
-            Ok(()) => value.to_owned(),
-            Err(reason) => {
-                let real = format!("{value}.0");
-                let is_whole = value.parse::<i64>().is_ok();
-                if !is_whole || self.inspection.check(node, parameter, &real).is_err() {
-                    let node = node.trim_start_matches('/');
-                    return Err(SweepError::Usage(format!(
-                        "`{node}.{parameter}={value}`: {reason}"
-                    )));
-                }
-                real
-            }
-        };
-        self.checked.insert(key, text.clone());
-        Ok(text)
+        self.inspection.check(node, parameter, value).map_err(|reason| {
+            let node = node.trim_start_matches('/');
+            SweepError::Usage(format!("`{node}.{parameter}={value}`: {reason}"))
+        })?;
+        self.checked.insert(key);
+        Ok(())
     }
 
     fn whole_log(&self) -> FileLog {
