@@ -280,7 +280,6 @@ def _run_on_ray(order: Mapping[str, Any]) -> int:
         _complain(f"there is no Ray cluster at `{address}`: {str(error).strip().splitlines()[0]}")
         return 1
 
-    @ray.remote(num_cpus=0)
     class Starts:
         """Count of the starts of runs, on the node of the driver."""
 
@@ -295,7 +294,6 @@ def _run_on_ray(order: Mapping[str, Any]) -> int:
 
     keeps = bool(order["artifacts"])
 
-    @ray.remote(num_cpus=1, max_retries=MAX_RETRIES, scheduling_strategy="SPREAD")
     def run(index: int, plan: str, files: Mapping[str, bytes], starts: Any) -> Any:
         # Waits, so that a start is counted before the run begins.
         ray.get(starts.begin.remote(index))
@@ -304,7 +302,8 @@ def _run_on_ray(order: Mapping[str, Any]) -> int:
     from ray.util.scheduling_strategies import NodeAffinitySchedulingStrategy
 
     here = NodeAffinitySchedulingStrategy(ray.get_runtime_context().get_node_id(), soft=False)
-    starts = Starts.options(scheduling_strategy=here).remote()  # type: ignore[attr-defined]
+    starts = ray.remote(num_cpus=0)(Starts).options(scheduling_strategy=here).remote()
+    task = ray.remote(num_cpus=1, max_retries=MAX_RETRIES, scheduling_strategy="SPREAD")(run)
     shared = (ray.put(plan_text), ray.put(files))
     waiting: dict[Any, int] = {}
     jobs: Iterator[int] = iter(order["jobs"])
@@ -313,7 +312,7 @@ def _run_on_ray(order: Mapping[str, Any]) -> int:
         index = next(jobs, None)
         if index is None:
             return False
-        waiting[run.remote(index, *shared, starts)] = index
+        waiting[task.remote(index, *shared, starts)] = index
         return True
 
     window = max(MIN_WINDOW, WINDOW_FACTOR * int(ray.cluster_resources().get("CPU", 1)))
