@@ -295,6 +295,10 @@ class Scenario:
         """Assert that the driven path is not longer than a factor of the straight lines to the goals."""
         return self._assertion("path_ratio", {"max": max})
 
+    def spl(self, min: float, **options: Any) -> Scenario:
+        """Assert that the goals are reached on short paths: success weighted by path length, 0 to 1."""
+        return self._assertion("spl", {"min": min, **options})
+
     # ---- runs
 
     def to_dict(self) -> dict[str, Any]:

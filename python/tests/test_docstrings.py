@@ -12,8 +12,9 @@ import pytest
 import periplus
 import periplus.navigation
 import periplus.scenarios
+import periplus.sweeps
 
-MODULES: list[ModuleType] = [periplus, periplus.navigation, periplus.scenarios]
+MODULES: list[ModuleType] = [periplus, periplus.navigation, periplus.scenarios, periplus.sweeps]
 if importlib.util.find_spec("gymnasium") and importlib.util.find_spec("pettingzoo"):
     import periplus.gym
 

@@ -31,6 +31,7 @@ mod scenarios;
 mod slam;
 mod soak;
 mod step;
+mod sweeps;
 mod tidy;
 mod tutorials;
 mod viewer;
@@ -135,6 +136,12 @@ enum Task {
         /// Runs at a time
         #[arg(long, default_value_t = 1)]
         jobs: usize,
+    },
+    /// Prove that a sweep is the same on a local pool and on a Ray cluster that loses a node; takes minutes
+    Sweeps {
+        /// Run only this part
+        #[arg(long, value_parser = ["proof", "speed"])]
+        only: Option<String>,
     },
     /// Run the scenarios of the folder `scenarios`
     Scenarios {
@@ -322,6 +329,7 @@ fn perform(task: &Task) -> Result<(), Failed> {
         }
         Task::Codegen { check } => codegen::run(*check),
         Task::Drive => drive::corpus(),
+        Task::Sweeps { only } => sweeps::prove(only.as_deref()),
         Task::Scenarios { repeat, only } => scenarios::suite(*repeat, only.as_deref()),
         Task::Attack { only, every, seed, program } => attack::attack(&attack::Wish {
             seed: *seed,

@@ -92,6 +92,19 @@ pub(crate) fn with_package() -> Result<PathBuf, Failed> {
     Ok(python)
 }
 
+/// Python of an environment with the package and these packages; the wheel is built if it has not been.
+pub(crate) fn with_packages(name: &str, packages: &[&str]) -> Result<PathBuf, Failed> {
+    if wheel().is_err() {
+        timed("wheel", build)?;
+    }
+    let python = python(name)?;
+    pip(&python, packages)?;
+    let wheel = wheel()?.display().to_string();
+    pip(&python, &["--force-reinstall", "--no-deps", &wheel])?;
+    pip(&python, &[&wheel])?;
+    Ok(python)
+}
+
 /// Python of an environment, which is made if it is missing.
 fn python(name: &str) -> Result<PathBuf, Failed> {
     let python = folder(name).join("bin/python");

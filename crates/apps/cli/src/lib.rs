@@ -33,6 +33,7 @@ mod scenario;
 mod score;
 mod sim;
 mod slam;
+mod sweep;
 mod teleop;
 mod terminal;
 mod timing;
@@ -104,6 +105,9 @@ pub fn run(words: Vec<String>, own_command: Vec<String>, interpreter: Option<Str
     if words.get(1).is_some_and(|word| word == launch::XACRO_VERB) {
         return ended(launch::run_xacro(words.get(2..).unwrap_or_default()));
     }
+    if words.get(1).is_some_and(|word| word == sweep::JOB_VERB) {
+        return ended(sweep::run_jobs(words.get(2..).unwrap_or_default()));
+    }
     let words = match foreign_commands::translate(words) {
         Ok(Ok(words)) => words,
         Ok(Err(code)) => return code,
@@ -143,6 +147,7 @@ pub fn run(words: Vec<String>, own_command: Vec<String>, interpreter: Option<Str
         Command::Doctor(options) => doctor::run(&options),
         Command::New(command) => new::run(&command),
         Command::Scenario(options) => scenario::run(&options),
+        Command::Sweep(options) => sweep::run(&options),
         Command::Action(options) => options.run(),
         Command::Interface(options) => options.run(),
         Command::Lifecycle(options) => options.run(),

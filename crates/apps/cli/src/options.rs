@@ -23,6 +23,7 @@ use crate::scenario::ScenarioOptions;
 use crate::score::ScoreOptions;
 use crate::sim::SimOptions;
 use crate::slam::SlamOptions;
+use crate::sweep::SweepOptions;
 use crate::teleop::TeleopOptions;
 use crate::verbs::{
     ActionOptions, InterfaceOptions, LifecycleOptions, NodeOptions, ParamOptions, ServiceOptions,
@@ -64,6 +65,7 @@ pub(crate) enum Command {
     Localize(LocalizeOptions),
     Navigate(Box<NavigateOptions>),
     Scenario(Box<ScenarioOptions>),
+    Sweep(Box<SweepOptions>),
     Topic(TopicOptions),
     Node(NodeOptions),
     Service(ServiceOptions),

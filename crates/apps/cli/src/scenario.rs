@@ -40,6 +40,9 @@ pub(crate) struct ScenarioOptions {
     /// Value of a variable of the file; repeatable
     #[arg(long = "set", value_name = "NAME=VALUE", value_parser = variable)]
     variables: Vec<(String, String)>,
+    /// Value of a parameter of a node, besides those of the file; repeatable
+    #[arg(long = "parameter", value_name = "NODE:NAME=VALUE", value_parser = parameter)]
+    parameters: Vec<[String; 3]>,
     /// Write the results as JUnit XML
     #[arg(long, value_name = "FILE.xml")]
     junit: Option<PathBuf>,
@@ -143,6 +146,7 @@ impl ScenarioOptions {
             threads: self.threads.unwrap_or_else(terminal::processors),
             search: terminal::search(&self.search.resource_path),
             set: self.variables.clone(),
+            parameters: self.parameters.clone(),
             is_verbose: !self.quiet && !self.json,
             stop,
             ..ScenarioRunOptions::default()
@@ -193,7 +197,7 @@ impl ScenarioOptions {
     }
 }
 
-fn failed(error: ScenarioError) -> CliError {
+pub(crate) fn failed(error: ScenarioError) -> CliError {
     match error {
         ScenarioError::Run(error) => error.into(),
         ScenarioError::File(error) => error.into(),
@@ -213,16 +217,34 @@ fn append(path: &Path, text: &str) -> Result<(), CliError> {
     })
 }
 
-fn variable(word: &str) -> Result<(String, String), String> {
+pub(crate) fn variable(word: &str) -> Result<(String, String), String> {
     match word.split_once('=') {
         Some((name, value)) if !name.is_empty() => Ok((name.to_owned(), value.to_owned())),
         _ => Err(format!("`{word}` is not `name=value`")),
     }
 }
 
+fn parameter(word: &str) -> Result<[String; 3], String> {
+    let parts = word.split_once('=').and_then(|(full, value)| {
+        let (node, name) = full.split_once(':')?;
+        Some([node, name, value].map(str::to_owned))
+    });
+    match parts {
+        Some(parts) if parts.iter().all(|part| !part.is_empty()) => Ok(parts),
+        _ => Err(format!("`{word}` is not `node:name=value`")),
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn parameters_have_a_node() {
+        let words = ["a/b", "c.d", "x:y=z"].map(str::to_owned);
+        assert_eq!(parameter("a/b:c.d=x:y=z"), Ok(words));
+        assert!(parameter("a=1").is_err() && parameter("a:=1").is_err());
+    }
 
     #[test]
     fn variables_are_names_and_values() {

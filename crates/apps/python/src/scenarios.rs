@@ -7,6 +7,7 @@ use std::thread;
 use std::time::Duration;
 
 use periplus_scenarios::{Scenario, ScenarioError, ScenarioRunOptions, json_schema, run};
+use periplus_sweeps::{SweepPlan, run_job};
 use pyo3::prelude::*;
 use pyo3::types::PyModule;
 
@@ -18,6 +19,8 @@ const SIGNAL_PERIOD: Duration = Duration::from_millis(5);
 
 pub(crate) fn register(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(run_scenario, module)?)?;
+    module.add_function(wrap_pyfunction!(run_sweep_job, module)?)?;
+    module.add_function(wrap_pyfunction!(sweep_tree_name, module)?)?;
     module.add_function(wrap_pyfunction!(scenario_schema, module)?)
 }
 
@@ -83,4 +86,31 @@ fn run_scenario(
         Ok(report) => report.map_err(|error: ScenarioError| runtime_error(error)),
         Err(_) => Err(runtime_error("the scenario failed, which is a fault of Periplus")),
     }
+}
+
+/// Runs the job `index` of a sweep, whose plan is JSON, on the copy of its files in the folder `tree`. Returns the result as
+/// JSON. Artifacts of a run that fails are written to the folder `artifacts`. Only one job at a time may run in a process.
+#[pyfunction]
+#[pyo3(signature = (plan, index, tree, artifacts=None))]
+fn run_sweep_job(
+    py: Python<'_>,
+    plan: &str,
+    index: usize,
+    tree: PathBuf,
+    artifacts: Option<PathBuf>,
+) -> PyResult<String> {
+    let plan = SweepPlan::from_json(plan).map_err(runtime_error)?;
+    let run = move || run_job(&plan, index, &tree, artifacts.as_deref());
+    let running = thread::spawn(run);
+    match released(py, "the run", || running.join())? {
+        Ok(result) => result.map(|result| result.to_json()).map_err(runtime_error),
+        Err(_) => Err(runtime_error("the run failed, which is a fault of Periplus")),
+    }
+}
+
+/// Name of the folder with the copy of a sweep's files, whose plan is JSON.
+#[pyfunction]
+fn sweep_tree_name(plan: &str) -> PyResult<String> {
+    let plan = SweepPlan::from_json(plan).map_err(runtime_error)?;
+    Ok(plan.inputs.tree_name())
 }

@@ -99,6 +99,10 @@ pub(crate) fn replay_command(
     for (name, value) in &options.set {
         words.push(format!("--set {}", quoted(&format!("{name}={value}"))));
     }
+    for [node, name, value] in &options.parameters {
+        let node = node.trim_start_matches('/');
+        words.push(format!("--parameter {}", quoted(&format!("{node}:{name}={value}"))));
+    }
     words.push("--keep".to_owned());
     words.join(" ")
 }

@@ -13,7 +13,8 @@ use crate::report::AssertionReport;
 use crate::run::RunRecord;
 use crate::tables::{
     InOrderParams, LatencyCheckParams, LocalizationErrorParams, MapIouParams, MinClearanceParams,
-    OdometryErrorParams, PathRatioParams, RateParams, ReachedParams, TrackingErrorParams,
+    OdometryErrorParams, PathRatioParams, RateParams, ReachedParams, SplParams,
+    TrackingErrorParams,
 };
 
 /// Result of a check.
@@ -72,6 +73,7 @@ fn verdict(
     match assertion.word {
         "reached" => goals::reached(&ReachedParams::from_values(values), record),
         "path_ratio" => goals::path_ratio(&PathRatioParams::from_values(values), scenario, record),
+        "spl" => goals::spl(&SplParams::from_values(values), scenario, session, record),
         "no_collision" => walls::no_collision(record),
         "min_clearance" => walls::min_clearance(&MinClearanceParams::from_values(values), record),
         "map_iou" => walls::map_iou(&MapIouParams::from_values(values), session, record),

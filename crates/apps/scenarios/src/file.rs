@@ -3,12 +3,14 @@
 mod events;
 mod nodes;
 
-use std::path::{Path, PathBuf};
+use std::path::{Component, Path, PathBuf};
 
 use periplus_diagnostics::{Diagnostic, Diagnostics, SourceMap, Span};
 use periplus_faults::{InjectedFault, flat_text, read_section};
 use periplus_geometry::Pose2;
+use periplus_os::Machine;
 use periplus_params::{ParamValues, Table};
+use periplus_resources::Host as _;
 use periplus_sim::script::DriveScript;
 use periplus_yaml::{YamlNode, YamlValue};
 
@@ -25,6 +27,8 @@ pub struct Scenario {
     pub name: String,
     /// File from which it was read, as the user wrote it.
     pub path: PathBuf,
+    /// Folders in which its files are.
+    pub folders: ScenarioFolders,
     /// Values without a section.
     pub params: ScenarioParams,
     /// The robot; `None` where the world has it.
@@ -47,6 +51,55 @@ pub struct Scenario {
     pub(crate) text: String,
     /// Source text, for findings of the run.
     pub sources: SourceMap,
+}
+
+/// Folders in which the files of a scenario are.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct ScenarioFolders {
+    /// Folder of the scenario file: the first base of relative paths.
+    pub scenario: PathBuf,
+    /// Working folder: the second base of relative paths; empty for that of the process.
+    pub working: PathBuf,
+    /// Folder with copies of all files by their absolute paths, in place of the root of the file system.
+    pub root: Option<PathBuf>,
+}
+
+impl ScenarioFolders {
+    /// Folders of a scenario file that is not a copy.
+    #[must_use]
+    pub fn of_file(path: &Path) -> Self {
+        let scenario = path.parent().unwrap_or(Path::new("")).to_owned();
+        Self { scenario, working: PathBuf::new(), root: None }
+    }
+
+    fn resolve(&self, written: &str) -> PathBuf {
+        let path = Path::new(written);
+        if written.contains("://") {
+            // Names of packages and models are resolved when the file is read.
+            return path.to_owned();
+        }
+        if let Some(root) = self.root.as_deref().filter(|_| path.is_absolute()) {
+            return root.join(below_root(path));
+        }
+        let beside = self.scenario.join(path);
+        if Machine.kind(&beside).is_some() { beside } else { self.working.join(path) }
+    }
+}
+
+/// Relative path of an absolute one below a folder that stands for the root of the file system: `/a/b` is `a/b`,
+/// and `C:\a` is `C/a`.
+#[must_use]
+pub fn below_root(path: &Path) -> PathBuf {
+    path.components()
+        .filter_map(|part| match part {
+            Component::Normal(name) => Some(PathBuf::from(name)),
+            Component::Prefix(prefix) => {
+                let text = prefix.as_os_str().to_string_lossy();
+                Some(text.chars().filter(|it| it.is_alphanumeric()).collect::<String>().into())
+            }
+            _ => None,
+        })
+        .collect()
 }
 
 /// Robot of a scenario.
@@ -153,6 +206,7 @@ impl Scenario {
                 name.strip_suffix(".scenario").map(str::to_owned).unwrap_or(name)
             }),
             path: path.to_owned(),
+            folders: ScenarioFolders::of_file(path),
             robot: section("robot").map(|node| robot(node, diagnostics)),
             nodes: section("nodes")
                 .map(|node| ScenarioNodes::read(node, diagnostics))
@@ -207,6 +261,7 @@ impl Scenario {
         for assertion in &self.assertions {
             match assertion.word {
                 "map_iou" => need(nodes.slam.is_some(), "`map_iou`", "slam", assertion.span),
+                "spl" => need(nodes.navigation.is_some(), "`spl`", "navigation", assertion.span),
                 "tracking_error" => {
                     need(
                         nodes.navigation.is_some(),
@@ -242,11 +297,10 @@ impl Scenario {
         self.robot.as_ref().map_or(Pose2::IDENTITY, |robot| planar_pose(&robot.params.pose))
     }
 
-    /// Path of a file: relative to the scenario if it exists there, otherwise as written.
+    /// Path of a file: relative to the scenario if it exists there, otherwise to the working folder.
     #[must_use]
     pub fn resolve(&self, written: &str) -> PathBuf {
-        let beside = self.path.parent().unwrap_or(Path::new("")).join(written);
-        if beside.exists() { beside } else { PathBuf::from(written) }
+        self.folders.resolve(written)
     }
 }
 

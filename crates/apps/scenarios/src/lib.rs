@@ -35,12 +35,12 @@ mod variables;
 pub use error::ScenarioError;
 pub use file::{
     EventAction, EventTrigger, Scenario, ScenarioAssertion, ScenarioEvent, ScenarioFileError,
-    ScenarioNodes, ScenarioRobot,
+    ScenarioFolders, ScenarioNodes, ScenarioRobot, below_root,
 };
 pub use junit::junit_xml;
 pub use reference::reference_markdown;
 pub use report::{AssertionReport, GoalEnd, RunOutcome, ScenarioReport};
-pub use run::{ScenarioRunOptions, run};
+pub use run::{ScenarioInspection, ScenarioRunOptions, inspect, run};
 pub use schema::json_schema;
 pub use summary::github_summary;
 pub use variables::Variables;

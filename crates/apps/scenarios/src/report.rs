@@ -1,5 +1,6 @@
 //! Reports of scenarios.
 
+use std::fmt;
 use std::io::{self, Write};
 use std::path::PathBuf;
 
@@ -55,13 +56,13 @@ pub enum RunOutcome {
     Failed(String),
 }
 
-impl RunOutcome {
-    fn text(&self) -> String {
+impl fmt::Display for RunOutcome {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::Complete => "complete".to_owned(),
-            Self::Timeout => "time limit".to_owned(),
-            Self::Interrupted => "interrupted".to_owned(),
-            Self::Failed(reason) => format!("failed: {reason}"),
+            Self::Complete => f.write_str("complete"),
+            Self::Timeout => f.write_str("time limit"),
+            Self::Interrupted => f.write_str("interrupted"),
+            Self::Failed(reason) => write!(f, "failed: {reason}"),
         }
     }
 }
@@ -157,7 +158,7 @@ impl ScenarioReport {
             "seed": self.seed,
             "variables": variables.collect::<serde_json::Map<_, _>>(),
             "passed": self.has_passed(),
-            "outcome": self.outcome.text(),
+            "outcome": self.outcome.to_string(),
             "duration_s": self.duration_s,
             "goals": self.goals.iter().map(goal).collect::<Vec<_>>(),
             "assertions": self.assertions.iter().map(assertion).collect::<Vec<_>>(),
@@ -177,7 +178,7 @@ impl ScenarioReport {
     pub fn write_text(&self, out: &mut dyn Write) -> io::Result<()> {
         let word = if self.has_passed() { "passed" } else { "FAILED" };
         let (name, seed) = (&self.name, self.seed);
-        let outcome = self.outcome.text();
+        let outcome = self.outcome.to_string();
         writeln!(
             out,
             "{name}: {word}, seed {seed}, {:.3} s simulated, {outcome}",

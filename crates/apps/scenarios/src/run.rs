@@ -2,6 +2,7 @@
 
 mod estimates;
 mod events;
+mod inspect;
 mod observer;
 mod setup;
 mod task;
@@ -12,7 +13,7 @@ use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
 use periplus_os::Stopwatch;
-use periplus_session::{RunSettings, SessionBuilder};
+use periplus_session::{RunSettings, SessionBuilder, SimulationSession};
 use periplus_sim::Search;
 
 use crate::artifacts::{self, Artifacts};
@@ -22,6 +23,7 @@ use crate::file::Scenario;
 use crate::report::{RunOutcome, ScenarioReport};
 use task::ScenarioTask;
 
+pub use inspect::{ScenarioInspection, inspect};
 pub(crate) use observer::{TopicRecord, is_light};
 pub(crate) use task::RunRecord;
 
@@ -42,6 +44,8 @@ pub struct ScenarioRunOptions {
     pub search: Search,
     /// Values of variables that were set for this run, for the command that runs it again.
     pub set: Vec<(String, String)>,
+    /// Parameters of nodes besides those of the scenario: full or relative name, parameter, value.
+    pub parameters: Vec<[String; 3]>,
     /// True to show the findings of the files and the progress on stderr.
     pub is_verbose: bool,
     /// Flag that interrupts the run; can be set from any thread.
@@ -56,6 +60,23 @@ impl ScenarioRunOptions {
     }
 }
 
+/// Session of a scenario before its first step.
+fn begin(
+    scenario: &Scenario,
+    options: &ScenarioRunOptions,
+    seed: u64,
+) -> Result<SimulationSession, ScenarioError> {
+    let (composition, simulation) = setup::compose(scenario, options, seed)?;
+    let session = SessionBuilder::new(composition, simulation, Stopwatch::start())
+        .quiet(!options.is_verbose)
+        .progress(options.is_verbose)
+        .search(options.search.clone())
+        .driver(setup::driver(scenario))
+        .estimators(setup::estimators(scenario)?)
+        .build()?;
+    Ok(session)
+}
+
 /// Runs a scenario to its end and evaluates its assertions.
 ///
 /// # Errors
@@ -65,14 +86,7 @@ pub fn run(
     options: &ScenarioRunOptions,
 ) -> Result<ScenarioReport, ScenarioError> {
     let seed = options.seed_of(scenario);
-    let (composition, simulation) = setup::compose(scenario, options, seed)?;
-    let mut session = SessionBuilder::new(composition, simulation, Stopwatch::start())
-        .quiet(!options.is_verbose)
-        .progress(options.is_verbose)
-        .search(options.search.clone())
-        .driver(setup::driver(scenario))
-        .estimators(setup::estimators(scenario)?)
-        .build()?;
+    let mut session = begin(scenario, options, seed)?;
     let artifacts = options.artifacts.as_deref().map(Artifacts::begin).transpose()?;
     let mut task = ScenarioTask::new(scenario, &mut session, options, seed)?;
     if let Some(artifacts) = &artifacts {

@@ -403,8 +403,23 @@ params! {
     }
 }
 
+params! {
+    /// The goals are reached on short paths: success weighted by path length (Anderson et al. 2018), the mean over all
+    /// goals of the events of shortest / max(driven, shortest), 0 for a goal that is not reached. The shortest path is
+    /// that of the circle inside the footprint on the true map at the end of the run.
+    #[table(SPL, "spl")]
+    pub struct SplParams {
+        /// Smallest value.
+        #[param("min", within(0.0, 1.0), required())]
+        min_ratio: f64,
+        /// Largest distance from a goal that is reached.
+        #[param("within", unit("m"), above(0.0))]
+        within_m: f64 = 0.3,
+    }
+}
+
 /// Tables of the assertions.
-pub static ASSERTIONS: [&Table; 11] = [
+pub static ASSERTIONS: [&Table; 12] = [
     &REACHED,
     &NO_COLLISION,
     &MIN_CLEARANCE,
@@ -416,6 +431,7 @@ pub static ASSERTIONS: [&Table; 11] = [
     &LATENCY,
     &IN_ORDER,
     &PATH_RATIO,
+    &SPL,
 ];
 
 #[cfg(test)]

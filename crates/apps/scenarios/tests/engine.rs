@@ -76,7 +76,7 @@ fn mistakes_are_located_and_corrected() {
             7 |   - min_clearence: 0.2
               |     ^^^^^^^^^^^^^
               |
-              = note: known: reached, no_collision, min_clearance, map_iou, tracking_error, localization_error, odometry_error, rate, latency, in_order, path_ratio
+              = note: known: reached, no_collision, min_clearance, map_iou, tracking_error, localization_error, odometry_error, rate, latency, in_order, path_ratio, spl
             help: did you mean `min_clearance`?
               |
             7 -   - min_clearence: 0.2

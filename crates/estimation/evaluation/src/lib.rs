@@ -3,7 +3,7 @@
 //! - [`associate`], [`Similarity`]: poses of two trajectories at equal times, and their alignment
 //! - [`ape`], [`rpe`]: absolute and relative pose errors, as the Python package `evo` computes them
 //! - [`score_map`]: intersection over union of walls at a tolerance, and distances of walls
-//! - [`Clearance`], [`Smoothness`], [`GoalRun`], [`spl`]: quality of paths and of runs to goals
+//! - [`Clearance`], [`Smoothness`], [`GoalRun`], [`spl`], [`shortest_path_m`]: quality of paths and of runs to goals
 //! - [`LocalizationScore`]: errors of an estimator compared with its covariance
 //!
 //! An undefined score is none or NaN, never 0.
@@ -28,6 +28,7 @@ mod goal;
 mod map;
 mod pairs;
 mod pose_error;
+mod shortest_path;
 mod smoothness;
 mod statistics;
 mod trajectory;
@@ -42,6 +43,7 @@ pub use goal::{GoalRun, collision_count, spl};
 pub use map::{MapScore, score_map};
 pub use pairs::{PairSelection, RelativeDelta};
 pub use pose_error::{PoseRelation, ape, rpe};
+pub use shortest_path::shortest_path_m;
 pub use smoothness::{Smoothness, SmoothnessSampling};
 pub use statistics::{ErrorStatistics, quantile};
 pub use trajectory::{StampedPose, Trajectory};

@@ -16,11 +16,13 @@
 //! assert_eq!(host.variable("ROS_DOMAIN_ID").as_deref(), Some("7"));
 //! ```
 
+mod file_log;
 mod machine;
 mod memory;
 mod overlay;
 mod stopwatch;
 
+pub use file_log::{FileLog, plain};
 pub use machine::Machine;
 pub use memory::peak_memory_bytes;
 pub use overlay::Overlay;

@@ -11,6 +11,8 @@ use std::path::{Path, PathBuf};
 use periplus_diagnostics::plain_words;
 use periplus_resources::{EntryKind, FileReadError, FileWriteError, Host, MAX_FILE_BYTES, Store};
 
+use crate::file_log;
+
 /// Machine on which this program runs.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Machine;
@@ -31,20 +33,27 @@ impl Host for Machine {
         let read = file.take(MAX_FILE_BYTES + 1).read_to_end(&mut bytes);
         read.map_err(|error| refusal(&error))?;
         let size = bytes.len() as u64;
-        if size > MAX_FILE_BYTES { Err(FileReadError::TooLarge(size)) } else { Ok(bytes) }
+        if size > MAX_FILE_BYTES {
+            return Err(FileReadError::TooLarge(size));
+        }
+        file_log::note_read(path);
+        Ok(bytes)
     }
 
     fn kind(&self, path: &Path) -> Option<EntryKind> {
         let metadata = fs::metadata(path).ok()?;
-        if metadata.is_file() {
+        let kind = if metadata.is_file() {
             Some(EntryKind::File)
         } else {
             metadata.is_dir().then_some(EntryKind::Folder)
-        }
+        };
+        file_log::note_kind(path, kind);
+        kind
     }
 
     fn list(&self, folder: &Path) -> Vec<String> {
         let Ok(entries) = fs::read_dir(folder) else { return Vec::new() };
+        file_log::note_kind(folder, Some(EntryKind::Folder));
         // A name that is not UTF-8 cannot occur in a robot file either.
         let mut names: Vec<String> =
             entries.filter_map(|entry| entry.ok()?.file_name().into_string().ok()).collect();
@@ -57,7 +66,9 @@ impl Host for Machine {
     }
 
     fn variable(&self, name: &str) -> Option<String> {
-        std::env::var(name).ok()
+        let value = std::env::var(name).ok();
+        file_log::note_variable(name, value.as_ref());
+        value
     }
 }
 
@@ -75,6 +86,7 @@ impl Machine {
             return Err(FileReadError::TooLarge(metadata.len()));
         }
         let file = fs::File::open(path).map_err(|error| refusal(&error))?;
+        file_log::note_read(path);
         Ok(BufReader::with_capacity(READ_BUFFER_BYTES, file.take(MAX_FILE_BYTES)))
     }
 

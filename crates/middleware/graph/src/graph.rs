@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::sync::{Arc, Mutex, Weak};
 
 use periplus_diagnostics::Diagnostics;
-use periplus_msgs::rcl_interfaces::ParameterValue;
+use periplus_msgs::rcl_interfaces::{Parameter, ParameterValue};
 
 use crate::arguments::Arguments;
 use crate::common::{Common, lock};
@@ -13,6 +13,7 @@ use crate::info::{NodeInfo, ServiceInfo, TopicInfo, Traffic};
 use crate::interceptor::Interceptor;
 use crate::live::Live;
 use crate::node::{Node, NodeCore};
+use crate::parameters::ParameterRejection;
 use crate::registry::Registry;
 use crate::settings::NodeSettings;
 use crate::tap::{Sink, TapId};
@@ -98,12 +99,45 @@ impl Graph {
     /// none of the matched nodes declares. Every node has `use_sim_time`.
     #[must_use]
     pub fn unused_arguments(&self) -> Diagnostics {
-        let nodes: Vec<Weak<NodeCore>> = lock(&self.0.registry).nodes.values().cloned().collect();
-        let nodes: Vec<Arc<NodeCore>> = nodes.iter().filter_map(Weak::upgrade).collect();
+        let nodes = self.living_nodes();
         let names: Vec<&str> = nodes.iter().map(|node| &*node.full_name).collect();
         self.arguments().unused(&names, &|node, parameter| {
             nodes[node].standard.get().is_some_and(|own| lock(&own.store).uses(parameter))
         })
+    }
+
+    /// Parameters of all nodes with their values, by the full names of the nodes.
+    #[must_use]
+    pub fn parameters(&self) -> Vec<(String, Vec<Parameter>)> {
+        let nodes = self.living_nodes();
+        let of = |node: &Arc<NodeCore>| {
+            let own = node.standard.get().map(|own| lock(&own.store).all());
+            (node.full_name.to_string(), own.unwrap_or_default())
+        };
+        nodes.iter().map(of).collect()
+    }
+
+    /// Checks a value for a parameter, without setting it.
+    ///
+    /// # Errors
+    /// The reason: no such node or parameter, another type, or a value out of its range.
+    pub fn check_parameter(
+        &self,
+        node: &str,
+        parameter: Parameter,
+    ) -> Result<(), ParameterRejection> {
+        let nodes = self.living_nodes();
+        let found = nodes.iter().find(|it| *it.full_name == *node);
+        let own = found.and_then(|node| node.standard.get());
+        let missing = || ParameterRejection::new(format!("there is no node `{node}`"));
+        let own = own.ok_or_else(missing)?;
+        let proposed = lock(&own.store).propose(std::slice::from_ref(&parameter));
+        proposed.map(drop).map_err(ParameterRejection::new)
+    }
+
+    fn living_nodes(&self) -> Vec<Arc<NodeCore>> {
+        let nodes: Vec<Weak<NodeCore>> = lock(&self.0.registry).nodes.values().cloned().collect();
+        nodes.iter().filter_map(Weak::upgrade).collect()
     }
 
     /// Names, parameters and log levels for all nodes.

@@ -154,6 +154,11 @@ pub(super) const EXAMPLES: &[(&str, &[Example])] = &[
         ("periplus slam drive.clf --out map --method gmapping", "Particle filter, from a CARMEN log"),
         ("periplus slam --live", "Map what is on ROS 2 now"),
     ]),
+    ("sweep", &[
+        ("periplus sweep office.scenario.yaml --param inflation_radius=0.3:0.8:6 --seeds 20", "A parameter of both costmaps, 120 runs"),
+        ("periplus sweep office.scenario.yaml --param loss=0,0.2 --param max_speed=0.2:0.6:3 --ray auto", "A grid of two parameters, on a Ray cluster"),
+        ("periplus sweep office.scenario.yaml --param inflation_radius=0.3:0.8 --search goal_time_s --trials 30", "Search for the shortest time with Optuna"),
+    ]),
     ("teleop", &[("periplus teleop", "Drive with the keys u i o j k l"),
         ("periplus teleop -r cmd_vel:=/robot1/cmd_vel", "A robot with another topic")]),
     ("tf echo", &[("periplus tf echo map base_link", "Pose of base_link in map")]),

@@ -73,7 +73,13 @@ impl EventRunner {
                 publishers.insert(topic.clone(), publisher);
             }
         }
-        let events = scenario.events.iter().map(|event| (event.clone(), EventState::Waiting));
+        let events = scenario.events.iter().map(|event| {
+            let mut event = event.clone();
+            if let EventAction::Spawn(spawn) = &mut event.action {
+                spawn.file = scenario.resolve(&spawn.file).to_string_lossy().into_owned();
+            }
+            (event, EventState::Waiting)
+        });
         Ok(Self {
             events: events.collect(),
             publishers,
@@ -215,6 +221,19 @@ impl EventRunner {
                 Ok(false)
             }
         }
+    }
+
+    /// Inserts the models of all events that spawn, to read their files.
+    ///
+    /// # Errors
+    /// Files that cannot be read.
+    pub(super) fn spawn_all(&self, simulation: &mut Simulation) -> Result<(), String> {
+        for (event, _) in &self.events {
+            if let EventAction::Spawn(spawn) = &event.action {
+                self.spawn(spawn, simulation)?;
+            }
+        }
+        Ok(())
     }
 
     fn spawn(&self, spawn: &SpawnEventParams, simulation: &mut Simulation) -> Result<(), String> {

@@ -4,6 +4,8 @@ use std::path::Path;
 
 use periplus_graph::Arguments;
 use periplus_nav_nodes::slam_toolbox::Program;
+use periplus_os::Machine;
+use periplus_resources::Host as _;
 use periplus_session::nodes::{
     CostmapRequest, CostmapSource, EstimatorRequest, MappingRequest, MappingSource,
     NavigationDefaults, NavigationRequest, PlanningMap, RobotBase, slam_parameters,
@@ -51,7 +53,7 @@ pub(super) fn compose(
             ScenarioPhysics::Rigid => PhysicsMode::Rigid,
             ScenarioPhysics::Kinematic => PhysicsMode::Kinematic,
         },
-        arguments: arguments(scenario)?,
+        arguments: arguments(scenario.parameters.iter().chain(&options.parameters))?,
         ..Options::default()
     };
     Ok((composition, simulation))
@@ -61,7 +63,7 @@ pub(super) fn compose(
 fn require(file: &Path) -> Result<(), ScenarioError> {
     // Names of packages and models are resolved when the file is read.
     let is_uri = file.to_string_lossy().contains("://");
-    if is_uri || file.exists() {
+    if is_uri || Machine.kind(file).is_some() {
         return Ok(());
     }
     let advice = periplus_session::files::advice(file);
@@ -69,9 +71,11 @@ fn require(file: &Path) -> Result<(), ScenarioError> {
 }
 
 /// Parameters of nodes, as `--ros-args -p node:name:=value`.
-fn arguments(scenario: &Scenario) -> Result<Arguments, ScenarioError> {
+fn arguments<'a>(
+    parameters: impl Iterator<Item = &'a [String; 3]>,
+) -> Result<Arguments, ScenarioError> {
     let mut words = Vec::new();
-    for [node, name, value] in &scenario.parameters {
+    for [node, name, value] in parameters {
         let node = node.trim_start_matches('/');
         words.extend(["-p".to_owned(), format!("{node}:{name}:={value}")]);
     }

@@ -118,6 +118,14 @@ impl ScenarioTask {
         })
     }
 
+    /// Inserts the models of all events that spawn, to read their files.
+    ///
+    /// # Errors
+    /// Files that cannot be read.
+    pub(super) fn spawn_all(&self, simulation: &mut Simulation) -> Result<(), String> {
+        self.events.spawn_all(simulation)
+    }
+
     /// End of the run.
     pub(super) fn outcome(&self, session: &SimulationSession, stop: &AtomicBool) -> RunOutcome {
         match session.end() {

@@ -176,7 +176,7 @@ impl Store {
 
     /// Returns the values of the table with all of these set. The error is for the caller of the
     /// service.
-    pub(super) fn propose(&self, set: &[Named]) -> Result<Option<ParamValues>, String> {
+    pub(crate) fn propose(&self, set: &[Named]) -> Result<Option<ParamValues>, String> {
         let mut values = self.values.clone();
         for Named { name, value } in set {
             if name == USE_SIM_TIME {
