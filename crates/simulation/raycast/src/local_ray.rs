@@ -63,18 +63,18 @@ pub(crate) fn reach(best: f32, margin: f32) -> f32 {
     best * (1.0 + 32.0 * ROUNDING_RATIO) + margin
 }
 
-/// Precomputed terms of the slab test of a ray.
-pub(crate) struct BoxTest<V> {
+/// Precomputed terms of the slab test of a ray, one number each.
+pub(crate) struct BoxTerms {
     near_rows: [usize; 3],
     far_rows: [usize; 3],
-    near: [V; 3],
-    near_offset: [V; 3],
-    far: [V; 3],
-    far_offset: [V; 3],
-    min: V,
+    near: [f32; 3],
+    near_offset: [f32; 3],
+    far: [f32; 3],
+    far_offset: [f32; 3],
+    min: f32,
 }
 
-impl<V: V8> BoxTest<V> {
+impl BoxTerms {
     #[inline(always)]
     pub(crate) fn new(ray: &LocalRay, margin: f32) -> Self {
         let mut near_rows = [0; 3];
@@ -97,14 +97,63 @@ impl<V: V8> BoxTest<V> {
             far_offset[axis] = -end + end.abs() * (4.0 * ROUNDING_RATIO);
         }
         let min = ray.min * (1.0 - 32.0 * ROUNDING_RATIO) - margin;
+        let min = if min > 0.0 { min } else { 0.0 };
+        Self { near_rows, far_rows, near, near_offset, far, far_offset, min }
+    }
+
+    /// Returns the octant of the direction: bit `axis` is set if the ray runs backwards along it.
+    #[inline(always)]
+    pub(crate) fn octant(&self) -> usize {
+        let [x, y, z] = self.near_rows;
+        usize::from(x == 3) | usize::from(y == 4) << 1 | usize::from(z == 5) << 2
+    }
+
+    #[inline(always)]
+    fn near<V: V8>(&self, node: &Node, axis: usize) -> V {
+        let row = V::load(&node.0[self.near_rows[axis] & 7]);
+        row.mul_add_about(V::splat(self.near[axis]), V::splat(self.near_offset[axis]))
+    }
+
+    #[inline(always)]
+    fn far<V: V8>(&self, node: &Node, axis: usize) -> V {
+        let row = V::load(&node.0[self.far_rows[axis] & 7]);
+        row.mul_add_about(V::splat(self.far[axis]), V::splat(self.far_offset[axis]))
+    }
+
+    /// Returns a mask of the children that may be hit within `reach`, and their entry distances.
+    #[inline(always)]
+    pub(crate) fn children<V: V8>(&self, node: &Node, reach: f32) -> (V, V) {
+        let enter = self.near::<V>(node, 0).max(self.near(node, 1));
+        let enter = enter.max(self.near::<V>(node, 2).max(V::splat(self.min)));
+        let leave = self.far::<V>(node, 0).min(self.far(node, 1));
+        let leave = leave.min(self.far::<V>(node, 2).min(V::splat(reach)));
+        (enter.le(leave), enter)
+    }
+}
+
+/// [`BoxTerms`] in registers.
+pub(crate) struct BoxTest<V> {
+    near_rows: [usize; 3],
+    far_rows: [usize; 3],
+    near: [V; 3],
+    near_offset: [V; 3],
+    far: [V; 3],
+    far_offset: [V; 3],
+    min: V,
+}
+
+impl<V: V8> BoxTest<V> {
+    #[inline(always)]
+    pub(crate) fn new(ray: &LocalRay, margin: f32) -> Self {
+        let terms = BoxTerms::new(ray, margin);
         Self {
-            near_rows,
-            far_rows,
-            near: splat3(near),
-            near_offset: splat3(near_offset),
-            far: splat3(far),
-            far_offset: splat3(far_offset),
-            min: V::splat(if min > 0.0 { min } else { 0.0 }),
+            near_rows: terms.near_rows,
+            far_rows: terms.far_rows,
+            near: splat3(terms.near),
+            near_offset: splat3(terms.near_offset),
+            far: splat3(terms.far),
+            far_offset: splat3(terms.far_offset),
+            min: V::splat(terms.min),
         }
     }
 

@@ -40,7 +40,19 @@ pub struct TriangleMesh {
 #[derive(Clone, Debug)]
 pub(crate) struct Block {
     pub(crate) corners: [[Row; 3]; 3],
-    pub(crate) ids: [u32; 8],
+    /// Triangles as bits, `u32::MAX` in unused lanes. Read as f32, the bits of two triangles compare in
+    /// the order of their numbers.
+    pub(crate) ids: Row,
+}
+
+impl Block {
+    const EMPTY: Self =
+        Self { corners: [[Row([0.0; 8]); 3]; 3], ids: Row([f32::from_bits(u32::MAX); 8]) };
+
+    #[inline(always)]
+    pub(crate) fn id(&self, lane: usize) -> u32 {
+        self.ids.0[lane].to_bits()
+    }
 }
 
 /// Reasons that triangles cannot form a mesh.
@@ -146,10 +158,10 @@ impl TriangleMesh {
                     continue;
                 }
                 let (first, count) = leaf_range(word);
-                let mut block = Block { corners: [[Row([0.0; 8]); 3]; 3], ids: [u32::MAX; 8] };
+                let mut block = Block::EMPTY;
                 for (lane, each) in boxes[first..first + count].iter().enumerate() {
                     let id = each.number();
-                    block.ids[lane] = id;
+                    block.ids.0[lane] = f32::from_bits(id);
                     for (corner, &position) in triangles[id as usize].iter().enumerate() {
                         for (axis, &value) in local[position as usize].iter().enumerate() {
                             block.corners[corner][axis].0[lane] = value;
@@ -291,7 +303,7 @@ impl<V: V8, A: Fn(u32) -> bool, const ANY: bool> Leaves for RayLeaves<'_, V, A, 
         while bits != 0 {
             let lane = bits.trailing_zeros() as usize & 7;
             bits &= bits - 1;
-            let (distance, id) = (distances.0[lane], block.ids[lane]);
+            let (distance, id) = (distances.0[lane], block.id(lane));
             if self.nearest.is_worse_than(distance, id) && (self.accept)(id) {
                 *self.nearest = Nearest { distance, id };
                 if ANY {

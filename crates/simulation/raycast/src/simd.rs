@@ -9,6 +9,9 @@
 
 mod simd4;
 
+use crate::bvh::MAX_STACK_ENTRIES;
+use crate::traversal::PendingChildren;
+
 pub(crate) use simd4::V4;
 
 /// Eight f32 in memory, aligned for a vector load.
@@ -49,8 +52,14 @@ pub(crate) trait V8: Copy {
     /// Rounds towards zero. Every lane must be within ±2³¹.
     fn truncate(self) -> [i32; 8];
 
-    /// Prefetches into the cache.
-    fn prefetch<T>(what: &T);
+    /// Pushes the children whose lane in the mask `hits` is set. `order` holds three bits for each
+    /// position, the child that comes first in the lowest.
+    fn push(hits: Self, enter: Self, words: &Row, order: u32, pending: &mut PendingChildren);
+    /// Removes the children that are entered beyond `limit`; the others keep their order.
+    fn cull(pending: &mut PendingChildren, limit: f32);
+
+    /// Prefetches the five cache lines from an address on, which need not be valid.
+    fn prefetch(address: *const u8);
 
     /// Runs a task with this type's instructions enabled throughout, as a separate function. Everything
     /// inside a task is inlined, so a part with several callers is a separate task, or it is compiled once
@@ -89,6 +98,7 @@ fn has_avx2() -> bool {
         && is_x86_feature_detected!("fma")
         && is_x86_feature_detected!("bmi1")
         && is_x86_feature_detected!("lzcnt")
+        && is_x86_feature_detected!("popcnt")
 }
 
 #[cfg(not(test))]
@@ -213,7 +223,30 @@ impl V8 for Portable {
         self.0.map(|value| value as i32)
     }
     #[inline(always)]
-    fn prefetch<T>(_: &T) {}
+    fn push(hits: Self, enter: Self, words: &Row, order: u32, pending: &mut PendingChildren) {
+        let bits = hits.bits();
+        for position in 0..8 {
+            let child = (order >> (3 * position)) as usize & 7;
+            if bits >> child & 1 != 0 {
+                let height = pending.height % MAX_STACK_ENTRIES;
+                pending.distances[height] = enter.0[child];
+                pending.words[height] = words.0[child].to_bits();
+                pending.height = height + 1;
+            }
+        }
+    }
+    #[inline(always)]
+    fn cull(pending: &mut PendingChildren, limit: f32) {
+        let mut kept = 0;
+        for index in 0..pending.height.min(MAX_STACK_ENTRIES) {
+            pending.distances[kept] = pending.distances[index];
+            pending.words[kept] = pending.words[index];
+            kept += usize::from(pending.distances[index] <= limit);
+        }
+        pending.height = kept;
+    }
+    #[inline(always)]
+    fn prefetch(_: *const u8) {}
     // Not inlined into `dispatch`, whose stack frame would otherwise include this one.
     #[inline(never)]
     fn run<T: Task>(task: T) -> T::Output {
@@ -228,7 +261,33 @@ pub(crate) use avx2::Avx2;
 mod avx2 {
     use std::arch::x86_64::*;
 
-    use super::{Row, Task, V8};
+    use super::{MAX_STACK_ENTRIES, PendingChildren, Row, Task, V8};
+
+    /// For each mask of eight bits the positions of the set bits, in order.
+    static SET_BITS: [[u8; 8]; 256] = {
+        let mut table = [[0; 8]; 256];
+        let mut mask = 0;
+        while mask < 256 {
+            let (mut bit, mut count) = (0_u8, 0);
+            while bit < 8 {
+                if mask >> bit & 1 != 0 {
+                    table[mask][count] = bit;
+                    count += 1;
+                }
+                bit += 1;
+            }
+            mask += 1;
+        }
+        table
+    };
+
+    /// Returns the lanes of the set bits of a mask, in order.
+    #[inline(always)]
+    fn set_lanes(mask: i32) -> __m256i {
+        let row = &SET_BITS[mask as usize & 255];
+        // SAFETY: the row is eight readable bytes; the machine has AVX2 (see `Avx2`).
+        unsafe { _mm256_cvtepu8_epi32(_mm_loadl_epi64(row.as_ptr().cast())) }
+    }
 
     /// Eight f32 in an AVX register. Values of this type come to be only inside [`V8::run`], which
     /// [`super::dispatch`] reaches only on machines that have the instructions: that makes every
@@ -315,13 +374,58 @@ mod avx2 {
             result
         }
         #[inline(always)]
-        fn prefetch<T>(what: &T) {
+        fn push(hits: Self, enter: Self, words: &Row, order: u32, pending: &mut PendingChildren) {
+            let height = pending.height % MAX_STACK_ENTRIES;
+            // SAFETY: a `Row` is 32 readable bytes, aligned to 32. The targets are eight entries each
+            // from `height` on, and the arrays have eight more than `MAX_STACK_ENTRIES`; the unaligned
+            // stores ask for no more. The machine has AVX2 (see `Avx2`).
+            unsafe {
+                let order = _mm256_set1_epi32(order.cast_signed());
+                // Only the lowest three bits of an index count.
+                let order = _mm256_srlv_epi32(order, _mm256_setr_epi32(0, 3, 6, 9, 12, 15, 18, 21));
+                let mask = _mm256_movemask_ps(_mm256_permutevar8x32_ps(hits.0, order));
+                let lanes = _mm256_permutevar8x32_epi32(order, set_lanes(mask));
+                let words = _mm256_load_ps(words.0.as_ptr());
+                let words = _mm256_permutevar8x32_ps(words, lanes);
+                let enter = _mm256_permutevar8x32_ps(enter.0, lanes);
+                _mm256_storeu_ps(pending.distances.as_mut_ptr().add(height), enter);
+                _mm256_storeu_ps(pending.words.as_mut_ptr().add(height).cast(), words);
+                pending.height = height + mask.count_ones() as usize;
+            }
+        }
+        #[inline(always)]
+        fn cull(pending: &mut PendingChildren, limit: f32) {
+            let height = pending.height.min(MAX_STACK_ENTRIES);
+            let (mut read, mut kept) = (0, 0);
+            while read < height {
+                // SAFETY: `kept <= read < height <= MAX_STACK_ENTRIES`, and the arrays have eight more
+                // entries; loads and stores are unaligned. The machine has AVX2 (see `Avx2`).
+                unsafe {
+                    let distances = pending.distances.as_mut_ptr();
+                    let words = pending.words.as_mut_ptr();
+                    let own = _mm256_loadu_ps(distances.add(read));
+                    let own_words = _mm256_loadu_si256(words.add(read).cast());
+                    let near = _mm256_cmp_ps::<_CMP_LE_OQ>(own, _mm256_set1_ps(limit));
+                    let used = (1 << (height - read).min(8)) - 1;
+                    let mask = _mm256_movemask_ps(near) & used;
+                    let lanes = set_lanes(mask);
+                    let own = _mm256_permutevar8x32_ps(own, lanes);
+                    let own_words = _mm256_permutevar8x32_epi32(own_words, lanes);
+                    _mm256_storeu_ps(distances.add(kept), own);
+                    _mm256_storeu_si256(words.add(kept).cast(), own_words);
+                    kept += mask.count_ones() as usize;
+                }
+                read += 8;
+            }
+            pending.height = kept;
+        }
+        #[inline(always)]
+        fn prefetch(address: *const u8) {
             const CACHE_LINE_BYTES: usize = 64;
-            for line in 0..size_of::<T>().div_ceil(CACHE_LINE_BYTES) {
-                let index =
-                    std::ptr::from_ref(what).cast::<i8>().wrapping_add(line * CACHE_LINE_BYTES);
+            for line in 0..5 {
+                let line = address.cast::<i8>().wrapping_add(line * CACHE_LINE_BYTES);
                 // SAFETY: a hint, which reads nothing, at any address.
-                unsafe { _mm_prefetch::<_MM_HINT_T0>(index) };
+                unsafe { _mm_prefetch::<_MM_HINT_T0>(line) };
             }
         }
         #[inline(always)]
@@ -332,7 +436,7 @@ mod avx2 {
     }
 
     #[inline(never)]
-    #[target_feature(enable = "avx2,fma,bmi1,lzcnt")]
+    #[target_feature(enable = "avx2,fma,bmi1,lzcnt,popcnt")]
     fn run<T: Task>(task: T) -> T::Output {
         task.run::<Avx2>()
     }

@@ -165,7 +165,7 @@ impl<V: V8> Leaves for PacketLeaves<'_, V> {
                 }
                 found = true;
                 // At equal distance the lower id wins.
-                let id = V::splat(f32::from_bits(block.ids[lane]));
+                let id = V::splat(block.ids.0[lane]);
                 let ids = V::load(&best.ids);
                 let stays = nearest.le(distances).and(ids.le(id));
                 best.distances = distances.select(nearest, hit).store();

@@ -166,8 +166,10 @@ impl<V: V8, F: FnMut(usize, &NearestHit)> RayQueue for InterleavedRays<'_, '_, V
     fn done(&mut self, (index, mut found): Self::Ticket, nearest: Nearest) {
         let (world, rays, filter) = (self.many.world, self.many.rays, self.many.filter);
         world.keep_fixed(nearest, &mut found);
-        let (ray, scratch) = (&rays[index], &mut *self.scratch);
-        V::run(FindInstances { world, ray, filter, found: &mut found, scratch });
+        if world.has_instances() {
+            let (ray, scratch) = (&rays[index], &mut *self.scratch);
+            V::run(FindInstances { world, ray, filter, found: &mut found, scratch });
+        }
         (self.many.report)(index, &found);
     }
 }
@@ -226,7 +228,7 @@ impl<F: FnMut(usize, &NearestHit)> Task for Many<'_, F> {
             if together && self.add_to_group::<V>(picked, widest, &mut group, &mut scratch) {
                 continue;
             }
-            if together && many {
+            if together {
                 loose.extend_from_slice(picked);
             } else {
                 for &index in picked {

@@ -69,7 +69,7 @@ impl PacketGroup {
         scratch: &mut Scratch,
     ) {
         let Some(pyramid) = self.pyramid.take() else { return };
-        let instances = !world.resting.nodes.is_empty() || !world.moving.nodes.is_empty();
+        let instances = world.has_instances();
         self.found = [[NearestHit::nothing(0.0); 8]; MAX_GROUP_COUNT];
         let found = &mut self.found;
         let mut best = [Best::within(Row([0.0; 8])); MAX_GROUP_COUNT];
@@ -167,6 +167,10 @@ impl RaycastWorld {
         let first = *picked.first()?;
         let mut member = Member { slots: [first; 8], count: picked.len() };
         let origin_m = rays[first].origin_m;
+        // Scattered rays are told apart by the first two.
+        if rays[*picked.get(1)?].origin_m != origin_m {
+            return None;
+        }
         let (mut directions, mut min) = ([rays[first].direction; 8], [0.0; 8]);
         let mut fits = true;
         for (lane, &index) in picked.iter().enumerate() {

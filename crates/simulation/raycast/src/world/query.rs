@@ -125,6 +125,12 @@ impl RaycastWorld {
         world_from_body.rotate_into_world(solid.normal(point, found.primitive))
     }
 
+    /// Returns true if there are bounded instances besides the fixed triangles.
+    #[inline(always)]
+    pub(super) fn has_instances(&self) -> bool {
+        !self.resting.nodes.is_empty() || !self.moving.nodes.is_empty()
+    }
+
     /// Returns true if the filter accepts every fixed triangle.
     pub(super) fn sees_all_fixed(&self, filter: Filter) -> bool {
         (self.parts.is_empty() || self.parts_mask & filter.mask != 0)
@@ -135,6 +141,9 @@ impl RaycastWorld {
     /// Returns the instance of a fixed triangle and the triangle's index in it.
     #[inline]
     pub(super) fn part_of(&self, triangle: u32) -> (u32, u32) {
+        if let [part] = &*self.parts {
+            return (part.instance, triangle - part.first);
+        }
         let after = self.parts.partition_point(|part| part.first <= triangle);
         let part = self.parts[after - 1];
         (part.instance, triangle - part.first)
@@ -260,7 +269,7 @@ impl RaycastWorld {
         found: &mut NearestHit,
         scratch: &mut Scratch,
     ) {
-        if self.resting.nodes.is_empty() && self.moving.nodes.is_empty() {
+        if !self.has_instances() {
             return;
         }
         let local = LocalRay::new(ray.origin_m - self.middle_m, ray.direction, ray.min_m);
