@@ -9,7 +9,9 @@
 
 mod simd4;
 
-use crate::bvh::MAX_STACK_ENTRIES;
+use periplus_geometry::DVec3;
+
+use crate::bvh::MAX_PENDING_CHILDREN;
 use crate::traversal::PendingChildren;
 
 pub(crate) use simd4::V4;
@@ -51,6 +53,9 @@ pub(crate) trait V8: Copy {
     fn bits(self) -> u32;
     /// Rounds towards zero. Every lane must be within ±2³¹.
     fn truncate(self) -> [i32; 8];
+
+    /// Subtracts an origin from eight points and rounds: a vector for each coordinate.
+    fn transpose(points: [&DVec3; 8], origin: DVec3) -> [Self; 3];
 
     /// Pushes the children whose lane in the mask `hits` is set. `order` holds three bits for each
     /// position, the child that comes first in the lowest.
@@ -223,12 +228,24 @@ impl V8 for Portable {
         self.0.map(|value| value as i32)
     }
     #[inline(always)]
+    #[expect(clippy::cast_possible_truncation, reason = "single precision is the point")]
+    fn transpose(points: [&DVec3; 8], origin: DVec3) -> [Self; 3] {
+        let mut rows = [Self([0.0; 8]); 3];
+        for (lane, &point) in points.into_iter().enumerate() {
+            let point = point - origin;
+            rows[0].0[lane] = point.x as f32;
+            rows[1].0[lane] = point.y as f32;
+            rows[2].0[lane] = point.z as f32;
+        }
+        rows
+    }
+    #[inline(always)]
     fn push(hits: Self, enter: Self, words: &Row, order: u32, pending: &mut PendingChildren) {
         let bits = hits.bits();
         for position in 0..8 {
             let child = (order >> (3 * position)) as usize & 7;
             if bits >> child & 1 != 0 {
-                let height = pending.height % MAX_STACK_ENTRIES;
+                let height = pending.height.min(MAX_PENDING_CHILDREN);
                 pending.distances[height] = enter.0[child];
                 pending.words[height] = words.0[child].to_bits();
                 pending.height = height + 1;
@@ -238,7 +255,7 @@ impl V8 for Portable {
     #[inline(always)]
     fn cull(pending: &mut PendingChildren, limit: f32) {
         let mut kept = 0;
-        for index in 0..pending.height.min(MAX_STACK_ENTRIES) {
+        for index in 0..pending.height.min(MAX_PENDING_CHILDREN) {
             pending.distances[kept] = pending.distances[index];
             pending.words[kept] = pending.words[index];
             kept += usize::from(pending.distances[index] <= limit);
@@ -261,7 +278,9 @@ pub(crate) use avx2::Avx2;
 mod avx2 {
     use std::arch::x86_64::*;
 
-    use super::{MAX_STACK_ENTRIES, PendingChildren, Row, Task, V8};
+    use periplus_geometry::DVec3;
+
+    use super::{MAX_PENDING_CHILDREN, PendingChildren, Row, Task, V8};
 
     /// For each mask of eight bits the positions of the set bits, in order.
     static SET_BITS: [[u8; 8]; 256] = {
@@ -374,10 +393,35 @@ mod avx2 {
             result
         }
         #[inline(always)]
+        fn transpose(points: [&DVec3; 8], origin: DVec3) -> [Self; 3] {
+            // SAFETY: on registers only; the machine has AVX2 (see `Avx2`).
+            unsafe {
+                let origin = _mm256_setr_pd(origin.x, origin.y, origin.z, 0.0);
+                /// A macro, as closures are compiled without the instructions.
+                macro_rules! single {
+                    ($point:ident) => {{
+                        let point = _mm256_setr_pd($point.x, $point.y, $point.z, 0.0);
+                        _mm256_cvtpd_ps(_mm256_sub_pd(point, origin))
+                    }};
+                }
+                let [a, b, c, d, e, f, g, h] = points;
+                let (a, b, c, d) = (single!(a), single!(b), single!(c), single!(d));
+                let (e, f, g, h) = (single!(e), single!(f), single!(g), single!(h));
+                let (ab, cd) = (_mm_unpacklo_ps(a, b), _mm_unpacklo_ps(c, d));
+                let (ef, gh) = (_mm_unpacklo_ps(e, f), _mm_unpacklo_ps(g, h));
+                let x = _mm256_set_m128(_mm_movelh_ps(ef, gh), _mm_movelh_ps(ab, cd));
+                let y = _mm256_set_m128(_mm_movehl_ps(gh, ef), _mm_movehl_ps(cd, ab));
+                let (ab, cd) = (_mm_unpackhi_ps(a, b), _mm_unpackhi_ps(c, d));
+                let (ef, gh) = (_mm_unpackhi_ps(e, f), _mm_unpackhi_ps(g, h));
+                let z = _mm256_set_m128(_mm_movelh_ps(ef, gh), _mm_movelh_ps(ab, cd));
+                [Self(x), Self(y), Self(z)]
+            }
+        }
+        #[inline(always)]
         fn push(hits: Self, enter: Self, words: &Row, order: u32, pending: &mut PendingChildren) {
-            let height = pending.height % MAX_STACK_ENTRIES;
+            let height = pending.height.min(MAX_PENDING_CHILDREN);
             // SAFETY: a `Row` is 32 readable bytes, aligned to 32. The targets are eight entries each
-            // from `height` on, and the arrays have eight more than `MAX_STACK_ENTRIES`; the unaligned
+            // from `height` on, and the arrays have eight more than `MAX_PENDING_CHILDREN`; the unaligned
             // stores ask for no more. The machine has AVX2 (see `Avx2`).
             unsafe {
                 let order = _mm256_set1_epi32(order.cast_signed());
@@ -395,10 +439,10 @@ mod avx2 {
         }
         #[inline(always)]
         fn cull(pending: &mut PendingChildren, limit: f32) {
-            let height = pending.height.min(MAX_STACK_ENTRIES);
+            let height = pending.height.min(MAX_PENDING_CHILDREN);
             let (mut read, mut kept) = (0, 0);
             while read < height {
-                // SAFETY: `kept <= read < height <= MAX_STACK_ENTRIES`, and the arrays have eight more
+                // SAFETY: `kept <= read < height <= MAX_PENDING_CHILDREN`, and the arrays have eight more
                 // entries; loads and stores are unaligned. The machine has AVX2 (see `Avx2`).
                 unsafe {
                     let distances = pending.distances.as_mut_ptr();
@@ -430,9 +474,30 @@ mod avx2 {
         }
         #[inline(always)]
         fn run<T: Task>(task: T) -> T::Output {
+            if has_avx512() {
+                // SAFETY: the machine has these instructions.
+                return unsafe { run_avx512(task) };
+            }
             // SAFETY: `dispatch` saw that the machine has these instructions.
             unsafe { run(task) }
         }
+    }
+
+    #[inline(always)]
+    fn has_avx512() -> bool {
+        is_x86_feature_detected!("avx512f")
+            && is_x86_feature_detected!("avx512vl")
+            && is_x86_feature_detected!("avx512dq")
+            && is_x86_feature_detected!("avx512bw")
+            && is_x86_feature_detected!("bmi2")
+    }
+
+    /// [`run`] with more registers and with numbers broadcast from memory within an operation. The
+    /// vectors are the same, and so are the results.
+    #[inline(never)]
+    #[target_feature(enable = "avx2,fma,bmi1,bmi2,lzcnt,popcnt,avx512f,avx512vl,avx512dq,avx512bw")]
+    fn run_avx512<T: Task>(task: T) -> T::Output {
+        task.run::<Avx2>()
     }
 
     #[inline(never)]

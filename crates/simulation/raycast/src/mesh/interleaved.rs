@@ -1,105 +1,88 @@
 //! Interleaved traversal of several rays, for trees larger than the cache: while the next node of
 //! one ray is fetched from memory, the other rays proceed.
 
-use super::{Block, Nearest, RayRows, TriangleMesh};
+use super::{Nearest, RayRows, TriangleMesh};
 use crate::bvh::{LEAF_MASK, leaf_range};
-use crate::local_ray::{BoxTerms, LocalRay, distance_margin, reach};
+use crate::local_ray::{PreparedRay, RayBlock, reach};
 use crate::simd::V8;
 use crate::traversal::PendingChildren;
 use crate::triangle;
 
 /// Number of interleaved rays.
-const SLOTS: usize = 32;
+const SLOTS: usize = 16;
 
-/// Indices of slots. Whether one is added is no branch.
-#[derive(Clone, Copy)]
-struct Slots {
-    indices: [u8; SLOTS],
-    count: usize,
+/// Maximum number of leaves of a tree that mostly is in the second cache, so that fetching ahead is only
+/// work.
+const MAX_CACHED_BLOCKS: usize = 4000;
+
+/// Up to eight rays that wait for a slot.
+pub(crate) struct QueuedRays<T> {
+    pub(crate) block: RayBlock,
+    pub(crate) tickets: [T; 8],
+    pub(crate) count: usize,
 }
-
-impl Default for Slots {
-    fn default() -> Self {
-        Self { indices: [0; SLOTS], count: 0 }
-    }
-}
-
-impl Slots {
-    #[inline(always)]
-    #[expect(clippy::cast_possible_truncation, reason = "fewer than 256 slots")]
-    fn push(&mut self, slot: usize, added: bool) {
-        self.indices[self.count % SLOTS] = slot as u8;
-        self.count += usize::from(added);
-    }
-
-    #[inline(always)]
-    fn iter(&self) -> impl Iterator<Item = usize> {
-        self.indices[..self.count.min(SLOTS)].iter().map(|&slot| usize::from(slot))
-    }
-}
-
-/// Greater than every distance and, as bits, than every triangle's number.
-const NO_TRIANGLE: f32 = f32::INFINITY;
 
 /// Source of rays and receiver of their hits.
 pub(crate) trait RayQueue {
     /// Identifier of a ray.
-    type Ticket: Copy;
-    /// Returns the next ray and its maximum distance.
-    fn next(&mut self) -> Option<(Self::Ticket, LocalRay, f32)>;
+    type Ticket: Copy + Default;
+    /// Replaces the queued rays by the next ones; none at the end.
+    fn fill(&mut self, queued: &mut QueuedRays<Self::Ticket>);
     /// Reports the first hit of the ray with a ticket.
     fn done(&mut self, ticket: Self::Ticket, nearest: Nearest);
+}
+
+/// Rays of a queue, one after the other.
+struct Source<'a, Q: RayQueue> {
+    queue: &'a mut Q,
+    queued: QueuedRays<Q::Ticket>,
+    next: usize,
+}
+
+impl<Q: RayQueue> Source<'_, Q> {
+    /// Returns the lane of the next ray.
+    #[inline(always)]
+    fn next(&mut self) -> Option<usize> {
+        if self.next >= self.queued.count {
+            self.next = 0;
+            self.queue.fill(&mut self.queued);
+            if self.queued.count == 0 {
+                return None;
+            }
+        }
+        self.next += 1;
+        Some(self.next - 1)
+    }
 }
 
 /// A ray during traversal. Its terms are single numbers, broadcast where they are used: they are
 /// cheaper to write and to read than rows of eight.
 struct InterleavedRay<T> {
-    terms: BoxTerms,
-    octant: usize,
+    ray: PreparedRay,
     limit: f32,
-    ray: LocalRay,
-    margin: f32,
     nearest: Nearest,
     ticket: T,
     pending: PendingChildren,
 }
 
 impl<T: Copy> InterleavedRay<T> {
+    /// Replaces the ray by a queued one.
     #[inline(always)]
-    fn new(mesh: &TriangleMesh, ticket: T, ray: &LocalRay, max: f32) -> Self {
-        let mut slot = Self {
-            terms: BoxTerms::new(ray, 0.0),
-            octant: 0,
-            limit: 0.0,
-            ray: *ray,
-            margin: 0.0,
-            nearest: Nearest { distance: max, id: u32::MAX },
-            ticket,
-            pending: PendingChildren::EMPTY,
-        };
-        slot.restart(mesh, ticket, ray, max);
-        slot
-    }
-
-    /// Replaces the ray.
-    #[inline(always)]
-    fn restart(&mut self, mesh: &TriangleMesh, ticket: T, ray: &LocalRay, max: f32) {
-        self.margin = distance_margin(mesh.extent, ray.shear[2]);
-        self.terms = BoxTerms::new(ray, self.margin);
-        self.octant = self.terms.octant();
-        self.limit = reach(max, self.margin);
-        self.ray = *ray;
+    fn restart(&mut self, queued: &QueuedRays<T>, lane: usize) {
+        let max = queued.block.max.0[lane & 7];
+        self.ray = queued.block.ray(lane);
+        self.limit = reach(max, self.ray.margin);
         self.nearest = Nearest { distance: max, id: u32::MAX };
-        self.ticket = ticket;
+        self.ticket = queued.tickets[lane & 7];
         self.pending.restart();
     }
 
     /// Visits the node that is pending last.
     #[inline(always)]
-    fn visit_node<V: V8>(&mut self, mesh: &TriangleMesh) {
+    fn visit_node<V: V8, const FLAT: bool>(&mut self, mesh: &TriangleMesh) {
         let node = &mesh.nodes[self.pending.pop() as usize];
-        let (hits, enter) = self.terms.children::<V>(node, self.limit);
-        V::push(hits, enter, &node.0[6], node.order(self.octant), &mut self.pending);
+        let (hits, enter) = self.ray.terms.children::<V, FLAT>(node, self.limit);
+        V::push(hits, enter, &node.0[6], node.order(self.ray.octant.into()), &mut self.pending);
     }
 
     /// Keeps the nearest triangle of a leaf. Nothing here branches on the result of the test: it is known
@@ -107,24 +90,25 @@ impl<T: Copy> InterleavedRay<T> {
     #[inline(always)]
     fn visit_leaf<V: V8>(&mut self, mesh: &TriangleMesh) {
         let block = &mesh.blocks[leaf_range(self.pending.pop()).0];
-        let rows = RayRows::<V>::new(&self.ray);
+        let PreparedRay { origin, shear, min, margin, .. } = self.ray;
+        let rows = RayRows::<V>::of(self.ray.axes(), origin, shear, min);
         let [a, b, c] = &block.corners;
         let corners = [rows.corner(a), rows.corner(b), rows.corner(c)];
         let best = V::splat(self.nearest.distance);
         let (hit, distances) = triangle::intersect(corners, rows.shear, rows.min, best);
-        let none = V::splat(NO_TRIANGLE);
-        let distances = distances.select(none, hit);
+        let distances = distances.select(V::splat(f32::INFINITY), hit);
         let distance = distances.min_lane();
-        let nearest = distances.le(V::splat(distance)).and(hit);
-        let id = V::load(&block.ids).select(none, nearest).min_lane().to_bits();
+        let bits = distances.le(V::splat(distance)).and(hit).bits();
+        // The first of equally near triangles has the lowest id.
+        let id = block.id(bits.trailing_zeros() as usize & 7);
         let known = self.nearest;
         let nearer = (distance < known.distance) | (distance == known.distance) & (id < known.id);
-        let nearer = nearer & (id != NO_TRIANGLE.to_bits());
+        let nearer = nearer & (bits != 0);
         self.nearest = Nearest {
             distance: if nearer { distance } else { known.distance },
             id: if nearer { id } else { known.id },
         };
-        self.limit = reach(self.nearest.distance, self.margin);
+        self.limit = reach(self.nearest.distance, margin);
         V::cull(&mut self.pending, self.limit);
     }
 }
@@ -132,49 +116,55 @@ impl<T: Copy> InterleavedRay<T> {
 impl TriangleMesh {
     /// Traces all rays of a queue, each with the same result as [`Self::trace`].
     #[inline(always)]
-    pub(crate) fn trace_interleaved<V: V8, Q: RayQueue>(&self, queue: &mut Q) {
+    pub(crate) fn trace_interleaved<V: V8, Q: RayQueue, const FLAT: bool>(&self, queue: &mut Q) {
+        let queued =
+            QueuedRays { block: RayBlock::EMPTY, tickets: [Q::Ticket::default(); 8], count: 0 };
+        let mut source = Source { queue, queued, next: 0 };
         if self.nodes.is_empty() {
-            while let Some((ticket, _, max)) = queue.next() {
-                queue.done(ticket, Nearest { distance: max, id: u32::MAX });
+            while let Some(lane) = source.next() {
+                let (ticket, max) =
+                    (source.queued.tickets[lane & 7], source.queued.block.max.0[lane & 7]);
+                source.queue.done(ticket, Nearest { distance: max, id: u32::MAX });
             }
             return;
         }
         let mut slots: Vec<InterleavedRay<Q::Ticket>> = Vec::with_capacity(SLOTS);
-        let mut at_nodes = Slots::default();
         while slots.len() < SLOTS {
-            let Some((ticket, ray, max)) = queue.next() else { break };
-            at_nodes.push(slots.len(), true);
-            slots.push(InterleavedRay::new(self, ticket, &ray, max));
+            let Some(lane) = source.next() else { break };
+            let mut slot = InterleavedRay {
+                ray: source.queued.block.ray(lane),
+                limit: 0.0,
+                nearest: Nearest { distance: 0.0, id: u32::MAX },
+                ticket: source.queued.tickets[lane & 7],
+                pending: PendingChildren::EMPTY,
+            };
+            slot.restart(&source.queued, lane);
+            slots.push(slot);
         }
-        let mut at_leaves = Slots::default();
-        while at_nodes.count + at_leaves.count > 0 {
-            let (mut next_nodes, mut next_leaves) = (Slots::default(), Slots::default());
-            let mut ended = Slots::default();
-            for slot in at_leaves.iter() {
-                slots[slot].visit_leaf::<V>(self);
-                let next = slots[slot].pending.last();
-                next_nodes.push(slot, next.is_node());
-                next_leaves.push(slot, next.is_leaf());
-                ended.push(slot, next.is_none());
-                self.prefetch::<V>(next.word);
-            }
-            for slot in at_nodes.iter() {
-                slots[slot].visit_node::<V>(self);
-                let next = slots[slot].pending.last();
-                next_nodes.push(slot, next.is_node());
-                next_leaves.push(slot, next.is_leaf());
-                ended.push(slot, next.is_none());
-                self.prefetch::<V>(next.word);
-            }
-            for slot in ended.iter() {
+        let prefetches = self.blocks.len() > MAX_CACHED_BLOCKS;
+        while !slots.is_empty() {
+            let mut slot = 0;
+            while slot < slots.len() {
                 let active = &mut slots[slot];
-                queue.done(active.ticket, active.nearest);
-                if let Some((ticket, ray, max)) = queue.next() {
-                    active.restart(self, ticket, &ray, max);
-                    next_nodes.push(slot, true);
+                let last = active.pending.last();
+                if last.is_none() {
+                    source.queue.done(active.ticket, active.nearest);
+                    if let Some(next) = source.next() {
+                        active.restart(&source.queued, next);
+                    } else {
+                        slots.swap_remove(slot);
+                        continue;
+                    }
+                } else if last.is_node() {
+                    active.visit_node::<V, FLAT>(self);
+                } else {
+                    active.visit_leaf::<V>(self);
                 }
+                if prefetches {
+                    self.prefetch::<V>(active.pending.last().word);
+                }
+                slot += 1;
             }
-            (at_nodes, at_leaves) = (next_nodes, next_leaves);
         }
     }
 

@@ -5,14 +5,14 @@ use periplus_geometry::DVec3;
 use super::{Filter, Frame, Instance, InstanceGeometry, RaycastWorld};
 use crate::bvh::{MAX_STACK_ENTRIES, leaf_range};
 use crate::local_ray::{BoxTest, LocalRay, reach};
-use crate::mesh::Nearest;
+use crate::mesh::{GroupStack, Nearest};
 use crate::ray::{Hit, InstanceId, Ray};
 use crate::simd::{Task, V8, dispatch};
 use crate::simd8::DVec3x8;
 use crate::traversal::{Leaves, Stack, Step, traverse};
 
 /// Nearest hit so far; without a hit (`instance` is `u32::MAX`) `distance` is the maximum distance.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct NearestHit {
     pub(super) distance: f64,
     pub(super) instance: u32,
@@ -20,10 +20,12 @@ pub(super) struct NearestHit {
 }
 
 impl NearestHit {
+    #[inline(always)]
     pub(super) fn nothing(max: f64) -> Self {
         Self { distance: max, instance: u32::MAX, primitive: u32::MAX }
     }
 
+    #[inline(always)]
     pub(super) fn is_hit(&self) -> bool {
         self.instance != u32::MAX
     }
@@ -46,11 +48,12 @@ impl NearestHit {
 pub(super) struct Scratch {
     pub(super) top: Stack,
     pub(super) body: Stack,
+    pub(super) group: GroupStack,
 }
 
 impl Scratch {
     pub(super) fn new() -> Self {
-        Self { top: [0; MAX_STACK_ENTRIES], body: [0; MAX_STACK_ENTRIES] }
+        Self { top: [0; MAX_STACK_ENTRIES], body: [0; MAX_STACK_ENTRIES], group: GroupStack::EMPTY }
     }
 }
 
@@ -64,6 +67,27 @@ pub(super) fn single_above(distance: f64) -> f32 {
     let bits = to_f32.to_bits();
     let above = if to_f32 < 0.0 { bits.wrapping_sub(1) } else { bits.wrapping_add(1) };
     f32::from_bits(if f64::from(to_f32) < distance { above } else { bits })
+}
+
+/// Returns the minimum distance as stored in a ray of a tree's frame.
+#[inline(always)]
+#[expect(clippy::cast_possible_truncation, reason = "single precision is the point")]
+pub(super) fn to_f32(min_m: f64) -> f32 {
+    min_m.max(0.0) as f32
+}
+
+#[inline(always)]
+pub(super) fn directions([a, b, c, d, e, f, g, h]: [&Ray; 8]) -> [&DVec3; 8] {
+    [
+        &a.direction,
+        &b.direction,
+        &c.direction,
+        &d.direction,
+        &e.direction,
+        &f.direction,
+        &g.direction,
+        &h.direction,
+    ]
 }
 
 /// `normal` points outwards.
@@ -275,7 +299,7 @@ impl RaycastWorld {
         let local = LocalRay::new(ray.origin_m - self.middle_m, ray.direction, ray.min_m);
         // The margins of the boxes cover the error of an instance's frame.
         let boxes = BoxTest::<V>::new(&local, 0.0);
-        let Scratch { top, body } = scratch;
+        let Scratch { top, body, .. } = scratch;
         for tree in [&self.resting, &self.moving] {
             let limit = reach(single_above(found.distance), 0.0);
             let mut leaves = InstanceLeaves::<V, ANY> {
