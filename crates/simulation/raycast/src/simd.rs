@@ -70,6 +70,13 @@ pub(crate) trait V8: Copy {
     /// inside a task is inlined, so a part with several callers is a separate task, or it is compiled once
     /// for each of them.
     fn run<T: Task>(task: T) -> T::Output;
+
+    /// [`Self::run`] for a task that needs more registers than the machine may have. The task is compiled
+    /// twice.
+    #[inline(always)]
+    fn run_with_most_registers<T: Task>(task: T) -> T::Output {
+        Self::run(task)
+    }
 }
 
 /// Broadcasts three values to all lanes.
@@ -112,9 +119,30 @@ fn force_portable() -> bool {
     false
 }
 
+#[cfg(all(not(test), target_arch = "x86_64"))]
+#[inline(always)]
+fn force_avx2() -> bool {
+    false
+}
+
 #[cfg(test)]
 thread_local! {
     static PORTABLE: std::cell::Cell<bool> = const { std::cell::Cell::new(false) };
+    static AVX2: std::cell::Cell<bool> = const { std::cell::Cell::new(false) };
+}
+
+#[cfg(all(test, target_arch = "x86_64"))]
+fn force_avx2() -> bool {
+    AVX2.get()
+}
+
+/// Runs `work` without the instructions of AVX-512.
+#[cfg(test)]
+pub(crate) fn without_avx512<R>(work: impl FnOnce() -> R) -> R {
+    AVX2.set(true);
+    let result = work();
+    AVX2.set(false);
+    result
 }
 
 #[cfg(test)]
@@ -474,18 +502,25 @@ mod avx2 {
         }
         #[inline(always)]
         fn run<T: Task>(task: T) -> T::Output {
-            if has_avx512() {
-                // SAFETY: the machine has these instructions.
-                return unsafe { run_avx512(task) };
-            }
             // SAFETY: `dispatch` saw that the machine has these instructions.
             unsafe { run(task) }
+        }
+        #[inline(always)]
+        fn run_with_most_registers<T: Task>(task: T) -> T::Output {
+            if has_avx512() {
+                // SAFETY: the machine has these instructions.
+                unsafe { run_avx512(task) }
+            } else {
+                // SAFETY: `dispatch` saw that the machine has these instructions.
+                unsafe { run(task) }
+            }
         }
     }
 
     #[inline(always)]
     fn has_avx512() -> bool {
-        is_x86_feature_detected!("avx512f")
+        !super::force_avx2()
+            && is_x86_feature_detected!("avx512f")
             && is_x86_feature_detected!("avx512vl")
             && is_x86_feature_detected!("avx512dq")
             && is_x86_feature_detected!("avx512bw")
@@ -552,6 +587,39 @@ mod tests {
             .prop_map(Row)
     }
 
+    /// Pushes twice, culls, and transposes points: what is left on the stack, and the rows.
+    struct Stacked {
+        enter: Row,
+        limits: Row,
+        order: u32,
+        limit: f32,
+        points: [[f64; 3]; 8],
+    }
+
+    impl Task for Stacked {
+        type Output = (Vec<(u32, u32)>, Vec<(u32, u32)>, [[u32; 8]; 3]);
+        #[inline(always)]
+        fn run<V: V8>(self) -> Self::Output {
+            let words = Row([0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0]);
+            let mut pending = PendingChildren::EMPTY;
+            pending.restart();
+            let enter = V::load(&self.enter);
+            let hits = enter.le(V::load(&self.limits));
+            V::push(hits, enter, &words, self.order, &mut pending);
+            V::push(hits, enter.add(enter), &words, self.order, &mut pending);
+            let pushed = entries(&pending);
+            V::cull(&mut pending, self.limit);
+            let points = self.points.map(DVec3::from_array);
+            let rows = V::transpose(points.each_ref(), DVec3::new(1.0, 0.1, -0.3));
+            (pushed, entries(&pending), rows.map(|row| row.store().0.map(f32::to_bits)))
+        }
+    }
+
+    fn entries(pending: &PendingChildren) -> Vec<(u32, u32)> {
+        let distances = pending.distances.iter().map(|distance| distance.to_bits());
+        distances.zip(pending.words).take(pending.height).collect()
+    }
+
     struct Least(Row);
 
     impl Task for Least {
@@ -569,6 +637,24 @@ mod tests {
             prop_assert_eq!(Portable::run(Least(Row(values))), min_lane);
             if super::has_avx2() {
                 prop_assert_eq!(Avx2::run(Least(Row(values))), min_lane);
+            }
+        }
+
+        #[test]
+        fn stacks_and_rows_are_the_same(
+            enter in prop::array::uniform8(0.0_f32..9.0),
+            limits in prop::array::uniform8(0.0_f32..9.0),
+            order in Just([0_u32, 1, 2, 3, 4, 5, 6, 7]).prop_shuffle(),
+            limit in 0.0_f32..18.0,
+            points in prop::array::uniform8(prop::array::uniform3(-9.0_f64..9.0)),
+        ) {
+            let order = order.iter().rev().fold(0, |packed, &child| packed << 3 | child);
+            let (enter, limits) = (Row(enter), Row(limits));
+            let task = || Stacked { enter, limits, order, limit, points };
+            let (pushed, kept, rows) = Portable::run(task());
+            prop_assert!(kept.iter().all(|&(distance, _)| f32::from_bits(distance) <= limit));
+            if super::has_avx2() {
+                prop_assert_eq!(Avx2::run(task()), (pushed, kept, rows));
             }
         }
 

@@ -11,12 +11,12 @@ fn world(seed: u64, count: u32, loose: bool) -> RaycastWorld {
     let mut builder = RaycastWorld::builder();
     let (tags, pose) = (Tags::default(), Pose::IDENTITY);
     let floor = [[-9.0, -9.0, 0.0], [9.0, -9.0, 0.0], [9.0, 9.0, 0.0], [-9.0, 9.0, 0.0]];
-    builder.add_fixed(&floor, &[[0, 1, 2], [0, 2, 3]], &pose, tags).unwrap();
+    builder.add_fixed(&floor, &[[0, 1, 2], [0, 2, 3]], &pose, tags).expect("sound");
     let (mut positions, mut triangles) = (Vec::new(), Vec::new());
     for _ in 0..count {
         let mut number = |size: f64| ((stream.unit() - 0.5) * size * 10.0).round() / 10.0;
         let [x, y, z] = [number(16.0), number(16.0), number(1.0)];
-        let first = u32::try_from(positions.len()).unwrap();
+        let first = u32::try_from(positions.len()).expect("sound");
         if loose {
             for _ in 0..3 {
                 positions.push([x + number(3.0), y + number(3.0), z + number(1.0)]);
@@ -36,8 +36,8 @@ fn world(seed: u64, count: u32, loose: bool) -> RaycastWorld {
             triangles.push([first + a, first + c, first + d]);
         }
     }
-    builder.add_fixed(&positions, &triangles, &pose, tags).unwrap();
-    builder.build(1).unwrap()
+    builder.add_fixed(&positions, &triangles, &pose, tags).expect("sound");
+    builder.build(1).expect("sound")
 }
 
 /// Fans of `beams` from some poses at a height, the first along the x axis, each raised by `rise`.
@@ -118,20 +118,20 @@ fn removed_walls_are_gone_from_level_scans() {
     let wall = |x: f64| [[x, -1.0, -1.0], [x, 1.0, -1.0], [x, 1.0, 1.0], [x, -1.0, 1.0]];
     let (tags, pose) = (Tags::default(), Pose::IDENTITY);
     let mut builder = RaycastWorld::builder();
-    let near = builder.add_fixed(&wall(1.0), &[[0, 1, 2], [0, 2, 3]], &pose, tags).unwrap();
-    builder.add_fixed(&wall(2.0), &[[0, 1, 2], [0, 2, 3]], &pose, tags).unwrap();
+    let near = builder.add_fixed(&wall(1.0), &[[0, 1, 2], [0, 2, 3]], &pose, tags).expect("sound");
+    builder.add_fixed(&wall(2.0), &[[0, 1, 2], [0, 2, 3]], &pose, tags).expect("sound");
     // Above the scan, so that its slab leaves something out.
     for level in 0..100 {
         let z = 3.0 + f64::from(level);
         let roof = [[-9.0, -9.0, z], [9.0, -9.0, z], [9.0, 9.0, z]];
-        builder.add_fixed(&roof, &[[0, 1, 2]], &pose, tags).unwrap();
+        builder.add_fixed(&roof, &[[0, 1, 2]], &pose, tags).expect("sound");
     }
-    let mut world = builder.build(1).unwrap();
+    let mut world = builder.build(1).expect("sound");
     let rays = [Ray::new(DVec3::ZERO, DVec3::X); 360];
     let mut distances_m = [0.0_f32; 360];
     world.cast_batch(&rays, Filter::default(), 1, &mut distances_m);
     assert_eq!(distances_m, [1.0; 360]);
-    world.remove(&[near]).unwrap();
+    world.remove(&[near]).expect("sound");
     world.cast_batch(&rays, Filter::default(), 1, &mut distances_m);
     assert_eq!(distances_m, [2.0; 360]);
 }

@@ -12,6 +12,11 @@ impl TriangleMesh {
         half.x.max(half.y) as f32 * (1.0 + 4.0 * ROUNDING_RATIO)
     }
 
+    /// Returns the largest absolute coordinate along z in the tree's frame \[m\].
+    pub(crate) fn half_height_m(&self) -> f64 {
+        (self.high_m.z - self.low_m.z) * 0.5
+    }
+
     /// Returns the triangles that reach into `low..=high` along z (tree's frame \[m\]), with their
     /// numbers, in a tree of its own; `None` if they are more than `max_count`.
     ///

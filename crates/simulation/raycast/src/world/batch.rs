@@ -57,6 +57,9 @@ impl RaycastWorld {
     /// each, with any number of `threads`. Neighbours with a common origin are traced together, so
     /// pass the rays of scans and images in order. Small batches are traced on the calling thread.
     ///
+    /// For level rays, as of 2D scans, the world keeps up to eight trees over the fixed triangles at
+    /// their heights, built on the first large batch; [`Self::size_bytes`] counts them.
+    ///
     /// # Panics
     /// When `distances_m` and `rays` differ in length.
     pub fn cast_batch(
@@ -129,8 +132,7 @@ impl RaycastWorld {
         mut report: impl FnMut(usize, &NearestHit),
     ) {
         let (world, fixed) = (self, &self.fixed);
-        let limits = LevelLimits::new(fixed)
-            .filter(|_| columns >= rays.len() && std::env::var("NOLEVEL").is_err());
+        let limits = LevelLimits::new(fixed).filter(|_| columns >= rays.len());
         let Some(limits) = limits else {
             dispatch(Many { world, fixed, rays, first: 0, columns, filter, report: &mut report });
             return;
@@ -431,7 +433,8 @@ impl<F: FnMut(usize, &NearestHit)> Many<'_, F> {
             }
             return;
         }
-        V::run(TraceInterleaved { many: self, slots: loose.drain(..), scratch });
+        let task = TraceInterleaved { many: self, slots: loose.drain(..), scratch };
+        V::run_with_most_registers(task);
     }
 
     #[inline(always)]

@@ -51,7 +51,8 @@ impl LevelLimits {
         let max_origin_m = MAX_ORIGIN_RATIO * half_width;
         // From the origin to the far side, along the longer of the axes x and y.
         let max_travel_m = max_origin_m + half_width;
-        let margin_m = 64.0 * f64::from(ROUNDING_RATIO) * (max_travel_m + max_origin_m);
+        let lengths_m = max_travel_m + max_origin_m + mesh.half_height_m();
+        let margin_m = 64.0 * f64::from(ROUNDING_RATIO) * lengths_m;
         let rise_m = SLAB_OVERLAP_M - margin_m;
         let max_slope = rise_m / max_travel_m;
         (max_slope > 0.0).then(|| Self {

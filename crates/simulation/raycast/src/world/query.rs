@@ -451,7 +451,7 @@ mod tests {
     use periplus_geometry::{DVec3, Pose, Stream};
     use proptest::prelude::*;
 
-    use crate::simd::without_vectors;
+    use crate::simd::{without_avx512, without_vectors};
     use crate::{Filter, Ray, RaycastWorld, Tags};
 
     #[test]
@@ -490,6 +490,9 @@ mod tests {
             let rays: Vec<Ray> = (0..200)
                 .map(|n| {
                     let ahead = DVec3::new(1.0, f64::from(n) * 0.01 - 1.0, 0.0);
+                    if (60..140).contains(&n) {
+                        return Ray::new(eye, ahead);
+                    }
                     let any = DVec3::from_array(point(2.0));
                     let origin = if n % 3 == 0 { DVec3::from_array(point(9.0)) } else { eye };
                     Ray::new(origin, (ahead + any * 0.05).normalize_or(DVec3::X))
@@ -503,12 +506,16 @@ mod tests {
                 let world = builder.build(1).unwrap();
                 let mut hits = vec![None; rays.len()];
                 world.hits_grid(&rays, 20, Filter::default(), 1, &mut hits);
+                let mut row = vec![None; rays.len()];
+                world.hits_grid(&rays, rays.len(), Filter::default(), 1, &mut row);
+                assert_eq!(row, hits);
                 let to_f32: Vec<_> =
                     rays.iter().map(|ray| world.cast(ray, Filter::default())).collect();
                 (hits, to_f32)
             };
             let (vectors, plain) = (answers(), without_vectors(answers));
             prop_assert_eq!(&vectors.0, &vectors.1);
+            prop_assert_eq!(&vectors, &without_avx512(answers));
             prop_assert_eq!(vectors, plain);
         }
     }
