@@ -10,7 +10,7 @@ mod table;
 use std::path::Path;
 use std::process::Command;
 
-use serde_json::Value;
+use serde_json::{Value, json};
 
 pub(crate) use ours::run as cast;
 
@@ -60,7 +60,12 @@ pub(crate) fn compare(engines: &Path, work: &Path, turns: usize) -> Result<Race,
             for peer in peers.iter().filter(|peer| peer.takes(scene)) {
                 eprintln!("  {}", peer.name());
                 match answers(&mut peer.command(scene)) {
-                    Ok(new) => lines.extend(new),
+                    Ok(new) => {
+                        if peer.name() == "embree" {
+                            lines.extend(differences(&out, &new));
+                        }
+                        lines.extend(new);
+                    }
                     Err(why) => eprintln!("SKIPPED: {} in {scene}: {why}", peer.name()),
                 }
             }
@@ -70,6 +75,34 @@ pub(crate) fn compare(engines: &Path, work: &Path, turns: usize) -> Result<Race,
     std::fs::write(record, text).map_err(failed)?;
     let tables = table::tables(&lines);
     Ok(if peers.is_empty() { Race::Alone(tables) } else { Race::Tables(tables) })
+}
+
+/// Difference of two distances that counts \[m\].
+const MAX_DIFFERENCE_M: f32 = 1e-3;
+
+/// Number of rays of each load of Embree's lines whose distances differ from ours.
+fn differences(out: &Path, lines: &[Value]) -> Vec<Value> {
+    let distances = |who: &str, scene: &str, load: &str| -> Option<Vec<f32>> {
+        let bytes = std::fs::read(out.join(format!("{who}.{scene}.{load}.f32"))).ok()?;
+        let number = |b: &[u8]| f32::from_le_bytes([b[0], b[1], b[2], b[3]]);
+        Some(bytes.chunks_exact(4).map(number).collect())
+    };
+    let mut counted = Vec::new();
+    for line in lines.iter().filter(|line| line["width"] == 1) {
+        let (Some(scene), Some(load)) = (line["scene"].as_str(), line["load"].as_str()) else {
+            continue;
+        };
+        let (Some(ours), Some(theirs)) =
+            (distances("ours", scene, load), distances("c:embree", scene, load))
+        else {
+            continue;
+        };
+        let same = |(a, b): (&f32, &f32)| a == b || (a - b).abs() <= MAX_DIFFERENCE_M;
+        let differ = ours.len().abs_diff(theirs.len())
+            + ours.iter().zip(&theirs).filter(|&pair| !same(pair)).count();
+        counted.push(json!({ "scene": scene, "load": load, "differ": differ }));
+    }
+    counted
 }
 
 /// The JSON lines that a program prints.

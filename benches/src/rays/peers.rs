@@ -9,6 +9,8 @@ pub(super) enum Peer {
     Python { engine: &'static str, script: PathBuf, folder: PathBuf },
     /// ODE as Gazebo Classic uses it, or with shapes instead of triangles.
     Ode { engine: &'static str, program: PathBuf, folder: PathBuf },
+    /// Embree through its C interface: `benches/oracles/rays_embree.cc`.
+    Embree { program: PathBuf, folder: PathBuf },
 }
 
 /// Engine, the package that it needs, whether it takes shapes only.
@@ -24,6 +26,7 @@ impl Peer {
     pub(super) fn name(&self) -> &'static str {
         match self {
             Self::Python { engine, .. } | Self::Ode { engine, .. } => engine,
+            Self::Embree { .. } => "embree",
         }
     }
 
@@ -50,6 +53,11 @@ impl Peer {
             Self::Ode { engine, program, folder } => {
                 let mut command = Command::new(program);
                 command.args([*engine, scene]).current_dir(folder);
+                command
+            }
+            Self::Embree { program, folder } => {
+                let mut command = Command::new(program);
+                command.args(["scenes", scene, "out"]).current_dir(folder);
                 command
             }
         }
@@ -106,7 +114,39 @@ pub(super) fn all(engines: &Path, work: &Path) -> Result<Vec<Peer>, String> {
     } else {
         eprintln!("SKIPPED: ode; `apt install libode-dev libbullet-dev g++ pkg-config`");
     }
+    all.extend(embree(work));
     Ok(all)
+}
+
+/// Compiles the race against Embree's C interface: with the installation in the folder that
+/// `PERIPLUS_EMBREE` names (`include/embree4` and `lib`), else with the system's Embree 4 or 3.
+fn embree(work: &Path) -> Option<Peer> {
+    let source = Path::new(env!("CARGO_MANIFEST_DIR")).join("oracles/rays_embree.cc");
+    let program = work.join("rays_embree");
+    let prefix = std::env::var_os("PERIPLUS_EMBREE").map(PathBuf::from);
+    let compiled = ["embree4", "embree3"].into_iter().any(|library| {
+        let mut compile = Command::new("g++");
+        compile.args(["-std=c++17", "-O3", "-march=native", "-o"]).arg(&program).arg(&source);
+        if let Some(prefix) = &prefix {
+            let libraries = prefix.join("lib");
+            compile.arg("-I").arg(prefix.join("include")).arg("-L").arg(&libraries);
+            for option in ["-Wl,-rpath,", "-Wl,-rpath-link,"] {
+                let mut option = std::ffi::OsString::from(option);
+                option.push(&libraries);
+                compile.arg(option);
+            }
+        }
+        compile.arg(format!("-l{library}"));
+        runs(&mut compile)
+    });
+    if !compiled {
+        eprintln!(
+            "SKIPPED: Embree's C interface; `apt install libembree-dev g++`, or name an \
+             installation of Embree 4 by PERIPLUS_EMBREE"
+        );
+        return None;
+    }
+    Some(Peer::Embree { program, folder: work.to_owned() })
 }
 
 /// The tutorial's shapes as the program for ODE reads them.

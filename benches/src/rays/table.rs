@@ -44,6 +44,7 @@ pub(super) fn tables(lines: &[Value]) -> String {
         }
         out.push('\n');
     }
+    out.push_str(&embree(lines, &all));
     out.push_str(
         "\nTwo threads against one, for each scene the worst and the best load: rays per second of \
          the clock (of use only on an idle machine), and per CPU second (what splitting costs).\n\n\
@@ -73,6 +74,49 @@ pub(super) fn tables(lines: &[Value]) -> String {
         "\n\n112 moving instances: {:.1} us for a frame's update.\n",
         updates.fold(f64::INFINITY, f64::min)
     );
+    out
+}
+
+/// Embree's C interface: the best of its packet widths, and the rays on which it and we differ.
+fn embree(lines: &[Value], all: &BTreeMap<Key, f64>) -> String {
+    let own: Vec<&Value> = lines.iter().filter(|line| line["peer"] == "c:embree").collect();
+    let Some(version) = own.iter().find_map(|line| line["version"].as_str()) else {
+        return String::new();
+    };
+    let mut out = format!(
+        "\nEmbree {version} through its C interface, best packet width (1, 4, 8, 16; coherent or not), build \
+         quality high, and rays whose distances differ from ours by more than 1 mm.\n\n\
+         | scene | load | ours | Embree | ratio | width | flag | differ |\n|---|---|---|---|---|---|---|---|\n"
+    );
+    let mut best: BTreeMap<(&str, &str), &Value> = BTreeMap::new();
+    for line in own {
+        let (Some(scene), Some(load)) = (line["scene"].as_str(), line["load"].as_str()) else {
+            continue;
+        };
+        let rate = |line: &Value| line["mrays_cpu"].as_f64().unwrap_or_default();
+        let kept = best.entry((scene, load)).or_insert(line);
+        if rate(line) > rate(kept) {
+            *kept = line;
+        }
+    }
+    for ((scene, load), line) in best {
+        let key = ("ours".to_owned(), scene.to_owned(), load.to_owned(), 1);
+        let (Some(ours), Some(rate)) = (all.get(&key), line["mrays_cpu"].as_f64()) else {
+            continue;
+        };
+        let flag = if line["coherent"] == true { "coherent" } else { "incoherent" };
+        let differ = lines
+            .iter()
+            .filter(|line| line["scene"] == scene && line["load"] == load)
+            .find_map(|line| line["differ"].as_u64());
+        let differ = differ.map_or_else(String::new, |count| count.to_string());
+        let _ = writeln!(
+            out,
+            "| {scene} | {load} | {ours:.1} | {rate:.1} | {:.2} | {} | {flag} | {differ} |",
+            ours / rate,
+            line["width"]
+        );
+    }
     out
 }
 

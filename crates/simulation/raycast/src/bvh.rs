@@ -21,10 +21,13 @@ pub(crate) const MAX_LEAF_TRIANGLES: usize = 8;
 const MAX_DEPTH: usize = 40;
 /// Capacity for the siblings of every node on a path, a power of two.
 pub(crate) const MAX_STACK_ENTRIES: usize = 512;
-const _: () = assert!(7 * MAX_DEPTH + 8 <= MAX_STACK_ENTRIES);
+const _: () = assert!(MAX_PENDING_CHILDREN <= MAX_STACK_ENTRIES);
+/// Maximum number of siblings of the nodes on a path, and of the children of the last.
+pub(crate) const MAX_PENDING_CHILDREN: usize = 7 * MAX_DEPTH + 8;
 
 /// A node: rows 0 to 2 the lower, 3 to 5 the upper corners of the children's boxes, row 6 the child
-/// words as bits. Four cache lines.
+/// words as bits, row 7 for each octant of ray directions the order of the children, the farthest
+/// first. Four cache lines.
 #[repr(C, align(64))]
 #[derive(Clone, Debug)]
 pub(crate) struct Node(pub(crate) [Row; 8]);
@@ -53,6 +56,21 @@ impl Node {
 
     pub(crate) fn set_child(&mut self, slot: usize, child: u32) {
         self.0[6].0[slot] = f32::from_bits(child);
+    }
+
+    /// Returns the order of the children for rays of an octant (bit `axis` is set for rays that run
+    /// backwards along it): three bits for each position, the farthest child in the lowest.
+    #[inline(always)]
+    pub(crate) fn order(&self, octant: usize) -> u32 {
+        self.0[7].0[octant & 7].to_bits()
+    }
+
+    pub(crate) fn set_orders(&mut self, orders: &[[u8; 8]; 8]) {
+        for (row, order) in self.0[7].0.iter_mut().zip(orders) {
+            let packed =
+                order.iter().rev().fold(0_u32, |packed, &slot| packed << 3 | u32::from(slot));
+            *row = f32::from_bits(packed);
+        }
     }
 
     pub(crate) fn is_used(&self, slot: usize) -> bool {

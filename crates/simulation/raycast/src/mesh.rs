@@ -1,6 +1,7 @@
 //! Triangle meshes with a bounding volume hierarchy.
 
 mod interleaved;
+mod level;
 mod packet_trace;
 
 use std::fmt;
@@ -13,8 +14,8 @@ use crate::simd::{Row, V8, splat3};
 use crate::traversal::{Leaves, Stack, Step, traverse};
 use crate::triangle;
 
-pub(crate) use interleaved::RayQueue;
-pub(crate) use packet_trace::Best;
+pub(crate) use interleaved::{QueuedRays, RayQueue};
+pub(crate) use packet_trace::{Best, GroupStack};
 
 /// Maximum absolute value of a coordinate \[m\].
 const MAX_COORDINATE_M: f64 = 1e12;
@@ -40,7 +41,61 @@ pub struct TriangleMesh {
 #[derive(Clone, Debug)]
 pub(crate) struct Block {
     pub(crate) corners: [[Row; 3]; 3],
-    pub(crate) ids: [u32; 8],
+    /// Triangles as bits, `u32::MAX` in unused lanes. Read as f32, the bits of two triangles compare in
+    /// the order of their numbers.
+    pub(crate) ids: Row,
+}
+
+impl Block {
+    const EMPTY: Self =
+        Self { corners: [[Row([0.0; 8]); 3]; 3], ids: Row([f32::from_bits(u32::MAX); 8]) };
+
+    #[inline(always)]
+    pub(crate) fn id(&self, lane: usize) -> u32 {
+        self.ids.0[lane].to_bits()
+    }
+
+    /// Returns the corners of the triangle in a lane.
+    fn triangle(&self, lane: usize) -> [[f32; 3]; 3] {
+        self.corners.each_ref().map(|corner| corner.each_ref().map(|row| row.0[lane]))
+    }
+}
+
+/// Gathers the triangles of each leaf in a block, and numbers the leaves' blocks. `triangle` returns id
+/// and corners of a box's triangle.
+fn assemble(
+    nodes: &mut [Node],
+    boxes: &[Bounds],
+    triangle: impl Fn(u32) -> (u32, [[f32; 3]; 3]),
+) -> Vec<Block> {
+    let mut blocks = Vec::with_capacity(boxes.len() / 4);
+    for node in nodes {
+        for slot in 0..8 {
+            let word = node.child(slot);
+            if !node.is_used(slot) || word & LEAF_MASK == 0 {
+                continue;
+            }
+            let (first, count) = leaf_range(word);
+            let mut block = Block::EMPTY;
+            // In the order of their ids, so that the first of equally near ones has the lowest.
+            let mut own = [(u32::MAX, [[0.0; 3]; 3]); MAX_LEAF_TRIANGLES];
+            for (own, each) in own.iter_mut().zip(&boxes[first..first + count]) {
+                *own = triangle(each.number());
+            }
+            own.sort_unstable_by_key(|&(id, _)| id);
+            for (lane, (id, corners)) in own.into_iter().enumerate().take(count) {
+                block.ids.0[lane] = f32::from_bits(id);
+                for (rows, corner) in block.corners.iter_mut().zip(corners) {
+                    for (row, value) in rows.iter_mut().zip(corner) {
+                        row.0[lane] = value;
+                    }
+                }
+            }
+            node.set_child(slot, bvh::leaf(blocks.len(), count));
+            blocks.push(block);
+        }
+    }
+    blocks
 }
 
 /// Reasons that triangles cannot form a mesh.
@@ -137,30 +192,16 @@ impl TriangleMesh {
             boxes.push(bounds);
         }
         let mut nodes = build(&mut boxes, MAX_LEAF_TRIANGLES, threads);
-        let mut blocks = Vec::with_capacity(triangles.len() / 4);
+        let triangle = |id: u32| (id, triangles[id as usize].map(|corner| local[corner as usize]));
+        let blocks = assemble(&mut nodes, &boxes, triangle);
         let mut slots = vec![0; triangles.len()];
-        for node in &mut nodes {
-            for slot in 0..8 {
-                let word = node.child(slot);
-                if !node.is_used(slot) || word & LEAF_MASK == 0 {
-                    continue;
-                }
-                let (first, count) = leaf_range(word);
-                let mut block = Block { corners: [[Row([0.0; 8]); 3]; 3], ids: [u32::MAX; 8] };
-                for (lane, each) in boxes[first..first + count].iter().enumerate() {
-                    let id = each.number();
-                    block.ids[lane] = id;
-                    for (corner, &position) in triangles[id as usize].iter().enumerate() {
-                        for (axis, &value) in local[position as usize].iter().enumerate() {
-                            block.corners[corner][axis].0[lane] = value;
-                        }
-                    }
+        for (index, block) in blocks.iter().enumerate() {
+            for lane in 0..8 {
+                if let Some(slot) = slots.get_mut(block.id(lane) as usize) {
                     #[expect(clippy::cast_possible_truncation, reason = "fewer than 2³¹")]
-                    let index = (blocks.len() * 8 + lane) as u32;
-                    slots[id as usize] = index;
+                    let index = (index * 8 + lane) as u32;
+                    *slot = index;
                 }
-                node.set_child(slot, bvh::leaf(blocks.len(), count));
-                blocks.push(block);
             }
         }
         Ok(Self { middle_m, low_m, high_m, nodes, blocks, slots, extent })
@@ -247,12 +288,14 @@ impl<V: V8> RayRows<V> {
     #[inline(always)]
     fn new(ray: &LocalRay) -> Self {
         let [x, y, z] = ray.axes;
-        Self {
-            axes: ray.axes,
-            origin: splat3([ray.origin[x], ray.origin[y], ray.origin[z]]),
-            shear: splat3(ray.shear),
-            min: V::splat(ray.min),
-        }
+        let origin = [ray.origin[x], ray.origin[y], ray.origin[z]];
+        Self::of(ray.axes, origin, ray.shear, ray.min)
+    }
+
+    /// `origin` is in the order of `axes`.
+    #[inline(always)]
+    fn of(axes: [usize; 3], origin: [f32; 3], shear: [f32; 3], min: f32) -> Self {
+        Self { axes, origin: splat3(origin), shear: splat3(shear), min: V::splat(min) }
     }
 
     #[inline(always)]
@@ -291,7 +334,7 @@ impl<V: V8, A: Fn(u32) -> bool, const ANY: bool> Leaves for RayLeaves<'_, V, A, 
         while bits != 0 {
             let lane = bits.trailing_zeros() as usize & 7;
             bits &= bits - 1;
-            let (distance, id) = (distances.0[lane], block.ids[lane]);
+            let (distance, id) = (distances.0[lane], block.id(lane));
             if self.nearest.is_worse_than(distance, id) && (self.accept)(id) {
                 *self.nearest = Nearest { distance, id };
                 if ANY {

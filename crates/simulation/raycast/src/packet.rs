@@ -4,7 +4,7 @@ use periplus_geometry::DVec3;
 
 use crate::bvh::Node;
 use crate::local_ray::{MIN_DIRECTION_RATIO, ROUNDING_RATIO, reach};
-use crate::simd::{Row, V8};
+use crate::simd::{Row, V8, splat3};
 use crate::traversal::NodeTest;
 
 /// Maximum number of packets that traverse a tree together.
@@ -42,6 +42,16 @@ impl Pyramid {
         })
     }
 
+    /// Returns the octant of the direction in the middle: bit `axis` is set if it runs backwards.
+    #[inline(always)]
+    pub(crate) fn octant(&self) -> usize {
+        let [first, second, along] = self.axes;
+        let back = |which: usize| (self.low[which] + self.high[which] < 0.0) == self.forward;
+        usize::from(!self.forward) << along
+            | usize::from(back(0)) << first
+            | usize::from(back(1)) << second
+    }
+
     /// Returns the spread of the slopes, the larger of both axes.
     #[inline(always)]
     pub(crate) fn spread(&self) -> f32 {
@@ -69,14 +79,9 @@ impl Packet {
     /// of `LocalRay::new`.
     #[inline(always)]
     #[expect(clippy::cast_possible_truncation, reason = "single precision is the point")]
-    pub(crate) fn new<V: V8>(origin: DVec3, directions: &[DVec3; 8], min: Row) -> Option<Self> {
-        let mut rows = [Row([0.0; 8]); 3];
-        for (lane, direction) in directions.iter().enumerate() {
-            rows[0].0[lane] = direction.x as f32;
-            rows[1].0[lane] = direction.y as f32;
-            rows[2].0[lane] = direction.z as f32;
-        }
-        let (x, y, z) = (size::<V>(&rows[0]), size::<V>(&rows[1]), size::<V>(&rows[2]));
+    pub(crate) fn new<V: V8>(origin: DVec3, directions: [&DVec3; 8], min: Row) -> Option<Self> {
+        let rows = V::transpose(directions, DVec3::ZERO);
+        let (x, y, z) = (size(rows[0]), size(rows[1]), size(rows[2]));
         let (x_least, x_less, y_less) = (x.le(y).bits(), x.le(z).bits(), y.le(z).bits());
         // The same choice of axes in every lane.
         let along = match (x_least, x_less, y_less) {
@@ -87,16 +92,19 @@ impl Packet {
             _ => return None,
         };
         let axes = [[1, 2, 0], [2, 0, 1], [0, 1, 2]][along];
-        let length = V::load(&rows[axes[2]]);
+        let [first, second, length] = match along {
+            0 => [rows[1], rows[2], rows[0]],
+            1 => [rows[2], rows[0], rows[1]],
+            _ => rows,
+        };
         let zero = V::splat(0.0);
         let forward = match zero.le(length).bits() {
             ALL_LANES_MASK => true,
             0 => false,
             _ => return None,
         };
-        let first = V::load(&rows[axes[0]]).div(length);
-        let second = V::load(&rows[axes[1]]).div(length);
-        let steep = size::<V>(&rows[axes[2]]);
+        let (first, second) = (first.div(length), second.div(length));
+        let steep = size(length);
         let pyramid = Pyramid {
             origin: [origin.x as f32, origin.y as f32, origin.z as f32],
             axes,
@@ -121,8 +129,7 @@ impl Packet {
 const ALL_LANES_MASK: u32 = 0xff;
 
 #[inline(always)]
-fn size<V: V8>(row: &Row) -> V {
-    let row = V::load(row);
+fn size<V: V8>(row: V) -> V {
     row.max(V::splat(0.0).sub(row))
 }
 
@@ -214,6 +221,71 @@ impl<V: V8> Frustum<V> {
     }
 }
 
+/// Slopes under which the children of a node are seen from the apex of a pyramid, as `Packet::shear`
+/// has them.
+pub(crate) struct SlopeTest<V> {
+    /// Rows with the near and the far ends of boxes along the minor axes and the dominant axis.
+    near_rows: [usize; 3],
+    far_rows: [usize; 3],
+    /// Origin along these axes, times the sign.
+    origin: [V; 3],
+    /// -1 if the pyramid opens backwards along its dominant axis, else 1.
+    sign: V,
+}
+
+/// Minimum and maximum slopes of eight boxes along both minor axes.
+pub(crate) struct Slopes {
+    pub(crate) low: [Row; 2],
+    pub(crate) high: [Row; 2],
+}
+
+impl<V: V8> SlopeTest<V> {
+    /// Minimum depth in a division: boxes that begin behind the apex reach any slope.
+    const MIN_DEPTH: f32 = 1e-30;
+
+    #[inline(always)]
+    pub(crate) fn new(pyramid: &Pyramid) -> Self {
+        let [x, y, z] = pyramid.axes;
+        let back = !pyramid.forward;
+        let sign = if back { -1.0 } else { 1.0 };
+        let origin = &pyramid.origin;
+        Self {
+            near_rows: [row_of(x, back), row_of(y, back), row_of(z, back)],
+            far_rows: [row_of(x, !back), row_of(y, !back), row_of(z, !back)],
+            origin: splat3([sign * origin[x], sign * origin[y], sign * origin[z]]),
+            sign: V::splat(sign),
+        }
+    }
+
+    /// Returns the end of the boxes along an axis, seen from the apex, mirrored with the pyramid.
+    #[inline(always)]
+    fn end(&self, node: &Node, rows: &[usize; 3], axis: usize) -> V {
+        V::load(&node.0[rows[axis] & 7]).mul(self.sign).sub(self.origin[axis])
+    }
+
+    /// Slopes with a margin for rounding: of the divisions, and of the triangle test as in
+    /// [`crate::local_ray::LocalRay`].
+    #[inline(always)]
+    pub(crate) fn of(&self, node: &Node) -> Slopes {
+        let floor = V::splat(Self::MIN_DEPTH);
+        let one = V::splat(1.0);
+        let near = one.div(self.end(node, &self.near_rows, 2).max(floor));
+        let far = one.div(self.end(node, &self.far_rows, 2).max(floor));
+        let (less, more) =
+            (V::splat(1.0 - 32.0 * ROUNDING_RATIO), V::splat(1.0 + 32.0 * ROUNDING_RATIO));
+        let mut slopes = Slopes { low: [Row([0.0; 8]); 2], high: [Row([0.0; 8]); 2] };
+        for axis in 0..2 {
+            let low = self.end(node, &self.near_rows, axis);
+            let high = self.end(node, &self.far_rows, axis);
+            let low = low.mul(near).min(low.mul(far));
+            let high = high.mul(near).max(high.mul(far));
+            slopes.low[axis] = low.mul(less).min(low.mul(more)).store();
+            slopes.high[axis] = high.mul(less).max(high.mul(more)).store();
+        }
+        slopes
+    }
+}
+
 /// Returns the row of a node with the lower or upper corners along an axis.
 #[inline(always)]
 fn row_of(axis: usize, upper: bool) -> usize {
@@ -223,10 +295,20 @@ fn row_of(axis: usize, upper: bool) -> usize {
 impl<V: V8> NodeTest<V> for Frustum<V> {
     #[inline(always)]
     fn children(&self, node: &Node, reach: V) -> (u32, V) {
+        let (hits, enter) = self.mask(node, reach);
+        (hits.bits(), enter)
+    }
+}
+
+impl<V: V8> Frustum<V> {
+    /// Returns a mask of the children that may be hit within `reach`, and the depths at which the
+    /// pyramid enters them.
+    #[inline(always)]
+    pub(crate) fn mask(&self, node: &Node, reach: V) -> (V, V) {
         let enter = self.enter.at(node).max(self.min);
         let enter = enter.max(self.from(0, node).max(self.from(1, node)));
         let leave = self.to[0].at(node).min(self.to[1].at(node));
         let leave = leave.min(self.leave.at(node).min(reach));
-        (enter.le(leave).bits(), enter)
+        (enter.le(leave), enter)
     }
 }

@@ -9,6 +9,11 @@
 
 mod simd4;
 
+use periplus_geometry::DVec3;
+
+use crate::bvh::MAX_PENDING_CHILDREN;
+use crate::traversal::PendingChildren;
+
 pub(crate) use simd4::V4;
 
 /// Eight f32 in memory, aligned for a vector load.
@@ -49,13 +54,29 @@ pub(crate) trait V8: Copy {
     /// Rounds towards zero. Every lane must be within ±2³¹.
     fn truncate(self) -> [i32; 8];
 
-    /// Prefetches into the cache.
-    fn prefetch<T>(what: &T);
+    /// Subtracts an origin from eight points and rounds: a vector for each coordinate.
+    fn transpose(points: [&DVec3; 8], origin: DVec3) -> [Self; 3];
+
+    /// Pushes the children whose lane in the mask `hits` is set. `order` holds three bits for each
+    /// position, the child that comes first in the lowest.
+    fn push(hits: Self, enter: Self, words: &Row, order: u32, pending: &mut PendingChildren);
+    /// Removes the children that are entered beyond `limit`; the others keep their order.
+    fn cull(pending: &mut PendingChildren, limit: f32);
+
+    /// Prefetches the five cache lines from an address on, which need not be valid.
+    fn prefetch(address: *const u8);
 
     /// Runs a task with this type's instructions enabled throughout, as a separate function. Everything
     /// inside a task is inlined, so a part with several callers is a separate task, or it is compiled once
     /// for each of them.
     fn run<T: Task>(task: T) -> T::Output;
+
+    /// [`Self::run`] for a task that needs more registers than the machine may have. The task is compiled
+    /// twice.
+    #[inline(always)]
+    fn run_with_most_registers<T: Task>(task: T) -> T::Output {
+        Self::run(task)
+    }
 }
 
 /// Broadcasts three values to all lanes.
@@ -89,6 +110,7 @@ fn has_avx2() -> bool {
         && is_x86_feature_detected!("fma")
         && is_x86_feature_detected!("bmi1")
         && is_x86_feature_detected!("lzcnt")
+        && is_x86_feature_detected!("popcnt")
 }
 
 #[cfg(not(test))]
@@ -97,9 +119,30 @@ fn force_portable() -> bool {
     false
 }
 
+#[cfg(all(not(test), target_arch = "x86_64"))]
+#[inline(always)]
+fn force_avx2() -> bool {
+    false
+}
+
 #[cfg(test)]
 thread_local! {
     static PORTABLE: std::cell::Cell<bool> = const { std::cell::Cell::new(false) };
+    static AVX2: std::cell::Cell<bool> = const { std::cell::Cell::new(false) };
+}
+
+#[cfg(all(test, target_arch = "x86_64"))]
+fn force_avx2() -> bool {
+    AVX2.get()
+}
+
+/// Runs `work` without the instructions of AVX-512.
+#[cfg(test)]
+pub(crate) fn without_avx512<R>(work: impl FnOnce() -> R) -> R {
+    AVX2.set(true);
+    let result = work();
+    AVX2.set(false);
+    result
 }
 
 #[cfg(test)]
@@ -213,7 +256,42 @@ impl V8 for Portable {
         self.0.map(|value| value as i32)
     }
     #[inline(always)]
-    fn prefetch<T>(_: &T) {}
+    #[expect(clippy::cast_possible_truncation, reason = "single precision is the point")]
+    fn transpose(points: [&DVec3; 8], origin: DVec3) -> [Self; 3] {
+        let mut rows = [Self([0.0; 8]); 3];
+        for (lane, &point) in points.into_iter().enumerate() {
+            let point = point - origin;
+            rows[0].0[lane] = point.x as f32;
+            rows[1].0[lane] = point.y as f32;
+            rows[2].0[lane] = point.z as f32;
+        }
+        rows
+    }
+    #[inline(always)]
+    fn push(hits: Self, enter: Self, words: &Row, order: u32, pending: &mut PendingChildren) {
+        let bits = hits.bits();
+        for position in 0..8 {
+            let child = (order >> (3 * position)) as usize & 7;
+            if bits >> child & 1 != 0 {
+                let height = pending.height.min(MAX_PENDING_CHILDREN);
+                pending.distances[height] = enter.0[child];
+                pending.words[height] = words.0[child].to_bits();
+                pending.height = height + 1;
+            }
+        }
+    }
+    #[inline(always)]
+    fn cull(pending: &mut PendingChildren, limit: f32) {
+        let mut kept = 0;
+        for index in 0..pending.height.min(MAX_PENDING_CHILDREN) {
+            pending.distances[kept] = pending.distances[index];
+            pending.words[kept] = pending.words[index];
+            kept += usize::from(pending.distances[index] <= limit);
+        }
+        pending.height = kept;
+    }
+    #[inline(always)]
+    fn prefetch(_: *const u8) {}
     // Not inlined into `dispatch`, whose stack frame would otherwise include this one.
     #[inline(never)]
     fn run<T: Task>(task: T) -> T::Output {
@@ -228,7 +306,35 @@ pub(crate) use avx2::Avx2;
 mod avx2 {
     use std::arch::x86_64::*;
 
-    use super::{Row, Task, V8};
+    use periplus_geometry::DVec3;
+
+    use super::{MAX_PENDING_CHILDREN, PendingChildren, Row, Task, V8};
+
+    /// For each mask of eight bits the positions of the set bits, in order.
+    static SET_BITS: [[u8; 8]; 256] = {
+        let mut table = [[0; 8]; 256];
+        let mut mask = 0;
+        while mask < 256 {
+            let (mut bit, mut count) = (0_u8, 0);
+            while bit < 8 {
+                if mask >> bit & 1 != 0 {
+                    table[mask][count] = bit;
+                    count += 1;
+                }
+                bit += 1;
+            }
+            mask += 1;
+        }
+        table
+    };
+
+    /// Returns the lanes of the set bits of a mask, in order.
+    #[inline(always)]
+    fn set_lanes(mask: i32) -> __m256i {
+        let row = &SET_BITS[mask as usize & 255];
+        // SAFETY: the row is eight readable bytes; the machine has AVX2 (see `Avx2`).
+        unsafe { _mm256_cvtepu8_epi32(_mm_loadl_epi64(row.as_ptr().cast())) }
+    }
 
     /// Eight f32 in an AVX register. Values of this type come to be only inside [`V8::run`], which
     /// [`super::dispatch`] reaches only on machines that have the instructions: that makes every
@@ -315,13 +421,83 @@ mod avx2 {
             result
         }
         #[inline(always)]
-        fn prefetch<T>(what: &T) {
+        fn transpose(points: [&DVec3; 8], origin: DVec3) -> [Self; 3] {
+            // SAFETY: on registers only; the machine has AVX2 (see `Avx2`).
+            unsafe {
+                let origin = _mm256_setr_pd(origin.x, origin.y, origin.z, 0.0);
+                /// A macro, as closures are compiled without the instructions.
+                macro_rules! single {
+                    ($point:ident) => {{
+                        let point = _mm256_setr_pd($point.x, $point.y, $point.z, 0.0);
+                        _mm256_cvtpd_ps(_mm256_sub_pd(point, origin))
+                    }};
+                }
+                let [a, b, c, d, e, f, g, h] = points;
+                let (a, b, c, d) = (single!(a), single!(b), single!(c), single!(d));
+                let (e, f, g, h) = (single!(e), single!(f), single!(g), single!(h));
+                let (ab, cd) = (_mm_unpacklo_ps(a, b), _mm_unpacklo_ps(c, d));
+                let (ef, gh) = (_mm_unpacklo_ps(e, f), _mm_unpacklo_ps(g, h));
+                let x = _mm256_set_m128(_mm_movelh_ps(ef, gh), _mm_movelh_ps(ab, cd));
+                let y = _mm256_set_m128(_mm_movehl_ps(gh, ef), _mm_movehl_ps(cd, ab));
+                let (ab, cd) = (_mm_unpackhi_ps(a, b), _mm_unpackhi_ps(c, d));
+                let (ef, gh) = (_mm_unpackhi_ps(e, f), _mm_unpackhi_ps(g, h));
+                let z = _mm256_set_m128(_mm_movelh_ps(ef, gh), _mm_movelh_ps(ab, cd));
+                [Self(x), Self(y), Self(z)]
+            }
+        }
+        #[inline(always)]
+        fn push(hits: Self, enter: Self, words: &Row, order: u32, pending: &mut PendingChildren) {
+            let height = pending.height.min(MAX_PENDING_CHILDREN);
+            // SAFETY: a `Row` is 32 readable bytes, aligned to 32. The targets are eight entries each
+            // from `height` on, and the arrays have eight more than `MAX_PENDING_CHILDREN`; the unaligned
+            // stores ask for no more. The machine has AVX2 (see `Avx2`).
+            unsafe {
+                let order = _mm256_set1_epi32(order.cast_signed());
+                // Only the lowest three bits of an index count.
+                let order = _mm256_srlv_epi32(order, _mm256_setr_epi32(0, 3, 6, 9, 12, 15, 18, 21));
+                let mask = _mm256_movemask_ps(_mm256_permutevar8x32_ps(hits.0, order));
+                let lanes = _mm256_permutevar8x32_epi32(order, set_lanes(mask));
+                let words = _mm256_load_ps(words.0.as_ptr());
+                let words = _mm256_permutevar8x32_ps(words, lanes);
+                let enter = _mm256_permutevar8x32_ps(enter.0, lanes);
+                _mm256_storeu_ps(pending.distances.as_mut_ptr().add(height), enter);
+                _mm256_storeu_ps(pending.words.as_mut_ptr().add(height).cast(), words);
+                pending.height = height + mask.count_ones() as usize;
+            }
+        }
+        #[inline(always)]
+        fn cull(pending: &mut PendingChildren, limit: f32) {
+            let height = pending.height.min(MAX_PENDING_CHILDREN);
+            let (mut read, mut kept) = (0, 0);
+            while read < height {
+                // SAFETY: `kept <= read < height <= MAX_PENDING_CHILDREN`, and the arrays have eight more
+                // entries; loads and stores are unaligned. The machine has AVX2 (see `Avx2`).
+                unsafe {
+                    let distances = pending.distances.as_mut_ptr();
+                    let words = pending.words.as_mut_ptr();
+                    let own = _mm256_loadu_ps(distances.add(read));
+                    let own_words = _mm256_loadu_si256(words.add(read).cast());
+                    let near = _mm256_cmp_ps::<_CMP_LE_OQ>(own, _mm256_set1_ps(limit));
+                    let used = (1 << (height - read).min(8)) - 1;
+                    let mask = _mm256_movemask_ps(near) & used;
+                    let lanes = set_lanes(mask);
+                    let own = _mm256_permutevar8x32_ps(own, lanes);
+                    let own_words = _mm256_permutevar8x32_epi32(own_words, lanes);
+                    _mm256_storeu_ps(distances.add(kept), own);
+                    _mm256_storeu_si256(words.add(kept).cast(), own_words);
+                    kept += mask.count_ones() as usize;
+                }
+                read += 8;
+            }
+            pending.height = kept;
+        }
+        #[inline(always)]
+        fn prefetch(address: *const u8) {
             const CACHE_LINE_BYTES: usize = 64;
-            for line in 0..size_of::<T>().div_ceil(CACHE_LINE_BYTES) {
-                let index =
-                    std::ptr::from_ref(what).cast::<i8>().wrapping_add(line * CACHE_LINE_BYTES);
+            for line in 0..5 {
+                let line = address.cast::<i8>().wrapping_add(line * CACHE_LINE_BYTES);
                 // SAFETY: a hint, which reads nothing, at any address.
-                unsafe { _mm_prefetch::<_MM_HINT_T0>(index) };
+                unsafe { _mm_prefetch::<_MM_HINT_T0>(line) };
             }
         }
         #[inline(always)]
@@ -329,10 +505,38 @@ mod avx2 {
             // SAFETY: `dispatch` saw that the machine has these instructions.
             unsafe { run(task) }
         }
+        #[inline(always)]
+        fn run_with_most_registers<T: Task>(task: T) -> T::Output {
+            if has_avx512() {
+                // SAFETY: the machine has these instructions.
+                unsafe { run_avx512(task) }
+            } else {
+                // SAFETY: `dispatch` saw that the machine has these instructions.
+                unsafe { run(task) }
+            }
+        }
+    }
+
+    #[inline(always)]
+    fn has_avx512() -> bool {
+        !super::force_avx2()
+            && is_x86_feature_detected!("avx512f")
+            && is_x86_feature_detected!("avx512vl")
+            && is_x86_feature_detected!("avx512dq")
+            && is_x86_feature_detected!("avx512bw")
+            && is_x86_feature_detected!("bmi2")
+    }
+
+    /// [`run`] with more registers and with numbers broadcast from memory within an operation. The
+    /// vectors are the same, and so are the results.
+    #[inline(never)]
+    #[target_feature(enable = "avx2,fma,bmi1,bmi2,lzcnt,popcnt,avx512f,avx512vl,avx512dq,avx512bw")]
+    fn run_avx512<T: Task>(task: T) -> T::Output {
+        task.run::<Avx2>()
     }
 
     #[inline(never)]
-    #[target_feature(enable = "avx2,fma,bmi1,lzcnt")]
+    #[target_feature(enable = "avx2,fma,bmi1,lzcnt,popcnt")]
     fn run<T: Task>(task: T) -> T::Output {
         task.run::<Avx2>()
     }
@@ -383,6 +587,39 @@ mod tests {
             .prop_map(Row)
     }
 
+    /// Pushes twice, culls, and transposes points: what is left on the stack, and the rows.
+    struct Stacked {
+        enter: Row,
+        limits: Row,
+        order: u32,
+        limit: f32,
+        points: [[f64; 3]; 8],
+    }
+
+    impl Task for Stacked {
+        type Output = (Vec<(u32, u32)>, Vec<(u32, u32)>, [[u32; 8]; 3]);
+        #[inline(always)]
+        fn run<V: V8>(self) -> Self::Output {
+            let words = Row([0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0]);
+            let mut pending = PendingChildren::EMPTY;
+            pending.restart();
+            let enter = V::load(&self.enter);
+            let hits = enter.le(V::load(&self.limits));
+            V::push(hits, enter, &words, self.order, &mut pending);
+            V::push(hits, enter.add(enter), &words, self.order, &mut pending);
+            let pushed = entries(&pending);
+            V::cull(&mut pending, self.limit);
+            let points = self.points.map(DVec3::from_array);
+            let rows = V::transpose(points.each_ref(), DVec3::new(1.0, 0.1, -0.3));
+            (pushed, entries(&pending), rows.map(|row| row.store().0.map(f32::to_bits)))
+        }
+    }
+
+    fn entries(pending: &PendingChildren) -> Vec<(u32, u32)> {
+        let distances = pending.distances.iter().map(|distance| distance.to_bits());
+        distances.zip(pending.words).take(pending.height).collect()
+    }
+
     struct Least(Row);
 
     impl Task for Least {
@@ -400,6 +637,24 @@ mod tests {
             prop_assert_eq!(Portable::run(Least(Row(values))), min_lane);
             if super::has_avx2() {
                 prop_assert_eq!(Avx2::run(Least(Row(values))), min_lane);
+            }
+        }
+
+        #[test]
+        fn stacks_and_rows_are_the_same(
+            enter in prop::array::uniform8(0.0_f32..9.0),
+            limits in prop::array::uniform8(0.0_f32..9.0),
+            order in Just([0_u32, 1, 2, 3, 4, 5, 6, 7]).prop_shuffle(),
+            limit in 0.0_f32..18.0,
+            points in prop::array::uniform8(prop::array::uniform3(-9.0_f64..9.0)),
+        ) {
+            let order = order.iter().rev().fold(0, |packed, &child| packed << 3 | child);
+            let (enter, limits) = (Row(enter), Row(limits));
+            let task = || Stacked { enter, limits, order, limit, points };
+            let (pushed, kept, rows) = Portable::run(task());
+            prop_assert!(kept.iter().all(|&(distance, _)| f32::from_bits(distance) <= limit));
+            if super::has_avx2() {
+                prop_assert_eq!(Avx2::run(task()), (pushed, kept, rows));
             }
         }
 

@@ -1,11 +1,66 @@
 //! Traversal of a tree, nearest first.
 
-use crate::bvh::{LEAF_MASK, MAX_STACK_ENTRIES, Node};
+use crate::bvh::{LEAF_MASK, MAX_PENDING_CHILDREN, MAX_STACK_ENTRIES, Node};
 use crate::simd::V8;
 
 /// Stack of pending nodes: entry distance in the upper half, child word in the lower. Distances are
 /// not negative, so their bits compare in the same order.
 pub(crate) type Stack = [u64; MAX_STACK_ENTRIES];
+
+/// Pending children of one ray, the nearest last, with their entry distances. Eight entries are written
+/// at a time, wherever the stack ends.
+pub(crate) struct PendingChildren {
+    pub(crate) distances: [f32; MAX_PENDING_CHILDREN + 8],
+    pub(crate) words: [u32; MAX_PENDING_CHILDREN + 8],
+    pub(crate) height: usize,
+}
+
+impl PendingChildren {
+    pub(crate) const EMPTY: Self = Self {
+        distances: [0.0; MAX_PENDING_CHILDREN + 8],
+        words: [0; MAX_PENDING_CHILDREN + 8],
+        height: 0,
+    };
+
+    /// Starts with the root only.
+    #[inline(always)]
+    pub(crate) fn restart(&mut self) {
+        (self.distances[0], self.words[0], self.height) = (0.0, 0, 1);
+    }
+
+    /// Removes the last child and returns its word.
+    #[inline(always)]
+    pub(crate) fn pop(&mut self) -> u32 {
+        self.height = self.height.wrapping_sub(1).min(MAX_PENDING_CHILDREN);
+        self.words[self.height]
+    }
+
+    #[inline(always)]
+    pub(crate) fn last(&self) -> LastChild {
+        let word = self.words[self.height.wrapping_sub(1).min(MAX_PENDING_CHILDREN)];
+        LastChild { word, exists: self.height > 0 }
+    }
+}
+
+/// The child to be visited next. Its kind is asked for without branches.
+#[derive(Clone, Copy)]
+pub(crate) struct LastChild {
+    /// Word of the child, any word if there is none.
+    pub(crate) word: u32,
+    exists: bool,
+}
+
+impl LastChild {
+    #[inline(always)]
+    pub(crate) fn is_node(self) -> bool {
+        self.exists & (self.word & LEAF_MASK == 0)
+    }
+
+    #[inline(always)]
+    pub(crate) fn is_none(self) -> bool {
+        !self.exists
+    }
+}
 
 /// A ray or packet that is tested against boxes.
 pub(crate) trait NodeTest<V> {
@@ -65,7 +120,7 @@ pub(crate) fn traverse<V: V8>(
 /// Returns the nearest child of a node, without a detour through the stack, and pushes the others,
 /// the farthest first.
 #[inline(always)]
-pub(crate) fn open<V: V8>(
+fn open<V: V8>(
     node: &Node,
     test: &impl NodeTest<V>,
     limit: f32,
@@ -106,7 +161,7 @@ pub(crate) fn open<V: V8>(
 
 /// Pops the next node that is within the limit.
 #[inline(always)]
-pub(crate) fn pop(stack: &Stack, height: &mut usize, limit: f32) -> Option<u32> {
+fn pop(stack: &Stack, height: &mut usize, limit: f32) -> Option<u32> {
     while *height > 0 {
         *height -= 1;
         let key = stack[*height % MAX_STACK_ENTRIES];

@@ -5,6 +5,7 @@ mod builder;
 mod change;
 mod instances;
 mod lanes;
+mod level;
 mod occlusion;
 mod packet_group;
 mod partition;
@@ -19,6 +20,7 @@ pub use builder::{InstanceError, RaycastWorldBuilder};
 pub use change::InstanceChangeError;
 
 use self::instances::InstanceTree;
+use self::level::LevelTrees;
 use crate::heightfield::Heightfield;
 use crate::mesh::TriangleMesh;
 use crate::shape::Solid;
@@ -72,6 +74,8 @@ impl Filter {
 pub struct RaycastWorld {
     /// Triangles that never move.
     fixed: TriangleMesh,
+    /// Trees over those of them that level rays can meet.
+    level: LevelTrees,
     /// First triangle and instance of each part of `fixed`, in order.
     parts: Vec<Part>,
     /// Intersection of the masks of all parts.
@@ -187,6 +191,7 @@ impl RaycastWorld {
     #[must_use]
     pub fn size_bytes(&self) -> usize {
         self.fixed.size_bytes()
+            + self.level.size_bytes()
             + self.resting.size_bytes()
             + self.moving.size_bytes()
             + size_of_val(&*self.instances)

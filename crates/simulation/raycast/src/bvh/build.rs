@@ -115,8 +115,8 @@ impl Task for Build<'_> {
             return nodes;
         }
         // The root's children are the tasks; their order of completion does not matter.
-        let (children, count) = children_of::<V>(self.boxes, range, self.leaf_size, 0);
-        let children = &children[..count];
+        let split = children_of::<V>(self.boxes, range, self.leaf_size, 0);
+        let (children, count) = (split.as_slice(), split.count);
         let mut tasks = Vec::with_capacity(count);
         let mut rest = self.boxes;
         for child in children {
@@ -145,6 +145,7 @@ impl Task for Build<'_> {
             }
         });
         nodes.push(Node::EMPTY);
+        nodes[0].set_orders(&split.orders);
         for (slot, task) in tasks.into_iter().enumerate() {
             let child = &children[slot];
             let word = if child.len() <= self.leaf_size {
@@ -226,8 +227,9 @@ fn grow<V: V8>(
 ) {
     let own = nodes.len();
     nodes.push(Node::EMPTY);
-    let (children, count) = children_of::<V>(boxes, range, leaf_size, depth);
-    for (slot, child) in children[..count].iter().enumerate() {
+    let children = children_of::<V>(boxes, range, leaf_size, depth);
+    nodes[own].set_orders(&children.orders);
+    for (slot, child) in children.as_slice().iter().enumerate() {
         let word = if child.len() <= leaf_size {
             leaf(child.start, child.len())
         } else {
@@ -239,6 +241,50 @@ fn grow<V: V8>(
     }
 }
 
+/// Ranges of the children of a node.
+struct Children {
+    ranges: [Range; 8],
+    count: usize,
+    /// For each octant of ray directions the children, the farthest first, as the splits tell. The
+    /// positions from `count` on hold the unused slots.
+    orders: [[u8; 8]; 8],
+}
+
+impl Children {
+    fn as_slice(&self) -> &[Range] {
+        &self.ranges[..self.count]
+    }
+}
+
+/// Replaces a child by its two halves along an axis: `slot` and the next.
+fn split_orders(orders: &mut [[u8; 8]; 8], count: usize, slot: usize, axis: usize) {
+    for (octant, order) in orders.iter_mut().enumerate() {
+        let mut split = [0_u8; 8];
+        let mut end = 0;
+        for &child in &order[..count] {
+            let child = usize::from(child);
+            let moved = child + usize::from(child > slot);
+            let (first, second) = if octant >> axis & 1 == 0 { (1, 0) } else { (0, 1) };
+            if child == slot {
+                (split[end], split[end + 1]) = (index_u8(slot + first), index_u8(slot + second));
+                end += 2;
+            } else {
+                split[end] = index_u8(moved);
+                end += 1;
+            }
+        }
+        for (position, unused) in split.iter_mut().enumerate().skip(end) {
+            *unused = index_u8(position);
+        }
+        *order = split;
+    }
+}
+
+#[expect(clippy::cast_possible_truncation, reason = "a slot of eight")]
+fn index_u8(slot: usize) -> u8 {
+    slot as u8
+}
+
 /// Splits a range into at most eight, in the order of the boxes.
 #[inline(always)]
 fn children_of<V: V8>(
@@ -246,9 +292,10 @@ fn children_of<V: V8>(
     range: Range,
     leaf_size: usize,
     depth: usize,
-) -> ([Range; 8], usize) {
+) -> Children {
     let mut children = [range; 8];
     let mut count = 1;
+    let mut orders = [[0, 1, 2, 3, 4, 5, 6, 7]; 8];
     let mut settled = [false; 8];
     while count < 8 {
         let mut widest = None;
@@ -273,10 +320,12 @@ fn children_of<V: V8>(
         let Some(slot) = widest else { break };
         let child = children[slot];
         let large = child.len() > leaf_size;
-        let Some((left, right)) = split::<V>(boxes, &child, large, depth >= HALVE_DEPTH) else {
+        let Some((left, right, axis)) = split::<V>(boxes, &child, large, depth >= HALVE_DEPTH)
+        else {
             settled[slot] = true;
             continue;
         };
+        split_orders(&mut orders, count, slot, axis);
         children.copy_within(slot + 1..count, slot + 2);
         settled.copy_within(slot + 1..count, slot + 2);
         children[slot] = left;
@@ -284,7 +333,7 @@ fn children_of<V: V8>(
         (settled[slot], settled[slot + 1]) = (false, false);
         count += 1;
     }
-    (children, count)
+    Children { ranges: children, count, orders }
 }
 
 /// Returns the bounds of all boxes and of their centres.
@@ -316,14 +365,15 @@ struct Split {
     right: Bounds,
 }
 
-/// Splits a range in two, or returns `None` if a leaf is cheaper, unless `forced`.
+/// Splits a range in two along the axis returned, or returns `None` if a leaf is cheaper, unless
+/// `forced`.
 #[inline(always)]
 fn split<V: V8>(
     boxes: &mut [Bounds],
     range: &Range,
     forced: bool,
     halve: bool,
-) -> Option<(Range, Range)> {
+) -> Option<(Range, Range, usize)> {
     let own = &mut boxes[range.start..range.end];
     let best = if halve { None } else { best_cut::<V>(own, range) };
     if !forced {
@@ -341,7 +391,7 @@ fn split<V: V8>(
         let (left, right) = own.split_at(middle);
         let (left, right) =
             (measure::<V>(left, range.start), measure::<V>(right, range.start + middle));
-        return Some((left, right));
+        return Some((left, right, 0));
     };
     let (offset, scale) = grid(range);
     let (offset, scale) = (V::load(&offset), V::load(&scale));
@@ -366,6 +416,7 @@ fn split<V: V8>(
     Some((
         Range { start: range.start, end: middle, bounds: cut.left, centres: first },
         Range { start: middle, end: range.end, bounds: cut.right, centres: second },
+        axis,
     ))
 }
 

@@ -1,11 +1,11 @@
 //! Packets of rays with a common origin against one triangle at a time.
 
 use super::{Block, TriangleMesh};
-use crate::bvh::leaf_range;
+use crate::bvh::{LEAF_MASK, MAX_PENDING_CHILDREN, leaf_range};
 use crate::local_ray::distance_margin;
-use crate::packet::{Frustum, Packet, Pyramid};
+use crate::packet::{Frustum, MAX_GROUP_COUNT, Packet, Pyramid, SlopeTest, Slopes};
 use crate::simd::{Row, V8, splat3};
-use crate::traversal::{Leaves, Stack, Step, traverse};
+use crate::traversal::PendingChildren;
 use crate::triangle;
 
 /// The nearest triangles found by eight rays. Ids are bit patterns compared as f32, which preserves
@@ -41,22 +41,143 @@ impl TriangleMesh {
         pyramid: &Pyramid,
         packets: &[Packet],
         best: &mut [Best],
-        stack: &mut Stack,
+        stack: &mut GroupStack,
     ) {
+        if self.nodes.is_empty() {
+            return;
+        }
         let margin = distance_margin(self.extent, 1.0);
-        let sides = Sides::new(pyramid);
-        let origin = splat3([0, 1, 2].map(|axis: usize| pyramid.origin[pyramid.axes[axis]]));
+        let [x, y, z] = pyramid.axes;
+        let origin = splat3([pyramid.origin[x], pyramid.origin[y], pyramid.origin[z]]);
         let mut leaves = PacketLeaves::<V> {
             blocks: &self.blocks,
             axes: pyramid.axes,
             origin,
-            sides,
+            sides: Sides::new(pyramid),
             packets,
             best,
             margin,
+            bounds: PacketBounds::new(packets),
         };
-        let limit = leaves.limit();
-        traverse(&self.nodes, &Frustum::<V>::new(pyramid, margin), limit, stack, &mut leaves);
+        leaves.update_limits(u32::MAX);
+        let frustum = Frustum::<V>::new(pyramid, margin);
+        let slope_test = SlopeTest::<V>::new(pyramid);
+        let octant = pyramid.octant();
+        let GroupStack { words, distances, packets: masks, height, children } = stack;
+        (words[0], distances[0], masks[0], *height) = (0, 0.0, u8::MAX, 1);
+        while *height > 0 {
+            *height = height.wrapping_sub(1).min(MAX_PENDING_CHILDREN);
+            let word = words[*height];
+            let active = u32::from(masks[*height]) & leaves.within::<V>(distances[*height]);
+            if active == 0 {
+                continue;
+            }
+            if word & LEAF_MASK != 0 {
+                leaves.visit(word, active);
+                continue;
+            }
+            let node = &self.nodes[word as usize];
+            let (hits, enter) = frustum.mask(node, V::splat(leaves.bounds.max_limit));
+            children.height = 0;
+            V::push(hits, enter, &CHILD_NUMBERS, node.order(octant), children);
+            let count = children.height.min(8);
+            if active & (active - 1) == 0 {
+                // The pyramid may be wider than the packet, but there is nothing to share.
+                for index in 0..count {
+                    let child = children.words[index] as usize & 7;
+                    let at = height.wrapping_add(index).min(MAX_PENDING_CHILDREN);
+                    words[at] = node.child(child);
+                    distances[at] = children.distances[index];
+                    masks[at] = active as u8;
+                }
+                *height += count;
+                continue;
+            }
+            if count == 0 {
+                continue;
+            }
+            let slopes = slope_test.of(node);
+            for index in 0..count {
+                let child = children.words[index] as usize & 7;
+                let distance = children.distances[index];
+                let own = active & leaves.bounds.seeing::<V>(&slopes, child, distance);
+                let at = (*height).min(MAX_PENDING_CHILDREN);
+                words[at] = node.child(child);
+                distances[at] = distance;
+                masks[at] = own as u8;
+                *height = at + usize::from(own != 0);
+            }
+        }
+    }
+}
+
+/// Numbers of the children of a node, as bits.
+const CHILD_NUMBERS: Row = {
+    let mut row = Row([0.0; 8]);
+    let mut child = 0;
+    while child < 8 {
+        row.0[child] = f32::from_bits(child as u32);
+        child += 1;
+    }
+    row
+};
+
+/// Pending children of a group of packets, the nearest last.
+pub(crate) struct GroupStack {
+    words: [u32; MAX_PENDING_CHILDREN + 8],
+    /// Depths at which the pyramid enters them.
+    distances: [f32; MAX_PENDING_CHILDREN + 8],
+    /// Packets that may hit them, as bits.
+    packets: [u8; MAX_PENDING_CHILDREN + 8],
+    height: usize,
+    /// Children of one node.
+    children: PendingChildren,
+}
+
+impl GroupStack {
+    pub(crate) const EMPTY: Self = Self {
+        words: [0; MAX_PENDING_CHILDREN + 8],
+        distances: [0.0; MAX_PENDING_CHILDREN + 8],
+        packets: [0; MAX_PENDING_CHILDREN + 8],
+        height: 0,
+        children: PendingChildren::EMPTY,
+    };
+}
+
+/// Slopes and limits of up to eight packets side by side.
+struct PacketBounds {
+    low: [Row; 2],
+    high: [Row; 2],
+    /// Depths within which the packets can still find hits; -1 in unused lanes.
+    limits: Row,
+    max_limit: f32,
+}
+
+impl PacketBounds {
+    #[inline(always)]
+    fn new(packets: &[Packet]) -> Self {
+        let none = Row([f32::INFINITY; 8]);
+        let mut own =
+            Self { low: [none; 2], high: [none; 2], limits: Row([-1.0; 8]), max_limit: -1.0 };
+        for (lane, packet) in packets.iter().take(MAX_GROUP_COUNT).enumerate() {
+            for axis in 0..2 {
+                own.low[axis].0[lane] = packet.pyramid.low[axis];
+                own.high[axis].0[lane] = packet.pyramid.high[axis];
+            }
+        }
+        own
+    }
+
+    /// Returns the packets that may hit a child that is entered at a distance, as bits.
+    #[inline(always)]
+    fn seeing<V: V8>(&self, slopes: &Slopes, child: usize, distance: f32) -> u32 {
+        let mut own = V::splat(distance).le(V::load(&self.limits));
+        for axis in 0..2 {
+            let (low, high) = (slopes.low[axis].0[child], slopes.high[axis].0[child]);
+            own = own.and(V::load(&self.low[axis]).le(V::splat(high)));
+            own = own.and(V::splat(low).le(V::load(&self.high[axis])));
+        }
+        own.bits()
     }
 }
 
@@ -107,6 +228,7 @@ struct PacketLeaves<'a, V> {
     packets: &'a [Packet],
     best: &'a mut [Best],
     margin: f32,
+    bounds: PacketBounds,
 }
 
 impl<V: V8> PacketLeaves<'_, V> {
@@ -119,33 +241,44 @@ impl<V: V8> PacketLeaves<'_, V> {
         ]
     }
 
-    /// Returns the depth within which any ray can still find a hit.
+    /// Updates the depths within which these packets, as bits, can still find hits.
     #[inline(always)]
-    fn limit(&self) -> f32 {
-        let mut limit = 0.0_f32;
-        for (packet, best) in self.packets.iter().zip(&*self.best) {
-            let own = packet.reach(V::load(&best.distances), self.margin);
-            limit = if own > limit { own } else { limit };
+    fn update_limits(&mut self, updated: u32) {
+        for (number, (packet, best)) in self.packets.iter().zip(&*self.best).enumerate() {
+            if updated >> number & 1 != 0 {
+                let limit = packet.reach(V::load(&best.distances), self.margin);
+                self.bounds.limits.0[number % MAX_GROUP_COUNT] = limit;
+            }
         }
-        limit
+        let zero = V::splat(0.0);
+        self.bounds.max_limit = -zero.sub(V::load(&self.bounds.limits)).min_lane();
     }
-}
 
-impl<V: V8> Leaves for PacketLeaves<'_, V> {
+    /// Returns the packets that may hit something beyond a depth, as bits.
     #[inline(always)]
-    fn visit(&mut self, word: u32) -> Step {
+    fn within<W: V8>(&self, distance: f32) -> u32 {
+        W::splat(distance).le(W::load(&self.bounds.limits)).bits()
+    }
+
+    /// Tests the triangles of a leaf against packets, as bits.
+    #[inline(always)]
+    fn visit(&mut self, word: u32, active: u32) {
         let (number, count) = leaf_range(word);
         let block = &self.blocks[number];
         let [a, b, c] = &block.corners;
         let corners = [self.corner(a), self.corner(b), self.corner(c)];
         let candidates = self.sides.candidates(&corners) & ((2 << (count - 1)) - 1);
         if candidates == 0 {
-            return Step::On;
+            return;
         }
         let [a, b, c] = &corners;
         let rows = [stored(a), stored(b), stored(c)];
-        let mut found = false;
-        for (packet, best) in self.packets.iter().zip(&mut *self.best) {
+        let mut updated = 0_u32;
+        let mut remaining = active;
+        while remaining != 0 {
+            let number = remaining.trailing_zeros() as usize;
+            remaining &= remaining - 1;
+            let (packet, best) = (&self.packets[number], &mut self.best[number]);
             let mut own = candidates;
             if self.packets.len() > 1 && own & (own - 1) != 0 {
                 own &= Sides::new(&packet.pyramid).candidates(&corners);
@@ -163,16 +296,18 @@ impl<V: V8> Leaves for PacketLeaves<'_, V> {
                 if hit.bits() == 0 {
                     continue;
                 }
-                found = true;
+                updated |= 1 << number;
                 // At equal distance the lower id wins.
-                let id = V::splat(f32::from_bits(block.ids[lane]));
+                let id = V::splat(block.ids.0[lane]);
                 let ids = V::load(&best.ids);
                 let stays = nearest.le(distances).and(ids.le(id));
                 best.distances = distances.select(nearest, hit).store();
                 best.ids = ids.select(id, stays).select(ids, hit).store();
             }
         }
-        if found { Step::Within(self.limit()) } else { Step::On }
+        if updated != 0 {
+            self.update_limits(updated);
+        }
     }
 }
 

@@ -6,6 +6,7 @@ use std::sync::Arc;
 use periplus_geometry::{DVec3, Pose};
 
 use super::instances::InstanceTree;
+use super::level::LevelTrees;
 use super::{Frame, Instance, InstanceGeometry, Mobility, Part, RaycastWorld, Tags};
 use crate::heightfield::Heightfield;
 use crate::mesh::{TriangleMesh, TriangleMeshError};
@@ -162,6 +163,7 @@ impl RaycastWorldBuilder {
         let mut world = RaycastWorld {
             middle_m: fixed.middle_m,
             fixed,
+            level: LevelTrees::default(),
             parts: self.parts,
             parts_mask: u32::MAX,
             parts_groups: Vec::new(),

@@ -139,6 +139,7 @@ impl RaycastWorld {
                 let after = self.parts.get(index + 1).map(|part| part.first);
                 let count = u32::try_from(self.fixed.len()).unwrap_or(u32::MAX);
                 self.fixed.erase(first..after.unwrap_or(count));
+                self.level.clear();
             }
         }
         self.update_part_filter();

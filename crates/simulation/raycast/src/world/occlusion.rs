@@ -151,7 +151,7 @@ impl RaycastWorld {
         let off = (high - middle).max(middle - low);
         let local = LocalRay::new(middle - self.middle_m, rays[0].direction, min);
         let boxes = BoxTest::<V>::new(&local, 0.0).around(off);
-        let Scratch { top, body } = scratch;
+        let Scratch { top, body, .. } = scratch;
         let mut leaves = OcclusionLeaves::<V> {
             world: self,
             order: &[],

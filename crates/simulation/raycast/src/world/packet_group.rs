@@ -5,10 +5,10 @@ use std::marker::PhantomData;
 use periplus_geometry::DVec3;
 
 use super::lanes::Lanes;
-use super::query::{FindInstance, NearestHit, Scratch, single_above};
+use super::query::{FindInstance, NearestHit, Scratch, directions, single_above, to_f32};
 use super::{Filter, InstanceGeometry, RaycastWorld};
 use crate::bvh::leaf_range;
-use crate::mesh::{Best, TriangleMesh};
+use crate::mesh::{Best, GroupStack, TriangleMesh};
 use crate::packet::{Frustum, MAX_GROUP_COUNT, Packet, Pyramid};
 use crate::ray::Ray;
 use crate::simd::{Row, Task, V8};
@@ -30,6 +30,8 @@ pub(super) struct PacketGroup {
 pub(super) struct Member {
     slots: [usize; 8],
     count: usize,
+    /// True if no ray has a maximum distance.
+    endless: bool,
 }
 
 impl PacketGroup {
@@ -64,17 +66,19 @@ impl PacketGroup {
     fn trace<V: V8>(
         &mut self,
         world: &RaycastWorld,
+        fixed: &TriangleMesh,
         rays: &[Ray],
         filter: Filter,
         scratch: &mut Scratch,
     ) {
         let Some(pyramid) = self.pyramid.take() else { return };
-        let instances = !world.resting.nodes.is_empty() || !world.moving.nodes.is_empty();
-        self.found = [[NearestHit::nothing(0.0); 8]; MAX_GROUP_COUNT];
-        let found = &mut self.found;
-        let mut best = [Best::within(Row([0.0; 8])); MAX_GROUP_COUNT];
+        let instances = world.has_instances();
+        let others = instances || !world.endless.is_empty();
+        let count = self.packets.len().min(MAX_GROUP_COUNT);
+        let found = &mut self.found[..count];
+        let mut best = [Best::within(Row([f32::INFINITY; 8])); MAX_GROUP_COUNT];
         for ((member, found), best) in self.members.iter().zip(&mut *found).zip(&mut best) {
-            if instances || !world.endless.is_empty() {
+            if others {
                 let lanes = Lanes::new(&member.rays(rays));
                 *found = lanes.nothing();
                 for &number in &world.endless {
@@ -82,16 +86,19 @@ impl PacketGroup {
                     world.find_solid8::<V>(number, origins_m, directions, min, filter, found);
                 }
                 self.lanes.push(lanes);
+            } else if member.endless {
+                *found = [NearestHit::nothing(f64::INFINITY); 8];
+                continue;
             } else {
                 for (found, &index) in found.iter_mut().zip(&member.slots) {
-                    found.distance = rays[index].max_m;
+                    *found = NearestHit::nothing(rays[index].max_m);
                 }
             }
             *best = start(found);
         }
-        if !world.fixed.is_empty() {
-            let best = &mut best[..self.packets.len()];
-            world.fixed.trace_packets::<V>(&pyramid, &self.packets, best, &mut scratch.body);
+        if !fixed.nodes.is_empty() {
+            let best = &mut best[..count];
+            fixed.trace_packets::<V>(&pyramid, &self.packets, best, &mut scratch.group);
             for (found, best) in found.iter_mut().zip(best) {
                 for (lane, found) in found.iter_mut().enumerate() {
                     if let Some((distance, id)) = best.get(lane) {
@@ -113,10 +120,10 @@ impl PacketGroup {
 
     /// Reports the nearest hit of each ray, and clears the group.
     #[inline(always)]
-    pub(super) fn report(&mut self, report: &mut impl FnMut(usize, &NearestHit)) {
+    pub(super) fn report(&mut self, first: usize, report: &mut impl FnMut(usize, &NearestHit)) {
         for (member, found) in self.members.iter().zip(&self.found) {
             for (&index, found) in member.slots[..member.count].iter().zip(found) {
-                report(index, found);
+                report(first + index, found);
             }
         }
         self.packets.clear();
@@ -129,6 +136,8 @@ impl PacketGroup {
 pub(super) struct TraceGroup<'a> {
     pub(super) group: &'a mut PacketGroup,
     pub(super) world: &'a RaycastWorld,
+    /// The fixed triangles that the rays can meet.
+    pub(super) fixed: &'a TriangleMesh,
     pub(super) rays: &'a [Ray],
     pub(super) filter: Filter,
     pub(super) scratch: &'a mut Scratch,
@@ -139,8 +148,8 @@ impl Task for TraceGroup<'_> {
 
     #[inline(always)]
     fn run<V: V8>(self) {
-        let Self { group, world, rays, filter, scratch } = self;
-        group.trace::<V>(world, rays, filter, scratch);
+        let Self { group, world, fixed, rays, filter, scratch } = self;
+        group.trace::<V>(world, fixed, rays, filter, scratch);
     }
 }
 
@@ -165,24 +174,24 @@ impl RaycastWorld {
         picked: &[usize],
     ) -> Option<(Packet, Member)> {
         let first = *picked.first()?;
-        let mut member = Member { slots: [first; 8], count: picked.len() };
-        let origin_m = rays[first].origin_m;
-        let (mut directions, mut min) = ([rays[first].direction; 8], [0.0; 8]);
+        let mut member = Member { slots: [first; 8], count: picked.len(), endless: true };
+        let lead = &rays[first];
+        let mut own = [lead; 8];
+        let mut min = Row([to_f32(lead.min_m); 8]);
         let mut fits = true;
-        for (lane, &index) in picked.iter().enumerate() {
+        for (lane, &index) in picked.iter().enumerate().take(8) {
             let ray = &rays[index];
             member.slots[lane] = index;
-            fits &= ray.origin_m == origin_m && ray.is_sound();
-            directions[lane] = ray.direction;
-            min[lane] = to_f32(ray.min_m);
-        }
-        for lane in picked.len()..8 {
-            min[lane] = min[0];
+            own[lane] = ray;
+            fits &= (ray.origin_m == lead.origin_m) & ray.is_sound();
+            member.endless &= ray.max_m == f64::INFINITY;
+            min.0[lane] = to_f32(ray.min_m);
         }
         if !fits {
             return None;
         }
-        let packet = Packet::new::<V>(origin_m - self.fixed.middle_m, &directions, Row(min))?;
+        let origin = lead.origin_m - self.fixed.middle_m;
+        let packet = Packet::new::<V>(origin, directions(own), min)?;
         Some((packet, member))
     }
 
@@ -198,7 +207,7 @@ impl RaycastWorld {
         scratch: &mut Scratch,
     ) {
         let frustum = Frustum::<V>::new(&packet.pyramid, 0.0);
-        let Scratch { top, body } = scratch;
+        let Scratch { top, body, group } = scratch;
         for tree in [&self.resting, &self.moving] {
             let limit = limit::<V>(packet, found, rays.len());
             let mut leaves = InstancePacketLeaves::<V> {
@@ -210,6 +219,7 @@ impl RaycastWorld {
                 filter,
                 found,
                 stack: body,
+                group,
                 vectors: PhantomData,
             };
             traverse(&tree.nodes, &frustum, limit, top, &mut leaves);
@@ -224,17 +234,17 @@ impl RaycastWorld {
         number: u32,
         rays: &[&Ray],
         found: &mut [NearestHit; 8],
-        stack: &mut Stack,
+        stack: &mut GroupStack,
     ) -> bool {
         let frame = &self.instances[number as usize].world_from_body;
         let origin = frame.point_in_body(rays[0].origin_m) - mesh.middle_m;
-        let (mut directions, mut min) = ([DVec3::ZERO; 8], Row([0.0; 8]));
+        let (mut turned, mut min) = ([DVec3::ZERO; 8], Row([0.0; 8]));
         for lane in 0..8 {
             let ray = rays[if lane < rays.len() { lane } else { 0 }];
-            directions[lane] = frame.rotate_into_body(ray.direction);
+            turned[lane] = frame.rotate_into_body(ray.direction);
             min.0[lane] = to_f32(ray.min_m);
         }
-        let Some(packet) = Packet::new::<V>(origin, &directions, min) else { return false };
+        let Some(packet) = Packet::new::<V>(origin, turned.each_ref(), min) else { return false };
         let mut best = [start(found)];
         mesh.trace_packets::<V>(&packet.pyramid, std::slice::from_ref(&packet), &mut best, stack);
         for (lane, found) in found.iter_mut().enumerate() {
@@ -244,13 +254,6 @@ impl RaycastWorld {
         }
         true
     }
-}
-
-/// Returns the minimum distance as stored in a ray of a tree's frame.
-#[inline(always)]
-#[expect(clippy::cast_possible_truncation, reason = "single precision is the point")]
-fn to_f32(min_m: f64) -> f32 {
-    min_m.max(0.0) as f32
 }
 
 /// Returns the depth within which any of the first `count` rays can still find a hit.
@@ -273,6 +276,7 @@ struct InstancePacketLeaves<'a, V> {
     filter: Filter,
     found: &'a mut [NearestHit; 8],
     stack: &'a mut Stack,
+    group: &'a mut GroupStack,
     vectors: PhantomData<V>,
 }
 
@@ -292,7 +296,7 @@ impl<V: V8> Leaves for InstancePacketLeaves<'_, V> {
                 continue;
             }
             if let InstanceGeometry::Mesh(mesh) = &instance.body
-                && self.world.find_mesh_packet::<V>(mesh, number, self.rays, self.found, self.stack)
+                && self.world.find_mesh_packet::<V>(mesh, number, self.rays, self.found, self.group)
             {
                 continue;
             }

@@ -5,14 +5,14 @@ use periplus_geometry::DVec3;
 use super::{Filter, Frame, Instance, InstanceGeometry, RaycastWorld};
 use crate::bvh::{MAX_STACK_ENTRIES, leaf_range};
 use crate::local_ray::{BoxTest, LocalRay, reach};
-use crate::mesh::Nearest;
+use crate::mesh::{GroupStack, Nearest};
 use crate::ray::{Hit, InstanceId, Ray};
 use crate::simd::{Task, V8, dispatch};
 use crate::simd8::DVec3x8;
 use crate::traversal::{Leaves, Stack, Step, traverse};
 
 /// Nearest hit so far; without a hit (`instance` is `u32::MAX`) `distance` is the maximum distance.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct NearestHit {
     pub(super) distance: f64,
     pub(super) instance: u32,
@@ -20,10 +20,12 @@ pub(super) struct NearestHit {
 }
 
 impl NearestHit {
+    #[inline(always)]
     pub(super) fn nothing(max: f64) -> Self {
         Self { distance: max, instance: u32::MAX, primitive: u32::MAX }
     }
 
+    #[inline(always)]
     pub(super) fn is_hit(&self) -> bool {
         self.instance != u32::MAX
     }
@@ -46,11 +48,12 @@ impl NearestHit {
 pub(super) struct Scratch {
     pub(super) top: Stack,
     pub(super) body: Stack,
+    pub(super) group: GroupStack,
 }
 
 impl Scratch {
     pub(super) fn new() -> Self {
-        Self { top: [0; MAX_STACK_ENTRIES], body: [0; MAX_STACK_ENTRIES] }
+        Self { top: [0; MAX_STACK_ENTRIES], body: [0; MAX_STACK_ENTRIES], group: GroupStack::EMPTY }
     }
 }
 
@@ -64,6 +67,27 @@ pub(super) fn single_above(distance: f64) -> f32 {
     let bits = to_f32.to_bits();
     let above = if to_f32 < 0.0 { bits.wrapping_sub(1) } else { bits.wrapping_add(1) };
     f32::from_bits(if f64::from(to_f32) < distance { above } else { bits })
+}
+
+/// Returns the minimum distance as stored in a ray of a tree's frame.
+#[inline(always)]
+#[expect(clippy::cast_possible_truncation, reason = "single precision is the point")]
+pub(super) fn to_f32(min_m: f64) -> f32 {
+    min_m.max(0.0) as f32
+}
+
+#[inline(always)]
+pub(super) fn directions([a, b, c, d, e, f, g, h]: [&Ray; 8]) -> [&DVec3; 8] {
+    [
+        &a.direction,
+        &b.direction,
+        &c.direction,
+        &d.direction,
+        &e.direction,
+        &f.direction,
+        &g.direction,
+        &h.direction,
+    ]
 }
 
 /// `normal` points outwards.
@@ -125,6 +149,12 @@ impl RaycastWorld {
         world_from_body.rotate_into_world(solid.normal(point, found.primitive))
     }
 
+    /// Returns true if there are bounded instances besides the fixed triangles.
+    #[inline(always)]
+    pub(super) fn has_instances(&self) -> bool {
+        !self.resting.nodes.is_empty() || !self.moving.nodes.is_empty()
+    }
+
     /// Returns true if the filter accepts every fixed triangle.
     pub(super) fn sees_all_fixed(&self, filter: Filter) -> bool {
         (self.parts.is_empty() || self.parts_mask & filter.mask != 0)
@@ -135,6 +165,9 @@ impl RaycastWorld {
     /// Returns the instance of a fixed triangle and the triangle's index in it.
     #[inline]
     pub(super) fn part_of(&self, triangle: u32) -> (u32, u32) {
+        if let [part] = &*self.parts {
+            return (part.instance, triangle - part.first);
+        }
         let after = self.parts.partition_point(|part| part.first <= triangle);
         let part = self.parts[after - 1];
         (part.instance, triangle - part.first)
@@ -260,13 +293,13 @@ impl RaycastWorld {
         found: &mut NearestHit,
         scratch: &mut Scratch,
     ) {
-        if self.resting.nodes.is_empty() && self.moving.nodes.is_empty() {
+        if !self.has_instances() {
             return;
         }
         let local = LocalRay::new(ray.origin_m - self.middle_m, ray.direction, ray.min_m);
         // The margins of the boxes cover the error of an instance's frame.
         let boxes = BoxTest::<V>::new(&local, 0.0);
-        let Scratch { top, body } = scratch;
+        let Scratch { top, body, .. } = scratch;
         for tree in [&self.resting, &self.moving] {
             let limit = reach(single_above(found.distance), 0.0);
             let mut leaves = InstanceLeaves::<V, ANY> {
@@ -418,7 +451,7 @@ mod tests {
     use periplus_geometry::{DVec3, Pose, Stream};
     use proptest::prelude::*;
 
-    use crate::simd::without_vectors;
+    use crate::simd::{without_avx512, without_vectors};
     use crate::{Filter, Ray, RaycastWorld, Tags};
 
     #[test]
@@ -457,6 +490,9 @@ mod tests {
             let rays: Vec<Ray> = (0..200)
                 .map(|n| {
                     let ahead = DVec3::new(1.0, f64::from(n) * 0.01 - 1.0, 0.0);
+                    if (60..140).contains(&n) {
+                        return Ray::new(eye, ahead);
+                    }
                     let any = DVec3::from_array(point(2.0));
                     let origin = if n % 3 == 0 { DVec3::from_array(point(9.0)) } else { eye };
                     Ray::new(origin, (ahead + any * 0.05).normalize_or(DVec3::X))
@@ -470,12 +506,16 @@ mod tests {
                 let world = builder.build(1).unwrap();
                 let mut hits = vec![None; rays.len()];
                 world.hits_grid(&rays, 20, Filter::default(), 1, &mut hits);
+                let mut row = vec![None; rays.len()];
+                world.hits_grid(&rays, rays.len(), Filter::default(), 1, &mut row);
+                assert_eq!(row, hits);
                 let to_f32: Vec<_> =
                     rays.iter().map(|ray| world.cast(ray, Filter::default())).collect();
                 (hits, to_f32)
             };
             let (vectors, plain) = (answers(), without_vectors(answers));
             prop_assert_eq!(&vectors.0, &vectors.1);
+            prop_assert_eq!(&vectors, &without_avx512(answers));
             prop_assert_eq!(vectors, plain);
         }
     }
