@@ -6,7 +6,6 @@ use nalgebra::{Matrix2, Matrix3, Matrix3x2, SymmetricEigen};
 use periplus_geometry::Pose2;
 
 use crate::delay::delay_s;
-use crate::error_model::MotionError;
 use crate::estimated::Estimated;
 use crate::fit::{Interval, Parameters, refine};
 use crate::scans::ScannerDisplacement;
@@ -147,27 +146,6 @@ impl DriveCalibration {
             right_radius_m: self.right_radius_m.value,
             wheel_distance_m: self.wheel_distance_m.value,
         }
-    }
-
-    /// Returns the motions of the base and the errors of odometry in displacements of the scanner, by the
-    /// calibrated parameters. Displacements that the wheels' track does not cover are left out.
-    #[must_use]
-    pub fn errors(
-        &self,
-        track: &WheelTrack,
-        displacements: &[ScannerDisplacement],
-    ) -> Vec<MotionError> {
-        let parameters = Parameters {
-            drive: self.drive(),
-            scanner: self.base_from_scanner(),
-            delay_s: self.delay_s.value,
-        };
-        let error = |it: &ScannerDisplacement| {
-            let (from_s, to_s) = (it.from_s - parameters.delay_s, it.to_s - parameters.delay_s);
-            let motion = track.motion(&parameters.drive, from_s, to_s)?;
-            Some(MotionError { motion, error: parameters.error(track, it)? })
-        };
-        displacements.iter().filter_map(error).collect()
     }
 
     /// Returns the calibrated pose of the scanner in the base frame.

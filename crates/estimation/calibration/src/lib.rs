@@ -2,7 +2,8 @@
 //!
 //! - [`calibrate_drive`]: wheel radii, wheel distance, pose of the scanner and delay of its stamps. The
 //!   scanner's displacements come from [`match_scans`].
-//! - [`OdometryErrorModel`]: errors of odometry in one drive, and their prediction for another
+//! - [`OdometryErrorModel`]: errors of odometry in one drive, and their prediction for another; [`predict_second_half`]
+//!   compares both in one recording
 //! - [`lidar_noise`]: noise and dropouts of a planar scanner
 //! - [`allan_deviation`], [`imu_noise`]: noise of a gyroscope or accelerometer at rest
 //!
@@ -24,16 +25,22 @@ mod drive;
 mod error_model;
 mod estimated;
 mod fit;
+mod halves;
 mod lidar;
+mod reference;
 mod scans;
+mod segments;
 mod wheels;
 
 pub use allan::{AllanPoint, ImuNoise, allan_deviation, imu_noise};
 pub use drive::{
     CalibrationError, DriveCalibration, DriveParameter, NotObservable, calibrate_drive,
 };
-pub use error_model::{MotionError, OdometryErrorModel, RmsError};
+pub use error_model::{OdometryErrorModel, RelativeError};
 pub use estimated::Estimated;
+pub use halves::{PredictionError, SecondHalf, predict_second_half};
 pub use lidar::{LidarNoise, lidar_noise};
+pub use reference::{odometry_poses, slam_poses};
 pub use scans::{ScannerDisplacement, match_scans};
+pub use segments::PosePair;
 pub use wheels::{DifferentialDrive, WheelSample, WheelTrack};

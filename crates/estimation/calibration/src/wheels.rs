@@ -77,6 +77,32 @@ impl WheelTrack {
         Self { samples }
     }
 
+    /// Track of wheels that would have turned as odometry has it, for recordings without wheel angles: stamps
+    /// \[s\] and poses, and the drive with which odometry was computed. Poses are taken in order of time; the robot
+    /// follows an arc between two.
+    #[must_use]
+    pub fn from_odometry(
+        poses: impl IntoIterator<Item = (f64, Pose2)>,
+        drive: &DifferentialDrive,
+    ) -> Self {
+        let is_finite = |it: &(f64, Pose2)| it.0.is_finite() && it.1.is_finite();
+        let mut poses: Vec<(f64, Pose2)> = poses.into_iter().filter(is_finite).collect();
+        poses.sort_by(|a, b| a.0.total_cmp(&b.0));
+        let mut last: Option<Pose2> = None;
+        let (mut left_rad, mut right_rad) = (0.0, 0.0);
+        Self::new(poses.into_iter().map(|(stamp_s, pose)| {
+            if let Some(last) = last.replace(pose) {
+                let step = (last.inverse() * pose).normalized();
+                let chord_m = libm::hypot(step.x_m, step.y_m).copysign(step.x_m);
+                let (sine, cosine) = sine_ratios(step.yaw_rad);
+                let length_m = chord_m / libm::hypot(sine, cosine);
+                let (left, right) = drive.wheel_angles(length_m, step.yaw_rad);
+                (left_rad, right_rad) = (left_rad + left, right_rad + right);
+            }
+            WheelSample { stamp_s, left_rad, right_rad }
+        }))
+    }
+
     /// Samples in order of time.
     #[must_use]
     pub fn samples(&self) -> &[WheelSample] {
@@ -138,6 +164,16 @@ mod tests {
         let (left, right) = DRIVE.wheel_angles(0.0, 1.0);
         assert!((left + 2.5).abs() < 1e-12 && (right - 2.5).abs() < 1e-12);
         assert!(near(DRIVE.motion(left, right), [0.0, 0.0, 1.0]));
+    }
+
+    #[test]
+    fn wheels_of_odometry_repeat_it() {
+        let quarter = Pose2::new(1.0, 1.0, FRAC_PI_2);
+        let poses =
+            [(1.0, quarter), (0.0, Pose2::IDENTITY), (2.0, quarter * Pose2::new(-0.5, 0.0, 0.0))];
+        let track = WheelTrack::from_odometry(poses, &DRIVE);
+        assert!(near(track.motion(&DRIVE, 0.0, 1.0).unwrap(), [1.0, 1.0, FRAC_PI_2]));
+        assert!(near(track.motion(&DRIVE, 1.0, 2.0).unwrap(), [-0.5, 0.0, 0.0]));
     }
 
     #[test]
