@@ -7,7 +7,7 @@ use periplus_geometry::Pose2;
 
 use crate::delay::delay_s;
 use crate::estimated::Estimated;
-use crate::fit::{Interval, Parameters, refine};
+use crate::fit::{Interval, Parameters, Refined, refine};
 use crate::scans::ScannerDisplacement;
 use crate::wheels::{DifferentialDrive, WheelTrack, sine_ratios};
 
@@ -88,6 +88,12 @@ pub enum CalibrationError {
     TooFew(usize),
     /// Some parameters are not determined.
     NotObservable(NotObservable),
+}
+
+impl CalibrationError {
+    fn of(parameters: &[DriveParameter]) -> Self {
+        Self::NotObservable(NotObservable { parameters: parameters.to_vec() })
+    }
 }
 
 impl fmt::Display for CalibrationError {
@@ -173,9 +179,6 @@ pub fn calibrate_drive(
     nominal: &DifferentialDrive,
     max_delay_s: f64,
 ) -> Result<DriveCalibration, CalibrationError> {
-    let refuse = |parameters: &[DriveParameter]| {
-        CalibrationError::NotObservable(NotObservable { parameters: parameters.to_vec() })
-    };
     let intervals: Vec<Interval> = displacements
         .iter()
         .filter(|it| {
@@ -188,30 +191,65 @@ pub fn calibrate_drive(
         return Err(CalibrationError::TooFew(intervals.len()));
     }
     let delay = delay_s(track, nominal, &intervals, max_delay_s)
-        .ok_or_else(|| refuse(&[DriveParameter::Delay]))?;
-    let (drive, scanner) = closed_form(track, &intervals, delay).map_err(|it| refuse(&it))?;
-    let mut parameters = Parameters { drive, scanner, delay_s: delay };
-    let mut kept = intervals.clone();
-    let mut fit = refine(track, &kept, parameters);
+        .ok_or_else(|| CalibrationError::of(&[DriveParameter::Delay]))?;
+    let (drive, scanner) =
+        closed_form(track, &intervals, delay).map_err(|it| CalibrationError::of(&it))?;
+    let start = Parameters { drive, scanner, delay_s: delay };
+    let start = refine(track, &intervals, start, false);
+    fit(track, &intervals, start, false)
+}
+
+/// Repeats a calibration of all parameters but the delay with displacements of a reference. See
+/// [`calibrate_drive`].
+pub(crate) fn recalibrate(
+    track: &WheelTrack,
+    displacements: &[ScannerDisplacement],
+    start: &DriveCalibration,
+) -> Result<DriveCalibration, CalibrationError> {
+    let parameters = Parameters {
+        drive: start.drive(),
+        scanner: start.base_from_scanner(),
+        delay_s: start.delay_s.value,
+    };
+    let is_inside = |it: &&ScannerDisplacement| parameters.error(track, it).is_some();
+    let intervals: Vec<Interval> = displacements.iter().filter(is_inside).copied().collect();
+    if intervals.len() < MIN_DISPLACEMENT_COUNT {
+        return Err(CalibrationError::TooFew(intervals.len()));
+    }
+    let fitted = Refined::unfitted(track, &intervals, parameters);
+    let found = fit(track, &intervals, fitted, true)?;
+    Ok(DriveCalibration { delay_s: start.delay_s, ..found })
+}
+
+/// Rounds of rejecting outliers and of refinement.
+fn fit(
+    track: &WheelTrack,
+    intervals: &[Interval],
+    start: Refined,
+    is_delay_known: bool,
+) -> Result<DriveCalibration, CalibrationError> {
+    let mut kept = intervals.to_vec();
+    let mut fit = start;
     for _ in 1..ROUND_COUNT {
-        parameters = fit.parameters;
+        let parameters = fit.parameters;
         let limit = fit.outlier_limit();
         let is_kept = |it: &&Interval| parameters.square(track, it).is_some_and(|it| it <= limit);
         kept = intervals.iter().filter(is_kept).copied().collect();
         if kept.len() < MIN_DISPLACEMENT_COUNT {
             return Err(CalibrationError::TooFew(kept.len()));
         }
-        fit = refine(track, &kept, parameters);
+        fit = refine(track, &kept, parameters, is_delay_known);
     }
     let drive = fit.parameters.drive;
     let missing: Vec<DriveParameter> = DriveParameter::ALL
         .into_iter()
         .zip(fit.standard_errors)
+        .filter(|(it, _)| !(is_delay_known && *it == DriveParameter::Delay))
         .filter(|(it, error)| error.is_nan() || *error > it.max_standard_error(&drive))
         .map(|(it, _)| it)
         .collect();
     if !missing.is_empty() {
-        return Err(refuse(&missing));
+        return Err(CalibrationError::of(&missing));
     }
     let values = fit.parameters.values();
     let [

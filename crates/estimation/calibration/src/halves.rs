@@ -6,13 +6,15 @@ use periplus_geometry::{LaserScan2, Pose2};
 
 use crate::drive::{CalibrationError, DriveCalibration, calibrate_drive};
 use crate::error_model::{OdometryErrorModel, RelativeError};
-use crate::reference::{odometry_poses, slam_poses};
+use crate::reference::{odometry_poses, refine_with_slam, slam_poses};
 use crate::scans::ScannerDisplacement;
 use crate::wheels::{DifferentialDrive, WheelTrack};
 
 /// Errors of odometry in the second half of a drive, as predicted and as measured.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SecondHalf {
+    /// Stamp at the middle of the path \[s\].
+    pub middle_s: f64,
     /// Calibration of the first half.
     pub calibration: DriveCalibration,
     /// Model of the errors in the first half.
@@ -66,6 +68,7 @@ pub fn predict_second_half(
     let known: Vec<ScannerDisplacement> =
         displacements.iter().filter(|it| it.to_s < middle_s).copied().collect();
     let calibration = calibrate_drive(track, &known, nominal, max_delay_s)
+        .and_then(|found| refine_with_slam(&found, track, first))
         .map_err(PredictionError::Calibration)?;
     let model = OdometryErrorModel::fit(&slam_poses(&calibration, track, first))
         .ok_or_else(|| too_short.clone())?;
@@ -76,7 +79,7 @@ pub fn predict_second_half(
     if predicted.len() != model.fitted.len() || measured.len() != predicted.len() {
         return Err(too_short);
     }
-    Ok(SecondHalf { calibration, model, predicted, measured })
+    Ok(SecondHalf { middle_s, calibration, model, predicted, measured })
 }
 
 fn stamp_s(scan: &LaserScan2) -> f64 {

@@ -40,7 +40,7 @@ pub use error_model::{OdometryErrorModel, RelativeError};
 pub use estimated::Estimated;
 pub use halves::{PredictionError, SecondHalf, predict_second_half};
 pub use lidar::{LidarNoise, lidar_noise};
-pub use reference::{odometry_poses, slam_poses};
+pub use reference::{odometry_poses, refine_with_slam, slam_poses};
 pub use scans::{ScannerDisplacement, match_scans};
 pub use segments::PosePair;
 pub use wheels::{DifferentialDrive, WheelSample, WheelTrack};
