@@ -2,10 +2,13 @@
 
 use std::io::{self, Write};
 
-use periplus_calibration::{DriveCalibration, Estimated, LidarNoise, RmsError};
+use periplus_calibration::{
+    DriveCalibration, Estimated, LidarNoise, PredictionError, RelativeError, SecondHalf,
+};
 use periplus_geometry::Pose2;
 use serde_json::{Value, json};
 
+use super::edit::{Outcome, OutcomeKind};
 use super::robot::NominalRobot;
 
 /// Results of a calibration beside the nominal values.
@@ -15,14 +18,10 @@ pub(super) struct Report {
     pub(super) base_from_scanner: Pose2,
     pub(super) found: DriveCalibration,
     pub(super) lidar: Option<LidarNoise>,
-    pub(super) prediction: Option<Prediction>,
-}
-
-/// Errors of odometry in the second half of a drive.
-pub(super) struct Prediction {
-    /// As expected from the first half.
-    pub(super) expected: RmsError,
-    pub(super) measured: RmsError,
+    pub(super) second_half: Result<SecondHalf, PredictionError>,
+    /// Numbers of the robot's texts, and what has none.
+    pub(super) outcomes: Vec<Outcome>,
+    pub(super) missing: Vec<String>,
 }
 
 /// A value beside its nominal one.
@@ -34,10 +33,14 @@ struct Row {
 }
 
 impl Report {
+    /// Calibrated pose of the scanner in the base frame.
+    pub(super) fn base_from_found_scanner(&self) -> Pose2 {
+        self.nominal.base_from_axle * self.found.base_from_scanner()
+    }
+
     fn rows(&self) -> Vec<Row> {
         let found = &self.found;
-        // The scanner is reported in the base frame.
-        let base_from_scanner = self.nominal.base_from_axle * found.base_from_scanner();
+        let base_from_scanner = self.base_from_found_scanner();
         let at = |value: f64, it: Estimated| Estimated { value, ..it };
         let row = |name, unit, found, nominal| Row { name, unit, found, nominal };
         let drive = self.nominal.drive;
@@ -71,11 +74,36 @@ impl Report {
                 (it.name.to_owned(), value)
             })
             .collect();
-        let rms = |it: &RmsError| json!({ "rms_m": it.rms_m, "rms_rad": it.rms_rad });
-        let prediction = self
-            .prediction
-            .as_ref()
-            .map(|it| json!({ "predicted": rms(&it.expected), "measured": rms(&it.measured) }));
+        let number =
+            |it: Estimated| json!({ "value": it.value, "standard_error": it.standard_error });
+        let error = |it: &RelativeError| {
+            json!({
+                "length_m": it.length_m,
+                "trimmed_rms_m": number(it.trimmed_rms_m),
+                "trimmed_rms_rad": number(it.trimmed_rms_rad),
+                "rms_m": number(it.rms_m),
+                "rms_rad": number(it.rms_rad),
+            })
+        };
+        let prediction = match &self.second_half {
+            Ok(half) => json!({
+                "predicted": half.predicted.iter().map(error).collect::<Vec<_>>(),
+                "measured": half.measured.iter().map(error).collect::<Vec<_>>(),
+                "error_model": half.model.coefficients,
+            }),
+            Err(why) => json!({ "missing": why.to_string() }),
+        };
+        let outcome = |it: &Outcome| {
+            let (kind, note) = match &it.kind {
+                OutcomeKind::Agrees => ("agrees", None),
+                OutcomeKind::Edited(note) => ("edited", note.as_ref()),
+                OutcomeKind::Manual(why) => ("not edited", Some(why)),
+            };
+            json!({
+                "name": it.name, "location": it.location, "current": it.current, "value": it.value,
+                "outcome": kind, "note": note,
+            })
+        };
         json!({
             "left_joint": self.nominal.left_joint,
             "right_joint": self.nominal.right_joint,
@@ -83,6 +111,8 @@ impl Report {
             "displacements": self.found.residuals.len(),
             "rejected": self.found.rejected_count,
             "second_half": prediction,
+            "file": self.outcomes.iter().map(outcome).collect::<Vec<_>>(),
+            "not_in_file": self.missing,
         })
     }
 
@@ -101,15 +131,50 @@ impl Report {
             self.found.residuals.len(),
             self.found.rejected_count
         )?;
-        match &self.prediction {
-            Some(Prediction { expected, measured }) => writeln!(
-                out,
-                "odometry errors of the second half: {:.4} m and {:.4} rad, predicted from the first: {:.4} m and \
-                 {:.4} rad",
-                measured.rms_m, measured.rms_rad, expected.rms_m, expected.rms_rad
-            )?,
-            None => writeln!(out, "the first half alone does not determine all values")?,
+        match &self.second_half {
+            Ok(half) => {
+                writeln!(
+                    out,
+                    "errors of odometry in the second half, without the largest 5 %, predicted from the first half:"
+                )?;
+                for (predicted, measured) in half.predicted.iter().zip(&half.measured) {
+                    let (m, rad) = (predicted.trimmed_rms_m, predicted.trimmed_rms_rad);
+                    writeln!(
+                        out,
+                        "  over {:>4} m: {:.4} m (predicted {:.4} ± {:.4}), {:.4} rad (predicted {:.4} ± {:.4})",
+                        predicted.length_m,
+                        measured.trimmed_rms_m.value,
+                        m.value,
+                        m.standard_error,
+                        measured.trimmed_rms_rad.value,
+                        rad.value,
+                        rad.standard_error
+                    )?;
+                }
+            }
+            Err(why) => writeln!(out, "errors of odometry are not predicted: {why}")?,
         }
+        self.print_outcomes(out)?;
         out.flush()
+    }
+
+    /// Prints what becomes of each number of the robot's texts.
+    fn print_outcomes(&self, out: &mut dyn Write) -> io::Result<()> {
+        for it in &self.outcomes {
+            let Outcome { name, location, current, value, kind } = it;
+            match kind {
+                OutcomeKind::Agrees => {
+                    writeln!(out, "{location}: {name} {current:.5} agrees")?;
+                }
+                OutcomeKind::Edited(note) => {
+                    let note = note.as_ref().map_or_else(String::new, |it| format!(" ({it})"));
+                    writeln!(out, "{location}: {name} {current:.5} -> {value:.5}{note}")?;
+                }
+                OutcomeKind::Manual(why) => {
+                    writeln!(out, "{location}: write {name} {value:.5} for {current:.5}: {why}")?;
+                }
+            }
+        }
+        self.missing.iter().try_for_each(|it| writeln!(out, "{it}"))
     }
 }
