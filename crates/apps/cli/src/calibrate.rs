@@ -13,11 +13,11 @@ use std::process::ExitCode;
 use clap::Args;
 use periplus_bags::files::Bag;
 use periplus_calibration::{
-    DifferentialDrive, WheelSample, WheelTrack, calibrate_drive, lidar_noise, match_scans,
-    predict_second_half, refine_with_slam,
+    DifferentialDrive, ImuSample, WheelSample, WheelTrack, calibrate_drive, calibrate_imu,
+    lidar_noise, match_scans, predict_second_half, range_bias, refine_with_slam,
 };
 use periplus_loader::load;
-use periplus_msgs::sensor_msgs::JointState;
+use periplus_msgs::sensor_msgs::{Imu, JointState};
 
 use self::edit::unified_diff;
 use self::report::Report;
@@ -30,7 +30,7 @@ use crate::run_options::positive;
 use crate::terminal::{complain, say, with_setting};
 use crate::{paths, score};
 
-/// Calibrate wheels, scanner and delay of a robot with two driven wheels from a recorded drive
+/// Calibrate wheels, scanner and IMU of a robot with two driven wheels from a recorded drive
 ///
 /// RECORDING has scans, joint states of both wheels, and transforms (.mcap, .db3, .bag, or a folder of `ros2 bag`), or
 /// scans with odometry (CARMEN log), which then is taken for that of the nominal wheels. The robot's file has the
@@ -79,7 +79,9 @@ pub(crate) fn run(options: &CalibrateOptions) -> Result<ExitCode, CliError> {
     let nominal = nominal_robot(options)?;
     let log = Log::open(&options.recording, &options.log)?;
     log.faults.iter().for_each(|fault| complain(fault));
-    let track = if log.kind.starts_with("CARMEN") {
+    let is_carmen = log.kind.starts_with("CARMEN");
+    let imu = if is_carmen { Vec::new() } else { imu_samples(&paths::bag(&options.recording)?)? };
+    let track = if is_carmen {
         say("the log has no joint states: its odometry is taken for that of the nominal wheels");
         odometry_wheels(&log, &nominal.drive)
     } else {
@@ -97,15 +99,24 @@ pub(crate) fn run(options: &CalibrateOptions) -> Result<ExitCode, CliError> {
     };
     let displacements = match_scans(&scans, MATCH_PERIOD_S, start);
     let found = calibrate_drive(&track, &displacements, &nominal.drive, options.max_delay)
-        .and_then(|found| refine_with_slam(&found, &track, &scans))
         .map_err(|error| CliError::failed(format!("{}: {error}", options.recording.display())))?;
+    let found = refine_with_slam(&found, &track, &scans).unwrap_or_else(|why| {
+        complain(&format!(
+            "the values are of matches of successive scans, which corridors falsify, and not of SLAM: {why}"
+        ));
+        found
+    });
     let second_half =
         predict_second_half(&track, &scans, &displacements, &nominal.drive, options.max_delay);
+    let lidar = lidar_noise(&scans);
+    let delay_s = found.delay_s.value;
     let mut report = Report {
+        imu: calibrate_imu(&imu, Some(&track), &displacements, delay_s, options.max_delay),
+        range_bias: lidar.and_then(|it| range_bias(&scans, &it)),
         second_half,
         found,
         base_from_scanner,
-        lidar: lidar_noise(&scans),
+        lidar,
         nominal,
         outcomes: Vec::new(),
         missing: Vec::new(),
@@ -171,6 +182,26 @@ fn wheels(bag: &Bag, path: &Path, nominal: &NominalRobot) -> Result<WheelTrack, 
         )));
     }
     Ok(WheelTrack::new(samples))
+}
+
+/// Samples of the IMU with the most messages; none without one.
+fn imu_samples(bag: &Bag) -> Result<Vec<ImuSample>, CliError> {
+    let topics = bag.topics().iter().zip(bag.counts());
+    let topic = topics
+        .filter(|(topic, _)| has_type(topic, "Imu"))
+        .max_by_key(|(_, count)| **count)
+        .map(|(topic, _)| topic.name.as_str());
+    let mut samples = Vec::new();
+    let faults = each::<Imu>(bag, topic.as_slice(), |_, message| {
+        let (rate, acceleration) = (message.angular_velocity, message.linear_acceleration);
+        samples.push(ImuSample {
+            stamp_s: message.header.stamp.ns() as f64 * 1e-9,
+            angular_velocity_rad_s: [rate.x, rate.y, rate.z],
+            acceleration_m_s2: [acceleration.x, acceleration.y, acceleration.z],
+        });
+    })?;
+    faults.iter().for_each(|fault| complain(fault));
+    Ok(samples)
 }
 
 /// Wheels that would have turned as the odometry of the log has it.

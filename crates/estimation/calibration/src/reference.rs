@@ -13,7 +13,7 @@ use crate::wheels::WheelTrack;
 /// Number of displacements into which a path is divided, and the limits of their length \[m\]. Errors of a match do
 /// not add up over a metre, and those of the heading hardly do.
 const DISPLACEMENT_COUNT: f64 = 100.0;
-const MIN_DISPLACEMENT_M: f64 = 0.1;
+const MIN_DISPLACEMENT_M: f64 = 0.05;
 const MAX_DISPLACEMENT_M: f64 = 1.0;
 
 /// Standard deviations of a displacement of SLAM, up to a common factor: x and y \[m\], yaw \[rad\].

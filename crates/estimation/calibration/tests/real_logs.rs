@@ -101,6 +101,7 @@ fn csail() {
 #[ignore = "SLAM of whole logs: a minute in a release build"]
 fn others() {
     for log in [
+        "aces-full",
         "intel",
         "aces",
         "edmonton",

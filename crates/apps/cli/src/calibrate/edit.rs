@@ -13,7 +13,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 
 use periplus_diagnostics::SourceMap;
-use periplus_loader::{LoadContext, load};
+use periplus_loader::{LoadContext, LoadedFile, load};
 use periplus_resources::{EntryKind, FileReadError, Host};
 use periplus_xml::Document;
 
@@ -96,12 +96,12 @@ impl Host for Texts<'_> {
     }
 }
 
-/// Expands the robot with some texts changed; none if that fails.
-fn expand(
+/// Loads the robot with some texts changed.
+pub(super) fn expand_texts(
     file: &Path,
     context: &LoadContext<'_>,
     changed: BTreeMap<PathBuf, String>,
-) -> Option<Document> {
+) -> LoadedFile {
     let host = Texts { host: context.host, changed };
     let context = LoadContext {
         host: &host,
@@ -110,7 +110,16 @@ fn expand(
         arguments: context.arguments.clone(),
         open_meshes: false,
     };
-    let loaded = load(file, &context);
+    load(file, &context)
+}
+
+/// Expands the robot with some texts changed; none if that fails.
+fn expand(
+    file: &Path,
+    context: &LoadContext<'_>,
+    changed: BTreeMap<PathBuf, String>,
+) -> Option<Document> {
+    let loaded = expand_texts(file, context, changed);
     loaded.document.filter(|_| loaded.is_expanded)
 }
 
@@ -187,29 +196,38 @@ pub(super) fn plan(
             None => (0..all_sites.len()).filter(|it| all_sites[*it].is_indirect).collect(),
         };
         let mut accepted: Vec<usize> = Vec::new();
-        let mut refused: Option<(Site, Place)> = None;
+        let mut refused: Option<(Site, Place, f64)> = None;
         for number in candidates {
             let effect = effects.entry(number).or_insert_with(|| effect_of(number));
             let Some(effect) = effect else { continue };
-            if !effect.targets.iter().any(|it| it.0 == index) {
+            let Some((_, change)) = effect.targets.iter().find(|it| it.0 == index) else {
                 continue;
-            }
+            };
+            let away = targets[index].value - outcomes[index].current;
+            let asked = effect.site.value + away * effect.step / change;
             match &effect.other {
                 None => accepted.push(number),
                 Some(other) => {
-                    refused.get_or_insert((effect.site.clone(), other.clone()));
+                    refused.get_or_insert((effect.site.clone(), other.clone(), asked));
                 }
             }
         }
-        accepted.sort_by_key(|number| effects[number].as_ref().map_or(usize::MAX, |it| it.count));
+        // A number of both wheels before one of each, such as its side; then the one with the fewest effects.
+        accepted.sort_by_key(|number| {
+            let effect = effects[number].as_ref();
+            effect.map(|it| (std::cmp::Reverse(it.targets.len()), it.count))
+        });
         let Some(&number) = accepted.first() else {
             outcomes[index].kind = OutcomeKind::Manual(match refused {
-                Some((site, other)) => format!(
-                    "it depends on {} = {}, which {} uses too",
-                    site.location,
-                    number_text(site.value, 6),
-                    leaves.location(&other, sources)
-                ),
+                Some((site, other, asked)) => {
+                    let other = leaves.location(&other, sources);
+                    outcomes[index].location.clone_from(&site.location);
+                    format!(
+                        "{} for {} there gives it, but changes {other} too",
+                        number_text(asked, 6),
+                        number_text(site.value, 6)
+                    )
+                }
                 None => "no number of the text sets it".to_owned(),
             });
             continue;

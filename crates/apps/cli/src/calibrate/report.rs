@@ -3,7 +3,8 @@
 use std::io::{self, Write};
 
 use periplus_calibration::{
-    DriveCalibration, Estimated, LidarNoise, PredictionError, RelativeError, SecondHalf,
+    DriveCalibration, Estimated, ImuCalibration, ImuNoise, LidarNoise, PredictionError,
+    RelativeError, SecondHalf,
 };
 use periplus_geometry::Pose2;
 use serde_json::{Value, json};
@@ -18,6 +19,8 @@ pub(super) struct Report {
     pub(super) base_from_scanner: Pose2,
     pub(super) found: DriveCalibration,
     pub(super) lidar: Option<LidarNoise>,
+    pub(super) range_bias: Option<Estimated>,
+    pub(super) imu: Option<ImuCalibration>,
     pub(super) second_half: Result<SecondHalf, PredictionError>,
     /// Numbers of the robot's texts, and what has none.
     pub(super) outcomes: Vec<Outcome>,
@@ -26,10 +29,24 @@ pub(super) struct Report {
 
 /// A value beside its nominal one.
 struct Row {
-    name: &'static str,
+    name: String,
     unit: &'static str,
     found: Estimated,
     nominal: Option<f64>,
+}
+
+/// Rows of one axis of an IMU.
+fn imu_rows(axis: &str, noise: &ImuNoise, units: [&'static str; 4]) -> Vec<Row> {
+    let values = [
+        ("bias", Some(noise.bias)),
+        ("noise_density", Some(noise.noise_density)),
+        ("bias_instability", noise.bias_instability),
+        ("random_walk", noise.random_walk),
+    ];
+    let row = |((name, found), unit): ((&str, Option<Estimated>), &'static str)| {
+        Some(Row { name: format!("{axis}_{name}"), unit, found: found?, nominal: None })
+    };
+    values.into_iter().zip(units).filter_map(row).collect()
 }
 
 impl Report {
@@ -42,7 +59,8 @@ impl Report {
         let found = &self.found;
         let base_from_scanner = self.base_from_found_scanner();
         let at = |value: f64, it: Estimated| Estimated { value, ..it };
-        let row = |name, unit, found, nominal| Row { name, unit, found, nominal };
+        let row =
+            |name: &str, unit, found, nominal| Row { name: name.to_owned(), unit, found, nominal };
         let drive = self.nominal.drive;
         let nominal = self.base_from_scanner;
         let mut rows = vec![
@@ -58,6 +76,20 @@ impl Report {
             rows.push(row("range_noise_std", "m", lidar.std_m, None));
             rows.push(row("range_dropout_ratio", "", lidar.dropout_ratio, None));
         }
+        rows.extend(self.range_bias.map(|it| row("range_bias", "m", it, None)));
+        if let Some(imu) = &self.imu {
+            rows.extend(imu.delay_s.map(|it| row("imu_delay", "s", it, None)));
+            rows.extend(imu.scale_ratio.map(|it| row("gyro_z_scale", "", it, None)));
+            let kinds = [
+                ("gyro", imu.gyroscope, ["rad/s", "rad/s^0.5", "rad/s", "rad/s^1.5"]),
+                ("acc", imu.accelerometer, ["m/s^2", "m/s^1.5", "m/s^2", "m/s^2.5"]),
+            ];
+            for (kind, noises, units) in kinds {
+                for (axis, noise) in ["x", "y", "z"].into_iter().zip(noises.iter().flatten()) {
+                    rows.extend(imu_rows(&format!("{kind}_{axis}"), noise, units));
+                }
+            }
+        }
         rows
     }
 
@@ -71,7 +103,7 @@ impl Report {
                     "value": it.found.value, "standard_error": it.found.standard_error,
                     "unit": it.unit, "nominal": it.nominal,
                 });
-                (it.name.to_owned(), value)
+                (it.name, value)
             })
             .collect();
         let number =
@@ -113,17 +145,18 @@ impl Report {
             "second_half": prediction,
             "file": self.outcomes.iter().map(outcome).collect::<Vec<_>>(),
             "not_in_file": self.missing,
+            "not_observable": self.imu.iter().flat_map(|it| &it.missing).collect::<Vec<_>>(),
         })
     }
 
     /// Prints the report as text.
     pub(super) fn print(&self, out: &mut dyn Write) -> io::Result<()> {
-        writeln!(out, "{:<20}  {:>10}  {:>10}  {:>10}", "", "value", "± error", "nominal")?;
+        writeln!(out, "{:<32}  {:>10}  {:>10}  {:>10}", "", "value", "± error", "nominal")?;
         for Row { name, unit, found, nominal } in self.rows() {
-            let name = if unit.is_empty() { name.to_owned() } else { format!("{name} [{unit}]") };
+            let name = if unit.is_empty() { name } else { format!("{name} [{unit}]") };
             let nominal = nominal.map_or_else(|| "-".to_owned(), |it| format!("{it:.5}"));
             let (value, error) = (found.value, found.standard_error);
-            writeln!(out, "{name:<20}  {value:>10.5}  {error:>10.5}  {nominal:>10}")?;
+            writeln!(out, "{name:<32}  {value:>10.5}  {error:>10.5}  {nominal:>10}")?;
         }
         writeln!(
             out,
@@ -154,6 +187,12 @@ impl Report {
             }
             Err(why) => writeln!(out, "errors of odometry are not predicted: {why}")?,
         }
+        if self.range_bias.is_none() {
+            writeln!(out, "bias of the ranges: no wall is seen over enough directions")?;
+        }
+        for why in self.imu.iter().flat_map(|it| &it.missing) {
+            writeln!(out, "{why}")?;
+        }
         self.print_outcomes(out)?;
         out.flush()
     }
@@ -171,7 +210,7 @@ impl Report {
                     writeln!(out, "{location}: {name} {current:.5} -> {value:.5}{note}")?;
                 }
                 OutcomeKind::Manual(why) => {
-                    writeln!(out, "{location}: write {name} {value:.5} for {current:.5}: {why}")?;
+                    writeln!(out, "{location}: {name} {current:.5} should be {value:.5}: {why}")?;
                 }
             }
         }

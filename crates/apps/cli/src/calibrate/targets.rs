@@ -12,6 +12,9 @@ use super::report::Report;
 /// Elements of a drive's plugin, lower-case without underscores, for the distance of its wheels.
 const DISTANCE_NAMES: [&str; 3] = ["wheelseparation", "wheelbase", "trackwidth"];
 
+/// Maximum difference of a position to that of the wheel in the model \[m\].
+const MAX_POSITION_DIFFERENCE_M: f64 = 1e-6;
+
 /// Types of planar scanners.
 const SCANNER_TYPES: [&str; 5] = ["ray", "gpu_ray", "lidar", "gpu_lidar", "gpu_ray_sensor"];
 
@@ -29,7 +32,42 @@ pub(super) fn targets(document: &Document, report: &Report) -> Targets {
     let mut found = Targets::default();
     wheels(&elements, report, &mut found);
     scanner(&elements, report, &mut found);
+    imu(&elements, report, &mut found);
     found
+}
+
+/// Noise of an IMU: the standard deviation of a sample is the density times the root of the rate.
+fn imu(elements: &Elements<'_>, report: &Report, found: &mut Targets) {
+    let Some(imu) = &report.imu else { return };
+    let is_imu = |it: &usize| elements.all[*it].0.value("type") == Some("imu");
+    let sensors: Vec<usize> = elements.named("sensor").filter(is_imu).collect();
+    let [sensor] = sensors[..] else {
+        found
+            .missing
+            .push(format!("{} IMUs; noise and bias of the IMU are not written", sensors.len()));
+        return;
+    };
+    let kinds = [("angular_velocity", imu.gyroscope), ("linear_acceleration", imu.accelerometer)];
+    for (kind, noises) in kinds {
+        let group =
+            elements.inside(sensor).into_iter().find(|it| elements.all[*it].0.local_name() == kind);
+        let (Some(noises), Some(group)) = (noises, group) else { continue };
+        for (axis, noise) in ["x", "y", "z"].into_iter().zip(noises) {
+            let root = imu.rate_hz.sqrt();
+            let std = Estimated {
+                value: noise.noise_density.value * root,
+                standard_error: noise.noise_density.standard_error * root,
+            };
+            for (name, value) in [("stddev", std), ("bias_mean", noise.bias)] {
+                let place = child_of(elements, group, axis)
+                    .and_then(|it| child_of(elements, it, "noise"))
+                    .and_then(|it| child_of(elements, it, name))
+                    .map(|element| Place { element, attribute: None, word: 0 });
+                let name = format!("{kind} {axis} {name}");
+                push(found, &name, place, value.value, value.standard_error);
+            }
+        }
+    }
 }
 
 fn wheels(elements: &Elements<'_>, report: &Report, found: &mut Targets) {
@@ -63,19 +101,20 @@ fn wheels(elements: &Elements<'_>, report: &Report, found: &mut Targets) {
                 push(found, name, place, radius.value, radius.standard_error);
             }
         }
-        // The position across, by half of the difference of the distance, in a parent that is not turned.
-        let origin = child_of(elements, joint, "origin").map(|it| (it, Some("xyz")));
-        let pose = || child_of(elements, link, "pose").map(|it| (it, None));
-        let Some((origin, attribute)) = origin.or_else(pose) else { continue };
-        let place = Place { element: origin, attribute: attribute.map(str::to_owned), word: 1 };
-        let error_m = 0.5 * distance.standard_error;
-        // The nominal distance is that of the positions in the file.
+        // The positions across change by half of the difference of the distance. The nominal distance is that of the
+        // positions in the file.
         let shift_m = half * (distance.value - nominal.drive.wheel_distance_m);
-        if let Some(current_m) = number(elements, &place)
-            && (current_m - middle_m - half * nominal.drive.wheel_distance_m).abs() < 1e-3
-        {
-            push(found, "wheel_distance", Some(place), current_m + shift_m, error_m);
-        } else {
+        let expected_m = middle_m + half * nominal.drive.wheel_distance_m;
+        let mut is_found = false;
+        for place in positions(elements, joint, link) {
+            let Some(current_m) = number(elements, &place) else { continue };
+            if (current_m - expected_m).abs() < MAX_POSITION_DIFFERENCE_M {
+                is_found = true;
+                let error_m = 0.5 * distance.standard_error;
+                push(found, "wheel_distance", Some(place), current_m + shift_m, error_m);
+            }
+        }
+        if !is_found {
             found.missing.push(format!(
                 "joint `{joint_name}`: its position is not along y of the base; move the wheel by {shift_m:.5} m to the \
                  left of the robot"
@@ -113,6 +152,20 @@ fn wheels(elements: &Elements<'_>, report: &Report, found: &mut Targets) {
     }
 }
 
+/// Numbers for the position of a wheel across: of the joint's origin in URDF; in SDF of the link, or, where it has no
+/// pose, of the joint and of all in the link.
+fn positions(elements: &Elements<'_>, joint: usize, link: usize) -> Vec<Place> {
+    if let Some(element) = child_of(elements, joint, "origin") {
+        return vec![Place { element, attribute: Some("xyz".to_owned()), word: 1 }];
+    }
+    let in_text = |element| Place { element, attribute: None, word: 1 };
+    if let Some(element) = child_of(elements, link, "pose") {
+        return vec![in_text(element)];
+    }
+    let inside = elements.inside(link).into_iter().chain(elements.inside(joint));
+    inside.filter(|it| elements.all[*it].0.local_name() == "pose").map(in_text).collect()
+}
+
 fn scanner(elements: &Elements<'_>, report: &Report, found: &mut Targets) {
     let is_scanner = |it: &usize| {
         elements.all[*it].0.value("type").is_some_and(|it| SCANNER_TYPES.contains(&it))
@@ -145,6 +198,14 @@ fn scanner(elements: &Elements<'_>, report: &Report, found: &mut Targets) {
             }
         }
         None => found.missing.push("the noise of the scanner is not known".to_owned()),
+    }
+    if let Some(bias) = report.range_bias {
+        let mean = elements.inside(sensor).into_iter().find(|it| {
+            let parent = elements.all[*it].1.map(|it| elements.all[it].0.local_name());
+            elements.all[*it].0.local_name() == "mean" && parent == Some("noise")
+        });
+        let place = mean.map(|element| Place { element, attribute: None, word: 0 });
+        push(found, "range_bias", place, bias.value, bias.standard_error);
     }
     mount(elements, report, sensor, found);
 }
@@ -252,4 +313,159 @@ fn number(elements: &Elements<'_>, place: &Place) -> Option<f64> {
         None => element.text().into_owned(),
     };
     text.split_whitespace().nth(place.word)?.parse().ok()
+}
+
+#[cfg(test)]
+mod tests {
+    use std::path::PathBuf;
+
+    use clap::Parser;
+    use periplus_calibration::{CalibrationError, DriveCalibration, LidarNoise, PredictionError};
+
+    use super::*;
+    use crate::calibrate::edit::{Outcome, OutcomeKind, expand_texts, plan};
+    use crate::calibrate::robot::nominal_of;
+    use crate::calibrate::{CalibrateOptions, split};
+    use crate::terminal::with_setting;
+
+    #[derive(Parser)]
+    struct Options {
+        #[command(flatten)]
+        options: CalibrateOptions,
+    }
+
+    /// Values of a calibration relative to a robot's file.
+    const RADIUS_RATIO: f64 = 1.02;
+    const DISTANCE_RATIO: f64 = 0.97;
+    const MOUNT_SHIFT_M: f64 = 0.013;
+    const MOUNT_TURN_RAD: f64 = 0.04;
+    const RANGE_STD_M: f64 = 0.0234;
+
+    /// Plans the edits of a robot and returns the outcomes, with the wheels and the document after the edits.
+    fn edit(robot: &str) -> Option<(Vec<Outcome>, [f64; 3], String)> {
+        let path = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../../..").join(robot);
+        if !path.exists() {
+            eprintln!("SKIPPED: no {}", path.display());
+            return None;
+        }
+        let path = path.display().to_string();
+        let Options { options } =
+            Options::parse_from(["calibrate", "drive.mcap", "--robot", &path]);
+        let (files, arguments) = split(&options.robot);
+        with_setting(&[], arguments, |context| {
+            let loaded = periplus_loader::load(&files[0], context);
+            let document = loaded.document.as_ref()?;
+            let nominal = nominal_of(&loaded, &options).unwrap();
+            let at = |value: f64| Estimated { value, standard_error: 1e-5 };
+            let drive = nominal.drive;
+            let base_from_scanner = Pose2::new(0.02, 0.0, 0.0);
+            let axle = nominal.base_from_axle.inverse() * base_from_scanner;
+            let found = DriveCalibration {
+                left_radius_m: at(RADIUS_RATIO * drive.left_radius_m),
+                right_radius_m: at(RADIUS_RATIO * drive.right_radius_m),
+                wheel_distance_m: at(DISTANCE_RATIO * drive.wheel_distance_m),
+                scanner_x_m: at(axle.x_m + MOUNT_SHIFT_M),
+                scanner_y_m: at(axle.y_m - MOUNT_SHIFT_M),
+                scanner_yaw_rad: at(axle.yaw_rad + MOUNT_TURN_RAD),
+                delay_s: at(0.0),
+                residuals: Vec::new(),
+                rejected_count: 0,
+            };
+            let lidar =
+                LidarNoise { std_m: at(RANGE_STD_M), dropout_ratio: at(0.0), window_count: 1000 };
+            let report = Report {
+                nominal,
+                base_from_scanner,
+                found,
+                lidar: Some(lidar),
+                range_bias: None,
+                imu: None,
+                second_half: Err(PredictionError::Calibration(CalibrationError::TooFew(0))),
+                outcomes: Vec::new(),
+                missing: Vec::new(),
+            };
+            let targets = targets(document, &report);
+            let plan = plan(
+                &files[0],
+                context,
+                document,
+                &loaded.sources,
+                &targets.targets,
+                &targets.owned,
+            );
+            // Only numbers change: the lines stay.
+            for (before, after) in plan.texts.values() {
+                assert_eq!(before.lines().count(), after.lines().count());
+            }
+            let texts = plan.texts.iter().map(|(path, it)| (path.clone(), it.1.clone()));
+            let after = expand_texts(&files[0], context, texts.collect());
+            assert!(!after.diagnostics.has_errors());
+            let edited = nominal_of(&after, &options).unwrap().drive;
+            let ratios = [
+                edited.left_radius_m / drive.left_radius_m,
+                edited.right_radius_m / drive.right_radius_m,
+                edited.wheel_distance_m / drive.wheel_distance_m,
+            ];
+            let text = periplus_xml::write_document(after.document.as_ref()?);
+            Some((plan.outcomes, ratios, text))
+        })
+    }
+
+    fn names(outcomes: &[Outcome], is_edited: bool) -> BTreeSet<&str> {
+        let kind = |it: &&Outcome| matches!(it.kind, OutcomeKind::Edited(None)) == is_edited;
+        outcomes.iter().filter(kind).map(|it| it.name.as_str()).collect()
+    }
+
+    /// Every number is written as it is.
+    #[test]
+    fn numbers_of_a_model_are_edited() {
+        let file = "../shared/corpus/turtlebot3_simulations/turtlebot3_gazebo/models/turtlebot3_burger/model.sdf";
+        let Some((outcomes, ratios, text)) = edit(file) else { return };
+        assert_eq!(names(&outcomes, false), BTreeSet::new(), "{outcomes:#?}");
+        for (ratio, expected) in
+            ratios.into_iter().zip([RADIUS_RATIO, RADIUS_RATIO, DISTANCE_RATIO])
+        {
+            assert!((ratio - expected).abs() < 1e-4, "{ratios:?}");
+        }
+        assert!(text.contains("<wheel_separation>0.1552</wheel_separation>"), "{text}");
+        assert!(text.contains("<wheel_radius>0.03366</wheel_radius>"));
+        assert!(text.contains("<stddev>0.0234</stddev>"));
+        // Turned and moved in the frame of the robot: -0.032 + 0.013 and 0 - 0.013.
+        assert!(text.contains("<pose>-0.019 -0.013 0.171 0 0 0.04</pose>"));
+    }
+
+    /// The separation of the drive is the default of an argument, the mount a parameter of a macro. The radius is that
+    /// of the caster too.
+    #[test]
+    fn numbers_of_arguments_and_macro_calls_are_edited() {
+        let (outcomes, _, text) = edit("robots/sam_bot/urdf/sam_bot.urdf.xacro").unwrap();
+        let edited = names(&outcomes, true);
+        for name in [
+            "plugin wheel_separation",
+            "range_noise_std",
+            "scanner_x",
+            "scanner_y",
+            "wheel_distance",
+        ] {
+            assert!(edited.contains(name), "{name}: {outcomes:#?}");
+        }
+        assert!(text.contains("<wheel_separation>0.3492</wheel_separation>"), "{text}");
+        assert!(text.contains("0.013 -0.013 0.12"));
+        let manual: Vec<&Outcome> =
+            outcomes.iter().filter(|it| it.name == "left_wheel_radius").collect();
+        assert!(
+            matches!(&manual[0].kind, OutcomeKind::Manual(why) if why.contains("0.102")),
+            "{manual:?}"
+        );
+        assert!(manual[0].location.contains("chassis.xacro"), "{manual:?}");
+    }
+
+    /// The gap between deck and wheel is of the wheels alone; the deck is not.
+    #[test]
+    fn the_number_that_nothing_else_uses_is_edited() {
+        let (outcomes, ratios, text) = edit("robots/kbot/urdf/kbot.urdf.xacro").unwrap();
+        assert!(names(&outcomes, true).contains("wheel_distance"), "{outcomes:#?}");
+        assert!((ratios[2] - DISTANCE_RATIO).abs() < 1e-4, "{ratios:?}");
+        assert!(text.contains("<wheelSeparation>0.16878</wheelSeparation>"), "{text}");
+    }
 }

@@ -23,6 +23,7 @@ pub(in crate::calibrate) fn unified_diff(name: &str, before: &str, after: &str) 
         }
     }
     let mut diff = String::new();
+    let name = name.trim_start_matches('/');
     if !hunks.is_empty() {
         let _ = write!(diff, "--- a/{name}\n+++ b/{name}\n");
     }
@@ -52,8 +53,7 @@ mod tests {
     #[test]
     fn near_changes_share_a_hunk() {
         let before = "1\n2\n3\n4\n5\n6\n7\n8\n9\n10\n11\n12\n";
-        let after = before.replace("2\n3", "two\nthree").replace("12", "twelve");
-        let after = after.replacen("1twelve", "12", 0);
+        let after = before.replace("\n2\n3\n", "\ntwo\nthree\n").replace("12", "twelve");
         assert_eq!(
             unified_diff("a.urdf", before, &after),
             "--- a/a.urdf\n+++ b/a.urdf\n@@ -1,6 +1,6 @@\n 1\n-2\n-3\n+two\n+three\n 4\n 5\n 6\n\
