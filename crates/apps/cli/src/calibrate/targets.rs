@@ -342,15 +342,18 @@ mod tests {
     const RANGE_STD_M: f64 = 0.0234;
 
     /// Plans the edits of a robot and returns the outcomes, with the wheels and the document after the edits.
-    fn edit(robot: &str) -> Option<(Vec<Outcome>, [f64; 3], String)> {
+    fn edit(robot: &str, joints: Option<[&str; 2]>) -> Option<(Vec<Outcome>, [f64; 3], String)> {
         let path = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../../..").join(robot);
         if !path.exists() {
             eprintln!("SKIPPED: no {}", path.display());
             return None;
         }
         let path = path.display().to_string();
-        let Options { options } =
-            Options::parse_from(["calibrate", "drive.mcap", "--robot", &path]);
+        let mut words = vec!["calibrate", "drive.mcap", "--robot", &path];
+        if let Some([left, right]) = joints {
+            words.extend(["--left-joint", left, "--right-joint", right]);
+        }
+        let Options { options } = Options::parse_from(words);
         let (files, arguments) = split(&options.robot);
         with_setting(&[], arguments, |context| {
             let loaded = periplus_loader::load(&files[0], context);
@@ -420,7 +423,11 @@ mod tests {
     #[test]
     fn numbers_of_a_model_are_edited() {
         let file = "../shared/corpus/turtlebot3_simulations/turtlebot3_gazebo/models/turtlebot3_burger/model.sdf";
-        let Some((outcomes, ratios, text)) = edit(file) else { return };
+        let Some((outcomes, ratios, text)) =
+            edit(file, Some(["wheel_left_joint", "wheel_right_joint"]))
+        else {
+            return;
+        };
         assert_eq!(names(&outcomes, false), BTreeSet::new(), "{outcomes:#?}");
         for (ratio, expected) in
             ratios.into_iter().zip([RADIUS_RATIO, RADIUS_RATIO, DISTANCE_RATIO])
@@ -438,7 +445,7 @@ mod tests {
     /// of the caster too.
     #[test]
     fn numbers_of_arguments_and_macro_calls_are_edited() {
-        let (outcomes, _, text) = edit("robots/sam_bot/urdf/sam_bot.urdf.xacro").unwrap();
+        let (outcomes, _, text) = edit("robots/sam_bot/urdf/sam_bot.urdf.xacro", None).unwrap();
         let edited = names(&outcomes, true);
         for name in [
             "plugin wheel_separation",
@@ -463,7 +470,11 @@ mod tests {
     /// The gap between deck and wheel is of the wheels alone; the deck is not.
     #[test]
     fn the_number_that_nothing_else_uses_is_edited() {
-        let (outcomes, ratios, text) = edit("robots/kbot/urdf/kbot.urdf.xacro").unwrap();
+        let (outcomes, ratios, text) = edit(
+            "robots/kbot/urdf/kbot.urdf.xacro",
+            Some(["left_wheel_joint", "right_wheel_joint"]),
+        )
+        .unwrap();
         assert!(names(&outcomes, true).contains("wheel_distance"), "{outcomes:#?}");
         assert!((ratios[2] - DISTANCE_RATIO).abs() < 1e-4, "{ratios:?}");
         assert!(text.contains("<wheelSeparation>0.16878</wheelSeparation>"), "{text}");
