@@ -384,12 +384,12 @@ struct Equations {
 
 impl Equations {
     fn take(&mut self, sample: &Sample, weights: &[f64; 2]) {
-        for kind in 0..2 {
+        for (kind, weight) in weights.iter().enumerate() {
             let row = row(&sample.terms, kind);
             for i in 0..TERM_COUNT {
-                self.right[i] += weights[kind] * row[i] * sample.limited[kind];
+                self.right[i] += weight * row[i] * sample.limited[kind];
                 for j in 0..TERM_COUNT {
-                    self.normal[i][j] += weights[kind] * row[i] * row[j];
+                    self.normal[i][j] += weight * row[i] * row[j];
                 }
             }
         }

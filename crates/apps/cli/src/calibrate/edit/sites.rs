@@ -143,7 +143,7 @@ mod tests {
 
     #[test]
     fn numbers_have_six_digits_without_zeros_at_the_end() {
-        let texts = [0.1, 0.123_456_78, -12.5, 1234.567_8, 0.0, 1e-9, 3.0]
+        let texts = [0.1, 0.123_456_78, -12.5, 1_234.567_8, 0.0, 1e-9, 3.0]
             .map(|it| number_text(it, DIGIT_COUNT));
         assert_eq!(texts, ["0.1", "0.123457", "-12.5", "1234.57", "0", "0.000000001", "3"]);
     }
