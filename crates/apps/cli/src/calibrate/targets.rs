@@ -320,7 +320,9 @@ mod tests {
     use std::path::PathBuf;
 
     use clap::Parser;
-    use periplus_calibration::{CalibrationError, DriveCalibration, LidarNoise, PredictionError};
+    use periplus_calibration::{
+        CalibrationError, DriveCalibration, ImuCalibration, ImuNoise, LidarNoise, PredictionError,
+    };
 
     use super::*;
     use crate::calibrate::edit::{Outcome, OutcomeKind, expand_texts, plan};
@@ -382,7 +384,7 @@ mod tests {
                 found,
                 lidar: Some(lidar),
                 range_bias: None,
-                imu: None,
+                imu: Some(still_imu()),
                 second_half: Err(PredictionError::Calibration(CalibrationError::TooFew(0))),
                 outcomes: Vec::new(),
                 missing: Vec::new(),
@@ -414,6 +416,26 @@ mod tests {
         })
     }
 
+    /// Noise of 0.00003 rad/s/Hz½ at 100 Hz, so 0.0003 rad/s, of the gyroscope.
+    fn still_imu() -> ImuCalibration {
+        let at = |value: f64| Estimated { value, standard_error: 1e-7 };
+        let noise = ImuNoise {
+            bias: at(0.0012),
+            noise_density: at(3e-5),
+            bias_instability: None,
+            random_walk: None,
+        };
+        ImuCalibration {
+            rate_hz: 100.0,
+            rest_s: 60.0,
+            gyroscope: Some([noise; 3]),
+            accelerometer: None,
+            scale_ratio: None,
+            delay_s: None,
+            missing: Vec::new(),
+        }
+    }
+
     fn names(outcomes: &[Outcome], is_edited: bool) -> BTreeSet<&str> {
         let kind = |it: &&Outcome| matches!(it.kind, OutcomeKind::Edited(None)) == is_edited;
         outcomes.iter().filter(kind).map(|it| it.name.as_str()).collect()
@@ -437,6 +459,7 @@ mod tests {
         assert!(text.contains("<wheel_separation>0.1552</wheel_separation>"), "{text}");
         assert!(text.contains("<wheel_radius>0.03366</wheel_radius>"));
         assert!(text.contains("<stddev>0.0234</stddev>"));
+        assert_eq!(text.matches("<stddev>0.0003</stddev>").count(), 3);
         // Turned and moved in the frame of the robot: -0.032 + 0.013 and 0 - 0.013.
         assert!(text.contains("<pose>-0.019 -0.013 0.171 0 0 0.04</pose>"));
     }
@@ -458,6 +481,8 @@ mod tests {
         }
         assert!(text.contains("<wheel_separation>0.3492</wheel_separation>"), "{text}");
         assert!(text.contains("0.013 -0.013 0.12"));
+        // A parameter of a macro for each axis.
+        assert_eq!(text.matches("<bias_mean>0.0012</bias_mean>").count(), 3);
         let manual: Vec<&Outcome> =
             outcomes.iter().filter(|it| it.name == "left_wheel_radius").collect();
         assert!(
