@@ -25,6 +25,9 @@ const BIAS_WINDOW_RAD: f64 = 1.2;
 const BIAS_ROUND_COUNT: usize = 5;
 /// Maximum standard error of a bias that counts as observed \[m\].
 const MAX_BIAS_ERROR_M: f64 = 0.01;
+/// Maximum scatter of the biases of single windows relative to that of noise. It is 1 for flat walls, where 2 is
+/// beyond the 99.9 % quantile already for 50 windows.
+const MAX_BIAS_SCATTER_RATIO: f64 = 2.0;
 
 /// Noise of a planar scanner.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -97,7 +100,7 @@ pub fn lidar_noise(scans: &[LaserScan2]) -> Option<LidarNoise> {
 
 /// Returns the constant bias of the ranges \[m\] from walls that are seen over more than 69 degrees: a bias b bends a
 /// wall at the distance d into r = d / cos(φ) + b. None if there are too few such walls for a standard error of
-/// 1 cm.
+/// 1 cm, or if the windows disagree by more than noise: doors, frames and furniture bend a wall too.
 ///
 /// `noise` is that of the ranges, see [`lidar_noise`]. Each window has its line and all have one bias, by least squares;
 /// windows over corners are beyond the 99.9 % quantile of the chi-square distribution and are dropped.
@@ -129,9 +132,10 @@ pub fn range_bias(scans: &[LaserScan2], noise: &LidarNoise) -> Option<Estimated>
         }
     }
     let mut bias_m = 0.0;
-    let mut standard_error = f64::INFINITY;
+    let (mut standard_error, mut scatter_ratio) = (f64::INFINITY, f64::INFINITY);
     for _ in 0..BIAS_ROUND_COUNT {
         let (mut normal, mut right) = (0.0, 0.0);
+        let (mut scatter, mut count) = (0.0, 0.0);
         for beams in &windows {
             let Some(window) = bent_line(beams, bias_m) else { continue };
             let freedom = beams.len().saturating_sub(3) as f64;
@@ -140,16 +144,22 @@ pub fn range_bias(scans: &[LaserScan2], noise: &LidarNoise) -> Option<Estimated>
             if window.squares <= limit {
                 normal += window.normal;
                 right += window.right;
+                scatter += window.right * window.right / window.normal;
+                count += 1.0;
             }
         }
         if normal <= 0.0 {
             return None;
         }
         bias_m += right / normal;
+        let variance = noise.std_m.value.powi(2);
+        // Without the part of the change of this round.
+        scatter_ratio = (scatter - right * right / normal) / (variance * count);
         // Windows overlap by three quarters.
-        standard_error = 2.0 * noise.std_m.value / normal.sqrt();
+        standard_error = 2.0 * (variance * scatter_ratio.max(1.0) / normal).sqrt();
     }
-    (standard_error <= MAX_BIAS_ERROR_M).then_some(Estimated { value: bias_m, standard_error })
+    (standard_error <= MAX_BIAS_ERROR_M && scatter_ratio <= MAX_BIAS_SCATTER_RATIO)
+        .then_some(Estimated { value: bias_m, standard_error })
 }
 
 /// Part of a window in the normal equation of the bias, and its squared residuals with its own bias.

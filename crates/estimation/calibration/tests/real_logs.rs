@@ -8,7 +8,8 @@ use std::path::Path;
 
 use periplus_bags::read_carmen;
 use periplus_calibration::{
-    DifferentialDrive, Estimated, RelativeError, WheelTrack, match_scans, predict_second_half,
+    DifferentialDrive, Estimated, RelativeError, WheelTrack, lidar_noise, match_scans,
+    predict_second_half, range_bias,
 };
 use periplus_geometry::{LaserScan2, Pose2};
 
@@ -48,6 +49,8 @@ fn halves(log: &str) -> Option<Vec<(RelativeError, RelativeError)>> {
     };
     eprintln!("{log}: {:?} delay {:?}", half.calibration.drive(), half.calibration.delay_s);
     eprintln!("  {:?}", half.model.coefficients);
+    let bias = lidar_noise(&scans).map(|it| (it.std_m, range_bias(&scans, &it)));
+    eprintln!("  range noise and bias {bias:?}");
     let (expected, measured) = (half.predicted, half.measured);
     for (expected, measured) in expected.iter().zip(&measured) {
         let length_m = expected.length_m;

@@ -188,7 +188,10 @@ impl Report {
             Err(why) => writeln!(out, "errors of odometry are not predicted: {why}")?,
         }
         if self.range_bias.is_none() {
-            writeln!(out, "bias of the ranges: no wall is seen over enough directions")?;
+            writeln!(
+                out,
+                "bias of the ranges: no flat walls are seen over more than 69 degrees, or they disagree"
+            )?;
         }
         for why in self.imu.iter().flat_map(|it| &it.missing) {
             writeln!(out, "{why}")?;
