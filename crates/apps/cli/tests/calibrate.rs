@@ -31,7 +31,7 @@ fn record(folder: &Folder, name: &str, script: &str, duration: &str) -> (String,
     let (drive, bag) = (path(&format!("{name}.yaml")), path(&format!("{name}.mcap")));
     std::fs::write(&drive, script).unwrap();
     let robot = at("robots/sam_bot/urdf/sam_bot.urdf.xacro");
-    let topics = "--topics=/(tf|tf_static|scan|odom|joint_states)$";
+    let topics = "--topics=/(tf|tf_static|scan|odom|joint_states|demo/imu)$";
     let world = at("worlds/demo_room.sdf");
     let common = ["sim", &world, "--robot", &robot, "--cmd", &drive, "--pose=0,0.8,0", topics];
     let more =
@@ -67,6 +67,49 @@ fn wheels_of_a_simulated_robot_are_recovered() {
     check("scanner_yaw", 0.0, 5e-3);
     check("scan_delay", 0.0, 5e-3);
     assert!(std::fs::read(&plot).unwrap().starts_with(b"\x89PNG"));
+    // 22 s are too short for a prediction, and the robot never stopped.
+    assert!(report["second_half"]["missing"].is_string(), "{report}");
+    let reasons = report["not_observable"].to_string();
+    assert!(reasons.contains("at rest"), "{report}");
+    check("imu_delay", 0.0, 0.02);
+    check("gyro_z_scale", 1.0, 0.01);
+    values_are_written(&folder, &bag);
+}
+
+/// The wheels are 0.36 m apart in the file, and 0.4 m for the robot that was recorded.
+fn values_are_written(folder: &Folder, bag: &str) {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../robots/sam_bot/urdf");
+    for entry in std::fs::read_dir(root).unwrap() {
+        let path = entry.unwrap().path();
+        std::fs::copy(&path, folder.path(path.file_name().unwrap().to_str().unwrap())).unwrap();
+    }
+    let robot = folder.path("sam_bot.urdf.xacro").display().to_string();
+    let chassis = || std::fs::read_to_string(folder.path("chassis.xacro")).unwrap();
+    let before = chassis();
+    let done = periplus(&["calibrate", bag, "--robot", &robot]);
+    let shown = String::from_utf8_lossy(&done.stdout).into_owned();
+    assert!(
+        shown.contains("\n-  <xacro:property name=\"wheel_aside\" value=\"0.025\"/>"),
+        "{shown}"
+    );
+    assert_eq!(chassis(), before);
+    let done = periplus(&["calibrate", bag, "--robot", &robot, "--write", "--json"]);
+    assert!(done.status.success(), "{}", String::from_utf8_lossy(&done.stderr));
+    let changed: Vec<(String, String)> = before
+        .lines()
+        .zip(chassis().lines())
+        .filter(|(a, b)| a != b)
+        .map(|(a, b)| (a.to_owned(), b.to_owned()))
+        .collect();
+    let [(_, line)] = &changed[..] else { panic!("{changed:?}") };
+    assert!(line.ends_with("<!-- body side to wheel centre -->"), "{line}");
+    // The file now has the distance that the recording has.
+    let done = periplus(&["calibrate", bag, "--robot", &robot, "--json"]);
+    let report: Value = serde_json::from_slice(&done.stdout).unwrap();
+    let nominal = report["values"]["wheel_distance"]["nominal"].as_f64().unwrap();
+    assert!((nominal - 0.4).abs() < 1.5e-3, "{report}");
+    let outcomes = report["file"].as_array().unwrap();
+    assert!(outcomes.iter().all(|it| it["outcome"] == "agrees"), "{report}");
 }
 
 #[test]

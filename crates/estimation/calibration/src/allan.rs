@@ -41,26 +41,40 @@ pub struct ImuNoise {
 /// of n of N samples.
 #[must_use]
 pub fn allan_deviation(samples: &[f64], period_s: f64) -> Vec<AllanPoint> {
-    // The integral, so that each mean is a difference.
-    let mut integral = vec![0.0];
-    let mean = samples.iter().sum::<f64>() / samples.len().max(1) as f64;
-    let mut sum = 0.0;
-    for sample in samples {
-        sum += (sample - mean) * period_s;
-        integral.push(sum);
-    }
+    allan_of_parts(&[samples], period_s)
+}
+
+/// Allan deviation over several parts of a recording, up to a quarter of the longest.
+fn allan_of_parts(parts: &[&[f64]], period_s: f64) -> Vec<AllanPoint> {
+    let total: usize = parts.iter().map(|it| it.len()).sum();
+    let longest = parts.iter().map(|it| it.len()).max().unwrap_or(0);
+    let mean = parts.iter().copied().flatten().sum::<f64>() / total.max(1) as f64;
+    // The integrals, so that each mean is a difference.
+    let integral = |samples: &&[f64]| {
+        let mut sum = 0.0;
+        let steps = samples.iter().map(|sample| {
+            sum += (sample - mean) * period_s;
+            sum
+        });
+        std::iter::once(0.0).chain(steps).collect()
+    };
+    let integrals: Vec<Vec<f64>> = parts.iter().map(integral).collect();
     let mut points = Vec::new();
     let mut size = 1;
-    while 4 * size <= samples.len() {
+    while 4 * size <= longest {
         let tau_s = size as f64 * period_s;
-        let count = integral.len() - 2 * size;
-        let squares: f64 = (0..count)
-            .map(|at| integral[at + 2 * size] - 2.0 * integral[at + size] + integral[at])
-            .map(|it| it * it)
-            .sum();
+        let (mut squares, mut count, mut clusters) = (0.0, 0, 0.0);
+        for integral in integrals.iter().filter(|it| it.len() > 2 * size) {
+            let differences = integral.len() - 2 * size;
+            squares += (0..differences)
+                .map(|at| integral[at + 2 * size] - 2.0 * integral[at + size] + integral[at])
+                .map(|it| it * it)
+                .sum::<f64>();
+            count += differences;
+            clusters += (integral.len() - 1) as f64 / size as f64 - 1.0;
+        }
         let value = (squares / (2.0 * tau_s * tau_s * count as f64)).sqrt();
-        let clusters = samples.len() as f64 / size as f64;
-        let standard_error = value / (2.0 * (clusters - 1.0)).sqrt();
+        let standard_error = value / (2.0 * clusters).sqrt();
         points.push(AllanPoint { tau_s, deviation: Estimated { value, standard_error } });
         size *= 2;
     }
@@ -71,10 +85,17 @@ pub fn allan_deviation(samples: &[f64], period_s: f64) -> Vec<AllanPoint> {
 /// samples.
 #[must_use]
 pub fn imu_noise(samples: &[f64], period_s: f64) -> Option<ImuNoise> {
-    if samples.len() < MIN_SAMPLE_COUNT || !samples.iter().all(|it| it.is_finite()) {
+    imu_noise_of_parts(&[samples], period_s)
+}
+
+/// Noise of one axis from several parts at rest.
+pub(crate) fn imu_noise_of_parts(parts: &[&[f64]], period_s: f64) -> Option<ImuNoise> {
+    let count = parts.iter().map(|it| it.len()).sum::<usize>();
+    let samples = || parts.iter().copied().flatten();
+    if count < MIN_SAMPLE_COUNT || !samples().all(|it| it.is_finite()) {
         return None;
     }
-    let points = allan_deviation(samples, period_s);
+    let points = allan_of_parts(parts, period_s);
     let first = points.first()?;
     let lowest = points
         .iter()
@@ -87,8 +108,8 @@ pub fn imu_noise(samples: &[f64], period_s: f64) -> Option<ImuNoise> {
     let is_inside = lowest + 1 < points.len();
     let bias_instability =
         is_inside.then(|| scaled(points[lowest].deviation, 1.0 / INSTABILITY_RATIO));
-    let count = samples.len() as f64;
-    let mean = samples.iter().sum::<f64>() / count;
+    let count = count as f64;
+    let mean = samples().sum::<f64>() / count;
     let standard_error = noise_density.value / (count * period_s).sqrt();
     Some(ImuNoise {
         bias: Estimated { value: mean, standard_error },

@@ -6,9 +6,8 @@ use nalgebra::{Matrix2, Matrix3, Matrix3x2, SymmetricEigen};
 use periplus_geometry::Pose2;
 
 use crate::delay::delay_s;
-use crate::error_model::MotionError;
 use crate::estimated::Estimated;
-use crate::fit::{Interval, Parameters, refine};
+use crate::fit::{Interval, Parameters, Refined, refine};
 use crate::scans::ScannerDisplacement;
 use crate::wheels::{DifferentialDrive, WheelTrack, sine_ratios};
 
@@ -91,6 +90,12 @@ pub enum CalibrationError {
     NotObservable(NotObservable),
 }
 
+impl CalibrationError {
+    fn of(parameters: &[DriveParameter]) -> Self {
+        Self::NotObservable(NotObservable { parameters: parameters.to_vec() })
+    }
+}
+
 impl fmt::Display for CalibrationError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
@@ -149,27 +154,6 @@ impl DriveCalibration {
         }
     }
 
-    /// Returns the motions of the base and the errors of odometry in displacements of the scanner, by the
-    /// calibrated parameters. Displacements that the wheels' track does not cover are left out.
-    #[must_use]
-    pub fn errors(
-        &self,
-        track: &WheelTrack,
-        displacements: &[ScannerDisplacement],
-    ) -> Vec<MotionError> {
-        let parameters = Parameters {
-            drive: self.drive(),
-            scanner: self.base_from_scanner(),
-            delay_s: self.delay_s.value,
-        };
-        let error = |it: &ScannerDisplacement| {
-            let (from_s, to_s) = (it.from_s - parameters.delay_s, it.to_s - parameters.delay_s);
-            let motion = track.motion(&parameters.drive, from_s, to_s)?;
-            Some(MotionError { motion, error: parameters.error(track, it)? })
-        };
-        displacements.iter().filter_map(error).collect()
-    }
-
     /// Returns the calibrated pose of the scanner in the base frame.
     #[must_use]
     pub fn base_from_scanner(&self) -> Pose2 {
@@ -195,9 +179,6 @@ pub fn calibrate_drive(
     nominal: &DifferentialDrive,
     max_delay_s: f64,
 ) -> Result<DriveCalibration, CalibrationError> {
-    let refuse = |parameters: &[DriveParameter]| {
-        CalibrationError::NotObservable(NotObservable { parameters: parameters.to_vec() })
-    };
     let intervals: Vec<Interval> = displacements
         .iter()
         .filter(|it| {
@@ -210,30 +191,65 @@ pub fn calibrate_drive(
         return Err(CalibrationError::TooFew(intervals.len()));
     }
     let delay = delay_s(track, nominal, &intervals, max_delay_s)
-        .ok_or_else(|| refuse(&[DriveParameter::Delay]))?;
-    let (drive, scanner) = closed_form(track, &intervals, delay).map_err(|it| refuse(&it))?;
-    let mut parameters = Parameters { drive, scanner, delay_s: delay };
-    let mut kept = intervals.clone();
-    let mut fit = refine(track, &kept, parameters);
+        .ok_or_else(|| CalibrationError::of(&[DriveParameter::Delay]))?;
+    let (drive, scanner) =
+        closed_form(track, &intervals, delay).map_err(|it| CalibrationError::of(&it))?;
+    let start = Parameters { drive, scanner, delay_s: delay };
+    let start = refine(track, &intervals, start, false);
+    fit(track, &intervals, start, false)
+}
+
+/// Repeats a calibration of all parameters but the delay with displacements of a reference. See
+/// [`calibrate_drive`].
+pub(crate) fn recalibrate(
+    track: &WheelTrack,
+    displacements: &[ScannerDisplacement],
+    start: &DriveCalibration,
+) -> Result<DriveCalibration, CalibrationError> {
+    let parameters = Parameters {
+        drive: start.drive(),
+        scanner: start.base_from_scanner(),
+        delay_s: start.delay_s.value,
+    };
+    let is_inside = |it: &&ScannerDisplacement| parameters.error(track, it).is_some();
+    let intervals: Vec<Interval> = displacements.iter().filter(is_inside).copied().collect();
+    if intervals.len() < MIN_DISPLACEMENT_COUNT {
+        return Err(CalibrationError::TooFew(intervals.len()));
+    }
+    let fitted = Refined::unfitted(track, &intervals, parameters);
+    let found = fit(track, &intervals, fitted, true)?;
+    Ok(DriveCalibration { delay_s: start.delay_s, ..found })
+}
+
+/// Rounds of rejecting outliers and of refinement.
+fn fit(
+    track: &WheelTrack,
+    intervals: &[Interval],
+    start: Refined,
+    is_delay_known: bool,
+) -> Result<DriveCalibration, CalibrationError> {
+    let mut kept = intervals.to_vec();
+    let mut fit = start;
     for _ in 1..ROUND_COUNT {
-        parameters = fit.parameters;
+        let parameters = fit.parameters;
         let limit = fit.outlier_limit();
         let is_kept = |it: &&Interval| parameters.square(track, it).is_some_and(|it| it <= limit);
         kept = intervals.iter().filter(is_kept).copied().collect();
         if kept.len() < MIN_DISPLACEMENT_COUNT {
             return Err(CalibrationError::TooFew(kept.len()));
         }
-        fit = refine(track, &kept, parameters);
+        fit = refine(track, &kept, parameters, is_delay_known);
     }
     let drive = fit.parameters.drive;
     let missing: Vec<DriveParameter> = DriveParameter::ALL
         .into_iter()
         .zip(fit.standard_errors)
+        .filter(|(it, _)| !(is_delay_known && *it == DriveParameter::Delay))
         .filter(|(it, error)| error.is_nan() || *error > it.max_standard_error(&drive))
         .map(|(it, _)| it)
         .collect();
     if !missing.is_empty() {
-        return Err(refuse(&missing));
+        return Err(CalibrationError::of(&missing));
     }
     let values = fit.parameters.values();
     let [

@@ -84,6 +84,16 @@ pub(crate) struct Refined {
 }
 
 impl Refined {
+    /// Parameters as they are, before a refinement.
+    pub(crate) fn unfitted(
+        track: &WheelTrack,
+        intervals: &[Interval],
+        parameters: Parameters,
+    ) -> Self {
+        let squares = intervals.iter().filter_map(|it| parameters.square(track, it)).collect();
+        Self { parameters, standard_errors: [f64::INFINITY; COUNT], squares }
+    }
+
     /// Largest squared error that is no outlier. The scale follows from the median, which outliers hardly
     /// change.
     pub(crate) fn outlier_limit(&self) -> f64 {
@@ -100,11 +110,16 @@ fn information(it: &Interval) -> SMatrix<f64, 3, 3> {
     SMatrix::<f64, 3, 3>::from_row_slice(&[a, b, c].concat())
 }
 
-/// Refines parameters by Gauss-Newton steps over all intervals.
-pub(crate) fn refine(track: &WheelTrack, intervals: &[Interval], start: Parameters) -> Refined {
+/// Refines parameters by Gauss-Newton steps over all intervals; a known delay is kept.
+pub(crate) fn refine(
+    track: &WheelTrack,
+    intervals: &[Interval],
+    start: Parameters,
+    is_delay_known: bool,
+) -> Refined {
     let mut parameters = start;
     for _ in 0..STEP_COUNT {
-        let (normal, gradient) = equations(track, intervals, &parameters);
+        let (normal, gradient) = equations(track, intervals, &parameters, is_delay_known);
         let (inverse, _) = inverse(&normal);
         let step = inverse * gradient;
         let mut values = parameters.values();
@@ -115,7 +130,7 @@ pub(crate) fn refine(track: &WheelTrack, intervals: &[Interval], start: Paramete
     }
     let squares: Vec<f64> =
         intervals.iter().filter_map(|it| parameters.square(track, it)).collect();
-    let scores = scores(track, intervals, &parameters);
+    let scores = scores(track, intervals, &parameters, is_delay_known);
     let normal = scores.iter().fold(SMatrix::zeros(), |sum, it| sum + it.normal);
     let (inverse, undetermined) = inverse(&normal);
     let covariance = inverse * meat(&scores) * inverse;
@@ -154,8 +169,9 @@ fn equations(
     track: &WheelTrack,
     intervals: &[Interval],
     parameters: &Parameters,
+    is_delay_known: bool,
 ) -> (SMatrix<f64, COUNT, COUNT>, SVector<f64, COUNT>) {
-    let scores = scores(track, intervals, parameters);
+    let scores = scores(track, intervals, parameters, is_delay_known);
     let zero = (SMatrix::zeros(), SVector::zeros());
     scores.iter().fold(zero, |sum, it| (sum.0 + it.normal, sum.1 + it.gradient))
 }
@@ -165,12 +181,15 @@ fn scores(
     track: &WheelTrack,
     intervals: &[Interval],
     parameters: &Parameters,
+    is_delay_known: bool,
 ) -> Vec<IntervalScore> {
+    // The delay is the last parameter.
+    let count = if is_delay_known { COUNT - 1 } else { COUNT };
     let values = parameters.values();
     let score = |it: &Interval| {
         let error = SVector::<f64, 3>::from(parameters.error(track, it)?);
         let mut jacobian = SMatrix::<f64, 3, COUNT>::zeros();
-        for (index, difference) in DIFFERENCE_RATIO.into_iter().enumerate() {
+        for (index, difference) in DIFFERENCE_RATIO.into_iter().enumerate().take(count) {
             let moved = |sign: f64| {
                 let mut values = values;
                 values[index] += sign * difference;

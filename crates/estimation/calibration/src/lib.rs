@@ -2,9 +2,11 @@
 //!
 //! - [`calibrate_drive`]: wheel radii, wheel distance, pose of the scanner and delay of its stamps. The
 //!   scanner's displacements come from [`match_scans`].
-//! - [`OdometryErrorModel`]: errors of odometry in one drive, and their prediction for another
-//! - [`lidar_noise`]: noise and dropouts of a planar scanner
-//! - [`allan_deviation`], [`imu_noise`]: noise of a gyroscope or accelerometer at rest
+//! - [`OdometryErrorModel`]: errors of odometry in one drive, and their prediction for another; [`predict_second_half`]
+//!   compares both in one recording
+//! - [`lidar_noise`], [`range_bias`]: noise, dropouts and bias of a planar scanner
+//! - [`calibrate_imu`]: noise and bias of an IMU at rest, scale and delay of its rotation; [`allan_deviation`] and
+//!   [`imu_noise`] for single axes
 //!
 //! Each value is an [`Estimated`] with its standard error. Values that the data does not determine are
 //! refused with the reason, see [`NotObservable`].
@@ -24,16 +26,24 @@ mod drive;
 mod error_model;
 mod estimated;
 mod fit;
+mod halves;
+mod imu;
 mod lidar;
+mod reference;
 mod scans;
+mod segments;
 mod wheels;
 
 pub use allan::{AllanPoint, ImuNoise, allan_deviation, imu_noise};
 pub use drive::{
     CalibrationError, DriveCalibration, DriveParameter, NotObservable, calibrate_drive,
 };
-pub use error_model::{MotionError, OdometryErrorModel, RmsError};
+pub use error_model::{OdometryErrorModel, RelativeError};
 pub use estimated::Estimated;
-pub use lidar::{LidarNoise, lidar_noise};
+pub use halves::{PredictionError, SecondHalf, predict_second_half};
+pub use imu::{ImuCalibration, ImuSample, calibrate_imu};
+pub use lidar::{LidarNoise, lidar_noise, range_bias};
+pub use reference::{odometry_poses, refine_with_slam, slam_poses};
 pub use scans::{ScannerDisplacement, match_scans};
+pub use segments::PosePair;
 pub use wheels::{DifferentialDrive, WheelSample, WheelTrack};

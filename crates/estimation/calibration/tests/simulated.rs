@@ -2,8 +2,9 @@
 #![allow(clippy::unwrap_used, reason = "tests")]
 
 use periplus_calibration::{
-    CalibrationError, DifferentialDrive, DriveCalibration, DriveParameter, WheelSample, WheelTrack,
-    calibrate_drive, lidar_noise, match_scans,
+    CalibrationError, DifferentialDrive, DriveCalibration, DriveParameter, ImuSample,
+    ScannerDisplacement, WheelSample, WheelTrack, calibrate_drive, calibrate_imu, lidar_noise,
+    match_scans, range_bias, refine_with_slam,
 };
 use periplus_geometry::{LaserScan2, Pose2, ScannerMounting, Stream};
 
@@ -36,7 +37,19 @@ struct Robot {
     scanner: Pose2,
     delay_s: f64,
     range_std_m: f64,
+    range_bias_m: f64,
     dropout: f64,
+    gyro: Gyro,
+}
+
+/// Errors of a gyroscope.
+#[derive(Default)]
+struct Gyro {
+    bias_rad_s: f64,
+    /// Standard deviation of a sample \[rad/s\].
+    std_rad_s: f64,
+    scale_ratio: f64,
+    delay_s: f64,
 }
 
 impl Robot {
@@ -54,6 +67,13 @@ impl Robot {
             delay_s: around(0.0, 0.08),
             range_std_m: around(0.012, 0.006),
             dropout: around(0.03, 0.03),
+            range_bias_m: around(0.0, 0.03),
+            gyro: Gyro {
+                bias_rad_s: around(0.0, 0.02),
+                std_rad_s: around(0.006, 0.004),
+                scale_ratio: around(1.0, 0.03),
+                delay_s: around(0.0, 0.05),
+            },
         }
     }
 }
@@ -77,6 +97,7 @@ fn cast(x: f64, y: f64, angle_rad: f64) -> f64 {
 struct Recording {
     track: WheelTrack,
     scans: Vec<LaserScan2>,
+    imu: Vec<ImuSample>,
 }
 
 /// Drives for a while with speeds of a function of time, and records wheels and scans.
@@ -89,6 +110,7 @@ fn record(
     let mut stream = Stream::keyed(12, "drive", number);
     let (mut pose, mut left_rad, mut right_rad) = (Pose2::new(-0.5, -0.5, 0.0), 0.0, 0.0);
     let (mut samples, mut poses) = (Vec::new(), Vec::new());
+    let (mut imu, mut imu_stream) = (Vec::new(), Stream::keyed(13, "imu", number));
     // In steps of 1 ms; wheels are sampled every 20 ms.
     let step_s = 1e-3;
     for tick in 0..=(duration_s / step_s) as usize {
@@ -101,6 +123,18 @@ fn record(
         let (left, right) = robot.drive.wheel_angles(speed_m_s * step_s, turn_rad_s * step_s);
         (left_rad, right_rad) = (left_rad + left, right_rad + right);
         pose = pose * robot.drive.motion(left, right);
+        // At 100 Hz, with the rate of the middle of the last 10 ms.
+        if tick % 10 == 0 {
+            let gyro = &robot.gyro;
+            let noise = gyro.std_rad_s * imu_stream.normal();
+            let rate_rad_s = gyro.scale_ratio * turn_rad_s + gyro.bias_rad_s + noise;
+            let mut level = || 0.05 * imu_stream.normal();
+            imu.push(ImuSample {
+                stamp_s: stamp_s + gyro.delay_s,
+                angular_velocity_rad_s: [0.0, 0.0, rate_rad_s],
+                acceleration_m_s2: [0.1 + level(), level(), 9.806_65 - 0.2 + level()],
+            });
+        }
     }
     let count = ((duration_s - 1.0) / SCAN_PERIOD_S) as usize;
     let scan = |index: usize| {
@@ -111,7 +145,9 @@ fn record(
         let angle_increment_rad = std::f64::consts::TAU / BEAM_COUNT as f64;
         let range = |beam: usize| {
             let angle_rad = at.yaw_rad + angle_min_rad + beam as f64 * angle_increment_rad;
-            let range_m = cast(at.x_m, at.y_m, angle_rad) + robot.range_std_m * stream.normal();
+            let range_m = cast(at.x_m, at.y_m, angle_rad)
+                + robot.range_bias_m
+                + robot.range_std_m * stream.normal();
             if stream.unit() < robot.dropout { f32::INFINITY } else { range_m as f32 }
         };
         LaserScan2 {
@@ -126,7 +162,7 @@ fn record(
         }
     };
     let scans = (0..count).map(scan).collect();
-    Recording { track: WheelTrack::new(samples), scans }
+    Recording { track: WheelTrack::new(samples), scans, imu }
 }
 
 /// Curves to both sides, turns on the spot, forward and backward.
@@ -135,9 +171,12 @@ fn varied(time_s: f64) -> (f64, f64) {
 }
 
 fn calibrate(recording: &Recording) -> Result<DriveCalibration, CalibrationError> {
+    calibrate_drive(&recording.track, &displacements(recording), &NOMINAL, 0.2)
+}
+
+fn displacements(recording: &Recording) -> Vec<ScannerDisplacement> {
     let start = |from_s: f64, to_s: f64| recording.track.motion(&NOMINAL, from_s, to_s);
-    let displacements = match_scans(&recording.scans, 0.9 * SCAN_PERIOD_S, start);
-    calibrate_drive(&recording.track, &displacements, &NOMINAL, 0.2)
+    match_scans(&recording.scans, 0.9 * SCAN_PERIOD_S, start)
 }
 
 #[test]
@@ -167,6 +206,78 @@ fn errors_of_thirty_robots_are_recovered() {
         let noise = lidar_noise(&recording.scans).unwrap();
         check("noise", noise.std_m.value, robot.range_std_m, 0.1 * robot.range_std_m);
         check("dropout", noise.dropout_ratio.value, robot.dropout, 0.005);
+        let bias = range_bias(&recording.scans, &noise).unwrap();
+        check("range bias", bias.value, robot.range_bias_m, 0.005);
+    }
+}
+
+/// Stops for 6 s of every 20 s.
+fn with_stops(time_s: f64) -> (f64, f64) {
+    if time_s % 20.0 < 6.0 { (0.0, 0.0) } else { varied(time_s) }
+}
+
+#[test]
+fn gyroscopes_of_ten_robots_are_recovered() {
+    for number in 0..10 {
+        let robot = Robot::random(number);
+        let recording = record(&robot, 60.0, number, with_stops);
+        let displacements = displacements(&recording);
+        let found = calibrate(&recording).unwrap();
+        let imu = calibrate_imu(
+            &recording.imu,
+            Some(&recording.track),
+            &displacements,
+            found.delay_s.value,
+            0.2,
+        )
+        .unwrap();
+        let gyro = &robot.gyro;
+        let check = |name: &str, value: f64, expected: f64, max_error: f64| {
+            assert!(
+                (value - expected).abs() < max_error,
+                "robot {number}, {name}: {value}\n{imu:?}"
+            );
+        };
+        let noise = imu.gyroscope.unwrap()[2];
+        check("rate", imu.rate_hz, 100.0, 1e-6);
+        check("bias", noise.bias.value, gyro.bias_rad_s, 1e-3);
+        // The standard deviation of a sample is the density times the root of the rate.
+        check("noise", noise.noise_density.value * 10.0, gyro.std_rad_s, 0.1 * gyro.std_rad_s);
+        check("scale", imu.scale_ratio.unwrap().value, gyro.scale_ratio, 0.005);
+        check("delay", imu.delay_s.unwrap().value, gyro.delay_s, 0.005);
+        let accelerometer = imu.accelerometer.unwrap();
+        check("bias of x", accelerometer[0].bias.value, 0.1, 0.01);
+        check("bias of z", accelerometer[2].bias.value, -0.2, 0.01);
+    }
+}
+
+#[test]
+fn what_a_drive_without_stops_and_turns_does_not_show_is_named() {
+    let robot = Robot::random(4);
+    let recording = record(&robot, 20.0, 0, |time_s| (0.3 * (0.7 * time_s).sin(), 0.0));
+    let displacements = displacements(&recording);
+    let track = Some(&recording.track);
+    let imu = calibrate_imu(&recording.imu, track, &displacements, 0.0, 0.2).unwrap();
+    assert!(imu.gyroscope.is_none() && imu.scale_ratio.is_none());
+    assert!(imu.missing[0].contains("at rest") && imu.missing[1].contains("turn"), "{imu:?}");
+    assert!(calibrate_imu(&recording.imu[..50], track, &displacements, 0.0, 0.2).is_none());
+}
+
+/// SLAM instead of pairs of scans is as exact.
+#[test]
+fn robots_are_recovered_with_slam() {
+    for number in 0..3 {
+        let robot = Robot { range_bias_m: 0.0, ..Robot::random(number) };
+        let recording = record(&robot, 60.0, number, varied);
+        let found = calibrate(&recording).unwrap();
+        let found = refine_with_slam(&found, &recording.track, &recording.scans).unwrap();
+        let ratio = |a: f64, b: f64| (a / b - 1.0).abs();
+        assert!(ratio(found.left_radius_m.value, robot.drive.left_radius_m) < 0.003);
+        assert!(ratio(found.right_radius_m.value, robot.drive.right_radius_m) < 0.003);
+        assert!(ratio(found.wheel_distance_m.value, robot.drive.wheel_distance_m) < 0.003);
+        assert!((found.scanner_x_m.value - robot.scanner.x_m).abs() < 0.005, "{number}");
+        assert!((found.scanner_y_m.value - robot.scanner.y_m).abs() < 0.005, "{number}");
+        assert!((found.scanner_yaw_rad.value - robot.scanner.yaw_rad).abs() < 0.005, "{number}");
     }
 }
 
@@ -203,6 +314,7 @@ fn a_straight_drive_does_not_determine_the_mount() {
 fn turns_on_the_spot_do_not_determine_the_yaw_of_a_scanner_in_the_centre() {
     let mut robot = Robot::random(6);
     robot.scanner = Pose2::new(0.0, 0.0, 0.1);
+    robot.range_bias_m = 0.0;
     let recording = record(&robot, 20.0, 0, |time_s| (0.0, 0.8 * (0.9 * time_s).sin()));
     let Err(CalibrationError::NotObservable(missing)) = calibrate(&recording) else {
         panic!("a turn on the spot has no direction");

@@ -178,6 +178,11 @@ impl SourceMap {
         Span { file, start: 0, end, context: ContextId::ROOT }
     }
 
+    /// All texts, in the order in which they were added.
+    pub fn files(&self) -> impl Iterator<Item = FileId> + use<> {
+        (0..u32::try_from(self.files.len()).unwrap_or(u32::MAX)).map(FileId)
+    }
+
     /// Adds a macro call or include and returns its id.
     pub fn expand(&mut self, expansion: Expansion) -> ContextId {
         self.expansions.push(expansion);

@@ -14,11 +14,12 @@ const PART_HEIGHT_PX: usize = 200;
 const HALF_POINT_PX: usize = 1;
 
 const COLOURS: [[u8; 3]; 3] = [[225, 50, 40], [20, 150, 60], [40, 90, 230]];
+const LIMIT_COLOUR: [u8; 3] = [210; 3];
 const ZERO_COLOUR: [u8; 3] = [160; 3];
 const BORDER_COLOUR: [u8; 3] = [0; 3];
 
 /// Writes a plot of residuals (stamp \[s\]; x, y \[m\], yaw \[rad\]): x in red, y in green and yaw in blue from top to
-/// bottom, each scaled to its largest value.
+/// bottom, each scaled to its largest value, with lines at zero and at two standard deviations.
 pub(super) fn write(path: &Path, residuals: &[(f64, [f64; 3])]) -> Result<(), CliError> {
     let png = draw(residuals);
     paths::write(path, &png)?;
@@ -40,6 +41,14 @@ fn draw(residuals: &[(f64, [f64; 3])]) -> Vec<u8> {
         }
         let values = || residuals.iter().map(|it| it.1[part]);
         let largest = values().fold(f64::MIN_POSITIVE, |largest, it| largest.max(it.abs()));
+        let squares: f64 = values().map(|it| it * it).sum();
+        let limit = 2.0 * (squares / residuals.len().max(1) as f64).sqrt() / largest;
+        if limit < 1.0 {
+            let up = (limit * (middle - HALF_POINT_PX - 1) as f64) as usize;
+            for row in [top + middle - up, top + middle + up] {
+                pixels[row * WIDTH_PX..(row + 1) * WIDTH_PX].fill(LIMIT_COLOUR);
+            }
+        }
         for (stamp_s, values) in residuals {
             let along = (stamp_s - first_s) / (last_s - first_s).max(f64::MIN_POSITIVE);
             let margin = HALF_POINT_PX + 1;
@@ -72,6 +81,15 @@ mod tests {
         assert_eq!(at(2, 2), COLOURS[0]);
         assert_eq!(at(2, 300), COLOURS[1]);
         assert_eq!(at(500, 100), ZERO_COLOUR);
+        // Two standard deviations of one 0.1 and nine zeros are 0.063, so 62 of 98 pixels from the middle.
+        let mut residuals = vec![(1.0, [0.0; 3]); 9];
+        residuals.push((0.0, [0.1, 0.0, 0.0]));
+        let picture = Raster::decode(&draw(&residuals)).unwrap();
+        let at = |column: usize, row: usize| picture.sample(row * WIDTH_PX + column).to_vec();
+        assert_eq!(
+            (at(500, 100 - 61), at(500, 100 + 61)),
+            (LIMIT_COLOUR.into(), LIMIT_COLOUR.into())
+        );
         // Without residuals the plot is empty.
         assert!(Raster::decode(&draw(&[])).is_ok());
     }

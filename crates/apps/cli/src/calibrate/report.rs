@@ -2,10 +2,14 @@
 
 use std::io::{self, Write};
 
-use periplus_calibration::{DriveCalibration, Estimated, LidarNoise, RmsError};
+use periplus_calibration::{
+    DriveCalibration, Estimated, ImuCalibration, ImuNoise, LidarNoise, PredictionError,
+    RelativeError, SecondHalf,
+};
 use periplus_geometry::Pose2;
 use serde_json::{Value, json};
 
+use super::edit::{Outcome, OutcomeKind};
 use super::robot::NominalRobot;
 
 /// Results of a calibration beside the nominal values.
@@ -15,31 +19,48 @@ pub(super) struct Report {
     pub(super) base_from_scanner: Pose2,
     pub(super) found: DriveCalibration,
     pub(super) lidar: Option<LidarNoise>,
-    pub(super) prediction: Option<Prediction>,
-}
-
-/// Errors of odometry in the second half of a drive.
-pub(super) struct Prediction {
-    /// As expected from the first half.
-    pub(super) expected: RmsError,
-    pub(super) measured: RmsError,
+    pub(super) range_bias: Option<Estimated>,
+    pub(super) imu: Option<ImuCalibration>,
+    pub(super) second_half: Result<SecondHalf, PredictionError>,
+    /// Numbers of the robot's texts, and what has none.
+    pub(super) outcomes: Vec<Outcome>,
+    pub(super) missing: Vec<String>,
 }
 
 /// A value beside its nominal one.
 struct Row {
-    name: &'static str,
+    name: String,
     unit: &'static str,
     found: Estimated,
     nominal: Option<f64>,
 }
 
+/// Rows of one axis of an IMU.
+fn imu_rows(axis: &str, noise: &ImuNoise, units: [&'static str; 4]) -> Vec<Row> {
+    let values = [
+        ("bias", Some(noise.bias)),
+        ("noise_density", Some(noise.noise_density)),
+        ("bias_instability", noise.bias_instability),
+        ("random_walk", noise.random_walk),
+    ];
+    let row = |((name, found), unit): ((&str, Option<Estimated>), &'static str)| {
+        Some(Row { name: format!("{axis}_{name}"), unit, found: found?, nominal: None })
+    };
+    values.into_iter().zip(units).filter_map(row).collect()
+}
+
 impl Report {
+    /// Calibrated pose of the scanner in the base frame.
+    pub(super) fn base_from_found_scanner(&self) -> Pose2 {
+        self.nominal.base_from_axle * self.found.base_from_scanner()
+    }
+
     fn rows(&self) -> Vec<Row> {
         let found = &self.found;
-        // The scanner is reported in the base frame.
-        let base_from_scanner = self.nominal.base_from_axle * found.base_from_scanner();
+        let base_from_scanner = self.base_from_found_scanner();
         let at = |value: f64, it: Estimated| Estimated { value, ..it };
-        let row = |name, unit, found, nominal| Row { name, unit, found, nominal };
+        let row =
+            |name: &str, unit, found, nominal| Row { name: name.to_owned(), unit, found, nominal };
         let drive = self.nominal.drive;
         let nominal = self.base_from_scanner;
         let mut rows = vec![
@@ -55,6 +76,20 @@ impl Report {
             rows.push(row("range_noise_std", "m", lidar.std_m, None));
             rows.push(row("range_dropout_ratio", "", lidar.dropout_ratio, None));
         }
+        rows.extend(self.range_bias.map(|it| row("range_bias", "m", it, None)));
+        if let Some(imu) = &self.imu {
+            rows.extend(imu.delay_s.map(|it| row("imu_delay", "s", it, None)));
+            rows.extend(imu.scale_ratio.map(|it| row("gyro_z_scale", "", it, None)));
+            let kinds = [
+                ("gyro", imu.gyroscope, ["rad/s", "rad/s^0.5", "rad/s", "rad/s^1.5"]),
+                ("acc", imu.accelerometer, ["m/s^2", "m/s^1.5", "m/s^2", "m/s^2.5"]),
+            ];
+            for (kind, noises, units) in kinds {
+                for (axis, noise) in ["x", "y", "z"].into_iter().zip(noises.iter().flatten()) {
+                    rows.extend(imu_rows(&format!("{kind}_{axis}"), noise, units));
+                }
+            }
+        }
         rows
     }
 
@@ -68,14 +103,39 @@ impl Report {
                     "value": it.found.value, "standard_error": it.found.standard_error,
                     "unit": it.unit, "nominal": it.nominal,
                 });
-                (it.name.to_owned(), value)
+                (it.name, value)
             })
             .collect();
-        let rms = |it: &RmsError| json!({ "rms_m": it.rms_m, "rms_rad": it.rms_rad });
-        let prediction = self
-            .prediction
-            .as_ref()
-            .map(|it| json!({ "predicted": rms(&it.expected), "measured": rms(&it.measured) }));
+        let number =
+            |it: Estimated| json!({ "value": it.value, "standard_error": it.standard_error });
+        let error = |it: &RelativeError| {
+            json!({
+                "length_m": it.length_m,
+                "trimmed_rms_m": number(it.trimmed_rms_m),
+                "trimmed_rms_rad": number(it.trimmed_rms_rad),
+                "rms_m": number(it.rms_m),
+                "rms_rad": number(it.rms_rad),
+            })
+        };
+        let prediction = match &self.second_half {
+            Ok(half) => json!({
+                "predicted": half.predicted.iter().map(error).collect::<Vec<_>>(),
+                "measured": half.measured.iter().map(error).collect::<Vec<_>>(),
+                "error_model": half.model.coefficients,
+            }),
+            Err(why) => json!({ "missing": why.to_string() }),
+        };
+        let outcome = |it: &Outcome| {
+            let (kind, note) = match &it.kind {
+                OutcomeKind::Agrees => ("agrees", None),
+                OutcomeKind::Edited(note) => ("edited", note.as_ref()),
+                OutcomeKind::Manual(why) => ("not edited", Some(why)),
+            };
+            json!({
+                "name": it.name, "location": it.location, "current": it.current, "value": it.value,
+                "outcome": kind, "note": note,
+            })
+        };
         json!({
             "left_joint": self.nominal.left_joint,
             "right_joint": self.nominal.right_joint,
@@ -83,17 +143,20 @@ impl Report {
             "displacements": self.found.residuals.len(),
             "rejected": self.found.rejected_count,
             "second_half": prediction,
+            "file": self.outcomes.iter().map(outcome).collect::<Vec<_>>(),
+            "not_in_file": self.missing,
+            "not_observable": self.imu.iter().flat_map(|it| &it.missing).collect::<Vec<_>>(),
         })
     }
 
     /// Prints the report as text.
     pub(super) fn print(&self, out: &mut dyn Write) -> io::Result<()> {
-        writeln!(out, "{:<20}  {:>10}  {:>10}  {:>10}", "", "value", "± error", "nominal")?;
+        writeln!(out, "{:<32}  {:>10}  {:>10}  {:>10}", "", "value", "± error", "nominal")?;
         for Row { name, unit, found, nominal } in self.rows() {
-            let name = if unit.is_empty() { name.to_owned() } else { format!("{name} [{unit}]") };
+            let name = if unit.is_empty() { name } else { format!("{name} [{unit}]") };
             let nominal = nominal.map_or_else(|| "-".to_owned(), |it| format!("{it:.5}"));
             let (value, error) = (found.value, found.standard_error);
-            writeln!(out, "{name:<20}  {value:>10.5}  {error:>10.5}  {nominal:>10}")?;
+            writeln!(out, "{name:<32}  {value:>10.5}  {error:>10.5}  {nominal:>10}")?;
         }
         writeln!(
             out,
@@ -101,15 +164,59 @@ impl Report {
             self.found.residuals.len(),
             self.found.rejected_count
         )?;
-        match &self.prediction {
-            Some(Prediction { expected, measured }) => writeln!(
-                out,
-                "odometry errors of the second half: {:.4} m and {:.4} rad, predicted from the first: {:.4} m and \
-                 {:.4} rad",
-                measured.rms_m, measured.rms_rad, expected.rms_m, expected.rms_rad
-            )?,
-            None => writeln!(out, "the first half alone does not determine all values")?,
+        match &self.second_half {
+            Ok(half) => {
+                writeln!(
+                    out,
+                    "errors of odometry in the second half, without the largest 5 %, predicted from the first half:"
+                )?;
+                for (predicted, measured) in half.predicted.iter().zip(&half.measured) {
+                    let (m, rad) = (predicted.trimmed_rms_m, predicted.trimmed_rms_rad);
+                    writeln!(
+                        out,
+                        "  over {:>4} m: {:.4} m (predicted {:.4} ± {:.4}), {:.4} rad (predicted {:.4} ± {:.4})",
+                        predicted.length_m,
+                        measured.trimmed_rms_m.value,
+                        m.value,
+                        m.standard_error,
+                        measured.trimmed_rms_rad.value,
+                        rad.value,
+                        rad.standard_error
+                    )?;
+                }
+            }
+            Err(why) => writeln!(out, "errors of odometry are not predicted: {why}")?,
         }
+        if self.range_bias.is_none() {
+            writeln!(
+                out,
+                "bias of the ranges: no flat walls are seen over more than 69 degrees, or they disagree"
+            )?;
+        }
+        for why in self.imu.iter().flat_map(|it| &it.missing) {
+            writeln!(out, "{why}")?;
+        }
+        self.print_outcomes(out)?;
         out.flush()
+    }
+
+    /// Prints what becomes of each number of the robot's texts.
+    fn print_outcomes(&self, out: &mut dyn Write) -> io::Result<()> {
+        for it in &self.outcomes {
+            let Outcome { name, location, current, value, kind } = it;
+            match kind {
+                OutcomeKind::Agrees => {
+                    writeln!(out, "{location}: {name} {current:.5} agrees")?;
+                }
+                OutcomeKind::Edited(note) => {
+                    let note = note.as_ref().map_or_else(String::new, |it| format!(" ({it})"));
+                    writeln!(out, "{location}: {name} {current:.5} -> {value:.5}{note}")?;
+                }
+                OutcomeKind::Manual(why) => {
+                    writeln!(out, "{location}: {name} {current:.5} should be {value:.5}: {why}")?;
+                }
+            }
+        }
+        self.missing.iter().try_for_each(|it| writeln!(out, "{it}"))
     }
 }

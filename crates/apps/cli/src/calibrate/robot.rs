@@ -2,7 +2,7 @@
 
 use periplus_calibration::DifferentialDrive;
 use periplus_geometry::Pose2;
-use periplus_loader::load;
+use periplus_loader::{LoadedFile, load};
 use periplus_scene::{Joint, JointKind, Model, Shape};
 
 use super::CalibrateOptions;
@@ -34,12 +34,18 @@ pub(super) fn nominal_robot(options: &CalibrateOptions) -> Result<NominalRobot, 
         if loaded.diagnostics.has_errors() {
             terminal::findings(&mut anstream::stderr().lock(), &loaded)?;
         }
-        let model = loaded.scene.as_ref().and_then(|scene| scene.models.first());
-        let model =
-            model.ok_or_else(|| CliError::failed(format!("{} has no robot", file.display())))?;
-        of_model(model, options)
+        nominal_of(&loaded, options)
             .map_err(|why| CliError::failed(format!("{}: {why}", file.display())))
     })
+}
+
+/// Nominal values of the first model of a loaded file.
+pub(super) fn nominal_of(
+    loaded: &LoadedFile,
+    options: &CalibrateOptions,
+) -> Result<NominalRobot, String> {
+    let model = loaded.scene.as_ref().and_then(|scene| scene.models.first());
+    of_model(model.ok_or("it has no robot")?, options)
 }
 
 /// A wheel of a model.

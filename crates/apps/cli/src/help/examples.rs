@@ -38,7 +38,8 @@ pub(super) const EXAMPLES: &[(&str, &[Example])] = &[
         ("periplus bridge --config bridge.yaml", "Bridge the topics of a file"),
     ]),
     ("calibrate", &[
-        ("periplus calibrate drive.mcap --robot robot.urdf.xacro --plot residuals.png", "Wheels, scanner and delay, beside the robot's file"),
+        ("periplus calibrate drive.mcap --robot robot.urdf.xacro --plot residuals.png", "Wheels, scanner and IMU, beside the robot's file, with the changes of its texts"),
+        ("periplus calibrate drive.mcap --robot robot.urdf.xacro --write", "The values written into the robot's texts"),
     ]),
     ("check", &[
         ("periplus check robot.urdf.xacro lidar:=true", "A robot, expanded with an argument"),
