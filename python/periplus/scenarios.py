@@ -198,7 +198,7 @@ class Scenario:
     def goal(self, pose: Position, **when: Any) -> Scenario:
         """Send the robot to a goal with ``navigate_to_pose``. Goals follow each other.
 
-        ``when`` is the condition of this and of every other event: ``at`` a time [s], ``near`` a place
+        ``when`` is the condition of this and of every other event: ``at`` a time [s], ``near`` a position
         (``(x, y)`` or ``(x, y, radius)``), ``on`` a message of a topic (``count``: the Nth), ``after`` another event by
         its ``name``; and a ``delay`` [s]."""
         return self._event("goal", {"pose": list(pose)}, when)

@@ -10,7 +10,7 @@ use crate::step::{Failed, build_program, root, run, timed};
 const FOLDER: &str = "target/python";
 
 /// Programs that build the wheel and test it.
-const TOOLS: [&str; 14] = [
+const TOOLS: [&str; 17] = [
     "maturin>=1.9,<2",
     "numpy",
     "pytest",
@@ -25,6 +25,9 @@ const TOOLS: [&str; 14] = [
     "pettingzoo",
     "onnx",
     "onnxruntime",
+    "optuna",
+    "pyarrow",
+    "ray",
 ];
 
 /// Maximum size of the wheel [bytes].
