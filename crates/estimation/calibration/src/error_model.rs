@@ -3,7 +3,7 @@
 use periplus_geometry::{Pose2, Stream};
 
 use crate::estimated::Estimated;
-use crate::segments::{OdometryPath, PosePair, TERM_COUNT, Terms, squared_errors};
+use crate::segments::{OdometryPath, ReferencedOdometry, TERM_COUNT, Terms, squared_errors};
 
 /// Lengths of segments \[m\].
 const LENGTHS_M: [f64; 9] = [0.1, 0.2, 0.5, 1.0, 2.0, 5.0, 10.0, 20.0, 50.0];
@@ -104,7 +104,7 @@ impl OdometryErrorModel {
     /// Squares of errors are weighted by the inverse of their expected value, as the likelihood of
     /// normal errors has it. The standard errors are of a bootstrap over blocks of the path.
     #[must_use]
-    pub fn fit(pairs: &[PosePair]) -> Option<Self> {
+    pub fn fit(pairs: &[ReferencedOdometry]) -> Option<Self> {
         let poses: Vec<Pose2> = pairs.iter().map(|it| it.odom_from_base).collect();
         let path = OdometryPath::new(&poses);
         let lengths_m = lengths_m(path.length_m())?;
@@ -194,7 +194,7 @@ impl OdometryErrorModel {
     /// Returns the errors in another drive at the lengths of the model, with standard errors of a bootstrap over
     /// that drive. Lengths that it is too short for are left out.
     #[must_use]
-    pub fn measure(&self, pairs: &[PosePair]) -> Vec<RelativeError> {
+    pub fn measure(&self, pairs: &[ReferencedOdometry]) -> Vec<RelativeError> {
         let poses: Vec<Pose2> = pairs.iter().map(|it| it.odom_from_base).collect();
         let path = OdometryPath::new(&poses);
         let lengths_m: Vec<f64> = self.fitted.iter().map(|it| it.length_m).collect();
@@ -238,7 +238,11 @@ fn lengths_m(path_m: f64) -> Option<Vec<f64>> {
     (count > 0).then(|| LENGTHS_M[first..count].to_vec())
 }
 
-fn samples(pairs: &[PosePair], path: &OdometryPath<'_>, lengths_m: &[f64]) -> Vec<Sample> {
+fn samples(
+    pairs: &[ReferencedOdometry],
+    path: &OdometryPath<'_>,
+    lengths_m: &[f64],
+) -> Vec<Sample> {
     let (Some(&shortest_m), Some(&longest_m)) = (lengths_m.first(), lengths_m.last()) else {
         return Vec::new();
     };
@@ -436,7 +440,7 @@ mod tests {
 
     /// Drives in steps of 0.1 m with rotations of up to `turn_rad`, whose heading has a random walk of 0.01 per root of a
     /// metre and 0.05 per root of a radian, and whose distance has one of 0.01 per root of a metre.
-    fn drive(name: &str, path_m: f64, turn_rad: f64) -> Vec<PosePair> {
+    fn drive(name: &str, path_m: f64, turn_rad: f64) -> Vec<ReferencedOdometry> {
         let mut stream = Stream::keyed(5, name, 0);
         let (mut odom, mut map) = (Pose2::IDENTITY, Pose2::IDENTITY);
         let (step_m, count) = (0.1, (path_m / 0.1) as usize);
@@ -446,7 +450,7 @@ mod tests {
             let along = 1e-2 * step_m.sqrt() * stream.normal();
             map = map * Pose2::new(step_m, 0.0, turn);
             odom = odom * Pose2::new(step_m + along, 0.0, turn + heading);
-            PosePair { stamp_s: index as f64, odom_from_base: odom, map_from_base: map }
+            ReferencedOdometry { stamp_s: index as f64, odom_from_base: odom, map_from_base: map }
         };
         (0..count).map(pair).collect()
     }

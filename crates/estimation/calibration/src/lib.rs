@@ -45,5 +45,5 @@ pub use imu::{ImuCalibration, ImuSample, calibrate_imu};
 pub use lidar::{LidarNoise, lidar_noise, range_bias};
 pub use reference::{odometry_poses, refine_with_slam, slam_poses};
 pub use scans::{ScannerDisplacement, match_scans};
-pub use segments::PosePair;
+pub use segments::ReferencedOdometry;
 pub use wheels::{DifferentialDrive, WheelSample, WheelTrack};

@@ -18,7 +18,7 @@ const LIMIT_RATIO: f64 = 29.588 / 10.0;
 /// Number of rounds in which windows beyond the limit are dropped.
 const ROUND_COUNT: usize = 8;
 
-/// Angle of the beams of a window for the bias \[rad\]: the bias bends a wall by the difference of the cosines of
+/// Angle of the beams of a window for the bias \[rad\]: the bias deforms a wall by the difference of the cosines of
 /// incidence.
 const BIAS_WINDOW_RAD: f64 = 1.2;
 /// Number of rounds of the fit of the bias.
@@ -98,9 +98,9 @@ pub fn lidar_noise(scans: &[LaserScan2]) -> Option<LidarNoise> {
     })
 }
 
-/// Returns the constant bias of the ranges \[m\] from walls that are seen over more than 69 degrees: a bias b bends a
+/// Returns the constant bias of the ranges \[m\] from walls that are seen over more than 69 degrees: a bias b turns a
 /// wall at the distance d into r = d / cos(φ) + b. None if there are too few such walls for a standard error of
-/// 1 cm, or if the windows disagree by more than noise: doors, frames and furniture bend a wall too.
+/// 1 cm, or if the windows disagree by more than noise: doors, frames and furniture deform a wall too.
 ///
 /// `noise` is that of the ranges, see [`lidar_noise`]. Each window has its line and all have one bias, by least squares;
 /// windows over corners are beyond the 99.9 % quantile of the chi-square distribution and are dropped.

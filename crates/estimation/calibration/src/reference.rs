@@ -7,7 +7,7 @@ use periplus_slam::{Settings, Slam};
 
 use crate::drive::{CalibrationError, DriveCalibration, recalibrate};
 use crate::scans::ScannerDisplacement;
-use crate::segments::PosePair;
+use crate::segments::ReferencedOdometry;
 use crate::wheels::WheelTrack;
 
 /// Number of displacements into which a path is divided, and the limits of their length \[m\]. Errors of a match do
@@ -32,7 +32,7 @@ pub fn refine_with_slam(
     scans: &[LaserScan2],
 ) -> Result<DriveCalibration, CalibrationError> {
     let pairs = slam_poses(found, track, scans);
-    let step = |it: &[PosePair]| {
+    let step = |it: &[ReferencedOdometry]| {
         let step = it[0].odom_from_base.inverse() * it[1].odom_from_base;
         libm::hypot(step.x_m, step.y_m)
     };
@@ -47,7 +47,7 @@ pub fn refine_with_slam(
         length_m += step_m;
         if length_m >= min_m {
             let (first, last) = (pairs[from], pairs[index + 1]);
-            let scanner = |it: PosePair| it.map_from_base * found.base_from_scanner();
+            let scanner = |it: ReferencedOdometry| it.map_from_base * found.base_from_scanner();
             displacements.push(ScannerDisplacement {
                 from_s: first.stamp_s,
                 to_s: last.stamp_s,
@@ -94,7 +94,7 @@ pub fn slam_poses(
     found: &DriveCalibration,
     track: &WheelTrack,
     scans: &[LaserScan2],
-) -> Vec<PosePair> {
+) -> Vec<ReferencedOdometry> {
     let mut slam = Slam::new(Settings::default());
     let mut odometry = BTreeMap::new();
     for (scan, pose) in scans.iter().zip(odometry_poses(found, track, scans)) {
@@ -107,7 +107,7 @@ pub fn slam_poses(
     slam.finish();
     let pair = |(time_ns, map_from_base): (i64, Pose2)| {
         let odom_from_base = *odometry.get(&time_ns)?;
-        Some(PosePair { stamp_s: time_ns as f64 * 1e-9, odom_from_base, map_from_base })
+        Some(ReferencedOdometry { stamp_s: time_ns as f64 * 1e-9, odom_from_base, map_from_base })
     };
     slam.trajectory().into_iter().filter_map(pair).collect()
 }

@@ -4,7 +4,7 @@ use periplus_geometry::{Pose2, normalize_angle};
 
 /// Pose of the base at a stamp by odometry, and by a reference.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct PosePair {
+pub struct ReferencedOdometry {
     /// Stamp \[s\].
     pub stamp_s: f64,
     /// Pose by odometry.
@@ -138,7 +138,7 @@ impl<'a> OdometryPath<'a> {
 }
 
 /// Squared errors of position \[m²\] and heading \[rad²\] of odometry over a segment.
-pub(crate) fn squared_errors(pairs: &[PosePair], segment: &Segment) -> [f64; 2] {
+pub(crate) fn squared_errors(pairs: &[ReferencedOdometry], segment: &Segment) -> [f64; 2] {
     let (from, to) = (pairs[segment.from], pairs[segment.to]);
     let expected = from.map_from_base.inverse() * to.map_from_base;
     let found = from.odom_from_base.inverse() * to.odom_from_base;
@@ -167,7 +167,11 @@ mod tests {
     #[test]
     fn errors_are_those_of_the_segment_alone() {
         // Odometry has turned by 90 degrees before, and is 10 cm short.
-        let pair = |odom, map| PosePair { stamp_s: 0.0, odom_from_base: odom, map_from_base: map };
+        let pair = |odom, map| ReferencedOdometry {
+            stamp_s: 0.0,
+            odom_from_base: odom,
+            map_from_base: map,
+        };
         let quarter = std::f64::consts::FRAC_PI_2;
         let pairs = [
             pair(Pose2::new(5.0, 1.0, quarter), Pose2::IDENTITY),

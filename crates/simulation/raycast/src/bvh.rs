@@ -21,9 +21,9 @@ pub(crate) const MAX_LEAF_TRIANGLES: usize = 8;
 const MAX_DEPTH: usize = 40;
 /// Capacity for the siblings of every node on a path, a power of two.
 pub(crate) const MAX_STACK_ENTRIES: usize = 512;
-const _: () = assert!(MAX_PENDING_CHILDREN <= MAX_STACK_ENTRIES);
+const _: () = assert!(MAX_PENDING_CHILD_COUNT <= MAX_STACK_ENTRIES);
 /// Maximum number of siblings of the nodes on a path, and of the children of the last.
-pub(crate) const MAX_PENDING_CHILDREN: usize = 7 * MAX_DEPTH + 8;
+pub(crate) const MAX_PENDING_CHILD_COUNT: usize = 7 * MAX_DEPTH + 8;
 
 /// A node: rows 0 to 2 the lower, 3 to 5 the upper corners of the children's boxes, row 6 the child
 /// words as bits, row 7 for each octant of ray directions the order of the children, the farthest

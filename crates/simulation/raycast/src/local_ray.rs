@@ -259,7 +259,8 @@ impl RayBlock {
                 min: self.box_min.0[lane],
             },
             octant: x | y << 1 | z << 2,
-            axes: AXES[usize::from(bit(x_y, lane) | bit(x_z, lane) << 1 | bit(y_z, lane) << 2)],
+            axes: AXIS_INDEX
+                [usize::from(bit(x_y, lane) | bit(x_z, lane) << 1 | bit(y_z, lane) << 2)],
             origin: three(&self.origin, lane),
             shear: three(&self.shear, lane),
             min: self.min.0[lane],
@@ -287,7 +288,7 @@ impl PreparedRay {
 }
 
 /// Minor axes and dominant axis for each outcome of [`RayBlock::order`].
-const AXES: [[u8; 3]; 8] = {
+const AXIS_INDEX: [[u8; 3]; 8] = {
     let (x, y, z) = ([1, 2, 0], [2, 0, 1], [0, 1, 2]);
     [x, y, z, y, x, z, z, z]
 };

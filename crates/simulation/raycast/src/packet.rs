@@ -241,7 +241,7 @@ pub(crate) struct Slopes {
 
 impl<V: V8> SlopeTest<V> {
     /// Minimum depth in a division: boxes that begin behind the apex reach any slope.
-    const MIN_DEPTH: f32 = 1e-30;
+    const MIN_DEPTH_M: f32 = 1e-30;
 
     #[inline(always)]
     pub(crate) fn new(pyramid: &Pyramid) -> Self {
@@ -267,7 +267,7 @@ impl<V: V8> SlopeTest<V> {
     /// [`crate::local_ray::LocalRay`].
     #[inline(always)]
     pub(crate) fn of(&self, node: &Node) -> Slopes {
-        let floor = V::splat(Self::MIN_DEPTH);
+        let floor = V::splat(Self::MIN_DEPTH_M);
         let one = V::splat(1.0);
         let near = one.div(self.end(node, &self.near_rows, 2).max(floor));
         let far = one.div(self.end(node, &self.far_rows, 2).max(floor));

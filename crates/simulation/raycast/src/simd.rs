@@ -11,7 +11,7 @@ mod simd4;
 
 use periplus_geometry::DVec3;
 
-use crate::bvh::MAX_PENDING_CHILDREN;
+use crate::bvh::MAX_PENDING_CHILD_COUNT;
 use crate::traversal::PendingChildren;
 
 pub(crate) use simd4::V4;
@@ -273,7 +273,7 @@ impl V8 for Portable {
         for position in 0..8 {
             let child = (order >> (3 * position)) as usize & 7;
             if bits >> child & 1 != 0 {
-                let height = pending.height.min(MAX_PENDING_CHILDREN);
+                let height = pending.height.min(MAX_PENDING_CHILD_COUNT);
                 pending.distances[height] = enter.0[child];
                 pending.words[height] = words.0[child].to_bits();
                 pending.height = height + 1;
@@ -283,7 +283,7 @@ impl V8 for Portable {
     #[inline(always)]
     fn cull(pending: &mut PendingChildren, limit: f32) {
         let mut kept = 0;
-        for index in 0..pending.height.min(MAX_PENDING_CHILDREN) {
+        for index in 0..pending.height.min(MAX_PENDING_CHILD_COUNT) {
             pending.distances[kept] = pending.distances[index];
             pending.words[kept] = pending.words[index];
             kept += usize::from(pending.distances[index] <= limit);
@@ -308,7 +308,7 @@ mod avx2 {
 
     use periplus_geometry::DVec3;
 
-    use super::{MAX_PENDING_CHILDREN, PendingChildren, Row, Task, V8};
+    use super::{MAX_PENDING_CHILD_COUNT, PendingChildren, Row, Task, V8};
 
     /// For each mask of eight bits the positions of the set bits, in order.
     static SET_BITS: [[u8; 8]; 256] = {
@@ -447,9 +447,9 @@ mod avx2 {
         }
         #[inline(always)]
         fn push(hits: Self, enter: Self, words: &Row, order: u32, pending: &mut PendingChildren) {
-            let height = pending.height.min(MAX_PENDING_CHILDREN);
+            let height = pending.height.min(MAX_PENDING_CHILD_COUNT);
             // SAFETY: a `Row` is 32 readable bytes, aligned to 32. The targets are eight entries each
-            // from `height` on, and the arrays have eight more than `MAX_PENDING_CHILDREN`; the unaligned
+            // from `height` on, and the arrays have eight more than `MAX_PENDING_CHILD_COUNT`; the unaligned
             // stores ask for no more. The machine has AVX2 (see `Avx2`).
             unsafe {
                 let order = _mm256_set1_epi32(order.cast_signed());
@@ -467,10 +467,10 @@ mod avx2 {
         }
         #[inline(always)]
         fn cull(pending: &mut PendingChildren, limit: f32) {
-            let height = pending.height.min(MAX_PENDING_CHILDREN);
+            let height = pending.height.min(MAX_PENDING_CHILD_COUNT);
             let (mut read, mut kept) = (0, 0);
             while read < height {
-                // SAFETY: `kept <= read < height <= MAX_PENDING_CHILDREN`, and the arrays have eight more
+                // SAFETY: `kept <= read < height <= MAX_PENDING_CHILD_COUNT`, and the arrays have eight more
                 // entries; loads and stores are unaligned. The machine has AVX2 (see `Avx2`).
                 unsafe {
                     let distances = pending.distances.as_mut_ptr();

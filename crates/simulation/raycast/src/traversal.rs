@@ -1,6 +1,6 @@
 //! Traversal of a tree, nearest first.
 
-use crate::bvh::{LEAF_MASK, MAX_PENDING_CHILDREN, MAX_STACK_ENTRIES, Node};
+use crate::bvh::{LEAF_MASK, MAX_PENDING_CHILD_COUNT, MAX_STACK_ENTRIES, Node};
 use crate::simd::V8;
 
 /// Stack of pending nodes: entry distance in the upper half, child word in the lower. Distances are
@@ -10,15 +10,15 @@ pub(crate) type Stack = [u64; MAX_STACK_ENTRIES];
 /// Pending children of one ray, the nearest last, with their entry distances. Eight entries are written
 /// at a time, wherever the stack ends.
 pub(crate) struct PendingChildren {
-    pub(crate) distances: [f32; MAX_PENDING_CHILDREN + 8],
-    pub(crate) words: [u32; MAX_PENDING_CHILDREN + 8],
+    pub(crate) distances: [f32; MAX_PENDING_CHILD_COUNT + 8],
+    pub(crate) words: [u32; MAX_PENDING_CHILD_COUNT + 8],
     pub(crate) height: usize,
 }
 
 impl PendingChildren {
     pub(crate) const EMPTY: Self = Self {
-        distances: [0.0; MAX_PENDING_CHILDREN + 8],
-        words: [0; MAX_PENDING_CHILDREN + 8],
+        distances: [0.0; MAX_PENDING_CHILD_COUNT + 8],
+        words: [0; MAX_PENDING_CHILD_COUNT + 8],
         height: 0,
     };
 
@@ -31,13 +31,13 @@ impl PendingChildren {
     /// Removes the last child and returns its word.
     #[inline(always)]
     pub(crate) fn pop(&mut self) -> u32 {
-        self.height = self.height.wrapping_sub(1).min(MAX_PENDING_CHILDREN);
+        self.height = self.height.wrapping_sub(1).min(MAX_PENDING_CHILD_COUNT);
         self.words[self.height]
     }
 
     #[inline(always)]
     pub(crate) fn last(&self) -> LastChild {
-        let word = self.words[self.height.wrapping_sub(1).min(MAX_PENDING_CHILDREN)];
+        let word = self.words[self.height.wrapping_sub(1).min(MAX_PENDING_CHILD_COUNT)];
         LastChild { word, exists: self.height > 0 }
     }
 }

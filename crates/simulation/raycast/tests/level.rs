@@ -1,4 +1,4 @@
-//! Level scans, which are traced through trees of their own: the same bits as of single rays.
+//! Level scans, which are traced through separate trees: the same bits as of single rays.
 
 use periplus_geometry::{DVec3, Pose, Stream};
 use periplus_raycast::{Filter, Hit, Ray, RaycastWorld, Tags};

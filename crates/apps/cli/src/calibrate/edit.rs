@@ -265,7 +265,7 @@ pub(super) fn plan(
     Plan { outcomes, texts }
 }
 
-/// Expands the edited texts: an edited target has its value, or the outcome says that it has not.
+/// Expands the edited texts: an edited target has its value, or the outcome states that it has not.
 fn verify(
     file: &Path,
     context: &LoadContext<'_>,

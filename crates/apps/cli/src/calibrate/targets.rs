@@ -298,7 +298,7 @@ fn child_of(elements: &Elements<'_>, number: usize, name: &str) -> Option<usize>
         .find(|it| elements.all[*it].1 == Some(number) && elements.all[*it].0.local_name() == name)
 }
 
-/// Place of a number in an attribute (URDF) or a child (SDF).
+/// Location of a number in an attribute (URDF) or a child (SDF).
 fn number_of(elements: &Elements<'_>, number: usize, name: &str, word: usize) -> Option<Place> {
     if elements.all[number].0.attribute(name).is_some() {
         return Some(Place { element: number, attribute: Some(name.to_owned()), word });

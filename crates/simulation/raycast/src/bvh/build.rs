@@ -245,7 +245,7 @@ fn grow<V: V8>(
 struct Children {
     ranges: [Range; 8],
     count: usize,
-    /// For each octant of ray directions the children, the farthest first, as the splits tell. The
+    /// For each octant of ray directions the children, the farthest first, by the splits. The
     /// positions from `count` on hold the unused slots.
     orders: [[u8; 8]; 8],
 }

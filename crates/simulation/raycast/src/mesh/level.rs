@@ -18,7 +18,7 @@ impl TriangleMesh {
     }
 
     /// Returns the triangles that reach into `low..=high` along z (tree's frame \[m\]), with their
-    /// numbers, in a tree of its own; `None` if they are more than `max_count`.
+    /// numbers, in a separate tree; `None` if they are more than `max_count`.
     ///
     /// A ray that stays within the slab, less a margin of `64 * ROUNDING_RATIO` of the lengths
     /// involved, finds in it what it finds in the whole mesh, to the bit: the triangles are the same

@@ -1,7 +1,7 @@
 //! Packets of rays with a common origin against one triangle at a time.
 
 use super::{Block, TriangleMesh};
-use crate::bvh::{LEAF_MASK, MAX_PENDING_CHILDREN, leaf_range};
+use crate::bvh::{LEAF_MASK, MAX_PENDING_CHILD_COUNT, leaf_range};
 use crate::local_ray::distance_margin;
 use crate::packet::{Frustum, MAX_GROUP_COUNT, Packet, Pyramid, SlopeTest, Slopes};
 use crate::simd::{Row, V8, splat3};
@@ -66,7 +66,7 @@ impl TriangleMesh {
         let GroupStack { words, distances, packets: masks, height, children } = stack;
         (words[0], distances[0], masks[0], *height) = (0, 0.0, u8::MAX, 1);
         while *height > 0 {
-            *height = height.wrapping_sub(1).min(MAX_PENDING_CHILDREN);
+            *height = height.wrapping_sub(1).min(MAX_PENDING_CHILD_COUNT);
             let word = words[*height];
             let active = u32::from(masks[*height]) & leaves.within::<V>(distances[*height]);
             if active == 0 {
@@ -85,7 +85,7 @@ impl TriangleMesh {
                 // The pyramid may be wider than the packet, but there is nothing to share.
                 for index in 0..count {
                     let child = children.words[index] as usize & 7;
-                    let at = height.wrapping_add(index).min(MAX_PENDING_CHILDREN);
+                    let at = height.wrapping_add(index).min(MAX_PENDING_CHILD_COUNT);
                     words[at] = node.child(child);
                     distances[at] = children.distances[index];
                     masks[at] = active as u8;
@@ -101,7 +101,7 @@ impl TriangleMesh {
                 let child = children.words[index] as usize & 7;
                 let distance = children.distances[index];
                 let own = active & leaves.bounds.seeing::<V>(&slopes, child, distance);
-                let at = (*height).min(MAX_PENDING_CHILDREN);
+                let at = (*height).min(MAX_PENDING_CHILD_COUNT);
                 words[at] = node.child(child);
                 distances[at] = distance;
                 masks[at] = own as u8;
@@ -124,11 +124,11 @@ const CHILD_NUMBERS: Row = {
 
 /// Pending children of a group of packets, the nearest last.
 pub(crate) struct GroupStack {
-    words: [u32; MAX_PENDING_CHILDREN + 8],
+    words: [u32; MAX_PENDING_CHILD_COUNT + 8],
     /// Depths at which the pyramid enters them.
-    distances: [f32; MAX_PENDING_CHILDREN + 8],
+    distances: [f32; MAX_PENDING_CHILD_COUNT + 8],
     /// Packets that may hit them, as bits.
-    packets: [u8; MAX_PENDING_CHILDREN + 8],
+    packets: [u8; MAX_PENDING_CHILD_COUNT + 8],
     height: usize,
     /// Children of one node.
     children: PendingChildren,
@@ -136,9 +136,9 @@ pub(crate) struct GroupStack {
 
 impl GroupStack {
     pub(crate) const EMPTY: Self = Self {
-        words: [0; MAX_PENDING_CHILDREN + 8],
-        distances: [0.0; MAX_PENDING_CHILDREN + 8],
-        packets: [0; MAX_PENDING_CHILDREN + 8],
+        words: [0; MAX_PENDING_CHILD_COUNT + 8],
+        distances: [0.0; MAX_PENDING_CHILD_COUNT + 8],
+        packets: [0; MAX_PENDING_CHILD_COUNT + 8],
         height: 0,
         children: PendingChildren::EMPTY,
     };

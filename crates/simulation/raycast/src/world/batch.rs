@@ -19,7 +19,7 @@ use crate::simd::{Row, Task, V8, dispatch};
 /// than its rays do.
 const LARGE_MESH_BLOCKS: usize = 7_000;
 /// The same for trees of level rays, in which the beams of a sparse fan have little in common.
-const MAX_LEVEL_BLOCKS_FOR_PACKETS: usize = 1_500;
+const MAX_LEVEL_PACKET_BLOCK_COUNT: usize = 1_500;
 /// Number of rays that are looked at before they are traced: few enough to stay in the cache.
 const LEVEL_BLOCK_RAYS: usize = 4096;
 /// Minimum number of rays for interleaved traversal.
@@ -319,7 +319,7 @@ struct Work {
 impl<F: FnMut(usize, &NearestHit)> Many<'_, F> {
     fn max_spread(&self) -> SlopeSpread {
         let level = !std::ptr::eq(self.fixed, &raw const self.world.fixed);
-        let max_blocks = if level { MAX_LEVEL_BLOCKS_FOR_PACKETS } else { LARGE_MESH_BLOCKS };
+        let max_blocks = if level { MAX_LEVEL_PACKET_BLOCK_COUNT } else { LARGE_MESH_BLOCKS };
         if self.fixed.blocks.len() > max_blocks { MAX_SPREAD_IN_LARGE_MESH } else { MAX_SPREAD }
     }
 
@@ -352,7 +352,7 @@ impl<F: FnMut(usize, &NearestHit)> Many<'_, F> {
     }
 
     /// Returns false if rays cannot be in a packet with this spread of slopes. Scattered rays and sparse
-    /// fans are told apart by the first and the last: a difference of slopes is not less than the sine
+    /// fans are distinguished by the first and the last: a difference of slopes is not less than the sine
     /// of the angle between two rays.
     #[inline(always)]
     fn may_fit(&self, picked: &[usize], spread: f32) -> bool {

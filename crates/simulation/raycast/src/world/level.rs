@@ -16,7 +16,7 @@ use crate::ray::Ray;
 const SLAB_DISTANCE_M: f64 = 0.04;
 /// Height by which a slab reaches into its neighbours \[m\]: rays may rise or sink by as much.
 const SLAB_OVERLAP_M: f64 = 0.02;
-/// Minimum number of triangles for which a tree of its own pays off.
+/// Minimum number of triangles for which a separate tree pays off.
 const MIN_TRIANGLES: usize = 64;
 /// Maximum part of the triangles in a tree for a slab: with more, little is gained.
 const MAX_TRIANGLES_FRACTION: usize = 2;
@@ -25,7 +25,7 @@ const MIN_RAYS_FRACTION: usize = 4;
 /// Number of rays traced through all triangles after one that is not level.
 const SKIPPED_RAYS: usize = 64;
 /// Maximum number of slabs; the one used least recently is replaced.
-const MAX_SLABS: usize = 8;
+const MAX_SLAB_COUNT: usize = 8;
 /// Maximum distance of rays' origins from the middle of the triangles, in half widths.
 const MAX_ORIGIN_RATIO: f64 = 2.0;
 
@@ -33,7 +33,7 @@ const MAX_ORIGIN_RATIO: f64 = 2.0;
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct SlabIndex(i64);
 
-/// Limits that tell level rays from others.
+/// Limits that distinguish level rays from others.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct LevelLimits {
     middle: [f64; 3],
@@ -164,7 +164,7 @@ impl LevelTrees {
         let mut slab = match position {
             Some(position) => slabs.remove(position),
             None => {
-                if slabs.len() == MAX_SLABS {
+                if slabs.len() == MAX_SLAB_COUNT {
                     slabs.remove(0);
                 }
                 Slab { index, rays: 0, tree: Tree::NotYet }
