@@ -43,7 +43,8 @@ class Transforms:
     """Poses of frames in each other from tf, which is imported when the first is asked for."""
 
     def __init__(self, node: Node) -> None:
-        self.node, self.buffer = node, None
+        self.node = node
+        self.buffer: Any = None
 
     def lookup(self, target: str, source: str) -> Pose2 | None:
         """Pose of a frame in another; none as long as it is unknown."""

@@ -280,18 +280,6 @@ def _run_on_ray(order: Mapping[str, Any]) -> int:
         _complain(f"there is no Ray cluster at `{address}`: {str(error).strip().splitlines()[0]}")
         return 1
 
-    class Starts:
-        """Count of the starts of runs, on the node of the driver."""
-
-        def __init__(self) -> None:
-            self.count: dict[int, int] = {}
-
-        def begin(self, index: int) -> None:
-            self.count[index] = self.count.get(index, 0) + 1
-
-        def counts(self) -> dict[int, int]:
-            return self.count
-
     keeps = bool(order["artifacts"])
 
     def run(index: int, plan: str, files: Mapping[str, bytes], starts: Any) -> Any:
@@ -302,7 +290,7 @@ def _run_on_ray(order: Mapping[str, Any]) -> int:
     from ray.util.scheduling_strategies import NodeAffinitySchedulingStrategy
 
     here = NodeAffinitySchedulingStrategy(ray.get_runtime_context().get_node_id(), soft=False)
-    starts = ray.remote(num_cpus=0)(Starts).options(scheduling_strategy=here).remote()
+    starts = ray.remote(num_cpus=0)(_Starts).options(scheduling_strategy=here).remote()
     task = ray.remote(num_cpus=1, max_retries=MAX_RETRIES, scheduling_strategy="SPREAD")(run)
     shared = (ray.put(plan_text), ray.put(files))
     waiting: dict[Any, int] = {}
@@ -336,6 +324,19 @@ def _run_on_ray(order: Mapping[str, Any]) -> int:
     _say_event({"started": sum(counts.values()), "starts": counts})
     ray.shutdown()
     return 0
+
+
+class _Starts:
+    """Count of the starts of runs, on the node of the driver."""
+
+    def __init__(self) -> None:
+        self.count: dict[int, int] = {}
+
+    def begin(self, index: int) -> None:
+        self.count[index] = self.count.get(index, 0) + 1
+
+    def counts(self) -> dict[int, int]:
+        return self.count
 
 
 def _say_event(event: Mapping[str, Any]) -> None:
