@@ -29,6 +29,7 @@ import gymnasium  # noqa: E402
 from periplus.gym.environment import NavigateEnv  # noqa: E402
 from periplus.gym.settings import WORLD_KINDS as WORLD_KINDS  # noqa: E402
 from periplus.gym.settings import parameters, sector_minimums, world_sdf  # noqa: E402
+from periplus.gym.single import SingleEnv  # noqa: E402
 from periplus.gym.vector import NavigateVectorEnv  # noqa: E402
 
 if TYPE_CHECKING:
@@ -40,6 +41,7 @@ __all__ = [
     "NavigateParallelEnv",
     "NavigateSimulationEnv",
     "NavigateVectorEnv",
+    "SingleEnv",
     "parameters",
     "sector_minimums",
     "world_sdf",

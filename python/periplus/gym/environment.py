@@ -9,13 +9,13 @@ import gymnasium
 import numpy as np
 import numpy.typing as npt
 
-from periplus import LaserScanner, OccupancyGrid
 from periplus.gym.picture import Painter, checked_render_mode
 from periplus.gym.robots import Robot
-from periplus.gym.settings import Action, NavigationArguments, Spaces, World, grid_of
+from periplus.gym.settings import Action, NavigationArguments, Spaces, World
+from periplus.gym.single import SingleEnv
 
 
-class NavigateEnv(gymnasium.Env[Any, Any]):
+class NavigateEnv(SingleEnv):
     """Robot with a lidar that drives to a goal: ``gymnasium.make("periplus/Navigate-v0")``.
 
     Parameters
@@ -151,30 +151,6 @@ class NavigateEnv(gymnasium.Env[Any, Any]):
         """Goal in the world: x, y [m]."""
         x, y = self._batch.goals()[0].tolist()
         return x, y
-
-    @property
-    def laser_scanner(self) -> LaserScanner:
-        """Geometry of the lidar."""
-        return self._scanner
-
-    @property
-    def is_normalized(self) -> bool:
-        """True if observations are scaled to -1..1."""
-        return self._normalizes
-
-    @property
-    def step_period(self) -> float:
-        """Time between two actions [s]."""
-        return self._batch.step_period
-
-    @property
-    def footprint(self) -> npt.NDArray[np.float64] | float:
-        """Corners of the footprint in the base frame [m], shape (N, 2), or the radius of a circle [m]."""
-        return self._batch.footprint
-
-    def map(self, resolution: float = 0.05) -> OccupancyGrid:
-        """Map of the obstacles of this episode's world; the inside of obstacles is unknown."""
-        return grid_of(self._batch, 0, resolution)
 
     def ranges(self) -> npt.NDArray[np.float32]:
         """Ranges of the last observation [m], infinite where nothing was hit; its parts must have ``"ranges"``."""

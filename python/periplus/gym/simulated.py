@@ -15,12 +15,13 @@ import gymnasium
 import numpy as np
 import numpy.typing as npt
 
-from periplus import LaserScanner, OccupancyGrid, Pose, Simulation
+from periplus import LaserScanner, Pose, Simulation
 from periplus import World as SimulationWorld
 from periplus._native import generated_world_sdf
 from periplus.gym.picture import Painter, checked_render_mode
 from periplus.gym.robots import mount_of
-from periplus.gym.settings import NavigationArguments, World, grid_of, sector_minimums, sources_of
+from periplus.gym.settings import NavigationArguments, World, sector_minimums, sources_of
+from periplus.gym.single import SingleEnv
 
 MAX_FLOOR_SLOPE = 0.5
 """Contacts whose normals have a larger vertical part are those of wheels on the floor."""
@@ -28,7 +29,7 @@ SETTLE_S = 0.3
 """Time after a reset in which the robot comes to rest and the lidar measures for the first time [s]."""
 
 
-class NavigateSimulationEnv(gymnasium.Env[Any, Any]):
+class NavigateSimulationEnv(SingleEnv):
     """Task of :class:`NavigateEnv` for a robot from a file: ``gymnasium.make("periplus/NavigateSimulation-v0")``.
 
     The robot is driven by its own plugins or controllers and measured by its own lidar, with the physics and the noise
@@ -146,30 +147,6 @@ class NavigateSimulationEnv(gymnasium.Env[Any, Any]):
     def goal(self) -> tuple[float, float]:
         """Goal in the world: x, y [m]."""
         return self._goal
-
-    @property
-    def laser_scanner(self) -> LaserScanner:
-        """Geometry of the lidar."""
-        return self._scanner
-
-    @property
-    def is_normalized(self) -> bool:
-        """True if observations are scaled to -1..1."""
-        return self._normalizes
-
-    @property
-    def step_period(self) -> float:
-        """Time between two actions [s]."""
-        return self._batch.step_period
-
-    @property
-    def footprint(self) -> npt.NDArray[np.float64] | float:
-        """Corners of the footprint in the base frame [m], shape (N, 2), or the radius of a circle [m]."""
-        return self._batch.footprint
-
-    def map(self, resolution: float = 0.05) -> OccupancyGrid:
-        """Map of the obstacles of this episode's world; the inside of obstacles is unknown."""
-        return grid_of(self._batch, 0, resolution)
 
     def ranges(self) -> npt.NDArray[np.float32]:
         """Ranges of the last scan [m], infinite where nothing was hit."""
