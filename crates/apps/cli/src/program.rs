@@ -6,7 +6,7 @@ use std::process::{Command as Process, ExitCode};
 use clap::{Args, Parser as _};
 use periplus_diagnostics::plain_words;
 use periplus_launch::bringup::{Environment, PythonNode, is_built_in, is_python_file};
-use periplus_os::Machine;
+use periplus_os::{Machine, shell_word};
 use periplus_resources::{EntryKind, Host as _, Store as _};
 
 use crate::error::CliError;
@@ -147,7 +147,7 @@ fn launched(options: &RunOptions, text: &str, ros: Vec<String>) -> Result<ExitCo
 /// lifecycle manager, are configured by their parameters.
 fn text(package: &str, program: &str, words: &[String], ros: &[String]) -> String {
     let line =
-        |words: &[String]| words.iter().map(|word| quoted(word)).collect::<Vec<_>>().join(" ");
+        |words: &[String]| words.iter().map(|word| shell_word(word)).collect::<Vec<_>>().join(" ");
     let attribute = |text: &str| {
         let text = text.replace('&', "&amp;").replace('<', "&lt;").replace('"', "&quot;");
         // Prevents substitutions.
@@ -164,15 +164,6 @@ fn text(package: &str, program: &str, words: &[String], ros: &[String]) -> Strin
         attribute(program),
         attribute(&line(words)),
     )
-}
-
-/// Quotes a word for the shell.
-fn quoted(word: &str) -> String {
-    let is_plain = |letter: char| letter.is_alphanumeric() || "-_./:=@,+~".contains(letter);
-    if !word.is_empty() && word.chars().all(is_plain) {
-        return word.to_owned();
-    }
-    format!("'{}'", word.replace('\'', "'\\''"))
 }
 
 #[cfg(test)]

@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 
 use periplus_geometry::Pose2;
 use periplus_maps::{Distro, Saving, render};
+use periplus_os::shell_word;
 use periplus_session::{RecordingRequest, SimulationSession, files, picture};
 
 use crate::error::ScenarioError;
@@ -94,26 +95,17 @@ pub(crate) fn replay_command(
     seed: u64,
 ) -> String {
     let mut words =
-        vec!["periplus scenario".to_owned(), quoted(&scenario.path.display().to_string())];
+        vec!["periplus scenario".to_owned(), shell_word(&scenario.path.display().to_string())];
     words.push(format!("--seed {seed}"));
     for (name, value) in &options.set {
-        words.push(format!("--set {}", quoted(&format!("{name}={value}"))));
+        words.push(format!("--set {}", shell_word(&format!("{name}={value}"))));
     }
     for [node, name, value] in &options.parameters {
         let node = node.trim_start_matches('/');
-        words.push(format!("--parameter {}", quoted(&format!("{node}:{name}={value}"))));
+        words.push(format!("--parameter {}", shell_word(&format!("{node}:{name}={value}"))));
     }
     words.push("--keep".to_owned());
     words.join(" ")
-}
-
-/// Word for a shell.
-fn quoted(word: &str) -> String {
-    let is_plain = |letter: char| letter.is_alphanumeric() || "-_./:=@,+~".contains(letter);
-    if !word.is_empty() && word.chars().all(is_plain) {
-        return word.to_owned();
-    }
-    format!("'{}'", word.replace('\'', "'\\''"))
 }
 
 impl Scenario {

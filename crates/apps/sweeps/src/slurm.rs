@@ -2,6 +2,8 @@
 
 use std::path::Path;
 
+use periplus_os::shell_word;
+
 /// Maximum number of tasks of an array: SLURM's default for `MaxArraySize` is 1001 with the number 0.
 const MAX_TASKS: usize = 1_000;
 
@@ -21,9 +23,9 @@ pub fn slurm_script(
         .chars()
         .map(|it| if it.is_alphanumeric() || "-_.".contains(it) { it } else { '_' })
         .collect();
-    let words = program.iter().map(|word| quoted(word)).collect::<Vec<_>>().join(" ");
-    let plan = quoted(&plan.display().to_string());
-    let options: String = options.iter().map(|word| format!(" {}", quoted(word))).collect();
+    let words = program.iter().map(|word| shell_word(word)).collect::<Vec<_>>().join(" ");
+    let plan = shell_word(&plan.display().to_string());
+    let options: String = options.iter().map(|word| format!(" {}", shell_word(word))).collect();
     format!(
         "#!/bin/bash\n\
          #SBATCH --job-name=periplus-{name}\n\
@@ -34,15 +36,6 @@ pub fn slurm_script(
          # A task that is repeated leaves out the runs that are complete: `sbatch --requeue` is safe.\n\
          exec {words} sweep-job {plan} \"${{SLURM_ARRAY_TASK_ID:?}}\" --step {tasks}{options}\n"
     )
-}
-
-/// Word for a shell.
-fn quoted(word: &str) -> String {
-    let is_plain = |letter: char| letter.is_alphanumeric() || "-_./:=@,+~".contains(letter);
-    if !word.is_empty() && word.chars().all(is_plain) {
-        return word.to_owned();
-    }
-    format!("'{}'", word.replace('\'', "'\\''"))
 }
 
 #[cfg(test)]

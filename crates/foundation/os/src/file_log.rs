@@ -1,11 +1,11 @@
 //! Log of the files and environment variables that this process reads.
 
 use std::collections::{BTreeMap, BTreeSet};
-use std::path::{Component, Path, PathBuf};
+use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
-use periplus_resources::EntryKind;
+use periplus_resources::{EntryKind, without_dots};
 
 static IS_ON: AtomicBool = AtomicBool::new(false);
 static LOG: Mutex<FileLog> = Mutex::new(FileLog::EMPTY);
@@ -101,18 +101,7 @@ pub(crate) fn note_variable(name: &str, value: Option<&String>) {
 /// Absolute path without `.` and `..`, links not followed.
 #[must_use]
 pub fn plain(path: &Path) -> PathBuf {
-    let absolute = std::path::absolute(path).unwrap_or_else(|_| path.to_owned());
-    let mut out = PathBuf::new();
-    for part in absolute.components() {
-        match part {
-            Component::CurDir => {}
-            Component::ParentDir => {
-                out.pop();
-            }
-            other => out.push(other),
-        }
-    }
-    out
+    without_dots(&std::path::absolute(path).unwrap_or_else(|_| path.to_owned()))
 }
 
 #[cfg(test)]

@@ -20,10 +20,12 @@ mod file_log;
 mod machine;
 mod memory;
 mod overlay;
+mod shell;
 mod stopwatch;
 
 pub use file_log::{FileLog, plain};
 pub use machine::Machine;
 pub use memory::peak_memory_bytes;
 pub use overlay::Overlay;
+pub use shell::shell_word;
 pub use stopwatch::{Stopwatch, sleep, unix_ns};

@@ -15,6 +15,7 @@
 
 mod crawl;
 mod data_files;
+mod dots;
 mod fuel;
 mod hooks;
 mod host;
@@ -28,6 +29,7 @@ mod resolver;
 mod surroundings;
 mod uri;
 
+pub use dots::without_dots;
 pub use host::{EntryKind, FileReadError, FileWriteError, Host, MAX_FILE_BYTES, Store};
 pub use layout::{in_sources, package_of};
 pub use manifest::package_name;

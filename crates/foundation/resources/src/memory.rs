@@ -1,8 +1,9 @@
 //! In-memory machine for tests.
 
 use std::collections::BTreeMap;
-use std::path::{Component, Path, PathBuf};
+use std::path::{Path, PathBuf};
 
+use crate::dots::without_dots;
 use crate::host::{EntryKind, FileReadError, Host};
 
 /// Files and variables for tests and fuzzers. Folders exist if files are in them; relative paths start at
@@ -103,15 +104,5 @@ impl Host for MemoryHost {
 
 /// Path from the root, which is also the working folder, without `.` and `..`.
 fn plain(path: &Path) -> PathBuf {
-    let mut out = PathBuf::from("/");
-    for component in path.components() {
-        match component {
-            Component::CurDir => {}
-            Component::ParentDir => {
-                out.pop();
-            }
-            other => out.push(other),
-        }
-    }
-    out
+    without_dots(&Path::new("/").join(path))
 }

@@ -3,6 +3,7 @@
 use std::path::{Component, Path, PathBuf};
 
 use periplus_diagnostics::{Origin, SourceMap};
+use periplus_resources::without_dots;
 use periplus_scene::{Scene, Shape};
 
 use crate::setting::mentioned_in;
@@ -37,27 +38,12 @@ impl Rebase<'_> {
         }
         let mentioned_in = mentioned_in(origin, self.sources, self.working_folder);
         let Some(from) = mentioned_in.parent() else { return };
-        if plain(from) == plain(self.folder) {
+        if without_dots(from) == without_dots(self.folder) {
             return;
         }
-        let target = plain(&from.join(uri.as_str()));
-        *uri = relative(&target, &plain(self.folder)).display().to_string();
+        let target = without_dots(&from.join(uri.as_str()));
+        *uri = relative(&target, &without_dots(self.folder)).display().to_string();
     }
-}
-
-/// Path without `.` and `..`.
-fn plain(path: &Path) -> PathBuf {
-    let mut out = PathBuf::new();
-    for part in path.components() {
-        match part {
-            Component::CurDir => {}
-            Component::ParentDir => {
-                out.pop();
-            }
-            other => out.push(other),
-        }
-    }
-    out
 }
 
 /// Relative path from a folder to a file.
@@ -76,6 +62,6 @@ mod tests {
         let way = |file: &str, folder: &str| relative(Path::new(file), Path::new(folder));
         assert_eq!(way("/a/b/m.stl", "/a/b"), PathBuf::from("m.stl"));
         assert_eq!(way("/a/models/cup/m.stl", "/a/worlds"), PathBuf::from("../models/cup/m.stl"));
-        assert_eq!(plain(Path::new("/a/b/../c/./d")), PathBuf::from("/a/c/d"));
+        assert_eq!(without_dots(Path::new("/a/b/../c/./d")), PathBuf::from("/a/c/d"));
     }
 }
