@@ -104,7 +104,7 @@ const STEPS = {
       }
       await page.getByTestId('rviz-file').setInputFiles(file);
       const base = name.split('/').pop();
-      await until(page, `periplus.fileName === ${JSON.stringify(base)}`, name);
+      await until(page, `periplus.active.fileName === ${JSON.stringify(base)}`, name);
       const shown = await page.evaluate('periplus.displays.map((d) => d.kind.title)');
       assert.deepEqual(shown.slice(0, kinds.length), kinds);
       // The simulated world stays beside the displays of the file.
@@ -117,8 +117,8 @@ const STEPS = {
         await until(page, `${one}.statuses.Topic?.level === "ok"`, `${title} of ${base}`);
       }
       // The saved file has the same displays.
-      const text = await page.evaluate('periplus.rvizText()');
-      await page.evaluate((written) => window.periplus.openRviz(written, 'again'), text);
+      const text = await page.evaluate('periplus.active.rvizText()');
+      await page.evaluate((written) => window.periplus.active.openRviz(written, 'again'), text);
       assert.deepEqual(await page.evaluate('periplus.displays.map((d) => d.kind.title)'), shown);
     }
   },

@@ -77,7 +77,7 @@ export async function keyboard(chrome, url) {
     await until(page, 'periplus.displays.length > 4', 'displays');
     await until(page, 'periplus.displays.some((d) => d.statuses.Description)', 'a robot');
     // From now on the list of displays does not change.
-    await page.evaluate(() => (window.periplus.isAutomatic = false));
+    await page.evaluate(() => (window.periplus.active.isAutomatic = false));
     // While the simulation is paused the buttons do not change.
     await page.getByRole('button', { name: 'Pause' }).first().click();
     await until(page, 'periplus.isPaused', 'standing still');

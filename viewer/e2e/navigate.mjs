@@ -52,7 +52,7 @@ export async function ready(page) {
     const { displays } = window.periplus;
     // Rendering the camera takes most of the time of a computer without a GPU.
     for (const one of displays)
-      if (one.kind.title === 'Image') window.periplus.setEnabled(one, false);
+      if (one.kind.title === 'Image') window.periplus.active.setEnabled(one, false);
     window.periplus.setView({ kind: 'TopDownOrtho', scale: 75, x: 1, y: 0 });
   });
 }

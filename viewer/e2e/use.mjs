@@ -223,7 +223,7 @@ async function rvizKeepsWorld(page) {
   await until(page, 'periplus.displays.some((d) => d.kind.title === "World")', 'the world');
   const file = join(ROOT, 'robots/sam_bot/rviz/sam_bot.rviz');
   await page.getByTestId('rviz-file').setInputFiles(file);
-  await until(page, 'periplus.fileName === "sam_bot.rviz"', 'the file');
+  await until(page, 'periplus.active.fileName === "sam_bot.rviz"', 'the file');
   await until(
     page,
     'periplus.displays.some((d) => d.kind.title === "World" && d.statuses.Scene)',
@@ -233,8 +233,8 @@ async function rvizKeepsWorld(page) {
   assert.equal(await page.evaluate(worlds), 1);
   // A file with a world display replaces it.
   await page.evaluate(
-    (text) => window.periplus.openRviz(text, 'again'),
-    await page.evaluate('periplus.rvizText()'),
+    (text) => window.periplus.active.openRviz(text, 'again'),
+    await page.evaluate('periplus.active.rvizText()'),
   );
   assert.equal(await page.evaluate(worlds), 1);
 }
@@ -251,7 +251,7 @@ function displaysOf(file) {
 
 /** The `.rviz` file named by the command line or a launch file is opened automatically. */
 async function opensRviz(page, file, { fixedFrame, works, hasWorld = false }) {
-  await until(page, `periplus.fileName === ${JSON.stringify(basename(file))}`, 'the file');
+  await until(page, `periplus.active.fileName === ${JSON.stringify(basename(file))}`, 'the file');
   const wanted = displaysOf(file);
   assert.ok(wanted.length > 3, `${file}: ${wanted}`);
   const shown = await page.evaluate('periplus.displays.map((d) => [d.kind.title, d.name])');
@@ -351,7 +351,7 @@ export async function use(chrome, url, attempt) {
   await on('steps show', cube(), stepsShow);
   await on('opened while paused', cube(), async (page, address) => {
     await until(page, 'periplus.clock.nowS > 2', 'some time');
-    await page.evaluate('periplus.clear()');
+    await page.evaluate('periplus.active.clear()');
     await button(page, 'Pause').click();
     await until(page, 'periplus.isPaused', 'a pause');
     await openedWhilePaused(chrome, address);

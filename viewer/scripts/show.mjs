@@ -40,9 +40,9 @@ async function look(page, shot, file) {
   await page.evaluate((one) => {
     const app = window.periplus;
     if (!one.isEarly || app.displays.length !== one.with.length) {
-      app.clear();
-      app.isAutomatic = false;
-      for (const [kind, values] of one.with) app.add(kind, '', values);
+      app.active.clear();
+      app.active.isAutomatic = false;
+      for (const [kind, values] of one.with) app.active.add(kind, '', values);
     }
     app.setFixedFrame('map');
     if (one.view) app.setView({ targetFrame: '<Fixed Frame>', ...one.view });
@@ -176,9 +176,9 @@ export async function displays(chrome, url, out) {
     const more = await run(chrome, url, demo, order, folder, async (tab) => {
       await tab.evaluate((shot) => {
         const app = window.periplus;
-        app.clear();
-        app.isAutomatic = false;
-        for (const [kind, values] of shot.with) app.add(kind, '', values);
+        app.active.clear();
+        app.active.isAutomatic = false;
+        for (const [kind, values] of shot.with) app.active.add(kind, '', values);
       }, early);
       await tab.waitForTimeout(Number(process.env.DEMO_MS ?? 20_000));
     });

@@ -185,11 +185,11 @@ try {
   };
   await page.evaluate(() => {
     const app = window.periplus;
-    app.clear();
-    app.isAutomatic = false;
+    app.active.clear();
+    app.active.isAutomatic = false;
     app.setFixedFrame('map');
     app.setView({ distance: 30, pitch: 0.9 });
-    app.add('rviz_default_plugins/Map', 'map', { Topic: '/map' });
+    app.active.add('rviz_default_plugins/Map', 'map', { Topic: '/map' });
   });
   let at = 0;
   await measure(
@@ -203,8 +203,8 @@ try {
   );
   await page.evaluate(() => {
     const app = window.periplus;
-    app.clear();
-    app.add('rviz_default_plugins/Image', 'image', { Topic: '/image' });
+    app.active.clear();
+    app.active.add('rviz_default_plugins/Image', 'image', { Topic: '/image' });
   });
   const pixels = Buffer.alloc(640 * 480 * 3, 99);
   const image = new Cdr()
@@ -223,9 +223,9 @@ try {
   );
   await page.evaluate(() => {
     const app = window.periplus;
-    app.clear();
+    app.active.clear();
     const look = { Topic: '/points', Style: 'Points', 'Size (Pixels)': 2 };
-    app.add('rviz_default_plugins/PointCloud2', 'points', look);
+    app.active.add('rviz_default_plugins/PointCloud2', 'points', look);
   });
   server.sendMessage(ids.cloud, 0n, cloudBytes);
   await measure('2,000,000 points that stand', () => {}, 1000);

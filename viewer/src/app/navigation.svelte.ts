@@ -93,7 +93,7 @@ export class Navigation {
   private flushing?: ReturnType<typeof setTimeout>;
 
   constructor(private app: App) {
-    app.client.subscribe('/rosout', (message) => {
+    app.feed.subscribe('/rosout', (message) => {
       if (!NAVIGATORS.test(String(message.name))) return;
       this.lastLog = { text: String(message.msg), receivedMs: performance.now() };
     });
@@ -137,7 +137,7 @@ export class Navigation {
 
   private subscribe(topic: string, handler: (message: Message) => void): void {
     const name = `${this.namespace}/${topic}`;
-    const unsubscribe = this.app.client.subscribe(name, (message) => {
+    const unsubscribe = this.app.feed.subscribe(name, (message) => {
       handler(message);
       this.flushSoon();
     });

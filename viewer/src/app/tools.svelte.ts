@@ -334,7 +334,7 @@ export class Tools {
     const { t } = pose;
     const where = `x ${t[0].toFixed(2)}, y ${t[1].toFixed(2)} m, ${((yawOf(pose.q) * 180) / Math.PI).toFixed(0)}°`;
     if (tool === 'goal') {
-      const named = absolute(app.toolValue('SetGoal', 'Topic', GOAL_TOPIC));
+      const named = absolute(app.active.toolValue('SetGoal', 'Topic', GOAL_TOPIC));
       const isRos1 = !this.hasSubscriber(named) && this.hasSubscriber(ROS1_GOAL_TOPIC);
       const topic = isRos1 ? ROS1_GOAL_TOPIC : named;
       if (topic === `/${GOAL_TOPIC}` && this.navigation.can('navigate_to_pose')) {
@@ -349,10 +349,10 @@ export class Tools {
       return;
     }
     const covariance = new Float64Array(36);
-    covariance[0] = app.toolValue('SetInitialPose', 'Covariance x', 0.25);
-    covariance[7] = app.toolValue('SetInitialPose', 'Covariance y', 0.25);
-    covariance[35] = app.toolValue('SetInitialPose', 'Covariance yaw', 0.06853891909122467);
-    const topic = absolute(app.toolValue('SetInitialPose', 'Topic', 'initialpose'));
+    covariance[0] = app.active.toolValue('SetInitialPose', 'Covariance x', 0.25);
+    covariance[7] = app.active.toolValue('SetInitialPose', 'Covariance y', 0.25);
+    covariance[35] = app.active.toolValue('SetInitialPose', 'Covariance yaw', 0.06853891909122467);
+    const topic = absolute(app.active.toolValue('SetInitialPose', 'Topic', 'initialpose'));
     const inner = { pose: messageOf(pose), covariance };
     app.publish(topic, 'geometry_msgs/msg/PoseWithCovarianceStamped', { header, pose: inner });
     app.notice('info', `2D pose estimate in ${app.fixedFrame}: ${where}`);
@@ -365,14 +365,14 @@ export class Tools {
   private publishPoint(at: Vector3): void {
     const { app } = this;
     if (!this.canPlace()) return;
-    const topic = absolute(app.toolValue('PublishPoint', 'Topic', 'clicked_point'));
+    const topic = absolute(app.active.toolValue('PublishPoint', 'Topic', 'clicked_point'));
     const point = { x: at.x, y: at.y, z: at.z };
     app.publish(topic, 'geometry_msgs/msg/PointStamped', { header: app.header(), point });
     app.notice(
       'info',
       `Clicked point in ${app.fixedFrame}: ${at.x.toFixed(3)}, ${at.y.toFixed(3)}, ${at.z.toFixed(3)}`,
     );
-    if (app.toolValue<string | number>('PublishPoint', 'Single click', 1)) this.done();
+    if (app.active.toolValue<string | number>('PublishPoint', 'Single click', 1)) this.done();
   }
 
   private measure(at: Vector3): void {

@@ -2,6 +2,7 @@
 import { Group, type Object3D } from 'three';
 import type { Message } from '../core/cdr';
 import type { Handler } from '../core/client';
+import type { Need } from '../core/feed';
 import type { Pose } from '../core/pose';
 import type { TfBuffer } from '../core/tf';
 import { seconds, type Header } from '../core/types';
@@ -15,7 +16,7 @@ export type Level = 'ok' | 'warn' | 'error';
 export interface Context {
   stage: Stage;
   tf: TfBuffer;
-  subscribe(topic: string, handler: Handler): () => void;
+  subscribe(topic: string, handler: Handler, need?: Need): () => void;
   asset(uri: string): Promise<Uint8Array>;
   fixedFrame(): string;
   /** Time of the messages [s]. */

@@ -1,0 +1,290 @@
+/** One 3D view: its displays, fixed frame and camera, as in a window of RViz. */
+import type { Pose } from '../core/pose';
+import type { Context } from '../displays/display';
+import type { Values } from '../displays/options';
+import { kindOf } from '../displays/registry';
+import { WorldDisplay } from '../displays/world';
+import { readRviz, writeRviz, type RvizTool, type Tree } from '../rviz/file';
+import { viewFrom, viewTo } from '../rviz/view';
+import type { Stage } from '../scene/stage';
+import { FIRST_VIEW, type ViewState } from '../scene/view';
+import type { App } from './app.svelte';
+import { bestFrame, suggestionFor } from './auto';
+import { Entry } from './entry.svelte';
+
+const WORLD_CLASS = 'periplus/World';
+
+let lastId = 0;
+
+export class Viewport {
+  readonly id = ++lastId;
+  fixedFrame = $state('map');
+  isFrameChosen = $state(false);
+  displays: Entry[] = $state([]);
+  view: ViewState = $state(structuredClone(FIRST_VIEW));
+  background = $state('');
+  /** Displays are added automatically until the user adds or removes one. */
+  isAutomatic = $state(true);
+  rvizTools: RvizTool[] = $state([]);
+  fileName = $state('');
+  stage?: Stage;
+  /** True after a file without a world was opened, until the simulation's world is known. */
+  private awaitsWorld = false;
+  private rvizOriginal?: Tree;
+  private hasOpenedLaunched = false;
+  private seen = new Set<string>();
+
+  constructor(private app: App) {}
+
+  // The scene.
+
+  attach(stage: Stage): void {
+    this.stage = stage;
+    stage.view.set($state.snapshot(this.view) as ViewState);
+    stage.ticks.add((nowMs) => this.tick(nowMs));
+    for (const entry of this.displays) this.begin(entry);
+  }
+
+  /** Stops all displays, which start again with the next stage. */
+  detach(): void {
+    for (const entry of this.displays) entry.stop();
+    this.stage = undefined;
+  }
+
+  private context(): Context {
+    const { app } = this;
+    return {
+      stage: this.stage!,
+      tf: app.tf,
+      subscribe: (topic, handler, need) => app.feed.subscribe(topic, handler, need),
+      asset: (uri) => app.client.asset(uri),
+      fixedFrame: () => this.fixedFrame,
+      nowS: () => app.clock.nowS,
+      topicsOfType: (types) => app.topicsOf(types),
+      fixedFromSensor: (topic, frame, timeS) =>
+        app.fixedFromSensor(topic, frame, timeS, this.fixedFrame),
+      estimators: () => app.estimators,
+    };
+  }
+
+  private tick(nowMs: number): void {
+    for (const { display } of this.displays) display?.tick(nowMs);
+    this.follow();
+    this.app.tick(nowMs);
+  }
+
+  /** Moves the camera with its target frame. */
+  private follow(): void {
+    const { view } = this.stage!;
+    const { targetFrame } = view.state;
+    const isFixed = !targetFrame || targetFrame === '<Fixed Frame>';
+    const found = isFixed ? undefined : this.app.tf.lookup(this.fixedFrame, targetFrame);
+    const pose = found?.kind === 'found' ? found.pose : undefined;
+    const [x, y, z] = pose?.t ?? (isFixed ? [0, 0, 0] : view.origin.toArray());
+    const q = pose?.q;
+    const yaw = q ? 2 * Math.atan2(q[2], q[3]) : 0;
+    const { origin } = view;
+    const moved =
+      Math.hypot(origin.x - x!, origin.y - y!, origin.z - z!) + Math.abs(yaw - view.originYaw);
+    if (moved < 1e-5) return;
+    origin.set(x!, y!, z!);
+    view.originYaw = yaw;
+    view.update();
+  }
+
+  /** Time jumped: the displays start from the present messages. */
+  rewound(): void {
+    for (const { display } of this.displays) {
+      if (display instanceof WorldDisplay) display.restarted();
+      else if (display) display.moved();
+    }
+  }
+
+  /** Topics or services changed. */
+  offersChanged(): void {
+    if (this.isAutomatic) this.addSuggested();
+    else this.addAwaitedWorld();
+  }
+
+  flush(): void {
+    for (const entry of this.displays) entry.flush();
+    const { frames, tf } = this.app;
+    if (this.isFrameChosen || frames.length === 0) return;
+    this.setFixedFrame(
+      bestFrame(frames, (name) => tf.root(name)),
+      false,
+    );
+  }
+
+  setFixedFrame(name: string, isChosen = true): void {
+    if (isChosen) this.isFrameChosen = true;
+    if (name === this.fixedFrame) return;
+    this.fixedFrame = name;
+    for (const { display } of this.displays) display?.moved();
+    this.stage?.invalidate();
+  }
+
+  setView(state: Partial<ViewState>): void {
+    this.stage?.view.set(state);
+    this.view = structuredClone(this.stage?.view.state ?? FIRST_VIEW);
+  }
+
+  private addSuggested(): void {
+    if (!this.stage || this.app.connection !== 'open') return;
+    if (this.displays.length === 0) {
+      const grid = this.add(
+        'rviz_default_plugins/Grid',
+        'Grid',
+        { 'Plane Cell Count': 20 },
+        true,
+        true,
+      );
+      if (grid) grid.isAutomatic = true;
+      this.add('rviz_default_plugins/TF', 'TF', { 'Marker Scale': 0.6 }, false, true);
+    }
+    let pictures = this.displays.filter((e) => e.kind.hasPicture && e.isEnabled).length;
+    for (const { name, type } of this.app.topics) {
+      if (!type || this.seen.has(name)) continue;
+      this.seen.add(name);
+      const suggestion = suggestionFor(name, type);
+      if (!suggestion) continue;
+      const isPicture = type.endsWith('/Image');
+      const isEnabled = suggestion.isEnabled && (!isPicture || ++pictures <= 1);
+      this.add(suggestion.class, suggestion.name, suggestion.values, isEnabled, true);
+    }
+  }
+
+  /** Adds the simulated world to the displays of a file that was opened before the world was known. */
+  private addAwaitedWorld(): void {
+    if (!this.awaitsWorld) return;
+    for (const { name, type } of this.app.topics) {
+      const suggestion = type && !this.seen.has(name) ? suggestionFor(name, type) : undefined;
+      if (suggestion?.class !== WORLD_CLASS) continue;
+      this.seen.add(name);
+      this.awaitsWorld = false;
+      this.add(suggestion.class, suggestion.name, suggestion.values, suggestion.isEnabled, true);
+    }
+  }
+
+  // Displays.
+
+  add(
+    kindClass: string,
+    name = '',
+    values: Values = {},
+    isEnabled = true,
+    isAutomatic = false,
+  ): Entry | undefined {
+    const kind = kindOf(kindClass);
+    if (!kind) {
+      this.app.notice(
+        'warn',
+        `The display class "${kindClass}" is unknown; the display was skipped.`,
+      );
+      return undefined;
+    }
+    if (!isAutomatic) this.isAutomatic = false;
+    this.displays.push(new Entry(kind, name, values, isEnabled));
+    const entry = this.displays[this.displays.length - 1]!;
+    entry.isAutomatic = isAutomatic;
+    if (this.stage) this.begin(entry);
+    return entry;
+  }
+
+  private begin(entry: Entry): void {
+    entry.start(this.context());
+    if (entry.display instanceof WorldDisplay) {
+      entry.display.onModels = (names) => (this.app.models = names);
+    }
+  }
+
+  remove(entry: Entry): void {
+    this.isAutomatic = false;
+    entry.stop();
+    this.displays = this.displays.filter((e) => e !== entry);
+  }
+
+  setEnabled(entry: Entry, isEnabled: boolean): void {
+    entry.isEnabled = isEnabled;
+    if (isEnabled) this.begin(entry);
+    else entry.stop();
+  }
+
+  setOption(entry: Entry, path: string, value: boolean | number | string): void {
+    entry.values[path] = value;
+    entry.display?.changed(path);
+  }
+
+  world(): WorldDisplay | undefined {
+    const entry = this.displays.find((e) => e.display instanceof WorldDisplay);
+    return entry?.display as WorldDisplay | undefined;
+  }
+
+  clear(): void {
+    for (const entry of this.displays) entry.stop();
+    this.displays = [];
+    this.app.models = [];
+  }
+
+  // `.rviz` files.
+
+  /** Opens the file that the launch file names, once: a reconnection leaves the displays as they are. */
+  openLaunched(metadata: Record<string, string>): void {
+    const { rviz: text, rviz_file: fileName, fixed_frame: frame } = metadata;
+    if (this.hasOpenedLaunched || !(text || frame)) return;
+    this.hasOpenedLaunched = true;
+    try {
+      if (text) this.openRviz(text, fileName);
+    } catch (error) {
+      this.app.notice('error', `${fileName}: ${(error as Error).message}`);
+    }
+    if (frame) this.setFixedFrame(frame);
+  }
+
+  openRviz(text: string, fileName = ''): void {
+    const file = readRviz(text);
+    // RViz has no display for a simulated world: the present one stays, unless the file has one.
+    const isWorldKept = !file.displays.some(({ class: name }) => name === WORLD_CLASS);
+    const worlds = this.displays.filter((entry) => isWorldKept && entry.kind.class === WORLD_CLASS);
+    this.clear();
+    this.isAutomatic = false;
+    this.rvizOriginal = file.original;
+    this.fileName = fileName;
+    this.rvizTools = file.tools;
+    for (const display of file.displays) {
+      const entry = this.add(display.class, display.name, display.values, display.isEnabled);
+      if (entry) entry.original = display.original;
+    }
+    for (const { name, values, isEnabled } of worlds) {
+      this.add(WORLD_CLASS, name, $state.snapshot(values) as Values, isEnabled);
+    }
+    this.awaitsWorld = isWorldKept && worlds.length === 0;
+    this.addAwaitedWorld();
+    this.setFixedFrame(file.fixedFrame);
+    this.background = file.background;
+    if (file.view) this.setView(viewFrom(file.view));
+  }
+
+  rvizText(): string {
+    return writeRviz({
+      fixedFrame: this.fixedFrame,
+      background: this.background || '48; 48; 48',
+      displays: this.displays.map((entry) => ({
+        class: entry.kind.class,
+        name: entry.name,
+        isEnabled: entry.isEnabled,
+        values: $state.snapshot(entry.values) as Values,
+        options: entry.kind.options,
+        original: entry.original,
+      })),
+      view: viewTo(this.stage?.view.state ?? FIRST_VIEW),
+      original: this.rvizOriginal,
+    });
+  }
+
+  /** Property of a tool in the opened file; otherwise RViz's default. */
+  toolValue<T extends string | number>(tool: string, path: string, otherwise: T): T {
+    const found = this.rvizTools.find((t) => t.class.endsWith(`/${tool}`))?.values[path];
+    return (found as T | undefined) ?? otherwise;
+  }
+}
