@@ -3,9 +3,9 @@
 import assert from 'node:assert/strict';
 import { readFileSync } from 'node:fs';
 import { createRequire } from 'node:module';
-import { open, periplus, sim, until } from './lib.mjs';
+import { open, periplus, sim, until, port } from './lib.mjs';
 
-const PORT = 8826;
+const PORT = port(8826);
 const SAM_BOT = 'robots/sam_bot/urdf/sam_bot.urdf.xacro';
 const AXE = readFileSync(createRequire(import.meta.url).resolve('axe-core/axe.min.js'), 'utf8');
 const PANELS = [

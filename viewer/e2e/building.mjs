@@ -5,9 +5,9 @@ import { execFileSync } from 'node:child_process';
 import { existsSync, mkdirSync, writeFileSync } from 'node:fs';
 import { dirname, join } from 'node:path';
 import { readFileSync } from 'node:fs';
-import { next, open, periplus, PROGRAM, ROOT, sim, until } from './lib.mjs';
+import { next, open, periplus, PROGRAM, ROOT, sim, until, port } from './lib.mjs';
 
-const PORT = 8822;
+const PORT = port(8822);
 const KBOT = 'robots/kbot/urdf/kbot.urdf.xacro';
 const CORPUS = join(ROOT, '../shared/corpus');
 

@@ -2,9 +2,9 @@
 import assert from 'node:assert/strict';
 import { existsSync } from 'node:fs';
 import { join } from 'node:path';
-import { next, open, periplus, ROOT, until } from './lib.mjs';
+import { next, open, periplus, ROOT, until, port } from './lib.mjs';
 
-const PORT = 8823;
+const PORT = port(8823);
 const CORPUS = join(ROOT, '../shared/corpus');
 
 /** `.rviz` files, and the displays that they contain. */

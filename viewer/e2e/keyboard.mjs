@@ -1,8 +1,8 @@
 // The page without a mouse: every control is reachable by Tab, visible when focused, and has a name.
 import assert from 'node:assert/strict';
-import { next, open, periplus, sim, until } from './lib.mjs';
+import { next, open, periplus, sim, until, port } from './lib.mjs';
 
-const PORT = 8824;
+const PORT = port(8824);
 const SAM_BOT = 'robots/sam_bot/urdf/sam_bot.urdf.xacro';
 
 /** Focusable elements, numbered and with names. Records from now on which gets the focus. Runs in the page. */

@@ -12,6 +12,9 @@ const PAGE = join(ROOT, 'crates/transports/web/page');
 export const PROGRAM = process.env.PERIPLUS ?? join(ROOT, 'target/release/periplus');
 const BROWSER = process.env.CHROMIUM ?? '/usr/bin/chromium';
 
+/** Port of a test; `PERIPLUS_PORT_OFFSET` moves all of them, for two runs on one machine. */
+export const port = (number) => number + Number(process.env.PERIPLUS_PORT_OFFSET ?? 0);
+
 /** Arguments that run a world with a robot in real time, invisible to other programs. */
 export const sim = (world, robot, ...more) => [
   'sim',

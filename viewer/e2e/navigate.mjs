@@ -1,9 +1,9 @@
 // Navigation on the page: goals and waypoints by mouse, the state of the goal, and the reason why the robot stands.
 import assert from 'node:assert/strict';
 import { PHONE, wrong } from './axe.mjs';
-import { next, open, periplus, sim, until } from './lib.mjs';
+import { next, open, periplus, sim, until, port } from './lib.mjs';
 
-const PORT = 8828;
+const PORT = port(8828);
 const SAM_BOT = 'robots/sam_bot/urdf/sam_bot.urdf.xacro';
 const button = (page, name) => page.getByRole('button', { name, exact: true }).first();
 const state = (page) => page.getByTestId('navigation-state');

@@ -9,12 +9,12 @@ import { axe } from './axe.mjs';
 import { building, foreignBuildings } from './building.mjs';
 import { demo } from './demo.mjs';
 import { keyboard } from './keyboard.mjs';
-import { browser, next, open, periplus, servePage, until } from './lib.mjs';
+import { browser, next, open, periplus, servePage, until, port } from './lib.mjs';
 import { navigate } from './navigate.mjs';
 import { tutorials } from './tutorials.mjs';
 import { use } from './use.mjs';
 
-const PORT = 8821;
+const PORT = port(8821);
 const KBOT = 'robots/kbot/urdf/kbot.urdf.xacro';
 const out = mkdtempSync(join(tmpdir(), 'periplus-e2e-'));
 

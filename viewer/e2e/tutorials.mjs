@@ -4,9 +4,9 @@ import assert from 'node:assert/strict';
 import { execFileSync } from 'node:child_process';
 import { readFileSync } from 'node:fs';
 import { join } from 'node:path';
-import { next, open, periplus, PROGRAM, ROOT, sim, until } from './lib.mjs';
+import { next, open, periplus, PROGRAM, ROOT, sim, until, port } from './lib.mjs';
 
-const PORT = 8827;
+const PORT = port(8827);
 
 /**
  * Numbered steps of the list after a text, each with its bold names and code. A name may span two lines.

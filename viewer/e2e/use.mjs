@@ -2,9 +2,9 @@
 import assert from 'node:assert/strict';
 import { readFileSync } from 'node:fs';
 import { basename, join } from 'node:path';
-import { next, open, periplus, ROOT, sim, until } from './lib.mjs';
+import { next, open, periplus, ROOT, sim, until, port } from './lib.mjs';
 
-const PORT = 8825;
+const PORT = port(8825);
 const SAM_BOT = 'robots/sam_bot/urdf/sam_bot.urdf.xacro';
 const SAM_BOT_RVIZ = 'robots/sam_bot/rviz/sam_bot.rviz';
 const CUBE = 'worlds/cube_and_sphere.sdf';

@@ -3,9 +3,9 @@
 //
 //   npm run bench:first     PERIPLUS=path/to/periplus
 import { spawn } from 'node:child_process';
-import { browser, PROGRAM } from '../e2e/lib.mjs';
+import { browser, PROGRAM, port } from '../e2e/lib.mjs';
 
-const PORT = 8851;
+const PORT = port(8851);
 const RUNS = 5;
 const chrome = await browser();
 const found = { 'the port answers': [], 'the page has come': [], 'the robot is drawn': [] };

@@ -5,13 +5,13 @@
 import { mkdirSync, mkdtempSync, rmSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
-import { browser, open, periplus, ROOT, servePage, sim } from '../e2e/lib.mjs';
+import { browser, open, periplus, ROOT, servePage, sim, port } from '../e2e/lib.mjs';
 import { goal, pixel, ready } from '../e2e/navigate.mjs';
 import { tutorials } from '../e2e/tutorials.mjs';
 import { displays } from './show.mjs';
 
 const OUT = join(ROOT, 'docs/pictures');
-const PORT = 8841;
+const PORT = port(8841);
 const SAM_BOT = 'robots/sam_bot/urdf/sam_bot.urdf.xacro';
 mkdirSync(OUT, { recursive: true });
 

@@ -3,10 +3,10 @@ import { execFileSync } from 'node:child_process';
 import { mkdirSync, mkdtempSync, rmSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
-import { open, periplus, PROGRAM, ROOT } from '../e2e/lib.mjs';
+import { open, periplus, PROGRAM, ROOT, port } from '../e2e/lib.mjs';
 import { DISPLAYS, SHOWROOM } from './displays.mjs';
 
-const PORT = 8842;
+const PORT = port(8842);
 /** Hides everything that covers the 3D view. */
 const BARE =
   'header.bar, .views, .corner, .truth, .pictures, .notices, .hint { display: none !important }';

@@ -1,6 +1,7 @@
 import { mount } from 'svelte';
 import App from './panels/App.svelte';
 import { App as State } from './app/app.svelte';
+import { language } from './texts/language.svelte';
 
 /**
  * Token of a server. It arrives once in the address and is then kept in this tab's session storage: an address
@@ -41,3 +42,4 @@ mount(App, { target: document.getElementById('app')!, props: { app: state } });
 // Entry point for end-to-end tests and screenshots.
 (window as unknown as { periplus: State }).periplus = state;
 state.client.start();
+void language.start();
