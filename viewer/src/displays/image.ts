@@ -14,13 +14,31 @@ class ImageDisplay extends Display {
   protected image?: ImageMessage;
   private screen?: ImageData;
   private extents: Extent[] = [];
+  /** Newest image that is not painted yet. */
+  private waiting?: Message;
 
   override start(): void {
     super.start();
     this.host.picture?.(this.canvas);
   }
 
+  /** Images may arrive faster than frames are drawn: the newest one is painted with the next frame. */
   protected override receive(message: Message): void {
+    this.waiting = message;
+  }
+
+  override tick(): void {
+    const { waiting } = this;
+    if (!waiting) return;
+    this.waiting = undefined;
+    try {
+      this.paint(waiting);
+    } catch (error) {
+      this.host.status('Message', 'error', (error as Error).message);
+    }
+  }
+
+  private paint(message: Message): void {
     if ('format' in message) {
       void this.compressed(message as never);
       return;

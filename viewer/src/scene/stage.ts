@@ -16,13 +16,26 @@ import { View } from './view';
 
 AnyObject.DEFAULT_UP.set(0, 0, 1);
 
+let isSoftware: boolean | undefined;
+
+/** True if the CPU draws; found once by a context of one pixel, since a canvas cannot change its context. */
+function isSoftwareRenderer(): boolean {
+  if (isSoftware !== undefined) return isSoftware;
+  const context = new OffscreenCanvas(1, 1).getContext('webgl2');
+  const info = context?.getExtension('WEBGL_debug_renderer_info');
+  const name = info ? String(context!.getParameter(info.UNMASKED_RENDERER_WEBGL)) : '';
+  context?.getExtension('WEBGL_lose_context')?.loseContext();
+  isSoftware = /swiftshader|llvmpipe|software/i.test(name);
+  return isSoftware;
+}
+
 export class Stage {
   readonly scene = new Scene();
   /** Displays, in the fixed frame. */
   readonly content = new Group();
   readonly renderer: WebGLRenderer;
   readonly view: View;
-  /** True without a GPU: fewer pixels, no shadows. */
+  /** True without a GPU: fewer pixels, no shadows, no multisampling. */
   readonly isSoftware: boolean;
   framesPerSecond = 0;
   /** Called before each check for changes. */
@@ -34,8 +47,10 @@ export class Stage {
   private stopped = false;
 
   constructor(private canvas: HTMLCanvasElement) {
+    this.isSoftware = isSoftwareRenderer();
     const context = canvas.getContext('webgl2', {
-      antialias: true,
+      // Multisampling doubles the time of a frame that the CPU draws.
+      antialias: !this.isSoftware,
       alpha: false,
       preserveDrawingBuffer: false,
       powerPreference: 'high-performance',
@@ -45,9 +60,6 @@ export class Stage {
         'This browser cannot draw with WebGL 2. Enable hardware acceleration or use another browser.',
       );
     }
-    const info = context.getExtension('WEBGL_debug_renderer_info');
-    const name = info ? String(context.getParameter(info.UNMASKED_RENDERER_WEBGL)) : '';
-    this.isSoftware = /swiftshader|llvmpipe|software/i.test(name);
     this.renderer = new WebGLRenderer({ canvas, context });
     this.renderer.outputColorSpace = SRGBColorSpace;
     this.renderer.setPixelRatio(this.isSoftware ? 1 : Math.min(devicePixelRatio, 2));
