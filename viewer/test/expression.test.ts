@@ -1,0 +1,121 @@
+import { describe, expect, test } from 'vitest';
+import {
+  evaluate,
+  expressionUnit,
+  ExpressionError,
+  fieldsOf,
+  parseExpression,
+  type FieldRef,
+  type Samples,
+} from '../src/plots/expression';
+import { aligned, csv, statistics, valueAt } from '../src/plots/statistics';
+import { unitOf } from '../src/app/fields';
+
+const BASE: FieldRef = { topic: '/odom', path: 'twist' };
+const DATA: Record<string, Samples> = {
+  '/odom:twist.x': { times: [0, 1, 2], values: [3, 6, 3] },
+  '/odom:twist.y': { times: [0, 1, 2], values: [4, 8, 4] },
+  '/imu:yaw': { times: [0.5, 1.5], values: [Math.PI, Math.PI / 2] },
+};
+const values = (text: string) => [
+  ...evaluate(parseExpression(text, BASE), ({ topic, path }) => DATA[`${topic}:${path}`]!).values,
+];
+
+describe('expressions', () => {
+  const check = (text: string, expected: number[]) => expect(values(text)).toEqual(expected);
+  test('lengths', () => check('sqrt(x^2 + y^2)', [5, 10, 5]));
+  test('precedence', () => check('x + y * 2 ^ 2', [19, 38, 19]));
+  test('a power binds more strongly than a sign', () => check('-x^2', [-9, -36, -9]));
+  test('a power binds to the right', () => check('2^3^2 + 0*x', [512, 512, 512]));
+  test('a slash divides after a value', () => check('x/y*4', [3, 3, 3]));
+  test('and begins a topic elsewhere', () => check('x + /odom:twist.y', [7, 14, 7]));
+  test('division by a topic', () => check('y / /odom.twist.y', [1, 1, 1]));
+  test('other topics hold their last value', () => check('0*x + deg(/imu:yaw)', [NaN, 180, 90]));
+  test('derivative', () => check('derivative(x)', [NaN, 3, -3]));
+  test('integral', () => check('integral(x)', [0, 4.5, 9]));
+  test('moving average', () => check('average(x, 2)', [3, 4.5, 4.5]));
+  test('conditions', () => check('if(x > 3 && y >= 8, 1, 0)', [0, 1, 0]));
+  test('time', () => check('time + 0 * x', [0, 1, 2]));
+  test('unwrap', () => {
+    const turn = { times: [0, 1, 2], values: [3, -3, 3] };
+    const [a, b, c] = evaluate(parseExpression('unwrap(/a:b)'), () => turn).values;
+    expect([a, b, c]).toEqual([3, -3 + 2 * Math.PI, 3]);
+  });
+
+  const fails = (text: string, at: number, message: RegExp, base?: FieldRef) => {
+    try {
+      parseExpression(text, base);
+    } catch (error) {
+      expect(error).toBeInstanceOf(ExpressionError);
+      expect((error as ExpressionError).at).toBe(at);
+      return expect((error as Error).message).toMatch(message);
+    }
+    throw new Error(`"${text}" was accepted`);
+  };
+  test('a missing value', () => fails('x + ', 4, /a value is missing before the end/, BASE));
+  test('a missing bracket', () => fails('sqrt(x', 6, /"\)" is missing/, BASE));
+  test('an unknown function', () => fails('1 + foo(x)', 4, /no function "foo"/, BASE));
+  test('names of JavaScript are no functions', () => fails('toString(1)', 0, /no function/));
+  test('a name without a topic', () => fails('yaw', 0, /write \/topic:yaw/));
+  test('a topic without a field', () => fails('1 + /odom', 4, /\/topic:field/));
+  test('too few values', () => fails('atan2(1)', 0, /takes 2 value\(s\), not 1/));
+  test('a strange character', () => fails('1 $ 2', 2, /unexpected "\$"/));
+  test('deep nesting', () => fails('('.repeat(100), 60, /nested too deeply/));
+  test('many signs', () =>
+    expect(parseExpression('-'.repeat(1000) + '1')).toEqual({ kind: 'number', value: 1 }));
+
+  test('fields, each once', () => {
+    expect(fieldsOf(parseExpression('x + x + /imu:yaw', BASE)).map((f) => f.path)).toEqual([
+      'twist.x',
+      'yaw',
+    ]);
+  });
+});
+
+describe('units', () => {
+  const check = (text: string, unit: string) =>
+    expect(expressionUnit(parseExpression(text), ({ path }) => unitOf(path))).toBe(unit);
+  test('of a field', () => check('/odom:twist.twist.linear.x', 'm/s'));
+  test('of a length', () => check('sqrt(/a:position.x^2 + /a:position.y^2)', 'm'));
+  test('of a square', () => check('/a:position.x * /a:position.y', 'm²'));
+  test('of degrees', () => check('deg(/a:orientation.yaw)', '°'));
+  test('of a derivative', () => check('derivative(/a:position.x)', 'm/s'));
+  test('of the derivative of a speed', () => check('derivative(/a:linear.x)', 'm/s²'));
+  test('of an integral', () => check('integral(/a:linear.x)', 'm'));
+  test('of a ratio', () => check('/a:position.x / /a:position.y', ''));
+  test('of a mixed sum', () => check('/a:position.x + /a:linear.x', ''));
+  test('of a sum with a number', () => check('/a:position.x + 1', 'm'));
+});
+
+describe('statistics', () => {
+  const line = { times: [0, 1, 2, 3], values: [3, 4, NaN, 100] };
+  test('of the visible span', () =>
+    expect(statistics(line, 0, 2)).toEqual({
+      count: 2,
+      min: 3,
+      max: 4,
+      mean: 3.5,
+      rms: Math.sqrt(12.5),
+    }));
+  test('of nothing', () => expect(statistics(line, 5, 6)).toBeUndefined());
+  test('value at a time', () => expect(valueAt(line, 1.5)).toBe(4));
+  test('value before the first', () => expect(valueAt(line, -1)).toBeUndefined());
+  test('series with different times', () =>
+    expect(
+      aligned(
+        [
+          { times: [0, 2], values: [1, 2] },
+          { times: [1, 2], values: [5, NaN] },
+        ],
+        0,
+        2,
+      ),
+    ).toEqual({
+      times: [0, 1, 2],
+      columns: [
+        [1, null, 2],
+        [null, 5, null],
+      ],
+    }));
+  test('CSV', () => expect(csv([['a "b"', 1, null]])).toBe('"a ""b""",1,\r\n'));
+});
