@@ -115,6 +115,7 @@ export class TimeChart {
         axes: [
           {
             ...axis,
+            size: 28,
             label: this.timeLabel(this.offsetS),
             values: (_u, splits) => splits.map((v) => shortNumber(v - this.offsetS)),
           },
@@ -123,7 +124,7 @@ export class TimeChart {
             scale: scaleOf(unit),
             label: unit || undefined,
             side: (i % 2 === 0 ? 3 : 1) as 1 | 3,
-            size: 46,
+            size: 54,
             grid: i === 0 ? axis.grid : { show: false },
             values: (_u: uPlot, splits: number[]) => splits.map(shortNumber),
           })),

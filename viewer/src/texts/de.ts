@@ -41,8 +41,6 @@ export const de: Texts = {
     cursor: 'Zeitmarke des Diagramms',
     empty:
       'Noch keine Kurven: Wählen Sie ein Feld, geben Sie einen Ausdruck ein, oder ziehen Sie ein Feld hierher.',
-    curve: 'Kurve',
-    value: 'Wert',
     mean: 'Mittel',
     show: (label) => `${label} zeigen`,
     removeCurve: (label) => `${label} entfernen`,

@@ -46,8 +46,6 @@ export const en = {
     removePlot: 'Remove the plot',
     cursor: 'Time cursor of the plot',
     empty: 'No curves yet: choose a field, enter an expression, or drop a field here.',
-    curve: 'Curve',
-    value: 'Value',
     mean: 'mean',
     show: (label: string) => `Show ${label}`,
     removeCurve: (label: string) => `Remove ${label}`,
