@@ -5,4 +5,15 @@ export const de: Texts = {
     name: 'Deutsch',
     choose: 'Sprache',
   },
+  panels: {
+    drive: 'Fahren',
+    navigate: 'Navigieren',
+    world: 'Welt',
+    topics: 'Topics',
+    nodes: 'Nodes',
+    parameters: 'Parameter',
+    services: 'Services',
+    plot: 'Kurven',
+    log: 'Protokoll',
+  },
 };

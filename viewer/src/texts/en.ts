@@ -9,6 +9,18 @@ export const en = {
     name: 'English',
     choose: 'Language',
   },
+  /** Titles of panels. */
+  panels: {
+    drive: 'Drive',
+    navigate: 'Navigate',
+    world: 'World',
+    topics: 'Topics',
+    nodes: 'Nodes',
+    parameters: 'Parameters',
+    services: 'Services',
+    plot: 'Plot',
+    log: 'Log',
+  },
 };
 
 export type Texts = typeof en;
