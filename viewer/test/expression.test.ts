@@ -10,6 +10,9 @@ import {
 } from '../src/plots/expression';
 import { aligned, csv, statistics, valueAt } from '../src/plots/statistics';
 import { unitOf } from '../src/app/fields';
+import type { Series } from '../src/app/replay_control';
+import { validPlots } from '../src/plots/curves';
+import { RecordedSeries } from '../src/plots/recorded';
 
 const BASE: FieldRef = { topic: '/odom', path: 'twist' };
 const DATA: Record<string, Samples> = {
@@ -118,4 +121,45 @@ describe('statistics', () => {
       ],
     }));
   test('CSV', () => expect(csv([['a "b"', 1, null]])).toBe('"a ""b""",1,\r\n'));
+});
+
+describe('series of a recording', () => {
+  test('one request per topic at a time, and the newest wish', async () => {
+    const asked: string[] = [];
+    const answers: ((series: Series) => void)[] = [];
+    const replay = {
+      series: (topic: string, paths: readonly string[], fromS: number) => {
+        asked.push(`${topic} ${paths.join()} ${fromS}`);
+        return new Promise<Series>((resolve) => answers.push(resolve));
+      },
+    };
+    const recorded = new RecordedSeries(100, { loaded: () => {}, failed: () => {} });
+    const refs = [
+      { topic: '/a', path: 'y' },
+      { topic: '/a', path: 'x' },
+    ];
+    for (const fromS of [0, 1, 2]) recorded.load(replay, refs, { fromS, toS: 9 });
+    expect(asked).toEqual(['/a x,y 0']);
+    answers[0]!({
+      timesS: [0, 1],
+      values: [
+        [1, 2],
+        [3, 4],
+      ],
+      isReduced: true,
+    });
+    await Promise.resolve();
+    await Promise.resolve();
+    expect(asked).toEqual(['/a x,y 0', '/a x,y 2']);
+    expect(recorded.samples(refs[0]!)).toEqual({ times: [0, 1], values: [3, 4] });
+    expect(recorded.isReduced).toBe(true);
+  });
+});
+
+describe('plots of a layout', () => {
+  test('what is no curve is left out', () =>
+    expect(validPlots([{ kind: 'xy', curves: [{ y: 1 }, { y: '/a:b', x: '/a:c' }] }, 7])).toEqual([
+      { kind: 'xy', curves: [{ y: '/a:b', x: '/a:c' }] },
+    ]));
+  test('there is at least one', () => expect(validPlots([])).toHaveLength(1));
 });

@@ -15,6 +15,7 @@ import { Clock } from './clock';
 import type { Entry } from './entry.svelte';
 import { estimatorsOf } from './estimators';
 import { TEXTS } from './texts';
+import type { ReplayControl } from './replay_control';
 import { mapTruths, type MapTruth } from './truth';
 import { Viewport } from './viewport.svelte';
 
@@ -60,6 +61,8 @@ export class App {
   notices: Notice[] = $state([]);
   log: LogLine[] = $state.raw([]);
   theme: 'dark' | 'light' = $state('dark');
+  /** Replay of recordings; `undefined` while the running system is shown. */
+  replay: ReplayControl | undefined = $state.raw();
   /** All 3D views. */
   viewports: Viewport[] = $state([]);
   /** The 3D view that panels and tools act on. */

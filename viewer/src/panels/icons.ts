@@ -33,5 +33,11 @@ export const ICONS = {
   window: 'M5 4h14v16H5zM5 12h14M12 4v16',
   stairs: 'M3 20h4v-4h4v-4h4V8h4V4h2',
   image: 'M4 5h16v14H4zM4 16l5-5 4 4 3-3 4 4M15 9h.01',
+  list: 'M4 6h2M9 6h11M4 12h2M9 12h11M4 18h2M9 18h11',
+  lines: 'M4 6h16M4 10h10M4 14h16M4 18h8',
+  graph:
+    'M6 8a2.500 2.500 0 100-5 2.500 2.500 0 000 5zM18 14a2.500 2.500 0 100-5 2.500 2.500 0 000 5zM8 21a2.500 2.500 0 100-5 2.500 2.500 0 000 5zM8 7l8 4M16 13l-6 4',
+  sliders: 'M4 7h8M16 7h4M14 5v4M4 17h4M12 17h8M10 15v4M4 12h12M20 12h0M18 10v4',
+  plot: 'M4 4v16h16M7 15l4-5 3 3 5-7',
 } as const;
 export type IconName = keyof typeof ICONS;

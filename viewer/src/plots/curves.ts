@@ -26,6 +26,21 @@ export interface Plot {
   curves: Curve[];
 }
 
+/** Plots of a saved layout, without what is not one; at least one. */
+export function validPlots(saved: readonly unknown[]): Plot[] {
+  const isRecord = (one: unknown): one is Record<string, unknown> =>
+    typeof one === 'object' && one !== null;
+  const isText = (one: unknown) => one === undefined || typeof one === 'string';
+  const plots = saved.filter(isRecord).map((one): Plot => {
+    const kind = one.kind === 'xy' ? 'xy' : 'time';
+    const curves = Array.isArray(one.curves) ? one.curves : [];
+    const isCurve = (curve: unknown) =>
+      isRecord(curve) && typeof curve.y === 'string' && isText(curve.x);
+    return { kind, curves: curves.filter(isCurve) as Curve[] };
+  });
+  return plots.length > 0 ? plots : [{ kind: 'time', curves: [] }];
+}
+
 /** Colours of curves, of at least 3:1 on both backgrounds; Tol's "bright" scheme, adapted. */
 const COLORS = {
   dark: ['#2fc4b2', '#e9b44c', '#7aa2f7', '#f26d6d', '#b794f4', '#7ed957', '#f59ad0', '#9fb3c8'],

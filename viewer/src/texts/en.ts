@@ -9,6 +9,18 @@ export const en = {
     name: 'English',
     choose: 'Language',
   },
+  /** Titles of panels. */
+  panels: {
+    drive: 'Drive',
+    navigate: 'Navigate',
+    world: 'World',
+    topics: 'Topics',
+    nodes: 'Nodes',
+    parameters: 'Parameters',
+    services: 'Services',
+    plot: 'Plot',
+    log: 'Log',
+  },
   expression: {
     tooLong: (most: number) => `the expression is longer than ${most} characters`,
     tooDeep: 'the expression is nested too deeply',
@@ -37,6 +49,8 @@ export const en = {
     receive: 'of reception',
     help: 'Drag fields here from the panel Messages. Drag in a plot to zoom, Shift-drag or one finger to pan, double click to follow again. Arrow keys move the cursor.',
     nothingToSave: 'There is nothing to save: no curve has a value in the visible span.',
+    reduced: (points: number) =>
+      `More than ${points} messages: the smallest and largest values of equal spans are shown. Zoom in for all.`,
     timePlot: 'Plot over time',
     xyPlot: 'X-Y plot',
     timeAxis: (offsetS: number) => (offsetS ? `time − ${offsetS} [s]` : 'time [s]'),
@@ -95,6 +109,19 @@ export const en = {
     to: (nodes: string) => `to ${nodes}`,
     showAs: (display: string) => `Show as ${display}`,
     nothing: 'No topic matches.',
+  },
+  /** Titles of further panels. */
+  panelNames: {
+    messages: 'Messages',
+    graph: 'Node graph',
+    transforms: 'Transforms',
+    diagnostics: 'Diagnostics',
+    states: 'States',
+    actions: 'Actions',
+    parameterSets: 'Parameter sets',
+    joints: 'Joints',
+    table: 'Table',
+    publish: 'Publish',
   },
 };
 

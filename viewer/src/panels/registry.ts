@@ -1,0 +1,60 @@
+/** All kinds of panels. An entry is one line; the component gets `PanelProps`. */
+import type { Component } from 'svelte';
+import type { App } from '../app/app.svelte';
+import type { Driver } from '../app/driver.svelte';
+import type { Panel } from '../app/panel.svelte';
+import type { Tools } from '../app/tools.svelte';
+import { t } from '../texts/language.svelte';
+import type { IconName } from './icons';
+
+export interface PanelProps {
+  app: App;
+  tools: Tools;
+  driver: Driver;
+  panel: Panel;
+}
+
+export interface PanelKind {
+  /** Name in saved layouts; never changed. */
+  id: string;
+  title: () => string;
+  icon: IconName;
+  /** Loaded when first shown. */
+  load: () => Promise<{ default: Component<PanelProps> }>;
+  /** True if several may be open. */
+  isMany?: boolean;
+  /** True for a panel that is open in the first layout, as a tab on the right. */
+  isFirst?: boolean;
+  /** True for a panel without padding and scrolling of its own, such as a 3D view. */
+  isBare?: boolean;
+  /** False while the panel has nothing to show; it is then not offered. */
+  isOffered?: (app: App) => boolean;
+}
+
+const kinds: PanelKind[] = [
+  // prettier-ignore
+  { id: 'drive', title: () => t().panels.drive, icon: 'move', isFirst: true, load: () => import('./DrivePanel.svelte') },
+  // prettier-ignore
+  { id: 'navigate', title: () => t().panels.navigate, icon: 'goal', isFirst: true, load: () => import('./NavigatePanel.svelte') },
+  // prettier-ignore
+  { id: 'world', title: () => t().panels.world, icon: 'house', isFirst: true, load: () => import('./SimPanel.svelte') },
+  // prettier-ignore
+  { id: 'topics', title: () => t().panels.topics, icon: 'list', isFirst: true, load: () => import('./TopicsPanel.svelte') },
+  // prettier-ignore
+  { id: 'messages', title: () => t().panelNames.messages, icon: 'lines', isFirst: true, isMany: true, load: () => import('./MessagesPanel.svelte') },
+  // prettier-ignore
+  { id: 'nodes', title: () => t().panels.nodes, icon: 'graph', isFirst: true, load: () => import('./NodesPanel.svelte') },
+  // prettier-ignore
+  { id: 'parameters', title: () => t().panels.parameters, icon: 'sliders', isFirst: true, load: () => import('./ParametersPanel.svelte') },
+  // prettier-ignore
+  { id: 'services', title: () => t().panels.services, icon: 'play', isFirst: true, load: () => import('./ServicesPanel.svelte') },
+  // prettier-ignore
+  { id: 'plot', title: () => t().panels.plot, icon: 'plot', isFirst: true, isMany: true, load: () => import('./PlotPanel.svelte') },
+  // prettier-ignore
+  { id: 'log', title: () => t().panels.log, icon: 'lines', isFirst: true, load: () => import('./LogPanel.svelte') },
+];
+
+export const PANEL_KINDS: readonly PanelKind[] = kinds;
+
+export const panelKind = (id: string): PanelKind | undefined =>
+  PANEL_KINDS.find((kind) => kind.id === id);
