@@ -16,6 +16,10 @@ const HIDDEN = new Set([
   'visualization_msgs/msg/Marker',
   'nav2_msgs/msg/VoxelGrid',
   'geometry_msgs/msg/PoseWithCovarianceStamped',
+  // Efforts of joints, and commands of drives.
+  'sensor_msgs/msg/JointState',
+  'geometry_msgs/msg/TwistStamped',
+  'geometry_msgs/msg/AccelStamped',
 ]);
 
 /**

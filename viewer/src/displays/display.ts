@@ -18,6 +18,10 @@ export interface Context {
   tf: TfBuffer;
   subscribe(topic: string, handler: Handler, need?: Need): () => void;
   asset(uri: string): Promise<Uint8Array>;
+  publish(topic: string, type: string, message: Message): void;
+  /** Calls a service; fails with the server's reason. */
+  call(service: string, request: Message): Promise<Message>;
+  hasService(name: string): boolean;
   fixedFrame(): string;
   /** Time of the messages [s]. */
   nowS(): number;

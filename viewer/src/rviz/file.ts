@@ -42,7 +42,7 @@ const NO_PARTS =
 
 /** Part of a display that is enabled by the option at a path: `Links/base_link`. */
 export function partOf(path: string): { group: string; name: string } | undefined {
-  const [, group, name] = /^(Namespaces|Links|Frames)\/(.+)$/.exec(path) ?? [];
+  const [, group, name] = /^(Namespaces|Links|Frames|Joints)\/(.+)$/.exec(path) ?? [];
   if (!group || !name || (group !== 'Namespaces' && NO_PARTS.test(name))) return undefined;
   return { group, name };
 }
