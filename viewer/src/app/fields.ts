@@ -84,6 +84,25 @@ export function numericPathsOf(schema: Schema): string[] {
   return out;
 }
 
+/** Paths of the fields of a type that have states: truth values, whole numbers and texts. */
+export function statePathsOf(schema: Schema): string[] {
+  const out: string[] = [];
+  const visit = (definition: Definition, prefix: string, depth: number): void => {
+    for (const field of definition.fields) {
+      if (out.length >= MAX_PATHS) return;
+      const path = `${prefix}${field.name}${field.array === undefined ? '' : '[0]'}`;
+      const isTime = /^builtin_interfaces\//.test(field.type);
+      if (!field.isComplex) {
+        if (!/^float/.test(field.type)) out.push(path);
+      } else if (depth < MAX_DEPTH && !isTime) {
+        visit(definitionOf(schema, field.type), `${path}.`, depth + 1);
+      }
+    }
+  };
+  visit(schema.root, '', 0);
+  return out;
+}
+
 /** Parts of a path: "ranges[3].x" is `ranges`, `3`, `x`. */
 const partsOf = (path: string): string[] => path.split(/[.[\]]+/).filter(Boolean);
 

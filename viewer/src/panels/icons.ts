@@ -39,5 +39,11 @@ export const ICONS = {
     'M6 8a2.500 2.500 0 100-5 2.500 2.500 0 000 5zM18 14a2.500 2.500 0 100-5 2.500 2.500 0 000 5zM8 21a2.500 2.500 0 100-5 2.500 2.500 0 000 5zM8 7l8 4M16 13l-6 4',
   sliders: 'M4 7h8M16 7h4M14 5v4M4 17h4M12 17h8M10 15v4M4 12h12M20 12h0M18 10v4',
   plot: 'M4 4v16h16M7 15l4-5 3 3 5-7',
+  frames: 'M6 18V5M6 18h13M6 18l7-7M4 7l2-2 2 2M17 16l2 2-2 2',
+  pulse: 'M3 12h4l3-8 4 16 3-8h4',
+  bands: 'M3 6h7v4H3zM10 6h11v4H10zM3 14h11v4H3zM14 14h7v4h-7z',
+  joint: 'M5 19l5-7M14 10l6-5M12 14a3 3 0 100-6 3 3 0 000 6z',
+  table: 'M4 5h16v14H4zM4 10h16M4 14.500h16M10 5v14',
+  send: 'M4 12l16-8-6 16-3-7z',
 } as const;
 export type IconName = keyof typeof ICONS;

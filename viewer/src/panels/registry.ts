@@ -52,6 +52,12 @@ const kinds: PanelKind[] = [
   { id: 'plot', title: () => t().panels.plot, icon: 'plot', isFirst: true, isMany: true, load: () => import('./PlotPanel.svelte') },
   // prettier-ignore
   { id: 'log', title: () => t().panels.log, icon: 'lines', isFirst: true, load: () => import('./LogPanel.svelte') },
+  // prettier-ignore
+  { id: 'transforms', title: () => t().panelNames.transforms, icon: 'frames', isMany: true, load: () => import('./TransformsPanel.svelte') },
+  // prettier-ignore
+  { id: 'diagnostics', title: () => t().panelNames.diagnostics, icon: 'pulse', load: () => import('./DiagnosticsPanel.svelte') },
+  // prettier-ignore
+  { id: 'states', title: () => t().panelNames.states, icon: 'bands', isMany: true, load: () => import('./StatesPanel.svelte') },
 ];
 
 export const PANEL_KINDS: readonly PanelKind[] = kinds;
