@@ -17,6 +17,7 @@ import { estimatorsOf } from './estimators';
 import { TEXTS } from './texts';
 import { mapTruths, type MapTruth } from './truth';
 import { Viewport } from './viewport.svelte';
+import type { Workbench } from './workbench.svelte';
 
 export interface Notice {
   id: number;
@@ -64,6 +65,8 @@ export class App {
   viewports: Viewport[] = $state([]);
   /** The 3D view that panels and tools act on. */
   active: Viewport = $state.raw(undefined as never);
+  /** The open panels; set by the page. */
+  workbench: Workbench | undefined = $state.raw();
   models: string[] = $state([]);
   selectedModel = $state('');
   truth: { link: string; distanceM: number; yawRad: number } | undefined = $state();

@@ -36,6 +36,11 @@ export class Entry {
     this.isEnabled = isEnabled;
   }
 
+  /** Enabled, as all groups around it are. */
+  get isShown(): boolean {
+    return this.isEnabled;
+  }
+
   level = $derived.by((): Level => {
     const all = Object.values(this.statuses).map((status) => status.level);
     return all.includes('error') ? 'error' : all.includes('warn') ? 'warn' : 'ok';

@@ -11,7 +11,7 @@ import {
 import { fromYaw, inverse, multiply, yawOf, type Pose } from '../core/pose';
 import { messageOf } from '../core/types';
 import { arrowGeometry, label, polyline, surface } from '../scene/shapes';
-import { dispose } from '../scene/stage';
+import { dispose, type Stage } from '../scene/stage';
 import { Color, Group, Mesh } from 'three';
 import type { App } from './app.svelte';
 import type { Navigation } from './navigation.svelte';
@@ -94,23 +94,37 @@ export class Tools {
     readonly waypoints: Waypoints,
   ) {}
 
-  attach(canvas: HTMLCanvasElement): void {
-    const { stage } = this.app;
-    stage!.scene.add(this.marks, this.poses);
-    stage!.ticks.add(() => this.placeArrows());
-    this.waypoints.attach();
+  /** Listens to a 3D view; the tools act on it while it is the active one. */
+  attach(canvas: HTMLCanvasElement, stage: Stage): void {
+    const isActive = () => this.app.stage === stage;
+    stage.ticks.add(() => isActive() && this.placeArrows());
+    this.waypoints.attach(stage);
     // Capture: before the camera controls receive the event.
     canvas.addEventListener(
       'pointerdown',
       (event) => {
         this.cross = undefined;
-        if (event.button === 0) this.down(event);
+        if (event.button === 0 && isActive()) this.down(event);
       },
       true,
     );
-    canvas.addEventListener('pointermove', (event) => this.moved(event), true);
-    canvas.addEventListener('pointerup', (event) => this.up(event), true);
-    canvas.addEventListener('keydown', (event) => this.key(event, canvas), true);
+    canvas.addEventListener('pointermove', (event) => isActive() && this.moved(event), true);
+    canvas.addEventListener('pointerup', (event) => isActive() && this.up(event), true);
+    canvas.addEventListener('keydown', (event) => isActive() && this.key(event, canvas), true);
+  }
+
+  /** Another 3D view became the active one: marks and the tool move to it. */
+  enter(stage: Stage): void {
+    for (const { stage: other } of this.app.viewports) {
+      if (other && other !== stage) {
+        other.view.isHeld = false;
+        other.invalidate();
+      }
+    }
+    stage.view.isHeld = this.active !== 'move';
+    stage.scene.add(this.marks, this.poses);
+    this.waypoints.enter(stage);
+    stage.invalidate();
   }
 
   /** Mouse by keyboard: arrow keys move a crosshair, Enter presses, and releases after a drag. */

@@ -11,8 +11,29 @@ import { FIRST_VIEW, type ViewState } from '../scene/view';
 import type { App } from './app.svelte';
 import { bestFrame, suggestionFor } from './auto';
 import { Entry } from './entry.svelte';
+import { savedDisplay, type SavedDisplay } from './saved_display';
 
 const WORLD_CLASS = 'periplus/World';
+
+/** A 3D view as it is saved with a layout. */
+export interface ViewportState {
+  fixedFrame: string;
+  isFrameChosen: boolean;
+  view: ViewState;
+  background: string;
+  isAutomatic: boolean;
+  displays: SavedDisplay[];
+  fileName: string;
+  /** Checksum of the `.rviz` file of the launch file that was opened. */
+  launched: number;
+}
+
+/** FNV-1a of a text. */
+function checksum(text: string): number {
+  let sum = 0x811c9dc5;
+  for (let i = 0; i < text.length; i++) sum = Math.imul(sum ^ text.charCodeAt(i), 0x01000193);
+  return sum >>> 0;
+}
 
 let lastId = 0;
 
@@ -32,6 +53,9 @@ export class Viewport {
   private awaitsWorld = false;
   private rvizOriginal?: Tree;
   private hasOpenedLaunched = false;
+  private launched = 0;
+  /** Automatic displays of a saved layout, which get their options back when their topics exist. */
+  private awaited: SavedDisplay[] = [];
   private seen = new Set<string>();
 
   constructor(private app: App) {}
@@ -65,6 +89,12 @@ export class Viewport {
         app.fixedFromSensor(topic, frame, timeS, this.fixedFrame),
       estimators: () => app.estimators,
     };
+  }
+
+  /** For an image in a panel of its own: without a scene. */
+  imageContext(): Context {
+    const stage = { add: () => {}, remove: () => {}, invalidate: () => {} };
+    return { ...this.context(), stage: stage as unknown as Stage };
   }
 
   private tick(nowMs: number): void {
@@ -184,7 +214,12 @@ export class Viewport {
       return undefined;
     }
     if (!isAutomatic) this.isAutomatic = false;
-    this.displays.push(new Entry(kind, name, values, isEnabled));
+    const saved = isAutomatic ? this.awaitedFor(kind.class, values) : undefined;
+    this.displays.push(
+      saved
+        ? new Entry(kind, saved.name, { ...values, ...saved.values }, saved.isEnabled)
+        : new Entry(kind, name, values, isEnabled),
+    );
     const entry = this.displays[this.displays.length - 1]!;
     entry.isAutomatic = isAutomatic;
     if (this.stage) this.begin(entry);
@@ -226,6 +261,54 @@ export class Viewport {
     this.app.models = [];
   }
 
+  /** Takes the saved options of an automatic display. */
+  private awaitedFor(kindClass: string, values: Values): SavedDisplay | undefined {
+    const at = this.awaited.findIndex(
+      (one) => one.class === kindClass && (one.values.Topic ?? '') === (values.Topic ?? ''),
+    );
+    return at < 0 ? undefined : this.awaited.splice(at, 1)[0];
+  }
+
+  // Layouts.
+
+  snapshot(): ViewportState {
+    return {
+      fixedFrame: this.fixedFrame,
+      isFrameChosen: this.isFrameChosen,
+      view: structuredClone(this.stage?.view.state ?? ($state.snapshot(this.view) as ViewState)),
+      background: this.background,
+      isAutomatic: this.isAutomatic,
+      displays: [...this.displays.map(savedDisplay), ...this.awaited],
+      fileName: this.fileName,
+      launched: this.launched,
+    };
+  }
+
+  /** Shows a saved 3D view. One that `isAskedFor` is not replaced by the file of a launch file. */
+  restore(state: Partial<ViewportState>, isAskedFor = false): void {
+    this.clear();
+    this.seen.clear();
+    this.awaited = [];
+    this.isAutomatic = state.isAutomatic !== false;
+    if (this.isAutomatic) this.awaited = [...(state.displays ?? [])];
+    else {
+      for (const one of state.displays ?? []) {
+        this.add(one.class, one.name, { ...one.values }, one.isEnabled);
+      }
+    }
+    this.background = state.background ?? '';
+    this.fileName = state.fileName ?? '';
+    this.launched = state.launched ?? 0;
+    if (isAskedFor) this.hasOpenedLaunched = true;
+    this.isFrameChosen = state.isFrameChosen === true;
+    if (state.fixedFrame) this.setFixedFrame(state.fixedFrame, this.isFrameChosen);
+    if (state.view) {
+      this.view = { ...structuredClone(FIRST_VIEW), ...state.view };
+      this.stage?.view.set($state.snapshot(this.view) as ViewState);
+    }
+    this.offersChanged();
+  }
+
   // `.rviz` files.
 
   /** Opens the file that the launch file names, once: a reconnection leaves the displays as they are. */
@@ -233,6 +316,10 @@ export class Viewport {
     const { rviz: text, rviz_file: fileName, fixed_frame: frame } = metadata;
     if (this.hasOpenedLaunched || !(text || frame)) return;
     this.hasOpenedLaunched = true;
+    // A reloaded page keeps what the user made of the file.
+    const sum = checksum(text ?? '');
+    if (text && sum === this.launched) return;
+    this.launched = sum;
     try {
       if (text) this.openRviz(text, fileName);
     } catch (error) {

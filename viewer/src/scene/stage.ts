@@ -32,6 +32,9 @@ export class Stage {
   private sinceMs = performance.now();
   private sun = new DirectionalLight(0xffffff, 2.1);
   private stopped = false;
+  /** False while the view is behind another panel: nothing is drawn. */
+  isVisible = true;
+  private readonly observer: ResizeObserver;
 
   constructor(private canvas: HTMLCanvasElement) {
     const context = canvas.getContext('webgl2', {
@@ -60,13 +63,14 @@ export class Stage {
     this.sun.position.set(6, -9, 18);
     this.scene.add(this.sun, this.sun.target);
     if (!this.isSoftware) this.castShadows();
-    new ResizeObserver(() => this.resize()).observe(canvas.parentElement!);
+    this.observer = new ResizeObserver(() => this.resize());
+    this.observer.observe(canvas.parentElement!);
     this.resize();
     const loop = (nowMs: number) => {
       if (this.stopped) return;
       requestAnimationFrame(loop);
       for (const tick of this.ticks) tick(nowMs);
-      if (this.isDirty) this.draw(nowMs);
+      if (this.isDirty && this.isVisible) this.draw(nowMs);
     };
     requestAnimationFrame(loop);
   }
@@ -103,6 +107,8 @@ export class Stage {
 
   private resize(): void {
     const box = this.canvas.parentElement!.getBoundingClientRect();
+    // A hidden view keeps its size, so that it has a picture at once when it is shown.
+    if (box.width === 0 || box.height === 0) return;
     this.renderer.setSize(box.width, box.height, false);
     this.view.resize(box.width, box.height);
     this.invalidate();
@@ -125,7 +131,10 @@ export class Stage {
 
   stop(): void {
     this.stopped = true;
+    this.observer.disconnect();
     this.renderer.dispose();
+    // A browser has few contexts; the garbage collector frees them late.
+    this.renderer.forceContextLoss();
   }
 }
 
