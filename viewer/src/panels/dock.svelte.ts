@@ -110,6 +110,7 @@ export class Dock implements Arranger {
     api.onDidActivePanelChange(() => {
       const panel = workbench.panel(api.activePanel?.id ?? '');
       if (panel && !this.isLoading && panel !== workbench.active) workbench.activated(panel);
+      if (!this.isLoading) this.describe();
     });
     api.onDidLayoutChange(() => {
       if (this.isLoading) return;
