@@ -17,6 +17,7 @@ import { estimatorsOf } from './estimators';
 import { TEXTS } from './texts';
 import { mapTruths, type MapTruth } from './truth';
 import { Viewport } from './viewport.svelte';
+import { t } from '../texts/language.svelte';
 
 export interface Notice {
   id: number;
@@ -345,7 +346,7 @@ export class App {
       const answer = await this.client.call(name, request);
       if (answer.success === false) {
         const why = answer.message ?? answer.status_message ?? this.lastComplaint();
-        this.notice('error', `${name} failed. ${String(why)}`);
+        this.notice('error', t().notices.serviceFailed(name, String(why)));
         return undefined;
       }
       return answer;
@@ -357,6 +358,6 @@ export class App {
 
   private lastComplaint(): string {
     const line = [...this.log, ...this.newLog].reverse().find((l) => l.level >= 30);
-    return line ? line.text : 'See the log for the reason.';
+    return line ? line.text : t().notices.seeLog;
   }
 }
