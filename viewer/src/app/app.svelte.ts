@@ -18,6 +18,7 @@ import { TEXTS } from './texts';
 import { mapTruths, type MapTruth } from './truth';
 import { Viewport } from './viewport.svelte';
 import type { Workbench } from './workbench.svelte';
+import { t } from '../texts/language.svelte';
 
 export interface Notice {
   id: number;
@@ -348,7 +349,7 @@ export class App {
       const answer = await this.client.call(name, request);
       if (answer.success === false) {
         const why = answer.message ?? answer.status_message ?? this.lastComplaint();
-        this.notice('error', `${name} failed. ${String(why)}`);
+        this.notice('error', t().notices.serviceFailed(name, String(why)));
         return undefined;
       }
       return answer;
@@ -360,6 +361,6 @@ export class App {
 
   private lastComplaint(): string {
     const line = [...this.log, ...this.newLog].reverse().find((l) => l.level >= 30);
-    return line ? line.text : 'See the log for the reason.';
+    return line ? line.text : t().notices.seeLog;
   }
 }

@@ -12,6 +12,7 @@ import type { App } from './app.svelte';
 import { bestFrame, suggestionFor } from './auto';
 import { Entry } from './entry.svelte';
 import { savedDisplay, type SavedDisplay } from './saved_display';
+import { t } from '../texts/language.svelte';
 
 const WORLD_CLASS = 'periplus/World';
 
@@ -207,10 +208,7 @@ export class Viewport {
   ): Entry | undefined {
     const kind = kindOf(kindClass);
     if (!kind) {
-      this.app.notice(
-        'warn',
-        `The display class "${kindClass}" is unknown; the display was skipped.`,
-      );
+      this.app.notice('warn', t().notices.unknownDisplay(kindClass));
       return undefined;
     }
     if (!isAutomatic) this.isAutomatic = false;

@@ -1,6 +1,7 @@
 /** Reader and writer of `.rviz` files. Unknown content is kept. */
 import { dump, load } from 'js-yaml';
 import type { Option, Value, Values } from '../displays/options';
+import { t } from '../texts/language.svelte';
 
 export type Tree = { [key: string]: unknown };
 
@@ -106,11 +107,10 @@ export function readRviz(text: string): RvizFile {
   try {
     tree = load(text);
   } catch (error) {
-    throw new Error(`This is not YAML: ${(error as Error).message.split('\n')[0]}`);
+    throw new Error(t().notices.notYaml((error as Error).message.split('\n')[0] ?? ''));
   }
   const manager = isTree(tree) ? tree['Visualization Manager'] : undefined;
-  if (!isTree(manager))
-    throw new Error('This is not an .rviz file: it has no "Visualization Manager"');
+  if (!isTree(manager)) throw new Error(t().notices.notRviz);
   const global = isTree(manager['Global Options']) ? manager['Global Options'] : {};
   const views = isTree(manager.Views) ? manager.Views : {};
   const current = isTree(views.Current) ? views.Current : undefined;

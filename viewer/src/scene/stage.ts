@@ -13,6 +13,7 @@ import {
   WebGLRenderer,
 } from 'three';
 import { View } from './view';
+import { t } from '../texts/language.svelte';
 
 AnyObject.DEFAULT_UP.set(0, 0, 1);
 
@@ -44,9 +45,7 @@ export class Stage {
       powerPreference: 'high-performance',
     });
     if (!context) {
-      throw new Error(
-        'This browser cannot draw with WebGL 2. Enable hardware acceleration or use another browser.',
-      );
+      throw new Error(t().notices.noWebGl);
     }
     const info = context.getExtension('WEBGL_debug_renderer_info');
     const name = info ? String(context.getParameter(info.UNMASKED_RENDERER_WEBGL)) : '';
