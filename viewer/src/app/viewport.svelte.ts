@@ -9,10 +9,14 @@ import { viewFrom, viewTo } from '../rviz/view';
 import type { Stage } from '../scene/stage';
 import { FIRST_VIEW, type ViewState } from '../scene/view';
 import type { App } from './app.svelte';
-import { bestFrame, suggestionFor } from './auto';
+import { bestFrame, prefixIn, suggestionFor } from './auto';
 import { Entry } from './entry.svelte';
 import { savedDisplay, type SavedDisplay } from './saved_display';
 import { t } from '../texts/language.svelte';
+
+/** Topic of a display. */
+const topicOf = (values: Values): string =>
+  String(values.Topic ?? values['Description Topic'] ?? '');
 
 const WORLD_CLASS = 'periplus/World';
 
@@ -49,6 +53,8 @@ export class Viewport {
   isAutomatic = $state(true);
   rvizTools: RvizTool[] = $state([]);
   fileName = $state('');
+  /** Prefix of the recording whose topics are added automatically; `undefined` for all topics. */
+  track: string | undefined = $state();
   stage?: Stage;
   /** True after a file without a world was opened, until the simulation's world is known. */
   private awaitsWorld = false;
@@ -89,6 +95,8 @@ export class Viewport {
       fixedFromSensor: (topic, frame, timeS) =>
         app.fixedFromSensor(topic, frame, timeS, this.fixedFrame),
       estimators: () => app.estimators,
+      awaitsTransforms: () => app.replay?.awaitsTransforms() ?? true,
+      arrivalMs: () => app.replay?.arrivalMs() ?? performance.now(),
     };
   }
 
@@ -131,6 +139,27 @@ export class Viewport {
     }
   }
 
+  /** Time jumped in a recording: the displays wait for the messages of the new time. */
+  jumped(): void {
+    for (const { display } of this.displays) display?.reset();
+  }
+
+  private isShown(topicOrFrame: string): boolean {
+    return this.track === undefined || prefixIn(topicOrFrame) === this.track;
+  }
+
+  /** Removes automatic displays of topics that are gone, or that another view shows. */
+  dropMissing(): void {
+    const names = new Set(this.app.topics.map((topic) => topic.name));
+    for (const entry of [...this.displays]) {
+      const topic = topicOf(entry.values);
+      if (!entry.isAutomatic || !topic || (names.has(topic) && this.isShown(topic))) continue;
+      entry.stop();
+      this.displays = this.displays.filter((one) => one !== entry);
+      this.seen.delete(topic);
+    }
+  }
+
   /** Topics or services changed. */
   offersChanged(): void {
     if (this.isAutomatic) this.addSuggested();
@@ -141,10 +170,12 @@ export class Viewport {
     for (const entry of this.displays) entry.flush();
     const { frames, tf } = this.app;
     if (this.isFrameChosen || frames.length === 0) return;
-    this.setFixedFrame(
-      bestFrame(frames, (name) => tf.root(name)),
-      false,
+    const own = frames.filter((name) => prefixIn(name) === (this.track ?? ''));
+    const best = bestFrame(
+      own.map((name) => name.slice(this.track?.length ?? 0)),
+      (name) => tf.root((this.track ?? '') + name).slice(this.track?.length ?? 0),
     );
+    this.setFixedFrame((this.track ?? '') + best, false);
   }
 
   setFixedFrame(name: string, isChosen = true): void {
@@ -175,7 +206,7 @@ export class Viewport {
     }
     let pictures = this.displays.filter((e) => e.kind.hasPicture && e.isEnabled).length;
     for (const { name, type } of this.app.topics) {
-      if (!type || this.seen.has(name)) continue;
+      if (!type || this.seen.has(name) || !this.isShown(name)) continue;
       this.seen.add(name);
       const suggestion = suggestionFor(name, type);
       if (!suggestion) continue;

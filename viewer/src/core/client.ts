@@ -16,6 +16,7 @@ import {
   type ServerText,
   type ServiceOffer,
 } from './protocol';
+import { RecordingRequests } from './replay_requests';
 import { parseSchema } from './schema';
 import { t } from '../texts/language.svelte';
 
@@ -32,7 +33,8 @@ export interface Socket {
   onmessage: ((event: { data: unknown }) => void) | null;
 }
 
-export type Handler = (message: Message, topic: string, bytes: number) => void;
+/** `timeS`: the log time of a recorded message [s]; `undefined` for a message that was just published. */
+export type Handler = (message: Message, topic: string, bytes: number, timeS?: number) => void;
 
 export type State = 'connecting' | 'open' | 'closed';
 
@@ -44,6 +46,8 @@ export interface Events {
   time(seconds: number): void;
   /** `serverInfo`, once per connection. */
   info?(metadata: Record<string, string>): void;
+  /** The list of recordings changed. */
+  recordings?(): void;
   /** Status message of the server, or an error of a message that cannot be decoded. */
   status(level: number, message: string): void;
 }
@@ -76,6 +80,8 @@ export class Client {
   capabilities: string[] = [];
   state: State = 'connecting';
   bytesReceived = 0;
+  /** Recordings of the server, and requests for their messages. */
+  readonly recordings: RecordingRequests;
 
   private socket?: Socket;
   private topics = new Map<string, Topic>();
@@ -94,7 +100,18 @@ export class Client {
     private events: Events,
     /** Definitions of types that the page publishes although the server has not sent them. */
     private texts: Record<string, string> = {},
-  ) {}
+  ) {
+    this.recordings = new RecordingRequests(
+      {
+        isOpen: () => this.socket?.readyState === 1,
+        send: (data) => this.socket?.send(data),
+        waitingBytes: () => this.socket?.bufferedAmount ?? 0,
+        nextId: () => ++this.lastId,
+      },
+      () => events.recordings?.(),
+      (message) => events.status(2, message),
+    );
+  }
 
   start(): void {
     this.isStopped = false;
@@ -158,6 +175,7 @@ export class Client {
     this.calls.clear();
     this.assets.clear();
     this.repairs.clear();
+    this.recordings.disconnected(why);
     this.events.graphChanged();
   }
 
@@ -333,6 +351,7 @@ export class Client {
           this.send({ op: 'subscribeConnectionGraph' });
         }
         if (text.capabilities.includes('parameters')) this.getParameters();
+        if (text.capabilities.includes('recordings')) this.send({ op: 'subscribeRecordings' });
         this.events.info?.(text.metadata ?? {});
         break;
       case 'status':
@@ -381,6 +400,8 @@ export class Client {
       }
       case 'removeStatus':
         break;
+      default:
+        this.recordings.receiveText(text);
     }
   }
 
@@ -458,6 +479,9 @@ export class Client {
         else asset.resolve(frame.data);
         break;
       }
+      case 'stored':
+        this.recordings.receiveFrame(frame);
+        break;
     }
   }
 

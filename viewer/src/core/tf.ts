@@ -23,7 +23,8 @@ export type Lookup =
   | { kind: 'later'; why: string }
   | { kind: 'never'; why: string };
 
-const KEPT_S = 10;
+/** Time that transforms are kept, as in tf2 [s]. */
+export const KEPT_S = 10;
 /** A chain of more frames than this is a loop. */
 const MOST_LINKS = 200;
 
@@ -36,6 +37,8 @@ export class TfBuffer {
   private frames = new Map<string, Frame>();
   /** Incremented at each change, for users that cache lookups. */
   version = 0;
+  /** Time that transforms are kept [s]; a recording may show messages that are older. */
+  keptS = KEPT_S;
 
   clear(): void {
     this.frames.clear();
@@ -66,13 +69,13 @@ export class TfBuffer {
     const { samples } = frame;
     const newest = samples[samples.length - 1]!;
     // Time jumped back: a simulation was reset, or a recording restarted.
-    if (sample.timeS < newest.timeS - KEPT_S) samples.length = 0;
+    if (sample.timeS < newest.timeS - this.keptS) samples.length = 0;
     let at = samples.length;
     while (at > 0 && samples[at - 1]!.timeS > sample.timeS) at--;
     if (at > 0 && samples[at - 1]!.timeS === sample.timeS) samples[at - 1] = sample;
     else samples.splice(at, 0, sample);
     let drop = 0;
-    while (samples[drop]!.timeS < samples[samples.length - 1]!.timeS - KEPT_S) drop++;
+    while (samples[drop]!.timeS < samples[samples.length - 1]!.timeS - this.keptS) drop++;
     if (drop > 64) samples.splice(0, drop);
   }
 

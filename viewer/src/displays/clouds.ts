@@ -1,5 +1,6 @@
 /** LaserScan, PointCloud2 and DepthCloud: points that are kept for the decay time. */
 import type { Message } from '../core/cdr';
+import type { Need } from '../core/feed';
 import type { Pose } from '../core/pose';
 import {
   seconds,
@@ -30,6 +31,10 @@ export abstract class PointsDisplay<M extends { header: Header }> extends Framed
   private shown: Shown[] = [];
 
   protected abstract rows(message: M): Rows;
+
+  protected override need(): Need {
+    return { historyS: this.get<number>('Decay Time') };
+  }
 
   protected override show(message: M, fixedFromFrame: Pose): void {
     const all = this.rows(message);

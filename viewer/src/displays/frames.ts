@@ -50,6 +50,11 @@ class TfDisplay extends Display {
     this.version = -1;
   }
 
+  /** Frames that are missing at the new time are removed by the next frame. */
+  override reset(): void {
+    this.version = -1;
+  }
+
   private drop(name: string): void {
     const entry = this.shown.get(name)!;
     for (const part of [entry.axes, entry.name, entry.arrow]) if (part) dispose(part);
@@ -83,7 +88,7 @@ class TfDisplay extends Display {
     let lost = 0;
     for (const name of names) {
       const found = tf.lookup(fixed, name);
-      const age = tf.ageMs(name, nowMs);
+      const age = tf.ageMs(name, this.context.arrivalMs?.() ?? nowMs);
       if (found.kind !== 'found' || age > timeoutMs) {
         if (this.shown.has(name)) this.drop(name);
         lost++;

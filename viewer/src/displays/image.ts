@@ -15,13 +15,34 @@ class ImageDisplay extends Display {
   protected image?: ImageMessage;
   private screen?: ImageData;
   private extents: Extent[] = [];
+  /** True after a jump in a recording, until an image of the new time arrived. */
+  private isStale = false;
+  private received = 0;
+  /** Number of the image that is shown. */
+  private shownNumber = 0;
 
   override start(): void {
     super.start();
     this.host.picture?.(this.canvas);
   }
 
+  override reset(): void {
+    this.isStale = true;
+    super.reset();
+  }
+
+  override tick(_nowMs: number): void {
+    if (!this.isStale) return;
+    this.isStale = false;
+    this.shownNumber = ++this.received;
+    this.image = undefined;
+    const { width, height } = this.canvas;
+    this.canvas.getContext('2d')!.clearRect(0, 0, width, height);
+  }
+
   protected override receive(message: Message): void {
+    this.isStale = false;
+    this.received++;
     if ('format' in message) {
       void this.compressed(message as never);
       return;
@@ -65,8 +86,12 @@ class ImageDisplay extends Display {
     format: string;
     data: Uint8Array<ArrayBuffer>;
   }): Promise<void> {
+    const mine = this.received;
     try {
       const bitmap = await createImageBitmap(new Blob([message.data]));
+      // A newer image was decoded meanwhile.
+      if (mine < this.shownNumber) return;
+      this.shownNumber = mine;
       this.canvas.width = bitmap.width;
       this.canvas.height = bitmap.height;
       this.canvas.getContext('2d')!.drawImage(bitmap, 0, 0);

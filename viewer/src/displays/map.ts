@@ -48,6 +48,8 @@ class MapDisplay extends Display {
   private mesh?: Mesh;
   private unsubscribeUpdates?: () => void;
   private placed?: Pose;
+  /** True after a jump in a recording, until a map of the new time arrived. */
+  private isStale = false;
 
   override start(): void {
     super.start();
@@ -58,10 +60,19 @@ class MapDisplay extends Display {
       this.values['Update Topic'] = `${topic}_updates`;
     }
     const updates = this.get<string>('Update Topic');
-    this.unsubscribeUpdates = this.context.subscribe(updates, (message) => this.update(message));
+    this.unsubscribeUpdates = this.context.subscribe(updates, (message) => this.update(message), {
+      sinceTopic: topic,
+    });
+  }
+
+  /** Keeps the texture: the map of the new time mostly has the same size. */
+  override reset(): void {
+    this.isStale = true;
+    super.reset();
   }
 
   protected override receive(message: Message): void {
+    this.isStale = false;
     const grid = message as unknown as OccupancyGrid;
     const { width, height, resolution } = grid.info;
     if (!(width > 0 && height > 0 && resolution > 0)) {
@@ -183,6 +194,11 @@ class MapDisplay extends Display {
   }
 
   override tick(): void {
+    if (this.isStale) {
+      this.isStale = false;
+      this.clear();
+      this.context.stage.invalidate();
+    }
     const { grid, mesh } = this;
     if (!grid || !mesh) return;
     const fixed = this.context.fixedFrame();
@@ -264,6 +280,7 @@ class MapDisplay extends Display {
   }
 
   override clear(): void {
+    if (this.isStale) return;
     if (this.mesh) dispose(this.mesh);
     this.cells?.dispose();
     this.cells = undefined;

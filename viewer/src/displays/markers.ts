@@ -1,6 +1,7 @@
 /** Marker and MarkerArray: shapes published by nodes. */
 import { Group } from 'three';
 import type { Message } from '../core/cdr';
+import type { Need } from '../core/feed';
 import { multiply, type Pose } from '../core/pose';
 import { poseOf, seconds, type Marker } from '../core/types';
 import { MeshLibrary } from '../scene/meshes';
@@ -23,6 +24,9 @@ const PATIENCE_MS = 700;
 const ADD = 0;
 const DELETE = 2;
 const DELETE_ALL = 3;
+
+/** Messages fetched from a recording: earlier markers that were not replaced since are missing. */
+const MAX_KEPT = 30;
 
 export class MarkerDisplay extends Display {
   protected entries = new Map<string, Entry>();
@@ -58,6 +62,11 @@ export class MarkerDisplay extends Display {
       if (!(`Namespaces/${ns}` in this.values)) this.host.note(`Namespaces/${ns}`, true);
     }
     this.host.status('Markers', 'ok', t().displays.markers(this.entries.size));
+  }
+
+  /** Markers are published one after the other, and stay until they are deleted. */
+  protected override need(): Need {
+    return { count: MAX_KEPT };
   }
 
   private add(key: string, marker: Marker): void {

@@ -10,6 +10,7 @@ import {
   MeshBasicMaterial,
 } from 'three';
 import type { Message } from '../core/cdr';
+import type { Need } from '../core/feed';
 import { multiply, type Pose } from '../core/pose';
 import { poseOf, type Header, type Odometry, type Path, type PoseMessage } from '../core/types';
 import {
@@ -82,8 +83,15 @@ function placed(mesh: Mesh, frameFromMesh: Matrix4): Mesh {
   return mesh;
 }
 
+/** Messages fetched from a recording for a display that keeps all. */
+const MAX_KEPT = 5000;
+
 class OdometryDisplay extends FramedDisplay<Odometry> {
   private kept: { object: Group; pose: Pose }[] = [];
+
+  protected override need(): Need {
+    return { count: this.get<number>('Keep') || MAX_KEPT };
+  }
 
   protected override show(message: Odometry, fixedFromFrame: Pose): void {
     const pose = multiply(fixedFromFrame, poseOf(message.pose.pose));
@@ -127,6 +135,10 @@ class OdometryDisplay extends FramedDisplay<Odometry> {
 
 class PathDisplay extends FramedDisplay<Path> {
   private drawn: Group[] = [];
+
+  protected override need(): Need {
+    return { count: this.get<number>('Buffer Length') };
+  }
 
   protected override show(message: Path, fixedFromFrame: Pose): void {
     const group = new Group();
@@ -294,6 +306,10 @@ interface RangeMessage {
 
 class RangeDisplay extends FramedDisplay<RangeMessage> {
   private drawn: Mesh[] = [];
+
+  protected override need(): Need {
+    return { count: this.get<number>('Buffer Length') };
+  }
 
   protected override show(message: RangeMessage, fixedFromFrame: Pose): void {
     const range = Math.min(message.range, message.max_range);

@@ -16,6 +16,7 @@ const INERTIA = new Color('#2fb344');
 
 class RobotModelDisplay extends Display {
   private robot?: Robot;
+  private description = '';
   private links = new Map<string, Group>();
   private version = -1;
   private lookedMs = 0;
@@ -46,6 +47,9 @@ class RobotModelDisplay extends Display {
   }
 
   private build(description: string): void {
+    // A jump in a recording gives the same text again.
+    if (this.robot && description === this.description) return;
+    this.description = description;
     this.robot = readUrdf(description);
     this.host.status(
       'Description',
@@ -169,6 +173,11 @@ class RobotModelDisplay extends Display {
     this.version = -1;
   }
 
+  /** The model stays: its meshes take long to load, and few recordings change it. */
+  override reset(): void {
+    this.version = -1;
+  }
+
   override tick(nowMs: number): void {
     const { tf } = this.context;
     if (tf.version === this.version) return;
@@ -178,7 +187,7 @@ class RobotModelDisplay extends Display {
     const prefix = this.get<string>('TF Prefix');
     const lost: string[] = [];
     for (const [name, group] of this.links) {
-      const frame = prefix ? `${prefix.replace(/\/$/, '')}/${name}` : name;
+      const frame = framePrefix(prefix) + name;
       const found = tf.lookup(this.context.fixedFrame(), frame);
       group.visible = found.kind === 'found';
       if (found.kind === 'found') {
@@ -206,6 +215,10 @@ class RobotModelDisplay extends Display {
     this.links.clear();
   }
 }
+
+/** RViz's prefix is a namespace; that of a second recording ends with a colon. */
+const framePrefix = (prefix: string) =>
+  !prefix || prefix.endsWith(':') ? prefix : `${prefix.replace(/\/$/, '')}/`;
 
 const TEXT = ['std_msgs/msg/String'];
 
