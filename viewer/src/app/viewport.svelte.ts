@@ -4,14 +4,29 @@ import type { Context } from '../displays/display';
 import type { Values } from '../displays/options';
 import { kindOf } from '../displays/registry';
 import { WorldDisplay } from '../displays/world';
-import { readRviz, writeRviz, type RvizTool, type Tree } from '../rviz/file';
+import {
+  readRviz,
+  writeRviz,
+  type RvizTool,
+  type RvizWindow,
+  type SavedRvizView,
+  type Tree,
+} from '../rviz/file';
+import type { RvizGroup } from '../rviz/groups';
 import { viewFrom, viewTo } from '../rviz/view';
 import type { Stage } from '../scene/stage';
 import { FIRST_VIEW, type ViewState } from '../scene/view';
 import type { App } from './app.svelte';
 import { bestFrame, prefixIn, suggestionFor } from './auto';
 import { Entry } from './entry.svelte';
-import { savedDisplay, type SavedDisplay } from './saved_display';
+import { DisplayGroup } from './display_group.svelte';
+import {
+  groupsFrom,
+  savedDisplay,
+  savedGroup,
+  type SavedDisplay,
+  type SavedGroup,
+} from './saved_display';
 import { t } from '../texts/language.svelte';
 
 /** Topic of a display. */
@@ -28,9 +43,19 @@ export interface ViewportState {
   background: string;
   isAutomatic: boolean;
   displays: SavedDisplay[];
+  groups: SavedGroup[];
+  savedViews: SavedView[];
   fileName: string;
   /** Checksum of the `.rviz` file of the launch file that was opened. */
   launched: number;
+}
+
+/** A camera that the user saved by a name. */
+export interface SavedView {
+  name: string;
+  view: ViewState;
+  /** View of the `.rviz` file that it was read from; written back while its camera is not changed. */
+  original?: SavedRvizView;
 }
 
 /** FNV-1a of a text. */
@@ -47,6 +72,8 @@ export class Viewport {
   fixedFrame = $state('map');
   isFrameChosen = $state(false);
   displays: Entry[] = $state([]);
+  groups: DisplayGroup[] = $state.raw([]);
+  savedViews: SavedView[] = $state.raw([]);
   view: ViewState = $state(structuredClone(FIRST_VIEW));
   background = $state('');
   /** Displays are added automatically until the user adds or removes one. */
@@ -236,6 +263,7 @@ export class Viewport {
     values: Values = {},
     isEnabled = true,
     isAutomatic = false,
+    group?: DisplayGroup,
   ): Entry | undefined {
     const kind = kindOf(kindClass);
     if (!kind) {
@@ -251,6 +279,7 @@ export class Viewport {
     );
     const entry = this.displays[this.displays.length - 1]!;
     entry.isAutomatic = isAutomatic;
+    entry.group = group;
     if (this.stage) this.begin(entry);
     return entry;
   }
@@ -274,6 +303,52 @@ export class Viewport {
     else entry.stop();
   }
 
+  setGroupEnabled(group: DisplayGroup, isEnabled: boolean): void {
+    group.isEnabled = isEnabled;
+    for (const entry of this.displays) {
+      if (!group.holds(entry.group)) continue;
+      if (entry.isShown && this.stage) this.begin(entry);
+      else if (!entry.isShown) entry.stop();
+    }
+  }
+
+  /** Adds an empty group; `move` puts displays into it. */
+  addGroup(name: string): DisplayGroup {
+    this.isAutomatic = false;
+    const group = new DisplayGroup(name, true);
+    this.groups = [...this.groups, group];
+    return group;
+  }
+
+  /** Removes a group; its displays and groups go to the group around it. */
+  removeGroup(group: DisplayGroup): void {
+    for (const entry of this.displays) if (entry.group === group) this.move(entry, group.parent);
+    this.groups = this.groups.filter((one) => one !== group);
+  }
+
+  /** Puts a display into a group, after the others in it. */
+  move(entry: Entry, group: DisplayGroup | undefined): void {
+    const rest = this.displays.filter((one) => one !== entry);
+    const last = rest.findLastIndex((one) => (group ? group.holds(one.group) : !one.group));
+    entry.group = group;
+    this.displays = rest.toSpliced(last + 1, 0, entry);
+    if (entry.isShown && this.stage) this.begin(entry);
+    else if (!entry.isShown) entry.stop();
+  }
+
+  // Saved views.
+
+  saveView(name: string): void {
+    const view = structuredClone(
+      this.stage?.view.state ?? ($state.snapshot(this.view) as ViewState),
+    );
+    this.savedViews = [...this.savedViews.filter((one) => one.name !== name), { name, view }];
+  }
+
+  removeView(name: string): void {
+    this.savedViews = this.savedViews.filter((one) => one.name !== name);
+  }
+
   setOption(entry: Entry, path: string, value: boolean | number | string): void {
     entry.values[path] = value;
     entry.display?.changed(path);
@@ -287,6 +362,7 @@ export class Viewport {
   clear(): void {
     for (const entry of this.displays) entry.stop();
     this.displays = [];
+    this.groups = [];
     this.app.models = [];
   }
 
@@ -307,7 +383,12 @@ export class Viewport {
       view: structuredClone(this.stage?.view.state ?? ($state.snapshot(this.view) as ViewState)),
       background: this.background,
       isAutomatic: this.isAutomatic,
-      displays: [...this.displays.map(savedDisplay), ...this.awaited],
+      displays: [
+        ...this.displays.map((entry) => savedDisplay(entry, this.groups)),
+        ...this.awaited,
+      ],
+      groups: this.groups.map(savedGroup),
+      savedViews: this.savedViews,
       fileName: this.fileName,
       launched: this.launched,
     };
@@ -319,10 +400,13 @@ export class Viewport {
     this.seen.clear();
     this.awaited = [];
     this.isAutomatic = state.isAutomatic !== false;
+    this.savedViews = state.savedViews ?? [];
     if (this.isAutomatic) this.awaited = [...(state.displays ?? [])];
     else {
+      this.groups = groupsFrom(state.groups ?? []);
       for (const one of state.displays ?? []) {
-        this.add(one.class, one.name, { ...one.values }, one.isEnabled);
+        const group = this.groups[one.group ?? -1];
+        this.add(one.class, one.name, { ...one.values }, one.isEnabled, false, group);
       }
     }
     this.background = state.background ?? '';
@@ -357,7 +441,8 @@ export class Viewport {
     if (frame) this.setFixedFrame(frame);
   }
 
-  openRviz(text: string, fileName = ''): void {
+  /** Opens a file; returns what it says about the window. */
+  openRviz(text: string, fileName = ''): RvizWindow {
     const file = readRviz(text);
     // RViz has no display for a simulated world: the present one stays, unless the file has one.
     const isWorldKept = !file.displays.some(({ class: name }) => name === WORLD_CLASS);
@@ -367,10 +452,23 @@ export class Viewport {
     this.rvizOriginal = file.original;
     this.fileName = fileName;
     this.rvizTools = file.tools;
+    const groups = new Map<RvizGroup, DisplayGroup>();
+    for (const group of file.groups) {
+      const parent = group.parent && groups.get(group.parent);
+      groups.set(group, new DisplayGroup(group.name, group.isEnabled, parent, group.original));
+    }
+    this.groups = [...groups.values()];
     for (const display of file.displays) {
-      const entry = this.add(display.class, display.name, display.values, display.isEnabled);
+      const { class: name, values, isEnabled } = display;
+      const group = display.group && groups.get(display.group);
+      const entry = this.add(name, display.name, values, isEnabled, false, group);
       if (entry) entry.original = display.original;
     }
+    this.savedViews = file.savedViews.map((saved) => ({
+      name: saved.name,
+      view: { ...structuredClone(FIRST_VIEW), ...viewFrom(saved) },
+      original: saved,
+    }));
     for (const { name, values, isEnabled } of worlds) {
       this.add(WORLD_CLASS, name, $state.snapshot(values) as Values, isEnabled);
     }
@@ -379,6 +477,7 @@ export class Viewport {
     this.setFixedFrame(file.fixedFrame);
     this.background = file.background;
     if (file.view) this.setView(viewFrom(file.view));
+    return file.window;
   }
 
   rvizText(): string {
@@ -391,8 +490,13 @@ export class Viewport {
         isEnabled: entry.isEnabled,
         values: $state.snapshot(entry.values) as Values,
         options: entry.kind.options,
+        group: entry.group,
         original: entry.original,
       })),
+      groups: this.groups,
+      savedViews: this.savedViews.map(
+        ({ name, view, original }) => original ?? { name, ...viewTo(view) },
+      ),
       view: viewTo(this.stage?.view.state ?? FIRST_VIEW),
       original: this.rvizOriginal,
     });

@@ -137,9 +137,19 @@ export class LayoutActions {
       if (file.size > MAX_FILE_BYTES) throw new Error(t().layouts.tooLarge(MAX_FILE_BYTES / 1e6));
       const text = await file.text();
       if (/\.json$/i.test(file.name) || /^\s*\{/.test(text)) await this.openJson(text, file.name);
-      else this.app.active.openRviz(text, file.name);
+      else this.openRviz(text, file.name);
     } catch (error) {
       this.app.notice('error', `${file.name}: ${(error as Error).message}`);
+    }
+  }
+
+  /** Opens an `.rviz` file in the active 3D view, and the panels that it names, as far as they exist here. */
+  openRviz(text: string, fileName: string): void {
+    const { panels, hidesDisplays } = this.app.active.openRviz(text, fileName);
+    const displays = this.workbench.panels.find(({ kind }) => kind === 'displays');
+    if (hidesDisplays && displays) this.workbench.close(displays);
+    if (panels.some((name) => name.startsWith('nav2_rviz_plugins/'))) {
+      this.workbench.open('navigate');
     }
   }
 

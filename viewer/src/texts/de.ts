@@ -478,4 +478,15 @@ export const de: Texts = {
     range: (min, max) => `${min} bis ${max}`,
     onlyChanged: 'Nur geänderte',
   },
+  groups: {
+    displaysOf: (name: string) => `Displays der Gruppe ${name}`,
+    show: (name: string) => `Gruppe ${name} zeigen`,
+  },
+  savedViews: {
+    title: 'Gespeicherte Ansichten',
+    none: 'Noch ist keine Ansicht gespeichert.',
+    name: 'Name der Ansicht',
+    save: 'Jetzige Ansicht speichern',
+    delete: (name: string) => `Ansicht ${name} löschen`,
+  },
 };

@@ -496,6 +496,17 @@ export const en = {
     range: (min: string, max: string) => `${min} to ${max}`,
     onlyChanged: 'Only changed',
   },
+  groups: {
+    displaysOf: (name: string) => `Displays of the group ${name}`,
+    show: (name: string) => `Show the group ${name}`,
+  },
+  savedViews: {
+    title: 'Saved views',
+    none: 'No view is saved yet.',
+    name: 'Name of the view',
+    save: 'Save the present view',
+    delete: (name: string) => `Delete the view ${name}`,
+  },
 };
 
 export type Texts = typeof en;
