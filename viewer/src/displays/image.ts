@@ -6,6 +6,7 @@ import { matrixOf } from '../scene/shapes';
 import { Display, type Kind } from './display';
 import { alpha, bool, choice, int, number, topic } from './options';
 import { extentOf, isDepth, toPixels, type Extent } from './pixels';
+import { t } from '../texts/language.svelte';
 
 const NONE: Extent = { min: 0, max: 1 };
 
@@ -14,20 +15,41 @@ class ImageDisplay extends Display {
   protected image?: ImageMessage;
   private screen?: ImageData;
   private extents: Extent[] = [];
+  /** True after a jump in a recording, until an image of the new time arrived. */
+  private isStale = false;
+  private received = 0;
+  /** Number of the image that is shown. */
+  private shownNumber = 0;
 
   override start(): void {
     super.start();
     this.host.picture?.(this.canvas);
   }
 
+  override reset(): void {
+    this.isStale = true;
+    super.reset();
+  }
+
+  override tick(_nowMs: number): void {
+    if (!this.isStale) return;
+    this.isStale = false;
+    this.shownNumber = ++this.received;
+    this.image = undefined;
+    const { width, height } = this.canvas;
+    this.canvas.getContext('2d')!.clearRect(0, 0, width, height);
+  }
+
   protected override receive(message: Message): void {
+    this.isStale = false;
+    this.received++;
     if ('format' in message) {
       void this.compressed(message as never);
       return;
     }
     const image = message as unknown as ImageMessage;
     const { width, height } = image;
-    if (!(width > 0 && height > 0)) throw new Error('The image has no pixels');
+    if (!(width > 0 && height > 0)) throw new Error(t().displays.noPixels);
     if (this.screen?.width !== width || this.screen.height !== height) {
       this.screen = new ImageData(width, height);
       this.extents = [];
@@ -64,18 +86,18 @@ class ImageDisplay extends Display {
     format: string;
     data: Uint8Array<ArrayBuffer>;
   }): Promise<void> {
+    const mine = this.received;
     try {
       const bitmap = await createImageBitmap(new Blob([message.data]));
+      // A newer image was decoded meanwhile.
+      if (mine < this.shownNumber) return;
+      this.shownNumber = mine;
       this.canvas.width = bitmap.width;
       this.canvas.height = bitmap.height;
       this.canvas.getContext('2d')!.drawImage(bitmap, 0, 0);
       this.host.status('Image', 'ok', `${bitmap.width} x ${bitmap.height}, ${message.format}`);
     } catch {
-      this.host.status(
-        'Image',
-        'error',
-        `The browser cannot decode the format "${message.format}"`,
-      );
+      this.host.status('Image', 'error', t().displays.imageFormat(message.format));
     }
   }
 
@@ -119,7 +141,7 @@ class CameraDisplay extends ImageDisplay {
       return;
     }
     if (!info) {
-      this.host.status('Camera', 'warn', 'No camera_info received for the image yet');
+      this.host.status('Camera', 'warn', t().displays.noCameraInfo);
       return;
     }
     const { stage, tf } = this.context;
@@ -251,7 +273,9 @@ export const image: Kind = {
   class: 'rviz_default_plugins/Image',
   also: ['rviz/Image'],
   title: 'Image',
-  help: 'Images, including depth images',
+  get help() {
+    return t().displayHelp.image;
+  },
   types: IMAGE,
   hasPicture: true,
   options: [...topic('Topic', '', IMAGE), ...range],
@@ -262,7 +286,9 @@ export const camera: Kind = {
   class: 'rviz_default_plugins/Camera',
   also: ['rviz/Camera'],
   title: 'Camera',
-  help: 'A camera image overlaid with the scene as seen by the camera',
+  get help() {
+    return t().displayHelp.camera;
+  },
   types: IMAGE,
   hasPicture: true,
   options: [
