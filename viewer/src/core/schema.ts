@@ -8,6 +8,8 @@ export interface Field {
   isComplex: boolean;
   /** Undefined: one value; "sequence": any number of values; a number: an array of this length. */
   array: undefined | 'sequence' | number;
+  /** Default value as the definition writes it. */
+  default?: string;
 }
 
 export interface Constant {
@@ -114,9 +116,10 @@ function parseOne(name: string, text: string): Definition {
       });
       continue;
     }
-    const field = /^(\S+)\s+([A-Za-z]\w*)/.exec(line);
+    const field = /^(\S+)\s+([A-Za-z]\w*)(?:\s+(.+))?$/.exec(line);
     if (!field) throw new Error(t().messages.badLine(name, line));
-    definition.fields.push(readField(own, field[1]!, field[2]!));
+    const read = readField(own, field[1]!, field[2]!);
+    definition.fields.push(field[3] === undefined ? read : { ...read, default: field[3].trim() });
   }
   return definition;
 }

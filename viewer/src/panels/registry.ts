@@ -73,6 +73,10 @@ const kinds: PanelKind[] = [
   { id: 'diagnostics', title: () => t().panelNames.diagnostics, icon: 'pulse', load: () => import('./DiagnosticsPanel.svelte') },
   // prettier-ignore
   { id: 'states', title: () => t().panelNames.states, icon: 'bands', isMany: true, load: () => import('./StatesPanel.svelte') },
+  // prettier-ignore
+  { id: 'graph', isLarge: true, title: () => t().panelNames.graph, icon: 'graph', load: () => import('./GraphPanel.svelte') },
+  // prettier-ignore
+  { id: 'actions', title: () => t().panelNames.actions, icon: 'goal', load: () => import('./ActionsPanel.svelte') },
 ];
 
 export const PANEL_KINDS: readonly PanelKind[] = kinds;
