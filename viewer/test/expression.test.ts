@@ -12,6 +12,8 @@ import { aligned, csv, statistics, valueAt } from '../src/plots/statistics';
 import { unitOf } from '../src/app/fields';
 import type { Series } from '../src/app/replay_control';
 import { validPlots } from '../src/plots/curves';
+import { ticks } from '../src/plots/ticks';
+import { pointsOnScreen, scalesOf } from '../src/plots/time_chart';
 import { RecordedSeries } from '../src/plots/recorded';
 
 const BASE: FieldRef = { topic: '/odom', path: 'twist' };
@@ -162,4 +164,44 @@ describe('plots of a layout', () => {
       { kind: 'xy', curves: [{ y: '/a:b', x: '/a:c' }] },
     ]));
   test('there is at least one', () => expect(validPlots([])).toHaveLength(1));
+});
+
+describe('charts', () => {
+  const line = (unit: string, values: number[]) => ({
+    label: '',
+    color: '',
+    unit,
+    samples: { times: values.map((_, i) => i), values },
+  });
+  test('round ticks', () => expect(ticks(0.3, 2.2, 4)).toEqual([0.5, 1, 1.5, 2]));
+  test('no ticks of nothing', () => expect(ticks(1, 1, 4)).toEqual([]));
+  test('a scale per unit', () => {
+    const scales = scalesOf([line('m', [0, 100]), line('rad', [5, 5])], { fromS: 0, toS: 1 });
+    expect(scales).toEqual([
+      { unit: 'm', min: -6, max: 106 },
+      { unit: 'rad', min: 4.5, max: 5.5 },
+    ]);
+  });
+  test('a peak among many samples stays', () => {
+    const values = Array.from({ length: 9000 }, (_, i) => (i === 4321 ? 7 : 0));
+    const { samples } = line('', values);
+    const span = { fromS: 0, toS: 9000 };
+    const points = pointsOnScreen(
+      samples,
+      span,
+      (x) => x / 90,
+      (y) => y,
+    );
+    expect(points.length).toBeLessThan(300);
+    expect(Math.max(...points.map((point) => point?.[1] ?? 0))).toBe(7);
+  });
+  test('NaN is a gap', () =>
+    expect(
+      pointsOnScreen(
+        line('', [1, NaN, 2]).samples,
+        { fromS: 0, toS: 2 },
+        (x) => x,
+        (y) => y,
+      ),
+    ).toEqual([[0, 1], undefined, [2, 2]]));
 });

@@ -1,5 +1,6 @@
 /** Chart of a value against another: path.x against path.y. */
-import { shortNumber, type ChartStyle } from './time_chart';
+import { shortNumber, ticks } from './ticks';
+import type { ChartStyle } from './time_chart';
 
 export interface XYLine {
   label: string;
@@ -28,18 +29,6 @@ const HEIGHT_PX = 280;
 const MARGIN = { left: 52, right: 10, top: 8, bottom: 34 };
 const REACH_PX = 24;
 const WHEEL_FACTOR = 1.2;
-
-/** Round numbers between two values, at most `most`. */
-export function ticks(from: number, to: number, most: number): number[] {
-  const span = to - from;
-  if (!(span > 0) || !Number.isFinite(span) || most < 1) return [];
-  const rough = span / most;
-  const power = 10 ** Math.floor(Math.log10(rough));
-  const step = [1, 2, 5, 10].map((m) => m * power).find((s) => s >= rough * 0.999)!;
-  const out: number[] = [];
-  for (let i = Math.ceil(from / step); i * step <= to + step * 1e-9; i++) out.push(i * step);
-  return out;
-}
 
 /** Box around all points, with a margin; of at least some size, so that a point has a scale. */
 export function boxOf(lines: readonly XYLine[]): Box {
@@ -118,7 +107,8 @@ export class XYChart {
   private draw(): void {
     const ratio = window.devicePixelRatio || 1;
     const width = this.holder.clientWidth;
-    if (width === 0) return;
+    this.canvas.style.display = this.lines.length === 0 ? 'none' : 'block';
+    if (width === 0 || this.lines.length === 0) return;
     this.canvas.width = width * ratio;
     this.canvas.height = HEIGHT_PX * ratio;
     const context = this.canvas.getContext('2d')!;
