@@ -72,11 +72,17 @@ const kinds: PanelKind[] = [
   // prettier-ignore
   { id: 'diagnostics', title: () => t().panelNames.diagnostics, icon: 'pulse', load: () => import('./DiagnosticsPanel.svelte') },
   // prettier-ignore
-  { id: 'states', title: () => t().panelNames.states, icon: 'bands', isMany: true, load: () => import('./StatesPanel.svelte') },
+  { id: 'states', title: () => t().panelNames.states, icon: 'bands', isMany: true, isKept: true, load: () => import('./StatesPanel.svelte') },
   // prettier-ignore
   { id: 'graph', isLarge: true, title: () => t().panelNames.graph, icon: 'graph', load: () => import('./GraphPanel.svelte') },
   // prettier-ignore
   { id: 'actions', title: () => t().panelNames.actions, icon: 'goal', load: () => import('./ActionsPanel.svelte') },
+  // prettier-ignore
+  { id: 'parameterSets', title: () => t().panelNames.parameterSets, icon: 'save', load: () => import('./ParameterSetsPanel.svelte') },
+  // prettier-ignore
+  { id: 'joints', title: () => t().panelNames.joints, icon: 'joint', isKept: true, load: () => import('./JointsPanel.svelte') },
+  // prettier-ignore
+  { id: 'table', title: () => t().panelNames.table, icon: 'table', isMany: true, load: () => import('./TablePanel.svelte') },
 ];
 
 export const PANEL_KINDS: readonly PanelKind[] = kinds;
