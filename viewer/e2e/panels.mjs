@@ -67,12 +67,6 @@ const STEPS = {
     assert.equal(await page.getByRole('button', { name: /slam_toolbox: mapping/ }).count(), 0);
   },
 
-  async states(page) {
-    const fields = [{ topic: '/spin/_action/status', path: 'status_list[0].status' }];
-    await show(page, 'states', { fields });
-    await page.getByText('no value yet').waitFor();
-  },
-
   async actions(page) {
     await show(page, 'actions', { action: '/wait' });
     await page.getByLabel('time.sec', { exact: true }).fill('2');
@@ -85,6 +79,13 @@ const STEPS = {
     await page.getByText('executing', { exact: true }).waitFor();
     await page.getByRole('button', { name: 'Cancel', exact: true }).click();
     await page.getByText('canceled', { exact: true }).waitFor();
+  },
+
+  /** After the actions: the state has the name of its constant. */
+  async states(page) {
+    const fields = [{ topic: '/wait/_action/status', path: 'status_list[0].status' }];
+    await show(page, 'states', { fields });
+    await page.getByText('STATUS_SUCCEEDED (4)').first().waitFor();
   },
 
   async graph(page) {
