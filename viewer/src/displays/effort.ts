@@ -1,4 +1,5 @@
 /** Effort: torques of joints as rings with an arrow head around the joint axes. */
+import { t } from '../texts/language.svelte';
 import { Color, Group, Matrix4, Mesh, Quaternion, Vector3 } from 'three';
 import type { Message } from '../core/cdr';
 import { type Pose } from '../core/pose';
@@ -56,12 +57,12 @@ class EffortDisplay extends Display {
     super.start();
     this.leaveDescription?.();
     const name = this.get<string>('Robot Description');
-    this.host.status('URDF', 'warn', `No message received on ${name} yet`);
+    this.host.status('URDF', 'warn', t().valueDisplays.noDescription(name));
     this.leaveDescription = this.context.subscribe(name, (message) => {
       try {
         const joints = readJoints(String(message.data)).filter(isDrawn);
         this.joints = new Map(joints.map((joint) => [joint.name, joint]));
-        this.host.status('URDF', 'ok', `${joints.length} revolute joints`);
+        this.host.status('URDF', 'ok', t().valueDisplays.revolute(joints.length));
         for (const joint of joints) this.note(`Joints/${joint.name}`);
       } catch (error) {
         this.host.status('URDF', 'error', (error as Error).message);
@@ -76,11 +77,11 @@ class EffortDisplay extends Display {
   protected override receive(message: Message): void {
     const state = message as never as JointState;
     if (state.effort.length === 0) {
-      this.host.status('Effort', 'warn', 'The joint states have no efforts');
+      this.host.status('Effort', 'warn', t().valueDisplays.noEfforts);
       return;
     }
     if (state.effort.length !== state.name.length) {
-      throw new Error(`${state.name.length} names and ${state.effort.length} efforts of joints`);
+      throw new Error(t().valueDisplays.effortCount(state.name.length, state.effort.length));
     }
     this.latest = { state, sinceMs: performance.now() };
   }
@@ -121,7 +122,7 @@ class EffortDisplay extends Display {
       group.add(this.ring(joint, effort, found.pose));
       count++;
     }
-    this.host.status('Effort', 'ok', `${count} joints`);
+    this.host.status('Effort', 'ok', t().valueDisplays.joints(count));
     return group;
   }
 
@@ -201,7 +202,9 @@ export const effort: Kind = {
   class: 'rviz_default_plugins/Effort',
   also: ['rviz/Effort'],
   title: 'Effort',
-  help: 'Efforts of joints as rings: the larger and the redder, the nearer to the limit',
+  get help() {
+    return t().valueDisplays.effort;
+  },
   types: JOINT_STATE,
   options,
   make: (...all) => new EffortDisplay(...all),

@@ -1,12 +1,12 @@
 /** InteractiveMarkers: handles of nodes that are moved, turned and clicked, with menus. */
-import { Group, Matrix4, Quaternion, Vector3, type Object3D } from 'three';
+import { Group, Matrix4, Mesh, Quaternion, Vector3, type Object3D } from 'three';
 import type { Message } from '../core/cdr';
 import { multiply } from '../core/pose';
 import { poseOf, seconds, stampOf } from '../core/types';
 import { MeshLibrary } from '../scene/meshes';
 import { axesGeometry, axesMaterial } from '../scene/shapes';
 import { dispose } from '../scene/stage';
-import { Mesh } from 'three';
+import { t } from '../texts/language.svelte';
 import { Display, type Kind } from './display';
 import { asRotation, drag, type Grip } from './interactive_drag';
 import { openMenu } from './interactive_menu';
@@ -96,11 +96,7 @@ class InteractiveMarkersDisplay extends Display {
     const service = `${this.namespace}/get_interactive_markers`;
     this.retryMs = nowMs + RETRY_MS;
     if (!this.context.hasService(service)) {
-      this.host.status(
-        'Markers',
-        'warn',
-        `The service ${service} is missing: only markers that change are shown`,
-      );
+      this.host.status('Markers', 'warn', t().valueDisplays.noService(service));
       return;
     }
     this.isAsking = true;
@@ -163,7 +159,7 @@ class InteractiveMarkersDisplay extends Display {
   }
 
   private count(): void {
-    this.host.status('Markers', 'ok', `${this.entries.size} interactive markers`);
+    this.host.status('Markers', 'ok', t().valueDisplays.interactive(this.entries.size));
     this.context.stage.invalidate();
   }
 
@@ -434,11 +430,7 @@ class InteractiveMarkersDisplay extends Display {
     const name = entry.marker.description || entry.marker.name;
     this.closeMenu = openMenu(nodes, name, at, (chosen) => {
       if (chosen.command_type !== 0) {
-        this.host.status(
-          'Menu',
-          'warn',
-          `"${chosen.title}" runs "${chosen.command}" in a terminal; a page cannot do that`,
-        );
+        this.host.status('Menu', 'warn', t().valueDisplays.command(chosen.title, chosen.command));
         return;
       }
       this.send(entry, control.name, EVENT.menuSelect, undefined, chosen.id);
@@ -512,7 +504,9 @@ export const interactiveMarkers: Kind = {
   class: 'rviz_default_plugins/InteractiveMarkers',
   also: ['rviz/InteractiveMarkers'],
   title: 'InteractiveMarkers',
-  help: 'Handles that nodes offer: drag, turn, click, or open their menus',
+  get help() {
+    return t().valueDisplays.interactiveMarkers;
+  },
   types: UPDATE,
   options,
   make: (context, values, host) => {

@@ -1,4 +1,5 @@
 /** Joints of a URDF with their axes and limits. */
+import { t } from '../texts/language.svelte';
 
 export interface Mimic {
   joint: string;
@@ -30,7 +31,7 @@ const numberOf = (element: Element | undefined, name: string): number | undefine
 export function readJoints(text: string, parser: DOMParser = new DOMParser()): Joint[] {
   const root = parser.parseFromString(text, 'text/xml').documentElement;
   if (!root || root.localName !== 'robot') {
-    throw new Error('The description is not a URDF: it has no <robot>');
+    throw new Error(t().valueDisplays.noUrdf);
   }
   const children = (element: Element, name: string) =>
     Array.from(element.children).filter((one) => one.localName === name);

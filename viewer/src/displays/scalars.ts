@@ -1,4 +1,5 @@
 /** FluidPressure, Illuminance, RelativeHumidity, Temperature: a measured value as a coloured point. */
+import { t } from '../texts/language.svelte';
 import type { Header } from '../core/types';
 import type { Rows } from '../scene/cloud';
 import { cloudOptions } from './cloud_appearance';
@@ -13,7 +14,7 @@ interface Scalar {
   min: number;
   max: number;
   isInverted?: boolean;
-  help: string;
+  help: () => string;
 }
 
 class ScalarDisplay extends PointsDisplay<{ header: Header }> {
@@ -64,7 +65,9 @@ function kind(scalar: Scalar): Kind {
     class: `rviz_default_plugins/${scalar.name}`,
     also: [`rviz/${scalar.name}`],
     title: scalar.name,
-    help: scalar.help,
+    get help() {
+      return scalar.help();
+    },
     types,
     options: [...topic('Topic', '', types, { isFiltered: true }), ...optionsOf(scalar)],
     make: (...all) => new ScalarDisplay(scalar.field, ...all),
@@ -76,21 +79,21 @@ export const fluidPressure = kind({
   field: 'fluid_pressure',
   min: 98_000,
   max: 105_000,
-  help: 'Pressure of air or water [Pa] as a coloured point',
+  help: () => t().valueDisplays.fluidPressure,
 });
 export const illuminance = kind({
   name: 'Illuminance',
   field: 'illuminance',
   min: 0,
   max: 1000,
-  help: 'Illuminance [lx] as a coloured point',
+  help: () => t().valueDisplays.illuminance,
 });
 export const relativeHumidity = kind({
   name: 'RelativeHumidity',
   field: 'relative_humidity',
   min: 0,
   max: 1,
-  help: 'Relative humidity (0 to 1) as a coloured point',
+  help: () => t().valueDisplays.relativeHumidity,
 });
 export const temperature = kind({
   name: 'Temperature',
@@ -98,5 +101,5 @@ export const temperature = kind({
   min: 0,
   max: 100,
   isInverted: true,
-  help: 'Temperature [°C] as a coloured point',
+  help: () => t().valueDisplays.temperature,
 });

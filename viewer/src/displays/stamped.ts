@@ -1,4 +1,5 @@
 /** GridCells, PointStamped, Wrench, TwistStamped and AccelStamped. */
+import { t } from '../texts/language.svelte';
 import { Group, Matrix4, Mesh, Quaternion, Vector3 } from 'three';
 import type { Pose } from '../core/pose';
 import type { Header, Point } from '../core/types';
@@ -44,7 +45,6 @@ export abstract class HistoryDisplay<M extends { header: Header }> extends Frame
 }
 
 const isFinitePoint = ({ x, y, z }: Point) => [x, y, z].every(Number.isFinite);
-const INVALID = 'The message has NaN or infinite values; it is not drawn';
 
 interface GridCellsMessage {
   header: Header;
@@ -58,7 +58,7 @@ class GridCellsDisplay extends FramedDisplay<GridCellsMessage> {
     this.empty();
     const { cell_width: width, cell_height: height, cells } = message;
     if (!(width > 0 && height > 0)) {
-      throw new Error(`The cells have the size ${width} by ${height} m; they are not drawn`);
+      throw new Error(t().valueDisplays.cellSize(width, height));
     }
     const valid = cells.filter(isFinitePoint);
     const tile = UNIT_BOX.clone().scale(width, height, 1e-3);
@@ -70,14 +70,14 @@ class GridCellsDisplay extends FramedDisplay<GridCellsMessage> {
     this.root.add(mesh);
     this.put(mesh, fixedFromFrame);
     const lost = cells.length - valid.length;
-    const text = `${valid.length} cells${lost ? `; ${lost} with NaN are not drawn` : ''}`;
+    const text = t().valueDisplays.cells(valid.length, lost);
     this.host.status('Cells', lost ? 'warn' : 'ok', text);
   }
 }
 
 class PointDisplay extends HistoryDisplay<{ header: Header; point: Point }> {
   protected override build({ point }: { point: Point }): Group {
-    if (!isFinitePoint(point)) throw new Error(INVALID);
+    if (!isFinitePoint(point)) throw new Error(t().valueDisplays.notFinite);
     const group = new Group();
     const paint = surface(colorOf(this.get('Color')), this.get<number>('Alpha'));
     const ball = new Mesh(UNIT_SPHERE, paint);
@@ -141,7 +141,8 @@ class ScrewDisplay extends HistoryDisplay<{ header: Header }> {
 
   protected override build(message: { header: Header }): Group {
     const { linear, angular } = this.names.of(message as never);
-    if (!isFinitePoint(linear) || !isFinitePoint(angular)) throw new Error(INVALID);
+    if (!isFinitePoint(linear) || !isFinitePoint(angular))
+      throw new Error(t().valueDisplays.notFinite);
     const group = new Group();
     this.add(group, this.names.linear, linear, false);
     this.add(group, this.names.angular, angular, true);
@@ -203,7 +204,7 @@ function kind(
   name: string,
   also: string[],
   type: string,
-  help: string,
+  help: () => string,
   options: Option[],
   make: (...all: Parameters<Kind['make']>) => Display,
 ): Kind {
@@ -211,7 +212,9 @@ function kind(
     class: `rviz_default_plugins/${name}`,
     also,
     title: name,
-    help,
+    get help() {
+      return help();
+    },
     types: [type],
     options: [...topic('Topic', '', [type], { isFiltered: true }), ...options],
     make,
@@ -222,7 +225,7 @@ export const gridCells = kind(
   'GridCells',
   ['rviz/GridCells'],
   'nav_msgs/msg/GridCells',
-  'Cells of a grid, such as obstacles',
+  () => t().valueDisplays.gridCells,
   [color('Color', '25; 255; 0'), alpha('Alpha', 1)],
   (...all) => new GridCellsDisplay(...all),
 );
@@ -231,7 +234,7 @@ export const pointStamped = kind(
   'PointStamped',
   ['rviz/PointStamped'],
   'geometry_msgs/msg/PointStamped',
-  'A point as a ball',
+  () => t().valueDisplays.pointStamped,
   [
     color('Color', '204; 41; 204'),
     alpha('Alpha', 1),
@@ -245,7 +248,7 @@ export const wrench = kind(
   'Wrench',
   ['rviz/WrenchStamped', 'rviz/Wrench', 'rviz_default_plugins/WrenchStamped'],
   'geometry_msgs/msg/WrenchStamped',
-  'A force and a torque as arrows',
+  () => t().valueDisplays.wrench,
   screwOptions(FORCE),
   (...all) => new ScrewDisplay(FORCE, ...all),
 );
@@ -253,7 +256,7 @@ export const twistStamped = kind(
   'TwistStamped',
   ['rviz/TwistStamped'],
   'geometry_msgs/msg/TwistStamped',
-  'Linear and angular velocity as arrows',
+  () => t().valueDisplays.twistStamped,
   [...screwOptions(TWIST), bool('Hide Small Values', true)],
   (...all) => new ScrewDisplay(TWIST, ...all),
 );
@@ -262,7 +265,7 @@ export const accelStamped = kind(
   'AccelStamped',
   ['rviz/AccelStamped'],
   'geometry_msgs/msg/AccelStamped',
-  'Linear and angular acceleration as arrows',
+  () => t().valueDisplays.accelStamped,
   [...screwOptions(ACCEL), bool('Hide Small Values', true)],
   (...all) => new ScrewDisplay(ACCEL, ...all),
 );

@@ -826,4 +826,34 @@ export const de: Texts = {
     clear: 'Leeren',
     noArray: (path) => `${path} ist leer.`,
   },
+  valueDisplays: {
+    gridCells: 'Zellen eines Gitters, etwa Hindernisse',
+    pointStamped: 'Ein Punkt als Kugel',
+    wrench: 'Eine Kraft und ein Drehmoment als Pfeile',
+    twistStamped: 'Lineare Geschwindigkeit und Drehgeschwindigkeit als Pfeile',
+    accelStamped: 'Lineare Beschleunigung und Drehbeschleunigung als Pfeile',
+    fluidPressure: 'Druck von Luft oder Wasser [Pa] als farbiger Punkt',
+    illuminance: 'Beleuchtungsstärke [lx] als farbiger Punkt',
+    relativeHumidity: 'Relative Luftfeuchte (0 bis 1) als farbiger Punkt',
+    temperature: 'Temperatur [°C] als farbiger Punkt',
+    effort: 'Kräfte der Gelenke als Ringe: je größer und röter, desto näher an der Grenze',
+    interactiveMarkers:
+      'Griffe, die Nodes anbieten: ziehen, drehen, klicken oder ihre Menüs öffnen',
+    notFinite: 'Die Nachricht enthält NaN oder unendliche Werte; sie wird nicht gezeichnet',
+    cellSize: (width, height) =>
+      `Die Zellen haben die Größe ${width} mal ${height} m; sie werden nicht gezeichnet`,
+    cells: (count, lost) =>
+      `${count} Zellen${lost ? `; ${lost} mit NaN werden nicht gezeichnet` : ''}`,
+    noDescription: (topic) => `Auf ${topic} wurde noch keine Nachricht empfangen`,
+    noUrdf: 'Die Beschreibung ist kein URDF: Sie hat kein <robot>',
+    revolute: (count) => `${count} Drehgelenke`,
+    noEfforts: 'Die Gelenkstellungen enthalten keine Kräfte',
+    effortCount: (names, efforts) => `${names} Namen und ${efforts} Kräfte von Gelenken`,
+    joints: (count) => `${count} Gelenke`,
+    noService: (service) =>
+      `Der Service ${service} fehlt: Nur Marker, die sich ändern, werden gezeigt`,
+    interactive: (count) => `${count} interaktive Marker`,
+    command: (title, command) =>
+      `„${title}“ führt „${command}“ in einem Terminal aus; eine Seite kann das nicht`,
+  },
 };

@@ -832,6 +832,37 @@ export const en = {
     clear: 'Clear',
     noArray: (path: string) => `${path} is empty.`,
   },
+  /** Displays of vectors, values, efforts and interactive markers. */
+  valueDisplays: {
+    gridCells: 'Cells of a grid, such as obstacles',
+    pointStamped: 'A point as a ball',
+    wrench: 'A force and a torque as arrows',
+    twistStamped: 'Linear and angular velocity as arrows',
+    accelStamped: 'Linear and angular acceleration as arrows',
+    fluidPressure: 'Pressure of air or water [Pa] as a coloured point',
+    illuminance: 'Illuminance [lx] as a coloured point',
+    relativeHumidity: 'Relative humidity (0 to 1) as a coloured point',
+    temperature: 'Temperature [°C] as a coloured point',
+    effort: 'Efforts of joints as rings: the larger and the redder, the nearer to the limit',
+    interactiveMarkers: 'Handles that nodes offer: drag, turn, click, or open their menus',
+    notFinite: 'The message has NaN or infinite values; it is not drawn',
+    cellSize: (width: number, height: number) =>
+      `The cells have the size ${width} by ${height} m; they are not drawn`,
+    cells: (count: number, lost: number) =>
+      `${count} cells${lost ? `; ${lost} with NaN are not drawn` : ''}`,
+    noDescription: (topic: string) => `No message received on ${topic} yet`,
+    noUrdf: 'The description is not a URDF: it has no <robot>',
+    revolute: (count: number) => `${count} revolute joints`,
+    noEfforts: 'The joint states have no efforts',
+    effortCount: (names: number, efforts: number) =>
+      `${names} names and ${efforts} efforts of joints`,
+    joints: (count: number) => `${count} joints`,
+    noService: (service: string) =>
+      `The service ${service} is missing: only markers that change are shown`,
+    interactive: (count: number) => `${count} interactive markers`,
+    command: (title: string, command: string) =>
+      `"${title}" runs "${command}" in a terminal; a page cannot do that`,
+  },
 };
 
 export type Texts = typeof en;
