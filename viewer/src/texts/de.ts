@@ -489,4 +489,62 @@ export const de: Texts = {
     save: 'Jetzige Ansicht speichern',
     delete: (name: string) => `Ansicht ${name} löschen`,
   },
+  foxglove: {
+    title: 'Nicht importiert',
+    intro: (file: string) => `${file} ist geöffnet. Diese Teile haben hier kein Gegenstück:`,
+    close: 'Schließen',
+    tooDeep: 'Das Layout ist zu tief verschachtelt.',
+    nothing: 'Kein Panel dieses Layouts gibt es hier.',
+    noPanel: (type: string) => `Panel ${type}: Diese Version hat kein solches Panel.`,
+    onlyOne: (type: string) => `Ein weiteres Panel ${type}: Hier gibt es eines, das alles zeigt.`,
+    splitInTab: (title: string) => `Teilung im Reiter „${title}“: Aus ihren Panels wurden Reiter.`,
+    filter: (path: string) =>
+      `${path}: Filter, Variablen und Funktionen in Pfaden wurden entfernt.`,
+    noLayer: (label: string) =>
+      `Ebene ${label}: Nur Gitter und Roboter aus einem Topic sind bekannt.`,
+    noDisplay: (topic: string, type: string) => `${topic}: Kein Display zeigt ${type}.`,
+    unknownTopics: (topics: string) =>
+      `Topics, die es jetzt nicht gibt und deren Typ daher unbekannt ist: ${topics}. Öffnen Sie die Datei erneut, wenn es sie gibt.`,
+    scripts: 'User Scripts: Diese Seite führt keine Skripte aus.',
+    variables: (names: string) => `Variablen: ${names}.`,
+  },
+  share: {
+    title: 'Teilen',
+    copyLink: 'Link zu dieser Ansicht kopieren',
+    copied: 'Der Link ist kopiert. Er enthält Layout, Displays, Fixed Frames und Kameras.',
+    copiedAt: (time: string) =>
+      `Der Link ist kopiert. Er enthält das Layout und die Zeit ${time} s.`,
+    copyByHand: 'Kopieren Sie diesen Link:',
+    tooLong: (length: number, limit: number) =>
+      `Der Link hätte ${length} Zeichen, mehr als die ${limit}, die Mail- und Chatprogramme behalten. Exportieren Sie stattdessen das Layout als Datei.`,
+    fromLink:
+      'Dieses Layout kam mit einem Link. Speichern Sie es unter Layouts, um es zu behalten.',
+    linkIsBroken: (why: string) =>
+      `Der Link enthält kein lesbares Layout (vielleicht wurde er gekürzt): ${why}`,
+    screenshot: 'Bild der 3D-Ansicht',
+    pageShot: 'Bild der Seite',
+    saved: (file: string) => `${file} ist gespeichert`,
+    noPageShot: 'Der Browser gab kein Bild der Seite',
+    video: 'Video der 3D-Ansicht aufnehmen',
+    stopVideo: 'Video beenden',
+    videoExact: 'Video der Wiedergabe, Bild für Bild',
+    videoFrom: 'Von [s]',
+    videoTo: 'Bis [s]',
+    videoRate: 'Sekunden der Wiedergabe je Sekunde Video',
+    makeVideo: 'Video erstellen',
+    cancel: 'Abbrechen',
+    progress: (done: number, all: number) => `Bild ${done} von ${all}`,
+    recordsVideo: (seconds: string) => `Video: ${seconds} s`,
+    noVideo:
+      'Dieser Browser kann kein Video aufnehmen: Ihm fehlen WebCodecs und MediaRecorder. Nehmen Sie ein aktuelles Chromium, Firefox oder Safari.',
+    noCodec: 'Der Browser hat keinen Encoder für H.264, VP9 oder VP8.',
+    noView: 'Es gibt keine 3D-Ansicht, die aufgenommen werden kann.',
+    videoFailed: (why: string) => `Das Video ist fehlgeschlagen: ${why}`,
+    shortVideo: 'Das Video hat kein Bild. Nehmen Sie länger auf.',
+    record: 'Lauf auf dem Server aufzeichnen',
+    stopRecord: 'Aufzeichnung beenden',
+    recording: 'Alle Topics werden aufgezeichnet.',
+    recorded: 'Die Aufzeichnung ist gespeichert. Das Panel Aufzeichnungen spielt sie ab.',
+    recordFailed: (why: string) => `Der Lauf wird nicht aufgezeichnet: ${why}`,
+  },
 };
