@@ -1,5 +1,5 @@
 /** Recordings of the server: opening, uploading, comparing, recording the running system, and back to it. */
-import type { Recording } from '../core/protocol';
+import type { JobKind, ParameterValue, Recording } from '../core/protocol';
 import type { UploadedFile } from '../core/replay_requests';
 import { t } from '../texts/language.svelte';
 import type { App } from './app.svelte';
@@ -170,6 +170,16 @@ export class Recordings {
     } finally {
       this.uploads = this.uploads.filter((one) => one.id !== id);
     }
+  }
+
+  /** Runs an estimator on a recording; its result is compared with what is open. */
+  run(kind: JobKind, recording: number, parameters: Record<string, ParameterValue>): void {
+    const before = new Set(this.list.map((one) => one.id));
+    this.awaited.push({
+      isMatch: (one) => !before.has(one.id) && one.origin?.kind === kind,
+      wanted: 'compare',
+    });
+    this.requests.startJob(kind, recording, parameters);
   }
 
   /** Records the running system, or ends the recording, which is then in the list. */

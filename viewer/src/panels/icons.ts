@@ -39,5 +39,16 @@ export const ICONS = {
     'M6 8a2.500 2.500 0 100-5 2.500 2.500 0 000 5zM18 14a2.500 2.500 0 100-5 2.500 2.500 0 000 5zM8 21a2.500 2.500 0 100-5 2.500 2.500 0 000 5zM8 7l8 4M16 13l-6 4',
   sliders: 'M4 7h8M16 7h4M14 5v4M4 17h4M12 17h8M10 15v4M4 12h12M20 12h0M18 10v4',
   plot: 'M4 4v16h16M7 15l4-5 3 3 5-7',
+  stepBack: 'M19 5l-9 7 9 7zM6 5v14',
+  markBack: 'M18 5l-7 7 7 7M11 5l-7 7 7 7',
+  markForward: 'M6 5l7 7-7 7M13 5l7 7-7 7',
+  loopFrom: 'M6 4v16M6 12h12M14 8l4 4-4 4',
+  loopTo: 'M18 4v16M18 12H6M10 8l-4 4 4 4',
+  loopOff: 'M4 12a8 5 0 1016 0 8 5 0 10-16 0M5 20L19 4',
+  minus: 'M5 12h14',
+  fit: 'M3 5v14M21 5v14M6 12h12M9 9l-3 3 3 3M15 9l3 3-3 3',
+  bars: 'M4 20V10M9 20V4M14 20v-7M19 20V8',
+  record: 'M12 4a8 8 0 100 16 8 8 0 000-16zM12 9a3 3 0 100 6 3 3 0 000-6z',
+  compare: 'M4 5h7v14H4zM13 5h7v14h-7z',
 } as const;
 export type IconName = keyof typeof ICONS;
