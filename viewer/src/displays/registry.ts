@@ -5,6 +5,7 @@ import { axes, grid, tf } from './frames';
 import { camera, image } from './image';
 import { visualizeLidar } from './lidar';
 import { map } from './map';
+import { mapDifference } from './map_difference';
 import { marker, markerArray } from './markers';
 import {
   odometry,
@@ -28,6 +29,7 @@ export const KINDS: readonly Kind[] = [
   image,
   laserScan,
   map,
+  mapDifference,
   marker,
   markerArray,
   odometry,
