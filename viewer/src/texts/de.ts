@@ -544,8 +544,5 @@ export const de: Texts = {
     shortVideo: 'Das Video hat kein Bild. Nehmen Sie länger auf.',
     record: 'Lauf auf dem Server aufzeichnen',
     stopRecord: 'Aufzeichnung beenden',
-    recording: 'Alle Topics werden aufgezeichnet.',
-    recorded: 'Die Aufzeichnung ist gespeichert. Das Panel Aufzeichnungen spielt sie ab.',
-    recordFailed: (why: string) => `Der Lauf wird nicht aufgezeichnet: ${why}`,
   },
 };

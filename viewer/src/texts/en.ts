@@ -559,9 +559,6 @@ export const en = {
     shortVideo: 'The video has no frame. Record longer.',
     record: 'Record the run on the server',
     stopRecord: 'Stop the recording',
-    recording: 'All topics are recorded.',
-    recorded: 'The recording is saved. The panel Recordings plays it.',
-    recordFailed: (why: string) => `The run is not recorded: ${why}`,
   },
 };
 
