@@ -48,7 +48,8 @@ export function splitPath(text: string): { topic: string; path: string; isPlain:
   const path = quoted ? quoted[2]! : dot < 0 ? '' : text.slice(dot).replace(/^\./, '');
   // Filters, slices, variables and functions of Foxglove.
   const isPlain = !/[{}$@:]/.test(path);
-  return { topic, path: path.replace(/\.?@.*$/, ''), isPlain };
+  const plain = path.replace(/\{[^}]*\}/g, '').replace(/\.?@.*$/, '');
+  return { topic, path: plain, isPlain };
 }
 
 /** Panel here for each kind of panel there. */
