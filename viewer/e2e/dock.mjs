@@ -48,9 +48,8 @@ const share = async (page, name) => {
 /** A tab is dragged to the side of another panel, and another one is split off by its menu. */
 async function docks(page) {
   assert.deepEqual((await groups(page)).length, 3, 'displays, view, tabs');
-  const from = await tab(page, 'Log').boundingBox();
   const view = await page.locator('canvas').first().boundingBox();
-  await page.mouse.move(from.x + 10, from.y + 8);
+  await tab(page, 'Log').hover({ position: { x: 12, y: 10 } });
   await page.mouse.down();
   await page.mouse.move(view.x + view.width / 2, view.y + view.height - 120, { steps: 8 });
   await page.mouse.move(view.x + view.width / 2, view.y + view.height - 30, { steps: 8 });
