@@ -92,6 +92,7 @@ export async function keyboard(chrome, url) {
       'Services',
       'Plot',
       'Log',
+      'Recordings',
       'Drive',
     ]) {
       await page.keyboard.press('ArrowRight');

@@ -11,7 +11,7 @@ import {
 import { aligned, csv, statistics, valueAt } from '../src/plots/statistics';
 import { unitOf } from '../src/app/fields';
 import type { Series } from '../src/app/replay_control';
-import { validPlots } from '../src/plots/curves';
+import { fieldList, validPlots } from '../src/plots/curves';
 import { ticks } from '../src/plots/ticks';
 import { pointsOnScreen, scalesOf } from '../src/plots/time_chart';
 import { RecordedSeries } from '../src/plots/recorded';
@@ -162,6 +162,10 @@ describe('plots of a layout', () => {
   test('what is no curve is left out', () =>
     expect(validPlots([{ kind: 'xy', curves: [{ y: 1 }, { y: '/a:b', x: '/a:c' }] }, 7])).toEqual([
       { kind: 'xy', curves: [{ y: '/a:b', x: '/a:c' }] },
+    ]));
+  test('fields', () =>
+    expect(fieldList([{ topic: '/a', path: 'b', x: 1 }, null, 3])).toEqual([
+      { topic: '/a', path: 'b' },
     ]));
   test('there is at least one', () => expect(validPlots([])).toHaveLength(1));
 });

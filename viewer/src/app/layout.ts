@@ -40,6 +40,8 @@ export interface Arrangement {
 
 export interface Layout extends Arrangement {
   panels: Record<string, SavedPanel>;
+  /** Kinds that appeared by themselves; those that the user closed stay closed. */
+  offered?: string[];
 }
 
 /** Version of layout files. A reader refuses newer ones. */
@@ -160,7 +162,10 @@ export function readLayout(value: unknown): Layout {
   const whole = root ?? { tabs: [...left] };
   if (panelsOf(whole).length === 0) throw new Error('The layout has no panels');
   const active = typeof value.active === 'string' ? value.active : undefined;
-  return { panels, root: whole, floating, active };
+  const offered = (Array.isArray(value.offered) ? value.offered : []).filter(
+    (kind) => typeof kind === 'string',
+  );
+  return { panels, root: whole, floating, active, offered };
 }
 
 export function writeLayout(layout: Layout): JsonObject {

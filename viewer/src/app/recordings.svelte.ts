@@ -1,5 +1,5 @@
 /** Recordings of the server: opening, uploading, comparing, recording the running system, and back to it. */
-import type { Recording } from '../core/protocol';
+import type { JobKind, ParameterValue, Recording } from '../core/protocol';
 import type { UploadedFile } from '../core/replay_requests';
 import { t } from '../texts/language.svelte';
 import type { App } from './app.svelte';
@@ -41,6 +41,8 @@ export class Recordings {
   connected(metadata: Record<string, string>): void {
     this.isServed = this.app.client.capabilities.includes('recordings');
     this.isReplayOnly = metadata.mode === 'replay';
+    // Loaded while the server opens the recording.
+    if (this.isReplayOnly) void import('./replay.svelte');
   }
 
   /** The server sent its list, or the connection was lost. */
@@ -48,7 +50,10 @@ export class Recordings {
     const { app } = this;
     if (app.client.state !== 'open') return;
     this.list = this.requests.recordings;
+    const isFinished = this.isRecording && !this.requests.isRecording;
     this.isRecording = this.requests.isRecording;
+    const added = this.list.filter((one) => !this.known.has(one.id));
+    if (isFinished && added[0]) app.notice('info', t().recordings.recorded(added[0].name));
     for (const one of this.list) this.note(one);
     const ids = new Set(this.list.map((one) => one.id));
     for (const id of this.known) if (!ids.has(id)) this.known.delete(id);
@@ -170,6 +175,16 @@ export class Recordings {
     } finally {
       this.uploads = this.uploads.filter((one) => one.id !== id);
     }
+  }
+
+  /** Runs an estimator on a recording; its result is compared with what is open. */
+  run(kind: JobKind, recording: number, parameters: Record<string, ParameterValue>): void {
+    const before = new Set(this.list.map((one) => one.id));
+    this.awaited.push({
+      isMatch: (one) => !before.has(one.id) && one.origin?.kind === kind,
+      wanted: 'compare',
+    });
+    this.requests.startJob(kind, recording, parameters);
   }
 
   /** Records the running system, or ends the recording, which is then in the list. */

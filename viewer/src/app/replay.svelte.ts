@@ -1,12 +1,14 @@
 /** Replay of one or more recordings: the playhead and what the timeline shows of them. */
-import { inverse, multiply, IDENTITY, type Pose } from '../core/pose';
+import { IDENTITY, type Pose } from '../core/pose';
 import type { Mark, Recording } from '../core/protocol';
 import { ReplaySource } from '../core/replay';
 import type { Track } from '../core/replay_track';
 import { seconds, stampOf } from '../core/types';
 import type { App } from './app.svelte';
 import { bestFrame, prefixIn } from './auto';
+import { Comparison } from './replay_compare.svelte';
 import type { ReplayControl, Series } from './replay_control';
+import { tieOf } from './replay_difference';
 
 /** Parts of the recording for which messages are counted. */
 const DENSITY_BINS = 1000;
@@ -45,6 +47,7 @@ export class Replay implements ReplayControl {
   /** Topic by whose messages the playhead steps; empty for all that are shown. */
   stepTopic = $state('');
   readonly source: ReplaySource;
+  readonly comparison: Comparison;
   /** Transform from the map of a further recording to that of the first, by prefix. */
   private ties = new Map<string, Pose>();
   /** Time of `/clock` minus log time [s]. */
@@ -67,12 +70,14 @@ export class Replay implements ReplayControl {
     this.unsubscribeClock = this.source.subscribe('/clock', (message, _topic, _bytes, timeS) => {
       this.clockShiftS = seconds(message.clock as never) - timeS!;
     });
+    this.comparison = new Comparison(app, this);
     this.addRow(this.source.tracks[0]!);
     this.bounds();
     const loop = (nowMs: number) => {
       if (this.isStopped) return;
       this.frame = requestAnimationFrame(loop);
       this.source.tick(nowMs);
+      this.comparison.link();
       this.follow();
     };
     this.frame = requestAnimationFrame(loop);
@@ -104,6 +109,11 @@ export class Replay implements ReplayControl {
 
   get endS(): number {
     return this.source.timeS(this.endNs);
+  }
+
+  /** Time of the messages' stamps at a position: that of `/clock` where it was recorded. */
+  stampS(positionNs: number): number {
+    return this.source.timeS(positionNs) + this.clockShiftS;
   }
 
   /** False while no newer transforms come: messages are then placed by the newest ones. */
@@ -208,6 +218,7 @@ export class Replay implements ReplayControl {
   }
 
   remove(track: Track): void {
+    if (this.source.tracks[1] === track) this.comparison.stop();
     this.rows.find((row) => row.track === track)?.stopMarks?.();
     this.rows = this.rows.filter((row) => row.track !== track);
     this.ties.delete(track.prefix);
@@ -282,6 +293,7 @@ export class Replay implements ReplayControl {
   setTie(prefix: string, firstFromOther: Pose): void {
     this.ties.set(prefix, firstFromOther);
     this.addTies();
+    this.comparison.compareTrajectories();
     for (const viewport of this.app.viewports) viewport.rewound();
   }
 
@@ -327,7 +339,7 @@ export class Replay implements ReplayControl {
     const firstFromRobot = tf.lookup(first, frame);
     const otherFromRobot = tf.lookup(other, prefix + frame);
     if (firstFromRobot.kind !== 'found' || otherFromRobot.kind !== 'found') return undefined;
-    return multiply(firstFromRobot.pose, inverse(otherFromRobot.pose));
+    return tieOf(firstFromRobot.pose, otherFromRobot.pose);
   }
 
   private shown(): void {
@@ -347,6 +359,7 @@ export class Replay implements ReplayControl {
 
   stop(): void {
     this.isStopped = true;
+    this.comparison.stop();
     cancelAnimationFrame(this.frame);
     for (const row of this.rows) row.stopMarks?.();
     this.unsubscribeClock();

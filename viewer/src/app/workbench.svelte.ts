@@ -24,6 +24,7 @@ export interface KindFacts {
   title: () => string;
   isMany?: boolean;
   isFirst?: boolean;
+  isOffered?: unknown;
   /** True for panels that are placed beside the 3D view, not among the tabs. */
   isLarge?: boolean;
 }
@@ -49,8 +50,12 @@ export class Workbench implements PanelHost {
   active: Panel | undefined = $state.raw();
   /** Increases with each change that is worth saving. */
   version = $state(0);
+  /** Opens a file with a layout or with displays; set by the page. */
+  openFile?: (name: string, text: string) => Promise<void>;
   private arranger?: Arranger;
   private views = new Map<Panel, Viewport>();
+  /** Kinds that were offered in this layout. */
+  private offered: string[] = [];
   /** Where new panels go: the tabs used last. */
   private lastTabs = '';
 
@@ -85,9 +90,9 @@ export class Workbench implements PanelHost {
     }
   }
 
-  private make(id: string, saved: SavedPanel): Panel {
+  private make(id: string, saved: SavedPanel, isAskedFor = false): Panel {
     const panel = new Panel(id, saved.kind, this, saved.state, saved.title ?? '');
-    if (saved.kind === VIEW_KIND) this.addView(panel, saved.state);
+    if (saved.kind === VIEW_KIND) this.addView(panel, saved.state, isAskedFor);
     this.panels = [...this.panels, panel];
     return panel;
   }
@@ -129,6 +134,21 @@ export class Workbench implements PanelHost {
     if (facts.isLarge && view) this.put(panel, view.id, 'right');
     else if (tabs) this.put(panel, tabs.tabs[0], 'center');
     else this.put(panel, view?.id ?? panelsOf(this.arrangement.root)[0], 'right');
+  }
+
+  /** Adds a tab for a kind that has become useful, once; the user may close it. */
+  offer(kind: string): void {
+    if (this.offered.includes(kind)) return;
+    this.offered = [...this.offered, kind];
+    const facts = this.kinds.find(({ id }) => id === kind);
+    if (!facts || this.panels.some((panel) => panel.kind === kind)) return;
+    const { active } = this;
+    const tabs = tabsOf(this.arrangement.root).find((one) => one.tabs.includes(this.lastTabs));
+    const shown = this.panel(tabs?.active ?? '');
+    this.place(this.make(kind, { kind, state: {} }), facts);
+    if (shown) this.show(shown);
+    if (active) this.show(active);
+    this.changed();
   }
 
   private put(panel: Panel, beside: string | undefined, side: Side): void {
@@ -199,13 +219,14 @@ export class Workbench implements PanelHost {
     return [...this.views].find(([, one]) => one.id === view.id)?.[0];
   }
 
-  private addView(panel: Panel, state: JsonObject): void {
+  private addView(panel: Panel, state: JsonObject, isAskedFor: boolean): void {
     const shown = new Set([...this.views.values()].map(({ id }) => id));
     const free = this.app.viewports.find(({ id }) => !shown.has(id));
     const view = free ?? this.app.addViewport();
     this.views.set(panel, view);
     panel.onSave = () => view.snapshot() as unknown as JsonObject;
-    if (Object.keys(state).length > 0) view.restore(state as Partial<ViewportState>);
+    if (Object.keys(state).length === 0) return;
+    view.restore(state as Partial<ViewportState>, isAskedFor);
   }
 
   /** Gives each 3D view that has no panel one: another part of the page added it. */
@@ -221,7 +242,9 @@ export class Workbench implements PanelHost {
 
   /** The first layout: displays at the left, the 3D view, tabs at the right. */
   first(widthPx: number): Layout {
-    const tabs = this.kinds.filter(({ isFirst }) => isFirst).map(({ id }) => id);
+    const tabs = this.kinds
+      .filter(({ isFirst, isOffered }) => isFirst && !isOffered)
+      .map(({ id }) => id);
     const ids = ['displays', VIEW_KIND, ...tabs];
     const [left, right] = [LEFT_PX / widthPx, RIGHT_PX / widthPx];
     return {
@@ -237,6 +260,7 @@ export class Workbench implements PanelHost {
       },
       floating: [],
       active: VIEW_KIND,
+      offered: [],
     };
   }
 
@@ -247,11 +271,14 @@ export class Workbench implements PanelHost {
         { kind: panel.kind, title: panel.given, state: panel.saved() },
       ]),
     );
-    return { panels, ...this.arrangement, active: this.active?.id };
+    return { panels, ...this.arrangement, active: this.active?.id, offered: this.offered };
   }
 
-  /** Shows a layout. 3D views with the same ids go on, other panels are made anew. */
-  restore(layout: Layout): void {
+  /**
+   * Shows a layout. 3D views with the same ids go on, other panels are made anew. A layout that the user
+   * `isAskedFor` is not replaced by the file of a launch file.
+   */
+  restore(layout: Layout, isAskedFor = false): void {
     const old = this.panels;
     const { arranger } = this;
     // Meanwhile the arranger would report each panel as closed by the user.
@@ -262,13 +289,14 @@ export class Workbench implements PanelHost {
       if (!goesOn) this.closed(panel);
       else {
         panel.given = saved.title ?? '';
-        this.viewOf(panel).restore(saved.state as Partial<ViewportState>);
+        this.viewOf(panel).restore(saved.state as Partial<ViewportState>, isAskedFor);
       }
     }
     for (const [id, saved] of Object.entries(layout.panels)) {
-      if (!this.panel(id)) this.make(id, saved);
+      if (!this.panel(id)) this.make(id, saved, isAskedFor);
     }
     const { root, floating, active } = layout;
+    this.offered = layout.offered ?? [];
     this.arrangement = { root, floating, active };
     this.arranger = arranger;
     arranger?.load(this.arrangement);

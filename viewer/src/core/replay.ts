@@ -60,6 +60,8 @@ export class ReplaySource implements Source {
   channels: ReadonlyMap<string, Channel> = new Map();
   tracks: Track[] = [];
   private topics = new Map<string, StoredTopic>();
+  /** Messages that the page computes from the recordings, by topic. */
+  private provided = new Map<string, { channel: Channel; message: Message }>();
   private subscriptions = new Set<Subscription>();
   private jump?: Jump;
   private isFetching = false;
@@ -150,10 +152,20 @@ export class ReplaySource implements Source {
         channels.set(topic.name, topic.channel());
       }
     }
+    for (const [name, { channel }] of this.provided) channels.set(name, channel);
     this.channels = channels;
     this.playhead.startNs = Math.min(...this.tracks.map((track) => track.beginNs));
     this.playhead.endNs = Math.max(...this.tracks.map((track) => track.endNs));
     this.playhead.positionNs = this.playhead.clamped(this.playhead.positionNs);
+  }
+
+  /** Adds a topic with one latched message, which the page computed. */
+  provide(topic: string, schemaName: string, message: Message): void {
+    const channel = { id: -1 - this.provided.size, topic, encoding: 'cdr', schemaName, schema: '' };
+    this.provided.set(topic, { channel, message });
+    this.collect();
+    this.events.offersChanged();
+    for (const one of this.subscriptions) if (one.topic === topic) one.handler(message, topic, 0);
   }
 
   topic(name: string): StoredTopic | undefined {
@@ -252,7 +264,8 @@ export class ReplaySource implements Source {
       byTopic.set(topic, [...(byTopic.get(topic) ?? []), one]);
       if (!topic.isTf) spanS = Math.max(spanS, this.spanS(topic, one.need));
     }
-    if (!isJump && byTopic.size === 0) return;
+    const isProvided = subscriptions.some((one) => this.provided.has(one.topic));
+    if (!isJump && byTopic.size === 0 && !isProvided) return;
     // Transforms reach back as far as the messages that are placed by them.
     const tfS = Math.min(MAX_TF_S, spanS + TF_MARGIN_S);
     const { signal } = this.abort;
@@ -284,6 +297,10 @@ export class ReplaySource implements Source {
       for (const topic of this.topics.values()) topic.lastNs = -Infinity;
     }
     this.deliverState(fetched.flat(), byTopic, positionNs);
+    for (const { topic, handler } of subscriptions) {
+      const provided = this.provided.get(topic);
+      if (provided) handler(provided.message, topic, 0, this.timeS(positionNs));
+    }
     for (const track of this.tracks) track.restart(positionNs);
     this.sampling = false;
     this.events.time(this.timeS(positionNs));

@@ -162,7 +162,7 @@ export class Track {
     return this.placed(await this.requests.state(this.recording.id, time, needs, signal));
   }
 
-  /** Messages after one position, up to another. */
+  /** Messages after one position, up to another, until they have `maxBytes`. */
   async between(
     afterNs: number,
     untilNs: number,
@@ -170,12 +170,28 @@ export class Track {
     maxBytes: number,
     signal: AbortSignal,
   ): Promise<Placed[]> {
+    return (await this.fetch(afterNs, untilNs, topics, maxBytes, signal)).messages;
+  }
+
+  /** The same, with the position up to which they were fetched. */
+  async fetch(
+    afterNs: number,
+    untilNs: number,
+    topics: readonly StoredTopic[],
+    maxBytes: number,
+    signal: AbortSignal,
+  ): Promise<{ messages: Placed[]; isMore: boolean; reachedNs: number }> {
     const ids = topics.map((topic) => topic.info.id);
     const [from, to] = [this.timeOf(afterNs) + 1n, this.timeOf(untilNs) + 1n];
-    if (ids.length === 0 || to <= from) return [];
+    if (ids.length === 0 || to <= from) return { messages: [], isMore: false, reachedNs: untilNs };
     const { id } = this.recording;
     const span = await this.requests.messages(id, ids, from, to, maxBytes, signal);
-    return this.placed(span.messages);
+    const { isMore } = span;
+    return {
+      messages: this.placed(span.messages),
+      isMore,
+      reachedNs: isMore ? this.positionOf(span.reachedNs) : untilNs,
+    };
   }
 
   // Fetching ahead.

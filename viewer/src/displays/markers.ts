@@ -27,6 +27,7 @@ const DELETE_ALL = 3;
 
 /** Messages fetched from a recording: earlier markers that were not replaced since are missing. */
 const MAX_KEPT = 30;
+const MAX_KEPT_ARRAYS = 3;
 
 export class MarkerDisplay extends Display {
   protected entries = new Map<string, Entry>();
@@ -175,6 +176,13 @@ export class MarkerDisplay extends Display {
   }
 }
 
+/** Most nodes publish all of their markers in each message. */
+class MarkerArrayDisplay extends MarkerDisplay {
+  protected override need(): Need {
+    return { count: MAX_KEPT_ARRAYS };
+  }
+}
+
 const MARKER = ['visualization_msgs/msg/Marker'];
 const ARRAY = ['visualization_msgs/msg/MarkerArray'];
 
@@ -199,5 +207,5 @@ export const markerArray: Kind = {
   },
   types: ARRAY,
   options: topic('Topic', '', ARRAY),
-  make: (...all) => new MarkerDisplay(...all),
+  make: (...all) => new MarkerArrayDisplay(...all),
 };

@@ -7,6 +7,7 @@ import { camera, image } from './image';
 import { interactiveMarkers } from './interactive';
 import { visualizeLidar } from './lidar';
 import { map } from './map';
+import { mapDifference } from './map_difference';
 import { marker, markerArray } from './markers';
 import {
   odometry,
@@ -38,6 +39,7 @@ export const KINDS: readonly Kind[] = [
   interactiveMarkers,
   laserScan,
   map,
+  mapDifference,
   marker,
   markerArray,
   odometry,

@@ -179,13 +179,30 @@ export class Dock implements Arranger {
 
   add(panel: Panel, beside: string | undefined, side: Side): void {
     const options = { id: panel.id, component: 'panel', title: this.workbench.titleOf(panel) };
-    const known = beside && this.api.getPanel(beside) ? beside : this.api.panels[0]?.id;
-    const added = this.api.addPanel(
-      known
-        ? { ...options, position: { referencePanel: known, direction: DIRECTIONS[side] } }
-        : options,
-    );
-    this.limit(added.group);
+    const found = this.api.getPanel(beside ?? '') ?? this.api.panels[0];
+    if (!found) {
+      this.limit(this.api.addPanel(options).group);
+      return;
+    }
+    const position = { referencePanel: found.id, direction: DIRECTIONS[side] };
+    this.halve(found.group, side, () => this.api.addPanel({ ...options, position }).group);
+  }
+
+  /** A new group takes half of the one beside it; dockview alone would make all groups equal. */
+  private halve(beside: DockviewGroupPanel, side: Side, make: () => DockviewGroupPanel): void {
+    const isRow = side === 'left' || side === 'right';
+    const sizeOf = ({ width, height }: DockviewGroupPanel) => (isRow ? width : height);
+    const before = new Map(this.api.groups.map((group) => [group, sizeOf(group)]));
+    const made = make();
+    this.limit(made);
+    if (side === 'center' || before.has(made)) return;
+    const half = (before.get(beside) ?? 0) / 2;
+    // From left to right: each size moves the edge at the right.
+    for (const group of this.groups()) {
+      const px = group === made || group === beside ? half : before.get(group);
+      if (!px || group.api.location.type !== 'grid') continue;
+      group.api.setSize(isRow ? { width: px } : { height: px });
+    }
   }
 
   remove(panel: Panel): void {
@@ -204,8 +221,10 @@ export class Dock implements Arranger {
   move(panel: Panel, beside: string, side: Side): void {
     const [from, to] = [this.api.getPanel(panel.id), this.api.getPanel(beside)];
     if (!from || !to) return;
-    from.api.moveTo({ group: to.group, position: POSITIONS[side] as never });
-    this.limit(from.group);
+    this.halve(to.group, side, () => {
+      from.api.moveTo({ group: to.group, position: POSITIONS[side] as never });
+      return from.group;
+    });
   }
 
   // Commands of the menu of each group.

@@ -1,8 +1,10 @@
 /** Commands on layouts: keep, show, export, import. */
 import type { App } from '../app/app.svelte';
 import { readLayout, writeLayout, type Layout } from '../app/layout';
+import { sharedIn } from '../app/layout_link';
 import { LayoutStore } from '../app/layout_store';
 import type { Workbench } from '../app/workbench.svelte';
+import { kindForType } from '../displays/registry';
 import { t } from '../texts/language.svelte';
 import { panelKind } from './registry';
 
@@ -34,6 +36,12 @@ export class LayoutActions {
   current = $state('');
   /** Parts of a foreign file that could not be shown, with the reasons. */
   leftOut: string[] = $state.raw([]);
+  /** File that `leftOut` is about. */
+  leftOutOf = $state('');
+  /** Time of a replay that a link names, until there is one [s]. */
+  private timeS?: number;
+  /** A layout of a link does not replace the own one until the user saves it. */
+  private isFromLink = false;
   private readonly store = new LayoutStore(storage());
   private kept = '';
 
@@ -55,11 +63,38 @@ export class LayoutActions {
     this.workbench.restore(last ?? this.workbench.first(widthPx));
     const keep = () => this.keep();
     setInterval(keep, KEEP_MS);
+    this.workbench.openFile = (name, text) => this.openText(name, text);
+    void this.openLink();
+    window.addEventListener('hashchange', () => void this.openLink());
     window.addEventListener('pagehide', keep);
     document.addEventListener('visibilitychange', keep);
   }
 
+  private async openLink(): Promise<void> {
+    try {
+      const shared = await sharedIn(location.hash);
+      if (!shared) return;
+      this.isFromLink = true;
+      this.timeS = shared.timeS;
+      this.show(shared.layout, '');
+      this.app.notice('info', t().share.fromLink);
+      this.showTime();
+    } catch (error) {
+      this.app.notice('error', t().share.linkIsBroken((error as Error).message));
+    }
+  }
+
+  /** Shows the time that a link names, once a recording is open. */
+  showTime(): void {
+    const { replay } = this.app;
+    if (!replay || this.timeS === undefined) return;
+    replay.pause();
+    replay.seek(Math.min(replay.endS, Math.max(replay.startS, this.timeS)));
+    this.timeS = undefined;
+  }
+
   private keep(): void {
+    if (this.isFromLink) return;
     const layout = this.workbench.save();
     const text = JSON.stringify(layout);
     if (text === this.kept) return;
@@ -68,7 +103,7 @@ export class LayoutActions {
   }
 
   private show(layout: Layout, name: string): void {
-    this.workbench.restore(layout);
+    this.workbench.restore(layout, true);
     this.current = name;
     const unknown = Object.values(layout.panels)
       .map(({ kind }) => kind)
@@ -79,6 +114,7 @@ export class LayoutActions {
   }
 
   reset(): void {
+    this.leaveLink();
     this.store.forgetLast();
     this.show(this.workbench.first(window.innerWidth), '');
   }
@@ -90,10 +126,19 @@ export class LayoutActions {
     }
     this.names = this.store.names();
     this.current = name;
+    this.leaveLink();
     this.app.notice('info', t().layouts.saved(name));
   }
 
+  /** From now on the layout is the user's own. */
+  private leaveLink(): void {
+    if (!this.isFromLink) return;
+    this.isFromLink = false;
+    history.replaceState(history.state, '', location.pathname + location.search);
+  }
+
   open(name: string): void {
+    this.leaveLink();
     try {
       this.show(this.store.get(name), name);
     } catch (error) {
@@ -135,12 +180,15 @@ export class LayoutActions {
   async openFile(file: File): Promise<void> {
     try {
       if (file.size > MAX_FILE_BYTES) throw new Error(t().layouts.tooLarge(MAX_FILE_BYTES / 1e6));
-      const text = await file.text();
-      if (/\.json$/i.test(file.name) || /^\s*\{/.test(text)) await this.openJson(text, file.name);
-      else this.openRviz(text, file.name);
+      await this.openText(file.name, await file.text());
     } catch (error) {
       this.app.notice('error', `${file.name}: ${(error as Error).message}`);
     }
+  }
+
+  private async openText(name: string, text: string): Promise<void> {
+    if (/\.json$/i.test(name) || /^\s*\{/.test(text)) await this.openJson(text, name);
+    else this.openRviz(text, name);
   }
 
   /** Opens an `.rviz` file in the active 3D view, and the panels that it names, as far as they exist here. */
@@ -160,6 +208,23 @@ export class LayoutActions {
     } catch (error) {
       throw new Error(t().layouts.notJson((error as Error).message));
     }
-    this.show(readLayout(json), fileName.replace(/(\.layout)?\.json$/i, ''));
+    const name = fileName.replace(/(\.layout)?\.json$/i, '');
+    // Loaded for such files only.
+    const { importFoxglove, isFoxglove } = await import('../app/layout_foxglove');
+    if (!isFoxglove(json)) {
+      this.show(readLayout(json), name);
+      return;
+    }
+    const { layout, leftOut } = importFoxglove(json, {
+      typeOf: (topic) => this.app.topics.find((one) => one.name === topic)?.type || undefined,
+      displayOf: (type) => kindForType(type)?.class,
+      panel: (id) => {
+        const kind = panelKind(id);
+        return kind && { isMany: kind.isMany === true };
+      },
+    });
+    this.show(layout, name);
+    this.leftOut = leftOut;
+    this.leftOutOf = fileName;
   }
 }

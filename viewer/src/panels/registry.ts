@@ -68,6 +68,14 @@ const kinds: PanelKind[] = [
   // prettier-ignore
   { id: 'log', title: () => t().panels.log, icon: 'lines', isFirst: true, load: () => import('./LogPanel.svelte') },
   // prettier-ignore
+  { id: 'recordings', title: () => t().recordings.title, icon: 'record', isFirst: true, load: () => import('./RecordingsPanel.svelte') },
+  // prettier-ignore
+  { id: 'marks', title: () => t().marks.title, icon: 'goal', isFirst: true, isOffered: (app) => app.recordings.isServed, load: () => import('./MarksPanel.svelte') },
+  // prettier-ignore
+  { id: 'compare', title: () => t().recordings.comparison, icon: 'compare', isFirst: true, isOffered: (app) => app.recordings.isServed, load: () => import('./ComparePanel.svelte') },
+  // prettier-ignore
+  { id: 'rerun', title: () => t().rerun.title, icon: 'reset', isFirst: true, isOffered: (app) => app.recordings.isServed, load: () => import('./RerunPanel.svelte') },
+  // prettier-ignore
   { id: 'transforms', title: () => t().panelNames.transforms, icon: 'frames', isMany: true, load: () => import('./TransformsPanel.svelte') },
   // prettier-ignore
   { id: 'diagnostics', title: () => t().panelNames.diagnostics, icon: 'pulse', load: () => import('./DiagnosticsPanel.svelte') },

@@ -26,6 +26,15 @@ export interface Plot {
   curves: Curve[];
 }
 
+/** Fields of a saved layout, without what is not one. */
+export function fieldList(saved: unknown): FieldRef[] {
+  return (Array.isArray(saved) ? (saved as Partial<FieldRef>[]) : []).flatMap((one) =>
+    typeof one?.topic === 'string' && typeof one.path === 'string'
+      ? [{ topic: one.topic, path: one.path }]
+      : [],
+  );
+}
+
 /** Plots of a saved layout, without what is not one; at least one. */
 export function validPlots(saved: readonly unknown[]): Plot[] {
   const isRecord = (one: unknown): one is Record<string, unknown> =>

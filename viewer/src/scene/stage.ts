@@ -113,6 +113,14 @@ export class Stage {
     this.invalidate();
   }
 
+  /** Draws the present state now, for a picture; the canvas is to be read in the same task. */
+  render(): HTMLCanvasElement {
+    const nowMs = performance.now();
+    for (const tick of this.ticks) tick(nowMs);
+    this.draw(nowMs);
+    return this.canvas;
+  }
+
   draw(nowMs = performance.now()): void {
     this.isDirty = false;
     const [x, y] = this.view.state.focal;

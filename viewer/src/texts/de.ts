@@ -399,6 +399,7 @@ export const de: Texts = {
     record: 'Aufzeichnen',
     stopRecording: 'Aufzeichnung beenden',
     isRecording: 'Alle Topics werden aufgezeichnet.',
+    recorded: (name) => `${name} wurde aufgezeichnet. Im Panel „Aufzeichnungen“ abspielen.`,
     play: 'Abspielen',
     compare: 'Vergleichen',
     close: 'Schließen',

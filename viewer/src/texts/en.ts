@@ -413,6 +413,7 @@ export const en = {
     record: 'Record',
     stopRecording: 'Stop recording',
     isRecording: 'All topics are recorded.',
+    recorded: (name: string) => `${name} was recorded. Play it in the panel Recordings.`,
     play: 'Play',
     compare: 'Compare',
     close: 'Close',
