@@ -1,6 +1,7 @@
 // Panels that watch and control the nodes of a running system: each shows real content of a navigating robot.
 import assert from 'node:assert/strict';
 import { readFileSync } from 'node:fs';
+import { PHONE, wrong } from './axe.mjs';
 import { open, periplus, sim, until, port } from './lib.mjs';
 
 const PORT = port(8845);
@@ -141,6 +142,27 @@ const STEPS = {
   },
 };
 
+const KINDS = [
+  ...['messages', 'plot', 'states', 'transforms', 'diagnostics', 'graph', 'actions'],
+  ...['parameterSets', 'joints', 'table'],
+];
+
+/** Every panel fits a phone. */
+async function phone(page) {
+  await until(page, 'periplus.topics.some((t) => t.name === "/map" && t.type)', 'topics', 60_000);
+  for (const kind of KINDS) {
+    await show(page, kind);
+    await page.waitForTimeout(500);
+    const wide = await page.evaluate(() => {
+      const all = [...document.querySelectorAll('[role=tabpanel]')].filter(
+        (e) => e.clientWidth > 0,
+      );
+      return all.filter((e) => e.scrollWidth > e.clientWidth + 1).map((e) => [e.id, e.scrollWidth]);
+    });
+    assert.deepEqual(wide, [], kind);
+  }
+}
+
 export async function panels(chrome, url, attempt) {
   if (!attempt.isWanted('panels')) return;
   const words = sim('worlds/house.sdf', SAM_BOT, '--pose', '0,0,0', '--navigation');
@@ -154,9 +176,25 @@ export async function panels(chrome, url, attempt) {
     for (const [name, step] of Object.entries(STEPS)) {
       await attempt(`panels: ${name}`, () => step(page));
     }
+    for (const kind of KINDS) {
+      await attempt(`panels: axe ${kind}`, async () => {
+        await show(page, kind);
+        await page.waitForTimeout(700);
+        assert.deepEqual(await wrong(page, kind), []);
+      });
+    }
     await attempt('panels: no errors', async () => assert.deepEqual(complaints, []));
-  } finally {
     await page.close();
+    await attempt('panels: phone', async () => {
+      const address = `${url}?ws=ws://127.0.0.1:${PORT}/`;
+      const small = await open(chrome, address, { ...PHONE, reducedMotion: 'reduce' });
+      await phone(small.page);
+      await small.page.screenshot({ path: process.env.SHOT ?? '/dev/null', type: 'png' });
+      assert.deepEqual(small.complaints, []);
+      await small.page.close();
+    });
+  } finally {
+    if (!page.isClosed()) await page.close();
     await run.stop();
   }
 }
