@@ -5,7 +5,7 @@ import type { App } from './app.svelte';
 
 const parsed = new WeakMap<Channel, Schema>();
 
-/** Definition of a topic's messages; `undefined` if nobody publishes it. Throws if it cannot be read. */
+/** Definition of a topic's messages; `undefined` without a publisher. Throws if it cannot be read. */
 export function schemaOfTopic(app: App, topic: string): Schema | undefined {
   const channel = app.feed.source.channels.get(topic);
   if (!channel) return undefined;
