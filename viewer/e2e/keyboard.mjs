@@ -92,12 +92,13 @@ export async function keyboard(chrome, url) {
       'Services',
       'Plot',
       'Log',
+      'Recordings',
       'Drive',
     ]) {
       await page.keyboard.press('ArrowRight');
-      await page.locator(`#panel-${tab}`).waitFor();
+      await page.locator(`#panel-${tab.toLowerCase()}`).waitFor();
       if (['World', 'Plot', 'Log', 'Drive'].includes(tab)) await holds(page, tab);
-      await page.locator(`#tab-${tab}`).focus();
+      await page.locator(`#tab-${tab.toLowerCase()}`).focus();
     }
     // A display is expanded and disabled by keys.
     const shown = page.getByRole('checkbox', { name: /^Show (Scan|scan)/ });

@@ -8,9 +8,11 @@ import { join } from 'node:path';
 import { axe } from './axe.mjs';
 import { building, foreignBuildings } from './building.mjs';
 import { demo } from './demo.mjs';
+import { dock } from './dock.mjs';
 import { keyboard } from './keyboard.mjs';
 import { browser, next, open, periplus, servePage, until, port } from './lib.mjs';
 import { navigate } from './navigate.mjs';
+import { panels } from './panels.mjs';
 import { tutorials } from './tutorials.mjs';
 import { use } from './use.mjs';
 
@@ -173,9 +175,11 @@ try {
   await attempt('building', () => building(chrome, pages.url, out));
   await attempt('foreign buildings', () => foreignBuildings(chrome, pages.url, out));
   await attempt('keyboard', () => keyboard(chrome, pages.url));
+  await dock(chrome, pages.url, out, attempt);
   await use(chrome, pages.url, attempt);
   await axe(chrome, pages.url, attempt);
   await navigate(chrome, pages.url, attempt);
+  await panels(chrome, pages.url, attempt);
   await tutorials(chrome, pages.url, out, attempt);
   await demo(chrome, pages.url, attempt);
 } finally {

@@ -413,6 +413,27 @@ export const DISPLAYS = [
 ];
 
 /** Programs to run; the map is one made by the demo. */
+/** Displays of messages that no example of ours publishes: described without a picture. */
+export const WITHOUT_PICTURE = [
+  {
+    kind: rviz('InteractiveMarkers'),
+    text: 'Handles that a node offers, such as those of the pose graph of `slam_toolbox` in its interactive mode: moved along axes and in planes, turned, clicked, with menus (right button). Ctrl turns a handle of all six degrees of freedom. The markers are requested with the service `get_interactive_markers`.',
+  },
+  { kind: rviz('GridCells'), text: 'The cells of a grid as flat tiles.' },
+  { kind: rviz('PointStamped'), text: 'A point as a ball, and those before it.' },
+  { kind: rviz('Wrench'), text: 'A force and a torque as arrows, the torque with a circle.' },
+  { kind: rviz('TwistStamped'), text: 'Linear and angular velocity as arrows.' },
+  { kind: rviz('AccelStamped'), text: 'Linear and angular acceleration as arrows.' },
+  {
+    kind: rviz('Effort'),
+    text: 'Efforts of revolute joints as rings around their axes. Size and colour show the part of the limit of the URDF, the arrow head the direction.',
+  },
+  { kind: rviz('FluidPressure'), text: 'A pressure as a point with a colour of the rainbow.' },
+  { kind: rviz('Illuminance'), text: 'An illuminance as a point with a colour of the rainbow.' },
+  { kind: rviz('RelativeHumidity'), text: 'A humidity as a point with a colour of the rainbow.' },
+  { kind: rviz('Temperature'), text: 'A temperature as a point with a colour of the rainbow.' },
+].map((one) => ({ ...one, shots: {} }));
+
 export const SHOWROOM = (map) => [
   ...['sim', 'worlds/demo_room.sdf', '--robot', 'viewer/e2e/show/showbot.urdf.xacro'],
   ...['--resource-path', 'robots', '--localize', map, '--costmap', 'viewer/e2e/show/costmaps.yaml'],

@@ -4,7 +4,7 @@ import { mkdirSync, mkdtempSync, rmSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { open, periplus, PROGRAM, ROOT, port } from '../e2e/lib.mjs';
-import { DISPLAYS, SHOWROOM } from './displays.mjs';
+import { DISPLAYS, SHOWROOM, WITHOUT_PICTURE } from './displays.mjs';
 
 const PORT = port(8842);
 /** Hides everything that covers the 3D view. */
@@ -73,7 +73,12 @@ async function look(page, shot, file) {
     const kind = shot.isDense ? { type: 'jpeg', quality: 82 } : {};
     await page.locator('section.stage').screenshot({ path: file, ...kind });
   }
-  return page.evaluate(() => {
+  return aboutLast(page);
+}
+
+/** Class, title, types and options of the display that was added last. */
+const aboutLast = (page) =>
+  page.evaluate(() => {
     const entry = window.periplus.displays.at(-1);
     const all = Object.values(entry.statuses);
     const { kind } = entry;
@@ -87,7 +92,6 @@ async function look(page, shot, file) {
         .map(({ path, default: value, choices }) => ({ path, value, choices })),
     };
   });
-}
 
 async function run(chrome, url, words, wanted, folder, early) {
   const found = new Map();
@@ -109,6 +113,9 @@ async function run(chrome, url, words, wanted, folder, early) {
         for (const text of about.wrong) console.log(`${name}: ${text}`);
         found.set(kind, about);
       }
+      if (Object.keys(shots).length > 0) continue;
+      await page.evaluate((one) => void window.periplus.active.add(one), kind);
+      found.set(kind, await aboutLast(page));
     }
     for (const text of complaints) console.log(text);
     await page.close();
@@ -133,14 +140,15 @@ function optionsOf({ options }) {
 }
 
 function page(about) {
-  const parts = DISPLAYS.map(({ kind, text, shots }) => {
+  const parts = [...DISPLAYS, ...WITHOUT_PICTURE].map(({ kind, text, shots }) => {
     const { title, types, class: name } = about.get(kind);
     const images = Object.entries(shots).map(
       ([name, shot]) =>
         `<img src="pictures/displays/${fileOf(name, shot)}" width="32%" alt="${title}: ${name.replaceAll('_', ' ')}">`,
     );
     const shown = types.length > 0 ? ` shows \`${types.join('`, `')}\`.` : '';
-    return `## ${title}\n\n${images.join('\n')}\n\n${text}\n\n\`${name}\`${shown} Options: ${optionsOf(about.get(kind))}.\n`;
+    const shownAs = images.length > 0 ? `${images.join('\n')}\n\n` : '';
+    return `## ${title}\n\n${shownAs}${text}\n\n\`${name}\`${shown} Options: ${optionsOf(about.get(kind))}.\n`;
   });
   return `# Displays
 
@@ -164,7 +172,7 @@ export async function displays(chrome, url, out) {
     const words = ['demo', '--headless', '--duration', '90', '--out', scratch];
     execFileSync(PROGRAM, words, { cwd: ROOT, stdio: 'ignore' });
     const isDemo = (one) => one.run === 'demo';
-    const rest = DISPLAYS.filter((one) => !isDemo(one));
+    const rest = [...DISPLAYS.filter((one) => !isDemo(one)), ...WITHOUT_PICTURE];
     const show = SHOWROOM(join(scratch, 'map.yaml'));
     const about = await run(chrome, url, show, rest, folder);
     const early = DISPLAYS.flatMap(({ shots }) => Object.values(shots)).find((s) => s.isEarly);

@@ -42,4 +42,8 @@ mount(App, { target: document.getElementById('app')!, props: { app: state } });
 // Entry point for end-to-end tests and screenshots.
 (window as unknown as { periplus: State }).periplus = state;
 state.client.start();
+// Needed when a file is dragged over the page.
+void import('./panels/DropTarget.svelte').then(({ default: DropTarget }) =>
+  mount(DropTarget, { target: document.body, props: { app: state } }),
+);
 void language.start();

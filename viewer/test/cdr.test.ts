@@ -20,7 +20,7 @@ describe('message definitions', () => {
       { name: 'points', type: 'demo/Point', isComplex: true, array: 'sequence' },
       { name: 'three', type: 'float32', isComplex: false, array: 3 },
       { name: 'few', type: 'string', isComplex: false, array: 'sequence' },
-      { name: 'level', type: 'int32', isComplex: false, array: undefined },
+      { name: 'level', type: 'int32', isComplex: false, array: undefined, default: '7' },
     ]);
   });
 

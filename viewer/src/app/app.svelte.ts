@@ -5,7 +5,7 @@ import { Feed } from '../core/feed';
 import { multiply, type Pose } from '../core/pose';
 import { SUBPROTOCOL, type Mismatch, type Parameter } from '../core/protocol';
 import { longName } from '../core/schema';
-import { TfBuffer } from '../core/tf';
+import { KEPT_S, TfBuffer } from '../core/tf';
 import { seconds, stampOf, type TransformStamped } from '../core/types';
 import type { WorldDisplay } from '../displays/world';
 import type { Stage } from '../scene/stage';
@@ -15,8 +15,12 @@ import { Clock } from './clock';
 import type { Entry } from './entry.svelte';
 import { estimatorsOf } from './estimators';
 import { TEXTS } from './texts';
+import { Recordings } from './recordings.svelte';
+import type { Replay } from './replay.svelte';
 import { mapTruths, type MapTruth } from './truth';
 import { Viewport } from './viewport.svelte';
+import type { Workbench } from './workbench.svelte';
+import { t } from '../texts/language.svelte';
 
 export interface Notice {
   id: number;
@@ -41,6 +45,8 @@ export interface TopicRow {
 }
 
 const MOST_LOG = 1000;
+/** Log messages before a time that a recording shows with it. */
+const LOG_HISTORY = 300;
 const FLUSH_MS = 200;
 
 export class App {
@@ -60,10 +66,14 @@ export class App {
   notices: Notice[] = $state([]);
   log: LogLine[] = $state.raw([]);
   theme: 'dark' | 'light' = $state('dark');
+  /** Replay of recordings; `undefined` while the running system is shown. */
+  replay: Replay | undefined = $state.raw();
   /** All 3D views. */
   viewports: Viewport[] = $state([]);
   /** The 3D view that panels and tools act on. */
   active: Viewport = $state.raw(undefined as never);
+  /** The open panels; set by the page. */
+  workbench: Workbench | undefined = $state.raw();
   models: string[] = $state([]);
   selectedModel = $state('');
   truth: { link: string; distanceM: number; yawRad: number } | undefined = $state();
@@ -75,6 +85,8 @@ export class App {
   readonly client: Client;
   /** Messages of the running system, or of recordings. */
   readonly feed: Feed;
+  /** Recordings of the server. */
+  readonly recordings: Recordings;
   private readonly sensors = new SensorFrames();
   private worldSubscriptions: (() => void)[] = [];
   private publishers = new Map<string, (message: Message) => void>();
@@ -94,25 +106,31 @@ export class App {
           for (const one of all) this.parameters[one.name] = one;
         },
         time: (timeS) => this.time(timeS),
-        info: (metadata) => this.active.openLaunched(metadata),
+        info: (metadata) => {
+          this.active.openLaunched(metadata);
+          this.recordings.connected(metadata);
+        },
+        recordings: () => this.recordings.changed(),
         status: (level, text) => this.notice(level >= 2 ? 'error' : 'warn', text),
       },
       TEXTS,
     );
     this.feed = new Feed(this.client);
+    this.recordings = new Recordings(this);
     this.active = this.addViewport();
     // Both sources have the same time, but one may arrive later; without this, time would jump back.
     this.feed.subscribe('/clock', (message) => {
+      if (this.replay) return;
       const isToldAnyhow = this.client.capabilities.includes('time');
       if (!isToldAnyhow) this.time(seconds(message.clock as never));
     });
     for (const isStatic of [false, true]) {
-      this.feed.subscribe(isStatic ? '/tf_static' : '/tf', (message) => {
-        const now = performance.now();
+      this.feed.subscribe(isStatic ? '/tf_static' : '/tf', (message, _topic, _bytes, timeS) => {
+        const now = timeS === undefined ? performance.now() : timeS * 1000;
         for (const one of message.transforms as TransformStamped[]) this.tf.add(one, isStatic, now);
       });
     }
-    this.feed.subscribe('/rosout', (message) => this.logged(message));
+    this.feed.subscribe('/rosout', (message) => this.logged(message), { count: LOG_HISTORY });
   }
 
   // Connection and time.
@@ -120,17 +138,36 @@ export class App {
   private connected(state: State, why: string): void {
     this.connection = state;
     this.why = why;
-    if (state !== 'closed') return;
+    // A replay keeps what it shows: its recordings may be there again after a moment.
+    if (state === 'closed') this.recordings?.disconnected();
+    if (state !== 'closed' || this.replay) return;
     this.tf.clear();
     this.sensors.clear();
     this.clock.forgetStats();
   }
 
   private time(timeS: number): void {
+    if (this.replay) return;
     if (!this.clock.set(timeS, performance.now())) return;
     this.tf.rewind(timeS);
     this.sensors.rewind(timeS);
     for (const viewport of this.viewports) viewport.rewound();
+  }
+
+  /** Another source, or another time of a recording: everything that was received is forgotten. */
+  jumped(spanS = 0): void {
+    this.tf.clear();
+    this.tf.keptS = KEPT_S + spanS;
+    this.sensors.clear();
+    this.log = [];
+    this.newLog = [];
+    for (const viewport of this.viewports) viewport.jumped();
+  }
+
+  /** Topics and services of the source changed. */
+  graphChanged(): void {
+    this.isGraphChanged = false;
+    this.offersChanged();
   }
 
   private logged(message: Message): void {
@@ -195,8 +232,8 @@ export class App {
     this.findFrames();
     for (const viewport of this.viewports) viewport.flush();
     this.timeS = this.clock.nowS;
-    this.factor = this.clock.factor();
-    this.isPaused = this.clock.isPaused(nowMs);
+    this.factor = this.replay ? this.replay.rate : this.clock.factor();
+    this.isPaused = this.replay ? !this.replay.isPlaying : this.clock.isPaused(nowMs);
     this.framesPerSecond = this.stage?.framesPerSecond ?? 0;
     if (this.newLog.length > 0) {
       this.log = [...this.log, ...this.newLog].slice(-MOST_LOG);
@@ -345,7 +382,7 @@ export class App {
       const answer = await this.client.call(name, request);
       if (answer.success === false) {
         const why = answer.message ?? answer.status_message ?? this.lastComplaint();
-        this.notice('error', `${name} failed. ${String(why)}`);
+        this.notice('error', t().notices.serviceFailed(name, String(why)));
         return undefined;
       }
       return answer;
@@ -357,6 +394,6 @@ export class App {
 
   private lastComplaint(): string {
     const line = [...this.log, ...this.newLog].reverse().find((l) => l.level >= 30);
-    return line ? line.text : 'See the log for the reason.';
+    return line ? line.text : t().notices.seeLog;
   }
 }

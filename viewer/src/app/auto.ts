@@ -16,6 +16,10 @@ const HIDDEN = new Set([
   'visualization_msgs/msg/Marker',
   'nav2_msgs/msg/VoxelGrid',
   'geometry_msgs/msg/PoseWithCovarianceStamped',
+  // Efforts of joints, and commands of drives.
+  'sensor_msgs/msg/JointState',
+  'geometry_msgs/msg/TwistStamped',
+  'geometry_msgs/msg/AccelStamped',
 ]);
 
 /**
@@ -25,8 +29,36 @@ const HIDDEN = new Set([
 const HIDDEN_PATHS =
   /(unsmoothed_plan|received_global_plan|optimal_trajectory|optimal_path|lookahead_collision_arc)$/;
 
+/** Prefix of a topic or frame of a second recording: `B:` of `B:/scan`; otherwise empty. */
+export const prefixIn = (name: string): string => /^[A-Z]:/.exec(name)?.[0] ?? '';
+
+/** Colours of a second recording over the first one. */
+const SECOND: Record<string, Values> = {
+  'rviz_default_plugins/LaserScan': { Color: '64; 160; 255' },
+  'rviz_default_plugins/Path': { Color: '255; 170; 0' },
+  'rviz_default_plugins/Odometry': { 'Shape/Color': '255; 170; 0' },
+  'rviz_default_plugins/Polygon': { Color: '255; 170; 0' },
+  'rviz_default_plugins/PoseArray': { Color: '64; 160; 255' },
+  'nav2_rviz_plugins/ParticleCloud': { Color: '64; 160; 255' },
+  'rviz_default_plugins/PointCloud2': { 'Color Transformer': 'FlatColor', Color: '64; 160; 255' },
+  'rviz_default_plugins/Map': { Alpha: 0.5 },
+  'rviz_default_plugins/RobotModel': { Alpha: 0.6 },
+};
+
+/** Display for a topic of a second recording: that of the first one, in colours of its own. */
+function secondSuggestion(prefix: string, topic: string, type: string): Suggestion | undefined {
+  const first = suggestionFor(topic.slice(prefix.length), type);
+  if (!first) return undefined;
+  const values: Values = { ...first.values, ...SECOND[first.class] };
+  for (const path of ['Topic', 'Description Topic']) if (values[path]) values[path] = topic;
+  if (first.class === 'rviz_default_plugins/RobotModel') values['TF Prefix'] = prefix;
+  return { ...first, values, name: `${prefix} ${first.name}`, key: topic };
+}
+
 /** Display for a topic; `undefined` for topics without one. */
 export function suggestionFor(topic: string, type: string): Suggestion | undefined {
+  const prefix = prefixIn(topic);
+  if (prefix) return secondSuggestion(prefix, topic, type);
   const name = topic.replace(/^\//, '');
   const suggestion = (
     kindClass: string,

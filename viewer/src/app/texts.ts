@@ -28,5 +28,21 @@ export const TEXTS: Record<string, string> = {
     POSE,
   ),
   'geometry_msgs/msg/PointStamped': join('std_msgs/Header header\nPoint point\n', HEADER, POINT),
+  'visualization_msgs/msg/InteractiveMarkerFeedback': join(
+    'std_msgs/Header header\nstring client_id\nstring marker_name\nstring control_name\n' +
+      'uint8 event_type\ngeometry_msgs/Pose pose\nuint32 menu_entry_id\n' +
+      'geometry_msgs/Point mouse_point\nbool mouse_point_valid\n',
+    HEADER,
+    POSE,
+  ),
+  'sensor_msgs/msg/JointState': join(
+    'std_msgs/Header header\nstring[] name\nfloat64[] position\nfloat64[] velocity\nfloat64[] effort\n',
+    HEADER,
+  ),
+  'std_msgs/msg/Float64MultiArray': join(
+    'MultiArrayLayout layout\nfloat64[] data\n',
+    'MSG: std_msgs/MultiArrayLayout\nMultiArrayDimension[] dim\nuint32 data_offset\n',
+    'MSG: std_msgs/MultiArrayDimension\nstring label\nuint32 size\nuint32 stride\n',
+  ),
   'std_msgs/msg/Int32': 'int32 data\n',
 };

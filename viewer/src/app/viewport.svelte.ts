@@ -4,15 +4,66 @@ import type { Context } from '../displays/display';
 import type { Values } from '../displays/options';
 import { kindOf } from '../displays/registry';
 import { WorldDisplay } from '../displays/world';
-import { readRviz, writeRviz, type RvizTool, type Tree } from '../rviz/file';
+import {
+  readRviz,
+  writeRviz,
+  type RvizTool,
+  type RvizWindow,
+  type SavedRvizView,
+  type Tree,
+} from '../rviz/file';
+import type { RvizGroup } from '../rviz/groups';
 import { viewFrom, viewTo } from '../rviz/view';
 import type { Stage } from '../scene/stage';
 import { FIRST_VIEW, type ViewState } from '../scene/view';
 import type { App } from './app.svelte';
-import { bestFrame, suggestionFor } from './auto';
+import { bestFrame, prefixIn, suggestionFor } from './auto';
 import { Entry } from './entry.svelte';
+import { DisplayGroup } from './display_group.svelte';
+import {
+  groupsFrom,
+  savedDisplay,
+  savedGroup,
+  type SavedDisplay,
+  type SavedGroup,
+} from './saved_display';
+import { t } from '../texts/language.svelte';
+
+/** Topic of a display. */
+const topicOf = (values: Values): string =>
+  String(values.Topic ?? values['Description Topic'] ?? '');
 
 const WORLD_CLASS = 'periplus/World';
+
+/** A 3D view as it is saved with a layout. */
+export interface ViewportState {
+  fixedFrame: string;
+  isFrameChosen: boolean;
+  view: ViewState;
+  background: string;
+  isAutomatic: boolean;
+  displays: SavedDisplay[];
+  groups: SavedGroup[];
+  savedViews: SavedView[];
+  fileName: string;
+  /** Checksum of the `.rviz` file of the launch file that was opened. */
+  launched: number;
+}
+
+/** A camera that the user saved by a name. */
+export interface SavedView {
+  name: string;
+  view: ViewState;
+  /** View of the `.rviz` file that it was read from; written back while its camera is not changed. */
+  original?: SavedRvizView;
+}
+
+/** FNV-1a of a text. */
+function checksum(text: string): number {
+  let sum = 0x811c9dc5;
+  for (let i = 0; i < text.length; i++) sum = Math.imul(sum ^ text.charCodeAt(i), 0x01000193);
+  return sum >>> 0;
+}
 
 let lastId = 0;
 
@@ -21,17 +72,24 @@ export class Viewport {
   fixedFrame = $state('map');
   isFrameChosen = $state(false);
   displays: Entry[] = $state([]);
+  groups: DisplayGroup[] = $state.raw([]);
+  savedViews: SavedView[] = $state.raw([]);
   view: ViewState = $state(structuredClone(FIRST_VIEW));
   background = $state('');
   /** Displays are added automatically until the user adds or removes one. */
   isAutomatic = $state(true);
   rvizTools: RvizTool[] = $state([]);
   fileName = $state('');
+  /** Prefix of the recording whose topics are added automatically; `undefined` for all topics. */
+  track: string | undefined = $state();
   stage?: Stage;
   /** True after a file without a world was opened, until the simulation's world is known. */
   private awaitsWorld = false;
   private rvizOriginal?: Tree;
   private hasOpenedLaunched = false;
+  private launched = 0;
+  /** Automatic displays of a saved layout, which get their options back when their topics exist. */
+  private awaited: SavedDisplay[] = [];
   private seen = new Set<string>();
 
   constructor(private app: App) {}
@@ -43,6 +101,8 @@ export class Viewport {
     stage.view.set($state.snapshot(this.view) as ViewState);
     stage.ticks.add((nowMs) => this.tick(nowMs));
     for (const entry of this.displays) this.begin(entry);
+    // A view that was added later finds the topics that exist.
+    this.offersChanged();
   }
 
   /** Stops all displays, which start again with the next stage. */
@@ -58,13 +118,24 @@ export class Viewport {
       tf: app.tf,
       subscribe: (topic, handler, need) => app.feed.subscribe(topic, handler, need),
       asset: (uri) => app.client.asset(uri),
+      publish: (topic, type, message) => app.publish(topic, type, message),
+      call: (service, request) => app.client.call(service, request),
+      hasService: (name) => app.feed.source.services.has(name),
       fixedFrame: () => this.fixedFrame,
       nowS: () => app.clock.nowS,
       topicsOfType: (types) => app.topicsOf(types),
       fixedFromSensor: (topic, frame, timeS) =>
         app.fixedFromSensor(topic, frame, timeS, this.fixedFrame),
       estimators: () => app.estimators,
+      awaitsTransforms: () => app.replay?.awaitsTransforms() ?? true,
+      arrivalMs: () => app.replay?.arrivalMs() ?? performance.now(),
     };
+  }
+
+  /** For an image in a panel of its own: without a scene. */
+  imageContext(): Context {
+    const stage = { add: () => {}, remove: () => {}, invalidate: () => {} };
+    return { ...this.context(), stage: stage as unknown as Stage };
   }
 
   private tick(nowMs: number): void {
@@ -100,6 +171,27 @@ export class Viewport {
     }
   }
 
+  /** Time jumped in a recording: the displays wait for the messages of the new time. */
+  jumped(): void {
+    for (const { display } of this.displays) display?.reset();
+  }
+
+  private isShown(topicOrFrame: string): boolean {
+    return this.track === undefined || prefixIn(topicOrFrame) === this.track;
+  }
+
+  /** Removes automatic displays of topics that are gone, or that another view shows. */
+  dropMissing(): void {
+    const names = new Set(this.app.topics.map((topic) => topic.name));
+    for (const entry of [...this.displays]) {
+      const topic = topicOf(entry.values);
+      if (!entry.isAutomatic || !topic || (names.has(topic) && this.isShown(topic))) continue;
+      entry.stop();
+      this.displays = this.displays.filter((one) => one !== entry);
+      this.seen.delete(topic);
+    }
+  }
+
   /** Topics or services changed. */
   offersChanged(): void {
     if (this.isAutomatic) this.addSuggested();
@@ -110,10 +202,12 @@ export class Viewport {
     for (const entry of this.displays) entry.flush();
     const { frames, tf } = this.app;
     if (this.isFrameChosen || frames.length === 0) return;
-    this.setFixedFrame(
-      bestFrame(frames, (name) => tf.root(name)),
-      false,
+    const own = frames.filter((name) => prefixIn(name) === (this.track ?? ''));
+    const best = bestFrame(
+      own.map((name) => name.slice(this.track?.length ?? 0)),
+      (name) => tf.root((this.track ?? '') + name).slice(this.track?.length ?? 0),
     );
+    this.setFixedFrame((this.track ?? '') + best, false);
   }
 
   setFixedFrame(name: string, isChosen = true): void {
@@ -144,7 +238,7 @@ export class Viewport {
     }
     let pictures = this.displays.filter((e) => e.kind.hasPicture && e.isEnabled).length;
     for (const { name, type } of this.app.topics) {
-      if (!type || this.seen.has(name)) continue;
+      if (!type || this.seen.has(name) || !this.isShown(name)) continue;
       this.seen.add(name);
       const suggestion = suggestionFor(name, type);
       if (!suggestion) continue;
@@ -174,19 +268,23 @@ export class Viewport {
     values: Values = {},
     isEnabled = true,
     isAutomatic = false,
+    group?: DisplayGroup,
   ): Entry | undefined {
     const kind = kindOf(kindClass);
     if (!kind) {
-      this.app.notice(
-        'warn',
-        `The display class "${kindClass}" is unknown; the display was skipped.`,
-      );
+      this.app.notice('warn', t().notices.unknownDisplay(kindClass));
       return undefined;
     }
     if (!isAutomatic) this.isAutomatic = false;
-    this.displays.push(new Entry(kind, name, values, isEnabled));
+    const saved = isAutomatic ? this.awaitedFor(kind.class, values) : undefined;
+    this.displays.push(
+      saved
+        ? new Entry(kind, saved.name, { ...values, ...saved.values }, saved.isEnabled)
+        : new Entry(kind, name, values, isEnabled),
+    );
     const entry = this.displays[this.displays.length - 1]!;
     entry.isAutomatic = isAutomatic;
+    entry.group = group;
     if (this.stage) this.begin(entry);
     return entry;
   }
@@ -210,6 +308,52 @@ export class Viewport {
     else entry.stop();
   }
 
+  setGroupEnabled(group: DisplayGroup, isEnabled: boolean): void {
+    group.isEnabled = isEnabled;
+    for (const entry of this.displays) {
+      if (!group.holds(entry.group)) continue;
+      if (entry.isShown && this.stage) this.begin(entry);
+      else if (!entry.isShown) entry.stop();
+    }
+  }
+
+  /** Adds an empty group; `move` puts displays into it. */
+  addGroup(name: string): DisplayGroup {
+    this.isAutomatic = false;
+    const group = new DisplayGroup(name, true);
+    this.groups = [...this.groups, group];
+    return group;
+  }
+
+  /** Removes a group; its displays and groups go to the group around it. */
+  removeGroup(group: DisplayGroup): void {
+    for (const entry of this.displays) if (entry.group === group) this.move(entry, group.parent);
+    this.groups = this.groups.filter((one) => one !== group);
+  }
+
+  /** Puts a display into a group, after the others in it. */
+  move(entry: Entry, group: DisplayGroup | undefined): void {
+    const rest = this.displays.filter((one) => one !== entry);
+    const last = rest.findLastIndex((one) => (group ? group.holds(one.group) : !one.group));
+    entry.group = group;
+    this.displays = rest.toSpliced(last + 1, 0, entry);
+    if (entry.isShown && this.stage) this.begin(entry);
+    else if (!entry.isShown) entry.stop();
+  }
+
+  // Saved views.
+
+  saveView(name: string): void {
+    const view = structuredClone(
+      this.stage?.view.state ?? ($state.snapshot(this.view) as ViewState),
+    );
+    this.savedViews = [...this.savedViews.filter((one) => one.name !== name), { name, view }];
+  }
+
+  removeView(name: string): void {
+    this.savedViews = this.savedViews.filter((one) => one.name !== name);
+  }
+
   setOption(entry: Entry, path: string, value: boolean | number | string): void {
     entry.values[path] = value;
     entry.display?.changed(path);
@@ -223,7 +367,64 @@ export class Viewport {
   clear(): void {
     for (const entry of this.displays) entry.stop();
     this.displays = [];
+    this.groups = [];
     this.app.models = [];
+  }
+
+  /** Takes the saved options of an automatic display. */
+  private awaitedFor(kindClass: string, values: Values): SavedDisplay | undefined {
+    const at = this.awaited.findIndex(
+      (one) => one.class === kindClass && (one.values.Topic ?? '') === (values.Topic ?? ''),
+    );
+    return at < 0 ? undefined : this.awaited.splice(at, 1)[0];
+  }
+
+  // Layouts.
+
+  snapshot(): ViewportState {
+    return {
+      fixedFrame: this.fixedFrame,
+      isFrameChosen: this.isFrameChosen,
+      view: structuredClone(this.stage?.view.state ?? ($state.snapshot(this.view) as ViewState)),
+      background: this.background,
+      isAutomatic: this.isAutomatic,
+      displays: [
+        ...this.displays.map((entry) => savedDisplay(entry, this.groups)),
+        ...this.awaited,
+      ],
+      groups: this.groups.map(savedGroup),
+      savedViews: this.savedViews,
+      fileName: this.fileName,
+      launched: this.launched,
+    };
+  }
+
+  /** Shows a saved 3D view. One that `isAskedFor` is not replaced by the file of a launch file. */
+  restore(state: Partial<ViewportState>, isAskedFor = false): void {
+    this.clear();
+    this.seen.clear();
+    this.awaited = [];
+    this.isAutomatic = state.isAutomatic !== false;
+    this.savedViews = state.savedViews ?? [];
+    if (this.isAutomatic) this.awaited = [...(state.displays ?? [])];
+    else {
+      this.groups = groupsFrom(state.groups ?? []);
+      for (const one of state.displays ?? []) {
+        const group = this.groups[one.group ?? -1];
+        this.add(one.class, one.name, { ...one.values }, one.isEnabled, false, group);
+      }
+    }
+    this.background = state.background ?? '';
+    this.fileName = state.fileName ?? '';
+    this.launched = state.launched ?? 0;
+    if (isAskedFor) this.hasOpenedLaunched = true;
+    this.isFrameChosen = state.isFrameChosen === true;
+    if (state.fixedFrame) this.setFixedFrame(state.fixedFrame, this.isFrameChosen);
+    if (state.view) {
+      this.view = { ...structuredClone(FIRST_VIEW), ...state.view };
+      this.stage?.view.set($state.snapshot(this.view) as ViewState);
+    }
+    this.offersChanged();
   }
 
   // `.rviz` files.
@@ -233,6 +434,10 @@ export class Viewport {
     const { rviz: text, rviz_file: fileName, fixed_frame: frame } = metadata;
     if (this.hasOpenedLaunched || !(text || frame)) return;
     this.hasOpenedLaunched = true;
+    // A reloaded page keeps what the user made of the file.
+    const sum = checksum(text ?? '');
+    if (text && sum === this.launched) return;
+    this.launched = sum;
     try {
       if (text) this.openRviz(text, fileName);
     } catch (error) {
@@ -241,7 +446,8 @@ export class Viewport {
     if (frame) this.setFixedFrame(frame);
   }
 
-  openRviz(text: string, fileName = ''): void {
+  /** Opens a file; returns what it says about the window. */
+  openRviz(text: string, fileName = ''): RvizWindow {
     const file = readRviz(text);
     // RViz has no display for a simulated world: the present one stays, unless the file has one.
     const isWorldKept = !file.displays.some(({ class: name }) => name === WORLD_CLASS);
@@ -251,10 +457,23 @@ export class Viewport {
     this.rvizOriginal = file.original;
     this.fileName = fileName;
     this.rvizTools = file.tools;
+    const groups = new Map<RvizGroup, DisplayGroup>();
+    for (const group of file.groups) {
+      const parent = group.parent && groups.get(group.parent);
+      groups.set(group, new DisplayGroup(group.name, group.isEnabled, parent, group.original));
+    }
+    this.groups = [...groups.values()];
     for (const display of file.displays) {
-      const entry = this.add(display.class, display.name, display.values, display.isEnabled);
+      const { class: name, values, isEnabled } = display;
+      const group = display.group && groups.get(display.group);
+      const entry = this.add(name, display.name, values, isEnabled, false, group);
       if (entry) entry.original = display.original;
     }
+    this.savedViews = file.savedViews.map((saved) => ({
+      name: saved.name,
+      view: { ...structuredClone(FIRST_VIEW), ...viewFrom(saved) },
+      original: saved,
+    }));
     for (const { name, values, isEnabled } of worlds) {
       this.add(WORLD_CLASS, name, $state.snapshot(values) as Values, isEnabled);
     }
@@ -263,6 +482,7 @@ export class Viewport {
     this.setFixedFrame(file.fixedFrame);
     this.background = file.background;
     if (file.view) this.setView(viewFrom(file.view));
+    return file.window;
   }
 
   rvizText(): string {
@@ -275,8 +495,13 @@ export class Viewport {
         isEnabled: entry.isEnabled,
         values: $state.snapshot(entry.values) as Values,
         options: entry.kind.options,
+        group: entry.group,
         original: entry.original,
       })),
+      groups: this.groups,
+      savedViews: this.savedViews.map(
+        ({ name, view, original }) => original ?? { name, ...viewTo(view) },
+      ),
       view: viewTo(this.stage?.view.state ?? FIRST_VIEW),
       original: this.rvizOriginal,
     });

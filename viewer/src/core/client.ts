@@ -16,7 +16,9 @@ import {
   type ServerText,
   type ServiceOffer,
 } from './protocol';
+import { RecordingRequests } from './replay_requests';
 import { parseSchema } from './schema';
+import { t } from '../texts/language.svelte';
 
 /** Part of a WebSocket that the client uses; tests replace it. */
 export interface Socket {
@@ -31,7 +33,8 @@ export interface Socket {
   onmessage: ((event: { data: unknown }) => void) | null;
 }
 
-export type Handler = (message: Message, topic: string, bytes: number) => void;
+/** `timeS`: the log time of a recorded message [s]; `undefined` for a message that was just published. */
+export type Handler = (message: Message, topic: string, bytes: number, timeS?: number) => void;
 
 export type State = 'connecting' | 'open' | 'closed';
 
@@ -43,6 +46,8 @@ export interface Events {
   time(seconds: number): void;
   /** `serverInfo`, once per connection. */
   info?(metadata: Record<string, string>): void;
+  /** The list of recordings changed. */
+  recordings?(): void;
   /** Status message of the server, or an error of a message that cannot be decoded. */
   status(level: number, message: string): void;
 }
@@ -75,6 +80,8 @@ export class Client {
   capabilities: string[] = [];
   state: State = 'connecting';
   bytesReceived = 0;
+  /** Recordings of the server, and requests for their messages. */
+  readonly recordings: RecordingRequests;
 
   private socket?: Socket;
   private topics = new Map<string, Topic>();
@@ -93,7 +100,18 @@ export class Client {
     private events: Events,
     /** Definitions of types that the page publishes although the server has not sent them. */
     private texts: Record<string, string> = {},
-  ) {}
+  ) {
+    this.recordings = new RecordingRequests(
+      {
+        isOpen: () => this.socket?.readyState === 1,
+        send: (data) => this.socket?.send(data),
+        waitingBytes: () => this.socket?.bufferedAmount ?? 0,
+        nextId: () => ++this.lastId,
+      },
+      () => events.recordings?.(),
+      (message) => events.status(2, message),
+    );
+  }
 
   start(): void {
     this.isStopped = false;
@@ -102,7 +120,7 @@ export class Client {
     try {
       socket = this.open();
     } catch (error) {
-      this.lost(`the address is not valid: ${String(error)}`);
+      this.lost(t().connection.badAddress(String(error)));
       return;
     }
     this.socket = socket;
@@ -115,7 +133,7 @@ export class Client {
     socket.onmessage = (event) => this.receive(event.data);
     socket.onerror = () => undefined;
     socket.onclose = () => {
-      if (this.socket === socket) this.lost('the server is unreachable');
+      if (this.socket === socket) this.lost(t().connection.unreachable);
     };
   }
 
@@ -125,7 +143,7 @@ export class Client {
     const { socket } = this;
     this.socket = undefined;
     socket?.close();
-    this.forget('the connection was closed');
+    this.forget(t().connection.closed);
     this.setState('closed', '');
   }
 
@@ -157,6 +175,7 @@ export class Client {
     this.calls.clear();
     this.assets.clear();
     this.repairs.clear();
+    this.recordings.disconnected(why);
     this.events.graphChanged();
   }
 
@@ -198,10 +217,7 @@ export class Client {
     const channel = this.channels.get(topic);
     if (!channel || entry.subscription !== undefined) return;
     if (channel.encoding !== 'cdr') {
-      this.events.status(
-        1,
-        `${topic} has the encoding ${channel.encoding}; this page decodes only CDR`,
-      );
+      this.events.status(1, t().connection.encoding(topic, channel.encoding));
       return;
     }
     try {
@@ -244,7 +260,7 @@ export class Client {
     for (const channel of this.channels.values()) {
       if (channel.schemaName === schemaName) return channel.schema;
     }
-    throw new Error(`the definition of the message type ${schemaName} is unknown`);
+    throw new Error(t().connection.unknownType(schemaName));
   }
 
   // Services, assets and parameters.
@@ -252,7 +268,7 @@ export class Client {
   /** Calls a service; fails with the server's reason, or after a timeout. */
   call(name: string, request: Message, timeoutMs = CALL_TIMEOUT_MS): Promise<Message> {
     const offer = this.services.get(name);
-    if (!offer) return Promise.reject(new Error(`no node provides the service ${name}`));
+    if (!offer) return Promise.reject(new Error(t().connection.noService(name)));
     const schema = offer.request?.schema ?? offer.requestSchema ?? '';
     const schemaName = offer.request?.schemaName ?? `${offer.type}_Request`;
     let payload: Uint8Array;
@@ -265,7 +281,7 @@ export class Client {
     return new Promise((resolve, reject) => {
       const timer = setTimeout(() => {
         this.calls.delete(id);
-        reject(new Error(`${name} did not respond within ${timeoutMs / 1000} s`));
+        reject(new Error(t().connection.timeout(name, timeoutMs / 1000)));
       }, timeoutMs);
       this.calls.set(id, { resolve, reject, timer, offer });
       if (this.socket?.readyState === 1) this.socket.send(callFrame(offer.id, id, 'cdr', payload));
@@ -274,12 +290,12 @@ export class Client {
 
   /** Bytes of a `package://`, `model://` or other URI that the server resolves. */
   asset(uri: string): Promise<Uint8Array> {
-    if (this.state !== 'open') return Promise.reject(new Error('not connected'));
+    if (this.state !== 'open') return Promise.reject(new Error(t().connection.notConnected));
     const requestId = ++this.lastId;
     return new Promise((resolve, reject) => {
       const timer = setTimeout(() => {
         this.assets.delete(requestId);
-        reject(new Error(`${uri} was not received in time`));
+        reject(new Error(t().connection.assetTimeout(uri)));
       }, CALL_TIMEOUT_MS);
       this.assets.set(requestId, { resolve, reject, timer });
       this.send({ op: 'fetchAsset', uri, requestId });
@@ -292,7 +308,7 @@ export class Client {
     return new Promise((resolve, reject) => {
       const timer = setTimeout(() => {
         this.repairs.delete(id);
-        reject(new Error(`The server did not confirm the repair of ${topic}`));
+        reject(new Error(t().connection.repairTimeout(topic)));
       }, CALL_TIMEOUT_MS);
       this.repairs.set(id, { resolve, reject, timer });
       const ends = { publisher: publisher.node, subscription: subscription.node };
@@ -315,7 +331,7 @@ export class Client {
       try {
         text = JSON.parse(data) as ServerText;
       } catch {
-        this.events.status(2, 'the server sent text that is not JSON');
+        this.events.status(2, t().connection.notJson);
         return;
       }
       this.receiveText(text);
@@ -335,6 +351,7 @@ export class Client {
           this.send({ op: 'subscribeConnectionGraph' });
         }
         if (text.capabilities.includes('parameters')) this.getParameters();
+        if (text.capabilities.includes('recordings')) this.send({ op: 'subscribeRecordings' });
         this.events.info?.(text.metadata ?? {});
         break;
       case 'status':
@@ -383,6 +400,8 @@ export class Client {
       }
       case 'removeStatus':
         break;
+      default:
+        this.recordings.receiveText(text);
     }
   }
 
@@ -460,6 +479,9 @@ export class Client {
         else asset.resolve(frame.data);
         break;
       }
+      case 'stored':
+        this.recordings.receiveFrame(frame);
+        break;
     }
   }
 

@@ -8,6 +8,8 @@ export interface Need {
   historyS?: number;
   /** At least this many messages, also older ones. */
   count?: number;
+  /** All messages since the newest one of this topic: updates of a map since the map. */
+  sinceTopic?: string;
 }
 
 /** Where messages come from. */

@@ -55,6 +55,81 @@ export interface Mismatch {
   advice: string;
 }
 
+/** Topic of a recording; an extension of Periplus, see docs/live.md. */
+export interface RecordingTopic {
+  id: number;
+  topic: string;
+  encoding: string;
+  schemaName: string;
+  schemaEncoding: string;
+  schema: string;
+  count: number;
+  isLatched: boolean;
+}
+
+export type JobKind = 'slam' | 'amcl' | 'costmap';
+
+/** Recording on the server. Times are nanoseconds of the log time. */
+export interface Recording {
+  id: number;
+  name: string;
+  kind: string;
+  state: 'opening' | 'ready' | 'failed';
+  /** Fraction of the work while it is opened, 0 to 1. */
+  progress: number;
+  error: string | null;
+  startNs: string;
+  endNs: string;
+  bytes: number;
+  messageCount: number;
+  findings: string[];
+  /** Recording and parameters that an estimator was run on. */
+  origin: { recording: number; kind: string; parameters: Record<string, ParameterValue> } | null;
+  topics: RecordingTopic[];
+}
+
+/** Event in a recording: an error, a goal, a collision. */
+export interface Mark {
+  timeNs: string;
+  kind: string;
+  topic: string;
+  text: string;
+}
+
+/** Parameter of an estimator that can be run on a recording. */
+export interface JobParameter {
+  name: string;
+  type: string;
+  default: ParameterValue;
+  min: number | null;
+  max: number | null;
+  unit: string | null;
+  doc: string;
+}
+
+export type RecordingText =
+  | { op: 'recordings'; isRecording: boolean; recordings: Recording[] }
+  | { op: 'density'; requestId: number; topics: Record<string, number[]> }
+  | { op: 'marks'; requestId: number; marks: Mark[]; isComplete: boolean }
+  | {
+      op: 'series';
+      requestId: number;
+      timesNs: string[];
+      values: (number | null)[][];
+      isReduced: boolean;
+    }
+  | { op: 'uploadStarted'; requestId: number; upload: number }
+  | { op: 'uploadProgress'; upload: number; bytes: number }
+  | { op: 'jobParameters'; requestId: number; kind: string; parameters: JobParameter[] }
+  | { op: 'fetchFailure'; requestId: number; message: string };
+
+/** Message of a recording, not decoded. */
+export interface StoredMessage {
+  topic: number;
+  timeNs: bigint;
+  data: Uint8Array;
+}
+
 export type ServerText =
   | {
       op: 'serverInfo';
@@ -78,13 +153,23 @@ export type ServerText =
       mismatches?: Mismatch[];
     } & Ends)
   | { op: 'repairQosResult'; id: number; isRepaired: boolean; message: string }
+  | RecordingText
   | { op: 'serviceCallFailure'; serviceId: number; callId: number; message: string };
 
 export type ServerFrame =
   | { op: 'message'; subscription: number; payload: Uint8Array }
   | { op: 'time'; nanoseconds: bigint }
   | { op: 'answer'; service: number; call: number; encoding: string; payload: Uint8Array }
-  | { op: 'asset'; request: number; error?: string; data: Uint8Array };
+  | { op: 'asset'; request: number; error?: string; data: Uint8Array }
+  | {
+      op: 'stored';
+      request: number;
+      isLast: boolean;
+      /** More messages of the span follow after `reachedNs`. */
+      isMore: boolean;
+      reachedNs: bigint;
+      messages: StoredMessage[];
+    };
 
 const TEXT = new TextDecoder();
 const BYTES = new TextEncoder();
@@ -119,9 +204,42 @@ export function parseFrame(data: ArrayBuffer): ServerFrame | undefined {
         data: bytes.subarray(end),
       };
     }
+    case 0x10:
+      return {
+        op: 'stored',
+        request: view.getUint32(1, true),
+        isLast: (view.getUint8(5) & 1) !== 0,
+        isMore: (view.getUint8(5) & 2) !== 0,
+        reachedNs: view.getBigUint64(6, true),
+        messages: storedMessages(view, bytes),
+      };
     default:
       return undefined;
   }
+}
+
+function storedMessages(view: DataView, bytes: Uint8Array): StoredMessage[] {
+  const out: StoredMessage[] = [];
+  for (let at = 14; at + 16 <= bytes.length;) {
+    const length = view.getUint32(at + 12, true);
+    const begin = at + 16;
+    out.push({
+      topic: view.getUint32(at, true),
+      timeNs: view.getBigUint64(at + 4, true),
+      data: bytes.subarray(begin, begin + length),
+    });
+    at = begin + length;
+  }
+  return out;
+}
+
+/** Part of the files that are uploaded, which follow one after the other. */
+export function uploadFrame(upload: number, part: Uint8Array): Uint8Array<ArrayBuffer> {
+  const out = new Uint8Array(5 + part.length);
+  out[0] = 0x11;
+  new DataView(out.buffer).setUint32(1, upload, true);
+  out.set(part, 5);
+  return out;
 }
 
 export function messageFrame(channel: number, payload: Uint8Array): Uint8Array<ArrayBuffer> {

@@ -1,4 +1,5 @@
 /** Parser of ROS message definitions ("ros2msg"). */
+import { t } from '../texts/language.svelte';
 
 export interface Field {
   name: string;
@@ -7,6 +8,8 @@ export interface Field {
   isComplex: boolean;
   /** Undefined: one value; "sequence": any number of values; a number: an array of this length. */
   array: undefined | 'sequence' | number;
+  /** Default value as the definition writes it. */
+  default?: string;
 }
 
 export interface Constant {
@@ -113,9 +116,10 @@ function parseOne(name: string, text: string): Definition {
       });
       continue;
     }
-    const field = /^(\S+)\s+([A-Za-z]\w*)/.exec(line);
-    if (!field) throw new Error(`${name}: cannot read the line "${line}" of its definition`);
-    definition.fields.push(readField(own, field[1]!, field[2]!));
+    const field = /^(\S+)\s+([A-Za-z]\w*)(?:\s+(.+))?$/.exec(line);
+    if (!field) throw new Error(t().messages.badLine(name, line));
+    const read = readField(own, field[1]!, field[2]!);
+    definition.fields.push(field[3] === undefined ? read : { ...read, default: field[3].trim() });
   }
   return definition;
 }
@@ -145,6 +149,6 @@ function readField(own: string, written: string, name: string): Field {
 
 export function definitionOf(schema: Schema, type: string): Definition {
   const found = schema.types.get(type);
-  if (!found) throw new Error(`${schema.root.name}: its definition lacks the type ${type}`);
+  if (!found) throw new Error(t().messages.lacksType(schema.root.name, type));
   return found;
 }

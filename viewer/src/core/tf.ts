@@ -1,6 +1,7 @@
 /** Transform buffer with the rules of tf2: ten seconds of history, no extrapolation. */
 import { IDENTITY, interpolate, inverse, multiply, normalize, type Pose } from './pose';
 import { seconds, type TransformStamped } from './types';
+import { t } from '../texts/language.svelte';
 
 interface Sample {
   timeS: number;
@@ -22,7 +23,8 @@ export type Lookup =
   | { kind: 'later'; why: string }
   | { kind: 'never'; why: string };
 
-const KEPT_S = 10;
+/** Time that transforms are kept, as in tf2 [s]. */
+export const KEPT_S = 10;
 /** A chain of more frames than this is a loop. */
 const MOST_LINKS = 200;
 
@@ -35,6 +37,8 @@ export class TfBuffer {
   private frames = new Map<string, Frame>();
   /** Incremented at each change, for users that cache lookups. */
   version = 0;
+  /** Time that transforms are kept [s]; a recording may show messages that are older. */
+  keptS = KEPT_S;
 
   clear(): void {
     this.frames.clear();
@@ -65,13 +69,13 @@ export class TfBuffer {
     const { samples } = frame;
     const newest = samples[samples.length - 1]!;
     // Time jumped back: a simulation was reset, or a recording restarted.
-    if (sample.timeS < newest.timeS - KEPT_S) samples.length = 0;
+    if (sample.timeS < newest.timeS - this.keptS) samples.length = 0;
     let at = samples.length;
     while (at > 0 && samples[at - 1]!.timeS > sample.timeS) at--;
     if (at > 0 && samples[at - 1]!.timeS === sample.timeS) samples[at - 1] = sample;
     else samples.splice(at, 0, sample);
     let drop = 0;
-    while (samples[drop]!.timeS < samples[samples.length - 1]!.timeS - KEPT_S) drop++;
+    while (samples[drop]!.timeS < samples[samples.length - 1]!.timeS - this.keptS) drop++;
     if (drop > 64) samples.splice(0, drop);
   }
 
@@ -131,13 +135,13 @@ export class TfBuffer {
     const from = frameName(source);
     if (to === from) return { kind: 'found', pose: IDENTITY };
     for (const name of [to, from]) {
-      if (!this.has(name)) return { kind: 'later', why: `there is no frame "${name}" yet` };
+      if (!this.has(name)) return { kind: 'later', why: t().transforms.noFrame(name) };
     }
     const up = this.chain(from);
     const down = this.chain(to);
     const common = up.find((name) => down.includes(name));
     if (common === undefined) {
-      return { kind: 'later', why: `"${to}" and "${from}" are in different transform trees` };
+      return { kind: 'later', why: t().transforms.apart(to, from) };
     }
     const used = [...up.slice(0, up.indexOf(common)), ...down.slice(0, down.indexOf(common))];
     const at = timeS ?? this.newestCommon(used);
@@ -187,13 +191,13 @@ export class TfBuffer {
       if (timeS === Infinity) return newest.parentFromChild;
       return {
         kind: 'later',
-        why: `the newest transform of "${name}" is at ${newest.timeS.toFixed(3)} s`,
+        why: t().transforms.newest(name, newest.timeS.toFixed(3)),
       };
     }
     if (timeS < samples[0]!.timeS) {
       return {
         kind: 'never',
-        why: `the oldest transform of "${name}" is at ${samples[0]!.timeS.toFixed(3)} s`,
+        why: t().transforms.oldest(name, samples[0]!.timeS.toFixed(3)),
       };
     }
     let low = 0;

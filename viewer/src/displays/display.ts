@@ -9,6 +9,7 @@ import { seconds, type Header } from '../core/types';
 import { matrixOf } from '../scene/shapes';
 import { dispose, type Stage } from '../scene/stage';
 import type { Option, Value, Values } from './options';
+import { t } from '../texts/language.svelte';
 
 export type Level = 'ok' | 'warn' | 'error';
 
@@ -18,9 +19,17 @@ export interface Context {
   tf: TfBuffer;
   subscribe(topic: string, handler: Handler, need?: Need): () => void;
   asset(uri: string): Promise<Uint8Array>;
+  publish(topic: string, type: string, message: Message): void;
+  /** Calls a service; fails with the server's reason. */
+  call(service: string, request: Message): Promise<Message>;
+  hasService(name: string): boolean;
   fixedFrame(): string;
   /** Time of the messages [s]. */
   nowS(): number;
+  /** False if no newer transforms arrive: a recording is paused. */
+  awaitsTransforms?(): boolean;
+  /** Clock of the arrival of messages, for their ages [ms]. */
+  arrivalMs?(): number;
   /** Pose of a simulated sensor's data by the simulation itself, for frames that TF does not know. */
   fixedFromSensor(topic: string, frame: string, timeS: number): Pose | undefined;
   /** Nodes that estimate where the robot is. */
@@ -58,6 +67,7 @@ export abstract class Display {
   private unsubscribe?: () => void;
   private messageCount = 0;
   private subscribedTopic = '';
+  private subscribedNeed = '';
 
   constructor(
     protected context: Context,
@@ -71,27 +81,35 @@ export abstract class Display {
     return this.values[path] as T;
   }
 
+  /** Messages before a time that are needed to show that time; by default the newest one. */
+  protected need(): Need {
+    return {};
+  }
+
   /** Subscribes to the topic. */
   start(): void {
     this.unsubscribe?.();
+    const need = this.need();
+    this.subscribedNeed = JSON.stringify(need);
     this.messageCount = 0;
     const topic = this.values.Topic;
     if (typeof topic !== 'string') return;
     this.subscribedTopic = topic;
     if (!topic) {
-      this.host.status('Topic', 'warn', 'No topic is set');
+      this.host.status('Topic', 'warn', t().displays.noTopic);
       return;
     }
-    this.host.status('Topic', 'warn', `No message received on ${topic} yet`);
-    this.unsubscribe = this.context.subscribe(topic, (message) => {
+    this.host.status('Topic', 'warn', t().displays.noMessage(topic));
+    const handler: Handler = (message) => {
       this.messageCount++;
-      this.host.status('Topic', 'ok', `${this.messageCount} messages on ${topic}`);
+      this.host.status('Topic', 'ok', t().displays.messages(this.messageCount, topic));
       try {
         this.receive(message);
       } catch (error) {
         this.host.status('Message', 'error', (error as Error).message);
       }
-    });
+    };
+    this.unsubscribe = this.context.subscribe(topic, handler, need);
   }
 
   protected abstract receive(message: Message): void;
@@ -100,6 +118,8 @@ export abstract class Display {
   changed(path: string): void {
     if (path === 'Topic' && this.values.Topic !== this.subscribedTopic) {
       this.clear();
+      this.start();
+    } else if (JSON.stringify(this.need()) !== this.subscribedNeed && this.unsubscribe) {
       this.start();
     }
     this.context.stage.invalidate();
@@ -110,6 +130,16 @@ export abstract class Display {
 
   /** Removes everything shown: another topic, or another time. */
   clear(): void {}
+
+  /** Time jumped in a recording: the messages of the new time follow. */
+  reset(): void {
+    this.messageCount = 0;
+    if (this.unsubscribe) {
+      this.host.status('Topic', 'warn', `No message on ${this.subscribedTopic} at this time`);
+      this.host.status('Message', 'ok');
+    }
+    this.clear();
+  }
 
   /** Called when the fixed frame has changed. */
   moved(): void {}
@@ -151,8 +181,13 @@ export abstract class FramedDisplay<M extends { header: Header }> extends Displa
   protected last?: M;
 
   protected override receive(message: Message): void {
-    this.pending.push({ message: message as never, sinceMs: performance.now() });
+    const nowMs = performance.now();
+    this.pending.push({ message: message as never, sinceMs: nowMs });
     const most = (this.values['Topic/Filter size'] as number | undefined) ?? 10;
+    if (this.pending.length <= most) return;
+    // A display of past messages gets all of them after a jump, before the next frame.
+    const { historyS, count } = this.need();
+    if (historyS || (count ?? 1) > 1) this.tick(nowMs);
     if (this.pending.length > most) this.pending.shift();
   }
 
@@ -186,15 +221,21 @@ export abstract class FramedDisplay<M extends { header: Header }> extends Displa
     if (newest.kind !== 'found') {
       const topic = String(this.values.Topic ?? '');
       const pose = this.context.fixedFromSensor(topic, header.frame_id, stampS);
-      if (pose) this.host.status('Transform', 'ok', 'Pose from the simulation; TF has none');
+      if (pose) this.host.status('Transform', 'ok', t().displays.poseFromSimulation);
       if (pose) return pose;
     }
-    if (then.kind !== 'never' && waitedMs <= TRANSFORM_TIMEOUT_MS) return undefined;
+    const mayArrive = this.context.awaitsTransforms?.() ?? true;
+    if (mayArrive && then.kind !== 'never' && waitedMs <= TRANSFORM_TIMEOUT_MS) return undefined;
     if (newest.kind === 'found') {
-      this.host.status('Transform', 'warn', `Using the newest transform: ${then.why}`);
+      // The message is newer than the last transform before the time at which a recording is paused.
+      if (!mayArrive && then.kind === 'later') {
+        this.host.status('Transform', 'ok');
+        return newest.pose;
+      }
+      this.host.status('Transform', 'warn', t().displays.newestTransform(then.why));
       return newest.pose;
     }
-    this.host.status('Transform', 'error', `No transform: ${newest.why}`);
+    this.host.status('Transform', 'error', t().displays.noTransform(newest.why));
     return undefined;
   }
 
@@ -221,6 +262,12 @@ export abstract class FramedDisplay<M extends { header: Header }> extends Displa
   override moved(): void {
     this.clear();
     this.again();
+  }
+
+  override reset(): void {
+    this.pending = [];
+    this.last = undefined;
+    super.reset();
   }
 
   override clear(): void {

@@ -6,6 +6,7 @@ import { matrixOf } from '../scene/shapes';
 import { Display, type Kind } from './display';
 import { alpha, bool, choice, int, number, topic } from './options';
 import { extentOf, isDepth, toPixels, type Extent } from './pixels';
+import { t } from '../texts/language.svelte';
 
 const NONE: Extent = { min: 0, max: 1 };
 
@@ -16,36 +17,56 @@ class ImageDisplay extends Display {
   private extents: Extent[] = [];
   /** Newest image that is not painted yet. */
   private waiting?: Message;
+  /** True after a jump in a recording, until an image of the new time arrived. */
+  private isStale = false;
+  private received = 0;
+  /** Number of the image that is shown. */
+  private shownNumber = 0;
 
   override start(): void {
     super.start();
     this.host.picture?.(this.canvas);
   }
 
+  override reset(): void {
+    this.isStale = true;
+    this.waiting = undefined;
+    super.reset();
+  }
+
   /** Images may arrive faster than frames are drawn: the newest one is painted with the next frame. */
   protected override receive(message: Message): void {
+    this.isStale = false;
     this.waiting = message;
   }
 
-  override tick(): void {
+  override tick(_nowMs: number): void {
     const { waiting } = this;
-    if (!waiting) return;
-    this.waiting = undefined;
-    try {
-      this.paint(waiting);
-    } catch (error) {
-      this.host.status('Message', 'error', (error as Error).message);
+    if (waiting) {
+      this.waiting = undefined;
+      try {
+        this.paint(waiting);
+      } catch (error) {
+        this.host.status('Message', 'error', (error as Error).message);
+      }
+    } else if (this.isStale) {
+      this.isStale = false;
+      this.shownNumber = ++this.received;
+      this.image = undefined;
+      const { width, height } = this.canvas;
+      this.canvas.getContext('2d')!.clearRect(0, 0, width, height);
     }
   }
 
   private paint(message: Message): void {
+    this.received++;
     if ('format' in message) {
       void this.compressed(message as never);
       return;
     }
     const image = message as unknown as ImageMessage;
     const { width, height } = image;
-    if (!(width > 0 && height > 0)) throw new Error('The image has no pixels');
+    if (!(width > 0 && height > 0)) throw new Error(t().displays.noPixels);
     if (this.screen?.width !== width || this.screen.height !== height) {
       this.screen = new ImageData(width, height);
       this.extents = [];
@@ -82,18 +103,18 @@ class ImageDisplay extends Display {
     format: string;
     data: Uint8Array<ArrayBuffer>;
   }): Promise<void> {
+    const mine = this.received;
     try {
       const bitmap = await createImageBitmap(new Blob([message.data]));
+      // A newer image was decoded meanwhile.
+      if (mine < this.shownNumber) return;
+      this.shownNumber = mine;
       this.canvas.width = bitmap.width;
       this.canvas.height = bitmap.height;
       this.canvas.getContext('2d')!.drawImage(bitmap, 0, 0);
       this.host.status('Image', 'ok', `${bitmap.width} x ${bitmap.height}, ${message.format}`);
     } catch {
-      this.host.status(
-        'Image',
-        'error',
-        `The browser cannot decode the format "${message.format}"`,
-      );
+      this.host.status('Image', 'error', t().displays.imageFormat(message.format));
     }
   }
 
@@ -137,7 +158,7 @@ class CameraDisplay extends ImageDisplay {
       return;
     }
     if (!info) {
-      this.host.status('Camera', 'warn', 'No camera_info received for the image yet');
+      this.host.status('Camera', 'warn', t().displays.noCameraInfo);
       return;
     }
     const { stage, tf } = this.context;
@@ -269,7 +290,9 @@ export const image: Kind = {
   class: 'rviz_default_plugins/Image',
   also: ['rviz/Image'],
   title: 'Image',
-  help: 'Images, including depth images',
+  get help() {
+    return t().displayHelp.image;
+  },
   types: IMAGE,
   hasPicture: true,
   options: [...topic('Topic', '', IMAGE), ...range],
@@ -280,7 +303,9 @@ export const camera: Kind = {
   class: 'rviz_default_plugins/Camera',
   also: ['rviz/Camera'],
   title: 'Camera',
-  help: 'A camera image overlaid with the scene as seen by the camera',
+  get help() {
+    return t().displayHelp.camera;
+  },
   types: IMAGE,
   hasPicture: true,
   options: [

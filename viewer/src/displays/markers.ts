@@ -1,6 +1,7 @@
 /** Marker and MarkerArray: shapes published by nodes. */
 import { Group } from 'three';
 import type { Message } from '../core/cdr';
+import type { Need } from '../core/feed';
 import { multiply, type Pose } from '../core/pose';
 import { poseOf, seconds, type Marker } from '../core/types';
 import { MeshLibrary } from '../scene/meshes';
@@ -8,6 +9,7 @@ import { dispose } from '../scene/stage';
 import { Display, type Kind } from './display';
 import { markerObject } from './marker_shapes';
 import { topic } from './options';
+import { t } from '../texts/language.svelte';
 
 interface Entry {
   marker: Marker;
@@ -22,6 +24,10 @@ const PATIENCE_MS = 700;
 const ADD = 0;
 const DELETE = 2;
 const DELETE_ALL = 3;
+
+/** Messages fetched from a recording: earlier markers that were not replaced since are missing. */
+const MAX_KEPT = 30;
+const MAX_KEPT_ARRAYS = 3;
 
 export class MarkerDisplay extends Display {
   protected entries = new Map<string, Entry>();
@@ -56,7 +62,12 @@ export class MarkerDisplay extends Display {
     for (const ns of names) {
       if (!(`Namespaces/${ns}` in this.values)) this.host.note(`Namespaces/${ns}`, true);
     }
-    this.host.status('Markers', 'ok', `${this.entries.size} markers`);
+    this.host.status('Markers', 'ok', t().displays.markers(this.entries.size));
+  }
+
+  /** Markers are published one after the other, and stay until they are deleted. */
+  protected override need(): Need {
+    return { count: MAX_KEPT };
   }
 
   private add(key: string, marker: Marker): void {
@@ -66,9 +77,9 @@ export class MarkerDisplay extends Display {
     object.matrixAutoUpdate = true;
     object.visible = false;
     object.userData.inspect = () => ({
-      Marker: `${marker.ns || '(no namespace)'} ${marker.id}`,
-      Frame: marker.header.frame_id,
-      ...(marker.text ? { Text: marker.text } : {}),
+      [t().found.marker]: `${marker.ns || t().found.noNamespace} ${marker.id}`,
+      [t().found.frame]: marker.header.frame_id,
+      ...(marker.text ? { [t().found.text]: marker.text } : {}),
     });
     const done = (why?: string) => {
       if (why) this.host.status('Meshes', 'error', why);
@@ -165,6 +176,13 @@ export class MarkerDisplay extends Display {
   }
 }
 
+/** Most nodes publish all of their markers in each message. */
+class MarkerArrayDisplay extends MarkerDisplay {
+  protected override need(): Need {
+    return { count: MAX_KEPT_ARRAYS };
+  }
+}
+
 const MARKER = ['visualization_msgs/msg/Marker'];
 const ARRAY = ['visualization_msgs/msg/MarkerArray'];
 
@@ -172,7 +190,9 @@ export const marker: Kind = {
   class: 'rviz_default_plugins/Marker',
   also: ['rviz/Marker'],
   title: 'Marker',
-  help: 'A shape published by a node',
+  get help() {
+    return t().displayHelp.marker;
+  },
   types: MARKER,
   options: topic('Topic', '', MARKER, { isFiltered: true }),
   make: (...all) => new MarkerDisplay(...all),
@@ -182,8 +202,10 @@ export const markerArray: Kind = {
   class: 'rviz_default_plugins/MarkerArray',
   also: ['rviz/MarkerArray'],
   title: 'MarkerArray',
-  help: 'Shapes published by a node',
+  get help() {
+    return t().displayHelp.markerArray;
+  },
   types: ARRAY,
   options: topic('Topic', '', ARRAY),
-  make: (...all) => new MarkerDisplay(...all),
+  make: (...all) => new MarkerArrayDisplay(...all),
 };
