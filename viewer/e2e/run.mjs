@@ -11,6 +11,7 @@ import { demo } from './demo.mjs';
 import { keyboard } from './keyboard.mjs';
 import { browser, next, open, periplus, servePage, until, port } from './lib.mjs';
 import { navigate } from './navigate.mjs';
+import { replay } from './replay.mjs';
 import { tutorials } from './tutorials.mjs';
 import { use } from './use.mjs';
 
@@ -177,6 +178,7 @@ try {
   await axe(chrome, pages.url, attempt);
   await navigate(chrome, pages.url, attempt);
   await tutorials(chrome, pages.url, out, attempt);
+  await replay(chrome, pages.url, out, attempt);
   await demo(chrome, pages.url, attempt);
 } finally {
   await chrome.close();
