@@ -74,6 +74,9 @@ export async function replay(chrome, url, out, attempt) {
     ...['--cmd', 'worlds/drives/circle.yaml', '--ros2', 'off', '--record', mcap],
   );
 
+  const [db3, bag] = [join(folder, 'run_db3.db3'), join(folder, 'run.bag')];
+  for (const file of [db3, bag]) run('bag', 'convert', mcap, '--output', file);
+
   await attempt('replay mcap', () =>
     view(chrome, url, [mcap], async (page) => {
       await jumps(page, SCAN, 0.2);
@@ -131,14 +134,14 @@ export async function replay(chrome, url, out, attempt) {
           seen.last = now;
         }, 20);
       });
-      await page.locator('body').press(' ');
+      await track.press(' ');
       await until(page, 'seen.backs >= 2', 'two rounds of the loop');
       const seen = await page.evaluate(() => {
         clearInterval(window.timer);
         return window.seen;
       });
       assert.ok(seen.low >= 3.999 && seen.high <= 6.001, JSON.stringify(seen));
-      await page.locator('body').press(' ');
+      await track.press(' ');
       await until(page, '!periplus.replay.isPlaying', 'paused');
       // Numbers over the whole recording.
       const series = await page.evaluate(async () => {
@@ -159,22 +162,20 @@ export async function replay(chrome, url, out, attempt) {
     }),
   );
 
-  const kinds = [
-    ['rosbag2', join(folder, 'run_db3.db3'), SCAN, 0.2],
-    ['ros1', join(folder, 'run.bag'), SCAN, 0.2],
-  ];
-  for (const [name, file, topic, periodS] of kinds) {
-    await attempt(`replay ${name}`, async () => {
-      run('bag', 'convert', mcap, '--output', file);
-      await view(chrome, url, [file], (page) => jumps(page, topic, periodS));
-    });
+  for (const [name, file] of [
+    ['rosbag2', db3],
+    ['ros1', bag],
+  ]) {
+    await attempt(`replay ${name}`, () =>
+      view(chrome, url, [file], (page) => jumps(page, SCAN, 0.2)),
+    );
   }
   await attempt('replay carmen', async () => {
     if (!existsSync(CARMEN)) {
       console.log(`SKIPPED: ${CARMEN} does not exist`);
       return;
     }
-    await view(chrome, url, [CARMEN], (page) => jumps(page, '/scan', 1));
+    await view(chrome, url, [CARMEN], (page) => jumps(page, '/scan', 10));
   });
 
   await attempt('replay upload', () =>
@@ -185,7 +186,7 @@ export async function replay(chrome, url, out, attempt) {
       const note = { name: 'notes.txt', mimeType: 'text/plain', buffer: Buffer.from('hello') };
       await input.setInputFiles(note);
       await page.getByText('notes.txt is not a recording').waitFor();
-      await input.setInputFiles(join(folder, 'run.bag'));
+      await input.setInputFiles(bag);
       await until(
         page,
         'periplus.replay.source.tracks[0].recording.kind === "ros1"',
@@ -196,7 +197,7 @@ export async function replay(chrome, url, out, attempt) {
   );
 
   await attempt('replay two', () =>
-    view(chrome, url, [mcap, join(folder, 'run.bag')], async (page) => {
+    view(chrome, url, [mcap, bag], async (page) => {
       await until(page, 'periplus.replay.source.tracks.length === 2', 'two recordings');
       await show(page, 6);
       await until(page, 'periplus.frames.includes("B:base_footprint")', 'frames of the second');

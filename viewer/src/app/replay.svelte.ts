@@ -3,7 +3,7 @@ import { IDENTITY, type Pose } from '../core/pose';
 import type { Mark, Recording } from '../core/protocol';
 import { ReplaySource } from '../core/replay';
 import type { Track } from '../core/replay_track';
-import { seconds, stampOf } from '../core/types';
+import { seconds, stampOf, type TransformStamped } from '../core/types';
 import type { App } from './app.svelte';
 import { bestFrame, prefixIn } from './auto';
 import { Comparison } from './replay_compare.svelte';
@@ -34,6 +34,7 @@ export interface TrackRow {
   /** Message counts by topic id in equal parts of the recording. */
   density: ReadonlyMap<number, number[]>;
   stopMarks?: () => void;
+  unsubscribes: (() => void)[];
 }
 
 export class Replay implements ReplayControl {
@@ -219,8 +220,10 @@ export class Replay implements ReplayControl {
 
   remove(track: Track): void {
     if (this.source.tracks[1] === track) this.comparison.stop();
-    this.rows.find((row) => row.track === track)?.stopMarks?.();
-    this.rows = this.rows.filter((row) => row.track !== track);
+    const row = this.rows.find((one) => one.track === track);
+    row?.stopMarks?.();
+    row?.unsubscribes.forEach((unsubscribe) => unsubscribe());
+    this.rows = this.rows.filter((one) => one !== row);
     this.ties.delete(track.prefix);
     this.source.remove(track);
     this.bounds();
@@ -249,12 +252,23 @@ export class Replay implements ReplayControl {
   private addRow(track: Track): void {
     const { requests } = this;
     const { id } = track.recording;
+    // The application subscribes to the transforms of the first recording.
+    const unsubscribes = !track.prefix
+      ? []
+      : ['/tf', '/tf_static'].map((name) =>
+          this.source.subscribe(track.prefix + name, (message, _topic, _bytes, timeS) => {
+            for (const one of message.transforms as TransformStamped[]) {
+              this.app.tf.add(one, name === '/tf_static', timeS! * 1000);
+            }
+          }),
+        );
     const row: TrackRow = {
       track,
       beginNs: track.beginNs,
       marks: [],
       areMarksComplete: false,
       density: new Map(),
+      unsubscribes,
     };
     const update = (change: Partial<TrackRow>) => {
       this.rows = this.rows.map((one) => (one.track === track ? { ...one, ...change } : one));
