@@ -242,7 +242,7 @@ export async function replay(chrome, url, out, attempt) {
         'Math.abs(periplus.replay.comparison.trajectories.difference.rmsM - 1) < 0.02',
         'a metre apart',
       );
-      await page.getByLabel('Show', { exact: true }).selectOption('sideBySide');
+      await page.getByRole('combobox', { name: /^Show/ }).selectOption('sideBySide');
       await until(
         page,
         'periplus.viewports.length === 2 && periplus.viewports[1].fixedFrame === "B:map"',
