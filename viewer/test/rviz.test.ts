@@ -69,8 +69,10 @@ describe('.rviz files', () => {
     expect(file.fixedFrame).toBe('odom');
     expect(file.displays.map((d) => [d.name, d.isEnabled])).toEqual([
       ['Scan', true],
-      ['Costmap', false],
+      ['Costmap', true],
     ]);
+    expect(file.displays.map((d) => d.group?.name)).toEqual([undefined, 'Costs']);
+    expect(file.groups[0]!.isEnabled).toBe(false);
     expect(file.displays[0]!.values).toMatchObject({
       'Size (m)': 0.05,
       Topic: '/scan',
@@ -120,6 +122,63 @@ describe('.rviz files', () => {
       focal: [1, 2, 3],
       targetFrame: 'base_link',
     });
+  });
+
+  test('groups, saved views, panels and the window are read and written back', () => {
+    const nested = `
+Panels:
+  - {Class: rviz_common/Displays, Name: Displays}
+  - {Class: nav2_rviz_plugins/Navigation 2, Name: Navigation 2}
+Visualization Manager:
+  Displays:
+    - {Class: rviz_default_plugins/Grid, Name: Grid, Enabled: true}
+    - Class: rviz_common/Group
+      Name: Controller
+      Enabled: false
+      Note: kept
+      Displays:
+        - Class: rviz_common/Group
+          Name: Inner
+          Enabled: true
+          Displays: [{Class: rviz_default_plugins/Path, Name: Plan, Enabled: true}]
+        - {Class: rviz_default_plugins/Map, Name: Local, Enabled: true}
+    - {Class: rviz_common/Group, Name: Empty, Enabled: true, Displays: ~}
+  Views:
+    Current: {Class: rviz_default_plugins/Orbit}
+    Saved:
+      - {Class: rviz_default_plugins/TopDownOrtho, Name: From above, Scale: 70, Odd: 3}
+Window Geometry: {Hide Left Dock: true, Height: 900}
+`;
+    const check = (file: ReturnType<typeof readRviz>) => {
+      const path = (group?: { name: string; parent?: unknown }): string =>
+        group ? `${path(group.parent as never)}/${group.name}` : '';
+      expect(file.displays.map((d) => `${path(d.group)}/${d.name}`)).toEqual([
+        '/Grid',
+        '/Controller/Inner/Plan',
+        '/Controller/Local',
+      ]);
+      expect(file.groups.map((g) => [g.name, g.isEnabled])).toEqual([
+        ['Controller', false],
+        ['Inner', true],
+        ['Empty', true],
+      ]);
+      expect(file.savedViews.map((view) => [view.name, view.values.Scale])).toEqual([
+        ['From above', 70],
+      ]);
+      expect(file.window).toEqual({
+        panels: ['rviz_common/Displays', 'nav2_rviz_plugins/Navigation 2'],
+        hidesDisplays: true,
+      });
+    };
+    const file = readRviz(nested);
+    check(file);
+    const text = writeRviz({
+      ...file,
+      displays: file.displays.map((one) => ({ ...one, options: [] })),
+      view: file.view!,
+    });
+    check(readRviz(text));
+    for (const kept of ['Note: kept', 'Odd: 3', 'Height: 900']) expect(text).toContain(kept);
   });
 
   test('option names of RViz for ROS 1', () => {

@@ -19,6 +19,8 @@ import { Recordings } from './recordings.svelte';
 import type { Replay } from './replay.svelte';
 import { mapTruths, type MapTruth } from './truth';
 import { Viewport } from './viewport.svelte';
+import type { Workbench } from './workbench.svelte';
+import { t } from '../texts/language.svelte';
 
 export interface Notice {
   id: number;
@@ -70,6 +72,8 @@ export class App {
   viewports: Viewport[] = $state([]);
   /** The 3D view that panels and tools act on. */
   active: Viewport = $state.raw(undefined as never);
+  /** The open panels; set by the page. */
+  workbench: Workbench | undefined = $state.raw();
   models: string[] = $state([]);
   selectedModel = $state('');
   truth: { link: string; distanceM: number; yawRad: number } | undefined = $state();
@@ -378,7 +382,7 @@ export class App {
       const answer = await this.client.call(name, request);
       if (answer.success === false) {
         const why = answer.message ?? answer.status_message ?? this.lastComplaint();
-        this.notice('error', `${name} failed. ${String(why)}`);
+        this.notice('error', t().notices.serviceFailed(name, String(why)));
         return undefined;
       }
       return answer;
@@ -390,6 +394,6 @@ export class App {
 
   private lastComplaint(): string {
     const line = [...this.log, ...this.newLog].reverse().find((l) => l.level >= 30);
-    return line ? line.text : 'See the log for the reason.';
+    return line ? line.text : t().notices.seeLog;
   }
 }

@@ -28,7 +28,8 @@ const WORLD = /\.(sdf|world|urdf|xacro|launch|launch\.py|xml)$/i;
 
 /** Kind of a file by its name, otherwise by its first bytes. */
 export function kindOfFile(name: string, head: Uint8Array): FileKind {
-  if (/\.rviz$/i.test(name)) return 'rviz';
+  // Layouts are opened by the same reader.
+  if (/\.(rviz|json)$/i.test(name)) return 'rviz';
   const text = new TextDecoder('latin1').decode(head);
   const isMagic =
     text.startsWith('\x89MCAP0\r\n') ||
@@ -79,7 +80,7 @@ async function openOne(app: App, { name, files, isFolder }: Dropped): Promise<vo
   const [file] = files;
   if (!file) return;
   const [kind] = kinds;
-  if (kind === 'rviz') app.active.openRviz(await file.text(), name);
+  if (kind === 'rviz') await app.workbench?.openFile?.(name, await file.text());
   else if (kind === 'recording' || isNamedRecording(name)) await upload(app, name, [file]);
   else if (kind === 'world') app.notice('warn', texts.worldFile(name));
   else app.notice('error', texts.notARecording(name));

@@ -2,6 +2,7 @@
 import type { Context, Display, Host, Kind, Level } from '../displays/display';
 import { defaultsOf, type Values } from '../displays/options';
 import type { Tree } from '../rviz/file';
+import type { DisplayGroup } from './display_group.svelte';
 
 export interface Status {
   level: Level;
@@ -19,6 +20,7 @@ export class Entry {
   statuses: Record<string, Status> = $state({});
   canvas: HTMLCanvasElement | undefined = $state();
   display?: Display;
+  group: DisplayGroup | undefined = $state.raw();
   /** Display in the `.rviz` file that it was read from. */
   original?: Tree;
   /** True for a display that was added automatically for its topic. */
@@ -36,13 +38,18 @@ export class Entry {
     this.isEnabled = isEnabled;
   }
 
+  /** Enabled, as all groups around it are. */
+  get isShown(): boolean {
+    return this.isEnabled && (this.group?.isShown ?? true);
+  }
+
   level = $derived.by((): Level => {
     const all = Object.values(this.statuses).map((status) => status.level);
     return all.includes('error') ? 'error' : all.includes('warn') ? 'warn' : 'ok';
   });
 
   start(context: Context): void {
-    if (!this.isEnabled || this.display) return;
+    if (!this.isShown || this.display) return;
     const host: Host = {
       status: (name, level, text) => {
         this.pending.set(name, text === undefined ? undefined : { level, text });

@@ -1,4 +1,5 @@
 /** Messages as text, and the numeric fields in them by path. */
+import { t } from '../texts/language.svelte';
 
 const isNumbers = (value: unknown): value is ArrayLike<number | bigint> =>
   ArrayBuffer.isView(value) && !(value instanceof DataView);
@@ -7,19 +8,21 @@ const isNumbers = (value: unknown): value is ArrayLike<number | bigint> =>
 export function show(value: unknown, indent = '', most = 24): string {
   if (isNumbers(value)) {
     const all = Array.from({ length: Math.min(most, value.length) }, (_, i) => number(value[i]!));
-    const rest = value.length > most ? `, … ${value.length} in all` : '';
+    const rest = value.length > most ? `, … ${t().notices.inAll(value.length)}` : '';
     return `[${all.join(', ')}${rest}]`;
   }
   if (Array.isArray(value)) {
     if (value.length === 0) return '[]';
     if (typeof value[0] !== 'object') {
-      const rest = value.length > most ? `, … ${value.length} in all` : '';
+      const rest = value.length > most ? `, … ${t().notices.inAll(value.length)}` : '';
       return `[${value.slice(0, most).join(', ')}${rest}]`;
     }
     const items = value
       .slice(0, 8)
       .map((item) => `\n${indent}- ${show(item, `${indent}  `).trimStart()}`);
-    return items.join('') + (value.length > 8 ? `\n${indent}… ${value.length} in all` : '');
+    return (
+      items.join('') + (value.length > 8 ? `\n${indent}… ${t().notices.inAll(value.length)}` : '')
+    );
   }
   if (typeof value === 'object' && value !== null) {
     return Object.entries(value)

@@ -24,6 +24,7 @@ import { parseSchema } from '../core/schema';
 import { poseOf, seconds, type PoseMessage, type Stamp } from '../core/types';
 import type { App } from './app.svelte';
 import { whyStanding } from './standing';
+import { t } from '../texts/language.svelte';
 
 export type Activity =
   'idle' | 'sending' | 'driving' | 'canceling' | 'reached' | 'canceled' | 'failed' | 'refused';
@@ -215,7 +216,7 @@ export class Navigation {
   private async cancelGoal(action: ActionName): Promise<void> {
     const answer = await this.app.call(this.full(action, 'cancel_goal'), EVERY_GOAL);
     if (answer && Number(answer.return_code) !== 0 && isActive(this.goals.get(action))) {
-      this.app.notice('error', `${action} did not cancel its goal; see the panel Log.`);
+      this.app.notice('error', t().navigation.notCanceled(action));
     }
   }
 

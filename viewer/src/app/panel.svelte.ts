@@ -13,8 +13,10 @@ export interface PanelHost {
 export class Panel {
   /** Saved with the layout. Plain data only. */
   state: JsonObject = $state({});
-  /** Title set by the panel or the user; empty for the title of its kind. */
+  /** Title set by the panel; empty for the title of its kind. */
   title = $state('');
+  /** Title given by the user, which has precedence. */
+  given = $state('');
   /** Short text beside the title, such as a number of problems. */
   badge = $state('');
   /** True while the panel is on the screen: a hidden one can save its work. */
@@ -27,10 +29,10 @@ export class Panel {
     readonly kind: string,
     private host: PanelHost,
     state: JsonObject = {},
-    title = '',
+    given = '',
   ) {
     this.state = state;
-    this.title = title;
+    this.given = given;
   }
 
   setTitle(text: string): void {

@@ -1,4 +1,5 @@
 /** Reason why the robot stands. */
+import { t } from '../texts/language.svelte';
 
 /** Time without motion after which a robot with a goal counts as still [s]. */
 export const STANDING_AFTER_S = 3;
@@ -24,9 +25,9 @@ export function whyStanding(now: Standing): string {
   if (!now.hasGoal) {
     return now.refusal || now.failure;
   }
-  if (now.isPaused) return 'The simulation is paused.';
+  if (now.isPaused) return t().navigation.paused;
   if (now.stoppedBy) {
-    return `The collision monitor stops the robot: there are obstacles in the polygon ${now.stoppedBy}.`;
+    return t().navigation.stoppedBy(now.stoppedBy);
   }
   // The error stays until the same server succeeds: it is no reason while the robot follows a new path.
   const follows = now.running.some((node) => /^FollowPath\b/.test(node));
@@ -35,6 +36,5 @@ export function whyStanding(now: Standing): string {
   if (!isStill) return '';
   const nodes = now.running.join(', ');
   // Without the time: a text that changes every second would be read aloud every second.
-  const text = 'The robot does not move';
-  return nodes ? `${text}; running: ${nodes}.` : `${text}.`;
+  return nodes ? t().navigation.stillRunning(nodes) : t().navigation.still;
 }

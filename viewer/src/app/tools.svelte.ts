@@ -11,11 +11,12 @@ import {
 import { fromYaw, inverse, multiply, yawOf, type Pose } from '../core/pose';
 import { messageOf } from '../core/types';
 import { arrowGeometry, label, polyline, surface } from '../scene/shapes';
-import { dispose } from '../scene/stage';
+import { dispose, type Stage } from '../scene/stage';
 import { Color, Group, Mesh } from 'three';
 import type { App } from './app.svelte';
 import type { Navigation } from './navigation.svelte';
 import { waypointArrow, type Waypoints } from './waypoints.svelte';
+import { t } from '../texts/language.svelte';
 
 export type ToolName =
   | 'move'
@@ -94,23 +95,37 @@ export class Tools {
     readonly waypoints: Waypoints,
   ) {}
 
-  attach(canvas: HTMLCanvasElement): void {
-    const { stage } = this.app;
-    stage!.scene.add(this.marks, this.poses);
-    stage!.ticks.add(() => this.placeArrows());
-    this.waypoints.attach();
+  /** Listens to a 3D view; the tools act on it while it is the active one. */
+  attach(canvas: HTMLCanvasElement, stage: Stage): void {
+    const isActive = () => this.app.stage === stage;
+    stage.ticks.add(() => isActive() && this.placeArrows());
+    this.waypoints.attach(stage);
     // Capture: before the camera controls receive the event.
     canvas.addEventListener(
       'pointerdown',
       (event) => {
         this.cross = undefined;
-        if (event.button === 0) this.down(event);
+        if (event.button === 0 && isActive()) this.down(event);
       },
       true,
     );
-    canvas.addEventListener('pointermove', (event) => this.moved(event), true);
-    canvas.addEventListener('pointerup', (event) => this.up(event), true);
-    canvas.addEventListener('keydown', (event) => this.key(event, canvas), true);
+    canvas.addEventListener('pointermove', (event) => isActive() && this.moved(event), true);
+    canvas.addEventListener('pointerup', (event) => isActive() && this.up(event), true);
+    canvas.addEventListener('keydown', (event) => isActive() && this.key(event, canvas), true);
+  }
+
+  /** Another 3D view became the active one: marks and the tool move to it. */
+  enter(stage: Stage): void {
+    for (const { stage: other } of this.app.viewports) {
+      if (other && other !== stage) {
+        other.view.isHeld = false;
+        other.invalidate();
+      }
+    }
+    stage.view.isHeld = this.active !== 'move';
+    stage.scene.add(this.marks, this.poses);
+    this.waypoints.enter(stage);
+    stage.invalidate();
   }
 
   /** Mouse by keyboard: arrow keys move a crosshair, Enter presses, and releases after a drag. */
@@ -303,10 +318,8 @@ export class Tools {
     const { app } = this;
     if (app.tf.has(app.fixedFrame)) return true;
     const isEmpty = app.tf.names().length === 0;
-    const advice = isEmpty
-      ? 'No node publishes transforms on /tf; start one, such as robot_state_publisher.'
-      : 'Choose another fixed frame in the panel Displays.';
-    app.notice('error', `Not sent: no transform names the frame "${app.fixedFrame}". ${advice}`);
+    const advice = isEmpty ? t().tools.noTf : t().tools.otherFrame;
+    app.notice('error', t().tools.notSent(app.fixedFrame, advice));
     return false;
   }
 
@@ -319,10 +332,7 @@ export class Tools {
   /** Warns if the topic just published to has no subscriber. */
   private warnOfSilence(topic: string, advice: string): void {
     if (!this.hasSubscriber(topic)) {
-      this.app.notice(
-        'warn',
-        `No node subscribes to ${topic}: the message has no effect. ${advice}`,
-      );
+      this.app.notice('warn', t().tools.noSubscriber(topic, advice));
     }
   }
 
@@ -331,8 +341,8 @@ export class Tools {
     if (!this.canPlace()) return;
     this.keepArrow(tool, pose, lengthM);
     const header = app.header();
-    const { t } = pose;
-    const where = `x ${t[0].toFixed(2)}, y ${t[1].toFixed(2)} m, ${((yawOf(pose.q) * 180) / Math.PI).toFixed(0)}°`;
+    const [x, y] = pose.t;
+    const where = `x ${x.toFixed(2)}, y ${y.toFixed(2)} m, ${((yawOf(pose.q) * 180) / Math.PI).toFixed(0)}°`;
     if (tool === 'goal') {
       const named = absolute(app.active.toolValue('SetGoal', 'Topic', GOAL_TOPIC));
       const isRos1 = !this.hasSubscriber(named) && this.hasSubscriber(ROS1_GOAL_TOPIC);
@@ -344,8 +354,8 @@ export class Tools {
         return;
       }
       app.publish(topic, 'geometry_msgs/msg/PoseStamped', { header, pose: messageOf(pose) });
-      app.notice('info', `2D goal pose in ${app.fixedFrame}: ${where}`);
-      this.warnOfSilence(topic, 'Start a navigator, such as bt_navigator of Nav2 on ROS 2.');
+      app.notice('info', t().tools.goalSent(app.fixedFrame, where));
+      this.warnOfSilence(topic, t().tools.startNavigator);
       return;
     }
     const covariance = new Float64Array(36);
@@ -355,11 +365,8 @@ export class Tools {
     const topic = absolute(app.active.toolValue('SetInitialPose', 'Topic', 'initialpose'));
     const inner = { pose: messageOf(pose), covariance };
     app.publish(topic, 'geometry_msgs/msg/PoseWithCovarianceStamped', { header, pose: inner });
-    app.notice('info', `2D pose estimate in ${app.fixedFrame}: ${where}`);
-    this.warnOfSilence(
-      topic,
-      'Start localization, such as `periplus ros2 launch nav2_bringup localization_launch.py map:=MAP.yaml`.',
-    );
+    app.notice('info', t().tools.poseSent(app.fixedFrame, where));
+    this.warnOfSilence(topic, t().tools.startLocalization);
   }
 
   private publishPoint(at: Vector3): void {
@@ -370,7 +377,10 @@ export class Tools {
     app.publish(topic, 'geometry_msgs/msg/PointStamped', { header: app.header(), point });
     app.notice(
       'info',
-      `Clicked point in ${app.fixedFrame}: ${at.x.toFixed(3)}, ${at.y.toFixed(3)}, ${at.z.toFixed(3)}`,
+      t().tools.pointSent(
+        app.fixedFrame,
+        `${at.x.toFixed(3)}, ${at.y.toFixed(3)}, ${at.z.toFixed(3)}`,
+      ),
     );
     if (app.active.toolValue<string | number>('PublishPoint', 'Single click', 1)) this.done();
   }
@@ -456,7 +466,7 @@ export class Tools {
 
   private inspect(hit: Intersection | undefined): void {
     if (!hit) {
-      this.found = { Selection: 'nothing under the mouse' };
+      this.found = { [t().found.selection]: t().found.nothing };
       return;
     }
     let object: Object3D | null = hit.object;
@@ -466,7 +476,8 @@ export class Tools {
     const { point: p } = hit;
     const found: Record<string, string> = {
       ...(inspect?.(hit.index ?? 0, hit.uv) ?? {}),
-      [`In ${this.app.fixedFrame}`]: `${p.x.toFixed(3)}, ${p.y.toFixed(3)}, ${p.z.toFixed(3)} m`,
+      [t().found.inNamed(this.app.fixedFrame)]:
+        `${p.x.toFixed(3)}, ${p.y.toFixed(3)}, ${p.z.toFixed(3)} m`,
     };
     this.found = found;
     const current = this.found;
@@ -514,7 +525,7 @@ export class Tools {
 
   async remove(name: string): Promise<void> {
     const done = await this.app.call(this.service('remove'), { entity: this.entity(name) });
-    if (done) this.app.notice('info', `${name} was deleted`);
+    if (done) this.app.notice('info', t().world.deleted(name));
     if (this.app.selectedModel === name) this.app.selectedModel = '';
   }
 
@@ -578,7 +589,7 @@ export class Tools {
     this.toInsert = { name, sdf, file };
     this.active = 'insert';
     this.app.stage!.view.isHeld = true;
-    this.app.notice('info', `Click the position for ${name}`);
+    this.app.notice('info', t().world.clickPosition(name));
   }
 
   private async insertAt(at: Vector3): Promise<void> {
@@ -601,7 +612,7 @@ export class Tools {
       relative_to: 'world',
     };
     const done = await this.app.call(this.service('create'), { entity_factory: factory });
-    if (done) this.app.notice('info', `${name} was inserted`);
+    if (done) this.app.notice('info', t().world.inserted(name));
     return !!done;
   }
 }

@@ -4,19 +4,66 @@ import type { Context } from '../displays/display';
 import type { Values } from '../displays/options';
 import { kindOf } from '../displays/registry';
 import { WorldDisplay } from '../displays/world';
-import { readRviz, writeRviz, type RvizTool, type Tree } from '../rviz/file';
+import {
+  readRviz,
+  writeRviz,
+  type RvizTool,
+  type RvizWindow,
+  type SavedRvizView,
+  type Tree,
+} from '../rviz/file';
+import type { RvizGroup } from '../rviz/groups';
 import { viewFrom, viewTo } from '../rviz/view';
 import type { Stage } from '../scene/stage';
 import { FIRST_VIEW, type ViewState } from '../scene/view';
 import type { App } from './app.svelte';
 import { bestFrame, prefixIn, suggestionFor } from './auto';
 import { Entry } from './entry.svelte';
+import { DisplayGroup } from './display_group.svelte';
+import {
+  groupsFrom,
+  savedDisplay,
+  savedGroup,
+  type SavedDisplay,
+  type SavedGroup,
+} from './saved_display';
+import { t } from '../texts/language.svelte';
 
 /** Topic of a display. */
 const topicOf = (values: Values): string =>
   String(values.Topic ?? values['Description Topic'] ?? '');
 
 const WORLD_CLASS = 'periplus/World';
+
+/** A 3D view as it is saved with a layout. */
+export interface ViewportState {
+  fixedFrame: string;
+  isFrameChosen: boolean;
+  view: ViewState;
+  background: string;
+  isAutomatic: boolean;
+  displays: SavedDisplay[];
+  groups: SavedGroup[];
+  savedViews: SavedView[];
+  fileName: string;
+  /** Checksum of the `.rviz` file of the launch file that was opened. */
+  launched: number;
+}
+
+/** A camera that the user saved by a name. */
+export interface SavedView {
+  name: string;
+  view: ViewState;
+  /** View of the `.rviz` file that it was read from; written back while its camera is not changed. */
+  original?: SavedRvizView;
+}
+
+/** FNV-1a of a text. */
+function checksum(text: string): number {
+  let sum = 0x811c9dc5;
+  for (let i = 0; i < text.length; i++) sum = Math.imul(sum ^ text.charCodeAt(i), 0x01000193);
+  return sum >>> 0;
+}
 
 let lastId = 0;
 
@@ -25,6 +72,8 @@ export class Viewport {
   fixedFrame = $state('map');
   isFrameChosen = $state(false);
   displays: Entry[] = $state([]);
+  groups: DisplayGroup[] = $state.raw([]);
+  savedViews: SavedView[] = $state.raw([]);
   view: ViewState = $state(structuredClone(FIRST_VIEW));
   background = $state('');
   /** Displays are added automatically until the user adds or removes one. */
@@ -38,6 +87,9 @@ export class Viewport {
   private awaitsWorld = false;
   private rvizOriginal?: Tree;
   private hasOpenedLaunched = false;
+  private launched = 0;
+  /** Automatic displays of a saved layout, which get their options back when their topics exist. */
+  private awaited: SavedDisplay[] = [];
   private seen = new Set<string>();
 
   constructor(private app: App) {}
@@ -73,6 +125,12 @@ export class Viewport {
       awaitsTransforms: () => app.replay?.awaitsTransforms() ?? true,
       arrivalMs: () => app.replay?.arrivalMs() ?? performance.now(),
     };
+  }
+
+  /** For an image in a panel of its own: without a scene. */
+  imageContext(): Context {
+    const stage = { add: () => {}, remove: () => {}, invalidate: () => {} };
+    return { ...this.context(), stage: stage as unknown as Stage };
   }
 
   private tick(nowMs: number): void {
@@ -205,19 +263,23 @@ export class Viewport {
     values: Values = {},
     isEnabled = true,
     isAutomatic = false,
+    group?: DisplayGroup,
   ): Entry | undefined {
     const kind = kindOf(kindClass);
     if (!kind) {
-      this.app.notice(
-        'warn',
-        `The display class "${kindClass}" is unknown; the display was skipped.`,
-      );
+      this.app.notice('warn', t().notices.unknownDisplay(kindClass));
       return undefined;
     }
     if (!isAutomatic) this.isAutomatic = false;
-    this.displays.push(new Entry(kind, name, values, isEnabled));
+    const saved = isAutomatic ? this.awaitedFor(kind.class, values) : undefined;
+    this.displays.push(
+      saved
+        ? new Entry(kind, saved.name, { ...values, ...saved.values }, saved.isEnabled)
+        : new Entry(kind, name, values, isEnabled),
+    );
     const entry = this.displays[this.displays.length - 1]!;
     entry.isAutomatic = isAutomatic;
+    entry.group = group;
     if (this.stage) this.begin(entry);
     return entry;
   }
@@ -241,6 +303,52 @@ export class Viewport {
     else entry.stop();
   }
 
+  setGroupEnabled(group: DisplayGroup, isEnabled: boolean): void {
+    group.isEnabled = isEnabled;
+    for (const entry of this.displays) {
+      if (!group.holds(entry.group)) continue;
+      if (entry.isShown && this.stage) this.begin(entry);
+      else if (!entry.isShown) entry.stop();
+    }
+  }
+
+  /** Adds an empty group; `move` puts displays into it. */
+  addGroup(name: string): DisplayGroup {
+    this.isAutomatic = false;
+    const group = new DisplayGroup(name, true);
+    this.groups = [...this.groups, group];
+    return group;
+  }
+
+  /** Removes a group; its displays and groups go to the group around it. */
+  removeGroup(group: DisplayGroup): void {
+    for (const entry of this.displays) if (entry.group === group) this.move(entry, group.parent);
+    this.groups = this.groups.filter((one) => one !== group);
+  }
+
+  /** Puts a display into a group, after the others in it. */
+  move(entry: Entry, group: DisplayGroup | undefined): void {
+    const rest = this.displays.filter((one) => one !== entry);
+    const last = rest.findLastIndex((one) => (group ? group.holds(one.group) : !one.group));
+    entry.group = group;
+    this.displays = rest.toSpliced(last + 1, 0, entry);
+    if (entry.isShown && this.stage) this.begin(entry);
+    else if (!entry.isShown) entry.stop();
+  }
+
+  // Saved views.
+
+  saveView(name: string): void {
+    const view = structuredClone(
+      this.stage?.view.state ?? ($state.snapshot(this.view) as ViewState),
+    );
+    this.savedViews = [...this.savedViews.filter((one) => one.name !== name), { name, view }];
+  }
+
+  removeView(name: string): void {
+    this.savedViews = this.savedViews.filter((one) => one.name !== name);
+  }
+
   setOption(entry: Entry, path: string, value: boolean | number | string): void {
     entry.values[path] = value;
     entry.display?.changed(path);
@@ -254,7 +362,64 @@ export class Viewport {
   clear(): void {
     for (const entry of this.displays) entry.stop();
     this.displays = [];
+    this.groups = [];
     this.app.models = [];
+  }
+
+  /** Takes the saved options of an automatic display. */
+  private awaitedFor(kindClass: string, values: Values): SavedDisplay | undefined {
+    const at = this.awaited.findIndex(
+      (one) => one.class === kindClass && (one.values.Topic ?? '') === (values.Topic ?? ''),
+    );
+    return at < 0 ? undefined : this.awaited.splice(at, 1)[0];
+  }
+
+  // Layouts.
+
+  snapshot(): ViewportState {
+    return {
+      fixedFrame: this.fixedFrame,
+      isFrameChosen: this.isFrameChosen,
+      view: structuredClone(this.stage?.view.state ?? ($state.snapshot(this.view) as ViewState)),
+      background: this.background,
+      isAutomatic: this.isAutomatic,
+      displays: [
+        ...this.displays.map((entry) => savedDisplay(entry, this.groups)),
+        ...this.awaited,
+      ],
+      groups: this.groups.map(savedGroup),
+      savedViews: this.savedViews,
+      fileName: this.fileName,
+      launched: this.launched,
+    };
+  }
+
+  /** Shows a saved 3D view. One that `isAskedFor` is not replaced by the file of a launch file. */
+  restore(state: Partial<ViewportState>, isAskedFor = false): void {
+    this.clear();
+    this.seen.clear();
+    this.awaited = [];
+    this.isAutomatic = state.isAutomatic !== false;
+    this.savedViews = state.savedViews ?? [];
+    if (this.isAutomatic) this.awaited = [...(state.displays ?? [])];
+    else {
+      this.groups = groupsFrom(state.groups ?? []);
+      for (const one of state.displays ?? []) {
+        const group = this.groups[one.group ?? -1];
+        this.add(one.class, one.name, { ...one.values }, one.isEnabled, false, group);
+      }
+    }
+    this.background = state.background ?? '';
+    this.fileName = state.fileName ?? '';
+    this.launched = state.launched ?? 0;
+    if (isAskedFor) this.hasOpenedLaunched = true;
+    this.isFrameChosen = state.isFrameChosen === true;
+    if (state.fixedFrame) this.setFixedFrame(state.fixedFrame, this.isFrameChosen);
+    if (state.view) {
+      this.view = { ...structuredClone(FIRST_VIEW), ...state.view };
+      this.stage?.view.set($state.snapshot(this.view) as ViewState);
+    }
+    this.offersChanged();
   }
 
   // `.rviz` files.
@@ -264,6 +429,10 @@ export class Viewport {
     const { rviz: text, rviz_file: fileName, fixed_frame: frame } = metadata;
     if (this.hasOpenedLaunched || !(text || frame)) return;
     this.hasOpenedLaunched = true;
+    // A reloaded page keeps what the user made of the file.
+    const sum = checksum(text ?? '');
+    if (text && sum === this.launched) return;
+    this.launched = sum;
     try {
       if (text) this.openRviz(text, fileName);
     } catch (error) {
@@ -272,7 +441,8 @@ export class Viewport {
     if (frame) this.setFixedFrame(frame);
   }
 
-  openRviz(text: string, fileName = ''): void {
+  /** Opens a file; returns what it says about the window. */
+  openRviz(text: string, fileName = ''): RvizWindow {
     const file = readRviz(text);
     // RViz has no display for a simulated world: the present one stays, unless the file has one.
     const isWorldKept = !file.displays.some(({ class: name }) => name === WORLD_CLASS);
@@ -282,10 +452,23 @@ export class Viewport {
     this.rvizOriginal = file.original;
     this.fileName = fileName;
     this.rvizTools = file.tools;
+    const groups = new Map<RvizGroup, DisplayGroup>();
+    for (const group of file.groups) {
+      const parent = group.parent && groups.get(group.parent);
+      groups.set(group, new DisplayGroup(group.name, group.isEnabled, parent, group.original));
+    }
+    this.groups = [...groups.values()];
     for (const display of file.displays) {
-      const entry = this.add(display.class, display.name, display.values, display.isEnabled);
+      const { class: name, values, isEnabled } = display;
+      const group = display.group && groups.get(display.group);
+      const entry = this.add(name, display.name, values, isEnabled, false, group);
       if (entry) entry.original = display.original;
     }
+    this.savedViews = file.savedViews.map((saved) => ({
+      name: saved.name,
+      view: { ...structuredClone(FIRST_VIEW), ...viewFrom(saved) },
+      original: saved,
+    }));
     for (const { name, values, isEnabled } of worlds) {
       this.add(WORLD_CLASS, name, $state.snapshot(values) as Values, isEnabled);
     }
@@ -294,6 +477,7 @@ export class Viewport {
     this.setFixedFrame(file.fixedFrame);
     this.background = file.background;
     if (file.view) this.setView(viewFrom(file.view));
+    return file.window;
   }
 
   rvizText(): string {
@@ -306,8 +490,13 @@ export class Viewport {
         isEnabled: entry.isEnabled,
         values: $state.snapshot(entry.values) as Values,
         options: entry.kind.options,
+        group: entry.group,
         original: entry.original,
       })),
+      groups: this.groups,
+      savedViews: this.savedViews.map(
+        ({ name, view, original }) => original ?? { name, ...viewTo(view) },
+      ),
       view: viewTo(this.stage?.view.state ?? FIRST_VIEW),
       original: this.rvizOriginal,
     });

@@ -4,7 +4,7 @@ import type { StampedPose } from '../core/nav2';
 import { fromYaw, multiply, yawOf, type Pose } from '../core/pose';
 import { messageOf } from '../core/types';
 import { arrowGeometry, label, polyline, surface } from '../scene/shapes';
-import { dispose } from '../scene/stage';
+import { dispose, type Stage } from '../scene/stage';
 import type { App } from './app.svelte';
 
 export interface Waypoint {
@@ -28,10 +28,14 @@ export class Waypoints {
 
   constructor(private app: App) {}
 
-  attach(): void {
-    const { stage } = this.app;
-    stage!.scene.add(this.marks);
-    stage!.ticks.add(() => this.draw());
+  attach(stage: Stage): void {
+    stage.ticks.add(() => this.app.stage === stage && this.draw());
+  }
+
+  /** Moves the marks to the 3D view that became the active one. */
+  enter(stage: Stage): void {
+    stage.scene.add(this.marks);
+    this.drawnFor = '';
   }
 
   /** Adds a waypoint in the fixed frame; without a heading it points away from the one before, or from the robot. */

@@ -5,6 +5,7 @@
  * if these are aligned, and copies otherwise.
  */
 import { definitionOf, type Definition, type Field, type Schema } from './schema';
+import { t } from '../texts/language.svelte';
 
 export type Message = Record<string, unknown>;
 type Numbers =
@@ -30,11 +31,11 @@ class Reader {
   readonly maxAlign: number;
 
   constructor(bytes: Uint8Array) {
-    if (bytes.byteLength < 4) throw new Error('the message is shorter than its own header');
+    if (bytes.byteLength < 4) throw new Error(t().messages.noHeader);
     this.bytes = bytes;
     this.view = new DataView(bytes.buffer, bytes.byteOffset, bytes.byteLength);
     const kind = this.view.getUint16(0);
-    if (kind > 11) throw new Error(`unknown CDR encapsulation kind ${kind}`);
+    if (kind > 11) throw new Error(t().messages.encapsulation(kind));
     this.isLittle = (kind & 1) === 1;
     this.maxAlign = kind >= 6 ? 4 : 8;
   }
@@ -47,7 +48,7 @@ class Reader {
 
   advance(size: number, align: number): number {
     const at = this.align(align);
-    if (at + size > this.bytes.byteLength) throw new Error('the message is truncated');
+    if (at + size > this.bytes.byteLength) throw new Error(t().messages.truncated);
     this.offset = at + size;
     return at;
   }
@@ -55,7 +56,7 @@ class Reader {
   count(leastBytes: number): number {
     const count = this.view.getUint32(this.advance(4, 4), this.isLittle);
     if (count * leastBytes > this.bytes.byteLength - this.offset) {
-      throw new Error(`the message declares ${count} elements and is shorter than that`);
+      throw new Error(t().messages.short(count));
     }
     return count;
   }

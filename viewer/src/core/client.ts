@@ -18,6 +18,7 @@ import {
 } from './protocol';
 import { RecordingRequests } from './replay_requests';
 import { parseSchema } from './schema';
+import { t } from '../texts/language.svelte';
 
 /** Part of a WebSocket that the client uses; tests replace it. */
 export interface Socket {
@@ -119,7 +120,7 @@ export class Client {
     try {
       socket = this.open();
     } catch (error) {
-      this.lost(`the address is not valid: ${String(error)}`);
+      this.lost(t().connection.badAddress(String(error)));
       return;
     }
     this.socket = socket;
@@ -132,7 +133,7 @@ export class Client {
     socket.onmessage = (event) => this.receive(event.data);
     socket.onerror = () => undefined;
     socket.onclose = () => {
-      if (this.socket === socket) this.lost('the server is unreachable');
+      if (this.socket === socket) this.lost(t().connection.unreachable);
     };
   }
 
@@ -142,7 +143,7 @@ export class Client {
     const { socket } = this;
     this.socket = undefined;
     socket?.close();
-    this.forget('the connection was closed');
+    this.forget(t().connection.closed);
     this.setState('closed', '');
   }
 
@@ -216,10 +217,7 @@ export class Client {
     const channel = this.channels.get(topic);
     if (!channel || entry.subscription !== undefined) return;
     if (channel.encoding !== 'cdr') {
-      this.events.status(
-        1,
-        `${topic} has the encoding ${channel.encoding}; this page decodes only CDR`,
-      );
+      this.events.status(1, t().connection.encoding(topic, channel.encoding));
       return;
     }
     try {
@@ -262,7 +260,7 @@ export class Client {
     for (const channel of this.channels.values()) {
       if (channel.schemaName === schemaName) return channel.schema;
     }
-    throw new Error(`the definition of the message type ${schemaName} is unknown`);
+    throw new Error(t().connection.unknownType(schemaName));
   }
 
   // Services, assets and parameters.
@@ -270,7 +268,7 @@ export class Client {
   /** Calls a service; fails with the server's reason, or after a timeout. */
   call(name: string, request: Message, timeoutMs = CALL_TIMEOUT_MS): Promise<Message> {
     const offer = this.services.get(name);
-    if (!offer) return Promise.reject(new Error(`no node provides the service ${name}`));
+    if (!offer) return Promise.reject(new Error(t().connection.noService(name)));
     const schema = offer.request?.schema ?? offer.requestSchema ?? '';
     const schemaName = offer.request?.schemaName ?? `${offer.type}_Request`;
     let payload: Uint8Array;
@@ -283,7 +281,7 @@ export class Client {
     return new Promise((resolve, reject) => {
       const timer = setTimeout(() => {
         this.calls.delete(id);
-        reject(new Error(`${name} did not respond within ${timeoutMs / 1000} s`));
+        reject(new Error(t().connection.timeout(name, timeoutMs / 1000)));
       }, timeoutMs);
       this.calls.set(id, { resolve, reject, timer, offer });
       if (this.socket?.readyState === 1) this.socket.send(callFrame(offer.id, id, 'cdr', payload));
@@ -292,12 +290,12 @@ export class Client {
 
   /** Bytes of a `package://`, `model://` or other URI that the server resolves. */
   asset(uri: string): Promise<Uint8Array> {
-    if (this.state !== 'open') return Promise.reject(new Error('not connected'));
+    if (this.state !== 'open') return Promise.reject(new Error(t().connection.notConnected));
     const requestId = ++this.lastId;
     return new Promise((resolve, reject) => {
       const timer = setTimeout(() => {
         this.assets.delete(requestId);
-        reject(new Error(`${uri} was not received in time`));
+        reject(new Error(t().connection.assetTimeout(uri)));
       }, CALL_TIMEOUT_MS);
       this.assets.set(requestId, { resolve, reject, timer });
       this.send({ op: 'fetchAsset', uri, requestId });
@@ -310,7 +308,7 @@ export class Client {
     return new Promise((resolve, reject) => {
       const timer = setTimeout(() => {
         this.repairs.delete(id);
-        reject(new Error(`The server did not confirm the repair of ${topic}`));
+        reject(new Error(t().connection.repairTimeout(topic)));
       }, CALL_TIMEOUT_MS);
       this.repairs.set(id, { resolve, reject, timer });
       const ends = { publisher: publisher.node, subscription: subscription.node };
@@ -333,7 +331,7 @@ export class Client {
       try {
         text = JSON.parse(data) as ServerText;
       } catch {
-        this.events.status(2, 'the server sent text that is not JSON');
+        this.events.status(2, t().connection.notJson);
         return;
       }
       this.receiveText(text);

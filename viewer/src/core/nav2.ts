@@ -5,6 +5,7 @@
 import type { Message } from './cdr';
 import { definitionOf, type Schema } from './schema';
 import { seconds, type PoseMessage, type Stamp } from './types';
+import { t } from '../texts/language.svelte';
 
 /** Actions that drive the robot. Each sends goals to the ones after it. */
 export const ACTIONS = ['follow_waypoints', 'navigate_through_poses', 'navigate_to_pose'] as const;
@@ -136,7 +137,7 @@ export function readStatus(text: string): NavigatorStatus {
 /** Reason of a refused goal, from the log message that reports it, which may be empty. */
 export function refusalText(logged: string): string {
   const reason = logged.replace(/^rejected a goal of `\w+`: /, '');
-  return `The navigator refused the goal: ${reason || 'it gave no reason; the panel Log may have more.'}`;
+  return t().navigation.refused(reason || t().navigation.noReason);
 }
 
 /** Error of a finished goal in words; empty without one. */
@@ -145,7 +146,8 @@ export function resultError(response: Message): string {
   const code = Number(result.error_code ?? 0);
   const text = String(result.error_msg ?? '');
   if (code === 0) return text;
-  return text ? `${text} (error code ${code})` : `error code ${code}`;
+  const named = t().navigation.errorCode(code);
+  return text ? `${text} (${named})` : named;
 }
 
 /** Running nodes of the tree, from the changes on `behavior_tree_log`. */

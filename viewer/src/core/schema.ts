@@ -1,4 +1,5 @@
 /** Parser of ROS message definitions ("ros2msg"). */
+import { t } from '../texts/language.svelte';
 
 export interface Field {
   name: string;
@@ -114,7 +115,7 @@ function parseOne(name: string, text: string): Definition {
       continue;
     }
     const field = /^(\S+)\s+([A-Za-z]\w*)/.exec(line);
-    if (!field) throw new Error(`${name}: cannot read the line "${line}" of its definition`);
+    if (!field) throw new Error(t().messages.badLine(name, line));
     definition.fields.push(readField(own, field[1]!, field[2]!));
   }
   return definition;
@@ -145,6 +146,6 @@ function readField(own: string, written: string, name: string): Field {
 
 export function definitionOf(schema: Schema, type: string): Definition {
   const found = schema.types.get(type);
-  if (!found) throw new Error(`${schema.root.name}: its definition lacks the type ${type}`);
+  if (!found) throw new Error(t().messages.lacksType(schema.root.name, type));
   return found;
 }

@@ -1,6 +1,7 @@
 /** Transform buffer with the rules of tf2: ten seconds of history, no extrapolation. */
 import { IDENTITY, interpolate, inverse, multiply, normalize, type Pose } from './pose';
 import { seconds, type TransformStamped } from './types';
+import { t } from '../texts/language.svelte';
 
 interface Sample {
   timeS: number;
@@ -134,13 +135,13 @@ export class TfBuffer {
     const from = frameName(source);
     if (to === from) return { kind: 'found', pose: IDENTITY };
     for (const name of [to, from]) {
-      if (!this.has(name)) return { kind: 'later', why: `there is no frame "${name}" yet` };
+      if (!this.has(name)) return { kind: 'later', why: t().transforms.noFrame(name) };
     }
     const up = this.chain(from);
     const down = this.chain(to);
     const common = up.find((name) => down.includes(name));
     if (common === undefined) {
-      return { kind: 'later', why: `"${to}" and "${from}" are in different transform trees` };
+      return { kind: 'later', why: t().transforms.apart(to, from) };
     }
     const used = [...up.slice(0, up.indexOf(common)), ...down.slice(0, down.indexOf(common))];
     const at = timeS ?? this.newestCommon(used);
@@ -190,13 +191,13 @@ export class TfBuffer {
       if (timeS === Infinity) return newest.parentFromChild;
       return {
         kind: 'later',
-        why: `the newest transform of "${name}" is at ${newest.timeS.toFixed(3)} s`,
+        why: t().transforms.newest(name, newest.timeS.toFixed(3)),
       };
     }
     if (timeS < samples[0]!.timeS) {
       return {
         kind: 'never',
-        why: `the oldest transform of "${name}" is at ${samples[0]!.timeS.toFixed(3)} s`,
+        why: t().transforms.oldest(name, samples[0]!.timeS.toFixed(3)),
       };
     }
     let low = 0;

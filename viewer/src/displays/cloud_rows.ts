@@ -1,6 +1,7 @@
 /** Conversion of messages to rows of points. */
 import type { LaserScan, PointCloud2, PointField } from '../core/types';
 import type { Rows } from '../scene/cloud';
+import { t } from '../texts/language.svelte';
 
 const SIZES = [0, 1, 1, 2, 2, 4, 4, 4, 8];
 const FLOAT32 = 7;
@@ -29,7 +30,7 @@ export function rowsOfScan(scan: LaserScan): Rows {
 export function rowsOfCloud(cloud: PointCloud2, channel: string, isFloats = false): Rows {
   const field = (name: string) => cloud.fields.find((f) => f.name === name);
   const [x, y, z] = [field('x'), field('y'), field('z')];
-  if (!x || !y || !z) throw new Error('The cloud has no fields x, y and z');
+  if (!x || !y || !z) throw new Error(t().displays.noXyz);
   const step = cloud.point_step;
   const tight = cloud.height <= 1 || cloud.row_step === cloud.width * step;
   const count = Math.min(

@@ -17,6 +17,7 @@ import { rowsOfCloud, rowsOfScan } from './cloud_rows';
 import { depthRows } from './depth';
 import { FramedDisplay, type Kind } from './display';
 import { alpha, number, topic, type Values } from './options';
+import { t } from '../texts/language.svelte';
 
 /** Maximum number of points drawn without a GPU. */
 const MOST_WITHOUT_GPU = 60_000;
@@ -56,8 +57,7 @@ export abstract class PointsDisplay<M extends { header: Header }> extends Framed
     entry.cloud.setAppearance(appearanceOf(this.values, rows, fixedFromFrame));
     entry.cloud.object.userData.isMark = !this.get('Selectable');
     this.put(entry.cloud.object, fixedFromFrame);
-    const thin = rows.every > 1 ? `; without a GPU, one in ${rows.every} is drawn` : '';
-    this.host.status('Points', 'ok', `${all.count.toLocaleString('en')} points${thin}`);
+    this.host.status('Points', 'ok', t().displays.points(all.count, rows.every));
   }
 
   private inspect(cloud: Cloud, index: number): Record<string, string> {
@@ -65,11 +65,14 @@ export abstract class PointsDisplay<M extends { header: Header }> extends Framed
     if (!point) return {};
     const { x, y, z } = point.xyz;
     const out: Record<string, string> = {
-      Display: String(this.values.Topic ?? ''),
-      'In its frame': `${x.toFixed(3)}, ${y.toFixed(3)}, ${z.toFixed(3)} m`,
-      Range: `${Math.hypot(x, y, z).toFixed(3)} m at ${((Math.atan2(y, x) * 180) / Math.PI).toFixed(2)}°`,
+      [t().found.display]: String(this.values.Topic ?? ''),
+      [t().found.inFrame]: `${x.toFixed(3)}, ${y.toFixed(3)}, ${z.toFixed(3)} m`,
+      [t().found.range]: t().found.rangeAt(
+        Math.hypot(x, y, z).toFixed(3),
+        ((Math.atan2(y, x) * 180) / Math.PI).toFixed(2),
+      ),
     };
-    if (point.value !== undefined) out.Value = point.value.toFixed(3);
+    if (point.value !== undefined) out[t().found.value] = point.value.toFixed(3);
     return out;
   }
 
@@ -136,7 +139,7 @@ class DepthCloudDisplay extends PointsDisplay<ImageMessage> {
 
   protected override rows(message: ImageMessage): Rows {
     if (!this.info) {
-      throw new Error('No camera_info received for the depth image yet');
+      throw new Error(t().displays.noCameraInfo);
     }
     return depthRows(message, this.info, this.color);
   }
@@ -155,7 +158,9 @@ export const laserScan: Kind = {
   class: 'rviz_default_plugins/LaserScan',
   also: ['rviz/LaserScan'],
   title: 'LaserScan',
-  help: 'Points measured by a laser scanner',
+  get help() {
+    return t().displayHelp.laserScan;
+  },
   types: SCAN,
   options: [...topic('Topic', '', SCAN, { isFiltered: true }), ...cloudOptions('Intensity')],
   make: (...all) => new LaserScanDisplay(...all),
@@ -165,7 +170,9 @@ export const pointCloud2: Kind = {
   class: 'rviz_default_plugins/PointCloud2',
   also: ['rviz/PointCloud2'],
   title: 'PointCloud2',
-  help: 'Point clouds, coloured by a field, by an axis, by their own colours or flat',
+  get help() {
+    return t().displayHelp.pointCloud2;
+  },
   types: CLOUD,
   options: [...topic('Topic', '', CLOUD, { isFiltered: true }), ...cloudOptions('Intensity')],
   make: (...all) => new PointCloud2Display(...all),
@@ -176,7 +183,9 @@ export const depthCloud: Kind = {
   class: 'rviz_default_plugins/DepthCloud',
   also: ['rviz/DepthCloud'],
   title: 'DepthCloud',
-  help: 'A depth image as points, with the colours of a second image',
+  get help() {
+    return t().displayHelp.depthCloud;
+  },
   types: IMAGE,
   options: [
     { path: 'Depth Map Topic', kind: 'topic', default: '', types: IMAGE },

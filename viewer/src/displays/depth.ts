@@ -2,17 +2,16 @@
 import type { CameraInfo, ImageMessage } from '../core/types';
 import type { Rows } from '../scene/cloud';
 import { pixelReader } from './pixels';
+import { t } from '../texts/language.svelte';
 
 export function depthRows(depth: ImageMessage, info: CameraInfo, color?: ImageMessage): Rows {
   const { width, height } = depth;
   const is16 = depth.encoding === '16UC1' || depth.encoding === 'mono16';
   if (!is16 && depth.encoding !== '32FC1') {
-    throw new Error(
-      `The encoding of a depth image must be 32FC1 or 16UC1; this one is ${depth.encoding}`,
-    );
+    throw new Error(t().displays.depthEncoding(depth.encoding));
   }
   const [fx, cx, fy, cy] = [info.k[0]!, info.k[2]!, info.k[4]!, info.k[5]!];
-  if (!(fx > 0 && fy > 0)) throw new Error('The camera_info has no focal length');
+  if (!(fx > 0 && fy > 0)) throw new Error(t().displays.noFocalLength);
   const view = new DataView(depth.data.buffer, depth.data.byteOffset, depth.data.byteLength);
   const little = !depth.is_bigendian;
   const colorAt = color && color.width > 0 ? pixelReader(color) : undefined;

@@ -9,6 +9,7 @@ import { seconds, type Header } from '../core/types';
 import { matrixOf } from '../scene/shapes';
 import { dispose, type Stage } from '../scene/stage';
 import type { Option, Value, Values } from './options';
+import { t } from '../texts/language.svelte';
 
 export type Level = 'ok' | 'warn' | 'error';
 
@@ -91,13 +92,13 @@ export abstract class Display {
     if (typeof topic !== 'string') return;
     this.subscribedTopic = topic;
     if (!topic) {
-      this.host.status('Topic', 'warn', 'No topic is set');
+      this.host.status('Topic', 'warn', t().displays.noTopic);
       return;
     }
-    this.host.status('Topic', 'warn', `No message received on ${topic} yet`);
+    this.host.status('Topic', 'warn', t().displays.noMessage(topic));
     const handler: Handler = (message) => {
       this.messageCount++;
-      this.host.status('Topic', 'ok', `${this.messageCount} messages on ${topic}`);
+      this.host.status('Topic', 'ok', t().displays.messages(this.messageCount, topic));
       try {
         this.receive(message);
       } catch (error) {
@@ -216,7 +217,7 @@ export abstract class FramedDisplay<M extends { header: Header }> extends Displa
     if (newest.kind !== 'found') {
       const topic = String(this.values.Topic ?? '');
       const pose = this.context.fixedFromSensor(topic, header.frame_id, stampS);
-      if (pose) this.host.status('Transform', 'ok', 'Pose from the simulation; TF has none');
+      if (pose) this.host.status('Transform', 'ok', t().displays.poseFromSimulation);
       if (pose) return pose;
     }
     const mayArrive = this.context.awaitsTransforms?.() ?? true;
@@ -227,10 +228,10 @@ export abstract class FramedDisplay<M extends { header: Header }> extends Displa
         this.host.status('Transform', 'ok');
         return newest.pose;
       }
-      this.host.status('Transform', 'warn', `Using the newest transform: ${then.why}`);
+      this.host.status('Transform', 'warn', t().displays.newestTransform(then.why));
       return newest.pose;
     }
-    this.host.status('Transform', 'error', `No transform: ${newest.why}`);
+    this.host.status('Transform', 'error', t().displays.noTransform(newest.why));
     return undefined;
   }
 

@@ -17,6 +17,7 @@ import { dispose } from '../scene/stage';
 import { Color, Matrix4, Quaternion, Vector3 } from 'three';
 import { Display, type Kind } from './display';
 import { alpha, bool, choice, color, frame, int, number, text, vector } from './options';
+import { t } from '../texts/language.svelte';
 
 interface Shown {
   axes: Mesh;
@@ -98,7 +99,7 @@ class TfDisplay extends Display {
     this.host.status(
       'Frames',
       lost > 0 ? 'warn' : 'ok',
-      `${names.length - lost} frames${lost ? `, ${lost} without a transform to ${fixed}` : ''}`,
+      t().displays.frames(names.length - lost, lost, fixed),
     );
     this.context.stage.invalidate();
   }
@@ -109,8 +110,8 @@ class TfDisplay extends Display {
     if (!entry) {
       entry = { axes: new Mesh(axesGeometry(0.2, 0.012), axesMaterial(0.999)) };
       entry.axes.userData.inspect = () => ({
-        Frame: name,
-        Parent: this.context.tf.parentOf(name) ?? 'none',
+        [t().found.frame]: name,
+        [t().found.parent]: this.context.tf.parentOf(name) ?? t().found.none,
       });
       this.root.add(entry.axes);
       if (this.get('Show Names')) {
@@ -272,7 +273,9 @@ export const tf: Kind = {
   class: 'rviz_default_plugins/TF',
   also: ['rviz/TF'],
   title: 'TF',
-  help: 'The TF tree: axes and names of all frames, and arrows to their parents',
+  get help() {
+    return t().displayHelp.tf;
+  },
   types: ['tf2_msgs/msg/TFMessage'],
   options: [
     bool('Show Names', false),
@@ -292,7 +295,9 @@ export const grid: Kind = {
   class: 'rviz_default_plugins/Grid',
   also: ['rviz/Grid'],
   title: 'Grid',
-  help: 'A grid of lines in a plane',
+  get help() {
+    return t().displayHelp.grid;
+  },
   types: [],
   options: [
     frame('Reference Frame', '<Fixed Frame>'),
@@ -317,7 +322,9 @@ export const axes: Kind = {
   class: 'rviz_default_plugins/Axes',
   also: ['rviz/Axes'],
   title: 'Axes',
-  help: 'The axes of a frame: x red, y green, z blue',
+  get help() {
+    return t().displayHelp.axes;
+  },
   types: [],
   options: [
     frame('Reference Frame', '<Fixed Frame>'),

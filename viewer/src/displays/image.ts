@@ -6,6 +6,7 @@ import { matrixOf } from '../scene/shapes';
 import { Display, type Kind } from './display';
 import { alpha, bool, choice, int, number, topic } from './options';
 import { extentOf, isDepth, toPixels, type Extent } from './pixels';
+import { t } from '../texts/language.svelte';
 
 const NONE: Extent = { min: 0, max: 1 };
 
@@ -48,7 +49,7 @@ class ImageDisplay extends Display {
     }
     const image = message as unknown as ImageMessage;
     const { width, height } = image;
-    if (!(width > 0 && height > 0)) throw new Error('The image has no pixels');
+    if (!(width > 0 && height > 0)) throw new Error(t().displays.noPixels);
     if (this.screen?.width !== width || this.screen.height !== height) {
       this.screen = new ImageData(width, height);
       this.extents = [];
@@ -96,11 +97,7 @@ class ImageDisplay extends Display {
       this.canvas.getContext('2d')!.drawImage(bitmap, 0, 0);
       this.host.status('Image', 'ok', `${bitmap.width} x ${bitmap.height}, ${message.format}`);
     } catch {
-      this.host.status(
-        'Image',
-        'error',
-        `The browser cannot decode the format "${message.format}"`,
-      );
+      this.host.status('Image', 'error', t().displays.imageFormat(message.format));
     }
   }
 
@@ -144,7 +141,7 @@ class CameraDisplay extends ImageDisplay {
       return;
     }
     if (!info) {
-      this.host.status('Camera', 'warn', 'No camera_info received for the image yet');
+      this.host.status('Camera', 'warn', t().displays.noCameraInfo);
       return;
     }
     const { stage, tf } = this.context;
@@ -276,7 +273,9 @@ export const image: Kind = {
   class: 'rviz_default_plugins/Image',
   also: ['rviz/Image'],
   title: 'Image',
-  help: 'Images, including depth images',
+  get help() {
+    return t().displayHelp.image;
+  },
   types: IMAGE,
   hasPicture: true,
   options: [...topic('Topic', '', IMAGE), ...range],
@@ -287,7 +286,9 @@ export const camera: Kind = {
   class: 'rviz_default_plugins/Camera',
   also: ['rviz/Camera'],
   title: 'Camera',
-  help: 'A camera image overlaid with the scene as seen by the camera',
+  get help() {
+    return t().displayHelp.camera;
+  },
   types: IMAGE,
   hasPicture: true,
   options: [

@@ -15,6 +15,7 @@ import type { LaserScan } from '../core/types';
 import { segments } from '../scene/shapes';
 import { FramedDisplay, type Kind } from './display';
 import { bool, choice, int, note, topic } from './options';
+import { t } from '../texts/language.svelte';
 
 const BLUE = new Color(0, 0, 1);
 const BLACK = new Color(0, 0, 0);
@@ -111,7 +112,7 @@ class LidarDisplay extends FramedDisplay<LaserScan> {
     this.host.note('Minimum Range', +scan.range_min.toFixed(3));
     this.host.note('Maximum Range', +scan.range_max.toFixed(3));
     const hitCount = fans.points.length / 3;
-    this.host.status('Rays', 'ok', `${hitCount} of ${scan.ranges.length} rays hit an object`);
+    this.host.status('Rays', 'ok', t().displays.rays(hitCount, scan.ranges.length));
   }
 }
 
@@ -120,7 +121,9 @@ const SCAN = ['sensor_msgs/msg/LaserScan'];
 export const visualizeLidar: Kind = {
   class: 'periplus/VisualizeLidar',
   title: 'Visualize Lidar',
-  help: 'Rays of a laser scanner, as in Gazebo',
+  get help() {
+    return t().displayHelp.lidar;
+  },
   types: [],
   options: [
     ...topic('Topic', '', SCAN, { reliability: 'Best Effort' }),

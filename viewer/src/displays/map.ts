@@ -19,6 +19,7 @@ import { dispose } from '../scene/stage';
 import { Display, type Kind } from './display';
 import { alpha, bool, choice, int, note, topic } from './options';
 import { palette, SCHEMES, type Scheme } from './palette';
+import { t } from '../texts/language.svelte';
 
 const VERTEX = /* glsl */ `
 precision highp float;
@@ -75,13 +76,12 @@ class MapDisplay extends Display {
     const grid = message as unknown as OccupancyGrid;
     const { width, height, resolution } = grid.info;
     if (!(width > 0 && height > 0 && resolution > 0)) {
-      throw new Error(`The map has ${width} x ${height} cells of ${resolution} m: it is empty`);
+      throw new Error(t().displays.emptyMap(width, height, resolution));
     }
-    if (grid.data.length < width * height)
-      throw new Error('The map has fewer cells than its width and height require');
+    if (grid.data.length < width * height) throw new Error(t().displays.shortMap);
     const most = this.context.stage.renderer.capabilities.maxTextureSize;
     if (Math.max(width, height) > most) {
-      throw new Error(`The map is larger than this GPU supports (${most} cells per side)`);
+      throw new Error(t().displays.largeMap(most));
     }
     const old = this.grid?.info;
     const bytes = new Uint8Array(grid.data.buffer, grid.data.byteOffset, width * height);
@@ -138,7 +138,7 @@ class MapDisplay extends Display {
     const { width, height } = grid.info;
     const { x, y, width: w, height: h, data } = change;
     if (x < 0 || y < 0 || x + w > width || y + h > height || data.length < w * h) {
-      this.host.status('Update', 'error', 'An update of the map is outside the map');
+      this.host.status('Update', 'error', t().displays.updateOutside);
       return;
     }
     if (w === 0 || h === 0) return;
@@ -147,7 +147,7 @@ class MapDisplay extends Display {
     for (let row = 0; row < h; row++) {
       bytes.set(patch.subarray(row * w, (row + 1) * w), (y + row) * width + x);
     }
-    this.host.status('Update', 'ok', `Last update: ${w} x ${h} cells`);
+    this.host.status('Update', 'ok', t().displays.lastUpdate(w, h));
     // A texture that was never drawn is uploaded completely anyway.
     const known = this.context.stage.renderer.properties.get(cells) as { __webglTexture?: unknown };
     if (!known.__webglTexture || cells.version === 0) {
@@ -206,7 +206,7 @@ class MapDisplay extends Display {
     const found = this.context.tf.lookup(fixed, grid.header.frame_id, at);
     mesh.visible = found.kind === 'found';
     if (found.kind !== 'found') {
-      this.host.status('Transform', 'error', `No transform: ${found.why}`);
+      this.host.status('Transform', 'error', t().displays.noTransform(found.why));
       return;
     }
     const fixedFromMap: Pose = multiply(found.pose, poseOf(grid.info.origin));
@@ -226,11 +226,12 @@ class MapDisplay extends Display {
     const { i, j } = cellOf(grid, uv);
     const value = this.valueAt(uv);
     return {
-      Map: this.get('Topic'),
-      Cell: `${i}, ${j}`,
-      Center: `${(origin.position.x + (i + 0.5) * resolution).toFixed(3)}, ${(origin.position.y + (j + 0.5) * resolution).toFixed(3)} m`,
-      Value: value === 255 ? '-1 (unknown)' : String(value),
-      Meaning: meaning(value, this.get<Scheme>('Color Scheme')),
+      [t().found.map]: this.get('Topic'),
+      [t().found.cell]: `${i}, ${j}`,
+      [t().found.center]:
+        `${(origin.position.x + (i + 0.5) * resolution).toFixed(3)}, ${(origin.position.y + (j + 0.5) * resolution).toFixed(3)} m`,
+      [t().found.value]: value === 255 ? t().found.unknownCell : String(value),
+      [t().found.meaning]: meaning(value, this.get<Scheme>('Color Scheme')),
     };
   }
 
@@ -256,14 +257,17 @@ class MapDisplay extends Display {
         const makers = [...values].filter(([, v]) => v === most && v >= 99).map(([n]) => n);
         const why =
           values.size < names.length
-            ? 'waiting for the layers'
+            ? t().found.waitingForLayers
             : makers.length > 0 && sum >= 99 && sum !== 255
-              ? `marked by ${makers.join(', ')}`
+              ? t().found.markedBy(makers.join(', '))
               : sum > 0 && sum !== 255
-                ? 'by inflation: no layer marks it as occupied'
-                : 'no layer marks it';
-        const all = [...values].map(([n, v]) => [`Layer ${n}`, v < 0 ? 'unknown' : String(v)]);
-        report({ ...Object.fromEntries(all), Why: why });
+                ? t().found.byInflation
+                : t().found.unmarked;
+        const all = [...values].map(([n, v]) => [
+          t().found.layer(n),
+          v < 0 ? t().found.unknown : String(v),
+        ]);
+        report({ ...Object.fromEntries(all), [t().found.why]: why });
       });
       // A layer that publishes nothing is not waited for.
       setTimeout(unsubscribe, 3000);
@@ -302,14 +306,14 @@ function cellOf({ info: { width, height } }: OccupancyGrid, uv: Vector2) {
 
 /** Meaning of the value of an OccupancyGrid cell. Nav2 publishes costs scaled to 0..100. */
 export function meaning(value: number, scheme: Scheme): string {
-  if (value === 255) return 'unknown: never observed';
-  if (scheme !== 'costmap') return `occupied with a probability of ${value} %`;
-  if (value === 0) return 'free';
-  if (value === 100) return 'lethal: an obstacle (cost 254)';
-  if (value === 99) return "inscribed: the robot's middle here touches an obstacle (cost 253)";
+  if (value === 255) return t().found.neverObserved;
+  if (scheme !== 'costmap') return t().found.occupied(value);
+  if (value === 0) return t().found.free;
+  if (value === 100) return t().found.lethal;
+  if (value === 99) return t().found.inscribed;
   // nav2_costmap_2d: 1 + 97 (cost - 1) / 251.
   const cost = Math.round(1 + ((value - 1) * 251) / 97);
-  return `cost about ${cost} = 252 exp(-scaling (distance - inscribed radius))`;
+  return t().found.cost(cost);
 }
 
 const MAP = ['nav_msgs/msg/OccupancyGrid'];
@@ -318,7 +322,9 @@ export const map: Kind = {
   class: 'rviz_default_plugins/Map',
   also: ['rviz/Map'],
   title: 'Map',
-  help: 'Occupancy grids: maps and costmaps',
+  get help() {
+    return t().displayHelp.map;
+  },
   types: MAP,
   options: [
     ...topic('Topic', '', MAP, { isFiltered: true }),

@@ -26,6 +26,7 @@ import {
   UNIT_SPHERE,
 } from '../scene/shapes';
 import { Quaternion, Vector3 } from 'three';
+import { t } from '../texts/language.svelte';
 
 /**
  * Width up to which a line is drawn one pixel wide [m]: a controller publishes hundreds of such lines, which would
@@ -84,7 +85,7 @@ export function markerObject(
     case 11:
       return triangles(marker, paint);
     default:
-      throw new Error(`The marker type ${marker.type} is unknown`);
+      throw new Error(t().displays.markerType(marker.type));
   }
 }
 

@@ -9,6 +9,7 @@ import { dispose } from '../scene/stage';
 import { Display, type Kind } from './display';
 import { markerObject } from './marker_shapes';
 import { topic } from './options';
+import { t } from '../texts/language.svelte';
 
 interface Entry {
   marker: Marker;
@@ -61,7 +62,7 @@ export class MarkerDisplay extends Display {
     for (const ns of names) {
       if (!(`Namespaces/${ns}` in this.values)) this.host.note(`Namespaces/${ns}`, true);
     }
-    this.host.status('Markers', 'ok', `${this.entries.size} markers`);
+    this.host.status('Markers', 'ok', t().displays.markers(this.entries.size));
   }
 
   /** Markers are published one after the other, and stay until they are deleted. */
@@ -76,9 +77,9 @@ export class MarkerDisplay extends Display {
     object.matrixAutoUpdate = true;
     object.visible = false;
     object.userData.inspect = () => ({
-      Marker: `${marker.ns || '(no namespace)'} ${marker.id}`,
-      Frame: marker.header.frame_id,
-      ...(marker.text ? { Text: marker.text } : {}),
+      [t().found.marker]: `${marker.ns || t().found.noNamespace} ${marker.id}`,
+      [t().found.frame]: marker.header.frame_id,
+      ...(marker.text ? { [t().found.text]: marker.text } : {}),
     });
     const done = (why?: string) => {
       if (why) this.host.status('Meshes', 'error', why);
@@ -189,7 +190,9 @@ export const marker: Kind = {
   class: 'rviz_default_plugins/Marker',
   also: ['rviz/Marker'],
   title: 'Marker',
-  help: 'A shape published by a node',
+  get help() {
+    return t().displayHelp.marker;
+  },
   types: MARKER,
   options: topic('Topic', '', MARKER, { isFiltered: true }),
   make: (...all) => new MarkerDisplay(...all),
@@ -199,7 +202,9 @@ export const markerArray: Kind = {
   class: 'rviz_default_plugins/MarkerArray',
   also: ['rviz/MarkerArray'],
   title: 'MarkerArray',
-  help: 'Shapes published by a node',
+  get help() {
+    return t().displayHelp.markerArray;
+  },
   types: ARRAY,
   options: topic('Topic', '', ARRAY),
   make: (...all) => new MarkerArrayDisplay(...all),

@@ -1,5 +1,6 @@
 /** Conversion of all raw encodings of sensor_msgs/Image to RGBA. */
 import type { ImageMessage } from '../core/types';
+import { t } from '../texts/language.svelte';
 
 /** Values shown as black and as white. */
 export interface Extent {
@@ -71,7 +72,7 @@ export function pixelReader(image: ImageMessage): Reader {
       return rgb(clamp(y + 1.402 * cr), clamp(y - 0.344 * cb - 0.714 * cr), clamp(y + 1.772 * cb));
     };
   }
-  throw new Error(`The image encoding "${encoding}" is not supported`);
+  throw new Error(t().displays.imageEncoding(encoding));
 }
 
 type Numbers = ArrayLike<number>;

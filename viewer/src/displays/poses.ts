@@ -40,6 +40,7 @@ import {
   type Option,
   type Values,
 } from './options';
+import { t } from '../texts/language.svelte';
 
 const SHAPES = ['Arrow', 'Axes'];
 
@@ -156,7 +157,7 @@ class PathDisplay extends FramedDisplay<Path> {
     this.drawn.push(group);
     const most = Math.max(1, this.get<number>('Buffer Length'));
     while (this.drawn.length > most) dispose(this.drawn.shift()!);
-    this.host.status('Path', 'ok', `${message.poses.length} poses`);
+    this.host.status('Path', 'ok', t().displays.poses(message.poses.length));
   }
 
   private styled(group: Group, message: Path): void {
@@ -252,7 +253,7 @@ class PoseArrayDisplay extends FramedDisplay<Many> {
     }
     this.root.add(group);
     this.put(group, fixedFromFrame);
-    this.host.status('Poses', 'ok', `${poses.length} poses`);
+    this.host.status('Poses', 'ok', t().displays.poses(poses.length));
   }
 
   /** Arrow lengths proportional to the weights of the particles. */
@@ -314,7 +315,7 @@ class RangeDisplay extends FramedDisplay<RangeMessage> {
     const range = Math.min(message.range, message.max_range);
     const isSeen = message.range >= message.min_range && range > 0 && Number.isFinite(range);
     if (!isSeen) {
-      this.host.status('Range', 'ok', `${message.range} m: not drawn`);
+      this.host.status('Range', 'ok', t().displays.rangeNotDrawn(message.range));
       this.clear();
       return;
     }
@@ -353,7 +354,7 @@ function coneGeometry(length: number, angle: number): BufferGeometry {
 const kind = (
   name: string,
   types: string[],
-  help: string,
+  help: () => string,
   options: Option[],
   make: new (...all: Parameters<Kind['make']>) => Display,
   more: Partial<Kind> = {},
@@ -361,7 +362,9 @@ const kind = (
   class: `rviz_default_plugins/${name}`,
   also: [`rviz/${name}`],
   title: name,
-  help,
+  get help() {
+    return help();
+  },
   types,
   options,
   make: (...all) => new make(...all),
@@ -372,7 +375,7 @@ const ODOMETRY = ['nav_msgs/msg/Odometry'];
 export const odometry = kind(
   'Odometry',
   ODOMETRY,
-  'Past poses from odometry, as arrows or axes',
+  () => t().displayHelp.odometry,
   [
     ...topic('Topic', '', ODOMETRY, { isFiltered: true }),
     number('Position Tolerance', 0.1, { min: 0, step: 0.05 }),
@@ -389,7 +392,7 @@ const styledAs = (style: string) => ({ when: (v: Values) => v['Pose Style'] === 
 export const path = kind(
   'Path',
   PATH,
-  'A path as a line through its poses',
+  () => t().displayHelp.path,
   [
     ...topic('Topic', '', PATH, { isFiltered: true }),
     choice('Line Style', 'Lines', ['Lines', 'Billboards']),
@@ -418,7 +421,7 @@ const POSE = ['geometry_msgs/msg/PoseStamped'];
 export const pose = kind(
   'Pose',
   POSE,
-  'A pose, such as a goal, as an arrow or axes',
+  () => t().displayHelp.pose,
   [...topic('Topic', '', POSE, { isFiltered: true }), ...shapeOptions('')],
   PoseDisplay,
 );
@@ -427,7 +430,7 @@ const WITH_COVARIANCE = ['geometry_msgs/msg/PoseWithCovarianceStamped'];
 export const poseWithCovariance = kind(
   'PoseWithCovariance',
   WITH_COVARIANCE,
-  'A pose with its covariance',
+  () => t().displayHelp.poseWithCovariance,
   [
     ...topic('Topic', '', WITH_COVARIANCE, { isFiltered: true }),
     ...shapeOptions(''),
@@ -446,7 +449,7 @@ const shaped = (shape: string) => ({
 export const poseArray = kind(
   'PoseArray',
   ARRAY,
-  'An array of poses as arrows or axes',
+  () => t().displayHelp.poseArray,
   [
     ...topic('Topic', '', ARRAY, { isFiltered: true }),
     choice('Shape', 'Arrow (Flat)', ARRAY_SHAPES),
@@ -467,7 +470,7 @@ const PARTICLES = ['nav2_msgs/msg/ParticleCloud'];
 export const particleCloud = kind(
   'ParticleCloud',
   PARTICLES,
-  'Particles of AMCL: the larger the weight, the longer the arrow',
+  () => t().displayHelp.particleCloud,
   [
     ...topic('Topic', '', PARTICLES, { isFiltered: true, reliability: 'Best Effort' }),
     choice('Shape', 'Arrow (Flat)', ARRAY_SHAPES),
@@ -484,7 +487,7 @@ const POLYGON = ['geometry_msgs/msg/PolygonStamped'];
 export const polygon = kind(
   'Polygon',
   POLYGON,
-  "A closed line: a robot's footprint",
+  () => t().displayHelp.polygon,
   [
     ...topic('Topic', '', POLYGON, { isFiltered: true }),
     color('Color', '25; 255; 0'),
@@ -497,7 +500,7 @@ const RANGE = ['sensor_msgs/msg/Range'];
 export const range = kind(
   'Range',
   RANGE,
-  'The range of a sonar or infrared sensor, as a cone',
+  () => t().displayHelp.range,
   [
     ...topic('Topic', '', RANGE, { isFiltered: true }),
     color('Color', '255; 255; 255'),

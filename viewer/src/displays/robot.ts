@@ -8,6 +8,7 @@ import { Display, type Kind } from './display';
 import { boxOf, leadRadius, principal } from './inertia';
 import { alpha, bool, choice, number, text, topic } from './options';
 import { readUrdf, type Link, type Part, type Robot } from './urdf';
+import { t } from '../texts/language.svelte';
 
 const PLAIN = '#9fb3c8';
 const MASS = new Color('#e5383b');
@@ -50,7 +51,11 @@ class RobotModelDisplay extends Display {
     if (this.robot && description === this.description) return;
     this.description = description;
     this.robot = readUrdf(description);
-    this.host.status('Description', 'ok', `${this.robot.name}: ${this.robot.links.length} links`);
+    this.host.status(
+      'Description',
+      'ok',
+      t().displays.links(this.robot.name, this.robot.links.length),
+    );
     this.rebuild();
   }
 
@@ -65,9 +70,9 @@ class RobotModelDisplay extends Display {
       group.matrixAutoUpdate = false;
       group.visible = false;
       group.userData.inspect = () => ({
-        Link: link.name,
-        Mass: `${link.mass} kg`,
-        Robot: this.robot!.name,
+        [t().found.link]: link.name,
+        [t().found.mass]: `${link.mass} kg`,
+        [t().found.robot]: this.robot!.name,
       });
       this.links.set(link.name, group);
       this.root.add(group);
@@ -103,7 +108,7 @@ class RobotModelDisplay extends Display {
     const { moments, turn } = principal(link.inertia);
     const size = boxOf(link.mass, moments);
     if (!size) {
-      this.host.status('Inertia', 'warn', `The inertia of ${link.name} is physically impossible`);
+      this.host.status('Inertia', 'warn', t().displays.impossibleInertia(link.name));
       return;
     }
     const box = new Mesh(UNIT_BOX, surface(INERTIA, 0.5));
@@ -151,7 +156,7 @@ class RobotModelDisplay extends Display {
     } catch (error) {
       this.missing.add(uri);
       const first = [...this.missing][0]!;
-      const more = this.missing.size > 1 ? ` and ${this.missing.size - 1} more` : '';
+      const more = this.missing.size > 1 ? t().displays.andMore(this.missing.size - 1) : '';
       this.host.status('Meshes', 'error', `${first}${more}: ${(error as Error).message}`);
     }
   }
@@ -190,12 +195,15 @@ class RobotModelDisplay extends Display {
         group.matrixWorldNeedsUpdate = true;
       } else lost.push(name);
     }
-    const many = lost.length > 3 ? ` and ${lost.length - 3} more` : '';
+    const many = lost.length > 3 ? t().displays.andMore(lost.length - 3) : '';
     this.host.status(
       'Transform',
       lost.length > 0 ? 'error' : 'ok',
       lost.length > 0
-        ? `No transform from ${lost.slice(0, 3).join(', ')}${many} to ${this.context.fixedFrame()}`
+        ? t().displays.noTransformTo(
+            `${lost.slice(0, 3).join(', ')}${many}`,
+            this.context.fixedFrame(),
+          )
         : undefined,
     );
     this.context.stage.invalidate();
@@ -218,7 +226,9 @@ export const robotModel: Kind = {
   class: 'rviz_default_plugins/RobotModel',
   also: ['rviz/RobotModel'],
   title: 'RobotModel',
-  help: 'A robot model from a URDF, posed by TF',
+  get help() {
+    return t().displayHelp.robotModel;
+  },
   types: [],
   options: [
     bool('Visual Enabled', true),

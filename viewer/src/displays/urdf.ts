@@ -1,5 +1,6 @@
 /** Part of a URDF that is drawn: links with their shapes, and the joints between them. */
 import { fromRpy, type Pose } from '../core/pose';
+import { t } from '../texts/language.svelte';
 
 export type Shape =
   | { kind: 'box'; size: [number, number, number] }
@@ -45,8 +46,7 @@ const child = (element: Element | undefined, name: string) => element && childre
 export function readUrdf(text: string, parser: DOMParser = new DOMParser()): Robot {
   const document = parser.parseFromString(text, 'text/xml');
   const root = document.documentElement;
-  if (!root || root.localName !== 'robot')
-    throw new Error('The description is not a URDF: it has no <robot>');
+  if (!root || root.localName !== 'robot') throw new Error(t().displays.notUrdf);
   const colors = new Map<string, Part['rgba']>();
   for (const material of children(root, 'material')) {
     colors.set(material.getAttribute('name') ?? '', rgbaOf(material));

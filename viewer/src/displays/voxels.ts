@@ -5,6 +5,7 @@ import type { Header, Point } from '../core/types';
 import { colorOf, instances, matrixOf, surface, UNIT_BOX } from '../scene/shapes';
 import { FramedDisplay, type Kind } from './display';
 import { alpha, bool, choice, color, topic } from './options';
+import { t } from '../texts/language.svelte';
 
 interface VoxelGrid {
   header: Header;
@@ -55,7 +56,7 @@ class VoxelGridDisplay extends FramedDisplay<VoxelGrid> {
     this.root.add(mesh);
     mesh.matrixAutoUpdate = false;
     mesh.matrix.copy(matrixOf(fixedFromFrame));
-    this.host.status('Voxels', 'ok', `${cells.length} cells`);
+    this.host.status('Voxels', 'ok', t().displays.cells(cells.length));
   }
 }
 
@@ -64,7 +65,9 @@ const VOXELS = ['nav2_msgs/msg/VoxelGrid'];
 export const voxelGrid: Kind = {
   class: 'periplus/VoxelGrid',
   title: 'VoxelGrid',
-  help: 'Cells marked by the voxel layer of a costmap',
+  get help() {
+    return t().displayHelp.voxels;
+  },
   types: VOXELS,
   options: [
     ...topic('Topic', '', VOXELS, { isFiltered: true }),

@@ -15,6 +15,7 @@ import { WORLD } from '../sim/sensor_frames';
 import { Display, type Kind } from './display';
 import { markerObject } from './marker_shapes';
 import { alpha, bool, choice, topic } from './options';
+import { t } from '../texts/language.svelte';
 
 /** Error of the estimated pose. */
 export interface Truth {
@@ -73,7 +74,7 @@ export class WorldDisplay extends Display {
 
   protected override receive(message: Message): void {
     for (const marker of message.markers as Marker[]) this.update(marker);
-    this.host.status('Scene', 'ok', `${this.parts.size} shapes of ${this.models().length} models`);
+    this.host.status('Scene', 'ok', t().displays.shapes(this.parts.size, this.models().length));
     this.onModels?.(this.models());
     this.context.stage.invalidate();
   }
@@ -123,9 +124,9 @@ export class WorldDisplay extends Display {
       holder.userData.inspect = () => {
         const at = this.frames.get(frame)?.worldFromLink;
         return {
-          Model: modelOf(frame),
-          Link: linkOf(frame),
-          ...(at ? { 'In the world': at.t.map((v) => v.toFixed(3)).join(', ') + ' m' } : {}),
+          [t().found.model]: modelOf(frame),
+          [t().found.link]: linkOf(frame),
+          ...(at ? { [t().found.inWorld]: at.t.map((v) => v.toFixed(3)).join(', ') + ' m' } : {}),
         };
       };
       this.root.add(holder);
@@ -213,17 +214,13 @@ export class WorldDisplay extends Display {
     this.host.status(
       'Alignment',
       isAligned ? 'ok' : 'warn',
-      isAligned ? undefined : `No transform from ${shown!.link} to ${fixed}`,
+      isAligned ? undefined : t().displays.noTransformTo(shown!.link, fixed),
     );
     if (!this.truth) this.host.status('Truth', 'ok');
     else {
       const { distanceM, yawRad } = this.truth;
       const degrees = Math.abs((yawRad * 180) / Math.PI).toFixed(1);
-      this.host.status(
-        'Truth',
-        'ok',
-        `Error of the estimate: ${distanceM.toFixed(3)} m, ${degrees}°`,
-      );
+      this.host.status('Truth', 'ok', t().displays.estimateError(distanceM.toFixed(3), degrees));
     }
     this.robots();
   }
@@ -353,7 +350,9 @@ const ARRAY = ['visualization_msgs/msg/MarkerArray'];
 export const world: Kind = {
   class: 'periplus/World',
   title: 'World',
-  help: 'The simulated world (ground truth)',
+  get help() {
+    return t().displayHelp.world;
+  },
   types: [],
   options: [
     ...topic('Topic', '', ARRAY, { durability: 'Transient Local' }),

@@ -5,7 +5,10 @@ import type { Driver } from '../app/driver.svelte';
 import type { Panel } from '../app/panel.svelte';
 import type { Tools } from '../app/tools.svelte';
 import { t } from '../texts/language.svelte';
+import DisplaysPanel from './DisplaysPanel.svelte';
+import DrivePanel from './DrivePanel.svelte';
 import type { IconName } from './icons';
+import StageView from './StageView.svelte';
 
 export interface PanelProps {
   app: App;
@@ -20,20 +23,32 @@ export interface PanelKind {
   title: () => string;
   icon: IconName;
   /** Loaded when first shown. */
-  load: () => Promise<{ default: Component<PanelProps> }>;
+  load?: () => Promise<{ default: Component<PanelProps> }>;
+  /** Instead of `load`: part of the first picture. */
+  component?: Component<PanelProps>;
   /** True if several may be open. */
   isMany?: boolean;
   /** True for a panel that is open in the first layout, as a tab on the right. */
   isFirst?: boolean;
   /** True for a panel without padding and scrolling of its own, such as a 3D view. */
   isBare?: boolean;
+  /** True for a panel that works on while it is behind another one; others start again when they are shown. */
+  isKept?: boolean;
+  /** True for a panel that is placed beside the 3D view, not among the tabs at the right. */
+  isLarge?: boolean;
   /** False while the panel has nothing to show; it is then not offered. */
   isOffered?: (app: App) => boolean;
 }
 
 const kinds: PanelKind[] = [
   // prettier-ignore
-  { id: 'drive', title: () => t().panels.drive, icon: 'move', isFirst: true, load: () => import('./DrivePanel.svelte') },
+  { id: '3d', title: () => t().panels.view, icon: 'cube', isMany: true, isBare: true, isKept: true, isLarge: true, component: StageView },
+  // prettier-ignore
+  { id: 'displays', title: () => t().panels.displays, icon: 'left', isBare: true, component: DisplaysPanel },
+  // prettier-ignore
+  { id: 'image', title: () => t().panels.image, icon: 'image', isMany: true, isBare: true, isLarge: true, load: () => import('./ImagePanel.svelte') },
+  // prettier-ignore
+  { id: 'drive', title: () => t().panels.drive, icon: 'move', isFirst: true, component: DrivePanel },
   // prettier-ignore
   { id: 'navigate', title: () => t().panels.navigate, icon: 'goal', isFirst: true, load: () => import('./NavigatePanel.svelte') },
   // prettier-ignore
@@ -47,7 +62,7 @@ const kinds: PanelKind[] = [
   // prettier-ignore
   { id: 'services', title: () => t().panels.services, icon: 'play', isFirst: true, load: () => import('./ServicesPanel.svelte') },
   // prettier-ignore
-  { id: 'plot', title: () => t().panels.plot, icon: 'plot', isFirst: true, isMany: true, load: () => import('./PlotPanel.svelte') },
+  { id: 'plot', title: () => t().panels.plot, icon: 'plot', isFirst: true, isMany: true, isKept: true, load: () => import('./PlotPanel.svelte') },
   // prettier-ignore
   { id: 'log', title: () => t().panels.log, icon: 'lines', isFirst: true, load: () => import('./LogPanel.svelte') },
   // prettier-ignore

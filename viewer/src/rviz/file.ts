@@ -1,6 +1,8 @@
 /** Reader and writer of `.rviz` files. Unknown content is kept. */
 import { dump, load } from 'js-yaml';
 import type { Option, Value, Values } from '../displays/options';
+import { isGroup, nestDisplays, type RvizGroup } from './groups';
+import { t } from '../texts/language.svelte';
 
 export type Tree = { [key: string]: unknown };
 
@@ -9,6 +11,7 @@ export interface RvizDisplay {
   name: string;
   isEnabled: boolean;
   values: Values;
+  group?: RvizGroup;
   /** Original entry of the file; its unknown parts are written back. */
   original: Tree;
 }
@@ -16,6 +19,19 @@ export interface RvizDisplay {
 export interface RvizView {
   class: string;
   values: Values;
+}
+
+/** View that the user saved by a name. */
+export interface SavedRvizView extends RvizView {
+  name: string;
+  original?: Tree;
+}
+
+/** What a file says about the window of RViz, as far as this page has the same. */
+export interface RvizWindow {
+  /** Classes of the panels. */
+  panels: string[];
+  hidesDisplays: boolean;
 }
 
 export interface RvizTool {
@@ -28,13 +44,18 @@ export interface RvizFile {
   background: string;
   frameRate: number;
   displays: RvizDisplay[];
+  groups: RvizGroup[];
   view?: RvizView;
+  savedViews: SavedRvizView[];
   tools: RvizTool[];
+  window: RvizWindow;
   original: Tree;
 }
 
 const isTree = (value: unknown): value is Tree =>
   typeof value === 'object' && value !== null && !Array.isArray(value);
+
+const treesOf = (list: unknown): Tree[] => (Array.isArray(list) ? list.filter(isTree) : []);
 
 /** Options between the parts of a display, which are no parts themselves. */
 const NO_PARTS =
@@ -90,15 +111,24 @@ function displayOf(tree: Tree): RvizDisplay {
   };
 }
 
-/** Flattens groups of displays; a disabled group disables its displays. */
-function displaysOf(list: unknown, isOn = true): RvizDisplay[] {
-  return (Array.isArray(list) ? list : []).filter(isTree).flatMap((tree) => {
-    if (!String(tree.Class ?? '').endsWith('/Group')) {
-      const display = displayOf(tree);
-      return [{ ...display, isEnabled: display.isEnabled && isOn }];
-    }
-    return displaysOf(tree.Displays, isOn && tree.Enabled !== false);
+/** Displays in order, each with its group; groups are collected, outer ones first. */
+function displaysOf(list: unknown, groups: RvizGroup[], parent?: RvizGroup): RvizDisplay[] {
+  return treesOf(list).flatMap((tree) => {
+    if (!isGroup(tree)) return [{ ...displayOf(tree), group: parent }];
+    const name = String(tree.Name ?? 'Group');
+    const group: RvizGroup = { name, isEnabled: tree.Enabled !== false, parent, original: tree };
+    groups.push(group);
+    return displaysOf(tree.Displays, groups, group);
   });
+}
+
+function windowOf(tree: Tree): RvizWindow {
+  const geometry = isTree(tree['Window Geometry']) ? tree['Window Geometry'] : {};
+  const displays = isTree(geometry.Displays) ? geometry.Displays : {};
+  return {
+    panels: treesOf(tree.Panels).map((panel) => String(panel.Class ?? '')),
+    hidesDisplays: geometry['Hide Left Dock'] === true || displays.collapsed === true,
+  };
 }
 
 export function readRviz(text: string): RvizFile {
@@ -106,20 +136,28 @@ export function readRviz(text: string): RvizFile {
   try {
     tree = load(text);
   } catch (error) {
-    throw new Error(`This is not YAML: ${(error as Error).message.split('\n')[0]}`);
+    throw new Error(t().notices.notYaml((error as Error).message.split('\n')[0] ?? ''));
   }
   const manager = isTree(tree) ? tree['Visualization Manager'] : undefined;
-  if (!isTree(manager))
-    throw new Error('This is not an .rviz file: it has no "Visualization Manager"');
+  if (!isTree(manager)) throw new Error(t().notices.notRviz);
   const global = isTree(manager['Global Options']) ? manager['Global Options'] : {};
   const views = isTree(manager.Views) ? manager.Views : {};
   const current = isTree(views.Current) ? views.Current : undefined;
-  const tools = Array.isArray(manager.Tools) ? manager.Tools.filter(isTree) : [];
+  const tools = treesOf(manager.Tools);
+  const groups: RvizGroup[] = [];
   return {
     fixedFrame: String(global['Fixed Frame'] ?? 'map'),
     background: String(global['Background Color'] ?? '48; 48; 48'),
     frameRate: Number(global['Frame Rate'] ?? 30),
-    displays: displaysOf(manager.Displays),
+    displays: displaysOf(manager.Displays, groups),
+    groups,
+    savedViews: treesOf(views.Saved).map((view) => ({
+      name: String(view.Name ?? ''),
+      class: String(view.Class ?? ''),
+      values: flatten(view),
+      original: view,
+    })),
+    window: windowOf(tree as Tree),
     view: current && { class: String(current.Class ?? ''), values: flatten(current) },
     tools: tools.map((tool) => ({ class: String(tool.Class ?? ''), values: flatten(tool) })),
     original: tree as Tree,
@@ -168,9 +206,12 @@ export interface Saved {
     isEnabled: boolean;
     values: Values;
     options: readonly Option[];
+    group?: RvizGroup;
     original?: Tree;
   }[];
+  groups?: readonly RvizGroup[];
   view: RvizView;
+  savedViews?: readonly SavedRvizView[];
   original?: Tree;
 }
 
@@ -223,14 +264,18 @@ export function writeRviz(saved: Saved): string {
     const values = Object.fromEntries(
       Object.entries(display.values).filter(([path]) => paths.has(path)),
     );
-    return merge(display.original ?? {}, {
+    const tree = merge(display.original ?? {}, {
       ...merge(nest(values), partsOf(display.values)),
       Class: display.class,
       Name: display.name,
       Enabled: display.isEnabled,
       Value: display.isEnabled,
     });
+    return { tree, group: display.group };
   });
+  const views = (saved.savedViews ?? []).map(({ class: name, values, original, name: title }) =>
+    merge(original ?? {}, { Class: name, ...nest(values), Name: title }),
+  );
   const base: Tree = saved.original ?? {
     Panels: [
       { Class: 'rviz_common/Displays', Name: 'Displays' },
@@ -252,8 +297,11 @@ export function writeRviz(saved: Saved): string {
       'Fixed Frame': saved.fixedFrame,
       'Frame Rate': 30,
     },
-    Views: { Current: { Class: saved.view.class, ...nest(saved.view.values) }, Saved: null },
+    Views: {
+      Current: { Class: saved.view.class, ...nest(saved.view.values) },
+      Saved: views.length > 0 ? views : null,
+    },
   });
-  manager.Displays = displays;
+  manager.Displays = nestDisplays(displays, saved.groups ?? []);
   return dump({ ...base, 'Visualization Manager': manager }, { sortKeys: false, lineWidth: 200 });
 }

@@ -12,6 +12,7 @@ import {
   Texture,
   Vector3,
 } from 'three';
+import { t } from '../texts/language.svelte';
 
 export type Fetch = (uri: string) => Promise<Uint8Array>;
 
@@ -80,7 +81,7 @@ export class MeshLibrary {
         const text = new TextDecoder().decode(bytes);
         const manager = await this.textures(folder, text.matchAll(/<init_from>\s*([^<]+?)\s*</g));
         const read = new ColladaLoader(manager).parse(text, '');
-        if (!read) throw new Error(`${uri} is not a COLLADA file`);
+        if (!read) throw new Error(t().displays.notCollada(uri));
         const { scene } = read;
         // The loader rotates Y_UP files to three.js; in a scene with z up, files with Z_UP are right without it.
         if (/<up_axis>\s*Z_UP/.test(text)) scene.rotation.set(0, 0, 0);
@@ -104,9 +105,7 @@ export class MeshLibrary {
         return tidy(read.scene);
       }
       default:
-        throw new Error(
-          `the mesh format "${ending ?? uri}" is not supported (supported: stl, dae, obj, glb)`,
-        );
+        throw new Error(t().displays.meshFormat(ending ?? uri));
     }
   }
 
