@@ -248,11 +248,19 @@ export async function replay(chrome, url, out, attempt) {
         'periplus.viewports.length === 2 && periplus.viewports[1].fixedFrame === "B:map"',
         'two views',
       );
-      const topics = await page.evaluate(() =>
-        window.periplus.viewports.map((v) => v.displays.map((d) => d.values.Topic ?? '')),
+      await until(
+        page,
+        'periplus.viewports[1].displays.some((d) => d.values.Topic === "B:/map")',
+        'the second recording in the second view',
       );
-      assert.ok(!topics[0].some((name) => name.startsWith('B:')), topics[0].join());
-      assert.ok(topics[1].includes('B:/map'), topics[1].join());
+      const first = await page.evaluate(() =>
+        window.periplus.viewports[0].displays.map((d) => d.values.Topic ?? ''),
+      );
+      const others = first.filter((name) => name.startsWith('B:') && !/trajectory/.test(name));
+      assert.deepEqual(others, [], 'only the first recording in the first view');
+      // The cameras are linked.
+      await page.evaluate('periplus.viewports[0].setView({ distance: 7.5 })');
+      await until(page, 'periplus.viewports[1].view.distance === 7.5', 'linked cameras');
     }),
   );
 
