@@ -139,11 +139,8 @@ impl Recordings {
         let service = Arc::downgrade(self);
         let run = move || {
             let made = make(&path, &progress);
-            let recording = Self::opened(&service, id, made);
-            if let Some(recording) = recording
-                && let Err(error) = background::run(&recording)
-            {
-                background::failed(&recording, &error);
+            if let Some(recording) = Self::opened(&service, id, made) {
+                background::run(&recording);
             }
         };
         let builder = std::thread::Builder::new().name("recording".to_owned());
