@@ -202,12 +202,18 @@ impl RecordingClient {
         let is_cancelled = self.begin(id)?;
         let (outbox, pending) = (self.outbox.clone(), self.pending.clone());
         let task = Box::new(move || {
-            let answer =
-                FetchAnswer { outbox: &outbox, request_id: id, is_cancelled: &is_cancelled };
+            let release = || {
+                lock(&pending).remove(&id);
+            };
+            let answer = FetchAnswer {
+                outbox: &outbox,
+                request_id: id,
+                is_cancelled: &is_cancelled,
+                release: &release,
+            };
             if let Err(error) = run(&recording, &answer) {
                 answer.fail(&error.to_string());
             }
-            lock(&pending).remove(&id);
         });
         let queue = if speed == Speed::Quick { &mut self.quick } else { &mut self.slow };
         if queue.push(task) {

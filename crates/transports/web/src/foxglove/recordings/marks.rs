@@ -114,7 +114,7 @@ pub(super) struct MarkWatcher {
     pub(super) request_id: u32,
     pub(super) outbox: Arc<Outbox>,
     pub(super) is_cancelled: Arc<AtomicBool>,
-    /// Called after the last answer.
+    /// Frees the id of the request; called before the last answer.
     pub(super) done: Box<dyn FnOnce() + Send>,
 }
 
@@ -167,14 +167,13 @@ impl Marks {
         for watcher in std::mem::take(&mut self.watchers) {
             let id = watcher.request_id;
             if watcher.is_cancelled.load(Ordering::Relaxed) {
+                (watcher.done)();
                 watcher.outbox.push(protocol::fetch_failure(id, "the request was cancelled"));
+            } else if self.is_complete {
                 (watcher.done)();
-                continue;
-            }
-            watcher.outbox.push(protocol::marks(id, &self.marks, self.is_complete));
-            if self.is_complete {
-                (watcher.done)();
+                watcher.outbox.push(protocol::marks(id, &self.marks, true));
             } else {
+                watcher.outbox.push(protocol::marks(id, &self.marks, false));
                 self.watchers.push(watcher);
             }
         }

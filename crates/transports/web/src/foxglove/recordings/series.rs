@@ -89,8 +89,7 @@ pub(super) fn fetch(
         series = bins.finish();
     }
     let Series { times_ns, values } = series;
-    // A client that is gone needs no answer.
-    let _ = answer.push(protocol::series(answer.request_id, &times_ns, &values, is_reduced));
+    answer.finish(protocol::series(answer.request_id, &times_ns, &values, is_reduced));
     Ok(())
 }
 
