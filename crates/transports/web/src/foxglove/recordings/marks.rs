@@ -22,6 +22,9 @@ use log::LogMarks;
 /// Maximum number of marks; more would hide each other.
 const MAX_MARKS: usize = 5_000;
 
+/// Maximum number of warnings among them, which must not displace what is worse.
+const MAX_WARNINGS: usize = 3_000;
+
 /// Maximum length of the text of a mark \[bytes\].
 const MAX_TEXT_BYTES: usize = 500;
 
@@ -125,6 +128,8 @@ pub(super) struct MarkList(Mutex<Marks>);
 #[derive(Default)]
 struct Marks {
     marks: Vec<MarkText>,
+    /// Number of warnings among them.
+    warnings: usize,
     is_complete: bool,
     watchers: Vec<MarkWatcher>,
     /// Number of marks that watchers have.
@@ -136,9 +141,12 @@ impl MarkList {
     pub(super) fn add(&self, topic: &BagTopic, found: Vec<Mark>) {
         let mut list = lock(&self.0);
         for mark in found {
-            if list.marks.len() < MAX_MARKS {
-                list.marks.push(text(topic, mark));
+            let is_warning = mark.kind == MarkKind::Warning;
+            if list.marks.len() >= MAX_MARKS || (is_warning && list.warnings >= MAX_WARNINGS) {
+                continue;
             }
+            list.warnings += usize::from(is_warning);
+            list.marks.push(text(topic, mark));
         }
     }
 
