@@ -39,8 +39,6 @@ const MAX_STEP_BYTES = 256 * 1024;
 const TF_MARGIN_S = 2;
 /** Longest time of transforms in a state [s]. */
 const MAX_TF_S = 120;
-/** Updates of a map since the map [bytes]. */
-const MAX_SINCE_BYTES = 32 << 20;
 
 const MAX_LETTER = 25;
 /** Prefix of the topics and frames of the second recording and of further ones. */
@@ -281,11 +279,7 @@ export class ReplaySource implements Source {
             ),
           ),
         }));
-        const state = await track.state(positionNs, needs, signal);
-        const later = wanted.map(([topic, all]) =>
-          this.since(track, topic, all, state, positionNs, signal),
-        );
-        return [...state, ...(await Promise.all(later)).flat()];
+        return track.state(positionNs, needs, signal);
       }),
     ).catch((error: Error) => {
       if (!signal.aborted) this.events.failed(error.message);
@@ -307,26 +301,6 @@ export class ReplaySource implements Source {
     this.events.shown();
   }
 
-  /** Messages of a topic since the newest one of another topic. */
-  private async since(
-    track: Track,
-    topic: StoredTopic,
-    subscriptions: readonly Subscription[],
-    state: readonly Placed[],
-    positionNs: number,
-    signal: AbortSignal,
-  ): Promise<Placed[]> {
-    const base = subscriptions.find(({ need }) => need.sinceTopic)?.need.sinceTopic;
-    if (!base) return [];
-    const times = state.filter((one) => one.topic.name === base).map((one) => one.atNs);
-    // Without the topic in this state: its subscriber asked for it before, at the same position.
-    const newest = times.length > 0 ? Math.max(...times) : (this.topics.get(base)?.lastNs ?? -1);
-    if (!Number.isFinite(newest)) return [];
-    const all = await track.between(newest, positionNs, [topic], MAX_SINCE_BYTES, signal);
-    const known = new Set(state.filter((one) => one.topic === topic).map((one) => one.atNs));
-    return all.filter((one) => !known.has(one.atNs));
-  }
-
   private deliverState(
     all: readonly Placed[],
     byTopic: ReadonlyMap<StoredTopic, readonly Subscription[]>,
@@ -340,7 +314,7 @@ export class ReplaySource implements Source {
     for (const { topic } of sorted) counts.set(topic, (counts.get(topic) ?? 0) + 1);
     const wanted = ({ need }: Subscription, { topic, atNs }: Placed, following: number) =>
       topic.isComplete ||
-      need.sinceTopic !== undefined ||
+      need.isUpdates ||
       following < (need.count ?? 1) ||
       atNs > positionNs - (need.historyS ?? 0) * 1e9;
     for (const one of sorted) {
