@@ -4,6 +4,7 @@ import assert from 'node:assert/strict';
 import { spawnSync } from 'node:child_process';
 import { existsSync, mkdirSync } from 'node:fs';
 import { join } from 'node:path';
+import { PHONE, wrong } from './axe.mjs';
 import { open, periplus, port, PROGRAM, ROOT, sim, until } from './lib.mjs';
 
 const PORT = port(8831);
@@ -263,6 +264,45 @@ export async function replay(chrome, url, out, attempt) {
       await until(page, 'periplus.viewports[1].view.distance === 7.5', 'linked cameras');
     }),
   );
+
+  for (const [name, options] of [
+    ['dark', {}],
+    ['light', { colorScheme: 'light' }],
+    ['phone', PHONE],
+  ]) {
+    await attempt(`replay axe ${name}`, () =>
+      view(
+        chrome,
+        url,
+        [mcap, bag],
+        async (page) => {
+          await until(page, 'periplus.replay.source.tracks.length === 2', 'two recordings');
+          await show(page, 6);
+          await page.evaluate(() => window.periplus.replay.setLoop({ fromNs: 2e9, toNs: 8e9 }));
+          await page.getByRole('button', { name: 'Messages per topic' }).click();
+          const found = await wrong(page, 'timeline');
+          if (name !== 'phone') {
+            for (const tab of ['Recordings', 'Marks', 'Comparison', 'Run again']) {
+              await page.getByRole('tab', { name: tab }).click();
+              await page.waitForTimeout(300);
+              found.push(...(await wrong(page, tab)));
+            }
+          } else {
+            // Nothing of the timeline is outside of the screen, except in rows that scroll.
+            const cut = await page.evaluate(
+              () =>
+                [...document.querySelectorAll('.timeline .bar > *, .timeline .scale')]
+                  .map((part) => part.getBoundingClientRect())
+                  .filter((box) => box.right > innerWidth + 1 || box.left < -1).length,
+            );
+            assert.equal(cut, 0, 'parts of the timeline are cut');
+          }
+          assert.deepEqual(found, []);
+        },
+        options,
+      ),
+    );
+  }
 
   await attempt('replay recorded', async () => {
     const server = await periplus(
