@@ -84,6 +84,8 @@ const jumps = await page.evaluate(async (count) => {
   // The same times in every run.
   let seed = 1;
   const random = () => (seed = (seed * 48271) % 2147483647) / 2147483647;
+  // Clouds and debug displays, too.
+  for (const entry of app.displays) if (!entry.isEnabled) app.active.setEnabled(entry, true);
   const seen = new Map();
   const topics = [...new Set(app.displays.filter((d) => d.isEnabled).map((d) => d.values.Topic))];
   for (const topic of topics.filter(Boolean)) {

@@ -159,7 +159,7 @@ test('the transforms of a state reach back as far as the messages placed by them
   await settled();
   await source.seek(8e9);
   const topics = server.asked.at(-1)!.topics as TopicNeed[];
-  expect(topics.find((one) => one.id === 2)!.historyNs).toBe('7000000000');
+  expect(topics.find((one) => one.id === 2)!.historyNs).toBe('6000000000');
 });
 
 test('updates of a map come since the map', async () => {

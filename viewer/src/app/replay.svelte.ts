@@ -15,6 +15,10 @@ const DENSITY_BINS = 1000;
 /** Rate below which new transforms arrive too late to be waited for. */
 const MIN_AWAITED_RATE = 0.3;
 
+/** Log messages before the time that is shown. */
+const LOG_HISTORY = 50;
+const LOG_DELAY_MS = 500;
+
 /** Event on the timeline. */
 export interface TimelineMark {
   positionNs: number;
@@ -55,6 +59,8 @@ export class Replay implements ReplayControl {
   private clockShiftS = 0;
   private frame = 0;
   private isStopped = false;
+  private logAbort?: AbortController;
+  private logTimer?: ReturnType<typeof setTimeout>;
   private unsubscribeClock: () => void;
 
   constructor(
@@ -157,6 +163,7 @@ export class Replay implements ReplayControl {
   }
 
   seekNs(positionNs: number): Promise<void> {
+    this.logAbort?.abort();
     const shown = this.source.seek(positionNs);
     this.follow();
     return shown;
@@ -359,6 +366,28 @@ export class Replay implements ReplayControl {
   private shown(): void {
     this.addTies();
     this.follow();
+    this.fetchLog();
+  }
+
+  /**
+   * The log before the present time, once the playhead rests: its messages are spread over the recording, so that a
+   * server reads much of it.
+   */
+  private fetchLog(): void {
+    this.logAbort?.abort();
+    clearTimeout(this.logTimer);
+    this.logTimer = setTimeout(() => {
+      if (this.isPlaying || this.source.isJumping) return;
+      const mine = (this.logAbort = new AbortController());
+      this.source.last('/rosout', LOG_HISTORY, mine.signal).then(
+        (all) => {
+          const isPresent = !mine.signal.aborted && !this.isStopped && all.length > 0;
+          if (isPresent && !this.isPlaying) this.app.showLog(all.map((one) => one.message));
+        },
+        // Cancelled by the next jump; without a connection that is reported already.
+        () => undefined,
+      );
+    }, LOG_DELAY_MS);
   }
 
   private offersChanged(): void {
@@ -373,6 +402,8 @@ export class Replay implements ReplayControl {
 
   stop(): void {
     this.isStopped = true;
+    this.logAbort?.abort();
+    clearTimeout(this.logTimer);
     this.comparison.stop();
     cancelAnimationFrame(this.frame);
     for (const row of this.rows) row.stopMarks?.();

@@ -36,9 +36,11 @@ interface Subscription {
 /** Messages of one topic between two animation frames; of more than these bytes the newest are delivered. */
 const MAX_STEP_BYTES = 256 * 1024;
 /** Transforms before the oldest message that is shown [s]. */
-const TF_MARGIN_S = 2;
+const TF_MARGIN_S = 1;
 /** Longest time of transforms in a state [s]. */
 const MAX_TF_S = 120;
+/** Longest time of transforms for messages that are needed by their number [s]. */
+const MAX_COUNTED_S = 10;
 
 const MAX_LETTER = 25;
 /** Prefix of the topics and frames of the second recording and of further ones. */
@@ -245,7 +247,7 @@ export class ReplaySource implements Source {
   private spanS(topic: StoredTopic, need: Need): number {
     const perS = topic.info.count / Math.max(1e-3, topic.track.durationNs * 1e-9);
     const counted = (need.count ?? 1) > 1 ? need.count! / Math.max(1e-3, perS) : 0;
-    return Math.max(need.historyS ?? 0, counted);
+    return Math.max(need.historyS ?? 0, Math.min(counted, MAX_COUNTED_S));
   }
 
   private async show(
@@ -460,6 +462,22 @@ export class ReplaySource implements Source {
     const times = found.flat().map((one) => one.atNs);
     if (times.length === 0) return undefined;
     return direction > 0 ? Math.min(...times) : Math.max(...times);
+  }
+
+  /** The last messages of a topic before the playhead, decoded. */
+  async last(
+    topicName: string,
+    count: number,
+    signal: AbortSignal,
+  ): Promise<{ message: Message; timeS: number }[]> {
+    const topic = this.topics.get(topicName);
+    if (!topic) return [];
+    const needs = [{ id: topic.info.id, count, historyNs: '0' }];
+    const all = await topic.track.state(this.playhead.positionNs, needs, signal);
+    return all.flatMap(({ data, atNs }) => {
+      const message = topic.read(data, (text) => this.events.failed(text));
+      return message ? [{ message, timeS: this.timeS(atNs) }] : [];
+    });
   }
 
   async series(
