@@ -56,9 +56,9 @@ async function view(chrome, url, files, test) {
 }
 
 /** The state at some times is that of these times, in every kind of file. */
-async function jumps(page, topic, periodS) {
+async function jumps(page, topic, periodS, parts = [0.5, 0.9, 0.3]) {
   const endS = await page.evaluate('periplus.replay.endS - periplus.replay.startS');
-  for (const part of [0.5, 0.9, 0.3]) {
+  for (const part of parts) {
     await show(page, part * endS);
     const age = await shownAge(page, topic);
     assert.ok(age <= 1e-6 && age > -periodS, `${topic} is ${age} s from the time that is shown`);
@@ -321,7 +321,12 @@ export async function replay(chrome, url, out, attempt) {
       await page.getByRole('button', { name: /^Play / }).click();
       await until(page, 'periplus.replay', 'a replay');
       await until(page, '!periplus.replay.source.isJumping', 'its state');
-      await jumps(page, SCAN, 0.2);
+      // It begins where it was started, not at the times of the latched messages.
+      await until(page, 'periplus.replay.rows[0].density.size > 0', 'counts of messages');
+      await until(page, '!periplus.replay.source.isJumping', 'its state');
+      const age = await shownAge(page, SCAN);
+      assert.ok(age <= 1e-6 && age > -0.2, `${SCAN} is ${age} s from the time at the opening`);
+      await jumps(page, SCAN, 0.2, [0.98, 0.9]);
       // The running system is there again afterwards.
       await page.getByRole('button', { name: 'Back to live' }).first().click();
       await until(page, '!periplus.replay && periplus.worldName', 'the running system');

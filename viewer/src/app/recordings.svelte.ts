@@ -15,10 +15,6 @@ export interface Upload {
 /** What becomes of a recording once it is ready. */
 type Wanted = 'open' | 'compare';
 
-/** Time after the start at which a recording opens: at most this, and at most this part of it. */
-const OPEN_AT_NS = 1e9;
-const OPEN_AT_PART = 0.05;
-
 let lastUpload = 0;
 
 export class Recordings {
@@ -127,9 +123,7 @@ export class Recordings {
     app.graphChanged();
     for (const viewport of app.viewports) viewport.dropMissing();
     if (!app.replay) return;
-    // At the start itself nearly nothing was published yet.
-    const { startNs, endNs } = app.replay;
-    void app.replay.seekNs(startNs + Math.min(OPEN_AT_NS, OPEN_AT_PART * (endNs - startNs)));
+    app.replay.opened(app.replay.startNs);
   }
 
   /** Shows a recording beside the one that is open. */

@@ -19,6 +19,10 @@ const MIN_AWAITED_RATE = 0.3;
 const LOG_HISTORY = 50;
 const LOG_DELAY_MS = 500;
 
+/** Time after its start at which a recording opens: at most this, and at most this part of it. */
+const OPEN_AT_NS = 1e9;
+const OPEN_AT_PART = 0.05;
+
 /** Event on the timeline. */
 export interface TimelineMark {
   positionNs: number;
@@ -59,6 +63,8 @@ export class Replay implements ReplayControl {
   private clockShiftS = 0;
   private frame = 0;
   private isStopped = false;
+  /** True once the playhead was moved from where the recording opened. */
+  private isMoved = false;
   private logAbort?: AbortController;
   private logTimer?: ReturnType<typeof setTimeout>;
   private unsubscribeClock: () => void;
@@ -163,6 +169,7 @@ export class Replay implements ReplayControl {
   }
 
   seekNs(positionNs: number): Promise<void> {
+    this.isMoved = true;
     this.logAbort?.abort();
     const shown = this.source.seek(positionNs);
     this.follow();
@@ -284,7 +291,10 @@ export class Replay implements ReplayControl {
     const failed = (error: Error) => {
       if (!this.isStopped) this.app.notice('warn', `${track.recording.name}: ${error.message}`);
     };
-    requests.density(id, DENSITY_BINS).then((density) => update({ density }), failed);
+    requests.density(id, DENSITY_BINS).then((density) => {
+      update({ density });
+      if (!track.prefix) this.skipSilence(track, density);
+    }, failed);
     const placed = (mark: Mark): TimelineMark => ({
       positionNs: track.positionOf(BigInt(mark.timeNs)),
       kind: mark.kind,
@@ -298,6 +308,28 @@ export class Replay implements ReplayControl {
       failed,
     );
     update({ stopMarks });
+  }
+
+  /**
+   * Latched messages have the times at which they were published, which may be long before all others: a recording opens
+   * where it begins to move, unless the user went elsewhere.
+   */
+  private skipSilence(track: Track, density: ReadonlyMap<number, number[]>): void {
+    if (this.isMoved || this.isPlaying || this.isStopped) return;
+    const firstBins = [...density].flatMap(([id, counts]) => {
+      const first = counts.findIndex((count) => count > 0);
+      return track.topics.get(id)?.info.isLatched !== false || first < 0 ? [] : [first];
+    });
+    if (firstBins.length === 0) return;
+    const beginNs = track.beginNs + (Math.min(...firstBins) / DENSITY_BINS) * track.durationNs;
+    if (beginNs > this.positionNs) this.opened(beginNs);
+  }
+
+  /** Shows the recording shortly after a position: at the start itself nearly nothing was published yet. */
+  opened(fromNs: number): void {
+    const atNs = fromNs + Math.min(OPEN_AT_NS, OPEN_AT_PART * (this.endNs - fromNs));
+    void this.seekNs(atNs);
+    this.isMoved = false;
   }
 
   private get requests() {
