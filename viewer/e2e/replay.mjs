@@ -306,8 +306,11 @@ export async function replay(chrome, url, out, attempt) {
 
   await attempt('replay recorded', async () => {
     const server = await periplus(
-      sim('worlds/closed_room.world', KBOT, `--page=127.0.0.1:${PORT}`),
+      sim(join(ROOT, 'worlds/closed_room.world'), join(ROOT, KBOT), `--page=127.0.0.1:${PORT}`),
       PORT,
+      {},
+      // The recording is written here.
+      folder,
     );
     const { page, complaints } = await open(chrome, `${url}?ws=ws://127.0.0.1:${PORT}/`);
     try {
@@ -342,7 +345,7 @@ export async function replay(chrome, url, out, attempt) {
   await attempt('replay rerun', () =>
     view(chrome, url, [mcap], async (page) => {
       await page.getByRole('tab', { name: 'Run again' }).click();
-      const field = page.getByLabel('resolution', { exact: true });
+      const field = page.getByLabel(/^resolution/);
       await field.fill('0.1');
       await field.press('Tab');
       await page.getByRole('button', { name: 'Run', exact: true }).click();
