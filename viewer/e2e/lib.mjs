@@ -29,11 +29,11 @@ export const sim = (world, robot, ...more) => [
 ];
 
 /** Runs the program; resolves once its port responds. */
-export async function periplus(args, port, environment = {}) {
+export async function periplus(args, port, environment = {}, cwd = ROOT) {
   if (!existsSync(PROGRAM))
     throw new Error(`${PROGRAM} does not exist: build it, or set PERIPLUS=...`);
   const child = spawn(PROGRAM, args, {
-    cwd: ROOT,
+    cwd,
     stdio: ['ignore', 'pipe', 'pipe'],
     env: { ...process.env, ...environment },
   });

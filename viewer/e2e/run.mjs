@@ -13,6 +13,7 @@ import { keyboard } from './keyboard.mjs';
 import { browser, next, open, periplus, servePage, until, port } from './lib.mjs';
 import { navigate } from './navigate.mjs';
 import { panels } from './panels.mjs';
+import { replay } from './replay.mjs';
 import { tutorials } from './tutorials.mjs';
 import { use } from './use.mjs';
 
@@ -181,6 +182,7 @@ try {
   await navigate(chrome, pages.url, attempt);
   await panels(chrome, pages.url, attempt);
   await tutorials(chrome, pages.url, out, attempt);
+  await replay(chrome, pages.url, out, attempt);
   await demo(chrome, pages.url, attempt);
 } finally {
   await chrome.close();

@@ -159,7 +159,7 @@ test('the transforms of a state reach back as far as the messages placed by them
   await settled();
   await source.seek(8e9);
   const topics = server.asked.at(-1)!.topics as TopicNeed[];
-  expect(topics.find((one) => one.id === 2)!.historyNs).toBe('7000000000');
+  expect(topics.find((one) => one.id === 2)!.historyNs).toBe('6000000000');
 });
 
 test('updates of a map come since the map', async () => {
@@ -171,7 +171,7 @@ test('updates of a map come since the map', async () => {
   entries.push(at(3, '/map_updates', 3), at(4, '/map_updates', 4), at(9, '/map', 200));
   const { source, log, heard } = replayOf(new MemoryServer(), 0, entries);
   source.subscribe('/map', heard);
-  source.subscribe('/map_updates', heard, { sinceTopic: '/map' });
+  source.subscribe('/map_updates', heard, { isUpdates: true });
   await settled();
   log.length = 0;
   // The start of the recording is its first message, at 0.5 s: position 3 s is 3 s after the time 0.

@@ -127,6 +127,9 @@ test('only changed parameters are sent, and invalid ones are named', () => {
   expect(changedValues(all, { resolution: '0.05', on: true })).toEqual({ values: {}, invalid: [] });
   const entered = { resolution: '0.1', on: false, frames: '["b"]' };
   expect(changedValues(all, entered).values).toEqual({ resolution: 0.1, on: false, frames: ['b'] });
+  const pose = [parameter('pose', 'numbers', '' as never)];
+  expect(changedValues(pose, { pose: '1, 2 0.5' }).values).toEqual({ pose: [1, 2, 0.5] });
+  expect(changedValues(pose, { pose: '1, x' }).invalid).toEqual(['pose']);
   expect(changedValues(all, { resolution: '0', count: '1.5' }).invalid).toEqual([
     'resolution',
     'count',

@@ -71,6 +71,7 @@ export class MemoryServer {
   /** Requests wait in `asked` until `answer` is called. */
   isHeld = false;
   private stored = new Map<number, Stored[]>();
+  private names = new Map<number, string[]>();
   private held: (() => void)[] = [];
   private lastId = 0;
 
@@ -96,6 +97,7 @@ export class MemoryServer {
     });
     all.sort((a, b) => Number(a.timeNs - b.timeNs));
     this.stored.set(id, all);
+    this.names.set(id, names);
     const recording: Recording = {
       ...{ id, name: `run${id}`, kind: 'mcap', state: 'ready', progress: 1, error: null },
       startNs: String(ns(startS)),
@@ -112,6 +114,13 @@ export class MemoryServer {
       }),
     };
     return recording;
+  }
+
+  /** Topic of the grid that a topic updates. */
+  private updatedBy(recording: number, topic: number): number {
+    const names = this.names.get(recording) ?? [];
+    const own = names[topic - 1]!;
+    return own.endsWith('_updates') ? names.indexOf(own.slice(0, -'_updates'.length)) + 1 : 0;
   }
 
   /** Answers the oldest held request. */
@@ -138,6 +147,10 @@ export class MemoryServer {
       const now = BigInt(timeNs);
       const found = topics.flatMap(({ id, historyNs, count }) => {
         const before = all.filter((one) => one.topic === id && one.timeNs <= now);
+        const base = this.updatedBy(recording, id);
+        const grid =
+          before.length > 0 && all.findLast((one) => one.topic === base && one.timeNs <= now);
+        if (grid) return before.filter((one) => one.timeNs > grid.timeNs);
         const from = before.findIndex((one) => one.timeNs > now - BigInt(historyNs));
         const begin = Math.min(from < 0 ? Infinity : from, Math.max(0, before.length - count));
         return before.slice(begin);

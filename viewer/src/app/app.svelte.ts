@@ -45,8 +45,6 @@ export interface TopicRow {
 }
 
 const MOST_LOG = 1000;
-/** Log messages before a time that a recording shows with it. */
-const LOG_HISTORY = 300;
 const FLUSH_MS = 200;
 
 export class App {
@@ -130,7 +128,7 @@ export class App {
         for (const one of message.transforms as TransformStamped[]) this.tf.add(one, isStatic, now);
       });
     }
-    this.feed.subscribe('/rosout', (message) => this.logged(message), { count: LOG_HISTORY });
+    this.feed.subscribe('/rosout', (message) => this.logged(message));
   }
 
   // Connection and time.
@@ -162,6 +160,13 @@ export class App {
     this.log = [];
     this.newLog = [];
     for (const viewport of this.viewports) viewport.jumped();
+  }
+
+  /** The log before the time of a recording that is shown. */
+  showLog(messages: readonly Message[]): void {
+    this.log = [];
+    this.newLog = [];
+    for (const message of messages) this.logged(message);
   }
 
   /** Topics and services of the source changed. */

@@ -103,6 +103,11 @@ export function suggestionFor(topic: string, type: string): Suggestion | undefin
       // Plans of Nav2, as lines that are visible from afar: the local one over the global one.
       const isLocal = /local_plan$|transformed_global_plan$/.test(topic);
       const isGlobal = /(^|\/)plan$/.test(topic);
+      // Trajectories that are compared: thick, above maps.
+      if (/^\/compare\/trajectory$/.test(topic)) {
+        Object.assign(values, { 'Line Style': 'Billboards', 'Line Width': 0.05, 'Offset/Z': 0.04 });
+        Object.assign(values, { Color: '47; 196; 178' });
+      }
       if (isLocal) Object.assign(values, { Color: '0; 170; 255', 'Offset/Z': 0.02 });
       if (isLocal || isGlobal)
         Object.assign(values, { 'Line Style': 'Billboards', 'Line Width': 0.04 });

@@ -3,16 +3,17 @@ import type { JobParameter, ParameterValue } from '../core/protocol';
 
 export type Entered = string | boolean;
 
-const NUMBER = /int|double|float|number/i;
+const NUMBER = /^(int(eger)?\d*|double|float\d*|number)$/i;
 export const isFlag = (parameter: JobParameter): boolean => /^bool/i.test(parameter.type);
-export const isNumber = (parameter: JobParameter): boolean =>
-  NUMBER.test(parameter.type) && !/array|\[\]|list/i.test(parameter.type);
+export const isNumber = (parameter: JobParameter): boolean => NUMBER.test(parameter.type);
+const isNumberList = (parameter: JobParameter): boolean => /^numbers$/i.test(parameter.type);
 
 /** Value as it is entered: lists and objects as JSON. */
 export function enteredOf(parameter: JobParameter): Entered {
   const value = parameter.default;
   if (isFlag(parameter)) return value === true;
   if (value === null || value === undefined) return '';
+  if (isNumberList(parameter) && Array.isArray(value)) return value.join(', ');
   return typeof value === 'object' ? JSON.stringify(value) : String(value);
 }
 
@@ -31,6 +32,13 @@ export function valueOf(parameter: JobParameter, entered: Entered): ParameterVal
       return undefined;
     }
     return value;
+  }
+  if (isNumberList(parameter)) {
+    const all = text
+      .split(/[\s,]+/)
+      .filter(Boolean)
+      .map(Number);
+    return all.every(Number.isFinite) ? all : undefined;
   }
   if (typeof parameter.default === 'object' && parameter.default !== null) {
     try {

@@ -123,7 +123,7 @@ export class Recordings {
     app.graphChanged();
     for (const viewport of app.viewports) viewport.dropMissing();
     if (!app.replay) return;
-    void app.replay.seekNs(app.replay.startNs);
+    app.replay.opened(app.replay.startNs);
   }
 
   /** Shows a recording beside the one that is open. */

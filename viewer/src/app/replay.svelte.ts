@@ -3,7 +3,7 @@ import { IDENTITY, type Pose } from '../core/pose';
 import type { Mark, Recording } from '../core/protocol';
 import { ReplaySource } from '../core/replay';
 import type { Track } from '../core/replay_track';
-import { seconds, stampOf } from '../core/types';
+import { seconds, stampOf, type TransformStamped } from '../core/types';
 import type { App } from './app.svelte';
 import { bestFrame, prefixIn } from './auto';
 import { Comparison } from './replay_compare.svelte';
@@ -14,6 +14,14 @@ import { tieOf } from './replay_difference';
 const DENSITY_BINS = 1000;
 /** Rate below which new transforms arrive too late to be waited for. */
 const MIN_AWAITED_RATE = 0.3;
+
+/** Log messages before the time that is shown. */
+const LOG_HISTORY = 50;
+const LOG_DELAY_MS = 500;
+
+/** Time after its start at which a recording opens: at most this, and at most this part of it. */
+const OPEN_AT_NS = 1e9;
+const OPEN_AT_PART = 0.05;
 
 /** Event on the timeline. */
 export interface TimelineMark {
@@ -34,6 +42,7 @@ export interface TrackRow {
   /** Message counts by topic id in equal parts of the recording. */
   density: ReadonlyMap<number, number[]>;
   stopMarks?: () => void;
+  unsubscribes: (() => void)[];
 }
 
 export class Replay implements ReplayControl {
@@ -54,6 +63,10 @@ export class Replay implements ReplayControl {
   private clockShiftS = 0;
   private frame = 0;
   private isStopped = false;
+  /** True once the playhead was moved from where the recording opened. */
+  private isMoved = false;
+  private logAbort?: AbortController;
+  private logTimer?: ReturnType<typeof setTimeout>;
   private unsubscribeClock: () => void;
 
   constructor(
@@ -156,6 +169,8 @@ export class Replay implements ReplayControl {
   }
 
   seekNs(positionNs: number): Promise<void> {
+    this.isMoved = true;
+    this.logAbort?.abort();
     const shown = this.source.seek(positionNs);
     this.follow();
     return shown;
@@ -219,8 +234,10 @@ export class Replay implements ReplayControl {
 
   remove(track: Track): void {
     if (this.source.tracks[1] === track) this.comparison.stop();
-    this.rows.find((row) => row.track === track)?.stopMarks?.();
-    this.rows = this.rows.filter((row) => row.track !== track);
+    const row = this.rows.find((one) => one.track === track);
+    row?.stopMarks?.();
+    row?.unsubscribes.forEach((unsubscribe) => unsubscribe());
+    this.rows = this.rows.filter((one) => one !== row);
     this.ties.delete(track.prefix);
     this.source.remove(track);
     this.bounds();
@@ -249,12 +266,23 @@ export class Replay implements ReplayControl {
   private addRow(track: Track): void {
     const { requests } = this;
     const { id } = track.recording;
+    // The application subscribes to the transforms of the first recording.
+    const unsubscribes = !track.prefix
+      ? []
+      : ['/tf', '/tf_static'].map((name) =>
+          this.source.subscribe(track.prefix + name, (message, _topic, _bytes, timeS) => {
+            for (const one of message.transforms as TransformStamped[]) {
+              this.app.tf.add(one, name === '/tf_static', timeS! * 1000);
+            }
+          }),
+        );
     const row: TrackRow = {
       track,
       beginNs: track.beginNs,
       marks: [],
       areMarksComplete: false,
       density: new Map(),
+      unsubscribes,
     };
     const update = (change: Partial<TrackRow>) => {
       this.rows = this.rows.map((one) => (one.track === track ? { ...one, ...change } : one));
@@ -263,7 +291,10 @@ export class Replay implements ReplayControl {
     const failed = (error: Error) => {
       if (!this.isStopped) this.app.notice('warn', `${track.recording.name}: ${error.message}`);
     };
-    requests.density(id, DENSITY_BINS).then((density) => update({ density }), failed);
+    requests.density(id, DENSITY_BINS).then((density) => {
+      update({ density });
+      if (!track.prefix) this.skipSilence(track, density);
+    }, failed);
     const placed = (mark: Mark): TimelineMark => ({
       positionNs: track.positionOf(BigInt(mark.timeNs)),
       kind: mark.kind,
@@ -277,6 +308,28 @@ export class Replay implements ReplayControl {
       failed,
     );
     update({ stopMarks });
+  }
+
+  /**
+   * Latched messages have the times at which they were published, which may be long before all others: a recording opens
+   * where it begins to move, unless the user went elsewhere.
+   */
+  private skipSilence(track: Track, density: ReadonlyMap<number, number[]>): void {
+    if (this.isMoved || this.isPlaying || this.isStopped) return;
+    const firstBins = [...density].flatMap(([id, counts]) => {
+      const first = counts.findIndex((count) => count > 0);
+      return track.topics.get(id)?.info.isLatched !== false || first < 0 ? [] : [first];
+    });
+    if (firstBins.length === 0) return;
+    const beginNs = track.beginNs + (Math.min(...firstBins) / DENSITY_BINS) * track.durationNs;
+    if (beginNs > this.positionNs) this.opened(beginNs);
+  }
+
+  /** Shows the recording shortly after a position: at the start itself nearly nothing was published yet. */
+  opened(fromNs: number): void {
+    const atNs = fromNs + Math.min(OPEN_AT_NS, OPEN_AT_PART * (this.endNs - fromNs));
+    void this.seekNs(atNs);
+    this.isMoved = false;
   }
 
   private get requests() {
@@ -345,6 +398,28 @@ export class Replay implements ReplayControl {
   private shown(): void {
     this.addTies();
     this.follow();
+    this.fetchLog();
+  }
+
+  /**
+   * The log before the present time, once the playhead rests: its messages are spread over the recording, so that a
+   * server reads much of it.
+   */
+  private fetchLog(): void {
+    this.logAbort?.abort();
+    clearTimeout(this.logTimer);
+    this.logTimer = setTimeout(() => {
+      if (this.isPlaying || this.source.isJumping) return;
+      const mine = (this.logAbort = new AbortController());
+      this.source.last('/rosout', LOG_HISTORY, mine.signal).then(
+        (all) => {
+          const isPresent = !mine.signal.aborted && !this.isStopped && all.length > 0;
+          if (isPresent && !this.isPlaying) this.app.showLog(all.map((one) => one.message));
+        },
+        // Cancelled by the next jump; without a connection that is reported already.
+        () => undefined,
+      );
+    }, LOG_DELAY_MS);
   }
 
   private offersChanged(): void {
@@ -359,6 +434,8 @@ export class Replay implements ReplayControl {
 
   stop(): void {
     this.isStopped = true;
+    this.logAbort?.abort();
+    clearTimeout(this.logTimer);
     this.comparison.stop();
     cancelAnimationFrame(this.frame);
     for (const row of this.rows) row.stopMarks?.();

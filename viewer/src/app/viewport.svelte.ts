@@ -101,8 +101,8 @@ export class Viewport {
     stage.view.set($state.snapshot(this.view) as ViewState);
     stage.ticks.add((nowMs) => this.tick(nowMs));
     for (const entry of this.displays) this.begin(entry);
-    // A view that was added later finds the topics that exist.
-    this.offersChanged();
+    // A view that is opened later shows the topics that are there already.
+    if (this.app.connection === 'open') this.offersChanged();
   }
 
   /** Stops all displays, which start again with the next stage. */

@@ -8,8 +8,8 @@ export interface Need {
   historyS?: number;
   /** At least this many messages, also older ones. */
   count?: number;
-  /** All messages since the newest one of this topic: updates of a map since the map. */
-  sinceTopic?: string;
+  /** Updates of a grid: all since the last complete grid. */
+  isUpdates?: boolean;
 }
 
 /** Where messages come from. */

@@ -105,6 +105,8 @@ export interface JobParameter {
   max: number | null;
   unit: string | null;
   doc: string;
+  /** The only values, for a parameter of the type `choice`. */
+  choices?: string[];
 }
 
 export type RecordingText =

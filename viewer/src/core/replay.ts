@@ -36,11 +36,11 @@ interface Subscription {
 /** Messages of one topic between two animation frames; of more than these bytes the newest are delivered. */
 const MAX_STEP_BYTES = 256 * 1024;
 /** Transforms before the oldest message that is shown [s]. */
-const TF_MARGIN_S = 2;
+const TF_MARGIN_S = 1;
 /** Longest time of transforms in a state [s]. */
 const MAX_TF_S = 120;
-/** Updates of a map since the map [bytes]. */
-const MAX_SINCE_BYTES = 32 << 20;
+/** Longest time of transforms for messages that are needed by their number [s]. */
+const MAX_COUNTED_S = 10;
 
 const MAX_LETTER = 25;
 /** Prefix of the topics and frames of the second recording and of further ones. */
@@ -247,7 +247,7 @@ export class ReplaySource implements Source {
   private spanS(topic: StoredTopic, need: Need): number {
     const perS = topic.info.count / Math.max(1e-3, topic.track.durationNs * 1e-9);
     const counted = (need.count ?? 1) > 1 ? need.count! / Math.max(1e-3, perS) : 0;
-    return Math.max(need.historyS ?? 0, counted);
+    return Math.max(need.historyS ?? 0, Math.min(counted, MAX_COUNTED_S));
   }
 
   private async show(
@@ -281,11 +281,7 @@ export class ReplaySource implements Source {
             ),
           ),
         }));
-        const state = await track.state(positionNs, needs, signal);
-        const later = wanted.map(([topic, all]) =>
-          this.since(track, topic, all, state, positionNs, signal),
-        );
-        return [...state, ...(await Promise.all(later)).flat()];
+        return track.state(positionNs, needs, signal);
       }),
     ).catch((error: Error) => {
       if (!signal.aborted) this.events.failed(error.message);
@@ -307,26 +303,6 @@ export class ReplaySource implements Source {
     this.events.shown();
   }
 
-  /** Messages of a topic since the newest one of another topic. */
-  private async since(
-    track: Track,
-    topic: StoredTopic,
-    subscriptions: readonly Subscription[],
-    state: readonly Placed[],
-    positionNs: number,
-    signal: AbortSignal,
-  ): Promise<Placed[]> {
-    const base = subscriptions.find(({ need }) => need.sinceTopic)?.need.sinceTopic;
-    if (!base) return [];
-    const times = state.filter((one) => one.topic.name === base).map((one) => one.atNs);
-    // Without the topic in this state: its subscriber asked for it before, at the same position.
-    const newest = times.length > 0 ? Math.max(...times) : (this.topics.get(base)?.lastNs ?? -1);
-    if (!Number.isFinite(newest)) return [];
-    const all = await track.between(newest, positionNs, [topic], MAX_SINCE_BYTES, signal);
-    const known = new Set(state.filter((one) => one.topic === topic).map((one) => one.atNs));
-    return all.filter((one) => !known.has(one.atNs));
-  }
-
   private deliverState(
     all: readonly Placed[],
     byTopic: ReadonlyMap<StoredTopic, readonly Subscription[]>,
@@ -340,7 +316,7 @@ export class ReplaySource implements Source {
     for (const { topic } of sorted) counts.set(topic, (counts.get(topic) ?? 0) + 1);
     const wanted = ({ need }: Subscription, { topic, atNs }: Placed, following: number) =>
       topic.isComplete ||
-      need.sinceTopic !== undefined ||
+      need.isUpdates ||
       following < (need.count ?? 1) ||
       atNs > positionNs - (need.historyS ?? 0) * 1e9;
     for (const one of sorted) {
@@ -486,6 +462,22 @@ export class ReplaySource implements Source {
     const times = found.flat().map((one) => one.atNs);
     if (times.length === 0) return undefined;
     return direction > 0 ? Math.min(...times) : Math.max(...times);
+  }
+
+  /** The last messages of a topic before the playhead, decoded. */
+  async last(
+    topicName: string,
+    count: number,
+    signal: AbortSignal,
+  ): Promise<{ message: Message; timeS: number }[]> {
+    const topic = this.topics.get(topicName);
+    if (!topic) return [];
+    const needs = [{ id: topic.info.id, count, historyNs: '0' }];
+    const all = await topic.track.state(this.playhead.positionNs, needs, signal);
+    return all.flatMap(({ data, atNs }) => {
+      const message = topic.read(data, (text) => this.events.failed(text));
+      return message ? [{ message, timeS: this.timeS(atNs) }] : [];
+    });
   }
 
   async series(

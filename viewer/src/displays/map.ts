@@ -61,7 +61,7 @@ class MapDisplay extends Display {
     }
     const updates = this.get<string>('Update Topic');
     this.unsubscribeUpdates = this.context.subscribe(updates, (message) => this.update(message), {
-      sinceTopic: topic,
+      isUpdates: true,
     });
   }
 

@@ -33,7 +33,7 @@ pub use check::check;
 pub use convert::{Conversion, Report, convert};
 pub use error::BagError;
 pub use indexed::{
-    ChunkUse, IndexedBag, LocationSpan, MessageLocation, OpenProgress, RecordingFormat,
+    ChunkCache, ChunkUse, IndexedBag, LocationSpan, MessageLocation, OpenProgress, RecordingFormat,
 };
 pub use info::{Info, TopicSum, stamp_name};
 pub use play::{PlaySettings, Player};

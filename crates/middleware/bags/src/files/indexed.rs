@@ -16,17 +16,18 @@ mod stream_file;
 
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
-use std::sync::{Mutex, MutexGuard, PoisonError};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use periplus_diagnostics::Diagnostics;
 
 use crate::files::{BagError, BagKind, Storage};
 use crate::{BagTopic, Translation};
 
-use chunk_cache::ChunkCache;
+use chunk_cache::CachedChunks;
 use database_file::DatabaseFile;
 use stream_file::StreamFile;
 
+pub use chunk_cache::ChunkCache;
 pub use location::{LocationSpan, MessageLocation};
 pub use progress::OpenProgress;
 
@@ -67,7 +68,7 @@ pub struct IndexedBag {
     translations: Vec<Option<Mutex<Translation>>>,
     /// True for topics whose messages may be compressed one by one.
     is_cdr: Vec<bool>,
-    cache: ChunkCache,
+    cache: CachedChunks,
     faults: Mutex<Vec<String>>,
 }
 
@@ -87,7 +88,19 @@ impl IndexedBag {
     /// # Errors
     /// When there is no recording at the path, or opening was cancelled.
     pub fn open(path: impl AsRef<Path>, progress: &OpenProgress) -> Result<Self, BagError> {
-        open::open(path.as_ref(), progress)
+        Self::open_sharing(path, progress, Arc::default())
+    }
+
+    /// Same as [`IndexedBag::open`], with a cache that several recordings share.
+    ///
+    /// # Errors
+    /// As [`IndexedBag::open`].
+    pub fn open_sharing(
+        path: impl AsRef<Path>,
+        progress: &OpenProgress,
+        cache: Arc<ChunkCache>,
+    ) -> Result<Self, BagError> {
+        open::open(path.as_ref(), progress, CachedChunks::new(cache))
     }
 
     /// Path of the recording.

@@ -9,7 +9,7 @@ use std::sync::Mutex;
 
 use periplus_diagnostics::{Diagnostic, Diagnostics};
 
-use super::chunk_cache::ChunkCache;
+use super::chunk_cache::CachedChunks;
 use super::database_file::DatabaseFile;
 use super::progress::{OpenProgress, WatchedFile};
 use super::stream_file::StreamFile;
@@ -31,10 +31,14 @@ enum Pending {
     Database { copy: Option<Temporary>, table: TimeTable },
 }
 
-pub(super) fn open(path: &Path, progress: &OpenProgress) -> Result<IndexedBag, BagError> {
+pub(super) fn open(
+    path: &Path,
+    progress: &OpenProgress,
+    cache: CachedChunks,
+) -> Result<IndexedBag, BagError> {
     progress.set_total(size_of(path));
     if path.is_file() && is_carmen_log(path)? {
-        return open_carmen(path, progress);
+        return open_carmen(path, progress, cache);
     }
     let mut pending = Vec::new();
     let mut look = |file: &Path| {
@@ -48,11 +52,15 @@ pub(super) fn open(path: &Path, progress: &OpenProgress) -> Result<IndexedBag, B
     };
     let bag = Bag::open_with(path, &mut look)?;
     let format = format_of(path.is_dir(), bag.storage());
-    assemble(&bag, pending, format)
+    assemble(&bag, pending, format, cache)
 }
 
 /// Reads a CARMEN log into a temporary recording.
-fn open_carmen(path: &Path, progress: &OpenProgress) -> Result<IndexedBag, BagError> {
+fn open_carmen(
+    path: &Path,
+    progress: &OpenProgress,
+    cache: CachedChunks,
+) -> Result<IndexedBag, BagError> {
     let (copy, faults) = carmen::convert(path, progress)?;
     let unwatched = OpenProgress::default();
     let mut pending = Vec::new();
@@ -65,7 +73,7 @@ fn open_carmen(path: &Path, progress: &OpenProgress) -> Result<IndexedBag, BagEr
     if let Some(Pending::Stream { copy: kept, .. }) = pending.first_mut() {
         *kept = Some(copy);
     }
-    let mut indexed = assemble(&bag, pending, RecordingFormat::Carmen)?;
+    let mut indexed = assemble(&bag, pending, RecordingFormat::Carmen, cache)?;
     for (line, fault) in faults {
         let wrong = format!("`{}`: line {line}: {fault}", path.display());
         indexed.findings.push(Diagnostic::warning("damaged-log", wrong));
@@ -122,6 +130,7 @@ fn assemble(
     bag: &Bag,
     pending: Vec<Pending>,
     format: RecordingFormat,
+    cache: CachedChunks,
 ) -> Result<IndexedBag, BagError> {
     let (topics, findings) = (bag.topics(), bag.findings().clone());
     let paths: Vec<PathBuf> = bag.files().map(Path::to_owned).collect();
@@ -151,7 +160,7 @@ fn assemble(
         files,
         translations: Vec::new(),
         is_cdr: topics.iter().map(|topic| topic.encoding == "cdr").collect(),
-        cache: ChunkCache::default(),
+        cache,
         faults: Mutex::default(),
     };
     for topic in topics {

@@ -11,9 +11,11 @@ use periplus_transport::lock;
 use super::entry::Recording;
 use super::fetch::FetchAnswer;
 use super::fetch_queue::FetchQueue;
+use super::marks::MarkWatcher;
+use super::series::SeriesRequest;
 use super::service::Recordings;
 use super::upload::Upload;
-use super::{density, messages, state};
+use super::{density, messages, series, state};
 use crate::foxglove::outbox::Outbox;
 use crate::foxglove::protocol::{self, RecordingRequest, StatusLevel};
 
@@ -22,6 +24,9 @@ const MAX_PENDING: usize = 256;
 
 /// Maximum number of topics of a request.
 const MAX_TOPICS: usize = 4096;
+
+/// Maximum number of paths of a request.
+const MAX_PATHS: usize = 256;
 
 /// Maximum number of uploads of a client at one time.
 const MAX_UPLOADS: usize = 4;
@@ -118,8 +123,23 @@ impl RecordingClient {
                     Box::new(move |recording, answer| density::fetch(recording, bins, answer));
                 self.fetch(Speed::Slow, request_id, recording, run)
             }
-            RecordingRequest::FetchMarks { .. } | RecordingRequest::FetchSeries { .. } => {
-                Err("not served yet".to_owned())
+            RecordingRequest::FetchMarks { request_id, recording } => {
+                self.fetch_marks(request_id, recording)
+            }
+            RecordingRequest::FetchSeries {
+                request_id,
+                recording,
+                topic,
+                paths,
+                start_ns,
+                end_ns,
+                points,
+            } => {
+                limit(paths.len(), MAX_PATHS, "paths")?;
+                let request = SeriesRequest { topic, paths, span_ns: start_ns.0..end_ns.0, points };
+                let run: Fetch =
+                    Box::new(move |recording, answer| series::fetch(recording, &request, answer));
+                self.fetch(Speed::Slow, request_id, recording, run)
             }
             RecordingRequest::OpenRecording { upload, .. } => self.open_upload(upload),
             RecordingRequest::CloseRecording { recording, .. } => self.recordings.close(recording),
@@ -151,26 +171,49 @@ impl RecordingClient {
         }
     }
 
+    /// Enters a pending request; returns its flag that it is cancelled.
+    fn begin(&self, id: u32) -> Result<Arc<AtomicBool>, String> {
+        let mut pending = lock(&self.pending);
+        limit(pending.len() + 1, MAX_PENDING, "pending requests")?;
+        if pending.contains_key(&id) {
+            return Err(format!("request {id} is pending already"));
+        }
+        let is_cancelled = Arc::new(AtomicBool::new(false));
+        pending.insert(id, is_cancelled.clone());
+        Ok(is_cancelled)
+    }
+
+    /// Sends the marks, again while more are found in the background.
+    fn fetch_marks(&self, id: u32, recording: u32) -> Result<(), String> {
+        let recording = self.recordings.ready(recording)?;
+        let is_cancelled = self.begin(id)?;
+        let pending = self.pending.clone();
+        let done = Box::new(move || {
+            lock(&pending).remove(&id);
+        });
+        let outbox = self.outbox.clone();
+        recording.marks.watch(MarkWatcher { request_id: id, outbox, is_cancelled, done });
+        Ok(())
+    }
+
     /// Runs a fetch on a thread of this client.
     fn fetch(&mut self, speed: Speed, id: u32, recording: u32, run: Fetch) -> Result<(), String> {
         let recording = self.recordings.ready(recording)?;
-        let is_cancelled = Arc::new(AtomicBool::new(false));
-        {
-            let mut pending = lock(&self.pending);
-            limit(pending.len() + 1, MAX_PENDING, "pending requests")?;
-            if pending.contains_key(&id) {
-                return Err(format!("request {id} is pending already"));
-            }
-            pending.insert(id, is_cancelled.clone());
-        }
+        let is_cancelled = self.begin(id)?;
         let (outbox, pending) = (self.outbox.clone(), self.pending.clone());
         let task = Box::new(move || {
-            let answer =
-                FetchAnswer { outbox: &outbox, request_id: id, is_cancelled: &is_cancelled };
+            let release = || {
+                lock(&pending).remove(&id);
+            };
+            let answer = FetchAnswer {
+                outbox: &outbox,
+                request_id: id,
+                is_cancelled: &is_cancelled,
+                release: &release,
+            };
             if let Err(error) = run(&recording, &answer) {
                 answer.fail(&error.to_string());
             }
-            lock(&pending).remove(&id);
         });
         let queue = if speed == Speed::Quick { &mut self.quick } else { &mut self.slow };
         if queue.push(task) {

@@ -40,8 +40,7 @@ pub(super) fn fetch(
     }
     let by_id: BTreeMap<u32, Vec<u64>> =
         counts.into_iter().enumerate().map(|(topic, counts)| (topic_id(topic), counts)).collect();
-    // A client that is gone needs no answer.
-    let _ = answer.push(protocol::density(answer.request_id, &by_id));
+    answer.finish(protocol::density(answer.request_id, &by_id));
     Ok(())
 }
 

@@ -11,6 +11,7 @@ use periplus_msgs::tf2_msgs::TFMessage;
 use periplus_transport::lock;
 
 use super::latched::{grid_of_updates, latched_depth};
+use super::marks::MarkList;
 use super::transform_index::TransformIndex;
 use super::upload::UploadFolder;
 use crate::foxglove::protocol::{OriginText, RecordingText, TimeNs, TopicText};
@@ -71,6 +72,7 @@ pub(super) struct Recording {
     /// For each topic with updates of a grid, the topic of the grid.
     pub(super) grid_of_updates: Vec<Option<usize>>,
     pub(super) transforms: TransformIndex,
+    pub(super) marks: MarkList,
     /// Ends the background pass.
     pub(super) is_closed: AtomicBool,
     /// Problems of the background pass.
@@ -87,6 +89,7 @@ impl Recording {
             is_transforms: topics.iter().map(is_transforms).collect(),
             grid_of_updates: topics.iter().map(|topic| grid_of_updates(topic, topics)).collect(),
             transforms: TransformIndex::default(),
+            marks: MarkList::default(),
             is_closed: AtomicBool::new(false),
             notes: Mutex::default(),
             bag,

@@ -22,6 +22,9 @@ pub(super) struct FetchAnswer<'a> {
     pub(super) outbox: &'a Outbox,
     pub(super) request_id: u32,
     pub(super) is_cancelled: &'a AtomicBool,
+    /// Frees the id of the request; called before the last frame, after which the client may use it
+    /// again.
+    pub(super) release: &'a dyn Fn(),
 }
 
 impl FetchAnswer<'_> {
@@ -43,8 +46,14 @@ impl FetchAnswer<'_> {
         ControlFlow::Continue(())
     }
 
+    /// Sends the last frame.
+    pub(super) fn finish(&self, frame: WebSocketFrame) {
+        (self.release)();
+        self.outbox.push(frame);
+    }
+
     pub(super) fn fail(&self, why: &str) {
-        self.outbox.push(protocol::fetch_failure(self.request_id, why));
+        self.finish(protocol::fetch_failure(self.request_id, why));
     }
 
     /// Answers a cancelled request that has no frames.
@@ -85,6 +94,6 @@ impl<'a> MessageFrames<'a> {
     pub(super) fn finish(mut self, reached_ns: i64, has_more: bool) {
         let request_id = self.answer.request_id;
         let frame = self.frame.take().unwrap_or_else(|| StoredMessages::new(request_id));
-        self.answer.outbox.push(frame.finish_last(reached_ns, has_more));
+        self.answer.finish(frame.finish_last(reached_ns, has_more));
     }
 }

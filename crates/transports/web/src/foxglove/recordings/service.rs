@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use std::sync::atomic::Ordering;
 use std::sync::{Arc, Mutex, Weak};
 
-use periplus_bags::files::{BagError, IndexedBag};
+use periplus_bags::files::{BagError, ChunkCache, IndexedBag};
 use periplus_graph::Graph;
 use periplus_transport::lock;
 use serde_json::{Map, Value};
@@ -55,6 +55,8 @@ pub struct Recordings {
     pub(super) settings: RecordingSettings,
     state: Mutex<State>,
     jobs: Mutex<Option<Arc<dyn Jobs>>>,
+    /// Decompressed chunks of all recordings.
+    cache: Arc<ChunkCache>,
 }
 
 #[derive(Default)]
@@ -73,7 +75,12 @@ impl Recordings {
     /// Creates a service without recordings.
     #[must_use]
     pub fn new(settings: RecordingSettings) -> Arc<Self> {
-        Arc::new(Self { settings, state: Mutex::default(), jobs: Mutex::default() })
+        Arc::new(Self {
+            settings,
+            state: Mutex::default(),
+            jobs: Mutex::default(),
+            cache: Arc::default(),
+        })
     }
 
     /// Sets the estimators that clients may run.
@@ -87,7 +94,7 @@ impl Recordings {
     /// A sentence for the user, when too many recordings are open or the system starts no thread.
     pub fn open(self: &Arc<Self>, path: &Path) -> Result<u32, String> {
         let entry = opening(name_of(path), path.to_owned());
-        self.add(entry, open_bag)
+        self.add(entry, self.opener())
     }
 
     /// True while a recording is being opened.
@@ -111,7 +118,18 @@ impl Recordings {
     pub(super) fn open_upload(self: &Arc<Self>, upload: UploadedRecording) -> Result<u32, String> {
         let UploadedRecording { folder, name, path } = upload;
         let entry = Entry { _folder: Some(folder), ..opening(name, path) };
-        self.add(entry, open_bag)
+        self.add(entry, self.opener())
+    }
+
+    /// Opens recordings with the common cache.
+    fn opener(
+        &self,
+    ) -> impl Fn(&Path, &EntryProgress) -> Result<IndexedBag, String> + Send + use<> {
+        let cache = self.cache.clone();
+        move |path, progress| {
+            let opened = IndexedBag::open_sharing(path, &progress.opening, cache.clone());
+            opened.map_err(|error| error.to_string())
+        }
     }
 
     /// Adds a recording that `make` opens on a thread of its own.
@@ -139,11 +157,8 @@ impl Recordings {
         let service = Arc::downgrade(self);
         let run = move || {
             let made = make(&path, &progress);
-            let recording = Self::opened(&service, id, made);
-            if let Some(recording) = recording
-                && let Err(error) = background::run(&recording)
-            {
-                background::failed(&recording, &error);
+            if let Some(recording) = Self::opened(&service, id, made) {
+                background::run(&recording);
             }
         };
         let builder = std::thread::Builder::new().name("recording".to_owned());
@@ -241,12 +256,13 @@ impl Recordings {
             OriginText { recording: source, kind: kind.to_owned(), parameters: parameters.clone() };
         let entry = Entry { origin: Some(origin), ..opening(name, path.clone()) };
         let job = JobRequest { kind: kind.to_owned(), path, parameters };
+        let open = self.opener();
         self.add(entry, move |_, progress| {
             // The files of an upload stay while the job reads them.
             let _source = recording;
             let report = |fraction| progress.set_job(fraction);
             let made = jobs.run(&job, &report, &progress.is_cancelled)?;
-            open_bag(&made, progress)
+            open(&made, progress)
         })
     }
 
@@ -362,10 +378,6 @@ impl Entry {
 fn opening(name: String, path: PathBuf) -> Entry {
     let state = EntryState::Opening(Arc::default());
     Entry { name, path, origin: None, state, _folder: None }
-}
-
-fn open_bag(path: &Path, progress: &EntryProgress) -> Result<IndexedBag, String> {
-    IndexedBag::open(path, &progress.opening).map_err(|error| error.to_string())
 }
 
 /// Name of a recording by its path.
