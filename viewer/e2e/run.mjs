@@ -8,6 +8,7 @@ import { join } from 'node:path';
 import { axe } from './axe.mjs';
 import { building, foreignBuildings } from './building.mjs';
 import { demo } from './demo.mjs';
+import { edit } from './edit.mjs';
 import { keyboard } from './keyboard.mjs';
 import { browser, next, open, periplus, servePage, until, port } from './lib.mjs';
 import { navigate } from './navigate.mjs';
@@ -177,6 +178,7 @@ try {
   await axe(chrome, pages.url, attempt);
   await navigate(chrome, pages.url, attempt);
   await tutorials(chrome, pages.url, out, attempt);
+  await edit(chrome, pages.url, attempt);
   await demo(chrome, pages.url, attempt);
 } finally {
   await chrome.close();

@@ -66,7 +66,10 @@ export class App {
   /** The 3D view that panels and tools act on. */
   active: Viewport = $state.raw(undefined as never);
   models: string[] = $state([]);
-  selectedModel = $state('');
+  /** Selected models of the simulated world, in the order of their selection. */
+  selection: string[] = $state.raw([]);
+  /** Number of jumps of time back: resets of the simulation. */
+  resets = $state(0);
   truth: { link: string; distanceM: number; yawRad: number } | undefined = $state();
   maps: MapTruth[] = $state.raw([]);
   estimators: string[] = $state.raw([]);
@@ -129,6 +132,7 @@ export class App {
 
   private time(timeS: number): void {
     if (!this.clock.set(timeS, performance.now())) return;
+    this.resets++;
     this.tf.rewind(timeS);
     this.sensors.rewind(timeS);
     for (const viewport of this.viewports) viewport.rewound();
@@ -285,6 +289,15 @@ export class App {
 
   topicsOf(types: readonly string[]): string[] {
     return this.topics.filter((t) => types.includes(t.type)).map((t) => t.name);
+  }
+
+  /** Model that was selected last. */
+  get selectedModel(): string {
+    return this.selection[this.selection.length - 1] ?? '';
+  }
+
+  set selectedModel(name: string) {
+    this.selection = name ? [name] : [];
   }
 
   // The active 3D view.
