@@ -17,7 +17,10 @@ const models = (page) =>
     const { message } = await periplus.client.call(`/world/${periplus.worldName}/save`, {});
     const world = new DOMParser().parseFromString(message, 'text/xml').querySelector('world');
     const found = [...world.children].filter((one) => one.localName === 'model');
-    return found.map((one) => one.outerHTML).sort();
+    // Rounded: a pose is a product of rotations.
+    const rounded = (text) =>
+      text.replace(/-?\d+\.\d+(e-?\d+)?/g, (n) => `${+(+n).toFixed(9) + 0}`);
+    return found.map((one) => rounded(one.outerHTML)).sort();
   });
 const changes = (page) =>
   page.evaluate(async () => {

@@ -23,6 +23,7 @@ export interface Notice {
   id: number;
   level: 'info' | 'warn' | 'error';
   text: string;
+  topic?: string;
 }
 
 export interface LogLine {
@@ -42,6 +43,7 @@ export interface TopicRow {
 }
 
 const MOST_LOG = 1000;
+const MOST_NOTICES = 4;
 const FLUSH_MS = 200;
 
 export class App {
@@ -148,11 +150,13 @@ export class App {
     });
   }
 
-  notice(level: Notice['level'], text: string): void {
+  /** Shows a message; one with the same topic as a message before takes its place. */
+  notice(level: Notice['level'], text: string, topic?: string): void {
     if (this.notices.some((notice) => notice.text === text)) return;
-    const notice = { id: ++this.lastId, level, text };
+    const notice = { id: ++this.lastId, level, text, topic };
+    if (topic) this.notices = this.notices.filter((one) => one.topic !== topic);
     this.notices.push(notice);
-    if (this.notices.length > 5) this.notices.shift();
+    if (this.notices.length > MOST_NOTICES) this.notices.shift();
     if (level !== 'error') setTimeout(() => this.dismiss(notice.id), 6000);
   }
 

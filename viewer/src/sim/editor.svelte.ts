@@ -39,11 +39,11 @@ export class WorldEditor {
   private clipboard: Copied[] = [];
   private history = new EditHistory();
   private queue: Promise<unknown> = Promise.resolve();
-  /** Models of the last scene, without those that this page deleted. */
+  /** Models of the last scene. */
   private seen = new Set<string>();
   /** Models that this page inserted and that no scene had yet. */
   private awaited = new Set<string>();
-  /** Models that this page deleted and that may still be shown. */
+  /** Models that this page deleted and that the last scene still had. */
   private deleted = new Set<string>();
   private worldName = '';
   private dragged?: Dragged;
@@ -74,10 +74,10 @@ export class WorldEditor {
       return isDone;
     },
     delete: async (model) => {
-      this.seen.delete(model);
       this.awaited.delete(model);
+      this.deleted.add(model);
       const isDone = !!(await this.call('remove', { entity: { name: model, type: MODEL } }));
-      if (isDone) this.deleted.add(model);
+      if (!isDone) this.deleted.delete(model);
       if (isDone) this.app.selection = this.app.selection.filter((name) => name !== model);
       return isDone;
     },
@@ -121,12 +121,10 @@ export class WorldEditor {
     // A view without a world lists no models.
     if (!this.app.world()) return;
     const now = new Set(models);
-    const gone = [...this.seen].filter((name) => !now.has(name) && !this.awaited.has(name));
-    for (const name of models) {
-      this.awaited.delete(name);
-      // Another client inserted it.
-      if (!this.seen.has(name)) this.deleted.delete(name);
-    }
+    const isOwn = (name: string) => this.awaited.has(name) || this.deleted.has(name);
+    const gone = [...this.seen].filter((name) => !now.has(name) && !isOwn(name));
+    for (const name of this.deleted) if (!now.has(name)) this.deleted.delete(name);
+    for (const name of models) this.awaited.delete(name);
     this.seen = now;
     if (gone.length === 0) return;
     const isSelected = (name: string) => !gone.includes(name);
@@ -163,7 +161,12 @@ export class WorldEditor {
 
   private undid(edit: Edit | undefined, text: (title: string) => string): void {
     if (!edit) return;
-    this.app.notice('info', text(titleOf(edit)));
+    this.said(text(titleOf(edit)));
+  }
+
+  /** Shows what was done last. */
+  private said(text: string): void {
+    this.app.notice('info', text, 'edit');
   }
 
   /** Makes an edit; returns false after a failure, which was reported. */
@@ -185,7 +188,7 @@ export class WorldEditor {
       const model = freeName(name, this.names());
       const change: Change = { kind: 'insert', model, source, pose };
       const isDone = await this.make('insert', [model], [change]);
-      if (isDone) this.app.notice('info', t().world.inserted(model));
+      if (isDone) this.said(t().world.inserted(model));
       if (isDone) this.app.selection = [model];
       return isDone;
     });
@@ -201,7 +204,7 @@ export class WorldEditor {
         pose,
       }));
       if (!(await this.make('delete', [...models], changes))) return;
-      this.app.notice('info', t().world.deleted(models.join(', ')));
+      this.said(t().world.deleted(models.join(', ')));
     });
   }
 
@@ -254,7 +257,7 @@ export class WorldEditor {
       if (found.length === 0) return;
       this.clipboard = found;
       this.copied = found.length;
-      this.app.notice('info', t().edit.copied(models.join(', ')));
+      this.said(t().edit.copied(models.join(', ')));
       await navigator.clipboard?.writeText(found[0]!.sdf).catch(() => undefined);
     });
   }

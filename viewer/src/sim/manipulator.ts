@@ -19,6 +19,8 @@ export interface PagePoint {
 
 /** Length of the handles on the screen [px]. */
 const HANDLE_PX = 92;
+/** Cosine of the angle between a handle and the line of sight above which the handle is not shown. */
+const MOST_ALONG_SIGHT = 0.97;
 /** Shortest way of the pointer that draws a rectangle [px]. */
 const BOX_PX = 5;
 
@@ -59,13 +61,25 @@ export class Manipulator {
     const isEditable = world && app.worldName !== '';
     const movable = isEditable ? app.selection.filter((model) => !world.isGround(model)) : [];
     const pivot = this.pivot(movable);
-    handles.show((pivot && SHOWN[tool]) || []);
+    handles.show(pivot ? this.seen(stage, SHOWN[tool] ?? []) : []);
     const boxes = movable.flatMap((model) => world!.extentOf(model) ?? []);
     if (handles.frame(boxes)) stage.invalidate();
     if (!pivot || !world) return;
     handles.root.matrix.copy(matrixOf(world.fixedFromWorld));
     handles.root.matrixWorldNeedsUpdate = true;
     handles.place(pivot, this.metresOf(stage, HANDLE_PX, pivot));
+  }
+
+  /** Handles without those along the line of sight, which would only cover the model. */
+  private seen(stage: Stage, all: readonly Handle[]): Handle[] {
+    const sight = stage.view.camera.getWorldDirection(new Vector3());
+    const along = sight.transformDirection(this.handles.root.matrix.clone().invert());
+    const isSeen = (axis: number) => Math.abs(axis) < MOST_ALONG_SIGHT;
+    return all.filter((handle) => {
+      if (handle === 'x') return isSeen(along.x);
+      if (handle === 'y') return isSeen(along.y);
+      return handle !== 'z' || isSeen(along.z);
+    });
   }
 
   /** Origin of one model; of several the middle of their origins. */
