@@ -1,4 +1,5 @@
 /** State of the Building Editor: the plan, the selection, and the effect of the next click. */
+import { t } from '../texts/language.svelte';
 import { History } from './history';
 import {
   along,
@@ -255,7 +256,7 @@ export class Editor {
 
   addLevel(): void {
     const { levels } = this.plan;
-    levels.push({ name: `Level ${levels.length + 1}`, heightM: WALL.heightM });
+    levels.push({ name: t().building.levelName(levels.length + 1), heightM: WALL.heightM });
     const top = levels.length - 1;
     // As in Gazebo's Building Editor, a new level starts with the outer walls of the one below.
     for (const wall of this.plan.walls.filter((w) => w.level === top - 1)) {

@@ -1,4 +1,5 @@
 /** Reader of buildings from SDF files: those of the page, and those of Gazebo's Building Editor. */
+import { t } from '../texts/language.svelte';
 import { emptyPlan, type Plan } from './plan';
 import type { Box } from './solid';
 
@@ -27,10 +28,9 @@ export function readBuilding(text: string, parser: DOMParser = new DOMParser()):
   const model = models.find((m) =>
     [...m.children].some((c) => /^Wall_/.test(c.getAttribute('name') ?? '')),
   );
-  if (!model) throw new Error('The file has no model with links "Wall_0", "Wall_1", ... to edit');
+  if (!model) throw new Error(t().building.noBuilding);
   const [mx = 0, my = 0, , , , myaw = 0] = numbers(child(model, 'pose')?.textContent);
-  if (Math.abs(myaw) > 1e-6)
-    throw new Error('The pose of the model is rotated; set its yaw to 0 first');
+  if (Math.abs(myaw) > 1e-6) throw new Error(t().building.rotatedModel);
   const plan = emptyPlan();
   plan.name = model.getAttribute('name') ?? 'building';
   const links = [...model.children]
@@ -43,7 +43,7 @@ export function readBuilding(text: string, parser: DOMParser = new DOMParser()):
     return Math.max(...tops);
   });
   plan.levels = bases.map((base, i) => ({
-    name: `Level ${i + 1}`,
+    name: t().building.levelName(i + 1),
     heightM: +((bases[i + 1] ?? base + heights[i]!) - base).toFixed(4),
   }));
   const levelOf = (z: number) =>
