@@ -8,13 +8,14 @@ import {
   type Intersection,
   type Object3D,
 } from 'three';
-import { fromYaw, inverse, multiply, yawOf, type Pose } from '../core/pose';
+import { fromYaw, inverse, multiply, yawOf, type Pose, type Vec3 } from '../core/pose';
 import { messageOf } from '../core/types';
 import { arrowGeometry, label, polyline, surface } from '../scene/shapes';
 import { dispose, type Stage } from '../scene/stage';
 import { WorldEditor } from '../sim/editor.svelte';
 import { Manipulator, type PagePoint } from '../sim/manipulator';
 import { editKey } from '../sim/shortcuts';
+import { isUnderlayFile, Underlay } from '../sim/underlay.svelte';
 import { Color, Group, Mesh } from 'three';
 import type { App } from './app.svelte';
 import type { Navigation } from './navigation.svelte';
@@ -90,6 +91,10 @@ export class Tools {
   private points: Vector3[] = [];
   /** Edits of the simulated world. */
   readonly editor: WorldEditor;
+  /** Picture below the scene. */
+  readonly underlay: Underlay;
+  /** Line that was measured last. */
+  line: { from: Vec3; lengthM: number } | undefined = $state.raw();
   private manipulator: Manipulator;
   private isListening = false;
 
@@ -99,6 +104,7 @@ export class Tools {
     readonly waypoints: Waypoints,
   ) {
     this.editor = new WorldEditor(app);
+    this.underlay = new Underlay(app);
     this.manipulator = new Manipulator(app, this.editor);
   }
 
@@ -130,6 +136,7 @@ export class Tools {
 
   /** The marks of the tools are drawn in the active 3D view. */
   private tick(stage: Stage): void {
+    this.underlay.tick(stage);
     if (stage !== this.app.stage) return;
     if (this.marks.parent !== stage.scene) stage.scene.add(this.marks, this.poses);
     this.placeArrows();
@@ -145,6 +152,26 @@ export class Tools {
         if (!editKey(this.app, this.editor, event)) return;
         event.preventDefault();
         event.stopPropagation();
+      },
+      true,
+    );
+    // Pictures and map files; other files are left to the rest of the page.
+    window.addEventListener(
+      'dragover',
+      (event) => {
+        const items = [...(event.dataTransfer?.items ?? [])];
+        const areImages = items.every(({ kind, type }) => kind === 'file' && /^image/.test(type));
+        if (items.length > 0 && areImages) event.preventDefault();
+      },
+      true,
+    );
+    window.addEventListener(
+      'drop',
+      (event) => {
+        const files = [...(event.dataTransfer?.files ?? [])];
+        if (files.length === 0 || !files.every(({ name }) => isUnderlayFile(name))) return;
+        event.preventDefault();
+        void this.underlay.open(files);
       },
       true,
     );
@@ -200,6 +227,7 @@ export class Tools {
     this.start = undefined;
     this.points = [];
     this.measured = '';
+    this.line = undefined;
     this.app.stage?.invalidate();
   }
 
@@ -430,6 +458,7 @@ export class Tools {
     const [a, b] = this.points;
     if (!a || !b) return;
     const length = a.distanceTo(b);
+    this.line = { from: a.toArray(), lengthM: length };
     this.measured = `${length.toFixed(3)} m (x ${(b.x - a.x).toFixed(3)}, y ${(b.y - a.y).toFixed(3)}, z ${(b.z - a.z).toFixed(3)})`;
     this.marks.add(polyline([...a.toArray(), ...b.toArray()], new Color('#e6c229')));
     const caption = label(`${length.toFixed(3)} m`, Math.max(0.12, length * 0.05), '#ffe27a', true);

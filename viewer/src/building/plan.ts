@@ -48,13 +48,18 @@ export interface Level {
 }
 
 export interface FloorPlan {
-  /** Image as a data URL. */
+  /** Name of the file. */
+  name: string;
+  /** URL of the image. */
   url: string;
   widthPx: number;
   heightPx: number;
   pixelsPerM: number;
   /** Position of the center of the image. */
   at: Point;
+  yawRad: number;
+  /** 0 to 1. */
+  opacity: number;
 }
 
 export interface Plan {

@@ -1,6 +1,6 @@
 /** Reader of buildings from SDF files: those of the page, and those of Gazebo's Building Editor. */
 import { t } from '../texts/language.svelte';
-import { emptyPlan, type Plan } from './plan';
+import { emptyPlan, WALL, type Plan } from './plan';
 import type { Box } from './solid';
 
 const numbers = (text: string | null | undefined) =>
@@ -9,6 +9,10 @@ const numbers = (text: string | null | undefined) =>
 const child = (element: Element | undefined, name: string) =>
   element && [...element.children].find((c) => c.localName === name);
 
+/** Maximum distance of the bases of walls of one level [m]. */
+const CLOSE_LEVEL_M = 1e-3;
+/** Maximum distance of a floor from the base of its level [m]. */
+const FLOOR_GAP_M = 0.3;
 /** Maximum gap between two boxes of one row [m]. */
 const CLOSE_M = 1e-4;
 
@@ -36,20 +40,27 @@ export function readBuilding(text: string, parser: DOMParser = new DOMParser()):
   const links = [...model.children]
     .filter((c) => c.localName === 'link')
     .flatMap((link) => readLink(link, mx, my) ?? []);
-  const bases = [...new Set(links.filter((l) => l.kind === 'Wall').map((l) => +l.z.toFixed(4)))];
+  // A level has walls, or only a floor, whose link other programs put at half of its thickness.
+  const zOf = (kind: Link['kind']) =>
+    links.filter((link) => link.kind === kind).map((link) => +link.z.toFixed(4));
+  const bases: number[] = [];
+  const isNew = (z: number, gapM: number) => bases.every((base) => Math.abs(base - z) > gapM);
+  for (const z of zOf('Wall')) if (isNew(z, CLOSE_LEVEL_M)) bases.push(z);
+  for (const z of zOf('Floor')) if (isNew(z, FLOOR_GAP_M)) bases.push(z);
   bases.sort((a, b) => a - b);
   const heights = bases.map((base) => {
-    const tops = links.filter((l) => l.kind === 'Wall' && Math.abs(l.z - base) < 1e-3).map(topOf);
-    return Math.max(...tops);
+    const own = links.filter((link) => Math.abs(link.z - base) <= CLOSE_LEVEL_M);
+    const tops = own.filter(({ kind }) => kind !== 'Floor').map(topOf);
+    return tops.length > 0 ? Math.max(...tops) : WALL.heightM;
   });
   plan.levels = bases.map((base, i) => ({
     name: t().building.levelName(i + 1),
     heightM: +((bases[i + 1] ?? base + heights[i]!) - base).toFixed(4),
   }));
   const levelOf = (z: number) =>
-    Math.max(
+    bases.reduce(
+      (best, base, i) => (Math.abs(base - z) < Math.abs(bases[best]! - z) ? i : best),
       0,
-      bases.findIndex((base) => Math.abs(base - z) < 1e-3),
     );
   for (const link of links) {
     if (link.kind === 'Wall') addWall(plan, link, levelOf(link.z));

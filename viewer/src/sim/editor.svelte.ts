@@ -1,4 +1,5 @@
 /** Editing of the simulated world: the selection, all edits with undo and redo, the clipboard. */
+import { untrack } from 'svelte';
 import type { App } from '../app/app.svelte';
 import type { Pose } from '../core/pose';
 import { messageOf } from '../core/types';
@@ -50,9 +51,12 @@ export class WorldEditor {
 
   constructor(private app: App) {
     $effect.root(() => {
-      $effect(() => this.modelsChanged(app.worldName, app.models));
       $effect(() => {
-        if (app.resets > 0) this.wasReset();
+        const { worldName, models } = app;
+        untrack(() => this.modelsChanged(worldName, models));
+      });
+      $effect(() => {
+        if (app.resets > 0) untrack(() => this.wasReset());
       });
     });
   }
