@@ -70,7 +70,7 @@ export function rpyOf(q: Quat): Vec3 {
   const [x, y, z, w] = q;
   const sine = 2 * (w * y - z * x);
   if (Math.abs(sine) > 1 - 1e-9) {
-    return [2 * Math.sign(sine) * Math.atan2(x, w), (Math.sign(sine) * Math.PI) / 2, 0];
+    return [2 * Math.atan2(x, w), (Math.sign(sine) * Math.PI) / 2, 0];
   }
   return [
     Math.atan2(2 * (w * x + y * z), 1 - 2 * (x * x + y * y)),

@@ -128,13 +128,16 @@ export class Handles {
     const key = boxes.map(({ min, max }) => [...min, ...max].map((v) => v.toFixed(4))).join(';');
     if (key === this.framesKey) return false;
     this.framesKey = key;
-    for (const frame of this.frames) dispose(frame);
-    this.frames = boxes.map(({ min, max }) => {
-      const frame = new Box3Helper(new Box3(new Vector3(...min), new Vector3(...max)), FRAME_COLOR);
+    while (this.frames.length > boxes.length) dispose(this.frames.pop()!);
+    while (this.frames.length < boxes.length) {
+      const frame = new Box3Helper(new Box3(), FRAME_COLOR);
       (frame.material as LineBasicMaterial).depthTest = false;
       frame.renderOrder = RENDER_ORDER - 1;
       this.root.add(frame);
-      return frame;
+      this.frames.push(frame);
+    }
+    boxes.forEach(({ min, max }, i) => {
+      this.frames[i]!.box.set(new Vector3(...min), new Vector3(...max));
     });
     return true;
   }

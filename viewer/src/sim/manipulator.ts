@@ -17,8 +17,9 @@ export interface PagePoint {
   shiftKey?: boolean;
 }
 
-/** Length of the handles on the screen [px]. */
+/** Length of the handles on the screen, for a mouse and for fingers [px]. */
 const HANDLE_PX = 92;
+const TOUCH_HANDLE_PX = 130;
 /** Cosine of the angle between a handle and the line of sight above which the handle is not shown. */
 const MOST_ALONG_SIGHT = 0.97;
 /** Shortest way of the pointer that draws a rectangle [px]. */
@@ -40,6 +41,7 @@ interface Active {
 
 export class Manipulator {
   private handles = new Handles();
+  private touch = window.matchMedia('(pointer: coarse)');
   private active?: Active;
   private box?: { from: PagePoint; element: HTMLElement };
   private caption?: ReturnType<typeof label>;
@@ -67,7 +69,8 @@ export class Manipulator {
     if (!pivot || !world) return;
     handles.root.matrix.copy(matrixOf(world.fixedFromWorld));
     handles.root.matrixWorldNeedsUpdate = true;
-    handles.place(pivot, this.metresOf(stage, HANDLE_PX, pivot));
+    const lengthPx = this.touch.matches ? TOUCH_HANDLE_PX : HANDLE_PX;
+    handles.place(pivot, this.metresOf(stage, lengthPx, pivot));
   }
 
   /** Handles without those along the line of sight, which would only cover the model. */

@@ -2,6 +2,7 @@
 import {
   Mesh,
   MeshBasicMaterial,
+  NearestFilter,
   PlaneGeometry,
   SRGBColorSpace,
   Texture,
@@ -187,6 +188,8 @@ export class Underlay {
       for (const stage of this.drawn.keys()) stage.invalidate();
     });
     texture.colorSpace = SRGBColorSpace;
+    // Cells of a map keep their edges.
+    if (this.hasMap) texture.magFilter = NearestFilter;
     this.texture = { url, texture };
     return texture;
   }

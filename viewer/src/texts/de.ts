@@ -334,7 +334,7 @@ export const de: Texts = {
   },
   diff: {
     added: 'hinzugefügt:',
-    counts: (added, removed) => `${added} Zeilen hinzugefügt, ${removed} Zeilen entfernt`,
+    counts: (added, removed) => `Zeilen hinzugefügt: ${added}, entfernt: ${removed}`,
     more: (lines) => `${lines} weitere Zeilen sind nicht gezeigt`,
     removed: 'entfernt:',
     title: (name) => `Änderungen in ${name}`,

@@ -348,7 +348,7 @@ export const en = {
   },
   diff: {
     added: 'added:',
-    counts: (added: number, removed: number) => `${added} lines added, ${removed} lines removed`,
+    counts: (added: number, removed: number) => `Lines added: ${added}, removed: ${removed}`,
     more: (lines: number) => `${lines} more lines are not shown`,
     removed: 'removed:',
     title: (name: string) => `Changes in ${name}`,
