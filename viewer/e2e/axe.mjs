@@ -43,6 +43,33 @@ export async function wrong(page, state) {
   return found.map((one) => ({ state, ...one }));
 }
 
+/** The panel World while models are edited. */
+async function edited(page, state) {
+  const all = [];
+  for (const count of [1, 3]) {
+    await page.evaluate((n) => (periplus.selection = periplus.models.slice(0, n)), count);
+    await page.waitForTimeout(250);
+    all.push(...(await wrong(page, `${state}: ${count} selected models`)));
+  }
+  const image = Buffer.concat([Buffer.from('P5\n8 4\n255\n'), Buffer.alloc(32, 60)]);
+  const file = { name: 'plan.pgm', mimeType: '', buffer: image };
+  await page.getByTestId('underlay-file').setInputFiles(file);
+  const panel = page.getByRole('tabpanel');
+  await panel.getByRole('group', { name: 'Floor plan' }).waitFor();
+  await page.evaluate(() => (periplus.selectedModel = 'cube'));
+  await page.keyboard.press('Control+ArrowRight');
+  const changes = panel.getByRole('button', { name: 'Show changes' });
+  if (await changes.isVisible()) {
+    await changes.click();
+    await panel.getByRole('region', { name: /^Changes in/ }).waitFor();
+  }
+  all.push(...(await wrong(page, `${state}: floor plan and changes`)));
+  await page.keyboard.press('Control+z');
+  await panel.getByRole('button', { name: 'Remove the picture' }).click();
+  await page.evaluate(() => (periplus.selection = []));
+  return all;
+}
+
 async function states(page, state) {
   const all = await wrong(page, `${state}: start`);
   const panels = page.getByRole('button', { name: 'Panels', exact: true });
@@ -51,6 +78,7 @@ async function states(page, state) {
     await page.getByRole('tab', { name }).click();
     await page.waitForTimeout(250);
     all.push(...(await wrong(page, `${state}: ${name}`)));
+    if (name === 'World') all.push(...(await edited(page, state)));
   }
   const displays = page.getByRole('button', { name: 'Displays', exact: true });
   if ((await displays.getAttribute('aria-pressed')) === 'false') await displays.click();

@@ -9,6 +9,7 @@ import { axe } from './axe.mjs';
 import { building, foreignBuildings } from './building.mjs';
 import { demo } from './demo.mjs';
 import { dock } from './dock.mjs';
+import { edit } from './edit.mjs';
 import { keyboard } from './keyboard.mjs';
 import { browser, next, open, periplus, servePage, until, port } from './lib.mjs';
 import { navigate } from './navigate.mjs';
@@ -183,6 +184,7 @@ try {
   await panels(chrome, pages.url, attempt);
   await tutorials(chrome, pages.url, out, attempt);
   await replay(chrome, pages.url, out, attempt);
+  await edit(chrome, pages.url, attempt);
   await demo(chrome, pages.url, attempt);
 } finally {
   await chrome.close();

@@ -26,6 +26,7 @@ export interface Notice {
   id: number;
   level: 'info' | 'warn' | 'error';
   text: string;
+  topic?: string;
 }
 
 export interface LogLine {
@@ -45,6 +46,7 @@ export interface TopicRow {
 }
 
 const MOST_LOG = 1000;
+const MOST_NOTICES = 4;
 const FLUSH_MS = 200;
 
 export class App {
@@ -73,7 +75,10 @@ export class App {
   /** The open panels; set by the page. */
   workbench: Workbench | undefined = $state.raw();
   models: string[] = $state([]);
-  selectedModel = $state('');
+  /** Selected models of the simulated world, in the order of their selection. */
+  selection: string[] = $state.raw([]);
+  /** Number of jumps of time back: resets of the simulation. */
+  resets = $state(0);
   truth: { link: string; distanceM: number; yawRad: number } | undefined = $state();
   maps: MapTruth[] = $state.raw([]);
   estimators: string[] = $state.raw([]);
@@ -147,6 +152,7 @@ export class App {
   private time(timeS: number): void {
     if (this.replay) return;
     if (!this.clock.set(timeS, performance.now())) return;
+    this.resets++;
     this.tf.rewind(timeS);
     this.sensors.rewind(timeS);
     for (const viewport of this.viewports) viewport.rewound();
@@ -185,11 +191,13 @@ export class App {
     });
   }
 
-  notice(level: Notice['level'], text: string): void {
+  /** Shows a message; one with the same topic as a message before takes its place. */
+  notice(level: Notice['level'], text: string, topic?: string): void {
     if (this.notices.some((notice) => notice.text === text)) return;
-    const notice = { id: ++this.lastId, level, text };
+    const notice = { id: ++this.lastId, level, text, topic };
+    if (topic) this.notices = this.notices.filter((one) => one.topic !== topic);
     this.notices.push(notice);
-    if (this.notices.length > 5) this.notices.shift();
+    if (this.notices.length > MOST_NOTICES) this.notices.shift();
     if (level !== 'error') setTimeout(() => this.dismiss(notice.id), 6000);
   }
 
@@ -326,6 +334,15 @@ export class App {
 
   topicsOf(types: readonly string[]): string[] {
     return this.topics.filter((t) => types.includes(t.type)).map((t) => t.name);
+  }
+
+  /** Model that was selected last. */
+  get selectedModel(): string {
+    return this.selection[this.selection.length - 1] ?? '';
+  }
+
+  set selectedModel(name: string) {
+    this.selection = name ? [name] : [];
   }
 
   // The active 3D view.

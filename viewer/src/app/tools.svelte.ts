@@ -8,10 +8,14 @@ import {
   type Intersection,
   type Object3D,
 } from 'three';
-import { fromYaw, inverse, multiply, yawOf, type Pose } from '../core/pose';
+import { fromYaw, inverse, multiply, yawOf, type Pose, type Vec3 } from '../core/pose';
 import { messageOf } from '../core/types';
 import { arrowGeometry, label, polyline, surface } from '../scene/shapes';
 import { dispose, type Stage } from '../scene/stage';
+import { WorldEditor } from '../sim/editor.svelte';
+import { Manipulator, type PagePoint } from '../sim/manipulator';
+import { editKey } from '../sim/shortcuts';
+import { isUnderlayFile, Underlay } from '../sim/underlay.svelte';
 import { Color, Group, Mesh } from 'three';
 import type { App } from './app.svelte';
 import type { Navigation } from './navigation.svelte';
@@ -56,11 +60,8 @@ const ROS1_GOAL_TOPIC = '/move_base_simple/goal';
 /** Shortest drag that sets a heading [m]. */
 const MIN_DRAG_M = 0.05;
 
-/** Point in page coordinates. */
-interface PagePoint {
-  clientX: number;
-  clientY: number;
-}
+/** Tools with which models can be dragged by their handles. */
+const EDITING: readonly ToolName[] = ['move', 'select', 'translate', 'rotate'];
 
 const STEP_PX = 12;
 const ARROWS: Record<string, [number, number]> = {
@@ -88,29 +89,46 @@ export class Tools {
   private start?: Vector3;
   private fading?: ReturnType<typeof setTimeout>;
   private points: Vector3[] = [];
+  /** Edits of the simulated world. */
+  readonly editor: WorldEditor;
+  /** Picture below the scene. */
+  readonly underlay: Underlay;
+  /** Line that was measured last. */
+  line: { from: Vec3; lengthM: number } | undefined = $state.raw();
+  private manipulator: Manipulator;
+  private isListening = false;
 
   constructor(
     private app: App,
     readonly navigation: Navigation,
     readonly waypoints: Waypoints,
-  ) {}
+  ) {
+    this.editor = new WorldEditor(app);
+    this.underlay = new Underlay(app);
+    this.manipulator = new Manipulator(app, this.editor);
+  }
 
   /** Listens to a 3D view; the tools act on it while it is the active one. */
   attach(canvas: HTMLCanvasElement, stage: Stage): void {
     const isActive = () => this.app.stage === stage;
-    stage.ticks.add(() => isActive() && this.placeArrows());
+    stage.ticks.add(() => this.tick(stage));
     this.waypoints.attach(stage);
+    this.listen();
     // Capture: before the camera controls receive the event.
     canvas.addEventListener(
       'pointerdown',
       (event) => {
         this.cross = undefined;
-        if (event.button === 0 && isActive()) this.down(event);
+        if (event.button !== 0 || !isActive()) return;
+        this.down(event);
+        // A drag goes on outside of the view.
+        if (this.manipulator.isDragging) canvas.setPointerCapture(event.pointerId);
       },
       true,
     );
     canvas.addEventListener('pointermove', (event) => isActive() && this.moved(event), true);
     canvas.addEventListener('pointerup', (event) => isActive() && this.up(event), true);
+    canvas.addEventListener('pointercancel', () => this.manipulator.cancel(), true);
     canvas.addEventListener('keydown', (event) => isActive() && this.key(event, canvas), true);
   }
 
@@ -126,6 +144,54 @@ export class Tools {
     stage.scene.add(this.marks, this.poses);
     this.waypoints.enter(stage);
     stage.invalidate();
+  }
+
+  /** The marks of the tools are drawn in the active 3D view. */
+  private tick(stage: Stage): void {
+    this.underlay.tick(stage);
+    if (stage !== this.app.stage) return;
+    if (this.marks.parent !== stage.scene) stage.scene.add(this.marks, this.poses);
+    this.placeArrows();
+    this.manipulator.tick(stage, this.active);
+  }
+
+  private listen(): void {
+    if (this.isListening) return;
+    this.isListening = true;
+    window.addEventListener(
+      'keydown',
+      (event) => {
+        if (!editKey(this.app, this.editor, event)) return;
+        event.preventDefault();
+        event.stopPropagation();
+      },
+      true,
+    );
+    // Pictures and map files; other files are left to the rest of the page.
+    window.addEventListener(
+      'dragover',
+      (event) => {
+        const items = [...(event.dataTransfer?.items ?? [])];
+        const areImages = items.every(({ kind, type }) => kind === 'file' && /^image/.test(type));
+        if (items.length > 0 && areImages) event.preventDefault();
+      },
+      true,
+    );
+    window.addEventListener(
+      'drop',
+      (event) => {
+        const files = [...(event.dataTransfer?.files ?? [])];
+        if (files.length === 0 || !files.every(({ name }) => isUnderlayFile(name))) return;
+        event.preventDefault();
+        void this.underlay.open(files);
+      },
+      true,
+    );
+  }
+
+  /** Keeps the mouse from the cameras, or leaves it to them. */
+  private holdCameras(isHeld: boolean): void {
+    for (const { stage } of this.app.viewports) if (stage) stage.view.isHeld = isHeld;
   }
 
   /** Mouse by keyboard: arrow keys move a crosshair, Enter presses, and releases after a drag. */
@@ -144,12 +210,12 @@ export class Tools {
       this.moved(this.cross);
     } else if (event.key === 'Enter') {
       this.cross = at;
-      const wasHeld = !!this.start;
-      if (wasHeld) this.up(at);
+      const isHeld = () => !!this.start || this.manipulator.isDragging;
+      if (isHeld()) this.up(at);
       else {
         this.down(at);
         // A drag goes on until the next Enter; any other tool is done.
-        if (!this.start) this.up(at);
+        if (!isHeld()) this.up(at);
       }
       if ((this.active as ToolName) === 'move') this.cross = undefined;
     } else return;
@@ -163,27 +229,34 @@ export class Tools {
     this.cross = undefined;
     if (this.active !== 'select') this.found = undefined;
     if (this.active === 'waypoints') this.navigation.attention++;
-    this.app.stage!.view.isHeld = this.active !== 'move';
+    this.holdCameras(this.active !== 'move');
   }
 
   private clear(): void {
     clearTimeout(this.fading);
+    this.manipulator.cancel();
     for (const child of [...this.marks.children]) dispose(child);
     this.start = undefined;
     this.points = [];
     this.measured = '';
+    this.line = undefined;
     this.app.stage?.invalidate();
   }
 
   private done(): void {
     this.active = 'move';
-    this.app.stage!.view.isHeld = false;
+    this.holdCameras(false);
     this.fading = setTimeout(() => this.clear(), 600);
   }
 
   private down(event: PagePoint): void {
-    if (this.active === 'move') return;
     const { view } = this.app.stage!;
+    const isSimulation = EDITING.includes(this.active);
+    if (isSimulation && this.manipulator.grab(event)) {
+      view.isHeld = true;
+      return;
+    }
+    if (this.active === 'move') return;
     view.isHeld = true;
     const ground = view.ground(event.clientX, event.clientY);
     const hit = this.hit(event);
@@ -196,11 +269,12 @@ export class Tools {
         break;
       case 'translate':
       case 'rotate':
-        this.pick(hit?.object);
-        this.start = ground;
+        if (hit && this.pick(hit.object, event.shiftKey)) {
+          this.manipulator.grabModel(hit, this.active === 'translate' ? 'xy' : 'turnZ', event);
+        }
         break;
       case 'select':
-        this.inspect(hit);
+        this.manipulator.beginBox(event);
         break;
       case 'focus':
         if (at) this.app.setView(this.focused(at));
@@ -219,13 +293,20 @@ export class Tools {
   }
 
   private moved(event: PagePoint): void {
+    if (EDITING.includes(this.active)) this.manipulator.moved(event);
     const now = this.start && this.app.stage!.view.ground(event.clientX, event.clientY);
     if (!this.start || !now) return;
     if (isArrowTool(this.active)) this.arrow(this.start, now);
-    if (this.active === 'translate' || this.active === 'rotate') this.preview(now);
   }
 
   private up(event: PagePoint): void {
+    if (this.manipulator.drop()) {
+      this.holdCameras(this.active !== 'move');
+      return;
+    }
+    if (this.active === 'select' && !this.manipulator.endBox(event)) {
+      this.inspect(this.hit(event), event.shiftKey);
+    }
     const { start } = this;
     const now = this.app.stage!.view.ground(event.clientX, event.clientY);
     if (!start || !now) return;
@@ -237,9 +318,7 @@ export class Tools {
       this.publishPose(this.active, fromYaw(yaw, [start.x, start.y, 0]), drag.length());
       this.active = 'move';
       this.clear();
-      this.app.stage!.view.isHeld = false;
-    } else if (this.active === 'translate' || this.active === 'rotate') {
-      void this.drop(now);
+      this.holdCameras(false);
     }
     this.start = undefined;
   }
@@ -391,6 +470,7 @@ export class Tools {
     const [a, b] = this.points;
     if (!a || !b) return;
     const length = a.distanceTo(b);
+    this.line = { from: a.toArray(), lengthM: length };
     this.measured = `${length.toFixed(3)} m (x ${(b.x - a.x).toFixed(3)}, y ${(b.y - a.y).toFixed(3)}, z ${(b.z - a.z).toFixed(3)})`;
     this.marks.add(polyline([...a.toArray(), ...b.toArray()], new Color('#e6c229')));
     const caption = label(`${length.toFixed(3)} m`, Math.max(0.12, length * 0.05), '#ffe27a', true);
@@ -464,7 +544,7 @@ export class Tools {
     return { distance: best, hit: { object, point, index: found, distance: best } };
   }
 
-  private inspect(hit: Intersection | undefined): void {
+  private inspect(hit: Intersection | undefined, isAdded = false): void {
     if (!hit) {
       this.found = { [t().found.selection]: t().found.nothing };
       return;
@@ -488,13 +568,19 @@ export class Tools {
         if (this.found === current) Object.assign(current, more);
       });
     }
-    this.pick(hit.object);
+    this.pick(hit.object, isAdded);
   }
 
-  private pick(object: Object3D | undefined): void {
-    let at: Object3D | null | undefined = object;
+  /** Selects the model of an object; returns false if there is none to move. */
+  private pick(object: Object3D, isAdded = false): boolean {
+    let at: Object3D | null = object;
     while (at && !at.userData.entity) at = at.parent;
-    if (at?.userData.entity) this.app.selectedModel = at.userData.entity as string;
+    const model = at?.userData.entity as string | undefined;
+    if (!model) return false;
+    const { app } = this;
+    if (isAdded) this.editor.toggle(model);
+    else if (!app.selection.includes(model)) app.selectedModel = model;
+    return app.selection.includes(model) && !app.world()?.isGround(model);
   }
 
   // The simulation.
@@ -519,76 +605,17 @@ export class Tools {
     void this.control({ pause: this.app.isPaused, reset: { all: true } });
   }
 
-  private entity(name: string) {
-    return { name, type: 2 };
-  }
-
+  /** Deletes models as one step: the selection if the model is a part of it. */
   async remove(name: string): Promise<void> {
-    const done = await this.app.call(this.service('remove'), { entity: this.entity(name) });
-    if (done) this.app.notice('info', t().world.deleted(name));
-    if (this.app.selectedModel === name) this.app.selectedModel = '';
-  }
-
-  /** Moves a model to a pose in the world frame. */
-  async place(name: string, worldFromModel: Pose): Promise<void> {
-    await this.app.call(this.service('set_pose'), {
-      entity: this.entity(name),
-      pose: messageOf(worldFromModel),
-    });
-  }
-
-  private draggedPose(now: Vector3): Pose | undefined {
-    const { app, start } = this;
-    const world = app.world();
-    const old = world?.poseOf(app.selectedModel);
-    if (!world || !old || !start) return undefined;
-    const worldFromFixed = inverse(world.fixedFromWorld);
-    const fixedFromOld = multiply(world.fixedFromWorld, old);
-    if (this.active === 'translate') {
-      const t: Pose['t'] = [
-        fixedFromOld.t[0] + now.x - start.x,
-        fixedFromOld.t[1] + now.y - start.y,
-        fixedFromOld.t[2],
-      ];
-      return multiply(worldFromFixed, { t, q: fixedFromOld.q });
-    }
-    const angle = (p: Vector3) => Math.atan2(p.y - fixedFromOld.t[1], p.x - fixedFromOld.t[0]);
-    const turn = fromYaw(angle(now) - angle(start));
-    return { t: old.t, q: multiply(turn, { t: [0, 0, 0], q: old.q }).q };
-  }
-
-  private preview(now: Vector3): void {
-    const pose = this.draggedPose(now);
-    const world = this.app.world();
-    for (const child of [...this.marks.children]) dispose(child);
-    if (!pose || !world) return;
-    const { t } = multiply(world.fixedFromWorld, pose);
-    const mark = new Mesh(arrowGeometry(0.4, 0.02, 0.15, 0.07), surface(GREEN));
-    mark.position.set(t[0], t[1], 0.05);
-    mark.rotation.z = yawOf(pose.q);
-    const caption = label(
-      `${pose.t[0].toFixed(2)}, ${pose.t[1].toFixed(2)} m, ${((yawOf(pose.q) * 180) / Math.PI).toFixed(0)}°`,
-      0.14,
-      '#d5ffe6',
-      true,
-    );
-    caption.position.set(t[0], t[1], t[2] + 0.5);
-    this.marks.add(mark, caption);
-    this.app.stage!.invalidate();
-  }
-
-  private async drop(now: Vector3): Promise<void> {
-    const pose = this.draggedPose(now);
-    const { selectedModel } = this.app;
-    for (const child of [...this.marks.children]) dispose(child);
-    if (pose && selectedModel) await this.place(selectedModel, pose);
+    const { selection } = this.app;
+    await this.editor.remove(selection.includes(name) ? selection : [name]);
   }
 
   /** Inserts the model at the next click on the floor plane. */
   prepare(name: string, sdf: string, file = ''): void {
     this.toInsert = { name, sdf, file };
     this.active = 'insert';
-    this.app.stage!.view.isHeld = true;
+    this.holdCameras(true);
     this.app.notice('info', t().world.clickPosition(name));
   }
 
@@ -602,18 +629,8 @@ export class Tools {
     this.done();
   }
 
-  async insert(name: string, sdf: string, file: string, worldFromModel: Pose): Promise<boolean> {
-    const factory = {
-      name,
-      allow_renaming: true,
-      sdf,
-      sdf_filename: file,
-      pose: messageOf(worldFromModel),
-      relative_to: 'world',
-    };
-    const done = await this.app.call(this.service('create'), { entity_factory: factory });
-    if (done) this.app.notice('info', t().world.inserted(name));
-    return !!done;
+  insert(name: string, sdf: string, file: string, worldFromModel: Pose): Promise<boolean> {
+    return this.editor.insert(name, { sdf, file }, worldFromModel);
   }
 }
 

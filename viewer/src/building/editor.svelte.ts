@@ -1,4 +1,5 @@
 /** State of the Building Editor: the plan, the selection, and the effect of the next click. */
+import { t } from '../texts/language.svelte';
 import { History } from './history';
 import {
   along,
@@ -10,6 +11,7 @@ import {
   WALL,
   WINDOW,
   yawOfWall,
+  type FloorPlan,
   type Opening,
   type Plan,
   type Point,
@@ -43,15 +45,22 @@ export class Editor {
   scaleTo: Point | undefined = $state();
   /** Pixels per metre on the screen, from which the snapping distance follows. */
   zoom = $state(60);
-  private history = History.of(emptyPlan());
+  private history: History<Plan>;
   private chainStart?: Point;
 
   /** Number of plans opened so far: the view fits each new one. */
   opened = $state(0);
 
+  /** Starts with an empty plan over an image. */
+  constructor(picture?: FloorPlan) {
+    this.plan.picture = picture;
+    this.history = History.of($state.snapshot(this.plan));
+  }
+
+  /** Opens another plan; the image stays. */
   open(plan: Plan): void {
     this.opened++;
-    this.plan = plan;
+    this.plan = { ...plan, picture: plan.picture ?? this.plan.picture };
     this.level = 0;
     this.choose(0);
     this.cancel();
@@ -255,7 +264,7 @@ export class Editor {
 
   addLevel(): void {
     const { levels } = this.plan;
-    levels.push({ name: `Level ${levels.length + 1}`, heightM: WALL.heightM });
+    levels.push({ name: t().building.levelName(levels.length + 1), heightM: WALL.heightM });
     const top = levels.length - 1;
     // As in Gazebo's Building Editor, a new level starts with the outer walls of the one below.
     for (const wall of this.plan.walls.filter((w) => w.level === top - 1)) {
@@ -269,17 +278,30 @@ export class Editor {
     this.note();
   }
 
+  /** Removes the present level; those above move down. */
   removeLevel(): void {
-    const { plan } = this;
+    const { plan, level: gone } = this;
     if (plan.levels.length < 2) return;
-    const gone = plan.levels.length - 1;
     const walls = plan.walls.filter((w) => w.level === gone).map((w) => w.id);
     plan.walls = plan.walls.filter((w) => w.level !== gone);
     plan.openings = plan.openings.filter((o) => !walls.includes(o.wall));
     plan.stairs = plan.stairs.filter((s) => s.level !== gone);
-    plan.levels.pop();
-    this.level = Math.min(this.level, plan.levels.length - 1);
+    for (const one of [...plan.walls, ...plan.stairs]) if (one.level > gone) one.level--;
+    plan.levels.splice(gone, 1);
+    plan.levels.forEach((level, i) => (level.name = t().building.levelName(i + 1)));
+    this.level = Math.min(gone, plan.levels.length - 1);
+    this.choose(0);
     this.note();
+  }
+
+  /** Changes the height of the present level; walls that reached its ceiling still do. */
+  setLevelHeight(heightM: number): void {
+    const level = this.plan.levels[this.level]!;
+    for (const wall of this.plan.walls) {
+      const isFull = wall.level === this.level && Math.abs(wall.heightM - level.heightM) < 1e-6;
+      if (isFull) wall.heightM = heightM;
+    }
+    level.heightM = heightM;
   }
 
   /** Sets the scale of the image from the length of the line drawn in it. */

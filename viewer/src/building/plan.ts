@@ -1,4 +1,5 @@
 /** Floor plan: walls between points, openings in walls, stairs, levels. Lengths in metres. */
+import { t } from '../texts/language.svelte';
 
 export interface Point {
   x: number;
@@ -47,13 +48,18 @@ export interface Level {
 }
 
 export interface FloorPlan {
-  /** Image as a data URL. */
+  /** Name of the file. */
+  name: string;
+  /** URL of the image. */
   url: string;
   widthPx: number;
   heightPx: number;
   pixelsPerM: number;
   /** Position of the center of the image. */
   at: Point;
+  yawRad: number;
+  /** 0 to 1. */
+  opacity: number;
 }
 
 export interface Plan {
@@ -88,7 +94,7 @@ export const MATERIALS: Record<string, [number, number, number]> = {
 };
 
 export function emptyPlan(): Plan {
-  const levels = [{ name: 'Level 1', heightM: WALL.heightM }];
+  const levels = [{ name: t().building.levelName(1), heightM: WALL.heightM }];
   return { name: 'building', author: '', walls: [], openings: [], stairs: [], levels, lastId: 0 };
 }
 
@@ -135,24 +141,22 @@ const CLOSE_M = 1e-3;
 /** Errors of a plan as text; empty if the building can be written. */
 export function problems(plan: Plan): string[] {
   const out: string[] = [];
-  if (!/^[A-Za-z0-9_][\w -]*$/.test(plan.name))
-    out.push('The name of the building must consist of letters, digits and _');
-  if (plan.walls.length === 0) out.push('The plan has no walls');
+  if (!/^[A-Za-z0-9_][\w -]*$/.test(plan.name)) out.push(t().building.badName);
+  if (plan.walls.length === 0) out.push(t().building.noWalls);
   for (const opening of plan.openings) {
     const wall = plan.walls.find((w) => w.id === opening.wall);
     if (!wall) continue;
     const length = lengthOf(wall);
-    const what = opening.kind === 'door' ? 'A door' : 'A window';
     // A wall extends beyond its line by half of its thickness.
     const end = wall.thicknessM / 2 + CLOSE_M;
     if (
       opening.atM - opening.widthM / 2 < -end ||
       opening.atM + opening.widthM / 2 > length + end
     ) {
-      out.push(`${what} extends beyond its wall of length ${length.toFixed(2)} m`);
+      out.push(t().building.tooWide[opening.kind](length.toFixed(2)));
     }
     if (opening.sillM + opening.heightM > wall.heightM + 1e-6) {
-      out.push(`${what} is higher than its wall of ${wall.heightM.toFixed(2)} m`);
+      out.push(t().building.tooHigh[opening.kind](wall.heightM.toFixed(2)));
     }
   }
   return out;

@@ -1,5 +1,6 @@
 /** Reader of buildings from SDF files: those of the page, and those of Gazebo's Building Editor. */
-import { emptyPlan, type Plan } from './plan';
+import { t } from '../texts/language.svelte';
+import { emptyPlan, WALL, type Plan } from './plan';
 import type { Box } from './solid';
 
 const numbers = (text: string | null | undefined) =>
@@ -8,6 +9,10 @@ const numbers = (text: string | null | undefined) =>
 const child = (element: Element | undefined, name: string) =>
   element && [...element.children].find((c) => c.localName === name);
 
+/** Maximum distance of the bases of walls of one level [m]. */
+const CLOSE_LEVEL_M = 1e-3;
+/** Maximum distance of a floor from the base of its level [m]. */
+const FLOOR_GAP_M = 0.3;
 /** Maximum gap between two boxes of one row [m]. */
 const CLOSE_M = 1e-4;
 
@@ -27,29 +32,35 @@ export function readBuilding(text: string, parser: DOMParser = new DOMParser()):
   const model = models.find((m) =>
     [...m.children].some((c) => /^Wall_/.test(c.getAttribute('name') ?? '')),
   );
-  if (!model) throw new Error('The file has no model with links "Wall_0", "Wall_1", ... to edit');
+  if (!model) throw new Error(t().building.noBuilding);
   const [mx = 0, my = 0, , , , myaw = 0] = numbers(child(model, 'pose')?.textContent);
-  if (Math.abs(myaw) > 1e-6)
-    throw new Error('The pose of the model is rotated; set its yaw to 0 first');
+  if (Math.abs(myaw) > 1e-6) throw new Error(t().building.rotatedModel);
   const plan = emptyPlan();
   plan.name = model.getAttribute('name') ?? 'building';
   const links = [...model.children]
     .filter((c) => c.localName === 'link')
     .flatMap((link) => readLink(link, mx, my) ?? []);
-  const bases = [...new Set(links.filter((l) => l.kind === 'Wall').map((l) => +l.z.toFixed(4)))];
+  // A level has walls, or only a floor, whose link other programs put at half of its thickness.
+  const zOf = (kind: Link['kind']) =>
+    links.filter((link) => link.kind === kind).map((link) => +link.z.toFixed(4));
+  const bases: number[] = [];
+  const isNew = (z: number, gapM: number) => bases.every((base) => Math.abs(base - z) > gapM);
+  for (const z of zOf('Wall')) if (isNew(z, CLOSE_LEVEL_M)) bases.push(z);
+  for (const z of zOf('Floor')) if (isNew(z, FLOOR_GAP_M)) bases.push(z);
   bases.sort((a, b) => a - b);
   const heights = bases.map((base) => {
-    const tops = links.filter((l) => l.kind === 'Wall' && Math.abs(l.z - base) < 1e-3).map(topOf);
-    return Math.max(...tops);
+    const own = links.filter((link) => Math.abs(link.z - base) <= CLOSE_LEVEL_M);
+    const tops = own.filter(({ kind }) => kind !== 'Floor').map(topOf);
+    return tops.length > 0 ? Math.max(...tops) : WALL.heightM;
   });
   plan.levels = bases.map((base, i) => ({
-    name: `Level ${i + 1}`,
+    name: t().building.levelName(i + 1),
     heightM: +((bases[i + 1] ?? base + heights[i]!) - base).toFixed(4),
   }));
   const levelOf = (z: number) =>
-    Math.max(
+    bases.reduce(
+      (best, base, i) => (Math.abs(base - z) < Math.abs(bases[best]! - z) ? i : best),
       0,
-      bases.findIndex((base) => Math.abs(base - z) < 1e-3),
     );
   for (const link of links) {
     if (link.kind === 'Wall') addWall(plan, link, levelOf(link.z));

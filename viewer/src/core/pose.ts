@@ -65,6 +65,20 @@ export function fromRpy(roll: number, pitch: number, yaw: number): Quat {
   ];
 }
 
+/** Roll, pitch and yaw, as in URDF and SDF; at a pitch of 90 degrees the yaw is 0. */
+export function rpyOf(q: Quat): Vec3 {
+  const [x, y, z, w] = q;
+  const sine = 2 * (w * y - z * x);
+  if (Math.abs(sine) > 1 - 1e-9) {
+    return [2 * Math.atan2(x, w), (Math.sign(sine) * Math.PI) / 2, 0];
+  }
+  return [
+    Math.atan2(2 * (w * x + y * z), 1 - 2 * (x * x + y * y)),
+    Math.asin(sine),
+    Math.atan2(2 * (w * z + x * y), 1 - 2 * (y * y + z * z)),
+  ];
+}
+
 export function yawOf(q: Quat): number {
   const [x, y, z, w] = q;
   return Math.atan2(2 * (w * z + x * y), 1 - 2 * (y * y + z * z));

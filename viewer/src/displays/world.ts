@@ -4,9 +4,9 @@
  * A simulation shares no frame with the robot's TF tree. The world is therefore anchored at the first estimated
  * pose of the robot: from there on the two diverge by the error of the estimate.
  */
-import { Box3, Group, type Mesh, type Object3D, Vector3 } from 'three';
+import { Box3, Group, Matrix4, type Mesh, type Object3D, Vector3 } from 'three';
 import type { Message } from '../core/cdr';
-import { inverse, multiply, yawOf, type Pose } from '../core/pose';
+import { inverse, multiply, yawOf, type Pose, type Vec3 } from '../core/pose';
 import { poseOf, seconds, type Marker, type TransformStamped } from '../core/types';
 import { MeshLibrary } from '../scene/meshes';
 import { matrixOf } from '../scene/shapes';
@@ -59,8 +59,8 @@ export class WorldDisplay extends Display {
   truth?: Truth;
   /** Called when models are added or removed. */
   onModels?: (names: string[]) => void;
-  /** Model that is outlined. */
-  selected = '';
+  /** Models whose published poses are ignored while they are dragged: the poses of their links in them. */
+  private held = new Map<string, Map<string, Pose>>();
 
   override start(): void {
     super.start();
@@ -144,17 +144,84 @@ export class WorldDisplay extends Display {
       now.add(name);
       this.holder(name);
       const entry = this.frames.get(name)!;
-      const { translation: t, rotation: q } = one.transform;
-      entry.worldFromLink = { t: [t.x, t.y, t.z], q: [q.x, q.y, q.z, q.w] };
       entry.stampS = seconds(one.header.stamp);
-      entry.holder.matrix.copy(matrixOf(entry.worldFromLink));
-      entry.holder.matrixWorldNeedsUpdate = true;
+      if (this.held.has(modelOf(name))) continue;
+      const { translation: p, rotation: q } = one.transform;
+      this.pose(name, { t: [p.x, p.y, p.z], q: [q.x, q.y, q.z, q.w] });
+    }
+    // Frames of deleted models.
+    for (const [name, { holder, stampS }] of this.frames) {
+      if (now.has(name) || stampS < 0 || holder.children.length > 0) continue;
+      dispose(holder);
+      this.frames.delete(name);
     }
     this.compare();
     this.context.stage.invalidate();
   }
 
-  /** Names of the models in the world. */
+  private pose(frame: string, worldFromLink: Pose): void {
+    const entry = this.frames.get(frame)!;
+    entry.worldFromLink = worldFromLink;
+    entry.holder.matrix.copy(matrixOf(worldFromLink));
+    entry.holder.matrixWorldNeedsUpdate = true;
+  }
+
+  /** Shows a model at a pose until it is released. */
+  hold(model: string, worldFromModel: Pose): void {
+    const worldFromOld = this.poseOf(model);
+    if (!worldFromOld) return;
+    let links = this.held.get(model);
+    if (!links) {
+      links = new Map();
+      const oldFromWorld = inverse(worldFromOld);
+      for (const [frame, { worldFromLink }] of this.frames) {
+        if (modelOf(frame) === model) links.set(frame, multiply(oldFromWorld, worldFromLink));
+      }
+      this.held.set(model, links);
+    }
+    for (const [frame, modelFromLink] of links) {
+      if (this.frames.has(frame)) this.pose(frame, multiply(worldFromModel, modelFromLink));
+    }
+    this.context.stage.invalidate();
+  }
+
+  /** Shows models at their published poses again. */
+  release(models: readonly string[]): void {
+    for (const model of models) this.held.delete(model);
+  }
+
+  /** True for a model that is only a floor plane. */
+  isGround(model: string): boolean {
+    const own = [...this.parts.values()].filter((p) => modelOf(p.marker.header.frame_id) === model);
+    return own.length > 0 && own.every(({ marker: m }) => m.type === 1 && m.scale.z <= GROUND_M);
+  }
+
+  /** Corners of the box around a model, along the axes of the world frame. */
+  extentOf(model: string): { min: Vec3; max: Vec3 } | undefined {
+    this.root.updateMatrixWorld(true);
+    const worldFromScene = this.root.matrixWorld.clone().invert();
+    const worldFromPart = new Matrix4();
+    const box = new Box3();
+    const own = new Box3();
+    for (const holder of this.holders(model)) {
+      holder.traverse((part) => {
+        const { geometry } = part as Mesh;
+        if (!geometry?.getAttribute?.('position')) return;
+        if (!geometry.boundingBox) geometry.computeBoundingBox();
+        worldFromPart.multiplyMatrices(worldFromScene, part.matrixWorld);
+        own.copy(geometry.boundingBox!).applyMatrix4(worldFromPart);
+        box.union(own);
+      });
+    }
+    return box.isEmpty() ? undefined : { min: box.min.toArray(), max: box.max.toArray() };
+  }
+
+  /** Names of all models, also of those without shapes. */
+  names(): string[] {
+    return [...new Set([...this.frames.keys()].map(modelOf))];
+  }
+
+  /** Names of the models with shapes. */
   models(): string[] {
     const withShape = [...this.parts.values()].map((p) => modelOf(p.marker.header.frame_id));
     return [...new Set(withShape)].sort();
@@ -326,6 +393,7 @@ export class WorldDisplay extends Display {
     this.empty();
     this.parts.clear();
     this.frames.clear();
+    this.held.clear();
     this.anchor = undefined;
     this.truth = undefined;
     this.recent = [];
