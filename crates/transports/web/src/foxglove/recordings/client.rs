@@ -211,7 +211,11 @@ impl RecordingClient {
                 is_cancelled: &is_cancelled,
                 release: &release,
             };
-            if let Err(error) = run(&recording, &answer) {
+            let count = usize::from(speed == Speed::Quick);
+            recording.fetches.fetch_add(count, Ordering::Relaxed);
+            let outcome = run(&recording, &answer);
+            recording.fetches.fetch_sub(count, Ordering::Relaxed);
+            if let Err(error) = outcome {
                 answer.fail(&error.to_string());
             }
         });
