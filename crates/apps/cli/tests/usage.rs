@@ -213,7 +213,7 @@ fn deprecated_options_print_a_notice() {
     check(&folder.0, 2, &format!("{line} --hear scan --compute scan"));
 }
 
-/// Files that are no recordings are said to be so; the page is not served.
+/// Files that are no recordings are reported; the page is not served.
 #[test]
 fn what_is_no_recording_is_not_replayed() {
     let folder = Folder::new("usage-view");

@@ -29,7 +29,7 @@ pub(super) fn read(
 ) -> Result<bool, BagError> {
     let threads = match chunks {
         ChunkUse::Keep => std::thread::available_parallelism().map_or(1, usize::from),
-        // Nobody waits for a pass over the whole recording.
+        // No client waits for a pass over the whole recording.
         ChunkUse::Once => 1,
     };
     let threads = threads.min(MAX_THREADS);

@@ -13,7 +13,7 @@ use super::entry::Recording;
 use super::marks::MarkDetector;
 use super::transform_index::Reach;
 
-/// Maximum number of messages that are located at once; between two pages the pass makes way for
+/// Maximum number of messages that are located at once; between two pages the pass waits for
 /// fetches.
 const PAGE: usize = 256;
 

@@ -28,11 +28,11 @@ pub(super) struct Entry {
 
 /// State of a recording.
 pub(super) enum EntryState {
-    /// It is read, or made by a job.
+    /// Being read, or made by a job.
     Opening(Arc<EntryProgress>),
-    /// It can be replayed.
+    /// Open for replay.
     Ready(Arc<Recording>),
-    /// It cannot be read, with the reason.
+    /// Unreadable, with the reason.
     Failed(String),
 }
 
@@ -75,7 +75,7 @@ pub(super) struct Recording {
     pub(super) marks: MarkList,
     /// Ends the background pass.
     pub(super) is_closed: AtomicBool,
-    /// Number of running fetches of messages, for which the background pass makes way.
+    /// Number of running fetches of messages, for which the background pass waits.
     pub(super) fetches: AtomicUsize,
     /// Problems of the background pass.
     notes: Mutex<Vec<String>>,
