@@ -14,9 +14,13 @@ use crate::files::message_packing::{packing_of, unpack};
 /// Maximum number of threads that decompress chunks for one request.
 const MAX_THREADS: usize = 4;
 
-/// Maximum size of the chunks that are decompressed ahead \[bytes\]; at least one is. Three chunks of
-/// the usual size may overlap without being decompressed twice.
-const MAX_AHEAD_BYTES: u64 = 12 << 20;
+/// Maximum size of the chunks that are decompressed ahead for the cache \[bytes\]; at least one is.
+/// More of them, in more threads, take memory that the allocator does not give back.
+const MAX_KEPT_AHEAD_BYTES: u64 = 8 << 20;
+
+/// Same for chunks that are used once \[bytes\]: two chunks of 4 MiB and a message, so that chunks
+/// that overlap are decompressed once.
+const MAX_ONCE_AHEAD_BYTES: u64 = 10 << 20;
 
 /// Records of chunks, decompressed for the next messages; none if damaged.
 type Ahead = HashMap<ChunkKey, Option<Arc<Vec<u8>>>>;
@@ -85,6 +89,10 @@ fn load_ahead(
 ) -> Result<Ahead, BagError> {
     let mut ahead = Ahead::new();
     let mut missing: Vec<(ChunkKey, &StreamFile)> = Vec::new();
+    let max_bytes = match chunks {
+        ChunkUse::Keep => MAX_KEPT_AHEAD_BYTES,
+        ChunkUse::Once => MAX_ONCE_AHEAD_BYTES,
+    };
     let mut bytes = 0_u64;
     for location in locations {
         let Some(IndexedFile::Stream(file)) = bag.files.get(location.file as usize) else {
@@ -97,7 +105,7 @@ fn load_ahead(
         }
         bytes = bytes.saturating_add(file.block_bytes(block));
         let is_first = ahead.is_empty() && missing.is_empty();
-        if !is_first && bytes > MAX_AHEAD_BYTES {
+        if !is_first && bytes > max_bytes {
             break;
         }
         match before.remove(&key).or_else(|| bag.cache.get(key).map(Some)) {
