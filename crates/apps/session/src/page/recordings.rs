@@ -14,7 +14,7 @@ pub(super) fn open(paths: &[PathBuf]) -> Result<Arc<Recordings>, String> {
     let settings = RecordingSettings::new(here, std::env::temp_dir());
     let recordings = Recordings::new(settings);
     for path in paths {
-        recordings.open(path)?;
+        recordings.open(path).map_err(|error| error.to_string())?;
     }
     Ok(recordings)
 }

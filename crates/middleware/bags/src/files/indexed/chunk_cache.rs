@@ -6,12 +6,12 @@ use std::sync::{Arc, Mutex};
 use super::lock;
 
 /// Maximum size of the kept chunks \[bytes\]; a larger chunk is not kept.
-const MAX_BYTES: usize = 64 << 20;
+const MAX_BYTES: usize = 48 << 20;
 
 /// File and block of a chunk.
 pub(super) type ChunkKey = (usize, usize);
 
-/// Decompressed chunks of one or several recordings, at most 64 MiB; the least recently used ones are
+/// Decompressed chunks of one or several recordings, at most 48 MiB; the least recently used ones are
 /// dropped first.
 #[derive(Default)]
 pub struct ChunkCache(Mutex<Kept>);
