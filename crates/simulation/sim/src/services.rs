@@ -210,7 +210,7 @@ impl Services {
         self.forces.serve(simulation);
         self.publish(simulation);
         if let Some(stage) = &mut self.stage
-            && let Err(error) = stage.serve(simulation)
+            && let Err(error) = stage.serve(simulation, &self.search)
         {
             self.log.refused("truth", &error.to_string());
         }
