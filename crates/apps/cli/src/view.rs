@@ -7,7 +7,7 @@ use std::time::Duration;
 
 use clap::Args;
 use periplus_dds::RemoteTopic;
-use periplus_graph::NodeSettings;
+use periplus_graph::{Graph, NodeSettings};
 use periplus_os::{Stopwatch, sleep};
 use periplus_session::page::{Page, PageContext, PageError, browser};
 use periplus_session::{LiveGraph, stop};
@@ -26,12 +26,20 @@ const REMOTE_UPDATE_PERIOD: Duration = Duration::from_millis(200);
 /// Timeout for delivering the last messages at the end.
 const FLUSH_TIMEOUT: Duration = Duration::from_millis(300);
 
-/// Show a running ROS 2 system in the browser
+/// Time in which a recording with an index is open; one without may take longer.
+const OPEN_TIMEOUT: Duration = Duration::from_secs(2);
+
+/// Show a running ROS 2 system or recordings in the browser
 ///
-/// It joins the network as a node and subscribes only to what the page shows. It uses simulated
-/// time if `/clock` is published.
+/// Without recordings it joins the network as a node and subscribes only to what the page shows. It
+/// uses simulated time if `/clock` is published. With recordings it joins no network: the page
+/// replays them.
 #[derive(Debug, Args)]
 pub(crate) struct ViewOptions {
+    /// Recordings to replay: folders of `ros2 bag`, MCAP files, databases, ROS 1 bags or CARMEN logs;
+    /// two are compared
+    #[arg(value_name = "RUN")]
+    recordings: Vec<PathBuf>,
     #[command(flatten)]
     page: PageOptions,
     /// Do not open a browser
@@ -50,9 +58,12 @@ pub(crate) struct ViewOptions {
 
 pub(crate) fn run(options: &ViewOptions, ros: Vec<String>) -> Result<ExitCode, CliError> {
     let arguments = arguments::read(ros)?;
+    if !options.recordings.is_empty() {
+        return replay(options);
+    }
     let stop = stop::on_signal();
     let mut live = LiveGraph::open(arguments)?;
-    let page = options.open_page(&live)?;
+    let page = options.open_page(&live.graph)?;
     let url = page.url();
     say(&format!("ROS 2 domain {}; page: {url} (Ctrl-C ends it)", live.domain_id));
     if !options.no_browser && !browser::open(&url) {
@@ -86,14 +97,52 @@ pub(crate) fn run(options: &ViewOptions, ros: Vec<String>) -> Result<ExitCode, C
     Ok(ExitCode::SUCCESS)
 }
 
+/// Serves recordings until Ctrl-C.
+fn replay(options: &ViewOptions) -> Result<ExitCode, CliError> {
+    let stop = stop::on_signal();
+    let page = options.open_page(&Graph::live())?;
+    let recordings = page.recordings().clone();
+    let failure = || recordings.failures().into_iter().next();
+    // Most failures show at once.
+    let since = Stopwatch::start();
+    while recordings.is_opening() && failure().is_none() && since.elapsed() < OPEN_TIMEOUT {
+        sleep(POLL_PERIOD);
+    }
+    if let Some(why) = failure() {
+        return Err(CliError::failed(why));
+    }
+    let url = page.url();
+    say(&format!("replaying {}; page: {url} (Ctrl-C ends it)", options.names()));
+    if !options.no_browser && !browser::open(&url) {
+        say("no browser could be started; open the page yourself");
+    }
+    let mut reported = 0;
+    while !stop.load(Ordering::Relaxed) {
+        // The page shows them, too; others can still be replayed.
+        let failures = recordings.failures();
+        failures.iter().skip(reported).for_each(|why| complain(why));
+        reported = reported.max(failures.len());
+        sleep(REMOTE_UPDATE_PERIOD);
+    }
+    drop(page);
+    Ok(ExitCode::SUCCESS)
+}
+
 impl ViewOptions {
-    fn open_page(&self, live: &LiveGraph) -> Result<Page, PageError> {
+    /// Paths of the recordings, for messages.
+    fn names(&self) -> String {
+        let names = self.recordings.iter().map(|path| path.display().to_string());
+        names.collect::<Vec<_>>().join(", ")
+    }
+
+    fn open_page(&self, graph: &Graph) -> Result<Page, PageError> {
         let context = PageContext {
+            recordings: self.recordings.clone(),
             resource_path: self.resource_path.clone(),
             view: self.display_config.clone(),
             fixed_frame: self.fixed_frame.clone(),
             ..PageContext::default()
         };
-        Page::serve(&live.graph, &self.page.settings(context))
+        Page::serve(graph, &self.page.settings(context))
     }
 }

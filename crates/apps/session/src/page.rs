@@ -2,6 +2,7 @@
 
 mod assets;
 pub mod browser;
+mod recordings;
 mod remote_topics;
 
 use std::collections::BTreeMap;
@@ -18,7 +19,7 @@ use periplus_graph::{Graph, GraphError};
 use periplus_os::{Machine, unix_ns};
 use periplus_resources::Host as _;
 use periplus_sim::Composition;
-use periplus_web::foxglove::{Hub, Settings};
+use periplus_web::foxglove::{Hub, Recordings, Settings};
 use periplus_web::server::{TokenError, WebServer, WebServerSettings, token};
 
 use crate::terminal;
@@ -45,6 +46,8 @@ pub struct PageContext {
     pub view: Option<PathBuf>,
     /// Fixed frame of the display, overriding the one in `view`.
     pub fixed_frame: Option<String>,
+    /// Recordings that the page opens.
+    pub recordings: Vec<PathBuf>,
 }
 
 impl PageContext {
@@ -109,6 +112,8 @@ pub enum PageError {
     Graph(GraphError),
     /// The address cannot be used.
     Address(SocketAddr, io::Error),
+    /// A recording cannot be opened, with the reason.
+    Recording(String),
 }
 
 impl fmt::Display for PageError {
@@ -116,6 +121,7 @@ impl fmt::Display for PageError {
         match self {
             Self::Token(error) => error.fmt(f),
             Self::Graph(error) => error.fmt(f),
+            Self::Recording(why) => f.write_str(why),
             Self::Address(address, error) => {
                 write!(f, "no page at {address}: {}", plain_words(error))?;
                 if is_taken(error) {
@@ -141,6 +147,7 @@ pub struct Page {
     // Declared first, so that no client connects while the rest is dropped.
     server: WebServer,
     hub: Arc<Hub>,
+    recordings: Arc<Recordings>,
 }
 
 impl Page {
@@ -189,7 +196,11 @@ impl Page {
             given => given,
         };
         let hub = Hub::open(graph, hub_settings).map_err(PageError::Graph)?;
-        hub.serve_assets(assets::fetch(&context.files, &context.resource_path));
+        let around: Vec<PathBuf> =
+            context.files.iter().chain(&context.recordings).cloned().collect();
+        hub.serve_assets(assets::fetch(&around, &context.resource_path));
+        let recordings = recordings::open(&context.recordings).map_err(PageError::Recording)?;
+        hub.serve_recordings(recordings.clone());
         let hub = Arc::new(hub);
         let open =
             |address, token| WebServer::open(hub.clone(), WebServerSettings { address, token });
@@ -204,12 +215,18 @@ impl Page {
             opened => opened,
         };
         let server = server.map_err(|error| PageError::Address(address, error))?;
-        Ok(Self { server, hub })
+        Ok(Self { server, hub, recordings })
     }
 
     /// Updates the topics of remote nodes.
     pub fn set_remote(&self, remote: &Remote) {
         self.hub.set_network_endpoints(remote_topics::remote_topics(remote));
+    }
+
+    /// Recordings of the page.
+    #[must_use]
+    pub fn recordings(&self) -> &Arc<Recordings> {
+        &self.recordings
     }
 
     /// URL of the page.
@@ -223,6 +240,9 @@ impl Page {
 fn metadata(context: &PageContext) -> BTreeMap<String, String> {
     let version = env!("CARGO_PKG_VERSION");
     let mut metadata = BTreeMap::from([("periplus".to_owned(), version.to_owned())]);
+    if !context.recordings.is_empty() {
+        metadata.insert("mode".to_owned(), "replay".to_owned());
+    }
     if let Some(world) = &context.world {
         metadata.insert("world".to_owned(), world.clone());
     }

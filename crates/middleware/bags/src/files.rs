@@ -15,6 +15,7 @@ mod bag;
 mod check;
 mod convert;
 mod error;
+mod indexed;
 mod info;
 mod message_packing;
 mod naming;
@@ -31,6 +32,9 @@ pub use bag::{Bag, BagKind};
 pub use check::check;
 pub use convert::{Conversion, Report, convert};
 pub use error::BagError;
+pub use indexed::{
+    ChunkCache, ChunkUse, IndexedBag, LocationSpan, MessageLocation, OpenProgress, RecordingFormat,
+};
 pub use info::{Info, TopicSum, stamp_name};
 pub use play::{PlaySettings, Player};
 pub use record::{Now, Offered, RecordFilter, RecordSettings, Recorder, Recording};

@@ -18,6 +18,8 @@ use periplus_diagnostics::{Diagnostics, SourceMap};
 use periplus_msgs::TypeRegistry;
 use periplus_rosidl::{InterfaceDialect, TypeName};
 
+#[cfg(feature = "files")]
+pub(crate) use block::Entry;
 pub(crate) use block::{Block, Kind};
 pub(crate) use source::Source;
 
@@ -183,6 +185,12 @@ impl<R: Read + Seek> Reader<R> {
             has_summary,
             messages,
         })
+    }
+
+    /// Blocks in the order of their start times, and the topic of each channel.
+    #[cfg(feature = "files")]
+    pub(crate) fn into_index(self) -> (Vec<Block>, BTreeMap<u32, usize>) {
+        (self.blocks, self.by_channel)
     }
 
     /// Topics in the order of their channels.

@@ -14,6 +14,8 @@ mod write;
 pub use packing::Ros1Compression;
 pub(crate) use packing::unpack_record;
 pub(crate) use read::read;
+#[cfg(feature = "files")]
+pub(crate) use record::next_index;
 pub(crate) use record::next_message;
 pub use write::{Ros1Settings, Ros1Writer};
 

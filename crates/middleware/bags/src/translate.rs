@@ -189,6 +189,20 @@ impl Translation {
     }
 }
 
+impl BagTopic {
+    /// Type of its messages, from its schema or else as this program knows it; none if unknown.
+    #[must_use]
+    pub fn layout(&self) -> Option<Arc<Layout>> {
+        let name = TypeName::read(&self.type_name)?.to_string();
+        let own = own_types(self, &self.type_name);
+        let known = match self.encoding.as_str() {
+            "ros1" => TypeRegistry::ros1(),
+            _ => TypeRegistry::builtin(),
+        };
+        own.layout(&name).or_else(|| known.layout(&name)).cloned()
+    }
+}
+
 fn left_out(wrong: String, help: &str) -> Diagnostic {
     Diagnostic::warning("untranslatable-topic", wrong).help(format!("the topic is skipped: {help}"))
 }

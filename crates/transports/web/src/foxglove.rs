@@ -18,6 +18,7 @@ mod outbox;
 mod outgoing;
 pub mod protocol;
 mod recent_frames;
+mod recordings;
 mod session;
 mod settings;
 
@@ -25,5 +26,6 @@ pub use frame::{FrameKind, WebSocketFrame};
 pub use hub::Hub;
 pub use network_endpoints::{NetworkEndpoint, NetworkEndpoints, NetworkService, NetworkTopic};
 pub use outbox::{Outbox, OutboxItem};
+pub use recordings::{JobRequest, Jobs, RecordingSettings, Recordings};
 pub use session::ClientSession;
 pub use settings::{ClientLimits, Settings};

@@ -187,5 +187,11 @@ pub(super) const EXAMPLES: &[(&str, &[Example])] = &[
         ("periplus topic pub --once /talk std_msgs/msg/String '{data: hello}'", "One message"),
     ]),
     ("topic type", &[("periplus topic type /scan", "Type of a topic")]),
-    ("view", &[("periplus view", "Any ROS 2 system on a page in the browser")]),
+    (
+        "view",
+        &[
+            ("periplus view", "Any ROS 2 system on a page in the browser"),
+            ("periplus view run.mcap", "A recording with a timeline"),
+        ],
+    ),
 ];

@@ -45,12 +45,19 @@ impl Bag {
     /// # Errors
     /// When there is no bag at the path.
     pub fn open(path: impl AsRef<Path>) -> Result<Self, BagError> {
-        let path = path.as_ref();
+        Self::open_with(path.as_ref(), &mut Part::look)
+    }
+
+    /// Opens a bag whose files are read by `look`.
+    pub(crate) fn open_with(
+        path: &Path,
+        look: &mut dyn FnMut(&Path) -> Result<Part, BagError>,
+    ) -> Result<Self, BagError> {
         let about = path.metadata().map_err(BagError::file(path))?;
         let mut findings = Diagnostics::new();
         if !about.is_dir() && path.file_name().is_some_and(|name| name == METADATA) {
             let folder = path.parent().filter(|parent| !parent.as_os_str().is_empty());
-            return Self::open(folder.unwrap_or(Path::new(".")));
+            return Self::open_with(folder.unwrap_or(Path::new(".")), look);
         }
         let (files, metadata) = if about.is_dir() {
             folder_files(path, &mut findings)?
@@ -60,7 +67,7 @@ impl Bag {
         let mut parts = Vec::new();
         let mut failure = None;
         for file in &files {
-            match Part::look(file) {
+            match look(file) {
                 Ok(part) => parts.push(part),
                 Err(error) => {
                     let wrong = Diagnostic::error("unreadable-part", error.to_string());
@@ -126,6 +133,15 @@ impl Bag {
     #[must_use]
     pub fn storage(&self) -> Storage {
         self.parts.first().map_or(Storage::Mcap, |part| part.storage)
+    }
+
+    /// Topic index of each topic of each file.
+    pub(crate) fn topics_of_parts(&self) -> Vec<Vec<usize>> {
+        let index = TopicIndex::of(&self.topics);
+        let of_part = |part: &Part| {
+            part.topics.iter().map(|topic| index.find(topic).unwrap_or_default()).collect()
+        };
+        self.parts.iter().map(of_part).collect()
     }
 
     /// Topics.

@@ -1,6 +1,7 @@
 //! A file of a bag.
 
 use std::fs::File;
+use std::io::{Read, Seek};
 use std::path::{Path, PathBuf};
 
 use crate::{BagTopic, Message, OwnMessages, Reader, Selection};
@@ -58,7 +59,9 @@ impl Part {
 }
 
 /// Returns the file itself or a decompressed copy.
-fn plain(path: &Path) -> Result<(Option<Temporary>, Storage, Option<Packing>), BagError> {
+pub(crate) fn plain(
+    path: &Path,
+) -> Result<(Option<Temporary>, Storage, Option<Packing>), BagError> {
     let strange = || {
         let why = "it is neither MCAP, nor a database of rosbag2, nor a bag of ROS 1".to_owned();
         BagError::NoBag(path.to_owned(), why)
@@ -81,7 +84,15 @@ fn open(path: &Path) -> Result<Reader<File>, BagError> {
 }
 
 fn look(path: &Path, storage: Storage) -> Result<Part, BagError> {
-    let mut reader = open(path)?;
+    look_at(&mut open(path)?, path, storage)
+}
+
+/// Content of an open file.
+pub(crate) fn look_at<R: Read + Seek>(
+    reader: &mut Reader<R>,
+    path: &Path,
+    storage: Storage,
+) -> Result<Part, BagError> {
     let mut counts = reader.counts().map(<[u64]>::to_vec);
     if counts.is_none() {
         // The file contains no counts.

@@ -5,7 +5,9 @@
 
 mod read;
 mod rescue;
+mod times;
 mod write;
 
 pub(crate) use read::{Database, Rows};
+pub(crate) use times::TimeTable;
 pub(crate) use write::SqliteWriter;

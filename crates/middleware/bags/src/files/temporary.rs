@@ -29,12 +29,17 @@ impl Temporary {
         &self.path
     }
 
-    /// Decompresses a file to the folder for temporary files.
-    pub(crate) fn unpack(packed: &Path, packing: Packing) -> Result<Self, BagError> {
+    /// Reserves a name in the folder for temporary files.
+    pub(crate) fn new() -> Self {
         static NUMBER: AtomicU64 = AtomicU64::new(0);
         let number = NUMBER.fetch_add(1, Ordering::Relaxed);
         let name = format!("periplus-bag-{}-{number}", std::process::id());
-        let temporary = Self { path: std::env::temp_dir().join(name) };
+        Self { path: std::env::temp_dir().join(name) }
+    }
+
+    /// Decompresses a file to the folder for temporary files.
+    pub(crate) fn unpack(packed: &Path, packing: Packing) -> Result<Self, BagError> {
+        let temporary = Self::new();
         let source = File::open(packed).map_err(BagError::file(packed))?;
         let target = File::create_new(temporary.path()).map_err(BagError::file(&temporary.path))?;
         let mut target = BufWriter::with_capacity(1 << 20, target);

@@ -20,6 +20,9 @@ pub(crate) struct Block {
     pub(crate) kind: Kind,
     /// Channels of the block; none if unknown.
     pub(crate) channels: Option<BTreeSet<u32>>,
+    /// Maximum length of the message indexes that follow the block; 0 without indexes \[bytes\].
+    #[cfg_attr(not(feature = "files"), expect(dead_code, reason = "for random access"))]
+    pub(crate) index_length: u64,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -44,7 +47,11 @@ impl Block {
         source: &mut Source<R>,
         most: u64,
     ) -> io::Result<Vec<u8>> {
-        let stored = source.bytes(self.offset, self.stored)?;
+        self.unpack(source.bytes(self.offset, self.stored)?, most)
+    }
+
+    /// Decompresses the stored bytes of the block and verifies their checksum.
+    pub(crate) fn unpack(&self, stored: Vec<u8>, most: u64) -> io::Result<Vec<u8>> {
         match self.kind {
             Kind::Plain => return Ok(stored),
             Kind::Ros1 { is_cut } => return ros1::unpack_record(&stored, is_cut, most),

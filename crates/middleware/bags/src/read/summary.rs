@@ -122,6 +122,7 @@ fn complete<R: Read + Seek>(
                 // The channels are unknown without indexes.
                 channels: (!chunk.indexes.is_empty())
                     .then(|| chunk.indexes.into_keys().map(u32::from).collect()),
+                index_length: chunk.indexes_length,
             });
         }
         contents = walk::gap(source, at, chunk.offset, contents, faults)?;

@@ -121,6 +121,7 @@ impl Walk {
             length: 0,
             kind: Kind::Plain,
             channels: Some([].into()),
+            index_length: 0,
         });
         block.start = block.start.min(time);
         block.end = block.end.max(time);
@@ -159,6 +160,7 @@ impl Walk {
             length: head.length,
             kind: if is_cut { Kind::CutChunk } else { Kind::Chunk },
             channels: Some([].into()),
+            index_length: 0,
         };
         let before = self.count;
         for entry in block.kind.messages(&records, 0) {

@@ -21,6 +21,10 @@ pub(crate) fn read<R: Read + Seek>(
     walk::all(source, limits, faults)
 }
 
+/// Maximum length of the header of an index record with its lengths \[bytes\]; it has four short
+/// fields.
+const INDEX_HEADER_BYTES: u64 = 96;
+
 /// Topics so far, and the topic of each connection.
 #[derive(Default)]
 pub(super) struct Topics {
@@ -116,6 +120,7 @@ fn by_index<R: Read + Seek>(
                 end: info.end,
                 length,
                 kind: Kind::Ros1 { is_cut: false },
+                index_length: index_length(&info.counts),
                 channels: Some(info.counts.keys().copied().collect()),
             });
         }
@@ -155,6 +160,11 @@ fn parse(index: &[u8]) -> Option<(Topics, Vec<ChunkInfo>)> {
         }
     }
     Some((topics, infos))
+}
+
+/// Maximum length of the indexes of a chunk: for each connection a header, and 12 bytes per message.
+fn index_length(counts: &BTreeMap<u32, u32>) -> u64 {
+    counts.values().map(|&count| INDEX_HEADER_BYTES + 12 * u64::from(count)).sum()
 }
 
 /// Sizes of a chunk's record and of its content.

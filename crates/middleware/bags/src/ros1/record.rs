@@ -82,6 +82,27 @@ pub(crate) fn next_message<'a>(records: &'a [u8], at: &mut usize) -> Option<(usi
     }
 }
 
+/// Connection, and times and offsets of its messages, of an index record.
+#[cfg(feature = "files")]
+pub(crate) type ConnectionIndex = (u32, Vec<(u64, u64)>);
+
+/// Reads the next index record at the cursor; none at another record or if it is damaged.
+#[cfg(feature = "files")]
+pub(crate) fn next_index(cursor: &mut Cursor<'_>) -> Option<ConnectionIndex> {
+    let (header, data) = next(cursor)?;
+    if header.opcode() != Some(op::INDEX) || header.u32("ver") != Some(1) {
+        return None;
+    }
+    let connection = header.u32("conn")?;
+    let mut entries = Cursor::new(data);
+    let mut index = Vec::new();
+    while !entries.rest().is_empty() {
+        index.push((time(&mut entries)?, u64::from(entries.u32()?)));
+    }
+    (header.u32("count").map(|count| count as usize) == Some(index.len()))
+        .then_some((connection, index))
+}
+
 /// Appends a header, prefixed with its length.
 pub(super) fn put_header(out: &mut Vec<u8>, fields: &[(&str, &[u8])]) {
     let length: usize = fields.iter().map(|(name, value)| 4 + name.len() + 1 + value.len()).sum();

@@ -99,6 +99,7 @@ impl Walk {
             length: records.len() as u64,
             kind: Kind::Ros1 { is_cut },
             channels: Some([].into()),
+            index_length: 0,
         };
         for entry in block.kind.messages(&records, 0) {
             block.start = block.start.min(entry.log_time);

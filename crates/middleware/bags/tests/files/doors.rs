@@ -15,7 +15,7 @@ fn settings(storage: Storage) -> WriteSettings {
 }
 
 /// All storage and compression formats, by name.
-fn ways() -> Vec<(&'static str, WriteSettings)> {
+pub(crate) fn ways() -> Vec<(&'static str, WriteSettings)> {
     use ChunkPacking::{Bz2, Lz4, None};
     use Storage::{Mcap, Ros1, Sqlite};
     let packed = |storage, mode, packing| WriteSettings { mode, packing, ..settings(storage) };

@@ -14,3 +14,4 @@ mod doors;
 mod live;
 mod many;
 mod peers;
+mod random_access;

@@ -9,7 +9,7 @@ mod parameters;
 mod services;
 mod state;
 
-use std::sync::{Arc, Condvar, Mutex, PoisonError};
+use std::sync::{Arc, Condvar, Mutex, OnceLock, PoisonError};
 use std::thread::JoinHandle;
 use std::time::Duration;
 
@@ -19,6 +19,7 @@ use periplus_transport::lock;
 use crate::foxglove::network_endpoints::NetworkEndpoints;
 use crate::foxglove::outbox::Outbox;
 use crate::foxglove::protocol::AssetAnswer;
+use crate::foxglove::recordings::Recordings;
 use crate::foxglove::session::ClientSession;
 use crate::foxglove::settings::Settings;
 
@@ -46,6 +47,7 @@ pub(crate) struct Shared {
     pub(crate) settings: Settings,
     pub(crate) state: Mutex<State>,
     pub(crate) assets: Mutex<Option<Assets>>,
+    pub(crate) recordings: OnceLock<Arc<Recordings>>,
     /// Responses of nodes to parameter requests, with the id of the request.
     news: Arc<Mutex<Vec<(u64, News)>>>,
     is_closing: Mutex<bool>,
@@ -65,6 +67,7 @@ impl Hub {
             settings,
             state: Mutex::default(),
             assets: Mutex::default(),
+            recordings: OnceLock::new(),
             news: Arc::default(),
             is_closing: Mutex::new(false),
             closing: Condvar::new(),
@@ -80,6 +83,11 @@ impl Hub {
     /// be read.
     pub fn serve_assets(&self, fetch: impl Fn(&str) -> AssetAnswer + Send + Sync + 'static) {
         *lock(&self.shared.assets) = Some(Arc::new(fetch));
+    }
+
+    /// Serves recordings to clients that join from now on. The first call counts.
+    pub fn serve_recordings(&self, recordings: Arc<Recordings>) {
+        let _ = self.shared.recordings.set(recordings);
     }
 
     /// Sets the remote endpoints. Call it when they have changed.
@@ -116,6 +124,9 @@ impl Drop for Hub {
             let _ = thread.join();
         }
         lock(&self.shared.state).end(&self.shared.graph);
+        if let Some(recordings) = self.shared.recordings.get() {
+            recordings.end();
+        }
     }
 }
 
@@ -124,8 +135,13 @@ impl Shared {
         let mut is_closing = lock(&self.is_closing);
         while !*is_closing {
             drop(is_closing);
+            let is_recording = self.recordings.get().is_some_and(|recordings| {
+                recordings.tick();
+                recordings.is_recording()
+            });
             let mut state = lock(&self.state);
             state.look(self);
+            state.record_network(self, is_recording);
             state.go_on(self);
             state.tell_time(self.graph.now_ns());
             drop(state);

@@ -31,6 +31,18 @@ const MOST_WAITING: usize = 256 << 10;
 pub struct Outbox {
     waiting: Mutex<Waiting>,
     filled: Condvar,
+    emptied: Condvar,
+}
+
+/// Room for further responses in an outbox.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Room {
+    /// There is room.
+    Free,
+    /// The client has not read enough yet.
+    Full,
+    /// The outbox is closed.
+    Closed,
 }
 
 #[derive(Default)]
@@ -81,7 +93,20 @@ pub enum OutboxItem {
 impl Outbox {
     pub(crate) fn new(most_urgent_bytes: usize) -> Self {
         let waiting = Waiting { most_urgent_bytes, ..Waiting::default() };
-        Self { waiting: Mutex::new(waiting), filled: Condvar::new() }
+        Self { waiting: Mutex::new(waiting), filled: Condvar::new(), emptied: Condvar::new() }
+    }
+
+    /// Waits until at most this many bytes of responses are queued, at most for `patience`.
+    pub(crate) fn wait_for_room(&self, most_bytes: usize, patience: Duration) -> Room {
+        let is_full =
+            |waiting: &mut Waiting| waiting.end.is_none() && waiting.urgent_bytes > most_bytes;
+        let waited = self.emptied.wait_timeout_while(lock(&self.waiting), patience, is_full);
+        let mut waiting = waited.unwrap_or_else(PoisonError::into_inner).0;
+        match (waiting.end.is_some(), is_full(&mut waiting)) {
+            (true, _) => Room::Closed,
+            (false, true) => Room::Full,
+            (false, false) => Room::Free,
+        }
     }
 
     /// Queues a frame that must not be dropped.
@@ -99,6 +124,8 @@ impl Outbox {
         }
         drop(waiting);
         self.filled.notify_one();
+        // A full outbox has been closed.
+        self.emptied.notify_all();
     }
 
     /// Queues the time; it replaces an older one.
@@ -140,6 +167,7 @@ impl Outbox {
     pub fn end(&self, why: &str) {
         lock(&self.waiting).end.get_or_insert_with(|| why.to_owned());
         self.filled.notify_all();
+        self.emptied.notify_all();
     }
 
     /// Number of dropped messages.
@@ -157,6 +185,8 @@ impl Outbox {
         let mut waiting = waited.unwrap_or_else(PoisonError::into_inner).0;
         if let Some(frame) = waiting.urgent.pop_front() {
             waiting.urgent_bytes -= frame.len();
+            drop(waiting);
+            self.emptied.notify_all();
             return OutboxItem::Frame(frame);
         }
         if let Some(why) = &waiting.end {

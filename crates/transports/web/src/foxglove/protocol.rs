@@ -1,10 +1,19 @@
 //! Messages of the protocol as plain data, without state.
 
 mod client;
+mod recordings;
 mod server;
 
 pub use client::{
     ChannelSubscription, ClientBinary, ClientChannel, ClientText, Malformed, ParameterText,
+};
+pub use recordings::{
+    MarkText, OriginText, RecordingRequest, RecordingText, StoredMessages, TimeNs, TopicNeed,
+    TopicText, UploadFile,
+};
+pub(crate) use recordings::{
+    density, fetch_failure, job_parameters, marks, recordings, series, upload_progress,
+    upload_started,
 };
 pub use server::{
     AssetAnswer, AssetError, ChannelText, ConnectionGraph, MismatchText, PartyText, PolicyText,

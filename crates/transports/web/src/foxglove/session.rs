@@ -13,6 +13,7 @@ use crate::foxglove::outbox::Outbox;
 use crate::foxglove::protocol::{
     self, ClientBinary, ClientChannel, ClientText, Malformed, StatusLevel,
 };
+use crate::foxglove::recordings::RecordingClient;
 
 /// A connected client. It is removed when this is dropped.
 pub struct ClientSession {
@@ -23,11 +24,23 @@ pub struct ClientSession {
     publishing: BTreeMap<u32, RawPublisher>,
     /// Number of pending calls.
     calls: Arc<AtomicUsize>,
+    /// Its requests about recordings, since the first one.
+    recordings: Option<RecordingClient>,
 }
+
+/// Refusal of requests about recordings.
+const NO_RECORDINGS: &str = "this server has no recordings";
 
 impl ClientSession {
     pub(crate) fn new(id: u64, shared: Arc<Shared>, outbox: Arc<Outbox>) -> Self {
-        Self { id, shared, outbox, publishing: BTreeMap::new(), calls: Arc::default() }
+        Self {
+            id,
+            shared,
+            outbox,
+            publishing: BTreeMap::new(),
+            calls: Arc::default(),
+            recordings: None,
+        }
     }
 
     /// Send queue of this client.
@@ -48,6 +61,10 @@ impl ClientSession {
     pub fn binary(&mut self, bytes: &[u8]) {
         match ClientBinary::read(bytes) {
             Ok(ClientBinary::Message { channel_id, payload }) => self.publish(channel_id, payload),
+            Ok(ClientBinary::Upload { upload, bytes }) => match self.recordings() {
+                Some(recordings) => recordings.upload(upload, bytes),
+                None => self.refuse(NO_RECORDINGS),
+            },
             Ok(ClientBinary::Call { service_id, call_id, encoding, payload }) => {
                 self.call(service_id, call_id, encoding, payload);
             }
@@ -103,7 +120,27 @@ impl ClientSession {
             }
             ClientText::SubscribeConnectionGraph => self.want_connections(true),
             ClientText::UnsubscribeConnectionGraph => self.want_connections(false),
+            ClientText::Recording(request) => {
+                let graph = self.shared.graph.clone();
+                match self.recordings() {
+                    Some(recordings) => recordings.request(request, &graph),
+                    None => match request.request_id() {
+                        Some(id) => self.say(protocol::fetch_failure(id, NO_RECORDINGS)),
+                        None => self.refuse(NO_RECORDINGS),
+                    },
+                }
+            }
         }
+    }
+
+    /// Requests about recordings; none if the server has no recordings.
+    fn recordings(&mut self) -> Option<&mut RecordingClient> {
+        if self.recordings.is_none() {
+            let recordings = self.shared.recordings.get()?.clone();
+            let client = RecordingClient::new(self.id, recordings, self.outbox.clone());
+            self.recordings = Some(client);
+        }
+        self.recordings.as_mut()
     }
 
     fn want_connections(&self, wants: bool) {

@@ -27,6 +27,16 @@ pub(crate) struct Database {
     is_indexed: bool,
 }
 
+/// An open database with its topics.
+pub(super) struct DatabaseParts {
+    pub(super) path: PathBuf,
+    pub(super) connection: Connection,
+    /// Row ids of the topics.
+    pub(super) topic_ids: Vec<i64>,
+    pub(super) topics: Vec<BagTopic>,
+    pub(super) ros_distro: String,
+}
+
 impl Database {
     pub(crate) fn open(path: &Path) -> Result<Self, BagError> {
         let connection = connect(path).map_err(BagError::database(path))?;
@@ -102,6 +112,16 @@ impl Database {
         let indexes: i64 = self.connection.query_row(query, [], |row| row.get(0))?;
         self.is_indexed = indexes > 0;
         Ok(())
+    }
+
+    pub(super) fn into_parts(self) -> DatabaseParts {
+        DatabaseParts {
+            path: self.path,
+            connection: self.connection,
+            topic_ids: self.ids,
+            topics: self.topics,
+            ros_distro: self.ros_distro,
+        }
     }
 
     /// Reads the content.

@@ -139,7 +139,8 @@ impl State {
     pub(super) fn subscribe_to_network(&mut self, shared: &Shared) {
         let hears = |topic: &str| {
             let mut clients = self.clients.values();
-            clients.any(|client| client.subscriptions.values().any(|heard| heard == topic))
+            self.records_network
+                || clients.any(|client| client.subscriptions.values().any(|heard| heard == topic))
         };
         let wanted = self.network.topics.iter();
         let wanted = wanted.filter(|topic| !topic.publishers.is_empty() && hears(&topic.name));
@@ -159,6 +160,14 @@ impl State {
             heard.extend(mailbox.map(|mailbox| (topic.name.clone(), mailbox)));
         }
         self.heard = heard;
+    }
+
+    /// Subscribes to all remote topics while the graph is recorded.
+    pub(super) fn record_network(&mut self, shared: &Shared, is_recording: bool) {
+        if self.records_network != is_recording {
+            self.records_network = is_recording;
+            self.subscribe_to_network(shared);
+        }
     }
 
     /// Subscriptions of clients to a topic.

@@ -29,6 +29,7 @@ impl State {
             &settings.name,
             &settings.session_id,
             &settings.metadata,
+            shared.recordings.get().is_some(),
         ));
         outbox.push(protocol::advertise(&self.channel_texts()));
         outbox.push(protocol::advertise_services(&self.service_texts()));

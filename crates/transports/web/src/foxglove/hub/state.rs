@@ -46,6 +46,8 @@ pub(crate) struct State {
     /// Subscriptions to remote topics that clients use; they make the transport receive these
     /// topics.
     pub(super) heard: BTreeMap<String, RawMailbox>,
+    /// True while all remote topics are received for a recording.
+    pub(super) records_network: bool,
 }
 
 impl State {

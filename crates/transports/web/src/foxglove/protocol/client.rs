@@ -5,6 +5,8 @@ use std::fmt;
 use serde::Deserialize;
 use serde_json::Value;
 
+use super::recordings::RecordingRequest;
+
 /// A JSON message from a client.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(tag = "op", rename_all = "camelCase", rename_all_fields = "camelCase")]
@@ -78,6 +80,9 @@ pub enum ClientText {
         /// Id of the response.
         request_id: u32,
     },
+    /// A request about recordings. Extension of Foxglove's protocol.
+    #[serde(skip)]
+    Recording(RecordingRequest),
 }
 
 /// A subscription to a channel.
@@ -138,7 +143,17 @@ pub enum ClientBinary<'a> {
         /// The request.
         payload: &'a [u8],
     },
+    /// Bytes of an upload. Extension of Foxglove's protocol.
+    Upload {
+        /// Upload.
+        upload: u32,
+        /// The next bytes of its files.
+        bytes: &'a [u8],
+    },
 }
+
+/// Opcode of bytes of an upload.
+const UPLOAD: u8 = 0x11;
 
 /// A malformed message, with the cause.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -158,8 +173,18 @@ impl ClientText {
     /// # Errors
     /// The cause, when the message is malformed.
     pub fn read(text: &str) -> Result<Self, Malformed> {
-        serde_json::from_str(text)
-            .map_err(|error| Malformed(format!("a message is malformed: {error}")))
+        /// The opcode of any message.
+        #[derive(Deserialize)]
+        struct Opcode {
+            op: String,
+        }
+        let malformed =
+            |error: serde_json::Error| Malformed(format!("a message is malformed: {error}"));
+        let Opcode { op } = serde_json::from_str(text).map_err(malformed)?;
+        if RecordingRequest::OPS.contains(&op.as_str()) {
+            return serde_json::from_str(text).map(Self::Recording).map_err(malformed);
+        }
+        serde_json::from_str(text).map_err(malformed)
     }
 }
 
@@ -190,6 +215,10 @@ impl<'a> ClientBinary<'a> {
                     .map_err(|_| Malformed("the name of an encoding is not UTF-8".to_owned()))?;
                 Ok(Self::Call { service_id, call_id, encoding, payload })
             }
+            &UPLOAD => {
+                let upload = number().ok_or_else(short)?;
+                Ok(Self::Upload { upload, bytes: rest })
+            }
             _ => Err(Malformed(format!("unknown opcode {op} of a binary message"))),
         }
     }
@@ -207,6 +236,9 @@ mod tests {
         assert_eq!(read, Ok(ClientText::Subscribe { subscriptions }));
         let read = ClientText::read(r#"{"op":"subscribeConnectionGraph"}"#);
         assert_eq!(read, Ok(ClientText::SubscribeConnectionGraph));
+        let read = ClientText::read(r#"{"op":"fetchMarks","requestId":3,"recording":1}"#);
+        let marks = RecordingRequest::FetchMarks { request_id: 3, recording: 1 };
+        assert_eq!(read, Ok(ClientText::Recording(marks)));
         let read = ClientText::read(r#"{"op":"fetchAsset","uri":"package://a/b","requestId":7}"#);
         assert_eq!(read, Ok(ClientText::FetchAsset { uri: "package://a/b".into(), request_id: 7 }));
     }
@@ -227,6 +259,8 @@ mod tests {
     fn bytes_are_taken_apart() {
         let read = ClientBinary::read(&[1, 5, 0, 0, 0, 9, 9]);
         assert_eq!(read, Ok(ClientBinary::Message { channel_id: 5, payload: &[9, 9] }));
+        let read = ClientBinary::read(&[0x11, 5, 0, 0, 0, 9]);
+        assert_eq!(read, Ok(ClientBinary::Upload { upload: 5, bytes: &[9] }));
         let mut call = vec![2, 1, 0, 0, 0, 2, 0, 0, 0, 3, 0, 0, 0];
         call.extend(b"cdr\x01");
         let expected =

@@ -20,6 +20,9 @@ const CAPABILITIES: [&str; 7] = [
     "connectionGraph",
 ];
 
+/// Capability of a server with recordings. Extension of Foxglove's protocol.
+const RECORDINGS: &str = "recordings";
+
 /// Severity of a status message.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum StatusLevel {
@@ -76,11 +79,14 @@ pub fn server_info(
     name: &str,
     session_id: &str,
     metadata: &BTreeMap<String, String>,
+    has_recordings: bool,
 ) -> WebSocketFrame {
+    let recordings = has_recordings.then_some(RECORDINGS);
+    let capabilities: Vec<&str> = CAPABILITIES.into_iter().chain(recordings).collect();
     text(&json!({
         "op": "serverInfo",
         "name": name,
-        "capabilities": CAPABILITIES,
+        "capabilities": capabilities,
         "supportedEncodings": ["cdr"],
         "metadata": metadata,
         "sessionId": session_id,

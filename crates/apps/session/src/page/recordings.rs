@@ -1,0 +1,20 @@
+//! Recordings of a page.
+
+use std::path::PathBuf;
+use std::sync::Arc;
+
+use periplus_web::foxglove::{RecordingSettings, Recordings};
+
+use crate::terminal;
+
+/// Opens recordings in the background. Recordings of the graph are created in the working folder, as
+/// by `periplus bag record`.
+pub(super) fn open(paths: &[PathBuf]) -> Result<Arc<Recordings>, String> {
+    let here = terminal::working_folder();
+    let settings = RecordingSettings::new(here, std::env::temp_dir());
+    let recordings = Recordings::new(settings);
+    for path in paths {
+        recordings.open(path)?;
+    }
+    Ok(recordings)
+}

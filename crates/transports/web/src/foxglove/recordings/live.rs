@@ -1,0 +1,45 @@
+//! Recording of the graph.
+
+use std::path::{Path, PathBuf};
+
+use periplus_bags::files::{
+    BagError, RecordSettings, Recorder, Storage, WriteSettings, stamp_name,
+};
+use periplus_graph::{Graph, TopicInfo};
+use periplus_transport::unix_ns;
+
+/// A recording of the graph in progress.
+pub(super) struct LiveRecording {
+    pub(super) path: PathBuf,
+    recorder: Recorder,
+}
+
+impl LiveRecording {
+    /// Starts to record all topics into a new folder below `parent`, named as `ros2 bag record`
+    /// names it.
+    pub(super) fn start(graph: &Graph, parent: &Path) -> Result<Self, BagError> {
+        let path = parent.join(format!("rosbag2_{}", stamp_name(unix_ns())));
+        let settings = RecordSettings {
+            wanted: Box::new(|topic: &TopicInfo| !is_hidden(&topic.name)),
+            ..RecordSettings::all(WriteSettings::new(Storage::Mcap))
+        };
+        let recorder = Recorder::start(graph, &path, settings)?;
+        Ok(Self { path, recorder })
+    }
+
+    /// Writes old messages to the disk.
+    pub(super) fn keep(&self) -> Result<(), BagError> {
+        self.recorder.keep()
+    }
+
+    /// Ends the recording; returns its path and the number of lost messages.
+    pub(super) fn finish(self) -> Result<(PathBuf, u64), BagError> {
+        let recording = self.recorder.finish()?;
+        Ok((self.path, recording.dropped))
+    }
+}
+
+/// True for topics that ROS tools hide.
+fn is_hidden(name: &str) -> bool {
+    name.split('/').any(|part| part.starts_with('_'))
+}
