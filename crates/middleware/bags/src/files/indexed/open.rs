@@ -37,7 +37,7 @@ pub(super) fn open(
     cache: CachedChunks,
 ) -> Result<IndexedBag, BagError> {
     progress.set_total(size_of(path));
-    if path.is_file() && is_carmen_log(path)? {
+    if is_carmen_file(path)? {
         return open_carmen(path, progress, cache);
     }
     let mut pending = Vec::new();
@@ -176,7 +176,10 @@ fn assemble(
     Ok(indexed)
 }
 
-fn is_carmen_log(path: &Path) -> Result<bool, BagError> {
+pub(crate) fn is_carmen_file(path: &Path) -> Result<bool, BagError> {
+    if !path.is_file() {
+        return Ok(false);
+    }
     let file = File::open(path).map_err(BagError::file(path))?;
     let mut head = Vec::new();
     file.take(HEAD_BYTES).read_to_end(&mut head).map_err(BagError::file(path))?;
