@@ -93,6 +93,8 @@ fn run(
     // Nodes with timers must not live through the time since 1970.
     graph.jump_to(timeline.start_ns());
     let mut estimator = Estimator::start(&graph, parameters, bag, robot)?;
+    // Nodes subscribe when they are configured.
+    graph.settle();
     let mut playback = Playback::new(&graph, bag, (parameters.kind(), robot), timeline)?;
     let omitted = playback.input_topics();
     let settings = RecordSettings {

@@ -1,11 +1,13 @@
 //! Nodes of a rerun.
 
+use std::path::Path;
 use std::sync::Arc;
 
 use periplus_bags::files::Bag;
 use periplus_geometry::Pose2;
 use periplus_graph::{Graph, LifecycleNode, Mailbox, Node, NodeSettings, Publisher, Qos};
 use periplus_localization::AmclParams;
+use periplus_maps::{Distro, load};
 use periplus_msgs::geometry_msgs::PoseWithCovarianceStamped;
 use periplus_msgs::nav_msgs::OccupancyGrid;
 use periplus_msgs::rcl_interfaces::{ParameterType, ParameterValue};
@@ -69,7 +71,10 @@ impl Estimator {
             RerunParameters::Amcl { values, map_file } => {
                 let params = AmclParams::from_values(values);
                 let map = match map_file {
-                    Some(_) => None,
+                    Some(path) => {
+                        check_map(path)?;
+                        None
+                    }
                     None => Some(publish_map(graph, bag, (robot, params.map_topic.as_str()))?),
                 };
                 let localization = Localization::new(graph, map_file.as_deref(), values.clone())
@@ -170,6 +175,21 @@ impl Estimator {
                 .collect(),
         }
     }
+}
+
+/// Reads a map file before a node does, so that its errors are those of the rerun.
+fn check_map(path: &Path) -> Result<(), RerunError> {
+    let name = path.display().to_string();
+    let loaded = load(&name, Distro::Jazzy, &Machine);
+    if loaded.map.is_some() {
+        return Ok(());
+    }
+    let findings: Vec<&str> = loaded.diagnostics.iter().map(|it| it.message.as_str()).collect();
+    Err(RerunError::Missing(format!(
+        "`{}`: the map {name} cannot be read: {}",
+        MAP_FILE.name,
+        findings.join("; ")
+    )))
 }
 
 /// Publishes the last map of the recording.
