@@ -27,7 +27,7 @@ pub(super) fn section(first: &OpenRun, second: &OpenRun) -> Result<Section, CliE
     match &difference.map {
         Some(map) => body.push_str(&map_figure(map)),
         None => {
-            body.push_str(&paragraph("The maps are not compared: one of the recordings has none."))
+            body.push_str(&paragraph("The maps are not compared: one of the recordings has none."));
         }
     }
     match &difference.trajectory {
@@ -98,12 +98,12 @@ fn map_figure(map: &MapDifference) -> String {
     }
     let size = (info.width as f64, info.height as f64);
     let mut out = table(&format!("Maps, on cells of {} m", info.resolution_m), &[], &rows);
-    let _ = write!(
+    let _ = writeln!(
         out,
         "<figure><svg class=\"floor\" viewBox=\"0 0 {} {}\" role=\"img\" aria-label=\"Difference of the maps from above: \
          {} cells are free in one map and a wall in the other\">{}</svg><figcaption>Black: walls of both; white: free in \
          both; orange: walls that only B has (pale: free, only B knows the cell); blue: walls that only A has (pale: free, \
-         only A knows the cell).</figcaption></figure>\n",
+         only A knows the cell).</figcaption></figure>",
         size.0,
         size.1,
         map.changed_count,

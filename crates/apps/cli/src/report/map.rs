@@ -228,16 +228,16 @@ pub(super) fn costmaps(run: &OpenRun) -> Result<Option<Section>, CliError> {
     for (topic, _) in topics.take(MAX_COSTMAP_COUNT) {
         let mut last = None;
         each::<nav_msgs::OccupancyGrid>(&run.bag, &[topic.name.as_str()], |_, map| {
-            last = Some(map)
+            last = Some(map);
         })?;
         let Some(map) = last.and_then(|map| from_message(&map).ok()) else { continue };
         let size = (map.info.width as f64, map.info.height as f64);
         let name = escape(&topic.name);
-        let _ = write!(
+        let _ = writeln!(
             body,
             "<figure><h3>{name}</h3><svg class=\"floor\" viewBox=\"0 0 {} {}\" role=\"img\" aria-label=\"Costmap \
              {name} from above\">{}</svg><figcaption>{} x {} cells of {} m. Magenta: lethal; cyan: inscribed; \
-             red to blue: decreasing costs; white: free; grey: unknown.</figcaption></figure>\n",
+             red to blue: decreasing costs; white: free; grey: unknown.</figcaption></figure>",
             size.0,
             size.1,
             image(&picture_of(&map, Scheme::Costmap), size, "costmap"),

@@ -114,7 +114,7 @@ impl Plot {
             }
             svg.push_str("</ul>");
         }
-        let _ = write!(svg, "{summary}</figcaption></figure>\n");
+        let _ = writeln!(svg, "{summary}</figcaption></figure>");
         Some(svg)
     }
 
