@@ -49,7 +49,8 @@ pub(super) fn section(first: &OpenRun, second: &OpenRun) -> Result<Section, CliE
                     points: trajectory.distances_m.clone(),
                 }],
             };
-            body.push_str(&plot.figure().unwrap_or_default());
+            let figure = plot.figure().unwrap_or_default();
+            body.push_str(&format!("<div class=\"figures\">{figure}</div>\n"));
         }
         None => body.push_str(&paragraph(
             "The paths are not compared: the recordings have no transform to the robot in common.",

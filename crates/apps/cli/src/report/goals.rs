@@ -9,11 +9,18 @@ use periplus_msgs::geometry_msgs::PoseStamped;
 use periplus_session::recorded::{each, each_at, has_type};
 
 use super::OpenRun;
-use super::html::{Section, escape, table};
+use super::html::{Section, escape, paragraph, table};
 use crate::error::CliError;
 
 /// Maximum number of goals in the table.
 const MAX_GOAL_COUNT: usize = 200;
+
+/// Ends of the names of actions whose goals a user sets.
+const TOP_ACTIONS: [&str; 5] =
+    ["navigate_to_pose", "navigate_through_poses", "follow_waypoints", "move_base", "dock_robot"];
+
+/// Value of `action_msgs/msg/GoalStatus` of a goal that was reached.
+const SUCCEEDED: i8 = 4;
 
 /// Names of the values of `action_msgs/msg/GoalStatus`.
 const STATUS_NAMES: [&str; 7] =
@@ -79,6 +86,11 @@ pub(super) fn section(run: &OpenRun) -> Result<Option<Section>, CliError> {
     }
     let mut goals: Vec<ActionGoal> = goals.into_values().collect();
     goals.sort_by_key(|goal| goal.start_ns);
+    // Actions that serve a goal of the user are summed up.
+    let is_of_user = |goal: &ActionGoal| TOP_ACTIONS.iter().any(|it| goal.action.ends_with(it));
+    let has_top = goals.iter().any(is_of_user);
+    let (goals, others): (Vec<ActionGoal>, Vec<ActionGoal>) =
+        goals.into_iter().partition(|goal| !has_top || is_of_user(goal));
     let first_ns = run.bag.span_ns().unwrap_or_default().0;
     let mut rows = String::new();
     for goal in goals.iter().take(MAX_GOAL_COUNT) {
@@ -93,11 +105,27 @@ pub(super) fn section(run: &OpenRun) -> Result<Option<Section>, CliError> {
             (goal.end_ns - goal.start_ns) as f64 * 1e-9,
         );
     }
+    let mut sums: BTreeMap<&str, (u64, u64)> = BTreeMap::new();
+    for goal in &others {
+        let (count, succeeded) = sums.entry(&goal.action).or_default();
+        *count += 1;
+        *succeeded += u64::from(goal.status == SUCCEEDED);
+    }
     let caption = format!(
         "{} goals, {} succeeded",
         goals.len(),
-        goals.iter().filter(|it| it.status == 4).count()
+        goals.iter().filter(|it| it.status == SUCCEEDED).count()
     );
-    let body = table(&caption, &["time [s]", "action", "result", "duration [s]"], &rows);
+    let mut body = table(&caption, &["time [s]", "action", "result", "duration [s]"], &rows);
+    if !sums.is_empty() {
+        let parts = sums.iter().map(|(action, (count, succeeded))| {
+            format!("{action} {count} goals, {succeeded} succeeded")
+        });
+        let parts: Vec<String> = parts.collect();
+        body.push_str(&paragraph(&format!(
+            "Actions that serve these: {}. A goal that a newer one replaces is aborted.",
+            parts.join("; ")
+        )));
+    }
     Ok(Some(Section { title: run.heading("Goals"), body }))
 }

@@ -98,7 +98,7 @@ h1 { font-size: 1.6rem; line-height: 1.25; overflow-wrap: anywhere; }
 h2 { font-size: 1.2rem; margin: 2rem 0 0.5rem; padding-top: 0.5rem; border-top: 1px solid var(--line); }
 h3 { font-size: 1rem; margin: 1rem 0 0.25rem; }
 a { color: var(--link); }
-a:focus-visible, .scroll:focus-visible { outline: 2px solid var(--link); outline-offset: 2px; }
+a:focus-visible, summary:focus-visible, .scroll:focus-visible { outline: 2px solid var(--link); outline-offset: 2px; }
 nav ul { display: flex; flex-wrap: wrap; gap: 0.25rem 1rem; padding: 0; list-style: none; }
 nav a { display: inline-block; padding: 0.25rem 0; }
 .scroll { overflow-x: auto; }
@@ -106,7 +106,9 @@ table { border-collapse: collapse; font-variant-numeric: tabular-nums; }
 caption { text-align: left; color: var(--quiet); padding: 0.25rem 0; }
 th, td { text-align: left; vertical-align: top; padding: 0.25rem 0.75rem 0.25rem 0; border-bottom: 1px solid var(--line); }
 th { font-weight: 600; }
-td { overflow-wrap: anywhere; }
+td, tbody th { overflow-wrap: anywhere; }
+summary { padding: 0.5rem 0; cursor: pointer; }
+td.error, td.warning { white-space: nowrap; }
 td.number, th.number { text-align: right; white-space: nowrap; }
 .facts th { min-width: 9rem; }
 .quiet, figcaption { color: var(--quiet); }

@@ -122,7 +122,7 @@ pub(super) fn figure(
         svg.push_str("\"/>\n");
         if let (Some(first), Some(last)) = (path.points_m.first(), path.points_m.last()) {
             let (x, y) = pixel(*first);
-            let radius = size / 90.0;
+            let radius = size / 140.0;
             let _ = writeln!(
                 svg,
                 "<circle class=\"f{}\" cx=\"{x:.1}\" cy=\"{y:.1}\" r=\"{radius:.2}\"/>",

@@ -43,8 +43,10 @@ pub(super) fn section(run: &OpenRun) -> Result<Section, CliError> {
     if !bag.ros_distro().is_empty() {
         rows.push_str(&row("ROS distribution", bag.ros_distro()));
     }
-    let mut body =
-        format!("<div class=\"facts\">{}</div>", table(&run.heading("Recording"), &[], &rows));
+    let mut body = format!(
+        "<div class=\"facts\">{}</div>",
+        table(&run.heading("What was recorded"), &[], &rows)
+    );
     if !bag.is_whole() {
         body.push_str(&paragraph("The recording was not closed properly; its end may be missing."));
     }

@@ -15,7 +15,7 @@ use super::html::{Section, escape, paragraph, table};
 use crate::error::CliError;
 
 /// Maximum number of rows.
-const MAX_ROW_COUNT: usize = 300;
+const MAX_ROW_COUNT: usize = 1000;
 
 pub(super) fn section(run: &OpenRun) -> Result<Section, CliError> {
     let title = run.heading("Parameters");
@@ -36,36 +36,52 @@ pub(super) fn section(run: &OpenRun) -> Result<Section, CliError> {
         let why = "The recording has no parameters (/parameter_events).";
         return Ok(Section { title, body: paragraph(why) });
     }
-    let mut rows = String::new();
-    let (mut shown, mut equal) = (0, 0);
+    let (mut different, mut unknown) = (Vec::new(), Vec::new());
+    let mut equal = 0_usize;
     for ((node, name), value) in &values {
         let text = text_of(value);
-        let default = default_of(node, name);
-        if default.as_ref() == Some(&text) {
-            equal += 1;
-            continue;
+        match default_of(node, name) {
+            Some(default) if default == text => equal += 1,
+            Some(default) => different.push([node.clone(), name.clone(), text, default]),
+            None => unknown.push([node.clone(), name.clone(), text, String::new()]),
         }
-        shown += 1;
-        if shown > MAX_ROW_COUNT {
-            continue;
-        }
-        let _ = writeln!(
-            rows,
-            "<tr><td>{}</td><th scope=\"row\">{}</th><td>{}</td><td class=\"quiet\">{}</td></tr>",
-            escape(node),
-            escape(name),
-            escape(&text),
-            escape(default.as_deref().unwrap_or("not known"))
-        );
     }
-    let caption = format!(
-        "{shown} parameters differ from their defaults or have no known default; {equal} are equal"
-    );
-    let mut body = table(&caption, &["node", "parameter", "value", "default"], &rows);
-    if shown > MAX_ROW_COUNT {
-        body.push_str(&paragraph(&format!("And {} others.", shown - MAX_ROW_COUNT)));
+    let mut body = if different.is_empty() {
+        paragraph(&format!("All {equal} parameters with a known default have it."))
+    } else {
+        let caption =
+            format!("{} parameters differ from their defaults; {equal} are equal", different.len());
+        table(&caption, &["node", "parameter", "value", "default"], &rows_of(&different, true))
+    };
+    if !unknown.is_empty() {
+        let caption = format!("{} parameters without a known default", unknown.len());
+        let head = ["node", "parameter", "value"];
+        let inner = table(&caption, &head, &rows_of(&unknown, false));
+        body.push_str(&format!("<details><summary>{caption}</summary>\n{inner}</details>\n"));
     }
     Ok(Section { title, body })
+}
+
+fn rows_of(parameters: &[[String; 4]], has_default: bool) -> String {
+    let mut rows = String::new();
+    for [node, name, text, default] in parameters.iter().take(MAX_ROW_COUNT) {
+        let _ = write!(
+            rows,
+            "<tr><td>{}</td><th scope=\"row\">{}</th><td>{}</td>",
+            escape(node),
+            escape(name),
+            escape(text)
+        );
+        if has_default {
+            let _ = write!(rows, "<td class=\"quiet\">{}</td>", escape(default));
+        }
+        rows.push_str("</tr>\n");
+    }
+    if parameters.len() > MAX_ROW_COUNT {
+        let more = parameters.len() - MAX_ROW_COUNT;
+        let _ = writeln!(rows, "<tr><td colspan=\"4\">and {more} others</td></tr>");
+    }
+    rows
 }
 
 /// Returns the default of a parameter of a node that this program knows, as YAML.

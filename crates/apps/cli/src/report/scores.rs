@@ -31,29 +31,34 @@ pub(super) fn section(run: &OpenRun, settings: &ScoreSettings) -> Section {
 }
 
 pub(super) fn comparison(first: &OpenRun, second: &OpenRun, settings: &ScoreSettings) -> Section {
-    let body = match (scores(first, settings), scores(second, settings)) {
-        (Ok(a), Ok(b)) => {
-            let mut rows = String::new();
-            for name in names([&a, &b], |it| it.is_shown) {
-                let (of_a, of_b) = (value(&a, &name), value(&b, &name));
-                let sign = if of_b > of_a { "+" } else { "" };
-                let _ = writeln!(
-                    rows,
-                    "<tr><th scope=\"row\">{}</th><td class=\"number\">{}</td><td class=\"number\">{}</td>\
-                     <td class=\"number\">{sign}{}</td></tr>",
-                    escape(&name),
-                    number(of_a),
-                    number(of_b),
-                    number(of_b - of_a)
-                );
-            }
-            table("Scores; names end with their unit", &["score", "A", "B", "B - A"], &rows)
+    let found = (scores(first, settings), scores(second, settings));
+    let mut body = String::new();
+    for (scores, label) in [(&found.0, "A"), (&found.1, "B")] {
+        if let Err(why) = scores {
+            body.push_str(&without(&format!("{label}: {why}")));
         }
-        (a, b) => [(a, "A"), (b, "B")]
-            .into_iter()
-            .filter_map(|(scores, label)| Some(without(&format!("{label}: {}", scores.err()?))))
-            .collect(),
-    };
+    }
+    // A run without a truth has no values in the table.
+    let is_known = found.0.is_ok() || found.1.is_ok();
+    let (a, b) = (found.0.unwrap_or_default(), found.1.unwrap_or_default());
+    let mut rows = String::new();
+    for name in names([&a, &b], |it| it.is_shown) {
+        let (of_a, of_b) = (value(&a, &name), value(&b, &name));
+        let sign = if of_b > of_a { "+" } else { "" };
+        let _ = writeln!(
+            rows,
+            "<tr><th scope=\"row\">{}</th><td class=\"number\">{}</td><td class=\"number\">{}</td>\
+             <td class=\"number\">{sign}{}</td></tr>",
+            escape(&name),
+            number(of_a),
+            number(of_b),
+            number(of_b - of_a)
+        );
+    }
+    if is_known {
+        let head = ["score", "A", "B", "B - A"];
+        body.push_str(&table("Scores; names end with their unit", &head, &rows));
+    }
     Section { title: "Scores".to_owned(), body }
 }
 

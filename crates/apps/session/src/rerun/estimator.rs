@@ -26,6 +26,9 @@ use crate::error::RunError;
 use crate::nodes::Localization;
 use crate::recorded::each;
 
+/// Scans without transforms that are no problem: the first ones, before the first odometry.
+const MAX_DROPPED_COUNT: u64 = 10;
+
 /// Running estimators.
 pub(super) enum Estimator {
     Slam(SlamRerun),
@@ -144,20 +147,22 @@ impl Estimator {
         match self {
             Self::Slam(slam) => {
                 let status = slam.node.with(|node| node.status());
-                let mut problems: Vec<String> = status.trouble.into_iter().collect();
-                if status.dropped > 0 {
-                    problems.push(format!("{} scans had no transforms", status.dropped));
-                }
+                let mut problems = Vec::new();
+                // The trouble at the end, such as a recording without scans in its last seconds, is none of the map.
                 if status.counts.kept <= 1 {
+                    problems.extend(status.trouble);
                     problems.push(format!("the map contains {} scans", status.counts.kept));
+                }
+                if status.dropped > MAX_DROPPED_COUNT {
+                    problems.push(format!("{} scans had no transforms", status.dropped));
                 }
                 problems
             }
             Self::Amcl(amcl) => {
-                let trouble =
-                    amcl.localization.amcl().with(|node| node.trouble().map(str::to_owned));
-                let mut problems: Vec<String> = trouble.into_iter().collect();
+                let mut problems = Vec::new();
                 if amcl.trajectory.is_empty() {
+                    let node = amcl.localization.amcl();
+                    problems.extend(node.with(|node| node.trouble().map(str::to_owned)));
                     problems.push(
                         "the robot was not localized; set `set_initial_pose` and `initial_pose.x`, \
                          `initial_pose.y`, `initial_pose.yaw`"
