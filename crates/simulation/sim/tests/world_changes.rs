@@ -1,5 +1,6 @@
 //! Changes of a running world as a diff of its file.
 #![allow(clippy::unwrap_used, reason = "helpers of tests may unwrap as tests do")]
+#![allow(clippy::disallowed_methods, reason = "reads written files")]
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -213,4 +214,28 @@ fn a_world_without_a_file_of_its_own_is_written_as_a_whole() {
     let changes = lab.changes();
     assert!(changes["file"].is_null());
     assert!(changes["note"].as_str().unwrap().contains("changed since"), "{changes}");
+}
+
+#[test]
+fn the_world_is_written_only_where_the_user_has_said() {
+    let mut lab = Lab::new("written", WORLD);
+    let services = lab.simulation.graph().services();
+    assert!(!services.iter().any(|service| service.name == "/world/lab/write"));
+    let path = lab.path.clone();
+    lab.services.write_world_to(&lab.simulation, path.clone()).unwrap();
+    let write = |lab: &mut Lab| {
+        let answer = lab.call::<Trigger>("/world/lab/write", TriggerRequest::default());
+        (answer.success, answer.message.clone())
+    };
+    // Twice: the file then has the text that was written, not that of the start.
+    for y_m in [2.5, 2.75] {
+        lab.move_to("table", [1.0, y_m, 0.0]);
+        assert_eq!(write(&mut lab), (true, path.display().to_string()));
+        let expected = replaced("1  2 0   0 0 0", &format!("1  {y_m} 0   0 0 0"));
+        assert_eq!(std::fs::read_to_string(&path).unwrap(), expected);
+    }
+    std::fs::write(&path, "<sdf/>").unwrap();
+    let (success, why) = write(&mut lab);
+    assert!(!success && why.contains("changed since"), "{why}");
+    assert_eq!(std::fs::read_to_string(&path).unwrap(), "<sdf/>");
 }

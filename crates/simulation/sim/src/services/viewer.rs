@@ -9,6 +9,7 @@
 //! the world, periodically |
 //! | `/world/<world>/save` | `std_srvs/Trigger` | the world as it is now, as SDF |
 //! | `/world/<world>/changes` | `std_srvs/Trigger` | edits since the start as a diff of the world's file, as JSON |
+//! | `/world/<world>/write` | `std_srvs/Trigger` | writes the edited text of `changes` to the file that the user has named |
 //! | `/world/<world>/library` | `std_srvs/Trigger` | insertable models, as JSON |
 //!
 //! They exist only after a request ([`super::Services::show`]): a bag of all topics must not contain
@@ -19,6 +20,7 @@ mod library;
 mod map_comparison;
 mod markers;
 pub(super) mod save;
+mod writer;
 
 use std::path::PathBuf;
 use std::time::Duration;
@@ -33,6 +35,7 @@ use periplus_msgs::visualization_msgs::MarkerArray;
 use periplus_os::Stopwatch;
 
 use self::map_comparison::MapComparison;
+use self::writer::WorldWriter;
 use super::convert::{pose_message, vector_message};
 use super::gz_sim::name_of;
 use super::reading::Search;
@@ -53,6 +56,7 @@ pub(super) struct ViewerTopics {
     truth: MapComparison,
     save: ServiceAliases<Trigger>,
     changes: ServiceAliases<Trigger>,
+    write: Option<WorldWriter>,
     library: ServiceAliases<Trigger>,
     /// Folders of insertable models.
     folders: Vec<PathBuf>,
@@ -72,10 +76,22 @@ impl ViewerTopics {
             save: ServiceAliases::new(node, [name("save").as_str()])?,
             changes: ServiceAliases::new(node, [name("changes").as_str()])?,
             library: ServiceAliases::new(node, [name("library").as_str()])?,
+            write: None,
             folders,
             told: None,
             since: None,
         })
+    }
+
+    /// Offers to write the world to a file.
+    pub(super) fn offer_writing(
+        &mut self,
+        node: &Node,
+        world: &str,
+        file: PathBuf,
+    ) -> Result<(), GraphError> {
+        self.write = Some(WorldWriter::new(node, &name_of(world, "write"), file)?);
+        Ok(())
     }
 
     /// Answers requests, and publishes due messages.

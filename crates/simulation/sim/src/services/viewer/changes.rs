@@ -26,7 +26,7 @@ pub(in crate::services) struct ChangedWorld {
     /// Kind and name of each change.
     changes: Vec<(&'static str, String)>,
     /// Reason for which the file cannot be edited.
-    note: Option<String>,
+    pub(in crate::services) note: Option<String>,
 }
 
 impl ChangedWorld {
@@ -49,19 +49,21 @@ impl ChangedWorld {
     }
 }
 
-/// Returns the changes of the world. A world whose file cannot be edited is written as a whole.
+/// Returns the changes of the world. A world whose file cannot be edited is written as a whole. `written` is the text that this
+/// program has written to the file since.
 ///
 /// # Errors
 /// The part of the world that SDF cannot represent.
 pub(in crate::services) fn of(
     simulation: &Simulation,
     search: &Search,
+    written: Option<&str>,
 ) -> Result<ChangedWorld, String> {
     let found = simulation.world_changes();
     let changes = found.iter().flat_map(named).collect();
     let note = match &simulation.world_file().source {
         None => "the world was not read from an SDF file with a world".to_owned(),
-        Some((path, text)) => match edited(simulation, search, path, text, &found) {
+        Some((path, text)) => match edited(simulation, search, (path, text, written), &found) {
             Ok(new) => {
                 let file = search.working_folder.join(path);
                 return Ok(ChangedWorld {
@@ -101,14 +103,13 @@ fn named(change: &WorldChange) -> Vec<(&'static str, String)> {
 fn edited(
     simulation: &Simulation,
     search: &Search,
-    path: &Path,
-    text: &str,
+    (path, text, written): (&Path, &str, Option<&str>),
     changes: &[WorldChange],
 ) -> Result<String, String> {
     let file = search.working_folder.join(path);
     let on_disk = search.with_context(false, |context| context.host.read(&file));
     let on_disk = on_disk.map_err(|error| error.to_string())?;
-    if on_disk != text.as_bytes() {
+    if on_disk != text.as_bytes() && Some(on_disk.as_slice()) != written.map(str::as_bytes) {
         return Err("it was changed since the start, or is not in UTF-8".to_owned());
     }
     if changes.is_empty() {
