@@ -44,6 +44,7 @@ fn a_missing_file_is_1_everywhere() {
         .unwrap();
     for line in [
         "check no.urdf",
+        "view --no-browser --page=0 no.mcap",
         "convert no.urdf --to sdf",
         "sim no.sdf",
         "sim no.sdf --robot bot.urdf",
@@ -210,4 +211,17 @@ fn deprecated_options_print_a_notice() {
     assert!(check(&folder.0, 0, &format!("{line} --hear scan")).contains(notice));
     assert!(!check(&folder.0, 0, &format!("{line} --compute scan")).contains(notice));
     check(&folder.0, 2, &format!("{line} --hear scan --compute scan"));
+}
+
+/// Files that are no recordings are reported; the page is not served.
+#[test]
+fn what_is_no_recording_is_not_replayed() {
+    let folder = Folder::new("usage-view");
+    std::fs::write(folder.path("notes.txt"), "hello").unwrap();
+    std::fs::create_dir(folder.path("empty")).unwrap();
+    let text = check(&folder.0, 1, "view --no-browser --page=0 notes.txt");
+    assert!(text.contains("neither MCAP") && !text.contains("http://"), "{text}");
+    let text = check(&folder.0, 1, "view --no-browser --page=0 empty");
+    assert!(text.contains("no .mcap and no .db3 file"), "{text}");
+    check(&folder.0, 2, "view --no-browser --page=robot notes.txt");
 }

@@ -1,7 +1,7 @@
 //! Speed of replaying a recording.
 //!
 //! `replay make PATH [BYTES]` writes a recording of a robot with a camera, a 3D lidar and the
-//! topics of a navigation stack, 2 GB by default. `replay measure ADDRESS PID` fetches the state of
+//! topics of a navigation stack, 2 GB by default; `replay serve PATH ADDRESS` serves it. `replay measure ADDRESS PID` fetches the state of
 //! all topics of the first recording of a server (`periplus view PATH --no-browser`) at 50 times,
 //! and prints the times until the last byte and the memory of the process.
 #![allow(
@@ -18,9 +18,11 @@
 
 use std::fs::File;
 use std::io::BufWriter;
+use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use periplus_bags::{QosProfile, Settings, Stamp, Topic, TopicId, Writer};
+use periplus_graph::Graph;
 use periplus_msgs::Message;
 use periplus_msgs::action_msgs;
 use periplus_msgs::geometry_msgs::TransformStamped;
@@ -29,6 +31,8 @@ use periplus_msgs::rcl_interfaces::Log;
 use periplus_msgs::sensor_msgs::{Image, Imu, LaserScan, PointCloud2, PointField};
 use periplus_msgs::std_msgs::{Header, String as Text};
 use periplus_msgs::tf2_msgs::TFMessage;
+use periplus_web::foxglove::{Hub, RecordingSettings, Recordings};
+use periplus_web::server::{WebServer, WebServerSettings};
 use serde_json::{Value, json};
 use tungstenite::client::IntoClientRequest as _;
 use tungstenite::{Message as Frame, WebSocket};
@@ -49,8 +53,26 @@ fn main() {
     match words[..] {
         ["make", path] => make(path, 2_000_000_000),
         ["make", path, bytes] => make(path, bytes.parse().unwrap()),
+        ["serve", path, address] => serve(path, address),
         ["measure", address, pid] => measure(address, pid),
-        _ => println!("usage: replay make PATH [BYTES] | replay measure HOST:PORT PID"),
+        _ => println!(
+            "usage: replay make PATH [BYTES] | replay serve PATH HOST:PORT | replay measure HOST:PORT PID"
+        ),
+    }
+}
+
+/// Serves a recording until the process is killed, as `periplus view PATH` does.
+fn serve(path: &str, address: &str) {
+    let hub = Hub::open(&Graph::live(), Default::default()).unwrap();
+    let folder = std::env::temp_dir();
+    let recordings = Recordings::new(RecordingSettings::new(&folder, &folder));
+    recordings.open(path.as_ref()).unwrap();
+    hub.serve_recordings(recordings);
+    let settings = WebServerSettings { address: address.parse().unwrap(), token: None };
+    let server = WebServer::open(Arc::new(hub), settings).unwrap();
+    println!("{}", server.url());
+    loop {
+        std::thread::park();
     }
 }
 

@@ -16,7 +16,7 @@ pub(super) fn open(paths: &[PathBuf]) -> Result<Arc<Recordings>, String> {
     let recordings = Recordings::new(settings);
     recordings.set_jobs(Arc::new(RerunJobs::new(std::env::temp_dir())));
     for path in paths {
-        recordings.open(path)?;
+        recordings.open(path).map_err(|error| error.to_string())?;
     }
     Ok(recordings)
 }

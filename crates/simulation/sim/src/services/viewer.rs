@@ -101,8 +101,13 @@ impl ViewerTopics {
         search: &Search,
     ) -> Result<(), GraphError> {
         self.save.answer(|_| response(save::text(simulation)));
-        self.changes
-            .answer(|_| response(changes::of(simulation, search).map(|changes| changes.to_json())));
+        let written = self.write.as_ref().and_then(WorldWriter::written);
+        self.changes.answer(|_| {
+            response(changes::of(simulation, search, written).map(|changes| changes.to_json()))
+        });
+        if let Some(writer) = &mut self.write {
+            writer.serve(simulation, search);
+        }
         self.library.answer(|_| {
             let message = library::models(&self.folders);
             TriggerResponse { success: true, message }

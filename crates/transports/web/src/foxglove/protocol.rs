@@ -8,7 +8,7 @@ pub use client::{
     ChannelSubscription, ClientBinary, ClientChannel, ClientText, Malformed, ParameterText,
 };
 pub use recordings::{
-    MarkText, OriginText, RecordingRequest, RecordingText, StoredMessages, TimeNs, TopicNeed,
+    MarkText, OriginText, RecordingText, ReplayRequest, StoredMessages, TimeNs, TopicNeed,
     TopicText, UploadFile,
 };
 pub(crate) use recordings::{

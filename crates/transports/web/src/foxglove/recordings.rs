@@ -24,4 +24,4 @@ mod upload;
 
 pub(crate) use client::RecordingClient;
 pub use jobs::{JobRequest, Jobs};
-pub use service::{RecordingSettings, Recordings};
+pub use service::{OpenRecordingError, RecordingSettings, Recordings};

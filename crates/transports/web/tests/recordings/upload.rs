@@ -74,7 +74,7 @@ fn unfinished_uploads_leave_nothing() {
     client.say(&json!({"op": "cancelFetch", "requestIds": [1]}));
     assert!(client.failure().contains("cancelled"));
     assert_eq!(entries(&server.folder), 1);
-    // Bytes on their way are ignored.
+    // Bytes of an upload that has ended are ignored.
     send(&mut client, 1, b"def");
     drop(client);
     assert_eq!(entries(&server.folder), 0);

@@ -14,7 +14,8 @@ use super::database_file::DatabaseFile;
 use super::progress::{OpenProgress, WatchedFile};
 use super::stream_file::StreamFile;
 use super::{IndexedBag, IndexedFile, RecordingFormat, carmen, format_of};
-use crate::files::bag::Bag;
+use crate::files::bag::{Bag, METADATA};
+use crate::files::naming::content;
 use crate::files::part::{Part, look_at, plain};
 use crate::files::sqlite::{Database, TimeTable};
 use crate::files::temporary::Temporary;
@@ -39,6 +40,11 @@ pub(super) fn open(
     progress.set_total(size_of(path));
     if is_carmen_file(path)? {
         return open_carmen(path, progress, cache);
+    }
+    if path.is_file() && !is_metadata(path) && content(path)?.is_none() {
+        let why =
+            "it is neither MCAP, nor a database of rosbag2, a bag of ROS 1 or a log of CARMEN";
+        return Err(BagError::NoBag(path.to_owned(), why.to_owned()));
     }
     let mut pending = Vec::new();
     let mut look = |file: &Path| {
@@ -174,6 +180,10 @@ fn assemble(
         indexed.translations.push(translation.map(Mutex::new));
     }
     Ok(indexed)
+}
+
+fn is_metadata(path: &Path) -> bool {
+    path.file_name().is_some_and(|name| name == METADATA)
 }
 
 pub(crate) fn is_carmen_file(path: &Path) -> Result<bool, BagError> {

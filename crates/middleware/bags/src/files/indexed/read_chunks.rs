@@ -14,8 +14,9 @@ use crate::files::message_packing::{packing_of, unpack};
 /// Maximum number of threads that decompress chunks for one request.
 const MAX_THREADS: usize = 4;
 
-/// Maximum size of the chunks that are decompressed ahead \[bytes\]; at least one is.
-const MAX_AHEAD_BYTES: u64 = 32 << 20;
+/// Maximum size of the chunks that are decompressed ahead \[bytes\]; at least one is. Three chunks of
+/// the usual size may overlap without being decompressed twice.
+const MAX_AHEAD_BYTES: u64 = 12 << 20;
 
 /// Records of chunks, decompressed for the next messages; none if damaged.
 type Ahead = HashMap<ChunkKey, Option<Arc<Vec<u8>>>>;
@@ -26,7 +27,12 @@ pub(super) fn read(
     chunks: ChunkUse,
     visit: &mut dyn FnMut(&MessageLocation, &[u8]) -> ControlFlow<()>,
 ) -> Result<bool, BagError> {
-    let threads = std::thread::available_parallelism().map_or(1, usize::from).min(MAX_THREADS);
+    let threads = match chunks {
+        ChunkUse::Keep => std::thread::available_parallelism().map_or(1, usize::from),
+        // No client waits for a pass over the whole recording.
+        ChunkUse::Once => 1,
+    };
+    let threads = threads.min(MAX_THREADS);
     let mut ahead = Ahead::new();
     let mut is_complete = true;
     let mut unpacked = Vec::new();
@@ -39,7 +45,8 @@ pub(super) fn read(
                 let Some(block) = file.block_of(location) else { continue };
                 let key = (location.file as usize, block);
                 if !ahead.contains_key(&key) {
-                    ahead = load_ahead(bag, &locations[number..], threads, chunks, &ahead)?;
+                    let before = std::mem::take(&mut ahead);
+                    ahead = load_ahead(bag, &locations[number..], threads, chunks, before)?;
                 }
                 records = ahead.get(&key).cloned().flatten().or(records);
                 let data =
@@ -74,7 +81,7 @@ fn load_ahead(
     locations: &[MessageLocation],
     threads: usize,
     chunks: ChunkUse,
-    before: &Ahead,
+    mut before: Ahead,
 ) -> Result<Ahead, BagError> {
     let mut ahead = Ahead::new();
     let mut missing: Vec<(ChunkKey, &StreamFile)> = Vec::new();
@@ -93,7 +100,7 @@ fn load_ahead(
         if !is_first && bytes > MAX_AHEAD_BYTES {
             break;
         }
-        match before.get(&key).cloned().or_else(|| bag.cache.get(key).map(Some)) {
+        match before.remove(&key).or_else(|| bag.cache.get(key).map(Some)) {
             Some(kept) => {
                 ahead.insert(key, kept);
             }
@@ -103,6 +110,8 @@ fn load_ahead(
     let load = |(key, file): (ChunkKey, &StreamFile)| -> Result<_, BagError> {
         Ok((key, file.load(key.1)?))
     };
+    // Their memory is free before more is used.
+    drop(before);
     let mut loaded = Vec::new();
     for group in missing.chunks(threads.max(1)) {
         if let [one] = group {

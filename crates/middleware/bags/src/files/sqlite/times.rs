@@ -21,6 +21,9 @@ pub(crate) struct TimeTable {
     topic_ids: Vec<i64>,
 }
 
+/// Number of messages of each topic, and the times of the first and last \[ns\].
+type TimeSum = (Vec<u64>, Option<(i64, i64)>);
+
 /// Content of a database.
 pub(crate) struct TimeSummary {
     pub(crate) topics: Vec<BagTopic>,
@@ -114,7 +117,7 @@ impl TimeTable {
         Ok(rescued)
     }
 
-    fn sum(&self) -> rusqlite::Result<(Vec<u64>, Option<(i64, i64)>)> {
+    fn sum(&self) -> rusqlite::Result<TimeSum> {
         let mut statement = self.connection.prepare(
             "SELECT count(*), min(timestamp), max(timestamp) FROM temp.periplus_index WHERE \
              topic_id = ?1",

@@ -5,7 +5,7 @@ use std::fmt;
 use serde::Deserialize;
 use serde_json::Value;
 
-use super::recordings::RecordingRequest;
+use super::recordings::ReplayRequest;
 
 /// A JSON message from a client.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
@@ -82,7 +82,7 @@ pub enum ClientText {
     },
     /// A request about recordings. Extension of Foxglove's protocol.
     #[serde(skip)]
-    Recording(RecordingRequest),
+    Recording(ReplayRequest),
 }
 
 /// A subscription to a channel.
@@ -181,7 +181,7 @@ impl ClientText {
         let malformed =
             |error: serde_json::Error| Malformed(format!("a message is malformed: {error}"));
         let Opcode { op } = serde_json::from_str(text).map_err(malformed)?;
-        if RecordingRequest::OPS.contains(&op.as_str()) {
+        if ReplayRequest::OPS.contains(&op.as_str()) {
             return serde_json::from_str(text).map(Self::Recording).map_err(malformed);
         }
         serde_json::from_str(text).map_err(malformed)
@@ -237,7 +237,7 @@ mod tests {
         let read = ClientText::read(r#"{"op":"subscribeConnectionGraph"}"#);
         assert_eq!(read, Ok(ClientText::SubscribeConnectionGraph));
         let read = ClientText::read(r#"{"op":"fetchMarks","requestId":3,"recording":1}"#);
-        let marks = RecordingRequest::FetchMarks { request_id: 3, recording: 1 };
+        let marks = ReplayRequest::FetchMarks { request_id: 3, recording: 1 };
         assert_eq!(read, Ok(ClientText::Recording(marks)));
         let read = ClientText::read(r#"{"op":"fetchAsset","uri":"package://a/b","requestId":7}"#);
         assert_eq!(read, Ok(ClientText::FetchAsset { uri: "package://a/b".into(), request_id: 7 }));

@@ -28,7 +28,7 @@ impl Serialize for TimeNs {
 /// A request about recordings.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(tag = "op", rename_all = "camelCase", rename_all_fields = "camelCase")]
-pub enum RecordingRequest {
+pub enum ReplayRequest {
     /// Subscribes to the list of recordings.
     SubscribeRecordings,
     /// Requests the messages that show a time.
@@ -168,7 +168,7 @@ pub struct UploadFile {
     pub bytes: u64,
 }
 
-impl RecordingRequest {
+impl ReplayRequest {
     /// Opcodes of the requests.
     pub(super) const OPS: [&str; 14] = [
         "subscribeRecordings",

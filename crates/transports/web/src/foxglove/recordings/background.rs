@@ -7,14 +7,21 @@ use std::time::Duration;
 use periplus_bags::files::{BagError, ChunkUse, MessageLocation};
 use periplus_msgs::Message as _;
 use periplus_msgs::tf2_msgs::TFMessage;
-use periplus_os::Stopwatch;
+use periplus_os::{Stopwatch, sleep};
 
 use super::entry::Recording;
 use super::marks::MarkDetector;
 use super::transform_index::Reach;
 
-/// Maximum number of messages that are located at once.
-const PAGE: usize = 4096;
+/// Maximum number of messages that are located at once; between two pages the pass waits for
+/// fetches.
+const PAGE: usize = 256;
+
+/// Maximum time for which a page waits for fetches, so that the pass ends while a client plays.
+const MAX_WAIT: Duration = Duration::from_millis(300);
+
+/// Period at which the pass checks whether fetches are running.
+const WAIT_PERIOD: Duration = Duration::from_millis(2);
 
 /// Period at which clients get new marks.
 const SEND_PERIOD: Duration = Duration::from_secs(1);
@@ -39,6 +46,10 @@ fn read(recording: &Recording) -> Result<(), BagError> {
     let mut since = Stopwatch::start();
     let mut from_ns = Some(i64::MIN);
     while let Some(start_ns) = from_ns {
+        let waiting = Stopwatch::start();
+        while recording.fetches.load(Ordering::Relaxed) > 0 && waiting.elapsed() < MAX_WAIT {
+            sleep(WAIT_PERIOD);
+        }
         let page = bag.between(&topics, start_ns, i64::MAX, PAGE)?;
         let visit = &mut |location: &MessageLocation, data: &[u8]| {
             if recording.is_closed.load(Ordering::Relaxed) {

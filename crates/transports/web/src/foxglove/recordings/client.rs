@@ -17,7 +17,7 @@ use super::service::Recordings;
 use super::upload::Upload;
 use super::{density, messages, series, state};
 use crate::foxglove::outbox::Outbox;
-use crate::foxglove::protocol::{self, RecordingRequest, StatusLevel};
+use crate::foxglove::protocol::{self, ReplayRequest, StatusLevel};
 
 /// Maximum number of pending fetches of a client.
 const MAX_PENDING: usize = 256;
@@ -77,7 +77,7 @@ impl RecordingClient {
     }
 
     /// Processes a request.
-    pub(crate) fn request(&mut self, request: RecordingRequest, graph: &Graph) {
+    pub(crate) fn request(&mut self, request: ReplayRequest, graph: &Graph) {
         let id = request.request_id();
         if let Err(why) = self.process(request, graph)
             && let Some(id) = id
@@ -86,24 +86,24 @@ impl RecordingClient {
         }
     }
 
-    fn process(&mut self, request: RecordingRequest, graph: &Graph) -> Result<(), String> {
+    fn process(&mut self, request: ReplayRequest, graph: &Graph) -> Result<(), String> {
         match request {
-            RecordingRequest::SubscribeRecordings => {
+            ReplayRequest::SubscribeRecordings => {
                 self.recordings.subscribe(self.id, &self.outbox);
                 Ok(())
             }
-            RecordingRequest::CancelFetch { request_ids } => {
+            ReplayRequest::CancelFetch { request_ids } => {
                 request_ids.iter().for_each(|id| self.cancel(*id));
                 Ok(())
             }
-            RecordingRequest::FetchState { request_id, recording, time_ns, topics } => {
+            ReplayRequest::FetchState { request_id, recording, time_ns, topics } => {
                 limit(topics.len(), MAX_TOPICS, "topics")?;
                 let run: Fetch = Box::new(move |recording, answer| {
                     state::fetch(recording, time_ns.0, &topics, answer)
                 });
                 self.fetch(Speed::Quick, request_id, recording, run)
             }
-            RecordingRequest::FetchMessages {
+            ReplayRequest::FetchMessages {
                 request_id,
                 recording,
                 topics,
@@ -118,15 +118,15 @@ impl RecordingClient {
                 });
                 self.fetch(Speed::Quick, request_id, recording, run)
             }
-            RecordingRequest::FetchDensity { request_id, recording, bins } => {
+            ReplayRequest::FetchDensity { request_id, recording, bins } => {
                 let run: Fetch =
                     Box::new(move |recording, answer| density::fetch(recording, bins, answer));
                 self.fetch(Speed::Slow, request_id, recording, run)
             }
-            RecordingRequest::FetchMarks { request_id, recording } => {
+            ReplayRequest::FetchMarks { request_id, recording } => {
                 self.fetch_marks(request_id, recording)
             }
-            RecordingRequest::FetchSeries {
+            ReplayRequest::FetchSeries {
                 request_id,
                 recording,
                 topic,
@@ -141,23 +141,23 @@ impl RecordingClient {
                     Box::new(move |recording, answer| series::fetch(recording, &request, answer));
                 self.fetch(Speed::Slow, request_id, recording, run)
             }
-            RecordingRequest::OpenRecording { upload, .. } => self.open_upload(upload),
-            RecordingRequest::CloseRecording { recording, .. } => self.recordings.close(recording),
-            RecordingRequest::StartUpload { request_id, files } => {
+            ReplayRequest::OpenRecording { upload, .. } => self.open_upload(upload),
+            ReplayRequest::CloseRecording { recording, .. } => self.recordings.close(recording),
+            ReplayRequest::StartUpload { request_id, files } => {
                 self.start_upload(request_id, &files)
             }
-            RecordingRequest::FetchJobParameters { request_id, kind } => {
+            ReplayRequest::FetchJobParameters { request_id, kind } => {
                 let parameters = self.recordings.job_parameters(&kind)?;
                 self.outbox.push(protocol::job_parameters(request_id, &kind, &parameters));
                 Ok(())
             }
-            RecordingRequest::StartJob { request_id, kind, recording, parameters } => {
+            ReplayRequest::StartJob { request_id, kind, recording, parameters } => {
                 let made = self.recordings.start_job(&kind, recording, parameters)?;
                 self.jobs.insert(request_id, made);
                 Ok(())
             }
-            RecordingRequest::StartRecording { .. } => self.recordings.start_recording(graph),
-            RecordingRequest::StopRecording { .. } => {
+            ReplayRequest::StartRecording { .. } => self.recordings.start_recording(graph),
+            ReplayRequest::StopRecording { .. } => {
                 let dropped = self.recordings.stop_recording()?;
                 if dropped > 0 {
                     let why = format!(
@@ -211,7 +211,11 @@ impl RecordingClient {
                 is_cancelled: &is_cancelled,
                 release: &release,
             };
-            if let Err(error) = run(&recording, &answer) {
+            let count = usize::from(speed == Speed::Quick);
+            recording.fetches.fetch_add(count, Ordering::Relaxed);
+            let outcome = run(&recording, &answer);
+            recording.fetches.fetch_sub(count, Ordering::Relaxed);
+            if let Err(error) = outcome {
                 answer.fail(&error.to_string());
             }
         });
@@ -255,7 +259,7 @@ impl RecordingClient {
     pub(crate) fn upload(&mut self, id: u32, bytes: &[u8]) {
         let received = match self.uploads.get_mut(&id) {
             Some(upload) => upload.receive(bytes).map(|()| upload),
-            // Bytes that were on their way when the upload ended.
+            // Bytes that were sent before the upload ended.
             None => return,
         };
         let outcome = match received {
@@ -276,7 +280,8 @@ impl RecordingClient {
 
     fn finish_upload(&mut self, id: u32) -> Result<(), String> {
         let Some(upload) = self.uploads.remove(&id) else { return Ok(()) };
-        let recording = self.recordings.open_upload(upload.finish())?;
+        let recording = self.recordings.open_upload(upload.finish());
+        let recording = recording.map_err(|error| error.to_string())?;
         self.uploaded.insert(id, recording);
         Ok(())
     }

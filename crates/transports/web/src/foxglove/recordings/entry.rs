@@ -1,7 +1,7 @@
 //! A recording of the list.
 
 use std::path::PathBuf;
-use std::sync::atomic::{AtomicBool, AtomicU32, Ordering};
+use std::sync::atomic::{AtomicBool, AtomicU32, AtomicUsize, Ordering};
 use std::sync::{Arc, Mutex};
 
 use periplus_bags::BagTopic;
@@ -28,11 +28,11 @@ pub(super) struct Entry {
 
 /// State of a recording.
 pub(super) enum EntryState {
-    /// It is read, or made by a job.
+    /// Being read, or made by a job.
     Opening(Arc<EntryProgress>),
-    /// It can be replayed.
+    /// Open for replay.
     Ready(Arc<Recording>),
-    /// It cannot be read, with the reason.
+    /// Unreadable, with the reason.
     Failed(String),
 }
 
@@ -75,6 +75,8 @@ pub(super) struct Recording {
     pub(super) marks: MarkList,
     /// Ends the background pass.
     pub(super) is_closed: AtomicBool,
+    /// Number of running fetches of messages, for which the background pass waits.
+    pub(super) fetches: AtomicUsize,
     /// Problems of the background pass.
     notes: Mutex<Vec<String>>,
 }
@@ -91,6 +93,7 @@ impl Recording {
             transforms: TransformIndex::default(),
             marks: MarkList::default(),
             is_closed: AtomicBool::new(false),
+            fetches: AtomicUsize::new(0),
             notes: Mutex::default(),
             bag,
         }

@@ -7,7 +7,7 @@ use periplus_msgs::map_msgs::OccupancyGridUpdate;
 /// Maximum number of valid messages of a latched topic: static transforms of many publishers.
 const MAX_DEPTH: usize = 1000;
 
-/// Number of messages of topics that are latched although the recording does not say so.
+/// Number of messages of topics that are latched although the recording does not contain it.
 const STATIC_TRANSFORMS_DEPTH: usize = 1000;
 
 /// Names of topics that are latched in every system, by their last part.
@@ -75,6 +75,6 @@ mod tests {
         updates.type_name = OccupancyGridUpdate::TYPE_NAME.into();
         assert_eq!(grid_of_updates(&updates, &[updates.clone(), grid.clone()]), Some(1));
         assert_eq!(grid_of_updates(&updates, &[updates.clone()]), None);
-        assert_eq!(grid_of_updates(&grid, &[grid.clone()]), None);
+        assert_eq!(grid_of_updates(&grid, std::slice::from_ref(&grid)), None);
     }
 }

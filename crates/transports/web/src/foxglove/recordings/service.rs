@@ -1,6 +1,7 @@
 //! The recordings of a server.
 
 use std::collections::BTreeMap;
+use std::fmt;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::Ordering;
 use std::sync::{Arc, Mutex, Weak};
@@ -50,6 +51,26 @@ impl RecordingSettings {
     }
 }
 
+/// Reason for which a recording cannot be opened.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum OpenRecordingError {
+    /// Too many recordings are open.
+    TooMany,
+    /// The system starts no thread, with the reason.
+    NoThread(String),
+}
+
+impl fmt::Display for OpenRecordingError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::TooMany => write!(f, "{MAX_RECORDINGS} recordings are open; close one first"),
+            Self::NoThread(why) => write!(f, "no thread can be started: {why}"),
+        }
+    }
+}
+
+impl std::error::Error for OpenRecordingError {}
+
 /// The recordings of a server, shared by all clients.
 pub struct Recordings {
     pub(super) settings: RecordingSettings,
@@ -91,10 +112,10 @@ impl Recordings {
     /// Opens a recording in the background and returns its id.
     ///
     /// # Errors
-    /// A sentence for the user, when too many recordings are open or the system starts no thread.
-    pub fn open(self: &Arc<Self>, path: &Path) -> Result<u32, String> {
-        let entry = opening(name_of(path), path.to_owned());
-        self.add(entry, self.opener())
+    /// When too many recordings are open or the system starts no thread.
+    pub fn open(self: &Arc<Self>, path: &Path) -> Result<u32, OpenRecordingError> {
+        let (entry, progress) = opening(name_of(path), path.to_owned());
+        self.add(entry, progress, self.opener())
     }
 
     /// True while a recording is being opened.
@@ -115,10 +136,13 @@ impl Recordings {
     }
 
     /// Opens an upload.
-    pub(super) fn open_upload(self: &Arc<Self>, upload: UploadedRecording) -> Result<u32, String> {
+    pub(super) fn open_upload(
+        self: &Arc<Self>,
+        upload: UploadedRecording,
+    ) -> Result<u32, OpenRecordingError> {
         let UploadedRecording { folder, name, path } = upload;
-        let entry = Entry { _folder: Some(folder), ..opening(name, path) };
-        self.add(entry, self.opener())
+        let (entry, progress) = opening(name, path);
+        self.add(Entry { _folder: Some(folder), ..entry }, progress, self.opener())
     }
 
     /// Opens recordings with the common cache.
@@ -132,20 +156,18 @@ impl Recordings {
         }
     }
 
-    /// Adds a recording that `make` opens on a thread of its own.
+    /// Adds a recording that `make` opens on a separate thread.
     fn add(
         self: &Arc<Self>,
         entry: Entry,
+        progress: Arc<EntryProgress>,
         make: impl FnOnce(&Path, &EntryProgress) -> Result<IndexedBag, String> + Send + 'static,
-    ) -> Result<u32, String> {
-        let EntryState::Opening(progress) = &entry.state else {
-            return Err("the recording is open already".to_owned());
-        };
-        let (progress, path) = (progress.clone(), entry.path.clone());
+    ) -> Result<u32, OpenRecordingError> {
+        let path = entry.path.clone();
         let id = {
             let mut state = lock(&self.state);
             if state.entries.len() >= MAX_RECORDINGS {
-                return Err(format!("{MAX_RECORDINGS} recordings are open; close one first"));
+                return Err(OpenRecordingError::TooMany);
             }
             state.last_id += 1;
             let id = state.last_id;
@@ -164,7 +186,7 @@ impl Recordings {
         let builder = std::thread::Builder::new().name("recording".to_owned());
         builder.spawn(run).map_err(|error| {
             lock(&self.state).entries.remove(&id);
-            format!("no thread can be started: {error}")
+            OpenRecordingError::NoThread(error.to_string())
         })?;
         Ok(id)
     }
@@ -254,16 +276,18 @@ impl Recordings {
         };
         let origin =
             OriginText { recording: source, kind: kind.to_owned(), parameters: parameters.clone() };
-        let entry = Entry { origin: Some(origin), ..opening(name, path.clone()) };
+        let (entry, job_progress) = opening(name, path.clone());
+        let entry = Entry { origin: Some(origin), ..entry };
         let job = JobRequest { kind: kind.to_owned(), path, parameters };
         let open = self.opener();
-        self.add(entry, move |_, progress| {
+        let added = self.add(entry, job_progress, move |_, progress| {
             // The files of an upload stay while the job reads them.
             let _source = recording;
             let report = |fraction| progress.set_job(fraction);
             let made = jobs.run(&job, &report, &progress.is_cancelled)?;
             open(&made, progress)
-        })
+        });
+        added.map_err(|error| error.to_string())
     }
 
     /// Starts to record the graph.
@@ -286,7 +310,7 @@ impl Recordings {
         let finished = live.finish();
         lock(&self.state).send();
         let (path, dropped) = finished.map_err(|error| error.to_string())?;
-        self.open(&path)?;
+        self.open(&path).map_err(|error| error.to_string())?;
         Ok(dropped)
     }
 
@@ -324,7 +348,7 @@ impl Recordings {
         let live = state.live.take();
         drop(state);
         if let Some(live) = live {
-            // There is no client left to whom a failure could be shown.
+            // No client is left that could show a failure.
             let _ = live.finish();
         }
     }
@@ -358,7 +382,8 @@ impl State {
     fn fail(&mut self, path: &Path, error: &BagError) {
         self.last_id += 1;
         let why = format!("the recording stopped: {error}; what came before can be opened");
-        let entry = Entry { state: EntryState::Failed(why), ..opening(name_of(path), path.into()) };
+        let (entry, _) = opening(name_of(path), path.into());
+        let entry = Entry { state: EntryState::Failed(why), ..entry };
         self.entries.insert(self.last_id, entry);
         self.send();
     }
@@ -375,9 +400,11 @@ impl Entry {
     }
 }
 
-fn opening(name: String, path: PathBuf) -> Entry {
-    let state = EntryState::Opening(Arc::default());
-    Entry { name, path, origin: None, state, _folder: None }
+/// A recording that is being opened, with its progress.
+fn opening(name: String, path: PathBuf) -> (Entry, Arc<EntryProgress>) {
+    let progress = Arc::<EntryProgress>::default();
+    let state = EntryState::Opening(progress.clone());
+    (Entry { name, path, origin: None, state, _folder: None }, progress)
 }
 
 /// Name of a recording by its path.

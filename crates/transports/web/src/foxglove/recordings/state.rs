@@ -4,6 +4,8 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::ops::ControlFlow;
 
 use periplus_bags::files::{BagError, ChunkUse, MessageLocation};
+use periplus_msgs::Message as _;
+use periplus_msgs::tf2_msgs::TFMessage;
 
 use super::entry::{Recording, topic_id};
 use super::fetch::{FetchAnswer, MessageFrames};
@@ -22,6 +24,9 @@ const MAX_GRID_UPDATES: usize = 5_000;
 /// Time before the present one in which each transform is assumed to be published, until the index
 /// of transforms covers it \[ns\].
 const LOOK_BACK_NS: i64 = 10_000_000_000;
+
+/// Time in which the transforms of a moving robot are published \[ns\].
+const SHORT_LOOK_BACK_NS: i64 = 1_000_000_000;
 
 /// Number of repetitions when parts of the recording turn out to be damaged.
 const MAX_ATTEMPTS: usize = 8;
@@ -129,13 +134,28 @@ fn transforms(
         let end_ns = at_ns.saturating_add(1);
         found.extend(recording.bag.between(&[topic], at_ns, end_ns, PAGE)?.locations);
     }
-    if !reach.covers(time_ns) {
-        let length_ns = match reach {
-            // The index has all that is older.
-            Reach::Until(reached_ns) => time_ns.saturating_sub(reached_ns).min(LOOK_BACK_NS),
-            Reach::Nothing | Reach::All => LOOK_BACK_NS,
-        };
-        found.extend(history(recording, topic, time_ns, length_ns, MAX_HISTORY, answer)?);
+    if reach.covers(time_ns) {
+        return Ok(());
     }
+    let mut length_ns = LOOK_BACK_NS;
+    if let Reach::Until(reached_ns) = reach {
+        // The index has all that is older.
+        length_ns = time_ns.saturating_sub(reached_ns).min(LOOK_BACK_NS);
+        let short_ns = length_ns.min(SHORT_LOOK_BACK_NS);
+        let recent = history(recording, topic, time_ns, short_ns, MAX_HISTORY, answer)?;
+        let mut missing = recording.transforms.children(topic);
+        let visit = &mut |_: &MessageLocation, data: &[u8]| {
+            for transform in TFMessage::decode_cdr(data).unwrap_or_default().transforms {
+                missing.remove(&transform.child_frame_id);
+            }
+            if answer.is_cancelled() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+        };
+        recording.bag.read(&recent, ChunkUse::Keep, visit)?;
+        found.extend(recent);
+        if missing.is_empty() {
+            return Ok(());
+        }
+    }
+    found.extend(history(recording, topic, time_ns, length_ns, MAX_HISTORY, answer)?);
     Ok(())
 }

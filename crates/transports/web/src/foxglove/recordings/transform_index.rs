@@ -87,6 +87,16 @@ impl TransformIndex {
         lock(&self.0).reach
     }
 
+    /// Child frames of a topic so far.
+    pub(super) fn children(&self, topic: usize) -> BTreeSet<String> {
+        let times = lock(&self.0);
+        let of_topic = times.groups.range((topic, Vec::new())..(topic + 1, Vec::new()));
+        let numbers: BTreeSet<u32> =
+            of_topic.flat_map(|((_, children), _)| children).copied().collect();
+        let frames = times.frames.iter().filter(|(_, number)| numbers.contains(number));
+        frames.map(|(name, _)| name.clone()).collect()
+    }
+
     /// Times of the messages of a topic that have the newest transform of each child frame at or
     /// before a time.
     pub(super) fn newest(&self, topic: usize, at_ns: i64) -> BTreeSet<i64> {
@@ -136,6 +146,8 @@ mod tests {
         assert_eq!(index.newest(0, 7), [1, 7].into());
         assert_eq!(index.newest(1, 7), [1].into());
         assert_eq!(index.newest(2, 7), [].into());
+        assert_eq!(index.children(0), ["arm", "base", "wheel"].map(str::to_owned).into());
+        assert_eq!(index.children(1), ["other".to_owned()].into());
     }
 
     #[test]

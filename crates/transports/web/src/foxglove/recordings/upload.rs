@@ -168,6 +168,7 @@ fn plain_name(name: &str) -> Result<&str, String> {
 }
 
 #[cfg(test)]
+#[allow(clippy::disallowed_methods, reason = "these tests look at the files")]
 mod tests {
     use super::*;
 
