@@ -57,7 +57,7 @@ use options::Command;
 
 use crate::error::CliError;
 
-pub use report::report_html;
+pub use report::{ReportError, report_html};
 
 /// Prints the completion script in one write, so that a closed pipe is an error that [`run`] handles.
 fn completions(shell: clap_complete::Shell) -> Result<ExitCode, CliError> {

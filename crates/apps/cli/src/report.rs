@@ -1,7 +1,7 @@
 //! `periplus report`: one HTML file about a run, or about two runs and their difference.
 //!
-//! The file needs no server, no network and no script. All parts come from the recording; what it does not have is left out
-//! or said.
+//! The file needs no server, no network and no script. All parts come from the recording; missing parts are left out
+//! or named.
 
 mod comparison;
 mod goals;
@@ -14,6 +14,7 @@ mod plot;
 mod scores;
 mod series;
 
+use std::fmt;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
@@ -60,10 +61,22 @@ pub(crate) fn run(options: &ReportOptions) -> Result<ExitCode, CliError> {
 /// Returns the report of one recording, or of two and their difference, as HTML.
 ///
 /// # Errors
-/// When a recording cannot be read, as text for the user.
-pub fn report_html(runs: &[&Path]) -> Result<String, String> {
-    html_of(runs, &ScoreSettings::default()).map_err(|error| error.message())
+/// When a recording cannot be read.
+pub fn report_html(runs: &[&Path]) -> Result<String, ReportError> {
+    html_of(runs, &ScoreSettings::default()).map_err(|error| ReportError(error.message()))
 }
+
+/// Reason for which there is no report, as text for the user.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct ReportError(String);
+
+impl fmt::Display for ReportError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.0)
+    }
+}
+
+impl std::error::Error for ReportError {}
 
 /// A recording that is open.
 struct OpenRun {

@@ -20,7 +20,7 @@ const MAX_POSE_COUNT: usize = 2000;
 
 /// State of a cell.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum CellState {
+pub enum MapCellState {
     /// Not observed, or outside of the map.
     #[default]
     Unknown,
@@ -31,13 +31,13 @@ pub enum CellState {
 }
 
 /// Cell of two maps: its state in the first and in the second.
-pub type CellPair = (CellState, CellState);
+pub type MapCellPair = (MapCellState, MapCellState);
 
 /// Difference of two maps on the cells of the first.
 #[derive(Clone, Debug)]
 pub struct MapDifference {
     /// States in both maps, around both.
-    pub cells: Grid<CellPair>,
+    pub cells: Grid<MapCellPair>,
     /// Cells that both maps know.
     pub known_count: usize,
     /// Cells that are free in one map and a wall in the other.
@@ -128,11 +128,11 @@ pub fn last_map(bag: &Bag) -> Result<Option<OccupancyGrid>, BagError> {
     Ok(last.and_then(|map| from_message(&map).ok()))
 }
 
-fn state_of(value: i8) -> CellState {
+fn state_of(value: i8) -> MapCellState {
     match value {
-        MIN_WALL_OCCUPANCY.. => CellState::Wall,
-        0.. => CellState::Free,
-        _ => CellState::Unknown,
+        MIN_WALL_OCCUPANCY.. => MapCellState::Wall,
+        0.. => MapCellState::Free,
+        _ => MapCellState::Unknown,
     }
 }
 
@@ -164,7 +164,7 @@ pub fn compare_maps(first: &OccupancyGrid, second: &OccupancyGrid) -> Option<Map
     let origin = first.info.origin * Pose2::new(left * side_m, down * side_m, 0.0);
     let info = GridInfo::new(side_m, columns as usize, rows as usize, origin).ok()?;
     let mut difference = MapDifference {
-        cells: Grid::new(info, CellPair::default()),
+        cells: Grid::new(info, MapCellPair::default()),
         known_count: 0,
         changed_count: 0,
         only_first_count: 0,
@@ -175,14 +175,15 @@ pub fn compare_maps(first: &OccupancyGrid, second: &OccupancyGrid) -> Option<Map
         let (column, row) = info.cell(index);
         let (x, y) = info.point_at(column as f64 + 0.5, row as f64 + 0.5);
         let value = |map: &OccupancyGrid, cell: Option<(usize, usize)>| {
-            cell.and_then(|cell| map.get(cell)).map_or(CellState::Unknown, |value| state_of(*value))
+            cell.and_then(|cell| map.get(cell))
+                .map_or(MapCellState::Unknown, |value| state_of(*value))
         };
         let a = value(first, first_finder.cell_of(x, y));
         let b = value(second, second_finder.cell_of(x, y));
         match (a, b) {
-            (CellState::Unknown, CellState::Unknown) => {}
-            (CellState::Unknown, _) => difference.only_second_count += 1,
-            (_, CellState::Unknown) => difference.only_first_count += 1,
+            (MapCellState::Unknown, MapCellState::Unknown) => {}
+            (MapCellState::Unknown, _) => difference.only_second_count += 1,
+            (_, MapCellState::Unknown) => difference.only_first_count += 1,
             (a, b) => {
                 difference.known_count += 1;
                 difference.changed_count += usize::from(a != b);

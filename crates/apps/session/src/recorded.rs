@@ -1,6 +1,8 @@
 //! Messages and transforms of a recording.
 
 use std::collections::BTreeSet;
+use std::fmt;
+use std::path::PathBuf;
 
 use periplus_bags::files::{Bag, BagError};
 use periplus_bags::{BagTopic, Selection, Target, Translation};
@@ -17,6 +19,34 @@ const MIN_TRACK_INTERVAL_NS: i64 = 20_000_000;
 /// Common names of the base frame, in order of preference.
 const BASE_FRAMES: [&str; 2] = ["base_footprint", "base_link"];
 
+/// Reason for which a recording has no topic of scans.
+#[derive(Clone, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum ScanTopicError {
+    /// The recording has no scans.
+    NoScans(PathBuf),
+    /// The requested topic has no scans.
+    NotOnTopic {
+        /// Requested topic.
+        topic: String,
+        /// Topics with scans.
+        others: Vec<String>,
+    },
+}
+
+impl fmt::Display for ScanTopicError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::NoScans(path) => write!(f, "{} has no scans", path.display()),
+            Self::NotOnTopic { topic, others } => {
+                write!(f, "no scans on `{topic}`; topics with scans: {}", others.join(", "))
+            }
+        }
+    }
+}
+
+impl std::error::Error for ScanTopicError {}
+
 /// Returns the topic with the most scans, or the requested one. A preferred one is used if the recording has it.
 ///
 /// # Errors
@@ -25,7 +55,7 @@ pub fn scan_topic(
     bag: &Bag,
     requested: Option<&str>,
     preferred: Option<&str>,
-) -> Result<String, String> {
+) -> Result<String, ScanTopicError> {
     let with_scans = || {
         let topics = bag.topics().iter().zip(bag.counts());
         topics.filter(|(topic, _)| has_type(topic, "LaserScan"))
@@ -40,13 +70,14 @@ pub fn scan_topic(
         return Ok(topic);
     }
     match requested {
-        Some(wanted) => named(wanted).ok_or_else(|| {
-            format!("no scans on `{wanted}`; topics with scans: {}", names.join(", "))
+        Some(wanted) => named(wanted).ok_or_else(|| ScanTopicError::NotOnTopic {
+            topic: wanted.to_owned(),
+            others: names.iter().map(|name| (*name).to_owned()).collect(),
         }),
         None => with_scans()
             .max_by_key(|(_, count)| **count)
             .map(|(topic, _)| topic.name.clone())
-            .ok_or_else(|| format!("{} has no scans", bag.path().display())),
+            .ok_or_else(|| ScanTopicError::NoScans(bag.path().to_owned())),
     }
 }
 

@@ -162,7 +162,7 @@ impl Editor<'_> {
         Ok(TextEdit { range: span.start as usize..span.end as usize, text: escaped })
     }
 
-    /// Inserts text as the first child of an element, on a line of its own if its first child has one.
+    /// Inserts text as the first child of an element, on a separate line if its first child has one.
     fn first_child(&self, element: &Element, text: &str) -> Result<TextEdit, WorldEditError> {
         let span = element.origin.0.ok_or(WorldEditError::Unexpected)?;
         let at = span.end as usize;

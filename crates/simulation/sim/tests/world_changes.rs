@@ -208,7 +208,7 @@ fn a_world_without_a_file_of_its_own_is_written_as_a_whole() {
     assert!(changes["file"].is_null() && changes["diff"] == "");
     assert!(changes["text"].as_str().unwrap().contains("<model name=\"cup\""));
     assert!(changes["note"].as_str().unwrap().contains("SDF"));
-    // A file that somebody else has changed is not overwritten.
+    // A file that another program has changed is not overwritten.
     let mut lab = Lab::new("changed", WORLD);
     std::fs::write(&lab.path, "<sdf/>").unwrap();
     let changes = lab.changes();

@@ -23,7 +23,8 @@ pub(super) fn read(path: &Path, options: &LogOptions) -> Result<Log, CliError> {
 }
 
 fn scans(bag: &Bag, path: &Path, options: &LogOptions) -> Result<Log, String> {
-    let topic = scan_topic(bag, options.scan_topic.as_deref(), options.told_topic.as_deref())?;
+    let topic = scan_topic(bag, options.scan_topic.as_deref(), options.told_topic.as_deref())
+        .map_err(|error| error.to_string())?;
     let frames = RecordedFrames::read(bag).map_err(|why| why.to_string())?;
     let mut log = Log { kind: format!("recording, {topic}"), ..Log::default() };
     if !bag.is_whole() {

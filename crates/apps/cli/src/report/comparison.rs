@@ -3,7 +3,7 @@
 use std::fmt::Write as _;
 
 use periplus_grid::Grid;
-use periplus_session::difference::{CellState, MapDifference, RecordingDifference};
+use periplus_session::difference::{MapCellState, MapDifference, RecordingDifference};
 
 use super::html::{Section, paragraph};
 use super::map::{NamedPath, figure, image, paths, picture_of_colours};
@@ -84,17 +84,15 @@ fn map_figure(map: &MapDifference) -> String {
     for index in 0..info.len() {
         let cell = info.cell(index);
         colours[cell] = match map.cells[cell] {
-            (CellState::Unknown, CellState::Unknown) => UNKNOWN_COLOUR,
-            (CellState::Wall, CellState::Wall) => WALL_COLOUR,
-            (CellState::Free, CellState::Free) => FREE_COLOUR,
-            (CellState::Free, CellState::Wall) | (CellState::Unknown, CellState::Wall) => {
-                NEW_WALL_COLOUR
-            }
-            (CellState::Wall, CellState::Free) | (CellState::Wall, CellState::Unknown) => {
-                LOST_WALL_COLOUR
-            }
-            (CellState::Free, CellState::Unknown) => ONLY_FIRST_COLOUR,
-            (CellState::Unknown, CellState::Free) => ONLY_SECOND_COLOUR,
+            (MapCellState::Unknown, MapCellState::Unknown) => UNKNOWN_COLOUR,
+            (MapCellState::Wall, MapCellState::Wall) => WALL_COLOUR,
+            (MapCellState::Free, MapCellState::Free) => FREE_COLOUR,
+            (MapCellState::Free, MapCellState::Wall)
+            | (MapCellState::Unknown, MapCellState::Wall) => NEW_WALL_COLOUR,
+            (MapCellState::Wall, MapCellState::Free)
+            | (MapCellState::Wall, MapCellState::Unknown) => LOST_WALL_COLOUR,
+            (MapCellState::Free, MapCellState::Unknown) => ONLY_FIRST_COLOUR,
+            (MapCellState::Unknown, MapCellState::Free) => ONLY_SECOND_COLOUR,
         };
     }
     let size = (info.width as f64, info.height as f64);

@@ -1,4 +1,4 @@
-//! What a recording has: names, times, topics.
+//! Overview of a recording: names, times, topics.
 
 use std::collections::BTreeSet;
 

@@ -67,7 +67,7 @@ fn speed(run: &OpenRun) -> Result<Option<Plot>, CliError> {
 
 /// Distance of each estimate from the truth, after the alignment of the scores.
 fn errors(run: &OpenRun, settings: &ScoreSettings) -> Option<Plot> {
-    // The scores say why there is no truth.
+    // The section with the scores has the reason for a missing truth.
     let read = Run::read(&run.path, settings).ok()?;
     let start_s = read.truth.poses().first()?.stamp_s;
     let curves = read

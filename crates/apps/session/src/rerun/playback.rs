@@ -32,7 +32,7 @@ const TRANSFORM_DEPTH: usize = 1000;
 /// Messages are counted in steps of this size before the caller is called again.
 const MESSAGES_PER_STEP: u64 = 64;
 
-/// What becomes of the messages of a topic.
+/// Use of the messages of a topic.
 enum Outlet {
     /// Transforms, without those of other estimators.
     Transforms { is_static: bool },

@@ -26,7 +26,7 @@ impl RecordedRobot {
             Ok(topic) => topic,
             // Costmaps may have other sensors.
             Err(_) if parameters.kind() == RerunKind::Costmap => "/scan".to_owned(),
-            Err(why) => return Err(RerunError::Missing(why)),
+            Err(why) => return Err(RerunError::Missing(why.to_string())),
         };
         let frames = RecordedFrames::read(bag).map_err(RerunError::Recording)?;
         let given = parameters.given_text(parameters.kind().odom_frame_parameter());

@@ -137,7 +137,7 @@ impl Simulation {
     }
 }
 
-/// Returns true if two models differ at most in name, pose and the place of their text.
+/// Returns true if two models differ at most in name, pose and origin.
 pub(crate) fn is_same(a: &Model, b: &Model) -> bool {
     let plain = |model: &Model| Model {
         name: String::new(),
