@@ -16,19 +16,19 @@ use periplus_calibration::{
     DifferentialDrive, ImuSample, WheelSample, WheelTrack, calibrate_drive, calibrate_imu,
     lidar_noise, match_scans, predict_second_half, range_bias, refine_with_slam,
 };
+use periplus_diagnostics::unified_diff;
 use periplus_loader::load;
 use periplus_msgs::sensor_msgs::{Imu, JointState};
 
-use self::edit::unified_diff;
 use self::report::Report;
 use self::robot::{NominalRobot, nominal_robot};
 use crate::error::CliError;
-use crate::log::bag::{each, has_type};
 use crate::log::{Log, LogOptions, LoggedScan};
 use crate::options::{SearchOptions, split};
 use crate::run_options::positive;
 use crate::terminal::{complain, say, with_setting};
 use crate::{paths, score};
+use periplus_session::recorded::{each, has_type};
 
 /// Calibrate wheels, scanner and IMU of a robot with two driven wheels from a recorded drive
 ///

@@ -38,6 +38,17 @@ impl CliError {
         Self::Usage(error.to_string())
     }
 
+    /// Returns the message, for a part of a command that is not its end.
+    pub(crate) fn message(&self) -> String {
+        match self {
+            Self::Failed(message) | Self::Usage(message) | Self::Exit(message, _) => {
+                message.clone()
+            }
+            Self::Reported(_) => "errors were printed".to_owned(),
+            Self::Output(error) => format!("cannot write the output: {}", plain_words(error)),
+        }
+    }
+
     /// Prints the message and returns the exit code.
     pub(crate) fn report(self) -> ExitCode {
         let (message, code) = match self {

@@ -16,7 +16,10 @@ const GROUPS: [(&str, &[&str]); 7] = [
     ("Start here", &["demo", "new", "doctor"]),
     ("Simulate", &["sim", "launch", "run", "teleop", "view"]),
     ("Maps, localization, navigation", &["slam", "localize", "map", "costmap", "navigate"]),
-    ("Tests and results", &["scenario", "sweep", "score", "compare", "calibrate"]),
+    (
+        "Tests and results",
+        &["scenario", "sweep", "score", "compare", "rerun", "report", "calibrate"],
+    ),
     ("Robots and worlds", &["check", "convert"]),
     (
         "ROS 2 and Gazebo",

@@ -28,6 +28,8 @@ mod own_command;
 mod page;
 mod paths;
 mod program;
+mod report;
+mod rerun;
 mod run_options;
 mod scenario;
 mod score;
@@ -54,6 +56,8 @@ use demo::DemoOptions;
 use options::Command;
 
 use crate::error::CliError;
+
+pub use report::{ReportError, report_html};
 
 /// Prints the completion script in one write, so that a closed pipe is an error that [`run`] handles.
 fn completions(shell: clap_complete::Shell) -> Result<ExitCode, CliError> {
@@ -140,6 +144,8 @@ pub fn run(words: Vec<String>, own_command: Vec<String>, interpreter: Option<Str
         Command::Calibrate(options) => calibrate::run(&options),
         Command::Check(options) => check::run(&options),
         Command::Compare(options) => compare::run(&options),
+        Command::Report(options) => report::run(&options),
+        Command::Rerun(options) => rerun::run(&options),
         Command::Score(options) => score::run(&options),
         Command::Conformance(options) => conformance::run(&options),
         Command::Demo(options) => demo::run(&options),

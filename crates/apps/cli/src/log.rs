@@ -1,6 +1,6 @@
 //! Laser scans with odometry, from CARMEN logs and recordings.
 
-pub(crate) mod bag;
+mod bag;
 
 use std::io::BufRead as _;
 use std::path::Path;

@@ -19,6 +19,8 @@ use crate::map::MapCommand;
 use crate::navigate::NavigateOptions;
 use crate::new::NewCommand;
 use crate::program::RunOptions;
+use crate::report::ReportOptions;
+use crate::rerun::RerunOptions;
 use crate::scenario::ScenarioOptions;
 use crate::score::ScoreOptions;
 use crate::sim::SimOptions;
@@ -58,6 +60,8 @@ pub(crate) enum Command {
     Launch(LaunchOptions),
     #[command(subcommand)]
     New(NewCommand),
+    Report(Box<ReportOptions>),
+    Rerun(RerunOptions),
     Run(RunOptions),
     Sim(Box<SimOptions>),
     Score(ScoreOptions),

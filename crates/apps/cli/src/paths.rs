@@ -16,6 +16,11 @@ pub(crate) fn bag(path: &Path) -> Result<Bag, CliError> {
     Bag::open(path).map_err(|error| CliError::Failed(bag_error(path, &error)))
 }
 
+/// Opens a recording, or a CARMEN log as one.
+pub(crate) fn log(path: &Path) -> Result<Bag, CliError> {
+    Bag::open_log(path).map_err(|error| CliError::Failed(bag_error(path, &error)))
+}
+
 /// Message for an error of a recording, with the nearest name if the file is missing.
 pub(crate) fn bag_error(path: &Path, error: &BagError) -> String {
     format!("{error}{}", advice(path))

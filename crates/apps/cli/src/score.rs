@@ -12,11 +12,11 @@ use std::process::ExitCode;
 use crate::error::CliError;
 use crate::terminal::say;
 
-pub(crate) use options::{ScoreOptions, ScoreSettings};
+pub(crate) use options::{Align, ScoreOptions, ScoreSettings};
 pub(crate) use picture::write_picture;
 pub(crate) use run::Run;
 pub(crate) use scores::RunScores;
-pub(crate) use table::{difference_table, names, put_json, table, value};
+pub(crate) use table::{difference_table, names, number, put_json, table, value};
 
 pub(crate) fn run(options: &ScoreOptions) -> Result<ExitCode, CliError> {
     let settings = &options.settings;

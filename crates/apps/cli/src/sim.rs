@@ -127,6 +127,10 @@ pub(crate) struct SimOptions {
     mapping: MappingOptions,
     #[command(flatten)]
     page: PageOptions,
+    /// File to which the page may write the world with its changes: WORLD itself, of which only changed models are edited, or
+    /// another file
+    #[arg(long, value_name = "FILE.sdf", requires = "page")]
+    world_out: Option<PathBuf>,
     /// Do not open a browser
     #[arg(long, requires = "page")]
     no_browser: bool,
@@ -166,7 +170,10 @@ pub(crate) fn run(options: &SimOptions, ros: Vec<String>) -> Result<ExitCode, Cl
     });
     let factor = Factor::of_run(options.rtf, options.duration, &composition);
     let page = options.page.of_run(
-        PageContext::of(&composition, &options.search.resource_path),
+        PageContext {
+            world_out: options.world_out.clone(),
+            ..PageContext::of(&composition, &options.search.resource_path)
+        },
         options.quiet,
         !options.no_browser,
     );

@@ -255,6 +255,9 @@ impl SessionBuilder {
     ) -> Result<Option<Page>, RunError> {
         let Some(settings) = &self.page else { return Ok(None) };
         services.show(simulation, settings.context.folders()).map_err(RunError::Display)?;
+        if let Some(file) = &settings.context.world_out {
+            services.write_world_to(simulation, file.clone()).map_err(RunError::Display)?;
+        }
         Ok(Page::open(simulation.graph(), settings)?)
     }
 }

@@ -6,6 +6,7 @@
 //! simulation on ROS 2. Progress and findings are printed to stderr.
 
 mod builder;
+pub mod difference;
 mod error;
 pub mod files;
 mod live;
@@ -14,8 +15,10 @@ pub mod nodes;
 pub mod page;
 pub mod picture;
 mod progress;
+pub mod recorded;
 mod recording;
 mod report;
+pub mod rerun;
 mod session;
 mod steps;
 pub mod stop;

@@ -5,7 +5,7 @@ mod costmaps;
 mod localization;
 mod mapping;
 mod navigation;
-mod profile;
+pub(crate) mod profile;
 
 use std::io::{self, Write};
 use std::path::PathBuf;

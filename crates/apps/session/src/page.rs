@@ -48,6 +48,8 @@ pub struct PageContext {
     pub fixed_frame: Option<String>,
     /// Recordings that the page opens.
     pub recordings: Vec<PathBuf>,
+    /// File to which the page may write the changed world.
+    pub world_out: Option<PathBuf>,
 }
 
 impl PageContext {

@@ -88,6 +88,12 @@ impl SimulationSession {
         }
         let folders = settings.context.folders();
         parts.services.show(&parts.simulation, folders).map_err(RunError::Display)?;
+        if let Some(file) = &settings.context.world_out {
+            parts
+                .services
+                .write_world_to(&parts.simulation, file.clone())
+                .map_err(RunError::Display)?;
+        }
         let page = Page::serve(parts.simulation.graph(), settings)?;
         let url = page.url();
         parts.page = Some(page);

@@ -22,6 +22,8 @@ mod machine_words;
 mod render;
 mod source;
 mod spelling;
+mod text_edit;
+mod unified_diff;
 
 pub use collect::{Diagnostics, MAX_FINDINGS};
 pub use diagnostic::{Diagnostic, DiagnosticCause, Replacement, Severity};
@@ -30,3 +32,5 @@ pub use machine_words::plain_words;
 pub use render::{RenderStyle, render};
 pub use source::{ContextId, Expansion, FileId, Origin, Position, SourceFile, SourceMap, Span};
 pub use spelling::closest;
+pub use text_edit::{TextEdit, apply_edits};
+pub use unified_diff::unified_diff;

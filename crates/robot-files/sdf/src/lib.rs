@@ -24,6 +24,7 @@
 
 mod builtin;
 mod draft;
+mod edit;
 mod fields;
 mod frames;
 mod inertia;
@@ -36,6 +37,7 @@ mod verbatim;
 mod version;
 mod write;
 
+pub use edit::{WorldEdit, WorldEditError, edit_world};
 pub use inertia::check as check_inertia;
 pub use plain_names::use_plain_names;
 pub use pose::{PosedElement, Reference, read_pose};

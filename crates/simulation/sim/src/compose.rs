@@ -65,6 +65,8 @@ pub struct Composition {
     pub members: Vec<ModelInstance>,
     /// Files with their findings; the world file comes first.
     pub files: Vec<LoadedFile>,
+    /// True if the world is the default plane, since none of the files has one.
+    pub is_default_world: bool,
 }
 
 impl Composition {
@@ -105,7 +107,13 @@ pub fn compose(world: &Path, robots: &[RobotPlacement], setting: &LoadContext<'_
 /// Returns an empty plane with a sun, and robots on it.
 #[must_use]
 pub fn compose_plain(robots: &[RobotPlacement], setting: &LoadContext<'_>) -> Composition {
-    compose_loaded(plain_world(setting), robots, setting)
+    let composition = compose_loaded(plain_world(setting), robots, setting);
+    Composition { is_default_world: true, ..composition }
+}
+
+/// Reads a world from the text of its file.
+pub(crate) fn compose_text(path: &Path, text: &str, setting: &LoadContext<'_>) -> Composition {
+    compose_loaded(load_bytes(path, text.as_bytes(), setting), &[], setting)
 }
 
 fn compose_loaded(
@@ -215,7 +223,7 @@ fn compose_loaded(
         }
         files.push(loaded);
     }
-    Composition { world, members, files }
+    Composition { world, members, files, is_default_world: lonely }
 }
 
 /// Returns the plane with a sun.

@@ -137,6 +137,22 @@ impl Services {
         self.metrics.offer()
     }
 
+    /// Offers to write the changed world to a file, which may be that of the world: `/world/<world>/write`. It has no effect
+    /// before [`Services::show`].
+    ///
+    /// # Errors
+    /// When the service has another type.
+    pub fn write_world_to(
+        &mut self,
+        simulation: &Simulation,
+        file: PathBuf,
+    ) -> Result<(), GraphError> {
+        match &mut self.stage {
+            Some(stage) => stage.offer_writing(&self.log.node, &simulation.scene.name, file),
+            None => Ok(()),
+        }
+    }
+
     /// Offers the world to Gazebo programs, with Gazebo's own messages; the request queue receives
     /// their calls.
     pub fn open_to_gazebo(&mut self, simulation: &Simulation) -> GazeboRequestQueue {
@@ -210,7 +226,7 @@ impl Services {
         self.forces.serve(simulation);
         self.publish(simulation);
         if let Some(stage) = &mut self.stage
-            && let Err(error) = stage.serve(simulation)
+            && let Err(error) = stage.serve(simulation, &self.search)
         {
             self.log.refused("truth", &error.to_string());
         }

@@ -4,7 +4,9 @@ mod change;
 mod faults;
 mod snapshot;
 mod view;
+mod world_file;
 
+use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use periplus_diagnostics::{Diagnostic, Diagnostics};
@@ -25,6 +27,7 @@ use crate::files::AssetFiles;
 use crate::profile::{Work, WorkProfile};
 
 pub use snapshot::{Snapshot, SnapshotError};
+pub(crate) use world_file::{WorldChange, WorldFile, is_moved, is_same};
 
 /// Maximum step if motion needs no small steps \[ns\]: drives that check commands in each step must
 /// be called.
@@ -109,6 +112,10 @@ pub struct Simulation {
     options: Options,
     /// True if the seed has changed since the devices were created.
     has_new_seed: bool,
+    /// World as its file has it.
+    world_file: WorldFile,
+    /// Requested poses of models since the start or reset, by name.
+    requested_poses: BTreeMap<String, Pose>,
     /// Number of insertions and removals of models.
     changes: u64,
     /// Number of builds of a model's devices.
@@ -143,6 +150,8 @@ impl Simulation {
             world_devices: Vec::new(),
             has_new_seed: false,
             running: Vec::new(),
+            world_file: WorldFile::new(composition),
+            requested_poses: BTreeMap::new(),
             changes: 0,
             builds: 0,
             identity: Arc::new(()),
@@ -373,6 +382,7 @@ impl Simulation {
         let gone = self.running.remove(place);
         self.views.remove(gone.model, &self.motion);
         self.motion.remove(gone.model);
+        self.requested_poses.remove(name);
         self.changes += 1;
         true
     }
@@ -383,6 +393,7 @@ impl Simulation {
         let model = self.running[place].model;
         let moved = self.motion.set_pose(model, world_from_model);
         if moved {
+            self.requested_poses.insert(name.to_owned(), world_from_model);
             self.views.invalidate();
         }
         moved
@@ -398,6 +409,7 @@ impl Simulation {
     /// Resets models to their initial poses, at rest; time continues.
     pub fn reset_models(&mut self) {
         self.motion.reset();
+        self.requested_poses.clear();
         self.views.invalidate();
         self.restart_devices();
     }

@@ -7,7 +7,6 @@
 
 mod document;
 mod sites;
-mod unified_diff;
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
@@ -21,7 +20,6 @@ use self::document::Leaves;
 use self::sites::{Site, number_text};
 
 pub(super) use self::document::{Elements, Place};
-pub(super) use self::unified_diff::unified_diff;
 
 /// Number of the expanded document with its calibrated value.
 #[derive(Clone, Debug)]

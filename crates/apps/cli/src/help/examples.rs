@@ -119,6 +119,15 @@ pub(super) const EXAMPLES: &[(&str, &[Example])] = &[
     ("param list", &[("periplus param list /amcl", "Parameters of a node")]),
     ("param load", &[("periplus param load /amcl amcl.yaml", "Set the parameters of a file")]),
     ("param set", &[("periplus param set /amcl max_particles 1000", "Set a parameter")]),
+    ("report", &[
+        ("periplus report run.mcap", "Write run.html: scores, map, plots, log, parameters"),
+        ("periplus report before.mcap after.mcap -o difference.html", "Two runs and their difference"),
+    ]),
+    ("rerun", &[
+        ("periplus rerun slam drive.mcap -p resolution:=0.1 -o coarse.mcap", "The map of a recorded drive with cells of 0.1 m"),
+        ("periplus rerun amcl drive.mcap -p map_file:=room.yaml", "Localization of a recorded drive"),
+        ("periplus rerun costmap --list", "Parameters of both costmaps"),
+    ]),
     ("run", &[
         ("periplus run wall_follower.py --ros-args -p speed:=0.3", "A node of a file, with a parameter"),
         ("periplus run my_package wall_follower", "A node of a package in this workspace, without a build"),

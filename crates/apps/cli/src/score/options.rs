@@ -67,6 +67,28 @@ pub(crate) struct ScoreSettings {
     pub(crate) json: bool,
 }
 
+impl Default for ScoreSettings {
+    /// The defaults of the command line.
+    fn default() -> Self {
+        Self {
+            truth: None,
+            model: None,
+            map: None,
+            align: Align::Se2,
+            delta: RelativeDelta::Metres(1.0),
+            all_pairs: false,
+            max_difference: 0.01,
+            tolerance: 0.1,
+            radius: 0.0,
+            map_frame: "map".to_owned(),
+            odom_frame: "odom".to_owned(),
+            base_frame: None,
+            picture: None,
+            json: false,
+        }
+    }
+}
+
 impl ScoreSettings {
     /// Pairs of relative errors.
     pub(crate) fn pairs(&self) -> PairSelection {

@@ -18,8 +18,8 @@ use periplus_sim::TRUTH_TOPIC;
 use super::options::ScoreSettings;
 use super::run::{Estimate, Goal, Run, truth_file};
 use crate::error::CliError;
-use crate::log::bag::{Frames, each, each_at, has_type};
 use crate::{paths, terminal};
+use periplus_session::recorded::{RecordedFrames, each, each_at, has_type};
 
 /// Maximum time between two true poses that are interpolated \[s\].
 const MAX_GAP_S: f64 = 1.0;
@@ -35,7 +35,7 @@ pub(super) fn read(path: &Path, settings: &ScoreSettings) -> Result<Run, CliErro
     let bag = paths::bag(path)?;
     terminal::diagnostics(&mut anstream::stderr().lock(), bag.findings(), &SourceMap::new())?;
     let (truth_source, truth) = truth(&bag, path, settings)?;
-    let frames = Frames::read(&bag)?;
+    let frames = RecordedFrames::read(&bag)?;
     frames.faults.iter().for_each(|fault| terminal::complain(fault));
     let base = settings.base_frame.clone().or_else(|| frames.base(&settings.odom_frame, None));
     let mut estimates = Vec::new();
@@ -72,7 +72,7 @@ pub(super) fn read(path: &Path, settings: &ScoreSettings) -> Result<Run, CliErro
 }
 
 /// Transforms at the stamps of the truth.
-fn pairs(frames: &Frames, frame: &str, base: &str, truth: &Trajectory) -> Vec<PosePair> {
+fn pairs(frames: &RecordedFrames, frame: &str, base: &str, truth: &Trajectory) -> Vec<PosePair> {
     if frames.buffer.chain(frame, base).is_none() {
         return Vec::new();
     }

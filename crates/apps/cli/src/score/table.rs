@@ -64,7 +64,7 @@ fn name_width(runs: &[&RunScores]) -> usize {
 }
 
 /// Four significant digits are enough to compare runs; `-` for an undefined score.
-fn number(value: f64) -> String {
+pub(crate) fn number(value: f64) -> String {
     let size = value.abs();
     if value.is_nan() {
         "-".into()

@@ -27,7 +27,7 @@ const MAX_DETECTION_NS: i64 = 2_000_000_000;
 const MIN_DETECTION_NS: i64 = 500_000_000;
 
 /// Radius of a robot whose collisions give no size \[m\], the default of Nav2's example.
-const DEFAULT_RADIUS_M: f64 = 0.22;
+pub(crate) const DEFAULT_RADIUS_M: f64 = 0.22;
 
 /// Maximum depth of a chain of frames.
 const MAX_DEPTH: usize = 100;

@@ -5,6 +5,7 @@ use std::sync::Arc;
 
 use periplus_web::foxglove::{RecordingSettings, Recordings};
 
+use crate::rerun::RerunJobs;
 use crate::terminal;
 
 /// Opens recordings in the background. Recordings of the graph are created in the working folder, as
@@ -13,6 +14,7 @@ pub(super) fn open(paths: &[PathBuf]) -> Result<Arc<Recordings>, String> {
     let here = terminal::working_folder();
     let settings = RecordingSettings::new(here, std::env::temp_dir());
     let recordings = Recordings::new(settings);
+    recordings.set_jobs(Arc::new(RerunJobs::new(std::env::temp_dir())));
     for path in paths {
         recordings.open(path).map_err(|error| error.to_string())?;
     }

@@ -7,9 +7,11 @@ use crate::{BagTopic, Metadata, Selection, Style, read_metadata};
 use periplus_diagnostics::{Diagnostic, Diagnostics, SourceMap};
 
 use crate::files::BagError;
+use crate::files::indexed::{OpenProgress, convert_carmen, is_carmen_file};
 use crate::files::naming::bag_files;
 use crate::files::part::Part;
 use crate::files::stream::BagMessages;
+use crate::files::temporary::Temporary;
 use crate::files::write::Storage;
 
 /// ROS version of a bag.
@@ -30,6 +32,8 @@ pub struct Bag {
     counts: Vec<u64>,
     metadata: Option<Metadata>,
     findings: Diagnostics,
+    /// Copy of a log of another format, removed with the bag.
+    _copy: Option<Temporary>,
 }
 
 /// Name of the metadata file in a folder.
@@ -46,6 +50,27 @@ impl Bag {
     /// When there is no bag at the path.
     pub fn open(path: impl AsRef<Path>) -> Result<Self, BagError> {
         Self::open_with(path.as_ref(), &mut Part::look)
+    }
+
+    /// Opens a bag of any kind, or a CARMEN log, which is read into a temporary file with messages of ROS 2: `/scan`, `/odom`
+    /// and `/tf`.
+    ///
+    /// # Errors
+    /// When there is no bag and no log at the path.
+    pub fn open_log(path: impl AsRef<Path>) -> Result<Self, BagError> {
+        let path = path.as_ref();
+        if !is_carmen_file(path)? {
+            return Self::open(path);
+        }
+        let (copy, faults) = convert_carmen(path, &OpenProgress::default())?;
+        let mut bag = Self::open(copy.path())?;
+        bag._copy = Some(copy);
+        path.clone_into(&mut bag.path);
+        for (line, fault) in faults {
+            let wrong = format!("`{}`: line {line}: {fault}", path.display());
+            bag.findings.push(Diagnostic::warning("damaged-log", wrong));
+        }
+        Ok(bag)
     }
 
     /// Opens a bag whose files are read by `look`.
@@ -93,6 +118,7 @@ impl Bag {
             counts: Vec::new(),
             metadata,
             findings,
+            _copy: None,
         };
         bag.join_topics();
         Ok(bag)

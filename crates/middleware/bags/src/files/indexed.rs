@@ -27,6 +27,9 @@ use chunk_cache::CachedChunks;
 use database_file::DatabaseFile;
 use stream_file::StreamFile;
 
+pub(crate) use carmen::convert as convert_carmen;
+pub(crate) use open::is_carmen_file;
+
 pub use chunk_cache::ChunkCache;
 pub use location::{LocationSpan, MessageLocation};
 pub use progress::OpenProgress;

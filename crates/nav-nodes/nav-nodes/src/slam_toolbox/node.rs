@@ -654,6 +654,15 @@ impl SlamNode {
         }
     }
 
+    /// Publishes the present map and graph, without waiting for `map_update_interval`: at the end of a recording there is
+    /// no later time.
+    pub fn publish_present_map(&mut self) {
+        let node = self.node.clone();
+        let (names, now_ns) = (self.names(), node.now_ns());
+        self.published_ns = None;
+        self.publish_map(now_ns, &names, &node);
+    }
+
     /// Returns the current state.
     #[must_use]
     pub fn status(&self) -> SlamStatus {

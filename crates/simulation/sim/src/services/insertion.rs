@@ -64,6 +64,7 @@ impl ModelInsertion<'_> {
             with_frames: self.with_frames,
         };
         let spawned = spawn(simulation, search, &wish)?;
+        simulation.exclude_from_changes(&spawned.name);
         Ok(InsertionResult { name: spawned.name, notes: spawned.notes })
     }
 }

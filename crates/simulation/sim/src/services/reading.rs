@@ -100,7 +100,15 @@ impl Search {
         let light = lights.next().cloned();
         let found = match (models_of(scene).into_iter().next(), light) {
             _ if findings.has_errors() => return Err(told(&findings, &sources)),
-            (Some(model), _) => Found::Model { model: Box::new(model), description },
+            (Some(mut model), _) => {
+                // A world that is saved includes it as Gazebo does, instead of repeating its file.
+                if let Source::File(uri) = source
+                    && uri.contains("://")
+                {
+                    model.included_from.get_or_insert_with(|| (*uri).to_owned());
+                }
+                Found::Model { model: Box::new(model), description }
+            }
             (None, Some(light)) => Found::Light(Box::new(light)),
             (None, None) => {
                 let notes = told(&findings, &sources);

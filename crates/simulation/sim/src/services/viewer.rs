@@ -8,15 +8,19 @@
 //! | `/world/<world>/truth` | `diagnostic_msgs/DiagnosticArray`, latched | agreement of maps with
 //! the world, periodically |
 //! | `/world/<world>/save` | `std_srvs/Trigger` | the world as it is now, as SDF |
+//! | `/world/<world>/changes` | `std_srvs/Trigger` | edits since the start as a diff of the world's file, as JSON |
+//! | `/world/<world>/write` | `std_srvs/Trigger` | writes the edited text of `changes` to the file that the user has named |
 //! | `/world/<world>/library` | `std_srvs/Trigger` | insertable models, as JSON |
 //!
 //! They exist only after a request ([`super::Services::show`]): a bag of all topics must not contain
 //! unrequested ones.
 
+mod changes;
 mod library;
 mod map_comparison;
 mod markers;
 pub(super) mod save;
+mod writer;
 
 use std::path::PathBuf;
 use std::time::Duration;
@@ -31,8 +35,10 @@ use periplus_msgs::visualization_msgs::MarkerArray;
 use periplus_os::Stopwatch;
 
 use self::map_comparison::MapComparison;
+use self::writer::WorldWriter;
 use super::convert::{pose_message, vector_message};
 use super::gz_sim::name_of;
+use super::reading::Search;
 use super::service_aliases::ServiceAliases;
 use crate::Simulation;
 
@@ -49,6 +55,8 @@ pub(super) struct ViewerTopics {
     sensors: Publisher<TFMessage>,
     truth: MapComparison,
     save: ServiceAliases<Trigger>,
+    changes: ServiceAliases<Trigger>,
+    write: Option<WorldWriter>,
     library: ServiceAliases<Trigger>,
     /// Folders of insertable models.
     folders: Vec<PathBuf>,
@@ -66,19 +74,40 @@ impl ViewerTopics {
             sensors: node.publisher(&name("sensors"), Qos::latched(1))?,
             truth: MapComparison::new(node, &name("truth"))?,
             save: ServiceAliases::new(node, [name("save").as_str()])?,
+            changes: ServiceAliases::new(node, [name("changes").as_str()])?,
             library: ServiceAliases::new(node, [name("library").as_str()])?,
+            write: None,
             folders,
             told: None,
             since: None,
         })
     }
 
+    /// Offers to write the world to a file.
+    pub(super) fn offer_writing(
+        &mut self,
+        node: &Node,
+        world: &str,
+        file: PathBuf,
+    ) -> Result<(), GraphError> {
+        self.write = Some(WorldWriter::new(node, &name_of(world, "write"), file)?);
+        Ok(())
+    }
+
     /// Answers requests, and publishes due messages.
-    pub(super) fn serve(&mut self, simulation: &mut Simulation) -> Result<(), GraphError> {
-        self.save.answer(|_| match save::text(simulation) {
-            Ok(message) => TriggerResponse { success: true, message },
-            Err(message) => TriggerResponse { success: false, message },
+    pub(super) fn serve(
+        &mut self,
+        simulation: &mut Simulation,
+        search: &Search,
+    ) -> Result<(), GraphError> {
+        self.save.answer(|_| response(save::text(simulation)));
+        let written = self.write.as_ref().and_then(WorldWriter::written);
+        self.changes.answer(|_| {
+            response(changes::of(simulation, search, written).map(|changes| changes.to_json()))
         });
+        if let Some(writer) = &mut self.write {
+            writer.serve(simulation, search);
+        }
         self.library.answer(|_| {
             let message = library::models(&self.folders);
             TriggerResponse { success: true, message }
@@ -95,6 +124,11 @@ impl ViewerTopics {
         }
         self.truth.serve(simulation)
     }
+}
+
+fn response(message: Result<String, String>) -> TriggerResponse {
+    let success = message.is_ok();
+    TriggerResponse { success, message: message.unwrap_or_else(|why| why) }
 }
 
 fn transform(header: &Header, child_frame_id: String, pose: Pose) -> TransformStamped {

@@ -13,9 +13,17 @@ impl Simulation {
     /// Sets the pose of a model or link, at rest.
     pub(crate) fn place(&mut self, entity: Entity, world_from_entity: Pose) {
         match entity {
-            Entity::Model(model) => self.motion.set_pose(model, world_from_entity),
-            Entity::Link(link) => self.motion.set_link_pose(link, world_from_entity),
-        };
+            Entity::Model(model) => {
+                let running = self.running.iter().find(|running| running.model == model);
+                let name = running.map(|running| running.member.name.clone());
+                if self.motion.set_pose(model, world_from_entity) {
+                    self.requested_poses.extend(name.map(|name| (name, world_from_entity)));
+                }
+            }
+            Entity::Link(link) => {
+                self.motion.set_link_pose(link, world_from_entity);
+            }
+        }
         self.views.invalidate();
     }
 

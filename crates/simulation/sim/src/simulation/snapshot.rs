@@ -1,9 +1,11 @@
 //! Snapshots of a simulation.
 
+use std::collections::BTreeMap;
 use std::fmt;
 use std::sync::Arc;
 
 use periplus_diagnostics::Diagnostics;
+use periplus_geometry::Pose;
 use periplus_physics::{Diverged, ModelId, PhysicsWorld};
 use periplus_scene as scene;
 use periplus_sim_nodes::{Device, DeviceState, ViewsState};
@@ -27,6 +29,7 @@ pub struct Snapshot {
     views: ViewsState,
     world_devices: Vec<DeviceState>,
     models: Vec<SavedModel>,
+    requested_poses: BTreeMap<String, Pose>,
     diverged: Vec<Diverged>,
 }
 
@@ -111,6 +114,7 @@ impl Simulation {
             views: self.views.save(),
             world_devices: saved(&self.world_devices),
             models: models.collect(),
+            requested_poses: self.requested_poses.clone(),
             diverged: self.diverged.clone(),
         }
     }
@@ -140,6 +144,7 @@ impl Simulation {
         self.has_new_seed = snapshot.has_new_seed;
         self.motion = snapshot.motion.clone();
         self.scene = Arc::clone(&snapshot.scene);
+        self.requested_poses.clone_from(&snapshot.requested_poses);
         self.diverged.clone_from(&snapshot.diverged);
         self.views.restore(&snapshot.views);
         self.restore_models(&snapshot.models);

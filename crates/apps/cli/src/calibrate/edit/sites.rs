@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::path::PathBuf;
 
-use periplus_diagnostics::{Diagnostics, FileId, Origin, SourceMap, Span};
+use periplus_diagnostics::{Diagnostics, FileId, Origin, SourceMap, Span, TextEdit, apply_edits};
 use periplus_loader::LoadContext;
 use periplus_xml::{Element, XmlNode, parse};
 
@@ -123,16 +123,20 @@ pub(super) fn edited(
     edits: &BTreeMap<usize, f64>,
     sources: &SourceMap,
 ) -> BTreeMap<PathBuf, (String, String)> {
-    let mut texts: BTreeMap<PathBuf, (String, String)> = BTreeMap::new();
-    // From the end, so that earlier positions stay.
-    let mut ordered: Vec<(&Site, f64)> =
-        edits.iter().map(|(it, value)| (&sites[*it], *value)).collect();
-    ordered.sort_by_key(|it| std::cmp::Reverse(it.0.start));
-    for (site, value) in ordered {
-        let before = || sources.text(sources.whole(site.file)).to_owned();
-        let (_, after) = texts.entry(site.path.clone()).or_insert_with(|| (before(), before()));
+    let mut by_path: BTreeMap<&PathBuf, (FileId, Vec<TextEdit>)> = BTreeMap::new();
+    for (number, value) in edits {
+        let site = &sites[*number];
+        let (_, of_file) = by_path.entry(&site.path).or_insert_with(|| (site.file, Vec::new()));
         let range = site.start as usize..site.end as usize;
-        after.replace_range(range, &number_text(value, DIGIT_COUNT));
+        of_file.push(TextEdit { range, text: number_text(*value, DIGIT_COUNT) });
+    }
+    let mut texts = BTreeMap::new();
+    for (path, (file, of_file)) in by_path {
+        let before = sources.text(sources.whole(file)).to_owned();
+        // Sites are numbers of this text, each once.
+        if let Some(after) = apply_edits(&before, of_file) {
+            texts.insert(path.clone(), (before, after));
+        }
     }
     texts
 }

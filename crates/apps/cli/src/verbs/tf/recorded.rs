@@ -11,9 +11,9 @@ use periplus_ros2cli::tf::{Pictures, put_tree, stamped};
 use periplus_tf::{TransformKind, TransformMonitor};
 
 use crate::error::CliError;
-use crate::log::bag::{each, has_type};
 use crate::terminal;
 use crate::verbs::{Common, without_network};
+use periplus_session::recorded::{each, has_type};
 
 /// Builds the tree of all frames of a recording.
 pub(super) fn tree(

@@ -24,11 +24,11 @@ enum Line {
 }
 
 /// Lines with errors: number, from 1, and error.
-type LineFaults = Vec<(usize, String)>;
+pub(crate) type LineFaults = Vec<(usize, String)>;
 
 /// Writes a log as a temporary MCAP file: `/scan` (the scans of the first kind), `/odom`, and `/tf`
 /// with the poses of the robot and of the scanner.
-pub(super) fn convert(
+pub(crate) fn convert(
     path: &Path,
     progress: &OpenProgress,
 ) -> Result<(Temporary, LineFaults), BagError> {

@@ -38,7 +38,7 @@ pub(super) fn open(
     cache: CachedChunks,
 ) -> Result<IndexedBag, BagError> {
     progress.set_total(size_of(path));
-    if path.is_file() && is_carmen_log(path)? {
+    if is_carmen_file(path)? {
         return open_carmen(path, progress, cache);
     }
     if path.is_file() && !is_metadata(path) && content(path)?.is_none() {
@@ -186,7 +186,10 @@ fn is_metadata(path: &Path) -> bool {
     path.file_name().is_some_and(|name| name == METADATA)
 }
 
-fn is_carmen_log(path: &Path) -> Result<bool, BagError> {
+pub(crate) fn is_carmen_file(path: &Path) -> Result<bool, BagError> {
+    if !path.is_file() {
+        return Ok(false);
+    }
     let file = File::open(path).map_err(BagError::file(path))?;
     let mut head = Vec::new();
     file.take(HEAD_BYTES).read_to_end(&mut head).map_err(BagError::file(path))?;
