@@ -1,4 +1,4 @@
-/** Subscriptions that outlive their source: a running system, or recordings that take its place. */
+/** Subscriptions that outlive their source, a running system or recordings. */
 import type { Handler } from './client';
 import type { Channel, Ends, Mismatch, ServiceOffer } from './protocol';
 
