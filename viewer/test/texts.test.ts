@@ -15,6 +15,7 @@ const NAMES = [
   'Visualize Lidar',
   'Key Publisher',
   '2D Goal Pose',
+  'Fixed Frame',
   'periplus sim WORLD --robot FILE --navigation --page',
 ];
 
@@ -43,7 +44,7 @@ describe('texts', () => {
       if (named.test(code) || new RegExp(`\\.${section}\\s*\\[`).test(code)) return true;
       // A file that takes a whole section reads its texts by another name.
       const whole = new RegExp(`t\\(\\)\\.${section}\\b(?!\\s*[.[])`);
-      const short = new RegExp(`\\.${key}\\b|\\b\\w+\\[`);
+      const short = new RegExp(`\\.${key}\\b|[\\w)]\\[`);
       return codes.some((one) => whole.test(one) && short.test(one));
     };
     expect(paths(en).filter((path) => !isUsed(path))).toEqual([]);

@@ -72,7 +72,6 @@ const PANELS: Record<string, string> = {
   TopicGraph: 'graph',
   SourceInfo: 'topics',
   CallService: 'services',
-  Publish: 'publish',
 };
 
 class Importer {

@@ -818,9 +818,6 @@ export const de: Texts = {
     shortVideo: 'Das Video hat kein Bild. Nehmen Sie länger auf.',
     record: 'Lauf auf dem Server aufzeichnen',
     stopRecord: 'Aufzeichnung beenden',
-    recording: 'Alle Topics werden aufgezeichnet.',
-    recorded: 'Die Aufzeichnung ist gespeichert. Das Panel Aufzeichnungen spielt sie ab.',
-    recordFailed: (why: string) => `Der Lauf wird nicht aufgezeichnet: ${why}`,
   },
   expression: {
     tooLong: (most) => `der Ausdruck ist länger als ${most} Zeichen`,
@@ -922,7 +919,6 @@ export const de: Texts = {
     parameterSets: 'Parametersätze',
     joints: 'Gelenke',
     table: 'Tabelle',
-    publish: 'Publizieren',
   },
   transformTree: {
     frame: 'Frame',
@@ -983,7 +979,6 @@ export const de: Texts = {
     remove: (name) => `${name} entfernen`,
     asForm: 'Formular',
     asYaml: 'YAML',
-    notANumber: (path) => `${path} ist keine Zahl`,
   },
   actions: {
     action: 'Action',
@@ -1012,7 +1007,6 @@ export const de: Texts = {
       'abgebrochen',
       'gescheitert',
     ],
-    state: (name) => `Zustand: ${name}`,
   },
   graph: {
     search: 'Suchen',
@@ -1080,7 +1074,6 @@ export const de: Texts = {
     continuous: 'unbegrenzt',
     mimics: (joint) => `folgt ${joint}`,
     order: 'Die Werte werden in der Reihenfolge der Liste der Gelenke unten gesendet.',
-    command: 'Gelenke des Befehls',
   },
   table: {
     topic: 'Topic',
@@ -1130,5 +1123,46 @@ export const de: Texts = {
     interactive: (count) => `${count} interaktive Marker`,
     command: (title, command) =>
       `„${title}“ führt „${command}“ in einem Terminal aus; eine Seite kann das nicht`,
+  },
+  displaysPanel: {
+    title: 'Anzeigen',
+    add: 'Hinzufügen',
+    addDisplay: 'Anzeige hinzufügen',
+    byTopic: 'Nach Topic',
+    byKind: 'Nach Art',
+    fixedFrame: 'Festes Koordinatensystem',
+    options: (name: string) => `Optionen von ${name}`,
+    show: (name: string) => `${name} anzeigen`,
+    remove: (name: string) => `${name} entfernen`,
+    none: 'Noch wird nichts angezeigt. Anzeigen erscheinen von selbst, sobald es Topics gibt; oder fügen Sie eine hinzu.',
+  },
+  log: {
+    minLevel: 'Niedrigste Stufe',
+    search: 'Suchen',
+    none: 'Noch keine Meldungen empfangen (/rosout).',
+  },
+  nodes: {
+    publishes: 'Veröffentlicht',
+    subscribes: 'Abonniert',
+    services: 'Services',
+    none: 'Der Server meldet keine Knoten.',
+  },
+  optionRow: {
+    selectTopic: 'Topic wählen',
+    silent: (topic: string) => `${topic} (still)`,
+  },
+  parameters: {
+    searchIn: (count: number) => `${count} Parameter durchsuchen`,
+    search: 'Parameter suchen',
+    refresh: 'Aktualisieren',
+    noList: (name: string, text: string) => `${name}: „${text}“ ist keine JSON-Liste`,
+    none: 'Noch keine Parameter empfangen.',
+  },
+  services: {
+    searchIn: (count: number) => `${count} Services durchsuchen`,
+    search: 'Services suchen',
+    request: 'Anfrage',
+    call: 'Aufrufen',
+    done: 'erledigt',
   },
 };

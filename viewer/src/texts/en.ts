@@ -837,9 +837,6 @@ export const en = {
     shortVideo: 'The video has no frame. Record longer.',
     record: 'Record the run on the server',
     stopRecord: 'Stop the recording',
-    recording: 'All topics are recorded.',
-    recorded: 'The recording is saved. The panel Recordings plays it.',
-    recordFailed: (why: string) => `The run is not recorded: ${why}`,
   },
   expression: {
     tooLong: (most: number) => `the expression is longer than ${most} characters`,
@@ -941,7 +938,6 @@ export const en = {
     parameterSets: 'Parameter sets',
     joints: 'Joints',
     table: 'Table',
-    publish: 'Publish',
   },
   transformTree: {
     frame: 'Frame',
@@ -1002,7 +998,6 @@ export const en = {
     remove: (name: string) => `Remove ${name}`,
     asForm: 'Form',
     asYaml: 'YAML',
-    notANumber: (path: string) => `${path} is not a number`,
   },
   actions: {
     action: 'Action',
@@ -1022,7 +1017,6 @@ export const en = {
     result: 'Result',
     noResult: 'The result is not available: the server has no get_result service, or dropped it.',
     states: ['unknown', 'accepted', 'executing', 'canceling', 'succeeded', 'canceled', 'aborted'],
-    state: (name: string) => `State: ${name}`,
   },
   graph: {
     search: 'Search',
@@ -1090,7 +1084,6 @@ export const en = {
     continuous: 'continuous',
     mimics: (joint: string) => `follows ${joint}`,
     order: 'The values are sent in the order of the list of joints below.',
-    command: 'Joints of the command',
   },
   table: {
     topic: 'Topic',
@@ -1141,6 +1134,47 @@ export const en = {
     interactive: (count: number) => `${count} interactive markers`,
     command: (title: string, command: string) =>
       `"${title}" runs "${command}" in a terminal; a page cannot do that`,
+  },
+  displaysPanel: {
+    title: 'Displays',
+    add: 'Add',
+    addDisplay: 'Add a display',
+    byTopic: 'By topic',
+    byKind: 'By kind',
+    fixedFrame: 'Fixed frame',
+    options: (name: string) => `Options of ${name}`,
+    show: (name: string) => `Show ${name}`,
+    remove: (name: string) => `Remove ${name}`,
+    none: 'Nothing is shown yet. Displays appear by themselves when topics do; or add one.',
+  },
+  log: {
+    minLevel: 'Minimum level',
+    search: 'Search',
+    none: 'No log messages received yet (/rosout).',
+  },
+  nodes: {
+    publishes: 'Publishes',
+    subscribes: 'Subscribes',
+    services: 'Services',
+    none: 'The server reports no nodes.',
+  },
+  optionRow: {
+    selectTopic: 'select a topic',
+    silent: (topic: string) => `${topic} (silent)`,
+  },
+  parameters: {
+    searchIn: (count: number) => `Search ${count} parameters`,
+    search: 'Search parameters',
+    refresh: 'Refresh',
+    noList: (name: string, text: string) => `${name}: "${text}" is not a JSON list`,
+    none: 'No parameters received yet.',
+  },
+  services: {
+    searchIn: (count: number) => `Search ${count} services`,
+    search: 'Search services',
+    request: 'Request',
+    call: 'Call',
+    done: 'done',
   },
 };
 

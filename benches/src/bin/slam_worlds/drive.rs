@@ -46,6 +46,7 @@ pub(crate) fn drive(stage: &Stage, seed: u64, bag: &Path) -> Result<Drive, Strin
         world: stage.composition.world.clone(),
         members: stage.composition.members.clone(),
         files: stage.composition.files.clone(),
+        is_default_world: stage.composition.is_default_world,
     };
     let options = Options { seed, mode: PhysicsMode::Rigid, ..Options::default() };
     let mut simulation = Simulation::new(&mut composition, stage.files.clone(), options);
