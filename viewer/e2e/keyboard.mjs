@@ -83,22 +83,16 @@ export async function keyboard(chrome, url) {
     await until(page, 'periplus.isPaused', 'standing still');
     // Arrow keys select each panel.
     await page.getByRole('tab', { name: 'Drive' }).focus();
-    for (const tab of [
-      'Navigate',
-      'World',
-      'Topics',
-      'Nodes',
-      'Parameters',
-      'Services',
-      'Plot',
-      'Log',
-      'Recordings',
-      'Drive',
-    ]) {
+    const tabs = await page.evaluate(() => {
+      const list = document.getElementById('tab-drive').closest('[role=tablist]');
+      return [...list.querySelectorAll('[role=tab]')].map((tab) => tab.id.replace('tab-', ''));
+    });
+    assert.ok(['drive', 'world', 'messages', 'plot', 'log'].every((id) => tabs.includes(id)));
+    for (const id of [...tabs.slice(1), tabs[0]]) {
       await page.keyboard.press('ArrowRight');
-      await page.locator(`#panel-${tab.toLowerCase()}`).waitFor();
-      if (['World', 'Plot', 'Log', 'Drive'].includes(tab)) await holds(page, tab);
-      await page.locator(`#tab-${tab.toLowerCase()}`).focus();
+      await page.locator(`#panel-${id}`).waitFor();
+      if (['world', 'plot', 'log', 'drive'].includes(id)) await holds(page, id);
+      await page.locator(`#tab-${id}`).focus();
     }
     // A display is expanded and disabled by keys.
     const shown = page.getByRole('checkbox', { name: /^Show (Scan|scan)/ });
