@@ -191,7 +191,7 @@ export class App {
     });
   }
 
-  /** Shows a message; one with the same topic as a message before takes its place. */
+  /** Shows a message; one with the same topic as an earlier message replaces it. */
   notice(level: Notice['level'], text: string, topic?: string): void {
     if (this.notices.some((notice) => notice.text === text)) return;
     const notice = { id: ++this.lastId, level, text, topic };

@@ -45,7 +45,7 @@ const SECOND: Record<string, Values> = {
   'rviz_default_plugins/RobotModel': { Alpha: 0.6 },
 };
 
-/** Display for a topic of a second recording: that of the first one, in colours of its own. */
+/** Display for a topic of a second recording: that of the first one, in its own colours. */
 function secondSuggestion(prefix: string, topic: string, type: string): Suggestion | undefined {
   const first = suggestionFor(topic.slice(prefix.length), type);
   if (!first) return undefined;

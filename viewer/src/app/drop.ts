@@ -20,7 +20,7 @@ export type FileKind = 'recording' | 'rviz' | 'world' | 'unknown';
 /** Files of a folder: more are no recording. */
 const MAX_FILES = 500;
 const MAX_DEPTH = 4;
-/** Bytes that tell the kind of a file. */
+/** First bytes of the kinds of files. */
 const HEAD_BYTES = 4096;
 
 const RECORDING = /\.(mcap|bag|db3)(\.(zstd|zst|lz4|active))?$|\.(clf|carmen|gfs|log)(\.gz)?$/i;

@@ -1,7 +1,7 @@
 /** Layout of the page as plain data: panels with their state, in tabs and splits. No DOM. */
 import type { JsonObject } from './panel.svelte';
 
-/** Tabs in one place; ids of panels. */
+/** Tabs of one group; ids of panels. */
 export interface Tabs {
   tabs: string[];
   active?: string;
@@ -53,12 +53,12 @@ const MAX_DEPTH = 20;
 
 export const isSplit = (place: Place): place is Split => 'split' in place;
 
-/** All panels of a place, in order. */
+/** All panels of a part of the layout, in order. */
 export function panelsOf(place: Place): string[] {
   return isSplit(place) ? place.children.flatMap(panelsOf) : place.tabs;
 }
 
-/** Tabs of a place, from left to right and top to bottom. */
+/** Groups of tabs of a part of the layout, from left to right and top to bottom. */
 export function tabsOf(place: Place): Tabs[] {
   return isSplit(place) ? place.children.flatMap(tabsOf) : [place];
 }
@@ -147,7 +147,7 @@ export function readLayout(value: unknown): Layout {
       state: isTree(panel.state) ? panel.state : {},
     };
   }
-  // Each panel is in one place; panels without a place are put beside the first tabs.
+  // Each panel is in one group; panels without a group are put beside the first tabs.
   const left = new Set(Object.keys(panels));
   const take = (id: string) => left.delete(id);
   const root = tidy(readPlace(value.root), take);
@@ -172,7 +172,7 @@ export function writeLayout(layout: Layout): JsonObject {
   return { format: FORMAT, version: LAYOUT_VERSION, ...layout };
 }
 
-/** Places a panel beside another one: in its tabs, or in a split of its own. */
+/** Places a panel beside another one: in its tabs, or in its own split. */
 export function insert(
   root: Place,
   id: string,

@@ -191,7 +191,7 @@ export class Comparison {
         const message = topic.read(data, (text) => this.app.notice('error', text));
         const isStatic = topic.name.endsWith('tf_static');
         for (const one of (message?.transforms ?? []) as TransformStamped[]) {
-          // Without the prefix: each recording has a buffer of its own.
+          // Without the prefix: each recording has its own buffer.
           const bare = (name: string) => name.slice(prefixIn(name).length);
           one.header.frame_id = bare(one.header.frame_id);
           one.child_frame_id = bare(one.child_frame_id);

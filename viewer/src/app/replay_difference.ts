@@ -32,7 +32,7 @@ export function topicDifferences(first: Recording, second: Recording): TopicDiff
       a &&
       b &&
       Math.abs(ratesHz[0]! - ratesHz[1]!) <= SAME_RATE_RATIO * Math.max(...(ratesHz as number[]));
-    // The rate of a few messages says nothing.
+    // The rate of a few messages has no meaning.
     const isRare = a && b && Math.max(a.count, b.count) <= 2;
     const kind = !b
       ? 'first'

@@ -132,7 +132,7 @@ export class Viewport {
     };
   }
 
-  /** For an image in a panel of its own: without a scene. */
+  /** For an image in its own panel: without a scene. */
   imageContext(): Context {
     const stage = { add: () => {}, remove: () => {}, invalidate: () => {} };
     return { ...this.context(), stage: stage as unknown as Stage };
@@ -446,7 +446,7 @@ export class Viewport {
     if (frame) this.setFixedFrame(frame);
   }
 
-  /** Opens a file; returns what it says about the window. */
+  /** Opens a file; returns what it contains about the window. */
   openRviz(text: string, fileName = ''): RvizWindow {
     const file = readRviz(text);
     // RViz has no display for a simulated world: the present one stays, unless the file has one.

@@ -275,7 +275,7 @@ export class Workbench implements PanelHost {
   }
 
   /**
-   * Shows a layout. 3D views with the same ids go on, other panels are made anew. A layout that the user
+   * Shows a layout. 3D views with the same ids go on, other panels are created again. A layout that the user
    * `isAskedFor` is not replaced by the file of a launch file.
    */
   restore(layout: Layout, isAskedFor = false): void {

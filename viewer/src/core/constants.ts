@@ -7,7 +7,7 @@ function sameValue(constant: Constant, value: unknown): boolean {
 }
 
 /**
- * Constant that names the value of a field. Definitions do not say which constants belong to which field: those whose
+ * Constant that names the value of a field. Definitions do not state which constants belong to which field: those whose
  * name begins with the field's name do, otherwise those of its type, if they give each value one name.
  */
 export function constantOf(

@@ -1,6 +1,6 @@
 /**
  * Layered drawing of a directed graph, after Sugiyama, Tagawa and Toda (1981): cycles are broken, vertices get layers,
- * long edges get bends, the order in the layers is improved by barycentres.
+ * long edges get intermediate points, the order in the layers is improved by barycentres.
  */
 
 export interface Vertex {
@@ -22,7 +22,7 @@ export interface Point {
 export interface Layout {
   /** Middle of each vertex. */
   at: Map<string, Point>;
-  /** Points of each edge, in the order of the edges: its ends and its bends. */
+  /** Points of each edge, in the order of the edges: its ends and its intermediate points. */
   lines: Point[][];
   width: number;
   height: number;

@@ -17,7 +17,7 @@ import { dispose } from '../scene/stage';
 import { FramedDisplay, type Display, type Kind } from './display';
 import { alpha, bool, color, int, number, topic, type Option } from './options';
 
-/** Display that keeps the last messages, as "History Length" says. */
+/** Display that keeps the last messages, up to "History Length". */
 export abstract class HistoryDisplay<M extends { header: Header }> extends FramedDisplay<M> {
   private kept: Group[] = [];
 

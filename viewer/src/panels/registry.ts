@@ -30,7 +30,7 @@ export interface PanelKind {
   isMany?: boolean;
   /** True for a panel that is open in the first layout, as a tab on the right. */
   isFirst?: boolean;
-  /** True for a panel without padding and scrolling of its own, such as a 3D view. */
+  /** True for a panel without padding and own scrolling, such as a 3D view. */
   isBare?: boolean;
   /** True for a panel that works on while it is behind another one; others start again when they are shown. */
   isKept?: boolean;

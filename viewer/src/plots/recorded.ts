@@ -18,7 +18,7 @@ interface Wish {
 
 const EMPTY: Samples = { times: [], values: [] };
 
-/** Series of the topics of a recording. Of each topic one request is under way, and the newest wish follows it. */
+/** Series of the topics of a recording. Of each topic one request is pending, and the newest wish follows it. */
 export class RecordedSeries {
   private topics = new Map<string, Loaded>();
   private busy = new Set<string>();

@@ -246,7 +246,7 @@ export class TimeChart {
       context.fillText(shortNumber(value), isRight ? x + 5 : x - 5, y);
     }
     if (!scale.unit) return;
-    // Axes of several units are told apart by the colour of their curve, if it is the only one.
+    // Axes of several units are distinguished by the colour of their curve, if it is the only one.
     const own = this.lines.filter((one) => one.unit === scale.unit);
     context.fillStyle = own.length === 1 && this.scales.length > 1 ? own[0]!.color : soft;
     context.save();

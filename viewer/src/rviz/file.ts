@@ -27,7 +27,7 @@ export interface SavedRvizView extends RvizView {
   original?: Tree;
 }
 
-/** What a file says about the window of RViz, as far as this page has the same. */
+/** What a file contains about the window of RViz, as far as this page has the same. */
 export interface RvizWindow {
   /** Classes of the panels. */
   panels: string[];

@@ -23,7 +23,7 @@ export type Motion =
 export const ANGLE_STEP_RAD = Math.PI / 12;
 /** Smallest sine of the angle between a ray and a plane at which their intersection is used. */
 const LEAST_SINE = 0.02;
-/** The same for rings, below which the pointer's way along the tangent counts. */
+/** The same for rings, below which the pointer's distance along the tangent counts. */
 const LEAST_RING_SINE = 0.2;
 
 const round = (value: number, step: number) => +(Math.round(value / step) * step).toFixed(6);

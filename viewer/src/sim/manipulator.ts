@@ -22,7 +22,7 @@ const HANDLE_PX = 92;
 const TOUCH_HANDLE_PX = 130;
 /** Cosine of the angle between a handle and the line of sight above which the handle is not shown. */
 const MOST_ALONG_SIGHT = 0.97;
-/** Shortest way of the pointer that draws a rectangle [px]. */
+/** Shortest distance of the pointer that draws a rectangle [px]. */
 const BOX_PX = 5;
 
 const SHOWN: Record<string, Handle[]> = {

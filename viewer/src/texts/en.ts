@@ -544,7 +544,7 @@ export const en = {
     isOpen: 'open',
     nothingFound: 'No panel has this name.',
     unknownPanel: (kind: string) =>
-      `This version has no panel "${kind}". Its place and its settings are kept in the layout.`,
+      `This version has no panel "${kind}". Its position and its settings are kept in the layout.`,
     notLoaded: (why: string) => `The panel could not be loaded: ${why}. Reload the page.`,
     noPanel: (kind: string) => `There is no panel "${kind}".`,
     mostViews: (count: number) => `A page has at most ${count} 3D views. Close one first.`,
@@ -617,7 +617,7 @@ export const en = {
     saveRviz: 'Save as .rviz',
     oneView: 'An .rviz file holds one 3D view: the active one. A layout holds them all.',
     unknownPanels: (kinds: string) =>
-      `This version has no panels of the kinds ${kinds}. Their places and settings are kept.`,
+      `This version has no panels of the kinds ${kinds}. Their positions and settings are kept.`,
     lastIsBroken: (why: string) => `The layout of the last visit cannot be read: ${why}`,
     notJson: (why: string) => `This is not JSON: ${why}`,
     tooLarge: (megabytes: number) => `The file is larger than ${megabytes} MB`,

@@ -26,6 +26,8 @@ pub use frame::{FrameKind, WebSocketFrame};
 pub use hub::Hub;
 pub use network_endpoints::{NetworkEndpoint, NetworkEndpoints, NetworkService, NetworkTopic};
 pub use outbox::{Outbox, OutboxItem};
-pub use recordings::{JobRequest, Jobs, OpenRecordingError, RecordingSettings, Recordings};
+pub use recordings::{
+    JobError, JobRequest, Jobs, OpenRecordingError, RecordingSettings, Recordings,
+};
 pub use session::ClientSession;
 pub use settings::{ClientLimits, Settings};

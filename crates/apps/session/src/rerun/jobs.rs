@@ -3,10 +3,10 @@
 use std::path::PathBuf;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 
-use periplus_web::foxglove::{JobRequest, Jobs};
+use periplus_web::foxglove::{JobError, JobRequest, Jobs};
 use serde_json::Value;
 
-use super::{RerunKind, RerunRequest, job_parameters, rerun};
+use super::{RerunError, RerunKind, RerunRequest, job_parameters, rerun};
 
 /// Runs the jobs of the page, and writes their results to a folder.
 #[derive(Debug)]
@@ -25,9 +25,9 @@ impl RerunJobs {
 }
 
 impl Jobs for RerunJobs {
-    fn parameters(&self, kind: &str) -> Result<Value, String> {
-        let kind: RerunKind = kind.parse().map_err(text)?;
-        job_parameters(kind).map_err(text)
+    fn parameters(&self, kind: &str) -> Result<Value, JobError> {
+        let kind: RerunKind = kind.parse().map_err(failed)?;
+        job_parameters(kind).map_err(failed)
     }
 
     fn run(
@@ -35,8 +35,8 @@ impl Jobs for RerunJobs {
         job: &JobRequest,
         progress: &dyn Fn(f32),
         is_cancelled: &AtomicBool,
-    ) -> Result<PathBuf, String> {
-        let kind: RerunKind = job.kind.parse().map_err(text)?;
+    ) -> Result<PathBuf, JobError> {
+        let kind: RerunKind = job.kind.parse().map_err(failed)?;
         let number = self.count.fetch_add(1, Ordering::Relaxed);
         let name = format!("periplus-{}-{}-{number}.mcap", kind.name(), std::process::id());
         let request = RerunRequest {
@@ -45,16 +45,18 @@ impl Jobs for RerunJobs {
             parameters: job.parameters.clone().into_iter().collect(),
             out: self.folder.join(name),
         };
-        let summary = rerun(&request, progress, is_cancelled).map_err(text)?;
+        let summary = rerun(&request, progress, is_cancelled).map_err(|error| match error {
+            RerunError::Cancelled => JobError::Cancelled,
+            error => failed(error),
+        })?;
         if summary.recorded == 0 {
-            return Err(summary.faults.join("; "));
+            return Err(JobError::Failed(summary.faults.join("; ")));
         }
         Ok(request.out)
     }
 }
 
-/// Text for the user.
 #[expect(clippy::needless_pass_by_value, reason = "the error of a result")]
-fn text(error: impl ToString) -> String {
-    error.to_string()
+fn failed(error: impl ToString) -> JobError {
+    JobError::Failed(error.to_string())
 }

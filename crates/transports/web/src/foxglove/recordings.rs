@@ -23,5 +23,5 @@ mod transform_index;
 mod upload;
 
 pub(crate) use client::RecordingClient;
-pub use jobs::{JobRequest, Jobs};
+pub use jobs::{JobError, JobRequest, Jobs};
 pub use service::{OpenRecordingError, RecordingSettings, Recordings};

@@ -7,7 +7,7 @@ use std::time::Duration;
 
 use periplus_graph::{NodeSettings, Qos};
 use periplus_msgs::std_msgs::String as Words;
-use periplus_web::foxglove::{JobRequest, Jobs};
+use periplus_web::foxglove::{JobError, JobRequest, Jobs};
 use serde_json::{Value, json};
 
 use crate::client::Server;
@@ -40,11 +40,11 @@ fn what_is_recorded_can_be_replayed() {
 struct Copy;
 
 impl Jobs for Copy {
-    fn parameters(&self, kind: &str) -> Result<Value, String> {
+    fn parameters(&self, kind: &str) -> Result<Value, JobError> {
         if kind == "slam" {
             Ok(json!([{"name": "resolution"}]))
         } else {
-            Err(format!("no `{kind}`"))
+            Err(JobError::Failed(format!("no `{kind}`")))
         }
     }
 
@@ -53,16 +53,16 @@ impl Jobs for Copy {
         job: &JobRequest,
         progress: &dyn Fn(f32),
         is_cancelled: &AtomicBool,
-    ) -> Result<PathBuf, String> {
+    ) -> Result<PathBuf, JobError> {
         progress(0.5);
         if job.parameters.contains_key("wait") {
             while !is_cancelled.load(Ordering::Relaxed) {
                 std::thread::sleep(Duration::from_millis(1));
             }
-            return Err("cancelled".to_owned());
+            return Err(JobError::Cancelled);
         }
         let path = job.path.with_extension("copy.mcap");
-        std::fs::copy(&job.path, &path).map_err(|error| error.to_string())?;
+        std::fs::copy(&job.path, &path).map_err(|error| JobError::Failed(error.to_string()))?;
         Ok(path)
     }
 }

@@ -1,5 +1,7 @@
 //! Estimators that are run on a recording.
 
+use std::error::Error;
+use std::fmt;
 use std::path::PathBuf;
 use std::sync::atomic::AtomicBool;
 
@@ -16,24 +18,44 @@ pub struct JobRequest {
     pub parameters: Map<String, Value>,
 }
 
+/// Error of a job.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum JobError {
+    /// The client cancelled it.
+    Cancelled,
+    /// It failed, or there is no such kind; a sentence for the user.
+    Failed(String),
+}
+
+impl fmt::Display for JobError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Cancelled => f.write_str("the job was cancelled"),
+            Self::Failed(why) => f.write_str(why),
+        }
+    }
+}
+
+impl Error for JobError {}
+
 /// Runs jobs.
 pub trait Jobs: Send + Sync {
     /// Returns the parameters of a kind of job: a list of objects with `name`, `type`, `default`,
     /// `min`, `max`, `unit` and `doc`.
     ///
     /// # Errors
-    /// A sentence for the user, when there is no such kind.
-    fn parameters(&self, kind: &str) -> Result<Value, String>;
+    /// When there is no such kind.
+    fn parameters(&self, kind: &str) -> Result<Value, JobError>;
 
     /// Runs a job on the calling thread and returns the path of the recording that it wrote, which
     /// belongs to the caller. `progress` gets values from 0 to 1.
     ///
     /// # Errors
-    /// A sentence for the user, also when `is_cancelled` became true.
+    /// When it fails, and when `is_cancelled` became true.
     fn run(
         &self,
         job: &JobRequest,
         progress: &dyn Fn(f32),
         is_cancelled: &AtomicBool,
-    ) -> Result<PathBuf, String>;
+    ) -> Result<PathBuf, JobError>;
 }

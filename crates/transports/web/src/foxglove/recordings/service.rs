@@ -252,7 +252,7 @@ impl Recordings {
 
     /// Parameters of a kind of job.
     pub(super) fn job_parameters(&self, kind: &str) -> Result<Value, String> {
-        self.jobs()?.parameters(kind)
+        self.jobs()?.parameters(kind).map_err(|error| error.to_string())
     }
 
     fn jobs(&self) -> Result<Arc<dyn Jobs>, String> {
@@ -284,7 +284,8 @@ impl Recordings {
             // The files of an upload stay while the job reads them.
             let _source = recording;
             let report = |fraction| progress.set_job(fraction);
-            let made = jobs.run(&job, &report, &progress.is_cancelled)?;
+            let made = jobs.run(&job, &report, &progress.is_cancelled);
+            let made = made.map_err(|error| error.to_string())?;
             open(&made, progress)
         });
         added.map_err(|error| error.to_string())
