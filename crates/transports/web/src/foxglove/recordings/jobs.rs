@@ -23,7 +23,7 @@ pub struct JobRequest {
 pub enum JobError {
     /// The client cancelled it.
     Cancelled,
-    /// It failed, or there is no such kind; a sentence for the user.
+    /// A failure, or an unknown kind; a sentence for the user.
     Failed(String),
 }
 
