@@ -58,7 +58,7 @@ fn check_names(plugin: &InterpretedPlugin, things: &Things, diagnostics: &mut Di
                 continue;
             }
             let finding = match names {
-                NamedEntity::Joint => joint(&name, origin, things),
+                NamedEntity::Joint => joint(&name, origin, things, plugin),
                 NamedEntity::Link => link(&name, origin, things, plugin),
                 NamedEntity::Frame => frame(&name, origin, things),
                 NamedEntity::Topic => None,
@@ -161,14 +161,21 @@ fn core(name: &str) -> &str {
     core
 }
 
-fn joint(name: &str, origin: Origin, things: &Things) -> Option<Diagnostic> {
+fn joint(
+    name: &str,
+    origin: Origin,
+    things: &Things,
+    plugin: &InterpretedPlugin,
+) -> Option<Diagnostic> {
     // The name of a joint may be prefixed by that of its model.
     let last = name.rsplit("::").next().unwrap_or(name);
     if has(&things.joints, name) || has(&things.joints, last) {
         return None;
     }
-    // Before SDF 1.7 a joint could have the name of a link; then it is read as `<name>_joint`.
-    if has(&things.links, last) && has(&things.joints, &format!("{last}_joint")) {
+    // Before SDF 1.7 a joint could have the name of a link; then it is read as `<name>_joint`. Gazebo Classic keeps its
+    // name for plugins.
+    let is_classic = plugin.known.family != Family::Gz;
+    if is_classic && has(&things.links, last) && has(&things.joints, &format!("{last}_joint")) {
         return None;
     }
     if has(&things.merged_joints, name) {
@@ -388,6 +395,29 @@ mod tests {
   <ros/><door_joint>elevator::door</door_joint>
 </plugin></model>",
             expect![[""]],
+        );
+    }
+
+    /// The drive found no such joint, and the check had nothing to say.
+    #[test]
+    fn a_link_is_not_a_joint_for_harmonic() {
+        check(
+            "<model name='m'><link name='left'/><joint name='left_joint'/>
+<plugin name='gz::sim::systems::DiffDrive' filename='gz-sim-diff-drive-system'>
+  <left_joint>left</left_joint><right_joint>left_joint</right_joint>
+</plugin></model>",
+            expect![[r#"
+                error[unknown-joint]: the model has no joint `left`
+                 --> test.sdf:3:15
+                  |
+                3 |   <left_joint>left</left_joint><right_joint>left_joint</right_joint>
+                  |               ^^^^
+                  |
+                help: did you mean `left_joint`?
+                  |
+                3 |   <left_joint>left_joint</left_joint><right_joint>left_joint</right_joint>
+                  |                   ++++++
+            "#]],
         );
     }
 
