@@ -11,8 +11,9 @@ const PICTURES: &[(&str, &[&str])] = &[(
     &["check", "misspelt_property.urdf.xacro", "remap_in_ros_element.urdf", "silent_lidar.sdf"],
 )];
 
-/// Each photo: its name, the world, and where the camera stands.
-const PHOTOS: &[(&str, &str, &str)] = &[("house", "worlds/house.sdf", "-5.6,1.6,2.0,0,0.35,0.5")];
+/// Each photo: its name, the world, where the camera stands, and what it looks at.
+const PHOTOS: &[(&str, &str, &str, &str)] =
+    &[("house", "worlds/house.sdf", "-5.6,1.6,2.0", "-3.13,2.95,0.97")];
 
 /// Draws all pictures into `docs/pictures`.
 ///
@@ -37,10 +38,21 @@ pub(crate) fn draw() -> Result<(), Failed> {
             .map_err(|error| Failed(format!("cannot write {}: {error}", path.display())))?;
         println!("{}", path.display());
     }
-    for (name, world, pose) in PHOTOS {
+    for (name, world, from, to) in PHOTOS {
         let path = format!("docs/pictures/{name}.png");
-        run(example("photo").args([*world, *pose, path.as_str()]), "see above")?;
-        println!("{path}");
+        let mut look = cargo();
+        look.args([
+            "run",
+            "--quiet",
+            "--release",
+            "--package",
+            "periplus-cli",
+            "--",
+            "look",
+            *world,
+        ]);
+        look.args([format!("--from={from}"), format!("--to={to}"), format!("--output={path}")]);
+        run(look.current_dir(root()), "see above")?;
     }
     let path = "docs/pictures/costmaps.png";
     run(example("costmap_picture").arg(path), "see above")?;

@@ -192,6 +192,11 @@ impl Simulation {
 }
 
 impl Simulation {
+    /// Number of threads for rays.
+    pub(crate) fn threads(&self) -> usize {
+        self.options.threads
+    }
+
     /// Returns the graph with all nodes and topics.
     #[must_use]
     pub fn graph(&self) -> &Graph {
