@@ -4,6 +4,7 @@ mod anchors;
 mod book;
 mod dependencies;
 mod links;
+mod llms;
 mod page;
 mod paths;
 mod rustdoc;
@@ -26,6 +27,20 @@ pub(crate) enum Part {
     Links,
     /// Site in `target/site`, built by mdbook if it is installed
     Site,
+}
+
+/// What `docs/llms.txt` says of Periplus.
+const ABOUT: &str = "Simulates mobile robots from URDF, SDF and launch files, builds maps, localizes, keeps \
+    costmaps and navigates, without ROS, Gazebo or a GPU; ROS 2, Gazebo and Foxglove see an ordinary robot.";
+
+/// Writes `docs/llms.txt`.
+///
+/// # Errors
+/// When it cannot be written.
+pub(crate) fn update() -> Result<(), Failed> {
+    let text = llms::text(&pages()?, ABOUT);
+    fs::write(root().join(llms::FILE), text)
+        .map_err(|error| Failed(format!("cannot write {}: {error}", llms::FILE)))
 }
 
 /// Runs all parts, or one.
@@ -69,6 +84,7 @@ fn findings(pages: &[Page]) -> Vec<String> {
     findings.extend(dependencies::check(&manifest, list));
     let read = |path: &str| fs::read_to_string(root().join(path)).ok();
     findings.extend(dependencies::check_tests(list, &read));
+    findings.extend(llms::check(read(llms::FILE).as_deref(), &llms::text(pages, ABOUT)));
     findings
 }
 

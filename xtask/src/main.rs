@@ -72,6 +72,9 @@ enum Task {
         /// Run only this part
         #[arg(long, value_enum)]
         only: Option<docs::Part>,
+        /// Write docs/llms.txt, the list of the pages for programs
+        #[arg(long, conflicts_with = "only")]
+        update: bool,
     },
     /// Run all tests
     Test {
@@ -292,7 +295,8 @@ fn perform(task: &Task) -> Result<(), Failed> {
         Task::Layers => layers::run(),
         Task::Package => package::check(),
         Task::Deny => deny(),
-        Task::Docs { only } => docs::run(*only),
+        Task::Docs { update: true, .. } => docs::update(),
+        Task::Docs { only, .. } => docs::run(*only),
         Task::Test { rest } => test(rest),
         Task::Tidy(options) => tidy::run(options),
         Task::Corpus => corpus::run_all(),

@@ -10,7 +10,7 @@ use crate::step::{Failed, build_program, root, run, timed};
 const FOLDER: &str = "target/python";
 
 /// Programs that build the wheel and test it.
-const TOOLS: [&str; 17] = [
+const TOOLS: [&str; 18] = [
     "maturin>=1.9,<2",
     "numpy",
     "pytest",
@@ -28,6 +28,7 @@ const TOOLS: [&str; 17] = [
     "optuna",
     "pyarrow",
     "ray",
+    "mcp>=2,<3",
 ];
 
 /// Maximum size of the wheel [bytes].

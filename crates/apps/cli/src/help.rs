@@ -20,7 +20,7 @@ const GROUPS: [(&str, &[&str]); 7] = [
         "Tests and results",
         &["scenario", "sweep", "score", "compare", "rerun", "report", "calibrate"],
     ),
-    ("Robots and worlds", &["check", "convert"]),
+    ("Robots and worlds", &["check", "look", "convert"]),
     (
         "ROS 2 and Gazebo",
         &[
@@ -36,7 +36,7 @@ const GROUPS: [(&str, &[&str]); 7] = [
             "bridge",
         ],
     ),
-    ("This program", &["completions", "man", "conformance", "help"]),
+    ("This program", &["mcp", "completions", "man", "conformance", "help"]),
 ];
 
 /// ROS and Gazebo commands that are translated, for the help.

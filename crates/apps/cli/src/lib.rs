@@ -19,14 +19,17 @@ mod help;
 mod launch;
 mod localize;
 mod log;
+mod look;
 mod map;
 mod mapping;
+mod mcp;
 mod navigate;
 mod new;
 mod options;
 mod own_command;
 mod page;
 mod paths;
+mod pictures;
 mod program;
 mod report;
 mod rerun;
@@ -149,6 +152,8 @@ pub fn run(words: Vec<String>, own_command: Vec<String>, interpreter: Option<Str
         Command::Score(options) => score::run(&options),
         Command::Conformance(options) => conformance::run(&options),
         Command::Demo(options) => demo::run(&options),
+        Command::Look(options) => look::run(&options),
+        Command::Mcp(options) => mcp::run(&options),
         Command::Convert(options) => convert::run(&options),
         Command::Doctor(options) => doctor::run(&options),
         Command::New(command) => new::run(&command),

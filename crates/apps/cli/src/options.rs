@@ -15,7 +15,9 @@ use crate::demo::DemoOptions;
 use crate::doctor::DoctorOptions;
 use crate::launch::LaunchOptions;
 use crate::localize::LocalizeOptions;
+use crate::look::LookOptions;
 use crate::map::MapCommand;
+use crate::mcp::McpOptions;
 use crate::navigate::NavigateOptions;
 use crate::new::NewCommand;
 use crate::program::RunOptions;
@@ -67,6 +69,7 @@ pub(crate) enum Command {
     Score(ScoreOptions),
     Slam(SlamOptions),
     Localize(LocalizeOptions),
+    Look(Box<LookOptions>),
     Navigate(Box<NavigateOptions>),
     Scenario(Box<ScenarioOptions>),
     Sweep(Box<SweepOptions>),
@@ -92,6 +95,7 @@ pub(crate) enum Command {
     View(ViewOptions),
     #[command(subcommand)]
     Map(MapCommand),
+    Mcp(McpOptions),
     Costmap(CostmapServeOptions),
     Bridge(BridgeOptions),
     Conformance(ConformanceOptions),

@@ -88,6 +88,11 @@ pub(super) const EXAMPLES: &[(&str, &[Example])] = &[
         ("periplus localize drive.mcap --map room.yaml --out result", "Localize a recorded drive on a map"),
         ("periplus localize --live --map room.yaml", "The node amcl for a robot on ROS 2"),
     ]),
+    ("look", &[
+        ("periplus look robot.urdf.xacro -o robot.png", "A robot, from the front left corner"),
+        ("periplus look house.sdf --view top -o house.png", "A world from above"),
+        ("periplus look house.sdf --robot robot.urdf --topic /scan --time 1 -o scan.png", "A scan of the robot's lidar"),
+    ]),
     ("man", &[
         ("periplus man ~/.local/share/man/man1", "A manual page for every command"),
     ]),
@@ -96,6 +101,10 @@ pub(super) const EXAMPLES: &[(&str, &[Example])] = &[
     ("map info", &[("periplus map info room.yaml", "Size, origin, and fractions of free, occupied and unknown cells")]),
     ("map save", &[("periplus map save -f room", "Save /map as room.yaml and room.pgm")]),
     ("map serve", &[("periplus map serve room.yaml", "Publish /map and offer its services")]),
+    ("mcp", &[
+        ("periplus mcp", "For the configuration of an agent: command `periplus`, argument `mcp`"),
+        ("periplus mcp --folder project --tools check,look,sim,slam", "Some tools, on the files of a folder"),
+    ]),
     ("navigate", &[
         ("periplus navigate worlds/house.sdf --robot robot.urdf.xacro --pose 0,0,0 --goal 3,0,1.57 --slam-out map", "Drive to a goal while SLAM builds a map, save it"),
         ("periplus navigate worlds/house.sdf --robot robot.urdf.xacro --map map/map.yaml --goal 3,0 --goal 0,0", "Drive to two goals on a map"),
