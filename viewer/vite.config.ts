@@ -1,10 +1,15 @@
 import { svelte } from '@sveltejs/vite-plugin-svelte';
 import { defineConfig } from 'vitest/config';
+import { threeSubset } from './bundle/three';
 
 // The page is built into the crate that serves it, so that a build of the program needs no Node.
-export default defineConfig({
-  plugins: [svelte()],
+export default defineConfig(({ command }) => ({
+  plugins: [svelte(), ...(command === 'build' ? [threeSubset()] : [])],
   base: './',
+  resolve: {
+    alias:
+      command === 'build' ? [{ find: /^three$/, replacement: 'three/src/Three.js' }] : [],
+  },
   build: {
     outDir: '../crates/transports/web/page',
     emptyOutDir: true,
@@ -17,4 +22,4 @@ export default defineConfig({
   },
   server: { proxy: { '/ws': { target: 'ws://localhost:8765', ws: true } } },
   test: { include: ['test/**/*.test.ts'], environment: 'node' },
-});
+}));
