@@ -8,7 +8,7 @@ import type { Plugin } from 'vite';
 const UNUSED = fileURLToPath(new URL('three_unused.js', import.meta.url));
 
 /** Modules of three.js below `src`, and what `three_unused.js` has in their place. */
-const REPLACED: Record<string, string> = {
+export const REPLACED: Record<string, string> = {
   'renderers/webxr/WebXRManager.js': 'WebXRManager',
   'renderers/webgl/WebGLEnvironments.js': 'WebGLEnvironments',
   'renderers/webgl/WebGLMorphtargets.js': 'WebGLMorphtargets',
@@ -37,7 +37,11 @@ export function shortGlsl(text: string): string {
     .map((line) =>
       line.startsWith('#')
         ? line.replace(/\s+/g, ' ')
-        : line.replace(/\s+/g, ' ').replace(/ ?([-+*/%=<>!&|?:,;(){}[\]]) ?/g, '$1'),
+        : line
+            .replace(/\s+/g, ' ')
+            .replace(/ ?([*/%=<>!&|?:,;(){}[\]]) ?/g, '$1')
+            // `a - -b` and `a++ + b` keep the space between their operators.
+            .replace(/(?<![-+]) ?([-+]) ?(?![-+])/g, '$1'),
     )
     .join('\n');
 }
