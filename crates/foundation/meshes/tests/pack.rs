@@ -33,7 +33,8 @@ map_Kd ./steel plate.png
 
 fn pack_obj() -> Vec<u8> {
     let mut side = |name: &str| (name == "a.mtl").then(|| MTL.into());
-    pack_file("package://bot/meshes/plate.obj#submesh=bare", OBJ.as_bytes(), &mut side).unwrap()
+    pack_file("package://bot/meshes/plate.obj#submesh=bare", OBJ.as_bytes(), &mut side)
+        .expect("a mesh")
 }
 
 #[test]
@@ -82,7 +83,7 @@ fn gltf(material: &str) -> Packed {
         "materials":[{material}],
         "meshes":[{{"primitives":[{{"attributes":{{"POSITION":0}},"material":0}}]}}]}}"#
     );
-    unpack(&pack_file("file:///a.gltf", text.as_bytes(), &mut |_| None).unwrap())
+    unpack(&pack_file("file:///a.gltf", text.as_bytes(), &mut |_| None).expect("a mesh"))
 }
 
 #[test]

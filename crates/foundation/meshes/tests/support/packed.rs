@@ -39,7 +39,7 @@ impl<'a> Reader<'a> {
     }
 
     fn u32(&mut self) -> u32 {
-        u32::from_le_bytes(self.bytes(4).try_into().unwrap())
+        u32::from_le_bytes(self.bytes(4).try_into().expect("four bytes"))
     }
 
     fn f32(&mut self) -> f32 {
@@ -47,7 +47,7 @@ impl<'a> Reader<'a> {
     }
 
     fn i16(&mut self) -> i16 {
-        i16::from_le_bytes(self.bytes(2).try_into().unwrap())
+        i16::from_le_bytes(self.bytes(2).try_into().expect("two bytes"))
     }
 
     fn block(&mut self) -> Vec<u8> {
@@ -80,7 +80,7 @@ pub(crate) fn unpack(bytes: &[u8]) -> Packed {
 }
 
 fn part(r: &mut Reader<'_>) -> PackedPart {
-    let name = String::from_utf8(r.block()).unwrap();
+    let name = String::from_utf8(r.block()).expect("UTF-8");
     let [material, flags, vertices, triangles] = [r.u32(), r.u32(), r.u32(), r.u32()];
     let positions_m = (0..vertices).map(|_| std::array::from_fn(|_| r.f32())).collect();
     let count = if flags & 1 == 0 { 0 } else { vertices };
