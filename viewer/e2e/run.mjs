@@ -12,6 +12,7 @@ import { dock } from './dock.mjs';
 import { edit } from './edit.mjs';
 import { keyboard } from './keyboard.mjs';
 import { browser, next, open, periplus, servePage, until, port } from './lib.mjs';
+import { meshes } from './meshes.mjs';
 import { navigate } from './navigate.mjs';
 import { panels } from './panels.mjs';
 import { replay } from './replay.mjs';
@@ -177,6 +178,7 @@ try {
   await attempt('building', () => building(chrome, pages.url, out));
   await attempt('foreign buildings', () => foreignBuildings(chrome, pages.url, out));
   await attempt('keyboard', () => keyboard(chrome, pages.url));
+  await meshes(chrome, pages.url, out, attempt);
   await dock(chrome, pages.url, out, attempt);
   await use(chrome, pages.url, attempt);
   await axe(chrome, pages.url, attempt);

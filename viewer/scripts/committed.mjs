@@ -5,6 +5,7 @@ import { existsSync, readdirSync, readFileSync } from 'node:fs';
 import { join, relative } from 'node:path';
 import { fileURLToPath } from 'node:url';
 import { brotliDecompressSync } from 'node:zlib';
+import { checkWeight } from './weight.mjs';
 
 const ROOT = fileURLToPath(new URL('../..', import.meta.url));
 const PAGE = 'crates/transports/web/page';
@@ -32,3 +33,4 @@ if (different.length > 0) {
   console.error(`not as committed:\n  ${different.join('\n  ')}`);
   process.exit(1);
 }
+checkWeight(join(ROOT, PAGE));

@@ -3,9 +3,9 @@ import { readdirSync, readFileSync, rmSync, statSync, writeFileSync } from 'node
 import { join } from 'node:path';
 import { fileURLToPath } from 'node:url';
 import { brotliCompressSync, constants } from 'node:zlib';
+import { checkWeight } from './weight.mjs';
 
 const page = fileURLToPath(new URL('../../crates/transports/web/page', import.meta.url));
-const total = { raw: 0, packed: 0, first: 0 };
 
 for (const name of readdirSync(page, { recursive: true }).map(String).sort()) {
   const path = join(page, name);
@@ -20,7 +20,5 @@ for (const name of readdirSync(page, { recursive: true }).map(String).sort()) {
   });
   writeFileSync(`${path}.br`, packed);
   rmSync(path);
-  total.raw += bytes.length;
-  total.packed += packed.length;
 }
-console.log(`page: ${total.raw} bytes, ${total.packed} packed with brotli`);
+checkWeight(page);

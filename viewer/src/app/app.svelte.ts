@@ -10,6 +10,7 @@ import { seconds, stampOf, type TransformStamped } from '../core/types';
 import type { WorldDisplay } from '../displays/world';
 import type { Stage } from '../scene/stage';
 import type { ViewState } from '../scene/view';
+import { MeshLibrary } from '../scene/meshes';
 import { SensorFrames, WORLD } from '../sim/sensor_frames';
 import { Clock } from './clock';
 import type { Entry } from './entry.svelte';
@@ -90,6 +91,11 @@ export class App {
   readonly feed: Feed;
   /** Recordings of the server. */
   readonly recordings: Recordings;
+  /** Meshes and textures of the server. */
+  readonly meshes = new MeshLibrary({
+    asset: (uri) => this.client.asset(uri),
+    mesh: (uri) => this.client.mesh(uri),
+  });
   private readonly sensors = new SensorFrames();
   private worldSubscriptions: (() => void)[] = [];
   private publishers = new Map<string, (message: Message) => void>();
@@ -147,6 +153,8 @@ export class App {
     this.tf.clear();
     this.sensors.clear();
     this.clock.forgetStats();
+    // The files of another run may differ.
+    this.meshes.clear();
   }
 
   private time(timeS: number): void {

@@ -118,6 +118,7 @@ export class Viewport {
       tf: app.tf,
       subscribe: (topic, handler, need) => app.feed.subscribe(topic, handler, need),
       asset: (uri) => app.client.asset(uri),
+      meshes: app.meshes,
       publish: (topic, type, message) => app.publish(topic, type, message),
       call: (service, request) => app.client.call(service, request),
       hasService: (name) => app.feed.source.services.has(name),

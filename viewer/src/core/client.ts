@@ -68,6 +68,8 @@ interface Pending<T> {
 const FIRST_RETRY_MS = 250;
 const LONGEST_RETRY_MS = 3000;
 const CALL_TIMEOUT_MS = 15_000;
+/** The server reads the meshes of a world one after the other. */
+const MESH_TIMEOUT_MS = 120_000;
 
 export class Client {
   /** Subscriptions by topic. */
@@ -290,15 +292,30 @@ export class Client {
 
   /** Bytes of a `package://`, `model://` or other URI that the server resolves. */
   asset(uri: string): Promise<Uint8Array> {
+    return this.file('fetchAsset', uri, CALL_TIMEOUT_MS);
+  }
+
+  /** Triangles of a mesh file; only Periplus has them, other servers send plain files. */
+  mesh(uri: string): Promise<Uint8Array> {
+    if (this.state === 'open' && !this.capabilities.includes('meshes'))
+      return Promise.reject(new Error(t().meshes.unsupported(this.serverName)));
+    return this.file('fetchMesh', uri, MESH_TIMEOUT_MS);
+  }
+
+  private file(
+    op: 'fetchAsset' | 'fetchMesh',
+    uri: string,
+    timeoutMs: number,
+  ): Promise<Uint8Array> {
     if (this.state !== 'open') return Promise.reject(new Error(t().connection.notConnected));
     const requestId = ++this.lastId;
     return new Promise((resolve, reject) => {
       const timer = setTimeout(() => {
         this.assets.delete(requestId);
         reject(new Error(t().connection.assetTimeout(uri)));
-      }, CALL_TIMEOUT_MS);
+      }, timeoutMs);
       this.assets.set(requestId, { resolve, reject, timer });
-      this.send({ op: 'fetchAsset', uri, requestId });
+      this.send({ op, uri, requestId });
     });
   }
 

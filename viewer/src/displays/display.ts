@@ -6,6 +6,7 @@ import type { Need } from '../core/feed';
 import type { Pose } from '../core/pose';
 import type { TfBuffer } from '../core/tf';
 import { seconds, type Header } from '../core/types';
+import type { MeshLibrary } from '../scene/meshes';
 import { matrixOf } from '../scene/shapes';
 import { dispose, type Stage } from '../scene/stage';
 import type { Option, Value, Values } from './options';
@@ -19,6 +20,8 @@ export interface Context {
   tf: TfBuffer;
   subscribe(topic: string, handler: Handler, need?: Need): () => void;
   asset(uri: string): Promise<Uint8Array>;
+  /** Meshes and textures of the server, shared by all displays. */
+  meshes: MeshLibrary;
   publish(topic: string, type: string, message: Message): void;
   /** Calls a service; fails with the server's reason. */
   call(service: string, request: Message): Promise<Message>;

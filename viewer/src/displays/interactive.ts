@@ -3,7 +3,6 @@ import { Group, Matrix4, Mesh, Quaternion, Vector3, type Object3D } from 'three'
 import type { Message } from '../core/cdr';
 import { multiply } from '../core/pose';
 import { poseOf, seconds, stampOf } from '../core/types';
-import { MeshLibrary } from '../scene/meshes';
 import { axesGeometry, axesMaterial } from '../scene/shapes';
 import { dispose } from '../scene/stage';
 import { t } from '../texts/language.svelte';
@@ -61,7 +60,6 @@ let clients = 0;
 
 class InteractiveMarkersDisplay extends Display {
   private entries = new Map<string, Entry>();
-  private library = new MeshLibrary((uri) => this.context.asset(uri));
   private sequence: bigint | undefined;
   private waiting: Update[] = [];
   private isAsking = false;
@@ -184,7 +182,7 @@ class InteractiveMarkersDisplay extends Display {
       const holder = new Group();
       holder.matrixAutoUpdate = false;
       for (const one of control.markers) {
-        const object = markerObject(one, this.library, done);
+        const object = markerObject(one, this.context.meshes, done);
         const place = new Group();
         place.position.set(one.pose.position.x, one.pose.position.y, one.pose.position.z);
         const { x, y, z, w } = one.pose.orientation;
@@ -202,7 +200,7 @@ class InteractiveMarkersDisplay extends Display {
     const title = new Group();
     if (marker.description) {
       const caption = titleOf(marker);
-      const text = markerObject(caption, this.library, done);
+      const text = markerObject(caption, this.context.meshes, done);
       text.position.setZ(caption.pose.position.z);
       title.add(text);
     }

@@ -205,12 +205,12 @@ function mesh(
   // A marker without a colour keeps the materials of its mesh.
   const isPainted = !marker.mesh_use_embedded_materials || c.r + c.g + c.b + c.a > 0;
   library.load(marker.mesh_resource).then(
-    (loaded) => {
+    ({ object, problem }) => {
       const own = marker.mesh_use_embedded_materials;
-      const copy = copyOf(loaded, isPainted ? paint : undefined, c.a || 1, isPainted && !own);
+      const copy = copyOf(object, isPainted ? paint : undefined, c.a || 1, isPainted && !own);
       holder.add(copy);
       if (marker.texture_resource) dress(copy, marker.texture_resource, library, done);
-      done();
+      done(problem);
     },
     (error: Error) => done(`${marker.mesh_resource}: ${error.message}`),
   );

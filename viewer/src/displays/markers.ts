@@ -4,7 +4,6 @@ import type { Message } from '../core/cdr';
 import type { Need } from '../core/feed';
 import { multiply, type Pose } from '../core/pose';
 import { poseOf, seconds, type Marker } from '../core/types';
-import { MeshLibrary } from '../scene/meshes';
 import { dispose } from '../scene/stage';
 import { Display, type Kind } from './display';
 import { markerObject } from './marker_shapes';
@@ -33,7 +32,6 @@ export class MarkerDisplay extends Display {
   protected entries = new Map<string, Entry>();
   /** Markers received since the last frame; a newer one replaces an older one with the same name. */
   private received = new Map<string, Marker>();
-  private library = new MeshLibrary((uri) => this.context.asset(uri));
   private fixed = '';
 
   protected override receive(message: Message): void {
@@ -86,7 +84,7 @@ export class MarkerDisplay extends Display {
       this.context.stage.invalidate();
     };
     try {
-      object.add(markerObject(marker, this.library, done));
+      object.add(markerObject(marker, this.context.meshes, done));
     } catch (error) {
       this.host.status('Message', 'error', (error as Error).message);
       return;

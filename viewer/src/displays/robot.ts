@@ -1,7 +1,7 @@
 /** RobotModel: the links of a URDF at the poses given by TF. */
 import { Color, Group, Mesh, type Object3D } from 'three';
 import type { Message } from '../core/cdr';
-import { copyOf, MeshLibrary } from '../scene/meshes';
+import { copyOf } from '../scene/meshes';
 import { matrixOf, surface, UNIT_BOX, UNIT_CYLINDER, UNIT_SPHERE } from '../scene/shapes';
 import { dispose } from '../scene/stage';
 import { Display, type Kind } from './display';
@@ -20,7 +20,6 @@ class RobotModelDisplay extends Display {
   private links = new Map<string, Group>();
   private version = -1;
   private lookedMs = 0;
-  private library = new MeshLibrary((uri) => this.context.asset(uri));
   private missing = new Set<string>();
 
   override start(): void {
@@ -64,6 +63,7 @@ class RobotModelDisplay extends Display {
     this.links.clear();
     this.missing.clear();
     this.host.status('Meshes', 'ok');
+    this.host.status('Textures', 'ok');
     this.host.status('Inertia', 'ok');
     for (const link of this.robot?.links ?? []) {
       const group = new Group();
@@ -149,7 +149,9 @@ class RobotModelDisplay extends Display {
     opacity: number,
   ): Promise<void> {
     try {
-      const copy = copyOf(await this.library.load(uri), color, opacity, !!color);
+      const { object, problem } = await this.context.meshes.load(uri);
+      if (problem) this.host.status('Textures', 'warn', problem);
+      const copy = copyOf(object, color, opacity, !!color);
       copy.scale.set(...scale);
       holder.add(copy);
       this.context.stage.invalidate();

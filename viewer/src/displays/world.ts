@@ -8,7 +8,7 @@ import { Box3, Group, Matrix4, type Mesh, type Object3D, Vector3 } from 'three';
 import type { Message } from '../core/cdr';
 import { inverse, multiply, yawOf, type Pose, type Vec3 } from '../core/pose';
 import { poseOf, seconds, type Marker, type TransformStamped } from '../core/types';
-import { MeshLibrary } from '../scene/meshes';
+import { fade } from '../scene/meshes';
 import { matrixOf } from '../scene/shapes';
 import { dispose } from '../scene/stage';
 import { WORLD } from '../sim/sensor_frames';
@@ -47,7 +47,6 @@ const linkOf = (frame: string) => frame.split(/::|\//).pop() ?? frame;
 export class WorldDisplay extends Display {
   private parts = new Map<string, Part>();
   private frames = new Map<string, { holder: Group; worldFromLink: Pose; stampS: number }>();
-  private library = new MeshLibrary((uri) => this.context.asset(uri));
   private unsubscribePoses?: () => void;
   private anchor?: { fixed: string; fixedFromWorld: Pose };
   private tfVersion = -1;
@@ -98,7 +97,7 @@ export class WorldDisplay extends Display {
     if (marker.type === 1 && scale.z <= GROUND_M) object.position.z -= UNDER_M;
     const made = markerObject(
       { ...marker, color: { ...color, a: color.a * this.get<number>('Alpha') } },
-      this.library,
+      this.context.meshes,
       (why) => {
         if (why) this.host.status('Meshes', 'warn', why);
         this.context.stage.invalidate();
@@ -362,9 +361,7 @@ export class WorldDisplay extends Display {
       const alpha = (marker.color.a || 1) * this.get<number>('Alpha') * (isGlass ? GLASS : 1);
       object.traverse((part) => {
         for (const one of (part as Mesh).material ? [(part as Mesh).material].flat() : []) {
-          const isClear = alpha < 0.999;
-          if (one.transparent !== isClear) one.needsUpdate = true;
-          Object.assign(one, { transparent: isClear, opacity: alpha, depthWrite: !isClear });
+          fade(one, alpha);
         }
       });
     }

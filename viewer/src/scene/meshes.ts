@@ -1,212 +1,193 @@
-/** Library of meshes by URI; a loader is imported when the first file of its kind is requested. */
+/** Library of meshes by URI: objects of the scene from the triangles that the server sends. */
 import {
   Box3,
+  BufferAttribute,
   BufferGeometry,
+  Color,
+  DoubleSide,
+  FrontSide,
   Group,
+  LinearSRGBColorSpace,
+  type Material,
   Mesh,
   MeshLambertMaterial,
-  Object3D,
+  type Object3D,
   RepeatWrapping,
-  LoadingManager,
-  Color,
+  SRGBColorSpace,
   Texture,
   Vector3,
 } from 'three';
+import {
+  unpackMesh,
+  type PackedMaterial,
+  type PackedMesh,
+  type PackedPart,
+  type PackedTexture,
+} from './packed_mesh';
 import { t } from '../texts/language.svelte';
 
-export type Fetch = (uri: string) => Promise<Uint8Array>;
+/** Server of files and of the triangles in them. */
+export interface MeshSource {
+  asset(uri: string): Promise<Uint8Array>;
+  /** Triangles of a mesh file, for `unpackMesh`. */
+  mesh(uri: string): Promise<Uint8Array>;
+}
 
-const HIDDEN_LIGHTS = ['AmbientLight', 'DirectionalLight', 'PointLight', 'SpotLight', 'Camera'];
+/** Mesh that is shown; textures that are missing are named in `problem`. */
+export interface LoadedMesh {
+  /** Shared and immutable: clone it before use. */
+  object: Object3D;
+  problem?: string;
+}
 
-/** Shared and immutable object: clone it before use. */
+/** Colour of a part without a material. */
+const PLAIN = new Color('#b9bec6');
+
 export class MeshLibrary {
-  private known = new Map<string, Promise<Object3D>>();
+  private files = new Map<string, Promise<PackedMesh>>();
+  private known = new Map<string, Promise<LoadedMesh>>();
   private pictures = new Map<string, Promise<Texture>>();
 
-  constructor(private fetch: Fetch) {}
+  constructor(private source: MeshSource) {}
+
+  /** Forgets everything, so that it is loaded again. */
+  clear(): void {
+    for (const known of [this.files, this.known, this.pictures]) known.clear();
+  }
 
   /** Loads a texture. */
   texture(uri: string): Promise<Texture> {
-    let picture = this.pictures.get(uri);
-    if (!picture) {
-      picture = this.fetch(uri).then(async (bytes) => {
-        const bitmap = await createImageBitmap(new Blob([bytes as Uint8Array<ArrayBuffer>]), {
-          imageOrientation: 'flipY',
-        });
-        const texture = new Texture(bitmap as never);
-        texture.flipY = false;
-        texture.colorSpace = 'srgb';
-        texture.wrapS = texture.wrapT = RepeatWrapping;
-        texture.needsUpdate = true;
-        return texture;
-      });
-      this.pictures.set(uri, picture);
-      picture.catch(() => this.pictures.delete(uri));
+    return remembered(this.pictures, uri, () => this.source.asset(uri).then(textureOf));
+  }
+
+  /** Loads a mesh. `file.dae#submesh=Name&center=1` is a part of a file, as SDF requests it. */
+  load(uri: string): Promise<LoadedMesh> {
+    return remembered(this.known, uri, () => this.read(uri));
+  }
+
+  private async read(uri: string): Promise<LoadedMesh> {
+    const [file = '', fragment = ''] = uri.split('#', 2);
+    const mesh = await remembered(this.files, file, () => this.source.mesh(file).then(unpackMesh));
+    const wanted = new URLSearchParams(fragment);
+    const name = wanted.get('submesh');
+    const parts = name === null ? mesh.parts : mesh.parts.filter((part) => part.name === name);
+    if (parts.length === 0) {
+      const names = [...new Set(mesh.parts.map((part) => part.name))].join(', ');
+      throw new Error(t().meshes.noSubmesh(name ?? '', names));
     }
-    return picture;
-  }
-
-  load(uri: string): Promise<Object3D> {
-    let mesh = this.known.get(uri);
-    if (!mesh) {
-      mesh = this.read(uri);
-      this.known.set(uri, mesh);
-      // A failed load is retried at the next request.
-      mesh.catch(() => this.known.delete(uri));
+    const problems = new Set<string>();
+    const textures = await this.textures(parts, problems);
+    const object = new Group();
+    // Parts with the same material and the same attributes share it.
+    const made = new Map<PackedMaterial | undefined, MeshLambertMaterial[]>();
+    for (const part of parts) {
+      const kinds = made.get(part.material) ?? [];
+      made.set(part.material, kinds);
+      const kind = (part.normals ? 1 : 0) + (part.uvs ? 2 : 0);
+      object.add(meshOf(part, (kinds[kind] ??= materialOf(part, mesh.isLinear, textures))));
     }
-    return mesh;
-  }
-
-  /** `file.dae#submesh=Name&center=1` is a part of a file, as SDF requests it. */
-  private async read(uri: string): Promise<Object3D> {
-    const hash = uri.indexOf('#');
-    if (hash < 0) return this.readFile(uri);
-    const whole = await this.load(uri.slice(0, hash));
-    const wanted = new URLSearchParams(uri.slice(hash + 1));
-    return partOf(whole, wanted.get('submesh') ?? '', wanted.get('center') === '1');
-  }
-
-  private async readFile(uri: string): Promise<Object3D> {
-    const bytes = await this.fetch(uri);
-    const ending = /\.([a-z0-9]+)(\?|#|$)/i.exec(uri)?.[1]?.toLowerCase();
-    const buffer = bytes.slice().buffer as ArrayBuffer;
-    const folder = uri.slice(0, uri.lastIndexOf('/') + 1);
-    switch (ending) {
-      case 'stl': {
-        const { STLLoader } = await import('three/examples/jsm/loaders/STLLoader.js');
-        return plain(new STLLoader().parse(buffer));
-      }
-      case 'dae': {
-        const { ColladaLoader } = await import('three/examples/jsm/loaders/ColladaLoader.js');
-        const text = new TextDecoder().decode(bytes);
-        const manager = await this.textures(folder, text.matchAll(/<init_from>\s*([^<]+?)\s*</g));
-        const read = new ColladaLoader(manager).parse(text, '');
-        if (!read) throw new Error(t().displays.notCollada(uri));
-        const { scene } = read;
-        // The loader rotates Y_UP files to three.js; in a scene with z up, files with Z_UP are right without it.
-        if (/<up_axis>\s*Z_UP/.test(text)) scene.rotation.set(0, 0, 0);
-        else scene.rotation.set(Math.PI / 2, 0, 0);
-        return tidy(scene);
-      }
-      case 'obj': {
-        const { OBJLoader } = await import('three/examples/jsm/loaders/OBJLoader.js');
-        const text = new TextDecoder().decode(bytes);
-        const loader = new OBJLoader();
-        const library = /^mtllib\s+(.+)$/m.exec(text)?.[1]?.trim();
-        if (library) await this.materials(loader, folder, library);
-        return tidy(loader.parse(text));
-      }
-      case 'glb':
-      case 'gltf': {
-        const { GLTFLoader } = await import('three/examples/jsm/loaders/GLTFLoader.js');
-        const read = await new GLTFLoader().parseAsync(buffer, '');
-        // glTF has y up.
-        read.scene.rotation.set(Math.PI / 2, 0, 0);
-        return tidy(read.scene);
-      }
-      default:
-        throw new Error(t().displays.meshFormat(ending ?? uri));
+    if (wanted.get('center') === '1') {
+      const middle = new Box3().setFromObject(object).getCenter(new Vector3());
+      for (const part of object.children) part.position.sub(middle);
     }
+    return { object, problem: problems.size > 0 ? [...problems].join('; ') : undefined };
   }
 
-  private async materials(
-    loader: { setMaterials(m: never): unknown },
-    folder: string,
-    library: string,
-  ): Promise<void> {
-    try {
-      const { MTLLoader } = await import('three/examples/jsm/loaders/MTLLoader.js');
-      const text = new TextDecoder().decode(await this.fetch(folder + library));
-      const manager = await this.textures(folder, text.matchAll(/^map_\w+\s+(.+?)\s*$/gm));
-      const read = new MTLLoader(manager).parse(text, '');
-      read.preload();
-      loader.setMaterials(read as never);
-    } catch {
-      // A mesh without its textures is still shown.
-    }
-  }
-
-  /** Fetches the textures that a mesh names, and maps their names to the fetched ones. */
+  /** Textures of parts; a mesh without its texture is still shown. */
   private async textures(
-    folder: string,
-    names: Iterable<RegExpMatchArray>,
-  ): Promise<LoadingManager> {
-    const urls = new Map<string, string>();
-    for (const [, name] of names) {
-      if (!name || urls.has(name) || !/\.(png|jpe?g|bmp|webp|gif)$/i.test(name)) continue;
+    parts: readonly PackedPart[],
+    problems: Set<string>,
+  ): Promise<Map<PackedTexture, Texture>> {
+    const wanted = new Set<PackedTexture>();
+    for (const { material, uvs } of parts)
+      if (material?.texture && uvs) wanted.add(material.texture);
+    const found = new Map<PackedTexture, Texture>();
+    const load = async (texture: PackedTexture) => {
       try {
-        const uri = name.includes('://') ? name : folder + name.replace(/^\.\//, '');
-        const bytes = await this.fetch(uri);
-        urls.set(name, URL.createObjectURL(new Blob([bytes as Uint8Array<ArrayBuffer>])));
-      } catch {
-        // Shown without its texture.
+        const isFile = 'uri' in texture;
+        found.set(
+          texture,
+          isFile ? await this.texture(texture.uri) : await textureOf(texture.image),
+        );
+      } catch (error) {
+        const name = 'uri' in texture ? `${texture.uri}: ` : '';
+        problems.add(name + (error as Error).message);
       }
-    }
-    const manager = new LoadingManager();
-    manager.setURLModifier((url) => {
-      for (const [name, here] of urls) if (url.endsWith(name)) return here;
-      return url.startsWith('blob:') || url.startsWith('data:') ? url : 'data:,';
-    });
-    return manager;
+    };
+    await Promise.all([...wanted].map(load));
+    return found;
   }
 }
 
-/** Object of this name in a file; the whole file if there is none. */
-function partOf(whole: Object3D, name: string, isCentered: boolean): Object3D {
-  const copy = whole.clone(true);
-  const isWanted = (o: Object3D) => o.name === name || (o as Mesh).geometry?.name === name;
-  const found: Object3D[] = [];
-  copy.traverse((o) => {
-    if (isWanted(o) && !found.some((f) => f === o.parent)) found.push(o);
+/** Value of a key, made at the first request; a failure is retried at the next one. */
+function remembered<T>(
+  known: Map<string, Promise<T>>,
+  key: string,
+  make: () => Promise<T>,
+): Promise<T> {
+  let value = known.get(key);
+  if (!value) {
+    known.set(key, (value = make()));
+    const made = value;
+    made.catch(() => known.get(key) === made && known.delete(key));
+  }
+  return value;
+}
+
+async function textureOf(image: Uint8Array): Promise<Texture> {
+  const bitmap = await createImageBitmap(new Blob([image as Uint8Array<ArrayBuffer>]), {
+    imageOrientation: 'flipY',
   });
-  if (found.length === 0) return copy;
-  copy.updateMatrixWorld(true);
-  const out = new Group();
-  for (const part of found) {
-    part.matrix.copy(part.matrixWorld);
-    part.matrix.decompose(part.position, part.quaternion, part.scale);
-    out.add(part);
-  }
-  if (isCentered) {
-    const middle = new Box3().setFromObject(out).getCenter(new Vector3());
-    for (const part of out.children) part.position.sub(middle);
-  }
-  return out;
+  const texture = new Texture(bitmap as never);
+  texture.flipY = false;
+  texture.colorSpace = SRGBColorSpace;
+  texture.wrapS = texture.wrapT = RepeatWrapping;
+  texture.needsUpdate = true;
+  return texture;
 }
 
-function plain(geometry: BufferGeometry): Object3D {
-  if (!geometry.getAttribute('normal')) geometry.computeVertexNormals();
-  const group = new Group();
-  const mesh = new Mesh(geometry, new MeshLambertMaterial({ color: new Color('#b9bec6') }));
-  mesh.userData.isPlain = true;
-  group.add(mesh);
-  return tidy(group);
+function meshOf(part: PackedPart, material: MeshLambertMaterial): Mesh {
+  const geometry = new BufferGeometry();
+  geometry.setAttribute('position', new BufferAttribute(part.positionsM, 3));
+  if (part.normals) geometry.setAttribute('normal', new BufferAttribute(part.normals, 3, true));
+  if (part.uvs) geometry.setAttribute('uv', new BufferAttribute(part.uvs, 2));
+  geometry.setIndex(new BufferAttribute(part.indices, 1));
+  // Flat triangles are lit without normals, but their shadows are shifted along them.
+  if (!part.normals) geometry.computeVertexNormals();
+  geometry.userData.isShared = true;
+  const mesh = new Mesh(geometry, material);
+  mesh.name = part.name;
+  mesh.castShadow = mesh.receiveShadow = true;
+  mesh.userData.isPlain = !part.material;
+  return mesh;
 }
 
-/** Removes the lights of a file and unifies its materials. */
-function tidy(object: Object3D): Object3D {
-  const out = new Group();
-  out.add(object);
-  for (const part of collect(object)) {
-    if (HIDDEN_LIGHTS.includes(part.type)) part.removeFromParent();
-    const mesh = part as Mesh;
-    if (!mesh.isMesh) continue;
-    mesh.geometry.userData.isShared = true;
-    mesh.castShadow = mesh.receiveShadow = true;
-    const list = Array.isArray(mesh.material) ? mesh.material : [mesh.material];
-    const lambert = list.map((old) => {
-      const { color, map, transparent, opacity, side } = old as MeshLambertMaterial;
-      return new MeshLambertMaterial({ color, map: map ?? null, transparent, opacity, side });
-    });
-    mesh.material = Array.isArray(mesh.material) ? lambert : lambert[0]!;
-  }
-  return out;
-}
-
-function collect(object: Object3D): Object3D[] {
-  const all: Object3D[] = [];
-  object.traverse((part) => all.push(part));
-  return all;
+function materialOf(
+  part: PackedPart,
+  isLinear: boolean,
+  textures: Map<PackedTexture, Texture>,
+): MeshLambertMaterial {
+  // Triangles without normals are flat, as in STL.
+  const flatShading = !part.normals;
+  const { material } = part;
+  if (!material) return new MeshLambertMaterial({ color: PLAIN, flatShading });
+  const { texture, isDoubleSided, isBlended, cutoff } = material;
+  const space = isLinear ? LinearSRGBColorSpace : SRGBColorSpace;
+  const color = ([r = 0, g = 0, b = 0]: readonly number[]) => new Color().setRGB(r, g, b, space);
+  const opacity = material.diffuse[3] ?? 1;
+  const made = new MeshLambertMaterial({
+    color: color(material.diffuse),
+    emissive: color(material.emissive),
+    map: (part.uvs && texture && textures.get(texture)) ?? null,
+    opacity,
+    transparent: opacity < 1 || isBlended,
+    alphaTest: cutoff,
+    side: isDoubleSided ? DoubleSide : FrontSide,
+    flatShading,
+  });
+  // Displays multiply their own opacity with it.
+  made.userData = { opacity, isBlended };
+  return made;
 }
 
 /** Copy with its own materials, in the colour if one is given. */
@@ -215,19 +196,25 @@ export function copyOf(object: Object3D, color?: Color, alpha = 1, paintAll = fa
   copy.traverse((part) => {
     const mesh = part as Mesh;
     if (!mesh.isMesh) return;
-    const paint = (old: MeshLambertMaterial) => {
-      const own = old.clone();
-      if (color && (paintAll || mesh.userData.isPlain)) {
-        own.color = color;
-        own.map = null;
-      }
-      if (alpha < 0.999)
-        Object.assign(own, { transparent: true, opacity: alpha, depthWrite: false });
-      return own;
-    };
-    mesh.material = Array.isArray(mesh.material)
-      ? mesh.material.map((m) => paint(m as MeshLambertMaterial))
-      : paint(mesh.material as MeshLambertMaterial);
+    const own = (mesh.material as MeshLambertMaterial).clone();
+    if (color && (paintAll || mesh.userData.isPlain)) {
+      own.color = color;
+      own.map = null;
+      own.emissive.set(0);
+      own.opacity = 1;
+      own.transparent = false;
+      own.userData = {};
+    }
+    fade(own, alpha);
+    mesh.material = own;
   });
   return copy;
+}
+
+/** Sets the opacity of a material that may be transparent itself. */
+export function fade(material: Material, alpha: number): void {
+  const opacity = alpha * ((material.userData.opacity as number | undefined) ?? 1);
+  const transparent = opacity < 0.999 || !!material.userData.isBlended;
+  if (material.transparent !== transparent) material.needsUpdate = true;
+  Object.assign(material, { transparent, opacity, depthWrite: opacity >= 0.999 });
 }

@@ -44,8 +44,6 @@ export const de: Texts = {
     links: (robot, count) => `${robot}: ${count} Links`,
     markerType: (type) => `Der Marker-Typ ${type} ist unbekannt`,
     markers: (count) => `${count} Marker`,
-    meshFormat: (name) =>
-      `das Mesh-Format „${name}“ wird nicht unterstützt (unterstützt: stl, dae, obj, glb)`,
     messages: (count, topic) => `${count} Nachrichten auf ${topic}`,
     newestTransform: (why) => `Die neueste Transformation wird verwendet: ${why}`,
     noCameraInfo: 'Noch keine camera_info zum Bild empfangen',
@@ -56,7 +54,6 @@ export const de: Texts = {
     noTransform: (why) => `Keine Transformation: ${why}`,
     noTransformTo: (from, to) => `Keine Transformation von ${from} nach ${to}`,
     noXyz: 'Die Punktwolke hat keine Felder x, y und z',
-    notCollada: (uri) => `${uri} ist keine COLLADA-Datei`,
     notUrdf: 'Die Beschreibung ist keine URDF: <robot> fehlt',
     points: (count, every) =>
       `${count.toLocaleString('de')} Punkte${every > 1 ? `; ohne GPU wird einer von ${every} gezeichnet` : ''}`,
@@ -1164,5 +1161,12 @@ export const de: Texts = {
     request: 'Anfrage',
     call: 'Aufrufen',
     done: 'erledigt',
+  },
+  meshes: {
+    damaged:
+      'die Dreiecke des Meshs sind beschädigt; die Seite neu laden, sie könnte von einer anderen Version sein',
+    noSubmesh: (name, names) => `die Datei hat kein Teil „${name}“; ihre Teile sind: ${names}`,
+    unsupported: (server) =>
+      `der Server „${server}“ sendet keine Dreiecke von Meshs; die Seite eines Periplus öffnen, das mit dem Roboter verbunden ist`,
   },
 };

@@ -50,8 +50,6 @@ export const en = {
     links: (robot: string, count: number) => `${robot}: ${count} links`,
     markerType: (type: number) => `The marker type ${type} is unknown`,
     markers: (count: number) => `${count} markers`,
-    meshFormat: (name: string) =>
-      `the mesh format "${name}" is not supported (supported: stl, dae, obj, glb)`,
     messages: (count: number, topic: string) => `${count} messages on ${topic}`,
     newestTransform: (why: string) => `Using the newest transform: ${why}`,
     noCameraInfo: 'No camera_info received for the image yet',
@@ -62,7 +60,6 @@ export const en = {
     noTransform: (why: string) => `No transform: ${why}`,
     noTransformTo: (from: string, to: string) => `No transform from ${from} to ${to}`,
     noXyz: 'The cloud has no fields x, y and z',
-    notCollada: (uri: string) => `${uri} is not a COLLADA file`,
     notUrdf: 'The description is not a URDF: it has no <robot>',
     points: (count: number, every: number) =>
       `${count.toLocaleString('en')} points${every > 1 ? `; without a GPU, one in ${every} is drawn` : ''}`,
@@ -1175,6 +1172,14 @@ export const en = {
     request: 'Request',
     call: 'Call',
     done: 'done',
+  },
+  meshes: {
+    damaged:
+      'the triangles of the mesh are damaged; reload the page, which may be of another version',
+    noSubmesh: (name: string, names: string) =>
+      `the file has no part "${name}"; its parts are: ${names}`,
+    unsupported: (server: string) =>
+      `the server "${server}" sends no triangles of meshes; open the page of a Periplus that is connected to the robot`,
   },
 };
 

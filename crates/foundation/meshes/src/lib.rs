@@ -37,14 +37,16 @@ mod limits;
 mod mesh;
 mod notes;
 mod obj;
+mod pack;
 mod stl;
 mod triangulate;
 
 pub use crate::error::{MeshError, MeshLocation};
 pub use crate::format::MeshFormat;
 pub use crate::limits::MeshLimits;
-pub use crate::mesh::{Mesh, MeshBounds, MeshMaterial, MeshTexture, Submesh, UpAxis};
+pub use crate::mesh::{Mesh, MeshBounds, MeshMaterial, MeshTexture, Submesh, TextureAlpha, UpAxis};
 pub use crate::notes::Note;
+pub use crate::pack::{pack_file, sibling_uri};
 
 /// Returns the bytes of a file that a mesh file refers to, relative to it, or `None`.
 ///

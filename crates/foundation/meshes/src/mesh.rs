@@ -42,8 +42,40 @@ pub struct MeshMaterial {
     pub name: String,
     /// Diffuse (glTF: base) colour, red, green, blue, alpha, each 0 to 1.
     pub diffuse_rgba: [f32; 4],
+    /// Colour that the surface emits, red, green, blue, each 0 to 1.
+    pub emissive_rgb: [f32; 3],
     /// Diffuse (glTF: base colour) texture.
     pub texture: Option<MeshTexture>,
+    /// Effect of the alpha of the texture.
+    pub texture_alpha: TextureAlpha,
+    /// True if the back of each triangle is visible too.
+    pub is_double_sided: bool,
+}
+
+/// Effect of the alpha of a texture.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub enum TextureAlpha {
+    /// None: the surface is opaque, or as transparent as its colour.
+    #[default]
+    Ignored,
+    /// Points with a smaller alpha than this are not drawn; 0 to 1.
+    Cutout(f32),
+    /// The surface is as transparent as the texture.
+    Blended,
+}
+
+impl Default for MeshMaterial {
+    /// White, opaque, without a texture.
+    fn default() -> Self {
+        MeshMaterial {
+            name: String::new(),
+            diffuse_rgba: [1.0; 4],
+            emissive_rgb: [0.0; 3],
+            texture: None,
+            texture_alpha: TextureAlpha::Ignored,
+            is_double_sided: false,
+        }
+    }
 }
 
 impl MeshMaterial {

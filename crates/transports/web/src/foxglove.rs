@@ -10,9 +10,11 @@
 //!
 //! Source: `docs/ws-protocol/spec.md` of `foxglove/ws-protocol`.
 
+mod fetch_queue;
 mod frame;
 mod grid;
 mod hub;
+mod mesh_requests;
 mod network_endpoints;
 mod outbox;
 mod outgoing;

@@ -440,6 +440,31 @@ fn files_come_from_whoever_gives_them() {
 }
 
 #[test]
+fn triangles_of_a_mesh_come_beside_the_plain_file() {
+    let graph = Graph::new();
+    let hub = open(&graph);
+    hub.serve_assets(|uri| match uri {
+        "package://a/b.obj" => Ok(b"mtllib b.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n".to_vec()),
+        "package://a/bad.obj" => Ok(b"v 0 0 0\nf 1 2 3\n".to_vec()),
+        _ => Err("not there".into()),
+    });
+    let mut client = Client::join(&hub);
+    assert!(client.hears("serverInfo")["capabilities"].to_string().contains("\"meshes\""));
+    let mut ask = |uri: &str| {
+        client.say(&json!({"op": "fetchMesh", "uri": uri, "requestId": 9}));
+        let bytes = client.gets(4);
+        assert_eq!(&bytes[1..5], &9_u32.to_le_bytes());
+        (bytes[5], bytes[10..].to_vec())
+    };
+    let (status, triangles) = ask("package://a/b.obj#submesh=x");
+    assert_eq!((status, &triangles[..8]), (0, &b"PMSH\x01\0\0\0"[..]));
+    let (status, why) = ask("package://a/bad.obj");
+    let why = String::from_utf8(why).expect("words");
+    assert!(status == 1 && why.contains("package://a/bad.obj") && why.contains("line 2"), "{why}");
+    assert_eq!(ask("package://a/gone.obj"), (1, b"not there".to_vec()));
+}
+
+#[test]
 fn a_hub_that_goes_sends_its_clients_away() {
     let graph = Graph::new();
     let hub = open(&graph);

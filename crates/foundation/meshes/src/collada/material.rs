@@ -1,7 +1,7 @@
 //! Diffuse colour and image file of a `<material>`, through its `<effect>`.
 
 use super::tree::Node;
-use crate::mesh::{MeshMaterial, MeshTexture};
+use crate::mesh::{MeshMaterial, MeshTexture, TextureAlpha};
 
 /// Reads the material of a `<material>` element.
 ///
@@ -9,12 +9,14 @@ use crate::mesh::{MeshMaterial, MeshTexture};
 /// only the diffuse alpha too.
 pub(super) fn read(material: Node<'_>) -> MeshMaterial {
     let name = material.attribute("name").or(material.attribute("id")).unwrap_or("").to_owned();
-    let mut result = MeshMaterial { name, diffuse_rgba: [1.0; 4], texture: None };
+    let mut result = MeshMaterial { name, ..MeshMaterial::default() };
     let effect = material
         .child("instance_effect")
         .and_then(|instance| material.tree().find("effect", instance.attribute("url")?));
     let profile = effect.and_then(|effect| effect.child("profile_COMMON"));
     let Some(profile) = profile else { return result };
+    result.is_double_sided =
+        [effect, Some(profile), profile.child("technique")].into_iter().flatten().any(double_sided);
     let shading = profile.child("technique").and_then(|technique| {
         let is_model =
             |node: &Node<'_>| matches!(node.tag(), "phong" | "blinn" | "lambert" | "constant");
@@ -32,7 +34,27 @@ pub(super) fn read(material: Node<'_>) -> MeshMaterial {
         let texture = diffuse.child("texture").and_then(|node| node.attribute("texture"));
         result.texture = texture.and_then(|name| image_file(profile, name)).map(MeshTexture::File);
     }
+    let Some(shading) = shading else { return result };
+    // The only colour of a `<constant>` surface was read as its diffuse one.
+    let emission = shading.child("emission").filter(|_| shading.tag() != "constant");
+    if let Some([r, g, b, _]) = emission.and_then(|node| node.child("color")).and_then(color) {
+        result.emissive_rgb = [r, g, b];
+    }
+    if shading.descend(&["transparent", "texture"]).is_some() {
+        result.texture_alpha = TextureAlpha::Blended;
+    }
     result
+}
+
+/// True if an `<extra>` of this element has `<double_sided>1`, which Google Earth defined and many programs
+/// write.
+fn double_sided(element: Node<'_>) -> bool {
+    let is_one = |node: Node<'_>| matches!(node.text(), "1" | "true");
+    element
+        .children_named("extra")
+        .flat_map(|extra| extra.children_named("technique"))
+        .filter_map(|technique| technique.child("double_sided"))
+        .any(is_one)
 }
 
 fn color(node: Node<'_>) -> Option<[f32; 4]> {

@@ -1,15 +1,16 @@
-//! Materials: base colour and its texture.
+//! Materials: base and emissive colour, texture, sides.
 
 use std::sync::Arc;
 
 use ::gltf::json::image::MimeType;
 use ::gltf::json::mesh::Primitive;
+use ::gltf::json::validation::Checked;
 use ::gltf::json::{Index, Root, image, material};
 
 use super::buffers::{Buffers, data_uri, percent_decode};
 use crate::error::MeshError;
 use crate::limits::Budget;
-use crate::mesh::{MeshMaterial, MeshTexture};
+use crate::mesh::{MeshMaterial, MeshTexture, TextureAlpha};
 use crate::notes::Notes;
 
 /// Texture coordinate set of the primitive's base colour texture.
@@ -32,8 +33,22 @@ pub(super) fn read(
         return Ok(None);
     };
     let pbr = &json.pbr_metallic_roughness;
-    let diffuse_rgba =
+    let mut diffuse_rgba =
         pbr.base_color_factor.0.map(|x| if x.is_finite() { x.clamp(0.0, 1.0) } else { 1.0 });
+    let emissive_rgb =
+        json.emissive_factor.0.map(|x| if x.is_finite() { x.clamp(0.0, 1.0) } else { 0.0 });
+    let texture_alpha = match json.alpha_mode {
+        Checked::Valid(material::AlphaMode::Blend) => TextureAlpha::Blended,
+        Checked::Valid(material::AlphaMode::Mask) => {
+            let cutoff = json.alpha_cutoff.map_or(0.5, |cutoff| cutoff.0);
+            TextureAlpha::Cutout(if cutoff.is_finite() { cutoff.clamp(0.0, 1.0) } else { 0.5 })
+        }
+        _ => TextureAlpha::Ignored,
+    };
+    if texture_alpha == TextureAlpha::Ignored {
+        // Section 3.9.4: the alpha of an opaque material has no effect.
+        diffuse_rgba[3] = 1.0;
+    }
     let image = pbr.base_color_texture.as_ref().and_then(|info| {
         let texture = root.textures.get(info.index.value())?;
         root.images.get(texture.source.value())
@@ -43,7 +58,9 @@ pub(super) fn read(
     }
     let texture = image.and_then(|image| read_image(image, buffers, budget, notes));
     let name = json.name.clone().unwrap_or_default();
-    let material = MeshMaterial { name, diffuse_rgba, texture };
+    let is_double_sided = json.double_sided;
+    let material =
+        MeshMaterial { name, diffuse_rgba, emissive_rgb, texture, texture_alpha, is_double_sided };
     budget.bytes(material.size_bytes())?;
     Ok(Some(Arc::new(material)))
 }

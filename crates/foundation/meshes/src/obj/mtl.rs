@@ -1,10 +1,10 @@
-//! Wavefront MTL: diffuse colour, opacity and diffuse texture.
+//! Wavefront MTL: diffuse and emissive colour, opacity and diffuse texture.
 
 use std::collections::HashMap;
 use std::sync::Arc;
 
 use super::lines::lines;
-use crate::mesh::{MeshMaterial, MeshTexture};
+use crate::mesh::{MeshMaterial, MeshTexture, TextureAlpha};
 use crate::notes::Notes;
 
 /// Reads all materials of a file into `materials`; a damaged line only loses its property, with a note.
@@ -19,11 +19,8 @@ pub(super) fn read(
         let keyword = line.keyword().to_ascii_lowercase();
         if keyword == "newmtl" {
             keep(current.take(), materials);
-            current = Some(MeshMaterial {
-                name: line.rest().to_owned(),
-                diffuse_rgba: [1.0; 4],
-                texture: None,
-            });
+            let name = line.rest().to_owned();
+            current = Some(MeshMaterial { name, ..MeshMaterial::default() });
             continue;
         }
         let Some(material) = &mut current else { continue };
@@ -37,6 +34,13 @@ pub(super) fn read(
                 }
                 _ => notes.add(format!("`{file}`: `Kd` that is not three numbers left out")),
             },
+            "ke" => match line.numbers::<3>(3) {
+                Ok(rgb) if rgb.iter().all(|x| x.is_finite()) => {
+                    material.emissive_rgb = rgb.map(|x| (x as f32).clamp(0.0, 1.0));
+                }
+                _ => notes.add(format!("`{file}`: `Ke` that is not three numbers left out")),
+            },
+            "map_d" => material.texture_alpha = TextureAlpha::Blended,
             "d" => material.diffuse_rgba[3] = number().unwrap_or(1.0).clamp(0.0, 1.0),
             "tr" => material.diffuse_rgba[3] = 1.0 - number().unwrap_or(0.0).clamp(0.0, 1.0),
             "map_kd" => {

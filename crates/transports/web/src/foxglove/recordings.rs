@@ -9,7 +9,6 @@ mod client;
 mod density;
 mod entry;
 mod fetch;
-mod fetch_queue;
 mod jobs;
 mod latched;
 mod live;

@@ -9,6 +9,7 @@ use periplus_transport::lock;
 
 use crate::foxglove::frame::WebSocketFrame;
 use crate::foxglove::hub::Shared;
+use crate::foxglove::mesh_requests::MeshRequests;
 use crate::foxglove::outbox::Outbox;
 use crate::foxglove::protocol::{
     self, ClientBinary, ClientChannel, ClientText, Malformed, StatusLevel,
@@ -24,19 +25,26 @@ pub struct ClientSession {
     publishing: BTreeMap<u32, RawPublisher>,
     /// Number of pending calls.
     calls: Arc<AtomicUsize>,
+    meshes: MeshRequests,
     /// Its requests about recordings, since the first one.
     recordings: Option<RecordingClient>,
 }
+
+/// Answer of a server without files.
+pub(crate) const NO_FILES: &str = "this server has no files";
 
 /// Refusal of requests about recordings.
 const NO_RECORDINGS: &str = "this server has no recordings";
 
 impl ClientSession {
     pub(crate) fn new(id: u64, shared: Arc<Shared>, outbox: Arc<Outbox>) -> Self {
+        let limit = shared.settings.limits.entries;
+        let meshes = MeshRequests::new(outbox.clone(), limit);
         Self {
             id,
             shared,
             outbox,
+            meshes,
             publishing: BTreeMap::new(),
             calls: Arc::default(),
             recordings: None,
@@ -98,6 +106,10 @@ impl ClientSession {
                 self.publishing.retain(|id, _| !channel_ids.contains(id));
             }
             ClientText::FetchAsset { uri, request_id } => self.fetch(&uri, request_id),
+            ClientText::FetchMesh { uri, request_id } => {
+                let assets = lock(&self.shared.assets).clone();
+                self.meshes.request(uri, request_id, assets);
+            }
             ClientText::RepairQos { id, topic, publisher, subscription } => {
                 let mut state = lock(&self.shared.state);
                 let outcome = state.repair(&self.shared, &topic, &publisher, &subscription);
@@ -207,7 +219,7 @@ impl ClientSession {
         let assets = lock(&self.shared.assets).clone();
         let answer = match assets {
             Some(assets) => assets(uri),
-            None => Err("this server has no files".into()),
+            None => Err(NO_FILES.into()),
         };
         self.say(protocol::asset(request_id, &answer));
     }

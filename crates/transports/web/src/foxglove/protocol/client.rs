@@ -80,6 +80,13 @@ pub enum ClientText {
         /// Id of the response.
         request_id: u32,
     },
+    /// Requests the triangles of a mesh file. Extension of Foxglove's protocol.
+    FetchMesh {
+        /// URI of the file.
+        uri: String,
+        /// Id of the response.
+        request_id: u32,
+    },
     /// A request about recordings. Extension of Foxglove's protocol.
     #[serde(skip)]
     Recording(ReplayRequest),
@@ -241,6 +248,8 @@ mod tests {
         assert_eq!(read, Ok(ClientText::Recording(marks)));
         let read = ClientText::read(r#"{"op":"fetchAsset","uri":"package://a/b","requestId":7}"#);
         assert_eq!(read, Ok(ClientText::FetchAsset { uri: "package://a/b".into(), request_id: 7 }));
+        let read = ClientText::read(r#"{"op":"fetchMesh","uri":"package://a/b","requestId":8}"#);
+        assert_eq!(read, Ok(ClientText::FetchMesh { uri: "package://a/b".into(), request_id: 8 }));
     }
 
     #[test]

@@ -20,6 +20,9 @@ const CAPABILITIES: [&str; 7] = [
     "connectionGraph",
 ];
 
+/// Capability of a server that sends the triangles of mesh files. Extension of Foxglove's protocol.
+const MESHES: &str = "meshes";
+
 /// Capability of a server with recordings. Extension of Foxglove's protocol.
 const RECORDINGS: &str = "recordings";
 
@@ -82,7 +85,8 @@ pub fn server_info(
     has_recordings: bool,
 ) -> WebSocketFrame {
     let recordings = has_recordings.then_some(RECORDINGS);
-    let capabilities: Vec<&str> = CAPABILITIES.into_iter().chain(recordings).collect();
+    let capabilities: Vec<&str> =
+        CAPABILITIES.into_iter().chain([MESHES]).chain(recordings).collect();
     text(&json!({
         "op": "serverInfo",
         "name": name,

@@ -10,12 +10,12 @@ use periplus_transport::lock;
 
 use super::entry::Recording;
 use super::fetch::FetchAnswer;
-use super::fetch_queue::FetchQueue;
 use super::marks::MarkWatcher;
 use super::series::SeriesRequest;
 use super::service::Recordings;
 use super::upload::Upload;
 use super::{density, messages, series, state};
+use crate::foxglove::fetch_queue::FetchQueue;
 use crate::foxglove::outbox::Outbox;
 use crate::foxglove::protocol::{self, ReplayRequest, StatusLevel};
 

@@ -3,22 +3,22 @@
 use std::sync::mpsc::{Sender, channel};
 
 /// Work for the thread.
-pub(super) type Task = Box<dyn FnOnce() + Send>;
+pub(crate) type Task = Box<dyn FnOnce() + Send>;
 
 /// Fetches of a client in the order of its requests. The thread starts with the first one and ends
 /// with the client.
-pub(super) struct FetchQueue {
+pub(crate) struct FetchQueue {
     name: &'static str,
     sender: Option<Sender<Task>>,
 }
 
 impl FetchQueue {
-    pub(super) fn new(name: &'static str) -> Self {
+    pub(crate) fn new(name: &'static str) -> Self {
         Self { name, sender: None }
     }
 
     /// Queues a task. False if the system starts no thread.
-    pub(super) fn push(&mut self, task: Task) -> bool {
+    pub(crate) fn push(&mut self, task: Task) -> bool {
         let Some(sender) = &self.sender else {
             let (sender, tasks) = channel::<Task>();
             let builder = std::thread::Builder::new().name(self.name.to_owned());
