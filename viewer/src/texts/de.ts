@@ -1165,4 +1165,9 @@ export const de: Texts = {
     call: 'Aufrufen',
     done: 'erledigt',
   },
+  robots: {
+    robot: 'Roboter',
+    choose: 'Roboter, auf den die Werkzeuge wirken',
+    hint: 'Werkzeuge und Fenster wirken auf diesen Roboter. Ein Klick auf einen Roboter in einer 3D-Ansicht wählt ihn auch.',
+  },
 };

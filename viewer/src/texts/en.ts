@@ -1176,6 +1176,11 @@ export const en = {
     call: 'Call',
     done: 'done',
   },
+  robots: {
+    robot: 'Robot',
+    choose: 'Robot that the tools act on',
+    hint: 'Tools and panels act on this robot. A click on a robot in a 3D view chooses it, too.',
+  },
 };
 
 export type Texts = typeof en;

@@ -28,6 +28,7 @@ mod own_command;
 mod page;
 mod paths;
 mod program;
+mod recorded_command;
 mod report;
 mod rerun;
 mod run_options;
@@ -56,6 +57,7 @@ use demo::DemoOptions;
 use options::Command;
 
 use crate::error::CliError;
+use crate::recorded_command::recorded_command;
 
 pub use report::{ReportError, report_html};
 
@@ -117,6 +119,7 @@ pub fn run(words: Vec<String>, own_command: Vec<String>, interpreter: Option<Str
         Ok(Err(code)) => return code,
         Err(error) => return ended(Err(error.into())),
     };
+    let recorded = recorded_command(&words);
     let (words, ros) = split_arguments(words);
     let options = match help::parse(words) {
         Ok(options) => options,
@@ -125,7 +128,7 @@ pub fn run(words: Vec<String>, own_command: Vec<String>, interpreter: Option<Str
     options.colour.apply();
     let command = options.command.unwrap_or_else(|| Command::Demo(DemoOptions::default()));
     let outcome = match command {
-        Command::Sim(options) => sim::run(&options, ros),
+        Command::Sim(options) => sim::run(&options, ros, recorded),
         Command::Launch(options) => launch::run(&options, ros),
         Command::Teleop(options) => teleop::run(&options, ros),
         Command::View(options) => view::run(&options, ros),

@@ -12,8 +12,8 @@ pub use recordings::{
     TopicText, UploadFile,
 };
 pub(crate) use recordings::{
-    density, fetch_failure, job_parameters, marks, recordings, series, upload_progress,
-    upload_started,
+    density, difference, fetch_failure, file_head, file_part, job_parameters, marks, recordings,
+    report, series, upload_progress, upload_started,
 };
 pub use server::{
     AssetAnswer, AssetError, ChannelText, ConnectionGraph, MismatchText, PartyText, PolicyText,

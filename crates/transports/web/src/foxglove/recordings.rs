@@ -10,6 +10,7 @@ mod density;
 mod entry;
 mod fetch;
 mod fetch_queue;
+mod file;
 mod jobs;
 mod latched;
 mod live;
@@ -19,6 +20,7 @@ mod number_path;
 mod series;
 mod service;
 mod state;
+mod summary;
 mod transform_index;
 mod upload;
 
