@@ -109,7 +109,7 @@ export class Navigation {
     const { chosen, isMany } = this.app.robots;
     // With several robots the navigator is that of the chosen one, which may have none.
     if (isMany && chosen) this.choose(chosen.navigator);
-    const isKnown = isMany || this.namespace !== undefined && namespaces.includes(this.namespace);
+    const isKnown = isMany || (this.namespace !== undefined && namespaces.includes(this.namespace));
     if (!isKnown) this.choose(namespaces[0]);
     const served = ACTIONS.filter((one) => this.offer(one, 'send_goal'));
     if (served.join() !== this.actions.join()) this.actions = served;

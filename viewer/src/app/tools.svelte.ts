@@ -441,7 +441,9 @@ export class Tools {
     const plain = absolute(named);
     const { chosen, isMany, list } = this.app.robots;
     if (!chosen?.namespace) return plain;
-    const isNamespaced = list.some(({ namespace }) => namespace && plain.startsWith(`${namespace}/`));
+    const isNamespaced = list.some(
+      ({ namespace }) => namespace && plain.startsWith(`${namespace}/`),
+    );
     const own = chosen.namespace + plain;
     if (isNamespaced || this.hasSubscriber(own)) return isNamespaced ? plain : own;
     return isMany ? own : plain;

@@ -99,7 +99,8 @@ export function findRobots({ topics, services, frames }: Wire): Robot[] {
     const hasOwnTf = namespace !== '' && transforms.some(isOwn);
     const isPrefixed = prefixes.includes(namespace);
     const only = namespace === '' && named.length === 0 && prefixes.length === 1;
-    const alone = only && !frames.some((one) => BASE_FRAMES.includes(one)) ? prefixes[0] : undefined;
+    const alone =
+      only && !frames.some((one) => BASE_FRAMES.includes(one)) ? prefixes[0] : undefined;
     const rank = (name: string) => (name === `${namespace}/cmd_vel` ? 0 : 1);
     return {
       namespace,
@@ -133,7 +134,8 @@ export function robotOfTopic(robots: readonly Robot[], topic: string): Robot | u
 export function frameHere(robot: Robot, frame: string): string {
   const bare = frame.startsWith('/') ? frame.slice(1) : frame;
   const { hasOwnTf, framePrefix } = robot;
-  if (!hasOwnTf || !bare || SHARED_FRAMES.includes(bare) || bare.startsWith(framePrefix)) return bare;
+  if (!hasOwnTf || !bare || SHARED_FRAMES.includes(bare) || bare.startsWith(framePrefix))
+    return bare;
   return framePrefix + bare;
 }
 

@@ -18,7 +18,7 @@ pub(crate) use recordings::{
 pub use server::{
     AssetAnswer, AssetError, ChannelText, ConnectionGraph, MismatchText, PartyText, PolicyText,
     QosRepairError, ServiceText, StatusLevel, advertise, advertise_services, asset,
-    connection_graph, message_head, parameters, remove_status, repair_result, schema_of,
+    connection_graph, message_head, parameters, remove_status, repair_result, schema, schema_of,
     server_info, service_answer, service_failure, status, time, unadvertise, unadvertise_services,
 };
 
